@@ -12,8 +12,7 @@
  *   cost.h        what each ingredient of a scene costs on this machine
  *   why.h         a warning before a run blows up, and why it did
  *   io.h          scene files and trajectories
- *   checkpoint.h  places from which a run goes on
- *   verify.h  whether a trajectory is what its scene gives */
+ *   checkpoint.h  places from which a run goes on */
 #ifndef HOOKE_H
 #define HOOKE_H
 
@@ -29,9 +28,7 @@
 #include "hooke/limit.h"
 #include "hooke/cost.h"
 #include "hooke/why.h"
-#include "hooke/needs.h"
 #include "hooke/io.h"
 #include "hooke/checkpoint.h"
-#include "hooke/verify.h"
 
 #endif

@@ -18,7 +18,6 @@ module hooke
   use hooke_builders, only: hooke_part_kind_count => part_kind_count, hooke_part_kind => part_kind, &
     hooke_part_kind_summary => part_kind_summary
   use hooke_causes, only: hooke_why
-  use hooke_comparisons, only: hooke_comparison
   use hooke_costs, only: hooke_cost
   use hooke_estimates, only: hooke_estimate
   use hooke_forces, only: hooke_force, hooke_force_with_product, hooke_drive
@@ -28,14 +27,12 @@ module hooke
   use hooke_limits, only: hooke_limit, hooke_limit_of_mode => limit_of_mode
   use hooke_measurements, only: hooke_measurement, hooke_measurement_table => measurement_table, &
     hooke_measurement_column => measurement_column
-  use hooke_needs_of_scenes, only: hooke_needs
   use hooke_observers, only: hooke_rate, hooke_observer, hooke_progress, hooke_warning, hooke_comparison_observer
   use hooke_option_tables, only: hooke_options
   use hooke_scenes, only: hooke_scene, hooke_own_process => own_process
   use hooke_states, only: hooke_state
   use hooke_systems, only: hooke_system
   use hooke_trajectories, only: hooke_trajectory, hooke_record, hooke_comparison_file
-  use hooke_verifications, only: hooke_verify
   use hooke_views, only: hooke_view
   implicit none
   public

@@ -1,9 +1,13 @@
-! Measurements of a scene: one type with options, progress, a run, and tables of results. Studies are of it.
+! Measurements of a scene: one type with options, progress, a run, and tables of results.
 module hooke_measurements
-  use, intrinsic :: iso_c_binding, only: c_double, c_funloc, c_int32_t, c_int64_t, c_loc, c_null_funptr, c_null_ptr, c_ptr
-  use hooke_base, only: accept, to_c, to_c_if, to_integer, to_series, to_text, zero_based
+  use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_funloc, c_int32_t, c_int64_t, c_loc, c_null_funptr, &
+    c_null_ptr, c_ptr
+  use hooke_base, only: accept, hooke_bad_call, hooke_bad_value, is_3_by, refuse, to_c, to_c_if, to_integer, to_series, &
+    to_text, zero_based
   use hooke_c_measurement
-  use hooke_observers, only: call_progress, hooke_progress, progress_holder
+  use hooke_handles, only: hooke_handle
+  use hooke_observers, only: call_comparison_observer, call_progress, comparison_holder, hooke_comparison_observer, &
+    hooke_progress, progress_holder
   use hooke_option_tables, only: hooke_options, options_or_null
   use hooke_queries_of_measurement, only: hooke_measurement_queries
   use hooke_states, only: hooke_state
@@ -12,16 +16,23 @@ module hooke_measurements
   private
   public :: hooke_measurement, measurement_table, measurement_column
 
-  integer, parameter :: of_progress = 1
+  integer, parameter :: of_progress = 1, of_frames = 2
 
   type, extends(hooke_measurement_queries) :: hooke_measurement
+    integer(c_int64_t), private :: particles = 0 ! of its system
   contains
     procedure :: create
+    procedure :: create_verify ! of a trajectory
     procedure :: on_progress
     procedure :: run
     procedure :: find
     procedure :: series
     procedure :: recommend
+    procedure :: on_frame      ! of a comparison
+    procedure :: lean          ! of needs: the lean system,
+    procedure :: lean_run      ! the run to make of it,
+    procedure :: lean_particle ! and where it has a particle of the full one
+    procedure :: lean_position
     procedure, private :: assign
     generic :: assignment(=) => assign
   end type
@@ -40,6 +51,20 @@ contains
     if (system%is_missing(status)) return
     code = c_measurement_create(to_c(kind), system%address(), options_or_null(run), options_or_null(options), made)
     if (code == 0) call self%take(made, c_measurement_destroy, system)
+    if (code == 0) self%particles = system%particle_count()
+    call accept(code, status)
+  end subroutine
+
+  ! Of a trajectory; `options` are those of "verify", `limits` those of "limits".
+  subroutine create_verify(self, path, options, limits, status)
+    class(hooke_measurement), intent(inout) :: self
+    character(*), intent(in) :: path
+    type(hooke_options), intent(in), optional :: options, limits
+    integer, intent(out), optional :: status
+    type(c_ptr) :: made
+    integer(c_int32_t) :: code
+    code = c_verify_create(to_c(path), options_or_null(options), options_or_null(limits), made)
+    if (code == 0) call self%take(made, c_measurement_destroy)
     call accept(code, status)
   end subroutine
 
@@ -122,9 +147,92 @@ contains
     text = to_text(c_measurement_column(to_c(kind), to_c(table), zero_based(column), to_c(what)))
   end function
 
+  ! ---- a comparison ----
+
+  ! Sees the frames of all runs; has to stay where it is as long as it is. Without one it is taken back.
+  subroutine on_frame(self, observer, status)
+    class(hooke_measurement), intent(inout) :: self
+    class(hooke_comparison_observer), target, intent(inout), optional :: observer
+    integer, intent(out), optional :: status
+    type(comparison_holder), pointer :: holder
+    integer(c_int32_t) :: code
+    if (self%is_missing(status)) return
+    if (.not. present(observer)) then
+      call accept(c_comparison_on_frame(self%address(), c_null_funptr, c_null_ptr), status)
+      return
+    end if
+    allocate (holder)
+    holder%observer => observer
+    code = c_comparison_on_frame(self%address(), c_funloc(call_comparison_observer), c_loc(holder))
+    if (code == 0) then
+      call self%keep(holder, of_frames)
+    else
+      deallocate (holder)
+    end if
+    call accept(code, status)
+  end subroutine
+
+  ! ---- what a scene needs ----
+
+  ! The lean system; hooke_bad_call before it was found.
+  subroutine lean(self, system, status)
+    class(hooke_measurement), intent(in) :: self
+    class(hooke_system), intent(inout) :: system
+    integer, intent(out), optional :: status
+    if (self%is_missing(status)) return
+    call lend(self, c_needs_lean(self%address()), system, status)
+  end subroutine
+
+  subroutine lean_run(self, options, status)
+    class(hooke_measurement), intent(in) :: self
+    class(hooke_options), intent(inout) :: options
+    integer, intent(out), optional :: status
+    if (self%is_missing(status)) return
+    call lend(self, c_needs_lean_run(self%address()), options, status)
+  end subroutine
+
+  subroutine lend(self, address, object, status)
+    class(hooke_measurement), intent(in) :: self
+    type(c_ptr), intent(in) :: address
+    class(hooke_handle), intent(inout) :: object
+    integer, intent(out), optional :: status
+    if (c_associated(address)) then
+      call object%take(address, owner=self)
+      call accept(0_c_int32_t, status)
+    else
+      call refuse(hooke_bad_call, "there is no lean system: of needs it is found by run()", status)
+    end if
+  end subroutine
+
+  ! Where the lean system has a particle of the full one; 0 if it was left out.
+  integer function lean_particle(self, particle)
+    class(hooke_measurement), intent(in) :: self
+    integer, intent(in) :: particle
+    lean_particle = int(c_needs_lean_particle(self%address(), zero_based(particle))) + 1
+  end function
+
+  ! Positions of all particles of the full system at positions q of the lean one, NaN where they were left out.
+  subroutine lean_position(self, q, position, status)
+    class(hooke_measurement), intent(in) :: self
+    real(c_double), intent(in), contiguous :: q(:, :)
+    real(c_double), intent(inout), contiguous :: position(:, :)
+    integer, intent(out), optional :: status
+    type(hooke_system) :: system
+    logical :: fits
+    call self%lean(system, status)
+    if (.not. system%exists()) return
+    fits = is_3_by(q, int(system%particle_count(), c_int64_t)) .and. is_3_by(position, self%particles)
+    if (.not. fits) then
+      call refuse(hooke_bad_value, "an array has not the shape (3, particle_count()) of its system", status)
+      return
+    end if
+    call accept(c_needs_lean_position(self%address(), q, position), status)
+  end subroutine
+
   impure elemental subroutine assign(self, other)
     class(hooke_measurement), intent(inout) :: self
     type(hooke_measurement), intent(in) :: other
     call self%share(other)
+    self%particles = other%particles
   end subroutine
 end module

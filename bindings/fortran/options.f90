@@ -5,10 +5,8 @@ module hooke_option_tables
   use hooke_c_build, only: c_mesh_set, c_part_options_create
   use hooke_c_cost, only: c_cost_options_create
   use hooke_c_integrator, only: c_run_options_create
-  use hooke_c_verify, only: c_verify_options_create
   use hooke_c_io, only: c_mesh_read, c_view_options_create, c_scene_options_create
   use hooke_c_limit, only: c_limit_options_create
-  use hooke_c_needs, only: c_needs_options_create
   use hooke_c_options
   use hooke_c_system, only: c_altitude_options_create, c_spring_options_create
   use hooke_queries_of_options
@@ -26,9 +24,7 @@ module hooke_option_tables
     procedure :: create_limit    ! of a limit,
     procedure :: create_cost     ! of a cost,
     procedure :: create_view ! of a view,
-    procedure :: create_verify   ! of a verification,
-    procedure :: create_altitude ! of altitude springs,
-    procedure :: create_needs    ! of what a scene needs
+    procedure :: create_altitude ! of altitude springs
     procedure :: copy_to         ! another object with the same values
     procedure, private :: set_real, set_reals, set_whole, set_wholes, set_logical, set_text
     generic :: set => set_real, set_reals, set_whole, set_wholes, set_logical, set_text
@@ -130,30 +126,12 @@ contains
     call take_new(self, code, options, status)
   end subroutine
 
-  subroutine create_needs(self, status)
-    class(hooke_options), intent(inout) :: self
-    integer, intent(out), optional :: status
-    type(c_ptr) :: options
-    integer(c_int32_t) :: code
-    code = c_needs_options_create(options)
-    call take_new(self, code, options, status)
-  end subroutine
-
   subroutine create_view(self, status)
     class(hooke_options), intent(inout) :: self
     integer, intent(out), optional :: status
     type(c_ptr) :: options
     integer(c_int32_t) :: code
     code = c_view_options_create(options)
-    call take_new(self, code, options, status)
-  end subroutine
-
-  subroutine create_verify(self, status)
-    class(hooke_options), intent(inout) :: self
-    integer, intent(out), optional :: status
-    type(c_ptr) :: options
-    integer(c_int32_t) :: code
-    code = c_verify_options_create(options)
     call take_new(self, code, options, status)
   end subroutine
 

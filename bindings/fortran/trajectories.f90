@@ -5,7 +5,8 @@ module hooke_trajectories
     to_integer, to_text
   use hooke_c_checkpoint, only: c_trajectory_checkpoint, c_trajectory_origin, c_trajectory_resume
   use hooke_c_io
-  use hooke_comparisons, only: hooke_comparison
+  use hooke_c_measurement, only: c_comparison_file_close, c_comparison_file_create
+  use hooke_measurements, only: hooke_measurement
   use hooke_handles, only: hooke_handle
   use hooke_integrators, only: hooke_integrator
   use hooke_option_tables, only: hooke_options
@@ -229,21 +230,17 @@ contains
 
   ! ---- comparisons ----
 
-  ! Creates one file for a comparison that has its rows added, before it runs; its observer of frames is taken over.
-  subroutine create_comparison_file(self, path, system, comparison, scene_text, status)
+  ! Creates one file for a comparison before it runs; its observer of frames is taken over. Its label "scene" is the
+  ! text of the scene.
+  subroutine create_comparison_file(self, path, comparison, status)
     class(hooke_comparison_file), intent(inout) :: self
     character(*), intent(in) :: path
-    class(hooke_system), intent(in) :: system
-    class(hooke_comparison), intent(inout) :: comparison
-    character(*), intent(in), optional :: scene_text
+    class(hooke_measurement), intent(inout) :: comparison
     integer, intent(out), optional :: status
-    character(:), allocatable :: c_text
     type(c_ptr) :: file
     integer(c_int32_t) :: code
-    if (system%is_missing(status)) return
     if (comparison%is_missing(status)) return
-    call to_c_if(scene_text, c_text)
-    code = c_comparison_file_create(to_c(path), system%address(), comparison%address(), c_text, file)
+    code = c_comparison_file_create(to_c(path), comparison%address(), file)
     if (code == 0) call self%take(file, abandon_comparison_file, comparison)
     call accept(code, status)
   end subroutine

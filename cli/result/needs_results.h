@@ -8,7 +8,7 @@
 struct cli_needs_results {
   const struct cli_arguments *arguments;
   struct cli_setup setup;
-  hooke_needs *needs;
+  hooke_measurement *needs;
   int32_t refine;      /* 1: resolutions instead of ingredients */
   const char *written; /* file of the lean scene, NULL: none */
   char *command;       /* that runs it; NULL: none */
@@ -16,7 +16,7 @@ struct cli_needs_results {
 
 enum { HOOKE_NEEDS_TRUST = 256 };
 /* Says until when it holds; 0: to the end, and there is nothing to say. */
-int32_t cli_needs_results_trust(const hooke_needs *needs, char text[HOOKE_NEEDS_TRUST]);
+int32_t cli_needs_results_trust(const hooke_measurement *needs, char text[HOOKE_NEEDS_TRUST]);
 void cli_needs_results_print(const struct cli_needs_results *results);
 void cli_needs_results_print_json(const struct cli_needs_results *results);
 

@@ -34,82 +34,84 @@ static void print_costs(double evaluations, double per_step, double wall, double
   print_limit(limit);
 }
 
-static void print_row(const hooke_needs *needs, int64_t row, int32_t width) {
-  const char *note = hooke_needs_text(needs, row, "note");
-  const double wall = hooke_needs_number(needs, row, "wall_seconds");
-  cli_print_padded(stdout, width, hooke_needs_text(needs, row, "without"));
-  if (isnan(hooke_needs_number(needs, row, "error"))) {
+static void print_row(const hooke_measurement *needs, int64_t row, int32_t width) {
+  const char *note = hooke_measurement_text(needs, "rows", row, "note");
+  const double wall = hooke_measurement_number(needs, "rows", row, "wall_seconds");
+  cli_print_padded(stdout, width, hooke_measurement_text(needs, "rows", row, "without"));
+  if (isnan(hooke_measurement_number(needs, "rows", row, "error"))) {
     printf("  needed: ");
     cli_print_wrapped(stdout, width + LABEL, width + LABEL, WIDTH, note);
     return;
   }
-  cli_rows_print_cell(10, hooke_needs_number(needs, row, "error"));
-  print_costs(hooke_needs_number(needs, row, "force_evaluations"),
-              nanoseconds(wall, hooke_needs_number(needs, row, "steps")), wall,
-              hooke_needs_number(needs, row, "step_limit"));
-  const double needed = hooke_needs_number(needs, row, "needed");
+  cli_rows_print_cell(10, hooke_measurement_number(needs, "rows", row, "error"));
+  print_costs(hooke_measurement_number(needs, "rows", row, "force_evaluations"),
+              nanoseconds(wall, hooke_measurement_number(needs, "rows", row, "steps")), wall,
+              hooke_measurement_number(needs, "rows", row, "step_limit"));
+  const double needed = hooke_measurement_number(needs, "rows", row, "needed");
   const char *verdict = isnan(needed) ? "not known" : needed == 1.0 ? "needed" : "-";
   printf("  %s%s", verdict, note[0] ? "; " : "");
   cli_print_text(stdout, note);
   printf("\n");
 }
 
-static void print_table(const hooke_needs *needs) {
+static void print_table(const hooke_measurement *needs) {
   int32_t width = (int32_t)strlen("nothing (the full scene)");
-  for (int64_t row = 0; row < hooke_needs_row_count(needs); row++) {
-    const int32_t length = (int32_t)strlen(hooke_needs_text(needs, row, "without"));
+  for (int64_t row = 0; row < hooke_measurement_row_count(needs, "rows"); row++) {
+    const int32_t length = (int32_t)strlen(hooke_measurement_text(needs, "rows", row, "without"));
     if (length > width) width = length;
   }
-  const double wall = hooke_needs_figure(needs, "wall_seconds");
+  const double wall = hooke_measurement_number(needs, "full", 0, "wall_seconds");
   print_head(width);
   printf("%-*s %10s", width, "nothing (the full scene)", "");
-  print_costs(hooke_needs_figure(needs, "force_evaluations"),
-              nanoseconds(wall, hooke_needs_figure(needs, "steps")), wall,
-              hooke_needs_figure(needs, "step_limit"));
+  print_costs(hooke_measurement_number(needs, "full", 0, "force_evaluations"),
+              nanoseconds(wall, hooke_measurement_number(needs, "full", 0, "steps")), wall,
+              hooke_measurement_number(needs, "full", 0, "step_limit"));
   printf("\n");
-  for (int64_t row = 0; row < hooke_needs_row_count(needs); row++)
+  for (int64_t row = 0; row < hooke_measurement_row_count(needs, "rows"); row++)
     print_row(needs, row, width);
 }
 
 /* ---- the lean scene ---- */
 
-static int32_t has_unknown(const hooke_needs *needs) {
-  for (int64_t row = 0; row < hooke_needs_row_count(needs); row++) {
-    if (isnan(hooke_needs_number(needs, row, "needed"))) return 1;
+static int32_t has_unknown(const hooke_measurement *needs) {
+  for (int64_t row = 0; row < hooke_measurement_row_count(needs, "rows"); row++) {
+    if (isnan(hooke_measurement_number(needs, "rows", row, "needed"))) return 1;
   }
   return 0;
 }
 
 /* Both within the want, each at its cheapest. */
-static void print_saving(const hooke_needs *needs) {
-  const double less = hooke_needs_figure(needs, "times_less");
-  const char *other = hooke_needs_word(needs, "other_method");
+static void print_saving(const hooke_measurement *needs) {
+  const double less = hooke_measurement_number(needs, "lean", 0, "times_less");
+  const char *other = hooke_measurement_text(needs, "lean", 0, "other_method");
   char text[512], ratio[64], cheaper[160] = "";
   snprintf(ratio, sizeof ratio, less >= 1.0 ? "%.1f times less" : "%.1f times more",
            less >= 1.0 ? less : 1.0 / less);
   if (other)
     snprintf(cheaper, sizeof cheaper, "; %s would bring the full scene there in %.3g s", other,
-             hooke_needs_figure(needs, "other_seconds"));
+             hooke_measurement_number(needs, "lean", 0, "other_seconds"));
   snprintf(text, sizeof text,
            "left out together: error at most %.3g m, %.0f springs instead of %.0f; wall time %.3g s by %s, "
            "where the "
            "full scene takes %.3g s to be within the want (%s)%s",
-           hooke_needs_figure(needs, "lean_error"), hooke_needs_figure(needs, "lean_springs"),
-           hooke_needs_figure(needs, "springs"), hooke_needs_figure(needs, "lean_wall_seconds"),
-           hooke_needs_word(needs, "method"), hooke_needs_figure(needs, "cheapest_wall_seconds"), ratio,
-           cheaper);
+           hooke_measurement_number(needs, "lean", 0, "error"),
+           hooke_measurement_number(needs, "lean", 0, "springs"),
+           hooke_measurement_number(needs, "full", 0, "springs"),
+           hooke_measurement_number(needs, "lean", 0, "wall_seconds"),
+           hooke_measurement_text(needs, "needs", 0, "method"),
+           hooke_measurement_number(needs, "cheapest", 0, "wall_seconds"), ratio, cheaper);
   printf("%-*s", LABEL, "");
   cli_print_wrapped(stdout, LABEL, LABEL, WIDTH, text);
 }
 
 static void print_lean(const struct cli_needs_results *results) {
-  const hooke_needs *needs = results->needs;
-  if (!hooke_needs_lean(needs)) return;
+  const hooke_measurement *needs = results->needs;
+  if (hooke_measurement_row_count(needs, "lean") == 0) return;
   int32_t left_out = 0;
-  for (int64_t row = 0; row < hooke_needs_row_count(needs); row++) {
-    if (hooke_needs_number(needs, row, "left_out") != 1.0) continue;
+  for (int64_t row = 0; row < hooke_measurement_row_count(needs, "rows"); row++) {
+    if (hooke_measurement_number(needs, "rows", row, "left_out") != 1.0) continue;
     printf("%s%-*s", left_out ? "" : "\n", LABEL, left_out ? "" : "lean");
-    cli_print_text(stdout, hooke_needs_text(needs, row, "without"));
+    cli_print_text(stdout, hooke_measurement_text(needs, "rows", row, "without"));
     printf("\n");
     left_out++;
   }
@@ -120,9 +122,9 @@ static void print_lean(const struct cli_needs_results *results) {
     return;
   }
   print_saving(needs);
-  if (hooke_needs_word(needs, "lean_note")[0]) {
+  if (hooke_measurement_text(needs, "lean", 0, "note")[0]) {
     printf("%-*s", LABEL, "");
-    cli_print_wrapped(stdout, LABEL, LABEL, WIDTH, hooke_needs_word(needs, "lean_note"));
+    cli_print_wrapped(stdout, LABEL, LABEL, WIDTH, hooke_measurement_text(needs, "lean", 0, "note"));
   }
   printf("%-*s", LABEL, "");
   if (results->command)
@@ -134,33 +136,33 @@ static void print_lean(const struct cli_needs_results *results) {
 
 /* ---- resolutions ---- */
 
-static void print_cells(const hooke_needs *needs, int64_t part, const char *const numbers[3]) {
+static void print_cells(const hooke_measurement *needs, int64_t part, const char *const numbers[3]) {
   char text[64] = "";
   for (int a = 0; a < 3; a++) {
-    const double cells = hooke_needs_part_number(needs, part, numbers[a]);
+    const double cells = hooke_measurement_number(needs, "parts", part, numbers[a]);
     const size_t used = strlen(text);
     if (!isnan(cells)) snprintf(text + used, sizeof text - used, "%s%.0f", used ? " x " : "", cells);
   }
   printf(" %14s", text[0] ? text : "-");
 }
 
-static void print_parts(const hooke_needs *needs) {
+static void print_parts(const hooke_measurement *needs) {
   static const char *const has[] = {"cells", "cells_second", "cells_third"};
   static const char *const wanted[] = {"wanted", "wanted_second", "wanted_third"};
   static const char *const numbers[] = {"change", "change_fine", "order", "error"};
   int32_t width = (int32_t)strlen("part");
-  for (int64_t part = 0; part < hooke_needs_part_count(needs); part++) {
-    const int32_t length = (int32_t)strlen(hooke_needs_part_text(needs, part, "part"));
+  for (int64_t part = 0; part < hooke_measurement_row_count(needs, "parts"); part++) {
+    const int32_t length = (int32_t)strlen(hooke_measurement_text(needs, "parts", part, "part"));
     if (length > width) width = length;
   }
   printf("%-*s %14s %12s %12s %8s %12s %14s\n", width, "part", "cells N", "N to 2N [m]", "2N to 4N [m]",
          "order", "left [m]", "want asks for");
-  for (int64_t part = 0; part < hooke_needs_part_count(needs); part++) {
-    const char *note = hooke_needs_part_text(needs, part, "note");
-    cli_print_padded(stdout, width, hooke_needs_part_text(needs, part, "part"));
+  for (int64_t part = 0; part < hooke_measurement_row_count(needs, "parts"); part++) {
+    const char *note = hooke_measurement_text(needs, "parts", part, "note");
+    cli_print_padded(stdout, width, hooke_measurement_text(needs, "parts", part, "part"));
     print_cells(needs, part, has);
     for (int k = 0; k < 4; k++)
-      cli_rows_print_cell(k == 2 ? 8 : 12, hooke_needs_part_number(needs, part, numbers[k]));
+      cli_rows_print_cell(k == 2 ? 8 : 12, hooke_measurement_number(needs, "parts", part, numbers[k]));
     print_cells(needs, part, wanted);
     printf("\n");
     if (note[0]) {
@@ -170,14 +172,14 @@ static void print_parts(const hooke_needs *needs) {
   }
 }
 
-int32_t cli_needs_results_trust(const hooke_needs *needs, char text[HOOKE_NEEDS_TRUST]) {
-  const double until = hooke_needs_figure(needs, "judged_until");
-  if (until >= hooke_needs_figure(needs, "duration") * (1.0 - 1e-9)) return 0;
+int32_t cli_needs_results_trust(const hooke_measurement *needs, char text[HOOKE_NEEDS_TRUST]) {
+  const double until = hooke_measurement_number(needs, "needs", 0, "judged_until");
+  if (until >= hooke_measurement_number(needs, "needs", 0, "duration") * (1.0 - 1e-9)) return 0;
   snprintf(
       text, HOOKE_NEEDS_TRUST,
       "after %g s small differences grow so fast that no time step keeps its error below a tenth of what is "
       "wanted: changes are those up to %g s of %g s",
-      until, until, hooke_needs_figure(needs, "duration"));
+      until, until, hooke_measurement_number(needs, "needs", 0, "duration"));
   return 1;
 }
 
@@ -187,21 +189,21 @@ static void print_warning(const char *text) {
   printf("\n");
 }
 
-static void print_warnings(const hooke_needs *needs) {
+static void print_warnings(const hooke_measurement *needs) {
   char text[HOOKE_NEEDS_TRUST];
-  const char *note = hooke_needs_word(needs, "note");
+  const char *note = hooke_measurement_text(needs, "needs", 0, "note");
   if (cli_needs_results_trust(needs, text)) print_warning(text);
   if (note[0]) print_warning(note);
 }
 
 void cli_needs_results_print(const struct cli_needs_results *results) {
-  const hooke_needs *needs = results->needs;
+  const hooke_measurement *needs = results->needs;
   const char *title = hooke_scene_title(results->setup.scene);
   cli_print_text(stdout, title && title[0] ? title : results->arguments->scene);
-  printf("\n%s%s, %g m wanted", hooke_needs_word(needs, "method"),
-         hooke_needs_figure(needs, "method_picked") == 1.0 ? " (picked)" : "",
-         hooke_needs_figure(needs, "want"));
-  const double step_error = hooke_needs_figure(needs, "step_error");
+  printf("\n%s%s, %g m wanted", hooke_measurement_text(needs, "needs", 0, "method"),
+         hooke_measurement_number(needs, "needs", 0, "method_picked") == 1.0 ? " (picked)" : "",
+         hooke_measurement_number(needs, "needs", 0, "want"));
+  const double step_error = hooke_measurement_number(needs, "full", 0, "step_error");
   if (isnan(step_error)) {
     printf("; the full scene was not run to its end\n");
     return;

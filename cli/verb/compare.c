@@ -4,6 +4,7 @@
 #include "report.h"
 #include "rows.h"
 #include "setup.h"
+#include "table.h"
 #include "watch.h"
 
 #include <math.h>
@@ -16,7 +17,7 @@ struct compare {
   const struct cli_arguments *arguments;
   struct cli_methods methods;
   struct cli_setup setup;
-  hooke_comparison *comparison;
+  hooke_measurement *comparison;
   hooke_comparison_file *file; /* NULL without -o */
   const char *output;
   struct cli_watch watch;
@@ -24,17 +25,29 @@ struct compare {
 
 /* ---- running ---- */
 
+/* Options with the methods in their order. */
+static int32_t make_options(const struct cli_methods *methods, hooke_options **options) {
+  char names[HOOKE_MOST_METHODS * 32] = "";
+  for (int32_t k = 0; k < methods->count; k++)
+    snprintf(names + strlen(names), sizeof names - strlen(names), "%s%s", k ? "," : "", methods->name[k]);
+  const int32_t status = hooke_options_create("comparison", options);
+  return status == HOOKE_OK ? hooke_options_set_text(*options, "methods", names) : status;
+}
+
 static int32_t prepare(struct compare *compare) {
-  int32_t status =
-      hooke_comparison_create(compare->setup.system, compare->setup.options, &compare->comparison);
-  for (int64_t i = 0; status == HOOKE_OK && i < compare->methods.count; i++) {
-    status = hooke_comparison_add(compare->comparison, compare->methods.name[i]);
-  }
+  const struct cli_setup *setup = &compare->setup;
+  hooke_options *options = NULL;
+  int32_t status = make_options(&compare->methods, &options);
+  if (status == HOOKE_OK)
+    status =
+        hooke_measurement_create("comparison", setup->system, setup->options, options, &compare->comparison);
+  hooke_options_destroy(options);
   if (status != HOOKE_OK) return status;
-  hooke_comparison_on_progress(compare->comparison, cli_watch_progress, &compare->watch);
+  hooke_measurement_on_progress(compare->comparison, cli_watch_progress, &compare->watch);
   if (!compare->output) return HOOKE_OK;
-  return hooke_comparison_file_create(compare->output, compare->setup.system, compare->comparison,
-                                      hooke_scene_text(compare->setup.scene), &compare->file);
+  status = hooke_measurement_label(compare->comparison, "scene", hooke_scene_text(setup->scene));
+  if (status != HOOKE_OK) return status;
+  return hooke_comparison_file_create(compare->output, compare->comparison, &compare->file);
 }
 
 /* Runs and puts the file away. A failure is reported and comes back as exit code; so does an interruption,
@@ -44,7 +57,7 @@ static int run_all(struct compare *compare) {
   cli_watch_start(&compare->watch, compare->arguments);
   int32_t status = prepare(compare);
   if (status != HOOKE_OK) return cli_report_status(compare->arguments, status);
-  int32_t outcome = hooke_comparison_run(compare->comparison);
+  int32_t outcome = hooke_measurement_run(compare->comparison, NULL);
   cli_watch_end(&compare->watch);
   snprintf(message, sizeof message, "%s", hooke_last_error());
   status = hooke_comparison_file_close(compare->file);
@@ -59,21 +72,19 @@ static int run_all(struct compare *compare) {
 /* ---- results ---- */
 
 /* Rows that were run, if only in part: an interruption leaves the others out. */
-static int64_t rows_done(const hooke_comparison *comparison) {
+static int64_t rows_done(const hooke_measurement *comparison) {
   int64_t rows = 0;
-  while (rows < hooke_comparison_row_count(comparison) &&
-         !isnan(hooke_comparison_number(comparison, rows, "wall_seconds"))) {
+  while (!isnan(hooke_measurement_number(comparison, "rows", rows, "wall_seconds")))
     rows++;
-  }
   return rows;
 }
 
 static const char *text_of(const void *comparison, int64_t row, const char *what) {
-  return hooke_comparison_text(comparison, row, what);
+  return hooke_measurement_text(comparison, "rows", row, what);
 }
 
 static double number_of(const void *comparison, int64_t row, const char *what) {
-  return hooke_comparison_number(comparison, row, what);
+  return hooke_measurement_number(comparison, "rows", row, what);
 }
 
 static struct cli_rows rows_of(const struct compare *compare) {
@@ -83,36 +94,47 @@ static struct cli_rows rows_of(const struct compare *compare) {
                            .number = number_of};
 }
 
+static const char *reference_of(const struct compare *compare) {
+  return hooke_measurement_text(compare->comparison, "reference", 0, "method");
+}
+
 static void print_json(const struct compare *compare) {
-  const struct cli_rows rows = rows_of(compare);
+  const hooke_measurement *comparison = compare->comparison;
   struct cli_json json;
   cli_json_begin(&json, stdout);
   cli_json_text(&json, "scene", compare->arguments->scene);
-  cli_json_number(&json, "duration", hooke_options_number(compare->setup.options, "duration"));
+  cli_table_print_row(&json, comparison, "comparison", 0);
   cli_json_open(&json, "reference", '{');
   cli_json_open(&json, "methods", '[');
-  cli_json_text(&json, NULL, hooke_comparison_reference(compare->comparison));
+  cli_json_text(&json, NULL, reference_of(compare));
   cli_json_close(&json);
   /* one reference, unchecked by a second: these do not apply */
   cli_json_number(&json, "agreement", (double)NAN);
   cli_json_number(&json, "trusted_until", (double)NAN);
   cli_json_close(&json);
-  cli_rows_print_json(&json, &rows);
+  cli_json_open(&json, "rows", '[');
+  for (int64_t row = 0; row < rows_done(comparison); row++) {
+    cli_json_open(&json, NULL, '{');
+    cli_table_print_row(&json, comparison, "rows", row);
+    cli_json_close(&json);
+  }
+  cli_json_close(&json);
   cli_json_end(&json);
 }
 
 /* Error over time at a few frames, evenly spaced, the last one included. */
-static void print_errors(const hooke_comparison *comparison, int32_t width) {
-  int64_t last = hooke_comparison_frame_count(comparison) - 1;
+static void print_errors(const hooke_measurement *comparison, int32_t width) {
+  const double *time = hooke_measurement_series(comparison, "reference", 0, "time");
+  int64_t last = hooke_measurement_series_count(comparison, "reference", 0, "time") - 1;
   int64_t frames = last < COLUMNS ? last : COLUMNS;
   printf("error [m]: root mean square over free particles of the distance to the reference\n%-*s", width,
          "at t [s] =");
   for (int64_t i = 1; i <= frames; i++)
-    cli_rows_print_cell(10, hooke_comparison_series(comparison, 0, "time")[last * i / frames]);
+    cli_rows_print_cell(10, time[last * i / frames]);
   printf("\n");
   for (int64_t row = 0; row < rows_done(comparison); row++) {
-    const double *error = hooke_comparison_series(comparison, row, "error");
-    printf("%-*s", width, hooke_comparison_text(comparison, row, "method"));
+    const double *error = hooke_measurement_series(comparison, "rows", row, "error_at");
+    printf("%-*s", width, text_of(comparison, row, "method"));
     for (int64_t i = 1; i <= frames; i++)
       cli_rows_print_cell(10, error ? error[last * i / frames] : (double)NAN);
     printf("\n");
@@ -126,7 +148,7 @@ static void print_words(const struct compare *compare) {
   char text[HOOKE_NUMBER_SIZE];
   cli_print_text(stdout, title && title[0] ? title : compare->arguments->scene);
   printf(", %s s\n", cli_format_rounded(hooke_options_number(compare->setup.options, "duration"), text));
-  printf("reference: %s at tight tolerance\n\n", hooke_comparison_reference(compare->comparison));
+  printf("reference: %s at tight tolerance\n\n", reference_of(compare));
   if (rows.count > 0) {
     print_errors(compare->comparison, width);
     printf("\n");
@@ -172,7 +194,7 @@ static int do_compare(const struct cli_arguments *arguments) {
   code = cli_setup_load(arguments, &compare.setup);
   if (code == HOOKE_EXIT_DONE) code = require_all(&compare);
   if (code == HOOKE_EXIT_DONE) code = compare_and_tell(&compare);
-  hooke_comparison_destroy(compare.comparison);
+  hooke_measurement_destroy(compare.comparison);
   cli_setup_destroy(&compare.setup);
   return code;
 }

@@ -9,7 +9,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-static int check_files(const struct cli_arguments *arguments) {
+static int check_files(const struct cli_needs_results *results) {
+  const struct cli_arguments *arguments = results->arguments;
   const char *output = cli_arguments_text(arguments, "output");
   const char *report = cli_arguments_text(arguments, "report");
   int code = HOOKE_EXIT_DONE;
@@ -17,7 +18,7 @@ static int check_files(const struct cli_arguments *arguments) {
     return cli_report(arguments, HOOKE_EXIT_USAGE,
                       "no want: give the error that you can live with, such as --want 1mm");
   }
-  if (output && cli_arguments_text(arguments, "refine")) {
+  if (output && results->refine) {
     return cli_report(
         arguments, HOOKE_EXIT_USAGE,
         "-o and --refine: a lean scene is written from the table of ingredients; leave one out");
@@ -29,12 +30,12 @@ static int check_files(const struct cli_arguments *arguments) {
 static int find(struct cli_needs_results *results, int32_t *stopped) {
   const struct cli_arguments *arguments = results->arguments;
   struct cli_watch watch;
-  int32_t status =
-      hooke_needs_create(results->setup.system, results->setup.options, arguments->more, &results->needs);
+  int32_t status = hooke_measurement_create("needs", results->setup.system, results->setup.options,
+                                            arguments->more, &results->needs);
   if (status != HOOKE_OK) return cli_report_status(arguments, status);
   cli_watch_start(&watch, arguments);
-  hooke_needs_on_progress(results->needs, cli_watch_progress, &watch);
-  status = results->refine ? hooke_needs_refine(results->needs) : hooke_needs_find(results->needs);
+  hooke_measurement_on_progress(results->needs, cli_watch_progress, &watch);
+  status = hooke_measurement_run(results->needs, NULL);
   cli_watch_end(&watch);
   *stopped = status == HOOKE_STOPPED;
   return status == HOOKE_OK || *stopped ? HOOKE_EXIT_DONE : cli_report_status(arguments, status);
@@ -72,8 +73,10 @@ static int write_report(const struct cli_needs_results *results, int code) {
   const char *report = cli_arguments_text(results->arguments, "report");
   const char *title = hooke_scene_title(results->setup.scene);
   if (!report) return code;
-  const int32_t status = hooke_needs_write_report(
-      results->needs, report, title && title[0] ? title : results->arguments->scene, results->command);
+  int32_t status =
+      hooke_measurement_label(results->needs, "title", title && title[0] ? title : results->arguments->scene);
+  if (status == HOOKE_OK) status = hooke_measurement_label(results->needs, "command", results->command);
+  if (status == HOOKE_OK) status = hooke_measurement_write(results->needs, report);
   if (status == HOOKE_OK) return code;
   cli_report_words(results->arguments, "%s", hooke_last_error());
   return cli_exit_code(status);
@@ -95,25 +98,22 @@ static int tell(struct cli_needs_results *results, int32_t stopped) {
 
 static int do_needs(const struct cli_arguments *arguments) {
   struct cli_needs_results results = {.arguments = arguments,
-                                      .refine = cli_arguments_text(arguments, "refine") != NULL};
+                                      .refine = hooke_options_number(arguments->more, "refine") == 1.0};
   int32_t stopped = 0;
-  int code = check_files(arguments);
+  int code = check_files(&results);
   if (code != HOOKE_EXIT_DONE) return code;
   code = cli_setup_load(arguments, &results.setup);
   if (code == HOOKE_EXIT_DONE) code = cli_setup_require_duration(arguments, &results.setup);
   if (code == HOOKE_EXIT_DONE) code = find(&results, &stopped);
   if (code == HOOKE_EXIT_DONE) code = tell(&results, stopped);
   free(results.command);
-  hooke_needs_destroy(results.needs);
+  hooke_measurement_destroy(results.needs);
   cli_setup_destroy(&results.setup);
   return code;
 }
 
 static const struct cli_verb_row own_rows[] = {
     {"output", 'o', "LEAN.json", "writes the lean scene, replacing it"},
-    {"refine", 0, NULL,
-     "the reverse question: each part at once, twice and four times its resolution, and what the want asks "
-     "for"},
     {"report", 0, "FILE.html", "writes table and pictures as one page to read offline, replacing it"},
 };
 

@@ -1,24 +1,25 @@
 /* hooke verify: runs a slice of a result again and says whether it is what its scene gives. */
 #include "print.h"
 #include "report.h"
+#include "table.h"
 #include "watch.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-static double number(const hooke_verify *verify, const char *what) {
-  return hooke_verify_number(verify, what);
+static double number(const hooke_measurement *verify, const char *what) {
+  return hooke_measurement_number(verify, "verify", 0, what);
 }
 
-static const char *text(const hooke_verify *verify, const char *what) {
-  const char *found = hooke_verify_text(verify, what);
+static const char *text(const hooke_measurement *verify, const char *what) {
+  const char *found = hooke_measurement_text(verify, "verify", 0, what);
   return found ? found : "";
 }
 
 /* ---- the certificate ---- */
 
-static void print_makers(const hooke_verify *verify, const char *head, const char *suffix) {
+static void print_makers(const hooke_measurement *verify, const char *head, const char *suffix) {
   static const char *const facts[][2] = {{"version", "hooke"},
                                          {"sundials", "SUNDIALS"},
                                          {"cholmod", "CHOLMOD"},
@@ -37,7 +38,7 @@ static void print_makers(const hooke_verify *verify, const char *head, const cha
   printf("\n");
 }
 
-static void print_step(const hooke_verify *verify) {
+static void print_step(const hooke_measurement *verify) {
   printf("%-13s %s", "method", text(verify, "method"));
   if (isnan(number(verify, "step"))) {
     printf(", rtol %g, atol %g m\n", number(verify, "rtol"), number(verify, "atol"));
@@ -52,7 +53,7 @@ static void print_step(const hooke_verify *verify) {
   printf("\n");
 }
 
-static void print_balance(const hooke_verify *verify) {
+static void print_balance(const hooke_measurement *verify) {
   if (strcmp(text(verify, "balance"), "not-checked") == 0) return;
   printf("%-13s %s: work in %.6g J = change %.6g J + heat %.6g J\n", "energy", text(verify, "balance"),
          number(verify, "work"), number(verify, "energy_change"), number(verify, "heat"));
@@ -62,7 +63,7 @@ static void print_balance(const hooke_verify *verify) {
   printf("%-13s about %.2g m in a coordinate, over the slice\n", "error", number(verify, "error_estimate"));
 }
 
-static void print_words(const struct cli_arguments *arguments, const hooke_verify *verify) {
+static void print_words(const struct cli_arguments *arguments, const hooke_measurement *verify) {
   printf("%-13s ", "file");
   cli_print_text(stdout, arguments->scene);
   printf("\n%-13s ", "run");
@@ -82,42 +83,26 @@ static void print_words(const struct cli_arguments *arguments, const hooke_verif
          strcmp(text(verify, "verdict"), "agrees") == 0 ? " to the bit" : "");
 }
 
-static void print_json(const struct cli_arguments *arguments, const hooke_verify *verify) {
-  static const char *const texts[] = {"verdict",      "difference",        "run",          "method",
-                                      "balance",      "version",           "sundials",     "cholmod",
-                                      "instructions", "machine",           "version_here", "sundials_here",
-                                      "cholmod_here", "instructions_here", "machine_here"};
-  static const char *const counts[] = {"frames", "frames_checked", "frame_first", "frame_last",
-                                       "check_scene"};
-  static const char *const numbers[] = {
-      "check_last",    "steps", "time_first", "time_last",        "step",
-      "rtol",          "atol",  "step_limit", "step_share",       "work",
-      "energy_change", "heat",  "residual",   "residual_refined", "residual_bound",
-      "error_estimate"};
+static void print_json(const struct cli_arguments *arguments, const hooke_measurement *verify) {
   struct cli_json json;
   cli_json_begin(&json, stdout);
   cli_json_text(&json, "file", arguments->scene);
-  for (size_t k = 0; k < sizeof texts / sizeof texts[0]; k++)
-    cli_json_text(&json, texts[k], hooke_verify_text(verify, texts[k]));
-  for (size_t k = 0; k < sizeof counts / sizeof counts[0]; k++)
-    cli_json_count(&json, counts[k], (int64_t)number(verify, counts[k]));
-  for (size_t k = 0; k < sizeof numbers / sizeof numbers[0]; k++)
-    cli_json_number(&json, numbers[k], number(verify, numbers[k]));
+  cli_table_print_row(&json, verify, "verify", 0);
   cli_json_end(&json);
 }
 
 /* ---- the verb ---- */
 
 static int do_verify(const struct cli_arguments *arguments) {
-  hooke_verify *verify = NULL;
+  hooke_measurement *verify = NULL;
   struct cli_watch watch;
   int32_t status = hooke_verify_create(arguments->scene, arguments->more, NULL, &verify);
   if (status != HOOKE_OK) return cli_report_status(arguments, status);
   cli_watch_start(&watch, arguments);
-  hooke_verify_on_progress(verify, cli_watch_progress, &watch);
-  status = hooke_verify_run(verify);
+  hooke_measurement_on_progress(verify, cli_watch_progress, &watch);
+  status = hooke_measurement_run(verify, NULL);
   cli_watch_end(&watch);
-  const char *verdict = hooke_verify_text(verify, "verdict");
+  const char *verdict = hooke_measurement_text(verify, "verify", 0, "verdict");
   int code = cli_exit_code(status);
   if (verdict && arguments->json) { /* which holds the message, too */
     print_json(arguments, verify);
@@ -125,7 +110,7 @@ static int do_verify(const struct cli_arguments *arguments) {
     if (status != HOOKE_OK) code = cli_report_status(arguments, status);
     if (verdict && status != HOOKE_STOPPED) print_words(arguments, verify);
   }
-  hooke_verify_destroy(verify);
+  hooke_measurement_destroy(verify);
   return code;
 }
 

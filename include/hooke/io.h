@@ -10,7 +10,6 @@
 #include "integrator.h"
 #include "limit.h"
 #include "measure.h"
-#include "needs.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -182,16 +181,6 @@ HOOKE_API int32_t hooke_record_numbers(hooke_record *record, const char *what, d
  * or for another word; then hooke_record_read() reads them. */
 HOOKE_API int64_t hooke_record_place(const hooke_record *record, const char *what);
 
-/* Creates one file for a whole comparison, before it runs: the reference under /particles/all, each method
- * under /particles/<method>, and after hooke_comparison_file_close() the table and the error over time under
- * /comparison. The comparison must have its rows added; its frame observer is taken over by the file.
- * `scene_text` is as for hooke_trajectory_create(). */
-typedef struct hooke_comparison_file hooke_comparison_file;
-HOOKE_API int32_t hooke_comparison_file_create(const char *path, const hooke_system *system,
-                                               hooke_comparison *comparison, const char *scene_text,
-                                               hooke_comparison_file **file);
-HOOKE_API int32_t hooke_comparison_file_close(hooke_comparison_file *file);
-
 /* ---- trajectories shown ---- */
 
 /* Writes a trajectory as one HTML page that plays it, readable offline: springs coloured by strain, what is
@@ -234,12 +223,6 @@ HOOKE_API int32_t hooke_record_write_xdmf(const hooke_record *record, const char
  * HOOKE_BAD_VALUE for a state of another system, and the failures above. */
 HOOKE_API int32_t hooke_limit_write_report(const hooke_limit *limit, const hooke_state *state,
                                            const char *path, const char *scene);
-
-/* The same of what a scene needs: the table, what each ingredient changes and costs, the lean system laid
- * over the full one, and the resolutions if they were looked at. `command`, the line to type for the lean
- * scene, may be NULL. */
-HOOKE_API int32_t hooke_needs_write_report(const hooke_needs *needs, const char *path, const char *scene,
-                                           const char *command);
 
 #ifdef __cplusplus
 }

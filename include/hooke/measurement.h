@@ -108,6 +108,82 @@ HOOKE_API int32_t hooke_measurement_write(const hooke_measurement *measurement, 
 /* The cheapest run for another wanted error [m], found by running more of them; the tables "recommendation" and
  * "margin" then tell of it. HOOKE_OK also when nothing meets it, with "note" of what is in the way. */
 HOOKE_API int32_t hooke_study_recommend(hooke_measurement *study, double want);
+/* ---- comparison: one scene by several methods, against CVODE at tight tolerance ----
+ * `run` gives step, duration, every, rtol and atol, the option `methods` the rows. A row that diverges
+ * stays as a row. Errors are root mean squares over the free particles of the distance to the reference,
+ * frame by frame. Needs SUNDIALS. */
+
+/* Sees frame `frame` of `run` ("reference" or a method's name). Return 0 to go on. */
+typedef int32_t hooke_comparison_frame(const char *run, int64_t frame, int64_t step, const hooke_state *state,
+                                       void *ctx);
+/* Shows every frame of a comparison to `observer`; NULL takes it back. HOOKE_BAD_CALL for another kind. */
+HOOKE_API int32_t hooke_comparison_on_frame(hooke_measurement *comparison, hooke_comparison_frame *observer,
+                                            void *ctx);
+
+/* One HDF5 file for all runs of a comparison, made before it is run: the reference under /particles/all,
+ * each method under /particles/<method>. It takes the observer of frames over.
+ * hooke_comparison_file_close() adds the tables and the errors over time under /comparison. The label
+ * "scene" is the text of the scene, as for hooke_trajectory_create(). HOOKE_BAD_CALL for another kind,
+ * HOOKE_IO_FAILED, HOOKE_NOT_BUILT, HOOKE_NO_MEMORY, and what running it may return. */
+typedef struct hooke_comparison_file hooke_comparison_file;
+HOOKE_API int32_t hooke_comparison_file_create(const char *path, hooke_measurement *comparison,
+                                               hooke_comparison_file **file);
+HOOKE_API int32_t hooke_comparison_file_close(hooke_comparison_file *file);
+
+/* ---- needs: what may be left out of a scene for a wanted error, and what resolution it asks for ----
+ * One ingredient after another is left out of the system, and each variant is run. Its change is the
+ * maximum over frames of the root mean square over the watched particles of the distance from where they
+ * are in the full system [m]. Each run takes the largest step (or tolerance) with which it is off by at
+ * most a tenth of the wanted error, judged by a run with half the step (a tenth of the tolerance). An
+ * ingredient whose change is below the wanted error is not needed. Ingredients are each group of springs
+ * and each family of a part; bending; altitude springs; damping; drag; gravity; a force callback; springs
+ * whose force stays small; particles that touch nothing; parts without watched particles; resistance to
+ * compression; half the resolution of each part, compared at equal material coordinates by linear
+ * interpolation.
+ *
+ * Then everything that is not needed and saves work is left out together, the smallest change first, as
+ * long as a run with the largest step that allows it stays within the wanted error, all errors together;
+ * single springs of a part only where that halves the work. Where the watched particles move by less than a
+ * thousandth of the wanted error, nothing can be told, and nothing is left out.
+ *
+ * The option `refine` asks the reverse: each part at once, twice and four times its resolution, in the
+ * table "parts". `run` gives duration, every and the method; without a method one is picked.
+ * HOOKE_BAD_VALUE if no step that could be tried holds the full system to a tenth of the wanted error. */
+
+/* The lean system, owned by `needs`: the twin of the full one if all is needed, NULL before it was found. */
+HOOKE_API const hooke_system *hooke_needs_lean(const hooke_measurement *needs);
+/* The run to make of it: method, step or tolerances, duration, every. */
+HOOKE_API const hooke_options *hooke_needs_lean_run(const hooke_measurement *needs);
+/* The particle of the lean system that is `particle` of the full one; -1 if it was left out, and in parts
+ * of another resolution. */
+HOOKE_API int64_t hooke_needs_lean_particle(const hooke_measurement *needs, int64_t particle);
+/* Positions of all particles of the full system, 3 each, at a state of the lean one: of the same material
+ * points, NaN where they were left out. HOOKE_BAD_CALL before it was found, and for another kind. */
+HOOKE_API int32_t hooke_needs_lean_position(const hooke_measurement *needs, const double *q,
+                                            double *position);
+
+/* ---- verify: whether a trajectory reproduces from its scene ----
+ * A slice of the run is run again from the numbers in the file and compared with its frames to the bit;
+ * every frame is compared with its check value, and the first one with the scene. With a fixed step a slice
+ * begins at any frame; an error-controlled method is run from the start. Along the slice the balance of
+ * energy is taken: the work of driven particles = change of energy + heat of damping and drag. The slice is
+ * run once more with half the step, or tolerances a hundredth: the residual of the balance has to fall, as
+ * the error of a method does, and the difference between the two runs estimates the error.
+ *
+ * Where the file was made with other versions of SUNDIALS or CHOLMOD, or on another machine,
+ * error-controlled methods and backward-euler may differ in bits: frames then have to agree to within four
+ * times the estimate.
+ *
+ * hooke_measurement_run() returns HOOKE_BAD_VALUE if the file is not what its scene gives, with the first
+ * frame, particle and component that differ and both numbers, the frame that is damaged, or the balance
+ * that does not hold; the table "verify" and files have it all the same. */
+
+/* Opens a trajectory and makes its scene again, with `limits` as in hooke_scene_load_within(); both sorts
+ * of options may be NULL, and are copied or read here. HOOKE_BAD_VALUE for a file that holds no scene or no
+ * frames, a scene that is wrong, or a slice without two frames; HOOKE_IO_FAILED, HOOKE_NOT_BUILT,
+ * HOOKE_NO_MEMORY. */
+HOOKE_API int32_t hooke_verify_create(const char *path, const hooke_options *options,
+                                      const hooke_options *limits, hooke_measurement **verify);
 
 #ifdef __cplusplus
 }

@@ -8,8 +8,8 @@ from conftest import ENDLESS, METHODS, SIX_PARTICLES, STIFF_PAIR, interrupt
 
 pytestmark = pytest.mark.everything
 
-ROW = ["method", "step", "rtol", "error", "error_max", "error_final", "energy_drift", "force_evaluations", "steps",
-       "wall_seconds", "status"]
+ROW = ["method", "step", "rtol", "atol", "error", "error_max", "error_final", "energy_drift", "force_evaluations", "steps",
+       "linear_iterations", "wall_seconds", "status"]
 
 
 def rows_of(value):
@@ -21,7 +21,7 @@ def test_json_has_exactly_the_keys(hooke, write):
     answer = hooke("compare", scene, "--json")
     assert (answer.code, answer.err) == (0, "")
     value = answer.json
-    assert list(value) == ["scene", "duration", "reference", "rows"]
+    assert list(value) == ["scene", "duration", "frames", "reference", "rows"]
     assert (value["scene"], value["duration"]) == (scene, 0.5)
     assert list(value["reference"]) == ["methods", "agreement", "trusted_until"]
     assert len(value["reference"]["methods"]) == 1

@@ -98,20 +98,21 @@ end:
 static void needs(struct attempt *a, const void *with) {
   hooke_system *system = make_rope(a, 4);
   hooke_options *run = system ? make_run(a, "symplectic-euler", 1e-3, 0.1, 0.02) : NULL;
-  hooke_needs *needs = make_needs(a, system, run);
+  hooke_measurement *needs = make_needs(a, system, run, 0), *finer = make_needs(a, system, run, 1);
   (void)with;
-  if (needs == NULL) goto end;
-  TRY(a, hooke_needs_find(needs));
-  TRY(a, hooke_needs_refine(needs));
-  for (int64_t k = 0; k < hooke_needs_row_count(needs); k++) {
-    attempt_text(a, hooke_needs_text(needs, k, "without"));
-    attempt_number(a, hooke_needs_number(needs, k, "error"));
-    attempt_number(a, hooke_needs_number(needs, k, "needed"));
+  if (needs == NULL || finer == NULL) goto end;
+  TRY(a, hooke_measurement_run(needs, NULL));
+  TRY(a, hooke_measurement_run(finer, NULL));
+  for (int64_t k = 0; k < hooke_measurement_row_count(needs, "rows"); k++) {
+    attempt_text(a, hooke_measurement_text(needs, "rows", k, "without"));
+    attempt_number(a, hooke_measurement_number(needs, "rows", k, "error"));
+    attempt_number(a, hooke_measurement_number(needs, "rows", k, "needed"));
   }
-  attempt_number(a, hooke_needs_part_number(needs, 0, "change"));
+  attempt_number(a, hooke_measurement_number(finer, "parts", 0, "change"));
   attempt_number(a, (double)hooke_system_spring_count(hooke_needs_lean(needs)));
 end:
-  hooke_needs_destroy(needs);
+  hooke_measurement_destroy(needs);
+  hooke_measurement_destroy(finer);
   hooke_options_destroy(run);
   hooke_system_destroy(system);
 }
@@ -153,18 +154,17 @@ end:
 static void compare(struct attempt *a, const void *with) {
   hooke_system *system = make_rope(a, 3);
   hooke_options *run = system ? make_run(a, NULL, 1e-3, 0.02, 0.01) : NULL;
-  hooke_comparison *comparison = make_comparison(a, system, run, "verlet");
+  hooke_measurement *comparison = make_comparison(a, system, run, "verlet,cvode-bdf");
   (void)with;
   if (comparison == NULL) goto end;
-  TRY(a, hooke_comparison_add(comparison, "cvode-bdf"));
-  TRY(a, hooke_comparison_run(comparison));
-  for (int64_t k = 0; k < hooke_comparison_row_count(comparison); k++) {
-    attempt_text(a, hooke_comparison_text(comparison, k, "status"));
-    attempt_number(a, hooke_comparison_number(comparison, k, "error"));
-    attempt_number(a, hooke_comparison_number(comparison, k, "energy_drift"));
+  TRY(a, hooke_measurement_run(comparison, NULL));
+  for (int64_t k = 0; k < hooke_measurement_row_count(comparison, "rows"); k++) {
+    attempt_text(a, hooke_measurement_text(comparison, "rows", k, "status"));
+    attempt_number(a, hooke_measurement_number(comparison, "rows", k, "error"));
+    attempt_number(a, hooke_measurement_number(comparison, "rows", k, "energy_drift"));
   }
 end:
-  hooke_comparison_destroy(comparison);
+  hooke_measurement_destroy(comparison);
   hooke_options_destroy(run);
   hooke_system_destroy(system);
 }

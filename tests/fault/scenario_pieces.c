@@ -67,25 +67,28 @@ end:
   return study;
 }
 
-hooke_comparison *make_comparison(struct attempt *a, const hooke_system *system, const hooke_options *run,
-                                  const char *method) {
-  hooke_comparison *comparison = NULL;
+hooke_measurement *make_comparison(struct attempt *a, const hooke_system *system, const hooke_options *run,
+                                   const char *methods) {
+  hooke_options *options = NULL;
+  hooke_measurement *comparison = NULL;
   if (run == NULL) return NULL;
-  TRY(a, hooke_comparison_create(system, run, &comparison));
-  TRY(a, hooke_comparison_add(comparison, method));
-  return comparison;
+  TRY(a, hooke_options_create("comparison", &options));
+  TRY(a, hooke_options_set_text(options, "methods", methods));
+  TRY(a, hooke_measurement_create("comparison", system, run, options, &comparison));
 end:
-  hooke_comparison_destroy(comparison);
-  return NULL;
+  hooke_options_destroy(options);
+  return comparison;
 }
 
-hooke_needs *make_needs(struct attempt *a, const hooke_system *system, const hooke_options *run) {
+hooke_measurement *make_needs(struct attempt *a, const hooke_system *system, const hooke_options *run,
+                              int32_t refine) {
   hooke_options *options = NULL;
-  hooke_needs *needs = NULL;
+  hooke_measurement *needs = NULL;
   if (run == NULL) return NULL;
-  TRY(a, hooke_needs_options_create(&options));
+  TRY(a, hooke_options_create("needs", &options));
   TRY(a, hooke_options_set_number(options, "want", 1e-2));
-  TRY(a, hooke_needs_create(system, run, options, &needs));
+  TRY(a, hooke_options_set_number(options, "refine", refine));
+  TRY(a, hooke_measurement_create("needs", system, run, options, &needs));
 end:
   hooke_options_destroy(options);
   return needs;

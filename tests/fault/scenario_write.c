@@ -87,28 +87,29 @@ end:
 static void comparison(struct attempt *a, const void *with) {
   hooke_system *system = make_rope(a, 3);
   hooke_options *run = system ? make_run(a, NULL, 1e-3, 0.004, 0.002) : NULL;
-  hooke_comparison *comparison = make_comparison(a, system, run, "verlet");
+  hooke_measurement *comparison = make_comparison(a, system, run, "verlet");
   hooke_comparison_file *file = NULL;
   (void)with;
   if (comparison == NULL) goto end;
-  TRY(a, hooke_comparison_file_create(path_of(a, "out.h5"), system, comparison, of_files, &file));
+  TRY(a, hooke_measurement_label(comparison, "scene", of_files));
+  TRY(a, hooke_comparison_file_create(path_of(a, "out.h5"), comparison, &file));
   if (a->on_file) {
     /* a frame that cannot be written stops the run, and closing tells why */
-    const int32_t status = hooke_comparison_run(comparison);
+    const int32_t status = hooke_measurement_run(comparison, NULL);
     if (status != HOOKE_OK && (status != HOOKE_STOPPED || fault_failures() == 0))
-      attempt_wrong(a, "hooke_comparison_run() returned %d: %s", (int)status, hooke_last_error());
+      attempt_wrong(a, "hooke_measurement_run() returned %d: %s", (int)status, hooke_last_error());
   } else {
-    TRY_ONCE(a, hooke_comparison_run(comparison));
+    TRY_ONCE(a, hooke_measurement_run(comparison, NULL));
   }
   {
     hooke_comparison_file *closing = file;
     file = NULL;
     TRY_ONCE(a, hooke_comparison_file_close(closing));
   }
-  attempt_number(a, hooke_comparison_number(comparison, 0, "error"));
+  attempt_number(a, hooke_measurement_number(comparison, "rows", 0, "error"));
 end:
   hooke_comparison_file_close(file);
-  hooke_comparison_destroy(comparison);
+  hooke_measurement_destroy(comparison);
   hooke_options_destroy(run);
   hooke_system_destroy(system);
 }
@@ -158,13 +159,15 @@ end:
 static void needs_report(struct attempt *a, const void *with) {
   hooke_system *system = make_rope(a, 2);
   hooke_options *run = system ? make_run(a, "symplectic-euler", 1e-3, 0.1, 0.02) : NULL;
-  hooke_needs *needs = make_needs(a, system, run);
+  hooke_measurement *needs = make_needs(a, system, run, 0);
   (void)with;
   if (needs == NULL) goto end;
-  TRY(a, hooke_needs_find(needs));
-  TRY(a, hooke_needs_write_report(needs, path_of(a, "out.html"), "rope", "hooke run"));
+  TRY(a, hooke_measurement_run(needs, NULL));
+  TRY(a, hooke_measurement_label(needs, "title", "rope"));
+  TRY(a, hooke_measurement_label(needs, "command", "hooke run"));
+  TRY(a, hooke_measurement_write(needs, path_of(a, "out.html")));
 end:
-  hooke_needs_destroy(needs);
+  hooke_measurement_destroy(needs);
   hooke_options_destroy(run);
   hooke_system_destroy(system);
 }

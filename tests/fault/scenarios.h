@@ -34,9 +34,10 @@ hooke_options *make_run(struct attempt *a, const char *method, double step, doub
 /* Not yet run, over a system and a run that may be NULL, for an attempt that is over. */
 hooke_measurement *make_study(struct attempt *a, const hooke_system *system, const hooke_options *run,
                               const char *methods);
-hooke_comparison *make_comparison(struct attempt *a, const hooke_system *system, const hooke_options *run,
-                                  const char *method);
-hooke_needs *make_needs(struct attempt *a, const hooke_system *system, const hooke_options *run);
+hooke_measurement *make_comparison(struct attempt *a, const hooke_system *system, const hooke_options *run,
+                                   const char *methods);
+hooke_measurement *make_needs(struct attempt *a, const hooke_system *system, const hooke_options *run,
+                              int32_t refine);
 hooke_limit *make_limit(struct attempt *a, const hooke_system *system, const hooke_options *run,
                         int32_t predict);
 void take_state(struct attempt *a, const hooke_state *state);

@@ -104,6 +104,7 @@ contains
     type(hooke_state) :: state, read_back
     type(writer), target :: frames
     type(hooke_record) :: record, other
+    type(hooke_measurement) :: verified
     integer :: status
     call scene%load("examples/scenes/rope.json")
     call scene%commit()
@@ -137,6 +138,10 @@ contains
     call expect(status == hooke_bad_value, "nor a frame 12")
     call record%open("no-such-file.h5", status)
     call expect(status /= hooke_ok .and. record%exists(), "a record that is open stays")
+    call verified%create_verify(output("rope.h5"))
+    call verified%run()
+    call expect(verified%text("verify", 1, "verdict") == "agrees", "the file reproduces from its scene")
+    call expect(nint(verified%number("verify", 1, "frames_checked")) == 11, "in every frame")
     call abandoned(scene)
   end subroutine
 
@@ -195,15 +200,16 @@ contains
 
   subroutine comparisons()
     type(hooke_system) :: system
-    type(hooke_options) :: run
-    type(hooke_comparison) :: comparison
+    type(hooke_options) :: run, options
+    type(hooke_measurement) :: comparison
     type(hooke_comparison_file) :: file
     logical :: there
     call make_oscillator(system)
     call make_run(run, "rk4", 1e-2_hooke_real, 0.1_hooke_real)
-    call comparison%create(system, run)
-    call comparison%add("rk4")
-    call file%create(output("comparison.h5"), system, comparison)
+    call options%create("comparison")
+    call options%set("methods", "rk4")
+    call comparison%create("comparison", system, run, options)
+    call file%create(output("comparison.h5"), comparison)
     call comparison%run()
     call file%close()
     inquire (file=output("comparison.h5"), exist=there)

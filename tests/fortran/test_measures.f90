@@ -97,35 +97,38 @@ contains
 
   subroutine comparisons()
     type(hooke_system) :: system
-    type(hooke_options) :: run
-    type(hooke_comparison) :: comparison
+    type(hooke_options) :: run, options
+    type(hooke_measurement) :: comparison
     type(spectator), target :: watch
     type(teller), target :: progress
     real(hooke_real), pointer :: time(:)
     integer :: status
     call make_oscillator(system)
     call make_run(run, "rk4", 1e-2_hooke_real, 0.5_hooke_real)
-    call comparison%create(system, run)
-    call comparison%add("rk4")
-    call comparison%add("forward-euler")
-    call comparison%add("no such method", status)
+    call options%create("comparison")
+    call options%set("methods", "no such method")
+    call comparison%create("comparison", system, run, options, status)
     call expect(status == hooke_bad_value, "a method that is none")
+    call options%set("methods", "rk4,forward-euler")
+    call comparison%create("comparison", system, run, options)
     call comparison%on_frame(watch)
     call comparison%on_progress(progress)
     call comparison%run()
-    call expect(comparison%row_count() == 2 .and. comparison%text(1, "method") == "rk4", "rows")
-    call expect(comparison%number(1, "error") < 1e-4_hooke_real*comparison%number(2, "error"), "rk4 is better")
-    call expect_text(comparison%reference(), "cvode", "the reference")
-    time => comparison%series(2, "time")
-    call expect(size(time) == comparison%frame_count() .and. abs(time(size(time)) - 0.5_hooke_real) < 1e-12, "series")
-    call expect(.not. associated(comparison%series(2, "nothing")), "of words that there are")
-    call expect(watch%first_frame == 1 .and. watch%frames == 3*comparison%frame_count(), "all frames were seen")
+    call expect(comparison%row_count("rows") == 2 .and. comparison%text("rows", 1, "method") == "rk4", "rows")
+    call expect(comparison%number("rows", 1, "error") < 1e-4_hooke_real*comparison%number("rows", 2, "error"), &
+      "rk4 is better")
+    call expect_text(comparison%text("reference", 1, "method"), "cvode", "the reference")
+    time => comparison%series("reference", 1, "time")
+    call expect(size(time) == nint(comparison%number("comparison", 1, "frames")) .and. &
+      abs(time(size(time)) - 0.5_hooke_real) < 1e-12, "series")
+    call expect(.not. associated(comparison%series("rows", 2, "nothing")), "of words that there are")
+    call expect(watch%first_frame == 1 .and. watch%frames == 3*size(time), "all frames were seen")
     call expect_text(watch%runs, "reference rk4 forward-euler", "of all runs")
     call expect(progress%told > 0, "progress was told")
     progress%stop_after = progress%told + 1
-    call comparison%create(system, run)
+    call comparison%create("comparison", system, run)
     call comparison%on_progress(progress)
-    call comparison%run(status)
+    call comparison%run(status=status)
     call expect(status == hooke_stopped, "and can stop it")
     call comparison%on_progress()
     call comparison%on_frame()
@@ -244,41 +247,51 @@ contains
   subroutine needs()
     type(hooke_system) :: system
     type(hooke_options) :: run, options
-    type(hooke_needs) :: needed
+    type(hooke_measurement) :: needed, finer
+    type(hooke_system) :: lean
+    type(hooke_options) :: lean_run
     type(hooke_state) :: state
     type(teller), target :: progress
     real(hooke_real) :: position(3, 25)
     integer :: row, status
     call make_cloth(system)
     call make_run(run, "rk4", 2e-3_hooke_real, 0.1_hooke_real)
-    call options%create_needs()
+    call options%create("needs")
     call options%set("want", 0.02_hooke_real)
-    call needed%create(system, run, options)
+    call needed%create("needs", system, run, options)
     call needed%on_progress(progress)
-    call expect(.not. needed%lean%exists(), "no lean system before it was found")
+    call needed%lean(lean, status)
+    call expect(status == hooke_bad_call .and. .not. lean%exists(), "no lean system before it was found")
     call needed%lean_position(position, position, status)
     call expect(status == hooke_bad_call, "nor positions")
-    call needed%find()
-    call expect(needed%row_count() > 3 .and. progress%told > 0, "a row for each ingredient")
-    do row = 1, needed%row_count()
-      if (needed%text(row, "kind") == "gravity") exit
+    call needed%on_frame(status=status)
+    call expect(status == hooke_bad_call, "nor frames of a comparison")
+    call needed%run()
+    call expect(needed%row_count("rows") > 3 .and. progress%told > 0, "a row for each ingredient")
+    do row = 1, needed%row_count("rows")
+      if (needed%text("rows", row, "kind") == "gravity") exit
     end do
-    call expect(nint(needed%number(row, "needed")) == 1, "gravity is needed")
-    call expect(needed%word("method") /= "" .and. needed%figure("runs") > 3, "figures")
-    call expect(needed%lean%exists() .and. needed%lean_run%number("duration") > 0.09_hooke_real, "and a lean system")
-    call state%create(needed%lean)
+    call expect(nint(needed%number("rows", row, "needed")) == 1, "gravity is needed")
+    call expect(needed%text("needs", 1, "method") /= "" .and. needed%number("needs", 1, "runs") > 3, "figures")
+    call needed%lean(lean)
+    call needed%lean_run(lean_run)
+    call expect(lean%exists() .and. lean_run%number("duration") > 0.09_hooke_real, "and a lean system")
+    call state%create(lean)
     position = 0
     call needed%lean_position(state%q, position, status)
     call expect(status == hooke_ok .and. maxval(abs(position(:, 25) - [1, 0, 1])) < 0.3_hooke_real, &
       "with its positions")
     call expect(needed%lean_particle(1) >= 0 .and. needed%lean_particle(1) <= 25, "and numbers")
-    call needed%write_report(output("needs.html"), "cloth", status=status)
+    call needed%label("title", "cloth")
+    call needed%write(output("needs.html"), status)
     call expect(status == merge(hooke_not_built, hooke_ok, hooke_build_fact("chartjs") == ""), "as a page")
-    call needed%refine()
-    call expect(needed%part_count() == 1 .and. needed%part_text(1, "part") == "cloth", "one part")
-    call expect(nint(needed%part_number(1, "cells")) == 4, "of four cells")
+    call options%set("refine", .true.)
+    call finer%create("needs", system, run, options)
+    call finer%run()
+    call expect(finer%row_count("parts") == 1 .and. finer%text("parts", 1, "part") == "cloth", "one part")
+    call expect(nint(finer%number("parts", 1, "cells")) == 4, "of four cells")
     call needed%on_progress()
     call needed%destroy()
-    call expect(.not. needed%lean%exists(), "gone with what it is of")
+    call expect(lean%particle_count() <= 25, "the lean system keeps what it is of")
   end subroutine
 end program

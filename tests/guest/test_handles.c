@@ -47,9 +47,11 @@ static void bring_to_life(void) {
   check_status(hooke_integrator_run(alive.integrator, alive.state), HOOKE_DIVERGED);
   check_ok(hooke_cost_create(alive.system, NULL, NULL, &alive.cost));
   check_ok(hooke_estimate_create(alive.system, NAN, &alive.estimate));
-#if HOOKE_HAVE_SUNDIALS
-  check_ok(hooke_measurement_create("study", alive.system, alive.options, NULL, &alive.measurement));
-#endif
+  hooke_options *want;
+  check_ok(hooke_options_create("needs", &want));
+  check_ok(hooke_options_set_number(want, "want", 1e-3));
+  check_ok(hooke_measurement_create("needs", alive.system, alive.options, want, &alive.measurement));
+  hooke_options_destroy(want);
 #if HOOKE_HAVE_LAPACK
   check_ok(hooke_limit_create(alive.system, NULL, NULL, &alive.limit));
   check_ok(hooke_why_create(alive.integrator, INFINITY, NULL, NULL, &alive.why));

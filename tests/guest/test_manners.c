@@ -285,12 +285,12 @@ static void tour_scenes(void) {
   ASK(hooke_cost_destroy(cost));
   ASK(hooke_options_destroy(options));
 
-  hooke_needs *needs = NULL;
-  OK(hooke_needs_options_create(&options));
+  hooke_measurement *needs = NULL;
+  OK(hooke_options_create("needs", &options));
   OK(hooke_options_set_text(options, "want", "0.1"));
-  OK(hooke_needs_create(system, run, options, &needs));
-  OK(hooke_needs_find(needs));
-  ASK(hooke_needs_destroy(needs));
+  OK(hooke_measurement_create("needs", system, run, options, &needs));
+  OK(hooke_measurement_run(needs, NULL));
+  ASK(hooke_measurement_destroy(needs));
   ASK(hooke_options_destroy(options));
 
   hooke_measurement *study = NULL;
@@ -311,14 +311,16 @@ static void tour_scenes(void) {
   ASK(hooke_measurement_destroy(study));
   ASK(hooke_options_destroy(options));
 
-  hooke_comparison *comparison = NULL;
+  hooke_measurement *comparison = NULL;
   hooke_comparison_file *file = NULL;
-  OK(hooke_comparison_create(system, run, &comparison));
-  OK(hooke_comparison_add(comparison, "verlet"));
-  OK(hooke_comparison_file_create(trajectory_path, system, comparison, NULL, &file));
-  OK(hooke_comparison_run(comparison));
+  OK(hooke_options_create("comparison", &options));
+  OK(hooke_options_set_text(options, "methods", "verlet"));
+  OK(hooke_measurement_create("comparison", system, run, options, &comparison));
+  ASK(hooke_options_destroy(options));
+  OK(hooke_comparison_file_create(trajectory_path, comparison, &file));
+  OK(hooke_measurement_run(comparison, NULL));
   OK(hooke_comparison_file_close(file));
-  ASK(hooke_comparison_destroy(comparison));
+  ASK(hooke_measurement_destroy(comparison));
   ASK(hooke_state_destroy(state));
   ASK(hooke_scene_destroy(scene));
   remove(trajectory_path);

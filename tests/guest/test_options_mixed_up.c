@@ -36,6 +36,15 @@ static int32_t make_study(hooke_options **o) {
 static int32_t make_driven(hooke_options **o) {
   return hooke_scene_options_create("driven", o);
 }
+static int32_t make_comparison(hooke_options **o) {
+  return hooke_options_create("comparison", o);
+}
+static int32_t make_needs(hooke_options **o) {
+  return hooke_options_create("needs", o);
+}
+static int32_t make_verify(hooke_options **o) {
+  return hooke_options_create("verify", o);
+}
 
 static const struct {
   const char *name;
@@ -53,7 +62,9 @@ static const struct {
               {"driven", make_driven},
               {"limit", hooke_limit_options_create},
               {"cost", hooke_cost_options_create},
-              {"needs", hooke_needs_options_create},
+              {"comparison", make_comparison},
+              {"needs", make_needs},
+              {"verify", make_verify},
               {"study", make_study},
               {"view", hooke_view_options_create}};
 enum { TABLES = sizeof tables / sizeof tables[0] };
@@ -143,8 +154,8 @@ static int32_t create_first_order(hooke_options *o) {
   }
 TAKES(create_integrator, hooke_integrator, hooke_integrator_create(system, o, &made),
       hooke_integrator_destroy)
-TAKES(create_comparison, hooke_comparison, hooke_comparison_create(system, o, &made),
-      hooke_comparison_destroy)
+TAKES(create_comparison_of_run, hooke_measurement,
+      hooke_measurement_create("comparison", system, o, NULL, &made), hooke_measurement_destroy)
 TAKES(create_limit_of_run, hooke_limit, hooke_limit_create(system, o, NULL, &made), hooke_limit_destroy)
 TAKES(create_limit, hooke_limit, hooke_limit_create(system, NULL, o, &made), hooke_limit_destroy)
 TAKES(create_cost_of_run, hooke_cost, hooke_cost_create(system, o, NULL, &made), hooke_cost_destroy)
@@ -173,11 +184,21 @@ static int32_t create_study(hooke_options *o) {
   return with_run(o, study_with);
 }
 
+static int32_t comparison_with(hooke_system *system, hooke_options *run, hooke_options *o) {
+  hooke_measurement *made = NULL;
+  const int32_t status = hooke_measurement_create("comparison", system, run, o, &made);
+  if (status == HOOKE_OK) hooke_measurement_destroy(made);
+  return status;
+}
+static int32_t create_comparison(hooke_options *o) {
+  return with_run(o, comparison_with);
+}
+
 static int32_t needs_with(hooke_system *system, hooke_options *run, hooke_options *o) {
-  hooke_needs *made = NULL;
-  if (o && hooke_options_row_count(o) == 2) hooke_options_set_text(o, "want", "0.1");
-  const int32_t status = hooke_needs_create(system, run, o, &made);
-  if (status == HOOKE_OK) hooke_needs_destroy(made);
+  hooke_measurement *made = NULL;
+  if (o && hooke_options_row_count(o) == 3) hooke_options_set_text(o, "want", "0.1");
+  const int32_t status = hooke_measurement_create("needs", system, run, o, &made);
+  if (status == HOOKE_OK) hooke_measurement_destroy(made);
   return status;
 }
 static int32_t create_needs(hooke_options *o) {
@@ -187,12 +208,12 @@ static int32_t create_needs(hooke_options *o) {
 static int32_t create_needs_of_run(hooke_options *o) {
   hooke_system *system = committed();
   hooke_options *options;
-  hooke_needs *made = NULL;
-  check_ok(hooke_needs_options_create(&options));
+  hooke_measurement *made = NULL;
+  check_ok(hooke_options_create("needs", &options));
   check_ok(hooke_options_set_text(options, "want", "0.1"));
   hooke_options_set_number(o, "duration", 0.1);
-  const int32_t status = hooke_needs_create(system, o, options, &made);
-  if (status == HOOKE_OK) hooke_needs_destroy(made);
+  const int32_t status = hooke_measurement_create("needs", system, o, options, &made);
+  if (status == HOOKE_OK) hooke_measurement_destroy(made);
   hooke_options_destroy(options);
   hooke_system_destroy(system);
   return status;
@@ -224,16 +245,17 @@ static const struct {
                  {"scene_options_apply", "scene", apply_scene},
                  {"integrator_create", "run", create_integrator},
                  {"integrator_create_first_order", "run", create_first_order},
-                 {"comparison_create", "run", create_comparison},
+                 {"comparison run", "run", create_comparison_of_run},
+                 {"comparison", "comparison", create_comparison},
                  {"limit_create run", "run", create_limit_of_run},
                  {"limit_create", "limit", create_limit},
                  {"cost_create run", "run", create_cost_of_run},
                  {"cost_create", "cost", create_cost},
                  {"study_create run", NULL, create_study_of_run},
                  {"study_create", "study", create_study},
-                 {"needs_create run", "run", create_needs_of_run},
-                 {"needs_create", "needs", create_needs},
-                 {"estimate_pick", "run", pick},
+                 {"needs run", "run", create_needs_of_run},
+                 {"needs", "needs", create_needs},
+                 {"study_pick", "run", pick},
                  {"scene_of_system", "run", write_scene}};
 
 static void test_other_options_are_refused(void **unused) {
@@ -268,14 +290,17 @@ static void test_other_options_are_refused(void **unused) {
 static void test_missing_options_are_refused(void **unused) {
   (void)unused;
   static const char *const may_be_missing[] = {"limit_create run", "limit_create", "cost_create run",
-                                               "cost_create",      "study_create", "scene_of_system"};
+                                               "cost_create",      "study_create", "scene_of_system",
+                                               "comparison"};
   for (size_t f = 0; f < sizeof functions / sizeof functions[0]; f++) {
     int may = 0;
     for (size_t k = 0; k < sizeof may_be_missing / sizeof may_be_missing[0]; k++)
       may |= strcmp(functions[f].name, may_be_missing[k]) == 0;
     const int32_t status = functions[f].take(NULL);
     if (status == HOOKE_NOT_BUILT || (may && status == HOOKE_OK)) continue;
-    if (may || status != HOOKE_BAD_VALUE || strstr(hooke_last_error(), "hooke_") == NULL)
+    /* the defaults of needs lack one that is required */
+    const char *word = strcmp(functions[f].name, "needs") == 0 ? "want" : "hooke_";
+    if (may || status != HOOKE_BAD_VALUE || strstr(hooke_last_error(), word) == NULL)
       check_failed("%s without options: %d: %s", functions[f].name, (int)status, hooke_last_error());
   }
 }

@@ -26,12 +26,10 @@ PUBLIC = {
     "hooke/measure.h": "measure",
     "hooke/estimate.h": "measure",
     "hooke/limit.h": "measure",
-    "hooke/needs.h": "measure",
     "hooke/cost.h": "measure",
     "hooke/why.h": "measure",
     "hooke/io.h": "io",
     "hooke/checkpoint.h": "io",
-    "hooke/verify.h": "io",
 }
 
 # Third-party headers, and the only files that may see them, be it through a header of their own.

@@ -140,13 +140,15 @@ static uint64_t live_verify(const char *detail) {
     write_once();
     if (detail != NULL) damage();
   }
-  hooke_verify *verify = NULL;
+  hooke_measurement *verify = NULL;
   check_ok(hooke_verify_create(life_files.trajectory, NULL, NULL, &verify));
-  check_status(hooke_verify_run(verify), detail == NULL ? HOOKE_OK : HOOKE_BAD_VALUE);
-  assert_string_equal(hooke_verify_text(verify, "verdict"), detail == NULL ? "agrees" : "disagrees");
-  const double found[] = {hooke_verify_number(verify, "frames_checked"),
-                          hooke_verify_number(verify, "check_last"), hooke_verify_number(verify, "residual")};
-  hooke_verify_destroy(verify);
+  check_status(hooke_measurement_run(verify, NULL), detail == NULL ? HOOKE_OK : HOOKE_BAD_VALUE);
+  assert_string_equal(hooke_measurement_text(verify, "verify", 0, "verdict"),
+                      detail == NULL ? "agrees" : "disagrees");
+  const double found[] = {hooke_measurement_number(verify, "verify", 0, "frames_checked"),
+                          hooke_measurement_number(verify, "verify", 0, "check_last"),
+                          hooke_measurement_number(verify, "verify", 0, "residual")};
+  hooke_measurement_destroy(verify);
   return hash_doubles(3, found, HASH_START);
 }
 

@@ -81,18 +81,21 @@ static uint64_t live_study(const char *detail) {
 static uint64_t live_comparison(const char *detail) {
   (void)detail;
   hooke_scene *scene = life_scene(SEGMENTS);
-  hooke_comparison *comparison = NULL;
+  hooke_measurement *comparison = NULL;
   hooke_comparison_file *file = NULL;
-  check_ok(hooke_comparison_create(hooke_scene_system(scene), hooke_scene_run_options(scene), &comparison));
-  check_ok(hooke_comparison_add(comparison, "verlet"));
-  check_ok(hooke_comparison_add(comparison, "rk4"));
-  check_ok(hooke_comparison_file_create(life_files.trajectory, hooke_scene_system(scene), comparison,
-                                        hooke_scene_text(scene), &file));
-  check_ok(hooke_comparison_run(comparison));
-  const double error[] = {hooke_comparison_number(comparison, 0, "error"),
-                          hooke_comparison_number(comparison, 1, "error")};
+  hooke_options *options = NULL;
+  check_ok(hooke_options_create("comparison", &options));
+  check_ok(hooke_options_set_text(options, "methods", "verlet,rk4"));
+  check_ok(hooke_measurement_create("comparison", hooke_scene_system(scene), hooke_scene_run_options(scene),
+                                    options, &comparison));
+  hooke_options_destroy(options);
+  check_ok(hooke_measurement_label(comparison, "scene", hooke_scene_text(scene)));
+  check_ok(hooke_comparison_file_create(life_files.trajectory, comparison, &file));
+  check_ok(hooke_measurement_run(comparison, NULL));
+  const double error[] = {hooke_measurement_number(comparison, "rows", 0, "error"),
+                          hooke_measurement_number(comparison, "rows", 1, "error")};
   check_ok(hooke_comparison_file_close(file));
-  hooke_comparison_destroy(comparison);
+  hooke_measurement_destroy(comparison);
   hooke_scene_destroy(scene);
   return hash_doubles(2, error, HASH_START);
 }
@@ -101,14 +104,16 @@ static uint64_t live_needs(const char *detail) {
   (void)detail;
   hooke_scene *scene = life_scene(SEGMENTS);
   hooke_options *options = NULL;
-  hooke_needs *needs = NULL;
-  check_ok(hooke_needs_options_create(&options));
+  hooke_measurement *needs = NULL;
+  check_ok(hooke_options_create("needs", &options));
   check_ok(hooke_options_set_number(options, "want", 0.02));
   check_ok(hooke_options_set_number(hooke_scene_run_options(scene), "duration", 0.1));
-  check_ok(hooke_needs_create(hooke_scene_system(scene), hooke_scene_run_options(scene), options, &needs));
-  check_ok(hooke_needs_find(needs));
-  const double found[] = {(double)hooke_needs_row_count(needs), hooke_needs_number(needs, 0, "error")};
-  hooke_needs_destroy(needs);
+  check_ok(hooke_measurement_create("needs", hooke_scene_system(scene), hooke_scene_run_options(scene),
+                                    options, &needs));
+  check_ok(hooke_measurement_run(needs, NULL));
+  const double found[] = {(double)hooke_measurement_row_count(needs, "rows"),
+                          hooke_measurement_number(needs, "rows", 0, "error")};
+  hooke_measurement_destroy(needs);
   hooke_options_destroy(options);
   hooke_scene_destroy(scene);
   return hash_doubles(2, found, HASH_START);

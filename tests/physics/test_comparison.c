@@ -9,11 +9,20 @@
 #include <stdlib.h>
 #include <string.h>
 
-static hooke_comparison *compare(const hooke_system *system, struct run run) {
-  hooke_comparison *comparison = NULL;
-  hooke_options *options = run_options(run);
-  const int32_t status = hooke_comparison_create(system, options, &comparison);
+static int32_t create(const hooke_system *system, struct run run, const char *methods,
+                      hooke_measurement **comparison) {
+  hooke_options *of_run = run_options(run), *options = NULL;
+  check_ok(hooke_options_create("comparison", &options));
+  if (methods) check_ok(hooke_options_set_text(options, "methods", methods));
+  const int32_t status = hooke_measurement_create("comparison", system, of_run, options, comparison);
   hooke_options_destroy(options);
+  hooke_options_destroy(of_run);
+  return status;
+}
+
+static hooke_measurement *compare(const hooke_system *system, struct run run, const char *methods) {
+  hooke_measurement *comparison = NULL;
+  const int32_t status = create(system, run, methods, &comparison);
   if (status == HOOKE_NOT_BUILT) {
     hooke_system_destroy((hooke_system *)(uintptr_t)system);
     skip();
@@ -22,16 +31,16 @@ static hooke_comparison *compare(const hooke_system *system, struct run run) {
   return comparison;
 }
 
-static int64_t row_of(const hooke_comparison *comparison, const char *method) {
-  for (int64_t k = 0; k < hooke_comparison_row_count(comparison); k++) {
-    if (strcmp(hooke_comparison_text(comparison, k, "method"), method) == 0) return k;
+static int64_t row_of(const hooke_measurement *comparison, const char *method) {
+  for (int64_t k = 0; k < hooke_measurement_row_count(comparison, "rows"); k++) {
+    if (strcmp(hooke_measurement_text(comparison, "rows", k, "method"), method) == 0) return k;
   }
   check_failed("no row of %s", method);
   return -1;
 }
 
-static double figure(const hooke_comparison *comparison, const char *method, const char *what) {
-  return hooke_comparison_number(comparison, row_of(comparison, method), what);
+static double figure(const hooke_measurement *comparison, const char *method, const char *what) {
+  return hooke_measurement_number(comparison, "rows", row_of(comparison, method), what);
 }
 
 /* Root mean square over free particles of the distance to the 15-digit solution, of a run by itself. */
@@ -59,16 +68,16 @@ static void errors_are_true_errors(void **unused) {
   const struct reference *reference = find_reference("six-particles");
   hooke_system *system = build_reference(reference);
   const struct run run = {.step = 1e-3, .duration = 1.0, .every = 0.1};
-  hooke_comparison *comparison = compare(system, run);
-  check_ok(hooke_comparison_run(comparison));
-  assert_int_equal(hooke_comparison_row_count(comparison), hooke_method_count());
+  hooke_measurement *comparison = compare(system, run, NULL);
+  check_ok(hooke_measurement_run(comparison, NULL));
+  assert_int_equal(hooke_measurement_row_count(comparison, "rows"), hooke_method_count());
   int64_t judged = 0;
   for (int64_t k = 0; k < hooke_method_count(); k++) {
     struct run alone = run;
     alone.method = hooke_method_name(k);
     const double expected = true_error(reference, system, alone);
     const double found = figure(comparison, alone.method, "error_final");
-    assert_string_equal(hooke_comparison_text(comparison, k, "status"), "finished");
+    assert_string_equal(hooke_measurement_text(comparison, "rows", k, "status"), "finished");
     /* the reference itself is off by about its tolerance, 1e-10 */
     if (expected < 1e-8) continue;
     judged++;
@@ -77,41 +86,39 @@ static void errors_are_true_errors(void **unused) {
   check_between((double)judged, 4.0, (double)hooke_method_count());
   /* every figure bounds those it is a maximum of */
   const int64_t row = row_of(comparison, "forward-euler");
-  const double *series = hooke_comparison_series(comparison, row, "error");
+  const double *series = hooke_measurement_series(comparison, "rows", row, "error_at");
   double most = 0.0;
-  assert_int_equal(hooke_comparison_frame_count(comparison), 11);
+  assert_int_equal((int)hooke_measurement_number(comparison, "comparison", 0, "frames"), 11);
   for (int f = 0; f < 11; f++)
     most = fmax(most, series[f]);
-  check_close(hooke_comparison_number(comparison, row, "error"), most, 0.0);
-  check_close(hooke_comparison_number(comparison, row, "error_final"), series[10], 0.0);
-  assert_true(hooke_comparison_number(comparison, row, "error_max") >= most);
+  check_close(hooke_measurement_number(comparison, "rows", row, "error"), most, 0.0);
+  check_close(hooke_measurement_number(comparison, "rows", row, "error_final"), series[10], 0.0);
+  assert_true(hooke_measurement_number(comparison, "rows", row, "error_max") >= most);
   check_close(series[0], 0.0, 0.0);
-  check_close(hooke_comparison_series(comparison, row, "time")[10], 1.0, 1e-15);
+  check_close(hooke_measurement_series(comparison, "reference", 0, "time")[10], 1.0, 1e-15);
   /* error control is closer than a first-order method at this step, and forward Euler adds energy */
   assert_true(figure(comparison, "cvode-adams", "error") <
               0.1 * figure(comparison, "symplectic-euler", "error"));
-  assert_true(hooke_comparison_series(comparison, row, "energy_drift")[10] > 0.0);
+  assert_true(hooke_measurement_series(comparison, "rows", row, "energy_drift_at")[10] > 0.0);
   assert_int_equal((int)figure(comparison, "symplectic-euler", "force_evaluations"), 1000);
-  hooke_comparison_destroy(comparison);
+  hooke_measurement_destroy(comparison);
   hooke_system_destroy(system);
 }
 
 static void a_diverged_row_stays(void **unused) {
   (void)unused;
   hooke_system *system = small_oscillator(100.0);
-  hooke_comparison *comparison = compare(system, (struct run){.step = 0.05, .duration = 5.0, .every = 0.5});
-  check_ok(hooke_comparison_add(comparison, "symplectic-euler"));
-  check_ok(hooke_comparison_add(comparison, "cvode-adams"));
-  check_ok(hooke_comparison_run(comparison));
-  assert_int_equal(hooke_comparison_row_count(comparison), 2);
-  assert_string_equal(hooke_comparison_text(comparison, 0, "status"), "diverged");
-  assert_true(isnan(hooke_comparison_number(comparison, 0, "error")));
-  assert_true(isnan(hooke_comparison_series(comparison, 0, "error")[10]));
-  assert_string_equal(hooke_comparison_text(comparison, 1, "status"), "finished");
-  check_between(hooke_comparison_number(comparison, 1, "error"), 0.0, 0.1);
-  check_status(hooke_comparison_run(comparison), HOOKE_BAD_CALL);
-  check_status(hooke_comparison_add(comparison, "forward-euler"), HOOKE_BAD_CALL);
-  hooke_comparison_destroy(comparison);
+  hooke_measurement *comparison = compare(system, (struct run){.step = 0.05, .duration = 5.0, .every = 0.5},
+                                          "symplectic-euler, cvode-adams");
+  check_ok(hooke_measurement_run(comparison, NULL));
+  assert_int_equal(hooke_measurement_row_count(comparison, "rows"), 2);
+  assert_string_equal(hooke_measurement_text(comparison, "rows", 0, "status"), "diverged");
+  assert_true(isnan(hooke_measurement_number(comparison, "rows", 0, "error")));
+  assert_true(isnan(hooke_measurement_series(comparison, "rows", 0, "error_at")[10]));
+  assert_string_equal(hooke_measurement_text(comparison, "rows", 1, "status"), "finished");
+  check_between(hooke_measurement_number(comparison, "rows", 1, "error"), 0.0, 0.1);
+  check_status(hooke_measurement_run(comparison, NULL), HOOKE_BAD_CALL);
+  hooke_measurement_destroy(comparison);
   hooke_system_destroy(system);
 }
 
@@ -124,26 +131,28 @@ static int32_t stop_at_half(double done, const char *what, void *ctx) {
 static void progress_goes_on_and_stops(void **unused) {
   (void)unused;
   hooke_system *system = small_oscillator(10.0);
-  hooke_comparison *comparison = compare(system, (struct run){.step = 1e-3, .duration = 2.0, .every = 0.1});
+  hooke_measurement *comparison =
+      compare(system, (struct run){.step = 1e-3, .duration = 2.0, .every = 0.1}, NULL);
   double done = -1.0;
-  hooke_comparison_on_progress(comparison, stop_at_half, &done);
-  check_status(hooke_comparison_run(comparison), HOOKE_STOPPED);
+  hooke_measurement_on_progress(comparison, stop_at_half, &done);
+  check_status(hooke_measurement_run(comparison, NULL), HOOKE_STOPPED);
   check_between(done, 0.5, 1.0);
-  const int64_t last = hooke_comparison_row_count(comparison) - 1;
-  assert_string_equal(hooke_comparison_text(comparison, 0, "status"), "finished");
-  assert_string_equal(hooke_comparison_text(comparison, last, "status"), "not run");
-  hooke_comparison_destroy(comparison);
+  const int64_t last = hooke_measurement_row_count(comparison, "rows") - 1;
+  assert_string_equal(hooke_measurement_text(comparison, "rows", 0, "status"), "finished");
+  assert_string_equal(hooke_measurement_text(comparison, "rows", last, "status"), "not run");
+  hooke_measurement_destroy(comparison);
   hooke_system_destroy(system);
 }
 
 static void bad_requests(void **unused) {
   (void)unused;
   hooke_system *system = small_oscillator(10.0);
-  hooke_comparison *comparison = compare(system, (struct run){.step = 1e-3});
-  check_status(hooke_comparison_run(comparison), HOOKE_BAD_VALUE);
+  hooke_measurement *comparison = compare(system, (struct run){.step = 1e-3}, NULL);
+  check_status(hooke_measurement_run(comparison, NULL), HOOKE_BAD_VALUE);
   check_message("duration");
-  check_status(hooke_comparison_add(comparison, "no-such-method"), HOOKE_BAD_VALUE);
-  hooke_comparison_destroy(comparison);
+  hooke_measurement_destroy(comparison);
+  check_status(create(system, (struct run){.step = 1e-3}, "no-such-method", &comparison), HOOKE_BAD_VALUE);
+  check_message("no-such-method");
   hooke_system_destroy(system);
 }
 

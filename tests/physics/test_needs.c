@@ -12,16 +12,22 @@
 
 /* ---- making ---- */
 
-static hooke_needs *start(const hooke_system *system, struct run run, double want, const char *watch) {
+static hooke_measurement *make(const hooke_system *system, struct run run, double want, const char *watch,
+                               int refine) {
   hooke_options *of_run = run_options(run), *options;
-  hooke_needs *needs = NULL;
-  check_ok(hooke_needs_options_create(&options));
+  hooke_measurement *needs = NULL;
+  check_ok(hooke_options_create("needs", &options));
   check_ok(hooke_options_set_number(options, "want", want));
   if (watch) check_ok(hooke_options_set_text(options, "watch", watch));
-  check_ok(hooke_needs_create(system, of_run, options, &needs));
+  check_ok(hooke_options_set_number(options, "refine", refine));
+  check_ok(hooke_measurement_create("needs", system, of_run, options, &needs));
   hooke_options_destroy(options);
   hooke_options_destroy(of_run);
   return needs;
+}
+
+static hooke_measurement *start(const hooke_system *system, struct run run, double want, const char *watch) {
+  return make(system, run, want, watch, 0);
 }
 
 /* A rope that hangs from its start, let go unstretched; with faint springs two apart. */
@@ -47,9 +53,9 @@ static hooke_system *hanging_rope(int segments, double bend) {
   return system;
 }
 
-static int64_t row_of(const hooke_needs *needs, const char *without) {
-  for (int64_t row = 0; row < hooke_needs_row_count(needs); row++) {
-    if (strcmp(hooke_needs_text(needs, row, "without"), without) == 0) return row;
+static int64_t row_of(const hooke_measurement *needs, const char *without) {
+  for (int64_t row = 0; row < hooke_measurement_row_count(needs, "rows"); row++) {
+    if (strcmp(hooke_measurement_text(needs, "rows", row, "without"), without) == 0) return row;
   }
   check_failed("there is no row \"%s\"", without);
   return -1;
@@ -117,27 +123,27 @@ static void changes_are_those_of_runs_made_apart(void **state) {
   (void)state;
   const double want = 1e-3;
   hooke_system *system = hanging_rope(12, 0.05), *without = hanging_rope(12, 0.0);
-  hooke_needs *needs = start(system, half_a_second, want, NULL);
-  check_ok(hooke_needs_find(needs));
+  hooke_measurement *needs = start(system, half_a_second, want, NULL);
+  check_ok(hooke_measurement_run(needs, NULL));
   struct frames *full = run_fine(system, 1e-4, 1), *no_bend = run_fine(without, 1e-4, 1);
   const int64_t bend = row_of(needs, "rope.bend");
   const double change = distance(full, no_bend);
   check_between(change, 1e-5, want);
-  check_close(hooke_needs_number(needs, bend, "error"), change, 0.2 * want);
-  assert_true(hooke_needs_number(needs, bend, "needed") == 0.0);
-  assert_true(hooke_needs_number(needs, bend, "springs") == 12.0);
-  assert_true(hooke_needs_figure(needs, "springs") == 23.0);
-  assert_true(hooke_needs_number(needs, row_of(needs, "rope.stretch"), "needed") == 1.0);
-  assert_true(hooke_needs_number(needs, row_of(needs, "gravity"), "needed") == 1.0);
+  check_close(hooke_measurement_number(needs, "rows", bend, "error"), change, 0.2 * want);
+  assert_true(hooke_measurement_number(needs, "rows", bend, "needed") == 0.0);
+  assert_true(hooke_measurement_number(needs, "rows", bend, "springs") == 12.0);
+  assert_true(hooke_measurement_number(needs, "full", 0, "springs") == 23.0);
+  assert_true(hooke_measurement_number(needs, "rows", row_of(needs, "rope.stretch"), "needed") == 1.0);
+  assert_true(hooke_measurement_number(needs, "rows", row_of(needs, "gravity"), "needed") == 1.0);
 
   /* the lean system, run as recommended; without half the resolution, which this want does not allow */
-  assert_true(hooke_needs_number(needs, bend, "left_out") == 1.0);
+  assert_true(hooke_measurement_number(needs, "rows", bend, "left_out") == 1.0);
   const hooke_system *lean = hooke_needs_lean(needs);
   assert_non_null(lean);
   if (hooke_system_particle_count(lean) == 13) {
     struct frames *run = run_frames(lean, hooke_needs_lean_run(needs), 1);
     check_between(distance(full, run), 0.0, want);
-    check_close(hooke_needs_figure(needs, "lean_error"), distance(full, run), 0.2 * want);
+    check_close(hooke_measurement_number(needs, "lean", 0, "error"), distance(full, run), 0.2 * want);
     for (int64_t p = 0; p < 13; p++)
       assert_int_equal(hooke_needs_lean_particle(needs, p), p);
     free(run);
@@ -145,11 +151,11 @@ static void changes_are_those_of_runs_made_apart(void **state) {
     assert_int_equal(hooke_system_particle_count(lean), 7);
     assert_int_equal(hooke_needs_lean_particle(needs, 1), -1);
   }
-  check_between(hooke_needs_figure(needs, "lean_error"), 0.0, want);
-  check_status(hooke_needs_find(needs), HOOKE_BAD_CALL);
+  check_between(hooke_measurement_number(needs, "lean", 0, "error"), 0.0, want);
+  check_status(hooke_measurement_run(needs, NULL), HOOKE_BAD_CALL);
   free(full);
   free(no_bend);
-  hooke_needs_destroy(needs);
+  hooke_measurement_destroy(needs);
   hooke_system_destroy(system);
   hooke_system_destroy(without);
 }
@@ -157,14 +163,13 @@ static void changes_are_those_of_runs_made_apart(void **state) {
 /* ---- errors and costs of the two runs within the want ---- */
 
 /* The run of a system with the step, or the tolerances, that were found for it. */
-static struct frames *run_found(const hooke_needs *needs, const hooke_system *system, const char *prefix) {
+static struct frames *run_found(const hooke_measurement *needs, const hooke_system *system,
+                                const char *table) {
   hooke_options *options = NULL;
   check_ok(hooke_options_copy(hooke_needs_lean_run(needs), &options));
   static const char *const names[] = {"step", "rtol", "atol"};
   for (int k = 0; k < 3; k++) {
-    char word[32];
-    snprintf(word, sizeof word, "%s_%s", prefix, names[k]);
-    const double value = hooke_needs_figure(needs, word);
+    const double value = hooke_measurement_number(needs, table, 0, names[k]);
     if (!isnan(value)) check_ok(hooke_options_set_number(options, names[k], value));
   }
   struct frames *frames = run_frames(system, options, 1);
@@ -174,16 +179,14 @@ static struct frames *run_found(const hooke_needs *needs, const hooke_system *sy
 
 /* What is said is an upper estimate: above the true error, by at most twice what the full run may be off
  * itself. */
-static void check_said(const hooke_needs *needs, const char *prefix, const hooke_system *system,
+static void check_said(const hooke_measurement *needs, const char *table, const hooke_system *system,
                        const struct frames *truth) {
-  char word[32];
-  snprintf(word, sizeof word, "%s_error", prefix);
-  struct frames *run = run_found(needs, system, prefix);
-  const double said = hooke_needs_figure(needs, word), error = distance(truth, run),
-               own = hooke_needs_figure(needs, "own_error");
+  struct frames *run = run_found(needs, system, table);
+  const double said = hooke_measurement_number(needs, table, 0, "error"), error = distance(truth, run),
+               own = hooke_measurement_number(needs, "full", 0, "own_error");
   check_between(error, 0.0, said);
   check_between(said, 0.0, error + 2.0 * own);
-  check_between(said, 0.0, hooke_needs_figure(needs, "want"));
+  check_between(said, 0.0, hooke_measurement_number(needs, "needs", 0, "want"));
   free(run);
 }
 
@@ -196,14 +199,14 @@ static void errors_include_that_of_the_full_run(void **state) {
     if (!hooke_method_is_built(methods[k])) continue;
     struct run run = half_a_second;
     run.method = methods[k];
-    hooke_needs *needs = start(system, run, 3e-4, NULL);
-    check_ok(hooke_needs_find(needs));
-    const double own = hooke_needs_figure(needs, "own_error");
+    hooke_measurement *needs = start(system, run, 3e-4, NULL);
+    check_ok(hooke_measurement_run(needs, NULL));
+    const double own = hooke_measurement_number(needs, "full", 0, "own_error");
     check_between(own, 1e-10, 0.0625 * 3e-4);
     assert_int_equal(hooke_system_particle_count(hooke_needs_lean(needs)), 13);
     check_said(needs, "lean", hooke_needs_lean(needs), truth);
     check_said(needs, "cheapest", system, truth);
-    hooke_needs_destroy(needs);
+    hooke_measurement_destroy(needs);
   }
   free(truth);
   hooke_system_destroy(system);
@@ -218,21 +221,21 @@ static void savings_are_those_at_equal_error(void **state) {
   run.method = "symplectic-euler";
   hooke_system *system = hanging_rope(12, 1e-5);
   struct frames *truth = run_fine(system, 1e-4, 1);
-  hooke_needs *needs = start(system, run, want, "0-12");
-  check_ok(hooke_needs_find(needs));
-  assert_true(hooke_needs_number(needs, row_of(needs, "rope.bend"), "left_out") == 1.0);
-  const double lean = hooke_needs_figure(needs, "lean_steps"),
-               cheapest = hooke_needs_figure(needs, "cheapest_steps");
+  hooke_measurement *needs = start(system, run, want, "0-12");
+  check_ok(hooke_measurement_run(needs, NULL));
+  assert_true(hooke_measurement_number(needs, "rows", row_of(needs, "rope.bend"), "left_out") == 1.0);
+  const double lean = hooke_measurement_number(needs, "lean", 0, "steps"),
+               cheapest = hooke_measurement_number(needs, "cheapest", 0, "steps");
   check_between(lean / cheapest, 0.8, 1.25);
-  check_between(hooke_needs_figure(needs, "steps") / cheapest, 5.0, 25.0);
-  check_close(hooke_needs_figure(needs, "times_less"),
-              hooke_needs_figure(needs, "cheapest_wall_seconds") /
-                  hooke_needs_figure(needs, "lean_wall_seconds"),
+  check_between(hooke_measurement_number(needs, "full", 0, "steps") / cheapest, 5.0, 25.0);
+  check_close(hooke_measurement_number(needs, "lean", 0, "times_less"),
+              hooke_measurement_number(needs, "cheapest", 0, "wall_seconds") /
+                  hooke_measurement_number(needs, "lean", 0, "wall_seconds"),
               0.0);
   /* and it is the cheapest: with a third less steps it is off by more than is wanted */
   struct frames *within = run_found(needs, system, "cheapest");
-  run.step =
-      half_a_second.every / floor(half_a_second.every / hooke_needs_figure(needs, "cheapest_step") / 1.4);
+  run.step = half_a_second.every /
+             floor(half_a_second.every / hooke_measurement_number(needs, "cheapest", 0, "step") / 1.4);
   hooke_options *coarse = run_options(run);
   struct frames *beyond = run_frames(system, coarse, 1);
   const double least = sqrt(12.0 / 13.0); /* the pinned particle is watched, and off by nothing */
@@ -242,7 +245,7 @@ static void savings_are_those_at_equal_error(void **state) {
   free(within);
   free(beyond);
   free(truth);
-  hooke_needs_destroy(needs);
+  hooke_measurement_destroy(needs);
   hooke_system_destroy(system);
 }
 
@@ -259,9 +262,10 @@ static hooke_system *hung_mass(double gravity, double more) {
   return system;
 }
 
-static hooke_needs *find_hung(const hooke_system *system) {
-  hooke_needs *needs = start(system, (struct run){.method = "rk4", .duration = 1, .every = 0.05}, 1e-2, NULL);
-  check_ok(hooke_needs_find(needs));
+static hooke_measurement *find_hung(const hooke_system *system) {
+  hooke_measurement *needs =
+      start(system, (struct run){.method = "rk4", .duration = 1, .every = 0.05}, 1e-2, NULL);
+  check_ok(hooke_measurement_run(needs, NULL));
   return needs;
 }
 
@@ -269,36 +273,36 @@ static void a_scene_that_rests_is_told_so(void **state) {
   (void)state;
   hooke_system *rest = hung_mass(0.0, 0.0), *balance = hung_mass(9.81, 0.0), *little = hung_mass(9.81, 4e-3),
                *moving = hung_mass(9.81, 0.1);
-  hooke_needs *needs = find_hung(rest);
-  assert_non_null(strstr(hooke_needs_word(needs, "note"), "nothing moves"));
-  assert_true(hooke_needs_figure(needs, "moved") == 0.0);
-  for (int64_t row = 0; row < hooke_needs_row_count(needs); row++) {
-    assert_true(isnan(hooke_needs_number(needs, row, "needed")));
-    assert_true(hooke_needs_number(needs, row, "error") == 0.0);
-    assert_true(hooke_needs_number(needs, row, "left_out") == 0.0);
+  hooke_measurement *needs = find_hung(rest);
+  assert_non_null(strstr(hooke_measurement_text(needs, "needs", 0, "note"), "nothing moves"));
+  assert_true(hooke_measurement_number(needs, "full", 0, "moved") == 0.0);
+  for (int64_t row = 0; row < hooke_measurement_row_count(needs, "rows"); row++) {
+    assert_true(isnan(hooke_measurement_number(needs, "rows", row, "needed")));
+    assert_true(hooke_measurement_number(needs, "rows", row, "error") == 0.0);
+    assert_true(hooke_measurement_number(needs, "rows", row, "left_out") == 0.0);
   }
   assert_int_equal(hooke_system_spring_count(hooke_needs_lean(needs)), 1);
-  hooke_needs_destroy(needs);
+  hooke_measurement_destroy(needs);
 
   /* what holds the balance is needed all the same */
   needs = find_hung(balance);
-  assert_non_null(strstr(hooke_needs_word(needs, "note"), "nothing moves"));
-  check_between(hooke_needs_figure(needs, "moved"), 0.0, 1e-12);
-  assert_true(hooke_needs_number(needs, row_of(needs, "gravity"), "needed") == 1.0);
-  assert_true(hooke_needs_number(needs, row_of(needs, "springs"), "needed") == 1.0);
-  assert_true(isnan(hooke_needs_number(needs, row_of(needs, "damping"), "needed")));
-  hooke_needs_destroy(needs);
+  assert_non_null(strstr(hooke_measurement_text(needs, "needs", 0, "note"), "nothing moves"));
+  check_between(hooke_measurement_number(needs, "full", 0, "moved"), 0.0, 1e-12);
+  assert_true(hooke_measurement_number(needs, "rows", row_of(needs, "gravity"), "needed") == 1.0);
+  assert_true(hooke_measurement_number(needs, "rows", row_of(needs, "springs"), "needed") == 1.0);
+  assert_true(isnan(hooke_measurement_number(needs, "rows", row_of(needs, "damping"), "needed")));
+  hooke_measurement_destroy(needs);
 
   needs = find_hung(little);
-  assert_non_null(strstr(hooke_needs_word(needs, "note"), "less than is wanted"));
-  check_between(hooke_needs_figure(needs, "moved"), 7e-3, 8e-3);
-  assert_true(hooke_needs_number(needs, row_of(needs, "damping"), "needed") == 0.0);
-  hooke_needs_destroy(needs);
+  assert_non_null(strstr(hooke_measurement_text(needs, "needs", 0, "note"), "less than is wanted"));
+  check_between(hooke_measurement_number(needs, "full", 0, "moved"), 7e-3, 8e-3);
+  assert_true(hooke_measurement_number(needs, "rows", row_of(needs, "damping"), "needed") == 0.0);
+  hooke_measurement_destroy(needs);
 
   needs = find_hung(moving);
-  assert_string_equal(hooke_needs_word(needs, "note"), "");
-  check_between(hooke_needs_figure(needs, "moved"), 0.19, 0.2);
-  hooke_needs_destroy(needs);
+  assert_string_equal(hooke_measurement_text(needs, "needs", 0, "note"), "");
+  check_between(hooke_measurement_number(needs, "full", 0, "moved"), 0.19, 0.2);
+  hooke_measurement_destroy(needs);
   hooke_system_destroy(rest);
   hooke_system_destroy(balance);
   hooke_system_destroy(little);
@@ -311,24 +315,25 @@ static void a_scene_that_rests_is_told_so(void **state) {
 static void refinement_predicts_a_much_finer_rope(void **state) {
   (void)state;
   hooke_system *coarse = hanging_rope(8, 0.0), *fine = hanging_rope(128, 0.0);
-  hooke_needs *needs = start(coarse, half_a_second, 1e-4, NULL);
-  check_ok(hooke_needs_refine(needs));
-  assert_int_equal(hooke_needs_part_count(needs), 1);
-  assert_string_equal(hooke_needs_part_text(needs, 0, "part"), "rope");
+  hooke_measurement *needs = make(coarse, half_a_second, 1e-4, NULL, 1);
+  check_ok(hooke_measurement_run(needs, NULL));
+  assert_int_equal(hooke_measurement_row_count(needs, "parts"), 1);
+  assert_string_equal(hooke_measurement_text(needs, "parts", 0, "part"), "rope");
   struct frames *at_coarse = run_fine(coarse, 1e-4, 1), *at_fine = run_fine(fine, 2.5e-5, 16);
   const double left = distance(at_coarse, at_fine);
-  check_between(hooke_needs_part_number(needs, 0, "error"), 0.9 * left, 1.15 * left);
-  check_between(hooke_needs_part_number(needs, 0, "order"), 0.8, 2.3);
-  assert_true(hooke_needs_part_number(needs, 0, "cells") == 8.0);
+  check_between(hooke_measurement_number(needs, "parts", 0, "error"), 0.9 * left, 1.15 * left);
+  check_between(hooke_measurement_number(needs, "parts", 0, "order"), 0.8, 2.3);
+  assert_true(hooke_measurement_number(needs, "parts", 0, "cells") == 8.0);
   /* the want asks for a resolution at which that is what is left */
-  const double order = hooke_needs_part_number(needs, 0, "order"),
-               wanted = hooke_needs_part_number(needs, 0, "wanted");
-  check_between(hooke_needs_part_number(needs, 0, "error") * pow(8.0 / wanted, order), 0.5e-4, 1e-4);
-  assert_true(isnan(hooke_needs_part_number(needs, 0, "wanted_second")));
-  check_status(hooke_needs_refine(needs), HOOKE_BAD_CALL);
+  const double order = hooke_measurement_number(needs, "parts", 0, "order"),
+               wanted = hooke_measurement_number(needs, "parts", 0, "wanted");
+  check_between(hooke_measurement_number(needs, "parts", 0, "error") * pow(8.0 / wanted, order), 0.5e-4,
+                1e-4);
+  assert_true(isnan(hooke_measurement_number(needs, "parts", 0, "wanted_second")));
+  check_status(hooke_measurement_run(needs, NULL), HOOKE_BAD_CALL);
   free(at_coarse);
   free(at_fine);
-  hooke_needs_destroy(needs);
+  hooke_measurement_destroy(needs);
   hooke_system_destroy(coarse);
   hooke_system_destroy(fine);
 }
@@ -356,11 +361,11 @@ static void a_callback_is_an_ingredient(void **state) {
   double strengths[2] = {1e-6, 1.0};
   for (int k = 0; k < 2; k++) {
     hooke_system *system = pushed_pair(&strengths[k]);
-    hooke_needs *needs =
+    hooke_measurement *needs =
         start(system, (struct run){.method = "verlet", .duration = 1, .every = 0.05}, 1e-3, NULL);
-    check_ok(hooke_needs_find(needs));
-    assert_true(hooke_needs_number(needs, row_of(needs, "callback"), "needed") == (double)k);
-    hooke_needs_destroy(needs);
+    check_ok(hooke_measurement_run(needs, NULL));
+    assert_true(hooke_measurement_number(needs, "rows", row_of(needs, "callback"), "needed") == (double)k);
+    hooke_measurement_destroy(needs);
     hooke_system_destroy(system);
   }
 }
@@ -371,16 +376,17 @@ static void every_method_finds_the_same(void **state) {
     const char *method = hooke_method_name(k);
     if (!hooke_method_is_built(method)) continue;
     hooke_system *system = hanging_rope(4, 0.01);
-    hooke_needs *needs =
+    hooke_measurement *needs =
         start(system, (struct run){.method = method, .duration = 0.2, .every = 0.02}, 2e-3, NULL);
-    check_ok(hooke_needs_find(needs));
-    assert_string_equal(hooke_needs_word(needs, "method"), method);
-    assert_true(hooke_needs_number(needs, row_of(needs, "rope.bend"), "needed") == 0.0);
-    assert_true(hooke_needs_number(needs, row_of(needs, "gravity"), "needed") == 1.0);
-    check_between(hooke_needs_figure(needs, "step_error"), 0.0, 2e-4);
-    check_between(hooke_needs_figure(needs, "lean_error"), 0.0, 2e-3);
-    assert_true(isnan(hooke_needs_figure(needs, "step")) == hooke_method_is_adaptive(method));
-    hooke_needs_destroy(needs);
+    check_ok(hooke_measurement_run(needs, NULL));
+    assert_string_equal(hooke_measurement_text(needs, "needs", 0, "method"), method);
+    assert_true(hooke_measurement_number(needs, "rows", row_of(needs, "rope.bend"), "needed") == 0.0);
+    assert_true(hooke_measurement_number(needs, "rows", row_of(needs, "gravity"), "needed") == 1.0);
+    check_between(hooke_measurement_number(needs, "full", 0, "step_error"), 0.0, 2e-4);
+    check_between(hooke_measurement_number(needs, "lean", 0, "error"), 0.0, 2e-3);
+    assert_true(isnan(hooke_measurement_number(needs, "full", 0, "step")) ==
+                hooke_method_is_adaptive(method));
+    hooke_measurement_destroy(needs);
     hooke_system_destroy(system);
   }
 }
@@ -395,13 +401,13 @@ static void chaos_is_judged_as_far_as_a_step_can_follow(void **state) {
   check_ok(hooke_system_set_gravity(system, gravity));
   check_ok(hooke_system_set_drag(system, 1e-9));
   check_ok(hooke_system_commit(system));
-  hooke_needs *needs =
+  hooke_measurement *needs =
       start(system, (struct run){.method = "symplectic-euler", .duration = 8, .every = 0.05}, 0.01, NULL);
-  check_ok(hooke_needs_find(needs));
-  check_between(hooke_needs_figure(needs, "judged_until"), 0.8, 7.0);
-  assert_true(hooke_needs_number(needs, row_of(needs, "gravity"), "needed") == 1.0);
-  assert_true(hooke_needs_number(needs, row_of(needs, "drag"), "needed") == 0.0);
-  hooke_needs_destroy(needs);
+  check_ok(hooke_measurement_run(needs, NULL));
+  check_between(hooke_measurement_number(needs, "needs", 0, "judged_until"), 0.8, 7.0);
+  assert_true(hooke_measurement_number(needs, "rows", row_of(needs, "gravity"), "needed") == 1.0);
+  assert_true(hooke_measurement_number(needs, "rows", row_of(needs, "drag"), "needed") == 0.0);
+  hooke_measurement_destroy(needs);
   hooke_system_destroy(system);
 }
 
@@ -423,26 +429,26 @@ static void whoever_stops_it_keeps_what_is_known(void **state) {
   (void)state;
   hooke_system *system = hanging_rope(12, 0.05);
   struct listener all = {.most = INT64_MAX};
-  hooke_needs *needs = start(system, half_a_second, 1e-3, NULL);
-  hooke_needs_on_progress(needs, listen, &all);
-  check_ok(hooke_needs_find(needs));
-  const int64_t rows = hooke_needs_row_count(needs);
-  hooke_needs_destroy(needs);
+  hooke_measurement *needs = start(system, half_a_second, 1e-3, NULL);
+  hooke_measurement_on_progress(needs, listen, &all);
+  check_ok(hooke_measurement_run(needs, NULL));
+  const int64_t rows = hooke_measurement_row_count(needs, "rows");
+  hooke_measurement_destroy(needs);
   int64_t stopped = 0;
   for (int64_t part = 0; part < 8; part++) {
     struct listener some = {.most = all.calls * part / 8};
     needs = start(system, half_a_second, 1e-3, NULL);
-    hooke_needs_on_progress(needs, listen, &some);
-    const int32_t status = hooke_needs_find(needs);
+    hooke_measurement_on_progress(needs, listen, &some);
+    const int32_t status = hooke_measurement_run(needs, NULL);
     /* it is told by the clock: on a machine that was slower before there are fewer calls now */
     check_status(status, some.calls > some.most ? HOOKE_STOPPED : HOOKE_OK);
     stopped += status == HOOKE_STOPPED;
-    check_between((double)hooke_needs_row_count(needs), 0.0, (double)rows);
-    assert_null(hooke_needs_text(needs, hooke_needs_row_count(needs), "without"));
-    for (int64_t row = 0; row < hooke_needs_row_count(needs); row++)
-      check_between(hooke_needs_number(needs, row, "error"), 0.0, 10.0);
-    assert_true(part > 0 || isnan(hooke_needs_figure(needs, "wall_seconds")));
-    hooke_needs_destroy(needs);
+    check_between((double)hooke_measurement_row_count(needs, "rows"), 0.0, (double)rows);
+    assert_null(hooke_measurement_text(needs, "rows", hooke_measurement_row_count(needs, "rows"), "without"));
+    for (int64_t row = 0; row < hooke_measurement_row_count(needs, "rows"); row++)
+      check_between(hooke_measurement_number(needs, "rows", row, "error"), 0.0, 10.0);
+    assert_true(part > 0 || isnan(hooke_measurement_number(needs, "full", 0, "wall_seconds")));
+    hooke_measurement_destroy(needs);
   }
   check_between((double)stopped, 2.0, 8.0);
   hooke_system_destroy(system);
@@ -450,13 +456,14 @@ static void whoever_stops_it_keeps_what_is_known(void **state) {
 
 static void check_watch(const hooke_system *system, const char *watch, const char *message) {
   hooke_options *run = run_options(half_a_second), *options;
-  hooke_needs *needs = NULL;
-  check_ok(hooke_needs_options_create(&options));
+  hooke_measurement *needs = NULL;
+  check_ok(hooke_options_create("needs", &options));
   check_ok(hooke_options_set_number(options, "want", 1e-3));
   check_ok(hooke_options_set_text(options, "watch", watch));
-  check_status(hooke_needs_create(system, run, options, &needs), message ? HOOKE_BAD_VALUE : HOOKE_OK);
+  check_status(hooke_measurement_create("needs", system, run, options, &needs),
+               message ? HOOKE_BAD_VALUE : HOOKE_OK);
   if (message) check_message(message);
-  hooke_needs_destroy(needs);
+  hooke_measurement_destroy(needs);
   hooke_options_destroy(run);
   hooke_options_destroy(options);
 }
@@ -472,27 +479,59 @@ static void what_cannot_be_is_refused(void **state) {
   for (size_t k = 0; k < sizeof bad / sizeof bad[0]; k++)
     check_watch(system, bad[k], "rope, rope.stretch, rope.bend, or particle numbers");
   hooke_options *run = run_options((struct run){.method = "rk4"}), *options;
-  hooke_needs *needs = NULL;
-  check_ok(hooke_needs_options_create(&options));
-  check_status(hooke_needs_create(system, run, options, &needs), HOOKE_BAD_VALUE);
+  hooke_measurement *needs = NULL;
+  check_ok(hooke_options_create("needs", &options));
+  check_status(hooke_measurement_create("needs", system, run, options, &needs), HOOKE_BAD_VALUE);
   check_message("want");
   check_ok(hooke_options_set_number(options, "want", 1e-3));
-  check_status(hooke_needs_create(system, run, options, &needs), HOOKE_BAD_VALUE);
+  check_status(hooke_measurement_create("needs", system, run, options, &needs), HOOKE_BAD_VALUE);
   check_message("duration");
   check_ok(hooke_options_set_number(run, "duration", 0.5));
   check_ok(hooke_options_set_text(run, "method", "rk5"));
-  check_status(hooke_needs_create(system, run, options, &needs), HOOKE_BAD_VALUE);
+  check_status(hooke_measurement_create("needs", system, run, options, &needs), HOOKE_BAD_VALUE);
   check_message("\"rk5\" is not a method");
   hooke_options_destroy(run);
   hooke_options_destroy(options);
   hooke_system_destroy(system);
 
   hooke_system *alone = small_oscillator(1.0);
-  needs = start(alone, half_a_second, 1e-3, NULL);
-  check_status(hooke_needs_refine(needs), HOOKE_BAD_VALUE);
+  needs = make(alone, half_a_second, 1e-3, NULL, 1);
+  check_status(hooke_measurement_run(needs, NULL), HOOKE_BAD_VALUE);
   check_message("no parts");
-  hooke_needs_destroy(needs);
+  hooke_measurement_destroy(needs);
   hooke_system_destroy(alone);
+}
+
+/* What is special of needs and of comparisons is refused of each other. */
+static void kinds_keep_to_what_is_theirs(void **state) {
+  (void)state;
+  hooke_system *system = hanging_rope(4, 0.0);
+  hooke_options *run = run_options(half_a_second);
+  hooke_measurement *needs = start(system, half_a_second, 1e-2, NULL), *comparison = NULL;
+  hooke_comparison_file *file = NULL;
+  double q[15] = {0};
+  assert_null(hooke_needs_lean(needs));
+  check_status(hooke_needs_lean_position(needs, q, q), HOOKE_BAD_CALL);
+  check_message("no lean system yet");
+  check_status(hooke_comparison_on_frame(needs, NULL, NULL), HOOKE_BAD_CALL);
+  check_message("\"comparison\", this is a \"needs\"");
+  check_status(hooke_comparison_file_create("needs.h5", needs, &file), HOOKE_BAD_CALL);
+  assert_null(file);
+  if (hooke_method_is_built("cvode-adams")) {
+    check_ok(hooke_measurement_create("comparison", system, run, NULL, &comparison));
+    assert_null(hooke_needs_lean(comparison));
+    assert_null(hooke_needs_lean_run(comparison));
+    assert_int_equal(hooke_needs_lean_particle(comparison, 0), -1);
+    check_status(hooke_needs_lean_position(comparison, q, q), HOOKE_BAD_CALL);
+    check_message("\"needs\", this is a \"comparison\"");
+    check_status(hooke_measurement_write(comparison, "comparison.csv"), HOOKE_BAD_CALL);
+  }
+  check_status(hooke_measurement_create("verify", system, run, NULL, &comparison), HOOKE_BAD_VALUE);
+  check_message("hooke_verify_create()");
+  hooke_measurement_destroy(comparison);
+  hooke_measurement_destroy(needs);
+  hooke_options_destroy(run);
+  hooke_system_destroy(system);
 }
 
 /* ---- groups of triples and tetrahedra that no part brings ---- */
@@ -537,10 +576,11 @@ static void groups_without_parts_are_ingredients(void **unused) {
               {"drag", GROUPS - DRAG}};
   const double want = 1e-3;
   hooke_system *system = body_and_line(GROUPS);
-  hooke_needs *needs = start(system, half_a_second, want, NULL);
-  check_ok(hooke_needs_find(needs));
+  hooke_measurement *needs = start(system, half_a_second, want, NULL);
+  check_ok(hooke_measurement_run(needs, NULL));
   struct frames *full = run_fine(system, 1e-4, 1);
-  const double judged = hooke_needs_figure(needs, "judged_until"); /* altitude springs jump */
+  const double judged =
+      hooke_measurement_number(needs, "needs", 0, "judged_until"); /* altitude springs jump */
   check_between(judged, 0.1, 0.5);
   for (size_t k = 0; k < sizeof rows / sizeof rows[0]; k++) {
     hooke_system *without = body_and_line(rows[k].left);
@@ -549,13 +589,13 @@ static void groups_without_parts_are_ingredients(void **unused) {
     const double change = distance(full, frames);
     const int64_t row = row_of(needs, rows[k].without);
     check_between(change, 1e-3, 1.0);
-    check_close(hooke_needs_number(needs, row, "error"), change, 0.2 * want);
-    assert_true(hooke_needs_number(needs, row, "needed") == (change > want));
+    check_close(hooke_measurement_number(needs, "rows", row, "error"), change, 0.2 * want);
+    assert_true(hooke_measurement_number(needs, "rows", row, "needed") == (change > want));
     free(frames);
     hooke_system_destroy(without);
   }
   free(full);
-  hooke_needs_destroy(needs);
+  hooke_measurement_destroy(needs);
   hooke_system_destroy(system);
 }
 
@@ -591,12 +631,12 @@ static void every_ingredient_has_a_name_of_its_own(void **unused) {
   check_ok(hooke_system_add_altitude(system, NULL, 1, corners, altitude));
   check_ok(hooke_system_set_drag(system, 0.01));
   check_ok(hooke_system_commit(system));
-  hooke_needs *needs = start(system, half_a_second, 1.0, "0-3");
-  check_ok(hooke_needs_find(needs));
+  hooke_measurement *needs = start(system, half_a_second, 1.0, "0-3");
+  check_ok(hooke_measurement_run(needs, NULL));
   for (size_t k = 0; k < sizeof expected / sizeof expected[0]; k++)
     row_of(needs, expected[k]);
-  assert_int_equal(hooke_needs_row_count(needs), sizeof expected / sizeof expected[0]);
-  hooke_needs_destroy(needs);
+  assert_int_equal(hooke_measurement_row_count(needs, "rows"), sizeof expected / sizeof expected[0]);
+  hooke_measurement_destroy(needs);
   hooke_options_destroy(altitude);
   hooke_options_destroy(springs);
   hooke_system_destroy(system);
@@ -615,6 +655,7 @@ int main(void) {
       cmocka_unit_test(chaos_is_judged_as_far_as_a_step_can_follow),
       cmocka_unit_test(whoever_stops_it_keeps_what_is_known),
       cmocka_unit_test(what_cannot_be_is_refused),
+      cmocka_unit_test(kinds_keep_to_what_is_theirs),
       cmocka_unit_test(every_ingredient_has_a_name_of_its_own),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -2,6 +2,7 @@
 
 import json
 
+import h5py
 import numpy as np
 import pytest
 from conftest import SIX_PARTICLES, build_oscillator, build_six_particles
@@ -163,6 +164,22 @@ def test_scenes_that_are_saved(tmp_path):
     called.set_force(lambda t, q, v, force: None)
     with pytest.raises(hooke.Unsuited):
         called.save(tmp_path / "called.json")
+
+
+def test_files(ropes, tmp_path):
+    for ending in ("json", "csv", "h5", "html"):
+        ropes.write(tmp_path / f"needs.{ending}")
+    found = json.loads((tmp_path / "needs.json").read_text())
+    names = ropes.rows["without"].tolist()
+    assert [row["without"] for row in found["rows"]] == names and found["needs"]["watched"] == 7
+    assert found["full"]["springs"] == 12 and found["lean"]["error"] == ropes.lean_error and found["parts"] == []
+    assert found["cheapest"]["wall_seconds"] == ropes.cheapest.wall_seconds
+    lines = (tmp_path / "needs.csv").read_text().splitlines()
+    assert lines[0].startswith("without,kind,error,needed,left_out,") and len(lines) == 1 + len(names)
+    with h5py.File(tmp_path / "needs.h5") as file:
+        assert file["needs/without"].asstr()[:].tolist() == names and file["needs"].attrs["want"] == 2e-3
+        assert file["needs/lean"].attrs["error"] == ropes.lean_error
+    assert ROPES["title"] in (tmp_path / "needs.html").read_text()
 
 
 def test_picture(ropes):

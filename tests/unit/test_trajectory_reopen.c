@@ -482,7 +482,7 @@ static void files_say_how_the_run_ended(void **state) {
 #if HOOKE_HAVE_JANSSON
 static void nothing_to_verify(void **state) {
   const struct fixture *f = *state;
-  hooke_verify *verify = NULL;
+  hooke_measurement *verify = NULL;
   be_killed(f, 0, -1);
   check_status(hooke_verify_create(f->path, NULL, NULL, &verify), HOOKE_BAD_VALUE);
   check_message("has no frames");

@@ -2,9 +2,7 @@
  * the options that all have in common under /hooke/options, and
  *
  *   /comparison/reference              the method of the reference
- *   /comparison/method, status         [rows], texts
- *   /comparison/<column>               [rows], one array for each number of hooke_comparison_number(), NaN where
- *                                      there is none
+ *   /comparison/<column>               [rows] of the table "rows": texts, and numbers, NaN where there is none
  *   /comparison/series/time            [frames]
  *   /comparison/series/error           [rows][frames], likewise energy_drift; NaN past the end of a run
  *
@@ -12,52 +10,42 @@
 #include "core/handle.h"
 #include "core/memory.h"
 #include "core/status.h"
-#include "hooke/io.h"
+#include "hooke/measurement.h"
+#include "measure/trial/comparison.h"
 
 #if HOOKE_HAVE_HDF5
 
 #include "io/file/bytes.h"
-#include "io/hdf5/file_h5.h"
-#include "io/trajectory/h5md_h5.h"
-#include "io/hdf5/object_h5.h"
 #include "io/file/place.h"
-#include "io/trajectory/recording_h5.h"
+#include "io/hdf5/file_h5.h"
+#include "io/hdf5/object_h5.h"
 #include "io/scene/scene.h"
-#include "measure/trial/comparison.h"
+#include "io/trajectory/h5md_h5.h"
+#include "io/trajectory/recording_h5.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-enum { TEXT_LENGTH = 32 };
-
-static const char *const columns[] = {"step",      "rtol",        "atol",         "error",
-                                      "error_max", "error_final", "energy_drift", "force_evaluations",
-                                      "steps",     "wall_seconds"};
-enum { COLUMN_COUNT = sizeof columns / sizeof columns[0] };
-static const char *const series[] = {"error", "energy_drift"};
+enum { TEXT_LENGTH = 32, MOST_COLUMNS = 24, NAME_SIZE = 64 };
 
 /* Where the arrays of the table begin in the file. */
 struct table {
-  int64_t reference, method, status, column[COLUMN_COUNT], time, series[2];
+  int64_t reference, time, column[MOST_COLUMNS];
 };
 
 struct hooke_comparison_file {
   struct hk_h5_file file;
   struct table at;
   int64_t status_at;
-  hooke_comparison *comparison;
-  int64_t row_count, frame_count;
+  hooke_measurement *measurement;
+  const struct hk_comparison *comparison; /* its object */
+  const struct hk_table *rows;
   struct hk_recording *recording; /* the reference, then a row each */
   char failure[512];              /* of the write that made the file bad; "" while it is good */
 };
 
 /* ---- making ---- */
-
-static const char *method_of(const hooke_comparison_file *file, int64_t row) {
-  const char *method = hooke_comparison_text(file->comparison, row, "method");
-  return method ? method : "";
-}
 
 /* Where it begins; takes the dataset over. */
 static herr_t find(hid_t data, int64_t *at) {
@@ -73,36 +61,44 @@ static hid_t new_numbers(hid_t where, const char *name, int rank, const hsize_t 
   return hk_h5_array(where, name, H5T_NATIVE_DOUBLE, rank, size, &none);
 }
 
-static herr_t make_series(hooke_comparison_file *file, hid_t table) {
-  const hsize_t frames = (hsize_t)file->frame_count, both[2] = {(hsize_t)file->row_count, frames};
-  hid_t group = H5Gcreate2(table, "series", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
-  herr_t result = group < 0 ? -1 : find(new_numbers(group, "time", 1, &frames), &file->at.time);
-  for (int k = 0; result >= 0 && k < 2; k++)
-    result = find(new_numbers(group, series[k], 2, both), &file->at.series[k]);
-  hk_h5_drop(group);
-  return result;
+/* "error_at" is "error" among the series. */
+static void name_of(const struct hk_column *column, char name[NAME_SIZE]) {
+  snprintf(name, NAME_SIZE, "%s", column->name);
+  if (column->type == HOOKE_COLUMN_SERIES) name[strlen(name) - strlen("_at")] = '\0';
+}
+
+static hid_t make_column(const hooke_comparison_file *file, hid_t table, hid_t series,
+                         const struct hk_column *column) {
+  const struct hk_comparison *c = file->comparison;
+  const hsize_t size[2] = {(hsize_t)c->row_count, (hsize_t)c->frame_count};
+  char name[NAME_SIZE];
+  name_of(column, name);
+  if (column->type == HOOKE_COLUMN_TEXT) return hk_h5_texts(table, name, c->row_count, TEXT_LENGTH);
+  if (column->type == HOOKE_COLUMN_SERIES) return new_numbers(series, name, 2, size);
+  return new_numbers(table, name, 1, size);
 }
 
 static herr_t make_table(hooke_comparison_file *file) {
-  const hsize_t rows = (hsize_t)file->row_count;
+  const hsize_t frames = (hsize_t)file->comparison->frame_count;
   struct table *at = &file->at;
   hid_t table = H5Gcreate2(file->file.id, "comparison", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
   if (table < 0) return -1;
-  herr_t result = find(hk_h5_texts(table, "reference", -1, TEXT_LENGTH), &at->reference);
-  if (result >= 0) result = find(hk_h5_texts(table, "method", file->row_count, TEXT_LENGTH), &at->method);
-  if (result >= 0) result = find(hk_h5_texts(table, "status", file->row_count, TEXT_LENGTH), &at->status);
-  for (int k = 0; result >= 0 && k < COLUMN_COUNT; k++)
-    result = find(new_numbers(table, columns[k], 1, &rows), &at->column[k]);
-  if (result >= 0) result = make_series(file, table);
+  hid_t series = H5Gcreate2(table, "series", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+  herr_t result = series < 0 ? -1 : find(hk_h5_texts(table, "reference", -1, TEXT_LENGTH), &at->reference);
+  if (result >= 0) result = find(new_numbers(series, "time", 1, &frames), &at->time);
+  for (int32_t k = 0; result >= 0 && k < file->rows->column_count; k++)
+    result = find(make_column(file, table, series, &file->rows->columns[k]), &at->column[k]);
+  hk_h5_drop(series);
   hk_h5_drop(table);
   return result;
 }
 
-static herr_t make_recordings(hooke_comparison_file *file, const hooke_system *system) {
+static herr_t make_recordings(hooke_comparison_file *file) {
+  const struct hk_comparison *c = file->comparison;
   herr_t result = 0;
-  for (int64_t k = 0; result >= 0 && k <= file->row_count; k++) {
-    const char *group = k == 0 ? "all" : method_of(file, k - 1);
-    result = hk_recording_create(file->file.id, system, group, file->frame_count, &file->recording[k]);
+  for (int64_t k = 0; result >= 0 && k <= c->row_count; k++) {
+    const char *group = k == 0 ? "all" : c->row[k - 1].method;
+    result = hk_recording_create(file->file.id, c->system, group, c->frame_count, &file->recording[k]);
   }
   return result;
 }
@@ -114,25 +110,40 @@ static int write_text(const hooke_comparison_file *file, int64_t at, int64_t k, 
   return hk_bytes_write(file->file.place.descriptor, at + k * TEXT_LENGTH, TEXT_LENGTH, padded);
 }
 
-static int32_t fill(struct hk_h5_guard *guard, const char *path, const hooke_system *system,
-                    const char *scene_text, hooke_comparison_file *file) {
-  const double runs = (double)(file->row_count + 1), text = scene_text ? (double)strlen(scene_text) : 0.0;
-  const double table = runs * (256.0 + 16.0 * (double)file->frame_count);
-  const double bytes = text + table + runs * hk_recording_bytes(system, file->frame_count);
+/* Numbers of an array of the table, from number `first` on. */
+static int write_numbers(const hooke_comparison_file *file, int64_t at, int64_t first, int64_t count,
+                         const double *value) {
+  const int64_t size = (int64_t)sizeof *value;
+  return hk_bytes_write(file->file.place.descriptor, at + size * first, size * count, value);
+}
+
+static int write_methods(const hooke_comparison_file *file) {
+  const struct hk_comparison *c = file->comparison;
+  const int64_t at = file->at.column[hk_table_find(file->rows, "method") - file->rows->columns];
+  int error = 0;
+  for (int64_t k = 0; error == 0 && k < c->row_count; k++)
+    error = write_text(file, at, k, c->row[k].method);
+  return error;
+}
+
+static int32_t fill(struct hk_h5_guard *guard, const char *path, const char *scene_text,
+                    hooke_comparison_file *file) {
+  const struct hk_comparison *c = file->comparison;
+  const double runs = (double)(c->row_count + 1), text = scene_text ? (double)strlen(scene_text) : 0.0;
+  const double table = runs * (256.0 + 16.0 * (double)c->frame_count);
+  const double bytes = text + table + runs * hk_recording_bytes(c->system, c->frame_count);
   int32_t status = hk_h5_file_create_held(guard, path, bytes, 0, &file->file);
   if (status != HOOKE_OK) return status;
-  herr_t result = hk_h5md_describe(file->file.id, NULL, file->comparison->options, scene_text);
-  if (result >= 0) result = make_recordings(file, system);
-  if (result >= 0) result = hk_h5md_connect(file->file.id, system, "all");
+  herr_t result = hk_h5md_describe(file->file.id, NULL, c->run, scene_text);
+  if (result >= 0) result = make_recordings(file);
+  if (result >= 0) result = hk_h5md_connect(file->file.id, c->system, "all");
   if (result >= 0) result = make_table(file);
   if (result >= 0) result = hk_h5md_find_status(file->file.id, &file->status_at);
   if (result < 0) return hk_h5_fail(guard, path, "make room for all frames");
   status = hk_h5_file_settle(guard, &file->file);
-  for (int64_t k = 0; k <= file->row_count; k++)
+  for (int64_t k = 0; k <= c->row_count; k++)
     file->recording[k].file.descriptor = file->file.place.descriptor;
-  int error = 0;
-  for (int64_t k = 0; status == HOOKE_OK && error == 0 && k < file->row_count; k++)
-    error = write_text(file, file->at.method, k, method_of(file, k));
+  const int error = status == HOOKE_OK ? write_methods(file) : 0;
   if (error) return hk_place_fail(path, "write the names of the methods", error);
   return status == HOOKE_OK ? hk_h5_file_publish(&file->file) : status;
 }
@@ -147,7 +158,7 @@ static void release(hooke_comparison_file *file) {
 
 static struct hk_recording *find_run(hooke_comparison_file *file, const char *run) {
   if (strcmp(run, "reference") == 0) return &file->recording[0];
-  for (int64_t k = 1; k <= file->row_count; k++) {
+  for (int64_t k = 1; k <= file->comparison->row_count; k++) {
     if (strcmp(file->recording[k].group, run) == 0) return &file->recording[k];
   }
   return NULL;
@@ -175,81 +186,70 @@ static int32_t write_frame(const char *run, int64_t frame, int64_t step, const h
   return 1;
 }
 
-static int32_t create(const char *path, const hooke_system *system, hooke_comparison *comparison,
-                      const char *scene_text, hooke_comparison_file **file) {
+static int32_t create(const char *path, hooke_measurement *m, const char *scene_text,
+                      hooke_comparison_file **file) {
   hooke_comparison_file *made = hk_handle_new("hooke_comparison_file", sizeof *made);
   if (made == NULL) return HOOKE_NO_MEMORY;
   made->file = HOOKE_NO_H5_FILE;
-  made->comparison = comparison;
-  made->row_count = hooke_comparison_row_count(comparison);
-  made->frame_count = hooke_comparison_frame_count(comparison);
-  made->recording = hk_new(made->row_count + 1, sizeof *made->recording);
+  made->measurement = m;
+  made->comparison = m->object;
+  made->rows = hk_measurement_table(m->kind, "rows");
+  made->recording = hk_new(made->comparison->row_count + 1, sizeof *made->recording);
   struct hk_h5_guard guard;
   hk_h5_guard_begin(&guard);
-  const int32_t status = made->recording ? fill(&guard, path, system, scene_text, made) : HOOKE_NO_MEMORY;
-  if (status == HOOKE_OK) {
-    hooke_comparison_on_frame(comparison, write_frame, made);
+  int32_t status = made->recording ? fill(&guard, path, scene_text, made) : HOOKE_NO_MEMORY;
+  if (status == HOOKE_OK) status = hooke_comparison_on_frame(m, write_frame, made);
+  if (status == HOOKE_OK)
     *file = made;
-  } else {
+  else
     release(made);
-  }
   hk_h5_guard_end(&guard);
   return status;
 }
 
-int32_t hooke_comparison_file_create(const char *path, const hooke_system *system,
-                                     hooke_comparison *comparison, const char *scene_text,
-                                     hooke_comparison_file **file) {
+int32_t hooke_comparison_file_create(const char *path, hooke_measurement *m, hooke_comparison_file **file) {
   *file = NULL;
-  int32_t status = hk_comparison_prepare(comparison);
+  int32_t status = hk_measurement_require(m, &hk_comparison_kind, "hooke_comparison_file_create");
+  if (status == HOOKE_OK) status = hk_comparison_prepare(m->object);
+  const char *scene = m->label[HOOKE_LABEL_SCENE];
   char *whole = NULL;
-  if (status == HOOKE_OK) status = hk_scene_make_whole(scene_text, system, comparison->options, &whole);
-  if (status == HOOKE_OK) status = create(path, system, comparison, whole ? whole : scene_text, file);
+  if (status == HOOKE_OK) status = hk_scene_make_whole(scene, m->system, m->run, &whole);
+  if (status == HOOKE_OK) status = create(path, m, whole ? whole : scene, file);
   hk_free(whole);
   return status;
 }
 
 /* ---- the table ---- */
 
-/* Numbers of an array of the table, from number `first` on. */
-static int write_numbers(const hooke_comparison_file *file, int64_t at, int64_t first, int64_t count,
-                         const double *value) {
-  const int64_t size = (int64_t)sizeof *value;
-  return hk_bytes_write(file->file.place.descriptor, at + size * first, size * count, value);
-}
-
-static int write_table_row(const hooke_comparison_file *file, int64_t row) {
-  const hooke_comparison *comparison = file->comparison;
-  int error = write_text(file, file->at.method, row, method_of(file, row));
-  if (error == 0)
-    error = write_text(file, file->at.status, row, hooke_comparison_text(comparison, row, "status"));
-  for (int k = 0; error == 0 && k < COLUMN_COUNT; k++) {
-    const double number = hooke_comparison_number(comparison, row, columns[k]);
-    error = write_numbers(file, file->at.column[k], row, 1, &number);
-  }
-  if (file->recording[row + 1].written == 0) return error; /* it has not run: no series */
-  for (int k = 0; error == 0 && k < 2; k++) {
-    const double *value = hooke_comparison_series(comparison, row, series[k]);
-    if (value)
-      error = write_numbers(file, file->at.series[k], row * file->frame_count, file->frame_count, value);
-  }
-  return error;
+static int write_column(const hooke_comparison_file *file, int64_t row, int32_t k) {
+  const struct hk_column *column = &file->rows->columns[k];
+  const int64_t at = file->at.column[k];
+  struct hk_line line;
+  file->rows->read(file->comparison, row, &line);
+  if (column->type == HOOKE_COLUMN_TEXT) return write_text(file, at, row, hk_column_text(column, &line));
+  const double number = hk_column_number(column, &line);
+  if (column->type != HOOKE_COLUMN_SERIES) return write_numbers(file, at, row, 1, &number);
+  const struct hk_series series = hk_column_series(column, &line);
+  if (series.value == NULL || file->recording[row + 1].written == 0) return 0; /* it has not run */
+  return write_numbers(file, at, row * series.count, series.count, series.value);
 }
 
 static int write_table(const hooke_comparison_file *file) {
-  const double *time = hooke_comparison_series(file->comparison, 0, "time");
+  const struct hk_comparison *c = file->comparison;
   const int64_t frames = file->recording[0].written;
-  int error = write_text(file, file->at.reference, 0, hooke_comparison_reference(file->comparison));
-  if (error == 0 && frames > 0) error = write_numbers(file, file->at.time, 0, frames, time);
-  for (int64_t k = 0; error == 0 && k < file->row_count; k++)
-    error = write_table_row(file, k);
+  int error = write_text(file, file->at.reference, 0, c->reference);
+  if (error == 0 && frames > 0) error = write_numbers(file, file->at.time, 0, frames, c->frames.time);
+  for (int64_t row = 0; row < c->row_count; row++) {
+    for (int32_t k = 0; error == 0 && k < file->rows->column_count; k++)
+      error = write_column(file, row, k);
+  }
   return error;
 }
 
 /* ---- closing ---- */
 
 static int32_t is_short(const hooke_comparison_file *file) {
-  for (int64_t k = 0; k <= file->row_count; k++) {
+  for (int64_t k = 0; k <= file->comparison->row_count; k++) {
     if (file->recording[k].written < file->recording[k].frame_count) return 1;
   }
   return 0;
@@ -257,8 +257,8 @@ static int32_t is_short(const hooke_comparison_file *file) {
 
 /* A run that was never begun, or was interrupted, makes the comparison a stopped one. */
 static int32_t outcome_of(const hooke_comparison_file *file) {
-  for (int64_t k = 0; k <= file->row_count; k++) {
-    const char *status = k == 0 ? "finished" : hooke_comparison_text(file->comparison, k - 1, "status");
+  for (int64_t k = 0; k <= file->comparison->row_count; k++) {
+    const char *status = k == 0 ? "finished" : file->comparison->row[k - 1].trial.status;
     if (file->recording[k].written == 0 || status == NULL || strcmp(status, "stopped") == 0)
       return HOOKE_STOPPED;
   }
@@ -269,7 +269,7 @@ static int32_t outcome_of(const hooke_comparison_file *file) {
 static herr_t make_shorter(const hooke_comparison_file *file, hid_t old, hid_t shorter,
                            struct hk_recording *recording, struct hk_h5_copy *copy) {
   herr_t result = hk_h5md_copy(old, shorter, copy);
-  for (int64_t k = 0; result >= 0 && k <= file->row_count; k++)
+  for (int64_t k = 0; result >= 0 && k <= file->comparison->row_count; k++)
     result =
         hk_recording_copy(&file->recording[k], old, shorter, file->recording[k].written, &recording[k], copy);
   if (result >= 0) result = hk_h5md_refer(shorter, "all");
@@ -279,7 +279,7 @@ static herr_t make_shorter(const hooke_comparison_file *file, hid_t old, hid_t s
 static int copy_all(const hooke_comparison_file *file, const struct hk_h5_copy *copy, int descriptor,
                     struct hk_recording *recording) {
   int error = hk_h5_copy_bytes(copy, file->file.place.descriptor, descriptor);
-  for (int64_t k = 0; error == 0 && k <= file->row_count; k++) {
+  for (int64_t k = 0; error == 0 && k <= file->comparison->row_count; k++) {
     recording[k].file.descriptor = descriptor;
     error = hk_frame_copy(&file->recording[k].file, &recording[k].file, file->recording[k].written);
   }
@@ -294,7 +294,7 @@ static int32_t rewrite(struct hk_h5_guard *guard, const hooke_comparison_file *f
   struct hk_h5_file shorter;
   hid_t old;
   double bytes = hk_h5_file_bytes(&file->file);
-  for (int64_t k = 0; k <= file->row_count; k++)
+  for (int64_t k = 0; k <= file->comparison->row_count; k++)
     bytes -= hk_recording_bytes_after(&file->recording[k], file->recording[k].written);
   int32_t status = hk_h5_file_open(guard, &file->file, &old);
   if (status != HOOKE_OK) return status;
@@ -313,7 +313,7 @@ static int32_t rewrite(struct hk_h5_guard *guard, const hooke_comparison_file *f
 }
 
 static int32_t shorten(const hooke_comparison_file *file) {
-  struct hk_recording *recording = hk_new(file->row_count + 1, sizeof *recording);
+  struct hk_recording *recording = hk_new(file->comparison->row_count + 1, sizeof *recording);
   if (recording == NULL) return HOOKE_NO_MEMORY;
   struct hk_h5_guard guard;
   hk_h5_guard_begin(&guard);
@@ -339,8 +339,8 @@ static int32_t finish(hooke_comparison_file *file) {
 
 int32_t hooke_comparison_file_close(hooke_comparison_file *file) {
   if (file == NULL) return HOOKE_OK;
-  hooke_comparison_on_frame(file->comparison, NULL, NULL);
-  const int32_t status = finish(file);
+  int32_t status = hooke_comparison_on_frame(file->measurement, NULL, NULL);
+  if (status == HOOKE_OK) status = finish(file);
   release(file);
   return status;
 }
@@ -352,12 +352,11 @@ static int32_t not_built(void) {
                  "files of comparisons need HDF5, and this build of the library is without it");
 }
 
-int32_t hooke_comparison_file_create(const char *path, const hooke_system *system,
-                                     hooke_comparison *comparison, const char *scene_text,
-                                     hooke_comparison_file **file) {
-  (void)path, (void)system, (void)comparison, (void)scene_text;
+int32_t hooke_comparison_file_create(const char *path, hooke_measurement *m, hooke_comparison_file **file) {
+  (void)path;
   *file = NULL;
-  return not_built();
+  const int32_t status = hk_measurement_require(m, &hk_comparison_kind, "hooke_comparison_file_create");
+  return status == HOOKE_OK ? not_built() : status;
 }
 
 int32_t hooke_comparison_file_close(hooke_comparison_file *file) {

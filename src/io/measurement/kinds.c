@@ -1,13 +1,15 @@
 /* The kinds of measurements by name, and what their tables have. */
 #include "core/status.h"
 #include "io/measurement/measurement_file.h"
+#include "io/verify/verify.h"
+#include "measure/needs/needs.h"
+#include "measure/trial/comparison.h"
 #include "measure/study/study.h"
 
 #include <string.h>
 
 static const struct hk_measurement_kind *const kinds[] = {
-    &hk_study_kind,
-    NULL,
+    &hk_needs_kind, &hk_comparison_kind, &hk_verify_kind, &hk_study_kind, NULL,
 };
 enum { KINDS = sizeof kinds / sizeof kinds[0] - 1 };
 

@@ -10,6 +10,7 @@ static const struct page {
   const char *kind;
   void (*add_data)(struct hk_text *data, const void *measurement);
 } pages[] = {
+    {"needs", hk_needs_page_add},
     {"study", hk_study_page_add},
     {NULL, NULL},
 };

@@ -4,6 +4,7 @@
 
 #include "io/file/text.h"
 
+void hk_needs_page_add(struct hk_text *data, const void *measurement);
 void hk_study_page_add(struct hk_text *data, const void *measurement);
 
 #endif

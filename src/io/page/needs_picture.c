@@ -5,7 +5,7 @@
 #include "measure/needs/needs.h"
 
 /* Of each particle, whether it is watched. NULL: no memory. */
-static char *find_watched(const hooke_needs *needs) {
+static char *find_watched(const struct hk_needs *needs) {
   char *watched = hk_new(hooke_system_particle_count(needs->system), 1);
   for (int64_t k = 0; k < needs->watch_count && watched; k++)
     watched[needs->watch[k]] = 1;
@@ -35,14 +35,14 @@ static int64_t choose(struct hk_picture *p, const char *watched) {
 /* ---- where they are ---- */
 
 /* Positions at a frame of a path, as rows of all particles of the system; those not watched stay zero. */
-static double *spread(const hooke_needs *needs, const struct hk_needs_path *path, int64_t frame) {
+static double *spread(const struct hk_needs *needs, const struct hk_needs_path *path, int64_t frame) {
   double *q = hk_new(3 * hooke_system_particle_count(needs->system), sizeof *q);
   for (int64_t k = 0; k < 3 * needs->watch_count && q; k++)
     q[3 * needs->watch[k / 3] + k % 3] = path->position[3 * needs->watch_count * frame + k];
   return q;
 }
 
-static int32_t add_positions(struct hk_text *data, const hooke_needs *needs, const struct hk_picture *p,
+static int32_t add_positions(struct hk_text *data, const struct hk_needs *needs, const struct hk_picture *p,
                              int64_t frame) {
   int64_t *list = hk_picture_list(p);
   double *full = spread(needs, &needs->path, frame), *lean = spread(needs, &needs->lean_path, frame);
@@ -62,13 +62,13 @@ static int32_t add_positions(struct hk_text *data, const hooke_needs *needs, con
 /* ---- all of it ---- */
 
 /* That is judged and that both paths have. */
-static int64_t last_frame(const hooke_needs *needs) {
+static int64_t last_frame(const struct hk_needs *needs) {
   int64_t frames = needs->judged;
   if (needs->path.recorded < frames) frames = needs->path.recorded;
   return (needs->lean_path.recorded < frames ? needs->lean_path.recorded : frames) - 1;
 }
 
-static int32_t add(struct hk_text *data, const hooke_needs *needs, struct hk_picture *p,
+static int32_t add(struct hk_text *data, const struct hk_needs *needs, struct hk_picture *p,
                    const char *watched) {
   const int64_t frame = last_frame(needs), springs = choose(p, watched);
   hk_text_open(data, "picture", '{');
@@ -83,7 +83,7 @@ static int32_t add(struct hk_text *data, const hooke_needs *needs, struct hk_pic
   return status;
 }
 
-void hk_needs_picture_add(struct hk_text *data, const hooke_needs *needs) {
+void hk_needs_picture_add(struct hk_text *data, const struct hk_needs *needs) {
   struct hk_picture p;
   if (needs->lean_path.position == NULL) return;
   int32_t status = hk_picture_create(needs->system, &p);

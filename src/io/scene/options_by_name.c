@@ -2,10 +2,9 @@
 #include "core/option.h"
 #include "core/status.h"
 #include "hooke/build.h"
+#include "hooke/cost.h"
 #include "hooke/integrator.h"
 #include "hooke/io.h"
-#include "hooke/cost.h"
-#include "hooke/verify.h"
 #include "io/measurement/measurement_file.h"
 
 #include <stdio.h>
@@ -16,8 +15,7 @@ static const struct maker {
   int32_t (*create)(hooke_options **options);
 } makers[] = {{"run", hooke_run_options_create},           {"springs", hooke_spring_options_create},
               {"altitude", hooke_altitude_options_create}, {"view", hooke_view_options_create},
-              {"limit", hooke_limit_options_create},       {"cost", hooke_cost_options_create},
-              {"needs", hooke_needs_options_create},       {"verify", hooke_verify_options_create}};
+              {"limit", hooke_limit_options_create},       {"cost", hooke_cost_options_create}};
 enum { MAKERS = sizeof makers / sizeof makers[0] };
 static const char *const scene_names[] = {"scene", "particles", "driven", "limits"};
 enum { SCENE_NAMES = sizeof scene_names / sizeof scene_names[0] };

@@ -2,8 +2,6 @@
 #include "io/verify/verify.h"
 
 #include "core/crc32.h"
-#include "core/figure.h"
-#include "core/handle.h"
 #include "core/memory.h"
 #include "core/option.h"
 #include "core/status.h"
@@ -19,9 +17,6 @@
  * from the method, if a step is this share of the longest stable one. */
 enum { MOST_REFINED = 4 };
 static const double RESOLVED = 0.25, ESTIMATES = 4.0;
-
-const char *const hk_verify_facts[HOOKE_FACT_COUNT] = {"version", "sundials", "cholmod", "instructions",
-                                                       "machine"};
 
 static const struct hk_option_row rows[] = {
     {.name = "slice",
@@ -48,17 +43,13 @@ static const struct hk_option_row rows[] = {
 
 static const struct hk_option_table table = {"verification", HOOKE_OPTION_ROWS(rows)};
 
-int32_t hooke_verify_options_create(hooke_options **options) {
-  return hk_options_create(&table, options);
-}
-
 /* ---- making ---- */
 
-static int is_on(const struct hooke_verify *verify, const char *name) {
+static int is_on(const struct hk_verify *verify, const char *name) {
   return hooke_options_number(verify->options, name) != 0.0;
 }
 
-static int32_t find_slice(struct hooke_verify *verify) {
+static int32_t find_slice(struct hk_verify *verify) {
   const int64_t last = hooke_record_frame_count(verify->record) - 1;
   const double *slice = hooke_options_numbers(verify->options, "slice");
   int64_t rows_there = 0, columns = 0;
@@ -82,25 +73,24 @@ static int32_t find_slice(struct hooke_verify *verify) {
   return status;
 }
 
-/* Bits of these methods hang on libraries, and through them on the processor. */
-static int32_t find_makers(const struct hooke_verify *verify) {
+/* Bits of these methods depend on libraries, and through them on the processor. */
+static int32_t find_makers(const struct hk_verify *verify) {
+  static const char *const facts[] = {"sundials", "cholmod", "instructions", "machine"};
   const char *method = hooke_options_text(hooke_record_options(verify->record), "method");
   if (verify->fixed && strcmp(method, "backward-euler") != 0) return 0;
-  for (int k = 1; k < HOOKE_FACT_COUNT; k++) {
-    if (strcmp(hooke_record_text(verify->record, hk_verify_facts[k]), hooke_build_fact(hk_verify_facts[k])) !=
-        0)
-      return 1;
+  for (size_t k = 0; k < sizeof facts / sizeof facts[0]; k++) {
+    if (strcmp(hooke_record_text(verify->record, facts[k]), hooke_build_fact(facts[k])) != 0) return 1;
   }
   return 0;
 }
 
-static int32_t open(struct hooke_verify *verify, const hooke_options *limits) {
+static int32_t open(struct hk_verify *verify) {
   int32_t status = hooke_record_open(verify->path, &verify->record);
   if (status == HOOKE_OK) status = hk_record_require_run(verify->record);
   if (status == HOOKE_OK && hooke_record_frame_count(verify->record) == 0)
     status =
         hk_fail(HOOKE_BAD_VALUE, NULL, "%s: has no frames; allowed: a trajectory of one run", verify->path);
-  if (status == HOOKE_OK) status = hooke_scene_load_within(verify->path, limits, &verify->scene);
+  if (status == HOOKE_OK) status = hooke_scene_load_within(verify->path, verify->limits, &verify->scene);
   if (status == HOOKE_OK) status = hooke_scene_commit(verify->scene);
   if (status != HOOKE_OK) return status;
   const char *method = hooke_options_text(hooke_record_options(verify->record), "method");
@@ -113,60 +103,70 @@ static int32_t open(struct hooke_verify *verify, const hooke_options *limits) {
   return status == HOOKE_OK ? find_slice(verify) : status;
 }
 
-int32_t hooke_verify_create(const char *path, const hooke_options *options, const hooke_options *limits,
-                            hooke_verify **out) {
-  *out = NULL;
-  struct hooke_verify *verify = hk_handle_new("hooke_verify", sizeof *verify);
-  if (verify == NULL) return HOOKE_NO_MEMORY;
+/* As it is before it runs. */
+static void forget(struct hk_verify *verify) {
+  verify->verdict = NULL;
   verify->balance = "not-checked";
-  verify->path = hk_copy_text(path);
-  int32_t status = verify->path ? HOOKE_OK : HOOKE_NO_MEMORY;
-  if (status == HOOKE_OK)
-    status = options ? hooke_options_copy(options, &verify->options)
-                     : hooke_verify_options_create(&verify->options);
-  if (status == HOOKE_OK) status = open(verify, limits);
-  if (status == HOOKE_OK)
-    *out = verify;
-  else
-    hooke_verify_destroy(verify);
+  verify->difference[0] = '\0';
+  verify->checked = 0;
+  verify->time_from = verify->time_to = NAN;
+  verify->steps = verify->limit = verify->energy_change = verify->work = verify->heat = verify->residual =
+      NAN;
+  verify->residual_refined = verify->bound = verify->error = verify->error_velocity = verify->check_last =
+      NAN;
+}
+
+/* Its run is that of the file. */
+static int32_t create(hooke_measurement *m) {
+  struct hk_verify *verify = m->object;
+  verify->measurement = m;
+  verify->options = m->options;
+  forget(verify);
+  int32_t status = open(verify);
+  verify->limits = NULL;
+  if (status == HOOKE_OK) status = hooke_options_copy(hooke_record_options(verify->record), &m->run);
+  m->system = verify->system;
   return status;
 }
 
-void hooke_verify_destroy(hooke_verify *verify) {
+static void destroy(void *object) {
+  struct hk_verify *verify = object;
   if (verify == NULL) return;
   hooke_state_destroy(verify->first);
   hooke_scene_destroy(verify->scene);
   hooke_record_close(verify->record);
-  hooke_options_destroy(verify->options);
   hk_free(verify->path);
-  hk_handle_free(verify);
+  hk_free(verify);
 }
 
-void hooke_verify_on_progress(hooke_verify *verify, hooke_progress *progress, void *ctx) {
-  verify->progress = progress;
-  verify->progress_ctx = ctx;
-}
-
-int32_t hk_verify_tell(const struct hooke_verify *verify, double done, const char *what) {
-  if (verify->progress == NULL || verify->progress(done, what, verify->progress_ctx) == 0) return HOOKE_OK;
-  return hk_fail(HOOKE_STOPPED, NULL, "the progress callback asked to stop");
+int32_t hooke_verify_create(const char *path, const hooke_options *options, const hooke_options *limits,
+                            hooke_measurement **measurement) {
+  *measurement = NULL;
+  struct hk_verify *verify = hk_new(1, sizeof *verify);
+  if (verify == NULL) return HOOKE_NO_MEMORY;
+  verify->limits = limits;
+  verify->path = hk_copy_text(path);
+  if (verify->path) return hk_measurement_create(&hk_verify_kind, verify, NULL, NULL, options, measurement);
+  destroy(verify);
+  return HOOKE_NO_MEMORY;
 }
 
 /* ---- running ---- */
 
-static int32_t check_frames(struct hooke_verify *verify) {
+static int32_t check_frames(struct hk_verify *verify) {
   const int64_t count = hooke_record_frame_count(verify->record);
   int32_t status = HOOKE_OK;
   for (verify->checked = 0; verify->checked < count && status == HOOKE_OK; verify->checked++) {
     status = hooke_record_check(verify->record, verify->checked);
     if (status == HOOKE_OK)
-      status = hk_verify_tell(verify, (double)verify->checked / (double)count, "check values");
+      status =
+          hk_measurement_tell(verify->measurement, (double)verify->checked / (double)count, "check values");
     if (status != HOOKE_OK) break;
   }
   return status;
 }
 
-static void keep(struct hooke_verify *verify, const struct hk_verify_pass *pass) {
+static void keep(struct hk_verify *verify, const struct hk_verify_pass *pass) {
   const struct hk_balance *balance = &pass->balance;
   verify->steps = pass->steps;
   verify->work = balance->work;
@@ -176,7 +176,7 @@ static void keep(struct hooke_verify *verify, const struct hk_verify_pass *pass)
 }
 
 /* Whether the step of a pass is short enough for its error to be that of a method of some order. */
-static int is_resolved(const struct hooke_verify *verify, const struct hk_verify_pass *pass) {
+static int is_resolved(const struct hk_verify *verify, const struct hk_verify_pass *pass) {
   const hooke_options *run = hooke_record_options(verify->record);
   double limit = NAN;
   if (hooke_system_altitude_group_count(verify->system) > 0) return 0; /* their energy jumps */
@@ -187,7 +187,7 @@ static int is_resolved(const struct hooke_verify *verify, const struct hk_verify
 }
 
 /* Refines until what is left over of the balance is seen to be the error of the method. */
-static int32_t find_balance(struct hooke_verify *verify, struct hk_verify_pass *coarse) {
+static int32_t find_balance(struct hk_verify *verify, struct hk_verify_pass *coarse) {
   int32_t status = HOOKE_OK, holds = 0;
   while (!holds && status == HOOKE_OK && coarse->refined < MOST_REFINED) {
     struct hk_verify_pass fine = {.refined = coarse->refined + 1, .own = coarse->own};
@@ -223,7 +223,7 @@ static int32_t find_balance(struct hooke_verify *verify, struct hk_verify_pass *
   return status;
 }
 
-static int32_t within_tolerance(struct hooke_verify *verify, const double apart[2]) {
+static int32_t within_tolerance(struct hk_verify *verify, const double apart[2]) {
   verify->verdict = apart[0] == 0.0 && apart[1] == 0.0 ? "agrees" : "within-tolerance";
   if (strcmp(verify->verdict, "agrees") == 0 ||
       (apart[0] <= ESTIMATES * verify->error && apart[1] <= ESTIMATES * verify->error_velocity))
@@ -236,7 +236,7 @@ static int32_t within_tolerance(struct hooke_verify *verify, const double apart[
       verify->path, apart[0], apart[1], verify->error, verify->error_velocity, ESTIMATES);
 }
 
-static int32_t compare_slice(struct hooke_verify *verify) {
+static int32_t compare_slice(struct hk_verify *verify) {
   struct hk_verify_pass pass = {.refined = 0};
   if (verify->may_differ) {
     pass.own =
@@ -267,13 +267,13 @@ static int32_t compare_slice(struct hooke_verify *verify) {
 }
 
 /* Of frames that are checked; a damaged one may have any. */
-static void find_times(hooke_verify *verify) {
+static void find_times(struct hk_verify *verify) {
   const int64_t from = verify->from, to = verify->to;
   verify->time_from = from < verify->checked ? hk_record_time(verify->record, from) : NAN;
   verify->time_to = to < verify->checked ? hk_record_time(verify->record, to) : NAN;
 }
 
-static int32_t run_all(hooke_verify *verify) {
+static int32_t run_all(struct hk_verify *verify) {
   int32_t status = check_frames(verify);
   if (status == HOOKE_OK) status = hooke_record_read(verify->record, 0, verify->first);
   if (status == HOOKE_OK) status = hk_verify_first(verify);
@@ -282,65 +282,26 @@ static int32_t run_all(hooke_verify *verify) {
   return status;
 }
 
-int32_t hooke_verify_run(hooke_verify *verify) {
-  verify->verdict = NULL;
-  verify->balance = "not-checked";
-  verify->difference[0] = '\0';
-  verify->steps = verify->limit = verify->energy_change = verify->work = verify->heat = verify->residual =
-      NAN;
-  verify->residual_refined = verify->bound = verify->error = verify->error_velocity = verify->check_last =
-      NAN;
-  const int32_t status = run_all(verify);
+/* A file that disagrees is a failure, and has been run all the same. */
+static int32_t run(hooke_measurement *m, hooke_state *state) {
+  struct hk_verify *verify = m->object;
+  int32_t status = hk_measurement_require_fresh(m, state);
+  if (status != HOOKE_OK) return status;
+  forget(verify);
+  status = run_all(verify);
   if (status == HOOKE_OK) return status;
   snprintf(verify->difference, sizeof verify->difference, "%s", hooke_last_error());
   verify->verdict = status == HOOKE_STOPPED ? "stopped" : status == HOOKE_BAD_VALUE ? "disagrees" : NULL;
+  m->has_run = verify->verdict != NULL;
+  m->outcome = status;
   return status;
 }
 
-/* ---- reading ---- */
-
-const char *hooke_verify_text(const hooke_verify *verify, const char *what) {
-  const hooke_options *run = hooke_record_options(verify->record);
-  if (strcmp(what, "verdict") == 0) return verify->verdict;
-  if (strcmp(what, "balance") == 0) return verify->balance;
-  if (strcmp(what, "difference") == 0) return verify->difference;
-  if (strcmp(what, "method") == 0) return hooke_options_text(run, "method");
-  if (strcmp(what, "run") == 0) return hooke_record_text(verify->record, "run");
-  if (strcmp(what, "version_here") == 0) return hooke_version();
-  for (int k = 0; k < HOOKE_FACT_COUNT; k++) {
-    const size_t length = strlen(hk_verify_facts[k]);
-    if (strncmp(what, hk_verify_facts[k], length) != 0) continue;
-    if (what[length] == '\0') return hooke_record_text(verify->record, what);
-    if (strcmp(what + length, "_here") == 0) return hooke_build_fact(hk_verify_facts[k]);
-  }
-  return NULL;
-}
-
-double hooke_verify_number(const hooke_verify *verify, const char *what) {
-  const hooke_options *run = hooke_record_options(verify->record);
-  const double step = verify->fixed ? hooke_options_number(run, "step") : (double)NAN;
-  const struct hk_figure figures[] = {
-      {"frames", (double)hooke_record_frame_count(verify->record)},
-      {"frames_checked", (double)verify->checked},
-      {"frame_first", (double)verify->from},
-      {"frame_last", (double)verify->to},
-      {"time_first", verify->time_from},
-      {"time_last", verify->time_to},
-      {"steps", verify->steps},
-      {"step", step},
-      {"rtol", verify->fixed ? (double)NAN : hooke_options_number(run, "rtol")},
-      {"atol", verify->fixed ? (double)NAN : hooke_options_number(run, "atol")},
-      {"step_limit", verify->limit},
-      {"step_share", step / verify->limit},
-      {"energy_change", verify->energy_change},
-      {"work", verify->work},
-      {"heat", verify->heat},
-      {"residual", verify->residual},
-      {"residual_refined", verify->residual_refined},
-      {"residual_bound", verify->bound},
-      {"error_estimate", verify->error},
-      {"check_scene", verify->check_scene},
-      {"check_last", verify->check_last},
-  };
-  return HOOKE_FIGURE(figures, what);
-}
+const struct hk_measurement_kind hk_verify_kind = {.name = "verify",
+                                                   .options = &table,
+                                                   .made_by = "hooke_verify_create()",
+                                                   .tables = hk_verify_tables,
+                                                   .table_count = HOOKE_VERIFY_TABLES,
+                                                   .create = create,
+                                                   .run = run,
+                                                   .destroy = destroy};

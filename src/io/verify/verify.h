@@ -1,21 +1,19 @@
-/* A verification, and the passes over its slice. */
+/* The object of a measurement of the kind "verify", and the passes over its slice. */
 #ifndef HOOKE_IO_VERIFY_VERIFY_H
 #define HOOKE_IO_VERIFY_VERIFY_H
 
-#include "hooke/verify.h"
+#include "hooke/io.h"
+#include "measure/measurement.h"
 #include "measure/trial/balance.h"
 
-enum { HOOKE_FACT_COUNT = 5 };
-extern const char *const hk_verify_facts[HOOKE_FACT_COUNT];
-
-struct hooke_verify {
+struct hk_verify {
+  const hooke_measurement *measurement;
   char *path;
-  hooke_options *options;
+  const hooke_options *limits;  /* of the caller, while the file is opened */
+  const hooke_options *options; /* of the measurement */
   hooke_record *record;
   hooke_scene *scene;
   const hooke_system *system;
-  hooke_progress *progress;
-  void *progress_ctx;
   hooke_state *first;       /* of the run, as the file has it */
   int64_t from, to;         /* frames of the slice; `to` shrinks to where the budget ends */
   int32_t by_budget, fixed; /* fixed: a fixed step */
@@ -44,12 +42,15 @@ struct hk_verify_pass {
 
 /* Runs the slice. Without refinement frames are compared, and time limits the slice. HOOKE_DIVERGED and the
  * like only of refined passes. */
-int32_t hk_verify_pass(struct hooke_verify *verify, struct hk_verify_pass *pass);
+int32_t hk_verify_pass(struct hk_verify *verify, struct hk_verify_pass *pass);
 void hk_verify_pass_release(struct hk_verify_pass *pass);
 
 /* Frame 0 against the scene's own beginning. */
-int32_t hk_verify_first(struct hooke_verify *verify);
+int32_t hk_verify_first(struct hk_verify *verify);
 
-int32_t hk_verify_tell(const struct hooke_verify *verify, double done, const char *what);
+enum { HOOKE_VERIFY_TABLES = 1 };
+extern const struct hk_table *const hk_verify_tables[HOOKE_VERIFY_TABLES];
+
+extern const struct hk_measurement_kind hk_verify_kind;
 
 #endif

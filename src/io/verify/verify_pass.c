@@ -15,7 +15,7 @@
 enum { ENOUGH = 77 }; /* what the observer returns at the end of the slice */
 
 struct run {
-  struct hooke_verify *verify;
+  struct hk_verify *verify;
   struct hk_verify_pass *pass;
   hooke_state *stored;
   int64_t frame; /* the next */
@@ -35,7 +35,7 @@ static int32_t told(const struct run *run) {
   return hk_fail(run->status, NULL, "%s", run->message);
 }
 
-static int32_t differ(struct hooke_verify *verify, int64_t frame, int64_t k, double stored, double computed) {
+static int32_t differ(struct hk_verify *verify, int64_t frame, int64_t k, double stored, double computed) {
   const int64_t size = 3 * hooke_system_particle_count(verify->system), at = k % size;
   char there[HOOKE_NUMBER_SIZE], here[HOOKE_NUMBER_SIZE];
   hk_number_print(stored, there);
@@ -47,7 +47,7 @@ static int32_t differ(struct hooke_verify *verify, int64_t frame, int64_t k, dou
       (int)"xyz"[at % 3], there, here);
 }
 
-static void widen(const struct hooke_verify *verify, const hooke_state *computed, const double *q,
+static void widen(const struct hk_verify *verify, const hooke_state *computed, const double *q,
                   const double *v, double distance[2]) {
   const int64_t size = 3 * hooke_system_particle_count(verify->system);
   const double *here[2] = {hooke_state_position(computed), hooke_state_velocity(computed)};
@@ -58,7 +58,7 @@ static void widen(const struct hooke_verify *verify, const hooke_state *computed
 }
 
 /* To the bit. */
-static int32_t compare(struct hooke_verify *verify, int64_t frame, const hooke_state *computed,
+static int32_t compare(struct hk_verify *verify, int64_t frame, const hooke_state *computed,
                        const hooke_state *stored) {
   const int64_t size = 3 * hooke_system_particle_count(verify->system);
   const double time[2] = {hooke_state_time(stored), hooke_state_time(computed)};
@@ -78,7 +78,7 @@ static int32_t compare(struct hooke_verify *verify, int64_t frame, const hooke_s
   return HOOKE_OK;
 }
 
-static double check_of(const struct hooke_verify *verify, const hooke_state *state) {
+static double check_of(const struct hk_verify *verify, const hooke_state *state) {
   const int64_t bytes = 3 * hooke_system_particle_count(verify->system) * (int64_t)sizeof(double);
   const uint32_t half = hk_crc32(0, hooke_state_position(state), bytes);
   return (double)hk_crc32(half, hooke_state_velocity(state), bytes);
@@ -86,7 +86,7 @@ static double check_of(const struct hooke_verify *verify, const hooke_state *sta
 
 /* How far it is from the file, and a refined one from the first pass. */
 static void measure(struct run *run, int64_t frame, const hooke_state *state) {
-  const struct hooke_verify *verify = run->verify;
+  const struct hk_verify *verify = run->verify;
   struct hk_verify_pass *pass = run->pass;
   const int64_t size = 3 * hooke_system_particle_count(verify->system);
   const double *q = hooke_state_position(run->stored), *v = hooke_state_velocity(run->stored);
@@ -100,7 +100,7 @@ static void measure(struct run *run, int64_t frame, const hooke_state *state) {
 }
 
 static int32_t take_frame(struct run *run, const hooke_state *state) {
-  struct hooke_verify *verify = run->verify;
+  struct hk_verify *verify = run->verify;
   struct hk_verify_pass *pass = run->pass;
   const int64_t frame = run->frame++;
   run->status = hooke_record_read(verify->record, frame, run->stored);
@@ -131,17 +131,18 @@ static int32_t see_frame(int64_t step, const hooke_state *state, void *ctx) {
 
 static int32_t see_step(int64_t step, const hooke_state *state, void *ctx) {
   struct run *run = ctx;
-  const struct hooke_verify *verify = run->verify;
+  const struct hk_verify *verify = run->verify;
   const double part = (double)(run->frame - verify->from) / (double)(verify->to - verify->from + 1);
   (void)step;
   run->status = hk_balance_step(&run->pass->balance, state);
   if (run->status == HOOKE_OK)
-    run->status = hk_verify_tell(verify, part, run->pass->refined ? "the balance" : "the slice");
+    run->status =
+        hk_measurement_tell(verify->measurement, part, run->pass->refined ? "the balance" : "the slice");
   return answer(run, 0);
 }
 
 /* The options of the run, refined. Threads are as many as it had. */
-static int32_t options_for(const struct hooke_verify *verify, int32_t refined, hooke_options **options) {
+static int32_t options_for(const struct hk_verify *verify, int32_t refined, hooke_options **options) {
   int32_t status = hooke_options_copy(hooke_record_options(verify->record), options);
   if (status != HOOKE_OK || refined == 0) return status;
   if (verify->fixed)
@@ -155,7 +156,7 @@ static int32_t options_for(const struct hooke_verify *verify, int32_t refined, h
 }
 
 static int32_t run_slice(struct run *run, hooke_integrator *integrator, hooke_state *state) {
-  struct hooke_verify *verify = run->verify;
+  struct hk_verify *verify = run->verify;
   int32_t status = hooke_integrator_on_frame(integrator, see_frame, run);
   if (status == HOOKE_OK) status = hooke_integrator_on_step(integrator, 1, see_step, run);
   if (status != HOOKE_OK) return status;
@@ -178,7 +179,7 @@ static int32_t run_slice(struct run *run, hooke_integrator *integrator, hooke_st
   return status;
 }
 
-int32_t hk_verify_pass(struct hooke_verify *verify, struct hk_verify_pass *pass) {
+int32_t hk_verify_pass(struct hk_verify *verify, struct hk_verify_pass *pass) {
   struct run run = {.verify = verify, .pass = pass, .frame = verify->from};
   hooke_options *options = NULL;
   hooke_integrator *integrator = NULL;
@@ -215,7 +216,7 @@ static int32_t see_first(int64_t step, const hooke_state *state, void *ctx) {
   return answer(run, ENOUGH);
 }
 
-int32_t hk_verify_first(struct hooke_verify *verify) {
+int32_t hk_verify_first(struct hk_verify *verify) {
   struct run run = {.verify = verify};
   hooke_integrator *integrator = NULL;
   hooke_state *state = NULL;

@@ -1,7 +1,6 @@
 /* What a scene needs: making one, and the table. */
 #include "measure/needs/needs.h"
 
-#include "core/handle.h"
 #include "core/memory.h"
 #include "core/option.h"
 #include "core/print.h"
@@ -31,24 +30,25 @@ static const struct hk_option_row needs_rows[] = {
      .doc =
          "what is looked at: a part, a group, or particle numbers such as 0,7-9; all free particles if not "
          "given"},
+    {.name = "refine",
+     .type = HOOKE_OPTION_FLAG,
+     .fallback = "false",
+     .doc = "the reverse question: each part at once, twice and four times its resolution, and what the want "
+            "asks for"},
 };
 
 static const struct hk_option_table needs_table = {"needs", HOOKE_OPTION_ROWS(needs_rows)};
 
-int32_t hooke_needs_options_create(hooke_options **options) {
-  return hk_options_create(&needs_table, options);
-}
-
 /* ---- making ---- */
 
-static int32_t read_times(hooke_needs *needs) {
+static int32_t read_times(struct hk_needs *needs) {
   const int32_t status = hk_step_times(needs->run, &needs->duration, &needs->every);
   if (status != HOOKE_OK) return status;
   needs->judged = needs->frame_count = 1 + (int64_t)floor(needs->duration / needs->every * (1.0 + 1e-9));
   return hk_step_unit(needs->duration, needs->every, &needs->unit);
 }
 
-static int32_t read_method(hooke_needs *needs) {
+static int32_t read_method(struct hk_needs *needs) {
   const char *method = hooke_options_text(needs->run, "method");
   if (hooke_method_is_adaptive(method) < 0) {
     char shown[HOOKE_OPTION_SHOWN];
@@ -61,41 +61,31 @@ static int32_t read_method(hooke_needs *needs) {
   return HOOKE_OK;
 }
 
-static int32_t prepare(hooke_needs *needs, const hooke_options *run, const hooke_options *options) {
-  int32_t status = hk_options_require(options, &needs_table, "options", "hooke_needs_options_create()");
-  if (status == HOOKE_OK) status = hk_run_options_require(run, "run");
-  if (status == HOOKE_OK) status = hk_options_check_required(options);
-  if (status == HOOKE_OK) status = hooke_options_copy(run, &needs->run);
-  if (status == HOOKE_OK) status = hooke_options_copy(options, &needs->options);
+static int32_t prepare(struct hk_needs *needs) {
+  int32_t status = hk_options_check_required(needs->options);
   if (status != HOOKE_OK) return status;
-  needs->want = hooke_options_number(options, "want");
+  needs->want = hooke_options_number(needs->options, "want");
   status = read_times(needs);
   if (status == HOOKE_OK) status = read_method(needs);
   if (status == HOOKE_OK) status = hk_needs_read_watch(needs);
-  if (status == HOOKE_OK) {
-    needs->largest_force = hk_new(needs->system->springs.count, sizeof *needs->largest_force);
-    if (needs->largest_force == NULL) status = HOOKE_NO_MEMORY;
-  }
-  return status;
-}
-
-int32_t hooke_needs_create(const hooke_system *system, const hooke_options *run, const hooke_options *options,
-                           hooke_needs **out) {
-  int32_t status = hk_system_require_committed(system);
   if (status != HOOKE_OK) return status;
-  hooke_needs *needs = hk_handle_new("hooke_needs", sizeof *needs);
-  if (needs == NULL) return HOOKE_NO_MEMORY;
-  needs->system = system;
-  needs->lean_error = needs->cheapest_error = needs->other_seconds = NAN;
-  status = prepare(needs, run, options);
-  if (status == HOOKE_OK)
-    *out = needs;
-  else
-    hooke_needs_destroy(needs);
-  return status;
+  needs->largest_force = hk_new(needs->system->springs.count, sizeof *needs->largest_force);
+  return needs->largest_force ? HOOKE_OK : HOOKE_NO_MEMORY;
 }
 
-void hooke_needs_destroy(hooke_needs *needs) {
+static int32_t create(hooke_measurement *m) {
+  struct hk_needs *needs = m->object = hk_new(1, sizeof *needs);
+  if (needs == NULL) return HOOKE_NO_MEMORY;
+  needs->measurement = m;
+  needs->system = m->system;
+  needs->run = m->run;
+  needs->options = m->options;
+  needs->lean_error = needs->cheapest_error = needs->other_seconds = NAN;
+  return prepare(needs);
+}
+
+static void destroy(void *object) {
+  struct hk_needs *needs = object;
   if (needs == NULL) return;
   for (int64_t k = 0; k < needs->row_count; k++)
     hk_variant_release(&needs->row[k].variant);
@@ -105,25 +95,36 @@ void hooke_needs_destroy(hooke_needs *needs) {
   hk_variant_map_release(&needs->lean_map);
   hooke_system_destroy(needs->lean);
   hooke_options_destroy(needs->lean_run);
-  hooke_options_destroy(needs->run);
-  hooke_options_destroy(needs->options);
   hk_free(needs->row);
   hk_free(needs->part);
   hk_free(needs->watch);
   hk_free(needs->largest_force);
-  hk_handle_free(needs);
+  hk_free(needs);
 }
 
-void hooke_needs_on_progress(hooke_needs *needs, hooke_progress *progress, void *ctx) {
-  needs->progress = progress;
-  needs->progress_ctx = ctx;
+static int32_t run(hooke_measurement *m, hooke_state *state) {
+  struct hk_needs *needs = m->object;
+  const int32_t status = hk_measurement_require_fresh(m, state);
+  if (status != HOOKE_OK) return status;
+  needs->pieces = needs->pieces_done = 0;
+  needs->told = 0.0;
+  return hooke_options_number(needs->options, "refine") != 0.0 ? hk_needs_refine(needs)
+                                                               : hk_needs_find(needs);
 }
 
-int32_t hk_needs_tell(hooke_needs *needs, double share) {
-  if (needs->progress == NULL) return 0;
+const struct hk_measurement_kind hk_needs_kind = {.name = "needs",
+                                                  .options = &needs_table,
+                                                  .needs_run = 1,
+                                                  .tables = hk_needs_tables,
+                                                  .table_count = HOOKE_NEEDS_TABLES,
+                                                  .create = create,
+                                                  .run = run,
+                                                  .destroy = destroy};
+
+int32_t hk_needs_tell(struct hk_needs *needs, double share) {
   const double done = ((double)needs->pieces_done + share) / fmax(1.0, (double)needs->pieces);
   needs->told = fmax(needs->told, fmin(1.0, done));
-  return needs->progress(needs->told, needs->under_way, needs->progress_ctx);
+  return hk_measurement_tell(needs->measurement, needs->told, needs->under_way);
 }
 
 /* ---- the full system ---- */
@@ -134,7 +135,7 @@ static int32_t tell_pick(double done, const char *what, void *ctx) {
 }
 
 /* Without a method in the options of the run, the one that a study would take. */
-static int32_t pick_method(hooke_needs *needs) {
+static int32_t pick_method(struct hk_needs *needs) {
   if (hooke_options_is_set(needs->run, "method")) return HOOKE_OK;
   needs->under_way = "picking a method";
   int32_t status = hk_estimate_pick_alone(needs->system, needs->run, HOOKE_NEEDS_STEP_SHARE * needs->want,
@@ -144,7 +145,7 @@ static int32_t pick_method(hooke_needs *needs) {
   return status;
 }
 
-static int32_t refuse_full(const hooke_needs *needs) {
+static int32_t refuse_full(const struct hk_needs *needs) {
   return hk_fail(
       HOOKE_BAD_VALUE, "want",
       "%s, %g m: no step that was tried holds the full scene by %s to a tenth of it over a time worth "
@@ -152,11 +153,11 @@ static int32_t refuse_full(const hooke_needs *needs) {
       "the want", needs->want, hooke_options_text(needs->run, "method"));
 }
 
-int32_t hk_needs_rests(const hooke_needs *needs) {
+int32_t hk_needs_rests(const struct hk_needs *needs) {
   return needs->moved <= RESTS * needs->want;
 }
 
-static void say_how_it_moves(hooke_needs *needs) {
+static void say_how_it_moves(struct hk_needs *needs) {
   needs->moved = hk_needs_moved(needs, &needs->path);
   if (hk_needs_rests(needs)) {
     hk_print(needs->note, sizeof needs->note,
@@ -171,7 +172,7 @@ static void say_how_it_moves(hooke_needs *needs) {
   }
 }
 
-int32_t hk_needs_run_full(hooke_needs *needs) {
+int32_t hk_needs_run_full(struct hk_needs *needs) {
   if (needs->path.position) return HOOKE_OK;
   needs->pieces += 2;
   int32_t status = pick_method(needs);

@@ -1,8 +1,8 @@
-/* What a `needs` holds, and its pieces. */
+/* The object of a measurement of the kind "needs", and its pieces. */
 #ifndef HOOKE_MEASURE_NEEDS_NEEDS_H
 #define HOOKE_MEASURE_NEEDS_NEEDS_H
 
-#include "hooke/needs.h"
+#include "measure/measurement.h"
 #include "model/variant/variant.h"
 
 enum { HOOKE_NEEDS_NOTE = 320, HOOKE_NEEDS_NAME = 192 };
@@ -41,9 +41,10 @@ struct hk_needs_part {
   char note[HOOKE_NEEDS_NOTE];
 };
 
-struct hooke_needs {
+struct hk_needs {
+  const hooke_measurement *measurement;
   const hooke_system *system;
-  hooke_options *run, *options;
+  hooke_options *run, *options;       /* of the measurement; a method that is picked is set in `run` */
   double want, duration, every, unit; /* unit: the largest step that frames allow [s] */
   int32_t method_picked;
   int64_t watch_count, *watch; /* particles */
@@ -76,8 +77,6 @@ struct hooke_needs {
   int64_t part_count;
   struct hk_needs_part *part;
 
-  hooke_progress *progress;
-  void *progress_ctx;
   const char *under_way;
   int64_t pieces, pieces_done, runs; /* measurements expected and done; runs made */
   double told;
@@ -86,26 +85,26 @@ struct hooke_needs {
 /* ---- needs_watch.c ---- */
 
 /* Fills `watch` from the option. HOOKE_BAD_VALUE. */
-int32_t hk_needs_read_watch(hooke_needs *needs);
+int32_t hk_needs_read_watch(struct hk_needs *needs);
 
 /* ---- needs_ingredients.c ---- */
 
 /* A row for every ingredient that the system has. */
-int32_t hk_needs_list(hooke_needs *needs);
+int32_t hk_needs_list(struct hk_needs *needs);
 /* Puts into an idle row the springs whose force never passes `force` [N]; returns how many. */
-int64_t hk_needs_mark_idle(const hooke_needs *needs, double force, struct hk_needs_row *row);
+int64_t hk_needs_mark_idle(const struct hk_needs *needs, double force, struct hk_needs_row *row);
 
 /* ---- needs_run.c, needs_step.c ---- */
 
-int32_t hk_needs_path_create(const hooke_needs *needs, struct hk_needs_path *path);
+int32_t hk_needs_path_create(const struct hk_needs *needs, struct hk_needs_path *path);
 void hk_needs_path_release(struct hk_needs_path *path);
 /* Maximum over frames of the root mean square distance of the watched particles [m]. */
-double hk_needs_distance(const hooke_needs *needs, const struct hk_needs_path *a,
+double hk_needs_distance(const struct hk_needs *needs, const struct hk_needs_path *a,
                          const struct hk_needs_path *b);
 /* The same, from where they are at the first frame. */
-double hk_needs_moved(const hooke_needs *needs, const struct hk_needs_path *path);
+double hk_needs_moved(const struct hk_needs *needs, const struct hk_needs_path *path);
 /* Frames up to which the same stays within `bound`. */
-int64_t hk_needs_agreed(const hooke_needs *needs, const struct hk_needs_path *a,
+int64_t hk_needs_agreed(const struct hk_needs *needs, const struct hk_needs_path *a,
                         const struct hk_needs_path *b, double bound);
 
 /* One variant to run: its system, and the map into it (NULL: the full system, whose forces are noted as
@@ -119,19 +118,19 @@ struct hk_needs_trial {
  * differences grow so fast that no step is small enough, step_error is that of the best; the full system then
  * says how many frames are judged. It is NaN, and there is no path, if no run came to its end. HOOKE_STOPPED,
  * HOOKE_NO_MEMORY and the like come out. */
-int32_t hk_needs_measure(hooke_needs *needs, const struct hk_needs_trial *trial, struct hk_needs_cost *cost,
-                         struct hk_needs_path *fine);
+int32_t hk_needs_measure(struct hk_needs *needs, const struct hk_needs_trial *trial,
+                         struct hk_needs_cost *cost, struct hk_needs_path *fine);
 /* Finds the largest step, or tolerance, with which a variant is within `want` of the full system, all errors
  * together, that of the path of the full system included: the run to recommend. `error` is NaN, and there is
  * no path, if none is not much smaller than that of the full system. */
-int32_t hk_needs_fit(hooke_needs *needs, const struct hk_needs_trial *trial, struct hk_needs_cost *cost,
+int32_t hk_needs_fit(struct hk_needs *needs, const struct hk_needs_trial *trial, struct hk_needs_cost *cost,
                      struct hk_needs_path *path, double *error);
 /* The wall time of the full system's cheapest run within the want by a method; NaN where it takes more than
  * `most` [s], or the method does not suit it. */
-int32_t hk_needs_try_method(hooke_needs *needs, const char *method, double most, double *wall_seconds);
+int32_t hk_needs_try_method(struct hk_needs *needs, const char *method, double most, double *wall_seconds);
 /* The wall times of two runs that came to their end, taken in turns so that both see the same machine: the
  * least of each. */
-int32_t hk_needs_time_in_turns(hooke_needs *needs, const struct hk_needs_trial trial[2],
+int32_t hk_needs_time_in_turns(struct hk_needs *needs, const struct hk_needs_trial trial[2],
                                struct hk_needs_cost *const cost[2]);
 /* Sets the step or tolerances of a cost in options of a run. */
 int32_t hk_needs_set_step(const struct hk_needs_cost *cost, hooke_options *run);
@@ -139,15 +138,27 @@ int32_t hk_needs_set_step(const struct hk_needs_cost *cost, hooke_options *run);
 /* ---- needs.c, needs_rows.c, needs_lean.c, needs_refine.c ---- */
 
 /* Runs the full system unless that was done. */
-int32_t hk_needs_run_full(hooke_needs *needs);
+int32_t hk_needs_run_full(struct hk_needs *needs);
 /* 1 if it moves by so little that nothing can be told from it. */
-int32_t hk_needs_rests(const hooke_needs *needs);
+int32_t hk_needs_rests(const struct hk_needs *needs);
 /* Runs one variant: its cost and its error against the full system; NaN with a note if it has none. */
-int32_t hk_needs_run_row(hooke_needs *needs, struct hk_needs_row *row);
-int32_t hk_needs_run_rows(hooke_needs *needs);
-int32_t hk_needs_find_lean(hooke_needs *needs);
+int32_t hk_needs_run_row(struct hk_needs *needs, struct hk_needs_row *row);
+int32_t hk_needs_run_rows(struct hk_needs *needs);
+/* Rows that were run; the others wait behind them. */
+int64_t hk_needs_known_rows(const struct hk_needs *needs);
+/* The table of ingredients, then the lean system; or the resolution of every part. A failure leaves nothing of
+ * either. */
+int32_t hk_needs_find(struct hk_needs *needs);
+int32_t hk_needs_refine(struct hk_needs *needs);
 
 /* Tells the share of one measurement; anything but 0 asks to stop. */
-int32_t hk_needs_tell(hooke_needs *needs, double share);
+int32_t hk_needs_tell(struct hk_needs *needs, double share);
+
+/* ---- needs_tables.c ---- */
+
+enum { HOOKE_NEEDS_TABLES = 6 };
+extern const struct hk_table *const hk_needs_tables[HOOKE_NEEDS_TABLES];
+
+extern const struct hk_measurement_kind hk_needs_kind;
 
 #endif

@@ -11,10 +11,10 @@
 #include <string.h>
 
 /* The last row, made from the words. */
-static int32_t add_row(hooke_needs *needs, const char *kind, struct hk_needs_row **row, const char *format,
-                       ...) __attribute__((format(printf, 4, 5)));
-static int32_t add_row(hooke_needs *needs, const char *kind, struct hk_needs_row **row, const char *format,
-                       ...) {
+static int32_t add_row(struct hk_needs *needs, const char *kind, struct hk_needs_row **row,
+                       const char *format, ...) __attribute__((format(printf, 4, 5)));
+static int32_t add_row(struct hk_needs *needs, const char *kind, struct hk_needs_row **row,
+                       const char *format, ...) {
   if (needs->row_count == needs->row_capacity) {
     const int64_t capacity = 2 * needs->row_capacity + 8;
     const int32_t status = hk_grow((void **)&needs->row, needs->row_count, capacity, sizeof *needs->row);
@@ -43,7 +43,7 @@ static int32_t is_taken(const char *name) {
   return 0;
 }
 
-static int32_t list_groups(hooke_needs *needs) {
+static int32_t list_groups(struct hk_needs *needs) {
   const hooke_system *system = needs->system;
   for (int64_t g = 0; g < system->group_count; g++) {
     const struct hk_group *group = &system->group[g];
@@ -58,7 +58,7 @@ static int32_t list_groups(hooke_needs *needs) {
   return HOOKE_OK;
 }
 
-static int32_t list_bending(hooke_needs *needs) {
+static int32_t list_bending(struct hk_needs *needs) {
   const hooke_system *system = needs->system;
   for (int64_t g = 0; g < system->bending_group_count; g++) {
     const struct hk_bending_group *group = &system->bending_group[g];
@@ -72,7 +72,7 @@ static int32_t list_bending(hooke_needs *needs) {
   return HOOKE_OK;
 }
 
-static int32_t list_altitude(hooke_needs *needs) {
+static int32_t list_altitude(struct hk_needs *needs) {
   const hooke_system *system = needs->system;
   for (int64_t g = 0; g < system->altitude_group_count; g++) {
     const struct hk_altitude_group *group = &system->altitude_group[g];
@@ -95,7 +95,7 @@ static int32_t resists_compression(const hooke_system *system) {
   return resists;
 }
 
-static int32_t list_whole_forces(hooke_needs *needs) {
+static int32_t list_whole_forces(struct hk_needs *needs) {
   const hooke_system *system = needs->system;
   struct hk_needs_row *row;
   int32_t status = HOOKE_OK;
@@ -122,7 +122,7 @@ static int32_t list_whole_forces(hooke_needs *needs) {
   return status;
 }
 
-static int32_t list_loose(hooke_needs *needs, const uint8_t *watched) {
+static int32_t list_loose(struct hk_needs *needs, const uint8_t *watched) {
   const hooke_system *system = needs->system;
   uint8_t *touched = hk_new(system->particle_count, 1);
   if (touched == NULL) return HOOKE_NO_MEMORY;
@@ -145,7 +145,7 @@ static int32_t list_loose(hooke_needs *needs, const uint8_t *watched) {
   return status;
 }
 
-static int32_t list_parts(hooke_needs *needs, const uint8_t *watched) {
+static int32_t list_parts(struct hk_needs *needs, const uint8_t *watched) {
   const hooke_system *system = needs->system;
   for (int64_t k = 0; k < system->part_count; k++) {
     const struct hk_part_record *part = &system->part[k];
@@ -158,7 +158,7 @@ static int32_t list_parts(hooke_needs *needs, const uint8_t *watched) {
   return HOOKE_OK;
 }
 
-static int32_t list_resolutions(hooke_needs *needs) {
+static int32_t list_resolutions(struct hk_needs *needs) {
   const hooke_system *system = needs->system;
   for (int64_t k = 0; k < system->part_count; k++) {
     int64_t cells[3], made[3];
@@ -173,7 +173,7 @@ static int32_t list_resolutions(hooke_needs *needs) {
   return HOOKE_OK;
 }
 
-int32_t hk_needs_list(hooke_needs *needs) {
+int32_t hk_needs_list(struct hk_needs *needs) {
   uint8_t *watched = hk_new(needs->system->particle_count, 1);
   if (watched == NULL) return HOOKE_NO_MEMORY;
   for (int64_t k = 0; k < needs->watch_count; k++)
@@ -193,7 +193,7 @@ int32_t hk_needs_list(hooke_needs *needs) {
   return status;
 }
 
-int64_t hk_needs_mark_idle(const hooke_needs *needs, double force, struct hk_needs_row *row) {
+int64_t hk_needs_mark_idle(const struct hk_needs *needs, double force, struct hk_needs_row *row) {
   int64_t count = 0;
   for (int64_t s = 0; s < needs->system->springs.count; s++) {
     row->variant.spring[s] = needs->largest_force[s] <= force;

@@ -2,7 +2,6 @@
 #include "measure/needs/needs.h"
 
 #include "core/memory.h"
-#include "core/status.h"
 #include "core/utf8.h"
 #include "integrate/method.h"
 
@@ -33,7 +32,7 @@ static void release(struct candidate *candidate) {
 }
 
 /* The run to recommend of it; NaN where it has none. */
-static int32_t try_variant(hooke_needs *needs, struct candidate *candidate) {
+static int32_t try_variant(struct hk_needs *needs, struct candidate *candidate) {
   candidate->error = NAN;
   int32_t status = hk_variant_make(needs->system, &candidate->variant, &candidate->system, &candidate->map);
   if (status == HOOKE_BAD_VALUE || status == HOOKE_UNSUITED) return HOOKE_OK; /* these do not go together */
@@ -42,7 +41,7 @@ static int32_t try_variant(hooke_needs *needs, struct candidate *candidate) {
   return hk_needs_fit(needs, &trial, &candidate->cost, &candidate->path, &candidate->error);
 }
 
-static int32_t take(hooke_needs *needs, struct candidate *candidate) {
+static int32_t take(struct hk_needs *needs, struct candidate *candidate) {
   hk_variant_release(&needs->lean_variant);
   hk_variant_map_release(&needs->lean_map);
   hooke_system_destroy(needs->lean);
@@ -66,17 +65,17 @@ static double work(const struct hk_needs_cost *cost) {
 
 /* 0 for what makes no run cheaper: springs that only pull cost a comparison more, and lone springs that are
  * left out break up runs of others, whose ends are then looked up. */
-static int32_t may_save(const hooke_needs *needs, const struct hk_needs_row *row) {
+static int32_t may_save(const struct hk_needs *needs, const struct hk_needs_row *row) {
   if (strcmp(row->kind, "compression") == 0) return 0;
   return strcmp(row->kind, "idle") != 0 || row->cost.indexed <= needs->full.indexed;
 }
 
-static int32_t is_split(const hooke_needs *needs, const struct hk_variant *variant) {
+static int32_t is_split(const struct hk_needs *needs, const struct hk_variant *variant) {
   return hk_variant_next_split(needs->system, variant, 0) >= 0;
 }
 
 /* What a part has no words for comes last: the part may have lost more by then. */
-static int32_t comes_before(const hooke_needs *needs, const struct hk_needs_row *a,
+static int32_t comes_before(const struct hk_needs *needs, const struct hk_needs_row *a,
                             const struct hk_needs_row *b) {
   const int32_t split = is_split(needs, &a->variant);
   if (split != is_split(needs, &b->variant)) return !split;
@@ -86,7 +85,7 @@ static int32_t comes_before(const hooke_needs *needs, const struct hk_needs_row 
 
 /* The unneeded row with the smallest change, of equal ones that which leaves the least, that is not yet left
  * out or tried; -1 if there is none. */
-static int64_t next_row(const hooke_needs *needs, const uint8_t *tried) {
+static int64_t next_row(const struct hk_needs *needs, const uint8_t *tried) {
   int64_t found = -1;
   for (int64_t k = 0; k < needs->row_count; k++) {
     const struct hk_needs_row *row = &needs->row[k];
@@ -97,12 +96,12 @@ static int64_t next_row(const hooke_needs *needs, const uint8_t *tried) {
   return found;
 }
 
-static int32_t is_worth_it(const hooke_needs *needs, const struct candidate *candidate) {
+static int32_t is_worth_it(const struct hk_needs *needs, const struct candidate *candidate) {
   const double share = is_split(needs, &candidate->variant) ? WORTH_SPLITTING : 1.0;
   return work(&candidate->cost) <= share * work(&needs->lean_cost);
 }
 
-static int32_t add_row(hooke_needs *needs, struct hk_needs_row *row) {
+static int32_t add_row(struct hk_needs *needs, struct hk_needs_row *row) {
   struct candidate candidate = {.system = NULL};
   int32_t status = hk_variant_create(needs->system, &candidate.variant);
   if (status == HOOKE_OK) {
@@ -118,7 +117,7 @@ static int32_t add_row(hooke_needs *needs, struct hk_needs_row *row) {
   return status;
 }
 
-static int32_t begin_with_everything(hooke_needs *needs) {
+static int32_t begin_with_everything(struct hk_needs *needs) {
   struct candidate candidate = {.system = NULL};
   int32_t status = hk_variant_create(needs->system, &candidate.variant);
   if (status == HOOKE_OK) status = try_variant(needs, &candidate);
@@ -132,7 +131,7 @@ static int32_t begin_with_everything(hooke_needs *needs) {
 }
 
 /* What went with another row is not told twice. */
-static void tidy_up(hooke_needs *needs) {
+static void tidy_up(struct hk_needs *needs) {
   for (int64_t k = 0; k < needs->row_count; k++) {
     struct hk_needs_row *row = &needs->row[k];
     for (int64_t other = 0; other < needs->row_count && row->left_out; other++) {
@@ -143,7 +142,7 @@ static void tidy_up(hooke_needs *needs) {
 }
 
 /* Why a row that is not needed stays in the lean system, where it has nothing else to say. */
-static void say_why_it_stays(const hooke_needs *needs, struct hk_needs_row *row) {
+static void say_why_it_stays(const struct hk_needs *needs, struct hk_needs_row *row) {
   if (row->needed || row->left_out || row->note[0]) return;
   if (hk_variant_covers(needs->system, &needs->lean_variant, &row->variant)) return;
   snprintf(row->note, sizeof row->note, "%s",
@@ -153,7 +152,7 @@ static void say_why_it_stays(const hooke_needs *needs, struct hk_needs_row *row)
 }
 
 /* Groups of parts that the lean scene cannot say as a part. */
-static void note_splits(hooke_needs *needs) {
+static void note_splits(struct hk_needs *needs) {
   const hooke_system *system = needs->system;
   char names[HOOKE_NEEDS_NAME] = "";
   int64_t count = 0;
@@ -169,19 +168,19 @@ static void note_splits(hooke_needs *needs) {
 }
 
 /* Once more, in turns, so that the two times may be compared. */
-static int32_t compare_times(hooke_needs *needs) {
+static int32_t compare_times(struct hk_needs *needs) {
   const struct hk_needs_trial trial[2] = {{needs->system, NULL}, {needs->lean, &needs->lean_map}};
   struct hk_needs_cost *const cost[2] = {&needs->cheapest, &needs->lean_cost};
   return hk_needs_time_in_turns(needs, trial, cost);
 }
 
-static int32_t is_to_try(const hooke_needs *needs, const char *method) {
+static int32_t is_to_try(const struct hk_needs *needs, const char *method) {
   return strcmp(method, hooke_options_text(needs->run, "method")) != 0 && hooke_method_is_built(method) &&
          !hk_method_find(method)->reference;
 }
 
 /* So that what another method would save is not put down to what was left out. */
-static int32_t find_other_method(hooke_needs *needs) {
+static int32_t find_other_method(struct hk_needs *needs) {
   double most = CLEARLY_LESS * needs->cheapest.wall_seconds;
   int32_t status = HOOKE_OK;
   for (int64_t k = 0; k < hooke_method_count() && status == HOOKE_OK; k++) {
@@ -195,14 +194,14 @@ static int32_t find_other_method(hooke_needs *needs) {
   return status;
 }
 
-static int32_t has_left_out(const hooke_needs *needs) {
+static int32_t has_left_out(const struct hk_needs *needs) {
   int32_t some = 0;
   for (int64_t k = 0; k < needs->row_count; k++)
     some |= needs->row[k].left_out;
   return some;
 }
 
-int32_t hk_needs_find_lean(hooke_needs *needs) {
+static int32_t find_lean(struct hk_needs *needs) {
   uint8_t *tried = hk_new(needs->row_count, 1);
   if (tried == NULL) return HOOKE_NO_MEMORY;
   needs->under_way = "the lean scene";
@@ -226,7 +225,7 @@ int32_t hk_needs_find_lean(hooke_needs *needs) {
 }
 
 /* As it was before the table was begun. */
-static void forget(hooke_needs *needs) {
+static void forget(struct hk_needs *needs) {
   for (int64_t k = 0; k < needs->row_count; k++)
     hk_variant_release(&needs->row[k].variant);
   needs->row_count = 0;
@@ -244,15 +243,12 @@ static void forget(hooke_needs *needs) {
   memset(&needs->lean_cost, 0, sizeof needs->lean_cost);
 }
 
-int32_t hooke_needs_find(hooke_needs *needs) {
-  if (needs->row_count > 0 || needs->lean) {
-    return hk_fail(HOOKE_BAD_CALL, NULL, "the table was made; make a new one for another");
-  }
+int32_t hk_needs_find(struct hk_needs *needs) {
   int32_t status = hk_needs_list(needs);
   needs->pieces += 2 * needs->row_count + 2;
   if (status == HOOKE_OK) status = hk_needs_run_full(needs);
   if (status == HOOKE_OK) status = hk_needs_run_rows(needs);
-  if (status == HOOKE_OK) status = hk_needs_find_lean(needs);
+  if (status == HOOKE_OK) status = find_lean(needs);
   if (status < 0) forget(needs);
   return status;
 }

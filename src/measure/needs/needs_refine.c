@@ -14,7 +14,7 @@ static const double RESOLVED =
     2.0; /* a change below this many errors of the step says nothing of the resolution */
 
 /* The path of the system with one part at `scale`. */
-static int32_t run_at(hooke_needs *needs, int64_t part, double scale, struct hk_needs_path *path,
+static int32_t run_at(struct hk_needs *needs, int64_t part, double scale, struct hk_needs_path *path,
                       struct hk_needs_cost *cost, char *note) {
   struct hk_variant variant;
   struct hk_variant_map map;
@@ -40,7 +40,7 @@ static int32_t run_at(hooke_needs *needs, int64_t part, double scale, struct hk_
 }
 
 /* Richardson (1911): with a change d between N and 2N of order p, what is left at N is d 2^p / (2^p - 1). */
-static void extrapolate(const hooke_needs *needs, double step_error, struct hk_needs_part *part) {
+static void extrapolate(const struct hk_needs *needs, double step_error, struct hk_needs_part *part) {
   if (part->change <= RESOLVED * step_error || part->change_fine <= RESOLVED * step_error) {
     hk_print(part->note, sizeof part->note,
              "the changes are within the error of the step, %.3g m: the resolution is fine enough, and its "
@@ -62,7 +62,7 @@ static void extrapolate(const hooke_needs *needs, double step_error, struct hk_n
   part->factor = pow(part->error / needs->want, 1.0 / part->order);
 }
 
-static int32_t refine_part(hooke_needs *needs, int64_t k, struct hk_needs_part *part) {
+static int32_t refine_part(struct hk_needs *needs, int64_t k, struct hk_needs_part *part) {
   struct hk_needs_path twice = {0}, four = {0};
   struct hk_needs_cost cost_twice, cost_four;
   needs->under_way = part->name;
@@ -84,9 +84,8 @@ static int32_t refine_part(hooke_needs *needs, int64_t k, struct hk_needs_part *
   return status;
 }
 
-int32_t hooke_needs_refine(hooke_needs *needs) {
+int32_t hk_needs_refine(struct hk_needs *needs) {
   const hooke_system *system = needs->system;
-  if (needs->part) return hk_fail(HOOKE_BAD_CALL, NULL, "the parts were refined; make a new one for another");
   if (system->part_count == 0) {
     return hk_fail(HOOKE_BAD_VALUE, NULL, "the scene has no parts, so there is no resolution to change");
   }

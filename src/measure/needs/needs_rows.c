@@ -20,7 +20,7 @@ static int32_t note_failure(struct hk_needs_row *row, int32_t status) {
 }
 
 /* What the step may put it off by beyond its share counts against it. */
-static void judge(const hooke_needs *needs, const struct hk_needs_path *path, struct hk_needs_row *row) {
+static void judge(const struct hk_needs *needs, const struct hk_needs_path *path, struct hk_needs_row *row) {
   const double beyond = fmax(0.0, row->cost.step_error - HOOKE_NEEDS_STEP_SHARE * needs->want);
   row->error = hk_needs_distance(needs, &needs->path, path);
   row->needed = !(row->error + beyond <= needs->want);
@@ -30,7 +30,7 @@ static void judge(const hooke_needs *needs, const struct hk_needs_path *path, st
     hk_print(row->note, sizeof row->note, "its time step may put it off by %.2g m", row->cost.step_error);
 }
 
-int32_t hk_needs_run_row(hooke_needs *needs, struct hk_needs_row *row) {
+int32_t hk_needs_run_row(struct hk_needs *needs, struct hk_needs_row *row) {
   hooke_system *made = NULL;
   struct hk_variant_map map;
   struct hk_needs_path fine = {0};
@@ -52,7 +52,7 @@ int32_t hk_needs_run_row(hooke_needs *needs, struct hk_needs_row *row) {
 }
 
 /* 1 if the springs are those of one group, which has a row of its own, or all there are. */
-static int32_t is_known(const hooke_needs *needs, const struct hk_needs_row *row, int64_t count) {
+static int32_t is_known(const struct hk_needs *needs, const struct hk_needs_row *row, int64_t count) {
   const hooke_system *system = needs->system;
   int64_t first = 0;
   for (int64_t g = 0; g < system->group_count; first += system->group[g++].count) {
@@ -70,7 +70,7 @@ static void name_idle(struct hk_needs_row *row, double force, int64_t count) {
 }
 
 /* The boldest threshold that the want allows; without springs for any, the row goes. */
-static int32_t run_idle(hooke_needs *needs, struct hk_needs_row *row) {
+static int32_t run_idle(struct hk_needs *needs, struct hk_needs_row *row) {
   double most = 0.0;
   int64_t tried = 0;
   for (int64_t s = 0; s < needs->system->springs.count; s++)
@@ -86,12 +86,12 @@ static int32_t run_idle(hooke_needs *needs, struct hk_needs_row *row) {
   return HOOKE_OK;
 }
 
-static void drop_row(hooke_needs *needs, int64_t row) {
+static void drop_row(struct hk_needs *needs, int64_t row) {
   hk_variant_release(&needs->row[row].variant);
   memmove(&needs->row[row], &needs->row[row + 1], (size_t)(--needs->row_count - row) * sizeof *needs->row);
 }
 
-int32_t hk_needs_run_rows(hooke_needs *needs) {
+int32_t hk_needs_run_rows(struct hk_needs *needs) {
   for (int64_t k = 0; k < needs->row_count; k++) {
     struct hk_needs_row *row = &needs->row[k];
     const int32_t idle = strcmp(row->kind, "idle") == 0;

@@ -12,7 +12,7 @@
 enum { TURNS = 20 };
 static const double TURNS_TAKE = 0.2; /* [s]: so long two runs are repeated in turns */
 
-int32_t hk_needs_path_create(const hooke_needs *needs, struct hk_needs_path *path) {
+int32_t hk_needs_path_create(const struct hk_needs *needs, struct hk_needs_path *path) {
   path->recorded = 0;
   path->position = hk_new(needs->frame_count, (size_t)(3 * needs->watch_count + 1) * sizeof *path->position);
   return path->position ? HOOKE_OK : HOOKE_NO_MEMORY;
@@ -24,20 +24,20 @@ void hk_needs_path_release(struct hk_needs_path *path) {
 }
 
 /* Of the watched positions at two frames. */
-static double distance_of(const hooke_needs *needs, const double *a, const double *b) {
+static double distance_of(const struct hk_needs *needs, const double *a, const double *b) {
   double sum = 0.0;
   for (int64_t k = 0; k < 3 * needs->watch_count; k++)
     sum += (a[k] - b[k]) * (a[k] - b[k]);
   return sqrt(sum / (double)needs->watch_count);
 }
 
-static double distance_at(const hooke_needs *needs, const struct hk_needs_path *a,
+static double distance_at(const struct hk_needs *needs, const struct hk_needs_path *a,
                           const struct hk_needs_path *b, int64_t frame) {
   const int64_t at = frame * 3 * needs->watch_count;
   return distance_of(needs, a->position + at, b->position + at);
 }
 
-double hk_needs_distance(const hooke_needs *needs, const struct hk_needs_path *a,
+double hk_needs_distance(const struct hk_needs *needs, const struct hk_needs_path *a,
                          const struct hk_needs_path *b) {
   double most = 0.0;
   for (int64_t f = 0; f < needs->judged && f < a->recorded && f < b->recorded; f++) {
@@ -48,14 +48,14 @@ double hk_needs_distance(const hooke_needs *needs, const struct hk_needs_path *a
   return most;
 }
 
-double hk_needs_moved(const hooke_needs *needs, const struct hk_needs_path *path) {
+double hk_needs_moved(const struct hk_needs *needs, const struct hk_needs_path *path) {
   double most = 0.0;
   for (int64_t f = 1; f < needs->judged && f < path->recorded; f++)
     most = fmax(most, distance_of(needs, path->position, path->position + f * 3 * needs->watch_count));
   return most;
 }
 
-int64_t hk_needs_agreed(const hooke_needs *needs, const struct hk_needs_path *a,
+int64_t hk_needs_agreed(const struct hk_needs *needs, const struct hk_needs_path *a,
                         const struct hk_needs_path *b, double bound) {
   int64_t frames = 0;
   while (frames < needs->judged && frames < a->recorded && frames < b->recorded &&
@@ -67,7 +67,7 @@ int64_t hk_needs_agreed(const hooke_needs *needs, const struct hk_needs_path *a,
 
 /* ---- one run ---- */
 
-static void note_forces(hooke_needs *needs, int64_t frame, const hooke_state *state) {
+static void note_forces(struct hk_needs *needs, int64_t frame, const hooke_state *state) {
   const struct hk_springs *springs = &needs->system->springs;
   if (frame == 0) memset(needs->largest_force, 0, (size_t)springs->count * sizeof(double));
   for (int64_t r = 0; r < springs->run_count; r++) {
@@ -84,7 +84,7 @@ static void note_forces(hooke_needs *needs, int64_t frame, const hooke_state *st
 
 static int32_t see_frame(int64_t frame, int64_t step, const hooke_state *state, void *ctx) {
   struct hk_needs_recorder *recorder = ctx;
-  const hooke_needs *needs = recorder->needs;
+  const struct hk_needs *needs = recorder->needs;
   struct hk_needs_path *path = recorder->path;
   recorder->last_step = (double)step;
   if (path == NULL || path->recorded >= needs->frame_count) return 0;
@@ -124,7 +124,7 @@ int32_t hk_needs_run_once(struct hk_needs_recorder *recorder, const hooke_option
                                                                                                  : status;
 }
 
-int32_t hk_needs_time_in_turns(hooke_needs *needs, const struct hk_needs_trial trial[2],
+int32_t hk_needs_time_in_turns(struct hk_needs *needs, const struct hk_needs_trial trial[2],
                                struct hk_needs_cost *const cost[2]) {
   hooke_options *options = NULL;
   double spent = 0.0;

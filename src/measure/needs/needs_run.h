@@ -5,7 +5,7 @@
 #include "measure/needs/needs.h"
 
 struct hk_needs_recorder {
-  hooke_needs *needs;
+  struct hk_needs *needs;
   const struct hk_needs_trial *trial;
   struct hk_needs_path *path; /* NULL: only the time is wanted */
   double last_step;

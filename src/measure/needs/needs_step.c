@@ -57,7 +57,7 @@ static double finer(const struct search *search, double value) {
 
 /* Variants are run as far as they are judged; how long a whole run takes is found at the end. */
 static int32_t is_shortened(const struct search *search) {
-  const hooke_needs *needs = search->recorder.needs;
+  const struct hk_needs *needs = search->recorder.needs;
   return search->recorder.trial->map != NULL && needs->judged < needs->frame_count;
 }
 
@@ -126,7 +126,7 @@ static void swap_runs(struct search *search) {
 /* 1 if a variant is off by more than the want, whatever the step does, and known to a tenth or with a step as
  * small as that of the full system. */
 static int32_t is_needed_for_certain(const struct search *search, double error) {
-  const hooke_needs *needs = search->recorder.needs;
+  const struct hk_needs *needs = search->recorder.needs;
   if (search->recorder.trial->map == NULL) return 0;
   const double distance = hk_needs_distance(needs, &needs->path, &search->path[1]);
   if (!(distance - error > needs->want)) return 0;
@@ -136,7 +136,7 @@ static int32_t is_needed_for_certain(const struct search *search, double error) 
 /* Leaves the run that is good enough, or the best that can be had, in place 0 and the finer one in place
  * 1. */
 static int32_t find_step(struct search *search) {
-  const hooke_needs *needs = search->recorder.needs;
+  const struct hk_needs *needs = search->recorder.needs;
   const double bound = HOOKE_NEEDS_STEP_SHARE * needs->want;
   int32_t status = run_at(search, search->value, 0);
   for (search->error = INFINITY; status == HOOKE_OK;) {
@@ -163,7 +163,7 @@ static int32_t tell_limit(double done, const char *what, void *needs) {
 }
 
 /* Whoever stops it here stops the run after it. */
-static double step_limit(hooke_needs *needs, const hooke_system *system) {
+static double step_limit(struct hk_needs *needs, const hooke_system *system) {
   const char *method = hooke_options_text(needs->run, "method");
   hooke_state *state = NULL;
   double limit = NAN;
@@ -180,7 +180,7 @@ static double step_limit(hooke_needs *needs, const hooke_system *system) {
 static void begin_search(struct search *search, double limit) {
   search->frames = search->stalls = 0;
   search->has_limit = search->adaptive || !isnan(limit);
-  const hooke_needs *needs = search->recorder.needs;
+  const struct hk_needs *needs = search->recorder.needs;
   const double unit = needs->unit;
   search->ratio = hooke_options_number(needs->run, "atol") / hooke_options_number(needs->run, "rtol");
   search->recorder.share = 0.25;
@@ -197,7 +197,7 @@ static void begin_search(struct search *search, double limit) {
 /* The time of a whole run: the least of some, where it is too short for one clock reading. `finished` is 0 if
  * it does not come to its end, beyond what was judged. */
 static int32_t find_time(struct search *search, struct hk_needs_cost *cost, int32_t *finished) {
-  const hooke_needs *needs = search->recorder.needs;
+  const struct hk_needs *needs = search->recorder.needs;
   double spent = is_shortened(search) ? 0.0 : cost->wall_seconds;
   search->recorder.path = NULL;
   if (is_shortened(search)) cost->wall_seconds = INFINITY;
@@ -221,7 +221,7 @@ static void hand_over(struct hk_needs_path *from, struct hk_needs_path *to) {
 /* The full system is judged, and all others against it, up to where the best step can be trusted with a
  * margin: variants grow differences about as fast. Up to there a larger step may do. */
 static int32_t judge_full(struct search *search, double limit, struct hk_needs_path *fine) {
-  hooke_needs *needs = search->recorder.needs;
+  struct hk_needs *needs = search->recorder.needs;
   const double bound = HOOKE_NEEDS_STEP_SHARE * needs->want;
   if (search->recorder.trial->map || search->error <= bound) return HOOKE_OK;
   needs->judged = agreed(search, bound / MARGIN);
@@ -233,7 +233,7 @@ static int32_t judge_full(struct search *search, double limit, struct hk_needs_p
 }
 
 static int32_t start(struct search *search, double limit) {
-  const hooke_needs *needs = search->recorder.needs;
+  const struct hk_needs *needs = search->recorder.needs;
   begin_search(search, limit);
   int32_t status = hooke_options_copy(needs->run, &search->options);
   if (status == HOOKE_OK && is_shortened(search))
@@ -250,7 +250,7 @@ static void end(struct search *search) {
   hooke_options_destroy(search->options);
 }
 
-static struct search new_search(hooke_needs *needs, const struct hk_needs_trial *trial) {
+static struct search new_search(struct hk_needs *needs, const struct hk_needs_trial *trial) {
   const char *method = hooke_options_text(needs->run, "method");
   return (struct search){.recorder = {.needs = needs, .trial = trial},
                          .adaptive = hk_method_find(method)->adaptive};
@@ -266,8 +266,8 @@ static void fill_cost(const struct search *search, double limit, struct hk_needs
   cost->particles = (double)hooke_system_particle_count(system);
 }
 
-int32_t hk_needs_measure(hooke_needs *needs, const struct hk_needs_trial *trial, struct hk_needs_cost *cost,
-                         struct hk_needs_path *fine) {
+int32_t hk_needs_measure(struct hk_needs *needs, const struct hk_needs_trial *trial,
+                         struct hk_needs_cost *cost, struct hk_needs_path *fine) {
   const double limit = step_limit(needs, trial->system);
   struct search search = new_search(needs, trial);
   int32_t status = start(&search, limit);
@@ -287,7 +287,7 @@ int32_t hk_needs_measure(hooke_needs *needs, const struct hk_needs_trial *trial,
 /* ---- within the want, all errors together ---- */
 
 static double error_of(const struct search *search, int32_t which) {
-  const hooke_needs *needs = search->recorder.needs;
+  const struct hk_needs *needs = search->recorder.needs;
   if (!search->finished[which]) return NAN;
   return hk_needs_distance(needs, &needs->path, &search->path[which]) + needs->own_error;
 }
@@ -328,7 +328,7 @@ static int32_t find_coarsest(struct search *search, double *error) {
   return *error <= want && !isnan(failed) ? coarsen(search, failed, error) : HOOKE_OK;
 }
 
-int32_t hk_needs_fit(hooke_needs *needs, const struct hk_needs_trial *trial, struct hk_needs_cost *cost,
+int32_t hk_needs_fit(struct hk_needs *needs, const struct hk_needs_trial *trial, struct hk_needs_cost *cost,
                      struct hk_needs_path *path, double *error) {
   const double limit = step_limit(needs, trial->system);
   struct search search = new_search(needs, trial);
@@ -379,7 +379,7 @@ static int32_t find_quick(struct search *search, double most, double *error) {
   }
 }
 
-int32_t hk_needs_try_method(hooke_needs *needs, const char *method, double most, double *wall_seconds) {
+int32_t hk_needs_try_method(struct hk_needs *needs, const char *method, double most, double *wall_seconds) {
   const struct hk_needs_trial trial = {needs->system, NULL};
   const double limit = safe_step(trial.system, method);
   struct search search = {.recorder = {.needs = needs, .trial = &trial},

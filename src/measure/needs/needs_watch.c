@@ -5,7 +5,7 @@
 #include "core/status.h"
 #include "measure/watch/watched.h"
 
-int32_t hk_needs_read_watch(hooke_needs *needs) {
+int32_t hk_needs_read_watch(struct hk_needs *needs) {
   const hooke_system *system = needs->system;
   const char *text = hooke_options_text(needs->options, "watch");
   uint8_t *mark = hk_new(system->particle_count, 1);

@@ -1,35 +1,137 @@
 /* Comparison: one scene by several methods, against CVODE at tight tolerance, frame by frame. */
 #include "measure/trial/comparison.h"
 
+#include "core/memory.h"
 #include "core/status.h"
+#include "integrate/integrator.h"
+#include "measure/trial/method_list.h"
+#include "measure/trial/reference.h"
 
 #include <stddef.h>
 
-static const char *name_of_run(const hooke_comparison *c) {
+static const struct hk_option_row comparison_rows[] = {
+    {.name = "methods", .type = HOOKE_OPTION_TEXT, .doc = "methods, separated by commas; all if not given"},
+};
+
+static const struct hk_option_table comparison_table = {"comparison", HOOKE_OPTION_ROWS(comparison_rows)};
+
+/* ---- making ---- */
+
+static int32_t add_method(const char *method, void *ctx) {
+  struct hk_comparison *c = ctx;
+  if (!hooke_method_is_built(method))
+    return hk_fail(HOOKE_NOT_BUILT, "methods", "this build is without %s", method);
+  if (c->row_count == c->row_capacity) {
+    const int64_t capacity = 2 * c->row_capacity + 4;
+    const int32_t status = hk_grow((void **)&c->row, c->row_count, capacity, sizeof *c->row);
+    if (status != HOOKE_OK) return status;
+    c->row_capacity = capacity;
+  }
+  c->row[c->row_count++] = (struct hk_comparison_row){.method = method};
+  return HOOKE_OK;
+}
+
+static int32_t create(hooke_measurement *m) {
+  if (!hooke_method_is_built("cvode-adams")) {
+    return hk_fail(HOOKE_NOT_BUILT, NULL,
+                   "a comparison needs SUNDIALS for its reference, which this build is without");
+  }
+  struct hk_comparison *c = m->object = hk_new(1, sizeof *c);
+  if (c == NULL) return HOOKE_NO_MEMORY;
+  c->measurement = m;
+  c->system = m->system;
+  c->run = m->run;
+  return hk_method_list_read(hooke_options_text(m->options, "methods"), hooke_method_is_built, add_method, c);
+}
+
+void hk_comparison_release_room(struct hk_comparison *c) {
+  for (int64_t k = 0; k < c->row_count; k++)
+    hk_trial_release(&c->row[k].trial);
+  hk_frames_release(&c->frames);
+  c->reference = NULL;
+}
+
+static void destroy(void *object) {
+  struct hk_comparison *c = object;
+  if (c == NULL) return;
+  hk_comparison_release_room(c);
+  hk_free(c->row);
+  hk_free(c);
+}
+
+int32_t hooke_comparison_on_frame(hooke_measurement *m, hooke_comparison_frame *observer, void *ctx) {
+  const int32_t status = hk_measurement_require(m, &hk_comparison_kind, "hooke_comparison_on_frame");
+  if (status != HOOKE_OK) return status;
+  struct hk_comparison *c = m->object;
+  c->on_frame = observer;
+  c->on_frame_ctx = ctx;
+  return HOOKE_OK;
+}
+
+/* ---- preparing ---- */
+
+/* The schedule that all rows share: the one of a fixed-step method if the options have a step. */
+static int32_t read_schedule(struct hk_comparison *c) {
+  struct hk_schedule schedule;
+  int has_fixed = 0;
+  for (int64_t k = 0; k < c->row_count; k++)
+    has_fixed |= !hooke_method_is_adaptive(c->row[k].method);
+  const struct hk_method *method = hk_method_find(has_fixed ? "forward-euler" : "cvode-adams");
+  const int32_t status = hk_schedule_read(method, c->run, &schedule);
+  if (status != HOOKE_OK) return status;
+  if (schedule.frames == 0) {
+    return hk_fail(HOOKE_BAD_VALUE, "duration", "is missing; give the time to run, > 0 [s]");
+  }
+  c->frame_count = schedule.frames;
+  return HOOKE_OK;
+}
+
+static int32_t make_room(struct hk_comparison *c) {
+  int32_t status = hk_frames_create(c->system, c->frame_count, &c->frames);
+  for (int64_t k = 0; k < c->row_count && status == HOOKE_OK; k++) {
+    status = hk_trial_create(&c->frames, &c->row[k].trial);
+  }
+  return status;
+}
+
+int32_t hk_comparison_prepare(struct hk_comparison *c) {
+  if (c->reference) return HOOKE_OK;
+  hooke_state *state = NULL;
+  int32_t status = read_schedule(c);
+  if (status == HOOKE_OK) status = hooke_state_create(c->system, &state);
+  if (status == HOOKE_OK) status = make_room(c);
+  if (status == HOOKE_OK) status = hk_reference_method(c->system, hooke_state_position(state), &c->reference);
+  hooke_state_destroy(state);
+  if (status != HOOKE_OK) hk_comparison_release_room(c);
+  return status;
+}
+
+/* ---- running ---- */
+
+static const char *name_of_run(const struct hk_comparison *c) {
   return c->runs_begun == 1 ? "reference" : c->row[c->runs_begun - 2].method;
 }
 
 static int32_t tell_progress(double share, void *ctx) {
-  const hooke_comparison *c = ctx;
+  const struct hk_comparison *c = ctx;
   const double done = ((double)(c->runs_begun - 1) + share) / (double)(c->row_count + 1);
-  return c->progress(done, name_of_run(c), c->progress_ctx);
+  return hk_measurement_tell(c->measurement, done, name_of_run(c));
 }
 
 static int32_t tell_frame(int64_t frame, int64_t step, const hooke_state *state, void *ctx) {
-  const hooke_comparison *c = ctx;
+  const struct hk_comparison *c = ctx;
   return frame < c->frame_count ? c->on_frame(name_of_run(c), frame, step, state, c->on_frame_ctx) : 0;
 }
 
-static struct hk_listener listener_of(hooke_comparison *c) {
-  return (struct hk_listener){.on_progress = c->progress ? tell_progress : NULL,
-                              .on_frame = c->on_frame ? tell_frame : NULL,
-                              .ctx = c};
+static struct hk_listener listener_of(struct hk_comparison *c) {
+  return (struct hk_listener){
+      .on_progress = tell_progress, .on_frame = c->on_frame ? tell_frame : NULL, .ctx = c};
 }
 
-static int32_t run_reference(hooke_comparison *c) {
+static int32_t run_reference(struct hk_comparison *c) {
   const struct hk_listener listener = listener_of(c);
   hooke_options *options = NULL;
-  int32_t status = hooke_options_copy(c->options, &options);
+  int32_t status = hooke_options_copy(c->run, &options);
   if (status == HOOKE_OK) status = hooke_options_set_text(options, "method", c->reference);
   if (status == HOOKE_OK) status = hooke_options_set_number(options, "rtol", 1e-10);
   if (status == HOOKE_OK) status = hooke_options_set_number(options, "atol", 1e-12);
@@ -42,10 +144,10 @@ static int32_t run_reference(hooke_comparison *c) {
   return status;
 }
 
-static int32_t run_row(hooke_comparison *c, struct hk_comparison_row *row) {
+static int32_t run_row(struct hk_comparison *c, struct hk_comparison_row *row) {
   const struct hk_listener listener = listener_of(c);
   hooke_options *options = NULL;
-  int32_t status = hooke_options_copy(c->options, &options);
+  int32_t status = hooke_options_copy(c->run, &options);
   if (status == HOOKE_OK) status = hooke_options_set_text(options, "method", row->method);
   c->runs_begun++;
   if (status == HOOKE_OK) status = hk_trial_run(&row->trial, &c->frames, c->frames.count, options, &listener);
@@ -53,9 +155,13 @@ static int32_t run_row(hooke_comparison *c, struct hk_comparison_row *row) {
   return status;
 }
 
-int32_t hooke_comparison_run(hooke_comparison *c) {
+static int32_t run(hooke_measurement *m, hooke_state *state) {
+  struct hk_comparison *c = m->object;
+  int32_t status = hk_measurement_require_fresh(m, state);
+  if (status != HOOKE_OK) return status;
+  /* it failed after frames had been handed out */
   if (c->runs_begun > 0) return hk_fail(HOOKE_BAD_CALL, NULL, "the comparison has been run; make a new one");
-  int32_t status = hk_comparison_prepare(c);
+  status = hk_comparison_prepare(c);
   if (status == HOOKE_OK) status = run_reference(c);
   for (int64_t k = 0; k < c->row_count && status == HOOKE_OK; k++)
     status = run_row(c, &c->row[k]);
@@ -66,3 +172,12 @@ int32_t hooke_comparison_run(hooke_comparison *c) {
   }
   return status;
 }
+
+const struct hk_measurement_kind hk_comparison_kind = {.name = "comparison",
+                                                       .options = &comparison_table,
+                                                       .needs_run = 1,
+                                                       .tables = hk_comparison_tables,
+                                                       .table_count = HOOKE_COMPARISON_TABLES,
+                                                       .create = create,
+                                                       .run = run,
+                                                       .destroy = destroy};

@@ -1,25 +1,25 @@
-/* What a comparison holds. */
+/* The object of a measurement of the kind "comparison". */
 #ifndef HOOKE_MEASURE_TRIAL_COMPARISON_H
 #define HOOKE_MEASURE_TRIAL_COMPARISON_H
 
+#include "measure/measurement.h"
 #include "measure/trial/trial.h"
 
 struct hk_comparison_row {
-  char *method;
+  const char *method;
   struct hk_trial trial;
 };
 
-struct hooke_comparison {
+struct hk_comparison {
+  const hooke_measurement *measurement;
   const hooke_system *system;
-  hooke_options *options;
+  hooke_options *run;      /* of the measurement */
   const char *reference;   /* method; NULL until prepared */
   struct hk_frames frames; /* of the reference */
   int64_t frame_count;
   int64_t row_count, row_capacity;
   struct hk_comparison_row *row;
 
-  hooke_progress *progress;
-  void *progress_ctx;
   hooke_comparison_frame *on_frame;
   void *on_frame_ctx;
 
@@ -27,8 +27,13 @@ struct hooke_comparison {
 };
 
 /* Room for frames and rows, and the method that gives the reference; once, before the first run. */
-int32_t hk_comparison_prepare(hooke_comparison *comparison);
+int32_t hk_comparison_prepare(struct hk_comparison *comparison);
 /* Undoes that. */
-void hk_comparison_release_room(hooke_comparison *comparison);
+void hk_comparison_release_room(struct hk_comparison *comparison);
+
+enum { HOOKE_COMPARISON_TABLES = 3 };
+extern const struct hk_table *const hk_comparison_tables[HOOKE_COMPARISON_TABLES];
+
+extern const struct hk_measurement_kind hk_comparison_kind;
 
 #endif

@@ -21,7 +21,6 @@ ABI = 0
 #: Functions whose positive status is an outcome, which their callers look at; of all others it is raised.
 OUTCOMES = frozenset(
     (
-        "hooke_comparison_run",
         "hooke_cost_find",
         "hooke_integrator_resume",
         "hooke_integrator_run",
@@ -29,10 +28,7 @@ OUTCOMES = frozenset(
         "hooke_limit_along",
         "hooke_limit_find",
         "hooke_measurement_run",
-        "hooke_needs_find",
-        "hooke_needs_refine",
         "hooke_study_recommend",
-        "hooke_verify_run",
     )
 )
 

@@ -12,12 +12,11 @@ import numpy as np
 
 from . import _callback
 from ._library import lib
-from ._memory import Handle, address_of, text, view
-from ._progress import Shown
-from ._prototypes import COMPARISON, COMPARISON_FILE, COMPARISON_FRAME
+from ._measurement import Measurement
+from ._memory import text
+from ._prototypes import COMPARISON_FILE, COMPARISON_FRAME
 from ._status import BadValue
 from ._types import FloatArray, Path, Table
-from .integrator import methods as all_methods
 from .options import Options
 from .results import Runnable, resolve
 from .scene import scene_text
@@ -29,29 +28,14 @@ ComparisonProgress = Callable[[float, str], Optional[int]]
 #: observer(run, frame, step, state): `run` is "reference" or a method's name.
 ComparisonObserver = Callable[[str, int, int, State], Optional[int]]
 
-_TEXTS = ("method", "status")
-_NUMBERS = (
-    "step",
-    "rtol",
-    "atol",
-    "error",
-    "error_max",
-    "error_final",
-    "energy_drift",
-    "force_evaluations",
-    "steps",
-    "wall_seconds",
-)
-_ROW = np.dtype([(name, "U32") for name in _TEXTS] + [(name, float) for name in _NUMBERS])
-
 
 @dataclass(frozen=True)
 class Comparison:
     """A comparison that was made.
 
-    `rows` is a structured array with one row a method: method, status, step [s], rtol, atol [m], error
-    (largest root mean square over the free particles [m]), error_max [m], error_final [m], energy_drift [J],
-    force_evaluations, steps, wall_seconds; NaN where a number does not apply. Over the frames: `time` (k,)
+    `rows` is a structured array with one row a method: method, step [s], rtol, atol [m], error (largest root mean
+    square over the free particles [m]), error_max [m], error_final [m], energy_drift [J], force_evaluations, steps,
+    linear_iterations, wall_seconds, status; NaN where a number does not apply. Over the frames: `time` (k,)
     [s], `error` (rows, k) [m] and `energy_drift` (rows, k) [J], NaN past the end of a run that diverged.
     """
 
@@ -100,32 +84,25 @@ def compare(
     if not isinstance(system, System):
         raise BadValue("compare: a system is needed, this is a first-order problem")
     chosen = (given.copy() if given is not None else Options.for_run()).set(**options)
-    pointer = COMPARISON()
-    lib.hooke_comparison_create(system._committed(), chosen._handle, ctypes.byref(pointer))
-    handle = Handle(pointer, lib.hooke_comparison_destroy, system._handle)
-    names = [method.name for method in all_methods() if method.built] if methods is None else list(methods)
-    for name in names:
-        lib.hooke_comparison_add(handle, name.encode())
+    names = () if methods is None else methods
+    measurement = Measurement.create("comparison", system, chosen, Options.for_comparison().set(methods=",".join(names)))
     watcher = None if on_frame is None else _watch_frames(on_frame, system.state())
     if watcher is not None:
-        lib.hooke_comparison_on_frame(handle, watcher, None)
-    if output is None:
-        return _read(handle, _run(handle, progress))
-    return _read(handle, _run_to_file(os.fsencode(output), scene, system, handle, progress))
-
-
-def _run(handle: Handle, progress: Shown) -> str:
-    with _callback.listening(lib.hooke_comparison_on_progress, handle, progress):
-        return "stopped" if lib.hooke_comparison_run(handle) else "finished"
-
-
-def _run_to_file(path: bytes, scene: Any, system: System, handle: Handle, progress: Shown) -> str:
-    file = COMPARISON_FILE()
-    lib.hooke_comparison_file_create(path, system._handle, handle, scene_text(scene), ctypes.byref(file))
+        lib.hooke_comparison_on_frame(measurement.handle, watcher, None)
+    file = None if output is None else _create_file(os.fsencode(output), scene, measurement)
     try:
-        return _run(handle, progress)
+        status = measurement.run(progress)
     finally:
-        lib.hooke_comparison_file_close(file)
+        if file is not None:
+            lib.hooke_comparison_file_close(file)
+    return _read(measurement, "stopped" if status else "finished")
+
+
+def _create_file(path: bytes, scene: Any, measurement: Measurement) -> Any:
+    file = COMPARISON_FILE()
+    lib.hooke_measurement_label(measurement.handle, b"scene", scene_text(scene))
+    lib.hooke_comparison_file_create(path, measurement.handle, ctypes.byref(file))
+    return file
 
 
 def _watch_frames(on_frame: ComparisonObserver, copy: State) -> Any:
@@ -139,27 +116,20 @@ def _watch_frames(on_frame: ComparisonObserver, copy: State) -> Any:
     )
 
 
-def _read(handle: Handle, status: str) -> Comparison:
-    count = lib.hooke_comparison_row_count(handle)
-    rows = np.empty(count, _ROW)
-    for row in range(count):
-        for name in _TEXTS:
-            rows[name][row] = text(lib.hooke_comparison_text(handle, row, name.encode()))
-        for name in _NUMBERS:
-            rows[name][row] = lib.hooke_comparison_number(handle, row, name.encode())
-    frames = lib.hooke_comparison_frame_count(handle)
+def _read(measurement: Measurement, status: str) -> Comparison:
+    rows = measurement.rows("rows")
+    time = measurement.series("reference", 0, "time")
+    frames = 0 if time is None else len(time)
 
-    def series(what: bytes) -> FloatArray:
-        out = np.full((count, frames), np.nan)
-        for row in range(count):
-            out[row] = _series(handle, row, what, frames)
+    def series(column: str) -> FloatArray:
+        out = np.full((len(rows), frames), np.nan)
+        for row in range(len(rows)):
+            found = measurement.series("rows", row, column)
+            if found is not None:
+                out[row] = found
         return out
 
-    time = _series(handle, 0, b"time", frames) if count else np.empty(0)
-    reference = text(lib.hooke_comparison_reference(handle))
-    return Comparison(status, reference, rows, time, series(b"error"), series(b"energy_drift"))
-
-
-def _series(handle: Handle, row: int, what: bytes, frames: int) -> FloatArray:
-    pointer = lib.hooke_comparison_series(handle, row, what)
-    return view(address_of(pointer), (frames,)).copy() if pointer else np.full(frames, np.nan)
+    reference = measurement.text("reference", 0, "method")
+    return Comparison(
+        status, reference, rows, np.empty(0) if time is None else time, series("error_at"), series("energy_drift_at")
+    )

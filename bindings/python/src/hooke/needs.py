@@ -2,22 +2,19 @@
 
 from __future__ import annotations
 
-import ctypes
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from ._callback import listening
 from ._closing import Closing
 from ._library import lib
-from ._memory import Handle, double_pointer, rows, text
-from ._prototypes import NEEDS
+from ._measurement import Measurement
+from ._memory import Handle, double_pointer, rows
 from ._status import OUTCOMES, BadCall, plain
-from ._tables import read_rows
 from ._types import FloatArray, Path, Table
 from .options import Options
 from .results import Runnable, WorkProgress, prepare
-from .scene import Scene
+from .scene import Scene, scene_text
 from .system import System, write_scene
 
 
@@ -38,27 +35,15 @@ class RunCost(NamedTuple):
     step_error: float
 
 
-_ROW = np.dtype(
-    [("without", "U192"), ("kind", "U16"), ("error", float), ("needed", bool), ("left_out", bool)]
-    + [(name, float) for name in RunCost._fields]
-    + [("note", "U320")]
-)
-_PART = np.dtype(
-    [("part", "U192")]
-    + [(name, float) for name in ("cells", "cells_second", "cells_third", "change", "change_fine", "order")]
-    + [(name, float) for name in ("error", "factor", "wanted", "wanted_second", "wanted_third")]
-    + [("note", "U320")]
-)
-
-
 class Needs(Closing):
     """What a scene needs for watched positions within `want` [m].
 
     `rows` is a structured array with one row for everything that was left out in turn: without, kind, error (the
     change of the watched positions, the largest over frames of their root mean square [m]; NaN if that run did not
     end), needed (True, too, where it cannot be told, as `note` says), left_out (of the lean system, too), the fields
-    of a `RunCost`, note. `full` is the cost of the full system with errors of its step a tenth of what is wanted, and
-    `own_error` [m] how far the finer run of it may be off itself, against which all variants are held.
+    of a `RunCost`, unlimited (1: nothing limits the step), note. `full` is the cost of the full system with errors of
+    its step a tenth of what is wanted, and `own_error` [m] how far the finer run of it may be off itself, against
+    which all variants are held.
 
     `lean_cost` is the cost of the lean system's recommended run, and `lean_error` [m] at most how far that is from the
     full system, `own_error` included. `cheapest` is the cost of the full system's own run within what is wanted, by
@@ -99,27 +84,23 @@ class Needs(Closing):
     other_method: str | None
     other_seconds: float
 
-    def __init__(self, handle: Handle, scene: Scene | None, system: System, status: int):
-        self._handle = handle
+    def __init__(self, measurement: Measurement, scene: Scene | None, system: System, status: int):
+        self._handle = measurement
         self._scene = scene
         self._system = system  # its callbacks have to live as long as the lean one
         self.outcome = OUTCOMES.get(status, "stopped")
-        self.method = text(lib.hooke_needs_word(handle, b"method"))
-        for name in ("want", "duration", "judged_until", "own_error", "moved", "lean_error", "cheapest_error",
-                     "times_less", "other_seconds"):
-            setattr(self, name, lib.hooke_needs_figure(handle, name.encode()))
-        other = lib.hooke_needs_word(handle, b"other_method")
-        self.other_method = text(other) if other else None
-        self.note = text(lib.hooke_needs_word(handle, b"note"))
-        self.lean_note = text(lib.hooke_needs_word(handle, b"lean_note"))
-        self.runs = int(lib.hooke_needs_figure(handle, b"runs"))
-        row_count, part_count = lib.hooke_needs_row_count(handle), lib.hooke_needs_part_count(handle)
-        self.rows = read_rows(handle, row_count, _ROW, lib.hooke_needs_text, lib.hooke_needs_number)
-        self.parts = read_rows(handle, part_count, _PART, lib.hooke_needs_part_text, lib.hooke_needs_part_number)
-        self.full = _cost(handle, "")
-        self._has_lean = bool(lib.hooke_needs_lean(handle))
-        self.lean_cost = _cost(handle, "lean_") if self._has_lean else None
-        self.cheapest = _cost(handle, "cheapest_") if self._has_lean else None
+        whole = measurement.record("needs") or {}
+        full, lean, cheapest = (measurement.record(table) or {} for table in ("full", "lean", "cheapest"))
+        for name in ("want", "method", "duration", "judged_until", "note"):
+            setattr(self, name, whole[name])
+        self.runs = int(whole["runs"])
+        self.full, self.own_error, self.moved = _cost(full), full["own_error"], full["moved"]
+        self.rows = _plain_needed(measurement.rows("rows"))
+        self.parts = measurement.rows("parts")
+        self.lean_cost, self.cheapest = (_cost(found) if found else None for found in (lean, cheapest))
+        self.lean_error, self.cheapest_error = lean.get("error", np.nan), cheapest.get("error", np.nan)
+        self.lean_note, self.times_less = lean.get("note", ""), lean.get("times_less", np.nan)
+        self.other_method, self.other_seconds = lean.get("other_method") or None, lean.get("other_seconds", np.nan)
 
     def __getitem__(self, without: str) -> np.void:
         """The row of what was left out."""
@@ -137,9 +118,9 @@ class Needs(Closing):
     @property
     def lean(self) -> System | None:
         """The lean system, committed; the full one's twin if all is needed, None if it was not found."""
-        if not self._has_lean:
+        if self.lean_cost is None:
             return None
-        handle = Handle(lib.hooke_needs_lean(self._handle), None, self._handle)
+        handle = Handle(lib.hooke_needs_lean(self._handle.handle), None, self._handle.handle)
         return System._committed_by(handle, self._system._callbacks)
 
     @property
@@ -149,9 +130,10 @@ class Needs(Closing):
         return {} if run is None else {name: run[name] for name in run if run.is_set(name)}
 
     def _lean_run(self) -> Options | None:
-        if not self._has_lean:
+        if self.lean_cost is None:
             return None
-        return Options(Handle(lib.hooke_needs_lean_run(self._handle), None, self._handle), read_only=True)
+        handle = self._handle.handle
+        return Options(Handle(lib.hooke_needs_lean_run(handle), None, handle), read_only=True)
 
     def save_lean(self, path: Path) -> None:
         """Writes the lean system and its run as a scene file."""
@@ -166,8 +148,14 @@ class Needs(Closing):
         lean = self.lean
         q = rows(q, "q", lean.particle_count if lean is not None else 0)
         position = np.empty((self._system.particle_count, 3))
-        lib.hooke_needs_lean_position(self._handle, double_pointer(q), double_pointer(position))
+        lib.hooke_needs_lean_position(self._handle.handle, double_pointer(q), double_pointer(position))
         return position
+
+    def write(self, path: Path) -> None:
+        """Writes a page to look at to a path that ends in ``.html``, the rows to one in ``.csv``, all tables to one in
+        ``.json`` or ``.h5``."""
+        title = self._scene and self._scene.title
+        self._handle.write(path, scene=scene_text(self._scene), title=title or None)
 
     def plot(self, ax: Any = None, **options: Any) -> Any:
         """Draws by how much each ingredient changes the scene; see `hooke.plot.needs`."""
@@ -219,22 +207,26 @@ def needs(
     ``progress(fraction, what)`` is told of progress (``progress=True`` shows a bar, with
     tqdm) and stops the work by returning a number other than 0, with what
     is known so far. The keywords `options` are those of a run: duration [s], every [s], method, ...; steps and
-    tolerances are found. ``hooke needs --report FILE.html`` makes a page with diagrams.
+    tolerances are found. ``found.write("page.html")`` makes a page with diagrams.
     """
     scene, system, run = prepare("needs", problem, None, options)
     if watch is not None and not isinstance(watch, str):
         watch = ",".join(str(int(particle)) for particle in np.ravel(watch))
-    chosen = Options.for_needs().set(want=want, watch=watch)
-    pointer = NEEDS()
-    lib.hooke_needs_create(system._committed(), run._handle, chosen._handle, ctypes.byref(pointer))
-    handle = Handle(pointer, lib.hooke_needs_destroy, system._handle)
-    with listening(lib.hooke_needs_on_progress, handle, progress):
-        status = (lib.hooke_needs_refine if refine else lib.hooke_needs_find)(handle)
-    return Needs(handle, scene, system, status)
+    chosen = Options.for_needs().set(want=want, watch=watch, refine=refine)
+    measurement = Measurement.create("needs", system, run, chosen)
+    return Needs(measurement, scene, system, measurement.run(progress))
 
 
-def _cost(handle: Handle, prefix: str) -> RunCost:
-    return RunCost(*(lib.hooke_needs_figure(handle, (prefix + name).encode()) for name in RunCost._fields))
+def _cost(record: dict[str, Any]) -> RunCost:
+    return RunCost(*(record[name] for name in RunCost._fields))
+
+
+def _plain_needed(table: Table) -> Table:
+    """With `needed` True where it cannot be told."""
+    names = table.dtype.names or ()
+    made = table.astype([(name, bool if name == "needed" else table.dtype[name]) for name in names])
+    made.flags.writeable = False
+    return made
 
 
 _PARTS_HEAD = f"{'part':16}{'cells':>12}{'N to 2N [m]':>14}{'2N to 4N [m]':>14}{'order':>8}{'left [m]':>12}{'wanted':>12}"

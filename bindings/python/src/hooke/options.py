@@ -86,9 +86,14 @@ class Options(Owner, MutableMapping[str, Any]):
         return cls(_create(lib.hooke_cost_options_create))
 
     @classmethod
+    def for_comparison(cls) -> Options:
+        """Options of a comparison: methods."""
+        return cls(_create(lambda out: lib.hooke_options_create(b"comparison", out)))
+
+    @classmethod
     def for_needs(cls) -> Options:
-        """Options of what a scene needs: want [m], watch."""
-        return cls(_create(lib.hooke_needs_options_create))
+        """Options of what a scene needs: want [m], watch, refine."""
+        return cls(_create(lambda out: lib.hooke_options_create(b"needs", out)))
 
     @classmethod
     def for_springs(cls) -> Options:

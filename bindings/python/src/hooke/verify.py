@@ -6,65 +6,27 @@ import ctypes
 import os
 from typing import Any
 
-from ._callback import listening
 from ._library import lib
-from ._memory import Handle, text
-from ._prototypes import OPTIONS, VERIFY
+from ._measurement import Measurement
+from ._memory import Handle
+from ._prototypes import MEASUREMENT, OPTIONS
 from ._status import BadValue
 from .options import Options
 from .results import WorkProgress
 from .scene import limits_of
-
-_TEXTS = (
-    "verdict",
-    "difference",
-    "balance",
-    "method",
-    "run",
-    "version",
-    "sundials",
-    "cholmod",
-    "instructions",
-    "machine",
-)
-_NUMBERS = (
-    "frames",
-    "frames_checked",
-    "frame_first",
-    "frame_last",
-    "time_first",
-    "time_last",
-    "steps",
-    "step",
-    "rtol",
-    "atol",
-    "step_limit",
-    "step_share",
-    "energy_change",
-    "work",
-    "heat",
-    "residual",
-    "residual_refined",
-    "residual_bound",
-    "error_estimate",
-    "check_scene",
-    "check_last",
-)
 
 
 class Verification:
     """What was found of a trajectory; true where it is what its scene gives.
 
     `verdict` is "agrees" (to the bit), "within-tolerance" (made by other versions or on another machine), "disagrees" or
-    "stopped"; `difference` says what differs, "" if nothing does. `texts` and `numbers` are what hooke/verify.h lists,
-    by name: ``found.numbers["error_estimate"]`` [m].
+    "stopped"; `difference` says what differs, "" if nothing does. `texts` and `numbers` are the columns of the table
+    "verify", by name: ``found.numbers["error_estimate"]`` [m].
     """
 
-    def __init__(self, handle: Handle):
-        self.texts = {name: text(lib.hooke_verify_text(handle, name.encode())) for name in _TEXTS}
-        self.numbers: dict[str, float] = {
-            name: lib.hooke_verify_number(handle, name.encode()) for name in _NUMBERS
-        }
+    def __init__(self, record: dict[str, Any]):
+        self.texts: dict[str, str] = {name: value for name, value in record.items() if isinstance(value, str)}
+        self.numbers: dict[str, float] = {name: value for name, value in record.items() if name not in self.texts}
         self.verdict = self.texts["verdict"]
         self.difference = self.texts["difference"]
 
@@ -91,16 +53,15 @@ def verify(
     not what its scene gives is a result, not an error.
     """
     pointer = OPTIONS()
-    lib.hooke_verify_options_create(ctypes.byref(pointer))
+    lib.hooke_options_create(b"verify", ctypes.byref(pointer))
     given = Options(Handle(pointer, lib.hooke_options_destroy)).set(**options)
     limits = limits_of(memory, outside)
-    made = VERIFY()
+    made = MEASUREMENT()
     lib.hooke_verify_create(os.fsencode(path), given._handle, limits._handle, ctypes.byref(made))
-    handle = Handle(made, lib.hooke_verify_destroy)
-    with listening(lib.hooke_verify_on_progress, handle, progress):
-        try:
-            lib.hooke_verify_run(handle)
-        except BadValue:
-            if lib.hooke_verify_text(handle, b"verdict") != b"disagrees":
-                raise
-    return Verification(handle)
+    measurement = Measurement(Handle(made, lib.hooke_measurement_destroy))
+    try:
+        measurement.run(progress)
+    except BadValue:
+        if measurement.text("verify", 0, "verdict") != "disagrees":
+            raise
+    return Verification(measurement.record("verify") or {})

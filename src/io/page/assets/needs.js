@@ -2,6 +2,8 @@
 /* The diagrams of what a scene needs. */
 
 const { full, lean, want } = data;
+for (const cost of [full, ...data.rows, ...(lean ? [lean, lean.cheapest] : [])])
+  if (cost.unlimited) cost.step_limit = "none";
 const ran = full.wall_seconds !== null;
 const judgedAll = data.judged_until >= data.duration * (1 - 1e-9);
 const NEEDED = "#c2410c", LEFT_OUT = "#1b7f4d", KEPT = "#8fc9a8", FULL = "#5b6770", LEAN = "#0057b8";
@@ -9,7 +11,7 @@ const NEEDED = "#c2410c", LEFT_OUT = "#1b7f4d", KEPT = "#8fc9a8", FULL = "#5b677
 /* What a row is: needed, left out of the lean scene, neither, or not known. */
 const KINDS = { needed: ["needed", NEEDED], left_out: ["not needed, and left out", LEFT_OUT],
   kept: ["not needed, but kept", KEPT], unknown: ["not known", "#a9b1b8"] };
-const kindOf = (row) => (row.needed === 1 ? "needed" : row.needed === null ? "unknown" : row.left_out === 1 ? "left_out"
+const kindOf = (row) => (row.needed === null ? "unknown" : row.needed ? "needed" : row.left_out ? "left_out"
   : "kept");
 const perStep = (cost) => (cost.steps > 0 ? 1e9 * cost.wall_seconds / cost.steps : null);
 

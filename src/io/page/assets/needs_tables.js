@@ -2,13 +2,13 @@
 /* The words and tables of what a scene needs, and the start of everything. */
 
 const plural = (count, one) => `${whole(count)} ${one}${count === 1 ? "" : "s"}`;
-const leftOut = data.rows.filter((row) => row.left_out === 1);
+const leftOut = data.rows.filter((row) => row.left_out);
 
 /* ---- the head ---- */
 
 function writeHead() {
   writeLead("needs", `What this scene needs for watched positions within ${words(want)} m over ` +
-    `${words(data.duration, 6)} s, by ${data.method}${data.method_picked === 1 ? " (picked)" : ""}. ` +
+    `${words(data.duration, 6)} s, by ${data.method}${data.method_picked ? " (picked)" : ""}. ` +
     `${plural(data.runs, "run")}, ${data.date}.${data.note ? ` Warning: ${data.note}.` : ""}`);
   document.getElementById("judged").textContent = judgedAll ? "" : "Changes are those up to " +
     `${words(data.judged_until, 6)} s: beyond, small differences grow so fast that no time step keeps its error small.`;
@@ -56,12 +56,15 @@ function writeVerdict() {
   if (data.waiting.length > 0) box.append(element("p", `Not looked at: ${data.waiting.join(", ")}.`));
 }
 
-const cellsOf = (list) => (list.every((count) => count !== null) && list.length > 0
-  ? list.map(whole).join(" \u00d7 ") : "\u2013");
+/* Along all axes, of "cells" or "wanted". */
+function cellsOf(part, what) {
+  const list = ["", "_second", "_third"].map((axis) => part[what + axis]).filter((count) => count !== null);
+  return list.length > 0 ? list.map(whole).join(" \u00d7 ") : "\u2013";
+}
 
 function askFor(part) {
   if (part.factor === null) return `${part.part}: ${part.note || "not known"}.`;
-  return `${part.part}: ${cellsOf(part.wanted)} cells; it has ${cellsOf(part.cells)}.`;
+  return `${part.part}: ${cellsOf(part, "wanted")} cells; it has ${cellsOf(part, "cells")}.`;
 }
 
 /* ---- tables ---- */
@@ -109,9 +112,9 @@ function writeParts() {
   const exact = (value) => element("td", words(value, 4), { title: value === null ? "" : String(value) });
   for (const part of data.parts) {
     const line = element("tr");
-    line.append(element("td", part.part, { className: "word" }), element("td", cellsOf(part.cells)),
+    line.append(element("td", part.part, { className: "word" }), element("td", cellsOf(part, "cells")),
       ...["change", "change_fine", "order", "error"].map((what) => exact(part[what])),
-      element("td", cellsOf(part.wanted)), element("td", part.note, { className: "word note" }));
+      element("td", cellsOf(part, "wanted")), element("td", part.note, { className: "word note" }));
     body.append(line);
   }
   document.getElementById("parts").append(headOf([["", "part", "", "word"], ["", "cells N"], ["", "N to 2N", "[m]"],

@@ -274,6 +274,21 @@ HOOKE_API const double *hooke_measurement_series(const hooke_measurement *measur
 HOOKE_API int32_t hooke_measurement_label(hooke_measurement *measurement, const char *what, const char *text);
 HOOKE_API int32_t hooke_measurement_write(const hooke_measurement *measurement, const char *path);
 HOOKE_API int32_t hooke_study_recommend(hooke_measurement *study, double want);
+typedef int32_t hooke_comparison_frame(const char *run, int64_t frame, int64_t step, const hooke_state *state,
+                                       void *ctx);
+HOOKE_API int32_t hooke_comparison_on_frame(hooke_measurement *comparison, hooke_comparison_frame *observer,
+                                            void *ctx);
+typedef struct hooke_comparison_file hooke_comparison_file;
+HOOKE_API int32_t hooke_comparison_file_create(const char *path, hooke_measurement *comparison,
+                                               hooke_comparison_file **file);
+HOOKE_API int32_t hooke_comparison_file_close(hooke_comparison_file *file);
+HOOKE_API const hooke_system *hooke_needs_lean(const hooke_measurement *needs);
+HOOKE_API const hooke_options *hooke_needs_lean_run(const hooke_measurement *needs);
+HOOKE_API int64_t hooke_needs_lean_particle(const hooke_measurement *needs, int64_t particle);
+HOOKE_API int32_t hooke_needs_lean_position(const hooke_measurement *needs, const double *q,
+                                            double *position);
+HOOKE_API int32_t hooke_verify_create(const char *path, const hooke_options *options,
+                                      const hooke_options *limits, hooke_measurement **verify);
 #ifdef __cplusplus
 }
 #endif
@@ -286,26 +301,6 @@ extern "C" {
 HOOKE_API int32_t hooke_step_bound(const hooke_system *system, const char *method, const double *q,
                                    double *bound);
 HOOKE_API int32_t hooke_step_bounds(const hooke_system *system, const double *q, double *bounds);
-typedef struct hooke_comparison hooke_comparison;
-typedef int32_t hooke_comparison_frame(const char *run, int64_t frame, int64_t step, const hooke_state *state,
-                                       void *ctx);
-HOOKE_API int32_t hooke_comparison_create(const hooke_system *system, const hooke_options *options,
-                                          hooke_comparison **comparison);
-HOOKE_API void hooke_comparison_destroy(hooke_comparison *comparison);
-HOOKE_API int32_t hooke_comparison_add(hooke_comparison *comparison, const char *method);
-HOOKE_API void hooke_comparison_on_progress(hooke_comparison *comparison, hooke_progress *progress,
-                                            void *ctx);
-HOOKE_API void hooke_comparison_on_frame(hooke_comparison *comparison, hooke_comparison_frame *observer,
-                                         void *ctx);
-HOOKE_API int32_t hooke_comparison_run(hooke_comparison *comparison);
-HOOKE_API int64_t hooke_comparison_row_count(const hooke_comparison *comparison);
-HOOKE_API const char *hooke_comparison_text(const hooke_comparison *comparison, int64_t row,
-                                            const char *what);
-HOOKE_API double hooke_comparison_number(const hooke_comparison *comparison, int64_t row, const char *what);
-HOOKE_API const char *hooke_comparison_reference(const hooke_comparison *comparison);
-HOOKE_API int64_t hooke_comparison_frame_count(const hooke_comparison *comparison);
-HOOKE_API const double *hooke_comparison_series(const hooke_comparison *comparison, int64_t row,
-                                                const char *what);
 #ifdef __cplusplus
 }
 #endif
@@ -413,35 +408,6 @@ HOOKE_API int32_t hooke_why_advice_apply(const hooke_why *why, int64_t place, ho
 }
 #endif
 #endif
-#ifndef HOOKE_NEEDS_H
-#define HOOKE_NEEDS_H
-#ifdef __cplusplus
-extern "C" {
-#endif
-typedef struct hooke_needs hooke_needs;
-HOOKE_API int32_t hooke_needs_options_create(hooke_options **options);
-HOOKE_API int32_t hooke_needs_create(const hooke_system *system, const hooke_options *run,
-                                     const hooke_options *options, hooke_needs **needs);
-HOOKE_API void hooke_needs_destroy(hooke_needs *needs);
-HOOKE_API void hooke_needs_on_progress(hooke_needs *needs, hooke_progress *progress, void *ctx);
-HOOKE_API int32_t hooke_needs_find(hooke_needs *needs);
-HOOKE_API int32_t hooke_needs_refine(hooke_needs *needs);
-HOOKE_API double hooke_needs_figure(const hooke_needs *needs, const char *what);
-HOOKE_API const char *hooke_needs_word(const hooke_needs *needs, const char *what);
-HOOKE_API int64_t hooke_needs_row_count(const hooke_needs *needs);
-HOOKE_API const char *hooke_needs_text(const hooke_needs *needs, int64_t row, const char *what);
-HOOKE_API double hooke_needs_number(const hooke_needs *needs, int64_t row, const char *what);
-HOOKE_API const hooke_system *hooke_needs_lean(const hooke_needs *needs);
-HOOKE_API const hooke_options *hooke_needs_lean_run(const hooke_needs *needs);
-HOOKE_API int64_t hooke_needs_lean_particle(const hooke_needs *needs, int64_t particle);
-HOOKE_API int32_t hooke_needs_lean_position(const hooke_needs *needs, const double *q, double *position);
-HOOKE_API int64_t hooke_needs_part_count(const hooke_needs *needs);
-HOOKE_API const char *hooke_needs_part_text(const hooke_needs *needs, int64_t part, const char *what);
-HOOKE_API double hooke_needs_part_number(const hooke_needs *needs, int64_t part, const char *what);
-#ifdef __cplusplus
-}
-#endif
-#endif
 #ifndef HOOKE_IO_H
 #define HOOKE_IO_H
 #ifdef __cplusplus
@@ -492,11 +458,6 @@ HOOKE_API int32_t hooke_record_check(const hooke_record *record, int64_t frame);
 HOOKE_API int32_t hooke_record_size(hooke_record *record, const char *what, int64_t *rows, int64_t *columns);
 HOOKE_API int32_t hooke_record_numbers(hooke_record *record, const char *what, double *values);
 HOOKE_API int64_t hooke_record_place(const hooke_record *record, const char *what);
-typedef struct hooke_comparison_file hooke_comparison_file;
-HOOKE_API int32_t hooke_comparison_file_create(const char *path, const hooke_system *system,
-                                               hooke_comparison *comparison, const char *scene_text,
-                                               hooke_comparison_file **file);
-HOOKE_API int32_t hooke_comparison_file_close(hooke_comparison_file *file);
 typedef struct hooke_view hooke_view;
 HOOKE_API int32_t hooke_view_options_create(hooke_options **options);
 HOOKE_API int32_t hooke_view_create(const hooke_record *record, const hooke_options *options,
@@ -507,8 +468,6 @@ HOOKE_API void hooke_view_destroy(hooke_view *view);
 HOOKE_API int32_t hooke_record_write_xdmf(const hooke_record *record, const char *path);
 HOOKE_API int32_t hooke_limit_write_report(const hooke_limit *limit, const hooke_state *state,
                                            const char *path, const char *scene);
-HOOKE_API int32_t hooke_needs_write_report(const hooke_needs *needs, const char *path, const char *scene,
-                                           const char *command);
 #ifdef __cplusplus
 }
 #endif
@@ -528,24 +487,6 @@ HOOKE_API int32_t hooke_trajectory_resume(const char *path, const hooke_system *
                                           hooke_integrator *integrator, hooke_state *state,
                                           hooke_trajectory **trajectory);
 HOOKE_API const char *hooke_trajectory_origin(const hooke_trajectory *trajectory);
-#ifdef __cplusplus
-}
-#endif
-#endif
-#ifndef HOOKE_VERIFY_H
-#define HOOKE_VERIFY_H
-#ifdef __cplusplus
-extern "C" {
-#endif
-typedef struct hooke_verify hooke_verify;
-HOOKE_API int32_t hooke_verify_options_create(hooke_options **options);
-HOOKE_API int32_t hooke_verify_create(const char *path, const hooke_options *options,
-                                      const hooke_options *limits, hooke_verify **verify);
-HOOKE_API void hooke_verify_destroy(hooke_verify *verify);
-HOOKE_API void hooke_verify_on_progress(hooke_verify *verify, hooke_progress *progress, void *ctx);
-HOOKE_API int32_t hooke_verify_run(hooke_verify *verify);
-HOOKE_API const char *hooke_verify_text(const hooke_verify *verify, const char *what);
-HOOKE_API double hooke_verify_number(const hooke_verify *verify, const char *what);
 #ifdef __cplusplus
 }
 #endif
