@@ -16,6 +16,7 @@ ROOT = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT / "docs/generate"))
 
 import headers  # noqa: E402
+import measurements  # noqa: E402
 import modules  # noqa: E402
 import package  # noqa: E402
 import program  # noqa: E402
@@ -31,6 +32,7 @@ def pages(build: Path) -> dict[str, str]:
         "c": headers.page(ROOT),
         "fortran": modules.page(ROOT, build / "fortran/queries.f90"),
         "python": package.page(),
+        "measurements": measurements.page(),
     }
 
 

@@ -154,7 +154,7 @@ contains
     character(*), intent(in) :: what
     to_number = value
     select case (what)
-    case ("particle", "spring", "first", "second", "group")
+    case ("particle", "spring", "number", "first", "second", "group")
       to_number = value + 1
     end select
   end function

@@ -17,16 +17,13 @@ module hooke
     hooke_build_fact => build_fact
   use hooke_builders, only: hooke_part_kind_count => part_kind_count, hooke_part_kind => part_kind, &
     hooke_part_kind_summary => part_kind_summary
-  use hooke_causes, only: hooke_why
-  use hooke_costs, only: hooke_cost
   use hooke_estimates, only: hooke_estimate
   use hooke_forces, only: hooke_force, hooke_force_with_product, hooke_drive
   use hooke_integrators, only: hooke_integrator, hooke_method_count => method_count, hooke_method_name => method_name, &
     hooke_method_summary => method_summary, hooke_method_is_adaptive => method_is_adaptive, &
     hooke_method_is_built => method_is_built
-  use hooke_limits, only: hooke_limit, hooke_limit_of_mode => limit_of_mode
   use hooke_measurements, only: hooke_measurement, hooke_measurement_table => measurement_table, &
-    hooke_measurement_column => measurement_column
+    hooke_measurement_column => measurement_column, hooke_limit_of_mode => limit_of_mode
   use hooke_observers, only: hooke_rate, hooke_observer, hooke_progress, hooke_warning, hooke_comparison_observer
   use hooke_option_tables, only: hooke_options
   use hooke_scenes, only: hooke_scene, hooke_own_process => own_process

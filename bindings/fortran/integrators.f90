@@ -5,7 +5,6 @@ module hooke_integrators
   use hooke_base, only: accept, hooke_long, to_c, to_c_if, to_integer, to_text, zero_based
   use hooke_c_checkpoint, only: c_checkpoint_read, c_checkpoint_write
   use hooke_c_integrator
-  use hooke_c_why, only: c_integrator_on_warning
   use hooke_queries_of_integrator
   use hooke_observers
   use hooke_option_tables, only: hooke_options

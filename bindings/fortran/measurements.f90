@@ -6,6 +6,7 @@ module hooke_measurements
     to_text, zero_based
   use hooke_c_measurement
   use hooke_handles, only: hooke_handle
+  use hooke_integrators, only: hooke_integrator
   use hooke_observers, only: call_comparison_observer, call_progress, comparison_holder, hooke_comparison_observer, &
     hooke_progress, progress_holder
   use hooke_option_tables, only: hooke_options, options_or_null
@@ -14,7 +15,7 @@ module hooke_measurements
   use hooke_systems, only: hooke_system
   implicit none
   private
-  public :: hooke_measurement, measurement_table, measurement_column
+  public :: hooke_measurement, measurement_table, measurement_column, limit_of_mode
 
   integer, parameter :: of_progress = 1, of_frames = 2
 
@@ -22,7 +23,9 @@ module hooke_measurements
     integer(c_int64_t), private :: particles = 0 ! of its system
   contains
     procedure :: create
-    procedure :: create_verify ! of a trajectory
+    procedure :: create_why      ! of an integrator whose run ended early,
+    procedure :: create_why_kept ! of states that were kept of it,
+    procedure :: create_verify   ! of a trajectory
     procedure :: on_progress
     procedure :: run
     procedure :: find
@@ -33,13 +36,14 @@ module hooke_measurements
     procedure :: lean_run      ! the run to make of it,
     procedure :: lean_particle ! and where it has a particle of the full one
     procedure :: lean_position
+    procedure :: advice_apply  ! of a why
     procedure, private :: assign
     generic :: assignment(=) => assign
   end type
 
 contains
 
-  ! `kind` is "study"; `run` are options of a run, `options` those of the kind.
+  ! `kind` is "study", "limit", "needs", "cost" or "comparison"; `run` are options of a run, `options` those of the kind.
   subroutine create(self, kind, system, run, options, status)
     class(hooke_measurement), intent(inout) :: self
     character(*), intent(in) :: kind
@@ -68,6 +72,40 @@ contains
     call accept(code, status)
   end subroutine
 
+  ! A "why": from an integrator whose last run ended early, and which stays as it is until run() has returned.
+  subroutine create_why(self, integrator, options, status)
+    class(hooke_measurement), intent(inout) :: self
+    class(hooke_integrator), intent(in) :: integrator
+    type(hooke_options), intent(in), optional :: options
+    integer, intent(out), optional :: status
+    type(c_ptr) :: made
+    integer(c_int32_t) :: code
+    if (integrator%is_missing(status)) return
+    code = c_why_create(integrator%address(), options_or_null(options), made)
+    if (code == 0) call self%take(made, c_measurement_destroy, integrator)
+    call accept(code, status)
+  end subroutine
+
+  ! The same from states that were kept of a run: the one it began with, and the last good one.
+  subroutine create_why_kept(self, system, run, first, last, options, status)
+    class(hooke_measurement), intent(inout) :: self
+    class(hooke_system), intent(in) :: system
+    type(hooke_options), intent(in) :: run
+    class(hooke_state), intent(in) :: first, last
+    type(hooke_options), intent(in), optional :: options
+    integer, intent(out), optional :: status
+    type(c_ptr) :: made
+    integer(c_int32_t) :: code
+    if (system%is_missing(status)) return
+    if (run%is_missing(status)) return
+    if (first%is_missing(status)) return
+    if (last%is_missing(status)) return
+    code = c_why_create_kept(system%address(), run%address(), first%address(), last%address(), &
+      options_or_null(options), made)
+    if (code == 0) call self%take(made, c_measurement_destroy, system)
+    call accept(code, status)
+  end subroutine
+
   ! Told of progress; has to stay where it is as long as it is. Without one it is taken back.
   subroutine on_progress(self, progress)
     class(hooke_measurement), intent(inout) :: self
@@ -83,7 +121,7 @@ contains
     call self%keep(holder, of_progress)
   end subroutine
 
-  ! Measures. A study begins at the initial state and takes no `state`.
+  ! Measures. A limit and a cost are those at `state`, the initial one without it; other kinds take none.
   subroutine run(self, state, status)
     class(hooke_measurement), intent(inout) :: self
     class(hooke_state), intent(inout), optional :: state
@@ -117,15 +155,6 @@ contains
       c_measurement_series_count(self%address(), to_c(table), zero_based(row), to_c(column)))
   end function
 
-  ! Of a study: finds the cheapest run whose error is at most `want` [m].
-  subroutine recommend(self, want, status)
-    class(hooke_measurement), intent(inout) :: self
-    real(c_double), intent(in) :: want
-    integer, intent(out), optional :: status
-    if (self%is_missing(status)) return
-    call accept(c_study_recommend(self%address(), want), status)
-  end subroutine
-
   ! ---- what there is ----
 
   ! "name", "doc" or "shape" ("record" or "rows") of table `table` of a kind, "" past the last; without a kind the "name" of
@@ -146,6 +175,17 @@ contains
     character(:), allocatable :: text
     text = to_text(c_measurement_column(to_c(kind), to_c(table), zero_based(column), to_c(what)))
   end function
+
+  ! ---- a study ----
+
+  ! Finds the cheapest run whose error is at most `want` [m].
+  subroutine recommend(self, want, status)
+    class(hooke_measurement), intent(inout) :: self
+    real(c_double), intent(in) :: want
+    integer, intent(out), optional :: status
+    if (self%is_missing(status)) return
+    call accept(c_study_recommend(self%address(), want), status)
+  end subroutine
 
   ! ---- a comparison ----
 
@@ -227,6 +267,28 @@ contains
       return
     end if
     call accept(c_needs_lean_position(self%address(), q, position), status)
+  end subroutine
+
+  ! ---- a limit ----
+
+  ! The step [s] up to which `method` is stable for x'' + 2 decay x' + frequency^2 x = 0.
+  real(c_double) function limit_of_mode(method, frequency, decay)
+    character(*), intent(in) :: method
+    real(c_double), intent(in) :: frequency, decay
+    limit_of_mode = c_limit_of_mode(to_c(method), frequency, decay)
+  end function
+
+  ! ---- a why ----
+
+  ! Sets every option of a row of the table "advice" in `run`.
+  subroutine advice_apply(self, row, run, status)
+    class(hooke_measurement), intent(in) :: self
+    integer, intent(in) :: row
+    type(hooke_options), intent(inout) :: run
+    integer, intent(out), optional :: status
+    if (self%is_missing(status)) return
+    if (run%is_missing(status)) return
+    call accept(c_why_advice_apply(self%address(), zero_based(row), run%address()), status)
   end subroutine
 
   impure elemental subroutine assign(self, other)

@@ -3,10 +3,8 @@ module hooke_option_tables
   use, intrinsic :: iso_c_binding, only: c_double, c_int32_t, c_int64_t, c_ptr
   use hooke_base, only: accept, hooke_bad_value, refuse, to_c, to_integer, to_series, to_text, zero_based
   use hooke_c_build, only: c_mesh_set, c_part_options_create
-  use hooke_c_cost, only: c_cost_options_create
   use hooke_c_integrator, only: c_run_options_create
   use hooke_c_io, only: c_mesh_read, c_view_options_create, c_scene_options_create
-  use hooke_c_limit, only: c_limit_options_create
   use hooke_c_options
   use hooke_c_system, only: c_altitude_options_create, c_spring_options_create
   use hooke_queries_of_options
@@ -21,9 +19,7 @@ module hooke_option_tables
     procedure :: create_part     ! of a part of some kind,
     procedure :: create_scene    ! of "scene", "particles" or "driven",
     procedure :: create          ! of any table by its name: "run", "study", "cloth", ...
-    procedure :: create_limit    ! of a limit,
-    procedure :: create_cost     ! of a cost,
-    procedure :: create_view ! of a view,
+    procedure :: create_view     ! of a view,
     procedure :: create_altitude ! of altitude springs
     procedure :: copy_to         ! another object with the same values
     procedure, private :: set_real, set_reals, set_whole, set_wholes, set_logical, set_text
@@ -105,24 +101,6 @@ contains
     type(c_ptr) :: options
     integer(c_int32_t) :: code
     code = c_options_create(to_c(name), options)
-    call take_new(self, code, options, status)
-  end subroutine
-
-  subroutine create_limit(self, status)
-    class(hooke_options), intent(inout) :: self
-    integer, intent(out), optional :: status
-    type(c_ptr) :: options
-    integer(c_int32_t) :: code
-    code = c_limit_options_create(options)
-    call take_new(self, code, options, status)
-  end subroutine
-
-  subroutine create_cost(self, status)
-    class(hooke_options), intent(inout) :: self
-    integer, intent(out), optional :: status
-    type(c_ptr) :: options
-    integer(c_int32_t) :: code
-    code = c_cost_options_create(options)
     call take_new(self, code, options, status)
   end subroutine
 

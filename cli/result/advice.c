@@ -15,9 +15,9 @@ static int32_t changes_any(const hooke_options *changes) {
 }
 
 /* A command without --want has to say what that had chosen. */
-static int32_t add_chosen(const hooke_why *why, hooke_options *changes) {
-  const char *method = hooke_why_text(why, "method");
-  const double step = hooke_why_number(why, "step");
+static int32_t add_chosen(const hooke_measurement *why, hooke_options *changes) {
+  const char *method = hooke_measurement_text(why, "why", 0, "method");
+  const double step = hooke_measurement_number(why, "why", 0, "step");
   int32_t status = HOOKE_OK;
   if (!hooke_options_is_set(changes, "method")) status = hooke_options_set_text(changes, "method", method);
   if (status == HOOKE_OK && !hooke_options_is_set(changes, "step") && step > 0.0 &&
@@ -42,7 +42,7 @@ static int32_t collect(const hooke_options *changes, struct cli_setting *setting
   return count;
 }
 
-int32_t cli_advice_command(const struct cli_arguments *arguments, const hooke_why *why, int64_t place,
+int32_t cli_advice_command(const struct cli_arguments *arguments, const hooke_measurement *why, int64_t place,
                            char **command) {
   struct cli_setting settings[MOST_SETTINGS];
   char text[MOST_SETTINGS][HOOKE_NUMBER_SIZE];
@@ -62,14 +62,14 @@ int32_t cli_advice_command(const struct cli_arguments *arguments, const hooke_wh
   return status == HOOKE_NO_MEMORY ? status : HOOKE_OK;
 }
 
-int32_t cli_advice_print(FILE *file, const struct cli_arguments *arguments, const hooke_why *why,
+int32_t cli_advice_print(FILE *file, const struct cli_arguments *arguments, const hooke_measurement *why,
                          int64_t most) {
   int32_t status = HOOKE_OK;
-  for (int64_t k = 0; k < hooke_why_advice_count(why) && k < most; k++) {
+  for (int64_t k = 0; k < hooke_measurement_row_count(why, "advice") && k < most; k++) {
     char *command;
     if (cli_advice_command(arguments, why, k, &command) != HOOKE_OK) status = HOOKE_NO_MEMORY;
     fprintf(file, "%s ", k == 0 ? "what to do:" : "or:");
-    cli_print_text(file, hooke_why_advice_text(why, k, "change"));
+    cli_print_text(file, hooke_measurement_text(why, "advice", k, "change"));
     fputc('\n', file);
     if (command) fprintf(file, "  %s\n", command);
     free(command);

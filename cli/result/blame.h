@@ -4,8 +4,9 @@
 
 #include "print.h"
 
-/* One entry: a spring between `first` and `second`, or, where `force` is not "", that force. */
-void cli_blame_json(struct cli_json *json, const char *force, double first, double second, const char *group,
-                    double share);
+#include <hooke/measurement.h>
+
+/* The table "blame" under its name; "spring" has the ends of a spring as a pair, null where a force is meant. */
+void cli_blame_json(struct cli_json *json, const hooke_measurement *measurement);
 
 #endif

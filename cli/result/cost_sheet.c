@@ -1,6 +1,7 @@
 #include "cost_sheet.h"
 
 #include "report.h"
+#include "table.h"
 #include "watch.h"
 
 #include <inttypes.h>
@@ -10,13 +11,13 @@
 enum { LEAST_WIDTH = 16 };
 
 int cli_cost_sheet_find(const struct cli_arguments *arguments, const struct cli_setup *setup,
-                        hooke_cost **cost) {
+                        hooke_measurement **cost) {
   struct cli_watch watch;
-  int32_t status = hooke_cost_create(setup->system, setup->options, arguments->more, cost);
+  int32_t status = hooke_measurement_create("cost", setup->system, setup->options, arguments->more, cost);
   if (status != HOOKE_OK) return cli_report_status(arguments, status);
   cli_watch_start(&watch, arguments);
-  hooke_cost_on_progress(*cost, cli_watch_progress, &watch);
-  status = hooke_cost_find(*cost, setup->state);
+  hooke_measurement_on_progress(*cost, cli_watch_progress, &watch);
+  status = hooke_measurement_run(*cost, setup->state);
   cli_watch_end(&watch);
   if (status == HOOKE_STOPPED) {
     cli_report_words(arguments, "interrupted; kept: what was found so far");
@@ -27,8 +28,8 @@ int cli_cost_sheet_find(const struct cli_arguments *arguments, const struct cli_
 
 /* ---- words ---- */
 
-static const char *name_of(const hooke_cost *cost, int64_t row) {
-  const char *name = hooke_cost_text(cost, row, "name");
+static const char *name_of(const hooke_measurement *cost, int64_t row) {
+  const char *name = hooke_measurement_text(cost, "rows", row, "ingredient");
   return name[0] ? name : "(no name)";
 }
 
@@ -68,24 +69,25 @@ static void print_name(int width, const char *name) {
 }
 
 /* Of a group that was not looked at, or not yet when it was interrupted, nothing is known. */
-static int is_known(const hooke_cost *cost, int64_t row) {
-  return !isnan(hooke_cost_number(cost, row, "memory_bytes"));
+static int is_known(const hooke_measurement *cost, int64_t row) {
+  return !isnan(hooke_measurement_number(cost, "rows", row, "memory_bytes"));
 }
 
-static void print_row(const hooke_cost *cost, int64_t row, int width) {
+static void print_row(const hooke_measurement *cost, int64_t row, int width) {
   print_name(width, name_of(cost, row));
-  print_cell(10, hooke_cost_number(cost, row, "springs"), "%.0f");
-  print_time(hooke_cost_number(cost, row, "nanoseconds"), hooke_cost_figure(cost, "resolution"));
-  print_cell(12, hooke_cost_number(cost, row, "memory_bytes"), "%.0f");
-  print_limit(hooke_cost_number(cost, row, "step_limit_without"));
+  print_cell(10, hooke_measurement_number(cost, "rows", row, "springs"), "%.0f");
+  print_time(hooke_measurement_number(cost, "rows", row, "nanoseconds"),
+             hooke_measurement_number(cost, "cost", 0, "resolution"));
+  print_cell(12, hooke_measurement_number(cost, "rows", row, "memory_bytes"), "%.0f");
+  print_limit(hooke_measurement_number(cost, "rows", row, "step_limit_without"));
 }
 
-static void print_whole(const hooke_cost *cost, const hooke_system *system, int width) {
+static void print_whole(const hooke_measurement *cost, const hooke_system *system, int width) {
   print_name(width, "the whole scene");
   print_cell(10, (double)hooke_system_spring_count(system), "%.0f");
-  print_time(hooke_cost_figure(cost, "nanoseconds"), 0.0);
-  print_cell(12, hooke_cost_figure(cost, "memory_bytes"), "%.0f");
-  print_limit(hooke_cost_figure(cost, "step_limit"));
+  print_time(hooke_measurement_number(cost, "cost", 0, "nanoseconds"), 0.0);
+  print_cell(12, hooke_measurement_number(cost, "cost", 0, "memory_bytes"), "%.0f");
+  print_limit(hooke_measurement_number(cost, "cost", 0, "step_limit"));
 }
 
 void cli_cost_sheet_print_left_out(const hooke_system *system) {
@@ -100,21 +102,22 @@ void cli_cost_sheet_print_left_out(const hooke_system *system) {
   }
 }
 
-void cli_cost_sheet_print(const hooke_cost *cost, const hooke_system *system) {
+void cli_cost_sheet_print(const hooke_measurement *cost, const hooke_system *system) {
   char step[HOOKE_NUMBER_SIZE];
   int width = LEAST_WIDTH;
   int64_t unknown = 0;
-  if (isnan(hooke_cost_figure(cost, "step"))) return; /* interrupted before there was one */
-  for (int64_t row = 0; row < hooke_cost_row_count(cost); row++) {
+  if (isnan(hooke_measurement_number(cost, "cost", 0, "step"))) return; /* interrupted before there was one */
+  for (int64_t row = 0; row < hooke_measurement_row_count(cost, "rows"); row++) {
     const int length = (int)strlen(name_of(cost, row));
     if (is_known(cost, row) && length > width) width = length;
   }
-  printf("cost of a step of %s, %s s, on this machine:\n", hooke_cost_method(cost),
-         cli_format_rounded(hooke_cost_figure(cost, "step"), step));
+  printf("cost of a step of %s, %s s, on this machine:\n", hooke_measurement_text(cost, "cost", 0, "method"),
+         cli_format_rounded(hooke_measurement_number(cost, "cost", 0, "step"), step));
   printf("  %-*s %10s %12s %12s %14s\n", width, "", "springs", "time [ns]", "memory [B]", "stable to [s]");
   print_whole(cost, system, width);
-  if (hooke_cost_row_count(cost) > 0) printf("  %-*s %38s %12s\n", width, "of this", "", "without it");
-  for (int64_t row = 0; row < hooke_cost_row_count(cost); row++) {
+  if (hooke_measurement_row_count(cost, "rows") > 0)
+    printf("  %-*s %38s %12s\n", width, "of this", "", "without it");
+  for (int64_t row = 0; row < hooke_measurement_row_count(cost, "rows"); row++) {
     if (is_known(cost, row))
       print_row(cost, row, width);
     else
@@ -127,29 +130,9 @@ void cli_cost_sheet_print(const hooke_cost *cost, const hooke_system *system) {
 
 /* ---- JSON ---- */
 
-static void print_numbers(struct cli_json *json, const hooke_cost *cost, int64_t row) {
-  static const char *const numbers[] = {"nanoseconds", "resolution", "memory_bytes", "step_limit_without"};
-  for (size_t k = 0; k < sizeof numbers / sizeof numbers[0]; k++)
-    cli_json_number(json, numbers[k], hooke_cost_number(cost, row, numbers[k]));
-}
-
-void cli_cost_sheet_print_json(struct cli_json *json, const hooke_cost *cost, const hooke_system *system) {
-  static const char *const figures[] = {"step", "nanoseconds", "resolution", "memory_bytes", "step_limit"};
+void cli_cost_sheet_print_json(struct cli_json *json, const hooke_measurement *cost) {
   cli_json_open(json, "cost", '{');
-  cli_json_text(json, "method", hooke_cost_method(cost));
-  for (size_t k = 0; k < sizeof figures / sizeof figures[0]; k++)
-    cli_json_number(json, figures[k], hooke_cost_figure(cost, figures[k]));
-  cli_json_count(json, "dropped_springs", hooke_system_dropped_spring_count(system));
-  cli_json_count(json, "idle_particles", hooke_system_idle_count(system));
-  cli_json_open(json, "rows", '[');
-  for (int64_t row = 0; row < hooke_cost_row_count(cost); row++) {
-    cli_json_open(json, NULL, '{');
-    cli_json_text(json, "ingredient", hooke_cost_text(cost, row, "name"));
-    cli_json_text(json, "kind", hooke_cost_text(cost, row, "kind"));
-    cli_json_number(json, "springs", hooke_cost_number(cost, row, "springs"));
-    print_numbers(json, cost, row);
-    cli_json_close(json);
-  }
-  cli_json_close(json);
+  cli_table_print_row(json, cost, "cost", 0);
+  cli_table_print(json, "rows", cost, "rows");
   cli_json_close(json);
 }

@@ -8,13 +8,13 @@
 /* Finds the costs at the initial state, with progress; the caller destroys `cost` in either case. Failures
  * are reported and come back as exit code, HOOKE_EXIT_INTERRUPTED with the rows found so far. */
 int cli_cost_sheet_find(const struct cli_arguments *arguments, const struct cli_setup *setup,
-                        hooke_cost **cost);
+                        hooke_measurement **cost);
 
 /* The table on standard output. */
-void cli_cost_sheet_print(const hooke_cost *cost, const hooke_system *system);
+void cli_cost_sheet_print(const hooke_measurement *cost, const hooke_system *system);
 /* What commit has left out, on standard output. */
 void cli_cost_sheet_print_left_out(const hooke_system *system);
 /* "cost": {...} */
-void cli_cost_sheet_print_json(struct cli_json *json, const hooke_cost *cost, const hooke_system *system);
+void cli_cost_sheet_print_json(struct cli_json *json, const hooke_measurement *cost);
 
 #endif

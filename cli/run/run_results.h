@@ -22,7 +22,7 @@ struct cli_run {
   int64_t frames;       /* reported so far */
   int32_t write_status; /* HOOKE_OK, or why a frame or a checkpoint could not be written */
   int32_t outcome;
-  hooke_why
+  hooke_measurement
       *why; /* of an outcome that wants explaining; NULL: there is nothing, or nothing to explain it with */
   hooke_estimate *estimate; /* of its error; NULL: none is asked for */
   char message[2048];       /* about the outcome, or the write that failed */

@@ -18,8 +18,8 @@ enum { MOST_WARNINGS = 8, WARNING_SIZE = 512 };
 struct check {
   const struct cli_arguments *arguments;
   struct cli_setup setup;
-  hooke_cost *cost; /* NULL: not asked for */
-  double *bound;    /* on the step of each method at the initial state [s]; NaN where none is known */
+  hooke_measurement *cost; /* NULL: not asked for */
+  double *bound;           /* on the step of each method at the initial state [s]; NaN where none is known */
   struct cli_foretold memory;
   int64_t warning_count;
   char warning[MOST_WARNINGS][WARNING_SIZE];
@@ -178,7 +178,7 @@ static void print_json(const struct check *check) {
   cli_json_close(&json);
   cli_json_count(&json, "dropped_springs", hooke_system_dropped_spring_count(system));
   cli_json_count(&json, "idle_particles", hooke_system_idle_count(system));
-  if (check->cost) cli_cost_sheet_print_json(&json, check->cost, system);
+  if (check->cost) cli_cost_sheet_print_json(&json, check->cost);
   cli_json_end(&json);
 }
 
@@ -276,7 +276,7 @@ static int do_check(const struct cli_arguments *arguments) {
   struct check check = {.arguments = arguments};
   int code = cli_setup_load(arguments, &check.setup);
   if (code == HOOKE_EXIT_DONE) code = check_and_tell(&check, cli_peak_look());
-  hooke_cost_destroy(check.cost);
+  hooke_measurement_destroy(check.cost);
   free(check.bound);
   cli_setup_destroy(&check.setup);
   return code;

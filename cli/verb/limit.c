@@ -6,6 +6,7 @@
 #include "report.h"
 #include "rows.h"
 #include "setup.h"
+#include "table.h"
 #include "watch.h"
 
 #include <errno.h>
@@ -20,7 +21,7 @@ enum { MOST_SPRINGS = 5, WIDTH = 110, INDENT = 12 };
 struct limit {
   const struct cli_arguments *arguments;
   struct cli_setup setup;
-  hooke_limit *limit;
+  hooke_measurement *limit;
   int32_t along, interrupted, diverged;
 };
 
@@ -70,12 +71,12 @@ static int check_needs(const struct limit *l) {
 
 static int find(struct limit *l) {
   struct cli_watch watch;
-  int32_t status = hooke_limit_create(l->setup.system, l->setup.options, l->arguments->more, &l->limit);
+  int32_t status =
+      hooke_measurement_create("limit", l->setup.system, l->setup.options, l->arguments->more, &l->limit);
   if (status != HOOKE_OK) return cli_report_status(l->arguments, status);
   cli_watch_start(&watch, l->arguments);
-  hooke_limit_on_progress(l->limit, cli_watch_progress, &watch);
-  status =
-      l->along ? hooke_limit_along(l->limit, l->setup.state) : hooke_limit_find(l->limit, l->setup.state);
+  hooke_measurement_on_progress(l->limit, cli_watch_progress, &watch);
+  status = hooke_measurement_run(l->limit, l->setup.state);
   cli_watch_end(&watch);
   l->interrupted = status == HOOKE_STOPPED;
   l->diverged = status > 0 && !l->interrupted;
@@ -89,64 +90,27 @@ static const char *title_of(const struct limit *l) {
 
 /* ---- JSON ---- */
 
-static double number_of(const struct limit *l, int64_t row, const char *what) {
-  return hooke_limit_number(l->limit, row, what);
-}
-
-static void print_row_json(struct cli_json *json, const struct limit *l, int64_t row) {
-  static const char *const numbers[] = {"bound", "predicted", "measured", "ratio", "steps_run"};
-  cli_json_open(json, NULL, '{');
-  cli_json_text(json, "method", hooke_limit_text(l->limit, row, "method"));
-  for (size_t k = 0; k < sizeof numbers / sizeof numbers[0]; k++)
-    cli_json_number(json, numbers[k], number_of(l, row, numbers[k]));
-  cli_json_flag(json, "never_stable", number_of(l, row, "never_stable") == 1.0);
-  cli_json_flag(json, "exact", number_of(l, row, "exact") == 1.0);
-  if (l->along) {
-    cli_json_number(json, "smallest", number_of(l, row, "smallest"));
-    cli_json_number(json, "smallest_time", number_of(l, row, "smallest_time"));
-  }
-  cli_json_text(json, "note", hooke_limit_text(l->limit, row, "note"));
-  cli_json_close(json);
-}
-
-static void print_remedy_json(struct cli_json *json, const hooke_limit *limit) {
-  static const char *const numbers[] = {"springs", "particles", "cost", "factor", "gain", "gain_predicted"};
-  if (!hooke_limit_remedy_text(limit, "sentence")) {
-    cli_json_text(json, "remedy", NULL);
-    return;
-  }
-  cli_json_open(json, "remedy", '{');
-  cli_json_text(json, "kind", hooke_limit_remedy_text(limit, "kind"));
-  for (size_t k = 0; k < sizeof numbers / sizeof numbers[0]; k++)
-    cli_json_number(json, numbers[k], hooke_limit_remedy_number(limit, numbers[k]));
-  cli_json_text(json, "sentence", hooke_limit_remedy_text(limit, "sentence"));
-  cli_json_close(json);
-}
-
 static void print_json(const struct limit *l) {
-  const hooke_limit *limit = l->limit;
   struct cli_json json;
   cli_json_begin(&json, stdout);
-  cli_json_number(&json, "time", hooke_state_time(l->setup.state));
-  cli_json_number(&json, "frequency_max", hooke_limit_figure(limit, "frequency_max"));
-  cli_json_number(&json, "rate_max", hooke_limit_figure(limit, "rate_max"));
-  cli_json_number(&json, "clamped", hooke_limit_figure(limit, "clamped"));
-  cli_json_open(&json, "rows", '[');
-  for (int64_t row = 0; row < hooke_limit_row_count(limit); row++)
-    print_row_json(&json, l, row);
-  cli_json_close(&json);
-  cli_json_open(&json, "blame", '[');
-  for (int64_t k = 0; k < hooke_limit_blame_count(limit); k++) {
-    cli_blame_json(&json, hooke_limit_blame_text(limit, k, "force"),
-                   hooke_limit_blame_number(limit, k, "first"), hooke_limit_blame_number(limit, k, "second"),
-                   hooke_limit_blame_text(limit, k, "group"), hooke_limit_blame_number(limit, k, "share"));
-  }
-  cli_json_close(&json);
-  print_remedy_json(&json, limit);
+  cli_table_print_row(&json, l->limit, "limit", 0);
+  cli_table_print(&json, "rows", l->limit, "rows");
+  cli_blame_json(&json, l->limit);
+  cli_table_print(&json, "movers", l->limit, "movers");
+  cli_table_print(&json, "remedy", l->limit, "remedy");
+  cli_table_print(&json, "modes", l->limit, "modes");
   cli_json_end(&json);
 }
 
 /* ---- words ---- */
+
+static double number_of(const struct limit *l, const char *what) {
+  return hooke_measurement_number(l->limit, "limit", 0, what);
+}
+
+static const char *row_text(const struct limit *l, int64_t row, const char *what) {
+  return hooke_measurement_text(l->limit, "rows", row, what);
+}
 
 static const struct column {
   const char *what, *head, *unit;
@@ -163,7 +127,7 @@ static int32_t is_shown(const struct limit *l, int k) {
 }
 
 static void print_cell(const struct limit *l, int64_t row, const struct column *column) {
-  const double value = number_of(l, row, column->what);
+  const double value = hooke_measurement_number(l->limit, "rows", row, column->what);
   const int32_t counts = strcmp(column->what, "steps_run") == 0;
   char cell[HOOKE_NUMBER_SIZE] = "-";
   if (isinf(value)) snprintf(cell, sizeof cell, "none");
@@ -181,8 +145,8 @@ static void print_table(const struct limit *l, int32_t width) {
     }
     printf("\n");
   }
-  for (int64_t row = 0; row < hooke_limit_row_count(l->limit); row++) {
-    printf("%-*s", width, hooke_limit_text(l->limit, row, "method"));
+  for (int64_t row = 0; row < hooke_measurement_row_count(l->limit, "rows"); row++) {
+    printf("%-*s", width, row_text(l, row, "method"));
     for (int k = 0; k < COLUMN_COUNT; k++) {
       if (is_shown(l, k)) print_cell(l, row, &columns[k]);
     }
@@ -192,36 +156,41 @@ static void print_table(const struct limit *l, int32_t width) {
 
 static void print_notes(const struct limit *l, int32_t width) {
   int32_t any = 0;
-  for (int64_t row = 0; row < hooke_limit_row_count(l->limit); row++) {
-    const char *note = hooke_limit_text(l->limit, row, "note");
+  for (int64_t row = 0; row < hooke_measurement_row_count(l->limit, "rows"); row++) {
+    const char *note = row_text(l, row, "note");
     if (!note[0]) continue;
     if (!any) printf("\n");
     any = 1;
-    printf("%-*s  ", width, hooke_limit_text(l->limit, row, "method"));
+    printf("%-*s  ", width, row_text(l, row, "method"));
     cli_print_wrapped(stdout, width + 2, width + 2, WIDTH, note);
   }
 }
 
-static void print_blame(const hooke_limit *limit) {
-  const int64_t count = hooke_limit_blame_count(limit);
-  const char *sentence = hooke_limit_remedy_text(limit, "sentence");
+static double blame_number(const hooke_measurement *limit, int64_t row, const char *what) {
+  return hooke_measurement_number(limit, "blame", row, what);
+}
+
+static void print_spring(const hooke_measurement *limit, int64_t row, const char *label) {
+  const char *group = hooke_measurement_text(limit, "blame", row, "group");
+  printf("%s%-*s%5.1f %%  spring %.0f, between particles %.0f and %.0f", label[0] ? "\n" : "", INDENT, label,
+         100.0 * blame_number(limit, row, "share"), blame_number(limit, row, "number"),
+         blame_number(limit, row, "first"), blame_number(limit, row, "second"));
+  if (group && group[0]) {
+    printf(", group ");
+    cli_print_text(stdout, group);
+  }
+  printf("\n");
+}
+
+static void print_blame(const hooke_measurement *limit) {
+  const int64_t count = hooke_measurement_row_count(limit, "blame");
+  const char *sentence = hooke_measurement_text(limit, "remedy", 0, "sentence");
   for (int64_t k = 0; k < count && k < MOST_SPRINGS; k++) {
-    const char *group = hooke_limit_blame_text(limit, k, "group"),
-               *force = hooke_limit_blame_text(limit, k, "force");
-    if (force[0]) {
-      printf("\n%-*s%5.1f %%  %s\n", INDENT, "blame", 100.0 * hooke_limit_blame_number(limit, k, "share"),
-             force);
-      continue;
-    }
-    printf("%s%-*s%5.1f %%  spring %.0f, between particles %.0f and %.0f", k ? "" : "\n", INDENT,
-           k ? "" : "blame", 100.0 * hooke_limit_blame_number(limit, k, "share"),
-           hooke_limit_blame_number(limit, k, "spring"), hooke_limit_blame_number(limit, k, "first"),
-           hooke_limit_blame_number(limit, k, "second"));
-    if (group && group[0]) {
-      printf(", group ");
-      cli_print_text(stdout, group);
-    }
-    printf("\n");
+    const char *force = hooke_measurement_text(limit, "blame", k, "force");
+    if (force)
+      printf("\n%-*s%5.1f %%  %s\n", INDENT, "blame", 100.0 * blame_number(limit, k, "share"), force);
+    else
+      print_spring(limit, k, k ? "" : "blame");
   }
   if (count > MOST_SPRINGS) printf("%-*sand others with less\n", INDENT, "");
   if (!sentence) return;
@@ -230,18 +199,17 @@ static void print_blame(const hooke_limit *limit) {
 }
 
 static void print_words(const struct limit *l) {
-  const hooke_limit *limit = l->limit;
   char text[HOOKE_NUMBER_SIZE];
   int32_t width = 0;
-  for (int64_t row = 0; row < hooke_limit_row_count(limit); row++) {
-    const int32_t length = (int32_t)strlen(hooke_limit_text(limit, row, "method"));
+  for (int64_t row = 0; row < hooke_measurement_row_count(l->limit, "rows"); row++) {
+    const int32_t length = (int32_t)strlen(row_text(l, row, "method"));
     if (length > width) width = length;
   }
   cli_print_text(stdout, title_of(l));
-  printf(", at t = %s s\n", cli_format_rounded(hooke_state_time(l->setup.state), text));
-  printf("fastest motion %.6g rad/s, fastest damping %.6g 1/s\n", hooke_limit_figure(limit, "frequency_max"),
-         hooke_limit_figure(limit, "rate_max"));
-  const double clamped = hooke_limit_figure(limit, "clamped");
+  printf(", at t = %s s\n", cli_format_rounded(number_of(l, "time"), text));
+  printf("fastest motion %.6g rad/s, fastest damping %.6g 1/s\n", number_of(l, "frequency_max"),
+         number_of(l, "rate_max"));
+  const double clamped = number_of(l, "clamped");
   if (clamped > 0.0) {
     printf("%.0f %s compressed: what pushes %s sideways is growth by physics, and left out\n", clamped,
            clamped == 1.0 ? "spring is" : "springs are", clamped == 1.0 ? "its ends" : "their ends");
@@ -249,7 +217,7 @@ static void print_words(const struct limit *l) {
   printf("\n");
   print_table(l, width);
   print_notes(l, width);
-  print_blame(limit);
+  print_blame(l->limit);
 }
 
 static int tell(const struct limit *l) {
@@ -270,15 +238,16 @@ static int tell(const struct limit *l) {
 
 /* The exit code of the limit, or that of a report that could not be written. */
 static int write_report(const struct limit *l, const char *report, int code) {
-  if (!report || isnan(hooke_limit_figure(l->limit, "frequency_max"))) return code;
-  const int32_t status = hooke_limit_write_report(l->limit, l->setup.state, report, title_of(l));
+  if (!report || isnan(number_of(l, "frequency_max"))) return code;
+  int32_t status = hooke_measurement_label(l->limit, "title", title_of(l));
+  if (status == HOOKE_OK) status = hooke_measurement_write(l->limit, report);
   if (status == HOOKE_OK) return code;
   cli_report_words(l->arguments, "%s", hooke_last_error());
   return cli_exit_code(status);
 }
 
 static int do_limit(const struct cli_arguments *arguments) {
-  struct limit l = {.arguments = arguments, .along = cli_arguments_text(arguments, "along") != NULL};
+  struct limit l = {.arguments = arguments, .along = hooke_options_number(arguments->more, "along") != 0.0};
   const char *at = cli_arguments_text(arguments, "at");
   const char *report = cli_arguments_text(arguments, "report");
   int code = check_names(arguments);
@@ -289,7 +258,7 @@ static int do_limit(const struct cli_arguments *arguments) {
   if (code == HOOKE_EXIT_DONE) code = check_needs(&l);
   if (code == HOOKE_EXIT_DONE) code = find(&l);
   if (code == HOOKE_EXIT_DONE) code = write_report(&l, report, tell(&l));
-  hooke_limit_destroy(l.limit);
+  hooke_measurement_destroy(l.limit);
   cli_setup_destroy(&l.setup);
   return code;
 }
@@ -297,7 +266,6 @@ static int do_limit(const struct cli_arguments *arguments) {
 static const struct cli_verb_row own_rows[] = {
     {"at", 0, "FILE:FRAME",
      "at a frame of a trajectory, the last one if FRAME is left out; else at the start"},
-    {"along", 0, NULL, "at every frame of the run: the smallest limit met and when, predicted alone"},
     {"report", 0, "FILE.html",
      "writes regions of stability, limiting mode, table and remedy as one page to read offline, replacing "
      "it"},
@@ -308,8 +276,8 @@ const struct cli_verb cli_verb_limit = {
     .summary = "the largest stable step of each method, predicted and measured, and what it hangs on",
     .text =
         "Predicts the largest stable step of each fixed-step method from the eigenvalues of the scene, "
-        "frozen "
-        "at its positions and at rest, then measures it by running the method. Says which springs carry "
+        "frozen at its positions and at rest, then measures it by running the method. Says which springs "
+        "carry "
         "the motion that limits --method, and what it would buy to change them. Safe bound: a step that is "
         "certain to be stable, from one pass over the springs.",
     .example = "hooke limit cloth.json --predict",

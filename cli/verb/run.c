@@ -124,16 +124,26 @@ static int32_t write_companion(struct cli_run *run) {
   return HOOKE_OK;
 }
 
+static int32_t ask_why(struct cli_run *run) {
+  int32_t status = hooke_why_create(run->integrator, NULL, &run->why);
+  if (status != HOOKE_OK) return status;
+  cli_watch_start(&run->watch, run->arguments);
+  hooke_measurement_on_progress(run->why, cli_watch_progress, &run->watch);
+  status = hooke_measurement_run(run->why, NULL);
+  cli_watch_end(&run->watch);
+  return status;
+}
+
 /* The outcome stays what it is without an explanation. */
 static void find_why(struct cli_run *run) {
   if (cli_arguments_text(run->arguments, "no-why")) return;
-  cli_watch_start(&run->watch, run->arguments);
-  const int32_t status = cli_watch_interrupted() ? HOOKE_STOPPED
-                                                 : hooke_why_create(run->integrator, NAN, cli_watch_progress,
-                                                                    &run->watch, &run->why);
-  cli_watch_end(&run->watch);
-  if (status == HOOKE_OK)
-    snprintf(run->message, sizeof run->message, "%s", hooke_why_text(run->why, "sentence"));
+  const int32_t status = cli_watch_interrupted() ? HOOKE_STOPPED : ask_why(run);
+  if (status == HOOKE_OK) {
+    snprintf(run->message, sizeof run->message, "%s", hooke_measurement_text(run->why, "why", 0, "sentence"));
+    return;
+  }
+  hooke_measurement_destroy(run->why);
+  run->why = NULL;
   if (status == HOOKE_NO_MEMORY)
     cli_report_words(run->arguments, "out of memory: why the run ended early is not looked into");
   if (status == HOOKE_STOPPED)
@@ -212,9 +222,9 @@ static void tell_end(const struct cli_run *run) {
 static void explain(const struct cli_run *run) {
   const struct cli_arguments *arguments = run->arguments;
   if (run->why == NULL) return;
-  const char *left_out = hooke_why_text(run->why, "left_out");
+  const char *left_out = hooke_measurement_text(run->why, "why", 0, "left_out");
   cli_report_words(arguments, "%s", run->message);
-  if (left_out[0]) cli_report_words(arguments, "%s", left_out);
+  if (left_out) cli_report_words(arguments, "%s", left_out);
   if (cli_advice_print(stderr, arguments, run->why, 1) != HOOKE_OK) (void)cli_report_missing_words(arguments);
   fputs("'hooke why' on the same says more\n", stderr);
 }
@@ -313,7 +323,7 @@ static int do_run(const struct cli_arguments *arguments) {
     code = cli_setup_require(arguments, &run.setup, hooke_options_text(run.setup.options, "method"));
   }
   if (code == HOOKE_EXIT_DONE) code = run_and_tell(&run);
-  hooke_why_destroy(run.why);
+  hooke_measurement_destroy(run.why);
   hooke_estimate_destroy(run.estimate);
   hooke_integrator_destroy(run.integrator);
   cli_setup_destroy(&run.setup);

@@ -4,6 +4,7 @@
 #include "print.h"
 #include "report.h"
 #include "setup.h"
+#include "table.h"
 #include "watch.h"
 
 #include <inttypes.h>
@@ -17,11 +18,11 @@ struct why {
   const struct cli_arguments *arguments;
   struct cli_setup setup;
   hooke_record *record; /* NULL: the scene is not an output */
-  hooke_why *why;       /* NULL: the run did not blow up */
-  const char *status;   /* of the run, then */
-  double time;          /* reached, then */
-  int code;             /* of what was reported already */
-  double budget;        /* [s] */
+  hooke_options *options;
+  hooke_measurement *why; /* NULL: the run did not blow up */
+  const char *status;     /* of the run, then */
+  double time;            /* reached, then */
+  int code;               /* of what was reported already */
 };
 
 static const double SMALLEST_SHARE = 1e-3; /* that words are made of */
@@ -34,6 +35,15 @@ static int32_t see_run(double done, const char *method, void *watch) {
   return cli_watch_tell(watch, done, "running it");
 }
 
+static int32_t explain(const struct why *why) {
+  struct cli_watch watch;
+  cli_watch_start(&watch, why->arguments);
+  hooke_measurement_on_progress(why->why, cli_watch_progress, &watch);
+  const int32_t status = hooke_measurement_run(why->why, NULL);
+  cli_watch_end(&watch);
+  return status;
+}
+
 /* Runs the scene and asks why it ended early. */
 static int32_t run_again(struct why *why) {
   hooke_integrator *integrator = NULL;
@@ -43,11 +53,13 @@ static int32_t run_again(struct why *why) {
   cli_watch_start(&watch, why->arguments);
   hooke_integrator_on_progress(integrator, HOOKE_BETWEEN_LOOKS, see_run, &watch);
   status = hooke_integrator_run(integrator, why->setup.state);
+  cli_watch_end(&watch);
   why->time = hooke_state_time(why->setup.state);
   why->status = "finished";
-  if (cli_exit_code(status) == HOOKE_EXIT_DIVERGED)
-    status = hooke_why_create(integrator, why->budget, cli_watch_progress, &watch, &why->why);
-  cli_watch_end(&watch);
+  if (cli_exit_code(status) == HOOKE_EXIT_DIVERGED) {
+    status = hooke_why_create(integrator, why->options, &why->why);
+    if (status == HOOKE_OK) status = explain(why);
+  }
   hooke_integrator_destroy(integrator);
   return status;
 }
@@ -55,15 +67,6 @@ static int32_t run_again(struct why *why) {
 static int32_t blew_up(const char *status) {
   return strcmp(status, "diverged") == 0 || strcmp(status, "solver-failed") == 0 ||
          strcmp(status, "step-limit") == 0;
-}
-
-static int32_t explain_kept(struct why *why, const hooke_state *first, const hooke_state *last) {
-  struct cli_watch watch;
-  cli_watch_start(&watch, why->arguments);
-  const int32_t status = hooke_why_create_kept(why->setup.system, why->setup.options, first, last,
-                                               why->budget, cli_watch_progress, &watch, &why->why);
-  cli_watch_end(&watch);
-  return status;
 }
 
 /* From the first and the last frame of the output. */
@@ -75,10 +78,13 @@ static int32_t read_output(struct why *why) {
   if (status == HOOKE_OK) status = hooke_record_read(why->record, -1, last);
   if (status == HOOKE_OK) {
     why->time = hooke_state_time(last);
-    if (blew_up(why->status)) status = explain_kept(why, first, last);
+    if (blew_up(why->status))
+      status =
+          hooke_why_create_kept(why->setup.system, why->setup.options, first, last, why->options, &why->why);
   }
   hooke_state_destroy(first);
   hooke_state_destroy(last);
+  if (status == HOOKE_OK && why->why) status = explain(why);
   if (status != HOOKE_BAD_CALL) return status;
   why->code = cli_report(
       why->arguments, HOOKE_EXIT_BAD_INPUT,
@@ -90,37 +96,54 @@ static int32_t read_output(struct why *why) {
 
 /* ---- telling ---- */
 
+/* Of a run that did not blow up there are its method and the time that it reached. */
+static void print_nothing(struct cli_json *json, const struct why *why) {
+  const char *name;
+  for (int64_t k = 0; (name = hooke_measurement_column("why", "why", k, "name")); k++) {
+    if (strcmp(name, "time") == 0)
+      cli_json_number(json, name, why->time);
+    else
+      cli_json_text(json, name,
+                    strcmp(name, "method") == 0 ? hooke_options_text(why->setup.options, name) : NULL);
+  }
+}
+
+/* HOOKE_NO_MEMORY if a command is missing. */
+static int32_t print_advice(struct cli_json *json, const struct why *why) {
+  int32_t status = HOOKE_OK;
+  cli_json_open(json, "advice", '[');
+  for (int64_t k = 0; k < hooke_measurement_row_count(why->why, "advice"); k++) {
+    char *command;
+    if (cli_advice_command(why->arguments, why->why, k, &command) != HOOKE_OK) status = HOOKE_NO_MEMORY;
+    cli_json_open(json, NULL, '{');
+    cli_table_print_row(json, why->why, "advice", k);
+    cli_json_text(json, "command", command);
+    cli_json_close(json);
+    free(command);
+  }
+  cli_json_close(json);
+  return status;
+}
+
+static void print_empty(struct cli_json *json, const char *key) {
+  cli_json_open(json, key, '[');
+  cli_json_close(json);
+}
+
 /* HOOKE_NO_MEMORY if a command is missing. */
 static int32_t print_json(const struct why *why) {
-  const hooke_why *found = why->why;
   struct cli_json json;
   int32_t status = HOOKE_OK;
   cli_json_begin(&json, stdout);
-  cli_json_text(&json, "cause", found ? hooke_why_text(found, "cause") : NULL);
-  cli_json_number(&json, "time", found ? hooke_why_number(found, "time") : why->time);
-  cli_json_text(&json, "method", hooke_options_text(why->setup.options, "method"));
-  cli_json_number(&json, "step", found ? hooke_why_number(found, "step") : (double)NAN);
-  cli_json_number(&json, "limit", found ? hooke_why_number(found, "limit") : (double)NAN);
-  cli_json_open(&json, "blame", '[');
-  for (int64_t k = 0; found && k < hooke_why_blame_count(found); k++) {
-    cli_blame_json(&json, hooke_why_blame_text(found, k, "force"), hooke_why_blame_number(found, k, "first"),
-                   hooke_why_blame_number(found, k, "second"), hooke_why_blame_text(found, k, "group"),
-                   hooke_why_blame_number(found, k, "share"));
+  if (why->why) {
+    cli_table_print_row(&json, why->why, "why", 0);
+    cli_blame_json(&json, why->why);
+    status = print_advice(&json, why);
+  } else {
+    print_nothing(&json, why);
+    print_empty(&json, "blame");
+    print_empty(&json, "advice");
   }
-  cli_json_close(&json);
-  cli_json_open(&json, "advice", '[');
-  for (int64_t k = 0; found && k < hooke_why_advice_count(found); k++) {
-    char *command;
-    if (cli_advice_command(why->arguments, found, k, &command) != HOOKE_OK) status = HOOKE_NO_MEMORY;
-    cli_json_open(&json, NULL, '{');
-    cli_json_text(&json, "change", hooke_why_advice_text(found, k, "change"));
-    cli_json_text(&json, "command", command);
-    cli_json_close(&json);
-    free(command);
-  }
-  cli_json_close(&json);
-  const char *left_out = found ? hooke_why_text(found, "left_out") : "";
-  cli_json_text(&json, "left_out", left_out[0] ? left_out : NULL);
   cli_json_end(&json);
   return status;
 }
@@ -134,34 +157,55 @@ static void print_number(const char *label, double value, const char *unit) {
     printf("%-12s%s %s\n", label, cli_format_rounded(value, text), unit);
 }
 
-static void print_springs(const hooke_why *found) {
-  const int64_t count = hooke_why_blame_count(found);
+static void print_spring(const hooke_measurement *found, int64_t row, const char *label) {
+  const char *group = hooke_measurement_text(found, "blame", row, "group");
+  const double share = hooke_measurement_number(found, "blame", row, "share");
+  printf("%-12s%.0f, between particles %.0f and %.0f", label,
+         hooke_measurement_number(found, "blame", row, "number"),
+         hooke_measurement_number(found, "blame", row, "first"),
+         hooke_measurement_number(found, "blame", row, "second"));
+  if (group[0]) {
+    printf(", group ");
+    cli_print_text(stdout, group);
+  }
+  if (!isnan(share)) printf(", share %.3g", share);
+  printf("\n");
+}
+
+static void print_springs(const hooke_measurement *found) {
+  const int64_t count = hooke_measurement_row_count(found, "blame");
   int64_t forces = 0;
   for (int64_t k = 0; k < count && k < MOST_SPRINGS_SHOWN; k++) {
-    const char *group = hooke_why_blame_text(found, k, "group");
-    const double share = hooke_why_blame_number(found, k, "share");
+    const char *force = hooke_measurement_text(found, "blame", k, "force");
+    const double share = hooke_measurement_number(found, "blame", k, "share");
     if (k > 0 && share < SMALLEST_SHARE) return;
-    if (hooke_why_blame_text(found, k, "force")[0]) {
-      printf("%-12s%s, share %.3g\n", "force", hooke_why_blame_text(found, k, "force"), share);
+    if (force) {
+      printf("%-12s%s, share %.3g\n", "force", force, share);
       forces++;
-      continue;
+    } else {
+      print_spring(found, k, k == forces ? "springs" : "");
     }
-    printf("%-12s%.0f, between particles %.0f and %.0f", k == forces ? "springs" : "",
-           hooke_why_blame_number(found, k, "spring"), hooke_why_blame_number(found, k, "first"),
-           hooke_why_blame_number(found, k, "second"));
-    if (group[0]) {
-      printf(", group ");
-      cli_print_text(stdout, group);
-    }
-    if (!isnan(share)) printf(", share %.3g", share);
-    printf("\n");
   }
   if (count > MOST_SPRINGS_SHOWN) printf("%-12sand %" PRId64 " more\n", "", count - MOST_SPRINGS_SHOWN);
 }
 
+static void print_wrapped(const char *label, const char *words) {
+  printf("%-12s", label);
+  cli_print_wrapped(stdout, 12, 12, 100, words);
+  printf("\n");
+}
+
+static double number_of(const hooke_measurement *found, const char *what) {
+  return hooke_measurement_number(found, "why", 0, what);
+}
+
+static const char *text_of(const hooke_measurement *found, const char *what) {
+  return hooke_measurement_text(found, "why", 0, what);
+}
+
 /* HOOKE_NO_MEMORY if a command is missing. */
 static int32_t print_words(const struct why *why) {
-  const hooke_why *found = why->why;
+  const hooke_measurement *found = why->why;
   char text[HOOKE_NUMBER_SIZE];
   if (!found) {
     printf("the run did not blow up: it is '");
@@ -169,22 +213,16 @@ static int32_t print_words(const struct why *why) {
     printf("' at t = %s s\n", cli_format_rounded(why->time, text));
     return HOOKE_OK;
   }
-  printf("%-12s%s\n", "cause", hooke_why_text(found, "cause"));
-  printf("%-12s", "what");
-  cli_print_wrapped(stdout, 12, 12, 100, hooke_why_text(found, "sentence"));
-  printf("\n%-12s%s\n", "method", hooke_why_text(found, "method"));
-  print_number("step", hooke_why_number(found, "step"), "s");
-  print_number("limit", hooke_why_number(found, "limit"), "s");
-  print_number("well until", hooke_why_number(found, "time"), "s");
-  print_number("noticed", hooke_why_number(found, "noticed"), "s");
-  if (!isnan(hooke_why_number(found, "particle")))
-    printf("%-12s%.0f\n", "particle", hooke_why_number(found, "particle"));
+  printf("%-12s%s\n", "cause", text_of(found, "cause"));
+  print_wrapped("what", text_of(found, "sentence"));
+  printf("%-12s%s\n", "method", text_of(found, "method"));
+  print_number("step", number_of(found, "step"), "s");
+  print_number("limit", number_of(found, "limit"), "s");
+  print_number("well until", number_of(found, "time"), "s");
+  print_number("noticed", number_of(found, "noticed"), "s");
+  if (!isnan(number_of(found, "particle"))) printf("%-12s%.0f\n", "particle", number_of(found, "particle"));
   print_springs(found);
-  if (hooke_why_text(found, "left_out")[0]) {
-    printf("%-12s", "left out");
-    cli_print_wrapped(stdout, 12, 12, 100, hooke_why_text(found, "left_out"));
-    printf("\n");
-  }
+  if (text_of(found, "left_out")) print_wrapped("left out", text_of(found, "left_out"));
   printf("\n");
   return cli_advice_print(stdout, why->arguments, found, INT64_MAX);
 }
@@ -216,12 +254,22 @@ static int find_out(struct why *why) {
   return status == HOOKE_OK ? HOOKE_EXIT_DONE : cli_report_missing_words(arguments);
 }
 
+static int read_options(struct why *why) {
+  double budget = USUAL_BUDGET;
+  const int code = cli_setup_read_study(why->arguments, "budget", "s", &budget);
+  if (code != HOOKE_EXIT_DONE) return code;
+  int32_t status = hooke_options_create("why", &why->options);
+  if (status == HOOKE_OK) status = hooke_options_set_number(why->options, "budget", budget);
+  return status == HOOKE_OK ? HOOKE_EXIT_DONE : cli_report_status(why->arguments, status);
+}
+
 static int do_why(const struct cli_arguments *arguments) {
-  struct why why = {.arguments = arguments, .time = NAN, .budget = USUAL_BUDGET};
-  int code = cli_setup_read_study(arguments, "budget", "s", &why.budget);
+  struct why why = {.arguments = arguments, .time = NAN};
+  int code = read_options(&why);
   if (code == HOOKE_EXIT_DONE) code = cli_setup_load(arguments, &why.setup);
   if (code == HOOKE_EXIT_DONE) code = find_out(&why);
-  hooke_why_destroy(why.why);
+  hooke_measurement_destroy(why.why);
+  hooke_options_destroy(why.options);
   hooke_record_close(why.record);
   cli_setup_destroy(&why.setup);
   return code;

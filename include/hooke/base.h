@@ -37,8 +37,8 @@ extern "C" {
 #endif
 #endif
 
-#define HOOKE_VERSION "0.1.0"
-#define HOOKE_ABI     0 /* the number in the soname; it changes when a caller has to be compiled again */
+#define HOOKE_VERSION "0.2.0"
+#define HOOKE_ABI     1 /* the number in the soname; it changes when a caller has to be compiled again */
 
 /* Statuses. The numbers are part of the ABI and never change. */
 #define HOOKE_OK            0
@@ -60,7 +60,7 @@ HOOKE_API const char *hooke_last_error(void);
 /* A short name of a status, such as "bad value"; "unknown status" for a number that is none. */
 HOOKE_API const char *hooke_status_name(int32_t status);
 
-/* Version of the library that is running, which may be newer than the header: "0.1.0". */
+/* Version of the library that is running, which may be newer than the header: "0.2.0". */
 HOOKE_API const char *hooke_version(void);
 
 /* The ABI number of the library that is running. */

@@ -132,6 +132,21 @@ HOOKE_API int32_t hooke_integrator_stop_value(const hooke_integrator *integrator
 /* Time at which divergence was noticed [s], NaN if it was not. */
 HOOKE_API double hooke_integrator_diverged_at(const hooke_integrator *integrator);
 
+/* ---- a warning before a run blows up ----
+ * Told that the step is no longer safe at the time t [s]. `kind` is "near-limit" (within 5 % of
+ * hooke_step_bound() there), "above-limit" or "never-stable" (the bound is 0); each is told once a run.
+ * `sentence` has everything in words: step, `limit` [s] (the bound), and what determines it, `particle` and the
+ * spring that weighs most there, `spring` (-1: none, or bending or an altitude spring weighs more). Return 0
+ * to go on, anything else to stop the run. */
+typedef int32_t hooke_warning(const char *kind, const char *sentence, double t, double limit, int64_t spring,
+                              int64_t particle, void *ctx);
+
+/* Has the runs of `integrator` watched: at the start, then at as many of the checks for divergence as cost
+ * less than a hundredth of the stepping. Results do not depend on it. NULL takes it back. A method without a
+ * bound is never warned of. HOOKE_UNSUITED for a first-order problem; HOOKE_NO_MEMORY. */
+HOOKE_API int32_t hooke_integrator_on_warning(hooke_integrator *integrator, hooke_warning *warning,
+                                              void *ctx);
+
 #ifdef __cplusplus
 }
 #endif

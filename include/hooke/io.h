@@ -8,7 +8,6 @@
 #include "build.h"
 #include "estimate.h"
 #include "integrator.h"
-#include "limit.h"
 #include "measure.h"
 
 #ifdef __cplusplus
@@ -216,13 +215,6 @@ HOOKE_API void hooke_view_destroy(hooke_view *view);
 HOOKE_API int32_t hooke_record_write_xdmf(const hooke_record *record, const char *path);
 
 /* ---- reports ---- */
-
-/* Writes one HTML page, readable offline, of a limit that was found: regions of stability with the
- * eigenvalues on them, the limiting mode on
- * the scene at `state`, table, springs to blame and remedy. HOOKE_BAD_CALL before the limits were found,
- * HOOKE_BAD_VALUE for a state of another system, and the failures above. */
-HOOKE_API int32_t hooke_limit_write_report(const hooke_limit *limit, const hooke_state *state,
-                                           const char *path, const char *scene);
 
 #ifdef __cplusplus
 }

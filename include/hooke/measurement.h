@@ -184,6 +184,61 @@ HOOKE_API int32_t hooke_needs_lean_position(const hooke_measurement *needs, cons
  * HOOKE_NO_MEMORY. */
 HOOKE_API int32_t hooke_verify_create(const char *path, const hooke_options *options,
                                       const hooke_options *limits, hooke_measurement **verify);
+/* ---- limit ----
+ * The largest stable step of each method on one scene, predicted and measured, and what determines it.
+ *
+ * The system is linearised at the positions of the state, at rest: M x'' + C x' + K x = 0 over the free
+ * particles. K has the tension of stretched springs, bending, and altitude springs without their tension; C is
+ * that of springs, altitude springs and drag. The transverse stiffness of a compressed spring is negative and
+ * counts as zero: buckling is growth by physics and no limit of a step. Callbacks are left out; springs that
+ * only pull count as taut. Needs LAPACK. ARPACK is used where it is built in (scenes of 34 to 3333 free
+ * particles); it is not made for threads, so searches by it wait for each other.
+ *
+ * All eigenvalues are known up to 133 free particles, and up to 500 where damping is in proportion to
+ * stiffness or there is none; with C = beta K one decides at any size. Beyond that the limits of symplectic
+ * Euler and Verlet are still sharp, and those of Runge-Kutta and forward Euler lie between "bound" and
+ * "predicted".
+ *
+ * With the option "along" hooke_measurement_run() runs the scene as the options of the run say, from the state
+ * on, which is its final state on return, and finds the predicted limit of every method at every frame: the
+ * columns "smallest" and "smallest_time" have the smallest that was met, the rest is that of the last frame.
+ * The statuses are then those of hooke_integrator_run(). */
+
+/* The step [s] up to which `method` is stable for x'' + 2 decay x' + frequency^2 x = 0 alone, by the rules of
+ * the predictions: 0 where no step is stable, infinity where nothing limits it, NaN where no rule is known, for
+ * an unknown method and for a number below 0. */
+HOOKE_API double hooke_limit_of_mode(const char *method, double frequency, double decay);
+
+/* ---- cost ----
+ * What each ingredient of one scene costs, on this machine. An ingredient is a group of springs, of bending
+ * triples or of tetrahedra, all damping of springs, drag, the callback force, or gravity. The scene is made
+ * again without it and both are compared: memory, the largest stable step, and the time of a step, taken by
+ * turns on both in short blocks from the same state, of which the shortest count. Times differ from one machine
+ * and one call to the next. Callbacks are called, at states that may not be those of a run. The state stays as
+ * it is. */
+
+/* ---- why ----
+ * Why a run ended early, where, and what to do. */
+
+/* Explains the last run (or steps) of `integrator`, which ended with HOOKE_DIVERGED, HOOKE_SOLVER_FAILED or
+ * HOOKE_STEP_LIMIT. The integrator must stay as it is until hooke_measurement_run() has returned. That takes
+ * the last steps again and tries what it advises, so callbacks are called again. It keeps to the option
+ * "budget" and to half again the memory of the run; the column "left_out" says what there was no time or memory
+ * for. The progress callback is called throughout, in trial runs and solves as well; if it stops the work,
+ * nothing is known. `options` may be NULL. HOOKE_BAD_CALL if the run did not end early; HOOKE_UNSUITED for a
+ * first-order problem; HOOKE_NOT_BUILT without LAPACK; HOOKE_NO_MEMORY. */
+HOOKE_API int32_t hooke_why_create(const hooke_integrator *integrator, const hooke_options *options,
+                                   hooke_measurement **measurement);
+/* The same from states that were kept of a run with the options `run`, and are copied: the one it began with
+ * and the last good one. From that hooke_measurement_run() takes it on until it ends early; HOOKE_BAD_CALL if
+ * it does not. */
+HOOKE_API int32_t hooke_why_create_kept(const hooke_system *system, const hooke_options *run,
+                                        const hooke_state *first, const hooke_state *last,
+                                        const hooke_options *options, hooke_measurement **measurement);
+/* Sets every option of that row of the table "advice" in `run`, options of a run. HOOKE_BAD_VALUE if there is no
+ * such row. */
+HOOKE_API int32_t hooke_why_advice_apply(const hooke_measurement *measurement, int64_t row,
+                                         hooke_options *run);
 
 #ifdef __cplusplus
 }

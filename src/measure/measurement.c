@@ -5,6 +5,7 @@
 #include "core/memory.h"
 #include "core/status.h"
 #include "integrate/integrator.h"
+#include "model/state.h"
 #include "model/system.h"
 
 #include <math.h>
@@ -98,8 +99,17 @@ int32_t hk_measurement_tell(const hooke_measurement *m, double done, const char 
   return hk_fail(HOOKE_STOPPED, NULL, "the progress callback asked to stop");
 }
 
+static int32_t run_at(hooke_measurement *m, hooke_state *state) {
+  hooke_state *start = NULL;
+  int32_t outcome = state ? HOOKE_OK : hooke_state_create(m->system, &start);
+  if (outcome == HOOKE_OK && state) outcome = hk_state_check(state, m->system);
+  if (outcome == HOOKE_OK) outcome = m->kind->run(m, state ? state : start);
+  hooke_state_destroy(start);
+  return outcome;
+}
+
 int32_t hooke_measurement_run(hooke_measurement *m, hooke_state *state) {
-  const int32_t outcome = m->kind->run(m, state);
+  const int32_t outcome = m->kind->takes_state ? run_at(m, state) : m->kind->run(m, state);
   if (outcome < 0) return outcome;
   m->has_run = 1;
   m->outcome = outcome;

@@ -15,6 +15,7 @@ struct hk_measurement_kind {
   const char
       *made_by;      /* the function that makes it, "hooke_why_create()"; NULL: hooke_measurement_create() */
   int32_t needs_run; /* 1: the options of the run have to be given */
+  int32_t takes_state; /* 1: it looks at a state, the initial one where none is given, and may do so again */
   const struct hk_table *const *tables;
   int32_t table_count;
   /* Makes measurement->object; destroy() follows in any case. */

@@ -17,7 +17,7 @@ KEYS = ["particles", "springs", "groups", "triples", "bending_groups", "tetrahed
 KEYS += ["bytes_per_spring", "step_limit", "warnings", "dropped_springs", "idle_particles"]
 COST_KEYS = ["method", "step", "nanoseconds", "resolution", "memory_bytes", "step_limit", "dropped_springs"]
 COST_KEYS += ["idle_particles", "rows"]
-ROW_KEYS = ["ingredient", "kind", "springs", "nanoseconds", "resolution", "memory_bytes", "step_limit_without"]
+ROW_KEYS = ["ingredient", "kind", "group", "springs", "nanoseconds", "resolution", "memory_bytes", "step_limit_without"]
 
 
 def test_json_has_exactly_the_keys(hooke, write):

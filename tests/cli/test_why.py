@@ -13,7 +13,8 @@ from conftest import SIX_PARTICLES, STIFF_PAIR
 pytestmark = pytest.mark.everything
 
 SCENES = Path(os.environ["HOOKE_SOURCE_DIR"]) / "tests/cli/scenes/exploding"
-KEYS = ["cause", "time", "method", "step", "limit", "blame", "advice", "left_out"]
+KEYS = ["cause", "sentence", "method", "time", "noticed", "step", "limit", "particle", "left_out", "blame", "advice"]
+BLAME_KEYS = ["spring", "number", "first", "second", "group", "share", "force"]
 
 # Scene: cause, and the group or the springs that are to be named first (None: none is).
 KINDS = {
@@ -87,10 +88,12 @@ def test_the_cause_named_is_the_one_planted_and_the_first_advice_works(hooke, tm
     assert why["cause"] == cause, run.json["diagnosis"]
     springs = [one for one in why["blame"] if one["spring"]]
     forces = [one for one in why["blame"] if not one["spring"]]
-    assert all(list(one) == ["spring", "group", "share"] for one in springs)
-    assert all(list(one) == ["spring", "group", "share", "force"] for one in forces) and forces in ([], why["blame"][:1])
+    assert all(list(one) == BLAME_KEYS for one in why["blame"]) and forces in ([], why["blame"][:1])
+    assert all(one["spring"] == [one["first"], one["second"]] and one["force"] is None for one in springs)
+    assert all(one["number"] is None and one["first"] is None for one in forces)
     assert [one["force"] for one in forces] == FORCES.get(kind, [])
-    assert all(list(one) == ["change", "command"] for one in why["advice"])
+    assert all(list(one) == ["change", "option", "value", "command"] for one in why["advice"])
+    assert why["sentence"] == run.json["diagnosis"] or gains
     if isinstance(first, str):
         assert springs[0]["group"] == first
     elif first:
@@ -121,7 +124,8 @@ def test_the_limit_of_an_oscillator_is_named_to_the_digit(hooke, write):
     """Symplectic Euler on a spring of 1000 N/m and 1 kg: 2/omega."""
     why = hooke("why", write(STIFF_PAIR), "--json").json
     assert why["limit"] == pytest.approx(2 / math.sqrt(1000), rel=1e-6)
-    assert why["blame"] == [{"spring": [0, 1], "group": "", "share": pytest.approx(1)}]
+    spring = {"spring": [0, 1], "number": 0, "first": 0, "second": 1, "group": "", "share": pytest.approx(1), "force": None}
+    assert why["blame"] == [spring]
     assert why["step"] == 0.1 and why["method"] == "symplectic-euler"
     assert 0 <= why["time"] < 1
 

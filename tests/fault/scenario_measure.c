@@ -28,36 +28,41 @@ end:
 }
 
 /* From the start, which a failed attempt may have left. */
-static int32_t go_along(hooke_limit *limit, const hooke_state *start, hooke_state *state) {
+static int32_t go_along(hooke_measurement *limit, const hooke_state *start, hooke_state *state) {
   const int32_t status = hooke_state_copy(start, state);
-  return status != HOOKE_OK ? status : hooke_limit_along(limit, state);
+  return status != HOOKE_OK ? status : hooke_measurement_run(limit, state);
 }
 
 static void limit(struct attempt *a, const void *with) {
   hooke_system *system = make_rope(a, 5);
   hooke_options *run = system ? make_run(a, NULL, 1e-4, 2e-4, 0.0) : NULL;
-  hooke_limit *limit = run ? make_limit(a, system, run, with == NULL) : NULL;
+  hooke_measurement *limit = run ? make_limit(a, system, run, with ? NULL : "predict") : NULL, *along = NULL;
   hooke_state *state = NULL, *other = NULL;
   if (limit == NULL) goto end;
   TRY(a, hooke_state_create(system, &state));
   TRY(a, hooke_state_create(system, &other));
-  TRY(a, hooke_limit_find(limit, state));
-  for (int64_t k = 0; k < hooke_limit_row_count(limit); k++) {
-    attempt_number(a, hooke_limit_number(limit, k, "predicted"));
-    attempt_number(a, hooke_limit_number(limit, k, "measured"));
-    attempt_text(a, hooke_limit_text(limit, k, "note"));
+  TRY(a, hooke_measurement_run(limit, state));
+  for (int64_t k = 0; k < hooke_measurement_row_count(limit, "rows"); k++) {
+    attempt_number(a, hooke_measurement_number(limit, "rows", k, "predicted"));
+    attempt_number(a, hooke_measurement_number(limit, "rows", k, "measured"));
+    attempt_text(a, hooke_measurement_text(limit, "rows", k, "note"));
   }
-  attempt_number(a, hooke_limit_blame_number(limit, 0, "share"));
-  attempt_text(a, hooke_limit_blame_text(limit, 0, "group"));
-  attempt_text(a, hooke_limit_remedy_text(limit, "sentence"));
-  attempt_number(a, hooke_limit_remedy_number(limit, "gain"));
-  attempt_number(a, hooke_limit_mode_number(limit, 0, "frequency"));
-  if (with == NULL) TRY(a, go_along(limit, state, other));
-  attempt_number(a, hooke_limit_number(limit, 0, "smallest"));
+  attempt_number(a, hooke_measurement_number(limit, "blame", 0, "share"));
+  attempt_text(a, hooke_measurement_text(limit, "blame", 0, "group"));
+  attempt_text(a, hooke_measurement_text(limit, "remedy", 0, "sentence"));
+  attempt_number(a, hooke_measurement_number(limit, "remedy", 0, "gain"));
+  attempt_number(a, hooke_measurement_number(limit, "modes", 0, "frequency"));
+  if (with == NULL) {
+    along = make_limit(a, system, run, "along");
+    if (along == NULL) goto end;
+    TRY(a, go_along(along, state, other));
+    attempt_number(a, hooke_measurement_number(along, "rows", 0, "smallest"));
+  }
 end:
+  hooke_measurement_destroy(along);
   hooke_state_destroy(other);
   hooke_state_destroy(state);
-  hooke_limit_destroy(limit);
+  hooke_measurement_destroy(limit);
   hooke_options_destroy(run);
   hooke_system_destroy(system);
 }
@@ -67,27 +72,33 @@ static void why(struct attempt *a, const void *with) {
   hooke_options *run = system ? make_run(a, "symplectic-euler", 0.05, 100.0, 1.0) : NULL;
   hooke_integrator *integrator = NULL;
   hooke_state *state = NULL, *last = NULL;
-  hooke_why *why = NULL;
+  hooke_measurement *why = NULL;
+  hooke_options *options = NULL;
   (void)with;
   if (run == NULL) goto end;
   TRY(a, hooke_integrator_create(system, run, &integrator));
   TRY(a, hooke_state_create(system, &state));
   TRY(a, hooke_state_create(system, &last));
   TRY_FOR(a, hooke_integrator_run(integrator, last), HOOKE_DIVERGED);
-  TRY(a, hooke_why_create(integrator, INFINITY, NULL, NULL, &why));
-  attempt_text(a, hooke_why_text(why, "cause"));
-  attempt_text(a, hooke_why_text(why, "sentence"));
-  attempt_number(a, hooke_why_number(why, "limit"));
-  hooke_why_destroy(why);
+  TRY(a, hooke_options_create("why", &options));
+  TRY(a, hooke_options_set_number(options, "budget", 1e300));
+  TRY(a, hooke_why_create(integrator, options, &why));
+  TRY(a, hooke_measurement_run(why, NULL));
+  attempt_text(a, hooke_measurement_text(why, "why", 0, "cause"));
+  attempt_text(a, hooke_measurement_text(why, "why", 0, "sentence"));
+  attempt_number(a, hooke_measurement_number(why, "why", 0, "limit"));
+  hooke_measurement_destroy(why);
   why = NULL;
-  TRY(a, hooke_why_create_kept(system, run, state, last, INFINITY, NULL, NULL, &why));
-  attempt_text(a, hooke_why_text(why, "sentence"));
-  for (int64_t k = 0; k < hooke_why_advice_count(why); k++)
-    attempt_text(a, hooke_why_advice_text(why, k, "change"));
-  if (hooke_why_advice_count(why) > 0) TRY(a, hooke_why_advice_apply(why, 0, run));
+  TRY(a, hooke_why_create_kept(system, run, state, last, options, &why));
+  TRY(a, hooke_measurement_run(why, NULL));
+  attempt_text(a, hooke_measurement_text(why, "why", 0, "sentence"));
+  for (int64_t k = 0; k < hooke_measurement_row_count(why, "advice"); k++)
+    attempt_text(a, hooke_measurement_text(why, "advice", k, "change"));
+  if (hooke_measurement_row_count(why, "advice") > 0) TRY(a, hooke_why_advice_apply(why, 0, run));
   attempt_number(a, hooke_options_number(run, "step"));
 end:
-  hooke_why_destroy(why);
+  hooke_measurement_destroy(why);
+  hooke_options_destroy(options);
   hooke_state_destroy(last);
   hooke_state_destroy(state);
   hooke_integrator_destroy(integrator);
@@ -172,22 +183,22 @@ end:
 static void cost(struct attempt *a, const void *with) {
   hooke_system *system = make_rope(a, 3);
   hooke_options *run = system ? make_run(a, "verlet", 1e-3, 0.02, 0.01) : NULL, *options = NULL;
-  hooke_cost *cost = NULL;
+  hooke_measurement *cost = NULL;
   hooke_state *state = NULL;
   if (run == NULL) goto end;
-  TRY(a, hooke_cost_options_create(&options));
+  TRY(a, hooke_options_create("cost", &options));
   if (with) TRY(a, hooke_options_set_number(options, "groups", 0));
   TRY(a, hooke_options_set_number(options, "budget", 0.05));
-  TRY(a, hooke_cost_create(system, run, options, &cost));
+  TRY(a, hooke_measurement_create("cost", system, run, options, &cost));
   TRY(a, hooke_state_create(system, &state));
-  TRY(a, hooke_cost_find(cost, state));
-  for (int64_t k = 0; k < hooke_cost_row_count(cost); k++) {
-    attempt_text(a, hooke_cost_text(cost, k, "name"));
-    attempt_number(a, hooke_cost_number(cost, k, "step_limit_without"));
+  TRY(a, hooke_measurement_run(cost, state));
+  for (int64_t k = 0; k < hooke_measurement_row_count(cost, "rows"); k++) {
+    attempt_text(a, hooke_measurement_text(cost, "rows", k, "ingredient"));
+    attempt_number(a, hooke_measurement_number(cost, "rows", k, "step_limit_without"));
   }
 end:
   hooke_state_destroy(state);
-  hooke_cost_destroy(cost);
+  hooke_measurement_destroy(cost);
   hooke_options_destroy(options);
   hooke_options_destroy(run);
   hooke_system_destroy(system);

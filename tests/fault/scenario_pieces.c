@@ -94,16 +94,16 @@ end:
   return needs;
 }
 
-hooke_limit *make_limit(struct attempt *a, const hooke_system *system, const hooke_options *run,
-                        int32_t predict) {
+hooke_measurement *make_limit(struct attempt *a, const hooke_system *system, const hooke_options *run,
+                              const char *flag) {
   hooke_options *options = NULL;
-  hooke_limit *limit = NULL;
+  hooke_measurement *limit = NULL;
   if (system == NULL) return NULL;
-  TRY(a, hooke_limit_options_create(&options));
-  TRY(a, hooke_options_set_number(options, "predict", predict));
+  TRY(a, hooke_options_create("limit", &options));
+  if (flag) TRY(a, hooke_options_set_number(options, flag, 1));
   TRY(a, hooke_options_set_number(options, "accuracy", 0.1));
   TRY(a, hooke_options_set_text(options, "methods", "symplectic-euler,rk4"));
-  TRY(a, hooke_limit_create(system, run, options, &limit));
+  TRY(a, hooke_measurement_create("limit", system, run, options, &limit));
 end:
   hooke_options_destroy(options);
   return limit;

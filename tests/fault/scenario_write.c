@@ -143,16 +143,17 @@ end:
 
 static void limit_report(struct attempt *a, const void *with) {
   hooke_system *system = make_rope(a, 3);
-  hooke_limit *limit = make_limit(a, system, NULL, 1);
+  hooke_measurement *limit = make_limit(a, system, NULL, "predict");
   hooke_state *state = NULL;
   (void)with;
   if (limit == NULL) goto end;
   TRY(a, hooke_state_create(system, &state));
-  TRY(a, hooke_limit_find(limit, state));
-  TRY(a, hooke_limit_write_report(limit, state, path_of(a, "out.html"), "rope"));
+  TRY(a, hooke_measurement_run(limit, state));
+  TRY(a, hooke_measurement_label(limit, "title", "rope"));
+  TRY(a, hooke_measurement_write(limit, path_of(a, "out.html")));
 end:
   hooke_state_destroy(state);
-  hooke_limit_destroy(limit);
+  hooke_measurement_destroy(limit);
   hooke_system_destroy(system);
 }
 

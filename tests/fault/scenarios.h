@@ -38,8 +38,8 @@ hooke_measurement *make_comparison(struct attempt *a, const hooke_system *system
                                    const char *methods);
 hooke_measurement *make_needs(struct attempt *a, const hooke_system *system, const hooke_options *run,
                               int32_t refine);
-hooke_limit *make_limit(struct attempt *a, const hooke_system *system, const hooke_options *run,
-                        int32_t predict);
+hooke_measurement *make_limit(struct attempt *a, const hooke_system *system, const hooke_options *run,
+                              const char *flag);
 void take_state(struct attempt *a, const hooke_state *state);
 
 /* Of what is read, or, named "out.", written. Stays until the next but one. */

@@ -25,13 +25,13 @@ contains
     type(hooke_system) :: system
     type(hooke_options) :: run
     type(hooke_measurement) :: study
-    type(hooke_limit) :: limit
+    type(hooke_measurement) :: limit
     integer :: status
     call make_oscillator(system)
     call make_run(run, "rk4", 1e-3_hooke_real, 0.1_hooke_real)
     call study%create("study", system, run, status=status)
     call expect(status == hooke_not_built .and. .not. study%exists(), "no studies without SUNDIALS and GSL")
-    call limit%create(system, status=status)
+    call limit%create("limit", system, status=status)
     call expect(status == hooke_not_built .and. .not. limit%exists(), "no limits without a library for eigenvalues")
   end subroutine
 
@@ -39,7 +39,7 @@ contains
     type(hooke_system) :: system
     type(hooke_options) :: options
     type(hooke_state) :: state
-    type(hooke_limit) :: limit, again
+    type(hooke_measurement) :: limit, again
     type(teller), target :: progress
     real(hooke_real) :: bound
     real(hooke_real), allocatable :: bounds(:)
@@ -54,45 +54,55 @@ contains
     call system%step_bound("no such method", state%q, bound, status)
     call expect(status == hooke_bad_value, "of methods that there are")
     call expect_near(hooke_limit_of_mode("verlet", omega, 0.0_hooke_real), 2/omega, 1e-12_hooke_real, "2/omega")
-    call options%create_limit()
+    call options%create("limit")
     call options%set("methods", "forward-euler,symplectic-euler")
-    call limit%create(system, options=options)
-    call expect(.not. associated(limit%shape()), "no mode before it was found")
+    call limit%create("limit", system, options=options)
+    call expect(.not. associated(limit%series("limit", 1, "shape")), "no mode before it was found")
+    call expect(hooke_measurement_table("limit", 2, "name") == "rows" .and. &
+      hooke_measurement_table("limit", 7, "name") == "", "tables")
+    call expect(hooke_measurement_column("limit", "rows", 3, "name") == "predicted" .and. &
+      hooke_measurement_column("limit", "rows", 3, "unit") == "s", "columns")
     call limit%on_progress(progress)
-    call limit%find(state)
+    call limit%run(state)
     again = limit
-    call expect(again%row_count() == 2 .and. again%text(2, "method") == "symplectic-euler", "a row for each")
-    call expect_near(again%number(2, "predicted"), 2/omega, 1e-9_hooke_real, "predicted")
-    call expect(abs(again%number(2, "ratio") - 1) < 0.01_hooke_real, "measured")
+    call expect(again%row_count("rows") == 2 .and. again%text("rows", 2, "method") == "symplectic-euler", &
+      "a row for each")
+    call expect_near(again%number("rows", 2, "predicted"), 2/omega, 1e-9_hooke_real, "predicted")
+    call expect(abs(again%number("rows", 2, "ratio") - 1) < 0.01_hooke_real, "measured")
     call expect(progress%told > 0 .and. progress%done >= 0, "progress was told")
-    call expect_near(again%figure("frequency_max"), omega, 1e-9_hooke_real, "the largest frequency")
-    call expect(again%blame_count() == 1 .and. again%blame_text(1, "group") == "spring", "one spring to blame")
-    call expect(nint(again%blame_number(1, "spring")) == 1 .and. nint(again%blame_number(1, "first")) == 1 &
-      .and. nint(again%blame_number(1, "second")) == 2, "numbers count from 1")
-    call expect_near(again%blame_number(1, "share"), 1.0_hooke_real, 1e-12_hooke_real, "and shares do not")
-    call expect(again%mover_count() == 1 .and. nint(again%mover_number(1, "particle")) == 2, "particle 2 moves")
-    call expect_near(again%mover_number(1, "mass"), 0.5_hooke_real, 1e-12_hooke_real, "of half a kilogram")
-    call expect(again%mode_count() >= 1 .and. abs(again%mode_number(1, "frequency") - omega) < 1e-9_hooke_real, "modes")
-    shape => again%shape()
-    call expect(all([size(shape, 1), size(shape, 2)] == [3, 2]), "the mode has the shape of positions")
+    call expect_near(again%number("limit", 1, "frequency_max"), omega, 1e-9_hooke_real, "the largest frequency")
+    call expect(again%row_count("blame") == 1 .and. again%text("blame", 1, "group") == "spring", "one spring to blame")
+    call expect(nint(again%number("blame", 1, "number")) == 1 .and. nint(again%number("blame", 1, "first")) == 1 &
+      .and. nint(again%number("blame", 1, "second")) == 2, "numbers count from 1")
+    call expect_near(again%number("blame", 1, "share"), 1.0_hooke_real, 1e-12_hooke_real, "and shares do not")
+    call expect(again%row_count("movers") == 1 .and. nint(again%number("movers", 1, "particle")) == 2, &
+      "particle 2 moves")
+    call expect_near(again%number("movers", 1, "mass"), 0.5_hooke_real, 1e-12_hooke_real, "of half a kilogram")
+    call expect(again%row_count("modes") >= 1 .and. abs(again%number("modes", 1, "frequency") - omega) < 1e-9_hooke_real, &
+      "modes")
+    shape(1:3, 1:2) => again%series("limit", 1, "shape")
+    call expect(size(again%series("limit", 1, "shape")) == 6, "the mode has as many numbers as positions")
     call expect_near(abs(shape(1, 2)), 1.0_hooke_real, 1e-12_hooke_real, "along the spring")
-    call expect(again%remedy_text("kind") == "" .or. again%remedy_number("factor") > 0, "a remedy, or none")
-    call limit%write_report(state, output("limit.html"), "oscillator", status)
+    call expect(again%text("remedy", 1, "kind") == "" .or. again%number("remedy", 1, "factor") > 0, "a remedy, or none")
+    call limit%label("title", "oscillator")
+    call limit%write(output("limit.html"), status)
     call expect(status == merge(hooke_not_built, hooke_ok, hooke_build_fact("chartjs") == ""), "as a page")
     call along(system)
   end subroutine
 
   subroutine along(system)
     type(hooke_system), intent(in) :: system
-    type(hooke_options) :: run
-    type(hooke_limit) :: limit
+    type(hooke_options) :: run, options
+    type(hooke_measurement) :: limit
     type(hooke_state) :: state
+    call options%create("limit")
+    call options%set("along", .true.)
     call make_run(run, "symplectic-euler", 1e-2_hooke_real, 0.5_hooke_real)
-    call limit%create(system, run)
+    call limit%create("limit", system, run, options)
     call state%create(system)
-    call limit%along(state)
+    call limit%run(state)
     call expect_near(state%time(), 0.5_hooke_real, 1e-12_hooke_real, "the run was made")
-    call expect(limit%number(2, "smallest") <= 2/omega*1.0001_hooke_real, "the smallest limit along it")
+    call expect(limit%number("rows", 2, "smallest") <= 2/omega*1.0001_hooke_real, "the smallest limit along it")
   end subroutine
 
   subroutine comparisons()
@@ -194,53 +204,58 @@ contains
     type(hooke_options) :: run
     type(hooke_integrator) :: integrator
     type(hooke_state) :: state, first
-    type(hooke_why) :: why, kept
+    type(hooke_measurement) :: why, kept
     integer :: status
     call make_oscillator(system)
     call make_run(run, "symplectic-euler", 0.4_hooke_real, 40.0_hooke_real)
     call integrator%create(system, run)
     call state%create(system)
     call first%create(system)
-    call why%create(integrator, status=status)
+    call why%create_why(integrator, status=status)
     call expect(status == hooke_bad_call, "nothing to explain yet")
     call integrator%run(state, status)
     call expect(status == hooke_diverged, "it blew up")
-    call why%create(integrator)
-    call expect(why%text("cause") == "step-above-limit" .and. len(why%text("sentence")) > 20, why%text("sentence"))
-    call expect_near(why%number("step"), 0.4_hooke_real, 1e-12_hooke_real, "of the step")
-    call expect(nint(why%number("particle")) == 2, "particle 2")
-    call expect(why%blame_count() >= 1 .and. nint(why%blame_number(1, "second")) == 2, "its spring")
-    call expect(why%blame_text(1, "group") == "spring", "by name")
-    call expect(why%advice_count() >= 1 .and. why%advice_text(1, "change") /= "", "and what to do")
+    call why%create_why(integrator)
+    call why%run()
+    call expect(why%text("why", 1, "cause") == "step-above-limit" .and. &
+      len(why%text("why", 1, "sentence")) > 20, why%text("why", 1, "sentence"))
+    call expect_near(why%number("why", 1, "step"), 0.4_hooke_real, 1e-12_hooke_real, "of the step")
+    call expect(nint(why%number("why", 1, "particle")) == 2, "particle 2")
+    call expect(why%row_count("blame") >= 1 .and. nint(why%number("blame", 1, "second")) == 2, "its spring")
+    call expect(why%text("blame", 1, "group") == "spring", "by name")
+    call expect(why%row_count("advice") >= 1 .and. why%text("advice", 1, "change") /= "", "and what to do")
     call why%advice_apply(1, run)
     call integrator%create(system, run)
     call state%create(system)
     call integrator%run(state, status)
     call expect(status == hooke_ok, "which helps")
     call make_run(run, "symplectic-euler", 0.4_hooke_real, 40.0_hooke_real)
-    call kept%create_kept(system, run, first, first)
-    call expect(kept%text("cause") == why%text("cause"), "the same from states that were kept")
+    call kept%create_why_kept(system, run, first, first)
+    call kept%run()
+    call expect(kept%text("why", 1, "cause") == why%text("why", 1, "cause"), "the same from states that were kept")
   end subroutine
 
   subroutine costs()
     type(hooke_system) :: system
     type(hooke_options) :: options
     type(hooke_state) :: state
-    type(hooke_cost) :: cost
+    type(hooke_measurement) :: cost
     integer :: row, found
     call make_cloth(system)
     call state%create(system)
-    call options%create_cost()
+    call options%create("cost")
     call options%set("budget", 0.5_hooke_real)
-    call cost%create(system, options=options)
-    call cost%find(state)
-    call expect(cost%method() == "symplectic-euler" .and. cost%figure("memory_bytes") > 0, "the whole scene")
+    call cost%create("cost", system, options=options)
+    call cost%run(state)
+    call expect(cost%text("cost", 1, "method") == "symplectic-euler" .and. &
+      cost%number("cost", 1, "memory_bytes") > 0, "the whole scene")
     found = 0
-    do row = 1, cost%row_count()
-      if (cost%text(row, "name") == "cloth.shear") found = row
+    do row = 1, cost%row_count("rows")
+      if (cost%text("rows", row, "ingredient") == "cloth.shear") found = row
     end do
     call expect(found > 0, "a row for shear")
-    if (found > 0) call expect(nint(cost%number(found, "springs")) == 32 .and. nint(cost%number(found, "group")) == 2, &
+    if (found > 0) call expect(nint(cost%number("rows", found, "springs")) == 32 .and. &
+      nint(cost%number("rows", found, "group")) == 2, &
       "its springs, and its number from 1")
   end subroutine
 

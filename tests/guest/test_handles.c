@@ -27,11 +27,8 @@ struct alive {
   hooke_options *options;
   hooke_state *state;
   hooke_integrator *integrator;
-  hooke_cost *cost;
-  hooke_limit *limit;
-  hooke_why *why;
-  hooke_estimate *estimate;
   hooke_measurement *measurement;
+  hooke_estimate *estimate;
   hooke_trajectory *trajectory;
   hooke_record *record;
 };
@@ -45,17 +42,8 @@ static void bring_to_life(void) {
   alive.options = run_options(run);
   alive.integrator = start_run(alive.system, run);
   check_status(hooke_integrator_run(alive.integrator, alive.state), HOOKE_DIVERGED);
-  check_ok(hooke_cost_create(alive.system, NULL, NULL, &alive.cost));
+  check_ok(hooke_measurement_create("cost", alive.system, NULL, NULL, &alive.measurement));
   check_ok(hooke_estimate_create(alive.system, NAN, &alive.estimate));
-  hooke_options *want;
-  check_ok(hooke_options_create("needs", &want));
-  check_ok(hooke_options_set_number(want, "want", 1e-3));
-  check_ok(hooke_measurement_create("needs", alive.system, alive.options, want, &alive.measurement));
-  hooke_options_destroy(want);
-#if HOOKE_HAVE_LAPACK
-  check_ok(hooke_limit_create(alive.system, NULL, NULL, &alive.limit));
-  check_ok(hooke_why_create(alive.integrator, INFINITY, NULL, NULL, &alive.why));
-#endif
 #if HOOKE_HAVE_HDF5
   check_ok(hooke_trajectory_create(path, alive.system, alive.integrator, NULL, &alive.trajectory));
   check_ok(hooke_trajectory_write(alive.trajectory, 0, alive.state));
@@ -69,11 +57,8 @@ static void end_life(void) {
   hooke_record_close(alive.record);
   hooke_trajectory_close(alive.trajectory, HOOKE_OK);
   remove(path);
-  hooke_why_destroy(alive.why);
-  hooke_measurement_destroy(alive.measurement);
   hooke_estimate_destroy(alive.estimate);
-  hooke_limit_destroy(alive.limit);
-  hooke_cost_destroy(alive.cost);
+  hooke_measurement_destroy(alive.measurement);
   hooke_integrator_destroy(alive.integrator);
   hooke_state_destroy(alive.state);
   hooke_options_destroy(alive.options);
@@ -89,11 +74,8 @@ static void *good(const char *type) {
                  {"hooke_options", alive.options},
                  {"hooke_state", alive.state},
                  {"hooke_integrator", alive.integrator},
-                 {"hooke_cost", alive.cost},
-                 {"hooke_limit", alive.limit},
-                 {"hooke_why", alive.why},
-                 {"hooke_estimate", alive.estimate},
                  {"hooke_measurement", alive.measurement},
+                 {"hooke_estimate", alive.estimate},
                  {"hooke_trajectory", alive.trajectory},
                  {"hooke_record", alive.record}};
   for (size_t k = 0; k < sizeof objects / sizeof objects[0]; k++)
@@ -172,7 +154,7 @@ static void test_destroyed_is_refused(void **unused) {
   assert_null(position);
   check_message("was destroyed");
   assert_true(hooke_integrator_frame_count(gone.integrator) == -1);
-  assert_true(isnan(hooke_cost_figure(gone.cost, "step")));
+  assert_true(isnan(hooke_measurement_number(gone.measurement, "cost", 0, "step")));
   assert_true(hooke_options_is_set(gone.options, "step") == 0);
   assert_true(hooke_system_particle_count(gone.system) == -1);
   hooke_options *options = NULL;
@@ -181,10 +163,7 @@ static void test_destroyed_is_refused(void **unused) {
   hooke_options_destroy(options);
   hooke_options_destroy(options); /* nothing happens */
   check_message("options: is no hooke_options");
-#if HOOKE_HAVE_LAPACK
-  assert_true(hooke_limit_row_count(gone.limit) == -1);
-  assert_true(hooke_why_blame_count(gone.why) == -1);
-#endif
+  assert_true(hooke_measurement_row_count(gone.measurement, "rows") == -1);
 #if HOOKE_HAVE_HDF5
   check_status(hooke_trajectory_close(gone.trajectory, HOOKE_OK), HOOKE_BAD_CALL);
   assert_true(hooke_record_frame_count(gone.record) == -1);

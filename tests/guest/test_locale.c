@@ -119,14 +119,14 @@ static void divergence(struct output *out) {
   check_status(hooke_integrator_run(integrator, state), HOOKE_DIVERGED);
   add(out, hooke_last_error());
 #if HOOKE_HAVE_LAPACK
-  hooke_why *why;
-  check_ok(hooke_why_create(integrator, INFINITY, NULL, NULL, &why));
-  add(out, hooke_why_text(why, "sentence"));
-  for (int64_t k = 0; k < hooke_why_advice_count(why); k++) {
-    add(out, hooke_why_advice_text(why, k, "change"));
-    add(out, hooke_why_advice_text(why, k, "value"));
+  hooke_measurement *why;
+  check_ok(explain_run(integrator, &why));
+  add(out, hooke_measurement_text(why, "why", 0, "sentence"));
+  for (int64_t k = 0; k < hooke_measurement_row_count(why, "advice"); k++) {
+    add(out, hooke_measurement_text(why, "advice", k, "change"));
+    add(out, hooke_measurement_text(why, "advice", k, "value"));
   }
-  hooke_why_destroy(why);
+  hooke_measurement_destroy(why);
 #endif
   hooke_state_destroy(state);
   hooke_integrator_destroy(integrator);
@@ -164,15 +164,15 @@ static void scenes(struct output *out) {
   check_ok(hooke_scene_write("guest_locale.json", system, "written", run));
   add_file(out, "guest_locale.json");
 
-  hooke_limit *limit;
-  check_ok(hooke_limit_options_create(&options));
+  hooke_measurement *limit;
+  check_ok(hooke_options_create("limit", &options));
   check_ok(hooke_options_set_number(options, "predict", 1));
-  check_ok(hooke_limit_create(system, run, options, &limit));
-  check_ok(hooke_limit_find(limit, state));
-  for (int64_t row = 0; row < hooke_limit_row_count(limit); row++)
-    add(out, hooke_limit_text(limit, row, "note"));
-  add(out, hooke_limit_remedy_text(limit, "sentence"));
-  hooke_limit_destroy(limit);
+  check_ok(hooke_measurement_create("limit", system, run, options, &limit));
+  check_ok(hooke_measurement_run(limit, state));
+  for (int64_t row = 0; row < hooke_measurement_row_count(limit, "rows"); row++)
+    add(out, hooke_measurement_text(limit, "rows", row, "note"));
+  add(out, hooke_measurement_text(limit, "remedy", 0, "sentence"));
+  hooke_measurement_destroy(limit);
   hooke_options_destroy(options);
 
   hooke_measurement *study;

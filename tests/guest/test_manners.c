@@ -203,10 +203,11 @@ static void tour_divergence(void) {
   hooke_state *state = start_state(system);
   REFUSED(hooke_integrator_run(integrator, state), HOOKE_DIVERGED);
 #if HOOKE_HAVE_LAPACK
-  hooke_why *why = NULL;
-  OK(hooke_why_create(integrator, INFINITY, NULL, NULL, &why));
-  ASK(hooke_why_text(why, "sentence"));
-  ASK(hooke_why_destroy(why));
+  hooke_measurement *why = NULL;
+  OK(hooke_why_create(integrator, NULL, &why));
+  OK(hooke_measurement_run(why, NULL));
+  ASK(hooke_measurement_text(why, "why", 0, "sentence"));
+  ASK(hooke_measurement_destroy(why));
 #endif
   hooke_state_destroy(state);
   hooke_integrator_destroy(integrator);
@@ -270,19 +271,20 @@ static void tour_scenes(void) {
   hooke_options *run = hooke_scene_run_options(scene), *options = NULL;
   tour_files(system, run);
 
-  hooke_limit *limit = NULL;
-  OK(hooke_limit_create(system, run, NULL, &limit));
+  hooke_measurement *limit = NULL;
+  OK(hooke_measurement_create("limit", system, run, NULL, &limit));
   OK(hooke_state_create(system, &state));
-  OK(hooke_limit_find(limit, state));
-  REFUSED(hooke_limit_write_report(limit, state, nowhere, "scene"), HOOKE_IO_FAILED);
-  ASK(hooke_limit_destroy(limit));
+  OK(hooke_measurement_run(limit, state));
+  OK(hooke_measurement_label(limit, "title", "scene"));
+  REFUSED(hooke_measurement_write(limit, "no/such/folder/file.html"), HOOKE_IO_FAILED);
+  ASK(hooke_measurement_destroy(limit));
 
-  hooke_cost *cost = NULL;
-  OK(hooke_cost_options_create(&options));
+  hooke_measurement *cost = NULL;
+  OK(hooke_options_create("cost", &options));
   OK(hooke_options_set_number(options, "predict", 1));
-  OK(hooke_cost_create(system, run, options, &cost));
-  OK(hooke_cost_find(cost, state));
-  ASK(hooke_cost_destroy(cost));
+  OK(hooke_measurement_create("cost", system, run, options, &cost));
+  OK(hooke_measurement_run(cost, state));
+  ASK(hooke_measurement_destroy(cost));
   ASK(hooke_options_destroy(options));
 
   hooke_measurement *needs = NULL;

@@ -46,6 +46,16 @@ static int32_t make_verify(hooke_options **o) {
   return hooke_options_create("verify", o);
 }
 
+static int32_t make_limit(hooke_options **o) {
+  return hooke_options_create("limit", o);
+}
+static int32_t make_cost(hooke_options **o) {
+  return hooke_options_create("cost", o);
+}
+static int32_t make_why(hooke_options **o) {
+  return hooke_options_create("why", o);
+}
+
 static const struct {
   const char *name;
   int32_t (*make)(hooke_options **options);
@@ -60,12 +70,13 @@ static const struct {
               {"scene", make_scene},
               {"particles", make_particles},
               {"driven", make_driven},
-              {"limit", hooke_limit_options_create},
-              {"cost", hooke_cost_options_create},
               {"comparison", make_comparison},
               {"needs", make_needs},
               {"verify", make_verify},
               {"study", make_study},
+              {"limit", make_limit},
+              {"cost", make_cost},
+              {"why", make_why},
               {"view", hooke_view_options_create}};
 enum { TABLES = sizeof tables / sizeof tables[0] };
 
@@ -156,11 +167,15 @@ TAKES(create_integrator, hooke_integrator, hooke_integrator_create(system, o, &m
       hooke_integrator_destroy)
 TAKES(create_comparison_of_run, hooke_measurement,
       hooke_measurement_create("comparison", system, o, NULL, &made), hooke_measurement_destroy)
-TAKES(create_limit_of_run, hooke_limit, hooke_limit_create(system, o, NULL, &made), hooke_limit_destroy)
-TAKES(create_limit, hooke_limit, hooke_limit_create(system, NULL, o, &made), hooke_limit_destroy)
-TAKES(create_cost_of_run, hooke_cost, hooke_cost_create(system, o, NULL, &made), hooke_cost_destroy)
-TAKES(create_cost, hooke_cost, hooke_cost_create(system, NULL, o, &made), hooke_cost_destroy)
 TAKES(create_study_of_run, hooke_measurement, hooke_measurement_create("study", system, o, NULL, &made),
+      hooke_measurement_destroy)
+TAKES(create_limit_of_run, hooke_measurement, hooke_measurement_create("limit", system, o, NULL, &made),
+      hooke_measurement_destroy)
+TAKES(create_limit, hooke_measurement, hooke_measurement_create("limit", system, NULL, o, &made),
+      hooke_measurement_destroy)
+TAKES(create_cost_of_run, hooke_measurement, hooke_measurement_create("cost", system, o, NULL, &made),
+      hooke_measurement_destroy)
+TAKES(create_cost, hooke_measurement, hooke_measurement_create("cost", system, NULL, o, &made),
       hooke_measurement_destroy)
 TAKES(write_scene, hooke_scene, hooke_scene_of_system(system, NULL, o, "a", NULL, &made), hooke_scene_destroy)
 

@@ -99,22 +99,22 @@ static uint64_t queries(int thread) {
 
 static uint64_t find_limit(const hooke_system *system) {
   hooke_options *options = NULL;
-  hooke_limit *limit = NULL;
+  hooke_measurement *limit = NULL;
   hooke_state *state = NULL;
   uint64_t hash = 0;
-  int32_t status = hooke_limit_options_create(&options);
+  int32_t status = hooke_options_create("limit", &options);
   if (status == 0) status = hooke_options_set_text(options, "methods", "verlet");
-  if (status == 0) status = hooke_limit_create(system, NULL, options, &limit);
+  if (status == 0) status = hooke_measurement_create("limit", system, NULL, options, &limit);
   if (status == 0) status = hooke_state_create(system, &state);
-  if (status == 0) status = hooke_limit_find(limit, state);
+  if (status == 0) status = hooke_measurement_run(limit, state);
   if (status == 0) {
-    const double value = hooke_limit_number(limit, 0, "predicted");
+    const double value = hooke_measurement_number(limit, "rows", 0, "predicted");
     hash = hash_doubles(1, &value, HASH_START);
   } else {
     printf("limit: %s\n", hooke_last_error());
   }
   if (state) hooke_state_destroy(state);
-  if (limit) hooke_limit_destroy(limit);
+  if (limit) hooke_measurement_destroy(limit);
   hooke_options_destroy(options);
   return hash;
 }
@@ -135,7 +135,7 @@ static uint64_t explanations(int thread) {
   hooke_options *options = NULL;
   hooke_integrator *integrator = NULL;
   hooke_state *state = NULL;
-  hooke_why *why = NULL;
+  hooke_measurement *why = NULL;
   uint64_t hash = 0;
   int32_t status = hooke_run_options_create(&options);
   if (status == 0) status = hooke_options_set_text(options, "method", "forward-euler");
@@ -144,12 +144,13 @@ static uint64_t explanations(int thread) {
   if (status == 0) status = hooke_integrator_create(oscillator, options, &integrator);
   if (status == 0) status = hooke_state_create(oscillator, &state);
   if (status == 0 && hooke_integrator_run(integrator, state) != HOOKE_DIVERGED) status = -1;
-  if (status == 0) status = hooke_why_create(integrator, INFINITY, NULL, NULL, &why);
+  if (status == 0) status = hooke_why_create(integrator, NULL, &why);
+  if (status == 0) status = hooke_measurement_run(why, NULL);
   if (status == 0) {
-    const double limit = hooke_why_number(why, "limit");
+    const double limit = hooke_measurement_number(why, "why", 0, "limit");
     hash = hash_doubles(1, &limit, HASH_START);
-    hooke_why_destroy(why);
   }
+  if (why) hooke_measurement_destroy(why);
   if (state) hooke_state_destroy(state);
   if (integrator) hooke_integrator_destroy(integrator);
   hooke_options_destroy(options);

@@ -25,9 +25,6 @@ PUBLIC = {
     "hooke/measurement.h": "measure",
     "hooke/measure.h": "measure",
     "hooke/estimate.h": "measure",
-    "hooke/limit.h": "measure",
-    "hooke/cost.h": "measure",
-    "hooke/why.h": "measure",
     "hooke/io.h": "io",
     "hooke/checkpoint.h": "io",
 }

@@ -19,11 +19,12 @@ static uint64_t live_why(const char *detail) {
   hooke_scene *scene = life_scene(SEGMENTS);
   hooke_state *state = start_state(hooke_scene_system(scene));
   hooke_integrator *integrator = diverged(scene, state);
-  hooke_why *why = NULL;
-  check_ok(hooke_why_create(integrator, INFINITY, NULL, NULL, &why));
-  const double found[] = {(double)hooke_why_advice_count(why), hooke_why_number(why, "time")};
+  hooke_measurement *why = NULL;
+  check_ok(explain_run(integrator, &why));
+  const double found[] = {(double)hooke_measurement_row_count(why, "advice"),
+                          hooke_measurement_number(why, "why", 0, "time")};
   const uint64_t hash = hash_doubles(2, found, life_hash(state, HASH_START));
-  hooke_why_destroy(why);
+  hooke_measurement_destroy(why);
   hooke_integrator_destroy(integrator);
   hooke_state_destroy(state);
   hooke_scene_destroy(scene);
@@ -35,17 +36,18 @@ static uint64_t live_limit(const char *detail) {
   hooke_scene *scene = life_scene(SEGMENTS);
   hooke_state *state = start_state(hooke_scene_system(scene));
   hooke_options *options = NULL;
-  hooke_limit *limit = NULL;
-  check_ok(hooke_limit_options_create(&options));
+  hooke_measurement *limit = NULL;
+  check_ok(hooke_options_create("limit", &options));
   check_ok(hooke_options_set_number(options, "predict", 1.0));
-  check_ok(hooke_limit_create(hooke_scene_system(scene), hooke_scene_run_options(scene), options, &limit));
-  check_ok(hooke_limit_find(limit, state));
+  check_ok(hooke_measurement_create("limit", hooke_scene_system(scene), hooke_scene_run_options(scene),
+                                    options, &limit));
+  check_ok(hooke_measurement_run(limit, state));
   uint64_t hash = HASH_START;
-  for (int64_t k = 0; k < hooke_limit_row_count(limit); k++) {
-    const double predicted = hooke_limit_number(limit, k, "predicted");
+  for (int64_t k = 0; k < hooke_measurement_row_count(limit, "rows"); k++) {
+    const double predicted = hooke_measurement_number(limit, "rows", k, "predicted");
     hash = hash_doubles(1, &predicted, hash);
   }
-  hooke_limit_destroy(limit);
+  hooke_measurement_destroy(limit);
   hooke_options_destroy(options);
   hooke_state_destroy(state);
   hooke_scene_destroy(scene);
@@ -124,13 +126,15 @@ static uint64_t live_cost(const char *detail) {
   hooke_scene *scene = life_scene(SEGMENTS);
   hooke_state *state = start_state(hooke_scene_system(scene));
   hooke_options *options = NULL;
-  hooke_cost *cost = NULL;
-  check_ok(hooke_cost_options_create(&options));
+  hooke_measurement *cost = NULL;
+  check_ok(hooke_options_create("cost", &options));
   check_ok(hooke_options_set_number(options, "predict", 1.0));
-  check_ok(hooke_cost_create(hooke_scene_system(scene), hooke_scene_run_options(scene), options, &cost));
-  check_ok(hooke_cost_find(cost, state));
-  const double found[] = {(double)hooke_cost_row_count(cost), hooke_cost_figure(cost, "memory_bytes")};
-  hooke_cost_destroy(cost);
+  check_ok(hooke_measurement_create("cost", hooke_scene_system(scene), hooke_scene_run_options(scene),
+                                    options, &cost));
+  check_ok(hooke_measurement_run(cost, state));
+  const double found[] = {(double)hooke_measurement_row_count(cost, "rows"),
+                          hooke_measurement_number(cost, "cost", 0, "memory_bytes")};
+  hooke_measurement_destroy(cost);
   hooke_options_destroy(options);
   hooke_state_destroy(state);
   hooke_scene_destroy(scene);

@@ -18,15 +18,15 @@ static void add_altitude(hooke_system *system, int64_t count, const int64_t *tet
   hooke_options_destroy(options);
 }
 
-static hooke_limit *find_limit(const hooke_system *system, const char *methods, int32_t predict) {
+static hooke_measurement *find_limit(const hooke_system *system, const char *methods, int32_t predict) {
   hooke_options *options;
-  hooke_limit *limit = NULL;
-  check_ok(hooke_limit_options_create(&options));
+  hooke_measurement *limit = NULL;
+  check_ok(hooke_options_create("limit", &options));
   check_ok(hooke_options_set_text(options, "methods", methods));
   check_ok(hooke_options_set_number(options, "accuracy", 1e-3));
   check_ok(hooke_options_set_number(options, "predict", predict));
   check_ok(hooke_options_set_number(options, "budget", 200.0));
-  const int32_t status = hooke_limit_create(system, NULL, options, &limit);
+  const int32_t status = hooke_measurement_create("limit", system, NULL, options, &limit);
   hooke_options_destroy(options);
   if (status == HOOKE_NOT_BUILT) {
     hooke_system_destroy((hooke_system *)(uintptr_t)system);
@@ -34,7 +34,7 @@ static hooke_limit *find_limit(const hooke_system *system, const char *methods, 
   }
   check_status(status, HOOKE_OK);
   hooke_state *state = start_state(system);
-  check_ok(hooke_limit_find(limit, state));
+  check_ok(hooke_measurement_run(limit, state));
   hooke_state_destroy(state);
   return limit;
 }
@@ -54,27 +54,30 @@ static void a_top_over_a_held_face(void **unused) {
   check_close(bound_at_start(system, "verlet"), 2.0 / omega, 1e-12);
   check_close(bound_at_start(system, "symplectic-euler"), 2.0 * (sqrt(1.0 + z * z) - z) / omega, 1e-9);
   check_close(bound_at_start(system, "forward-euler"), 0.01 / 6.0, 1e-12);
-  hooke_limit *limit = find_limit(system, "forward-euler,symplectic-euler,verlet", 1);
-  check_close(hooke_limit_number(limit, 0, "predicted"), 0.01 / 6.0, 1e-9);
-  check_close(hooke_limit_number(limit, 1, "predicted"), 2.0 * (sqrt(1.0 + z * z) - z) / omega, 1e-9);
-  check_close(hooke_limit_number(limit, 2, "predicted"), 2.0 / omega, 1e-9);
-  hooke_limit_destroy(limit);
+  hooke_measurement *limit = find_limit(system, "forward-euler,symplectic-euler,verlet", 1);
+  check_close(hooke_measurement_number(limit, "rows", 0, "predicted"), 0.01 / 6.0, 1e-9);
+  check_close(hooke_measurement_number(limit, "rows", 1, "predicted"), 2.0 * (sqrt(1.0 + z * z) - z) / omega,
+              1e-9);
+  check_close(hooke_measurement_number(limit, "rows", 2, "predicted"), 2.0 / omega, 1e-9);
+  hooke_measurement_destroy(limit);
   hooke_system_destroy(system);
 }
 
 /* bound <= limit, and the scene runs up to the limit. */
 static void compare(hooke_system *system, const char *methods) {
-  hooke_limit *limit = find_limit(system, methods, 0);
-  for (int64_t row = 0; row < hooke_limit_row_count(limit); row++) {
-    const double predicted = hooke_limit_number(limit, row, "predicted");
-    const double measured = hooke_limit_number(limit, row, "measured");
+  hooke_measurement *limit = find_limit(system, methods, 0);
+  for (int64_t row = 0; row < hooke_measurement_row_count(limit, "rows"); row++) {
+    const double predicted = hooke_measurement_number(limit, "rows", row, "predicted");
+    const double measured = hooke_measurement_number(limit, "rows", row, "measured");
     if (!(fabs(measured / predicted - 1.0) <= 1e-3)) {
-      check_failed("%s: measured %.8g, predicted %.8g (%s)", hooke_limit_text(limit, row, "method"), measured,
-                   predicted, hooke_limit_text(limit, row, "note"));
+      check_failed("%s: measured %.8g, predicted %.8g (%s)",
+                   hooke_measurement_text(limit, "rows", row, "method"), measured, predicted,
+                   hooke_measurement_text(limit, "rows", row, "note"));
     }
-    check_between(hooke_limit_number(limit, row, "bound"), 0.3 * measured, measured * (1.0 + 1e-3));
+    check_between(hooke_measurement_number(limit, "rows", row, "bound"), 0.3 * measured,
+                  measured * (1.0 + 1e-3));
   }
-  hooke_limit_destroy(limit);
+  hooke_measurement_destroy(limit);
   hooke_system_destroy(system);
 }
 
@@ -150,38 +153,38 @@ static hooke_system *new_strand(double altitude) {
 static void a_limit_by_altitude_names_it(void **unused) {
   (void)unused;
   hooke_system *system = new_strand(40.0);
-  hooke_limit *limit = find_limit(system, "verlet", 1);
-  const char *sentence = hooke_limit_remedy_text(limit, "sentence");
+  hooke_measurement *limit = find_limit(system, "verlet", 1);
+  const char *sentence = hooke_measurement_text(limit, "remedy", 0, "sentence");
   if (sentence == NULL || strstr(sentence, "group `hair.altitude` has ") == NULL)
     check_failed("%s", sentence);
-  assert_string_equal(hooke_limit_blame_text(limit, 0, "force"), "altitude");
-  check_between(hooke_limit_blame_number(limit, 0, "share"), 0.98, 1.0);
-  assert_true(isnan(hooke_limit_blame_number(limit, 0, "spring")));
-  for (int64_t k = 1; k < hooke_limit_blame_count(limit); k++)
-    check_between(hooke_limit_blame_number(limit, k, "share"), 0.0, 0.02);
-  hooke_limit_destroy(limit);
+  assert_string_equal(hooke_measurement_text(limit, "blame", 0, "force"), "altitude");
+  check_between(hooke_measurement_number(limit, "blame", 0, "share"), 0.98, 1.0);
+  assert_true(isnan(hooke_measurement_number(limit, "blame", 0, "number")));
+  for (int64_t k = 1; k < hooke_measurement_row_count(limit, "blame"); k++)
+    check_between(hooke_measurement_number(limit, "blame", k, "share"), 0.0, 0.02);
+  hooke_measurement_destroy(limit);
   hooke_system_destroy(system);
 }
 
 static void a_run_above_the_limit_is_explained(void **unused) {
   (void)unused;
   hooke_system *system = new_strand(40.0);
-  hooke_limit *limit = find_limit(system, "verlet", 1);
-  const double step = 1.05 * hooke_limit_number(limit, 0, "predicted");
-  hooke_limit_destroy(limit);
+  hooke_measurement *limit = find_limit(system, "verlet", 1);
+  const double step = 1.05 * hooke_measurement_number(limit, "rows", 0, "predicted");
+  hooke_measurement_destroy(limit);
   hooke_integrator *integrator = start_run(
       system, (struct run){.method = "verlet", .step = step, .duration = 5000 * step, .every = 100 * step});
   hooke_state *state = start_state(system);
   hooke_state_position(state)[3 * 13 + 1] += 1e-5;
   check_status(hooke_integrator_run(integrator, state), HOOKE_DIVERGED);
-  hooke_why *why = NULL;
-  check_ok(hooke_why_create(integrator, INFINITY, NULL, NULL, &why));
-  assert_string_equal(hooke_why_text(why, "cause"), "step-above-limit");
-  const char *sentence = hooke_why_text(why, "sentence");
+  hooke_measurement *why = NULL;
+  check_ok(explain_run(integrator, &why));
+  assert_string_equal(hooke_measurement_text(why, "why", 0, "cause"), "step-above-limit");
+  const char *sentence = hooke_measurement_text(why, "why", 0, "sentence");
   if (strstr(sentence, "most of all in the altitude springs of particles ") == NULL ||
       strstr(sentence, "(group hair.altitude)") == NULL)
     check_failed("%s", sentence);
-  hooke_why_destroy(why);
+  hooke_measurement_destroy(why);
   hooke_state_destroy(state);
   hooke_integrator_destroy(integrator);
   hooke_system_destroy(system);
@@ -193,25 +196,25 @@ static void they_are_an_ingredient(void **unused) {
   (void)unused;
   hooke_system *system = new_strand(0.5);
   hooke_options *options = NULL, *run = NULL;
-  hooke_cost *cost = NULL;
-  check_ok(hooke_cost_options_create(&options));
+  hooke_measurement *cost = NULL;
+  check_ok(hooke_options_create("cost", &options));
   check_ok(hooke_options_set_number(options, "predict", 1.0));
   check_ok(hooke_run_options_create(&run));
   check_ok(hooke_options_set_number(run, "step", 1e-4));
-  check_ok(hooke_cost_create(system, run, options, &cost));
+  check_ok(hooke_measurement_create("cost", system, run, options, &cost));
   hooke_state *state = start_state(system);
-  check_ok(hooke_cost_find(cost, state));
+  check_ok(hooke_measurement_run(cost, state));
   hooke_state_destroy(state);
   int found = 0;
-  for (int64_t row = 0; row < hooke_cost_row_count(cost); row++) {
-    if (strcmp(hooke_cost_text(cost, row, "kind"), "altitude") != 0) continue;
+  for (int64_t row = 0; row < hooke_measurement_row_count(cost, "rows"); row++) {
+    if (strcmp(hooke_measurement_text(cost, "rows", row, "kind"), "altitude") != 0) continue;
     found++;
-    assert_string_equal(hooke_cost_text(cost, row, "name"), "hair.altitude");
-    assert_true(hooke_cost_number(cost, row, "memory_bytes") > 20.0 * 50.0);
-    assert_true(isnan(hooke_cost_number(cost, row, "springs")));
+    assert_string_equal(hooke_measurement_text(cost, "rows", row, "ingredient"), "hair.altitude");
+    assert_true(hooke_measurement_number(cost, "rows", row, "memory_bytes") > 20.0 * 50.0);
+    assert_true(isnan(hooke_measurement_number(cost, "rows", row, "springs")));
   }
   assert_int_equal(found, 1);
-  hooke_cost_destroy(cost);
+  hooke_measurement_destroy(cost);
   hooke_options_destroy(options);
   hooke_options_destroy(run);
   hooke_system_destroy(system);

@@ -60,15 +60,15 @@ static void forward_euler_needs_drag(void **unused) {
 
 /* ---- predicted and measured ---- */
 
-static hooke_limit *find_limit(const hooke_system *system, const char *methods, int32_t predict) {
+static hooke_measurement *find_limit(const hooke_system *system, const char *methods, int32_t predict) {
   hooke_options *options;
-  hooke_limit *limit = NULL;
-  check_ok(hooke_limit_options_create(&options));
+  hooke_measurement *limit = NULL;
+  check_ok(hooke_options_create("limit", &options));
   check_ok(hooke_options_set_text(options, "methods", methods));
   check_ok(hooke_options_set_number(options, "accuracy", 1e-3));
   check_ok(hooke_options_set_number(options, "predict", predict));
   check_ok(hooke_options_set_number(options, "budget", 200.0));
-  const int32_t status = hooke_limit_create(system, NULL, options, &limit);
+  const int32_t status = hooke_measurement_create("limit", system, NULL, options, &limit);
   hooke_options_destroy(options);
   if (status == HOOKE_NOT_BUILT) {
     hooke_system_destroy((hooke_system *)(uintptr_t)system);
@@ -76,24 +76,26 @@ static hooke_limit *find_limit(const hooke_system *system, const char *methods, 
   }
   check_status(status, HOOKE_OK);
   hooke_state *state = start_state(system);
-  check_ok(hooke_limit_find(limit, state));
+  check_ok(hooke_measurement_run(limit, state));
   hooke_state_destroy(state);
   return limit;
 }
 
 /* bound <= limit, and the scene runs up to the limit. */
 static void compare(hooke_system *system, const char *methods) {
-  hooke_limit *limit = find_limit(system, methods, 0);
-  for (int64_t row = 0; row < hooke_limit_row_count(limit); row++) {
-    const double predicted = hooke_limit_number(limit, row, "predicted");
-    const double measured = hooke_limit_number(limit, row, "measured");
+  hooke_measurement *limit = find_limit(system, methods, 0);
+  for (int64_t row = 0; row < hooke_measurement_row_count(limit, "rows"); row++) {
+    const double predicted = hooke_measurement_number(limit, "rows", row, "predicted");
+    const double measured = hooke_measurement_number(limit, "rows", row, "measured");
     if (!(fabs(measured / predicted - 1.0) <= 1e-3)) {
-      check_failed("%s: measured %.8g, predicted %.8g (%s)", hooke_limit_text(limit, row, "method"), measured,
-                   predicted, hooke_limit_text(limit, row, "note"));
+      check_failed("%s: measured %.8g, predicted %.8g (%s)",
+                   hooke_measurement_text(limit, "rows", row, "method"), measured, predicted,
+                   hooke_measurement_text(limit, "rows", row, "note"));
     }
-    check_between(hooke_limit_number(limit, row, "bound"), 0.3 * measured, measured * (1.0 + 1e-3));
+    check_between(hooke_measurement_number(limit, "rows", row, "bound"), 0.3 * measured,
+                  measured * (1.0 + 1e-3));
   }
-  hooke_limit_destroy(limit);
+  hooke_measurement_destroy(limit);
   hooke_system_destroy(system);
 }
 
@@ -149,16 +151,16 @@ static void random_triples_run_up_to_the_prediction(void **unused) {
 static void a_limit_by_bending_names_it(void **unused) {
   (void)unused;
   hooke_system *system = new_rope(40, 0.5, 1.0, 0.0, 0.0);
-  hooke_limit *limit = find_limit(system, "verlet", 1);
-  const char *sentence = hooke_limit_remedy_text(limit, "sentence");
-  assert_null(hooke_limit_remedy_text(limit, "kind"));
+  hooke_measurement *limit = find_limit(system, "verlet", 1);
+  const char *sentence = hooke_measurement_text(limit, "remedy", 0, "sentence");
+  assert_null(hooke_measurement_text(limit, "remedy", 0, "kind"));
   if (sentence == NULL || strstr(sentence, "group `beam.bending` has ") == NULL) check_failed("%s", sentence);
-  assert_string_equal(hooke_limit_blame_text(limit, 0, "force"), "bending");
-  check_between(hooke_limit_blame_number(limit, 0, "share"), 0.98, 1.0);
-  assert_true(isnan(hooke_limit_blame_number(limit, 0, "spring")));
-  for (int64_t k = 1; k < hooke_limit_blame_count(limit); k++)
-    check_between(hooke_limit_blame_number(limit, k, "share"), 0.0, 0.01);
-  hooke_limit_destroy(limit);
+  assert_string_equal(hooke_measurement_text(limit, "blame", 0, "force"), "bending");
+  check_between(hooke_measurement_number(limit, "blame", 0, "share"), 0.98, 1.0);
+  assert_true(isnan(hooke_measurement_number(limit, "blame", 0, "number")));
+  for (int64_t k = 1; k < hooke_measurement_row_count(limit, "blame"); k++)
+    check_between(hooke_measurement_number(limit, "blame", k, "share"), 0.0, 0.01);
+  hooke_measurement_destroy(limit);
   hooke_system_destroy(system);
 }
 
@@ -174,9 +176,9 @@ static int32_t hear(const char *kind, const char *sentence, double t, double lim
 static void a_run_above_the_limit_is_explained(void **unused) {
   (void)unused;
   hooke_system *system = new_rope(25, 0.5, 1.0, 0.0, 0.0);
-  hooke_limit *limit = find_limit(system, "verlet", 1);
-  const double most = hooke_limit_number(limit, 0, "predicted");
-  hooke_limit_destroy(limit);
+  hooke_measurement *limit = find_limit(system, "verlet", 1);
+  const double most = hooke_measurement_number(limit, "rows", 0, "predicted");
+  hooke_measurement_destroy(limit);
   for (int above = 0; above <= 1; above++) {
     const double step = (above ? 1.01 : 0.99) * most;
     hooke_integrator *integrator = start_run(
@@ -188,15 +190,15 @@ static void a_run_above_the_limit_is_explained(void **unused) {
     check_status(hooke_integrator_run(integrator, state), above ? HOOKE_DIVERGED : HOOKE_OK);
     assert_true(heard >= above);
     if (above) {
-      hooke_why *why = NULL;
-      check_ok(hooke_why_create(integrator, INFINITY, NULL, NULL, &why));
-      assert_string_equal(hooke_why_text(why, "cause"), "step-above-limit");
-      const char *sentence = hooke_why_text(why, "sentence");
+      hooke_measurement *why = NULL;
+      check_ok(explain_run(integrator, &why));
+      assert_string_equal(hooke_measurement_text(why, "why", 0, "cause"), "step-above-limit");
+      const char *sentence = hooke_measurement_text(why, "why", 0, "sentence");
       if (strstr(sentence, "most of all in the bending of particles ") == NULL ||
           strstr(sentence, "(group beam.bending)") == NULL)
         check_failed("%s", sentence);
-      check_close(hooke_why_number(why, "limit"), most, 0.02 * most);
-      hooke_why_destroy(why);
+      check_close(hooke_measurement_number(why, "why", 0, "limit"), most, 0.02 * most);
+      hooke_measurement_destroy(why);
     }
     hooke_state_destroy(state);
     hooke_integrator_destroy(integrator);

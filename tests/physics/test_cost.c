@@ -45,17 +45,17 @@ static hooke_system *two_oscillators(double damping, double drag, int gravity, i
   return system;
 }
 
-static hooke_cost *cost_of(const hooke_system *system, struct run run, int predict) {
+static hooke_measurement *cost_of(const hooke_system *system, struct run run, int predict) {
   hooke_options *given = run_options(run), *options;
-  hooke_cost *cost;
-  check_ok(hooke_cost_options_create(&options));
+  hooke_measurement *cost;
+  check_ok(hooke_options_create("cost", &options));
   check_ok(hooke_options_set_number(options, "predict", predict));
   check_ok(hooke_options_set_number(options, "budget", 1.0));
-  check_ok(hooke_cost_create(system, given, options, &cost));
+  check_ok(hooke_measurement_create("cost", system, given, options, &cost));
   hooke_options_destroy(given);
   hooke_options_destroy(options);
   hooke_state *state = start_state(system);
-  check_ok(hooke_cost_find(cost, state));
+  check_ok(hooke_measurement_run(cost, state));
   hooke_state_destroy(state);
   return cost;
 }
@@ -71,35 +71,38 @@ static void rows_are_what_is_there(void **unused) {
   check_ok(hooke_system_add_bending(system, "none", 1, triples, 1, coefficient + 1));
   check_ok(hooke_system_add_bending(system, "curl", 2, triples, 2, coefficient));
   check_ok(hooke_system_commit(system));
-  hooke_cost *cost = cost_of(system, (struct run){.step = 1e-3}, 1);
-  assert_int_equal(hooke_cost_row_count(cost), 7);
+  hooke_measurement *cost = cost_of(system, (struct run){.step = 1e-3}, 1);
+  assert_int_equal(hooke_measurement_row_count(cost, "rows"), 7);
   for (int64_t k = 0; k < 7; k++) {
-    assert_string_equal(hooke_cost_text(cost, k, "kind"), kinds[k]);
-    assert_string_equal(hooke_cost_text(cost, k, "name"), names[k]);
-    assert_true(isnan(hooke_cost_number(cost, k, "nanoseconds")));
-    check_between(hooke_cost_number(cost, k, "memory_bytes"), 0.0, 1e4);
+    assert_string_equal(hooke_measurement_text(cost, "rows", k, "kind"), kinds[k]);
+    assert_string_equal(hooke_measurement_text(cost, "rows", k, "ingredient"), names[k]);
+    assert_true(isnan(hooke_measurement_number(cost, "rows", k, "nanoseconds")));
+    check_between(hooke_measurement_number(cost, "rows", k, "memory_bytes"), 0.0, 1e4);
   }
-  check_close(hooke_cost_number(cost, 1, "group"), 2.0, 0.0);
-  check_close(hooke_cost_number(cost, 1, "springs"), 1.0, 0.0);
-  check_close(hooke_cost_number(cost, 2, "group"), 1.0, 0.0);
-  assert_true(isnan(hooke_cost_number(cost, 2, "springs")));
-  assert_true(isnan(hooke_cost_number(cost, 3, "group")) && isnan(hooke_cost_number(cost, 3, "springs")));
-  assert_null(hooke_cost_text(cost, 7, "kind"));
-  assert_null(hooke_cost_text(cost, 0, "colour"));
-  if (!isnan(hooke_cost_figure(cost, "step_limit"))) {
-    check_between(hooke_cost_number(cost, 2, "step_limit_without") - hooke_cost_figure(cost, "step_limit"),
+  check_close(hooke_measurement_number(cost, "rows", 1, "group"), 2.0, 0.0);
+  check_close(hooke_measurement_number(cost, "rows", 1, "springs"), 1.0, 0.0);
+  check_close(hooke_measurement_number(cost, "rows", 2, "group"), 1.0, 0.0);
+  assert_true(isnan(hooke_measurement_number(cost, "rows", 2, "springs")));
+  assert_true(isnan(hooke_measurement_number(cost, "rows", 3, "group")) &&
+              isnan(hooke_measurement_number(cost, "rows", 3, "springs")));
+  assert_null(hooke_measurement_text(cost, "rows", 7, "kind"));
+  assert_null(hooke_measurement_text(cost, "rows", 0, "colour"));
+  if (!isnan(hooke_measurement_number(cost, "cost", 0, "step_limit"))) {
+    check_between(hooke_measurement_number(cost, "rows", 2, "step_limit_without") -
+                      hooke_measurement_number(cost, "cost", 0, "step_limit"),
                   1e-6, 1.0);
   }
-  assert_true(isnan(hooke_cost_number(cost, -1, "group")) && isnan(hooke_cost_number(cost, 0, "colour")));
+  assert_true(isnan(hooke_measurement_number(cost, "rows", -1, "group")) &&
+              isnan(hooke_measurement_number(cost, "rows", 0, "colour")));
   /* a callback has its particles in rows: q, v and force */
-  check_close(hooke_cost_number(cost, 5, "memory_bytes"), 9.0 * 4.0 * 8.0, 0.0);
-  hooke_cost_destroy(cost);
+  check_close(hooke_measurement_number(cost, "rows", 5, "memory_bytes"), 9.0 * 4.0 * 8.0, 0.0);
+  hooke_measurement_destroy(cost);
   hooke_system_destroy(system);
 
   system = two_oscillators(0.0, 0.0, 0, 0);
   cost = cost_of(system, (struct run){.step = 1e-3}, 1);
-  assert_int_equal(hooke_cost_row_count(cost), 2);
-  hooke_cost_destroy(cost);
+  assert_int_equal(hooke_measurement_row_count(cost, "rows"), 2);
+  hooke_measurement_destroy(cost);
   hooke_system_destroy(system);
 }
 
@@ -108,20 +111,20 @@ static void limits_are_those_without(void **unused) {
   (void)unused;
   const double z = 0.25;
   hooke_system *system = two_oscillators(2.0 * z * 10.0, 0.0, 1, 0);
-  hooke_cost *cost = cost_of(system, (struct run){.step = 1e-3}, 1);
-  assert_string_equal(hooke_cost_method(cost), "symplectic-euler");
-  if (isnan(hooke_cost_figure(cost, "step_limit"))) {
-    hooke_cost_destroy(cost);
+  hooke_measurement *cost = cost_of(system, (struct run){.step = 1e-3}, 1);
+  assert_string_equal(hooke_measurement_text(cost, "cost", 0, "method"), "symplectic-euler");
+  if (isnan(hooke_measurement_number(cost, "cost", 0, "step_limit"))) {
+    hooke_measurement_destroy(cost);
     hooke_system_destroy(system);
     skip();
   }
   const double damped = 2.0 * (sqrt(1.0 + z * z) - z) / 10.0;
-  check_close(hooke_cost_figure(cost, "step_limit"), damped, 1e-3 * damped);
-  check_close(hooke_cost_number(cost, 0, "step_limit_without"), 0.5, 1e-3);
-  check_close(hooke_cost_number(cost, 1, "step_limit_without"), damped, 1e-3 * damped);
-  check_close(hooke_cost_number(cost, 2, "step_limit_without"), 0.2, 1e-3);
-  check_close(hooke_cost_number(cost, 3, "step_limit_without"), damped, 1e-3 * damped);
-  hooke_cost_destroy(cost);
+  check_close(hooke_measurement_number(cost, "cost", 0, "step_limit"), damped, 1e-3 * damped);
+  check_close(hooke_measurement_number(cost, "rows", 0, "step_limit_without"), 0.5, 1e-3);
+  check_close(hooke_measurement_number(cost, "rows", 1, "step_limit_without"), damped, 1e-3 * damped);
+  check_close(hooke_measurement_number(cost, "rows", 2, "step_limit_without"), 0.2, 1e-3);
+  check_close(hooke_measurement_number(cost, "rows", 3, "step_limit_without"), damped, 1e-3 * damped);
+  hooke_measurement_destroy(cost);
   hooke_system_destroy(system);
 
   /* the only spring of a scene gone, nothing limits the step */
@@ -131,9 +134,9 @@ static void limits_are_those_without(void **unused) {
   small_springs(system, 1, ends, (struct springs){.stiffness = 4.0, .rest_length = -1.0});
   check_ok(hooke_system_commit(system));
   cost = cost_of(system, (struct run){.method = "verlet", .step = 1e-3}, 1);
-  check_close(hooke_cost_figure(cost, "step_limit"), 1.0, 1e-3);
-  assert_true(isinf(hooke_cost_number(cost, 0, "step_limit_without")));
-  hooke_cost_destroy(cost);
+  check_close(hooke_measurement_number(cost, "cost", 0, "step_limit"), 1.0, 1e-3);
+  assert_true(isinf(hooke_measurement_number(cost, "rows", 0, "step_limit_without")));
+  hooke_measurement_destroy(cost);
   hooke_system_destroy(system);
 }
 
@@ -153,18 +156,19 @@ static void the_largest_groups_are_looked_at(void **unused) {
   check_ok(hooke_system_commit(system));
   hooke_state *state = start_state(system);
   hooke_options *options;
-  check_ok(hooke_cost_options_create(&options));
+  check_ok(hooke_options_create("cost", &options));
   check_ok(hooke_options_set_number(options, "predict", 1));
   for (int64_t most = 0; most <= MOST; most++) {
-    hooke_cost *cost;
+    hooke_measurement *cost;
     check_ok(hooke_options_set_number(options, "groups", (double)most));
-    check_ok(hooke_cost_create(system, NULL, options, &cost));
-    check_ok(hooke_cost_find(cost, state));
-    assert_int_equal(hooke_cost_row_count(cost), GROUPS + 1);
+    check_ok(hooke_measurement_create("cost", system, NULL, options, &cost));
+    check_ok(hooke_measurement_run(cost, state));
+    assert_int_equal(hooke_measurement_row_count(cost, "rows"), GROUPS + 1);
     for (int64_t row = 0; row < GROUPS; row++)
-      assert_int_equal(isnan(hooke_cost_number(cost, row, "memory_bytes")), place[row] >= most);
-    check_between(hooke_cost_number(cost, GROUPS, "memory_bytes"), 0.0, 1e4);
-    hooke_cost_destroy(cost);
+      assert_int_equal(isnan(hooke_measurement_number(cost, "rows", row, "memory_bytes")),
+                       place[row] >= most);
+    check_between(hooke_measurement_number(cost, "rows", GROUPS, "memory_bytes"), 0.0, 1e4);
+    hooke_measurement_destroy(cost);
   }
   hooke_options_destroy(options);
   hooke_state_destroy(state);
@@ -179,16 +183,17 @@ static void times_are_numbers(void **unused) {
     const char *method = hooke_method_name(m);
     for (int k = 0; k < 3; k++) {
       const double step[] = {1e-3, 1e3, 0.0};
-      hooke_cost *cost = cost_of(system, (struct run){.method = method, .step = step[k]}, 0);
-      assert_string_equal(hooke_cost_method(cost), is_fixed_step(method) ? method : "symplectic-euler");
-      check_between(hooke_cost_figure(cost, "step"), 1e-12, 1e3);
-      check_between(hooke_cost_figure(cost, "nanoseconds"), 1.0, 1e9);
-      check_between(hooke_cost_figure(cost, "resolution"), 0.0, 1e9);
-      for (int64_t row = 0; row < hooke_cost_row_count(cost); row++) {
-        check_between(hooke_cost_number(cost, row, "nanoseconds"), 0.0, 1e9);
-        check_between(hooke_cost_number(cost, row, "resolution"), 0.0, 1e9);
+      hooke_measurement *cost = cost_of(system, (struct run){.method = method, .step = step[k]}, 0);
+      assert_string_equal(hooke_measurement_text(cost, "cost", 0, "method"),
+                          is_fixed_step(method) ? method : "symplectic-euler");
+      check_between(hooke_measurement_number(cost, "cost", 0, "step"), 1e-12, 1e3);
+      check_between(hooke_measurement_number(cost, "cost", 0, "nanoseconds"), 1.0, 1e9);
+      check_between(hooke_measurement_number(cost, "cost", 0, "resolution"), 0.0, 1e9);
+      for (int64_t row = 0; row < hooke_measurement_row_count(cost, "rows"); row++) {
+        check_between(hooke_measurement_number(cost, "rows", row, "nanoseconds"), 0.0, 1e9);
+        check_between(hooke_measurement_number(cost, "rows", row, "resolution"), 0.0, 1e9);
       }
-      hooke_cost_destroy(cost);
+      hooke_measurement_destroy(cost);
     }
   }
   hooke_system_destroy(system);
@@ -212,14 +217,14 @@ static void can_be_stopped(void **unused) {
   hooke_system *system = two_oscillators(1.0, 0.5, 1, 0);
   hooke_state *state = start_state(system);
   struct watch watch = {.stop_at = 4};
-  hooke_cost *cost;
-  check_ok(hooke_cost_create(system, NULL, NULL, &cost));
-  hooke_cost_on_progress(cost, see, &watch);
-  check_status(hooke_cost_find(cost, state), HOOKE_STOPPED);
-  check_between(hooke_cost_number(cost, 1, "nanoseconds"), 0.0, 1e9);
-  assert_true(isnan(hooke_cost_number(cost, 2, "nanoseconds")));
-  assert_true(isnan(hooke_cost_number(cost, 2, "memory_bytes")));
-  hooke_cost_destroy(cost);
+  hooke_measurement *cost;
+  check_ok(hooke_measurement_create("cost", system, NULL, NULL, &cost));
+  hooke_measurement_on_progress(cost, see, &watch);
+  check_status(hooke_measurement_run(cost, state), HOOKE_STOPPED);
+  check_between(hooke_measurement_number(cost, "rows", 1, "nanoseconds"), 0.0, 1e9);
+  assert_true(isnan(hooke_measurement_number(cost, "rows", 2, "nanoseconds")));
+  assert_true(isnan(hooke_measurement_number(cost, "rows", 2, "memory_bytes")));
+  hooke_measurement_destroy(cost);
   hooke_state_destroy(state);
   hooke_system_destroy(system);
 }
@@ -228,14 +233,14 @@ static void wrong_calls(void **unused) {
   (void)unused;
   hooke_system *system = two_oscillators(0.0, 0.0, 0, 0), *open, *other = small_oscillator(1.0);
   hooke_state *state = start_state(other);
-  hooke_cost *cost = NULL;
+  hooke_measurement *cost = NULL;
   check_ok(hooke_system_create(&open));
-  check_status(hooke_cost_create(open, NULL, NULL, &cost), HOOKE_BAD_CALL);
-  check_ok(hooke_cost_create(system, NULL, NULL, &cost));
-  check_status(hooke_cost_find(cost, state), HOOKE_BAD_VALUE);
+  check_status(hooke_measurement_create("cost", open, NULL, NULL, &cost), HOOKE_BAD_CALL);
+  check_ok(hooke_measurement_create("cost", system, NULL, NULL, &cost));
+  check_status(hooke_measurement_run(cost, state), HOOKE_BAD_VALUE);
   check_message("another system");
-  assert_true(isnan(hooke_cost_figure(cost, "step_limit")));
-  hooke_cost_destroy(cost);
+  assert_true(isnan(hooke_measurement_number(cost, "cost", 0, "step_limit")));
+  hooke_measurement_destroy(cost);
   hooke_state_destroy(state);
   hooke_system_destroy(open);
   hooke_system_destroy(other);

@@ -264,14 +264,15 @@ static hooke_system *sagging_block(void) {
 /* The smallest limit of its method at the frames of a run. */
 static double least_limit_along(const hooke_system *system, const hooke_options *run) {
   hooke_options *options;
-  hooke_limit *limit;
+  hooke_measurement *limit;
   hooke_state *state = start_state(system);
-  check_ok(hooke_limit_options_create(&options));
+  check_ok(hooke_options_create("limit", &options));
   check_ok(hooke_options_set_text(options, "methods", hooke_options_text(run, "method")));
-  check_ok(hooke_limit_create(system, run, options, &limit));
-  check_ok(hooke_limit_along(limit, state));
-  const double least = hooke_limit_number(limit, 0, "smallest");
-  hooke_limit_destroy(limit);
+  check_ok(hooke_options_set_number(options, "along", 1.0));
+  check_ok(hooke_measurement_create("limit", system, run, options, &limit));
+  check_ok(hooke_measurement_run(limit, state));
+  const double least = hooke_measurement_number(limit, "rows", 0, "smallest");
+  hooke_measurement_destroy(limit);
   hooke_state_destroy(state);
   hooke_options_destroy(options);
   return least;

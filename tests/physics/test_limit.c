@@ -11,13 +11,13 @@
 #include <string.h>
 
 /* Limits of all methods at the initial state, without measuring. `accuracy` 0: the default. */
-static hooke_limit *limit_of(const hooke_system *system, double accuracy) {
+static hooke_measurement *limit_of(const hooke_system *system, double accuracy) {
   hooke_options *options;
-  hooke_limit *limit = NULL;
-  check_ok(hooke_limit_options_create(&options));
+  hooke_measurement *limit = NULL;
+  check_ok(hooke_options_create("limit", &options));
   check_ok(hooke_options_set_number(options, "predict", 1.0));
   if (accuracy > 0.0) check_ok(hooke_options_set_number(options, "accuracy", accuracy));
-  const int32_t status = hooke_limit_create(system, NULL, options, &limit);
+  const int32_t status = hooke_measurement_create("limit", system, NULL, options, &limit);
   hooke_options_destroy(options);
   if (status == HOOKE_NOT_BUILT) {
     hooke_system_destroy((hooke_system *)(uintptr_t)system);
@@ -25,24 +25,24 @@ static hooke_limit *limit_of(const hooke_system *system, double accuracy) {
   }
   check_ok(status);
   hooke_state *state = start_state(system);
-  check_ok(hooke_limit_find(limit, state));
+  check_ok(hooke_measurement_run(limit, state));
   hooke_state_destroy(state);
   return limit;
 }
 
-static int64_t row_of(const hooke_limit *limit, const char *method) {
-  for (int64_t k = 0; k < hooke_limit_row_count(limit); k++) {
-    if (strcmp(hooke_limit_text(limit, k, "method"), method) == 0) return k;
+static int64_t row_of(const hooke_measurement *limit, const char *method) {
+  for (int64_t k = 0; k < hooke_measurement_row_count(limit, "rows"); k++) {
+    if (strcmp(hooke_measurement_text(limit, "rows", k, "method"), method) == 0) return k;
   }
   check_failed("there is no row %s", method);
   return -1;
 }
 
-static double number_of(const hooke_limit *limit, const char *method, const char *what) {
-  return hooke_limit_number(limit, row_of(limit, method), what);
+static double number_of(const hooke_measurement *limit, const char *method, const char *what) {
+  return hooke_measurement_number(limit, "rows", row_of(limit, method), what);
 }
 
-static double predicted(const hooke_limit *limit, const char *method) {
+static double predicted(const hooke_measurement *limit, const char *method) {
   return number_of(limit, method, "predicted");
 }
 
@@ -141,28 +141,29 @@ static const struct {
 static void critical_steps_to_ten_digits(void **unused) {
   (void)unused;
   hooke_system *system = build_reference(find_reference("six-particles"));
-  hooke_limit *limit = limit_of(system, 0.0);
-  check_digits(hooke_limit_figure(limit, "frequency_max"), net6.frequency, 1e-12);
+  hooke_measurement *limit = limit_of(system, 0.0);
+  check_digits(hooke_measurement_number(limit, "limit", 0, "frequency_max"), net6.frequency, 1e-12);
   check_digits(predicted(limit, "verlet"), net6.verlet, 1e-12);
   check_digits(predicted(limit, "symplectic-euler"), net6.symplectic_euler, 1e-10);
   check_digits(predicted(limit, "rk4"), net6.rk4, 1e-10);
   check_digits(predicted(limit, "forward-euler"), net6.forward_euler, 1e-8);
   assert_true(isinf(predicted(limit, "backward-euler")));
-  check_between(hooke_limit_figure(limit, "modes"), 15, 15); /* 15 unknowns, none of them free to drift */
-  hooke_limit_destroy(limit);
+  check_between(hooke_measurement_number(limit, "limit", 0, "mode_count"), 15,
+                15); /* 15 unknowns, none of them free to drift */
+  hooke_measurement_destroy(limit);
   hooke_system_destroy(system);
 
   system = build_cloth(10, 0.02);
   limit = limit_of(system, 0.0);
-  check_digits(hooke_limit_figure(limit, "frequency_max"), cloth10.frequency, 1e-11);
+  check_digits(hooke_measurement_number(limit, "limit", 0, "frequency_max"), cloth10.frequency, 1e-11);
   check_digits(predicted(limit, "verlet"), cloth10.verlet, 1e-11);
   check_digits(predicted(limit, "symplectic-euler"), cloth10.symplectic_euler, 1e-10);
   check_digits(predicted(limit, "rk4"), cloth10.rk4, 1e-10);
   check_digits(predicted(limit, "forward-euler"), cloth10.forward_euler, 1e-9);
-  check_between(hooke_limit_figure(limit, "modes"), 196,
+  check_between(hooke_measurement_number(limit, "limit", 0, "mode_count"), 196,
                 196); /* 294 unknowns; 98 zero modes across the sheet */
-  check_between(hooke_limit_figure(limit, "clamped"), 0, 0);
-  hooke_limit_destroy(limit);
+  check_between(hooke_measurement_number(limit, "limit", 0, "clamped"), 0, 0);
+  hooke_measurement_destroy(limit);
   hooke_system_destroy(system);
 }
 
@@ -183,14 +184,15 @@ static void one_mode_follows_the_table(void **unused) {
                                    .damping = 2.0 * table[k].zeta * omega * mass,
                                    .rest_length = -1.0});
     check_ok(hooke_system_commit(system));
-    hooke_limit *limit = limit_of(system, 0.0);
+    hooke_measurement *limit = limit_of(system, 0.0);
     check_close(omega * predicted(limit, "forward-euler"), table[k].forward_euler, 1e-5);
     check_close(omega * predicted(limit, "symplectic-euler"), table[k].symplectic_euler, 1e-5);
     check_close(omega * predicted(limit, "verlet"), 2.0, 1e-12);
     check_close(omega * predicted(limit, "rk4"), table[k].rk4, 1e-5);
     check_between(number_of(limit, "forward-euler", "never_stable"), k == 0, k == 0);
-    check_close(hooke_limit_figure(limit, "rate_max"), 2.0 * table[k].zeta * omega, 1e-12 * omega);
-    hooke_limit_destroy(limit);
+    check_close(hooke_measurement_number(limit, "limit", 0, "rate_max"), 2.0 * table[k].zeta * omega,
+                1e-12 * omega);
+    hooke_measurement_destroy(limit);
     hooke_system_destroy(system);
   }
 }
@@ -206,7 +208,7 @@ static void many_copies_have_the_limits_of_one(void **unused) {
   } scenes[] = {{20, 1, 1e-9}, {60, 0, 1e-9}, {800, 0, 1e-3}};
   for (size_t k = 0; k < sizeof scenes / sizeof scenes[0]; k++) {
     hooke_system *system = build_nets(scenes[k].copies);
-    hooke_limit *limit = limit_of(system, 0.0);
+    hooke_measurement *limit = limit_of(system, 0.0);
     const double digits = scenes[k].digits;
     check_digits(predicted(limit, "verlet"), net6.verlet, digits);
     check_digits(predicted(limit, "symplectic-euler"), net6.symplectic_euler, digits);
@@ -221,9 +223,10 @@ static void many_copies_have_the_limits_of_one(void **unused) {
        * Runge-Kutta */
       check_between(predicted(limit, "rk4"), (1.0 - 2e-3) * net6.rk4, 1.02 * net6.rk4);
       check_between(predicted(limit, "forward-euler"), net6.forward_euler, INFINITY);
-      assert_true(strstr(hooke_limit_text(limit, row_of(limit, "rk4"), "note"), "only the fastest") != NULL);
+      assert_true(strstr(hooke_measurement_text(limit, "rows", row_of(limit, "rk4"), "note"),
+                         "only the fastest") != NULL);
     }
-    hooke_limit_destroy(limit);
+    hooke_measurement_destroy(limit);
     hooke_system_destroy(system);
   }
 }
@@ -234,15 +237,15 @@ static void iterations_agree_with_dense_matrices(void **unused) {
   const int sizes[] = {11, 22}; /* 357 and 1446 unknowns */
   for (int k = 0; k < 2; k++) {
     hooke_system *system = build_cloth(sizes[k], 0.0);
-    hooke_limit *limit = limit_of(system, 1e-6);
-    const double omega = hooke_limit_figure(limit, "frequency_max");
+    hooke_measurement *limit = limit_of(system, 1e-6);
+    const double omega = hooke_measurement_number(limit, "limit", 0, "frequency_max");
     double most = 0.0;
-    for (int64_t j = 0; j < hooke_limit_mode_count(limit); j++)
-      most = fmax(most, hooke_limit_mode_number(limit, j, "imaginary"));
+    for (int64_t j = 0; j < hooke_measurement_row_count(limit, "modes"); j++)
+      most = fmax(most, hooke_measurement_number(limit, "modes", j, "imaginary"));
     check_digits(omega, most, 1e-9);
-    check_digits(hooke_limit_mode_number(limit, 0, "imaginary"), most, 0.0);
+    check_digits(hooke_measurement_number(limit, "modes", 0, "imaginary"), most, 0.0);
     check_between(number_of(limit, "forward-euler", "never_stable"), 1, 1);
-    hooke_limit_destroy(limit);
+    hooke_measurement_destroy(limit);
     hooke_system_destroy(system);
   }
 }
@@ -251,16 +254,17 @@ static void iterations_agree_with_dense_matrices(void **unused) {
 static void large_scenes_keep_the_accuracy(void **unused) {
   (void)unused;
   hooke_system *system = build_cloth(70, 0.02);
-  hooke_limit *rough = limit_of(system, 1e-3), *fine = limit_of(system, 1e-7);
+  hooke_measurement *rough = limit_of(system, 1e-3), *fine = limit_of(system, 1e-7);
   const char *methods[] = {"symplectic-euler", "verlet", "rk4", "forward-euler"};
   for (int m = 0; m < 4; m++) {
     check_digits(predicted(rough, methods[m]), predicted(fine, methods[m]), 1e-3);
     check_between(number_of(rough, methods[m], "exact"), 1, 1); /* damping is in proportion */
   }
-  check_between(hooke_limit_figure(rough, "products"), 10, 120);
-  assert_true(hooke_limit_figure(fine, "products") > 2.0 * hooke_limit_figure(rough, "products"));
-  hooke_limit_destroy(rough);
-  hooke_limit_destroy(fine);
+  check_between(hooke_measurement_number(rough, "limit", 0, "products"), 10, 120);
+  assert_true(hooke_measurement_number(fine, "limit", 0, "products") >
+              2.0 * hooke_measurement_number(rough, "limit", 0, "products"));
+  hooke_measurement_destroy(rough);
+  hooke_measurement_destroy(fine);
   hooke_system_destroy(system);
 }
 
@@ -280,13 +284,13 @@ static void bounds_are_never_above_the_limit(void **unused) {
     for (int k = 0; k < 5; k++)
       request.features |= (seed >> k) & 1 ? features[k] : 0;
     random_scene_create(request, &scene);
-    hooke_limit *limit = limit_of(scene.system, 0.0);
-    for (int64_t row = 0; row < hooke_limit_row_count(limit); row++) {
-      const double bound = hooke_limit_number(limit, row, "bound"),
-                   h = hooke_limit_number(limit, row, "predicted");
+    hooke_measurement *limit = limit_of(scene.system, 0.0);
+    for (int64_t row = 0; row < hooke_measurement_row_count(limit, "rows"); row++) {
+      const double bound = hooke_measurement_number(limit, "rows", row, "bound"),
+                   h = hooke_measurement_number(limit, "rows", row, "predicted");
       if (!(bound <= h * (1.0 + 1e-9))) {
         check_failed("seed %llu, %s: the bound %.17g is above the limit %.17g", (unsigned long long)seed,
-                     hooke_limit_text(limit, row, "method"), bound, h);
+                     hooke_measurement_text(limit, "rows", row, "method"), bound, h);
       }
       limited[row] += h > 0.0 && h < INFINITY;
       if (row == row_of(limit, "symplectic-euler") && h < INFINITY) {
@@ -294,7 +298,7 @@ static void bounds_are_never_above_the_limit(void **unused) {
         highest = fmax(highest, bound / h);
       }
     }
-    hooke_limit_destroy(limit);
+    hooke_measurement_destroy(limit);
     random_scene_destroy(&scene);
   }
   /* a bound is worth something, and only just one */
@@ -308,14 +312,16 @@ static void bounds_are_never_above_the_limit(void **unused) {
 /* ---- along a run ---- */
 
 struct smallest {
-  hooke_limit *limit;
+  hooke_measurement *limit;
+  hooke_state *copy; /* of the state of a frame, which belongs to the run */
   double limit_met, time;
 };
 
 static int32_t see(int64_t step, const hooke_state *state, void *ctx) {
   (void)step;
   struct smallest *s = ctx;
-  check_ok(hooke_limit_find(s->limit, state));
+  check_ok(hooke_state_copy(state, s->copy));
+  check_ok(hooke_measurement_run(s->limit, s->copy));
   const double h = predicted(s->limit, "symplectic-euler");
   if (h < s->limit_met) {
     s->limit_met = h;
@@ -329,7 +335,7 @@ static void the_smallest_limit_of_a_run(void **unused) {
   hooke_system *system = build_reference(find_reference("six-particles"));
   hooke_options *run =
       run_options((struct run){.method = "rk4", .step = 0.01, .duration = 1.0, .every = 0.1});
-  struct smallest s = {limit_of(system, 0.0), INFINITY, NAN};
+  struct smallest s = {limit_of(system, 0.0), start_state(system), INFINITY, NAN};
   const double first = predicted(s.limit, "symplectic-euler");
   hooke_integrator *integrator = NULL;
   hooke_state *state = start_state(system);
@@ -339,21 +345,27 @@ static void the_smallest_limit_of_a_run(void **unused) {
   hooke_integrator_destroy(integrator);
   hooke_state_destroy(state);
 
-  hooke_limit *along = NULL;
+  hooke_measurement *along = NULL;
+  hooke_options *options = NULL;
   state = start_state(system);
-  check_ok(hooke_limit_create(system, run, NULL, &along));
-  check_ok(hooke_limit_along(along, state));
+  check_ok(hooke_options_create("limit", &options));
+  check_ok(hooke_options_set_number(options, "along", 1.0));
+  check_ok(hooke_measurement_create("limit", system, run, options, &along));
+  check_ok(hooke_measurement_run(along, state));
   check_digits(number_of(along, "symplectic-euler", "smallest"), s.limit_met, 1e-9);
   check_close(number_of(along, "symplectic-euler", "smallest_time"), s.time, 1e-12);
   check_close(hooke_state_time(state), 1.0, 1e-12);
+  check_close(hooke_measurement_number(along, "limit", 0, "time"), 1.0, 1e-12);
   /* the net stretches, and the limit falls below that of the start */
   check_between(s.limit_met, 0.5 * first, 0.9999 * first);
-  hooke_limit_destroy(along);
+  hooke_measurement_destroy(along);
 
-  check_ok(hooke_limit_create(system, NULL, NULL, &along));
-  check_status(hooke_limit_along(along, state), HOOKE_BAD_VALUE);
-  hooke_limit_destroy(along);
-  hooke_limit_destroy(s.limit);
+  check_ok(hooke_measurement_create("limit", system, NULL, options, &along));
+  check_status(hooke_measurement_run(along, state), HOOKE_BAD_VALUE);
+  hooke_measurement_destroy(along);
+  hooke_options_destroy(options);
+  hooke_measurement_destroy(s.limit);
+  hooke_state_destroy(s.copy);
   hooke_options_destroy(run);
   hooke_state_destroy(state);
   hooke_system_destroy(system);
@@ -370,17 +382,17 @@ static void nothing_limits(void **unused) {
     if (scene == 0) small_springs(system, 1, both, (struct springs){.stiffness = 5.0, .rest_length = -1.0});
     if (scene == 0) check_ok(hooke_system_pin(system, 2, both));
     check_ok(hooke_system_commit(system));
-    hooke_limit *limit = limit_of(system, 0.0);
-    for (int64_t row = 0; row < hooke_limit_row_count(limit); row++) {
-      assert_true(isinf(hooke_limit_number(limit, row, "predicted")));
-      check_between(hooke_limit_number(limit, row, "never_stable"), 0, 0);
-      assert_true(hooke_limit_text(limit, row, "note")[0] != '\0');
+    hooke_measurement *limit = limit_of(system, 0.0);
+    for (int64_t row = 0; row < hooke_measurement_row_count(limit, "rows"); row++) {
+      assert_true(isinf(hooke_measurement_number(limit, "rows", row, "predicted")));
+      check_between(hooke_measurement_number(limit, "rows", row, "never_stable"), 0, 0);
+      assert_true(hooke_measurement_text(limit, "rows", row, "note")[0] != '\0');
     }
-    check_between(hooke_limit_figure(limit, "modes"), 0, 0);
-    check_between(hooke_limit_figure(limit, "frequency_max"), 0, 0);
-    assert_null(hooke_limit_shape(limit));
-    assert_true(hooke_limit_blame_count(limit) == 0);
-    hooke_limit_destroy(limit);
+    check_between(hooke_measurement_number(limit, "limit", 0, "mode_count"), 0, 0);
+    check_between(hooke_measurement_number(limit, "limit", 0, "frequency_max"), 0, 0);
+    assert_null(hooke_measurement_series(limit, "limit", 0, "shape"));
+    assert_true(hooke_measurement_row_count(limit, "blame") == 0);
+    hooke_measurement_destroy(limit);
     hooke_system_destroy(system);
   }
 }
@@ -391,13 +403,13 @@ static void drag_alone(void **unused) {
   hooke_system *falling = small_system(1, place, NULL, 1.0, 0);
   check_ok(hooke_system_set_drag(falling, 0.25));
   check_ok(hooke_system_commit(falling));
-  hooke_limit *limit = limit_of(falling, 0.0);
+  hooke_measurement *limit = limit_of(falling, 0.0);
   check_digits(predicted(limit, "forward-euler"), 8.0, 1e-12);
   check_digits(predicted(limit, "symplectic-euler"), 8.0, 1e-12);
   check_digits(predicted(limit, "rk4"), 4.0 * 2.785293563405282, 1e-11);
   assert_true(isinf(predicted(limit, "verlet")));
-  check_digits(hooke_limit_figure(limit, "rate_max"), 0.25, 1e-14);
-  hooke_limit_destroy(limit);
+  check_digits(hooke_measurement_number(limit, "limit", 0, "rate_max"), 0.25, 1e-14);
+  hooke_measurement_destroy(limit);
   hooke_system_destroy(falling);
 }
 
@@ -412,13 +424,14 @@ static void compression_is_left_out(void **unused) {
     small_springs(system, 1, ends,
                   (struct springs){.law = "length", .stiffness = 100.0, .rest_length = rest_lengths[k]});
     check_ok(hooke_system_commit(system));
-    hooke_limit *limit = limit_of(system, 0.0);
-    check_between(hooke_limit_figure(limit, "clamped"), k == 0, k == 0);
+    hooke_measurement *limit = limit_of(system, 0.0);
+    check_between(hooke_measurement_number(limit, "limit", 0, "clamped"), k == 0, k == 0);
     check_digits(predicted(limit, "verlet"), 0.2, 1e-12);
     /* stretched, it is stiff in three directions, and two frequencies are 10 sqrt(1/2) */
-    check_between(hooke_limit_figure(limit, "modes"), k == 0 ? 1 : 3, k == 0 ? 1 : 3);
-    if (k == 1) check_digits(hooke_limit_mode_number(limit, 2, "imaginary"), 10.0 * sqrt(0.5), 1e-12);
-    hooke_limit_destroy(limit);
+    check_between(hooke_measurement_number(limit, "limit", 0, "mode_count"), k == 0 ? 1 : 3, k == 0 ? 1 : 3);
+    if (k == 1)
+      check_digits(hooke_measurement_number(limit, "modes", 2, "imaginary"), 10.0 * sqrt(0.5), 1e-12);
+    hooke_measurement_destroy(limit);
     hooke_system_destroy(system);
   }
 }
@@ -438,30 +451,30 @@ static void the_odd_spring_is_named(void **unused) {
   small_springs(system, 5, ends + 12,
                 (struct springs){.stiffness = 10.0, .damping = 0.01, .rest_length = -1.0});
   check_ok(hooke_system_commit(system));
-  hooke_limit *limit = limit_of(system, 0.0);
-  check_between(hooke_limit_blame_number(limit, 0, "spring"), 5, 5);
-  check_between(hooke_limit_blame_number(limit, 0, "share"), 0.9, 1.0);
-  check_between(hooke_limit_blame_number(limit, 0, "first"), 5, 5);
-  check_between(hooke_limit_blame_number(limit, 0, "second"), 6, 6);
-  const double *shape = hooke_limit_shape(limit);
+  hooke_measurement *limit = limit_of(system, 0.0);
+  check_between(hooke_measurement_number(limit, "blame", 0, "number"), 5, 5);
+  check_between(hooke_measurement_number(limit, "blame", 0, "share"), 0.9, 1.0);
+  check_between(hooke_measurement_number(limit, "blame", 0, "first"), 5, 5);
+  check_between(hooke_measurement_number(limit, "blame", 0, "second"), 6, 6);
+  const double *shape = hooke_measurement_series(limit, "limit", 0, "shape");
   check_close(largest(36, shape), 1.0, 1e-12);
   check_close(shape[15] + shape[18], 0.0, 0.05); /* its ends against each other */
-  check_between(hooke_limit_remedy_number(limit, "gain"), 2.0, 8.0);
-  hooke_limit_destroy(limit);
+  check_between(hooke_measurement_number(limit, "remedy", 0, "gain"), 2.0, 8.0);
+  hooke_measurement_destroy(limit);
   hooke_system_destroy(system);
 }
 
 static void the_same_every_time(void **unused) {
   (void)unused;
   hooke_system *system = build_nets(30);
-  hooke_limit *first = limit_of(system, 0.0), *second = limit_of(system, 0.0);
-  for (int64_t row = 0; row < hooke_limit_row_count(first); row++) {
-    const double one = hooke_limit_number(first, row, "predicted"),
-                 two = hooke_limit_number(second, row, "predicted");
+  hooke_measurement *first = limit_of(system, 0.0), *second = limit_of(system, 0.0);
+  for (int64_t row = 0; row < hooke_measurement_row_count(first, "rows"); row++) {
+    const double one = hooke_measurement_number(first, "rows", row, "predicted"),
+                 two = hooke_measurement_number(second, "rows", row, "predicted");
     check_same_bits(1, &one, &two);
   }
-  hooke_limit_destroy(first);
-  hooke_limit_destroy(second);
+  hooke_measurement_destroy(first);
+  hooke_measurement_destroy(second);
   hooke_system_destroy(system);
 }
 
@@ -473,39 +486,40 @@ static int32_t stop(double done, const char *what, void *ctx) {
 static void bad_input(void **unused) {
   (void)unused;
   hooke_system *system = small_oscillator(7.0), *other = build_nets(1), *open = NULL;
-  hooke_limit *limit = limit_of(system, 0.0);
+  hooke_measurement *limit = limit_of(system, 0.0);
   hooke_state *state = start_state(other);
-  check_status(hooke_limit_find(limit, state), HOOKE_BAD_VALUE);
+  check_status(hooke_measurement_run(limit, state), HOOKE_BAD_VALUE);
   check_message("another system");
   hooke_state_destroy(state);
   state = start_state(system);
   hooke_state_position(state)[3] = NAN;
-  check_status(hooke_limit_find(limit, state), HOOKE_BAD_VALUE);
+  check_status(hooke_measurement_run(limit, state), HOOKE_BAD_VALUE);
   check_message("not finite");
   hooke_state_position(state)[3] = 1.0;
   int calls = 0;
-  hooke_limit_on_progress(limit, stop, &calls);
-  check_status(hooke_limit_find(limit, state), HOOKE_STOPPED);
+  hooke_measurement_on_progress(limit, stop, &calls);
+  check_status(hooke_measurement_run(limit, state), HOOKE_STOPPED);
   assert_int_equal(calls, 1);
-  hooke_limit_on_progress(limit, NULL, NULL);
-  check_ok(hooke_limit_find(limit, state));
+  hooke_measurement_on_progress(limit, NULL, NULL);
+  check_ok(hooke_measurement_run(limit, state));
   check_digits(predicted(limit, "verlet"), 2.0 / 7.0, 1e-12);
-  assert_true(isnan(hooke_limit_number(limit, 99, "bound")) && isnan(hooke_limit_number(limit, 0, "colour")));
-  assert_true(isnan(hooke_limit_figure(limit, "colour")));
-  assert_null(hooke_limit_text(limit, 99, "method"));
-  assert_true(isnan(hooke_limit_mode_number(limit, -1, "real")));
-  hooke_limit_destroy(limit);
-  hooke_limit_destroy(NULL);
+  assert_true(isnan(hooke_measurement_number(limit, "rows", 99, "bound")) &&
+              isnan(hooke_measurement_number(limit, "rows", 0, "colour")));
+  assert_true(isnan(hooke_measurement_number(limit, "limit", 0, "colour")));
+  assert_null(hooke_measurement_text(limit, "rows", 99, "method"));
+  assert_true(isnan(hooke_measurement_number(limit, "modes", -1, "real")));
+  hooke_measurement_destroy(limit);
+  hooke_measurement_destroy(NULL);
 
   hooke_options *options;
-  check_ok(hooke_limit_options_create(&options));
+  check_ok(hooke_options_create("limit", &options));
   check_status(hooke_options_set_number(options, "accuracy", 0.5), HOOKE_BAD_VALUE);
   check_ok(hooke_options_set_text(options, "methods", "verlet,no-such-method"));
-  check_status(hooke_limit_create(system, NULL, options, &limit), HOOKE_BAD_VALUE);
+  check_status(hooke_measurement_create("limit", system, NULL, options, &limit), HOOKE_BAD_VALUE);
   check_message("no-such-method");
   hooke_options_destroy(options);
   check_ok(hooke_system_create(&open));
-  check_status(hooke_limit_create(open, NULL, NULL, &limit), HOOKE_BAD_CALL);
+  check_status(hooke_measurement_create("limit", open, NULL, NULL, &limit), HOOKE_BAD_CALL);
   hooke_system_destroy(open);
   hooke_state_destroy(state);
   hooke_system_destroy(other);

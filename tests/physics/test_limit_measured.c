@@ -14,17 +14,17 @@
 enum { MOST_PARTICLES = 32, MOST_SPRINGS = 256 };
 
 /* A limit of all methods in `methods` (NULL: all) at the initial state; skips the test in builds without. */
-static hooke_limit *find_limit(const hooke_system *system, const char *methods, double accuracy,
-                               int32_t predict, const hooke_options *run) {
+static hooke_measurement *find_limit(const hooke_system *system, const char *methods, double accuracy,
+                                     int32_t predict, const hooke_options *run) {
   hooke_options *options;
-  hooke_limit *limit = NULL;
-  check_ok(hooke_limit_options_create(&options));
+  hooke_measurement *limit = NULL;
+  check_ok(hooke_options_create("limit", &options));
   if (methods) check_ok(hooke_options_set_text(options, "methods", methods));
   check_ok(hooke_options_set_number(options, "accuracy", accuracy));
   check_ok(hooke_options_set_number(options, "predict", predict));
   check_ok(hooke_options_set_number(options, "nonlinear", run != NULL));
   check_ok(hooke_options_set_number(options, "budget", 200.0));
-  const int32_t status = hooke_limit_create(system, run, options, &limit);
+  const int32_t status = hooke_measurement_create("limit", system, run, options, &limit);
   hooke_options_destroy(options);
   if (status == HOOKE_NOT_BUILT) {
     hooke_system_destroy((hooke_system *)(uintptr_t)system);
@@ -32,7 +32,7 @@ static hooke_limit *find_limit(const hooke_system *system, const char *methods, 
   }
   check_status(status, HOOKE_OK);
   hooke_state *state = start_state(system);
-  check_ok(hooke_limit_find(limit, state));
+  check_ok(hooke_measurement_run(limit, state));
   hooke_state_destroy(state);
   return limit;
 }
@@ -89,20 +89,21 @@ static void random_networks_run_up_to_the_prediction(void **unused) {
   for (uint64_t seed = 1; seed <= 100; seed++) {
     if (left_out((int64_t)seed, 5)) continue;
     hooke_system *system = random_network(seed, 1.0);
-    hooke_limit *limit = find_limit(system, "symplectic-euler,verlet,rk4", 1e-3, 0, NULL);
+    hooke_measurement *limit = find_limit(system, "symplectic-euler,verlet,rk4", 1e-3, 0, NULL);
     for (int64_t row = 0; row < 3; row++) {
-      const double predicted = hooke_limit_number(limit, row, "predicted");
-      const double measured = hooke_limit_number(limit, row, "measured");
+      const double predicted = hooke_measurement_number(limit, "rows", row, "predicted");
+      const double measured = hooke_measurement_number(limit, "rows", row, "measured");
       if (!agree(measured, predicted, 1e-3)) {
         check_failed("network %d, %s: measured %.8g, predicted %.8g (%s)", (int)seed,
-                     hooke_limit_text(limit, row, "method"), measured, predicted,
-                     hooke_limit_text(limit, row, "note"));
+                     hooke_measurement_text(limit, "rows", row, "method"), measured, predicted,
+                     hooke_measurement_text(limit, "rows", row, "note"));
       }
-      check_close(hooke_limit_number(limit, row, "ratio"), measured / predicted, 1e-15);
-      check_between(hooke_limit_number(limit, row, "bound"), 0.2 * measured, measured * (1.0 + 1e-3));
-      check_between(hooke_limit_number(limit, row, "steps_run"), 1000.0, 1e7);
+      check_close(hooke_measurement_number(limit, "rows", row, "ratio"), measured / predicted, 1e-15);
+      check_between(hooke_measurement_number(limit, "rows", row, "bound"), 0.2 * measured,
+                    measured * (1.0 + 1e-3));
+      check_between(hooke_measurement_number(limit, "rows", row, "steps_run"), 1000.0, 1e7);
     }
-    hooke_limit_destroy(limit);
+    hooke_measurement_destroy(limit);
     hooke_system_destroy(system);
   }
 }
@@ -113,14 +114,14 @@ static void another_damping_is_noticed(void **unused) {
   int noticed = 0;
   for (uint64_t seed = 1; seed <= 5; seed++) {
     hooke_system *system = random_network(seed, 1.0), *other = random_network(seed, 1.1);
-    hooke_limit *limit = find_limit(system, "symplectic-euler", 1e-3, 0, NULL);
-    hooke_limit *wrong = find_limit(other, "symplectic-euler", 1e-3, 1, NULL);
-    const double measured = hooke_limit_number(limit, 0, "measured");
-    assert_true(agree(measured, hooke_limit_number(limit, 0, "predicted"), 1e-3));
-    noticed += !agree(measured, hooke_limit_number(wrong, 0, "predicted"), 1e-3);
-    assert_true(isnan(hooke_limit_number(wrong, 0, "measured")));
-    hooke_limit_destroy(limit);
-    hooke_limit_destroy(wrong);
+    hooke_measurement *limit = find_limit(system, "symplectic-euler", 1e-3, 0, NULL);
+    hooke_measurement *wrong = find_limit(other, "symplectic-euler", 1e-3, 1, NULL);
+    const double measured = hooke_measurement_number(limit, "rows", 0, "measured");
+    assert_true(agree(measured, hooke_measurement_number(limit, "rows", 0, "predicted"), 1e-3));
+    noticed += !agree(measured, hooke_measurement_number(wrong, "rows", 0, "predicted"), 1e-3);
+    assert_true(isnan(hooke_measurement_number(wrong, "rows", 0, "measured")));
+    hooke_measurement_destroy(limit);
+    hooke_measurement_destroy(wrong);
     hooke_system_destroy(system);
     hooke_system_destroy(other);
   }
@@ -193,58 +194,60 @@ static hooke_system *build_piece(const struct piece *piece, enum odd odd, double
   return system;
 }
 
-static void check_blame(const hooke_limit *limit, const struct piece *piece, enum odd odd) {
+static void check_blame(const hooke_measurement *limit, const struct piece *piece, enum odd odd) {
   double sum = 0.0;
-  const int64_t count = hooke_limit_blame_count(limit);
+  const int64_t count = hooke_measurement_row_count(limit, "blame");
   assert_true(count > 0);
   /* damping comes before the springs that it is of, if most of it is damping */
-  const int64_t first = hooke_limit_blame_text(limit, 0, "force")[0] != '\0';
-  if (first) assert_string_equal(hooke_limit_blame_text(limit, 0, "force"), "damping");
-  if (first) check_between(hooke_limit_blame_number(limit, 0, "share"), 0.5, 1.0);
+  const int64_t first = hooke_measurement_text(limit, "blame", 0, "force") != NULL;
+  if (first) assert_string_equal(hooke_measurement_text(limit, "blame", 0, "force"), "damping");
+  if (first) check_between(hooke_measurement_number(limit, "blame", 0, "share"), 0.5, 1.0);
   for (int64_t k = first; k < count; k++) {
-    const double share = hooke_limit_blame_number(limit, k, "share");
-    check_between(share, 0.0, k > first ? hooke_limit_blame_number(limit, k - 1, "share") : 1.0);
+    const double share = hooke_measurement_number(limit, "blame", k, "share");
+    check_between(share, 0.0, k > first ? hooke_measurement_number(limit, "blame", k - 1, "share") : 1.0);
     sum += share;
-    assert_string_equal(hooke_limit_blame_text(limit, k, "group"), piece->name);
+    assert_string_equal(hooke_measurement_text(limit, "blame", k, "group"), piece->name);
   }
   check_close(sum, 1.0, 1e-9); /* without drag, and with less than 100 springs that move */
-  const char *kind = hooke_limit_remedy_text(limit, "kind");
+  const char *kind = hooke_measurement_text(limit, "remedy", 0, "kind");
   if (odd == STIFF_SPRING) {
-    assert_true((int64_t)hooke_limit_blame_number(limit, first, "spring") == piece->stiff);
-    check_between(hooke_limit_blame_number(limit, first, "share"), 0.9, 1.0);
+    assert_true((int64_t)hooke_measurement_number(limit, "blame", first, "number") == piece->stiff);
+    check_between(hooke_measurement_number(limit, "blame", first, "share"), 0.9, 1.0);
     assert_string_equal(kind, "soften");
-    check_between(hooke_limit_remedy_number(limit, "springs"), 1.0, 1.0);
-    check_between(hooke_limit_remedy_number(limit, "gain"), 1.5, 60.0);
+    check_between(hooke_measurement_number(limit, "remedy", 0, "springs"), 1.0, 1.0);
+    check_between(hooke_measurement_number(limit, "remedy", 0, "gain"), 1.5, 60.0);
   } else if (odd == LIGHT_PARTICLE) {
-    assert_true((int64_t)hooke_limit_mover_number(limit, 0, "particle") == piece->light);
-    check_close(hooke_limit_mover_number(limit, 0, "mass"), 0.1 / 50.0, 1e-15);
-    check_between(hooke_limit_mover_number(limit, 0, "share"), 0.9, 1.0);
+    assert_true((int64_t)hooke_measurement_number(limit, "movers", 0, "particle") == piece->light);
+    check_close(hooke_measurement_number(limit, "movers", 0, "mass"), 0.1 / 50.0, 1e-15);
+    check_between(hooke_measurement_number(limit, "movers", 0, "share"), 0.9, 1.0);
     assert_string_equal(kind, "heavier");
-    check_between(hooke_limit_remedy_number(limit, "particles"), 1.0, 1.0);
-    check_between(hooke_limit_remedy_number(limit, "gain"), 1.5, 60.0);
+    check_between(hooke_measurement_number(limit, "remedy", 0, "particles"), 1.0, 1.0);
+    check_between(hooke_measurement_number(limit, "remedy", 0, "gain"), 1.5, 60.0);
   }
 }
 
 static const double ACCURACY = 5e-3;
 
-static void check_row(const hooke_limit *limit, int64_t row, const char *scene) {
-  const char *method = hooke_limit_text(limit, row, "method");
-  const double predicted = hooke_limit_number(limit, row, "predicted");
-  const double measured = hooke_limit_number(limit, row, "measured");
-  const double bound = hooke_limit_number(limit, row, "bound");
+static void check_row(const hooke_measurement *limit, int64_t row, const char *scene) {
+  const char *method = hooke_measurement_text(limit, "rows", row, "method");
+  const double predicted = hooke_measurement_number(limit, "rows", row, "predicted");
+  const double measured = hooke_measurement_number(limit, "rows", row, "measured");
+  const double bound = hooke_measurement_number(limit, "rows", row, "bound");
   const int sharp = strcmp(method, "symplectic-euler") == 0 || strcmp(method, "verlet") == 0;
   int fine;
   if (isinf(predicted))
     fine = isinf(measured) && isinf(bound);
   else if (predicted == 0.0)
-    fine = measured == 0.0 && bound == 0.0 && hooke_limit_number(limit, row, "never_stable") == 1.0;
+    fine = measured == 0.0 && bound == 0.0 &&
+           hooke_measurement_number(limit, "rows", row, "never_stable") == 1.0;
   else
     fine = measured >= 0.98 * predicted && measured <= 1.02 * predicted &&
            bound <= measured * (1.0 + ACCURACY) && bound >= (sharp ? 0.5 : 0.2) * measured;
   if (fine) return;
   check_failed("%s, %s: measured %.8g, predicted %.8g, ratio %.5f, bound %.8g, %g steps (%s)", scene, method,
-               measured, predicted, measured / predicted, bound, hooke_limit_number(limit, row, "steps_run"),
-               hooke_limit_text(limit, row, "note"));
+               measured, predicted, measured / predicted, bound,
+               hooke_measurement_number(limit, "rows", row, "steps_run"),
+               hooke_measurement_text(limit, "rows", row, "note"));
 }
 
 static void check_pieces(const struct piece *piece) {
@@ -257,14 +260,14 @@ static void check_pieces(const struct piece *piece) {
       char scene[100];
       snprintf(scene, sizeof scene, "%s, %s, damping ratio %g", piece->name, names[odd], ratios[z]);
       hooke_system *system = build_piece(piece, (enum odd)odd, 2.0 * ratios[z] / omega);
-      hooke_limit *limit = find_limit(system, NULL, ACCURACY, 0, NULL);
-      if (z == 0) omega = hooke_limit_figure(limit, "frequency_max");
-      check_close(hooke_limit_figure(limit, "frequency_max"), omega, 1e-6 * omega);
-      assert_true(hooke_limit_row_count(limit) >= 5);
-      for (int64_t row = 0; row < hooke_limit_row_count(limit); row++)
+      hooke_measurement *limit = find_limit(system, NULL, ACCURACY, 0, NULL);
+      if (z == 0) omega = hooke_measurement_number(limit, "limit", 0, "frequency_max");
+      check_close(hooke_measurement_number(limit, "limit", 0, "frequency_max"), omega, 1e-6 * omega);
+      assert_true(hooke_measurement_row_count(limit, "rows") >= 5);
+      for (int64_t row = 0; row < hooke_measurement_row_count(limit, "rows"); row++)
         check_row(limit, row, scene);
       check_blame(limit, piece, (enum odd)odd);
-      hooke_limit_destroy(limit);
+      hooke_measurement_destroy(limit);
       hooke_system_destroy(system);
     }
   }
@@ -293,12 +296,12 @@ static void linear_scene_runs_up_to_the_prediction(void **unused) {
   hooke_system *system = small_oscillator(7.0);
   hooke_options *run =
       run_options((struct run){.method = "symplectic-euler", .step = 0.01, .duration = 300.0});
-  hooke_limit *limit = find_limit(system, "symplectic-euler,verlet", 1e-2, 0, run);
+  hooke_measurement *limit = find_limit(system, "symplectic-euler,verlet", 1e-2, 0, run);
   for (int64_t row = 0; row < 2; row++) {
-    check_close(hooke_limit_number(limit, row, "predicted"), 2.0 / 7.0, 1e-6);
-    check_close(hooke_limit_number(limit, row, "ratio"), 1.0, 1e-2);
+    check_close(hooke_measurement_number(limit, "rows", row, "predicted"), 2.0 / 7.0, 1e-6);
+    check_close(hooke_measurement_number(limit, "rows", row, "ratio"), 1.0, 1e-2);
   }
-  hooke_limit_destroy(limit);
+  hooke_measurement_destroy(limit);
   hooke_options_destroy(run);
   hooke_system_destroy(system);
 }
@@ -315,14 +318,14 @@ static void slack_scene_takes_any_step(void **unused) {
     check_ok(hooke_system_set_gravity(system, down));
     check_ok(hooke_system_commit(system));
     hooke_options *run = run_options((struct run){.method = "verlet", .step = 0.01, .duration = 60.0});
-    hooke_limit *limit = find_limit(system, "verlet", 1e-2, 0, run);
-    const double measured = hooke_limit_number(limit, 0, "measured");
-    check_close(hooke_limit_number(limit, 0, "predicted"), 0.2, 1e-6);
+    hooke_measurement *limit = find_limit(system, "verlet", 1e-2, 0, run);
+    const double measured = hooke_measurement_number(limit, "rows", 0, "measured");
+    check_close(hooke_measurement_number(limit, "rows", 0, "predicted"), 0.2, 1e-6);
     if (slack)
       assert_true(isinf(measured));
     else
       check_between(measured, 0.1, 1.0);
-    hooke_limit_destroy(limit);
+    hooke_measurement_destroy(limit);
     hooke_options_destroy(run);
     hooke_system_destroy(system);
   }
@@ -337,16 +340,16 @@ static int32_t stop_at_once(double done, const char *what, void *ctx) {
 static void progress_can_stop(void **unused) {
   (void)unused;
   hooke_system *system = random_network(5, 1.0);
-  hooke_limit *limit = find_limit(system, "rk4", 1e-3, 1, NULL);
-  hooke_limit_destroy(limit);
-  check_ok(hooke_limit_create(system, NULL, NULL, &limit));
+  hooke_measurement *limit = find_limit(system, "rk4", 1e-3, 1, NULL);
+  hooke_measurement_destroy(limit);
+  check_ok(hooke_measurement_create("limit", system, NULL, NULL, &limit));
   int calls = 0;
-  hooke_limit_on_progress(limit, stop_at_once, &calls);
+  hooke_measurement_on_progress(limit, stop_at_once, &calls);
   hooke_state *state = start_state(system);
-  check_status(hooke_limit_find(limit, state), HOOKE_STOPPED);
+  check_status(hooke_measurement_run(limit, state), HOOKE_STOPPED);
   assert_int_equal(calls, 3);
   hooke_state_destroy(state);
-  hooke_limit_destroy(limit);
+  hooke_measurement_destroy(limit);
   hooke_system_destroy(system);
 }
 

@@ -63,12 +63,12 @@ static hooke_system *build(double damping) {
   return system;
 }
 
-static hooke_limit *make(hooke_system *system) {
+static hooke_measurement *make(hooke_system *system) {
   hooke_options *options;
-  hooke_limit *limit = NULL;
-  check_ok(hooke_limit_options_create(&options));
+  hooke_measurement *limit = NULL;
+  check_ok(hooke_options_create("limit", &options));
   check_ok(hooke_options_set_number(options, "predict", 1.0));
-  const int32_t status = hooke_limit_create(system, NULL, options, &limit);
+  const int32_t status = hooke_measurement_create("limit", system, NULL, options, &limit);
   hooke_options_destroy(options);
   if (status == HOOKE_NOT_BUILT) {
     hooke_system_destroy(system);
@@ -84,44 +84,52 @@ static void test_an_oscillator(void **ctx) {
   const double dampings[] = {0.4, 3.0, 12.0, 90.0};
   for (int j = 0; j < 4; j++) {
     hooke_system *system = build(dampings[j]);
-    hooke_limit *limit = make(system);
-    hooke_state *state = start_state(system);
-    check_ok(hooke_limit_find(limit, state));
+    hooke_measurement *limit = make(system);
+    check_ok(hooke_measurement_run(limit, NULL)); /* the initial state */
     const double w = sqrt(40.0), d = dampings[j]; /* 20/0.5, and gamma/0.5 = 2 d */
-    for (int64_t k = 0; k < hooke_limit_row_count(limit); k++) {
-      const double alone = of(hooke_limit_text(limit, k, "method"), w, d);
-      const double predicted = hooke_limit_number(limit, k, "predicted");
+    for (int64_t k = 0; k < hooke_measurement_row_count(limit, "rows"); k++) {
+      const double alone = of(hooke_measurement_text(limit, "rows", k, "method"), w, d);
+      const double predicted = hooke_measurement_number(limit, "rows", k, "predicted");
       if (isinf(alone))
         assert_true(isinf(predicted));
       else
         check_close(predicted, alone, 1e-9 * alone);
     }
-    assert_int_equal(hooke_limit_mode_count(limit), d < w ? 1 : 2);
-    for (int64_t k = 0; k < hooke_limit_mode_count(limit); k++) {
-      check_close(hooke_limit_mode_number(limit, k, "frequency"), w, 1e-12 * w);
-      check_close(hooke_limit_mode_number(limit, k, "decay"), d, 1e-12 * d);
+    assert_int_equal(hooke_measurement_row_count(limit, "modes"), d < w ? 1 : 2);
+    for (int64_t k = 0; k < hooke_measurement_row_count(limit, "modes"); k++) {
+      check_close(hooke_measurement_number(limit, "modes", k, "frequency"), w, 1e-12 * w);
+      check_close(hooke_measurement_number(limit, "modes", k, "decay"), d, 1e-12 * d);
     }
-    hooke_state_destroy(state);
-    hooke_limit_destroy(limit);
+    hooke_measurement_destroy(limit);
     hooke_system_destroy(system);
   }
+}
+
+static int32_t stop(double done, const char *what, void *ctx) {
+  (void)done, (void)what, (void)ctx;
+  return 1;
 }
 
 static void test_reports_that_are_refused(void **ctx) {
   (void)ctx;
   hooke_system *system = build(1.0), *other;
-  hooke_limit *limit = make(system);
-  hooke_state *state = start_state(system), *foreign;
-  assert_int_equal(hooke_limit_write_report(limit, state, "page.html", "x"), HOOKE_BAD_CALL);
-  check_ok(hooke_limit_find(limit, state));
+  hooke_measurement *limit = make(system);
+  hooke_state *foreign;
+  assert_int_equal(hooke_measurement_write(limit, "page.html"), HOOKE_BAD_CALL);
+  hooke_measurement_on_progress(limit, stop, NULL);
+  assert_int_equal(hooke_measurement_run(limit, NULL), HOOKE_STOPPED);
+  assert_int_equal(hooke_measurement_write(limit, "page.html"),
+                   HOOKE_HAVE_CHARTJS ? HOOKE_BAD_CALL : HOOKE_NOT_BUILT);
+  hooke_measurement_on_progress(limit, NULL, NULL);
   check_ok(hooke_system_create(&other));
   check_ok(hooke_system_commit(other));
   foreign = start_state(other);
-  assert_int_equal(hooke_limit_write_report(limit, foreign, "page.html", "x"), HOOKE_BAD_VALUE);
+  assert_int_equal(hooke_measurement_run(limit, foreign), HOOKE_BAD_VALUE);
+  check_ok(hooke_measurement_run(limit, NULL));
+  assert_int_equal(hooke_measurement_write(limit, "page.pdf"), HOOKE_BAD_VALUE);
   hooke_state_destroy(foreign);
   hooke_system_destroy(other);
-  hooke_state_destroy(state);
-  hooke_limit_destroy(limit);
+  hooke_measurement_destroy(limit);
   hooke_system_destroy(system);
 }
 

@@ -1,5 +1,6 @@
 """hooke.limit: rows, modes, blame, remedy, where it is found, and the picture."""
 
+import json
 import math
 
 import numpy as np
@@ -172,3 +173,26 @@ def test_picture():
     np.testing.assert_array_equal(again[0].lines[-1].get_xydata()[:, 0], 0.1 * np.r_[found.modes, found.modes].real)
     again[0].figure.canvas.draw()
     plt.close("all")
+
+
+def test_files(tmp_path):
+    found = hooke.limit("examples/scenes/stiff-spring.json", predict=True)
+    found.write(tmp_path / "limit.json")
+    value = json.loads((tmp_path / "limit.json").read_text())
+    assert value["limit"]["frequency_max"] == found.frequency_max and value["limit"]["blamed"] == "symplectic-euler"
+    assert [row["predicted"] for row in value["rows"]][1:4] == found.rows["predicted"][1:4].tolist()
+    assert value["blame"][0]["number"] == found.blame[0].spring and value["remedy"]["sentence"] == found.remedy.sentence
+    assert [mode["decay"] for mode in value["modes"]] == found.decay.tolist()
+    found.write(tmp_path / "limit.csv")
+    assert (tmp_path / "limit.csv").read_text().splitlines()[0] == ",".join(found.rows.dtype.names)
+    for name, fact in (("limit.html", "chartjs"), ("limit.h5", "hdf5")):
+        if not hooke.build_facts()[fact]:
+            with pytest.raises(hooke.NotBuilt):
+                found.write(tmp_path / name)
+            continue
+        found.write(tmp_path / name, title="a chain")
+        assert (tmp_path / name).stat().st_size > 10_000
+    if hooke.build_facts()["chartjs"]:
+        assert '"a chain"' in (tmp_path / "limit.html").read_text()
+    with pytest.raises(hooke.BadValue, match="end in"):
+        found.write(tmp_path / "limit.pdf")

@@ -63,14 +63,14 @@ def alive(tmp_path_factory):
     add(p.MEASUREMENT, "hooke_measurement_create", b"comparison", system, run, None)
     add(p.ESTIMATE, "hooke_estimate_create", system, 1e-3)
     add(p.MEASUREMENT, "hooke_measurement_create", b"study", system, run, None)
-    add(p.LIMIT, "hooke_limit_create", system, run, None)
-    add(p.COST, "hooke_cost_create", system, run, None)
+    add(p.MEASUREMENT, "hooke_measurement_create", b"limit", system, run, None)
+    add(p.MEASUREMENT, "hooke_measurement_create", b"cost", system, run, None)
     for name, value in {"step": 0.5, "duration": 500.0, "every": 50.0}.items():
         lib.hooke_options_set_number(run, name.encode(), value)
     lib.hooke_options_set_text(run, b"method", b"forward-euler")
     diverged = made(p.INTEGRATOR, "hooke_integrator_create", system, run)
     assert lib.hooke_integrator_run(diverged, state) == 2
-    add(p.WHY, "hooke_why_create", diverged, 0.1, p.PROGRESS(), None)
+    add(p.MEASUREMENT, "hooke_why_create", diverged, None)
     return objects
 
 

@@ -59,6 +59,26 @@ void run_to_end(const hooke_system *system, struct run run, double *q, double *v
   hooke_integrator_destroy(integrator);
 }
 
+static int32_t create_why(const hooke_integrator *integrator, hooke_measurement **why) {
+  hooke_options *options = NULL;
+  check_ok(hooke_options_create("why", &options));
+  check_ok(hooke_options_set_number(options, "budget", 1e300));
+  const int32_t status = hooke_why_create(integrator, options, why);
+  hooke_options_destroy(options);
+  return status;
+}
+
+int32_t explain_run(const hooke_integrator *integrator, hooke_measurement **why) {
+  *why = NULL;
+  int32_t status = create_why(integrator, why);
+  if (status != HOOKE_OK) return status;
+  status = hooke_measurement_run(*why, NULL);
+  if (status == HOOKE_OK) return status;
+  hooke_measurement_destroy(*why);
+  *why = NULL;
+  return status;
+}
+
 int32_t is_fixed_step(const char *method) {
   return hooke_method_is_built(method) == 1 && hooke_method_is_adaptive(method) == 0;
 }

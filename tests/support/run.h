@@ -22,6 +22,10 @@ hooke_state *start_state(const hooke_system *system);
 /* From the initial state to the end of the run; `q` and `v` (3n, or NULL) receive the final state. */
 void run_to_end(const hooke_system *system, struct run run, double *q, double *v);
 
+/* Explains why the last run ended early, for as long as that takes. The status of what fails first; then there
+ * is no measurement. */
+int32_t explain_run(const hooke_integrator *integrator, hooke_measurement **why);
+
 /* 1 if this build has the method and it takes `step`. */
 int32_t is_fixed_step(const char *method);
 

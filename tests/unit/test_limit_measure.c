@@ -38,9 +38,9 @@ static hooke_system *oscillators(int64_t count, const double *stiffness, const d
   return system;
 }
 
-static struct hk_measurement measure(const hooke_system *system, const char *method, double predicted,
-                                     const double *mode, double accuracy) {
-  struct hk_measurement out;
+static struct hk_measured_limit measure(const hooke_system *system, const char *method, double predicted,
+                                        const double *mode, double accuracy) {
+  struct hk_measured_limit out;
   check_ok(hk_limit_measure(system, system->position, NULL, method, predicted, mode, accuracy, 100.0, NULL,
                             NULL, &out));
   return out;
@@ -74,7 +74,7 @@ static void one_oscillator(void **unused) {
       /* from nothing, and from predictions that are wrong by much */
       const double guess[] = {NAN, 1.3 * rows[m].limit / omega, rows[m].limit / omega / 1.3};
       for (int g = 0; g < 3; g++) {
-        const struct hk_measurement out = measure(system, rows[m].method, guess[g], NULL, 2e-3);
+        const struct hk_measured_limit out = measure(system, rows[m].method, guess[g], NULL, 2e-3);
         check_close(out.step * omega, rows[m].limit, 2e-3 * rows[m].limit);
         check_between((double)out.steps_run, 100.0, 1e7);
         assert_int_equal(out.never_stable, 0);
@@ -91,9 +91,9 @@ static void undamped_oscillator(void **unused) {
   check_close(measure(system, "symplectic-euler", NAN, NULL, 1e-4).step, 2.0 / 7.0, 1e-4);
   check_close(measure(system, "verlet", 0.3, NULL, 1e-4).step, 2.0 / 7.0, 1e-4);
   check_close(measure(system, "rk4", 0.4, NULL, 1e-4).step, 2.0 * sqrt(2.0) / 7.0, 1e-4);
-  const struct hk_measurement never = measure(system, "forward-euler", 0.0, NULL, 1e-3);
+  const struct hk_measured_limit never = measure(system, "forward-euler", 0.0, NULL, 1e-3);
   assert_true(never.step == 0.0 && never.never_stable);
-  const struct hk_measurement always = measure(system, "backward-euler", INFINITY, NULL, 1e-3);
+  const struct hk_measured_limit always = measure(system, "backward-euler", INFINITY, NULL, 1e-3);
   assert_true(isinf(always.step) && !always.never_stable);
   /* predictions of no step and of every step are put to the test */
   check_close(measure(system, "symplectic-euler", 0.0, NULL, 1e-3).step, 2.0 / 7.0, 1e-3);
@@ -191,7 +191,7 @@ static void frozen_system_rests(void **unused) {
   check_close(hk_twin_energy(&twin, there, still), energy, 1e-5 * energy);
   hk_twin_release(&twin);
 
-  const struct hk_measurement out = measure(system, "verlet", NAN, NULL, 1e-3);
+  const struct hk_measured_limit out = measure(system, "verlet", NAN, NULL, 1e-3);
   check_between(out.step, 0.1, 1.0);
   assert_non_null(strstr(out.note, "coincide"));
   hooke_system_destroy(system);
@@ -225,7 +225,7 @@ static void what_is_refused(void **unused) {
   (void)unused;
   const double stiffness = 49.0, damping = 1.0;
   hooke_system *system = oscillators(1, &stiffness, &damping, 0.0);
-  struct hk_measurement out;
+  struct hk_measured_limit out;
   const double *q = system->position;
   check_status(hk_limit_measure(system, q, NULL, "no-such", 1.0, NULL, 1e-3, 1.0, NULL, NULL, &out),
                HOOKE_BAD_VALUE);
@@ -254,7 +254,7 @@ static void damping_of_a_spring_of_no_length(void **unused) {
   hooke_system *system = small_system(2, place, NULL, 1.0, 1);
   small_springs(system, 1, ends, (struct springs){.law = "length", .stiffness = 49.0, .damping = 3.0});
   check_ok(hooke_system_commit(system));
-  const struct hk_measurement out = measure(system, "verlet", NAN, NULL, 1e-3);
+  const struct hk_measured_limit out = measure(system, "verlet", NAN, NULL, 1e-3);
   check_close(out.step, 2.0 / 7.0, 1e-3);
   assert_non_null(strstr(out.note, "damped along their motion"));
   hooke_system_destroy(system);
@@ -281,7 +281,7 @@ static const double OMEGA = 10.0, BRIEF = 40.0, LONG = 12000.0;
 
 static int32_t measure_scene(const hooke_system *system, const char *method, double duration,
                              double predicted, double budget, hooke_progress *progress,
-                             struct hk_measurement *out) {
+                             struct hk_measured_limit *out) {
   hooke_options *run = NULL;
   hooke_state *start = NULL;
   check_ok(hooke_run_options_create(&run));
@@ -299,7 +299,7 @@ static int32_t measure_scene(const hooke_system *system, const char *method, dou
 static void the_scene_itself(void **unused) {
   (void)unused;
   hooke_system *system = small_oscillator(OMEGA);
-  struct hk_measurement out;
+  struct hk_measured_limit out;
   /* with a = h omega energy swells by up to (1 + a/2)/(1 - a/2), which is 100 at a = 1.9604 */
   const double guess[] = {NAN, 0.0, INFINITY, 0.1, 0.3};
   for (int k = 0; k < 5; k++) {
@@ -326,7 +326,7 @@ static hooke_system *spoiled_oscillator(struct spoiler *spoiler) {
 
 static void scenes_that_no_step_helps(void **unused) {
   (void)unused;
-  struct hk_measurement out;
+  struct hk_measured_limit out;
   struct spoiler not_a_number = {0.5, 0}, stop = {0.5, 1};
   hooke_system *diverges = spoiled_oscillator(&not_a_number), *stops = spoiled_oscillator(&stop);
   check_ok(measure_scene(diverges, "verlet", 1.0, 0.2, 100.0, NULL, &out));
@@ -340,7 +340,7 @@ static void scenes_that_no_step_helps(void **unused) {
 static void scenes_that_take_too_long(void **unused) {
   (void)unused;
   hooke_system *system = small_oscillator(OMEGA);
-  struct hk_measurement out;
+  struct hk_measured_limit out;
   check_ok(measure_scene(system, "verlet", LONG, 0.19, 0.0, NULL, &out));
   assert_true(isnan(out.step));
   assert_non_null(strstr(out.note, "budget"));

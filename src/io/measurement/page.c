@@ -10,8 +10,9 @@ static const struct page {
   const char *kind;
   void (*add_data)(struct hk_text *data, const void *measurement);
 } pages[] = {
-    {"needs", hk_needs_page_add},
     {"study", hk_study_page_add},
+    {"limit", hk_limit_page_add},
+    {"needs", hk_needs_page_add},
     {NULL, NULL},
 };
 

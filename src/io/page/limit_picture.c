@@ -2,23 +2,20 @@
 
 #include "core/memory.h"
 #include "io/page/picture.h"
-#include "measure/limit/limit.h"
 
 static const double MOVE_SCALE = 1e4; /* digits of displacements against the largest */
 
 /* What is left is taken evenly by number; `moves`: of each particle, it is among the movers. */
-static void choose(struct hk_picture *p, const hooke_limit *limit, const char *moves) {
-  for (int64_t k = 0; k < hooke_limit_blame_count(limit); k++) {
-    if (!hooke_limit_blame_text(limit, k, "force")[0])
-      hk_picture_take(p, (int64_t)hooke_limit_blame_number(limit, k, "spring"));
-  }
+static void choose(struct hk_picture *p, const struct hk_limit *limit, const char *moves) {
+  for (int64_t k = 0; k < limit->blame.spring_count; k++)
+    hk_picture_take(p, limit->blame.spring[k].spring);
   for (int64_t k = 0; k < p->spring_count && p->drawn_count < HOOKE_PICTURE_SPRINGS / 2; k++) {
     if (moves[p->ends[2 * k]] || moves[p->ends[2 * k + 1]]) hk_picture_take(p, k);
   }
   hk_picture_take_evenly(p, 0, p->spring_count, HOOKE_PICTURE_SPRINGS - p->drawn_count);
 }
 
-static void add(struct hk_text *data, struct hk_picture *p, const hooke_limit *limit, const double *q) {
+static void add(struct hk_text *data, struct hk_picture *p, const struct hk_limit *limit) {
   hk_text_open(data, "picture", '{');
   hk_text_number(data, "springs", (double)p->spring_count);
   hk_text_number(data, "particles", (double)hooke_system_particle_count(p->system));
@@ -26,9 +23,10 @@ static void add(struct hk_text *data, struct hk_picture *p, const hooke_limit *l
   int64_t *list = hk_picture_list(p);
   if (list) {
     hk_picture_add_particles(data, p, list);
-    hk_picture_add_vectors(data, "position", q, list, p->shown_count,
-                           hk_picture_scale(q, list, p->shown_count));
-    hk_picture_add_vectors(data, "move", hooke_limit_shape(limit), list, p->shown_count, MOVE_SCALE);
+    hk_picture_add_vectors(data, "position", limit->q, list, p->shown_count,
+                           hk_picture_scale(limit->q, list, p->shown_count));
+    hk_picture_add_vectors(data, "move", hk_limit_blamed(limit) ? limit->shape : NULL, list, p->shown_count,
+                           MOVE_SCALE);
   } else {
     data->status = HOOKE_NO_MEMORY;
   }
@@ -36,16 +34,16 @@ static void add(struct hk_text *data, struct hk_picture *p, const hooke_limit *l
   hk_text_close(data, '}');
 }
 
-void hk_limit_picture_add(struct hk_text *data, const hooke_limit *limit, const double *q) {
+void hk_limit_picture_add(struct hk_text *data, const struct hk_limit *limit) {
   struct hk_picture p;
   int32_t status = hk_picture_create(limit->system, &p);
   char *moves = hk_new(hooke_system_particle_count(limit->system), 1);
   if (status == HOOKE_OK && moves == NULL) status = HOOKE_NO_MEMORY;
-  for (int64_t k = 0; k < hooke_limit_mover_count(limit) && status == HOOKE_OK; k++)
-    moves[(int64_t)hooke_limit_mover_number(limit, k, "particle")] = 1;
+  for (int64_t k = 0; k < limit->blame.particle_count && status == HOOKE_OK; k++)
+    moves[limit->blame.particle[k].particle] = 1;
   if (status == HOOKE_OK) {
     choose(&p, limit, moves);
-    add(data, &p, limit, q);
+    add(data, &p, limit);
   }
   if (status != HOOKE_OK && data->status == HOOKE_OK) data->status = status;
   hk_picture_release(&p);

@@ -2,15 +2,15 @@
 #ifndef HOOKE_IO_PAGE_LIMIT_PICTURE_H
 #define HOOKE_IO_PAGE_LIMIT_PICTURE_H
 
-#include "hooke/limit.h"
 #include "io/file/text.h"
+#include "measure/limit/limit.h"
 
 /* Springs drawn at most: those to blame, those at particles that move in the mode, and of the others as many
  * as fit. */
 enum { HOOKE_PICTURE_SPRINGS = 3000 };
 
-/* Adds "picture": the springs that are drawn and their ends, at positions q (3n). Failures go to the text's
- * status. */
-void hk_limit_picture_add(struct hk_text *data, const hooke_limit *limit, const double *q);
+/* Adds "picture": the springs that are drawn and their ends, at the positions that were looked at. Failures
+ * go to the text's status. */
+void hk_limit_picture_add(struct hk_text *data, const struct hk_limit *limit);
 
 #endif

@@ -6,5 +6,6 @@
 
 void hk_needs_page_add(struct hk_text *data, const void *measurement);
 void hk_study_page_add(struct hk_text *data, const void *measurement);
+void hk_limit_page_add(struct hk_text *data, const void *measurement);
 
 #endif

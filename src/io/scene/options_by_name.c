@@ -2,7 +2,6 @@
 #include "core/option.h"
 #include "core/status.h"
 #include "hooke/build.h"
-#include "hooke/cost.h"
 #include "hooke/integrator.h"
 #include "hooke/io.h"
 #include "io/measurement/measurement_file.h"
@@ -13,9 +12,10 @@
 static const struct maker {
   const char *name;
   int32_t (*create)(hooke_options **options);
-} makers[] = {{"run", hooke_run_options_create},           {"springs", hooke_spring_options_create},
-              {"altitude", hooke_altitude_options_create}, {"view", hooke_view_options_create},
-              {"limit", hooke_limit_options_create},       {"cost", hooke_cost_options_create}};
+} makers[] = {{"run", hooke_run_options_create},
+              {"springs", hooke_spring_options_create},
+              {"altitude", hooke_altitude_options_create},
+              {"view", hooke_view_options_create}};
 enum { MAKERS = sizeof makers / sizeof makers[0] };
 static const char *const scene_names[] = {"scene", "particles", "driven", "limits"};
 enum { SCENE_NAMES = sizeof scene_names / sizeof scene_names[0] };

@@ -2,13 +2,11 @@
 #include "measure/cost/cost.h"
 
 #include "core/clock.h"
-#include "core/handle.h"
 #include "core/memory.h"
 #include "core/option.h"
 #include "core/status.h"
 #include "integrate/integrator.h"
 #include "measure/limit/limit_predict.h"
-#include "model/state.h"
 #include "model/variant/variant.h"
 
 #include <math.h>
@@ -29,8 +27,7 @@ static const struct hk_option_row cost_rows[] = {
      .high = 1e300,
      .fallback = "2",
      .doc = "time after which no further ingredient is looked at; half of it is for the timing, at most 0.2 "
-            "s an "
-            "ingredient"},
+            "s an ingredient"},
     {.name = "groups",
      .type = HOOKE_OPTION_NUMBER,
      .low = 0.0,
@@ -42,14 +39,10 @@ static const struct hk_option_row cost_rows[] = {
 
 static const struct hk_option_table cost_table = {"cost", HOOKE_OPTION_ROWS(cost_rows)};
 
-int32_t hooke_cost_options_create(hooke_options **options) {
-  return hk_options_create(&cost_table, options);
-}
-
 /* ---- making ---- */
 
 /* The run's options with a method that can be timed; how long it runs does not matter. */
-static int32_t choose_method(hooke_cost *cost) {
+static int32_t choose_method(struct hk_cost *cost) {
   const char *method = hooke_options_text(cost->run, "method");
   int32_t status = HOOKE_OK;
   cost->run_step = hooke_options_number(cost->run, "step");
@@ -62,7 +55,7 @@ static int32_t choose_method(hooke_cost *cost) {
 }
 
 /* What was found. */
-static void forget(hooke_cost *cost) {
+static void forget(struct hk_cost *cost) {
   cost->nanoseconds = cost->resolution = cost->memory = cost->limit = NAN;
   for (int64_t k = 0; k < cost->row_count; k++) {
     struct hk_cost_row *row = &cost->row[k];
@@ -70,61 +63,43 @@ static void forget(hooke_cost *cost) {
   }
 }
 
-int32_t hooke_cost_create(const hooke_system *system, const hooke_options *run, const hooke_options *options,
-                          hooke_cost **out) {
-  int32_t status = hk_system_require_committed(system);
-  if (status == HOOKE_OK && run) status = hk_run_options_require(run, "run");
-  if (status == HOOKE_OK && options)
-    status = hk_options_require(options, &cost_table, "options", "hooke_cost_options_create()");
-  if (status != HOOKE_OK) return status;
-  hooke_cost *cost = hk_handle_new("hooke_cost", sizeof *cost);
+static int32_t create(hooke_measurement *m) {
+  int32_t status = m->run ? HOOKE_OK : hooke_run_options_create(&m->run);
+  struct hk_cost *cost = m->object = status == HOOKE_OK ? hk_new(1, sizeof *cost) : NULL;
   if (cost == NULL) return HOOKE_NO_MEMORY;
-  cost->system = system;
+  cost->measurement = m;
+  cost->system = m->system;
+  cost->run = m->run;
+  cost->options = m->options;
   cost->step = NAN;
-  status = run ? hooke_options_copy(run, &cost->run) : hooke_run_options_create(&cost->run);
-  if (status == HOOKE_OK)
-    status =
-        options ? hooke_options_copy(options, &cost->options) : hooke_cost_options_create(&cost->options);
-  if (status == HOOKE_OK) status = choose_method(cost);
+  status = choose_method(cost);
   if (status == HOOKE_OK) status = hk_cost_list_rows(cost);
   forget(cost);
-  if (status == HOOKE_OK)
-    *out = cost;
-  else
-    hooke_cost_destroy(cost);
   return status;
 }
 
-void hooke_cost_destroy(hooke_cost *cost) {
-  if (cost == NULL) return;
-  hooke_options_destroy(cost->run);
-  hooke_options_destroy(cost->options);
-  hk_free(cost->row);
-  hk_handle_free(cost);
+static void destroy(void *object) {
+  struct hk_cost *cost = object;
+  if (cost) hk_free(cost->row);
+  hk_free(cost);
 }
 
-void hooke_cost_on_progress(hooke_cost *cost, hooke_progress *progress, void *ctx) {
-  cost->progress = progress;
-  cost->progress_ctx = ctx;
-}
-
-static int32_t tell(hooke_cost *cost, double done, const char *what) {
+static int32_t tell(struct hk_cost *cost, double done, const char *what) {
   cost->told = done;
-  if (cost->progress == NULL || cost->progress(done, what, cost->progress_ctx) == 0) return HOOKE_OK;
-  return hk_fail(HOOKE_STOPPED, NULL, "the progress callback asked to stop");
+  return hk_measurement_tell(cost->measurement, done, what);
 }
 
 /* ---- finding ---- */
 
 /* Once more what was told last. */
 static int32_t tell_limits(double done, const char *what, void *ctx) {
-  const hooke_cost *cost = ctx;
+  const struct hk_cost *cost = ctx;
   (void)done, (void)what;
-  return cost->progress ? cost->progress(cost->told, "limits", cost->progress_ctx) : 0;
+  return hk_measurement_tell(cost->measurement, cost->told, "limits");
 }
 
 /* NaN where this build, the method or these numbers have none, or the time is up. */
-static int32_t find_limit(hooke_cost *cost, const hooke_system *system, const hooke_state *state,
+static int32_t find_limit(struct hk_cost *cost, const hooke_system *system, const hooke_state *state,
                           double *limit) {
   const double *q = hooke_state_position((hooke_state *)state);
   *limit = NAN;
@@ -134,7 +109,7 @@ static int32_t find_limit(hooke_cost *cost, const hooke_system *system, const ho
 }
 
 /* The first one, in the share of the budget that is not for the timing. */
-static int32_t find_first_limit(hooke_cost *cost, const hooke_state *state) {
+static int32_t find_first_limit(struct hk_cost *cost, const hooke_state *state) {
   hk_patience_lend(&cost->patience, 1.0 - TIMING_SHARE);
   const int32_t status = find_limit(cost, cost->system, state, &cost->limit);
   (void)hk_patience_take_back(&cost->patience);
@@ -143,7 +118,7 @@ static int32_t find_first_limit(hooke_cost *cost, const hooke_state *state) {
 
 /* The step of the run, or a stable one where that is none: what a step costs does not hang on it, but numbers
  * that are not finite may. */
-static int32_t choose_step(hooke_cost *cost, const hooke_state *state) {
+static int32_t choose_step(struct hk_cost *cost, const hooke_state *state) {
   const double *q = hooke_state_position((hooke_state *)state);
   double step = cost->run_step, safe = cost->limit;
   const int32_t status =
@@ -161,7 +136,7 @@ static double memory_of(const hooke_system *system, const struct hk_timed *timed
                   hooke_integrator_count(timed->integrator, "memory_bytes"));
 }
 
-static int32_t time_row(hooke_cost *cost, struct hk_timed *full, struct hk_timed *lean,
+static int32_t time_row(struct hk_cost *cost, struct hk_timed *full, struct hk_timed *lean,
                         const hooke_state *state, struct hk_cost_row *row) {
   if (hooke_options_number(cost->options, "predict") != 0.0) return HOOKE_OK;
   const double share =
@@ -177,7 +152,7 @@ static int32_t time_row(hooke_cost *cost, struct hk_timed *full, struct hk_timed
 }
 
 /* The system without the ingredient of a row; NULL: without nothing. */
-static int32_t make_without(const hooke_cost *cost, const struct hk_cost_row *row, hooke_system **made) {
+static int32_t make_without(const struct hk_cost *cost, const struct hk_cost_row *row, hooke_system **made) {
   struct hk_variant variant;
   struct hk_variant_map map;
   int32_t status = hk_variant_create(cost->system, &variant);
@@ -198,7 +173,7 @@ static int32_t make_without(const hooke_cost *cost, const struct hk_cost_row *ro
   return status;
 }
 
-static int32_t measure_row(hooke_cost *cost, struct hk_timed *full, const hooke_system *system,
+static int32_t measure_row(struct hk_cost *cost, struct hk_timed *full, const hooke_system *system,
                            const hooke_state *state, struct hk_cost_row *row) {
   const int32_t limits = !hk_cost_row_is(row, "gravity") && !hk_cost_row_is(row, "callback");
   struct hk_timed lean;
@@ -211,7 +186,7 @@ static int32_t measure_row(hooke_cost *cost, struct hk_timed *full, const hooke_
   return status;
 }
 
-static int32_t find_row(hooke_cost *cost, struct hk_timed *full, const hooke_state *state,
+static int32_t find_row(struct hk_cost *cost, struct hk_timed *full, const hooke_state *state,
                         struct hk_cost_row *row) {
   hooke_system *lean = NULL;
   int32_t status = make_without(cost, row, &lean);
@@ -220,27 +195,48 @@ static int32_t find_row(hooke_cost *cost, struct hk_timed *full, const hooke_sta
   return status;
 }
 
+/* The rows that were chosen, until the budget is spent: what is left stays unknown. */
+static int32_t find_rows(struct hk_cost *cost, struct hk_timed *full, const hooke_state *state,
+                         double begun) {
+  const double budget = hooke_options_number(cost->options, "budget");
+  int32_t status = HOOKE_OK;
+  for (int64_t k = 0, done = 0; k < cost->row_count && status == HOOKE_OK; k++) {
+    struct hk_cost_row *row = &cost->row[k];
+    if (!row->chosen) continue;
+    if (hk_clock_seconds() - begun > budget) break;
+    status = tell(cost, (double)done++ / (double)cost->chosen_count, hk_cost_row_name(cost, row));
+    if (status == HOOKE_OK) status = find_row(cost, full, state, row);
+  }
+  return status;
+}
+
 /* The scene is made again with nothing left out, so that both sides have their memory from the same hands. */
-int32_t hooke_cost_find(hooke_cost *cost, const hooke_state *state) {
+static int32_t run(hooke_measurement *m, hooke_state *state) {
+  struct hk_cost *cost = m->object;
   hooke_system *whole = NULL;
   struct hk_timed full = {0};
-  const double budget = hooke_options_number(cost->options, "budget"), begun = hk_clock_seconds();
+  const double begun = hk_clock_seconds();
   forget(cost);
-  cost->patience = hk_patience_of(budget, tell_limits, cost);
-  int32_t status = hk_state_check(state, cost->system);
-  if (status == HOOKE_OK) status = tell(cost, 0.0, "limits");
+  cost->patience = hk_patience_of(hooke_options_number(cost->options, "budget"), tell_limits, cost);
+  int32_t status = tell(cost, 0.0, "limits");
   if (status == HOOKE_OK) status = find_first_limit(cost, state);
   if (status == HOOKE_OK) status = choose_step(cost, state);
   if (status == HOOKE_OK) status = make_without(cost, NULL, &whole);
   if (status == HOOKE_OK) status = hk_timed_create(whole, cost->run, &full);
   if (status == HOOKE_OK) cost->memory = memory_of(whole, &full);
-  for (int64_t k = 0, done = 0; k < cost->row_count && status == HOOKE_OK; k++) {
-    if (!cost->row[k].chosen) continue;
-    if (hk_clock_seconds() - begun > budget) break; /* what is left stays unknown */
-    status = tell(cost, (double)done++ / (double)cost->chosen_count, hooke_cost_text(cost, k, "name"));
-    if (status == HOOKE_OK) status = find_row(cost, &full, state, &cost->row[k]);
-  }
+  if (status == HOOKE_OK) status = find_rows(cost, &full, state, begun);
   hk_timed_release(&full);
   hooke_system_destroy(whole);
   return status;
 }
+
+const struct hk_measurement_kind hk_cost_kind = {
+    .name = "cost",
+    .options = &cost_table,
+    .takes_state = 1,
+    .tables = hk_cost_tables,
+    .table_count = HOOKE_COST_TABLES,
+    .create = create,
+    .run = run,
+    .destroy = destroy,
+};

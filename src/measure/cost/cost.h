@@ -2,8 +2,8 @@
 #ifndef HOOKE_MEASURE_COST_COST_H
 #define HOOKE_MEASURE_COST_COST_H
 
-#include "hooke/cost.h"
 #include "measure/cost/cost_time.h"
+#include "measure/measurement.h"
 #include "measure/trial/patience.h"
 #include "model/system.h"
 
@@ -15,15 +15,15 @@ struct hk_cost_row {
   double nanoseconds, resolution, memory, limit;
 };
 
-struct hooke_cost {
+struct hk_cost {
+  const hooke_measurement *measurement;
   const hooke_system *system;
-  hooke_options *run, *options; /* run: of the method that is timed */
-  const char *method;           /* within `run` */
-  double run_step;              /* [s] as the caller gave it, NaN: not */
-  struct hk_patience patience;  /* of limits, within the budget */
-  hooke_progress *progress;
-  void *progress_ctx;
-  double told; /* share done */
+  hooke_options *run; /* of the measurement, changed to the method that is timed */
+  const hooke_options *options;
+  const char *method;          /* within `run` */
+  double run_step;             /* [s] as the caller gave it, NaN: not */
+  struct hk_patience patience; /* of limits, within the budget */
+  double told;                 /* share done */
   double step, nanoseconds, resolution, memory, limit;
   int64_t row_count, chosen_count;
   struct hk_cost_row *row;
@@ -31,7 +31,13 @@ struct hooke_cost {
 
 /* Lists what is there, and chooses all that is not of a group and as many groups as the options say.
  * HOOKE_NO_MEMORY. */
-int32_t hk_cost_list_rows(hooke_cost *cost);
+int32_t hk_cost_list_rows(struct hk_cost *cost);
 int32_t hk_cost_row_is(const struct hk_cost_row *row, const char *kind);
+/* The name of its group, else its kind. */
+const char *hk_cost_row_name(const struct hk_cost *cost, const struct hk_cost_row *row);
+
+enum { HOOKE_COST_TABLES = 2 };
+extern const struct hk_table *const hk_cost_tables[HOOKE_COST_TABLES];
+extern const struct hk_measurement_kind hk_cost_kind;
 
 #endif

@@ -1,7 +1,6 @@
-/* The rows of a cost: which there are, which of them are looked at, and reading them. */
+/* The rows of a cost: which there are, and which of them are looked at. */
 #include "measure/cost/cost.h"
 
-#include "core/figure.h"
 #include "core/memory.h"
 #include "core/option.h"
 #include "core/status.h"
@@ -16,13 +15,13 @@ int32_t hk_cost_row_is(const struct hk_cost_row *row, const char *kind) {
 
 /* ---- listing ---- */
 
-static void add_row(hooke_cost *cost, const char *kind, int64_t group, int64_t size) {
+static void add_row(struct hk_cost *cost, const char *kind, int64_t group, int64_t size) {
   if (size > 0)
     cost->row[cost->row_count++] =
         (struct hk_cost_row){.kind = kind, .group = group, .size = size, .chosen = 1};
 }
 
-static void add_groups(hooke_cost *cost) {
+static void add_groups(struct hk_cost *cost) {
   const hooke_system *system = cost->system;
   for (int64_t g = 0; g < system->group_count; g++)
     add_row(cost, "springs", g, system->group[g].count);
@@ -32,7 +31,7 @@ static void add_groups(hooke_cost *cost) {
     add_row(cost, "altitude", g, system->altitude_group[g].count);
 }
 
-static void add_others(hooke_cost *cost) {
+static void add_others(struct hk_cost *cost) {
   const hooke_system *system = cost->system;
   add_row(cost, "damping", -1, hk_springs_are_damped(&system->springs) || system->altitudes.damped);
   add_row(cost, "drag", -1, system->drag > 0.0);
@@ -49,7 +48,7 @@ static int compare_sizes(const void *one, const void *two) {
 
 /* Every group makes the scene again, so that the time for all of very many would grow with their square. The
  * rows are those of groups so far. */
-static int32_t leave_small_groups_out(hooke_cost *cost) {
+static int32_t leave_small_groups_out(struct hk_cost *cost) {
   const int64_t count = cost->row_count, most = (int64_t)hooke_options_number(cost->options, "groups");
   if (count <= most) return HOOKE_OK;
   struct hk_cost_row **sorted = hk_new(count, sizeof *sorted);
@@ -63,7 +62,7 @@ static int32_t leave_small_groups_out(hooke_cost *cost) {
   return HOOKE_OK;
 }
 
-int32_t hk_cost_list_rows(hooke_cost *cost) {
+int32_t hk_cost_list_rows(struct hk_cost *cost) {
   enum { OTHERS = 4 };
   const hooke_system *system = cost->system;
   cost->row =
@@ -78,50 +77,9 @@ int32_t hk_cost_list_rows(hooke_cost *cost) {
   return status;
 }
 
-/* ---- reading ---- */
-
-const char *hooke_cost_method(const hooke_cost *cost) {
-  return cost->method;
-}
-
-double hooke_cost_figure(const hooke_cost *cost, const char *what) {
-  const struct hk_figure figures[] = {{"step", cost->step},
-                                      {"nanoseconds", cost->nanoseconds},
-                                      {"resolution", cost->resolution},
-                                      {"memory_bytes", cost->memory},
-                                      {"step_limit", cost->limit}};
-  return HOOKE_FIGURE(figures, what);
-}
-
-int64_t hooke_cost_row_count(const hooke_cost *cost) {
-  return cost->row_count;
-}
-
-static const struct hk_cost_row *row_at(const hooke_cost *cost, int64_t row) {
-  return row >= 0 && row < cost->row_count ? &cost->row[row] : NULL;
-}
-
-const char *hooke_cost_text(const hooke_cost *cost, int64_t row, const char *what) {
-  const struct hk_cost_row *r = row_at(cost, row);
-  if (r == NULL) return NULL;
-  if (strcmp(what, "kind") == 0) return r->kind;
-  if (strcmp(what, "name") != 0) return NULL;
-  if (r->group < 0) return r->kind;
-  if (hk_cost_row_is(r, "altitude")) return hooke_system_altitude_group_name(cost->system, r->group);
-  return hk_cost_row_is(r, "bending") ? hooke_system_bending_group_name(cost->system, r->group)
-                                      : hooke_system_group_name(cost->system, r->group);
-}
-
-double hooke_cost_number(const hooke_cost *cost, int64_t row, const char *what) {
-  const struct hk_cost_row *r = row_at(cost, row);
-  if (r == NULL) return NAN;
-  const struct hk_figure figures[] = {
-      {"group", r->group >= 0 ? (double)r->group : (double)NAN},
-      {"springs", hk_cost_row_is(r, "springs") ? (double)r->size : (double)NAN},
-      {"nanoseconds", r->nanoseconds},
-      {"resolution", r->resolution},
-      {"memory_bytes", r->memory},
-      {"step_limit_without", r->limit},
-  };
-  return HOOKE_FIGURE(figures, what);
+const char *hk_cost_row_name(const struct hk_cost *cost, const struct hk_cost_row *row) {
+  if (row->group < 0) return row->kind;
+  if (hk_cost_row_is(row, "altitude")) return hooke_system_altitude_group_name(cost->system, row->group);
+  return hk_cost_row_is(row, "bending") ? hooke_system_bending_group_name(cost->system, row->group)
+                                        : hooke_system_group_name(cost->system, row->group);
 }

@@ -2,14 +2,12 @@
 #include "measure/limit/limit.h"
 
 #include "core/clock.h"
-#include "core/handle.h"
 #include "core/memory.h"
 #include "core/option.h"
 #include "core/status.h"
 #include "integrate/integrator.h"
 #include "measure/limit/limit_measure.h"
 #include "measure/trial/method_list.h"
-#include "model/state.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -27,6 +25,10 @@ static const struct hk_option_row limit_rows[] = {
      .type = HOOKE_OPTION_FLAG,
      .fallback = "false",
      .doc = "measure on the scene itself over the duration of the run, instead of on the linearised scene"},
+    {.name = "along",
+     .type = HOOKE_OPTION_FLAG,
+     .fallback = "false",
+     .doc = "at every frame of the run: the smallest limit met and when, predicted alone"},
     {.name = "accuracy",
      .type = HOOKE_OPTION_NUMBER,
      .low = 1e-9,
@@ -45,14 +47,10 @@ static const struct hk_option_row limit_rows[] = {
 
 static const struct hk_option_table limit_table = {"limit", HOOKE_OPTION_ROWS(limit_rows)};
 
-int32_t hooke_limit_options_create(hooke_options **options) {
-  return hk_options_create(&limit_table, options);
-}
-
 /* ---- making ---- */
 
 static int32_t add_row(const char *method, void *ctx) {
-  hooke_limit *limit = ctx;
+  struct hk_limit *limit = ctx;
   if (limit->row_count == HOOKE_LIMIT_METHODS)
     return hk_fail(HOOKE_BAD_VALUE, "methods", "more than %d methods", HOOKE_LIMIT_METHODS);
   limit->row[limit->row_count++].method = method;
@@ -63,10 +61,10 @@ static int32_t has_fixed_step(const char *method) {
   return !hooke_method_is_adaptive(method);
 }
 
-static void forget(hooke_limit *limit) {
+static void forget(struct hk_limit *limit) {
   limit->endless = hk_patience_of(INFINITY, hk_limit_tell, limit);
   limit->found = 0;
-  limit->frequency = limit->decay = NAN;
+  limit->frequency = limit->decay = limit->time = NAN;
   limit->mode_count = limit->products = limit->clamped = 0;
   hk_free(limit->mode);
   limit->mode = NULL;
@@ -81,16 +79,17 @@ static void forget(hooke_limit *limit) {
   }
 }
 
-static void forget_smallest(hooke_limit *limit) {
+static void forget_smallest(struct hk_limit *limit) {
   for (int32_t k = 0; k < limit->row_count; k++)
     limit->row[k].smallest = limit->row[k].smallest_time = NAN;
 }
 
-static int32_t make_room(hooke_limit *limit) {
+static int32_t make_room(struct hk_limit *limit) {
   const int64_t size = 3 * limit->system->particle_count;
+  limit->q = hk_new(size, sizeof(double));
   limit->shape = hk_new(size, sizeof(double));
   limit->stiffest = hk_new(size, sizeof(double));
-  int32_t status = limit->shape && limit->stiffest ? HOOKE_OK : HOOKE_NO_MEMORY;
+  int32_t status = limit->q && limit->shape && limit->stiffest ? HOOKE_OK : HOOKE_NO_MEMORY;
   for (int32_t k = 0; k < limit->row_count && status == HOOKE_OK; k++) {
     limit->row[k].mode = hk_new(size, sizeof(double));
     if (limit->row[k].mode == NULL) status = HOOKE_NO_MEMORY;
@@ -98,64 +97,43 @@ static int32_t make_room(hooke_limit *limit) {
   return status;
 }
 
-int32_t hooke_limit_create(const hooke_system *system, const hooke_options *run, const hooke_options *options,
-                           hooke_limit **out) {
-  int32_t status = hk_system_require_committed(system);
-  if (status == HOOKE_OK && run) status = hk_run_options_require(run, "run");
-  if (status == HOOKE_OK && options)
-    status = hk_options_require(options, &limit_table, "options", "hooke_limit_options_create()");
-  if (status != HOOKE_OK) return status;
+static int32_t create(hooke_measurement *m) {
   if (!HOOKE_HAVE_LAPACK)
     return hk_fail(HOOKE_NOT_BUILT, NULL, "limits need LAPACK, which this build is without");
-  hooke_limit *limit = hk_handle_new("hooke_limit", sizeof *limit);
+  struct hk_limit *limit = m->object = hk_new(1, sizeof *limit);
   if (limit == NULL) return HOOKE_NO_MEMORY;
-  limit->system = system;
+  limit->measurement = m;
+  limit->system = m->system;
+  limit->run = m->run;
+  limit->options = m->options;
   limit->patience = &limit->endless;
-  status =
-      options ? hooke_options_copy(options, &limit->options) : hooke_limit_options_create(&limit->options);
-  if (status == HOOKE_OK && run) status = hooke_options_copy(run, &limit->run);
-  if (status == HOOKE_OK) {
-    const char *names = hooke_options_text(limit->options, "methods");
-    status = hk_method_list_read(names, has_fixed_step, add_row, limit);
-  }
+  int32_t status =
+      hk_method_list_read(hooke_options_text(limit->options, "methods"), has_fixed_step, add_row, limit);
   if (status == HOOKE_OK) status = make_room(limit);
-  if (status != HOOKE_OK) {
-    hooke_limit_destroy(limit);
-    return status;
-  }
   forget(limit);
   forget_smallest(limit);
-  *out = limit;
-  return HOOKE_OK;
+  return status;
 }
 
-void hooke_limit_destroy(hooke_limit *limit) {
+static void destroy(void *object) {
+  struct hk_limit *limit = object;
   if (limit == NULL) return;
   forget(limit);
   for (int32_t k = 0; k < limit->row_count; k++)
     hk_free(limit->row[k].mode);
-  hooke_options_destroy(limit->run);
-  hooke_options_destroy(limit->options);
+  hk_free(limit->q);
   hk_free(limit->shape);
   hk_free(limit->stiffest);
-  hk_handle_free(limit);
-}
-
-void hooke_limit_on_progress(hooke_limit *limit, hooke_progress *progress, void *ctx) {
-  limit->progress = progress;
-  limit->progress_ctx = ctx;
+  hk_free(limit);
 }
 
 int32_t hk_limit_tell(double done, const char *what, void *ctx) {
-  hooke_limit *limit = ctx;
-  if (limit->progress == NULL) return HOOKE_OK;
+  struct hk_limit *limit = ctx;
   const double share = fmin(1.0, limit->share + limit->width * fmax(0.0, fmin(1.0, done)));
-  const char *words = limit->under_way ? limit->under_way : what;
-  if (limit->progress(share, words, limit->progress_ctx) == 0) return HOOKE_OK;
-  return hk_fail(HOOKE_STOPPED, NULL, "the progress callback asked to stop");
+  return hk_measurement_tell(limit->measurement, share, limit->under_way ? limit->under_way : what);
 }
 
-static int32_t begin_part(hooke_limit *limit, double share, double width, const char *under_way) {
+static int32_t begin_part(struct hk_limit *limit, double share, double width, const char *under_way) {
   limit->share = share;
   limit->width = width;
   limit->under_way = under_way;
@@ -164,7 +142,7 @@ static int32_t begin_part(hooke_limit *limit, double share, double width, const 
 
 /* ---- one state ---- */
 
-const struct hk_limit_row *hk_limit_blamed(const hooke_limit *limit) {
+const struct hk_limit_row *hk_limit_blamed(const struct hk_limit *limit) {
   const char *method = limit->run ? hooke_options_text(limit->run, "method") : "symplectic-euler";
   const struct hk_limit_row *first = NULL;
   for (int32_t k = 0; k < limit->row_count; k++) {
@@ -176,8 +154,13 @@ const struct hk_limit_row *hk_limit_blamed(const hooke_limit *limit) {
   return first;
 }
 
-/* The mode, and the springs and particles that it hangs on. */
-static int32_t find_blame(hooke_limit *limit, const double *q) {
+static void remember(struct hk_limit *limit, const double *q, double t) {
+  memcpy(limit->q, q, 3 * (size_t)limit->system->particle_count * sizeof(double));
+  limit->time = t;
+}
+
+/* The mode, the springs and particles that limit the step in it, and a suggestion. */
+static int32_t find_blame(struct hk_limit *limit) {
   const struct hk_limit_row *row = hk_limit_blamed(limit);
   if (row == NULL) return HOOKE_OK;
   const int64_t n = limit->system->particle_count;
@@ -192,11 +175,12 @@ static int32_t find_blame(hooke_limit *limit, const double *q) {
   const int stiffness_alone = hk_limit_rule_damps_implicitly(row->method) || !(row->predicted > 0.0);
   const double h = stiffness_alone ? 0.0 : row->predicted;
   int32_t status =
-      hk_blame_find(limit->system, q, limit->shape, stiffness_alone ? 1.0 : h * h, h, &limit->blame);
+      hk_blame_find(limit->system, limit->q, limit->shape, stiffness_alone ? 1.0 : h * h, h, &limit->blame);
   limit->blame.patience = limit->patience;
   limit->blame.room = limit->room;
   if (status == HOOKE_OK && row->predicted > 0.0)
-    status = hk_remedy_find(limit->system, q, row->method, row->predicted, &limit->blame, &limit->remedy);
+    status =
+        hk_remedy_find(limit->system, limit->q, row->method, row->predicted, &limit->blame, &limit->remedy);
   return status;
 }
 
@@ -205,11 +189,11 @@ static void add_note(struct hk_limit_row *row, const char *note) {
   if (note && note[0]) snprintf(row->note + used, sizeof row->note - used, "%s%s", used ? "; " : "", note);
 }
 
-static int32_t measure_row(hooke_limit *limit, struct hk_limit_row *row, const hooke_state *state,
+static int32_t measure_row(struct hk_limit *limit, struct hk_limit_row *row, const hooke_state *state,
                            double budget) {
   const double accuracy = hooke_options_number(limit->options, "accuracy");
   const double *q = hooke_state_position((hooke_state *)state);
-  struct hk_measurement m = {.step = NAN, .note = ""};
+  struct hk_measured_limit m = {.step = NAN, .note = ""};
   const int nonlinear = hooke_options_number(limit->options, "nonlinear") != 0.0;
   const int32_t status =
       nonlinear
@@ -226,7 +210,7 @@ static int32_t measure_row(hooke_limit *limit, struct hk_limit_row *row, const h
 }
 
 /* What a row leaves of the budget goes to those after it. */
-static int32_t measure(hooke_limit *limit, const hooke_state *state) {
+static int32_t measure(struct hk_limit *limit, const hooke_state *state) {
   const double budget = hooke_options_number(limit->options, "budget");
   double left = budget, width = (1.0 - PREDICTING) / limit->row_count;
   for (int32_t k = 0; k < limit->row_count; k++) {
@@ -241,24 +225,26 @@ static int32_t measure(hooke_limit *limit, const hooke_state *state) {
   return begin_part(limit, 1.0, 0.0, "done");
 }
 
-int32_t hooke_limit_find(hooke_limit *limit, const hooke_state *state) {
-  int32_t status = hk_state_check(state, limit->system);
-  if (status != HOOKE_OK) return status;
+int32_t hk_limit_look(struct hk_limit *limit, const double *q, double t) {
   forget(limit);
   forget_smallest(limit);
-  const double *q = hooke_state_position((hooke_state *)state);
-  status = begin_part(limit, 0.0, PREDICTING, "eigenvalues");
-  if (status == HOOKE_OK) status = hk_limit_predict_rows(limit, q);
-  if (status == HOOKE_OK) status = find_blame(limit, q);
-  if (status == HOOKE_OK && hooke_options_number(limit->options, "predict") == 0.0)
-    status = measure(limit, state);
-  return status;
+  remember(limit, q, t);
+  int32_t status = begin_part(limit, 0.0, PREDICTING, "eigenvalues");
+  if (status == HOOKE_OK) status = hk_limit_predict_rows(limit, limit->q);
+  return status == HOOKE_OK ? find_blame(limit) : status;
+}
+
+static int32_t find(struct hk_limit *limit, const hooke_state *state) {
+  const int32_t status =
+      hk_limit_look(limit, hooke_state_position((hooke_state *)state), hooke_state_time(state));
+  const int predict = hooke_options_number(limit->options, "predict") != 0.0;
+  return status == HOOKE_OK && !predict ? measure(limit, state) : status;
 }
 
 /* ---- along a run ---- */
 
 struct walk {
-  hooke_limit *limit;
+  struct hk_limit *limit;
   int64_t frame, frame_count;
   int32_t status;
 };
@@ -266,7 +252,7 @@ struct walk {
 static int32_t see_frame(int64_t step, const hooke_state *state, void *ctx) {
   (void)step;
   struct walk *walk = ctx;
-  hooke_limit *limit = walk->limit;
+  struct hk_limit *limit = walk->limit;
   forget(limit);
   walk->status =
       begin_part(limit, (double)walk->frame++ / (double)walk->frame_count, 0.0, "limits along the run");
@@ -288,15 +274,13 @@ static int32_t see_steps(double done, const char *method, void *ctx) {
   return walk->status != HOOKE_OK;
 }
 
-int32_t hooke_limit_along(hooke_limit *limit, hooke_state *state) {
+static int32_t go_along(struct hk_limit *limit, hooke_state *state) {
   hooke_integrator *integrator = NULL;
-  int32_t status = hk_state_check(state, limit->system);
-  if (status != HOOKE_OK) return status;
   if (limit->run == NULL) {
     return hk_fail(HOOKE_BAD_VALUE, "run",
                    "limits along a run need the options of the run; they were not given");
   }
-  status = hooke_integrator_create(limit->system, limit->run, &integrator);
+  int32_t status = hooke_integrator_create(limit->system, limit->run, &integrator);
   if (status != HOOKE_OK) return status;
   forget(limit);
   forget_smallest(limit);
@@ -305,8 +289,24 @@ int32_t hooke_limit_along(hooke_limit *limit, hooke_state *state) {
   if (status == HOOKE_OK) status = hooke_integrator_on_progress(integrator, 0.0, see_steps, &walk);
   if (status == HOOKE_OK) status = hooke_integrator_run(integrator, state);
   hooke_integrator_destroy(integrator);
+  remember(limit, hooke_state_position(state), hooke_state_time(state));
   if (walk.status != HOOKE_OK) return walk.status;
-  const int32_t blame =
-      status < 0 || !limit->found ? HOOKE_OK : find_blame(limit, hooke_state_position(state));
+  const int32_t blame = status < 0 || !limit->found ? HOOKE_OK : find_blame(limit);
   return blame != HOOKE_OK ? blame : status;
 }
+
+static int32_t run(hooke_measurement *m, hooke_state *state) {
+  const int along = hooke_options_number(m->options, "along") != 0.0;
+  return along ? go_along(m->object, state) : find(m->object, state);
+}
+
+const struct hk_measurement_kind hk_limit_kind = {
+    .name = "limit",
+    .options = &limit_table,
+    .takes_state = 1,
+    .tables = hk_limit_tables,
+    .table_count = HOOKE_LIMIT_TABLES,
+    .create = create,
+    .run = run,
+    .destroy = destroy,
+};

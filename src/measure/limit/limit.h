@@ -2,8 +2,8 @@
 #ifndef HOOKE_MEASURE_LIMIT_LIMIT_H
 #define HOOKE_MEASURE_LIMIT_LIMIT_H
 
-#include "hooke/limit.h"
 #include "measure/limit/limit_blame.h"
+#include "measure/measurement.h"
 #include "measure/spectrum/limit_rules.h"
 
 enum { HOOKE_LIMIT_METHODS = 32, HOOKE_LIMIT_NOTE = 640 };
@@ -22,13 +22,16 @@ struct hk_limit_mode {
   double frequency, decay; /* x'' + 2 decay x' + frequency^2 x = 0 */
 };
 
-struct hooke_limit {
+struct hk_limit {
+  const hooke_measurement *measurement;
   const hooke_system *system;
-  hooke_options *run, *options; /* `run` may be NULL */
+  const hooke_options *run, *options; /* of the measurement; `run` may be NULL */
   int32_t row_count;
   struct hk_limit_row row[HOOKE_LIMIT_METHODS];
 
   /* of the last state */
+  double *q; /* 3n */
+  double time;
   int32_t found;
   double frequency, decay; /* [rad/s], [1/s] */
   int64_t products, clamped;
@@ -42,21 +45,34 @@ struct hooke_limit {
   struct hk_patience endless;   /* which only the caller ends */
   struct hk_patience *patience; /* that, or one of an inquiry, with bytes that a basis may take */
   double room;
-  hooke_progress *progress;
-  void *progress_ctx;
   double share, width; /* of all work, where the part under way begins and how much of it it is */
   const char *under_way;
 };
 
+/* Predictions at positions q (3n) of the time t, and what limits the step there. */
+int32_t hk_limit_look(struct hk_limit *limit, const double *q, double t);
+
 /* Bounds, predictions and modes at positions q (3n), in place of those before. */
-int32_t hk_limit_predict_rows(hooke_limit *limit, const double *q);
+int32_t hk_limit_predict_rows(struct hk_limit *limit, const double *q);
 
 /* The row to blame springs for: that of the method of the run, or the first that has a limit; NULL if none
  * has. */
-const struct hk_limit_row *hk_limit_blamed(const hooke_limit *limit);
+const struct hk_limit_row *hk_limit_blamed(const struct hk_limit *limit);
 
 /* Tells the caller of the share done of the part under way; HOOKE_STOPPED if that is to end. `limit` is the
  * context. */
 int32_t hk_limit_tell(double done, const char *what, void *limit);
+
+/* A row of the table "blame", of a limit and of an explanation. */
+struct hk_blame_line {
+  const char *group, *force;
+  double number, first, second, share;
+};
+enum { HOOKE_BLAME_COLUMNS = 6 };
+extern const struct hk_column hk_blame_columns[HOOKE_BLAME_COLUMNS];
+
+enum { HOOKE_LIMIT_TABLES = 6 };
+extern const struct hk_table *const hk_limit_tables[HOOKE_LIMIT_TABLES];
+extern const struct hk_measurement_kind hk_limit_kind;
 
 #endif

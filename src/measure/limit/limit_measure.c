@@ -84,7 +84,7 @@ static int32_t confirm(struct trial *trial, struct hk_bracket *bracket) {
 /* What a search that ended early has to be certain to, if its result is to be told at all. */
 static const double CERTAIN = 0.05;
 
-static void read_bracket(const struct hk_bracket *bracket, struct hk_measurement *out) {
+static void read_bracket(const struct hk_bracket *bracket, struct hk_measured_limit *out) {
   const int both = bracket->holds > 0.0 && isfinite(bracket->fails);
   if (both && (!bracket->unknown || bracket->fails - bracket->holds < 2.0 * CERTAIN * bracket->fails))
     out->step = 0.5 * (bracket->holds + bracket->fails);
@@ -117,7 +117,7 @@ static int32_t try_extremes(struct trial *trial, struct hk_bracket *bracket, int
   return status;
 }
 
-static int32_t measure(struct trial *trial, double predicted, struct hk_measurement *out) {
+static int32_t measure(struct trial *trial, double predicted, struct hk_measured_limit *out) {
   const double slow_step = trial->growth->twin->slow_step;
   struct hk_bracket bracket = {.try_step = try_frozen,
                                .ctx = trial,
@@ -162,8 +162,8 @@ static int32_t check(const char *method, double accuracy) {
 
 int32_t hk_limit_measure(const hooke_system *system, const double *q, const hooke_options *run,
                          const char *method, double predicted, const double *mode, double accuracy,
-                         double budget, hooke_progress *progress, void *ctx, struct hk_measurement *out) {
-  *out = (struct hk_measurement){.step = NAN, .note = ""};
+                         double budget, hooke_progress *progress, void *ctx, struct hk_measured_limit *out) {
+  *out = (struct hk_measured_limit){.step = NAN, .note = ""};
   int32_t status = check(method, accuracy);
   if (status != HOOKE_OK) return status;
   struct hk_twin twin;
@@ -253,7 +253,7 @@ static int32_t prepare(struct whole *whole, const hooke_options *run, const char
 }
 
 static int32_t measure_whole(struct whole *whole, double predicted, double accuracy,
-                             struct hk_measurement *out) {
+                             struct hk_measured_limit *out) {
   struct hk_twin twin;
   int32_t status = hk_twin_create(whole->system, hooke_state_position((hooke_state *)whole->start), &twin);
   if (status != HOOKE_OK) return status;
@@ -281,8 +281,8 @@ static int32_t measure_whole(struct whole *whole, double predicted, double accur
 int32_t hk_limit_measure_nonlinear(const hooke_system *system, const hooke_state *start,
                                    const hooke_options *run, const char *method, double predicted,
                                    double accuracy, double budget, hooke_progress *progress, void *ctx,
-                                   struct hk_measurement *out) {
-  *out = (struct hk_measurement){.step = NAN, .note = ""};
+                                   struct hk_measured_limit *out) {
+  *out = (struct hk_measured_limit){.step = NAN, .note = ""};
   int32_t status = check(method, accuracy);
   if (status != HOOKE_OK) return status;
   struct whole whole = {.system = system,

@@ -5,7 +5,7 @@
 
 #include "hooke/measure.h"
 
-struct hk_measurement {
+struct hk_measured_limit {
   /* the limit [s]: 0 where no step is stable, infinity where nothing limits it, NaN if not found */
   double step;
   int64_t steps_run;    /* steps that it took */
@@ -21,7 +21,7 @@ struct hk_measurement {
  * HOOKE_STOPPED by the progress, HOOKE_NO_MEMORY. */
 int32_t hk_limit_measure(const hooke_system *system, const double *q, const hooke_options *run,
                          const char *method, double predicted, const double *mode, double accuracy,
-                         double budget, hooke_progress *progress, void *ctx, struct hk_measurement *out);
+                         double budget, hooke_progress *progress, void *ctx, struct hk_measured_limit *out);
 
 /* The largest step at which the scene itself runs from `start` through the `duration` of `run` without
  * divergence. With callbacks and drives that shows only in numbers that are not finite. HOOKE_BAD_VALUE
@@ -29,6 +29,6 @@ int32_t hk_limit_measure(const hooke_system *system, const double *q, const hook
 int32_t hk_limit_measure_nonlinear(const hooke_system *system, const hooke_state *start,
                                    const hooke_options *run, const char *method, double predicted,
                                    double accuracy, double budget, hooke_progress *progress, void *ctx,
-                                   struct hk_measurement *out);
+                                   struct hk_measured_limit *out);
 
 #endif

@@ -9,7 +9,7 @@
 #include <stdio.h>
 #include <string.h>
 
-static int32_t find_bounds(hooke_limit *limit, const double *q) {
+static int32_t find_bounds(struct hk_limit *limit, const double *q) {
   struct hk_node_blocks blocks;
   const int32_t status = hk_node_blocks_create(limit->system, q, &blocks);
   if (status != HOOKE_OK) return status;
@@ -19,7 +19,7 @@ static int32_t find_bounds(hooke_limit *limit, const double *q) {
   return HOOKE_OK;
 }
 
-static int32_t find_row(hooke_limit *limit, struct hk_spectrum *spectrum, double *mode,
+static int32_t find_row(struct hk_limit *limit, struct hk_spectrum *spectrum, double *mode,
                         struct hk_limit_row *row) {
   const int64_t n = limit->system->particle_count;
   struct hk_prediction prediction = {.mode = mode};
@@ -36,7 +36,7 @@ static int32_t find_row(hooke_limit *limit, struct hk_spectrum *spectrum, double
   return HOOKE_OK;
 }
 
-static int32_t keep_modes(hooke_limit *limit, const struct hk_spectrum *s) {
+static int32_t keep_modes(struct hk_limit *limit, const struct hk_spectrum *s) {
   const double rate = s->linearised->rate;
   limit->mode = hk_new(s->count, sizeof *limit->mode);
   if (limit->mode == NULL) return HOOKE_NO_MEMORY;
@@ -57,7 +57,7 @@ static int32_t keep_modes(hooke_limit *limit, const struct hk_spectrum *s) {
   return HOOKE_OK;
 }
 
-static int32_t find_rows(hooke_limit *limit, struct hk_linearised *linearised) {
+static int32_t find_rows(struct hk_limit *limit, struct hk_linearised *linearised) {
   struct hk_spectrum spectrum;
   double *mode = hk_new(linearised->size, sizeof(double));
   if (mode == NULL) return HOOKE_NO_MEMORY;
@@ -74,7 +74,7 @@ static int32_t find_rows(hooke_limit *limit, struct hk_linearised *linearised) {
   return status;
 }
 
-int32_t hk_limit_predict_rows(hooke_limit *limit, const double *q) {
+int32_t hk_limit_predict_rows(struct hk_limit *limit, const double *q) {
   struct hk_linearised linearised;
   int32_t status = hk_linearised_create(limit->system, q, NULL, NULL, &linearised);
   if (status != HOOKE_OK) return status;

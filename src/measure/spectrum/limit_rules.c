@@ -3,7 +3,7 @@
 #include "core/memory.h"
 #include "core/status.h"
 #include "hooke/integrator.h"
-#include "hooke/limit.h"
+#include "hooke/measurement.h"
 #include "measure/spectrum/dominant_mode.h"
 
 #include <math.h>

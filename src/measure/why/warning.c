@@ -9,8 +9,6 @@
 #include "measure/spectrum/naming.h"
 #include "measure/spectrum/step_bound.h"
 
-#include "hooke/why.h"
-
 #include <math.h>
 #include <stdio.h>
 

@@ -1,12 +1,12 @@
-/* Making a diagnosis, and asking it. */
+/* Making a diagnosis. */
 #include "measure/why/why.h"
 
-#include "core/figure.h"
-#include "core/handle.h"
 #include "core/memory.h"
+#include "core/option.h"
 #include "core/print.h"
 #include "core/status.h"
 #include "integrate/integrator.h"
+#include "integrate/loop/run_loop.h"
 #include "measure/spectrum/linearised.h"
 
 #include <math.h>
@@ -20,6 +20,19 @@ static const double PASS = 40.0;
 static const double PUNCTUAL = 0.85;
 
 static const double LEAST_SECONDS = 2.0, LEAST_BYTES = 16e6, SHARE_OF_MEMORY = 0.4;
+
+static const struct hk_option_row why_rows[] = {
+    {.name = "budget",
+     .type = HOOKE_OPTION_NUMBER,
+     .unit = "s",
+     .low = 0.0,
+     .above_low = 1,
+     .high = 1e300,
+     .doc =
+         "time that the explanation may take; as long as the run took if not given, or 2 s if that is more"},
+};
+
+static const struct hk_option_table why_table = {"why", HOOKE_OPTION_ROWS(why_rows)};
 
 static int ended_early(const hooke_integrator *run) {
   return run->outcome == HOOKE_DIVERGED || run->outcome == HOOKE_SOLVER_FAILED ||
@@ -144,125 +157,143 @@ static int32_t inquire(struct hk_inquiry *inquiry) {
   return status;
 }
 
-/* ---- the diagnosis ---- */
+/* ---- making ---- */
+
+static int32_t check(const hooke_integrator *run) {
+  if (run->system == NULL)
+    return hk_fail(HOOKE_UNSUITED, NULL,
+                   "a first-order problem has no springs to blame; its own message is all there is");
+  if (!ended_early(run))
+    return hk_fail(HOOKE_BAD_CALL, NULL,
+                   "the last run of this integrator did not blow up: there is nothing to explain");
+  if (run->recent.room == 0)
+    return hk_fail(HOOKE_NO_MEMORY, NULL, "there was no memory for the last good state, to explain from");
+  return HOOKE_OK;
+}
+
+static int32_t create(hooke_measurement *m) {
+  (void)m;
+  if (HOOKE_HAVE_LAPACK) return HOOKE_OK;
+  return hk_fail(HOOKE_NOT_BUILT, NULL, "explanations need LAPACK, which this build is without");
+}
+
+static void forget(struct hk_why *why) {
+  for (int64_t k = 0; k < why->advice_count; k++)
+    hooke_options_destroy(why->advice[k].run);
+  why->blame_count = why->advice_count = 0;
+  why->cause = NULL;
+  why->sentence[0] = why->left_out[0] = why->method[0] = '\0';
+  why->time = why->noticed = why->limit = why->particle = why->step = NAN;
+}
+
+static void drop_states(struct hk_why *why) {
+  hooke_state_destroy(why->first);
+  hooke_state_destroy(why->last);
+  why->first = why->last = NULL;
+}
+
+static void destroy(void *object) {
+  struct hk_why *why = object;
+  if (why == NULL) return;
+  forget(why);
+  drop_states(why);
+  hooke_integrator_destroy(why->own);
+  hk_free(why);
+}
+
+int32_t hooke_why_create(const hooke_integrator *run, const hooke_options *options, hooke_measurement **out) {
+  const int32_t status = check(run);
+  if (status != HOOKE_OK) return status;
+  struct hk_why *why = hk_new(1, sizeof *why);
+  if (why == NULL) return HOOKE_NO_MEMORY;
+  why->integrator = run;
+  forget(why);
+  return hk_measurement_create(&hk_why_kind, why, run->system, run->options, options, out);
+}
+
+static int32_t copy_state(const hooke_integrator *run, const hooke_state *from, hooke_state **copy) {
+  int32_t status = hk_run_check_state(run, from);
+  if (status == HOOKE_OK) status = hk_state_create_sized(run->size, 1, copy);
+  return status == HOOKE_OK ? hooke_state_copy(from, *copy) : status;
+}
+
+int32_t hooke_why_create_kept(const hooke_system *system, const hooke_options *run, const hooke_state *first,
+                              const hooke_state *last, const hooke_options *options,
+                              hooke_measurement **out) {
+  struct hk_why *why = hk_new(1, sizeof *why);
+  if (why == NULL) return HOOKE_NO_MEMORY;
+  forget(why);
+  int32_t status = hooke_integrator_create(system, run, &why->own);
+  if (status == HOOKE_OK) status = copy_state(why->own, first, &why->first);
+  if (status == HOOKE_OK) status = copy_state(why->own, last, &why->last);
+  if (status == HOOKE_OK) {
+    why->integrator = why->own;
+    return hk_measurement_create(&hk_why_kind, why, system, run, options, out);
+  }
+  destroy(why);
+  return status;
+}
+
+/* ---- running ---- */
+
+/* From the last state that was kept until the run ends early. */
+static int32_t run_on(struct hk_why *why) {
+  hooke_state *state = NULL;
+  int32_t status = copy_state(why->own, why->last, &state);
+  if (status == HOOKE_OK) status = hk_integrator_run_on(why->own, why->first, state);
+  hooke_state_destroy(state);
+  if (!ended_early(why->own)) return status == HOOKE_OK ? check(why->own) : status;
+  drop_states(why);
+  return HOOKE_OK;
+}
 
 /* [s] */
 static double usual_time(const hooke_integrator *run) {
   return fmax(LEAST_SECONDS, run->wall_seconds);
 }
 
-int32_t hooke_why_create(const hooke_integrator *run, double seconds, hooke_progress *progress, void *ctx,
-                         hooke_why **out) {
-  if (run->system == NULL) {
-    return hk_fail(HOOKE_UNSUITED, NULL,
-                   "a first-order problem has no springs to blame; its own message is all "
-                   "there is");
-  }
-  if (!ended_early(run)) {
-    return hk_fail(HOOKE_BAD_CALL, NULL,
-                   "the last run of this integrator did not blow up: there is nothing to explain");
-  }
-  if (!HOOKE_HAVE_LAPACK) {
-    return hk_fail(HOOKE_NOT_BUILT, NULL, "explanations need LAPACK, which this build is without");
-  }
-  if (run->recent.room == 0) {
-    return hk_fail(HOOKE_NO_MEMORY, NULL, "there was no memory for the last good state, to explain from");
-  }
-  struct hooke_why *why = hk_handle_new("hooke_why", sizeof *why);
-  if (why == NULL) return HOOKE_NO_MEMORY;
-  why->time = why->limit = why->particle = why->step = NAN;
+static int32_t explain(struct hk_why *why, const hooke_measurement *m) {
+  const hooke_integrator *run = why->integrator;
+  const double budget = hooke_options_number(m->options, "budget");
+  const int32_t status = check(run);
+  if (status != HOOKE_OK) return status;
   why->noticed = run->outcome == HOOKE_DIVERGED ? run->diverged_at : run->t;
   if (!run->method->adaptive) why->step = run->schedule.step;
   snprintf(why->method, sizeof why->method, "%s", run->method->name);
-  struct hk_inquiry inquiry = {
-      .run = run,
-      .system = run->system,
-      .why = why,
-      .bad_particle = -1,
-      .force = -1,
-      .flipped = -1,
-      .patience = hk_patience_of(PUNCTUAL * (seconds > 0.0 ? seconds : usual_time(run)), progress, ctx)};
-  const int32_t status = inquire(&inquiry);
-  if (status == HOOKE_OK)
-    *out = why;
-  else
-    hooke_why_destroy(why);
-  return status;
+  struct hk_inquiry inquiry = {.run = run,
+                               .system = run->system,
+                               .why = why,
+                               .bad_particle = -1,
+                               .force = -1,
+                               .flipped = -1,
+                               .patience =
+                                   hk_patience_of(PUNCTUAL * (isnan(budget) ? usual_time(run) : budget),
+                                                  m->progress, m->progress_ctx)};
+  return inquire(&inquiry);
 }
 
-int32_t hooke_why_create_kept(const hooke_system *system, const hooke_options *run, const hooke_state *first,
-                              const hooke_state *last, double seconds, hooke_progress *progress, void *ctx,
-                              hooke_why **out) {
-  hooke_integrator *integrator = NULL;
-  hooke_state *state = NULL;
-  int32_t status = hooke_integrator_create(system, run, &integrator);
+static int32_t run(hooke_measurement *m, hooke_state *state) {
+  struct hk_why *why = m->object;
+  int32_t status = hk_measurement_require_fresh(m, state);
   if (status != HOOKE_OK) return status;
-  status = hk_state_create_sized(integrator->size, 1, &state);
-  if (status == HOOKE_OK) status = hooke_state_copy(last, state);
-  if (status == HOOKE_OK) {
-    status = hk_integrator_run_on(integrator, first, state);
-    if (status == HOOKE_OK || ended_early(integrator))
-      status = hooke_why_create(integrator, seconds, progress, ctx, out);
-  }
-  hooke_state_destroy(state);
-  hooke_integrator_destroy(integrator);
+  if (why->first) status = run_on(why);
+  if (status == HOOKE_OK) status = explain(why, m);
+  if (status != HOOKE_OK) forget(why); /* what was only begun is not known */
   return status;
 }
 
-void hooke_why_destroy(hooke_why *why) {
-  if (why == NULL) return;
-  for (int64_t k = 0; k < why->advice_count; k++)
-    hooke_options_destroy(why->advice[k].run);
-  hk_handle_free(why);
-}
+const struct hk_measurement_kind hk_why_kind = {
+    .name = "why",
+    .options = &why_table,
+    .made_by = "hooke_why_create()",
+    .tables = hk_why_tables,
+    .table_count = HOOKE_WHY_TABLES,
+    .create = create,
+    .run = run,
+    .destroy = destroy,
+};
 
-const char *hooke_why_text(const hooke_why *why, const char *what) {
-  if (strcmp(what, "cause") == 0) return why->cause;
-  if (strcmp(what, "sentence") == 0) return why->sentence;
-  if (strcmp(what, "left_out") == 0) return why->left_out;
-  return strcmp(what, "method") == 0 ? why->method : NULL;
-}
-
-double hooke_why_number(const hooke_why *why, const char *what) {
-  const struct hk_figure numbers[] = {{"time", why->time},
-                                      {"noticed", why->noticed},
-                                      {"step", why->step},
-                                      {"limit", why->limit},
-                                      {"particle", why->particle}};
-  return HOOKE_FIGURE(numbers, what);
-}
-
-int64_t hooke_why_blame_count(const hooke_why *why) {
-  return why->blame_count;
-}
-
-double hooke_why_blame_number(const hooke_why *why, int64_t place, const char *what) {
-  if (place < 0 || place >= why->blame_count) return NAN;
-  const struct hk_why_blame *blame = &why->blame[place];
-  if (strcmp(what, "share") == 0) return blame->share;
-  if (blame->spring < 0) return NAN;
-  if (strcmp(what, "spring") == 0) return (double)blame->spring;
-  if (strcmp(what, "first") == 0) return (double)blame->first;
-  return strcmp(what, "second") == 0 ? (double)blame->second : (double)NAN;
-}
-
-const char *hooke_why_blame_text(const hooke_why *why, int64_t place, const char *what) {
-  if (place < 0 || place >= why->blame_count) return NULL;
-  if (strcmp(what, "force") == 0) return why->blame[place].force;
-  return strcmp(what, "group") == 0 ? why->blame[place].group : NULL;
-}
-
-int64_t hooke_why_advice_count(const hooke_why *why) {
-  return why->advice_count;
-}
-
-const char *hooke_why_advice_text(const hooke_why *why, int64_t place, const char *what) {
-  if (place < 0 || place >= why->advice_count) return NULL;
-  const struct hk_why_advice *advice = &why->advice[place];
-  if (strcmp(what, "change") == 0) return advice->change;
-  if (strcmp(what, "option") == 0) return advice->option;
-  return strcmp(what, "value") == 0 ? advice->value : NULL;
-}
+/* ---- taking advice ---- */
 
 int32_t hk_why_apply(const hooke_options *changes, hooke_options *run) {
   int32_t status = HOOKE_OK;
@@ -277,13 +308,15 @@ int32_t hk_why_apply(const hooke_options *changes, hooke_options *run) {
   return status;
 }
 
-int32_t hooke_why_advice_apply(const hooke_why *why, int64_t place, hooke_options *run) {
-  if (place < 0 || place >= why->advice_count) {
-    return hk_fail(HOOKE_BAD_VALUE, "place", "there is no advice %lld; there are %lld", (long long)place,
+int32_t hooke_why_advice_apply(const hooke_measurement *m, int64_t row, hooke_options *run) {
+  int32_t status = hk_measurement_require(m, &hk_why_kind, "hooke_why_advice_apply");
+  if (status != HOOKE_OK) return status;
+  const struct hk_why *why = m->object;
+  if (row < 0 || row >= why->advice_count) {
+    return hk_fail(HOOKE_BAD_VALUE, "row", "there is no advice %lld; there are %lld", (long long)row,
                    (long long)why->advice_count);
   }
-  const int32_t status = hk_run_options_require(run, "run");
-  if (status != HOOKE_OK) return status;
-  const hooke_options *changes = why->advice[place].run;
-  return changes ? hk_why_apply(changes, run) : HOOKE_OK;
+  status = hk_run_options_require(run, "run");
+  const hooke_options *changes = why->advice[row].run;
+  return status == HOOKE_OK && changes ? hk_why_apply(changes, run) : status;
 }

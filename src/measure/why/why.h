@@ -3,12 +3,12 @@
 #ifndef HOOKE_MEASURE_WHY_WHY_H
 #define HOOKE_MEASURE_WHY_WHY_H
 
-#include "hooke/why.h"
 #include "integrate/integrator.h"
-#include "measure/why/growing.h"
 #include "measure/limit/limit_blame.h"
+#include "measure/measurement.h"
 #include "measure/spectrum/node_blocks.h"
 #include "measure/trial/patience.h"
+#include "measure/why/growing.h"
 
 enum { HOOKE_WHY_MOST_BLAME = 100, HOOKE_WHY_MOST_ADVICE = 4 };
 
@@ -24,8 +24,11 @@ struct hk_why_advice {
   hooke_options *run; /* of a run, with nothing set but what is to be changed; NULL: a change of the scene */
 };
 
-struct hooke_why {
-  const char *cause;
+struct hk_why {
+  const hooke_integrator *integrator; /* whose run ended early */
+  hooke_integrator *own;              /* that one, where states were kept; NULL: it is the caller's */
+  hooke_state *first, *last;          /* those states, until it has run on from the last one */
+  const char *cause;                  /* NULL: not found yet */
   char sentence[1024], method[32], left_out[640];
   double time, noticed, step, limit, particle;
   int64_t blame_count, advice_count;
@@ -56,7 +59,7 @@ struct hk_excess {
 struct hk_inquiry {
   const hooke_integrator *run;
   const hooke_system *system;
-  struct hooke_why *why;
+  struct hk_why *why;
   struct hk_patience patience;
   double room, held;               /* [bytes] that may be taken, and those that are */
   char no_time[200], no_room[200]; /* what was left out */
@@ -122,6 +125,10 @@ int32_t hk_inquiry_judge(struct hk_inquiry *inquiry);
 
 /* Finds changes of the run and tries them. */
 int32_t hk_inquiry_advise(struct hk_inquiry *inquiry);
+
+enum { HOOKE_WHY_TABLES = 3 };
+extern const struct hk_table *const hk_why_tables[HOOKE_WHY_TABLES];
+extern const struct hk_measurement_kind hk_why_kind;
 
 /* Sets what is set in `changes`. */
 int32_t hk_why_apply(const hooke_options *changes, hooke_options *run);

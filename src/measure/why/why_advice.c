@@ -270,7 +270,7 @@ static int32_t offer_for_squares(struct hk_plan *plan) {
 }
 
 static int32_t offer_all(struct hk_plan *plan) {
-  const struct hooke_why *why = plan->inquiry->why;
+  const struct hk_why *why = plan->inquiry->why;
   int32_t status;
   if (strcmp(why->cause, "force-not-finite") == 0)
     status = HOOKE_OK; /* no other step or method makes it finite */
@@ -292,7 +292,7 @@ static int32_t offer_all(struct hk_plan *plan) {
 /* ---- the scene ---- */
 
 static void advise_scene(struct hk_inquiry *inquiry) {
-  struct hooke_why *why = inquiry->why;
+  struct hk_why *why = inquiry->why;
   struct hk_why_advice *advice = &why->advice[why->advice_count];
   if (inquiry->slip.found) {
     hk_print(advice->change, sizeof advice->change,

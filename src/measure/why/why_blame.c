@@ -2,7 +2,6 @@
  * them. */
 #include "measure/why/why.h"
 
-#include "core/status.h"
 #include "measure/limit/limit.h"
 #include "measure/spectrum/naming.h"
 
@@ -11,7 +10,7 @@
 #include <string.h>
 
 void hk_inquiry_blame_spring(struct hk_inquiry *inquiry, int64_t spring, double share) {
-  struct hooke_why *why = inquiry->why;
+  struct hk_why *why = inquiry->why;
   if (spring < 0 || why->blame_count == HOOKE_WHY_MOST_BLAME) return;
   const struct hk_spring found = hk_naming_spring(inquiry->system, spring);
   struct hk_why_blame *blame = &why->blame[why->blame_count++];
@@ -22,7 +21,7 @@ void hk_inquiry_blame_spring(struct hk_inquiry *inquiry, int64_t spring, double 
 
 /* A force first, then springs. */
 static void take_blame(struct hk_inquiry *inquiry, const struct hk_blame *blame) {
-  struct hooke_why *why = inquiry->why;
+  struct hk_why *why = inquiry->why;
   why->blame_count = 0;
   inquiry->force = hk_blame_force(blame);
   if (inquiry->force >= 0) {
@@ -36,40 +35,39 @@ static void take_blame(struct hk_inquiry *inquiry, const struct hk_blame *blame)
     hk_inquiry_blame_spring(inquiry, blame->spring[k].spring, blame->spring[k].share);
 }
 
+static int32_t look(struct hk_inquiry *inquiry, struct hk_limit *limit) {
+  limit->patience = &inquiry->patience;
+  limit->room = inquiry->room - inquiry->held;
+  const int32_t status = hk_limit_look(limit, inquiry->excess.q, inquiry->excess.time);
+  if (limit->found) take_blame(inquiry, &limit->blame);
+  const struct hk_remedy *remedy = &limit->remedy;
+  if (status == HOOKE_OK && (remedy->kind || remedy->force))
+    snprintf(inquiry->remedy, sizeof inquiry->remedy, "%s", remedy->sentence);
+  return status;
+}
+
 /* By the mode that limits, where the step was first seen above the limit. */
-static int32_t ask_limit(struct hk_inquiry *inquiry, hooke_state *state) {
+static int32_t ask_limit(struct hk_inquiry *inquiry) {
   const hooke_integrator *run = inquiry->run;
   hooke_options *options = NULL;
-  hooke_limit *limit = NULL;
-  memcpy(state->q, inquiry->excess.q, (size_t)state->size * sizeof(double));
-  int32_t status = hooke_limit_options_create(&options);
+  hooke_measurement *limit = NULL;
+  int32_t status = hk_options_create(hk_limit_kind.options, &options);
   if (status == HOOKE_OK) status = hooke_options_set_text(options, "methods", run->method->name);
-  if (status == HOOKE_OK) status = hooke_options_set_number(options, "predict", 1.0);
-  if (status == HOOKE_OK) status = hooke_limit_create(inquiry->system, run->options, options, &limit);
-  if (status == HOOKE_OK) {
-    limit->patience = &inquiry->patience;
-    limit->room = inquiry->room - inquiry->held;
-    status = hooke_limit_find(limit, state);
-    if (limit->found) take_blame(inquiry, &limit->blame);
-    const struct hk_remedy *remedy = &limit->remedy;
-    if (status == HOOKE_OK && (remedy->kind || remedy->force))
-      snprintf(inquiry->remedy, sizeof inquiry->remedy, "%s", remedy->sentence);
-  }
-  hooke_limit_destroy(limit);
+  if (status == HOOKE_OK)
+    status = hk_measurement_create(&hk_limit_kind, NULL, inquiry->system, run->options, options, &limit);
+  if (status == HOOKE_OK) status = look(inquiry, limit->object);
+  hooke_measurement_destroy(limit);
   hooke_options_destroy(options);
   return status;
 }
 
 int32_t hk_inquiry_blame(struct hk_inquiry *inquiry) {
   const struct hk_excess *excess = &inquiry->excess;
-  hooke_state *state = NULL;
   int32_t status = HOOKE_OK;
   if (excess->has_blame) take_blame(inquiry, &excess->blame);
   if (!inquiry->large) {
     hk_patience_lend(&inquiry->patience, 0.5);
-    status = hk_state_create_sized(inquiry->run->size, 1, &state);
-    if (status == HOOKE_OK) status = ask_limit(inquiry, state);
-    hooke_state_destroy(state);
+    status = ask_limit(inquiry);
     hk_inquiry_end_part(inquiry, "what the limit hangs on");
   }
   if (status == HOOKE_NO_MEMORY) return status;

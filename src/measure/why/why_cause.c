@@ -18,7 +18,7 @@ static void say(struct hk_inquiry *inquiry, const char *cause, const char *forma
     __attribute__((format(printf, 3, 4)));
 
 static void say(struct hk_inquiry *inquiry, const char *cause, const char *format, ...) {
-  struct hooke_why *why = inquiry->why;
+  struct hk_why *why = inquiry->why;
   const int32_t outcome = inquiry->run->outcome;
   const char *how = outcome == HOOKE_DIVERGED        ? "the run diverged"
                     : outcome == HOOKE_SOLVER_FAILED ? "the solver gave up"
@@ -71,7 +71,7 @@ static void judge_slip(struct hk_inquiry *inquiry) {
 
 /* What the limit hangs on. */
 static void name_blamed(const struct hk_inquiry *inquiry, char text[2 * HOOKE_NAMING_SIZE]) {
-  const struct hooke_why *why = inquiry->why;
+  const struct hk_why *why = inquiry->why;
   const int64_t particle = inquiry->excess.particle;
   char spring[HOOKE_NAMING_SIZE] = "no spring";
   const int64_t first = inquiry->force >= 0;

@@ -206,7 +206,7 @@ static int same_changes(const hooke_options *a, const hooke_options *b) {
 }
 
 static int is_known(const struct hk_plan *plan, const struct hk_change *change) {
-  const struct hooke_why *why = plan->inquiry->why;
+  const struct hk_why *why = plan->inquiry->why;
   for (int64_t k = 0; k < why->advice_count; k++) {
     if (why->advice[k].run && same_changes(why->advice[k].run, change->run)) return 1;
   }
@@ -214,7 +214,7 @@ static int is_known(const struct hk_plan *plan, const struct hk_change *change) 
 }
 
 void hk_plan_take(struct hk_plan *plan, struct hk_change *change, const char *proof) {
-  struct hooke_why *why = plan->inquiry->why;
+  struct hk_why *why = plan->inquiry->why;
   struct hk_why_advice *advice = &why->advice[why->advice_count++];
   advice->run = change->run;
   change->run = NULL;

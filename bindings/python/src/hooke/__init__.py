@@ -42,7 +42,7 @@ from .verify import Verification, verify
 from .view import view, write_xdmf
 from .why import Why, why
 
-__version__ = "0.1.0"
+__version__ = "0.2.0"
 
 __all__ = [
     "BadCall",

@@ -16,17 +16,14 @@ from . import _prototypes
 from ._status import BadValue, checker
 
 #: The ABI that this package was written for, HOOKE_ABI of the headers.
-ABI = 0
+ABI = 1
 
 #: Functions whose positive status is an outcome, which their callers look at; of all others it is raised.
 OUTCOMES = frozenset(
     (
-        "hooke_cost_find",
         "hooke_integrator_resume",
         "hooke_integrator_run",
         "hooke_integrator_step",
-        "hooke_limit_along",
-        "hooke_limit_find",
         "hooke_measurement_run",
         "hooke_study_recommend",
     )

@@ -2,39 +2,29 @@
 
 from __future__ import annotations
 
-import ctypes
-
 import numpy as np
 
-from ._callback import listening
-from ._library import lib
-from ._memory import Handle, text
-from ._prototypes import COST
+from ._measurement import Measurement
 from ._status import OUTCOMES, plain
-from ._tables import read_rows
 from ._types import Table
 from .options import Options
 from .results import Runnable, WorkProgress, prepare
 from .state import State
-
-_ROW = np.dtype(
-    [("name", "U96"), ("kind", "U16")]
-    + [(name, float) for name in ("group", "springs", "nanoseconds", "resolution", "memory_bytes")]
-    + [("step_limit_without", float)]
-)
 
 
 class Cost:
     """What a scene costs, whole and by its ingredients.
 
     `rows` is a structured array with one row an ingredient that is there: name (of the group, else the kind), kind
-    ("springs", "damping", "drag", "callback", "gravity"), group and springs (its number and size, NaN if it is none);
-    nanoseconds that it adds to a step, with their resolution, 0 where nothing can be seen; memory_bytes;
-    step_limit_without [s], the largest stable step of the scene without it, infinite where nothing limits it.
+    ("springs", "bending", "altitude", "damping", "drag", "callback", "gravity"), group and springs (its number and size,
+    NaN if it is none); nanoseconds that it adds to a step, with their resolution, 0 where nothing can be seen;
+    memory_bytes; step_limit_without [s], the largest stable step of the scene without it, infinite where nothing limits
+    it.
 
     `method` is what was timed: that of the run, or symplectic Euler if that chooses its own steps; `step` [s] its step;
     `nanoseconds` of a whole step, `resolution` [ns] of the rows, `memory_bytes` of system, state and integrator,
-    `step_limit` [s] of the whole scene (NaN without LAPACK). `outcome` is "finished" or "stopped".
+    `step_limit` [s] of the whole scene (NaN without LAPACK); `dropped_springs` have neither stiffness nor damping, and
+    `idle_particles` are pinned and touched by nothing: both cost nothing. `outcome` is "finished" or "stopped".
     """
 
     outcome: str
@@ -44,17 +34,16 @@ class Cost:
     resolution: float
     memory_bytes: float
     step_limit: float
+    dropped_springs: int
+    idle_particles: int
     rows: Table
 
-    def __init__(self, handle: Handle, status: int):
+    def __init__(self, found: Measurement, status: int):
         self.outcome = OUTCOMES.get(status, "stopped")
-        self.method = text(lib.hooke_cost_method(handle))
-        self.step, self.nanoseconds, self.resolution, self.memory_bytes, self.step_limit = (
-            lib.hooke_cost_figure(handle, what)
-            for what in (b"step", b"nanoseconds", b"resolution", b"memory_bytes", b"step_limit")
-        )
-        count = lib.hooke_cost_row_count(handle)
-        self.rows = read_rows(handle, count, _ROW, lib.hooke_cost_text, lib.hooke_cost_number)
+        for name, value in (found.record("cost") or {}).items():
+            setattr(self, name, int(value) if name in ("dropped_springs", "idle_particles") else value)
+        self.rows = found.rows("rows")
+        self.rows.dtype.names = tuple("name" if name == "ingredient" else name for name in self.rows.dtype.names or ())
 
     def __getitem__(self, name: str) -> np.void:
         """The first row of that name."""
@@ -99,9 +88,5 @@ def cost(
     _, system, run = prepare("cost", problem, None, options)
     chosen = Options.for_cost().set(predict=predict, budget=budget, groups=groups)
     at = system.state() if state is None else state
-    pointer = COST()
-    lib.hooke_cost_create(system._committed(), run._handle, chosen._handle, ctypes.byref(pointer))
-    handle = Handle(pointer, lib.hooke_cost_destroy, system._handle)
-    with listening(lib.hooke_cost_on_progress, handle, progress):
-        status = lib.hooke_cost_find(handle, at._handle)
-    return Cost(handle, status)
+    found = Measurement.create("cost", system, run, chosen)
+    return Cost(found, found.run(progress, at))

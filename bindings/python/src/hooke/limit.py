@@ -9,28 +9,22 @@ from typing import Any, NamedTuple, Union
 
 import numpy as np
 
-from ._callback import listening
 from ._library import lib
-from ._memory import Handle, address_of, text, view
-from ._prototypes import LIMIT, RECORD
+from ._measurement import Measurement
+from ._memory import Handle
+from ._prototypes import RECORD
 from ._status import OUTCOMES
-from ._tables import read_rows
 from ._types import ComplexArray, FloatArray, Path, Table
 from .options import Options
 from .results import Runnable, WorkProgress, prepare
+from .scene import Scene, scene_text
 from .state import State
 from .system import System
-from .why import _BLAME_NUMBERS, Blame
+from .why import Blame
 
 #: Where to find limits: a state, positions (n, 3) [m], or a trajectory file, its last frame or the one named.
 Place = Union[State, FloatArray, Path, tuple[Path, int]]
 
-_ROW = np.dtype(
-    [("method", "U32")]
-    + [(name, float) for name in ("bound", "predicted", "measured", "ratio", "steps_run")]
-    + [("smallest", float), ("smallest_time", float)]
-    + [("exact", bool), ("never_stable", bool), ("by_eigenvalue", bool), ("note", "U640")]
-)
 _COLUMNS = (
     ("bound", "safe bound [s]"),
     ("predicted", "predicted [s]"),
@@ -102,22 +96,23 @@ class Limit:
     movers: list[Mover]
     remedy: Remedy | None
 
-    def __init__(self, handle: Handle, state: State, step: float, status: int):
+    def __init__(self, found: Measurement, scene: Scene | None, status: int):
+        self._found, self._scene = found, scene
         self.outcome = OUTCOMES.get(status, "stopped")
-        self.time, self.step = state.t, step
-        count = lib.hooke_limit_row_count(handle)
-        self.rows = read_rows(handle, count, _ROW, lib.hooke_limit_text, lib.hooke_limit_number)
-        self.frequency_max = lib.hooke_limit_figure(handle, b"frequency_max")
-        self.rate_max = lib.hooke_limit_figure(handle, b"rate_max")
-        clamped = lib.hooke_limit_figure(handle, b"clamped")
-        self.clamped = 0 if np.isnan(clamped) else int(clamped)
-        real, imaginary, self.frequency, self.decay = _read_modes(handle)
-        self.modes = real + 1j * imaginary
-        shape = address_of(lib.hooke_limit_shape(handle))
-        self.shape = view(shape, state.q.shape).copy() if shape else None
-        self.blame = [_blame(handle, place) for place in range(lib.hooke_limit_blame_count(handle))]
-        self.movers = [_mover(handle, place) for place in range(lib.hooke_limit_mover_count(handle))]
-        self.remedy = _remedy(handle)
+        record = found.record("limit") or {}
+        self.time, self.step = record["time"], record["step"]
+        self.frequency_max, self.rate_max = record["frequency_max"], record["rate_max"]
+        self.clamped = 0 if np.isnan(record["clamped"]) else int(record["clamped"])
+        self.rows = found.rows("rows")
+        modes = found.rows("modes")
+        self.modes = modes["real"] + 1j * modes["imaginary"]
+        self.frequency, self.decay = modes["frequency"], modes["decay"]
+        shape = found.series("limit", 0, "shape")
+        self.shape = None if shape is None else shape.reshape(-1, 3)
+        self.blame = Blame.read(found)
+        self.movers = [Mover(int(particle), *rest) for particle, *rest in found.rows("movers").tolist()]
+        remedy = found.record("remedy")
+        self.remedy = None if remedy is None else Remedy(**remedy)
 
     @property
     def methods(self) -> list[str]:
@@ -130,6 +125,12 @@ class Limit:
             raise KeyError(f"{method!r}; there are {', '.join(self.methods)}")
         row: np.void = self.rows[self.methods.index(method)]
         return row
+
+    def write(self, path: Path, title: str | None = None) -> None:
+        """Writes what was found by the ending of `path`: .html, the page of ``hooke limit --report`` with `title` over
+        it (that of the scene, if None); .csv, the rows; .json or .h5, everything."""
+        title = title or (self._scene.title if self._scene else "") or "limits of steps"
+        self._found.write(path, title=title, scene=scene_text(self._scene))
 
     def plot(self, axes: Any = None, **options: Any) -> Any:
         """Draws the modes on the regions of stability; see `hooke.plot.limit`."""
@@ -172,29 +173,17 @@ def limit(
     `at` is a state, positions (n, 3) [m], or a trajectory file, of which the last frame is taken, or a pair of that and
     the number of a frame. ``along=True`` predicts at every frame of the run and tells the smallest limits met and when;
     ``nonlinear=True`` measures on the scene itself. `accuracy` is relative, `budget` [s] the time of the measuring.
-    ``progress(fraction, what)`` is told of progress (``progress=True`` shows a bar, with
-    tqdm) and stops the work by returning a number other than 0. The
-    keywords `options` are those of a run. ``hooke limit --report FILE.html`` makes a page with diagrams.
+    ``progress(fraction, what)`` is told of progress (``progress=True`` shows a bar, with tqdm) and stops
+    the work by returning a number other than 0. The keywords `options` are those of a run.
     """
-    _, system, run = prepare("limit", problem, None, options)
+    scene, system, run = prepare("limit", problem, None, options)
     if methods is not None and not isinstance(methods, str):
         methods = ",".join(methods)
     chosen = Options.for_limit().set(
-        methods=methods, predict=predict, nonlinear=nonlinear, accuracy=accuracy, budget=budget
+        methods=methods, predict=predict, nonlinear=nonlinear, along=along, accuracy=accuracy, budget=budget
     )
-    state = _state_at(system, at)
-    pointer = LIMIT()
-    lib.hooke_limit_create(system._committed(), run._handle, chosen._handle, ctypes.byref(pointer))
-    handle = Handle(pointer, lib.hooke_limit_destroy, system._handle)
-    with listening(lib.hooke_limit_on_progress, handle, progress):
-        status = (lib.hooke_limit_along if along else lib.hooke_limit_find)(handle, state._handle)
-    return Limit(handle, state, _own_step(run), status)
-
-
-def _own_step(run: Options) -> float:
-    step = run["step"]
-    adaptive = lib.hooke_method_is_adaptive(str(run["method"]).encode())
-    return float(step) if isinstance(step, (int, float)) and not adaptive else np.nan
+    found = Measurement.create("limit", system, run, chosen)
+    return Limit(found, scene, found.run(progress, _state_at(system, at)))
 
 
 def _state_at(system: System, at: Place | None) -> State:
@@ -210,35 +199,6 @@ def _state_at(system: System, at: Place | None) -> State:
     elif at is not None:
         state.q = at
     return state
-
-
-def _read_modes(handle: Handle) -> list[FloatArray]:
-    count = range(lib.hooke_limit_mode_count(handle))
-    return [
-        np.array([lib.hooke_limit_mode_number(handle, mode, what) for mode in count], float)
-        for what in (b"real", b"imaginary", b"frequency", b"decay")
-    ]
-
-
-def _blame(handle: Handle, place: int) -> Blame:
-    numbers = tuple(lib.hooke_limit_blame_number(handle, place, what) for what in _BLAME_NUMBERS)
-    group, force = (text(lib.hooke_limit_blame_text(handle, place, what)) for what in (b"group", b"force"))
-    return Blame.of(numbers, group, force)
-
-
-def _mover(handle: Handle, place: int) -> Mover:
-    particle, share, mass = (
-        lib.hooke_limit_mover_number(handle, place, what) for what in (b"particle", b"share", b"mass")
-    )
-    return Mover(int(particle), share, mass)
-
-
-def _remedy(handle: Handle) -> Remedy | None:
-    sentence = text(lib.hooke_limit_remedy_text(handle, b"sentence"))
-    if not sentence:
-        return None
-    numbers = (lib.hooke_limit_remedy_number(handle, what.encode()) for what in Remedy._fields[2:])
-    return Remedy(text(lib.hooke_limit_remedy_text(handle, b"kind")), sentence, *numbers)
 
 
 def _cell(name: str, value: float) -> str:

@@ -77,13 +77,18 @@ class Options(Owner, MutableMapping[str, Any]):
 
     @classmethod
     def for_limit(cls) -> Options:
-        """Options of a limit: methods, predict, nonlinear, accuracy, budget [s]."""
-        return cls(_create(lib.hooke_limit_options_create))
+        """Options of a limit: methods, predict, nonlinear, along, accuracy, budget [s]."""
+        return cls(_create(lambda out: lib.hooke_options_create(b"limit", out)))
 
     @classmethod
     def for_cost(cls) -> Options:
         """Options of a cost: predict, budget [s], groups."""
-        return cls(_create(lib.hooke_cost_options_create))
+        return cls(_create(lambda out: lib.hooke_options_create(b"cost", out)))
+
+    @classmethod
+    def for_why(cls) -> Options:
+        """Options of an explanation: budget [s]."""
+        return cls(_create(lambda out: lib.hooke_options_create(b"why", out)))
 
     @classmethod
     def for_comparison(cls) -> Options:
@@ -216,13 +221,14 @@ def part_kind_summary(kind: str) -> str:
 
 
 def options_of(what: str) -> Options:
-    """The options of a "run", a "study", a "limit", a "cost", of "needs", of "springs", of a "scene" itself, of its
-    "particles", of what is "driven", or of a kind of part. Their `rows` are the table."""
+    """The options of a "run", a "study", a "limit", a "cost", a "why", of "needs", of "springs", of a "scene" itself, of
+    its "particles", of what is "driven", or of a kind of part. Their `rows` are the table."""
     makers = {
         "run": Options.for_run,
         "study": Options.for_study,
         "limit": Options.for_limit,
         "cost": Options.for_cost,
+        "why": Options.for_why,
         "needs": Options.for_needs,
         "springs": Options.for_springs,
     }

@@ -6,13 +6,11 @@ import ctypes
 import math
 from typing import Any, NamedTuple
 
-import numpy as np
-
-from ._callback import watching
 from ._library import lib
+from ._measurement import Measurement
 from ._memory import Handle, text
-from ._prototypes import WHY
-from ._status import SolverFailed, plain
+from ._prototypes import MEASUREMENT
+from ._status import SolverFailed, Stopped, plain
 from .integrator import Integrator
 from .options import Options
 from .results import Result, Runnable, WorkProgress, resolve
@@ -30,10 +28,12 @@ class Blame(NamedTuple):
     force: str = ""
 
     @classmethod
-    def of(cls, numbers: tuple[float, ...], group: str, force: str) -> Blame:
-        """From "spring", "first", "second" and "share" of the library."""
-        spring, first, second = (-1 if math.isnan(number) else int(number) for number in numbers[:3])
-        return cls(spring, (first, second), group, numbers[3], force)
+    def read(cls, measurement: Measurement) -> list[Blame]:
+        """The table "blame"."""
+        return [
+            cls(_whole(number), (_whole(first), _whole(second)), group, share, force)
+            for number, first, second, group, share, force in measurement.rows("blame").tolist()
+        ]
 
     def __str__(self) -> str:
         place = self.force or f"spring {self.spring}, between particles {self.ends[0]} and {self.ends[1]}"
@@ -62,21 +62,22 @@ class Why:
     def __init__(
         self, integrator: Integrator, budget: float | None = None, progress: WorkProgress | bool | None = None
     ):
-        pointer = WHY()
-        seconds = math.nan if budget is None else budget
-        with watching(progress) as watcher:
-            lib.hooke_why_create(integrator._handle, seconds, watcher, None, ctypes.byref(pointer))
-        handle = Handle(pointer, lib.hooke_why_destroy)
-        self.cause: str = text(lib.hooke_why_text(handle, b"cause"))
-        self.sentence: str = text(lib.hooke_why_text(handle, b"sentence"))
-        self.method: str = text(lib.hooke_why_text(handle, b"method"))
-        self.left_out: str = text(lib.hooke_why_text(handle, b"left_out"))
-        self.time, self.noticed, self.step, self.limit, particle = (
-            lib.hooke_why_number(handle, what) for what in (b"time", b"noticed", b"step", b"limit", b"particle")
+        pointer, chosen = MEASUREMENT(), Options.for_why().set(budget=budget)
+        lib.hooke_why_create(integrator._handle, chosen._handle, ctypes.byref(pointer))
+        found = Measurement(Handle(pointer, lib.hooke_measurement_destroy, integrator._handle))
+        if found.run(progress):
+            raise Stopped(text(lib.hooke_last_error()))
+        record = found.record("why") or {}
+        self.cause: str = record["cause"]
+        self.sentence: str = record["sentence"]
+        self.method: str = record["method"]
+        self.left_out: str = record["left_out"]
+        self.time, self.noticed, self.step, self.limit = (
+            record[name] for name in ("time", "noticed", "step", "limit")
         )
-        self.particle = None if np.isnan(particle) else int(particle)
-        self.blame = [_blame(handle, place) for place in range(lib.hooke_why_blame_count(handle))]
-        self.advice = [_advice(handle, place) for place in range(lib.hooke_why_advice_count(handle))]
+        self.particle = None if math.isnan(record["particle"]) else int(record["particle"])
+        self.blame = Blame.read(found)
+        self.advice = [_advice(found, row) for row in range(found.count("advice"))]
 
     def __repr__(self) -> str:
         return f"Why({self.cause}, t={self.time!r}, {self.method})"
@@ -86,20 +87,15 @@ class Why:
         return "\n".join([*sentences, *(f"- {one.change} {one.options or ''}".rstrip() for one in self.advice)])
 
 
-_BLAME_NUMBERS = (b"spring", b"first", b"second", b"share")
+def _whole(number: float) -> int:
+    return -1 if math.isnan(number) else int(number)
 
 
-def _blame(handle: Handle, place: int) -> Blame:
-    numbers = tuple(lib.hooke_why_blame_number(handle, place, what) for what in _BLAME_NUMBERS)
-    group, force = (text(lib.hooke_why_blame_text(handle, place, what)) for what in (b"group", b"force"))
-    return Blame.of(numbers, group, force)
-
-
-def _advice(handle: Handle, place: int) -> Advice:
+def _advice(found: Measurement, row: int) -> Advice:
     changes = Options.for_run()
-    lib.hooke_why_advice_apply(handle, place, changes._handle)
+    lib.hooke_why_advice_apply(found.handle, row, changes._handle)
     options = {name: changes[name] for name in changes if changes.is_set(name)}
-    return Advice(text(lib.hooke_why_advice_text(handle, place, b"change")), options)
+    return Advice(found.text("advice", row, "change"), options)
 
 
 def why(

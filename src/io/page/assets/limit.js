@@ -1,7 +1,11 @@
 "use strict";
 /* The diagrams of a limit. */
 
-const modes = data.modes, modeCount = modes.real.length;
+for (const row of data.rows) row.unlimited.forEach((name) => { row[name] = "none"; });
+const blames = data.blame.filter((one) => one.force === null); /* the suggestion tells of a force */
+const modes = Object.fromEntries(["real", "imaginary", "frequency", "decay"]
+  .map((name) => [name, data.modes.map((mode) => mode[name])]));
+const modeCount = data.modes.length;
 const rowOf = (method) => data.rows.find((row) => row.method === method);
 const POINT = "#1c2126";
 const pale = (colour) => colour + "1a";
@@ -90,9 +94,9 @@ function drawReach(h) {
 function judge(row, h) {
   if (row.predicted === "none") return "stable";
   if (row.predicted === null) return "open";
-  if (h === row.predicted) return row.exact === 1 ? "limit" : "open";
+  if (h === row.predicted) return row.exact ? "limit" : "open";
   if (h > row.predicted) return "grows";
-  return row.exact === 1 || h <= row.bound ? "stable" : "open";
+  return row.exact || h <= row.bound ? "stable" : "open";
 }
 
 function drawStability(key) {
@@ -111,8 +115,8 @@ function drawStability(key) {
 const picture = data.picture;
 const moving = picture.move.length > 0;
 const MOST_ARROWS = 300, MOST_DISPLACED = 200, MOST_DOTS = 400;
-const blameOf = new Map(data.blame.map((one) => [one.spring, one]));
-const topShare = data.blame.length > 0 ? data.blame[0].share : 0;
+const blameOf = new Map(blames.map((one) => [one.number, one]));
+const topShare = blames.length > 0 ? blames[0].share : 0;
 const coordinate = (particle, axis) => picture.position[3 * particle + axis];
 const moveOf = (particle, axis) => (moving ? picture.move[3 * particle + axis] : 0);
 const particles = picture.particle.map((_, k) => k);

@@ -19,7 +19,7 @@ function writeHead() {
 /* What the springs of each group carry, the most first. */
 function groupShares() {
   const sums = new Map();
-  for (const one of data.blame) sums.set(groupOf(one), (sums.get(groupOf(one)) || 0) + one.share);
+  for (const one of blames) sums.set(groupOf(one), (sums.get(groupOf(one)) || 0) + one.share);
   return [...sums].sort((a, b) => b[1] - a[1]).filter(([, share]) => share > 0.001)
     .map(([group, share]) => `${percent(share)} in ${group}`).join(", ");
 }
@@ -36,9 +36,10 @@ function writeVerdict() {
     ? `${row.method} is stable up to ${words(row.predicted, 6)} s` +
       (row.measured > 0 ? `, and was measured to be so up to ${words(row.measured, 6)} s.` : ", as predicted.")
     : `${row.method} is stable at no step.`));
-  if (data.blame.reduce((sum, one) => sum + one.share, 0) > 0.9)
+  if (blames.reduce((sum, one) => sum + one.share, 0) > 0.9)
     box.append(element("p", `The mode that limits it has its force from springs: ${groupShares()}.`));
-  if (data.remedy) box.append(element("p", data.remedy[0].toUpperCase() + data.remedy.slice(1) + "."));
+  const sentence = data.remedy && data.remedy.sentence;
+  if (sentence) box.append(element("p", sentence[0].toUpperCase() + sentence.slice(1) + "."));
 }
 
 /* ---- the words of the diagrams ---- */
@@ -65,21 +66,21 @@ function writePictured() {
 /* ---- tables ---- */
 
 const describeBlame = (one) =>
-  [`spring ${one.spring}, between particles ${one.first} and ${one.second}`, `${groupOf(one)}, ${percent(one.share)}`];
+  [`spring ${one.number}, between particles ${one.first} and ${one.second}`, `${groupOf(one)}, ${percent(one.share)}`];
 
 function writeBlame() {
-  const body = element("tbody"), most = data.blame.slice(0, MOST_BLAMED);
+  const body = element("tbody"), most = blames.slice(0, MOST_BLAMED);
   for (const one of most) {
     const line = element("tr"), name = element("td", undefined, { className: "word" });
     const swatch = element("span", undefined, { className: "swatch" });
     swatch.style.background = shareColour(one.share);
-    name.append(swatch, `spring ${one.spring}`);
+    name.append(swatch, `spring ${one.number}`);
     line.append(name, element("td", `${one.first} and ${one.second}`), element("td", one.group, { className: "word" }),
       element("td", percent(one.share), { title: String(one.share) }));
     body.append(line);
   }
   if (most.length === 0) return;
-  if (data.blame.length > most.length) {
+  if (blames.length > most.length) {
     const line = element("tr");
     line.append(element("td", "and others with less", { className: "word note", colSpan: 4 }));
     body.append(line);
@@ -118,7 +119,7 @@ function writeAbout() {
   fact("about", "springs", whole(picture.springs));
   fact("about", "method", data.method);
   fact("about", "step", data.step === null ? "" : `${words(data.step, 6)} s`);
-  fact("about", "eigenvalues", data.rows.every((row) => row.exact === 1) ? `${whole(modeCount)} known, of each pair one`
+  fact("about", "eigenvalues", data.rows.every((row) => row.exact) ? `${whole(modeCount)} known, of each pair one`
     : `${whole(modeCount)} known, those of the fastest modes`);
 }
 

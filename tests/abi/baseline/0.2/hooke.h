@@ -14,8 +14,8 @@ extern "C" {
 #define HOOKE_API __attribute__((visibility("default")))
 #endif
 #endif
-#define HOOKE_VERSION "0.1.0"
-#define HOOKE_ABI     0
+#define HOOKE_VERSION "0.2.0"
+#define HOOKE_ABI     1
 #define HOOKE_OK            0
 #define HOOKE_STOPPED       1
 #define HOOKE_DIVERGED      2
@@ -239,6 +239,10 @@ HOOKE_API int32_t hooke_integrator_recent(const hooke_integrator *integrator, in
                                           hooke_state *state);
 HOOKE_API int32_t hooke_integrator_stop_value(const hooke_integrator *integrator);
 HOOKE_API double hooke_integrator_diverged_at(const hooke_integrator *integrator);
+typedef int32_t hooke_warning(const char *kind, const char *sentence, double t, double limit, int64_t spring,
+                              int64_t particle, void *ctx);
+HOOKE_API int32_t hooke_integrator_on_warning(hooke_integrator *integrator, hooke_warning *warning,
+                                              void *ctx);
 #ifdef __cplusplus
 }
 #endif
@@ -289,6 +293,14 @@ HOOKE_API int32_t hooke_needs_lean_position(const hooke_measurement *needs, cons
                                             double *position);
 HOOKE_API int32_t hooke_verify_create(const char *path, const hooke_options *options,
                                       const hooke_options *limits, hooke_measurement **verify);
+HOOKE_API double hooke_limit_of_mode(const char *method, double frequency, double decay);
+HOOKE_API int32_t hooke_why_create(const hooke_integrator *integrator, const hooke_options *options,
+                                   hooke_measurement **measurement);
+HOOKE_API int32_t hooke_why_create_kept(const hooke_system *system, const hooke_options *run,
+                                        const hooke_state *first, const hooke_state *last,
+                                        const hooke_options *options, hooke_measurement **measurement);
+HOOKE_API int32_t hooke_why_advice_apply(const hooke_measurement *measurement, int64_t row,
+                                         hooke_options *run);
 #ifdef __cplusplus
 }
 #endif
@@ -323,87 +335,6 @@ HOOKE_API int32_t hooke_estimate_measure(hooke_estimate *estimate, const hooke_i
 HOOKE_API int32_t hooke_estimate_refine(hooke_estimate *estimate, hooke_options *run);
 HOOKE_API double hooke_estimate_number(const hooke_estimate *estimate, const char *what);
 HOOKE_API const char *hooke_estimate_text(const hooke_estimate *estimate, const char *what);
-#ifdef __cplusplus
-}
-#endif
-#endif
-#ifndef HOOKE_LIMIT_H
-#define HOOKE_LIMIT_H
-#ifdef __cplusplus
-extern "C" {
-#endif
-typedef struct hooke_limit hooke_limit;
-HOOKE_API int32_t hooke_limit_options_create(hooke_options **options);
-HOOKE_API int32_t hooke_limit_create(const hooke_system *system, const hooke_options *run,
-                                     const hooke_options *options, hooke_limit **limit);
-HOOKE_API void hooke_limit_destroy(hooke_limit *limit);
-HOOKE_API void hooke_limit_on_progress(hooke_limit *limit, hooke_progress *progress, void *ctx);
-HOOKE_API int32_t hooke_limit_find(hooke_limit *limit, const hooke_state *state);
-HOOKE_API int32_t hooke_limit_along(hooke_limit *limit, hooke_state *state);
-HOOKE_API double hooke_limit_figure(const hooke_limit *limit, const char *what);
-HOOKE_API int64_t hooke_limit_row_count(const hooke_limit *limit);
-HOOKE_API const char *hooke_limit_text(const hooke_limit *limit, int64_t row, const char *what);
-HOOKE_API double hooke_limit_number(const hooke_limit *limit, int64_t row, const char *what);
-HOOKE_API int64_t hooke_limit_blame_count(const hooke_limit *limit);
-HOOKE_API double hooke_limit_blame_number(const hooke_limit *limit, int64_t place, const char *what);
-HOOKE_API const char *hooke_limit_blame_text(const hooke_limit *limit, int64_t place, const char *what);
-HOOKE_API int64_t hooke_limit_mover_count(const hooke_limit *limit);
-HOOKE_API double hooke_limit_mover_number(const hooke_limit *limit, int64_t place, const char *what);
-HOOKE_API const char *hooke_limit_remedy_text(const hooke_limit *limit, const char *what);
-HOOKE_API double hooke_limit_remedy_number(const hooke_limit *limit, const char *what);
-HOOKE_API int64_t hooke_limit_mode_count(const hooke_limit *limit);
-HOOKE_API double hooke_limit_mode_number(const hooke_limit *limit, int64_t mode, const char *what);
-HOOKE_API const double *hooke_limit_shape(const hooke_limit *limit);
-HOOKE_API double hooke_limit_of_mode(const char *method, double frequency, double decay);
-#ifdef __cplusplus
-}
-#endif
-#endif
-#ifndef HOOKE_COST_H
-#define HOOKE_COST_H
-#ifdef __cplusplus
-extern "C" {
-#endif
-typedef struct hooke_cost hooke_cost;
-HOOKE_API int32_t hooke_cost_options_create(hooke_options **options);
-HOOKE_API int32_t hooke_cost_create(const hooke_system *system, const hooke_options *run,
-                                    const hooke_options *options, hooke_cost **cost);
-HOOKE_API void hooke_cost_destroy(hooke_cost *cost);
-HOOKE_API void hooke_cost_on_progress(hooke_cost *cost, hooke_progress *progress, void *ctx);
-HOOKE_API int32_t hooke_cost_find(hooke_cost *cost, const hooke_state *state);
-HOOKE_API const char *hooke_cost_method(const hooke_cost *cost);
-HOOKE_API double hooke_cost_figure(const hooke_cost *cost, const char *what);
-HOOKE_API int64_t hooke_cost_row_count(const hooke_cost *cost);
-HOOKE_API const char *hooke_cost_text(const hooke_cost *cost, int64_t row, const char *what);
-HOOKE_API double hooke_cost_number(const hooke_cost *cost, int64_t row, const char *what);
-#ifdef __cplusplus
-}
-#endif
-#endif
-#ifndef HOOKE_WHY_H
-#define HOOKE_WHY_H
-#ifdef __cplusplus
-extern "C" {
-#endif
-typedef int32_t hooke_warning(const char *kind, const char *sentence, double t, double limit, int64_t spring,
-                              int64_t particle, void *ctx);
-HOOKE_API int32_t hooke_integrator_on_warning(hooke_integrator *integrator, hooke_warning *warning,
-                                              void *ctx);
-typedef struct hooke_why hooke_why;
-HOOKE_API int32_t hooke_why_create(const hooke_integrator *integrator, double seconds,
-                                   hooke_progress *progress, void *ctx, hooke_why **why);
-HOOKE_API int32_t hooke_why_create_kept(const hooke_system *system, const hooke_options *run,
-                                        const hooke_state *first, const hooke_state *last, double seconds,
-                                        hooke_progress *progress, void *ctx, hooke_why **why);
-HOOKE_API void hooke_why_destroy(hooke_why *why);
-HOOKE_API const char *hooke_why_text(const hooke_why *why, const char *what);
-HOOKE_API double hooke_why_number(const hooke_why *why, const char *what);
-HOOKE_API int64_t hooke_why_blame_count(const hooke_why *why);
-HOOKE_API double hooke_why_blame_number(const hooke_why *why, int64_t place, const char *what);
-HOOKE_API const char *hooke_why_blame_text(const hooke_why *why, int64_t place, const char *what);
-HOOKE_API int64_t hooke_why_advice_count(const hooke_why *why);
-HOOKE_API const char *hooke_why_advice_text(const hooke_why *why, int64_t place, const char *what);
-HOOKE_API int32_t hooke_why_advice_apply(const hooke_why *why, int64_t place, hooke_options *run);
 #ifdef __cplusplus
 }
 #endif
@@ -466,8 +397,6 @@ HOOKE_API int32_t hooke_view_write(hooke_view *view, const char *path, const cha
 HOOKE_API double hooke_view_number(const hooke_view *view, const char *what);
 HOOKE_API void hooke_view_destroy(hooke_view *view);
 HOOKE_API int32_t hooke_record_write_xdmf(const hooke_record *record, const char *path);
-HOOKE_API int32_t hooke_limit_write_report(const hooke_limit *limit, const hooke_state *state,
-                                           const char *path, const char *scene);
 #ifdef __cplusplus
 }
 #endif
