@@ -7,8 +7,13 @@ from typing import Callable
 
 INTRO = """# Measurements reference
 
-The tables of every kind of measurement, as `hooke_measurement_table()` and `hooke_measurement_column()` list them. C, Fortran,
-Python and files of results have these names. A record has one row, or none where there is nothing to say."""
+The tables of every kind of measurement, as `hooke_measurement_table()` and `hooke_measurement_column()` list
+them. C, Fortran, Python, JSON and files of results have these names. A record has one row, or none where there
+is no result.
+
+```console
+$ hooke limit examples/scenes/rope.json --predict --json
+```"""
 
 
 def listed(ask: Callable[[int, bytes], bytes | None], *words: str) -> Iterator[list[str]]:
@@ -23,7 +28,7 @@ def table(kind: bytes, name: str, doc: str, shape: str) -> str:
     from hooke._library import lib
 
     lines = [f"### {name}", "", ("A record: " + doc if shape == "record" else doc[0].upper() + doc[1:]) + ".", ""]
-    lines += ["| column | unit | type | is |", "| --- | --- | --- | --- |"]
+    lines += ["| column | unit | type | meaning |", "| --- | --- | --- | --- |"]
     columns = listed(lambda k, what: lib.hooke_measurement_column(kind, name.encode(), k, what), "name", "unit", "type", "doc")
     return "\n".join(lines + [f"| `{column}` | {unit} | {sort} | {text} |" for column, unit, sort, text in columns])
 

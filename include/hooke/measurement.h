@@ -6,9 +6,8 @@
  *   hooke_measurement_number(study, "rows", 0, "error");
  *   hooke_measurement_destroy(study);
  *
- * A measurement is of one kind, which is "study" in this version; limits, costs, needs, comparisons,
- * explanations and verifications have headers of their own. Its options are made by hooke_options_create() with
- * the name of the kind. Its results are tables, with columns that have a name, a unit and a line of
+ * A measurement is of one kind: "study", "limit", "needs", "cost", "comparison", "why" or "verify". Its options
+ * are made by hooke_options_create() with the name of the kind. Its results are tables, with columns that have a name, a unit and a line of
  * documentation. A table is "rows", or a "record" of one row with the numbers of the whole. The record that is
  * named like the kind has what concerns the measurement itself. hooke_measurement_table() lists kinds and
  * tables, hooke_measurement_column() the columns.
@@ -40,9 +39,11 @@ HOOKE_API const char *hooke_measurement_kind(const hooke_measurement *measuremen
 HOOKE_API void hooke_measurement_on_progress(hooke_measurement *measurement, hooke_progress *progress,
                                              void *ctx);
 
-/* Measures. A study begins at the initial state, so its `state` is NULL. HOOKE_STOPPED, if the progress callback
- * or a callback of the system asked to stop, keeps what was found so far. HOOKE_BAD_VALUE for a state, and for a
- * run without a duration; HOOKE_BAD_CALL for a second call; HOOKE_NO_MEMORY. */
+/* Measures. A limit and a cost are taken at `state` (NULL: the initial one) and may be taken again; the other
+ * kinds begin at the initial state, run once, and want NULL. HOOKE_STOPPED, if the progress callback or a
+ * callback of the system asked to stop, keeps the results so far. HOOKE_BAD_VALUE for a state that the kind does
+ * not take or that is of another system, and for a run without a duration; HOOKE_BAD_CALL for a second call;
+ * HOOKE_NO_MEMORY; and what an integrator may return. */
 HOOKE_API int32_t hooke_measurement_run(hooke_measurement *measurement, hooke_state *state);
 
 /* ---- tables ---- */
@@ -108,29 +109,32 @@ HOOKE_API int32_t hooke_measurement_write(const hooke_measurement *measurement, 
 /* The cheapest run for another wanted error [m], found by running more of them; the tables "recommendation" and
  * "margin" then tell of it. HOOKE_OK also when nothing meets it, with "note" of what is in the way. */
 HOOKE_API int32_t hooke_study_recommend(hooke_measurement *study, double want);
-/* ---- comparison: one scene by several methods, against CVODE at tight tolerance ----
- * `run` gives step, duration, every, rtol and atol, the option `methods` the rows. A row that diverges
- * stays as a row. Errors are root mean squares over the free particles of the distance to the reference,
- * frame by frame. Needs SUNDIALS. */
 
-/* Sees frame `frame` of `run` ("reference" or a method's name). Return 0 to go on. */
-typedef int32_t hooke_comparison_frame(const char *run, int64_t frame, int64_t step, const hooke_state *state,
-                                       void *ctx);
-/* Shows every frame of a comparison to `observer`; NULL takes it back. HOOKE_BAD_CALL for another kind. */
-HOOKE_API int32_t hooke_comparison_on_frame(hooke_measurement *comparison, hooke_comparison_frame *observer,
-                                            void *ctx);
+/* ---- a limit: the largest stable step of each method, and what determines it ----
+ *
+ * The system is linearised at the positions of the state, at rest: M x'' + C x' + K x = 0 over the free
+ * particles. K has the tension of stretched springs, bending, and altitude springs without their tension; C is
+ * that of springs, altitude springs and drag. The transverse stiffness of a compressed spring is negative and
+ * counts as zero: buckling is growth by physics and no limit of a step. Callbacks are left out; springs that
+ * only pull count as taut. Needs LAPACK. ARPACK is used where it is built in (scenes of 34 to 3333 free
+ * particles); it is not made for threads, so searches by it wait for each other.
+ *
+ * All eigenvalues are known up to 133 free particles, and up to 500 where damping is in proportion to
+ * stiffness or there is none; with C = beta K one decides at any size. Beyond that the limits of symplectic
+ * Euler and Verlet are still sharp, and those of Runge-Kutta and forward Euler lie between "bound" and
+ * "predicted".
+ *
+ * With the option "along" hooke_measurement_run() runs the scene as the options of the run say, from the state
+ * on, which is its final state on return, and finds the predicted limit of every method at every frame: the
+ * columns "smallest" and "smallest_time" have the smallest that was met, the rest is that of the last frame.
+ * The statuses are then those of hooke_integrator_run(). */
 
-/* One HDF5 file for all runs of a comparison, made before it is run: the reference under /particles/all,
- * each method under /particles/<method>. It takes the observer of frames over.
- * hooke_comparison_file_close() adds the tables and the errors over time under /comparison. The label
- * "scene" is the text of the scene, as for hooke_trajectory_create(). HOOKE_BAD_CALL for another kind,
- * HOOKE_IO_FAILED, HOOKE_NOT_BUILT, HOOKE_NO_MEMORY, and what running it may return. */
-typedef struct hooke_comparison_file hooke_comparison_file;
-HOOKE_API int32_t hooke_comparison_file_create(const char *path, hooke_measurement *comparison,
-                                               hooke_comparison_file **file);
-HOOKE_API int32_t hooke_comparison_file_close(hooke_comparison_file *file);
+/* The step [s] up to which `method` is stable for x'' + 2 decay x' + frequency^2 x = 0 alone, by the rules of
+ * the predictions: 0 where no step is stable, infinity where nothing limits it, NaN where no rule is known, for
+ * an unknown method and for a number below 0. */
+HOOKE_API double hooke_limit_of_mode(const char *method, double frequency, double decay);
 
-/* ---- needs: what may be left out of a scene for a wanted error, and what resolution it asks for ----
+/* ---- needs: the ingredients of a scene that a wanted error requires, and its resolution ----
  * One ingredient after another is left out of the system, and each variant is run. Its change is the
  * maximum over frames of the root mean square over the watched particles of the distance from where they
  * are in the full system [m]. Each run takes the largest step (or tolerance) with which it is off by at
@@ -162,6 +166,58 @@ HOOKE_API int64_t hooke_needs_lean_particle(const hooke_measurement *needs, int6
 HOOKE_API int32_t hooke_needs_lean_position(const hooke_measurement *needs, const double *q,
                                             double *position);
 
+/* ---- a cost: the cost of each ingredient of a scene on this machine ----
+ * An ingredient is a group of springs, of bending
+ * triples or of tetrahedra, all damping of springs, drag, the callback force, or gravity. The scene is made
+ * again without it and both are compared: memory, the largest stable step, and the time of a step, taken by
+ * turns on both in short blocks from the same state, of which the shortest count. Times differ from one machine
+ * and one call to the next. Callbacks are called, at states that may not be those of a run. The state stays as
+ * it is. */
+
+/* ---- comparison: one scene by several methods, against CVODE at tight tolerance ----
+ * `run` gives step, duration, every, rtol and atol, the option `methods` the rows. A row that diverges
+ * stays as a row. Errors are root mean squares over the free particles of the distance to the reference,
+ * frame by frame. Needs SUNDIALS. */
+
+/* Sees frame `frame` of `run` ("reference" or a method's name). Return 0 to go on. */
+typedef int32_t hooke_comparison_frame(const char *run, int64_t frame, int64_t step, const hooke_state *state,
+                                       void *ctx);
+/* Shows every frame of a comparison to `observer`; NULL takes it back. HOOKE_BAD_CALL for another kind. */
+HOOKE_API int32_t hooke_comparison_on_frame(hooke_measurement *comparison, hooke_comparison_frame *observer,
+                                            void *ctx);
+
+/* One HDF5 file for all runs of a comparison, made before it is run: the reference under /particles/all,
+ * each method under /particles/<method>. It takes the observer of frames over.
+ * hooke_comparison_file_close() adds the tables and the errors over time under /comparison. The label
+ * "scene" is the text of the scene, as for hooke_trajectory_create(). HOOKE_BAD_CALL for another kind,
+ * HOOKE_IO_FAILED, HOOKE_NOT_BUILT, HOOKE_NO_MEMORY, and what running it may return. */
+typedef struct hooke_comparison_file hooke_comparison_file;
+HOOKE_API int32_t hooke_comparison_file_create(const char *path, hooke_measurement *comparison,
+                                               hooke_comparison_file **file);
+HOOKE_API int32_t hooke_comparison_file_close(hooke_comparison_file *file);
+
+/* ---- a why: why a run ended early, where, and what to do ---- */
+
+/* Explains the last run (or steps) of `integrator`, which ended with HOOKE_DIVERGED, HOOKE_SOLVER_FAILED or
+ * HOOKE_STEP_LIMIT. The integrator must stay as it is until hooke_measurement_run() has returned. That takes
+ * the last steps again and tries what it advises, so callbacks are called again. It keeps to the option
+ * "budget" and to half again the memory of the run; the column "left_out" says what there was no time or memory
+ * for. The progress callback is called throughout, in trial runs and solves as well; if it stops the work,
+ * nothing is known. `options` may be NULL. HOOKE_BAD_CALL if the run did not end early; HOOKE_UNSUITED for a
+ * first-order problem; HOOKE_NOT_BUILT without LAPACK; HOOKE_NO_MEMORY. */
+HOOKE_API int32_t hooke_why_create(const hooke_integrator *integrator, const hooke_options *options,
+                                   hooke_measurement **measurement);
+/* The same from states that were kept of a run with the options `run`, and are copied: the one it began with
+ * and the last good one. From that hooke_measurement_run() takes it on until it ends early; HOOKE_BAD_CALL if
+ * it does not. */
+HOOKE_API int32_t hooke_why_create_kept(const hooke_system *system, const hooke_options *run,
+                                        const hooke_state *first, const hooke_state *last,
+                                        const hooke_options *options, hooke_measurement **measurement);
+/* Sets every option of that row of the table "advice" in `run`, options of a run. HOOKE_BAD_VALUE if there is no
+ * such row. */
+HOOKE_API int32_t hooke_why_advice_apply(const hooke_measurement *measurement, int64_t row,
+                                         hooke_options *run);
+
 /* ---- verify: whether a trajectory reproduces from its scene ----
  * A slice of the run is run again from the numbers in the file and compared with its frames to the bit;
  * every frame is compared with its check value, and the first one with the scene. With a fixed step a slice
@@ -184,61 +240,6 @@ HOOKE_API int32_t hooke_needs_lean_position(const hooke_measurement *needs, cons
  * HOOKE_NO_MEMORY. */
 HOOKE_API int32_t hooke_verify_create(const char *path, const hooke_options *options,
                                       const hooke_options *limits, hooke_measurement **verify);
-/* ---- limit ----
- * The largest stable step of each method on one scene, predicted and measured, and what determines it.
- *
- * The system is linearised at the positions of the state, at rest: M x'' + C x' + K x = 0 over the free
- * particles. K has the tension of stretched springs, bending, and altitude springs without their tension; C is
- * that of springs, altitude springs and drag. The transverse stiffness of a compressed spring is negative and
- * counts as zero: buckling is growth by physics and no limit of a step. Callbacks are left out; springs that
- * only pull count as taut. Needs LAPACK. ARPACK is used where it is built in (scenes of 34 to 3333 free
- * particles); it is not made for threads, so searches by it wait for each other.
- *
- * All eigenvalues are known up to 133 free particles, and up to 500 where damping is in proportion to
- * stiffness or there is none; with C = beta K one decides at any size. Beyond that the limits of symplectic
- * Euler and Verlet are still sharp, and those of Runge-Kutta and forward Euler lie between "bound" and
- * "predicted".
- *
- * With the option "along" hooke_measurement_run() runs the scene as the options of the run say, from the state
- * on, which is its final state on return, and finds the predicted limit of every method at every frame: the
- * columns "smallest" and "smallest_time" have the smallest that was met, the rest is that of the last frame.
- * The statuses are then those of hooke_integrator_run(). */
-
-/* The step [s] up to which `method` is stable for x'' + 2 decay x' + frequency^2 x = 0 alone, by the rules of
- * the predictions: 0 where no step is stable, infinity where nothing limits it, NaN where no rule is known, for
- * an unknown method and for a number below 0. */
-HOOKE_API double hooke_limit_of_mode(const char *method, double frequency, double decay);
-
-/* ---- cost ----
- * What each ingredient of one scene costs, on this machine. An ingredient is a group of springs, of bending
- * triples or of tetrahedra, all damping of springs, drag, the callback force, or gravity. The scene is made
- * again without it and both are compared: memory, the largest stable step, and the time of a step, taken by
- * turns on both in short blocks from the same state, of which the shortest count. Times differ from one machine
- * and one call to the next. Callbacks are called, at states that may not be those of a run. The state stays as
- * it is. */
-
-/* ---- why ----
- * Why a run ended early, where, and what to do. */
-
-/* Explains the last run (or steps) of `integrator`, which ended with HOOKE_DIVERGED, HOOKE_SOLVER_FAILED or
- * HOOKE_STEP_LIMIT. The integrator must stay as it is until hooke_measurement_run() has returned. That takes
- * the last steps again and tries what it advises, so callbacks are called again. It keeps to the option
- * "budget" and to half again the memory of the run; the column "left_out" says what there was no time or memory
- * for. The progress callback is called throughout, in trial runs and solves as well; if it stops the work,
- * nothing is known. `options` may be NULL. HOOKE_BAD_CALL if the run did not end early; HOOKE_UNSUITED for a
- * first-order problem; HOOKE_NOT_BUILT without LAPACK; HOOKE_NO_MEMORY. */
-HOOKE_API int32_t hooke_why_create(const hooke_integrator *integrator, const hooke_options *options,
-                                   hooke_measurement **measurement);
-/* The same from states that were kept of a run with the options `run`, and are copied: the one it began with
- * and the last good one. From that hooke_measurement_run() takes it on until it ends early; HOOKE_BAD_CALL if
- * it does not. */
-HOOKE_API int32_t hooke_why_create_kept(const hooke_system *system, const hooke_options *run,
-                                        const hooke_state *first, const hooke_state *last,
-                                        const hooke_options *options, hooke_measurement **measurement);
-/* Sets every option of that row of the table "advice" in `run`, options of a run. HOOKE_BAD_VALUE if there is no
- * such row. */
-HOOKE_API int32_t hooke_why_advice_apply(const hooke_measurement *measurement, int64_t row,
-                                         hooke_options *run);
 
 #ifdef __cplusplus
 }

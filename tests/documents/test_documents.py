@@ -70,7 +70,7 @@ def test_planted(kind, text, folder):
 @pytest.mark.parametrize(
     "kind, text",
     [
-        ("c", PROGRAM % "hooke_abi()"),
+        ("c", PROGRAM % "hooke_abi() != HOOKE_ABI"),
         ("fortran", "use hooke\nif (hooke_abi() < 0) error stop\nend\n"),
         ("python", "import hooke\n"),
         ("console", "$ hooke --version\nhooke 0.2.0\n$ git clone something\n"),

@@ -57,7 +57,7 @@ def test_a_library_that_is_not_there():
 def test_another_abi_is_refused(tmp_path):
     library = compiled(tmp_path, "int hooke_abi(void) { return 7; }")
     run = python("import hooke", PYTHONPATH=PACKAGES, HOOKE_LIBRARY=library)
-    assert run.returncode and "has ABI 7, this package needs ABI 0" in run.stderr
+    assert run.returncode and "has ABI 7, this package needs ABI 1" in run.stderr
 
 
 def test_another_library_is_refused(tmp_path):
@@ -67,7 +67,7 @@ def test_another_library_is_refused(tmp_path):
 
 
 def test_a_library_without_a_function_is_refused(tmp_path):
-    library = compiled(tmp_path, "int hooke_abi(void) { return 0; }")
+    library = compiled(tmp_path, "int hooke_abi(void) { return 1; }")
     run = python("import hooke", PYTHONPATH=PACKAGES, HOOKE_LIBRARY=library)
     assert run.returncode and "has no function hooke_last_error" in run.stderr
 

@@ -278,6 +278,12 @@ HOOKE_API const double *hooke_measurement_series(const hooke_measurement *measur
 HOOKE_API int32_t hooke_measurement_label(hooke_measurement *measurement, const char *what, const char *text);
 HOOKE_API int32_t hooke_measurement_write(const hooke_measurement *measurement, const char *path);
 HOOKE_API int32_t hooke_study_recommend(hooke_measurement *study, double want);
+HOOKE_API double hooke_limit_of_mode(const char *method, double frequency, double decay);
+HOOKE_API const hooke_system *hooke_needs_lean(const hooke_measurement *needs);
+HOOKE_API const hooke_options *hooke_needs_lean_run(const hooke_measurement *needs);
+HOOKE_API int64_t hooke_needs_lean_particle(const hooke_measurement *needs, int64_t particle);
+HOOKE_API int32_t hooke_needs_lean_position(const hooke_measurement *needs, const double *q,
+                                            double *position);
 typedef int32_t hooke_comparison_frame(const char *run, int64_t frame, int64_t step, const hooke_state *state,
                                        void *ctx);
 HOOKE_API int32_t hooke_comparison_on_frame(hooke_measurement *comparison, hooke_comparison_frame *observer,
@@ -286,14 +292,6 @@ typedef struct hooke_comparison_file hooke_comparison_file;
 HOOKE_API int32_t hooke_comparison_file_create(const char *path, hooke_measurement *comparison,
                                                hooke_comparison_file **file);
 HOOKE_API int32_t hooke_comparison_file_close(hooke_comparison_file *file);
-HOOKE_API const hooke_system *hooke_needs_lean(const hooke_measurement *needs);
-HOOKE_API const hooke_options *hooke_needs_lean_run(const hooke_measurement *needs);
-HOOKE_API int64_t hooke_needs_lean_particle(const hooke_measurement *needs, int64_t particle);
-HOOKE_API int32_t hooke_needs_lean_position(const hooke_measurement *needs, const double *q,
-                                            double *position);
-HOOKE_API int32_t hooke_verify_create(const char *path, const hooke_options *options,
-                                      const hooke_options *limits, hooke_measurement **verify);
-HOOKE_API double hooke_limit_of_mode(const char *method, double frequency, double decay);
 HOOKE_API int32_t hooke_why_create(const hooke_integrator *integrator, const hooke_options *options,
                                    hooke_measurement **measurement);
 HOOKE_API int32_t hooke_why_create_kept(const hooke_system *system, const hooke_options *run,
@@ -301,6 +299,8 @@ HOOKE_API int32_t hooke_why_create_kept(const hooke_system *system, const hooke_
                                         const hooke_options *options, hooke_measurement **measurement);
 HOOKE_API int32_t hooke_why_advice_apply(const hooke_measurement *measurement, int64_t row,
                                          hooke_options *run);
+HOOKE_API int32_t hooke_verify_create(const char *path, const hooke_options *options,
+                                      const hooke_options *limits, hooke_measurement **verify);
 #ifdef __cplusplus
 }
 #endif
