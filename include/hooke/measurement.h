@@ -111,7 +111,6 @@ HOOKE_API int32_t hooke_measurement_write(const hooke_measurement *measurement, 
 HOOKE_API int32_t hooke_study_recommend(hooke_measurement *study, double want);
 
 /* ---- a limit: the largest stable step of each method, and what determines it ----
- *
  * The system is linearised at the positions of the state, at rest: M x'' + C x' + K x = 0 over the free
  * particles. K has the tension of stretched springs, bending, and altitude springs without their tension; C is
  * that of springs, altitude springs and drag. The transverse stiffness of a compressed spring is negative and

@@ -140,7 +140,7 @@ static void test_every_function_refuses(void **unused) {
   (void)unused;
   bring_to_life();
   for (enum badness how = DESTROYED; how <= ABSENT; how++)
-    assert_true(call_all(how) > 200);
+    assert_true(call_all(how) > 120);
   end_life();
 }
 
