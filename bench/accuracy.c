@@ -35,7 +35,7 @@ static int32_t add_cloth(hooke_system *system, const struct request *request) {
   const double sizes[] = {(double)request->size, (double)request->size};
   hooke_options *options = NULL;
   char name[64];
-  int32_t status = hooke_part_options_create("cloth", &options);
+  int32_t status = hooke_options_create("cloth", &options);
   if (status == HOOKE_OK) status = hooke_options_set_numbers(options, "origin", 3, origin);
   if (status == HOOKE_OK) status = hooke_options_set_numbers(options, "edges", 6, edges);
   if (status == HOOKE_OK) status = hooke_options_set_numbers(options, "size", 2, sizes);
@@ -88,7 +88,7 @@ static int32_t measure(const hooke_system *system, const struct request *request
   hooke_options *options = NULL;
   hooke_integrator *integrator = NULL;
   hooke_state *state = NULL;
-  int32_t status = hooke_run_options_create(&options);
+  int32_t status = hooke_options_create("run", &options);
   if (status == HOOKE_OK) status = read_run(run, request->duration, options);
   if (status == HOOKE_OK) status = hooke_integrator_create(system, options, &integrator);
   if (status == HOOKE_OK) status = hooke_state_create(system, &state);

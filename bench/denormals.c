@@ -23,7 +23,7 @@ static hooke_system *cloth(int64_t side) {
   const char *families[] = {"structural", "shear", "bend"};
   hooke_options *part = NULL;
   hooke_system *system = NULL;
-  demand(hooke_part_options_create("cloth", &part));
+  demand(hooke_options_create("cloth", &part));
   demand(hooke_options_set_numbers(part, "origin", 3, origin));
   demand(hooke_options_set_numbers(part, "edges", 6, edges));
   demand(hooke_options_set_numbers(part, "size", 2, size));
@@ -86,7 +86,7 @@ int main(int argc, char **argv) {
   double least[] = {INFINITY, INFINITY, INFINITY, INFINITY}, share[4] = {0.0};
   hooke_options *run = NULL;
   hooke_system *system = cloth(side);
-  demand(hooke_run_options_create(&run));
+  demand(hooke_options_create("run", &run));
   demand(hooke_options_set_number(run, "step", 1e-4));
   for (int64_t turn = 0; turn < turns; turn++) { /* they take turns, so that all see the same machine */
     for (int k = 0; k < 4; k++)

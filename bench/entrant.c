@@ -26,7 +26,7 @@ int32_t entrant_create(const hooke_system *system, const hooke_state *start, con
   hooke_options *options = NULL;
   int32_t status = e ? hooke_state_create(system, &e->state) : HOOKE_NO_MEMORY;
   if (status == HOOKE_OK) status = hooke_state_copy(start, e->state);
-  if (status == HOOKE_OK) status = hooke_run_options_create(&options);
+  if (status == HOOKE_OK) status = hooke_options_create("run", &options);
   if (status == HOOKE_OK) status = hooke_options_set_text(options, "method", method);
   if (status == HOOKE_OK) status = hooke_options_set_number(options, "step", step);
   if (status == HOOKE_OK) status = hooke_options_set_number(options, "threads", threads);

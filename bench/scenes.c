@@ -79,7 +79,7 @@ static int32_t net_finish(struct net *net, int32_t status, double mass, double d
   if (status == HOOKE_OK) {
     status = hooke_system_add_particles(system, net->particles, net->position, NULL, 1, &each, NULL);
   }
-  if (status == HOOKE_OK) status = hooke_spring_options_create(&options);
+  if (status == HOOKE_OK) status = hooke_options_create("springs", &options);
   if (status == HOOKE_OK) status = hooke_options_set_number(options, "stiffness", STIFFNESS);
   if (status == HOOKE_OK) status = hooke_options_set_number(options, "damping", damping);
   if (status == HOOKE_OK) status = hooke_system_add_springs(system, "net", net->springs, net->ends, options);
@@ -105,7 +105,7 @@ static int32_t build_cloth(hooke_system *system, int64_t size, double damping) {
                origin[] = {0.0, 0.0, 0.0};
   const char *family[] = {"structural", "shear", "bend"};
   hooke_options *options = NULL;
-  int32_t status = hooke_part_options_create("cloth", &options);
+  int32_t status = hooke_options_create("cloth", &options);
   if (status == HOOKE_OK) status = hooke_options_set_numbers(options, "origin", 3, origin);
   if (status == HOOKE_OK) status = hooke_options_set_numbers(options, "edges", 6, edges);
   if (status == HOOKE_OK) status = hooke_options_set_numbers(options, "size", 2, sizes);

@@ -73,11 +73,11 @@ static int has_words(const hooke_options *table) {
 int cli_arguments_collect(const struct cli_verb *verb, const char *kind, struct cli_arguments *arguments) {
   arguments->verb = verb;
   arguments->scene = kind;
-  int32_t status = hooke_run_options_create(&arguments->run);
+  int32_t status = hooke_options_create("run", &arguments->run);
   if (status == HOOKE_OK && verb->options) status = hooke_options_create(verb->options, &arguments->more);
-  if (status == HOOKE_OK && !verb->input && !verb->kind_options)
-    status = hooke_scene_options_create("limits", &arguments->limits);
-  if (status == HOOKE_OK && kind) status = verb->kind_options(kind, &arguments->of_kind);
+  if (status == HOOKE_OK && !verb->input && !verb->takes_kind)
+    status = hooke_options_create("limits", &arguments->limits);
+  if (status == HOOKE_OK && kind) status = hooke_options_create(kind, &arguments->of_kind);
   if (status != HOOKE_OK) return cli_report_status(arguments, status);
   const int64_t tables = row_count(arguments->run) + row_count(arguments->more) +
                          row_count(arguments->limits) + row_count(arguments->of_kind);
@@ -194,7 +194,7 @@ static int parse_words(struct cli_arguments *arguments, int argc, char **argv, c
   if (arguments->help) return HOOKE_EXIT_DONE;
   int answer = set_what_added_up(arguments);
   if (answer != HOOKE_EXIT_DONE) return answer;
-  if (arguments->verb->kind_options) {
+  if (arguments->verb->takes_kind) {
     if (optind + 1 >= argc) return HOOKE_EXIT_DONE;
     return cli_report(arguments, HOOKE_EXIT_USAGE, "'%s' is one word too many after the kind '%s'",
                       argv[optind + 1], arguments->scene);
@@ -204,7 +204,7 @@ static int parse_words(struct cli_arguments *arguments, int argc, char **argv, c
 
 static const char *next_kind(int64_t i, const void *ctx) {
   (void)ctx;
-  return hooke_part_kind(i);
+  return hooke_part_kind(i, "name");
 }
 
 static int32_t is_for_help(int argc, char **argv) {
@@ -214,15 +214,15 @@ static int32_t is_for_help(int argc, char **argv) {
 /* The kind comes first, since the other options hang on it; NULL if there is none. */
 static int find_kind(struct cli_arguments *arguments, int argc, char **argv, const char **kind) {
   *kind = NULL;
-  if (!arguments->verb->kind_options || is_for_help(argc, argv)) return HOOKE_EXIT_DONE;
+  if (!arguments->verb->takes_kind || is_for_help(argc, argv)) return HOOKE_EXIT_DONE;
   if (argc < 2 || argv[1][0] == '-') {
     return cli_report(
         arguments, HOOKE_EXIT_USAGE,
         "no kind given; it comes first: hooke %s KIND [options]; 'hooke %s --help' lists the kinds",
         arguments->verb->name, arguments->verb->name);
   }
-  for (int64_t i = 0; hooke_part_kind(i); i++) {
-    if (strcmp(hooke_part_kind(i), argv[1]) == 0) *kind = argv[1];
+  for (int64_t i = 0; hooke_part_kind(i, "name"); i++) {
+    if (strcmp(hooke_part_kind(i, "name"), argv[1]) == 0) *kind = argv[1];
   }
   if (*kind) return HOOKE_EXIT_DONE;
   const char *near = cli_suggest(argv[1], next_kind, NULL);

@@ -78,7 +78,7 @@ static int unknown_verb(const char *word) {
 
 static int do_verb(const struct cli_verb *verb, int argc, char **argv) {
   struct cli_arguments arguments = {.verb = verb};
-  if (verb->kind_options && argc == 1) {
+  if (verb->takes_kind && argc == 1) {
     cli_usage_print_verb(stderr, &arguments);
     return HOOKE_EXIT_USAGE;
   }

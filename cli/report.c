@@ -26,7 +26,7 @@ int cli_exit_code(int32_t status) {
 }
 
 int cli_refusal(const struct cli_arguments *arguments) {
-  return arguments->verb->kind_options ? HOOKE_EXIT_BAD_INPUT : HOOKE_EXIT_USAGE;
+  return arguments->verb->takes_kind ? HOOKE_EXIT_BAD_INPUT : HOOKE_EXIT_USAGE;
 }
 
 static void say(const struct cli_arguments *arguments, const char *message) {

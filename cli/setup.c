@@ -29,16 +29,15 @@ static int32_t load_text(FILE *file, const hooke_options *limits, hooke_scene **
     length += got;
   } while (got > 0);
   if (status == HOOKE_OK)
-    status = hooke_scene_parse_within(text, (int64_t)length, "standard input", ".", limits, scene);
+    status = hooke_scene_parse(text, (int64_t)length, "standard input", ".", limits, scene);
   free(text);
   return status;
 }
 
 /* "-" is standard input, so that what `make` writes can be piped; files that it names are looked for here. */
 static int32_t load(const struct cli_arguments *arguments, hooke_scene **loaded) {
-  return strcmp(arguments->scene, "-") == 0
-             ? load_text(stdin, arguments->limits, loaded)
-             : hooke_scene_load_within(arguments->scene, arguments->limits, loaded);
+  return strcmp(arguments->scene, "-") == 0 ? load_text(stdin, arguments->limits, loaded)
+                                            : hooke_scene_load(arguments->scene, arguments->limits, loaded);
 }
 
 /* What loading had in small pieces goes back to the system, so that a run does not have it beside its own. */

@@ -78,8 +78,8 @@ static void print_table(FILE *file, const struct cli_arguments *arguments, const
 
 static void print_kinds(FILE *file, const struct cli_verb *verb) {
   fputs("\nkinds:\n", file);
-  for (int64_t i = 0; hooke_part_kind(i); i++)
-    fprintf(file, "  %-10s %s\n", hooke_part_kind(i), hooke_part_kind_summary(i));
+  for (int64_t i = 0; hooke_part_kind(i, "name"); i++)
+    fprintf(file, "  %-10s %s\n", hooke_part_kind(i, "name"), hooke_part_kind(i, "summary"));
   fprintf(file, "\nhooke %s KIND --help   the options of a kind, with units and defaults\n", verb->name);
 }
 
@@ -100,11 +100,11 @@ static void print_options(FILE *file, const struct cli_arguments *arguments) {
 
 void cli_usage_print_verb(FILE *file, const struct cli_arguments *arguments) {
   const struct cli_verb *verb = arguments->verb;
-  const char *kind = verb->kind_options ? arguments->scene : NULL;
+  const char *kind = verb->takes_kind ? arguments->scene : NULL;
   char example[HOOKE_DOC_SIZE];
   fprintf(file, "usage: hooke %s %s [options]\n\n", verb->name, kind ? kind : cli_describe_operand(verb));
   cli_print_wrapped(file, 0, 0, WIDTH, verb->text);
-  if (verb->kind_options && !kind) {
+  if (verb->takes_kind && !kind) {
     print_kinds(file, verb);
   } else {
     print_options(file, arguments);

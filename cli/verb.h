@@ -37,10 +37,8 @@ struct cli_verb {
       *example; /* a command for the manual page, run after those of the verbs before it; may be NULL */
   const struct cli_verb_row *rows;
   int32_t row_count;
-  const char *options; /* the table of its own options, for hooke_options_create(); NULL: it has none */
-  int32_t (*kind_options)(const char *kind,
-                          hooke_options **options); /* takes a kind of part in place of a scene, and makes its
-                                                       table; NULL: it takes a scene */
+  const char *options;   /* the table of its own options, for hooke_options_create(); NULL: it has none */
+  int takes_kind;        /* 1: takes a kind of part in place of a scene, and its options */
   const char *for_scene; /* its option that stands for the scene; NULL: there is none */
   const char *without; /* options of a run that this verb does not take, between blanks; NULL: it takes all */
   int (*function)(const struct cli_arguments *arguments);

@@ -10,7 +10,7 @@ module hooke_builders
   use hooke_queries_of_system
   implicit none
   private
-  public :: hooke_builder, part_kind_count, part_kind, part_kind_summary
+  public :: hooke_builder, part_kind
 
   integer, parameter :: place_of_force = 1
 
@@ -39,21 +39,11 @@ contains
 
   ! ---- parts there are: "rope", "cloth" and so on; "" past the last ----
 
-  integer function part_kind_count()
-    part_kind_count = int(c_part_kind_count())
-  end function
-
-  function part_kind(number) result(text)
+  function part_kind(number, what) result(text)
     integer, intent(in) :: number
+    character(*), intent(in) :: what
     character(:), allocatable :: text
-    text = to_text(c_part_kind(zero_based(number)))
-  end function
-
-  ! What a kind is, in one line.
-  function part_kind_summary(number) result(text)
-    integer, intent(in) :: number
-    character(:), allocatable :: text
-    text = to_text(c_part_kind_summary(zero_based(number)))
+    text = to_text(c_part_kind(zero_based(number), to_c(what)))
   end function
 
   subroutine create(self, status)

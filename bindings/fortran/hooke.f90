@@ -15,8 +15,7 @@ module hooke
     hooke_io_failed, hooke_not_built, hooke_unsuited, hooke_solver_failed, &
     hooke_message => message, hooke_status_name => status_name, hooke_version => version, hooke_abi => abi, &
     hooke_build_fact => build_fact
-  use hooke_builders, only: hooke_part_kind_count => part_kind_count, hooke_part_kind => part_kind, &
-    hooke_part_kind_summary => part_kind_summary
+  use hooke_builders, only: hooke_part_kind => part_kind
   use hooke_estimates, only: hooke_estimate
   use hooke_forces, only: hooke_force, hooke_force_with_product, hooke_drive
   use hooke_integrators, only: hooke_integrator, hooke_method_count => method_count, hooke_method_name => method_name, &

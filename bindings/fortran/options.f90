@@ -2,11 +2,9 @@
 module hooke_option_tables
   use, intrinsic :: iso_c_binding, only: c_double, c_int32_t, c_int64_t, c_ptr
   use hooke_base, only: accept, hooke_bad_value, refuse, to_c, to_integer, to_series, to_text, zero_based
-  use hooke_c_build, only: c_mesh_set, c_part_options_create
-  use hooke_c_integrator, only: c_run_options_create
-  use hooke_c_io, only: c_mesh_read, c_view_options_create, c_scene_options_create
+  use hooke_c_build, only: c_mesh_set
+  use hooke_c_io, only: c_mesh_read
   use hooke_c_options
-  use hooke_c_system, only: c_altitude_options_create, c_spring_options_create
   use hooke_queries_of_options
   implicit none
   private
@@ -14,13 +12,7 @@ module hooke_option_tables
 
   type, extends(hooke_options_queries) :: hooke_options
   contains
-    procedure :: create_run      ! made for the options of a run,
-    procedure :: create_spring   ! of a group of springs,
-    procedure :: create_part     ! of a part of some kind,
-    procedure :: create_scene    ! of "scene", "particles" or "driven",
-    procedure :: create          ! of any table by its name: "run", "study", "cloth", ...
-    procedure :: create_view     ! of a view,
-    procedure :: create_altitude ! of altitude springs
+    procedure :: create          ! of a table by its name: "run", "springs", "cloth", "study", ...
     procedure :: copy_to         ! another object with the same values
     procedure, private :: set_real, set_reals, set_whole, set_wholes, set_logical, set_text
     generic :: set => set_real, set_reals, set_whole, set_wholes, set_logical, set_text
@@ -56,44 +48,6 @@ contains
     call accept(code, status)
   end subroutine
 
-  subroutine create_run(self, status)
-    class(hooke_options), intent(inout) :: self
-    integer, intent(out), optional :: status
-    type(c_ptr) :: options
-    integer(c_int32_t) :: code
-    code = c_run_options_create(options)
-    call take_new(self, code, options, status)
-  end subroutine
-
-  subroutine create_spring(self, status)
-    class(hooke_options), intent(inout) :: self
-    integer, intent(out), optional :: status
-    type(c_ptr) :: options
-    integer(c_int32_t) :: code
-    code = c_spring_options_create(options)
-    call take_new(self, code, options, status)
-  end subroutine
-
-  subroutine create_part(self, kind, status)
-    class(hooke_options), intent(inout) :: self
-    character(*), intent(in) :: kind
-    integer, intent(out), optional :: status
-    type(c_ptr) :: options
-    integer(c_int32_t) :: code
-    code = c_part_options_create(to_c(kind), options)
-    call take_new(self, code, options, status)
-  end subroutine
-
-  subroutine create_scene(self, what, status)
-    class(hooke_options), intent(inout) :: self
-    character(*), intent(in) :: what
-    integer, intent(out), optional :: status
-    type(c_ptr) :: options
-    integer(c_int32_t) :: code
-    code = c_scene_options_create(to_c(what), options)
-    call take_new(self, code, options, status)
-  end subroutine
-
   subroutine create(self, name, status)
     class(hooke_options), intent(inout) :: self
     character(*), intent(in) :: name
@@ -101,24 +55,6 @@ contains
     type(c_ptr) :: options
     integer(c_int32_t) :: code
     code = c_options_create(to_c(name), options)
-    call take_new(self, code, options, status)
-  end subroutine
-
-  subroutine create_view(self, status)
-    class(hooke_options), intent(inout) :: self
-    integer, intent(out), optional :: status
-    type(c_ptr) :: options
-    integer(c_int32_t) :: code
-    code = c_view_options_create(options)
-    call take_new(self, code, options, status)
-  end subroutine
-
-  subroutine create_altitude(self, status)
-    class(hooke_options), intent(inout) :: self
-    integer, intent(out), optional :: status
-    type(c_ptr) :: options
-    integer(c_int32_t) :: code
-    code = c_altitude_options_create(options)
     call take_new(self, code, options, status)
   end subroutine
 

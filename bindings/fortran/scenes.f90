@@ -31,7 +31,7 @@ contains
   end subroutine
 
   ! Reads a scene file, or the scene that a trajectory file was made from.
-  ! `limits` are options of create_scene("limits"): what it may need of memory, and whether files may be anywhere.
+  ! `limits` are options of create("limits"): what it may need of memory, and whether files may be anywhere.
   subroutine load(self, path, status, limits)
     class(hooke_scene), intent(inout) :: self
     character(*), intent(in) :: path
@@ -39,11 +39,7 @@ contains
     integer, intent(out), optional :: status
     type(c_ptr) :: scene
     integer(c_int32_t) :: code
-    if (present(limits)) then
-      code = c_scene_load_within(to_c(path), options_or_null(limits), scene)
-    else
-      code = c_scene_load(to_c(path), scene)
-    end if
+    code = c_scene_load(to_c(path), options_or_null(limits), scene)
     if (code == 0) call take_new(self, scene)
     call accept(code, status)
   end subroutine
@@ -62,11 +58,7 @@ contains
     c_name = to_c("scene")
     if (present(name)) c_name = to_c(name)
     call to_c_if(folder, c_folder)
-    if (present(limits)) then
-      code = c_scene_parse_within(text, len(text, c_int64_t), c_name, c_folder, options_or_null(limits), scene)
-    else
-      code = c_scene_parse(text, len(text, c_int64_t), c_name, c_folder, scene)
-    end if
+    code = c_scene_parse(text, len(text, c_int64_t), c_name, c_folder, options_or_null(limits), scene)
     if (code == 0) call take_new(self, scene)
     call accept(code, status)
   end subroutine

@@ -49,7 +49,7 @@ int32_t cli_advice_command(const struct cli_arguments *arguments, const hooke_me
   size_t size;
   hooke_options *changes = NULL;
   *command = NULL;
-  int32_t status = hooke_run_options_create(&changes);
+  int32_t status = hooke_options_create("run", &changes);
   if (status == HOOKE_OK) status = hooke_why_advice_apply(why, place, changes);
   const int32_t was_picked = cli_arguments_text(arguments, "want") != NULL;
   if (status == HOOKE_OK && was_picked && changes_any(changes)) status = add_chosen(why, changes);

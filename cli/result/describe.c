@@ -124,12 +124,12 @@ const char *cli_describe_file(const struct cli_argument *argument) {
 /* ---- verbs ---- */
 
 const char *cli_describe_operand(const struct cli_verb *verb) {
-  return verb->kind_options ? "KIND" : verb->input ? verb->input : "SCENE";
+  return verb->takes_kind ? "KIND" : verb->input ? verb->input : "SCENE";
 }
 
 const char *cli_describe_table(const struct cli_arguments *arguments, const hooke_options *table,
                                char title[HOOKE_DOC_SIZE]) {
-  const int32_t makes = arguments->verb->kind_options != NULL;
+  const int32_t makes = arguments->verb->takes_kind;
   title[0] = '\0';
   if (table == arguments->of_kind) {
     add(title, "options of a %s", arguments->scene);

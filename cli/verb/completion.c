@@ -120,9 +120,9 @@ static int print_verbs(const struct cli_program *program) {
   int code = HOOKE_EXIT_DONE;
   for (int32_t i = 0; program->verbs[i] && code == HOOKE_EXIT_DONE; i++) {
     const struct cli_verb *verb = program->verbs[i];
-    if (!verb->kind_options) code = print_verb(verb, NULL);
-    for (int64_t k = 0; code == HOOKE_EXIT_DONE && verb->kind_options && hooke_part_kind(k); k++)
-      code = print_verb(verb, hooke_part_kind(k));
+    if (!verb->takes_kind) code = print_verb(verb, NULL);
+    for (int64_t k = 0; code == HOOKE_EXIT_DONE && verb->takes_kind && hooke_part_kind(k, "name"); k++)
+      code = print_verb(verb, hooke_part_kind(k, "name"));
   }
   return code;
 }
@@ -144,10 +144,10 @@ static void print_first_word(const struct cli_program *program) {
 
 /* The kind is the second word of a verb that takes one. */
 static void print_kinds(const struct cli_verb *verb) {
-  if (!verb->kind_options) return;
+  if (!verb->takes_kind) return;
   printf("  if [[ $verb == %s ]]; then\n    if ((COMP_CWORD == 2)); then\n      _hooke_words \"", verb->name);
-  for (int64_t k = 0; hooke_part_kind(k); k++)
-    printf("%s ", hooke_part_kind(k));
+  for (int64_t k = 0; hooke_part_kind(k, "name"); k++)
+    printf("%s ", hooke_part_kind(k, "name"));
   printf("--help\"\n      return\n    fi\n    what=\"%s ${COMP_WORDS[2]}\"\n  fi\n", verb->name);
 }
 

@@ -216,6 +216,6 @@ const struct cli_verb cli_verb_make = {
                "--structural.damping 0.04 --gravity 0,-9.81,0 --step 1ms --duration 0.5 -o cloth.json",
     HOOKE_VERB_ROWS(own_rows),
     .options = "scene",
-    .kind_options = hooke_part_options_create,
+    .takes_kind = 1,
     .function = do_make,
 };

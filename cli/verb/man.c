@@ -120,10 +120,11 @@ static void print_heading(const struct cli_verb *verb, const char *operand) {
 static int print_kind(const struct cli_verb *verb, int64_t kind) {
   struct cli_arguments arguments = {.verb = verb};
   char example[HOOKE_DOC_SIZE], words[2 * HOOKE_DOC_SIZE];
-  const int code = cli_arguments_collect(verb, hooke_part_kind(kind), &arguments);
+  const int code = cli_arguments_collect(verb, hooke_part_kind(kind, "name"), &arguments);
   if (code == HOOKE_EXIT_DONE) {
-    print_heading(verb, hooke_part_kind(kind));
-    snprintf(words, sizeof words, "Makes a %s: %s.", hooke_part_kind(kind), hooke_part_kind_summary(kind));
+    print_heading(verb, hooke_part_kind(kind, "name"));
+    snprintf(words, sizeof words, "Makes a %s: %s.", hooke_part_kind(kind, "name"),
+             hooke_part_kind(kind, "summary"));
     print_paragraph(words);
     print_table(&arguments, arguments.of_kind);
     printf(".PP\nFor example:\n");
@@ -149,7 +150,7 @@ static int print_verb(const struct cli_verb *verb) {
     }
   }
   cli_arguments_destroy(&arguments);
-  for (int64_t kind = 0; code == HOOKE_EXIT_DONE && verb->kind_options && hooke_part_kind(kind); kind++)
+  for (int64_t kind = 0; code == HOOKE_EXIT_DONE && verb->takes_kind && hooke_part_kind(kind, "name"); kind++)
     code = print_kind(verb, kind);
   return code;
 }

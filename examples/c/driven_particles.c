@@ -30,7 +30,7 @@ static int32_t go_round(int64_t count, double t, double *q, double *v, void *ctx
 static int64_t add_rope(hooke_system *system, const char *name, const char *from, const char *to) {
   hooke_options *rope;
   int64_t first;
-  check(hooke_part_options_create("rope", &rope));
+  check(hooke_options_create("rope", &rope));
   check(hooke_options_set_text(rope, "from", from)); /* m */
   check(hooke_options_set_text(rope, "to", to));
   check(hooke_options_set_number(rope, "segments", 20));
@@ -58,7 +58,7 @@ int main(void) {
   check(hooke_system_pin(system, 1, &held));
   check(hooke_system_commit(system));
 
-  check(hooke_run_options_create(&run));
+  check(hooke_options_create("run", &run));
   check(hooke_options_set_text(run, "method", "verlet"));
   check(hooke_options_set_number(run, "step", 5e-4));
   check(hooke_integrator_create(system, run, &integrator));

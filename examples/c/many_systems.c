@@ -19,7 +19,7 @@ struct work {
 
 static int32_t build(double stiffness, hooke_system *system) {
   hooke_options *rope = NULL;
-  int32_t status = hooke_part_options_create("rope", &rope);
+  int32_t status = hooke_options_create("rope", &rope);
   if (!status) status = hooke_options_set_text(rope, "from", "0,0,0");
   if (!status) status = hooke_options_set_text(rope, "to", "1,0,0");
   if (!status) status = hooke_options_set_number(rope, "segments", 32);
@@ -38,7 +38,7 @@ static int32_t swing(const hooke_system *system, double end[3]) {
   hooke_options *run = NULL;
   hooke_integrator *integrator = NULL;
   hooke_state *state = NULL;
-  int32_t status = hooke_run_options_create(&run);
+  int32_t status = hooke_options_create("run", &run);
   if (!status) status = hooke_options_set_text(run, "method", "symplectic-euler");
   if (!status) status = hooke_options_set_number(run, "step", 1e-4); /* s */
   if (!status) status = hooke_options_set_number(run, "duration", 1);

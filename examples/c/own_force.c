@@ -59,7 +59,7 @@ static hooke_system *cloth_over(struct ball *ball) {
   hooke_options *cloth;
   check(hooke_system_create(&system));
   check(hooke_system_set_gravity(system, (double[]){0, -9.81, 0}));
-  check(hooke_part_options_create("cloth", &cloth));
+  check(hooke_options_create("cloth", &cloth));
   check(hooke_options_set_text(cloth, "origin", "-0.5,0.31,-0.5"));
   check(hooke_options_set_numbers(cloth, "edges", 6, (double[]){1, 0, 0, 0, 0, 1})); /* m */
   check(hooke_options_set_text(cloth, "size", "14,14"));
@@ -91,7 +91,7 @@ int main(void) {
     hooke_options *run;
     hooke_integrator *integrator;
     hooke_state *state;
-    check(hooke_run_options_create(&run));
+    check(hooke_options_create("run", &run));
     check(hooke_options_set_text(run, "method", methods[m]));
     check(hooke_options_set_number(run, "step", m == 0 ? 1e-4 : 5e-3)); /* s */
     check(hooke_options_set_number(run, "duration", 0.5));

@@ -16,7 +16,7 @@ static hooke_system *falling_cloth(void) {
   hooke_options *cloth;
   check(hooke_system_create(&system));
   check(hooke_system_set_gravity(system, (double[]){0, -9.81, 0}));
-  check(hooke_part_options_create("cloth", &cloth));
+  check(hooke_options_create("cloth", &cloth));
   check(hooke_options_set_text(cloth, "origin", "0,0.3,0"));
   check(hooke_options_set_numbers(cloth, "edges", 6, (double[]){1, 0, 0, 0, 0.5, 1})); /* m, aslant */
   check(hooke_options_set_text(cloth, "size", "16,16"));
@@ -51,7 +51,7 @@ int main(void) {
   hooke_options *run;
   hooke_integrator *integrator;
   hooke_state *state;
-  check(hooke_run_options_create(&run));
+  check(hooke_options_create("run", &run));
   check(hooke_options_set_text(run, "method", "symplectic-euler"));
   check(hooke_options_set_number(run, "step", 2e-4)); /* s */
   check(hooke_integrator_create(system, run, &integrator));

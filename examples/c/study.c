@@ -17,7 +17,7 @@ static hooke_system *rope_of(int segments) {
   hooke_options *rope;
   check(hooke_system_create(&system));
   check(hooke_system_set_gravity(system, (double[]){0, -9.81, 0}));
-  check(hooke_part_options_create("rope", &rope));
+  check(hooke_options_create("rope", &rope));
   check(hooke_options_set_text(rope, "from", "0,0,0"));
   check(hooke_options_set_text(rope, "to", "1,0,0")); /* m */
   check(hooke_options_set_number(rope, "segments", segments));
@@ -67,7 +67,7 @@ int main(void) {
   hooke_system *system = rope_of(12);
   hooke_options *run, *options;
   hooke_measurement *study;
-  check(hooke_run_options_create(&run));
+  check(hooke_options_create("run", &run));
   check(hooke_options_set_number(run, "duration", 0.25));
   check(hooke_options_create("study", &options));
   check(hooke_options_set_text(options, "methods", "symplectic-euler,verlet,rk4,cvode-adams"));

@@ -40,7 +40,7 @@ program driven_particle
   real(hooke_real), parameter :: pi = acos(-1.0_hooke_real)
   integer :: first, count
 
-  call rope%create_part("rope")
+  call rope%create("rope")
   call rope%set("from", [0, 0, 0])
   call rope%set("to", [2, 0, 0])
   call rope%set("segments", 32)
@@ -55,7 +55,7 @@ program driven_particle
     frequency=0.5_hooke_real)
   call system%commit()
 
-  call run%create_run()
+  call run%create("run")
   call run%set("method", "verlet")
   call run%set("step", 1e-3_hooke_real)
   call run%set("duration", 2)

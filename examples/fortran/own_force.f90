@@ -45,7 +45,7 @@ program own_force
   type(hooke_integrator) :: integrator
   type(hooke_state) :: state
 
-  call rope%create_part("rope")
+  call rope%create("rope")
   call rope%set("from", [0, 0, 0])
   call rope%set("to", [1, 0, 0])
   call rope%set("segments", 24)
@@ -60,7 +60,7 @@ program own_force
   call system%set_force(breeze)
   call system%commit()
 
-  call run%create_run()
+  call run%create("run")
   call run%set("method", "rk4")
   call run%set("step", 1e-3_hooke_real)
   call run%set("duration", 1)

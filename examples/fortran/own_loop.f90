@@ -13,14 +13,14 @@ program own_loop
   call system%create()
   call system%add_particles(position, [1.0_hooke_real, 0.5_hooke_real]) ! kg
   call system%pin(1)
-  call spring%create_spring()
+  call spring%create("springs")
   call spring%set("stiffness", 20)            ! N
   call spring%set("damping", 0.3_hooke_real)  ! N s
   call spring%set("rest_length", 1)           ! m
   call system%add_springs(reshape([1, 2], [2, 1]), spring, "spring")
   call system%commit()
 
-  call run%create_run() ! symplectic-euler, unless told otherwise
+  call run%create("run") ! symplectic-euler, unless told otherwise
   call run%set("step", 1e-3_hooke_real)
   call integrator%create(system, run)
   call state%create(system)

@@ -10,7 +10,7 @@ program study
   real(hooke_real), parameter :: want = 1e-3_hooke_real ! m
   integer :: row, status
 
-  call cloth%create_part("cloth")
+  call cloth%create("cloth")
   call cloth%set("origin", [0, 0, 0])
   call cloth%set("edges", [1, 0, 0, 0, 0, 1])
   call cloth%set("size", [6, 6])
@@ -22,7 +22,7 @@ program study
   call system%set_gravity([0.0_hooke_real, -9.81_hooke_real, 0.0_hooke_real])
   call system%commit()
 
-  call run%create_run()
+  call run%create("run")
   call run%set("duration", 0.2_hooke_real)
   call options%create("study")
   call options%set("methods", "symplectic-euler,verlet,rk4")

@@ -7,7 +7,7 @@ program threads
   real(hooke_real) :: ends(3, 8)
   integer :: k
 
-  call rope%create_part("rope")
+  call rope%create("rope")
   call rope%set("from", [0, 0, 0])
   call rope%set("to", [1, 0, 0])
   call rope%set("segments", 24)
@@ -37,7 +37,7 @@ contains
     type(hooke_options) :: run
     type(hooke_integrator) :: integrator
     type(hooke_state) :: state
-    call run%create_run()
+    call run%create("run")
     call run%set("method", method)
     call run%set("step", step)
     call run%set("duration", 0.5_hooke_real)

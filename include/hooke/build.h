@@ -29,14 +29,9 @@
 extern "C" {
 #endif
 
-/* The kinds of parts there are: "rope", "cloth", "lattice", "mesh", "strand"; NULL past the last. */
-HOOKE_API int64_t hooke_part_kind_count(void);
-HOOKE_API const char *hooke_part_kind(int64_t kind);
-/* What it is, in one line. */
-HOOKE_API const char *hooke_part_kind_summary(int64_t kind);
-
-/* Options of a part of this kind, for the caller to set and destroy. HOOKE_BAD_VALUE for an unknown kind. */
-HOOKE_API int32_t hooke_part_options_create(const char *kind, hooke_options **options);
+/* Of kind number `kind` of parts "name" ("rope", "cloth", "lattice", "mesh", "strand") or "summary", a line; NULL
+ * past the last, and for another word. */
+HOOKE_API const char *hooke_part_kind(int64_t kind, const char *what);
 
 /* Adds a part's particles, springs, triples and tetrahedra. Groups are named "<name>.<family>"; an unnamed
  * part (NULL or "") is called by its kind and its number among the parts. `first` and `count`, if not NULL,

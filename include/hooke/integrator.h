@@ -3,7 +3,7 @@
  * An integrator is a method with its options and its scratch, made for one system (or one first-order
  * problem). It belongs to one thread at a time; many integrators may share a system, each with its own state.
  *
- * Options of a run (hooke_run_options_create): method, step [s], duration [s], every [s], checkpoint [s],
+ * Options of a run (hooke_options_create("run", ...)): method, step [s], duration [s], every [s], checkpoint [s],
  * newton, rtol, atol [m], atol_velocity [m/s], max_order, linear_solver, max_steps, threads.
  *
  * Frames. With a fixed-step method `every` and `duration` are whole multiples of `step`; frame k is the state
@@ -47,9 +47,6 @@ HOOKE_API int32_t hooke_method_is_built(const char *name);
 
 /* ---- making ---- */
 
-/* Options of a run, for the caller to set and destroy. HOOKE_NO_MEMORY. */
-HOOKE_API int32_t hooke_run_options_create(hooke_options **options);
-
 /* An integrator for a committed system, which must outlive it; `options` is copied.
  * HOOKE_BAD_VALUE (an option), HOOKE_BAD_CALL (not committed), HOOKE_NOT_BUILT, HOOKE_NO_MEMORY. */
 HOOKE_API int32_t hooke_integrator_create(const hooke_system *system, const hooke_options *options,
@@ -89,9 +86,6 @@ HOOKE_API int32_t hooke_integrator_on_progress(hooke_integrator *integrator, dou
 
 /* ---- running ---- */
 
-/* Frames that hooke_integrator_run() reports, the initial one included. */
-HOOKE_API int64_t hooke_integrator_frame_count(const hooke_integrator *integrator);
-
 /* Runs `duration` from the state's time on, reporting frames; `state` is the final state on return.
  * HOOKE_STOPPED: an observer, force, drive or progress returned non-zero (hooke_integrator_stop_value()); the
  * state is that of the last whole step. HOOKE_DIVERGED: a component is not finite, or, without callbacks and
@@ -116,7 +110,8 @@ HOOKE_API int32_t hooke_integrator_step(hooke_integrator *integrator, hooke_stat
 
 /* A count: "steps", "force_evaluations", "derivative_products", "nonlinear_iterations", "nonlinear_failures",
  * "linear_iterations", "error_test_failures", "coincident_springs" (springs without direction in the last
- * force evaluation), "memory_bytes". -1 for any other word. */
+ * force evaluation), "memory_bytes"; "frames" that hooke_integrator_run() reports, the initial one included;
+ * "recent": states that hooke_integrator_recent() has. -1 for any other word. */
 HOOKE_API int64_t hooke_integrator_count(const hooke_integrator *integrator, const char *what);
 /* Time spent stepping [s], observers and output left out. */
 HOOKE_API double hooke_integrator_wall_seconds(const hooke_integrator *integrator);
@@ -124,7 +119,6 @@ HOOKE_API double hooke_integrator_wall_seconds(const hooke_integrator *integrato
  * last one always, and those before it as far as 16 MB hold them, eight in all at most. `place` 0 is the
  * last, 1 the one before; it is copied into `state`. HOOKE_BAD_VALUE if there is none, or if the state is of
  * another size. */
-HOOKE_API int64_t hooke_integrator_recent_count(const hooke_integrator *integrator);
 HOOKE_API int32_t hooke_integrator_recent(const hooke_integrator *integrator, int64_t place,
                                           hooke_state *state);
 /* What the callback that stopped the run returned; 0 if none did. */

@@ -28,31 +28,22 @@ typedef struct hooke_scene hooke_scene;
  * what is allowed", also for a file that cannot be opened, the scene's or one that it names; HOOKE_IO_FAILED
  * if reading breaks off; HOOKE_NO_MEMORY; HOOKE_NOT_BUILT.
  * A trajectory file stands for the scene that it was made from, with the options of its run; files that the
- * scene names are then looked for beside the trajectory. HOOKE_BAD_VALUE if it holds no scene. */
-HOOKE_API int32_t hooke_scene_load(const char *path, hooke_scene **scene);
+ * scene names are then looked for beside the trajectory. HOOKE_BAD_VALUE if it holds no scene.
+ *
+ * `limits` are options "limits": "memory" [GB] that the scene may need, without it what the machine has or its
+ * limit on the address space; "outside", 1: the scene may name files anywhere. NULL: the defaults, which hold
+ * for anybody's scene. HOOKE_NO_MEMORY says what a scene that is too large would need; it comes before anything
+ * is allocated. */
+HOOKE_API int32_t hooke_scene_load(const char *path, const hooke_options *limits, hooke_scene **scene);
 
 /* The same from `length` bytes of text; `name` stands for the file in messages (NULL: "scene"), `folder` is
  * where files named in the scene are looked up (NULL: none are allowed). */
 HOOKE_API int32_t hooke_scene_parse(const char *text, int64_t length, const char *name, const char *folder,
-                                    hooke_scene **scene);
-
-/* The same with other limits than those that hold for anybody's scene; NULL: these. `limits` are options of
- * hooke_scene_options_create("limits", ...): "memory" [GB] that the scene may need, without it what the
- * machine has or its limit on the address space; "outside", 1: the scene may name files anywhere.
- * HOOKE_NO_MEMORY says what a scene that is too large would need; it comes before anything is allocated. */
-HOOKE_API int32_t hooke_scene_load_within(const char *path, const hooke_options *limits, hooke_scene **scene);
-HOOKE_API int32_t hooke_scene_parse_within(const char *text, int64_t length, const char *name,
-                                           const char *folder, const hooke_options *limits,
-                                           hooke_scene **scene);
+                                    const hooke_options *limits, hooke_scene **scene);
 
 /* Commits the system of the scene; like hooke_system_commit(), with messages that give the place in the file.
  */
 HOOKE_API int32_t hooke_scene_commit(hooke_scene *scene);
-
-/* Options for the keys of a scene that neither a part, nor springs, nor a run has, for the caller to set and
- * destroy. `what` is "scene" (title, gravity, drag), "particles", "driven", or "limits" of what is loaded.
- * HOOKE_BAD_VALUE for another word, HOOKE_NO_MEMORY. */
-HOOKE_API int32_t hooke_scene_options_create(const char *what, hooke_options **options);
 
 /* Gives the system what options of a "scene" say of it: all but the title. HOOKE_BAD_VALUE, HOOKE_BAD_CALL
  * after commit. */
@@ -187,8 +178,6 @@ HOOKE_API int64_t hooke_record_place(const hooke_record *record, const char *wha
  * stay as long as it does. */
 typedef struct hooke_view hooke_view;
 
-/* Options of a view: frames and springs at most, size of the page [MB]. */
-HOOKE_API int32_t hooke_view_options_create(hooke_options **options);
 /* Chooses what is shown: of more springs than the options allow every k-th, of frames as many as they allow,
  * evenly, the last one always. `options` are copied; NULL: defaults. HOOKE_BAD_VALUE for a file of several
  * runs, one without frames, or a size that is too small; HOOKE_NOT_BUILT in a build without three.js and

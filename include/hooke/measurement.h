@@ -233,7 +233,7 @@ HOOKE_API int32_t hooke_why_advice_apply(const hooke_measurement *measurement, i
  * frame, particle and component that differ and both numbers, the frame that is damaged, or the balance
  * that does not hold; the table "verify" and files have it all the same. */
 
-/* Opens a trajectory and makes its scene again, with `limits` as in hooke_scene_load_within(); both sorts
+/* Opens a trajectory and makes its scene again, with `limits` as in hooke_scene_load(); both sorts
  * of options may be NULL, and are copied or read here. HOOKE_BAD_VALUE for a file that holds no scene or no
  * frames, a scene that is wrong, or a slice without two frames; HOOKE_IO_FAILED, HOOKE_NOT_BUILT,
  * HOOKE_NO_MEMORY. */

@@ -1,9 +1,8 @@
 /* hooke/options.h - named options, with their types, units, bounds and defaults.
  *
  * Whatever can be configured (a spring group, a part, a run) is described by one table. An options object
- * holds values for one such table; it is made by the object that it configures:
- * hooke_spring_options_create(), hooke_part_options_create(), hooke_run_options_create(). Scene keys,
- * command-line flags, Python keywords and the printed reference all read the same tables.
+ * holds values for one such table. Scene keys, command-line flags, Python keywords and the printed reference
+ * all read the same tables.
  *
  * A nested table (the family of springs of a part) is reached with a dot: "structural.stiffness".
  * An options object belongs to one thread at a time. */
@@ -18,7 +17,7 @@ extern "C" {
 
 typedef struct hooke_options hooke_options;
 
-/* Options of the table `name`, for the caller to set and destroy: "run", "springs", "altitude", a kind of part
+/* Options of the table `name`, for the caller to set and destroy: "run", "springs" and "altitude" (of a group), a kind of part
  * ("cloth", ...), a kind of measurement ("study", ...), "view", "limits" of what is loaded, or "scene",
  * "particles" and "driven", the keys of a scene that nothing else has. HOOKE_BAD_VALUE lists them all;
  * HOOKE_NO_MEMORY. */

@@ -81,11 +81,8 @@ HOOKE_API int32_t hooke_system_add_particles(hooke_system *system, int64_t count
 /* Holds particles still: inverse mass 0. Naming one twice is allowed, a moving one is refused at commit. */
 HOOKE_API int32_t hooke_system_pin(hooke_system *system, int64_t count, const int64_t *particles);
 
-/* Options of a spring group: law, stiffness, damping, rest_length, rest_scale, compression. */
-HOOKE_API int32_t hooke_spring_options_create(hooke_options **options);
-
 /* Adds a group of `count` springs between the pairs in `ends` (2 count particle numbers, different within a
- * pair). `name` may be NULL. HOOKE_BAD_VALUE names the spring; HOOKE_BAD_CALL, HOOKE_NO_MEMORY. */
+ * pair), with options "springs". `name` may be NULL. HOOKE_BAD_VALUE names the spring; HOOKE_BAD_CALL, HOOKE_NO_MEMORY. */
 HOOKE_API int32_t hooke_system_add_springs(hooke_system *system, const char *name, int64_t count,
                                            const int64_t *ends, const hooke_options *options);
 
@@ -96,10 +93,8 @@ HOOKE_API int32_t hooke_system_add_bending(hooke_system *system, const char *nam
                                            const int64_t *triples, int64_t coefficient_count,
                                            const double *coefficient);
 
-/* Options of altitude springs: stiffness, damping, rest_scale, compression. */
-HOOKE_API int32_t hooke_altitude_options_create(hooke_options **options);
-
-/* Adds a group of `count` tetrahedra, 4 count particle numbers (different within one), with altitude springs.
+/* Adds a group of `count` tetrahedra, 4 count particle numbers (different within one), with altitude springs
+ * and options "altitude".
  * Rest lengths are the seven altitudes at the positions that the particles were added with. `name` may be
  * NULL. HOOKE_BAD_VALUE names the tetrahedron, also one that is flat; HOOKE_BAD_CALL, HOOKE_NO_MEMORY. */
 HOOKE_API int32_t hooke_system_add_altitude(hooke_system *system, const char *name, int64_t count,

@@ -48,7 +48,7 @@ int32_t hk_options_create(const struct hk_option_table *table, hooke_options **o
 const struct hk_option_table *hk_options_table(const hooke_options *options);
 
 /* HOOKE_BAD_VALUE, as the argument `place`, unless these are options of that table, as `maker`
- * ("hooke_run_options_create()") makes them. NULL is refused. */
+ * ("hooke_options_create(\"run\", ...)") makes them. NULL is refused. */
 int32_t hk_options_require(const hooke_options *options, const struct hk_option_table *table,
                            const char *place, const char *maker);
 

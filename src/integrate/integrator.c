@@ -171,10 +171,6 @@ void hk_integrator_set_checker(hooke_integrator *it, struct hk_checker checker) 
   it->checker = checker;
 }
 
-int64_t hooke_integrator_recent_count(const hooke_integrator *it) {
-  return it->recent.count;
-}
-
 int32_t hooke_integrator_recent(const hooke_integrator *it, int64_t place, hooke_state *state) {
   const hooke_state *kept = hk_recent_state(&it->recent, place, NULL);
   if (kept) return hooke_state_copy(kept, state);
@@ -184,10 +180,6 @@ int32_t hooke_integrator_recent(const hooke_integrator *it, int64_t place, hooke
   }
   return hk_fail(HOOKE_BAD_VALUE, "place", "there is no recent state %lld; kept are %lld", (long long)place,
                  (long long)it->recent.count);
-}
-
-int64_t hooke_integrator_frame_count(const hooke_integrator *integrator) {
-  return integrator->schedule.frames;
 }
 
 static int64_t memory_of(const hooke_integrator *it) {
@@ -212,6 +204,8 @@ int64_t hooke_integrator_count(const hooke_integrator *it, const char *what) {
       {"error_test_failures", c->error_test_failures},
       {"coincident_springs", it->motion ? it->motion->coincident : 0},
       {"memory_bytes", memory_of(it)},
+      {"frames", it->schedule.frames},
+      {"recent", it->recent.count},
   };
   for (size_t k = 0; k < sizeof counts / sizeof counts[0]; k++) {
     if (strcmp(counts[k].name, what) == 0) return counts[k].value;

@@ -83,9 +83,8 @@ static const struct hk_option_table table = {"mesh", HOOKE_OPTION_ROWS(rows)};
 int32_t hooke_mesh_set(hooke_options *options, int64_t vertex_count, const double *vertices,
                        int64_t triangle_count, const int64_t *triangles) {
   if (options == NULL || hk_options_table(options) != &table) {
-    return hk_fail(
-        HOOKE_BAD_VALUE, NULL,
-        "the options are not those of a mesh; make them with hooke_part_options_create(\"mesh\", ...)");
+    return hk_fail(HOOKE_BAD_VALUE, NULL,
+                   "the options are not those of a mesh; make them with hooke_options_create(\"mesh\", ...)");
   }
   if (vertex_count < 0 || triangle_count < 0 || vertex_count > INT32_MAX || triangle_count > INT32_MAX ||
       !vertices || !triangles) {

@@ -51,16 +51,10 @@ static const struct hk_option_row family_rows[] = {
 
 const struct hk_option_table hk_part_family = {"springs of a part", HOOKE_OPTION_ROWS(family_rows)};
 
-int64_t hooke_part_kind_count(void) {
-  return KIND_COUNT;
-}
-
-const char *hooke_part_kind(int64_t kind) {
-  return kind >= 0 && kind < KIND_COUNT ? kinds[kind]->table->name : NULL;
-}
-
-const char *hooke_part_kind_summary(int64_t kind) {
-  return kind >= 0 && kind < KIND_COUNT ? kinds[kind]->summary : NULL;
+const char *hooke_part_kind(int64_t kind, const char *what) {
+  if (kind < 0 || kind >= KIND_COUNT) return NULL;
+  if (strcmp(what, "name") == 0) return kinds[kind]->table->name;
+  return strcmp(what, "summary") == 0 ? kinds[kind]->summary : NULL;
 }
 
 static const struct hooke_part_kind *find_kind(const char *name) {
@@ -77,7 +71,7 @@ static const struct hooke_part_kind *find_kind(const char *name) {
   return NULL;
 }
 
-int32_t hooke_part_options_create(const char *kind, hooke_options **options) {
+int32_t hk_part_options_create(const char *kind, hooke_options **options) {
   *options = NULL;
   const struct hooke_part_kind *found = find_kind(kind);
   return found ? hk_options_create(found->table, options) : HOOKE_BAD_VALUE;
@@ -148,7 +142,7 @@ static int32_t set_damping(const struct hk_part *part, const char *family, int64
 static int32_t material(const struct hk_part *part, const char *family, int by_ratio, int64_t count,
                         const int64_t *ends, const double *rest_length, hooke_options **options) {
   static const char *const keys[] = {"stiffness", "damping", "rest_scale", "compression"};
-  int32_t status = hooke_spring_options_create(options);
+  int32_t status = hk_spring_options_create(options);
   for (size_t k = 0; status == HOOKE_OK && k < sizeof keys / sizeof keys[0]; k++) {
     char dotted[64];
     snprintf(dotted, sizeof dotted, "%s.%s", family, keys[k]);
@@ -295,7 +289,7 @@ int32_t hooke_system_add_part(hooke_system *system, const char *kind, const char
   if (options == NULL || hk_options_table(options) != found->table) {
     return hk_fail(HOOKE_BAD_VALUE, NULL,
                    "the options are not those of a %s; make them with "
-                   "hooke_part_options_create(\"%s\", ...)",
+                   "hooke_options_create(\"%s\", ...)",
                    kind, kind);
   }
   int32_t status = hk_system_require_open(system);

@@ -31,17 +31,15 @@ extern const struct hooke_part_kind hk_part_lattice;
 extern const struct hooke_part_kind hk_part_mesh;
 extern const struct hooke_part_kind hk_part_strand;
 
+/* Options of a part of this kind. HOOKE_BAD_VALUE for an unknown kind. */
+int32_t hk_part_options_create(const char *kind, hooke_options **options);
+
 /* Rows that kinds have in common: a point [m], the corner where a grid begins [m], the total mass or the
  * density, bending stiffness, held particles, a family of springs. */
 #define HOOKE_PART_POINT(key, such_as, text)                                                                 \
   {                                                                                                          \
     .name = (key), .type = HOOKE_OPTION_NUMBERS, .unit = "m", .min_count = 3, .max_count = 3, .required = 1, \
     .example = (such_as), .doc = (text)                                                                      \
-  }
-#define HOOKE_PART_ORIGIN                                                                                    \
-  {                                                                                                          \
-    .name = "origin", .type = HOOKE_OPTION_NUMBERS, .unit = "m", .min_count = 3, .max_count = 3,             \
-    .fallback = "0,0,0", .doc = "corner where it begins"                                                     \
   }
 #define HOOKE_PART_ORIGIN                                                                                    \
   {                                                                                                          \

@@ -143,7 +143,7 @@ static void test_parts_are_springs(void **unused) {
   hooke_options *options = NULL;
   check_ok(hooke_system_create(&listed));
   check_ok(hooke_system_add_particles(listed, n, q, v, n, hooke_system_mass(parts.system), NULL));
-  check_ok(hooke_spring_options_create(&options));
+  check_ok(hooke_options_create("springs", &options));
   check_ok(hooke_options_set_text(options, "law", "length"));
   check_ok(hooke_options_set_numbers(options, "stiffness", m, c->kappa));
   check_ok(hooke_options_set_numbers(options, "damping", m, c->gamma));

@@ -28,7 +28,7 @@ static void *run_task(void *argument) {
   hooke_options *options = NULL;
   hooke_integrator *integrator = NULL;
   hooke_state *state = NULL;
-  int32_t status = hooke_run_options_create(&options);
+  int32_t status = hooke_options_create("run", &options);
   if (status == HOOKE_OK) status = hooke_options_set_text(options, "method", task->method);
   if (status == HOOKE_OK) status = hooke_options_set_number(options, "step", 1e-4);
   if (status == HOOKE_OK) status = hooke_options_set_number(options, "threads", task->threads);

@@ -28,7 +28,7 @@ static void add_springs(struct attempt *a, hooke_system *system) {
   const int64_t triples[] = {0, 1, 2, 1, 2, 3}, tetrahedra[] = {0, 1, 2, 6, 1, 2, 3, 6};
   const double coefficient = 0.5;
   hooke_options *springs = NULL, *altitude = NULL;
-  TRY(a, hooke_spring_options_create(&springs));
+  TRY(a, hooke_options_create("springs", &springs));
   TRY(a, hooke_options_set_numbers(springs, "stiffness", 10, stiffness));
   TRY(a, hooke_options_set_number(springs, "damping", 0.5));
   TRY(a, hooke_options_set_text(springs, "rest_length", "initial"));
@@ -38,7 +38,7 @@ static void add_springs(struct attempt *a, hooke_system *system) {
   TRY(a, hooke_options_set_number(springs, "compression", 0));
   TRY(a, hooke_system_add_springs(system, "cables", 3, ends, springs));
   TRY(a, hooke_system_add_bending(system, "beam", 2, triples, 1, &coefficient));
-  TRY(a, hooke_altitude_options_create(&altitude));
+  TRY(a, hooke_options_create("altitude", &altitude));
   TRY(a, hooke_options_set_number(altitude, "stiffness", 5));
   TRY(a, hooke_system_add_altitude(system, "volume", 2, tetrahedra, altitude));
 end:
@@ -186,7 +186,7 @@ static void by_parts(struct attempt *a, const void *with) {
   (void)with;
   TRY(a, hooke_system_create(&system));
   for (size_t p = 0; p < sizeof parts / sizeof parts[0]; p++) {
-    TRY(a, hooke_part_options_create(parts[p].kind, &options));
+    TRY(a, hooke_options_create(parts[p].kind, &options));
     for (int k = 0; parts[p].setting[k][0]; k++)
       TRY(a, hooke_options_set_text(options, parts[p].setting[k][0], parts[p].setting[k][1]));
     TRY(a, hooke_options_copy(options, &copy));
@@ -196,7 +196,7 @@ static void by_parts(struct attempt *a, const void *with) {
     hooke_options_destroy(copy);
     options = copy = NULL;
   }
-  TRY(a, hooke_part_options_create("mesh", &options));
+  TRY(a, hooke_options_create("mesh", &options));
   set_mesh(a, options);
   if (a->gave_up) goto end;
   TRY(a, hooke_system_add_part(system, "mesh", "sheet", options, NULL, NULL));

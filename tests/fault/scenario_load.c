@@ -100,7 +100,7 @@ static void write_arrays(const char *folder) {
   hooke_scene *scene;
   hooke_integrator *integrator;
   hooke_state *state;
-  check_ok(hooke_scene_load(name_file(folder, "parts.json"), &scene));
+  check_ok(hooke_scene_load(name_file(folder, "parts.json"), NULL, &scene));
   check_ok(hooke_scene_commit(scene));
   check_ok(hooke_integrator_create(hooke_scene_system(scene), hooke_scene_run_options(scene), &integrator));
   check_ok(hooke_state_create(hooke_scene_system(scene), &state));
@@ -143,7 +143,7 @@ static void load(struct attempt *a, const void *with) {
   hooke_scene *scene = NULL;
   char path[PATH_SIZE];
   snprintf(path, sizeof path, "%s/%s", a->folder, (const char *)with);
-  TRY(a, hooke_scene_load(path, &scene));
+  TRY(a, hooke_scene_load(path, NULL, &scene));
   take_scene(a, scene);
 end:
   hooke_scene_destroy(scene);
@@ -153,7 +153,7 @@ static void parse(struct attempt *a, const void *with) {
   hooke_scene *scene = NULL;
   (void)with;
   for (size_t k = 0; k < 2; k++) {
-    TRY(a, hooke_scene_parse(scenes[k].text, (int64_t)strlen(scenes[k].text), "text", NULL, &scene));
+    TRY(a, hooke_scene_parse(scenes[k].text, (int64_t)strlen(scenes[k].text), "text", NULL, NULL, &scene));
     take_scene(a, scene);
     if (a->gave_up) goto end;
     hooke_scene_destroy(scene);
@@ -176,7 +176,8 @@ static void refuse(struct attempt *a, const void *with) {
   hooke_scene *scene = NULL;
   (void)with;
   for (size_t k = 0; k < sizeof wrong / sizeof wrong[0]; k++) {
-    TRY_FOR(a, hooke_scene_parse(wrong[k], (int64_t)strlen(wrong[k]), "text", NULL, &scene), HOOKE_BAD_VALUE);
+    TRY_FOR(a, hooke_scene_parse(wrong[k], (int64_t)strlen(wrong[k]), "text", NULL, NULL, &scene),
+            HOOKE_BAD_VALUE);
     attempt_text(a, hooke_last_error());
   }
 end:
@@ -189,7 +190,7 @@ static void read_mesh(struct attempt *a, const void *with) {
   char path[PATH_SIZE];
   (void)with;
   snprintf(path, sizeof path, "%s/sheet.obj", a->folder);
-  TRY(a, hooke_part_options_create("mesh", &options));
+  TRY(a, hooke_options_create("mesh", &options));
   TRY(a, hooke_mesh_read(path, options));
   TRY(a, hooke_options_set_number(options, "mass", 0.5));
   TRY(a, hooke_system_create(&system));

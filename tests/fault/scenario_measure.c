@@ -13,7 +13,7 @@ static hooke_system *make_oscillator(struct attempt *a) {
   TRY(a, hooke_system_create(&system));
   TRY(a, hooke_system_add_particles(system, 2, position, NULL, 1, &mass, NULL));
   TRY(a, hooke_system_pin(system, 1, &first));
-  TRY(a, hooke_spring_options_create(&springs));
+  TRY(a, hooke_options_create("springs", &springs));
   TRY(a, hooke_options_set_number(springs, "stiffness", 100));
   TRY(a, hooke_options_set_number(springs, "damping", 0.5));
   TRY(a, hooke_options_set_number(springs, "rest_length", 1));

@@ -21,7 +21,7 @@ hooke_system *make_rope(struct attempt *a, double segments) {
   hooke_system *system = NULL;
   hooke_options *options = NULL;
   TRY(a, hooke_system_create(&system));
-  TRY(a, hooke_part_options_create("rope", &options));
+  TRY(a, hooke_options_create("rope", &options));
   TRY(a, hooke_options_set_numbers(options, "from", 3, (double[]){0, 0, 0}));
   TRY(a, hooke_options_set_numbers(options, "to", 3, (double[]){1, 0.1, 0}));
   TRY(a, hooke_options_set_number(options, "segments", segments));
@@ -42,7 +42,7 @@ end:
 
 hooke_options *make_run(struct attempt *a, const char *method, double step, double duration, double every) {
   hooke_options *options = NULL;
-  TRY(a, hooke_run_options_create(&options));
+  TRY(a, hooke_options_create("run", &options));
   if (method) TRY(a, hooke_options_set_text(options, "method", method));
   if (step > 0.0) TRY(a, hooke_options_set_number(options, "step", step));
   TRY(a, hooke_options_set_number(options, "duration", duration));

@@ -71,7 +71,7 @@ static void run(struct attempt *a, const void *with) {
   TRY(a, run_from_start(a, integrator, start, state, before));
   TRY(a, hooke_integrator_step(integrator, state, 2));
   take_state(a, state);
-  if (hooke_integrator_recent_count(integrator) > 0) TRY(a, hooke_integrator_recent(integrator, 0, start));
+  if (hooke_integrator_count(integrator, "recent") > 0) TRY(a, hooke_integrator_recent(integrator, 0, start));
   take_state(a, start);
 end:
   hooke_state_destroy(state);

@@ -182,7 +182,7 @@ static void scene(struct attempt *a, const void *with) {
   (void)with;
   if (run == NULL) goto end;
   TRY(a, hooke_scene_write(path_of(a, "out.json"), system, "a rope", run));
-  TRY(a, hooke_scene_load(path_of(a, "out.json"), &again));
+  TRY(a, hooke_scene_load(path_of(a, "out.json"), NULL, &again));
   attempt_text(a, hooke_scene_text(again));
   hooke_scene_destroy(again);
   again = NULL;

@@ -16,7 +16,7 @@ contains
     call system%create()
     call system%add_particles(position, [1.0_hooke_real, 0.5_hooke_real])
     call system%pin(1)
-    call spring%create_spring()
+    call spring%create("springs")
     call spring%set("law", "length")
     call spring%set("stiffness", 20)
     call spring%set("rest_length", 1)
@@ -30,7 +30,7 @@ contains
     type(hooke_system), intent(inout) :: system
     type(hooke_options) :: cloth
     call system%create()
-    call cloth%create_part("cloth")
+    call cloth%create("cloth")
     call cloth%set("origin", [0, 0, 0])
     call cloth%set("edges", [1, 0, 0, 0, 0, 1])
     call cloth%set("size", [5, 5])
@@ -48,7 +48,7 @@ contains
     type(hooke_options), intent(inout) :: run
     character(*), intent(in) :: method
     real(hooke_real), intent(in) :: step, duration
-    call run%create_run()
+    call run%create("run")
     call run%set("method", method)
     call run%set("step", step)
     call run%set("duration", duration)

@@ -20,7 +20,7 @@ contains
     q = reshape([0, 0, 0, 2, 0, 0, 0, 2, 0, 0, 0, 1]*1.0_hooke_real, [3, 4])
     call system%create()
     call system%add_particles(q, 1.0_hooke_real)
-    call spring%create_altitude()
+    call spring%create("altitude")
     call spring%set("stiffness", 10)
     call spring%set("damping", 0.5_hooke_real)
     call system%add_altitude(reshape([1, 2, 3], [3, 1]), spring, status=status)

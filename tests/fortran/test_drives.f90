@@ -24,7 +24,7 @@ contains
     position(1, :) = [(real(k, hooke_real), k=0, 3)]
     call system%create()
     call system%add_particles(position, 0.5_hooke_real, first=first)
-    call spring%create_spring()
+    call spring%create("springs")
     call spring%set("stiffness", 20)
     call spring%set("damping", 0.2_hooke_real)
     call system%add_springs(reshape([1, 2, 2, 3, 3, 4], [2, 3]), spring)
@@ -37,7 +37,7 @@ contains
     type(hooke_options) :: run
     type(hooke_integrator) :: integrator
     call system%commit()
-    call run%create_run()
+    call run%create("run")
     call run%set("method", "rk4")
     call run%set("step", 1e-2_hooke_real)
     call run%set("duration", 1)

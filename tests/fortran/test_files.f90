@@ -91,7 +91,7 @@ contains
     call expect(scene%system%spring_count() == system%spring_count(), "and springs")
     call callback%create()
     call callback%add_particles(reshape([0, 0, 0]*1.0_hooke_real, [3, 1]), 1.0_hooke_real)
-    call spring%create_spring()
+    call spring%create("springs")
     call callback%set_force(force)
     call callback%commit()
     call callback%write_scene(output("callback.json"), status=status)

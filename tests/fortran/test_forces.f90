@@ -25,7 +25,7 @@ contains
     call system%create()
     call system%add_particles(position, [1.0_hooke_real, 2.0_hooke_real, 3.0_hooke_real, 4.0_hooke_real])
     call system%pin(1)
-    call spring%create_spring()
+    call spring%create("springs")
     call spring%set("stiffness", 100)
     call spring%set("damping", 0.5_hooke_real)
     call system%add_springs(reshape([1, 2, 2, 3, 3, 4, 4, 1, 1, 3], [2, 5]), spring, "square")
@@ -41,7 +41,7 @@ contains
     type(hooke_integrator) :: integrator
     integer :: code
     call system%commit()
-    call run%create_run()
+    call run%create("run")
     call run%set("method", method)
     call run%set("step", 1e-3_hooke_real)
     call run%set("duration", 0.1_hooke_real)

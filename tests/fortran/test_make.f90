@@ -10,9 +10,9 @@ program test_make
   type(hooke_state) :: first, second
   integer :: status, row
 
-  call options%create_scene("no such thing", status)
+  call options%create("no such thing", status)
   call expect(status == hooke_bad_value, "no options of it")
-  call options%create_scene("scene")
+  call options%create("scene")
   call options%set("gravity", [0.0_hooke_real, -1.5_hooke_real, 0.0_hooke_real])
   call system%create()
   call system%add_particles(reshape([0, 1, 0]*1.0_hooke_real, [3, 1]), 2.0_hooke_real)
@@ -21,13 +21,13 @@ program test_make
   call first%create(system)
   call expect_near(system%gravity_energy(first%q), 3.0_hooke_real, 1e-14_hooke_real, "gravity is applied")
 
-  call run%create_run()
+  call run%create("run")
   do row = 1, run%row_count()
     if (run%row(row, "name") == "step") exit
   end do
   call expect(same(run%row_number(row, "low"), 0.0_hooke_real) .and. same(run%row_number(row, "above_low"), &
     1.0_hooke_real), "a step is above 0")
-  call expect(len(hooke_part_kind_summary(1)) > 5, "what a rope is")
+  call expect(len(hooke_part_kind(1, "summary")) > 5, "what a rope is")
 
   if (hooke_build_fact("jansson") /= "") then
     call make_cloth(system)

@@ -16,12 +16,12 @@ contains
     real(hooke_real) :: vertices(3, 4)
     integer :: unit
     vertices = reshape([0, 0, 0, 2, 0, 0, 2, 1, 0, 0, 1, 0]*1.0_hooke_real, [3, 4])
-    call arrays%create_part("mesh")
+    call arrays%create("mesh")
     call arrays%set_mesh(vertices, reshape([1, 2, 3, 1, 3, 4], [3, 2]))
     open (newunit=unit, file=output("square.obj"), action="write")
     write (unit, "(a)") "v 0 0 0", "v 2 0 0", "v 2 1 0", "v 0 1 0", "f 1 2 3 4"
     close (unit)
-    call file%create_part("mesh")
+    call file%create("mesh")
     call file%read_mesh(output("square.obj"))
     call look_at(arrays)
     call look_at(file)
@@ -52,7 +52,7 @@ contains
     real(hooke_real) :: vertices(3, 3)
     integer :: status
     vertices = reshape([0, 0, 0, 1, 0, 0, 0, 1, 0]*1.0_hooke_real, [3, 3])
-    call mesh%create_part("mesh")
+    call mesh%create("mesh")
     call mesh%set_mesh(vertices(:2, :), reshape([1, 2, 3], [3, 1]), status)
     call expect(status == hooke_bad_value .and. index(hooke_message(), "(3, m)") > 0, "rows of two are no vertices")
     call mesh%set_mesh(vertices, reshape([1, 2, 4], [3, 1]), status)
@@ -63,11 +63,11 @@ contains
     call expect(status == hooke_bad_value, "there is no vertex 4")
     call mesh%set_mesh(vertices, reshape([0, 1, 2], [3, 1]), status)
     call expect(status == hooke_bad_value, "nor a vertex 0")
-    call mesh%create_part("mesh")
+    call mesh%create("mesh")
     call mesh%read_mesh("no-such-file.obj", status)
     call expect(status == hooke_bad_value, "a file that is none")
     call expect_text(hooke_message(), "no-such-file.obj", "by name")
-    call run%create_run()
+    call run%create("run")
     call run%set_mesh(vertices, reshape([1, 2, 3], [3, 1]), status)
     call expect(status == hooke_bad_value, "a run has no mesh")
   end subroutine

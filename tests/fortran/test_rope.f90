@@ -17,7 +17,7 @@ contains
     type(hooke_options) :: rope
     integer :: first, count
     call system%create()
-    call rope%create_part("rope")
+    call rope%create("rope")
     call rope%set("from", [0, 0, 0])
     call rope%set("to", [1.0_hooke_real, 0.0_hooke_real, 0.25_hooke_real])
     call rope%set("segments", 8)
@@ -38,7 +38,7 @@ contains
   subroutine prepare(run, method)
     type(hooke_options), intent(inout) :: run
     character(*), intent(in) :: method
-    call run%create_run()
+    call run%create("run")
     call run%set("method", method)
     call run%set("step", 5e-4_hooke_real)
     call run%set("duration", 0.2_hooke_real)
@@ -91,7 +91,7 @@ contains
     call expect_near(state%time(), 0.2_hooke_real, 1e-15_hooke_real, "time after 400 steps")
     call expect(integrator%count("steps") == 800, "800 steps were counted")
     call expect(integrator%count("nothing of the kind") == -1, "no count of another word")
-    call expect(integrator%frame_count() == 101, "frames by default: " // integrator%options%text("method"))
+    call expect(integrator%count("frames") == 101, "frames by default: " // integrator%options%text("method"))
     call expect_near(integrator%options%number("every"), 0.002_hooke_real, 1e-15_hooke_real, "every, filled in")
     call state%set_time(3.0_hooke_real)
     call state%copy_to(twin)

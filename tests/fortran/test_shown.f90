@@ -27,7 +27,7 @@ contains
     call expect(there, "for ParaView")
     call record%write_xdmf("no/such/folder/shown.xdmf", status)
     call expect(status == hooke_io_failed, "where there is a place for it")
-    call options%create_view()
+    call options%create("view")
     call view%create(record, options, status)
     if (status == hooke_not_built) return
     call expect(status == hooke_ok .and. nint(view%number("particles")) == 2, "two particles are shown")

@@ -19,7 +19,7 @@ program test_statuses
   call expect(hooke_version() == "0.2.0" .and. hooke_abi() == 1, "version " // hooke_version())
   call expect(hooke_build_fact("instructions") /= "", "facts about the build")
   call expect(hooke_build_fact("no such fact") == "", "and what is none")
-  call expect(hooke_part_kind_count() >= 2 .and. hooke_part_kind(1) == "rope", "kinds of parts")
+  call expect(hooke_part_kind(2, "name") /= "" .and. hooke_part_kind(1, "name") == "rope", "kinds of parts")
   call refusals()
   call options()
   call finish()
@@ -28,7 +28,7 @@ contains
 
   subroutine stop_here()
     type(hooke_options) :: run
-    call run%create_run()
+    call run%create("run")
     call run%set("step", -1)
   end subroutine
 
@@ -69,7 +69,7 @@ contains
     call expect(status == hooke_bad_value, "nor a particle 0")
     call system%add_springs(reshape([1, 2], [2, 1]), nothing, status=status)
     call expect(status == hooke_bad_call, "options that were not created")
-    call spring%create_spring()
+    call spring%create("springs")
     call spring%set("stiffness", 10)
     call system%add_springs(reshape([1, 2, 3], [3, 1]), spring, status=status)
     call expect(status == hooke_bad_value, "a spring has two ends")
@@ -91,9 +91,9 @@ contains
   subroutine options()
     type(hooke_options) :: cloth, copy, rope
     integer :: status, row, rows
-    call cloth%create_part("no such part", status)
+    call cloth%create("no such part", status)
     call expect(status == hooke_bad_value .and. .not. cloth%exists(), "no options of it")
-    call cloth%create_part("cloth  ")
+    call cloth%create("cloth  ")
     call cloth%set("size", [3, 4])
     call cloth%set("origin", [1, 2, 3]*0.5_hooke_real)
     call cloth%set("structural", "")

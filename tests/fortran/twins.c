@@ -9,7 +9,7 @@ int32_t twin_status(int32_t place);
 
 static int32_t make_rope(hooke_system *system) {
   hooke_options *rope = NULL;
-  int32_t status = hooke_part_options_create("rope", &rope);
+  int32_t status = hooke_options_create("rope", &rope);
   if (!status) status = hooke_options_set_text(rope, "from", "0,0,0");
   if (!status) status = hooke_options_set_text(rope, "to", "1,0,0.25");
   if (!status) status = hooke_options_set_number(rope, "segments", 8);
@@ -30,7 +30,7 @@ static int32_t run_rope(const hooke_system *system, const char *method, double *
   hooke_options *run = NULL;
   hooke_integrator *integrator = NULL;
   hooke_state *state = NULL;
-  int32_t status = hooke_run_options_create(&run);
+  int32_t status = hooke_options_create("run", &run);
   if (!status) status = hooke_options_set_text(run, "method", method);
   if (!status) status = hooke_options_set_number(run, "step", 5e-4);
   if (!status) status = hooke_options_set_number(run, "duration", 0.2);

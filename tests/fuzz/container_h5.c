@@ -102,7 +102,8 @@ static void run_trajectory(const char *path) {
   hooke_integrator *integrator = NULL;
   hooke_state *state = NULL;
   hooke_trajectory *trajectory = NULL;
-  if (hooke_scene_parse(scene, (int64_t)strlen(scene), "small", NULL, &made) || hooke_scene_commit(made) ||
+  if (hooke_scene_parse(scene, (int64_t)strlen(scene), "small", NULL, NULL, &made) ||
+      hooke_scene_commit(made) ||
       hooke_integrator_create(hooke_scene_system(made), hooke_scene_run_options(made), &integrator) ||
       hooke_state_create(hooke_scene_system(made), &state) ||
       hooke_trajectory_create(path, hooke_scene_system(made), integrator, hooke_scene_text(made),

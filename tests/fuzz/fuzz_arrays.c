@@ -143,7 +143,8 @@ static void load_scene(const uint8_t head[EDIT_HEAD], const struct wanted *wante
            wanted->dataset, frame);
   print_scene(head, source, whole, sizeof whole);
   hooke_scene *scene = NULL;
-  const int32_t status = hooke_scene_parse(whole, (int64_t)strlen(whole), "scene", container.folder, &scene);
+  const int32_t status =
+      hooke_scene_parse(whole, (int64_t)strlen(whole), "scene", container.folder, NULL, &scene);
   hooke_fuzz_require(status <= HOOKE_OK && (status == HOOKE_OK) == (scene != NULL), "a scene or a failure");
   hooke_fuzz_require(status != HOOKE_IO_FAILED, "a file of a scene is the scene's fault");
   if (status == HOOKE_OK) {

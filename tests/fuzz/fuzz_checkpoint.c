@@ -57,7 +57,7 @@ static hooke_system *new_system(void) {
   require_ok(hooke_system_create(&system));
   require_ok(hooke_system_add_particles(system, PARTICLES, q, NULL, 1, &mass, NULL));
   require_ok(hooke_system_pin(system, 1, &pinned));
-  require_ok(hooke_spring_options_create(&options));
+  require_ok(hooke_options_create("springs", &options));
   require_ok(hooke_options_set_number(options, "stiffness", 10.0));
   require_ok(hooke_system_add_springs(system, NULL, 2, ends, options));
   require_ok(hooke_system_set_gravity(system, (const double[]){0.0, -9.81, 0.0}));
@@ -69,7 +69,7 @@ static hooke_system *new_system(void) {
 static hooke_integrator *new_integrator(const char *method) {
   hooke_options *options = NULL;
   hooke_integrator *integrator = NULL;
-  require_ok(hooke_run_options_create(&options));
+  require_ok(hooke_options_create("run", &options));
   require_ok(hooke_options_set_text(options, "method", method));
   require_ok(hooke_options_set_number(options, "step", 0.01));
   require_ok(hooke_options_set_number(options, "every", 0.02));

@@ -148,7 +148,7 @@ static void check_members(const struct small_scene *scene) {
 static int32_t take_steps(const struct small_scene *scene, const struct stepping *by, hooke_state *state) {
   hooke_options *options = NULL;
   hooke_integrator *integrator = NULL;
-  int32_t status = hooke_run_options_create(&options);
+  int32_t status = hooke_options_create("run", &options);
   if (status == HOOKE_OK) status = hooke_options_set_text(options, "method", by->method);
   if (status == HOOKE_OK) status = hooke_options_set_number(options, "step", by->step);
   if (status == HOOKE_OK) status = hooke_integrator_create(scene->system, options, &integrator);

@@ -60,7 +60,7 @@ static hooke_options *choose_options(uint8_t weld, uint8_t scale) {
   static const char *const welds[] = {"", "0", "1e-3", "0.5", "1", "1e-300", "1e300", "100"};
   static const char *const scales[] = {"", "1", "1e-3", "1e-200", "1e200", "-1", "3", "0.1"};
   hooke_options *options = NULL;
-  hooke_fuzz_require(hooke_part_options_create("mesh", &options) == HOOKE_OK, "a mesh has options");
+  hooke_fuzz_require(hooke_options_create("mesh", &options) == HOOKE_OK, "a mesh has options");
   set(options, "weld", welds[weld % 8]);
   if (strncmp(scales[scale % 8], "-1", 2) != 0) set(options, "transform.scale", scales[scale % 8]);
   if (scale & 8) set(options, "transform.translate", "0.5,-1e3,7");

@@ -29,21 +29,21 @@ enum { MOST_LINES = 24, LINE_SIZE = 1100 };
 static int32_t create_table(uint8_t which, hooke_options **options) {
   switch (which % 12) {
   case 0:
-    return hooke_spring_options_create(options);
+    return hooke_options_create("springs", options);
   case 1:
-    return hooke_altitude_options_create(options);
+    return hooke_options_create("altitude", options);
   case 2:
-    return hooke_run_options_create(options);
+    return hooke_options_create("run", options);
   case 3:
-    return hooke_view_options_create(options);
+    return hooke_options_create("view", options);
   case 4:
-    return hooke_scene_options_create("scene", options);
+    return hooke_options_create("scene", options);
   case 5:
-    return hooke_scene_options_create("particles", options);
+    return hooke_options_create("particles", options);
   case 6:
-    return hooke_scene_options_create("driven", options);
+    return hooke_options_create("driven", options);
   default:
-    return hooke_part_options_create(hooke_part_kind(which % 12 - 7), options);
+    return hooke_options_create(hooke_part_kind(which % 12 - 7, "name"), options);
   }
 }
 
@@ -185,7 +185,7 @@ static const struct cli_verb verbs[] = {
     {.name = "run", HOOKE_VERB_ROWS(rows)},
     {.name = "view", .input = "OUT.h5", HOOKE_VERB_ROWS(rows), .options = "view"},
     {.name = "study", HOOKE_VERB_ROWS(rows), .options = "view", .without = "method step"},
-    {.name = "make", HOOKE_VERB_ROWS(rows), .kind_options = hooke_part_options_create},
+    {.name = "make", HOOKE_VERB_ROWS(rows), .takes_kind = 1},
 };
 
 /* What the program prints is formed, and goes nowhere. */
@@ -246,7 +246,7 @@ static void parse_words(uint8_t which, const hooke_options *table, char **line, 
     hooke_fuzz_is_past_syntax();
     hooke_fuzz_is_accepted();
     hooke_options *run = NULL;
-    hooke_fuzz_require(hooke_run_options_create(&run) == HOOKE_OK &&
+    hooke_fuzz_require(hooke_options_create("run", &run) == HOOKE_OK &&
                            cli_arguments_apply(&arguments, run) == HOOKE_OK,
                        "what was read from the command line can be set");
     hooke_options_destroy(run);

@@ -184,7 +184,7 @@ static void ask_resume(int64_t frames) {
   hooke_scene *scene = NULL;
   hooke_integrator *integrator = NULL;
   container_kill_after(frames);
-  if (!answered(hooke_scene_load(container.path, &scene))) return;
+  if (!answered(hooke_scene_load(container.path, NULL, &scene))) return;
   const hooke_options *run = hooke_scene_run_options(scene);
   if (is_short(run) && answered(hooke_scene_commit(scene)) &&
       answered(hooke_integrator_create(hooke_scene_system(scene), run, &integrator)))
@@ -195,7 +195,7 @@ static void ask_resume(int64_t frames) {
 
 static void ask_scene(void) {
   hooke_scene *scene = NULL;
-  if (!answered(hooke_scene_load(container.path, &scene))) {
+  if (!answered(hooke_scene_load(container.path, NULL, &scene))) {
     hooke_fuzz_require(scene == NULL, "a scene besides a failure");
     return;
   }

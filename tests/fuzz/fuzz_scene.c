@@ -137,9 +137,9 @@ static void load(const char *text, size_t size) {
   hooke_scene *scene = NULL, *loaded = NULL;
   const char *path = hooke_fuzz_file(text, size), *message = "";
   char wanted[4096] = "";
-  const int32_t status = hooke_scene_parse(text, (int64_t)size, path, "/proc/self/fd", &scene);
+  const int32_t status = hooke_scene_parse(text, (int64_t)size, path, "/proc/self/fd", NULL, &scene);
   if (status != HOOKE_OK) snprintf(wanted, sizeof wanted, "%s", hooke_last_error());
-  hooke_fuzz_require(hooke_scene_load(path, &loaded) == status, "a file gives what its text gives");
+  hooke_fuzz_require(hooke_scene_load(path, NULL, &loaded) == status, "a file gives what its text gives");
   if (status != HOOKE_OK) message = hooke_last_error();
   hooke_fuzz_require(strcmp(message, wanted) == 0 || status == HOOKE_NO_MEMORY || strstr(wanted, "is empty"),
                      "a file is refused for what its text is refused for");
@@ -165,7 +165,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
   const char *text = size ? (const char *)data : "";
   hooke_scene *scene = NULL;
   hooke_fuzz_begin();
-  int32_t status = hooke_scene_parse(text, (int64_t)size, "scene", files(), &scene);
+  int32_t status = hooke_scene_parse(text, (int64_t)size, "scene", files(), NULL, &scene);
   hooke_fuzz_require((status == HOOKE_OK) == (scene != NULL), "a scene comes with success alone");
   if (status == HOOKE_OK) status = hooke_scene_commit(scene);
   if (status == HOOKE_OK) {

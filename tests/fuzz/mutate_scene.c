@@ -153,18 +153,18 @@ enum { SCENE = KINDS, PARTICLES, DRIVEN, SPRINGS, RUN };
 
 static void create_tables(void) {
   for (int64_t k = 0; k < KINDS; k++)
-    hooke_part_options_create(hooke_part_kind(k), &table[k]);
-  hooke_scene_options_create("scene", &table[SCENE]);
-  hooke_scene_options_create("particles", &table[PARTICLES]);
-  hooke_scene_options_create("driven", &table[DRIVEN]);
-  hooke_spring_options_create(&table[SPRINGS]);
-  hooke_run_options_create(&table[RUN]);
+    hooke_options_create(hooke_part_kind(k, "name"), &table[k]);
+  hooke_options_create("scene", &table[SCENE]);
+  hooke_options_create("particles", &table[PARTICLES]);
+  hooke_options_create("driven", &table[DRIVEN]);
+  hooke_options_create("springs", &table[SPRINGS]);
+  hooke_options_create("run", &table[RUN]);
 }
 
 static json_t *any_particle(void) {
   if (draw(6)) return json_integer((json_int_t)draw(4));
   char name[NAME_SIZE];
-  snprintf(name, sizeof name, "%s%d", hooke_part_kind((int64_t)draw(KINDS)), (int)draw(2));
+  snprintf(name, sizeof name, "%s%d", hooke_part_kind((int64_t)draw(KINDS), "name"), (int)draw(2));
   return json_pack("[s, I]", draw(4) ? name : "p", (json_int_t)draw(5));
 }
 
@@ -194,15 +194,15 @@ static void fill_particles(json_t *object) {
 static void fill_part(json_t *object) {
   const char *kind = json_string_value(json_object_get(object, "kind"));
   int64_t k = 0;
-  while (kind && k < KINDS && strcmp(hooke_part_kind(k), kind) != 0)
+  while (kind && k < KINDS && strcmp(hooke_part_kind(k, "name"), kind) != 0)
     k++;
   if (kind == NULL || k == KINDS) {
     k = (int64_t)draw(KINDS);
-    json_object_set_new(object, "kind", json_string(hooke_part_kind(k)));
+    json_object_set_new(object, "kind", json_string(hooke_part_kind(k, "name")));
   }
   fill(object, table[k], draw(3));
   if (draw(2) && !json_object_get(object, "density")) json_object_set_new(object, "mass", json_integer(1));
-  if (strcmp(hooke_part_kind(k), "mesh") == 0 && draw(2)) {
+  if (strcmp(hooke_part_kind(k, "name"), "mesh") == 0 && draw(2)) {
     json_object_del(object, "vertices");
     json_object_del(object, "triangles");
     json_object_set_new(object, "file", json_string("tetrahedron.obj"));

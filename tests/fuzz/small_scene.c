@@ -146,7 +146,7 @@ static void add_springs(const uint8_t *record, struct small_scene *scene, int64_
   const int pulls = (record[1] & 8) != 0, length = (record[1] & 16) != 0, each = (record[1] & 32) != 0;
   hooke_options *options = NULL;
   if (count == 0 || *springs + count > MOST_SPRINGS) return;
-  hooke_fuzz_require(hooke_spring_options_create(&options) == HOOKE_OK, "options of springs");
+  hooke_fuzz_require(hooke_options_create("springs", &options) == HOOKE_OK, "options of springs");
   hooke_options_set_text(options, "law", length ? "length" : "strain");
   set_material(options, "stiffness", record[5], each, count, scene->extreme);
   set_material(options, "damping", record[6], each, count, scene->extreme);
@@ -177,7 +177,7 @@ static void add_tetrahedra(const uint8_t *record, struct small_scene *scene, hoo
   const int pulls = (record[1] & 8) != 0;
   hooke_options *options = NULL;
   if (count == 0) return;
-  hooke_fuzz_require(hooke_altitude_options_create(&options) == HOOKE_OK, "options of altitude springs");
+  hooke_fuzz_require(hooke_options_create("altitude", &options) == HOOKE_OK, "options of altitude springs");
   set_material(options, "stiffness", record[5], (record[1] & 32) != 0, count, scene->extreme);
   set_material(options, "damping", record[6], (record[1] & 32) != 0, count, scene->extreme);
   hooke_options_set_number(options, "rest_scale", 0.5 + record[7] / 256.0);
@@ -216,7 +216,7 @@ static void place_driven(double t, double *q, double *v, void *ctx) {
 
 static int32_t start_driver(struct small_scene *scene) {
   hooke_options *options = NULL;
-  int32_t status = hooke_run_options_create(&options);
+  int32_t status = hooke_options_create("run", &options);
   if (status == HOOKE_OK) status = hooke_options_set_text(options, "method", "forward-euler");
   if (status == HOOKE_OK) status = hooke_options_set_number(options, "step", 1.0);
   if (status == HOOKE_OK) status = hooke_integrator_create(scene->system, options, &scene->driver);

@@ -98,7 +98,7 @@ static void make_bad(enum badness how, const char *type) {
       hooke_system_destroy(gone);
       bad = gone;
     } else {
-      check_ok(hooke_run_options_create(&other));
+      check_ok(hooke_options_create("run", &other));
       hooke_options_destroy(other);
       bad = other;
     }
@@ -128,7 +128,7 @@ static int64_t call_all(enum badness how) {
 #define BAD_CALL(kind, value, type, may_be_null, first, argument, function, arguments)                       \
   if ((how != ABSENT || !(may_be_null)) && good(first)) {                                                    \
     make_bad(how, #type);                                                                                    \
-    hooke_part_options_create("no such kind", &(hooke_options *){NULL}); /* another message */               \
+    hooke_options_create("no such kind", &(hooke_options *){NULL}); /* another message */                    \
     check_refused(kind(value, function arguments), #function, #argument, #type);                             \
     calls++;                                                                                                 \
   }
@@ -153,13 +153,13 @@ static void test_destroyed_is_refused(void **unused) {
   double *position = hooke_state_position(gone.state);
   assert_null(position);
   check_message("was destroyed");
-  assert_true(hooke_integrator_frame_count(gone.integrator) == -1);
+  assert_true(hooke_integrator_count(gone.integrator, "frames") == -1);
   assert_true(isnan(hooke_measurement_number(gone.measurement, "cost", 0, "step")));
   assert_true(hooke_options_is_set(gone.options, "step") == 0);
   assert_true(hooke_system_particle_count(gone.system) == -1);
   hooke_options *options = NULL;
   check_status(hooke_integrator_create(gone.system, NULL, &(hooke_integrator *){NULL}), HOOKE_BAD_CALL);
-  check_ok(hooke_run_options_create(&options));
+  check_ok(hooke_options_create("run", &options));
   hooke_options_destroy(options);
   hooke_options_destroy(options); /* nothing happens */
   check_message("options: is no hooke_options");

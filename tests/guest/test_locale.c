@@ -87,7 +87,7 @@ static void refusals(struct output *out) {
   hooke_options *options;
   hooke_system *system;
   const double q[] = {0, 0, 0}, bad[] = {0.5, NAN, 1.5};
-  check_ok(hooke_run_options_create(&options));
+  check_ok(hooke_options_create("run", &options));
   check_status(hooke_options_set_text(options, "step", "-1.25e-3"), HOOKE_BAD_VALUE);
   add(out, hooke_last_error());
   check_status(hooke_options_set_text(options, "step", "1,5"), HOOKE_BAD_VALUE);
@@ -145,12 +145,13 @@ static const char scene_text[] =
 
 static void scenes(struct output *out) {
   hooke_scene *scene, *copy;
-  check_status(hooke_scene_parse("{\"hooke\": 1, \"drag\": -0.75}", 27, "bad", NULL, &scene),
+  check_status(hooke_scene_parse("{\"hooke\": 1, \"drag\": -0.75}", 27, "bad", NULL, NULL, &scene),
                HOOKE_BAD_VALUE);
   add(out, hooke_last_error());
-  check_status(hooke_scene_parse("{\"hooke\": 1, \"drag\": 0,75}", 26, "bad", NULL, &scene), HOOKE_BAD_VALUE);
+  check_status(hooke_scene_parse("{\"hooke\": 1, \"drag\": 0,75}", 26, "bad", NULL, NULL, &scene),
+               HOOKE_BAD_VALUE);
   add(out, hooke_last_error());
-  check_ok(hooke_scene_parse(scene_text, (int64_t)strlen(scene_text), "scene", NULL, &scene));
+  check_ok(hooke_scene_parse(scene_text, (int64_t)strlen(scene_text), "scene", NULL, NULL, &scene));
   check_ok(hooke_scene_commit(scene));
   hooke_system *system = hooke_scene_system(scene);
   hooke_options *run = hooke_scene_run_options(scene), *options;

@@ -140,7 +140,7 @@ static void tour_building(void) {
   double bending = 1.0;
   OK(hooke_system_create(&system));
   OK(hooke_system_add_particles(system, 3, q, NULL, 1, mass, &first));
-  OK(hooke_spring_options_create(&springs));
+  OK(hooke_options_create("springs", &springs));
   OK(hooke_options_set_text(springs, "stiffness", "1e3"));
   REFUSED(hooke_options_set_text(springs, "stiffness", "1e999"), HOOKE_BAD_VALUE);
   REFUSED(hooke_options_set_text(springs, "stiffness", "1e-999"), HOOKE_BAD_VALUE);
@@ -149,8 +149,8 @@ static void tour_building(void) {
   OK(hooke_system_add_springs(system, "a", 2, ends, springs));
   REFUSED(hooke_system_add_springs(system, "b", 1, wrong, springs), HOOKE_BAD_VALUE);
   OK(hooke_system_add_bending(system, "c", 1, triple, 1, &bending));
-  OK(hooke_part_options_create("rope", &rope));
-  REFUSED(hooke_part_options_create("robe", &none), HOOKE_BAD_VALUE);
+  OK(hooke_options_create("rope", &rope));
+  REFUSED(hooke_options_create("robe", &none), HOOKE_BAD_VALUE);
   REFUSED(hooke_system_add_part(system, "rope", NULL, rope, NULL, NULL), HOOKE_BAD_VALUE);
   OK(hooke_system_commit(system));
   REFUSED(hooke_system_commit(system), HOOKE_BAD_CALL);
@@ -261,11 +261,11 @@ static void tour_files(hooke_system *system, const hooke_options *run) {
 static void tour_scenes(void) {
   hooke_scene *scene = NULL;
   hooke_state *state = NULL;
-  REFUSED(hooke_scene_load(nowhere, &scene), HOOKE_BAD_VALUE);
-  REFUSED(hooke_scene_load("/", &scene), HOOKE_BAD_VALUE);
-  REFUSED(hooke_scene_parse("{\"hooke\": 1e999}", 16, "a", NULL, &scene), HOOKE_BAD_VALUE);
-  REFUSED(hooke_scene_parse("{\"hooke\": 1,}", 13, "a", NULL, &scene), HOOKE_BAD_VALUE);
-  OK(hooke_scene_parse(scene_text, (int64_t)strlen(scene_text), "scene", ".", &scene));
+  REFUSED(hooke_scene_load(nowhere, NULL, &scene), HOOKE_BAD_VALUE);
+  REFUSED(hooke_scene_load("/", NULL, &scene), HOOKE_BAD_VALUE);
+  REFUSED(hooke_scene_parse("{\"hooke\": 1e999}", 16, "a", NULL, NULL, &scene), HOOKE_BAD_VALUE);
+  REFUSED(hooke_scene_parse("{\"hooke\": 1,}", 13, "a", NULL, NULL, &scene), HOOKE_BAD_VALUE);
+  OK(hooke_scene_parse(scene_text, (int64_t)strlen(scene_text), "scene", ".", NULL, &scene));
   OK(hooke_scene_commit(scene));
   hooke_system *system = hooke_scene_system(scene);
   hooke_options *run = hooke_scene_run_options(scene), *options = NULL;
@@ -336,8 +336,8 @@ static void tour_scenes(void) {
 
 static void tour_scenes(void) {
   hooke_scene *scene = NULL;
-  ASK(hooke_scene_load(nowhere, &scene));
-  ASK(hooke_scene_parse("{", 1, "a", NULL, &scene));
+  ASK(hooke_scene_load(nowhere, NULL, &scene));
+  ASK(hooke_scene_parse("{", 1, "a", NULL, NULL, &scene));
   (void)go_on, (void)trajectory_path, (void)report_path, (void)table_path, (void)scene_path, (void)scene_text,
       (void)checkpoint_path;
 }

@@ -29,7 +29,7 @@ static uint64_t run_method(const hooke_system *system, const char *method, int32
   hooke_options *options = NULL;
   hooke_integrator *integrator = NULL;
   hooke_state *state = NULL;
-  int32_t status = hooke_run_options_create(&options);
+  int32_t status = hooke_options_create("run", &options);
   if (status == 0) status = hooke_options_set_text(options, "method", method);
   if (status == 0) status = hooke_options_set_number(options, "step", 1e-3);
   if (status == 0) status = hooke_options_set_number(options, "duration", 8e-3);
@@ -66,7 +66,7 @@ static uint64_t crews(int thread) {
 static uint64_t messages(int thread) {
   hooke_options *options = NULL;
   uint64_t wrong = 0;
-  if (hooke_run_options_create(&options) != HOOKE_OK) return 0;
+  if (hooke_options_create("run", &options) != HOOKE_OK) return 0;
   for (int k = 0; k < 300; k++) {
     char value[32];
     snprintf(value, sizeof value, "-%d.5", 1000 * thread + k);
@@ -137,7 +137,7 @@ static uint64_t explanations(int thread) {
   hooke_state *state = NULL;
   hooke_measurement *why = NULL;
   uint64_t hash = 0;
-  int32_t status = hooke_run_options_create(&options);
+  int32_t status = hooke_options_create("run", &options);
   if (status == 0) status = hooke_options_set_text(options, "method", "forward-euler");
   if (status == 0) status = hooke_options_set_number(options, "step", 0.5);
   if (status == 0) status = hooke_options_set_number(options, "duration", 500);
@@ -171,11 +171,11 @@ static const char scene_text[] =
 static uint64_t scenes(int thread) {
   (void)thread;
   hooke_scene *scene = NULL, *bad = NULL;
-  if (hooke_scene_parse("{\"hooke\": 1, \"gravity\": [0, -9.81]}", 35, "bad", NULL, &bad) !=
+  if (hooke_scene_parse("{\"hooke\": 1, \"gravity\": [0, -9.81]}", 35, "bad", NULL, NULL, &bad) !=
           HOOKE_BAD_VALUE ||
       strstr(hooke_last_error(), "bad:1:") == NULL)
     return 0;
-  int32_t status = hooke_scene_parse(scene_text, (int64_t)strlen(scene_text), "scene", NULL, &scene);
+  int32_t status = hooke_scene_parse(scene_text, (int64_t)strlen(scene_text), "scene", NULL, NULL, &scene);
   if (status == 0) status = hooke_scene_commit(scene);
   const uint64_t hash = status == 0 ? run_method(hooke_scene_system(scene), "rk4", 1, HASH_START) : 0;
   hooke_scene_destroy(scene);
@@ -196,7 +196,7 @@ static uint64_t files(int thread) {
   hooke_record *record = NULL;
   uint64_t hash = HASH_START;
   snprintf(path, sizeof path, "guest_threads_%d.h5", thread);
-  int32_t status = hooke_run_options_create(&options);
+  int32_t status = hooke_options_create("run", &options);
   if (status == 0) status = hooke_options_set_text(options, "method", "verlet");
   if (status == 0) status = hooke_options_set_number(options, "step", 1e-3);
   if (status == 0) status = hooke_options_set_number(options, "duration", 4e-3);
@@ -233,7 +233,7 @@ static uint64_t studies(int thread) {
   hooke_options *run = NULL, *options = NULL;
   hooke_measurement *study = NULL;
   uint64_t hash = HASH_START;
-  int32_t status = hooke_run_options_create(&run);
+  int32_t status = hooke_options_create("run", &run);
   if (status == 0) status = hooke_options_set_number(run, "duration", 0.1);
   if (status == 0) status = hooke_options_set_number(run, "every", 0.01);
   if (status == 0) status = hooke_options_create("study", &options);

@@ -157,7 +157,7 @@ int main(int argc, char **argv) {
   need(argc > 4, "needs a scene, a tolerance, the evaluations it may take and a time");
   hooke_scene *scene = NULL;
   hooke_state *state = NULL;
-  need(hooke_scene_load(argv[1], &scene) == HOOKE_OK && hooke_scene_commit(scene) == HOOKE_OK,
+  need(hooke_scene_load(argv[1], NULL, &scene) == HOOKE_OK && hooke_scene_commit(scene) == HOOKE_OK,
        hooke_last_error());
   const hooke_system *system = hooke_scene_system(scene);
   need(hooke_state_create(system, &state) == HOOKE_OK, hooke_last_error());

@@ -28,7 +28,7 @@ hooke_scene *life_scene(int32_t segments) {
   const double softer = (double)(SEGMENTS * SEGMENTS) / (segments * segments); /* for the step to be stable */
   const int length = snprintf(text, sizeof text, scene_format, segments, 50 * softer, 0.1 * softer);
   assert_true(length > 0 && (size_t)length < sizeof text);
-  check_ok(hooke_scene_parse(text, length, "scene", NULL, &scene));
+  check_ok(hooke_scene_parse(text, length, "scene", NULL, NULL, &scene));
   check_ok(hooke_scene_commit(scene));
   return scene;
 }
@@ -58,7 +58,7 @@ static uint64_t live_scene(const char *detail) {
                                  NULL, &again));
   check_ok(hooke_scene_write(life_files.scene, hooke_scene_system(scene), "again",
                              hooke_scene_run_options(scene)));
-  check_ok(hooke_scene_load(life_files.scene, &loaded));
+  check_ok(hooke_scene_load(life_files.scene, NULL, &loaded));
   check_ok(hooke_scene_commit(loaded));
   assert_string_equal(hooke_scene_text(again), hooke_scene_text(loaded));
   hooke_state *state = start_state(hooke_scene_system(loaded));
@@ -76,7 +76,7 @@ static uint64_t live_refused(const char *detail) {
   const char *texts[] = {"{", "{\"hooke\": 1, \"particles\": {\"position\": [[0, 0]]}}", "{\"hooke\": 2}"};
   uint64_t hash = HASH_START;
   for (size_t k = 0; k < sizeof texts / sizeof texts[0]; k++) {
-    check_status(hooke_scene_parse(texts[k], (int64_t)strlen(texts[k]), "scene", NULL, &scene),
+    check_status(hooke_scene_parse(texts[k], (int64_t)strlen(texts[k]), "scene", NULL, NULL, &scene),
                  HOOKE_BAD_VALUE);
     const double length = (double)strlen(hooke_last_error());
     hash = hash_doubles(1, &length, hash);

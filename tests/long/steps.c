@@ -55,7 +55,7 @@ static hooke_system *chain(void) {
     ends[2 * k] = k, ends[2 * k + 1] = k + 1;
   check_ok(hooke_system_create(&system));
   check_ok(hooke_system_add_particles(system, COUNT, q, v, 1, &mass, NULL));
-  check_ok(hooke_spring_options_create(&options));
+  check_ok(hooke_options_create("springs", &options));
   check_ok(hooke_options_set_number(options, "stiffness", 1.0));
   check_ok(hooke_options_set_number(options, "rest_length", 0.1));
   check_ok(hooke_system_add_springs(system, NULL, COUNT - 1, ends, options));

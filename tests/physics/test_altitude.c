@@ -34,7 +34,7 @@ static hooke_system *new_scene(int64_t n, const double *q, int64_t count, const 
     mass[p] = 0.5 + 0.1 * (double)(p % 4);
   check_ok(hooke_system_create(&system));
   check_ok(hooke_system_add_particles(system, n, q, NULL, n, mass, NULL));
-  check_ok(hooke_altitude_options_create(&options));
+  check_ok(hooke_options_create("altitude", &options));
   check_ok(hooke_options_set_number(options, "stiffness", stiffness));
   check_ok(hooke_options_set_number(options, "damping", damping));
   check_ok(hooke_options_set_number(options, "rest_scale", scale));
@@ -46,7 +46,7 @@ static hooke_system *new_scene(int64_t n, const double *q, int64_t count, const 
 
 static void add_springs(hooke_system *system, int64_t count, const int64_t *ends, double stiffness) {
   hooke_options *options = NULL;
-  check_ok(hooke_spring_options_create(&options));
+  check_ok(hooke_options_create("springs", &options));
   check_ok(hooke_options_set_number(options, "stiffness", stiffness));
   check_ok(hooke_system_add_springs(system, "edges", count, ends, options));
   hooke_options_destroy(options);
@@ -234,7 +234,7 @@ static void a_run_that_jumps_drive_is_explained(void **unused) {
   hooke_options *options = NULL;
   check_ok(hooke_system_create(&system));
   check_ok(hooke_system_add_particles(system, 4, pyramid, v, 1, &mass, NULL));
-  check_ok(hooke_altitude_options_create(&options));
+  check_ok(hooke_options_create("altitude", &options));
   check_ok(hooke_options_set_number(options, "stiffness", 40.0));
   check_ok(hooke_system_add_altitude(system, "a", 1, corners, options));
   hooke_options_destroy(options);
@@ -269,7 +269,7 @@ static hooke_system *new_curl(double turns, double twist, double altitude, doubl
   const char *const family[] = {"stretch", "bend", "twist", "altitude"};
   const double stiffness[] = {40.0, 4.0, twist, altitude};
   check_ok(hooke_system_create(&system));
-  check_ok(hooke_part_options_create("strand", &options));
+  check_ok(hooke_options_create("strand", &options));
   check_ok(hooke_options_set_text(options, "from", "0,0,0"));
   check_ok(hooke_options_set_text(options, "to", "0,-0.08,0"));
   check_ok(hooke_options_set_number(options, "segments", SEGMENTS));
@@ -393,7 +393,7 @@ static void groups_and_numbers(void **unused) {
   int64_t shifted[8];
   for (int k = 0; k < 8; k++)
     shifted[k] = two[k] + first;
-  check_ok(hooke_altitude_options_create(&options));
+  check_ok(hooke_options_create("altitude", &options));
   check_ok(hooke_options_set_numbers(options, "stiffness", 2, (const double[]){0.0, 3.0}));
   check_ok(hooke_system_add_altitude(system, "mine", 2, shifted, options));
   assert_int_equal(hooke_system_altitude_count(system), 2 + CURL - 3);
@@ -472,8 +472,8 @@ static void bad_tetrahedra_are_refused(void **unused) {
   const int64_t flat[8] = {0, 1, 2, 4, 0, 1, 2, 3}, far[4] = {0, 1, 5, 2}, twice[4] = {0, 4, 2, 4};
   hooke_options *options = NULL, *springs = NULL;
   hooke_system *system = new_scene(5, q, 0, flat, 1.0, 0.0, 1.0);
-  check_ok(hooke_altitude_options_create(&options));
-  check_ok(hooke_spring_options_create(&springs));
+  check_ok(hooke_options_create("altitude", &options));
+  check_ok(hooke_options_create("springs", &springs));
   check_status(hooke_system_add_altitude(system, "a", 1, flat, options), HOOKE_BAD_VALUE);
   check_message("stiffness: is required");
   check_ok(hooke_options_set_number(options, "stiffness", 1.0));
@@ -486,7 +486,7 @@ static void bad_tetrahedra_are_refused(void **unused) {
   check_status(hooke_system_add_altitude(system, "a", -1, flat, options), HOOKE_BAD_VALUE);
   check_message("-1 tetrahedra");
   check_status(hooke_system_add_altitude(system, "a", 1, flat, springs), HOOKE_BAD_VALUE);
-  check_message("hooke_altitude_options_create()");
+  check_message("hooke_options_create()");
   check_ok(hooke_options_set_numbers(options, "stiffness", 3, (const double[]){1, 2, 3}));
   check_status(hooke_system_add_altitude(system, "a", 2, flat, options), HOOKE_BAD_VALUE);
   check_message("3 values for 2 tetrahedra");

@@ -10,7 +10,7 @@
 static void add_altitude(hooke_system *system, int64_t count, const int64_t *tetrahedra, double stiffness,
                          double damping, double scale) {
   hooke_options *options = NULL;
-  check_ok(hooke_altitude_options_create(&options));
+  check_ok(hooke_options_create("altitude", &options));
   check_ok(hooke_options_set_number(options, "stiffness", stiffness));
   check_ok(hooke_options_set_number(options, "damping", damping));
   check_ok(hooke_options_set_number(options, "rest_scale", scale));
@@ -117,7 +117,7 @@ static void random_tetrahedra_run_up_to_the_prediction(void **unused) {
     hooke_options *springs = NULL;
     check_ok(hooke_system_create(&system));
     check_ok(hooke_system_add_particles(system, N, q, NULL, N, mass, NULL));
-    check_ok(hooke_spring_options_create(&springs));
+    check_ok(hooke_options_create("springs", &springs));
     check_ok(hooke_options_set_number(springs, "stiffness", 10.0));
     check_ok(hooke_system_add_springs(system, "springs", SPRINGS, ends, springs));
     add_altitude(system, TETRAHEDRA, tetrahedra, 20.0, seed % 2 ? 0.3 : 0.0, seed % 3 ? 1.0 : 0.8);
@@ -136,7 +136,7 @@ static hooke_system *new_strand(double altitude) {
   hooke_system *system = NULL;
   hooke_options *options = NULL;
   check_ok(hooke_system_create(&system));
-  check_ok(hooke_part_options_create("strand", &options));
+  check_ok(hooke_options_create("strand", &options));
   check_ok(hooke_options_set_text(options, "from", "0,0,0"));
   check_ok(hooke_options_set_text(options, "to", "1,0,0"));
   check_ok(hooke_options_set_number(options, "segments", 12));
@@ -199,7 +199,7 @@ static void they_are_an_ingredient(void **unused) {
   hooke_measurement *cost = NULL;
   check_ok(hooke_options_create("cost", &options));
   check_ok(hooke_options_set_number(options, "predict", 1.0));
-  check_ok(hooke_run_options_create(&run));
+  check_ok(hooke_options_create("run", &run));
   check_ok(hooke_options_set_number(run, "step", 1e-4));
   check_ok(hooke_measurement_create("cost", system, run, options, &cost));
   hooke_state *state = start_state(system);

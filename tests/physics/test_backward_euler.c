@@ -152,7 +152,7 @@ static void gets_through_compression(void **unused) {
   hooke_options *options = NULL;
   const double down[] = {0, -9.81, 0}, edges[] = {1, 0, 0, 0, 0, 1}, size[] = {16, 16};
   check_ok(hooke_system_create(&system));
-  check_ok(hooke_part_options_create("cloth", &options));
+  check_ok(hooke_options_create("cloth", &options));
   check_ok(hooke_options_set_text(options, "origin", "0,0,0"));
   check_ok(hooke_options_set_numbers(options, "edges", 6, edges));
   check_ok(hooke_options_set_numbers(options, "size", 2, size));

@@ -30,7 +30,7 @@ static hooke_system *new_line(double coefficient, double stiffness, double dampi
     check_ok(hooke_system_add_bending(system, "line", TRIPLES, triples, 1, &coefficient));
   if (stiffness > 0.0) {
     hooke_options *options = NULL;
-    check_ok(hooke_spring_options_create(&options));
+    check_ok(hooke_options_create("springs", &options));
     check_ok(hooke_options_set_number(options, "stiffness", stiffness));
     check_ok(hooke_options_set_number(options, "damping", damping));
     check_ok(hooke_system_add_springs(system, "springs", N - 1, ends, options));
@@ -194,7 +194,7 @@ static void explicit_triples_come_first(void **unused) {
   const int64_t triples[12] = {2, 0, 1, 0, 1, 2, 1, 2, 0, 0, 1, 2};
   check_ok(hooke_system_create(&system));
   check_ok(hooke_system_add_particles(system, 3, q, NULL, 1, &mass, NULL));
-  check_ok(hooke_part_options_create("rope", &rope));
+  check_ok(hooke_options_create("rope", &rope));
   check_ok(hooke_options_set_text(rope, "from", "0,0,0"));
   check_ok(hooke_options_set_text(rope, "to", "4,0,0"));
   check_ok(hooke_options_set_number(rope, "segments", 4));

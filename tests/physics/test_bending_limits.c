@@ -13,7 +13,7 @@ static hooke_system *new_rope(int segments, double bending, double stiffness, do
   hooke_options *rope = NULL;
   const double to[3] = {0.1 * segments, 0.0, 0.0};
   check_ok(hooke_system_create(&system));
-  check_ok(hooke_part_options_create("rope", &rope));
+  check_ok(hooke_options_create("rope", &rope));
   check_ok(hooke_options_set_text(rope, "from", "0,0,0"));
   check_ok(hooke_options_set_numbers(rope, "to", 3, to));
   check_ok(hooke_options_set_number(rope, "segments", segments));
@@ -133,7 +133,7 @@ static void random_triples_run_up_to_the_prediction(void **unused) {
     hooke_options *springs = NULL;
     check_ok(hooke_system_create(&system));
     check_ok(hooke_system_add_particles(system, N, q, NULL, N, mass, NULL));
-    check_ok(hooke_spring_options_create(&springs));
+    check_ok(hooke_options_create("springs", &springs));
     check_ok(hooke_options_set_number(springs, "stiffness", 20.0));
     check_ok(hooke_options_set_number(springs, "rest_scale", seed % 3 ? 0.9 : 1.1));
     check_ok(hooke_system_add_springs(system, "springs", SPRINGS, ends, springs));

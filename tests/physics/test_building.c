@@ -37,7 +37,7 @@ static void test_particles(void **unused) {
 
 static hooke_options *spring_options(const char *name, double value) {
   hooke_options *options = NULL;
-  check_ok(hooke_spring_options_create(&options));
+  check_ok(hooke_options_create("springs", &options));
   check_ok(hooke_options_set_number(options, "stiffness", 10.0));
   if (name != NULL) check_ok(hooke_options_set_number(options, name, value));
   return options;
@@ -76,7 +76,7 @@ static void test_springs(void **unused) {
   refuse_springs(2, good, options, "rest_length[1]", "0");
   hooke_options_destroy(options);
 
-  check_ok(hooke_spring_options_create(&options)); /* no stiffness */
+  check_ok(hooke_options_create("springs", &options)); /* no stiffness */
   refuse_springs(2, good, options, "stiffness", "");
   hooke_options_destroy(options);
 }
@@ -189,7 +189,7 @@ static void test_calls_out_of_order(void **unused) {
   hooke_integrator *integrator = NULL;
   hooke_options *options = spring_options(NULL, 0.0), *run = NULL;
   hooke_system *system = three();
-  check_ok(hooke_run_options_create(&run));
+  check_ok(hooke_options_create("run", &run));
   check_ok(hooke_options_set_number(run, "step", 0.1));
   check_status(hooke_system_force(system, 0.0, place, place, out), HOOKE_BAD_CALL);
   check_status(hooke_system_acceleration(system, 0.0, place, place, out), HOOKE_BAD_CALL);

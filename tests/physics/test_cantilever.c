@@ -35,7 +35,7 @@ static hooke_system *new_rope(int segments, const char *of_mass, double mass, do
   hooke_options *rope = NULL;
   const double from[3] = {-0.5 * piece, 0.0, 0.0}, to[3] = {(segments - 0.5) * piece, 0.0, 0.0};
   check_ok(hooke_system_create(&system));
-  check_ok(hooke_part_options_create("rope", &rope));
+  check_ok(hooke_options_create("rope", &rope));
   check_ok(hooke_options_set_numbers(rope, "from", 3, from));
   check_ok(hooke_options_set_numbers(rope, "to", 3, to));
   check_ok(hooke_options_set_number(rope, "segments", segments));
@@ -56,7 +56,7 @@ static hooke_system *new_sheet(int along, int across) {
   const double edges[6] = {0.0, 0.5, 0.0, along * piece, 0.0, 0.0}, size[2] = {across, along + 1};
   const double origin[3] = {-0.5 * piece, 0.0, 0.0};
   check_ok(hooke_system_create(&system));
-  check_ok(hooke_part_options_create("cloth", &cloth));
+  check_ok(hooke_options_create("cloth", &cloth));
   check_ok(hooke_options_set_numbers(cloth, "origin", 3, origin));
   check_ok(hooke_options_set_numbers(cloth, "edges", 6, edges));
   check_ok(hooke_options_set_numbers(cloth, "size", 2, size));

@@ -23,7 +23,7 @@ static hooke_system *open_oscillators(double damping, double drag, int gravity, 
   hooke_system *system = small_system(4, q, NULL, 1.0, 0);
   hooke_options *options;
   check_ok(hooke_system_pin(system, 2, pinned));
-  check_ok(hooke_spring_options_create(&options));
+  check_ok(hooke_options_create("springs", &options));
   check_ok(hooke_options_set_number(options, "stiffness", 100.0));
   check_ok(hooke_options_set_number(options, "damping", damping));
   check_ok(hooke_system_add_springs(system, "stiff", 1, stiff, options));

@@ -169,7 +169,7 @@ static hooke_system *damped_chain(double gamma, int driven) {
     ends[k] = (k + 1) / 2;
   check_ok(hooke_system_create(&system));
   check_ok(hooke_system_add_particles(system, COUNT, place, velocity, 1, &mass, NULL));
-  check_ok(hooke_spring_options_create(&options));
+  check_ok(hooke_options_create("springs", &options));
   check_ok(hooke_options_set_number(options, "stiffness", 1.0));
   check_ok(hooke_options_set_number(options, "damping", gamma));
   check_ok(hooke_system_add_springs(system, "", COUNT - 1, ends, options));
@@ -245,7 +245,7 @@ static void test_what_is_picked_keeps_to_the_wanted_error(void **unused) {
 static hooke_system *sagging_block(void) {
   hooke_options *options;
   hooke_system *system;
-  check_ok(hooke_part_options_create("lattice", &options));
+  check_ok(hooke_options_create("lattice", &options));
   check_ok(hooke_options_set_numbers(options, "edges", 9, (double[]){1, 0, 0, 0, 1, 0, 0, 0, 1}));
   check_ok(hooke_options_set_numbers(options, "size", 3, (double[]){3, 3, 3}));
   check_ok(hooke_options_set_number(options, "mass", 1.0));

@@ -177,7 +177,7 @@ static void drift(const char *method, double *momentum, double *angular) {
   for (int p = 0; p < LAW_PARTICLES; p++)
     mass[p] = 0.5 + 0.1 * p;
   check_ok(hooke_system_add_particles(system, LAW_PARTICLES, q, v, LAW_PARTICLES, mass, NULL));
-  check_ok(hooke_spring_options_create(&options));
+  check_ok(hooke_options_create("springs", &options));
   check_ok(hooke_options_set_number(options, "stiffness", 20.0));
   check_ok(hooke_options_set_number(options, "damping", 0.1));
   check_ok(hooke_options_set_number(options, "rest_scale", 0.8));

@@ -27,7 +27,7 @@ static hooke_system *new_scene(int64_t before, int64_t after, double damping) {
   const double gravity[3] = {0, -9.81, 0};
   check_ok(hooke_system_create(&system));
   add_marks(system, before);
-  check_ok(hooke_part_options_create("cloth", &cloth));
+  check_ok(hooke_options_create("cloth", &cloth));
   check_ok(hooke_options_set_numbers(cloth, "origin", 3, origin));
   check_ok(hooke_options_set_numbers(cloth, "edges", 6, edges));
   check_ok(hooke_options_set_numbers(cloth, "size", 2, size));

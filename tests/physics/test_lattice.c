@@ -12,7 +12,7 @@ static const double EDGES[9] = {1.2, 0, 0, 0, 0.6, 0, 0, 0, 0.9};
 
 static hooke_options *lattice_options(const double *size, const double *edges) {
   hooke_options *options;
-  check_ok(hooke_part_options_create("lattice", &options));
+  check_ok(hooke_options_create("lattice", &options));
   check_ok(hooke_options_set_numbers(options, "origin", 3, (double[]){0.1, -0.2, 0.3}));
   check_ok(hooke_options_set_numbers(options, "edges", 9, edges));
   check_ok(hooke_options_set_numbers(options, "size", 3, size));
@@ -131,7 +131,7 @@ static hooke_system *one_by_one(const hooke_system *part) {
   for (int g = 0; g < 3; g++) {
     const int64_t size = hooke_system_group_size(part, g);
     hooke_options *options;
-    check_ok(hooke_spring_options_create(&options));
+    check_ok(hooke_options_create("springs", &options));
     check_ok(hooke_options_set_number(options, "stiffness", stiffness[g]));
     check_ok(hooke_options_set_number(options, "damping", damping[g]));
     check_ok(hooke_options_set_numbers(options, "rest_length", size, material + 2 * count + first));

@@ -58,7 +58,7 @@ static hooke_system *build_cloth(int n, double damping) {
   hooke_options *options;
   const double side = 0.1 * (n - 1), edges[6] = {side, 0.0, 0.0, 0.0, 0.0, side}, size[2] = {n, n};
   check_ok(hooke_system_create(&system));
-  check_ok(hooke_part_options_create("cloth", &options));
+  check_ok(hooke_options_create("cloth", &options));
   check_ok(hooke_options_set_text(options, "origin", "0,0,0"));
   check_ok(hooke_options_set_numbers(options, "edges", 6, edges));
   check_ok(hooke_options_set_numbers(options, "size", 2, size));
@@ -106,7 +106,7 @@ static hooke_system *build_nets(int64_t copies) {
       }
       rest[k] = group->rest_scale * (group->rest_length < 0.0 ? sqrt(square) : group->rest_length);
     }
-    check_ok(hooke_spring_options_create(&options));
+    check_ok(hooke_options_create("springs", &options));
     if (group->law) check_ok(hooke_options_set_text(options, "law", group->law));
     check_ok(hooke_options_set_number(options, "stiffness", group->stiffness));
     check_ok(hooke_options_set_number(options, "damping", group->damping));

@@ -71,7 +71,7 @@ static hooke_system *random_network(uint64_t seed, double damping) {
   check_ok(hooke_system_add_particles(system, N, position, NULL, N, mass, NULL));
   check_ok(hooke_system_pin(system, 1, &pinned));
   if (seed % 4 == 0) check_ok(hooke_system_drive_harmonic(system, 1, &driven, amplitude, 1.0, 0.0));
-  check_ok(hooke_spring_options_create(&options));
+  check_ok(hooke_options_create("springs", &options));
   check_ok(hooke_options_set_text(options, "law", "length"));
   check_ok(hooke_options_set_numbers(options, "stiffness", SPRINGS, stiffness));
   check_ok(hooke_options_set_numbers(options, "damping", SPRINGS, damp));
@@ -184,7 +184,7 @@ static hooke_system *build_piece(const struct piece *piece, enum odd odd, double
   check_ok(hooke_system_create(&system));
   check_ok(hooke_system_add_particles(system, n, position, NULL, n, mass, NULL));
   check_ok(hooke_system_pin(system, 1, &pinned));
-  check_ok(hooke_spring_options_create(&options));
+  check_ok(hooke_options_create("springs", &options));
   check_ok(hooke_options_set_text(options, "law", "length"));
   check_ok(hooke_options_set_numbers(options, "stiffness", count, stiffness));
   check_ok(hooke_options_set_numbers(options, "damping", count, damping));

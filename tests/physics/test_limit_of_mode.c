@@ -53,7 +53,7 @@ static hooke_system *build(double damping) {
   check_ok(hooke_system_create(&system));
   check_ok(hooke_system_add_particles(system, 2, q, NULL, 1, &mass, NULL));
   check_ok(hooke_system_pin(system, 1, &pinned));
-  check_ok(hooke_spring_options_create(&options));
+  check_ok(hooke_options_create("springs", &options));
   check_ok(hooke_options_set_number(options, "stiffness", 20.0));
   check_ok(hooke_options_set_number(options, "damping", damping));
   check_ok(hooke_options_set_number(options, "rest_length", 1.0));

@@ -201,7 +201,7 @@ static void not_built(void **unused) {
   hooke_system *system = rope(0.25 / PARTICLES);
   hooke_options *options = NULL;
   hooke_integrator *integrator = NULL;
-  check_ok(hooke_run_options_create(&options));
+  check_ok(hooke_options_create("run", &options));
   check_ok(hooke_options_set_text(options, "method", "cvode-bdf"));
   check_ok(hooke_options_set_number(options, "duration", 0.3));
   check_ok(hooke_options_set_text(options, "linear_solver", "direct"));
@@ -215,7 +215,7 @@ static void not_built(void **unused) {
 static void words(void **unused) {
   (void)unused;
   hooke_options *options = NULL;
-  check_ok(hooke_run_options_create(&options));
+  check_ok(hooke_options_create("run", &options));
   assert_string_equal(hooke_options_text(options, "linear_solver"), "auto");
   check_status(hooke_options_set_text(options, "linear_solver", "cholmod"), HOOKE_BAD_VALUE);
   hooke_options_destroy(options);

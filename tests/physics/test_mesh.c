@@ -69,7 +69,7 @@ static struct mesh torus(int64_t m, int64_t n) {
 
 static hooke_options *options_of(const struct mesh *mesh) {
   hooke_options *options;
-  check_ok(hooke_part_options_create("mesh", &options));
+  check_ok(hooke_options_create("mesh", &options));
   check_ok(hooke_mesh_set(options, mesh->vertices, mesh->vertex, mesh->triangles, mesh->triangle));
   check_ok(hooke_options_set_number(options, "structural.stiffness", 30));
   check_ok(hooke_options_set_number(options, "bend.stiffness", 4));
@@ -346,12 +346,12 @@ static void a_mesh_needs_its_numbers(void **unused) {
   hooke_options *options, *rope;
   hooke_system *system;
   const struct mesh mesh = icosahedron();
-  check_ok(hooke_part_options_create("rope", &rope));
+  check_ok(hooke_options_create("rope", &rope));
   check_status(hooke_mesh_set(rope, 12, mesh.vertex, 20, mesh.triangle), HOOKE_BAD_VALUE);
   check_message("not those of a mesh");
   check_status(hooke_mesh_read("none.obj", rope), HOOKE_BAD_VALUE);
   check_message("not those of a mesh");
-  check_ok(hooke_part_options_create("mesh", &options));
+  check_ok(hooke_options_create("mesh", &options));
   check_status(hooke_mesh_set(options, 12, NULL, 20, mesh.triangle), HOOKE_BAD_VALUE);
   check_status(hooke_mesh_set(options, 12, mesh.vertex, -1, mesh.triangle), HOOKE_BAD_VALUE);
   check_status(hooke_mesh_set(options, 0, mesh.vertex, 20, mesh.triangle), HOOKE_BAD_VALUE);

@@ -37,7 +37,7 @@ static hooke_system *hanging_rope(int segments, double bend) {
   const double from[3] = {0, 0, 0}, to[3] = {0, -1, 0}, gravity[3] = {0, -9.81, 0};
   const int64_t first = 0;
   check_ok(hooke_system_create(&system));
-  check_ok(hooke_part_options_create("rope", &rope));
+  check_ok(hooke_options_create("rope", &rope));
   check_ok(hooke_options_set_numbers(rope, "from", 3, from));
   check_ok(hooke_options_set_numbers(rope, "to", 3, to));
   check_ok(hooke_options_set_number(rope, "segments", segments));
@@ -553,7 +553,7 @@ static hooke_system *body_and_line(int has) {
   }
   if (has & TRIPLES) check_ok(hooke_system_add_bending(system, NULL, 2, triples, 1, &coefficient));
   if (has & TETRAHEDRA) {
-    check_ok(hooke_altitude_options_create(&options));
+    check_ok(hooke_options_create("altitude", &options));
     check_ok(hooke_options_set_number(options, "stiffness", 20.0));
     check_ok(hooke_options_set_number(options, "damping", damping));
     check_ok(hooke_options_set_number(options, "rest_scale", 1.3));
@@ -618,13 +618,13 @@ static void every_ingredient_has_a_name_of_its_own(void **unused) {
                                          "a particle that touches nothing"};
   hooke_system *system = small_system(5, place, NULL, 0.1, 1);
   hooke_options *springs, *altitude;
-  check_ok(hooke_spring_options_create(&springs));
+  check_ok(hooke_options_create("springs", &springs));
   check_ok(hooke_options_set_number(springs, "stiffness", 5.0));
   for (int k = 0; k < 5; k++)
     check_ok(hooke_system_add_springs(system, names[k], 3, ends, springs));
   check_ok(hooke_system_add_bending(system, "none", 1, triple, 1, &none));
   check_ok(hooke_system_add_bending(system, NULL, 1, triple, 1, &stiff));
-  check_ok(hooke_altitude_options_create(&altitude));
+  check_ok(hooke_options_create("altitude", &altitude));
   check_ok(hooke_options_set_number(altitude, "stiffness", 0.0));
   check_ok(hooke_system_add_altitude(system, "none", 1, corners, altitude));
   check_ok(hooke_options_set_number(altitude, "stiffness", 1.0));

@@ -8,7 +8,7 @@
 
 static hooke_options *new_options(const char *kind, const char *of_mass, double mass) {
   hooke_options *options = NULL;
-  check_ok(hooke_part_options_create(kind, &options));
+  check_ok(hooke_options_create(kind, &options));
   check_ok(hooke_options_set_number(options, of_mass, mass));
   return options;
 }

@@ -87,7 +87,7 @@ static double largest_error(const struct reference *reference, const char *metho
   hooke_state *state = start_state(system);
   check_ok(hooke_integrator_on_frame(integrator, at_frame, &visit));
   check_ok(hooke_integrator_run(integrator, state));
-  assert_int_equal(visit.frame, hooke_integrator_frame_count(integrator));
+  assert_int_equal(visit.frame, hooke_integrator_count(integrator, "frames"));
   if (every == 0.05) assert_int_equal(visit.seen, reference->state_count);
   check_close(hooke_state_time(state), last->time, 0.0);
   const double error = largest_difference(size, hooke_state_position(state), last->position);

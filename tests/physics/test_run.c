@@ -44,7 +44,7 @@ static void test_frames(void **unused) {
                                                                   .every = cases[k].every});
     hooke_state *state = start_state(system);
     hooke_state_set_time(state, cases[k].start);
-    assert_int_equal(hooke_integrator_frame_count(integrator), cases[k].count);
+    assert_int_equal(hooke_integrator_count(integrator, "frames"), cases[k].count);
     check_close(hooke_options_number(hooke_integrator_options(integrator), "every"),
                 (double)cases[k].stride * cases[k].step, 1e-15);
     check_ok(hooke_integrator_on_frame(integrator, check_frame, &frames));
@@ -105,7 +105,7 @@ static void test_steps_that_do_not_fit(void **unused) {
   hooke_system *system = small_oscillator(1.0);
   hooke_integrator *integrator =
       start_run(system, (struct run){.method = method, .step = 0.1, .duration = 1.0 + 5e-10, .every = 0.2});
-  assert_int_equal(hooke_integrator_frame_count(integrator), 6);
+  assert_int_equal(hooke_integrator_count(integrator, "frames"), 6);
   hooke_integrator_destroy(integrator);
   refuse_run((struct run){.method = method, .step = 0.1, .duration = 1.0 + 3e-9}, "duration", "0.1", "step");
   hooke_system_destroy(system);

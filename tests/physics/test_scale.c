@@ -40,7 +40,7 @@ static hooke_system *build_cloth(void) {
   hooke_options *options;
   hooke_system *system;
   check_ok(hooke_system_create(&system));
-  check_ok(hooke_part_options_create("cloth", &options));
+  check_ok(hooke_options_create("cloth", &options));
   check_ok(hooke_options_set_numbers(options, "origin", 3, origin));
   check_ok(hooke_options_set_numbers(options, "edges", 6, edges));
   check_ok(hooke_options_set_numbers(options, "size", 2, sizes));
@@ -89,7 +89,7 @@ static hooke_system *build_sheet(int kinds, int moving) {
   const double mass = 1.0;
   check_ok(hooke_system_create(&system));
   check_ok(hooke_system_add_particles(system, PARTICLES, q, v, 1, &mass, NULL));
-  check_ok(hooke_spring_options_create(&options));
+  check_ok(hooke_options_create("springs", &options));
   check_ok(hooke_options_set_number(options, "stiffness", 50.0));
   check_ok(hooke_options_set_number(options, "damping", 0.01));
   check_ok(hooke_system_add_springs(system, "net", count, ends, options));
@@ -157,7 +157,7 @@ static void build_rope(int driven, struct rope *rope) {
   hooke_options *options;
   check_ok(hooke_system_create(&rope->system));
   check_ok(hooke_system_add_particles(rope->system, LONG_ROPE, q, NULL, 1, &mass, NULL));
-  check_ok(hooke_spring_options_create(&options));
+  check_ok(hooke_options_create("springs", &options));
   check_ok(hooke_options_set_text(options, "law", "length"));
   check_ok(hooke_options_set_number(options, "stiffness", 100.0));
   check_ok(hooke_options_set_number(options, "rest_length", 1.0));
@@ -212,7 +212,7 @@ static void check_same(const struct outcome *found, const struct outcome *wanted
 
 static void check_recent(const struct rope *rope, const struct outcome *outcome) {
   hooke_state *recent = start_state(rope->system);
-  assert_int_equal(hooke_integrator_recent_count(outcome->integrator), 1);
+  assert_int_equal(hooke_integrator_count(outcome->integrator, "recent"), 1);
   check_ok(hooke_integrator_recent(outcome->integrator, 0, recent));
   check_status(hooke_integrator_recent(outcome->integrator, 1, recent), HOOKE_BAD_VALUE);
   check_close(hooke_state_time(recent), hooke_state_time(outcome->state), 0.0);

@@ -15,7 +15,7 @@ static hooke_system *build_cloth10(void) {
   hooke_options *options;
   const double down[3] = {0.0, -9.81, 0.0}, edges[6] = {0.9, 0.0, 0.0, 0.0, 0.0, 0.9}, size[2] = {10.0, 10.0};
   check_ok(hooke_system_create(&system));
-  check_ok(hooke_part_options_create("cloth", &options));
+  check_ok(hooke_options_create("cloth", &options));
   check_ok(hooke_options_set_text(options, "origin", "0,0,0"));
   check_ok(hooke_options_set_numbers(options, "edges", 6, edges));
   check_ok(hooke_options_set_numbers(options, "size", 2, size));

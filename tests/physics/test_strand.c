@@ -12,7 +12,7 @@ static hooke_options *new_options(int64_t segments, double curl, double turns) {
   static const char *const family[] = {"stretch.stiffness", "bend.stiffness", "twist.stiffness",
                                        "altitude.stiffness"};
   hooke_options *options = NULL;
-  check_ok(hooke_part_options_create("strand", &options));
+  check_ok(hooke_options_create("strand", &options));
   check_ok(hooke_options_set_numbers(options, "from", 3, from));
   check_ok(hooke_options_set_numbers(options, "to", 3, to));
   check_ok(hooke_options_set_number(options, "segments", (double)segments));

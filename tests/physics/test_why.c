@@ -547,11 +547,11 @@ static void test_recent_states(void **unused) {
       system, (struct run){.method = "verlet", .step = 0.01, .duration = STEPS * 0.01, .every = 0.01});
   hooke_state *state = start_state(system), *recent = start_state(system);
   double *seen = new_doubles(4 * (STEPS + 1));
-  assert_int_equal(hooke_integrator_recent_count(integrator), 0);
+  assert_int_equal(hooke_integrator_count(integrator, "recent"), 0);
   check_status(hooke_integrator_recent(integrator, 0, recent), HOOKE_BAD_VALUE);
   check_ok(hooke_integrator_on_frame(integrator, record, seen));
   check_ok(hooke_integrator_run(integrator, state));
-  assert_int_equal(hooke_integrator_recent_count(integrator), 8);
+  assert_int_equal(hooke_integrator_count(integrator, "recent"), 8);
   for (int64_t k = 0; k < 8; k++) {
     check_ok(hooke_integrator_recent(integrator, k, recent));
     const double *expected = seen + 4 * (STEPS - k);
@@ -580,7 +580,7 @@ static void test_recent_states_are_few_at_scale(void **unused) {
         system, (struct run){.method = "symplectic-euler", .step = 0.1, .duration = 1.0, .every = 0.1});
     hooke_state *state = start_state(system);
     check_ok(hooke_integrator_run(integrator, state));
-    assert_int_equal(hooke_integrator_recent_count(integrator), sizes[s].count);
+    assert_int_equal(hooke_integrator_count(integrator, "recent"), sizes[s].count);
     check_between((double)hooke_integrator_count(integrator, "memory_bytes"), (double)(120 * n),
                   (double)(120 * n) + fmax(16e6, 48.1 * (double)n) + 4096.0);
     hooke_state_destroy(state);
@@ -754,7 +754,7 @@ static void test_overflow_without_springs(void **unused) {
   const double body[] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
   hooke_options *options = NULL;
   hooke_system *stiff = small_system(4, body, NULL, 1.0, 1);
-  check_ok(hooke_altitude_options_create(&options));
+  check_ok(hooke_options_create("altitude", &options));
   check_ok(hooke_options_set_number(options, "stiffness", 1e300));
   check_ok(hooke_options_set_number(options, "rest_scale", 1.5));
   check_ok(hooke_system_add_altitude(stiff, "stiff", 1, corners, options));

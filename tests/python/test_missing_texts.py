@@ -39,10 +39,10 @@ def alive(tmp_path_factory):
     """An object of every type that this build can make."""
     path = str(tmp_path_factory.mktemp("texts") / "out.h5").encode()
     text = json.dumps(SIX_PARTICLES).encode()
-    scene = made(p.SCENE, "hooke_scene_parse", text, len(text), b"x.json", b".")
+    scene = made(p.SCENE, "hooke_scene_parse", text, len(text), b"x.json", b".", None)
     lib.hooke_scene_commit(scene)
     system = lib.hooke_scene_system(scene)
-    run = made(p.OPTIONS, "hooke_run_options_create")
+    run = made(p.OPTIONS, "hooke_options_create", b"run")
     for name, value in RUN.items():
         lib.hooke_options_set_number(run, name.encode(), value)
     state = made(p.STATE, "hooke_state_create", system)

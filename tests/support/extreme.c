@@ -42,7 +42,7 @@ static int32_t make_integrator(const hooke_system *system, struct extreme_run ru
   hooke_options *options = NULL;
   const int64_t frame_steps = run.frame_steps ? run.frame_steps : 1;
   const double duration = (double)run.steps * run.step, every = (double)frame_steps * run.step;
-  check_ok(hooke_run_options_create(&options));
+  check_ok(hooke_options_create("run", &options));
   check_ok(hooke_options_set_text(options, "method", run.method));
   int32_t status = set(options, "duration", duration);
   if (status == HOOKE_OK) status = set(options, "every", every);

@@ -29,7 +29,7 @@ static void build(const struct extreme_oscillator *o, struct model *model) {
   check_ok(hooke_system_create(&model->system));
   check_ok(hooke_system_add_particles(model->system, 2, position, velocity, 2, mass, NULL));
   if (o->partner == 0.0) check_ok(hooke_system_pin(model->system, 1, &first));
-  check_ok(hooke_spring_options_create(&options));
+  check_ok(hooke_options_create("springs", &options));
   check_ok(hooke_options_set_text(options, "law", o->law));
   check_ok(hooke_options_set_number(options, "stiffness", o->stiffness));
   check_ok(hooke_options_set_number(options, "rest_length", rest));

@@ -77,7 +77,7 @@ static void draw_spring(struct random_source *source, const struct law *law, int
 
 static void add_springs(const struct law *law, const struct material *material, struct law_scene *scene) {
   hooke_options *options = NULL;
-  check_ok(hooke_spring_options_create(&options));
+  check_ok(hooke_options_create("springs", &options));
   check_ok(hooke_options_set_text(options, "law", law->law));
   check_ok(hooke_options_set_numbers(options, "stiffness", LAW_SPRINGS, material->stiffness));
   if (law->damped) check_ok(hooke_options_set_numbers(options, "damping", LAW_SPRINGS, material->damping));
@@ -135,7 +135,7 @@ static void add_altitude(const struct law *law, struct random_source *source, co
       damping[k++] = law->pull_only ? random_between(source, 0.02, 0.08) : random_between(source, 0.1, 2.0);
     }
     hooke_options *options = NULL;
-    check_ok(hooke_altitude_options_create(&options));
+    check_ok(hooke_options_create("altitude", &options));
     check_ok(hooke_options_set_numbers(options, "stiffness", LAW_TETRAHEDRA, stiffness));
     if (law->damped) check_ok(hooke_options_set_numbers(options, "damping", LAW_TETRAHEDRA, damping));
     if (law->pull_only) check_ok(hooke_options_set_number(options, "compression", 0.0));

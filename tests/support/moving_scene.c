@@ -68,7 +68,7 @@ hooke_system *moving_system(const struct moving_scene *scene) {
   hooke_system *system = NULL;
   hooke_options *options = NULL;
   check_ok(hooke_system_create(&system));
-  check_ok(hooke_part_options_create(scene->kind, &options));
+  check_ok(hooke_options_create(scene->kind, &options));
   if (strcmp(scene->kind, "mesh") == 0) set_mesh(options);
   set_all(options, scene->options);
   check_ok(hooke_system_add_part(system, scene->kind, NULL, options, NULL, NULL));

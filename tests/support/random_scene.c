@@ -187,7 +187,7 @@ static void add_group(struct random_source *source, struct random_scene_request 
   const int length_law = (int)random_whole(source, 0, 1);
   const int pulls = (request.features & SCENE_PULL_ONLY) && random_whole(source, 0, 1);
   draw_ends(source, request.particles, count, ends);
-  check_ok(hooke_spring_options_create(&options));
+  check_ok(hooke_options_create("springs", &options));
   check_ok(hooke_options_set_text(options, "law", length_law ? "length" : "strain"));
   set_random(source, options, "stiffness", count, 0.0, 50.0, kappa);
   if ((request.features & SCENE_DAMPING) && random_whole(source, 0, 3)) {
@@ -347,7 +347,7 @@ static void add_tetrahedra(struct random_source *source, struct random_scene_req
       damping[k] = random_whole(source, 0, 3) ? random_between(source, 0.0, 0.2) : 0.0;
     }
     const int pulls = request.features & SCENE_PULL_ONLY && random_whole(source, 0, 1);
-    check_ok(hooke_altitude_options_create(&options));
+    check_ok(hooke_options_create("altitude", &options));
     check_ok(hooke_options_set_numbers(options, "stiffness", count, stiffness));
     if (request.features & SCENE_DAMPING)
       check_ok(hooke_options_set_numbers(options, "damping", count, damping));
@@ -401,7 +401,7 @@ static void add_part(struct random_source *source, struct random_scene_request r
                      hooke_system *system) {
   hooke_options *options = NULL;
   const int rope = strcmp(kind, "rope") == 0;
-  check_ok(hooke_part_options_create(kind, &options));
+  check_ok(hooke_options_create(kind, &options));
   check_ok(hooke_options_set_number(options, "mass", random_between(source, 1.0, 5.0)));
   set_shape(request, kind, options);
   const char *family[2][3] = {{"structural", "shear", "bend"}, {"stretch", "bend", NULL}};

@@ -36,7 +36,7 @@ const struct reference *find_reference(const char *name) {
 
 static void add_group(hooke_system *system, const struct reference_group *group) {
   hooke_options *options = NULL;
-  check_ok(hooke_spring_options_create(&options));
+  check_ok(hooke_options_create("springs", &options));
   check_ok(hooke_options_set_text(options, "law", group->law));
   check_ok(hooke_options_set_number(options, "stiffness", group->stiffness));
   check_ok(hooke_options_set_number(options, "damping", group->damping));

@@ -11,7 +11,7 @@ static void set_number(hooke_options *options, const char *name, double value) {
 
 hooke_options *run_options(struct run run) {
   hooke_options *options = NULL;
-  check_ok(hooke_run_options_create(&options));
+  check_ok(hooke_options_create("run", &options));
   if (run.method != NULL) check_ok(hooke_options_set_text(options, "method", run.method));
   if (run.newton != NULL) check_ok(hooke_options_set_text(options, "newton", run.newton));
   if (run.linear_solver != NULL)

@@ -14,7 +14,7 @@ hooke_system *small_system(int64_t count, const double *position, const double *
 
 void small_springs(hooke_system *system, int64_t count, const int64_t *ends, struct springs springs) {
   hooke_options *options = NULL;
-  check_ok(hooke_spring_options_create(&options));
+  check_ok(hooke_options_create("springs", &options));
   if (springs.law != NULL) check_ok(hooke_options_set_text(options, "law", springs.law));
   check_ok(hooke_options_set_number(options, "stiffness", springs.stiffness));
   check_ok(hooke_options_set_number(options, "damping", springs.damping));
@@ -41,7 +41,7 @@ hooke_system *small_crumpling_cloth(int64_t side) {
                size[2] = {(double)side, (double)side};
   check_ok(hooke_system_create(&system));
   check_ok(hooke_system_set_gravity(system, down));
-  check_ok(hooke_part_options_create("cloth", &cloth));
+  check_ok(hooke_options_create("cloth", &cloth));
   check_ok(hooke_options_set_text(cloth, "origin", "0,0,0"));
   check_ok(hooke_options_set_numbers(cloth, "edges", 6, edges));
   check_ok(hooke_options_set_numbers(cloth, "size", 2, size));

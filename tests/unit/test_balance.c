@@ -18,7 +18,7 @@ static hooke_system *damped_chain(int driven) {
   const int64_t ends[] = {0, 1, 1, 2, 2, 3}, first = 0;
   check_ok(hooke_system_create(&system));
   check_ok(hooke_system_add_particles(system, 4, place, NULL, 1, &mass, NULL));
-  check_ok(hooke_spring_options_create(&options));
+  check_ok(hooke_options_create("springs", &options));
   check_ok(hooke_options_set_text(options, "law", "length"));
   check_ok(hooke_options_set_number(options, "stiffness", 40.0));
   check_ok(hooke_options_set_number(options, "damping", 0.3));
@@ -70,7 +70,7 @@ static void run(struct watch *watch, const char *method, double step) {
   hooke_integrator *integrator;
   hooke_state *state;
   watch->count = 0;
-  check_ok(hooke_run_options_create(&options));
+  check_ok(hooke_options_create("run", &options));
   check_ok(hooke_options_set_text(options, "method", method));
   check_ok(hooke_options_set_number(options, "step", step));
   check_ok(hooke_options_set_number(options, "duration", 0.8));

@@ -38,7 +38,7 @@ static void add_group(struct random_source *source, hooke_system *system, int64_
   char name[32];
   snprintf(name, sizeof name, "%s%d", pulls ? "pull" : "push", group);
   hooke_options *options;
-  check_ok(hooke_spring_options_create(&options));
+  check_ok(hooke_options_create("springs", &options));
   check_ok(hooke_options_set_text(options, "law", "length"));
   check_ok(hooke_options_set_numbers(options, "stiffness", count, kappa));
   check_ok(hooke_options_set_numbers(options, "damping", count, gamma));
@@ -131,7 +131,7 @@ static void test_lanes_of_ropes(void **unused) {
     q[3 * p] = 0.1 * p, q[3 * p + 1] = 0.01 * (p % 7), q[3 * p + 2] = 0.0;
   check_ok(hooke_system_create(&system));
   check_ok(hooke_system_add_particles(system, 90, q, NULL, 1, &mass, NULL));
-  check_ok(hooke_spring_options_create(&options));
+  check_ok(hooke_options_create("springs", &options));
   check_ok(hooke_options_set_numbers(options, "stiffness", 1, &stiffness));
   for (int group = 0; group < 7; group++) {
     const int rope = group / 2 % 3, offset = group % 2 + 1;
@@ -159,7 +159,7 @@ static void check_materials(int ropes, int32_t lanes, int32_t shape) {
     q[3 * p] = 0.1 * p, q[3 * p + 1] = 0.01 * (p % 7);
   check_ok(hooke_system_create(&system));
   check_ok(hooke_system_add_particles(system, 30 * ropes, q, NULL, 1, &mass, NULL));
-  check_ok(hooke_spring_options_create(&options));
+  check_ok(hooke_options_create("springs", &options));
   check_ok(hooke_options_set_number(options, "rest_length", 0.09));
   for (int rope = 0; rope < ropes; rope++) {
     for (int k = 0; k < 29; k++)

@@ -19,7 +19,7 @@ static hooke_system *oscillators(int64_t count, const double *stiffness, const d
   hooke_options *options;
   const double mass = 1.0;
   check_ok(hooke_system_create(&system));
-  check_ok(hooke_spring_options_create(&options));
+  check_ok(hooke_options_create("springs", &options));
   for (int64_t k = 0; k < count; k++) {
     const double place[6] = {far, (double)k, 0.0, far + 1.0, (double)k, 0.0};
     const int64_t pinned = 2 * k;
@@ -149,7 +149,7 @@ static void frozen_system_rests(void **unused) {
   check_ok(hooke_system_add_particles(system, 5, position, NULL, 1, &mass, NULL));
   check_ok(hooke_system_pin(system, 1, &pinned));
   check_ok(hooke_system_drive_harmonic(system, 1, &driven, amplitude, 1.0, 0.0));
-  check_ok(hooke_spring_options_create(&options));
+  check_ok(hooke_options_create("springs", &options));
   check_ok(hooke_options_set_text(options, "law", "length"));
   check_ok(hooke_options_set_number(options, "stiffness", 20.0));
   check_ok(hooke_options_set_numbers(options, "rest_length", 5, rest));
@@ -284,7 +284,7 @@ static int32_t measure_scene(const hooke_system *system, const char *method, dou
                              struct hk_measured_limit *out) {
   hooke_options *run = NULL;
   hooke_state *start = NULL;
-  check_ok(hooke_run_options_create(&run));
+  check_ok(hooke_options_create("run", &run));
   if (duration > 0.0) check_ok(hooke_options_set_number(run, "duration", duration));
   check_ok(hooke_options_set_number(run, "every", 1.0)); /* which fits few steps, and has no say here */
   check_ok(hooke_state_create(system, &start));

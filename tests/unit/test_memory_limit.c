@@ -31,7 +31,7 @@ static hooke_system *new_system(double limit) {
 
 static hooke_options *part_options(const char *kind, int64_t size[3]) {
   hooke_options *options;
-  check_ok(hooke_part_options_create(kind, &options));
+  check_ok(hooke_options_create(kind, &options));
   check_ok(hooke_options_set_number(options, "mass", 1.0));
   const int grid = strcmp(kind, "cloth") == 0 ? 2 : strcmp(kind, "lattice") == 0 ? 3 : 0;
   const double edges[] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
@@ -89,7 +89,7 @@ static void a_mesh_stops_at_the_edge_of_32_bits(void **unused) {
   hooke_options *options;
   const double vertex[3] = {0};
   const int64_t triangle[3] = {0};
-  check_ok(hooke_part_options_create("mesh", &options));
+  check_ok(hooke_options_create("mesh", &options));
   const int64_t counts[] = {2147483648, 2147483649, INT64_MAX / 3 + 1, INT64_MAX};
   for (size_t k = 0; k < sizeof counts / sizeof counts[0]; k++) {
     check_status(hooke_mesh_set(options, counts[k], vertex, 1, triangle), HOOKE_BAD_VALUE);
@@ -102,14 +102,14 @@ static void a_mesh_stops_at_the_edge_of_32_bits(void **unused) {
 
 static hooke_options *spring_options(void) {
   hooke_options *options;
-  check_ok(hooke_spring_options_create(&options));
+  check_ok(hooke_options_create("springs", &options));
   check_ok(hooke_options_set_number(options, "stiffness", 1.0));
   return options;
 }
 
 static hooke_options *altitude_options(void) {
   hooke_options *options;
-  check_ok(hooke_altitude_options_create(&options));
+  check_ok(hooke_options_create("altitude", &options));
   check_ok(hooke_options_set_number(options, "stiffness", 1.0));
   return options;
 }
@@ -202,7 +202,7 @@ static double share_used(const char *kind, int64_t a, int64_t b, int64_t c, cons
   const double needed = hk_system_needed_bytes(system, (struct hk_more){0});
   check_ok(hooke_system_commit(system));
   check_ok(hooke_state_create(system, &state));
-  check_ok(hooke_run_options_create(&run));
+  check_ok(hooke_options_create("run", &run));
   check_ok(hooke_options_set_text(run, "method", "symplectic-euler"));
   check_ok(hooke_options_set_number(run, "step", 1e-9));
   check_ok(hooke_options_set_number(run, "duration", 1e-9));
@@ -297,7 +297,7 @@ static void a_limit_on_the_address_space_counts(void **unused) {
 
 static hooke_options *limits(double gigabytes, int32_t outside) {
   hooke_options *options;
-  check_ok(hooke_scene_options_create("limits", &options));
+  check_ok(hooke_options_create("limits", &options));
   if (gigabytes > 0.0) check_ok(hooke_options_set_number(options, "memory", gigabytes));
   check_ok(hooke_options_set_number(options, "outside", outside));
   return options;
@@ -306,7 +306,7 @@ static hooke_options *limits(double gigabytes, int32_t outside) {
 static void check_parse(const char *text, double gigabytes, int32_t expected, const char *message) {
   hooke_scene *scene = NULL;
   hooke_options *options = limits(gigabytes, 0);
-  check_status(hooke_scene_parse_within(text, (int64_t)strlen(text), "s", NULL, options, &scene), expected);
+  check_status(hooke_scene_parse(text, (int64_t)strlen(text), "s", NULL, options, &scene), expected);
   if (message) check_message(message);
   hooke_scene_destroy(scene);
   hooke_options_destroy(options);
@@ -366,7 +366,7 @@ static void write_text(const char *path, const char *text) {
 static void check_load(const char *path, int32_t outside, int32_t expected, const char *message) {
   hooke_scene *scene = NULL;
   hooke_options *options = limits(0.0, outside);
-  check_status(hooke_scene_load_within(path, options, &scene), expected);
+  check_status(hooke_scene_load(path, options, &scene), expected);
   if (message) check_message(message);
   hooke_scene_destroy(scene);
   hooke_options_destroy(options);

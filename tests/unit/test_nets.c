@@ -73,7 +73,7 @@ static void draw_sheet(struct random_source *source, int order, struct sheet *sh
 static void add_group(struct random_source *source, const struct sheet *sheet, hooke_system *system,
                       int64_t from, int64_t count, int material) {
   hooke_options *options;
-  check_ok(hooke_spring_options_create(&options));
+  check_ok(hooke_options_create("springs", &options));
   double *kappa = new_doubles(count), *gamma = new_doubles(count), *length = new_doubles(count);
   const int pulls = random_whole(source, 0, 3) == 0, damped = random_whole(source, 0, 3) > 0;
   for (int64_t k = 0; k < count; k++) {
@@ -213,7 +213,7 @@ static void test_wide(void **unused) {
   hooke_options *options;
   check_ok(hooke_system_create(&system));
   check_ok(hooke_system_add_particles(system, CHAIN, q, v, CHAIN, mass, NULL));
-  check_ok(hooke_spring_options_create(&options));
+  check_ok(hooke_options_create("springs", &options));
   check_ok(hooke_options_set_number(options, "stiffness", 3.0));
   check_ok(hooke_options_set_number(options, "damping", 0.01));
   check_ok(hooke_system_add_springs(system, "net", COUNT, ends, options));

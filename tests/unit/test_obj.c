@@ -155,7 +155,7 @@ static int32_t read_file(const char *text, double weld, hooke_options **options)
   assert_true(descriptor >= 0);
   assert_int_equal(write(descriptor, text, strlen(text)), (ssize_t)strlen(text));
   close(descriptor);
-  check_ok(hooke_part_options_create("mesh", options));
+  check_ok(hooke_options_create("mesh", options));
   check_ok(hooke_options_set_number(*options, "weld", weld));
   const int32_t status = hooke_mesh_read(path, *options);
   unlink(path);
@@ -205,7 +205,7 @@ static void faults_of_the_surface_have_their_line(void **unused) {
 static void a_file_has_to_be_there(void **unused) {
   (void)unused;
   hooke_options *options;
-  check_ok(hooke_part_options_create("mesh", &options));
+  check_ok(hooke_options_create("mesh", &options));
   check_status(hooke_mesh_read("/tmp/hooke-no-such.obj", options), HOOKE_BAD_VALUE);
   check_message("/tmp/hooke-no-such.obj: cannot be opened: No such file");
   check_status(hooke_mesh_read("/tmp", options), HOOKE_BAD_VALUE);

@@ -39,7 +39,7 @@ static hooke_system *new_system(void) {
 
 static hooke_options *rope_options(double segments) {
   hooke_options *options;
-  check_ok(hooke_part_options_create("rope", &options));
+  check_ok(hooke_options_create("rope", &options));
   check_ok(hooke_options_set_numbers(options, "from", 3, (double[]){0.1, 0.2, 0.3}));
   check_ok(hooke_options_set_numbers(options, "to", 3, (double[]){1.3, 0.2, -0.6}));
   check_ok(hooke_options_set_number(options, "segments", segments));
@@ -49,7 +49,7 @@ static hooke_options *rope_options(double segments) {
 
 static hooke_options *cloth_options(double nu, double nv) {
   hooke_options *options;
-  check_ok(hooke_part_options_create("cloth", &options));
+  check_ok(hooke_options_create("cloth", &options));
   check_ok(hooke_options_set_numbers(options, "origin", 3, (double[]){0.1, 0.7, 0.3}));
   check_ok(hooke_options_set_numbers(options, "edges", 6, (double[]){1.1, 0.0, 0.2, 0.1, 0.0, 0.9}));
   check_ok(hooke_options_set_numbers(options, "size", 2, (double[]){nu, nv}));
@@ -277,7 +277,7 @@ static void parts_come_after_groups_and_are_counted(void **unused) {
   assert_int_equal(first, 5);
   check_ok(hooke_system_add_part(system, "rope", NULL, options, &first, NULL));
   assert_int_equal(first, 8);
-  check_ok(hooke_spring_options_create(&explicit_group));
+  check_ok(hooke_options_create("springs", &explicit_group));
   check_ok(hooke_options_set_number(explicit_group, "stiffness", 9));
   check_ok(hooke_system_add_springs(system, "tie", 1, (int64_t[]){1, 4}, explicit_group));
   check_ok(hooke_system_commit(system));
@@ -332,7 +332,7 @@ static void bad_parts_are_refused(void **unused) {
   check_ok(hooke_options_set_text(options, "stretch", ""));
   check_refused("rope", options, HOOKE_BAD_VALUE, "stretch.stiffness");
 
-  check_ok(hooke_part_options_create("rope", &options));
+  check_ok(hooke_options_create("rope", &options));
   check_refused("rope", options, HOOKE_BAD_VALUE, "from");
 
   options = full_cloth();
@@ -387,16 +387,15 @@ static void a_committed_system_takes_no_part(void **unused) {
 
 static void kinds_can_be_listed(void **unused) {
   (void)unused;
-  assert_int_equal(hooke_part_kind_count(), 5);
-  assert_string_equal(hooke_part_kind(0), "rope");
-  assert_string_equal(hooke_part_kind(1), "cloth");
-  assert_string_equal(hooke_part_kind(2), "lattice");
-  assert_string_equal(hooke_part_kind(3), "mesh");
-  assert_string_equal(hooke_part_kind(4), "strand");
-  assert_null(hooke_part_kind(5));
-  assert_null(hooke_part_kind(-1));
+  assert_string_equal(hooke_part_kind(0, "name"), "rope");
+  assert_string_equal(hooke_part_kind(1, "name"), "cloth");
+  assert_string_equal(hooke_part_kind(2, "name"), "lattice");
+  assert_string_equal(hooke_part_kind(3, "name"), "mesh");
+  assert_string_equal(hooke_part_kind(4, "name"), "strand");
+  assert_null(hooke_part_kind(5, "name"));
+  assert_null(hooke_part_kind(-1, "name"));
   hooke_options *options;
-  check_status(hooke_part_options_create(NULL, &options), HOOKE_BAD_VALUE);
+  check_status(hooke_options_create(NULL, &options), HOOKE_BAD_VALUE);
   assert_null(options);
 }
 

@@ -15,7 +15,7 @@ static hooke_system *cloth(void) {
   hooke_system *system;
   hooke_options *options;
   check_ok(hooke_system_create(&system));
-  check_ok(hooke_part_options_create("cloth", &options));
+  check_ok(hooke_options_create("cloth", &options));
   assert_int_equal(hooke_options_is_set(options, "origin"), 0);
   check_ok(hooke_options_set_text(options, "edges", "1,0,0,0,0,1"));
   check_ok(hooke_options_set_text(options, "size", "4,3"));

@@ -216,7 +216,7 @@ static void files_stay_in_the_folder_of_the_scene(void **state) {
 static hooke_scene *parse(const char *quoted) {
   char *text = json(quoted);
   hooke_scene *scene = NULL;
-  check_ok(hooke_scene_parse(text, (int64_t)strlen(text), "test.json", NULL, &scene));
+  check_ok(hooke_scene_parse(text, (int64_t)strlen(text), "test.json", NULL, NULL, &scene));
   assert_string_equal(hooke_scene_text(scene), text);
   hk_free(text);
   return scene;
@@ -351,7 +351,7 @@ static void driven_particles_move(void **state) {
 static void refuse(const char *quoted, const char *message) {
   char *text = json(quoted), *wanted = json(message);
   hooke_scene *scene = (hooke_scene *)1;
-  check_status(hooke_scene_parse(text, (int64_t)strlen(text), "t.json", NULL, &scene), HOOKE_BAD_VALUE);
+  check_status(hooke_scene_parse(text, (int64_t)strlen(text), "t.json", NULL, NULL, &scene), HOOKE_BAD_VALUE);
   assert_string_equal(hooke_last_error(), wanted);
   assert_null(scene);
   hk_free(text);
@@ -455,12 +455,12 @@ static void syntax_errors_give_line_and_column(void **state) {
   (void)state;
   char *text = json("{'hooke': 1,\n 'title': 'a'\n 'gravity': [0,0,0]}");
   hooke_scene *scene = NULL;
-  check_status(hooke_scene_parse(text, (int64_t)strlen(text), "t.json", NULL, &scene), HOOKE_BAD_VALUE);
+  check_status(hooke_scene_parse(text, (int64_t)strlen(text), "t.json", NULL, NULL, &scene), HOOKE_BAD_VALUE);
   check_message("t.json:3:10: ");
   check_message("allowed: JSON (RFC 8259)");
   hk_free(text);
   text = json("{'hooke': 1,\n 'hooke': 1}");
-  check_status(hooke_scene_parse(text, (int64_t)strlen(text), "t.json", NULL, &scene), HOOKE_BAD_VALUE);
+  check_status(hooke_scene_parse(text, (int64_t)strlen(text), "t.json", NULL, NULL, &scene), HOOKE_BAD_VALUE);
   assert_string_equal(hooke_last_error(),
                       "t.json:2:8: duplicate object key near '\"hooke\"'; allowed: each key once");
   hk_free(text);
@@ -488,15 +488,15 @@ static void files_need_a_folder(void **state) {
 static void files_that_are_none_are_bad_input(void **state) {
   (void)state;
   hooke_scene *scene = NULL;
-  check_status(hooke_scene_load("no/such/scene.json", &scene), HOOKE_BAD_VALUE);
+  check_status(hooke_scene_load("no/such/scene.json", NULL, &scene), HOOKE_BAD_VALUE);
   check_message("no/such/scene.json: cannot be opened: No such file or directory");
-  check_status(hooke_scene_load("/", &scene), HOOKE_BAD_VALUE);
+  check_status(hooke_scene_load("/", NULL, &scene), HOOKE_BAD_VALUE);
   check_message("/: is a directory");
-  check_status(hooke_scene_load("/dev/null", &scene), HOOKE_BAD_VALUE);
+  check_status(hooke_scene_load("/dev/null", NULL, &scene), HOOKE_BAD_VALUE);
   check_message("/dev/null: is not a regular file");
-  check_status(hooke_scene_load(NULL, &scene), HOOKE_BAD_VALUE);
-  check_status(hooke_scene_parse("{}", -1, NULL, NULL, &scene), HOOKE_BAD_VALUE);
-  check_status(hooke_scene_parse("", 0, NULL, NULL, &scene), HOOKE_BAD_VALUE);
+  check_status(hooke_scene_load(NULL, NULL, &scene), HOOKE_BAD_VALUE);
+  check_status(hooke_scene_parse("{}", -1, NULL, NULL, NULL, &scene), HOOKE_BAD_VALUE);
+  check_status(hooke_scene_parse("", 0, NULL, NULL, NULL, &scene), HOOKE_BAD_VALUE);
   check_message("scene:1:1: is empty");
   assert_null(scene);
   hooke_scene_destroy(NULL);
@@ -518,7 +518,7 @@ static void files_of_every_length_are_read_whole(void **state) {
     assert_non_null(file);
     assert_int_equal(fprintf(file, "%s%*s%s", before, gap, "", after), lengths[k]);
     assert_int_equal(fclose(file), 0);
-    check_ok(hooke_scene_load(path, &scene));
+    check_ok(hooke_scene_load(path, NULL, &scene));
     assert_int_equal(strlen(hooke_scene_text(scene)), lengths[k]);
     assert_string_equal(hooke_scene_text(scene) + lengths[k] - (int64_t)sizeof after + 1, after);
     check_ok(hooke_scene_commit(scene));
@@ -539,11 +539,11 @@ static void damaged_scenes_are_survived(void **state) {
   int64_t length = (int64_t)strlen(text), refused = 0;
   for (int64_t k = 0; k < length; k++) {
     hooke_scene *scene = NULL;
-    check_status(hooke_scene_parse(text, k, "cut", NULL, &scene), HOOKE_BAD_VALUE);
+    check_status(hooke_scene_parse(text, k, "cut", NULL, NULL, &scene), HOOKE_BAD_VALUE);
     char kept = text[k];
     for (const char *c = replacements; *c; c++) {
       text[k] = *c;
-      int32_t status = hooke_scene_parse(text, length, "damaged", NULL, &scene);
+      int32_t status = hooke_scene_parse(text, length, "damaged", NULL, NULL, &scene);
       if (status) {
         assert_int_equal(status, HOOKE_BAD_VALUE);
         assert_int_equal(strncmp(hooke_last_error(), "damaged:1:", 10), 0);
@@ -563,10 +563,10 @@ static void damaged_scenes_are_survived(void **state) {
 static void scenes_are_not_in_this_build(void **state) {
   (void)state;
   hooke_scene *scene = (hooke_scene *)1;
-  check_status(hooke_scene_load("scene.json", &scene), HOOKE_NOT_BUILT);
+  check_status(hooke_scene_load("scene.json", NULL, &scene), HOOKE_NOT_BUILT);
   check_message("jansson");
   assert_null(scene);
-  check_status(hooke_scene_parse("{}", 2, NULL, NULL, &scene), HOOKE_NOT_BUILT);
+  check_status(hooke_scene_parse("{}", 2, NULL, NULL, NULL, &scene), HOOKE_NOT_BUILT);
   check_message("jansson");
 }
 

@@ -61,11 +61,11 @@ static void write_and_read(const hooke_system *system, hooke_scene **scene) {
   const int descriptor = mkstemp(path);
   assert_true(descriptor >= 0);
   close(descriptor);
-  check_ok(hooke_run_options_create(&run));
+  check_ok(hooke_options_create("run", &run));
   check_ok(hooke_options_set_number(run, "step", 0.1));
   check_ok(hooke_options_set_text(run, "method", "rk4"));
   check_ok(hooke_scene_write(path, system, "a \"title\" \\ <b> \xc3\xa4", run));
-  check_ok(hooke_scene_load(path, scene));
+  check_ok(hooke_scene_load(path, NULL, scene));
   check_ok(hooke_scene_commit(*scene));
   assert_string_equal(hooke_scene_title(*scene), "a \"title\" \\ <b> \xc3\xa4");
   assert_true(hooke_options_number(hooke_scene_run_options(*scene), "step") == 0.1);
@@ -109,7 +109,7 @@ static void lattice_and_mesh_come_back(void **state) {
   hooke_options *lattice, *mesh;
   hooke_scene *read;
   check_ok(hooke_system_create(&system));
-  check_ok(hooke_part_options_create("lattice", &lattice));
+  check_ok(hooke_options_create("lattice", &lattice));
   check_ok(hooke_options_set_numbers(lattice, "origin", 3, origin));
   check_ok(hooke_options_set_numbers(lattice, "edges", 9, edges));
   check_ok(hooke_options_set_numbers(lattice, "size", 3, size));
@@ -118,7 +118,7 @@ static void lattice_and_mesh_come_back(void **state) {
   check_ok(hooke_options_set_number(lattice, "shear.stiffness", 7));
   check_ok(hooke_options_set_number(lattice, "shear.damping_ratio", 0.1));
   check_ok(hooke_system_add_part(system, "lattice", "block", lattice, NULL, NULL));
-  check_ok(hooke_part_options_create("mesh", &mesh));
+  check_ok(hooke_options_create("mesh", &mesh));
   check_ok(hooke_options_set_number(mesh, "mass", 0.7));
   check_ok(hooke_options_set_number(mesh, "transform.scale", 0.1));
   check_ok(hooke_options_set_numbers(mesh, "transform.translate", 3, moved));
@@ -142,7 +142,7 @@ static void lattice_and_mesh_come_back(void **state) {
 
 static void add_strand(hooke_system *system, int curl) {
   hooke_options *options = NULL;
-  check_ok(hooke_part_options_create("strand", &options));
+  check_ok(hooke_options_create("strand", &options));
   check_ok(hooke_options_set_text(options, "from", "0.1,0.2,0.3"));
   check_ok(hooke_options_set_text(options, "to", "1.7,0.1,-0.6"));
   check_ok(hooke_options_set_number(options, "segments", 13));
@@ -182,7 +182,7 @@ static void strands_come_back(void **state) {
   hooke_options *options = NULL;
   check_ok(hooke_system_create(&system));
   add_strand(system, 1);
-  check_ok(hooke_altitude_options_create(&options));
+  check_ok(hooke_options_create("altitude", &options));
   check_ok(hooke_options_set_number(options, "stiffness", 1.0));
   check_ok(hooke_system_add_altitude(system, "mine", 1, corners, options));
   check_ok(hooke_system_commit(system));
@@ -238,7 +238,7 @@ static void whole_numbers_have_one_zero(void **state) {
   (void)state;
   const double wanted[2] = {0.0, 1.0};
   hooke_options *options;
-  check_ok(hooke_part_options_create("rope", &options));
+  check_ok(hooke_options_create("rope", &options));
   check_ok(hooke_options_set_text(options, "pinned", "-0,1"));
   check_same_bits(2, hooke_options_numbers(options, "pinned"), wanted);
   hooke_options_destroy(options);
@@ -253,18 +253,18 @@ static void keys_of_a_scene_are_applied(void **state) {
   const double origin[3] = {0, 0, 0}, gravity[3] = {0, -9.81, 0}, mass = 1;
   check_ok(hooke_system_create(&system));
   check_ok(hooke_system_add_particles(system, 1, origin, NULL, 1, &mass, NULL));
-  check_ok(hooke_scene_options_create("scene", &options));
+  check_ok(hooke_options_create("scene", &options));
   check_ok(hooke_options_set_text(options, "gravity", "0,-9.81,0"));
   check_ok(hooke_options_set_number(options, "drag", 0.25));
   check_ok(hooke_scene_options_apply(options, system));
   check_same_bits(3, system->gravity, gravity);
   assert_true(system->drag == 0.25);
-  check_ok(hooke_scene_options_create("particles", &other));
+  check_ok(hooke_options_create("particles", &other));
   check_status(hooke_scene_options_apply(other, system), HOOKE_BAD_VALUE);
   check_message("not those of a scene");
   hooke_options_destroy(other);
-  check_status(hooke_scene_options_create("springs", &other), HOOKE_BAD_VALUE);
-  check_message("allowed: scene, particles, driven");
+  check_status(hooke_options_create("wheel", &other), HOOKE_BAD_VALUE);
+  check_message("scene, particles, driven");
   assert_null(other);
   hooke_scene *scene;
   check_status(hooke_scene_of_system(system, NULL, NULL, NULL, NULL, &scene), HOOKE_BAD_CALL);

@@ -117,7 +117,7 @@ static void add_group(const struct sheet *sheet, int group, int lawful, hooke_sy
     sheet->ends[2 * count++ + 1] = sheet->number[p + ahead[group]];
   }
   hooke_options *options;
-  check_ok(hooke_spring_options_create(&options));
+  check_ok(hooke_options_create("springs", &options));
   check_ok(hooke_options_set_numbers(options, "stiffness", lawful ? 1 : count, sheet->stiffness));
   check_ok(hooke_options_set_number(options, "damping", group == 2 ? 0.0 : 0.5));
   check_ok(hooke_options_set_number(options, "rest_scale", 0.98));

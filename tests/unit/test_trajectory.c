@@ -17,7 +17,7 @@ static hooke_system *new_rope(void) {
   hooke_system *system;
   hooke_options *options;
   check_ok(hooke_system_create(&system));
-  check_ok(hooke_part_options_create("rope", &options));
+  check_ok(hooke_options_create("rope", &options));
   check_ok(hooke_options_set_numbers(options, "from", 3, (double[]){0, 0, 0}));
   check_ok(hooke_options_set_numbers(options, "to", 3, (double[]){1, 0.1, 0}));
   check_ok(hooke_options_set_number(options, "segments", 6));
@@ -54,7 +54,7 @@ static int set_up(void **state) {
       f->system, (struct run){.method = "symplectic-euler", .step = 1e-3, .duration = 0.1, .every = 0.01});
   f->state = start_state(f->system);
   f->stop_after = FRAMES + 1;
-  assert_int_equal(hooke_integrator_frame_count(f->integrator), FRAMES);
+  assert_int_equal(hooke_integrator_count(f->integrator, "frames"), FRAMES);
   snprintf(f->folder, sizeof f->folder, "%s/hooke-trajectory-XXXXXX", P_tmpdir);
   assert_non_null(mkdtemp(f->folder));
   snprintf(f->path, sizeof f->path, "%s/out.h5", f->folder);

@@ -22,7 +22,7 @@ static hooke_system *braced_rope(int particles, double mass, int brace) {
   hooke_system *system;
   hooke_options *options;
   check_ok(hooke_system_create(&system));
-  check_ok(hooke_part_options_create("rope", &options));
+  check_ok(hooke_options_create("rope", &options));
   check_ok(hooke_options_set_numbers(options, "from", 3, (double[]){0, 0, 0}));
   check_ok(hooke_options_set_numbers(options, "to", 3, (double[]){1, 0.1, 0}));
   check_ok(hooke_options_set_number(options, "segments", particles - 1));

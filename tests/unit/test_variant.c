@@ -92,7 +92,7 @@ static hooke_system *two_parts(void) {
   const int64_t ends[4] = {0, 2, 10, 11}, pinned = 1;
   check_ok(hooke_system_create(&system));
   check_ok(hooke_system_add_particles(system, 2, alone, NULL, 1, &mass, NULL));
-  check_ok(hooke_part_options_create("rope", &rope));
+  check_ok(hooke_options_create("rope", &rope));
   check_ok(hooke_options_set_numbers(rope, "from", 3, from));
   check_ok(hooke_options_set_numbers(rope, "to", 3, to));
   check_ok(hooke_options_set_number(rope, "segments", 8));
@@ -101,7 +101,7 @@ static hooke_system *two_parts(void) {
   add_family(rope, "stretch", 100, 0.1);
   add_family(rope, "bend", 10, 0);
   check_ok(hooke_system_add_part(system, "rope", "rope", rope, NULL, NULL));
-  check_ok(hooke_part_options_create("cloth", &cloth));
+  check_ok(hooke_options_create("cloth", &cloth));
   check_ok(hooke_options_set_numbers(cloth, "origin", 3, origin));
   check_ok(hooke_options_set_numbers(cloth, "edges", 6, edges));
   check_ok(hooke_options_set_numbers(cloth, "size", 2, size));
@@ -110,7 +110,7 @@ static hooke_system *two_parts(void) {
   add_family(cloth, "structural", 50, 0.2);
   add_family(cloth, "shear", 20, 0);
   check_ok(hooke_system_add_part(system, "cloth", "cloth", cloth, NULL, NULL));
-  check_ok(hooke_spring_options_create(&ties));
+  check_ok(hooke_options_create("springs", &ties));
   check_ok(hooke_options_set_number(ties, "stiffness", 30));
   check_ok(hooke_options_set_number(ties, "damping", 0.3));
   check_ok(hooke_system_add_springs(system, "ties", 2, ends, ties));
@@ -323,7 +323,7 @@ static hooke_system *everything(void) {
   hooke_options *strand, *cloth, *options;
   check_ok(hooke_system_create(&system));
   check_ok(hooke_system_add_particles(system, 4, place, NULL, 1, &mass, NULL));
-  check_ok(hooke_part_options_create("strand", &strand));
+  check_ok(hooke_options_create("strand", &strand));
   check_ok(hooke_options_set_numbers(strand, "from", 3, (double[]){0, 1, 0}));
   check_ok(hooke_options_set_numbers(strand, "to", 3, (double[]){1, 1, 0}));
   check_ok(hooke_options_set_number(strand, "segments", 4));
@@ -332,19 +332,19 @@ static hooke_system *everything(void) {
   add_family(strand, "bend", 2, 0);
   check_ok(hooke_options_set_number(strand, "altitude.stiffness", 1));
   check_ok(hooke_system_add_part(system, "strand", "strand", strand, NULL, NULL));
-  check_ok(hooke_part_options_create("cloth", &cloth));
+  check_ok(hooke_options_create("cloth", &cloth));
   check_ok(hooke_options_set_numbers(cloth, "edges", 6, (double[]){1, 0, 0, 0, 0, 1}));
   check_ok(hooke_options_set_numbers(cloth, "size", 2, (double[]){3, 3}));
   check_ok(hooke_options_set_number(cloth, "mass", 0.2));
   check_ok(hooke_options_set_number(cloth, "bending", 0.001));
   add_family(cloth, "structural", 20, 0.1);
   check_ok(hooke_system_add_part(system, "cloth", "cloth", cloth, NULL, NULL));
-  check_ok(hooke_spring_options_create(&options));
+  check_ok(hooke_options_create("springs", &options));
   check_ok(hooke_options_set_number(options, "stiffness", 30));
   check_ok(hooke_system_add_springs(system, "ties", 3, ends, options));
   hooke_options_destroy(options);
   check_ok(hooke_system_add_bending(system, "hinge", 1, triple, 1, &coefficient));
-  check_ok(hooke_altitude_options_create(&options));
+  check_ok(hooke_options_create("altitude", &options));
   check_ok(hooke_options_set_number(options, "stiffness", 3));
   check_ok(hooke_system_add_altitude(system, "body", 1, corners, options));
   hooke_options_destroy(options);

@@ -71,7 +71,7 @@ static void write_file(const struct fixture *f, double far, double duration) {
   hooke_state *state = start_state(system);
   hooke_trajectory *trajectory;
   check_ok(hooke_trajectory_create(f->path, system, integrator, NULL, &trajectory));
-  for (int64_t k = 0; k < hooke_integrator_frame_count(integrator); k++) {
+  for (int64_t k = 0; k < hooke_integrator_count(integrator, "frames"); k++) {
     hooke_state_set_time(state, 1e-3 * (double)k);
     check_ok(hooke_trajectory_write(trajectory, k, state));
   }
@@ -106,7 +106,7 @@ static hooke_view *open_view(const struct fixture *f, double frames, hooke_recor
   hooke_options *options;
   hooke_view *view;
   check_ok(hooke_record_open(f->path, record));
-  check_ok(hooke_view_options_create(&options));
+  check_ok(hooke_options_create("view", &options));
   if (frames > 0) check_ok(hooke_options_set_number(options, "frames", frames));
   check_ok(hooke_view_create(*record, options, &view));
   hooke_options_destroy(options);
@@ -172,11 +172,11 @@ static void views_are_refused_in_words(void **state) {
   hooke_view *view;
   write_file(f, 1.0, 0.01);
   check_ok(hooke_record_open(f->path, &record));
-  check_ok(hooke_run_options_create(&options));
+  check_ok(hooke_options_create("run", &options));
   check_status(hooke_view_create(record, options, &view), HOOKE_BAD_CALL);
   assert_null(view);
   hooke_options_destroy(options);
-  check_ok(hooke_view_options_create(&options));
+  check_ok(hooke_options_create("view", &options));
   check_status(hooke_options_set_number(options, "frames", 1), HOOKE_BAD_VALUE);
   check_ok(hooke_options_set_number(options, "size", 0.5));
   check_status(hooke_view_create(record, options, &view), HOOKE_BAD_VALUE);

@@ -22,13 +22,13 @@ static hooke_system *scene(void) {
   hooke_options *options, *rope;
   check_ok(hooke_system_create(&system));
   check_ok(hooke_system_add_particles(system, 3, q, NULL, 1, &mass, NULL));
-  check_ok(hooke_spring_options_create(&options));
+  check_ok(hooke_options_create("springs", &options));
   check_ok(hooke_options_set_number(options, "stiffness", 50.0));
   check_ok(hooke_system_add_springs(system, "rods", 2, rods, options));
   check_ok(hooke_options_set_text(options, "law", "length"));
   check_ok(hooke_options_set_number(options, "rest_length", 0.0));
   check_ok(hooke_system_add_springs(system, "tie", 1, tie, options));
-  check_ok(hooke_part_options_create("rope", &rope));
+  check_ok(hooke_options_create("rope", &rope));
   check_ok(hooke_options_set_text(rope, "from", "5,0,0"));
   check_ok(hooke_options_set_text(rope, "to", "6,0,0"));
   check_ok(hooke_options_set_number(rope, "segments", 4));
@@ -140,7 +140,7 @@ static void springs_that_are_left_out_are_said(void **unused) {
   hooke_options *options;
   check_ok(hooke_system_create(&system));
   check_ok(hooke_system_add_particles(system, 3, q, NULL, 1, &mass, NULL));
-  check_ok(hooke_spring_options_create(&options));
+  check_ok(hooke_options_create("springs", &options));
   check_ok(hooke_options_set_numbers(options, "stiffness", 2, stiffness));
   check_ok(hooke_system_add_springs(system, "some", 2, ends, options));
   hooke_options_destroy(options);

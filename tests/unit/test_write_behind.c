@@ -26,7 +26,7 @@ struct fixture {
 static void build(struct fixture *f, int n) {
   hooke_options *options;
   check_ok(hooke_system_create(&f->system));
-  check_ok(hooke_part_options_create("rope", &options));
+  check_ok(hooke_options_create("rope", &options));
   check_ok(hooke_options_set_numbers(options, "from", 3, (double[]){0, 0, 0}));
   check_ok(hooke_options_set_numbers(options, "to", 3, (double[]){1, 0.1, 0}));
   check_ok(hooke_options_set_number(options, "segments", n - 1));

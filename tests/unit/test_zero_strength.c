@@ -56,7 +56,7 @@ static void add_part(const struct scene *scene, hooke_system *system) {
   static const double to[] = {2, 0.5, 0.1};
   const int cloth = scene->shape == CLOTH;
   hooke_options *options;
-  check_ok(hooke_part_options_create(cloth ? "cloth" : "rope", &options));
+  check_ok(hooke_options_create(cloth ? "cloth" : "rope", &options));
   check_ok(hooke_options_set_number(options, "mass", 1.0));
   if (cloth) {
     check_ok(hooke_options_set_numbers(options, "origin", 3, origin));
@@ -106,7 +106,7 @@ static void add_network(const struct scene *scene, hooke_system *system) {
   hooke_options *options;
   draw_network(is_zero(scene, SOME_SPRINGS), is_full(scene, DAMPING) ? 0.01 : 0.0, &network);
   check_ok(hooke_system_add_particles(system, PARTICLES, network.position, NULL, 1, &mass, NULL));
-  check_ok(hooke_spring_options_create(&options));
+  check_ok(hooke_options_create("springs", &options));
   check_ok(hooke_options_set_text(options, "law", "length"));
   check_ok(hooke_options_set_numbers(options, "stiffness", network.count, network.stiffness));
   if (is_full(scene, DAMPING) || is_zero(scene, DAMPING))
@@ -121,7 +121,7 @@ static void add_group(hooke_system *system, int64_t offset, double stiffness) {
   hooke_options *options;
   for (int64_t k = 0; k < GROUP; k++)
     ends[2 * k] = k, ends[2 * k + 1] = k + offset;
-  check_ok(hooke_spring_options_create(&options));
+  check_ok(hooke_options_create("springs", &options));
   check_ok(hooke_options_set_number(options, "stiffness", stiffness));
   check_ok(hooke_options_set_number(options, "rest_length", 0.3));
   check_ok(hooke_options_set_number(options, "rest_scale", 1.5));
@@ -336,7 +336,7 @@ static void numbers_are_of_what_is_there(void **unused) {
   hooke_options *options;
   int64_t found[2];
   double gamma;
-  check_ok(hooke_spring_options_create(&options));
+  check_ok(hooke_options_create("springs", &options));
   check_ok(hooke_options_set_numbers(options, "stiffness", 2, stiffness));
   check_ok(hooke_options_set_numbers(options, "damping", 2, damping));
   check_ok(hooke_system_add_springs(system, "some", 2, ends, options));

@@ -99,12 +99,12 @@ static const struct hk_option_row run_rows[] = {
 
 static const struct hk_option_table run_table = {"run", HOOKE_OPTION_ROWS(run_rows)};
 
-int32_t hooke_run_options_create(hooke_options **options) {
+int32_t hk_run_options_create(hooke_options **options) {
   return hk_options_create(&run_table, options);
 }
 
 int32_t hk_run_options_require(const hooke_options *options, const char *place) {
-  return hk_options_require(options, &run_table, place, "hooke_run_options_create()");
+  return hk_options_require(options, &run_table, place, "hooke_options_create(\"run\", ...)");
 }
 
 /* ---- schedule ---- */

@@ -40,7 +40,7 @@ static const struct hk_option_table table = {"view", HOOKE_OPTION_ROWS(rows)};
 
 const char *const hk_view_energy[HOOKE_VIEW_ENERGIES] = {"kinetic", "potential", "total"};
 
-int32_t hooke_view_options_create(hooke_options **options) {
+int32_t hk_view_options_create(hooke_options **options) {
   return hk_options_create(&table, options);
 }
 
@@ -243,11 +243,11 @@ int32_t hooke_view_create(const hooke_record *record, const hooke_options *optio
   view->record = record;
   view->bytes = NAN;
   if (options && hk_options_table(options) != &table)
-    status = hk_fail(HOOKE_BAD_CALL, "options", "are not those of hooke_view_options_create()");
+    status = hk_fail(HOOKE_BAD_CALL, "options",
+                     "are not those of a view; make them with hooke_options_create(\"view\", ...)");
   if (status == HOOKE_OK) status = check_record(view);
   if (status == HOOKE_OK)
-    status =
-        options ? hooke_options_copy(options, &view->options) : hooke_view_options_create(&view->options);
+    status = options ? hooke_options_copy(options, &view->options) : hk_view_options_create(&view->options);
   if (status == HOOKE_OK) status = choose(view);
   if (status == HOOKE_OK) status = hk_view_find_strain(view);
   if (status == HOOKE_OK)

@@ -14,6 +14,8 @@ extern const char *const hk_view_energy[HOOKE_VIEW_ENERGIES]; /* "kinetic", ... 
 /* How a particle is marked. */
 enum { HOOKE_VIEW_FREE, HOOKE_VIEW_PINNED, HOOKE_VIEW_DRIVEN, HOOKE_VIEW_LOOSE };
 
+int32_t hk_view_options_create(hooke_options **options);
+
 struct hooke_view {
   const hooke_record *record;
   hooke_options *options;

@@ -25,7 +25,7 @@ static void add_scene(struct hk_text *data, const struct hooke_view *view, const
   const char *path = hk_record_path(view->record), *slash = strrchr(path, '/');
   const double *gravity = NULL;
   const int32_t status =
-      hooke_record_text(view->record, "scene")[0] ? hooke_scene_load(path, &scene) : HOOKE_BAD_VALUE;
+      hooke_record_text(view->record, "scene")[0] ? hooke_scene_load(path, NULL, &scene) : HOOKE_BAD_VALUE;
   if (status == HOOKE_NO_MEMORY) data->status = status;
   if (status == HOOKE_OK) {
     gravity = hooke_scene_system(scene)->gravity;

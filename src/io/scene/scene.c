@@ -97,7 +97,7 @@ static int32_t load_record(const char *path, const hooke_options *limits, hooke_
   if (status == HOOKE_OK && text[0] == '\0')
     status = hk_fail(HOOKE_BAD_VALUE, NULL, "%s: holds no scene: the run was not made from one", path);
   if (status == HOOKE_OK)
-    status = hooke_scene_parse_within(text, (int64_t)strlen(text), path, folder, limits, scene);
+    status = hooke_scene_parse(text, (int64_t)strlen(text), path, folder, limits, scene);
   if (status == HOOKE_OK) {
     hooke_options *run = NULL;
     status = hooke_options_copy(hooke_record_options(record), &run);
@@ -114,11 +114,7 @@ static int32_t load_record(const char *path, const hooke_options *limits, hooke_
   return status;
 }
 
-int32_t hooke_scene_load(const char *path, hooke_scene **scene) {
-  return hooke_scene_load_within(path, NULL, scene);
-}
-
-int32_t hooke_scene_load_within(const char *path, const hooke_options *limits, hooke_scene **scene) {
+int32_t hooke_scene_load(const char *path, const hooke_options *limits, hooke_scene **scene) {
   HOOKE_KEEP_ERRNO;
   if (scene) *scene = NULL;
   if (path == NULL || scene == NULL) return hk_fail(HOOKE_BAD_VALUE, NULL, "no path or no scene given");
@@ -141,12 +137,7 @@ int32_t hooke_scene_load_within(const char *path, const hooke_options *limits, h
 }
 
 int32_t hooke_scene_parse(const char *text, int64_t length, const char *name, const char *folder,
-                          hooke_scene **scene) {
-  return hooke_scene_parse_within(text, length, name, folder, NULL, scene);
-}
-
-int32_t hooke_scene_parse_within(const char *text, int64_t length, const char *name, const char *folder,
-                                 const hooke_options *limits, hooke_scene **scene) {
+                          const hooke_options *limits, hooke_scene **scene) {
   if (scene) *scene = NULL;
   if (text == NULL || length < 0 || scene == NULL)
     return hk_fail(HOOKE_BAD_VALUE, NULL, "no text or no scene given (length %lld)", (long long)length);

@@ -110,7 +110,7 @@ static int32_t check_version(const json_t *root) {
 
 static int32_t read_top(struct hk_scene_reader *reader, const json_t *root) {
   hooke_options *options = NULL;
-  int32_t status = hooke_scene_options_create("scene", &options);
+  int32_t status = hooke_options_create("scene", &options);
   if (status == HOOKE_OK) status = hk_scene_read_options(reader, root, other_keys, options);
   if (status == HOOKE_OK) status = hooke_scene_options_apply(options, reader->scene->system);
   if (status == HOOKE_OK &&
@@ -134,7 +134,7 @@ static int32_t check_method(const hooke_options *run) {
 }
 
 static int32_t read_run(struct hk_scene_reader *reader, const json_t *run) {
-  int32_t status = hooke_run_options_create(&reader->scene->run);
+  int32_t status = hooke_options_create("run", &reader->scene->run);
   if (status || run == NULL) return status;
   status = hk_scene_require_object(run, NULL);
   if (status == HOOKE_OK) status = hk_scene_read_some_options(reader, run, NULL, reader->scene->run);

@@ -70,7 +70,7 @@ static int32_t add_particles(struct hk_scene_reader *reader, const json_t *parti
 int32_t hk_scene_add_particles(struct hk_scene_reader *reader, const json_t *particles) {
   hooke_options *options = NULL;
   int32_t status = hk_scene_require_object(particles, NULL);
-  if (status == HOOKE_OK) status = hooke_scene_options_create("particles", &options);
+  if (status == HOOKE_OK) status = hooke_options_create("particles", &options);
   if (status == HOOKE_OK) status = add_particles(reader, particles, options);
   hooke_options_destroy(options);
   return status ? hk_fail_within(status, "particles") : HOOKE_OK;
@@ -80,15 +80,15 @@ int32_t hk_scene_add_particles(struct hk_scene_reader *reader, const json_t *par
 
 static int32_t read_kind(const json_t *object, const char **kind) {
   char kinds[LIST_SIZE] = "";
-  for (int64_t k = 0; k < hooke_part_kind_count(); k++) {
+  for (int64_t k = 0; hooke_part_kind(k, "name"); k++) {
     size_t used = strlen(kinds);
-    snprintf(kinds + used, sizeof kinds - used, "%s%s", k ? ", " : "", hooke_part_kind(k));
+    snprintf(kinds + used, sizeof kinds - used, "%s%s", k ? ", " : "", hooke_part_kind(k, "name"));
   }
   int32_t status = read_text(object, "kind", kind);
   if (status) return status;
   if (*kind == NULL) return hk_fail(HOOKE_BAD_VALUE, "kind", "is required but missing; allowed: %s", kinds);
-  for (int64_t k = 0; k < hooke_part_kind_count(); k++)
-    if (strcmp(hooke_part_kind(k), *kind) == 0) return HOOKE_OK;
+  for (int64_t k = 0; hooke_part_kind(k, "name"); k++)
+    if (strcmp(hooke_part_kind(k, "name"), *kind) == 0) return HOOKE_OK;
   char shown[HOOKE_OPTION_SHOWN];
   hk_option_show(*kind, (int64_t)strlen(*kind), shown);
   return hk_fail(HOOKE_BAD_VALUE, "kind", "\"%s\" is not a kind of part; allowed: %s", shown, kinds);
@@ -143,7 +143,7 @@ static int32_t add_part(struct hk_scene_reader *reader, const json_t *object, in
   int32_t status = read_kind(object, &kind);
   if (status == HOOKE_OK) status = read_text(object, "name", &name);
   if (status == HOOKE_OK) status = check_name(reader, index);
-  if (status == HOOKE_OK) status = hooke_part_options_create(kind, &options);
+  if (status == HOOKE_OK) status = hooke_options_create(kind, &options);
   if (status == HOOKE_OK) status = hk_scene_read_options(reader, object, "kind name", options);
   if (status == HOOKE_OK) status = read_file(reader, options);
   if (status == HOOKE_OK) {
@@ -182,7 +182,7 @@ static int32_t add_group(struct hk_scene_reader *reader, const json_t *object, h
 static int32_t add_springs(struct hk_scene_reader *reader, const json_t *object, int64_t index) {
   (void)index;
   hooke_options *options = NULL;
-  int32_t status = hooke_spring_options_create(&options);
+  int32_t status = hooke_options_create("springs", &options);
   if (status == HOOKE_OK) status = add_group(reader, object, options);
   hooke_options_destroy(options);
   return status;
@@ -252,7 +252,7 @@ static int32_t read_drive(struct hk_scene_reader *reader, const json_t *object, 
 static int32_t add_driven(struct hk_scene_reader *reader, const json_t *object, int64_t index) {
   (void)index;
   hooke_options *options = NULL;
-  int32_t status = hooke_scene_options_create("driven", &options);
+  int32_t status = hooke_options_create("driven", &options);
   if (status == HOOKE_OK) status = read_drive(reader, object, options);
   hooke_options_destroy(options);
   return status;

@@ -1,4 +1,5 @@
 /* The keys of a scene that neither a part, nor springs, nor a run has. */
+#include "io/scene/scene_file.h"
 #include "core/option.h"
 #include "core/status.h"
 #include "hooke/io.h"
@@ -102,7 +103,7 @@ static const struct hk_option_row limit_rows[] = {
 
 static const struct hk_option_table limit_table = {"limits", HOOKE_OPTION_ROWS(limit_rows)};
 
-int32_t hooke_scene_options_create(const char *what, hooke_options **options) {
+int32_t hk_scene_options_create(const char *what, hooke_options **options) {
   static const struct hk_option_table *const tables[] = {&scene_table, &particle_table, &drive_table,
                                                          &limit_table};
   *options = NULL;
@@ -117,7 +118,7 @@ int32_t hooke_scene_options_apply(const hooke_options *options, hooke_system *sy
   if (options == NULL || hk_options_table(options) != &scene_table) {
     return hk_fail(
         HOOKE_BAD_VALUE, NULL,
-        "the options are not those of a scene; make them with hooke_scene_options_create(\"scene\", ...)");
+        "the options are not those of a scene; make them with hooke_options_create(\"scene\", ...)");
   }
   int32_t status = HOOKE_OK;
   if (hooke_options_is_set(options, "gravity"))

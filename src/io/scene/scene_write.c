@@ -302,7 +302,7 @@ int32_t hooke_scene_of_system(const hooke_system *system, const char *title, con
   struct hk_text laid = {.bytes = NULL};
   *scene = NULL;
   int32_t status = compose(system, title, run, &laid);
-  if (status == HOOKE_OK) status = hooke_scene_parse(laid.bytes, laid.length, name, folder, scene);
+  if (status == HOOKE_OK) status = hooke_scene_parse(laid.bytes, laid.length, name, folder, NULL, scene);
   hk_text_release(&laid);
   return status;
 }

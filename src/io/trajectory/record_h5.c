@@ -206,7 +206,7 @@ int32_t hooke_record_open(const char *path, hooke_record **out) {
   struct hooke_record *record = hk_handle_new("hooke_record", sizeof *record);
   if (record == NULL) return HOOKE_NO_MEMORY;
   record->path = hk_copy_text(path);
-  int32_t status = record->path ? hooke_run_options_create(&record->options) : HOOKE_NO_MEMORY;
+  int32_t status = record->path ? hooke_options_create("run", &record->options) : HOOKE_NO_MEMORY;
   if (status == HOOKE_OK) status = read_file(record);
   if (status == HOOKE_OK && record->status == NULL)
     status = hk_fail(HOOKE_BAD_VALUE, NULL, "%s: is no trajectory of hooke: it has no /hooke/status", path);

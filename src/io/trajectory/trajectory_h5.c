@@ -51,7 +51,7 @@ static int32_t settle(struct hk_h5_guard *guard, hooke_trajectory *made) {
 static int32_t fill(struct hk_h5_guard *guard, const char *path, const hooke_system *system,
                     const hooke_integrator *integrator, const char *scene_text, hooke_trajectory *made) {
   const hooke_options *options = hooke_integrator_options(integrator);
-  const int64_t frames = hooke_integrator_frame_count(integrator);
+  const int64_t frames = hooke_integrator_count(integrator, "frames");
   const double text = scene_text ? (double)strlen(scene_text) : 0.0;
   int32_t status = hk_h5md_new_run(made->run);
   if (status == HOOKE_OK)
@@ -90,7 +90,7 @@ int32_t hooke_trajectory_create(const char *path, const hooke_system *system,
   if (!hooke_system_is_committed(system)) {
     return hk_fail(HOOKE_BAD_CALL, NULL, "the system is not committed yet; call hooke_system_commit() first");
   }
-  if (hooke_integrator_frame_count(integrator) < 1) {
+  if (hooke_integrator_count(integrator, "frames") < 1) {
     return hk_fail(HOOKE_BAD_VALUE, "duration",
                    "is missing: a trajectory needs to know how many frames come");
   }

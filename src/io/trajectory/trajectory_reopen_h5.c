@@ -178,7 +178,7 @@ int32_t hk_trajectory_reopen(const char *path, const hooke_system *system, const
   if (status == HOOKE_OK) status = read_description(&guard, made);
   if (status == HOOKE_OK) status = look(made, frames_kept);
   if (status == HOOKE_OK)
-    status = go_on(&guard, &made, hooke_integrator_frame_count(integrator), frames_kept);
+    status = go_on(&guard, &made, hooke_integrator_count(integrator, "frames"), frames_kept);
   if (status == HOOKE_OK)
     *trajectory = made;
   else

@@ -90,7 +90,7 @@ static int32_t open(struct hk_verify *verify) {
   if (status == HOOKE_OK && hooke_record_frame_count(verify->record) == 0)
     status =
         hk_fail(HOOKE_BAD_VALUE, NULL, "%s: has no frames; allowed: a trajectory of one run", verify->path);
-  if (status == HOOKE_OK) status = hooke_scene_load_within(verify->path, verify->limits, &verify->scene);
+  if (status == HOOKE_OK) status = hooke_scene_load(verify->path, verify->limits, &verify->scene);
   if (status == HOOKE_OK) status = hooke_scene_commit(verify->scene);
   if (status != HOOKE_OK) return status;
   const char *method = hooke_options_text(hooke_record_options(verify->record), "method");

@@ -125,7 +125,7 @@ int32_t hooke_estimate_begin(hooke_estimate *e, const hooke_integrator *it, cons
   int32_t status = hooke_options_copy(it->options, &e->options);
   if (status != HOOKE_OK) return status;
   int64_t count;
-  const int64_t frames = hooke_integrator_frame_count(it);
+  const int64_t frames = hooke_integrator_count(it, "frames");
   e->begin = hooke_state_time(state);
   e->duration = it->schedule.duration;
   e->every = it->schedule.every;

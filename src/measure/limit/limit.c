@@ -284,7 +284,7 @@ static int32_t go_along(struct hk_limit *limit, hooke_state *state) {
   if (status != HOOKE_OK) return status;
   forget(limit);
   forget_smallest(limit);
-  struct walk walk = {limit, 0, hooke_integrator_frame_count(integrator), HOOKE_OK};
+  struct walk walk = {limit, 0, hooke_integrator_count(integrator, "frames"), HOOKE_OK};
   status = hooke_integrator_on_frame(integrator, see_frame, &walk);
   if (status == HOOKE_OK) status = hooke_integrator_on_progress(integrator, 0.0, see_steps, &walk);
   if (status == HOOKE_OK) status = hooke_integrator_run(integrator, state);

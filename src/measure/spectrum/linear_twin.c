@@ -157,7 +157,7 @@ static int32_t new_thaw(struct making *making, struct hk_twin *twin) {
 
 static int32_t add_springs(const struct making *making, hooke_system *system) {
   hooke_options *options = NULL;
-  int32_t status = hooke_spring_options_create(&options);
+  int32_t status = hk_spring_options_create(&options);
   if (status == HOOKE_OK) status = hooke_options_set_text(options, "law", "length");
   if (status == HOOKE_OK)
     status = hooke_options_set_numbers(options, "stiffness", making->count, making->kappa);

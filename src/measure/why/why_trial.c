@@ -56,7 +56,7 @@ int32_t hk_change_begin(struct hk_change *change, const char *option) {
   snprintf(change->option, sizeof change->option, "%s", option);
   change->words[0] = '\0';
   change->run = NULL;
-  return hooke_run_options_create(&change->run);
+  return hk_run_options_create(&change->run);
 }
 
 void hk_change_say(struct hk_change *change, const char *format, ...) {

@@ -42,7 +42,7 @@ static const struct hk_option_row rows[] = {
 
 static const struct hk_option_table table = {"altitude springs", HOOKE_OPTION_ROWS(rows)};
 
-int32_t hooke_altitude_options_create(hooke_options **options) {
+int32_t hk_altitude_options_create(hooke_options **options) {
   return hk_options_create(&table, options);
 }
 
@@ -205,9 +205,9 @@ static int32_t check_call(const hooke_system *system, int64_t count, const int64
   int32_t status = hk_system_require_open(system);
   if (status != HOOKE_OK) return status;
   if (options == NULL || hk_options_table(options) != &table) {
-    return hk_fail(
-        HOOKE_BAD_VALUE, NULL,
-        "the options are not those of altitude springs; make them with hooke_altitude_options_create()");
+    return hk_fail(HOOKE_BAD_VALUE, NULL,
+                   "the options are not those of altitude springs; make them with "
+                   "hooke_options_create(\"altitude\", ...)");
   }
   if (count < 0) {
     return hk_fail(HOOKE_BAD_VALUE, "tetrahedra", "%lld tetrahedra; 0 or more are allowed", (long long)count);

@@ -3,10 +3,13 @@
 #ifndef HOOKE_MODEL_FORCE_ALTITUDE_H
 #define HOOKE_MODEL_FORCE_ALTITUDE_H
 
+#include "core/option.h"
 #include "kernel/altitude_loops.h"
 
 struct hooke_system;
 struct hk_altitudes;
+
+int32_t hk_altitude_options_create(hooke_options **options);
 
 struct hk_altitude_group {
   char *name;

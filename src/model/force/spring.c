@@ -55,7 +55,7 @@ static const struct hk_option_row spring_rows[] = {
 
 static const struct hk_option_table spring_table = {"spring group", HOOKE_OPTION_ROWS(spring_rows)};
 
-int32_t hooke_spring_options_create(hooke_options **options) {
+int32_t hk_spring_options_create(hooke_options **options) {
   return hk_options_create(&spring_table, options);
 }
 
@@ -264,7 +264,7 @@ static int32_t add_group(hooke_system *system, const char *name, int64_t count, 
                          const hooke_options *options, int32_t from_part) {
   int32_t status = hk_system_require_open(system);
   if (status == HOOKE_OK)
-    status = hk_options_require(options, &spring_table, "options", "hooke_spring_options_create()");
+    status = hk_options_require(options, &spring_table, "options", "hooke_options_create(\"springs\", ...)");
   if (status == HOOKE_OK) status = hk_options_check_required(options);
   if (status == HOOKE_OK) status = check_ends(system, count, ends);
   if (status == HOOKE_OK) status = check_count(options, "stiffness", count);

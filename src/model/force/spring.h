@@ -5,6 +5,8 @@
 #include "core/option.h"
 #include "kernel/spring_loops.h"
 
+int32_t hk_spring_options_create(hooke_options **options);
+
 struct hk_group {
   char *name;
   int64_t count;

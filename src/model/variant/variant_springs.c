@@ -60,7 +60,7 @@ static int32_t set_shortest(hooke_options *options, const char *name, int64_t co
 }
 
 static int32_t material(const struct staying *staying, hooke_options **options) {
-  int32_t status = hooke_spring_options_create(options);
+  int32_t status = hk_spring_options_create(options);
   if (status == HOOKE_OK) status = hooke_options_set_text(*options, "law", "length");
   if (status == HOOKE_OK) status = set_shortest(*options, "stiffness", staying->count, staying->kappa);
   if (status == HOOKE_OK) status = set_shortest(*options, "damping", staying->count, staying->gamma);
@@ -102,7 +102,7 @@ static int32_t add_group(struct hk_variant_maker *maker, const struct hk_group *
 /* A group that had nothing but springs of no strength keeps its place. */
 static int32_t add_empty_group(struct hk_variant_maker *maker, const struct hk_group *group) {
   hooke_options *options = NULL;
-  int32_t status = hooke_spring_options_create(&options);
+  int32_t status = hk_spring_options_create(&options);
   if (status == HOOKE_OK) status = hooke_options_set_number(options, "stiffness", 0.0);
   if (status == HOOKE_OK) status = hooke_system_add_springs(maker->made, group->name, 0, NULL, options);
   hooke_options_destroy(options);

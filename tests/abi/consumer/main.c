@@ -12,7 +12,7 @@ static int32_t make(hooke_system **system, hooke_state **state) {
   int32_t status = hooke_system_create(system);
   if (!status) status = hooke_system_add_particles(*system, 2, position, NULL, 1, &mass, NULL);
   if (!status) status = hooke_system_pin(*system, 1, &pinned);
-  if (!status) status = hooke_spring_options_create(&spring);
+  if (!status) status = hooke_options_create("springs", &spring);
   if (!status) status = hooke_options_set_number(spring, "stiffness", 8);
   if (!status) status = hooke_options_set_number(spring, "rest_length", 1);
   if (!status) status = hooke_system_add_springs(*system, NULL, 1, ends, spring);
@@ -25,7 +25,7 @@ static int32_t make(hooke_system **system, hooke_state **state) {
 static int32_t step(const hooke_system *system, hooke_state *state) {
   hooke_options *run = NULL;
   hooke_integrator *integrator = NULL;
-  int32_t status = hooke_run_options_create(&run);
+  int32_t status = hooke_options_create("run", &run);
   if (!status) status = hooke_options_set_text(run, "method", "symplectic-euler");
   if (!status) status = hooke_options_set_number(run, "step", 0.01);
   if (!status) status = hooke_integrator_create(system, run, &integrator);

@@ -41,7 +41,7 @@ static double height_after_a_second() {
       },
       nullptr, const_cast<double *>(&weight)));
   check(hooke_system_commit(system.get()));
-  auto run = make<options_ptr>(hooke_run_options_create);
+  auto run = make<options_ptr>(hooke_options_create, "run");
   check(hooke_options_set_text(run.get(), "method", "verlet"));
   check(hooke_options_set_number(run.get(), "step", 0.125));
   check(hooke_options_set_number(run.get(), "duration", 1));
@@ -52,7 +52,7 @@ static double height_after_a_second() {
 }
 
 int main() try {
-  auto run = make<options_ptr>(hooke_run_options_create);
+  auto run = make<options_ptr>(hooke_options_create, "run");
   bool refused = false;
   try {
     check(hooke_options_set_number(run.get(), "step", -1));

@@ -21,7 +21,7 @@ static hooke_system *cloth(double damping, void (*place)(double *q), double rest
   const double mass = 0.01;
   hooke_options *part = NULL;
   hooke_system *plan = NULL, *system = NULL;
-  check_ok(hooke_part_options_create("cloth", &part));
+  check_ok(hooke_options_create("cloth", &part));
   check_ok(hooke_options_set_numbers(part, "origin", 3, origin));
   check_ok(hooke_options_set_numbers(part, "edges", 6, edges));
   check_ok(hooke_options_set_numbers(part, "size", 2, sides));
@@ -48,7 +48,7 @@ static hooke_system *cloth(double damping, void (*place)(double *q), double rest
   for (int64_t k = 0; k < springs; k++)
     brake[k] = damping * kappa[k];
   hooke_options *options = NULL;
-  check_ok(hooke_spring_options_create(&options));
+  check_ok(hooke_options_create("springs", &options));
   check_ok(hooke_options_set_text(options, "law", "length"));
   check_ok(hooke_options_set_numbers(options, "stiffness", springs, kappa));
   check_ok(hooke_options_set_numbers(options, "damping", springs, brake));

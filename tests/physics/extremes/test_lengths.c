@@ -32,7 +32,7 @@ static int32_t add_spring(const char *law, double stiffness, double rest_length)
   const int64_t ends[] = {0, 1};
   hooke_options *options = NULL;
   hooke_system *system = small_system(2, q, NULL, 1.0, 1);
-  check_ok(hooke_spring_options_create(&options));
+  check_ok(hooke_options_create("springs", &options));
   check_ok(hooke_options_set_text(options, "law", law));
   check_ok(hooke_options_set_number(options, "stiffness", stiffness));
   check_ok(hooke_options_set_number(options, "rest_length", rest_length));

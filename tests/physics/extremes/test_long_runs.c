@@ -38,7 +38,7 @@ static struct ensemble ensemble(const char *law, double stiffness, double mass, 
   check_ok(hooke_system_create(&e.system));
   check_ok(hooke_system_add_particles(e.system, 2 * PHASES, q, v, 1, &mass, NULL));
   check_ok(hooke_system_pin(e.system, PHASES, pinned));
-  check_ok(hooke_spring_options_create(&options));
+  check_ok(hooke_options_create("springs", &options));
   check_ok(hooke_options_set_text(options, "law", law));
   check_ok(hooke_options_set_number(options, "stiffness", stiffness));
   check_ok(hooke_options_set_number(options, "rest_length", rest));

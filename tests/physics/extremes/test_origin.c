@@ -44,7 +44,7 @@ static double lost_at(double distance, const char *method, double h) {
     check_ok(hooke_system_create(&system));
     check_ok(hooke_system_add_particles(system, 2, q, NULL, 1, &mass, NULL));
     check_ok(hooke_system_pin(system, 1, &first));
-    check_ok(hooke_spring_options_create(&options));
+    check_ok(hooke_options_create("springs", &options));
     check_ok(hooke_options_set_number(options, "stiffness", 1.0));
     check_ok(hooke_options_set_number(options, "rest_length", 1.0));
     check_ok(hooke_system_add_springs(system, NULL, 1, ends, options));
@@ -88,7 +88,7 @@ static void test_same_forces(void **unused) {
   const double origin[] = {0, 0, 0}, edges[] = {1, 0, 0, 0, 0, 1}, sides[] = {SIDE, SIDE};
   hooke_options *part = NULL;
   hooke_system *system = NULL;
-  check_ok(hooke_part_options_create("cloth", &part));
+  check_ok(hooke_options_create("cloth", &part));
   check_ok(hooke_options_set_numbers(part, "origin", 3, origin));
   check_ok(hooke_options_set_numbers(part, "edges", 6, edges));
   check_ok(hooke_options_set_numbers(part, "size", 2, sides));

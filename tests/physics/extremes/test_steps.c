@@ -25,7 +25,7 @@ static void test_refused(void **unused) {
   (void)unused;
   const char *options[] = {"step", "duration", "every"};
   hooke_options *run = NULL;
-  check_ok(hooke_run_options_create(&run));
+  check_ok(hooke_options_create("run", &run));
   for (size_t k = 0; k < sizeof refused / sizeof refused[0]; k++) {
     for (int o = 0; o < 3; o++) {
       check_status(hooke_options_set_number(run, options[o], refused[k].number), HOOKE_BAD_VALUE);

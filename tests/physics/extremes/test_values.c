@@ -45,7 +45,7 @@ static void test_materials(void **unused) {
   const char *names[] = {"stiffness", "damping", "rest_length", "rest_scale"};
   const double refused[] = {-1.0, NAN, INFINITY, 1e301};
   hooke_options *options = NULL;
-  check_ok(hooke_spring_options_create(&options));
+  check_ok(hooke_options_create("springs", &options));
   for (int n = 0; n < 4; n++) {
     for (int k = 0; k < 4; k++) {
       check_status(hooke_options_set_number(options, names[n], refused[k]), HOOKE_BAD_VALUE);
@@ -70,7 +70,7 @@ static void check_state(double wrong, int place, const char *named) {
     hooke_options *options = NULL;
     hooke_integrator *integrator = NULL;
     hooke_state *state = NULL;
-    check_ok(hooke_run_options_create(&options));
+    check_ok(hooke_options_create("run", &options));
     check_ok(hooke_options_set_text(options, "method", method));
     check_ok(hooke_options_set_number(options, "step", 0.1));
     check_ok(hooke_options_set_number(options, "duration", 1.0));

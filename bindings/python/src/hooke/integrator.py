@@ -234,7 +234,7 @@ class Integrator(Closing):
     @property
     def frame_count(self) -> int:
         """Frames of a whole run, the initial one included."""
-        return int(lib.hooke_integrator_frame_count(self._handle))
+        return int(lib.hooke_integrator_count(self._handle, b"frames"))
 
     @property
     def counts(self) -> dict[str, int]:

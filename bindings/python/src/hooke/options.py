@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ctypes
+import itertools
 import math
 from collections.abc import Iterator, Mapping, MutableMapping
 from typing import Any, NamedTuple, Union
@@ -66,64 +67,72 @@ class Options(Owner, MutableMapping[str, Any]):
         self._rows = {row.name: row for row in _rows(handle)}
 
     @classmethod
+    def _of(cls, table: str) -> Options:
+        pointer = OPTIONS()
+        lib.hooke_options_create(table.encode(), ctypes.byref(pointer))
+        return cls(Handle(pointer, lib.hooke_options_destroy))
+
+    @classmethod
     def for_run(cls) -> Options:
         """Options of a run: method, step [s], duration [s], every [s], rtol, atol [m], ..."""
-        return cls(_create(lib.hooke_run_options_create))
+        return cls._of("run")
 
     @classmethod
     def for_study(cls) -> Options:
         """Options of a study: methods, points, steps [s], tolerances, want [m], budget [s]."""
-        return cls(_create(lambda out: lib.hooke_options_create(b"study", out)))
+        return cls._of("study")
 
     @classmethod
     def for_limit(cls) -> Options:
         """Options of a limit: methods, predict, nonlinear, along, accuracy, budget [s]."""
-        return cls(_create(lambda out: lib.hooke_options_create(b"limit", out)))
+        return cls._of("limit")
 
     @classmethod
     def for_cost(cls) -> Options:
         """Options of a cost: predict, budget [s], groups."""
-        return cls(_create(lambda out: lib.hooke_options_create(b"cost", out)))
+        return cls._of("cost")
 
     @classmethod
     def for_why(cls) -> Options:
         """Options of an explanation: budget [s]."""
-        return cls(_create(lambda out: lib.hooke_options_create(b"why", out)))
+        return cls._of("why")
 
     @classmethod
     def for_comparison(cls) -> Options:
         """Options of a comparison: methods."""
-        return cls(_create(lambda out: lib.hooke_options_create(b"comparison", out)))
+        return cls._of("comparison")
 
     @classmethod
     def for_needs(cls) -> Options:
         """Options of what a scene needs: want [m], watch, refine."""
-        return cls(_create(lambda out: lib.hooke_options_create(b"needs", out)))
+        return cls._of("needs")
 
     @classmethod
     def for_springs(cls) -> Options:
         """Options of a group of springs: law, stiffness, damping, rest_length [m], ..."""
-        return cls(_create(lib.hooke_spring_options_create))
+        return cls._of("springs")
 
     @classmethod
     def for_altitude(cls) -> Options:
         """Options of a group of altitude springs: stiffness [N], damping [N s], rest_scale, compression."""
-        return cls(_create(lib.hooke_altitude_options_create))
+        return cls._of("altitude")
 
     @classmethod
     def for_scene(cls, what: str = "scene") -> Options:
         """Options for other keys of a scene: of the "scene" itself (title, gravity, drag), of its "particles", of
         what is "driven", or the "limits" of loading it."""
-        return cls(_create(lambda out: lib.hooke_scene_options_create(what.encode(), out)))
+        return cls._of(what)
 
     @classmethod
     def for_part(cls, kind: str) -> Options:
         """Options of a part, such as a "rope" or a "cloth"."""
-        return cls(_create(lambda out: lib.hooke_part_options_create(kind.encode(), out)))
+        return cls._of(kind)
 
     def copy(self) -> Options:
         """Options of their own with the same values."""
-        return Options(_create(lambda out: lib.hooke_options_copy(self._handle, out)))
+        pointer = OPTIONS()
+        lib.hooke_options_copy(self._handle, ctypes.byref(pointer))
+        return Options(Handle(pointer, lib.hooke_options_destroy))
 
     @property
     def rows(self) -> list[Row]:
@@ -212,12 +221,13 @@ class Options(Owner, MutableMapping[str, Any]):
 
 def part_kinds() -> list[str]:
     """The kinds of parts there are: "rope", "cloth", "lattice", "mesh"."""
-    return [text(lib.hooke_part_kind(kind)) for kind in range(lib.hooke_part_kind_count())]
+    names = (text(lib.hooke_part_kind(kind, b"name")) for kind in itertools.count())
+    return list(itertools.takewhile(bool, names))
 
 
 def part_kind_summary(kind: str) -> str:
     """What a part of this kind is, in one line."""
-    return text(lib.hooke_part_kind_summary(part_kinds().index(kind)))
+    return text(lib.hooke_part_kind(part_kinds().index(kind), b"summary"))
 
 
 def options_of(what: str) -> Options:
@@ -253,12 +263,6 @@ def as_number(name: str, value: Any) -> float:
         return float(value)
     except (TypeError, ValueError):
         raise BadValue(f"{name}: a number is needed, this is {value!r}") from None
-
-
-def _create(create: Any) -> Handle:
-    pointer = OPTIONS()
-    create(ctypes.byref(pointer))
-    return Handle(pointer, lib.hooke_options_destroy)
 
 
 def _rows(handle: Handle) -> Iterator[Row]:

@@ -88,7 +88,7 @@ class Scene(Parts):
         """
         pointer = SCENE()
         limits = limits_of(memory, outside)
-        lib.hooke_scene_load_within(os.fsencode(path), limits._handle, ctypes.byref(pointer))
+        lib.hooke_scene_load(os.fsencode(path), limits._handle, ctypes.byref(pointer))
         return cls._of_handle(Handle(pointer, lib.hooke_scene_destroy))
 
     @classmethod
@@ -112,7 +112,7 @@ class Scene(Parts):
         where = None if folder is None else os.fsencode(folder)
         pointer = SCENE()
         limits = limits_of(memory, outside)
-        lib.hooke_scene_parse_within(
+        lib.hooke_scene_parse(
             data, len(data), name.encode(), where, limits._handle, ctypes.byref(pointer)
         )
         return cls._of_handle(Handle(pointer, lib.hooke_scene_destroy))
@@ -351,7 +351,7 @@ class Scene(Parts):
 
 
 def limits_of(memory: float | None, outside: bool) -> Options:
-    """Options of hooke_scene_load_within()."""
+    """Options of hooke_scene_load()."""
     limits = Options.for_scene("limits")
     limits["memory"] = memory
     limits["outside"] = outside

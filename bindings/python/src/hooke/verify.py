@@ -9,7 +9,7 @@ from typing import Any
 from ._library import lib
 from ._measurement import Measurement
 from ._memory import Handle
-from ._prototypes import MEASUREMENT, OPTIONS
+from ._prototypes import MEASUREMENT
 from ._status import BadValue
 from .options import Options
 from .results import WorkProgress
@@ -52,9 +52,7 @@ def verify(
     `memory` and `outside` as in `Scene.load`; ``progress(share, what)`` is told how far it is, True for a bar. A file that is
     not what its scene gives is a result, not an error.
     """
-    pointer = OPTIONS()
-    lib.hooke_options_create(b"verify", ctypes.byref(pointer))
-    given = Options(Handle(pointer, lib.hooke_options_destroy)).set(**options)
+    given = Options._of("verify").set(**options)
     limits = limits_of(memory, outside)
     made = MEASUREMENT()
     lib.hooke_verify_create(os.fsencode(path), given._handle, limits._handle, ctypes.byref(made))

@@ -11,8 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Union
 
 from ._library import lib
-from ._memory import Handle
-from ._prototypes import OPTIONS, RECORD, VIEW
+from ._prototypes import RECORD, VIEW
 from ._status import BadValue
 from .options import Options
 
@@ -37,9 +36,7 @@ def view(
     """
     source = _file_of(trajectory)
     page = Path(os.fspath(output)) if output is not None else source.with_suffix(".html")
-    pointer = OPTIONS()
-    lib.hooke_view_options_create(ctypes.byref(pointer))
-    given = Options(Handle(pointer, lib.hooke_options_destroy)).set(**options)
+    given = Options._of("view").set(**options)
     made = VIEW()
     with _record(source) as record:
         try:

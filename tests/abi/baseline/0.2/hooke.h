@@ -79,13 +79,11 @@ HOOKE_API int32_t hooke_system_add_particles(hooke_system *system, int64_t count
                                              const double *velocity, int64_t mass_count, const double *mass,
                                              int64_t *first);
 HOOKE_API int32_t hooke_system_pin(hooke_system *system, int64_t count, const int64_t *particles);
-HOOKE_API int32_t hooke_spring_options_create(hooke_options **options);
 HOOKE_API int32_t hooke_system_add_springs(hooke_system *system, const char *name, int64_t count,
                                            const int64_t *ends, const hooke_options *options);
 HOOKE_API int32_t hooke_system_add_bending(hooke_system *system, const char *name, int64_t count,
                                            const int64_t *triples, int64_t coefficient_count,
                                            const double *coefficient);
-HOOKE_API int32_t hooke_altitude_options_create(hooke_options **options);
 HOOKE_API int32_t hooke_system_add_altitude(hooke_system *system, const char *name, int64_t count,
                                             const int64_t *tetrahedra, const hooke_options *options);
 HOOKE_API int32_t hooke_system_set_gravity(hooke_system *system, const double *gravity);
@@ -167,10 +165,7 @@ HOOKE_API void hooke_system_angular_momentum(const hooke_system *system, const d
 #ifdef __cplusplus
 extern "C" {
 #endif
-HOOKE_API int64_t hooke_part_kind_count(void);
-HOOKE_API const char *hooke_part_kind(int64_t kind);
-HOOKE_API const char *hooke_part_kind_summary(int64_t kind);
-HOOKE_API int32_t hooke_part_options_create(const char *kind, hooke_options **options);
+HOOKE_API const char *hooke_part_kind(int64_t kind, const char *what);
 HOOKE_API int32_t hooke_system_add_part(hooke_system *system, const char *kind, const char *name,
                                         const hooke_options *options, int64_t *first, int64_t *count);
 HOOKE_API int32_t hooke_mesh_set(hooke_options *options, int64_t vertex_count, const double *vertices,
@@ -212,7 +207,6 @@ HOOKE_API const char *hooke_method_name(int64_t method);
 HOOKE_API const char *hooke_method_summary(const char *name);
 HOOKE_API int32_t hooke_method_is_adaptive(const char *name);
 HOOKE_API int32_t hooke_method_is_built(const char *name);
-HOOKE_API int32_t hooke_run_options_create(hooke_options **options);
 HOOKE_API int32_t hooke_integrator_create(const hooke_system *system, const hooke_options *options,
                                           hooke_integrator **integrator);
 HOOKE_API int32_t hooke_integrator_create_first_order(int64_t size, hooke_rate *rate, void *ctx,
@@ -228,13 +222,11 @@ HOOKE_API int32_t hooke_integrator_on_checkpoint(hooke_integrator *integrator, h
                                                  void *ctx);
 HOOKE_API int32_t hooke_integrator_on_progress(hooke_integrator *integrator, double seconds,
                                                hooke_progress *progress, void *ctx);
-HOOKE_API int64_t hooke_integrator_frame_count(const hooke_integrator *integrator);
 HOOKE_API int32_t hooke_integrator_run(hooke_integrator *integrator, hooke_state *state);
 HOOKE_API int32_t hooke_integrator_resume(hooke_integrator *integrator, hooke_state *state);
 HOOKE_API int32_t hooke_integrator_step(hooke_integrator *integrator, hooke_state *state, int64_t steps);
 HOOKE_API int64_t hooke_integrator_count(const hooke_integrator *integrator, const char *what);
 HOOKE_API double hooke_integrator_wall_seconds(const hooke_integrator *integrator);
-HOOKE_API int64_t hooke_integrator_recent_count(const hooke_integrator *integrator);
 HOOKE_API int32_t hooke_integrator_recent(const hooke_integrator *integrator, int64_t place,
                                           hooke_state *state);
 HOOKE_API int32_t hooke_integrator_stop_value(const hooke_integrator *integrator);
@@ -346,15 +338,10 @@ extern "C" {
 #endif
 HOOKE_API int32_t hooke_io_own_process(void);
 typedef struct hooke_scene hooke_scene;
-HOOKE_API int32_t hooke_scene_load(const char *path, hooke_scene **scene);
+HOOKE_API int32_t hooke_scene_load(const char *path, const hooke_options *limits, hooke_scene **scene);
 HOOKE_API int32_t hooke_scene_parse(const char *text, int64_t length, const char *name, const char *folder,
-                                    hooke_scene **scene);
-HOOKE_API int32_t hooke_scene_load_within(const char *path, const hooke_options *limits, hooke_scene **scene);
-HOOKE_API int32_t hooke_scene_parse_within(const char *text, int64_t length, const char *name,
-                                           const char *folder, const hooke_options *limits,
-                                           hooke_scene **scene);
+                                    const hooke_options *limits, hooke_scene **scene);
 HOOKE_API int32_t hooke_scene_commit(hooke_scene *scene);
-HOOKE_API int32_t hooke_scene_options_create(const char *what, hooke_options **options);
 HOOKE_API int32_t hooke_scene_options_apply(const hooke_options *options, hooke_system *system);
 HOOKE_API int32_t hooke_scene_write(const char *path, const hooke_system *system, const char *title,
                                     const hooke_options *run);
@@ -390,7 +377,6 @@ HOOKE_API int32_t hooke_record_size(hooke_record *record, const char *what, int6
 HOOKE_API int32_t hooke_record_numbers(hooke_record *record, const char *what, double *values);
 HOOKE_API int64_t hooke_record_place(const hooke_record *record, const char *what);
 typedef struct hooke_view hooke_view;
-HOOKE_API int32_t hooke_view_options_create(hooke_options **options);
 HOOKE_API int32_t hooke_view_create(const hooke_record *record, const hooke_options *options,
                                     hooke_view **view);
 HOOKE_API int32_t hooke_view_write(hooke_view *view, const char *path, const char *title);

@@ -34,11 +34,11 @@ static int build(hooke_system **system, double *newtons) {
                                    &first) == 0);
   CHECK(first == 0);
   CHECK(hooke_system_pin(*system, 2, (int64_t[]){0, 1}) == 0);
-  CHECK(hooke_spring_options_create(&spring) == 0);
+  CHECK(hooke_options_create("springs", &spring) == 0);
   CHECK(hooke_options_set_number(spring, "stiffness", 8) == 0);
   CHECK(hooke_options_set_text(spring, "law", "length") == 0);
   CHECK(hooke_system_add_springs(*system, "chain", 2, (int64_t[]){0, 1, 1, 2}, spring) == 0);
-  CHECK(hooke_part_options_create("rope", &rope) == 0);
+  CHECK(hooke_options_create("rope", &rope) == 0);
   CHECK(hooke_options_set_numbers(rope, "from", 3, (double[]){0, 0, 5}) == 0);
   CHECK(hooke_options_set_text(rope, "to", "1,0,5") == 0);
   CHECK(hooke_options_set_number(rope, "segments", 2) == 0);
@@ -60,7 +60,7 @@ static int run(const hooke_system *system, double newtons) {
   hooke_state *state = NULL;
   int64_t frames = 0;
   double momentum[3];
-  CHECK(hooke_run_options_create(&options) == 0);
+  CHECK(hooke_options_create("run", &options) == 0);
   CHECK(hooke_options_set_number(options, "step", -1) == HOOKE_BAD_VALUE &&
         strstr(hooke_last_error(), "step"));
   CHECK(hooke_options_set_text(options, "method", "symplectic-euler") == 0);
@@ -70,7 +70,7 @@ static int run(const hooke_system *system, double newtons) {
   CHECK(hooke_integrator_create(system, options, &integrator) == 0);
   CHECK(hooke_integrator_on_frame(integrator, watch, &frames) == 0);
   CHECK(hooke_state_create(system, &state) == 0);
-  CHECK(hooke_integrator_frame_count(integrator) == 3);
+  CHECK(hooke_integrator_count(integrator, "frames") == 3);
   CHECK(hooke_integrator_run(integrator, state) == HOOKE_OK);
   CHECK(frames == 3 && hooke_integrator_count(integrator, "steps") == 4);
   CHECK(hooke_state_time(state) == 1.0 && hooke_state_size(state) == 18);
