@@ -15,7 +15,7 @@
 #include "integrate/integrator.h"
 
 #include "core/status.h"
-#include "model/sum/spring_batch.h"
+#include "model/force/force.h"
 
 #include <float.h>
 #include <math.h>
@@ -42,16 +42,9 @@ static double least_energy(const hooke_integrator *it, const hooke_state *state)
   double mass = 0.0, stiffness = 0.0, extent = 0.0;
   for (int64_t p = 0; p < system->particle_count; p++)
     mass += system->held[p] ? 0.0 : system->mass[p];
-  struct hk_spring_batch batch;
-  for (hk_begin_batches(&batch); hk_next_batch(system, &batch);) {
-    for (int64_t k = 0; k < batch.count; k++)
-      stiffness += batch.kappa[k];
+  for (int32_t k = 0; k < system->force_row_count; k++) {
+    if (system->force_row[k]->add_stiffness) system->force_row[k]->add_stiffness(system, &stiffness);
   }
-  struct hk_triple triple;
-  for (struct hk_triples at = {&system->bending, 0, 0}; hk_next_triple(&at, &triple);)
-    stiffness += 16.0 * triple.coefficient;
-  for (int64_t k = 0; k < system->altitudes.count; k++)
-    stiffness += 4.0 * hk_tetrahedron_kappa(&system->altitudes.tetrahedron[k]);
   for (int64_t k = 0; k < state->size; k++)
     extent = fmax(extent, fabs(state->q[k]));
   if (it->method->adaptive) {

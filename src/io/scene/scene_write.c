@@ -8,7 +8,7 @@
 #include "io/scene/scene.h"
 #include "io/scene/scene_words.h"
 #include "io/file/text.h"
-#include "model/system.h"
+#include "model/force/force.h"
 
 #include <math.h>
 #include <string.h>
@@ -172,7 +172,7 @@ static void add_pairs(struct hk_text *text, const struct hk_springs *springs,
 static void add_springs(struct hk_text *text, const hooke_system *system, const struct numbering *numbering) {
   const struct hk_springs *springs = &system->springs;
   int64_t first = 0;
-  for (int64_t g = 0; g < system->group_count; first += system->group[g++].count) {
+  for (int64_t g = 0; g < hk_system_groups_of(system, &hk_force_springs); first += system->group[g++].count) {
     const struct hk_group *group = &system->group[g];
     int32_t pull_only = 0;
     if (group->from_part) continue;
@@ -196,7 +196,7 @@ static void add_springs(struct hk_text *text, const hooke_system *system, const 
 
 static int32_t has_groups(const hooke_system *system) {
   int32_t groups = 0;
-  for (int64_t g = 0; g < system->group_count; g++)
+  for (int64_t g = 0; g < hk_system_groups_of(system, &hk_force_springs); g++)
     groups |= !system->group[g].from_part;
   return groups;
 }
@@ -225,16 +225,12 @@ static void add_drive(struct hk_text *text, const struct hk_drive_group *drive,
 /* What a scene has no word for. */
 static int32_t check_words(const hooke_system *system) {
   int32_t callbacks = system->force != NULL;
-  for (int64_t g = 0; g < system->bending_group_count; g++) {
-    if (system->bending_group[g].from_part || system->bending_group[g].count == 0) continue;
+  for (int64_t g = 0; g < system->group_count; g++) {
+    const struct hk_group *group = &system->group[g];
+    if (group->from_part || group->count == 0 || group->force == &hk_force_springs) continue;
     return hk_fail(HOOKE_UNSUITED, NULL,
-                   "a scene file has bending in its parts alone, and this system has triples of its own");
-  }
-  for (int64_t g = 0; g < system->altitude_group_count; g++) {
-    if (system->altitude_group[g].from_part || system->altitude_group[g].count == 0) continue;
-    return hk_fail(
-        HOOKE_UNSUITED, NULL,
-        "a scene file has altitude springs in its parts alone, and this system has tetrahedra of its own");
+                   "a scene file has the force \"%s\" in its parts alone, and this system has %s of its own",
+                   group->force->name, group->force->members);
   }
   for (int64_t k = 0; k < system->drive_count; k++)
     callbacks |= system->drive[k].kind == HOOKE_DRIVE_CALLBACK;

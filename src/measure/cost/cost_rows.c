@@ -5,6 +5,7 @@
 #include "core/memory.h"
 #include "core/option.h"
 #include "core/status.h"
+#include "model/force/force.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -24,17 +25,15 @@ static void add_row(hooke_cost *cost, const char *kind, int64_t group, int64_t s
 
 static void add_groups(hooke_cost *cost) {
   const hooke_system *system = cost->system;
-  for (int64_t g = 0; g < system->group_count; g++)
-    add_row(cost, "springs", g, system->group[g].count);
-  for (int64_t g = 0; g < system->bending_group_count; g++)
-    add_row(cost, "bending", g, system->bending_group[g].count);
-  for (int64_t g = 0; g < system->altitude_group_count; g++)
-    add_row(cost, "altitude", g, system->altitude_group[g].count);
+  for (int64_t g = 0; g < system->group_count; g++) {
+    const struct hk_group *group = &system->group[g];
+    add_row(cost, group->force->name, g, group->count);
+  }
 }
 
 static void add_others(hooke_cost *cost) {
   const hooke_system *system = cost->system;
-  add_row(cost, "damping", -1, hk_springs_are_damped(&system->springs) || system->altitudes.damped);
+  add_row(cost, "damping", -1, hk_elements_are_damped(system));
   add_row(cost, "drag", -1, system->drag > 0.0);
   add_row(cost, "callback", -1, system->force != NULL);
   add_row(cost, "gravity", -1, system->has_gravity);
@@ -66,9 +65,7 @@ static int32_t leave_small_groups_out(hooke_cost *cost) {
 int32_t hk_cost_list_rows(hooke_cost *cost) {
   enum { OTHERS = 4 };
   const hooke_system *system = cost->system;
-  cost->row =
-      hk_new(system->group_count + system->bending_group_count + system->altitude_group_count + OTHERS,
-             sizeof *cost->row);
+  cost->row = hk_new(system->group_count + OTHERS, sizeof *cost->row);
   if (cost->row == NULL) return HOOKE_NO_MEMORY;
   add_groups(cost);
   const int32_t status = leave_small_groups_out(cost);
@@ -106,17 +103,20 @@ const char *hooke_cost_text(const hooke_cost *cost, int64_t row, const char *wha
   if (r == NULL) return NULL;
   if (strcmp(what, "kind") == 0) return r->kind;
   if (strcmp(what, "name") != 0) return NULL;
-  if (r->group < 0) return r->kind;
-  if (hk_cost_row_is(r, "altitude")) return hooke_system_altitude_group_name(cost->system, r->group);
-  return hk_cost_row_is(r, "bending") ? hooke_system_bending_group_name(cost->system, r->group)
-                                      : hooke_system_group_name(cost->system, r->group);
+  return r->group < 0 ? r->kind : cost->system->group[r->group].name;
+}
+
+/* Its number among the groups of its force. */
+static double group_of(const hooke_system *system, const struct hk_cost_row *row) {
+  if (row->group < 0) return NAN;
+  return (double)(row->group - hk_system_first_group(system, system->group[row->group].force));
 }
 
 double hooke_cost_number(const hooke_cost *cost, int64_t row, const char *what) {
   const struct hk_cost_row *r = row_at(cost, row);
   if (r == NULL) return NAN;
   const struct hk_figure figures[] = {
-      {"group", r->group >= 0 ? (double)r->group : (double)NAN},
+      {"group", group_of(cost->system, r)},
       {"springs", hk_cost_row_is(r, "springs") ? (double)r->size : (double)NAN},
       {"nanoseconds", r->nanoseconds},
       {"resolution", r->resolution},
