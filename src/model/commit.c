@@ -84,7 +84,7 @@ static int has_members(const struct hk_force_row *force) {
 
 void hk_system_mark_touched(const hooke_system *system, uint8_t *touched) {
   struct hk_elements at;
-  hk_begin_elements(system, system->position, NULL, &at);
+  hk_begin_elements(system, NULL, NULL, &at);
   at.wanted = has_members;
   for (const struct hk_element *e; (e = hk_next_element(&at)) != NULL;) {
     for (int j = 0; j < e->count; j++)

@@ -132,7 +132,7 @@ static int64_t other_pairs(const hooke_system *system) {
 
 static void locate_others(const struct hk_factor *x, struct place *place) {
   struct hk_elements at;
-  hk_begin_elements(x->system, x->system->position, NULL, &at);
+  hk_begin_elements(x->system, NULL, NULL, &at);
   at.wanted = hk_force_is_other;
   for (const struct hk_element *e; (e = hk_next_element(&at)) != NULL;) {
     for (int j = 1; j < e->count; j++) {

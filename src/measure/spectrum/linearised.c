@@ -102,7 +102,7 @@ static int32_t see_others(struct hk_linearised *lin, const double *q) {
   hk_begin_elements(lin->system, q, NULL, &at);
   at.wanted = hk_force_is_other;
   for (const struct hk_element *e; (e = hk_next_element(&at)) != NULL;) {
-    if (!hk_element_moves(lin->system, e)) continue;
+    if (!hk_element_moves(lin->system->held, e)) continue;
     if (at.force->multiply)
       lin->bends = 1;
     else
@@ -121,7 +121,7 @@ static void add_rows(const struct hk_linearised *lin, const double *q, int dampi
   for (const struct hk_element *e; (e = hk_next_element(&at)) != NULL;) {
     const double most = damping ? fmax(e->c_along, e->c_across) : fmax(e->k_along, e->k_across);
     for (int j = 0; j < e->count; j++)
-      sum[e->particle[j]] += hk_element_row(lin->system, e, j) * most;
+      sum[e->particle[j]] += hk_element_row(lin->system->held, e, j) * most;
   }
 }
 

@@ -8,25 +8,32 @@
 #include <math.h>
 #include <string.h>
 
-/* block += along u u^T + across (I - u u^T) */
-static void add_axial(double block[6], const double u[3], double along, double across) {
+/* term = along u u^T + across (I - u u^T) */
+static void find_axial(double term[6], const double u[3], double along, double across) {
   static const int row[6] = {0, 1, 2, 0, 0, 1}, column[6] = {0, 1, 2, 1, 2, 2};
-  for (int k = 0; k < 6; k++) {
-    block[k] += (along - across) * u[row[k]] * u[column[k]] + (row[k] == column[k] ? across : 0.0);
-  }
+  for (int k = 0; k < 6; k++)
+    term[k] = (along - across) * u[row[k]] * u[column[k]] + (row[k] == column[k] ? across : 0.0);
 }
 
 static void add_element(struct hk_node_blocks *blocks, const struct hk_element *e) {
-  const hooke_system *system = blocks->system;
-  if (!hk_element_moves(system, e)) return;
+  const uint8_t *held = blocks->system->held;
+  double before = -1.0, stiffness[6], damping[6];
+  if (!hk_element_moves(held, e)) return;
   if (e->k_along > 0.0) blocks->least_ratio = fmin(blocks->least_ratio, e->c_along / e->k_along);
   blocks->across |= hk_element_across(e) > 0.0;
   for (int j = 0; j < e->count; j++) {
     const int64_t p = e->particle[j];
-    const double row = hk_element_row(system, e, j);
-    if (system->held[p]) continue;
-    add_axial(blocks->stiffness + 6 * p, e->u, row * e->k_along, row * fmax(0.0, e->k_across));
-    add_axial(blocks->damping + 6 * p, e->u, row * e->c_along, row * e->c_across);
+    const double row = hk_element_row(held, e, j);
+    if (held[p]) continue;
+    if (row != before) { /* both ends of a spring have the same */
+      find_axial(stiffness, e->u, row * e->k_along, row * fmax(0.0, e->k_across));
+      find_axial(damping, e->u, row * e->c_along, row * e->c_across);
+    }
+    before = row;
+    for (int k = 0; k < 6; k++) {
+      blocks->stiffness[6 * p + k] += stiffness[k];
+      blocks->damping[6 * p + k] += damping[k];
+    }
   }
 }
 

@@ -50,20 +50,6 @@ int32_t hk_fill_elements(struct hk_elements *at) {
   return 1;
 }
 
-int32_t hk_element_moves(const hooke_system *system, const struct hk_element *element) {
-  int32_t moves = 0;
-  for (int j = 0; j < element->count; j++)
-    moves |= !system->held[element->particle[j]];
-  return moves;
-}
-
-double hk_element_row(const hooke_system *system, const struct hk_element *element, int j) {
-  double sum = 0.0;
-  for (int k = 0; k < element->count; k++)
-    sum += system->held[element->particle[k]] ? 0.0 : fabs(element->weight[k]);
-  return fabs(element->weight[j]) * sum;
-}
-
 /* u.(sum of g_j x_j), and the sum itself where it is needed. */
 static double gather(const struct hk_element *e, double across, int64_t stride, const double *const x[3],
                      double sum[3]) {
@@ -88,12 +74,4 @@ void hk_element_multiply(const struct hk_element *e, double along, double across
     for (int a = 0; a < 3; a++)
       out[a][p] += across != 0.0 ? s * e->u[a] + isotropic * sum[a] : s * e->u[a];
   }
-}
-
-double hk_element_energy(const struct hk_element *e, double along, double across, int64_t stride,
-                         const double *const x[3]) {
-  double sum[3];
-  const double stretch = gather(e, across, stride, x, sum);
-  return (along - across) * stretch * stretch +
-         across * ((sum[0] * sum[0] + sum[1] * sum[1]) + sum[2] * sum[2]);
 }

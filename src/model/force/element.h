@@ -9,6 +9,7 @@
 #ifndef HOOKE_MODEL_FORCE_ELEMENT_H
 #define HOOKE_MODEL_FORCE_ELEMENT_H
 
+#include <math.h>
 #include <stdint.h>
 
 struct hk_force_row;
@@ -27,7 +28,8 @@ struct hk_element {
 /* A walk over elements: for (hk_begin_elements(system, q, v, &at); (e = hk_next_element(&at)) != NULL;) At
  * positions q and velocities v (rows): those that act there; slack ones are 0. Without v (NULL), at rest
  * and as small displacements see them: those that only pull count as taut, and a spring of no length as
- * stiff in all directions. k_across is below 0 where a spring is compressed. */
+ * stiff in all directions. k_across is below 0 where a spring is compressed. Without q and v their
+ * particles alone. */
 enum { HOOKE_ELEMENTS = 64 };
 struct hk_elements {
   const struct hooke_system *system;
@@ -72,19 +74,48 @@ static inline struct hk_element_numbers hk_element_combine(const struct hk_eleme
                                      (a * e->k_across + b * e->c_across) / e->over};
 }
 
-/* 1 if a particle is not held. */
-int32_t hk_element_moves(const struct hooke_system *system, const struct hk_element *element);
+/* 1 if a particle is not held; `held` is that of the system. */
+static inline int32_t hk_element_moves(const uint8_t *held, const struct hk_element *element) {
+  int32_t moves = 0;
+  for (int j = 0; j < element->count; j++)
+    moves |= !held[element->particle[j]];
+  return moves;
+}
 
 /* Particle j's row of g g^T, summed in size over the particles that are not held: the diagonal matrix of
  * these is at least g g^T. */
-double hk_element_row(const struct hooke_system *system, const struct hk_element *element, int j);
+static inline double hk_element_row(const uint8_t *held, const struct hk_element *element, int j) {
+  double sum = 0.0;
+  for (int k = 0; k < element->count; k++)
+    sum += held[element->particle[k]] ? 0.0 : fabs(element->weight[k]);
+  return fabs(element->weight[j]) * sum;
+}
 
 /* out += the matrix with numbers `along` and `across` times x. x, y and z of particle p are at p * stride of
  * each of three arrays: apart with stride 1, and rows with stride 3. */
 void hk_element_multiply(const struct hk_element *element, double along, double across, int64_t stride,
                          const double *const x[3], double *const out[3]);
+/* The sum of g_j x_j; pairs are what most elements are. */
+static inline void hk_element_sum(const struct hk_element *e, int64_t stride, const double *const x[3],
+                                  double sum[3]) {
+  const int64_t first = stride * e->particle[0], second = e->count > 1 ? stride * e->particle[1] : first;
+  const double other = e->count > 1 ? e->weight[1] : 0.0;
+  for (int a = 0; a < 3; a++)
+    sum[a] = e->weight[0] * x[a][first] + other * x[a][second];
+  for (int j = 2; j < e->count; j++) {
+    for (int a = 0; a < 3; a++)
+      sum[a] += e->weight[j] * x[a][stride * e->particle[j]];
+  }
+}
+
 /* x times that. Squares: what does not stretch comes out as 0. */
-double hk_element_energy(const struct hk_element *element, double along, double across, int64_t stride,
-                         const double *const x[3]);
+static inline double hk_element_energy(const struct hk_element *e, double along, double across,
+                                       int64_t stride, const double *const x[3]) {
+  double sum[3];
+  hk_element_sum(e, stride, x, sum);
+  const double stretch = (e->u[0] * sum[0] + e->u[1] * sum[1]) + e->u[2] * sum[2];
+  return across * ((sum[0] * sum[0] + sum[1] * sum[1]) + sum[2] * sum[2]) +
+         (along - across) * stretch * stretch;
+}
 
 #endif

@@ -137,7 +137,7 @@ static void elements(const hooke_system *system, const double *q, const double *
     if (v == NULL) t.pull_only = 0;
     out[k] = (struct hk_element){.count = 4, .over = 1.0};
     memcpy(out[k].particle, t.particle, sizeof t.particle);
-    if (!hk_tautness_find(&t, q, v, &s) || s.slack) continue;
+    if (q == NULL || !hk_tautness_find(&t, q, v, &s) || s.slack) continue;
     const double rest = t.rest[s.altitude.choice];
     memcpy(out[k].u, s.altitude.u, sizeof s.altitude.u);
     memcpy(out[k].weight, s.altitude.weight, sizeof s.altitude.weight);

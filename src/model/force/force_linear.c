@@ -16,30 +16,29 @@ static int32_t present(const hooke_system *system) {
   return system->linear.count > 0;
 }
 
-/* The element alone, with its particles numbered 0 to 3. */
-static struct hk_element alone(const struct hk_element *e) {
-  struct hk_element own = *e;
-  for (int j = 0; j < own.count; j++)
-    own.particle[j] = j;
-  return own;
+static double dot(const double a[3], const double b[3]) {
+  return (a[0] * b[0] + a[1] * b[1]) + a[2] * b[2];
 }
 
 static int32_t add(const hooke_system *system, struct hk_motion *motion, double t) {
   (void)t;
   const struct hk_linear *linear = &system->linear;
   for (const struct hk_element *e = linear->element; e < linear->element + linear->count; e++) {
-    const struct hk_element own = alone(e);
-    double d[3][4], v[3][4], f[3][4] = {{0.0}};
-    for (int k = 0; k < 3 * own.count; k++) {
-      const int64_t p = e->particle[k / 3];
-      d[k % 3][k / 3] = motion->q[k % 3][p] - linear->place[3 * p + k % 3];
-      v[k % 3][k / 3] = motion->v[k % 3][p];
+    double x[3] = {0.0}, v[3] = {0.0};
+    for (int j = 0; j < e->count; j++) {
+      const int64_t p = e->particle[j];
+      for (int a = 0; a < 3; a++) {
+        x[a] += e->weight[j] * (motion->q[a][p] - linear->place[3 * p + a]);
+        v[a] += e->weight[j] * motion->v[a][p];
+      }
     }
-    double *const out[3] = {f[0], f[1], f[2]};
-    hk_element_multiply(&own, e->k_along, e->k_across, 1, (const double *const[]){d[0], d[1], d[2]}, out);
-    hk_element_multiply(&own, e->c_along, e->c_across, 1, (const double *const[]){v[0], v[1], v[2]}, out);
-    for (int k = 0; k < 3 * own.count; k++)
-      motion->f[k % 3][e->particle[k / 3]] -= f[k % 3][k / 3];
+    const double along =
+        (e->k_along - e->k_across) * dot(e->u, x) + (e->c_along - e->c_across) * dot(e->u, v);
+    for (int a = 0; a < 3; a++) {
+      const double force = along * e->u[a] + (e->k_across * x[a] + e->c_across * v[a]);
+      for (int j = 0; j < e->count; j++)
+        motion->f[a][e->particle[j]] -= e->weight[j] * force;
+    }
   }
   return HOOKE_OK;
 }
@@ -48,14 +47,13 @@ static double energy(const hooke_system *system, const double *q) {
   const struct hk_linear *linear = &system->linear;
   struct hk_sum sum = {0.0, 0.0};
   for (const struct hk_element *e = linear->element; e < linear->element + linear->count; e++) {
-    const struct hk_element own = alone(e);
-    double d[12];
-    for (int k = 0; k < 3 * own.count; k++) {
+    double x[3] = {0.0};
+    for (int k = 0; k < 3 * e->count; k++) {
       const int64_t at = 3 * (int64_t)e->particle[k / 3] + k % 3;
-      d[k] = q[at] - linear->place[at];
+      x[k % 3] += e->weight[k / 3] * (q[at] - linear->place[at]);
     }
-    const double *const x[3] = {d, d + 1, d + 2};
-    hk_sum_add(&sum, 0.5 * hk_element_energy(&own, e->k_along, e->k_across, 3, x));
+    const double along = dot(e->u, x);
+    hk_sum_add(&sum, 0.5 * ((e->k_along - e->k_across) * along * along + e->k_across * dot(x, x)));
   }
   return hk_sum_value(&sum);
 }

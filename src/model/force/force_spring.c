@@ -199,19 +199,21 @@ static int64_t count(const hooke_system *system) {
 void hk_spring_element(const struct hk_spring *spring, const double *q, const double *v,
                        struct hk_element *out) {
   struct hk_stretch s;
-  if (v)
-    hk_spring_stretch(spring, q, v, &s);
-  else
-    hk_spring_stretch_taut(spring, q, &s);
+  out->count = 2;
+  out->particle[0] = (int32_t)spring->head;
+  out->particle[1] = (int32_t)spring->tail;
+  if (q == NULL) return;
+  hk_spring_stretch(spring, q, v, &s);
+  if (v == NULL) s.tension = spring->kappa * (s.length - spring->rest_length);
   const int isotropic = s.length == 0.0, acts = !v || (isotropic ? spring->rest_length == 0.0 : !s.slack);
-  *out = (struct hk_element){.count = 2,
-                             .particle = {(int32_t)spring->head, (int32_t)spring->tail},
-                             .weight = {1.0, -1.0},
-                             .u = {s.direction[0], s.direction[1], s.direction[2]},
-                             .k_along = acts ? spring->kappa : 0.0,
-                             .c_along = acts ? spring->gamma : 0.0,
-                             .over = 1.0};
-  if (acts) out->k_across = isotropic ? spring->kappa : s.tension / s.length;
+  out->weight[0] = 1.0;
+  out->weight[1] = -1.0;
+  memcpy(out->u, s.direction, sizeof out->u);
+  out->k_along = acts ? spring->kappa : 0.0;
+  out->k_across = !acts ? 0.0 : isotropic ? spring->kappa : s.tension / s.length;
+  out->c_along = acts ? spring->gamma : 0.0;
+  out->c_across = 0.0;
+  out->over = 1.0;
 }
 
 static void elements(const hooke_system *system, const double *q, const double *v, int64_t first,
@@ -225,8 +227,14 @@ static void elements(const hooke_system *system, const double *q, const double *
   }
 }
 
-/* In the order of batches. */
+/* In a net in the order of batches, else in that of numbers. */
 static int64_t stored_elements(struct hk_elements *at) {
+  if (at->system->net.particles == 0) {
+    const int64_t left = at->system->springs.count - at->done;
+    const int64_t next = left < HOOKE_ELEMENTS ? left : HOOKE_ELEMENTS;
+    if (next > 0) elements(at->system, at->q, at->v, at->done, next, at->element);
+    return next;
+  }
   struct hk_spring_batch batch;
   hk_begin_batches(&batch);
   batch.row = at->place[0];
