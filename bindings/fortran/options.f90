@@ -10,7 +10,7 @@ module hooke_option_tables
   use hooke_c_limit, only: c_limit_options_create
   use hooke_c_needs, only: c_needs_options_create
   use hooke_c_options
-  use hooke_c_system, only: c_altitude_options_create, c_spring_options_create
+  use hooke_c_system, only: c_altitude_options_create, c_anchor_options_create, c_spring_options_create
   use hooke_queries_of_options
   implicit none
   private
@@ -28,6 +28,7 @@ module hooke_option_tables
     procedure :: create_view ! of a view,
     procedure :: create_verify   ! of a verification,
     procedure :: create_altitude ! of altitude springs,
+    procedure :: create_anchors ! of anchors,
     procedure :: create_needs    ! of what a scene needs
     procedure :: copy_to         ! another object with the same values
     procedure, private :: set_real, set_reals, set_whole, set_wholes, set_logical, set_text
@@ -163,6 +164,15 @@ contains
     type(c_ptr) :: options
     integer(c_int32_t) :: code
     code = c_altitude_options_create(options)
+    call take_new(self, code, options, status)
+  end subroutine
+
+  subroutine create_anchors(self, status)
+    class(hooke_options), intent(inout) :: self
+    integer, intent(out), optional :: status
+    type(c_ptr) :: options
+    integer(c_int32_t) :: code
+    code = c_anchor_options_create(options)
     call take_new(self, code, options, status)
   end subroutine
 

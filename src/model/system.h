@@ -63,6 +63,7 @@ struct hooke_system {
   struct hk_bending bending;     /* from commit on */
   struct hk_altitudes altitudes; /* from commit on */
   struct hk_linear linear;
+  void *own[HOOKE_FORCES]; /* from commit on: what a force without a member of its own here has */
 
   int64_t derived_count, derived_capacity;
   struct hk_derived *derived;

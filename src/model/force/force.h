@@ -61,8 +61,8 @@ struct hk_force_row {
   int32_t (*damped)(const hooke_system *system);
 };
 
-extern const struct hk_force_row hk_force_springs, hk_force_bending, hk_force_altitude, hk_force_linear,
-    hk_force_drag, hk_force_callback, hk_force_gravity;
+extern const struct hk_force_row hk_force_springs, hk_force_bending, hk_force_altitude, hk_force_anchor,
+    hk_force_linear, hk_force_drag, hk_force_callback, hk_force_gravity;
 
 /* out = (df/dq) dq + (df/dv) dv of the forces that a committed system has, but for those that `left_out`
  * (NULL: none) says. HOOKE_STOPPED, with the point's stop value, if a callback asked for it. */

@@ -101,6 +101,11 @@ class Options(Owner, MutableMapping[str, Any]):
         return cls(_create(lib.hooke_altitude_options_create))
 
     @classmethod
+    def for_anchors(cls) -> Options:
+        """Options of a group of anchors: points [m], stiffness [N/m], damping [N s/m], rest_length [m]."""
+        return cls(_create(lib.hooke_anchor_options_create))
+
+    @classmethod
     def for_scene(cls, what: str = "scene") -> Options:
         """Options for other keys of a scene: of the "scene" itself (title, gravity, drag), of its "particles", of
         what is "driven", or the "limits" of loading it."""
@@ -211,8 +216,8 @@ def part_kind_summary(kind: str) -> str:
 
 
 def options_of(what: str) -> Options:
-    """The options of a "run", a "study", a "limit", a "cost", of "needs", of "springs", of a "scene" itself, of its
-    "particles", of what is "driven", or of a kind of part. Their `rows` are the table."""
+    """The options of a "run", a "study", a "limit", a "cost", of "needs", of "springs", of "anchors", of a "scene"
+    itself, of its "particles", of what is "driven", or of a kind of part. Their `rows` are the table."""
     makers = {
         "run": Options.for_run,
         "study": Options.for_study,
@@ -220,6 +225,7 @@ def options_of(what: str) -> Options:
         "cost": Options.for_cost,
         "needs": Options.for_needs,
         "springs": Options.for_springs,
+        "anchors": Options.for_anchors,
     }
     if what in makers:
         return makers[what]()
