@@ -26,6 +26,7 @@ module hooke_builders
     procedure, private :: add_bending_alike, add_bending_each
     generic :: add_bending => add_bending_alike, add_bending_each
     procedure :: add_altitude
+    procedure :: add_anchors
     procedure :: add_part
     procedure :: set_gravity
     procedure :: set_force
@@ -178,6 +179,21 @@ contains
     end if
     call to_c_if(name, c_name)
     call accept(c_system_add_altitude(self%address(), c_name, size(tetrahedra, 2, c_int64_t), zero_based(tetrahedra), &
+      options%address()), status)
+  end subroutine
+
+  ! Adds a group of anchors, springs from particles to fixed points.
+  subroutine add_anchors(self, particles, options, name, status)
+    class(hooke_builder), intent(inout) :: self
+    integer, intent(in) :: particles(:)
+    type(hooke_options), intent(in) :: options
+    character(*), intent(in), optional :: name
+    integer, intent(out), optional :: status
+    character(:), allocatable :: c_name
+    if (self%is_missing(status)) return
+    if (options%is_missing(status)) return
+    call to_c_if(name, c_name)
+    call accept(c_system_add_anchors(self%address(), c_name, size(particles, kind=c_int64_t), zero_based(particles), &
       options%address()), status)
   end subroutine
 

@@ -26,6 +26,7 @@ module hooke_systems
     procedure :: altitude_ends
     procedure :: altitude_material
     procedure :: altitude_lengths
+    procedure :: anchors
     procedure :: force
     procedure :: acceleration
     procedure :: coincident_springs
@@ -149,6 +150,24 @@ contains
     if (.not. suits(self, status, q)) return
     allocate (length(self%altitude_count()), source=0.0_c_double)
     call accept(c_system_altitude_lengths(self%address(), q, length), status)
+  end subroutine
+
+  ! Of every anchor the particle, the point [m], points(3, anchor_count), stiffness [N/m], damping [N s/m] and rest
+  ! length [m].
+  subroutine anchors(self, particles, points, stiffness, damping, rest_length, status)
+    class(hooke_system), intent(in) :: self
+    integer, allocatable, intent(out) :: particles(:)
+    real(c_double), allocatable, intent(out) :: points(:, :), stiffness(:), damping(:), rest_length(:)
+    integer, intent(out), optional :: status
+    integer(c_int64_t), allocatable :: numbers(:)
+    if (self%is_missing(status)) return
+    allocate (numbers(self%anchor_count()), source=0_c_int64_t)
+    allocate (points(3, size(numbers)), source=0.0_c_double)
+    allocate (stiffness(size(numbers)), source=0.0_c_double)
+    damping = stiffness
+    rest_length = stiffness
+    call accept(c_system_anchors(self%address(), numbers, points, stiffness, damping, rest_length), status)
+    particles = int(numbers) + 1
   end subroutine
 
   ! ---- forces and energies at q(3, n) and v(3, n) ----

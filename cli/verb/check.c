@@ -82,7 +82,8 @@ static void warn_of_coincident_springs(struct check *check) {
        count, count == 1 ? "spring starts" : "springs start");
 }
 
-/* Marks `count` particles that springs, triples or tetrahedra name, by the function that lists them. */
+/* Marks `count` particles that springs, triples, tetrahedra or anchors name, by the function that lists
+ * them. */
 static int32_t mark(const hooke_system *system, int64_t count,
                     int32_t (*list)(const hooke_system *, int64_t *), char *held) {
   int64_t *named = malloc((size_t)(count + 1) * sizeof *named);
@@ -93,7 +94,11 @@ static int32_t mark(const hooke_system *system, int64_t count,
   return status;
 }
 
-/* Particles that no spring, no bending and no altitude spring holds. */
+static int32_t list_anchored(const hooke_system *system, int64_t *particles) {
+  return hooke_system_anchors(system, particles, NULL, NULL, NULL, NULL);
+}
+
+/* Particles that no spring of any kind and no bending holds. */
 static int32_t warn_of_loose_particles(struct check *check) {
   const hooke_system *system = check->setup.system;
   const int64_t particles = hooke_system_particle_count(system);
@@ -106,6 +111,7 @@ static int32_t warn_of_loose_particles(struct check *check) {
     status = mark(system, 3 * hooke_system_bending_count(system), hooke_system_bending_ends, held);
   if (status == HOOKE_OK)
     status = mark(system, 4 * hooke_system_altitude_count(system), hooke_system_altitude_ends, held);
+  if (status == HOOKE_OK) status = mark(system, hooke_system_anchor_count(system), list_anchored, held);
   for (int64_t i = particles - 1; status == HOOKE_OK && i >= 0; i--) {
     if (held[i]) continue;
     count++;

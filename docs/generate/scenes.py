@@ -63,7 +63,7 @@ def allowed(schema: dict[str, Any], definitions: dict[str, Any]) -> str:
         schema.get("type", ""), "") + bound
 
 
-BELOW = ("particles", "springs", "parts", "driven", "run")
+BELOW = ("particles", "springs", "anchors", "parts", "driven", "run")
 
 
 def schema_rows(schema: dict[str, Any], definitions: dict[str, Any], names: list[str] | None = None,
@@ -121,6 +121,9 @@ def page(root: Path) -> str:
         table(schema_rows(definitions["particles"], definitions)),
         "## springs",
         table(springs + option_rows(hooke.Options.for_springs().rows, definitions["springs"]["required"])),
+        "## anchors",
+        table(schema_rows(definitions["anchors"], definitions, ["name", "particles"])
+              + option_rows(hooke.Options.for_anchors().rows, definitions["anchors"]["required"])),
         "## parts",
         *parts(schema),
         "## driven",

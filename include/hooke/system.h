@@ -2,8 +2,8 @@
  *
  * A system is built by calls that add to it, then committed: checked as a whole, its springs sorted into
  * loops. From then on it is const; its pointers never move, and any number of threads may share it. Until
- * then it belongs to one thread. Units are SI throughout. Arrays of positions, velocities and forces are rows
- * of x y z, 3 doubles a particle.
+ * then it belongs to one thread. Units are SI throughout. Arrays of positions, velocities and forces are
+ * rows of x y z, 3 doubles a particle.
  *
  * Springs (U energy, f force on the first end, x = q_i - q_j, r = |x|, u = x/r, v = v_i - v_j):
  *   strain law  U = 1/2 ks l0 (r/l0 - 1)^2      ks [N], kd [N s]     kappa = ks/l0, gamma = kd/l0
@@ -13,27 +13,32 @@
  * hooke_system_coincident_springs() counts such springs. A spring with `compression` false only pulls: its
  * force is zero where r <= l0, and where damping would make it push.
  *
- * Bending (a force of its own: springs two apart have no linear bending stiffness, their energy goes with the
- * fourth power of the curvature) acts on triples of particles a, b, c:
+ * Bending (a force of its own: springs two apart have no linear bending stiffness, their energy goes with
+ * the fourth power of the curvature) acts on triples of particles a, b, c:
  *   U = c/2 |q_a - 2 q_b + q_c|^2               c [N/m]
  * A beam of bending stiffness B [N m^2] in pieces of length l has c = B/l^3. Three particles in a line at
  * equal distances have no such force, wherever they are.
  *
  * Altitude springs (Selle, Lentine and Fedkiw 2008) act on tetrahedra of particles 0, 1, 2, 3: of its seven
- * altitudes (from particle 0, 1, 2 or 3 to the face of the others; between edges 01 and 23, 02 and 13, 03 and
- * 12) the one that is shortest now is a spring, between a particle and the point of the face below it or the
- * nearest points of the two edges:
+ * altitudes (from particle 0, 1, 2 or 3 to the face of the others; between edges 01 and 23, 02 and 13, 03
+ * and 12) the one that is shortest now is a spring, between a particle and the point of the face below it
+ * or the nearest points of the two edges:
  *   U = ks/(2 l) (h - l)^2                      ks [N], h the altitude, l its rest length
  * and damping kd/l dh/dt along it. Altitudes are negative in a tetrahedron that has turned inside out: the
  * force turns it back. Where another altitude comes to be the shortest, U and the force jump. A tetrahedron
  * whose particles are in one line has no such force.
  *
+ * Anchors are springs from a particle to a fixed point of space:
+ *   U = 1/2 k (r - l0)^2                        k [N/m], r the distance from the point, l0 = 0 unless given
+ *   f = -(k (r - l0) + kd (v.u)) u              kd [N s/m], u the direction from the point
+ * At the point itself there is no direction, and the force is zero.
+ *
  * Springs are numbered: groups in the order they were added, springs in the order of their pairs, then the
- * springs of parts; and so are triples and tetrahedra. Commit drops springs that have neither stiffness nor
- * damping, as if they had never been added: numbers, ends and sizes of groups are then those of the springs
- * that act; a group that is left without any keeps its name and place, and has size 0. Likewise gravity, drag
- * and damping of 0 are not there. All sums are taken in that order, springs first, so results do not depend
- * on threads or instruction sets. */
+ * springs of parts; and so are triples, tetrahedra and anchors. Commit drops springs that have neither
+ * stiffness nor damping, as if they had never been added: numbers, ends and sizes of groups are then those
+ * of the springs that act; a group that is left without any keeps its name and place, and has size 0.
+ * Likewise gravity, drag and damping of 0 are not there. All sums are taken in that order, springs first,
+ * so results do not depend on threads or instruction sets. */
 #ifndef HOOKE_SYSTEM_H
 #define HOOKE_SYSTEM_H
 
@@ -100,6 +105,12 @@ HOOKE_API int32_t hooke_system_add_bending(hooke_system *system, const char *nam
 HOOKE_API int32_t hooke_system_add_altitude(hooke_system *system, const char *name, int64_t count,
                                             const int64_t *tetrahedra, const hooke_options *options);
 
+/* Adds a group of `count` anchors, springs from a particle to a fixed point, one for each of `particles`, which may
+ * be named more than once, with options "anchors". Without `points` each is tied to the place that it was added at. `name` may be NULL. HOOKE_BAD_VALUE
+ * names the anchor; HOOKE_BAD_CALL, HOOKE_NO_MEMORY. */
+HOOKE_API int32_t hooke_system_add_anchors(hooke_system *system, const char *name, int64_t count,
+                                           const int64_t *particles, const hooke_options *options);
+
 /* Acceleration of every free particle, 3 numbers [m/s^2]. */
 HOOKE_API int32_t hooke_system_set_gravity(hooke_system *system, const double *gravity);
 
@@ -120,8 +131,8 @@ HOOKE_API int32_t hooke_system_set_force(hooke_system *system, hooke_force *forc
  *             ones, so that velocity is continuous from the first sample to the last; at rest before and
  *             after
  *   callback  q and v as `drive` says
- * A particle is driven once at most, and not pinned as well.
- * HOOKE_BAD_VALUE, HOOKE_BAD_CALL after commit, HOOKE_NO_MEMORY. */
+ * A particle is driven once at most, and not pinned as well. HOOKE_BAD_VALUE, HOOKE_BAD_CALL after commit,
+ * HOOKE_NO_MEMORY. */
 HOOKE_API int32_t hooke_system_drive_harmonic(hooke_system *system, int64_t count, const int64_t *particles,
                                               const double *amplitude, double frequency, double phase);
 HOOKE_API int32_t hooke_system_drive_table(hooke_system *system, int64_t count, const int64_t *particles,
@@ -189,6 +200,13 @@ HOOKE_API int32_t hooke_system_altitude_material(const hooke_system *system, dou
  * does. */
 HOOKE_API int32_t hooke_system_altitude_lengths(const hooke_system *system, const double *q, double *length);
 
+/* Anchors, and of each the particle, the point [m] (3 anchor_count), stiffness [N/m], damping [N s/m] and
+ * rest length [m], each anchor_count long or NULL. Commit drops those that have neither stiffness nor
+ * damping. HOOKE_BAD_CALL before commit, of the second. */
+HOOKE_API int64_t hooke_system_anchor_count(const hooke_system *system);
+HOOKE_API int32_t hooke_system_anchors(const hooke_system *system, int64_t *particles, double *points,
+                                       double *stiffness, double *damping, double *rest_length);
+
 /* Numbers that parts derived from their options (`density`, `damping_ratio`, ...): a list of texts "part",
  * "family" (NULL: of the part as a whole), "name" and "unit", and the value. NULL and NaN for what is not
  * there. */
@@ -196,8 +214,8 @@ HOOKE_API int64_t hooke_system_derived_count(const hooke_system *system);
 HOOKE_API const char *hooke_system_derived_text(const hooke_system *system, int64_t number, const char *what);
 HOOKE_API double hooke_system_derived_value(const hooke_system *system, int64_t number);
 
-/* The forces that this system computes ("springs", "bending", "altitude", "drag", "callback", "gravity");
- * nothing else costs anything. */
+/* The forces that this system computes ("springs", "bending", "altitude", "anchors", "drag", "callback",
+ * "gravity"); nothing else costs anything. */
 HOOKE_API int64_t hooke_system_force_count(const hooke_system *system);
 HOOKE_API const char *hooke_system_force_name(const hooke_system *system, int64_t force);
 
@@ -210,8 +228,8 @@ HOOKE_API int64_t hooke_system_spring_memory(const hooke_system *system);
  * Functions with a status allocate scratch and return HOOKE_BAD_CALL before commit, HOOKE_NO_MEMORY, or
  * HOOKE_STOPPED if a callback asked for it. Those that return a double give NaN before commit. */
 
-/* Force on every particle [N], 3n: springs, bending, altitude springs, drag on free particles, callback, m g
- * on free particles. */
+/* Force on every particle [N], 3n: springs, bending, altitude springs, anchors, drag on free particles,
+ * callback, m g on free particles. */
 HOOKE_API int32_t hooke_system_force(const hooke_system *system, double t, const double *q, const double *v,
                                      double *force);
 /* Acceleration of every particle [m/s^2], 3n: w f + g, zero where pinned or driven. */

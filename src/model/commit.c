@@ -24,25 +24,14 @@ static int32_t check_pinned_at_rest(const hooke_system *system) {
   return HOOKE_OK;
 }
 
-/* Groups first, parts after, each in the order of adding; names stay, springs go into runs. */
-static int32_t sort_springs(hooke_system *system) {
-  for (int64_t k = 0; k < system->group_count; k++)
-    hk_group_drop(&system->group[k]);
-  struct hk_group *sorted = hk_new(system->group_count, sizeof *sorted);
-  if (sorted == NULL) return HOOKE_NO_MEMORY;
-  int64_t next = 0;
-  for (int32_t from_part = 0; from_part <= 1; from_part++) {
-    for (int64_t k = 0; k < system->group_count; k++) {
-      if (system->group[k].from_part == from_part) sorted[next++] = system->group[k];
-    }
-  }
-  const int32_t status = hk_springs_create(sorted, system->group_count, &system->springs);
-  if (status == HOOKE_OK) {
-    hk_free(system->group);
-    system->group = sorted;
-    system->group_capacity = system->group_count;
-  } else {
-    hk_free(sorted);
+static int32_t take_groups_over(hooke_system *system) {
+  int32_t status = HOOKE_OK;
+  for (int64_t g = 0; g < system->group_count; g++)
+    hk_group_drop(&system->group[g]);
+  for (int32_t k = 0; hk_force_table(k) && status == HOOKE_OK; k++) {
+    const struct hk_force_row *force = hk_force_table(k);
+    const struct hk_group *first = system->group + hk_system_first_group(system, force);
+    if (force->commit) status = force->commit(system, first, hk_system_groups_of(system, force));
   }
   return status;
 }
@@ -72,15 +61,6 @@ static void trim_particles(hooke_system *system) {
   if (status == HOOKE_OK) system->particle_capacity = n;
 }
 
-static void drop_building_arrays(hooke_system *system) {
-  for (int64_t k = 0; k < system->group_count; k++)
-    hk_group_release_arrays(&system->group[k]);
-  for (int64_t k = 0; k < system->bending_group_count; k++)
-    hk_bending_group_strip(&system->bending_group[k]);
-  for (int64_t k = 0; k < system->altitude_group_count; k++)
-    hk_altitude_group_strip(&system->altitude_group[k]);
-}
-
 static int32_t fill_particles(hooke_system *system) {
   const int64_t n = system->particle_count;
   int64_t held = 0;
@@ -98,19 +78,18 @@ static int32_t fill_particles(hooke_system *system) {
   return HOOKE_OK;
 }
 
+static int has_members(const struct hk_force_row *force) {
+  return force->members != NULL;
+}
+
 void hk_system_mark_touched(const hooke_system *system, uint8_t *touched) {
-  struct hk_spring_batch batch;
-  for (hk_begin_batches(&batch); hk_next_batch(system, &batch);) {
-    for (int64_t k = 0; k < batch.count; k++)
-      touched[batch.head[k]] = touched[batch.tail[k]] = 1;
+  struct hk_elements at;
+  hk_begin_elements(system, NULL, NULL, &at);
+  at.wanted = has_members;
+  for (const struct hk_element *e; (e = hk_next_element(&at)) != NULL;) {
+    for (int j = 0; j < e->count; j++)
+      touched[e->particle[j]] = 1;
   }
-  struct hk_triple triple;
-  for (struct hk_triples at = {&system->bending, 0, 0}; hk_next_triple(&at, &triple);) {
-    for (int e = 0; e < 3; e++)
-      touched[triple.particle[e]] = 1;
-  }
-  for (int64_t k = 0; k < 4 * system->altitudes.count; k++)
-    touched[system->altitudes.tetrahedron[k / 4].particle[k % 4]] = 1;
 }
 
 /* A net numbers particles its own way; it goes over all of them. */
@@ -182,9 +161,7 @@ static void undo(hooke_system *system) {
     hk_group_take_back(&system->group[k]);
   hk_lanes_release(&system->lanes);
   hk_net_release(&system->net);
-  hk_springs_release(&system->springs);
-  hk_bending_release(&system->bending);
-  hk_altitudes_release(&system->altitudes);
+  hk_forces_release(system);
   hk_free(system->inverse_mass);
   hk_free(system->held_particle);
   hk_free(system->force_row);
@@ -205,15 +182,9 @@ int32_t hooke_system_commit(hooke_system *system) {
   if (status != HOOKE_OK) return status;
   status = check_pinned_at_rest(system);
   if (status == HOOKE_OK) status = fill_particles(system);
-  if (status == HOOKE_OK) status = sort_springs(system);
+  if (status == HOOKE_OK) status = take_groups_over(system);
   if (status == HOOKE_OK) {
     status = hk_lanes_create(&system->springs, system->particle_count, &system->lanes);
-  }
-  if (status == HOOKE_OK) {
-    status = hk_bending_create(system->bending_group, system->bending_group_count, &system->bending);
-  }
-  if (status == HOOKE_OK) {
-    status = hk_altitudes_create(system->altitude_group, system->altitude_group_count, &system->altitudes);
   }
   if (status == HOOKE_OK && system->lanes.count == 0) {
     status = hk_net_create(&system->springs, system->particle_count, system->inverse_mass, &system->net);
@@ -224,7 +195,8 @@ int32_t hooke_system_commit(hooke_system *system) {
     undo(system);
     return status;
   }
-  drop_building_arrays(system);
+  for (int64_t g = 0; g < system->group_count; g++)
+    hk_group_release_columns(&system->group[g]);
   trim_particles(system);
   system->committed = 1;
   return HOOKE_OK;

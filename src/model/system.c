@@ -22,15 +22,9 @@ void hooke_system_destroy(hooke_system *system) {
     hk_part_record_release(&system->part[k]);
   for (int64_t k = 0; k < system->drive_count; k++)
     hk_drive_release(&system->drive[k]);
-  for (int64_t k = 0; k < system->bending_group_count; k++)
-    hk_bending_group_release(&system->bending_group[k]);
-  for (int64_t k = 0; k < system->altitude_group_count; k++)
-    hk_altitude_group_release(&system->altitude_group[k]);
   hk_lanes_release(&system->lanes);
-  hk_bending_release(&system->bending);
-  hk_altitudes_release(&system->altitudes);
+  hk_forces_release(system);
   hk_net_release(&system->net);
-  hk_springs_release(&system->springs);
   hk_free(system->position);
   hk_free(system->velocity);
   hk_free(system->mass);
@@ -41,8 +35,6 @@ void hooke_system_destroy(hooke_system *system) {
   hk_free(system->anchor);
   hk_free(system->group);
   hk_free(system->part);
-  hk_free(system->bending_group);
-  hk_free(system->altitude_group);
   hk_system_drop_derived(system, 0);
   hk_free(system->derived);
   hk_free(system->drive);
@@ -202,24 +194,11 @@ int64_t hk_system_next_part(hooke_system *system) {
 }
 
 struct hk_system_mark hk_system_mark(const hooke_system *system) {
-  return (struct hk_system_mark){system->particle_count,      system->group_count,
-                                 system->bending_group_count, system->altitude_group_count,
-                                 system->derived_count,       system->part_count};
+  return (struct hk_system_mark){system->particle_count, system->derived_count, system->part_count};
 }
 
 void hk_system_roll_back(hooke_system *system, struct hk_system_mark mark) {
-  while (system->group_count > mark.group_count) {
-    system->spring_total -= system->group[--system->group_count].count;
-    hk_group_release(&system->group[system->group_count]);
-  }
-  while (system->bending_group_count > mark.bending_group_count) {
-    system->triple_total -= system->bending_group[--system->bending_group_count].count;
-    hk_bending_group_release(&system->bending_group[system->bending_group_count]);
-  }
-  while (system->altitude_group_count > mark.altitude_group_count) {
-    system->tetrahedron_total -= system->altitude_group[--system->altitude_group_count].count;
-    hk_altitude_group_release(&system->altitude_group[system->altitude_group_count]);
-  }
+  hk_system_remove_groups(system, mark.part_count);
   hk_system_drop_derived(system, mark.derived_count);
   system->particle_count = mark.particle_count;
   system->part_count = mark.part_count;

@@ -3,10 +3,12 @@
 #define HOOKE_MODEL_SYSTEM_H
 
 #include "hooke/system.h"
+#include "model/group.h"
 #include "model/force/altitude.h"
 #include "model/force/bending.h"
 #include "model/derived.h"
 #include "model/force/drive.h"
+#include "model/force/element.h"
 #include "model/sum/lane.h"
 #include "model/sum/net.h"
 #include "model/part_record.h"
@@ -14,11 +16,21 @@
 
 struct hk_force_row;
 
+/* Rows that the table of forces may have. */
+enum { HOOKE_FORCES = 8 };
+
 enum { HOOKE_HELD_PINNED = 1, HOOKE_HELD_DRIVEN = 2 };
 
 /* Whole tiles of particles (HOOKE_TILE), the last one cut at the end. */
 struct hk_span {
   int64_t from, count;
+};
+
+/* Elements that stay as they are about a place (3n), which belong to someone else. */
+struct hk_linear {
+  int64_t count;
+  const struct hk_element *element;
+  const double *place;
 };
 
 struct hooke_system {
@@ -39,29 +51,23 @@ struct hooke_system {
   int64_t anchor_count;
   int32_t *anchor;
 
-  /* spring groups; from commit on in spring order */
   int64_t group_count, group_capacity;
   struct hk_group *group;
+  int64_t member_total[HOOKE_FORCES]; /* of the groups of each force, as added */
   int64_t part_count;
   struct hk_part_record *part; /* part_count, in the order of adding */
   struct hk_springs springs;   /* from commit on */
   struct hk_lanes lanes;       /* from commit on, of all springs or of none */
   struct hk_net net;           /* the same, where there are no lanes */
 
-  /* groups of triples, those of parts last */
-  int64_t bending_group_count, bending_group_capacity;
-  struct hk_bending_group *bending_group;
-  struct hk_bending bending; /* from commit on */
-
-  /* the same of tetrahedra */
-  int64_t altitude_group_count, altitude_group_capacity;
-  struct hk_altitude_group *altitude_group;
+  struct hk_bending bending;     /* from commit on */
   struct hk_altitudes altitudes; /* from commit on */
+  struct hk_linear linear;
+  void *own[HOOKE_FORCES]; /* from commit on: what a force without a member of its own here has */
 
   int64_t derived_count, derived_capacity;
   struct hk_derived *derived;
 
-  int64_t spring_total, triple_total, tetrahedron_total; /* of all groups, as added */
   double memory_limit; /* [bytes] that it may need; 0: what the machine has */
 
   double gravity[3];
@@ -91,13 +97,22 @@ int32_t hk_system_check_particles(const hooke_system *system, const char *place,
  * memory; `what` is what they are ("a cloth of 3 x 4 particles", NULL: the scene). HOOKE_BAD_VALUE,
  * HOOKE_NO_MEMORY. */
 struct hk_more {
-  double particles, springs, triples, tetrahedra; /* which cannot overflow */
+  double particles; /* which cannot overflow */
+  struct {
+    const struct hk_force_row *force; /* NULL: none */
+    double count;
+  } of[3];
 };
 double hk_system_needed_bytes(const hooke_system *system, struct hk_more more);
 int32_t hk_system_check_room(const hooke_system *system, struct hk_more more, const char *what);
+int32_t hk_system_check_more(const hooke_system *system, const struct hk_force_row *force, int64_t count);
 
 /* Sets touched[p] to 1 for every particle that a spring, a triple or a tetrahedron is at. */
 void hk_system_mark_touched(const hooke_system *system, uint8_t *touched);
+
+/* Adds linear forces; elements and place have to outlive the system. */
+void hk_system_set_linear(hooke_system *system, int64_t count, const struct hk_element *element,
+                          const double *place);
 
 /* For builders. A part's springs come after those of all explicit groups, whenever they are added; otherwise
  * the same as hooke_system_add_springs(), and so with triples. hk_system_next_part() counts parts: it returns
@@ -117,12 +132,12 @@ int64_t hk_system_next_part(hooke_system *system);
 
 /* A builder that fails half-way takes back what it added since the mark. */
 struct hk_system_mark {
-  int64_t particle_count, group_count, bending_group_count, altitude_group_count, derived_count, part_count;
+  int64_t particle_count, derived_count, part_count;
 };
 struct hk_system_mark hk_system_mark(const hooke_system *system);
 void hk_system_roll_back(hooke_system *system, struct hk_system_mark mark);
 
-/* Energy of springs, bending and altitude springs [J], which is never below 0. */
+/* Energy of the forces that have elements [J], which is never below 0. */
 double hk_elastic_energy(const hooke_system *system, const double *q);
 
 #endif

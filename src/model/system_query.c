@@ -21,34 +21,15 @@ int64_t hooke_system_free_count(const hooke_system *system) {
   return count;
 }
 
-int64_t hooke_system_spring_count(const hooke_system *system) {
-  int64_t count = 0;
-  for (int64_t k = 0; k < system->group_count; k++)
-    count += system->group[k].count;
-  return count;
-}
-
 int64_t hooke_system_dropped_spring_count(const hooke_system *system) {
   int64_t count = 0;
-  for (int64_t k = 0; k < system->group_count; k++)
+  for (int64_t k = 0; k < hk_system_groups_of(system, &hk_force_springs); k++)
     count += system->group[k].dropped;
   return count;
 }
 
 int64_t hooke_system_idle_count(const hooke_system *system) {
   return system->idle_count;
-}
-
-int64_t hooke_system_group_count(const hooke_system *system) {
-  return system->group_count;
-}
-
-const char *hooke_system_group_name(const hooke_system *system, int64_t group) {
-  return group >= 0 && group < system->group_count ? system->group[group].name : NULL;
-}
-
-int64_t hooke_system_group_size(const hooke_system *system, int64_t group) {
-  return group >= 0 && group < system->group_count ? system->group[group].count : 0;
 }
 
 const double *hooke_system_mass(const hooke_system *system) {
@@ -114,15 +95,13 @@ int64_t hooke_system_spring_memory(const hooke_system *system) {
 }
 
 int64_t hooke_system_memory(const hooke_system *system) {
-  int64_t bytes = (int64_t)sizeof *system + hk_springs_memory(&system->springs) + system->lanes.memory +
-                  hk_net_memory(&system->net) + hk_bending_memory(&system->bending) +
-                  hk_altitudes_memory(&system->altitudes);
+  int64_t bytes = (int64_t)sizeof *system + system->lanes.memory + hk_net_memory(&system->net);
+  for (int32_t k = 0; hk_force_table(k); k++)
+    bytes += hk_force_table(k)->memory ? hk_force_table(k)->memory(system) : 0;
   bytes += system->particle_capacity * (int64_t)((system->velocity ? 7 : 4) * sizeof(double) + 1) +
            system->particle_count * (int64_t)sizeof(double) +
            (system->held_count + system->anchor_count) * (int64_t)sizeof(int32_t);
   bytes += system->group_count * (int64_t)sizeof *system->group +
-           system->bending_group_count * (int64_t)sizeof *system->bending_group +
-           system->altitude_group_count * (int64_t)sizeof *system->altitude_group +
            system->derived_capacity * (int64_t)sizeof *system->derived +
            system->drive_count * (int64_t)sizeof *system->drive;
   for (int64_t k = 0; k < system->drive_count; k++) {

@@ -108,11 +108,12 @@ static int32_t add_bending(struct hk_part *part, const struct cell *cell) {
 static struct hk_more size_of(const struct hk_part *part, double nu, double nv) {
   const double along = (nu - 1.0) * nv + nu * (nv - 1.0), across = 2.0 * (nu - 1.0) * (nv - 1.0);
   const double two_apart = fmax(0.0, nu - 2.0) * nv + nu * fmax(0.0, nv - 2.0);
+  const double springs = hk_part_if_family(part, "structural", along) +
+                         hk_part_if_family(part, "shear", across) +
+                         hk_part_if_family(part, "bend", two_apart);
+  const double triples = hooke_options_number(part->options, "bending") > 0.0 ? two_apart : 0.0;
   return (struct hk_more){.particles = nu * nv,
-                          .springs = hk_part_if_family(part, "structural", along) +
-                                     hk_part_if_family(part, "shear", across) +
-                                     hk_part_if_family(part, "bend", two_apart),
-                          .triples = hooke_options_number(part->options, "bending") > 0.0 ? two_apart : 0.0};
+                          .of = {{&hk_force_springs, springs}, {&hk_force_bending, triples}}};
 }
 
 static int32_t build(struct hk_part *part) {

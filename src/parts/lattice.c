@@ -4,7 +4,6 @@
 #include "parts/material.h"
 #include "core/memory.h"
 #include "core/status.h"
-#include "model/system.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -77,14 +76,14 @@ static double springs_along(const struct lattice *lattice, const int32_t *step, 
 
 /* In numbers that cannot overflow. */
 static struct hk_more size_of(const struct hk_part *part, const struct lattice *lattice) {
-  struct hk_more more = {.particles = 1.0};
+  struct hk_more more = {.particles = 1.0, .of = {{.force = &hk_force_springs}}};
   for (int a = 0; a < 3; a++) {
     more.particles *= (double)lattice->size[a];
-    more.springs += hk_part_if_family(part, "structural", springs_along(lattice, axis[a], 1));
-    more.springs += hk_part_if_family(part, "bend", springs_along(lattice, axis[a], 2));
+    more.of[0].count += hk_part_if_family(part, "structural", springs_along(lattice, axis[a], 1));
+    more.of[0].count += hk_part_if_family(part, "bend", springs_along(lattice, axis[a], 2));
   }
   for (int d = 0; d < DIAGONALS; d++)
-    more.springs += hk_part_if_family(part, "shear", springs_along(lattice, diagonal[d], 1));
+    more.of[0].count += hk_part_if_family(part, "shear", springs_along(lattice, diagonal[d], 1));
   return more;
 }
 

@@ -2,7 +2,6 @@
 
 #include "core/memory.h"
 #include "core/status.h"
-#include "model/system.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -103,15 +102,16 @@ void hk_part_damping(const struct hk_part *part, const char *family, int64_t cou
 int32_t hk_part_derive_springs(const struct hk_part *part, const char *family, int32_t strip_count,
                                const struct hk_part_strip *strip) {
   static const char *const kappa[] = {DIRECTIONS("kappa")}, *const gamma[] = {DIRECTIONS("gamma")};
-  const struct hk_group *group = &part->system->group[part->system->group_count - 1];
+  const struct hk_group *group = hk_system_last_group(part->system, &hk_force_springs);
   int32_t status = HOOKE_OK;
   for (int64_t s = 0, first = 0; s < strip_count && status == HOOKE_OK; s++) {
     const int64_t springs = strip[s].rows * strip[s].columns;
     const int told = s > 0 && strip[s].direction == strip[s - 1].direction; /* layers of a lattice */
     if (springs == 0) continue;
-    if (!told) status = derive(part, family, kappa[strip[s].direction], "N/m", group->kappa[first]);
+    if (!told)
+      status = derive(part, family, kappa[strip[s].direction], "N/m", group->number[HOOKE_KAPPA][first]);
     if (!told && status == HOOKE_OK)
-      status = derive(part, family, gamma[strip[s].direction], "N s/m", group->gamma[first]);
+      status = derive(part, family, gamma[strip[s].direction], "N s/m", group->number[HOOKE_GAMMA][first]);
     first += springs;
   }
   return status;

@@ -5,7 +5,6 @@
 #include "parts/surface.h"
 #include "core/memory.h"
 #include "core/status.h"
-#include "model/system.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -169,15 +168,15 @@ static int32_t add_family(struct hk_part *part, const char *family, int64_t coun
                  *b = part->system->position + 3 * ends[2 * k + 1];
     rest_length[k] = hk_part_length((const double[]){a[0] - b[0], a[1] - b[1], a[2] - b[2]});
   }
-  const int64_t groups = part->system->group_count;
+  const int64_t groups = hk_system_groups_of(part->system, &hk_force_springs);
   int32_t status = hk_part_add_pairs(part, family, count, ends, rest_length);
   hk_free(rest_length);
-  if (status != HOOKE_OK || part->system->group_count == groups) return status;
+  if (status != HOOKE_OK || hk_system_groups_of(part->system, &hk_force_springs) == groups) return status;
   char ratio[32];
   snprintf(ratio, sizeof ratio, "%s.damping_ratio", family);
   if (!hooke_options_is_set(part->options, ratio)) return HOOKE_OK;
   return derive_range(part, family, "smallest gamma", "largest gamma", "N s/m", count,
-                      part->system->group[groups].gamma);
+                      hk_system_last_group(part->system, &hk_force_springs)->number[HOOKE_GAMMA]);
 }
 
 static int32_t add_springs(struct hk_part *part, const struct hk_surface *surface) {
@@ -213,8 +212,8 @@ static int32_t refuse(const struct hk_surface_fault *fault) {
 static int32_t check_room(const struct hk_part *part, const struct hk_surface *surface) {
   const double edges = (double)surface->edge_count;
   const struct hk_more more = {.particles = (double)surface->vertex_count,
-                               .springs = hk_part_if_family(part, "structural", edges) +
-                                          hk_part_if_family(part, "bend", edges)};
+                               .of = {{&hk_force_springs, hk_part_if_family(part, "structural", edges) +
+                                                              hk_part_if_family(part, "bend", edges)}}};
   const int32_t status = hk_system_check_room(part->system, more, "the mesh");
   return status == HOOKE_OK ? status : hk_fail_within(status, "vertices");
 }

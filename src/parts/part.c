@@ -142,7 +142,7 @@ static int32_t set_damping(const struct hk_part *part, const char *family, int64
 static int32_t material(const struct hk_part *part, const char *family, int by_ratio, int64_t count,
                         const int64_t *ends, const double *rest_length, hooke_options **options) {
   static const char *const keys[] = {"stiffness", "damping", "rest_scale", "compression"};
-  int32_t status = hk_spring_options_create(options);
+  int32_t status = hk_options_create(&hk_spring_options, options);
   for (size_t k = 0; status == HOOKE_OK && k < sizeof keys / sizeof keys[0]; k++) {
     char dotted[64];
     snprintf(dotted, sizeof dotted, "%s.%s", family, keys[k]);

@@ -5,7 +5,7 @@
 #include "core/option.h"
 #include "hooke/build.h"
 #include "model/part_record.h"
-#include "model/system.h"
+#include "model/force/force.h"
 
 /* A part under construction. */
 struct hk_part {

@@ -37,8 +37,9 @@ static int32_t build(struct hk_part *part) {
   const double links = (double)segments;
   const struct hk_more more = {
       .particles = links + 1.0,
-      .springs = hk_part_if_family(part, "stretch", links) + hk_part_if_family(part, "bend", links - 1.0),
-      .triples = hooke_options_number(part->options, "bending") > 0.0 ? links - 1.0 : 0.0};
+      .of = {{&hk_force_springs,
+              hk_part_if_family(part, "stretch", links) + hk_part_if_family(part, "bend", links - 1.0)},
+             {&hk_force_bending, hooke_options_number(part->options, "bending") > 0.0 ? links - 1.0 : 0.0}}};
   double *position;
   int32_t status =
       hk_part_new_positions(part, more, &position, "a rope of %lld segments", (long long)segments);

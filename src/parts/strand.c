@@ -12,7 +12,6 @@
 #include "core/memory.h"
 #include "core/sine.h"
 #include "core/status.h"
-#include "model/system.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -152,11 +151,11 @@ static int32_t add_particles(struct hk_part *part, const struct strand *strand, 
   const double *from = hooke_options_numbers(part->options, "from");
   const double *to = hooke_options_numbers(part->options, "to");
   const double n = (double)count;
-  const struct hk_more more = {.particles = n,
-                               .springs = hk_part_if_family(part, "stretch", n) +
-                                          hk_part_if_family(part, "bend", n) +
-                                          hk_part_if_family(part, "twist", n),
-                               .tetrahedra = hk_part_if_family(part, "altitude", n)};
+  const struct hk_more more = {
+      .particles = n,
+      .of = {{&hk_force_springs, hk_part_if_family(part, "stretch", n) + hk_part_if_family(part, "bend", n) +
+                                     hk_part_if_family(part, "twist", n)},
+             {&hk_force_altitude, hk_part_if_family(part, "altitude", n)}}};
   double *position;
   int32_t status =
       hk_part_new_positions(part, more, &position, "a strand of %lld segments", (long long)strand->segments);
@@ -185,12 +184,14 @@ static int is_given(const struct hk_part *part, const char *family, const char *
 static int32_t derive_bend(const struct hk_part *part, int64_t count) {
   static const char *const kappa[] = {"kappa on the axis", "kappa of extra particles"};
   static const char *const gamma[] = {"gamma on the axis", "gamma of extra particles"};
-  const struct hk_group *group = &part->system->group[part->system->group_count - 1];
+  const struct hk_group *group = hk_system_last_group(part->system, &hk_force_springs);
   int32_t status = HOOKE_OK;
   for (int k = 0; k < 2 && k < count && status == HOOKE_OK; k++) {
-    status = hk_system_add_derived(part->system, part->name, "bend", kappa[k], "N/m", group->kappa[k]);
+    status = hk_system_add_derived(part->system, part->name, "bend", kappa[k], "N/m",
+                                   group->number[HOOKE_KAPPA][k]);
     if (status == HOOKE_OK)
-      status = hk_system_add_derived(part->system, part->name, "bend", gamma[k], "N s/m", group->gamma[k]);
+      status = hk_system_add_derived(part->system, part->name, "bend", gamma[k], "N s/m",
+                                     group->number[HOOKE_GAMMA][k]);
   }
   return status;
 }

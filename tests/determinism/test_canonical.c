@@ -66,6 +66,7 @@ static void test_small_scenes(void **unused) {
                                                   .springs = (int64_t)(seed * 53 % 1500),
                                                   .triples = (int64_t)(round * (seed * 71 % 400)),
                                                   .tetrahedra = (int64_t)(round * (seed * 37 % 90)),
+                                                  .anchors = (int64_t)(seed * 29 % 3 * 11),
                                                   .features = features});
     }
   }
@@ -82,6 +83,7 @@ static void test_large_scenes(void **unused) {
                                                 .springs = 100003 / share,
                                                 .triples = 10007 / share,
                                                 .tetrahedra = 3001 / share,
+                                                .anchors = k % 2 ? 2003 / share : 0,
                                                 .features = features[k]});
   }
 }
@@ -99,6 +101,7 @@ static void test_parts(void **unused) {
                                                   .springs = k == m ? 0 : 20,
                                                   .triples = m % 2 ? 5 : 0,
                                                   .tetrahedra = k % 3 == 1 && m % 2 ? 4 : 0,
+                                                  .anchors = m % 3 == 1 ? 5 : 0,
                                                   .features = features,
                                                   .cloth = {size[k], size[m]},
                                                   .rope = 1 + (k * sizes + m) % 70});

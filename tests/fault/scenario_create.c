@@ -27,7 +27,7 @@ static void add_springs(struct attempt *a, hooke_system *system) {
   const double stiffness[] = {100, 90, 80, 70, 60, 50, 40, 30, 20, 10};
   const int64_t triples[] = {0, 1, 2, 1, 2, 3}, tetrahedra[] = {0, 1, 2, 6, 1, 2, 3, 6};
   const double coefficient = 0.5;
-  hooke_options *springs = NULL, *altitude = NULL;
+  hooke_options *springs = NULL, *altitude = NULL, *anchors = NULL;
   TRY(a, hooke_options_create("springs", &springs));
   TRY(a, hooke_options_set_numbers(springs, "stiffness", 10, stiffness));
   TRY(a, hooke_options_set_number(springs, "damping", 0.5));
@@ -41,9 +41,13 @@ static void add_springs(struct attempt *a, hooke_system *system) {
   TRY(a, hooke_options_create("altitude", &altitude));
   TRY(a, hooke_options_set_number(altitude, "stiffness", 5));
   TRY(a, hooke_system_add_altitude(system, "volume", 2, tetrahedra, altitude));
+  TRY(a, hooke_options_create("anchors", &anchors));
+  TRY(a, hooke_options_set_number(anchors, "stiffness", 5));
+  TRY(a, hooke_system_add_anchors(system, "wall", 3, triples, anchors));
 end:
   hooke_options_destroy(springs);
   hooke_options_destroy(altitude);
+  hooke_options_destroy(anchors);
 }
 
 static void add_drives(struct attempt *a, hooke_system *system) {

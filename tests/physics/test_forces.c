@@ -138,7 +138,7 @@ static void test_dissipated_power(void **unused) {
 static void test_third_law(void **unused) {
   (void)unused;
   for (int k = 0; k < LAW_COUNT; k++) {
-    if (laws[k].gravity || laws[k].drag || laws[k].callback) continue;
+    if (laws[k].gravity || laws[k].drag || laws[k].callback || laws[k].anchors) continue;
     for (uint64_t seed = 1; seed <= 5; seed++) {
       struct law_scene scene;
       double force[LAW_SIZE], sum[3] = {0}, torque[3] = {0}, size = 0.0;

@@ -62,6 +62,20 @@ def test_families_of_springs_have_the_keys_of_the_table(kind):
 def test_springs_have_the_keywords_of_their_table():
     keywords = set(inspect.signature(hooke.Scene.springs).parameters) - {"self", "name", "between"}
     assert keywords == {line.split()[0] for line in hooke.describe("springs").splitlines()}
+    keywords = set(inspect.signature(hooke.Scene.anchors).parameters) - {"self", "name", "particles"}
+    assert keywords == {line.split()[0] for line in hooke.describe("anchors").splitlines()}
+
+
+def test_anchors_are_those_of_the_scene(tmp_path):
+    built = hooke.Scene().particles([[0, 0, 0], [1, 0, 0]], mass=1)
+    built.anchors("wall", particles=[1], points=[[1, 2, 0]], stiffness=6, damping=0.3, rest_length=0.5)
+    built.anchors(particles=0, stiffness=2)
+    with pytest.raises(hooke.BadValue, match=r"anchors\[2\].*particles"):
+        built.anchors(particles=[2], stiffness=1)
+    built.save(tmp_path / "scene.json")
+    read = hooke.Scene.load(tmp_path / "scene.json")
+    for one, other in zip(built.system.anchors, read.system.anchors):
+        assert np.array_equal(one, other)
 
 
 def test_keywords_are_those_of_the_schema():
@@ -72,7 +86,7 @@ def test_keywords_are_those_of_the_schema():
         return set(inspect.signature(method).parameters) - {"self"}
 
     properties = schema["properties"]
-    pieces = set(properties) - {"$schema", "hooke", "particles", "springs", "parts", "driven"}
+    pieces = set(properties) - {"$schema", "hooke", "particles", "springs", "anchors", "parts", "driven"}
     assert keywords(hooke.Scene.__init__) == pieces
     assert keywords(hooke.Scene.particles) == set(_keys(schema, properties["particles"]))
     assert keywords(hooke.Scene.driven) == set(_keys(schema, properties["driven"]["items"]))

@@ -120,6 +120,24 @@ def test_altitude_springs_are_those_of_the_formula():
         hooke.System().add_altitude(None, [0, 1, 2], stiffness=1)
 
 
+def test_anchors_are_springs_to_points():
+    system = hooke.System()
+    system.add_particles([[0, 0, 0], [1, 0, 0]], mass=1)
+    system.add_anchors("wall", [1, 0], points=[[1, 2, 0], [0, 0, 1]], stiffness=[6, 0], damping=[0.3, 0], rest_length=0.5)
+    system.add_anchors(None, [0], stiffness=2)
+    assert (system.forces, system.anchor_count) == (["anchors"], 2)
+    particles, points, stiffness, damping, rest = system.anchors
+    assert (particles.tolist(), points.tolist()) == ([1, 0], [[1, 2, 0], [0, 0, 0]])
+    assert (stiffness.tolist(), damping.tolist(), rest.tolist()) == ([6, 2], [0.3, 0], [0.5, 0])
+    q, v = np.array([[0.1, 0, 0], [1, 0, 0]]), np.array([[0, 0, 0], [3, 1, 0]])
+    np.testing.assert_allclose(system.force(q, v), [[-0.2, 0, 0], [0, 6 * 1.5 - 0.3, 0]], rtol=1e-14)
+    assert system.potential_energy(q) == pytest.approx(3 * 1.5**2 + 0.01, rel=1e-14)
+    assert system.dissipated_power(q, v) == pytest.approx(0.3, rel=1e-14)
+    assert "points" in hooke.describe("anchors")
+    with pytest.raises(hooke.BadValue, match=r"points"):
+        hooke.System().add_anchors(None, [], points=[1, 2, 3, 4], stiffness=1)
+
+
 def test_a_strand_is_a_part():
     system = hooke.System()
     family = {"stiffness": 1}

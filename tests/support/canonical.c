@@ -42,6 +42,13 @@ void canonical_create(const hooke_system *system, struct canonical *canonical) {
     if (size > 0) memset(canonical->altitude_pull_only + at, pulls, (size_t)size);
     at += size;
   }
+  const int64_t anchors = canonical->anchor_count = hooke_system_anchor_count(system);
+  canonical->anchored = new_block(anchors, (int64_t)sizeof(int64_t));
+  canonical->anchor_point = new_doubles(3 * anchors);
+  for (int k = 0; k < 3; k++)
+    canonical->anchor[k] = new_doubles(anchors);
+  check_ok(hooke_system_anchors(system, canonical->anchored, canonical->anchor_point, canonical->anchor[0],
+                                canonical->anchor[1], canonical->anchor[2]));
   int64_t spring = 0;
   for (int64_t g = 0; g < hooke_system_group_count(system); g++) {
     const int64_t size = hooke_system_group_size(system, g);
@@ -65,6 +72,10 @@ void canonical_destroy(struct canonical *canonical) {
   for (int k = 0; k < 3; k++)
     free(canonical->altitude[k]);
   free(canonical->altitude_pull_only);
+  free(canonical->anchored);
+  free(canonical->anchor_point);
+  for (int k = 0; k < 3; k++)
+    free(canonical->anchor[k]);
   free(canonical->inverse_mass);
   memset(canonical, 0, sizeof *canonical);
 }
@@ -192,6 +203,19 @@ static void add_tetrahedron(const struct canonical *canonical, int64_t number, c
   }
 }
 
+/* As a spring, whose second end is a point at rest. */
+static void add_anchor(const struct canonical *canonical, int64_t k, const double *q, const double *v,
+                       double *force) {
+  const double *x = q + 3 * canonical->anchored[k], *u = v + 3 * canonical->anchored[k];
+  const double *point = canonical->anchor_point + 3 * k, gamma = canonical->anchor[1][k];
+  const double d[3] = {x[0] - point[0], x[1] - point[1], x[2] - point[2]};
+  const double r = sqrt((d[0] * d[0] + d[1] * d[1]) + d[2] * d[2]), ir = r > 0.0 ? 1.0 / r : 0.0;
+  double tension = canonical->anchor[0][k] * (r - canonical->anchor[2][k]);
+  if (gamma != 0.0) tension += gamma * (((u[0] * d[0] + u[1] * d[1]) + u[2] * d[2]) * ir);
+  for (int a = 0; a < 3; a++)
+    force[3 * canonical->anchored[k] + a] -= tension * ir * d[a];
+}
+
 /* Damping at v, with springs that only pull and the callback at `seen`. */
 static void accelerate(const struct canonical *canonical, double t, const double *q, const double *v,
                        const double *seen, double *acceleration) {
@@ -205,6 +229,8 @@ static void accelerate(const struct canonical *canonical, double t, const double
     add_triple(canonical, k, q, force);
   for (int64_t k = 0; k < canonical->tetrahedron_count; k++)
     add_tetrahedron(canonical, k, q, v, seen, force);
+  for (int64_t k = 0; k < canonical->anchor_count; k++)
+    add_anchor(canonical, k, q, v, force);
   if (canonical->drag != 0.0) {
     for (int64_t p = 0; p < n; p++) {
       for (int a = 0; a < 3 && w[p] != 0.0; a++)
@@ -325,6 +351,9 @@ static int is_damped(const struct canonical *canonical) {
   for (int64_t k = 0; k < canonical->tetrahedron_count; k++) {
     if (canonical->altitude[1][k] != 0.0) return 1;
   }
+  for (int64_t k = 0; k < canonical->anchor_count; k++) {
+    if (canonical->anchor[1][k] != 0.0) return 1;
+  }
   return 0;
 }
 
@@ -381,6 +410,14 @@ static double rounding(const struct canonical *canonical, double h, const double
       stiffness = fmax(stiffness, canonical->altitude[0][k] / l);
       damping = fmax(damping, canonical->altitude[1][k] / l);
     }
+  }
+  for (int64_t k = 0; k < canonical->anchor_count; k++) {
+    const double *x = q + 3 * canonical->anchored[k], *point = canonical->anchor_point + 3 * k;
+    const double r = hypot(hypot(x[0] - point[0], x[1] - point[1]), x[2] - point[2]);
+    const double kappa = canonical->anchor[0][k], gamma = canonical->anchor[1][k];
+    const double tension = kappa * fabs(r - canonical->anchor[2][k]) + 2.0 * gamma * speed;
+    stiffness = fmax(stiffness, kappa + (r > 0.0 ? tension / r : 0.0));
+    damping = fmax(damping, gamma);
   }
   return 100.0 * DBL_EPSILON * (speed + h * lightest * (stiffness * extent + damping * speed));
 }

@@ -2,8 +2,8 @@
  *
  * Forces on a particle are added in this order: its springs in ascending spring number (added to the first
  * end, subtracted from the second), triples of bending in ascending number, tetrahedra of altitude springs
- * likewise, drag, the callback. The acceleration is w f, then gravity is added to it. Particles that are held
- * (pinned or driven) have none. */
+ * likewise, anchors likewise, drag, the callback. The acceleration is w f, then gravity is added to it.
+ * Particles that are held (pinned or driven) have none. */
 #ifndef TESTS_SUPPORT_CANONICAL_H
 #define TESTS_SUPPORT_CANONICAL_H
 
@@ -22,10 +22,14 @@ struct canonical {
   int64_t *corners;                  /* 4 tetrahedron_count */
   double *altitude[3];               /* stiffness, damping; 7 rest lengths, with a sign */
   unsigned char *altitude_pull_only; /* tetrahedron_count */
-  double *inverse_mass;              /* particle_count */
-  const double *gravity;             /* NULL: none */
-  double drag;                       /* 0: none */
-  hooke_force *force;                /* NULL: none */
+  int64_t anchor_count;
+  int64_t *anchored;     /* anchor_count: the particle of each */
+  double *anchor_point;  /* 3 anchor_count */
+  double *anchor[3];     /* stiffness, damping and rest length */
+  double *inverse_mass;  /* particle_count */
+  const double *gravity; /* NULL: none */
+  double drag;           /* 0: none */
+  hooke_force *force;    /* NULL: none */
   void *ctx;
   /* puts driven particles where they are at time t; NULL: there are none */
   void (*place)(double t, double *q, double *v, void *place_ctx);

@@ -34,6 +34,8 @@ const struct law laws[LAW_COUNT] = {
      .pull_only = 1,
      .damped = 1,
      .altitude = 1},
+    {.name = "anchors", .law = "strain", .anchors = 1},
+    {.name = "anchors, damped", .law = "length", .damped = 1, .gravity = 1, .anchors = 1},
 };
 
 struct material {
@@ -145,6 +147,29 @@ static void add_altitude(const struct law *law, struct random_source *source, co
   }
 }
 
+/* The points are not near their particles; every other rest length is 0. */
+static void add_anchors(const struct law *law, struct random_source *source, const double *q,
+                        hooke_system *system) {
+  int64_t particles[LAW_ANCHORS];
+  double points[3 * LAW_ANCHORS], stiffness[LAW_ANCHORS], damping[LAW_ANCHORS], rest[LAW_ANCHORS];
+  for (int64_t k = 0; k < LAW_ANCHORS; k++) {
+    particles[k] = random_whole(source, 0, LAW_PARTICLES - 1);
+    for (int64_t a = 0; a < 3; a++)
+      points[3 * k + a] = q[3 * particles[k] + a] + random_between(source, 0.4, 1.0);
+    stiffness[k] = random_between(source, 15.0, 30.0);
+    damping[k] = random_between(source, 0.1, 2.0);
+    rest[k] = k % 2 ? random_between(source, 0.4, 1.5) : 0.0;
+  }
+  hooke_options *options = NULL;
+  check_ok(hooke_options_create("anchors", &options));
+  check_ok(hooke_options_set_numbers(options, "points", 3 * LAW_ANCHORS, points));
+  check_ok(hooke_options_set_numbers(options, "stiffness", LAW_ANCHORS, stiffness));
+  if (law->damped) check_ok(hooke_options_set_numbers(options, "damping", LAW_ANCHORS, damping));
+  check_ok(hooke_options_set_numbers(options, "rest_length", LAW_ANCHORS, rest));
+  check_ok(hooke_system_add_anchors(system, "anchors", LAW_ANCHORS, particles, options));
+  hooke_options_destroy(options);
+}
+
 void law_scene_create(const struct law *law, uint64_t seed, struct law_scene *scene) {
   struct random_source source = {seed};
   struct material material;
@@ -166,6 +191,7 @@ void law_scene_create(const struct law *law, uint64_t seed, struct law_scene *sc
   add_springs(law, &material, scene);
   if (law->bending) add_bending(&source, scene->system);
   if (law->altitude) add_altitude(law, &source, scene->q, scene->system);
+  if (law->anchors) add_anchors(law, &source, scene->q, scene->system);
   const double gravity[] = {0.3, -9.81, 1.7};
   if (law->gravity) check_ok(hooke_system_set_gravity(scene->system, gravity));
   if (law->drag) check_ok(hooke_system_set_drag(scene->system, 0.37));

@@ -9,6 +9,7 @@ enum {
   LAW_SPRINGS = 24,
   LAW_TRIPLES = 10,
   LAW_TETRAHEDRA = 6,
+  LAW_ANCHORS = 8,
   LAW_SIZE = 3 * LAW_PARTICLES
 };
 
@@ -16,10 +17,10 @@ struct law {
   const char *name, *law;
   int32_t zero_rest, damped, pull_only, gravity, drag;
   int32_t callback; /* 1: without a product, 2: with one */
-  int32_t bending, altitude;
+  int32_t bending, altitude, anchors;
 };
 
-enum { LAW_COUNT = 16 };
+enum { LAW_COUNT = 18 };
 extern const struct law laws[LAW_COUNT];
 
 struct law_scene {

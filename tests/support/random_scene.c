@@ -362,6 +362,36 @@ static void add_tetrahedra(struct random_source *source, struct random_scene_req
   free(damping);
 }
 
+/* ---- anchors ---- */
+
+static void add_anchors(struct random_source *source, struct random_scene_request request,
+                        const double *position, hooke_system *system) {
+  for (int64_t done = 0, count; done < request.anchors; done += count) {
+    hooke_options *options = NULL;
+    count = random_whole(source, 1, request.anchors - done);
+    int64_t *particles = new_block(count, (int64_t)sizeof(int64_t));
+    double *number = new_doubles(6 * count), *stiffness = number + 3 * count, *damping = stiffness + count;
+    for (int64_t k = 0; k < count; k++) {
+      particles[k] = random_whole(source, 0, request.particles - 1);
+      for (int64_t a = 0; a < 3; a++)
+        number[3 * k + a] = position[3 * particles[k] + a] + random_between(source, -1.0, 1.0);
+      stiffness[k] = random_whole(source, 0, 5) ? random_between(source, 1.0, 9.0) : 0.0;
+      damping[k] = random_whole(source, 0, 3) ? random_between(source, 0.0, 0.2) : 0.0;
+      damping[count + k] = random_whole(source, 0, 1) ? random_between(source, 0.1, 1.0) : 0.0;
+    }
+    check_ok(hooke_options_create("anchors", &options));
+    if (random_whole(source, 0, 2)) check_ok(hooke_options_set_numbers(options, "points", 3 * count, number));
+    check_ok(hooke_options_set_numbers(options, "stiffness", count, stiffness));
+    if (request.features & SCENE_DAMPING)
+      check_ok(hooke_options_set_numbers(options, "damping", count, damping));
+    check_ok(hooke_options_set_numbers(options, "rest_length", count, damping + count));
+    check_ok(hooke_system_add_anchors(system, "anchors", count, particles, options));
+    hooke_options_destroy(options);
+    free(particles);
+    free(number);
+  }
+}
+
 /* ---- parts ---- */
 
 static void set_family(struct random_source *source, hooke_options *options, const char *family,
@@ -444,6 +474,8 @@ void random_scene_create(struct random_scene_request request, struct random_scen
   add_groups(&source, request, position, scene->system, &wanted);
   struct random_source heights = {request.seed + 177};
   add_tetrahedra(&heights, request, position, scene->system);
+  struct random_source points = {request.seed + 277};
+  add_anchors(&points, request, position, scene->system);
   free(position);
   struct random_source bends = {request.seed + 77};
   int64_t *triples = new_block(3 * request.triples, (int64_t)sizeof(int64_t));

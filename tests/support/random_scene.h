@@ -23,6 +23,7 @@ struct random_scene_request {
   int64_t particles, springs;
   int64_t triples;    /* of bending; if there are any, parts have bending as well */
   int64_t tetrahedra; /* of altitude springs; damped and pulling only as springs are */
+  int64_t anchors;    /* damped as springs are */
   int32_t features;
   int32_t cloth[2];     /* size of a cloth that is added as a part; 0: none */
   int32_t lattice[3];   /* size of a lattice that is added as a part; 0: none */

@@ -61,6 +61,32 @@ static void multiply_altitude(const struct bench *bench, const double *x, double
   free(q);
 }
 
+/* And of anchors, without what a damped one has for turning. */
+static void multiply_anchors(const struct bench *bench, const double *x, double *out) {
+  const struct canonical *c = &bench->scene.canonical;
+  const struct hk_motion *m = bench->integrator->motion;
+  const double alpha = bench->reduced.alpha, beta = bench->reduced.beta;
+  for (int64_t k = 0; k < c->anchor_count; k++) {
+    const int64_t p = c->anchored[k], n = bench->n;
+    double u[3], length = 0.0, rate = 0.0, along = 0.0;
+    for (int a = 0; a < 3; a++) {
+      u[a] = m->q[a][p] - c->anchor_point[3 * k + a];
+      length += u[a] * u[a];
+    }
+    length = sqrt(length);
+    for (int a = 0; a < 3; a++) {
+      u[a] /= length;
+      rate += u[a] * m->v[a][p];
+      along += u[a] * x[a * n + p];
+    }
+    const double tension = c->anchor[0][k] * (length - c->anchor[2][k]) + c->anchor[1][k] * rate;
+    const double across = fmax(0.0, alpha * tension / length);
+    const double axial = alpha * c->anchor[0][k] + beta * c->anchor[1][k];
+    for (int a = 0; a < 3; a++)
+      out[a * n + p] += axial * along * u[a] + across * (x[a * n + p] - along * u[a]);
+  }
+}
+
 /* out = S x over the free particles, spring by spring. */
 static void multiply(const struct bench *bench, const double *x, double *out) {
   const hooke_system *system = bench->scene.system;
@@ -108,6 +134,7 @@ static void multiply(const struct bench *bench, const double *x, double *out) {
     }
   }
   multiply_altitude(bench, x, out);
+  multiply_anchors(bench, x, out);
 }
 
 static void needs_factor(void) {
@@ -125,6 +152,7 @@ static void solves_s(void **unused) {
                                          .springs = 5 + 40 * k,
                                          .triples = k % 3 == 0 ? 9 : 0,
                                          .tetrahedra = k % 4 == 1 ? 3 * k : 0,
+                                         .anchors = k % 3,
                                          .features = k * 53 & SCENE_EVERYTHING,
                                          .cloth = {k % 2 ? k + 3 : 0, 11},
                                          .rope = k % 5 ? 0 : 60},
@@ -216,6 +244,7 @@ static void implicit_equation(void **unused) {
                                          .springs = 90,
                                          .triples = k % 2 ? 12 : 0,
                                          .tetrahedra = k % 3 ? 12 : 0,
+                                         .anchors = k % 2 ? 7 : 0,
                                          .with_product = 1,
                                          .features = SCENE_EVERYTHING & ~(k % 3 ? SCENE_CALLBACK : 0)},
            gamma * gamma, gamma, &b);

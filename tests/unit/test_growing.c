@@ -18,6 +18,7 @@ static struct random_scene build(uint64_t seed) {
                                                     .springs = 120,
                                                     .triples = seed % 2 ? 20 : 0,
                                                     .tetrahedra = seed % 3 ? 12 : 0,
+                                                    .anchors = (int64_t)(seed % 5),
                                                     .features = SCENE_GRAVITY | SCENE_DRAG | SCENE_DAMPING |
                                                                 SCENE_PULL_ONLY | SCENE_PINNED},
                       &scene);

@@ -111,6 +111,7 @@ static void random_scenes(void **unused) {
                                                       .springs = 60 + 20 * k,
                                                       .triples = k % 3 * 40,
                                                       .tetrahedra = k % 4 * 10,
+                                                      .anchors = k % 3 * 4,
                                                       .features = k * 37 & SCENE_EVERYTHING,
                                                       .cloth = {k % 9 + 2, 9},
                                                       .with_product = 1},

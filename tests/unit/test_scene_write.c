@@ -1,4 +1,6 @@
 /* A system written as a scene and read again is the same system, to the bit. */
+#include "model/check_value.h"
+#include "model/variant/variant.h"
 #include "check.h"
 #include "random_scene.h"
 
@@ -192,6 +194,50 @@ static void strands_come_back(void **state) {
   hooke_system_destroy(system);
 }
 
+/* Anchors to the bit, in a variant that leaves a group out, too; a group of nothing keeps its place. */
+static void anchors_come_back(void **state) {
+  (void)state;
+  const double stiffness[2] = {0.1 + 0.2, 7.0}, point[6] = {1.0 / 3.0, 2, 3, 4, 5, 6};
+  const int64_t tied[2] = {5, 3};
+  int64_t particle[3];
+  double points[9], number[3][3];
+  hooke_system *system, *made;
+  hooke_options *options = NULL;
+  hooke_scene *read;
+  struct hk_variant variant;
+  struct hk_variant_map map;
+  check_ok(hooke_system_create(&system));
+  add_strand(system, 1);
+  check_ok(hooke_options_create("anchors", &options));
+  check_ok(hooke_options_set_number(options, "stiffness", 0.0));
+  check_ok(hooke_system_add_anchors(system, "nothing", 1, tied, options));
+  check_ok(hooke_options_set_number(options, "stiffness", 3.0));
+  check_ok(hooke_system_add_anchors(system, "one", 1, tied, options));
+  check_ok(hooke_options_set_numbers(options, "stiffness", 2, stiffness));
+  check_ok(hooke_options_set_numbers(options, "points", 6, point));
+  check_ok(hooke_options_set_number(options, "damping", 0.7));
+  check_ok(hooke_system_add_anchors(system, "two", 2, tied, options));
+  hooke_options_destroy(options);
+  check_ok(hooke_system_commit(system));
+  write_and_read(system, &read);
+  assert_true(hk_system_check_value(hooke_scene_system(read)) == hk_system_check_value(system));
+  assert_int_equal(hk_system_groups_of(hooke_scene_system(read), &hk_force_anchor), 3);
+  hooke_scene_destroy(read);
+
+  check_ok(hk_variant_create(system, &variant));
+  variant.group[hk_system_first_group(system, &hk_force_anchor) + 1] = 1;
+  check_ok(hk_variant_make(system, &variant, &made, &map));
+  assert_int_equal(hooke_system_anchor_count(made), 2);
+  check_ok(hooke_system_anchors(made, particle, points, number[0], number[1], number[2]));
+  assert_true(particle[0] == 5 && particle[1] == 3 && number[1][1] == 0.7);
+  assert_memory_equal(points, point, sizeof point);
+  assert_memory_equal(number[0], stiffness, sizeof stiffness);
+  hk_variant_map_release(&map);
+  hk_variant_release(&variant);
+  hooke_system_destroy(made);
+  hooke_system_destroy(system);
+}
+
 /* Driven as before: at some times, in the same places to the bit. */
 static void drives_come_back(void **state) {
   (void)state;
@@ -294,6 +340,7 @@ int main(void) {
       cmocka_unit_test(lattice_and_mesh_come_back),
       cmocka_unit_test(drives_come_back),
       cmocka_unit_test(strands_come_back),
+      cmocka_unit_test(anchors_come_back),
       cmocka_unit_test(zeros_keep_their_sign),
       cmocka_unit_test(whole_numbers_have_one_zero),
       cmocka_unit_test(keys_of_a_scene_are_applied),

@@ -368,20 +368,12 @@ static int list_singles(const hooke_system *system, struct single *all) {
     struct single *whole = next_single(system, all, &count);
     whole->variant.group[g] = 1;
     whole->group = g;
+    whole->of_part = group->from_part ? group->part : -1;
+    if (group->force != &hk_force_springs) continue;
     struct single *one = next_single(system, all, &count);
     one->variant.spring[first + group->count - 1] = 1;
     one->of_group = g;
-    whole->of_part = one->of_part = group->from_part ? group->part : -1;
-  }
-  for (int64_t g = 0; g < system->bending_group_count; g++) {
-    struct single *single = next_single(system, all, &count);
-    single->variant.bending[g] = 1;
-    if (system->bending_group[g].from_part) single->of_part = system->bending_group[g].part;
-  }
-  for (int64_t g = 0; g < system->altitude_group_count; g++) {
-    struct single *single = next_single(system, all, &count);
-    single->variant.altitude[g] = 1;
-    if (system->altitude_group[g].from_part) single->of_part = system->altitude_group[g].part;
+    one->of_part = whole->of_part;
   }
   for (int64_t k = 0; k < system->part_count; k++) {
     struct single *out = next_single(system, all, &count);
@@ -408,8 +400,8 @@ static void variants_within_variants(void **state) {
   static struct single all[MOST_SINGLE];
   const int count = list_singles(system, all);
   struct hk_variant nothing = nothing_of(system);
-  assert_true(system->bending_group_count >= 2 && system->altitude_group_count >= 2 &&
-              system->part_count == 2);
+  assert_true(hk_system_groups_of(system, &hk_force_bending) >= 2);
+  assert_true(hk_system_groups_of(system, &hk_force_altitude) >= 2 && system->part_count == 2);
   for (int i = 0; i < count; i++) {
     const int refined = all[i].of_part >= 0 && all[i].variant.scale[all[i].of_part] != 1.0;
     assert_int_equal(hk_variant_covers(system, &all[i].variant, &nothing), 1);

@@ -1,13 +1,13 @@
-/* What "diverged" means: a component that is not finite; or, where energy can only come from the scene itself
- * (no callbacks, no drives), a rise of energy by more than 100 times what the scene had at the start and what
- * gravity has given since:
+/* What "diverged" means: a component that is not finite; or, where energy can only come from the scene
+ * itself (no callbacks, no drives), a rise of energy by more than 100 times what the scene had at the start
+ * and what gravity has given since:
  *   E(t) - E(0) > 100 (T(0) + U(0) + max |U_gravity - U_gravity(0)| + 1/2 M g^2 h^2 + 1/2 K d^2 + 1/2 M u^2)
  * The last terms are what a scene at rest may have all the same: what gravity gives it in one step (forward
- * Euler has it in v before q has moved), and what errors do: U is that of springs, bending and altitude
- * springs, K the sum of all kappa, 16 c and 4 ks/l, d = 1e-12 times the largest coordinate, which rounding
- * takes some 1e9 steps to come to, and with error control d has atol besides, and u is atol_velocity.
- * Energies below the smallest normal number prove nothing, and neither do those of a scene that begins with
- * energies above the largest.
+ * Euler has it in v before q has moved), and what errors do: U is that of springs, bending, altitude
+ * springs and anchors, K the sum of all kappa, 16 c and 4 ks/l, d = 1e-12 times the largest coordinate,
+ * which rounding takes some 1e9 steps to come to, and with error control d has atol besides, and u is
+ * atol_velocity. Energies below the smallest normal number prove nothing, and neither do those of a scene
+ * that begins with energies above the largest.
  *
  * The last state that passed is kept in `recent`. Where that has no room, since the scene is large, the
  * caller's state is that state until the next one is stored, which happens as an exchange: the motion then
@@ -15,7 +15,7 @@
 #include "integrate/integrator.h"
 
 #include "core/status.h"
-#include "model/sum/spring_batch.h"
+#include "model/force/force.h"
 
 #include <float.h>
 #include <math.h>
@@ -42,16 +42,9 @@ static double least_energy(const hooke_integrator *it, const hooke_state *state)
   double mass = 0.0, stiffness = 0.0, extent = 0.0;
   for (int64_t p = 0; p < system->particle_count; p++)
     mass += system->held[p] ? 0.0 : system->mass[p];
-  struct hk_spring_batch batch;
-  for (hk_begin_batches(&batch); hk_next_batch(system, &batch);) {
-    for (int64_t k = 0; k < batch.count; k++)
-      stiffness += batch.kappa[k];
+  for (int32_t k = 0; k < system->force_row_count; k++) {
+    if (system->force_row[k]->add_stiffness) system->force_row[k]->add_stiffness(system, &stiffness);
   }
-  struct hk_triple triple;
-  for (struct hk_triples at = {&system->bending, 0, 0}; hk_next_triple(&at, &triple);)
-    stiffness += 16.0 * triple.coefficient;
-  for (int64_t k = 0; k < system->altitudes.count; k++)
-    stiffness += 4.0 * hk_tetrahedron_kappa(&system->altitudes.tetrahedron[k]);
   for (int64_t k = 0; k < state->size; k++)
     extent = fmax(extent, fabs(state->q[k]));
   if (it->method->adaptive) {

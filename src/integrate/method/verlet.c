@@ -28,7 +28,7 @@ static int32_t create(hooke_integrator *it) {
   struct verlet *own = hk_new(1, sizeof *own);
   if (own == NULL) return HOOKE_NO_MEMORY;
   it->own = own;
-  own->damped = hk_springs_are_damped(&it->system->springs) || it->system->altitudes.damped;
+  own->damped = hk_elements_are_damped(it->system);
   own->callback = it->system->force != NULL;
   if (!own->damped && !own->callback) return HOOKE_OK;
   const int64_t numbers = (own->damped ? 4 : 2) * it->size;

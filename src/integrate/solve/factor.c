@@ -21,9 +21,7 @@ struct hk_factor {
   int32_t *particle,
       *position;            /* the free particles in order; where each is in it, -1 for those that are held */
   struct hk_columns matrix; /* S, in order */
-  struct place *spring, *triple,
-      *tetrahedron; /* of each spring; of the pairs 01, 12, 20 of each triple of bending; of the pairs
-                                                  01, 02, 12, 03, 13, 23 of each tetrahedron */
+  struct place *spring, *pair; /* of each spring; of the pairs 01, 02, 12, 03, 13, 23 of each other element */
   struct hk_cholmod *cholmod;
   struct hk_triangle triangle;
   double *vector;
@@ -121,12 +119,34 @@ static struct place find_place(const struct hk_factor *x, int64_t one, int64_t o
   return (struct place){column, low - start};
 }
 
+/* Pairs of particles in all other elements. */
+static int64_t other_pairs(const hooke_system *system) {
+  int64_t count = 0;
+  struct hk_elements at;
+  hk_begin_elements(system, system->position, NULL, &at);
+  at.wanted = hk_force_is_other;
+  for (const struct hk_element *e; (e = hk_next_element(&at)) != NULL;)
+    count += e->count * (e->count - 1) / 2;
+  return count;
+}
+
+static void locate_others(const struct hk_factor *x, struct place *place) {
+  struct hk_elements at;
+  hk_begin_elements(x->system, NULL, NULL, &at);
+  at.wanted = hk_force_is_other;
+  for (const struct hk_element *e; (e = hk_next_element(&at)) != NULL;) {
+    for (int j = 1; j < e->count; j++) {
+      for (int k = 0; k < j; k++)
+        *place++ = find_place(x, e->particle[k], e->particle[j]);
+    }
+  }
+}
+
 static int locate_blocks(struct hk_factor *x) {
   const struct hk_springs *springs = &x->system->springs;
   x->spring = take(x, springs->count, sizeof *x->spring);
-  x->triple = take(x, 3 * x->system->bending.count, sizeof *x->triple);
-  x->tetrahedron = take(x, 6 * x->system->altitudes.count, sizeof *x->tetrahedron);
-  if (x->spring == NULL || x->triple == NULL || x->tetrahedron == NULL) return 0;
+  x->pair = take(x, other_pairs(x->system), sizeof *x->pair);
+  if (x->spring == NULL || x->pair == NULL) return 0;
   for (int64_t r = 0; r < springs->run_count; r++) {
     const struct hk_run *run = &springs->run[r];
     for (int64_t k = 0; k < run->count; k++) {
@@ -134,20 +154,7 @@ static int locate_blocks(struct hk_factor *x) {
       x->spring[run->first + k] = find_place(x, spring.head, spring.tail);
     }
   }
-  struct hk_triple triple;
-  struct place *place = x->triple;
-  for (struct hk_triples at = {&x->system->bending, 0, 0}; hk_next_triple(&at, &triple);) {
-    for (int e = 0; e < 3; e++)
-      *place++ = find_place(x, triple.particle[e], triple.particle[(e + 1) % 3]);
-  }
-  place = x->tetrahedron;
-  for (int64_t k = 0; k < x->system->altitudes.count; k++) {
-    const int32_t *p = x->system->altitudes.tetrahedron[k].particle;
-    for (int j = 1; j < 4; j++) {
-      for (int e = 0; e < j; e++)
-        *place++ = find_place(x, p[e], p[j]);
-    }
-  }
+  locate_others(x, x->pair);
   return 1;
 }
 
@@ -221,8 +228,8 @@ int32_t hk_factor_create(const hooke_system *system, int64_t most, struct hk_fac
 void hk_factor_destroy(struct hk_factor *x) {
   if (x == NULL) return;
   hk_cholmod_destroy(x->cholmod);
-  void *const blocks[] = {x->particle, x->position, x->matrix.start, x->matrix.row,     x->matrix.number,
-                          x->spring,   x->triple,   x->tetrahedron,  x->triangle.begin, x->triangle.row};
+  void *const blocks[] = {x->particle, x->position, x->matrix.start,   x->matrix.row,  x->matrix.number,
+                          x->spring,   x->pair,     x->triangle.begin, x->triangle.row};
   for (size_t k = 0; k < sizeof blocks / sizeof blocks[0]; k++)
     hk_free(blocks[k]);
   hk_free(x);
@@ -255,7 +262,7 @@ int32_t hk_factor_reserve(struct hk_factor *x) {
 int64_t hk_factor_analysis_memory(const hooke_system *system) {
   const int64_t n = system->particle_count,
                 per_particle = (2 + 3) * (int64_t)sizeof(int32_t) + (int64_t)sizeof(int64_t),
-                pairs = system->springs.count + 3 * system->bending.count + 6 * system->altitudes.count;
+                pairs = system->springs.count + other_pairs(system);
   return n * per_particle + pairs * (int64_t)sizeof(struct place) +
          9 * (n + pairs) * (int64_t)sizeof(int32_t);
 }
@@ -300,32 +307,42 @@ static void add_springs(const struct hk_factor *x, const struct hk_tangent *t) {
   }
 }
 
-static void add_bending(const struct hk_factor *x, double alpha) {
-  struct hk_triple triple;
-  const struct place *place = x->triple;
-  for (struct hk_triples at = {&x->system->bending, 0, 0}; hk_next_triple(&at, &triple);) {
-    for (int e = 0; e < 3; e++, place++) {
+/* Adds the blocks of an element beside the diagonal; the place after its own. */
+static const struct place *add_element(const struct hk_factor *x, const struct hk_element *e,
+                                       const struct hk_factor_parts *parts, const struct place *place) {
+  const struct hk_element_numbers s = hk_element_combine(e, parts->alpha, parts->beta);
+  for (int j = 1; j < e->count; j++) {
+    for (int k = 0; k < j; k++, place++) {
+      const double product = e->weight[k] * e->weight[j];
+      const double axial = (s.along - s.across) * product, isotropic = s.across * product;
       if (place->column < 0) continue;
-      for (int c = 0; c < 3; c++)
-        column_of(&x->matrix, *place, c)[c] +=
-            alpha * triple.coefficient * (hk_triple_factor(e) * hk_triple_factor((e + 1) % 3));
-    }
-  }
-}
-
-static void add_altitude(const struct hk_factor *x, const struct hk_altitude_tangent *altitude) {
-  const struct place *place = x->tetrahedron;
-  for (const struct hk_altitude_tangent *t = altitude; t < altitude + x->system->altitudes.count; t++) {
-    for (int j = 1; j < 4; j++) {
-      for (int e = 0; e < j; e++, place++) {
-        const double s = t->size * (t->weight[e] * t->weight[j]);
-        if (place->column < 0) continue;
-        for (int c = 0; c < 3; c++) {
-          for (int a = 0; a < 3; a++)
-            column_of(&x->matrix, *place, c)[a] += s * t->u[a] * t->u[c];
-        }
+      for (int c = 0; c < 3; c++) {
+        double *to = column_of(&x->matrix, *place, c);
+        for (int a = 0; a < 3; a++)
+          to[a] += axial * e->u[a] * e->u[c] + (a == c ? isotropic : 0.0);
       }
     }
+  }
+  return place;
+}
+
+/* In the order in which places were found: by the table of forces, whose constant forces may be anywhere. */
+static void add_others(const struct hk_factor *x, const struct hk_factor_parts *parts) {
+  const struct place *place = x->pair;
+  const struct hk_element *kept = parts->element;
+  struct hk_elements at;
+  for (int32_t k = 0; k < x->system->force_row_count; k++) {
+    const struct hk_force_row *force = x->system->force_row[k];
+    if (!hk_force_is_other(force)) continue;
+    if (hk_force_is_kept(force)) {
+      for (int64_t left = force->count(x->system); left > 0; left--)
+        place = add_element(x, kept++, parts, place);
+      continue;
+    }
+    hk_begin_elements(x->system, x->system->position, NULL, &at);
+    at.only = force;
+    for (const struct hk_element *e; (e = hk_next_element(&at)) != NULL;)
+      place = add_element(x, e, parts, place);
   }
 }
 
@@ -350,13 +367,11 @@ static int32_t fill_triangle(struct hk_factor *x) {
   return 1;
 }
 
-int32_t hk_factor_compute(struct hk_factor *x, const double *diagonal, const struct hk_tangent *tangent,
-                          const struct hk_altitude_tangent *altitude, double alpha) {
+int32_t hk_factor_compute(struct hk_factor *x, const double *diagonal, const struct hk_factor_parts *parts) {
   memset(x->matrix.number, 0, (size_t)x->matrix.start[x->matrix.size] * sizeof(double));
   add_diagonal(x, diagonal);
-  add_springs(x, tangent);
-  add_bending(x, alpha);
-  add_altitude(x, altitude);
+  add_springs(x, parts->tangent);
+  add_others(x, parts);
   const int32_t positive = hk_cholmod_compute(x->cholmod, &x->matrix);
   return positive == 1 ? fill_triangle(x) : positive;
 }

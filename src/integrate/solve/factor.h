@@ -1,13 +1,13 @@
 /* A sparse Cholesky factor of the symmetric positive definite part S of the equations of an implicit step,
  *   M + beta c + sum over springs of (alpha kappa + beta gamma) u u^T + max(0, alpha T/r) (I - u u^T)
- *     + sum over triples of alpha c (1, -2, 1)^T (1, -2, 1),
- * over the free particles, computed by CHOLMOD. What of it depends on the springs' ends alone is found
- * once. */
+ *     + sum over the elements of other forces of alpha K + beta C,
+ * over the free particles, computed by CHOLMOD. What of it depends on which particles are joined alone is
+ * found once. */
 #ifndef HOOKE_INTEGRATE_SOLVE_FACTOR_H
 #define HOOKE_INTEGRATE_SOLVE_FACTOR_H
 
 #include "kernel/tangent_loops.h"
-#include "model/system.h"
+#include "model/force/force.h"
 
 #include <stdint.h>
 
@@ -15,8 +15,8 @@ struct hk_factor;
 
 int32_t hk_factor_is_built(void);
 
-/* Finds order and sizes where the numbers are not more than `most`: HOOKE_OK with *factor NULL if they are, and
- * in a build without CHOLMOD. HOOKE_NO_MEMORY. */
+/* Finds order and sizes where the numbers are not more than `most`: HOOKE_OK with *factor NULL if they are,
+ * and in a build without CHOLMOD. HOOKE_NO_MEMORY. */
 int32_t hk_factor_create(const hooke_system *system, int64_t most, struct hk_factor **factor);
 void hk_factor_destroy(struct hk_factor *factor);
 
@@ -30,10 +30,16 @@ double hk_factor_products(const struct hk_factor *factor); /* multiplications th
  * HOOKE_NO_MEMORY. */
 int32_t hk_factor_reserve(struct hk_factor *factor);
 
-/* From the diagonal blocks of S, xx, yy, zz, xy, xz, yz with n numbers each, springs, and alpha. 1; 0 where
- * rounding or numbers that are not finite leave it not positive; HOOKE_NO_MEMORY. */
-int32_t hk_factor_compute(struct hk_factor *factor, const double *diagonal, const struct hk_tangent *tangent,
-                          const struct hk_altitude_tangent *altitude, double alpha);
+/* From the diagonal blocks of S, xx, yy, zz, xy, xz, yz with n numbers each, and the parts beside it. 1; 0
+ * where rounding or numbers that are not finite leave it not positive; HOOKE_NO_MEMORY. */
+struct hk_factor_parts {
+  const struct hk_tangent *tangent;
+  const struct hk_element
+      *element; /* of forces whose K and C are not constant; those of others are looked up */
+  double alpha, beta;
+};
+int32_t hk_factor_compute(struct hk_factor *factor, const double *diagonal,
+                          const struct hk_factor_parts *parts);
 
 /* With S = L L^T: x = L^-1 x and x = L^-T x in the order of the factor, 3 numbers a free particle; and
  * between that order and vectors of all particles, x, y and z apart, where held ones become 0. */

@@ -8,19 +8,19 @@
 #include <math.h>
 #include <string.h>
 
-/* Iterations that are allowed: what well-posed equations need by far, and not for ever. */
-/* Nanoseconds, as measured; only their ratios count: of a product for each spring and each tetrahedron, of
- * work on a vector for each number, of a solve with a factor for each of its numbers, of a factor for each of
- * its multiplications. */
-static const double OF_SPRING = 3.0, OF_UNKNOWN = 0.3, OF_NUMBER = 0.7, OF_PRODUCT = 0.84,
-                    OF_TETRAHEDRON = 150.0;
+/* Nanoseconds, as measured; only their ratios count: of a product for each spring and each element of
+ * another force, of work on a vector for each number, of a solve with a factor for each of its numbers, of
+ * a factor for each of its multiplications. */
+static const double OF_SPRING = 3.0, OF_UNKNOWN = 0.3, OF_NUMBER = 0.7, OF_PRODUCT = 0.84, OF_ELEMENT = 150.0;
 /* Of BiCGSTAB(4), an iteration. */
 static const double PRODUCTS_OF_SWEEP = 2.0, VECTORS_OF_SWEEP = 24.0;
 enum { TRIES_BY_BLOCKS = 25, TRIES_WITH_FACTOR = 12 };
+/* Iterations that are allowed: what well-posed equations need by far, and not for ever. */
 enum { SPARE_ITERATIONS = 1000, SIZE_SHARE = 4, MOST_ITERATIONS = 20000 };
 
+/* Springs have loops of their own, drag is on the diagonal, and what is constant multiplies by itself. */
 static int is_own(const struct hk_force_row *row) {
-  return row == &hk_force_springs || row == &hk_force_bending || row == &hk_force_drag;
+  return row == &hk_force_springs || row->multiply;
 }
 
 static double *part(double **block, int64_t count) {
@@ -34,21 +34,25 @@ int32_t hk_reduced_create(hooke_integrator *it, int32_t kind, struct hk_reduced 
   const hooke_system *system = it->system;
   const int32_t symmetric = kind == HOOKE_REDUCED_SYMMETRIC;
   const int64_t n = system->particle_count, m = system->springs.count, vectors = vectors_of[kind];
-  const int64_t numbers = (symmetric ? 3 : 7) * m + 25 * n + 3 * n * vectors + (symmetric ? 0 : 15 * n);
+  const int64_t rows = !symmetric ? 15 * n : hk_elements_of(system, hk_force_is_kept) > 0 ? 6 * n : 0;
+  const int64_t numbers = (symmetric ? 3 : 7) * m + 25 * n + 3 * n * vectors + rows;
   double *block = hk_new(numbers, sizeof(double));
   if (block == NULL) return HOOKE_NO_MEMORY;
   *reduced = (struct hk_reduced){.integrator = it, .symmetric = symmetric};
-  reduced->altitude = hk_new(system->altitudes.count, sizeof *reduced->altitude);
-  if (reduced->altitude == NULL) {
+  reduced->element_count = hk_elements_of(system, hk_force_is_kept);
+  reduced->element = hk_new(reduced->element_count, sizeof *reduced->element);
+  if (reduced->element == NULL) {
     hk_free(block);
     return HOOKE_NO_MEMORY;
   }
   it->own_memory +=
-      numbers * (int64_t)sizeof(double) + system->altitudes.count * (int64_t)sizeof *reduced->altitude;
+      numbers * (int64_t)sizeof(double) + reduced->element_count * (int64_t)sizeof *reduced->element;
   /* what a run comes to, unless it never iterates for long */
   if (!symmetric && hk_factor_is_built()) it->own_memory += hk_factor_analysis_memory(system);
-  for (int32_t k = 0; k < system->force_row_count && !symmetric; k++)
-    reduced->rows_needed |= !is_own(system->force_row[k]) && system->force_row[k]->add_product;
+  for (int32_t k = 0; k < system->force_row_count && !symmetric; k++) {
+    const struct hk_force_row *row = system->force_row[k];
+    reduced->rows_needed |= !is_own(row) && (row->add_product || row->elements);
+  }
   reduced->diagonal = part(&block, n);
   for (int a = 0; a < 3; a++)
     reduced->tangent.u[a] = reduced->tangent.e[a] = part(&block, m);
@@ -62,13 +66,13 @@ int32_t hk_reduced_create(hooke_integrator *it, int32_t kind, struct hk_reduced 
   reduced->place = part(&block, 3 * n);
   reduced->moved = part(&block, 3 * n);
   reduced->krylov = part(&block, 3 * n * vectors);
-  if (!symmetric) reduced->rows = part(&block, 15 * n);
+  if (!symmetric || rows > 0) reduced->rows = part(&block, rows);
   return HOOKE_OK;
 }
 
 void hk_reduced_release(struct hk_reduced *reduced) {
   hk_free(reduced->diagonal);
-  hk_free(reduced->altitude);
+  hk_free(reduced->element);
   hk_factor_destroy(reduced->whole);
   memset(reduced, 0, sizeof *reduced);
 }
@@ -91,16 +95,27 @@ static void factorise(int64_t n, int64_t p, double *block) {
   *b[5] = -l32 * w22 * w33;
 }
 
-/* Diagonal blocks of alpha times the stiffness of triples. */
-static void add_bending(const struct hk_bending *bending, double alpha, double *const block[6]) {
-  struct hk_triple triple;
-  for (struct hk_triples at = {bending, 0, 0}; hk_next_triple(&at, &triple);) {
-    for (int e = 0; e < 3; e++) {
-      const double factor = hk_triple_factor(e);
-      for (int c = 0; c < 3; c++)
-        block[c][triple.particle[e]] += alpha * triple.coefficient * (factor * factor);
-    }
+/* Adds the diagonal blocks of an element of S. */
+static void add_element(const struct hk_element *e, double alpha, double beta, double *const block[6]) {
+  static const int row[6] = {0, 1, 2, 0, 0, 1}, column[6] = {0, 1, 2, 1, 2, 2};
+  const struct hk_element_numbers s = hk_element_combine(e, alpha, beta);
+  for (int j = 0; j < e->count; j++) {
+    const double square = e->weight[j] * e->weight[j];
+    const double axial = (s.along - s.across) * square, isotropic = s.across * square;
+    for (int c = 0; c < 6; c++)
+      block[c][e->particle[j]] += axial * e->u[row[c]] * e->u[column[c]] + (c < 3 ? isotropic : 0.0);
   }
+}
+
+static void add_others(const struct hk_reduced *reduced, double *const block[6]) {
+  const hooke_system *system = reduced->integrator->system;
+  struct hk_elements at;
+  hk_begin_elements(system, system->position, NULL, &at);
+  at.wanted = hk_force_is_constant;
+  for (const struct hk_element *e; (e = hk_next_element(&at)) != NULL;)
+    add_element(e, reduced->alpha, reduced->beta, block);
+  for (int64_t k = 0; k < reduced->element_count; k++)
+    add_element(&reduced->element[k], reduced->alpha, reduced->beta, block);
 }
 
 static void fill_diagonal(struct hk_reduced *reduced) {
@@ -119,14 +134,26 @@ static void fill_diagonal(struct hk_reduced *reduced) {
     if (!reduced->symmetric || run->shape & HOOKE_RUN_DAMPED)
       hk_tangent_diagonal(run, &reduced->tangent, block);
   }
-  if (reduced->alpha != 0.0) add_bending(&system->bending, reduced->alpha, block);
-  hk_altitude_tangent_diagonal(system->altitudes.count, reduced->altitude, block);
+  add_others(reduced, block);
   memcpy(reduced->factor, reduced->block, (size_t)(6 * n) * sizeof(double));
   for (int64_t p = 0; p < n; p++)
     factorise(n, p, reduced->factor);
   for (int64_t k = 0; k < system->held_count; k++) {
     for (int c = 0; c < 6; c++)
       reduced->factor[c * n + system->held_particle[k]] = 0.0;
+  }
+}
+
+static void see_elements(struct hk_reduced *reduced) {
+  const hooke_system *system = reduced->integrator->system;
+  struct hk_element *kept = reduced->element;
+  struct hk_elements at;
+  if (reduced->element_count == 0) return;
+  hk_begin_elements(system, reduced->rows, reduced->rows + 3 * system->particle_count, &at);
+  at.wanted = hk_force_is_kept;
+  for (const struct hk_element *e; (e = hk_next_element(&at)) != NULL;) {
+    *kept = *e;
+    kept++->k_across = fmax(0.0, e->k_across);
   }
 }
 
@@ -146,9 +173,9 @@ void hk_reduced_set(struct hk_reduced *reduced, double t, double alpha, double b
     if (!reduced->symmetric || run->shape & HOOKE_RUN_DAMPED)
       hk_tangent_fill(run, &fields, alpha, beta, &reduced->tangent);
   }
-  hk_altitude_tangents(&system->altitudes, fields.q, fields.v, alpha, beta, reduced->altitude);
-  fill_diagonal(reduced);
   if (reduced->rows) hk_motion_store(motion, reduced->rows, reduced->rows + 3 * motion->n);
+  see_elements(reduced);
+  fill_diagonal(reduced);
 }
 
 /* ---- products ---- */
@@ -215,8 +242,15 @@ static int32_t multiply_matrix(struct hk_reduced *reduced, const double *x, doub
     if (!reduced->symmetric || run->shape & HOOKE_RUN_DAMPED)
       hk_tangent_product(run, &reduced->tangent, from, to);
   }
-  if (reduced->alpha != 0.0) hk_bending_add(&system->bending, -reduced->alpha, from, to);
-  if (reduced->symmetric) hk_altitude_tangent_add(system->altitudes.count, reduced->altitude, from, to);
+  for (int32_t k = 0; k < system->force_row_count; k++) {
+    const struct hk_force_row *row = system->force_row[k];
+    if (hk_force_is_constant(row)) row->multiply(system, reduced->alpha, reduced->beta, from, to);
+  }
+  for (int64_t k = 0; k < reduced->element_count && reduced->symmetric; k++) {
+    const struct hk_element *e = &reduced->element[k];
+    const struct hk_element_numbers s = hk_element_combine(e, reduced->alpha, reduced->beta);
+    hk_element_multiply(e, s.along, s.across, 1, from, to);
+  }
   return reduced->rows_needed ? subtract_others(reduced, reduced->alpha, reduced->beta, x, out) : HOOKE_OK;
 }
 
@@ -372,8 +406,8 @@ int32_t hk_reduced_reserve_whole(struct hk_reduced *reduced) {
 int32_t hk_reduced_factorise(struct hk_reduced *reduced) {
   const int32_t status = hk_reduced_reserve_whole(reduced);
   if (status != HOOKE_OK) return status;
-  const int32_t positive =
-      hk_factor_compute(reduced->whole, reduced->block, &reduced->tangent, reduced->altitude, reduced->alpha);
+  const struct hk_factor_parts parts = {&reduced->tangent, reduced->element, reduced->alpha, reduced->beta};
+  const int32_t positive = hk_factor_compute(reduced->whole, reduced->block, &parts);
   reduced->whole_state = positive == 1 ? HOOKE_WHOLE_IN_USE : HOOKE_WHOLE_READY;
   return positive;
 }
@@ -384,8 +418,8 @@ void hk_reduced_drop_factor(struct hk_reduced *reduced) {
 
 double hk_reduced_cost_by_blocks(const struct hk_reduced *reduced, double products, double vectors) {
   const hooke_integrator *it = reduced->integrator;
-  return products * (OF_SPRING * (double)it->system->springs.count +
-                     OF_TETRAHEDRON * (double)it->system->altitudes.count) +
+  return products *
+             (OF_SPRING * (double)it->system->springs.count + OF_ELEMENT * (double)reduced->element_count) +
          vectors * OF_UNKNOWN * (double)it->size;
 }
 
@@ -412,6 +446,10 @@ int32_t hk_reduced_right(struct hk_reduced *reduced, const double *bq, const dou
   for (int64_t k = 0; k < system->springs.run_count; k++) {
     const struct hk_run *run = &system->springs.run[k];
     if (run->shape & HOOKE_RUN_DAMPED) hk_tangent_damping(run, &reduced->tangent, from, to);
+  }
+  for (int32_t k = 0; k < system->force_row_count; k++) {
+    const struct hk_force_row *row = system->force_row[k];
+    if (hk_force_is_constant(row)) row->multiply(system, 0.0, 1.0, from, to);
   }
   if (!reduced->rows_needed) return HOOKE_OK;
   return subtract_others(reduced, 0.0, 1.0, bq, out);

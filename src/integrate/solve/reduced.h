@@ -1,9 +1,9 @@
 /* The linear equations of an implicit step, (M - beta df/dv - alpha df/dq) x = b over the free particles.
  *
- * Products are exact. The equations are scaled by a symmetric positive definite S: M, drag, alpha c (1, -2,
- * 1)^T (1, -2, 1) of each triple of bending, of each spring (alpha kappa + beta gamma) u u^T + max(0, alpha
- * T/r) (I - u u^T), and of each altitude spring (alpha kappa + beta gamma) (g g^T) (u u^T); by its 3x3 blocks
- * on the diagonal (block Jacobi), or by all of it (integrate/solve/factor.h). With S = L L^T what is iterated
+ * Products are exact. The equations are scaled by a symmetric positive definite S: M, drag, of each
+ * spring (alpha kappa + beta gamma) u u^T + max(0, alpha
+ * T/r) (I - u u^T), and of every other element alpha K + beta C, clamped likewise; by its 3x3 blocks on the
+ * diagonal (block Jacobi), or by all of it (integrate/solve/factor.h). With S = L L^T what is iterated
  * on is L^-1 (...) L^-T, whose residual weighs particles by their mass. */
 #ifndef HOOKE_INTEGRATE_SOLVE_REDUCED_H
 #define HOOKE_INTEGRATE_SOLVE_REDUCED_H
@@ -22,10 +22,11 @@ enum { HOOKE_WHOLE_UNKNOWN, HOOKE_WHOLE_READY, HOOKE_WHOLE_IN_USE, HOOKE_WHOLE_N
 struct hk_reduced {
   hooke_integrator *integrator;
   int32_t symmetric;   /* alpha = 0, and springs, bending, altitude springs and drag alone */
-  int32_t rows_needed; /* some force is none of springs, bending and drag */
+  int32_t rows_needed; /* the products of some force are made by its own function, in rows */
   double t, alpha, beta;
   struct hk_tangent tangent;
-  struct hk_altitude_tangent *altitude;    /* one a tetrahedron */
+  int64_t element_count;                   /* of forces other than springs whose K and C are not constant */
+  struct hk_element *element;              /* clamped */
   double *diagonal;                        /* n: m + beta c */
   double *block;                           /* 6 n: diagonal blocks of S, zero where a particle is held */
   double *factor;                          /* 6 n: L^-1 of these */

@@ -18,10 +18,7 @@
 static const struct maker {
   const char *name;
   int32_t (*create)(hooke_options **options);
-} makers[] = {{"run", hk_run_options_create},
-              {"springs", hk_spring_options_create},
-              {"altitude", hk_altitude_options_create},
-              {"view", hk_view_options_create}};
+} makers[] = {{"run", hk_run_options_create}, {"view", hk_view_options_create}};
 enum { MAKERS = sizeof makers / sizeof makers[0] };
 static const char *const scene_names[] = {"scene", "particles", "driven", "limits"};
 enum { SCENE_NAMES = sizeof scene_names / sizeof scene_names[0] };
@@ -30,6 +27,10 @@ static int32_t refuse(const char *name) {
   char names[512] = "";
   for (int k = 0; k < MAKERS; k++)
     snprintf(names + strlen(names), sizeof names - strlen(names), "%s, ", makers[k].name);
+  for (int32_t k = 0; hk_force_table(k); k++) {
+    if (hk_force_table(k)->options)
+      snprintf(names + strlen(names), sizeof names - strlen(names), "%s, ", hk_force_table(k)->name);
+  }
   for (int k = 0; k < SCENE_NAMES; k++)
     snprintf(names + strlen(names), sizeof names - strlen(names), "%s, ", scene_names[k]);
   for (int64_t k = 0; hooke_part_kind(k, "name"); k++)
@@ -48,6 +49,10 @@ int32_t hooke_options_create(const char *name, hooke_options **options) {
   if (of_kind) return hk_options_create(of_kind, options);
   for (int k = 0; k < MAKERS; k++) {
     if (strcmp(makers[k].name, name) == 0) return makers[k].create(options);
+  }
+  for (int32_t k = 0; hk_force_table(k); k++) {
+    const struct hk_force_row *row = hk_force_table(k);
+    if (row->options && strcmp(row->name, name) == 0) return hk_options_create(row->options, options);
   }
   for (int k = 0; k < SCENE_NAMES; k++) {
     if (strcmp(scene_names[k], name) == 0) return hk_scene_options_create(name, options);

@@ -160,36 +160,62 @@ int32_t hk_scene_add_parts(struct hk_scene_reader *reader, const json_t *parts) 
   return status == HOOKE_OK ? for_each(reader, parts, "parts", add_part) : status;
 }
 
-/* ---- springs ---- */
+/* ---- springs and anchors ---- */
 
-static int32_t add_group(struct hk_scene_reader *reader, const json_t *object, hooke_options *options) {
+/* Forces whose groups a scene lists, each member by its particles. */
+static const struct group_kind {
+  const char *key, *particles;
+  int32_t columns; /* of a row of particles; 0: one */
+  const char *allowed;
+  int32_t (*add)(hooke_system *system, const char *name, int64_t count, const int64_t *particles,
+                 const hooke_options *options);
+} springs_kind = {"springs", "between", 2, "an array of pairs of particles", hooke_system_add_springs},
+  anchors_kind = {"anchors", "particles", 0, "an array of particles", hooke_system_add_anchors};
+
+static int32_t read_group(struct hk_scene_reader *reader, const json_t *object, const struct group_kind *kind,
+                          hooke_options *options) {
   const char *name = "";
-  int64_t *ends = NULL, count = 0;
-  int32_t status = hk_scene_read_options(reader, object, "name between", options);
+  int64_t *particles = NULL, count = 0;
+  char others[32];
+  snprintf(others, sizeof others, "name %s", kind->particles);
+  int32_t status = hk_scene_read_options(reader, object, others, options);
   if (status == HOOKE_OK) status = read_text(object, "name", &name);
   if (status) return status;
-  const json_t *between = json_object_get(object, "between");
-  if (between == NULL)
-    return hk_fail(HOOKE_BAD_VALUE, "between",
-                   "is required but missing; allowed: an array of pairs of particles");
-  status = hk_scene_read_particles(reader, between, 2, &ends, &count);
-  if (status) return hk_fail_within(status, "between");
-  status = hooke_system_add_springs(reader->scene->system, name, count / 2, ends, options);
-  hk_free(ends);
+  const json_t *list = json_object_get(object, kind->particles);
+  if (list == NULL)
+    return hk_fail(HOOKE_BAD_VALUE, kind->particles, "is required but missing; allowed: %s", kind->allowed);
+  status = hk_scene_read_particles(reader, list, kind->columns, &particles, &count);
+  if (status) return hk_fail_within(status, "%s", kind->particles);
+  status = kind->add(reader->scene->system, name, kind->columns > 0 ? count / kind->columns : count,
+                     particles, options);
+  hk_free(particles);
+  return status;
+}
+
+static int32_t add_kind(struct hk_scene_reader *reader, const json_t *object, const struct group_kind *kind) {
+  hooke_options *options = NULL;
+  int32_t status = hooke_options_create(kind->key, &options);
+  if (status == HOOKE_OK) status = read_group(reader, object, kind, options);
+  hooke_options_destroy(options);
   return status;
 }
 
 static int32_t add_springs(struct hk_scene_reader *reader, const json_t *object, int64_t index) {
   (void)index;
-  hooke_options *options = NULL;
-  int32_t status = hooke_options_create("springs", &options);
-  if (status == HOOKE_OK) status = add_group(reader, object, options);
-  hooke_options_destroy(options);
-  return status;
+  return add_kind(reader, object, &springs_kind);
+}
+
+static int32_t add_anchors(struct hk_scene_reader *reader, const json_t *object, int64_t index) {
+  (void)index;
+  return add_kind(reader, object, &anchors_kind);
 }
 
 int32_t hk_scene_add_springs(struct hk_scene_reader *reader, const json_t *springs) {
-  return for_each(reader, springs, "springs", add_springs);
+  return for_each(reader, springs, springs_kind.key, add_springs);
+}
+
+int32_t hk_scene_add_anchors(struct hk_scene_reader *reader, const json_t *anchors) {
+  return for_each(reader, anchors, anchors_kind.key, add_anchors);
 }
 
 /* ---- drives ---- */

@@ -8,7 +8,7 @@
 #include "io/scene/scene.h"
 #include "io/scene/scene_words.h"
 #include "io/file/text.h"
-#include "model/system.h"
+#include "model/force/force.h"
 
 #include <math.h>
 #include <string.h>
@@ -172,7 +172,7 @@ static void add_pairs(struct hk_text *text, const struct hk_springs *springs,
 static void add_springs(struct hk_text *text, const hooke_system *system, const struct numbering *numbering) {
   const struct hk_springs *springs = &system->springs;
   int64_t first = 0;
-  for (int64_t g = 0; g < system->group_count; first += system->group[g++].count) {
+  for (int64_t g = 0; g < hk_system_groups_of(system, &hk_force_springs); first += system->group[g++].count) {
     const struct hk_group *group = &system->group[g];
     int32_t pull_only = 0;
     if (group->from_part) continue;
@@ -196,9 +196,73 @@ static void add_springs(struct hk_text *text, const hooke_system *system, const 
 
 static int32_t has_groups(const hooke_system *system) {
   int32_t groups = 0;
-  for (int64_t g = 0; g < system->group_count; g++)
+  for (int64_t g = 0; g < hk_system_groups_of(system, &hk_force_springs); g++)
     groups |= !system->group[g].from_part;
   return groups;
+}
+
+/* ---- anchors ---- */
+
+/* One number where all are equal to the bit. */
+static void add_shared(struct hk_text *text, const char *key, int64_t count, const double *value) {
+  int64_t same = 1;
+  while (same < count && memcmp(&value[same], &value[0], sizeof *value) == 0)
+    same++;
+  if (same == count)
+    hk_text_number(text, key, value[0]);
+  else
+    hk_scene_add_numbers(text, key, count, 0, value);
+}
+
+/* All of a system, and where a group begins in them. */
+struct anchors {
+  int64_t first, *particle;
+  double *point, *stiffness, *damping, *rest_length;
+};
+
+static void add_anchor_group(struct hk_text *text, const struct hk_group *group,
+                             const struct numbering *numbering, const struct anchors *all) {
+  const int64_t first = all->first, count = group->count;
+  hk_text_open(text, NULL, '{');
+  if (group->name[0]) hk_text_word(text, "name", group->name);
+  hk_text_open(text, "particles", '[');
+  for (int64_t k = first; k < first + count; k++)
+    hk_text_number(text, NULL, (double)numbering->number[all->particle[k]]);
+  hk_text_close(text, ']');
+  if (count == 0) { /* what it had was dropped */
+    hk_text_number(text, "stiffness", 0.0);
+  } else {
+    hk_scene_add_numbers(text, "points", 3 * count, 3, all->point + 3 * first);
+    add_shared(text, "stiffness", count, all->stiffness + first);
+    add_shared(text, "damping", count, all->damping + first);
+    add_shared(text, "rest_length", count, all->rest_length + first);
+  }
+  hk_text_close(text, '}');
+}
+
+static void add_anchors(struct hk_text *text, const hooke_system *system, const struct numbering *numbering) {
+  const int64_t count = hooke_system_anchor_count(system);
+  double *number = hk_new(6 * count, sizeof *number);
+  struct anchors all = {0,
+                        hk_new(count, sizeof *all.particle),
+                        number,
+                        number + 3 * count,
+                        number + 4 * count,
+                        number + 5 * count};
+  if (number && all.particle) {
+    hooke_system_anchors(system, all.particle, all.point, all.stiffness, all.damping, all.rest_length);
+    hk_text_open(text, "anchors", '[');
+    for (int64_t g = 0; g < hk_system_groups_of(system, &hk_force_anchor); g++) {
+      const struct hk_group *group = hk_system_group(system, &hk_force_anchor, g);
+      add_anchor_group(text, group, numbering, &all);
+      all.first += group->count;
+    }
+    hk_text_close(text, ']');
+  } else {
+    text->status = HOOKE_NO_MEMORY;
+  }
+  hk_free(number);
+  hk_free(all.particle);
 }
 
 /* ---- drives ---- */
@@ -225,16 +289,14 @@ static void add_drive(struct hk_text *text, const struct hk_drive_group *drive,
 /* What a scene has no word for. */
 static int32_t check_words(const hooke_system *system) {
   int32_t callbacks = system->force != NULL;
-  for (int64_t g = 0; g < system->bending_group_count; g++) {
-    if (system->bending_group[g].from_part || system->bending_group[g].count == 0) continue;
+  for (int64_t g = 0; g < system->group_count; g++) {
+    const struct hk_group *group = &system->group[g];
+    if (group->from_part || group->count == 0 || group->force == &hk_force_springs ||
+        group->force == &hk_force_anchor)
+      continue;
     return hk_fail(HOOKE_UNSUITED, NULL,
-                   "a scene file has bending in its parts alone, and this system has triples of its own");
-  }
-  for (int64_t g = 0; g < system->altitude_group_count; g++) {
-    if (system->altitude_group[g].from_part || system->altitude_group[g].count == 0) continue;
-    return hk_fail(
-        HOOKE_UNSUITED, NULL,
-        "a scene file has altitude springs in its parts alone, and this system has tetrahedra of its own");
+                   "a scene file has the force \"%s\" in its parts alone, and this system has %s of its own",
+                   group->force->name, group->force->members);
   }
   for (int64_t k = 0; k < system->drive_count; k++)
     callbacks |= system->drive[k].kind == HOOKE_DRIVE_CALLBACK;
@@ -258,6 +320,7 @@ static void add_scene(struct hk_text *text, const hooke_system *system, const ch
     hk_text_close(text, ']');
   }
   if (system->part_count > 0) add_parts(text, system);
+  if (hk_system_groups_of(system, &hk_force_anchor) > 0) add_anchors(text, system, numbering);
   if (system->drive_count > 0) hk_text_open(text, "driven", '[');
   for (int64_t k = 0; k < system->drive_count; k++)
     add_drive(text, &system->drive[k], numbering);

@@ -157,12 +157,7 @@ static int32_t make_without(const struct hk_cost *cost, const struct hk_cost_row
   struct hk_variant_map map;
   int32_t status = hk_variant_create(cost->system, &variant);
   if (status != HOOKE_OK) return status;
-  if (row && row->group >= 0) {
-    uint8_t *const without = hk_cost_row_is(row, "bending")    ? variant.bending
-                             : hk_cost_row_is(row, "altitude") ? variant.altitude
-                                                               : variant.group;
-    without[row->group] = 1;
-  }
+  if (row && row->group >= 0) variant.group[row->group] = 1;
   variant.damping = row && hk_cost_row_is(row, "damping");
   variant.drag = row && hk_cost_row_is(row, "drag");
   variant.force = row && hk_cost_row_is(row, "callback");

@@ -35,6 +35,8 @@ int32_t hk_cost_list_rows(struct hk_cost *cost);
 int32_t hk_cost_row_is(const struct hk_cost_row *row, const char *kind);
 /* The name of its group, else its kind. */
 const char *hk_cost_row_name(const struct hk_cost *cost, const struct hk_cost_row *row);
+/* Its number among the groups of its force; -1: it is no group. */
+int64_t hk_cost_row_group(const struct hk_cost *cost, const struct hk_cost_row *row);
 
 enum { HOOKE_COST_TABLES = 2 };
 extern const struct hk_table *const hk_cost_tables[HOOKE_COST_TABLES];

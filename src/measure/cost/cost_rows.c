@@ -4,6 +4,7 @@
 #include "core/memory.h"
 #include "core/option.h"
 #include "core/status.h"
+#include "model/force/force.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -23,17 +24,15 @@ static void add_row(struct hk_cost *cost, const char *kind, int64_t group, int64
 
 static void add_groups(struct hk_cost *cost) {
   const hooke_system *system = cost->system;
-  for (int64_t g = 0; g < system->group_count; g++)
-    add_row(cost, "springs", g, system->group[g].count);
-  for (int64_t g = 0; g < system->bending_group_count; g++)
-    add_row(cost, "bending", g, system->bending_group[g].count);
-  for (int64_t g = 0; g < system->altitude_group_count; g++)
-    add_row(cost, "altitude", g, system->altitude_group[g].count);
+  for (int64_t g = 0; g < system->group_count; g++) {
+    const struct hk_group *group = &system->group[g];
+    add_row(cost, group->force->name, g, group->count);
+  }
 }
 
 static void add_others(struct hk_cost *cost) {
   const hooke_system *system = cost->system;
-  add_row(cost, "damping", -1, hk_springs_are_damped(&system->springs) || system->altitudes.damped);
+  add_row(cost, "damping", -1, hk_elements_are_damped(system));
   add_row(cost, "drag", -1, system->drag > 0.0);
   add_row(cost, "callback", -1, system->force != NULL);
   add_row(cost, "gravity", -1, system->has_gravity);
@@ -65,9 +64,7 @@ static int32_t leave_small_groups_out(struct hk_cost *cost) {
 int32_t hk_cost_list_rows(struct hk_cost *cost) {
   enum { OTHERS = 4 };
   const hooke_system *system = cost->system;
-  cost->row =
-      hk_new(system->group_count + system->bending_group_count + system->altitude_group_count + OTHERS,
-             sizeof *cost->row);
+  cost->row = hk_new(system->group_count + OTHERS, sizeof *cost->row);
   if (cost->row == NULL) return HOOKE_NO_MEMORY;
   add_groups(cost);
   const int32_t status = leave_small_groups_out(cost);
@@ -78,8 +75,10 @@ int32_t hk_cost_list_rows(struct hk_cost *cost) {
 }
 
 const char *hk_cost_row_name(const struct hk_cost *cost, const struct hk_cost_row *row) {
-  if (row->group < 0) return row->kind;
-  if (hk_cost_row_is(row, "altitude")) return hooke_system_altitude_group_name(cost->system, row->group);
-  return hk_cost_row_is(row, "bending") ? hooke_system_bending_group_name(cost->system, row->group)
-                                        : hooke_system_group_name(cost->system, row->group);
+  return row->group < 0 ? row->kind : cost->system->group[row->group].name;
+}
+
+int64_t hk_cost_row_group(const struct hk_cost *cost, const struct hk_cost_row *row) {
+  if (row->group < 0) return -1;
+  return row->group - hk_system_first_group(cost->system, cost->system->group[row->group].force);
 }

@@ -3,14 +3,14 @@
 #ifndef HOOKE_MEASURE_LIMIT_LIMIT_BLAME_H
 #define HOOKE_MEASURE_LIMIT_LIMIT_BLAME_H
 
-#include "hooke/system.h"
 #include "measure/trial/patience.h"
+#include "model/system.h"
 
 enum { HOOKE_BLAME_MOST = 100 };
 
 struct hk_blamed_spring {
   int64_t spring, first, second, group;
-  double share; /* of x.(h^2 K + 2 h C)x, bending, altitude springs and drag included in the whole */
+  double share;           /* of x.(h^2 K + 2 h C)x, all forces included in the whole */
   double stiffness_share; /* the part of `share` that is of h^2 K */
 };
 
@@ -20,8 +20,8 @@ struct hk_blamed_particle {
   double mass;  /* [kg] */
 };
 
-/* Forces other than the pull of springs. */
-enum { HOOKE_BLAME_DRAG, HOOKE_BLAME_DAMPING, HOOKE_BLAME_BENDING, HOOKE_BLAME_ALTITUDE, HOOKE_BLAME_FORCES };
+/* Shares by the number of a force in its table, and the damping of all that comes in groups. */
+enum { HOOKE_BLAME_DAMPING = HOOKE_FORCES, HOOKE_BLAME_SHARES };
 
 struct hk_blame {
   /* the largest shares first */
@@ -29,27 +29,25 @@ struct hk_blame {
   struct hk_blamed_spring spring[HOOKE_BLAME_MOST];
   struct hk_blamed_particle particle[HOOKE_BLAME_MOST];
   double stiffness_share; /* of h^2 K in the whole */
-  /* damping is that of springs and of altitude springs; altitude, their stiffness */
-  double force_share[HOOKE_BLAME_FORCES];
+  double force_share[HOOKE_BLAME_SHARES];
   int64_t group_count;
-  /* one a group of springs, then one a group of triples, then one a group of tetrahedra */
-  double *group_share;
+  double *group_share; /* one a group of the system */
   /* of whoever asks for a remedy: as in linearised.h */
   struct hk_patience *patience;
   double room;
 };
 
-/* Shares of the springs, triples and tetrahedra (by group) and particles of a committed system at q (3n) in a
- * mode (3n displacements, NULL: none is known), `h2` being the weight of K and `h` that of 2 C.
- * HOOKE_NO_MEMORY. */
+/* Shares of the springs, groups, forces and particles of a committed system at q (3n) in a mode (3n
+ * displacements, NULL: none is known), `h2` being the weight of K and `h` that of 2 C. HOOKE_NO_MEMORY. */
 int32_t hk_blame_find(const hooke_system *system, const double *q, const double *mode, double h2, double h,
                       struct hk_blame *blame);
 void hk_blame_release(struct hk_blame *blame);
 
-/* The force that has half of the whole or more, HOOKE_BLAME_*; -1 if springs by their stiffness have, or none
- * has. Its name. */
+/* The force that has half of the whole or more, or HOOKE_BLAME_DAMPING; -1 if springs by their stiffness
+ * have, or none has. Its name. */
 int32_t hk_blame_force(const struct hk_blame *blame);
 const char *hk_blame_force_name(int32_t force);
+int32_t hk_blame_is_drag(int32_t force);
 
 /* The name of a group by its place in `group_share`; "" without one. */
 const char *hk_blame_group_name(const hooke_system *system, int64_t group);

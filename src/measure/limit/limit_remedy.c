@@ -4,7 +4,7 @@
 #include "core/utf8.h"
 #include "measure/limit/limit_blame.h"
 #include "measure/limit/limit_predict.h"
-#include "model/system.h"
+#include "model/force/force.h"
 
 #include <math.h>
 #include <stdarg.h>
@@ -176,6 +176,14 @@ static void tell(const hooke_system *system, const struct hk_blame *blame, const
   add(text, size, " allows a step %s times larger", gain);
 }
 
+/* "group 2", or "group 0 of triples" */
+static void add_number(const hooke_system *system, int64_t group, char *text, size_t size) {
+  const struct hk_force_row *force = system->group[group].force;
+  const int springs = force == &hk_force_springs;
+  add(text, size, "group %lld%s%s", (long long)(group - hk_system_first_group(system, force)),
+      springs ? "" : " of ", springs ? "" : force->members);
+}
+
 /* No small set: shares by group, the largest first. */
 static void tell_groups(const hooke_system *system, const struct hk_blame *blame, struct hk_remedy *remedy) {
   char *text = remedy->sentence;
@@ -197,13 +205,8 @@ static void tell_groups(const hooke_system *system, const struct hk_blame *blame
     add(text, size, k == 0 ? " (" : ", ");
     if (hk_blame_group_name(system, best)[0] != '\0')
       add(text, size, "group `%.60s`", hk_blame_group_name(system, best));
-    else if (best < system->group_count)
-      add(text, size, "group %lld", (long long)best);
-    else if (best < system->group_count + system->bending_group_count)
-      add(text, size, "group %lld of triples", (long long)(best - system->group_count));
     else
-      add(text, size, "group %lld of tetrahedra",
-          (long long)(best - system->group_count - system->bending_group_count));
+      add_number(system, best, text, size);
     add(text, size, " has %.0f %% of it", 100.0 * before);
   }
   if (isfinite(before)) add(text, size, ")");
@@ -217,7 +220,7 @@ static int32_t limit_without(const hooke_system *system, const double *q, const 
                              const struct hk_blame *blame, int32_t force, double *limit) {
   hooke_system without = *system;
   without.drag = 0.0;
-  const int drag = force == HOOKE_BLAME_DRAG;
+  const int drag = hk_blame_is_drag(force);
   const int32_t status = hk_limit_predict_within(&without, q, drag ? method : "verlet", NULL, NULL, ACCURACY,
                                                  blame->room, blame->patience, limit);
   if (!drag && strcmp(method, "rk4") == 0) *limit *= sqrt(2.0);
@@ -231,7 +234,7 @@ static int32_t tell_force(const hooke_system *system, const double *q, const cha
   const int32_t status = limit_without(system, q, method, blame, force, &without);
   if (status != HOOKE_OK) return status;
   add(remedy->sentence, sizeof remedy->sentence, "%s%s limits the step", remedy->kind ? "; " : "",
-      force == HOOKE_BLAME_DRAG ? "drag" : "damping along springs");
+      hk_blame_is_drag(force) ? "drag" : "damping along springs");
   if (without > LEAST_COST * limit && isfinite(without)) {
     add(remedy->sentence, sizeof remedy->sentence, ": without it %s would be stable up to %.6g s", method,
         without);
@@ -239,7 +242,7 @@ static int32_t tell_force(const hooke_system *system, const double *q, const cha
     add(remedy->sentence, sizeof remedy->sentence, ": without it nothing would limit that of %s", method);
   }
   add(remedy->sentence, sizeof remedy->sentence, "; verlet takes %s implicitly, and has no limit by it",
-      force == HOOKE_BLAME_DRAG ? "drag" : "damping");
+      hk_blame_is_drag(force) ? "drag" : "damping");
   remedy->force = 1;
   return HOOKE_OK;
 }
@@ -287,7 +290,7 @@ int32_t hk_remedy_find(const hooke_system *system, const double *q, const char *
       status = try_set(system, q, method, limit, blame, &second, remedy);
   }
   const int32_t force = hk_blame_force(blame);
-  if (status == HOOKE_OK && (force == HOOKE_BLAME_DRAG || force == HOOKE_BLAME_DAMPING))
+  if (status == HOOKE_OK && (hk_blame_is_drag(force) || force == HOOKE_BLAME_DAMPING))
     status = tell_force(system, q, method, limit, blame, force, remedy);
   else if (status == HOOKE_OK && remedy->kind == NULL)
     tell_groups(system, blame, remedy);

@@ -47,51 +47,24 @@ static int32_t list_groups(struct hk_needs *needs) {
   const hooke_system *system = needs->system;
   for (int64_t g = 0; g < system->group_count; g++) {
     const struct hk_group *group = &system->group[g];
+    const char *kind = group->force->name;
+    const int64_t number = g - hk_system_first_group(system, group->force);
     struct hk_needs_row *row;
     if (group->count == 0) continue;
-    const int32_t status = group->name[0] ? add_row(needs, "springs", &row, "%s%s",
-                                                    is_taken(group->name) ? "springs " : "", group->name)
-                                          : add_row(needs, "springs", &row, "springs[%lld]", (long long)g);
+    const int32_t status = group->name[0]
+                               ? add_row(needs, kind, &row, "%s%s%s", is_taken(group->name) ? kind : "",
+                                         is_taken(group->name) ? " " : "", group->name)
+                               : add_row(needs, kind, &row, "%s[%lld]", kind, (long long)number);
     if (status != HOOKE_OK) return status;
     row->variant.group[g] = 1;
   }
   return HOOKE_OK;
 }
 
-static int32_t list_bending(struct hk_needs *needs) {
-  const hooke_system *system = needs->system;
-  for (int64_t g = 0; g < system->bending_group_count; g++) {
-    const struct hk_bending_group *group = &system->bending_group[g];
-    struct hk_needs_row *row;
-    if (group->count == 0) continue;
-    const int32_t status = group->name[0] ? add_row(needs, "bending", &row, "%s", group->name)
-                                          : add_row(needs, "bending", &row, "bending[%lld]", (long long)g);
-    if (status != HOOKE_OK) return status;
-    row->variant.bending[g] = 1;
-  }
-  return HOOKE_OK;
-}
-
-static int32_t list_altitude(struct hk_needs *needs) {
-  const hooke_system *system = needs->system;
-  for (int64_t g = 0; g < system->altitude_group_count; g++) {
-    const struct hk_altitude_group *group = &system->altitude_group[g];
-    struct hk_needs_row *row;
-    if (group->count == 0) continue;
-    const int32_t status = group->name[0] ? add_row(needs, "altitude", &row, "%s", group->name)
-                                          : add_row(needs, "altitude", &row, "altitude[%lld]", (long long)g);
-    if (status != HOOKE_OK) return status;
-    row->variant.altitude[g] = 1;
-  }
-  return HOOKE_OK;
-}
-
 static int32_t resists_compression(const hooke_system *system) {
   int32_t resists = 0;
-  for (int64_t r = 0; r < system->springs.run_count; r++)
-    resists |= (system->springs.run[r].shape & HOOKE_RUN_PULL_ONLY) == 0;
-  for (int64_t k = 0; k < system->altitudes.count; k++)
-    resists |= !system->altitudes.tetrahedron[k].pull_only;
+  for (int32_t k = 0; hk_force_table(k); k++)
+    resists |= hk_force_table(k)->resists && hk_force_table(k)->resists(system);
   return resists;
 }
 
@@ -99,7 +72,7 @@ static int32_t list_whole_forces(struct hk_needs *needs) {
   const hooke_system *system = needs->system;
   struct hk_needs_row *row;
   int32_t status = HOOKE_OK;
-  if (hk_springs_are_damped(&system->springs) || system->altitudes.damped) {
+  if (hk_elements_are_damped(system)) {
     status = add_row(needs, "damping", &row, "damping");
     if (status == HOOKE_OK) row->variant.damping = 1;
   }
@@ -179,8 +152,6 @@ int32_t hk_needs_list(struct hk_needs *needs) {
   for (int64_t k = 0; k < needs->watch_count; k++)
     watched[needs->watch[k]] = 1;
   int32_t status = list_groups(needs);
-  if (status == HOOKE_OK) status = list_bending(needs);
-  if (status == HOOKE_OK) status = list_altitude(needs);
   if (status == HOOKE_OK) status = list_whole_forces(needs);
   struct hk_needs_row *row;
   if (status == HOOKE_OK && needs->system->springs.count > 0) {

@@ -55,7 +55,7 @@ int32_t hk_needs_run_row(struct hk_needs *needs, struct hk_needs_row *row) {
 static int32_t is_known(const struct hk_needs *needs, const struct hk_needs_row *row, int64_t count) {
   const hooke_system *system = needs->system;
   int64_t first = 0;
-  for (int64_t g = 0; g < system->group_count; first += system->group[g++].count) {
+  for (int64_t g = 0; g < hk_system_groups_of(system, &hk_force_springs); first += system->group[g++].count) {
     if (system->group[g].count == count && row->variant.spring[first] &&
         memchr(row->variant.spring + first, 0, (size_t)count) == NULL) {
       return 1;

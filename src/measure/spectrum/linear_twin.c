@@ -2,28 +2,14 @@
 
 #include "core/memory.h"
 #include "core/status.h"
+#include "model/force/force.h"
 
 #include <math.h>
 #include <string.h>
 
-/* A stretch below this is rounding of positions, not tension. */
-static const double ROUNDING = 1e-12;
 /* The longest of extents over shortest lengths that is made room for. */
 static const double MOST_RATIO = 1e8;
 static const double SHORTEST = 1e9;
-
-struct hk_twin_spring hk_twin_view(const struct hk_spring *spring, const double *q) {
-  struct hk_stretch s;
-  hk_spring_stretch_taut(spring, q, &s);
-  struct hk_twin_spring view = {spring->head,  spring->tail, {0.0, 0.0, 0.0},
-                                spring->kappa, 0.0,          spring->gamma};
-  memcpy(view.u, s.direction, sizeof view.u);
-  if (s.length == 0.0)
-    view.across = spring->kappa;
-  else if (s.tension > ROUNDING * spring->kappa * s.length)
-    view.across = s.tension / s.length;
-  return view;
-}
 
 /* ---- making ---- */
 
@@ -32,20 +18,24 @@ struct making {
   const hooke_system *system;
   const double *q;
   double middle[3], extent, shortest, factor;
-  int64_t count;
   int64_t *ends;
   double *kappa, *gamma, *rest_length;
-  struct hk_tetrahedron *tetrahedron; /* those that act, as many as the twin has */
 };
 
-/* Calls `see` for every spring with a free end. */
+/* Calls `see` for every spring with a free end, and what it is as an element. */
 static void each_spring(struct making *making, struct hk_twin *twin,
-                        void (*see)(struct making *, struct hk_twin *, const struct hk_spring *)) {
+                        void (*see)(struct making *, struct hk_twin *, const struct hk_spring *,
+                                    const struct hk_element *)) {
   const hooke_system *system = making->system;
+  struct hk_elements at;
+  hk_begin_elements(system, making->q, NULL, &at);
+  at.by_number = 1;
+  at.only = &hk_force_springs;
   for (int64_t r = 0; r < system->springs.run_count; r++) {
     for (int64_t k = 0; k < system->springs.run[r].count; k++) {
       const struct hk_spring spring = hk_run_spring(&system->springs.run[r], k);
-      if (!system->held[spring.head] || !system->held[spring.tail]) see(making, twin, &spring);
+      const struct hk_element *e = hk_next_element(&at);
+      if (hk_element_moves(system->held, e)) see(making, twin, &spring, e);
     }
   }
 }
@@ -56,40 +46,12 @@ static double length_at(const struct hk_spring *spring, const double *q) {
   return s.length;
 }
 
-static void see_length(struct making *making, struct hk_twin *twin, const struct hk_spring *spring) {
+static void see_length(struct making *making, struct hk_twin *twin, const struct hk_spring *spring,
+                       const struct hk_element *e) {
   const double r = length_at(spring, making->q);
+  (void)e;
   twin->damped |= spring->gamma > 0.0;
   if (r > 0.0) making->shortest = fmin(making->shortest, r);
-}
-
-/* Those that act, each with the altitude that is shortest now for good. */
-static void see_tetrahedra(struct making *making, struct hk_twin *twin) {
-  const struct hk_altitudes *altitudes = &making->system->altitudes;
-  for (int64_t k = 0; k < altitudes->count; k++) {
-    struct hk_altitude_view *view = &twin->altitude[twin->altitude_count];
-    struct hk_tetrahedron *t = &making->tetrahedron[twin->altitude_count];
-    *t = altitudes->tetrahedron[k];
-    if (!hk_tetrahedron_moves(making->system, t) || !hk_altitude_see(t, making->q, view)) continue;
-    twin->altitude_count++;
-    twin->damped |= view->gamma > 0.0;
-    t->choice = view->choice;
-    t->pull_only = 0;
-    if (view->length < 0.0) t->side = -t->side;
-    if (view->length != 0.0) making->shortest = fmin(making->shortest, fabs(view->length));
-  }
-}
-
-/* Without tension where they are; one that is flat has so short a rest length that its tension is that of a
- * displacement. */
-static void place_tetrahedra(const struct making *making, const struct hk_twin *twin) {
-  for (int64_t k = 0; k < twin->altitude_count; k++) {
-    struct hk_tetrahedron *t = &making->tetrahedron[k];
-    struct hk_tautness s;
-    const double length = hk_tautness_find(t, twin->place, NULL, &s) ? fabs(s.altitude.length) : 0.0;
-    const double rest = t->rest[t->choice] = fmax(length, 1.0);
-    t->stiffness = twin->altitude[k].kappa * rest;
-    t->damping = twin->altitude[k].gamma * rest;
-  }
 }
 
 static void find_extent(struct making *making) {
@@ -120,71 +82,70 @@ static void place_particles(const struct making *making, double *place) {
     place[k] = making->factor * (making->q[k] - making->middle[k % 3]);
 }
 
-static void keep_spring(struct making *making, struct hk_twin *twin, const struct hk_spring *spring) {
-  struct hk_twin_spring view = hk_twin_view(spring, making->q);
+static void keep_element(struct hk_twin *twin, const struct hk_element *e) {
+  struct hk_element *kept = &twin->element[twin->element_count++];
+  *kept = *e;
+  kept->k_across = hk_element_across(e);
+}
+
+static void keep_spring(struct making *making, struct hk_twin *twin, const struct hk_spring *spring,
+                        const struct hk_element *e) {
   const double before = length_at(spring, making->q), after = length_at(spring, twin->place);
-  if (before > 0.0) twin->clamped += before < spring->rest_length * (1.0 - ROUNDING);
+  twin->clamped += e->k_across < -HOOKE_STRETCH_ROUNDING * e->k_along;
   if (after == 0.0 && spring->rest_length > 0.0) {
     twin->left_out++;
     return;
   }
   twin->turning += after == 0.0 && spring->gamma > 0.0;
-  const int64_t k = making->count++;
+  const int64_t k = twin->spring_count++;
+  const int stretched = hk_element_across(e) > 0.0 && before > 0.0;
   making->ends[2 * k] = spring->head;
   making->ends[2 * k + 1] = spring->tail;
   making->kappa[k] = spring->kappa;
   making->gamma[k] = spring->gamma;
-  making->rest_length[k] = view.across > 0.0 && before > 0.0 ? after * (spring->rest_length / before) : after;
-  twin->spring[twin->spring_count++] = view;
+  making->rest_length[k] = stretched ? after * (spring->rest_length / before) : after;
+  keep_element(twin, e);
+}
+
+/* Springs are springs in the twin, and drag is drag. */
+static void keep_others(const struct making *making, struct hk_twin *twin) {
+  struct hk_elements at;
+  hk_begin_elements(making->system, making->q, NULL, &at);
+  at.wanted = hk_force_is_other;
+  for (const struct hk_element *e; (e = hk_next_element(&at)) != NULL;) {
+    if (!hk_element_moves(making->system->held, e)) continue;
+    twin->clamped += e->k_across < -HOOKE_STRETCH_ROUNDING * e->k_along;
+    twin->damped |= e->c_along > 0.0 || e->c_across > 0.0;
+    keep_element(twin, e);
+  }
 }
 
 static int32_t new_thaw(struct making *making, struct hk_twin *twin) {
   const int64_t n = making->system->particle_count, springs = making->system->springs.count;
+  const int64_t count = springs + hk_elements_of(making->system, hk_force_is_other);
   twin->place = hk_new(3 * n, sizeof(double));
   twin->balance = hk_new(3 * n, sizeof(double));
-  twin->spring = hk_new(springs, sizeof *twin->spring);
+  twin->moved = hk_new(3 * n, sizeof(double));
+  twin->element = hk_new(count, sizeof *twin->element);
   making->ends = hk_new(2 * springs, sizeof(int64_t));
-  making->tetrahedron = hk_new(making->system->altitudes.count, sizeof *making->tetrahedron);
-  twin->altitude = hk_new(making->system->altitudes.count, sizeof *twin->altitude);
   making->kappa = hk_new(3 * springs, sizeof(double));
-  if (!twin->place || !twin->balance || !twin->spring || !making->ends || !making->kappa ||
-      !making->tetrahedron || !twin->altitude)
+  if (!twin->place || !twin->balance || !twin->moved || !twin->element || !making->ends || !making->kappa)
     return HOOKE_NO_MEMORY;
   making->gamma = making->kappa + springs;
   making->rest_length = making->gamma + springs;
   return HOOKE_OK;
 }
 
-static int32_t add_springs(const struct making *making, hooke_system *system) {
+static int32_t add_springs(const struct making *making, int64_t count, hooke_system *system) {
   hooke_options *options = NULL;
-  int32_t status = hk_spring_options_create(&options);
+  int32_t status = hk_options_create(&hk_spring_options, &options);
   if (status == HOOKE_OK) status = hooke_options_set_text(options, "law", "length");
+  if (status == HOOKE_OK) status = hooke_options_set_numbers(options, "stiffness", count, making->kappa);
+  if (status == HOOKE_OK) status = hooke_options_set_numbers(options, "damping", count, making->gamma);
   if (status == HOOKE_OK)
-    status = hooke_options_set_numbers(options, "stiffness", making->count, making->kappa);
-  if (status == HOOKE_OK)
-    status = hooke_options_set_numbers(options, "damping", making->count, making->gamma);
-  if (status == HOOKE_OK)
-    status = hooke_options_set_numbers(options, "rest_length", making->count, making->rest_length);
-  if (status == HOOKE_OK)
-    status = hooke_system_add_springs(system, NULL, making->count, making->ends, options);
+    status = hooke_options_set_numbers(options, "rest_length", count, making->rest_length);
+  if (status == HOOKE_OK) status = hooke_system_add_springs(system, NULL, count, making->ends, options);
   hooke_options_destroy(options);
-  return status;
-}
-
-static int32_t add_bending(const struct hk_bending *bending, hooke_system *system) {
-  int64_t *triples = hk_new(3 * bending->count, sizeof(int64_t)), *end = triples;
-  double *coefficient = hk_new(bending->count, sizeof(double)), *c = coefficient;
-  int32_t status = triples && coefficient ? HOOKE_OK : HOOKE_NO_MEMORY;
-  struct hk_triple triple;
-  for (struct hk_triples at = {bending, 0, 0}; status == HOOKE_OK && hk_next_triple(&at, &triple);) {
-    memcpy(end, triple.particle, sizeof triple.particle);
-    end += 3;
-    *c++ = triple.coefficient;
-  }
-  if (status == HOOKE_OK)
-    status = hooke_system_add_bending(system, NULL, bending->count, triples, bending->count, coefficient);
-  hk_free(triples);
-  hk_free(coefficient);
   return status;
 }
 
@@ -215,6 +176,7 @@ static int32_t hold_product(int64_t n, double t, const double *q, const double *
 static int32_t build(const struct making *making, const struct hk_twin *twin, const double *balance,
                      hooke_system **out) {
   const hooke_system *old = making->system;
+  const int64_t springs = twin->spring_count;
   hooke_system *system = NULL;
   int32_t status = hooke_system_create(&system);
   if (status == HOOKE_OK) system->memory_limit = old->memory_limit;
@@ -224,10 +186,9 @@ static int32_t build(const struct making *making, const struct hk_twin *twin, co
   for (int64_t p = 0; p < old->particle_count && status == HOOKE_OK; p++) {
     if (old->held[p]) status = hooke_system_pin(system, 1, &p);
   }
-  if (status == HOOKE_OK && making->count > 0) status = add_springs(making, system);
-  if (status == HOOKE_OK && old->bending.count > 0) status = add_bending(&old->bending, system);
-  if (status == HOOKE_OK && twin->altitude_count > 0)
-    status = hk_system_add_tetrahedra(system, NULL, 0, twin->altitude_count, making->tetrahedron);
+  if (status == HOOKE_OK && springs > 0) status = add_springs(making, springs, system);
+  if (status == HOOKE_OK)
+    hk_system_set_linear(system, twin->element_count - springs, twin->element + springs, twin->place);
   if (status == HOOKE_OK) status = hooke_system_set_drag(system, old->drag);
   if (status == HOOKE_OK && balance)
     status = hooke_system_set_force(system, hold, hold_product, (void *)balance);
@@ -239,7 +200,7 @@ static int32_t build(const struct making *making, const struct hk_twin *twin, co
   return status;
 }
 
-/* The force of springs and bending at rest, taken back: the sum that the integrators form is then 0 to the
+/* The force of springs at rest, taken back: the sum that the integrators form is then 0 to the
  * bit. */
 static int32_t find_balance(struct hk_twin *twin, int *needed) {
   const int64_t size = 3 * twin->system->particle_count;
@@ -260,27 +221,17 @@ static int32_t find_slow_step(struct hk_twin *twin) {
   double *sum = hk_new(2 * system->particle_count, sizeof(double));
   if (sum == NULL) return HOOKE_NO_MEMORY;
   double stiff = 0.0, damp = 0.0;
-  for (int64_t k = 0; k < twin->spring_count; k++) {
-    const struct hk_twin_spring *s = &twin->spring[k];
-    sum[2 * s->head] += s->kappa, sum[2 * s->tail] += s->kappa;
-    sum[2 * s->head + 1] += s->gamma, sum[2 * s->tail + 1] += s->gamma;
-  }
-  struct hk_triple triple;
-  for (struct hk_triples at = {&system->bending, 0, 0}; hk_next_triple(&at, &triple);) {
-    for (int e = 0; e < 3; e++)
-      sum[2 * triple.particle[e]] += 0.5 * hk_triple_row(system, &triple, e) * triple.coefficient;
-  }
-  for (int64_t k = 0; k < twin->altitude_count; k++) {
-    const struct hk_altitude_view *view = &twin->altitude[k];
-    for (int j = 0; j < 4; j++) {
-      const int64_t p = view->tangent.particle[j];
-      const double row = 0.5 * hk_altitude_row(system, view->tangent.particle, view->tangent.weight, j);
-      sum[2 * p] += row * view->kappa, sum[2 * p + 1] += row * view->gamma;
+  for (const struct hk_element *e = twin->element; e < twin->element + twin->element_count; e++) {
+    const int spring = e < twin->element + twin->spring_count;
+    for (int j = 0; j < e->count; j++) {
+      const double row = spring ? 2.0 : hk_element_row(system->held, e, j);
+      sum[2 * e->particle[j]] += row * e->k_along;
+      sum[2 * e->particle[j] + 1] += row * e->c_along;
     }
   }
   for (int64_t p = 0; p < system->particle_count; p++) {
-    stiff = fmax(stiff, 2.0 * sum[2 * p] * system->inverse_mass[p]);
-    damp = fmax(damp, (2.0 * sum[2 * p + 1] + system->drag) * system->inverse_mass[p]);
+    stiff = fmax(stiff, sum[2 * p] * system->inverse_mass[p]);
+    damp = fmax(damp, (sum[2 * p + 1] + system->drag) * system->inverse_mass[p]);
   }
   hk_free(sum);
   twin->slow_step = fmin(stiff > 0.0 ? 1.0 / sqrt(stiff) : INFINITY, damp > 0.0 ? 1.0 / damp : INFINITY);
@@ -292,11 +243,10 @@ static int32_t freeze(struct making *making, struct hk_twin *twin) {
   if (status != HOOKE_OK) return status;
   find_extent(making);
   each_spring(making, twin, see_length);
-  see_tetrahedra(making, twin);
   find_factor(making);
   place_particles(making, twin->place);
   each_spring(making, twin, keep_spring);
-  place_tetrahedra(making, twin);
+  keep_others(making, twin);
   int needed = 0;
   status = build(making, twin, NULL, &twin->system);
   if (status == HOOKE_OK) status = find_balance(twin, &needed);
@@ -314,7 +264,6 @@ int32_t hk_twin_create(const hooke_system *system, const double *q, struct hk_tw
   const int32_t status = freeze(&making, twin);
   hk_free(making.ends);
   hk_free(making.kappa);
-  hk_free(making.tetrahedron);
   if (status != HOOKE_OK) hk_twin_release(twin);
   return status;
 }
@@ -323,100 +272,36 @@ void hk_twin_release(struct hk_twin *twin) {
   hooke_system_destroy(twin->system);
   hk_free(twin->place);
   hk_free(twin->balance);
-  hk_free(twin->spring);
-  hk_free(twin->altitude);
+  hk_free(twin->moved);
+  hk_free(twin->element);
   memset(twin, 0, sizeof *twin);
 }
 
 /* ---- asking ---- */
 
-/* Twice the energy of bending of a displacement from `place`. */
-static double bending_energy(const struct hk_twin *twin, const double *q) {
-  struct hk_triple triple;
-  double sum = 0.0;
-  for (struct hk_triples at = {&twin->system->bending, 0, 0}; hk_next_triple(&at, &triple);) {
-    for (int a = 0; a < 3; a++) {
-      double d = 0.0;
-      for (int e = 0; e < 3; e++) {
-        const int64_t k = 3 * triple.particle[e] + a;
-        d += hk_triple_factor(e) * (q[k] - twin->place[k]);
-      }
-      sum += triple.coefficient * (d * d);
-    }
-  }
-  return sum;
-}
-
-/* How far displacements x (rows), from `place` (NULL: none), stretch an altitude. */
-static double stretch_of(const struct hk_altitude_view *view, const double *x, const double *place) {
-  double sum = 0.0;
-  for (int j = 0; j < 4; j++) {
-    const int64_t k = 3 * (int64_t)view->tangent.particle[j];
-    for (int a = 0; a < 3; a++)
-      sum += view->tangent.weight[j] * view->tangent.u[a] * (x[k + a] - (place ? place[k + a] : 0.0));
-  }
-  return sum;
-}
-
 double hk_twin_energy(const struct hk_twin *twin, const double *q, const double *v) {
-  const double *mass = twin->system->mass, *place = twin->place;
-  double sum = bending_energy(twin, q);
+  const double *mass = twin->system->mass, *const x[3] = {twin->moved, twin->moved + 1, twin->moved + 2};
+  double sum = 0.0;
   for (int64_t p = 0; p < twin->system->particle_count; p++) {
     const double *u = v + 3 * p;
+    for (int64_t k = 3 * p; k < 3 * p + 3; k++)
+      twin->moved[k] = q[k] - twin->place[k];
     sum += mass[p] * ((u[0] * u[0] + u[1] * u[1]) + u[2] * u[2]);
   }
-  for (int64_t k = 0; k < twin->spring_count; k++) {
-    const struct hk_twin_spring *s = &twin->spring[k];
-    const int64_t i = 3 * s->head, j = 3 * s->tail;
-    double along = 0.0, square = 0.0;
-    for (int a = 0; a < 3; a++) {
-      const double d = (q[i + a] - place[i + a]) - (q[j + a] - place[j + a]);
-      along += s->u[a] * d;
-      square += d * d;
-    }
-    sum += s->across * square + (s->kappa - s->across) * along * along;
-  }
-  for (int64_t k = 0; k < twin->altitude_count; k++) {
-    const double along = stretch_of(&twin->altitude[k], q, place);
-    sum += twin->altitude[k].kappa * along * along;
-  }
+  for (const struct hk_element *e = twin->element; e < twin->element + twin->element_count; e++)
+    sum += hk_element_energy(e, e->k_along, e->k_across, 3, x);
   return sum;
 }
 
 void hk_twin_push(const struct hk_twin *twin, const double *x, double *out) {
   const hooke_system *system = twin->system;
-  const double t = twin->slow_step, *w = system->inverse_mass;
+  const double t = twin->slow_step, *const from[3] = {x, x + 1, x + 2};
+  double *const to[3] = {out, out + 1, out + 2};
   for (int64_t k = 0; k < 3 * system->particle_count; k++)
-    out[k] = t * system->drag * w[k / 3] * x[k];
-  struct hk_triple triple;
-  for (struct hk_triples at = {&system->bending, 0, 0}; hk_next_triple(&at, &triple);) {
-    double d[3];
-    hk_triple_bend(&triple, x, d);
-    for (int e = 0; e < 3; e++) {
-      const double factor = t * t * triple.coefficient * hk_triple_factor(e) * w[triple.particle[e]];
-      for (int a = 0; a < 3; a++)
-        out[3 * triple.particle[e] + a] += factor * d[a];
-    }
-  }
-  for (int64_t k = 0; k < twin->altitude_count; k++) {
-    const struct hk_altitude_view *view = &twin->altitude[k];
-    const double f = t * (t * view->kappa + view->gamma) * stretch_of(view, x, NULL);
-    for (int j = 0; j < 4; j++) {
-      const int64_t p = view->tangent.particle[j];
-      for (int b = 0; b < 3; b++)
-        out[3 * p + b] += w[p] * f * view->tangent.weight[j] * view->tangent.u[b];
-    }
-  }
-  for (int64_t k = 0; k < twin->spring_count; k++) {
-    const struct hk_twin_spring *s = &twin->spring[k];
-    const int64_t i = 3 * s->head, j = 3 * s->tail;
-    const double d[3] = {x[i] - x[j], x[i + 1] - x[j + 1], x[i + 2] - x[j + 2]};
-    const double along = (s->u[0] * d[0] + s->u[1] * d[1]) + s->u[2] * d[2];
-    for (int a = 0; a < 3; a++) {
-      const double f = t * (t * (s->across * d[a] + (s->kappa - s->across) * along * s->u[a]) +
-                            s->gamma * along * s->u[a]);
-      out[i + a] += w[s->head] * f;
-      out[j + a] -= w[s->tail] * f;
-    }
-  }
+    out[k] = t * system->drag * x[k];
+  for (const struct hk_element *e = twin->element; e < twin->element + twin->element_count; e++)
+    hk_element_multiply(e, t * (t * e->k_along + e->c_along), t * (t * e->k_across + e->c_across), 3, from,
+                        to);
+  for (int64_t k = 0; k < 3 * system->particle_count; k++)
+    out[k] *= system->inverse_mass[k / 3];
 }

@@ -1,35 +1,29 @@
 /* A system linearised and frozen at given positions, at rest, as a system of real springs, so that every
  * integrator runs on it with its own loops: implicit treatment of spring damping and all.
  *
- * The scene is enlarged: positions times a factor, about the middle, until the shortest spring is 1e5 to 1e9
- * m long, and displacements are of the order of 1 m. Springs then turn by 1e-5 or less, so the motion is
- * linear; and rounding of positions, 1e-16 of the extent, stays as far below the displacements.
- * (Displacements as small as that of the scene as it is would be the same in principle; but rest lengths have
- * to be set anew anyway, and numbers about 1 need no thought.) A spring keeps kappa and gamma; its rest
- * length l0/r of its new length keeps tension over length, the stiffness across. A compressed one is clamped:
- * its rest length is its length. One that only pulls counts as taut. One of length 0 is linear as it is if it
- * wants to be of length 0, and else has no force and is left out. Bending is linear as it is. A constant
- * force balances the tensions. Gravity and callbacks are left out, driven particles are pinned. */
+ * The scene is enlarged: positions times a factor, about the middle, until the shortest spring is 1e5 to
+ * 1e9 m long, and displacements are of the order of 1 m. Springs then turn by 1e-5 or less, so the motion
+ * is linear; and rounding of positions, 1e-16 of the extent, stays as far below the displacements.
+ * (Displacements as small as that of the scene as it is would be the same in principle; but rest lengths
+ * have to be set anew anyway, and numbers about 1 need no thought.) A spring keeps kappa and gamma; its
+ * rest length l0/r of its new length keeps tension over length, the stiffness across. A compressed one is
+ * clamped: its rest length is its length. One that only pulls counts as taut. One of length 0 is linear as
+ * it is if it wants to be of length 0, and else has no force and is left out. The elements of other forces
+ * are linear ones (force_linear.c). A constant force balances the tensions. Gravity and callbacks are left
+ * out, driven particles are pinned. */
 #ifndef HOOKE_MEASURE_SPECTRUM_LINEAR_TWIN_H
 #define HOOKE_MEASURE_SPECTRUM_LINEAR_TWIN_H
 
 #include "model/system.h"
 
-/* A spring as its displacements see it. */
-struct hk_twin_spring {
-  int64_t head, tail;
-  double u[3];                 /* direction; zeros where it has none */
-  double kappa, across, gamma; /* stiffness along and across it, damping along it */
-};
-
 struct hk_twin {
   hooke_system *system; /* committed */
   double *place;        /* where it rests, 3n */
   double *balance;      /* the constant force, 3n; NULL: none is needed */
-  int64_t spring_count;
-  struct hk_twin_spring *spring; /* those with a free end */
-  int64_t altitude_count;
-  struct hk_altitude_view *altitude; /* those with a free corner */
+  double *moved;        /* scratch, 3n */
+  /* those with a free particle, clamped: springs, then those of other forces but drag */
+  int64_t spring_count, element_count;
+  struct hk_element *element;
   int64_t clamped, left_out,
       turning;      /* springs compressed; without force; of length 0 and damped, not linear */
   int32_t damped;   /* damping along springs, or drag */
@@ -46,8 +40,5 @@ double hk_twin_energy(const struct hk_twin *twin, const double *q, const double 
 /* out = M^-1 (t^2 K + t C) x, 3n each, t being the slow step: of any x it leaves what springs and drag act
  * on. */
 void hk_twin_push(const struct hk_twin *twin, const double *x, double *out);
-
-/* A spring at q as its displacements see it, clamped as above; one of length 0 is stiff in all directions. */
-struct hk_twin_spring hk_twin_view(const struct hk_spring *spring, const double *q);
 
 #endif

@@ -3,13 +3,11 @@
 #include "core/memory.h"
 #include "core/status.h"
 #include "kernel/vector_loops.h"
+#include "model/force/force.h"
 #include "model/sum/spring_batch.h"
 
 #include <math.h>
 #include <string.h>
-
-/* A stretch below this is rounding of positions, not tension. */
-static const double ROUNDING = 1e-9;
 
 /* ---- springs ---- */
 
@@ -17,7 +15,7 @@ static void see_spring(struct hk_linearised *lin, int64_t k, const struct hk_spr
                        double scale) {
   struct hk_stretch s;
   hk_spring_stretch_taut(spring, q, &s);
-  const double slight = ROUNDING * spring->kappa * s.length;
+  const double slight = HOOKE_STRETCH_ROUNDING * spring->kappa * s.length;
   for (int a = 0; a < 3; a++)
     lin->u[a][k] = s.direction[a];
   lin->kappa[k] = scale * spring->kappa;
@@ -82,39 +80,55 @@ static int32_t see_springs(struct hk_linearised *lin, const double *q, const dou
   return HOOKE_OK;
 }
 
-/* Triples of held particles move nothing. */
-static void see_triples(struct hk_linearised *lin) {
-  struct hk_triple triple;
-  for (struct hk_triples at = {&lin->system->bending, 0, 0}; hk_next_triple(&at, &triple);) {
-    for (int e = 0; e < 3; e++)
-      lin->bends |= !lin->system->held[triple.particle[e]];
-  }
+/* ---- other forces ---- */
+
+static void keep_element(struct hk_linearised *lin, const struct hk_element *e) {
+  struct hk_element *kept = &lin->element[lin->element_count];
+  if (e->k_along == 0.0 && e->c_along == 0.0 && e->c_across == 0.0) return;
+  *kept = *e;
+  kept->k_across = hk_element_across(e);
+  lin->across_any |= kept->k_across > 0.0;
+  lin->clamped += e->k_across < -HOOKE_STRETCH_ROUNDING * e->k_along;
+  lin->element_count++;
 }
 
-static int32_t see_tetrahedra(struct hk_linearised *lin, const double *q) {
-  const struct hk_altitudes *altitudes = &lin->system->altitudes;
-  lin->tetrahedron = hk_new(altitudes->count, sizeof *lin->tetrahedron);
-  lin->altitude_kappa = hk_new(2 * altitudes->count, sizeof(double));
-  if (lin->tetrahedron == NULL || lin->altitude_kappa == NULL) return HOOKE_NO_MEMORY;
-  lin->altitude_gamma = lin->altitude_kappa + altitudes->count;
-  for (int64_t k = 0; k < altitudes->count; k++) {
-    struct hk_altitude_view view;
-    if (!hk_tetrahedron_moves(lin->system, &altitudes->tetrahedron[k]) ||
-        !hk_altitude_see(&altitudes->tetrahedron[k], q, &view))
-      continue;
-    lin->altitude_kappa[lin->tetrahedra] = view.kappa;
-    lin->altitude_gamma[lin->tetrahedra] = view.gamma;
-    lin->tetrahedron[lin->tetrahedra++] = view.tangent;
+static int32_t see_others(struct hk_linearised *lin, const double *q) {
+  const int64_t most = hk_elements_of(lin->system, hk_force_is_kept);
+  lin->element = hk_new(most, sizeof *lin->element);
+  lin->along = hk_new(2 * most, sizeof(double));
+  if (lin->element == NULL || lin->along == NULL) return HOOKE_NO_MEMORY;
+  lin->beside = lin->along + most;
+  struct hk_elements at;
+  hk_begin_elements(lin->system, q, NULL, &at);
+  at.wanted = hk_force_is_other;
+  for (const struct hk_element *e; (e = hk_next_element(&at)) != NULL;) {
+    if (!hk_element_moves(lin->system->held, e)) continue;
+    if (at.force->multiply)
+      lin->bends = 1;
+    else
+      keep_element(lin, e);
   }
   return HOOKE_OK;
 }
 
 /* ---- units ---- */
 
+/* Adds the rows of the other forces at q, of their stiffness or of their damping. */
+static void add_rows(const struct hk_linearised *lin, const double *q, int damping, double *sum) {
+  struct hk_elements at;
+  hk_begin_elements(lin->system, q, NULL, &at);
+  at.wanted = hk_force_is_other;
+  for (const struct hk_element *e; (e = hk_next_element(&at)) != NULL;) {
+    const double most = damping ? fmax(e->c_along, e->c_across) : fmax(e->k_along, e->k_across);
+    for (int j = 0; j < e->count; j++)
+      sum[e->particle[j]] += hk_element_row(lin->system->held, e, j) * most;
+  }
+}
+
 /* The largest row of 2 sum |B| over m, which no eigenvalue is above. */
-static double largest_row(const struct hk_linearised *lin, const double *weight, const double *altitude,
-                          double bending, double drag, double *sum) {
+static double largest_row(const struct hk_linearised *lin, const double *q, int damping, double *sum) {
   const hooke_system *system = lin->system;
+  const double *weight = damping ? lin->gamma : lin->kappa, drag = damping ? lin->drag : 0.0;
   double most = 0.0;
   memset(sum, 0, (size_t)system->particle_count * sizeof(double));
   for (int64_t r = 0; r < lin->run_count; r++) {
@@ -126,24 +140,14 @@ static double largest_row(const struct hk_linearised *lin, const double *weight,
       sum[j] += 2.0 * weight[run->first + k];
     }
   }
-  struct hk_triple triple;
-  for (struct hk_triples at = {&system->bending, 0, 0}; bending > 0.0 && hk_next_triple(&at, &triple);) {
-    for (int e = 0; e < 3; e++)
-      sum[triple.particle[e]] += bending * hk_triple_row(system, &triple, e) * triple.coefficient;
-  }
-  for (int64_t k = 0; k < lin->tetrahedra; k++) {
-    const struct hk_altitude_tangent *t = &lin->tetrahedron[k];
-    for (int j = 0; j < 4; j++)
-      sum[t->particle[j]] += altitude[k] * hk_altitude_row(system, t->particle, t->weight, j);
-  }
+  add_rows(lin, q, damping, sum);
   for (int64_t p = 0; p < system->particle_count; p++)
     most = fmax(most, (sum[p] + drag) * lin->inverse[p]);
   return most;
 }
 
-static int32_t choose_rate(struct hk_linearised *lin, double *sum) {
-  const double stiffest = largest_row(lin, lin->kappa, lin->altitude_kappa, 1.0, 0.0, sum);
-  const double quickest = largest_row(lin, lin->gamma, lin->altitude_gamma, 0.0, lin->drag, sum);
+static int32_t choose_rate(struct hk_linearised *lin, const double *q, double *sum) {
+  const double stiffest = largest_row(lin, q, 0, sum), quickest = largest_row(lin, q, 1, sum);
   lin->damped = quickest > 0.0;
   lin->rate = stiffest > 0.0 ? sqrt(stiffest) : quickest > 0.0 ? quickest : 1.0;
   const double k = 1.0 / lin->rate / lin->rate, c = 1.0 / lin->rate;
@@ -160,12 +164,15 @@ static int32_t choose_rate(struct hk_linearised *lin, double *sum) {
     lin->gamma[s] *= c;
     lin->across_any |= lin->across[s] > 0.0;
   }
-  for (int64_t t = 0; t < lin->tetrahedra; t++) {
-    lin->altitude_kappa[t] *= k;
-    lin->altitude_gamma[t] *= c;
+  for (struct hk_element *e = lin->element; e < lin->element + lin->element_count; e++) {
+    e->k_along *= k;
+    e->k_across *= k;
+    e->c_along *= c;
+    e->c_across *= c;
   }
   lin->drag *= c;
-  lin->bending = k;
+  lin->unit_k = k;
+  lin->unit_c = c;
   return HOOKE_OK;
 }
 
@@ -178,10 +185,14 @@ static double *part(double **block, int64_t count) {
 }
 
 double hk_linearised_bytes(const hooke_system *system) {
-  enum { OF_SPRINGS = 11, OF_PARTICLES = 3 + 3 * 20, OF_TETRAHEDRA = 14 };
+  enum {
+    OF_SPRINGS = 11,
+    OF_PARTICLES = 3 + 3 * 20,
+    OF_ELEMENTS = 2 + sizeof(struct hk_element) / sizeof(double)
+  };
   return sizeof(double) *
          (OF_SPRINGS * (double)system->springs.count + OF_PARTICLES * (double)system->particle_count +
-          OF_TETRAHEDRA * (double)system->altitudes.count);
+          OF_ELEMENTS * (double)hk_elements_of(system, hk_force_is_kept));
 }
 
 int32_t hk_linearised_create(const hooke_system *system, const double *q, const double *spring_scale,
@@ -212,9 +223,8 @@ int32_t hk_linearised_create(const hooke_system *system, const double *q, const 
     lin->unknowns += system->held[p] ? 0 : 3;
   }
   int32_t status = see_springs(lin, q, spring_scale);
-  see_triples(lin);
-  if (status == HOOKE_OK) status = see_tetrahedra(lin, q);
-  if (status == HOOKE_OK) status = choose_rate(lin, sum);
+  if (status == HOOKE_OK) status = see_others(lin, q);
+  if (status == HOOKE_OK) status = choose_rate(lin, q, sum);
   if (status != HOOKE_OK) hk_linearised_release(lin);
   return status;
 }
@@ -222,8 +232,8 @@ int32_t hk_linearised_create(const hooke_system *system, const double *q, const 
 void hk_linearised_release(struct hk_linearised *lin) {
   hk_free(lin->mass);
   hk_free(lin->ends);
-  hk_free(lin->tetrahedron);
-  hk_free(lin->altitude_kappa);
+  hk_free(lin->element);
+  hk_free(lin->along);
   memset(lin, 0, sizeof *lin);
 }
 
@@ -242,10 +252,14 @@ void hk_linearised_combine(struct hk_linearised *lin, double a, double b) {
   const int32_t across = lin->across_any && a > 0.0;
   for (int64_t s = 0; s < m && across; s++)
     lin->g_across[s] = a * lin->across[s];
-  for (int64_t t = 0; t < lin->tetrahedra; t++)
-    lin->tetrahedron[t].size = a * lin->altitude_kappa[t] + b * lin->altitude_gamma[t];
+  for (int64_t t = 0; t < lin->element_count; t++) {
+    const struct hk_element *e = &lin->element[t];
+    lin->along[t] = a * e->k_along + b * e->c_along;
+    lin->beside[t] = a * e->k_across + b * e->c_across;
+  }
   lin->brake = b * lin->drag;
-  lin->bent = lin->bends ? a * lin->bending : 0.0;
+  lin->constant_k = a * lin->unit_k;
+  lin->constant_c = b * lin->unit_c;
   lin->tangent = (struct hk_tangent){.u = {lin->g[0], lin->g[1], lin->g[2]},
                                      .e = {lin->g[0], lin->g[1], lin->g[2]},
                                      .b = across ? lin->g_across : NULL};
@@ -258,8 +272,12 @@ void hk_linearised_add_product(struct hk_linearised *lin, const double *x, doubl
   lin->products++;
   for (int64_t k = 0; k < lin->run_count; k++)
     hk_tangent_product(&lin->run[k], &lin->tangent, from, to);
-  if (lin->bent > 0.0) hk_bending_add(&lin->system->bending, -lin->bent, from, to);
-  hk_altitude_tangent_add(lin->tetrahedra, lin->tetrahedron, from, to);
+  for (int32_t k = 0; k < lin->system->force_row_count; k++) {
+    const struct hk_force_row *force = lin->system->force_row[k];
+    if (hk_force_is_constant(force)) force->multiply(lin->system, lin->constant_k, lin->constant_c, from, to);
+  }
+  for (int64_t t = 0; t < lin->element_count; t++)
+    hk_element_multiply(&lin->element[t], lin->along[t], lin->beside[t], 1, from, to);
   if (lin->brake > 0.0) hk_add_multiple(lin->size, lin->brake, x, out);
 }
 
@@ -273,36 +291,24 @@ void hk_linearised_multiply(struct hk_linearised *lin, const double *x, double *
   }
 }
 
-/* Of bending alone. */
-static double bending_energy(const struct hk_linearised *lin, const double *x) {
+static double others_energy(const struct hk_linearised *lin, const double *x) {
   const int64_t n = lin->system->particle_count;
-  struct hk_triple t;
+  const double *const from[3] = {x, x + n, x + 2 * n}, a = lin->constant_k, b = lin->constant_c;
   double sum = 0.0;
-  for (struct hk_triples at = {&lin->system->bending, 0, 0}; lin->bent > 0.0 && hk_next_triple(&at, &t);) {
-    for (int a = 0; a < 3; a++) {
-      const double *component = x + a * n;
-      const double d = (component[t.particle[0]] - 2.0 * component[t.particle[1]]) + component[t.particle[2]];
-      sum += lin->bent * t.coefficient * (d * d);
-    }
-  }
-  return sum;
-}
-
-static double altitude_energy(const struct hk_linearised *lin, const double *x) {
-  const int64_t n = lin->system->particle_count;
-  const double *const from[3] = {x, x + n, x + 2 * n};
-  double sum = 0.0;
-  for (int64_t k = 0; k < lin->tetrahedra; k++) {
-    const double along = hk_altitude_tangent_along(&lin->tetrahedron[k], from);
-    sum += lin->tetrahedron[k].size * along * along;
-  }
+  struct hk_elements at;
+  hk_begin_elements(lin->system, lin->system->position, NULL, &at);
+  at.wanted = hk_force_is_constant;
+  for (const struct hk_element *e; (e = hk_next_element(&at)) != NULL;)
+    sum += hk_element_energy(e, a * e->k_along + b * e->c_along, a * e->k_across + b * e->c_across, 1, from);
+  for (int64_t t = 0; t < lin->element_count; t++)
+    sum += hk_element_energy(&lin->element[t], lin->along[t], lin->beside[t], 1, from);
   return sum;
 }
 
 /* Squares, spring by spring: what does not stretch comes out as 0, not as the rounding of a difference. */
 double hk_linearised_energy(const struct hk_linearised *lin, const double *x) {
   const int64_t n = lin->system->particle_count;
-  double sum = bending_energy(lin, x) + altitude_energy(lin, x);
+  double sum = others_energy(lin, x);
   for (int64_t r = 0; r < lin->run_count; r++) {
     const struct hk_run *run = &lin->run[r];
     for (int64_t k = 0; k < run->count; k++) {

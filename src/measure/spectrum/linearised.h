@@ -2,21 +2,19 @@
  *
  *   K = sum of kappa u u^T + max(0, T/r) (I - u u^T)     C = sum of gamma u u^T, plus drag
  *
- * each in the pattern (B, -B; -B, B) over the ends of a spring; and c (1, -2, 1)^T (1, -2, 1) of every triple
- * of bending in K, the same in all directions; kappa (g g^T)(u u^T) in K and gamma (g g^T)(u u^T) in C of
- * every altitude spring, g its weights, without what its tension adds. A compressed spring is clamped: its
- * stiffness across, which is negative, counts as 0. A spring that only pulls counts as taut; one of no length
- * as stiff in all directions.
+ * each in the pattern (B, -B; -B, B) over the ends of a spring; and the elements of all other forces
+ * (element.h). A compressed spring is clamped: its stiffness across, which is negative, counts as 0. A
+ * spring that only pulls counts as taut; one of no length as stiff in all directions.
  *
- * Vectors are displacements of all particles, x, y and z apart (3n), 0 where a particle is held. Eigenvalues
- * come in units of `rate`, a bound of the fastest motion, so that neither stiffness nor masses overflow: K is
- * divided by rate^2, C by rate. */
+ * Vectors are displacements of all particles, x, y and z apart (3n), 0 where a particle is held.
+ * Eigenvalues come in units of `rate`, a bound of the fastest motion, so that neither stiffness nor masses
+ * overflow: K is divided by rate^2, C by rate. */
 #ifndef HOOKE_MEASURE_SPECTRUM_LINEARISED_H
 #define HOOKE_MEASURE_SPECTRUM_LINEARISED_H
 
 #include "kernel/tangent_loops.h"
 #include "measure/trial/patience.h"
-#include "model/system.h"
+#include "model/force/force.h"
 
 struct hk_linearised {
   const hooke_system *system;
@@ -24,7 +22,8 @@ struct hk_linearised {
   int64_t unknowns;          /* three a free particle */
   double rate;               /* [1/s] */
   int64_t clamped, products; /* springs clamped; products with K and C so far */
-  int32_t across_any, damped, bends;
+  int32_t across_any, damped;
+  int32_t bends;          /* some force whose K and C are constant moves something */
   double *mass, *inverse; /* n; the inverse is 0 where a particle is held */
   /* springs: by their numbers, or in the order of batches, in one run of our own */
   int64_t run_count;
@@ -32,14 +31,15 @@ struct hk_linearised {
   struct hk_run own;
   int32_t *ends;                         /* of that */
   double *u[3], *kappa, *across, *gamma; /* over rate^2 and rate */
-  double drag, bending;                  /* of coefficients: 1 over rate^2 */
-  /* altitude springs that move something: their tangents, weighed too, kappa and gamma */
-  int64_t tetrahedra;
-  struct hk_altitude_tangent *tetrahedron;
-  double *altitude_kappa, *altitude_gamma;
+  double drag;                           /* over rate */
+  double unit_k, unit_c;                 /* 1 over rate^2 and rate: of forces whose K and C are constant */
+  /* of other forces the elements that move something, over rate^2 and rate */
+  int64_t element_count;
+  struct hk_element *element;
   /* a K + b C, from the last hk_linearised_combine() */
   struct hk_tangent tangent;
-  double *g[3], *g_across, brake, bent;
+  double *g[3], *g_across, brake, constant_k, constant_c;
+  double *along, *beside; /* of each element: its numbers along and across */
   /* of whoever searches for eigenvalues, set by whoever made it: an end that comes from outside, with
    * HOOKE_STOPPED (NULL: none); and bytes that a basis may take (0: as many as are usual) */
   struct hk_patience *patience;

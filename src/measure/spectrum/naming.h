@@ -1,25 +1,25 @@
-/* Springs and particles in words: "spring 12 (particles 3 and 7, group hem)". */
+/* Elements in words: "spring 12 (particles 3 and 7, group hem)", "the bending of particles 1, 2 and 3 (group
+ * beam.bending)". */
 #ifndef HOOKE_MEASURE_SPECTRUM_NAMING_H
 #define HOOKE_MEASURE_SPECTRUM_NAMING_H
 
-#include "model/system.h"
+#include "model/force/force.h"
 
-/* Name of the group or part that a spring is of, "" if it has none. */
-const char *hk_naming_group(const hooke_system *system, int64_t spring);
-
-/* The spring of that number, whatever run it is in. */
-struct hk_spring hk_naming_spring(const hooke_system *system, int64_t spring);
+/* Name of the group that an element of a force is of, "" if it has none. */
+const char *hk_naming_group(const hooke_system *system, const struct hk_force_row *force, int64_t number);
 
 /* Writes the words into `text` and returns it. */
 enum { HOOKE_NAMING_SIZE = 160 };
-const char *hk_naming_words(const hooke_system *system, int64_t spring, char text[HOOKE_NAMING_SIZE]);
+const char *hk_naming_words(const hooke_system *system, const struct hk_force_row *force, int64_t number,
+                            char text[HOOKE_NAMING_SIZE]);
 
-/* The spring, the bending or the altitude spring that weighs most on a particle in a step h, in words ("" if
- * there is none); returns the spring, -1 where it is none. */
+/* The element of a group that weighs most on a particle in a step h, by g^2 (h^2 k + 2 h c) at the places
+ * that the scene begins with, of one force or of all (NULL); -1 if there is none. */
+int64_t hk_naming_heaviest(const hooke_system *system, const struct hk_force_row *only, int64_t particle,
+                           double h, const struct hk_force_row **force);
+
+/* The same of all forces, in words ("" if there is none); returns the spring, -1 where it is none. */
 int64_t hk_naming_heaviest_words(const hooke_system *system, int64_t particle, double h,
                                  char text[HOOKE_NAMING_SIZE]);
-
-/* The spring that weighs most on a particle in a step h, by h^2 kappa + 2 h gamma; -1 if it has none. */
-int64_t hk_naming_heaviest(const hooke_system *system, int64_t particle, double h);
 
 #endif

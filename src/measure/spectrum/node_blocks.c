@@ -3,60 +3,37 @@
 #include "core/memory.h"
 #include "core/status.h"
 #include "measure/spectrum/eigen.h"
-#include "model/sum/spring_batch.h"
+#include "model/force/force.h"
 
 #include <math.h>
 #include <string.h>
 
-/* A stretch below this is rounding of positions, not tension. */
-static const double ROUNDING = 1e-9;
-
-/* block += along u u^T + across (I - u u^T) */
-static void add_axial(double block[6], const double u[3], double along, double across) {
+/* term = along u u^T + across (I - u u^T) */
+static void find_axial(double term[6], const double u[3], double along, double across) {
   static const int row[6] = {0, 1, 2, 0, 0, 1}, column[6] = {0, 1, 2, 1, 2, 2};
-  for (int k = 0; k < 6; k++) {
-    block[k] += (along - across) * u[row[k]] * u[column[k]] + (row[k] == column[k] ? across : 0.0);
-  }
+  for (int k = 0; k < 6; k++)
+    term[k] = (along - across) * u[row[k]] * u[column[k]] + (row[k] == column[k] ? across : 0.0);
 }
 
-static void add_spring(struct hk_node_blocks *blocks, const struct hk_spring *spring, const double *q) {
-  const hooke_system *system = blocks->system;
-  struct hk_stretch s;
-  hk_spring_stretch_taut(spring, q, &s);
-  const int no_direction = s.length == 0.0;
-  const double across = no_direction ? spring->kappa : fmax(0.0, s.tension / s.length);
-  if (spring->kappa > 0.0) blocks->least_ratio = fmin(blocks->least_ratio, spring->gamma / spring->kappa);
-  blocks->across |= across > ROUNDING * spring->kappa;
-  const int64_t end[2] = {spring->head, spring->tail};
-  for (int k = 0; k < 2; k++) {
-    if (system->held[end[k]]) continue;
-    const double weight = system->held[end[1 - k]] ? 1.0 : 2.0;
-    add_axial(blocks->stiffness + 6 * end[k], s.direction, weight * spring->kappa, weight * across);
-    add_axial(blocks->damping + 6 * end[k], s.direction, weight * spring->gamma, 0.0);
-  }
-}
-
-static void add_triple(struct hk_node_blocks *blocks, const struct hk_triple *triple) {
-  for (int e = 0; e < 3; e++) {
-    const int64_t p = triple->particle[e];
-    if (blocks->system->held[p]) continue;
-    blocks->across = 1;
-    for (int a = 0; a < 3; a++)
-      blocks->stiffness[6 * p + a] += hk_triple_row(blocks->system, triple, e) * triple->coefficient;
-  }
-}
-
-static void add_tetrahedron(struct hk_node_blocks *blocks, const struct hk_tetrahedron *t, const double *q) {
-  const hooke_system *system = blocks->system;
-  struct hk_altitude_view view;
-  if (!hk_tetrahedron_moves(system, t) || !hk_altitude_see(t, q, &view)) return;
-  if (view.kappa > 0.0) blocks->least_ratio = fmin(blocks->least_ratio, view.gamma / view.kappa);
-  for (int j = 0; j < 4; j++) {
-    const int64_t p = t->particle[j];
-    const double row = hk_altitude_row(system, t->particle, view.tangent.weight, j);
-    if (system->held[p]) continue;
-    add_axial(blocks->stiffness + 6 * p, view.tangent.u, row * view.kappa, 0.0);
-    add_axial(blocks->damping + 6 * p, view.tangent.u, row * view.gamma, 0.0);
+static void add_element(struct hk_node_blocks *blocks, const struct hk_element *e) {
+  const uint8_t *held = blocks->system->held;
+  double before = -1.0, stiffness[6], damping[6];
+  if (!hk_element_moves(held, e)) return;
+  if (e->k_along > 0.0) blocks->least_ratio = fmin(blocks->least_ratio, e->c_along / e->k_along);
+  blocks->across |= hk_element_across(e) > 0.0;
+  for (int j = 0; j < e->count; j++) {
+    const int64_t p = e->particle[j];
+    const double row = hk_element_row(held, e, j);
+    if (held[p]) continue;
+    if (row != before) { /* both ends of a spring have the same */
+      find_axial(stiffness, e->u, row * e->k_along, row * fmax(0.0, e->k_across));
+      find_axial(damping, e->u, row * e->c_along, row * e->c_across);
+    }
+    before = row;
+    for (int k = 0; k < 6; k++) {
+      blocks->stiffness[6 * p + k] += stiffness[k];
+      blocks->damping[6 * p + k] += damping[k];
+    }
   }
 }
 
@@ -84,23 +61,13 @@ void hk_node_blocks_fill(struct hk_node_blocks *blocks, const double *q) {
   memset(blocks->damping, 0, bytes);
   blocks->least_ratio = INFINITY;
   blocks->across = 0;
-  struct hk_spring_batch batch;
-  int64_t turns = 0;
-  for (hk_begin_batches(&batch); hk_next_batch(system, &batch);) {
-    if (++turns % HOOKE_BATCHES_PER_LOOK == 0 && hk_patience_ends(blocks->patience, "bounds")) return;
-    for (int64_t k = 0; k < batch.count; k++) {
-      const struct hk_spring spring = hk_batch_spring(&batch, k);
-      if (!system->held[spring.head] || !system->held[spring.tail]) add_spring(blocks, &spring, q);
-    }
-  }
-  struct hk_triple triple;
-  for (struct hk_triples at = {&system->bending, 0, 0}; hk_next_triple(&at, &triple);)
-    add_triple(blocks, &triple);
-  for (int64_t k = 0; k < system->altitudes.count; k++)
-    add_tetrahedron(blocks, &system->altitudes.tetrahedron[k], q);
-  for (int64_t p = 0; p < system->particle_count; p++) {
-    for (int a = 0; a < 3 && !system->held[p]; a++)
-      blocks->damping[6 * p + a] += system->drag;
+  struct hk_elements at;
+  hk_begin_elements(system, q, NULL, &at);
+  for (const struct hk_element *e; (e = hk_next_element(&at)) != NULL;) {
+    if (at.k == at.count && at.batches % HOOKE_BATCHES_PER_LOOK == 0 &&
+        hk_patience_ends(blocks->patience, "bounds"))
+      return;
+    add_element(blocks, e);
   }
 }
 

@@ -1,10 +1,9 @@
-/* Bounds of the stiffness and damping of a system by one 3x3 block for each particle:
- *   K <= blockdiag(sum_e w_e B_e),  B_e = kappa u u^T + max(0, T/r) (I - u u^T)
- *   C <= blockdiag(sum_e w_e G_e),  G_e = gamma u u^T
- * of every altitude spring its rows: 2 |g_j| kappa u u^T and 2 |g_j| gamma u u^T, less where some corners are
- * held; and of every triple of bending its rows: c times 4, 8, 4 at its particles, less where some of them
- * are held; with w_e = 2, and 1 where the other end is held, from (a - b)^2 <= 2 a^2 + 2 b^2. Drag adds c
- * I. */
+/* Bounds of the stiffness and damping of a system by one 3x3 block for each particle, summed over the
+ * elements at it:
+ *   K <= blockdiag(sum w_j (k_along u u^T + max(0, k_across) (I - u u^T)))     C likewise
+ * with w_j = |g_j| times the sum of |g| over the particles of the element that are not held, from
+ *   (a + b + c)^2 <= (a^2/p + b^2/q + c^2/r) (p + q + r):
+ * 2 for a spring, and 1 where its other end is held; 4, 8, 4 for a triple. */
 #ifndef HOOKE_MEASURE_SPECTRUM_NODE_BLOCKS_H
 #define HOOKE_MEASURE_SPECTRUM_NODE_BLOCKS_H
 
@@ -14,10 +13,9 @@
 struct hk_node_blocks {
   const hooke_system *system;
   double *stiffness, *damping;  /* 6 a particle: xx, yy, zz, xy, xz, yz */
-  double least_ratio;           /* smallest gamma/kappa of a stiff spring, infinity without one */
+  double least_ratio;           /* smallest damping over stiffness along an element, infinity without one */
   struct hk_patience *patience; /* whose end ends a filling half-way (NULL: none) */
-  /* some stretched spring is stiff across its direction, where it has no damping, or there is bending,
-   * which has none */
+  /* some element is stiff across its direction, where it has no damping */
   int32_t across;
 };
 

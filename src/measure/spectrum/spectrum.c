@@ -66,8 +66,8 @@ static void add_both(struct hk_spectrum *s, double c, double k, const double *mo
 
 /* ---- proportional damping ---- */
 
-/* C = beta K + delta M: every spring, of altitudes too, is damped in proportion to its stiffness and has none
- * across, nothing bends, and drag meets one mass. */
+/* C = beta K + delta M: every element is damped along in proportion to its stiffness and has none across, and
+ * drag meets one mass. */
 static int32_t find_proportion(struct hk_spectrum *s) {
   const struct hk_linearised *lin = s->linearised;
   const hooke_system *system = lin->system;
@@ -75,15 +75,14 @@ static int32_t find_proportion(struct hk_spectrum *s) {
   for (int64_t k = 0; k < system->springs.count && s->beta == 0.0; k++) {
     if (lin->kappa[k] > 0.0) s->beta = lin->gamma[k] / lin->kappa[k];
   }
-  for (int64_t k = 0; k < lin->tetrahedra && s->beta == 0.0; k++) {
-    if (lin->altitude_kappa[k] > 0.0) s->beta = lin->altitude_gamma[k] / lin->altitude_kappa[k];
+  for (int64_t k = 0; k < lin->element_count && s->beta == 0.0; k++) {
+    if (lin->element[k].k_along > 0.0) s->beta = lin->element[k].c_along / lin->element[k].k_along;
   }
   for (int64_t k = 0; k < system->springs.count; k++) {
     if (fabs(lin->gamma[k] - s->beta * lin->kappa[k]) > OUT_OF_PROPORTION * lin->gamma[k]) return 0;
   }
-  for (int64_t k = 0; k < lin->tetrahedra; k++) {
-    if (fabs(lin->altitude_gamma[k] - s->beta * lin->altitude_kappa[k]) >
-        OUT_OF_PROPORTION * lin->altitude_gamma[k])
+  for (const struct hk_element *e = lin->element; e < lin->element + lin->element_count; e++) {
+    if (fabs(e->c_along - s->beta * e->k_along) > OUT_OF_PROPORTION * e->c_along || e->c_across > 0.0)
       return 0;
   }
   for (int64_t p = 0; p < system->particle_count && lin->drag > 0.0; p++) {

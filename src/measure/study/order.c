@@ -4,7 +4,7 @@
 #include "core/print.h"
 
 #include "integrate/method.h"
-#include "model/system.h"
+#include "model/force/force.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -77,7 +77,8 @@ static void list_causes(const struct hk_study *study, int32_t method, double coa
   int count = 0;
   list[0] = '\0';
   add_cause(list, size, &count, pulls_only(system), "springs that only pull have a kink");
-  add_cause(list, size, &count, system->altitude_group_count > 0, "altitude springs jump between altitudes");
+  add_cause(list, size, &count, hk_system_groups_of(system, &hk_force_altitude) > 0,
+            "altitude springs jump between altitudes");
   add_cause(list, size, &count, system->force != NULL, "the force callback may not be smooth enough");
   add_cause(list, size, &count, has_table(system), "a drive by a table bends at its samples");
   add_cause(list, size, &count, has_drive_callback(system), "the drive callback may not be smooth enough");

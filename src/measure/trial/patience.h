@@ -5,7 +5,7 @@
 #include "hooke/measure.h"
 
 /* Batches of springs between two looks at the time: some milliseconds. */
-enum { HOOKE_BATCHES_PER_LOOK = 512 };
+enum { HOOKE_BATCHES_PER_LOOK = 2048 };
 
 struct hk_patience {
   double begun, until, end; /* by hk_clock_seconds(): the end of the part under way, and of the whole */

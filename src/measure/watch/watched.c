@@ -25,7 +25,7 @@ static const char *part_name(const hooke_system *system, int64_t part) {
 }
 
 static const char *group_name(const hooke_system *system, int64_t group) {
-  if (group >= system->group_count) return NULL;
+  if (group >= hk_system_groups_of(system, &hk_force_springs)) return NULL;
   return system->group[group].name ? system->group[group].name : "";
 }
 
@@ -144,13 +144,14 @@ static int32_t read_spring(const struct reading *reading, char *text, struct hk_
   int64_t index = cut_index(text), first = 0, count = 0, known = 0;
   if (index < 0) return refuse(reading);
   const int64_t asked = index;
-  for (int64_t g = 0; g < system->group_count; first += system->group[g++].count) {
+  for (int64_t g = 0; g < hk_system_groups_of(system, &hk_force_springs); first += system->group[g++].count) {
     const struct hk_group *group = &system->group[g];
     if (text[0] == '\0' || strcmp(group_name(system, g), text) != 0) continue;
     if (group->dropped > 0 && group->count > 0) return refuse_gaps(reading, group);
     known = 1;
     count += group->count;
-    if (index >= 0 && index < group->count) watched->spring = hk_naming_spring(system, first + index);
+    if (index >= 0 && index < group->count)
+      watched->spring = hk_springs_find(&system->springs, first + index);
     index -= group->count;
   }
   if (!known) return refuse_name(reading, "group of springs", group_name);
@@ -283,11 +284,11 @@ static int mark_part(const hooke_system *system, const char *text, uint8_t *mark
 static int mark_group(const hooke_system *system, const char *text, uint8_t *mark) {
   int found = -1;
   int64_t first = 0;
-  for (int64_t g = 0; g < system->group_count; first += system->group[g++].count) {
+  for (int64_t g = 0; g < hk_system_groups_of(system, &hk_force_springs); first += system->group[g++].count) {
     if (strcmp(group_name(system, g), text) != 0) continue;
     found = 0;
     for (int64_t k = 0; k < system->group[g].count; k++) {
-      const struct hk_spring spring = hk_naming_spring(system, first + k);
+      const struct hk_spring spring = hk_springs_find(&system->springs, first + k);
       mark[spring.head] = mark[spring.tail] = 1;
     }
   }

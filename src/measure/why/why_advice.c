@@ -227,8 +227,7 @@ static int32_t offer_for_step(struct hk_plan *plan) {
   if (status == HOOKE_OK && limit > 0.0)
     status = offer_smaller(plan, (above ? MARGIN : 1.0) * limit, above ? ", below the limit" : "");
   plan->backed = 0;
-  const int implicit =
-      plan->inquiry->force == HOOKE_BLAME_DRAG || plan->inquiry->force == HOOKE_BLAME_DAMPING;
+  const int implicit = hk_blame_is_drag(plan->inquiry->force) || plan->inquiry->force == HOOKE_BLAME_DAMPING;
   if (status == HOOKE_OK && implicit && strcmp(mine, "verlet") != 0) status = offer_fixed(plan, "verlet");
   return status == HOOKE_OK ? offer_others(plan) : status;
 }

@@ -12,11 +12,12 @@
 void hk_inquiry_blame_spring(struct hk_inquiry *inquiry, int64_t spring, double share) {
   struct hk_why *why = inquiry->why;
   if (spring < 0 || why->blame_count == HOOKE_WHY_MOST_BLAME) return;
-  const struct hk_spring found = hk_naming_spring(inquiry->system, spring);
+  const struct hk_spring found = hk_springs_find(&inquiry->system->springs, spring);
   struct hk_why_blame *blame = &why->blame[why->blame_count++];
   *blame = (struct hk_why_blame){
       .spring = spring, .first = found.head, .second = found.tail, .share = share, .force = ""};
-  snprintf(blame->group, sizeof blame->group, "%s", hk_naming_group(inquiry->system, spring));
+  snprintf(blame->group, sizeof blame->group, "%s",
+           hk_naming_group(inquiry->system, &hk_force_springs, spring));
 }
 
 /* A force first, then springs. */
@@ -73,8 +74,11 @@ int32_t hk_inquiry_blame(struct hk_inquiry *inquiry) {
   if (status == HOOKE_NO_MEMORY) return status;
   /* where no mode is to be had, the particle at which the bound showed it */
   if (inquiry->why->blame_count == 0) {
-    hk_inquiry_blame_spring(
-        inquiry, hk_naming_heaviest(inquiry->system, excess->particle, inquiry->run->schedule.step), NAN);
+    const struct hk_force_row *force;
+    hk_inquiry_blame_spring(inquiry,
+                            hk_naming_heaviest(inquiry->system, &hk_force_springs, excess->particle,
+                                               inquiry->run->schedule.step, &force),
+                            NAN);
   }
   return HOOKE_OK;
 }

@@ -73,16 +73,18 @@ static void judge_slip(struct hk_inquiry *inquiry) {
 static void name_blamed(const struct hk_inquiry *inquiry, char text[2 * HOOKE_NAMING_SIZE]) {
   const struct hk_why *why = inquiry->why;
   const int64_t particle = inquiry->excess.particle;
+  const int damping = inquiry->force == HOOKE_BLAME_DAMPING;
+  const struct hk_force_row *force = damping || inquiry->force < 0 ? NULL : hk_force_table(inquiry->force);
   char spring[HOOKE_NAMING_SIZE] = "no spring";
   const int64_t first = inquiry->force >= 0;
-  if (first < why->blame_count) hk_naming_words(inquiry->system, why->blame[first].spring, spring);
-  if (inquiry->force == HOOKE_BLAME_DRAG)
-    snprintf(text, 2 * HOOKE_NAMING_SIZE, "the drag of particle %lld", (long long)particle);
-  else if (inquiry->force >= HOOKE_BLAME_BENDING)
+  if (first < why->blame_count)
+    hk_naming_words(inquiry->system, &hk_force_springs, why->blame[first].spring, spring);
+  if (force && !force->members)
+    snprintf(text, 2 * HOOKE_NAMING_SIZE, "the %s of particle %lld", force->title, (long long)particle);
+  else if (force)
     hk_naming_heaviest_words(inquiry->system, particle, inquiry->run->schedule.step, text);
   else
-    snprintf(text, 2 * HOOKE_NAMING_SIZE, "%s%s",
-             inquiry->force == HOOKE_BLAME_DAMPING ? "the damping of " : "", spring);
+    snprintf(text, 2 * HOOKE_NAMING_SIZE, "%s%s", damping ? "the damping of " : "", spring);
 }
 
 static int32_t judge_excess(struct hk_inquiry *inquiry) {
@@ -115,85 +117,53 @@ static int32_t judge_excess(struct hk_inquiry *inquiry) {
   return status;
 }
 
-/* The particle that bending or an altitude spring accelerates most, if by more than `most`; -1 if not. */
-static int64_t steepest_bending(const hooke_system *system, double most) {
-  struct hk_triple triple;
-  int64_t found = -1;
-  for (struct hk_triples at = {&system->bending, 0, 0}; hk_next_triple(&at, &triple);) {
-    for (int e = 0; e < 3; e++) {
-      const double factor = hk_triple_factor(e);
-      const double steepness =
-          triple.coefficient * (factor * factor) * system->inverse_mass[triple.particle[e]];
-      if (!(steepness > most)) continue;
-      most = steepness;
-      found = triple.particle[e];
-    }
-  }
-  for (int64_t k = 0; k < 4 * system->altitudes.count; k++) {
-    const struct hk_tetrahedron *t = &system->altitudes.tetrahedron[k / 4];
-    const int32_t p = t->particle[k % 4];
-    const double steepness = (hk_tetrahedron_kappa(t) + hk_tetrahedron_gamma(t)) * system->inverse_mass[p];
-    if (!(steepness > most)) continue;
-    most = steepness;
-    found = p;
-  }
-  return found;
-}
+/* What asks for the largest acceleration: the element that is stiffest for the mass of one of its
+ * particles. */
+struct steepest {
+  const struct hk_force_row *force; /* NULL: none */
+  int64_t number, particle;
+  double stiffness;
+};
 
-/* What asks for the largest acceleration: the springs of a particle, in proportion to its mass. */
-static int64_t steepest_spring(const hooke_system *system, double *steepest) {
+static struct steepest find_steepest(const hooke_system *system) {
+  struct steepest found = {.force = NULL};
   double most = -1.0;
-  int64_t found = -1;
-  for (int64_t r = 0; r < system->springs.run_count; r++) {
-    for (int64_t k = 0; k < system->springs.run[r].count; k++) {
-      const struct hk_spring s = hk_run_spring(&system->springs.run[r], k);
-      const double ease = fmax(system->inverse_mass[s.head], system->inverse_mass[s.tail]);
-      const double steepness = (s.kappa + s.gamma) * ease;
+  struct hk_elements at;
+  hk_begin_elements(system, system->position, NULL, &at);
+  at.by_number = 1;
+  for (const struct hk_element *e; (e = hk_next_element(&at)) != NULL;) {
+    for (int j = 0; j < e->count && at.force->members; j++) {
+      const double square = e->weight[j] * e->weight[j];
+      const double steepness = square * (e->k_along + e->c_along) * system->inverse_mass[e->particle[j]];
       if (!(steepness > most)) continue;
       most = steepness;
-      found = system->springs.run[r].first + k;
+      found = (struct steepest){at.force, hk_element_number(&at), e->particle[j], e->k_along};
     }
   }
-  *steepest = most;
   return found;
 }
 
 static void judge_overflow(struct hk_inquiry *inquiry) {
   const hooke_system *system = inquiry->system;
-  double steepest;
-  const int64_t spring = steepest_spring(system, &steepest), bent = steepest_bending(system, steepest);
-  char where[HOOKE_NAMING_SIZE] = "no spring", step[64] = "";
-  if (bent < 0) hk_inquiry_blame_spring(inquiry, spring, NAN);
+  const struct steepest steepest = find_steepest(system);
+  char where[HOOKE_NAMING_SIZE], what[HOOKE_NAMING_SIZE + 80] = "", step[64] = "";
+  if (steepest.force == &hk_force_springs) hk_inquiry_blame_spring(inquiry, steepest.number, NAN);
   if (inquiry->excess.found) inquiry->why->limit = inquiry->excess.limit;
   if (inquiry->bad_particle >= 0) inquiry->why->particle = (double)inquiry->bad_particle;
   if (!isnan(inquiry->why->step)) hk_print(step, sizeof step, ", with a step of %.6g s", inquiry->why->step);
-  const struct hk_spring s = spring >= 0 ? hk_naming_spring(system, spring) : (struct hk_spring){0};
-  const int64_t light =
-      spring >= 0 && system->inverse_mass[s.head] < system->inverse_mass[s.tail] ? s.tail : s.head;
-  if (bent >= 0) {
-    hk_naming_heaviest_words(system, bent, 1.0, where);
-    say(inquiry, "overflow",
-        "numbers leave the range of double precision within a few steps after t = %.6g s: the steepest is "
-        "%s, on %.6g kg%s",
-        inquiry->why->time, where, system->mass[bent], step);
-  } else if (spring >= 0) {
-    hk_naming_words(system, spring, where);
-    say(inquiry, "overflow",
-        "numbers leave the range of double precision within a few steps after t = %.6g s: the steepest is "
-        "%s, %.6g N/m "
-        "on %.6g kg%s",
-        inquiry->why->time, where, s.kappa, system->mass[light], step);
-  } else {
-    say(inquiry, "overflow",
-        "numbers leave the range of double precision within a few steps after t = %.6g s%s",
-        inquiry->why->time, step);
-  }
+  if (steepest.force)
+    hk_print(what, sizeof what, ": the steepest is %s, %.6g N/m on %.6g kg",
+             hk_naming_words(system, steepest.force, steepest.number, where), steepest.stiffness,
+             system->mass[steepest.particle]);
+  say(inquiry, "overflow",
+      "numbers leave the range of double precision within a few steps after t = %.6g s%s%s",
+      inquiry->why->time, what, step);
 }
 
 static void judge_collapse(struct hk_inquiry *inquiry, int64_t spring, const char *what) {
   char where[HOOKE_NAMING_SIZE], end[160];
   hk_inquiry_blame_spring(inquiry, spring, 1.0);
-  hk_naming_words(inquiry->system, spring, where);
+  hk_naming_words(inquiry->system, &hk_force_springs, spring, where);
   say(inquiry, "collapsed-spring",
       "%s %s, where a spring loses its direction and its force turns round from one step to the next; %s",
       where, what, show(inquiry, end));

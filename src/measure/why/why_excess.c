@@ -5,6 +5,7 @@
 #include "core/status.h"
 #include "measure/limit/limit_predict.h"
 #include "measure/spectrum/step_bound.h"
+#include "model/force/force.h"
 
 #include <math.h>
 #include <string.h>
@@ -56,10 +57,6 @@ static int32_t blame_growing(struct hk_inquiry *inquiry, double h) {
   return hk_blame_find(inquiry->system, excess->q, inquiry->growing.x, a, 0.5 * b, &excess->blame);
 }
 
-static int is_damped(const hooke_system *system) {
-  return system->drag > 0.0 || system->altitudes.damped || hk_springs_are_damped(&system->springs);
-}
-
 /* `above`: by how much the quotient is above what is stable; infinity where no step is. */
 static int32_t take_growth(struct hk_inquiry *inquiry, const double *q, double t, int64_t particle,
                            double above) {
@@ -71,7 +68,7 @@ static int32_t take_growth(struct hk_inquiry *inquiry, const double *q, double t
 static int32_t by_growth(struct hk_inquiry *inquiry, const double *q, double t, int64_t particle) {
   struct hk_growing *growing = &inquiry->growing;
   double a = 1.0, b = 0.0, most;
-  const int never = strcmp(method_of(inquiry), "forward-euler") == 0 && !is_damped(inquiry->system);
+  const int never = strcmp(method_of(inquiry), "forward-euler") == 0 && !hk_system_is_damped(inquiry->system);
   if (!hk_growing_rule(inquiry->system, method_of(inquiry), inquiry->run->schedule.step, &a, &b, &most) &&
       !never)
     return HOOKE_OK;

@@ -210,8 +210,7 @@ static int32_t start(struct replay *replay, hooke_state *state, int64_t *steps) 
   const hooke_integrator *run = inquiry->run;
   int64_t from = 0;
   const hooke_state *kept = hk_recent_state(&run->recent, 0, &from);
-  const double size = (double)(inquiry->system->particle_count + inquiry->system->springs.count +
-                               inquiry->system->bending.count + inquiry->system->altitudes.count);
+  const double size = (double)(inquiry->system->particle_count + hk_system_member_count(inquiry->system));
   if (!run->method->adaptive && run->recent.first && (double)run->k * size <= WHOLE_RUN) {
     kept = run->recent.first;
     from = 0;

@@ -43,8 +43,8 @@ int32_t hk_plan_begin(struct hk_inquiry *inquiry, struct hk_plan *plan) {
                                        : 2.0 * (double)run->k * s->step;
   plan->every = s->every_given ? s->every : NAN;
   /* a callback of a script costs far more than springs */
-  plan->size = (double)(system->particle_count + system->springs.count + system->bending.count +
-                        system->altitudes.count + 50 + (system->force ? 1000 : 0));
+  plan->size =
+      (double)(system->particle_count + hk_system_member_count(system) + 50 + (system->force ? 1000 : 0));
   return find_first(plan);
 }
 

@@ -4,7 +4,7 @@
 #include "core/memory.h"
 #include "core/option.h"
 #include "core/status.h"
-#include "model/system.h"
+#include "model/force/force.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -40,50 +40,26 @@ static const struct hk_option_row rows[] = {
      .doc = "false: the springs only pull"},
 };
 
-static const struct hk_option_table table = {"altitude springs", HOOKE_OPTION_ROWS(rows)};
+const struct hk_option_table hk_altitude_options = {"altitude springs", HOOKE_OPTION_ROWS(rows)};
 
-int32_t hk_altitude_options_create(hooke_options **options) {
-  return hk_options_create(&table, options);
-}
-
-void hk_altitude_group_release(struct hk_altitude_group *group) {
-  hk_free(group->name);
-  hk_free(group->tetrahedron);
-  memset(group, 0, sizeof *group);
-}
-
-static int acts(const struct hk_tetrahedron *tetrahedron) {
-  return tetrahedron->stiffness != 0.0 || tetrahedron->damping != 0.0;
-}
-
-void hk_altitude_group_strip(struct hk_altitude_group *group) {
-  int64_t kept = 0;
-  for (int64_t k = 0; k < group->count; k++)
-    kept += acts(&group->tetrahedron[k]);
-  group->count = kept;
-  hk_free(group->tetrahedron);
-  group->tetrahedron = NULL;
-}
-
-int32_t hk_altitudes_create(const struct hk_altitude_group *group, int64_t group_count,
+int32_t hk_altitudes_create(const struct hk_group *group, int64_t group_count,
                             struct hk_altitudes *altitudes) {
   memset(altitudes, 0, sizeof *altitudes);
-  for (int64_t n = 0; n < group_count; n++) {
-    const struct hk_altitude_group *g = &group[n];
-    for (int64_t k = 0; k < g->count; k++)
-      altitudes->count += acts(&g->tetrahedron[k]);
-  }
-  struct hk_tetrahedron *next = altitudes->tetrahedron = hk_new(altitudes->count, sizeof *next);
-  if (next == NULL) {
+  for (int64_t g = 0; g < group_count; g++)
+    altitudes->count += group[g].count;
+  altitudes->tetrahedron = hk_new(altitudes->count, sizeof *altitudes->tetrahedron);
+  if (altitudes->tetrahedron == NULL) {
     memset(altitudes, 0, sizeof *altitudes);
     return HOOKE_NO_MEMORY;
   }
-  for (int64_t n = 0; n < group_count; n++) {
-    const struct hk_altitude_group *g = &group[n];
-    for (int64_t k = 0; k < g->count; k++) {
-      if (!acts(&g->tetrahedron[k])) continue;
-      altitudes->damped |= g->tetrahedron[k].damping != 0.0;
-      *next++ = g->tetrahedron[k];
+  struct hk_tetrahedron *next = altitudes->tetrahedron;
+  for (int64_t g = 0; g < group_count; g++) {
+    const struct hk_tetrahedron *own = group[g].own;
+    for (int64_t k = 0; k < group[g].count; k++) {
+      *next = own[k];
+      next->stiffness = group[g].number[HOOKE_KAPPA][k];
+      next->damping = group[g].number[HOOKE_GAMMA][k];
+      altitudes->damped |= next++->damping != 0.0;
     }
   }
   return HOOKE_OK;
@@ -96,13 +72,6 @@ void hk_altitudes_release(struct hk_altitudes *altitudes) {
 
 int64_t hk_altitudes_memory(const struct hk_altitudes *altitudes) {
   return altitudes->count * (int64_t)sizeof *altitudes->tetrahedron;
-}
-
-double hk_altitude_row(const hooke_system *system, const int32_t particle[4], const double weight[4], int j) {
-  double sum = 0.0;
-  for (int k = 0; k < 4; k++)
-    sum += system->held[particle[k]] ? 0.0 : fabs(weight[k]);
-  return fabs(weight[j]) * sum;
 }
 
 /* ---- adding a group ---- */
@@ -153,44 +122,25 @@ static int32_t check_particles(int64_t count, const struct hk_tetrahedron *tetra
   return HOOKE_OK;
 }
 
-/* Room for one more, before the groups of parts unless it is of one. */
-static int32_t open_place(hooke_system *system, int32_t from_part, int64_t *place) {
-  const int64_t count = system->altitude_group_count, capacity = 2 * system->altitude_group_capacity + 4;
-  if (count == system->altitude_group_capacity) {
-    const int32_t status =
-        hk_grow((void **)&system->altitude_group, count, capacity, sizeof *system->altitude_group);
-    if (status != HOOKE_OK) return status;
-    system->altitude_group_capacity = capacity;
-  }
-  *place = count;
-  while (!from_part && *place > 0 && system->altitude_group[*place - 1].from_part)
-    --*place;
-  memmove(system->altitude_group + *place + 1, system->altitude_group + *place,
-          (size_t)(count - *place) * sizeof *system->altitude_group);
-  system->altitude_group_count++;
-  return HOOKE_OK;
-}
-
 int32_t hk_system_add_tetrahedra(hooke_system *system, const char *name, int32_t from_part, int64_t count,
                                  const struct hk_tetrahedron *tetrahedron) {
   int32_t status = hk_system_require_open(system);
-  if (status == HOOKE_OK)
-    status = hk_system_check_room(system, (struct hk_more){.tetrahedra = (double)count}, NULL);
+  if (status == HOOKE_OK) status = hk_system_check_more(system, &hk_force_altitude, count);
   if (status == HOOKE_OK) status = check_particles(count, tetrahedron);
   if (status != HOOKE_OK) return status;
-  struct hk_altitude_group group = {.count = count, .from_part = from_part, .part = system->part_count - 1};
-  group.name = hk_copy_text(name);
-  group.tetrahedron = hk_new(count, sizeof *tetrahedron);
-  int64_t place;
-  status = group.name && group.tetrahedron ? open_place(system, from_part, &place) : HOOKE_NO_MEMORY;
+  struct hk_group group = {
+      .force = &hk_force_altitude, .count = count, .from_part = from_part, .part = system->part_count - 1};
+  status = hk_group_allocate(&group, name, 0, 2, sizeof *tetrahedron);
   if (status != HOOKE_OK) {
-    hk_altitude_group_release(&group);
+    hk_group_release(&group);
     return status;
   }
-  if (count > 0) memcpy(group.tetrahedron, tetrahedron, (size_t)count * sizeof *tetrahedron);
-  system->altitude_group[place] = group;
-  system->tetrahedron_total += count;
-  return HOOKE_OK;
+  if (count > 0) memcpy(group.own, tetrahedron, (size_t)count * sizeof *tetrahedron);
+  for (int64_t k = 0; k < count; k++) {
+    group.number[HOOKE_KAPPA][k] = tetrahedron[k].stiffness;
+    group.number[HOOKE_GAMMA][k] = tetrahedron[k].damping;
+  }
+  return hk_system_add_group(system, &group);
 }
 
 static int32_t check_count(const hooke_options *options, const char *name, int64_t count) {
@@ -204,7 +154,7 @@ static int32_t check_call(const hooke_system *system, int64_t count, const int64
                           const hooke_options *options) {
   int32_t status = hk_system_require_open(system);
   if (status != HOOKE_OK) return status;
-  if (options == NULL || hk_options_table(options) != &table) {
+  if (options == NULL || hk_options_table(options) != &hk_altitude_options) {
     return hk_fail(HOOKE_BAD_VALUE, NULL,
                    "the options are not those of altitude springs; make them with "
                    "hooke_options_create(\"altitude\", ...)");
@@ -212,7 +162,7 @@ static int32_t check_call(const hooke_system *system, int64_t count, const int64
   if (count < 0) {
     return hk_fail(HOOKE_BAD_VALUE, "tetrahedra", "%lld tetrahedra; 0 or more are allowed", (long long)count);
   }
-  status = hk_system_check_room(system, (struct hk_more){.tetrahedra = (double)count}, NULL);
+  status = hk_system_check_more(system, &hk_force_altitude, count);
   if (status != HOOKE_OK) return hk_fail_within(status, "tetrahedra");
   status = hk_options_check_required(options);
   if (status == HOOKE_OK) status = check_count(options, "stiffness", count);
@@ -268,25 +218,6 @@ int32_t hooke_system_add_altitude(hooke_system *system, const char *name, int64_
 }
 
 /* ---- asking ---- */
-
-int64_t hooke_system_altitude_count(const hooke_system *system) {
-  int64_t count = 0;
-  for (int64_t k = 0; k < system->altitude_group_count; k++)
-    count += system->altitude_group[k].count;
-  return count;
-}
-
-int64_t hooke_system_altitude_group_count(const hooke_system *system) {
-  return system->altitude_group_count;
-}
-
-const char *hooke_system_altitude_group_name(const hooke_system *system, int64_t group) {
-  return group >= 0 && group < system->altitude_group_count ? system->altitude_group[group].name : NULL;
-}
-
-int64_t hooke_system_altitude_group_size(const hooke_system *system, int64_t group) {
-  return group >= 0 && group < system->altitude_group_count ? system->altitude_group[group].count : 0;
-}
 
 int32_t hooke_system_altitude_ends(const hooke_system *system, int64_t *tetrahedra) {
   const int32_t status = hk_system_require_committed(system);

@@ -3,17 +3,22 @@
 
 #include "core/memory.h"
 #include "core/status.h"
-#include "model/system.h"
+#include "model/force/force.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-double hk_triple_row(const hooke_system *system, const struct hk_triple *triple, int e) {
-  double sum = 0.0;
-  for (int k = 0; k < 3; k++)
-    sum += system->held[triple->particle[k]] ? 0.0 : fabs(hk_triple_factor(k));
-  return fabs(hk_triple_factor(e)) * sum;
+struct hk_triples hk_triples_from(const struct hk_bending *bending, int64_t number) {
+  int64_t low = 0, high = bending->run_count - 1;
+  while (low < high) {
+    const int64_t middle = low + (high - low + 1) / 2;
+    if (bending->run[middle].first <= number)
+      low = middle;
+    else
+      high = middle - 1;
+  }
+  return (struct hk_triples){bending, low, bending->run_count > 0 ? number - bending->run[low].first : 0};
 }
 
 void hk_bending_add(const struct hk_bending *bending, double factor, const double *const x[3],
@@ -22,30 +27,13 @@ void hk_bending_add(const struct hk_bending *bending, double factor, const doubl
     bending->run[k].loop(&bending->run[k], factor, x, f);
 }
 
-void hk_bending_group_release(struct hk_bending_group *group) {
-  hk_free(group->name);
-  for (int e = 0; e < 3; e++)
-    hk_free(group->particle[e]);
-  hk_free(group->coefficient);
-  memset(group, 0, sizeof *group);
-}
-
-void hk_bending_group_strip(struct hk_bending_group *group) {
-  struct hk_bending_group kept = {.name = group->name, .from_part = group->from_part, .part = group->part};
-  for (int64_t k = 0; k < group->count; k++)
-    kept.count += group->coefficient[k] != 0.0;
-  group->name = NULL;
-  hk_bending_group_release(group);
-  *group = kept;
-}
-
 /* ---- adding a group ---- */
 
 static int32_t check_triples(const hooke_system *system, int64_t count, const int64_t *triples) {
   if (count < 0) {
     return hk_fail(HOOKE_BAD_VALUE, "triples", "%lld triples; 0 or more are allowed", (long long)count);
   }
-  const int32_t status = hk_system_check_room(system, (struct hk_more){.triples = (double)count}, NULL);
+  const int32_t status = hk_system_check_more(system, &hk_force_bending, count);
   if (status != HOOKE_OK) return hk_fail_within(status, "triples");
   for (int64_t k = 0; k < count; k++) {
     const int64_t *t = triples + 3 * k;
@@ -78,56 +66,25 @@ static int32_t check_coefficients(int64_t count, int64_t coefficient_count, cons
   return HOOKE_OK;
 }
 
-static int32_t fill_group(const char *name, const int64_t *triples, int64_t coefficient_count,
-                          const double *coefficient, struct hk_bending_group *group) {
-  int there = (group->name = hk_copy_text(name)) != NULL;
-  for (int e = 0; e < 3; e++)
-    there &= (group->particle[e] = hk_new(group->count, sizeof(int32_t))) != NULL;
-  there &= (group->coefficient = hk_new(group->count, sizeof(double))) != NULL;
-  if (!there) return HOOKE_NO_MEMORY;
-  for (int64_t k = 0; k < group->count; k++) {
-    for (int e = 0; e < 3; e++)
-      group->particle[e][k] = (int32_t)triples[3 * k + e];
-    group->coefficient[k] = coefficient[coefficient_count == 1 ? 0 : k];
-  }
-  return HOOKE_OK;
-}
-
-/* Room for one more, before the groups of parts unless it is of one. */
-static int32_t open_place(hooke_system *system, int32_t from_part, int64_t *place) {
-  const int64_t count = system->bending_group_count, capacity = 2 * system->bending_group_capacity + 4;
-  if (count == system->bending_group_capacity) {
-    const int32_t status =
-        hk_grow((void **)&system->bending_group, count, capacity, sizeof *system->bending_group);
-    if (status != HOOKE_OK) return status;
-    system->bending_group_capacity = capacity;
-  }
-  *place = count;
-  while (!from_part && *place > 0 && system->bending_group[*place - 1].from_part)
-    --*place;
-  memmove(system->bending_group + *place + 1, system->bending_group + *place,
-          (size_t)(count - *place) * sizeof *system->bending_group);
-  system->bending_group_count++;
-  return HOOKE_OK;
-}
-
 static int32_t add_group(hooke_system *system, const char *name, int64_t count, const int64_t *triples,
                          int64_t coefficient_count, const double *coefficient, int32_t from_part) {
   int32_t status = hk_system_require_open(system);
   if (status == HOOKE_OK) status = check_triples(system, count, triples);
   if (status == HOOKE_OK) status = check_coefficients(count, coefficient_count, coefficient);
   if (status != HOOKE_OK) return status;
-  struct hk_bending_group group = {.count = count, .from_part = from_part, .part = system->part_count - 1};
-  int64_t place;
-  status = fill_group(name, triples, coefficient_count, coefficient, &group);
-  if (status == HOOKE_OK) status = open_place(system, from_part, &place);
-  if (status == HOOKE_OK) {
-    system->bending_group[place] = group;
-    system->triple_total += count;
-  } else {
-    hk_bending_group_release(&group);
+  struct hk_group group = {
+      .force = &hk_force_bending, .count = count, .from_part = from_part, .part = system->part_count - 1};
+  status = hk_group_allocate(&group, name, 3, 1, 0);
+  if (status != HOOKE_OK) {
+    hk_group_release(&group);
+    return status;
   }
-  return status;
+  for (int64_t k = 0; k < count; k++) {
+    for (int e = 0; e < 3; e++)
+      group.particle[e][k] = (int32_t)triples[3 * k + e];
+    group.number[HOOKE_KAPPA][k] = coefficient[coefficient_count == 1 ? 0 : k];
+  }
+  return hk_system_add_group(system, &group);
 }
 
 int32_t hooke_system_add_bending(hooke_system *system, const char *name, int64_t count,
@@ -143,25 +100,6 @@ int32_t hk_system_add_part_bending(hooke_system *system, const char *name, int64
 }
 
 /* ---- asking ---- */
-
-int64_t hooke_system_bending_count(const hooke_system *system) {
-  int64_t count = 0;
-  for (int64_t k = 0; k < system->bending_group_count; k++)
-    count += system->bending_group[k].count;
-  return count;
-}
-
-int64_t hooke_system_bending_group_count(const hooke_system *system) {
-  return system->bending_group_count;
-}
-
-const char *hooke_system_bending_group_name(const hooke_system *system, int64_t group) {
-  return group >= 0 && group < system->bending_group_count ? system->bending_group[group].name : NULL;
-}
-
-int64_t hooke_system_bending_group_size(const hooke_system *system, int64_t group) {
-  return group >= 0 && group < system->bending_group_count ? system->bending_group[group].count : 0;
-}
 
 int32_t hooke_system_bending_ends(const hooke_system *system, int64_t *triples) {
   const int32_t status = hk_system_require_committed(system);

@@ -1,20 +1,11 @@
-/* Bending: groups of triples while a system is built, and the runs that commit sorts them into. */
+/* Bending: triples, and the runs that commit sorts their groups into. */
 #ifndef HOOKE_MODEL_FORCE_BENDING_H
 #define HOOKE_MODEL_FORCE_BENDING_H
 
 #include "kernel/bending_loops.h"
+#include "model/group.h"
 
 struct hooke_system;
-
-struct hk_bending_group {
-  char *name;
-  int64_t count; /* from commit on without triples of coefficient 0 */
-  int32_t from_part;
-  int64_t part; /* of those from parts: which */
-  /* count each; taken over by the runs at commit */
-  int32_t *particle[3];
-  double *coefficient;
-};
 
 /* All triples of a committed system, in their order. */
 struct hk_bending {
@@ -47,6 +38,9 @@ struct hk_triples {
   int64_t run, k;
 };
 
+/* From triple `number` on. */
+struct hk_triples hk_triples_from(const struct hk_bending *bending, int64_t number);
+
 static inline int hk_next_triple(struct hk_triples *at, struct hk_triple *triple) {
   if (at->run == at->bending->run_count) return 0;
   const struct hk_bending_run *run = &at->bending->run[at->run];
@@ -58,11 +52,6 @@ static inline int hk_next_triple(struct hk_triples *at, struct hk_triple *triple
   return 1;
 }
 
-/* What a row of x_0 - 2 x_1 + x_2 multiplies particle e by. */
-static inline double hk_triple_factor(int e) {
-  return e == 1 ? -2.0 : 1.0;
-}
-
 /* x_0 - 2 x_1 + x_2 of rows of x y z. */
 static inline void hk_triple_bend(const struct hk_triple *triple, const double *x, double bend[3]) {
   for (int a = 0; a < 3; a++) {
@@ -71,24 +60,13 @@ static inline void hk_triple_bend(const struct hk_triple *triple, const double *
   }
 }
 
-/* Sum of the sizes of a row of the stiffness of a triple at its particle e, over those that are not held, in
- * units of c; the diagonal matrix of these is at least the stiffness, since (a + b + c)^2 <= (a^2/p + b^2/q +
- * c^2/r) (p + q + r). */
-double hk_triple_row(const struct hooke_system *system, const struct hk_triple *triple, int e);
-
 /* f += factor times the forces at x; x, y and z apart. */
 void hk_bending_add(const struct hk_bending *bending, double factor, const double *const x[3],
                     double *const f[3]);
 
 /* Sorts groups into runs. HOOKE_NO_MEMORY leaves `bending` empty. */
-int32_t hk_bending_create(const struct hk_bending_group *group, int64_t group_count,
-                          struct hk_bending *bending);
+int32_t hk_bending_create(const struct hk_group *group, int64_t group_count, struct hk_bending *bending);
 void hk_bending_release(struct hk_bending *bending);
 int64_t hk_bending_memory(const struct hk_bending *bending);
-
-/* Frees what only building needed: all of a group but its name and its count, which is that of the runs from
- * now on. */
-void hk_bending_group_strip(struct hk_bending_group *group);
-void hk_bending_group_release(struct hk_bending_group *group);
 
 #endif

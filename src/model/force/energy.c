@@ -85,6 +85,10 @@ void hooke_system_angular_momentum(const hooke_system *system, const double *q, 
 }
 
 double hk_elastic_energy(const hooke_system *system, const double *q) {
-  return hooke_system_spring_energy(system, q) + hooke_system_bending_energy(system, q) +
-         hooke_system_altitude_energy(system, q);
+  double sum = 0.0;
+  for (int32_t k = 0; k < system->force_row_count; k++) {
+    const struct hk_force_row *row = system->force_row[k];
+    if (row->elements && row->energy) sum += row->energy(system, q);
+  }
+  return sum;
 }

@@ -8,12 +8,57 @@
 
 /* The order of the rows is the order of the sum at a particle. Gravity is last: a = w f + g. */
 static const struct hk_force_row *const table[] = {
-    &hk_force_springs, &hk_force_bending,  &hk_force_altitude,
-    &hk_force_drag,    &hk_force_callback, &hk_force_gravity,
+    &hk_force_springs, &hk_force_bending, &hk_force_altitude, &hk_force_anchor,
+    &hk_force_linear,  &hk_force_drag,    &hk_force_callback, &hk_force_gravity,
 };
+
+_Static_assert(sizeof table / sizeof table[0] <= HOOKE_FORCES, "a system has numbers for so many forces");
 
 const struct hk_force_row *hk_force_table(int32_t k) {
   return k >= 0 && k < (int32_t)(sizeof table / sizeof table[0]) ? table[k] : NULL;
+}
+
+int32_t hk_force_number(const struct hk_force_row *row) {
+  int32_t k = 0;
+  while (table[k] != row)
+    k++;
+  return k;
+}
+
+int32_t hk_elements_are_damped(const hooke_system *system) {
+  int32_t damped = 0;
+  for (int32_t k = 0; hk_force_table(k); k++)
+    damped |= table[k]->damped && table[k]->damped(system);
+  return damped;
+}
+
+int32_t hk_system_is_damped(const hooke_system *system) {
+  return system->drag > 0.0 || hk_elements_are_damped(system);
+}
+
+void hk_forces_release(hooke_system *system) {
+  for (int32_t k = 0; hk_force_table(k); k++) {
+    if (table[k]->release) table[k]->release(system);
+  }
+}
+
+int hk_force_is_other(const struct hk_force_row *row) {
+  return row->elements && row != &hk_force_springs && row != &hk_force_drag;
+}
+
+int hk_force_is_constant(const struct hk_force_row *row) {
+  return hk_force_is_other(row) && row->multiply;
+}
+
+int hk_force_is_kept(const struct hk_force_row *row) {
+  return hk_force_is_other(row) && !row->multiply;
+}
+
+int64_t hk_elements_of(const hooke_system *system, int (*wanted)(const struct hk_force_row *row)) {
+  int64_t count = 0;
+  for (int32_t k = 0; hk_force_table(k); k++)
+    count += wanted(table[k]) && table[k]->present(system) ? table[k]->count(system) : 0;
+  return count;
 }
 
 /* ---- forces at a point, for callers with arrays of their own ---- */
@@ -63,13 +108,57 @@ int32_t hooke_system_acceleration(const hooke_system *system, double t, const do
   return HOOKE_OK;
 }
 
+/* ---- derivatives; without a function of its own a force has them from its elements ---- */
+
+static int32_t add_product(const hooke_system *system, const struct hk_force_row *row,
+                           const struct hk_point *point, double *out) {
+  if (row->add_product) return row->add_product(system, point, out);
+  const double *const dq[3] = {point->dq, point->dq + 1, point->dq + 2}, *const dv[3] = {point->dv,
+                                                                                         point->dv + 1,
+                                                                                         point->dv + 2};
+  double *const to[3] = {out, out + 1, out + 2};
+  struct hk_elements at;
+  hk_begin_elements(system, point->q, point->v, &at);
+  at.only = row;
+  for (const struct hk_element *e; (e = hk_next_element(&at)) != NULL;) {
+    hk_element_multiply(e, -e->k_along / e->over, -e->k_across / e->over, 3, dq, to);
+    hk_element_multiply(e, -e->c_along / e->over, -e->c_across / e->over, 3, dv, to);
+  }
+  return HOOKE_OK;
+}
+
+static void add_block(const struct hk_pattern *pattern, const struct hk_element *e, double along,
+                      double across, double *blocks) {
+  for (int k = 0; k < 9 * e->count * e->count && blocks && (along != 0.0 || across != 0.0); k++) {
+    const int one = k / 9 / e->count, other = k / 9 % e->count, a = k / 3 % 3, b = k % 3;
+    double *block = blocks + 9 * hk_pattern_block(pattern, e->particle[one], e->particle[other]);
+    block[3 * a + b] -= e->weight[one] * e->weight[other] *
+                        ((along - across) * e->u[a] * e->u[b] + (a == b ? across : 0.0)) / e->over;
+  }
+}
+
+static void add_blocks(const hooke_system *system, const struct hk_force_row *row, const double *q,
+                       const double *v, const struct hk_pattern *pattern, double *dfdq, double *dfdv) {
+  if (row->add_blocks) {
+    row->add_blocks(system, q, v, pattern, dfdq, dfdv);
+    return;
+  }
+  struct hk_elements at;
+  hk_begin_elements(system, q, v, &at);
+  at.only = row;
+  for (const struct hk_element *e; (e = hk_next_element(&at)) != NULL;) {
+    add_block(pattern, e, e->k_along, e->k_across, dfdq);
+    add_block(pattern, e, e->c_along, e->c_across, dfdv);
+  }
+}
+
 int32_t hk_forces_product(const hooke_system *system, const struct hk_point *point,
                           int (*left_out)(const struct hk_force_row *row), double *out) {
   memset(out, 0, (size_t)(3 * system->particle_count) * sizeof(double));
   for (int32_t k = 0; k < system->force_row_count; k++) {
     const struct hk_force_row *row = system->force_row[k];
-    if (row->add_product == NULL || (left_out && left_out(row))) continue;
-    const int32_t status = row->add_product(system, point, out);
+    if (left_out && left_out(row)) continue;
+    const int32_t status = add_product(system, row, point, out);
     if (status != HOOKE_OK) return status;
   }
   return HOOKE_OK;
@@ -93,8 +182,7 @@ int32_t hooke_system_derivative_blocks(const hooke_system *system, const double 
   if (dfdq) memset(dfdq, 0, bytes);
   if (dfdv) memset(dfdv, 0, bytes);
   for (int32_t k = 0; k < system->force_row_count; k++) {
-    const struct hk_force_row *row = system->force_row[k];
-    if (row->add_blocks) row->add_blocks(system, q, v, &pattern, dfdq, dfdv);
+    add_blocks(system, system->force_row[k], q, v, &pattern, dfdq, dfdv);
   }
   hk_pattern_release(&pattern);
   return HOOKE_OK;

@@ -5,6 +5,8 @@
 #include "model/force/force.h"
 
 #include "core/sum.h"
+#include "model/check_value.h"
+#include "model/variant/variant.h"
 
 #include <math.h>
 #include <stddef.h>
@@ -123,10 +125,99 @@ static void add_blocks(const hooke_system *system, const double *q, const double
   }
 }
 
+static int64_t count(const hooke_system *system) {
+  return system->altitudes.count;
+}
+
+static void elements(const hooke_system *system, const double *q, const double *v, int64_t first,
+                     int64_t wanted, struct hk_element *out) {
+  for (int64_t k = 0; k < wanted; k++) {
+    struct hk_tetrahedron t = system->altitudes.tetrahedron[first + k];
+    struct hk_tautness s;
+    if (v == NULL) t.pull_only = 0;
+    out[k] = (struct hk_element){.count = 4, .over = 1.0};
+    memcpy(out[k].particle, t.particle, sizeof t.particle);
+    if (q == NULL || !hk_tautness_find(&t, q, v, &s) || s.slack) continue;
+    const double rest = t.rest[s.altitude.choice];
+    memcpy(out[k].u, s.altitude.u, sizeof s.altitude.u);
+    memcpy(out[k].weight, s.altitude.weight, sizeof s.altitude.weight);
+    out[k].over = v ? rest : 1.0;
+    out[k].k_along = v ? t.stiffness : t.stiffness / rest;
+    out[k].c_along = v ? t.damping : t.damping / rest;
+  }
+}
+
+static int32_t damped(const hooke_system *system) {
+  return system->altitudes.damped;
+}
+
+static double shortest_rest(const struct hk_tetrahedron *t) {
+  double least = t->rest[0];
+  for (int k = 1; k < HOOKE_ALTITUDES; k++)
+    least = fmin(least, t->rest[k]);
+  return least;
+}
+
+static void add_stiffness(const hooke_system *system, double *sum) {
+  for (int64_t k = 0; k < system->altitudes.count; k++) {
+    const struct hk_tetrahedron *t = &system->altitudes.tetrahedron[k];
+    *sum += 4.0 * (t->stiffness / shortest_rest(t));
+  }
+}
+
+/* ---- from groups ---- */
+
+static int32_t commit(hooke_system *system, const struct hk_group *group, int64_t count) {
+  return hk_altitudes_create(group, count, &system->altitudes);
+}
+
+static void release(hooke_system *system) {
+  hk_altitudes_release(&system->altitudes);
+}
+
+static int64_t memory(const hooke_system *system) {
+  return hk_altitudes_memory(&system->altitudes);
+}
+
+static int32_t resists(const hooke_system *system) {
+  int32_t some = 0;
+  for (int64_t k = 0; k < system->altitudes.count; k++)
+    some |= !system->altitudes.tetrahedron[k].pull_only;
+  return some;
+}
+
+static void check(const hooke_system *system, uint32_t *value) {
+  hk_check_whole(value, system->altitudes.count);
+  for (int64_t k = 0; k < system->altitudes.count; k++) {
+    const struct hk_tetrahedron *t = &system->altitudes.tetrahedron[k];
+    hk_check_add(value, t->particle, 4, sizeof *t->particle);
+    hk_check_whole(value, t->choice);
+    hk_check_whole(value, t->pull_only);
+    hk_check_add(value, &t->side, 1, sizeof(double));
+    hk_check_add(value, &t->stiffness, 1, sizeof(double));
+    hk_check_add(value, &t->damping, 1, sizeof(double));
+    hk_check_add(value, t->rest, HOOKE_ALTITUDES, sizeof(double));
+  }
+}
+
 const struct hk_force_row hk_force_altitude = {.name = "altitude",
+                                               .title = "altitude springs",
+                                               .members = "tetrahedra",
+                                               .options = &hk_altitude_options,
+                                               .commit = commit,
+                                               .release = release,
+                                               .memory = memory,
+                                               .check = check,
+                                               .resists = resists,
+                                               .keep = hk_variant_keep_altitude,
+                                               .bytes = 170.0,
                                                .present = present,
                                                .add = add,
                                                .energy = energy,
                                                .heat = heat,
                                                .add_product = add_product,
-                                               .add_blocks = add_blocks};
+                                               .add_blocks = add_blocks,
+                                               .count = count,
+                                               .elements = elements,
+                                               .add_stiffness = add_stiffness,
+                                               .damped = damped};

@@ -2,6 +2,8 @@
 #include "model/force/force.h"
 
 #include "core/sum.h"
+#include "model/check_value.h"
+#include "model/variant/variant.h"
 
 #include <stddef.h>
 
@@ -27,37 +29,72 @@ static double energy(const hooke_system *system, const double *q) {
   return hk_sum_value(&sum);
 }
 
-static int32_t add_product(const hooke_system *system, const struct hk_point *point, double *out) {
-  struct hk_triple triple;
-  for (struct hk_triples at = {&system->bending, 0, 0}; hk_next_triple(&at, &triple);) {
-    double d[3];
-    hk_triple_bend(&triple, point->dq, d);
-    for (int e = 0; e < 3; e++) {
-      for (int a = 0; a < 3; a++)
-        out[3 * triple.particle[e] + a] -= hk_triple_factor(e) * (triple.coefficient * d[a]);
-    }
-  }
-  return HOOKE_OK;
+static int64_t count(const hooke_system *system) {
+  return system->bending.count;
 }
 
-static void add_blocks(const hooke_system *system, const double *q, const double *v,
-                       const struct hk_pattern *pattern, double *dfdq, double *dfdv) {
-  (void)q, (void)v, (void)dfdv;
+static void elements(const hooke_system *system, const double *q, const double *v, int64_t first,
+                     int64_t wanted, struct hk_element *out) {
+  (void)q, (void)v;
+  struct hk_triples at = hk_triples_from(&system->bending, first);
   struct hk_triple triple;
-  for (struct hk_triples at = {&system->bending, 0, 0}; dfdq && hk_next_triple(&at, &triple);) {
-    for (int e = 0; e < 3; e++) {
-      for (int g = 0; g < 3; g++) {
-        double *block = dfdq + 9 * hk_pattern_block(pattern, triple.particle[e], triple.particle[g]);
-        for (int64_t a = 0; a < 3; a++)
-          block[4 * a] -= triple.coefficient * (hk_triple_factor(e) * hk_triple_factor(g));
-      }
-    }
+  for (int64_t k = 0; k < wanted && hk_next_triple(&at, &triple); k++) {
+    const double c = triple.coefficient;
+    out[k] =
+        (struct hk_element){.count = 3, .weight = {1.0, -2.0, 1.0}, .k_along = c, .k_across = c, .over = 1.0};
+    for (int e = 0; e < 3; e++)
+      out[k].particle[e] = (int32_t)triple.particle[e];
+  }
+}
+
+static void multiply(const hooke_system *system, double a, double b, const double *const x[3],
+                     double *const out[3]) {
+  (void)b;
+  if (a != 0.0) hk_bending_add(&system->bending, -a, x, out);
+}
+
+static void add_stiffness(const hooke_system *system, double *sum) {
+  struct hk_triple triple;
+  for (struct hk_triples at = {&system->bending, 0, 0}; hk_next_triple(&at, &triple);)
+    *sum += 16.0 * triple.coefficient;
+}
+
+/* ---- from groups ---- */
+
+static int32_t commit(hooke_system *system, const struct hk_group *group, int64_t count) {
+  return hk_bending_create(group, count, &system->bending);
+}
+
+static void release(hooke_system *system) {
+  hk_bending_release(&system->bending);
+}
+
+static int64_t memory(const hooke_system *system) {
+  return hk_bending_memory(&system->bending);
+}
+
+static void check(const hooke_system *system, uint32_t *value) {
+  struct hk_triple triple;
+  hk_check_whole(value, system->bending.count);
+  for (struct hk_triples at = {&system->bending, 0, 0}; hk_next_triple(&at, &triple);) {
+    hk_check_add(value, triple.particle, 3, sizeof *triple.particle);
+    hk_check_add(value, &triple.coefficient, 1, sizeof(double));
   }
 }
 
 const struct hk_force_row hk_force_bending = {.name = "bending",
+                                              .title = "bending",
+                                              .members = "triples",
+                                              .commit = commit,
+                                              .release = release,
+                                              .memory = memory,
+                                              .check = check,
+                                              .keep = hk_variant_keep_bending,
+                                              .bytes = 60.0,
                                               .present = present,
                                               .add = add,
                                               .energy = energy,
-                                              .add_product = add_product,
-                                              .add_blocks = add_blocks};
+                                              .count = count,
+                                              .elements = elements,
+                                              .multiply = multiply,
+                                              .add_stiffness = add_stiffness};

@@ -38,29 +38,39 @@ static double heat(const hooke_system *system, const double *q, const double *v)
   return system->drag * hk_sum_value(&sum);
 }
 
-static int32_t add_product(const hooke_system *system, const struct hk_point *point, double *out) {
-  for (int64_t p = 0; p < system->particle_count; p++) {
-    if (system->held[p]) continue;
-    for (int a = 0; a < 3; a++)
-      out[3 * p + a] -= system->drag * point->dv[3 * p + a];
-  }
-  return 0;
+/* One for each particle, which does nothing where that is held. */
+static int64_t count(const hooke_system *system) {
+  return system->particle_count;
 }
 
-static void add_blocks(const hooke_system *system, const double *q, const double *v,
-                       const struct hk_pattern *pattern, double *dfdq, double *dfdv) {
-  (void)q, (void)v, (void)dfdq;
-  for (int64_t p = 0; dfdv && p < system->particle_count; p++) {
-    if (system->held[p]) continue;
-    double *block = dfdv + 9 * hk_pattern_block(pattern, p, p);
-    for (int64_t a = 0; a < 3; a++)
-      block[4 * a] -= system->drag;
+static void elements(const hooke_system *system, const double *q, const double *v, int64_t first,
+                     int64_t wanted, struct hk_element *out) {
+  (void)q, (void)v;
+  for (int64_t k = 0; k < wanted; k++) {
+    const double c = system->held[first + k] ? 0.0 : system->drag;
+    out[k] = (struct hk_element){.count = 1,
+                                 .particle = {(int32_t)(first + k)},
+                                 .weight = {1.0},
+                                 .c_along = c,
+                                 .c_across = c,
+                                 .over = 1.0};
+  }
+}
+
+static void multiply(const hooke_system *system, double a, double b, const double *const x[3],
+                     double *const out[3]) {
+  (void)a;
+  for (int c = 0; c < 3 && b != 0.0; c++) {
+    for (int64_t p = 0; p < system->particle_count; p++)
+      out[c][p] += b * system->drag * x[c][p];
   }
 }
 
 const struct hk_force_row hk_force_drag = {.name = "drag",
+                                           .title = "drag",
                                            .present = present,
                                            .add = add,
                                            .heat = heat,
-                                           .add_product = add_product,
-                                           .add_blocks = add_blocks};
+                                           .count = count,
+                                           .elements = elements,
+                                           .multiply = multiply};

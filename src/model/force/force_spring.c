@@ -5,6 +5,8 @@
 #include "core/sum.h"
 #include "kernel/spring_body.h"
 #include "model/sum/spring_batch.h"
+#include "model/check_value.h"
+#include "model/variant/variant.h"
 
 #include <stddef.h>
 #include <string.h>
@@ -91,13 +93,8 @@ static double heat(const hooke_system *system, const double *q, const double *v)
   return hk_sum_value(&sum);
 }
 
-/* The two numbers and two vectors that df/dx = -(u c^T + b P) and df/dv = -gamma u u^T are made of. */
-struct slope {
-  double u[3], c[3], b, gamma;
-  int isotropic; /* ends at one place, rest length 0: df/dx = -b I */
-};
-
-static int find_slope(const struct hk_spring *spring, const double *q, const double *v, struct slope *slope) {
+int32_t hk_spring_slope_find(const struct hk_spring *spring, const double *q, const double *v,
+                             struct hk_spring_slope *slope) {
   struct hk_stretch s;
   hk_spring_stretch(spring, q, v, &s);
   slope->isotropic = 0;
@@ -122,23 +119,38 @@ static double dot(const double *a, const double *b) {
   return (a[0] * b[0] + a[1] * b[1]) + a[2] * b[2];
 }
 
+void hk_spring_slope_change(const struct hk_spring_slope *s, const double dx[3], const double dv[3],
+                            double change[3]) {
+  const double along = s->isotropic ? 0.0 : dot(s->u, dx);
+  const double pull = s->isotropic ? 0.0 : dot(s->c, dx) + s->gamma * dot(s->u, dv);
+  for (int a = 0; a < 3; a++)
+    change[a] = s->isotropic ? s->b * dx[a] : pull * s->u[a] + s->b * (dx[a] - along * s->u[a]);
+}
+
+void hk_spring_slope_blocks(const struct hk_spring_slope *s, double stiff[9], double damp[9]) {
+  for (int k = 0; k < 9; k++) {
+    const int a = k / 3, b = k % 3;
+    const double one = a == b ? 1.0 : 0.0;
+    stiff[k] = s->isotropic ? s->b * one : s->u[a] * s->c[b] + s->b * (one - s->u[a] * s->u[b]);
+    damp[k] = s->isotropic ? 0.0 : s->gamma * s->u[a] * s->u[b];
+  }
+}
+
 static int32_t add_product(const hooke_system *system, const struct hk_point *point, double *out) {
   for (int64_t r = 0; r < system->springs.run_count; r++) {
     const struct hk_run *run = &system->springs.run[r];
     for (int64_t k = 0; k < run->count; k++) {
       const struct hk_spring spring = hk_run_spring(run, k);
-      struct slope s;
-      if (!find_slope(&spring, point->q, point->v, &s)) continue;
+      struct hk_spring_slope s;
+      if (!hk_spring_slope_find(&spring, point->q, point->v, &s)) continue;
       const int64_t i = 3 * spring.head, j = 3 * spring.tail;
       double dx[3], dv[3], change[3];
       for (int a = 0; a < 3; a++) {
         dx[a] = point->dq[i + a] - point->dq[j + a];
         dv[a] = point->dv[i + a] - point->dv[j + a];
       }
-      const double along = s.isotropic ? 0.0 : dot(s.u, dx);
-      const double pull = s.isotropic ? 0.0 : dot(s.c, dx) + s.gamma * dot(s.u, dv);
+      hk_spring_slope_change(&s, dx, dv, change);
       for (int a = 0; a < 3; a++) {
-        change[a] = s.isotropic ? s.b * dx[a] : pull * s.u[a] + s.b * (dx[a] - along * s.u[a]);
         out[i + a] -= change[a];
         out[j + a] += change[a];
       }
@@ -168,26 +180,141 @@ static void add_blocks(const hooke_system *system, const double *q, const double
     const struct hk_run *run = &system->springs.run[r];
     for (int64_t k = 0; k < run->count; k++) {
       const struct hk_spring spring = hk_run_spring(run, k);
-      struct slope s;
-      if (!find_slope(&spring, q, v, &s)) continue;
+      struct hk_spring_slope s;
       double stiff[9], damp[9];
-      for (int a = 0; a < 3; a++) {
-        for (int b = 0; b < 3; b++) {
-          const double one = a == b ? 1.0 : 0.0;
-          stiff[3 * a + b] = s.isotropic ? s.b * one : s.u[a] * s.c[b] + s.b * (one - s.u[a] * s.u[b]);
-          damp[3 * a + b] = s.isotropic ? 0.0 : s.gamma * s.u[a] * s.u[b];
-        }
-      }
+      if (!hk_spring_slope_find(&spring, q, v, &s)) continue;
+      hk_spring_slope_blocks(&s, stiff, damp);
       add_pair(pattern, spring.head, spring.tail, stiff, dfdq);
       add_pair(pattern, spring.head, spring.tail, damp, dfdv);
     }
   }
 }
 
+/* ---- elements ---- */
+
+static int64_t count(const hooke_system *system) {
+  return system->springs.count;
+}
+
+void hk_spring_element(const struct hk_spring *spring, const double *q, const double *v,
+                       struct hk_element *out) {
+  struct hk_stretch s;
+  out->count = 2;
+  out->particle[0] = (int32_t)spring->head;
+  out->particle[1] = (int32_t)spring->tail;
+  if (q == NULL) return;
+  hk_spring_stretch(spring, q, v, &s);
+  if (v == NULL) s.tension = spring->kappa * (s.length - spring->rest_length);
+  const int isotropic = s.length == 0.0, acts = !v || (isotropic ? spring->rest_length == 0.0 : !s.slack);
+  out->weight[0] = 1.0;
+  out->weight[1] = -1.0;
+  memcpy(out->u, s.direction, sizeof out->u);
+  out->k_along = acts ? spring->kappa : 0.0;
+  out->k_across = !acts ? 0.0 : isotropic ? spring->kappa : s.tension / s.length;
+  out->c_along = acts ? spring->gamma : 0.0;
+  out->c_across = 0.0;
+  out->over = 1.0;
+}
+
+static void elements(const hooke_system *system, const double *q, const double *v, int64_t first,
+                     int64_t wanted, struct hk_element *out) {
+  const struct hk_run *run = &system->springs.run[hk_springs_run(&system->springs, first)];
+  for (int64_t k = 0; k < wanted; k++) {
+    while (first + k >= run->first + run->count)
+      run++;
+    const struct hk_spring spring = hk_run_spring(run, first + k - run->first);
+    hk_spring_element(&spring, q, v, &out[k]);
+  }
+}
+
+/* In a net in the order of batches, else in that of numbers. */
+static int64_t stored_elements(struct hk_elements *at) {
+  if (at->system->net.particles == 0) {
+    const int64_t left = at->system->springs.count - at->done;
+    const int64_t next = left < HOOKE_ELEMENTS ? left : HOOKE_ELEMENTS;
+    if (next > 0) elements(at->system, at->q, at->v, at->done, next, at->element);
+    return next;
+  }
+  struct hk_spring_batch batch;
+  hk_begin_batches(&batch);
+  batch.row = at->place[0];
+  batch.done = at->place[1];
+  batch.at = at->place[2];
+  if (!hk_next_batch(at->system, &batch)) return 0;
+  for (int64_t k = 0; k < batch.count; k++) {
+    const struct hk_spring spring = hk_batch_spring(&batch, k);
+    hk_spring_element(&spring, at->q, at->v, &at->element[k]);
+  }
+  at->place[0] = batch.row;
+  at->place[1] = batch.done;
+  at->place[2] = batch.at + batch.count;
+  return batch.count;
+}
+
+static int32_t damped(const hooke_system *system) {
+  return hk_springs_are_damped(&system->springs);
+}
+
+static void add_stiffness(const hooke_system *system, double *sum) {
+  struct hk_spring_batch batch;
+  for (hk_begin_batches(&batch); hk_next_batch(system, &batch);) {
+    for (int64_t k = 0; k < batch.count; k++)
+      *sum += batch.kappa[k];
+  }
+}
+
+/* ---- from groups ---- */
+
+static int32_t commit(hooke_system *system, const struct hk_group *group, int64_t count) {
+  return hk_springs_create(group, count, &system->springs);
+}
+
+static void release(hooke_system *system) {
+  hk_springs_release(&system->springs);
+}
+
+static int64_t memory(const hooke_system *system) {
+  return hk_springs_memory(&system->springs);
+}
+
+static int32_t resists(const hooke_system *system) {
+  int32_t some = 0;
+  for (int64_t r = 0; r < system->springs.run_count; r++)
+    some |= (system->springs.run[r].shape & HOOKE_RUN_PULL_ONLY) == 0;
+  return some;
+}
+
+static void check(const hooke_system *system, uint32_t *value) {
+  struct hk_spring_batch batch;
+  hk_check_whole(value, system->springs.count);
+  for (hk_begin_batches(&batch); hk_next_batch(system, &batch);) {
+    hk_check_add(value, batch.head, batch.count, sizeof *batch.head);
+    hk_check_add(value, batch.tail, batch.count, sizeof *batch.tail);
+    hk_check_add(value, batch.kappa, batch.count, sizeof(double));
+    hk_check_add(value, batch.gamma, batch.count, sizeof(double));
+    hk_check_add(value, batch.rest_length, batch.count, sizeof(double));
+    hk_check_whole(value, batch.pull_only);
+  }
+}
+
 const struct hk_force_row hk_force_springs = {.name = "springs",
+                                              .members = "springs",
+                                              .options = &hk_spring_options,
+                                              .commit = commit,
+                                              .release = release,
+                                              .memory = memory,
+                                              .check = check,
+                                              .resists = resists,
+                                              .keep = hk_variant_keep_springs,
+                                              .bytes = 50.0,
                                               .present = present,
                                               .add = add,
                                               .energy = energy,
                                               .heat = heat,
                                               .add_product = add_product,
-                                              .add_blocks = add_blocks};
+                                              .add_blocks = add_blocks,
+                                              .count = count,
+                                              .elements = elements,
+                                              .stored_elements = stored_elements,
+                                              .add_stiffness = add_stiffness,
+                                              .damped = damped};

@@ -4,7 +4,7 @@
 #include "core/memory.h"
 #include "core/status.h"
 #include "kernel/spring_body.h"
-#include "model/system.h"
+#include "model/force/force.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -53,59 +53,23 @@ static const struct hk_option_row spring_rows[] = {
      .doc = "false: the spring only pulls, like a cable"},
 };
 
-static const struct hk_option_table spring_table = {"spring group", HOOKE_OPTION_ROWS(spring_rows)};
+const struct hk_option_table hk_spring_options = {"spring group", HOOKE_OPTION_ROWS(spring_rows)};
 
-int32_t hk_spring_options_create(hooke_options **options) {
-  return hk_options_create(&spring_table, options);
-}
-
-void hk_group_release_arrays(struct hk_group *group) {
-  hk_free(group->head);
-  hk_free(group->tail);
-  hk_free(group->kappa);
-  hk_free(group->gamma);
-  hk_free(group->rest_length);
-  group->head = group->tail = NULL;
-  group->kappa = group->gamma = group->rest_length = NULL;
-}
-
-void hk_group_release(struct hk_group *group) {
-  hk_group_release_arrays(group);
-  hk_free(group->name);
-  hooke_options_destroy(group->options);
-  memset(group, 0, sizeof *group);
-}
-
-static void swap_numbers(double *number, int64_t a, int64_t b) {
-  const double kept = number[a];
-  number[a] = number[b];
-  number[b] = kept;
-}
-
-static void swap_ends(int32_t *end, int64_t a, int64_t b) {
-  const int32_t kept = end[a];
-  end[a] = end[b];
-  end[b] = kept;
-}
-
-void hk_group_drop(struct hk_group *group) {
-  int64_t acting = 0;
-  for (int64_t k = 0; k < group->count; k++) {
-    if (group->kappa[k] == 0.0 && group->gamma[k] == 0.0) continue;
-    swap_ends(group->head, k, acting);
-    swap_ends(group->tail, k, acting);
-    swap_numbers(group->kappa, k, acting);
-    swap_numbers(group->gamma, k, acting);
-    swap_numbers(group->rest_length, k, acting);
-    acting++;
+int64_t hk_springs_run(const struct hk_springs *springs, int64_t number) {
+  int64_t low = 0, high = springs->run_count - 1;
+  while (low < high) {
+    const int64_t middle = low + (high - low + 1) / 2;
+    if (springs->run[middle].first <= number)
+      low = middle;
+    else
+      high = middle - 1;
   }
-  group->dropped = group->count - acting;
-  group->count = acting;
+  return low;
 }
 
-void hk_group_take_back(struct hk_group *group) {
-  group->count += group->dropped;
-  group->dropped = 0;
+struct hk_spring hk_springs_find(const struct hk_springs *springs, int64_t number) {
+  const struct hk_run *run = &springs->run[hk_springs_run(springs, number)];
+  return hk_run_spring(run, number - run->first);
 }
 
 void hk_spring_stretch(const struct hk_spring *spring, const double *q, const double *v,
@@ -141,7 +105,7 @@ static int32_t check_ends(const hooke_system *system, int64_t count, const int64
   if (count < 0) {
     return hk_fail(HOOKE_BAD_VALUE, "between", "%lld springs; 0 or more are allowed", (long long)count);
   }
-  const int32_t status = hk_system_check_room(system, (struct hk_more){.springs = (double)count}, NULL);
+  const int32_t status = hk_system_check_more(system, &hk_force_springs, count);
   if (status != HOOKE_OK) return hk_fail_within(status, "between");
   for (int64_t k = 0; k < count; k++) {
     for (int end = 0; end < 2; end++) {
@@ -195,12 +159,13 @@ static int32_t refuse_rest_length(int64_t k, int64_t given, double length) {
 /* Springs are in any order, so that the places of their ends come late unless they are asked for early. */
 static void ask_for_ends(const struct hk_group *group, const double *position, int64_t k) {
   if (k >= group->count) return;
-  __builtin_prefetch(position + 3 * (int64_t)group->head[k]);
-  __builtin_prefetch(position + 3 * (int64_t)group->tail[k]);
+  __builtin_prefetch(position + 3 * (int64_t)group->particle[0][k]);
+  __builtin_prefetch(position + 3 * (int64_t)group->particle[1][k]);
 }
 
 static double initial_length(const struct hk_group *group, const double *position, int64_t k) {
-  const double *qi = position + 3 * (int64_t)group->head[k], *qj = position + 3 * (int64_t)group->tail[k];
+  const double *qi = position + 3 * (int64_t)group->particle[0][k],
+               *qj = position + 3 * (int64_t)group->particle[1][k];
   ask_for_ends(group, position, k + 16);
   return hk_spring_length(qi[0] - qj[0], qi[1] - qj[1], qi[2] - qj[2]);
 }
@@ -219,10 +184,11 @@ static int32_t find_material(const hooke_system *system, const hooke_options *op
     const double stiffness = stiffnesses.value[k * stiffnesses.stride],
                  damping = dampings.value[k * dampings.stride];
     if (strain && !(length > 0.0)) return refuse_rest_length(k, given, length);
-    group->rest_length[k] = length;
-    group->kappa[k] = strain ? stiffness / length : stiffness;
-    group->gamma[k] = strain ? damping / length : damping;
-    if (group->kappa[k] <= 1e300 && group->gamma[k] <= 1e300 && length <= 1e300) continue;
+    group->number[HOOKE_REST_LENGTH][k] = length;
+    group->number[HOOKE_KAPPA][k] = strain ? stiffness / length : stiffness;
+    group->number[HOOKE_GAMMA][k] = strain ? damping / length : damping;
+    if (group->number[HOOKE_KAPPA][k] <= 1e300 && group->number[HOOKE_GAMMA][k] <= 1e300 && length <= 1e300)
+      continue;
     return hk_fail(
         HOOKE_BAD_VALUE, "stiffness",
         "spring %lld has stiffness %g, damping %g and rest length %g; allowed: stiffness / rest length, "
@@ -232,22 +198,14 @@ static int32_t find_material(const hooke_system *system, const hooke_options *op
   return HOOKE_OK;
 }
 
-static int32_t fill_group(const hooke_system *system, const char *name, int64_t count, const int64_t *ends,
+static int32_t fill_group(const hooke_system *system, const char *name, const int64_t *ends,
                           const hooke_options *options, struct hk_group *group) {
-  group->count = count;
   group->pull_only = hooke_options_number(options, "compression") == 0.0;
-  group->name = hk_copy_text(name);
-  group->head = hk_new(count, sizeof(int32_t));
-  group->tail = hk_new(count, sizeof(int32_t));
-  group->kappa = hk_new(count, sizeof(double));
-  group->gamma = hk_new(count, sizeof(double));
-  group->rest_length = hk_new(count, sizeof(double));
-  if (!group->name || !group->head || !group->tail || !group->kappa || !group->gamma || !group->rest_length) {
-    return HOOKE_NO_MEMORY;
-  }
-  for (int64_t k = 0; k < count; k++) {
-    group->head[k] = (int32_t)ends[2 * k];
-    group->tail[k] = (int32_t)ends[2 * k + 1];
+  const int32_t status = hk_group_allocate(group, name, 2, 3, 0);
+  if (status != HOOKE_OK) return status;
+  for (int64_t k = 0; k < group->count; k++) {
+    group->particle[0][k] = (int32_t)ends[2 * k];
+    group->particle[1][k] = (int32_t)ends[2 * k + 1];
   }
   return find_material(system, options, group);
 }
@@ -264,27 +222,20 @@ static int32_t add_group(hooke_system *system, const char *name, int64_t count, 
                          const hooke_options *options, int32_t from_part) {
   int32_t status = hk_system_require_open(system);
   if (status == HOOKE_OK)
-    status = hk_options_require(options, &spring_table, "options", "hooke_options_create(\"springs\", ...)");
+    status =
+        hk_options_require(options, &hk_spring_options, "options", "hooke_options_create(\"springs\", ...)");
   if (status == HOOKE_OK) status = hk_options_check_required(options);
   if (status == HOOKE_OK) status = check_ends(system, count, ends);
   if (status == HOOKE_OK) status = check_count(options, "stiffness", count);
   if (status == HOOKE_OK) status = check_count(options, "damping", count);
   if (status == HOOKE_OK) status = check_count(options, "rest_length", count);
-  if (status == HOOKE_OK && system->group_count == system->group_capacity) {
-    int64_t capacity = 2 * system->group_capacity + 4;
-    status = hk_grow((void **)&system->group, system->group_count, capacity, sizeof *system->group);
-    if (status == HOOKE_OK) system->group_capacity = capacity;
-  }
   if (status != HOOKE_OK) return status;
-  struct hk_group group = {.from_part = from_part, .part = system->part_count - 1};
-  status = fill_group(system, name, count, ends, options, &group);
+  struct hk_group group = {
+      .force = &hk_force_springs, .count = count, .from_part = from_part, .part = system->part_count - 1};
+  status = fill_group(system, name, ends, options, &group);
   if (status == HOOKE_OK && !from_part) status = keep_options(options, &group);
-  if (status == HOOKE_OK) {
-    system->group[system->group_count++] = group;
-    system->spring_total += count;
-  } else {
-    hk_group_release(&group);
-  }
+  if (status == HOOKE_OK) return hk_system_add_group(system, &group);
+  hk_group_release(&group);
   return status;
 }
 

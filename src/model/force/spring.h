@@ -1,24 +1,12 @@
-/* Spring groups while a system is built, and the runs that commit sorts them into. */
+/* Springs, and the runs that commit sorts their groups into. */
 #ifndef HOOKE_MODEL_FORCE_SPRING_H
 #define HOOKE_MODEL_FORCE_SPRING_H
 
-#include "core/option.h"
 #include "kernel/spring_loops.h"
+#include "model/force/element.h"
+#include "model/group.h"
 
-int32_t hk_spring_options_create(hooke_options **options);
-
-struct hk_group {
-  char *name;
-  int64_t count;
-  int64_t dropped;        /* from commit on: springs without stiffness and damping, which count no more */
-  int32_t from_part;      /* springs of parts are numbered after those of groups */
-  int64_t part;           /* of those: which part */
-  hooke_options *options; /* as given, where they hold for all springs alike; else NULL */
-  int32_t pull_only;
-  /* count each; taken over by the runs at commit */
-  int32_t *head, *tail;
-  double *kappa, *gamma, *rest_length;
-};
+extern const struct hk_option_table hk_spring_options;
 
 /* All springs of a committed system, in spring order. */
 struct hk_springs {
@@ -70,6 +58,26 @@ void hk_spring_stretch(const struct hk_spring *spring, const double *q, const do
 /* The same at rest and under tension: a spring that only pulls may become taut at any time. */
 void hk_spring_stretch_taut(const struct hk_spring *spring, const double *q, struct hk_stretch *stretch);
 
+/* How the force on the first end changes: -(stiffness dx + damping dv) with df/dx = -(u c^T + b (I - u
+ * u^T)) and df/dv = -gamma u u^T. 0 if it does not. */
+struct hk_spring_slope {
+  double u[3], c[3], b, gamma;
+  int32_t isotropic; /* ends at one place, rest length 0: df/dx = -b I */
+};
+int32_t hk_spring_slope_find(const struct hk_spring *spring, const double *q, const double *v,
+                             struct hk_spring_slope *slope);
+void hk_spring_slope_change(const struct hk_spring_slope *slope, const double dx[3], const double dv[3],
+                            double change[3]);
+void hk_spring_slope_blocks(const struct hk_spring_slope *slope, double stiff[9], double damp[9]);
+
+/* A spring as an element. */
+void hk_spring_element(const struct hk_spring *spring, const double *q, const double *v,
+                       struct hk_element *out);
+
+/* The run that a spring is in, and the spring. */
+int64_t hk_springs_run(const struct hk_springs *springs, int64_t number);
+struct hk_spring hk_springs_find(const struct hk_springs *springs, int64_t number);
+
 /* Sorts the groups of a system into runs. HOOKE_NO_MEMORY leaves `springs` empty. */
 int32_t hk_springs_create(const struct hk_group *group, int64_t group_count, struct hk_springs *springs);
 void hk_springs_release(struct hk_springs *springs);
@@ -78,14 +86,5 @@ int32_t hk_springs_are_damped(const struct hk_springs *springs);
 /* For whoever has made the runs look their material up elsewhere. */
 void hk_springs_drop_material(struct hk_springs *springs);
 int64_t hk_springs_memory(const struct hk_springs *springs);
-
-/* Swaps springs that have neither stiffness nor damping behind the others, which keep their order, and takes
- * them out of the count; and back into it. */
-void hk_group_drop(struct hk_group *group);
-void hk_group_take_back(struct hk_group *group);
-
-void hk_group_release(struct hk_group *group);
-/* Releases what is one number a spring; the runs have it. */
-void hk_group_release_arrays(struct hk_group *group);
 
 #endif

@@ -1,5 +1,4 @@
-/* Sorts triples into runs by looking at their numbers, as spring_runs.c does with springs. Those of
- * coefficient 0 have no force and are left out. */
+/* Sorts triples into runs by looking at their numbers, as spring_runs.c does with springs. */
 #include "model/force/bending.h"
 
 #include "core/memory.h"
@@ -18,29 +17,27 @@ struct sorter {
   int32_t fill;
 };
 
-/* Length of the stretch from triple k on that has a stiffness; with `in_line`, all of one offset, one after
- * the other. */
-static int64_t stretch_at(const struct hk_bending_group *g, int64_t k, int in_line) {
+/* How many triples from k on have one offset, one after the other. */
+static int64_t stretch_at(const struct hk_group *g, int64_t k) {
   const int32_t *a = g->particle[0], *b = g->particle[1], *c = g->particle[2];
   const int32_t offset = b[k] - a[k];
   int64_t end = k;
-  while (end < g->count && g->coefficient[end] != 0.0) {
-    if (in_line &&
-        (a[end] != a[k] + (end - k) || b[end] - a[end] != offset || c[end] - b[end] != offset || offset <= 0))
-      break;
+  while (end < g->count && a[end] == a[k] + (end - k) && b[end] - a[end] == offset &&
+         c[end] - b[end] == offset && offset > 0)
     end++;
-  }
   return end - k;
 }
 
-static int is_mixed(const struct hk_bending_group *g, int64_t from, int64_t count) {
+static int is_mixed(const struct hk_group *g, int64_t from, int64_t count) {
   for (int64_t k = from + 1; k < from + count; k++) {
-    if (memcmp(&g->coefficient[k], &g->coefficient[from], sizeof g->coefficient[k]) != 0) return 1;
+    if (memcmp(&g->number[HOOKE_KAPPA][k], &g->number[HOOKE_KAPPA][from], sizeof g->number[HOOKE_KAPPA][k]) !=
+        0)
+      return 1;
   }
   return 0;
 }
 
-static void add_run(struct sorter *sorter, const struct hk_bending_group *g, int64_t from, int64_t count,
+static void add_run(struct sorter *sorter, const struct hk_group *g, int64_t from, int64_t count,
                     int indexed) {
   const int mixed = is_mixed(g, from, count);
   struct hk_bending *bending = sorter->bending;
@@ -51,14 +48,14 @@ static void add_run(struct sorter *sorter, const struct hk_bending_group *g, int
     run->shape = (indexed ? HOOKE_BENDING_INDEXED : 0) | (mixed ? HOOKE_BENDING_MIXED : 0);
     run->start = g->particle[0][from];
     run->offset = g->particle[1][from] - g->particle[0][from];
-    run->coefficient = g->coefficient[from];
+    run->coefficient = g->number[HOOKE_KAPPA][from];
     for (int e = 0; e < 3 && indexed; e++) {
       run->particle[e] = memcpy(bending->particle[e] + sorter->indexed, g->particle[e] + from,
                                 (size_t)count * sizeof(int32_t));
     }
     if (mixed) {
-      run->coefficients =
-          memcpy(bending->coefficient + sorter->mixed, g->coefficient + from, (size_t)count * sizeof(double));
+      run->coefficients = memcpy(bending->coefficient + sorter->mixed, g->number[HOOKE_KAPPA] + from,
+                                 (size_t)count * sizeof(double));
     }
     run->loop = hk_spring_set(0)->bending[run->shape];
     bending->count += count;
@@ -68,11 +65,10 @@ static void add_run(struct sorter *sorter, const struct hk_bending_group *g, int
   if (mixed) sorter->mixed += count;
 }
 
-/* Triples from k up to `end`, all of which have a stiffness. */
-static void sort_stretch(struct sorter *sorter, const struct hk_bending_group *g, int64_t k, int64_t end) {
-  int64_t pending = k; /* first triple not yet in a run */
-  while (k < end) {
-    const int64_t length = stretch_at(g, k, 1);
+static void sort_group(struct sorter *sorter, const struct hk_group *g) {
+  int64_t pending = 0; /* first triple not yet in a run */
+  for (int64_t k = 0; k < g->count;) {
+    const int64_t length = stretch_at(g, k);
     if (length >= SHORTEST_RUN) {
       if (k > pending) add_run(sorter, g, pending, k - pending, 1);
       add_run(sorter, g, k, length, 0);
@@ -80,23 +76,16 @@ static void sort_stretch(struct sorter *sorter, const struct hk_bending_group *g
     }
     k += length > 0 ? length : 1;
   }
-  if (end > pending) add_run(sorter, g, pending, end - pending, 1);
+  if (g->count > pending) add_run(sorter, g, pending, g->count - pending, 1);
 }
 
-static void sort_groups(struct sorter *sorter, const struct hk_bending_group *group, int64_t group_count) {
+static void sort_groups(struct sorter *sorter, const struct hk_group *group, int64_t group_count) {
   sorter->runs = sorter->indexed = sorter->mixed = 0;
-  for (int64_t n = 0; n < group_count; n++) {
-    const struct hk_bending_group *g = &group[n];
-    for (int64_t k = 0; k < g->count;) {
-      const int64_t length = stretch_at(g, k, 0);
-      sort_stretch(sorter, g, k, k + length);
-      k += length > 0 ? length : 1;
-    }
-  }
+  for (int64_t k = 0; k < group_count; k++)
+    sort_group(sorter, &group[k]);
 }
 
-int32_t hk_bending_create(const struct hk_bending_group *group, int64_t group_count,
-                          struct hk_bending *bending) {
+int32_t hk_bending_create(const struct hk_group *group, int64_t group_count, struct hk_bending *bending) {
   memset(bending, 0, sizeof *bending);
   struct sorter sorter = {.bending = bending};
   sort_groups(&sorter, group, group_count);

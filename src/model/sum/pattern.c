@@ -2,7 +2,7 @@
 
 #include "core/memory.h"
 #include "core/status.h"
-#include "model/system.h"
+#include "model/force/force.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -12,48 +12,18 @@ static int compare_columns(const void *a, const void *b) {
   return (x > y) - (x < y);
 }
 
-/* Both directions of every pair of a triple, as below. */
-static void visit_triples(const struct hk_bending *bending, int64_t *count, int64_t *column, int64_t *next) {
-  struct hk_triple triple;
-  for (struct hk_triples at = {bending, 0, 0}; hk_next_triple(&at, &triple);) {
-    for (int e = 0; e < 6; e++) {
-      const int64_t row = triple.particle[e % 3], other = triple.particle[(e + 1 + e / 3) % 3];
+/* Both directions of every pair of particles of an element: counts them, or puts them where `next` says. */
+static void visit_pairs(const struct hooke_system *system, int64_t *count, int64_t *column, int64_t *next) {
+  struct hk_elements at;
+  hk_begin_elements(system, NULL, NULL, &at);
+  for (const struct hk_element *e; (e = hk_next_element(&at)) != NULL;) {
+    for (int k = 0; k < e->count * e->count; k++) {
+      const int32_t row = e->particle[k / e->count], other = e->particle[k % e->count];
+      if (row == other) continue;
       if (column)
         column[next[row]++] = other;
       else
         count[row]++;
-    }
-  }
-}
-
-/* And of every pair of a tetrahedron. */
-static void visit_tetrahedra(const struct hk_altitudes *altitudes, int64_t *count, int64_t *column,
-                             int64_t *next) {
-  for (int64_t k = 0; k < altitudes->count; k++) {
-    const int32_t *p = altitudes->tetrahedron[k].particle;
-    for (int e = 0; e < 16; e++) {
-      if (e / 4 == e % 4) continue;
-      if (column)
-        column[next[p[e / 4]]++] = p[e % 4];
-      else
-        count[p[e / 4]]++;
-    }
-  }
-}
-
-/* Calls for both directions of every spring; `next` is where the row's next column goes (NULL: count only).
- */
-static void visit_pairs(const struct hk_springs *springs, int64_t *count, int64_t *column, int64_t *next) {
-  for (int64_t r = 0; r < springs->run_count; r++) {
-    for (int64_t k = 0; k < springs->run[r].count; k++) {
-      const struct hk_spring s = hk_run_spring(&springs->run[r], k);
-      if (column) {
-        column[next[s.head]++] = s.tail;
-        column[next[s.tail]++] = s.head;
-      } else {
-        count[s.head]++;
-        count[s.tail]++;
-      }
     }
   }
 }
@@ -75,20 +45,19 @@ static void sort_rows(struct hk_pattern *pattern) {
 }
 
 int32_t hk_pattern_create(const struct hooke_system *system, struct hk_pattern *pattern) {
-  const int64_t n = system->particle_count, most = n + 2 * system->springs.count + 6 * system->bending.count +
-                                                   12 * system->altitudes.count;
+  const int64_t n = system->particle_count;
   *pattern = (struct hk_pattern){.rows = n};
   pattern->row_start = hk_new(n + 1, sizeof(int64_t));
+  int64_t *next = hk_new(n + 1, sizeof(int64_t)), most = n;
+  if (next) visit_pairs(system, next, NULL, NULL);
+  for (int64_t p = 0; next && p < n; p++)
+    most += next[p];
   pattern->column = hk_new(most, sizeof(int64_t));
-  int64_t *next = hk_new(n + 1, sizeof(int64_t));
   if (pattern->row_start == NULL || pattern->column == NULL || next == NULL) {
     hk_free(next);
     hk_pattern_release(pattern);
     return HOOKE_NO_MEMORY;
   }
-  visit_pairs(&system->springs, next, NULL, NULL);
-  visit_triples(&system->bending, next, NULL, NULL);
-  visit_tetrahedra(&system->altitudes, next, NULL, NULL);
   for (int64_t p = 0, start = 0; p < n; p++) {
     pattern->row_start[p] = start;
     pattern->column[start] = p;
@@ -96,9 +65,7 @@ int32_t hk_pattern_create(const struct hooke_system *system, struct hk_pattern *
     next[p] = pattern->row_start[p] + 1;
     pattern->row_start[p + 1] = start;
   }
-  visit_pairs(&system->springs, NULL, pattern->column, next);
-  visit_triples(&system->bending, NULL, pattern->column, next);
-  visit_tetrahedra(&system->altitudes, NULL, pattern->column, next);
+  visit_pairs(system, NULL, pattern->column, next);
   hk_free(next);
   sort_rows(pattern);
   return HOOKE_OK;

@@ -1,5 +1,5 @@
-/* Where the 3x3 blocks of the derivative of the forces are: particle pairs that a spring or a triple
- * joins, and the diagonal. */
+/* Where the 3x3 blocks of the derivative of the forces are: particle pairs that an element joins, and the
+ * diagonal. */
 #ifndef HOOKE_MODEL_SUM_PATTERN_H
 #define HOOKE_MODEL_SUM_PATTERN_H
 

@@ -4,9 +4,10 @@
 #ifndef HOOKE_MODEL_SUM_SPRING_BATCH_H
 #define HOOKE_MODEL_SUM_SPRING_BATCH_H
 
+#include "model/force/element.h"
 #include "model/system.h"
 
-enum { HOOKE_SPRING_BATCH = 256 };
+enum { HOOKE_SPRING_BATCH = HOOKE_ELEMENTS };
 
 struct hk_spring_batch {
   int64_t count;

@@ -24,15 +24,17 @@ static int same_bits(double a, double b) {
 /* Length of the stretch of constant offset that begins at spring k. */
 static int64_t stretch_at(const struct hk_group *g, int64_t k) {
   int64_t end = k + 1;
-  while (end < g->count && g->head[end] == g->head[end - 1] + 1 && g->tail[end] == g->tail[end - 1] + 1)
+  while (end < g->count && g->particle[0][end] == g->particle[0][end - 1] + 1 &&
+         g->particle[1][end] == g->particle[1][end - 1] + 1)
     end++;
   return end - k;
 }
 
 static int is_mixed(const struct hk_group *g, int64_t from, int64_t count) {
   for (int64_t k = from + 1; k < from + count; k++) {
-    if (!same_bits(g->kappa[k], g->kappa[from]) || !same_bits(g->gamma[k], g->gamma[from]) ||
-        !same_bits(g->rest_length[k], g->rest_length[from])) {
+    if (!same_bits(g->number[HOOKE_KAPPA][k], g->number[HOOKE_KAPPA][from]) ||
+        !same_bits(g->number[HOOKE_GAMMA][k], g->number[HOOKE_GAMMA][from]) ||
+        !same_bits(g->number[HOOKE_REST_LENGTH][k], g->number[HOOKE_REST_LENGTH][from])) {
       return 1;
     }
   }
@@ -41,15 +43,15 @@ static int is_mixed(const struct hk_group *g, int64_t from, int64_t count) {
 
 static int is_damped(const struct hk_group *g, int64_t from, int64_t count) {
   for (int64_t k = from; k < from + count; k++) {
-    if (g->gamma[k] != 0.0) return 1;
+    if (g->number[HOOKE_GAMMA][k] != 0.0) return 1;
   }
   return 0;
 }
 
 static void copy_ends(struct sorter *sorter, struct hk_run *run, const struct hk_group *g, int64_t from) {
   int32_t *head = sorter->springs->head + sorter->indexed, *tail = sorter->springs->tail + sorter->indexed;
-  memcpy(head, g->head + from, (size_t)run->count * sizeof *head);
-  memcpy(tail, g->tail + from, (size_t)run->count * sizeof *tail);
+  memcpy(head, g->particle[0] + from, (size_t)run->count * sizeof *head);
+  memcpy(tail, g->particle[1] + from, (size_t)run->count * sizeof *tail);
   run->head = head;
   run->tail = tail;
 }
@@ -58,9 +60,9 @@ static void copy_material(struct sorter *sorter, struct hk_run *run, const struc
   struct hk_springs *springs = sorter->springs;
   const int64_t at = sorter->mixed;
   const size_t bytes = (size_t)run->count * sizeof(double);
-  run->kappas = memcpy(springs->kappa + at, g->kappa + from, bytes);
-  run->gammas = memcpy(springs->gamma + at, g->gamma + from, bytes);
-  run->rest_lengths = memcpy(springs->rest_length + at, g->rest_length + from, bytes);
+  run->kappas = memcpy(springs->kappa + at, g->number[HOOKE_KAPPA] + from, bytes);
+  run->gammas = memcpy(springs->gamma + at, g->number[HOOKE_GAMMA] + from, bytes);
+  run->rest_lengths = memcpy(springs->rest_length + at, g->number[HOOKE_REST_LENGTH] + from, bytes);
 }
 
 static void add_run(struct sorter *sorter, const struct hk_group *g, int64_t from, int64_t count,
@@ -73,11 +75,11 @@ static void add_run(struct sorter *sorter, const struct hk_group *g, int64_t fro
     run->shape = (indexed ? HOOKE_RUN_INDEXED : 0) | (mixed ? HOOKE_RUN_MIXED : 0) |
                  (is_damped(g, from, count) ? HOOKE_RUN_DAMPED : 0) |
                  (g->pull_only ? HOOKE_RUN_PULL_ONLY : 0);
-    run->start = g->head[from];
-    run->offset = g->tail[from] - g->head[from];
-    run->kappa = g->kappa[from];
-    run->gamma = g->gamma[from];
-    run->rest_length = g->rest_length[from];
+    run->start = g->particle[0][from];
+    run->offset = g->particle[1][from] - g->particle[0][from];
+    run->kappa = g->number[HOOKE_KAPPA][from];
+    run->gamma = g->number[HOOKE_GAMMA][from];
+    run->rest_length = g->number[HOOKE_REST_LENGTH][from];
     if (indexed) copy_ends(sorter, run, g, from);
     if (mixed) copy_material(sorter, run, g, from);
     run->loop = hk_spring_set(0)->loop[run->shape];

@@ -8,8 +8,6 @@
 void hk_variant_release(struct hk_variant *variant) {
   hk_free(variant->group);
   hk_free(variant->spring);
-  hk_free(variant->bending);
-  hk_free(variant->altitude);
   hk_free(variant->particle);
   hk_free(variant->part);
   hk_free(variant->scale);
@@ -20,13 +18,10 @@ int32_t hk_variant_create(const hooke_system *system, struct hk_variant *variant
   memset(variant, 0, sizeof *variant);
   variant->group = hk_new(system->group_count, 1);
   variant->spring = hk_new(system->springs.count, 1);
-  variant->bending = hk_new(system->bending_group_count, 1);
-  variant->altitude = hk_new(system->altitude_group_count, 1);
   variant->particle = hk_new(system->particle_count, 1);
   variant->part = hk_new(system->part_count, 1);
   variant->scale = hk_new(system->part_count, sizeof(double));
-  if (!variant->group || !variant->spring || !variant->bending || !variant->altitude || !variant->particle ||
-      !variant->part || !variant->scale) {
+  if (!variant->group || !variant->spring || !variant->particle || !variant->part || !variant->scale) {
     hk_variant_release(variant);
     return HOOKE_NO_MEMORY;
   }
@@ -49,22 +44,20 @@ void hk_variant_join(const hooke_system *system, struct hk_variant *variant, con
   variant->compression |= other->compression;
   join(system->group_count, variant->group, other->group);
   join(system->springs.count, variant->spring, other->spring);
-  join(system->bending_group_count, variant->bending, other->bending);
-  join(system->altitude_group_count, variant->altitude, other->altitude);
   join(system->particle_count, variant->particle, other->particle);
   join(system->part_count, variant->part, other->part);
   for (int64_t k = 0; k < system->part_count; k++)
     variant->scale[k] *= other->scale[k];
 }
 
-static int32_t covers_springs(const hooke_system *system, const struct hk_variant *variant,
-                              const struct hk_variant *other) {
+static int32_t covers_groups(const hooke_system *system, const struct hk_variant *variant,
+                             const struct hk_variant *other) {
   int64_t first = 0;
   for (int64_t g = 0; g < system->group_count; first += system->group[g++].count) {
     const struct hk_group *group = &system->group[g];
     if (variant->group[g] || (group->from_part && variant->part[group->part])) continue;
     if (other->group[g]) return 0;
-    for (int64_t s = first; s < first + group->count; s++) {
+    for (int64_t s = first; s < first + group->count && group->force == &hk_force_springs; s++) {
       if (other->spring[s] && !variant->spring[s]) return 0;
     }
   }
@@ -78,24 +71,18 @@ int32_t hk_variant_covers(const hooke_system *system, const struct hk_variant *v
                     other->compression <= variant->compression;
   for (int64_t k = 0; k < system->part_count && covered; k++)
     covered = variant->part[k] || (!other->part[k] && other->scale[k] == 1.0);
-  for (int64_t g = 0; g < system->bending_group_count && covered; g++) {
-    const struct hk_bending_group *group = &system->bending_group[g];
-    covered = other->bending[g] <= variant->bending[g] || (group->from_part && variant->part[group->part]);
-  }
-  for (int64_t g = 0; g < system->altitude_group_count && covered; g++) {
-    const struct hk_altitude_group *group = &system->altitude_group[g];
-    covered = other->altitude[g] <= variant->altitude[g] || (group->from_part && variant->part[group->part]);
-  }
   for (int64_t p = 0; p < system->particle_count && covered; p++)
     covered = other->particle[p] <= variant->particle[p];
-  return covered && covers_springs(system, variant, other);
+  return covered && covers_groups(system, variant, other);
 }
 
 /* In a part of another resolution all springs stay. */
 static int32_t is_split(const hooke_system *system, const struct hk_variant *variant, int64_t g,
                         int64_t first) {
   const struct hk_group *group = &system->group[g];
-  if (!group->from_part || variant->group[g] || variant->part[group->part]) return 0;
+  if (!group->from_part || group->force != &hk_force_springs || variant->group[g] ||
+      variant->part[group->part])
+    return 0;
   if (variant->scale[group->part] != 1.0 || group->count == 0) return 0;
   const uint8_t *spring = variant->spring + first;
   return memchr(spring, 0, (size_t)group->count) != NULL && memchr(spring, 1, (size_t)group->count) != NULL;
@@ -133,6 +120,23 @@ static int32_t add_forces(const struct hk_variant_maker *maker) {
   return status;
 }
 
+/* Groups that no part brings: explicit ones, and what is left of those of parts. */
+static int32_t keep_groups(struct hk_variant_maker *maker) {
+  const hooke_system *from = maker->from;
+  const struct hk_force_row *force = NULL;
+  int32_t status = HOOKE_OK;
+  int64_t first = 0;
+  for (int64_t g = 0; g < from->group_count && status == HOOKE_OK; first += from->group[g++].count) {
+    const struct hk_group *group = &from->group[g];
+    if (group->force != force) first = 0;
+    force = group->force;
+    if (maker->variant->group[g] || (group->from_part && !hk_variant_breaks_up(maker, group, first)))
+      continue;
+    status = force->keep(maker, group, first);
+  }
+  return status;
+}
+
 static void scale(int64_t count, double *value, double factor) {
   for (int64_t k = 0; k < count; k++)
     value[k] *= factor;
@@ -140,13 +144,7 @@ static void scale(int64_t count, double *value, double factor) {
 
 static void scale_stiffness(hooke_system *made, double factor) {
   for (int64_t g = 0; g < made->group_count; g++)
-    scale(made->group[g].count, made->group[g].kappa, factor);
-  for (int64_t g = 0; g < made->bending_group_count; g++)
-    scale(made->bending_group[g].count, made->bending_group[g].coefficient, factor);
-  for (int64_t g = 0; g < made->altitude_group_count; g++) {
-    for (int64_t k = 0; k < made->altitude_group[g].count; k++)
-      made->altitude_group[g].tetrahedron[k].stiffness *= factor;
-  }
+    scale(made->group[g].count, made->group[g].number[HOOKE_KAPPA], factor);
 }
 
 static void add_velocity(hooke_system *made, const double velocity[3]) {
@@ -165,9 +163,7 @@ int32_t hk_variant_make(const hooke_system *from, const struct hk_variant *varia
   if (status == HOOKE_OK) maker.made->memory_limit = from->memory_limit;
   if (status == HOOKE_OK) status = hk_variant_add_particles(&maker);
   if (status == HOOKE_OK) status = hk_variant_hold(&maker);
-  if (status == HOOKE_OK) status = hk_variant_add_springs(&maker);
-  if (status == HOOKE_OK) status = hk_variant_add_bending(&maker);
-  if (status == HOOKE_OK) status = hk_variant_add_altitude(&maker);
+  if (status == HOOKE_OK) status = keep_groups(&maker);
   if (status == HOOKE_OK) status = add_forces(&maker);
   if (status == HOOKE_OK) {
     if (variant->stiffness != 1.0) scale_stiffness(maker.made, variant->stiffness);

@@ -3,16 +3,14 @@
 #ifndef HOOKE_MODEL_VARIANT_VARIANT_H
 #define HOOKE_MODEL_VARIANT_VARIANT_H
 
-#include "model/system.h"
+#include "model/force/force.h"
 
 /* What is changed; starts as zeros with arrays from hk_variant_create(). 1: left out. */
 struct hk_variant {
   int32_t gravity, drag, force, damping;
   int32_t compression; /* 1: springs only pull */
-  uint8_t *group;      /* one a group of springs */
+  uint8_t *group;      /* one a group of the table */
   uint8_t *spring;     /* one a spring */
-  uint8_t *bending;    /* one a group of triples */
-  uint8_t *altitude;   /* one a group of tetrahedra */
   uint8_t *particle;   /* one a particle; those of parts go with their part only */
   uint8_t *part;       /* one a part */
   double *scale;       /* one a part: factor on the cells along each axis */
@@ -91,16 +89,14 @@ int32_t hk_variant_add_particles(struct hk_variant_maker *maker);
  * that it is nearest to (variant_held.c). */
 int32_t hk_variant_hold(struct hk_variant_maker *maker);
 /* 1 if the part of a group does not bring it because single springs of it are left out; those that stay are
- * added as a group of their own. `first` is the group's first spring. Not in a part at another resolution,
+ * added as a group of their own. `first` is the group's first member. Not in a part at another resolution,
  * where springs are others. */
 int32_t hk_variant_breaks_up(const struct hk_variant_maker *maker, const struct hk_group *group,
                              int64_t first);
-/* Groups of springs that no part brings: explicit ones, and what is left of those of parts
- * (variant_springs.c). */
-int32_t hk_variant_add_springs(struct hk_variant_maker *maker);
-/* The same of triples (variant_bending.c). */
-int32_t hk_variant_add_bending(struct hk_variant_maker *maker);
-/* And of tetrahedra, whose rest lengths they keep (variant_altitude.c). */
-int32_t hk_variant_add_altitude(struct hk_variant_maker *maker);
+/* Each adds a group that no part brings; `first` is the number of its first member (`keep` of the table of
+ * forces). Tetrahedra keep their rest lengths. */
+int32_t hk_variant_keep_springs(struct hk_variant_maker *maker, const struct hk_group *group, int64_t first);
+int32_t hk_variant_keep_bending(struct hk_variant_maker *maker, const struct hk_group *group, int64_t first);
+int32_t hk_variant_keep_altitude(struct hk_variant_maker *maker, const struct hk_group *group, int64_t first);
 
 #endif

@@ -1,4 +1,4 @@
-/* Groups of tetrahedra of a variant that its parts do not bring. */
+/* A group of tetrahedra of a variant that its parts do not bring. */
 #include "model/variant/variant.h"
 
 #include "core/memory.h"
@@ -19,8 +19,9 @@ static int32_t take_over(const struct hk_variant_maker *maker, struct hk_tetrahe
   return 1;
 }
 
-static int32_t add_group(struct hk_variant_maker *maker, const struct hk_altitude_group *group,
-                         const struct hk_tetrahedron *from) {
+int32_t hk_variant_keep_altitude(struct hk_variant_maker *maker, const struct hk_group *group,
+                                 int64_t first) {
+  const struct hk_tetrahedron *from = maker->from->altitudes.tetrahedron + first;
   struct hk_tetrahedron *tetrahedron = hk_new(group->count, sizeof *tetrahedron);
   if (tetrahedron == NULL) return HOOKE_NO_MEMORY;
   int64_t count = 0;
@@ -31,17 +32,5 @@ static int32_t add_group(struct hk_variant_maker *maker, const struct hk_altitud
   int32_t status = HOOKE_OK;
   if (count > 0) status = hk_system_add_tetrahedra(maker->made, group->name, 0, count, tetrahedron);
   hk_free(tetrahedron);
-  return status;
-}
-
-int32_t hk_variant_add_altitude(struct hk_variant_maker *maker) {
-  const hooke_system *from = maker->from;
-  int32_t status = HOOKE_OK;
-  int64_t first = 0;
-  for (int64_t g = 0; g < from->altitude_group_count && status == HOOKE_OK;
-       first += from->altitude_group[g++].count) {
-    if (!from->altitude_group[g].from_part && !maker->variant->altitude[g])
-      status = add_group(maker, &from->altitude_group[g], from->altitudes.tetrahedron + first);
-  }
   return status;
 }

@@ -1,4 +1,4 @@
-/* Groups of triples of a variant that its parts do not bring. */
+/* A group of triples of a variant that its parts do not bring. */
 #include "model/variant/variant.h"
 
 #include "core/memory.h"
@@ -23,8 +23,7 @@ static int64_t collect(const struct hk_variant_maker *maker, int64_t first, int6
   return count;
 }
 
-static int32_t add_group(struct hk_variant_maker *maker, const struct hk_bending_group *group,
-                         int64_t first) {
+int32_t hk_variant_keep_bending(struct hk_variant_maker *maker, const struct hk_group *group, int64_t first) {
   int64_t *ends = hk_new(3 * group->count + 3, sizeof *ends);
   double *coefficient = hk_new(group->count, sizeof *coefficient);
   int32_t status = ends && coefficient ? HOOKE_OK : HOOKE_NO_MEMORY;
@@ -35,17 +34,5 @@ static int32_t add_group(struct hk_variant_maker *maker, const struct hk_bending
   }
   hk_free(ends);
   hk_free(coefficient);
-  return status;
-}
-
-int32_t hk_variant_add_bending(struct hk_variant_maker *maker) {
-  const hooke_system *from = maker->from;
-  int32_t status = HOOKE_OK;
-  int64_t first = 0;
-  for (int64_t g = 0; g < from->bending_group_count && status == HOOKE_OK;
-       first += from->bending_group[g++].count) {
-    if (!from->bending_group[g].from_part && !maker->variant->bending[g])
-      status = add_group(maker, &from->bending_group[g], first);
-  }
   return status;
 }

@@ -29,29 +29,6 @@ static int32_t leave_families_out(const struct hk_variant_maker *maker, int64_t 
   return HOOKE_OK;
 }
 
-static int32_t leave_bending_out(const struct hk_variant_maker *maker, int64_t part, hooke_options *options) {
-  const hooke_system *from = maker->from;
-  int32_t status = HOOKE_OK;
-  for (int64_t g = 0; g < from->bending_group_count && status == HOOKE_OK; g++) {
-    const struct hk_bending_group *group = &from->bending_group[g];
-    if (group->from_part && group->part == part && maker->variant->bending[g])
-      status = hooke_options_unset(options, family_of(group->name));
-  }
-  return status;
-}
-
-static int32_t leave_altitude_out(const struct hk_variant_maker *maker, int64_t part,
-                                  hooke_options *options) {
-  const hooke_system *from = maker->from;
-  int32_t status = HOOKE_OK;
-  for (int64_t g = 0; g < from->altitude_group_count && status == HOOKE_OK; g++) {
-    const struct hk_altitude_group *group = &from->altitude_group[g];
-    if (group->from_part && group->part == part && maker->variant->altitude[g])
-      status = hooke_options_unset(options, family_of(group->name));
-  }
-  return status;
-}
-
 static int ends_in(const char *name, const char *ending) {
   const size_t length = strlen(name), end = strlen(ending);
   return length > end && strcmp(name + length - end, ending) == 0;
@@ -93,8 +70,6 @@ static int32_t add_part(struct hk_variant_maker *maker, int64_t k) {
   int32_t status = hooke_options_copy(record->options, &options);
   if (status == HOOKE_OK && part->axes > 0) status = change_resolution(record, part, options);
   if (status == HOOKE_OK) status = leave_families_out(maker, k, options);
-  if (status == HOOKE_OK) status = leave_bending_out(maker, k, options);
-  if (status == HOOKE_OK) status = leave_altitude_out(maker, k, options);
   if (status == HOOKE_OK) status = change_families(maker->variant, options);
   if (status == HOOKE_OK) {
     status = record->add(maker->made, record->kind, record->name, options, &part->first, &part->count);

@@ -1,4 +1,4 @@
-/* Groups of springs of a variant that its parts do not bring. */
+/* A group of springs of a variant that its parts do not bring. */
 #include "model/variant/variant.h"
 
 #include "core/memory.h"
@@ -60,7 +60,7 @@ static int32_t set_shortest(hooke_options *options, const char *name, int64_t co
 }
 
 static int32_t material(const struct staying *staying, hooke_options **options) {
-  int32_t status = hk_spring_options_create(options);
+  int32_t status = hk_options_create(&hk_spring_options, options);
   if (status == HOOKE_OK) status = hooke_options_set_text(*options, "law", "length");
   if (status == HOOKE_OK) status = set_shortest(*options, "stiffness", staying->count, staying->kappa);
   if (status == HOOKE_OK) status = set_shortest(*options, "damping", staying->count, staying->gamma);
@@ -80,7 +80,7 @@ static int32_t given(const struct hk_variant *variant, const hooke_options *from
   return status;
 }
 
-static int32_t add_group(struct hk_variant_maker *maker, const struct hk_group *group, int64_t first) {
+static int32_t add_staying(struct hk_variant_maker *maker, const struct hk_group *group, int64_t first) {
   struct staying staying = {.count = 0};
   hooke_options *options = NULL;
   int32_t status = room(group->count, &staying);
@@ -102,7 +102,7 @@ static int32_t add_group(struct hk_variant_maker *maker, const struct hk_group *
 /* A group that had nothing but springs of no strength keeps its place. */
 static int32_t add_empty_group(struct hk_variant_maker *maker, const struct hk_group *group) {
   hooke_options *options = NULL;
-  int32_t status = hk_spring_options_create(&options);
+  int32_t status = hk_options_create(&hk_spring_options, &options);
   if (status == HOOKE_OK) status = hooke_options_set_number(options, "stiffness", 0.0);
   if (status == HOOKE_OK) status = hooke_system_add_springs(maker->made, group->name, 0, NULL, options);
   hooke_options_destroy(options);
@@ -111,22 +111,13 @@ static int32_t add_empty_group(struct hk_variant_maker *maker, const struct hk_g
 
 int32_t hk_variant_breaks_up(const struct hk_variant_maker *maker, const struct hk_group *group,
                              int64_t first) {
-  if (maker->map->part[group->part].axes > 0) return 0;
+  if (group->force != &hk_force_springs || maker->map->part[group->part].axes > 0) return 0;
   for (int64_t k = 0; k < group->count; k++) {
     if (maker->variant->spring[first + k]) return 1;
   }
   return 0;
 }
 
-int32_t hk_variant_add_springs(struct hk_variant_maker *maker) {
-  const hooke_system *from = maker->from;
-  int64_t first = 0;
-  for (int64_t g = 0; g < from->group_count; first += from->group[g++].count) {
-    const struct hk_group *group = &from->group[g];
-    if (maker->variant->group[g] || (group->from_part && !hk_variant_breaks_up(maker, group, first)))
-      continue;
-    const int32_t status = group->count == 0 ? add_empty_group(maker, group) : add_group(maker, group, first);
-    if (status != HOOKE_OK) return status;
-  }
-  return HOOKE_OK;
+int32_t hk_variant_keep_springs(struct hk_variant_maker *maker, const struct hk_group *group, int64_t first) {
+  return group->count == 0 ? add_empty_group(maker, group) : add_staying(maker, group, first);
 }

@@ -125,6 +125,22 @@ class Queries(Owner):
         ]
 
     @property
+    def anchor_count(self) -> int:
+        """Anchors; commit drops those without stiffness and damping."""
+        return int(lib.hooke_system_anchor_count(self._handle))
+
+    @property
+    def anchors(self) -> tuple[IntArray, FloatArray, FloatArray, FloatArray, FloatArray]:
+        """Of every anchor the particle (m,), the point (m, 3) [m], stiffness [N/m], damping [N s/m] and rest length
+        [m] (m,)."""
+        handle = self._committed()
+        count = self.anchor_count
+        particles = np.empty(count, np.int64)
+        columns = np.empty((count, 3)), np.empty(count), np.empty(count), np.empty(count)
+        lib.hooke_system_anchors(handle, index_pointer(particles), *(double_pointer(column) for column in columns))
+        return (particles, *columns)
+
+    @property
     def derived(self) -> list[Derived]:
         """What parts derived from their density, damping ratios and bending stiffness."""
 

@@ -118,6 +118,11 @@ class Options(Owner, MutableMapping[str, Any]):
         return cls._of("altitude")
 
     @classmethod
+    def for_anchors(cls) -> Options:
+        """Options of a group of anchors: points [m], stiffness [N/m], damping [N s/m], rest_length [m]."""
+        return cls._of("anchors")
+
+    @classmethod
     def for_scene(cls, what: str = "scene") -> Options:
         """Options for other keys of a scene: of the "scene" itself (title, gravity, drag), of its "particles", of
         what is "driven", or the "limits" of loading it."""
@@ -231,8 +236,8 @@ def part_kind_summary(kind: str) -> str:
 
 
 def options_of(what: str) -> Options:
-    """The options of a "run", a "study", a "limit", a "cost", a "why", of "needs", of "springs", of a "scene" itself, of
-    its "particles", of what is "driven", or of a kind of part. Their `rows` are the table."""
+    """The options of a "run", a "study", a "limit", a "cost", a "why", of "needs", of "springs", of "anchors", of a
+    "scene" itself, of its "particles", of what is "driven", or of a kind of part. Their `rows` are the table."""
     makers = {
         "run": Options.for_run,
         "study": Options.for_study,
@@ -241,6 +246,7 @@ def options_of(what: str) -> Options:
         "why": Options.for_why,
         "needs": Options.for_needs,
         "springs": Options.for_springs,
+        "anchors": Options.for_anchors,
     }
     if what in makers:
         return makers[what]()

@@ -182,6 +182,27 @@ class Scene(Parts):
         self._note("springs", {**({"name": name} if name else {}), "between": ends, **keys})
         return self
 
+    def anchors(
+        self,
+        name: str | None = None,
+        *,
+        particles: Particle | Sequence[Particle] | IntArray,
+        points: str | Numbers | None = None,
+        stiffness: Numbers,
+        damping: Numbers | None = None,
+        rest_length: Numbers | None = None,
+    ) -> Scene:
+        """Adds a group of springs from `particles` (m,), which are there already, to fixed `points` (m, 3) [m], or
+        "initial" (default), where the particles are in the scene; `stiffness` [N/m], `damping` [N s/m] and
+        `rest_length` [m], 0 if None: each one number or (m,). Returns the scene."""
+        given = {"points": points, "stiffness": stiffness, "damping": damping, "rest_length": rest_length}
+        keys = {key: _kept(value) for key, value in given.items() if value is not None}
+        with placed(f"anchors[{self._count('anchors')}]"):
+            numbers = self._numbers(particles, "particles").reshape(-1)
+            self._system.add_anchors(name, numbers, **keys)
+        self._note("anchors", {**({"name": name} if name else {}), "particles": numbers, **keys})
+        return self
+
     def driven(
         self,
         particles: Particle | Sequence[Particle] | IntArray,

@@ -150,6 +150,19 @@ class System(Queries):
             Options.for_altitude().set(**options)._handle,
         )
 
+    def add_anchors(self, name: str | None, particles: Any, **options: Any) -> None:
+        """Adds anchors, springs from `particles` (m,) to fixed points, with the options that
+        ``hooke.describe("anchors")`` lists: ``points`` (m, 3) [m], "initial" for where the particles were added;
+        ``stiffness`` [N/m], ``damping`` [N s/m] and ``rest_length`` [m], one for all or (m,)."""
+        numbers = indices(particles, "particles").reshape(-1)
+        lib.hooke_system_add_anchors(
+            self._handle,
+            None if name is None else name.encode(),
+            len(numbers),
+            index_pointer(numbers),
+            Options.for_anchors().set(**options)._handle,
+        )
+
     def add_part(self, kind: str, name: str | None = None, **options: Any) -> range:
         """Adds a part, such as a "rope", a "cloth", a "lattice" or a "mesh", with the options that
         ``hooke.describe(kind)`` lists (``from_`` stands for ``from``); a family of springs is a dict:

@@ -86,6 +86,8 @@ HOOKE_API int32_t hooke_system_add_bending(hooke_system *system, const char *nam
                                            const double *coefficient);
 HOOKE_API int32_t hooke_system_add_altitude(hooke_system *system, const char *name, int64_t count,
                                             const int64_t *tetrahedra, const hooke_options *options);
+HOOKE_API int32_t hooke_system_add_anchors(hooke_system *system, const char *name, int64_t count,
+                                           const int64_t *particles, const hooke_options *options);
 HOOKE_API int32_t hooke_system_set_gravity(hooke_system *system, const double *gravity);
 HOOKE_API int32_t hooke_system_set_drag(hooke_system *system, double coefficient);
 HOOKE_API int32_t hooke_system_set_force(hooke_system *system, hooke_force *force,
@@ -125,6 +127,9 @@ HOOKE_API int32_t hooke_system_altitude_ends(const hooke_system *system, int64_t
 HOOKE_API int32_t hooke_system_altitude_material(const hooke_system *system, double *stiffness,
                                                  double *damping, double *rest_length);
 HOOKE_API int32_t hooke_system_altitude_lengths(const hooke_system *system, const double *q, double *length);
+HOOKE_API int64_t hooke_system_anchor_count(const hooke_system *system);
+HOOKE_API int32_t hooke_system_anchors(const hooke_system *system, int64_t *particles, double *points,
+                                       double *stiffness, double *damping, double *rest_length);
 HOOKE_API int64_t hooke_system_derived_count(const hooke_system *system);
 HOOKE_API const char *hooke_system_derived_text(const hooke_system *system, int64_t number, const char *what);
 HOOKE_API double hooke_system_derived_value(const hooke_system *system, int64_t number);

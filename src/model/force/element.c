@@ -1,0 +1,77 @@
+#include "model/force/element.h"
+
+#include "model/force/force.h"
+
+#include <math.h>
+#include <string.h>
+
+void hk_begin_elements(const hooke_system *system, const double *q, const double *v, struct hk_elements *at) {
+  at->system = system;
+  at->q = q;
+  at->v = v;
+  at->wanted = NULL;
+  at->only = NULL;
+  at->force = NULL;
+  at->by_number = at->next = 0;
+  at->batches = at->done = at->first = at->count = at->k = 0;
+}
+
+static int is_wanted(const struct hk_elements *at, const struct hk_force_row *force) {
+  if (force->elements == NULL || !force->present(at->system)) return 0;
+  return (at->only == NULL || at->only == force) && (at->wanted == NULL || at->wanted(force));
+}
+
+/* The next ones of the present force; 0 if there are none. */
+static int32_t fill(struct hk_elements *at) {
+  const struct hk_force_row *force = at->force;
+  at->done += at->count;
+  at->k = at->count = 0;
+  if (!at->by_number && force->stored_elements) {
+    at->count = force->stored_elements(at);
+  } else {
+    const int64_t left = force->count(at->system) - at->done;
+    at->first = at->done;
+    at->count = left < HOOKE_ELEMENTS ? left : HOOKE_ELEMENTS;
+    if (at->count > 0) force->elements(at->system, at->q, at->v, at->first, at->count, at->element);
+  }
+  at->batches += at->count > 0;
+  return at->count > 0;
+}
+
+int32_t hk_fill_elements(struct hk_elements *at) {
+  while (at->force == NULL || !fill(at)) {
+    do {
+      at->force = hk_force_table(at->next++);
+      if (at->force == NULL) return 0;
+    } while (!is_wanted(at, at->force));
+    at->done = at->count = at->k = 0;
+    memset(at->place, 0, sizeof at->place);
+  }
+  return 1;
+}
+
+/* u.(sum of g_j x_j), and the sum itself where it is needed. */
+static double gather(const struct hk_element *e, double across, int64_t stride, const double *const x[3],
+                     double sum[3]) {
+  double along = 0.0;
+  sum[0] = sum[1] = sum[2] = 0.0;
+  for (int j = 0; j < e->count; j++) {
+    const int64_t p = stride * e->particle[j];
+    along += e->weight[j] * ((e->u[0] * x[0][p] + e->u[1] * x[1][p]) + e->u[2] * x[2][p]);
+    for (int a = 0; a < 3 && across != 0.0; a++)
+      sum[a] += e->weight[j] * x[a][p];
+  }
+  return along;
+}
+
+void hk_element_multiply(const struct hk_element *e, double along, double across, int64_t stride,
+                         const double *const x[3], double *const out[3]) {
+  double sum[3];
+  const double size = (along - across) * gather(e, across, stride, x, sum);
+  for (int j = 0; j < e->count; j++) {
+    const int64_t p = stride * e->particle[j];
+    const double s = size * e->weight[j], isotropic = across * e->weight[j];
+    for (int a = 0; a < 3; a++)
+      out[a][p] += across != 0.0 ? s * e->u[a] + isotropic * sum[a] : s * e->u[a];
+  }
+}

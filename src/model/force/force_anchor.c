@@ -1,0 +1,347 @@
+/* Anchors: springs of the length law from a particle to a fixed point of space, f = -(kappa (r - l0) +
+ * gamma (v.u)) u with x = q - point, r = |x|, u = x/r. */
+#include "model/force/force.h"
+
+#include "core/memory.h"
+#include "core/option.h"
+#include "core/status.h"
+#include "core/sum.h"
+#include "kernel/spring_body.h"
+#include "model/check_value.h"
+#include "model/variant/variant.h"
+
+#include <stdio.h>
+#include <string.h>
+
+static const struct hk_option_row rows[] = {
+    {.name = "points",
+     .type = HOOKE_OPTION_NUMBERS,
+     .unit = "m",
+     .min_count = 3,
+     .columns = 3,
+     .words = "initial",
+     .fallback = "initial",
+     .doc = "the point that each particle is tied to, three numbers for each; initial: where it was added"},
+    {.name = "stiffness",
+     .type = HOOKE_OPTION_NUMBERS,
+     .unit = "N/m",
+     .low = 0.0,
+     .high = 1e300,
+     .min_count = 1,
+     .required = 1,
+     .doc = "stiffness, one number or one for each anchor"},
+    {.name = "damping",
+     .type = HOOKE_OPTION_NUMBERS,
+     .unit = "N s/m",
+     .low = 0.0,
+     .high = 1e300,
+     .min_count = 1,
+     .fallback = "0",
+     .doc = "damping along the line to the point, one number or one for each"},
+    {.name = "rest_length",
+     .type = HOOKE_OPTION_NUMBERS,
+     .unit = "m",
+     .low = 0.0,
+     .high = 1e300,
+     .min_count = 1,
+     .fallback = "0",
+     .doc = "rest length, one number or one for each"},
+};
+
+static const struct hk_option_table options_table = {"anchors", HOOKE_OPTION_ROWS(rows)};
+
+/* ---- adding a group ---- */
+
+static int32_t check_counts(const hooke_options *options, int64_t count) {
+  for (size_t k = 0; k < sizeof rows / sizeof rows[0]; k++) {
+    const int64_t given = hooke_options_number_count(options, rows[k].name);
+    const int64_t each = rows[k].columns > 0 ? rows[k].columns : 1;
+    if (given == 0 || given == each * count || (given == 1 && each == 1)) continue;
+    return hk_fail(HOOKE_BAD_VALUE, rows[k].name, "%lld values for %lld anchors; allowed: %s",
+                   (long long)given, (long long)count, each > 1 ? "three for each" : "one, or one for each");
+  }
+  return HOOKE_OK;
+}
+
+static int32_t check_call(const hooke_system *system, int64_t count, const int64_t *particles,
+                          const hooke_options *options) {
+  int32_t status = hk_system_require_open(system);
+  if (status == HOOKE_OK)
+    status = hk_options_require(options, &options_table, "options", "hooke_options_create(\"anchors\", ...)");
+  if (status == HOOKE_OK) status = hk_options_check_required(options);
+  if (status == HOOKE_OK && count < 0)
+    status = hk_fail(HOOKE_BAD_VALUE, "particles", "%lld anchors; 0 or more are allowed", (long long)count);
+  if (status == HOOKE_OK) {
+    status = hk_system_check_more(system, &hk_force_anchor, count);
+    if (status != HOOKE_OK) hk_fail_within(status, "particles");
+  }
+  if (status == HOOKE_OK) status = hk_system_check_particles(system, "particles", count, particles, 0);
+  return status == HOOKE_OK ? check_counts(options, count) : status;
+}
+
+static double value_of(const hooke_options *options, const char *name, int64_t k) {
+  return hooke_options_numbers(options, name)[hooke_options_number_count(options, name) > 1 ? k : 0];
+}
+
+int32_t hooke_system_add_anchors(hooke_system *system, const char *name, int64_t count,
+                                 const int64_t *particles, const hooke_options *options) {
+  int32_t status = check_call(system, count, particles, options);
+  if (status != HOOKE_OK) return status;
+  struct hk_group group = {.force = &hk_force_anchor, .count = count};
+  status = hk_group_allocate(&group, name, 1, 3, 3 * sizeof(double));
+  if (status != HOOKE_OK) {
+    hk_group_release(&group);
+    return status;
+  }
+  const int given = hooke_options_number_count(options, "points") > 0;
+  for (int64_t k = 0; k < count; k++) {
+    const double *point =
+        given ? hooke_options_numbers(options, "points") + 3 * k : system->position + 3 * particles[k];
+    memcpy((double *)group.own + 3 * k, point, 3 * sizeof(double));
+    group.particle[0][k] = (int32_t)particles[k];
+    group.number[HOOKE_KAPPA][k] = value_of(options, "stiffness", k);
+    group.number[HOOKE_GAMMA][k] = value_of(options, "damping", k);
+    group.number[HOOKE_REST_LENGTH][k] = value_of(options, "rest_length", k);
+  }
+  return hk_system_add_group(system, &group);
+}
+
+/* ---- from groups ---- */
+
+struct anchor {
+  int64_t particle;
+  double point[3], kappa, gamma, rest_length;
+};
+
+struct anchors {
+  int64_t count;
+  int32_t damped;
+  struct anchor anchor[];
+};
+
+static const struct anchors *anchors_of(const hooke_system *system) {
+  static const struct anchors none = {0};
+  const struct anchors *own = system->own[hk_force_number(&hk_force_anchor)];
+  return own ? own : &none;
+}
+
+static int32_t commit(hooke_system *system, const struct hk_group *group, int64_t count) {
+  int64_t all = 0;
+  for (int64_t g = 0; g < count; g++)
+    all += group[g].count;
+  if (all == 0) return HOOKE_OK;
+  struct anchors *made = hk_new(1, sizeof *made + (size_t)all * sizeof made->anchor[0]);
+  if (made == NULL) return HOOKE_NO_MEMORY;
+  for (; count > 0; group++, count--) {
+    for (int64_t k = 0; k < group->count; k++) {
+      struct anchor *a = &made->anchor[made->count++];
+      memcpy(a->point, (const double *)group->own + 3 * k, sizeof a->point);
+      a->particle = group->particle[0][k];
+      a->kappa = group->number[HOOKE_KAPPA][k];
+      a->gamma = group->number[HOOKE_GAMMA][k];
+      a->rest_length = group->number[HOOKE_REST_LENGTH][k];
+      made->damped |= a->gamma != 0.0;
+    }
+  }
+  system->own[hk_force_number(&hk_force_anchor)] = made;
+  return HOOKE_OK;
+}
+
+static void release(hooke_system *system) {
+  void **own = &system->own[hk_force_number(&hk_force_anchor)];
+  hk_free(*own);
+  *own = NULL;
+}
+
+static int64_t count(const hooke_system *system) {
+  return anchors_of(system)->count;
+}
+
+static int32_t present(const hooke_system *system) {
+  return count(system) > 0;
+}
+
+static int32_t damped(const hooke_system *system) {
+  return anchors_of(system)->damped;
+}
+
+static int64_t memory(const hooke_system *system) {
+  return count(system) * (int64_t)sizeof(struct anchor);
+}
+
+static void check(const hooke_system *system, uint32_t *value) {
+  if (present(system)) hk_check_add(value, anchors_of(system)->anchor, count(system), sizeof(struct anchor));
+}
+
+static void copy_group(const struct hk_variant_maker *maker, const struct hk_group *group,
+                       const struct anchor *from, struct hk_group *to) {
+  to->count = 0;
+  for (int64_t k = 0; k < group->count; k++) {
+    const int64_t particle = maker->map->to[from[k].particle], at = to->count;
+    if (particle < 0) continue;
+    to->particle[0][at] = (int32_t)particle;
+    to->number[HOOKE_KAPPA][at] = from[k].kappa;
+    to->number[HOOKE_GAMMA][at] = maker->variant->damping ? 0.0 : from[k].gamma;
+    to->number[HOOKE_REST_LENGTH][at] = from[k].rest_length;
+    memcpy((double *)to->own + 3 * at, from[k].point, sizeof from[k].point);
+    to->count++;
+  }
+}
+
+static int32_t keep(struct hk_variant_maker *maker, const struct hk_group *group, int64_t first) {
+  struct hk_group kept = {.force = &hk_force_anchor, .count = group->count};
+  const int32_t status = hk_group_allocate(&kept, group->name, 1, 3, 3 * sizeof(double));
+  if (status == HOOKE_OK) copy_group(maker, group, anchors_of(maker->from)->anchor + first, &kept);
+  if (status == HOOKE_OK) return hk_system_add_group(maker->made, &kept);
+  hk_group_release(&kept);
+  return status;
+}
+
+/* ---- the force ---- */
+
+static int32_t add(const hooke_system *system, struct hk_motion *motion, double t) {
+  (void)t;
+  const struct anchors *all = anchors_of(system);
+  for (const struct anchor *a = all->anchor; a < all->anchor + all->count; a++) {
+    const int64_t p = a->particle;
+    double *const *q = motion->q, *const *v = motion->v;
+    const double d[3] = {q[0][p] - a->point[0], q[1][p] - a->point[1], q[2][p] - a->point[2]};
+    const double r = hk_spring_length(d[0], d[1], d[2]), ir = hk_spring_inverse_length(r);
+    const double rate = ((v[0][p] * d[0] + v[1][p] * d[1]) + v[2][p] * d[2]) * ir;
+    const double s = hk_spring_tension(r, a->rest_length, a->kappa, a->gamma * rate, a->gamma != 0.0, 0) * ir;
+    for (int c = 0; c < 3; c++)
+      motion->f[c][p] -= s * d[c];
+  }
+  return HOOKE_OK;
+}
+
+/* A spring from end 0 to end 1, at which the point is at rest: x and u hold both. */
+static struct hk_spring spring_of(const struct anchor *a, const double *q, const double *v, double x[6],
+                                  double u[6]) {
+  memcpy(x, q + 3 * a->particle, 3 * sizeof(double));
+  memcpy(x + 3, a->point, sizeof a->point);
+  memset(u, 0, 6 * sizeof(double));
+  if (v) memcpy(u, v + 3 * a->particle, 3 * sizeof(double));
+  return (struct hk_spring){0, 1, a->kappa, a->gamma, a->rest_length, 0};
+}
+
+static double energy(const hooke_system *system, const double *q) {
+  struct hk_sum sum = {0.0, 0.0};
+  const struct anchors *all = anchors_of(system);
+  for (const struct anchor *a = all->anchor; a < all->anchor + all->count; a++) {
+    double x[6], u[6];
+    struct hk_stretch s;
+    const struct hk_spring spring = spring_of(a, q, NULL, x, u);
+    hk_spring_stretch(&spring, x, NULL, &s);
+    hk_sum_add(&sum, 0.5 * s.elastic * (s.length - spring.rest_length));
+  }
+  return hk_sum_value(&sum);
+}
+
+static double heat(const hooke_system *system, const double *q, const double *v) {
+  struct hk_sum sum = {0.0, 0.0};
+  const struct anchors *all = anchors_of(system);
+  for (const struct anchor *a = all->anchor; a < all->anchor + all->count; a++) {
+    double x[6], u[6];
+    struct hk_stretch s;
+    const struct hk_spring spring = spring_of(a, q, v, x, u);
+    hk_spring_stretch(&spring, x, u, &s);
+    hk_sum_add(&sum, (spring.gamma * s.rate) * s.rate);
+  }
+  return hk_sum_value(&sum);
+}
+
+static int32_t add_product(const hooke_system *system, const struct hk_point *point, double *out) {
+  const struct anchors *all = anchors_of(system);
+  for (const struct anchor *a = all->anchor; a < all->anchor + all->count; a++) {
+    double x[6], u[6], change[3];
+    struct hk_spring_slope s;
+    const struct hk_spring spring = spring_of(a, point->q, point->v, x, u);
+    if (!hk_spring_slope_find(&spring, x, u, &s)) continue;
+    hk_spring_slope_change(&s, point->dq + 3 * a->particle, point->dv + 3 * a->particle, change);
+    for (int c = 0; c < 3; c++)
+      out[3 * a->particle + c] -= change[c];
+  }
+  return HOOKE_OK;
+}
+
+static void add_blocks(const hooke_system *system, const double *q, const double *v,
+                       const struct hk_pattern *pattern, double *dfdq, double *dfdv) {
+  const struct anchors *all = anchors_of(system);
+  for (const struct anchor *a = all->anchor; a < all->anchor + all->count; a++) {
+    double x[6], u[6], stiff[9], damp[9];
+    struct hk_spring_slope s;
+    const struct hk_spring spring = spring_of(a, q, v, x, u);
+    if (!hk_spring_slope_find(&spring, x, u, &s)) continue;
+    hk_spring_slope_blocks(&s, stiff, damp);
+    const int64_t block = 9 * hk_pattern_block(pattern, a->particle, a->particle);
+    for (int64_t c = 0; c < 9; c++) {
+      if (dfdq) dfdq[block + c] -= stiff[c];
+      if (dfdv) dfdv[block + c] -= damp[c];
+    }
+  }
+}
+
+static void elements(const hooke_system *system, const double *q, const double *v, int64_t first,
+                     int64_t wanted, struct hk_element *out) {
+  const struct anchors *all = anchors_of(system);
+  for (int64_t k = 0; k < wanted; k++) {
+    double x[6], u[6];
+    const struct anchor *a = &all->anchor[first + k];
+    out[k].count = 1;
+    out[k].particle[0] = (int32_t)a->particle;
+    if (q == NULL) continue;
+    const struct hk_spring spring = spring_of(a, q, v, x, u);
+    hk_spring_element(&spring, x, v ? u : NULL, &out[k]);
+    out[k].count = 1;
+    out[k].particle[0] = (int32_t)a->particle;
+  }
+}
+
+static void add_stiffness(const hooke_system *system, double *sum) {
+  const struct anchors *all = anchors_of(system);
+  for (int64_t k = 0; k < all->count; k++)
+    *sum += all->anchor[k].kappa;
+}
+
+const struct hk_force_row hk_force_anchor = {.name = "anchors",
+                                             .members = "anchors",
+                                             .title = "anchor",
+                                             .bytes = 130.0,
+                                             .options = &options_table,
+                                             .commit = commit,
+                                             .release = release,
+                                             .memory = memory,
+                                             .check = check,
+                                             .keep = keep,
+                                             .present = present,
+                                             .add = add,
+                                             .energy = energy,
+                                             .heat = heat,
+                                             .add_product = add_product,
+                                             .add_blocks = add_blocks,
+                                             .count = count,
+                                             .elements = elements,
+                                             .add_stiffness = add_stiffness,
+                                             .damped = damped};
+
+/* ---- asking ---- */
+
+int64_t hooke_system_anchor_count(const hooke_system *system) {
+  return hk_system_members_of(system, &hk_force_anchor);
+}
+
+int32_t hooke_system_anchors(const hooke_system *system, int64_t *particles, double *points,
+                             double *stiffness, double *damping, double *rest_length) {
+  const int32_t status = hk_system_require_committed(system);
+  const struct anchors *all = anchors_of(system);
+  for (int64_t k = 0; status == HOOKE_OK && k < all->count; k++) {
+    const struct anchor *a = &all->anchor[k];
+    if (particles) particles[k] = a->particle;
+    if (points) memcpy(points + 3 * k, a->point, sizeof a->point);
+    if (stiffness) stiffness[k] = a->kappa;
+    if (damping) damping[k] = a->gamma;
+    if (rest_length) rest_length[k] = a->rest_length;
+  }
+  return status;
+}

@@ -1,0 +1,116 @@
+/* Linear forces about a place: those of elements that stay as they are, f = -K (q - place) - C v. Of
+ * systems that stand for another one linearised. */
+#include "model/force/force.h"
+
+#include "core/sum.h"
+
+#include <math.h>
+#include <string.h>
+
+void hk_system_set_linear(hooke_system *system, int64_t count, const struct hk_element *element,
+                          const double *place) {
+  system->linear = (struct hk_linear){count, element, place};
+}
+
+static int32_t present(const hooke_system *system) {
+  return system->linear.count > 0;
+}
+
+static double dot(const double a[3], const double b[3]) {
+  return (a[0] * b[0] + a[1] * b[1]) + a[2] * b[2];
+}
+
+static int32_t add(const hooke_system *system, struct hk_motion *motion, double t) {
+  (void)t;
+  const struct hk_linear *linear = &system->linear;
+  for (const struct hk_element *e = linear->element; e < linear->element + linear->count; e++) {
+    double x[3] = {0.0}, v[3] = {0.0};
+    for (int j = 0; j < e->count; j++) {
+      const int64_t p = e->particle[j];
+      for (int a = 0; a < 3; a++) {
+        x[a] += e->weight[j] * (motion->q[a][p] - linear->place[3 * p + a]);
+        v[a] += e->weight[j] * motion->v[a][p];
+      }
+    }
+    const double along =
+        (e->k_along - e->k_across) * dot(e->u, x) + (e->c_along - e->c_across) * dot(e->u, v);
+    for (int a = 0; a < 3; a++) {
+      const double force = along * e->u[a] + (e->k_across * x[a] + e->c_across * v[a]);
+      for (int j = 0; j < e->count; j++)
+        motion->f[a][e->particle[j]] -= e->weight[j] * force;
+    }
+  }
+  return HOOKE_OK;
+}
+
+static double energy(const hooke_system *system, const double *q) {
+  const struct hk_linear *linear = &system->linear;
+  struct hk_sum sum = {0.0, 0.0};
+  for (const struct hk_element *e = linear->element; e < linear->element + linear->count; e++) {
+    double x[3] = {0.0};
+    for (int k = 0; k < 3 * e->count; k++) {
+      const int64_t at = 3 * (int64_t)e->particle[k / 3] + k % 3;
+      x[k % 3] += e->weight[k / 3] * (q[at] - linear->place[at]);
+    }
+    const double along = dot(e->u, x);
+    hk_sum_add(&sum, 0.5 * ((e->k_along - e->k_across) * along * along + e->k_across * dot(x, x)));
+  }
+  return hk_sum_value(&sum);
+}
+
+static double heat(const hooke_system *system, const double *q, const double *v) {
+  (void)q;
+  const double *const x[3] = {v, v + 1, v + 2};
+  struct hk_sum sum = {0.0, 0.0};
+  for (int64_t k = 0; k < system->linear.count; k++) {
+    const struct hk_element *e = &system->linear.element[k];
+    hk_sum_add(&sum, hk_element_energy(e, e->c_along, e->c_across, 3, x));
+  }
+  return hk_sum_value(&sum);
+}
+
+static int64_t count(const hooke_system *system) {
+  return system->linear.count;
+}
+
+static void elements(const hooke_system *system, const double *q, const double *v, int64_t first,
+                     int64_t wanted, struct hk_element *out) {
+  (void)q, (void)v;
+  memcpy(out, system->linear.element + first, (size_t)wanted * sizeof *out);
+}
+
+static void multiply(const hooke_system *system, double a, double b, const double *const x[3],
+                     double *const out[3]) {
+  for (int64_t k = 0; k < system->linear.count; k++) {
+    const struct hk_element *e = &system->linear.element[k];
+    hk_element_multiply(e, a * e->k_along + b * e->c_along, a * e->k_across + b * e->c_across, 1, x, out);
+  }
+}
+
+static void add_stiffness(const hooke_system *system, double *sum) {
+  for (int64_t k = 0; k < system->linear.count; k++) {
+    const struct hk_element *e = &system->linear.element[k];
+    const double weight =
+        ((fabs(e->weight[0]) + fabs(e->weight[1])) + fabs(e->weight[2])) + fabs(e->weight[3]);
+    *sum += weight * weight * fmax(e->k_along, e->k_across);
+  }
+}
+
+static int32_t damped(const hooke_system *system) {
+  int32_t some = 0;
+  for (int64_t k = 0; k < system->linear.count; k++)
+    some |= system->linear.element[k].c_along > 0.0 || system->linear.element[k].c_across > 0.0;
+  return some;
+}
+
+const struct hk_force_row hk_force_linear = {.name = "linear",
+                                             .title = "linear force",
+                                             .present = present,
+                                             .add = add,
+                                             .energy = energy,
+                                             .heat = heat,
+                                             .count = count,
+                                             .elements = elements,
+                                             .multiply = multiply,
+                                             .add_stiffness = add_stiffness,
+                                             .damped = damped};

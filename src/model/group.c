@@ -1,0 +1,165 @@
+#include "model/group.h"
+
+#include "core/memory.h"
+#include "core/status.h"
+#include "model/force/force.h"
+
+#include <string.h>
+
+enum { PARTICLES = 3 };
+
+int32_t hk_group_allocate(struct hk_group *group, const char *name, int32_t particles, int32_t numbers,
+                          size_t own_size) {
+  int there = (group->name = hk_copy_text(name)) != NULL;
+  for (int32_t k = 0; k < particles; k++)
+    there &= (group->particle[k] = hk_new(group->count, sizeof(int32_t))) != NULL;
+  for (int32_t k = 0; k < numbers; k++)
+    there &= (group->number[k] = hk_new(group->count, sizeof(double))) != NULL;
+  group->own_size = own_size;
+  if (own_size > 0) there &= (group->own = hk_new(group->count, own_size)) != NULL;
+  return there ? HOOKE_OK : HOOKE_NO_MEMORY;
+}
+
+void hk_group_release_columns(struct hk_group *group) {
+  for (int k = 0; k < PARTICLES; k++)
+    hk_free(group->particle[k]);
+  for (int k = 0; k < HOOKE_GROUP_NUMBERS; k++)
+    hk_free(group->number[k]);
+  hk_free(group->own);
+  memset(group->particle, 0, sizeof group->particle);
+  memset(group->number, 0, sizeof group->number);
+  group->own = NULL;
+}
+
+void hk_group_release(struct hk_group *group) {
+  hk_group_release_columns(group);
+  hk_free(group->name);
+  hooke_options_destroy(group->options);
+  memset(group, 0, sizeof *group);
+}
+
+/* ---- dropping ---- */
+
+static void swap(void *column, size_t size, int64_t a, int64_t b) {
+  unsigned char *const one = column, kept[256];
+  if (column == NULL) return;
+  memcpy(kept, one + (size_t)a * size, size);
+  memcpy(one + (size_t)a * size, one + (size_t)b * size, size);
+  memcpy(one + (size_t)b * size, kept, size);
+}
+
+static void swap_members(struct hk_group *group, int64_t a, int64_t b) {
+  for (int k = 0; k < PARTICLES; k++)
+    swap(group->particle[k], sizeof(int32_t), a, b);
+  for (int k = 0; k < HOOKE_GROUP_NUMBERS; k++)
+    swap(group->number[k], sizeof(double), a, b);
+  swap(group->own, group->own_size, a, b);
+}
+
+static int acts(const struct hk_group *group, int64_t k) {
+  const double *kappa = group->number[HOOKE_KAPPA], *gamma = group->number[HOOKE_GAMMA];
+  return kappa[k] != 0.0 || (gamma && gamma[k] != 0.0);
+}
+
+void hk_group_drop(struct hk_group *group) {
+  int64_t acting = 0;
+  for (int64_t k = 0; k < group->count; k++) {
+    if (!acts(group, k)) continue;
+    if (k != acting) swap_members(group, k, acting);
+    acting++;
+  }
+  group->dropped = group->count - acting;
+  group->count = acting;
+}
+
+void hk_group_take_back(struct hk_group *group) {
+  group->count += group->dropped;
+  group->dropped = 0;
+}
+
+/* ---- the table ---- */
+
+static int comes_before(const struct hk_group *a, const struct hk_group *b) {
+  const int32_t one = hk_force_number(a->force), other = hk_force_number(b->force);
+  return one != other ? one < other : a->from_part < b->from_part;
+}
+
+int32_t hk_system_add_group(hooke_system *system, struct hk_group *group) {
+  const int64_t count = system->group_count, capacity = 2 * system->group_capacity + 4;
+  if (count == system->group_capacity) {
+    const int32_t status = hk_grow((void **)&system->group, count, capacity, sizeof *system->group);
+    if (status != HOOKE_OK) {
+      hk_group_release(group);
+      return status;
+    }
+    system->group_capacity = capacity;
+  }
+  int64_t place = count;
+  while (place > 0 && comes_before(group, &system->group[place - 1]))
+    place--;
+  memmove(system->group + place + 1, system->group + place, (size_t)(count - place) * sizeof *system->group);
+  system->group[place] = *group;
+  system->group_count++;
+  system->member_total[hk_force_number(group->force)] += group->count;
+  return HOOKE_OK;
+}
+
+void hk_system_remove_groups(hooke_system *system, int64_t part) {
+  int64_t kept = 0;
+  for (int64_t g = 0; g < system->group_count; g++) {
+    struct hk_group *group = &system->group[g];
+    if (group->from_part && group->part >= part) {
+      system->member_total[hk_force_number(group->force)] -= group->count;
+      hk_group_release(group);
+    } else {
+      system->group[kept++] = *group;
+    }
+  }
+  system->group_count = kept;
+}
+
+/* The first group of the forces from `number` on. */
+static int64_t first_from(const hooke_system *system, int32_t number) {
+  int64_t low = 0, high = system->group_count;
+  while (low < high) {
+    const int64_t middle = low + (high - low) / 2;
+    if (hk_force_number(system->group[middle].force) < number)
+      low = middle + 1;
+    else
+      high = middle;
+  }
+  return low;
+}
+
+int64_t hk_system_first_group(const hooke_system *system, const struct hk_force_row *force) {
+  return first_from(system, hk_force_number(force));
+}
+
+int64_t hk_system_groups_of(const hooke_system *system, const struct hk_force_row *force) {
+  const int32_t number = hk_force_number(force);
+  return first_from(system, number + 1) - first_from(system, number);
+}
+
+const struct hk_group *hk_system_group(const hooke_system *system, const struct hk_force_row *force,
+                                       int64_t k) {
+  const int64_t g = hk_system_first_group(system, force) + k;
+  return k >= 0 && g < system->group_count && system->group[g].force == force ? &system->group[g] : NULL;
+}
+
+const struct hk_group *hk_system_last_group(const hooke_system *system, const struct hk_force_row *force) {
+  return hk_system_group(system, force, hk_system_groups_of(system, force) - 1);
+}
+
+int64_t hk_system_members_of(const hooke_system *system, const struct hk_force_row *force) {
+  int64_t count = 0;
+  for (int64_t g = 0; g < system->group_count; g++)
+    count += system->group[g].force == force ? system->group[g].count : 0;
+  return count;
+}
+
+int64_t hk_system_member_count(const hooke_system *system) {
+  int64_t count = 0;
+  for (int64_t g = 0; g < system->group_count; g++)
+    count += system->group[g].count;
+  return count;
+}

@@ -1,0 +1,181 @@
+/* Anchors: the law, limits by formula, and every question to a scene that names them by itself. */
+#include "check.h"
+#include "run.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* A chain of three along x on weak springs; the last one is tied to a point two above it. */
+static hooke_system *chain(double stiffness, double damping, double rest_length) {
+  const double place[9] = {0, 0, 0, 1, 0, 0, 2, 0, 0}, mass = 0.5, point[3] = {2, 2, 0};
+  const int64_t ends[4] = {0, 1, 1, 2}, pinned = 0, tied = 2;
+  hooke_system *system;
+  hooke_options *options;
+  check_ok(hooke_system_create(&system));
+  check_ok(hooke_system_add_particles(system, 3, place, NULL, 1, &mass, NULL));
+  check_ok(hooke_system_pin(system, 1, &pinned));
+  check_ok(hooke_options_create("springs", &options));
+  check_ok(hooke_options_set_number(options, "stiffness", 2.0));
+  check_ok(hooke_system_add_springs(system, "line", 2, ends, options));
+  hooke_options_destroy(options);
+  check_ok(hooke_options_create("anchors", &options));
+  check_ok(hooke_options_set_numbers(options, "points", 3, point));
+  check_ok(hooke_options_set_number(options, "stiffness", stiffness));
+  check_ok(hooke_options_set_number(options, "damping", damping));
+  check_ok(hooke_options_set_number(options, "rest_length", rest_length));
+  check_ok(hooke_system_add_anchors(system, "wall", 1, &tied, options));
+  hooke_options_destroy(options);
+  check_ok(hooke_system_commit(system));
+  return system;
+}
+
+static void the_force_is_that_of_a_spring_to_the_point(void **unused) {
+  (void)unused;
+  hooke_system *system = chain(30.0, 0.7, 0.5);
+  const double q[9] = {0, 0, 0, 1, 0, 0, 2, 0, 0}, v[9] = {0, 0, 0, 0, 0, 0, 3, -1, 2};
+  double force[9];
+  check_ok(hooke_system_force(system, 0.0, q, v, force));
+  /* 2 m below its point, going away from it at 1 m/s */
+  check_close(force[7], 30.0 * 1.5 + 0.7 * 1.0, 1e-13);
+  check_close(force[6], 0.0, 1e-13);
+  check_close(hooke_system_potential_energy(system, q), 0.5 * 30.0 * 1.5 * 1.5, 1e-12);
+  check_close(hooke_system_dissipated_power(system, q, v), 0.7, 1e-14);
+  assert_string_equal(hooke_system_force_name(system, 1), "anchors");
+  int64_t particle;
+  double point[3], stiffness, damping, rest_length;
+  assert_int_equal(hooke_system_anchor_count(system), 1);
+  check_ok(hooke_system_anchors(system, &particle, point, &stiffness, &damping, &rest_length));
+  assert_true(particle == 2 && point[1] == 2.0 && stiffness == 30.0 && damping == 0.7 && rest_length == 0.5);
+  hooke_system_destroy(system);
+}
+
+/* Alone and at its point a particle is an oscillator of frequency sqrt(k/m) in all directions. */
+static hooke_system *oscillator(double stiffness) {
+  const double place[6] = {1, 2, 3, 4, 5, 6}, mass = 0.25;
+  const int64_t both[2] = {0, 1};
+  hooke_system *system;
+  hooke_options *options;
+  check_ok(hooke_system_create(&system));
+  check_ok(hooke_system_add_particles(system, 2, place, NULL, 1, &mass, NULL));
+  check_ok(hooke_options_create("anchors", &options));
+  const double stiffnesses[2] = {stiffness, 1.0};
+  check_ok(hooke_options_set_numbers(options, "stiffness", 2, stiffnesses));
+  check_ok(hooke_system_add_anchors(system, NULL, 2, both, options));
+  hooke_options_destroy(options);
+  check_ok(hooke_system_commit(system));
+  return system;
+}
+
+static void without_points_they_hold_particles_where_they_are(void **unused) {
+  (void)unused;
+  hooke_system *system = oscillator(100.0);
+  hooke_state *state = start_state(system);
+  double *q = hooke_state_position(state), force[6];
+  check_ok(hooke_system_force(system, 0.0, q, hooke_state_velocity(state), force));
+  for (int k = 0; k < 6; k++)
+    check_between(force[k], 0.0, 0.0);
+  /* a quarter of a period later it is where it was tied to: omega = 20/s */
+  q[1] += 0.1;
+  const double quarter = acos(-1.0) / 40.0;
+  hooke_integrator *run = start_run(system, (struct run){.method = "rk4", .step = quarter / 1000.0});
+  check_ok(hooke_integrator_step(run, state, 1000));
+  check_close(q[1], 2.0, 1e-9);
+  check_close(hooke_state_velocity(state)[1], -0.1 * 20.0, 1e-9);
+  hooke_integrator_destroy(run);
+  hooke_state_destroy(state);
+  hooke_system_destroy(system);
+}
+
+#if HOOKE_HAVE_LAPACK
+static void limits_are_those_of_the_oscillator(void **unused) {
+  (void)unused;
+  const struct {
+    const char *method;
+    double limit;
+  } rows[] = {{"symplectic-euler", 2.0 / 20.0}, {"verlet", 2.0 / 20.0}, {"rk4", 2.0 * sqrt(2.0) / 20.0}};
+  hooke_system *system = oscillator(100.0);
+  hooke_state *state = start_state(system);
+  hooke_measurement *limit;
+  check_ok(hooke_measurement_create("limit", system, NULL, NULL, &limit));
+  check_ok(hooke_measurement_run(limit, state));
+  for (size_t k = 0; k < sizeof rows / sizeof rows[0]; k++) {
+    double bound;
+    check_ok(hooke_step_bound(system, rows[k].method, hooke_state_position(state), &bound));
+    check_between(bound, 0.9 * rows[k].limit, rows[k].limit * (1.0 + 1e-12));
+    const int64_t row = hooke_measurement_find(limit, "rows", "method", rows[k].method);
+    check_close(hooke_measurement_number(limit, "rows", row, "predicted"), rows[k].limit, 1e-9);
+    check_close(hooke_measurement_number(limit, "rows", row, "measured"), rows[k].limit,
+                2e-3 * rows[k].limit);
+  }
+  hooke_measurement_destroy(limit);
+  hooke_state_destroy(state);
+  hooke_system_destroy(system);
+}
+
+/* The stiffest thing in the scene is named, whatever it is. */
+static void a_run_that_diverges_by_one_blames_it(void **unused) {
+  (void)unused;
+  hooke_system *system = chain(5e5, 0.0, 0.0);
+  hooke_state *state = start_state(system);
+  hooke_integrator *run = start_run(
+      system, (struct run){.method = "symplectic-euler", .step = 0.0021, .duration = 2.1, .every = 0.021});
+  check_status(hooke_integrator_run(run, state), HOOKE_DIVERGED);
+  hooke_measurement *why;
+  check_ok(hooke_why_create(run, NULL, &why));
+  check_ok(hooke_measurement_run(why, NULL));
+  const char *sentence = hooke_measurement_text(why, "why", 0, "sentence");
+  if (!strstr(sentence, "the anchor of particle 2 (group wall)")) check_failed("it says: %s", sentence);
+  hooke_measurement_destroy(why);
+  hooke_integrator_destroy(run);
+  hooke_state_destroy(state);
+  hooke_system_destroy(system);
+}
+#endif
+
+static void what_is_wrong_is_said(void **unused) {
+  (void)unused;
+  const double place[6] = {0, 0, 0, 1, 0, 0}, mass = 1.0, three[3] = {1, 2, 3};
+  const int64_t particles[2] = {0, 2}, twice[2] = {1, 1};
+  hooke_system *system;
+  hooke_options *options, *spring;
+  check_ok(hooke_system_create(&system));
+  check_ok(hooke_system_add_particles(system, 2, place, NULL, 1, &mass, NULL));
+  check_ok(hooke_options_create("anchors", &options));
+  check_ok(hooke_options_create("springs", &spring));
+  check_status(hooke_system_add_anchors(system, NULL, 1, particles, options), HOOKE_BAD_VALUE);
+  check_message("stiffness");
+  check_ok(hooke_options_set_number(options, "stiffness", 1.0));
+  check_status(hooke_system_add_anchors(system, NULL, 1, particles, spring), HOOKE_BAD_VALUE);
+  check_status(hooke_system_add_anchors(system, NULL, 2, particles, options), HOOKE_BAD_VALUE);
+  check_message("particles[1]: there is no particle 2; allowed: 0 to 1");
+  check_status(hooke_system_add_anchors(system, NULL, -1, particles, options), HOOKE_BAD_VALUE);
+  check_ok(hooke_options_set_numbers(options, "damping", 3, three));
+  check_status(hooke_system_add_anchors(system, NULL, 2, twice, options), HOOKE_BAD_VALUE);
+  check_message("damping: 3 values for 2 anchors; allowed: one, or one for each");
+  check_ok(hooke_options_unset(options, "damping"));
+  check_ok(hooke_options_set_numbers(options, "points", 3, three));
+  check_status(hooke_system_add_anchors(system, NULL, 2, twice, options), HOOKE_BAD_VALUE);
+  check_message("points: 3 values for 2 anchors; allowed: three for each");
+  check_ok(hooke_options_unset(options, "points"));
+  check_ok(hooke_system_add_anchors(system, NULL, 2, twice, options));
+  check_status(hooke_system_anchors(system, NULL, NULL, NULL, NULL, NULL), HOOKE_BAD_CALL);
+  check_ok(hooke_options_set_number(options, "stiffness", 0.0));
+  check_ok(hooke_system_add_anchors(system, NULL, 2, twice, options)); /* commit drops them */
+  check_ok(hooke_system_commit(system));
+  assert_int_equal(hooke_system_anchor_count(system), 2);
+  hooke_options_destroy(options);
+  hooke_options_destroy(spring);
+  hooke_system_destroy(system);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(the_force_is_that_of_a_spring_to_the_point),
+      cmocka_unit_test(without_points_they_hold_particles_where_they_are),
+      cmocka_unit_test(limits_are_those_of_the_oscillator),
+      cmocka_unit_test(a_run_that_diverges_by_one_blames_it),
+      cmocka_unit_test(what_is_wrong_is_said),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
