@@ -27,7 +27,8 @@ static int32_t read_springs(struct race *race, double *shortest) {
   const int64_t m = hooke_system_spring_count(race->system);
   double *material = malloc((size_t)(3 * m) * sizeof *material);
   if (material == NULL) return HOOKE_NO_MEMORY;
-  const int32_t status = hooke_system_spring_material(race->system, material, material + m, material + 2 * m);
+  const int32_t status =
+      hooke_system_members(race->system, "springs", NULL, material, material + m, material + 2 * m);
   *shortest = INFINITY;
   for (int64_t s = 0; status == HOOKE_OK && s < m; s++) {
     race->is_damped |= material[m + s] != 0.0;

@@ -2,6 +2,7 @@
 !
 ! Arrays of positions, velocities and forces are (3, n). Pointers are to the library's memory, for reading.
 module hooke_systems
+  use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
   use, intrinsic :: iso_c_binding, only: c_double, c_int32_t, c_int64_t, c_ptr
   use hooke_base, only: accept, hooke_bad_value, hooke_long, is_3_by, refuse, to_c, to_c_if, to_integer, &
     to_series, to_text, zero_based
@@ -19,26 +20,15 @@ module hooke_systems
   contains
     procedure :: mass
     procedure :: inverse_mass
-    procedure :: spring_ends
-    procedure :: spring_material
-    procedure :: bending_ends
-    procedure :: bending_coefficient
-    procedure :: altitude_ends
-    procedure :: altitude_material
+    procedure :: members
+    procedure :: anchor_points
     procedure :: altitude_lengths
-    procedure :: anchors
     procedure :: force
     procedure :: acceleration
     procedure :: coincident_springs
     procedure :: derivative_product
     procedure :: derivative_pattern
     procedure :: derivative_blocks
-    procedure :: kinetic_energy
-    procedure :: spring_energy
-    procedure :: bending_energy
-    procedure :: altitude_energy
-    procedure :: gravity_energy
-    procedure :: potential_energy
     procedure :: energy
     procedure :: dissipated_power
     procedure :: momentum
@@ -72,73 +62,36 @@ contains
     series => to_series(c_system_inverse_mass(self%address()), int(self%particle_count(), c_int64_t))
   end function
 
-  ! The particles ends(2, spring_count) of every spring.
-  subroutine spring_ends(self, ends, status)
+  ! All members of a force ("springs", "bending", "altitude", "anchors"): the particles of each, particles(:, k), and
+  ! stiffness, damping and rest lengths, of tetrahedra 7 each, one after the other.
+  subroutine members(self, force, particles, stiffness, damping, rest_length, status)
     class(hooke_system), intent(in) :: self
-    integer, allocatable, intent(out) :: ends(:, :)
+    character(*), intent(in) :: force
+    integer, allocatable, intent(out), optional :: particles(:, :)
+    real(c_double), allocatable, intent(out), optional :: stiffness(:), damping(:), rest_length(:)
     integer, intent(out), optional :: status
     integer(c_int64_t), allocatable :: numbers(:, :)
+    real(c_double), allocatable :: k(:), c(:), lengths(:)
+    integer :: n
     if (self%is_missing(status)) return
-    allocate (numbers(2, self%spring_count()), source=0_c_int64_t)
-    call accept(c_system_spring_ends(self%address(), numbers), status)
-    ends = int(numbers) + 1
+    n = max(self%count(force), 0)
+    allocate (numbers(int(c_member_particles(to_c(force))), n), source=0_c_int64_t)
+    allocate (k(n), c(n), lengths(merge(7, 1, force == "altitude")*n), source=0.0_c_double)
+    call accept(c_system_members(self%address(), to_c(force), numbers, k, c, lengths), status)
+    if (present(particles)) particles = int(numbers) + 1
+    if (present(stiffness)) stiffness = k
+    if (present(damping)) damping = c
+    if (present(rest_length)) rest_length = lengths
   end subroutine
 
-  ! kappa [N/m], gamma [N s/m] and rest length [m] of every spring.
-  subroutine spring_material(self, kappa, gamma, rest_length, status)
+  ! The point of every anchor [m], points(3, k).
+  subroutine anchor_points(self, points, status)
     class(hooke_system), intent(in) :: self
-    real(c_double), allocatable, intent(out) :: kappa(:), gamma(:), rest_length(:)
+    real(c_double), allocatable, intent(out) :: points(:, :)
     integer, intent(out), optional :: status
     if (self%is_missing(status)) return
-    allocate (kappa(self%spring_count()), source=0.0_c_double)
-    gamma = kappa
-    rest_length = kappa
-    call accept(c_system_spring_material(self%address(), kappa, gamma, rest_length), status)
-  end subroutine
-
-  subroutine bending_ends(self, ends, status)
-    class(hooke_system), intent(in) :: self
-    integer, allocatable, intent(out) :: ends(:, :)
-    integer, intent(out), optional :: status
-    integer(c_int64_t), allocatable :: numbers(:, :)
-    if (self%is_missing(status)) return
-    allocate (numbers(3, self%bending_count()), source=0_c_int64_t)
-    call accept(c_system_bending_ends(self%address(), numbers), status)
-    ends = int(numbers) + 1
-  end subroutine
-
-  subroutine bending_coefficient(self, coefficient, status)
-    class(hooke_system), intent(in) :: self
-    real(c_double), allocatable, intent(out) :: coefficient(:)
-    integer, intent(out), optional :: status
-    if (self%is_missing(status)) return
-    allocate (coefficient(self%bending_count()), source=0.0_c_double)
-    call accept(c_system_bending_coefficient(self%address(), coefficient), status)
-  end subroutine
-
-  ! The same of altitude springs on tetrahedra, ends(4, altitude_count).
-
-  subroutine altitude_ends(self, ends, status)
-    class(hooke_system), intent(in) :: self
-    integer, allocatable, intent(out) :: ends(:, :)
-    integer, intent(out), optional :: status
-    integer(c_int64_t), allocatable :: numbers(:, :)
-    if (self%is_missing(status)) return
-    allocate (numbers(4, self%altitude_count()), source=0_c_int64_t)
-    call accept(c_system_altitude_ends(self%address(), numbers), status)
-    ends = int(numbers) + 1
-  end subroutine
-
-  ! Stiffness [N], damping [N s] and the seven rest lengths [m] of each, rest_length(7, altitude_count).
-  subroutine altitude_material(self, stiffness, damping, rest_length, status)
-    class(hooke_system), intent(in) :: self
-    real(c_double), allocatable, intent(out) :: stiffness(:), damping(:), rest_length(:, :)
-    integer, intent(out), optional :: status
-    if (self%is_missing(status)) return
-    allocate (stiffness(self%altitude_count()), source=0.0_c_double)
-    damping = stiffness
-    allocate (rest_length(7, size(stiffness)), source=0.0_c_double)
-    call accept(c_system_altitude_material(self%address(), stiffness, damping, rest_length), status)
+    allocate (points(3, self%count("anchors")), source=0.0_c_double)
+    call accept(c_system_anchor_points(self%address(), points), status)
   end subroutine
 
   ! The altitude of each that acts at q [m], 0 where none does.
@@ -148,26 +101,8 @@ contains
     real(c_double), allocatable, intent(out) :: length(:)
     integer, intent(out), optional :: status
     if (.not. suits(self, status, q)) return
-    allocate (length(self%altitude_count()), source=0.0_c_double)
+    allocate (length(self%count("altitude")), source=0.0_c_double)
     call accept(c_system_altitude_lengths(self%address(), q, length), status)
-  end subroutine
-
-  ! Of every anchor the particle, the point [m], points(3, anchor_count), stiffness [N/m], damping [N s/m] and rest
-  ! length [m].
-  subroutine anchors(self, particles, points, stiffness, damping, rest_length, status)
-    class(hooke_system), intent(in) :: self
-    integer, allocatable, intent(out) :: particles(:)
-    real(c_double), allocatable, intent(out) :: points(:, :), stiffness(:), damping(:), rest_length(:)
-    integer, intent(out), optional :: status
-    integer(c_int64_t), allocatable :: numbers(:)
-    if (self%is_missing(status)) return
-    allocate (numbers(self%anchor_count()), source=0_c_int64_t)
-    allocate (points(3, size(numbers)), source=0.0_c_double)
-    allocate (stiffness(size(numbers)), source=0.0_c_double)
-    damping = stiffness
-    rest_length = stiffness
-    call accept(c_system_anchors(self%address(), numbers, points, stiffness, damping, rest_length), status)
-    particles = int(numbers) + 1
   end subroutine
 
   ! ---- forces and energies at q(3, n) and v(3, n) ----
@@ -246,7 +181,7 @@ contains
     integer, intent(out), optional :: status
     integer(c_int64_t), allocatable :: starts(:), columns(:)
     if (self%is_missing(status)) return
-    allocate (starts(self%particle_count() + 1), columns(self%block_count()), source=0_c_int64_t)
+    allocate (starts(self%particle_count() + 1), columns(self%count("blocks")), source=0_c_int64_t)
     call accept(c_system_derivative_pattern(self%address(), starts, columns), status)
     row_start = int(starts) + 1
     column = int(columns) + 1
@@ -261,7 +196,7 @@ contains
     integer, intent(out), optional :: status
     integer :: k
     if (.not. suits(self, status, q, v)) return
-    allocate (dfdq(3, 3, self%block_count()), source=0.0_c_double)
+    allocate (dfdq(3, 3, self%count("blocks")), source=0.0_c_double)
     dfdv = dfdq
     call accept(c_system_derivative_blocks(self%address(), q, v, dfdq, dfdv), status)
     do k = 1, size(dfdq, 3) ! C has rows of them
@@ -270,55 +205,21 @@ contains
     end do
   end subroutine
 
-  ! Energies [J] of the springs, of bending and of the free particles.
-
-  real(c_double) function kinetic_energy(self, v)
+  ! An energy [J]: "kinetic" at v; "springs", "bending", "altitude", "anchors", "gravity" and their sum "potential" at q;
+  ! "total" at both.
+  real(c_double) function energy(self, what, q, v)
     class(hooke_system), intent(in) :: self
-    real(c_double), intent(in), contiguous :: v(:, :)
-    call must_suit(self, v)
-    kinetic_energy = c_system_kinetic_energy(self%address(), v)
-  end function
-
-  real(c_double) function spring_energy(self, q)
-    class(hooke_system), intent(in) :: self
-    real(c_double), intent(in), contiguous :: q(:, :)
-    call must_suit(self, q)
-    spring_energy = c_system_spring_energy(self%address(), q)
-  end function
-
-  real(c_double) function bending_energy(self, q)
-    class(hooke_system), intent(in) :: self
-    real(c_double), intent(in), contiguous :: q(:, :)
-    call must_suit(self, q)
-    bending_energy = c_system_bending_energy(self%address(), q)
-  end function
-
-  real(c_double) function altitude_energy(self, q)
-    class(hooke_system), intent(in) :: self
-    real(c_double), intent(in), contiguous :: q(:, :)
-    call must_suit(self, q)
-    altitude_energy = c_system_altitude_energy(self%address(), q)
-  end function
-
-  real(c_double) function gravity_energy(self, q)
-    class(hooke_system), intent(in) :: self
-    real(c_double), intent(in), contiguous :: q(:, :)
-    call must_suit(self, q)
-    gravity_energy = c_system_gravity_energy(self%address(), q)
-  end function
-
-  real(c_double) function potential_energy(self, q)
-    class(hooke_system), intent(in) :: self
-    real(c_double), intent(in), contiguous :: q(:, :)
-    call must_suit(self, q)
-    potential_energy = c_system_potential_energy(self%address(), q)
-  end function
-
-  real(c_double) function energy(self, q, v)
-    class(hooke_system), intent(in) :: self
-    real(c_double), intent(in), contiguous :: q(:, :), v(:, :)
-    call must_suit(self, q, v)
-    energy = c_system_energy(self%address(), q, v)
+    character(*), intent(in) :: what
+    real(c_double), intent(in), contiguous, optional :: q(:, :), v(:, :)
+    logical :: both
+    both = present(q) .and. present(v)
+    if (present(q)) call must_suit(self, q)
+    if (present(v)) call must_suit(self, v)
+    energy = ieee_value(energy, ieee_quiet_nan)
+    if (both) energy = c_system_energy(self%address(), to_c(what), q, v)
+    if (present(v) .and. .not. both .and. what == "kinetic") energy = c_system_energy(self%address(), to_c(what), v, v)
+    if (present(q) .and. .not. both .and. what /= "kinetic" .and. what /= "total") &
+      energy = c_system_energy(self%address(), to_c(what), q, q)
   end function
 
   ! Power that damping and drag turn into heat [W].

@@ -91,7 +91,8 @@ static void print_whole(const hooke_measurement *cost, const hooke_system *syste
 }
 
 void cli_cost_sheet_print_left_out(const hooke_system *system) {
-  const int64_t dropped = hooke_system_dropped_spring_count(system), idle = hooke_system_idle_count(system);
+  const int64_t dropped = hooke_system_count(system, "dropped_springs"),
+                idle = hooke_system_count(system, "idle");
   if (dropped > 0) {
     printf("dropped      %" PRId64 " %s neither stiffness nor damping\n", dropped,
            dropped == 1 ? "spring that has" : "springs that have");

@@ -61,8 +61,8 @@ int cli_peak_of_run(const struct cli_arguments *arguments, const struct cli_setu
   const int32_t adaptive = hooke_method_is_adaptive(method);
   const int32_t can_run = !(adaptive >= 0 && !hooke_method_is_built(method)) &&
                           !(adaptive == 0 && hooke_options_number_count(setup->options, "step") == 0);
-  const int64_t model =
-      hooke_system_memory(setup->system) + (2 * hooke_state_size(setup->state) + 1) * (int64_t)sizeof(double);
+  const int64_t model = hooke_system_count(setup->system, "memory") +
+                        (2 * hooke_state_size(setup->state) + 1) * (int64_t)sizeof(double);
   int64_t of_method = 0;
   const int32_t status = can_run ? count_method(arguments, setup, &of_method) : HOOKE_OK;
   if (status != HOOKE_OK) return cli_report_status(arguments, status);

@@ -173,7 +173,7 @@ static void print_words(const struct cli_run *run) {
   }
   print_row("particles");
   printf("%" PRId64 " (%" PRId64 " pinned or driven), springs %" PRId64 "\n", particles,
-         particles - hooke_system_free_count(system), hooke_system_spring_count(system));
+         particles - hooke_system_count(system, "free"), hooke_system_spring_count(system));
   print_method(run);
   print_row("time reached");
   print_quantity(hooke_state_time(run->setup.state), "s of ");

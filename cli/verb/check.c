@@ -82,20 +82,16 @@ static void warn_of_coincident_springs(struct check *check) {
        count, count == 1 ? "spring starts" : "springs start");
 }
 
-/* Marks `count` particles that springs, triples, tetrahedra or anchors name, by the function that lists
- * them. */
-static int32_t mark(const hooke_system *system, int64_t count,
-                    int32_t (*list)(const hooke_system *, int64_t *), char *held) {
+/* Marks the particles of all members of a force. */
+static int32_t mark(const hooke_system *system, const char *force, char *held) {
+  const int64_t count = hooke_member_particles(force) * hooke_system_count(system, force);
   int64_t *named = malloc((size_t)(count + 1) * sizeof *named);
-  const int32_t status = named ? list(system, named) : HOOKE_NO_MEMORY;
+  const int32_t status =
+      named ? hooke_system_members(system, force, named, NULL, NULL, NULL) : HOOKE_NO_MEMORY;
   for (int64_t i = 0; status == HOOKE_OK && i < count; i++)
     held[named[i]] = 1;
   free(named);
   return status;
-}
-
-static int32_t list_anchored(const hooke_system *system, int64_t *particles) {
-  return hooke_system_anchors(system, particles, NULL, NULL, NULL, NULL);
 }
 
 /* Particles that no spring of any kind and no bending holds. */
@@ -105,13 +101,10 @@ static int32_t warn_of_loose_particles(struct check *check) {
   int64_t count = 0, first = 0;
   char *held = calloc((size_t)particles + 1, 1);
   int32_t status = held ? HOOKE_OK : HOOKE_NO_MEMORY;
-  if (status == HOOKE_OK)
-    status = mark(system, 2 * hooke_system_spring_count(system), hooke_system_spring_ends, held);
-  if (status == HOOKE_OK)
-    status = mark(system, 3 * hooke_system_bending_count(system), hooke_system_bending_ends, held);
-  if (status == HOOKE_OK)
-    status = mark(system, 4 * hooke_system_altitude_count(system), hooke_system_altitude_ends, held);
-  if (status == HOOKE_OK) status = mark(system, hooke_system_anchor_count(system), list_anchored, held);
+  for (int64_t k = 0; status == HOOKE_OK && hooke_system_force_name(system, k); k++) {
+    const char *force = hooke_system_force_name(system, k);
+    if (hooke_member_particles(force) > 0) status = mark(system, force, held);
+  }
   for (int64_t i = particles - 1; status == HOOKE_OK && i >= 0; i--) {
     if (held[i]) continue;
     count++;
@@ -129,12 +122,12 @@ static int32_t warn_of_loose_particles(struct check *check) {
 
 /* What of the counted memory goes with the number of springs, for each; and the rest, for each particle. */
 static double bytes_per_spring(const struct check *check) {
-  return (double)hooke_system_spring_memory(check->setup.system) /
+  return (double)hooke_system_count(check->setup.system, "spring_memory") /
          (double)hooke_system_spring_count(check->setup.system);
 }
 
 static double bytes_per_particle(const struct check *check) {
-  return (double)(check->memory.counted - hooke_system_spring_memory(check->setup.system)) /
+  return (double)(check->memory.counted - hooke_system_count(check->setup.system, "spring_memory")) /
          (double)hooke_system_particle_count(check->setup.system);
 }
 
@@ -156,16 +149,16 @@ static void print_json(const struct check *check) {
   cli_json_count(&json, "particles", hooke_system_particle_count(system));
   cli_json_count(&json, "springs", hooke_system_spring_count(system));
   cli_json_open(&json, "groups", '[');
-  for (int64_t i = 0; i < hooke_system_group_count(system); i++) {
+  for (int64_t i = 0; i < hooke_system_group_count(system, "springs"); i++) {
     cli_json_open(&json, NULL, '{');
-    cli_json_text(&json, "name", hooke_system_group_name(system, i));
-    cli_json_count(&json, "springs", hooke_system_group_size(system, i));
+    cli_json_text(&json, "name", hooke_system_group_name(system, "springs", i));
+    cli_json_count(&json, "springs", hooke_system_group_size(system, "springs", i));
     cli_json_close(&json);
   }
   cli_json_close(&json);
   cli_derived_json(&json, system);
   cli_json_open(&json, "forces", '[');
-  for (int64_t i = 0; i < hooke_system_force_count(system); i++) {
+  for (int64_t i = 0; i < hooke_system_count(system, "forces"); i++) {
     cli_json_text(&json, NULL, hooke_system_force_name(system, i));
   }
   cli_json_close(&json);
@@ -182,17 +175,17 @@ static void print_json(const struct check *check) {
   for (int64_t i = 0; i < check->warning_count; i++)
     cli_json_text(&json, NULL, check->warning[i]);
   cli_json_close(&json);
-  cli_json_count(&json, "dropped_springs", hooke_system_dropped_spring_count(system));
-  cli_json_count(&json, "idle_particles", hooke_system_idle_count(system));
+  cli_json_count(&json, "dropped_springs", hooke_system_count(system, "dropped_springs"));
+  cli_json_count(&json, "idle_particles", hooke_system_count(system, "idle"));
   if (check->cost) cli_cost_sheet_print_json(&json, check->cost);
   cli_json_end(&json);
 }
 
 static void print_groups(const hooke_system *system) {
   printf("springs      %" PRId64 "\n", hooke_system_spring_count(system));
-  for (int64_t i = 0; i < hooke_system_group_count(system); i++) {
-    const char *name = hooke_system_group_name(system, i);
-    printf("  %10" PRId64 " ", hooke_system_group_size(system, i));
+  for (int64_t i = 0; i < hooke_system_group_count(system, "springs"); i++) {
+    const char *name = hooke_system_group_name(system, "springs", i);
+    printf("  %10" PRId64 " ", hooke_system_group_size(system, "springs", i));
     cli_print_text(stdout, name[0] ? name : "(no name)");
     printf("\n");
   }
@@ -240,14 +233,14 @@ static void print_words(const struct check *check) {
     printf("\n");
   }
   printf("particles    %" PRId64 " (%" PRId64 " pinned or driven)\n", particles,
-         particles - hooke_system_free_count(system));
+         particles - hooke_system_count(system, "free"));
   print_groups(system);
   cli_derived_words(system);
   printf("forces       ");
-  for (int64_t i = 0; i < hooke_system_force_count(system); i++) {
+  for (int64_t i = 0; i < hooke_system_count(system, "forces"); i++) {
     printf("%s%s", i ? ", " : "", hooke_system_force_name(system, i));
   }
-  printf("%s\n", hooke_system_force_count(system) == 0 ? "none" : "");
+  printf("%s\n", hooke_system_count(system, "forces") == 0 ? "none" : "");
   print_memory(check);
   print_cost(check);
   print_limits(check);

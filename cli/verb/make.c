@@ -160,7 +160,7 @@ static void tell(const struct make *make) {
   cli_report_words(
       make->arguments, "%s: a %s of %" PRId64 " particles (%" PRId64 " pinned), %" PRId64 " springs",
       make->output ? make->output : "standard output", make->arguments->scene, particles,
-      particles - hooke_system_free_count(make->system), hooke_system_spring_count(make->system));
+      particles - hooke_system_count(make->system, "free"), hooke_system_spring_count(make->system));
   if (!make->output || (make->run && hooke_options_is_set(make->run, "step"))) return;
   fputs("the largest stable steps: hooke limit ", stderr);
   cli_print_quoted(stderr, make->output);

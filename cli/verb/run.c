@@ -14,7 +14,7 @@
 enum { SPRINGS_PER_LOOK = 1000000, MOST_STEPS_PER_LOOK = 1000, LOOKS = 100 };
 
 static double state_energy(const struct cli_run *run) {
-  return hooke_system_energy(run->setup.system, hooke_state_position(run->setup.state),
+  return hooke_system_energy(run->setup.system, "total", hooke_state_position(run->setup.state),
                              hooke_state_velocity(run->setup.state));
 }
 

@@ -62,7 +62,7 @@ int main(void) {
     const int below = bounce(state);
     if (step % 500 == 0)
       printf("t = %.1f s: %.4f J of motion, %3d particles on the floor\n", hooke_state_time(state),
-             hooke_system_kinetic_energy(system, hooke_state_velocity(state)), below);
+             hooke_system_energy(system, "kinetic", NULL, hooke_state_velocity(state)), below);
   }
 
   hooke_state_destroy(state);

@@ -24,8 +24,8 @@ program own_loop
   call run%set("step", 1e-3_hooke_real)
   call integrator%create(system, run)
   call state%create(system)
-  start = system%energy(state%q, state%v)
-  do while (system%energy(state%q, state%v) > 0.1_hooke_real*start)
+  start = system%energy("total", state%q, state%v)
+  do while (system%energy("total", state%q, state%v) > 0.1_hooke_real*start)
     call integrator%step(state, 10)
   end do
   print "(a, g0.3, a, g0.3, a)", "nine tenths of ", start, " J are gone after ", state%time(), " s"

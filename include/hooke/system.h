@@ -148,81 +148,59 @@ HOOKE_API int32_t hooke_system_commit(hooke_system *system);
 
 HOOKE_API int32_t hooke_system_is_committed(const hooke_system *system);
 HOOKE_API int64_t hooke_system_particle_count(const hooke_system *system);
-/* Particles that are neither pinned nor driven. */
-HOOKE_API int64_t hooke_system_free_count(const hooke_system *system);
 /* Springs: all that were added, from commit on those that act. */
 HOOKE_API int64_t hooke_system_spring_count(const hooke_system *system);
-/* Springs that commit has dropped, since they have neither stiffness nor damping; 0 before. */
-HOOKE_API int64_t hooke_system_dropped_spring_count(const hooke_system *system);
-/* Pinned particles that no spring, no bending, no altitude spring and no callback force touches; 0 before
- * commit. Steps leave out blocks of 256 particles that hold nothing else, but where springs in no order have
- * their particles numbered anew. */
-HOOKE_API int64_t hooke_system_idle_count(const hooke_system *system);
-HOOKE_API int64_t hooke_system_group_count(const hooke_system *system);
-/* Name of group `group`, "" if it has none, NULL if there is no such group. */
-HOOKE_API const char *hooke_system_group_name(const hooke_system *system, int64_t group);
-HOOKE_API int64_t hooke_system_group_size(const hooke_system *system, int64_t group);
+/* A count; -1 for any other word:
+ *   "springs", "bending" (triples), "altitude" (tetrahedra), "anchors": members of a force, all that were added,
+ *       from commit on those that act: commit drops those that have neither stiffness nor damping
+ *   "dropped_springs"  springs that commit has dropped
+ *   "free"     particles that are neither pinned nor driven
+ *   "idle"     pinned particles that no member of a force and no callback touches; 0 before commit. Steps leave
+ *              out blocks of 256 particles that are all idle, except where the particles of unordered springs
+ *              are numbered anew
+ *   "forces"   of hooke_system_force_name();  "derived"  numbers of hooke_system_derived_value()
+ *   "blocks"   of hooke_system_derivative_pattern(); -1 before commit and without memory
+ *   "memory"   that the committed system holds [bytes];  "spring_memory"  the part of it that grows with the
+ *              number of springs */
+HOOKE_API int64_t hooke_system_count(const hooke_system *system, const char *what);
+
+/* The groups of a force: "springs", "bending", "altitude" or "anchors". -1 groups for another word; the name of
+ * group `group`, "" if it has none, NULL if there is no such group; and its members, 0 if there is none. */
+HOOKE_API int64_t hooke_system_group_count(const hooke_system *system, const char *force);
+HOOKE_API const char *hooke_system_group_name(const hooke_system *system, const char *force, int64_t group);
+HOOKE_API int64_t hooke_system_group_size(const hooke_system *system, const char *force, int64_t group);
 
 /* Masses [kg] (n) and inverse masses [1/kg] (n; 0 = pinned or driven) of all particles; NULL before commit.
  */
 HOOKE_API const double *hooke_system_mass(const hooke_system *system);
 HOOKE_API const double *hooke_system_inverse_mass(const hooke_system *system);
 
-/* The two ends of every spring, in spring order, into `ends` (2 spring_count). HOOKE_BAD_CALL before commit.
- */
-HOOKE_API int32_t hooke_system_spring_ends(const hooke_system *system, int64_t *ends);
-/* kappa [N/m], gamma [N s/m] and rest length [m] of every spring, each spring_count long or NULL. */
-HOOKE_API int32_t hooke_system_spring_material(const hooke_system *system, double *kappa, double *gamma,
-                                               double *rest_length);
-
-/* The same of bending: triples, their groups, a b c of every triple (3 bending_count), coefficients [N/m]
- * (bending_count). Triples of coefficient 0 have no force: commit drops them, and they are not counted any
- * more. */
-HOOKE_API int64_t hooke_system_bending_count(const hooke_system *system);
-HOOKE_API int64_t hooke_system_bending_group_count(const hooke_system *system);
-HOOKE_API const char *hooke_system_bending_group_name(const hooke_system *system, int64_t group);
-HOOKE_API int64_t hooke_system_bending_group_size(const hooke_system *system, int64_t group);
-HOOKE_API int32_t hooke_system_bending_ends(const hooke_system *system, int64_t *triples);
-HOOKE_API int32_t hooke_system_bending_coefficient(const hooke_system *system, double *coefficient);
-
-/* The same of altitude springs: tetrahedra, their groups, the four particles of each (4 altitude_count), and
- * stiffness [N], damping [N s] (altitude_count each) and rest lengths [m] in the order above (7
- * altitude_count, negative for a tetrahedron whose volume (x_1 - x_0).((x_2 - x_0) x (x_3 - x_0)) is), or
- * NULL. Commit drops those that have neither stiffness nor damping. */
-HOOKE_API int64_t hooke_system_altitude_count(const hooke_system *system);
-HOOKE_API int64_t hooke_system_altitude_group_count(const hooke_system *system);
-HOOKE_API const char *hooke_system_altitude_group_name(const hooke_system *system, int64_t group);
-HOOKE_API int64_t hooke_system_altitude_group_size(const hooke_system *system, int64_t group);
-HOOKE_API int32_t hooke_system_altitude_ends(const hooke_system *system, int64_t *tetrahedra);
-HOOKE_API int32_t hooke_system_altitude_material(const hooke_system *system, double *stiffness,
-                                                 double *damping, double *rest_length);
-/* The altitude of each that acts at q [m] (altitude_count), negative where it is inside out; 0 where none
+/* Particles of one member of a force: 2 of a spring, 3 of bending, 4 of a tetrahedron, 1 of an anchor; 0 for a
+ * force without members and for another word. */
+HOOKE_API int64_t hooke_member_particles(const char *force);
+/* All members of a force in their order, hooke_system_count(system, force) of them: the particles of each, and
+ * its stiffness [N/m], damping [N s/m] and rest length [m]. Arrays have a number a member, `particles`
+ * hooke_member_particles(), and each may be NULL. Bending has its coefficient as the stiffness and zeros. Altitude springs
+ * have stiffness [N], damping [N s] and 7 rest lengths each, in the order above, negative for a tetrahedron
+ * whose volume (x_1 - x_0).((x_2 - x_0) x (x_3 - x_0)) is. HOOKE_BAD_CALL before commit; HOOKE_BAD_VALUE for
+ * another word. */
+HOOKE_API int32_t hooke_system_members(const hooke_system *system, const char *force, int64_t *particles,
+                                       double *stiffness, double *damping, double *rest_length);
+/* The point of every anchor [m] (3 each). HOOKE_BAD_CALL before commit. */
+HOOKE_API int32_t hooke_system_anchor_points(const hooke_system *system, double *points);
+/* Of every tetrahedron the altitude that acts at q [m], negative where it is inside out; 0 where none
  * does. */
 HOOKE_API int32_t hooke_system_altitude_lengths(const hooke_system *system, const double *q, double *length);
-
-/* Anchors, and of each the particle, the point [m] (3 anchor_count), stiffness [N/m], damping [N s/m] and
- * rest length [m], each anchor_count long or NULL. Commit drops those that have neither stiffness nor
- * damping. HOOKE_BAD_CALL before commit, of the second. */
-HOOKE_API int64_t hooke_system_anchor_count(const hooke_system *system);
-HOOKE_API int32_t hooke_system_anchors(const hooke_system *system, int64_t *particles, double *points,
-                                       double *stiffness, double *damping, double *rest_length);
 
 /* Numbers that parts derived from their options (`density`, `damping_ratio`, ...): a list of texts "part",
  * "family" (NULL: of the part as a whole), "name" and "unit", and the value. NULL and NaN for what is not
  * there. */
-HOOKE_API int64_t hooke_system_derived_count(const hooke_system *system);
 HOOKE_API const char *hooke_system_derived_text(const hooke_system *system, int64_t number, const char *what);
 HOOKE_API double hooke_system_derived_value(const hooke_system *system, int64_t number);
 
 /* The forces that this system computes ("springs", "bending", "altitude", "anchors", "drag", "callback",
- * "gravity"); nothing else costs anything. */
-HOOKE_API int64_t hooke_system_force_count(const hooke_system *system);
+ * "gravity"), NULL past the last; nothing else costs anything. */
 HOOKE_API const char *hooke_system_force_name(const hooke_system *system, int64_t force);
-
-/* Memory that the committed system holds [bytes]; and how much of that goes with the number of its
- * springs. */
-HOOKE_API int64_t hooke_system_memory(const hooke_system *system);
-HOOKE_API int64_t hooke_system_spring_memory(const hooke_system *system);
 
 /* ---- forces and energies at q, v (3n each), committed systems only ----
  * Functions with a status allocate scratch and return HOOKE_BAD_CALL before commit, HOOKE_NO_MEMORY, or
@@ -246,24 +224,18 @@ HOOKE_API int32_t hooke_system_derivative_product(const hooke_system *system, do
 
 /* df/dq and df/dv as sparse 3x3 blocks, callbacks left out, in compressed rows: row_start (n + 1), column
  * (count, ascending within a row, the diagonal always there), and blocks of 9 in row order, `count` being
- * hooke_system_block_count(), which is -1 before commit and without memory. Either block array may be
- * NULL. */
-HOOKE_API int64_t hooke_system_block_count(const hooke_system *system);
+ * hooke_system_count(system, "blocks"). Either block array may be NULL. */
 HOOKE_API int32_t hooke_system_derivative_pattern(const hooke_system *system, int64_t *row_start,
                                                   int64_t *column);
 HOOKE_API int32_t hooke_system_derivative_blocks(const hooke_system *system, const double *q, const double *v,
                                                  double *dfdq, double *dfdv);
 
-/* Energies [J] of the springs, of bending, of altitude springs and of the free particles; gravity's is the
- * sum of -m g.q. A callback has none. Sums keep what each addition rounds off (Neumaier 1974). Beyond the
- * largest number they are infinite. */
-HOOKE_API double hooke_system_kinetic_energy(const hooke_system *system, const double *v);
-HOOKE_API double hooke_system_spring_energy(const hooke_system *system, const double *q);
-HOOKE_API double hooke_system_bending_energy(const hooke_system *system, const double *q);
-HOOKE_API double hooke_system_altitude_energy(const hooke_system *system, const double *q);
-HOOKE_API double hooke_system_gravity_energy(const hooke_system *system, const double *q);
-HOOKE_API double hooke_system_potential_energy(const hooke_system *system, const double *q);
-HOOKE_API double hooke_system_energy(const hooke_system *system, const double *q, const double *v);
+/* An energy [J]: "kinetic" of the free particles; "springs", "bending", "altitude", "anchors", "gravity" (the sum
+ * of -m g.q); "potential", their sum; "total". The kinetic energy needs v alone, the others q alone; what is not
+ * needed may be NULL. A callback has none. NaN for another word. Sums keep the rounding errors of their additions
+ * (Neumaier 1974). Beyond the largest number they are infinite. */
+HOOKE_API double hooke_system_energy(const hooke_system *system, const char *what, const double *q,
+                                     const double *v);
 /* Power that damping and drag turn into heat [W], >= 0. */
 HOOKE_API double hooke_system_dissipated_power(const hooke_system *system, const double *q, const double *v);
 /* Momentum [kg m/s] and angular momentum about the origin [kg m^2/s] of the free particles, 3 numbers; zeros

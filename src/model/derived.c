@@ -30,10 +30,6 @@ static const struct hk_derived *find(const hooke_system *system, int64_t number)
   return number >= 0 && number < system->derived_count ? &system->derived[number] : NULL;
 }
 
-int64_t hooke_system_derived_count(const hooke_system *system) {
-  return system->derived_count;
-}
-
 const char *hooke_system_derived_text(const hooke_system *system, int64_t number, const char *what) {
   const struct hk_derived *row = find(system, number);
   if (row == NULL) return NULL;

@@ -5,6 +5,7 @@
 #include "core/status.h"
 
 #include <stddef.h>
+#include <string.h>
 
 int32_t hooke_system_is_committed(const hooke_system *system) {
   return system->committed;
@@ -14,60 +15,12 @@ int64_t hooke_system_particle_count(const hooke_system *system) {
   return system->particle_count;
 }
 
-int64_t hooke_system_free_count(const hooke_system *system) {
-  int64_t count = 0;
-  for (int64_t p = 0; p < system->particle_count; p++)
-    count += system->held[p] == 0;
-  return count;
-}
-
-int64_t hooke_system_dropped_spring_count(const hooke_system *system) {
-  int64_t count = 0;
-  for (int64_t k = 0; k < hk_system_groups_of(system, &hk_force_springs); k++)
-    count += system->group[k].dropped;
-  return count;
-}
-
-int64_t hooke_system_idle_count(const hooke_system *system) {
-  return system->idle_count;
-}
-
 const double *hooke_system_mass(const hooke_system *system) {
   return system->committed ? system->mass : NULL;
 }
 
 const double *hooke_system_inverse_mass(const hooke_system *system) {
   return system->inverse_mass;
-}
-
-int32_t hooke_system_spring_ends(const hooke_system *system, int64_t *ends) {
-  const int32_t status = hk_system_require_committed(system);
-  if (status != HOOKE_OK) return status;
-  for (int64_t r = 0; r < system->springs.run_count; r++) {
-    const struct hk_run *run = &system->springs.run[r];
-    for (int64_t k = 0; k < run->count; k++) {
-      const struct hk_spring spring = hk_run_spring(run, k);
-      ends[2 * (run->first + k)] = spring.head;
-      ends[2 * (run->first + k) + 1] = spring.tail;
-    }
-  }
-  return HOOKE_OK;
-}
-
-int32_t hooke_system_spring_material(const hooke_system *system, double *kappa, double *gamma,
-                                     double *rest_length) {
-  const int32_t status = hk_system_require_committed(system);
-  if (status != HOOKE_OK) return status;
-  for (int64_t r = 0; r < system->springs.run_count; r++) {
-    const struct hk_run *run = &system->springs.run[r];
-    for (int64_t k = 0; k < run->count; k++) {
-      const struct hk_spring spring = hk_run_spring(run, k);
-      if (kappa) kappa[run->first + k] = spring.kappa;
-      if (gamma) gamma[run->first + k] = spring.gamma;
-      if (rest_length) rest_length[run->first + k] = spring.rest_length;
-    }
-  }
-  return HOOKE_OK;
 }
 
 int64_t hooke_system_coincident_springs(const hooke_system *system, const double *q) {
@@ -82,19 +35,43 @@ int64_t hooke_system_coincident_springs(const hooke_system *system, const double
   return count;
 }
 
-int64_t hooke_system_force_count(const hooke_system *system) {
-  return system->force_row_count;
-}
-
 const char *hooke_system_force_name(const hooke_system *system, int64_t force) {
   return force >= 0 && force < system->force_row_count ? system->force_row[force]->name : NULL;
 }
 
-int64_t hooke_system_spring_memory(const hooke_system *system) {
+/* ---- counts ---- */
+
+static int64_t free_count(const hooke_system *system) {
+  int64_t count = 0;
+  for (int64_t p = 0; p < system->particle_count; p++)
+    count += system->held[p] == 0;
+  return count;
+}
+
+static int64_t dropped_springs(const hooke_system *system) {
+  int64_t count = 0;
+  for (int64_t k = 0; k < hk_system_groups_of(system, &hk_force_springs); k++)
+    count += system->group[k].dropped;
+  return count;
+}
+
+static int64_t idle_count(const hooke_system *system) {
+  return system->idle_count;
+}
+
+static int64_t force_count(const hooke_system *system) {
+  return system->force_row_count;
+}
+
+static int64_t derived_count(const hooke_system *system) {
+  return system->derived_count;
+}
+
+static int64_t spring_memory(const hooke_system *system) {
   return hk_springs_memory(&system->springs) + hk_net_spring_memory(&system->net);
 }
 
-int64_t hooke_system_memory(const hooke_system *system) {
+static int64_t memory(const hooke_system *system) {
   int64_t bytes = (int64_t)sizeof *system + system->lanes.memory + hk_net_memory(&system->net);
   for (int32_t k = 0; hk_force_table(k); k++)
     bytes += hk_force_table(k)->memory ? hk_force_table(k)->memory(system) : 0;
@@ -108,4 +85,19 @@ int64_t hooke_system_memory(const hooke_system *system) {
     bytes += system->drive[k].count * 28 + system->drive[k].samples * 56;
   }
   return bytes;
+}
+
+int64_t hooke_system_count(const hooke_system *system, const char *what) {
+  static const struct {
+    const char *name;
+    int64_t (*count)(const hooke_system *system);
+  } counts[] = {{"free", free_count},       {"idle", idle_count},
+                {"forces", force_count},    {"dropped_springs", dropped_springs},
+                {"derived", derived_count}, {"blocks", hk_system_block_count},
+                {"memory", memory},         {"spring_memory", spring_memory}};
+  for (size_t k = 0; k < sizeof counts / sizeof counts[0]; k++) {
+    if (strcmp(counts[k].name, what) == 0) return counts[k].count(system);
+  }
+  const struct hk_force_row *force = hk_force_find(what);
+  return force && force->member_particles > 0 ? hk_system_members_of(system, force) : -1;
 }

@@ -83,22 +83,22 @@ static void ask_everything(struct attempt *a, const hooke_system *system) {
   attempt_numbers(a, 3 * COUNT, vectors);
   TRY(a, hooke_system_derivative_pattern(system, row_starts, columns));
   TRY(a, hooke_system_derivative_blocks(system, q, v, stiffness_blocks, damping_blocks));
-  TRY(a, (blocks = hooke_system_block_count(system)) < 0 ? HOOKE_NO_MEMORY : HOOKE_OK);
+  TRY(a, (blocks = hooke_system_count(system, "blocks")) < 0 ? HOOKE_NO_MEMORY : HOOKE_OK);
   attempt_numbers(a, 9 * blocks, stiffness_blocks);
-  TRY(a, hooke_system_spring_ends(system, ends));
-  TRY(a, hooke_system_spring_material(system, numbers, NULL, numbers + 32));
+  TRY(a, hooke_system_members(system, "springs", ends, NULL, NULL, NULL));
+  TRY(a, hooke_system_members(system, "springs", NULL, numbers, NULL, numbers + 32));
   attempt_numbers(a, hooke_system_spring_count(system), numbers);
-  TRY(a, hooke_system_bending_ends(system, ends));
-  TRY(a, hooke_system_bending_coefficient(system, numbers));
-  TRY(a, hooke_system_altitude_ends(system, ends));
-  TRY(a, hooke_system_altitude_material(system, numbers, NULL, numbers + 32));
+  TRY(a, hooke_system_members(system, "bending", ends, NULL, NULL, NULL));
+  TRY(a, hooke_system_members(system, "bending", NULL, numbers, NULL, NULL));
+  TRY(a, hooke_system_members(system, "altitude", ends, NULL, NULL, NULL));
+  TRY(a, hooke_system_members(system, "altitude", NULL, numbers, NULL, numbers + 32));
   TRY(a, hooke_system_altitude_lengths(system, q, numbers));
-  attempt_numbers(a, hooke_system_altitude_count(system), numbers);
+  attempt_numbers(a, hooke_system_count(system, "altitude"), numbers);
   for (int64_t k = 0; k < hooke_method_count(); k++) {
     TRY(a, hooke_step_bound(system, hooke_method_name(k), q, &bound));
     attempt_number(a, bound);
   }
-  attempt_number(a, hooke_system_energy(system, q, v));
+  attempt_number(a, hooke_system_energy(system, "total", q, v));
   attempt_number(a, hooke_system_dissipated_power(system, q, v));
   hooke_system_momentum(system, v, numbers);
   hooke_system_angular_momentum(system, q, v, numbers);
@@ -207,9 +207,9 @@ static void by_parts(struct attempt *a, const void *with) {
   TRY(a, hooke_system_commit(system));
   TRY(a, hooke_state_create(system, &state));
   take_state(a, state);
-  for (int64_t k = 0; k < hooke_system_group_count(system); k++)
-    attempt_text(a, hooke_system_group_name(system, k));
-  attempt_number(a, hooke_system_potential_energy(system, hooke_state_position(state)));
+  for (int64_t k = 0; k < hooke_system_group_count(system, "springs"); k++)
+    attempt_text(a, hooke_system_group_name(system, "springs", k));
+  attempt_number(a, hooke_system_energy(system, "potential", hooke_state_position(state), NULL));
 end:
   hooke_state_destroy(state);
   hooke_options_destroy(options);

@@ -132,7 +132,7 @@ static void take_scene(struct attempt *a, hooke_scene *scene) {
   take_state(a, state);
   attempt_text(a, hooke_scene_title(scene));
   attempt_text(a, hooke_options_text(hooke_scene_run_options(scene), "method"));
-  attempt_number(a, hooke_system_energy(hooke_scene_system(scene), hooke_state_position(state),
+  attempt_number(a, hooke_system_energy(hooke_scene_system(scene), "total", hooke_state_position(state),
                                         hooke_state_velocity(state)));
 end:
   hooke_state_destroy(state);

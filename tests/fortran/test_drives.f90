@@ -65,7 +65,7 @@ contains
     call expect(maxval(abs(found%q - wanted%q)) < 1e-13_hooke_real, "both move the chain alike")
     call expect_near(found%q(1, 1), 0.1_hooke_real*sin(1.6_hooke_real*pi), 1e-13_hooke_real, "the driven particle")
     call expect(abs(found%q(1, 2) - 1) > 1e-3_hooke_real, "its neighbour moves")
-    call expect(own%free_count() == 3, "it is not free")
+    call expect(own%count("free") == 3, "it is not free")
   end subroutine
 
   subroutine by_table()

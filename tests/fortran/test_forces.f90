@@ -157,7 +157,7 @@ contains
     call system%derivative_product(0.0_hooke_real, q, v, dq, dv, wanted)
     call system%derivative_pattern(row_start, column)
     call system%derivative_blocks(q, v, dfdq, dfdv)
-    call expect(size(dfdq, 3) == system%block_count() .and. row_start(1) == 1, "blocks count from 1")
+    call expect(size(dfdq, 3) == system%count("blocks") .and. row_start(1) == 1, "blocks count from 1")
     call expect(row_start(5) == size(column) + 1 .and. all(column >= 1 .and. column <= 4), "in compressed rows")
     found = 0
     skew = 0

@@ -19,7 +19,7 @@ program test_make
   call system%apply(options)
   call system%commit()
   call first%create(system)
-  call expect_near(system%gravity_energy(first%q), 3.0_hooke_real, 1e-14_hooke_real, "gravity is applied")
+  call expect_near(system%energy("gravity", first%q), 3.0_hooke_real, 1e-14_hooke_real, "gravity is applied")
 
   call run%create("run")
   do row = 1, run%row_count()

@@ -39,7 +39,7 @@ contains
     call system%add_part("mesh", mesh, "square", first, count)
     call system%commit()
     call expect(first == 1 .and. count == 4 .and. system%spring_count() == 5, "four particles and five edges")
-    call system%spring_ends(ends)
+    call system%members("springs", ends)
     call expect(any([(ends(1, k) == 1 .and. ends(2, k) == 3, k=1, 5)]), "the diagonal is between 1 and 3")
     call state%create(system)
     call expect(same_count(state%q(:, 3), [2, 1, 0]*1.0_hooke_real) == 3, "particle 3 is vertex 3")

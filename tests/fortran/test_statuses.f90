@@ -37,7 +37,7 @@ contains
     real(hooke_real) :: q(3, 5)
     call make_oscillator(system)
     q = 0
-    print *, system%spring_energy(q)
+    print *, system%energy("springs", q)
   end subroutine
 
   subroutine refusals()

@@ -30,7 +30,7 @@ program test_views
   call make_run(run, "rk4", 1e-3_hooke_real, 0.1_hooke_real)
   call integrator%create(system, run)
   q(2, 2) = 0.5_hooke_real
-  call expect(system%spring_energy(q) > 1.0_hooke_real, "what is written is what is asked about")
+  call expect(system%energy("springs", q) > 1.0_hooke_real, "what is written is what is asked about")
   call integrator%run(state)
   call expect(abs(q(2, 2) - 0.5_hooke_real) > 1e-3_hooke_real, "a run writes where the view is")
   call expect(c_associated(c_loc(state%q), place), "which stays")

@@ -263,9 +263,9 @@ static void check_energy(const struct small_scene *scene) {
   for (int k = 0; k < 2; k++) {
     const double by = far / (1 << k);
     move(size, q, by, v_free, at);
-    const double ahead = hooke_system_potential_energy(scene->system, at);
+    const double ahead = hooke_system_energy(scene->system, "potential", at, NULL);
     move(size, q, -by, v_free, at);
-    const double behind = hooke_system_potential_energy(scene->system, at);
+    const double behind = hooke_system_energy(scene->system, "potential", at, NULL);
     slope[k] = (ahead - behind) / (2.0 * by);
     scale = fmax(scale, fmax(fabs(ahead), fabs(behind)));
   }
@@ -298,7 +298,7 @@ static void check_blocks(const struct small_scene *scene, const double *dq, cons
   enum { MOST_BLOCKS = 16384 };
   static double dfdq[9 * MOST_BLOCKS], dfdv[9 * MOST_BLOCKS];
   static int64_t column[MOST_BLOCKS], row[MOST_PARTICLES + 1];
-  const int64_t size = 3 * scene->particles, count = hooke_system_block_count(scene->system);
+  const int64_t size = 3 * scene->particles, count = hooke_system_count(scene->system, "blocks");
   double sum, most;
   hooke_fuzz_require(count >= scene->particles && count <= MOST_BLOCKS, "a number of blocks");
   hooke_fuzz_require(hooke_system_derivative_pattern(scene->system, row, column) == HOOKE_OK &&
@@ -383,9 +383,9 @@ static void check_momentum(const struct small_scene *scene) {
   hooke_system_angular_momentum(scene->system, q, v, found + 3);
   for (int k = 0; k < 6; k++)
     hooke_fuzz_require(fabs(found[k] - expected[k]) <= 1e-13 * scale, "momentum and angular momentum");
-  const double whole = hooke_system_energy(scene->system, q, v),
-               parts = hooke_system_kinetic_energy(scene->system, v) +
-                       hooke_system_potential_energy(scene->system, q);
+  const double whole = hooke_system_energy(scene->system, "total", q, v),
+               parts = hooke_system_energy(scene->system, "kinetic", NULL, v) +
+                       hooke_system_energy(scene->system, "potential", q, NULL);
   hooke_fuzz_require(whole == parts, "energy is kinetic and potential");
 }
 

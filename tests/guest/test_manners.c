@@ -154,8 +154,8 @@ static void tour_building(void) {
   REFUSED(hooke_system_add_part(system, "rope", NULL, rope, NULL, NULL), HOOKE_BAD_VALUE);
   OK(hooke_system_commit(system));
   REFUSED(hooke_system_commit(system), HOOKE_BAD_CALL);
-  ASK(hooke_system_energy(system, far, far));
-  ASK(hooke_system_memory(system));
+  ASK(hooke_system_energy(system, "total", far, far));
+  ASK(hooke_system_count(system, "memory"));
   ASK(hooke_options_destroy(springs));
   ASK(hooke_options_destroy(rope));
   ASK(hooke_system_destroy(system));

@@ -88,8 +88,8 @@ static void tell_forces(const struct scene *scene, const struct random_scene *ma
   random_scene_shake(made, 99, q, v);
   check_ok(hooke_system_force(made->system, 0.003, q, v, force));
   tell(scene, "force", 1, "fixed", hash_doubles(size, force, HASH_START));
-  const double energy[] = {hooke_system_kinetic_energy(made->system, v),
-                           hooke_system_potential_energy(made->system, q),
+  const double energy[] = {hooke_system_energy(made->system, "kinetic", NULL, v),
+                           hooke_system_energy(made->system, "potential", q, NULL),
                            hooke_system_dissipated_power(made->system, q, v)};
   tell(scene, "energy", 1, "fixed", hash_doubles(3, energy, HASH_START));
   check_ok(hooke_system_derivative_product(made->system, 0.003, q, v, v, q, force));

@@ -38,17 +38,18 @@ static double number(void) {
 static void let_pull(const hooke_system *system, struct canonical *canonical, const char *name,
                      int64_t number) {
   int64_t found = 0, at = 0;
-  for (int64_t g = 0; g < hooke_system_group_count(system); g++) {
-    const int64_t size = hooke_system_group_size(system, g);
-    const int asked = name != NULL ? strcmp(hooke_system_group_name(system, g), name) == 0 : g == number;
+  for (int64_t g = 0; g < hooke_system_group_count(system, "springs"); g++) {
+    const int64_t size = hooke_system_group_size(system, "springs", g);
+    const int asked =
+        name != NULL ? strcmp(hooke_system_group_name(system, "springs", g), name) == 0 : g == number;
     if (asked) memset(canonical->pull_only + at, 1, (size_t)size);
     found += asked;
     at += size;
   }
   at = 0;
-  for (int64_t g = 0; name != NULL && g < hooke_system_altitude_group_count(system); g++) {
-    const int64_t size = hooke_system_altitude_group_size(system, g);
-    const int asked = strcmp(hooke_system_altitude_group_name(system, g), name) == 0;
+  for (int64_t g = 0; name != NULL && g < hooke_system_group_count(system, "altitude"); g++) {
+    const int64_t size = hooke_system_group_size(system, "altitude", g);
+    const int asked = strcmp(hooke_system_group_name(system, "altitude", g), name) == 0;
     if (asked) memset(canonical->altitude_pull_only + at, 1, (size_t)size);
     found += asked;
     at += size;

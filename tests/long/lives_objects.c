@@ -45,7 +45,8 @@ static uint64_t live_system(const char *detail) {
   (void)detail;
   hooke_system *system = small_oscillator(2.0);
   hooke_state *state = start_state(system);
-  const double energy = hooke_system_energy(system, hooke_state_position(state), hooke_state_velocity(state));
+  const double energy =
+      hooke_system_energy(system, "total", hooke_state_position(state), hooke_state_velocity(state));
   hooke_state_destroy(state);
   hooke_system_destroy(system);
   return hash_doubles(1, &energy, HASH_START);

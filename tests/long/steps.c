@@ -110,7 +110,7 @@ static void look(const hooke_system *system, struct place *place, const double s
   }
   if (place->steps <= asked.steps / TENTHS) off = &place->energy_off[0];
   if (place->steps > asked.steps - asked.steps / TENTHS) off = &place->energy_off[1];
-  if (off != NULL) *off = fmax(*off, fabs(hooke_system_energy(system, q, v) / start[0] - 1.0));
+  if (off != NULL) *off = fmax(*off, fabs(hooke_system_energy(system, "total", q, v) / start[0] - 1.0));
   hooke_system_angular_momentum(system, q, v, spin);
   place->spin_off = fmax(place->spin_off, fabs(hypot(hypot(spin[0], spin[1]), spin[2]) / start[1] - 1.0));
 }
@@ -167,7 +167,8 @@ static void test_steps(void **unused) {
   const double *q = hooke_state_position(first), *v = hooke_state_velocity(first);
   double spin[3];
   hooke_system_angular_momentum(runner.system, q, v, spin);
-  const double start[] = {hooke_system_energy(runner.system, q, v), hypot(hypot(spin[0], spin[1]), spin[2])};
+  const double start[] = {hooke_system_energy(runner.system, "total", q, v),
+                          hypot(hypot(spin[0], spin[1]), spin[2])};
   memcpy(place.numbers, q, SIZE * sizeof(double));
   memcpy(place.numbers + SIZE, v, SIZE * sizeof(double));
   hooke_state_destroy(first);

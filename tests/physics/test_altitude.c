@@ -90,7 +90,7 @@ static void the_shortest_is_the_least_width(void **unused) {
     random_corners(&source, q);
     hooke_system *system = commit(new_scene(4, q, 1, corners, 5.0, 0.0, 1.25));
     check_ok(hooke_system_altitude_lengths(system, q, &length));
-    check_ok(hooke_system_altitude_material(system, NULL, NULL, rest));
+    check_ok(hooke_system_members(system, "altitude", NULL, NULL, NULL, rest));
     double least = INFINITY;
     for (int k = 0; k < 7; k++) {
       assert_true((rest[k] < 0.0) == (volume_of(q, corners) < 0.0));
@@ -128,7 +128,7 @@ static void rest_lengths_are_altitudes(void **unused) {
   const double q[12] = {0, 0, 0, 3, 0, 0, 0, 4, 0, 0, 0, 2}; /* at a corner of three right angles: 6 V = 24 */
   double rest[7];
   hooke_system *system = commit(new_scene(4, q, 1, corners, 1.0, 0.0, 1.0));
-  check_ok(hooke_system_altitude_material(system, NULL, NULL, rest));
+  check_ok(hooke_system_members(system, "altitude", NULL, NULL, NULL, rest));
   const double face = 24.0 / sqrt(12.0 * 12.0 + 8.0 * 8.0 + 6.0 * 6.0);
   const double expected[7] = {
       face, 3.0, 4.0, 2.0, 24.0 / (3.0 * sqrt(20.0)), 24.0 / (4.0 * sqrt(13.0)), 24.0 / (2.0 * 5.0)};
@@ -190,10 +190,10 @@ static double energy_error(double step) {
   add_springs(system, 6, edges, 10.0);
   commit(system);
   v[11] = 0.2, v[3] = 0.05;
-  const double before = hooke_system_energy(system, q, v);
+  const double before = hooke_system_energy(system, "total", q, v);
   run_from(system, (struct run){.method = "verlet", .step = step, .duration = 0.3, .every = 0.3}, 4, q, v);
-  const double after = hooke_system_energy(system, q, v);
-  assert_true(hooke_system_altitude_energy(system, q) > 1e-3 * before);
+  const double after = hooke_system_energy(system, "total", q, v);
+  assert_true(hooke_system_energy(system, "altitude", q, NULL) > 1e-3 * before);
   hooke_system_destroy(system);
   return fabs(after - before) / before;
 }
@@ -214,7 +214,7 @@ static void the_energy_jumps_where_another_altitude_acts(void **unused) {
   hooke_system *system = commit(new_scene(4, q, 1, corners, 40.0, 0.0, 1.0));
   for (int k = 0; k <= 4000; k++) {
     q[11] = 0.3 + 1e-3 * k;
-    const double energy = hooke_system_altitude_energy(system, q);
+    const double energy = hooke_system_energy(system, "altitude", q, NULL);
     if (fabs(energy - last) > jump) {
       jump = fabs(energy - last);
       at = q[11];
@@ -396,28 +396,28 @@ static void groups_and_numbers(void **unused) {
   check_ok(hooke_options_create("altitude", &options));
   check_ok(hooke_options_set_numbers(options, "stiffness", 2, (const double[]){0.0, 3.0}));
   check_ok(hooke_system_add_altitude(system, "mine", 2, shifted, options));
-  assert_int_equal(hooke_system_altitude_count(system), 2 + CURL - 3);
-  check_status(hooke_system_altitude_ends(system, shifted), HOOKE_BAD_CALL);
+  assert_int_equal(hooke_system_count(system, "altitude"), 2 + CURL - 3);
+  check_status(hooke_system_members(system, "altitude", shifted, NULL, NULL, NULL), HOOKE_BAD_CALL);
   commit(system);
   check_status(hooke_system_add_altitude(system, "mine", 2, shifted, options), HOOKE_BAD_CALL);
   hooke_options_destroy(options);
-  assert_int_equal(hooke_system_altitude_count(system), 1 + CURL - 3);
-  assert_int_equal(hooke_system_altitude_group_count(system), 2);
-  assert_string_equal(hooke_system_altitude_group_name(system, 0), "mine");
-  assert_string_equal(hooke_system_altitude_group_name(system, 1), "hair.altitude");
-  assert_null(hooke_system_altitude_group_name(system, 2));
-  assert_int_equal(hooke_system_altitude_group_size(system, 0), 1);
-  assert_int_equal(hooke_system_altitude_group_size(system, 1), CURL - 3);
+  assert_int_equal(hooke_system_count(system, "altitude"), 1 + CURL - 3);
+  assert_int_equal(hooke_system_group_count(system, "altitude"), 2);
+  assert_string_equal(hooke_system_group_name(system, "altitude", 0), "mine");
+  assert_string_equal(hooke_system_group_name(system, "altitude", 1), "hair.altitude");
+  assert_null(hooke_system_group_name(system, "altitude", 2));
+  assert_int_equal(hooke_system_group_size(system, "altitude", 0), 1);
+  assert_int_equal(hooke_system_group_size(system, "altitude", 1), CURL - 3);
   assert_string_equal(hooke_system_force_name(system, 1), "altitude");
   int64_t ends[4 * (CURL - 2)];
   double strength[CURL - 2], brake[CURL - 2], rest[7 * (CURL - 2)];
-  check_ok(hooke_system_altitude_ends(system, ends));
+  check_ok(hooke_system_members(system, "altitude", ends, NULL, NULL, NULL));
   assert_memory_equal(ends, shifted + 4, 4 * sizeof *ends);
   for (int64_t k = 0; k < CURL - 3; k++) {
     for (int64_t e = 0; e < 4; e++)
       assert_int_equal(ends[4 * (k + 1) + e], k + e);
   }
-  check_ok(hooke_system_altitude_material(system, strength, brake, rest));
+  check_ok(hooke_system_members(system, "altitude", NULL, strength, brake, rest));
   check_close(strength[0], 3.0, 0.0);
   check_close(strength[1], 1.0, 0.0);
   check_same_bits(7, rest + 7, rest + 7 * (CURL - 3)); /* of a strand they are one set of numbers */
@@ -435,9 +435,9 @@ static void no_strength_is_no_altitude_spring(void **unused) {
   add_springs(without, 6, edges, 10.0);
   commit(with);
   commit(without);
-  assert_int_equal(hooke_system_force_count(with), 1);
-  assert_int_equal(hooke_system_altitude_count(with), 0);
-  assert_int_equal(hooke_system_memory(with), hooke_system_memory(without));
+  assert_int_equal(hooke_system_count(with, "forces"), 1);
+  assert_int_equal(hooke_system_count(with, "altitude"), 0);
+  assert_int_equal(hooke_system_count(with, "memory"), hooke_system_count(without, "memory"));
   memcpy(other_q, q, sizeof q);
   memcpy(other_v, v, sizeof v);
   const struct run run = {.method = "symplectic-euler", .step = 1e-3, .duration = 0.1, .every = 0.1};
@@ -459,7 +459,7 @@ static void a_line_has_no_altitude(void **unused) {
       line[k] = (k % 3 + 1) * (1.0 + spread * (k / 3));
     check_ok(hooke_system_force(system, 0.0, line, still, force));
     check_between(largest(12, force), 0.0, 0.0);
-    check_between(hooke_system_altitude_energy(system, line), 0.0, 0.0);
+    check_between(hooke_system_energy(system, "altitude", line, NULL), 0.0, 0.0);
     check_ok(hooke_system_altitude_lengths(system, line, &length));
     check_between(length, 0.0, 0.0);
   }
@@ -486,12 +486,12 @@ static void bad_tetrahedra_are_refused(void **unused) {
   check_status(hooke_system_add_altitude(system, "a", -1, flat, options), HOOKE_BAD_VALUE);
   check_message("-1 tetrahedra");
   check_status(hooke_system_add_altitude(system, "a", 1, flat, springs), HOOKE_BAD_VALUE);
-  check_message("hooke_options_create()");
+  check_message("hooke_options_create(\"altitude\", ...)");
   check_ok(hooke_options_set_numbers(options, "stiffness", 3, (const double[]){1, 2, 3}));
   check_status(hooke_system_add_altitude(system, "a", 2, flat, options), HOOKE_BAD_VALUE);
   check_message("3 values for 2 tetrahedra");
   check_status(hooke_options_set_number(options, "stiffness", -1.0), HOOKE_BAD_VALUE);
-  assert_int_equal(hooke_system_altitude_group_count(system), 1);
+  assert_int_equal(hooke_system_group_count(system, "altitude"), 1);
   hooke_options_destroy(options);
   hooke_options_destroy(springs);
   hooke_system_destroy(system);

@@ -39,13 +39,14 @@ static void the_force_is_that_of_a_spring_to_the_point(void **unused) {
   /* 2 m below its point, going away from it at 1 m/s */
   check_close(force[7], 30.0 * 1.5 + 0.7 * 1.0, 1e-13);
   check_close(force[6], 0.0, 1e-13);
-  check_close(hooke_system_potential_energy(system, q), 0.5 * 30.0 * 1.5 * 1.5, 1e-12);
+  check_close(hooke_system_energy(system, "potential", q, NULL), 0.5 * 30.0 * 1.5 * 1.5, 1e-12);
   check_close(hooke_system_dissipated_power(system, q, v), 0.7, 1e-14);
   assert_string_equal(hooke_system_force_name(system, 1), "anchors");
   int64_t particle;
   double point[3], stiffness, damping, rest_length;
-  assert_int_equal(hooke_system_anchor_count(system), 1);
-  check_ok(hooke_system_anchors(system, &particle, point, &stiffness, &damping, &rest_length));
+  assert_int_equal(hooke_system_count(system, "anchors"), 1);
+  check_ok(hooke_system_members(system, "anchors", &particle, &stiffness, &damping, &rest_length));
+  check_ok(hooke_system_anchor_points(system, point));
   assert_true(particle == 2 && point[1] == 2.0 && stiffness == 30.0 && damping == 0.7 && rest_length == 0.5);
   hooke_system_destroy(system);
 }
@@ -159,11 +160,11 @@ static void what_is_wrong_is_said(void **unused) {
   check_message("points: 3 values for 2 anchors; allowed: three for each");
   check_ok(hooke_options_unset(options, "points"));
   check_ok(hooke_system_add_anchors(system, NULL, 2, twice, options));
-  check_status(hooke_system_anchors(system, NULL, NULL, NULL, NULL, NULL), HOOKE_BAD_CALL);
+  check_status(hooke_system_members(system, "anchors", NULL, NULL, NULL, NULL), HOOKE_BAD_CALL);
   check_ok(hooke_options_set_number(options, "stiffness", 0.0));
   check_ok(hooke_system_add_anchors(system, NULL, 2, twice, options)); /* commit drops them */
   check_ok(hooke_system_commit(system));
-  assert_int_equal(hooke_system_anchor_count(system), 2);
+  assert_int_equal(hooke_system_count(system, "anchors"), 2);
   hooke_options_destroy(options);
   hooke_options_destroy(spring);
   hooke_system_destroy(system);

@@ -61,11 +61,11 @@ static void straight_lines_have_no_force(void **unused) {
       q[k] = from[k % 3] + (k / 3) * along[k % 3];
     check_ok(hooke_system_force(system, 0.0, q, still, force));
     check_between(largest(3 * N, force), 0.0, 3.0 * 40.0 * 8.0 * 2.3e-16);
-    check_between(hooke_system_bending_energy(system, q), 0.0, 1e-25);
+    check_between(hooke_system_energy(system, "bending", q, NULL), 0.0, 1e-25);
     q[31] += 0.01;
     check_ok(hooke_system_force(system, 0.0, q, still, force));
     check_close(force[31], -6.0 * 3.0 * 0.01, 1e-12);
-    check_close(hooke_system_bending_energy(system, q), 0.5 * 3.0 * 6.0 * 1e-4, 1e-13);
+    check_close(hooke_system_energy(system, "bending", q, NULL), 0.5 * 3.0 * 6.0 * 1e-4, 1e-13);
   }
   hooke_system_destroy(system);
 }
@@ -78,14 +78,15 @@ static void energies_are_apart(void **unused) {
                *springs = commit(new_line(0.0, 20.0, 0.0, 0));
   for (int k = 0; k < 3 * N; k++)
     q[k] = 0.1 * sin(0.7 * k) + (k % 3 == 0 ? 0.1 * (k / 3) : 0.0);
-  const double u = hooke_system_spring_energy(springs, q), b = hooke_system_bending_energy(bends, q);
+  const double u = hooke_system_energy(springs, "springs", q, NULL),
+               b = hooke_system_energy(bends, "bending", q, NULL);
   assert_true(u > 1e-3 && b > 1e-3);
-  check_close(hooke_system_spring_energy(both, q), u, 0.0);
-  check_close(hooke_system_bending_energy(both, q), b, 0.0);
-  check_close(hooke_system_potential_energy(both, q), u + b, 1e-15 * (u + b));
-  check_close(hooke_system_spring_energy(bends, q), 0.0, 0.0);
-  check_close(hooke_system_bending_energy(springs, q), 0.0, 0.0);
-  assert_int_equal(hooke_system_force_count(both), 2);
+  check_close(hooke_system_energy(both, "springs", q, NULL), u, 0.0);
+  check_close(hooke_system_energy(both, "bending", q, NULL), b, 0.0);
+  check_close(hooke_system_energy(both, "potential", q, NULL), u + b, 1e-15 * (u + b));
+  check_close(hooke_system_energy(bends, "springs", q, NULL), 0.0, 0.0);
+  check_close(hooke_system_energy(springs, "bending", q, NULL), 0.0, 0.0);
+  assert_int_equal(hooke_system_count(both, "forces"), 2);
   assert_string_equal(hooke_system_force_name(both, 0), "springs");
   assert_string_equal(hooke_system_force_name(both, 1), "bending");
   hooke_system_destroy(both);
@@ -119,9 +120,9 @@ static void run_from(const hooke_system *system, struct run run, double *q, doub
 static double energy_error(const hooke_system *system, double step) {
   double q[3 * N], v[3 * N];
   kick(q, v);
-  const double before = hooke_system_energy(system, q, v);
+  const double before = hooke_system_energy(system, "total", q, v);
   run_from(system, (struct run){.method = "verlet", .step = step, .duration = 1.0, .every = 1.0}, q, v);
-  return fabs(hooke_system_energy(system, q, v) - before) / before;
+  return fabs(hooke_system_energy(system, "total", q, v) - before) / before;
 }
 
 static void verlet_keeps_the_energy(void **unused) {
@@ -203,25 +204,25 @@ static void explicit_triples_come_first(void **unused) {
   check_ok(hooke_system_add_part(system, "rope", "r", rope, NULL, NULL));
   check_ok(hooke_system_add_bending(system, "mine", 4, triples, 4, c));
   check_ok(hooke_system_add_bending(system, NULL, 1, triples, 1, c + 1));
-  assert_int_equal(hooke_system_bending_count(system), 8);
+  assert_int_equal(hooke_system_count(system, "bending"), 8);
   int64_t found[15];
   double coefficient[5];
-  check_status(hooke_system_bending_ends(system, found), HOOKE_BAD_CALL);
-  check_status(hooke_system_bending_coefficient(system, coefficient), HOOKE_BAD_CALL);
-  assert_true(isnan(hooke_system_bending_energy(system, q)));
+  check_status(hooke_system_members(system, "bending", found, NULL, NULL, NULL), HOOKE_BAD_CALL);
+  check_status(hooke_system_members(system, "bending", NULL, coefficient, NULL, NULL), HOOKE_BAD_CALL);
+  assert_true(isnan(hooke_system_energy(system, "bending", q, NULL)));
   check_ok(hooke_system_commit(system));
-  assert_int_equal(hooke_system_bending_count(system), 5);
-  assert_int_equal(hooke_system_bending_group_count(system), 3);
-  assert_string_equal(hooke_system_bending_group_name(system, 0), "mine");
-  assert_string_equal(hooke_system_bending_group_name(system, 1), "");
-  assert_string_equal(hooke_system_bending_group_name(system, 2), "r.bending");
-  assert_null(hooke_system_bending_group_name(system, 3));
-  assert_int_equal(hooke_system_bending_group_size(system, 0), 2);
-  assert_int_equal(hooke_system_bending_group_size(system, 1), 0);
-  assert_int_equal(hooke_system_bending_group_size(system, 2), 3);
-  assert_int_equal(hooke_system_group_count(system), 0); /* of springs */
-  check_ok(hooke_system_bending_ends(system, found));
-  check_ok(hooke_system_bending_coefficient(system, coefficient));
+  assert_int_equal(hooke_system_count(system, "bending"), 5);
+  assert_int_equal(hooke_system_group_count(system, "bending"), 3);
+  assert_string_equal(hooke_system_group_name(system, "bending", 0), "mine");
+  assert_string_equal(hooke_system_group_name(system, "bending", 1), "");
+  assert_string_equal(hooke_system_group_name(system, "bending", 2), "r.bending");
+  assert_null(hooke_system_group_name(system, "bending", 3));
+  assert_int_equal(hooke_system_group_size(system, "bending", 0), 2);
+  assert_int_equal(hooke_system_group_size(system, "bending", 1), 0);
+  assert_int_equal(hooke_system_group_size(system, "bending", 2), 3);
+  assert_int_equal(hooke_system_group_count(system, "springs"), 0); /* of springs */
+  check_ok(hooke_system_members(system, "bending", found, NULL, NULL, NULL));
+  check_ok(hooke_system_members(system, "bending", NULL, coefficient, NULL, NULL));
   const int64_t expected[15] = {2, 0, 1, 1, 2, 0, 3, 4, 5, 4, 5, 6, 5, 6, 7};
   assert_memory_equal(found, expected, sizeof expected);
   const double kept[5] = {2.0, 3.0, 5.0, 5.0, 5.0};
@@ -240,9 +241,10 @@ static void no_stiffness_is_no_bending(void **unused) {
   hooke_system *with = new_line(0.0, 20.0, 0.1, 0), *without = commit(new_line(0.0, 20.0, 0.1, 0));
   check_ok(hooke_system_add_bending(with, "none", TRIPLES, triples, 1, &zero));
   commit(with);
-  assert_int_equal(hooke_system_force_count(with), 1);
-  assert_int_equal(hooke_system_bending_count(with), 0);
-  check_between((double)(hooke_system_memory(with) - hooke_system_memory(without)), 0.0, 128.0);
+  assert_int_equal(hooke_system_count(with, "forces"), 1);
+  assert_int_equal(hooke_system_count(with, "bending"), 0);
+  check_between((double)(hooke_system_count(with, "memory") - hooke_system_count(without, "memory")), 0.0,
+                128.0);
   double q[3 * N], v[3 * N], other_q[3 * N], other_v[3 * N];
   kick(q, v);
   memcpy(other_q, q, sizeof q);
@@ -252,7 +254,7 @@ static void no_stiffness_is_no_bending(void **unused) {
   run_from(without, run, other_q, other_v);
   check_same_bits(3 * N, q, other_q);
   hooke_system *bending = commit(new_line(1.0, 20.0, 0.1, 0));
-  assert_true(hooke_system_memory(bending) > hooke_system_memory(with));
+  assert_true(hooke_system_count(bending, "memory") > hooke_system_count(with, "memory"));
   hooke_system_destroy(with);
   hooke_system_destroy(without);
   hooke_system_destroy(bending);
@@ -273,7 +275,7 @@ static void bad_triples_are_refused(void **unused) {
   check_message("3 values for 2 triples");
   check_status(hooke_system_add_bending(system, "b", 2, fine, 1, (double[]){NAN}), HOOKE_BAD_VALUE);
   check_status(hooke_system_add_bending(system, "b", -1, fine, 1, &one), HOOKE_BAD_VALUE);
-  assert_int_equal(hooke_system_bending_group_count(system), 1);
+  assert_int_equal(hooke_system_group_count(system, "bending"), 1);
   commit(system);
   check_status(hooke_system_add_bending(system, "b", 2, fine, 1, &one), HOOKE_BAD_CALL);
   hooke_system_destroy(system);

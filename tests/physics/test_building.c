@@ -54,7 +54,7 @@ static void refuse_springs(int64_t count, const int64_t *ends, const hooke_optio
   small_springs(system, 1, good, (struct springs){.stiffness = 1, .rest_length = -1});
   check_ok(hooke_system_commit(system));
   assert_int_equal(hooke_system_spring_count(system), 1);
-  assert_int_equal(hooke_system_group_count(system), 1);
+  assert_int_equal(hooke_system_group_count(system, "springs"), 1);
   hooke_system_destroy(system);
 }
 
@@ -145,7 +145,7 @@ static void test_pins_and_drives(void **unused) {
   check_message("driven");
   check_status(hooke_system_pin(system, 1, &two), HOOKE_BAD_VALUE);
   check_ok(hooke_system_commit(system));
-  assert_int_equal(hooke_system_free_count(system), 1);
+  assert_int_equal(hooke_system_count(system, "free"), 1);
   assert_true(hooke_system_inverse_mass(system)[0] == 1.0);
   assert_true(hooke_system_inverse_mass(system)[1] == 0.0 && hooke_system_inverse_mass(system)[2] == 0.0);
   hooke_system_destroy(system);
@@ -161,7 +161,7 @@ static void test_gravity_and_drag(void **unused) {
   check_message("-0.5");
   check_status(hooke_system_set_drag(system, NAN), HOOKE_BAD_VALUE);
   check_ok(hooke_system_commit(system));
-  assert_int_equal(hooke_system_force_count(system), 0);
+  assert_int_equal(hooke_system_count(system, "forces"), 0);
   hooke_system_destroy(system);
 }
 
@@ -195,7 +195,7 @@ static void test_calls_out_of_order(void **unused) {
   check_status(hooke_system_acceleration(system, 0.0, place, place, out), HOOKE_BAD_CALL);
   check_status(hooke_state_create(system, &state), HOOKE_BAD_CALL);
   check_status(hooke_integrator_create(system, run, &integrator), HOOKE_BAD_CALL);
-  assert_true(isnan(hooke_system_energy(system, place, place)));
+  assert_true(isnan(hooke_system_energy(system, "total", place, place)));
   assert_null(hooke_system_mass(system));
   check_ok(hooke_system_commit(system));
   check_status(hooke_system_commit(system), HOOKE_BAD_CALL);
@@ -221,22 +221,22 @@ static void test_spring_numbers(void **unused) {
   check_ok(hooke_system_add_springs(system, "long", 1, first, options));
   check_ok(hooke_options_set_number(options, "rest_scale", 0.5));
   check_ok(hooke_system_add_springs(system, NULL, 2, second, options));
-  check_status(hooke_system_spring_ends(system, ends), HOOKE_BAD_CALL);
+  check_status(hooke_system_members(system, "springs", ends, NULL, NULL, NULL), HOOKE_BAD_CALL);
   check_ok(hooke_system_commit(system));
-  check_ok(hooke_system_spring_ends(system, ends));
-  check_ok(hooke_system_spring_material(system, kappa, gamma, rest));
+  check_ok(hooke_system_members(system, "springs", ends, NULL, NULL, NULL));
+  check_ok(hooke_system_members(system, "springs", NULL, kappa, gamma, rest));
   assert_memory_equal(ends, expected, sizeof ends);
   const double expected_kappa[] = {5, 20, 20}, expected_gamma[] = {0.25, 1, 1},
                expected_rest[] = {2, 0.5, 0.5};
   check_same_bits(3, kappa, expected_kappa);
   check_same_bits(3, gamma, expected_gamma);
   check_same_bits(3, rest, expected_rest);
-  assert_int_equal(hooke_system_group_count(system), 2);
-  assert_string_equal(hooke_system_group_name(system, 0), "long");
-  assert_string_equal(hooke_system_group_name(system, 1), "");
-  assert_null(hooke_system_group_name(system, 2));
-  assert_int_equal(hooke_system_group_size(system, 0), 1);
-  assert_int_equal(hooke_system_group_size(system, 1), 2);
+  assert_int_equal(hooke_system_group_count(system, "springs"), 2);
+  assert_string_equal(hooke_system_group_name(system, "springs", 0), "long");
+  assert_string_equal(hooke_system_group_name(system, "springs", 1), "");
+  assert_null(hooke_system_group_name(system, "springs", 2));
+  assert_int_equal(hooke_system_group_size(system, "springs", 0), 1);
+  assert_int_equal(hooke_system_group_size(system, "springs", 1), 2);
   hooke_options_destroy(options);
   hooke_system_destroy(system);
 }

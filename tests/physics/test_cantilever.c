@@ -74,7 +74,7 @@ static hooke_system *new_sheet(int along, int across) {
 /* -df/dq of the particles from `held` on, as a lower band of `width` numbers a row, the diagonal last. */
 static void fill_band(const hooke_system *system, const double *q, const double *v, int64_t held,
                       int64_t width, double *band) {
-  const int64_t n = hooke_system_particle_count(system), count = hooke_system_block_count(system);
+  const int64_t n = hooke_system_particle_count(system), count = hooke_system_count(system, "blocks");
   int64_t *row_start = new_block(n + 1, (int64_t)sizeof(int64_t)),
           *column = new_block(count, (int64_t)sizeof(int64_t));
   double *blocks = new_doubles(9 * count);

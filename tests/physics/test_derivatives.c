@@ -70,7 +70,7 @@ struct blocks {
 
 static void take_blocks(const struct law_scene *scene, struct blocks *blocks) {
   blocks->n = LAW_PARTICLES;
-  blocks->count = hooke_system_block_count(scene->system);
+  blocks->count = hooke_system_count(scene->system, "blocks");
   assert_true(blocks->count >= blocks->n && blocks->count <= blocks->n + 2 * LAW_SPRINGS + 6 * LAW_TRIPLES);
   blocks->row_start = new_block(blocks->n + 1, (int64_t)sizeof(int64_t));
   blocks->column = new_block(blocks->count, (int64_t)sizeof(int64_t));

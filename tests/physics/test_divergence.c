@@ -24,9 +24,10 @@ static struct verdict predict(const hooke_system *system, const double *gravity,
   double *q = hooke_state_position(state), *v = hooke_state_velocity(state);
   canonical_create(system, &canonical);
   canonical.gravity = gravity;
-  const double springs = hooke_system_spring_energy(system, q),
-               kinetic = hooke_system_kinetic_energy(system, v);
-  const double start = hooke_system_energy(system, q, v), weight = hooke_system_gravity_energy(system, q);
+  const double springs = hooke_system_energy(system, "springs", q, NULL),
+               kinetic = hooke_system_energy(system, "kinetic", NULL, v);
+  const double start = hooke_system_energy(system, "total", q, v),
+               weight = hooke_system_energy(system, "gravity", q, NULL);
   double swing = 0.0, mass = 0.0, square = 0.0;
   for (int64_t p = 0; p < canonical.particle_count; p++) {
     if (canonical.inverse_mass[p] != 0.0) mass += hooke_system_mass(system)[p];
@@ -38,8 +39,8 @@ static struct verdict predict(const hooke_system *system, const double *gravity,
     assert_int_equal(canonical_step(&canonical, method, (double)(k - 1) * h, (double)k * h, h, q, v),
                      CANONICAL_STEPPED);
     if (k % stride != 0 && k % 1000 != 0) continue;
-    swing = fmax(swing, fabs(hooke_system_gravity_energy(system, q) - weight));
-    const double rise = hooke_system_energy(system, q, v) - start;
+    swing = fmax(swing, fabs(hooke_system_energy(system, "gravity", q, NULL) - weight));
+    const double rise = hooke_system_energy(system, "total", q, v) - start;
     if (!isfinite(rise) || rise > 100.0 * (scale + swing))
       verdict.step = k;
     else

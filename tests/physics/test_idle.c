@@ -52,8 +52,8 @@ static void check_method(const char *method, int64_t before, int64_t after, doub
   double *q = new_doubles(3 * n), *v = new_doubles(3 * n), *q2 = new_doubles(3 * all),
          *v2 = new_doubles(3 * all);
   assert_int_equal(all, n + before + after);
-  assert_int_equal(hooke_system_idle_count(among), before + after);
-  assert_int_equal(hooke_system_idle_count(alone), 0);
+  assert_int_equal(hooke_system_count(among, "idle"), before + after);
+  assert_int_equal(hooke_system_count(alone, "idle"), 0);
   run_to_end(alone, run, q, v);
   run_to_end(among, run, q2, v2);
   /* where something is solved for, sums over all unknowns come in other blocks */

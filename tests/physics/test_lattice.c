@@ -54,10 +54,11 @@ static void families_have_the_springs_of_the_formula(void **unused) {
         const int64_t faces = (nx - 1) * (ny - 1) * nz + (nx - 1) * ny * (nz - 1) + nx * (ny - 1) * (nz - 1);
         const int64_t apart = (nx - 2) * ny * nz + nx * (ny - 2) * nz + nx * ny * (nz - 2);
         assert_int_equal(hooke_system_particle_count(system), n);
-        assert_int_equal(hooke_system_group_size(system, 0), 3 * n - ny * nz - nx * nz - nx * ny);
-        assert_int_equal(hooke_system_group_size(system, 1), 2 * faces + 4 * cells);
+        assert_int_equal(hooke_system_group_size(system, "springs", 0), 3 * n - ny * nz - nx * nz - nx * ny);
+        assert_int_equal(hooke_system_group_size(system, "springs", 1), 2 * faces + 4 * cells);
         assert_int_equal(hooke_system_spring_count(system),
-                         hooke_system_group_size(system, 0) + hooke_system_group_size(system, 1) + apart);
+                         hooke_system_group_size(system, "springs", 0) +
+                             hooke_system_group_size(system, "springs", 1) + apart);
         hooke_system_destroy(system);
       }
     }
@@ -76,8 +77,8 @@ static void springs_are_in_order(void **unused) {
   const int64_t count = hooke_system_spring_count(system);
   int64_t *ends = new_block(2 * count, sizeof *ends), k = 0;
   double *material = new_doubles(3 * count), *rest = material + 2 * count;
-  check_ok(hooke_system_spring_ends(system, ends));
-  check_ok(hooke_system_spring_material(system, material, material + count, rest));
+  check_ok(hooke_system_members(system, "springs", ends, NULL, NULL, NULL));
+  check_ok(hooke_system_members(system, "springs", NULL, material, material + count, rest));
   hooke_state *state = start_state(system);
   const double *q = hooke_state_position(state);
   for (int d = 0; d < 16; d++) {
@@ -123,13 +124,13 @@ static hooke_system *one_by_one(const hooke_system *part) {
   double *material = new_doubles(3 * count);
   hooke_system *system;
   hooke_state *state = start_state(part);
-  check_ok(hooke_system_spring_ends(part, ends));
-  check_ok(hooke_system_spring_material(part, material, material + count, material + 2 * count));
+  check_ok(hooke_system_members(part, "springs", ends, NULL, NULL, NULL));
+  check_ok(hooke_system_members(part, "springs", NULL, material, material + count, material + 2 * count));
   check_ok(hooke_system_create(&system));
   check_ok(hooke_system_add_particles(system, n, hooke_state_position(state), NULL, n,
                                       hooke_system_mass(part), NULL));
   for (int g = 0; g < 3; g++) {
-    const int64_t size = hooke_system_group_size(part, g);
+    const int64_t size = hooke_system_group_size(part, "springs", g);
     hooke_options *options;
     check_ok(hooke_options_create("springs", &options));
     check_ok(hooke_options_set_number(options, "stiffness", stiffness[g]));
@@ -290,7 +291,7 @@ static void a_layer_can_be_driven(void **unused) {
   check_ok(hooke_system_add_part(system, "lattice", NULL, options, NULL, NULL));
   check_ok(hooke_system_drive_harmonic(system, LAYER, layer, (double[]){0.1, 0, 0}, 0.5, 0.0));
   check_ok(hooke_system_commit(system));
-  assert_int_equal(hooke_system_free_count(system), LAYER);
+  assert_int_equal(hooke_system_count(system, "free"), LAYER);
   run_to_end(system, (struct run){.method = "symplectic-euler", .step = 1e-3, .duration = 0.5}, q, NULL);
   for (int k = 0; k < LAYER; k++) {
     const double x = 0.1 + 0.6 * (k % 3);

@@ -95,10 +95,10 @@ static hooke_system *build_with(const struct mesh *mesh, const char *option, dou
 
 static void check_euler(struct mesh mesh, int64_t characteristic, int64_t border) {
   hooke_system *system = build_with(&mesh, "mass", 1);
-  const int64_t edges = hooke_system_group_size(system, 0);
+  const int64_t edges = hooke_system_group_size(system, "springs", 0);
   assert_int_equal(mesh.vertices - edges + mesh.triangles, characteristic);
   assert_int_equal(2 * edges, 3 * mesh.triangles + border);
-  assert_int_equal(hooke_system_group_size(system, 1), edges - border);
+  assert_int_equal(hooke_system_group_size(system, "springs", 1), edges - border);
   hooke_system_destroy(system);
 }
 
@@ -114,13 +114,14 @@ static void springs_are_in_order(void **unused) {
   (void)unused;
   struct mesh mesh = sheet(5, 4);
   hooke_system *system = build_with(&mesh, "mass", 1);
-  const int64_t count = hooke_system_spring_count(system), edges = hooke_system_group_size(system, 0);
+  const int64_t count = hooke_system_spring_count(system),
+                edges = hooke_system_group_size(system, "springs", 0);
   int64_t *ends = new_block(2 * count, sizeof *ends);
   double *material = new_doubles(3 * count);
-  check_ok(hooke_system_spring_ends(system, ends));
-  check_ok(hooke_system_spring_material(system, material, material + count, material + 2 * count));
-  assert_string_equal(hooke_system_group_name(system, 0), "m.structural");
-  assert_string_equal(hooke_system_group_name(system, 1), "m.bend");
+  check_ok(hooke_system_members(system, "springs", ends, NULL, NULL, NULL));
+  check_ok(hooke_system_members(system, "springs", NULL, material, material + count, material + 2 * count));
+  assert_string_equal(hooke_system_group_name(system, "springs", 0), "m.structural");
+  assert_string_equal(hooke_system_group_name(system, "springs", 1), "m.bend");
   int64_t bends = edges;
   for (int64_t k = 0; k < edges; k++) {
     const int64_t *e = ends + 2 * k;
@@ -197,11 +198,12 @@ static void damping_by_ratio_is_that_of_both_ends(void **unused) {
   check_ok(hooke_options_set_number(options, "mass", 0.6));
   check_ok(hooke_options_set_number(options, "structural.damping_ratio", 0.3));
   hooke_system *system = build(options);
-  const int64_t count = hooke_system_spring_count(system), edges = hooke_system_group_size(system, 0);
+  const int64_t count = hooke_system_spring_count(system),
+                edges = hooke_system_group_size(system, "springs", 0);
   int64_t *ends = new_block(2 * count, sizeof *ends);
   double *kappa = new_doubles(3 * count);
-  check_ok(hooke_system_spring_ends(system, ends));
-  check_ok(hooke_system_spring_material(system, kappa, kappa + count, kappa + 2 * count));
+  check_ok(hooke_system_members(system, "springs", ends, NULL, NULL, NULL));
+  check_ok(hooke_system_members(system, "springs", NULL, kappa, kappa + count, kappa + 2 * count));
   for (int64_t k = 0; k < edges; k++) {
     const double a = hooke_system_mass(system)[ends[2 * k]], b = hooke_system_mass(system)[ends[2 * k + 1]];
     check_close(kappa[count + k], 2 * 0.3 * sqrt(kappa[k] / (1 / a + 1 / b)), 1e-14);
@@ -240,7 +242,7 @@ static void vertices_at_one_place_are_one(void **unused) {
   for (int k = 0; k < 36; k++)
     check_close(hooke_state_position(state)[k], expected[k], 0.0);
   int told = 0;
-  for (int64_t d = 0; d < hooke_system_derived_count(system); d++) {
+  for (int64_t d = 0; d < hooke_system_count(system, "derived"); d++) {
     if (strcmp(hooke_system_derived_text(system, d, "name"), "vertices welded to others") != 0) continue;
     check_close(hooke_system_derived_value(system, d), 48, 0.0);
     told++;

@@ -44,7 +44,7 @@ static hooke_system *build(const char *kind, hooke_options *options) {
 
 static double derived(const hooke_system *system, const char *family, const char *name) {
   double value = NAN;
-  for (int64_t k = 0; k < hooke_system_derived_count(system); k++) {
+  for (int64_t k = 0; k < hooke_system_count(system, "derived"); k++) {
     const char *of = hooke_system_derived_text(system, k, "family");
     assert_string_equal(hooke_system_derived_text(system, k, "part"), "part");
     const int is_of_it = family && of ? strcmp(of, family) == 0 : family == of;
@@ -75,7 +75,7 @@ static void a_rope_weighs_the_same_at_every_resolution(void **unused) {
       check_close(mass[p], 0.6 / n, 1e-16);
     check_close(derived(rope, NULL, "mass of an end"), mass[0], 0.0);
     if (n > 1) check_close(derived(rope, NULL, "mass of an inner particle"), mass[1], 0.0);
-    assert_int_equal(hooke_system_derived_count(rope), n > 1 ? 2 : 1);
+    assert_int_equal(hooke_system_count(rope, "derived"), n > 1 ? 2 : 1);
     hooke_system_destroy(rope);
   }
 }
@@ -94,7 +94,7 @@ static void a_cloth_weighs_its_area(void **unused) {
       check_close(mass[p], 0.3 * cell * side * end, 1e-15);
     }
     check_close(derived(cloth, NULL, "mass of a corner"), mass[0], 0.0);
-    assert_int_equal(hooke_system_derived_count(cloth), 1 + (nu > 2 || nv > 2) + (nu > 2 && nv > 2));
+    assert_int_equal(hooke_system_count(cloth, "derived"), 1 + (nu > 2 || nv > 2) + (nu > 2 && nv > 2));
     hooke_system_destroy(cloth);
   }
 }
@@ -104,7 +104,7 @@ static void a_mass_is_shared_equally(void **unused) {
   hooke_system *rope = build("rope", new_rope(3.0, 4, "mass", 0.5));
   for (int p = 0; p < 5; p++)
     check_close(hooke_system_mass(rope)[p], 0.1, 0.0);
-  assert_int_equal(hooke_system_derived_count(rope), 0);
+  assert_int_equal(hooke_system_count(rope, "derived"), 0);
   assert_null(hooke_system_derived_text(rope, 0, "name"));
   assert_true(isnan(hooke_system_derived_value(rope, 0)));
   hooke_system_destroy(rope);
@@ -153,7 +153,7 @@ static void every_direction_has_its_own(void **unused) {
                {"shear", "kappa along u - v", "gamma along u - v", 20 * 30, 7.0, 1.1 * across, 0.3}};
   const int64_t springs = hooke_system_spring_count(cloth);
   double *kappa = new_doubles(springs), *gamma = new_doubles(springs);
-  check_ok(hooke_system_spring_material(cloth, kappa, gamma, NULL));
+  check_ok(hooke_system_members(cloth, "springs", NULL, kappa, gamma, NULL));
   int64_t k = 0;
   for (size_t s = 0; s < sizeof strip / sizeof strip[0]; s++) {
     const double first_kappa = kappa[k], first_gamma = gamma[k],
@@ -184,7 +184,7 @@ static void ratios_keep_the_runs(void **unused) {
   check_ok(hooke_options_set_number(plain, "structural.stiffness", 40.0));
   check_ok(hooke_options_set_number(plain, "structural.damping", 0.1));
   hooke_system *a = build("cloth", ratio), *b = build("cloth", plain);
-  check_between((double)(hooke_system_memory(a) - hooke_system_memory(b)), 0.0, 2000.0);
+  check_between((double)(hooke_system_count(a, "memory") - hooke_system_count(b, "memory")), 0.0, 2000.0);
   hooke_system_destroy(a);
   hooke_system_destroy(b);
 }
@@ -200,11 +200,11 @@ static void a_cloth_bends_along_its_lines(void **unused) {
   hooke_system *cloth = build("cloth", options);
   const double u = 0.5, v = 1.0 / 3, area = u * v * sqrt(0.75);
   const double along_u = 0.7 * (area / u) / (u * u * u), along_v = 0.7 * (area / v) / (v * v * v);
-  assert_int_equal(hooke_system_bending_count(cloth), nv * (nu - 2) + (nv - 2) * nu);
+  assert_int_equal(hooke_system_count(cloth, "bending"), nv * (nu - 2) + (nv - 2) * nu);
   int64_t triples[3 * 22], k = 0;
   double c[22];
-  check_ok(hooke_system_bending_ends(cloth, triples));
-  check_ok(hooke_system_bending_coefficient(cloth, c));
+  check_ok(hooke_system_members(cloth, "bending", triples, NULL, NULL, NULL));
+  check_ok(hooke_system_members(cloth, "bending", NULL, c, NULL, NULL));
   for (int r = 0; r < nv; r++) {
     for (int at = r * nu; at < r * nu + nu - 2; at++, k++) {
       for (int e = 0; e < 3; e++)
@@ -222,7 +222,7 @@ static void a_cloth_bends_along_its_lines(void **unused) {
   check_close(derived(cloth, "bending", "c along u at an edge"), 0.5 * along_u, 1e-14);
   check_close(derived(cloth, "bending", "c along v"), along_v, 1e-13);
   check_close(derived(cloth, "bending", "c along v at an edge"), 0.5 * along_v, 1e-13);
-  assert_string_equal(hooke_system_bending_group_name(cloth, 0), "part.bending");
+  assert_string_equal(hooke_system_group_name(cloth, "bending", 0), "part.bending");
   hooke_system_destroy(cloth);
 }
 
@@ -234,11 +234,11 @@ static void narrow_cloths(void **unused) {
   check_ok(hooke_options_set_number(strip, "bending", 0.7));
   check_ok(hooke_options_set_number(cell, "bending", 0.7));
   hooke_system *a = build("cloth", strip), *b = build("cloth", cell);
-  assert_int_equal(hooke_system_bending_count(a), 8);
+  assert_int_equal(hooke_system_count(a, "bending"), 8);
   assert_true(isnan(derived(a, "bending", "c along v")));
   assert_true(derived(a, "bending", "c along v at an edge") > 0.0);
-  assert_int_equal(hooke_system_bending_group_count(b), 0);
-  assert_int_equal(hooke_system_derived_count(b), 0);
+  assert_int_equal(hooke_system_group_count(b, "bending"), 0);
+  assert_int_equal(hooke_system_count(b, "derived"), 0);
   hooke_system_destroy(a);
   hooke_system_destroy(b);
 }
@@ -255,8 +255,8 @@ static void failures_are_rolled_back(void **unused) {
   check_ok(hooke_system_add_part(system, "rope", NULL, fine, NULL, NULL));
   check_status(hooke_system_add_part(system, "rope", NULL, bad, NULL, NULL), HOOKE_BAD_VALUE);
   check_message("pinned[0]");
-  assert_int_equal(hooke_system_bending_group_count(system), 1);
-  assert_int_equal(hooke_system_derived_count(system), 3);
+  assert_int_equal(hooke_system_group_count(system, "bending"), 1);
+  assert_int_equal(hooke_system_count(system, "derived"), 3);
   check_ok(hooke_options_unset(bad, "pinned"));
   check_ok(hooke_options_set_number(bad, "mass", 1.0));
   check_status(hooke_system_add_part(system, "rope", NULL, bad, NULL, NULL), HOOKE_BAD_VALUE);

@@ -317,7 +317,7 @@ static int32_t follow_energy(int64_t step, const hooke_state *state, void *ctx) 
   struct energies *energies = ctx;
   hooke_state *seen = (hooke_state *)(uintptr_t)state; /* read only */
   const double e =
-      hooke_system_energy(energies->system, hooke_state_position(seen), hooke_state_velocity(seen));
+      hooke_system_energy(energies->system, "total", hooke_state_position(seen), hooke_state_velocity(seen));
   if (step == 0) energies->start = energies->low = energies->high = e;
   energies->low = fmin(energies->low, e);
   energies->high = fmax(energies->high, e);

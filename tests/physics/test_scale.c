@@ -27,7 +27,7 @@ static double bytes_of_run(const hooke_system *system, const char *method, doubl
   hooke_integrator *integrator = start_run(system, (struct run){.method = method, .step = 1e-6});
   hooke_state *made = start_state(system);
   const double taken = bytes_in_use() - before, size = (double)hooke_state_size(made);
-  const double bytes = (double)hooke_system_memory(system) + 8.0 * (2.0 * size + 1.0) +
+  const double bytes = (double)hooke_system_count(system, "memory") + 8.0 * (2.0 * size + 1.0) +
                        (double)hooke_integrator_count(integrator, "memory_bytes");
   if (taken > 0.0) check_between(taken / bytes, 0.99, 1.02);
   hooke_state_destroy(made);
@@ -122,7 +122,7 @@ static void test_memory_without_order(void **unused) {
     const double springs = (double)hooke_system_spring_count(system);
     const double least = 96.0 * PARTICLES + 16.0 * springs, most = 200.0 * PARTICLES + 24.0 * springs;
     check_between(bytes_of_run(system, "symplectic-euler", before), least, most);
-    check_between((double)hooke_system_spring_memory(system) / springs, 16.0, 34.0);
+    check_between((double)hooke_system_count(system, "spring_memory") / springs, 16.0, 34.0);
     hooke_system_destroy(system);
   }
 }

@@ -57,17 +57,17 @@ static void check_at_rest(const hooke_system *system, const double *q) {
 
 static void check_counts(const hooke_system *system, int64_t n) {
   assert_int_equal(hooke_system_particle_count(system), n);
-  assert_int_equal(hooke_system_group_count(system), 3);
+  assert_int_equal(hooke_system_group_count(system, "springs"), 3);
   static const char *const name[] = {"hair.stretch", "hair.bend", "hair.twist"};
   int64_t *ends = new_block(2 * (3 * n - 6), (int64_t)sizeof *ends);
-  check_ok(hooke_system_spring_ends(system, ends));
+  check_ok(hooke_system_members(system, "springs", ends, NULL, NULL, NULL));
   for (int64_t g = 0, s = 0; g < 3; g++) {
-    assert_string_equal(hooke_system_group_name(system, g), name[g]);
-    assert_int_equal(hooke_system_group_size(system, g), n - 1 - g);
+    assert_string_equal(hooke_system_group_name(system, "springs", g), name[g]);
+    assert_int_equal(hooke_system_group_size(system, "springs", g), n - 1 - g);
     for (int64_t k = 0; k < n - 1 - g; k++, s++)
       assert_true(ends[2 * s] == k && ends[2 * s + 1] == k + 1 + g);
   }
-  assert_int_equal(hooke_system_altitude_count(system), n - 3);
+  assert_int_equal(hooke_system_count(system, "altitude"), n - 3);
   free(ends);
 }
 
@@ -91,7 +91,7 @@ static void a_straight_strand_winds_about_its_axis(void **unused) {
   check_at_rest(system, q);
   /* all tetrahedra are congruent, of one hand, and it is clear which altitude is the shortest */
   double rest[7 * (N - 3)];
-  check_ok(hooke_system_altitude_material(system, NULL, NULL, rest));
+  check_ok(hooke_system_members(system, "altitude", NULL, NULL, NULL, rest));
   for (int k = 0; k < N - 3; k++) {
     double first = INFINITY, second = INFINITY;
     for (int j = 0; j < 7; j++) {
@@ -129,7 +129,7 @@ static void a_curl_is_a_helix(void **unused) {
     }
     check_close(mass, 0.5 * length, 1e-13); /* the density is that of the hair, not of its axis */
     check_at_rest(system, q);
-    check_ok(hooke_system_altitude_material(system, NULL, NULL, rest));
+    check_ok(hooke_system_members(system, "altitude", NULL, NULL, NULL, rest));
     for (int k = 0; k < 7 * (N - 3); k++)
       assert_true((rest[k] < 0.0) == left && fabs(rest[k]) == fabs(rest[k % 7]));
     hooke_state_destroy(state);
@@ -145,7 +145,7 @@ static void short_strands(void **unused) {
   hooke_system *system = new_strand(options);
   assert_int_equal(hooke_system_particle_count(system), 3);
   assert_int_equal(hooke_system_spring_count(system), 3);
-  assert_int_equal(hooke_system_altitude_count(system), 0);
+  assert_int_equal(hooke_system_count(system, "altitude"), 0);
   hooke_system_destroy(system);
   hooke_options_destroy(options);
   options = new_options(1, 0.2, 0.3);

@@ -19,40 +19,42 @@ void canonical_create(const hooke_system *system, struct canonical *canonical) {
   canonical->rest_length = new_doubles(m);
   canonical->pull_only = new_block(m, 1);
   canonical->inverse_mass = new_doubles(n);
-  canonical->triple_count = hooke_system_bending_count(system);
+  canonical->triple_count = hooke_system_count(system, "bending");
   canonical->triples = new_block(3 * canonical->triple_count, (int64_t)sizeof(int64_t));
   canonical->coefficient = new_doubles(canonical->triple_count);
-  check_ok(hooke_system_bending_ends(system, canonical->triples));
-  check_ok(hooke_system_bending_coefficient(system, canonical->coefficient));
-  check_ok(hooke_system_spring_ends(system, canonical->ends));
-  check_ok(hooke_system_spring_material(system, canonical->kappa, canonical->gamma, canonical->rest_length));
+  check_ok(hooke_system_members(system, "bending", canonical->triples, NULL, NULL, NULL));
+  check_ok(hooke_system_members(system, "bending", NULL, canonical->coefficient, NULL, NULL));
+  check_ok(hooke_system_members(system, "springs", canonical->ends, NULL, NULL, NULL));
+  check_ok(hooke_system_members(system, "springs", NULL, canonical->kappa, canonical->gamma,
+                                canonical->rest_length));
   memcpy(canonical->inverse_mass, hooke_system_inverse_mass(system), (size_t)n * sizeof(double));
-  const int64_t t = canonical->tetrahedron_count = hooke_system_altitude_count(system);
+  const int64_t t = canonical->tetrahedron_count = hooke_system_count(system, "altitude");
   canonical->corners = new_block(4 * t, (int64_t)sizeof(int64_t));
   for (int k = 0; k < 3; k++)
     canonical->altitude[k] = new_doubles(k < 2 ? t : 7 * t);
   canonical->altitude_pull_only = new_block(t, 1);
-  check_ok(hooke_system_altitude_ends(system, canonical->corners));
-  check_ok(hooke_system_altitude_material(system, canonical->altitude[0], canonical->altitude[1],
-                                          canonical->altitude[2]));
-  for (int64_t g = 0, at = 0; g < hooke_system_altitude_group_count(system); g++) {
-    const int64_t size = hooke_system_altitude_group_size(system, g);
-    const int pulls = strncmp(hooke_system_altitude_group_name(system, g), "pull", 4) == 0;
+  check_ok(hooke_system_members(system, "altitude", canonical->corners, NULL, NULL, NULL));
+  check_ok(hooke_system_members(system, "altitude", NULL, canonical->altitude[0], canonical->altitude[1],
+                                canonical->altitude[2]));
+  for (int64_t g = 0, at = 0; g < hooke_system_group_count(system, "altitude"); g++) {
+    const int64_t size = hooke_system_group_size(system, "altitude", g);
+    const int pulls = strncmp(hooke_system_group_name(system, "altitude", g), "pull", 4) == 0;
     assert_true(at + size <= t);
     if (size > 0) memset(canonical->altitude_pull_only + at, pulls, (size_t)size);
     at += size;
   }
-  const int64_t anchors = canonical->anchor_count = hooke_system_anchor_count(system);
+  const int64_t anchors = canonical->anchor_count = hooke_system_count(system, "anchors");
   canonical->anchored = new_block(anchors, (int64_t)sizeof(int64_t));
   canonical->anchor_point = new_doubles(3 * anchors);
   for (int k = 0; k < 3; k++)
     canonical->anchor[k] = new_doubles(anchors);
-  check_ok(hooke_system_anchors(system, canonical->anchored, canonical->anchor_point, canonical->anchor[0],
+  check_ok(hooke_system_members(system, "anchors", canonical->anchored, canonical->anchor[0],
                                 canonical->anchor[1], canonical->anchor[2]));
+  check_ok(hooke_system_anchor_points(system, canonical->anchor_point));
   int64_t spring = 0;
-  for (int64_t g = 0; g < hooke_system_group_count(system); g++) {
-    const int64_t size = hooke_system_group_size(system, g);
-    const int pulls = strncmp(hooke_system_group_name(system, g), "pull", 4) == 0;
+  for (int64_t g = 0; g < hooke_system_group_count(system, "springs"); g++) {
+    const int64_t size = hooke_system_group_size(system, "springs", g);
+    const int pulls = strncmp(hooke_system_group_name(system, "springs", g), "pull", 4) == 0;
     assert_true(spring + size <= m);
     memset(canonical->pull_only + spring, pulls, (size_t)size);
     spring += size;

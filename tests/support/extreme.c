@@ -29,7 +29,7 @@ static int32_t watch(int64_t step, const hooke_state *state, void *ctx) {
   watcher->outcome->frames++;
   watcher->outcome->wrong_frames += !all_finite(size, q) || !all_finite(size, v) ||
                                     !isfinite(hooke_state_time(state)) ||
-                                    isnan(hooke_system_energy(watcher->system, q, v));
+                                    isnan(hooke_system_energy(watcher->system, "total", q, v));
   return 0;
 }
 
@@ -76,7 +76,7 @@ void extreme_run(const hooke_system *system, struct extreme_run run, struct extr
   outcome->size = hooke_state_size(state);
   outcome->q0 = copy_of(outcome->size, q);
   outcome->v0 = copy_of(outcome->size, v);
-  outcome->energy0 = hooke_system_energy(system, q, v);
+  outcome->energy0 = hooke_system_energy(system, "total", q, v);
   outcome->status = make_integrator(system, run, outcome, &integrator);
   outcome->refused = outcome->status != HOOKE_OK;
   struct watcher watcher = {system, outcome};
@@ -90,7 +90,7 @@ void extreme_run(const hooke_system *system, struct extreme_run run, struct extr
   outcome->t = hooke_state_time(state);
   outcome->q = copy_of(outcome->size, q);
   outcome->v = copy_of(outcome->size, v);
-  outcome->energy = hooke_system_energy(system, q, v);
+  outcome->energy = hooke_system_energy(system, "total", q, v);
   hooke_integrator_destroy(integrator);
   hooke_state_destroy(state);
 }

@@ -39,7 +39,7 @@ static void build(const struct extreme_oscillator *o, struct model *model) {
   if (o->drag) check_ok(hooke_system_set_drag(model->system, brake));
   check_ok(hooke_system_commit(model->system));
   double gamma;
-  check_ok(hooke_system_spring_material(model->system, &model->kappa, &gamma, NULL));
+  check_ok(hooke_system_members(model->system, "springs", NULL, &model->kappa, &gamma, NULL));
   const double *inverse = hooke_system_inverse_mass(model->system);
   const long double w = (long double)inverse[0] + inverse[1];
   model->omega = sqrtl(model->kappa * w);

@@ -162,7 +162,7 @@ static void frozen_system_rests(void **unused) {
   assert_int_equal(twin.clamped, 1);
   assert_int_equal(twin.left_out, 1);
   assert_int_equal(twin.damped, 0);
-  assert_int_equal(hooke_system_free_count(twin.system), 3);
+  assert_int_equal(hooke_system_count(twin.system, "free"), 3);
   const double still[15] = {0.0};
   double force[15], moved[15], product[15], dq[15];
   check_ok(hooke_system_force(twin.system, 0.0, twin.place, still, force));

@@ -19,8 +19,8 @@ static struct springs springs_of(const hooke_system *system) {
   s.kappa = new_doubles(s.count);
   s.gamma = new_doubles(s.count);
   s.rest_length = new_doubles(s.count);
-  check_ok(hooke_system_spring_ends(system, s.ends));
-  check_ok(hooke_system_spring_material(system, s.kappa, s.gamma, s.rest_length));
+  check_ok(hooke_system_members(system, "springs", s.ends, NULL, NULL, NULL));
+  check_ok(hooke_system_members(system, "springs", NULL, s.kappa, s.gamma, s.rest_length));
   return s;
 }
 
@@ -94,11 +94,11 @@ static void a_rope_is_a_line(void **unused) {
   assert_int_equal(first, 0);
   assert_int_equal(count, 8);
   assert_int_equal(hooke_system_particle_count(system), 8);
-  assert_int_equal(hooke_system_group_count(system), 2);
-  assert_string_equal(hooke_system_group_name(system, 0), "line.stretch");
-  assert_string_equal(hooke_system_group_name(system, 1), "line.bend");
-  assert_int_equal(hooke_system_group_size(system, 0), 7);
-  assert_int_equal(hooke_system_group_size(system, 1), 6);
+  assert_int_equal(hooke_system_group_count(system, "springs"), 2);
+  assert_string_equal(hooke_system_group_name(system, "springs", 0), "line.stretch");
+  assert_string_equal(hooke_system_group_name(system, "springs", 1), "line.bend");
+  assert_int_equal(hooke_system_group_size(system, "springs", 0), 7);
+  assert_int_equal(hooke_system_group_size(system, "springs", 1), 6);
   for (int k = 0; k < 8; k++) {
     check_close(hooke_system_mass(system)[k], 0.7 / 8, 0.0);
     check_position(system, k, 0.1 + 1.2 * k / 7, 0.2, 0.3 - 0.9 * k / 7);
@@ -159,9 +159,9 @@ static void a_cloth_has_its_springs_in_order(void **unused) {
   check_ok(hooke_system_add_part(system, "cloth", "flag", options, NULL, NULL));
   check_ok(hooke_system_commit(system));
   assert_int_equal(hooke_system_particle_count(system), NU * NV);
-  assert_string_equal(hooke_system_group_name(system, 0), "flag.structural");
-  assert_string_equal(hooke_system_group_name(system, 1), "flag.shear");
-  assert_string_equal(hooke_system_group_name(system, 2), "flag.bend");
+  assert_string_equal(hooke_system_group_name(system, "springs", 0), "flag.structural");
+  assert_string_equal(hooke_system_group_name(system, "springs", 1), "flag.shear");
+  assert_string_equal(hooke_system_group_name(system, "springs", 2), "flag.bend");
 
   struct springs s = springs_of(system);
   int64_t k = 0;
@@ -173,7 +173,7 @@ static void a_cloth_has_its_springs_in_order(void **unused) {
     for (int c = 0; c < NU; c++)
       check_spring(&s, k++, at(r, c), at(r + 1, c));
   const int64_t shear = k;
-  assert_int_equal(shear, hooke_system_group_size(system, 0));
+  assert_int_equal(shear, hooke_system_group_size(system, "springs", 0));
   for (int r = 0; r + 1 < NV; r++)
     for (int c = 0; c + 1 < NU; c++)
       check_spring(&s, k++, at(r, c), at(r + 1, c + 1));
@@ -221,9 +221,9 @@ static void a_family_that_is_absent_has_no_springs(void **unused) {
   check_ok(hooke_options_set_number(options, "shear.stiffness", 20));
   check_ok(hooke_system_add_part(system, "cloth", NULL, options, NULL, NULL));
   check_ok(hooke_system_commit(system));
-  assert_int_equal(hooke_system_group_count(system), 1);
+  assert_int_equal(hooke_system_group_count(system, "springs"), 1);
   assert_int_equal(hooke_system_spring_count(system), 8);
-  assert_string_equal(hooke_system_group_name(system, 0), "cloth0.shear");
+  assert_string_equal(hooke_system_group_name(system, "springs", 0), "cloth0.shear");
   hooke_options_destroy(options);
   hooke_system_destroy(system);
 }
@@ -283,9 +283,9 @@ static void parts_come_after_groups_and_are_counted(void **unused) {
   check_ok(hooke_system_commit(system));
 
   const char *const names[] = {"tie", "rope0.stretch", "named.stretch", "rope2.stretch"};
-  assert_int_equal(hooke_system_group_count(system), 4);
+  assert_int_equal(hooke_system_group_count(system, "springs"), 4);
   for (int k = 0; k < 4; k++)
-    assert_string_equal(hooke_system_group_name(system, k), names[k]);
+    assert_string_equal(hooke_system_group_name(system, "springs", k), names[k]);
   struct springs s = springs_of(system);
   check_spring(&s, 0, 1, 4);
   check_spring(&s, 1, 2, 3);
@@ -316,8 +316,8 @@ static void check_refused(const char *kind, hooke_options *options, int32_t stat
   check_ok(hooke_system_add_part(system, "rope", NULL, good, &first, &count));
   assert_int_equal(first, 1);
   check_ok(hooke_system_commit(system));
-  assert_int_equal(hooke_system_group_count(system), 1);
-  assert_string_equal(hooke_system_group_name(system, 0), "rope0.stretch");
+  assert_int_equal(hooke_system_group_count(system, "springs"), 1);
+  assert_string_equal(hooke_system_group_name(system, "springs", 0), "rope0.stretch");
   char found[32];
   held(system, found);
   assert_string_equal(found, ".....");

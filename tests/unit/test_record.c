@@ -64,7 +64,7 @@ static struct fixture record(int64_t frames) {
     check_ok(hooke_trajectory_write(trajectory, k, state));
     memcpy(f.q[k], hooke_state_position(state), sizeof f.q[k]);
     memcpy(f.v[k], hooke_state_velocity(state), sizeof f.v[k]);
-    f.energy[k] = hooke_system_kinetic_energy(f.system, f.v[k]);
+    f.energy[k] = hooke_system_energy(f.system, "kinetic", NULL, f.v[k]);
   }
   check_ok(hooke_trajectory_close(trajectory, frames == FRAMES ? HOOKE_OK : HOOKE_STOPPED));
   hooke_state_destroy(state);
@@ -104,7 +104,7 @@ static void arrays_are_those_of_the_run(void **unused) {
     assert_memory_equal(momentum + 3 * k, sum, sizeof sum);
   }
   int64_t ends[2 * SPRINGS];
-  check_ok(hooke_system_spring_ends(f.system, ends));
+  check_ok(hooke_system_members(f.system, "springs", ends, NULL, NULL, NULL));
   for (int k = 0; k < 2 * SPRINGS; k++)
     assert_true(springs[k] == (double)ends[k]);
   for (int k = 0; k < N; k++)

@@ -17,11 +17,11 @@ static void check_springs(const hooke_system *found, const hooke_system *expecte
   assert_int_equal(hooke_system_spring_count(found), count);
   double *a = new_doubles(3 * count), *b = new_doubles(3 * count);
   int64_t *ends = new_block(2 * count, sizeof *ends), *other = new_block(2 * count, sizeof *other);
-  check_ok(hooke_system_spring_ends(found, ends));
-  check_ok(hooke_system_spring_ends(expected, other));
+  check_ok(hooke_system_members(found, "springs", ends, NULL, NULL, NULL));
+  check_ok(hooke_system_members(expected, "springs", other, NULL, NULL, NULL));
   assert_memory_equal(ends, other, (size_t)(2 * count) * sizeof *ends);
-  check_ok(hooke_system_spring_material(found, a, a + count, a + 2 * count));
-  check_ok(hooke_system_spring_material(expected, b, b + count, b + 2 * count));
+  check_ok(hooke_system_members(found, "springs", NULL, a, a + count, a + 2 * count));
+  check_ok(hooke_system_members(expected, "springs", NULL, b, b + count, b + 2 * count));
   check_same_bits(3 * count, a, b);
   free(a);
   free(b);
@@ -227,8 +227,9 @@ static void anchors_come_back(void **state) {
   check_ok(hk_variant_create(system, &variant));
   variant.group[hk_system_first_group(system, &hk_force_anchor) + 1] = 1;
   check_ok(hk_variant_make(system, &variant, &made, &map));
-  assert_int_equal(hooke_system_anchor_count(made), 2);
-  check_ok(hooke_system_anchors(made, particle, points, number[0], number[1], number[2]));
+  assert_int_equal(hooke_system_count(made, "anchors"), 2);
+  check_ok(hooke_system_members(made, "anchors", particle, number[0], number[1], number[2]));
+  check_ok(hooke_system_anchor_points(made, points));
   assert_true(particle[0] == 5 && particle[1] == 3 && number[1][1] == 0.7);
   assert_memory_equal(points, point, sizeof point);
   assert_memory_equal(number[0], stiffness, sizeof stiffness);

@@ -73,7 +73,7 @@ static void check_sums(const hooke_system *system, const double *q, const double
     }
   }
   assert_true(energy > 0.0L && heat > 0.0L);
-  check_close(hooke_system_spring_energy(system, q), (double)energy, 1e-14 * (double)energy);
+  check_close(hooke_system_energy(system, "springs", q, NULL), (double)energy, 1e-14 * (double)energy);
   check_close(hooke_system_dissipated_power(system, q, v), (double)heat, 1e-13 * (double)heat);
 }
 

@@ -63,7 +63,8 @@ static void a_variant_that_changes_nothing_has_the_same_bits(void **state) {
     const int64_t springs = hooke_system_spring_count(scene.system);
     assert_int_equal(hooke_system_particle_count(made), hooke_system_particle_count(scene.system));
     assert_int_equal(hooke_system_spring_count(made), springs);
-    assert_int_equal(hooke_system_group_count(made), hooke_system_group_count(scene.system));
+    assert_int_equal(hooke_system_group_count(made, "springs"),
+                     hooke_system_group_count(scene.system, "springs"));
     for (int64_t p = 0; p < hooke_system_particle_count(made); p++)
       assert_int_equal(map.to[p], p);
     check_same_run(scene.system, made);
@@ -127,8 +128,9 @@ static hooke_system *two_parts(void) {
 enum { TIES = 0, STRETCH = 1, BEND = 2, STRUCTURAL = 3, SHEAR = 4, ROPE = 0, CLOTH = 1 };
 
 static int64_t size_of(const hooke_system *system, const char *name) {
-  for (int64_t g = 0; g < hooke_system_group_count(system); g++) {
-    if (strcmp(hooke_system_group_name(system, g), name) == 0) return hooke_system_group_size(system, g);
+  for (int64_t g = 0; g < hooke_system_group_count(system, "springs"); g++) {
+    if (strcmp(hooke_system_group_name(system, "springs", g), name) == 0)
+      return hooke_system_group_size(system, "springs", g);
   }
   return 0;
 }
@@ -145,15 +147,15 @@ static void what_is_left_out_is_out(void **state) {
   struct hk_variant variant = nothing_of(system);
   struct hk_variant_map map;
   check_sizes(system, (const int64_t[]){2, 8, 7, 58, 48});
-  assert_int_equal(hooke_system_force_count(system), 3);
+  assert_int_equal(hooke_system_count(system, "forces"), 3);
 
   variant.group[BEND] = variant.group[TIES] = 1;
   variant.gravity = variant.drag = variant.damping = 1;
   made = make(system, &variant, &map);
   check_sizes(made, (const int64_t[]){0, 8, 0, 58, 48});
-  assert_int_equal(hooke_system_force_count(made), 1);
+  assert_int_equal(hooke_system_count(made, "forces"), 1);
   double gamma[128];
-  check_ok(hooke_system_spring_material(made, NULL, gamma, NULL));
+  check_ok(hooke_system_members(made, "springs", NULL, NULL, gamma, NULL));
   for (int64_t k = 0; k < hooke_system_spring_count(made); k++)
     assert_true(gamma[k] == 0.0);
   release(&variant, &map, made);
@@ -188,9 +190,9 @@ static void single_springs_of_a_family_are_left_out(void **state) {
   check_sizes(made, (const int64_t[]){1, 8, 5, 58, 48});
   int64_t ends[2 * 128];
   double kappa[128], gamma[128], full[128];
-  check_ok(hooke_system_spring_ends(made, ends));
-  check_ok(hooke_system_spring_material(made, kappa, gamma, NULL));
-  check_ok(hooke_system_spring_material(system, full, NULL, NULL));
+  check_ok(hooke_system_members(made, "springs", ends, NULL, NULL, NULL));
+  check_ok(hooke_system_members(made, "springs", NULL, kappa, gamma, NULL));
+  check_ok(hooke_system_members(system, "springs", NULL, full, NULL, NULL));
   const int64_t left[] = {3, 4, 6, 7, 8}; /* lower ends: 2 + 1, 2 + 2, 2 + 4, ... */
   for (int k = 0; k < 5; k++) {
     assert_int_equal(ends[2 * (1 + k)], left[k]);
@@ -229,7 +231,7 @@ static void check_affine(const hooke_system *system, const hooke_system *made,
 }
 
 static int64_t pinned_count(const hooke_system *system) {
-  return hooke_system_particle_count(system) - hooke_system_free_count(system);
+  return hooke_system_particle_count(system) - hooke_system_count(system, "free");
 }
 
 static void parts_at_another_resolution_stand_for_the_same_material(void **state) {

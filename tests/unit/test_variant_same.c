@@ -35,15 +35,17 @@ static hooke_system *without(const hooke_system *system, struct what what) {
 static void check_groups(const hooke_system *found, const hooke_system *expected, int64_t left_out) {
   int64_t at = 0;
   for (int64_t g = 0; g < expected->group_count; g++) {
-    if (g == left_out || hooke_system_group_size(expected, g) == 0) continue;
-    while (at < found->group_count && hooke_system_group_size(found, at) == 0)
+    if (g == left_out || hooke_system_group_size(expected, "springs", g) == 0) continue;
+    while (at < found->group_count && hooke_system_group_size(found, "springs", at) == 0)
       at++;
-    assert_int_equal(hooke_system_group_size(found, at), hooke_system_group_size(expected, g));
-    assert_string_equal(hooke_system_group_name(found, at), hooke_system_group_name(expected, g));
+    assert_int_equal(hooke_system_group_size(found, "springs", at),
+                     hooke_system_group_size(expected, "springs", g));
+    assert_string_equal(hooke_system_group_name(found, "springs", at),
+                        hooke_system_group_name(expected, "springs", g));
     at++;
   }
   for (; at < found->group_count; at++)
-    assert_int_equal(hooke_system_group_size(found, at), 0);
+    assert_int_equal(hooke_system_group_size(found, "springs", at), 0);
 }
 
 static void check_same_loops(const hooke_system *found, const hooke_system *expected) {
@@ -93,7 +95,7 @@ static void nothing_left_out_is_the_same(void **unused) {
 }
 
 static int has_force(const hooke_system *system, const char *name) {
-  for (int64_t k = 0; k < hooke_system_force_count(system); k++) {
+  for (int64_t k = 0; k < hooke_system_count(system, "forces"); k++) {
     if (strcmp(hooke_system_force_name(system, k), name) == 0) return 1;
   }
   return 0;

@@ -173,7 +173,7 @@ static double tension(const hooke_system *system, double r, double rate) {
 
 static double energy(const hooke_system *system, double r) {
   const double q[] = {0, 0, 0, r, 0, 0};
-  return hooke_system_spring_energy(system, q);
+  return hooke_system_energy(system, "springs", q, NULL);
 }
 
 /* The force on the second end along the spring, by the library's own loops. */

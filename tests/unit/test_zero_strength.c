@@ -162,8 +162,8 @@ static hooke_system *build(struct scene scene) {
 /* ---- the same instructions ---- */
 
 static void check_same_forces(const hooke_system *found, const hooke_system *expected) {
-  assert_int_equal(hooke_system_force_count(found), hooke_system_force_count(expected));
-  for (int64_t k = 0; k < hooke_system_force_count(expected); k++) {
+  assert_int_equal(hooke_system_count(found, "forces"), hooke_system_count(expected, "forces"));
+  for (int64_t k = 0; k < hooke_system_count(expected, "forces"); k++) {
     assert_string_equal(hooke_system_force_name(found, k), hooke_system_force_name(expected, k));
     assert_ptr_equal(found->force_row[k], expected->force_row[k]);
   }
@@ -211,7 +211,7 @@ static void check_same_choice(const hooke_system *found, const hooke_system *exp
   assert_int_equal(found->bending.run_count, expected->bending.run_count);
   check_same_lanes(found, expected);
   assert_int_equal(hooke_system_spring_count(found), hooke_system_spring_count(expected));
-  assert_int_equal(hooke_system_idle_count(found), hooke_system_idle_count(expected));
+  assert_int_equal(hooke_system_count(found, "idle"), hooke_system_count(expected, "idle"));
 }
 
 /* ---- the same bits ---- */
@@ -254,8 +254,8 @@ static int64_t zeros_of(enum shape shape, enum ingredient what) {
 static void check_scene(enum shape shape, enum ingredient what, int32_t full) {
   hooke_system *with = build((struct scene){shape, what, full, 1});
   hooke_system *without = build((struct scene){shape, what, full, 0});
-  assert_int_equal(hooke_system_dropped_spring_count(with), zeros_of(shape, what));
-  assert_int_equal(hooke_system_dropped_spring_count(without), 0);
+  assert_int_equal(hooke_system_count(with, "dropped_springs"), zeros_of(shape, what));
+  assert_int_equal(hooke_system_count(without, "dropped_springs"), 0);
   check_same_choice(with, without);
   for (int64_t m = 0; m < hooke_method_count(); m++) {
     if (hooke_method_is_built(hooke_method_name(m))) check_same_run(with, without, hooke_method_name(m));
@@ -346,20 +346,20 @@ static void numbers_are_of_what_is_there(void **unused) {
   hooke_options_destroy(options);
   check_ok(hooke_system_pin(system, 2, pinned));
   assert_int_equal(hooke_system_spring_count(system), 3);
-  assert_int_equal(hooke_system_dropped_spring_count(system), 0);
-  assert_int_equal(hooke_system_idle_count(system), 0);
+  assert_int_equal(hooke_system_count(system, "dropped_springs"), 0);
+  assert_int_equal(hooke_system_count(system, "idle"), 0);
   check_ok(hooke_system_commit(system));
   assert_int_equal(hooke_system_spring_count(system), 1);
-  assert_int_equal(hooke_system_dropped_spring_count(system), 2);
-  assert_int_equal(hooke_system_group_count(system), 2);
-  assert_int_equal(hooke_system_group_size(system, 0), 1);
-  assert_int_equal(hooke_system_group_size(system, 1), 0);
-  assert_string_equal(hooke_system_group_name(system, 1), "none");
-  check_ok(hooke_system_spring_ends(system, found));
-  check_ok(hooke_system_spring_material(system, NULL, &gamma, NULL));
+  assert_int_equal(hooke_system_count(system, "dropped_springs"), 2);
+  assert_int_equal(hooke_system_group_count(system, "springs"), 2);
+  assert_int_equal(hooke_system_group_size(system, "springs", 0), 1);
+  assert_int_equal(hooke_system_group_size(system, "springs", 1), 0);
+  assert_string_equal(hooke_system_group_name(system, "springs", 1), "none");
+  check_ok(hooke_system_members(system, "springs", found, NULL, NULL, NULL));
+  check_ok(hooke_system_members(system, "springs", NULL, NULL, &gamma, NULL));
   assert_true(found[0] == 1 && found[1] == 2);
   check_close(gamma, 0.5, 0.0);
-  assert_int_equal(hooke_system_idle_count(system), 2);
+  assert_int_equal(hooke_system_count(system, "idle"), 2);
   hooke_system_destroy(system);
 }
 
@@ -383,7 +383,7 @@ static void idle_is_what_nothing_touches(void **unused) {
     if (k >= 2) check_ok(hooke_system_add_bending(system, NULL, 1, triple, 1, &bending));
     if (callback) check_ok(hooke_system_set_force(system, no_force, NULL, NULL));
     check_ok(hooke_system_commit(system));
-    assert_int_equal(hooke_system_idle_count(system), callback || bending > 0.0 ? 0 : 1);
+    assert_int_equal(hooke_system_count(system, "idle"), callback || bending > 0.0 ? 0 : 1);
     hooke_system_destroy(system);
   }
 }

@@ -59,9 +59,9 @@ static double least_energy(const hooke_integrator *it, const hooke_state *state)
 int32_t hk_divergence_begin(hooke_integrator *it, const hooke_state *state) {
   it->diverged_at = NAN;
   if (has_energy_bound(it)) {
-    const double kinetic = hooke_system_kinetic_energy(it->system, state->v);
+    const double kinetic = hooke_system_energy(it->system, "kinetic", NULL, state->v);
     const double elastic = hk_elastic_energy(it->system, state->q);
-    it->gravity0 = hooke_system_gravity_energy(it->system, state->q);
+    it->gravity0 = hooke_system_energy(it->system, "gravity", state->q, NULL);
     it->gravity_swing = 0.0;
     it->scale0 = kinetic + elastic + least_energy(it, state);
     it->energy0 = kinetic + elastic;
@@ -72,9 +72,10 @@ int32_t hk_divergence_begin(hooke_integrator *it, const hooke_state *state) {
 }
 
 static int energy_is_bounded(hooke_integrator *it, const hooke_state *state, double *energy) {
-  const double gravity = hooke_system_gravity_energy(it->system, state->q), risen = gravity - it->gravity0;
+  const double gravity = hooke_system_energy(it->system, "gravity", state->q, NULL),
+               risen = gravity - it->gravity0;
   const double rest =
-      hooke_system_kinetic_energy(it->system, state->v) + hk_elastic_energy(it->system, state->q);
+      hooke_system_energy(it->system, "kinetic", NULL, state->v) + hk_elastic_energy(it->system, state->q);
   it->gravity_swing = fmax(it->gravity_swing, fabs(risen));
   *energy = rest + gravity;
   /* far from the origin gravity's energy has no digits to spare for the others */

@@ -17,8 +17,8 @@ static char *find_watched(const struct hk_needs *needs) {
 /* Returns how many springs there are between watched particles. */
 static int64_t choose(struct hk_picture *p, const char *watched) {
   int64_t first = 0, all = 0;
-  for (int64_t g = 0; g < hooke_system_group_count(p->system); g++) {
-    const int64_t end = first + hooke_system_group_size(p->system, g);
+  for (int64_t g = 0; g < hooke_system_group_count(p->system, "springs"); g++) {
+    const int64_t end = first + hooke_system_group_size(p->system, "springs", g);
     int64_t open = 0;
     for (int64_t k = first; k < end; k++) {
       p->shut[k] = !watched[p->ends[2 * k]] || !watched[p->ends[2 * k + 1]];

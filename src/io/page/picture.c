@@ -14,7 +14,7 @@ int32_t hk_picture_create(const hooke_system *system, struct hk_picture *picture
   picture->shut = hk_new(picture->spring_count, 1);
   picture->place = hk_new(hooke_system_particle_count(system), sizeof *picture->place);
   if (!picture->ends || !picture->drawn || !picture->shut || !picture->place) return HOOKE_NO_MEMORY;
-  return hooke_system_spring_ends(system, picture->ends);
+  return hooke_system_members(system, "springs", picture->ends, NULL, NULL, NULL);
 }
 
 void hk_picture_release(struct hk_picture *picture) {

@@ -241,7 +241,7 @@ static void add_anchor_group(struct hk_text *text, const struct hk_group *group,
 }
 
 static void add_anchors(struct hk_text *text, const hooke_system *system, const struct numbering *numbering) {
-  const int64_t count = hooke_system_anchor_count(system);
+  const int64_t count = hooke_system_count(system, "anchors");
   double *number = hk_new(6 * count, sizeof *number);
   struct anchors all = {0,
                         hk_new(count, sizeof *all.particle),
@@ -250,7 +250,8 @@ static void add_anchors(struct hk_text *text, const hooke_system *system, const 
                         number + 4 * count,
                         number + 5 * count};
   if (number && all.particle) {
-    hooke_system_anchors(system, all.particle, all.point, all.stiffness, all.damping, all.rest_length);
+    hooke_system_members(system, "anchors", all.particle, all.stiffness, all.damping, all.rest_length);
+    hooke_system_anchor_points(system, all.point);
     hk_text_open(text, "anchors", '[');
     for (int64_t g = 0; g < hk_system_groups_of(system, &hk_force_anchor); g++) {
       const struct hk_group *group = hk_system_group(system, &hk_force_anchor, g);

@@ -29,8 +29,8 @@ int64_t hk_frame_bytes(int64_t particle_count, int array) {
 
 static void observe(const hooke_system *system, const double *q, const double *v,
                     double value[HOOKE_OBSERVABLE_COUNT][3]) {
-  value[0][0] = hooke_system_kinetic_energy(system, v);
-  value[1][0] = hooke_system_potential_energy(system, q);
+  value[0][0] = hooke_system_energy(system, "kinetic", NULL, v);
+  value[1][0] = hooke_system_energy(system, "potential", q, NULL);
   value[2][0] = value[0][0] + value[1][0];
   value[3][0] = hooke_system_dissipated_power(system, q, v);
   hooke_system_momentum(system, v, value[4]);

@@ -157,7 +157,8 @@ static herr_t write_rest_lengths(hid_t file, const hooke_system *system) {
   const hsize_t count = (hsize_t)hooke_system_spring_count(system);
   double *rest_length = hk_new((int64_t)count, sizeof(double));
   herr_t result = rest_length == NULL ? -1 : 0;
-  if (result >= 0 && hooke_system_spring_material(system, NULL, NULL, rest_length) != HOOKE_OK) result = -1;
+  if (result >= 0 && hooke_system_members(system, "springs", NULL, NULL, NULL, rest_length) != HOOKE_OK)
+    result = -1;
   if (result >= 0) {
     result =
         hk_h5_array_of(file, "hooke/rest_length", H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, 1, &count, rest_length);
@@ -171,7 +172,9 @@ herr_t hk_h5md_connect(hid_t file, const hooke_system *system, const char *group
   const hsize_t size[2] = {(hsize_t)count, 2};
   int64_t *ends = hk_new(2 * count, sizeof(int64_t));
   hid_t connectivity = ends ? new_group(file, "connectivity") : -1;
-  herr_t result = connectivity < 0 || hooke_system_spring_ends(system, ends) != HOOKE_OK ? -1 : 0;
+  herr_t result =
+      connectivity < 0 || hooke_system_members(system, "springs", ends, NULL, NULL, NULL) != HOOKE_OK ? -1
+                                                                                                      : 0;
   if (result >= 0)
     result = hk_h5_array_of(connectivity, "springs", H5T_STD_I32LE, H5T_NATIVE_INT64, 2, size, ends);
   if (result >= 0) result = hk_h5md_refer(file, group);

@@ -71,7 +71,8 @@ static int32_t check_springs(const struct going *going) {
   const int64_t count = 2 * hooke_system_spring_count(going->system);
   int64_t *ends = hk_new(count, sizeof *ends);
   double *numbers = hk_new(count, sizeof *numbers);
-  int32_t status = ends && numbers ? hooke_system_spring_ends(going->system, ends) : HOOKE_NO_MEMORY;
+  int32_t status = ends && numbers ? hooke_system_members(going->system, "springs", ends, NULL, NULL, NULL)
+                                   : HOOKE_NO_MEMORY;
   for (int64_t k = 0; k < count && status == HOOKE_OK; k++)
     numbers[k] = (double)ends[k];
   if (status == HOOKE_OK && count > 0) status = check_array(going, "springs", count, numbers);

@@ -132,7 +132,7 @@ static int32_t choose_step(struct hk_cost *cost, const hooke_state *state) {
 
 static double memory_of(const hooke_system *system, const struct hk_timed *timed) {
   const int64_t state = (2 * hooke_state_size(timed->state) + 1) * (int64_t)sizeof(double);
-  return (double)(hooke_system_memory(system) + state +
+  return (double)(hooke_system_count(system, "memory") + state +
                   hooke_integrator_count(timed->integrator, "memory_bytes"));
 }
 

@@ -21,8 +21,8 @@ static void read_cost(const void *object, int64_t row, void *line) {
                          .resolution = cost->resolution,
                          .memory_bytes = cost->memory,
                          .step_limit = cost->limit,
-                         .dropped_springs = (double)hooke_system_dropped_spring_count(cost->system),
-                         .idle_particles = (double)hooke_system_idle_count(cost->system)};
+                         .dropped_springs = (double)hooke_system_count(cost->system, "dropped_springs"),
+                         .idle_particles = (double)hooke_system_count(cost->system, "idle")};
 }
 
 static const struct hk_column cost_columns[] = {

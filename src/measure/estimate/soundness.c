@@ -29,8 +29,9 @@ int32_t hk_soundness_begin(struct hk_soundness *s, const hooke_system *system, c
   s->time = hk_new(2 * capacity, sizeof(double));
   if (s->time == NULL) return HOOKE_NO_MEMORY;
   s->energy = s->time + capacity;
-  s->gravity0 = hooke_system_gravity_energy(system, q);
-  s->scale = hooke_system_kinetic_energy(system, hooke_state_velocity(state)) + hk_elastic_energy(system, q);
+  s->gravity0 = hooke_system_energy(system, "gravity", q, NULL);
+  s->scale = hooke_system_energy(system, "kinetic", NULL, hooke_state_velocity(state)) +
+             hk_elastic_energy(system, q);
   return hk_step_is_bounded(method) && step > 0.0 ? hk_node_blocks_create(system, q, &s->blocks) : HOOKE_OK;
 }
 
@@ -56,10 +57,10 @@ static void see_step(struct hk_soundness *s, const double *q) {
 void hk_soundness_see(struct hk_soundness *s, const hooke_state *state) {
   if (s->count == s->capacity) return;
   const double *q = hooke_state_position(state);
-  const double gravity = hooke_system_gravity_energy(s->system, q);
+  const double gravity = hooke_system_energy(s->system, "gravity", q, NULL);
   s->swing = fmax(s->swing, fabs(gravity - s->gravity0));
   s->time[s->count] = hooke_state_time(state);
-  s->energy[s->count++] = hooke_system_kinetic_energy(s->system, hooke_state_velocity(state)) +
+  s->energy[s->count++] = hooke_system_energy(s->system, "kinetic", NULL, hooke_state_velocity(state)) +
                           hk_elastic_energy(s->system, q) + (gravity - s->gravity0);
   if (s->blocks.system) see_step(s, q);
 }

@@ -157,7 +157,7 @@ static void read_blame(const void *object, int64_t row, void *line) {
       (struct hk_blame_line){.number = (double)s->spring,
                              .first = (double)s->first,
                              .second = (double)s->second,
-                             .group = hooke_system_group_name(limit->system, s->group),
+                             .group = hooke_system_group_name(limit->system, "springs", s->group),
                              .share = s->share};
 }
 

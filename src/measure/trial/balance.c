@@ -10,9 +10,11 @@
 static const double FACTOR = 4.0; /* twice what first order needs */
 
 static double largest_energy(const hooke_system *system, const double *q, const double *v) {
-  return fabs(hooke_system_kinetic_energy(system, v)) + fabs(hooke_system_spring_energy(system, q)) +
-         fabs(hooke_system_bending_energy(system, q)) + fabs(hooke_system_altitude_energy(system, q)) +
-         fabs(hooke_system_gravity_energy(system, q));
+  return fabs(hooke_system_energy(system, "kinetic", NULL, v)) +
+         fabs(hooke_system_energy(system, "springs", q, NULL)) +
+         fabs(hooke_system_energy(system, "bending", q, NULL)) +
+         fabs(hooke_system_energy(system, "altitude", q, NULL)) +
+         fabs(hooke_system_energy(system, "gravity", q, NULL));
 }
 
 /* Power that driven particles put in and that becomes heat, at a state. */
@@ -39,7 +41,7 @@ int32_t hk_balance_begin(struct hk_balance *balance, const hooke_system *system,
     if (balance->force == NULL) return HOOKE_NO_MEMORY;
   }
   const double *q = hooke_state_position(state), *v = hooke_state_velocity(state);
-  balance->energy = hooke_system_energy(system, q, v);
+  balance->energy = hooke_system_energy(system, "total", q, v);
   balance->scale = largest_energy(system, q, v);
   balance->time = hooke_state_time(state);
   return find_powers(balance, state, &balance->power_in, &balance->power_out);
@@ -61,7 +63,7 @@ int32_t hk_balance_step(struct hk_balance *balance, const hooke_state *state) {
 
 void hk_balance_close(struct hk_balance *balance, const hooke_state *state) {
   const double *q = hooke_state_position(state), *v = hooke_state_velocity(state);
-  const double energy = hooke_system_energy(balance->system, q, v);
+  const double energy = hooke_system_energy(balance->system, "total", q, v);
   balance->residual = ((energy - balance->energy) - balance->work) + balance->heat;
   balance->scale = fmax(balance->scale, largest_energy(balance->system, q, v));
   balance->scale = fmax(balance->scale, fabs(balance->work) + balance->heat);

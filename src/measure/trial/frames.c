@@ -20,7 +20,7 @@ int32_t hk_frames_create(const hooke_system *system, int64_t count, struct hk_fr
   frames->time = hk_new(count, sizeof(double));
   frames->energy = hk_new(count, sizeof(double));
   frames->position = hk_new(count, (size_t)(size + 1) * sizeof(double));
-  frames->free_particle = hk_new(hooke_system_free_count(system), sizeof(int64_t));
+  frames->free_particle = hk_new(hooke_system_count(system, "free"), sizeof(int64_t));
   if (!frames->time || !frames->energy || !frames->position || !frames->free_particle) {
     hk_frames_release(frames);
     return HOOKE_NO_MEMORY;
@@ -43,7 +43,7 @@ void hk_frames_record(struct hk_frames *frames, const hooke_state *state) {
   const int64_t f = frames->recorded++;
   const double *q = hooke_state_position(state);
   frames->time[f] = hooke_state_time(state);
-  frames->energy[f] = hooke_system_energy(frames->system, q, hooke_state_velocity(state));
+  frames->energy[f] = hooke_system_energy(frames->system, "total", q, hooke_state_velocity(state));
   hk_watched_series_keep(&frames->watched, f, q, hooke_state_velocity(state));
   if (frames->size > 0) memcpy(frames->position + f * frames->size, q, (size_t)frames->size * sizeof(double));
 }

@@ -66,8 +66,8 @@ static void judge(const struct run *run, int64_t f, const hooke_state *state) {
   const double *q = hooke_state_position(state);
   double largest;
   trial->error_at[f] = hk_frames_distance(run->reference, f, q, &largest);
-  trial->drift_at[f] =
-      hooke_system_energy(run->reference->system, q, hooke_state_velocity(state)) - run->reference->energy[f];
+  trial->drift_at[f] = hooke_system_energy(run->reference->system, "total", q, hooke_state_velocity(state)) -
+                       run->reference->energy[f];
   hk_watched_series_keep(&trial->watched, f, q, hooke_state_velocity(state));
   trial->error = fmax(trial->error, trial->error_at[f]);
   trial->error_max = fmax(trial->error_max, largest);

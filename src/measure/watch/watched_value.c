@@ -18,11 +18,11 @@ double hk_watched_value(const struct hk_watched *watched, const hooke_system *sy
   case HOOKE_WATCHED_COORDINATE:
     return q[3 * watched->particle + watched->axis];
   case HOOKE_WATCHED_ENERGY:
-    return hooke_system_energy(system, q, v);
+    return hooke_system_energy(system, "total", q, v);
   case HOOKE_WATCHED_KINETIC:
-    return hooke_system_kinetic_energy(system, v);
+    return hooke_system_energy(system, "kinetic", NULL, v);
   case HOOKE_WATCHED_POTENTIAL:
-    return hooke_system_potential_energy(system, q);
+    return hooke_system_energy(system, "potential", q, NULL);
   default:
     break;
   }

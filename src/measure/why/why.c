@@ -78,8 +78,9 @@ static void tell_left_out(struct hk_inquiry *inquiry) {
 static double usual_room(const hooke_integrator *run) {
   const hooke_system *system = run->system;
   const double built = hk_system_needed_bytes(system, (struct hk_more){0});
-  const double held = (double)(hooke_system_memory(system) + hooke_integrator_count(run, "memory_bytes")) +
-                      2.0 * (double)run->size * sizeof(double);
+  const double held =
+      (double)(hooke_system_count(system, "memory") + hooke_integrator_count(run, "memory_bytes")) +
+      2.0 * (double)run->size * sizeof(double);
   return fmax(LEAST_BYTES, SHARE_OF_MEMORY * fmax(built, held));
 }
 

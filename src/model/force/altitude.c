@@ -219,28 +219,6 @@ int32_t hooke_system_add_altitude(hooke_system *system, const char *name, int64_
 
 /* ---- asking ---- */
 
-int32_t hooke_system_altitude_ends(const hooke_system *system, int64_t *tetrahedra) {
-  const int32_t status = hk_system_require_committed(system);
-  if (status != HOOKE_OK) return status;
-  for (int64_t k = 0; k < 4 * system->altitudes.count; k++)
-    tetrahedra[k] = system->altitudes.tetrahedron[k / 4].particle[k % 4];
-  return HOOKE_OK;
-}
-
-int32_t hooke_system_altitude_material(const hooke_system *system, double *stiffness, double *damping,
-                                       double *rest_length) {
-  const int32_t status = hk_system_require_committed(system);
-  if (status != HOOKE_OK) return status;
-  for (int64_t k = 0; k < system->altitudes.count; k++) {
-    const struct hk_tetrahedron *t = &system->altitudes.tetrahedron[k];
-    if (stiffness) stiffness[k] = t->stiffness;
-    if (damping) damping[k] = t->damping;
-    for (int a = 0; a < HOOKE_ALTITUDES && rest_length; a++)
-      rest_length[HOOKE_ALTITUDES * k + a] = t->side * t->rest[a];
-  }
-  return HOOKE_OK;
-}
-
 int32_t hooke_system_altitude_lengths(const hooke_system *system, const double *q, double *length) {
   const int32_t status = hk_system_require_committed(system);
   if (status != HOOKE_OK) return status;

@@ -100,21 +100,3 @@ int32_t hk_system_add_part_bending(hooke_system *system, const char *name, int64
 }
 
 /* ---- asking ---- */
-
-int32_t hooke_system_bending_ends(const hooke_system *system, int64_t *triples) {
-  const int32_t status = hk_system_require_committed(system);
-  struct hk_triple triple;
-  if (status != HOOKE_OK) return status;
-  for (struct hk_triples at = {&system->bending, 0, 0}; hk_next_triple(&at, &triple); triples += 3)
-    memcpy(triples, triple.particle, sizeof triple.particle);
-  return HOOKE_OK;
-}
-
-int32_t hooke_system_bending_coefficient(const hooke_system *system, double *coefficient) {
-  const int32_t status = hk_system_require_committed(system);
-  struct hk_triple triple;
-  if (status != HOOKE_OK) return status;
-  for (struct hk_triples at = {&system->bending, 0, 0}; hk_next_triple(&at, &triple);)
-    *coefficient++ = triple.coefficient;
-  return HOOKE_OK;
-}

@@ -4,9 +4,9 @@
 #include "core/sum.h"
 
 #include <math.h>
+#include <string.h>
 
-double hooke_system_kinetic_energy(const hooke_system *system, const double *v) {
-  if (!system->committed) return NAN;
+static double kinetic_energy(const hooke_system *system, const double *v) {
   struct hk_sum sum = {0.0, 0.0};
   for (int64_t p = 0; p < system->particle_count; p++) {
     if (system->held[p]) continue;
@@ -16,29 +16,7 @@ double hooke_system_kinetic_energy(const hooke_system *system, const double *v) 
   return hk_sum_value(&sum);
 }
 
-static double energy_of(const hooke_system *system, const struct hk_force_row *row, const double *q) {
-  if (!system->committed) return NAN;
-  return row->present(system) ? row->energy(system, q) : 0.0;
-}
-
-double hooke_system_spring_energy(const hooke_system *system, const double *q) {
-  return energy_of(system, &hk_force_springs, q);
-}
-
-double hooke_system_bending_energy(const hooke_system *system, const double *q) {
-  return energy_of(system, &hk_force_bending, q);
-}
-
-double hooke_system_altitude_energy(const hooke_system *system, const double *q) {
-  return energy_of(system, &hk_force_altitude, q);
-}
-
-double hooke_system_gravity_energy(const hooke_system *system, const double *q) {
-  return energy_of(system, &hk_force_gravity, q);
-}
-
-double hooke_system_potential_energy(const hooke_system *system, const double *q) {
-  if (!system->committed) return NAN;
+static double potential_energy(const hooke_system *system, const double *q) {
   double sum = 0.0;
   for (int32_t k = 0; k < system->force_row_count; k++) {
     if (system->force_row[k]->energy) sum += system->force_row[k]->energy(system, q);
@@ -46,8 +24,14 @@ double hooke_system_potential_energy(const hooke_system *system, const double *q
   return sum;
 }
 
-double hooke_system_energy(const hooke_system *system, const double *q, const double *v) {
-  return hooke_system_kinetic_energy(system, v) + hooke_system_potential_energy(system, q);
+double hooke_system_energy(const hooke_system *system, const char *what, const double *q, const double *v) {
+  if (!system->committed) return NAN;
+  if (strcmp(what, "kinetic") == 0) return kinetic_energy(system, v);
+  if (strcmp(what, "potential") == 0) return potential_energy(system, q);
+  if (strcmp(what, "total") == 0) return kinetic_energy(system, v) + potential_energy(system, q);
+  const struct hk_force_row *row = hk_force_find(what);
+  if (row == NULL || row->energy == NULL) return NAN;
+  return row->present(system) ? row->energy(system, q) : 0.0;
 }
 
 double hooke_system_dissipated_power(const hooke_system *system, const double *q, const double *v) {

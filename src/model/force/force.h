@@ -16,22 +16,31 @@ struct hk_point {
   int32_t *stop_value; /* receives what a callback that stopped returned */
 };
 
+/* Arrays that receive what all members of a force are, in their order; each may be NULL. */
+struct hk_members {
+  int64_t *particles;
+  double *stiffness, *damping, *rest_length;
+};
+
 /* Everything but `name` and `present` may be NULL: the force then has no such part; one with elements and
  * without `add_product` and `add_blocks` has its derivative from them. */
 struct hk_force_row {
   const char *name;
   /* of forces with groups: what the members are called, and the bytes that one needs at most (see room.c) */
   const char *members;
+  int32_t member_particles; /* of each */
   double bytes;
   const struct hk_option_table *options; /* of a group, by the name of the force */
   const char *title;                     /* of forces with elements: "the <title> of particle 3" */
   /* of these too: takes over what the groups have at commit (HOOKE_NO_MEMORY leaves nothing); releases it;
-   * its bytes; adds all that its forces depend on to a check value; 1 if some member resists compression */
+   * its bytes; adds all that its forces depend on to a check value; 1 if some member resists compression;
+   * lists the members */
   int32_t (*commit)(hooke_system *system, const struct hk_group *group, int64_t count);
   void (*release)(hooke_system *system);
   int64_t (*memory)(const hooke_system *system);
   void (*check)(const hooke_system *system, uint32_t *value);
   int32_t (*resists)(const hooke_system *system);
+  void (*list)(const hooke_system *system, const struct hk_members *out);
   /* adds a group to a variant that does not have it from its parts: see variant.h */
   int32_t (*keep)(struct hk_variant_maker *maker, const struct hk_group *group, int64_t first);
   int32_t (*present)(const hooke_system *system);
@@ -87,6 +96,8 @@ int64_t hk_elements_of(const hooke_system *system, int (*wanted)(const struct hk
 
 /* Row `k` of the table, NULL past the last; and the number of a row. */
 const struct hk_force_row *hk_force_table(int32_t k);
+/* The row of that name, NULL if there is none. */
+const struct hk_force_row *hk_force_find(const char *name);
 int32_t hk_force_number(const struct hk_force_row *row);
 
 #endif

@@ -200,10 +200,24 @@ static void check(const hooke_system *system, uint32_t *value) {
   }
 }
 
+static void list(const hooke_system *system, const struct hk_members *out) {
+  for (int64_t k = 0; k < system->altitudes.count; k++) {
+    const struct hk_tetrahedron *t = &system->altitudes.tetrahedron[k];
+    for (int p = 0; p < 4 && out->particles; p++)
+      out->particles[4 * k + p] = t->particle[p];
+    if (out->stiffness) out->stiffness[k] = t->stiffness;
+    if (out->damping) out->damping[k] = t->damping;
+    for (int a = 0; a < HOOKE_ALTITUDES && out->rest_length; a++)
+      out->rest_length[HOOKE_ALTITUDES * k + a] = t->side * t->rest[a];
+  }
+}
+
 const struct hk_force_row hk_force_altitude = {.name = "altitude",
                                                .title = "altitude springs",
                                                .members = "tetrahedra",
                                                .options = &hk_altitude_options,
+                                               .member_particles = 4,
+                                               .list = list,
                                                .commit = commit,
                                                .release = release,
                                                .memory = memory,

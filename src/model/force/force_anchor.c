@@ -304,11 +304,24 @@ static void add_stiffness(const hooke_system *system, double *sum) {
     *sum += all->anchor[k].kappa;
 }
 
+static void list(const hooke_system *system, const struct hk_members *out) {
+  const struct anchors *all = anchors_of(system);
+  for (int64_t k = 0; k < all->count; k++) {
+    const struct anchor *a = &all->anchor[k];
+    if (out->particles) out->particles[k] = a->particle;
+    if (out->stiffness) out->stiffness[k] = a->kappa;
+    if (out->damping) out->damping[k] = a->gamma;
+    if (out->rest_length) out->rest_length[k] = a->rest_length;
+  }
+}
+
 const struct hk_force_row hk_force_anchor = {.name = "anchors",
                                              .members = "anchors",
                                              .title = "anchor",
                                              .bytes = 130.0,
                                              .options = &options_table,
+                                             .member_particles = 1,
+                                             .list = list,
                                              .commit = commit,
                                              .release = release,
                                              .memory = memory,
@@ -327,21 +340,10 @@ const struct hk_force_row hk_force_anchor = {.name = "anchors",
 
 /* ---- asking ---- */
 
-int64_t hooke_system_anchor_count(const hooke_system *system) {
-  return hk_system_members_of(system, &hk_force_anchor);
-}
-
-int32_t hooke_system_anchors(const hooke_system *system, int64_t *particles, double *points,
-                             double *stiffness, double *damping, double *rest_length) {
+int32_t hooke_system_anchor_points(const hooke_system *system, double *points) {
   const int32_t status = hk_system_require_committed(system);
   const struct anchors *all = anchors_of(system);
-  for (int64_t k = 0; status == HOOKE_OK && k < all->count; k++) {
-    const struct anchor *a = &all->anchor[k];
-    if (particles) particles[k] = a->particle;
-    if (points) memcpy(points + 3 * k, a->point, sizeof a->point);
-    if (stiffness) stiffness[k] = a->kappa;
-    if (damping) damping[k] = a->gamma;
-    if (rest_length) rest_length[k] = a->rest_length;
-  }
+  for (int64_t k = 0; status == HOOKE_OK && k < all->count; k++)
+    memcpy(points + 3 * k, all->anchor[k].point, sizeof all->anchor[k].point);
   return status;
 }

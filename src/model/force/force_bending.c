@@ -7,6 +7,8 @@
 
 #include <stddef.h>
 
+#include <string.h>
+
 static int32_t present(const hooke_system *system) {
   return system->bending.count > 0;
 }
@@ -82,9 +84,22 @@ static void check(const hooke_system *system, uint32_t *value) {
   }
 }
 
+static void list(const hooke_system *system, const struct hk_members *out) {
+  struct hk_triple triple;
+  int64_t k = 0;
+  for (struct hk_triples at = {&system->bending, 0, 0}; hk_next_triple(&at, &triple); k++) {
+    if (out->particles) memcpy(out->particles + 3 * k, triple.particle, sizeof triple.particle);
+    if (out->stiffness) out->stiffness[k] = triple.coefficient;
+    if (out->damping) out->damping[k] = 0.0;
+    if (out->rest_length) out->rest_length[k] = 0.0;
+  }
+}
+
 const struct hk_force_row hk_force_bending = {.name = "bending",
                                               .title = "bending",
                                               .members = "triples",
+                                              .member_particles = 3,
+                                              .list = list,
                                               .commit = commit,
                                               .release = release,
                                               .memory = memory,

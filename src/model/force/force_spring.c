@@ -297,9 +297,26 @@ static void check(const hooke_system *system, uint32_t *value) {
   }
 }
 
+static void list(const hooke_system *system, const struct hk_members *out) {
+  for (int64_t r = 0; r < system->springs.run_count; r++) {
+    const struct hk_run *run = &system->springs.run[r];
+    for (int64_t k = 0; k < run->count; k++) {
+      const struct hk_spring spring = hk_run_spring(run, k);
+      const int64_t number = run->first + k;
+      if (out->particles) out->particles[2 * number] = spring.head;
+      if (out->particles) out->particles[2 * number + 1] = spring.tail;
+      if (out->stiffness) out->stiffness[number] = spring.kappa;
+      if (out->damping) out->damping[number] = spring.gamma;
+      if (out->rest_length) out->rest_length[number] = spring.rest_length;
+    }
+  }
+}
+
 const struct hk_force_row hk_force_springs = {.name = "springs",
                                               .members = "springs",
                                               .options = &hk_spring_options,
+                                              .member_particles = 2,
+                                              .list = list,
                                               .commit = commit,
                                               .release = release,
                                               .memory = memory,

@@ -84,15 +84,6 @@ int64_t hk_pattern_block(const struct hk_pattern *pattern, int64_t row, int64_t 
   return found - pattern->column;
 }
 
-int64_t hooke_system_block_count(const hooke_system *system) {
-  struct hk_pattern pattern;
-  if (hk_system_require_committed(system) != HOOKE_OK) return -1;
-  if (hk_pattern_create(system, &pattern) != HOOKE_OK) return -1;
-  const int64_t count = pattern.count;
-  hk_pattern_release(&pattern);
-  return count;
-}
-
 int32_t hooke_system_derivative_pattern(const hooke_system *system, int64_t *row_start, int64_t *column) {
   struct hk_pattern pattern;
   int32_t status = hk_system_require_committed(system);
@@ -102,4 +93,13 @@ int32_t hooke_system_derivative_pattern(const hooke_system *system, int64_t *row
   memcpy(column, pattern.column, (size_t)pattern.count * sizeof(int64_t));
   hk_pattern_release(&pattern);
   return HOOKE_OK;
+}
+
+int64_t hk_system_block_count(const hooke_system *system) {
+  struct hk_pattern pattern;
+  if (hk_system_require_committed(system) != HOOKE_OK) return -1;
+  if (hk_pattern_create(system, &pattern) != HOOKE_OK) return -1;
+  const int64_t count = pattern.count;
+  hk_pattern_release(&pattern);
+  return count;
 }

@@ -15,6 +15,8 @@ struct hk_pattern {
 
 int32_t hk_pattern_create(const struct hooke_system *system, struct hk_pattern *pattern);
 void hk_pattern_release(struct hk_pattern *pattern);
+/* Blocks of the pattern; -1 before commit and without memory. */
+int64_t hk_system_block_count(const struct hooke_system *system);
 
 /* Number of the block (row, column), which must be there. */
 int64_t hk_pattern_block(const struct hk_pattern *pattern, int64_t row, int64_t column);

@@ -36,8 +36,8 @@ static hooke_system *cloth(double damping, void (*place)(double *q), double rest
   const int64_t springs = hooke_system_spring_count(plan), corners[] = {0, SIDE - 1};
   int64_t *ends = new_block(2 * springs, (int64_t)sizeof *ends);
   double *kappa = new_doubles(springs), *rest = new_doubles(springs), *brake = new_doubles(springs), q[SIZE];
-  check_ok(hooke_system_spring_ends(plan, ends));
-  check_ok(hooke_system_spring_material(plan, kappa, NULL, rest));
+  check_ok(hooke_system_members(plan, "springs", ends, NULL, NULL, NULL));
+  check_ok(hooke_system_members(plan, "springs", NULL, kappa, NULL, rest));
   hooke_state *state = NULL;
   check_ok(hooke_state_create(plan, &state));
   memcpy(q, hooke_state_position(state), sizeof q);

@@ -45,7 +45,7 @@ static struct ensemble ensemble(const char *law, double stiffness, double mass, 
   check_ok(hooke_system_add_springs(e.system, NULL, PHASES, ends, options));
   check_ok(hooke_system_commit(e.system));
   hooke_options_destroy(options);
-  check_ok(hooke_system_spring_material(e.system, kappa, NULL, NULL));
+  check_ok(hooke_system_members(e.system, "springs", NULL, kappa, NULL, NULL));
   e.omega = sqrtl((long double)kappa[0] * hooke_system_inverse_mass(e.system)[PHASES]);
   return e;
 }

@@ -64,7 +64,7 @@ class Queries(Owner):
     @property
     def free_count(self) -> int:
         """Particles that are neither pinned nor driven; commits."""
-        return int(lib.hooke_system_free_count(self._committed()))
+        return int(lib.hooke_system_count(self._committed(), b"free"))
 
     @property
     def spring_count(self) -> int:
@@ -74,71 +74,58 @@ class Queries(Owner):
     @property
     def dropped_spring_count(self) -> int:
         """Springs left out since they have neither stiffness nor damping; commits."""
-        return int(lib.hooke_system_dropped_spring_count(self._committed()))
+        return int(lib.hooke_system_count(self._committed(), b"dropped_springs"))
 
     @property
     def idle_count(self) -> int:
         """Pinned particles that no spring, no bending, no altitude spring and no force callback touches; commits."""
-        return int(lib.hooke_system_idle_count(self._committed()))
+        return int(lib.hooke_system_count(self._committed(), b"idle"))
 
     @property
     def groups(self) -> list[tuple[str, int]]:
         """Name ("" if it has none) and number of springs of every group."""
+        return self._groups(b"springs")
+
+    def _groups(self, force: bytes) -> list[tuple[str, int]]:
+        handle = self._handle
         return [
-            (
-                text(lib.hooke_system_group_name(self._handle, group)),
-                lib.hooke_system_group_size(self._handle, group),
-            )
-            for group in range(lib.hooke_system_group_count(self._handle))
+            (text(lib.hooke_system_group_name(handle, force, k)), lib.hooke_system_group_size(handle, force, k))
+            for k in range(lib.hooke_system_group_count(handle, force))
         ]
 
     @property
     def bending_count(self) -> int:
         """Triples of bending; commit drops those of coefficient 0."""
-        return int(lib.hooke_system_bending_count(self._handle))
+        return int(lib.hooke_system_count(self._handle, b"bending"))
 
     @property
     def bending_groups(self) -> list[tuple[str, int]]:
         """Name ("" if it has none) and number of triples of every group."""
-        return [
-            (
-                text(lib.hooke_system_bending_group_name(self._handle, group)),
-                lib.hooke_system_bending_group_size(self._handle, group),
-            )
-            for group in range(lib.hooke_system_bending_group_count(self._handle))
-        ]
+        return self._groups(b"bending")
 
     @property
     def altitude_count(self) -> int:
         """Tetrahedra with altitude springs; commit drops those without stiffness and damping."""
-        return int(lib.hooke_system_altitude_count(self._handle))
+        return int(lib.hooke_system_count(self._handle, b"altitude"))
 
     @property
     def altitude_groups(self) -> list[tuple[str, int]]:
         """Name ("" if it has none) and number of tetrahedra of every group."""
-        return [
-            (
-                text(lib.hooke_system_altitude_group_name(self._handle, group)),
-                lib.hooke_system_altitude_group_size(self._handle, group),
-            )
-            for group in range(lib.hooke_system_altitude_group_count(self._handle))
-        ]
+        return self._groups(b"altitude")
 
     @property
     def anchor_count(self) -> int:
         """Anchors; commit drops those without stiffness and damping."""
-        return int(lib.hooke_system_anchor_count(self._handle))
+        return int(lib.hooke_system_count(self._handle, b"anchors"))
 
     @property
     def anchors(self) -> tuple[IntArray, FloatArray, FloatArray, FloatArray, FloatArray]:
         """Of every anchor the particle (m,), the point (m, 3) [m], stiffness [N/m], damping [N s/m] and rest length
         [m] (m,)."""
-        handle = self._committed()
-        count = self.anchor_count
-        particles = np.empty(count, np.int64)
-        columns = np.empty((count, 3)), np.empty(count), np.empty(count), np.empty(count)
-        lib.hooke_system_anchors(handle, index_pointer(particles), *(double_pointer(column) for column in columns))
-        return (particles, *columns)
+        particles, (stiffness, damping, rest_length) = self._members(b"anchors", 1)
+        points = np.empty((len(particles), 3))
+        lib.hooke_system_anchor_points(self._handle, double_pointer(points))
+        return particles[:, 0], points, stiffness, damping, rest_length
 
     @property
     def derived(self) -> list[Derived]:
@@ -156,7 +143,7 @@ class Queries(Owner):
                 lib.hooke_system_derived_value(self._handle, k),
                 word(k, b"unit") or "",
             )
-            for k in range(lib.hooke_system_derived_count(self._handle))
+            for k in range(lib.hooke_system_count(self._handle, b"derived"))
         ]
 
     @property
@@ -173,55 +160,46 @@ class Queries(Owner):
         handle = self._committed()
         return view(address_of(function(handle)), (self.particle_count,), handle, writeable=False)
 
+    def _members(self, force: bytes, particles: int, rest_lengths: int = 1) -> tuple[IntArray, Material]:
+        handle = self._committed()
+        count = lib.hooke_system_count(handle, force)
+        ends = np.empty((count, particles), np.int64)
+        rest_length = np.empty(count) if rest_lengths == 1 else np.empty((count, rest_lengths))
+        material = Material(np.empty(count), np.empty(count), rest_length)
+        lib.hooke_system_members(handle, force, index_pointer(ends), *(double_pointer(column) for column in material))
+        return ends, material
+
     @property
     def spring_ends(self) -> IntArray:
         """The particles at both ends of every spring (m, 2), in spring order."""
-        handle = self._committed()
-        ends = np.empty((self.spring_count, 2), np.int64)
-        lib.hooke_system_spring_ends(handle, index_pointer(ends))
-        return ends
+        return self._members(b"springs", 2)[0]
 
     @property
     def spring_material(self) -> Material:
-        """What every spring is made of."""
-        handle = self._committed()
-        material = Material(*(np.empty(self.spring_count) for _ in range(3)))
-        lib.hooke_system_spring_material(handle, *(double_pointer(column) for column in material))
-        return material
+        """Stiffness, damping and rest length of every spring."""
+        return self._members(b"springs", 2)[1]
 
     @property
     def bending_ends(self) -> IntArray:
         """The particles of every triple (m, 3), in their order."""
-        handle = self._committed()
-        triples = np.empty((self.bending_count, 3), np.int64)
-        lib.hooke_system_bending_ends(handle, index_pointer(triples))
-        return triples
+        return self._members(b"bending", 3)[0]
 
     @property
     def bending_coefficient(self) -> FloatArray:
         """The coefficient of every triple (m,) [N/m]."""
-        handle = self._committed()
-        coefficient = np.empty(self.bending_count)
-        lib.hooke_system_bending_coefficient(handle, double_pointer(coefficient))
-        return coefficient
+        return self._members(b"bending", 3)[1][0]
 
     @property
     def altitude_ends(self) -> np.ndarray:
         """The particles of every tetrahedron (m, 4), in their order."""
-        handle = self._committed()
-        corners = np.empty((self.altitude_count, 4), np.int64)
-        lib.hooke_system_altitude_ends(handle, index_pointer(corners))
-        return corners
+        return self._members(b"altitude", 4, 7)[0]
 
     @property
     def altitude_material(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Stiffness (m,) [N], damping (m,) [N s] and the seven rest lengths (m, 7) [m] of every tetrahedron,
         negative where its volume is."""
-        handle = self._committed()
-        count = self.altitude_count
-        columns = np.empty(count), np.empty(count), np.empty((count, 7))
-        lib.hooke_system_altitude_material(handle, *(double_pointer(column) for column in columns))
-        return columns
+        stiffness, damping, rest_length = self._members(b"altitude", 4, 7)[1]
+        return stiffness, damping, rest_length
 
     def altitude_lengths(self, q: Any) -> np.ndarray:
         """The altitude of every tetrahedron that acts at q (m,) [m]: negative where it is inside out, 0 where
@@ -238,18 +216,18 @@ class Queries(Owner):
         "callback", "gravity")."""
         handle = self._committed()
         return [
-            text(lib.hooke_system_force_name(handle, k)) for k in range(lib.hooke_system_force_count(handle))
+            text(lib.hooke_system_force_name(handle, k)) for k in range(lib.hooke_system_count(handle, b"forces"))
         ]
 
     @property
     def memory(self) -> int:
         """Memory that the system holds [bytes]."""
-        return int(lib.hooke_system_memory(self._committed()))
+        return int(lib.hooke_system_count(self._committed(), b"memory"))
 
     @property
     def spring_memory(self) -> int:
         """The part of it that goes with the number of springs [bytes]."""
-        return int(lib.hooke_system_spring_memory(self._committed()))
+        return int(lib.hooke_system_count(self._committed(), b"spring_memory"))
 
     # forces
 
@@ -269,7 +247,7 @@ class Queries(Owner):
         """df/dq [N/m] and df/dv [N s/m] as sparse 3x3 blocks, callbacks left out."""
         handle = self._committed()
         q, v = self._rows(q=q, v=v)
-        count = lib.hooke_system_block_count(handle)
+        count = lib.hooke_system_count(handle, b"blocks")
         blocks = Blocks(
             np.empty(self.particle_count + 1, np.int64),
             np.empty(count, np.int64),
@@ -297,31 +275,31 @@ class Queries(Owner):
 
     def kinetic_energy(self, v: Any) -> float:
         """Kinetic energy of the free particles [J]."""
-        return float(lib.hooke_system_kinetic_energy(self._committed(), self._argument(v, "v")))
+        return float(lib.hooke_system_energy(self._committed(), b"kinetic", None, self._argument(v, "v")))
 
     def spring_energy(self, q: Any) -> float:
         """Energy of the springs [J]."""
-        return float(lib.hooke_system_spring_energy(self._committed(), self._argument(q, "q")))
+        return float(lib.hooke_system_energy(self._committed(), b"springs", self._argument(q, "q"), None))
 
     def bending_energy(self, q: Any) -> float:
         """Energy of bending [J]."""
-        return float(lib.hooke_system_bending_energy(self._committed(), self._argument(q, "q")))
+        return float(lib.hooke_system_energy(self._committed(), b"bending", self._argument(q, "q"), None))
 
     def altitude_energy(self, q: Any) -> float:
         """Energy of the altitude springs [J]."""
-        return float(lib.hooke_system_altitude_energy(self._committed(), self._argument(q, "q")))
+        return float(lib.hooke_system_energy(self._committed(), b"altitude", self._argument(q, "q"), None))
 
     def gravity_energy(self, q: Any) -> float:
         """The sum of -m g.q over the free particles [J]."""
-        return float(lib.hooke_system_gravity_energy(self._committed(), self._argument(q, "q")))
+        return float(lib.hooke_system_energy(self._committed(), b"gravity", self._argument(q, "q"), None))
 
     def potential_energy(self, q: Any) -> float:
         """Energy of springs, bending, altitude springs and gravity [J]."""
-        return float(lib.hooke_system_potential_energy(self._committed(), self._argument(q, "q")))
+        return float(lib.hooke_system_energy(self._committed(), b"potential", self._argument(q, "q"), None))
 
     def energy(self, q: Any, v: Any) -> float:
         """Total energy [J]. A force callback has none."""
-        return float(lib.hooke_system_energy(self._committed(), self._argument(q, "q"), self._argument(v, "v")))
+        return float(lib.hooke_system_energy(self._committed(), b"total", self._argument(q, "q"), self._argument(v, "v")))
 
     def dissipated_power(self, q: Any, v: Any) -> float:
         """Power that damping and drag turn into heat [W]."""

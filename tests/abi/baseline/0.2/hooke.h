@@ -101,42 +101,21 @@ HOOKE_API int32_t hooke_system_drive_callback(hooke_system *system, int64_t coun
 HOOKE_API int32_t hooke_system_commit(hooke_system *system);
 HOOKE_API int32_t hooke_system_is_committed(const hooke_system *system);
 HOOKE_API int64_t hooke_system_particle_count(const hooke_system *system);
-HOOKE_API int64_t hooke_system_free_count(const hooke_system *system);
 HOOKE_API int64_t hooke_system_spring_count(const hooke_system *system);
-HOOKE_API int64_t hooke_system_dropped_spring_count(const hooke_system *system);
-HOOKE_API int64_t hooke_system_idle_count(const hooke_system *system);
-HOOKE_API int64_t hooke_system_group_count(const hooke_system *system);
-HOOKE_API const char *hooke_system_group_name(const hooke_system *system, int64_t group);
-HOOKE_API int64_t hooke_system_group_size(const hooke_system *system, int64_t group);
+HOOKE_API int64_t hooke_system_count(const hooke_system *system, const char *what);
+HOOKE_API int64_t hooke_system_group_count(const hooke_system *system, const char *force);
+HOOKE_API const char *hooke_system_group_name(const hooke_system *system, const char *force, int64_t group);
+HOOKE_API int64_t hooke_system_group_size(const hooke_system *system, const char *force, int64_t group);
 HOOKE_API const double *hooke_system_mass(const hooke_system *system);
 HOOKE_API const double *hooke_system_inverse_mass(const hooke_system *system);
-HOOKE_API int32_t hooke_system_spring_ends(const hooke_system *system, int64_t *ends);
-HOOKE_API int32_t hooke_system_spring_material(const hooke_system *system, double *kappa, double *gamma,
-                                               double *rest_length);
-HOOKE_API int64_t hooke_system_bending_count(const hooke_system *system);
-HOOKE_API int64_t hooke_system_bending_group_count(const hooke_system *system);
-HOOKE_API const char *hooke_system_bending_group_name(const hooke_system *system, int64_t group);
-HOOKE_API int64_t hooke_system_bending_group_size(const hooke_system *system, int64_t group);
-HOOKE_API int32_t hooke_system_bending_ends(const hooke_system *system, int64_t *triples);
-HOOKE_API int32_t hooke_system_bending_coefficient(const hooke_system *system, double *coefficient);
-HOOKE_API int64_t hooke_system_altitude_count(const hooke_system *system);
-HOOKE_API int64_t hooke_system_altitude_group_count(const hooke_system *system);
-HOOKE_API const char *hooke_system_altitude_group_name(const hooke_system *system, int64_t group);
-HOOKE_API int64_t hooke_system_altitude_group_size(const hooke_system *system, int64_t group);
-HOOKE_API int32_t hooke_system_altitude_ends(const hooke_system *system, int64_t *tetrahedra);
-HOOKE_API int32_t hooke_system_altitude_material(const hooke_system *system, double *stiffness,
-                                                 double *damping, double *rest_length);
-HOOKE_API int32_t hooke_system_altitude_lengths(const hooke_system *system, const double *q, double *length);
-HOOKE_API int64_t hooke_system_anchor_count(const hooke_system *system);
-HOOKE_API int32_t hooke_system_anchors(const hooke_system *system, int64_t *particles, double *points,
+HOOKE_API int64_t hooke_member_particles(const char *force);
+HOOKE_API int32_t hooke_system_members(const hooke_system *system, const char *force, int64_t *particles,
                                        double *stiffness, double *damping, double *rest_length);
-HOOKE_API int64_t hooke_system_derived_count(const hooke_system *system);
+HOOKE_API int32_t hooke_system_anchor_points(const hooke_system *system, double *points);
+HOOKE_API int32_t hooke_system_altitude_lengths(const hooke_system *system, const double *q, double *length);
 HOOKE_API const char *hooke_system_derived_text(const hooke_system *system, int64_t number, const char *what);
 HOOKE_API double hooke_system_derived_value(const hooke_system *system, int64_t number);
-HOOKE_API int64_t hooke_system_force_count(const hooke_system *system);
 HOOKE_API const char *hooke_system_force_name(const hooke_system *system, int64_t force);
-HOOKE_API int64_t hooke_system_memory(const hooke_system *system);
-HOOKE_API int64_t hooke_system_spring_memory(const hooke_system *system);
 HOOKE_API int32_t hooke_system_force(const hooke_system *system, double t, const double *q, const double *v,
                                      double *force);
 HOOKE_API int32_t hooke_system_acceleration(const hooke_system *system, double t, const double *q,
@@ -145,18 +124,12 @@ HOOKE_API int64_t hooke_system_coincident_springs(const hooke_system *system, co
 HOOKE_API int32_t hooke_system_derivative_product(const hooke_system *system, double t, const double *q,
                                                   const double *v, const double *dq, const double *dv,
                                                   double *out);
-HOOKE_API int64_t hooke_system_block_count(const hooke_system *system);
 HOOKE_API int32_t hooke_system_derivative_pattern(const hooke_system *system, int64_t *row_start,
                                                   int64_t *column);
 HOOKE_API int32_t hooke_system_derivative_blocks(const hooke_system *system, const double *q, const double *v,
                                                  double *dfdq, double *dfdv);
-HOOKE_API double hooke_system_kinetic_energy(const hooke_system *system, const double *v);
-HOOKE_API double hooke_system_spring_energy(const hooke_system *system, const double *q);
-HOOKE_API double hooke_system_bending_energy(const hooke_system *system, const double *q);
-HOOKE_API double hooke_system_altitude_energy(const hooke_system *system, const double *q);
-HOOKE_API double hooke_system_gravity_energy(const hooke_system *system, const double *q);
-HOOKE_API double hooke_system_potential_energy(const hooke_system *system, const double *q);
-HOOKE_API double hooke_system_energy(const hooke_system *system, const double *q, const double *v);
+HOOKE_API double hooke_system_energy(const hooke_system *system, const char *what, const double *q,
+                                     const double *v);
 HOOKE_API double hooke_system_dissipated_power(const hooke_system *system, const double *q, const double *v);
 HOOKE_API void hooke_system_momentum(const hooke_system *system, const double *v, double *momentum);
 HOOKE_API void hooke_system_angular_momentum(const hooke_system *system, const double *q, const double *v,
