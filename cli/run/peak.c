@@ -31,10 +31,10 @@ static int32_t hear_nothing(const char *kind, const char *sentence, double t, do
   return 0;
 }
 
-/* What the estimate of the error has besides: three states, and another run whose ends are kept. */
-static int64_t count_estimate(const struct cli_setup *setup, int64_t of_method) {
-  const int64_t positions = hooke_state_size(setup->state) * (int64_t)sizeof(double);
-  return 8 * positions + of_method;
+/* What the estimate of the error has besides: three states, and the ends of another run, which has the memory
+ * of the method after this one. */
+static int64_t count_estimate(const struct cli_setup *setup) {
+  return 8 * hooke_state_size(setup->state) * (int64_t)sizeof(double);
 }
 
 /* The pages of libhdf5 and its buffers, and a frame on its way into the file, as measured on cloths. */
@@ -67,7 +67,7 @@ int cli_peak_of_run(const struct cli_arguments *arguments, const struct cli_setu
   const int32_t status = can_run ? count_method(arguments, setup, &of_method) : HOOKE_OK;
   if (status != HOOKE_OK) return cli_report_status(arguments, status);
   const int64_t running =
-      (loaded.now > 0 ? loaded.now : model) + of_method + (can_run ? count_estimate(setup, of_method) : 0);
+      (loaded.now > 0 ? loaded.now : model) + of_method + (can_run ? count_estimate(setup) : 0);
   foretold->most = running > loaded.most ? running : loaded.most;
   foretold->written = foretold->most + count_output(setup);
   foretold->counted = model + of_method;
