@@ -154,6 +154,14 @@ static int take_finished(struct cli_run *run) {
   return HOOKE_EXIT_DONE;
 }
 
+/* Before the first step. */
+static int give_up(struct cli_run *run, int32_t status) {
+  const int code = cli_report_status(run->arguments, status);
+  (void)hooke_trajectory_close(run->trajectory, status);
+  run->trajectory = NULL;
+  return code;
+}
+
 /* Runs and puts the trajectory away; a failure is reported and comes back as exit code. */
 static int integrate(struct cli_run *run) {
   cli_watch_start(&run->watch, run->arguments);
@@ -161,13 +169,11 @@ static int integrate(struct cli_run *run) {
   run->coincident_before =
       hooke_system_coincident_springs(run->setup.system, hooke_state_position(run->setup.state));
   int32_t status = prepare(run);
-  if (status != HOOKE_OK) return cli_report_status(run->arguments, status);
-  run->was_finished = run->resumed && !run->trajectory;
+  run->was_finished = status == HOOKE_OK && run->resumed && !run->trajectory;
   if (run->was_finished) return take_finished(run);
-  if (run->estimate) {
+  if (status == HOOKE_OK && run->estimate)
     status = hooke_estimate_begin(run->estimate, run->integrator, run->setup.state);
-    if (status != HOOKE_OK) return cli_report_status(run->arguments, status);
-  }
+  if (status != HOOKE_OK) return give_up(run, status);
   run->outcome = run->resumed ? hooke_integrator_resume(run->integrator, run->setup.state)
                               : hooke_integrator_run(run->integrator, run->setup.state);
   if (run->outcome != HOOKE_OK && run->write_status == HOOKE_OK) keep_message(run);
