@@ -145,6 +145,15 @@ static void print_memory(const struct check *check) {
   printf("\n");
 }
 
+static void print_json_memory(struct cli_json *json, const struct cli_foretold *memory) {
+  cli_json_count(json, "memory_bytes", memory->most);
+  cli_json_count(json, "memory_bytes_output", memory->written);
+  if (memory->factor > 0)
+    cli_json_count(json, "memory_bytes_factor", memory->factor);
+  else
+    cli_json_number(json, "memory_bytes_factor", NAN);
+}
+
 static void print_json(const struct check *check) {
   const hooke_system *system = check->setup.system;
   struct cli_json json;
@@ -165,12 +174,7 @@ static void print_json(const struct check *check) {
     cli_json_text(&json, NULL, hooke_system_force_name(system, i));
   }
   cli_json_close(&json);
-  cli_json_count(&json, "memory_bytes", check->memory.most);
-  cli_json_count(&json, "memory_bytes_output", check->memory.written);
-  if (check->memory.factor > 0)
-    cli_json_count(&json, "memory_bytes_factor", check->memory.factor);
-  else
-    cli_json_number(&json, "memory_bytes_factor", NAN);
+  print_json_memory(&json, &check->memory);
   cli_json_number(&json, "bytes_per_particle", bytes_per_particle(check));
   cli_json_number(&json, "bytes_per_spring", bytes_per_spring(check));
   cli_json_open(&json, "step_limit", '{');
