@@ -35,8 +35,8 @@ def refused(result, name):
 
 def may_be_null(name, kind):
     """Whether a handle may be NULL, or the function itself answers for it."""
-    if (name, kind) == ("hooke_measurement_run", "hooke_state"):
-        return True  # the initial state
+    if (name, kind) in (("hooke_measurement_run", "hooke_state"), ("hooke_estimate_measure", "hooke_integrator")):
+        return True  # the initial state; an integrator that was destroyed
     return name.endswith(("_destroy", "_close")) or (kind == "hooke_options" and name not in NEED_OPTIONS)
 
 

@@ -31,10 +31,10 @@ static int32_t hear_nothing(const char *kind, const char *sentence, double t, do
   return 0;
 }
 
-/* What the estimate of the error has besides: three states, and another run whose ends are kept. */
-static int64_t count_estimate(const struct cli_setup *setup, int64_t of_method) {
-  const int64_t positions = hooke_state_size(setup->state) * (int64_t)sizeof(double);
-  return 8 * positions + of_method;
+/* What the estimate of the error has besides: three states, and the ends of another run, which has the memory
+ * of the method after this one. */
+static int64_t count_estimate(const struct cli_setup *setup) {
+  return 8 * hooke_state_size(setup->state) * (int64_t)sizeof(double);
 }
 
 /* The pages of libhdf5 and its buffers, and a frame on its way into the file, as measured on cloths. */
@@ -44,13 +44,15 @@ static int64_t count_output(const struct cli_setup *setup) {
 
 /* As `hooke run` makes it: steps are watched, and unless it is quiet warnings as well. */
 static int32_t count_method(const struct cli_arguments *arguments, const struct cli_setup *setup,
-                            int64_t *bytes) {
+                            int64_t *bytes, int64_t *factor) {
   hooke_integrator *integrator = NULL;
   int32_t status = hooke_integrator_create(setup->system, setup->options, &integrator);
   if (status == HOOKE_OK) status = hooke_integrator_on_step(integrator, 1, see_nothing, NULL);
   if (status == HOOKE_OK && !arguments->quiet)
     status = hooke_integrator_on_warning(integrator, hear_nothing, NULL);
   if (status == HOOKE_OK) *bytes = hooke_integrator_count(integrator, "memory_bytes");
+  if (status == HOOKE_OK) *factor = hooke_integrator_count(integrator, "factor_bytes");
+  if (*factor < 0) status = HOOKE_NO_MEMORY;
   hooke_integrator_destroy(integrator);
   return status;
 }
@@ -63,13 +65,15 @@ int cli_peak_of_run(const struct cli_arguments *arguments, const struct cli_setu
                           !(adaptive == 0 && hooke_options_number_count(setup->options, "step") == 0);
   const int64_t model = hooke_system_count(setup->system, "memory") +
                         (2 * hooke_state_size(setup->state) + 1) * (int64_t)sizeof(double);
-  int64_t of_method = 0;
-  const int32_t status = can_run ? count_method(arguments, setup, &of_method) : HOOKE_OK;
+  int64_t of_method = 0, of_factor = 0;
+  const int32_t status = can_run ? count_method(arguments, setup, &of_method, &of_factor) : HOOKE_OK;
   if (status != HOOKE_OK) return cli_report_status(arguments, status);
   const int64_t running =
-      (loaded.now > 0 ? loaded.now : model) + of_method + (can_run ? count_estimate(setup, of_method) : 0);
+      (loaded.now > 0 ? loaded.now : model) + of_method + (can_run ? count_estimate(setup) : 0);
   foretold->most = running > loaded.most ? running : loaded.most;
   foretold->written = foretold->most + count_output(setup);
+  if (of_factor > 0)
+    foretold->factor = running + of_factor > foretold->most ? running + of_factor : foretold->most;
   foretold->counted = model + of_method;
   return HOOKE_EXIT_DONE;
 }

@@ -15,6 +15,7 @@ struct cli_peak cli_peak_look(void);
 struct cli_foretold {
   int64_t most;    /* of loading, or of what is resident after it with all that the method takes */
   int64_t written; /* with -o */
+  int64_t factor;  /* with a factor, which an implicit method makes where that pays; 0: it makes none */
   int64_t counted; /* the part that belongs to system, state and method */
 };
 

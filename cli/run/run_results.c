@@ -17,7 +17,7 @@ static const double *velocity_of(const struct cli_run *run) {
 }
 
 static const hooke_options *options_of(const struct cli_run *run) {
-  return hooke_integrator_options(run->integrator);
+  return run->options;
 }
 
 const char *cli_run_method(const struct cli_run *run) {
@@ -32,20 +32,41 @@ static int is_adaptive(const struct cli_run *run) {
   return hooke_method_is_adaptive(cli_run_method(run)) != 0;
 }
 
+static const char *const counts[HOOKE_RUN_COUNTS][2] = {
+    {"steps", "steps"},
+    {"force_evaluations", "force evaluations"},
+    {"derivative_products", "derivative products"},
+    {"nonlinear_iterations", "nonlinear iterations"},
+    {"nonlinear_failures", "nonlinear failures"},
+    {"linear_iterations", "linear iterations"},
+    {"error_test_failures", "error test failures"},
+    {"coincident_springs", NULL},
+};
+
+void cli_run_take_counts(struct cli_run *run) {
+  for (int k = 0; k < HOOKE_RUN_COUNTS; k++)
+    run->count[k] = hooke_integrator_count(run->integrator, counts[k][0]);
+  run->wall_seconds = hooke_integrator_wall_seconds(run->integrator);
+}
+
+int64_t cli_run_coincident(const struct cli_run *run) {
+  return run->count[HOOKE_RUN_COUNTS - 1];
+}
+
 /* -1: not known, as a file keeps no count but that of steps. */
-static int64_t count_of(const struct cli_run *run, const char *what) {
-  if (!run->was_finished) return hooke_integrator_count(run->integrator, what);
-  return strcmp(what, "steps") == 0 ? run->finished_steps : -1;
+static int64_t count_of(const struct cli_run *run, int k) {
+  if (!run->was_finished) return run->count[k];
+  return k == 0 ? run->finished_steps : -1;
 }
 
 /* ---- for a program ---- */
 
-static void print_json_count(struct cli_json *json, const struct cli_run *run, const char *what) {
-  const int64_t count = count_of(run, what);
+static void print_json_count(struct cli_json *json, const struct cli_run *run, int k) {
+  const int64_t count = count_of(run, k);
   if (count < 0)
-    cli_json_number(json, what, NAN);
+    cli_json_number(json, counts[k][0], NAN);
   else
-    cli_json_count(json, what, count);
+    cli_json_count(json, counts[k][0], count);
 }
 
 static void print_json_motion(struct cli_json *json, const struct cli_run *run) {
@@ -78,10 +99,9 @@ static void print_json(const struct cli_run *run, int32_t with_final) {
     cli_json_number(&json, "step", option_of(run, "step"));
   }
   cli_json_number(&json, "time", hooke_state_time(run->setup.state));
-  print_json_count(&json, run, "steps");
-  print_json_count(&json, run, "force_evaluations");
-  cli_json_number(&json, "wall_seconds",
-                  run->was_finished ? NAN : hooke_integrator_wall_seconds(run->integrator));
+  print_json_count(&json, run, 0);
+  print_json_count(&json, run, 1);
+  cli_json_number(&json, "wall_seconds", run->was_finished ? NAN : run->wall_seconds);
   cli_json_count(&json, "particles", hooke_system_particle_count(system));
   cli_json_count(&json, "springs", hooke_system_spring_count(system));
   print_json_motion(&json, run);
@@ -108,24 +128,19 @@ static void print_quantity(double value, const char *unit) {
   printf("%s %s", cli_format_rounded(value, text), unit);
 }
 
-static void print_count(const struct cli_run *run, const char *label, const char *what) {
-  const int64_t count = count_of(run, what);
-  if (count <= 0) return;
-  print_row(label);
+static void print_count(const struct cli_run *run, int k) {
+  const int64_t count = count_of(run, k);
+  if (count <= 0 || counts[k][1] == NULL) return;
+  print_row(counts[k][1]);
   printf("%" PRId64 "\n", count);
 }
 
 static void print_work(const struct cli_run *run) {
   const int64_t springs = hooke_system_spring_count(run->setup.system);
-  const int64_t steps = count_of(run, "steps");
-  const double seconds = hooke_integrator_wall_seconds(run->integrator);
-  print_count(run, "steps", "steps");
-  print_count(run, "force evaluations", "force_evaluations");
-  print_count(run, "derivative products", "derivative_products");
-  print_count(run, "nonlinear iterations", "nonlinear_iterations");
-  print_count(run, "nonlinear failures", "nonlinear_failures");
-  print_count(run, "linear iterations", "linear_iterations");
-  print_count(run, "error test failures", "error_test_failures");
+  const int64_t steps = count_of(run, 0);
+  const double seconds = run->wall_seconds;
+  for (int k = 0; k < HOOKE_RUN_COUNTS; k++)
+    print_count(run, k);
   if (run->was_finished) return;
   print_row("wall time");
   print_quantity(seconds, "s");

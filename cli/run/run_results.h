@@ -6,11 +6,17 @@
 #include "setup.h"
 #include "watch.h"
 
+/* The counts that are told: those of work, and last the springs whose ends are at one place. */
+enum { HOOKE_RUN_COUNTS = 8 };
+
 /* A run and what is kept of it. */
 struct cli_run {
   const struct cli_arguments *arguments;
   struct cli_setup setup;
-  hooke_integrator *integrator;
+  hooke_integrator *integrator; /* NULL once its error is being measured */
+  hooke_options *options;       /* the integrator's */
+  int64_t count[HOOKE_RUN_COUNTS];
+  double wall_seconds;
   hooke_trajectory *trajectory; /* NULL without -o */
   const char *output;
   const char *resumed;    /* FILE of --resume, which is the output then; NULL: a run from the beginning */
@@ -31,6 +37,10 @@ struct cli_run {
 };
 
 const char *cli_run_method(const struct cli_run *run);
+
+/* Takes over what is told of the integrator, which may be destroyed then. */
+void cli_run_take_counts(struct cli_run *run);
+int64_t cli_run_coincident(const struct cli_run *run);
 
 /* With --json, as JSON, with --final every particle, too; for a person those come by the second function. */
 void cli_run_print(const struct cli_run *run);

@@ -62,7 +62,9 @@ int cli_want_pick(struct cli_run *run) {
 int32_t cli_want_measure(struct cli_run *run) {
   if (!run->estimate || run->outcome != HOOKE_OK) return HOOKE_OK;
   cli_watch_start(&run->watch, run->arguments);
-  const int32_t status = hooke_estimate_measure(run->estimate, run->integrator, run->setup.state);
+  hooke_integrator_destroy(run->integrator); /* the runs to come need as much memory */
+  run->integrator = NULL;
+  const int32_t status = hooke_estimate_measure(run->estimate, NULL, run->setup.state);
   cli_watch_end(&run->watch);
   return status;
 }

@@ -132,14 +132,25 @@ static double bytes_per_particle(const struct check *check) {
 }
 
 static void print_memory(const struct check *check) {
-  printf("memory       %" PRId64 " bytes at the peak of a run, %" PRId64
-         " with -o; the numbers of a factor come on top where an implicit method finds that one pays",
-         check->memory.most, check->memory.written);
+  printf("memory       %" PRId64 " bytes at the peak of a run, %" PRId64 " with -o", check->memory.most,
+         check->memory.written);
+  if (check->memory.factor > 0)
+    printf("; %" PRId64 " more where %s finds that a factor of its equations pays",
+           check->memory.factor - check->memory.most, hooke_options_text(check->setup.options, "method"));
   if (hooke_system_particle_count(check->setup.system) > 0)
     printf("; the model takes %.1f a particle", bytes_per_particle(check));
   if (hooke_system_spring_count(check->setup.system) > 0)
     printf(" and %.1f a spring", bytes_per_spring(check));
   printf("\n");
+}
+
+static void print_json_memory(struct cli_json *json, const struct cli_foretold *memory) {
+  cli_json_count(json, "memory_bytes", memory->most);
+  cli_json_count(json, "memory_bytes_output", memory->written);
+  if (memory->factor > 0)
+    cli_json_count(json, "memory_bytes_factor", memory->factor);
+  else
+    cli_json_number(json, "memory_bytes_factor", NAN);
 }
 
 static void print_json(const struct check *check) {
@@ -162,8 +173,7 @@ static void print_json(const struct check *check) {
     cli_json_text(&json, NULL, hooke_system_force_name(system, i));
   }
   cli_json_close(&json);
-  cli_json_count(&json, "memory_bytes", check->memory.most);
-  cli_json_count(&json, "memory_bytes_output", check->memory.written);
+  print_json_memory(&json, &check->memory);
   cli_json_number(&json, "bytes_per_particle", bytes_per_particle(check));
   cli_json_number(&json, "bytes_per_spring", bytes_per_spring(check));
   cli_json_open(&json, "step_limit", '{');

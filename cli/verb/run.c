@@ -63,7 +63,7 @@ static int64_t stride(const struct cli_run *run) {
   int64_t size =
       hooke_system_spring_count(run->setup.system) + hooke_system_particle_count(run->setup.system) + 1;
   int64_t steps = SPRINGS_PER_LOOK / size;
-  const double step = hooke_options_number(hooke_integrator_options(run->integrator), "step");
+  const double step = hooke_options_number(run->options, "step");
   const double share = run->duration / step / LOOKS;
   if ((double)steps > share) steps = (int64_t)share;
   return steps < 1 ? 1 : steps > MOST_STEPS_PER_LOOK ? MOST_STEPS_PER_LOOK : steps;
@@ -80,8 +80,10 @@ static int32_t see_warning(const char *kind, const char *sentence, double t, dou
 
 static int32_t prepare(struct cli_run *run) {
   int32_t status = hooke_integrator_create(run->setup.system, run->setup.options, &run->integrator);
+  if (status == HOOKE_OK)
+    status = hooke_options_copy(hooke_integrator_options(run->integrator), &run->options);
   if (status != HOOKE_OK) return status;
-  run->duration = hooke_options_number(hooke_integrator_options(run->integrator), "duration");
+  run->duration = hooke_options_number(run->options, "duration");
   status = hooke_integrator_on_frame(run->integrator, see_frame, run);
   if (status == HOOKE_OK)
     status = hooke_integrator_on_progress(run->integrator, HOOKE_BETWEEN_LOOKS, see_progress, run);
@@ -162,6 +164,14 @@ static int take_finished(struct cli_run *run) {
   return HOOKE_EXIT_DONE;
 }
 
+/* Before the first step. */
+static int give_up(struct cli_run *run, int32_t status) {
+  const int code = cli_report_status(run->arguments, status);
+  (void)hooke_trajectory_close(run->trajectory, status);
+  run->trajectory = NULL;
+  return code;
+}
+
 /* Runs and puts the trajectory away; a failure is reported and comes back as exit code. */
 static int integrate(struct cli_run *run) {
   cli_watch_start(&run->watch, run->arguments);
@@ -169,17 +179,16 @@ static int integrate(struct cli_run *run) {
   run->coincident_before =
       hooke_system_coincident_springs(run->setup.system, hooke_state_position(run->setup.state));
   int32_t status = prepare(run);
-  if (status != HOOKE_OK) return cli_report_status(run->arguments, status);
-  run->was_finished = run->resumed && !run->trajectory;
+  run->was_finished = status == HOOKE_OK && run->resumed && !run->trajectory;
   if (run->was_finished) return take_finished(run);
-  if (run->estimate) {
+  if (status == HOOKE_OK && run->estimate)
     status = hooke_estimate_begin(run->estimate, run->integrator, run->setup.state);
-    if (status != HOOKE_OK) return cli_report_status(run->arguments, status);
-  }
+  if (status != HOOKE_OK) return give_up(run, status);
   run->outcome = run->resumed ? hooke_integrator_resume(run->integrator, run->setup.state)
                               : hooke_integrator_run(run->integrator, run->setup.state);
   if (run->outcome != HOOKE_OK && run->write_status == HOOKE_OK) keep_message(run);
   cli_watch_end(&run->watch);
+  cli_run_take_counts(run);
   run->energy_after = state_energy(run);
   keep_place(run);
   status = hooke_trajectory_close(run->trajectory, run->outcome);
@@ -230,8 +239,7 @@ static void explain(const struct cli_run *run) {
 }
 
 static void tell_coincident(const struct cli_run *run) {
-  const int64_t before = run->coincident_before,
-                after = hooke_integrator_count(run->integrator, "coincident_springs");
+  const int64_t before = run->coincident_before, after = cli_run_coincident(run);
   if (before > 0) {
     cli_report_words(run->arguments,
                      "%" PRId64
@@ -251,8 +259,10 @@ static void tell_coincident(const struct cli_run *run) {
 /* As at the beginning, for another run. */
 static int begin_again(struct cli_run *run) {
   hooke_integrator_destroy(run->integrator);
+  hooke_options_destroy(run->options);
   hooke_state_destroy(run->setup.state);
   run->integrator = NULL;
+  run->options = NULL;
   run->setup.state = NULL;
   run->frames = 0;
   const int32_t status = hooke_state_create(run->setup.system, &run->setup.state);
@@ -326,6 +336,7 @@ static int do_run(const struct cli_arguments *arguments) {
   hooke_measurement_destroy(run.why);
   hooke_estimate_destroy(run.estimate);
   hooke_integrator_destroy(run.integrator);
+  hooke_options_destroy(run.options);
   cli_setup_destroy(&run.setup);
   return code;
 }

@@ -49,7 +49,9 @@ HOOKE_API int32_t hooke_estimate_see(int64_t step, const hooke_state *state, voi
  * 2 s against the same method at twice the step or a tenfold tolerance, once more coarsened to see how the
  * error goes with it; a longer one, or one that is too coarse for that, in a last piece of it at half the
  * step or a hundredth of the tolerance, which takes a tenth of its time at most. HOOKE_STOPPED,
- * HOOKE_NO_MEMORY. */
+ * HOOKE_NO_MEMORY.
+ * `integrator` NULL: it was destroyed, so that no two hold memory at a time; the run then counts as having
+ * taken the time since hooke_estimate_begin(). */
 HOOKE_API int32_t hooke_estimate_measure(hooke_estimate *estimate, const hooke_integrator *integrator,
                                          const hooke_state *state);
 /* Sets something finer in `run`, by what was measured. HOOKE_UNSUITED if that leads nowhere or takes too

@@ -111,7 +111,9 @@ HOOKE_API int32_t hooke_integrator_step(hooke_integrator *integrator, hooke_stat
 /* A count: "steps", "force_evaluations", "derivative_products", "nonlinear_iterations", "nonlinear_failures",
  * "linear_iterations", "error_test_failures", "coincident_springs" (springs without direction in the last
  * force evaluation), "memory_bytes"; "frames" that hooke_integrator_run() reports, the initial one included;
- * "recent": states that hooke_integrator_recent() has. -1 for any other word. */
+ * "recent": states that hooke_integrator_recent() has; "factor_bytes": what a factor of its equations takes,
+ * which an implicit method makes where that pays; they are analysed for it. 0 if it makes none, or is told to;
+ * -1 without memory, with hooke_last_error(). -1 for any other word. */
 HOOKE_API int64_t hooke_integrator_count(const hooke_integrator *integrator, const char *what);
 /* Time spent stepping [s], observers and output left out. */
 HOOKE_API double hooke_integrator_wall_seconds(const hooke_integrator *integrator);

@@ -5,6 +5,7 @@
 #include "core/handle.h"
 #include "core/memory.h"
 #include "core/status.h"
+#include "integrate/solve/reduced.h"
 
 #include <math.h>
 #include <stddef.h>
@@ -189,7 +190,14 @@ static int64_t memory_of(const hooke_integrator *it) {
          (own + restart) * (int64_t)sizeof(double) + hk_recent_memory(&it->recent);
 }
 
+static int64_t factor_of(const hooke_integrator *it) {
+  int64_t bytes = 0;
+  if (!it->may_factor) return 0;
+  return hk_factor_foretell(it->system, HOOKE_MOST_NUMBERS, &bytes) == HOOKE_OK ? bytes : -1;
+}
+
 int64_t hooke_integrator_count(const hooke_integrator *it, const char *what) {
+  if (strcmp(what, "factor_bytes") == 0) return factor_of(it);
   const struct hk_counts *c = &it->count;
   const struct {
     const char *name;

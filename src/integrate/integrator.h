@@ -80,6 +80,7 @@ struct hooke_integrator {
   int64_t size; /* numbers in q */
   void *own;    /* the method's scratch */
   int64_t own_memory;
+  int32_t may_factor; /* 1: it factorises its equations where that pays */
 
   double t0, t;   /* where the run began, and where it is */
   double goal;    /* the time that the run loop wants next; a method that does not interpolate stops there */

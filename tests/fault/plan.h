@@ -1,5 +1,6 @@
 /* Which of the places where the system may fail are to: counted while the plan is on, one number for all
- * threads. */
+ * threads. And the library's clock, which goes on by a microsecond with each look at it: what fits in a budget
+ * is then the same on any machine, however busy. */
 #ifndef FAULT_PLAN_H
 #define FAULT_PLAN_H
 

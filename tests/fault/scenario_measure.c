@@ -188,7 +188,7 @@ static void cost(struct attempt *a, const void *with) {
   if (run == NULL) goto end;
   TRY(a, hooke_options_create("cost", &options));
   if (with) TRY(a, hooke_options_set_number(options, "groups", 0));
-  TRY(a, hooke_options_set_number(options, "budget", 0.05));
+  TRY(a, hooke_options_set_number(options, "budget", 5e-4));
   TRY(a, hooke_measurement_create("cost", system, run, options, &cost));
   TRY(a, hooke_state_create(system, &state));
   TRY(a, hooke_measurement_run(cost, state));

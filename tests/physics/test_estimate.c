@@ -64,6 +64,44 @@ static void test_estimates_are_within_a_factor_of_three(void **unused) {
   hooke_system_destroy(system);
 }
 
+/* The estimate of a run whose integrator is gone by then, for the caller to destroy; `time` [s] of its end. */
+static hooke_estimate *estimated_later(const hooke_system *system, const hooke_options *options,
+                                       double time) {
+  hooke_integrator *integrator;
+  hooke_estimate *estimate;
+  hooke_state *state = start_state(system);
+  check_ok(hooke_estimate_create(system, NAN, &estimate));
+  check_ok(hooke_integrator_create(system, options, &integrator));
+  check_ok(hooke_integrator_on_frame(integrator, hooke_estimate_see, estimate));
+  check_ok(hooke_estimate_begin(estimate, integrator, state));
+  check_ok(hooke_integrator_run(integrator, state));
+  hooke_integrator_destroy(integrator);
+  hooke_state_set_time(state, time);
+  check_ok(hooke_estimate_measure(estimate, NULL, state));
+  hooke_state_destroy(state);
+  return estimate;
+}
+
+static void test_the_integrator_may_be_gone(void **unused) {
+  (void)unused;
+  hooke_system *system = small_oscillator(OMEGA);
+  hooke_state *state;
+  hooke_options *options =
+      run_options((struct run){.method = "verlet", .step = 2.5e-3, .duration = DURATION, .every = EVERY});
+  hooke_estimate *one = estimated_run(system, options, NAN, NULL, &state),
+                 *other = estimated_later(system, options, DURATION),
+                 *short_of = estimated_later(system, options, 0.5 * DURATION);
+  check_close(hooke_estimate_number(other, "estimate"), hooke_estimate_number(one, "estimate"), 0.0);
+  assert_string_equal(hooke_estimate_text(other, "by"), hooke_estimate_text(one, "by"));
+  assert_string_equal(hooke_estimate_text(short_of, "note"), "the run did not come to its end");
+  hooke_estimate_destroy(one);
+  hooke_estimate_destroy(other);
+  hooke_estimate_destroy(short_of);
+  hooke_state_destroy(state);
+  hooke_options_destroy(options);
+  hooke_system_destroy(system);
+}
+
 static void test_a_coarse_run_is_judged_in_a_last_piece(void **unused) {
   (void)unused;
   hooke_system *system = small_oscillator(OMEGA);
@@ -332,6 +370,7 @@ static void test_what_cannot_be_asked_for(void **unused) {
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(test_estimates_are_within_a_factor_of_three),
+      cmocka_unit_test(test_the_integrator_may_be_gone),
       cmocka_unit_test(test_a_coarse_run_is_judged_in_a_last_piece),
       cmocka_unit_test(test_energy_that_grows_by_itself_is_seen),
       cmocka_unit_test(test_heat_that_was_not_there_is_seen),

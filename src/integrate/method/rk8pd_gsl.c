@@ -50,7 +50,7 @@ static void destroy(hooke_integrator *it) {
 
 static int32_t create_gsl(struct hk_rk8pd *own) {
   const size_t size = own->system.dimension;
-  void *room = hk_new((int64_t)size, (ARRAYS_OF_GSL + 1) * sizeof(double));
+  void *room = hk_reserve((int64_t)size, (ARRAYS_OF_GSL + 1) * sizeof(double)); /* not touched */
   if (room == NULL) return HOOKE_NO_MEMORY;
   hk_free(room);
   own->stepper = gsl_odeiv2_step_alloc(gsl_odeiv2_step_rk8pd, size);

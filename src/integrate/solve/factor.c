@@ -192,6 +192,7 @@ static int analyse(struct hk_factor *x, const struct hk_pattern *pattern, int64_
   hk_free(blocks.row);
   if (fine) fine = (x->cholmod = hk_cholmod_create(&x->matrix)) != NULL;
   if (!fine) return 0;
+  x->bytes += hk_cholmod_memory(x->cholmod);
   count_numbers(x);
   return x->numbers <= (double)most ? 1 : -1;
 }
@@ -200,24 +201,28 @@ int32_t hk_factor_is_built(void) {
   return hk_cholmod_is_built();
 }
 
-int32_t hk_factor_create(const hooke_system *system, int64_t most, struct hk_factor **factor) {
+/* `found` becomes 1 where there may be one, -1 where it has too many numbers. */
+static int32_t find(const hooke_system *system, int64_t most, struct hk_factor *x, int *found) {
   struct hk_pattern pattern;
-  *factor = NULL;
-  if (!hk_cholmod_is_built()) return HOOKE_OK;
-  struct hk_factor *x = hk_new(1, sizeof *x);
-  if (x == NULL) return HOOKE_NO_MEMORY;
   x->system = system;
   x->particle = take(x, system->particle_count, sizeof *x->particle);
   x->position = take(x, system->particle_count, sizeof *x->position);
   int32_t status = x->particle && x->position ? hk_pattern_create(system, &pattern) : HOOKE_NO_MEMORY;
+  if (status != HOOKE_OK) return status;
+  number_free(x);
+  *found = analyse(x, &pattern, most);
+  hk_pattern_release(&pattern);
+  if (*found > 0) *found = locate_blocks(x) && begin_triangle(x);
+  return *found == 0 ? no_memory() : HOOKE_OK;
+}
+
+int32_t hk_factor_create(const hooke_system *system, int64_t most, struct hk_factor **factor) {
   int found = -1;
-  if (status == HOOKE_OK) {
-    number_free(x);
-    found = analyse(x, &pattern, most);
-    hk_pattern_release(&pattern);
-    if (found > 0) found = locate_blocks(x) && begin_triangle(x);
-    if (found == 0) status = no_memory();
-  }
+  *factor = NULL;
+  if (!hk_cholmod_is_built()) return HOOKE_OK;
+  struct hk_factor *x = hk_new(1, sizeof *x);
+  if (x == NULL) return HOOKE_NO_MEMORY;
+  const int32_t status = find(system, most, x, &found);
   if (status == HOOKE_OK && found > 0)
     *factor = x;
   else
@@ -239,13 +244,32 @@ int64_t hk_factor_memory(const struct hk_factor *x) {
   return x->bytes;
 }
 
-/* All numbers are in one block: of the matrix, of the triangle, and the vector. */
+/* Of the matrix, of the triangle with the vector, and CHOLMOD's own. */
+static int64_t bytes_of_numbers(const struct hk_factor *x) {
+  const int64_t own = x->matrix.start[x->matrix.size], blocks = x->triangle.begin[x->triangle.count];
+  return (own + 9 * blocks + 9 * x->triangle.count) * (int64_t)sizeof(double) +
+         blocks * (int64_t)sizeof(int32_t) + (int64_t)(x->numbers * (sizeof(double) + sizeof(int32_t)));
+}
+
+int32_t hk_factor_foretell(const hooke_system *system, int64_t most, int64_t *bytes) {
+  int found = -1;
+  *bytes = 0;
+  if (!hk_cholmod_is_built()) return HOOKE_OK;
+  struct hk_factor *x = hk_new(1, sizeof *x);
+  if (x == NULL) return HOOKE_NO_MEMORY;
+  const int32_t status = find(system, most, x, &found);
+  if (status == HOOKE_OK) *bytes = x->bytes + (found > 0 ? bytes_of_numbers(x) : 0);
+  hk_factor_destroy(x);
+  return status;
+}
+
+/* All numbers are in one block. */
 int32_t hk_factor_reserve(struct hk_factor *x) {
   struct hk_triangle *l = &x->triangle;
   const int64_t own = x->matrix.start[x->matrix.size], blocks = l->begin[l->count];
   if (l->row) return HOOKE_OK;
   double *numbers = hk_new(own + 9 * blocks + 9 * l->count + 2 * HOOKE_TRIANGLE_SPARE, sizeof *numbers);
-  l->row = numbers ? take(x, blocks, sizeof *l->row) : NULL;
+  l->row = numbers ? hk_new(blocks, sizeof *l->row) : NULL;
   if (l->row == NULL) {
     hk_free(numbers);
     return no_memory();
@@ -254,17 +278,8 @@ int32_t hk_factor_reserve(struct hk_factor *x) {
   l->block = numbers + own;
   l->corner = l->block + 9 * blocks + HOOKE_TRIANGLE_SPARE;
   x->vector = l->corner + 6 * l->count;
-  x->bytes += (own + 9 * blocks + 9 * l->count) * (int64_t)sizeof *numbers;
-  x->bytes += (int64_t)(x->numbers * (sizeof(double) + sizeof(int32_t))); /* CHOLMOD's own */
+  x->bytes += bytes_of_numbers(x);
   return HOOKE_OK;
-}
-
-int64_t hk_factor_analysis_memory(const hooke_system *system) {
-  const int64_t n = system->particle_count,
-                per_particle = (2 + 3) * (int64_t)sizeof(int32_t) + (int64_t)sizeof(int64_t),
-                pairs = system->springs.count + other_pairs(system);
-  return n * per_particle + pairs * (int64_t)sizeof(struct place) +
-         9 * (n + pairs) * (int64_t)sizeof(int32_t);
 }
 
 int64_t hk_factor_numbers(const struct hk_factor *x) {

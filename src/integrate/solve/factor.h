@@ -20,8 +20,8 @@ int32_t hk_factor_is_built(void);
 int32_t hk_factor_create(const hooke_system *system, int64_t most, struct hk_factor **factor);
 void hk_factor_destroy(struct hk_factor *factor);
 
-/* Bytes that order and sizes take at most, from the system alone. */
-int64_t hk_factor_analysis_memory(const hooke_system *system);
+/* Bytes that a factor takes in all, or finding that it has more numbers than `most`. HOOKE_NO_MEMORY. */
+int32_t hk_factor_foretell(const hooke_system *system, int64_t most, int64_t *bytes);
 int64_t hk_factor_memory(const struct hk_factor *factor); /* bytes, so far */
 int64_t hk_factor_numbers(const struct hk_factor *factor);
 double hk_factor_products(const struct hk_factor *factor); /* multiplications that computing it takes */

@@ -74,6 +74,10 @@ void hk_cholmod_destroy(struct hk_cholmod *x) {
   hk_free(x);
 }
 
+int64_t hk_cholmod_memory(const struct hk_cholmod *x) {
+  return (int64_t)x->common.memory_usage;
+}
+
 const int32_t *hk_cholmod_counts(const struct hk_cholmod *x) {
   return x->factor->ColCount;
 }
@@ -111,6 +115,11 @@ struct hk_cholmod *hk_cholmod_create(const struct hk_columns *matrix) {
 
 void hk_cholmod_destroy(struct hk_cholmod *x) {
   (void)x;
+}
+
+int64_t hk_cholmod_memory(const struct hk_cholmod *x) {
+  (void)x;
+  return 0;
 }
 
 const int32_t *hk_cholmod_counts(const struct hk_cholmod *x) {

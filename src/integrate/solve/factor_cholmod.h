@@ -26,6 +26,8 @@ int32_t hk_cholmod_order(const struct hk_columns *matrix, int32_t *order);
 struct hk_cholmod *hk_cholmod_create(const struct hk_columns *matrix);
 void hk_cholmod_destroy(struct hk_cholmod *cholmod);
 
+int64_t hk_cholmod_memory(const struct hk_cholmod *cholmod); /* bytes at most so far */
+
 /* Of each column of the factor: how many numbers it has. */
 const int32_t *hk_cholmod_counts(const struct hk_cholmod *cholmod);
 

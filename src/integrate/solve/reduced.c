@@ -47,8 +47,7 @@ int32_t hk_reduced_create(hooke_integrator *it, int32_t kind, struct hk_reduced 
   }
   it->own_memory +=
       numbers * (int64_t)sizeof(double) + reduced->element_count * (int64_t)sizeof *reduced->element;
-  /* what a run comes to, unless it never iterates for long */
-  if (!symmetric && hk_factor_is_built()) it->own_memory += hk_factor_analysis_memory(system);
+  it->may_factor = !symmetric;
   for (int32_t k = 0; k < system->force_row_count && !symmetric; k++) {
     const struct hk_force_row *row = system->force_row[k];
     reduced->rows_needed |= !is_own(row) && (row->add_product || row->elements);
@@ -393,6 +392,7 @@ int32_t hk_reduced_prepare_whole(struct hk_reduced *reduced) {
   const int32_t status = hk_factor_create(reduced->integrator->system, HOOKE_MOST_NUMBERS, &reduced->whole);
   if (status != HOOKE_OK) return status;
   reduced->whole_state = reduced->whole ? HOOKE_WHOLE_READY : HOOKE_WHOLE_NONE;
+  if (reduced->whole) reduced->integrator->own_memory += hk_factor_memory(reduced->whole);
   return HOOKE_OK;
 }
 

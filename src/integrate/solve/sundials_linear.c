@@ -232,6 +232,7 @@ static int32_t fill(hooke_integrator *it, const char *word, struct solver *s) {
   int32_t status = hk_reduced_create(it, HOOKE_REDUCED_MINIMAL, &s->reduced);
   s->direct_only = strcmp(word, "direct") == 0;
   s->by_blocks = strcmp(word, "blocks") == 0;
+  it->may_factor = !s->direct_only && !s->by_blocks;
   if (status == HOOKE_OK && s->direct_only) status = hk_reduced_prepare_whole(&s->reduced);
   if (status == HOOKE_OK && s->reduced.whole) status = hk_reduced_reserve_whole(&s->reduced);
   forget(s);

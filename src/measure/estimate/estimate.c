@@ -126,6 +126,7 @@ int32_t hooke_estimate_begin(hooke_estimate *e, const hooke_integrator *it, cons
   if (status != HOOKE_OK) return status;
   int64_t count;
   const int64_t frames = hooke_integrator_count(it, "frames");
+  e->begun = hk_clock_seconds();
   e->begin = hooke_state_time(state);
   e->duration = it->schedule.duration;
   e->every = it->schedule.every;
@@ -201,11 +202,13 @@ static int32_t measure_alone(hooke_estimate *e) {
 int32_t hooke_estimate_measure(hooke_estimate *e, const hooke_integrator *it, const hooke_state *state) {
   if (e->options == NULL)
     return hk_fail(HOOKE_BAD_CALL, NULL, "the estimate was not there when the run began");
+  const double end = e->begin + e->duration;
+  const int over = it ? it->outcome == HOOKE_OK : fabs(hooke_state_time(state) - end) <= 1e-9 * e->duration;
   if (e->kept.recorded == e->kept.count - 1) hk_frames_record(&e->kept, state);
-  e->seconds = hooke_integrator_wall_seconds(it);
+  e->seconds = it ? hooke_integrator_wall_seconds(it) : hk_clock_seconds() - e->begun;
   e->rise = hk_soundness_rise(&e->soundness);
   if (isnan(e->first)) e->first = e->seconds;
-  if (it->outcome != HOOKE_OK || e->kept.recorded < e->kept.count) {
+  if (!over || e->kept.recorded < e->kept.count) {
     hk_print(e->note, sizeof e->note, "the run did not come to its end");
     return HOOKE_OK;
   }

@@ -20,6 +20,7 @@ struct hooke_estimate {
 
   /* the run */
   hooke_options *options; /* the integrator's */
+  double begun;           /* by the clock [s] */
   double begin, duration, every, seconds;
   struct hk_frames kept; /* of the run: the start, and frames that are `apart` [s], up to the end */
   double apart;
