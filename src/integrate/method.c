@@ -32,6 +32,17 @@ const struct hk_method *hk_method_find(const char *name) {
   return NULL;
 }
 
+const struct hk_stability *hk_method_stability(const char *name) {
+  static const struct hk_stability unknown = {.kind = HOOKE_STABILITY_UNKNOWN};
+  const struct hk_method *method = hk_method_find(name);
+  return method ? &method->stability : &unknown;
+}
+
+int32_t hk_method_needs_damping(const char *name) {
+  const struct hk_stability *stability = hk_method_stability(name);
+  return stability->kind == HOOKE_STABLE_BY_POLYNOMIAL && stability->axis == 0.0;
+}
+
 const char *hooke_method_summary(const char *name) {
   const struct hk_method *method = hk_method_find(name);
   return method ? method->summary : NULL;

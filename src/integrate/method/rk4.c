@@ -102,14 +102,16 @@ static int32_t step(hooke_integrator *it) {
   return HOOKE_OK;
 }
 
-const struct hk_method hk_rk4 = {.name = "rk4",
-                                 .summary = "fixed step, order 4, four force evaluations a step",
-                                 .built = 1,
-                                 .order = 4,
-                                 .first_order = 1,
-                                 .second_order = 1,
-                                 .create = create,
-                                 .destroy = destroy,
-                                 .begin = hk_fixed_begin,
-                                 .step = step,
-                                 .store = hk_fixed_store};
+const struct hk_method hk_rk4 = {
+    .name = "rk4",
+    .summary = "fixed step, order 4, four force evaluations a step",
+    .built = 1,
+    .order = 4,
+    .first_order = 1,
+    .second_order = 1,
+    .stability = {.kind = HOOKE_STABLE_BY_POLYNOMIAL, .degree = 4, .axis = 8.0, .half_disc = 2.6156},
+    .create = create,
+    .destroy = destroy,
+    .begin = hk_fixed_begin,
+    .step = step,
+    .store = hk_fixed_store};

@@ -2,12 +2,12 @@
 
 #include "core/clock.h"
 #include "core/status.h"
+#include "integrate/method.h"
 #include "measure/trial/bracket.h"
 #include "measure/limit/growth.h"
 
 #include <math.h>
 #include <stddef.h>
-#include <string.h>
 
 static const char OUT_OF_TIME[] = "the budget ended before the limit was found";
 static const char WITHIN[] = "the budget ended early: the limit measured is certain to 5 % only";
@@ -174,7 +174,7 @@ int32_t hk_limit_measure(const hooke_system *system, const double *q, const hook
   if (status == HOOKE_OK) {
     growth.progress = progress;
     growth.ctx = ctx;
-    const int slow = strcmp(method, "forward-euler") == 0;
+    const int slow = hk_method_needs_damping(method);
     struct trial trial = {.growth = &growth, .slow = slow, .most_steps = steps_for(&growth, slow)};
     status = measure(&trial, predicted, out);
     out->steps_run = growth.steps_run;
