@@ -4,8 +4,8 @@
 #include <string.h>
 
 static const struct hk_method *const table[] = {
-    &hk_forward_euler, &hk_symplectic_euler, &hk_verlet, &hk_rk4,           &hk_backward_euler,
-    &hk_cvode_bdf,     &hk_cvode_adams,      &hk_rk8pd,  &hk_arkode_esdirk,
+    &hk_forward_euler,  &hk_symplectic_euler, &hk_verlet,      &hk_heun,  &hk_rk4,
+    &hk_backward_euler, &hk_cvode_bdf,        &hk_cvode_adams, &hk_rk8pd, &hk_arkode_esdirk,
 };
 
 enum { ROWS = sizeof table / sizeof table[0] };
@@ -30,6 +30,17 @@ const struct hk_method *hk_method_find(const char *name) {
     if (strcmp(table[k]->name, name) == 0) return table[k];
   }
   return NULL;
+}
+
+const struct hk_stability *hk_method_stability(const char *name) {
+  static const struct hk_stability unknown = {.kind = HOOKE_STABILITY_UNKNOWN};
+  const struct hk_method *method = hk_method_find(name);
+  return method ? &method->stability : &unknown;
+}
+
+int32_t hk_method_needs_damping(const char *name) {
+  const struct hk_stability *stability = hk_method_stability(name);
+  return stability->kind == HOOKE_STABLE_BY_POLYNOMIAL && stability->axis == 0.0;
 }
 
 const char *hooke_method_summary(const char *name) {

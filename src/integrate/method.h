@@ -4,6 +4,25 @@
 
 #include "hooke/integrator.h"
 
+/* The kinds of stability of a step h, from which bounds, limits and regions follow (measure/spectrum). K
+ * and C are stiffness and damping over mass; lambda are the eigenvalues of the motion. */
+enum {
+  HOOKE_STABILITY_UNKNOWN,
+  HOOKE_STABLE_ALWAYS,
+  HOOKE_STABLE_BY_K,         /* where h^2 K <= 4: damping is implicit */
+  HOOKE_STABLE_BY_K_AND_C,   /* where h^2 K + 2 h C <= 4 */
+  HOOKE_STABLE_BY_POLYNOMIAL /* where |R(h lambda)| <= 1, R(z) = 1 + z + ... + z^degree/degree! */
+};
+
+struct hk_stability {
+  int32_t kind;
+  int32_t damps_implicitly; /* 1: the method solves for damping */
+  int32_t degree;           /* 1, 2 or 4 */
+  double axis;      /* square of |h lambda| up to which all of the imaginary axis is stable; 0: none */
+  double half_disc; /* |h lambda| up to which all of the left half plane is stable; 0: none */
+  const char *note; /* NULL: nothing */
+};
+
 /* What a row says of itself, and how it is run. `create` and `destroy` may be NULL. All return a status. */
 struct hk_method {
   const char *name, *summary;
@@ -14,6 +33,7 @@ struct hk_method {
   int32_t order;                     /* of a fixed-step method, on smooth forces */
   int32_t first_order, second_order; /* problems it takes: x' = phi(t, x); q' = v, v' = W f */
   int32_t by_tiles;                  /* 1: steps by hk_integrator_move() alone */
+  struct hk_stability stability;
   const char *no_first_order; /* why it takes none, if not for stepping positions and velocities apart */
   int32_t (*create)(hooke_integrator *integrator);
   void (*destroy)(hooke_integrator *integrator);
@@ -25,10 +45,14 @@ struct hk_method {
   int32_t (*store)(hooke_integrator *integrator, double t, hooke_state *state);
 };
 
-extern const struct hk_method hk_forward_euler, hk_symplectic_euler, hk_verlet, hk_rk4, hk_backward_euler,
-    hk_cvode_bdf, hk_cvode_adams, hk_rk8pd, hk_arkode_esdirk;
+extern const struct hk_method hk_forward_euler, hk_symplectic_euler, hk_verlet, hk_heun, hk_rk4,
+    hk_backward_euler, hk_cvode_bdf, hk_cvode_adams, hk_rk8pd, hk_arkode_esdirk;
 
-/* Row of this name, or NULL. */
+/* Row of this name, or NULL; its stability, of kind unknown if there is no such method. */
 const struct hk_method *hk_method_find(const char *name);
+const struct hk_stability *hk_method_stability(const char *name);
+
+/* 1 if no step is stable without damping. */
+int32_t hk_method_needs_damping(const char *name);
 
 #endif

@@ -77,8 +77,8 @@ void hk_middle_stage(int64_t n, double h, const double *restrict rate, const dou
   }
 }
 
-void hk_last_stage(int64_t n, double sixth, const double *restrict rate, const double *restrict start,
+void hk_last_stage(int64_t n, double part, const double *restrict rate, const double *restrict start,
                    const double *restrict sum, double *restrict x) {
   for (int64_t p = 0; p < n; p++)
-    x[p] = start[p] + sixth * (sum[p] + rate[p]);
+    x[p] = start[p] + part * (sum[p] + rate[p]);
 }

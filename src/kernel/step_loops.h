@@ -24,7 +24,7 @@ void hk_acceleration(int64_t n, const double *w, const double *g, double *f);
  *   last    x = start + sixth (sum + rate) */
 void hk_first_stage(int64_t n, double h, const double *rate, double *sum, double *x);
 void hk_middle_stage(int64_t n, double h, const double *rate, const double *start, double *sum, double *x);
-void hk_last_stage(int64_t n, double sixth, const double *rate, const double *start, const double *sum,
+void hk_last_stage(int64_t n, double part, const double *rate, const double *start, const double *sum,
                    double *x);
 
 #endif

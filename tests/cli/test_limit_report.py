@@ -23,7 +23,7 @@ from pages import (
 )
 
 ROOT = Path(__file__).resolve().parents[2]
-METHODS = ["forward-euler", "symplectic-euler", "verlet", "rk4", "backward-euler"]
+METHODS = ["forward-euler", "symplectic-euler", "verlet", "heun", "rk4", "backward-euler"]
 SCENE = json.loads((ROOT / "examples/scenes/stiff-spring.json").read_text())
 COLOURS = {"blue": "#0057b8", "red": "#b00020"}  # of arrows, of springs to blame
 # What stands in the diagrams, in their own numbers, and pixels of the colours of the picture.
@@ -78,10 +78,12 @@ def chain(tmp_path_factory):
 @needs_page
 def test_the_regions_are_those_of_the_methods(chain):
     rows = {row["method"]: row for row in data_of(chain[0])["rows"]}
-    assert [method for method in rows if "region" in rows[method]] == ["forward-euler", "rk4"]
-    assert [method for method in rows if "reach" in rows[method]] == METHODS[:4]
+    assert [method for method in rows if "region" in rows[method]] == ["forward-euler", "heun", "rk4"]
+    assert [method for method in rows if "reach" in rows[method]] == METHODS[:5]
     for z in pairs(rows["forward-euler"]["region"]):
         assert abs(abs(1 + z) - 1) < 1e-12
+    for z in pairs(rows["heun"]["region"]):
+        assert abs(abs(1 + z + z**2 / 2) - 1) < 1e-11
     for z in pairs(rows["rk4"]["region"]):
         assert abs(abs(1 + z + z**2 / 2 + z**3 / 6 + z**4 / 24) - 1) < 1e-11
     for z in pairs(rows["symplectic-euler"]["reach"]):
@@ -104,13 +106,13 @@ def test_what_is_drawn(chain, tmp_path):
     swinging = sum(imaginary > 0 for imaginary in modes["imaginary"])
     assert swinging > 0 and max(modes["frequency"]) == pytest.approx(value["frequency_max"], rel=1e-6)
     plane, reach, picture = (seen.drawn(name) for name in ("plane", "reach", "picture"))
-    assert (plane["regions"], plane["points"], plane["crosses"]) == (2, len(modes["real"]) + swinging, 0)
-    assert (reach["regions"], reach["points"], reach["crosses"]) == (4, len(modes["real"]), 0)
+    assert (plane["regions"], plane["points"], plane["crosses"]) == (3, len(modes["real"]) + swinging, 0)
+    assert (reach["regions"], reach["points"], reach["crosses"]) == (5, len(modes["real"]), 0)
     assert (plane["outside"], reach["outside"], picture["outside"]) == (0, 0, 0)
     step = SCENE["run"]["step"]
     fastest = max(places(seen, "plane")[0], key=abs)
     assert abs(fastest) == pytest.approx(step * max(modes["frequency"]), rel=1e-9)
-    for name, drawn in (("plane", [0, 3]), ("reach", [0, 1, 2, 3])):
+    for name, drawn in (("plane", [0, 3, 4]), ("reach", [0, 1, 2, 3, 4])):
         pixels = [int(n) for n in seen.drawn(name)["pixels"].split()]
         assert min(pixels[k] for k in drawn) > 100, f"{name}: {pixels} pixels of the methods' colours"
     # one spring is to blame, of seven, and its two ends move
@@ -152,7 +154,7 @@ def test_beyond_the_edge(tmp_path):
     assert seen.console == []
     plane, reach = seen.drawn("plane"), seen.drawn("reach")
     assert (plane["crosses"], reach["crosses"]) == (2, 1) and plane["outside"] == reach["outside"] == 0
-    assert "blows up by forward-euler, symplectic-euler, verlet, rk4." in seen.text["stepped"]
+    assert "blows up by forward-euler, symplectic-euler, verlet, heun, rk4." in seen.text["stepped"]
 
 
 @needs_page

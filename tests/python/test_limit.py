@@ -9,7 +9,7 @@ from conftest import SIX_PARTICLES, build_oscillator, build_six_particles
 
 import hooke
 
-FIXED_STEP = ["forward-euler", "symplectic-euler", "verlet", "rk4", "backward-euler"]
+FIXED_STEP = ["forward-euler", "symplectic-euler", "verlet", "heun", "rk4", "backward-euler"]
 OMEGA = math.sqrt(40)  # of the oscillator
 
 
@@ -51,7 +51,7 @@ def test_rows():
         assert row["steps_run"] > 100 and np.isnan(row["smallest"])
     assert found["forward-euler"]["never_stable"] and found["forward-euler"]["predicted"] == 0
     assert np.isinf(found["backward-euler"]["predicted"]) and "accuracy" in found["backward-euler"]["note"]
-    assert found.rows["by_eigenvalue"].tolist() == [True, False, False, True, False]
+    assert found.rows["by_eigenvalue"].tolist() == [True, False, False, True, True, False]
     with pytest.raises(KeyError, match="cvode-bdf"):
         found["cvode-bdf"]
     with pytest.raises(ValueError):
@@ -62,7 +62,7 @@ def test_words():
     words = str(hooke.limit("examples/scenes/stiff-spring.json", predict=True))
     assert "rk4" in words and "no step" in words and "none" in words and "measured" not in words
     assert "spring 6, between particles 3 and 4, group stiff, 100.0 %" in words and "softening it" in words
-    assert "5 methods" in repr(hooke.limit(build_oscillator(), predict=True))
+    assert "6 methods" in repr(hooke.limit(build_oscillator(), predict=True))
 
 
 @pytest.mark.parametrize("build", [build_six_particles, lambda: build_damped(0.8), lambda: build_damped(60)])
@@ -154,9 +154,10 @@ def test_picture():
     found = hooke.limit(build_damped(0.8), predict=True)
     plane, reach = found.plot()
     lines = {line.get_label(): line.get_xydata() for line in plane.lines}
-    assert set(lines) == {"forward-euler", "rk4", "modes"}
+    assert set(lines) == {"forward-euler", "heun", "rk4", "modes"}
     z = {name: xy @ [1, 1j] for name, xy in lines.items()}
     np.testing.assert_allclose(abs(1 + z["forward-euler"]), 1, atol=1e-12)
+    np.testing.assert_allclose(abs(1 + z["heun"] + z["heun"] ** 2 / 2), 1, atol=1e-12)
     r = z["rk4"]
     np.testing.assert_allclose(abs(1 + r + r**2 / 2 + r**3 / 6 + r**4 / 24), 1, atol=1e-11)
     assert abs(r.real.min() + 2.785293563) < 1e-8 and abs(r.imag).max() > 2.8
@@ -165,7 +166,7 @@ def test_picture():
     np.testing.assert_allclose(abs(1 + z["modes"]).max(), 1, atol=1e-9)
     np.testing.assert_allclose(np.sort_complex(z["modes"]), np.sort_complex(np.r_[found.modes, found.modes.conj()] * step))
     lines = {line.get_label(): line.get_xydata().T for line in reach.lines}
-    assert set(lines) == {"forward-euler", "symplectic-euler", "verlet", "rk4", "modes", "critical damping"}
+    assert set(lines) == {"forward-euler", "symplectic-euler", "verlet", "heun", "rk4", "modes", "critical damping"}
     x, y = lines["symplectic-euler"]
     np.testing.assert_allclose(x**2 + 4 * y, 4, atol=1e-12)
     np.testing.assert_allclose(lines["verlet"][0][:150], 2, atol=1e-12)

@@ -346,6 +346,27 @@ static void rk4(const struct canonical *canonical, double t, double end, double 
   free(stage_v);
 }
 
+static void heun(const struct canonical *canonical, double t, double end, double h, double *q, double *v,
+                 double *a) {
+  const int64_t size = 3 * canonical->particle_count;
+  double *next_q = new_doubles(size), *next_v = new_doubles(size), *next_a = new_doubles(size);
+  canonical_acceleration(canonical, t, q, v, a);
+  for (int64_t k = 0; k < size; k++) {
+    next_q[k] = is_free(canonical, k) ? q[k] + h * v[k] : q[k];
+    next_v[k] = is_free(canonical, k) ? v[k] + h * a[k] : v[k];
+  }
+  place(canonical, end, next_q, next_v);
+  canonical_acceleration(canonical, end, next_q, next_v, next_a);
+  for (int64_t k = 0; k < size; k++) {
+    if (!is_free(canonical, k)) continue;
+    q[k] += h / 2.0 * (v[k] + next_v[k]);
+    v[k] += h / 2.0 * (a[k] + next_a[k]);
+  }
+  free(next_q);
+  free(next_v);
+  free(next_a);
+}
+
 static int is_damped(const struct canonical *canonical) {
   for (int64_t k = 0; k < canonical->spring_count; k++) {
     if (canonical->gamma[k] != 0.0) return 1;
@@ -371,6 +392,8 @@ int32_t canonical_step(const struct canonical *canonical, const char *method, do
     symplectic_euler(canonical, t, h, q, v, a);
   else if (strcmp(method, "verlet") == 0)
     verlet(canonical, t, end, h, q, v, a);
+  else if (strcmp(method, "heun") == 0)
+    heun(canonical, t, end, h, q, v, a);
   else if (strcmp(method, "rk4") == 0)
     rk4(canonical, t, end, h, q, v, a);
   else

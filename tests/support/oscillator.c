@@ -34,11 +34,11 @@ static void apply(const long double a[4], const long double x[2], long double ou
   memcpy(out, product, sizeof product);
 }
 
-/* R(z) = 1 + z + z^2/2 + z^3/6 + z^4/24 of z = h A. */
-static void runge_kutta(long double zeta, long double h, long double m[4]) {
+/* R(z) = 1 + z + ... + z^degree/degree! of z = h A. */
+static void runge_kutta(int degree, long double zeta, long double h, long double m[4]) {
   const long double z[4] = {0.0L, h, -h, -2.0L * zeta * h};
   long double sum[4] = {1.0L, 0.0L, 0.0L, 1.0L};
-  for (int k = 4; k >= 1; k--) { /* Horner */
+  for (int k = degree; k >= 1; k--) { /* Horner */
     multiply(z, sum, m);
     for (int j = 0; j < 4; j++)
       sum[j] = m[j] / (long double)k + (j % 3 == 0 ? 1.0L : 0.0L);
@@ -59,7 +59,9 @@ int32_t oscillator_step(const char *method, long double zeta, long double h, lon
     multiply(drift, kick, m);
     multiply(last, m, m);
   } else if (strcmp(method, "rk4") == 0) {
-    runge_kutta(zeta, h, m);
+    runge_kutta(4, zeta, h, m);
+  } else if (strcmp(method, "heun") == 0) {
+    runge_kutta(2, zeta, h, m);
   } else if (strcmp(method, "backward-euler") == 0) {
     const long double d = 1.0L / (1.0L + c * h + h * h);
     memcpy(m, (long double[4]){(1.0L + c * h) * d, h * d, -h * d, d}, 4 * sizeof *m);

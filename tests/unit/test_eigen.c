@@ -187,6 +187,13 @@ static void test_reach(void **unused) {
   const double real = 2.785293563405282; /* z^3 + 4 z^2 + 12 z + 24 = 0 */
   assert_true(fabs(hk_rk4_reach(0.0, 5.0) - 2.0 * sqrt(2.0)) < 2e-15);
   assert_true(fabs(hk_rk4_reach(-3.0, 0.0) - real) < 2e-15);
+  assert_true(hk_heun_reach(0.0, 5.0) == 0.0);
+  assert_true(fabs(hk_heun_reach(-3.0, 0.0) - 2.0) < 2e-15);
+  for (int k = 1; k < 100; k++) { /* |R| = 1 there */
+    const double angle = 0.01 * k, x = -sin(angle), y = cos(angle), r = hk_heun_reach(x, y);
+    const double re = 1.0 + r * x + 0.5 * r * r * (x * x - y * y), im = r * y + r * r * x * y;
+    assert_true(r > 0.0 && fabs(re * re + im * im - 1.0) < 1e-14);
+  }
   for (double x = -1.0; x <= 0.0; x += 0.125) {
     const double y = x + 1.0, reach = hk_rk4_reach(x, y);
     const double complex z = reach / hypot(x, y) * (x + y * I);

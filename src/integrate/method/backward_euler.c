@@ -2,8 +2,8 @@
  * (v' - v - h g) - h f(t + h, q + h v', v'), K = df/dq and D = df/dv,
  *   one iteration  (M - h D - h^2 K) dv = h (f + M g + h K v), all at the old state (Baraff and Witkin 1998)
  *   converged      from there on, Newton: (M - h D - h^2 K) dv = -F at the last guess, with a line search on F.M^-1 F
- * Driven particles are at their new place in F, and on their way to it in the first iteration: K and D times
- * their change of position and velocity stand on its right-hand side. */
+ * Driven particles are at their new place in F, and on their way to it in the first iteration: K and D
+ * times their change of position and velocity stand on its right-hand side. */
 #include "core/memory.h"
 #include "core/status.h"
 #include "integrate/solve/reduced.h"
@@ -311,6 +311,10 @@ const struct hk_method hk_backward_euler = {
     .built = 1,
     .order = 1,
     .second_order = 1,
+    .stability = {.kind = HOOKE_STABLE_ALWAYS,
+                  .damps_implicitly = 1,
+                  .note = "stable at every step; accuracy limits it, and in large steps whether the "
+                          "equations can be solved"},
     .no_first_order = "solves its step with the derivative of the forces, and x' = phi(t, x) brings none",
     .create = create,
     .destroy = destroy,

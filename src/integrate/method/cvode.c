@@ -147,9 +147,15 @@ static int32_t store(hooke_integrator *it, double t, hooke_state *state) {
 const struct hk_method hk_cvode_bdf = {
     .name = "cvode-bdf",
     .summary = "SUNDIALS CVODE, error-controlled, implicit, orders 1 to 5; for strong damping",
+    .stability = {.kind = HOOKE_STABLE_ALWAYS,
+                  .damps_implicitly = 1,
+                  .note = "chooses its steps; error control limits them"},
     ROW_OF_CVODE};
 
 const struct hk_method hk_cvode_adams = {
     .name = "cvode-adams",
     .summary = "SUNDIALS CVODE, error-controlled, explicit in effect, orders 1 to 12; for weak damping",
+    .stability = {.kind = HOOKE_STABLE_ALWAYS,
+                  .note = "chooses its steps; error control limits them, and for fast "
+                          "motion also stability, which it sees as error"},
     ROW_OF_CVODE};

@@ -150,6 +150,7 @@ const struct hk_method hk_verlet = {
     .built = 1,
     .order = 2,
     .second_order = 1,
+    .stability = {.kind = HOOKE_STABLE_BY_K, .damps_implicitly = 1},
     .create = create,
     .destroy = destroy,
     .begin = begin,

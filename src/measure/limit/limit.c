@@ -172,7 +172,7 @@ static int32_t find_blame(struct hk_limit *limit) {
   for (int64_t k = 0; k < 3 * n; k++)
     limit->shape[k] = longest > 0.0 ? row->mode[k] / longest : 0.0;
   /* where nothing is stable, stiffness alone is to blame */
-  const int stiffness_alone = hk_limit_rule_damps_implicitly(row->method) || !(row->predicted > 0.0);
+  const int stiffness_alone = hk_method_stability(row->method)->damps_implicitly || !(row->predicted > 0.0);
   const double h = stiffness_alone ? 0.0 : row->predicted;
   int32_t status =
       hk_blame_find(limit->system, limit->q, limit->shape, stiffness_alone ? 1.0 : h * h, h, &limit->blame);

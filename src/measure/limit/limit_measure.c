@@ -2,12 +2,12 @@
 
 #include "core/clock.h"
 #include "core/status.h"
+#include "integrate/method.h"
 #include "measure/trial/bracket.h"
 #include "measure/limit/growth.h"
 
 #include <math.h>
 #include <stddef.h>
-#include <string.h>
 
 static const char OUT_OF_TIME[] = "the budget ended before the limit was found";
 static const char WITHIN[] = "the budget ended early: the limit measured is certain to 5 % only";
@@ -28,7 +28,8 @@ enum { STEPS_OF_VIOLENCE = 300 };
 struct trial {
   struct hk_growth *growth;
   int64_t most_steps;
-  int32_t slow; /* forward Euler: steadiness means that growth is too slow to be seen */
+  int32_t slow;   /* needs damping: steadiness means that growth is too slow to be seen */
+  int32_t degree; /* if slow, growth is that of (omega h)^(2 degree) */
   const char *note;
   int32_t tries;
 };
@@ -105,7 +106,8 @@ static int32_t try_extremes(struct trial *trial, struct hk_bracket *bracket, int
   if (!small) trial->most_steps = STEPS_OF_VIOLENCE;
   int32_t status = HOOKE_OK;
   for (int k = 0; k < 3 && *confirmed && status == HOOKE_OK; k++) {
-    const double step = share[small][k] * trial->growth->twin->slow_step;
+    const double part = small ? pow(share[small][k], 1.0 / trial->degree) : share[small][k];
+    const double step = part * trial->growth->twin->slow_step;
     enum hk_trial_end end = HOOKE_TRIAL_UNKNOWN;
     status = try_frozen(trial, step, &end);
     if (end == HOOKE_TRIAL_UNKNOWN) bracket->unknown = 1;
@@ -174,8 +176,11 @@ int32_t hk_limit_measure(const hooke_system *system, const double *q, const hook
   if (status == HOOKE_OK) {
     growth.progress = progress;
     growth.ctx = ctx;
-    const int slow = strcmp(method, "forward-euler") == 0;
-    struct trial trial = {.growth = &growth, .slow = slow, .most_steps = steps_for(&growth, slow)};
+    const int slow = hk_method_needs_damping(method);
+    struct trial trial = {.growth = &growth,
+                          .slow = slow,
+                          .degree = slow ? hk_method_stability(method)->degree : 1,
+                          .most_steps = steps_for(&growth, slow)};
     status = measure(&trial, predicted, out);
     out->steps_run = growth.steps_run;
     if (trial.note == OUT_OF_TIME && !isnan(out->step))

@@ -2,6 +2,7 @@
 #include "core/memory.h"
 #include "core/print.h"
 #include "core/utf8.h"
+#include "integrate/method.h"
 #include "measure/limit/limit_blame.h"
 #include "measure/limit/limit_predict.h"
 #include "model/force/force.h"
@@ -223,8 +224,8 @@ static int32_t limit_without(const hooke_system *system, const double *q, const 
   const int drag = hk_blame_is_drag(force);
   const int32_t status = hk_limit_predict_within(&without, q, drag ? method : "verlet", NULL, NULL, ACCURACY,
                                                  blame->room, blame->patience, limit);
-  if (!drag && strcmp(method, "rk4") == 0) *limit *= sqrt(2.0);
-  if (!drag && strcmp(method, "forward-euler") == 0) *limit = 0.0;
+  const struct hk_stability *stability = hk_method_stability(method);
+  if (!drag && stability->kind == HOOKE_STABLE_BY_POLYNOMIAL) *limit *= sqrt(stability->axis / 4.0);
   return status;
 }
 

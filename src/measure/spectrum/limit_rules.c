@@ -4,6 +4,7 @@
 #include "core/status.h"
 #include "hooke/integrator.h"
 #include "hooke/measurement.h"
+#include "integrate/method.h"
 #include "measure/spectrum/dominant_mode.h"
 
 #include <math.h>
@@ -73,24 +74,31 @@ static int32_t symplectic_euler(struct hk_spectrum *s, struct hk_prediction *out
 /* ---- the others ---- */
 
 /* Damping is implicit: the limit is that of the undamped modes. */
-static double verlet_step(double k, double c) {
-  (void)c;
+static double verlet_step(double k) {
   return 2.0 / sqrt(k);
 }
 
-static int32_t verlet(struct hk_spectrum *s, struct hk_prediction *out) {
-  out->limit = verlet_step(s->stiffest, 0.0);
+static void verlet(struct hk_spectrum *s, struct hk_prediction *out) {
+  out->limit = verlet_step(s->stiffest);
   take_mode(s, s->stiffest_mode, out);
-  return HOOKE_OK;
+}
+
+static const double HALF_DISC = 2.6; /* of the left half plane, this far from 0 all is stable by degree 4 */
+
+/* Up to which step an eigenvalue is stable; infinity where that is certain to be above `best`. */
+static double step_of(int32_t degree, double real, double imaginary, double best) {
+  const double size = hypot(real, imaginary);
+  if (degree == 1) return -2.0 * real / (real * real + imaginary * imaginary); /* |1 + h lambda| <= 1 */
+  if (degree == 2) return hk_heun_reach(real, imaginary) / size;
+  return best * size <= HALF_DISC ? (double)INFINITY : hk_rk4_reach(real, imaginary) / size;
 }
 
 /* The smallest step over the eigenvalues that are known. */
-static void smallest(const struct hk_spectrum *s, double (*step)(double real, double imaginary, double best),
-                     struct hk_prediction *out) {
+static void smallest(const struct hk_spectrum *s, int32_t degree, struct hk_prediction *out) {
   int64_t worst = -1;
   out->limit = INFINITY;
   for (int64_t k = 0; k < s->count; k++) {
-    const double h = step(s->real[k], s->imaginary[k], out->limit);
+    const double h = step_of(degree, s->real[k], s->imaginary[k], out->limit);
     if (!(h < out->limit)) continue;
     out->limit = h;
     worst = k;
@@ -100,47 +108,8 @@ static void smallest(const struct hk_spectrum *s, double (*step)(double real, do
   if (!s->decisive) out->note = PART_KNOWN;
 }
 
-/* The smaller one of the two steps of a mode. */
-static double step_of_roots(double k, double c, double (*step)(double real, double imaginary, double best)) {
-  double real[2], imaginary[2], h = INFINITY;
-  hk_spectrum_roots(c, k, real, imaginary);
-  for (int j = 0; j < 2; j++) {
-    if (real[j] != 0.0 || imaginary[j] != 0.0) h = fmin(h, step(real[j], imaginary[j], INFINITY));
-  }
-  return h;
-}
-
-static const double HALF_DISC = 2.6; /* of the left half plane, this far from 0 all is stable */
-
-static double rk4_step(double real, double imaginary, double best) {
-  const double size = hypot(real, imaginary);
-  if (best * size <= HALF_DISC) return INFINITY;
-  return hk_rk4_reach(real, imaginary) / size;
-}
-
-static double rk4_mode(double k, double c) {
-  return step_of_roots(k, c, rk4_step);
-}
-
-/* An eigenvalue is at most omega where it oscillates, and at most c where it does not. */
-static int32_t rk4(struct hk_spectrum *s, struct hk_prediction *out) {
-  smallest(s, rk4_step, out);
-  if (!out->exact) out->sure = HALF_DISC / fmax(sqrt(s->stiffest), s->fastest_decay);
-  return HOOKE_OK;
-}
-
-/* |1 + h lambda| <= 1 */
-static double forward_euler_step(double real, double imaginary, double best) {
-  (void)best;
-  return -2.0 * real / (real * real + imaginary * imaginary);
-}
-
-static double forward_euler_mode(double k, double c) {
-  return step_of_roots(k, c, forward_euler_step);
-}
-
-static int32_t forward_euler(struct hk_spectrum *s, struct hk_prediction *out) {
-  smallest(s, forward_euler_step, out);
+/* The imaginary axis is not stable. */
+static void needs_damping(struct hk_spectrum *s, struct hk_prediction *out) {
   if (!s->linearised->damped && s->stiffest > 0.0) {
     out->limit = 0.0; /* whatever modes are known */
     out->exact = 1;
@@ -158,62 +127,65 @@ static int32_t forward_euler(struct hk_spectrum *s, struct hk_prediction *out) {
         "damping along a spring hardly damps motion across it; just above the limit that motion grows too "
         "slowly to be seen in a short run";
   }
-  return HOOKE_OK;
 }
 
-/* ---- the table ---- */
-
-static int32_t unlimited(struct hk_spectrum *s, struct hk_prediction *out) {
-  (void)s;
-  out->limit = INFINITY;
-  return HOOKE_OK;
+/* An eigenvalue is at most omega where it oscillates, and at most c where it does not. */
+static void polynomial(struct hk_spectrum *s, const struct hk_stability *stability,
+                       struct hk_prediction *out) {
+  smallest(s, stability->degree, out);
+  if (stability->axis == 0.0)
+    needs_damping(s, out);
+  else if (!out->exact)
+    out->sure = HALF_DISC / fmax(sqrt(s->stiffest), s->fastest_decay);
 }
 
-static double unlimited_mode(double k, double c) {
-  (void)k, (void)c;
-  return INFINITY;
-}
+/* ---- of one mode, x'' + c x' + k x = 0: the smaller one of the two steps of its roots ---- */
 
-static const struct rule {
-  const char *method;
-  int32_t (*find)(struct hk_spectrum *s, struct hk_prediction *out);
-  double (*of_mode)(double k, double c); /* the step of one mode, x'' + c x' + k x = 0 */
-  int32_t needs_all, damps_implicitly;
-  const char *note;
-} rules[] = {
-    {"forward-euler", forward_euler, forward_euler_mode, 1, 0, ""},
-    {"symplectic-euler", symplectic_euler, symplectic_step, 0, 0, ""},
-    {"verlet", verlet, verlet_step, 0, 1, ""},
-    {"rk4", rk4, rk4_mode, 1, 0, ""},
-    {"backward-euler", unlimited, unlimited_mode, 0, 1,
-     "stable at every step; accuracy limits it, and in large steps whether the equations can be solved"},
-    {"cvode-bdf", unlimited, unlimited_mode, 0, 1, "chooses its steps; error control limits them"},
-    {"cvode-adams", unlimited, unlimited_mode, 0, 0,
-     "chooses its steps; error control limits them, and for fast motion also stability, which it sees as "
-     "error"},
-};
-
-static const struct rule *rule_of(const char *method) {
-  for (size_t k = 0; k < sizeof rules / sizeof rules[0]; k++) {
-    if (strcmp(rules[k].method, method) == 0) return &rules[k];
+static double polynomial_mode(int32_t degree, double k, double c) {
+  double real[2], imaginary[2], h = INFINITY;
+  hk_spectrum_roots(c, k, real, imaginary);
+  for (int j = 0; j < 2; j++) {
+    if (real[j] != 0.0 || imaginary[j] != 0.0) h = fmin(h, step_of(degree, real[j], imaginary[j], INFINITY));
   }
-  return NULL;
+  return h;
 }
 
-int32_t hk_limit_rule_needs_all(const char *method) {
-  const struct rule *rule = rule_of(method);
-  return rule ? rule->needs_all : 0;
-}
-
-int32_t hk_limit_rule_damps_implicitly(const char *method) {
-  const struct rule *rule = rule_of(method);
-  return rule ? rule->damps_implicitly : 0;
+static double mode_step(const struct hk_stability *stability, double k, double c) {
+  switch (stability->kind) {
+  case HOOKE_STABLE_ALWAYS:
+    return INFINITY;
+  case HOOKE_STABLE_BY_K:
+    return verlet_step(k);
+  case HOOKE_STABLE_BY_K_AND_C:
+    return symplectic_step(k, c);
+  default:
+    return stability->degree > 0 ? polynomial_mode(stability->degree, k, c) : (double)NAN;
+  }
 }
 
 double hooke_limit_of_mode(const char *method, double frequency, double decay) {
-  const struct rule *rule = rule_of(method);
-  if (rule == NULL || !(frequency >= 0.0) || !(decay >= 0.0)) return NAN;
-  return rule->of_mode(frequency * frequency, 2.0 * decay);
+  if (!(frequency >= 0.0) || !(decay >= 0.0)) return NAN;
+  return mode_step(hk_method_stability(method), frequency * frequency, 2.0 * decay);
+}
+
+/* ---- by kinds of stability ---- */
+
+int32_t hk_limit_rule_needs_all(const char *method) {
+  return hk_method_stability(method)->kind == HOOKE_STABLE_BY_POLYNOMIAL;
+}
+
+static int32_t find_limit(struct hk_spectrum *s, const struct hk_stability *stability,
+                          struct hk_prediction *out) {
+  switch (stability->kind) {
+  case HOOKE_STABLE_BY_K:
+    verlet(s, out);
+    return HOOKE_OK;
+  case HOOKE_STABLE_BY_K_AND_C:
+    return symplectic_euler(s, out);
+  default:
+    polynomial(s, stability, out);
+    return HOOKE_OK;
+  }
 }
 
 int32_t hk_limit_rule(struct hk_spectrum *s, const char *method, struct hk_prediction *out) {
@@ -224,14 +196,18 @@ int32_t hk_limit_rule(struct hk_spectrum *s, const char *method, struct hk_predi
   out->sure = NAN;
   out->never_stable = out->has_mode = 0;
   out->note = adaptive ? "chooses its steps; error control limits them" : "no rule is known for this method";
-  const struct rule *rule = rule_of(method);
-  if (rule == NULL) return HOOKE_OK;
-  out->note = rule->note;
-  const int32_t status = rule->find(s, out);
+  const struct hk_stability *stability = hk_method_stability(method);
+  if (stability->kind == HOOKE_STABILITY_UNKNOWN) return HOOKE_OK;
+  out->note = stability->note ? stability->note : "";
+  if (stability->kind == HOOKE_STABLE_ALWAYS) {
+    out->limit = out->sure = INFINITY;
+    return HOOKE_OK;
+  }
+  const int32_t status = find_limit(s, stability, out);
   if (status != HOOKE_OK) return status;
   out->limit /= s->linearised->rate;
   out->sure = out->exact ? out->limit : out->sure / s->linearised->rate;
-  if (out->limit == INFINITY && rule->find != unlimited) {
+  if (out->limit == INFINITY) {
     out->has_mode = 0;
     out->note = "nothing limits the step: there is no stiffness, and no damping that is explicit";
   }

@@ -19,13 +19,12 @@ struct hk_prediction {
 /* 1 if the rule asks for eigenvalues other than the extreme ones of K and of h^2 K + 2 h C. */
 int32_t hk_limit_rule_needs_all(const char *method);
 
-/* 1 if the method solves for damping, which then has no part in its limit. */
-int32_t hk_limit_rule_damps_implicitly(const char *method);
-
 /* HOOKE_BAD_VALUE for an unknown method. */
 int32_t hk_limit_rule(struct hk_spectrum *spectrum, const char *method, struct hk_prediction *out);
 
-/* How far from 0 Runge-Kutta 4 is stable on the ray to (real, imaginary), real <= 0 (stable_ray.c). */
+/* How far from 0 Runge-Kutta 4 and Heun's method are stable on the ray to (real, imaginary), real <= 0
+ * (stable_ray.c). */
 double hk_rk4_reach(double real, double imaginary);
+double hk_heun_reach(double real, double imaginary);
 
 #endif

@@ -26,3 +26,19 @@ double hk_rk4_reach(double real, double imaginary) {
   }
   return 0.5 * (low + high);
 }
+
+/* |1 + z + z^2/2| <= 1 at z = r (x + i y) where r^3 + 4 x r^2 + 8 x^2 r + 8 x <= 0. This rises with r, and
+ * is 0 from 1 to 1.5 times 2 (-x)^(1/3). */
+double hk_heun_reach(double real, double imaginary) {
+  const double x = real / hypot(real, imaginary);
+  double low = 2.0 * cbrt(fmax(0.0, -x)), high = 1.5 * low;
+  while (high - low > 4e-16 * high) {
+    const double r = 0.5 * (low + high);
+    if (r <= low || r >= high) break;
+    if (((r + 4.0 * x) * r + 8.0 * x * x) * r + 8.0 * x <= 0.0)
+      low = r;
+    else
+      high = r;
+  }
+  return 0.5 * (low + high);
+}

@@ -2,6 +2,7 @@
 
 #include "core/memory.h"
 #include "core/status.h"
+#include "integrate/method.h"
 #include "model/force/force.h"
 
 #include <math.h>
@@ -116,12 +117,11 @@ double hk_growing_turn(struct hk_growing *g, const double *q, double a, double b
 
 int32_t hk_growing_rule(const hooke_system *system, const char *method, double h, double *a, double *b,
                         double *most) {
-  const int symplectic = strcmp(method, "symplectic-euler") == 0;
+  const struct hk_stability *stability = hk_method_stability(method);
   *a = h * h;
-  *b = symplectic ? 2.0 * h : 0.0;
+  *b = stability->kind == HOOKE_STABLE_BY_K_AND_C ? 2.0 * h : 0.0;
   *most = 4.0;
-  if (symplectic || strcmp(method, "verlet") == 0) return 1;
-  /* on the imaginary axis up to the root of 8; with damping it is no matter of a quotient */
-  *most = 8.0;
-  return strcmp(method, "rk4") == 0 && !hk_system_is_damped(system);
+  if (stability->kind == HOOKE_STABLE_BY_K_AND_C || stability->kind == HOOKE_STABLE_BY_K) return 1;
+  *most = stability->axis; /* with damping it is no matter of a quotient */
+  return stability->axis > 0.0 && !hk_system_is_damped(system);
 }

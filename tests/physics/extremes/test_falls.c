@@ -15,6 +15,7 @@ static long double factor(const char *method, long double z, int *known) {
   if (strcmp(method, "forward-euler") == 0 || strcmp(method, "symplectic-euler") == 0) return 1.0L - z;
   if (strcmp(method, "verlet") == 0) return (1.0L - z / 2.0L) / (1.0L + z / 2.0L);
   if (strcmp(method, "backward-euler") == 0) return 1.0L / (1.0L + z);
+  if (strcmp(method, "heun") == 0) return 1.0L - z * (1.0L - z / 2.0L);
   if (strcmp(method, "rk4") == 0) return 1.0L - z * (1.0L - z / 2.0L * (1.0L - z / 3.0L * (1.0L - z / 4.0L)));
   *known = 0;
   return 0.0L;

@@ -212,8 +212,9 @@ static void test_at_rest(void **unused) {
     struct extreme_outcome outcome;
     extreme_run(system, run, &outcome);
     const double error = extreme_error(&outcome, outcome.q0, 1.0);
-    const char *complaint =
-        extreme_not_right(&outcome, error, 0.0, hooke_method_is_adaptive(method) ? 1e-5 : 1e-12);
+    /* in Heun's method, of 2000 steps with omega h = 0.45, rounding grows by the factor exp(10) */
+    const double most = hooke_method_is_adaptive(method) ? 1e-5 : strcmp(method, "heun") == 0 ? 1e-11 : 1e-12;
+    const char *complaint = extreme_not_right(&outcome, error, 0.0, most);
     if (strcmp(method, "forward-euler") == 0) /* unstable: it makes something of it, and says so */
       complaint = extreme_not_ended(&outcome, HOOKE_DIVERGED, "diverged");
     extreme_demand(FAMILY, "at rest but for rounding", method, complaint, &outcome);

@@ -1,0 +1,31 @@
+/* Heun's method (1900), the explicit trapezoidal rule, order 2: two rates a step, at t and at t + h. Undamped
+ * oscillations grow by (omega h)^4/8 a step. */
+#include "integrate/method/stages.h"
+#include "kernel/step_loops.h"
+
+static void move(int stage, int64_t n, double h, const double *rate, const double *start, double *sum,
+                 double *x) {
+  if (stage == 0)
+    hk_first_stage(n, h, rate, sum, x);
+  else
+    hk_last_stage(n, h / 2.0, rate, start, sum, x);
+}
+
+static int32_t create(hooke_integrator *it) {
+  static const struct hk_stages stages = {2, {0.0, 1.0}, move};
+  return hk_stages_create(it, &stages);
+}
+
+const struct hk_method hk_heun = {
+    .name = "heun",
+    .summary = "fixed step, order 2, two force evaluations a step; unstable without damping",
+    .built = 1,
+    .order = 2,
+    .first_order = 1,
+    .second_order = 1,
+    .stability = {.kind = HOOKE_STABLE_BY_POLYNOMIAL, .degree = 2},
+    .create = create,
+    .destroy = hk_stages_destroy,
+    .begin = hk_fixed_begin,
+    .step = hk_stages_step,
+    .store = hk_fixed_store};
