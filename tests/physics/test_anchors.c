@@ -98,10 +98,15 @@ static void limits_are_those_of_the_oscillator(void **unused) {
   hooke_options *options;
   hooke_limit *limit;
   check_ok(hooke_limit_options_create(&options));
-  check_ok(hooke_limit_create(system, NULL, options, &limit));
-  const int32_t status = hooke_limit_find(limit, state);
-  if (status == HOOKE_NOT_BUILT) skip();
+  const int32_t status = hooke_limit_create(system, NULL, options, &limit);
+  if (status == HOOKE_NOT_BUILT) {
+    hooke_options_destroy(options);
+    hooke_state_destroy(state);
+    hooke_system_destroy(system);
+    skip();
+  }
   check_ok(status);
+  check_ok(hooke_limit_find(limit, state));
   for (size_t k = 0; k < sizeof rows / sizeof rows[0]; k++) {
     double bound;
     check_ok(hooke_step_bound(system, rows[k].method, hooke_state_position(state), &bound));
@@ -127,13 +132,17 @@ static void a_run_that_diverges_by_one_blames_it(void **unused) {
       system, (struct run){.method = "symplectic-euler", .step = 0.0021, .duration = 2.1, .every = 0.021});
   check_status(hooke_integrator_run(run, state), HOOKE_DIVERGED);
   hooke_why *why;
-  check_ok(hooke_why_create(run, 20.0, NULL, NULL, &why));
-  const char *sentence = hooke_why_text(why, "sentence");
-  if (!strstr(sentence, "the anchor of particle 2 (group wall)")) check_failed("it says: %s", sentence);
-  hooke_why_destroy(why);
+  const int32_t status = hooke_why_create(run, 20.0, NULL, NULL, &why);
+  if (status != HOOKE_NOT_BUILT) {
+    check_ok(status);
+    const char *sentence = hooke_why_text(why, "sentence");
+    if (!strstr(sentence, "the anchor of particle 2 (group wall)")) check_failed("it says: %s", sentence);
+    hooke_why_destroy(why);
+  }
   hooke_integrator_destroy(run);
   hooke_state_destroy(state);
   hooke_system_destroy(system);
+  if (status == HOOKE_NOT_BUILT) skip();
 }
 
 static void what_is_wrong_is_said(void **unused) {
