@@ -10,11 +10,12 @@
 static const double FACTOR = 4.0; /* twice what first order needs */
 
 static double largest_energy(const hooke_system *system, const double *q, const double *v) {
-  return fabs(hooke_system_energy(system, "kinetic", NULL, v)) +
-         fabs(hooke_system_energy(system, "springs", q, NULL)) +
-         fabs(hooke_system_energy(system, "bending", q, NULL)) +
-         fabs(hooke_system_energy(system, "altitude", q, NULL)) +
-         fabs(hooke_system_energy(system, "gravity", q, NULL));
+  double sum = fabs(hooke_system_energy(system, "kinetic", NULL, v));
+  for (int64_t k = 0; hooke_system_force_name(system, k); k++) {
+    const double energy = hooke_system_energy(system, hooke_system_force_name(system, k), q, NULL);
+    if (!isnan(energy)) sum += fabs(energy); /* drag and callbacks have none */
+  }
+  return sum;
 }
 
 /* Power that driven particles put in and that becomes heat, at a state. */
