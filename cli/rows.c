@@ -72,19 +72,3 @@ void cli_rows_print(const struct cli_rows *rows, int32_t method_width) {
     print_row(rows, row, method_width);
   }
 }
-
-void cli_rows_print_json(struct cli_json *json, const struct cli_rows *rows) {
-  static const char *const numbers[] = {
-      "step",  "rtol",        "error", "error_max", "error_final", "energy_drift", "force_evaluations",
-      "steps", "wall_seconds"};
-  cli_json_open(json, "rows", '[');
-  for (int64_t row = 0; row < rows->count; row++) {
-    cli_json_open(json, NULL, '{');
-    cli_json_text(json, "method", method_of(rows, row));
-    for (size_t i = 0; i < sizeof numbers / sizeof numbers[0]; i++)
-      cli_json_number(json, numbers[i], rows->number(rows->source, row, numbers[i]));
-    cli_json_text(json, "status", rows->text(rows->source, row, "status"));
-    cli_json_close(json);
-  }
-  cli_json_close(json);
-}

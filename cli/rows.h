@@ -25,7 +25,4 @@ void cli_rows_print_cell(int32_t width, double value);
 /* A table of all rows. */
 void cli_rows_print(const struct cli_rows *rows, int32_t method_width);
 
-/* "rows": [...]. */
-void cli_rows_print_json(struct cli_json *json, const struct cli_rows *rows);
-
 #endif

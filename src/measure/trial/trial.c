@@ -1,6 +1,5 @@
 #include "measure/trial/trial.h"
 
-#include "core/figure.h"
 #include "core/memory.h"
 #include "core/status.h"
 
@@ -23,24 +22,6 @@ void hk_trial_release(struct hk_trial *trial) {
   hk_free(trial->drift_at);
   hk_watched_series_release(&trial->watched);
   memset(trial, 0, sizeof *trial);
-}
-
-double hk_trial_number(const struct hk_trial *trial, const char *what) {
-  if (trial->status == NULL) return NAN;
-  const struct hk_figure numbers[] = {
-      {"step", trial->step},
-      {"rtol", trial->rtol},
-      {"atol", trial->atol},
-      {"error", trial->error},
-      {"error_max", trial->error_max},
-      {"error_final", trial->error_final},
-      {"energy_drift", trial->energy_drift},
-      {"force_evaluations", trial->force_evaluations},
-      {"steps", trial->steps},
-      {"linear_iterations", trial->linear_iterations},
-      {"wall_seconds", trial->wall_seconds},
-  };
-  return HOOKE_FIGURE(numbers, what);
 }
 
 /* ---- a run under way ---- */

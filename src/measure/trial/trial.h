@@ -27,10 +27,6 @@ struct hk_trial {
 int32_t hk_trial_create(const struct hk_frames *reference, struct hk_trial *trial);
 void hk_trial_release(struct hk_trial *trial);
 
-/* A number of a trial by the name that hooke_comparison_number() gives it; NaN for another word or before it
- * was run. */
-double hk_trial_number(const struct hk_trial *trial, const char *what);
-
 /* Runs with the options of a run. Divergence, a solver that fails and a step limit are results, and return
  * HOOKE_OK; HOOKE_STOPPED if the listener asked for it; other failures as they are. `frames` counts what is
  * judged: frames of the reference beyond it are left out. */
