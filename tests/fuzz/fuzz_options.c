@@ -211,7 +211,7 @@ int cli_report_unknown_method(const struct cli_arguments *arguments, const char 
 }
 
 int cli_refusal(const struct cli_arguments *arguments) {
-  return arguments->verb->kind_options ? HOOKE_EXIT_BAD_INPUT : HOOKE_EXIT_USAGE;
+  return arguments->verb->takes_kind ? HOOKE_EXIT_BAD_INPUT : HOOKE_EXIT_USAGE;
 }
 
 const char *cli_suggest(const char *word, const char *(*next)(int64_t i, const void *ctx), const void *ctx) {
@@ -230,7 +230,7 @@ static void parse_words(uint8_t which, const hooke_options *table, char **line, 
   const struct cli_verb *verb = &verbs[which % 4];
   char *argv[MOST_LINES + 3] = {name};
   int argc = 1;
-  if (verb->kind_options && which < 128) argv[argc++] = kind;
+  if (verb->takes_kind && which < 128) argv[argc++] = kind;
   for (int32_t k = 0; k < count; k++) {
     char flag[HOOKE_FLAG_SIZE];
     if (line[k][0] == '=')

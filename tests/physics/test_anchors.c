@@ -172,13 +172,13 @@ static void what_is_wrong_is_said(void **unused) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(the_force_is_that_of_a_spring_to_the_point),
-      cmocka_unit_test(without_points_they_hold_particles_where_they_are),
+    cmocka_unit_test(the_force_is_that_of_a_spring_to_the_point),
+    cmocka_unit_test(without_points_they_hold_particles_where_they_are),
 #if HOOKE_HAVE_LAPACK
-      cmocka_unit_test(limits_are_those_of_the_oscillator),
-      cmocka_unit_test(a_run_that_diverges_by_one_blames_it),
+    cmocka_unit_test(limits_are_those_of_the_oscillator),
+    cmocka_unit_test(a_run_that_diverges_by_one_blames_it),
 #endif
-      cmocka_unit_test(what_is_wrong_is_said),
+    cmocka_unit_test(what_is_wrong_is_said),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
