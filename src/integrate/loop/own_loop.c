@@ -5,7 +5,6 @@
 #include "core/status.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
 /* 1 if the last call left a motion from which steps can go on. */

@@ -7,7 +7,6 @@
 
 #include <math.h>
 #include <stdio.h>
-#include <string.h>
 
 static const double LOOK = 1e-3; /* [s] between two looks at the clock */
 static const int64_t MOST_STRIDE = 1 << 20;
