@@ -44,6 +44,9 @@ def main() -> None:
     own = (time.perf_counter() - begin) / steps
     rows: dict[str, Callable[[], object]] = {
         "integrator.step(state)": lambda: integrator.step(state),
+        "integrator.advance()": lambda: integrator.advance(),
+        "integrator.get(1)": lambda: integrator.get(1),
+        "integrator.put(1, q[1])": lambda: integrator.put(1, q[1]),
         "state.t": lambda: state.t,
         "state.q": lambda: state.q,
         "state.v": lambda: state.v,

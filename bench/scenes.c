@@ -208,6 +208,7 @@ static int32_t build_six(hooke_system *system, int64_t size, double damping) {
 
 static const struct bench_scene table[] = {
     {"six-particles", build_six, 6, DAMPING, 1},
+    {"cloth-16", build_cloth, 16, DAMPING, 0},
     {"cloth-32", build_cloth, 32, DAMPING, 0},
     {"cloth-64", build_cloth, 64, DAMPING, 0},
     {"cloth-128", build_cloth, 128, DAMPING, 1},

@@ -2,7 +2,7 @@
 module hooke_integrators
   use, intrinsic :: iso_c_binding, only: c_double, c_funloc, c_int32_t, c_int64_t, c_loc, c_null_funptr, &
     c_null_ptr, c_ptr
-  use hooke_base, only: accept, hooke_long, to_c, to_c_if, to_integer, to_text, zero_based
+  use hooke_base, only: accept, hooke_bad_value, hooke_long, refuse, to_c, to_c_if, to_integer, to_text, zero_based
   use hooke_c_checkpoint, only: c_checkpoint_read, c_checkpoint_write
   use hooke_c_integrator
   use hooke_queries_of_integrator
@@ -35,6 +35,11 @@ module hooke_integrators
     procedure :: read_checkpoint
     procedure, private :: step_some, step_many
     generic :: step => step_some, step_many
+    procedure, private :: advance_some, advance_many
+    generic :: advance => advance_some, advance_many
+    procedure :: sync
+    procedure :: get
+    procedure :: put
     procedure :: recent
     procedure :: destroy
     procedure, private :: assign
@@ -309,6 +314,67 @@ contains
     if (state%is_missing(status)) return
     call accept(c_integrator_step(self%address(), state%address(), steps), status)
   end subroutine
+
+  ! Takes some steps of the motion that the integrator has, on from where the last call left it, which step() with 0
+  ! steps begins; states are stale until sync().
+  subroutine advance_some(self, steps, status)
+    class(hooke_integrator), intent(inout) :: self
+    integer(c_int32_t), intent(in) :: steps
+    integer, intent(out), optional :: status
+    call self%advance(int(steps, hooke_long), status)
+  end subroutine
+
+  subroutine advance_many(self, steps, status)
+    class(hooke_integrator), intent(inout) :: self
+    integer(hooke_long), intent(in) :: steps
+    integer, intent(out), optional :: status
+    if (self%is_missing(status)) return
+    call accept(c_integrator_advance(self%address(), steps), status)
+  end subroutine
+
+  ! Writes where the motion is into `state`.
+  subroutine sync(self, state, status)
+    class(hooke_integrator), intent(inout) :: self
+    class(hooke_state), intent(inout) :: state
+    integer, intent(out), optional :: status
+    if (self%is_missing(status)) return
+    if (state%is_missing(status)) return
+    call accept(c_integrator_sync(self%address(), state%address()), status)
+  end subroutine
+
+  ! Positions and velocities (3, k) of k particles of the motion.
+  subroutine get(self, particles, position, velocity, status)
+    class(hooke_integrator), intent(inout) :: self
+    integer, intent(in) :: particles(:)
+    real(c_double), intent(inout), contiguous, optional :: position(:, :), velocity(:, :)
+    integer, intent(out), optional :: status
+    if (self%is_missing(status)) return
+    if (.not. fit(particles, position, velocity, status)) return
+    call accept(c_integrator_get(self%address(), size(particles, kind=c_int64_t), zero_based(particles), position, &
+      velocity), status)
+  end subroutine
+
+  ! Puts k particles of the motion where `position` has them, with the velocities of `velocity`.
+  subroutine put(self, particles, position, velocity, status)
+    class(hooke_integrator), intent(inout) :: self
+    integer, intent(in) :: particles(:)
+    real(c_double), intent(in), contiguous, optional :: position(:, :), velocity(:, :)
+    integer, intent(out), optional :: status
+    if (self%is_missing(status)) return
+    if (.not. fit(particles, position, velocity, status)) return
+    call accept(c_integrator_put(self%address(), size(particles, kind=c_int64_t), zero_based(particles), position, &
+      velocity), status)
+  end subroutine
+
+  logical function fit(particles, position, velocity, status)
+    integer, intent(in) :: particles(:)
+    real(c_double), intent(in), optional :: position(:, :), velocity(:, :)
+    integer, intent(out), optional :: status
+    fit = .true.
+    if (present(position)) fit = all(shape(position) == [3, size(particles)])
+    if (present(velocity)) fit = fit .and. all(shape(velocity) == [3, size(particles)])
+    if (.not. fit) call refuse(hooke_bad_value, "positions and velocities of k particles have the shape (3, k)", status)
+  end function
 
   ! ---- what it did, since it was made ----
 

@@ -102,9 +102,35 @@ HOOKE_API int32_t hooke_integrator_run(hooke_integrator *integrator, hooke_state
  * hooke_integrator_run(); HOOKE_BAD_CALL if there is nothing to go on with. */
 HOOKE_API int32_t hooke_integrator_resume(hooke_integrator *integrator, hooke_state *state);
 
+/* ---- time loops of the caller's own ---- */
+
 /* Takes `steps` steps of a fixed-step method, or internal steps of an error-controlled one, without frames.
- * For time loops of the caller's own; the same statuses. */
+ * Goes on from the state that the last call left, or begins anew where the caller has changed it; 0 steps do
+ * that alone. `state` is valid on return: with the statuses of hooke_integrator_run(), but that numbers are
+ * tested for being finite after every call. */
 HOOKE_API int32_t hooke_integrator_step(hooke_integrator *integrator, hooke_state *state, int64_t steps);
+
+/* Takes `steps` steps of the motion that the integrator itself has, on from where the last call left it:
+ * hooke_integrator_step() with 0 steps begins one at a state. The same bits at the cost of a step of a run,
+ * as no state is read or written; those of the caller are stale until hooke_integrator_sync(). Divergence is
+ * tested every 1000 steps. The statuses of hooke_integrator_step(); HOOKE_BAD_CALL if there is no motion, or
+ * if it ended early and did not stop. */
+HOOKE_API int32_t hooke_integrator_advance(hooke_integrator *integrator, int64_t steps);
+/* Writes time, positions and velocities of the motion into `state`, after HOOKE_DIVERGED the last good ones.
+ * hooke_integrator_step() then goes on from there. HOOKE_DIVERGED, with the last good state, for numbers that
+ * are not finite; HOOKE_BAD_CALL if there is no motion. */
+HOOKE_API int32_t hooke_integrator_sync(hooke_integrator *integrator, hooke_state *state);
+
+/* Positions and velocities (3 `count` each; NULL: not those) of some particles of the motion, read and written
+ * at a cost that goes with their number: with error control with that of all, and writing has the method start
+ * anew. Pinned particles are held where they are put; driven ones stay where their motion has them. Since
+ * writing may bring any energy, only numbers that are not finite are divergence from then on. HOOKE_BAD_CALL
+ * as for hooke_integrator_advance(), HOOKE_BAD_VALUE for a particle that does not exist or a number that is
+ * not finite, HOOKE_UNSUITED for a first-order problem, HOOKE_NO_MEMORY; nothing is written then. */
+HOOKE_API int32_t hooke_integrator_get(hooke_integrator *integrator, int64_t count, const int64_t *particles,
+                                       double *q, double *v);
+HOOKE_API int32_t hooke_integrator_put(hooke_integrator *integrator, int64_t count, const int64_t *particles,
+                                       const double *q, const double *v);
 
 /* ---- what it did, since it was made; after hooke_checkpoint_read() since the run began ---- */
 

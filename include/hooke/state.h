@@ -2,7 +2,8 @@
  *
  * A state is one block of doubles, t, then q (3n), then v (3n), rows of x y z in the caller's numbering,
  * which NumPy and HDF5 wrap without a copy. It is up to date at frames, in observers and callbacks, and when
- * a run returns; an integrator works on its own copy in between. A state belongs to one thread at a time. */
+ * a run or step returns; an integrator works on its own copy in between, and hooke_integrator_advance() on
+ * nothing else. A state belongs to one thread at a time. */
 #ifndef HOOKE_STATE_H
 #define HOOKE_STATE_H
 

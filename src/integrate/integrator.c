@@ -113,6 +113,7 @@ void hooke_integrator_destroy(hooke_integrator *it) {
   hk_pool_destroy(it->pool);
   hk_recent_release(&it->recent);
   hooke_state_destroy(it->restart.state);
+  hooke_state_destroy(it->shown);
   if (it->checker.release) it->checker.release(it->checker.own);
   hooke_options_destroy(it->options);
   hk_free(it->x);
@@ -133,25 +134,13 @@ int32_t hooke_integrator_on_checkpoint(hooke_integrator *integrator, hooke_obser
   return HOOKE_OK;
 }
 
-static void store_good(const hooke_integrator *it, hooke_state *state) {
-  hk_motion_store(it->motion, state->q, state->v);
-  *state->t = it->good_time;
-}
-
-/* A copy of the last good state, which so far the motion alone has. */
-static int32_t keep_copy(hooke_integrator *it) {
-  const int32_t status = hk_recent_make_room(it->size, 1, &it->recent);
-  if (status == HOOKE_OK && it->recent.count > 0) store_good(it, it->recent.state[0]);
-  return status;
-}
-
 int32_t hooke_integrator_on_step(hooke_integrator *integrator, int64_t stride, hooke_observer *observer,
                                  void *ctx) {
   if (stride < 1) {
     return hk_fail(HOOKE_BAD_VALUE, "stride", "%lld is not allowed; 1 step or more is", (long long)stride);
   }
   if (integrator->recent.room == 0) {
-    const int32_t status = keep_copy(integrator); /* states are stored between checks */
+    const int32_t status = hk_divergence_keep(integrator); /* states are stored between checks */
     if (status != HOOKE_OK) return status;
   }
   integrator->on_step = (struct hk_watch){observer, ctx, stride};
@@ -172,22 +161,29 @@ void hk_integrator_set_checker(hooke_integrator *it, struct hk_checker checker) 
   it->checker = checker;
 }
 
+static int64_t recent_count(const hooke_integrator *it) {
+  const struct hk_recent *recent = &it->recent;
+  return recent->count + (it->unkept && recent->count < recent->room);
+}
+
 int32_t hooke_integrator_recent(const hooke_integrator *it, int64_t place, hooke_state *state) {
-  const hooke_state *kept = hk_recent_state(&it->recent, place, NULL);
+  const int64_t count = recent_count(it);
+  const hooke_state *kept = place < count ? hk_recent_state(&it->recent, place - it->unkept, NULL) : NULL;
   if (kept) return hooke_state_copy(kept, state);
-  if (place == 0 && it->recent.count > 0 && state->size == it->size && state->has_v) {
-    store_good(it, state);
+  if (place == 0 && count > 0 && state->size == it->size && state->has_v == (it->system != NULL)) {
+    hk_store_good(it, state);
     return HOOKE_OK;
   }
   return hk_fail(HOOKE_BAD_VALUE, "place", "there is no recent state %lld; kept are %lld", (long long)place,
-                 (long long)it->recent.count);
+                 (long long)count);
 }
 
 static int64_t memory_of(const hooke_integrator *it) {
   const int64_t own = it->system ? 0 : 2 * it->size; /* x and its rate */
-  const int64_t restart = it->restart.state ? 1 + (it->system ? 2 : 1) * it->size : 0;
+  const int64_t copies = (it->restart.state != NULL) + (it->shown != NULL);
+  const int64_t copied = copies * (1 + (it->system ? 2 : 1) * it->size);
   return (int64_t)sizeof *it + it->own_memory + it->checker.memory + (it->motion ? it->motion->memory : 0) +
-         (own + restart) * (int64_t)sizeof(double) + hk_recent_memory(&it->recent);
+         (own + copied) * (int64_t)sizeof(double) + hk_recent_memory(&it->recent);
 }
 
 static int64_t factor_of(const hooke_integrator *it) {
@@ -213,7 +209,7 @@ int64_t hooke_integrator_count(const hooke_integrator *it, const char *what) {
       {"coincident_springs", it->motion ? it->motion->coincident : 0},
       {"memory_bytes", memory_of(it)},
       {"frames", it->schedule.frames},
-      {"recent", it->recent.count},
+      {"recent", recent_count(it)},
   };
   for (size_t k = 0; k < sizeof counts / sizeof counts[0]; k++) {
     if (strcmp(counts[k].name, what) == 0) return counts[k].value;

@@ -87,11 +87,14 @@ struct hooke_integrator {
   int64_t k;      /* steps since t0 */
   int64_t frames; /* reported since t0 */
   int64_t point;  /* number of the next checkpoint, with error control */
-  struct hk_restart restart;                       /* with error control and the option `checkpoint` */
-  int32_t begun;                                   /* 1: the numbers above are those of a run */
-  int32_t placed;                                  /* 1: at the place of a checkpoint that was read */
-  struct hk_recent recent;                         /* the newest is the last state that passed the check */
-  double good_time;                                /* of it, where recent has no room: see divergence.c */
+  struct hk_restart restart; /* with error control and the option `checkpoint` */
+  int32_t begun;             /* 1: the numbers above are those of a run */
+  int32_t placed;            /* 1: at the place of a checkpoint that was read */
+  struct hk_recent recent;   /* the newest is the last state that passed the check */
+  double good_time;          /* of it, where the motion alone has it: see divergence.c */
+  int64_t good_step;
+  int32_t unkept;     /* 1: the motion has it, and recent only those before it */
+  hooke_state *shown; /* to observers and checks while the caller's state is stale; NULL before */
   double energy0, scale0, gravity0, gravity_swing; /* see divergence.c */
   double diverged_at;
 
@@ -164,11 +167,18 @@ int32_t hk_integrator_place(hooke_integrator *to, const hooke_integrator *from, 
 /* Hands the integrator a checker, which it releases; an older one is released first. */
 void hk_integrator_set_checker(hooke_integrator *integrator, struct hk_checker checker);
 
+/* The last good state, where the motion alone has it. */
+void hk_store_good(const hooke_integrator *integrator, hooke_state *state);
 /* 1 if every number is finite. */
 int32_t hk_all_finite(int64_t count, const double *value);
 
 /* Writes the motion, which is at time t, into `state`, in a way that the check below can take back. */
 int32_t hk_divergence_store(hooke_integrator *integrator, double t, hooke_state *state);
+/* Has the last state that passed in `recent`, which so far the motion alone may have. HOOKE_NO_MEMORY. */
+int32_t hk_divergence_keep(hooke_integrator *integrator);
+/* At the end of some steps with a fixed step: writes the motion into `state`, which has the last good state,
+ * unless a number is not finite: HOOKE_DIVERGED, and the state stays. Keeps no copy. */
+int32_t hk_divergence_glance(hooke_integrator *integrator, hooke_state *state);
 /* Divergence: remembers the energy at the start; then HOOKE_DIVERGED, with the last good state put back into
  * `state`, if the state has left every physical bound. Without `energy` only numbers that are not finite are
  * looked for. */

@@ -37,6 +37,9 @@ struct hk_method {
   const char *no_first_order; /* why it takes none, if not for stepping positions and velocities apart */
   int32_t (*create)(hooke_integrator *integrator);
   void (*destroy)(hooke_integrator *integrator);
+  /* forgets what it keeps of a motion that was changed by hand; NULL if it keeps nothing. An adaptive method
+   * begins anew instead. */
+  void (*forget)(hooke_integrator *integrator);
   /* takes up t, q and v */
   int32_t (*begin)(hooke_integrator *integrator, const hooke_state *state);
   /* one step; an adaptive method moves integrator->t, a fixed-step one has it moved for it */

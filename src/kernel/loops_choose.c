@@ -82,6 +82,14 @@ double hk_largest(int64_t size, const double *x) {
   return hk_spring_set(0)->vector->largest(size, x);
 }
 
+void hk_join_rows(int64_t n, const double *x, const double *y, const double *z, double *rows) {
+  hk_spring_set(0)->vector->join_rows(n, x, y, z, rows);
+}
+
+uint64_t hk_differing_bits(int64_t n, const double *x, const double *y, const double *z, const double *rows) {
+  return hk_spring_set(0)->vector->differing_bits(n, x, y, z, rows);
+}
+
 void hk_tangent_fill(const struct hk_run *run, const struct hk_fields *fields, double alpha, double beta,
                      const struct hk_tangent *tangent) {
   hk_spring_set(0)->tangent->tangent_fill(run, fields, alpha, beta, tangent);

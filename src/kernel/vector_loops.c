@@ -3,6 +3,8 @@
 
 #include "kernel/instruction_set.h"
 
+#include <string.h>
+
 enum { PARTS = 8, LONG_PARTS = 32 };
 
 static double sum_of(const double part[PARTS]) {
@@ -207,6 +209,32 @@ static double largest(int64_t size, const double *x) {
   return most;
 }
 
+static void join_rows(int64_t n, const double *restrict x, const double *restrict y, const double *restrict z,
+                      double *restrict rows) {
+  for (int64_t p = 0; p < n; p++) {
+    rows[3 * p] = x[p];
+    rows[3 * p + 1] = y[p];
+    rows[3 * p + 2] = z[p];
+  }
+}
+
+static inline uint64_t difference(const double *a, const double *b) {
+  uint64_t bits[2];
+  memcpy(&bits[0], a, sizeof bits[0]);
+  memcpy(&bits[1], b, sizeof bits[1]);
+  return bits[0] ^ bits[1];
+}
+
+static uint64_t differing_bits(int64_t n, const double *x, const double *y, const double *z,
+                               const double *rows) {
+  uint64_t bits = 0;
+  for (int64_t p = 0; p < n; p++) {
+    const double *row = rows + 3 * p;
+    bits |= difference(row, x + p) | difference(row + 1, y + p) | difference(row + 2, z + p);
+  }
+  return bits;
+}
+
 const struct hk_vector_set HOOKE_VECTOR_SET = {
     .dot = dot,
     .add_multiple = add_multiple,
@@ -227,4 +255,6 @@ const struct hk_vector_set HOOKE_VECTOR_SET = {
     .sum_of_squares = sum_of_squares,
     .long_dot = long_dot,
     .largest = largest,
+    .join_rows = join_rows,
+    .differing_bits = differing_bits,
 };

@@ -27,6 +27,10 @@ void hk_apply_factor_transposed(int64_t n, const double *w, const double *x, dou
 void hk_apply_factor(int64_t n, const double *w, double *x);
 void hk_apply_diagonal(int64_t n, const double *d, const double *x, double *y);
 
+/* n rows of x y z from three vectors; and the bits, of all rows together, in which rows and vectors differ. */
+void hk_join_rows(int64_t n, const double *x, const double *y, const double *z, double *rows);
+uint64_t hk_differing_bits(int64_t n, const double *x, const double *y, const double *z, const double *rows);
+
 /* Loops for libraries that call them one by one; vectors may be the same, and else do not overlap.
  * z = a x + b y;  z = a x;  z = x y;  z = x/y;  z = 1/x;  z = |x|;  z = a + x */
 void hk_linear_sum(int64_t size, double a, const double *x, double b, const double *y, double *z);
@@ -63,6 +67,8 @@ struct hk_vector_set {
   double (*sum_of_squares)(int64_t, const double *, const double *);
   double (*long_dot)(int64_t, const double *, const double *);
   double (*largest)(int64_t, const double *);
+  void (*join_rows)(int64_t, const double *, const double *, const double *, double *);
+  uint64_t (*differing_bits)(int64_t, const double *, const double *, const double *, const double *);
 };
 
 #endif

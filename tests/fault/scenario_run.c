@@ -73,6 +73,13 @@ static void run(struct attempt *a, const void *with) {
   take_state(a, state);
   if (hooke_integrator_count(integrator, "recent") > 0) TRY(a, hooke_integrator_recent(integrator, 0, start));
   take_state(a, start);
+  const int64_t second = 1;
+  const double velocity[] = {0.1, 0.0, -0.1};
+  TRY_ONCE(a, hooke_integrator_advance(integrator, 2));
+  TRY_ONCE(a, hooke_integrator_put(integrator, 1, &second, NULL, velocity));
+  TRY_ONCE(a, hooke_integrator_advance(integrator, 1));
+  TRY(a, hooke_integrator_sync(integrator, state));
+  take_state(a, state);
 end:
   hooke_state_destroy(state);
   hooke_state_destroy(start);

@@ -8,6 +8,7 @@ program test_observers
 
   call frames()
   call steps()
+  call motion()
   call told_of_progress()
   call warnings()
   call finish()
@@ -65,6 +66,45 @@ contains
     call integrator%on_step(1)
     call integrator%step(state, 100_hooke_long)
     call expect(second%seen == 4 .and. integrator%count("steps") == 300, "taken back")
+  end subroutine
+
+  ! Steps of the motion of the integrator itself, and some of its particles.
+  subroutine motion()
+    type(hooke_system) :: system
+    type(hooke_options) :: run
+    type(hooke_integrator) :: integrator, steps
+    type(hooke_state) :: state, other
+    real(hooke_real) :: q(3, 2), v(3, 2), alone(3, 1)
+    integer :: status
+    call make_oscillator(system)
+    call make_run(run, "verlet", 0.5_hooke_real**10, 1.0_hooke_real)
+    call integrator%create(system, run)
+    call steps%create(system, run)
+    call state%create(system)
+    call other%create(system)
+    call integrator%advance(1, status)
+    call expect(status == hooke_bad_call, "there is no motion yet")
+    call integrator%step(state, 0)
+    call integrator%advance(3)
+    call integrator%advance(4_hooke_long)
+    call integrator%sync(state)
+    call steps%step(other, 7)
+    call expect(same_count(state%q(:, 2), other%q(:, 2)) == 3, "the same steps")
+    call integrator%get([2, 1], q, v)
+    call expect(same_count(q(:, 1), state%q(:, 2)) == 3 .and. same_count(v(:, 1), state%v(:, 2)) == 3, "read")
+    call integrator%get([1], velocity=alone)
+    call expect(same_count(alone(:, 1), v(:, 2)) == 3, "velocities alone")
+    alone(:, 1) = [0.1_hooke_real, 0.2_hooke_real, 0.3_hooke_real]
+    call integrator%put([2], velocity=alone)
+    call integrator%advance(5)
+    call integrator%sync(state)
+    other%v(:, 2) = alone(:, 1)
+    call steps%step(other, 5)
+    call expect(same_count(state%q(:, 2), other%q(:, 2)) == 3, "written")
+    call integrator%put([3], alone, status=status)
+    call expect(status == hooke_bad_value, "there is no such particle")
+    call integrator%get([1, 2], alone, status=status)
+    call expect(status == hooke_bad_value, "nor room for so many")
   end subroutine
 
   subroutine told_of_progress()

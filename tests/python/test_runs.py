@@ -126,6 +126,69 @@ def test_steps_by_hand_equal_a_run(system):
         integrator.run(state)
 
 
+@pytest.mark.parametrize("method", [method.name for method in hooke.methods()])
+def test_the_motion_goes_on_without_a_state(system, method):
+    state, other = system.state(), system.state()
+    integrator, steps = (hooke.Integrator(system, **{**RUN, "method": method}) for _ in range(2))
+    assert integrator.step(state, 0) == "finished"
+    assert [integrator.advance(), integrator.advance(9), integrator.advance(steps=0)] == ["finished"] * 3
+    assert state.t == 0
+    assert integrator.sync(state) == "finished"
+    for _ in range(10):
+        steps.step(other)
+    assert state.t == other.t
+    np.testing.assert_array_equal(state.q, other.q)
+    np.testing.assert_array_equal(state.v, other.v)
+
+
+def test_particles_of_the_motion_are_read_and_written(system):
+    integrator = hooke.Integrator(system, method="verlet", step=2**-12)
+    state, other = system.state(), system.state()
+    integrator.step(state, 5)
+    q, v = integrator.get([4, 2])
+    np.testing.assert_array_equal(q, state.q[[4, 2]])
+    np.testing.assert_array_equal(v, state.v[[4, 2]])
+    np.testing.assert_array_equal(integrator.get(3)[1], state.v[3])
+    integrator.put([4, 2], q + 0.01)
+    integrator.put(3, v=[1, 2, 3])
+    integrator.advance(7)
+    other.assign(state)
+    integrator.sync(state)
+    other.q[[4, 2]] += 0.01
+    other.v[3] = [1, 2, 3]
+    hooke.Integrator(system, method="verlet", step=2**-12).step(other, 7)
+    np.testing.assert_array_equal(state.q, other.q)
+    np.testing.assert_array_equal(state.v, other.v)
+
+
+def test_motions_that_are_not_there(system):
+    integrator = hooke.Integrator(system, method="verlet", step=1e-3)
+    for call in (integrator.advance, lambda: integrator.sync(system.state()), lambda: integrator.get(0)):
+        with pytest.raises(hooke.BadCall, match="no motion"):
+            call()
+    integrator.step(system.state())
+    for call in (lambda: integrator.get(6), lambda: integrator.put([0, -1], v=np.zeros((2, 3)))):
+        with pytest.raises(hooke.BadValue, match="no particle"):
+            call()
+    with pytest.raises(hooke.BadValue, match="shape"):
+        integrator.put([0, 1], q=[1, 2, 3])
+    with pytest.raises(hooke.BadValue, match=r"velocity\[0\]\[1\]"):
+        integrator.put(0, v=[1, np.nan, 3])
+    with pytest.raises(hooke.BadValue):
+        integrator.advance(-1)
+
+
+def test_a_motion_that_diverges(system):
+    integrator = hooke.Integrator(system, method="forward-euler", step=10.0)
+    state, first = system.state(), system.state()
+    integrator.step(state, 0)
+    assert integrator.advance(900) == "finished"
+    assert integrator.sync(state) == "diverged" and "not finite" in integrator.message
+    np.testing.assert_array_equal(state.q, first.q)
+    with pytest.raises(hooke.BadCall, match="ended early"):
+        integrator.advance()
+
+
 def test_a_run_starts_where_it_is_told(system):
     whole = hooke.run(system, **RUN).state
     half = {**RUN, "duration": 0.25}

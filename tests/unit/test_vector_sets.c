@@ -82,6 +82,29 @@ static void vectors(void **unused) {
   free(other);
 }
 
+/* Rows are joined as they are, and every bit of them counts. */
+static void rows(void **unused) {
+  (void)unused;
+  struct random_source source = {13};
+  double *x = new_doubles(3 * LONGEST), *joined = new_doubles(3 * LONGEST);
+  draw(&source, 3 * LONGEST, x);
+  for (int32_t k = 0; hk_spring_set(k); k++) {
+    const struct hk_vector_set *v = hk_spring_set(k)->vector;
+    for (int64_t n = 0; n < LONGEST; n += n < 70 ? 1 : 33) {
+      v->join_rows(n, x, x + n, x + 2 * n, joined);
+      for (int64_t e = 0; e < 3 * n; e++)
+        check_same_bits(1, joined + e, x + e % 3 * n + e / 3);
+      assert_true(v->differing_bits(n, x, x + n, x + 2 * n, joined) == 0);
+      if (n == 0) continue;
+      const int64_t changed = random_whole(&source, 0, 3 * n - 1);
+      joined[changed] = -joined[changed];
+      assert_true(v->differing_bits(n, x, x + n, x + 2 * n, joined) == UINT64_C(1) << 63);
+    }
+  }
+  free(joined);
+  free(x);
+}
+
 /* ---- triangles of blocks ---- */
 
 enum { MOST_COLUMNS = 24, MOST_ROWS = 3 * MOST_COLUMNS };
@@ -174,6 +197,7 @@ static void triangles(void **unused) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(vectors), cmocka_unit_test(triangles)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(vectors), cmocka_unit_test(rows),
+                                     cmocka_unit_test(triangles)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -11,15 +11,19 @@
  *
  * The last state that passed is kept in `recent`. Where that has no room, since the scene is large, the
  * caller's state is that state until the next one is stored, which happens as an exchange: the motion then
- * has what has to come back if the check fails. */
+ * has what has to come back if the check fails. Steps in a loop of the caller's own are looked at before they
+ * are stored, so that neither a copy nor an exchange is needed: the caller's state is the last good one until
+ * then, and is kept when it turns out to be the last. */
 #include "integrate/integrator.h"
 
 #include "core/status.h"
+#include "kernel/vector_loops.h"
 #include "model/force/force.h"
 
 #include <float.h>
 #include <math.h>
 #include <stddef.h>
+#include <string.h>
 
 static const double RISE = 100.0, ROUNDING = 1e-12;
 
@@ -28,6 +32,7 @@ static int has_energy_bound(const hooke_integrator *it) {
 }
 
 int32_t hk_all_finite(int64_t count, const double *value) {
+  if (isfinite(hk_long_dot(count, value, value))) return 1; /* by far the quickest; squares may overflow */
   /* 0 * value is 0 or not a number, and one of those stays in the sum */
   double sum = 0.0;
   for (int64_t k = 0; k < count; k++)
@@ -68,6 +73,7 @@ int32_t hk_divergence_begin(hooke_integrator *it, const hooke_state *state) {
   }
   hk_recent_begin(&it->recent, state);
   it->good_time = *state->t;
+  it->unkept = 0;
   return HOOKE_OK;
 }
 
@@ -86,6 +92,25 @@ static int energy_is_bounded(hooke_integrator *it, const hooke_state *state, dou
 void hk_divergence_follow(hooke_integrator *it, const hooke_state *state) {
   double energy;
   if (has_energy_bound(it)) energy_is_bounded(it, state, &energy);
+}
+
+void hk_store_good(const hooke_integrator *it, hooke_state *state) {
+  if (it->motion)
+    hk_motion_store(it->motion, state->q, state->v);
+  else
+    memcpy(state->q, it->x, (size_t)it->size * sizeof(double));
+  *state->t = it->good_time;
+}
+
+int32_t hk_divergence_keep(hooke_integrator *it) {
+  struct hk_recent *recent = &it->recent;
+  const int had_no_room = recent->room == 0;
+  const int32_t status = recent->room == 0 ? hk_recent_make_room(it->size, 1, recent) : HOOKE_OK;
+  if (status != HOOKE_OK) return status;
+  if (had_no_room && recent->count > 0) hk_store_good(it, recent->state[0]);
+  if (it->unkept) hk_store_good(it, hk_recent_next(recent, it->good_step));
+  it->unkept = 0;
+  return HOOKE_OK;
 }
 
 static const char *advice(const hooke_integrator *it) {
@@ -118,6 +143,37 @@ static int32_t pass(hooke_integrator *it, const hooke_state *state) {
                  *state->t);
 }
 
+static int32_t fail_not_finite(const hooke_integrator *it, double good_time) {
+  return hk_fail(HOOKE_DIVERGED, NULL,
+                 "the run diverged: a position or velocity is not finite at t = %.6g s; the state kept is "
+                 "that of t = %.6g s; try %s",
+                 it->diverged_at, good_time, advice(it));
+}
+
+static int is_finite(const hooke_integrator *it) {
+  if (it->motion == NULL) return hk_all_finite(it->size, it->x);
+  int finite = 1;
+  for (int a = 0; a < 3; a++) {
+    finite &= hk_all_finite(it->motion->n, it->motion->q[a]);
+    finite &= hk_all_finite(it->motion->n, it->motion->v[a]);
+  }
+  return finite;
+}
+
+int32_t hk_divergence_glance(hooke_integrator *it, hooke_state *state) {
+  if (is_finite(it)) {
+    it->good_time = it->t;
+    it->good_step = it->k;
+    it->unkept = it->recent.room > 0;
+    if (!it->unkept) hk_recent_next(&it->recent, it->k);
+    return it->method->store(it, it->t, state);
+  }
+  it->diverged_at = it->t;
+  if (it->unkept) hk_recent_keep(&it->recent, state, it->good_step);
+  it->unkept = 0;
+  return fail_not_finite(it, *state->t);
+}
+
 int32_t hk_divergence_check(hooke_integrator *it, hooke_state *state, int32_t with_energy) {
   double energy = NAN;
   const double t = *state->t;
@@ -128,13 +184,7 @@ int32_t hk_divergence_check(hooke_integrator *it, hooke_state *state, int32_t wi
   }
   it->diverged_at = t;
   put_back(it, state);
-  if (!finite) {
-    return hk_fail(
-        HOOKE_DIVERGED, NULL,
-        "the run diverged: a position or velocity is not finite at t = %.6g s; the state kept is that of "
-        "t = %.6g s; try %s",
-        t, *state->t, advice(it));
-  }
+  if (!finite) return fail_not_finite(it, *state->t);
   return hk_fail(
       HOOKE_DIVERGED, NULL,
       "the run diverged: at t = %.6g s the energy has risen from %g to %g J, over 100 times what the scene "

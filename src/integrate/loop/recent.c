@@ -50,15 +50,20 @@ void hk_recent_begin(struct hk_recent *recent, const hooke_state *state) {
   hk_recent_keep(recent, state, 0);
 }
 
-void hk_recent_keep(struct hk_recent *recent, const hooke_state *state, int64_t step) {
+hooke_state *hk_recent_next(struct hk_recent *recent, int64_t step) {
   const int32_t again = recent->count > 0 && recent->step[recent->newest] == step;
   if (!again) {
     const int32_t room = recent->room > 0 ? recent->room : 1;
     recent->newest = recent->count == 0 ? 0 : (recent->newest + 1) % room;
     if (recent->count < room) recent->count++;
   }
-  if (recent->room > 0) hooke_state_copy(state, recent->state[recent->newest]);
   recent->step[recent->newest] = step;
+  return recent->room > 0 ? recent->state[recent->newest] : NULL;
+}
+
+void hk_recent_keep(struct hk_recent *recent, const hooke_state *state, int64_t step) {
+  hooke_state *to = hk_recent_next(recent, step);
+  if (to) hooke_state_copy(state, to);
 }
 
 const hooke_state *hk_recent_state(const struct hk_recent *recent, int64_t place, int64_t *step) {

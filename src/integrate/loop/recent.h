@@ -28,7 +28,10 @@ int64_t hk_recent_memory(const struct hk_recent *recent);
 void hk_recent_begin(struct hk_recent *recent, const hooke_state *state);
 /* The state that the run began with, for a run that goes on from elsewhere; NULL: it is not known. */
 void hk_recent_set_first(struct hk_recent *recent, const hooke_state *first);
-/* A second state after the same step takes the place of the first. */
+/* Where the state after this step goes, for the caller to write; NULL: there is no room. A second state after
+ * the same step takes the place of the first. */
+hooke_state *hk_recent_next(struct hk_recent *recent, int64_t step);
+/* The same with a copy of `state`. */
 void hk_recent_keep(struct hk_recent *recent, const hooke_state *state, int64_t step);
 
 /* The state kept `place` before the newest (0: the newest itself), and its step; NULL if there is none, or no

@@ -7,7 +7,6 @@
 
 #include <math.h>
 #include <stdio.h>
-#include <string.h>
 
 static const double LOOK = 1e-3; /* [s] between two looks at the clock */
 static const int64_t MOST_STRIDE = 1 << 20;
@@ -70,6 +69,8 @@ int32_t hk_run_report(hooke_integrator *it, const hooke_state *state) {
 }
 
 int32_t hk_run_store(hooke_integrator *it, double t, hooke_state *state, int32_t checked) {
+  if (it->unkept) hk_recent_keep(&it->recent, state, it->good_step); /* so far `state` is that one */
+  it->unkept = 0;
   const int32_t status = checked ? hk_divergence_store(it, t, state) : it->method->store(it, t, state);
   if (!checked && it->recent.room == 0) it->recent.count = 0; /* nobody has the last good state any more */
   *state->t = t;
@@ -141,29 +142,60 @@ static int64_t until_multiple(int64_t k, int64_t stride) {
   return stride - k % stride;
 }
 
-/* On to step `last` with checks and step observers, frames every `frame_steps` (0: none), and checkpoints. */
-static int32_t run_fixed(hooke_integrator *it, hooke_state *state, int64_t last, int64_t frame_steps) {
+/* What comes after the present step. */
+struct due {
+  int frame, point, seen; /* a frame, a checkpoint, a step observer */
+  int thorough, checked;  /* a check for divergence, with energy or of any kind */
+};
+
+/* `shows`: 1 if the state at step `last` is wanted whatever else comes there. */
+static struct due find_due(const hooke_integrator *it, int64_t last, int64_t frame_steps, int64_t point_steps,
+                           int32_t shows) {
+  struct due due = {.frame = frame_steps && it->k % frame_steps == 0,
+                    .point = point_steps && it->k % point_steps == 0 && it->k < last,
+                    .seen = it->on_step.observer && it->k % it->on_step.stride == 0};
+  due.thorough = due.frame || it->thorough || it->k % HOOKE_CHECK_STEPS == 0;
+  due.checked = due.thorough || due.point || (shows && it->k == last);
+  return due;
+}
+
+/* Steps that can be taken before anything is due. */
+static int64_t steps_to_take(const hooke_integrator *it, int64_t last, int64_t frame_steps,
+                             int64_t point_steps) {
+  int64_t count = last - it->k, next = until_multiple(it->k, HOOKE_CHECK_STEPS);
+  if (next < count) count = next;
+  if (frame_steps && (next = until_multiple(it->k, frame_steps)) < count) count = next;
+  if (point_steps && (next = until_multiple(it->k, point_steps)) < count) count = next;
+  if (it->on_step.observer && (next = until_multiple(it->k, it->on_step.stride)) < count) count = next;
+  return count;
+}
+
+static int32_t store_and_check(hooke_integrator *it, hooke_state *state, int32_t status, struct due due) {
+  const int checked = due.checked && status == HOOKE_OK;
+  const int32_t stored = hk_run_store(it, it->t0 + (double)it->k * it->schedule.step, state, checked);
+  if (status == HOOKE_OK) status = stored;
+  return checked && status == HOOKE_OK ? hk_divergence_check(it, state, due.thorough) : status;
+}
+
+/* 1 if nobody but the caller sees states, who then has the last good one. */
+static int is_unwatched(const hooke_integrator *it) {
+  return it->on_step.observer == NULL && it->on_checkpoint.observer == NULL && it->checker.look == NULL;
+}
+
+int32_t hk_run_fixed(hooke_integrator *it, hooke_state *state, int64_t last, int64_t frame_steps,
+                     int32_t shows) {
   const int64_t point_steps = it->on_checkpoint.observer ? it->schedule.checkpoint_steps : 0;
   int32_t status = HOOKE_OK;
   while (it->k < last && status == HOOKE_OK) {
-    int64_t count = last - it->k, next = until_multiple(it->k, HOOKE_CHECK_STEPS);
-    if (next < count) count = next;
-    if (frame_steps && (next = until_multiple(it->k, frame_steps)) < count) count = next;
-    if (point_steps && (next = until_multiple(it->k, point_steps)) < count) count = next;
-    if (it->on_step.observer && (next = until_multiple(it->k, it->on_step.stride)) < count) count = next;
-    status = take_fixed_steps(it, count);
-    const int frame = frame_steps && it->k % frame_steps == 0;
-    const int point = point_steps && it->k % point_steps == 0 && it->k < last;
-    const int thorough = frame || it->thorough || it->k % HOOKE_CHECK_STEPS == 0;
-    const int checked = status == HOOKE_OK && (thorough || point || it->k == last);
-    const int32_t stored = hk_run_store(it, it->t0 + (double)it->k * it->schedule.step, state, checked);
-    if (status == HOOKE_OK) status = stored;
-    if (checked && status == HOOKE_OK) status = hk_divergence_check(it, state, thorough);
-    if (status == HOOKE_OK && it->on_step.observer && it->k % it->on_step.stride == 0) {
-      status = hk_run_observe(it, &it->on_step, state);
-    }
-    if (status == HOOKE_OK && frame) status = hk_run_report(it, state);
-    if (status == HOOKE_OK && point) status = hk_run_observe(it, &it->on_checkpoint, state);
+    status = take_fixed_steps(it, steps_to_take(it, last, frame_steps, point_steps));
+    const struct due due = find_due(it, last, frame_steps, point_steps, shows);
+    if (status == HOOKE_OK && !shows && !due.checked && !due.seen) continue;
+    if (status == HOOKE_OK && due.checked && !due.thorough && is_unwatched(it))
+      return hk_divergence_glance(it, state);
+    status = store_and_check(it, state, status, due);
+    if (status == HOOKE_OK && due.seen) status = hk_run_observe(it, &it->on_step, state);
+    if (status == HOOKE_OK && due.frame) status = hk_run_report(it, state);
+    if (status == HOOKE_OK && due.point) status = hk_run_observe(it, &it->on_checkpoint, state);
   }
   return status;
 }
@@ -171,7 +203,9 @@ static int32_t run_fixed(hooke_integrator *it, hooke_state *state, int64_t last,
 /* Keeps what came of it, for a diagnosis, with the state at which a solver gave up. */
 int32_t hk_run_end(hooke_integrator *it, hooke_state *state, int32_t status) {
   it->outcome = status;
-  snprintf(it->message, sizeof it->message, "%s", status == HOOKE_OK ? "" : hooke_last_error());
+  it->message[0] = '\0';
+  if (status == HOOKE_OK) return status;
+  snprintf(it->message, sizeof it->message, "%s", hooke_last_error());
   const int reached = status == HOOKE_SOLVER_FAILED || status == HOOKE_STEP_LIMIT;
   if (reached && hk_all_finite((state->has_v ? 2 : 1) * state->size, state->q))
     hk_recent_keep(&it->recent, state, it->k);
@@ -188,7 +222,7 @@ int32_t hk_run_check_duration(const hooke_integrator *it) {
 
 int32_t hk_run_to_end(hooke_integrator *it, hooke_state *state) {
   const struct hk_schedule *s = &it->schedule;
-  if (!it->method->adaptive) return run_fixed(it, state, s->steps, s->frame_steps);
+  if (!it->method->adaptive) return hk_run_fixed(it, state, s->steps, s->frame_steps, 1);
   return hk_run_adaptive(it, state);
 }
 
@@ -201,33 +235,5 @@ int32_t hooke_integrator_run(hooke_integrator *it, hooke_state *state) {
   if (status == HOOKE_OK) it->restart.standing.frames = 1;
   if (status == HOOKE_OK) status = hk_run_report(it, state);
   if (status == HOOKE_OK) status = hk_run_to_end(it, state);
-  return hk_run_end(it, state, status);
-}
-
-/* 1 if the state is, to the bit, the one that the last call left: stepping then goes on where it was. */
-static int goes_on(const hooke_integrator *it, const hooke_state *state) {
-  if (it->k == 0 || (it->outcome != HOOKE_OK && it->outcome != HOOKE_STOPPED)) return 0;
-  if (it->recent.room == 0 && it->recent.count > 0)
-    return memcmp(&it->good_time, state->t, sizeof(double)) == 0 &&
-           hk_motion_is_at(it->motion, state->q, state->v);
-  const size_t bytes = (size_t)(1 + (state->has_v ? 2 : 1) * state->size) * sizeof(double);
-  const hooke_state *last = hk_recent_state(&it->recent, 0, NULL);
-  return last && memcmp(last->t, state->t, bytes) == 0;
-}
-
-int32_t hooke_integrator_step(hooke_integrator *it, hooke_state *state, int64_t steps) {
-  int32_t status = hk_run_check_state(it, state);
-  if (status == HOOKE_OK && steps < 0) {
-    status = hk_fail(HOOKE_BAD_VALUE, "steps", "%lld is not allowed; 0 or more are", (long long)steps);
-  }
-  if (status != HOOKE_OK) return status;
-  if (!goes_on(it, state)) status = hk_run_begin(it, state);
-  it->placed = 0;
-  if (status == HOOKE_OK && steps > HOOKE_MOST_STEPS - it->k)
-    return hk_fail(HOOKE_BAD_VALUE, "steps", "%lld after %lld are too many; allowed: %lld in all",
-                   (long long)steps, (long long)it->k, (long long)HOOKE_MOST_STEPS);
-  if (status == HOOKE_OK)
-    status = it->method->adaptive ? hk_run_internal_steps(it, state, steps)
-                                  : run_fixed(it, state, it->k + steps, 0);
   return hk_run_end(it, state, status);
 }

@@ -90,7 +90,7 @@ static int32_t tell_step(hooke_integrator *it, hooke_state *state) {
   return stored == HOOKE_OK ? status : stored;
 }
 
-int32_t hk_run_internal_steps(hooke_integrator *it, hooke_state *state, int64_t steps) {
+int32_t hk_run_internal_steps(hooke_integrator *it, hooke_state *state, int64_t steps, int32_t shows) {
   int32_t status = HOOKE_OK;
   for (int64_t s = 0; s < steps && status == HOOKE_OK; s++) {
     const double point = it->goal = next_point(it);
@@ -101,7 +101,8 @@ int32_t hk_run_internal_steps(hooke_integrator *it, hooke_state *state, int64_t 
     if (status == HOOKE_OK && anew) status = hk_run_observe(it, &it->on_checkpoint, state);
     if (status == HOOKE_OK) status = tell_step(it, state);
   }
-  if (status == HOOKE_OK) status = hk_run_store(it, it->t, state, 0);
+  if (status != HOOKE_OK || !shows) return status;
+  status = hk_run_store(it, it->t, state, 0);
   return status == HOOKE_OK ? hk_divergence_check(it, state, it->thorough) : status;
 }
 

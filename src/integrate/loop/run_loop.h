@@ -19,6 +19,11 @@ int32_t hk_run_place_driven(hooke_integrator *integrator, hooke_state *state);
 int32_t hk_run_begin(hooke_integrator *integrator, hooke_state *state);
 /* From there, or from where it stands, to the end of its schedule. */
 int32_t hk_run_to_end(hooke_integrator *integrator, hooke_state *state);
+/* With a fixed step on to step `last` with checks, step observers and checkpoints, and frames every
+ * `frame_steps` (0: none). `shows`: 1 if `state` is to be the one reached; 0: it is what checks and observers
+ * are shown. */
+int32_t hk_run_fixed(hooke_integrator *integrator, hooke_state *state, int64_t last, int64_t frame_steps,
+                     int32_t shows);
 /* Keeps what came of it, for a diagnosis, with the state at which a solver gave up. Returns `status`. */
 int32_t hk_run_end(hooke_integrator *integrator, hooke_state *state, int32_t status);
 
@@ -33,7 +38,7 @@ int32_t hk_run_store(hooke_integrator *integrator, double t, hooke_state *state,
 
 /* The same two for error-controlled methods: to the end, and so many internal steps. */
 int32_t hk_run_adaptive(hooke_integrator *integrator, hooke_state *state);
-int32_t hk_run_internal_steps(hooke_integrator *integrator, hooke_state *state, int64_t steps);
+int32_t hk_run_internal_steps(hooke_integrator *integrator, hooke_state *state, int64_t steps, int32_t shows);
 /* With error control and the option `checkpoint`: keeps the state, at which the method has just begun, as the
  * place from which the run can go on. HOOKE_NO_MEMORY. */
 int32_t hk_run_keep_restart(hooke_integrator *integrator, const hooke_state *state);

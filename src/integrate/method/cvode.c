@@ -126,9 +126,12 @@ static int32_t step(hooke_integrator *it) {
   return hk_sundials_advance(it, "CVODE", flag, reached);
 }
 
+/* Before the first step y is still where it was put, and there is nothing to interpolate. */
 static int32_t store(hooke_integrator *it, double t, hooke_state *state) {
   struct hk_sundials *own = it->own;
-  if (CVodeGetDky(own->memory, t, 0, own->y) != CV_SUCCESS) {
+  long steps = 0;
+  CVodeGetNumSteps(own->memory, &steps);
+  if (steps > 0 && CVodeGetDky(own->memory, t, 0, own->y) != CV_SUCCESS) {
     return hk_fail(HOOKE_SOLVER_FAILED, NULL, "CVODE has no solution at t = %.6g s: %s", t, own->message);
   }
   return hk_unknowns_store(it, &own->unknowns, t, N_VGetArrayPointer(own->y), state);

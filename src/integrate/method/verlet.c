@@ -55,6 +55,12 @@ static int32_t begin(hooke_integrator *it, const hooke_state *state) {
   return hk_fixed_begin(it, state);
 }
 
+static void forget(hooke_integrator *it) {
+  struct verlet *own = it->own;
+  it->count.force_evaluations += own->kept; /* that first_forces() does again */
+  own->kept = 0;
+}
+
 static const double *gravity(const hooke_system *system, int axis) {
   return system->has_gravity ? &system->gravity[axis] : NULL;
 }
@@ -116,7 +122,7 @@ static int32_t second_kick(hooke_integrator *it) {
   }
   const int32_t status = hk_integrator_forces_without(it, t, &hk_force_drag);
   if (status == HOOKE_OK) hk_integrator_each(it, kick, NULL);
-  own->kept = status == HOOKE_OK;
+  own->kept = status == HOOKE_OK && !own->callback;
   return status;
 }
 
@@ -153,6 +159,7 @@ const struct hk_method hk_verlet = {
     .stability = {.kind = HOOKE_STABLE_BY_K, .damps_implicitly = 1},
     .create = create,
     .destroy = destroy,
+    .forget = forget,
     .begin = begin,
     .step = step,
     .store = hk_fixed_store};

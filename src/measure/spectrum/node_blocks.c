@@ -17,7 +17,7 @@ static void find_axial(double term[6], const double u[3], double along, double a
 
 static void add_element(struct hk_node_blocks *blocks, const struct hk_element *e) {
   const uint8_t *held = blocks->system->held;
-  double before = -1.0, stiffness[6], damping[6];
+  double before = -1.0, stiffness[6] = {0}, damping[6] = {0};
   if (!hk_element_moves(held, e)) return;
   if (e->k_along > 0.0) blocks->least_ratio = fmin(blocks->least_ratio, e->c_along / e->k_along);
   blocks->across |= hk_element_across(e) > 0.0;

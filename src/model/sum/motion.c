@@ -2,6 +2,7 @@
 
 #include "core/memory.h"
 #include "core/status.h"
+#include "kernel/vector_loops.h"
 #include "model/force/force.h"
 
 #include <string.h>
@@ -94,6 +95,14 @@ static void number_held(const hooke_system *system, const int32_t *place, struct
   }
 }
 
+/* Working numbers by those of the caller; NULL without memory. */
+static int32_t *invert_order(const struct hk_motion *motion) {
+  int32_t *number = hk_new(motion->n, sizeof *number);
+  for (int64_t p = 0; number && p < motion->n; p++)
+    number[motion->order[p]] = (int32_t)p;
+  return number;
+}
+
 static int32_t new_numbers(const hooke_system *system, struct hk_motion *motion) {
   const int64_t count = system->anchor_count + driven_count(system);
   motion->anchor = hk_new(count, sizeof *motion->anchor);
@@ -102,10 +111,8 @@ static int32_t new_numbers(const hooke_system *system, struct hk_motion *motion)
   motion->memory += count * (int64_t)sizeof *motion->anchor;
   int32_t *place = NULL;
   if (motion->order && count > 0) {
-    place = hk_new(motion->n, sizeof *place);
+    place = invert_order(motion);
     if (place == NULL) return HOOKE_NO_MEMORY;
-    for (int64_t p = 0; p < motion->n; p++)
-      place[motion->order[p]] = (int32_t)p;
   }
   number_held(system, place, motion);
   hk_free(place);
@@ -147,17 +154,13 @@ void hk_motion_destroy(struct hk_motion *motion) {
   hk_rings_destroy(motion->rings);
   hk_net_scratch_destroy(motion->net);
   hk_free(motion->anchor);
+  hk_free(motion->number);
   hk_free(motion->q[0]);
   hk_free(motion);
 }
 
 void hk_rows_from_components(int64_t n, double *const component[3], double *rows) {
-  const double *x = component[0], *y = component[1], *z = component[2];
-  for (int64_t p = 0; p < n; p++) {
-    rows[3 * p] = x[p];
-    rows[3 * p + 1] = y[p];
-    rows[3 * p + 2] = z[p];
-  }
+  hk_join_rows(n, component[0], component[1], component[2], rows);
 }
 
 void hk_components_from_rows(int64_t n, const double *rows, double *const component[3]) {
@@ -223,18 +226,59 @@ void hk_motion_exchange(struct hk_motion *motion, double *q, double *v) {
   exchange_rows(motion, motion->v, v);
 }
 
+/* 1 if a row has other bits. */
+static int differs(const double *row, double x, double y, double z) {
+  return memcmp(&row[0], &x, sizeof x) || memcmp(&row[1], &y, sizeof y) || memcmp(&row[2], &z, sizeof z);
+}
+
 static int same_rows(const struct hk_motion *motion, double *const component[3], const double *rows) {
+  const double *x = component[0], *y = component[1], *z = component[2];
+  if (motion->order == NULL) return hk_differing_bits(motion->n, x, y, z, rows) == 0;
   for (int64_t p = 0; p < motion->n; p++) {
-    const double *row = rows + 3 * (motion->order ? (int64_t)motion->order[p] : p);
-    for (int a = 0; a < 3; a++) {
-      if (memcmp(&row[a], &component[a][p], sizeof(double)) != 0) return 0;
-    }
+    if (differs(rows + 3 * (int64_t)motion->order[p], x[p], y[p], z[p])) return 0;
   }
   return 1;
 }
 
 int32_t hk_motion_is_at(const struct hk_motion *motion, const double *q, const double *v) {
   return same_rows(motion, motion->q, q) && same_rows(motion, motion->v, v);
+}
+
+int32_t hk_motion_know_numbers(struct hk_motion *motion) {
+  if (motion->order == NULL || motion->number) return HOOKE_OK;
+  motion->number = invert_order(motion);
+  if (motion->number == NULL) return HOOKE_NO_MEMORY;
+  motion->memory += motion->n * (int64_t)sizeof *motion->number;
+  return HOOKE_OK;
+}
+
+int64_t hk_motion_number(const struct hk_motion *motion, int64_t particle) {
+  return motion->order ? motion->number[particle] : particle;
+}
+
+/* The number of a particle among the anchored ones, which ascend; of another, that of one before it, or 0. */
+static int64_t find_anchor(const hooke_system *system, int64_t particle) {
+  int64_t low = 0, high = system->anchor_count;
+  while (high - low > 1) {
+    const int64_t middle = low + (high - low) / 2;
+    if (system->anchor[middle] > particle)
+      high = middle;
+    else
+      low = middle;
+  }
+  return low;
+}
+
+void hk_motion_place(const hooke_system *system, struct hk_motion *motion, int64_t particle, const double *q,
+                     const double *v) {
+  const int64_t p = hk_motion_number(motion, particle);
+  for (int a = 0; a < 3; a++) {
+    if (q) motion->q[a][p] = q[a];
+    if (v) motion->v[a][p] = v[a];
+  }
+  const int64_t k = find_anchor(system, particle);
+  if (q && k < system->anchor_count && system->anchor[k] == particle)
+    memcpy(motion->still + 3 * k, q, 3 * sizeof(double));
 }
 
 struct copying {

@@ -16,6 +16,7 @@ struct hk_motion {
   struct hk_pool *pool;       /* that goes over tiles; NULL: the caller alone */
   double *q[3], *v[3], *f[3]; /* n each, in one block; f NULL if particles are moved by tiles */
   const int32_t *order;       /* particle that has a working number; NULL: numbers are the caller's */
+  int32_t *number;            /* the other way; NULL until hk_motion_know_numbers() */
   const double *w;            /* inverse masses */
   double *rows;               /* 9n: q, v and force in rows, for a callback; NULL without one */
   double *still;              /* positions of anchored particles, 3 each */
@@ -48,6 +49,13 @@ void hk_motion_store(const struct hk_motion *motion, double *q, double *v);
 void hk_motion_exchange(struct hk_motion *motion, double *q, double *v);
 /* 1 if the motion is there, to the bit. */
 int32_t hk_motion_is_at(const struct hk_motion *motion, const double *q, const double *v);
+/* Has hk_motion_number() and hk_motion_place() know the caller's numbers. HOOKE_NO_MEMORY. */
+int32_t hk_motion_know_numbers(struct hk_motion *motion);
+/* The number here of a particle of the caller. */
+int64_t hk_motion_number(const struct hk_motion *motion, int64_t particle);
+/* Puts a particle of the caller at q, with v (NULL: as it is), for good if it is pinned. */
+void hk_motion_place(const hooke_system *system, struct hk_motion *motion, int64_t particle, const double *q,
+                     const double *v);
 /* Positions and velocities to and from `place`: 6 components of n each. */
 void hk_motion_save(const struct hk_motion *motion, double *place);
 void hk_motion_restore(struct hk_motion *motion, double *place);

@@ -21,9 +21,11 @@ ABI = 1
 #: Functions whose positive status is an outcome, which their callers look at; of all others it is raised.
 OUTCOMES = frozenset(
     (
+        "hooke_integrator_advance",
         "hooke_integrator_resume",
         "hooke_integrator_run",
         "hooke_integrator_step",
+        "hooke_integrator_sync",
         "hooke_measurement_run",
         "hooke_study_recommend",
     )

@@ -8,12 +8,15 @@ import warnings
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any, Callable, NamedTuple, Optional
 
+import numpy as np
+
 from . import _callback
 from ._closing import Closing
 from ._library import lib
-from ._memory import Handle, text
+from ._memory import Handle, double_pointer, doubles, index_pointer, indices, text
 from ._prototypes import OBSERVER, WARNING
 from ._status import OUTCOMES, BadCall, NotBuilt, SolverFailed, Unsuited
+from ._types import FloatArray
 from .first_order import FirstOrder
 from .options import Options
 from .state import State
@@ -86,6 +89,7 @@ class Integrator(Closing):
         chosen = (options.copy() if options is not None else Options.for_run()).set(**keywords)
         self._problem = problem  # its callbacks are called by the library
         self._handle = problem._integrator(chosen)
+        self._numbers = problem._size if isinstance(problem, FirstOrder) else 3 * problem.particle_count
         self._running = False
         self.outcome = 0  #: the last outcome as the library's number
         self.message = ""  #: what the library said about the last outcome that was not "finished"
@@ -143,20 +147,60 @@ class Integrator(Closing):
     def step(self, state: State, steps: int = 1) -> str:
         """Takes `steps` steps without frames, for time loops of your own; returns an outcome as `run`
         does."""
-        if self._problem._callbacks or (steps > 1 and steps * state.x.size > _LONG):
+        return self._take(steps, lib.hooke_integrator_step, state._handle, steps)
+
+    def advance(self, steps: int = 1) -> str:
+        """Takes `steps` steps of the motion that the integrator has, on from where the last call left it;
+        ``step(state, 0)`` begins one at a state. The same bits as those of `step` for less time: no state is read or
+        written, and states are stale until `sync`. Returns an outcome as `run` does."""
+        return self._take(steps, lib.hooke_integrator_advance, steps)
+
+    def sync(self, state: State) -> str:
+        """Writes time, positions and velocities of the motion into `state`, after "diverged" the last good ones. Returns
+        "finished", or "diverged" if numbers of the motion are not finite."""
+        return self._take(1, lib.hooke_integrator_sync, state._handle)
+
+    def get(self, particles: Any) -> tuple[FloatArray, FloatArray]:
+        """Positions [m] and velocities [m/s] of particles of the motion (a number or several): two arrays of the shape of
+        `particles`, each with x y z in a last dimension."""
+        if self._running:
+            raise BadCall(_RUNNING)
+        shape, particles = (*np.shape(particles), 3), indices(particles, "particles")
+        q, v = np.empty(shape), np.empty(shape)
+        lib.hooke_integrator_get(
+            self._handle, particles.size, index_pointer(particles), double_pointer(q), double_pointer(v)
+        )
+        return q, v
+
+    def put(self, particles: Any, q: Any = None, v: Any = None) -> None:
+        """Puts particles of the motion at `q` [m] with velocities `v` [m/s], shaped as `get` has them; what is None
+        stays. Pinned particles are held where they are put, driven ones stay where their motion has them, and only
+        numbers that are not finite are divergence from then on. An error-controlled method starts anew."""
+        if self._running:
+            raise BadCall(_RUNNING)
+        shape, particles = (*np.shape(particles), 3), indices(particles, "particles")
+        given = [
+            None if values is None else doubles(values, name, shape)
+            for values, name in ((q, "q"), (v, "v"))
+        ]
+        pointers = [None if values is None else double_pointer(values) for values in given]
+        lib.hooke_integrator_put(self._handle, particles.size, index_pointer(particles), *pointers)
+
+    def _take(self, steps: int, function: Any, *arguments: Any) -> str:
+        if self._problem._callbacks or (steps > 1 and steps * self._numbers > _LONG):
             with _callback.interruptible(self._handle):
-                code = self._step(state, steps)
+                code = self._call(function, arguments)
         else:
-            code = self._step(state, steps)
+            code = self._call(function, arguments)
         return self._outcome(code) if code or self.outcome else "finished"
 
-    def _step(self, state: State, steps: int) -> int:
+    def _call(self, function: Any, arguments: tuple[Any, ...]) -> int:
         # called once a step in loops: nothing here that takes microseconds
         if self._running:
             raise BadCall(_RUNNING)
         self._running = True
         try:
-            code: int = lib.hooke_integrator_step(self._handle, state._handle, steps)
+            code: int = function(self._handle, *arguments)
         except SolverFailed as failure:
             self._failed(failure)
             raise

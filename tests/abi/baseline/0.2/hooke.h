@@ -203,6 +203,12 @@ HOOKE_API int32_t hooke_integrator_on_progress(hooke_integrator *integrator, dou
 HOOKE_API int32_t hooke_integrator_run(hooke_integrator *integrator, hooke_state *state);
 HOOKE_API int32_t hooke_integrator_resume(hooke_integrator *integrator, hooke_state *state);
 HOOKE_API int32_t hooke_integrator_step(hooke_integrator *integrator, hooke_state *state, int64_t steps);
+HOOKE_API int32_t hooke_integrator_advance(hooke_integrator *integrator, int64_t steps);
+HOOKE_API int32_t hooke_integrator_sync(hooke_integrator *integrator, hooke_state *state);
+HOOKE_API int32_t hooke_integrator_get(hooke_integrator *integrator, int64_t count, const int64_t *particles,
+                                       double *q, double *v);
+HOOKE_API int32_t hooke_integrator_put(hooke_integrator *integrator, int64_t count, const int64_t *particles,
+                                       const double *q, const double *v);
 HOOKE_API int64_t hooke_integrator_count(const hooke_integrator *integrator, const char *what);
 HOOKE_API double hooke_integrator_wall_seconds(const hooke_integrator *integrator);
 HOOKE_API int32_t hooke_integrator_recent(const hooke_integrator *integrator, int64_t place,
