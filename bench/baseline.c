@@ -182,8 +182,9 @@ static int fill(const hooke_system *system, struct baseline *b) {
   const int64_t m = b->spring_count;
   int64_t *ends = malloc((size_t)(2 * m + 1) * sizeof *ends);
   double *material = malloc((size_t)(3 * m + 1) * sizeof *material);
-  const int done = ends && material && hooke_system_spring_ends(system, ends) == HOOKE_OK &&
-                   hooke_system_spring_material(system, material, material + m, material + 2 * m) == HOOKE_OK;
+  const int done =
+      ends && material &&
+      hooke_system_members(system, "springs", ends, material, material + m, material + 2 * m) == HOOKE_OK;
   for (int64_t s = 0; done && s < m; s++) {
     b->spring[s] = (struct spring){(int32_t)ends[2 * s], (int32_t)ends[2 * s + 1], material[s],
                                    material[m + s], material[2 * m + s]};
