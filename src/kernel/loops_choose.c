@@ -30,6 +30,14 @@ double hk_lanczos_end(int64_t n, const double *mass, double c, const double *x, 
   return hk_spring_set(0)->vector->lanczos_end(n, mass, c, x, out);
 }
 
+double hk_descend(int64_t size, double a, const double *p, const double *ap, double *x, double *r) {
+  return hk_spring_set(0)->vector->descend(size, a, p, ap, x, r);
+}
+
+void hk_factorise_blocks(int64_t n, double *block) {
+  hk_spring_set(0)->vector->factorise_blocks(n, block);
+}
+
 void hk_apply_factor_transposed(int64_t n, const double *w, const double *x, double *y) {
   hk_spring_set(0)->vector->apply_factor_transposed(n, w, x, y);
 }
@@ -40,6 +48,10 @@ void hk_apply_factor(int64_t n, const double *w, double *x) {
 
 void hk_apply_diagonal(int64_t n, const double *d, const double *x, double *y) {
   hk_spring_set(0)->vector->apply_diagonal(n, d, x, y);
+}
+
+void hk_begin_product(int64_t n, const double *w, const double *d, const double *x, double *y, double *out) {
+  hk_spring_set(0)->vector->begin_product(n, w, d, x, y, out);
 }
 
 void hk_linear_sum(int64_t size, double a, const double *x, double b, const double *y, double *z) {

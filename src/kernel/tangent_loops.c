@@ -7,50 +7,75 @@
 
 #include <stddef.h>
 
-enum { BLOCK = 256 };
+enum { BLOCK = HOOKE_TANGENT_BLOCK };
 
 /* ---- filling ---- */
 
-HOOKE_INLINE void fill(const struct hk_run *run, const struct hk_fields *fields, const double alpha,
-                       const double beta, const struct hk_tangent *tangent, const int axial) {
-  const double *const *q = fields->q, *const *v = fields->v;
-  const int indexed = run->shape & HOOKE_RUN_INDEXED;
-  const int pull = run->shape & HOOKE_RUN_PULL_ONLY;
-  for (ptrdiff_t k = 0; k < run->count; k++) {
-    const ptrdiff_t i = indexed ? run->head[k] : run->start + k, j = indexed ? run->tail[k] : i + run->offset;
-    const struct hk_material material = hk_run_material(run, k);
+/* Where the material of a run is: shared, in arrays of its own, or anywhere. */
+enum { SHARED, OWN, ANYWHERE };
+
+HOOKE_INLINE struct hk_material material_of(const struct hk_run *run, ptrdiff_t k, const int where) {
+  if (where == ANYWHERE) return hk_run_material(run, k);
+  if (where == OWN) return (struct hk_material){run->kappas[k], run->gammas[k], run->rest_lengths[k]};
+  return (struct hk_material){run->kappa, run->gamma, run->rest_length};
+}
+
+HOOKE_INLINE void fill(const struct hk_run run, const struct hk_fields fields, const double alpha,
+                       const double beta, const struct hk_tangent tangent, const int axial, const int indexed,
+                       const int where) {
+  const double *const *q = fields.q, *const *v = fields.v;
+  const int pull = (run.shape & HOOKE_RUN_PULL_ONLY) != 0;
+  HOOKE_VECTORISE
+  for (ptrdiff_t k = 0; k < run.count; k++) {
+    const ptrdiff_t i = indexed ? run.head[k] : run.start + k, j = indexed ? run.tail[k] : i + run.offset;
+    const struct hk_material material = material_of(&run, k, where);
     const double kappa = material.kappa, gamma = material.gamma, rest_length = material.rest_length;
     const double d[3] = {q[0][i] - q[0][j], q[1][i] - q[1][j], q[2][i] - q[2][j]};
     const double w[3] = {v[0][i] - v[0][j], v[1][i] - v[1][j], v[2][i] - v[2][j]};
     const double r = hk_spring_length(d[0], d[1], d[2]), ir = hk_spring_inverse_length(r);
     const double rate = ((w[0] * d[0] + w[1] * d[1]) + w[2] * d[2]) * ir;
     const double tension = kappa * (r - rest_length) + gamma * rate;
-    const double taut = pull && ((r <= rest_length) | (tension < 0.0)) ? 0.0 : 1.0;
-    const ptrdiff_t s = run->first + k;
+    const double taut = (pull & ((r <= rest_length) | (tension < 0.0))) ? 0.0 : 1.0;
+    const ptrdiff_t s = run.first + k;
     if (axial) {
       const double size = taut * sqrt(beta * gamma) * ir;
       for (int a = 0; a < 3; a++)
-        tangent->u[a][s] = size * d[a];
+        tangent.u[a][s] = size * d[a];
       continue;
     }
-    const double isotropic = rest_length == 0.0 && !pull ? kappa : 0.0;
+    const double isotropic = ((rest_length == 0.0) & !pull) ? kappa : 0.0;
     const double b = r == 0.0 ? alpha * isotropic : alpha * taut * tension * ir;
     const double along = taut * (alpha * kappa + beta * gamma) - b, turning = taut * alpha * gamma * ir;
     for (int a = 0; a < 3; a++) {
       const double u = taut * d[a] * ir;
-      tangent->u[a][s] = u;
-      tangent->e[a][s] = along * u + turning * (w[a] - rate * u);
+      tangent.u[a][s] = u;
+      tangent.e[a][s] = along * u + turning * (w[a] - rate * u);
     }
-    tangent->b[s] = b;
+    tangent.b[s] = b;
   }
+}
+
+HOOKE_INLINE void fill_any(const struct hk_run *run, const struct hk_fields *fields, const double alpha,
+                           const double beta, const struct hk_tangent *tangent, const int axial) {
+  const int indexed = run->shape & HOOKE_RUN_INDEXED, mixed = run->shape & HOOKE_RUN_MIXED;
+  if (mixed && (run->place || run->kappas == NULL))
+    fill(*run, *fields, alpha, beta, *tangent, axial, indexed, ANYWHERE);
+  else if (mixed && indexed)
+    fill(*run, *fields, alpha, beta, *tangent, axial, 1, OWN);
+  else if (mixed)
+    fill(*run, *fields, alpha, beta, *tangent, axial, 0, OWN);
+  else if (indexed)
+    fill(*run, *fields, alpha, beta, *tangent, axial, 1, SHARED);
+  else
+    fill(*run, *fields, alpha, beta, *tangent, axial, 0, SHARED);
 }
 
 static void tangent_fill(const struct hk_run *run, const struct hk_fields *fields, double alpha, double beta,
                          const struct hk_tangent *tangent) {
   if (tangent->b)
-    fill(run, fields, alpha, beta, tangent, 0);
+    fill_any(run, fields, alpha, beta, tangent, 0);
   else
-    fill(run, fields, 0.0, beta, tangent, 1);
+    fill_any(run, fields, 0.0, beta, tangent, 1);
 }
 
 /* ---- products ---- */
@@ -105,13 +130,18 @@ HOOKE_INLINE void fill_block(double *restrict bx, double *restrict by, double *r
   }
 }
 
+/* All first ends come before the second ones; particles that are both are gone over once. */
 HOOKE_INLINE void add_to_ends(double *out, const double *restrict b, ptrdiff_t i, ptrdiff_t j,
                               ptrdiff_t count) {
+  const ptrdiff_t offset = j - i, apart = offset > 0 && offset < count ? offset : count;
   double *restrict first = out + i;
-  for (ptrdiff_t k = 0; k < count; k++)
+  for (ptrdiff_t k = 0; k < apart; k++)
     first[k] += b[k];
+  HOOKE_VECTORISE
+  for (ptrdiff_t k = apart; k < count; k++)
+    first[k] = (first[k] + b[k]) - b[k - apart];
   double *restrict second = out + j;
-  for (ptrdiff_t k = 0; k < count; k++)
+  for (ptrdiff_t k = count - apart; k < count; k++)
     second[k] -= b[k];
 }
 
@@ -157,22 +187,52 @@ static void tangent_product(const struct hk_run *run, const struct hk_tangent *t
 
 /* ---- diagonal ---- */
 
-static void tangent_diagonal(const struct hk_run *run, const struct hk_tangent *t, double *const block[6]) {
-  static const int row[6] = {0, 1, 2, 0, 0, 1}, column[6] = {0, 1, 2, 1, 2, 2};
-  const int indexed = run->shape & HOOKE_RUN_INDEXED, axial = t->b == NULL;
-  for (ptrdiff_t k = 0; k < run->count; k++) {
-    const ptrdiff_t i = indexed ? run->head[k] : run->start + k, j = indexed ? run->tail[k] : i + run->offset;
-    const ptrdiff_t s = run->first + k;
-    const double u[3] = {t->u[0][s], t->u[1][s], t->u[2][s]};
+/* Blocks xx, yy, zz, xy, xz, yz of springs. */
+HOOKE_INLINE void fill_blocks(double (*restrict block)[BLOCK], const struct numbers s, const ptrdiff_t count,
+                              const int axial) {
+  for (ptrdiff_t k = 0; k < count; k++) {
+    const double ux = s.ux[k], uy = s.uy[k], uz = s.uz[k];
     double along = 1.0, across = 0.0;
     if (!axial) {
-      across = t->b[s] > 0.0 ? t->b[s] : 0.0;
-      along = ((t->e[0][s] * u[0] + t->e[1][s] * u[1]) + t->e[2][s] * u[2]) + t->b[s] - across;
+      across = s.b[k] > 0.0 ? s.b[k] : 0.0;
+      along = ((s.ex[k] * ux + s.ey[k] * uy) + s.ez[k] * uz) + s.b[k] - across;
     }
+    block[0][k] = along * ux * ux + across;
+    block[1][k] = along * uy * uy + across;
+    block[2][k] = along * uz * uz + across;
+    block[3][k] = along * ux * uy + 0.0;
+    block[4][k] = along * ux * uz + 0.0;
+    block[5][k] = along * uy * uz + 0.0;
+  }
+}
+
+HOOKE_INLINE void add_block(double *restrict out, const double *restrict b, ptrdiff_t count) {
+  for (ptrdiff_t k = 0; k < count; k++)
+    out[k] += b[k];
+}
+
+/* Every particle takes its springs in ascending number. */
+static void tangent_diagonal(const struct hk_run *run, const struct hk_tangent *t, double *const block[6]) {
+  double own[6][BLOCK];
+  const int axial = t->b == NULL;
+  for (int64_t done = 0; done < run->count; done += BLOCK) {
+    const ptrdiff_t count = run->count - done < BLOCK ? run->count - done : BLOCK;
+    const struct numbers s = numbers_of(run, t, done, axial);
+    const ptrdiff_t i = run->start + done, j = i + run->offset;
+    if (axial)
+      fill_blocks(own, s, count, 1);
+    else
+      fill_blocks(own, s, count, 0);
     for (int c = 0; c < 6; c++) {
-      const double value = along * u[row[c]] * u[column[c]] + (c < 3 ? across : 0.0);
-      block[c][i] += value;
-      block[c][j] += value;
+      if (!(run->shape & HOOKE_RUN_INDEXED)) {
+        add_block(block[c] + (j > i ? j : i), own[c], count);
+        add_block(block[c] + (j > i ? i : j), own[c], count);
+        continue;
+      }
+      for (ptrdiff_t k = 0; k < count; k++) {
+        block[c][s.head[k]] += own[c][k];
+        block[c][s.tail[k]] += own[c][k];
+      }
     }
   }
 }

@@ -22,6 +22,10 @@ struct hk_tangent {
 void hk_tangent_fill(const struct hk_run *run, const struct hk_fields *fields, double alpha, double beta,
                      const struct hk_tangent *tangent);
 
+/* Of a run of constant offset so many springs are added to their first ends, then to their second ends,
+ * before the next ones are; of others one. */
+enum { HOOKE_TANGENT_BLOCK = 256 };
+
 /* out += the blocks times x; x, y and z apart. */
 void hk_tangent_product(const struct hk_run *run, const struct hk_tangent *tangent, const double *const x[3],
                         double *const out[3]);

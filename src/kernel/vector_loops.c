@@ -3,6 +3,7 @@
 
 #include "kernel/instruction_set.h"
 
+#include <math.h>
 #include <string.h>
 
 enum { PARTS = 8, LONG_PARTS = 32 };
@@ -87,6 +88,43 @@ static void scale_and_add(int64_t size, double b, const double *restrict x, doub
     y[k] = x[k] + b * y[k];
 }
 
+static double descend(int64_t size, double a, const double *restrict p, const double *restrict ap,
+                      double *restrict x, double *restrict r) {
+  double part[PARTS] = {0.0};
+  const int64_t whole = size / PARTS * PARTS;
+  for (int64_t k = 0; k < whole; k += PARTS) {
+    for (int i = 0; i < PARTS; i++) {
+      x[k + i] += a * p[k + i];
+      r[k + i] += -a * ap[k + i];
+      part[i] += r[k + i] * r[k + i];
+    }
+  }
+  for (int64_t k = whole; k < size; k++) {
+    x[k] += a * p[k];
+    r[k] += -a * ap[k];
+    part[k - whole] += r[k] * r[k];
+  }
+  return sum_of(part);
+}
+
+static void factorise_blocks(int64_t n, double *block) {
+  double *xx = block, *yy = block + n, *zz = block + 2 * n, *xy = block + 3 * n, *xz = block + 4 * n,
+         *yz = block + 5 * n;
+  HOOKE_VECTORISE
+  for (int64_t p = 0; p < n; p++) {
+    const double l11 = sqrt(xx[p]), l21 = xy[p] / l11, l31 = xz[p] / l11;
+    const double l22 = sqrt(yy[p] - l21 * l21), l32 = (yz[p] - l31 * l21) / l22;
+    const double l33 = sqrt((zz[p] - l31 * l31) - l32 * l32);
+    const double w11 = 1.0 / l11, w22 = 1.0 / l22, w33 = 1.0 / l33;
+    xx[p] = w11;
+    yy[p] = w22;
+    zz[p] = w33;
+    xy[p] = -l21 * w11 * w22;
+    xz[p] = (l21 * l32 - l31 * l22) * w11 * w22 * w33;
+    yz[p] = -l32 * w22 * w33;
+  }
+}
+
 static void apply_factor_transposed(int64_t n, const double *restrict w, const double *restrict x,
                                     double *restrict y) {
   const double *w11 = w, *w22 = w + n, *w33 = w + 2 * n, *w21 = w + 3 * n, *w31 = w + 4 * n, *w32 = w + 5 * n;
@@ -115,6 +153,21 @@ static void apply_diagonal(int64_t n, const double *restrict d, const double *re
   for (int a = 0; a < 3; a++) {
     for (int64_t p = 0; p < n; p++)
       y[a * n + p] = d[p] * x[a * n + p];
+  }
+}
+
+static void begin_product(int64_t n, const double *w, const double *d, const double *x, double *y,
+                          double *out) {
+  HOOKE_VECTORISE
+  for (int64_t p = 0; p < n; p++) {
+    const double a = (w[p] * x[p] + w[3 * n + p] * x[n + p]) + w[4 * n + p] * x[2 * n + p];
+    const double b = w[n + p] * x[n + p] + w[5 * n + p] * x[2 * n + p], c = w[2 * n + p] * x[2 * n + p];
+    y[p] = a;
+    y[n + p] = b;
+    y[2 * n + p] = c;
+    out[p] = d[p] * a;
+    out[n + p] = d[p] * b;
+    out[2 * n + p] = d[p] * c;
   }
 }
 
@@ -242,9 +295,12 @@ const struct hk_vector_set HOOKE_VECTOR_SET = {
     .dot_weighed = dot_weighed,
     .lanczos_begin = lanczos_begin,
     .lanczos_end = lanczos_end,
+    .descend = descend,
+    .factorise_blocks = factorise_blocks,
     .apply_factor_transposed = apply_factor_transposed,
     .apply_factor = apply_factor,
     .apply_diagonal = apply_diagonal,
+    .begin_product = begin_product,
     .linear_sum = linear_sum,
     .scale = scale,
     .multiply = multiply,

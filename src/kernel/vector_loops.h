@@ -12,6 +12,9 @@ double hk_dot(int64_t size, const double *x, const double *y);
 void hk_add_multiple(int64_t size, double a, const double *x, double *y);
 void hk_scale_and_add(int64_t size, double b, const double *x, double *y);
 
+/* x += a p and r -= a ap; returns r.r as hk_dot() has it. */
+double hk_descend(int64_t size, double a, const double *p, const double *ap, double *x, double *r);
+
 /* The same sum over n particles, x, y and z apart, each weighed by one of n numbers. */
 double hk_dot_weighed(int64_t n, const double *weight, const double *x, const double *y);
 
@@ -21,11 +24,15 @@ double hk_lanczos_begin(int64_t n, const double *mass, const double *inverse, do
                         const double *before, const double *x, double *out);
 double hk_lanczos_end(int64_t n, const double *mass, double c, const double *x, double *out);
 
+/* The inverse Cholesky factors W of n symmetric 3x3 blocks xx, yy, zz, xy, xz, yz, in their place. */
+void hk_factorise_blocks(int64_t n, double *block);
+
 /* Lower triangular 3x3 blocks W, one a particle: 11, 22, 33, 21, 31, 32, n numbers each; vectors are n of x,
- * n of y, n of z. y = W^T x; x = W x; y = d x with n numbers d. */
+ * n of y, n of z. y = W^T x; x = W x; y = d x with n numbers d; and y = W^T x, out = d y. */
 void hk_apply_factor_transposed(int64_t n, const double *w, const double *x, double *y);
 void hk_apply_factor(int64_t n, const double *w, double *x);
 void hk_apply_diagonal(int64_t n, const double *d, const double *x, double *y);
+void hk_begin_product(int64_t n, const double *w, const double *d, const double *x, double *y, double *out);
 
 /* n rows of x y z from three vectors; and the bits, of all rows together, in which rows and vectors differ. */
 void hk_join_rows(int64_t n, const double *x, const double *y, const double *z, double *rows);
@@ -50,13 +57,16 @@ struct hk_vector_set {
   double (*dot)(int64_t, const double *, const double *);
   void (*add_multiple)(int64_t, double, const double *, double *);
   void (*scale_and_add)(int64_t, double, const double *, double *);
+  double (*descend)(int64_t, double, const double *, const double *, double *, double *);
   double (*dot_weighed)(int64_t, const double *, const double *, const double *);
   double (*lanczos_begin)(int64_t, const double *, const double *, double, double, const double *,
                           const double *, double *);
   double (*lanczos_end)(int64_t, const double *, double, const double *, double *);
+  void (*factorise_blocks)(int64_t, double *);
   void (*apply_factor_transposed)(int64_t, const double *, const double *, double *);
   void (*apply_factor)(int64_t, const double *, double *);
   void (*apply_diagonal)(int64_t, const double *, const double *, double *);
+  void (*begin_product)(int64_t, const double *, const double *, const double *, double *, double *);
   void (*linear_sum)(int64_t, double, const double *, double, const double *, double *);
   void (*scale)(int64_t, double, const double *, double *);
   void (*multiply)(int64_t, const double *, const double *, double *);

@@ -105,6 +105,69 @@ static void rows(void **unused) {
   free(x);
 }
 
+/* ---- blocks of particles, and loops that do what several others do ---- */
+
+enum { MOST_PARTICLES = 45 };
+
+/* Symmetric blocks xx, yy, zz, xy, xz, yz that are positive. */
+static void draw_blocks(struct random_source *source, int64_t n, double *block) {
+  draw(source, 6 * n, block);
+  for (int64_t k = 0; k < 3 * n; k++)
+    block[k] += 4.0;
+}
+
+/* W A W^T is the unit matrix. */
+static void check_factor(int64_t n, const double *block, const double *factor) {
+  static const int at[3][3] = {{0, 3, 4}, {3, 1, 5}, {4, 5, 2}};
+  for (int64_t p = 0; p < n; p++) {
+    for (int i = 0; i < 3; i++) {
+      for (int j = 0; j < 3; j++) {
+        double sum = 0.0;
+        for (int k = 0; k <= i; k++) {
+          for (int l = 0; l <= j; l++)
+            sum += factor[at[i][k] * n + p] * block[at[k][l] * n + p] * factor[at[j][l] * n + p];
+        }
+        check_between(sum - (i == j), -1e-14, 1e-14);
+      }
+    }
+  }
+}
+
+static void blocks(void **unused) {
+  (void)unused;
+  struct random_source source = {13};
+  enum { LONG = 3 * MOST_PARTICLES };
+  double block[2 * LONG], factor[2 * LONG], first[2 * LONG], x[LONG], y[LONG], d[MOST_PARTICLES];
+  double found[4][LONG], expected[4][LONG];
+  for (int64_t n = 0; n <= MOST_PARTICLES; n++) {
+    const int64_t size = 3 * n;
+    draw_blocks(&source, n, block);
+    draw(&source, size, x);
+    draw(&source, size, y);
+    draw(&source, n, d);
+    draw(&source, 2 * LONG, expected[2]);
+    memcpy(found[2], expected[2], 2 * sizeof found[2]);
+    for (int32_t k = 0; hk_spring_set(k); k++) {
+      const struct hk_vector_set *v = hk_spring_set(k)->vector;
+      memcpy(factor, block, sizeof factor);
+      v->factorise_blocks(n, factor);
+      check_factor(n, block, factor);
+      if (k == 0) memcpy(first, factor, sizeof first);
+      check_same_bits(2 * size, factor, first);
+      v->apply_factor_transposed(n, factor, x, expected[0]);
+      v->apply_diagonal(n, d, expected[0], expected[1]);
+      v->begin_product(n, factor, d, x, found[0], found[1]);
+      v->add_multiple(size, 0.7, x, expected[2]);
+      v->add_multiple(size, -0.7, y, expected[3]);
+      const double square = v->dot(size, expected[3], expected[3]);
+      const double other = v->descend(size, 0.7, x, y, found[2], found[3]);
+      check_same_bits(1, &other, &square);
+      for (int l = 0; l < 4; l++)
+        check_same_bits(size, found[l], expected[l]);
+    }
+  }
+}
+
 /* ---- triangles of blocks ---- */
 
 enum { MOST_COLUMNS = 24, MOST_ROWS = 3 * MOST_COLUMNS };
@@ -198,6 +261,6 @@ static void triangles(void **unused) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(vectors), cmocka_unit_test(rows),
-                                     cmocka_unit_test(triangles)};
+                                     cmocka_unit_test(blocks), cmocka_unit_test(triangles)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

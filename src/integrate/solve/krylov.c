@@ -42,10 +42,8 @@ int32_t hk_solve_symmetric(const struct hk_operator *a, const double *b, double 
       return HOOKE_OK;
     }
     const double alpha = square / curvature;
-    hk_add_multiple(size, alpha, p, x);
-    hk_add_multiple(size, -alpha, ap, r);
     const double before = square;
-    square = hk_dot(size, r, r);
+    square = hk_descend(size, alpha, p, ap, x, r);
     hk_scale_and_add(size, square / before, r, p);
     solution->iterations++;
     solution->residual = sqrt(square) / length;

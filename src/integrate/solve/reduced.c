@@ -78,22 +78,6 @@ void hk_reduced_release(struct hk_reduced *reduced) {
 
 /* ---- the place of the derivatives ---- */
 
-/* The inverse Cholesky factor of a block xx, yy, zz, xy, xz, yz, in its place: 11, 22, 33, 21, 31, 32. */
-static void factorise(int64_t n, int64_t p, double *block) {
-  double *const b[6] = {block + p,         block + n + p,     block + 2 * n + p,
-                        block + 3 * n + p, block + 4 * n + p, block + 5 * n + p};
-  const double l11 = sqrt(*b[0]), l21 = *b[3] / l11, l31 = *b[4] / l11;
-  const double l22 = sqrt(*b[1] - l21 * l21), l32 = (*b[5] - l31 * l21) / l22;
-  const double l33 = sqrt((*b[2] - l31 * l31) - l32 * l32);
-  const double w11 = 1.0 / l11, w22 = 1.0 / l22, w33 = 1.0 / l33;
-  *b[0] = w11;
-  *b[1] = w22;
-  *b[2] = w33;
-  *b[3] = -l21 * w11 * w22;
-  *b[4] = (l21 * l32 - l31 * l22) * w11 * w22 * w33;
-  *b[5] = -l32 * w22 * w33;
-}
-
 /* Adds the diagonal blocks of an element of S. */
 static void add_element(const struct hk_element *e, double alpha, double beta, double *const block[6]) {
   static const int row[6] = {0, 1, 2, 0, 0, 1}, column[6] = {0, 1, 2, 1, 2, 2};
@@ -123,11 +107,11 @@ static void fill_diagonal(struct hk_reduced *reduced) {
   const double brake = reduced->beta * system->drag;
   double *const block[6] = {reduced->block,         reduced->block + n,     reduced->block + 2 * n,
                             reduced->block + 3 * n, reduced->block + 4 * n, reduced->block + 5 * n};
-  for (int64_t p = 0; p < n; p++) {
+  for (int64_t p = 0; p < n; p++)
     reduced->diagonal[p] = system->mass[p] + brake;
-    for (int c = 0; c < 6; c++)
-      block[c][p] = c < 3 ? reduced->diagonal[p] : 0.0;
-  }
+  for (int c = 0; c < 3; c++)
+    memcpy(block[c], reduced->diagonal, (size_t)n * sizeof(double));
+  memset(block[3], 0, (size_t)(3 * n) * sizeof(double));
   for (int64_t k = 0; k < system->springs.run_count; k++) {
     const struct hk_run *run = &system->springs.run[k];
     if (!reduced->symmetric || run->shape & HOOKE_RUN_DAMPED)
@@ -135,8 +119,7 @@ static void fill_diagonal(struct hk_reduced *reduced) {
   }
   add_others(reduced, block);
   memcpy(reduced->factor, reduced->block, (size_t)(6 * n) * sizeof(double));
-  for (int64_t p = 0; p < n; p++)
-    factorise(n, p, reduced->factor);
+  hk_factorise_blocks(n, reduced->factor);
   for (int64_t k = 0; k < system->held_count; k++) {
     for (int c = 0; c < 6; c++)
       reduced->factor[c * n + system->held_particle[k]] = 0.0;
@@ -226,14 +209,13 @@ static int32_t subtract_others(struct hk_reduced *reduced, double alpha, double 
   return status;
 }
 
-/* out = the matrix times x, where no particle is held. */
-static int32_t multiply_matrix(struct hk_reduced *reduced, const double *x, double *out) {
+/* out += the matrix without its `diagonal`, times x, where no particle is held. */
+static int32_t add_product(struct hk_reduced *reduced, const double *x, double *out) {
   const hooke_system *system = reduced->integrator->system;
   const int64_t n = system->particle_count;
   const int32_t status = hk_integrator_tell(reduced->integrator);
   if (status != HOOKE_OK) return status;
   reduced->integrator->count.derivative_products++;
-  hk_apply_diagonal(n, reduced->diagonal, x, out);
   const double *const from[3] = {x, x + n, x + 2 * n};
   double *const to[3] = {out, out + n, out + 2 * n};
   for (int64_t k = 0; k < system->springs.run_count; k++) {
@@ -253,11 +235,16 @@ static int32_t multiply_matrix(struct hk_reduced *reduced, const double *x, doub
   return reduced->rows_needed ? subtract_others(reduced, reduced->alpha, reduced->beta, x, out) : HOOKE_OK;
 }
 
+static int32_t multiply_matrix(struct hk_reduced *reduced, const double *x, double *out) {
+  hk_apply_diagonal(reduced->integrator->system->particle_count, reduced->diagonal, x, out);
+  return add_product(reduced, x, out);
+}
+
 static int32_t apply(void *ctx, const double *unknown, double *out) {
   struct hk_reduced *reduced = ctx;
   const int64_t n = reduced->integrator->system->particle_count;
-  hk_apply_factor_transposed(n, reduced->factor, unknown, reduced->place);
-  const int32_t status = multiply_matrix(reduced, reduced->place, out);
+  hk_begin_product(n, reduced->factor, reduced->diagonal, unknown, reduced->place, out);
+  const int32_t status = add_product(reduced, reduced->place, out);
   hk_apply_factor(n, reduced->factor, out);
   return status;
 }
@@ -266,10 +253,8 @@ static int32_t apply(void *ctx, const double *unknown, double *out) {
  * others. */
 static double scale_of(int64_t size, const double *b) {
   static const double SAFE = 1e100;
-  double most = 0.0;
+  const double most = hk_largest(size, b);
   int exponent;
-  for (int64_t k = 0; k < size; k++)
-    most = fmax(most, fabs(b[k]));
   if (!(most > 0.0 && most < INFINITY) || (most > 1.0 / SAFE && most < SAFE)) return 1.0;
   frexp(most, &exponent);
   return ldexp(1.0, exponent > -1000 ? -exponent : 1000);
