@@ -21,7 +21,7 @@
 #include "io/hdf5/object_h5.h"
 #include "io/scene/scene.h"
 #include "io/trajectory/h5md_h5.h"
-#include "io/trajectory/recording_h5.h"
+#include "io/trajectory/trajectory_writer_h5.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -41,8 +41,8 @@ struct hooke_comparison_file {
   hooke_measurement *measurement;
   const struct hk_comparison *comparison; /* its object */
   const struct hk_table *rows;
-  struct hk_recording *recording; /* the reference, then a row each */
-  char failure[512];              /* of the write that made the file bad; "" while it is good */
+  struct hk_trajectory_writer *writer; /* the reference, then a row each */
+  char failure[512];                   /* of the write that made the file bad; "" while it is good */
 };
 
 /* ---- making ---- */
@@ -98,7 +98,7 @@ static herr_t make_recordings(hooke_comparison_file *file) {
   herr_t result = 0;
   for (int64_t k = 0; result >= 0 && k <= c->row_count; k++) {
     const char *group = k == 0 ? "all" : c->row[k - 1].method;
-    result = hk_recording_create(file->file.id, c->system, group, c->frame_count, &file->recording[k]);
+    result = hk_trajectory_writer_create(file->file.id, c->system, group, c->frame_count, &file->writer[k]);
   }
   return result;
 }
@@ -131,7 +131,7 @@ static int32_t fill(struct hk_h5_guard *guard, const char *path, const char *sce
   const struct hk_comparison *c = file->comparison;
   const double runs = (double)(c->row_count + 1), text = scene_text ? (double)strlen(scene_text) : 0.0;
   const double table = runs * (256.0 + 16.0 * (double)c->frame_count);
-  const double bytes = text + table + runs * hk_recording_bytes(c->system, c->frame_count);
+  const double bytes = text + table + runs * hk_trajectory_writer_bytes(c->system, c->frame_count);
   int32_t status = hk_h5_file_create_held(guard, path, bytes, 0, &file->file);
   if (status != HOOKE_OK) return status;
   herr_t result = hk_h5md_describe(file->file.id, NULL, c->run, scene_text);
@@ -142,7 +142,7 @@ static int32_t fill(struct hk_h5_guard *guard, const char *path, const char *sce
   if (result < 0) return hk_h5_fail(guard, path, "make room for all frames");
   status = hk_h5_file_settle(guard, &file->file);
   for (int64_t k = 0; k <= c->row_count; k++)
-    file->recording[k].file.descriptor = file->file.place.descriptor;
+    file->writer[k].file.descriptor = file->file.place.descriptor;
   const int error = status == HOOKE_OK ? write_methods(file) : 0;
   if (error) return hk_place_fail(path, "write the names of the methods", error);
   return status == HOOKE_OK ? hk_h5_file_publish(&file->file) : status;
@@ -150,16 +150,16 @@ static int32_t fill(struct hk_h5_guard *guard, const char *path, const char *sce
 
 static void release(hooke_comparison_file *file) {
   hk_h5_file_release(&file->file);
-  hk_free(file->recording);
+  hk_free(file->writer);
   hk_handle_free(file);
 }
 
 /* ---- frames ---- */
 
-static struct hk_recording *find_run(hooke_comparison_file *file, const char *run) {
-  if (strcmp(run, "reference") == 0) return &file->recording[0];
+static struct hk_trajectory_writer *find_run(hooke_comparison_file *file, const char *run) {
+  if (strcmp(run, "reference") == 0) return &file->writer[0];
   for (int64_t k = 1; k <= file->comparison->row_count; k++) {
-    if (strcmp(file->recording[k].group, run) == 0) return &file->recording[k];
+    if (strcmp(file->writer[k].group, run) == 0) return &file->writer[k];
   }
   return NULL;
 }
@@ -168,16 +168,16 @@ static struct hk_recording *find_run(hooke_comparison_file *file, const char *ru
 static int32_t write_frame(const char *run, int64_t frame, int64_t step, const hooke_state *state,
                            void *ctx) {
   hooke_comparison_file *file = ctx;
-  struct hk_recording *recording = find_run(file, run);
+  struct hk_trajectory_writer *writer = find_run(file, run);
   if (hk_place_require_own(&file->file.place) != HOOKE_OK) return 1;
-  if (file->failure[0] || recording == NULL || recording->written == recording->frame_count) {
+  if (file->failure[0] || writer == NULL || writer->written == writer->frame_count) {
     if (file->failure[0] == '\0') {
       snprintf(file->failure, sizeof file->failure, "%s: no room for frame %lld of %s", file->file.place.path,
                (long long)frame, run);
     }
     return 1;
   }
-  const int error = hk_recording_write(recording, step, state);
+  const int error = hk_trajectory_writer_write(writer, step, state);
   if (error == 0) return 0;
   char what[96];
   snprintf(what, sizeof what, "write frame %lld of %.40s", (long long)frame, run);
@@ -194,10 +194,10 @@ static int32_t create(const char *path, hooke_measurement *m, const char *scene_
   made->measurement = m;
   made->comparison = m->object;
   made->rows = hk_measurement_table(m->kind, "rows");
-  made->recording = hk_new(made->comparison->row_count + 1, sizeof *made->recording);
+  made->writer = hk_new(made->comparison->row_count + 1, sizeof *made->writer);
   struct hk_h5_guard guard;
   hk_h5_guard_begin(&guard);
-  int32_t status = made->recording ? fill(&guard, path, scene_text, made) : HOOKE_NO_MEMORY;
+  int32_t status = made->writer ? fill(&guard, path, scene_text, made) : HOOKE_NO_MEMORY;
   if (status == HOOKE_OK) status = hooke_comparison_on_frame(m, write_frame, made);
   if (status == HOOKE_OK)
     *file = made;
@@ -230,13 +230,13 @@ static int write_column(const hooke_comparison_file *file, int64_t row, int32_t 
   const double number = hk_column_number(column, &line);
   if (column->type != HOOKE_COLUMN_SERIES) return write_numbers(file, at, row, 1, &number);
   const struct hk_series series = hk_column_series(column, &line);
-  if (series.value == NULL || file->recording[row + 1].written == 0) return 0; /* it has not run */
+  if (series.value == NULL || file->writer[row + 1].written == 0) return 0; /* it has not run */
   return write_numbers(file, at, row * series.count, series.count, series.value);
 }
 
 static int write_table(const hooke_comparison_file *file) {
   const struct hk_comparison *c = file->comparison;
-  const int64_t frames = file->recording[0].written;
+  const int64_t frames = file->writer[0].written;
   int error = write_text(file, file->at.reference, 0, c->reference);
   if (error == 0 && frames > 0) error = write_numbers(file, file->at.time, 0, frames, c->frames.time);
   for (int64_t row = 0; row < c->row_count; row++) {
@@ -250,7 +250,7 @@ static int write_table(const hooke_comparison_file *file) {
 
 static int32_t is_short(const hooke_comparison_file *file) {
   for (int64_t k = 0; k <= file->comparison->row_count; k++) {
-    if (file->recording[k].written < file->recording[k].frame_count) return 1;
+    if (file->writer[k].written < file->writer[k].frame_count) return 1;
   }
   return 0;
 }
@@ -259,7 +259,7 @@ static int32_t is_short(const hooke_comparison_file *file) {
 static int32_t outcome_of(const hooke_comparison_file *file) {
   for (int64_t k = 0; k <= file->comparison->row_count; k++) {
     const char *status = k == 0 ? "finished" : file->comparison->row[k - 1].trial.status;
-    if (file->recording[k].written == 0 || status == NULL || strcmp(status, "stopped") == 0)
+    if (file->writer[k].written == 0 || status == NULL || strcmp(status, "stopped") == 0)
       return HOOKE_STOPPED;
   }
   return HOOKE_OK;
@@ -267,43 +267,43 @@ static int32_t outcome_of(const hooke_comparison_file *file) {
 
 /* The same file with room for exactly the frames that there are, and all that does not change with them. */
 static herr_t make_shorter(const hooke_comparison_file *file, hid_t old, hid_t shorter,
-                           struct hk_recording *recording, struct hk_h5_copy *copy) {
+                           struct hk_trajectory_writer *writer, struct hk_h5_copy *copy) {
   herr_t result = hk_h5md_copy(old, shorter, copy);
   for (int64_t k = 0; result >= 0 && k <= file->comparison->row_count; k++)
     result =
-        hk_recording_copy(&file->recording[k], old, shorter, file->recording[k].written, &recording[k], copy);
+        hk_trajectory_writer_copy(&file->writer[k], old, shorter, file->writer[k].written, &writer[k], copy);
   if (result >= 0) result = hk_h5md_refer(shorter, "all");
   return result < 0 ? result : hk_h5_copy(old, shorter, "comparison", NULL, copy);
 }
 
 static int copy_all(const hooke_comparison_file *file, const struct hk_h5_copy *copy, int descriptor,
-                    struct hk_recording *recording) {
+                    struct hk_trajectory_writer *writer) {
   int error = hk_h5_copy_bytes(copy, file->file.place.descriptor, descriptor);
   for (int64_t k = 0; error == 0 && k <= file->comparison->row_count; k++) {
-    recording[k].file.descriptor = descriptor;
-    error = hk_frame_copy(&file->recording[k].file, &recording[k].file, file->recording[k].written);
+    writer[k].file.descriptor = descriptor;
+    error = hk_frame_copy(&file->writer[k].file, &writer[k].file, file->writer[k].written);
   }
   return error;
 }
 
 /* A new file in which every run has exactly its frames takes the place of ours. */
 static int32_t rewrite(struct hk_h5_guard *guard, const hooke_comparison_file *file,
-                       struct hk_recording *recording) {
+                       struct hk_trajectory_writer *writer) {
   const char *what = "shorten the file to the frames it has";
   struct hk_h5_copy copy = {.guard = guard};
   struct hk_h5_file shorter;
   hid_t old;
   double bytes = hk_h5_file_bytes(&file->file);
   for (int64_t k = 0; k <= file->comparison->row_count; k++)
-    bytes -= hk_recording_bytes_after(&file->recording[k], file->recording[k].written);
+    bytes -= hk_trajectory_writer_bytes_after(&file->writer[k], file->writer[k].written);
   int32_t status = hk_h5_file_open(guard, &file->file, &old);
   if (status != HOOKE_OK) return status;
   status = hk_h5_file_create_held(guard, file->file.place.path, bytes, 1, &shorter);
-  if (status == HOOKE_OK && make_shorter(file, old, shorter.id, recording, &copy) < 0)
+  if (status == HOOKE_OK && make_shorter(file, old, shorter.id, writer, &copy) < 0)
     status = hk_h5_fail(guard, file->file.place.path, what);
   H5Fclose(old);
   if (status == HOOKE_OK) status = hk_h5_file_settle(guard, &shorter);
-  const int error = status == HOOKE_OK ? copy_all(file, &copy, shorter.place.descriptor, recording) : 0;
+  const int error = status == HOOKE_OK ? copy_all(file, &copy, shorter.place.descriptor, writer) : 0;
   hk_h5_copy_release(&copy);
   if (error) status = hk_place_fail(file->file.place.path, what, error);
   if (status == HOOKE_OK) status = hk_h5_file_publish(&shorter);
@@ -313,13 +313,13 @@ static int32_t rewrite(struct hk_h5_guard *guard, const hooke_comparison_file *f
 }
 
 static int32_t shorten(const hooke_comparison_file *file) {
-  struct hk_recording *recording = hk_new(file->comparison->row_count + 1, sizeof *recording);
-  if (recording == NULL) return HOOKE_NO_MEMORY;
+  struct hk_trajectory_writer *writer = hk_new(file->comparison->row_count + 1, sizeof *writer);
+  if (writer == NULL) return HOOKE_NO_MEMORY;
   struct hk_h5_guard guard;
   hk_h5_guard_begin(&guard);
-  const int32_t status = rewrite(&guard, file, recording);
+  const int32_t status = rewrite(&guard, file, writer);
   hk_h5_guard_end(&guard);
-  hk_free(recording);
+  hk_free(writer);
   return status;
 }
 

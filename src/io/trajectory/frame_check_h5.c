@@ -7,7 +7,7 @@
 #include "io/hdf5/dataset_h5.h"
 #include "io/trajectory/frame_check_h5.h"
 #include "io/hdf5/object_h5.h"
-#include "io/trajectory/recording_h5.h"
+#include "io/trajectory/trajectory_writer_h5.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -87,9 +87,9 @@ static int fits(struct check *check, int array, const struct hk_dataset *data) {
 }
 
 static int32_t add_array(struct check *check, int array) {
-  char name[HOOKE_RECORDING_PATH];
+  char name[HOOKE_WRITER_PATH];
   struct hk_dataset data;
-  hk_recording_path(check->group, array, name);
+  hk_trajectory_writer_path(check->group, array, name);
   int32_t status = hk_dataset_find(check->guard, check->file, check->path, name, &data);
   if (status == HOOKE_OK && (data.id < 0 || !fits(check, array, &data)))
     status = damaged(check, "its arrays do not belong together");
@@ -131,9 +131,9 @@ int32_t hk_frame_check(struct hk_h5_guard *guard, hid_t file, const char *path, 
                        int64_t frame, const double *known) {
   struct check check = {.guard = guard, .file = file, .path = path, .frame = frame, .known = known};
   struct hk_dataset data;
-  char name[HOOKE_RECORDING_PATH];
+  char name[HOOKE_WRITER_PATH];
   if (!is_moving(dataset, &check)) return HOOKE_OK;
-  hk_recording_path(check.group, HOOKE_FRAME_CHECK, name);
+  hk_trajectory_writer_path(check.group, HOOKE_FRAME_CHECK, name);
   int32_t status = hk_dataset_find(guard, file, path, name, &data);
   if (status == HOOKE_OK && data.id >= 0) {
     check.block = hk_reserve(BLOCK, sizeof(double));

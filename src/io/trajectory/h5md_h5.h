@@ -8,9 +8,9 @@
  *   /hooke/rest_length       [springs]
  *   /hooke/error             of a single run: HOOKE_ERROR_COUNT numbers, NaN until they are known; texts
  *                            `error_by`, `error_note`
- *   /particles/<group>       frames (recording_h5.h)
+ *   /particles/<group>       frames (trajectory_writer_h5.h)
  *   /connectivity/springs    [springs][2] particle numbers
- *   /observables             frames (recording_h5.h)
+ *   /observables             frames (trajectory_writer_h5.h)
  *
  * The status is raw data of fixed length, like everything that is written after the first frame: metadata
  * that change in place could be torn when the process is killed. */

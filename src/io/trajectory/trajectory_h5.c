@@ -30,7 +30,7 @@ hooke_trajectory *hk_trajectory_new(void) {
   hooke_trajectory *trajectory = hk_handle_new("hooke_trajectory", sizeof *trajectory);
   if (trajectory == NULL) return NULL;
   trajectory->file = HOOKE_NO_H5_FILE;
-  trajectory->recording.file.descriptor = -1;
+  trajectory->writer.file.descriptor = -1;
   return trajectory;
 }
 
@@ -44,7 +44,7 @@ static int32_t settle(struct hk_h5_guard *guard, hooke_trajectory *made) {
   if (hk_h5md_find_status(made->file.id, &made->status_at) < 0)
     return hk_h5_fail(guard, made->file.place.path, "make room for all frames");
   const int32_t status = hk_h5_file_settle(guard, &made->file);
-  made->recording.file.descriptor = made->file.place.descriptor;
+  made->writer.file.descriptor = made->file.place.descriptor;
   return status;
 }
 
@@ -55,12 +55,13 @@ static int32_t fill(struct hk_h5_guard *guard, const char *path, const hooke_sys
   const double text = scene_text ? (double)strlen(scene_text) : 0.0;
   int32_t status = hk_h5md_new_run(made->run);
   if (status == HOOKE_OK)
-    status = hk_h5_file_create_held(guard, path, text + hk_recording_bytes(system, frames), 0, &made->file);
+    status = hk_h5_file_create_held(guard, path, text + hk_trajectory_writer_bytes(system, frames), 0,
+                                    &made->file);
   if (status != HOOKE_OK) return status;
   herr_t result = hk_h5md_describe(made->file.id, hooke_options_text(options, "method"), options, scene_text);
   if (result >= 0) result = hk_h5md_write_run(made->file.id, made->run);
   if (result >= 0) result = hk_h5md_write_error_room(made->file.id);
-  if (result >= 0) result = hk_recording_create(made->file.id, system, "all", frames, &made->recording);
+  if (result >= 0) result = hk_trajectory_writer_create(made->file.id, system, "all", frames, &made->writer);
   if (result >= 0) result = hk_h5md_connect(made->file.id, system, "all");
   if (result < 0) return hk_h5_fail(guard, path, "make room for all frames");
   status = settle(guard, made);
@@ -120,20 +121,20 @@ static int32_t fail_frame(hooke_trajectory *trajectory, int64_t frame, int error
 
 int32_t hooke_trajectory_write(hooke_trajectory *trajectory, int64_t step, const hooke_state *state) {
   HOOKE_KEEP_ERRNO;
-  struct hk_recording *recording = &trajectory->recording;
+  struct hk_trajectory_writer *writer = &trajectory->writer;
   const int32_t own = hk_place_require_own(&trajectory->file.place);
   if (own != HOOKE_OK) return own;
   if (trajectory->failure[0]) return refuse_bad(trajectory);
-  if (hooke_state_size(state) != 3 * recording->file.particle_count) {
+  if (hooke_state_size(state) != 3 * writer->file.particle_count) {
     return hk_fail(HOOKE_BAD_VALUE, NULL, "the state has %lld numbers in q; this trajectory takes %lld",
-                   (long long)hooke_state_size(state), (long long)(3 * recording->file.particle_count));
+                   (long long)hooke_state_size(state), (long long)(3 * writer->file.particle_count));
   }
-  if (trajectory->taken == recording->frame_count) {
+  if (trajectory->taken == writer->frame_count) {
     return hk_fail(HOOKE_BAD_CALL, NULL, "all %lld frames that this trajectory was made for are written",
-                   (long long)recording->frame_count);
+                   (long long)writer->frame_count);
   }
   const int error = trajectory->thread ? hk_frame_thread_write(trajectory->thread, step, state)
-                                       : hk_recording_write(recording, step, state);
+                                       : hk_trajectory_writer_write(writer, step, state);
   /* of the thread, that of the frame before */
   if (error) return fail_frame(trajectory, trajectory->taken - (trajectory->thread != NULL), error);
   trajectory->taken++;
@@ -141,10 +142,10 @@ int32_t hooke_trajectory_write(hooke_trajectory *trajectory, int64_t step, const
 }
 
 int32_t hooke_trajectory_write_behind(hooke_trajectory *trajectory) {
-  const struct hk_recording *recording = &trajectory->recording;
+  const struct hk_trajectory_writer *writer = &trajectory->writer;
   if (trajectory->failure[0]) return refuse_bad(trajectory);
-  if (trajectory->thread || 48 * recording->file.particle_count < LEAST_BYTES) return HOOKE_OK;
-  trajectory->thread = hk_frame_thread_create(&recording->file, recording->written);
+  if (trajectory->thread || 48 * writer->file.particle_count < LEAST_BYTES) return HOOKE_OK;
+  trajectory->thread = hk_frame_thread_create(&writer->file, writer->written);
   return trajectory->thread
              ? HOOKE_OK
              : hk_fail(HOOKE_NO_MEMORY, NULL, "no memory for a frame and a thread to write it");
@@ -153,10 +154,10 @@ int32_t hooke_trajectory_write_behind(hooke_trajectory *trajectory) {
 /* Waits for the frame on its way. */
 static void end_thread(hooke_trajectory *trajectory) {
   if (trajectory->thread == NULL) return;
-  struct hk_recording *recording = &trajectory->recording;
-  const int error = hk_frame_thread_end(trajectory->thread, &recording->written);
+  struct hk_trajectory_writer *writer = &trajectory->writer;
+  const int error = hk_frame_thread_end(trajectory->thread, &writer->written);
   trajectory->thread = NULL;
-  if (error && trajectory->failure[0] == '\0') fail_frame(trajectory, recording->written, error);
+  if (error && trajectory->failure[0] == '\0') fail_frame(trajectory, writer->written, error);
 }
 
 const char *hooke_trajectory_run(const hooke_trajectory *trajectory) {
@@ -183,22 +184,22 @@ static herr_t make_again(const hooke_trajectory *trajectory, hid_t old, int64_t 
   herr_t result = hk_h5md_copy(old, made->file.id, copy);
   if (result >= 0)
     result =
-        hk_recording_copy(&trajectory->recording, old, made->file.id, frame_count, &made->recording, copy);
+        hk_trajectory_writer_copy(&trajectory->writer, old, made->file.id, frame_count, &made->writer, copy);
   return result < 0 ? result : hk_h5md_refer(made->file.id, "all");
 }
 
 static int copy_all(const hooke_trajectory *trajectory, const struct hk_h5_copy *copy, int64_t frames,
                     int32_t outcome, const hooke_trajectory *made) {
   int error = hk_h5_copy_bytes(copy, trajectory->file.place.descriptor, made->file.place.descriptor);
-  if (error == 0) error = hk_frame_copy(&trajectory->recording.file, &made->recording.file, frames);
+  if (error == 0) error = hk_frame_copy(&trajectory->writer.file, &made->writer.file, frames);
   return error ? error : hk_h5md_write_status(made->file.place.descriptor, made->status_at, outcome);
 }
 
 int32_t hk_trajectory_remake(struct hk_h5_guard *guard, const hooke_trajectory *trajectory,
                              int64_t frame_count, int64_t copied, int32_t outcome, hooke_trajectory *made) {
   const char *path = trajectory->file.place.path, *what = "make it again for another number of frames";
-  const double bytes =
-      hk_h5_file_bytes(&trajectory->file) - hk_recording_bytes_after(&trajectory->recording, frame_count);
+  const double bytes = hk_h5_file_bytes(&trajectory->file) -
+                       hk_trajectory_writer_bytes_after(&trajectory->writer, frame_count);
   struct hk_h5_copy copy = {.guard = guard};
   hid_t old;
   int32_t status = hk_h5_file_open(guard, &trajectory->file, &old);
@@ -228,14 +229,14 @@ static int32_t shorten(hooke_trajectory *trajectory, int64_t frames, int32_t out
 }
 
 static int32_t finish(hooke_trajectory *trajectory, int32_t outcome) {
-  const struct hk_recording *recording = &trajectory->recording;
-  const int64_t frames = recording->written > trajectory->there ? recording->written : trajectory->there;
+  const struct hk_trajectory_writer *writer = &trajectory->writer;
+  const int64_t frames = writer->written > trajectory->there ? writer->written : trajectory->there;
   if (trajectory->failure[0]) {
     /* whoever finds the file may be told, too */
     hk_h5md_write_status(trajectory->file.place.descriptor, trajectory->status_at, HOOKE_IO_FAILED);
     return refuse_bad(trajectory);
   }
-  if (frames < recording->frame_count) return shorten(trajectory, frames, outcome);
+  if (frames < writer->frame_count) return shorten(trajectory, frames, outcome);
   /* the outcome is told when what it is of has come to the disk */
   const int32_t synced = hooke_trajectory_sync(trajectory);
   const int error = hk_h5md_write_status(trajectory->file.place.descriptor, trajectory->status_at,

@@ -6,11 +6,11 @@
 #include "io/hdf5/file_h5.h"
 #include "io/trajectory/frame_thread.h"
 #include "io/trajectory/h5md_h5.h"
-#include "io/trajectory/recording_h5.h"
+#include "io/trajectory/trajectory_writer_h5.h"
 
 struct hooke_trajectory {
   struct hk_h5_file file;
-  struct hk_recording recording;
+  struct hk_trajectory_writer writer;
   struct hk_frame_thread *thread; /* NULL: frames are written as they come */
   int64_t taken;                  /* frames, the one on its way included */
   int64_t there;                  /* whole frames that the file had when it was opened again */

@@ -52,21 +52,21 @@ static int is_of_size(const struct hk_dataset *data, int array, int64_t frames, 
 }
 
 static int32_t find_array(struct hk_h5_guard *guard, hid_t file, hooke_trajectory *old, int array) {
-  char name[HOOKE_RECORDING_PATH], what[HOOKE_RECORDING_PATH + 64];
+  char name[HOOKE_WRITER_PATH], what[HOOKE_WRITER_PATH + 64];
   struct hk_dataset data;
-  struct hk_recording *recording = &old->recording;
+  struct hk_trajectory_writer *writer = &old->writer;
   hid_t type = array == HOOKE_FRAME_STEP    ? H5T_NATIVE_INT64
                : array == HOOKE_FRAME_CHECK ? H5T_NATIVE_UINT32
                                             : H5T_NATIVE_DOUBLE;
-  hk_recording_path("all", array, name);
+  hk_trajectory_writer_path("all", array, name);
   int32_t status = hk_dataset_find(guard, file, old->file.place.path, name, &data);
   if (status == HOOKE_OK) {
-    if (array == 0 && data.id >= 0) recording->frame_count = (int64_t)data.size[0];
+    if (array == 0 && data.id >= 0) writer->frame_count = (int64_t)data.size[0];
     const int fits = data.id >= 0 && is_plain(&data, type, hk_h5_file_bytes(&old->file)) &&
-                     is_of_size(&data, array, recording->frame_count, recording->file.particle_count);
+                     is_of_size(&data, array, writer->frame_count, writer->file.particle_count);
     snprintf(what, sizeof what, "%s is not there as a run of this system makes it", name);
     if (fits)
-      recording->file.at[array] = (int64_t)H5Dget_offset(data.id);
+      writer->file.at[array] = (int64_t)H5Dget_offset(data.id);
     else
       status = refuse_seen(guard, old, what);
   }
@@ -78,7 +78,7 @@ static int32_t find_springs(struct hk_h5_guard *guard, hid_t file, const hooke_t
   struct hk_dataset data;
   int32_t status = hk_dataset_find(guard, file, old->file.place.path, "/connectivity/springs", &data);
   if (status == HOOKE_OK &&
-      (data.id < 0 || data.size[0] != (hsize_t)hooke_system_spring_count(old->recording.system)))
+      (data.id < 0 || data.size[0] != (hsize_t)hooke_system_spring_count(old->writer.system)))
     status = refuse_seen(guard, old, "its springs are not those of this system");
   hk_h5_drop(data.id);
   return status;
@@ -113,11 +113,11 @@ static int32_t read_description(struct hk_h5_guard *guard, hooke_trajectory *old
 /* ---- its frames ---- */
 
 static int32_t look(hooke_trajectory *old, int64_t frames_kept) {
-  const int64_t frames = old->recording.frame_count;
+  const int64_t frames = old->writer.frame_count;
   int32_t whole = 1;
   if (frames < frames_kept) return refuse(old, "it has fewer frames than the run had written");
   while (whole && old->there < frames) {
-    const int error = hk_frame_look(&old->recording.file, old->there, &whole);
+    const int error = hk_frame_look(&old->writer.file, old->there, &whole);
     if (error) return hk_place_fail(old->file.place.path, "read its frames", error);
     old->there += whole;
   }
@@ -131,13 +131,13 @@ static int32_t look(hooke_trajectory *old, int64_t frames_kept) {
 /* ---- going on ---- */
 
 static int32_t begin(const char *path, const hooke_system *system, hooke_trajectory *old) {
-  struct hk_recording *recording = &old->recording;
+  struct hk_trajectory_writer *writer = &old->writer;
   const int32_t status = hk_place_hold(path, &old->file.place);
   if (status != HOOKE_OK) return status;
-  recording->system = recording->file.system = system;
-  snprintf(recording->group, sizeof recording->group, "all");
-  recording->file.particle_count = hooke_system_particle_count(system);
-  recording->file.descriptor = old->file.place.descriptor;
+  writer->system = writer->file.system = system;
+  snprintf(writer->group, sizeof writer->group, "all");
+  writer->file.particle_count = hooke_system_particle_count(system);
+  writer->file.descriptor = old->file.place.descriptor;
   return HOOKE_OK;
 }
 
@@ -149,7 +149,7 @@ static int32_t set_running(hooke_trajectory *old) {
 static int32_t go_on(struct hk_h5_guard *guard, hooke_trajectory **trajectory, int64_t planned,
                      int64_t frames_kept) {
   hooke_trajectory *old = *trajectory;
-  const int64_t frames = old->recording.frame_count;
+  const int64_t frames = old->writer.frame_count;
   int32_t status = HOOKE_OK;
   if (frames > planned) return refuse(old, "it was made for more frames");
   if (frames == planned) {
@@ -192,7 +192,7 @@ int64_t hk_trajectory_there(const hooke_trajectory *trajectory) {
 }
 
 void hk_trajectory_keep(hooke_trajectory *trajectory, int64_t frames) {
-  trajectory->recording.written = trajectory->taken = frames;
+  trajectory->writer.written = trajectory->taken = frames;
 }
 
 const char *hk_trajectory_path(const hooke_trajectory *trajectory) {

@@ -1,7 +1,7 @@
 #include "measure/estimate/estimate.h"
 
 #include "core/clock.h"
-#include "core/figure.h"
+#include "core/named_number.h"
 #include "core/handle.h"
 #include "core/print.h"
 #include "core/status.h"
@@ -287,7 +287,7 @@ int32_t hooke_estimate_refine(hooke_estimate *e, hooke_options *run) {
 /* ---- queries ---- */
 
 double hooke_estimate_number(const hooke_estimate *e, const char *what) {
-  const struct hk_figure figures[] = {
+  const struct hk_named_number numbers[] = {
       {"estimate", e->error},
       {"known_from", e->known_from},
       {"known_until", e->known_until},
@@ -297,7 +297,7 @@ double hooke_estimate_number(const hooke_estimate *e, const char *what) {
       {"heat_excess", e->heat_excess},
       {"seconds", e->spent},
   };
-  return HOOKE_FIGURE(figures, what);
+  return HOOKE_NAMED_NUMBER(numbers, what);
 }
 
 const char *hooke_estimate_text(const hooke_estimate *e, const char *what) {

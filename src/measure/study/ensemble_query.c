@@ -1,7 +1,7 @@
 /* Reading what an ensemble gave. */
 #include "measure/study/ensemble.h"
 
-#include "core/figure.h"
+#include "core/named_number.h"
 #include "measure/study/study.h"
 
 #include <math.h>

@@ -90,7 +90,7 @@ static void begin_inquiry(struct hk_inquiry *inquiry) {
   inquiry->room = usual_room(inquiry->run);
   const double spectrum = hk_linearised_bytes(system) + SHAPES * (double)inquiry->run->size * sizeof(double);
   inquiry->large = spectrum > inquiry->room;
-  inquiry->excess.bound = NAN;
+  inquiry->violation.bound = NAN;
   const hooke_integrator *run = inquiry->run;
   if (run->count.force_evaluations > 0)
     inquiry->pass = PASS * run->wall_seconds / (double)run->count.force_evaluations;
@@ -122,7 +122,7 @@ static int32_t survey(struct hk_inquiry *inquiry) {
     status = hk_inquiry_survey(inquiry, &blocks);
     hk_node_blocks_release(&blocks);
   }
-  if (inquiry->excess.found)
+  if (inquiry->violation.found)
     hk_patience_take_back(&inquiry->patience);
   else
     hk_inquiry_end_part(inquiry, "whether the step is above the limit");
@@ -137,7 +137,7 @@ static void release_growing(struct hk_inquiry *inquiry) {
 
 static int32_t find_out(struct hk_inquiry *inquiry) {
   int32_t status = survey(inquiry);
-  if (status == HOOKE_OK && !inquiry->excess.found && !inquiry->patience.stopped) status = replay(inquiry);
+  if (status == HOOKE_OK && !inquiry->violation.found && !inquiry->patience.stopped) status = replay(inquiry);
   release_growing(inquiry);
   if (status == HOOKE_OK && !inquiry->patience.stopped) status = hk_inquiry_judge(inquiry);
   if (status == HOOKE_OK && !inquiry->patience.stopped) status = hk_inquiry_advise(inquiry);
@@ -147,13 +147,13 @@ static int32_t find_out(struct hk_inquiry *inquiry) {
 
 static int32_t inquire(struct hk_inquiry *inquiry) {
   begin_inquiry(inquiry);
-  inquiry->excess.q = hk_new(inquiry->run->size, sizeof(double));
+  inquiry->violation.q = hk_new(inquiry->run->size, sizeof(double));
   inquiry->held = (double)inquiry->run->size * sizeof(double);
-  const int32_t status = inquiry->excess.q ? find_out(inquiry) : HOOKE_NO_MEMORY;
+  const int32_t status = inquiry->violation.q ? find_out(inquiry) : HOOKE_NO_MEMORY;
   tell_left_out(inquiry);
   hk_growing_release(&inquiry->growing);
-  hk_blame_release(&inquiry->excess.blame);
-  hk_free(inquiry->excess.q);
+  hk_blame_release(&inquiry->violation.blame);
+  hk_free(inquiry->violation.q);
   hooke_state_destroy(inquiry->last);
   return status;
 }

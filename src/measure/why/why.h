@@ -37,14 +37,14 @@ struct hk_why {
 };
 
 /* What a callback did for the first time that it should not do, given finite numbers of a sensible size. */
-struct hk_slip {
+struct hk_bad_value {
   int32_t found, of_drive;
   double time;
   int64_t particle;
 };
 
 /* Positions at which the step was above the limit. */
-struct hk_excess {
+struct hk_violation {
   int32_t found, tries;
   int64_t pause; /* looks to let pass: between bound and limit nothing is gained by asking at every one */
   double time, *q;
@@ -77,8 +77,8 @@ struct hk_inquiry {
   /* [s] of a step after which squares still have numbers, where they soon have none; else 0 */
   double squares;
   double size, bad_size; /* largest position or velocity, before and after */
-  struct hk_slip slip;
-  struct hk_excess excess;
+  struct hk_bad_value bad_value;
+  struct hk_violation violation;
   int64_t flips,
       flipped; /* times that a spring was turned round through zero length, and the spring last seen to */
   double flip_time;
@@ -107,7 +107,7 @@ int32_t hk_inquiry_limit(struct hk_inquiry *inquiry, const double *q, const char
 /* 1 if the model gains energy by itself: at much smaller steps, too. */
 int32_t hk_inquiry_gains(struct hk_inquiry *inquiry, int32_t *gains);
 
-/* Finds the springs and the force to blame for an excess, and a remedy. */
+/* Finds the springs and the force to blame for a violation, and a remedy. */
 int32_t hk_inquiry_blame(struct hk_inquiry *inquiry);
 void hk_inquiry_blame_spring(struct hk_inquiry *inquiry, int64_t spring, double share);
 

@@ -40,17 +40,17 @@ double hk_handy_step(double step, double limit, double every, double duration) {
 /* The largest step known to be stable by `method`: at the start, and where it was found too large. */
 static int32_t stable_step(struct hk_plan *plan, const char *method, double *limit) {
   struct hk_inquiry *inquiry = plan->inquiry;
-  const struct hk_excess *excess = &inquiry->excess;
+  const struct hk_violation *violation = &inquiry->violation;
   double later = INFINITY;
   int32_t known;
-  if (inquiry->large && !isnan(excess->bound) && strcmp(method, inquiry->run->method->name) == 0) {
-    *limit = excess->found && !(excess->at_most > 0.0) ? 0.0 : excess->bound;
+  if (inquiry->large && !isnan(violation->bound) && strcmp(method, inquiry->run->method->name) == 0) {
+    *limit = violation->found && !(violation->at_most > 0.0) ? 0.0 : violation->bound;
     return HOOKE_OK;
   }
   hk_patience_lend(&inquiry->patience, 0.3);
   int32_t status = hk_inquiry_limit(inquiry, plan->first->q, method, ACCURACY, limit, &known);
-  if (status == HOOKE_OK && excess->found)
-    status = hk_inquiry_limit(inquiry, excess->q, method, ACCURACY, &later, &known);
+  if (status == HOOKE_OK && violation->found)
+    status = hk_inquiry_limit(inquiry, violation->q, method, ACCURACY, &later, &known);
   hk_inquiry_end_part(inquiry, "limits of steps");
   *limit = fmin(*limit, later);
   return status;
@@ -104,7 +104,7 @@ static int32_t offer_fixed(struct hk_plan *plan, const char *method) {
   int32_t taken;
   int32_t status = stable_step(plan, method, &limit);
   if (status != HOOKE_OK) return status;
-  plan->backed = plan->inquiry->excess.found;
+  plan->backed = plan->inquiry->violation.found;
   status = offer_step(plan, method, MARGIN * limit,
                       isinf(limit) ? ": it is stable at every step" : ", which is stable", &taken);
   plan->backed = 0;
@@ -181,9 +181,9 @@ static int32_t offer_shorter(struct hk_plan *plan) {
   int32_t taken;
   const double step = plan->step, begun = inquiry->run->t0;
   double duration = isnan(step) ? *hk_inquiry_last(inquiry)->t - begun : (double)inquiry->last_step * step;
-  if (inquiry->slip.found && inquiry->slip.time - begun < duration) {
-    duration =
-        isnan(step) ? inquiry->slip.time - begun : floor((inquiry->slip.time - begun) / step - 1.0) * step;
+  if (inquiry->bad_value.found && inquiry->bad_value.time - begun < duration) {
+    duration = isnan(step) ? inquiry->bad_value.time - begun
+                           : floor((inquiry->bad_value.time - begun) / step - 1.0) * step;
   }
   if (isnan(step)) duration *= 0.9;
   if (!(duration > 0.0) || duration >= plan->duration) return HOOKE_OK;
@@ -217,11 +217,11 @@ static int32_t offer_others(struct hk_plan *plan) {
 }
 
 static int32_t offer_for_step(struct hk_plan *plan) {
-  const struct hk_excess *excess = &plan->inquiry->excess;
+  const struct hk_violation *violation = &plan->inquiry->violation;
   const char *mine = plan->inquiry->run->method->name;
   double limit = 0.5 * plan->step;
   int32_t status = HOOKE_OK;
-  const int above = excess->found || !isnan(excess->bound);
+  const int above = violation->found || !isnan(violation->bound);
   if (above) status = stable_step(plan, mine, &limit);
   plan->backed = above;
   if (status == HOOKE_OK && limit > 0.0)
@@ -293,11 +293,11 @@ static int32_t offer_all(struct hk_plan *plan) {
 static void advise_scene(struct hk_inquiry *inquiry) {
   struct hk_why *why = inquiry->why;
   struct hk_why_advice *advice = &why->advice[why->advice_count];
-  if (inquiry->slip.found) {
+  if (inquiry->bad_value.found) {
     hk_print(advice->change, sizeof advice->change,
              "correct the %s callback: what it gives for particle %lld at t = %.6g s is not finite",
-             inquiry->slip.of_drive ? "drive" : "force", (long long)inquiry->slip.particle,
-             inquiry->slip.time);
+             inquiry->bad_value.of_drive ? "drive" : "force", (long long)inquiry->bad_value.particle,
+             inquiry->bad_value.time);
   } else if (inquiry->remedy[0]) {
     snprintf(advice->change, sizeof advice->change, "change the scene: %s", inquiry->remedy);
   } else if (strcmp(why->cause, "overflow") == 0 && inquiry->run->outcome == HOOKE_DIVERGED &&

@@ -1,5 +1,4 @@
-/* What an excess hangs on: springs, or drag, damping and other forces; and what it would buy to change
- * them. */
+/* The springs or the force that determine a violation, and the step that a change of them would allow. */
 #include "measure/why/why.h"
 
 #include "measure/limit/limit.h"
@@ -39,7 +38,7 @@ static void take_blame(struct hk_inquiry *inquiry, const struct hk_blame *blame)
 static int32_t look(struct hk_inquiry *inquiry, struct hk_limit *limit) {
   limit->patience = &inquiry->patience;
   limit->room = inquiry->room - inquiry->held;
-  const int32_t status = hk_limit_look(limit, inquiry->excess.q, inquiry->excess.time);
+  const int32_t status = hk_limit_look(limit, inquiry->violation.q, inquiry->violation.time);
   if (limit->found) take_blame(inquiry, &limit->blame);
   const struct hk_remedy *remedy = &limit->remedy;
   if (status == HOOKE_OK && (remedy->kind || remedy->force))
@@ -63,9 +62,9 @@ static int32_t ask_limit(struct hk_inquiry *inquiry) {
 }
 
 int32_t hk_inquiry_blame(struct hk_inquiry *inquiry) {
-  const struct hk_excess *excess = &inquiry->excess;
+  const struct hk_violation *violation = &inquiry->violation;
   int32_t status = HOOKE_OK;
-  if (excess->has_blame) take_blame(inquiry, &excess->blame);
+  if (violation->has_blame) take_blame(inquiry, &violation->blame);
   if (!inquiry->large) {
     hk_patience_lend(&inquiry->patience, 0.5);
     status = ask_limit(inquiry);
@@ -76,7 +75,7 @@ int32_t hk_inquiry_blame(struct hk_inquiry *inquiry) {
   if (inquiry->why->blame_count == 0) {
     const struct hk_force_row *force;
     hk_inquiry_blame_spring(inquiry,
-                            hk_naming_heaviest(inquiry->system, &hk_force_springs, excess->particle,
+                            hk_naming_heaviest(inquiry->system, &hk_force_springs, violation->particle,
                                                inquiry->run->schedule.step, &force),
                             NAN);
   }

@@ -51,28 +51,28 @@ static const char *show(const struct hk_inquiry *inquiry, char text[160]) {
 
 /* ---- causes ---- */
 
-static void judge_slip(struct hk_inquiry *inquiry) {
-  const struct hk_slip *slip = &inquiry->slip;
-  inquiry->why->particle = (double)slip->particle;
-  if (slip->of_drive) {
+static void judge_bad_value(struct hk_inquiry *inquiry) {
+  const struct hk_bad_value *bad_value = &inquiry->bad_value;
+  inquiry->why->particle = (double)bad_value->particle;
+  if (bad_value->of_drive) {
     say(inquiry, "force-not-finite",
         "the drive callback moves particle %lld with numbers that are not finite at t = %.6g s; whatever "
         "pulls at "
         "it then has a force that is not finite",
-        (long long)slip->particle, slip->time);
+        (long long)bad_value->particle, bad_value->time);
   } else {
     say(inquiry, "force-not-finite",
         "the force callback gives particle %lld a force that is not finite at t = %.6g s, while all "
         "positions and "
         "velocities are",
-        (long long)slip->particle, slip->time);
+        (long long)bad_value->particle, bad_value->time);
   }
 }
 
 /* What the limit hangs on. */
 static void name_blamed(const struct hk_inquiry *inquiry, char text[2 * HOOKE_NAMING_SIZE]) {
   const struct hk_why *why = inquiry->why;
-  const int64_t particle = inquiry->excess.particle;
+  const int64_t particle = inquiry->violation.particle;
   const int damping = inquiry->force == HOOKE_BLAME_DAMPING;
   const struct hk_force_row *force = damping || inquiry->force < 0 ? NULL : hk_force_table(inquiry->force);
   char spring[HOOKE_NAMING_SIZE] = "no spring";
@@ -87,32 +87,32 @@ static void name_blamed(const struct hk_inquiry *inquiry, char text[2 * HOOKE_NA
     snprintf(text, 2 * HOOKE_NAMING_SIZE, "%s%s", damping ? "the damping of " : "", spring);
 }
 
-static int32_t judge_excess(struct hk_inquiry *inquiry) {
-  const struct hk_excess *excess = &inquiry->excess;
+static int32_t judge_violation(struct hk_inquiry *inquiry) {
+  const struct hk_violation *violation = &inquiry->violation;
   const char *method = inquiry->run->method->name;
   char where[2 * HOOKE_NAMING_SIZE], end[160];
-  inquiry->why->limit = excess->limit;
-  inquiry->why->particle = (double)excess->particle;
+  inquiry->why->limit = violation->limit;
+  inquiry->why->particle = (double)violation->particle;
   const int32_t status = hk_inquiry_blame(inquiry);
   name_blamed(inquiry, where);
   show(inquiry, end);
-  if (excess->at_most == 0.0) {
+  if (violation->at_most == 0.0) {
     inquiry->why->limit = 0.0;
     say(inquiry, "never-stable",
         "%s is stable at no step for this scene: motion without damping grows by it at any step, slowly at a "
         "small one; here, with steps of %.6g s, most of all in %s; %s",
         method, inquiry->why->step, where, end);
-  } else if (isnan(excess->limit)) {
+  } else if (isnan(violation->limit)) {
     say(inquiry, "step-above-limit",
         "the step %.6g s is above the largest stable one of %s at t = %.6g s, which is between %.6g and %.6g "
         "s, so motion grows in every step, most of all in %s; %s",
-        inquiry->why->step, method, excess->time, excess->bound, excess->at_most, where, end);
+        inquiry->why->step, method, violation->time, violation->bound, violation->at_most, where, end);
   } else {
     say(inquiry, "step-above-limit",
         "the step %.6g s is above %.6g s, the largest stable one of %s at t = %.6g s, so motion grows in "
         "every step, "
         "most of all in %s; %s",
-        inquiry->why->step, excess->limit, method, excess->time, where, end);
+        inquiry->why->step, violation->limit, method, violation->time, where, end);
   }
   return status;
 }
@@ -148,7 +148,7 @@ static void judge_overflow(struct hk_inquiry *inquiry) {
   const struct steepest steepest = find_steepest(system);
   char where[HOOKE_NAMING_SIZE], what[HOOKE_NAMING_SIZE + 80] = "", step[64] = "";
   if (steepest.force == &hk_force_springs) hk_inquiry_blame_spring(inquiry, steepest.number, NAN);
-  if (inquiry->excess.found) inquiry->why->limit = inquiry->excess.limit;
+  if (inquiry->violation.found) inquiry->why->limit = inquiry->violation.limit;
   if (inquiry->bad_particle >= 0) inquiry->why->particle = (double)inquiry->bad_particle;
   if (!isnan(inquiry->why->step)) hk_print(step, sizeof step, ", with a step of %.6g s", inquiry->why->step);
   if (steepest.force)
@@ -292,7 +292,7 @@ static const char *altitude_words(const struct hk_inquiry *inquiry) {
  * proportion, as a callback's may, end in a leap, too. */
 static int grew_before(const struct hk_inquiry *inquiry) {
   const double h = inquiry->run->method->adaptive ? 0.0 : inquiry->run->schedule.step;
-  return inquiry->excess.found && inquiry->excess.time < inquiry->bad_time - 3.5 * h;
+  return inquiry->violation.found && inquiry->violation.time < inquiry->bad_time - 3.5 * h;
 }
 
 static int32_t judge_gain(struct hk_inquiry *inquiry) {
@@ -309,17 +309,17 @@ static int32_t judge_gain(struct hk_inquiry *inquiry) {
 
 /* There was no time or no room to look. */
 static void judge_unknown(struct hk_inquiry *inquiry) {
-  const struct hk_excess *excess = &inquiry->excess;
+  const struct hk_violation *violation = &inquiry->violation;
   char end[160];
   show(inquiry, end);
-  if (isnan(excess->bound)) {
+  if (isnan(violation->bound)) {
     say(inquiry, "unknown", "why is not known: the steps that led to it were not all looked at; %s", end);
   } else {
     say(inquiry, "unknown",
         "the step %.6g s is above %.6g s, up to which %s is certain to be stable, but whether it is above "
         "the "
         "limit itself is not known; %s",
-        inquiry->why->step, excess->bound, inquiry->run->method->name, end);
+        inquiry->why->step, violation->bound, inquiry->run->method->name, end);
   }
 }
 
@@ -331,8 +331,8 @@ static int32_t judge_divergence(struct hk_inquiry *inquiry) {
   if (status != HOOKE_OK || gains) return gains ? judge_gain(inquiry) : status;
   if (inquiry->sudden && !grew_before(inquiry)) {
     judge_overflow(inquiry);
-  } else if (inquiry->excess.found) {
-    return judge_excess(inquiry);
+  } else if (inquiry->violation.found) {
+    return judge_violation(inquiry);
   } else if (inquiry->flips > 0) {
     inquiry->why->particle = NAN;
     hk_print(what, sizeof what, "went through no length (springs did so %lld times, last at t = %.6g s)",
@@ -376,8 +376,8 @@ static void tell_coincident(struct hk_inquiry *inquiry) {
 int32_t hk_inquiry_judge(struct hk_inquiry *inquiry) {
   inquiry->why->time = *hk_inquiry_last(inquiry)->t;
   int32_t status = HOOKE_OK;
-  if (inquiry->slip.found)
-    judge_slip(inquiry);
+  if (inquiry->bad_value.found)
+    judge_bad_value(inquiry);
   else
     status = inquiry->run->outcome == HOOKE_DIVERGED ? judge_divergence(inquiry) : judge_solver(inquiry);
   tell_coincident(inquiry);

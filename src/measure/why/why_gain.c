@@ -51,7 +51,7 @@ static int32_t diverges_finer(struct hk_plan *plan, int k, int32_t *diverges) {
 int32_t hk_inquiry_gains(struct hk_inquiry *inquiry, int32_t *gains) {
   struct hk_plan plan;
   *gains = 0;
-  if (!may_gain(inquiry) || (inquiry->excess.found && inquiry->excess.time <= inquiry->run->t0))
+  if (!may_gain(inquiry) || (inquiry->violation.found && inquiry->violation.time <= inquiry->run->t0))
     return HOOKE_OK;
   int32_t status = hk_plan_begin(inquiry, &plan);
   *gains = status == HOOKE_OK && plan.duration > 0.0 && !plan.late;

@@ -18,16 +18,16 @@ enum { BEFORE = 3, LAST_STEPS = 1200, LAST_STRIDE = 3 };
 /* ---- callbacks under observation ---- */
 
 struct spied_drive {
-  struct spy *spy;
+  struct probe *probe;
   const struct hk_drive_group *real;
 };
 
-struct spy {
+struct probe {
   const hooke_system *real;
   hooke_system system; /* the same but for its callbacks */
   struct hk_drive_group *drive;
   struct spied_drive *drive_ctx;
-  struct hk_slip *slip;
+  struct hk_bad_value *bad_value;
 };
 
 static int is_sensible(int64_t count, const double *value) {
@@ -44,57 +44,58 @@ static int64_t first_wild(int64_t count, const double *value) {
   return -1;
 }
 
-static int32_t spy_force(int64_t n, double t, const double *q, const double *v, double *force, void *ctx) {
-  struct spy *spy = ctx;
-  const hooke_system *real = spy->real;
+static int32_t probe_force(int64_t n, double t, const double *q, const double *v, double *force, void *ctx) {
+  struct probe *probe = ctx;
+  const hooke_system *real = probe->real;
   const int meant = is_sensible(3 * n, q) && is_sensible(3 * n, v) && first_wild(3 * n, force) < 0;
   const int32_t value = real->force(n, t, q, v, force, real->force_ctx);
   const int64_t wild = first_wild(3 * n, force);
-  if (meant && wild >= 0 && !spy->slip->found)
-    *spy->slip = (struct hk_slip){.found = 1, .time = t, .particle = wild / 3};
+  if (meant && wild >= 0 && !probe->bad_value->found)
+    *probe->bad_value = (struct hk_bad_value){.found = 1, .time = t, .particle = wild / 3};
   return value;
 }
 
-static int32_t spy_product(int64_t n, double t, const double *q, const double *v, const double *dq,
-                           const double *dv, double *out, void *ctx) {
-  const hooke_system *real = ((const struct spy *)ctx)->real;
+static int32_t probe_product(int64_t n, double t, const double *q, const double *v, const double *dq,
+                             const double *dv, double *out, void *ctx) {
+  const hooke_system *real = ((const struct probe *)ctx)->real;
   return real->force_product(n, t, q, v, dq, dv, out, real->force_ctx);
 }
 
-static int32_t spy_drive(int64_t count, double t, double *q, double *v, void *ctx) {
+static int32_t probe_drive(int64_t count, double t, double *q, double *v, void *ctx) {
   const struct spied_drive *own = ctx;
-  struct hk_slip *slip = own->spy->slip;
+  struct hk_bad_value *bad_value = own->probe->bad_value;
   const int32_t value = own->real->callback(count, t, q, v, own->real->ctx);
   const int64_t wild_q = first_wild(3 * count, q), wild_v = first_wild(3 * count, v);
   const int64_t wild = wild_q >= 0 ? wild_q : wild_v;
-  if (wild >= 0 && !slip->found) {
-    *slip = (struct hk_slip){.found = 1, .of_drive = 1, .time = t, .particle = own->real->particle[wild / 3]};
+  if (wild >= 0 && !bad_value->found) {
+    *bad_value = (struct hk_bad_value){
+        .found = 1, .of_drive = 1, .time = t, .particle = own->real->particle[wild / 3]};
   }
   return value;
 }
 
-static int32_t spy_create(const hooke_system *system, struct hk_slip *slip, struct spy *spy) {
-  *spy = (struct spy){.real = system, .system = *system, .slip = slip};
-  spy->drive = hk_new(system->drive_count, sizeof *spy->drive);
-  spy->drive_ctx = hk_new(system->drive_count, sizeof *spy->drive_ctx);
-  if (spy->drive == NULL || spy->drive_ctx == NULL) return HOOKE_NO_MEMORY;
+static int32_t probe_create(const hooke_system *system, struct hk_bad_value *bad_value, struct probe *probe) {
+  *probe = (struct probe){.real = system, .system = *system, .bad_value = bad_value};
+  probe->drive = hk_new(system->drive_count, sizeof *probe->drive);
+  probe->drive_ctx = hk_new(system->drive_count, sizeof *probe->drive_ctx);
+  if (probe->drive == NULL || probe->drive_ctx == NULL) return HOOKE_NO_MEMORY;
   for (int64_t g = 0; g < system->drive_count; g++) {
-    spy->drive[g] = system->drive[g];
+    probe->drive[g] = system->drive[g];
     if (system->drive[g].kind != HOOKE_DRIVE_CALLBACK) continue;
-    spy->drive_ctx[g] = (struct spied_drive){spy, &system->drive[g]};
-    spy->drive[g].callback = spy_drive;
-    spy->drive[g].ctx = &spy->drive_ctx[g];
+    probe->drive_ctx[g] = (struct spied_drive){probe, &system->drive[g]};
+    probe->drive[g].callback = probe_drive;
+    probe->drive[g].ctx = &probe->drive_ctx[g];
   }
-  spy->system.drive = spy->drive;
-  if (system->force) spy->system.force = spy_force;
-  if (system->force_product) spy->system.force_product = spy_product;
-  spy->system.force_ctx = spy;
+  probe->system.drive = probe->drive;
+  if (system->force) probe->system.force = probe_force;
+  if (system->force_product) probe->system.force_product = probe_product;
+  probe->system.force_ctx = probe;
   return HOOKE_OK;
 }
 
-static void spy_release(struct spy *spy) {
-  hk_free(spy->drive);
-  hk_free(spy->drive_ctx);
+static void probe_release(struct probe *probe) {
+  hk_free(probe->drive);
+  hk_free(probe->drive_ctx);
 }
 
 /* ---- what a step shows ---- */
@@ -189,8 +190,8 @@ static int32_t walk(struct replay *replay, hooke_state *state, int64_t steps) {
   /* what is kept on divergence is the last good one again, and the last chance to see the step above the
    * limit */
   if (status == HOOKE_DIVERGED) {
-    inquiry->excess.tries = 0;
-    inquiry->excess.pause = 0;
+    inquiry->violation.tries = 0;
+    inquiry->violation.pause = 0;
     const int32_t looked = hk_inquiry_consider(inquiry, &replay->blocks, state->q, *state->t);
     if (looked != HOOKE_OK) return looked;
   }
@@ -246,13 +247,13 @@ static int32_t replay_with(struct replay *replay, const hooke_system *observed) 
 }
 
 int32_t hk_inquiry_replay(struct hk_inquiry *inquiry) {
-  struct spy spy;
+  struct probe probe;
   struct replay replay = {.inquiry = inquiry};
-  int32_t status = spy_create(inquiry->system, &inquiry->slip, &spy);
-  if (status == HOOKE_OK) status = replay_with(&replay, &spy.system);
+  int32_t status = probe_create(inquiry->system, &inquiry->bad_value, &probe);
+  if (status == HOOKE_OK) status = replay_with(&replay, &probe.system);
   hk_node_blocks_release(&replay.blocks);
   hooke_integrator_destroy(replay.again);
   hk_free(replay.before);
-  spy_release(&spy);
+  probe_release(&probe);
   return status;
 }

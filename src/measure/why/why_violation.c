@@ -19,13 +19,13 @@ static const char *method_of(const struct hk_inquiry *inquiry) {
 
 static void take(struct hk_inquiry *inquiry, const double *q, double t, double limit, double at_most,
                  int64_t particle) {
-  struct hk_excess *excess = &inquiry->excess;
-  excess->found = 1;
-  excess->time = t;
-  excess->limit = limit;
-  excess->at_most = at_most;
-  excess->particle = particle;
-  memcpy(excess->q, q, (size_t)inquiry->run->size * sizeof(double));
+  struct hk_violation *violation = &inquiry->violation;
+  violation->found = 1;
+  violation->time = t;
+  violation->limit = limit;
+  violation->at_most = at_most;
+  violation->particle = particle;
+  memcpy(violation->q, q, (size_t)inquiry->run->size * sizeof(double));
 }
 
 /* 0 if patience has an end or the numbers have none: unknown is not above. */
@@ -50,11 +50,11 @@ static int32_t begin_growing(struct hk_inquiry *inquiry) {
 }
 
 static int32_t blame_growing(struct hk_inquiry *inquiry, double h) {
-  struct hk_excess *excess = &inquiry->excess;
+  struct hk_violation *violation = &inquiry->violation;
   double a = 1.0, b = 0.0, most;
   hk_growing_rule(inquiry->system, method_of(inquiry), h, &a, &b, &most);
-  excess->has_blame = 1;
-  return hk_blame_find(inquiry->system, excess->q, inquiry->growing.x, a, 0.5 * b, &excess->blame);
+  violation->has_blame = 1;
+  return hk_blame_find(inquiry->system, violation->q, inquiry->growing.x, a, 0.5 * b, &violation->blame);
 }
 
 /* `above`: by how much the quotient is above what is stable; infinity where no step is. */
@@ -83,17 +83,17 @@ static int32_t by_growth(struct hk_inquiry *inquiry, const double *q, double t, 
 
 int32_t hk_inquiry_consider(struct hk_inquiry *inquiry, struct hk_node_blocks *blocks, const double *q,
                             double t) {
-  struct hk_excess *excess = &inquiry->excess;
+  struct hk_violation *violation = &inquiry->violation;
   int64_t particle;
-  if (excess->found || excess->tries >= MOST_TRIES || !hk_step_is_bounded(method_of(inquiry)))
+  if (violation->found || violation->tries >= MOST_TRIES || !hk_step_is_bounded(method_of(inquiry)))
     return HOOKE_OK;
   if (!hk_all_finite(inquiry->run->size, q)) return HOOKE_OK;
   hk_node_blocks_fill(blocks, q);
   if (hk_patience_ends(&inquiry->patience, "bounds")) return HOOKE_OK;
   if (hk_step_is_safe(blocks, method_of(inquiry), inquiry->run->schedule.step, &particle)) return HOOKE_OK;
-  if (excess->pause-- > 0) return HOOKE_OK;
-  excess->pause = excess->tries++;
-  if (isnan(excess->bound)) excess->bound = hk_step_bound_of(blocks, method_of(inquiry));
+  if (violation->pause-- > 0) return HOOKE_OK;
+  violation->pause = violation->tries++;
+  if (isnan(violation->bound)) violation->bound = hk_step_bound_of(blocks, method_of(inquiry));
   return inquiry->large ? by_growth(inquiry, q, t, particle) : by_spectrum(inquiry, q, t, particle);
 }
 
@@ -117,12 +117,13 @@ static int32_t survey_large(struct hk_inquiry *inquiry, struct hk_node_blocks *b
   int32_t status = hk_inquiry_consider(inquiry, blocks, newest->q, *newest->t);
   const double *q = first ? first->q : run->t0 == 0.0 ? inquiry->system->position : NULL;
   double a = 1.0, b = 0.0, most;
-  if (status != HOOKE_OK || !inquiry->excess.found || inquiry->growing.x == NULL || q == NULL) return status;
+  if (status != HOOKE_OK || !inquiry->violation.found || inquiry->growing.x == NULL || q == NULL)
+    return status;
   if (!hk_growing_rule(inquiry->system, method_of(inquiry), run->schedule.step, &a, &b, &most)) return status;
   const double above = hk_growing_quotient(&inquiry->growing, q, a, b) / most;
   if (!(above > 1.0)) return HOOKE_OK;
-  hk_blame_release(&inquiry->excess.blame);
-  return take_growth(inquiry, q, run->t0, inquiry->excess.particle, above);
+  hk_blame_release(&inquiry->violation.blame);
+  return take_growth(inquiry, q, run->t0, inquiry->violation.particle, above);
 }
 
 int32_t hk_inquiry_survey(struct hk_inquiry *inquiry, struct hk_node_blocks *blocks) {

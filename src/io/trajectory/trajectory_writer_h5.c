@@ -4,7 +4,7 @@
 #if HOOKE_HAVE_HDF5
 
 #include "io/hdf5/object_h5.h"
-#include "io/trajectory/recording_h5.h"
+#include "io/trajectory/trajectory_writer_h5.h"
 #include "model/system.h"
 
 #include <math.h>
@@ -20,42 +20,42 @@ static double frame_bytes(int64_t particle_count) {
   return bytes;
 }
 
-double hk_recording_bytes(const hooke_system *system, int64_t frame_count) {
+double hk_trajectory_writer_bytes(const hooke_system *system, int64_t frame_count) {
   const int64_t n = hooke_system_particle_count(system);
   const double groups = 32768.0, fixed = 12.0 * (double)n + 16.0 * (double)hooke_system_spring_count(system);
   return groups + fixed + frame_bytes(n) * (double)frame_count;
 }
 
-double hk_recording_bytes_after(const struct hk_recording *recording, int64_t first) {
-  return frame_bytes(recording->file.particle_count) * (double)(recording->frame_count - first);
+double hk_trajectory_writer_bytes_after(const struct hk_trajectory_writer *writer, int64_t first) {
+  return frame_bytes(writer->file.particle_count) * (double)(writer->frame_count - first);
 }
 
-void hk_recording_path(const char *group, int array, char path[HOOKE_RECORDING_PATH]) {
+void hk_trajectory_writer_path(const char *group, int array, char path[HOOKE_WRITER_PATH]) {
   const int all = strcmp(group, "all") == 0;
   const char *slash = all ? "" : "/", *folder = all ? "" : group;
   switch (array) {
   case HOOKE_FRAME_STEP:
   case HOOKE_FRAME_TIME:
-    snprintf(path, HOOKE_RECORDING_PATH, "/particles/%s/position/%s", group,
+    snprintf(path, HOOKE_WRITER_PATH, "/particles/%s/position/%s", group,
              array == HOOKE_FRAME_STEP ? "step" : "time");
     return;
   case HOOKE_FRAME_POSITION:
   case HOOKE_FRAME_VELOCITY:
-    snprintf(path, HOOKE_RECORDING_PATH, "/particles/%s/%s/value", group,
+    snprintf(path, HOOKE_WRITER_PATH, "/particles/%s/%s/value", group,
              array == HOOKE_FRAME_POSITION ? "position" : "velocity");
     return;
   case HOOKE_FRAME_CHECK:
-    snprintf(path, HOOKE_RECORDING_PATH, "/hooke%s%s/frame_check", slash, folder);
+    snprintf(path, HOOKE_WRITER_PATH, "/hooke%s%s/frame_check", slash, folder);
     return;
   default:
-    snprintf(path, HOOKE_RECORDING_PATH, "/observables%s%s/%s/value", slash, folder,
+    snprintf(path, HOOKE_WRITER_PATH, "/observables%s%s/%s/value", slash, folder,
              hk_observables[array - HOOKE_FRAME_OBSERVABLE].name);
   }
 }
 
 /* While they are being made. */
 struct arrays {
-  const struct hk_recording *recording;
+  const struct hk_trajectory_writer *writer;
   hid_t id[HOOKE_FRAME_ARRAY_COUNT];
 };
 
@@ -63,7 +63,7 @@ struct arrays {
  * since frames are written as bytes. */
 static hid_t new_frames(const struct arrays *arrays, hid_t where, int64_t rows, int32_t columns) {
   const double fill = NAN;
-  const hsize_t frames = (hsize_t)arrays->recording->frame_count;
+  const hsize_t frames = (hsize_t)arrays->writer->frame_count;
   const hsize_t table[3] = {frames, (hsize_t)rows, (hsize_t)columns};
   const hsize_t line[2] = {frames, (hsize_t)columns};
   if (rows > 0) return hk_h5_room(where, "value", H5T_NATIVE_DOUBLE, 3, table);
@@ -77,7 +77,7 @@ static herr_t add_clock(struct arrays *arrays, hid_t element) {
     herr_t result = H5Lcreate_hard(*time, ".", element, "time", H5P_DEFAULT, H5P_DEFAULT);
     return result < 0 ? result : H5Lcreate_hard(*step, ".", element, "step", H5P_DEFAULT, H5P_DEFAULT);
   }
-  const hsize_t size = (hsize_t)arrays->recording->frame_count;
+  const hsize_t size = (hsize_t)arrays->writer->frame_count;
   const double no_time = NAN;
   const int64_t no_step = -1;
   *step = hk_h5_array(element, "step", H5T_NATIVE_INT64, 1, &size, &no_step);
@@ -106,9 +106,9 @@ static herr_t write_box(hid_t where) {
   return result;
 }
 
-static herr_t write_particles(const struct hk_recording *recording, hid_t where) {
-  const hooke_system *system = recording->system;
-  const int64_t count = recording->file.particle_count;
+static herr_t write_particles(const struct hk_trajectory_writer *writer, hid_t where) {
+  const hooke_system *system = writer->system;
+  const int64_t count = writer->file.particle_count;
   const hsize_t size = (hsize_t)count;
   int32_t *species = hk_new(count, sizeof(int32_t));
   if (species == NULL) return -1;
@@ -141,19 +141,19 @@ static hid_t folder_of(hid_t file, const char *folder, const char *group) {
 }
 
 static herr_t make_particles(hid_t file, struct arrays *arrays, int32_t copied) {
-  const struct hk_recording *recording = arrays->recording;
-  hid_t particles = group_at(file, "particles", recording->group);
-  const int64_t n = recording->file.particle_count;
+  const struct hk_trajectory_writer *writer = arrays->writer;
+  hid_t particles = group_at(file, "particles", writer->group);
+  const int64_t n = writer->file.particle_count;
   herr_t result = particles < 0 ? -1 : new_element(arrays, HOOKE_FRAME_POSITION, particles, "position", n, 3);
   if (result >= 0) result = new_element(arrays, HOOKE_FRAME_VELOCITY, particles, "velocity", n, 3);
   if (result >= 0 && !copied) result = write_box(particles);
-  if (result >= 0 && !copied) result = write_particles(recording, particles);
+  if (result >= 0 && !copied) result = write_particles(writer, particles);
   hk_h5_drop(particles);
   return result;
 }
 
 static herr_t make_observables(hid_t file, struct arrays *arrays) {
-  hid_t group = folder_of(file, "observables", arrays->recording->group);
+  hid_t group = folder_of(file, "observables", arrays->writer->group);
   herr_t result = group < 0 ? -1 : 0;
   for (int k = 0; result >= 0 && k < HOOKE_OBSERVABLE_COUNT; k++)
     result = new_element(arrays, HOOKE_FRAME_OBSERVABLE + k, group, hk_observables[k].name, 0,
@@ -163,8 +163,8 @@ static herr_t make_observables(hid_t file, struct arrays *arrays) {
 }
 
 static herr_t make_check(hid_t file, struct arrays *arrays) {
-  const hsize_t size = (hsize_t)arrays->recording->frame_count;
-  hid_t group = folder_of(file, "hooke", arrays->recording->group);
+  const hsize_t size = (hsize_t)arrays->writer->frame_count;
+  hid_t group = folder_of(file, "hooke", arrays->writer->group);
   hid_t *check = &arrays->id[HOOKE_FRAME_CHECK];
   if (group >= 0) *check = hk_h5_array(group, "frame_check", H5T_NATIVE_UINT32, 1, &size, NULL);
   hk_h5_drop(group);
@@ -172,8 +172,8 @@ static herr_t make_check(hid_t file, struct arrays *arrays) {
 }
 
 /* Makes them all and keeps where they begin. */
-static herr_t make_arrays(hid_t file, struct hk_recording *recording, int32_t copied) {
-  struct arrays arrays = {.recording = recording};
+static herr_t make_arrays(hid_t file, struct hk_trajectory_writer *writer, int32_t copied) {
+  struct arrays arrays = {.writer = writer};
   for (int k = 0; k < HOOKE_FRAME_ARRAY_COUNT; k++)
     arrays.id[k] = -1;
   herr_t result = make_particles(file, &arrays, copied);
@@ -183,37 +183,38 @@ static herr_t make_arrays(hid_t file, struct hk_recording *recording, int32_t co
     const haddr_t first = result >= 0 ? H5Dget_offset(arrays.id[k]) : HADDR_UNDEF;
     const int empty = result >= 0 && H5Dget_storage_size(arrays.id[k]) == 0;
     if (first == HADDR_UNDEF && !empty) result = -1;
-    recording->file.at[k] = empty ? 0 : (int64_t)first;
+    writer->file.at[k] = empty ? 0 : (int64_t)first;
     hk_h5_drop(arrays.id[k]);
   }
   return result;
 }
 
-static void start(struct hk_recording *recording, const hooke_system *system, const char *group, int64_t n,
-                  int64_t frame_count) {
-  *recording = (struct hk_recording){.system = system, .frame_count = frame_count};
-  recording->file = (struct hk_frame_file){.system = system, .descriptor = -1, .particle_count = n};
-  snprintf(recording->group, sizeof recording->group, "%s", group);
+static void start(struct hk_trajectory_writer *writer, const hooke_system *system, const char *group,
+                  int64_t n, int64_t frame_count) {
+  *writer = (struct hk_trajectory_writer){.system = system, .frame_count = frame_count};
+  writer->file = (struct hk_frame_file){.system = system, .descriptor = -1, .particle_count = n};
+  snprintf(writer->group, sizeof writer->group, "%s", group);
 }
 
-herr_t hk_recording_create(hid_t file, const hooke_system *system, const char *group, int64_t frame_count,
-                           struct hk_recording *recording) {
-  start(recording, system, group, hooke_system_particle_count(system), frame_count);
-  return make_arrays(file, recording, 0);
+herr_t hk_trajectory_writer_create(hid_t file, const hooke_system *system, const char *group,
+                                   int64_t frame_count, struct hk_trajectory_writer *writer) {
+  start(writer, system, group, hooke_system_particle_count(system), frame_count);
+  return make_arrays(file, writer, 0);
 }
 
 /* ---- frames ---- */
 
-int hk_recording_write(struct hk_recording *recording, int64_t step, const hooke_state *state) {
-  const int error = hk_frame_write(&recording->file, recording->written, step, state);
-  recording->written += error == 0;
+int hk_trajectory_writer_write(struct hk_trajectory_writer *writer, int64_t step, const hooke_state *state) {
+  const int error = hk_frame_write(&writer->file, writer->written, step, state);
+  writer->written += error == 0;
   return error;
 }
 
 /* ---- copying ---- */
 
-herr_t hk_recording_copy(const struct hk_recording *from, hid_t from_file, hid_t file, int64_t frame_count,
-                         struct hk_recording *to, struct hk_h5_copy *copy) {
+herr_t hk_trajectory_writer_copy(const struct hk_trajectory_writer *from, hid_t from_file, hid_t file,
+                                 int64_t frame_count, struct hk_trajectory_writer *to,
+                                 struct hk_h5_copy *copy) {
   const char *const names[] = {"box", "species", "mass"};
   start(to, from->system, from->group, from->file.particle_count, frame_count);
   herr_t result = make_arrays(file, to, 1);

@@ -1,0 +1,27 @@
+/* Numbers that are asked for by name. */
+#ifndef HOOKE_CORE_NAMED_NUMBER_H
+#define HOOKE_CORE_NAMED_NUMBER_H
+
+#include <math.h>
+#include <stddef.h>
+#include <string.h>
+
+struct hk_named_number {
+  const char *name;
+  double value;
+};
+
+/* The value of that name among `count`, NaN where there is none. */
+static inline double hk_named_number_find(const struct hk_named_number *number, size_t count,
+                                          const char *name) {
+  for (size_t k = 0; k < count; k++) {
+    if (strcmp(number[k].name, name) == 0) return number[k].value;
+  }
+  return NAN;
+}
+
+/* The same in an array. */
+#define HOOKE_NAMED_NUMBER(numbers, name)                                                                    \
+  hk_named_number_find((numbers), sizeof(numbers) / sizeof((numbers)[0]), (name))
+
+#endif
