@@ -211,7 +211,7 @@ static int32_t is_for_help(int argc, char **argv) {
   return argc == 2 && (strcmp(argv[1], "--help") == 0 || strcmp(argv[1], "-h") == 0);
 }
 
-/* The kind comes first, since the other options hang on it; NULL if there is none. */
+/* The kind comes first, since it determines the other options; NULL if there is none. */
 static int find_kind(struct cli_arguments *arguments, int argc, char **argv, const char **kind) {
   *kind = NULL;
   if (!arguments->verb->takes_kind || is_for_help(argc, argv)) return HOOKE_EXIT_DONE;

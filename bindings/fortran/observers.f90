@@ -30,7 +30,7 @@ module hooke_observers
   end type
 
   ! Told that the step is no longer safe: "near-limit", "above-limit" or "never-stable"; the largest that is [s]; and
-  ! what it hangs on, 0 for no spring.
+  ! what determines the bound, 0 for no spring.
   type, abstract :: hooke_warning
   contains
     procedure(warn_of_step), deferred :: warn

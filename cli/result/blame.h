@@ -1,4 +1,4 @@
-/* What a limit hangs on, for a program. */
+/* What determines a limit, for a program. */
 #ifndef HOOKE_CLI_BLAME_H
 #define HOOKE_CLI_BLAME_H
 

@@ -1,4 +1,4 @@
-/* hooke limit: the largest stable step of each method, predicted and measured, and what it hangs on. */
+/* hooke limit: the largest stable step of each method, predicted and measured, and what determines it. */
 #include "methods.h"
 #include "output_file.h"
 #include "blame.h"
@@ -273,7 +273,7 @@ static const struct cli_verb_row own_rows[] = {
 
 const struct cli_verb cli_verb_limit = {
     .name = "limit",
-    .summary = "the largest stable step of each method, predicted and measured, and what it hangs on",
+    .summary = "the largest stable step of each method, predicted and measured, and what determines it",
     .text =
         "Predicts the largest stable step of each fixed-step method from the eigenvalues of the scene, "
         "frozen at its positions and at rest, then measures it by running the method. Says which springs "

@@ -82,7 +82,7 @@ static int report_option(const struct make *make, const hooke_options *table, in
 
 /* ---- making ---- */
 
-/* The scene does not hang on the file of a mesh, which may be anywhere. */
+/* The scene does not depend on the file of a mesh, which may be anywhere. */
 static int read_file(const struct make *make) {
   hooke_options *part = make->arguments->of_kind;
   if (!hooke_options_is_set(part, "file")) return HOOKE_EXIT_DONE;

@@ -2,7 +2,7 @@
 #ifndef HOOKE_INTEGRATE_INTEGRATOR_H
 #define HOOKE_INTEGRATE_INTEGRATOR_H
 
-#include "core/option.h"
+#include "core/table/option.h"
 #include "integrate/method.h"
 #include "integrate/loop/recent.h"
 #include "model/sum/motion.h"

@@ -3,8 +3,8 @@
 #ifndef HOOKE_MEASURE_MEASUREMENT_H
 #define HOOKE_MEASURE_MEASUREMENT_H
 
-#include "core/column.h"
-#include "core/option.h"
+#include "core/table/column.h"
+#include "core/table/option.h"
 #include "hooke/measurement.h"
 
 enum hk_label { HOOKE_LABEL_TITLE, HOOKE_LABEL_COMMAND, HOOKE_LABEL_SCENE, HOOKE_LABELS };

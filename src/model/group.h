@@ -4,7 +4,7 @@
 #ifndef HOOKE_MODEL_GROUP_H
 #define HOOKE_MODEL_GROUP_H
 
-#include "core/option.h"
+#include "core/table/option.h"
 
 #include <stddef.h>
 

@@ -1,7 +1,7 @@
 #include "model/part_record.h"
 
 #include "core/memory.h"
-#include "core/option.h"
+#include "core/table/option.h"
 #include "model/system.h"
 
 #include <string.h>

@@ -2,7 +2,7 @@
 #ifndef HOOKE_PARTS_PART_H
 #define HOOKE_PARTS_PART_H
 
-#include "core/option.h"
+#include "core/table/option.h"
 #include "hooke/build.h"
 #include "model/part_record.h"
 #include "model/force/force.h"

@@ -5,7 +5,7 @@
  * Those of a straight line would be flat. So a straight strand has an extra particle for every segment, at
  * its middle, `offset` segment lengths off the axis: the extra particles wind about it, a sixth of a turn to
  * the right each. All tetrahedra are then congruent, and their shortest altitude is shorter than the others
- * by far (by a quarter turn two of them would be equal, so that which one acts would hang on rounding). A
+ * by far (by a quarter turn two of them would be equal, so that which one acts would depend on rounding). A
  * curl (particles on a helix about the axis) has tetrahedra of its own and needs no extra particles. */
 #include "parts/part.h"
 

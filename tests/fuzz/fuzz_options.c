@@ -4,13 +4,13 @@
  * is taken as it is, "name=value" or a word of a command line; in any other the first byte stands for a row
  * of the table and the rest is its value. So most inputs come past the names.
  *
- * Lines of: src/core/option*.c src/core/number.c cli/arguments.c cli/unit.c cli/value.c
+ * Lines of: src/core/table/option*.c src/core/number.c cli/arguments.c cli/unit.c cli/value.c
  * Longest input: 1024, mostly 256 */
 #include "fuzz.h"
 
 #include "arguments.h"
 #include "core/number.h"
-#include "core/option.h"
+#include "core/table/option.h"
 #include "describe.h"
 #include "hooke.h"
 #include "report.h"

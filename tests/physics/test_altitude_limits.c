@@ -1,4 +1,4 @@
-/* Limits of the step where altitude springs act: bounds, predictions, measurements, and what they hang on. */
+/* Limits of the step where altitude springs act: bounds, predictions, measurements, and what determines them. */
 #include "check.h"
 #include "random.h"
 #include "run.h"
@@ -129,7 +129,7 @@ static void random_tetrahedra_run_up_to_the_prediction(void **unused) {
   }
 }
 
-/* ---- what it hangs on ---- */
+/* ---- what determines them ---- */
 
 /* A straight strand whose altitude springs are its stiffest. */
 static hooke_system *new_strand(double altitude) {

@@ -1,4 +1,4 @@
-/* Limits of the step where something bends: bounds, predictions, measurements, and what they hang on. */
+/* Limits of the step where something bends: bounds, predictions, measurements, and what determines them. */
 #include "check.h"
 #include "random.h"
 #include "run.h"
@@ -146,7 +146,7 @@ static void random_triples_run_up_to_the_prediction(void **unused) {
   }
 }
 
-/* ---- what it hangs on ---- */
+/* ---- what determines them ---- */
 
 static void a_limit_by_bending_names_it(void **unused) {
   (void)unused;

@@ -2,7 +2,7 @@
 #include "check.h"
 
 #include "core/number.h"
-#include "core/option.h"
+#include "core/table/option.h"
 
 #include <locale.h>
 #include <math.h>

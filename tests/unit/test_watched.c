@@ -2,7 +2,7 @@
  * length, and periods against known ones. */
 #include "check.h"
 #include "core/memory.h"
-#include "measure/watch/watched.h"
+#include "measure/quantity/watched.h"
 #include "small.h"
 
 #include <math.h>

@@ -292,7 +292,7 @@ static int32_t step(hooke_integrator *it) {
   struct backward_euler *own = it->own;
   const struct hk_counts before = it->count;
   hk_motion_save(it->motion, own->start);
-  hk_reduced_drop_factor(&own->reduced); /* a step hangs on its start alone */
+  hk_reduced_drop_factor(&own->reduced); /* a step depends on its start alone */
   int32_t status = linearise(it);
   if (status == HOOKE_OK && !own->one_iteration) status = converge(it);
   if (status == HOOKE_OK) {

@@ -353,7 +353,7 @@ static int32_t solve_as_pays(struct hk_reduced *reduced, const double *b, double
 }
 
 /* By blocks as long as that may be cheap, or where all of S is too large or proves not positive; else with
- * the factor of this step, and if that has come to be old with a new one. What is chosen hangs on the numbers
+ * the factor of this step, and if that has come to be old with a new one. The choice depends on the numbers
  * of the step alone. */
 int32_t hk_reduced_solve(struct hk_reduced *reduced, const double *b, double tolerance, double *x,
                          struct hk_solution *solution) {

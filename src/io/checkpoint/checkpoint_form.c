@@ -1,7 +1,7 @@
 #include "io/checkpoint/checkpoint_form.h"
 
 #include "core/crc32.h"
-#include "core/option.h"
+#include "core/table/option.h"
 #include "core/status.h"
 #include "model/check_value.h"
 

@@ -3,7 +3,7 @@
 
 #include "core/handle.h"
 #include "core/memory.h"
-#include "core/option.h"
+#include "core/table/option.h"
 #include "core/status.h"
 #include "io/hdf5/array_h5.h"
 #include "io/page/base64.h"

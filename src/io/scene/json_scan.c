@@ -1,7 +1,7 @@
 #include "io/scene/json_scan.h"
 
 #include "core/number.h"
-#include "core/option.h"
+#include "core/table/option.h"
 #include "core/status.h"
 
 #include <string.h>

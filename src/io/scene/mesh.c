@@ -2,7 +2,7 @@
 
 #include "parts/surface.h"
 #include "core/memory.h"
-#include "core/option.h"
+#include "core/table/option.h"
 #include "core/memory_limit.h"
 #include "core/status.h"
 #include "io/scene/obj.h"

@@ -4,7 +4,7 @@
 
 #include "core/memory.h"
 #include "core/number.h"
-#include "core/option.h"
+#include "core/table/option.h"
 #include "core/status.h"
 
 #include <string.h>

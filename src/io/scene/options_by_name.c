@@ -5,7 +5,7 @@
 #include "io/scene/scene_file.h"
 #include "io/page/view.h"
 #include "integrate/integrator.h"
-#include "core/option.h"
+#include "core/table/option.h"
 #include "core/status.h"
 #include "hooke/build.h"
 #include "hooke/integrator.h"

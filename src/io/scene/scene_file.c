@@ -2,7 +2,7 @@
 
 #include "core/keep_errno.h"
 #include "core/memory.h"
-#include "core/option.h"
+#include "core/table/option.h"
 #include "core/print.h"
 #include "core/memory_limit.h"
 #include "core/status.h"

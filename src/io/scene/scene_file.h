@@ -2,7 +2,7 @@
 #ifndef HOOKE_IO_SCENE_SCENE_FILE_H
 #define HOOKE_IO_SCENE_SCENE_FILE_H
 
-#include "core/option.h"
+#include "core/table/option.h"
 #include "io/scene/json_scan.h"
 
 /* Options of "scene", "particles", "driven" or "limits". HOOKE_BAD_VALUE for another word. */

@@ -2,7 +2,7 @@
 #ifndef HOOKE_IO_SCENE_SCENE_JSON_H
 #define HOOKE_IO_SCENE_SCENE_JSON_H
 
-#include "core/option.h"
+#include "core/table/option.h"
 #include "io/scene/part_names.h"
 #include "io/scene/scene.h"
 

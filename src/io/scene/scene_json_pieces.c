@@ -121,7 +121,7 @@ static int32_t check_name(const struct hk_scene_reader *reader, int64_t index) {
                  (long long)first->number);
 }
 
-/* The file of a mesh becomes its vertices and triangles, so that a system does not hang on files. */
+/* The file of a mesh becomes its vertices and triangles, so that a system does not depend on files. */
 static int32_t read_file(const struct hk_scene_reader *reader, hooke_options *options) {
   if (!hooke_options_is_set(options, "file")) return HOOKE_OK;
   const char *file = hooke_options_text(options, "file");

@@ -1,6 +1,6 @@
 /* The keys of a scene that neither a part, nor springs, nor a run has. */
 #include "io/scene/scene_file.h"
-#include "core/option.h"
+#include "core/table/option.h"
 #include "core/status.h"
 #include "hooke/io.h"
 

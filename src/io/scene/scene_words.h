@@ -2,7 +2,7 @@
 #ifndef HOOKE_IO_SCENE_SCENE_WORDS_H
 #define HOOKE_IO_SCENE_SCENE_WORDS_H
 
-#include "core/option.h"
+#include "core/table/option.h"
 #include "io/file/text.h"
 
 /* An array of numbers, in rows of `columns` (0: flat). */

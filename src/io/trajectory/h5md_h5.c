@@ -71,7 +71,7 @@ static herr_t write_text(hid_t where, const char *name, int64_t length, const ch
   return result;
 }
 
-/* What the bits of error-controlled methods hang on. */
+/* The libraries that the bits of error-controlled methods depend on. */
 static herr_t write_facts(hid_t group) {
   static const char *const facts[] = {"sundials", "cholmod", "instructions", "machine"};
   herr_t result = 0;

@@ -3,7 +3,7 @@
 
 #include "core/crc32.h"
 #include "core/memory.h"
-#include "core/option.h"
+#include "core/table/option.h"
 #include "core/status.h"
 #include "io/trajectory/record.h"
 #include "measure/limit/limit_predict.h"

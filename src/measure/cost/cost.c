@@ -3,7 +3,7 @@
 
 #include "core/clock.h"
 #include "core/memory.h"
-#include "core/option.h"
+#include "core/table/option.h"
 #include "core/status.h"
 #include "integrate/integrator.h"
 #include "measure/limit/limit_predict.h"
@@ -116,7 +116,7 @@ static int32_t find_first_limit(struct hk_cost *cost, const hooke_state *state) 
   return status;
 }
 
-/* The step of the run, or a stable one where that is none: what a step costs does not hang on it, but numbers
+/* The step of the run, or a stable one where that is none: the cost of a step does not depend on it, but numbers
  * that are not finite may. */
 static int32_t choose_step(struct hk_cost *cost, const hooke_state *state) {
   const double *q = hooke_state_position((hooke_state *)state);

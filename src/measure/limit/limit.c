@@ -3,7 +3,7 @@
 
 #include "core/clock.h"
 #include "core/memory.h"
-#include "core/option.h"
+#include "core/table/option.h"
 #include "core/status.h"
 #include "integrate/integrator.h"
 #include "measure/limit/limit_measure.h"

@@ -1,4 +1,4 @@
-/* What a limit hangs on: the springs and particles that carry the limiting mode, and what it would buy to
+/* What determines a limit: the springs and particles that carry the limiting mode, and what it would buy to
  * change them. */
 #ifndef HOOKE_MEASURE_LIMIT_LIMIT_BLAME_H
 #define HOOKE_MEASURE_LIMIT_LIMIT_BLAME_H

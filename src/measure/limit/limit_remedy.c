@@ -1,4 +1,4 @@
-/* What it would buy to change the few springs or particles that a limit hangs on. */
+/* What it would buy to change the few springs or particles that determine a limit. */
 #include "core/memory.h"
 #include "core/print.h"
 #include "core/utf8.h"

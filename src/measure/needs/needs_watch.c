@@ -3,7 +3,7 @@
 
 #include "core/memory.h"
 #include "core/status.h"
-#include "measure/watch/watched.h"
+#include "measure/quantity/watched.h"
 
 int32_t hk_needs_read_watch(struct hk_needs *needs) {
   const hooke_system *system = needs->system;

@@ -3,7 +3,7 @@
 #ifndef HOOKE_MEASURE_STUDY_ENSEMBLE_H
 #define HOOKE_MEASURE_STUDY_ENSEMBLE_H
 
-#include "measure/watch/watched.h"
+#include "measure/quantity/watched.h"
 
 struct hk_study;
 

@@ -4,7 +4,7 @@
 #include "core/clock.h"
 #include "core/handle.h"
 #include "core/memory.h"
-#include "core/option.h"
+#include "core/table/option.h"
 #include "core/status.h"
 #include "integrate/integrator.h"
 #include "measure/trial/method_list.h"

@@ -2,7 +2,7 @@
 #include "measure/why/why.h"
 
 #include "core/memory.h"
-#include "core/option.h"
+#include "core/table/option.h"
 #include "core/print.h"
 #include "core/status.h"
 #include "integrate/integrator.h"

@@ -82,7 +82,7 @@ struct hk_inquiry {
   int64_t flips,
       flipped; /* times that a spring was turned round through zero length, and the spring last seen to */
   double flip_time;
-  int32_t force;    /* that the limit hangs on: as hk_blame_force() says it; -1: springs */
+  int32_t force;    /* that determines the limit: as hk_blame_force() says it; -1: springs */
   char remedy[640]; /* what it would buy to change the scene; "" if nothing is known */
 };
 

@@ -68,7 +68,7 @@ int32_t hk_inquiry_blame(struct hk_inquiry *inquiry) {
   if (!inquiry->large) {
     hk_patience_lend(&inquiry->patience, 0.5);
     status = ask_limit(inquiry);
-    hk_inquiry_end_part(inquiry, "what the limit hangs on");
+    hk_inquiry_end_part(inquiry, "what determines the limit");
   }
   if (status == HOOKE_NO_MEMORY) return status;
   /* where no mode is to be had, the particle at which the bound showed it */

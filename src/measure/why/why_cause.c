@@ -69,7 +69,7 @@ static void judge_bad_value(struct hk_inquiry *inquiry) {
   }
 }
 
-/* What the limit hangs on. */
+/* What determines the limit. */
 static void name_blamed(const struct hk_inquiry *inquiry, char text[2 * HOOKE_NAMING_SIZE]) {
   const struct hk_why *why = inquiry->why;
   const int64_t particle = inquiry->violation.particle;

@@ -2,7 +2,7 @@
 #include "model/force/altitude.h"
 
 #include "core/memory.h"
-#include "core/option.h"
+#include "core/table/option.h"
 #include "core/status.h"
 #include "model/force/force.h"
 

@@ -2,7 +2,7 @@
 #ifndef HOOKE_MODEL_FORCE_ALTITUDE_H
 #define HOOKE_MODEL_FORCE_ALTITUDE_H
 
-#include "core/option.h"
+#include "core/table/option.h"
 #include "kernel/altitude_loops.h"
 #include "model/group.h"
 

@@ -3,7 +3,7 @@
 #include "model/force/force.h"
 
 #include "core/memory.h"
-#include "core/option.h"
+#include "core/table/option.h"
 #include "core/status.h"
 #include "core/sum.h"
 #include "kernel/spring_body.h"

@@ -2,7 +2,7 @@
 #include "model/variant/variant.h"
 
 #include "core/memory.h"
-#include "core/option.h"
+#include "core/table/option.h"
 #include "core/status.h"
 
 #include <stdio.h>

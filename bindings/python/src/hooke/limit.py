@@ -1,4 +1,4 @@
-"""Limits: the largest stable step of each method on one scene, predicted and measured, and what it hangs on."""
+"""Limits: the largest stable step of each method on one scene, predicted and measured, and what determines it."""
 
 from __future__ import annotations
 
@@ -72,7 +72,7 @@ class Limit:
     part, the largest first; `frequency` (k,) [rad/s] and `decay` (k,) [1/s] those of x'' + 2 decay x' + frequency^2 x
     = 0, of which they are roots. `shape` (n, 3) is the mode that limits the method of the run (of the first row with a
     limit, if that has none), its largest displacement 1; None where nothing is limited. `blame` has the springs that
-    it hangs on, at most 100, and before them a force that has half of it, and `movers` the particles that move in it,
+    that determine it, at most 100, and before them a force that has half of it, and `movers` the particles that move in it,
     each the largest share first; `remedy` what
     it would buy to change them, None where nothing is limited.
 

@@ -17,7 +17,7 @@ static const double SHARE = 0.008, MARGIN = 0.05;
 enum kind { NEAR_LIMIT, ABOVE_LIMIT, NEVER_STABLE, KINDS };
 static const char *const kinds[KINDS] = {"near-limit", "above-limit", "never-stable"};
 
-struct watch {
+struct warner {
   struct hk_node_blocks blocks;
   hooke_warning *warning;
   void *ctx;
@@ -26,22 +26,22 @@ struct watch {
 };
 
 static void release(void *own) {
-  struct watch *watch = own;
-  hk_node_blocks_release(&watch->blocks);
-  hk_free(watch);
+  struct warner *warner = own;
+  hk_node_blocks_release(&warner->blocks);
+  hk_free(warner);
 }
 
-static int32_t tell(struct watch *watch, const hooke_integrator *it, const hooke_state *state,
+static int32_t tell(struct warner *warner, const hooke_integrator *it, const hooke_state *state,
                     int64_t particle) {
   const hooke_system *system = it->system;
   const char *method = it->method->name;
   const double h = it->schedule.step;
-  const double limit = hk_step_bound_of(&watch->blocks, method);
+  const double limit = hk_step_bound_of(&warner->blocks, method);
   char where[HOOKE_NAMING_SIZE] = "", sentence[640];
   if (isnan(limit)) return 0; /* a bound beyond all numbers says nothing */
   const enum kind kind = limit == 0.0 ? NEVER_STABLE : h > limit ? ABOVE_LIMIT : NEAR_LIMIT;
-  if (watch->told[kind]) return 0;
-  watch->told[kind] = 1;
+  if (warner->told[kind]) return 0;
+  warner->told[kind] = 1;
   const int64_t spring = hk_naming_heaviest_words(system, particle, h, where);
   if (kind == NEVER_STABLE) {
     hk_print(sentence, sizeof sentence,
@@ -49,38 +49,38 @@ static int32_t tell(struct watch *watch, const hooke_integrator *it, const hooke
              "slowly, such as that at particle %lld%s%s",
              *state->t, method, h, (long long)particle, where[0] ? " on " : "", where);
   } else {
-    hk_print(
-        sentence, sizeof sentence,
-        "at t = %.6g s the step %.6g s is %s %.6g s, up to which %s is certain to be stable; it hangs on "
-        "particle %lld%s%s",
-        *state->t, h, kind == ABOVE_LIMIT ? "above" : "within 5 % of", limit, method, (long long)particle,
-        where[0] ? " and " : "", where);
+    hk_print(sentence, sizeof sentence,
+             "at t = %.6g s the step %.6g s is %s %.6g s, up to which %s is certain to be stable; it is "
+             "determined by "
+             "particle %lld%s%s",
+             *state->t, h, kind == ABOVE_LIMIT ? "above" : "within 5 % of", limit, method,
+             (long long)particle, where[0] ? " and " : "", where);
   }
   hk_utf8_make_plain(sentence);
-  return watch->warning(kinds[kind], sentence, *state->t, limit, spring, particle, watch->ctx);
+  return warner->warning(kinds[kind], sentence, *state->t, limit, spring, particle, warner->ctx);
 }
 
 static int32_t look(const hooke_integrator *it, const hooke_state *state, void *own) {
-  struct watch *watch = own;
+  struct warner *warner = own;
   if (it->k == 0) {
-    watch->begun = it->wall_seconds;
-    watch->spent = watch->longest = 0.0;
+    warner->begun = it->wall_seconds;
+    warner->spent = warner->longest = 0.0;
     for (int k = 0; k < KINDS; k++)
-      watch->told[k] = 0;
-  } else if (watch->spent + watch->longest > SHARE * (it->wall_seconds - watch->begun)) {
+      warner->told[k] = 0;
+  } else if (warner->spent + warner->longest > SHARE * (it->wall_seconds - warner->begun)) {
     return 0; /* not yet earned by stepping */
   }
-  if (watch->told[ABOVE_LIMIT] || watch->told[NEVER_STABLE]) return 0;
+  if (warner->told[ABOVE_LIMIT] || warner->told[NEVER_STABLE]) return 0;
   const double begun = hk_clock_seconds();
-  const double margin = watch->told[NEAR_LIMIT] ? 0.0 : MARGIN;
+  const double margin = warner->told[NEAR_LIMIT] ? 0.0 : MARGIN;
   int64_t particle;
-  hk_node_blocks_fill(&watch->blocks, state->q);
+  hk_node_blocks_fill(&warner->blocks, state->q);
   const int safe =
-      hk_step_is_safe(&watch->blocks, it->method->name, it->schedule.step / (1.0 - margin), &particle);
+      hk_step_is_safe(&warner->blocks, it->method->name, it->schedule.step / (1.0 - margin), &particle);
   const double taken = hk_clock_seconds() - begun;
-  watch->spent += taken;
-  watch->longest = fmax(watch->longest, taken);
-  return safe ? 0 : tell(watch, it, state, particle);
+  warner->spent += taken;
+  warner->longest = fmax(warner->longest, taken);
+  return safe ? 0 : tell(warner, it, state, particle);
 }
 
 int32_t hooke_integrator_on_warning(hooke_integrator *it, hooke_warning *warning, void *ctx) {
@@ -89,16 +89,16 @@ int32_t hooke_integrator_on_warning(hooke_integrator *it, hooke_warning *warning
     return hk_fail(HOOKE_UNSUITED, NULL, "a first-order problem has no springs to bound its step by");
   }
   if (warning == NULL || !hk_step_is_bounded(it->method->name)) return HOOKE_OK;
-  struct watch *watch = hk_new(1, sizeof *watch);
-  if (watch == NULL) return HOOKE_NO_MEMORY;
-  const int32_t status = hk_node_blocks_create(it->system, it->system->position, &watch->blocks);
+  struct warner *warner = hk_new(1, sizeof *warner);
+  if (warner == NULL) return HOOKE_NO_MEMORY;
+  const int32_t status = hk_node_blocks_create(it->system, it->system->position, &warner->blocks);
   if (status != HOOKE_OK) {
-    hk_free(watch);
+    hk_free(warner);
     return status;
   }
-  watch->warning = warning;
-  watch->ctx = ctx;
-  const int64_t bytes = (int64_t)sizeof *watch + 12 * it->system->particle_count * (int64_t)sizeof(double);
-  hk_integrator_set_checker(it, (struct hk_checker){look, release, watch, bytes});
+  warner->warning = warning;
+  warner->ctx = ctx;
+  const int64_t bytes = (int64_t)sizeof *warner + 12 * it->system->particle_count * (int64_t)sizeof(double);
+  hk_integrator_set_checker(it, (struct hk_checker){look, release, warner, bytes});
   return HOOKE_OK;
 }

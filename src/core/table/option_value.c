@@ -1,4 +1,4 @@
-#include "core/option_value.h"
+#include "core/table/option_value.h"
 
 #include "core/memory.h"
 #include "core/number.h"

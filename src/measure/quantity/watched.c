@@ -1,8 +1,8 @@
 /* The grammar of what is watched. */
-#include "measure/watch/watched.h"
+#include "measure/quantity/watched.h"
 
 #include "core/memory.h"
-#include "core/option.h"
+#include "core/table/option.h"
 #include "core/status.h"
 #include "measure/spectrum/naming.h"
 

@@ -1,8 +1,8 @@
 /* The value of one option, and how it is read and checked. */
-#ifndef HOOKE_CORE_OPTION_VALUE_H
-#define HOOKE_CORE_OPTION_VALUE_H
+#ifndef HOOKE_CORE_TABLE_OPTION_VALUE_H
+#define HOOKE_CORE_TABLE_OPTION_VALUE_H
 
-#include "core/option.h"
+#include "core/table/option.h"
 
 /* Numbers and words; a single number needs no block of its own. All zeros: nothing. */
 struct hk_option_value {

@@ -1,5 +1,5 @@
 /* Values of watched quantities, and the period of one. */
-#include "measure/watch/watched.h"
+#include "measure/quantity/watched.h"
 
 #include <math.h>
 

@@ -1,4 +1,4 @@
-#include "measure/watch/watched_series.h"
+#include "measure/quantity/watched_series.h"
 
 #include "core/memory.h"
 

@@ -1,8 +1,8 @@
 /* Watched quantities over the frames of a run, and how far those of two runs are apart. */
-#ifndef HOOKE_MEASURE_WATCH_WATCHED_SERIES_H
-#define HOOKE_MEASURE_WATCH_WATCHED_SERIES_H
+#ifndef HOOKE_MEASURE_QUANTITY_WATCHED_SERIES_H
+#define HOOKE_MEASURE_QUANTITY_WATCHED_SERIES_H
 
-#include "measure/watch/watched.h"
+#include "measure/quantity/watched.h"
 
 struct hk_watched_series {
   const struct hk_watched_list *list; /* NULL: nothing is watched */

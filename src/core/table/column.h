@@ -1,8 +1,8 @@
 /* Result tables, the twin of option tables: a column is described once, by its name, type, unit and
  * documentation. Every surface that shows results (C, JSON, CSV, HDF5, pages, Python, Fortran, the reference)
  * reads the same tables. */
-#ifndef HOOKE_CORE_COLUMN_H
-#define HOOKE_CORE_COLUMN_H
+#ifndef HOOKE_CORE_TABLE_COLUMN_H
+#define HOOKE_CORE_TABLE_COLUMN_H
 
 #include <stddef.h>
 #include <stdint.h>

@@ -8,8 +8,8 @@
  *
  * Indices begin at 0. Several are separated by commas. watched.c reads all of it, and what `needs` watches: a
  * part, a group, or particle numbers such as 0,7-9. */
-#ifndef HOOKE_MEASURE_WATCH_WATCHED_H
-#define HOOKE_MEASURE_WATCH_WATCHED_H
+#ifndef HOOKE_MEASURE_QUANTITY_WATCHED_H
+#define HOOKE_MEASURE_QUANTITY_WATCHED_H
 
 #include "model/system.h"
 

@@ -1,7 +1,7 @@
 /* Option tables: one row per thing that can be configured. The rows are the only place where a name, a type,
  * a unit, a bound, a default or a line of documentation is written down. */
-#ifndef HOOKE_CORE_OPTION_H
-#define HOOKE_CORE_OPTION_H
+#ifndef HOOKE_CORE_TABLE_OPTION_H
+#define HOOKE_CORE_TABLE_OPTION_H
 
 #include "hooke/options.h"
 

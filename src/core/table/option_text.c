@@ -1,5 +1,5 @@
 /* Words for people: what a row allows, which names there are, which one was probably meant. */
-#include "core/option.h"
+#include "core/table/option.h"
 
 #include "core/number.h"
 #include "core/print.h"

@@ -1,8 +1,8 @@
-#include "core/option.h"
+#include "core/table/option.h"
 
 #include "core/handle.h"
 #include "core/memory.h"
-#include "core/option_value.h"
+#include "core/table/option_value.h"
 #include "core/status.h"
 
 #include <math.h>
