@@ -72,9 +72,9 @@ class Limit:
     part, the largest first; `frequency` (k,) [rad/s] and `decay` (k,) [1/s] those of x'' + 2 decay x' + frequency^2 x
     = 0, of which they are roots. `shape` (n, 3) is the mode that limits the method of the run (of the first row with a
     limit, if that has none), its largest displacement 1; None where nothing is limited. `blame` has the springs that
-    that determine it, at most 100, and before them a force that has half of it, and `movers` the particles that move in it,
-    each the largest share first; `remedy` what
-    it would buy to change them, None where nothing is limited.
+    determine it, at most 100, and before them a force that has half of it, and `movers` the particles that move in
+    it, each the largest share first; `remedy` the gain of changing them, None where nothing is
+    limited.
 
     `frequency_max` [rad/s] and `rate_max` [1/s] are the fastest motion and damping, `clamped` the number of compressed
     springs whose sideways push was left out, `time` [s] that of the state, `step` [s] the step of the scene (NaN if it
