@@ -33,36 +33,44 @@ HOOKE_INLINE void store_forces(double *ring, ptrdiff_t mask, ptrdiff_t p, const 
   }
 }
 
-/* Of material that each spring has of its own; springs beyond are not there. */
-HOOKE_INLINE ptrdiff_t own_place(const struct hk_lane_view *lane, ptrdiff_t p) {
-  const ptrdiff_t own = p - lane->base, most = lane->most + (ptrdiff_t)((size_t)p % HOOKE_LANE_UNIT);
-  return own < most ? own : most;
-}
-
 #define EACH for (int i = 0; i < lanes; i++)
 
-/* What springs that end at the vector at p do, and then those that begin there. */
-HOOKE_INLINE void add(const struct hk_lane_view *lane, const int lanes, ptrdiff_t p, vec sum[3]) {
-  EACH {
-    const ptrdiff_t mask = lane[i].mask, stride = hk_ring_stride(mask);
-    const double *ring = lane[i].ring, *ending = ring + ((p - lane[i].offset) & mask),
-                 *beginning = ring + (p & mask);
+/* sum + sign x, rounded once: sign is 1 or -1. */
+HOOKE_INLINE vec add_signed(double sign, vec x, vec sum) {
+#if HOOKE_WIDTH == 8
+  return (vec)_mm512_fmadd_pd((__m512d)hk_all(sign), (__m512d)x, (__m512d)sum);
+#else
+  return sum + sign * x;
+#endif
+}
+
+/* What springs do at the vector at p, by two items a lane. */
+HOOKE_INLINE void add(const struct hk_lane_item *item, const int lanes, ptrdiff_t p, vec sum[3]) {
+  for (int i = 0; i < 2 * lanes; i++) {
+    const ptrdiff_t mask = item[i].mask, stride = hk_ring_stride(mask);
+    const double *at = item[i].ring + ((p - item[i].offset) & mask);
     for (int a = 0; a < 3; a++)
-      sum[a] = (sum[a] + hk_load(ending + a * stride)) - hk_load(beginning + a * stride);
+      sum[a] = add_signed(item[i].sign, hk_load(at + a * stride), sum[a]);
   }
+}
+
+HOOKE_INLINE vec number_of(const struct hk_lane_view *lane, ptrdiff_t p, int j, const int mixed) {
+  if (!mixed) return hk_all(lane->shared[j]);
+  const double *own = hk_lane_number(&lane->material, p, j);
+  if (lane->material.ahead > 0) __builtin_prefetch(own + lane->material.ahead);
+  return hk_load(own);
 }
 
 /* Forces of the springs of 1 or 2 lanes of one shape into their rings; `shortest` takes the least length.
  * Whatever is stored may be anything to the compiler, so that views are read before. */
-HOOKE_INLINE void fill(const struct hk_lane_view *lane, const int lanes, const struct place *at,
-                       const int damped, const int mixed, const int pull, vec *shortest, vec sum[3]) {
+HOOKE_INLINE void fill(const struct hk_lane_view *lane, const struct hk_lane_item *item, const int lanes,
+                       const struct place *at, const int damped, const int mixed, const int pull,
+                       vec *shortest, vec sum[3]) {
   vec d[2][3], r[2], ir[2], along[2], tension[2];
   struct hk_lane_view l[2];
   const double *q[2], *v[2];
-  ptrdiff_t own[2];
   EACH {
     l[i] = lane[i];
-    own[i] = mixed ? own_place(&l[i], at->p) : 0;
     q[i] = at->q + l[i].offset;
     v[i] = at->v + l[i].offset;
     for (int a = 0; a < 3; a++)
@@ -75,16 +83,14 @@ HOOKE_INLINE void fill(const struct hk_lane_view *lane, const int lanes, const s
     EACH along[i] = along[i] + (at->u[1] - hk_load(v[i] + at->stride)) * d[i][1];
     EACH along[i] = along[i] + (at->u[2] - hk_load(v[i] + 2 * at->stride)) * d[i][2];
   }
-  add(lane, lanes, at->behind, sum);
+  add(item, lanes, at->behind, sum);
   EACH ir[i] = 1.0 / r[i];
   EACH *shortest = hk_lesser(r[i], *shortest);
   EACH {
-    const vec rest = mixed ? hk_load(l[i].rest_lengths + own[i]) : hk_all(l[i].rest_length);
-    const vec kappa = mixed ? hk_load(l[i].kappas + own[i]) : hk_all(l[i].kappa);
-    tension[i] = kappa * (r[i] - rest);
+    const vec rest = number_of(&l[i], at->p, HOOKE_LANE_REST, mixed);
+    tension[i] = number_of(&l[i], at->p, HOOKE_LANE_KAPPA, mixed) * (r[i] - rest);
     if (damped) {
-      const vec gamma = mixed ? hk_load(l[i].gammas + own[i]) : hk_all(l[i].gamma);
-      tension[i] = tension[i] + gamma * (along[i] * ir[i]);
+      tension[i] = tension[i] + number_of(&l[i], at->p, HOOKE_LANE_GAMMA, mixed) * (along[i] * ir[i]);
     }
     if (pull) tension[i] = (vec)((hk_vector_mask)tension[i] & ~((r[i] <= rest) | (tension[i] < 0.0)));
     tension[i] = tension[i] * ir[i];
@@ -101,8 +107,7 @@ static __attribute__((noinline)) int64_t fill_with_care(const struct hk_lane_pas
   int64_t lost = 0;
   for (int32_t k = 0; k < pass->count; k++) {
     const struct hk_lane_view *lane = &pass->lane[k];
-    const int32_t mixed = lane->shape & HOOKE_RUN_MIXED;
-    const ptrdiff_t own = own_place(lane, p);
+    const struct hk_lane_material *material = &lane->material;
     vec b[3] = {{0}};
     for (ptrdiff_t i = 0; i < HOOKE_WIDTH; i++) {
       const double *q = pass->q + p + i, *v = pass->v + p + i, *qj = q + lane->offset, *vj = v + lane->offset;
@@ -110,14 +115,14 @@ static __attribute__((noinline)) int64_t fill_with_care(const struct hk_lane_pas
       if (!(present_at(lane->present, p) >> i & 1)) continue;
       const double dx = q[0] - qj[0], dy = q[y] - qj[y], dz = q[z] - qj[z];
       const double r = hk_spring_length(dx, dy, dz), ir = hk_spring_inverse_length(r);
-      const double rest = mixed ? lane->rest_lengths[own + i] : lane->rest_length;
+      const double rest = *hk_lane_number(material, p + i, HOOKE_LANE_REST);
       double brake = 0.0;
       if (lane->shape & HOOKE_RUN_DAMPED) {
-        brake = (mixed ? lane->gammas[own + i] : lane->gamma) *
+        brake = *hk_lane_number(material, p + i, HOOKE_LANE_GAMMA) *
                 ((((v[0] - vj[0]) * dx + (v[y] - vj[y]) * dy) + (v[z] - vj[z]) * dz) * ir);
       }
       const double s =
-          hk_spring_tension(r, rest, mixed ? lane->kappas[own + i] : lane->kappa, brake,
+          hk_spring_tension(r, rest, *hk_lane_number(material, p + i, HOOKE_LANE_KAPPA), brake,
                             (lane->shape & HOOKE_RUN_DAMPED) != 0, (lane->shape & HOOKE_RUN_PULL_ONLY) != 0) *
           ir;
       b[0][i] = s * dx;
@@ -158,31 +163,30 @@ HOOKE_INLINE void move(const struct hk_lane_pass *pass, const struct hk_move how
 HOOKE_INLINE void fill_all(const struct hk_lane_pass *pass, const int shape, const struct place *at,
                            vec *shortest, vec sum[3]) {
   const int damped = (shape & HOOKE_RUN_DAMPED) != 0, pull = (shape & HOOKE_RUN_PULL_ONLY) != 0;
+  const int mixed = (shape & HOOKE_RUN_MIXED) != 0;
   const struct hk_lane_view *lane = pass->lane, *end = lane + pass->count;
-  for (; lane + 1 < end; lane += 2)
-    fill(lane, 2, at, damped, 0, pull, shortest, sum);
-  if (lane < end) fill(lane, 1, at, damped, 0, pull, shortest, sum);
+  const struct hk_lane_item *item = pass->item;
+  for (; lane + 1 < end; lane += 2, item += 4)
+    fill(lane, item, 2, at, damped, mixed, pull, shortest, sum);
+  if (lane < end) fill(lane, item, 1, at, damped, mixed, pull, shortest, sum);
 }
 
 #define BODY(shape)                                                                                          \
   case shape:                                                                                                \
-    fill(lane, 1, at, ((shape)&HOOKE_RUN_DAMPED) != 0, ((shape)&HOOKE_RUN_MIXED) != 0,                       \
-         ((shape)&HOOKE_RUN_PULL_ONLY) != 0, shortest, sum);                                                 \
+    fill(lane, item, 1, at, ((shape)&HOOKE_RUN_DAMPED) != 0, 1, ((shape)&HOOKE_RUN_PULL_ONLY) != 0,          \
+         shortest, sum);                                                                                     \
     break;
 
 HOOKE_INLINE void fill_any(const struct hk_lane_pass *pass, const struct place *at, vec *shortest,
                            vec sum[3]) {
-  const struct hk_lane_view *end = pass->lane + pass->count;
-  for (const struct hk_lane_view *lane = pass->lane; lane < end; lane++) {
-    switch (lane->shape) {
+  for (int32_t k = 0; k < pass->count; k++) {
+    const struct hk_lane_view *lane = pass->lane + k;
+    const struct hk_lane_item *item = pass->item + 2 * k;
+    switch (lane->shape & ~HOOKE_RUN_MIXED) {
       BODY(0)
       BODY(HOOKE_RUN_DAMPED)
-      BODY(HOOKE_RUN_MIXED)
-      BODY(HOOKE_RUN_MIXED | HOOKE_RUN_DAMPED)
       BODY(HOOKE_RUN_PULL_ONLY)
       BODY(HOOKE_RUN_PULL_ONLY | HOOKE_RUN_DAMPED)
-      BODY(HOOKE_RUN_PULL_ONLY | HOOKE_RUN_MIXED)
-      BODY(HOOKE_RUN_PULL_ONLY | HOOKE_RUN_MIXED | HOOKE_RUN_DAMPED)
     }
   }
 }
@@ -217,27 +221,31 @@ HOOKE_INLINE int64_t advance(const struct hk_lane_pass *pass, const int shape, p
   for (ptrdiff_t p = to - BEHIND > from ? to - BEHIND : from; p < to; p += HOOKE_WIDTH) {
     vec sum[3] = {{0}};
     for (int32_t k = 0; k < pass->count; k++)
-      add(&pass->lane[k], 1, p, sum);
+      add(&pass->item[2 * k], 1, p, sum);
     move(pass, how, p, sum);
   }
   return lost;
 }
 
+#define ADVANCE(shape)                                                                                       \
+  case shape:                                                                                                \
+    return advance(pass, shape, from, to);
+
 int64_t HOOKE_LANE_LOOP(const struct hk_lane_pass *pass, ptrdiff_t from, ptrdiff_t to) {
   int32_t shape = pass->count > 0 ? pass->lane[0].shape : 0;
   for (int32_t k = 1; k < pass->count; k++) {
-    if (pass->lane[k].shape != shape) shape = ANY;
+    const int32_t mixed = (shape | pass->lane[k].shape) & HOOKE_RUN_MIXED;
+    shape = (shape ^ pass->lane[k].shape) & ~HOOKE_RUN_MIXED ? ANY : shape | mixed;
   }
   switch (shape) {
-  case 0:
-    return advance(pass, 0, from, to);
-  case HOOKE_RUN_DAMPED:
-    return advance(pass, HOOKE_RUN_DAMPED, from, to);
-  case HOOKE_RUN_PULL_ONLY:
-    return advance(pass, HOOKE_RUN_PULL_ONLY, from, to);
-  case HOOKE_RUN_PULL_ONLY | HOOKE_RUN_DAMPED:
-    return advance(pass, HOOKE_RUN_PULL_ONLY | HOOKE_RUN_DAMPED, from, to);
-  default:
-    return advance(pass, ANY, from, to);
+    ADVANCE(0)
+    ADVANCE(HOOKE_RUN_DAMPED)
+    ADVANCE(HOOKE_RUN_MIXED)
+    ADVANCE(HOOKE_RUN_MIXED | HOOKE_RUN_DAMPED)
+    ADVANCE(HOOKE_RUN_PULL_ONLY)
+    ADVANCE(HOOKE_RUN_PULL_ONLY | HOOKE_RUN_DAMPED)
+    ADVANCE(HOOKE_RUN_PULL_ONLY | HOOKE_RUN_MIXED)
+    ADVANCE(HOOKE_RUN_PULL_ONLY | HOOKE_RUN_MIXED | HOOKE_RUN_DAMPED)
   }
+  return advance(pass, ANY, from, to);
 }
