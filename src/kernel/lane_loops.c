@@ -8,7 +8,9 @@
 
 typedef hk_vector vec;
 
-enum { BEHIND = 2 * HOOKE_WIDTH, ANY = HOOKE_RUN_SHAPES | HOOKE_RUN_DAMPED };
+/* Shapes of a pass: those of its lanes, where the items of each lane follow one another in the order of lanes;
+ * or all that there are. */
+enum { BEHIND = 2 * HOOKE_WIDTH, PAIRED = HOOKE_RUN_SHAPES, ANY = 2 * HOOKE_RUN_SHAPES | HOOKE_RUN_DAMPED };
 
 struct place {
   const double *q, *v;         /* of the vector of particles that the loop is at */
@@ -54,6 +56,17 @@ HOOKE_INLINE void add(const struct hk_lane_item *item, const int lanes, ptrdiff_
   }
 }
 
+/* The same where these are the ends and then the beginnings of each lane. */
+HOOKE_INLINE void add_pairs(const struct hk_lane_view *lane, const int lanes, ptrdiff_t p, vec sum[3]) {
+  EACH {
+    const ptrdiff_t mask = lane[i].mask, stride = hk_ring_stride(mask);
+    const double *ring = lane[i].ring, *ending = ring + ((p - lane[i].offset) & mask),
+                 *beginning = ring + (p & mask);
+    for (int a = 0; a < 3; a++)
+      sum[a] = (sum[a] + hk_load(ending + a * stride)) - hk_load(beginning + a * stride);
+  }
+}
+
 HOOKE_INLINE vec number_of(const struct hk_lane_view *lane, ptrdiff_t p, int j, const int mixed) {
   if (!mixed) return hk_all(lane->shared[j]);
   const double *own = hk_lane_number(&lane->material, p, j);
@@ -64,8 +77,9 @@ HOOKE_INLINE vec number_of(const struct hk_lane_view *lane, ptrdiff_t p, int j, 
 /* Forces of the springs of 1 or 2 lanes of one shape into their rings; `shortest` takes the least length.
  * Whatever is stored may be anything to the compiler, so that views are read before. */
 HOOKE_INLINE void fill(const struct hk_lane_view *lane, const struct hk_lane_item *item, const int lanes,
-                       const struct place *at, const int damped, const int mixed, const int pull,
-                       vec *shortest, vec sum[3]) {
+                       const struct place *at, const int shape, vec *shortest, vec sum[3]) {
+  const int damped = (shape & HOOKE_RUN_DAMPED) != 0, pull = (shape & HOOKE_RUN_PULL_ONLY) != 0;
+  const int mixed = (shape & HOOKE_RUN_MIXED) != 0;
   vec d[2][3], r[2], ir[2], along[2], tension[2];
   struct hk_lane_view l[2];
   const double *q[2], *v[2];
@@ -83,7 +97,10 @@ HOOKE_INLINE void fill(const struct hk_lane_view *lane, const struct hk_lane_ite
     EACH along[i] = along[i] + (at->u[1] - hk_load(v[i] + at->stride)) * d[i][1];
     EACH along[i] = along[i] + (at->u[2] - hk_load(v[i] + 2 * at->stride)) * d[i][2];
   }
-  add(item, lanes, at->behind, sum);
+  if (shape & PAIRED)
+    add_pairs(lane, lanes, at->behind, sum);
+  else
+    add(item, lanes, at->behind, sum);
   EACH ir[i] = 1.0 / r[i];
   EACH *shortest = hk_lesser(r[i], *shortest);
   EACH {
@@ -162,19 +179,16 @@ HOOKE_INLINE void move(const struct hk_lane_pass *pass, const struct hk_move how
  * known here. */
 HOOKE_INLINE void fill_all(const struct hk_lane_pass *pass, const int shape, const struct place *at,
                            vec *shortest, vec sum[3]) {
-  const int damped = (shape & HOOKE_RUN_DAMPED) != 0, pull = (shape & HOOKE_RUN_PULL_ONLY) != 0;
-  const int mixed = (shape & HOOKE_RUN_MIXED) != 0;
   const struct hk_lane_view *lane = pass->lane, *end = lane + pass->count;
   const struct hk_lane_item *item = pass->item;
   for (; lane + 1 < end; lane += 2, item += 4)
-    fill(lane, item, 2, at, damped, mixed, pull, shortest, sum);
-  if (lane < end) fill(lane, item, 1, at, damped, mixed, pull, shortest, sum);
+    fill(lane, item, 2, at, shape, shortest, sum);
+  if (lane < end) fill(lane, item, 1, at, shape, shortest, sum);
 }
 
 #define BODY(shape)                                                                                          \
   case shape:                                                                                                \
-    fill(lane, item, 1, at, ((shape)&HOOKE_RUN_DAMPED) != 0, 1, ((shape)&HOOKE_RUN_PULL_ONLY) != 0,          \
-         shortest, sum);                                                                                     \
+    fill(lane, item, 1, at, (shape) | HOOKE_RUN_MIXED, shortest, sum);                                       \
     break;
 
 HOOKE_INLINE void fill_any(const struct hk_lane_pass *pass, const struct place *at, vec *shortest,
@@ -227,17 +241,26 @@ HOOKE_INLINE int64_t advance(const struct hk_lane_pass *pass, const int shape, p
   return lost;
 }
 
+HOOKE_INLINE int32_t shape_of(const struct hk_lane_pass *pass) {
+  int32_t shape = pass->count > 0 ? pass->lane[0].shape : 0, paired = PAIRED;
+  for (int32_t k = 0; k < pass->count; k++) {
+    const struct hk_lane_view *lane = &pass->lane[k];
+    const struct hk_lane_item *item = &pass->item[2 * k];
+    if (item[0].ring != lane->ring || item[1].ring != lane->ring || item[1].offset != 0) paired = 0;
+    if ((shape ^ lane->shape) & ~HOOKE_RUN_MIXED) return ANY;
+    shape |= lane->shape;
+  }
+  return shape | paired;
+}
+
 #define ADVANCE(shape)                                                                                       \
   case shape:                                                                                                \
-    return advance(pass, shape, from, to);
+    return advance(pass, shape, from, to);                                                                   \
+  case PAIRED | (shape):                                                                                     \
+    return advance(pass, PAIRED | (shape), from, to);
 
 int64_t HOOKE_LANE_LOOP(const struct hk_lane_pass *pass, ptrdiff_t from, ptrdiff_t to) {
-  int32_t shape = pass->count > 0 ? pass->lane[0].shape : 0;
-  for (int32_t k = 1; k < pass->count; k++) {
-    const int32_t mixed = (shape | pass->lane[k].shape) & HOOKE_RUN_MIXED;
-    shape = (shape ^ pass->lane[k].shape) & ~HOOKE_RUN_MIXED ? ANY : shape | mixed;
-  }
-  switch (shape) {
+  switch (shape_of(pass)) {
     ADVANCE(0)
     ADVANCE(HOOKE_RUN_DAMPED)
     ADVANCE(HOOKE_RUN_MIXED)

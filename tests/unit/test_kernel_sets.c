@@ -156,12 +156,13 @@ static void draw_lane(struct random_source *source, int32_t k, int32_t shape, st
   }
 }
 
-/* The items of all lanes in any order. */
+/* The items of all lanes in any order, or as lanes come. */
 static void draw_items(struct random_source *source, struct lane_trial *trial) {
   struct hk_lane_item *item = trial->pass.item;
+  const int any = random_whole(source, 0, 1) == 0;
   for (int32_t i = 0; i < 2 * trial->pass.count; i++) {
     const struct hk_lane_view *lane = &trial->pass.lane[i / 2];
-    const int64_t place = random_whole(source, 0, i);
+    const int64_t place = any ? random_whole(source, 0, i) : i;
     item[i] = item[place];
     item[place] = (struct hk_lane_item){lane->ring, i % 2 ? 0 : lane->offset, lane->mask, i % 2 ? -1.0 : 1.0};
   }

@@ -1,5 +1,5 @@
 /* The material of lanes, where units of springs that are equal to the bit are stored once: rest lengths of
- * rounded positions differ in their last bits, and so do few of them. */
+ * rounded positions differ in their last bits only, and in few ways. */
 #include "model/sum/lane.h"
 
 #include "core/memory.h"
@@ -118,13 +118,13 @@ static int32_t keep_kinds(struct column *column, int32_t base, int32_t *unit) {
 /* ---- numbers of their own ---- */
 
 static void collect(const struct hk_springs *springs, const struct hk_lanes *lanes, int32_t lane, int32_t j,
-                    double *value) {
+                    int64_t first, double *value) {
   for (int64_t r = 0; r < springs->run_count; r++) {
     const struct hk_run *run = &springs->run[r];
     for (int64_t k = 0; k < run->count; k++) {
       if (lanes->lane_of[run->first + k] != lane) continue;
       const struct hk_material own = hk_run_material(run, k);
-      value[hk_run_lower(run, k)] = number_in(&own, j);
+      value[hk_run_lower(run, k) - first] = number_in(&own, j);
     }
   }
 }
@@ -142,7 +142,7 @@ static int32_t store(const struct hk_springs *springs, struct hk_lanes *lanes, i
   if (status == HOOKE_OK) {
     column.value = material->value + base;
     memset(column.value, 0, (size_t)(column.units * (int64_t)UNIT_BYTES));
-    collect(springs, lanes, lane, j, column.value - first * HOOKE_LANE_UNIT);
+    collect(springs, lanes, lane, j, first * HOOKE_LANE_UNIT, column.value);
     status = find_kinds(&column);
   }
   if (status == HOOKE_OK) {
