@@ -67,11 +67,21 @@ HOOKE_INLINE void add_pairs(const struct hk_lane_view *lane, const int lanes, pt
   }
 }
 
-HOOKE_INLINE vec number_of(const struct hk_lane_view *lane, ptrdiff_t p, int j, const int mixed) {
-  if (!mixed) return hk_all(lane->shared[j]);
-  const double *own = hk_lane_number(&lane->material, p, j);
-  if (lane->material.ahead > 0) __builtin_prefetch(own + lane->material.ahead);
-  return hk_load(own);
+/* Where the material of the springs of the vector at p is, which is fetched early where it is stored in a row. */
+HOOKE_INLINE void locate(const struct hk_lane_material *material, ptrdiff_t p, const double **number) {
+  const uint32_t *unit =
+      material->unit + (HOOKE_LANE_NUMBERS * ((size_t)p / HOOKE_LANE_UNIT) & (size_t)material->mask);
+  for (int j = 0; j < HOOKE_LANE_NUMBERS; j++)
+    number[j] =
+        material->value + unit[j] + (HOOKE_WIDTH == HOOKE_LANE_UNIT ? 0 : (size_t)p % HOOKE_LANE_UNIT);
+  if (material->ahead == 0) return;
+  for (int j = 0; j < HOOKE_LANE_NUMBERS; j++)
+    __builtin_prefetch(number[j] + material->ahead);
+}
+
+HOOKE_INLINE vec number_of(const struct hk_lane_view *lane, const double *const *own, int j,
+                           const int mixed) {
+  return mixed ? hk_load(own[j]) : hk_all(lane->shared[j]);
 }
 
 /* Forces of the springs of 1 or 2 lanes of one shape into their rings; `shortest` takes the least length.
@@ -82,7 +92,7 @@ HOOKE_INLINE void fill(const struct hk_lane_view *lane, const struct hk_lane_ite
   const int mixed = (shape & HOOKE_RUN_MIXED) != 0;
   vec d[2][3], r[2], ir[2], along[2], tension[2];
   struct hk_lane_view l[2];
-  const double *q[2], *v[2];
+  const double *q[2], *v[2], *own[2][HOOKE_LANE_NUMBERS];
   EACH {
     l[i] = lane[i];
     q[i] = at->q + l[i].offset;
@@ -90,6 +100,7 @@ HOOKE_INLINE void fill(const struct hk_lane_view *lane, const struct hk_lane_ite
     for (int a = 0; a < 3; a++)
       d[i][a] = at->x[a] - hk_load(q[i] + a * at->stride);
   }
+  if (mixed) EACH locate(&l[i].material, at->p, own[i]);
   EACH r[i] = d[i][0] * d[i][0] + d[i][1] * d[i][1];
   EACH r[i] = hk_vector_sqrt(r[i] + d[i][2] * d[i][2]);
   if (damped) {
@@ -104,10 +115,12 @@ HOOKE_INLINE void fill(const struct hk_lane_view *lane, const struct hk_lane_ite
   EACH ir[i] = 1.0 / r[i];
   EACH *shortest = hk_lesser(r[i], *shortest);
   EACH {
-    const vec rest = number_of(&l[i], at->p, HOOKE_LANE_REST, mixed);
-    tension[i] = number_of(&l[i], at->p, HOOKE_LANE_KAPPA, mixed) * (r[i] - rest);
+    const vec rest = number_of(&l[i], own[i], HOOKE_LANE_REST, mixed);
+    const vec kappa = number_of(&l[i], own[i], HOOKE_LANE_KAPPA, mixed);
+    tension[i] = kappa * (r[i] - rest);
     if (damped) {
-      tension[i] = tension[i] + number_of(&l[i], at->p, HOOKE_LANE_GAMMA, mixed) * (along[i] * ir[i]);
+      const vec gamma = number_of(&l[i], own[i], HOOKE_LANE_GAMMA, mixed);
+      tension[i] = tension[i] + gamma * (along[i] * ir[i]);
     }
     if (pull) tension[i] = (vec)((hk_vector_mask)tension[i] & ~((r[i] <= rest) | (tension[i] < 0.0)));
     tension[i] = tension[i] * ir[i];

@@ -19,12 +19,12 @@ enum {
 };
 
 /* Kappa, gamma and rest length of the springs of a lane, in this order. Units that are equal to the bit are
- * stored once: number j of spring l is value[8 unit[3 (l / 8 & mask) + j] + l % 8]. Where all springs have one
+ * stored once: number j of spring l is value[unit[3 (l / 8) + j & mask] + l % 8]. Where all springs have one
  * material, mask is 0. Where units are stored one after the other, values are fetched so many ahead; 0: not at
  * all. */
 struct hk_lane_material {
   double *value;
-  int32_t *unit;
+  uint32_t *unit;
   ptrdiff_t mask, ahead;
 };
 
@@ -32,10 +32,8 @@ enum { HOOKE_LANE_KAPPA, HOOKE_LANE_GAMMA, HOOKE_LANE_REST, HOOKE_LANE_NUMBERS }
 
 /* Number j of spring l and those behind it in its unit. */
 static inline const double *hk_lane_number(const struct hk_lane_material *material, ptrdiff_t l, int j) {
-  const size_t unit = (size_t)l / HOOKE_LANE_UNIT & (size_t)material->mask;
-  return material->value +
-         HOOKE_LANE_UNIT * (ptrdiff_t)material->unit[HOOKE_LANE_NUMBERS * unit + (size_t)j] +
-         (size_t)l % HOOKE_LANE_UNIT;
+  const size_t unit = HOOKE_LANE_NUMBERS * ((size_t)l / HOOKE_LANE_UNIT) & (size_t)material->mask;
+  return material->value + material->unit[unit + (size_t)j] + (size_t)l % HOOKE_LANE_UNIT;
 }
 
 struct hk_lane_view {

@@ -113,7 +113,7 @@ struct lane_trial {
   struct hk_lane_pass pass;
   double q[3][ROOM], v[3][ROOM], f[3][ROOM], w[ROOM];
   double material[HOOKE_MOST_LANES][HOOKE_LANE_NUMBERS * LANE_PARTICLES];
-  int32_t unit[HOOKE_MOST_LANES][HOOKE_LANE_NUMBERS * UNITS];
+  uint32_t unit[HOOKE_MOST_LANES][HOOKE_LANE_NUMBERS * UNITS];
   uint8_t present[HOOKE_MOST_LANES][UNITS];
   _Alignas(64) double ring[HOOKE_MOST_LANES][3 * (256 + 3 * HOOKE_LANE_UNIT)];
 };
@@ -125,11 +125,11 @@ static void draw_lane_material(struct random_source *source, int32_t k, struct l
   for (int i = 0; i < HOOKE_LANE_NUMBERS * LANE_PARTICLES; i++)
     trial->material[k][i] = random_between(source, 0.1, 2.0);
   for (int i = 0; i < HOOKE_LANE_NUMBERS * UNITS; i++)
-    trial->unit[k][i] = (int32_t)random_whole(source, 0, HOOKE_LANE_NUMBERS * UNITS - 1);
+    trial->unit[k][i] = (uint32_t)(HOOKE_LANE_UNIT * random_whole(source, 0, HOOKE_LANE_NUMBERS * UNITS - 1));
   lane->material = (struct hk_lane_material){trial->material[k], trial->unit[k], mixed ? -1 : 0,
                                              random_whole(source, 0, 1) ? HOOKE_LANE_UNIT : 0};
   for (int j = 0; j < HOOKE_LANE_NUMBERS && !mixed; j++) {
-    double *value = trial->material[k] + HOOKE_LANE_UNIT * trial->unit[k][j];
+    double *value = trial->material[k] + trial->unit[k][j];
     const int zero = j == HOOKE_LANE_REST && random_whole(source, 0, 3) == 0;
     for (int i = HOOKE_LANE_UNIT - 1; i >= 0; i--)
       value[i] = zero ? 0.0 : value[0];

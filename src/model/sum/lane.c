@@ -11,6 +11,9 @@
 static const double LEAST_FILLED = 0.3;
 enum { LEAST_PARTICLES = 64, MOST_WINDOW = 1 << 18 };
 
+/* Places of three numbers a particle have 32 bits. */
+enum { MOST_PARTICLES = 1 << 30 };
+
 /* Items count from 1 here: 2 k + 1 are the ends of lane k, 2 k + 2 its beginnings, 0 is none. */
 struct finder {
   struct hk_lanes *lanes;
@@ -126,7 +129,7 @@ static int find(struct finder *finder, const struct hk_springs *springs) {
 
 int32_t hk_lanes_create(struct hk_springs *springs, int64_t particle_count, struct hk_lanes *lanes) {
   *lanes = (struct hk_lanes){0};
-  if (particle_count < LEAST_PARTICLES) return HOOKE_OK;
+  if (particle_count < LEAST_PARTICLES || particle_count > MOST_PARTICLES) return HOOKE_OK;
   struct finder finder = {
       .lanes = lanes, .particles = particle_count, .at = hk_new(particle_count, sizeof *finder.at)};
   lanes->lane_of = hk_new(springs->count, sizeof *lanes->lane_of);

@@ -101,13 +101,14 @@ static int32_t find_kinds(struct column *column) {
   return HOOKE_OK;
 }
 
-/* Keeps the first unit of each kind, and puts where it is, from `base` on, into every third of `unit`. Returns
- * how many there are. */
-static int32_t keep_kinds(struct column *column, int32_t base, int32_t *unit) {
+/* Keeps the first unit of each kind, and puts its place, from that of unit `base` on, into every third of
+ * `unit`. Returns how many there are. */
+static int32_t keep_kinds(struct column *column, int32_t base, uint32_t *unit) {
   int32_t kept = 0;
   for (int64_t u = 0; u < column->units; u++) {
     const int32_t kind = column->kind[u];
-    unit[NUMBERS * u] = kind < u ? unit[NUMBERS * (int64_t)kind] : base + kept;
+    const int64_t place = HOOKE_LANE_UNIT * ((int64_t)base + kept);
+    unit[NUMBERS * u] = kind < u ? unit[NUMBERS * (int64_t)kind] : (uint32_t)place;
     if (kind < u) continue;
     memmove(column->value + HOOKE_LANE_UNIT * (int64_t)kept++, column->value + HOOKE_LANE_UNIT * u,
             UNIT_BYTES);
@@ -174,7 +175,7 @@ static int32_t take(const struct hk_springs *springs, int64_t particles, struct 
   for (int32_t j = 0; j < NUMBERS; j++) {
     share(number_in(&sharing->material[lane], j), material, j);
     for (int64_t u = 0; u < all; u++)
-      material->unit[NUMBERS * u + j] = j;
+      material->unit[NUMBERS * u + j] = (uint32_t)(HOOKE_LANE_UNIT * j);
     if (sharing->differs[lane][j] && status == HOOKE_OK) status = store(springs, lanes, lane, j, &units);
   }
   const int64_t kept = HOOKE_LANE_UNIT * (int64_t)units;
