@@ -14,6 +14,7 @@ struct net {
   int64_t particles, springs;
   double *position;
   int64_t *ends;
+  int uneven; /* 1: each spring has a strength of its own */
 };
 
 static int32_t net_create(int64_t particles, int64_t most_springs, struct net *net) {
@@ -71,6 +72,18 @@ static int32_t net_shuffle(struct net *net, uint64_t seed) {
   return done ? HOOKE_OK : HOOKE_NO_MEMORY;
 }
 
+static int32_t set_strength(const struct net *net, const char *name, double value, uint64_t seed,
+                            hooke_options *options) {
+  if (!net->uneven) return hooke_options_set_number(options, name, value);
+  double *values = calloc((size_t)net->springs, sizeof *values);
+  for (int64_t k = 0; values && k < net->springs; k++)
+    values[k] = value * (0.7 + 0.6 * bench_draw_unit(&seed));
+  const int32_t status =
+      values ? hooke_options_set_numbers(options, name, net->springs, values) : HOOKE_NO_MEMORY;
+  free(values);
+  return status;
+}
+
 /* Adds what the net has to the system, and releases it. */
 static int32_t net_finish(struct net *net, int32_t status, double mass, double damping,
                           hooke_system *system) {
@@ -80,8 +93,8 @@ static int32_t net_finish(struct net *net, int32_t status, double mass, double d
     status = hooke_system_add_particles(system, net->particles, net->position, NULL, 1, &each, NULL);
   }
   if (status == HOOKE_OK) status = hooke_options_create("springs", &options);
-  if (status == HOOKE_OK) status = hooke_options_set_number(options, "stiffness", STIFFNESS);
-  if (status == HOOKE_OK) status = hooke_options_set_number(options, "damping", damping);
+  if (status == HOOKE_OK) status = set_strength(net, "stiffness", STIFFNESS, 13, options);
+  if (status == HOOKE_OK) status = set_strength(net, "damping", damping, 17, options);
   if (status == HOOKE_OK) status = hooke_system_add_springs(system, "net", net->springs, net->ends, options);
   hooke_options_destroy(options);
   free(net->position);
@@ -113,7 +126,7 @@ static int32_t build_cloth(hooke_system *system, int64_t size, double damping) {
   if (status == HOOKE_OK) status = hooke_options_set_text(options, "pinned", "top-corners");
   for (int k = 0; k < 3 && status == HOOKE_OK; k++)
     status = set_family(options, family[k], damping);
-  if (status == HOOKE_OK) status = hooke_system_add_part(system, "cloth", "cloth", options, NULL, NULL);
+  if (status == HOOKE_OK) status = hooke_system_add_part(system, "cloth", NULL, options, NULL, NULL);
   hooke_options_destroy(options);
   return status;
 }
@@ -163,22 +176,50 @@ static int32_t build_mesh(hooke_system *system, int64_t size, double damping) {
   return net_finish(&net, status, 1.0, damping, system);
 }
 
-/* The same springs as a cloth has, in no order. */
-static int32_t build_shuffled_cloth(hooke_system *system, int64_t size, double damping) {
+/* The springs of a cloth, listed particle by particle. */
+static int32_t list_cloth(int64_t size, struct net *net) {
   const int64_t step[6][2] = {{0, 1}, {1, 0}, {1, 1}, {1, -1}, {0, 2}, {2, 0}};
-  struct net net;
-  int32_t status = net_create(size * size, 6 * size * size, &net);
-  for (int64_t p = 0; status == HOOKE_OK && p < net.particles; p++) {
+  const int32_t status = net_create(size * size, 6 * size * size, net);
+  for (int64_t p = 0; status == HOOKE_OK && p < net->particles; p++) {
     const int64_t row = p / size, column = p % size;
-    net.position[3 * p] = (double)column / (double)(size - 1);
-    net.position[3 * p + 2] = (double)row / (double)(size - 1);
+    net->position[3 * p] = (double)column / (double)(size - 1);
+    net->position[3 * p + 2] = (double)row / (double)(size - 1);
     for (int k = 0; k < 6; k++) {
       const int64_t r = row + step[k][0], c = column + step[k][1];
-      if (r < size && c >= 0 && c < size) join(&net, p, r * size + c);
+      if (r < size && c >= 0 && c < size) join(net, p, r * size + c);
     }
   }
+  return status;
+}
+
+static int32_t build_listed_cloth(hooke_system *system, int64_t size, double damping) {
+  struct net net;
+  const int32_t status = list_cloth(size, &net);
+  return net_finish(&net, status, 1.0, damping, system);
+}
+
+/* Each spring has a stiffness and damping of its own. */
+static int32_t build_uneven_cloth(hooke_system *system, int64_t size, double damping) {
+  struct net net;
+  const int32_t status = list_cloth(size, &net);
+  net.uneven = 1;
+  return net_finish(&net, status, 1.0, damping, system);
+}
+
+/* The same in no order. */
+static int32_t build_shuffled_cloth(hooke_system *system, int64_t size, double damping) {
+  struct net net;
+  int32_t status = list_cloth(size, &net);
   if (status == HOOKE_OK) status = net_shuffle(&net, 5);
   return net_finish(&net, status, 1.0, damping, system);
+}
+
+/* Many small ones. */
+static int32_t build_cloths(hooke_system *system, int64_t count, double damping) {
+  int32_t status = HOOKE_OK;
+  for (int64_t k = 0; status == HOOKE_OK && k < count; k++)
+    status = build_cloth(system, 8, damping);
+  return status;
 }
 
 static int32_t build_rope(hooke_system *system, int64_t size, double damping) {
@@ -218,6 +259,11 @@ static const struct bench_scene table[] = {
     {"cloth-128-undamped", build_cloth, 128, 0.0, 1},
     {"cloth-512-undamped", build_cloth, 512, 0.0, 0},
     {"cloth-1024-undamped", build_cloth, 1024, 0.0, 0},
+    {"cloth-128-listed", build_listed_cloth, 128, DAMPING, 0},
+    {"cloth-128-uneven", build_uneven_cloth, 128, DAMPING, 0},
+    {"cloth-512-listed", build_listed_cloth, 512, DAMPING, 0},
+    {"cloth-512-uneven", build_uneven_cloth, 512, DAMPING, 0},
+    {"cloths-400", build_cloths, 400, DAMPING, 0},
     {"cloth-128-shuffled", build_shuffled_cloth, 128, DAMPING, 0},
     {"cloth-512-shuffled", build_shuffled_cloth, 512, DAMPING, 0},
     {"mesh-200000", build_mesh, 448, DAMPING, 1},

@@ -8,7 +8,9 @@
 
 typedef hk_vector vec;
 
-enum { BEHIND = 2 * HOOKE_WIDTH, ANY = HOOKE_RUN_SHAPES | HOOKE_RUN_DAMPED };
+/* Shapes of a pass: those of its lanes, where the items of each lane follow one another in the order of lanes;
+ * or all that there are. */
+enum { BEHIND = 2 * HOOKE_WIDTH, PAIRED = HOOKE_RUN_SHAPES, ANY = 2 * HOOKE_RUN_SHAPES | HOOKE_RUN_DAMPED };
 
 struct place {
   const double *q, *v;         /* of the vector of particles that the loop is at */
@@ -33,16 +35,29 @@ HOOKE_INLINE void store_forces(double *ring, ptrdiff_t mask, ptrdiff_t p, const 
   }
 }
 
-/* Of material that each spring has of its own; springs beyond are not there. */
-HOOKE_INLINE ptrdiff_t own_place(const struct hk_lane_view *lane, ptrdiff_t p) {
-  const ptrdiff_t own = p - lane->base, most = lane->most + (ptrdiff_t)((size_t)p % HOOKE_LANE_UNIT);
-  return own < most ? own : most;
-}
-
 #define EACH for (int i = 0; i < lanes; i++)
 
-/* What springs that end at the vector at p do, and then those that begin there. */
-HOOKE_INLINE void add(const struct hk_lane_view *lane, const int lanes, ptrdiff_t p, vec sum[3]) {
+/* sum + sign x, rounded once: sign is 1 or -1. */
+HOOKE_INLINE vec add_signed(double sign, vec x, vec sum) {
+#if HOOKE_WIDTH == 8
+  return (vec)_mm512_fmadd_pd((__m512d)hk_all(sign), (__m512d)x, (__m512d)sum);
+#else
+  return sum + sign * x;
+#endif
+}
+
+/* What springs do at the vector at p, by two items a lane. */
+HOOKE_INLINE void add(const struct hk_lane_item *item, const int lanes, ptrdiff_t p, vec sum[3]) {
+  for (int i = 0; i < 2 * lanes; i++) {
+    const ptrdiff_t mask = item[i].mask, stride = hk_ring_stride(mask);
+    const double *at = item[i].ring + ((p - item[i].offset) & mask);
+    for (int a = 0; a < 3; a++)
+      sum[a] = add_signed(item[i].sign, hk_load(at + a * stride), sum[a]);
+  }
+}
+
+/* The same where these are the ends and then the beginnings of each lane. */
+HOOKE_INLINE void add_pairs(const struct hk_lane_view *lane, const int lanes, ptrdiff_t p, vec sum[3]) {
   EACH {
     const ptrdiff_t mask = lane[i].mask, stride = hk_ring_stride(mask);
     const double *ring = lane[i].ring, *ending = ring + ((p - lane[i].offset) & mask),
@@ -52,22 +67,40 @@ HOOKE_INLINE void add(const struct hk_lane_view *lane, const int lanes, ptrdiff_
   }
 }
 
+/* Where the material of the springs of the vector at p is, which is fetched early where it is stored in a row. */
+HOOKE_INLINE void locate(const struct hk_lane_material *material, ptrdiff_t p, const double **number) {
+  const uint32_t *unit =
+      material->unit + (HOOKE_LANE_NUMBERS * ((size_t)p / HOOKE_LANE_UNIT) & (size_t)material->mask);
+  for (int j = 0; j < HOOKE_LANE_NUMBERS; j++)
+    number[j] =
+        material->value + unit[j] + (HOOKE_WIDTH == HOOKE_LANE_UNIT ? 0 : (size_t)p % HOOKE_LANE_UNIT);
+  if (material->ahead == 0) return;
+  for (int j = 0; j < HOOKE_LANE_NUMBERS; j++)
+    __builtin_prefetch(number[j] + material->ahead);
+}
+
+HOOKE_INLINE vec number_of(const struct hk_lane_view *lane, const double *const *own, int j,
+                           const int mixed) {
+  return mixed ? hk_load(own[j]) : hk_all(lane->shared[j]);
+}
+
 /* Forces of the springs of 1 or 2 lanes of one shape into their rings; `shortest` takes the least length.
  * Whatever is stored may be anything to the compiler, so that views are read before. */
-HOOKE_INLINE void fill(const struct hk_lane_view *lane, const int lanes, const struct place *at,
-                       const int damped, const int mixed, const int pull, vec *shortest, vec sum[3]) {
+HOOKE_INLINE void fill(const struct hk_lane_view *lane, const struct hk_lane_item *item, const int lanes,
+                       const struct place *at, const int shape, vec *shortest, vec sum[3]) {
+  const int damped = (shape & HOOKE_RUN_DAMPED) != 0, pull = (shape & HOOKE_RUN_PULL_ONLY) != 0;
+  const int mixed = (shape & HOOKE_RUN_MIXED) != 0;
   vec d[2][3], r[2], ir[2], along[2], tension[2];
   struct hk_lane_view l[2];
-  const double *q[2], *v[2];
-  ptrdiff_t own[2];
+  const double *q[2], *v[2], *own[2][HOOKE_LANE_NUMBERS];
   EACH {
     l[i] = lane[i];
-    own[i] = mixed ? own_place(&l[i], at->p) : 0;
     q[i] = at->q + l[i].offset;
     v[i] = at->v + l[i].offset;
     for (int a = 0; a < 3; a++)
       d[i][a] = at->x[a] - hk_load(q[i] + a * at->stride);
   }
+  if (mixed) EACH locate(&l[i].material, at->p, own[i]);
   EACH r[i] = d[i][0] * d[i][0] + d[i][1] * d[i][1];
   EACH r[i] = hk_vector_sqrt(r[i] + d[i][2] * d[i][2]);
   if (damped) {
@@ -75,15 +108,18 @@ HOOKE_INLINE void fill(const struct hk_lane_view *lane, const int lanes, const s
     EACH along[i] = along[i] + (at->u[1] - hk_load(v[i] + at->stride)) * d[i][1];
     EACH along[i] = along[i] + (at->u[2] - hk_load(v[i] + 2 * at->stride)) * d[i][2];
   }
-  add(lane, lanes, at->behind, sum);
+  if (shape & PAIRED)
+    add_pairs(lane, lanes, at->behind, sum);
+  else
+    add(item, lanes, at->behind, sum);
   EACH ir[i] = 1.0 / r[i];
   EACH *shortest = hk_lesser(r[i], *shortest);
   EACH {
-    const vec rest = mixed ? hk_load(l[i].rest_lengths + own[i]) : hk_all(l[i].rest_length);
-    const vec kappa = mixed ? hk_load(l[i].kappas + own[i]) : hk_all(l[i].kappa);
+    const vec rest = number_of(&l[i], own[i], HOOKE_LANE_REST, mixed);
+    const vec kappa = number_of(&l[i], own[i], HOOKE_LANE_KAPPA, mixed);
     tension[i] = kappa * (r[i] - rest);
     if (damped) {
-      const vec gamma = mixed ? hk_load(l[i].gammas + own[i]) : hk_all(l[i].gamma);
+      const vec gamma = number_of(&l[i], own[i], HOOKE_LANE_GAMMA, mixed);
       tension[i] = tension[i] + gamma * (along[i] * ir[i]);
     }
     if (pull) tension[i] = (vec)((hk_vector_mask)tension[i] & ~((r[i] <= rest) | (tension[i] < 0.0)));
@@ -101,8 +137,7 @@ static __attribute__((noinline)) int64_t fill_with_care(const struct hk_lane_pas
   int64_t lost = 0;
   for (int32_t k = 0; k < pass->count; k++) {
     const struct hk_lane_view *lane = &pass->lane[k];
-    const int32_t mixed = lane->shape & HOOKE_RUN_MIXED;
-    const ptrdiff_t own = own_place(lane, p);
+    const struct hk_lane_material *material = &lane->material;
     vec b[3] = {{0}};
     for (ptrdiff_t i = 0; i < HOOKE_WIDTH; i++) {
       const double *q = pass->q + p + i, *v = pass->v + p + i, *qj = q + lane->offset, *vj = v + lane->offset;
@@ -110,14 +145,14 @@ static __attribute__((noinline)) int64_t fill_with_care(const struct hk_lane_pas
       if (!(present_at(lane->present, p) >> i & 1)) continue;
       const double dx = q[0] - qj[0], dy = q[y] - qj[y], dz = q[z] - qj[z];
       const double r = hk_spring_length(dx, dy, dz), ir = hk_spring_inverse_length(r);
-      const double rest = mixed ? lane->rest_lengths[own + i] : lane->rest_length;
+      const double rest = *hk_lane_number(material, p + i, HOOKE_LANE_REST);
       double brake = 0.0;
       if (lane->shape & HOOKE_RUN_DAMPED) {
-        brake = (mixed ? lane->gammas[own + i] : lane->gamma) *
+        brake = *hk_lane_number(material, p + i, HOOKE_LANE_GAMMA) *
                 ((((v[0] - vj[0]) * dx + (v[y] - vj[y]) * dy) + (v[z] - vj[z]) * dz) * ir);
       }
       const double s =
-          hk_spring_tension(r, rest, mixed ? lane->kappas[own + i] : lane->kappa, brake,
+          hk_spring_tension(r, rest, *hk_lane_number(material, p + i, HOOKE_LANE_KAPPA), brake,
                             (lane->shape & HOOKE_RUN_DAMPED) != 0, (lane->shape & HOOKE_RUN_PULL_ONLY) != 0) *
           ir;
       b[0][i] = s * dx;
@@ -157,32 +192,28 @@ HOOKE_INLINE void move(const struct hk_lane_pass *pass, const struct hk_move how
  * known here. */
 HOOKE_INLINE void fill_all(const struct hk_lane_pass *pass, const int shape, const struct place *at,
                            vec *shortest, vec sum[3]) {
-  const int damped = (shape & HOOKE_RUN_DAMPED) != 0, pull = (shape & HOOKE_RUN_PULL_ONLY) != 0;
   const struct hk_lane_view *lane = pass->lane, *end = lane + pass->count;
-  for (; lane + 1 < end; lane += 2)
-    fill(lane, 2, at, damped, 0, pull, shortest, sum);
-  if (lane < end) fill(lane, 1, at, damped, 0, pull, shortest, sum);
+  const struct hk_lane_item *item = pass->item;
+  for (; lane + 1 < end; lane += 2, item += 4)
+    fill(lane, item, 2, at, shape, shortest, sum);
+  if (lane < end) fill(lane, item, 1, at, shape, shortest, sum);
 }
 
 #define BODY(shape)                                                                                          \
   case shape:                                                                                                \
-    fill(lane, 1, at, ((shape)&HOOKE_RUN_DAMPED) != 0, ((shape)&HOOKE_RUN_MIXED) != 0,                       \
-         ((shape)&HOOKE_RUN_PULL_ONLY) != 0, shortest, sum);                                                 \
+    fill(lane, item, 1, at, (shape) | HOOKE_RUN_MIXED, shortest, sum);                                       \
     break;
 
 HOOKE_INLINE void fill_any(const struct hk_lane_pass *pass, const struct place *at, vec *shortest,
                            vec sum[3]) {
-  const struct hk_lane_view *end = pass->lane + pass->count;
-  for (const struct hk_lane_view *lane = pass->lane; lane < end; lane++) {
-    switch (lane->shape) {
+  for (int32_t k = 0; k < pass->count; k++) {
+    const struct hk_lane_view *lane = pass->lane + k;
+    const struct hk_lane_item *item = pass->item + 2 * k;
+    switch (lane->shape & ~HOOKE_RUN_MIXED) {
       BODY(0)
       BODY(HOOKE_RUN_DAMPED)
-      BODY(HOOKE_RUN_MIXED)
-      BODY(HOOKE_RUN_MIXED | HOOKE_RUN_DAMPED)
       BODY(HOOKE_RUN_PULL_ONLY)
       BODY(HOOKE_RUN_PULL_ONLY | HOOKE_RUN_DAMPED)
-      BODY(HOOKE_RUN_PULL_ONLY | HOOKE_RUN_MIXED)
-      BODY(HOOKE_RUN_PULL_ONLY | HOOKE_RUN_MIXED | HOOKE_RUN_DAMPED)
     }
   }
 }
@@ -217,27 +248,40 @@ HOOKE_INLINE int64_t advance(const struct hk_lane_pass *pass, const int shape, p
   for (ptrdiff_t p = to - BEHIND > from ? to - BEHIND : from; p < to; p += HOOKE_WIDTH) {
     vec sum[3] = {{0}};
     for (int32_t k = 0; k < pass->count; k++)
-      add(&pass->lane[k], 1, p, sum);
+      add(&pass->item[2 * k], 1, p, sum);
     move(pass, how, p, sum);
   }
   return lost;
 }
 
+HOOKE_INLINE int32_t shape_of(const struct hk_lane_pass *pass) {
+  int32_t shape = pass->count > 0 ? pass->lane[0].shape : 0, paired = PAIRED;
+  for (int32_t k = 0; k < pass->count; k++) {
+    const struct hk_lane_view *lane = &pass->lane[k];
+    const struct hk_lane_item *item = &pass->item[2 * k];
+    if (item[0].ring != lane->ring || item[1].ring != lane->ring || item[1].offset != 0) paired = 0;
+    if ((shape ^ lane->shape) & ~HOOKE_RUN_MIXED) return ANY;
+    shape |= lane->shape;
+  }
+  return shape | paired;
+}
+
+#define ADVANCE(shape)                                                                                       \
+  case shape:                                                                                                \
+    return advance(pass, shape, from, to);                                                                   \
+  case PAIRED | (shape):                                                                                     \
+    return advance(pass, PAIRED | (shape), from, to);
+
 int64_t HOOKE_LANE_LOOP(const struct hk_lane_pass *pass, ptrdiff_t from, ptrdiff_t to) {
-  int32_t shape = pass->count > 0 ? pass->lane[0].shape : 0;
-  for (int32_t k = 1; k < pass->count; k++) {
-    if (pass->lane[k].shape != shape) shape = ANY;
+  switch (shape_of(pass)) {
+    ADVANCE(0)
+    ADVANCE(HOOKE_RUN_DAMPED)
+    ADVANCE(HOOKE_RUN_MIXED)
+    ADVANCE(HOOKE_RUN_MIXED | HOOKE_RUN_DAMPED)
+    ADVANCE(HOOKE_RUN_PULL_ONLY)
+    ADVANCE(HOOKE_RUN_PULL_ONLY | HOOKE_RUN_DAMPED)
+    ADVANCE(HOOKE_RUN_PULL_ONLY | HOOKE_RUN_MIXED)
+    ADVANCE(HOOKE_RUN_PULL_ONLY | HOOKE_RUN_MIXED | HOOKE_RUN_DAMPED)
   }
-  switch (shape) {
-  case 0:
-    return advance(pass, 0, from, to);
-  case HOOKE_RUN_DAMPED:
-    return advance(pass, HOOKE_RUN_DAMPED, from, to);
-  case HOOKE_RUN_PULL_ONLY:
-    return advance(pass, HOOKE_RUN_PULL_ONLY, from, to);
-  case HOOKE_RUN_PULL_ONLY | HOOKE_RUN_DAMPED:
-    return advance(pass, HOOKE_RUN_PULL_ONLY | HOOKE_RUN_DAMPED, from, to);
-  default:
-    return advance(pass, ANY, from, to);
-  }
+  return advance(pass, ANY, from, to);
 }

@@ -18,15 +18,38 @@ enum {
   HOOKE_RING_SLACK = 48
 };
 
+/* Kappa, gamma and rest length of the springs of a lane, in this order. Units that are equal to the bit are
+ * stored once: number j of spring l is value[unit[3 (l / 8) + j & mask] + l % 8]. Where all springs have one
+ * material, mask is 0. Where units are stored one after the other, values are fetched so many ahead; 0: not at
+ * all. */
+struct hk_lane_material {
+  double *value;
+  uint32_t *unit;
+  ptrdiff_t mask, ahead;
+};
+
+enum { HOOKE_LANE_KAPPA, HOOKE_LANE_GAMMA, HOOKE_LANE_REST, HOOKE_LANE_NUMBERS };
+
+/* Number j of spring l and those behind it in its unit. */
+static inline const double *hk_lane_number(const struct hk_lane_material *material, ptrdiff_t l, int j) {
+  const size_t unit = HOOKE_LANE_NUMBERS * ((size_t)l / HOOKE_LANE_UNIT) & (size_t)material->mask;
+  return material->value + material->unit[unit + (size_t)j] + (size_t)l % HOOKE_LANE_UNIT;
+}
+
 struct hk_lane_view {
-  int32_t shape;          /* HOOKE_RUN_* */
-  const uint8_t *present; /* bit l % 8 of byte l / 8: whether spring l is there */
-  ptrdiff_t offset, mask; /* mask: room of the ring less 1 */
-  double *ring;           /* x of spring l at l & mask; y, z one and two strides on */
-  double kappa, gamma, rest_length;
-  /* mixed: those of spring l at l - base; none of a unit that begins beyond `most` */
-  const double *kappas, *gammas, *rest_lengths;
-  ptrdiff_t base, most;
+  int32_t shape;                     /* HOOKE_RUN_*; not mixed: all springs have one material */
+  const uint8_t *present;            /* bit l % 8 of byte l / 8: whether spring l is there */
+  ptrdiff_t offset, mask;            /* mask: room of the ring less 1 */
+  double *ring;                      /* x of spring l at l & mask; y, z one and two strides on */
+  double shared[HOOKE_LANE_NUMBERS]; /* not mixed: the material, where it is near */
+  struct hk_lane_material material;
+};
+
+/* A lane as particles see it: the springs that end at them, or, where `offset` is 0, that begin there. */
+struct hk_lane_item {
+  const double *ring;
+  ptrdiff_t offset, mask;
+  double sign; /* of forces: 1 at ends, -1 where springs begin */
 };
 
 /* Between x, y and z of a ring: the first unit once more, and a distance that keeps them apart in the
@@ -50,10 +73,11 @@ struct hk_move {
  * what is in there is read and not used. */
 struct hk_lane_pass {
   int32_t count;
-  struct hk_lane_view lane[HOOKE_MOST_LANES]; /* in the order of the sum */
-  ptrdiff_t stride;                           /* between x, y and z of q, and of v and f */
-  ptrdiff_t ahead;                            /* q and v are fetched so many particles ahead; 0: not at all */
-  double *q, *v, *f;                          /* f: HOOKE_MOVE_KEEP */
+  struct hk_lane_view lane[HOOKE_MOST_LANES];
+  struct hk_lane_item item[2 * HOOKE_MOST_LANES]; /* two a lane, in the order of the sum */
+  ptrdiff_t stride;                               /* between x, y and z of q, and of v and f */
+  ptrdiff_t ahead;   /* q and v are fetched so many particles ahead; 0: not at all */
+  double *q, *v, *f; /* f: HOOKE_MOVE_KEEP */
   const double *w;
   struct hk_move move;
 };

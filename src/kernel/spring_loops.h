@@ -48,8 +48,27 @@ struct hk_run {
   const int32_t *place; /* NULL, or mixed: where in those arrays, which then are those of all springs */
   /* mixed, kappas and gammas NULL: kappa and gamma are shared, or shares of the rest length */
   int32_t strain;
+  const uint8_t *lane; /* NULL, or mixed: lane of each spring, which has its material */
+  const struct hk_lane_material *of_lanes;
   hk_spring_loop *loop;
 };
+
+static inline ptrdiff_t hk_run_head(const struct hk_run *run, ptrdiff_t k) {
+  return run->shape & HOOKE_RUN_INDEXED ? run->head[k] : run->start + k;
+}
+
+static inline ptrdiff_t hk_run_tail(const struct hk_run *run, ptrdiff_t k) {
+  return run->shape & HOOKE_RUN_INDEXED ? run->tail[k] : run->start + k + run->offset;
+}
+
+static inline ptrdiff_t hk_run_lower(const struct hk_run *run, ptrdiff_t k) {
+  const ptrdiff_t head = hk_run_head(run, k), tail = hk_run_tail(run, k);
+  return head < tail ? head : tail;
+}
+
+static inline ptrdiff_t hk_run_upper(const struct hk_run *run, ptrdiff_t k) {
+  return hk_run_head(run, k) + hk_run_tail(run, k) - hk_run_lower(run, k);
+}
 
 struct hk_material {
   double kappa, gamma, rest_length;
@@ -57,6 +76,13 @@ struct hk_material {
 
 static inline struct hk_material hk_run_material(const struct hk_run *run, ptrdiff_t k) {
   if (!(run->shape & HOOKE_RUN_MIXED)) return (struct hk_material){run->kappa, run->gamma, run->rest_length};
+  if (run->lane) {
+    const struct hk_lane_material *of = &run->of_lanes[run->lane[k]];
+    const ptrdiff_t low = hk_run_lower(run, k);
+    return (struct hk_material){*hk_lane_number(of, low, HOOKE_LANE_KAPPA),
+                                *hk_lane_number(of, low, HOOKE_LANE_GAMMA),
+                                *hk_lane_number(of, low, HOOKE_LANE_REST)};
+  }
   const ptrdiff_t at = run->place ? run->place[k] : k;
   const double length = run->rest_lengths[at];
   if (run->kappas) return (struct hk_material){run->kappas[at], run->gammas[at], length};

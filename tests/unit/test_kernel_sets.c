@@ -111,10 +111,33 @@ enum {
 /* Springs of some lanes at random, and the rings that they go through. */
 struct lane_trial {
   struct hk_lane_pass pass;
-  double q[3][ROOM], v[3][ROOM], f[3][ROOM], w[ROOM], material[HOOKE_MOST_LANES][3][LANE_PARTICLES];
+  double q[3][ROOM], v[3][ROOM], f[3][ROOM], w[ROOM];
+  double material[HOOKE_MOST_LANES][HOOKE_LANE_NUMBERS * LANE_PARTICLES];
+  uint32_t unit[HOOKE_MOST_LANES][HOOKE_LANE_NUMBERS * UNITS];
   uint8_t present[HOOKE_MOST_LANES][UNITS];
   _Alignas(64) double ring[HOOKE_MOST_LANES][3 * (256 + 3 * HOOKE_LANE_UNIT)];
 };
+
+/* Each unit has values of its own, in any order, or those of another one. */
+static void draw_lane_material(struct random_source *source, int32_t k, struct lane_trial *trial) {
+  struct hk_lane_view *lane = &trial->pass.lane[k];
+  const int mixed = lane->shape & HOOKE_RUN_MIXED;
+  for (int i = 0; i < HOOKE_LANE_NUMBERS * LANE_PARTICLES; i++)
+    trial->material[k][i] = random_between(source, 0.1, 2.0);
+  for (int i = 0; i < HOOKE_LANE_NUMBERS * UNITS; i++)
+    trial->unit[k][i] = (uint32_t)(HOOKE_LANE_UNIT * random_whole(source, 0, HOOKE_LANE_NUMBERS * UNITS - 1));
+  lane->material = (struct hk_lane_material){trial->material[k], trial->unit[k], mixed ? -1 : 0,
+                                             random_whole(source, 0, 1) ? HOOKE_LANE_UNIT : 0};
+  for (int j = 0; j < HOOKE_LANE_NUMBERS && !mixed; j++) {
+    double *value = trial->material[k] + trial->unit[k][j];
+    const int zero = j == HOOKE_LANE_REST && random_whole(source, 0, 3) == 0;
+    for (int i = HOOKE_LANE_UNIT - 1; i >= 0; i--)
+      value[i] = zero ? 0.0 : value[0];
+    lane->shared[j] = value[0];
+  }
+  for (int j = 0; j < HOOKE_LANE_NUMBERS && !mixed; j++)
+    lane->shared[j] = *hk_lane_number(&lane->material, 0, j); /* two may be in one place */
+}
 
 static void draw_lane(struct random_source *source, int32_t k, int32_t shape, struct lane_trial *trial) {
   struct hk_lane_view *lane = &trial->pass.lane[k];
@@ -122,25 +145,26 @@ static void draw_lane(struct random_source *source, int32_t k, int32_t shape, st
                                 .present = trial->present[k],
                                 .offset = random_whole(source, 1, random_whole(source, 0, 1) ? 9 : FARTHEST),
                                 .mask = 63,
-                                .ring = trial->ring[k],
-                                .kappa = random_between(source, 1.0, 9.0),
-                                .gamma = random_between(source, 0.1, 2.0),
-                                .rest_length =
-                                    random_whole(source, 0, 3) ? random_between(source, 0.1, 2.0) : 0.0,
-                                .kappas = trial->material[k][0],
-                                .gammas = trial->material[k][1],
-                                .rest_lengths = trial->material[k][2],
-                                .most = LANE_PARTICLES - HOOKE_LANE_UNIT};
+                                .ring = trial->ring[k]};
   while (lane->mask + 1 < lane->offset + HOOKE_RING_SLACK)
     lane->mask = 2 * lane->mask + 1;
+  draw_lane_material(source, k, trial);
   memset(trial->ring[k], 0, sizeof trial->ring[k]);
   memset(trial->present[k], 0, sizeof trial->present[k]);
   for (int64_t l = 0; l + lane->offset < LANE_PARTICLES; l++) {
     if (random_whole(source, 0, 9)) trial->present[k][l / 8] |= (uint8_t)(1 << l % 8);
   }
-  for (int a = 0; a < 3; a++) {
-    for (int l = 0; l < LANE_PARTICLES; l++)
-      trial->material[k][a][l] = random_between(source, 0.1, 2.0);
+}
+
+/* The items of all lanes in any order, or as lanes come. */
+static void draw_items(struct random_source *source, struct lane_trial *trial) {
+  struct hk_lane_item *item = trial->pass.item;
+  const int any = random_whole(source, 0, 1) == 0;
+  for (int32_t i = 0; i < 2 * trial->pass.count; i++) {
+    const struct hk_lane_view *lane = &trial->pass.lane[i / 2];
+    const int64_t place = any ? random_whole(source, 0, i) : i;
+    item[i] = item[place];
+    item[place] = (struct hk_lane_item){lane->ring, i % 2 ? 0 : lane->offset, lane->mask, i % 2 ? -1.0 : 1.0};
   }
 }
 
@@ -165,6 +189,7 @@ static void draw_lanes(struct random_source *source, struct lane_trial *trial) {
     const int32_t other = 2 * (int32_t)random_whole(source, 0, HOOKE_RUN_SHAPES / 2 - 1);
     draw_lane(source, k, random_whole(source, 0, 1) ? shape : other, trial);
   }
+  draw_items(source, trial);
   pass->move = (struct hk_move){.kind = HOOKE_MOVE_NOTHING + (int32_t)random_whole(source, 0, 3),
                                 .heavy = (int32_t)random_whole(source, 0, 1),
                                 .step = 0.01,
@@ -172,35 +197,46 @@ static void draw_lanes(struct random_source *source, struct lane_trial *trial) {
                                 .gravity = {0.0, -9.81, 0.1}};
 }
 
-/* The forces by springs one at a time: those that end at a particle, lane by lane, each before the one that
- * begins there. */
-static int64_t sum_plainly(const struct lane_trial *trial, double (*sum)[LANE_PARTICLES]) {
+/* Forces of a lane on the upper ends of its springs, one spring at a time. */
+static int64_t find_plainly(const struct lane_trial *trial, int32_t k, double (*b)[LANE_PARTICLES]) {
+  const struct hk_lane_view *lane = &trial->pass.lane[k];
+  static struct trial one;
+  static double f[3][PARTICLES];
   int64_t lost = 0;
-  for (int32_t k = 0; k < trial->pass.count; k++) {
-    const struct hk_lane_view *lane = &trial->pass.lane[k];
-    static struct trial one;
-    one.run =
-        (struct hk_run){.count = 1, .shape = lane->shape & ~HOOKE_RUN_MIXED, .offset = (int32_t)lane->offset};
-    double b[3][ROOM] = {{0}};
-    for (int64_t l = 0; l < LANE_PARTICLES; l++) {
-      if (!(trial->present[k][l / 8] >> l % 8 & 1)) continue;
-      static double f[3][PARTICLES];
-      const int mixed = lane->shape & HOOKE_RUN_MIXED;
-      one.run.kappa = mixed ? lane->kappas[l] : lane->kappa;
-      one.run.gamma = mixed ? lane->gammas[l] : lane->gamma;
-      one.run.rest_length = mixed ? lane->rest_lengths[l] : lane->rest_length;
-      for (int a = 0; a < 3; a++) {
-        one.q[a][0] = trial->q[a][l], one.q[a][lane->offset] = trial->q[a][l + lane->offset];
-        one.v[a][0] = trial->v[a][l], one.v[a][lane->offset] = trial->v[a][l + lane->offset];
-        f[a][0] = f[a][lane->offset] = 0.0;
-      }
-      lost += plain(&one, f);
-      for (int a = 0; a < 3; a++)
-        b[a][l] = f[a][lane->offset];
+  one.run =
+      (struct hk_run){.count = 1, .shape = lane->shape & ~HOOKE_RUN_MIXED, .offset = (int32_t)lane->offset};
+  for (int64_t l = 0; l < LANE_PARTICLES; l++) {
+    if (!(trial->present[k][l / 8] >> l % 8 & 1)) continue;
+    one.run.kappa = *hk_lane_number(&lane->material, l, HOOKE_LANE_KAPPA);
+    one.run.gamma = *hk_lane_number(&lane->material, l, HOOKE_LANE_GAMMA);
+    one.run.rest_length = *hk_lane_number(&lane->material, l, HOOKE_LANE_REST);
+    for (int a = 0; a < 3; a++) {
+      one.q[a][0] = trial->q[a][l], one.q[a][lane->offset] = trial->q[a][l + lane->offset];
+      one.v[a][0] = trial->v[a][l], one.v[a][lane->offset] = trial->v[a][l + lane->offset];
+      f[a][0] = f[a][lane->offset] = 0.0;
     }
-    for (int64_t p = 0; p < LANE_PARTICLES; p++) {
+    lost += plain(&one, f);
+    for (int a = 0; a < 3; a++)
+      b[a][l] = f[a][lane->offset];
+  }
+  return lost;
+}
+
+/* Item by item. */
+static int64_t sum_plainly(const struct lane_trial *trial, double (*sum)[LANE_PARTICLES]) {
+  static double b[HOOKE_MOST_LANES][3][LANE_PARTICLES];
+  int64_t lost = 0;
+  memset(b, 0, sizeof b);
+  for (int32_t k = 0; k < trial->pass.count; k++)
+    lost += find_plainly(trial, k, b[k]);
+  for (int32_t i = 0; i < 2 * trial->pass.count; i++) {
+    const struct hk_lane_item *item = &trial->pass.item[i];
+    int32_t k = 0;
+    while (trial->ring[k] != item->ring)
+      k++;
+    for (int64_t p = item->offset; p < LANE_PARTICLES; p++) {
       for (int a = 0; a < 3; a++)
-        sum[a][p] = (sum[a][p] + (p < lane->offset ? 0.0 : b[a][p - lane->offset])) - b[a][p];
+        sum[a][p] = item->offset ? sum[a][p] + b[k][a][p - item->offset] : sum[a][p] - b[k][a][p];
     }
   }
   return lost;
@@ -220,6 +256,13 @@ static void move_plainly(struct lane_trial *trial, double (*sum)[LANE_PARTICLES]
   }
 }
 
+static void use_own_rings(struct lane_trial *found, const struct lane_trial *from) {
+  for (int32_t k = 0; k < found->pass.count; k++)
+    found->pass.lane[k].ring = found->ring[k];
+  for (int32_t i = 0; i < 2 * found->pass.count; i++)
+    found->pass.item[i].ring = found->ring[0] + (from->pass.item[i].ring - from->ring[0]);
+}
+
 /* Every set, and in ranges as they come, against the plain loop. */
 static void compare_lanes(struct random_source *source, struct lane_trial *trial,
                           struct lane_trial *expected) {
@@ -227,7 +270,7 @@ static void compare_lanes(struct random_source *source, struct lane_trial *trial
   draw_lanes(source, trial);
   *expected = *trial;
   memset(sum, 0, sizeof sum);
-  const int64_t lost = sum_plainly(expected, sum);
+  const int64_t lost = sum_plainly(trial, sum);
   move_plainly(expected, sum);
   const struct hk_spring_set *set;
   struct lane_trial *found = new_block(1, (int64_t)sizeof *found + 64);
@@ -235,8 +278,7 @@ static void compare_lanes(struct random_source *source, struct lane_trial *trial
     int64_t at = 0, found_lost = 0;
     *found = *trial;
     found->pass.q = found->q[0], found->pass.v = found->v[0], found->pass.f = found->f[0];
-    for (int32_t k = 0; k < found->pass.count; k++)
-      found->pass.lane[k].ring = found->ring[k];
+    use_own_rings(found, trial);
     while (at < LANE_PARTICLES) {
       const int64_t units = random_whole(source, 1, random_whole(source, 0, 1) ? 5 : UNITS), from = at;
       at += units * HOOKE_LANE_UNIT;

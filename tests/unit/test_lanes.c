@@ -8,6 +8,7 @@
 
 #include "model/system.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -148,9 +149,8 @@ static void test_lanes_of_ropes(void **unused) {
   hooke_system_destroy(system);
 }
 
-/* Ropes of several materials are a lane each, which reads no parameters, and of very many one lane that
- * does. */
-static void check_materials(int ropes, int32_t lanes, int32_t shape) {
+/* Ropes of one material are a lane that reads no parameters, and of several one that does. */
+static void check_materials(int ropes, int materials, int32_t shape) {
   hooke_system *system;
   hooke_options *options;
   double *q = new_doubles(3 * 30 * ropes), mass = 1.0;
@@ -164,13 +164,13 @@ static void check_materials(int ropes, int32_t lanes, int32_t shape) {
   for (int rope = 0; rope < ropes; rope++) {
     for (int k = 0; k < 29; k++)
       ends[2 * k] = 30 * rope + k, ends[2 * k + 1] = 30 * rope + k + 1;
-    check_ok(hooke_options_set_number(options, "stiffness", 10.0 + rope));
-    check_ok(hooke_options_set_number(options, "damping", rope == 1 ? 0.1 : 0.0));
+    check_ok(hooke_options_set_number(options, "stiffness", 10.0 + rope % materials));
+    check_ok(hooke_options_set_number(options, "damping", rope % materials == 1 ? 0.1 : 0.0));
     check_ok(hooke_system_add_springs(system, NULL, 29, ends, options));
   }
   hooke_options_destroy(options);
   check_ok(hooke_system_commit(system));
-  assert_int_equal(system->lanes.count, lanes);
+  assert_int_equal(system->lanes.count, 1);
   assert_int_equal(system->lanes.lane[0].shape, shape);
   struct canonical c;
   double *v = new_doubles(3 * 30 * ropes);
@@ -184,12 +184,205 @@ static void check_materials(int ropes, int32_t lanes, int32_t shape) {
 
 static void test_lanes_of_materials(void **unused) {
   (void)unused;
-  check_materials(30, 30, 0);
-  check_materials(60, 1, HOOKE_RUN_MIXED | HOOKE_RUN_DAMPED);
+  check_materials(30, 1, 0);
+  check_materials(30, 30, HOOKE_RUN_MIXED | HOOKE_RUN_DAMPED);
+  check_materials(60, 2, HOOKE_RUN_MIXED | HOOKE_RUN_DAMPED);
+}
+
+/* ---- springs listed particle by particle ---- */
+
+enum { SIDE = 13, MOST_SHEETS = 5, STEPS = 6, MOST_LISTED = MOST_SHEETS * SIDE * SIDE };
+
+/* How the springs from a particle are ordered: in the same way everywhere, in the opposite way at one
+ * particle, or at random everywhere. */
+enum order { SAME, ONE_OPPOSITE, RANDOM };
+enum { AT_REST, STIFFNESS_OF_ITS_OWN, ALL_OF_ITS_OWN, LISTED_MATERIALS };
+
+struct listing {
+  int sheets, material, holes;
+  enum order order;
+};
+
+static void order_steps(struct random_source *source, enum order order, int64_t p, int step[STEPS]) {
+  for (int k = 0; k < STEPS; k++) {
+    const int64_t other = order == RANDOM ? random_whole(source, 0, k) : k;
+    step[k] = step[other];
+    step[other] = k;
+  }
+  for (int k = 0; k < STEPS && order == ONE_OPPOSITE && p == 3 * SIDE + 5; k++)
+    step[k] = STEPS - 1 - k;
+}
+
+static int64_t list(struct random_source *source, const struct listing *listing, int64_t *ends) {
+  static const int step[STEPS][2] = {{0, 1}, {1, 0}, {1, 1}, {1, -1}, {0, 2}, {2, 0}};
+  int64_t count = 0;
+  for (int64_t p = 0; p < listing->sheets * SIDE * SIDE; p++) {
+    const int64_t in_sheet = p % (SIDE * SIDE);
+    int order[STEPS];
+    order_steps(source, listing->order, p, order);
+    for (int k = 0; k < STEPS; k++) {
+      const int64_t row = in_sheet / SIDE + step[order[k]][0], column = in_sheet % SIDE + step[order[k]][1];
+      if (row >= SIDE || column < 0 || column >= SIDE) continue;
+      if (listing->holes && random_whole(source, 0, 4) == 0) continue;
+      const int64_t turned = random_whole(source, 0, 1);
+      ends[2 * count + turned] = p;
+      ends[2 * count++ + 1 - turned] = p - in_sheet + row * SIDE + column;
+    }
+  }
+  return count;
+}
+
+/* Numbers at random up to `most`, or that. */
+static void set_each(struct random_source *source, hooke_options *options, const char *name, int64_t count,
+                     double most, int own) {
+  double *value = new_doubles(count);
+  for (int64_t k = 0; k < count; k++)
+    value[k] = own ? random_between(source, 0.1, 1.0) * most : most;
+  check_ok(hooke_options_set_numbers(options, name, own ? count : 1, value));
+  free(value);
+}
+
+/* Rest lengths of flat sheets are those of rounded positions. */
+static hooke_system *build_listed(struct random_source *source, const struct listing *listing, double *q,
+                                  double *v) {
+  static int64_t ends[2 * STEPS * MOST_LISTED];
+  const int64_t particles = listing->sheets * SIDE * SIDE, count = list(source, listing, ends);
+  const double mass = 1.0;
+  hooke_system *system;
+  hooke_options *options;
+  for (int64_t p = 0; p < particles; p++) {
+    q[3 * p] = (double)(p % SIDE) / 7.0;
+    q[3 * p + 1] = 0.0;
+    q[3 * p + 2] = (double)(p / SIDE) / 7.0;
+    for (int a = 0; a < 3; a++)
+      v[3 * p + a] = random_between(source, -1.0, 1.0);
+  }
+  check_ok(hooke_system_create(&system));
+  check_ok(hooke_system_add_particles(system, particles, q, v, 1, &mass, NULL));
+  check_ok(hooke_options_create("springs", &options));
+  set_each(source, options, "stiffness", count, 80.0, listing->material >= STIFFNESS_OF_ITS_OWN);
+  set_each(source, options, "damping", count, 0.1, listing->material == ALL_OF_ITS_OWN);
+  check_ok(hooke_system_add_springs(system, NULL, count, ends, options));
+  hooke_options_destroy(options);
+  check_ok(hooke_system_commit(system));
+  return system;
+}
+
+/* As many lanes as there are offsets, and another one where one particle has its springs in an order of its
+ * own; with no order at all they are no lanes. */
+static void check_listing(uint64_t seed, struct listing listing) {
+  struct random_source source = {seed};
+  double *q = new_doubles(3 * MOST_LISTED), *v = new_doubles(3 * MOST_LISTED);
+  hooke_system *system = build_listed(&source, &listing, q, v);
+  const int32_t lanes = system->lanes.count;
+  if (listing.order == SAME) assert_int_equal(lanes, STEPS);
+  if (listing.order == ONE_OPPOSITE) assert_in_range(lanes, STEPS + 1, 2 * STEPS);
+  if (listing.order == RANDOM) assert_int_equal(lanes, 0);
+  struct canonical c;
+  canonical_create(system, &c);
+  check_agrees(system, &c, q, v);
+  check_members(system, q, v);
+  canonical_destroy(&c);
+  hooke_system_destroy(system);
+  free(q);
+  free(v);
+}
+
+static void test_listed_by_particle(void **unused) {
+  (void)unused;
+  uint64_t seed = 0;
+  for (int sheets = 1; sheets <= MOST_SHEETS; sheets += 2) {
+    for (int material = 0; material < LISTED_MATERIALS; material++) {
+      for (int holes = 0; holes <= 1; holes++) {
+        check_listing(++seed, (struct listing){sheets, material, holes, SAME});
+        check_listing(++seed, (struct listing){sheets, material, 0, ONE_OPPOSITE});
+        check_listing(++seed, (struct listing){sheets, material, holes, RANDOM});
+      }
+    }
+  }
+}
+
+/* A chain whose springs to the second next particles come first, and then every second one to the next: in one
+ * lane ends would have to come before beginnings at one particle, and after them at another. */
+static void test_every_second_first(void **unused) {
+  (void)unused;
+  enum { CHAIN = 150 };
+  double q[3 * CHAIN] = {0.0}, v[3 * CHAIN];
+  int64_t ends[4 * CHAIN], count = 0;
+  struct random_source source = {31};
+  const double mass = 1.0;
+  for (int k = 0; k < 3 * CHAIN; k++) {
+    q[k] = random_between(&source, 0.0, 0.1) + (k % 3 ? 0.0 : 0.1 * (k / 3.0));
+    v[k] = random_between(&source, -1.0, 1.0);
+  }
+  for (; count + 2 < CHAIN; count++)
+    ends[2 * count] = count, ends[2 * count + 1] = count + 2;
+  for (int64_t odd = 0; odd < 2; odd++) {
+    for (int64_t p = odd; p + 1 < CHAIN; p += 2, count++)
+      ends[2 * count] = p, ends[2 * count + 1] = p + 1;
+  }
+  hooke_system *system;
+  hooke_options *options;
+  check_ok(hooke_system_create(&system));
+  check_ok(hooke_system_add_particles(system, CHAIN, q, v, 1, &mass, NULL));
+  check_ok(hooke_options_create("springs", &options));
+  check_ok(hooke_options_set_number(options, "stiffness", 10.0));
+  check_ok(hooke_options_set_number(options, "rest_length", 0.09));
+  check_ok(hooke_system_add_springs(system, NULL, count, ends, options));
+  hooke_options_destroy(options);
+  check_ok(hooke_system_commit(system));
+  assert_int_equal(system->lanes.count, 3);
+  struct canonical c;
+  canonical_create(system, &c);
+  check_agrees(system, &c, q, v);
+  canonical_destroy(&c);
+  hooke_system_destroy(system);
+}
+
+/* Rest lengths of rounded positions take a fraction of 24 bytes a spring, and are what they were to the bit. */
+static void test_rounded_lengths(void **unused) {
+  (void)unused;
+  enum { EDGE = 24, EACH = EDGE * EDGE * EDGE };
+  double *q = new_doubles(3 * EACH), *length = new_doubles(3 * EACH);
+  int64_t *ends = new_block(6 * EACH, (int64_t)sizeof *ends), count = 0;
+  for (int64_t p = 0; p < EACH; p++) {
+    const int64_t at[3] = {p % EDGE, p / EDGE % EDGE, p / EDGE / EDGE}, next[3] = {1, EDGE, EDGE * EDGE};
+    for (int a = 0; a < 3; a++) {
+      q[3 * p + a] = (double)at[a] / (EDGE - 1.0);
+      if (at[a] + 1 == EDGE) continue;
+      ends[2 * count] = p;
+      ends[2 * count++ + 1] = p + next[a];
+    }
+  }
+  hooke_system *system;
+  hooke_options *options;
+  const double mass = 1.0;
+  check_ok(hooke_system_create(&system));
+  check_ok(hooke_system_add_particles(system, EACH, q, NULL, 1, &mass, NULL));
+  check_ok(hooke_options_create("springs", &options));
+  check_ok(hooke_options_set_number(options, "stiffness", 10.0));
+  check_ok(hooke_system_add_springs(system, NULL, count, ends, options));
+  hooke_options_destroy(options);
+  check_ok(hooke_system_commit(system));
+  assert_int_equal(system->lanes.count, 3);
+  assert_true(system->lanes.lane[0].shape & HOOKE_RUN_MIXED);
+  assert_in_range(system->lanes.memory, 1, 4 * count);
+  check_ok(hooke_system_members(system, "springs", NULL, NULL, NULL, length));
+  for (int64_t s = 0; s < count; s++) {
+    const double *a = q + 3 * ends[2 * s], *b = q + 3 * ends[2 * s + 1];
+    const double x = a[0] - b[0], y = a[1] - b[1], z = a[2] - b[2], r = sqrt((x * x + y * y) + z * z);
+    check_same_bits(1, &length[s], &r);
+  }
+  hooke_system_destroy(system);
+  free(q);
+  free(length);
+  free(ends);
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(test_same_bits), cmocka_unit_test(test_lanes_of_ropes),
-                                     cmocka_unit_test(test_lanes_of_materials)};
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(test_same_bits),          cmocka_unit_test(test_lanes_of_ropes),
+      cmocka_unit_test(test_lanes_of_materials), cmocka_unit_test(test_listed_by_particle),
+      cmocka_unit_test(test_every_second_first), cmocka_unit_test(test_rounded_lengths)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

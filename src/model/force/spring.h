@@ -26,25 +26,15 @@ struct hk_spring {
 };
 
 static inline struct hk_spring hk_run_spring(const struct hk_run *run, int64_t k) {
-  const int32_t indexed = run->shape & HOOKE_RUN_INDEXED;
   const struct hk_material material = hk_run_material(run, k);
   struct hk_spring spring;
-  spring.head = indexed ? run->head[k] : run->start + k;
-  spring.tail = indexed ? run->tail[k] : run->start + k + run->offset;
+  spring.head = hk_run_head(run, k);
+  spring.tail = hk_run_tail(run, k);
   spring.kappa = material.kappa;
   spring.gamma = material.gamma;
   spring.rest_length = material.rest_length;
   spring.pull_only = (run->shape & HOOKE_RUN_PULL_ONLY) != 0;
   return spring;
-}
-
-/* Particles of the lower ends of a run of constant offset: from the first to the one after the last. */
-static inline int64_t hk_run_low(const struct hk_run *run) {
-  return run->offset > 0 ? run->start : run->start + run->offset;
-}
-
-static inline int64_t hk_run_high(const struct hk_run *run) {
-  return hk_run_low(run) + run->count;
 }
 
 /* A spring at given ends: length, direction (zeros where it has none), tension and rate of stretch; v may be

@@ -51,21 +51,17 @@ static int64_t ring_room(const struct hk_lane *lane) {
   return room;
 }
 
-static struct hk_lane_view view_of(const struct hk_lane *lane, double *ring) {
-  const int64_t base = lane->first / HOOKE_LANE_UNIT * HOOKE_LANE_UNIT;
-  return (struct hk_lane_view){.shape = lane->shape,
-                               .present = lane->present,
-                               .offset = lane->offset,
-                               .mask = ring_room(lane) - 1,
-                               .ring = ring,
-                               .kappa = lane->kappa,
-                               .gamma = lane->gamma,
-                               .rest_length = lane->rest_length,
-                               .kappas = lane->kappas,
-                               .gammas = lane->gammas,
-                               .rest_lengths = lane->rest_lengths,
-                               .base = base,
-                               .most = lane->last / HOOKE_LANE_UNIT * HOOKE_LANE_UNIT - base};
+static struct hk_lane_view view_of(const struct hk_lanes *lanes, int32_t k, double *ring) {
+  const struct hk_lane *lane = &lanes->lane[k];
+  struct hk_lane_view view = {.shape = lane->shape,
+                              .present = lane->present,
+                              .offset = lane->offset,
+                              .mask = ring_room(lane) - 1,
+                              .ring = ring,
+                              .material = lanes->material[k]};
+  for (int j = 0; j < HOOKE_LANE_NUMBERS; j++)
+    view.shared[j] = *hk_lane_number(&view.material, lane->first, j);
+  return view;
 }
 
 static int64_t ring_size(const struct hk_lane *lane) {
@@ -93,7 +89,7 @@ struct hk_rings *hk_rings_create(const struct hk_lanes *lanes, int32_t workers) 
   double *next = rings->block;
   for (int32_t m = 0; m < workers; m++) {
     for (int32_t k = 0; k < lanes->count; next += ring_size(&lanes->lane[k++]))
-      rings->share[m].view[k] = view_of(&lanes->lane[k], next);
+      rings->share[m].view[k] = view_of(lanes, k, next);
     rings->share[m].border = next;
     next += workers > 1 ? 6 * rings->border_stride : 0;
   }
@@ -123,9 +119,21 @@ static void clear_below(const struct hk_lane_view *lane, int64_t from) {
   }
 }
 
+/* Items of the lanes that are marked. */
+static void set_items(const struct hk_lanes *lanes, const uint8_t *there, struct share *share) {
+  struct hk_lane_item *next = share->pass.item;
+  for (int32_t i = 0; i < 2 * lanes->count; i++) {
+    const struct hk_lane_view *lane = &share->view[lanes->item[i] / 2];
+    const int begins = lanes->item[i] % 2;
+    if (!there[lanes->item[i] / 2]) continue;
+    *next++ = (struct hk_lane_item){lane->ring, begins ? 0 : lane->offset, lane->mask, begins ? -1.0 : 1.0};
+  }
+}
+
 /* Makes a pass of the lanes that have springs at particle `from` or whose springs end there; returns the
  * particle up to which these are all, `to` at most. */
 static int64_t set_lanes(const struct hk_lanes *lanes, struct share *share, int64_t from, int64_t to) {
+  uint8_t there[HOOKE_MOST_LANES] = {0};
   share->pass.count = 0;
   for (int32_t k = 0; k < lanes->count; k++) {
     const struct hk_lane *lane = &lanes->lane[k];
@@ -135,9 +143,10 @@ static int64_t set_lanes(const struct hk_lanes *lanes, struct share *share, int6
     if (from < begin || from >= end) continue;
     to = lesser(to, end);
     if (!share->open[k]) clear_below(&share->view[k], from);
-    share->open[k] = 1;
+    share->open[k] = there[k] = 1;
     share->pass.lane[share->pass.count++] = share->view[k];
   }
+  set_items(lanes, there, share);
   return to;
 }
 
