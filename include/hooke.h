@@ -3,12 +3,13 @@
  *   base.h        statuses, messages, facts about the build
  *   options.h     named options with units, bounds and defaults
  *   system.h      particles, springs, forces, energies, derivatives
- *   build.h       generated parts: rope, cloth
+ *   parts.h       generated parts: rope, cloth, lattice, mesh, strand
  *   state.h       time, positions, velocities
  *   integrator.h  methods and the run loop, and a warning before a run blows up
  *   measurement.h studies, limits, needs, costs, comparisons, causes, verifications: options, a run, tables
- *   measure.h     bounds on stable steps
- *   io.h          scene files and trajectories
+ *   estimate.h    the error of a run, and the cheapest run for a wanted one
+ *   scene.h       scene files and meshes
+ *   trajectory.h  trajectories: written, read back, shown
  *   checkpoint.h  places from which a run goes on */
 #ifndef HOOKE_H
 #define HOOKE_H
@@ -16,13 +17,13 @@
 #include "hooke/base.h"
 #include "hooke/options.h"
 #include "hooke/system.h"
-#include "hooke/build.h"
+#include "hooke/parts.h"
 #include "hooke/state.h"
 #include "hooke/integrator.h"
 #include "hooke/measurement.h"
-#include "hooke/measure.h"
 #include "hooke/estimate.h"
-#include "hooke/io.h"
+#include "hooke/scene.h"
+#include "hooke/trajectory.h"
 #include "hooke/checkpoint.h"
 
 #endif

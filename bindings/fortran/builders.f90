@@ -2,8 +2,8 @@
 module hooke_builders
   use, intrinsic :: iso_c_binding, only: c_double, c_funloc, c_funptr, c_int32_t, c_int64_t, c_loc, c_null_funptr, c_ptr
   use hooke_base, only: accept, hooke_bad_value, refuse, to_c, to_c_if, to_text, zero_based
-  use hooke_c_build
-  use hooke_c_io, only: c_scene_options_apply
+  use hooke_c_parts
+  use hooke_c_scene, only: c_scene_options_apply
   use hooke_c_system
   use hooke_forces
   use hooke_option_tables, only: hooke_options

@@ -4,7 +4,7 @@ module hooke_estimates
     c_ptr
   use hooke_base, only: accept, to_c, to_c_if, to_text
   use hooke_c_estimate
-  use hooke_c_io, only: c_estimate_write_h5
+  use hooke_c_trajectory, only: c_estimate_write_h5
   use hooke_queries_of_estimate
   use hooke_integrators, only: hooke_integrator
   use hooke_observers, only: call_progress, hooke_progress, progress_holder

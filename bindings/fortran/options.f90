@@ -2,8 +2,8 @@
 module hooke_option_tables
   use, intrinsic :: iso_c_binding, only: c_double, c_int32_t, c_int64_t, c_ptr
   use hooke_base, only: accept, hooke_bad_value, refuse, to_c, to_integer, to_series, to_text, zero_based
-  use hooke_c_build, only: c_mesh_set
-  use hooke_c_io, only: c_mesh_read
+  use hooke_c_parts, only: c_mesh_set
+  use hooke_c_scene, only: c_mesh_read
   use hooke_c_options
   use hooke_queries_of_options
   implicit none

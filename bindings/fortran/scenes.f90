@@ -2,7 +2,8 @@
 module hooke_scenes
   use, intrinsic :: iso_c_binding, only: c_char, c_int32_t, c_int64_t, c_ptr
   use hooke_base, only: accept, to_c, to_c_if, to_text
-  use hooke_c_io
+  use hooke_c_scene
+  use hooke_c_trajectory, only: c_io_own_process
   use hooke_option_tables, only: hooke_options, options_or_null
   use hooke_queries_of_scene
   use hooke_systems, only: hooke_system

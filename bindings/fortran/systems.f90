@@ -7,9 +7,9 @@ module hooke_systems
   use hooke_base, only: accept, hooke_bad_value, hooke_long, is_3_by, refuse, to_c, to_c_if, to_integer, &
     to_series, to_text, zero_based
   use hooke_builders, only: hooke_builder
-  use hooke_c_io, only: c_scene_write
+  use hooke_c_scene, only: c_scene_write
   use hooke_c_integrator, only: c_method_count
-  use hooke_c_measure, only: c_step_bound, c_step_bounds
+  use hooke_c_measurement, only: c_step_bound, c_step_bounds
   use hooke_c_system
   use hooke_option_tables, only: hooke_options, options_or_null
   implicit none

@@ -2,7 +2,7 @@
 module hooke_views
   use, intrinsic :: iso_c_binding, only: c_double, c_int32_t, c_ptr
   use hooke_base, only: accept, to_c, to_c_if
-  use hooke_c_io, only: c_view_create, c_view_destroy, c_view_number, c_view_write
+  use hooke_c_trajectory, only: c_view_create, c_view_destroy, c_view_number, c_view_write
   use hooke_option_tables, only: hooke_options, options_or_null
   use hooke_trajectories, only: hooke_record
   use hooke_queries_of_view

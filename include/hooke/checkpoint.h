@@ -8,7 +8,7 @@
 #ifndef HOOKE_CHECKPOINT_H
 #define HOOKE_CHECKPOINT_H
 
-#include "io.h"
+#include "trajectory.h"
 
 #ifdef __cplusplus
 extern "C" {

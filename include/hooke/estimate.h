@@ -12,7 +12,7 @@
 #ifndef HOOKE_ESTIMATE_H
 #define HOOKE_ESTIMATE_H
 
-#include "measure.h"
+#include "integrator.h"
 
 #ifdef __cplusplus
 extern "C" {

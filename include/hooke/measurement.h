@@ -1,5 +1,5 @@
 /* hooke/measurement.h - measurements of a scene: one object with options, progress, a run, and tables of
- * results.
+ * results; and bounds on stable steps.
  *
  *   hooke_measurement_create("study", system, run, NULL, &study);
  *   hooke_measurement_run(study, NULL);
@@ -239,6 +239,19 @@ HOOKE_API int32_t hooke_why_advice_apply(const hooke_measurement *measurement, i
  * HOOKE_NO_MEMORY. */
 HOOKE_API int32_t hooke_verify_create(const char *path, const hooke_options *options,
                                       const hooke_options *limits, hooke_measurement **verify);
+
+/* ---- bounds on the step, from one pass over the springs ---- */
+
+/* A step [s] below which `method` is certain to be stable for the system linearised at q (3n): a bound from
+ * one pass over the springs, not the sharp limit. 0: the method is stable at no step. Infinity: nothing
+ * limits it. NaN: no bound is known for this method. HOOKE_BAD_VALUE for an unknown method;
+ * HOOKE_NO_MEMORY. Source: K <= 2 blockdiag(sum B_e) by (a - b)^2 <= 2 a^2 + 2 b^2, per-mode limits as in
+ * docs/notes/methods.md. */
+HOOKE_API int32_t hooke_step_bound(const hooke_system *system, const char *method, const double *q,
+                                   double *bound);
+/* The same of every method at once, hooke_method_count() numbers in the order of hooke_method_name(), for one
+ * pass over the springs. HOOKE_BAD_CALL, HOOKE_NO_MEMORY. */
+HOOKE_API int32_t hooke_step_bounds(const hooke_system *system, const double *q, double *bounds);
 
 #ifdef __cplusplus
 }

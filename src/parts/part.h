@@ -3,7 +3,7 @@
 #define HOOKE_PARTS_PART_H
 
 #include "core/table/option.h"
-#include "hooke/build.h"
+#include "hooke/parts.h"
 #include "model/part_record.h"
 #include "model/force/force.h"
 

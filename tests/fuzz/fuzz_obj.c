@@ -6,7 +6,7 @@
  * Longest input: 2048, mostly 512 */
 #include "fuzz.h"
 
-#include "hooke/io.h"
+#include "hooke/scene.h"
 #include "io/scene/mesh.h"
 
 #include <stdlib.h>

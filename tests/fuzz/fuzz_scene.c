@@ -5,7 +5,7 @@
  * Longest input: 4096, mostly 320 */
 #include "fuzz.h"
 
-#include "hooke/io.h"
+#include "hooke/scene.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -20,12 +20,12 @@ PUBLIC = {
     "hooke/options.h": "core",
     "hooke/system.h": "model",
     "hooke/state.h": "model",
-    "hooke/build.h": "parts",
+    "hooke/parts.h": "parts",
     "hooke/integrator.h": "integrate",
     "hooke/measurement.h": "measure",
-    "hooke/measure.h": "measure",
     "hooke/estimate.h": "measure",
-    "hooke/io.h": "io",
+    "hooke/scene.h": "io",
+    "hooke/trajectory.h": "io",
     "hooke/checkpoint.h": "io",
 }
 

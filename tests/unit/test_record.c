@@ -1,6 +1,6 @@
 /* Trajectory files read back as whole arrays, and where frames lie in them. */
 #include "check.h"
-#include "hooke/io.h"
+#include "hooke/trajectory.h"
 #include "run.h"
 
 #include <math.h>

@@ -6,7 +6,7 @@
 #ifndef HOOKE_IO_PAGE_VIEW_H
 #define HOOKE_IO_PAGE_VIEW_H
 
-#include "hooke/io.h"
+#include "hooke/trajectory.h"
 
 enum { HOOKE_VIEW_ENERGIES = 3 };
 extern const char *const hk_view_energy[HOOKE_VIEW_ENERGIES]; /* "kinetic", ... */

@@ -3,6 +3,7 @@
 
 #include "core/memory.h"
 #include "core/status.h"
+#include "hooke/scene.h"
 #include "io/page/base64.h"
 #include "io/page/form.h"
 #include "io/file/place.h"

@@ -2,7 +2,7 @@
 #ifndef HOOKE_IO_SCENE_MESH_H
 #define HOOKE_IO_SCENE_MESH_H
 
-#include "hooke/io.h"
+#include "hooke/scene.h"
 
 /* HOOKE_BAD_VALUE if the options have vertices or triangles beside their file. */
 int32_t hk_mesh_check_alone(const hooke_options *options);

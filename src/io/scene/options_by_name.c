@@ -7,9 +7,9 @@
 #include "integrate/integrator.h"
 #include "core/table/option.h"
 #include "core/status.h"
-#include "hooke/build.h"
+#include "hooke/parts.h"
 #include "hooke/integrator.h"
-#include "hooke/io.h"
+#include "hooke/trajectory.h"
 #include "io/measurement/measurement_file.h"
 
 #include <stdio.h>

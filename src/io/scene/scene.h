@@ -2,7 +2,7 @@
 #ifndef HOOKE_IO_SCENE_SCENE_H
 #define HOOKE_IO_SCENE_SCENE_H
 
-#include "hooke/io.h"
+#include "hooke/scene.h"
 
 struct hooke_scene {
   char *name; /* of the file, for messages */

@@ -2,7 +2,7 @@
 #include "io/scene/scene_file.h"
 #include "core/table/option.h"
 #include "core/status.h"
-#include "hooke/io.h"
+#include "hooke/scene.h"
 
 #include <string.h>
 

@@ -3,7 +3,7 @@
 #include "core/memory.h"
 #include "core/status.h"
 #include "integrate/integrator.h"
-#include "hooke/io.h"
+#include "hooke/scene.h"
 #include "io/file/place.h"
 #include "io/scene/scene.h"
 #include "io/scene/scene_words.h"

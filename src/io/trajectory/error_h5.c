@@ -1,5 +1,5 @@
 /* The error of a run, put into its trajectory file after the run. */
-#include "hooke/io.h"
+#include "hooke/trajectory.h"
 
 #include "core/keep_errno.h"
 #include "core/status.h"

@@ -2,7 +2,7 @@
 #ifndef HOOKE_IO_TRAJECTORY_RECORD_H
 #define HOOKE_IO_TRAJECTORY_RECORD_H
 
-#include "hooke/io.h"
+#include "hooke/trajectory.h"
 
 /* 1 if the file begins as HDF5 files do. */
 int32_t hk_record_is_one(const char *path);

@@ -1,5 +1,5 @@
 /* Whole arrays of a trajectory file, and where in it those are that are too large to copy. */
-#include "hooke/io.h"
+#include "hooke/trajectory.h"
 
 #include "core/memory.h"
 #include "core/status.h"

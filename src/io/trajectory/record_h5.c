@@ -1,5 +1,5 @@
 /* Trajectory files read back: scene, options, outcome and frames. */
-#include "hooke/io.h"
+#include "hooke/trajectory.h"
 
 #include "core/handle.h"
 #include "core/keep_errno.h"

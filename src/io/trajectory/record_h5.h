@@ -2,7 +2,7 @@
 #ifndef HOOKE_IO_TRAJECTORY_RECORD_H5_H
 #define HOOKE_IO_TRAJECTORY_RECORD_H5_H
 
-#include "hooke/io.h"
+#include "hooke/trajectory.h"
 
 #include <hdf5.h>
 

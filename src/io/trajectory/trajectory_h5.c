@@ -3,7 +3,7 @@
 #include "core/keep_errno.h"
 #include "core/memory.h"
 #include "core/status.h"
-#include "hooke/io.h"
+#include "hooke/trajectory.h"
 
 #if HOOKE_HAVE_HDF5
 

@@ -2,7 +2,7 @@
 #ifndef HOOKE_IO_TRAJECTORY_TRAJECTORY_H5_H
 #define HOOKE_IO_TRAJECTORY_TRAJECTORY_H5_H
 
-#include "hooke/io.h"
+#include "hooke/trajectory.h"
 #include "io/hdf5/file_h5.h"
 #include "io/trajectory/frame_thread.h"
 #include "io/trajectory/h5md_h5.h"

@@ -4,7 +4,7 @@
 #include "core/number.h"
 #include "core/print.h"
 #include "core/status.h"
-#include "hooke/io.h"
+#include "hooke/trajectory.h"
 #include "io/hdf5/array_h5.h"
 #include "io/file/place.h"
 #include "io/trajectory/record.h"

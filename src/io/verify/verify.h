@@ -2,7 +2,8 @@
 #ifndef HOOKE_IO_VERIFY_VERIFY_H
 #define HOOKE_IO_VERIFY_VERIFY_H
 
-#include "hooke/io.h"
+#include "hooke/scene.h"
+#include "hooke/trajectory.h"
 #include "measure/measurement.h"
 #include "measure/trial/balance.h"
 

@@ -3,7 +3,7 @@
 #ifndef HOOKE_MEASURE_LIMIT_GROWTH_H
 #define HOOKE_MEASURE_LIMIT_GROWTH_H
 
-#include "hooke/measure.h"
+#include "hooke/measurement.h"
 #include "measure/spectrum/linear_twin.h"
 
 enum hk_verdict {

@@ -3,7 +3,7 @@
 #ifndef HOOKE_MEASURE_LIMIT_LIMIT_MEASURE_H
 #define HOOKE_MEASURE_LIMIT_LIMIT_MEASURE_H
 
-#include "hooke/measure.h"
+#include "hooke/measurement.h"
 
 struct hk_measured_limit {
   /* the limit [s]: 0 where no step is stable, infinity where nothing limits it, NaN if not found */

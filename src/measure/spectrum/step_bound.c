@@ -3,7 +3,7 @@
 #include "integrate/method.h"
 #include "measure/spectrum/step_bound.h"
 
-#include "hooke/measure.h"
+#include "hooke/measurement.h"
 
 #include <math.h>
 

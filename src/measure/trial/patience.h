@@ -2,7 +2,7 @@
 #ifndef HOOKE_MEASURE_TRIAL_PATIENCE_H
 #define HOOKE_MEASURE_TRIAL_PATIENCE_H
 
-#include "hooke/measure.h"
+#include "hooke/measurement.h"
 
 /* Batches of springs between two looks at the time: some milliseconds. */
 enum { HOOKE_BATCHES_PER_LOOK = 2048 };

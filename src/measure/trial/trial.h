@@ -3,7 +3,7 @@
 #ifndef HOOKE_MEASURE_TRIAL_TRIAL_H
 #define HOOKE_MEASURE_TRIAL_TRIAL_H
 
-#include "hooke/measure.h"
+#include "hooke/measurement.h"
 #include "measure/trial/frames.h"
 
 /* Who wants to hear of a run under way; any function may be NULL. Anything but 0 from the first two stops the

@@ -138,8 +138,8 @@ HOOKE_API void hooke_system_angular_momentum(const hooke_system *system, const d
 }
 #endif
 #endif
-#ifndef HOOKE_BUILD_H
-#define HOOKE_BUILD_H
+#ifndef HOOKE_PARTS_H
+#define HOOKE_PARTS_H
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -277,15 +277,6 @@ HOOKE_API int32_t hooke_why_advice_apply(const hooke_measurement *measurement, i
                                          hooke_options *run);
 HOOKE_API int32_t hooke_verify_create(const char *path, const hooke_options *options,
                                       const hooke_options *limits, hooke_measurement **verify);
-#ifdef __cplusplus
-}
-#endif
-#endif
-#ifndef HOOKE_MEASURE_H
-#define HOOKE_MEASURE_H
-#ifdef __cplusplus
-extern "C" {
-#endif
 HOOKE_API int32_t hooke_step_bound(const hooke_system *system, const char *method, const double *q,
                                    double *bound);
 HOOKE_API int32_t hooke_step_bounds(const hooke_system *system, const double *q, double *bounds);
@@ -315,12 +306,11 @@ HOOKE_API const char *hooke_estimate_text(const hooke_estimate *estimate, const 
 }
 #endif
 #endif
-#ifndef HOOKE_IO_H
-#define HOOKE_IO_H
+#ifndef HOOKE_SCENE_H
+#define HOOKE_SCENE_H
 #ifdef __cplusplus
 extern "C" {
 #endif
-HOOKE_API int32_t hooke_io_own_process(void);
 typedef struct hooke_scene hooke_scene;
 HOOKE_API int32_t hooke_scene_load(const char *path, const hooke_options *limits, hooke_scene **scene);
 HOOKE_API int32_t hooke_scene_parse(const char *text, int64_t length, const char *name, const char *folder,
@@ -338,6 +328,16 @@ HOOKE_API hooke_options *hooke_scene_run_options(hooke_scene *scene);
 HOOKE_API const char *hooke_scene_title(const hooke_scene *scene);
 HOOKE_API const char *hooke_scene_text(const hooke_scene *scene);
 HOOKE_API int32_t hooke_mesh_read(const char *path, hooke_options *options);
+#ifdef __cplusplus
+}
+#endif
+#endif
+#ifndef HOOKE_TRAJECTORY_H
+#define HOOKE_TRAJECTORY_H
+#ifdef __cplusplus
+extern "C" {
+#endif
+HOOKE_API int32_t hooke_io_own_process(void);
 typedef struct hooke_trajectory hooke_trajectory;
 HOOKE_API int32_t hooke_trajectory_create(const char *path, const hooke_system *system,
                                           const hooke_integrator *integrator, const char *scene_text,

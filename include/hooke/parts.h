@@ -1,4 +1,4 @@
-/* hooke/build.h - parts: pieces of a scene that are generated rather than listed.
+/* hooke/parts.h - parts: pieces of a scene that are generated rather than listed.
  *
  *   rope   `segments` springs from `from` to `to`: stretch (neighbours), bend (two apart)
  *   cloth  nu x nv particles over two edges: structural (neighbours along u, then v), shear (both diagonals of
@@ -20,8 +20,8 @@
  * A family that is not named has no springs. Stiffness is that of the strain law, so a finer part of the same
  * material stretches the same. Rest lengths are one per family and direction, from the edges and not from
  * rounded positions. */
-#ifndef HOOKE_BUILD_H
-#define HOOKE_BUILD_H
+#ifndef HOOKE_PARTS_H
+#define HOOKE_PARTS_H
 
 #include "system.h"
 
@@ -44,7 +44,7 @@ HOOKE_API int32_t hooke_system_add_part(hooke_system *system, const char *kind, 
  * them (see the option `weld`); the particles are the vertices in the order of their first appearance. The
  * mesh is checked when the part is added: triangles without area, edges of more than two triangles, a
  * triangle given twice, vertices of no triangle are refused. HOOKE_BAD_VALUE, HOOKE_NO_MEMORY. Files:
- * hooke_mesh_read() in io.h. */
+ * hooke_mesh_read() in scene.h. */
 HOOKE_API int32_t hooke_mesh_set(hooke_options *options, int64_t vertex_count, const double *vertices,
                                  int64_t triangle_count, const int64_t *triangles);
 
