@@ -141,7 +141,7 @@ def test_a_damaged_checkpoint_gives_way_to_the_last_frame(hooke, start, write, t
     interrupted(start, write, tmp_path)
     frames = len(h5py.File(tmp_path / "out.h5")["particles/all/position/time"])
     whole = (tmp_path / "out.h5.checkpoint").read_bytes()
-    (tmp_path / "out.h5.checkpoint").write_bytes(whole[:1000] + b"?" + whole[1001:])
+    (tmp_path / "out.h5.checkpoint").write_bytes(whole[:1000] + bytes([whole[1000] ^ 0xFF]) + whole[1001:])
     process = start("run", "--resume", "out.h5")
     interrupt(process, 0.3)
     _, err = process.communicate(timeout=60)
