@@ -258,7 +258,8 @@ int32_t hk_growth_create(const struct hk_twin *twin, const hooke_options *run, c
                          const double *mode, double accuracy, double deadline, struct hk_growth *growth) {
   const int64_t size = 3 * twin->system->particle_count;
   *growth = (struct hk_growth){.twin = twin, .accuracy = accuracy, .deadline = deadline, .random = 1};
-  int32_t status = run ? hooke_options_copy(run, &growth->run) : hk_run_options_create(&growth->run);
+  int32_t status =
+      run ? hooke_options_copy(run, &growth->run) : hk_options_create(&hk_run_options, &growth->run);
   if (status == HOOKE_OK) status = hooke_options_set_text(growth->run, "method", method);
   if (status == HOOKE_OK) status = hooke_options_unset(growth->run, "duration");
   if (status == HOOKE_OK) status = hooke_options_unset(growth->run, "every");

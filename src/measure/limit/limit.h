@@ -70,6 +70,11 @@ struct hk_blame_line {
 };
 enum { HOOKE_BLAME_COLUMNS = 6 };
 extern const struct hk_column hk_blame_columns[HOOKE_BLAME_COLUMNS];
+#define HOOKE_BLAME_TABLE                                                                                    \
+  .doc =                                                                                                     \
+      "limiting springs, at most 100, the largest share first; before them the force that has half of the "  \
+      "whole or more, if it is not the stiffness of springs",                                                \
+  HOOKE_TABLE_COLUMNS(hk_blame_columns, struct hk_blame_line)
 
 enum { HOOKE_LIMIT_TABLES = 6 };
 extern const struct hk_table *const hk_limit_tables[HOOKE_LIMIT_TABLES];

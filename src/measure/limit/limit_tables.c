@@ -176,10 +176,7 @@ const struct hk_column hk_blame_columns[HOOKE_BLAME_COLUMNS] = {
 
 static const struct hk_table blame_table = {
     .name = "blame",
-    .doc =
-        "limiting springs, at most 100, the largest share first; before them the force that has half of the "
-        "whole or more, if it is not the stiffness of springs",
-    HOOKE_TABLE_COLUMNS(hk_blame_columns, struct hk_blame_line),
+    HOOKE_BLAME_TABLE,
     .count = count_blame,
     .read = read_blame,
 };

@@ -124,11 +124,8 @@ static const struct hk_table reference_table = {
 /* ---- rows ---- */
 
 struct row_line {
-  const char *method, *status;
-  double step, rtol, atol, error, error_max, error_final, energy_drift;
-  double force_evaluations, steps, linear_iterations, wall_seconds, wall_median, repeats;
-  double near_floor, near_energy_floor, timed_alone;
-  struct hk_series error_at, energy_drift_at;
+  struct hk_trial_line trial; /* first: its columns are those of the line */
+  double wall_median, repeats, near_floor, near_energy_floor, timed_alone;
 };
 
 static int64_t count_rows(const void *object) {
@@ -143,47 +140,25 @@ static void read_row(const void *object, int64_t row, void *line) {
   const struct hk_study *study = object;
   const struct hk_study_row *r = &study->row[row];
   const struct hk_trial *t = &r->trial;
-  const int64_t frames = study->reference.trusted;
   *(struct row_line *)line = (struct row_line){
-      .method = study->method[r->method],
-      .status = t->status,
-      .step = t->step,
-      .rtol = t->rtol,
-      .atol = t->atol,
-      .error = t->error,
-      .error_max = t->error_max,
-      .error_final = t->error_final,
-      .energy_drift = t->energy_drift,
-      .force_evaluations = t->force_evaluations,
-      .steps = t->steps,
-      .linear_iterations = t->linear_iterations,
-      .wall_seconds = t->wall_seconds,
+      .trial = hk_trial_line(t, study->method[r->method], study->reference.trusted),
       .wall_median = r->wall_median,
       .repeats = (double)r->repeats,
       .near_floor = is_near(t->error, study->reference.agreement),
       .near_energy_floor = is_near(t->energy_drift, study->reference.energy_agreement),
       .timed_alone = (double)r->timed_alone,
-      .error_at = {t->error_at, frames},
-      .energy_drift_at = {t->drift_at, frames},
   };
 }
 
 static const struct hk_column row_columns[] = {
-    HOOKE_COLUMN(struct row_line, method, TEXT, "", "method"),
-    HOOKE_COLUMN(struct row_line, step, NUMBER, "s", "step of a fixed-step method"),
-    HOOKE_COLUMN(struct row_line, rtol, NUMBER, "", "relative tolerance of an error-controlled method"),
-    HOOKE_COLUMN(struct row_line, error, NUMBER, "m",
-                 "largest root mean square over the free particles of the distance to the reference"),
-    HOOKE_COLUMN(struct row_line, error_max, NUMBER, "m", "largest distance of any free particle"),
-    HOOKE_COLUMN(struct row_line, error_final, NUMBER, "m", "root mean square distance at the last frame"),
-    HOOKE_COLUMN(struct row_line, energy_drift, NUMBER, "J",
-                 "largest difference of energy from the reference"),
-    HOOKE_COLUMN(struct row_line, force_evaluations, COUNT, "", "evaluations of the forces"),
-    HOOKE_COLUMN(struct row_line, steps, COUNT, "", "steps taken"),
-    HOOKE_COLUMN(struct row_line, wall_seconds, NUMBER, "s", "wall time, the least of the repeated runs"),
-    HOOKE_COLUMN(struct row_line, status, TEXT, "", "finished, diverged, stopped or failed"),
-    HOOKE_COLUMN(struct row_line, atol, NUMBER, "m", "absolute tolerance of positions"),
-    HOOKE_COLUMN(struct row_line, linear_iterations, COUNT, "", "iterations of linear solvers"),
+    HOOKE_TRIAL_COLUMN(method, TEXT, "", "method"),
+    HOOKE_TRIAL_COLUMN(step, NUMBER, "s", "step of a fixed-step method"),
+    HOOKE_TRIAL_COLUMN(rtol, NUMBER, "", "relative tolerance of an error-controlled method"),
+    HOOKE_TRIAL_COLUMNS,
+    HOOKE_TRIAL_COLUMN(wall_seconds, NUMBER, "s", "wall time, the least of the repeated runs"),
+    HOOKE_TRIAL_COLUMN(status, TEXT, "", "finished, diverged, stopped or failed"),
+    HOOKE_TRIAL_COLUMN(atol, NUMBER, "m", "absolute tolerance of positions"),
+    HOOKE_TRIAL_COLUMN(linear_iterations, COUNT, "", "iterations of linear solvers"),
     HOOKE_COLUMN(struct row_line, wall_median, NUMBER, "s", "median of the repeated runs"),
     HOOKE_COLUMN(struct row_line, repeats, COUNT, "", "runs that were timed"),
     HOOKE_COLUMN(struct row_line, near_floor, FLAG, "", "the error is within ten times of the agreement"),
@@ -191,9 +166,8 @@ static const struct hk_column row_columns[] = {
                  "the energy drift is within ten times of the agreement of energies"),
     HOOKE_COLUMN(struct row_line, timed_alone, FLAG, "",
                  "0: timed while other rows were running, so its time may be too long"),
-    HOOKE_COLUMN(struct row_line, error_at, SERIES, "m", "root mean square distance at every frame"),
-    HOOKE_COLUMN(struct row_line, energy_drift_at, SERIES, "J",
-                 "energy less that of the reference at every frame"),
+    HOOKE_TRIAL_COLUMN(error_at, SERIES, "m", "root mean square distance at every frame"),
+    HOOKE_TRIAL_COLUMN(energy_drift_at, SERIES, "J", "energy less that of the reference at every frame"),
 };
 
 static const struct hk_table row_table = {

@@ -64,13 +64,6 @@ static const struct hk_table reference_table = {
 
 /* ---- rows ---- */
 
-struct row_line {
-  const char *method, *status;
-  double step, rtol, atol, error, error_max, error_final, energy_drift;
-  double force_evaluations, steps, linear_iterations, wall_seconds;
-  struct hk_series error_at, energy_drift_at;
-};
-
 static int64_t count_rows(const void *object) {
   return ((const struct hk_comparison *)object)->row_count;
 }
@@ -78,64 +71,27 @@ static int64_t count_rows(const void *object) {
 static void read_row(const void *object, int64_t row, void *line) {
   const struct hk_comparison *c = object;
   const struct hk_comparison_row *r = &c->row[row];
-  static const struct hk_trial none = {.status = "not run",
-                                       .step = NAN,
-                                       .rtol = NAN,
-                                       .atol = NAN,
-                                       .error = NAN,
-                                       .error_max = NAN,
-                                       .error_final = NAN,
-                                       .energy_drift = NAN,
-                                       .force_evaluations = NAN,
-                                       .steps = NAN,
-                                       .linear_iterations = NAN,
-                                       .wall_seconds = NAN};
-  const struct hk_trial *t = r->trial.status ? &r->trial : &none;
-  *(struct row_line *)line = (struct row_line){
-      .method = r->method,
-      .status = t->status,
-      .step = t->step,
-      .rtol = t->rtol,
-      .atol = t->atol,
-      .error = t->error,
-      .error_max = t->error_max,
-      .error_final = t->error_final,
-      .energy_drift = t->energy_drift,
-      .force_evaluations = t->force_evaluations,
-      .steps = t->steps,
-      .linear_iterations = t->linear_iterations,
-      .wall_seconds = t->wall_seconds,
-      .error_at = {t->error_at, c->frame_count},
-      .energy_drift_at = {t->drift_at, c->frame_count},
-  };
+  *(struct hk_trial_line *)line = hk_trial_line(&r->trial, r->method, c->frame_count);
 }
 
 static const struct hk_column row_columns[] = {
-    HOOKE_COLUMN(struct row_line, method, TEXT, "", "method"),
-    HOOKE_COLUMN(struct row_line, step, NUMBER, "s", "step of a fixed-step method"),
-    HOOKE_COLUMN(struct row_line, rtol, NUMBER, "", "relative tolerance of an error-controlled method"),
-    HOOKE_COLUMN(struct row_line, atol, NUMBER, "m", "absolute tolerance of positions"),
-    HOOKE_COLUMN(struct row_line, error, NUMBER, "m",
-                 "largest root mean square over the free particles of the distance to the reference"),
-    HOOKE_COLUMN(struct row_line, error_max, NUMBER, "m", "largest distance of any free particle"),
-    HOOKE_COLUMN(struct row_line, error_final, NUMBER, "m", "root mean square distance at the last frame"),
-    HOOKE_COLUMN(struct row_line, energy_drift, NUMBER, "J",
-                 "largest difference of energy from the reference"),
-    HOOKE_COLUMN(struct row_line, force_evaluations, COUNT, "", "evaluations of the forces"),
-    HOOKE_COLUMN(struct row_line, steps, COUNT, "", "steps taken"),
-    HOOKE_COLUMN(struct row_line, linear_iterations, COUNT, "", "iterations of linear solvers"),
-    HOOKE_COLUMN(struct row_line, wall_seconds, NUMBER, "s", "wall time"),
-    HOOKE_COLUMN(struct row_line, status, TEXT, "", "finished, diverged, stopped, failed or not run"),
-    HOOKE_COLUMN(struct row_line, error_at, SERIES, "m",
-                 "root mean square distance at every frame; NaN past the end of the run"),
-    HOOKE_COLUMN(struct row_line, energy_drift_at, SERIES, "J",
-                 "energy less that of the reference at every frame"),
+    HOOKE_TRIAL_COLUMN(method, TEXT, "", "method"),
+    HOOKE_TRIAL_COLUMN(step, NUMBER, "s", "step of a fixed-step method"),
+    HOOKE_TRIAL_COLUMN(rtol, NUMBER, "", "relative tolerance of an error-controlled method"),
+    HOOKE_TRIAL_COLUMN(atol, NUMBER, "m", "absolute tolerance of positions"),
+    HOOKE_TRIAL_COLUMNS,
+    HOOKE_TRIAL_COLUMN(linear_iterations, COUNT, "", "iterations of linear solvers"),
+    HOOKE_TRIAL_COLUMN(wall_seconds, NUMBER, "s", "wall time"),
+    HOOKE_TRIAL_COLUMN(status, TEXT, "", "finished, diverged, stopped, failed or not run"),
+    HOOKE_TRIAL_COLUMN(error_at, SERIES, "m",
+                       "root mean square distance at every frame; NaN past the end of the run"),
+    HOOKE_TRIAL_COLUMN(energy_drift_at, SERIES, "J", "energy less that of the reference at every frame"),
 };
 
 static const struct hk_table row_table = {
     .name = "rows",
     .doc = "the methods, each run once",
-    HOOKE_TABLE_COLUMNS(row_columns, struct row_line),
+    HOOKE_TABLE_COLUMNS(row_columns, struct hk_trial_line),
     .count = count_rows,
     .read = read_row,
 };

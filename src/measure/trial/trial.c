@@ -24,6 +24,39 @@ void hk_trial_release(struct hk_trial *trial) {
   memset(trial, 0, sizeof *trial);
 }
 
+struct hk_trial_line hk_trial_line(const struct hk_trial *trial, const char *method, int64_t frames) {
+  static const struct hk_trial none = {.status = "not run",
+                                       .step = NAN,
+                                       .rtol = NAN,
+                                       .atol = NAN,
+                                       .error = NAN,
+                                       .error_max = NAN,
+                                       .error_final = NAN,
+                                       .energy_drift = NAN,
+                                       .force_evaluations = NAN,
+                                       .steps = NAN,
+                                       .linear_iterations = NAN,
+                                       .wall_seconds = NAN};
+  const struct hk_trial *t = trial->status ? trial : &none;
+  return (struct hk_trial_line){
+      .method = method,
+      .status = t->status,
+      .step = t->step,
+      .rtol = t->rtol,
+      .atol = t->atol,
+      .error = t->error,
+      .error_max = t->error_max,
+      .error_final = t->error_final,
+      .energy_drift = t->energy_drift,
+      .force_evaluations = t->force_evaluations,
+      .steps = t->steps,
+      .linear_iterations = t->linear_iterations,
+      .wall_seconds = t->wall_seconds,
+      .error_at = {t->error_at, frames},
+      .energy_drift_at = {t->drift_at, frames},
+  };
+}
+
 /* ---- a run under way ---- */
 
 struct run {

@@ -3,6 +3,7 @@
 #ifndef HOOKE_MEASURE_TRIAL_TRIAL_H
 #define HOOKE_MEASURE_TRIAL_TRIAL_H
 
+#include "core/table/column.h"
 #include "hooke/measurement.h"
 #include "measure/trial/frames.h"
 
@@ -41,5 +42,26 @@ int32_t hk_frames_run(struct hk_frames *frames, const hooke_options *options,
 /* Sets a method and its step or rtol in options of a run; atol keeps its share of rtol, and atol_velocity
  * follows it. */
 int32_t hk_trial_set_value(hooke_options *run, const char *method, double value);
+
+/* A trial as a row of a table. Before it was run: "not run" and NaN. */
+struct hk_trial_line {
+  const char *method, *status;
+  double step, rtol, atol, error, error_max, error_final, energy_drift;
+  double force_evaluations, steps, linear_iterations, wall_seconds;
+  struct hk_series error_at, energy_drift_at; /* of `frames` */
+};
+struct hk_trial_line hk_trial_line(const struct hk_trial *trial, const char *method, int64_t frames);
+
+#define HOOKE_TRIAL_COLUMN(member, type, unit, doc)                                                          \
+  HOOKE_COLUMN(struct hk_trial_line, member, type, unit, doc)
+/* Columns of the errors and the work of a trial. */
+#define HOOKE_TRIAL_COLUMNS                                                                                  \
+  HOOKE_TRIAL_COLUMN(error, NUMBER, "m",                                                                     \
+                     "largest root mean square over the free particles of the distance to the reference"),   \
+      HOOKE_TRIAL_COLUMN(error_max, NUMBER, "m", "largest distance of any free particle"),                   \
+      HOOKE_TRIAL_COLUMN(error_final, NUMBER, "m", "root mean square distance at the last frame"),           \
+      HOOKE_TRIAL_COLUMN(energy_drift, NUMBER, "J", "largest difference of energy from the reference"),      \
+      HOOKE_TRIAL_COLUMN(force_evaluations, COUNT, "", "evaluations of the forces"),                         \
+      HOOKE_TRIAL_COLUMN(steps, COUNT, "", "steps taken")
 
 #endif
