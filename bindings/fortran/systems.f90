@@ -211,15 +211,17 @@ contains
     class(hooke_system), intent(in) :: self
     character(*), intent(in) :: what
     real(c_double), intent(in), contiguous, optional :: q(:, :), v(:, :)
-    logical :: both
-    both = present(q) .and. present(v)
     if (present(q)) call must_suit(self, q)
     if (present(v)) call must_suit(self, v)
-    energy = ieee_value(energy, ieee_quiet_nan)
-    if (both) energy = c_system_energy(self%address(), to_c(what), q, v)
-    if (present(v) .and. .not. both .and. what == "kinetic") energy = c_system_energy(self%address(), to_c(what), v, v)
-    if (present(q) .and. .not. both .and. what /= "kinetic" .and. what /= "total") &
+    if (present(q) .and. present(v)) then
+      energy = c_system_energy(self%address(), to_c(what), q, v)
+    else if (present(v) .and. what == "kinetic") then ! reads no positions
+      energy = c_system_energy(self%address(), to_c(what), v, v)
+    else if (present(q) .and. what /= "kinetic" .and. what /= "total") then ! reads no velocities
       energy = c_system_energy(self%address(), to_c(what), q, q)
+    else
+      energy = ieee_value(energy, ieee_quiet_nan)
+    end if
   end function
 
   ! Power that damping and drag turn into heat [W].

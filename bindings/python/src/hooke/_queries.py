@@ -122,10 +122,10 @@ class Queries(Owner):
     def anchors(self) -> tuple[IntArray, FloatArray, FloatArray, FloatArray, FloatArray]:
         """Of every anchor the particle (m,), the point (m, 3) [m], stiffness [N/m], damping [N s/m] and rest length
         [m] (m,)."""
-        particles, (stiffness, damping, rest_length) = self._members(b"anchors", 1)
+        particles = self._ends(b"anchors")[:, 0]
         points = np.empty((len(particles), 3))
         lib.hooke_system_anchor_points(self._handle, double_pointer(points))
-        return particles[:, 0], points, stiffness, damping, rest_length
+        return (particles, points, *self._material(b"anchors"))
 
     @property
     def derived(self) -> list[Derived]:
@@ -160,45 +160,49 @@ class Queries(Owner):
         handle = self._committed()
         return view(address_of(function(handle)), (self.particle_count,), handle, writeable=False)
 
-    def _members(self, force: bytes, particles: int, rest_lengths: int = 1) -> tuple[IntArray, Material]:
+    def _ends(self, force: bytes) -> IntArray:
+        handle = self._committed()
+        ends = np.empty((lib.hooke_system_count(handle, force), lib.hooke_member_particles(force)), np.int64)
+        lib.hooke_system_members(handle, force, index_pointer(ends), None, None, None)
+        return ends
+
+    def _material(self, force: bytes, *rest_lengths: int) -> Material:
         handle = self._committed()
         count = lib.hooke_system_count(handle, force)
-        ends = np.empty((count, particles), np.int64)
-        rest_length = np.empty(count) if rest_lengths == 1 else np.empty((count, rest_lengths))
-        material = Material(np.empty(count), np.empty(count), rest_length)
-        lib.hooke_system_members(handle, force, index_pointer(ends), *(double_pointer(column) for column in material))
-        return ends, material
+        material = Material(np.empty(count), np.empty(count), np.empty((count, *rest_lengths)))
+        lib.hooke_system_members(handle, force, None, *(double_pointer(column) for column in material))
+        return material
 
     @property
     def spring_ends(self) -> IntArray:
         """The particles at both ends of every spring (m, 2), in spring order."""
-        return self._members(b"springs", 2)[0]
+        return self._ends(b"springs")
 
     @property
     def spring_material(self) -> Material:
         """Stiffness, damping and rest length of every spring."""
-        return self._members(b"springs", 2)[1]
+        return self._material(b"springs")
 
     @property
     def bending_ends(self) -> IntArray:
         """The particles of every triple (m, 3), in their order."""
-        return self._members(b"bending", 3)[0]
+        return self._ends(b"bending")
 
     @property
     def bending_coefficient(self) -> FloatArray:
         """The coefficient of every triple (m,) [N/m]."""
-        return self._members(b"bending", 3)[1][0]
+        return self._material(b"bending").kappa
 
     @property
     def altitude_ends(self) -> np.ndarray:
         """The particles of every tetrahedron (m, 4), in their order."""
-        return self._members(b"altitude", 4, 7)[0]
+        return self._ends(b"altitude")
 
     @property
     def altitude_material(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Stiffness (m,) [N], damping (m,) [N s] and the seven rest lengths (m, 7) [m] of every tetrahedron,
         negative where its volume is."""
-        stiffness, damping, rest_length = self._members(b"altitude", 4, 7)[1]
+        stiffness, damping, rest_length = self._material(b"altitude", 7)
         return stiffness, damping, rest_length
 
     def altitude_lengths(self, q: Any) -> np.ndarray:
