@@ -6,11 +6,11 @@
  *   hooke_measurement_number(study, "rows", 0, "error");
  *   hooke_measurement_destroy(study);
  *
- * A measurement is of one kind: "study", "limit", "needs", "cost", "comparison", "why" or "verify". Its options
- * are made by hooke_options_create() with the name of the kind. Its results are tables, with columns that have a name, a unit and a line of
- * documentation. A table is "rows", or a "record" of one row with the numbers of the whole. The record that is
- * named like the kind has what concerns the measurement itself. hooke_measurement_table() lists kinds and
- * tables, hooke_measurement_column() the columns.
+ * A measurement is of one kind: "study", "limit", "needs", "cost", "comparison", "why" or "verify". Its
+ * options are made by hooke_options_create() with the name of the kind. Its results are tables, with columns
+ * that have a name, a unit and a line of documentation. A table is "rows", or a "record" of one row with the
+ * numbers of the whole. The record that is named like the kind has what concerns the measurement itself.
+ * hooke_measurement_table() lists kinds and tables, hooke_measurement_column() the columns.
  *
  * A measurement belongs to one thread at a time. */
 #ifndef HOOKE_MEASUREMENT_H

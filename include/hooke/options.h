@@ -17,10 +17,10 @@ extern "C" {
 
 typedef struct hooke_options hooke_options;
 
-/* Options of the table `name`, for the caller to set and destroy: "run", "springs" and "altitude" (of a group), a kind of part
- * ("cloth", ...), a kind of measurement ("study", ...), "view", "limits" of what is loaded, or "scene",
- * "particles" and "driven", the keys of a scene that nothing else has. HOOKE_BAD_VALUE lists them all;
- * HOOKE_NO_MEMORY. */
+/* Options of the table `name`, for the caller to set and destroy: "run", "springs", "altitude" and
+ * "anchors" (of a group), a kind of part ("cloth", ...), a kind of measurement ("study", ...), "view", "limits" of what is
+ * loaded, or "scene", "particles" and "driven", the keys of a scene that nothing else has. HOOKE_BAD_VALUE
+ * lists them all; HOOKE_NO_MEMORY. */
 HOOKE_API int32_t hooke_options_create(const char *name, hooke_options **options);
 
 /* A copy of `options` with all values; the caller owns it. HOOKE_NO_MEMORY. */

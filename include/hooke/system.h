@@ -87,7 +87,8 @@ HOOKE_API int32_t hooke_system_add_particles(hooke_system *system, int64_t count
 HOOKE_API int32_t hooke_system_pin(hooke_system *system, int64_t count, const int64_t *particles);
 
 /* Adds a group of `count` springs between the pairs in `ends` (2 count particle numbers, different within a
- * pair), with options "springs". `name` may be NULL. HOOKE_BAD_VALUE names the spring; HOOKE_BAD_CALL, HOOKE_NO_MEMORY. */
+ * pair), with options "springs". `name` may be NULL. HOOKE_BAD_VALUE names the spring; HOOKE_BAD_CALL,
+ * HOOKE_NO_MEMORY. */
 HOOKE_API int32_t hooke_system_add_springs(hooke_system *system, const char *name, int64_t count,
                                            const int64_t *ends, const hooke_options *options);
 
@@ -99,15 +100,15 @@ HOOKE_API int32_t hooke_system_add_bending(hooke_system *system, const char *nam
                                            const double *coefficient);
 
 /* Adds a group of `count` tetrahedra, 4 count particle numbers (different within one), with altitude springs
- * and options "altitude".
- * Rest lengths are the seven altitudes at the positions that the particles were added with. `name` may be
- * NULL. HOOKE_BAD_VALUE names the tetrahedron, also one that is flat; HOOKE_BAD_CALL, HOOKE_NO_MEMORY. */
+ * and options "altitude". Rest lengths are the seven altitudes at the positions that the particles were added
+ * with. `name` may be NULL. HOOKE_BAD_VALUE names the tetrahedron, also one that is flat; HOOKE_BAD_CALL,
+ * HOOKE_NO_MEMORY. */
 HOOKE_API int32_t hooke_system_add_altitude(hooke_system *system, const char *name, int64_t count,
                                             const int64_t *tetrahedra, const hooke_options *options);
 
-/* Adds a group of `count` anchors, springs from a particle to a fixed point, one for each of `particles`, which may
- * be named more than once, with options "anchors". Without `points` each is tied to the place that it was added at. `name` may be NULL. HOOKE_BAD_VALUE
- * names the anchor; HOOKE_BAD_CALL, HOOKE_NO_MEMORY. */
+/* Adds a group of `count` anchors, springs from a particle to a fixed point, one for each of `particles`,
+ * which may be named more than once, with options "anchors". Without `points` each is tied to the place that
+ * it was added at. `name` may be NULL. HOOKE_BAD_VALUE names the anchor; HOOKE_BAD_CALL, HOOKE_NO_MEMORY. */
 HOOKE_API int32_t hooke_system_add_anchors(hooke_system *system, const char *name, int64_t count,
                                            const int64_t *particles, const hooke_options *options);
 
@@ -164,8 +165,8 @@ HOOKE_API int64_t hooke_system_spring_count(const hooke_system *system);
  *              number of springs */
 HOOKE_API int64_t hooke_system_count(const hooke_system *system, const char *what);
 
-/* The groups of a force: "springs", "bending", "altitude" or "anchors". -1 groups for another word; the name of
- * group `group`, "" if it has none, NULL if there is no such group; and its members, 0 if there is none. */
+/* The groups of a force: "springs", "bending", "altitude" or "anchors". -1 groups for another word; the name
+ * of group `group`, "" if it has none, NULL if there is no such group; its members, 0 if there is none. */
 HOOKE_API int64_t hooke_system_group_count(const hooke_system *system, const char *force);
 HOOKE_API const char *hooke_system_group_name(const hooke_system *system, const char *force, int64_t group);
 HOOKE_API int64_t hooke_system_group_size(const hooke_system *system, const char *force, int64_t group);
@@ -175,15 +176,15 @@ HOOKE_API int64_t hooke_system_group_size(const hooke_system *system, const char
 HOOKE_API const double *hooke_system_mass(const hooke_system *system);
 HOOKE_API const double *hooke_system_inverse_mass(const hooke_system *system);
 
-/* Particles of one member of a force: 2 of a spring, 3 of bending, 4 of a tetrahedron, 1 of an anchor; 0 for a
- * force without members and for another word. */
+/* Particles of one member of a force: 2 of a spring, 3 of bending, 4 of a tetrahedron, 1 of an anchor; 0 for
+ * a force without members and for another word. */
 HOOKE_API int64_t hooke_member_particles(const char *force);
-/* All members of a force in their order, hooke_system_count(system, force) of them: the particles of each, and
- * its stiffness [N/m], damping [N s/m] and rest length [m]. Arrays have a number a member, `particles`
- * hooke_member_particles(), and each may be NULL. Bending has its coefficient as the stiffness and zeros. Altitude springs
- * have stiffness [N], damping [N s] and 7 rest lengths each, in the order above, negative for a tetrahedron
- * whose volume (x_1 - x_0).((x_2 - x_0) x (x_3 - x_0)) is. HOOKE_BAD_CALL before commit; HOOKE_BAD_VALUE for
- * another word. */
+/* All members of a force in their order, hooke_system_count(system, force) of them: the particles of each,
+ * and its stiffness [N/m], damping [N s/m] and rest length [m]. Arrays have a number a member, `particles`
+ * hooke_member_particles(), and each may be NULL. Bending has its coefficient as the stiffness and zeros.
+ * Altitude springs have stiffness [N], damping [N s] and 7 rest lengths each, in the order above, negative
+ * for a tetrahedron whose volume (x_1 - x_0).((x_2 - x_0) x (x_3 - x_0)) is. HOOKE_BAD_CALL before commit;
+ * HOOKE_BAD_VALUE for another word. */
 HOOKE_API int32_t hooke_system_members(const hooke_system *system, const char *force, int64_t *particles,
                                        double *stiffness, double *damping, double *rest_length);
 /* The point of every anchor [m] (3 each). HOOKE_BAD_CALL before commit. */
@@ -230,10 +231,10 @@ HOOKE_API int32_t hooke_system_derivative_pattern(const hooke_system *system, in
 HOOKE_API int32_t hooke_system_derivative_blocks(const hooke_system *system, const double *q, const double *v,
                                                  double *dfdq, double *dfdv);
 
-/* An energy [J]: "kinetic" of the free particles; "springs", "bending", "altitude", "anchors", "gravity" (the sum
- * of -m g.q); "potential", their sum; "total". The kinetic energy needs v alone, the others q alone; what is not
- * needed may be NULL. A callback has none. NaN for another word. Sums keep the rounding errors of their additions
- * (Neumaier 1974). Beyond the largest number they are infinite. */
+/* An energy [J]: "kinetic" of the free particles; "springs", "bending", "altitude", "anchors", "gravity" (the
+ * sum of -m g.q); "potential", their sum; "total". The kinetic energy needs v alone, the others q alone; what
+ * is not needed may be NULL. A callback has none. NaN for another word. Sums keep the rounding errors of
+ * their additions (Neumaier 1974). Beyond the largest number they are infinite. */
 HOOKE_API double hooke_system_energy(const hooke_system *system, const char *what, const double *q,
                                      const double *v);
 /* Power that damping and drag turn into heat [W], >= 0. */

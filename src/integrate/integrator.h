@@ -109,7 +109,7 @@ struct hooke_integrator {
   char message[512]; /* "" after success */
 };
 
-int32_t hk_run_options_create(hooke_options **options);
+extern const struct hk_option_table hk_run_options;
 /* HOOKE_BAD_VALUE, as the argument `place`, for options that are not those of a run. */
 int32_t hk_run_options_require(const hooke_options *options, const char *place);
 

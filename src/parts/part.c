@@ -71,10 +71,8 @@ static const struct hooke_part_kind *find_kind(const char *name) {
   return NULL;
 }
 
-int32_t hk_part_options_create(const char *kind, hooke_options **options) {
-  *options = NULL;
-  const struct hooke_part_kind *found = find_kind(kind);
-  return found ? hk_options_create(found->table, options) : HOOKE_BAD_VALUE;
+const struct hk_option_table *hk_part_table(int64_t k) {
+  return k < KIND_COUNT ? kinds[k]->table : NULL;
 }
 
 double hk_part_length(const double *vector) {

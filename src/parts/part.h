@@ -31,8 +31,8 @@ extern const struct hooke_part_kind hk_part_lattice;
 extern const struct hooke_part_kind hk_part_mesh;
 extern const struct hooke_part_kind hk_part_strand;
 
-/* Options of a part of this kind. HOOKE_BAD_VALUE for an unknown kind. */
-int32_t hk_part_options_create(const char *kind, hooke_options **options);
+/* The options of kind number `k`, NULL past the last. */
+const struct hk_option_table *hk_part_table(int64_t k);
 
 /* Rows that kinds have in common: a point [m], the corner where a grid begins [m], the total mass or the
  * density, bending stiffness, held particles, a family of springs. */

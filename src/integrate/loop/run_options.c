@@ -97,14 +97,10 @@ static const struct hk_option_row run_rows[] = {
      .doc = "most threads that may be used, as far as the scene is worth them; results do not depend on it"},
 };
 
-static const struct hk_option_table run_table = {"run", HOOKE_OPTION_ROWS(run_rows)};
-
-int32_t hk_run_options_create(hooke_options **options) {
-  return hk_options_create(&run_table, options);
-}
+const struct hk_option_table hk_run_options = {"run", HOOKE_OPTION_ROWS(run_rows)};
 
 int32_t hk_run_options_require(const hooke_options *options, const char *place) {
-  return hk_options_require(options, &run_table, place, "hooke_options_create(\"run\", ...)");
+  return hk_options_require(options, &hk_run_options, place, "hooke_options_create(\"run\", ...)");
 }
 
 /* ---- schedule ---- */

@@ -36,13 +36,9 @@ static const struct hk_option_row rows[] = {
      .fallback = "50",
      .doc = "size of the page at most, which frames are left out for"},
 };
-static const struct hk_option_table table = {"view", HOOKE_OPTION_ROWS(rows)};
+const struct hk_option_table hk_view_options = {"view", HOOKE_OPTION_ROWS(rows)};
 
 const char *const hk_view_energy[HOOKE_VIEW_ENERGIES] = {"kinetic", "potential", "total"};
-
-int32_t hk_view_options_create(hooke_options **options) {
-  return hk_options_create(&table, options);
-}
 
 /* ---- reading ---- */
 
@@ -242,12 +238,13 @@ int32_t hooke_view_create(const hooke_record *record, const hooke_options *optio
   if (view == NULL) return HOOKE_NO_MEMORY;
   view->record = record;
   view->bytes = NAN;
-  if (options && hk_options_table(options) != &table)
+  if (options && hk_options_table(options) != &hk_view_options)
     status = hk_fail(HOOKE_BAD_CALL, "options",
                      "are not those of a view; make them with hooke_options_create(\"view\", ...)");
   if (status == HOOKE_OK) status = check_record(view);
   if (status == HOOKE_OK)
-    status = options ? hooke_options_copy(options, &view->options) : hk_view_options_create(&view->options);
+    status = options ? hooke_options_copy(options, &view->options)
+                     : hk_options_create(&hk_view_options, &view->options);
   if (status == HOOKE_OK) status = choose(view);
   if (status == HOOKE_OK) status = hk_view_find_strain(view);
   if (status == HOOKE_OK)

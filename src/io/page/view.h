@@ -6,6 +6,7 @@
 #ifndef HOOKE_IO_PAGE_VIEW_H
 #define HOOKE_IO_PAGE_VIEW_H
 
+#include "core/table/option.h"
 #include "hooke/trajectory.h"
 
 enum { HOOKE_VIEW_ENERGIES = 3 };
@@ -14,7 +15,7 @@ extern const char *const hk_view_energy[HOOKE_VIEW_ENERGIES]; /* "kinetic", ... 
 /* How a particle is marked. */
 enum { HOOKE_VIEW_FREE, HOOKE_VIEW_PINNED, HOOKE_VIEW_DRIVEN, HOOKE_VIEW_LOOSE };
 
-int32_t hk_view_options_create(hooke_options **options);
+extern const struct hk_option_table hk_view_options;
 
 struct hooke_view {
   const hooke_record *record;

@@ -1,64 +1,74 @@
 /* Options by the name of their table. */
-#include "parts/part.h"
-#include "model/force/spring.h"
-#include "model/force/altitude.h"
-#include "io/scene/scene_file.h"
-#include "io/page/view.h"
-#include "integrate/integrator.h"
-#include "core/table/option.h"
 #include "core/status.h"
-#include "hooke/parts.h"
-#include "hooke/integrator.h"
-#include "hooke/trajectory.h"
+#include "hooke/measurement.h"
+#include "integrate/integrator.h"
 #include "io/measurement/measurement_file.h"
+#include "io/page/view.h"
+#include "io/scene/scene_file.h"
+#include "model/force/force.h"
+#include "parts/part.h"
 
 #include <stdio.h>
 #include <string.h>
 
-static const struct maker {
+/* A table and the name that it is asked for by; NULL past the last of its source. */
+struct named {
   const char *name;
-  int32_t (*create)(hooke_options **options);
-} makers[] = {{"run", hk_run_options_create}, {"view", hk_view_options_create}};
-enum { MAKERS = sizeof makers / sizeof makers[0] };
-static const char *const scene_names[] = {"scene", "particles", "driven", "limits"};
-enum { SCENE_NAMES = sizeof scene_names / sizeof scene_names[0] };
+  const struct hk_option_table *table;
+};
+
+static struct named by_own_name(const struct hk_option_table *table) {
+  return table ? (struct named){table->name, table} : (struct named){NULL, NULL};
+}
+
+static struct named other(int64_t k) {
+  const struct named tables[] = {{"run", &hk_run_options}, {"view", &hk_view_options}, {NULL, NULL}};
+  return tables[k];
+}
+
+static struct named of_force(int64_t k) {
+  for (int32_t r = 0; hk_force_table(r); r++) {
+    const struct hk_force_row *row = hk_force_table(r);
+    if (row->options && k-- == 0) return (struct named){row->name, row->options};
+  }
+  return by_own_name(NULL);
+}
+
+static struct named of_scene(int64_t k) {
+  return by_own_name(hk_scene_table(k));
+}
+
+static struct named of_part(int64_t k) {
+  return by_own_name(hk_part_table(k));
+}
+
+static struct named of_measurement(int64_t k) {
+  const char *kind = hooke_measurement_table(NULL, k, "name");
+  return (struct named){kind, kind ? hk_measurement_options(kind) : NULL};
+}
+
+static struct named (*const sources[])(int64_t k) = {other, of_force, of_scene, of_part, of_measurement};
+enum { SOURCES = sizeof sources / sizeof sources[0] };
 
 static int32_t refuse(const char *name) {
   char names[512] = "";
-  for (int k = 0; k < MAKERS; k++)
-    snprintf(names + strlen(names), sizeof names - strlen(names), "%s, ", makers[k].name);
-  for (int32_t k = 0; hk_force_table(k); k++) {
-    if (hk_force_table(k)->options)
-      snprintf(names + strlen(names), sizeof names - strlen(names), "%s, ", hk_force_table(k)->name);
+  for (int s = 0; s < SOURCES; s++) {
+    for (int64_t k = 0; sources[s](k).name; k++) {
+      const size_t used = strlen(names);
+      snprintf(names + used, sizeof names - used, "%s%s", used ? ", " : "", sources[s](k).name);
+    }
   }
-  for (int k = 0; k < SCENE_NAMES; k++)
-    snprintf(names + strlen(names), sizeof names - strlen(names), "%s, ", scene_names[k]);
-  for (int64_t k = 0; hooke_part_kind(k, "name"); k++)
-    snprintf(names + strlen(names), sizeof names - strlen(names), "%s, ", hooke_part_kind(k, "name"));
-  for (int64_t k = 0; hooke_measurement_table(NULL, k, "name"); k++)
-    snprintf(names + strlen(names), sizeof names - strlen(names), "%s, ",
-             hooke_measurement_table(NULL, k, "name"));
-  names[strlen(names) - 2] = '\0';
   return hk_fail(HOOKE_BAD_VALUE, "name", "there are no options for \"%.64s\"; there are those for %s", name,
                  names);
 }
 
 int32_t hooke_options_create(const char *name, hooke_options **options) {
   *options = NULL;
-  const struct hk_option_table *of_kind = hk_measurement_options(name);
-  if (of_kind) return hk_options_create(of_kind, options);
-  for (int k = 0; k < MAKERS; k++) {
-    if (strcmp(makers[k].name, name) == 0) return makers[k].create(options);
-  }
-  for (int32_t k = 0; hk_force_table(k); k++) {
-    const struct hk_force_row *row = hk_force_table(k);
-    if (row->options && strcmp(row->name, name) == 0) return hk_options_create(row->options, options);
-  }
-  for (int k = 0; k < SCENE_NAMES; k++) {
-    if (strcmp(scene_names[k], name) == 0) return hk_scene_options_create(name, options);
-  }
-  for (int64_t k = 0; hooke_part_kind(k, "name"); k++) {
-    if (strcmp(hooke_part_kind(k, "name"), name) == 0) return hk_part_options_create(name, options);
+  for (int s = 0; s < SOURCES; s++) {
+    struct named found;
+    for (int64_t k = 0; (found = sources[s](k)).name; k++) {
+      if (strcmp(found.name, name) == 0) return hk_options_create(found.table, options);
+    }
   }
   return refuse(name);
 }

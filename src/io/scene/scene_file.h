@@ -5,8 +5,8 @@
 #include "core/table/option.h"
 #include "io/scene/json_scan.h"
 
-/* Options of "scene", "particles", "driven" or "limits". HOOKE_BAD_VALUE for another word. */
-int32_t hk_scene_options_create(const char *what, hooke_options **options);
+/* The tables "scene", "particles", "driven" and "limits": number `k`, NULL past the last. */
+const struct hk_option_table *hk_scene_table(int64_t k);
 
 /* Reads a whole file, checking it on the way, so that a hopeless one is refused early (a guard of NULL takes
  * any bytes). `text` is the caller's to free and ends with a NUL. HOOKE_BAD_VALUE if there is no such file or

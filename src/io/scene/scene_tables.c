@@ -103,15 +103,10 @@ static const struct hk_option_row limit_rows[] = {
 
 static const struct hk_option_table limit_table = {"limits", HOOKE_OPTION_ROWS(limit_rows)};
 
-int32_t hk_scene_options_create(const char *what, hooke_options **options) {
+const struct hk_option_table *hk_scene_table(int64_t k) {
   static const struct hk_option_table *const tables[] = {&scene_table, &particle_table, &drive_table,
-                                                         &limit_table};
-  *options = NULL;
-  for (size_t k = 0; what && k < sizeof tables / sizeof tables[0]; k++)
-    if (strcmp(tables[k]->name, what) == 0) return hk_options_create(tables[k], options);
-  return hk_fail(HOOKE_BAD_VALUE, "what",
-                 "there is no table called \"%s\"; allowed: scene, particles, driven, limits",
-                 what ? what : "");
+                                                         &limit_table, NULL};
+  return tables[k];
 }
 
 int32_t hooke_scene_options_apply(const hooke_options *options, hooke_system *system) {

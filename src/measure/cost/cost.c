@@ -64,7 +64,7 @@ static void forget(struct hk_cost *cost) {
 }
 
 static int32_t create(hooke_measurement *m) {
-  int32_t status = m->run ? HOOKE_OK : hk_run_options_create(&m->run);
+  int32_t status = m->run ? HOOKE_OK : hk_options_create(&hk_run_options, &m->run);
   struct hk_cost *cost = m->object = status == HOOKE_OK ? hk_new(1, sizeof *cost) : NULL;
   if (cost == NULL) return HOOKE_NO_MEMORY;
   cost->measurement = m;

@@ -1,3 +1,4 @@
+#include "integrate/integrator.h"
 #include "measure/why/why_trial.h"
 
 #include "core/number.h"
@@ -56,7 +57,7 @@ int32_t hk_change_begin(struct hk_change *change, const char *option) {
   snprintf(change->option, sizeof change->option, "%s", option);
   change->words[0] = '\0';
   change->run = NULL;
-  return hk_run_options_create(&change->run);
+  return hk_options_create(&hk_run_options, &change->run);
 }
 
 void hk_change_say(struct hk_change *change, const char *format, ...) {
