@@ -2,6 +2,7 @@
  * where is asked of the library's own option tables, so that a new option is tried by being there. */
 #include "fuzz.h"
 
+#include "hooke/parts.h"
 #include "hooke/trajectory.h"
 
 #include <jansson.h>
