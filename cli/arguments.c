@@ -113,14 +113,13 @@ static int unknown_flag(const struct cli_arguments *arguments, const char *word)
                     arguments->verb->name);
 }
 
-/* 1 for a row of a table that is true or false: it stands alone, or with "=false". */
-static int32_t is_flag(const struct cli_argument *argument) {
+int32_t cli_argument_is_flag(const struct cli_argument *argument) {
   return argument->own == NULL &&
          strcmp(hooke_options_row(argument->table, argument->row, "type"), "flag") == 0;
 }
 
 static int take(struct cli_arguments *arguments, struct cli_argument *argument, const char *text) {
-  argument->text = text ? text : is_flag(argument) ? "true" : "";
+  argument->text = text ? text : cli_argument_is_flag(argument) ? "true" : "";
   if (argument->own) return HOOKE_EXIT_DONE;
   if (strcmp(argument->name, "method") == 0 && hooke_method_is_adaptive(argument->text) < 0) {
     return cli_report_unknown_method(arguments, argument->flag, argument->text, strlen(argument->text));
@@ -251,7 +250,9 @@ int cli_arguments_parse(const struct cli_verb *verb, int argc, char **argv, stru
     for (int32_t i = 0; i < arguments->count; i++) {
       const struct cli_argument *argument = &arguments->all[i];
       int32_t wants = argument->own ? argument->own->value != NULL : 1;
-      const int wanted = is_flag(argument) ? optional_argument : wants ? required_argument : no_argument;
+      const int wanted = cli_argument_is_flag(argument) ? optional_argument
+                         : wants                        ? required_argument
+                                                        : no_argument;
       longs[i] = (struct option){argument->flag, wanted, NULL, FIRST_LONG + i};
       if (argument->own && argument->own->letter) {
         *letter++ = argument->own->letter;

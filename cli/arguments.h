@@ -48,4 +48,7 @@ const char *cli_arguments_text(const struct cli_arguments *arguments, const char
 /* Sets every option of a run that was given. */
 int32_t cli_arguments_apply(const struct cli_arguments *arguments, hooke_options *options);
 
+/* 1 for a row of a table that is true or false: it stands alone, or with "=false". */
+int32_t cli_argument_is_flag(const struct cli_argument *argument);
+
 #endif

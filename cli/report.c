@@ -101,7 +101,7 @@ void cli_report_command(FILE *file, const struct cli_arguments *arguments, const
     if (instead && strcmp(argument->name, instead) == 0) continue; /* it is there as the scene */
     print_flag(file, argument->name);
     if (argument->own && !argument->own->value) continue;
-    fputc(' ', file);
+    fputc(cli_argument_is_flag(argument) ? '=' : ' ', file);
     cli_print_quoted(file, argument->text);
   }
   for (; settings->name; settings++) {

@@ -28,6 +28,10 @@ static double option_of(const struct cli_run *run, const char *name) {
   return hooke_options_number(options_of(run), name);
 }
 
+int32_t cli_run_goes_beyond(const struct cli_run *run) {
+  return option_of(run, "past_divergence") == 1.0 || option_of(run, "frames_after") > 0.0;
+}
+
 static int is_adaptive(const struct cli_run *run) {
   return hooke_method_is_adaptive(cli_run_method(run)) != 0;
 }
@@ -105,6 +109,7 @@ static void print_json(const struct cli_run *run, int32_t with_final) {
   cli_json_count(&json, "particles", hooke_system_particle_count(system));
   cli_json_count(&json, "springs", hooke_system_spring_count(system));
   print_json_motion(&json, run);
+  if (cli_run_goes_beyond(run)) cli_json_count(&json, "frames_beyond", run->frames_beyond);
   cli_json_text(&json, "output", run->output);
   cli_json_text(&json, "diagnosis", cli_exit_code(outcome) == HOOKE_EXIT_DIVERGED ? run->message : NULL);
   cli_want_print_json(run, &json);

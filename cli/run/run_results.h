@@ -25,8 +25,9 @@ struct cli_run {
   int32_t kept_place;     /* 1: of an interrupted run, a checkpoint or a frame to go on from */
   struct cli_watch watch;
   double duration;
-  int64_t frames;       /* reported so far */
-  int32_t write_status; /* HOOKE_OK, or why a frame or a checkpoint could not be written */
+  int64_t frames;        /* reported so far */
+  int64_t frames_beyond; /* those of them after it diverged */
+  int32_t write_status;  /* HOOKE_OK, or why a frame or a checkpoint could not be written */
   int32_t outcome;
   hooke_measurement
       *why; /* of an outcome that wants explaining; NULL: there is nothing, or nothing to explain it with */
@@ -45,5 +46,8 @@ int64_t cli_run_coincident(const struct cli_run *run);
 /* With --json, as JSON, with --final every particle, too; for a person those come by the second function. */
 void cli_run_print(const struct cli_run *run);
 void cli_run_print_final(const struct cli_run *run);
+
+/* 1 if frames after divergence were asked for. */
+int32_t cli_run_goes_beyond(const struct cli_run *run);
 
 #endif

@@ -37,12 +37,17 @@ static int32_t see_progress(double done, const char *method, void *ctx) {
 
 static int32_t see_frame(int64_t step, const hooke_state *state, void *ctx) {
   struct cli_run *run = ctx;
-  if (run->trajectory) run->write_status = hooke_trajectory_write(run->trajectory, step, state);
+  const int beyond = !isnan(hooke_integrator_diverged_at(run->integrator));
+  if (run->trajectory && beyond) run->write_status = hooke_trajectory_mark_diverged(run->trajectory);
+  if (run->trajectory && run->write_status == HOOKE_OK)
+    run->write_status = hooke_trajectory_write(run->trajectory, step, state);
   if (run->write_status != HOOKE_OK) {
     keep_message(run);
     return 1;
   }
   run->frames++;
+  run->frames_beyond += beyond;
+  if (beyond) return 0;
   return see_step(step, state, run);
 }
 
@@ -207,6 +212,22 @@ static int integrate(struct cli_run *run) {
   return status == HOOKE_OK ? HOOKE_EXIT_DONE : cli_report_status(run->arguments, status);
 }
 
+/* What the option past_divergence added. */
+static void tell_beyond(const struct cli_run *run) {
+  if (!cli_run_goes_beyond(run) || run->outcome != HOOKE_DIVERGED) return;
+  if (run->frames_beyond > 0)
+    cli_report_words(run->arguments, "%" PRId64 " of the frames are after it diverged, and no physics",
+                     run->frames_beyond);
+  else if (hooke_method_is_adaptive(cli_run_method(run)))
+    cli_report_words(run->arguments,
+                     "an error-controlled method ends where it diverges: no frames are after that");
+  else
+    cli_report_words(
+        run->arguments,
+        "no frames are after it diverged: numbers overflowed before the next one; a smaller --every "
+        "shows how");
+}
+
 /* On standard error: that a run ended early, and what is kept. */
 static void tell_end(const struct cli_run *run) {
   const struct cli_arguments *arguments = run->arguments;
@@ -225,6 +246,7 @@ static void tell_end(const struct cli_run *run) {
   cli_report_words(arguments, "%s", run->message);
   cli_report_words(arguments, "kept: the state at t = %s s, the last one reached%s",
                    cli_format_rounded(hooke_state_time(run->setup.state), text), kept);
+  tell_beyond(run);
 }
 
 /* On standard error: why, and what to do. */
@@ -264,7 +286,7 @@ static int begin_again(struct cli_run *run) {
   run->integrator = NULL;
   run->options = NULL;
   run->setup.state = NULL;
-  run->frames = 0;
+  run->frames = run->frames_beyond = 0;
   const int32_t status = hooke_state_create(run->setup.system, &run->setup.state);
   return status == HOOKE_OK ? HOOKE_EXIT_DONE : cli_report_status(run->arguments, status);
 }

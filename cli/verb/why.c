@@ -75,7 +75,8 @@ static int32_t read_output(struct why *why) {
   int32_t status = hooke_state_create(why->setup.system, &first);
   if (status == HOOKE_OK) status = hooke_state_create(why->setup.system, &last);
   if (status == HOOKE_OK) status = hooke_record_read(why->record, 0, first);
-  if (status == HOOKE_OK) status = hooke_record_read(why->record, -1, last);
+  if (status == HOOKE_OK)
+    status = hooke_record_read(why->record, hooke_record_good_frame_count(why->record) - 1, last);
   if (status == HOOKE_OK) {
     why->time = hooke_state_time(last);
     if (blew_up(why->status))

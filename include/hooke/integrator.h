@@ -4,7 +4,8 @@
  * problem). It belongs to one thread at a time; many integrators may share a system, each with its own state.
  *
  * Options of a run (hooke_options_create("run", ...)): method, step [s], duration [s], every [s], checkpoint [s],
- * newton, rtol, atol [m], atol_velocity [m/s], max_order, linear_solver, max_steps, threads.
+ * newton, rtol, atol [m], atol_velocity [m/s], max_order, linear_solver, max_steps, past_divergence, frames_after,
+ * threads.
  *
  * Frames. With a fixed-step method `every` and `duration` are whole multiples of `step`; frame k is the state
  * after k m steps, frame 0 the initial one, and its time is t0 + k m step, never a running sum. Without
@@ -90,7 +91,8 @@ HOOKE_API int32_t hooke_integrator_on_progress(hooke_integrator *integrator, dou
  * HOOKE_STOPPED: an observer, force, drive or progress returned non-zero (hooke_integrator_stop_value()); the
  * state is that of the last whole step. HOOKE_DIVERGED: a component is not finite, or, without callbacks and
  * drives, the energy rose by more than 100 times what the scene had; tested at frames and every 1000 steps;
- * the state is the last one that passed, and hooke_integrator_diverged_at() tells when it was noticed.
+ * the state is the last one that passed, and hooke_integrator_diverged_at() tells when it was noticed. With the
+ * option `past_divergence` frames come after that, until a number is not finite.
  * HOOKE_STEP_LIMIT, HOOKE_SOLVER_FAILED: the state is the last one reached. HOOKE_BAD_VALUE: no `duration`,
  * one that does not change the time of an error-controlled method, or a state with numbers that are not
  * finite. */

@@ -40,6 +40,10 @@ HOOKE_API int32_t hooke_trajectory_write(hooke_trajectory *trajectory, int64_t s
  * Call it before the first frame or later. HOOKE_NO_MEMORY, HOOKE_IO_FAILED. */
 HOOKE_API int32_t hooke_trajectory_write_behind(hooke_trajectory *trajectory);
 
+/* Marks the frames from the next one on as after divergence: those that the option `past_divergence` adds, which
+ * come while hooke_integrator_diverged_at() is not NaN. A second call does nothing. HOOKE_IO_FAILED. */
+HOOKE_API int32_t hooke_trajectory_mark_diverged(hooke_trajectory *trajectory);
+
 /* Waits for the frame on its way and brings all data to the disk: what is there then outlasts a power
  * failure, too. A failure marks the file bad. HOOKE_IO_FAILED. */
 HOOKE_API int32_t hooke_trajectory_sync(hooke_trajectory *trajectory);
@@ -75,8 +79,10 @@ HOOKE_API const char *hooke_record_text(const hooke_record *record, const char *
 /* Options of the run, as it ran; valid as long as the record. */
 HOOKE_API const hooke_options *hooke_record_options(const hooke_record *record);
 
-/* Frames that are there. */
+/* Frames that are there; and those of them before the run diverged: the first so many, all if none were added
+ * by the option `past_divergence`. */
 HOOKE_API int64_t hooke_record_frame_count(const hooke_record *record);
+HOOKE_API int64_t hooke_record_good_frame_count(const hooke_record *record);
 /* Reads a frame into a state of the scene's system, negative ones from the end: -1 is the last.
  * HOOKE_BAD_VALUE if there is none, if it is damaged, or if the state is of another size; HOOKE_IO_FAILED,
  * HOOKE_NO_MEMORY. The state is then as it was. */

@@ -171,6 +171,7 @@ void hk_integrator_set_checker(hooke_integrator *integrator, struct hk_checker c
 void hk_store_good(const hooke_integrator *integrator, hooke_state *state);
 /* 1 if every number is finite. */
 int32_t hk_all_finite(int64_t count, const double *value);
+int32_t hk_motion_is_finite(const hooke_integrator *integrator);
 
 /* Writes the motion, which is at time t, into `state`, in a way that the check below can take back. */
 int32_t hk_divergence_store(hooke_integrator *integrator, double t, hooke_state *state);

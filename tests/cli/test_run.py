@@ -12,6 +12,7 @@ import sys
 import time
 
 import h5py
+import numpy as np
 import pytest
 from conftest import CLI, ENDLESS, SIX_PARTICLES, STIFF_PAIR
 
@@ -221,6 +222,40 @@ def test_divergence_is_explained_in_words(hooke, write):
     assert answer.code == 4
     assert "diverged" in answer.err and "kept:" in answer.err and "the largest stable one of" in answer.err
     assert "time reached" in answer.out and "diverged" not in answer.out
+
+
+def test_frames_after_divergence(hooke, write, tmp_path):
+    """They are marked; all that takes the file goes by those before."""
+    plain = hooke("run", write(STIFF_PAIR), "--json", "-o", "plain.h5")
+    answer = hooke("run", write(STIFF_PAIR), "--json", "-o", "out.h5", "--past-divergence")
+    assert (answer.code, answer.json["status"]) == (4, "diverged")
+    assert {**answer.json, "output": "", "wall_seconds": 0} == {
+        **plain.json, "output": "", "wall_seconds": 0, "frames_beyond": answer.json["frames_beyond"]}
+    assert answer.json["frames_beyond"] > 5
+    assert f"{answer.json['frames_beyond']} of the frames are after it diverged" in answer.err
+    with h5py.File(tmp_path / "out.h5") as file, h5py.File(tmp_path / "plain.h5") as short:
+        times, first = file["/particles/all/position/time"][:], file["/hooke/beyond"][0]
+        assert short["/hooke/beyond"][0] == -1
+        assert np.array_equal(times[:first], short["/particles/all/position/time"][:])
+        assert len(times) == first + answer.json["frames_beyond"] and np.all(np.isfinite(times))
+        assert np.all(np.isfinite(file["/particles/all/position/value"][:]))
+    assert hooke("why", "out.h5", "--json").out.replace("out.h5", "plain.h5") == hooke("why", "plain.h5", "--json").out
+    assert hooke("verify", "out.h5").code == 0
+    few = hooke("run", "out.h5", "--json", "--frames-after", "2", "-o", "few.h5")
+    assert (few.code, few.json["frames_beyond"]) == (4, 2)
+    words = advised_command(few.err)
+    assert "--past-divergence=true" not in words and "--frames-after" in words
+    again = hooke("run", "--resume", "out.h5", "--json", "--no-why")
+    assert (again.code, again.json["frames_beyond"]) == (4, answer.json["frames_beyond"])
+    with h5py.File(tmp_path / "out.h5") as file:
+        assert file["/hooke/beyond"][0] == first
+        assert np.array_equal(file["/particles/all/position/time"][:], times)
+    assert hooke(*advised_command(answer.err)).json["status"] == "finished"
+
+
+def test_no_frames_after_divergence(hooke, write):
+    coarse = hooke("run", write(STIFF_PAIR), "--method", "forward-euler", "--every", "50", "--past-divergence", "--no-why")
+    assert coarse.code == 4 and "a smaller --every shows how" in coarse.err
 
 
 # ---- Ctrl-C and progress ----

@@ -218,6 +218,95 @@ static void test_first_order(void **unused) {
   hooke_integrator_destroy(integrator);
 }
 
+/* ---- frames after divergence ---- */
+
+struct beyond {
+  hooke_integrator *integrator;
+  struct canonical canonical;
+  double h, *q, *v, reached; /* where the canonical steps are; the largest coordinate of the last frame */
+  int64_t step, frames, after, most_after;
+};
+
+/* Every frame is the canonical state of its step, before and after. */
+static int32_t see_beyond(int64_t step, const hooke_state *state, void *ctx) {
+  struct beyond *b = ctx;
+  const int64_t size = hooke_state_size(state);
+  for (; b->step < step; b->step++) {
+    const double t = (double)b->step * b->h;
+    assert_int_equal(
+        canonical_step(&b->canonical, "symplectic-euler", t, (double)(b->step + 1) * b->h, b->h, b->q, b->v),
+        CANONICAL_STEPPED);
+  }
+  const double *q = hooke_state_position((hooke_state *)state),
+               *v = hooke_state_velocity((hooke_state *)state);
+  for (int64_t k = 0; k < size; k++)
+    assert_true(isfinite(q[k]) && isfinite(v[k]));
+  if (largest(size, v) < 1e150) { /* its products overflow in the canonical sum first */
+    check_same_bits(size, q, b->q);
+    check_same_bits(size, v, b->v);
+  }
+  b->reached = largest(size, q);
+  assert_true(hooke_state_time(state) == (double)step * b->h);
+  b->frames++;
+  b->after += !isnan(hooke_integrator_diverged_at(b->integrator));
+  return b->after == b->most_after;
+}
+
+/* Runs past divergence, and as usual, from the same start: they end alike. */
+static struct beyond run_beyond(const hooke_system *system, double after, int64_t most_after) {
+  const struct run run = {.method = "symplectic-euler", .step = 0.21, .duration = 420.0, .every = 0.42};
+  struct beyond b = {.h = 0.21, .most_after = most_after};
+  hooke_options *options = run_options(run);
+  hooke_integrator *usual = start_run(system, run);
+  hooke_state *state = start_state(system), *same = start_state(system);
+  const int64_t size = hooke_state_size(state);
+  canonical_create(system, &b.canonical);
+  b.q = new_doubles(2 * size);
+  b.v = b.q + size;
+  memcpy(b.q, hooke_state_position(state), (size_t)size * sizeof(double));
+  memcpy(b.v, hooke_state_velocity(state), (size_t)size * sizeof(double));
+  if (after < 0.0)
+    check_ok(hooke_options_set_number(options, "past_divergence", 1.0));
+  else
+    check_ok(hooke_options_set_number(options, "frames_after", after));
+  check_ok(hooke_integrator_create(system, options, &b.integrator));
+  check_ok(hooke_integrator_on_frame(b.integrator, see_beyond, &b));
+  check_status(hooke_integrator_run(usual, same), HOOKE_DIVERGED);
+  check_status(hooke_integrator_run(b.integrator, state), HOOKE_DIVERGED);
+  check_message("the run diverged");
+  assert_true(hooke_state_time(state) == hooke_state_time(same));
+  check_same_bits(size, hooke_state_position(state), hooke_state_position(same));
+  assert_true(hooke_integrator_diverged_at(b.integrator) == hooke_integrator_diverged_at(usual));
+  assert_int_equal(hooke_integrator_count(b.integrator, "steps"), hooke_integrator_count(usual, "steps"));
+  assert_int_equal(hooke_integrator_stop_value(b.integrator), 0);
+  canonical_destroy(&b.canonical);
+  hooke_integrator_destroy(b.integrator);
+  hooke_integrator_destroy(usual);
+  hooke_options_destroy(options);
+  hooke_state_destroy(state);
+  hooke_state_destroy(same);
+  return b;
+}
+
+static void test_frames_after(void **unused) {
+  (void)unused;
+  hooke_system *system = small_oscillator(10.0);
+  struct beyond b = run_beyond(system, -1.0, -1);
+  check_between((double)b.after, 100.0, 1000.0);
+  assert_true(b.reached > 1e150); /* whose square is beyond all numbers soon after */
+  free(b.q);
+  b = run_beyond(system, 7.0, -1);
+  assert_int_equal(b.after, 7);
+  free(b.q);
+  b = run_beyond(system, 0.0, -1);
+  assert_int_equal(b.after, 0);
+  free(b.q);
+  b = run_beyond(system, 7.0, 3); /* an observer may end it */
+  assert_int_equal(b.after, 3);
+  free(b.q);
+  hooke_system_destroy(system);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(test_step_above_the_limit),
@@ -226,6 +315,7 @@ int main(void) {
       cmocka_unit_test(test_first_step_of_a_fall),
       cmocka_unit_test(test_callbacks),
       cmocka_unit_test(test_first_order),
+      cmocka_unit_test(test_frames_after),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -150,9 +150,9 @@ static int32_t fail_not_finite(const hooke_integrator *it, double good_time) {
                  it->diverged_at, good_time, advice(it));
 }
 
-static int is_finite(const hooke_integrator *it) {
+int32_t hk_motion_is_finite(const hooke_integrator *it) {
   if (it->motion == NULL) return hk_all_finite(it->size, it->x);
-  int finite = 1;
+  int32_t finite = 1;
   for (int a = 0; a < 3; a++) {
     finite &= hk_all_finite(it->motion->n, it->motion->q[a]);
     finite &= hk_all_finite(it->motion->n, it->motion->v[a]);
@@ -161,7 +161,7 @@ static int is_finite(const hooke_integrator *it) {
 }
 
 int32_t hk_divergence_glance(hooke_integrator *it, hooke_state *state) {
-  if (is_finite(it)) {
+  if (hk_motion_is_finite(it)) {
     it->good_time = it->t;
     it->good_step = it->k;
     it->unkept = it->recent.room > 0;

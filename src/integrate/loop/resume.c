@@ -124,5 +124,5 @@ int32_t hooke_integrator_resume(hooke_integrator *it, hooke_state *state) {
   if (status == HOOKE_OK && it->k == 0 && it->frames == 0) status = hk_divergence_check(it, state, 1);
   if (status == HOOKE_OK && is_frame_missing(it)) status = hk_run_report(it, state);
   if (status == HOOKE_OK) status = hk_run_to_end(it, state);
-  return hk_run_end(it, state, status);
+  return hk_run_beyond(it, state, hk_run_end(it, state, status));
 }

@@ -127,7 +127,7 @@ static int32_t take_untold_steps(hooke_integrator *it, int64_t count) {
   return status;
 }
 
-static int32_t take_fixed_steps(hooke_integrator *it, int64_t count) {
+int32_t hk_run_take_fixed_steps(hooke_integrator *it, int64_t count) {
   int32_t status = HOOKE_OK;
   while (count > 0 && status == HOOKE_OK) {
     const int64_t left = it->teller.progress ? it->teller.left : count, steps = left < count ? left : count;
@@ -187,7 +187,7 @@ int32_t hk_run_fixed(hooke_integrator *it, hooke_state *state, int64_t last, int
   const int64_t point_steps = it->on_checkpoint.observer ? it->schedule.checkpoint_steps : 0;
   int32_t status = HOOKE_OK;
   while (it->k < last && status == HOOKE_OK) {
-    status = take_fixed_steps(it, steps_to_take(it, last, frame_steps, point_steps));
+    status = hk_run_take_fixed_steps(it, steps_to_take(it, last, frame_steps, point_steps));
     const struct due due = find_due(it, last, frame_steps, point_steps, shows);
     if (status == HOOKE_OK && !shows && !due.checked && !due.seen) continue;
     if (status == HOOKE_OK && due.checked && !due.thorough && is_unwatched(it))
@@ -226,7 +226,7 @@ int32_t hk_run_to_end(hooke_integrator *it, hooke_state *state) {
   return hk_run_adaptive(it, state);
 }
 
-int32_t hooke_integrator_run(hooke_integrator *it, hooke_state *state) {
+int32_t hk_run_whole(hooke_integrator *it, hooke_state *state) {
   int32_t status = hk_run_check_state(it, state);
   if (status == HOOKE_OK) status = hk_run_check_duration(it);
   if (status != HOOKE_OK) return status;
@@ -236,4 +236,8 @@ int32_t hooke_integrator_run(hooke_integrator *it, hooke_state *state) {
   if (status == HOOKE_OK) status = hk_run_report(it, state);
   if (status == HOOKE_OK) status = hk_run_to_end(it, state);
   return hk_run_end(it, state, status);
+}
+
+int32_t hooke_integrator_run(hooke_integrator *it, hooke_state *state) {
+  return hk_run_beyond(it, state, hk_run_whole(it, state));
 }

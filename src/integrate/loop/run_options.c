@@ -88,6 +88,18 @@ static const struct hk_option_row run_rows[] = {
      .high = 9e15,
      .whole = 1,
      .doc = "steps that an error-controlled method may take in one run; no limit if not given"},
+    {.name = "past_divergence",
+     .type = HOOKE_OPTION_FLAG,
+     .fallback = "false",
+     .doc = "with a fixed step: goes on after the run diverged, to show how it blows up, until numbers "
+            "overflow or "
+            "the duration is over; it counts as diverged all the same"},
+    {.name = "frames_after",
+     .type = HOOKE_OPTION_NUMBER,
+     .low = 0,
+     .high = 9e15,
+     .whole = 1,
+     .doc = "frames after the run diverged, at most; implies past_divergence"},
     {.name = "threads",
      .type = HOOKE_OPTION_NUMBER,
      .low = 1,

@@ -119,6 +119,17 @@ herr_t hk_h5md_write_run(hid_t file, const char *run) {
   return result;
 }
 
+herr_t hk_h5md_write_beyond_room(hid_t file) {
+  const hsize_t count = 1;
+  const int64_t none = -1;
+  hid_t group = H5Gopen2(file, "hooke", H5P_DEFAULT);
+  hid_t beyond = group < 0 ? -1 : hk_h5_array(group, "beyond", H5T_NATIVE_INT64, 1, &count, &none);
+  const herr_t result = beyond < 0 ? -1 : 0;
+  hk_h5_drop(beyond);
+  hk_h5_drop(group);
+  return result;
+}
+
 herr_t hk_h5md_write_error_room(hid_t file) {
   const hsize_t count = HOOKE_ERROR_COUNT;
   const double unknown = NAN;
@@ -227,6 +238,14 @@ int hk_h5md_write_status(int descriptor, int64_t at, int32_t outcome) {
   char word[STATUS_LENGTH] = {0};
   snprintf(word, sizeof word, "%s", outcome_word(outcome));
   return hk_bytes_write(descriptor, at, sizeof word, word);
+}
+
+int64_t hk_h5md_find_beyond(hid_t file) {
+  return hk_h5md_place(file, "hooke/beyond", sizeof(int64_t));
+}
+
+int hk_h5md_write_beyond(int descriptor, int64_t at, int64_t frame) {
+  return at < 0 ? 0 : hk_bytes_write(descriptor, at, sizeof frame, &frame);
 }
 
 herr_t hk_h5md_set_status(hid_t file, int32_t outcome) {

@@ -6,6 +6,7 @@
  *                            scene; `options`: an attribute for each option of the run; `status`: "running"
  *                            until the file is closed
  *   /hooke/rest_length       [springs]
+ *   /hooke/beyond            of a single run: the first frame after it diverged; -1: there is none
  *   /hooke/error             of a single run: HOOKE_ERROR_COUNT numbers, NaN until they are known; texts
  *                            `error_by`, `error_note`
  *   /particles/<group>       frames (trajectory_writer_h5.h)
@@ -41,6 +42,12 @@ herr_t hk_h5md_write_run(hid_t file, const char *run);
  * follow when the particles group is there. */
 herr_t hk_h5md_copy(hid_t from, hid_t to, struct hk_h5_copy *copy);
 herr_t hk_h5md_refer(hid_t file, const char *group);
+
+/* Room for the first frame after divergence; where it is, -1 in older files; and writing it, 0 or the number of
+ * the system's error. Negative on failure. */
+herr_t hk_h5md_write_beyond_room(hid_t file);
+int64_t hk_h5md_find_beyond(hid_t file);
+int hk_h5md_write_beyond(int descriptor, int64_t at, int64_t frame);
 
 /* Room for the error of a run. Negative on failure. */
 herr_t hk_h5md_write_error_room(hid_t file);

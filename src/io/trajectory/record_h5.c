@@ -175,6 +175,30 @@ static int32_t read_times(struct hooke_record *record, struct hk_h5_guard *guard
   return status;
 }
 
+/* 1 for one whole number, whose bytes are in this very file. */
+static int is_number_here(hid_t data) {
+  if (H5Iget_type(data) != H5I_DATASET || hk_h5_foreign(data)) return 0;
+  hid_t type = H5Dget_type(data), space = H5Dget_space(data), list = H5Dget_create_plist(data);
+  const int fits = type >= 0 && space >= 0 && list >= 0 && H5Tget_class(type) == H5T_INTEGER &&
+                   H5Sget_simple_extent_npoints(space) == 1 && H5Pget_layout(list) == H5D_CONTIGUOUS;
+  hk_h5_drop(list);
+  hk_h5_drop(space);
+  hk_h5_drop(type);
+  return fits;
+}
+
+/* Older files do not tell, and have none. */
+static void read_beyond(struct hooke_record *record, hid_t file) {
+  hid_t group = hk_h5_open_own(file, "hooke"), data = hk_h5_open_own(group, "beyond");
+  int64_t first = -1;
+  if (data >= 0 && is_number_here(data) &&
+      H5Dread(data, H5T_NATIVE_INT64, H5S_ALL, H5S_ALL, H5P_DEFAULT, &first) < 0)
+    first = -1;
+  record->good_count = first > 0 && first < record->frame_count ? first : record->frame_count;
+  hk_h5_drop(data);
+  hk_h5_drop(group);
+}
+
 /* close_file() has to follow in any case. */
 static int32_t open_file(const struct hooke_record *record, struct hk_h5_guard *guard, hid_t *file) {
   hk_h5_guard_begin(guard);
@@ -195,6 +219,7 @@ static int32_t read_file(struct hooke_record *record) {
   /* what could not be read is not what is not there */
   if (status == HOOKE_OK && guard.reason[0]) status = hk_h5_fail(&guard, record->path, "read the file");
   if (status == HOOKE_OK) status = read_times(record, &guard, file);
+  if (status == HOOKE_OK) read_beyond(record, file);
   if (status == HOOKE_OK) hk_record_find_places(record, file);
   close_file(&guard, file);
   return status;
@@ -261,6 +286,10 @@ const hooke_options *hooke_record_options(const hooke_record *record) {
 
 int64_t hooke_record_frame_count(const hooke_record *record) {
   return record->frame_count;
+}
+
+int64_t hooke_record_good_frame_count(const hooke_record *record) {
+  return record->good_count;
 }
 
 static const char position[] = "/particles/all/position/value", velocity[] = "/particles/all/velocity/value";
@@ -362,6 +391,11 @@ const hooke_options *hooke_record_options(const hooke_record *record) {
 }
 
 int64_t hooke_record_frame_count(const hooke_record *record) {
+  (void)record;
+  return 0;
+}
+
+int64_t hooke_record_good_frame_count(const hooke_record *record) {
   (void)record;
   return 0;
 }

@@ -15,7 +15,7 @@ struct hooke_record {
   char *path, *scene, *status, *run, *error_by, *error_note;
   hooke_options *options; /* of a run, as they were stored */
   int32_t is_run;
-  int64_t frame_count;
+  int64_t frame_count, good_count; /* frames, and those before divergence */
   double *time;
   int64_t place[HOOKE_PLACE_COUNT]; /* of frames in the file [bytes]; -1: not one after the other */
   struct {

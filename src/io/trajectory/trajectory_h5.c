@@ -43,6 +43,7 @@ void hk_trajectory_release(hooke_trajectory *trajectory) {
 static int32_t settle(struct hk_h5_guard *guard, hooke_trajectory *made) {
   if (hk_h5md_find_status(made->file.id, &made->status_at) < 0)
     return hk_h5_fail(guard, made->file.place.path, "make room for all frames");
+  made->beyond_at = hk_h5md_find_beyond(made->file.id);
   const int32_t status = hk_h5_file_settle(guard, &made->file);
   made->writer.file.descriptor = made->file.place.descriptor;
   return status;
@@ -60,6 +61,7 @@ static int32_t fill(struct hk_h5_guard *guard, const char *path, const hooke_sys
   if (status != HOOKE_OK) return status;
   herr_t result = hk_h5md_describe(made->file.id, hooke_options_text(options, "method"), options, scene_text);
   if (result >= 0) result = hk_h5md_write_run(made->file.id, made->run);
+  if (result >= 0) result = hk_h5md_write_beyond_room(made->file.id);
   if (result >= 0) result = hk_h5md_write_error_room(made->file.id);
   if (result >= 0) result = hk_trajectory_writer_create(made->file.id, system, "all", frames, &made->writer);
   if (result >= 0) result = hk_h5md_connect(made->file.id, system, "all");
@@ -177,6 +179,19 @@ int32_t hooke_trajectory_sync(hooke_trajectory *trajectory) {
              : fail(trajectory, "bring the data to the disk", errno);
 }
 
+int32_t hooke_trajectory_mark_diverged(hooke_trajectory *trajectory) {
+  HOOKE_KEEP_ERRNO;
+  if (trajectory->beyond > 0) return HOOKE_OK;
+  const int32_t own = hk_place_require_own(&trajectory->file.place);
+  if (own != HOOKE_OK) return own;
+  if (trajectory->failure[0]) return refuse_bad(trajectory);
+  const int error =
+      hk_h5md_write_beyond(trajectory->file.place.descriptor, trajectory->beyond_at, trajectory->taken);
+  if (error) return fail(trajectory, "mark the frames after divergence", error);
+  trajectory->beyond = 1;
+  return HOOKE_OK;
+}
+
 /* ---- closing ---- */
 
 static herr_t make_again(const hooke_trajectory *trajectory, hid_t old, int64_t frame_count,
@@ -236,6 +251,9 @@ static int32_t finish(hooke_trajectory *trajectory, int32_t outcome) {
     hk_h5md_write_status(trajectory->file.place.descriptor, trajectory->status_at, HOOKE_IO_FAILED);
     return refuse_bad(trajectory);
   }
+  /* a run that was gone on with marks its own */
+  if (trajectory->origin[0] && !trajectory->beyond)
+    (void)hk_h5md_write_beyond(trajectory->file.place.descriptor, trajectory->beyond_at, -1);
   if (frames < writer->frame_count) return shorten(trajectory, frames, outcome);
   /* the outcome is told when what it is of has come to the disk */
   const int32_t synced = hooke_trajectory_sync(trajectory);
@@ -291,6 +309,11 @@ int32_t hooke_trajectory_write_behind(hooke_trajectory *trajectory) {
 const char *hooke_trajectory_run(const hooke_trajectory *trajectory) {
   (void)trajectory;
   return "";
+}
+
+int32_t hooke_trajectory_mark_diverged(hooke_trajectory *trajectory) {
+  (void)trajectory;
+  return not_built();
 }
 
 int32_t hooke_trajectory_sync(hooke_trajectory *trajectory) {

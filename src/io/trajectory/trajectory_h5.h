@@ -14,7 +14,10 @@ struct hooke_trajectory {
   struct hk_frame_thread *thread; /* NULL: frames are written as they come */
   int64_t taken;                  /* frames, the one on its way included */
   int64_t there;                  /* whole frames that the file had when it was opened again */
+  int64_t good;                   /* frames before divergence that it had then */
   int64_t status_at;              /* in the file */
+  int64_t beyond_at; /* in the file, where the first frame after divergence is told; -1: nowhere */
+  int32_t beyond;    /* 1: it was told */
   char run[HOOKE_RUN_SIZE];
   char origin[512];  /* from where the run goes on; "" if it did not */
   char failure[512]; /* of the write that made the file bad; "" while it is good */

@@ -91,7 +91,14 @@ static int32_t find_all(struct hk_h5_guard *guard, hid_t file, hooke_trajectory 
   if (status == HOOKE_OK) status = find_springs(guard, file, old);
   if (status == HOOKE_OK && hk_h5md_find_status(file, &old->status_at) < 0)
     status = refuse_seen(guard, old, "it is no trajectory of hooke");
+  if (status == HOOKE_OK) old->beyond_at = hk_h5md_find_beyond(file);
   return status;
+}
+
+/* Frames up to which a run goes on from it. */
+static int64_t good_frames(const hooke_record *record) {
+  const int64_t good = hooke_record_good_frame_count(record);
+  return good < hooke_record_frame_count(record) ? good : INT64_MAX;
 }
 
 /* The run that it is of, and the places of everything. */
@@ -99,6 +106,7 @@ static int32_t read_description(struct hk_h5_guard *guard, hooke_trajectory *old
   hooke_record *record;
   hid_t file;
   int32_t status = hooke_record_open(old->file.place.path, &record);
+  if (status == HOOKE_OK) old->good = good_frames(record);
   if (status == HOOKE_OK) snprintf(old->run, sizeof old->run, "%s", hooke_record_text(record, "run"));
   if (status == HOOKE_OK && strcmp(hooke_record_text(record, "status"), "finished") == 0)
     status = refuse(old, "another run has just finished it");
@@ -113,7 +121,7 @@ static int32_t read_description(struct hk_h5_guard *guard, hooke_trajectory *old
 /* ---- its frames ---- */
 
 static int32_t look(hooke_trajectory *old, int64_t frames_kept) {
-  const int64_t frames = old->writer.frame_count;
+  const int64_t frames = old->writer.frame_count < old->good ? old->writer.frame_count : old->good;
   int32_t whole = 1;
   if (frames < frames_kept) return refuse(old, "it has fewer frames than the run had written");
   while (whole && old->there < frames) {

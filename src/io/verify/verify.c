@@ -50,7 +50,7 @@ static int is_on(const struct hk_verify *verify, const char *name) {
 }
 
 static int32_t find_slice(struct hk_verify *verify) {
-  const int64_t last = hooke_record_frame_count(verify->record) - 1;
+  const int64_t last = hooke_record_good_frame_count(verify->record) - 1;
   const double *slice = hooke_options_numbers(verify->options, "slice");
   int64_t rows_there = 0, columns = 0;
   verify->by_budget = !slice && !is_on(verify, "all");

@@ -7,6 +7,7 @@
 #include "core/number.h"
 #include "core/status.h"
 #include "integrate/integrator.h"
+#include "integrate/loop/run_loop.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -162,7 +163,7 @@ static int32_t run_slice(struct run *run, hooke_integrator *integrator, hooke_st
   if (status != HOOKE_OK) return status;
   if (verify->from == 0) {
     status = hooke_state_copy(verify->first, state);
-    if (status == HOOKE_OK) status = hooke_integrator_run(integrator, state);
+    if (status == HOOKE_OK) status = hk_run_whole(integrator, state);
   } else {
     status = hooke_record_read(verify->record, verify->from, state);
     if (status == HOOKE_OK) status = hk_balance_begin(&run->pass->balance, verify->system, state);
@@ -224,7 +225,7 @@ int32_t hk_verify_first(struct hk_verify *verify) {
   if (status == HOOKE_OK)
     status = hooke_integrator_create(verify->system, hooke_record_options(verify->record), &integrator);
   if (status == HOOKE_OK) status = hooke_integrator_on_frame(integrator, see_first, &run);
-  if (status == HOOKE_OK) status = hooke_integrator_run(integrator, state);
+  if (status == HOOKE_OK) status = hk_run_whole(integrator, state);
   if (integrator && hooke_integrator_stop_value(integrator) == ENOUGH) status = HOOKE_OK;
   hooke_integrator_destroy(integrator);
   hooke_state_destroy(state);

@@ -6,6 +6,7 @@
 #include "core/table/option.h"
 #include "core/status.h"
 #include "integrate/integrator.h"
+#include "integrate/loop/run_loop.h"
 #include "measure/limit/limit_measure.h"
 #include "measure/trial/method_list.h"
 
@@ -287,7 +288,7 @@ static int32_t go_along(struct hk_limit *limit, hooke_state *state) {
   struct walk walk = {limit, 0, hooke_integrator_count(integrator, "frames"), HOOKE_OK};
   status = hooke_integrator_on_frame(integrator, see_frame, &walk);
   if (status == HOOKE_OK) status = hooke_integrator_on_progress(integrator, 0.0, see_steps, &walk);
-  if (status == HOOKE_OK) status = hooke_integrator_run(integrator, state);
+  if (status == HOOKE_OK) status = hk_run_whole(integrator, state);
   hooke_integrator_destroy(integrator);
   remember(limit, hooke_state_position(state), hooke_state_time(state));
   if (walk.status != HOOKE_OK) return walk.status;

@@ -2,6 +2,7 @@
 
 #include "core/clock.h"
 #include "core/status.h"
+#include "integrate/loop/run_loop.h"
 #include "integrate/method.h"
 #include "measure/trial/bracket.h"
 #include "measure/limit/growth.h"
@@ -234,7 +235,7 @@ static int32_t try_whole(void *ctx, double step, enum hk_trial_end *end) {
   if (status == HOOKE_OK) status = hooke_integrator_create(whole->system, whole->run, &integrator);
   if (status == HOOKE_OK) status = hooke_integrator_on_progress(integrator, 0.0, watch, whole);
   if (status == HOOKE_OK) status = hooke_state_copy(whole->start, whole->state);
-  if (status == HOOKE_OK) status = hooke_integrator_run(integrator, whole->state);
+  if (status == HOOKE_OK) status = hk_run_whole(integrator, whole->state);
   if (integrator) whole->steps_run += hooke_integrator_count(integrator, "steps");
   hooke_integrator_destroy(integrator);
   *end = status == HOOKE_OK ? HOOKE_TRIAL_HOLDS : HOOKE_TRIAL_FAILS;

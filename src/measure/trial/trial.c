@@ -2,6 +2,7 @@
 
 #include "core/memory.h"
 #include "core/status.h"
+#include "integrate/loop/run_loop.h"
 
 #include <math.h>
 #include <stddef.h>
@@ -115,7 +116,7 @@ static int32_t run_once(struct run *run, const hooke_system *system, const hooke
     run->duration = hooke_options_number(options, "duration");
     hooke_integrator_on_frame(*integrator, see_frame, run);
     hooke_integrator_on_progress(*integrator, 0.0, tell, run);
-    status = hooke_integrator_run(*integrator, state);
+    status = hk_run_whole(*integrator, state);
   }
   hooke_state_destroy(state);
   return status;

@@ -4,6 +4,7 @@
 #include "core/number.h"
 #include "core/print.h"
 #include "core/status.h"
+#include "integrate/loop/run_loop.h"
 
 #include <math.h>
 #include <stdarg.h>
@@ -136,7 +137,7 @@ static int32_t run_trial(struct hk_plan *plan, hooke_integrator *integrator, str
   hooke_state_copy(plan->first, state);
   hooke_integrator_on_step(integrator, stride, watch_work, &effort);
   hooke_integrator_on_progress(integrator, 0.0, watch_time, &effort);
-  status = hooke_integrator_run(integrator, state);
+  status = hk_run_whole(integrator, state);
   trial->finished = status == HOOKE_OK;
   trial->diverged = status == HOOKE_DIVERGED;
   trial->steps = hooke_integrator_count(integrator, "steps");

@@ -15,6 +15,7 @@ from __future__ import annotations
 
 import contextlib
 import ctypes
+import math
 import os
 from dataclasses import dataclass, field, replace
 from typing import Any, Callable, NamedTuple, Optional, Union
@@ -342,6 +343,8 @@ def _run_to_file(
         lib.hooke_trajectory_write_behind(file)
 
     def write(step: int, state: State) -> None:
+        if not math.isnan(integrator.diverged_at):
+            lib.hooke_trajectory_mark_diverged(file)
         lib.hooke_trajectory_write(file, step, state._handle)
 
     def keep(step: int, state: State) -> None:

@@ -102,6 +102,12 @@ class Trajectory(Closing):
         """Angular momentum of the free particles about the origin (frames, 3) [kg m^2/s]."""
         return self._numbers("angular_momentum")[: self._count]
 
+    @property
+    def beyond(self) -> slice:
+        """The frames after the run diverged, which ``past_divergence`` adds and which are no physics, as a slice; an empty
+        one where there are none."""
+        return slice(int(lib.hooke_record_good_frame_count(self._handle)), self._count)
+
     # what was run
 
     @property

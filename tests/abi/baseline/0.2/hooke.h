@@ -345,6 +345,7 @@ HOOKE_API int32_t hooke_trajectory_create(const char *path, const hooke_system *
 HOOKE_API int32_t hooke_trajectory_write(hooke_trajectory *trajectory, int64_t step,
                                          const hooke_state *state);
 HOOKE_API int32_t hooke_trajectory_write_behind(hooke_trajectory *trajectory);
+HOOKE_API int32_t hooke_trajectory_mark_diverged(hooke_trajectory *trajectory);
 HOOKE_API int32_t hooke_trajectory_sync(hooke_trajectory *trajectory);
 HOOKE_API const char *hooke_trajectory_run(const hooke_trajectory *trajectory);
 HOOKE_API int32_t hooke_trajectory_close(hooke_trajectory *trajectory, int32_t outcome);
@@ -355,6 +356,7 @@ HOOKE_API void hooke_record_close(hooke_record *record);
 HOOKE_API const char *hooke_record_text(const hooke_record *record, const char *what);
 HOOKE_API const hooke_options *hooke_record_options(const hooke_record *record);
 HOOKE_API int64_t hooke_record_frame_count(const hooke_record *record);
+HOOKE_API int64_t hooke_record_good_frame_count(const hooke_record *record);
 HOOKE_API int32_t hooke_record_read(const hooke_record *record, int64_t frame, hooke_state *state);
 HOOKE_API int32_t hooke_record_check(const hooke_record *record, int64_t frame);
 HOOKE_API int32_t hooke_record_size(hooke_record *record, const char *what, int64_t *rows, int64_t *columns);
