@@ -1,6 +1,7 @@
 /* hooke why: explains a run that blew up, from its scene or from its output. */
 #include "advice.h"
 #include "blame.h"
+#include "output_file.h"
 #include "print.h"
 #include "report.h"
 #include "setup.h"
@@ -236,6 +237,25 @@ static int32_t is_another_run(const struct cli_arguments *arguments) {
   return 0;
 }
 
+/* The exit code so far, or that of a page that could not be written. */
+static int write_report(const struct why *why, int code) {
+  const char *report = cli_arguments_text(why->arguments, "report");
+  char *command = NULL;
+  if (!report || code != HOOKE_EXIT_DONE) return code;
+  if (!why->why) {
+    cli_report_words(why->arguments, "no page is written, since the run did not blow up");
+    return code;
+  }
+  const char *title = hooke_scene_title(why->setup.scene);
+  int32_t status =
+      hooke_measurement_label(why->why, "title", title && title[0] ? title : why->arguments->scene);
+  if (status == HOOKE_OK) status = cli_advice_command(why->arguments, why->why, 0, &command);
+  if (status == HOOKE_OK) status = hooke_measurement_label(why->why, "command", command);
+  if (status == HOOKE_OK) status = hooke_measurement_write(why->why, report);
+  free(command);
+  return status == HOOKE_OK ? code : cli_report_status(why->arguments, status);
+}
+
 static int find_out(struct why *why) {
   const struct cli_arguments *arguments = why->arguments;
   int32_t status = hooke_record_open(arguments->scene, &why->record);
@@ -252,7 +272,8 @@ static int find_out(struct why *why) {
   if (status == HOOKE_STOPPED) return cli_report(arguments, HOOKE_EXIT_INTERRUPTED, "interrupted");
   if (status != HOOKE_OK) return cli_report_status(arguments, status);
   status = arguments->json ? print_json(why) : print_words(why);
-  return status == HOOKE_OK ? HOOKE_EXIT_DONE : cli_report_missing_words(arguments);
+  cli_print_flush();
+  return write_report(why, status == HOOKE_OK ? HOOKE_EXIT_DONE : cli_report_missing_words(arguments));
 }
 
 static int read_options(struct why *why) {
@@ -266,7 +287,8 @@ static int read_options(struct why *why) {
 
 static int do_why(const struct cli_arguments *arguments) {
   struct why why = {.arguments = arguments, .time = NAN};
-  int code = read_options(&why);
+  int code = cli_output_file_check_report(arguments, cli_arguments_text(arguments, "report"));
+  if (code == HOOKE_EXIT_DONE) code = read_options(&why);
   if (code == HOOKE_EXIT_DONE) code = cli_setup_load(arguments, &why.setup);
   if (code == HOOKE_EXIT_DONE) code = find_out(&why);
   hooke_measurement_destroy(why.why);
@@ -279,6 +301,10 @@ static int do_why(const struct cli_arguments *arguments) {
 static const struct cli_verb_row rows[] = {
     {"budget", 0, "SECONDS",
      "time that the explanation may take after the run, such as 5s or 2min; 30 s if not given"},
+    {"report", 0, "FILE.html",
+     "writes the explanation as one page to read offline, replacing it: the steps around the trouble, played "
+     "slowly, "
+     "beside the advised run"},
 };
 
 const struct cli_verb cli_verb_why = {

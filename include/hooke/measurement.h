@@ -195,7 +195,9 @@ HOOKE_API int32_t hooke_comparison_file_create(const char *path, hooke_measureme
                                                hooke_comparison_file **file);
 HOOKE_API int32_t hooke_comparison_file_close(hooke_comparison_file *file);
 
-/* ---- a why: why a run ended early, where, and what to do ---- */
+/* ---- a why: why a run ended early, where, and what to do ----
+ * Its page (.html) shows the steps around the trouble, which are taken again while it is written: the system has to be
+ * there still, and callbacks are called again. */
 
 /* Explains the last run (or steps) of `integrator`, which ended with HOOKE_DIVERGED, HOOKE_SOLVER_FAILED or
  * HOOKE_STEP_LIMIT. The integrator must stay as it is until hooke_measurement_run() has returned. That takes

@@ -30,8 +30,8 @@ static void add_region(struct hk_text *data, const char *method) {
   hk_text_close(data, ']');
 }
 
-/* The edge of what is stable by h times frequency and h times decay. */
-static void add_reach(struct hk_text *data, const char *method) {
+void hk_limit_page_add_reach(struct hk_text *data, const char *method) {
+  if (!isfinite(hooke_limit_of_mode(method, 1.0, 0.5))) return;
   hk_text_open(data, "reach", '[');
   for (int k = 0; k <= QUARTER; k++) {
     const double decay = sin(RIGHT_ANGLE * k / QUARTER), frequency = cos(RIGHT_ANGLE * k / QUARTER);
@@ -61,7 +61,7 @@ static void add_row(struct hk_text *data, const hooke_measurement *m, const stru
   hk_text_open(data, NULL, '{');
   hk_measurement_add_row(data, m, table, row);
   add_unlimited(data, m, table, row);
-  if (isfinite(alone)) add_reach(data, method);
+  hk_limit_page_add_reach(data, method);
   if (isfinite(alone) && hooke_measurement_number(m, table->name, row, "by_eigenvalue") == 1.0)
     add_region(data, method);
   hk_text_close(data, '}');

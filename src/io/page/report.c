@@ -38,6 +38,7 @@ static int32_t add_part(const char *name, struct hk_text *page, void *ctx) {
   const struct hk_report *report = ctx;
   if (strcmp(name, "data") == 0) return add_data(page, report);
   if (strcmp(name, "body") == 0) return add_own(page, report, ".html");
+  if (strcmp(name, "more") == 0) return report->more ? hk_share_read(report->more, page) : HOOKE_OK;
   if (strcmp(name, "diagrams") == 0) return add_own(page, report, ".js");
   if (strcmp(name, "tables") == 0) return add_own(page, report, "_tables.js");
   return hk_share_read(name, page);

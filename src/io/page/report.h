@@ -5,6 +5,7 @@
 #include "io/file/text.h"
 
 struct hk_report {
+  const char *more;  /* a file of scripts that it shares with another; NULL: none */
   const char *name;  /* its files in share/hooke: <name>.html, <name>.js, <name>_tables.js */
   const char *scene; /* the name over it */
   void (*add_data)(struct hk_text *data, const void *ctx); /* adds its keys to a JSON object */

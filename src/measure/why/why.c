@@ -198,6 +198,7 @@ static void destroy(void *object) {
   if (why == NULL) return;
   forget(why);
   drop_states(why);
+  hk_why_start_release(&why->start);
   hooke_integrator_destroy(why->own);
   hk_free(why);
 }
@@ -208,6 +209,7 @@ int32_t hooke_why_create(const hooke_integrator *run, const hooke_options *optio
   struct hk_why *why = hk_new(1, sizeof *why);
   if (why == NULL) return HOOKE_NO_MEMORY;
   why->integrator = run;
+  why->system = run->system;
   forget(why);
   return hk_measurement_create(&hk_why_kind, why, run->system, run->options, options, out);
 }
@@ -229,6 +231,7 @@ int32_t hooke_why_create_kept(const hooke_system *system, const hooke_options *r
   if (status == HOOKE_OK) status = copy_state(why->own, last, &why->last);
   if (status == HOOKE_OK) {
     why->integrator = why->own;
+    why->system = system;
     return hk_measurement_create(&hk_why_kind, why, system, run, options, out);
   }
   destroy(why);
@@ -279,6 +282,7 @@ static int32_t run(hooke_measurement *m, hooke_state *state) {
   if (status != HOOKE_OK) return status;
   if (why->first) status = run_on(why);
   if (status == HOOKE_OK) status = explain(why, m);
+  if (status == HOOKE_OK) status = hk_why_start_keep(why->integrator, &why->start);
   if (status != HOOKE_OK) forget(why); /* what was only begun is not known */
   return status;
 }

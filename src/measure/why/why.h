@@ -9,6 +9,7 @@
 #include "measure/spectrum/node_blocks.h"
 #include "measure/trial/patience.h"
 #include "measure/why/growing.h"
+#include "measure/why/why_walk.h"
 
 enum { HOOKE_WHY_MOST_BLAME = 100, HOOKE_WHY_MOST_ADVICE = 4 };
 
@@ -25,9 +26,11 @@ struct hk_why_advice {
 };
 
 struct hk_why {
+  const hooke_system *system;
   const hooke_integrator *integrator; /* whose run ended early */
   hooke_integrator *own;              /* that one, where states were kept; NULL: it is the caller's */
   hooke_state *first, *last;          /* those states, until it has run on from the last one */
+  struct hk_why_start start;          /* to take the steps again from, for a page */
   const char *cause;                  /* NULL: not found yet */
   char sentence[1024], method[32], left_out[640];
   double time, noticed, step, limit, particle;

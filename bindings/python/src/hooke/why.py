@@ -11,6 +11,7 @@ from ._measurement import Measurement
 from ._memory import Handle, text
 from ._prototypes import MEASUREMENT
 from ._status import SolverFailed, Stopped, plain
+from ._types import Path
 from .integrator import Integrator
 from .options import Options
 from .results import Result, Runnable, WorkProgress, resolve
@@ -64,7 +65,8 @@ class Why:
     ):
         pointer, chosen = MEASUREMENT(), Options.for_why().set(budget=budget)
         lib.hooke_why_create(integrator._handle, chosen._handle, ctypes.byref(pointer))
-        found = Measurement(Handle(pointer, lib.hooke_measurement_destroy, integrator._handle))
+        self._problem = integrator._problem
+        self._found = found = Measurement(Handle(pointer, lib.hooke_measurement_destroy, integrator._handle))
         if found.run(progress):
             raise Stopped(text(lib.hooke_last_error()))
         record = found.record("why") or {}
@@ -78,6 +80,12 @@ class Why:
         self.particle = None if math.isnan(record["particle"]) else int(record["particle"])
         self.blame = Blame.read(found)
         self.advice = [_advice(found, row) for row in range(found.count("advice"))]
+
+    def write(self, path: Path, title: str = "a run that blew up") -> None:
+        """Writes what was found by the ending of `path`: .html, the page of ``hooke why --report`` with `title` over it,
+        for which the steps around the trouble are taken again, so that callbacks are called again; .json or .h5, the
+        tables."""
+        self._found.write(path, title=title)
 
     def __repr__(self) -> str:
         return f"Why({self.cause}, t={self.time!r}, {self.method})"

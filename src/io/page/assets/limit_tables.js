@@ -1,11 +1,6 @@
 "use strict";
 /* The words and tables of a limit, and the start of everything. */
 
-const MOST_BLAMED = 12;
-const percent = (share) =>
-  (share < 5e-5 ? "under 0.01 %" : `${(100 * share).toFixed(share < 0.0995 ? 2 : 1)} %`);
-const groupOf = (blame) => (blame.group ? `group ${blame.group}` : "no group");
-
 /* ---- the head ---- */
 
 function writeHead() {
@@ -64,30 +59,6 @@ function writePictured() {
 }
 
 /* ---- tables ---- */
-
-const describeBlame = (one) =>
-  [`spring ${one.number}, between particles ${one.first} and ${one.second}`, `${groupOf(one)}, ${percent(one.share)}`];
-
-function writeBlame() {
-  const body = element("tbody"), most = blames.slice(0, MOST_BLAMED);
-  for (const one of most) {
-    const line = element("tr"), name = element("td", undefined, { className: "word" });
-    const swatch = element("span", undefined, { className: "swatch" });
-    swatch.style.background = shareColour(one.share);
-    name.append(swatch, `spring ${one.number}`);
-    line.append(name, element("td", `${one.first} and ${one.second}`), element("td", one.group, { className: "word" }),
-      element("td", percent(one.share), { title: String(one.share) }));
-    body.append(line);
-  }
-  if (most.length === 0) return;
-  if (blames.length > most.length) {
-    const line = element("tr");
-    line.append(element("td", "and others with less", { className: "word note", colSpan: 4 }));
-    body.append(line);
-  }
-  document.getElementById("blame").append(headOf([["", "to blame", "", "word"], ["", "between particles"],
-    ["", "group", "", "word"], ["", "share of the mode"]]), body);
-}
 
 const COLUMNS = [["bound", "safe bound", "[s]"], ["predicted", "predicted", "[s]"], ["measured", "measured", "[s]"],
   ["ratio", "measured /", "predicted"], ["steps_run", "steps run", ""], ["smallest", "smallest met", "[s]"],

@@ -35,7 +35,7 @@ function drawMark({ ctx, chartArea: { left, top, right, bottom }, scales: { x } 
 function drawWords(ctx, words, x, y) {
   ctx.fillStyle = "rgba(255, 255, 255, 0.85)";
   ctx.fillRect(x - 2, y - 8, ctx.measureText(words).width + 4, 16);
-  ctx.fillStyle = "#1c2126";
+  ctx.fillStyle = INK;
   ctx.fillText(words, x, y);
 }
 
@@ -101,7 +101,7 @@ function drawChanges() {
   const bars = rows.map((row) => ({ label: row.without, value: row.error, text: changeText(row), kind: kindOf(row),
     lines: [`change ${changeText(row)}, ${KINDS[kindOf(row)][0]}`, ...(row.note ? [row.note] : [])] }));
   drawBars("changes", bars, KINDS, logAxis("change of the watched positions [m]", range),
-    { value: want, text: `wanted: ${words(want)} m`, colour: "#1c2126" });
+    { value: want, text: `wanted: ${words(want)} m`, colour: INK });
 }
 
 /* ---- costs ---- */
@@ -119,7 +119,7 @@ const COST_KINDS = { full: ["the full scene", FULL], ...KINDS, lean: ["the lean 
 function costAxis(title, values) {
   const high = Math.max(...values), low = Math.min(...values);
   if (high > 30 * low) return logAxis(title, logRange(values));
-  return { type: "linear", min: 0, max: 1.18 * high, title: { display: true, text: title }, grid: { color: "#edf0f2" },
+  return { type: "linear", min: 0, max: 1.18 * high, title: { display: true, text: title }, grid: { color: GRID },
     ticks: { includeBounds: false } };
 }
 

@@ -30,11 +30,17 @@ const markOf = (method) => MARKS[methods.indexOf(method) % MARKS.length];
 
 /* ---- charts ---- */
 
+/* Light or dark, as the reader has it; a page is drawn anew where that changes. */
+const styleOf = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
+const [INK, PAPER, EDGE, GRID, GRID_MAJOR] = ["--ink", "--paper", "--edge", "--grid", "--grid-major"].map(styleOf);
+const POINT = INK;
+matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => location.reload());
+
 Chart.defaults.animation = false;
 Chart.defaults.maintainAspectRatio = false;
 Chart.defaults.font.family = 'system-ui, "DejaVu Sans", sans-serif';
 Chart.defaults.font.size = 13;
-Chart.defaults.color = "#1c2126";
+Chart.defaults.color = INK;
 
 /* Says in the element what Chart.js has drawn, for whoever looks from outside. */
 const tell = {
@@ -48,7 +54,7 @@ const tell = {
       lines += seen.length > 0;
       points += seen.length;
       crosses += seen.filter((point) => point.options.pointStyle === "crossRot").length;
-      hollow += seen.filter((point) => point.options.backgroundColor === "#fff").length;
+      hollow += seen.filter((point) => point.options.backgroundColor === PAPER).length;
       outside += seen.filter((point) => point.x < area.left - 1 || point.x > area.right + 1 ||
         point.y < area.top - 1 || point.y > area.bottom + 1).length;
     });
@@ -121,7 +127,7 @@ function ticks([low, high]) {
   for (let e = Math.floor(Math.log10(low)); e <= Math.ceil(Math.log10(high)); e++) {
     for (let digit = 1; digit <= 9; digit++) {
       const value = digit * 10 ** e;
-      if (value < low || value > high || (digit > 1 && decades > 7)) continue;
+      if (value < low || value > high || (digit > 1 && decades > 7) || (decades > 20 && e % every !== 0)) continue;
       const bare = digit === 1 ? e % every === 0 : decades < 2 && (digit === 2 || digit === 5);
       const head = digit > 1 ? `${digit}\u00b7` : "";
       list.push({ value, major: digit === 1, label: bare ? head + power(e) : "" });
@@ -136,7 +142,7 @@ function logAxis(title, range) {
     title: { display: true, text: title },
     afterBuildTicks: (axis) => { axis.ticks = ticks(range); },
     ticks: { autoSkip: false, maxRotation: 0, callback: (value, k, all) => all[k].label },
-    grid: { color: (context) => (context.tick && context.tick.major ? "#c9d0d7" : "#edf0f2") },
+    grid: { color: (context) => (context.tick && context.tick.major ? GRID_MAJOR : GRID) },
   };
 }
 

@@ -21,7 +21,7 @@ function lineOf(springs, at, rest) {
 /* ---- one scale for both axes ---- */
 
 const axisOf = (title) => ({ type: "linear", title: { display: true, text: title }, ticks: { includeBounds: false },
-  grid: { color: (context) => (context.tick && context.tick.value === 0 ? "#9aa4ae" : "#edf0f2") } });
+  grid: { color: (context) => (context.tick && context.tick.value === 0 ? EDGE : GRID) } });
 
 /* Shows the box, and to its sides what else there is room for; `filled` is told when the edges are known. */
 function equalScale(chart, box, filled) {

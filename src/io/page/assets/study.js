@@ -17,7 +17,7 @@ const finished = (row) => row.status === "finished" && row.error !== null;
 
 function timeAxis() {
   return { type: "linear", min: Math.min(0, ...study.time), max: Math.max(...study.time),
-    title: { display: true, text: "time [s]" }, grid: { color: "#edf0f2" } };
+    title: { display: true, text: "time [s]" }, grid: { color: GRID } };
 }
 
 /* ---- lines ---- */
@@ -56,7 +56,7 @@ function curve(method, rows, what, range, edge) {
     pointStyle: lost.map((is) => (is ? "crossRot" : markOf(method))),
     pointRadius: lost.map((is) => (is ? 7 : 5)), pointHoverRadius: 8,
     pointBorderWidth: lost.map((is) => (is ? 2.5 : 2)), pointBorderColor: colour,
-    pointBackgroundColor: rows.map((row) => (row.near_floor ? "#fff" : colour)),
+    pointBackgroundColor: rows.map((row) => (row.near_floor ? PAPER : colour)),
   };
 }
 

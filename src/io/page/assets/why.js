@@ -1,0 +1,232 @@
+"use strict";
+/* The steps of a run that blew up, beside the same with the advised change; energies; the mode that leaves the region. */
+
+const ran = data.frames || [], advised = data.advised || {}, cured = advised.frames || [];
+const last = data.last || 0; // frame that is within all bounds still
+const RED = "#c8102e", stepOf = (frame) => Math.round((frame.time - ran[last].time) / data.step);
+const counted = (count, word) => `${whole(count)} ${word}${count === 1 ? "" : "s"}`;
+
+/* ---- where things are ---- */
+
+const placeOf = (frame, k, axis) => frame.position[3 * k + axis];
+
+function boxOf(frame) {
+  return [0, 1, 2].map((axis) => extentBy(particles, (k) => placeOf(frame, k, axis)));
+}
+
+const home = ran.length ? boxOf(ran[0]) : [];
+const sizeOf = (box) => Math.max(...box.map(([low, high]) => high - low));
+const homeSize = sizeOf(home) || longestBlamed() || 1;
+const middle = home.map(([low, high]) => (low + high) / 2);
+
+/* How far from the middle anything has been so far, against half of the scene: the picture never zooms in again. */
+function zooms(frames) {
+  let most = 1;
+  return frames.map((frame) => {
+    for (const k of particles) {
+      const far = Math.max(...[0, 1, 2].map((axis) => Math.abs(placeOf(frame, k, axis) - middle[axis])));
+      most = Math.max(most, (2 * far) / homeSize);
+    }
+    return most;
+  });
+}
+const zoom = { bad: zooms(ran), good: zooms(cured) };
+
+/* ---- a frame ---- */
+
+function firstAxes() {
+  const reach = (axis) => Math.max(...ran.slice(0, last + 1).map((frame) => {
+    const [low, high] = boxOf(frame)[axis];
+    return high - low;
+  }));
+  const [one, other] = [0, 1, 2].sort((a, b) => reach(b) - reach(a));
+  return viewWith(one, other);
+}
+
+let shown = 0, playing = true, axes = "xy", before = 0;
+
+function paint(id, frame, factor, beyond) {
+  const canvas = document.getElementById(id), ctx = canvas.getContext("2d"), ratio = devicePixelRatio || 1;
+  const wide = canvas.clientWidth, tall = canvas.clientHeight;
+  if (canvas.width !== Math.round(wide * ratio) || canvas.height !== Math.round(tall * ratio))
+    Object.assign(canvas, { width: Math.round(wide * ratio), height: Math.round(tall * ratio) });
+  ctx.setTransform(ratio, 0, 0, ratio, 0, 0);
+  ctx.clearRect(0, 0, wide, tall);
+  canvas.classList.toggle("beyond", beyond);
+  if (!frame) return;
+  const [across, up] = VIEWS[axes];
+  const spans = [across, up].map((axis) => Math.max(home[axis][1] - home[axis][0], 0.25 * homeSize));
+  const unit = Math.min((0.84 * wide) / spans[0], (0.84 * tall) / spans[1]) / factor;
+  const at = (k) => [wide / 2 + unit * (placeOf(frame, k, across) - middle[across]),
+    tall / 2 - unit * (placeOf(frame, k, up) - middle[up])];
+  ctx.lineCap = "round";
+  for (const [list, colour, width] of [[listed.filter((one) => !isBlamed(one)), EDGE, listed.length > 300 ? 0.8 : 1.6],
+    [listed.filter(isBlamed), RED, listed.length > 300 ? 1.6 : 3]]) {
+    ctx.strokeStyle = colour;
+    ctx.lineWidth = width;
+    ctx.beginPath();
+    for (const { ends: [a, b] } of list) {
+      ctx.moveTo(...at(a));
+      ctx.lineTo(...at(b));
+    }
+    ctx.stroke();
+  }
+  const dot = particles.length > 400 ? 1 : particles.length > 60 ? 2 : 3.5;
+  ctx.fillStyle = INK;
+  for (const k of particles) {
+    const [x, y] = at(k);
+    if (picture.held[k]) ctx.fillRect(x - dot, y - dot, 2 * dot, 2 * dot);
+    else if (particles.length <= 800) {
+      ctx.beginPath();
+      ctx.arc(x, y, dot, 0, 7);
+      ctx.fill();
+    }
+  }
+  ruler(ctx, wide, tall, unit);
+}
+
+/* A length of 1, 2 or 5 times a power of ten. */
+function ruler(ctx, wide, tall, unit) {
+  const most = (0.25 * wide) / unit, decade = 10 ** Math.floor(Math.log10(most));
+  const length = decade * [5, 2, 1].find((head) => head * decade <= most);
+  ctx.strokeStyle = ctx.fillStyle = INK;
+  ctx.lineWidth = 2;
+  ctx.beginPath();
+  ctx.moveTo(12, tall - 12);
+  ctx.lineTo(12 + length * unit, tall - 12);
+  ctx.stroke();
+  ctx.font = "13px system-ui, sans-serif";
+  ctx.fillText(`${words(length)} m`, 12, tall - 18);
+}
+
+const scaleWords = (factor) => (factor < 1.005 ? "scale 1 : 1" : `zoomed out 1 : ${words(factor, 3)}, so that all of it is seen`);
+
+function show(k) {
+  shown = Math.max(0, Math.min(ran.length - 1, k));
+  const frame = ran[shown], step = stepOf(frame), beyond = shown > last;
+  paint("bad", frame, zoom.bad[shown], beyond);
+  document.getElementById("bad-scale").textContent = `${scaleWords(zoom.bad[shown])}${beyond ? "; no physics any more" : ""}`;
+  if (cured.length) {
+    const near = Math.min(shown, cured.length - 1);
+    paint("good", cured[near], zoom.good[near], false);
+    document.getElementById("good-scale").textContent = scaleWords(zoom.good[near]);
+  }
+  document.getElementById("frame").value = shown;
+  document.getElementById("now").textContent = `t = ${words(frame.time, 5)} s, ` + (step === 0 ? "the last step within bounds"
+    : `${counted(Math.abs(step), "step")} ${step < 0 ? "before" : "after"} the last one within bounds`);
+  document.body.dataset.frame = shown;
+  if (chart) chart.draw();
+}
+
+/* Eight steps a second, so that one can follow; a rest at both ends. */
+function tick(now) {
+  const wait = shown === ran.length - 1 ? 1500 : shown === 0 ? 700 : 125;
+  if (playing && now - before >= wait) {
+    before = now;
+    show(shown === ran.length - 1 ? 0 : shown + 1);
+  }
+  requestAnimationFrame(tick);
+}
+
+function play(on) {
+  playing = on;
+  document.getElementById("play").textContent = on ? "Pause" : "Play";
+}
+
+function startFilm() {
+  const slider = document.getElementById("frame");
+  slider.max = ran.length - 1;
+  slider.oninput = () => { play(false); show(Number(slider.value)); };
+  document.getElementById("play").onclick = () => play(!playing);
+  addEventListener("keydown", (event) => {
+    if (event.target.tagName === "BUTTON" || ![" ", "ArrowLeft", "ArrowRight"].includes(event.key)) return;
+    event.preventDefault();
+    if (event.key === " ") play(!playing);
+    else { play(false); show(shown + (event.key === "ArrowLeft" ? -1 : 1)); }
+  });
+  addEventListener("resize", () => show(shown));
+  choice("views", Object.keys(VIEWS).map((key) => [key, [[...key].join(" ")]]), moving ? firstView() : firstAxes(), (key) => { axes = key; show(shown); });
+  const frame = Number(new URLSearchParams(location.hash.slice(1)).get("frame")); // why.html#frame=40
+  if (location.hash) play(false);
+  show(frame || 0);
+  requestAnimationFrame(tick);
+}
+
+/* ---- energy ---- */
+
+let chart = null;
+
+/* Growth of the energy per step: as measured after the last step within bounds, and as the mode there has it. */
+function rates() {
+  const { value, last: at } = data.energy, to = Math.min(value.length - 1, at + 20);
+  const measured = to > at && value[at] > 0 ? (value[to] / value[at]) ** (1 / (to - at)) : NaN;
+  const known = (data.limits || []).filter((one) => one.growth !== null);
+  return { at, to, measured, predicted: known.length ? known[known.length - 1].growth ** 2 : NaN };
+}
+
+/* A vertical line at the frame that is shown. */
+const cursor = {
+  id: "cursor",
+  afterDatasetsDraw(drawn) {
+    if (!drawn.options.cursor) return;
+    const { ctx, chartArea: { top, bottom }, scales: { x } } = drawn, at = x.getPixelForValue(ran[shown].time);
+    ctx.save();
+    ctx.strokeStyle = INK;
+    ctx.beginPath();
+    ctx.moveTo(at, top);
+    ctx.lineTo(at, bottom);
+    ctx.stroke();
+    ctx.restore();
+  },
+};
+Chart.register(cursor);
+
+const timeAxis = (from, to) => ({ type: "linear", min: from, max: to, title: { display: true, text: "time [s]" },
+  grid: { color: GRID }, ticks: { maxRotation: 0 } });
+const plain = (label, points, colour, more) => ({ label, data: points, borderColor: colour, backgroundColor: colour,
+  borderWidth: 2, pointRadius: 0, pointHitRadius: 4, pointStyle: "line", ...more });
+
+function drawEnergy({ at, predicted }) {
+  const { first, value } = data.energy, timeAt = (k) => data.time + (k - at) * data.step;
+  const points = value.map((y, k) => ({ x: timeAt(k), y })).filter(({ y }) => y > 0 && Number.isFinite(y));
+  const lines = [plain("as it ran", points, RED)];
+  if (cured.length) lines.push(plain(`with the advised ${advised.method === data.method ? "step" : "method"}`,
+    cured.map((frame) => ({ x: frame.time, y: frame.energy })).filter(({ y }) => y > 0), "#00875f"));
+  if (predicted > 1 && value[at] > 0) {
+    const ends_ = [-Math.log(1e6) / Math.log(predicted), value.length - 1 - at].map((k) => Math.max(-at, k));
+    lines.push(plain("growth that the mode predicts", ends_.map((k) => ({ x: timeAt(at + k), y: value[at] * predicted ** k })),
+      "#7a5195", { borderDash: [6, 4] }));
+  }
+  const from = Math.min(ran[0].time, timeAt(Math.max(0, at - 20)));
+  const until = Math.min(timeAt(value.length - 1), ran[ran.length - 1].time + 2 * data.step);
+  const seen = points.filter(({ x }) => x >= from && x <= until);
+  chart = draw("energy", lines, timeAxis(from, until), logAxis("energy [J]", ends(seen.map(({ y }) => y))),
+    (item) => `t = ${words(item.raw.x, 5)} s: ${words(item.raw.y, 4)} J`);
+  chart.options.cursor = true;
+  chart.canvas.dataset.first = first;
+}
+
+/* ---- the mode and the region ---- */
+
+function drawReach(looks) {
+  const reach = data.rows[0].reach, pairs = Array.from({ length: reach.length / 2 }, (_, k) => ({ x: reach[2 * k], y: reach[2 * k + 1] }));
+  const points = looks.map((look) => ({ x: data.step * look.frequency, y: data.step * look.decay, look }));
+  const far = (name) => Math.max(...points.map((point) => point[name]));
+  const region = { label: `${data.method} is stable within`, data: [{ x: 0, y: 0 }, ...pairs, { x: 0, y: 0 }], borderColor: "#00875f",
+    backgroundColor: "#00875f22", borderWidth: 2, fill: "shape", pointRadius: 0, pointHitRadius: 0, pointStyle: "line", order: 3 };
+  const path = { label: "the mode that limits, over time", data: points, borderColor: RED, backgroundColor: RED, borderWidth: 1.5,
+    pointRadius: points.map((_, k) => (k === points.length - 1 ? 6 : 3)), pointStyle: "circle", order: 1 };
+  drawEqual("reach", [region, path], ["h \u03c9, step times frequency", "h d, step times damping"],
+    { left: -0.1, right: Math.max(3, 1.15 * far("x")), bottom: -0.1, top: Math.max(1.2, 1.15 * far("y")) },
+    (item) => (item.raw.look ? [`t = ${words(item.raw.look.time, 5)} s`, `${words(item.raw.look.frequency, 4)} rad/s, damping ` +
+      `${words(item.raw.look.decay, 4)} 1/s`, `each step multiplies it by ${words(item.raw.look.growth, 4)}`] : ""));
+}
+
+function drawAlong(looks) {
+  const points = looks.filter((look) => look.limit > 0).map((look) => ({ x: look.time, y: look.limit }));
+  const low = looks[0].time, high = Math.max(looks[looks.length - 1].time, low + data.step);
+  const range = ends([...points.map(({ y }) => y), data.step]);
+  draw("along", [plain("largest stable step", points, "#00875f", { pointRadius: 3, pointStyle: "circle" }),
+    plain("step of the run", [low, high].map((x) => ({ x, y: data.step })), RED, { borderDash: [6, 4] })],
+  timeAxis(low, high), logAxis("step [s]", range), (item) => `t = ${words(item.raw.x, 5)} s: ${words(item.raw.y, 5)} s`);
+}

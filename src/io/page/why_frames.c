@@ -1,0 +1,334 @@
+#include "io/page/why_frames.h"
+
+#include "core/clock.h"
+#include "core/memory.h"
+#include "core/table/option.h"
+#include "io/page/picture.h"
+#include "measure/limit/limit.h"
+#include "measure/spectrum/mode_growth.h"
+
+#include <math.h>
+#include <string.h>
+
+/* Steps before and after the trouble whose energy is told, and frames to play; springs in them. */
+enum {
+  ENERGY_BEFORE = 1000,
+  ENERGY_AFTER = 60,
+  BEFORE = 48,
+  AFTER = 40,
+  LEAST_AFTER = 10,
+  SPRINGS = 1500,
+  LOOKS = 24
+};
+/* Particles and springs times steps that the energies, and the advised run, may take. */
+static const double ENERGY_WORK = 3e8, ADVISED_WORK = 2e9;
+/* Frames end when the scene is so much wider than at first; the mode grows about so much before the trouble. */
+static const double WIDEST = 1e5, GROWN = 1e4;
+static const double LOOK_SECONDS = 3.0, MOST_LOOKED_AT = 2e4; /* at eigenvalues, of so many particles */
+static const double MOVE_SCALE = 1e4;
+
+struct frames {
+  struct hk_text *data;
+  const struct hk_why *why;
+  const hooke_system *system;
+  double h, t0;
+  int64_t last; /* step within all bounds */
+  struct hk_picture picture;
+  int64_t *list;
+  double extent; /* of the first frame */
+  int64_t shown, after;
+
+  double energy[ENERGY_BEFORE + ENERGY_AFTER + 1];
+  int64_t energies, first_energy;
+
+  hooke_measurement *limit;
+  double begun, *shape, *mode_q, mode_time; /* 3n: NULL before a mode was found; positions then */
+  int32_t is_above, looks;
+  struct {
+    double time, limit, frequency, decay, growth;
+  } look[LOOKS + 1];
+};
+
+/* ---- energies ---- */
+
+/* Kinetic and of springs: never negative, unlike that of gravity. [J] */
+static double energy_of(const hooke_system *system, const hooke_state *state) {
+  const double *q = hooke_state_position((hooke_state *)state),
+               *v = hooke_state_velocity((hooke_state *)state);
+  return hooke_system_energy(system, "kinetic", NULL, v) + hooke_system_energy(system, "potential", q, NULL) -
+         hooke_system_energy(system, "gravity", q, NULL);
+}
+
+static int32_t see_energy(int64_t k, const hooke_state *state, void *ctx) {
+  struct frames *f = ctx;
+  f->energy[k] = energy_of(f->system, state);
+  f->energies = k + 1;
+  return 0;
+}
+
+static double time_of(const struct frames *f, int64_t step) {
+  return f->t0 + (double)step * f->h;
+}
+
+static double work_of(const hooke_system *system) {
+  return (double)(hooke_system_particle_count(system) + hooke_system_spring_count(system) + 1);
+}
+
+static int32_t find_energies(struct frames *f, const hooke_options *run) {
+  double time[ENERGY_BEFORE + ENERGY_AFTER + 1];
+  const int64_t fit = (int64_t)(ENERGY_WORK / work_of(f->system)),
+                back = fit < ENERGY_BEFORE ? fit : ENERGY_BEFORE;
+  const int64_t begun = f->why->start.standing.k;
+  f->first_energy = f->last - back > begun ? f->last - back : begun;
+  const int64_t count = f->last - f->first_energy + ENERGY_AFTER + 1;
+  for (int64_t k = 0; k < count; k++)
+    time[k] = time_of(f, f->first_energy + k);
+  return hk_why_walk(f->system, &f->why->start, run, count, time, see_energy, f);
+}
+
+static void add_energies(struct frames *f) {
+  hk_text_open(f->data, "energy", '{');
+  hk_text_number(f->data, "first", (double)f->first_energy);
+  hk_text_number(f->data, "last", (double)(f->last - f->first_energy));
+  hk_text_open(f->data, "value", '[');
+  for (int64_t k = 0; k < f->energies; k++)
+    hk_text_number(f->data, NULL, f->energy[k]);
+  hk_text_close(f->data, ']');
+  hk_text_close(f->data, '}');
+}
+
+/* Steps between frames, so that those before the trouble show the mode from small on. */
+static int64_t stride_of(const struct frames *f) {
+  const int64_t end = f->last - f->first_energy, back = end < 50 ? end : 50;
+  const double rise = back > 0 && end < f->energies ? log(f->energy[end] / f->energy[end - back]) : NAN;
+  const double steps = 2.0 * log(GROWN) * (double)back / rise / BEFORE;
+  const double most = 1.0 + (double)end / BEFORE;
+  return isfinite(steps) && steps > 1.0 ? (int64_t)ceil(fmin(steps, most)) : 1;
+}
+
+/* ---- limits along the way ---- */
+
+static int32_t begin_limits(struct frames *f, const hooke_options *run) {
+  hooke_options *options = NULL;
+  if ((double)hooke_system_particle_count(f->system) > MOST_LOOKED_AT) return HOOKE_OK;
+  int32_t status = hk_options_create(hk_limit_kind.options, &options);
+  if (status == HOOKE_OK) status = hooke_options_set_text(options, "methods", f->why->method);
+  if (status == HOOKE_OK)
+    status = hk_measurement_create(&hk_limit_kind, NULL, f->system, run, options, &f->limit);
+  hooke_options_destroy(options);
+  f->begun = hk_clock_seconds();
+  return status;
+}
+
+/* Frequency and damping of the mode that limits, and whether it is the one to draw: the first above the limit. */
+static int32_t take_mode(struct frames *f, const struct hk_limit *limit, const struct hk_limit_row *row,
+                         int64_t step) {
+  struct hk_growing g;
+  int32_t status = hk_growing_create(f->system, row->mode, NULL, &g);
+  if (status != HOOKE_OK) return status;
+  const double frequency = sqrt(fmax(0.0, hk_growing_quotient(&g, limit->q, 1.0, 0.0)));
+  const double decay = 0.5 * hk_growing_quotient(&g, limit->q, 0.0, 1.0);
+  const double growth = hk_mode_growth(row->method, f->h, frequency, decay);
+  hk_growing_release(&g);
+  f->look[f->looks].frequency = frequency;
+  f->look[f->looks].decay = decay;
+  f->look[f->looks].growth = growth;
+  const int above = row->predicted < f->h;
+  if (f->is_above || (!above && step != f->last)) return HOOKE_OK;
+  const size_t bytes = 3 * (size_t)hooke_system_particle_count(f->system) * sizeof(double);
+  if (f->shape == NULL) f->shape = hk_new(6 * hooke_system_particle_count(f->system), sizeof(double));
+  if (f->shape == NULL) return HOOKE_NO_MEMORY;
+  f->mode_q = f->shape + 3 * hooke_system_particle_count(f->system);
+  memcpy(f->shape, limit->shape, bytes);
+  memcpy(f->mode_q, limit->q, bytes);
+  f->mode_time = limit->time;
+  f->is_above = above;
+  return HOOKE_OK;
+}
+
+static int32_t look(struct frames *f, const hooke_state *state, int64_t step) {
+  const int late = hk_clock_seconds() - f->begun > LOOK_SECONDS;
+  if (f->limit == NULL || f->looks > LOOKS || (late && step != f->last)) return HOOKE_OK;
+  struct hk_limit *limit = f->limit->object;
+  const double *q = hooke_state_position((hooke_state *)state);
+  int32_t status = hk_limit_look(limit, q, hooke_state_time(state));
+  if (status != HOOKE_OK)
+    return status == HOOKE_NO_MEMORY ? status : HOOKE_OK; /* then it is not known there */
+  const struct hk_limit_row *row = hk_limit_blamed(limit);
+  f->look[f->looks].time = hooke_state_time(state);
+  f->look[f->looks].limit = limit->row[0].predicted;
+  f->look[f->looks].frequency = f->look[f->looks].decay = f->look[f->looks].growth = NAN;
+  if (row) status = take_mode(f, limit, row, step);
+  f->looks++;
+  return status;
+}
+
+static void add_limits(const struct frames *f) {
+  hk_text_open(f->data, "limits", '[');
+  for (int32_t k = 0; k < f->looks; k++) {
+    hk_text_open(f->data, NULL, '{');
+    hk_text_number(f->data, "time", f->look[k].time);
+    if (isinf(f->look[k].limit))
+      hk_text_word(f->data, "limit", "none");
+    else
+      hk_text_number(f->data, "limit", f->look[k].limit);
+    hk_text_number(f->data, "frequency", f->look[k].frequency);
+    hk_text_number(f->data, "decay", f->look[k].decay);
+    hk_text_number(f->data, "growth", f->look[k].growth);
+    hk_text_close(f->data, '}');
+  }
+  hk_text_close(f->data, ']');
+}
+
+/* ---- frames ---- */
+
+static int32_t choose_springs(struct frames *f) {
+  int32_t status = hk_picture_create(f->system, &f->picture);
+  for (int64_t k = 0; k < f->why->blame_count && status == HOOKE_OK; k++) {
+    if (f->why->blame[k].spring >= 0) hk_picture_take(&f->picture, f->why->blame[k].spring);
+  }
+  if (status != HOOKE_OK) return status;
+  hk_picture_take_evenly(&f->picture, 0, f->picture.spring_count, SPRINGS - f->picture.drawn_count);
+  hk_text_open(f->data, "picture", '{');
+  hk_text_number(f->data, "springs", (double)f->picture.spring_count);
+  hk_text_number(f->data, "particles", (double)hooke_system_particle_count(f->system));
+  hk_picture_add_springs(f->data, &f->picture);
+  f->list = hk_picture_list(&f->picture);
+  return f->list ? HOOKE_OK : HOOKE_NO_MEMORY;
+}
+
+static double extent_of(const struct frames *f, const double *q) {
+  double extent = 0.0;
+  for (int axis = 0; axis < 3; axis++) {
+    double low = INFINITY, high = -INFINITY;
+    for (int64_t k = 0; k < f->picture.shown_count; k++) {
+      low = fmin(low, q[3 * f->list[k] + axis]);
+      high = fmax(high, q[3 * f->list[k] + axis]);
+    }
+    extent = fmax(extent, high - low);
+  }
+  return extent;
+}
+
+static void add_frame(struct frames *f, const hooke_state *state) {
+  const double *q = hooke_state_position((hooke_state *)state);
+  hk_text_open(f->data, NULL, '{');
+  hk_text_number(f->data, "time", hooke_state_time(state));
+  hk_text_number(f->data, "energy", energy_of(f->system, state));
+  hk_picture_add_vectors(f->data, "position", q, f->list, f->picture.shown_count,
+                         hk_picture_scale(q, f->list, f->picture.shown_count));
+  hk_text_close(f->data, '}');
+}
+
+/* One of the run as it was: its number tells the step. */
+static int32_t see_frame(int64_t k, const hooke_state *state, void *ctx) {
+  struct frames *f = ctx;
+  const int64_t step = llround((hooke_state_time(state) - f->t0) / f->h);
+  const double extent = extent_of(f, hooke_state_position((hooke_state *)state));
+  if (k == 0) f->extent = extent;
+  f->after += step > f->last;
+  if (f->after > LEAST_AFTER && f->extent > 0.0 && extent > WIDEST * f->extent) return 1;
+  add_frame(f, state);
+  f->shown++;
+  return step <= f->last && (k % 2 == 0 || step == f->last) ? look(f, state, step) : HOOKE_OK;
+}
+
+static int32_t see_advised(int64_t k, const hooke_state *state, void *ctx) {
+  (void)k;
+  add_frame(ctx, state);
+  return 0;
+}
+
+/* ---- the advised run ---- */
+
+/* The first advice that is another run with a fixed step, within the work; -1: none. */
+static int64_t find_advice(const struct frames *f, const hooke_options *run, double until,
+                           hooke_options **advised) {
+  for (int64_t k = 0; k < f->why->advice_count; k++) {
+    const hooke_options *changes = f->why->advice[k].run;
+    if (changes == NULL || strcmp(f->why->advice[k].option, "duration") == 0) continue;
+    if (hooke_options_copy(run, advised) != HOOKE_OK || hk_why_apply(changes, *advised) != HOOKE_OK)
+      return -1;
+    const double step = hooke_options_number(*advised, "step"), from = f->why->start.standing.t;
+    if (hooke_method_is_adaptive(hooke_options_text(*advised, "method")) == 0 &&
+        (until - from) / step * work_of(f->system) < ADVISED_WORK)
+      return k;
+    hooke_options_destroy(*advised);
+    *advised = NULL;
+  }
+  return -1;
+}
+
+static int32_t add_advised(struct frames *f, const hooke_options *run, const double *time) {
+  hooke_options *advised = NULL;
+  const int64_t k = f->shown > 0 ? find_advice(f, run, time[f->shown - 1], &advised) : -1;
+  int32_t status = HOOKE_OK;
+  hk_text_open(f->data, "advised", '{');
+  if (k >= 0) {
+    hk_text_word(f->data, "change", f->why->advice[k].change);
+    hk_text_word(f->data, "method", hooke_options_text(advised, "method"));
+    hk_text_number(f->data, "step", hooke_options_number(advised, "step"));
+    hk_text_open(f->data, "frames", '[');
+    status = hk_why_walk(f->system, &f->why->start, advised, f->shown, time, see_advised, f);
+    hk_text_close(f->data, ']');
+  }
+  hk_text_close(f->data, '}');
+  hooke_options_destroy(advised);
+  return status;
+}
+
+/* ---- all of it ---- */
+
+/* The mode that grows, at the positions where it was found. */
+static void add_mode(const struct frames *f) {
+  if (f->shape == NULL) return;
+  hk_text_open(f->data, "mode", '{');
+  hk_text_number(f->data, "time", f->mode_time);
+  hk_picture_add_vectors(f->data, "position", f->mode_q, f->list, f->picture.shown_count,
+                         hk_picture_scale(f->mode_q, f->list, f->picture.shown_count));
+  hk_picture_add_vectors(f->data, "move", f->shape, f->list, f->picture.shown_count, MOVE_SCALE);
+  hk_text_close(f->data, '}');
+}
+
+static int32_t add(struct frames *f, const hooke_options *run) {
+  double time[BEFORE + AFTER + 1];
+  int32_t status = find_energies(f, run);
+  if (status != HOOKE_OK) return status;
+  add_energies(f);
+  const int64_t stride = stride_of(f), back = (f->last - f->first_energy) / stride;
+  const int64_t before = back < BEFORE ? back : BEFORE;
+  for (int64_t k = 0; k <= before + AFTER; k++)
+    time[k] = time_of(f, f->last + (k - before) * stride);
+  hk_text_number(f->data, "stride", (double)stride);
+  hk_text_number(f->data, "last", (double)before);
+  if (status == HOOKE_OK) status = choose_springs(f);
+  if (status == HOOKE_OK) status = begin_limits(f, run);
+  if (status != HOOKE_OK) return status;
+  hk_picture_add_particles(f->data, &f->picture, f->list);
+  hk_text_close(f->data, '}');
+  hk_text_open(f->data, "frames", '[');
+  status = hk_why_walk(f->system, &f->why->start, run, before + AFTER + 1, time, see_frame, f);
+  hk_text_close(f->data, ']');
+  if (status == HOOKE_OK) status = add_advised(f, run, time);
+  add_limits(f);
+  add_mode(f);
+  return status;
+}
+
+void hk_why_frames_add(struct hk_text *data, const struct hk_why *why, const hooke_options *run) {
+  struct frames *f = hk_new(1, sizeof *f);
+  if (f == NULL) {
+    data->status = HOOKE_NO_MEMORY;
+    return;
+  }
+  *f = (struct frames){
+      .data = data, .why = why, .h = why->step, .t0 = why->start.standing.t0, .system = why->system};
+  f->last = llround((why->time - f->t0) / f->h);
+  const int32_t status = add(f, run);
+  if (status != HOOKE_OK && data->status == HOOKE_OK) data->status = status;
+  hk_picture_release(&f->picture);
+  hk_free(f->list);
+  hk_free(f->shape);
+  hooke_measurement_destroy(f->limit);
+  hk_free(f);
+}

@@ -1,0 +1,33 @@
+#include "measure/spectrum/mode_growth.h"
+
+#include "integrate/method.h"
+
+#include <complex.h>
+#include <math.h>
+
+/* The larger modulus of the roots of a z^2 - b z + c = 0. */
+static double larger_root(double a, double b, double c) {
+  const double complex root = csqrt(b * b - 4.0 * a * c);
+  return fmax(cabs((b + root) / (2.0 * a)), cabs((b - root) / (2.0 * a)));
+}
+
+/* |R(h lambda)|, R the exponential series up to `degree`. */
+static double polynomial(int32_t degree, double complex z) {
+  double complex sum = 1.0, term = 1.0;
+  for (int32_t k = 1; k <= degree; k++) {
+    term *= z / k;
+    sum += term;
+  }
+  return cabs(sum);
+}
+
+double hk_mode_growth(const char *method, double h, double frequency, double decay) {
+  const struct hk_stability *stability = hk_method_stability(method);
+  const double k = h * h * frequency * frequency, c = h * decay;
+  if (stability->kind == HOOKE_STABLE_BY_K_AND_C) return larger_root(1.0, 2.0 - k - 2.0 * c, 1.0 - 2.0 * c);
+  if (stability->kind == HOOKE_STABLE_BY_K) return larger_root(1.0 + c, 2.0 - k, 1.0 - c);
+  if (stability->kind != HOOKE_STABLE_BY_POLYNOMIAL) return NAN;
+  const double complex root = csqrt(decay * decay - frequency * frequency);
+  return fmax(polynomial(stability->degree, h * (root - decay)),
+              polynomial(stability->degree, h * (-root - decay)));
+}

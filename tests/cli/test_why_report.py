@@ -1,0 +1,117 @@
+"""hooke why --report: the steps around a blow-up, what it grows by, and the advised run, in a headless browser."""
+
+import json
+import shutil
+import subprocess
+from pathlib import Path
+
+import pytest
+from conftest import CLI, SIX_PARTICLES
+from pages import DRAWS, TITLE, browse, check_not_built, check_places, check_planted_faults, fetches, needs_browser, needs_page
+
+ROOT = Path(__file__).resolve().parents[2]
+EXPLODING = ROOT / "tests/cli/scenes/exploding"
+SCENE = json.loads((ROOT / "examples/scenes/stiff-spring.json").read_text())
+# The red of springs to blame on the two stages, and the scale that is stated, at frames of the film.
+LOOK = """
+play(false);
+const seen = {};
+for (const k of [0, last, ran.length - 1]) {
+  show(k);
+  seen[k] = ["bad", "good"].map((id) => {
+    const canvas = document.getElementById(id), copy = document.createElement("canvas");
+    Object.assign(copy, { width: canvas.width, height: canvas.height });
+    const ctx = copy.getContext("2d", { willReadFrequently: true });
+    ctx.drawImage(canvas, 0, 0);
+    const { data } = ctx.getImageData(0, 0, canvas.width, canvas.height);
+    let red = 0;
+    for (let i = 0; i < data.length; i += 4) red += data[i] > 180 && data[i + 1] < 60 && data[i + 2] < 80 && data[i + 3] > 200;
+    return [red, document.getElementById(`${id}-scale`).textContent, canvas.classList.contains("beyond")];
+  });
+}
+document.getElementById("now").dataset.seen = JSON.stringify(seen);
+"""
+
+
+def make(folder, *arguments):
+    command = [CLI, "why", "scene.json", "--report", "page.html", "--json", *arguments]
+    done = subprocess.run(command, cwd=folder, capture_output=True, text=True, timeout=240)
+    assert (done.returncode, done.stderr) == (0, "")
+    return (folder / "page.html").read_text(encoding="utf-8"), json.loads(done.stdout)
+
+
+def data_of(page):
+    start = page.index('id="data">') + len('id="data">')
+    return json.loads(page[start:page.index("</script>", start)])
+
+
+@pytest.fixture(scope="module")
+def chain(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("why")
+    (folder / "scene.json").write_text(json.dumps({**SCENE, "title": TITLE}))
+    return make(folder, "--step", "2.5e-3")
+
+
+@needs_page
+def test_the_steps_and_their_growth(chain):
+    data = data_of(chain[0])
+    assert data["sentence"] == chain[1]["sentence"] and data["command"] == chain[1]["advice"][0]["command"]
+    times = [frame["time"] for frame in data["frames"]]
+    assert times == pytest.approx([2.5e-3 * k for k in range(len(times))], abs=1e-15) and times[data["last"]] == data["time"]
+    assert data["advised"]["step"] == 1e-3
+    assert [frame["time"] for frame in data["advised"]["frames"]] == pytest.approx(times, abs=5.1e-4)
+    # the mode of the stiff spring hardly changes: the energy grows as it predicts
+    value, at = data["energy"]["value"], data["energy"]["last"]
+    measured, growth = (value[at + 20] / value[at]) ** 0.05, data["limits"][-1]["growth"]
+    assert measured == pytest.approx(growth**2, rel=0.05) and growth > 10
+    assert data["limits"][0]["limit"] == pytest.approx(data["limit"], rel=1e-6)
+    moves = [max(abs(x) for x in data["mode"]["move"][3 * k:3 * k + 3]) for k in range(8)]
+    by_number = dict(zip(data["picture"]["particle"], moves))
+    assert by_number[3] == 1 and by_number[4] == 1 and by_number[1] < 0.1
+
+
+@needs_page
+@needs_browser
+def test_what_is_drawn(chain, tmp_path):
+    seen = browse(tmp_path, chain[0], LOOK)
+    assert seen.console == [] and fetches(chain[0]) == []
+    assert seen.text["scene"] == TITLE and "the largest stable one of symplectic-euler" in seen.text["verdict"]
+    first, within, after = json.loads(seen.attributes["now"]["data-seen"]).values()
+    for red, _, _ in (*first, *within, *after):
+        assert red > 50
+    assert [stage[1:] for stage in first] == [["scale 1 : 1", False], ["scale 1 : 1", False]]
+    assert after[0][1].startswith("zoomed out 1 : ") and after[0][2] and after[1][1:] == ["scale 1 : 1", False]
+    assert all(seen.drawn(name)["lines"] >= 0 for name in ("energy", "reach", "along", "picture"))
+    assert seen.drawn("picture")["arrows"] == 2
+    assert "predicts" in seen.text["rates"] and "it is outside" in seen.text["left"]
+    check_planted_faults(tmp_path, chain[0])
+
+
+@needs_page
+@needs_browser
+@pytest.mark.parametrize("kind", ["collapsing", "forward-euler-string", "gaining-strand", "cvode-cable",
+                                  "backward-euler-cable", "strong-drag"])
+def test_every_cause_has_its_page(tmp_path, kind):
+    shutil.copy(EXPLODING / f"{kind}.json", tmp_path / "scene.json")
+    page, value = make(tmp_path, "--budget", "4s")
+    seen = browse(tmp_path, page)
+    assert seen.console == []
+    assert value["sentence"][1:] in seen.text["verdict"]
+    assert ("hidden" in seen.attributes["film"]) == (kind == "cvode-cable")
+
+
+@needs_page
+def test_no_page_where_nothing_blew_up(hooke, write, tmp_path):
+    answer = hooke("why", write(SIX_PARTICLES), "--report", "page.html")
+    assert answer.code == 0 and "did not blow up" in answer.err
+    assert not (tmp_path / "page.html").exists()
+
+
+@needs_page
+def test_places(hooke, write):
+    check_places(hooke, write({**SCENE, "run": {**SCENE["run"], "step": 2.5e-3}}), "why")
+
+
+@pytest.mark.skipif(DRAWS, reason="this build has Chart.js")
+def test_not_built(hooke, write):
+    check_not_built(hooke, write(SIX_PARTICLES), "why")
