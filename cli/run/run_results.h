@@ -25,6 +25,7 @@ struct cli_run {
   int32_t kept_place;     /* 1: of an interrupted run, a checkpoint or a frame to go on from */
   struct cli_watch watch;
   double duration;
+  int32_t shown;         /* 1: the output is there to be shown and removed */
   int64_t frames;        /* reported so far */
   int64_t frames_beyond; /* those of them after it diverged */
   int32_t write_status;  /* HOOKE_OK, or why a frame or a checkpoint could not be written */
@@ -49,5 +50,9 @@ void cli_run_print_final(const struct cli_run *run);
 
 /* 1 if frames after divergence were asked for. */
 int32_t cli_run_goes_beyond(const struct cli_run *run);
+
+/* Runs the scene into a trajectory that is there to be shown, with --want or its own method (run.c); `outcome` as
+ * hooke_integrator_run() has it. A failure is reported and gives the exit code. */
+int cli_run_to_show(const struct cli_arguments *arguments, const char *output, int32_t *outcome);
 
 #endif

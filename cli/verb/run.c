@@ -208,7 +208,7 @@ static int integrate(struct cli_run *run) {
   if (run->outcome < 0 && code != HOOKE_EXIT_DIVERGED) {
     return cli_report(run->arguments, code, "%s", run->message);
   }
-  if (run->output) status = write_companion(run);
+  if (run->output && !run->shown) status = write_companion(run);
   return status == HOOKE_OK ? HOOKE_EXIT_DONE : cli_report_status(run->arguments, status);
 }
 
@@ -340,6 +340,34 @@ static int run_and_tell(struct cli_run *run) {
   return run->outcome == HOOKE_OK ? cli_want_exit_code(run) : cli_exit_code(run->outcome);
 }
 
+/* Everything before the first step. */
+static int make_ready(struct cli_run *run) {
+  int code = cli_setup_load(run->arguments, &run->setup);
+  if (code == HOOKE_EXIT_DONE) code = cli_want_pick(run);
+  if (code == HOOKE_EXIT_DONE && !run->resumed) code = cli_fit_run(run->arguments, &run->setup);
+  if (code != HOOKE_EXIT_DONE) return code;
+  return cli_setup_require(run->arguments, &run->setup, hooke_options_text(run->setup.options, "method"));
+}
+
+static void release(struct cli_run *run) {
+  hooke_measurement_destroy(run->why);
+  hooke_estimate_destroy(run->estimate);
+  hooke_integrator_destroy(run->integrator);
+  hooke_options_destroy(run->options);
+  cli_setup_destroy(&run->setup);
+}
+
+int cli_run_to_show(const struct cli_arguments *arguments, const char *output, int32_t *outcome) {
+  struct cli_run run = {.arguments = arguments, .output = output, .shown = 1};
+  int code = make_ready(&run);
+  if (code == HOOKE_EXIT_DONE) code = integrate_to_want(&run);
+  if (code == HOOKE_EXIT_DONE && run.outcome != HOOKE_OK && !arguments->quiet)
+    cli_report_words(arguments, "%s", run.message);
+  *outcome = run.outcome;
+  release(&run);
+  return code;
+}
+
 static int do_run(const struct cli_arguments *arguments) {
   struct cli_run run = {.arguments = arguments,
                         .output = cli_arguments_text(arguments, "output"),
@@ -348,18 +376,9 @@ static int do_run(const struct cli_arguments *arguments) {
   if (code == HOOKE_EXIT_DONE) code = cli_setup_check_output(arguments, run.output);
   if (code != HOOKE_EXIT_DONE) return code;
   if (run.resumed) run.output = run.resumed;
-  code = cli_setup_load(arguments, &run.setup);
-  if (code == HOOKE_EXIT_DONE) code = cli_want_pick(&run);
-  if (code == HOOKE_EXIT_DONE && !run.resumed) code = cli_fit_run(arguments, &run.setup);
-  if (code == HOOKE_EXIT_DONE) {
-    code = cli_setup_require(arguments, &run.setup, hooke_options_text(run.setup.options, "method"));
-  }
+  code = make_ready(&run);
   if (code == HOOKE_EXIT_DONE) code = run_and_tell(&run);
-  hooke_measurement_destroy(run.why);
-  hooke_estimate_destroy(run.estimate);
-  hooke_integrator_destroy(run.integrator);
-  hooke_options_destroy(run.options);
-  cli_setup_destroy(&run.setup);
+  release(&run);
   return code;
 }
 

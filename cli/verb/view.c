@@ -2,11 +2,18 @@
 #include "output_file.h"
 #include "print.h"
 #include "report.h"
-#include "setup.h"
+#include "run_results.h"
 
 #include <inttypes.h>
 #include <math.h>
+#include <spawn.h>
+#include <stdint.h>
 #include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+extern char **environ;
 
 /* What is left out of the page, "every 10th" of something; "" if nothing is. */
 static void describe_stride(const hooke_view *view, const char *what, char *text, size_t size) {
@@ -25,12 +32,16 @@ static void print_words(const struct cli_arguments *arguments, const hooke_view 
                    hooke_view_number(view, "frames_there"), frames, hooke_view_number(view, "springs"),
                    hooke_view_number(view, "springs_there"), springs,
                    frames[0] || springs[0] ? "; --frames, --springs and --size allow more" : "");
+  const double damaged = hooke_view_number(view, "damaged");
+  if (damaged > 0.0)
+    cli_report_words(arguments, "%.0f damaged frame%s skipped: the numbers are not those that were written",
+                     damaged, damaged == 1.0 ? " is" : "s are");
 }
 
 static void print_json(const hooke_view *view, const hooke_record *record, const char *output) {
-  static const char *const counts[] = {"bytes",         "frames",    "frames_there",
-                                       "frame_stride",  "springs",   "springs_there",
-                                       "spring_stride", "particles", "particles_there"};
+  static const char *const counts[] = {"bytes",           "frames",        "frames_there",  "frame_stride",
+                                       "springs",         "springs_there", "spring_stride", "particles",
+                                       "particles_there", "damaged"};
   static const char *const numbers[] = {"time_first", "time_last", "strain", "strain_low", "strain_high"};
   struct cli_json json;
   cli_json_begin(&json, stdout);
@@ -53,15 +64,46 @@ static int write_page(const struct cli_arguments *arguments, const hooke_record 
   return status == HOOKE_OK ? HOOKE_EXIT_DONE : cli_report_status(arguments, status);
 }
 
-static int do_view(const struct cli_arguments *arguments) {
-  const char *output = cli_arguments_text(arguments, "output");
-  if (!output) {
-    return cli_report(arguments, HOOKE_EXIT_USAGE, "no page named; give one, such as -o page.html");
+/* ---- where the page goes ---- */
+
+/* FILE of -o, or the input's name with .html for its ending, for free(). NULL: no memory. */
+static char *output_of(const struct cli_arguments *arguments) {
+  const char *given = cli_arguments_text(arguments, "output"), *input = arguments->scene;
+  if (given) return strdup(given);
+  if (strcmp(input, "-") == 0) input = "scene";
+  const char *slash = strrchr(input, '/'), *dot = strrchr(slash ? slash : input, '.');
+  const size_t length = dot ? (size_t)(dot - input) : strlen(input);
+  char *path = malloc(length + sizeof ".html");
+  if (path) snprintf(path, length + sizeof ".html", "%.*s.html", (int)length, input);
+  return path;
+}
+
+/* With the reader's browser, which stays when hooke ends. */
+static void open_page(const struct cli_arguments *arguments, const char *page) {
+  const char *own = getenv("BROWSER");
+  const char *const programs[] = {own && own[0] ? own : "xdg-open", "xdg-open", "open"};
+  pid_t child;
+  for (size_t k = 0; k < sizeof programs / sizeof programs[0]; k++) {
+    char *words[] = {(char *)(uintptr_t)programs[k], (char *)(uintptr_t)page, NULL};
+    if (posix_spawnp(&child, programs[k], NULL, NULL, words, environ) == 0) return;
   }
-  int code = cli_output_file_check(arguments, "-o", output);
-  if (code != HOOKE_EXIT_DONE) return code;
+  cli_report_words(arguments, "there is no program to open it with; open %s in a browser", page);
+}
+
+/* ---- what is shown ---- */
+
+/* 1 if an option of a run, or --want, was given: then the scene of a trajectory is run anew. */
+static int is_to_run(const struct cli_arguments *arguments) {
+  for (int32_t k = 0; k < arguments->count; k++) {
+    if (arguments->all[k].table == arguments->run && arguments->all[k].text) return 1;
+  }
+  return cli_arguments_text(arguments, "want") != NULL;
+}
+
+static int show_trajectory(const struct cli_arguments *arguments, const char *path, const char *output) {
   hooke_record *record = NULL;
-  const int32_t status = hooke_record_open(arguments->scene, &record);
+  const int32_t status = hooke_record_open(path, &record);
+  int code;
   if (status == HOOKE_OK)
     code = write_page(arguments, record, output);
   else if (status == HOOKE_IO_FAILED) /* no file, or no HDF5 */
@@ -72,23 +114,64 @@ static int do_view(const struct cli_arguments *arguments) {
   return code;
 }
 
+/* By way of a trajectory beside the page. */
+static int run_and_show(const struct cli_arguments *arguments, const char *output) {
+  const size_t size = strlen(output) + 32;
+  char *path = malloc(size);
+  int32_t outcome = HOOKE_OK;
+  if (!path) return cli_report(arguments, HOOKE_EXIT_BAD_INPUT, "out of memory");
+  snprintf(path, size, "%s.%ld.h5", output, (long)getpid());
+  int code = cli_run_to_show(arguments, path, &outcome);
+  if (code == HOOKE_EXIT_DONE) code = show_trajectory(arguments, path, output);
+  unlink(path);
+  free(path);
+  return code == HOOKE_EXIT_DONE ? cli_exit_code(outcome) : code;
+}
+
+/* Anything but a scene: its own message tells what is wrong with it. */
+static int is_scene(const char *path) {
+  char first = '\0';
+  FILE *file = strcmp(path, "-") == 0 ? stdin : fopen(path, "rb");
+  if (file == stdin) return 1;
+  const int same = file && fscanf(file, " %c", &first) == 1 && first == '{';
+  if (file) fclose(file);
+  return same;
+}
+
+static int do_view(const struct cli_arguments *arguments) {
+  char *output = output_of(arguments);
+  if (!output) return cli_report(arguments, HOOKE_EXIT_BAD_INPUT, "out of memory");
+  int code = cli_output_file_check(arguments, "-o", output);
+  if (code == HOOKE_EXIT_DONE) {
+    const int runs = is_scene(arguments->scene) || is_to_run(arguments);
+    code = runs ? run_and_show(arguments, output) : show_trajectory(arguments, arguments->scene, output);
+    const int written = code == HOOKE_EXIT_DONE || code == HOOKE_EXIT_DIVERGED;
+    if (written && cli_arguments_text(arguments, "open")) open_page(arguments, output);
+  }
+  free(output);
+  return code;
+}
+
 static const struct cli_verb_row rows[] = {
-    {"output", 'o', "FILE.html", "writes the page to FILE.html, replacing it"},
+    {"output", 'o', "FILE.html",
+     "writes the page to FILE.html, replacing it; the name of the input with .html if not given"},
+    {"open", 0, NULL, "opens the page in the browser ($BROWSER, or what the system has)"},
+    {"want", 0, "LENGTH", "of a scene: picks a method and its step, as 'hooke run --want' does"},
 };
 
 const struct cli_verb cli_verb_view = {
     .name = "view",
-    .input = "OUT.h5",
     .summary = "writes one self-contained HTML page that plays a trajectory",
-    .text =
-        "Writes a trajectory of 'hooke run -o' as one page to open in a browser, offline: it plays the "
-        "frames "
-        "in space, springs coloured by strain, what is pinned and what is driven marked, energies below. "
-        "What "
-        "is left out, to keep the page small and quick, is said on it and here. A run that was killed shows "
-        "the frames it has.",
+    .text = "Writes a trajectory of 'hooke run -o' as one page to open in a browser, offline: cloth, meshes "
+            "and lattices as "
+            "surfaces, ropes and strands as tubes, other springs as lines, strain as colour, what is pinned "
+            "and what is driven "
+            "marked, energies below. A scene is run first; its trajectory is not kept. What is left out, to "
+            "keep the page small "
+            "and quick, is said on it and here. A run that was killed shows the frames it has.",
     .example = "hooke view cloth.h5 -o cloth.html",
     HOOKE_VERB_ROWS(rows),
     .options = "view",
+    .without = "checkpoint",
     .function = do_view,
 };

@@ -84,6 +84,10 @@ def test_report(prefix, tmp_path):
         run(*command)
         text = (tmp_path / "page.html").read_text()
         seen |= {name for name in pages if (prefix / "share/hooke" / name).read_text() in text}
+    run(prefix / "bin/hooke", "why", prefix / "share/hooke/examples/scenes/stiff-spring.json", "--step", "0.0025", "--report",
+        tmp_path / "page.html")
+    text = (tmp_path / "page.html").read_text()
+    seen |= {name for name in pages if (prefix / "share/hooke" / name).read_text() in text}
     run(prefix / "bin/hooke", "run", command[2], "-o", tmp_path / "out.h5")
     run(prefix / "bin/hooke", "view", tmp_path / "out.h5", "-o", tmp_path / "page.html")
     text = (tmp_path / "page.html").read_text()

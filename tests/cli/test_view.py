@@ -2,7 +2,9 @@
 
 import base64
 import json
+import os
 import re
+import time
 from pathlib import Path
 
 import pytest
@@ -110,7 +112,61 @@ def test_the_page_fetches_nothing(hooke, cloth, tmp_path):
     assert [found for found in fetches(view.page.replace(library, "")) if not found.startswith(names)] == []
     assert [found for found in re.findall(r"https?:\S+", library) if not found.startswith((names, paper))] == []
     assert view.page.count("default-src 'none'") == 1
-    assert view.page.lower().count("<script") == view.page.lower().count("</script>") == 8
+    assert view.page.lower().count("<script") == view.page.lower().count("</script>") == 11
+
+
+@needs_view
+def test_a_damaged_frame_is_skipped(hooke, cloth, tmp_path):
+    with h5py.File(tmp_path / "out.h5", "r+") as file:
+        file["particles/all/position/value"][4, 7, 1] += 1e-3
+    view, answer = look(hooke, tmp_path, "--json")
+    assert "1 damaged frame is skipped" in answer.err and (answer.json["damaged"], answer.json["frames"]) == (1, 10)
+    assert view.data["frame"] == [0, 1, 2, 3, 5, 6, 7, 8, 9, 10] and len(view.data["time"]) == 10
+    with h5py.File(tmp_path / "out.h5", "r+") as file:
+        assert view.data["time"] == [file["particles/all/position/time"][k] for k in view.data["frame"]]
+        file["particles/all/position/value"][:, 7, 1] += 1e-3
+        file["particles/all/position/value"][4, 7, 1] += 1
+    answer = hooke("view", "out.h5", "-o", "page.html")
+    assert answer.code == 3 and "frame 10 of " in answer.err and "is damaged" in answer.err
+
+
+@needs_view
+def test_a_scene_is_run_first(hooke, write, tmp_path):
+    answer = hooke("view", write(CLOTH, name="cloth.json"))
+    assert answer.code == 0 and "cloth.html: " in answer.err
+    view = View((tmp_path / "cloth.html").read_text(encoding="utf-8"))
+    assert (view.data["frames"], view.data["method"], view.data["step"]) == (11, "symplectic-euler", 1e-4)
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["cloth.html", "cloth.json"]
+    answer = hooke("view", write(SIX_PARTICLES), "--want", "1cm", "-o", "page.html")
+    assert answer.code == 0 and "picked for an error of 1cm" in answer.err
+    # options of a run have the scene of a trajectory run anew
+    assert hooke("run", write(CLOTH), "-o", "out.h5").code == 0
+    assert look(hooke, tmp_path, "--step", "2e-4")[0].data["step"] == 2e-4
+    answer = hooke("view", write(STIFF_PAIR), "-o", "page.html")
+    assert answer.code == 4 and "the run diverged" in answer.err
+    assert View((tmp_path / "page.html").read_text(encoding="utf-8")).data["status"] == "diverged"
+
+
+@needs_view
+def test_opening_it(hooke, cloth, tmp_path):
+    browser = tmp_path / "browser"
+    browser.write_text('#!/bin/sh\necho "$1" > opened.tmp && mv opened.tmp opened\n')
+    browser.chmod(0o755)
+    answer = hooke("view", cloth, "--open", env={**os.environ, "BROWSER": str(browser)})
+    assert answer.code == 0 and (tmp_path / "out.html").exists()
+    for _ in range(100):
+        if (tmp_path / "opened").exists():
+            break
+        time.sleep(0.05)
+    assert (tmp_path / "opened").read_text() == "out.html\n"
+
+
+@needs_view
+def test_frames_after_divergence(hooke, write, tmp_path):
+    assert hooke("run", write(STIFF_PAIR), "-o", "out.h5", "--past-divergence", "--no-why").code == 4
+    view, _ = look(hooke, tmp_path)
+    with h5py.File(tmp_path / "out.h5") as file:
+        assert view.data["good_frames"] == file["hooke/beyond"][0] < view.data["frames"]
 
 
 @needs_view
@@ -169,19 +225,17 @@ def test_files_without_rest_lengths(hooke, cloth, tmp_path):
 def test_what_is_refused(hooke, write, tmp_path):
     scene = write(SIX_PARTICLES, duration=0.1)
     assert hooke("run", scene, "-o", "out.h5").code == 0
-    for source, words in ((scene, "HDF5"), ("nothing.h5", "nothing.h5")):
+    (tmp_path / "other.txt").write_text("words")
+    for source, words in (("other.txt", "HDF5"), ("nothing.h5", "nothing.h5")):
         answer = hooke("view", source, "-o", "page.html", "--json")
         assert answer.code == 3 and words in answer.json["error"]["message"]
     assert hooke("compare", scene, "--methods", "rk4", "-o", "several.h5").code == 0
     answer = hooke("view", "several.h5", "-o", "page.html")
     assert answer.code == 3 and "holds several runs" in answer.err
-    answer = hooke("view", "out.h5")
-    assert answer.code == 2 and "-o page.html" in answer.err
     answer = hooke("view", "out.h5", "-o", "out.h5")
     assert answer.code == 2
     assert hooke("view", "out.h5", "-o", "nowhere/page.html").code == 5
     assert hooke("view", "out.h5", "-o", "page.html", "--frames", "1").code == 2
-    assert hooke("view", "out.h5", "-o", "page.html", "--step", "1").code == 2
     with h5py.File(tmp_path / "out.h5", "a") as file:
         file["connectivity/springs"][3] = [2, 77]
     answer = hooke("view", "out.h5", "-o", "page.html")
@@ -191,10 +245,10 @@ def test_what_is_refused(hooke, write, tmp_path):
 
 def test_help(hooke):
     answer = hooke("view", "--help")
-    assert answer.code == 0 and "usage: hooke view OUT.h5 [options]" in answer.out
-    assert "--frames" in answer.out and "[MB]" in answer.out and "--step" not in answer.out
+    assert answer.code == 0 and "usage: hooke view SCENE [options]" in answer.out
+    assert "--frames" in answer.out and "[MB]" in answer.out and "--step" in answer.out
     answer = hooke("view")
-    assert answer.code == 2 and "no OUT.h5 given" in answer.err
+    assert answer.code == 2 and "no scene given" in answer.err
 
 
 @pytest.mark.skipif(DRAWS, reason="this build writes pages")

@@ -1,5 +1,6 @@
 """The page of hooke view in a headless browser: it draws, plays, turns, and says what it shows."""
 
+import base64
 import io
 import json
 import os
@@ -29,6 +30,11 @@ def make(folder, scene, code=0, *options, **run):
     return folder / "page.html"
 
 
+def still(page):
+    """The same page, which does not begin to play."""
+    return f"{page}#frame=0"
+
+
 @pytest.fixture(scope="module")
 def opened():
     opened = Browser()
@@ -50,7 +56,7 @@ def cloth(tmp_path_factory):
 
 @pytest.fixture
 def page(browser, cloth):
-    browser.open(cloth)
+    browser.open(still(cloth))
     yield browser
     assert browser.console == []
 
@@ -139,7 +145,7 @@ def test_dark(page):
 
 def test_small_screens(page, cloth):
     page.size(360, 640, True, 2)
-    page.open(cloth)
+    page.open(still(cloth))
     assert page.run("document.documentElement.scrollWidth") == 360
     assert ink(seen(page)) > 2000
     boxes = page.run("""[...at("controls").querySelectorAll("button, select, output, input")].map((e) =>
@@ -151,7 +157,7 @@ def test_small_screens(page, cloth):
 
 def test_colours_of_strain(browser, tmp_path):
     """A spring that swings about its rest length: orange when it is long, blue when it is short."""
-    browser.open(make(tmp_path, STIFF_PAIR, step=0.001, duration=0.2, every=0.001))
+    browser.open(still(make(tmp_path, STIFF_PAIR, step=0.001, duration=0.2, every=0.001)))
     strains = browser.run("data.time.map((t, k) => bytesOfFrame(k)[6 * data.particles])")
     for k, code in enumerate(strains):
         assert code == pytest.approx(127 + 127 * np.cos(np.sqrt(1000) * 0.001 * k), abs=3)
@@ -164,7 +170,7 @@ def test_colours_of_strain(browser, tmp_path):
 
 
 def test_a_run_that_diverged(browser, tmp_path):
-    browser.open(make(tmp_path, CLOTH, 4, step=0.02, every=0.02, duration=2))
+    browser.open(still(make(tmp_path, CLOTH, 4, step=0.02, every=0.02, duration=2)))
     assert re.match(r"The run diverged. These are the frames up to then, t = \S+ s of 2 s", browser.run('at("alert").textContent'))
     assert browser.run('!at("alert").hidden') and ink(seen(browser)) > 1000
     browser.press(*END)
@@ -174,7 +180,7 @@ def test_a_run_that_diverged(browser, tmp_path):
 def test_one_frame_and_no_spring(browser, tmp_path):
     dust = {"hooke": 1, "particles": {"position": [[0, 0, 0]], "mass": 1},
             "run": {"method": "rk4", "step": 1, "duration": 1, "every": 1}}
-    browser.open(make(tmp_path, dust))
+    browser.open(still(make(tmp_path, dust)))
     assert browser.run('at("scale").hidden') and 20 < ink(seen(browser)) < 200
     browser.press(*SPACE)
     assert browser.console == []
@@ -182,6 +188,7 @@ def test_one_frame_and_no_spring(browser, tmp_path):
 
 def test_fewer_springs_while_it_moves(page):
     """Where drawing is slow, every k-th spring is drawn, and that is said, until it stands still again."""
+    page.run('at("look").value = "springs"; at("tint").checked = true; relook()')
     all_of_them = ink(seen(page))
     page.run("enough = 4; thin(enough)")
     page.settle()
@@ -205,7 +212,7 @@ def test_without_webgl(browser, cloth, tmp_path):
           return kind.includes("webgl") ? null : old.call(this, kind, ...more); })(HTMLCanvasElement.prototype.getContext);
         </script>""")
     (tmp_path / "page.html").write_text(text, encoding="utf-8")
-    browser.open(tmp_path / "page.html")
+    browser.open(still(tmp_path / "page.html"))
     assert browser.run('!at("missing").hidden') and ink(seen(browser, "energy")) > 300
     browser.press(*RIGHT)
     assert frame(browser) == 1
@@ -219,3 +226,111 @@ def test_planted_faults(browser, cloth, tmp_path):
     browser.open(tmp_path / "page.html")
     found = json.dumps(browser.console)
     assert "Error: planted" in found and "Content Security Policy" in found
+
+
+# ---- surfaces, picks, files ----
+
+
+def test_it_opens_playing_where_the_most_is_seen(browser, cloth):
+    browser.open(cloth)
+    assert browser.run("playing") and browser.run('at("play").textContent') == "Pause"
+    assert browser.run("picture.fullest([0, 40])") in (0, 40)
+    browser.run("new Promise((done) => setTimeout(done, 500))")
+    assert browser.run("drawn.length") > 2 and browser.console == []
+
+
+def colour(picture):
+    """The mean of what is not background."""
+    return picture[np.abs(picture - 255).max(axis=2) > 40].mean(axis=0)
+
+
+def test_surfaces_and_springs(page):
+    surface = seen(page)
+    page.run('at("look").value = "springs"; relook()')
+    springs = seen(page)
+    assert ink(surface) > 1.15 * ink(springs) > 2000
+    assert page.run("[picture.surface.visible, picture.drawnSprings()]") == [False, 106]
+    assert page.run('at("scale").hidden')
+    page.run('at("tint").checked = true; relook()')
+    assert page.run('!at("scale").hidden') and (np.abs(seen(page) - springs).max(axis=2) > 40).sum() > 500
+    page.run('at("look").value = "both"; relook()')
+    assert page.run("[picture.surface.visible, picture.drawnSprings()]") == [True, 106]
+    # smooth normals: that of a corner is the mean of its triangles', and a flat cloth has one normal
+    page.run('at("look").value = "surface"; at("tint").checked = false; relook()')
+    normal = np.array(page.run("[...picture.surface.geometry.attributes.normal.array]")).reshape(-1, 3)[2:]
+    assert (np.abs(normal[:, [0, 2]]) < 1e-3 * np.abs(normal[:, 1:2])).all()
+
+
+BODIES = {
+    "lattice": {"kind": "lattice", "origin": [0, 0, 0], "edges": [[1, 0, 0], [0, 1, 0], [0, 0, 1]], "size": [3, 4, 5], "mass": 1,
+                "structural": {"stiffness": 100}},
+    "rope": {"kind": "rope", "from": [0, 0, 0], "to": [1, 0, 0], "segments": 8, "mass": 0.1, "pinned": ["start"],
+             "stretch": {"stiffness": 100}},
+}
+
+
+@pytest.mark.parametrize("kind, triangles, segments", [("lattice", 2 * 2 * (2 * 3 + 2 * 4 + 3 * 4), 0), ("rope", 0, 8)])
+def test_bodies(browser, tmp_path, kind, triangles, segments):
+    scene = {"hooke": 1, "gravity": [0, -1, 0], "parts": [BODIES[kind]],
+             "run": {"method": "verlet", "step": 1e-3, "duration": 0.2, "every": 0.01}}
+    browser.open(still(make(tmp_path, scene)))
+    assert browser.run("[picture.triangles.length / 3, picture.segments.length / 2]") == [triangles, segments]
+    assert ink(seen(browser)) > 300 and browser.console == []
+    if kind == "lattice":  # every side looks outwards
+        outwards = browser.run("""(() => { const { normal, position } = picture.surface.geometry.attributes, sums = [];
+            const middle = [0, 1, 2].map((a) => position.array.reduce((s, x, k) => s + (k % 3 === a ? x : 0), 0) / position.count);
+            for (let k = 0; k < position.count; k++) sums.push([0, 1, 2].reduce((s, a) =>
+              s + normal.array[3 * k + a] * (position.array[3 * k + a] - middle[a]), 0));
+            return sums; })()""")
+        assert min(outwards) >= 0 and sum(value > 0 for value in outwards) == 3 * 4 * 5 - 1 * 2 * 3
+
+
+def test_picking(page):
+    page.run("show(10, true)")
+    x, y = page.run("projector()(20).slice(0, 2)")
+    left, top = page.run('(({ left, top }) => [left, top])(at("picture").getBoundingClientRect())')
+    page.drag(left + x, top + y, 0, 0)
+    q = page.run("positionOf(20)")
+    text = page.run('at("picked").textContent')
+    assert page.run('!at("picked").hidden') and text.startswith("particle 20") and f"x {q[0]:.5g}"[:6] in text
+    page.run("picked = { spring: 30 }; writePicked()")
+    text = page.run('at("picked").textContent')
+    ends = page.run("[ends[60], ends[61]]")
+    assert f"spring 30, between particles {ends[0]} and {ends[1]}, group cloth0.structural" in text
+    assert "strain" in text and "elastic tension" in text and page.run('at("picked").querySelector("path").getAttribute("d").length') > 100
+    strains = page.run("data.time.map((_, frame) => [strainByte(frame, 30), bytesOfFrame(frame)[6 * data.particles + 30]])")
+    assert all(a == b for a, b in strains)
+    page.drag(left + 5, top + 5, 0, 0)
+    assert page.run('at("picked").hidden')
+
+
+def test_files_to_keep(page):
+    assert page.run("""new Promise((done) => { picture.draw();
+        at("picture").toBlob((blob) => done([blob.type, blob.size > 3000])); })""") == ["image/png", True]
+    video = page.run("""new Promise((done) => { download = (blob, ending) => done([blob.type.split(";")[0], blob.size > 3000, ending]);
+        at("speed").selectedIndex = 7; saveVideo(); })""")
+    assert video == ["video/webm", True, ".webm"]
+    page.run("pause(); show(10, true)")
+    model = json.loads(page.run("JSON.stringify(modelOf())"))
+    assert model["asset"]["version"] == "2.0" and [node["name"] for node in model["nodes"]] == ["springs", "surface"]
+    buffer = base64.b64decode(model["buffers"][0]["uri"].split(",")[1])
+    assert len(buffer) == model["buffers"][0]["byteLength"]
+
+    def numbers(accessor):
+        one = model["accessors"][accessor]
+        view, size = model["bufferViews"][one["bufferView"]], {"VEC3": 3, "SCALAR": 1}[one["type"]]
+        kind = {5126: "<f4", 5125: "<u4"}[one["componentType"]]
+        assert view["byteOffset"] % 4 == 0 and view["byteLength"] == 4 * size * one["count"]
+        return np.frombuffer(buffer, kind, size * one["count"], view["byteOffset"]).reshape(-1, size)
+
+    for mesh in model["meshes"]:
+        (primitive,) = mesh["primitives"]
+        corners = numbers(primitive["attributes"]["POSITION"])
+        limits = model["accessors"][primitive["attributes"]["POSITION"]]
+        assert np.allclose(corners.min(axis=0), limits["min"]) and np.allclose(corners.max(axis=0), limits["max"])
+        index = numbers(primitive["indices"]).ravel()
+        assert index.max() < len(corners) and len(index) % {1: 2, 4: 3}[primitive["mode"]] == 0
+        if "NORMAL" in primitive["attributes"]:
+            assert np.allclose(np.linalg.norm(numbers(primitive["attributes"]["NORMAL"]), axis=1), 1, atol=1e-5)
+    q = np.array([page.run(f"positionOf({k})") for k in (0, 20)]) - model["extras"]["origin"]
+    assert np.allclose(numbers(model["meshes"][0]["primitives"][0]["attributes"]["POSITION"])[[0, 20]], q, atol=1e-6)

@@ -54,7 +54,7 @@ STANDARD = set(
     "stdbool stddef stdint stdio stdlib stdnoreturn string tgmath threads time uchar wchar wctype "
     "dirent dlfcn fcntl langinfo libgen pthread sched strings termios unistd "
     "sys/file sys/inotify sys/ioctl sys/mman sys/random sys/resource sys/stat sys/time sys/types sys/utsname sys/wait "
-    "getopt immintrin".split()
+    "getopt spawn immintrin".split()
 )
 
 # Folders that see the library as a user does.

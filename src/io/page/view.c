@@ -162,8 +162,9 @@ static int32_t choose_springs(struct hooke_view *view) {
 
 /* What the page takes besides its frames, with room for words. */
 static int32_t measure_page(const struct hooke_view *view, double *bytes) {
-  static const char *const parts[] = {"view.html", "view.css",       "view.js", "view_scene.js",
-                                      "three.js",  "three_orbit.js", "chart.js"};
+  static const char *const parts[] = {"view.html",       "view.css",     "view.js",      "view_scene.js",
+                                      "view_surface.js", "view_save.js", "view_pick.js", "three.js",
+                                      "three_orbit.js",  "chart.js"};
   struct hk_text text = {.bytes = NULL};
   int32_t status = HOOKE_OK;
   for (size_t k = 0; k < sizeof parts / sizeof parts[0] && status == HOOKE_OK; k++)
@@ -195,7 +196,10 @@ static int32_t choose_frames(struct hooke_view *view) {
   const int64_t gaps = view->frames_there - 1;
   view->frame_stride = room > (double)gaps ? 1 : stride_for(gaps, (int64_t)room - 1);
   view->frames = 1 + (gaps + view->frame_stride - 1) / view->frame_stride;
-  return HOOKE_OK;
+  view->frame = hk_new(view->frames, sizeof *view->frame);
+  for (int64_t k = 0; k < view->frames && view->frame; k++)
+    view->frame[k] = k * view->frame_stride < gaps ? k * view->frame_stride : gaps;
+  return view->frame ? HOOKE_OK : HOOKE_NO_MEMORY;
 }
 
 static int32_t choose(struct hooke_view *view) {
@@ -262,6 +266,7 @@ void hooke_view_destroy(hooke_view *view) {
   hk_free(view->end);
   hk_free(view->particle);
   hk_free(view->mark);
+  hk_free(view->frame);
   hk_free(view->time);
   for (int k = 0; k < HOOKE_VIEW_ENERGIES; k++)
     hk_free(view->energy[k]);
@@ -275,6 +280,7 @@ double hooke_view_number(const hooke_view *view, const char *what) {
   } numbers[] = {
       {"frames", (double)view->frames},
       {"frames_there", (double)view->frames_there},
+      {"damaged", (double)view->damaged},
       {"frame_stride", (double)view->frame_stride},
       {"springs", (double)view->springs},
       {"springs_there", (double)view->springs_there},

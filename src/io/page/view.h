@@ -29,14 +29,13 @@ struct hooke_view {
   int64_t *end;                               /* 2 springs: places in `particle` */
   int64_t *particle;                          /* of each, its number */
   uint8_t *mark;                              /* of each, HOOKE_VIEW_... */
+  int64_t *frame;                             /* of each, its number: the last one is always among them */
+  int64_t damaged;                            /* frames that were to be shown and are not whole */
   double *energy[HOOKE_VIEW_ENERGIES], *time; /* [frames there] */
   double strain;                              /* the largest that has a colour of its own */
   double strain_low, strain_high;             /* that were met */
   double bytes;                               /* of the page, once it is written; NaN */
 };
-
-/* Number of the k-th frame that is shown: the last one is always among them. */
-int64_t hk_view_frame(const struct hooke_view *view, int64_t k);
 
 /* A column of numbers, or `columns` of them, from the file; the caller frees it. */
 int32_t hk_view_read(const struct hooke_view *view, const char *dataset, int64_t frame, int64_t rows,
@@ -58,7 +57,7 @@ int32_t hk_view_pack(const struct hooke_view *view, int64_t frame, uint8_t *byte
 /* Strain of the k-th spring shown, at positions q; NaN if it has no rest length. */
 double hk_view_strain(const struct hooke_view *view, const double *q, int64_t k);
 
-/* Finds `strain`, strain_low and strain_high. */
+/* Finds `strain`, strain_low and strain_high, and leaves damaged frames out. HOOKE_BAD_VALUE if none is whole. */
 int32_t hk_view_find_strain(struct hooke_view *view);
 
 #endif

@@ -15,11 +15,6 @@ static const double SPRING_SHARE = 0.98, FRAME_SHARE = 0.9, WIDENED = 8.0;
 
 static const char position[] = "/particles/all/position/value";
 
-int64_t hk_view_frame(const struct hooke_view *view, int64_t k) {
-  const int64_t frame = k * view->frame_stride;
-  return frame < view->frames_there ? frame : view->frames_there - 1;
-}
-
 int64_t hk_view_frame_bytes(const struct hooke_view *view) {
   return 6 * view->particles + view->springs;
 }
@@ -96,31 +91,55 @@ static int blew_up(const struct hooke_view *view) {
   return strcmp(status, "finished") != 0 && strcmp(status, "stopped") != 0 && strcmp(status, "running") != 0;
 }
 
-int32_t hk_view_find_strain(struct hooke_view *view) {
-  double *sizes = hk_new(LOOKED_AT + 1, sizeof *sizes);
-  double *largest = hk_new(view->frames, sizeof *largest);
-  int32_t status = sizes && largest ? HOOKE_OK : HOOKE_NO_MEMORY;
-  int64_t count = 0;
-  double widest = INFINITY;
-  view->strain_low = INFINITY;
-  view->strain_high = -INFINITY;
-  for (int64_t k = 0; k < view->frames && view->springs > 0 && status == HOOKE_OK; k++) {
+/* Strains of one frame, if it is whole. */
+struct strains {
+  double *sizes, *largest, widest;
+  int64_t count;
+};
+
+static void take_frame(struct hooke_view *view, const double *q, int64_t k, struct strains *s) {
+  const double most = largest_of_most(view, q, s->sizes), extent = extent_of(view, q);
+  if (k == 0 && extent > 0.0 && blew_up(view)) s->widest = WIDENED * extent;
+  if (extent <= s->widest) s->largest[s->count++] = most;
+}
+
+static int32_t look_at_frames(struct hooke_view *view, struct strains *s) {
+  int64_t whole = 0;
+  int32_t status = HOOKE_OK;
+  for (int64_t k = 0; k < view->frames && status == HOOKE_OK; k++) {
     double *q = NULL;
-    status = hk_view_read(view, position, hk_view_frame(view, k), view->particles_there, 3, &q);
+    status = hk_view_read(view, position, view->frame[k], view->particles_there, 3, &q);
     if (status == HOOKE_OK) {
-      const double most = largest_of_most(view, q, sizes), extent = extent_of(view, q);
-      if (k == 0 && extent > 0.0 && blew_up(view)) widest = WIDENED * extent;
-      if (extent <= widest) largest[count++] = most;
+      take_frame(view, q, whole, s);
+      view->frame[whole++] = view->frame[k];
+    } else if (status == HOOKE_BAD_VALUE &&
+               hooke_record_check(view->record, view->frame[k]) == HOOKE_BAD_VALUE) {
+      view->damaged++;
+      status = HOOKE_OK;
     }
     hk_free(q);
   }
+  if (status == HOOKE_OK && whole == 0) /* with the message on the last of them */
+    status = hooke_record_check(view->record, view->frame[view->frames - 1]);
+  view->frames = whole;
+  return status;
+}
+
+int32_t hk_view_find_strain(struct hooke_view *view) {
+  struct strains s = {.widest = INFINITY};
+  s.sizes = hk_new(LOOKED_AT + 1, sizeof *s.sizes);
+  s.largest = hk_new(view->frames, sizeof *s.largest);
+  int32_t status = s.sizes && s.largest ? HOOKE_OK : HOOKE_NO_MEMORY;
+  view->strain_low = INFINITY;
+  view->strain_high = -INFINITY;
+  if (status == HOOKE_OK) status = look_at_frames(view, &s);
   if (status == HOOKE_OK) {
-    const double most = quantile(largest, count, FRAME_SHARE);
+    const double most = quantile(s.largest, s.count, FRAME_SHARE);
     const double any = fmax(-view->strain_low, view->strain_high); /* where most springs are slack */
     view->strain = most > 0.0 ? round_up(most) : any > 0.0 ? round_up(any) : 1.0;
   }
-  hk_free(largest);
-  hk_free(sizes);
+  hk_free(s.largest);
+  hk_free(s.sizes);
   return status;
 }
 

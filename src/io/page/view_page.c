@@ -1,5 +1,6 @@
 /* Trajectories as pages: the page. */
 #include "io/page/view.h"
+#include "io/page/view_bodies.h"
 
 #include "core/memory.h"
 #include "core/status.h"
@@ -25,11 +26,13 @@ static void add_scene(struct hk_text *data, const struct hooke_view *view, const
   hooke_scene *scene = NULL;
   const char *path = hk_record_path(view->record), *slash = strrchr(path, '/');
   const double *gravity = NULL;
-  const int32_t status =
+  int32_t status =
       hooke_record_text(view->record, "scene")[0] ? hooke_scene_load(path, NULL, &scene) : HOOKE_BAD_VALUE;
+  if (status == HOOKE_OK) status = hooke_scene_commit(scene);
   if (status == HOOKE_NO_MEMORY) data->status = status;
   if (status == HOOKE_OK) {
     gravity = hooke_scene_system(scene)->gravity;
+    hk_view_bodies_add(data, hooke_scene_system(scene));
     if (title == NULL && hooke_scene_title(scene)[0]) title = hooke_scene_title(scene);
   }
   hk_text_word(data, "title", title ? title : slash ? slash + 1 : path);
@@ -55,22 +58,33 @@ static void add_run(struct hk_text *data, const struct hooke_view *view) {
   }
 }
 
+static void add_numbers(struct hk_text *data, const char *key, int64_t count, const int64_t *number) {
+  hk_text_open(data, key, '[');
+  for (int64_t k = 0; k < count; k++)
+    hk_text_number(data, NULL, (double)number[k]);
+  hk_text_close(data, ']');
+}
+
 static void add_counts(struct hk_text *data, const struct hooke_view *view) {
   static const char *const counts[] = {"frames",        "frames_there",  "frame_stride",    "springs",
                                        "springs_there", "spring_stride", "particles_there", "particles",
-                                       "time_last",     "strain",        "strain_low",      "strain_high"};
+                                       "time_last",     "strain",        "strain_low",      "strain_high",
+                                       "damaged"};
   for (int k = 0; k < COUNT_OF(counts); k++)
     hk_text_number(data, counts[k], hooke_view_number(view, counts[k]));
   hk_text_number(data, "loose_there", (double)view->loose_there);
   hk_text_number(data, "loose_stride", (double)view->loose_stride);
+  hk_text_number(data, "good_frames", (double)hooke_record_good_frame_count(view->record));
   hk_text_flag(data, "by_first_frame", view->by_first_frame);
+  add_numbers(data, "frame", view->frames, view->frame);
+  if (view->particles < view->particles_there) add_numbers(data, "particle", view->particles, view->particle);
 }
 
 static void add_column(struct hk_text *data, const struct hooke_view *view, const char *key,
                        const double *column) {
   hk_text_open(data, key, '[');
   for (int64_t k = 0; k < view->frames; k++)
-    hk_text_number(data, NULL, column[hk_view_frame(view, k)]);
+    hk_text_number(data, NULL, column[view->frame[k]]);
   hk_text_close(data, ']');
 }
 
@@ -136,7 +150,7 @@ static int32_t add_frames(const struct page *page, struct hk_text *text) {
   uint8_t *bytes = hk_new(count, 1);
   int32_t status = bytes ? HOOKE_OK : HOOKE_NO_MEMORY;
   for (int64_t k = 0; k < view->frames && status == HOOKE_OK; k++) {
-    status = hk_view_pack(view, hk_view_frame(view, k), bytes, &page->box[k]);
+    status = hk_view_pack(view, view->frame[k], bytes, &page->box[k]);
     hk_base64_add(text, bytes, status == HOOKE_OK ? count : 0);
   }
   hk_free(bytes);

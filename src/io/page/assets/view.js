@@ -66,6 +66,7 @@ function writeShown() {
     ? `drawn: ${every(data.spring_stride)} spring of ${whole(data.springs_there)} (${whole(data.springs)})` : "all springs");
   if (data.loose_stride > 1) words.push(`${every(data.loose_stride)} of ${whole(data.loose_there)} particles without springs`);
   const far = Math.max(...data.box.map((box) => Math.max(box[3] - box[0], box[4] - box[1], box[5] - box[2])));
+  if (data.damaged > 0) words.push(`${counted(data.damaged, "damaged frame")} skipped`);
   words.push(`positions to 1/131,070 of the extent of their frame (at most ${number(far / 131070)} m)`);
   if (data.by_first_frame) words.push("strain against the first frame, since the file holds no rest lengths");
   at("shown").textContent = `${words.join("; ")}.`;
@@ -77,7 +78,7 @@ function writeShown() {
 }
 
 function writeLegend(palette) {
-  at("scale").hidden = data.springs === 0;
+  at("scale").hidden = data.springs === 0 || !at("tint").checked;
   at("colours").style.background = `linear-gradient(to right, ${palette.join(", ")})`;
   at("low").textContent = `\u2212${percent(data.strain)}`;
   at("high").textContent = `+${percent(data.strain)}`;
@@ -205,9 +206,11 @@ function drawNow() {
 function show(k, now = false) {
   shown = Math.max(0, Math.min(last, k));
   if (picture) picture.show(shown);
-  const number_ = Math.min(shown * data.frame_stride, data.frames_there - 1);
+  const number_ = data.frame[shown];
   at("frame").value = shown;
-  at("now").textContent = `frame ${number_} / ${data.frames_there - 1}  \u00b7  t = ${number(data.time[shown], 4)} s`;
+  at("now").textContent = `frame ${number_} / ${data.frames_there - 1}  \u00b7  t = ${number(data.time[shown], 4)} s` +
+    (number_ >= data.good_frames ? "  \u00b7  after it diverged" : "");
+  if (picked) writePicked();
   document.body.dataset.frame = shown;
   if (!playing) time = data.time[shown];
   moveCursor();
@@ -244,9 +247,12 @@ function thin(stride) {
   show(shown);
 }
 
+/* Springs that may be left out: not those that are a surface. */
+const drawnAtMost = () => (picture && picture.order.length < picture.all.length ? picture.order.length : data.springs);
+
 function keepUp(cost) {
   costs = [...costs.slice(-8), cost];
-  const usual = middleOf(costs), most = Math.floor(data.springs / FEWEST);
+  const usual = middleOf(costs), most = Math.floor(drawnAtMost() / FEWEST);
   if (costs.length < 6 || usual <= SLOW || enough >= most || usual > 0.9 * costBefore) return; // or it did not help
   costBefore = usual;
   enough = Math.min(most, Math.ceil(enough * Math.min(2, usual / WANTED)));
@@ -262,13 +268,16 @@ function tellRate(now) {
   document.body.dataset.rate = rate.toFixed(1);
 }
 
-let drew = false;
+let drew = false, ended = false; // the last frame was passed
 function tick(now) {
   if (!playing) return;
   if (drew) keepUp(now - before);
   time += (Math.min(now - before, 250) / 1000) * Number(at("speed").value);
   before = now;
-  if (time > data.time[last]) time = data.time[0];
+  if (time > data.time[last]) {
+    ended = true;
+    time = data.time[0];
+  }
   const k = frameNear(time);
   drew = k !== shown || turned;
   turned = false;
@@ -328,6 +337,35 @@ function listen() {
   seekOnEnergies();
 }
 
+/* ---- what is shown ---- */
+
+function say(text) {
+  at("thinned").textContent = text;
+  at("thinned").hidden = text === "";
+}
+
+function relook() {
+  const tinted = at("tint").checked;
+  at("scale").hidden = data.springs === 0 || !tinted;
+  if (!picture) return;
+  picture.setLook(at("look").value || "springs", tinted);
+  show(shown);
+}
+
+function writeLooks() {
+  const bodies = picture && picture.hasBodies;
+  at("look-label").hidden = !bodies;
+  if (bodies) at("look").append(...[["surface", "surfaces"], ["springs", "springs"], ["both", "both"]].map(([value, text]) =>
+    element("option", text, { value })));
+  at("tint").checked = !bodies;
+  at("look").onchange = at("tint").onchange = relook;
+  at("save").onchange = () => {
+    const save = SAVES[at("save").value];
+    at("save").value = "";
+    if (picture && save) save();
+  };
+}
+
 /* Colours, as light or dark as the reader's. */
 function dress() {
   writeLegend(picture ? picture.paint() : PALETTE[isDark() ? "dark" : "light"]);
@@ -349,9 +387,20 @@ function start() {
     at("missing").hidden = false;
     at("legend").hidden = true;
   }
+  writeLooks();
   listen();
+  if (picture) listenToPicks();
   dress();
-  show(Number(new URLSearchParams(location.hash.slice(1)).get("frame")) || 0, true); // page.html#frame=40
+  relook();
+  const asked = new URLSearchParams(location.hash.slice(1)).get("frame"); // page.html#frame=40
+  show(asked === null && picture ? firstFrame() : Number(asked) || 0, true);
+  if (asked === null && picture && !matchMedia("(prefers-reduced-motion: reduce)").matches) play();
+}
+
+/* The one in which the most is seen, of a few. */
+function firstFrame() {
+  const kept = keptFrames(data), some = Math.ceil(kept.length / 24);
+  return picture.fullest(kept.filter((_, place) => place % some === 0));
 }
 
 start();

@@ -13,7 +13,7 @@ const PALETTE = {
 };
 
 const SHADE = `
-  uniform vec3 palette[5]; uniform vec3 paper; uniform vec3 plain; uniform vec2 reach;
+  uniform vec3 palette[5]; uniform vec3 paper; uniform vec3 plain; uniform vec3 rope; uniform vec2 reach;
   vec3 colourOf(float strain) {
     if (strain > 0.998) return plain;
     float x = min(strain * 255.0 / 254.0, 1.0) * 4.0;
@@ -26,25 +26,31 @@ const SHADE = `
 
 const LINE_VERTEX = `${SHADE}
   attribute vec3 other; attribute float side; attribute float strain;
-  uniform vec2 size; uniform float width; varying vec3 tint;
+  uniform vec2 size; uniform float width; uniform float thickness; uniform float tintedLines; varying vec3 tint; varying float across_;
   void main() {
     vec4 here = modelViewMatrix * vec4(position, 1.0);
     vec4 a = projectionMatrix * here, b = projectionMatrix * modelViewMatrix * vec4(other, 1.0);
     vec2 along = (b.xy / b.w - a.xy / a.w) * size;
     float reachOf = length(along);
     vec2 across = reachOf > 0.0 ? vec2(-along.y, along.x) / reachOf : vec2(0.0);
-    a.xy += across * side * width * a.w / size;
+    float wide = max(width, thickness * projectionMatrix[1][1] * size.y / a.w);
+    a.xy += across * side * wide * a.w / size;
+    if (thickness > 0.0 && reachOf > 0.0) a.xy -= 0.25 * along / reachOf * wide * a.w / size;
     gl_Position = a;
-    tint = faded(colourOf(strain), -here.z);
+    across_ = side;
+    tint = faded(tintedLines > 0.5 ? colourOf(strain) : rope, -here.z);
   }`;
 const THIN_VERTEX = `${SHADE}
-  attribute float strain; varying vec3 tint;
+  attribute float strain; uniform float tintedLines; varying vec3 tint;
   void main() {
     vec4 here = modelViewMatrix * vec4(position, 1.0);
     gl_Position = projectionMatrix * here;
-    tint = faded(colourOf(strain), -here.z);
+    tint = faded(tintedLines > 0.5 ? colourOf(strain) : rope, -here.z);
   }`;
 const FLAT = "varying vec3 tint; void main() { gl_FragColor = vec4(tint, 1.0); }";
+/* A tube: as bright as its round side is turned to the eye. */
+const ROUND = `varying vec3 tint; varying float across_;
+  void main() { gl_FragColor = vec4(tint * (0.55 + 0.5 * sqrt(max(0.0, 1.0 - across_ * across_))), 1.0); }`;
 
 const POINT_VERTEX = `
   attribute float mark; uniform float scale; varying float kind;
@@ -82,8 +88,8 @@ function attribute(kind, size, length, normalised = false) {
 }
 
 /* Lines as pairs of vertices, or as four that the shader moves apart. */
-function makeLines(count, uniforms) {
-  const thick = count <= THICK_BELOW, each = thick ? 4 : 2;
+function makeLines(count, uniforms, tubes = false) {
+  const thick = tubes || count <= THICK_BELOW, each = thick ? 4 : 2;
   const geometry = new THREE.BufferGeometry();
   geometry.setAttribute("position", attribute(Float32Array, 3, 3 * each * count));
   geometry.setAttribute("strain", attribute(Uint8Array, 1, each * count, true));
@@ -97,16 +103,16 @@ function makeLines(count, uniforms) {
     geometry.setAttribute("side", new THREE.BufferAttribute(side, 1));
     geometry.setIndex(new THREE.BufferAttribute(index, 1));
   }
-  const material = new THREE.ShaderMaterial({ uniforms, vertexShader: thick ? LINE_VERTEX : THIN_VERTEX, fragmentShader: FLAT,
+  const material = new THREE.ShaderMaterial({ uniforms, vertexShader: thick ? LINE_VERTEX : THIN_VERTEX, fragmentShader: tubes ? ROUND : FLAT,
     side: THREE.DoubleSide });
   const lines = thick ? new THREE.Mesh(geometry, material) : new THREE.LineSegments(geometry, material);
   lines.frustumCulled = false;
   return { lines, thick };
 }
 
-function makePoints(marks, uniforms) {
+function makePoints(marks, uniforms, inBody) {
   const free = marks.reduce((sum, mark) => sum + (mark === MARK.free), 0);
-  const list = [...marks.keys()].filter((k) => marks[k] !== MARK.free || free <= DOTS_BELOW);
+  const list = [...marks.keys()].filter((k) => marks[k] !== MARK.free || (free <= DOTS_BELOW && !inBody[k]));
   const geometry = new THREE.BufferGeometry();
   geometry.setAttribute("position", attribute(Float32Array, 3, 3 * list.length));
   geometry.setAttribute("mark", new THREE.BufferAttribute(Uint8Array.from(list, (k) => marks[k]), 1, true));
@@ -143,12 +149,49 @@ class Picture {
     this.camera = new THREE.PerspectiveCamera(32, 1, 0.01, 1000);
     this.uniforms = { palette: { value: [] }, paper: { value: null }, plain: { value: null }, ink: { value: null },
       driven: { value: null }, reach: { value: new THREE.Vector2() }, size: { value: new THREE.Vector2() }, width: { value: 1 },
-      scale: { value: 9 } };
-    Object.assign(this, makeLines(ends.length / 2, this.uniforms), makePoints(marks, this.uniforms));
+      scale: { value: 9 }, thickness: { value: 0 }, cloth: { value: null }, rope: { value: null }, tinted: { value: 0 },
+      tintedLines: { value: 1 }, night: { value: 0 } };
+    const bodies = findBodies(data, marks.length);
+    Object.assign(this, bodies, makeLines(ends.length / 2, this.uniforms), makePoints(marks, this.uniforms, bodies.inBody));
     this.scene.add(this.lines, this.points);
     this.place = new Float32Array(3 * marks.length);
+    this.makeBodies();
     this.stride = 1; // every how manieth spring is drawn
     this.setUp(kept.filter((k, place) => place % some === 0 || place === kept.length - 1));
+  }
+
+  /* Surfaces and tubes, and the springs that are drawn beside them. */
+  makeBodies() {
+    const { data, ends, marks, triangles, segments, inBody } = this;
+    this.hasBodies = triangles.length + segments.length > 0;
+    this.all = Uint32Array.from({ length: ends.length / 2 }, (_, k) => k);
+    this.outside = this.all.filter((k) => !(inBody[ends[2 * k]] && inBody[ends[2 * k + 1]]));
+    this.order = this.all;
+    if (triangles.length) {
+      this.surface = makeSurface(triangles, marks.length, this.uniforms, SHADE);
+      this.scene.add(this.surface);
+    }
+    if (segments.length) {
+      this.placeAll(this.bytesOfFrame(0), data.box[0]);
+      const length = (k) => Math.hypot(...[0, 1, 2].map((axis) => this.place[3 * segments[k] + axis] - this.place[3 * segments[k + 1] + axis]));
+      let sum = 0;
+      for (let k = 0; k < segments.length; k += 2) sum += length(k);
+      const thickness = { value: Math.min(0.02, (0.22 * sum) / (segments.length / 2)) };
+      this.tubes = makeLines(segments.length / 2, { ...this.uniforms, thickness }, true).lines;
+      this.scene.add(this.tubes);
+    }
+    this.degree = new Float32Array(marks.length);
+    for (const k of ends) this.degree[k]++;
+  }
+
+  /* "surface", "springs" or "both"; `tinted`: strain as colour. */
+  setLook(look, tinted) {
+    const bodies = this.hasBodies && look !== "springs";
+    if (this.surface) this.surface.visible = bodies;
+    if (this.tubes) this.tubes.visible = bodies;
+    this.order = bodies && look === "surface" ? this.outside : this.all;
+    this.uniforms.tinted.value = this.uniforms.tintedLines.value = tinted ? 1 : 0;
+    this.setDrawn();
   }
 
   setUp(frames) {
@@ -158,18 +201,40 @@ class Picture {
     this.camera.up.set(0, 0, 0).setComponent(up, gravity[up] > 0 ? -1 : 1);
     this.controls = new THREE.OrbitControls(this.camera, this.canvas);
     this.controls.enableKeys = false; // arrows step frames
-    this.look(frames, this.directionOf(this.home));
+    this.look(frames, this.directionOf(this.home, frames));
   }
 
   /* What is flat is looked at from its front, all else from a corner and above. */
-  directionOf(box) {
+  directionOf(box, frames) {
     const extent = [0, 1, 2].map((axis) => box[axis + 3] - box[axis]);
     const [side, front] = [[1, 2], [2, 0], [0, 1]][this.up].map((axis, k, both) => (this.up === 1 ? both[1 - k] : axis));
     const towards = new THREE.Vector3();
     const thin = [front, side].find((axis) => extent[axis] <= 0.02 * this.radius);
     if (thin !== undefined) return towards.setComponent(thin, thin === front || this.up !== 1 ? 1 : -1);
-    towards.setComponent(front, 1).setComponent(side, 0.62);
-    return towards.setComponent(this.up, 0.45 * this.camera.up.getComponent(this.up)).normalize();
+    const corners = [[1, 0.62], [1, -0.62], [0.62, 1], [0.62, -1]].flatMap(([a, b]) => [0.25, 0.45, 0.7].map((high) =>
+      new THREE.Vector3().setComponent(front, a).setComponent(side, b)
+        .setComponent(this.up, high * this.camera.up.getComponent(this.up)).normalize()));
+    const points = this.sample(frames), spread = corners.map((corner) => this.spreadOf(points, corner));
+    return corners[spread.reduce((best, value, k) => (value > 1.05 * spread[best] ? k : best), 1)];
+  }
+
+  /* How much of the picture plane these points take along a direction: the root of the determinant of their covariance. */
+  spreadOf(points, towards) {
+    const right = new THREE.Vector3().crossVectors(this.camera.up, towards).normalize();
+    const above = new THREE.Vector3().crossVectors(towards, right), sums = [0, 0, 0, 0, 0];
+    for (const point of points) {
+      const x = point.dot(right), y = point.dot(above);
+      [x, y, x * x, x * y, y * y].forEach((value, k) => { sums[k] += value / points.length; });
+    }
+    const [x, y, xx, xy, yy] = sums;
+    return Math.sqrt(Math.max(0, (xx - x * x) * (yy - y * y) - (xy - x * y) ** 2));
+  }
+
+  /* The frame of these in which the most is seen from where the camera is. */
+  fullest(frames) {
+    const towards = this.camera.position.clone().sub(this.controls.target).normalize();
+    const spread = frames.map((frame) => this.spreadOf(this.sample([frame]), towards));
+    return frames[spread.reduce((best, value, k) => (value > 1.1 * spread[best] ? k : best), 0)];
   }
 
   /* Some of the particles in these frames. */
@@ -228,7 +293,9 @@ class Picture {
   paint() {
     const palette = PALETTE[isDark() ? "dark" : "light"];
     this.uniforms.palette.value = palette.map(colour);
-    for (const [name, stop] of [["paper", styleOf("--paper")], ["ink", styleOf("--ink")], ["plain", styleOf("--edge")],
+    this.uniforms.night.value = isDark() ? 1 : 0;
+    for (const [name, stop] of [["paper", styleOf("--paper")], ["cloth", isDark() ? "#8fb0cc" : "#a9c1d6"],
+      ["rope", isDark() ? "#a89878" : "#8a7a5c"], ["ink", styleOf("--ink")], ["plain", styleOf("--edge")],
       ["driven", isDark() ? "#ff8fd0" : "#d6409f"]]) this.uniforms[name].value = colour(stop);
     this.renderer.setClearColor(this.uniforms.paper.value);
     return palette;
@@ -251,11 +318,15 @@ class Picture {
   thin(stride) {
     if (stride === this.stride) return;
     this.stride = stride;
+    this.setDrawn();
+  }
+
+  setDrawn() {
     this.lines.geometry.setDrawRange(0, (this.thick ? 6 : 2) * this.drawnSprings());
   }
 
   drawnSprings() {
-    return Math.ceil(this.ends.length / 2 / this.stride);
+    return Math.ceil(this.order.length / this.stride);
   }
 
   show(frame) {
@@ -266,14 +337,51 @@ class Picture {
     else this.fillThin(attributes, strain);
     for (const name of ["position", "other", "strain"]) if (attributes[name]) attributes[name].needsUpdate = true;
     const points = this.points.geometry.attributes.position;
+    if (this.surface && this.surface.visible) this.fillSurface(strain);
+    if (this.tubes && this.tubes.visible) this.fillTubes(strain);
     this.list.forEach((k, to) => points.array.set(place.subarray(3 * k, 3 * k + 3), 3 * to));
     points.needsUpdate = true;
   }
 
+  /* The mean strain of the springs at each particle, in bytes as they are stored. */
+  meanStrains(values) {
+    const { ends, degree } = this, sums = new Float32Array(degree.length);
+    for (let k = 0; k < values.length; k++) {
+      const value = values[k] === NO_STRAIN ? 127 : values[k];
+      sums[ends[2 * k]] += value;
+      sums[ends[2 * k + 1]] += value;
+    }
+    return sums.map((sum, k) => (degree[k] ? sum / degree[k] : 127));
+  }
+
+  fillSurface(values) {
+    const { position, normal, strain } = this.surface.geometry.attributes;
+    position.array.set(this.place);
+    fillNormals(normal.array, this.place, this.triangles);
+    position.needsUpdate = normal.needsUpdate = true;
+    if (this.uniforms.tinted.value === 0) return;
+    strain.array.set(this.meanStrains(values).map((value) => value / 255));
+    strain.needsUpdate = true;
+  }
+
+  fillTubes(values) {
+    const { position, other, strain } = this.tubes.geometry.attributes, mean = this.meanStrains(values);
+    const at = (k) => this.place.subarray(3 * k, 3 * k + 3);
+    for (let k = 0; k < this.segments.length; k += 2) {
+      const [a, b] = [this.segments[k], this.segments[k + 1]];
+      for (const [corner, here, there] of [[0, a, b], [1, a, b], [2, b, a], [3, b, a]]) {
+        position.array.set(at(here), 6 * k + 3 * corner);
+        other.array.set(at(there), 6 * k + 3 * corner);
+        strain.array[2 * k + corner] = mean[here];
+      }
+    }
+    position.needsUpdate = other.needsUpdate = strain.needsUpdate = true;
+  }
+
   fillThin({ position, strain }, values) {
-    const { place, ends, stride } = this, to = position.array, tint = strain.array;
-    for (let k = 0, at = 0; k < ends.length; k += 2 * stride, at += 6) {
-      const a = 3 * ends[k], b = 3 * ends[k + 1];
+    const { place, ends, stride, order } = this, to = position.array, tint = strain.array;
+    for (let n = 0, at = 0; n < order.length; n += stride, at += 6) {
+      const k = 2 * order[n], a = 3 * ends[k], b = 3 * ends[k + 1];
       to[at] = place[a];
       to[at + 1] = place[a + 1];
       to[at + 2] = place[a + 2];
@@ -285,8 +393,9 @@ class Picture {
   }
 
   fillThick({ position, other, strain }, values) {
-    const { place, ends, stride } = this, here = position.array, there = other.array;
-    for (let k = 0, at = 0; k < ends.length; k += 2 * stride, at += 12) {
+    const { place, ends, stride, order } = this, here = position.array, there = other.array;
+    for (let n = 0, at = 0; n < order.length; n += stride, at += 12) {
+      const k = 2 * order[n];
       for (let axis = 0; axis < 3; axis++) {
         const a = place[3 * ends[k] + axis], b = place[3 * ends[k + 1] + axis], to = at + axis;
         here[to] = here[to + 3] = there[to + 6] = there[to + 9] = a;
