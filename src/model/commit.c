@@ -66,7 +66,7 @@ static int32_t fill_particles(hooke_system *system) {
   int64_t held = 0;
   for (int64_t p = 0; p < n; p++)
     held += system->held[p] != 0;
-  system->inverse_mass = hk_new(n + HOOKE_LANE_UNIT, sizeof(double)); /* loops go by whole units */
+  system->inverse_mass = hk_new(n + HOOKE_STRIDED_UNIT, sizeof(double)); /* loops go by whole units */
   system->held_particle = hk_new(held, sizeof(int32_t));
   if (system->inverse_mass == NULL || system->held_particle == NULL) return HOOKE_NO_MEMORY;
   for (int64_t p = 0; p < n; p++) {
@@ -92,9 +92,9 @@ void hk_system_mark_touched(const hooke_system *system, uint8_t *touched) {
   }
 }
 
-/* A net numbers particles its own way; it goes over all of them. */
+/* A tiled batch numbers particles its own way; it goes over all of them. */
 static int32_t is_stepped(const hooke_system *system, const uint8_t *idle, int64_t from, int64_t end) {
-  return system->net.particles > 0 || memchr(idle + from, 0, (size_t)(end - from)) != NULL;
+  return system->tiled.particles > 0 || memchr(idle + from, 0, (size_t)(end - from)) != NULL;
 }
 
 /* Spans, and the pinned particles in them, which are counted before there is a list. */
@@ -159,8 +159,8 @@ static int32_t choose_forces(hooke_system *system) {
 static void undo(hooke_system *system) {
   for (int64_t k = 0; k < system->group_count; k++)
     hk_group_take_back(&system->group[k]);
-  hk_lanes_release(&system->lanes);
-  hk_net_release(&system->net);
+  hk_strided_batches_release(&system->strided);
+  hk_tiled_release(&system->tiled);
   hk_forces_release(system);
   hk_free(system->inverse_mass);
   hk_free(system->held_particle);
@@ -184,10 +184,10 @@ int32_t hooke_system_commit(hooke_system *system) {
   if (status == HOOKE_OK) status = fill_particles(system);
   if (status == HOOKE_OK) status = take_groups_over(system);
   if (status == HOOKE_OK) {
-    status = hk_lanes_create(&system->springs, system->particle_count, &system->lanes);
+    status = hk_strided_batches_create(&system->springs, system->particle_count, &system->strided);
   }
-  if (status == HOOKE_OK && system->lanes.count == 0) {
-    status = hk_net_create(&system->springs, system->particle_count, system->inverse_mass, &system->net);
+  if (status == HOOKE_OK && system->strided.count == 0) {
+    status = hk_tiled_create(&system->springs, system->particle_count, system->inverse_mass, &system->tiled);
   }
   if (status == HOOKE_OK) status = choose_forces(system);
   if (status == HOOKE_OK) status = find_stepped(system);

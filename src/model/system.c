@@ -22,9 +22,9 @@ void hooke_system_destroy(hooke_system *system) {
     hk_part_record_release(&system->part[k]);
   for (int64_t k = 0; k < system->drive_count; k++)
     hk_drive_release(&system->drive[k]);
-  hk_lanes_release(&system->lanes);
+  hk_strided_batches_release(&system->strided);
   hk_forces_release(system);
-  hk_net_release(&system->net);
+  hk_tiled_release(&system->tiled);
   hk_free(system->position);
   hk_free(system->velocity);
   hk_free(system->mass);

@@ -9,8 +9,8 @@
 #include "model/derived.h"
 #include "model/force/drive.h"
 #include "model/force/element.h"
-#include "model/sum/lane.h"
-#include "model/sum/net.h"
+#include "model/sum/strided.h"
+#include "model/sum/tiled.h"
 #include "model/part_record.h"
 #include "model/force/spring.h"
 
@@ -55,10 +55,10 @@ struct hooke_system {
   struct hk_group *group;
   int64_t member_total[HOOKE_FORCES]; /* of the groups of each force, as added */
   int64_t part_count;
-  struct hk_part_record *part; /* part_count, in the order of adding */
-  struct hk_springs springs;   /* from commit on */
-  struct hk_lanes lanes;       /* from commit on, of all springs or of none */
-  struct hk_net net;           /* the same, where there are no lanes */
+  struct hk_part_record *part;       /* part_count, in the order of adding */
+  struct hk_springs springs;         /* from commit on */
+  struct hk_strided_batches strided; /* from commit on, of all springs or of none */
+  struct hk_tiled tiled;             /* the same, where there are no strided batches */
 
   struct hk_bending bending;     /* from commit on */
   struct hk_altitudes altitudes; /* from commit on */

@@ -68,11 +68,11 @@ static int64_t derived_count(const hooke_system *system) {
 }
 
 static int64_t spring_memory(const hooke_system *system) {
-  return hk_springs_memory(&system->springs) + hk_net_spring_memory(&system->net);
+  return hk_springs_memory(&system->springs) + hk_tiled_spring_memory(&system->tiled);
 }
 
 static int64_t memory(const hooke_system *system) {
-  int64_t bytes = (int64_t)sizeof *system + system->lanes.memory + hk_net_memory(&system->net);
+  int64_t bytes = (int64_t)sizeof *system + system->strided.memory + hk_tiled_memory(&system->tiled);
   for (int32_t k = 0; hk_force_table(k); k++)
     bytes += hk_force_table(k)->memory ? hk_force_table(k)->memory(system) : 0;
   bytes += system->particle_capacity * (int64_t)((system->velocity ? 7 : 4) * sizeof(double) + 1) +

@@ -12,7 +12,7 @@ struct tile_move {
 /* Forces are zero before springs are added, so sums are the forces. */
 static void keep_tile(int64_t from, int64_t count, double *const f[3], void *ctx) {
   const struct tile_move *to = ctx;
-  const int32_t *order = to->motion->order ? NULL : to->system->net.order;
+  const int32_t *order = to->motion->order ? NULL : to->system->tiled.order;
   for (int a = 0; a < 3; a++) {
     double *kept = to->motion->f[a];
     if (order == NULL) memcpy(kept + from, f[a], (size_t)count * sizeof(double));
@@ -43,9 +43,9 @@ static void move_tile(int64_t from, int64_t count, double *const f[3], void *ctx
 
 void hk_motion_pass(const hooke_system *system, struct hk_motion *motion, const struct hk_move *move) {
   struct tile_move to = {system, motion, move};
-  if (system->lanes.count > 0)
-    motion->coincident = hk_lanes_pass(system, motion, move);
+  if (system->strided.count > 0)
+    motion->coincident = hk_strided_batches_pass(system, motion, move);
   else
     motion->coincident =
-        hk_net_pass(&system->net, motion, move->kind == HOOKE_MOVE_KEEP ? keep_tile : move_tile, &to);
+        hk_tiled_pass(&system->tiled, motion, move->kind == HOOKE_MOVE_KEEP ? keep_tile : move_tile, &to);
 }

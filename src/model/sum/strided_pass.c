@@ -1,6 +1,6 @@
-/* The pass over lanes, by one thread or by a thread pool. Each worker has the particles of a range. What
- * others will have moved when it comes to it, it computes or copies before anyone moves: the springs that
- * begin below its range and end in it, and the particles above its range where its own springs end. */
+/* The pass over strided batches, by one thread or by a thread pool. Each worker has the particles of a range.
+ * What others will have moved when it comes to it, it computes or copies before anyone moves: the springs
+ * that begin below its range and end in it, and the particles above its range where its own springs end. */
 #include "core/memory.h"
 #include "model/sum/motion.h"
 
@@ -11,9 +11,9 @@
 enum { PARTICLES_IN_CACHE = 20000, FETCH_AHEAD = 256 };
 
 struct share {
-  struct hk_lane_view view[HOOKE_MOST_LANES]; /* every lane, with its ring here */
-  struct hk_lane_pass pass;                   /* lanes that the loop is at */
-  uint8_t open[HOOKE_MOST_LANES];             /* 0: has springs of another place, or none yet */
+  struct hk_strided_view view[HOOKE_MOST_STRIDED]; /* every batch, with its ring here */
+  struct hk_strided_pass pass;                     /* batches that the loop is at */
+  uint8_t open[HOOKE_MOST_STRIDED];                /* 0: has springs of another place, or none yet */
   double *border; /* q and v, x y z apart, of `reach` particles at the end of the range, and of those after */
   int64_t from, to; /* the range */
   int64_t at, lost; /* the first particle that the loop has not come to */
@@ -41,42 +41,42 @@ static int64_t lesser(int64_t a, int64_t b) {
 }
 
 static int64_t whole_units(int64_t count) {
-  return (count + HOOKE_LANE_UNIT - 1) / HOOKE_LANE_UNIT * HOOKE_LANE_UNIT;
+  return (count + HOOKE_STRIDED_UNIT - 1) / HOOKE_STRIDED_UNIT * HOOKE_STRIDED_UNIT;
 }
 
-static int64_t ring_room(const struct hk_lane *lane) {
-  int64_t room = HOOKE_LANE_UNIT;
-  while (room < lane->offset + HOOKE_RING_SLACK)
+static int64_t ring_room(const struct hk_strided_batch *batch) {
+  int64_t room = HOOKE_STRIDED_UNIT;
+  while (room < batch->offset + HOOKE_RING_SLACK)
     room *= 2;
   return room;
 }
 
-static struct hk_lane_view view_of(const struct hk_lanes *lanes, int32_t k, double *ring) {
-  const struct hk_lane *lane = &lanes->lane[k];
-  struct hk_lane_view view = {.shape = lane->shape,
-                              .present = lane->present,
-                              .offset = lane->offset,
-                              .mask = ring_room(lane) - 1,
-                              .ring = ring,
-                              .material = lanes->material[k]};
-  for (int j = 0; j < HOOKE_LANE_NUMBERS; j++)
-    view.shared[j] = *hk_lane_number(&view.material, lane->first, j);
+static struct hk_strided_view view_of(const struct hk_strided_batches *strided, int32_t k, double *ring) {
+  const struct hk_strided_batch *batch = &strided->batch[k];
+  struct hk_strided_view view = {.shape = batch->shape,
+                                 .present = batch->present,
+                                 .offset = batch->offset,
+                                 .mask = ring_room(batch) - 1,
+                                 .ring = ring,
+                                 .material = strided->material[k]};
+  for (int j = 0; j < HOOKE_STRIDED_NUMBERS; j++)
+    view.shared[j] = *hk_strided_number(&view.material, batch->first, j);
   return view;
 }
 
-static int64_t ring_size(const struct hk_lane *lane) {
-  return 3 * hk_ring_stride(ring_room(lane) - 1);
+static int64_t ring_size(const struct hk_strided_batch *batch) {
+  return 3 * hk_ring_stride(ring_room(batch) - 1);
 }
 
-struct hk_rings *hk_rings_create(const struct hk_lanes *lanes, int32_t workers) {
+struct hk_rings *hk_rings_create(const struct hk_strided_batches *strided, int32_t workers) {
   struct hk_rings *rings = hk_new(1, sizeof *rings);
   if (rings == NULL) return NULL;
   int64_t numbers = 0;
-  for (int32_t k = 0; k < lanes->count; k++)
-    numbers += ring_size(&lanes->lane[k]);
+  for (int32_t k = 0; k < strided->count; k++)
+    numbers += ring_size(&strided->batch[k]);
   rings->workers = workers;
-  rings->reach = lanes->reach;
-  rings->border_stride = 2 * lanes->reach + HOOKE_LANE_UNIT;
+  rings->reach = strided->reach;
+  rings->border_stride = 2 * strided->reach + HOOKE_STRIDED_UNIT;
   numbers += workers > 1 ? 6 * rings->border_stride : 0;
   rings->share = hk_new(workers, sizeof *rings->share);
   rings->block = hk_new(workers * numbers, sizeof(double));
@@ -88,8 +88,8 @@ struct hk_rings *hk_rings_create(const struct hk_lanes *lanes, int32_t workers) 
   }
   double *next = rings->block;
   for (int32_t m = 0; m < workers; m++) {
-    for (int32_t k = 0; k < lanes->count; next += ring_size(&lanes->lane[k++]))
-      rings->share[m].view[k] = view_of(lanes, k, next);
+    for (int32_t k = 0; k < strided->count; next += ring_size(&strided->batch[k++]))
+      rings->share[m].view[k] = view_of(strided, k, next);
     rings->share[m].border = next;
     next += workers > 1 ? 6 * rings->border_stride : 0;
   }
@@ -108,53 +108,55 @@ int64_t hk_rings_memory(const struct hk_rings *rings) {
 }
 
 /* No springs below particle `from`, as far as the ring is read from there on. */
-static void clear_below(const struct hk_lane_view *lane, int64_t from) {
-  const int64_t room = lane->mask + 1, first = (from - lane->offset) & lane->mask,
-                before_end = lesser(lane->offset, room - first), wrapped = lane->offset - before_end;
+static void clear_below(const struct hk_strided_view *batch, int64_t from) {
+  const int64_t room = batch->mask + 1, first = (from - batch->offset) & batch->mask,
+                before_end = lesser(batch->offset, room - first), wrapped = batch->offset - before_end;
   for (int a = 0; a < 3; a++) {
-    double *x = lane->ring + a * hk_ring_stride(lane->mask);
+    double *x = batch->ring + a * hk_ring_stride(batch->mask);
     memset(x + first, 0, (size_t)before_end * sizeof(double));
     memset(x, 0, (size_t)wrapped * sizeof(double));
-    memset(x + room, 0, (size_t)lesser(wrapped, HOOKE_LANE_UNIT) * sizeof(double));
+    memset(x + room, 0, (size_t)lesser(wrapped, HOOKE_STRIDED_UNIT) * sizeof(double));
   }
 }
 
-/* Items of the lanes that are marked. */
-static void set_items(const struct hk_lanes *lanes, const uint8_t *there, struct share *share) {
-  struct hk_lane_item *next = share->pass.item;
-  for (int32_t i = 0; i < 2 * lanes->count; i++) {
-    const struct hk_lane_view *lane = &share->view[lanes->item[i] / 2];
-    const int begins = lanes->item[i] % 2;
-    if (!there[lanes->item[i] / 2]) continue;
-    *next++ = (struct hk_lane_item){lane->ring, begins ? 0 : lane->offset, lane->mask, begins ? -1.0 : 1.0};
+/* Items of the batches that are marked. */
+static void set_items(const struct hk_strided_batches *strided, const uint8_t *there, struct share *share) {
+  struct hk_strided_item *next = share->pass.item;
+  for (int32_t i = 0; i < 2 * strided->count; i++) {
+    const struct hk_strided_view *batch = &share->view[strided->item[i] / 2];
+    const int begins = strided->item[i] % 2;
+    if (!there[strided->item[i] / 2]) continue;
+    *next++ =
+        (struct hk_strided_item){batch->ring, begins ? 0 : batch->offset, batch->mask, begins ? -1.0 : 1.0};
   }
 }
 
-/* Makes a pass of the lanes that have springs at particle `from` or whose springs end there; returns the
+/* Makes a pass of the batches that have springs at particle `from` or whose springs end there; returns the
  * particle up to which these are all, `to` at most. */
-static int64_t set_lanes(const struct hk_lanes *lanes, struct share *share, int64_t from, int64_t to) {
-  uint8_t there[HOOKE_MOST_LANES] = {0};
+static int64_t set_strided(const struct hk_strided_batches *strided, struct share *share, int64_t from,
+                           int64_t to) {
+  uint8_t there[HOOKE_MOST_STRIDED] = {0};
   share->pass.count = 0;
-  for (int32_t k = 0; k < lanes->count; k++) {
-    const struct hk_lane *lane = &lanes->lane[k];
-    const int64_t begin = lane->first / HOOKE_LANE_UNIT * HOOKE_LANE_UNIT,
-                  end = whole_units(lane->last + lane->offset + 1);
+  for (int32_t k = 0; k < strided->count; k++) {
+    const struct hk_strided_batch *batch = &strided->batch[k];
+    const int64_t begin = batch->first / HOOKE_STRIDED_UNIT * HOOKE_STRIDED_UNIT,
+                  end = whole_units(batch->last + batch->offset + 1);
     if (from < begin) to = lesser(to, begin);
     if (from < begin || from >= end) continue;
     to = lesser(to, end);
     if (!share->open[k]) clear_below(&share->view[k], from);
     share->open[k] = there[k] = 1;
-    share->pass.lane[share->pass.count++] = share->view[k];
+    share->pass.batch[share->pass.count++] = share->view[k];
   }
-  set_items(lanes, there, share);
+  set_items(strided, there, share);
   return to;
 }
 
 static void advance(const struct task *task, struct share *share, int32_t kind, int64_t to) {
   share->pass.move.kind = kind;
   for (int64_t from = share->at; from < to; from = share->at) {
-    share->at = set_lanes(&task->system->lanes, share, from, to);
-    share->lost += hk_spring_set(0)->lanes(&share->pass, from, share->at);
+    share->at = set_strided(&task->system->strided, share, from, to);
+    share->lost += hk_spring_set(0)->strided(&share->pass, from, share->at);
   }
 }
 
@@ -214,7 +216,7 @@ static void prepare(const struct task *task, struct share *share) {
   if (share->to < m->n) {
     double *q = share->border + reach;
     copy(m->q[0] + share->to, m->v[0] + share->to, share->pass.stride, q, q + 3 * stride, stride,
-         reach + HOOKE_LANE_UNIT);
+         reach + HOOKE_STRIDED_UNIT);
   }
 }
 
@@ -250,7 +252,8 @@ static void go_over(int32_t worker, int32_t workers, void *ctx) {
   finish(task, share);
 }
 
-int64_t hk_lanes_pass(const hooke_system *system, struct hk_motion *motion, const struct hk_move *move) {
+int64_t hk_strided_batches_pass(const hooke_system *system, struct hk_motion *motion,
+                                const struct hk_move *move) {
   struct task task = {system, motion, move};
   int64_t lost = 0;
   hk_pool_run(motion->pool, go_over, &task);
