@@ -44,7 +44,7 @@ const char *hooke_system_force_name(const hooke_system *system, int64_t force) {
 static int64_t free_count(const hooke_system *system) {
   int64_t count = 0;
   for (int64_t p = 0; p < system->particle_count; p++)
-    count += system->held[p] == 0;
+    count += system->constrained[p] == 0;
   return count;
 }
 
@@ -77,7 +77,7 @@ static int64_t memory(const hooke_system *system) {
     bytes += hk_force_table(k)->memory ? hk_force_table(k)->memory(system) : 0;
   bytes += system->particle_capacity * (int64_t)((system->velocity ? 7 : 4) * sizeof(double) + 1) +
            system->particle_count * (int64_t)sizeof(double) +
-           (system->held_count + system->anchor_count) * (int64_t)sizeof(int32_t);
+           (system->constrained_count + system->anchor_count) * (int64_t)sizeof(int32_t);
   bytes += system->group_count * (int64_t)sizeof *system->group +
            system->derived_capacity * (int64_t)sizeof *system->derived +
            system->drive_count * (int64_t)sizeof *system->drive;

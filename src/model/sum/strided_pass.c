@@ -10,7 +10,7 @@
  * springs reach for the first time, so many before the first spring does. */
 enum { PARTICLES_IN_CACHE = 20000, FETCH_AHEAD = 256 };
 
-struct share {
+struct partition {
   struct hk_strided_view view[HOOKE_MOST_STRIDED]; /* every batch, with its ring here */
   struct hk_strided_pass pass;                     /* batches that the loop is at */
   uint8_t open[HOOKE_MOST_STRIDED];                /* 0: has springs of another place, or none yet */
@@ -23,7 +23,7 @@ struct hk_rings {
   int32_t workers;
   int64_t reach, border_stride, memory;
   double *block;
-  struct share *share;
+  struct partition *partition;
 };
 
 struct task {
@@ -78,19 +78,19 @@ struct hk_rings *hk_rings_create(const struct hk_strided_batches *strided, int32
   rings->reach = strided->reach;
   rings->border_stride = 2 * strided->reach + HOOKE_STRIDED_UNIT;
   numbers += workers > 1 ? 6 * rings->border_stride : 0;
-  rings->share = hk_new(workers, sizeof *rings->share);
+  rings->partition = hk_new(workers, sizeof *rings->partition);
   rings->block = hk_new(workers * numbers, sizeof(double));
-  rings->memory = (int64_t)sizeof *rings + workers * (int64_t)sizeof *rings->share +
+  rings->memory = (int64_t)sizeof *rings + workers * (int64_t)sizeof *rings->partition +
                   workers * numbers * (int64_t)sizeof(double);
-  if (rings->share == NULL || rings->block == NULL) {
+  if (rings->partition == NULL || rings->block == NULL) {
     hk_rings_destroy(rings);
     return NULL;
   }
   double *next = rings->block;
   for (int32_t m = 0; m < workers; m++) {
     for (int32_t k = 0; k < strided->count; next += ring_size(&strided->batch[k++]))
-      rings->share[m].view[k] = view_of(strided, k, next);
-    rings->share[m].border = next;
+      rings->partition[m].view[k] = view_of(strided, k, next);
+    rings->partition[m].border = next;
     next += workers > 1 ? 6 * rings->border_stride : 0;
   }
   return rings;
@@ -98,7 +98,7 @@ struct hk_rings *hk_rings_create(const struct hk_strided_batches *strided, int32
 
 void hk_rings_destroy(struct hk_rings *rings) {
   if (rings == NULL) return;
-  hk_free(rings->share);
+  hk_free(rings->partition);
   hk_free(rings->block);
   hk_free(rings);
 }
@@ -120,10 +120,11 @@ static void clear_below(const struct hk_strided_view *batch, int64_t from) {
 }
 
 /* Items of the batches that are marked. */
-static void set_items(const struct hk_strided_batches *strided, const uint8_t *there, struct share *share) {
-  struct hk_strided_item *next = share->pass.item;
+static void set_items(const struct hk_strided_batches *strided, const uint8_t *there,
+                      struct partition *partition) {
+  struct hk_strided_item *next = partition->pass.item;
   for (int32_t i = 0; i < 2 * strided->count; i++) {
-    const struct hk_strided_view *batch = &share->view[strided->item[i] / 2];
+    const struct hk_strided_view *batch = &partition->view[strided->item[i] / 2];
     const int begins = strided->item[i] % 2;
     if (!there[strided->item[i] / 2]) continue;
     *next++ =
@@ -133,10 +134,10 @@ static void set_items(const struct hk_strided_batches *strided, const uint8_t *t
 
 /* Makes a pass of the batches that have springs at particle `from` or whose springs end there; returns the
  * particle up to which these are all, `to` at most. */
-static int64_t set_strided(const struct hk_strided_batches *strided, struct share *share, int64_t from,
-                           int64_t to) {
+static int64_t set_strided(const struct hk_strided_batches *strided, struct partition *partition,
+                           int64_t from, int64_t to) {
   uint8_t there[HOOKE_MOST_STRIDED] = {0};
-  share->pass.count = 0;
+  partition->pass.count = 0;
   for (int32_t k = 0; k < strided->count; k++) {
     const struct hk_strided_batch *batch = &strided->batch[k];
     const int64_t begin = batch->first / HOOKE_STRIDED_UNIT * HOOKE_STRIDED_UNIT,
@@ -144,41 +145,41 @@ static int64_t set_strided(const struct hk_strided_batches *strided, struct shar
     if (from < begin) to = lesser(to, begin);
     if (from < begin || from >= end) continue;
     to = lesser(to, end);
-    if (!share->open[k]) clear_below(&share->view[k], from);
-    share->open[k] = there[k] = 1;
-    share->pass.batch[share->pass.count++] = share->view[k];
+    if (!partition->open[k]) clear_below(&partition->view[k], from);
+    partition->open[k] = there[k] = 1;
+    partition->pass.batch[partition->pass.count++] = partition->view[k];
   }
-  set_items(strided, there, share);
+  set_items(strided, there, partition);
   return to;
 }
 
-static void advance(const struct task *task, struct share *share, int32_t kind, int64_t to) {
-  share->pass.move.kind = kind;
-  for (int64_t from = share->at; from < to; from = share->at) {
-    share->at = set_strided(&task->system->strided, share, from, to);
-    share->lost += hk_spring_set(0)->strided(&share->pass, from, share->at);
+static void advance(const struct task *task, struct partition *partition, int32_t kind, int64_t to) {
+  partition->pass.move.kind = kind;
+  for (int64_t from = partition->at; from < to; from = partition->at) {
+    partition->at = set_strided(&task->system->strided, partition, from, to);
+    partition->lost += hk_spring_set(0)->strided(&partition->pass, from, partition->at);
   }
 }
 
 /* Over particles that are not stepped, where no springs begin; none at all if the springs from below do not
  * reach over them. */
-static void skip(const struct task *task, struct share *share, int64_t to) {
-  if (to - share->at >= task->motion->rings->reach) {
-    memset(share->open, 0, sizeof share->open);
-    share->at = to;
+static void skip(const struct task *task, struct partition *partition, int64_t to) {
+  if (to - partition->at >= task->motion->rings->reach) {
+    memset(partition->open, 0, sizeof partition->open);
+    partition->at = to;
   }
-  advance(task, share, HOOKE_MOVE_NOTHING, to);
+  advance(task, partition, HOOKE_MOVE_NOTHING, to);
 }
 
-/* All that is stepped from where the share is up to `to`. */
-static void go_on(const struct task *task, struct share *share, int32_t kind, int64_t to) {
+/* All that is stepped from where the partition is up to `to`. */
+static void go_on(const struct task *task, struct partition *partition, int32_t kind, int64_t to) {
   const hooke_system *system = task->system;
-  for (int64_t s = 0; s < system->span_count && share->at < to; s++) {
-    const int64_t from = larger(system->span[s].from, share->at),
+  for (int64_t s = 0; s < system->span_count && partition->at < to; s++) {
+    const int64_t from = larger(system->span[s].from, partition->at),
                   end = lesser(whole_units(system->span[s].from + system->span[s].count), to);
     if (from >= end) continue;
-    skip(task, share, from);
-    advance(task, share, kind, end);
+    skip(task, partition, from);
+    advance(task, partition, kind, end);
   }
 }
 
@@ -191,65 +192,65 @@ static void copy(double *const q, double *const v, ptrdiff_t stride, double *con
   }
 }
 
-static void begin(const struct task *task, struct share *share, int32_t worker, int32_t workers) {
+static void begin(const struct task *task, struct partition *partition, int32_t worker, int32_t workers) {
   const struct hk_motion *m = task->motion;
-  share->from = hk_pool_share(m->n, HOOKE_TILE, worker, workers);
-  share->to = whole_units(hk_pool_share(m->n, HOOKE_TILE, worker + 1, workers));
-  share->pass.stride = m->q[1] - m->q[0];
-  share->pass.q = m->q[0];
-  share->pass.v = m->v[0];
-  share->pass.f = m->f[0];
-  share->pass.w = m->w;
-  share->pass.move = *task->move;
-  share->pass.ahead = m->n > PARTICLES_IN_CACHE ? m->rings->reach + FETCH_AHEAD : 0;
-  memset(share->open, 0, sizeof share->open);
-  share->at = larger(0, share->from - m->rings->reach);
-  share->lost = 0;
+  partition->from = hk_pool_share(m->n, HOOKE_TILE, worker, workers);
+  partition->to = whole_units(hk_pool_share(m->n, HOOKE_TILE, worker + 1, workers));
+  partition->pass.stride = m->q[1] - m->q[0];
+  partition->pass.q = m->q[0];
+  partition->pass.v = m->v[0];
+  partition->pass.f = m->f[0];
+  partition->pass.w = m->w;
+  partition->pass.move = *task->move;
+  partition->pass.ahead = m->n > PARTICLES_IN_CACHE ? m->rings->reach + FETCH_AHEAD : 0;
+  memset(partition->open, 0, sizeof partition->open);
+  partition->at = larger(0, partition->from - m->rings->reach);
+  partition->lost = 0;
 }
 
 /* What has to be read before anyone moves. */
-static void prepare(const struct task *task, struct share *share) {
+static void prepare(const struct task *task, struct partition *partition) {
   const struct hk_motion *m = task->motion;
   const int64_t stride = m->rings->border_stride, reach = m->rings->reach;
-  go_on(task, share, HOOKE_MOVE_NOTHING, share->from);
-  share->lost = 0; /* others count these springs */
-  if (share->to < m->n) {
-    double *q = share->border + reach;
-    copy(m->q[0] + share->to, m->v[0] + share->to, share->pass.stride, q, q + 3 * stride, stride,
+  go_on(task, partition, HOOKE_MOVE_NOTHING, partition->from);
+  partition->lost = 0; /* others count these springs */
+  if (partition->to < m->n) {
+    double *q = partition->border + reach;
+    copy(m->q[0] + partition->to, m->v[0] + partition->to, partition->pass.stride, q, q + 3 * stride, stride,
          reach + HOOKE_STRIDED_UNIT);
   }
 }
 
 /* The last particles of the range, together with those that others move meanwhile. */
-static void finish(const struct task *task, struct share *share) {
+static void finish(const struct task *task, struct partition *partition) {
   const struct hk_motion *m = task->motion;
-  const int64_t stride = m->rings->border_stride, from = larger(share->from, share->to - m->rings->reach),
-                count = share->to - from;
-  double *q = share->border + m->rings->reach - count, *v = q + 3 * stride;
-  copy(m->q[0] + from, m->v[0] + from, share->pass.stride, q, v, stride, count);
-  share->pass.q = q - from;
-  share->pass.v = v - from;
-  share->pass.stride = stride;
-  go_on(task, share, task->move->kind, share->to);
+  const int64_t stride = m->rings->border_stride,
+                from = larger(partition->from, partition->to - m->rings->reach), count = partition->to - from;
+  double *q = partition->border + m->rings->reach - count, *v = q + 3 * stride;
+  copy(m->q[0] + from, m->v[0] + from, partition->pass.stride, q, v, stride, count);
+  partition->pass.q = q - from;
+  partition->pass.v = v - from;
+  partition->pass.stride = stride;
+  go_on(task, partition, task->move->kind, partition->to);
   copy(q, v, stride, m->q[0] + from, m->v[0] + from, m->q[1] - m->q[0], count);
 }
 
 static void go_over(int32_t worker, int32_t workers, void *ctx) {
   const struct task *task = ctx;
   const struct hk_motion *m = task->motion;
-  struct share *share = &m->rings->share[worker];
-  begin(task, share, worker, workers);
+  struct partition *partition = &m->rings->partition[worker];
+  begin(task, partition, worker, workers);
   if (workers > 1) {
-    prepare(task, share);
+    prepare(task, partition);
     hk_pool_barrier(m->pool);
   }
-  if (share->to >= m->n || task->move->kind == HOOKE_MOVE_KEEP) {
-    go_on(task, share, task->move->kind, share->to);
+  if (partition->to >= m->n || task->move->kind == HOOKE_MOVE_KEEP) {
+    go_on(task, partition, task->move->kind, partition->to);
     return;
   }
-  go_on(task, share, task->move->kind, share->to - m->rings->reach);
-  skip(task, share, share->to - m->rings->reach);
-  finish(task, share);
+  go_on(task, partition, task->move->kind, partition->to - m->rings->reach);
+  skip(task, partition, partition->to - m->rings->reach);
+  finish(task, partition);
 }
 
 int64_t hk_strided_batches_pass(const hooke_system *system, struct hk_motion *motion,
@@ -258,6 +259,6 @@ int64_t hk_strided_batches_pass(const hooke_system *system, struct hk_motion *mo
   int64_t lost = 0;
   hk_pool_run(motion->pool, go_over, &task);
   for (int32_t m = 0; m < hk_pool_members(motion->pool); m++)
-    lost += motion->rings->share[m].lost;
+    lost += motion->rings->partition[m].lost;
   return lost;
 }
