@@ -41,6 +41,32 @@ def test_a_result_that_diverged(oscillator, quiet):
     assert why.sentence in str(why) and why.advice[0].change in str(why)
 
 
+def test_frames_after_divergence(oscillator, quiet, tmp_path):
+    usual = hooke.run(oscillator, **TOO_LARGE, output=tmp_path / "usual.h5")
+    result = hooke.run(oscillator, **TOO_LARGE, output=tmp_path / "out.h5", past_divergence=True)
+    assert result.status == "diverged" and result.diverged_at == usual.diverged_at
+    assert np.array_equal(result.state.q, usual.state.q)
+    with hooke.open(tmp_path / "out.h5") as out, hooke.open(tmp_path / "usual.h5") as short:
+        assert out.beyond == slice(len(short), len(out)) and len(out) > len(short) == short.beyond.start
+        assert np.array_equal(out.q[: len(short)], short.q) and np.isfinite(out.q[out.beyond]).all()
+        assert out.t[out.beyond][0] == result.diverged_at
+    few = hooke.run(oscillator, **TOO_LARGE, frames=True, frames_after=3)
+    assert (few.frames.t >= few.diverged_at).sum() == 3
+
+
+def test_the_page(oscillator, quiet, tmp_path):
+    why = hooke.why(hooke.run(oscillator, **TOO_LARGE))
+    page = tmp_path / "why.html"
+    try:
+        why.write(page, title="two particles")
+    except hooke.NotBuilt:
+        pytest.skip("this build writes no pages")
+    text = page.read_text(encoding="utf-8")
+    assert "two particles" in text and '"frames":[{"time":0,' in text.replace(" ", "")
+    why.write(tmp_path / "why.json")
+    assert why.sentence in (tmp_path / "why.json").read_text(encoding="utf-8")
+
+
 def test_a_result_that_finished(oscillator):
     result = hooke.run(oscillator, step=0.01, duration=1)
     assert result.diagnosis == "" and result.integrator is None

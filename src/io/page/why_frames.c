@@ -241,31 +241,36 @@ static int32_t see_advised(int64_t k, const hooke_state *state, void *ctx) {
 
 /* ---- the advised run ---- */
 
-/* The first advice that is another run with a fixed step, within the work; -1: none. */
-static int64_t find_advice(const struct frames *f, const hooke_options *run, double until,
-                           hooke_options **advised) {
-  for (int64_t k = 0; k < f->why->advice_count; k++) {
-    const hooke_options *changes = f->why->advice[k].run;
-    if (changes == NULL || strcmp(f->why->advice[k].option, "duration") == 0) continue;
-    if (hooke_options_copy(run, advised) != HOOKE_OK || hk_why_apply(changes, *advised) != HOOKE_OK)
-      return -1;
-    const double step = hooke_options_number(*advised, "step"), from = f->why->start.standing.t;
-    if (hooke_method_is_adaptive(hooke_options_text(*advised, "method")) == 0 &&
-        (until - from) / step * work_of(f->system) < ADVISED_WORK)
-      return k;
+static int32_t is_within_reach(const struct frames *f, const hooke_options *run, double until) {
+  const double steps = (until - f->why->start.standing.t) / hooke_options_number(run, "step");
+  return !hooke_method_is_adaptive(hooke_options_text(run, "method")) &&
+         steps * work_of(f->system) < ADVISED_WORK;
+}
+
+/* The first advice that is another run with a fixed step, within the work; `advised` is NULL where there is none. */
+static int32_t find_advice(const struct frames *f, const hooke_options *run, double until,
+                           hooke_options **advised, const char **change) {
+  int32_t status = HOOKE_OK;
+  for (int64_t k = 0; k < f->why->advice_count && *advised == NULL && status == HOOKE_OK; k++) {
+    const struct hk_why_advice *advice = &f->why->advice[k];
+    if (advice->run == NULL || strcmp(advice->option, "duration") == 0) continue;
+    status = hooke_options_copy(run, advised);
+    if (status == HOOKE_OK) status = hk_why_apply(advice->run, *advised);
+    *change = advice->change;
+    if (status == HOOKE_OK && is_within_reach(f, *advised, until)) break;
     hooke_options_destroy(*advised);
     *advised = NULL;
   }
-  return -1;
+  return status;
 }
 
 static int32_t add_advised(struct frames *f, const hooke_options *run, const double *time) {
   hooke_options *advised = NULL;
-  const int64_t k = f->shown > 0 ? find_advice(f, run, time[f->shown - 1], &advised) : -1;
-  int32_t status = HOOKE_OK;
+  const char *change = NULL;
+  int32_t status = f->shown > 0 ? find_advice(f, run, time[f->shown - 1], &advised, &change) : HOOKE_OK;
   hk_text_open(f->data, "advised", '{');
-  if (k >= 0) {
-    hk_text_word(f->data, "change", f->why->advice[k].change);
+  if (advised) {
+    hk_text_word(f->data, "change", change);
     hk_text_word(f->data, "method", hooke_options_text(advised, "method"));
     hk_text_number(f->data, "step", hooke_options_number(advised, "step"));
     hk_text_open(f->data, "frames", '[');
