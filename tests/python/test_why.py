@@ -63,6 +63,7 @@ def test_the_page(oscillator, quiet, tmp_path):
         pytest.skip("this build writes no pages")
     text = page.read_text(encoding="utf-8")
     assert "two particles" in text and '"frames":[{"time":0,' in text.replace(" ", "")
+    assert why.report(tmp_path / "report.html").exists() and "srcdoc=" in why._repr_html_()
     why.write(tmp_path / "why.json")
     assert why.sentence in (tmp_path / "why.json").read_text(encoding="utf-8")
 

@@ -9,8 +9,9 @@ from typing import Any, NamedTuple
 from ._library import lib
 from ._measurement import Measurement
 from ._memory import Handle, text
+from ._notebook import embed
 from ._prototypes import MEASUREMENT
-from ._status import SolverFailed, Stopped, plain
+from ._status import NotBuilt, SolverFailed, Stopped, plain
 from ._types import Path
 from .integrator import Integrator
 from .options import Options
@@ -86,6 +87,17 @@ class Why:
         for which the steps around the trouble are taken again, so that callbacks are called again; .json or .h5, the
         tables."""
         self._found.write(path, title=title)
+
+    def report(self, path: Path) -> Path:
+        """Writes the page to look at, offline, to a path that ends in ``.html``, and returns the path."""
+        self.write(path)
+        return path
+
+    def _repr_html_(self) -> str | None:
+        try:
+            return embed(self.write, 720)
+        except NotBuilt:
+            return None
 
     def __repr__(self) -> str:
         return f"Why({self.cause}, t={self.time!r}, {self.method})"
