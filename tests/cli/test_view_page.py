@@ -235,8 +235,9 @@ def test_it_opens_playing_where_the_most_is_seen(browser, cloth):
     browser.open(cloth)
     assert browser.run("playing") and browser.run('at("play").textContent') == "Pause"
     assert browser.run("picture.fullest([0, 40])") in (0, 40)
-    browser.run("new Promise((done) => setTimeout(done, 500))")
-    assert browser.run("drawn.length") > 2 and browser.console == []
+    assert browser.run("""new Promise((done) => { const until = performance.now() + 20000, first = shown;
+        const wait = () => (shown !== first || performance.now() > until ? done(shown !== first) : setTimeout(wait, 50)); wait(); })""")
+    assert browser.console == []
 
 
 def colour(picture):
