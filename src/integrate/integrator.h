@@ -81,6 +81,7 @@ struct hooke_integrator {
   void *own;    /* the method's scratch */
   int64_t own_memory;
   int32_t may_factor; /* 1: it factorises its equations where that pays */
+  double residual;    /* that verlet's equations may keep, over their right-hand side; 0: the least */
 
   double t0, t;   /* where the run began, and where it is */
   double goal;    /* the time that the run loop wants next; a method that does not interpolate stops there */

@@ -2,6 +2,7 @@
 #ifndef HOOKE_KERNEL_INSTRUCTION_SET_H
 #define HOOKE_KERNEL_INSTRUCTION_SET_H
 
+#include "kernel/energy_loops.h"
 #include "kernel/strided_loops.h"
 #include "kernel/spring_loops.h"
 #include "kernel/tangent_loops.h"
@@ -23,6 +24,7 @@
 #define HOOKE_STRIDED_LOOP  HOOKE_OF_ISA(hk_strided_loop_)
 #define HOOKE_TILED_LOOPS   HOOKE_OF_ISA(hk_tiled_loops_)
 #define HOOKE_BENDING_LOOPS HOOKE_OF_ISA(hk_bending_loops_)
+#define HOOKE_ENERGY_SET    HOOKE_OF_ISA(hk_energy_set_)
 #define HOOKE_TANGENT_SET   HOOKE_OF_ISA(hk_tangent_set_)
 #define HOOKE_TRIANGLE_SET  HOOKE_OF_ISA(hk_triangle_set_)
 #define HOOKE_VECTOR_SET    HOOKE_OF_ISA(hk_vector_set_)
@@ -31,6 +33,7 @@ extern const struct hk_spring_set HOOKE_SPRING_SET;
 hk_strided_loop HOOKE_STRIDED_LOOP;
 extern const struct hk_tiled_loops HOOKE_TILED_LOOPS;
 extern hk_bending_loop *const HOOKE_BENDING_LOOPS[HOOKE_BENDING_SHAPES];
+extern const struct hk_energy_set HOOKE_ENERGY_SET;
 extern const struct hk_tangent_set HOOKE_TANGENT_SET;
 extern const struct hk_triangle_set HOOKE_TRIANGLE_SET;
 extern const struct hk_vector_set HOOKE_VECTOR_SET;

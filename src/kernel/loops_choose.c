@@ -1,5 +1,6 @@
 /* The functions of loops that are compiled for each instruction set: those of the best that this machine
  * has. */
+#include "kernel/energy_loops.h"
 #include "kernel/spring_loops.h"
 #include "kernel/tangent_loops.h"
 #include "kernel/triangle_loops.h"
@@ -100,6 +101,19 @@ void hk_join_rows(int64_t n, const double *x, const double *y, const double *z, 
 
 uint64_t hk_differing_bits(int64_t n, const double *x, const double *y, const double *z, const double *rows) {
   return hk_spring_set(0)->vector->differing_bits(n, x, y, z, rows);
+}
+
+void hk_some_lengths(const struct hk_some_springs *springs, const double *q, double *length) {
+  hk_spring_set(0)->energy->some_lengths(springs, q, length);
+}
+
+void hk_some_energies(const struct hk_some_springs *springs, const double *q, double *length,
+                      double *energy) {
+  hk_spring_set(0)->energy->some_energies(springs, q, length, energy);
+}
+
+void hk_some_heats(const struct hk_some_springs *springs, const double *q, const double *v, double *heat) {
+  hk_spring_set(0)->energy->some_heats(springs, q, v, heat);
 }
 
 void hk_tangent_fill(const struct hk_run *run, const struct hk_fields *fields, double alpha, double beta,

@@ -195,5 +195,6 @@ const struct hk_spring_set HOOKE_SPRING_SET = {
     .bending = HOOKE_BENDING_LOOPS,
     .vector = &HOOKE_VECTOR_SET,
     .tangent = &HOOKE_TANGENT_SET,
+    .energy = &HOOKE_ENERGY_SET,
     .triangle = &HOOKE_TRIANGLE_SET,
 };

@@ -31,6 +31,7 @@ enum {
 
 struct hk_run;
 struct hk_tiled_loops;
+struct hk_energy_set;
 struct hk_triangle_set;
 struct hk_tangent_set;
 struct hk_vector_set;
@@ -107,6 +108,7 @@ struct hk_spring_set {
   const struct hk_tiled_loops *tiled;
   const struct hk_vector_set *vector;
   const struct hk_tangent_set *tangent;
+  const struct hk_energy_set *energy;
   const struct hk_triangle_set *triangle;
 };
 const struct hk_spring_set *hk_spring_set(int32_t set);

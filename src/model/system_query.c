@@ -28,7 +28,8 @@ int64_t hooke_system_coincident_springs(const hooke_system *system, const double
   double length[HOOKE_SPRING_BATCH];
   struct hk_spring_batch batch;
   for (hk_begin_batches(&batch); hk_next_batch(system, &batch);) {
-    hk_batch_lengths(&batch, q, length);
+    const struct hk_some_springs springs = hk_batch_springs(&batch);
+    hk_some_lengths(&springs, q, length);
     for (int64_t k = 0; k < batch.count; k++)
       count += length[k] == 0.0 && batch.rest_length[k] != 0.0;
   }

@@ -12,6 +12,7 @@
 #include "kernel/step_loops.h"
 #include "model/force/force.h"
 
+#include <math.h>
 #include <stddef.h>
 
 static const double RESIDUAL = 1e-13;
@@ -91,7 +92,8 @@ static int32_t solve(hooke_integrator *it) {
   }
   hk_reduced_set(&own->reduced, hk_integrator_next_time(it), 0.0, half);
   struct hk_solution solution;
-  int32_t status = hk_reduced_solve(&own->reduced, own->right, RESIDUAL, own->change, &solution);
+  int32_t status =
+      hk_reduced_solve(&own->reduced, own->right, fmax(RESIDUAL, it->residual), own->change, &solution);
   if (status == HOOKE_OK && !solution.converged) status = hk_reduced_fail(&own->reduced, &solution);
   for (int a = 0; a < 3 && status == HOOKE_OK; a++) {
     for (int64_t p = 0; p < m->n; p++)

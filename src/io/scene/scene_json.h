@@ -47,6 +47,10 @@ int32_t hk_scene_reader_file(const struct hk_scene_reader *reader, const char *f
 int32_t hk_scene_read_numbers(struct hk_scene_reader *reader, const struct json_t *value,
                               const struct hk_option_row *row, double **numbers, int64_t *count);
 
+/* Empties an array whose values have been read, and nothing else: they take ten times the memory of their
+ * numbers. */
+void hk_scene_forget_values(const struct json_t *array);
+
 /* Particle numbers: `columns` in each row (0: a flat list), each a number or ["part", index]. */
 int32_t hk_scene_read_particles(struct hk_scene_reader *reader, const struct json_t *value, int32_t columns,
                                 int64_t **particles, int64_t *count);

@@ -73,6 +73,10 @@ static int32_t numbers_from_file(struct hk_scene_reader *reader, const json_t *v
   return status;
 }
 
+void hk_scene_forget_values(const json_t *array) {
+  json_array_clear((json_t *)array);
+}
+
 /* ---- numbers ---- */
 
 static int32_t read_number(const json_t *value, int32_t whole, double *number) {
@@ -241,6 +245,7 @@ int32_t hk_scene_read_particles(struct hk_scene_reader *reader, const json_t *va
     *count = (int64_t)json_array_size(value) * (columns ? columns : 1);
     *particles = hk_new(*count, sizeof(int64_t));
     status = *particles ? particles_from_array(reader, value, columns, *particles) : HOOKE_NO_MEMORY;
+    if (status == HOOKE_OK) hk_scene_forget_values(value);
   }
   if (status) {
     hk_free(*particles);

@@ -118,6 +118,7 @@ static int32_t set_numbers(struct hk_scene_reader *reader, const json_t *value,
   if (status) return hk_fail_within(status, "%s", name);
   status = hooke_options_set_numbers(options, name, count, numbers);
   hk_free(numbers);
+  if (status == HOOKE_OK) hk_scene_forget_values(value);
   /* one number in brackets is still an element */
   int element = json_is_array(value) && count == 1 && row->min_count <= 1;
   return element ? hk_scene_place_number(status, value, name) : status;

@@ -21,6 +21,8 @@ struct hk_growth {
   double *direction;     /* velocities to start with, 3n; all zeros: none known */
   int32_t has_direction; /* 1: one was given or found */
   double accuracy;       /* of the limit that is looked for, relative */
+  int32_t is_named;      /* 1: the direction is that of a mode that limits the step */
+  int32_t is_convex;     /* 1: the energy is a sum of powers, so that what rises rises for ever */
   int64_t most_steps;    /* of one run */
   double deadline;       /* hk_clock_seconds() at which runs end */
   int64_t steps_run;     /* of all runs */

@@ -24,11 +24,13 @@ static const char TURNING[] =
 
 /* ---- the linear twin ---- */
 
-enum { STEPS_OF_VIOLENCE = 300 };
+/* Motion that doubles in a step, were it a millionth of all, has outgrown the rest after so many. */
+enum { STEPS_OF_VIOLENCE = 20 };
 
 struct trial {
   struct hk_growth *growth;
   int64_t most_steps;
+  const struct hk_stability *stability;
   int32_t slow;   /* needs damping: steadiness means that growth is too slow to be seen */
   int32_t degree; /* if slow, growth is that of (omega h)^(2 degree) */
   const char *note;
@@ -49,14 +51,29 @@ static int32_t try_frozen(void *ctx, double step, enum hk_trial_end *end) {
   return HOOKE_OK;
 }
 
-/* Undamped motion a fraction e above the limit grows by 1 + sqrt(8 e) a step, damped motion by 1 + 2 e or
- * somewhat less, and forward Euler by 1 + 2 zeta^2 e: told apart to a quarter of the accuracy. */
-static int64_t steps_for(const struct hk_growth *growth, int slow) {
-  const double accuracy = growth->accuracy;
-  const double steps = slow                   ? 4000.0 / accuracy
-                       : growth->twin->damped ? 40.0 / accuracy
-                                              : 40.0 / sqrt(2.0 * accuracy);
-  return 1000 + (int64_t)fmin(steps, 1e15);
+static int is_symplectic(const struct trial *trial) {
+  const int32_t kind = trial->stability->kind;
+  return kind == HOOKE_STABLE_BY_K || kind == HOOKE_STABLE_BY_K_AND_C;
+}
+
+/* A fraction e above the limit, undamped motion grows by 1 + sqrt(8 e) a step of a symplectic method, and by
+ * 1 + 7 e of rk4; damped motion by 1 + 2 e or somewhat less, and forward Euler by 1 + 2 zeta^2 e: told apart
+ * to a quarter of the accuracy. Undamped motion then has 24 powers of e to grow by, of which a rise above all
+ * swings takes 7, and as much where only the random share grows (growth.c). */
+static int64_t steps_for(const struct trial *trial) {
+  const double accuracy = trial->growth->accuracy;
+  if (trial->slow) return 1000 + (int64_t)fmin(4000.0 / accuracy, 1e15);
+  if (trial->growth->twin->damped || !is_symplectic(trial))
+    return 1000 + (int64_t)fmin(40.0 / accuracy, 1e15);
+  return 200 + (int64_t)fmin(24.0 / sqrt(2.0 * accuracy), 1e15);
+}
+
+/* A mode whose limit lies lower by the accuracy has 16 powers of e, or more, to rise from random motion. */
+static int64_t steps_to_confirm(const struct trial *trial) {
+  const double accuracy = trial->growth->accuracy;
+  if (trial->growth->twin->damped || trial->slow) return 1000 + (int64_t)fmin(8.0 / accuracy, 1e15);
+  if (is_symplectic(trial)) return steps_for(trial);
+  return 1000 + (int64_t)fmin(2.3 / accuracy, 1e15);
 }
 
 /* Is there a mode that the search did not see? It has a run just below what was found. */
@@ -64,9 +81,8 @@ static int32_t confirm(struct trial *trial, struct hk_bracket *bracket) {
   for (int k = 0; k < 5 && !bracket->unknown && bracket->holds > 0.0 && isfinite(bracket->fails); k++) {
     const double found = bracket->holds;
     enum hk_verdict verdict;
-    const int64_t steps = 1000 + (int64_t)fmin(8.0 / bracket->accuracy, 1e15);
-    const int32_t status =
-        hk_growth_see(trial->growth, found * (1.0 - 0.5 * bracket->accuracy), 1, steps, &verdict);
+    const double step = found * (1.0 - 0.5 * bracket->accuracy);
+    const int32_t status = hk_growth_see(trial->growth, step, 1, steps_to_confirm(trial), &verdict);
     if (status != HOOKE_OK) return status;
     if (verdict == HOOKE_OUT_OF_TIME) {
       trial->note = "the budget ended before the limit was confirmed";
@@ -125,6 +141,7 @@ static int32_t measure(struct trial *trial, double predicted, struct hk_measured
   struct hk_bracket bracket = {.try_step = try_frozen,
                                .ctx = trial,
                                .accuracy = trial->growth->accuracy,
+                               .sharp = 1,
                                .least = 1e-6 * slow_step,
                                .most = 2e3 * slow_step,
                                .fails = INFINITY};
@@ -177,11 +194,13 @@ int32_t hk_limit_measure(const hooke_system *system, const double *q, const hook
   if (status == HOOKE_OK) {
     growth.progress = progress;
     growth.ctx = ctx;
+    const struct hk_stability *stability = hk_method_stability(method);
     const int slow = hk_method_needs_damping(method);
-    struct trial trial = {.growth = &growth,
-                          .slow = slow,
-                          .degree = slow ? hk_method_stability(method)->degree : 1,
-                          .most_steps = steps_for(&growth, slow)};
+    growth.is_named = predicted > 0.0 && isfinite(predicted);
+    growth.is_convex = !twin.damped && stability->kind == HOOKE_STABLE_BY_POLYNOMIAL;
+    struct trial trial = {
+        .growth = &growth, .stability = stability, .slow = slow, .degree = slow ? stability->degree : 1};
+    trial.most_steps = steps_for(&trial);
     status = measure(&trial, predicted, out);
     out->steps_run = growth.steps_run;
     if (trial.note == OUT_OF_TIME && !isnan(out->step))

@@ -88,6 +88,11 @@ static void keep_element(struct hk_twin *twin, const struct hk_element *e) {
   kept->k_across = hk_element_across(e);
 }
 
+static struct hk_twin_spring spring_of(const struct hk_element *e) {
+  return (struct hk_twin_spring){
+      e->particle[0], e->particle[1], {e->u[0], e->u[1], e->u[2]}, e->k_along - e->k_across, e->k_across};
+}
+
 static void keep_spring(struct making *making, struct hk_twin *twin, const struct hk_spring *spring,
                         const struct hk_element *e) {
   const double before = length_at(spring, making->q), after = length_at(spring, twin->place);
@@ -105,6 +110,7 @@ static void keep_spring(struct making *making, struct hk_twin *twin, const struc
   making->gamma[k] = spring->gamma;
   making->rest_length[k] = stretched ? after * (spring->rest_length / before) : after;
   keep_element(twin, e);
+  twin->spring[k] = spring_of(&twin->element[k]);
 }
 
 /* Springs are springs in the twin, and drag is drag. */
@@ -127,9 +133,11 @@ static int32_t new_thaw(struct making *making, struct hk_twin *twin) {
   twin->balance = hk_new(3 * n, sizeof(double));
   twin->moved = hk_new(3 * n, sizeof(double));
   twin->element = hk_new(count, sizeof *twin->element);
+  twin->spring = hk_new(springs, sizeof *twin->spring);
   making->ends = hk_new(2 * springs, sizeof(int64_t));
   making->kappa = hk_new(3 * springs, sizeof(double));
-  if (!twin->place || !twin->balance || !twin->moved || !twin->element || !making->ends || !making->kappa)
+  if (!twin->place || !twin->balance || !twin->moved || !twin->element || !twin->spring || !making->ends ||
+      !making->kappa)
     return HOOKE_NO_MEMORY;
   making->gamma = making->kappa + springs;
   making->rest_length = making->gamma + springs;
@@ -274,10 +282,18 @@ void hk_twin_release(struct hk_twin *twin) {
   hk_free(twin->balance);
   hk_free(twin->moved);
   hk_free(twin->element);
+  hk_free(twin->spring);
   memset(twin, 0, sizeof *twin);
 }
 
 /* ---- asking ---- */
+
+static double spring_energy(const struct hk_twin_spring *s, const double *moved) {
+  const double *x = moved + 3 * (int64_t)s->head, *y = moved + 3 * (int64_t)s->tail;
+  const double d[3] = {x[0] - y[0], x[1] - y[1], x[2] - y[2]};
+  const double stretch = (s->u[0] * d[0] + s->u[1] * d[1]) + s->u[2] * d[2];
+  return s->across * ((d[0] * d[0] + d[1] * d[1]) + d[2] * d[2]) + s->along * stretch * stretch;
+}
 
 double hk_twin_energy(const struct hk_twin *twin, const double *q, const double *v) {
   const double *mass = twin->system->mass, *const x[3] = {twin->moved, twin->moved + 1, twin->moved + 2};
@@ -288,8 +304,12 @@ double hk_twin_energy(const struct hk_twin *twin, const double *q, const double 
       twin->moved[k] = q[k] - twin->place[k];
     sum += mass[p] * ((u[0] * u[0] + u[1] * u[1]) + u[2] * u[2]);
   }
-  for (const struct hk_element *e = twin->element; e < twin->element + twin->element_count; e++)
+  for (int64_t k = 0; k < twin->spring_count; k++)
+    sum += spring_energy(&twin->spring[k], twin->moved);
+  for (int64_t k = twin->spring_count; k < twin->element_count; k++) {
+    const struct hk_element *e = &twin->element[k];
     sum += hk_element_energy(e, e->k_along, e->k_across, 3, x);
+  }
   return sum;
 }
 

@@ -16,6 +16,13 @@
 
 #include "model/system.h"
 
+/* What the energy of a spring takes of its element, close together: half of the energies of a measurement
+ * would else be waiting for memory. */
+struct hk_twin_spring {
+  int32_t head, tail;
+  double u[3], along, across; /* k_along - k_across, and k_across */
+};
+
 struct hk_twin {
   hooke_system *system; /* committed */
   double *place;        /* where it rests, 3n */
@@ -24,6 +31,7 @@ struct hk_twin {
   /* those with a free particle, clamped: springs, then those of other forces but drag */
   int64_t spring_count, element_count;
   struct hk_element *element;
+  struct hk_twin_spring *spring; /* the first elements once more */
   int64_t clamped, left_out,
       turning;      /* springs compressed; without force; of length 0 and damped, not linear */
   int32_t damped;   /* damping along springs, or drag */

@@ -9,7 +9,7 @@
 
 /* A short run is repeated until its time is steady or this much has been spent on it, and this share of a
  * budget. */
-static const double REPEAT_SECONDS = 0.3, REPEAT_SHARE = 0.005;
+static const double REPEAT_SECONDS = 0.1, REPEAT_SHARE = 0.005;
 static const double STEADY = 1.03;
 enum { MOST_REPEATS = 9 };
 

@@ -16,7 +16,7 @@
 /* Where a length is wanted, the search has this share of a budget, or so many times the run of the reference,
  * but at most this share of what is left. */
 static const double SEARCH_SHARE = 0.2, SEARCH_RUNS = 2.0, MOST_SEARCH = 0.5;
-static const double REPEATS = 4.0, REPEAT_SECONDS = 0.3; /* short rows are repeated, for their time */
+static const double REPEATS = 4.0, REPEAT_SECONDS = 0.1; /* short rows are repeated, for their time */
 
 /* Of the time that is left, what a first row may take: of it nothing is known, and others are to have their
  * turn. */

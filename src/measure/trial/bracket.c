@@ -19,7 +19,7 @@ static int32_t see(struct hk_bracket *b, double step) {
   return HOOKE_OK;
 }
 
-/* The next step outwards: about 1, 4, 16, ... times the accuracy from the guess, then by factors of 2, 4, 16,
+/* The next step outwards: about 1, 4, 16, ... times `nearest` from the guess, then by factors of 2, 4, 16,
  * 16, ... Not alike on both sides, since halving would then end at a good guess itself, where nothing can be
  * seen to grow or decay. */
 struct reach {
@@ -34,7 +34,8 @@ static double outwards(struct reach *reach, double guess, int up) {
 }
 
 int32_t hk_bracket_search(struct hk_bracket *b, double guess) {
-  struct reach below = {0.2 * b->accuracy, sqrt(2.0)}, above = {0.25 * b->accuracy, sqrt(2.0)};
+  const double nearest = b->sharp ? 0.25 * b->accuracy : b->accuracy;
+  struct reach below = {0.2 * nearest, sqrt(2.0)}, above = {0.25 * nearest, sqrt(2.0)};
   int32_t status = HOOKE_OK;
   while (status == HOOKE_OK && !b->unknown && isinf(b->fails) && b->holds < b->most)
     status = see(b, fmin(b->most, outwards(&above, fmax(guess, b->holds), 1)));

@@ -16,6 +16,7 @@ struct hk_bracket {
   int32_t (*try_step)(void *ctx, double step, enum hk_trial_end *end);
   void *ctx;
   double accuracy;    /* of the limit, relative */
+  int32_t sharp;      /* 1: the guess is much better than that, and trials begin at a quarter of it */
   double least, most; /* steps beyond which nobody looks */
   double holds,
       fails; /* the bracket: largest step known to hold, smallest known to fail; 0 and infinity at first */

@@ -41,29 +41,14 @@ static double energy(const hooke_system *system, const double *q) {
   double length[HOOKE_SPRING_BATCH], stored[HOOKE_SPRING_BATCH];
   struct hk_spring_batch batch;
   for (hk_begin_batches(&batch); hk_next_batch(system, &batch);) {
-    hk_batch_lengths(&batch, q, length);
-    for (int64_t k = 0; k < batch.count; k++) {
-      const double stretch = length[k] - batch.rest_length[k];
-      stored[k] = 0.5 * (batch.kappa[k] * stretch) * stretch;
-    }
+    const struct hk_some_springs springs = hk_batch_springs(&batch);
+    hk_some_energies(&springs, q, length, stored);
     for (int64_t k = 0; k < batch.count; k++) {
       if (batch.pull_only && length[k] <= batch.rest_length[k]) continue;
       hk_sum_add(&sum, stored[k]);
     }
   }
   return hk_sum_value(&sum);
-}
-
-/* Of springs that pull and push. */
-static void find_heat(const struct hk_spring_batch *batch, const double *q, const double *v, double *heat) {
-  for (int64_t k = 0; k < batch->count; k++) {
-    const int64_t i = 3 * (int64_t)batch->head[k], j = 3 * (int64_t)batch->tail[k];
-    const double d[3] = {q[i] - q[j], q[i + 1] - q[j + 1], q[i + 2] - q[j + 2]};
-    const double u[3] = {v[i] - v[j], v[i + 1] - v[j + 1], v[i + 2] - v[j + 2]};
-    const double ir = hk_spring_inverse_length(hk_spring_length(d[0], d[1], d[2]));
-    const double rate = ((u[0] * d[0] + u[1] * d[1]) + u[2] * d[2]) * ir;
-    heat[k] = (batch->gamma[k] * rate) * rate;
-  }
 }
 
 /* A spring that only pulls brakes no more than its tension lets it. */
@@ -83,10 +68,11 @@ static double heat(const hooke_system *system, const double *q, const double *v)
   struct hk_spring_batch batch;
   for (hk_begin_batches(&batch); hk_next_batch(system, &batch);) {
     if (!batch.damped) continue;
+    const struct hk_some_springs springs = hk_batch_springs(&batch);
     if (batch.pull_only)
       find_heat_of_cables(&batch, q, v, lost);
     else
-      find_heat(&batch, q, v, lost);
+      hk_some_heats(&springs, q, v, lost);
     for (int64_t k = 0; k < batch.count; k++)
       hk_sum_add(&sum, lost[k]);
   }

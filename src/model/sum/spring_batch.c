@@ -1,17 +1,26 @@
 #include "model/sum/spring_batch.h"
 
-#include "kernel/spring_body.h"
-
 static int64_t at_most(int64_t count) {
   return count < HOOKE_SPRING_BATCH ? count : HOOKE_SPRING_BATCH;
 }
 
 /* ---- by runs ---- */
 
-static void take_run(const struct hk_run *run, struct hk_spring_batch *batch) {
-  batch->count = at_most(run->count - batch->done);
-  batch->damped = (run->shape & HOOKE_RUN_DAMPED) != 0;
-  batch->pull_only = (run->shape & HOOKE_RUN_PULL_ONLY) != 0;
+/* Of one material, and of one offset: numbers that nobody has to look up. */
+static void take_plain(const struct hk_run *run, struct hk_spring_batch *batch) {
+  const int32_t first = run->start + (int32_t)batch->done;
+  for (int32_t k = 0; k < (int32_t)batch->count; k++) {
+    batch->head[k] = first + k;
+    batch->tail[k] = first + k + run->offset;
+  }
+  for (int64_t k = 0; k < batch->count; k++) {
+    batch->kappa[k] = run->kappa;
+    batch->gamma[k] = run->gamma;
+    batch->rest_length[k] = run->rest_length;
+  }
+}
+
+static void take_any(const struct hk_run *run, struct hk_spring_batch *batch) {
   for (int64_t k = 0; k < batch->count; k++) {
     const struct hk_spring spring = hk_run_spring(run, batch->done + k);
     batch->head[k] = (int32_t)spring.head;
@@ -20,6 +29,17 @@ static void take_run(const struct hk_run *run, struct hk_spring_batch *batch) {
     batch->gamma[k] = spring.gamma;
     batch->rest_length[k] = spring.rest_length;
   }
+}
+
+static void take_run(const struct hk_run *run, struct hk_spring_batch *batch) {
+  batch->count = at_most(run->count - batch->done);
+  batch->damped = (run->shape & HOOKE_RUN_DAMPED) != 0;
+  batch->pull_only = (run->shape & HOOKE_RUN_PULL_ONLY) != 0;
+  batch->consecutive = (run->shape & HOOKE_RUN_INDEXED) == 0;
+  if (batch->consecutive && !(run->shape & HOOKE_RUN_MIXED))
+    take_plain(run, batch);
+  else
+    take_any(run, batch);
   batch->done += batch->count;
 }
 
@@ -77,6 +97,7 @@ static int32_t next_of_tiled(const struct hk_tiled *tiled, struct hk_spring_batc
   batch->count = at_most(tiled->batch[batch->row] - batch->done);
   batch->damped = (kind->shape & HOOKE_TILED_DAMPED) != 0;
   batch->pull_only = (kind->shape & HOOKE_TILED_PULL_ONLY) != 0;
+  batch->consecutive = 0;
   take_ends(tiled, batch->row / tiled->kinds, batch);
   take_material(tiled, kind, batch);
   batch->done += batch->count;
@@ -86,11 +107,4 @@ static int32_t next_of_tiled(const struct hk_tiled *tiled, struct hk_spring_batc
 int32_t hk_next_batch(const hooke_system *system, struct hk_spring_batch *batch) {
   if (system->tiled.particles > 0) return next_of_tiled(&system->tiled, batch);
   return next_of_runs(&system->springs, batch);
-}
-
-void hk_batch_lengths(const struct hk_spring_batch *batch, const double *q, double *length) {
-  for (int64_t k = 0; k < batch->count; k++) {
-    const double *qi = q + 3 * (int64_t)batch->head[k], *qj = q + 3 * (int64_t)batch->tail[k];
-    length[k] = hk_spring_length(qi[0] - qj[0], qi[1] - qj[1], qi[2] - qj[2]);
-  }
 }

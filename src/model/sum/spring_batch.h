@@ -4,6 +4,7 @@
 #ifndef HOOKE_MODEL_SUM_SPRING_BATCH_H
 #define HOOKE_MODEL_SUM_SPRING_BATCH_H
 
+#include "kernel/energy_loops.h"
 #include "model/force/element.h"
 #include "model/system.h"
 
@@ -12,6 +13,7 @@ enum { HOOKE_SPRING_BATCH = HOOKE_ELEMENTS };
 struct hk_spring_batch {
   int64_t count;
   int32_t damped, pull_only;
+  int32_t consecutive; /* 1: spring k joins particles head[0] + k and tail[0] + k */
   int32_t head[HOOKE_SPRING_BATCH],
       tail[HOOKE_SPRING_BATCH]; /* in a tiled batch the first end is not the one that was given */
   double kappa[HOOKE_SPRING_BATCH], gamma[HOOKE_SPRING_BATCH], rest_length[HOOKE_SPRING_BATCH];
@@ -31,7 +33,14 @@ static inline struct hk_spring hk_batch_spring(const struct hk_spring_batch *bat
                             batch->gamma[k], batch->rest_length[k], batch->pull_only};
 }
 
-/* Length of each spring of a batch. */
-void hk_batch_lengths(const struct hk_spring_batch *batch, const double *q, double *length);
+static inline struct hk_some_springs hk_batch_springs(const struct hk_spring_batch *batch) {
+  return (struct hk_some_springs){.count = batch->count,
+                                  .consecutive = batch->consecutive,
+                                  .head = batch->head,
+                                  .tail = batch->tail,
+                                  .kappa = batch->kappa,
+                                  .gamma = batch->gamma,
+                                  .rest_length = batch->rest_length};
+}
 
 #endif
