@@ -4,7 +4,7 @@
  * problem). It belongs to one thread at a time; many integrators may share a system, each with its own state.
  *
  * Options of a run (hooke_options_create("run", ...)): method, step [s], duration [s], every [s], checkpoint [s],
- * newton, rtol, atol [m], atol_velocity [m/s], max_order, linear_solver, max_steps, threads.
+ * newton, verlet_damping, rtol, atol [m], atol_velocity [m/s], max_order, linear_solver, max_steps, threads.
  *
  * Frames. With a fixed-step method `every` and `duration` are whole multiples of `step`; frame k is the state
  * after k m steps, frame 0 the initial one, and its time is t0 + k m step, never a running sum. Without
@@ -135,8 +135,9 @@ HOOKE_API int32_t hooke_integrator_put(hooke_integrator *integrator, int64_t cou
 /* ---- what it did, since it was made; after hooke_checkpoint_read() since the run began ---- */
 
 /* A count: "steps", "force_evaluations", "derivative_products", "nonlinear_iterations", "nonlinear_failures",
- * "linear_iterations", "error_test_failures", "coincident_springs" (springs without direction in the last
- * force evaluation), "memory_bytes"; "frames" that hooke_integrator_run() reports, the initial one included;
+ * "linear_iterations", "error_test_failures", "explicit_damping" (1 of verlet that takes the damping of springs
+ * at the predicted velocity, 0 where it solves for it and of anything else), "coincident_springs" (springs
+ * without direction in the last force evaluation), "memory_bytes"; "frames" that hooke_integrator_run() reports, the initial one included;
  * "recent": states that hooke_integrator_recent() has; "factor_bytes": what a factor of its equations takes,
  * which an implicit method makes where that pays; they are analysed for it. 0 if it makes none, or is told to;
  * -1 without memory, with hooke_last_error(). -1 for any other word. */

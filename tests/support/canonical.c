@@ -285,31 +285,36 @@ static void symplectic_euler(const struct canonical *canonical, double t, double
   }
 }
 
-/* The first kick and the drift of a Verlet step: v is the velocity half-way. */
-static void verlet_drift(const struct canonical *canonical, double t, double h, double *q, double *v,
-                         double *a) {
+/* What a step of Verlet does before its second kick: q at the end, the velocity half-way, and in v that at the
+ * end as far as the first kick tells it. */
+static void verlet_predict(const struct canonical *canonical, double t, double end, double h, double *q,
+                           double *v, double *half, double *a) {
   canonical_acceleration(canonical, t, q, v, a);
   for (int64_t k = 0; k < 3 * canonical->particle_count; k++) {
+    half[k] = v[k];
     if (!is_free(canonical, k)) continue;
-    v[k] += h / 2.0 * a[k];
-    q[k] += h * v[k];
+    half[k] = v[k] + h / 2.0 * a[k];
+    q[k] += h * half[k];
+    v[k] = half[k] + h / 2.0 * a[k];
   }
+  place(canonical, end, q, v);
 }
 
-/* Without spring damping, and with drag at the new velocity. */
+/* Forces of springs and callbacks at the predicted velocity, drag at the new one. */
 static void verlet(const struct canonical *canonical, double t, double end, double h, double *q, double *v,
                    double *a) {
   struct canonical without_drag = *canonical;
   without_drag.drag = 0.0;
-  verlet_drift(canonical, t, h, q, v, a);
-  place(canonical, end, q, v);
+  double *half = new_doubles(3 * canonical->particle_count);
+  verlet_predict(canonical, t, end, h, q, v, half, a);
   canonical_acceleration(&without_drag, end, q, v, a);
   const double brake = h / 2.0 * canonical->drag;
   for (int64_t k = 0; k < 3 * canonical->particle_count; k++) {
     if (!is_free(canonical, k)) continue;
-    v[k] += h / 2.0 * a[k];
+    v[k] = half[k] + h / 2.0 * a[k];
     if (canonical->drag != 0.0) v[k] /= 1.0 + brake * canonical->inverse_mass[k / 3];
   }
+  free(half);
 }
 
 static void rk4(const struct canonical *canonical, double t, double end, double h, double *q, double *v,
@@ -367,23 +372,64 @@ static void heun(const struct canonical *canonical, double t, double end, double
   free(next_a);
 }
 
-static int is_damped(const struct canonical *canonical) {
+/* What an element between `count` particles, with these weights, adds at each of them that is free: its
+ * strength times the row of its matrix, wherever it points. */
+static void add_row(const struct canonical *canonical, int count, const int64_t *particle,
+                    const double *weight, double strength, double *sum) {
+  double all = 0.0;
+  for (int j = 0; j < count; j++)
+    all += canonical->inverse_mass[particle[j]] != 0.0 ? weight[j] : 0.0;
+  for (int j = 0; j < count; j++)
+    sum[particle[j]] += weight[j] * all * strength;
+}
+
+static void add_rows(const struct canonical *canonical, double *stiffness, double *damping) {
+  const double pair[2] = {1.0, 1.0}, triple[3] = {1.0, 2.0, 1.0};
   for (int64_t k = 0; k < canonical->spring_count; k++) {
-    if (canonical->gamma[k] != 0.0) return 1;
+    add_row(canonical, 2, canonical->ends + 2 * k, pair, canonical->kappa[k], stiffness);
+    add_row(canonical, 2, canonical->ends + 2 * k, pair, canonical->gamma[k], damping);
   }
-  for (int64_t k = 0; k < canonical->tetrahedron_count; k++) {
-    if (canonical->altitude[1][k] != 0.0) return 1;
-  }
+  for (int64_t k = 0; k < canonical->triple_count; k++)
+    add_row(canonical, 3, canonical->triples + 3 * k, triple, canonical->coefficient[k], stiffness);
   for (int64_t k = 0; k < canonical->anchor_count; k++) {
-    if (canonical->anchor[1][k] != 0.0) return 1;
+    add_row(canonical, 1, canonical->anchored + k, pair, canonical->anchor[0][k], stiffness);
+    add_row(canonical, 1, canonical->anchored + k, pair, canonical->anchor[1][k], damping);
   }
-  return 0;
+}
+
+double canonical_explicit_bound(const struct canonical *canonical) {
+  const int64_t n = canonical->particle_count;
+  double *stiffness = new_doubles(n), *damping = new_doubles(n), bound = INFINITY;
+  add_rows(canonical, stiffness, damping);
+  for (int64_t p = 0; p < n; p++) {
+    const double k = canonical->inverse_mass[p] * stiffness[p], c = canonical->inverse_mass[p] * damping[p];
+    if (k > 0.0 || c > 0.0) bound = fmin(bound, 4.0 / (c + sqrt(c * c + 4.0 * k)));
+  }
+  free(stiffness);
+  free(damping);
+  return bound;
+}
+
+/* Whether Verlet solves for the damping: of springs that only pull, beside altitude springs, and where the
+ * step is above 0.8 of the bound. */
+static int is_solved(const struct canonical *canonical, double h) {
+  int damped = 0, pulls = 0;
+  for (int64_t k = 0; k < canonical->spring_count; k++) {
+    damped |= canonical->gamma[k] != 0.0;
+    pulls |= canonical->gamma[k] != 0.0 && canonical->pull_only[k];
+  }
+  for (int64_t k = 0; k < canonical->tetrahedron_count; k++)
+    damped |= canonical->altitude[1][k] != 0.0;
+  for (int64_t k = 0; k < canonical->anchor_count; k++)
+    damped |= canonical->anchor[1][k] != 0.0;
+  if (!damped || pulls || canonical->tetrahedron_count > 0) return damped;
+  return !(h <= 0.8 * canonical_explicit_bound(canonical));
 }
 
 int32_t canonical_step(const struct canonical *canonical, const char *method, double t, double end, double h,
                        double *q, double *v) {
   if (strcmp(method, "backward-euler") == 0) return CANONICAL_SOLVED;
-  if (strcmp(method, "verlet") == 0 && is_damped(canonical)) return CANONICAL_SOLVED;
+  if (strcmp(method, "verlet") == 0 && is_solved(canonical, h)) return CANONICAL_SOLVED;
   int32_t result = CANONICAL_STEPPED;
   double *a = new_doubles(3 * canonical->particle_count);
   if (strcmp(method, "forward-euler") == 0)
@@ -447,35 +493,104 @@ static double rounding(const struct canonical *canonical, double h, const double
   return 100.0 * DBL_EPSILON * (speed + h * lightest * (stiffness * extent + damping * speed));
 }
 
-double canonical_defect(const struct canonical *canonical, const char *method, double t, double end, double h,
-                        const double *q0, const double *v0, const double *q1, const double *v1) {
+/* The size of a change of velocity: the root of the sum of its squares times masses. */
+static double weighed(const struct canonical *canonical, const double *v) {
+  double sum = 0.0;
+  for (int64_t k = 0; k < 3 * canonical->particle_count; k++)
+    sum += is_free(canonical, k) ? v[k] * v[k] / canonical->inverse_mass[k / 3] : 0.0;
+  return sqrt(sum);
+}
+
+/* The largest h/2 c/m of a particle with all that damps it. */
+static double damping_of_kick(const struct canonical *canonical, double h) {
+  const int64_t n = canonical->particle_count;
+  double *damping = new_doubles(n), most = 0.0;
+  for (int64_t k = 0; k < canonical->spring_count; k++) {
+    for (int e = 0; e < 2; e++)
+      damping[canonical->ends[2 * k + e]] += canonical->gamma[k];
+  }
+  for (int64_t k = 0; k < canonical->tetrahedron_count; k++) {
+    double least = INFINITY;
+    for (int a = 0; a < 7; a++)
+      least = fmin(least, fabs(canonical->altitude[2][7 * k + a]));
+    for (int j = 0; j < 4; j++)
+      damping[canonical->corners[4 * k + j]] += canonical->altitude[1][k] / least;
+  }
+  for (int64_t k = 0; k < canonical->anchor_count; k++)
+    damping[canonical->anchored[k]] += canonical->anchor[1][k];
+  for (int64_t p = 0; p < n; p++)
+    most = fmax(most, h / 2.0 * canonical->inverse_mass[p] * (damping[p] + canonical->drag));
+  free(damping);
+  return most;
+}
+
+/* A step of Verlet that solves for its damping leaves a thousandth of what the predicted velocity does, times
+ * how large that is beside the kick, 1 at most. Residuals are measured with more than the masses: that much
+ * is allowed here. */
+static double verlet_defect(const struct canonical *canonical, double t, double end, double h,
+                            const double *q0, const double *v0, const double *q1, const double *v1) {
   const int64_t size = 3 * canonical->particle_count;
-  const int kicks = strcmp(method, "verlet") == 0; /* else backward Euler */
-  double *q = new_doubles(size), *v = new_doubles(size), *a = new_doubles(size);
+  double *q = new_doubles(size), *v = new_doubles(size), *a = new_doubles(size), *half = new_doubles(size);
+  double *left = new_doubles(size), *kick = new_doubles(size), *wrong = new_doubles(size), defect = 0.0;
   memcpy(q, q0, (size_t)size * sizeof(double));
   memcpy(v, v0, (size_t)size * sizeof(double));
-  double change = 0.0, defect = 0.0;
-  if (kicks) {
-    verlet_drift(canonical, t, h, q, v, a);
-  } else {
-    for (int64_t k = 0; k < size; k++) {
-      if (is_free(canonical, k)) q[k] += h * v1[k];
-    }
+  verlet_predict(canonical, t, end, h, q, v, half, a);
+  canonical_acceleration(canonical, end, q, v, a);
+  for (int64_t k = 0; k < size; k++) {
+    if (memcmp(&q[k], &q1[k], sizeof q[k]) != 0) defect = INFINITY;
+    kick[k] = 2.0 * (v[k] - half[k]);
+    left[k] = (half[k] + h / 2.0 * a[k]) - v[k];
   }
-  double *seen = new_doubles(size);
-  memcpy(seen, kicks ? v : v1, (size_t)size * sizeof(double));
+  accelerate(canonical, end, q, v1, v, a);
+  double mass = 0.0;
+  for (int64_t k = 0; k < size; k++) {
+    wrong[k] = v1[k] - (half[k] + h / 2.0 * a[k]);
+    if (is_free(canonical, k)) mass += 1.0 / canonical->inverse_mass[k / 3];
+  }
+  const double before = weighed(canonical, left), ratio = before / weighed(canonical, kick);
+  const double part = 1e-3 * (ratio < 1.0 ? ratio : 1.0);
+  const double allowed = before * (part > 1e-13 ? part : 1e-13) * sqrt(1.0 + damping_of_kick(canonical, h));
+  if (defect == 0.0) {
+    const double found = weighed(canonical, wrong);
+    defect = found == 0.0 ? 0.0 : found / (allowed + sqrt(mass) * rounding(canonical, h, q1, v1));
+  }
+  free(q);
+  free(v);
+  free(a);
+  free(half);
+  free(left);
+  free(kick);
+  free(wrong);
+  return defect;
+}
+
+static double backward_euler_defect(const struct canonical *canonical, double end, double h, const double *q0,
+                                    const double *v0, const double *q1, const double *v1) {
+  const int64_t size = 3 * canonical->particle_count;
+  double *q = new_doubles(size), *a = new_doubles(size), *seen = new_doubles(size);
+  memcpy(q, q0, (size_t)size * sizeof(double));
+  memcpy(seen, v1, (size_t)size * sizeof(double));
+  double change = 0.0, defect = 0.0;
+  for (int64_t k = 0; k < size; k++) {
+    if (is_free(canonical, k)) q[k] += h * v1[k];
+  }
   place(canonical, end, q, seen);
   accelerate(canonical, end, q, v1, seen, a);
   for (int64_t k = 0; k < size; k++) {
     if (memcmp(&q[k], &q1[k], sizeof q[k]) != 0) defect = INFINITY;
     if (!is_free(canonical, k)) continue;
-    const double wrong = v1[k] - (v[k] + (kicks ? h / 2.0 : h) * a[k]);
+    const double wrong = v1[k] - (v0[k] + h * a[k]);
     if (!(fabs(wrong) <= defect)) defect = fabs(wrong);
-    change = fmax(change, fmax(fabs(v1[k] - v0[k]), fabs(v1[k] - v[k])));
+    change = fmax(change, fabs(v1[k] - v0[k]));
   }
   free(q);
-  free(v);
   free(a);
   free(seen);
   return defect == 0.0 ? 0.0 : defect / (1e-9 * change + rounding(canonical, h, q1, v1));
+}
+
+double canonical_defect(const struct canonical *canonical, const char *method, double t, double end, double h,
+                        const double *q0, const double *v0, const double *q1, const double *v1) {
+  if (strcmp(method, "verlet") == 0) return verlet_defect(canonical, t, end, h, q0, v0, q1, v1);
+  return backward_euler_defect(canonical, end, h, q0, v0, q1, v1);
 }

@@ -10,7 +10,7 @@ struct run {
   double step, duration, every, checkpoint;
   double rtol, atol;
   int32_t threads;
-  const char *newton, *linear_solver; /* NULL: the default */
+  const char *newton, *linear_solver, *verlet_damping; /* NULL: the default */
 };
 
 /* The caller destroys what these return. */
