@@ -51,7 +51,7 @@ struct hk_method {
   int32_t (*store)(hooke_integrator *integrator, double t, hooke_state *state);
 };
 
-extern const struct hk_method hk_forward_euler, hk_symplectic_euler, hk_verlet, hk_heun, hk_rk4,
+extern const struct hk_method hk_forward_euler, hk_symplectic_euler, hk_verlet, hk_shardlow, hk_heun, hk_rk4,
     hk_backward_euler, hk_cvode_bdf, hk_cvode_adams, hk_rk8pd, hk_arkode_esdirk;
 
 /* Row of this name, or NULL; its stability, of kind unknown if there is no such method. */

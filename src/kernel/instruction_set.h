@@ -2,6 +2,7 @@
 #ifndef HOOKE_KERNEL_INSTRUCTION_SET_H
 #define HOOKE_KERNEL_INSTRUCTION_SET_H
 
+#include "kernel/damper_loops.h"
 #include "kernel/lane_loops.h"
 #include "kernel/spring_loops.h"
 #include "kernel/tangent_loops.h"
@@ -23,6 +24,7 @@
 #define HOOKE_LANE_LOOP     HOOKE_OF_ISA(hk_lane_loop_)
 #define HOOKE_NET_LOOPS     HOOKE_OF_ISA(hk_net_loops_)
 #define HOOKE_BENDING_LOOPS HOOKE_OF_ISA(hk_bending_loops_)
+#define HOOKE_DAMPER_LOOP   HOOKE_OF_ISA(hk_damper_loop_)
 #define HOOKE_TANGENT_SET   HOOKE_OF_ISA(hk_tangent_set_)
 #define HOOKE_TRIANGLE_SET  HOOKE_OF_ISA(hk_triangle_set_)
 #define HOOKE_VECTOR_SET    HOOKE_OF_ISA(hk_vector_set_)
@@ -31,6 +33,7 @@ extern const struct hk_spring_set HOOKE_SPRING_SET;
 hk_lane_loop HOOKE_LANE_LOOP;
 extern const struct hk_net_loops HOOKE_NET_LOOPS;
 extern hk_bending_loop *const HOOKE_BENDING_LOOPS[HOOKE_BENDING_SHAPES];
+hk_damper_loop HOOKE_DAMPER_LOOP;
 extern const struct hk_tangent_set HOOKE_TANGENT_SET;
 extern const struct hk_triangle_set HOOKE_TRIANGLE_SET;
 extern const struct hk_vector_set HOOKE_VECTOR_SET;

@@ -230,6 +230,7 @@ const struct hk_spring_set HOOKE_SPRING_SET = {
     .loop = {BY_SHAPE(offset, 0), BY_SHAPE(indexed, HOOKE_RUN_INDEXED)},
     .lanes = HOOKE_LANE_LOOP,
     .net = &HOOKE_NET_LOOPS,
+    .dampers = HOOKE_DAMPER_LOOP,
     .kick_then_drift = kick_then_drift,
     .drift_then_kick = drift_then_kick,
     .predict = predict,

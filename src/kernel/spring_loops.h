@@ -7,6 +7,7 @@
 #define HOOKE_KERNEL_SPRING_LOOPS_H
 
 #include "kernel/bending_loops.h"
+#include "kernel/damper_loops.h"
 #include "kernel/lane_loops.h"
 
 #include <stddef.h>
@@ -50,7 +51,7 @@ struct hk_run {
   int32_t strain;
   const uint8_t *lane; /* NULL, or mixed: lane of each spring, which has its material */
   const struct hk_lane_material *of_lanes;
-  hk_spring_loop *loop;
+  hk_spring_loop *loop, *undamped_loop; /* the second leaves damping out */
 };
 
 static inline ptrdiff_t hk_run_head(const struct hk_run *run, ptrdiff_t k) {
@@ -111,6 +112,7 @@ struct hk_spring_set {
   hk_verlet_loop *predict, *correct;
   hk_bending_loop *const *bending; /* by HOOKE_BENDING_* */
   const struct hk_net_loops *net;
+  hk_damper_loop *dampers;
   const struct hk_vector_set *vector;
   const struct hk_tangent_set *tangent;
   const struct hk_triangle_set *triangle;

@@ -23,7 +23,7 @@ from pages import (
 )
 
 ROOT = Path(__file__).resolve().parents[2]
-METHODS = ["forward-euler", "symplectic-euler", "verlet", "heun", "rk4", "backward-euler"]
+METHODS = ["forward-euler", "symplectic-euler", "verlet", "shardlow", "heun", "rk4", "backward-euler"]
 SCENE = json.loads((ROOT / "examples/scenes/stiff-spring.json").read_text())
 COLOURS = {"blue": "#0057b8", "red": "#b00020"}  # of arrows, of springs to blame
 # What stands in the diagrams, in their own numbers, and pixels of the colours of the picture.
@@ -154,7 +154,7 @@ def test_beyond_the_edge(tmp_path):
     assert seen.console == []
     plane, reach = seen.drawn("plane"), seen.drawn("reach")
     assert (plane["crosses"], reach["crosses"]) == (2, 1) and plane["outside"] == reach["outside"] == 0
-    assert "blows up by forward-euler, symplectic-euler, verlet, heun, rk4." in seen.text["stepped"]
+    assert "blows up by forward-euler, symplectic-euler, verlet, shardlow, heun, rk4." in seen.text["stepped"]
 
 
 @needs_page

@@ -154,6 +154,16 @@ static void test_order_of_verlet(void **unused) {
   climb_all("verlet", 2.0, 5, ladders);
 }
 
+static void test_order_of_shardlow(void **unused) {
+  (void)unused;
+  const struct ladder ladders[] = {{"oscillator", 5e-3, 1},
+                                   {"six-particles", 2e-2, 1},
+                                   {"elastic-pendulum", 2e-3, 1},
+                                   {"rope-12", 2e-3, 1},
+                                   {"chain-16", 2e-2, 0}};
+  climb_all("shardlow", 2.0, 5, ladders);
+}
+
 static void test_order_of_rk4(void **unused) {
   (void)unused;
   const struct ladder ladders[] = {{"oscillator", 5e-3, 1},
@@ -208,6 +218,7 @@ int main(void) {
       cmocka_unit_test(test_order_of_forward_euler),
       cmocka_unit_test(test_order_of_symplectic_euler),
       cmocka_unit_test(test_order_of_verlet),
+      cmocka_unit_test(test_order_of_shardlow),
       cmocka_unit_test(test_order_of_rk4),
       cmocka_unit_test(test_order_of_backward_euler),
       cmocka_unit_test(test_adams),

@@ -9,7 +9,7 @@ from conftest import SIX_PARTICLES, build_oscillator, build_six_particles
 
 import hooke
 
-FIXED_STEP = ["forward-euler", "symplectic-euler", "verlet", "heun", "rk4", "backward-euler"]
+FIXED_STEP = ["forward-euler", "symplectic-euler", "verlet", "shardlow", "heun", "rk4", "backward-euler"]
 OMEGA = math.sqrt(40)  # of the oscillator
 
 
@@ -166,7 +166,8 @@ def test_picture():
     np.testing.assert_allclose(abs(1 + z["modes"]).max(), 1, atol=1e-9)
     np.testing.assert_allclose(np.sort_complex(z["modes"]), np.sort_complex(np.r_[found.modes, found.modes.conj()] * step))
     lines = {line.get_label(): line.get_xydata().T for line in reach.lines}
-    assert set(lines) == {"forward-euler", "symplectic-euler", "verlet", "heun", "rk4", "modes", "critical damping"}
+    assert set(lines) == {"forward-euler", "symplectic-euler", "verlet", "shardlow", "heun", "rk4", "modes",
+                          "critical damping"}
     x, y = lines["symplectic-euler"]
     np.testing.assert_allclose(x**2 + 4 * y, 4, atol=1e-12)
     np.testing.assert_allclose(lines["verlet"][0][:150], 2, atol=1e-12)

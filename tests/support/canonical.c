@@ -171,37 +171,54 @@ static double altitude_rate(const int64_t *p, const double g[4], const double u[
   return dot(u, w);
 }
 
-static void add_tetrahedron(const struct canonical *canonical, int64_t number, const double *q,
-                            const double *v, const double *seen, double *force) {
+/* The altitude that acts: its length, rest length, direction and weights. */
+struct altitude {
+  double h, l, u[3], g[4];
+};
+
+/* 0 if none does. */
+static int find_altitude(const struct canonical *canonical, int64_t number, const double *q,
+                         struct altitude *out) {
   const int64_t *p = canonical->corners + 4 * number;
   const double *const x[4] = {q + 3 * p[0], q + 3 * p[1], q + 3 * p[2], q + 3 * p[3]};
-  double square[7], e[3], f[3], r[3], n[3], rf[3], re[3], u[3], g[4];
+  double square[7], e[3], f[3], r[3], n[3], rf[3], re[3];
   canonical_altitudes(x, square);
   int k = -1; /* what is beyond all numbers is no altitude */
   for (int other = 0; other < 7; other++) {
     if (square[other] > (k < 0 ? 0.0 : square[k])) k = other;
   }
-  if (k < 0) return;
+  if (k < 0) return 0;
   altitude_vectors(x, k, e, f, r);
   cross(e, f, n);
   cross(r, f, rf);
   cross(r, e, re);
   const double rest = canonical->altitude[2][7 * number + k], side = rest < 0.0 ? -1.0 : 1.0;
-  const double l = fabs(rest), c = side * (1.0 / sqrt(square[k]));
+  const double c = side * (1.0 / sqrt(square[k]));
+  out->l = fabs(rest);
   for (int a = 0; a < 3; a++)
-    u[a] = c * n[a];
-  const double h = dot(u, r), a = dot(rf, n) / square[k], b = dot(re, n) / square[k];
-  g[role[k][0]] = k < 4 ? (a - b) - 1.0 : a - 1.0;
-  g[role[k][1]] = -a;
-  g[role[k][2]] = k < 4 ? b : 1.0 - b;
-  g[role[k][3]] = k < 4 ? 1.0 : b;
-  double tension = altitude_tension(canonical, number, h, l, altitude_rate(p, g, u, v));
-  const double tension_seen = altitude_tension(canonical, number, h, l, altitude_rate(p, g, u, seen));
-  if (canonical->altitude_pull_only[number] && (h <= l || tension_seen < 0.0)) tension = 0.0;
+    out->u[a] = c * n[a];
+  const double a = dot(rf, n) / square[k], b = dot(re, n) / square[k];
+  out->h = dot(out->u, r);
+  out->g[role[k][0]] = k < 4 ? (a - b) - 1.0 : a - 1.0;
+  out->g[role[k][1]] = -a;
+  out->g[role[k][2]] = k < 4 ? b : 1.0 - b;
+  out->g[role[k][3]] = k < 4 ? 1.0 : b;
+  return 1;
+}
+
+static void add_tetrahedron(const struct canonical *canonical, int64_t number, const double *q,
+                            const double *v, const double *seen, double *force) {
+  const int64_t *p = canonical->corners + 4 * number;
+  struct altitude s;
+  if (!find_altitude(canonical, number, q, &s)) return;
+  double tension = altitude_tension(canonical, number, s.h, s.l, altitude_rate(p, s.g, s.u, v));
+  const double seen_rate = altitude_rate(p, s.g, s.u, seen);
+  const double tension_seen = altitude_tension(canonical, number, s.h, s.l, seen_rate);
+  if (canonical->altitude_pull_only[number] && (s.h <= s.l || tension_seen < 0.0)) tension = 0.0;
   for (int j = 0; j < 4; j++) {
-    const double s = tension * g[j];
+    const double size = tension * s.g[j];
     for (int axis = 0; axis < 3; axis++)
-      force[3 * p[j] + axis] -= s * u[axis];
+      force[3 * p[j] + axis] -= size * s.u[axis];
   }
 }
 
@@ -315,6 +332,165 @@ static void verlet(const struct canonical *canonical, double t, double end, doub
     if (canonical->drag != 0.0) v[k] /= 1.0 + brake * canonical->inverse_mass[k / 3];
   }
   free(half);
+}
+
+/* ---- dampers of pairs, one after the other ---- */
+
+/* The part of its rate that a damper of strength c takes in a time, over the inverse mass that it acts on. */
+static double damper_share(double time, double c, double w) {
+  const double z = time * c * w, y = z * (1.0 + z / 2.0);
+  return y > 0.0 ? 1.0 / (1.0 + 1.0 / y) / w : 0.0;
+}
+
+static int has_damper(const struct canonical *canonical, int64_t k) {
+  const double *w = canonical->inverse_mass;
+  return canonical->gamma[k] != 0.0 && w[canonical->ends[2 * k]] + w[canonical->ends[2 * k + 1]] > 0.0;
+}
+
+/* Damped springs by colour, and in ascending number within each; `count` of them. The colour of a spring is the
+ * lowest that no earlier damped spring has at either end. */
+static int64_t *damper_order(const struct canonical *canonical, int64_t *count) {
+  const int64_t m = canonical->spring_count;
+  int64_t *colour = new_block(m, (int64_t)sizeof *colour), *order = new_block(m, (int64_t)sizeof *order);
+  /* the colours that are taken at each particle, in lists */
+  int64_t *newest = new_block(canonical->particle_count, (int64_t)sizeof *newest),
+          *older = new_block(2 * m, (int64_t)sizeof *older),
+          *seen = new_block(2 * m + 2, (int64_t)sizeof *seen),
+          *first = new_block(m + 2, (int64_t)sizeof *first);
+  for (int64_t p = 0; p < canonical->particle_count; p++)
+    newest[p] = -1;
+  *count = 0;
+  for (int64_t k = 0; k < m; k++) {
+    colour[k] = -1;
+    if (!has_damper(canonical, k)) continue;
+    for (int e = 0; e < 2; e++) {
+      for (int64_t at = newest[canonical->ends[2 * k + e]]; at >= 0; at = older[at])
+        seen[colour[at / 2]] = k + 1;
+    }
+    colour[k] = 0;
+    while (seen[colour[k]] == k + 1)
+      colour[k]++;
+    for (int e = 0; e < 2; e++) {
+      older[2 * k + e] = newest[canonical->ends[2 * k + e]];
+      newest[canonical->ends[2 * k + e]] = 2 * k + e;
+    }
+    first[colour[k] + 1]++;
+    ++*count;
+  }
+  for (int64_t c = 0; c <= m; c++)
+    first[c + 1] += first[c];
+  for (int64_t k = 0; k < m; k++) {
+    if (colour[k] >= 0) order[first[colour[k]]++] = k;
+  }
+  free(colour);
+  free(newest);
+  free(older);
+  free(seen);
+  free(first);
+  return order;
+}
+
+static void damp_spring(const struct canonical *canonical, int64_t k, double time, const double *q,
+                        double *v) {
+  const int64_t i = canonical->ends[2 * k], j = canonical->ends[2 * k + 1];
+  const double *w = canonical->inverse_mass;
+  const double dx = q[3 * i] - q[3 * j], dy = q[3 * i + 1] - q[3 * j + 1], dz = q[3 * i + 2] - q[3 * j + 2];
+  const double r = sqrt((dx * dx + dy * dy) + dz * dz), ir = r > 0.0 ? 1.0 / r : 0.0;
+  const double rate = rate_of(i, j, dx, dy, dz, ir, v);
+  double impulse = damper_share(time, canonical->gamma[k], w[i] + w[j]) * rate;
+  if (canonical->pull_only[k]) {
+    const double least = -(time * (canonical->kappa[k] * (r - canonical->rest_length[k])));
+    if (impulse < least) impulse = least;
+    if (r <= canonical->rest_length[k]) impulse = 0.0;
+  }
+  const double s = impulse * ir, b[3] = {s * dx, s * dy, s * dz};
+  for (int a = 0; a < 3; a++) {
+    v[3 * i + a] -= w[i] * b[a];
+    v[3 * j + a] += w[j] * b[a];
+  }
+}
+
+/* One element with `count` weights, c along u; `elastic` is the tension of what only pulls, else NULL. */
+static void damp_element(const struct canonical *canonical, int count, const int64_t *particle,
+                         const double *weight, const double u[3], double c, const double *elastic,
+                         double time, double *v) {
+  double w = 0.0, rate[3];
+  for (int j = 0; j < count; j++) {
+    w += weight[j] * weight[j] * canonical->inverse_mass[particle[j]];
+    for (int a = 0; a < 3; a++) {
+      const double own = weight[j] * v[3 * particle[j] + a];
+      rate[a] = j == 0 ? own : rate[a] + own;
+    }
+  }
+  if (!(w > 0.0)) return;
+  double impulse = damper_share(time, c, w) * dot(u, rate);
+  if (elastic && impulse < -(time * *elastic)) impulse = -(time * *elastic);
+  if (elastic && !(*elastic > 0.0)) impulse = 0.0;
+  for (int j = 0; j < count; j++) {
+    const double by = canonical->inverse_mass[particle[j]] * weight[j];
+    for (int a = 0; a < 3; a++)
+      v[3 * particle[j] + a] -= by * (impulse * u[a]);
+  }
+}
+
+static void damp_tetrahedron(const struct canonical *canonical, int64_t number, double time, const double *q,
+                             double *v) {
+  struct altitude altitude;
+  if (!find_altitude(canonical, number, q, &altitude)) return;
+  const double stiffness = canonical->altitude[0][number], l = altitude.l;
+  const double elastic = altitude.h <= l ? 0.0 : stiffness * (altitude.h - l) / l;
+  damp_element(canonical, 4, canonical->corners + 4 * number, altitude.g, altitude.u,
+               canonical->altitude[1][number] / l, canonical->altitude_pull_only[number] ? &elastic : NULL,
+               time, v);
+}
+
+static void damp_anchor(const struct canonical *canonical, int64_t k, double time, const double *q,
+                        double *v) {
+  const double one = 1.0, *x = q + 3 * canonical->anchored[k], *point = canonical->anchor_point + 3 * k;
+  const double d[3] = {x[0] - point[0], x[1] - point[1], x[2] - point[2]};
+  const double r = sqrt((d[0] * d[0] + d[1] * d[1]) + d[2] * d[2]), ir = r > 0.0 ? 1.0 / r : 0.0;
+  const double u[3] = {d[0] * ir, d[1] * ir, d[2] * ir};
+  damp_element(canonical, 1, canonical->anchored + k, &one, u, canonical->anchor[1][k], NULL, time, v);
+}
+
+/* Springs in their order, tetrahedra and anchors by number, then drag; or all of it backwards. */
+static void damp(const struct canonical *canonical, double time, int backwards, int64_t springs,
+                 const int64_t *order, const double *q, double *v) {
+  const int64_t t = canonical->tetrahedron_count, n = canonical->anchor_count;
+  for (int part = 0; part < 4; part++) {
+    const int what = backwards ? 3 - part : part;
+    for (int64_t k = 0; what == 0 && k < springs; k++)
+      damp_spring(canonical, order[backwards ? springs - 1 - k : k], time, q, v);
+    for (int64_t k = 0; what == 1 && k < t; k++)
+      damp_tetrahedron(canonical, backwards ? t - 1 - k : k, time, q, v);
+    for (int64_t k = 0; what == 2 && k < n; k++)
+      damp_anchor(canonical, backwards ? n - 1 - k : k, time, q, v);
+    for (int64_t k = 0; what == 3 && canonical->drag != 0.0 && k < 3 * canonical->particle_count; k++) {
+      const double z = time * canonical->drag * canonical->inverse_mass[k / 3];
+      v[k] /= 1.0 + z * (1.0 + z / 2.0);
+    }
+  }
+}
+
+/* A step of Verlet without damping between two sweeps over the dampers. */
+static void shardlow(const struct canonical *canonical, double t, double end, double h, double *q, double *v,
+                     double *a) {
+  const int64_t m = canonical->spring_count, t_count = canonical->tetrahedron_count,
+                n = canonical->anchor_count;
+  struct canonical undamped = *canonical;
+  undamped.drag = 0.0;
+  undamped.leaves_out = 1;
+  undamped.gamma = new_doubles(m);
+  undamped.altitude[1] = new_doubles(t_count);
+  undamped.anchor[1] = new_doubles(n);
+  int64_t springs, *order = damper_order(canonical, &springs);
+  damp(canonical, h / 2.0, 0, springs, order, q, v);
+  verlet(&undamped, t, end, h, q, v, a);
+  damp(canonical, h / 2.0, 1, springs, order, q, v);
+  free(order);
+  free(undamped.gamma);
+  free(undamped.altitude[1]);
+  free(undamped.anchor[1]);
 }
 
 static void rk4(const struct canonical *canonical, double t, double end, double h, double *q, double *v,
@@ -438,6 +614,8 @@ int32_t canonical_step(const struct canonical *canonical, const char *method, do
     symplectic_euler(canonical, t, h, q, v, a);
   else if (strcmp(method, "verlet") == 0)
     verlet(canonical, t, end, h, q, v, a);
+  else if (strcmp(method, "shardlow") == 0)
+    shardlow(canonical, t, end, h, q, v, a);
   else if (strcmp(method, "heun") == 0)
     heun(canonical, t, end, h, q, v, a);
   else if (strcmp(method, "rk4") == 0)

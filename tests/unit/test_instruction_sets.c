@@ -66,6 +66,7 @@ static const struct {
     {"symplectic-euler",
      {UINT64_C(0xeac4ff2c1ebde768), UINT64_C(0xe3e810384e798ed5), UINT64_C(0x997d0a425d34f29c)}},
     {"verlet", {UINT64_C(0x0c0b17ae8c5959c0), UINT64_C(0x9d733436c6da30dd), UINT64_C(0x404e888043926249)}},
+    {"shardlow", {UINT64_C(0xebcac08d04ca37a0), UINT64_C(0x9a9e3e7cdc2eed33), UINT64_C(0x93271bf4281ec0c4)}},
     {"heun", {UINT64_C(0xbd5fd30434383e2e), UINT64_C(0x9d3f88b7dd489b5a), UINT64_C(0x05ad1f0526069e11)}},
     {"rk4", {UINT64_C(0xe4f21c7b4e25fe9d), UINT64_C(0xb8480818853f53d7), UINT64_C(0x05ad6ef5f38ebbdf)}},
     {"backward-euler",

@@ -60,7 +60,7 @@ static void move(hooke_integrator *it, int64_t from, int64_t count, void *ctx) {
     const double *f = m->f[a] + from, *g = system->has_gravity ? &system->gravity[a] : NULL;
     double *q = m->q[a] + from, *v = m->v[a] + from;
     if (half)
-      half(count, h, system->drag, w, f, g, moving->half[a] + from, q, v);
+      half(count, h, m->zero ? 0.0 : system->drag, w, f, g, moving->half[a] + from, q, v);
     else
       loop(count, h, w, f, g, q, v);
   }

@@ -36,7 +36,7 @@ static int32_t create(hooke_integrator *it) {
   it->own = own;
   const int callback = it->system->force != NULL;
   const int64_t n = it->system->particle_count, stride = n + HOOKE_LANE_UNIT;
-  own->implicit = hk_elements_are_damped(it->system) && !it->explicit_damping;
+  own->implicit = hk_elements_are_damped(it->system) && !it->explicit_damping && !it->motion->zero;
   own->predicts = own->implicit || it->explicit_damping || callback;
   if (!own->predicts) return HOOKE_OK;
   const int64_t saved = own->implicit || callback ? 2 * it->size : 0,
@@ -95,7 +95,7 @@ static void kick(hooke_integrator *it, int64_t from, int64_t count, void *ctx) {
   struct hk_motion *m = it->motion;
   const double half = it->schedule.step / 2.0, *w = system->inverse_mass + from;
   for (int a = 0; a < 3; a++) {
-    if (system->drag > 0.0)
+    if (system->drag > 0.0 && !m->zero)
       hk_kick_with_drag(count, half, system->drag, w, m->f[a] + from, gravity(system, a), m->v[a] + from);
     else
       hk_kick(count, half, w, m->f[a] + from, gravity(system, a), m->v[a] + from);

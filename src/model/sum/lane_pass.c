@@ -130,9 +130,10 @@ static void set_items(const struct hk_lanes *lanes, const uint8_t *there, struct
   }
 }
 
-/* Makes a pass of the lanes that have springs at particle `from` or whose springs end there; returns the
+/* Makes a pass, without the part `left_out` of their shapes, of the lanes that have springs at particle `from` or whose springs end there; returns the
  * particle up to which these are all, `to` at most. */
-static int64_t set_lanes(const struct hk_lanes *lanes, struct share *share, int64_t from, int64_t to) {
+static int64_t set_lanes(const struct hk_lanes *lanes, int32_t left_out, struct share *share, int64_t from,
+                         int64_t to) {
   uint8_t there[HOOKE_MOST_LANES] = {0};
   share->pass.count = 0;
   for (int32_t k = 0; k < lanes->count; k++) {
@@ -144,7 +145,8 @@ static int64_t set_lanes(const struct hk_lanes *lanes, struct share *share, int6
     to = lesser(to, end);
     if (!share->open[k]) clear_below(&share->view[k], from);
     share->open[k] = there[k] = 1;
-    share->pass.lane[share->pass.count++] = share->view[k];
+    share->pass.lane[share->pass.count] = share->view[k];
+    share->pass.lane[share->pass.count++].shape &= ~left_out;
   }
   set_items(lanes, there, share);
   return to;
@@ -153,7 +155,8 @@ static int64_t set_lanes(const struct hk_lanes *lanes, struct share *share, int6
 static void advance(const struct task *task, struct share *share, int32_t kind, int64_t to) {
   share->pass.move.kind = kind;
   for (int64_t from = share->at; from < to; from = share->at) {
-    share->at = set_lanes(&task->system->lanes, share, from, to);
+    const int32_t left_out = task->motion->zero ? HOOKE_RUN_DAMPED : 0;
+    share->at = set_lanes(&task->system->lanes, left_out, share, from, to);
     share->lost += hk_spring_set(0)->lanes(&share->pass, from, share->at);
   }
 }

@@ -65,7 +65,8 @@ static void fill_class(const struct pass *pass, struct hk_net_share *share, int6
   const struct hk_net *net = pass->net;
   const struct hk_net_class *class = &net->class[c];
   const double *low = share->rows + HOOKE_NET_ROW * (tile * HOOKE_TILE % net->rows);
-  hk_net_fill *fill = pass->motion->net->loops->fill[class->shape | (net->wide ? HOOKE_NET_WIDE : 0)];
+  const int32_t shape = pass->motion->zero ? class->shape & ~HOOKE_NET_DAMPED : class->shape;
+  hk_net_fill *fill = pass->motion->net->loops->fill[shape | (net->wide ? HOOKE_NET_WIDE : 0)];
   const int64_t first = tile > 0 ? net->tile[tile - 1].end : 0, end = share->done + count;
   while (share->done < end) {
     const int64_t at = share->done % net->ring,
