@@ -72,7 +72,7 @@ static void place(hooke_integrator *it, const double *v) {
       m->q[a][p] = old[p] + h * m->v[a][p];
     }
   }
-  if (it->system->held_count > 0) hk_motion_hold(it->system, m);
+  if (it->system->constrained_count > 0) hk_motion_hold(it->system, m);
 }
 
 /* right = -F at the motion's place, and its square F.M^-1 F. */
@@ -103,7 +103,7 @@ static void find_moved(const hooke_integrator *it, double *dq, double *dv) {
   const double h = it->schedule.step;
   const int64_t n = system->particle_count;
   for (int64_t k = 0; k < 3 * n; k++) {
-    const int held = system->held[k % n] != 0;
+    const int held = system->constrained[k % n] != 0;
     const double q = own->start[k], v = own->start[3 * n + k];
     dq[k] = held ? it->motion->q[k / n][k % n] - q : h * v;
     dv[k] = held ? it->motion->v[k / n][k % n] - v : 0.0;

@@ -76,7 +76,7 @@ static int32_t step(hooke_integrator *it) {
     if (own->start) hk_motion_restore(it->motion, own->start);
     return status;
   }
-  if (it->system->held_count > 0) hk_motion_hold(it->system, it->motion); /* kicks move them, too */
+  if (it->system->constrained_count > 0) hk_motion_hold(it->system, it->motion); /* kicks move them, too */
   hk_dampers_sweep(own->dampers, it->motion, 1);
   return HOOKE_OK;
 }

@@ -35,7 +35,7 @@ static int32_t create(hooke_integrator *it) {
   if (own == NULL) return HOOKE_NO_MEMORY;
   it->own = own;
   const int callback = it->system->force != NULL;
-  const int64_t n = it->system->particle_count, stride = n + HOOKE_LANE_UNIT;
+  const int64_t n = it->system->particle_count, stride = n + HOOKE_STRIDED_UNIT;
   own->implicit = hk_elements_are_damped(it->system) && !it->explicit_damping && !it->motion->zero;
   own->predicts = own->implicit || it->explicit_damping || callback;
   if (!own->predicts) return HOOKE_OK;
@@ -119,7 +119,7 @@ static int32_t step_undamped(hooke_integrator *it) {
   int32_t status = first_forces(it);
   if (status != HOOKE_OK) return status;
   hk_integrator_each(it, kick_and_drift, NULL);
-  if (it->system->held_count > 0) hk_motion_hold(it->system, it->motion);
+  if (it->system->constrained_count > 0) hk_motion_hold(it->system, it->motion);
   status = hk_integrator_forces_without(it, hk_integrator_next_time(it), &hk_force_drag);
   if (status == HOOKE_OK) hk_integrator_each(it, kick, NULL);
   own->kept = status == HOOKE_OK;
@@ -143,7 +143,7 @@ static double set_right(const hooke_integrator *it) {
       const double force = system->has_gravity ? m->f[a][p] + mass * system->gravity[a] : m->f[a][p];
       right[p] = half * force - mass * by;
       left += right[p] * (system->inverse_mass[p] * right[p]);
-      kicked += system->held[p] ? 0.0 : (mass * by) * by;
+      kicked += system->constrained[p] ? 0.0 : (mass * by) * by;
     }
   }
   return left < 4.0 * kicked ? sqrt(left / (4.0 * kicked)) : 1.0;
@@ -181,7 +181,7 @@ static int32_t step(hooke_integrator *it) {
   if (own->start) hk_motion_save(m, own->start);
   int32_t status = hk_integrator_pass(it, it->t, HOOKE_PREDICT, own->half);
   if (status != HOOKE_OK) return status;
-  if (it->system->held_count > 0) hk_motion_hold(it->system, m);
+  if (it->system->constrained_count > 0) hk_motion_hold(it->system, m);
   status = second_kick(it);
   if (status != HOOKE_OK && own->start) hk_motion_restore(m, own->start);
   return status;

@@ -26,7 +26,7 @@ static void add_rows(const hooke_system *system, double *stiffness, double *damp
     if (at.force == &hk_force_drag) continue;
     const double k = larger(e->k_along, e->k_across, e->over), c = larger(e->c_along, e->c_across, e->over);
     for (int j = 0; j < e->count; j++) {
-      const double row = hk_element_row(system->held, e, j);
+      const double row = hk_element_row(system->constrained, e, j);
       stiffness[e->particle[j]] += row * k;
       damping[e->particle[j]] += row * c;
     }
