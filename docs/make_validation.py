@@ -36,11 +36,13 @@ def orders() -> list[list[str]]:
     exact = np.array(numbers(re.search(r"\.position = \(const double\[\]\)\{(.*?)\}", state, re.DOTALL)[1])).reshape(-1, 3)
     known = (ROOT / "tests/data/fixed_step_errors.inc").read_text("utf-8")
     rows = [["method", *(f"h = 1/{50 << k} s" for k in range(5)), "order of the last two", "the same, computed elsewhere"]]
-    for method, newton, published in re.findall(r'\{"([\w-]+)", (?:NULL|"([\w-]+)"), \{(.*?)\}\}', known):
-        options = {"newton": newton} if newton else {}
+    word = r'(?:NULL|"([\w-]+)")'
+    row = rf'\{{"([\w-]+)", {word}, {word}, \S+, \{{(.*?)\}}\}}'
+    for method, newton, damping, published in re.findall(row, known):
+        options = {"newton": newton} if newton else {"verlet_damping": damping} if damping else {}
         error = [np.abs(hooke.run(SCENES / "six-particles.json", method=method, step=1 / (50 << k), duration=1, every=1,
                                   **options).state.q - exact).max() for k in range(5)]
-        rows.append([f"`{method}`{f', `{newton}`' if newton else ''}", *(f"{e:.3e}" for e in error),
+        rows.append([f"`{method}`{f', `{newton or damping}`' if newton or damping else ''}", *(f"{e:.3e}" for e in error),
                      f"{np.log2(error[3] / error[4]):.2f}", f"{numbers(published)[4]:.3e}"])
     return rows
 

@@ -4,8 +4,8 @@
  * problem). It belongs to one thread at a time; many integrators may share a system, each with its own state.
  *
  * Options of a run (hooke_options_create("run", ...)): method, step [s], duration [s], every [s], checkpoint [s],
- * newton, rtol, atol [m], atol_velocity [m/s], max_order, linear_solver, max_steps, past_divergence, frames_after,
- * threads.
+ * newton, verlet_damping, rtol, atol [m], atol_velocity [m/s], max_order, linear_solver, max_steps,
+ * past_divergence, frames_after, threads.
  *
  * Frames. With a fixed-step method `every` and `duration` are whole multiples of `step`; frame k is the state
  * after k m steps, frame 0 the initial one, and its time is t0 + k m step, never a running sum. Without
@@ -91,11 +91,10 @@ HOOKE_API int32_t hooke_integrator_on_progress(hooke_integrator *integrator, dou
  * HOOKE_STOPPED: an observer, force, drive or progress returned non-zero (hooke_integrator_stop_value()); the
  * state is that of the last whole step. HOOKE_DIVERGED: a component is not finite, or, without callbacks and
  * drives, the energy rose by more than 100 times what the scene had; tested at frames and every 1000 steps;
- * the state is the last one that passed, and hooke_integrator_diverged_at() tells when it was noticed. With the
- * option `past_divergence` frames come after that, until a number is not finite.
- * HOOKE_STEP_LIMIT, HOOKE_SOLVER_FAILED: the state is the last one reached. HOOKE_BAD_VALUE: no `duration`,
- * one that does not change the time of an error-controlled method, or a state with numbers that are not
- * finite. */
+ * the state is the last one that passed, and hooke_integrator_diverged_at() tells when it was noticed. With
+ * the option `past_divergence` frames come after that, until a number is not finite. HOOKE_STEP_LIMIT,
+ * HOOKE_SOLVER_FAILED: the state is the last one reached. HOOKE_BAD_VALUE: no `duration`, one that does not
+ * change the time of an error-controlled method, or a state with numbers that are not finite. */
 HOOKE_API int32_t hooke_integrator_run(hooke_integrator *integrator, hooke_state *state);
 
 /* Goes on to the end of a run from where hooke_checkpoint_read() placed the integrator and the state, or
@@ -123,12 +122,13 @@ HOOKE_API int32_t hooke_integrator_advance(hooke_integrator *integrator, int64_t
  * are not finite; HOOKE_BAD_CALL if there is no motion. */
 HOOKE_API int32_t hooke_integrator_sync(hooke_integrator *integrator, hooke_state *state);
 
-/* Positions and velocities (3 `count` each; NULL: not those) of some particles of the motion, read and written
- * at a cost that goes with their number: with error control with that of all, and writing has the method start
- * anew. Pinned particles are held where they are put; driven ones stay where their motion has them. Since
- * writing may bring any energy, only numbers that are not finite are divergence from then on. HOOKE_BAD_CALL
- * as for hooke_integrator_advance(), HOOKE_BAD_VALUE for a particle that does not exist or a number that is
- * not finite, HOOKE_UNSUITED for a first-order problem, HOOKE_NO_MEMORY; nothing is written then. */
+/* Positions and velocities (3 `count` each; NULL: not those) of some particles of the motion, read and
+ * written at a cost that goes with their number: with error control with that of all, and writing has the
+ * method start anew. Pinned particles are held where they are put; driven ones stay where their motion has
+ * them. Since writing may bring any energy, only numbers that are not finite are divergence from then on.
+ * HOOKE_BAD_CALL as for hooke_integrator_advance(), HOOKE_BAD_VALUE for a particle that does not exist or a
+ * number that is not finite, HOOKE_UNSUITED for a first-order problem, HOOKE_NO_MEMORY; nothing is written
+ * then. */
 HOOKE_API int32_t hooke_integrator_get(hooke_integrator *integrator, int64_t count, const int64_t *particles,
                                        double *q, double *v);
 HOOKE_API int32_t hooke_integrator_put(hooke_integrator *integrator, int64_t count, const int64_t *particles,
@@ -137,11 +137,13 @@ HOOKE_API int32_t hooke_integrator_put(hooke_integrator *integrator, int64_t cou
 /* ---- what it did, since it was made; after hooke_checkpoint_read() since the run began ---- */
 
 /* A count: "steps", "force_evaluations", "derivative_products", "nonlinear_iterations", "nonlinear_failures",
- * "linear_iterations", "error_test_failures", "coincident_springs" (springs without direction in the last
- * force evaluation), "memory_bytes"; "frames" that hooke_integrator_run() reports, the initial one included;
- * "recent": states that hooke_integrator_recent() has; "factor_bytes": what a factor of its equations takes,
- * which an implicit method makes where that pays; they are analysed for it. 0 if it makes none, or is told to;
- * -1 without memory, with hooke_last_error(). -1 for any other word. */
+ * "linear_iterations", "error_test_failures", "explicit_damping" (1 of verlet that takes the damping of
+ * springs at the predicted velocity, 0 where it solves for it and of anything else), "coincident_springs"
+ * (springs without direction in the last force evaluation), "memory_bytes"; "frames" that
+ * hooke_integrator_run() reports, the initial one included; "recent": states that hooke_integrator_recent()
+ * has; "factor_bytes": what a factor of its equations takes, which an implicit method makes where that pays;
+ * they are analysed for it. 0 if it makes none, or is told to; -1 without memory, with hooke_last_error(). -1
+ * for any other word. */
 HOOKE_API int64_t hooke_integrator_count(const hooke_integrator *integrator, const char *what);
 /* Time spent stepping [s], observers and output left out. */
 HOOKE_API double hooke_integrator_wall_seconds(const hooke_integrator *integrator);
@@ -156,12 +158,11 @@ HOOKE_API int32_t hooke_integrator_stop_value(const hooke_integrator *integrator
 /* Time at which divergence was noticed [s], NaN if it was not. */
 HOOKE_API double hooke_integrator_diverged_at(const hooke_integrator *integrator);
 
-/* ---- a warning before a run blows up ----
- * Told that the step is no longer safe at the time t [s]. `kind` is "near-limit" (within 5 % of
- * hooke_step_bound() there), "above-limit" or "never-stable" (the bound is 0); each is told once a run.
- * `sentence` has everything in words: step, `limit` [s] (the bound), and what determines it, `particle` and the
- * spring that weighs most there, `spring` (-1: none, or bending or an altitude spring weighs more). Return 0
- * to go on, anything else to stop the run. */
+/* ---- a warning before a run blows up ---- Told that the step is no longer safe at the time t [s]. `kind` is
+ * "near-limit" (within 5 % of hooke_step_bound() there), "above-limit" or "never-stable" (the bound is 0);
+ * each is told once a run. `sentence` has everything in words: step, `limit` [s] (the bound), and what
+ * determines it, `particle` and the spring that weighs most there, `spring` (-1: none, or bending or an
+ * altitude spring weighs more). Return 0 to go on, anything else to stop the run. */
 typedef int32_t hooke_warning(const char *kind, const char *sentence, double t, double limit, int64_t spring,
                               int64_t particle, void *ctx);
 

@@ -73,13 +73,14 @@ int32_t hooke_integrator_create(const hooke_system *system, const hooke_options 
   if (it == NULL) return status;
   it->system = system;
   it->size = 3 * system->particle_count;
-  const int32_t by_tiles = it->method->by_tiles && hk_goes_by_tiles(system);
+  it->by_tiles = it->method->by_tiles && hk_goes_by_tiles(system);
   if (!it->method->second_order) {
     status = hk_fail(HOOKE_UNSUITED, "method", "%s takes first-order problems only", it->method->name);
   }
+  if (status == HOOKE_OK && it->method->choose) status = it->method->choose(it);
   if (status == HOOKE_OK) status = gather_crew(it);
-  if (status == HOOKE_OK) status = hk_motion_create(system, by_tiles, it->pool, &it->motion);
-  if (status == HOOKE_OK) status = hk_recent_create(it->size, 1, !by_tiles, &it->recent);
+  if (status == HOOKE_OK) status = hk_motion_create(system, it->by_tiles, it->pool, &it->motion);
+  if (status == HOOKE_OK) status = hk_recent_create(it->size, 1, !it->by_tiles, &it->recent);
   return finish(it, status, out);
 }
 
@@ -206,6 +207,7 @@ int64_t hooke_integrator_count(const hooke_integrator *it, const char *what) {
       {"nonlinear_failures", c->nonlinear_failures},
       {"linear_iterations", c->linear_iterations},
       {"error_test_failures", c->error_test_failures},
+      {"explicit_damping", it->explicit_damping},
       {"coincident_springs", it->motion ? it->motion->coincident : 0},
       {"memory_bytes", memory_of(it)},
       {"frames", it->schedule.frames},

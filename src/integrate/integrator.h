@@ -80,8 +80,9 @@ struct hooke_integrator {
   int64_t size; /* numbers in q */
   void *own;    /* the method's scratch */
   int64_t own_memory;
-  int32_t may_factor; /* 1: it factorises its equations where that pays */
-  double residual;    /* that verlet's equations may keep, over their right-hand side; 0: the least */
+  int32_t may_factor;       /* 1: it factorises its equations where that pays */
+  int32_t by_tiles;         /* 1: the motion is moved by hk_integrator_pass() alone */
+  int32_t explicit_damping; /* 1: of verlet, which does not solve for the damping that there is */
 
   double t0, t;   /* where the run began, and where it is */
   double goal;    /* the time that the run loop wants next; a method that does not interpolate stops there */
@@ -126,9 +127,10 @@ int32_t hk_integrator_forces(hooke_integrator *integrator, double t);
 /* The same without one force of the table. */
 int32_t hk_integrator_forces_without(hooke_integrator *integrator, double t,
                                      const struct hk_force_row *left_out);
-/* Forces at the present time, and every particle moved under them in one of Euler's ways,
- * HOOKE_KICK_THEN_DRIFT or HOOKE_DRIFT_THEN_KICK: in one pass over memory where the forces allow it. */
-int32_t hk_integrator_move(hooke_integrator *integrator, int32_t kind);
+/* Forces at time t, and every particle moved under them, in one pass over memory where the forces allow it:
+ * in one of Euler's ways, HOOKE_KICK_THEN_DRIFT or HOOKE_DRIFT_THEN_KICK, or by a half of a Verlet step, with
+ * the velocities half-way in `half`. */
+int32_t hk_integrator_pass(hooke_integrator *integrator, double t, int32_t kind, double *const half[3]);
 /* What is done with particles `from` .. from + count - 1, by several threads for particles of their own. */
 typedef void hk_particle_work(hooke_integrator *integrator, int64_t from, int64_t count, void *ctx);
 /* For all particles that are stepped. */

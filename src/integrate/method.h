@@ -23,7 +23,8 @@ struct hk_stability {
   const char *note; /* NULL: nothing */
 };
 
-/* What a row says of itself, and how it is run. `create` and `destroy` may be NULL. All return a status. */
+/* What a row says of itself, and how it is run. `choose`, `create` and `destroy` may be NULL. All return a
+ * status. */
 struct hk_method {
   const char *name, *summary;
   const char *needs;                 /* library that it needs, NULL: none */
@@ -32,9 +33,11 @@ struct hk_method {
   int32_t adaptive;                  /* 1: chooses its steps from tolerances; 0: takes `step` */
   int32_t order;                     /* of a fixed-step method, on smooth forces */
   int32_t first_order, second_order; /* problems it takes: x' = phi(t, x); q' = v, v' = W f */
-  int32_t by_tiles;                  /* 1: steps by hk_integrator_move() alone */
+  int32_t by_tiles; /* 1: steps by hk_integrator_pass() alone, if `choose` says nothing else */
   struct hk_stability stability;
   const char *no_first_order; /* why it takes none, if not for stepping positions and velocities apart */
+  /* before there is a motion: what depends on the system and the options, `by_tiles` among it */
+  int32_t (*choose)(hooke_integrator *integrator);
   int32_t (*create)(hooke_integrator *integrator);
   void (*destroy)(hooke_integrator *integrator);
   /* forgets what it keeps of a motion that was changed by hand; NULL if it keeps nothing. An adaptive method
@@ -48,7 +51,7 @@ struct hk_method {
   int32_t (*store)(hooke_integrator *integrator, double t, hooke_state *state);
 };
 
-extern const struct hk_method hk_forward_euler, hk_symplectic_euler, hk_verlet, hk_heun, hk_rk4,
+extern const struct hk_method hk_forward_euler, hk_symplectic_euler, hk_verlet, hk_shardlow, hk_heun, hk_rk4,
     hk_backward_euler, hk_cvode_bdf, hk_cvode_adams, hk_rk8pd, hk_arkode_esdirk;
 
 /* Row of this name, or NULL; its stability, of kind unknown if there is no such method. */

@@ -3,6 +3,7 @@
 #define HOOKE_KERNEL_INSTRUCTION_SET_H
 
 #include "kernel/energy_loops.h"
+#include "kernel/damper_loops.h"
 #include "kernel/strided_loops.h"
 #include "kernel/spring_loops.h"
 #include "kernel/tangent_loops.h"
@@ -25,6 +26,7 @@
 #define HOOKE_TILED_LOOPS   HOOKE_OF_ISA(hk_tiled_loops_)
 #define HOOKE_BENDING_LOOPS HOOKE_OF_ISA(hk_bending_loops_)
 #define HOOKE_ENERGY_SET    HOOKE_OF_ISA(hk_energy_set_)
+#define HOOKE_DAMPER_LOOP   HOOKE_OF_ISA(hk_damper_loop_)
 #define HOOKE_TANGENT_SET   HOOKE_OF_ISA(hk_tangent_set_)
 #define HOOKE_TRIANGLE_SET  HOOKE_OF_ISA(hk_triangle_set_)
 #define HOOKE_VECTOR_SET    HOOKE_OF_ISA(hk_vector_set_)
@@ -34,6 +36,7 @@ hk_strided_loop HOOKE_STRIDED_LOOP;
 extern const struct hk_tiled_loops HOOKE_TILED_LOOPS;
 extern hk_bending_loop *const HOOKE_BENDING_LOOPS[HOOKE_BENDING_SHAPES];
 extern const struct hk_energy_set HOOKE_ENERGY_SET;
+hk_damper_loop HOOKE_DAMPER_LOOP;
 extern const struct hk_tangent_set HOOKE_TANGENT_SET;
 extern const struct hk_triangle_set HOOKE_TRIANGLE_SET;
 extern const struct hk_vector_set HOOKE_VECTOR_SET;

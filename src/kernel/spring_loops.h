@@ -7,6 +7,7 @@
 #define HOOKE_KERNEL_SPRING_LOOPS_H
 
 #include "kernel/bending_loops.h"
+#include "kernel/damper_loops.h"
 #include "kernel/strided_loops.h"
 
 #include <stddef.h>
@@ -51,7 +52,7 @@ struct hk_run {
   int32_t strain;
   const uint8_t *batch; /* NULL, or mixed: strided batch of each spring, which has its material */
   const struct hk_strided_material *of_batches;
-  hk_spring_loop *loop;
+  hk_spring_loop *loop, *undamped_loop; /* the second leaves damping out */
 };
 
 static inline ptrdiff_t hk_run_head(const struct hk_run *run, ptrdiff_t k) {
@@ -97,6 +98,11 @@ static inline struct hk_material hk_run_material(const struct hk_run *run, ptrdi
 typedef void hk_step_loop(ptrdiff_t count, double h, const double *w, const double *f, const double *g,
                           double *q, double *v);
 
+/* Halves of a Verlet step in the same way, HOOKE_PREDICT and HOOKE_CORRECT: see lane_loops.h. `f` is without
+ * drag in the second, which leaves q as it is. */
+typedef void hk_verlet_loop(ptrdiff_t count, double h, double drag, const double *w, const double *f,
+                            const double *g, double *half, double *q, double *v);
+
 /* The loops of one instruction set, by shape. Sets are named "avx512", "avx2", "baseline"; `set` counts from
  * the best that this machine has; NULL past the last. */
 struct hk_spring_set {
@@ -104,8 +110,10 @@ struct hk_spring_set {
   hk_spring_loop *loop[HOOKE_RUN_SHAPES];
   hk_strided_loop *strided;
   hk_step_loop *kick_then_drift, *drift_then_kick;
+  hk_verlet_loop *predict, *correct;
   hk_bending_loop *const *bending; /* by HOOKE_BENDING_* */
   const struct hk_tiled_loops *tiled;
+  hk_damper_loop *dampers;
   const struct hk_vector_set *vector;
   const struct hk_tangent_set *tangent;
   const struct hk_energy_set *energy;
@@ -115,6 +123,8 @@ const struct hk_spring_set *hk_spring_set(int32_t set);
 
 /* The loop of this machine's set for HOOKE_KICK_THEN_DRIFT or HOOKE_DRIFT_THEN_KICK. */
 hk_step_loop *hk_step_loop_of(int32_t move);
+/* That for HOOKE_PREDICT or HOOKE_CORRECT; NULL for any other. */
+hk_verlet_loop *hk_verlet_loop_of(int32_t move);
 
 /* Name of the set that is used on this machine. */
 const char *hk_kernel_instructions(void);

@@ -169,6 +169,23 @@ static __attribute__((noinline)) int64_t fill_with_care(const struct hk_strided_
   return lost;
 }
 
+/* Halves of a Verlet step, from the acceleration along axis a. */
+HOOKE_INLINE void move_half(const struct hk_move *how, ptrdiff_t p, int a, vec w, vec acceleration, double *q,
+                            double *v) {
+  const double h = how->step, kick = h / 2.0;
+  double *half = how->half[a] + p;
+  if (how->kind == HOOKE_PREDICT) {
+    const vec u = hk_load(v) + kick * acceleration;
+    hk_store(half, u);
+    hk_store(q, hk_load(q) + h * u);
+    hk_store(v, u + kick * acceleration);
+    return;
+  }
+  vec next = hk_load(half) + kick * acceleration;
+  if (how->drag > 0.0) next = next / (1.0 + (kick * how->drag) * w);
+  hk_store(v, next);
+}
+
 HOOKE_INLINE void move(const struct hk_strided_pass *pass, const struct hk_move how, ptrdiff_t p,
                        const vec sum[3]) {
   const ptrdiff_t stride = pass->stride;
@@ -183,9 +200,13 @@ HOOKE_INLINE void move(const struct hk_strided_pass *pass, const struct hk_move 
   for (int a = 0; a < 3; a++) {
     const vec x = hk_load(q + a * stride), u = hk_load(v + a * stride);
     vec acceleration = sum[a];
-    if (how.drag > 0.0) acceleration = acceleration - how.drag * u;
+    if (how.drag > 0.0 && how.kind != HOOKE_CORRECT) acceleration = acceleration - how.drag * u;
     acceleration = w * acceleration;
     if (how.heavy) acceleration = acceleration + how.gravity[a];
+    if (how.kind >= HOOKE_PREDICT) {
+      move_half(&how, p, a, w, acceleration, q + a * stride, v + a * stride);
+      continue;
+    }
     const vec next = u + h * acceleration;
     hk_store(v + a * stride, next);
     hk_store(q + a * stride, x + h * (how.kind == HOOKE_KICK_THEN_DRIFT ? next : u));

@@ -59,15 +59,25 @@ static inline ptrdiff_t hk_ring_stride(ptrdiff_t mask) {
   return mask + 1 + 3 * (ptrdiff_t)HOOKE_STRIDED_UNIT;
 }
 
-/* What is done with the sums: nothing, f = sum, or one step of Euler's methods, v += h (w f + g) and q += h
- * v(new), or q += h v(old) first; f has then c v taken away if there is drag, and a = w f if there is no
- * gravity. */
-enum { HOOKE_MOVE_NOTHING, HOOKE_MOVE_KEEP, HOOKE_KICK_THEN_DRIFT, HOOKE_DRIFT_THEN_KICK };
+/* What is done with the sums: nothing; f = sum; one step of Euler's methods, v += h (w f + g) and q += h
+ * v(new), or q += h v(old) first; or a half of a Verlet step, with u the velocity half-way:
+ *   predict   u = v + h/2 a, q += h u, v = u + h/2 a
+ *   correct   v = (u + h/2 a)/(1 + h/2 c w), or u + h/2 a without drag
+ * a = w f + g, or w f without gravity; f has c v taken away before if there is drag, but for the last. */
+enum {
+  HOOKE_MOVE_NOTHING,
+  HOOKE_MOVE_KEEP,
+  HOOKE_KICK_THEN_DRIFT,
+  HOOKE_DRIFT_THEN_KICK,
+  HOOKE_PREDICT,
+  HOOKE_CORRECT
+};
 
 struct hk_move {
   int32_t kind;
   int32_t heavy; /* there is gravity */
   double step, drag, gravity[3];
+  double *half[3]; /* u of Verlet's halves, with room as q has */
 };
 
 /* Arrays have room for HOOKE_STRIDED_UNIT more particles than there are, q and v for the largest offset

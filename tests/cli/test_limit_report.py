@@ -23,7 +23,7 @@ from pages import (
 )
 
 ROOT = Path(__file__).resolve().parents[2]
-METHODS = ["forward-euler", "symplectic-euler", "verlet", "heun", "rk4", "backward-euler"]
+METHODS = ["forward-euler", "symplectic-euler", "verlet", "shardlow", "heun", "rk4", "backward-euler"]
 SCENE = json.loads((ROOT / "examples/scenes/stiff-spring.json").read_text())
 COLOURS = {"blue": "#0057b8", "red": "#b00020"}  # of arrows, of springs to blame
 # What stands in the diagrams, in their own numbers, and pixels of the colours of the picture.
@@ -79,7 +79,7 @@ def chain(tmp_path_factory):
 def test_the_regions_are_those_of_the_methods(chain):
     rows = {row["method"]: row for row in data_of(chain[0])["rows"]}
     assert [method for method in rows if "region" in rows[method]] == ["forward-euler", "heun", "rk4"]
-    assert [method for method in rows if "reach" in rows[method]] == METHODS[:5]
+    assert [method for method in rows if "reach" in rows[method]] == METHODS[:6]
     for z in pairs(rows["forward-euler"]["region"]):
         assert abs(abs(1 + z) - 1) < 1e-12
     for z in pairs(rows["heun"]["region"]):
@@ -88,8 +88,9 @@ def test_the_regions_are_those_of_the_methods(chain):
         assert abs(abs(1 + z + z**2 / 2 + z**3 / 6 + z**4 / 24) - 1) < 1e-11
     for z in pairs(rows["symplectic-euler"]["reach"]):
         assert abs(z.real**2 + 4 * z.imag - 4) < 1e-12
-    for z in pairs(rows["verlet"]["reach"])[:150]:
-        assert abs(z.real - 2) < 1e-12
+    for method in ("verlet", "shardlow"):
+        for z in pairs(rows[method]["reach"])[:150]:
+            assert abs(z.real - 2) < 1e-12
     # the faster root of x'' + 2 d x' + w^2 x = 0 at the edge of the interval -2..0, or both on the circle
     for z in pairs(rows["forward-euler"]["reach"])[1:]:
         w, d = z.real, z.imag
@@ -107,12 +108,12 @@ def test_what_is_drawn(chain, tmp_path):
     assert swinging > 0 and max(modes["frequency"]) == pytest.approx(value["frequency_max"], rel=1e-6)
     plane, reach, picture = (seen.drawn(name) for name in ("plane", "reach", "picture"))
     assert (plane["regions"], plane["points"], plane["crosses"]) == (3, len(modes["real"]) + swinging, 0)
-    assert (reach["regions"], reach["points"], reach["crosses"]) == (5, len(modes["real"]), 0)
+    assert (reach["regions"], reach["points"], reach["crosses"]) == (6, len(modes["real"]), 0)
     assert (plane["outside"], reach["outside"], picture["outside"]) == (0, 0, 0)
     step = SCENE["run"]["step"]
     fastest = max(places(seen, "plane")[0], key=abs)
     assert abs(fastest) == pytest.approx(step * max(modes["frequency"]), rel=1e-9)
-    for name, drawn in (("plane", [0, 3, 4]), ("reach", [0, 1, 2, 3, 4])):
+    for name, drawn in (("plane", [0, 4, 5]), ("reach", [0, 1, 2, 4, 5])):  # shardlow is below verlet
         pixels = [int(n) for n in seen.drawn(name)["pixels"].split()]
         assert min(pixels[k] for k in drawn) > 100, f"{name}: {pixels} pixels of the methods' colours"
     # one spring is to blame, of seven, and its two ends move
@@ -154,7 +155,7 @@ def test_beyond_the_edge(tmp_path):
     assert seen.console == []
     plane, reach = seen.drawn("plane"), seen.drawn("reach")
     assert (plane["crosses"], reach["crosses"]) == (2, 1) and plane["outside"] == reach["outside"] == 0
-    assert "blows up by forward-euler, symplectic-euler, verlet, heun, rk4." in seen.text["stepped"]
+    assert "blows up by forward-euler, symplectic-euler, verlet, shardlow, heun, rk4." in seen.text["stepped"]
 
 
 @needs_page

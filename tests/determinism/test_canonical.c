@@ -291,7 +291,8 @@ static void test_planted_altitude(void **unused) {
   free(b);
 }
 
-/* Steps that are solved for: a velocity off by 1e-7 of its change, a position off by a bit, have to show. */
+/* Steps that are solved for: a velocity off by 1e-7 of the largest change, or 1e-3 with Verlet, which solves
+ * no better than its order needs, and a position off by a bit, have to show. */
 static void test_planted_defects(void **unused) {
   (void)unused;
   const char *methods[] = {"verlet", "backward-euler"};
@@ -311,13 +312,14 @@ static void test_planted_defects(void **unused) {
     memcpy(q1, q, (size_t)size * sizeof(double));
     memcpy(v1, v, (size_t)size * sizeof(double));
     hooke_state_set_time(state, start);
-    hooke_integrator *integrator = start_run(scene.system, (struct run){.method = methods[m], .step = h});
+    hooke_integrator *integrator =
+        start_run(scene.system, (struct run){.method = methods[m], .step = h, .verlet_damping = "implicit"});
     check_ok(hooke_integrator_step(integrator, state, 1));
     hooke_integrator_destroy(integrator);
     const struct canonical *c = &scene.canonical;
     const double end = start + h;
     check_between(canonical_defect(c, methods[m], start, end, h, q, v, q1, v1), 0.0, 1.0);
-    const double keep = q1[17], wrong = 1e-7 * largest_difference(size, v, v1);
+    const double keep = q1[17], wrong = (m == 0 ? 1e-3 : 1e-7) * largest_difference(size, v, v1);
     q1[17] = nextafter(keep, INFINITY);
     assert_true(isinf(canonical_defect(c, methods[m], start, end, h, q, v, q1, v1)));
     q1[17] = keep;

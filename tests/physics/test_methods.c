@@ -11,7 +11,7 @@
 
 static void test_table(void **unused) {
   (void)unused;
-  const char *expected[] = {"forward-euler", "symplectic-euler", "verlet",    "heun",
+  const char *expected[] = {"forward-euler", "symplectic-euler", "verlet",    "shardlow",   "heun",
                             "rk4",           "backward-euler",   "cvode-bdf", "cvode-adams"};
   for (size_t k = 0; k < sizeof expected / sizeof expected[0]; k++) {
     int64_t found = 0;

@@ -57,10 +57,15 @@ enum { CANONICAL_UNKNOWN, CANONICAL_STEPPED, CANONICAL_SOLVED };
 int32_t canonical_step(const struct canonical *canonical, const char *method, double t, double end, double h,
                        double *q, double *v);
 
-/* How far such a step from q0, v0 to q1, v1 is from solving its equations: the largest defect of a velocity,
- * over 1e-9 of the largest change of one, in the whole step or in the kick that is solved for, and what a few
- * roundings of the numbers in the equations make of it. Infinity unless positions follow from the velocities
- * to the bit. */
+/* The step [s] up to which damping may be explicit in Verlet, wherever the particles are: h^2 K + 2 h C <= 4,
+ * with rows of every spring, triple and anchor taken in the direction in which it does most. */
+double canonical_explicit_bound(const struct canonical *canonical);
+
+/* How far such a step from q0, v0 to q1, v1 is from solving its equations, over what is allowed, and what a
+ * few roundings of the numbers in the equations make of it. Of backward Euler the largest defect of a
+ * velocity, 1e-9 of the largest change of one; of Verlet the defects of all, 1e-3 of what the predicted
+ * velocity leaves, times how large that is beside the kick. Infinity unless positions follow from the
+ * velocities to the bit. */
 double canonical_defect(const struct canonical *canonical, const char *method, double t, double end, double h,
                         const double *q0, const double *v0, const double *q1, const double *v1);
 

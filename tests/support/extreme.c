@@ -84,6 +84,7 @@ void extreme_run(const hooke_system *system, struct extreme_run run, struct extr
     check_ok(hooke_integrator_on_frame(integrator, watch, &watcher));
     outcome->status = hooke_integrator_run(integrator, state);
     outcome->coincident = hooke_integrator_count(integrator, "coincident_springs");
+    outcome->explicit_damping = hooke_integrator_count(integrator, "explicit_damping") == 1;
   }
   if (outcome->status != HOOKE_OK)
     snprintf(outcome->message, sizeof outcome->message, "%s", hooke_last_error());

@@ -26,6 +26,7 @@ struct extreme_outcome {
   double energy0, energy;
   int64_t frames, wrong_frames; /* those with a number that is not finite, or an energy that is no number */
   int64_t coincident;
+  int32_t explicit_damping; /* 1: verlet took its damping at the predicted velocity */
 };
 
 /* Never fails the test: refusals are outcomes. */

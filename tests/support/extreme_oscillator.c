@@ -111,7 +111,8 @@ static void check_method(const struct extreme_oscillator *o, const struct model 
     complaint = extreme_unsound(&outcome);
   else if (hooke_method_is_adaptive(method) == 1)
     complaint = extreme_not_right(&outcome, error, 1e-5 * allowed, 1e4 * allowed);
-  else if (oscillator_step(method, model->zeta, h * model->omega, matrix))
+  else if (oscillator_step(outcome.explicit_damping ? "verlet, explicit" : method, model->zeta,
+                           h * model->omega, matrix))
     complaint = judge_known(o, model, &outcome, matrix);
   else
     complaint = outcome.status == HOOKE_OK

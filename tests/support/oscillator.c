@@ -58,6 +58,21 @@ int32_t oscillator_step(const char *method, long double zeta, long double h, lon
     const long double brake = 1.0L + c * h / 2.0L, last[4] = {1.0L, 0.0L, -h / 2.0L / brake, 1.0L / brake};
     multiply(drift, kick, m);
     multiply(last, m, m);
+  } else if (strcmp(method, "verlet, explicit") == 0) {
+    /* the velocity half-way, that ahead, and the place, by x and v */
+    const long double kick[2] = {-h / 2.0L, -c * h / 2.0L}, half[2] = {kick[0], 1.0L + kick[1]},
+                      ahead[2] = {2.0L * kick[0], 1.0L + 2.0L * kick[1]};
+    for (int k = 0; k < 2; k++) {
+      m[k] = (k == 0 ? 1.0L : 0.0L) + h * half[k];
+      m[2 + k] = half[k] - h / 2.0L * (m[k] + c * ahead[k]);
+    }
+  } else if (strcmp(method, "shardlow") == 0) {
+    const long double z = c * h / 2.0L, brake[4] = {1.0L, 0.0L, 0.0L, 1.0L / (1.0L + z + z * z / 2.0L)},
+                      kick[4] = {1.0L, 0.0L, -h / 2.0L, 1.0L}, drift[4] = {1.0L, h, 0.0L, 1.0L};
+    multiply(kick, brake, m);
+    multiply(drift, m, m);
+    multiply(kick, m, m);
+    multiply(brake, m, m);
   } else if (strcmp(method, "rk4") == 0) {
     runge_kutta(4, zeta, h, m);
   } else if (strcmp(method, "heun") == 0) {

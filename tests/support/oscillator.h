@@ -8,7 +8,8 @@
 /* x and x' at time tau from (x, x') = start. */
 void oscillator_solution(long double zeta, long double tau, const long double start[2], long double end[2]);
 
-/* One step H of a method as a matrix in rows; 0 if this file does not know the method. */
+/* One step H of a method as a matrix in rows; 0 if this file does not know the method. "verlet" solves for
+ * the damping, and "verlet, explicit" does not. */
 int32_t oscillator_step(const char *method, long double zeta, long double step, long double matrix[4]);
 
 /* end = matrix^count start, by squaring. */

@@ -37,10 +37,11 @@ const struct reference *find_reference(const char *name);
 hooke_system *build_reference(const struct reference *reference);
 
 struct reference_errors {
-  const char *method, *newton; /* newton NULL: the default */
-  double error[5];             /* steps 1/50, 1/100, 1/200, 1/400, 1/800 s */
+  const char *method, *newton, *verlet_damping; /* NULL: the default */
+  double allowed;                               /* of an error, relative */
+  double error[5];                              /* steps 1/50, 1/100, 1/200, 1/400, 1/800 s */
 };
-enum { REFERENCE_ERROR_COUNT = 6 };
+enum { REFERENCE_ERROR_COUNT = 8 };
 extern const struct reference_errors reference_errors[REFERENCE_ERROR_COUNT];
 
 #endif

@@ -14,6 +14,8 @@ hooke_options *run_options(struct run run) {
   check_ok(hooke_options_create("run", &options));
   if (run.method != NULL) check_ok(hooke_options_set_text(options, "method", run.method));
   if (run.newton != NULL) check_ok(hooke_options_set_text(options, "newton", run.newton));
+  if (run.verlet_damping != NULL)
+    check_ok(hooke_options_set_text(options, "verlet_damping", run.verlet_damping));
   if (run.linear_solver != NULL)
     check_ok(hooke_options_set_text(options, "linear_solver", run.linear_solver));
   set_number(options, "step", run.step);

@@ -10,7 +10,7 @@ struct run {
   double step, duration, every, checkpoint;
   double rtol, atol;
   int32_t threads;
-  const char *newton, *linear_solver; /* NULL: the default */
+  const char *newton, *linear_solver, *verlet_damping; /* NULL: the default */
 };
 
 /* The caller destroys what these return. */
@@ -22,8 +22,8 @@ hooke_state *start_state(const hooke_system *system);
 /* From the initial state to the end of the run; `q` and `v` (3n, or NULL) receive the final state. */
 void run_to_end(const hooke_system *system, struct run run, double *q, double *v);
 
-/* Explains why the last run ended early, for as long as that takes. The status of what fails first; then there
- * is no measurement. */
+/* Explains why the last run ended early, for as long as that takes. The status of what fails first; then
+ * there is no measurement. */
 int32_t explain_run(const hooke_integrator *integrator, hooke_measurement **why);
 
 /* 1 if this build has the method and it takes `step`. */

@@ -112,7 +112,7 @@ enum {
 /* Springs of some strided batches at random, and the rings that they go through. */
 struct lane_trial {
   struct hk_strided_pass pass;
-  double q[3][ROOM], v[3][ROOM], f[3][ROOM], w[ROOM];
+  double q[3][ROOM], v[3][ROOM], f[3][ROOM], half[3][ROOM], w[ROOM];
   double material[HOOKE_MOST_STRIDED][HOOKE_STRIDED_NUMBERS * STRIDED_PARTICLES];
   uint32_t unit[HOOKE_MOST_STRIDED][HOOKE_STRIDED_NUMBERS * UNITS];
   uint8_t present[HOOKE_MOST_STRIDED][UNITS];
@@ -186,6 +186,7 @@ static void draw_lanes(struct random_source *source, struct lane_trial *trial) {
     for (int a = 0; a < 3; a++) {
       trial->q[a][p] = copy ? trial->q[a][p - 1] : random_between(source, -1.0, 1.0);
       trial->v[a][p] = random_between(source, -1.0, 1.0);
+      trial->half[a][p] = random_between(source, -1.0, 1.0);
     }
     trial->w[p] = random_between(source, 0.5, 2.0);
   }
@@ -194,7 +195,8 @@ static void draw_lanes(struct random_source *source, struct lane_trial *trial) {
     draw_lane(source, k, random_whole(source, 0, 1) ? shape : other, trial);
   }
   draw_items(source, trial);
-  pass->move = (struct hk_move){.kind = HOOKE_MOVE_NOTHING + (int32_t)random_whole(source, 0, 3),
+  pass->move = (struct hk_move){.kind = HOOKE_MOVE_NOTHING + (int32_t)random_whole(source, 0, 5),
+                                .half = {trial->half[0], trial->half[1], trial->half[2]},
                                 .heavy = (int32_t)random_whole(source, 0, 1),
                                 .step = 0.01,
                                 .drag = random_whole(source, 0, 1) ? 0.3 : 0.0,
@@ -246,6 +248,19 @@ static int64_t sum_plainly(const struct lane_trial *trial, double (*sum)[STRIDED
   return lost;
 }
 
+static void move_half_plainly(struct lane_trial *trial, int a, int p, double rate) {
+  const struct hk_move *move = &trial->pass.move;
+  double *half = &trial->half[a][p], kick = move->step / 2.0;
+  if (move->kind == HOOKE_PREDICT) {
+    *half = trial->v[a][p] + kick * rate;
+    trial->q[a][p] += move->step * *half;
+    trial->v[a][p] = *half + kick * rate;
+  } else {
+    trial->v[a][p] = *half + kick * rate;
+    if (move->drag > 0.0) trial->v[a][p] /= 1.0 + kick * move->drag * trial->w[p];
+  }
+}
+
 static void move_plainly(struct lane_trial *trial, double (*sum)[STRIDED_PARTICLES]) {
   const struct hk_move *move = &trial->pass.move;
   for (int a = 0; a < 3; a++) {
@@ -253,8 +268,13 @@ static void move_plainly(struct lane_trial *trial, double (*sum)[STRIDED_PARTICL
       double *q = &trial->q[a][p], *v = &trial->v[a][p], f = sum[a][p], u = *v;
       if (move->kind == HOOKE_MOVE_KEEP) trial->f[a][p] = f;
       if (move->kind == HOOKE_MOVE_KEEP || move->kind == HOOKE_MOVE_NOTHING) continue;
-      if (move->drag > 0.0) f -= move->drag * u;
-      *v += move->step * (move->heavy ? trial->w[p] * f + move->gravity[a] : trial->w[p] * f);
+      if (move->drag > 0.0 && move->kind != HOOKE_CORRECT) f -= move->drag * u;
+      const double rate = move->heavy ? trial->w[p] * f + move->gravity[a] : trial->w[p] * f;
+      if (move->kind >= HOOKE_PREDICT) {
+        move_half_plainly(trial, a, p, rate);
+        continue;
+      }
+      *v += move->step * rate;
       *q += move->step * (move->kind == HOOKE_KICK_THEN_DRIFT ? *v : u);
     }
   }
@@ -282,6 +302,8 @@ static void compare_lanes(struct random_source *source, struct lane_trial *trial
     int64_t at = 0, found_lost = 0;
     *found = *trial;
     found->pass.q = found->q[0], found->pass.v = found->v[0], found->pass.f = found->f[0];
+    for (int a = 0; a < 3; a++)
+      found->pass.move.half[a] = found->half[a];
     use_own_rings(found, trial);
     while (at < STRIDED_PARTICLES) {
       const int64_t units = random_whole(source, 1, random_whole(source, 0, 1) ? 5 : UNITS), from = at;
@@ -294,6 +316,7 @@ static void compare_lanes(struct random_source *source, struct lane_trial *trial
       check_same_bits(ROOM, found->q[a], expected->q[a]);
       check_same_bits(ROOM, found->v[a], expected->v[a]);
       check_same_bits(ROOM, found->f[a], expected->f[a]);
+      check_same_bits(ROOM, found->half[a], expected->half[a]);
     }
   }
   free(found);

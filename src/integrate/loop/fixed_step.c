@@ -44,27 +44,43 @@ void hk_integrator_each(hooke_integrator *it, hk_particle_work *work, void *ctx)
   hk_pool_run(it->motion->pool, work_on_share, &(struct sharing){it, work, ctx});
 }
 
+struct moving {
+  int32_t kind;
+  double *const *half;
+};
+
 static void move(hooke_integrator *it, int64_t from, int64_t count, void *ctx) {
-  hk_step_loop *loop = hk_step_loop_of(*(const int32_t *)ctx);
+  const struct moving *moving = ctx;
+  hk_step_loop *loop = hk_step_loop_of(moving->kind);
+  hk_verlet_loop *half = hk_verlet_loop_of(moving->kind);
   const hooke_system *system = it->system;
   const struct hk_motion *m = it->motion;
+  const double h = it->schedule.step, *w = system->inverse_mass + from;
   for (int a = 0; a < 3; a++) {
-    loop(count, it->schedule.step, system->inverse_mass + from, m->f[a] + from,
-         system->has_gravity ? &system->gravity[a] : NULL, m->q[a] + from, m->v[a] + from);
+    const double *f = m->f[a] + from, *g = system->has_gravity ? &system->gravity[a] : NULL;
+    double *q = m->q[a] + from, *v = m->v[a] + from;
+    if (half)
+      half(count, h, m->zero ? 0.0 : system->drag, w, f, g, moving->half[a] + from, q, v);
+    else
+      loop(count, h, w, f, g, q, v);
   }
 }
 
-int32_t hk_integrator_move(hooke_integrator *it, int32_t kind) {
+static int32_t pass_by_tiles(hooke_integrator *it, int32_t kind, double *const half[3]) {
   const hooke_system *system = it->system;
-  if (it->motion->f[0] == NULL) {
-    struct hk_move how = {kind, system->has_gravity, it->schedule.step, system->drag, {0.0}};
-    memcpy(how.gravity, system->gravity, sizeof how.gravity);
-    it->count.force_evaluations++;
-    hk_motion_pass(system, it->motion, &how);
-    return HOOKE_OK;
-  }
-  const int32_t status = hk_integrator_forces(it, it->t);
-  if (status == HOOKE_OK) hk_integrator_each(it, move, &kind);
+  struct hk_move how = {
+      .kind = kind, .heavy = system->has_gravity, .step = it->schedule.step, .drag = system->drag};
+  memcpy(how.gravity, system->gravity, sizeof how.gravity);
+  if (half) memcpy(how.half, half, sizeof how.half);
+  it->count.force_evaluations++;
+  hk_motion_pass(system, it->motion, &how);
+  return HOOKE_OK;
+}
+
+int32_t hk_integrator_pass(hooke_integrator *it, double t, int32_t kind, double *const half[3]) {
+  if (it->by_tiles) return pass_by_tiles(it, kind, half);
+  const int32_t status = hk_integrator_forces_without(it, t, kind == HOOKE_CORRECT ? &hk_force_drag : NULL);
+  if (status == HOOKE_OK) hk_integrator_each(it, move, &(struct moving){kind, half});
   return status;
 }
 

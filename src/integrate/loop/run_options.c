@@ -47,6 +47,13 @@ static const struct hk_option_row run_rows[] = {
      .fallback = "converged",
      .doc = "how backward-euler solves its step: converged, or one-iteration (linearised at the start of the "
             "step)"},
+    {.name = "verlet_damping",
+     .type = HOOKE_OPTION_CHOICE,
+     .words = "auto explicit implicit",
+     .fallback = "auto",
+     .doc =
+         "how verlet takes the damping of springs: at the predicted velocity (explicit), by solving for it "
+         "(implicit), or explicitly where that is stable for certain (auto)"},
     {.name = "rtol",
      .type = HOOKE_OPTION_NUMBER,
      .low = 1e-15,

@@ -11,7 +11,7 @@ static int32_t step_rate(hooke_integrator *it) {
 
 static int32_t step(hooke_integrator *it) {
   if (it->rate) return step_rate(it);
-  return hk_integrator_move(it, HOOKE_DRIFT_THEN_KICK);
+  return hk_integrator_pass(it, it->t, HOOKE_DRIFT_THEN_KICK, NULL);
 }
 
 const struct hk_method hk_forward_euler = {.name = "forward-euler",

@@ -1,13 +1,15 @@
 /* Velocity Verlet (Swope and others 1982), order 2, as kick, drift, kick:
  *   v_half = v + h/2 a(t, q, v),  q' = q + h v_half,  v' = v_half + h/2 a(t + h, q', v')
- * The second kick takes the damping at the new velocity, which keeps the order and the limit h w = 2. With
- * spring damping it is solved for, with D = df/dv at (q', v_half):
- *   (M - h/2 D) (v' - v_half) = h/2 (f(t + h, q', v_half) + M g)
- * which is M v' = M v_half + h/2 (f(q', 0) + D v' + M g) written for the change. D is that of the springs,
- * altitude springs and drag: a callback sees v_half. A spring that only pulls counts if it pulls at (q',
- * v_half), else not at all. Drag alone is a division. */
+ * Where forces depend on velocities, the second kick takes them at the predicted velocity
+ *   v_pred = v_half + h/2 a(t, q, v)
+ * (Groot and Warren 1997, with lambda = 1), which is of order 2 and keeps nothing across steps; or, where
+ * that may be unstable, solves for the new velocity, with D = df/dv at (q', v_pred):
+ *   (M - h/2 D) (v' - v_pred) = h/2 (f(t + h, q', v_pred) + M g) - M (v_pred - v_half)
+ * D is that of the springs, altitude springs and drag: a callback sees v_pred. A spring that only pulls counts
+ * if it pulls at (q', v_pred), else not at all. Drag alone, and with explicit damping, is a division. */
 #include "core/memory.h"
 #include "core/status.h"
+#include "integrate/method/verlet_damping.h"
 #include "integrate/solve/reduced.h"
 #include "kernel/step_loops.h"
 #include "model/force/force.h"
@@ -15,29 +17,40 @@
 #include <math.h>
 #include <stddef.h>
 
-static const double RESIDUAL = 1e-13;
+/* The residual, over that of the predicted velocity: what the solve leaves is a part of what the step does.
+ * */
+static const double PART = 1e-3, LEAST_RESIDUAL = 1e-13;
 
 struct verlet {
-  int32_t damped, callback;
+  int32_t implicit, predicts;
   int32_t kept;              /* motion->f is the force of the springs at q, to which only drag is missing */
-  struct hk_reduced reduced; /* damped */
-  double *start;             /* damped or callback: q and v at the start of the step */
-  double *right, *change;    /* damped: 3n each */
+  struct hk_reduced reduced; /* implicit */
+  double *numbers;           /* all arrays below */
+  double *half[3];           /* predicts: velocities half-way, with room as in the motion */
+  double *start;             /* implicit or callback: q and v at the start of the step */
+  double *right, *change;    /* implicit: 3n each */
 };
 
 static int32_t create(hooke_integrator *it) {
   struct verlet *own = hk_new(1, sizeof *own);
   if (own == NULL) return HOOKE_NO_MEMORY;
   it->own = own;
-  own->damped = hk_elements_are_damped(it->system);
-  own->callback = it->system->force != NULL;
-  if (!own->damped && !own->callback) return HOOKE_OK;
-  const int64_t numbers = (own->damped ? 4 : 2) * it->size;
-  own->start = hk_new(numbers, sizeof(double));
-  if (own->start == NULL) return HOOKE_NO_MEMORY;
+  const int callback = it->system->force != NULL;
+  const int64_t n = it->system->particle_count, stride = n + HOOKE_STRIDED_UNIT;
+  own->implicit = hk_elements_are_damped(it->system) && !it->explicit_damping && !it->motion->zero;
+  own->predicts = own->implicit || it->explicit_damping || callback;
+  if (!own->predicts) return HOOKE_OK;
+  const int64_t saved = own->implicit || callback ? 2 * it->size : 0,
+                solved = own->implicit ? 2 * it->size : 0;
+  const int64_t numbers = 3 * stride + saved + solved;
+  own->numbers = hk_new(numbers, sizeof(double));
+  if (own->numbers == NULL) return HOOKE_NO_MEMORY;
   it->own_memory += numbers * (int64_t)sizeof(double);
-  if (!own->damped) return HOOKE_OK;
-  own->right = own->start + 2 * it->size;
+  for (int a = 0; a < 3; a++)
+    own->half[a] = own->numbers + a * stride;
+  if (saved) own->start = own->numbers + 3 * stride;
+  if (!own->implicit) return HOOKE_OK;
+  own->right = own->start + saved;
   own->change = own->right + it->size;
   return hk_reduced_create(it, HOOKE_REDUCED_SYMMETRIC, &own->reduced);
 }
@@ -45,7 +58,7 @@ static int32_t create(hooke_integrator *it) {
 static void destroy(hooke_integrator *it) {
   struct verlet *own = it->own;
   hk_reduced_release(&own->reduced);
-  hk_free(own->start);
+  hk_free(own->numbers);
   hk_free(own);
   it->own = NULL;
 }
@@ -66,40 +79,15 @@ static const double *gravity(const hooke_system *system, int axis) {
   return system->has_gravity ? &system->gravity[axis] : NULL;
 }
 
-/* The force at the start of a step. Without spring damping and callback it is that of the springs, which the
- * step before has left, and drag: the same sum to the bit. */
+/* The force at the start of a step that predicts nothing: that of the springs, which the step before has
+ * left, and drag: the same sum to the bit. */
 static int32_t first_forces(hooke_integrator *it) {
   struct verlet *own = it->own;
-  if (own->damped || own->callback) return hk_integrator_forces(it, it->t);
   const int32_t status = own->kept ? HOOKE_OK : hk_integrator_forces_without(it, it->t, &hk_force_drag);
   if (!own->kept && it->k > 0) it->count.force_evaluations--; /* as the run counted it that came here */
   own->kept = 0;
   if (status != HOOKE_OK || it->system->drag == 0.0) return status;
   return hk_force_drag.add(it->system, it->motion, it->t);
-}
-
-/* The second kick of damped springs. */
-static int32_t solve(hooke_integrator *it) {
-  struct verlet *own = it->own;
-  const hooke_system *system = it->system;
-  const struct hk_motion *m = it->motion;
-  const double half = it->schedule.step / 2.0;
-  for (int a = 0; a < 3; a++) {
-    double *right = own->right + a * m->n;
-    for (int64_t p = 0; p < m->n; p++)
-      right[p] =
-          half * (system->has_gravity ? m->f[a][p] + system->mass[p] * system->gravity[a] : m->f[a][p]);
-  }
-  hk_reduced_set(&own->reduced, hk_integrator_next_time(it), 0.0, half);
-  struct hk_solution solution;
-  int32_t status =
-      hk_reduced_solve(&own->reduced, own->right, fmax(RESIDUAL, it->residual), own->change, &solution);
-  if (status == HOOKE_OK && !solution.converged) status = hk_reduced_fail(&own->reduced, &solution);
-  for (int a = 0; a < 3 && status == HOOKE_OK; a++) {
-    for (int64_t p = 0; p < m->n; p++)
-      m->v[a][p] += own->change[a * m->n + p];
-  }
-  return status;
 }
 
 static void kick(hooke_integrator *it, int64_t from, int64_t count, void *ctx) {
@@ -108,24 +96,11 @@ static void kick(hooke_integrator *it, int64_t from, int64_t count, void *ctx) {
   struct hk_motion *m = it->motion;
   const double half = it->schedule.step / 2.0, *w = system->inverse_mass + from;
   for (int a = 0; a < 3; a++) {
-    if (system->drag > 0.0)
+    if (system->drag > 0.0 && !m->zero)
       hk_kick_with_drag(count, half, system->drag, w, m->f[a] + from, gravity(system, a), m->v[a] + from);
     else
       hk_kick(count, half, w, m->f[a] + from, gravity(system, a), m->v[a] + from);
   }
-}
-
-static int32_t second_kick(hooke_integrator *it) {
-  struct verlet *own = it->own;
-  const double t = hk_integrator_next_time(it);
-  if (own->damped) {
-    const int32_t status = hk_integrator_forces(it, t);
-    return status == HOOKE_OK ? solve(it) : status;
-  }
-  const int32_t status = hk_integrator_forces_without(it, t, &hk_force_drag);
-  if (status == HOOKE_OK) hk_integrator_each(it, kick, NULL);
-  own->kept = status == HOOKE_OK && !own->callback;
-  return status;
 }
 
 static void kick_and_drift(hooke_integrator *it, int64_t from, int64_t count, void *ctx) {
@@ -139,13 +114,74 @@ static void kick_and_drift(hooke_integrator *it, int64_t from, int64_t count, vo
   }
 }
 
-static int32_t step(hooke_integrator *it) {
-  const struct verlet *own = it->own;
-  struct hk_motion *m = it->motion;
-  if (own->start) hk_motion_save(m, own->start);
+/* A step of springs whose forces depend on positions alone, and of drag. */
+static int32_t step_undamped(hooke_integrator *it) {
+  struct verlet *own = it->own;
   int32_t status = first_forces(it);
   if (status != HOOKE_OK) return status;
   hk_integrator_each(it, kick_and_drift, NULL);
+  if (it->system->constrained_count > 0) hk_motion_hold(it->system, it->motion);
+  status = hk_integrator_forces_without(it, hk_integrator_next_time(it), &hk_force_drag);
+  if (status == HOOKE_OK) hk_integrator_each(it, kick, NULL);
+  own->kept = status == HOOKE_OK;
+  return status;
+}
+
+/* ---- the second kick, solved for ---- */
+
+/* The right side; returns how large it is beside the whole step's kick, both as squares of velocities times
+ * masses. */
+static double set_right(const hooke_integrator *it) {
+  const struct verlet *own = it->own;
+  const hooke_system *system = it->system;
+  const struct hk_motion *m = it->motion;
+  const double half = it->schedule.step / 2.0;
+  double left = 0.0, kicked = 0.0;
+  for (int a = 0; a < 3; a++) {
+    double *right = own->right + a * m->n;
+    for (int64_t p = 0; p < m->n; p++) {
+      const double mass = system->mass[p], by = m->v[a][p] - own->half[a][p];
+      const double force = system->has_gravity ? m->f[a][p] + mass * system->gravity[a] : m->f[a][p];
+      right[p] = half * force - mass * by;
+      left += right[p] * (system->inverse_mass[p] * right[p]);
+      kicked += system->constrained[p] ? 0.0 : (mass * by) * by;
+    }
+  }
+  return left < 4.0 * kicked ? sqrt(left / (4.0 * kicked)) : 1.0;
+}
+
+static int32_t solve(hooke_integrator *it) {
+  struct verlet *own = it->own;
+  const struct hk_motion *m = it->motion;
+  const double part = PART * set_right(it), tolerance = part > LEAST_RESIDUAL ? part : LEAST_RESIDUAL;
+  hk_reduced_set(&own->reduced, hk_integrator_next_time(it), 0.0, it->schedule.step / 2.0);
+  struct hk_solution solution;
+  int32_t status = hk_reduced_solve(&own->reduced, own->right, tolerance, own->change, &solution);
+  if (status == HOOKE_OK && !solution.converged) status = hk_reduced_fail(&own->reduced, &solution);
+  for (int a = 0; a < 3 && status == HOOKE_OK; a++) {
+    for (int64_t p = 0; p < m->n; p++)
+      m->v[a][p] += own->change[a * m->n + p];
+  }
+  return status;
+}
+
+/* ---- a step that predicts the velocity ---- */
+
+static int32_t second_kick(hooke_integrator *it) {
+  const struct verlet *own = it->own;
+  const double t = hk_integrator_next_time(it);
+  if (!own->implicit) return hk_integrator_pass(it, t, HOOKE_CORRECT, own->half);
+  const int32_t status = hk_integrator_forces(it, t);
+  return status == HOOKE_OK ? solve(it) : status;
+}
+
+static int32_t step(hooke_integrator *it) {
+  const struct verlet *own = it->own;
+  struct hk_motion *m = it->motion;
+  if (!own->predicts) return step_undamped(it);
+  if (own->start) hk_motion_save(m, own->start);
+  int32_t status = hk_integrator_pass(it, it->t, HOOKE_PREDICT, own->half);
+  if (status != HOOKE_OK) return status;
   if (it->system->constrained_count > 0) hk_motion_hold(it->system, m);
   status = second_kick(it);
   if (status != HOOKE_OK && own->start) hk_motion_restore(m, own->start);
@@ -154,11 +190,13 @@ static int32_t step(hooke_integrator *it) {
 
 const struct hk_method hk_verlet = {
     .name = "verlet",
-    .summary = "fixed step, order 2; keeps undamped motion bounded, damping implicit",
+    .summary = "fixed step, order 2; keeps undamped motion bounded, and damping leaves its limit",
     .built = 1,
     .order = 2,
     .second_order = 1,
     .stability = {.kind = HOOKE_STABLE_BY_K, .damps_implicitly = 1},
+    .by_tiles = 1,
+    .choose = hk_verlet_choose,
     .create = create,
     .destroy = destroy,
     .forget = forget,

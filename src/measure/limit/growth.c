@@ -14,8 +14,6 @@
  * of them become one. */
 enum { WINDOWS = 96, FIRST_WINDOW = 16, SAMPLES = 4, BLOCKS = 3 };
 static const double RANDOM_SHARE = 1e-3;
-/* Of the accuracy: what may be left of linear equations changes growth by less than can be told apart. */
-static const double SHARE_OF_ACCURACY = 1e-6;
 static const double SCALE_DOWN = 5.0; /* log of the amplitude at which displacements are scaled back */
 /* Less than that in the log of the amplitude may be part of a slow oscillation, unless all steps are
  * taken or it is the straight line of a known direction. */
@@ -158,7 +156,8 @@ static double certain_rise(const struct hk_growth *growth) {
   return log(30.0 / sqrt(0.5 * growth->accuracy));
 }
 
-/* Four swings of the energy of an undamped mode at such a distance below the limit, pi/sqrt(8 e) steps each. */
+/* Four swings of the energy of an undamped mode at such a distance below the limit, pi/sqrt(8 e) steps each.
+ * */
 static int64_t least_steps(const struct hk_growth *growth) {
   return (int64_t)(10.0 / sqrt(growth->accuracy));
 }
@@ -252,7 +251,6 @@ int32_t hk_growth_see(struct hk_growth *growth, double step, int32_t thorough, i
   if (status == HOOKE_OK) status = hooke_integrator_create(growth->twin->system, growth->run, &integrator);
   if (status != HOOKE_OK) return status;
   hooke_integrator_on_progress(integrator, 0.0, watch, growth);
-  integrator->residual = SHARE_OF_ACCURACY * growth->accuracy;
   start(growth, step, thorough);
   status = go(growth, integrator, thorough, most_steps, verdict);
   hooke_integrator_destroy(integrator);

@@ -23,6 +23,8 @@ struct hk_element {
   double weight[4], u[3]; /* u is 0 where the element has no direction: it is alike in all of them */
   double k_along, k_across, c_along, c_across;
   double over; /* the four numbers are to be divided by this one, which is 1 unless velocities are given */
+  int32_t pull_only; /* 1: only pulls, with this tension where nothing moves [N]; given q and no v */
+  double elastic;
 };
 
 /* A walk over elements: for (hk_begin_elements(system, q, v, &at); (e = hk_next_element(&at)) != NULL;) At

@@ -19,7 +19,9 @@ static int32_t present(const hooke_system *system) {
 static int32_t add(const hooke_system *system, struct hk_motion *motion, double t) {
   (void)t;
   const double *const q[3] = {motion->q[0], motion->q[1], motion->q[2]};
-  const double *const v[3] = {motion->v[0], motion->v[1], motion->v[2]};
+  const double *const still = motion->zero;
+  const double *const v[3] = {still ? still : motion->v[0], still ? still : motion->v[1],
+                              still ? still : motion->v[2]};
   hk_altitude_add(system->altitudes.count, system->altitudes.tetrahedron, q, v, motion->f);
   return HOOKE_OK;
 }
@@ -144,6 +146,8 @@ static void elements(const hooke_system *system, const double *q, const double *
     out[k].over = v ? rest : 1.0;
     out[k].k_along = v ? t.stiffness : t.stiffness / rest;
     out[k].c_along = v ? t.damping : t.damping / rest;
+    out[k].pull_only = system->altitudes.tetrahedron[first + k].pull_only;
+    out[k].elastic = s.elastic;
   }
 }
 

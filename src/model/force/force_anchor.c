@@ -208,7 +208,8 @@ static int32_t add(const hooke_system *system, struct hk_motion *motion, double 
     const double d[3] = {q[0][p] - a->point[0], q[1][p] - a->point[1], q[2][p] - a->point[2]};
     const double r = hk_spring_length(d[0], d[1], d[2]), ir = hk_spring_inverse_length(r);
     const double rate = ((v[0][p] * d[0] + v[1][p] * d[1]) + v[2][p] * d[2]) * ir;
-    const double s = hk_spring_tension(r, a->rest_length, a->kappa, a->gamma * rate, a->gamma != 0.0, 0) * ir;
+    const int is_damped = a->gamma != 0.0 && motion->zero == NULL;
+    const double s = hk_spring_tension(r, a->rest_length, a->kappa, a->gamma * rate, is_damped, 0) * ir;
     for (int c = 0; c < 3; c++)
       motion->f[c][p] -= s * d[c];
   }

@@ -20,6 +20,7 @@ static void brake(const hooke_system *system, struct hk_motion *motion, int64_t 
 static int32_t add(const hooke_system *system, struct hk_motion *motion, double t) {
   (void)t;
   int64_t from = 0;
+  if (motion->zero) return HOOKE_OK;
   for (int64_t k = 0; k < system->constrained_count; k++) {
     brake(system, motion, from, system->constrained_particle[k]);
     from = system->constrained_particle[k] + 1;

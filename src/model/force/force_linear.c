@@ -29,7 +29,7 @@ static int32_t add(const hooke_system *system, struct hk_motion *motion, double 
       const int64_t p = e->particle[j];
       for (int a = 0; a < 3; a++) {
         x[a] += e->weight[j] * (motion->q[a][p] - linear->place[3 * p + a]);
-        v[a] += e->weight[j] * motion->v[a][p];
+        v[a] += e->weight[j] * (motion->zero ? 0.0 : motion->v[a][p]);
       }
     }
     const double along =
@@ -77,6 +77,8 @@ static void elements(const hooke_system *system, const double *q, const double *
                      int64_t wanted, struct hk_element *out) {
   (void)q, (void)v;
   memcpy(out, system->linear.element + first, (size_t)wanted * sizeof *out);
+  for (int64_t k = 0; k < wanted; k++)
+    out[k].pull_only = 0;
 }
 
 static void multiply(const hooke_system *system, double a, double b, const double *const x[3],

@@ -30,7 +30,7 @@ static int32_t add(const hooke_system *system, struct hk_motion *motion, double 
   int64_t coincident = 0;
   for (int64_t k = 0; k < system->springs.run_count; k++) {
     const struct hk_run *run = &system->springs.run[k];
-    coincident += run->loop(run, &fields);
+    coincident += motion->zero ? run->undamped_loop(run, &fields) : run->loop(run, &fields);
   }
   motion->coincident = coincident;
   return 0;
@@ -200,6 +200,8 @@ void hk_spring_element(const struct hk_spring *spring, const double *q, const do
   out->c_along = acts ? spring->gamma : 0.0;
   out->c_across = 0.0;
   out->over = 1.0;
+  out->pull_only = spring->pull_only;
+  out->elastic = s.elastic;
 }
 
 static void elements(const hooke_system *system, const double *q, const double *v, int64_t first,

@@ -18,6 +18,7 @@ struct hk_motion {
   const int32_t *order;       /* particle that has a working number; NULL: numbers are the caller's */
   int32_t *number;            /* the other way; NULL until hk_motion_know_numbers() */
   const double *w;            /* inverse masses */
+  const double *zero;         /* n zeros: forces are without damping, drag included; NULL: with it */
   double *rows;               /* 9n: q, v and force in rows, for a callback; NULL without one */
   double *still;              /* positions of anchored particles, 3 each */
   double *driven;             /* q and v of each drive in turn, 3 a particle each */

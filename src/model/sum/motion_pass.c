@@ -35,10 +35,15 @@ static void move_tile(int64_t from, int64_t count, double *const f[3], void *ctx
   const struct hk_motion *m = to->motion;
   const struct hk_move *move = to->move;
   hk_step_loop *loop = hk_step_loop_of(move->kind);
-  if (move->drag > 0.0) brake(move->drag, from, count, m, f);
+  hk_verlet_loop *half = hk_verlet_loop_of(move->kind);
+  if (move->drag > 0.0 && move->kind != HOOKE_CORRECT) brake(move->drag, from, count, m, f);
   for (int a = 0; a < 3; a++) {
-    loop(count, move->step, m->w + from, f[a], move->heavy ? &move->gravity[a] : NULL, m->q[a] + from,
-         m->v[a] + from);
+    const double *w = m->w + from, *g = move->heavy ? &move->gravity[a] : NULL;
+    double *q = m->q[a] + from, *v = m->v[a] + from;
+    if (half)
+      half(count, move->step, move->drag, w, f[a], g, move->half[a] + from, q, v);
+    else
+      loop(count, move->step, w, f[a], g, q, v);
   }
 }
 

@@ -83,6 +83,7 @@ static void add_run(struct sorter *sorter, const struct hk_group *g, int64_t fro
     if (indexed) copy_ends(sorter, run, g, from);
     if (mixed) copy_material(sorter, run, g, from);
     run->loop = hk_spring_set(0)->loop[run->shape];
+    run->undamped_loop = hk_spring_set(0)->loop[run->shape & ~HOOKE_RUN_DAMPED];
     sorter->springs->count += count;
   }
   sorter->runs++;

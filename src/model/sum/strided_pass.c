@@ -132,10 +132,10 @@ static void set_items(const struct hk_strided_batches *strided, const uint8_t *t
   }
 }
 
-/* Makes a pass of the batches that have springs at particle `from` or whose springs end there; returns the
- * particle up to which these are all, `to` at most. */
-static int64_t set_strided(const struct hk_strided_batches *strided, struct partition *partition,
-                           int64_t from, int64_t to) {
+/* Makes a pass of the batches that have springs at particle `from` or whose springs end there, without the
+ * part `left_out` of their shapes; returns the particle up to which these are all, `to` at most. */
+static int64_t set_strided(const struct hk_strided_batches *strided, int32_t left_out,
+                           struct partition *partition, int64_t from, int64_t to) {
   uint8_t there[HOOKE_MOST_STRIDED] = {0};
   partition->pass.count = 0;
   for (int32_t k = 0; k < strided->count; k++) {
@@ -147,7 +147,8 @@ static int64_t set_strided(const struct hk_strided_batches *strided, struct part
     to = lesser(to, end);
     if (!partition->open[k]) clear_below(&partition->view[k], from);
     partition->open[k] = there[k] = 1;
-    partition->pass.batch[partition->pass.count++] = partition->view[k];
+    partition->pass.batch[partition->pass.count] = partition->view[k];
+    partition->pass.batch[partition->pass.count++].shape &= ~left_out;
   }
   set_items(strided, there, partition);
   return to;
@@ -156,7 +157,8 @@ static int64_t set_strided(const struct hk_strided_batches *strided, struct part
 static void advance(const struct task *task, struct partition *partition, int32_t kind, int64_t to) {
   partition->pass.move.kind = kind;
   for (int64_t from = partition->at; from < to; from = partition->at) {
-    partition->at = set_strided(&task->system->strided, partition, from, to);
+    const int32_t left_out = task->motion->zero ? HOOKE_RUN_DAMPED : 0;
+    partition->at = set_strided(&task->system->strided, left_out, partition, from, to);
     partition->lost += hk_spring_set(0)->strided(&partition->pass, from, partition->at);
   }
 }

@@ -66,7 +66,8 @@ static void fill_kind(const struct pass *pass, struct hk_tiled_partition *partit
   const struct hk_tiled *tiled = pass->tiled;
   const struct hk_tiled_kind *kind = &tiled->kind[c];
   const double *low = partition->rows + HOOKE_TILED_ROW * (tile * HOOKE_TILE % tiled->rows);
-  hk_tiled_fill *fill = pass->motion->tiled->loops->fill[kind->shape | (tiled->wide ? HOOKE_TILED_WIDE : 0)];
+  const int32_t shape = pass->motion->zero ? kind->shape & ~HOOKE_TILED_DAMPED : kind->shape;
+  hk_tiled_fill *fill = pass->motion->tiled->loops->fill[shape | (tiled->wide ? HOOKE_TILED_WIDE : 0)];
   const int64_t first = tile > 0 ? tiled->tile[tile - 1].end : 0, end = partition->done + count;
   while (partition->done < end) {
     const int64_t at = partition->done % tiled->ring,

@@ -1,5 +1,6 @@
 /* Free fall with drag, from none to a million times what a step resolves. With z = h c/m and the terminal
- * velocity w = g m/c: v = w + (v0 - w) A^n, where A is what the method makes of exp(-z). */
+ * velocity w = g m/c: v = w + (v0 - w) A^n, where A is what the method makes of exp(-z). Dampers that are
+ * split off make another w of it: v' = B (B v + h g) with A = B^2. */
 #include "check.h"
 #include "extreme.h"
 
@@ -14,6 +15,8 @@ static long double factor(const char *method, long double z, int *known) {
   *known = 1;
   if (strcmp(method, "forward-euler") == 0 || strcmp(method, "symplectic-euler") == 0) return 1.0L - z;
   if (strcmp(method, "verlet") == 0) return (1.0L - z / 2.0L) / (1.0L + z / 2.0L);
+  if (strcmp(method, "shardlow") == 0)
+    return 1.0L / ((1.0L + z / 2.0L + z * z / 8.0L) * (1.0L + z / 2.0L + z * z / 8.0L));
   if (strcmp(method, "backward-euler") == 0) return 1.0L / (1.0L + z);
   if (strcmp(method, "heun") == 0) return 1.0L - z * (1.0L - z / 2.0L);
   if (strcmp(method, "rk4") == 0) return 1.0L - z * (1.0L - z / 2.0L * (1.0L - z / 3.0L * (1.0L - z / 4.0L)));
@@ -37,7 +40,9 @@ static void check_method(const hooke_system *system, const char *name, const cha
   if (known && fabsl(a) > 1.0L) {
     complaint = extreme_not_ended(&outcome, HOOKE_DIVERGED, "diverged");
   } else if (known) {
-    const long double there = drag > 0.0 ? terminal * (1.0L - powl(a, (long double)steps)) : right;
+    const long double own =
+        strcmp(method, "shardlow") == 0 ? -FALL * (long double)h * sqrtl(a) / (1.0L - a) : terminal;
+    const long double there = drag > 0.0 ? own * (1.0L - powl(a, (long double)steps)) : right;
     complaint = extreme_not_right(&outcome, (double)fabsl((outcome.v[1] - there) / there), 0.0, 1e-12);
   } else if (outcome.status == HOOKE_STEP_LIMIT && z > 1e3) {
     complaint = extreme_unsound(&outcome);

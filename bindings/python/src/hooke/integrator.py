@@ -38,6 +38,7 @@ COUNTS = (
     "nonlinear_failures",
     "linear_iterations",
     "error_test_failures",
+    "explicit_damping",
     "coincident_springs",
     "memory_bytes",
 )

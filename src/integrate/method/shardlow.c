@@ -1,0 +1,96 @@
+/* Velocity Verlet with its damping split off (Shardlow 2003, with Strang's splitting): every damper is
+ * applied to its pair alone, for half a step before and, in the reverse order, for half a step after a step
+ * of Verlet without damping. Of order 2. Each damper takes energy and never gives any, and Verlet keeps a
+ * quadratic form of an oscillation up to h w = 2, so that this is the limit at any damping; pairs keep their
+ * momentum. What strong damping does to the order is in docs/notes/methods.md. */
+#include "core/memory.h"
+#include "core/status.h"
+#include "integrate/integrator.h"
+#include "model/sum/dampers.h"
+
+#include <stddef.h>
+
+struct shardlow {
+  struct hk_dampers *dampers;
+  double *zero;  /* n */
+  double *start; /* with a callback: q and v at the start of the step */
+  void *verlet;  /* what Verlet has of its own */
+};
+
+static int32_t make(hooke_integrator *it, struct shardlow *own) {
+  const int64_t n = it->system->particle_count, saved = it->system->force ? 2 * it->size : 0;
+  own->zero = hk_new(n, sizeof(double));
+  if (saved) own->start = hk_new(saved, sizeof(double));
+  if (own->zero == NULL || (saved && own->start == NULL)) return HOOKE_NO_MEMORY;
+  it->motion->zero = own->zero;
+  const int32_t status = hk_dampers_create(it->system, it->schedule.step / 2.0, &own->dampers);
+  if (status != HOOKE_OK) return status;
+  it->own_memory += (n + saved) * (int64_t)sizeof(double) + hk_dampers_memory(own->dampers);
+  return HOOKE_OK;
+}
+
+static int32_t create(hooke_integrator *it) {
+  struct shardlow *own = hk_new(1, sizeof *own);
+  if (own == NULL) return HOOKE_NO_MEMORY;
+  int32_t status = make(it, own);
+  if (status == HOOKE_OK) status = hk_verlet.create(it);
+  own->verlet = it->own;
+  it->own = own;
+  return status;
+}
+
+static void destroy(hooke_integrator *it) {
+  struct shardlow *own = it->own;
+  it->own = own->verlet;
+  if (it->own) hk_verlet.destroy(it);
+  hk_dampers_destroy(own->dampers);
+  hk_free(own->zero);
+  hk_free(own->start);
+  hk_free(own);
+  it->own = NULL;
+}
+
+static int32_t begin(hooke_integrator *it, const hooke_state *state) {
+  struct shardlow *own = it->own;
+  it->own = own->verlet;
+  const int32_t status = hk_verlet.begin(it, state);
+  it->own = own;
+  return status;
+}
+
+static void forget(hooke_integrator *it) {
+  struct shardlow *own = it->own;
+  it->own = own->verlet;
+  hk_verlet.forget(it);
+  it->own = own;
+}
+
+static int32_t step(hooke_integrator *it) {
+  struct shardlow *own = it->own;
+  if (own->start) hk_motion_save(it->motion, own->start);
+  hk_dampers_sweep(own->dampers, it->motion, 0);
+  it->own = own->verlet;
+  const int32_t status = hk_verlet.step(it);
+  it->own = own;
+  if (status != HOOKE_OK) {
+    if (own->start) hk_motion_restore(it->motion, own->start);
+    return status;
+  }
+  if (it->system->constrained_count > 0) hk_motion_hold(it->system, it->motion); /* kicks move them, too */
+  hk_dampers_sweep(own->dampers, it->motion, 1);
+  return HOOKE_OK;
+}
+
+const struct hk_method hk_shardlow = {
+    .name = "shardlow",
+    .summary = "fixed step, order 2; Verlet, and each damper on its pair alone, stable at any damping",
+    .built = 1,
+    .order = 2,
+    .second_order = 1,
+    .stability = {.kind = HOOKE_STABLE_BY_K, .damps_implicitly = 1},
+    .create = create,
+    .destroy = destroy,
+    .forget = forget,
+    .begin = begin,
+    .step = step,
+    .store = hk_fixed_store};

@@ -1,0 +1,12 @@
+/* Whether a step of Verlet takes the damping explicitly, at the predicted velocity, or solves for it. */
+#ifndef HOOKE_INTEGRATE_METHOD_VERLET_DAMPING_H
+#define HOOKE_INTEGRATE_METHOD_VERLET_DAMPING_H
+
+#include "integrate/integrator.h"
+
+/* The `choose` of Verlet: decides by the system, the step and the option `verlet_damping`, whose value it
+ * sets to what it decided. HOOKE_UNSUITED or HOOKE_BAD_VALUE where explicit damping is asked for and cannot
+ * be. */
+int32_t hk_verlet_choose(hooke_integrator *integrator);
+
+#endif

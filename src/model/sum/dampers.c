@@ -1,0 +1,228 @@
+#include "model/sum/dampers.h"
+
+#include "core/memory.h"
+#include "core/status.h"
+#include "kernel/damper_loops.h"
+#include "model/force/force.h"
+#include "model/sum/damper_colours.h"
+
+#include <string.h>
+
+/* Springs of a colour that are worth several threads, and what they are shared by. */
+enum { MANY = 4096, UNIT = 64 };
+
+struct hk_dampers {
+  const hooke_system *system;
+  double h;
+  struct hk_damper_colours colours;
+  double *share;               /* of each damped spring */
+  double *kappa, *rest_length; /* of those that only pull, in place of each spring; NULL if there are none */
+  double *drag;                /* n: 1 + z + z^2/2; NULL without drag */
+  double *rows;                /* 3n: positions in rows, for elements of other forces; NULL without any */
+  int64_t memory;
+};
+
+/* ---- making ---- */
+
+static int is_other_damper(const hooke_system *system, const struct hk_force_row *row) {
+  return hk_force_is_other(row) && row->present(system) && row->damped && row->damped(system);
+}
+
+static int has_other_dampers(const hooke_system *system) {
+  int some = 0;
+  for (int32_t k = 0; hk_force_table(k); k++)
+    some |= is_other_damper(system, hk_force_table(k));
+  return some;
+}
+
+static double *new_numbers(struct hk_dampers *d, int64_t count, int32_t *status) {
+  double *numbers = *status == HOOKE_OK ? hk_new(count, sizeof *numbers) : NULL;
+  if (numbers == NULL) *status = HOOKE_NO_MEMORY;
+  d->memory += count * (int64_t)sizeof *numbers;
+  return numbers;
+}
+
+static int32_t take_springs(const hooke_system *system, struct hk_dampers *d) {
+  const struct hk_damper_colours *colours = &d->colours;
+  int32_t status = HOOKE_OK;
+  d->share = new_numbers(d, colours->springs, &status);
+  if (colours->pulling) {
+    d->kappa = new_numbers(d, colours->springs, &status);
+    d->rest_length = new_numbers(d, colours->springs, &status);
+  }
+  for (int64_t r = 0; r < system->springs.run_count && status == HOOKE_OK; r++) {
+    const struct hk_run *run = &system->springs.run[r];
+    for (int64_t k = 0; k < run->count; k++) {
+      const int64_t at = colours->place[run->first + k];
+      if (at < 0) continue;
+      const struct hk_spring spring = hk_run_spring(run, k);
+      const double w = system->inverse_mass[spring.head] + system->inverse_mass[spring.tail];
+      d->share[at] = hk_damper_part(d->h * spring.gamma * w) / w;
+      if (colours->pulling) d->kappa[at] = spring.kappa, d->rest_length[at] = spring.rest_length;
+    }
+  }
+  return status;
+}
+
+static int32_t take_others(const hooke_system *system, struct hk_dampers *d) {
+  int32_t status = HOOKE_OK;
+  if (has_other_dampers(system)) d->rows = new_numbers(d, 3 * system->particle_count, &status);
+  if (system->drag > 0.0) d->drag = new_numbers(d, system->particle_count, &status);
+  for (int64_t p = 0; p < system->particle_count && d->drag; p++) {
+    const double z = d->h * system->drag * system->inverse_mass[p];
+    d->drag[p] = 1.0 + z * (1.0 + z / 2.0);
+  }
+  return status;
+}
+
+int32_t hk_dampers_create(const hooke_system *system, double h, struct hk_dampers **out) {
+  struct hk_dampers *d = hk_new(1, sizeof *d);
+  if (d == NULL) return HOOKE_NO_MEMORY;
+  d->system = system;
+  d->h = h;
+  int32_t status = hk_damper_colours_create(system, &d->colours);
+  if (status == HOOKE_OK) status = take_springs(system, d);
+  if (status == HOOKE_OK) status = take_others(system, d);
+  hk_damper_colours_drop_places(&d->colours);
+  d->memory += (int64_t)sizeof *d + hk_damper_colours_memory(&d->colours);
+  if (status == HOOKE_OK)
+    *out = d;
+  else
+    hk_dampers_destroy(d);
+  return status;
+}
+
+void hk_dampers_destroy(struct hk_dampers *d) {
+  if (d == NULL) return;
+  hk_damper_colours_release(&d->colours);
+  hk_free(d->share);
+  hk_free(d->kappa);
+  hk_free(d->rest_length);
+  hk_free(d->drag);
+  hk_free(d->rows);
+  hk_free(d);
+}
+
+int64_t hk_dampers_memory(const struct hk_dampers *dampers) {
+  return dampers->memory;
+}
+
+/* ---- springs ---- */
+
+struct sweep {
+  const struct hk_dampers *dampers;
+  struct hk_motion *motion;
+  int32_t backwards;
+};
+
+static void damp_springs(const struct sweep *sweep, int64_t from, int64_t count, int pull) {
+  const struct hk_dampers *d = sweep->dampers;
+  struct hk_motion *m = sweep->motion;
+  struct hk_damped_springs springs = {
+      .head = d->colours.head + from, .tail = d->colours.tail + from, .share = d->share + from, .half = d->h};
+  if (pull) springs.kappa = d->kappa + from, springs.rest_length = d->rest_length + from;
+  const struct hk_damper_point at = {
+      {m->q[0], m->q[1], m->q[2]}, d->system->inverse_mass, {m->v[0], m->v[1], m->v[2]}};
+  hk_spring_set(0)->dampers(&springs, (ptrdiff_t)count, &at);
+}
+
+/* A class has springs of one colour that all push too, or all only pull. Small ones are for one thread. */
+static void go_over(int32_t worker, int32_t workers, void *ctx) {
+  const struct sweep *sweep = ctx;
+  const struct hk_damper_colours *colours = &sweep->dampers->colours;
+  int waiting = 0;
+  for (int64_t c = 0; c < colours->classes; c++) {
+    const int64_t class = sweep->backwards ? colours->classes - 1 - c : c, from = colours->first[class],
+                  count = colours->first[class + 1] - from;
+    const int pull = (int)(class % 2), many = workers > 1 && count >= MANY;
+    const int64_t begin = many ? hk_pool_share(count, UNIT, worker, workers) : 0,
+                  end = many ? hk_pool_share(count, UNIT, worker + 1, workers) : count;
+    if (many && waiting) hk_pool_barrier(sweep->motion->pool);
+    if (begin < end && (many || worker == 0)) damp_springs(sweep, from + begin, end - begin, pull);
+    if (many) hk_pool_barrier(sweep->motion->pool);
+    if (count > 0) waiting = !many;
+  }
+}
+
+/* ---- other elements, and drag ---- */
+
+static double part_of(double h, double strength, double w) {
+  return hk_damper_part(h * strength * w) / w;
+}
+
+static void damp_element(const struct hk_dampers *d, const struct hk_element *e, double *const v[3]) {
+  const double *inverse_mass = d->system->inverse_mass;
+  double w = 0.0, rate[3] = {0.0}, b[3];
+  for (int j = 0; j < e->count; j++) {
+    w += (e->weight[j] * e->weight[j]) * inverse_mass[e->particle[j]];
+    for (int a = 0; a < 3; a++)
+      rate[a] = j > 0 ? rate[a] + e->weight[j] * v[a][e->particle[j]] : e->weight[j] * v[a][e->particle[j]];
+  }
+  if (!(w > 0.0)) return;
+  const double along = (e->u[0] * rate[0] + e->u[1] * rate[1]) + e->u[2] * rate[2];
+  double impulse = part_of(d->h, e->c_along / e->over, w) * along;
+  if (e->pull_only) {
+    const double least = -(d->h * e->elastic);
+    if (impulse < least) impulse = least;
+    if (!(e->elastic > 0.0)) impulse = 0.0;
+  }
+  for (int a = 0; a < 3; a++)
+    b[a] = impulse * e->u[a];
+  if (e->c_across > 0.0) {
+    const double across = part_of(d->h, e->c_across / e->over, w);
+    for (int a = 0; a < 3; a++)
+      b[a] += across * (rate[a] - along * e->u[a]);
+  }
+  for (int j = 0; j < e->count; j++) {
+    const double by = inverse_mass[e->particle[j]] * e->weight[j];
+    for (int a = 0; a < 3; a++)
+      v[a][e->particle[j]] -= by * b[a];
+  }
+}
+
+static void damp_force(const struct hk_dampers *d, const struct hk_force_row *row, int32_t backwards,
+                       double *const v[3]) {
+  struct hk_element element[HOOKE_ELEMENTS];
+  const int64_t count = row->count(d->system);
+  for (int64_t done = 0; done < count;) {
+    const int64_t left = count - done, some = left < HOOKE_ELEMENTS ? left : HOOKE_ELEMENTS;
+    const int64_t first = backwards ? left - some : done;
+    memset(element, 0, sizeof element);
+    row->elements(d->system, d->rows, NULL, first, some, element);
+    for (int64_t k = 0; k < some; k++)
+      damp_element(d, &element[backwards ? some - 1 - k : k], v);
+    done += some;
+  }
+}
+
+static void damp_others(const struct hk_dampers *d, const struct hk_motion *motion, int32_t backwards) {
+  if (d->rows == NULL) return;
+  int32_t count = 0;
+  while (hk_force_table(count))
+    count++;
+  hk_rows_from_components(motion->n, motion->q, d->rows);
+  for (int32_t k = 0; k < count; k++) {
+    const struct hk_force_row *row = hk_force_table(backwards ? count - 1 - k : k);
+    if (is_other_damper(d->system, row)) damp_force(d, row, backwards, motion->v);
+  }
+}
+
+static void drag(const struct hk_dampers *d, const struct hk_motion *motion) {
+  for (int a = 0; a < 3 && d->drag; a++) {
+    for (int64_t p = 0; p < motion->n; p++)
+      motion->v[a][p] /= d->drag[p];
+  }
+}
+
+void hk_dampers_sweep(struct hk_dampers *d, struct hk_motion *motion, int32_t backwards) {
+  struct sweep sweep = {d, motion, backwards};
+  if (backwards) {
+    drag(d, motion);
+    damp_others(d, motion, 1);
+  }
+  if (d->colours.springs > 0) hk_pool_run(motion->pool, go_over, &sweep);
+  if (!backwards) {
+    damp_others(d, motion, 0);
+    drag(d, motion);
+  }
+}
