@@ -9,7 +9,7 @@ from conftest import SIX_PARTICLES, build_oscillator, build_six_particles
 
 import hooke
 
-FIXED_STEP = ["forward-euler", "symplectic-euler", "verlet", "heun", "rk4", "backward-euler"]
+FIXED_STEP = ["forward-euler", "symplectic-euler", "verlet", "heun", "rk4", "backward-euler", "tr-bdf2", "implicit-midpoint"]
 OMEGA = math.sqrt(40)  # of the oscillator
 
 

@@ -60,7 +60,7 @@ int32_t canonical_step(const struct canonical *canonical, const char *method, do
 /* How far such a step from q0, v0 to q1, v1 is from solving its equations: the largest defect of a velocity,
  * over 1e-9 of the largest change of one, in the whole step or in the kick that is solved for, and what a few
  * roundings of the numbers in the equations make of it. Infinity unless positions follow from the velocities
- * to the bit. */
+ * to the bit, or, where they go through those of stages, but for a few roundings. */
 double canonical_defect(const struct canonical *canonical, const char *method, double t, double end, double h,
                         const double *q0, const double *v0, const double *q1, const double *v1);
 

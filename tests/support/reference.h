@@ -40,7 +40,7 @@ struct reference_errors {
   const char *method, *newton; /* newton NULL: the default */
   double error[5];             /* steps 1/50, 1/100, 1/200, 1/400, 1/800 s */
 };
-enum { REFERENCE_ERROR_COUNT = 6 };
+enum { REFERENCE_ERROR_COUNT = 10 };
 extern const struct reference_errors reference_errors[REFERENCE_ERROR_COUNT];
 
 #endif

@@ -83,6 +83,14 @@ int32_t is_fixed_step(const char *method) {
   return hooke_method_is_built(method) == 1 && hooke_method_is_adaptive(method) == 0;
 }
 
+int32_t is_implicit(const char *method) {
+  const char *const known[] = {"backward-euler", "tr-bdf2", "implicit-midpoint"};
+  for (size_t k = 0; k < sizeof known / sizeof known[0]; k++) {
+    if (strcmp(method, known[k]) == 0) return 1;
+  }
+  return 0;
+}
+
 double largest_difference(int64_t count, const double *a, const double *b) {
   double most = 0.0;
   for (int64_t k = 0; k < count; k++) {

@@ -28,6 +28,8 @@ int32_t explain_run(const hooke_integrator *integrator, hooke_measurement **why)
 
 /* 1 if this build has the method and it takes `step`. */
 int32_t is_fixed_step(const char *method);
+/* 1 if it solves nonlinear equations for each of its steps, in the ways of the option `newton`. */
+int32_t is_implicit(const char *method);
 
 /* The largest |a - b| and |a| of two arrays. */
 double largest_difference(int64_t count, const double *a, const double *b);

@@ -70,6 +70,9 @@ static const struct {
     {"rk4", {UINT64_C(0xe4f21c7b4e25fe9d), UINT64_C(0xb8480818853f53d7), UINT64_C(0x05ad6ef5f38ebbdf)}},
     {"backward-euler",
      {UINT64_C(0x8577ce744217a3f2), UINT64_C(0x023c0f63d3f1af88), UINT64_C(0x8f7ee54a484dc681)}},
+    {"tr-bdf2", {UINT64_C(0x2d759e7a6ff427f8), UINT64_C(0xc734f9d65566fe24), UINT64_C(0x8cad0d3f501b4eb1)}},
+    {"implicit-midpoint",
+     {UINT64_C(0xc1341fd598e23329), UINT64_C(0x1d0a4d7ec25e7407), UINT64_C(0xad57d02bba36f202)}},
 };
 
 static void check_scene(const struct scene *scene, int k) {

@@ -45,8 +45,8 @@ static const struct hk_option_row run_rows[] = {
      .type = HOOKE_OPTION_CHOICE,
      .words = "converged one-iteration",
      .fallback = "converged",
-     .doc = "how backward-euler solves its step: converged, or one-iteration (linearised at the start of the "
-            "step)"},
+     .doc = "how backward-euler, tr-bdf2 and implicit-midpoint solve their equations: converged, or "
+            "one-iteration (linearised where they begin)"},
     {.name = "rtol",
      .type = HOOKE_OPTION_NUMBER,
      .low = 1e-15,
