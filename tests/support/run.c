@@ -16,6 +16,8 @@ hooke_options *run_options(struct run run) {
   if (run.newton != NULL) check_ok(hooke_options_set_text(options, "newton", run.newton));
   if (run.linear_solver != NULL)
     check_ok(hooke_options_set_text(options, "linear_solver", run.linear_solver));
+  if (run.newton_tolerance != BY_DEFAULT)
+    set_number(options, "newton_tolerance", run.newton_tolerance == 0.0 ? 1e-12 : run.newton_tolerance);
   set_number(options, "step", run.step);
   set_number(options, "duration", run.duration);
   set_number(options, "every", run.every);

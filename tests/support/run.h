@@ -4,6 +4,8 @@
 
 #include "hooke.h"
 
+#define BY_DEFAULT (-1.0)
+
 /* Options of a run; numbers that are 0 are left at their defaults. */
 struct run {
   const char *method;
@@ -11,6 +13,8 @@ struct run {
   double rtol, atol;
   int32_t threads;
   const char *newton, *linear_solver; /* NULL: the default */
+  /* 0: 1e-12, with which a step is its formula; BY_DEFAULT: that of the library */
+  double newton_tolerance;
 };
 
 /* The caller destroys what these return. */

@@ -27,15 +27,15 @@ static void destroy(hooke_integrator *it) {
   it->own = NULL;
 }
 
-static int32_t stages(hooke_integrator *it) {
+static int32_t stages(hooke_integrator *it, struct hk_span_of_time span) {
   struct own *own = it->own;
-  return hk_stage_solve(&own->stage, hk_integrator_next_time(it), it->schedule.step, own->start,
-                        own->start + it->size);
+  const struct hk_equations equations = {span.end, span.h, own->start, own->start + it->size, span.h};
+  return hk_stage_solve(&own->stage, &equations);
 }
 
 static int32_t step(hooke_integrator *it) {
-  const struct own *own = it->own;
-  return hk_stage_step(it, own->start, stages);
+  struct own *own = it->own;
+  return hk_stage_step(&own->stage, own->start, stages);
 }
 
 const struct hk_method hk_backward_euler = {

@@ -29,10 +29,10 @@ static void destroy(hooke_integrator *it) {
 }
 
 /* From the middle on as far again; held particles come from the drives. */
-static int32_t go_on(hooke_integrator *it) {
+static int32_t go_on(hooke_integrator *it, struct hk_span_of_time span) {
   const struct own *own = it->own;
   struct hk_motion *m = it->motion;
-  const double h = it->schedule.step;
+  const double h = span.h;
   for (int a = 0; a < 3; a++) {
     const double *q = own->start + a * m->n, *v = own->start + (3 + a) * m->n;
     for (int64_t p = 0; p < m->n; p++) {
@@ -41,21 +41,21 @@ static int32_t go_on(hooke_integrator *it) {
     }
   }
   if (it->system->held_count == 0) return HOOKE_OK;
-  return hk_integrator_hold(it, hk_integrator_next_time(it));
+  return hk_integrator_hold(it, span.end);
 }
 
-static int32_t stages(hooke_integrator *it) {
+static int32_t stages(hooke_integrator *it, struct hk_span_of_time span) {
   struct own *own = it->own;
-  const double half = it->schedule.step / 2.0, middle = it->t + half;
-  int32_t status = hk_integrator_drive(it, middle);
-  if (status == HOOKE_OK)
-    status = hk_stage_solve(&own->stage, middle, half, own->start, own->start + it->size);
-  return status == HOOKE_OK ? go_on(it) : status;
+  const double half = span.h / 2.0;
+  const struct hk_equations equations = {span.t + half, half, own->start, own->start + it->size, half};
+  int32_t status = hk_integrator_drive(it, equations.t);
+  if (status == HOOKE_OK) status = hk_stage_solve(&own->stage, &equations);
+  return status == HOOKE_OK ? go_on(it, span) : status;
 }
 
 static int32_t step(hooke_integrator *it) {
-  const struct own *own = it->own;
-  return hk_stage_step(it, own->start, stages);
+  struct own *own = it->own;
+  return hk_stage_step(&own->stage, own->start, stages);
 }
 
 const struct hk_method hk_implicit_midpoint = {

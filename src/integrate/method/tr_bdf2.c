@@ -37,11 +37,11 @@ static void destroy(hooke_integrator *it) {
 static const double MIDDLE = 0.58578643762690495120, BACK = 0.20710678118654752440;
 
 /* Where the trapezoidal rule starts from: q + a v and v + a a(t, q, v). */
-static int32_t begin_trapezoid(hooke_integrator *it, double a) {
+static int32_t begin_trapezoid(hooke_integrator *it, double t, double a) {
   const struct own *own = it->own;
   const hooke_system *system = it->system;
   const struct hk_motion *m = it->motion;
-  const int32_t status = hk_integrator_forces(it, it->t);
+  const int32_t status = hk_integrator_forces(it, t);
   for (int c = 0; c < 3; c++) {
     const double *q = own->start + c * m->n, *v = own->start + (3 + c) * m->n;
     double *place = own->place + c * m->n, *speed = own->place + (3 + c) * m->n;
@@ -62,22 +62,25 @@ static void begin_difference(hooke_integrator *it) {
     own->place[k] += BACK * (own->place[k] - own->start[k]);
 }
 
-static int32_t stages(hooke_integrator *it) {
+static int32_t stages(hooke_integrator *it, struct hk_span_of_time span) {
   struct own *own = it->own;
-  const double h = it->schedule.step, a = MIDDLE / 2.0 * h, middle = it->t + MIDDLE * h,
-               end = hk_integrator_next_time(it), *speed = own->place + it->size;
-  int32_t status = begin_trapezoid(it, a);
-  if (status == HOOKE_OK) status = hk_integrator_drive(it, middle);
-  if (status == HOOKE_OK) status = hk_stage_solve(&own->stage, middle, a, own->place, speed);
-  if (status == HOOKE_OK) status = hk_integrator_drive(it, end);
+  const double a = MIDDLE / 2.0 * span.h;
+  const struct hk_equations trapezoid = {span.t + MIDDLE * span.h, a, own->place, own->place + it->size,
+                                         2.0 * a},
+                            difference = {span.end, a, own->place, own->place + it->size,
+                                          (1.0 - MIDDLE) * span.h};
+  int32_t status = begin_trapezoid(it, span.t, a);
+  if (status == HOOKE_OK) status = hk_integrator_drive(it, trapezoid.t);
+  if (status == HOOKE_OK) status = hk_stage_solve(&own->stage, &trapezoid);
+  if (status == HOOKE_OK) status = hk_integrator_drive(it, span.end);
   if (status != HOOKE_OK) return status;
   begin_difference(it);
-  return hk_stage_solve(&own->stage, end, a, own->place, speed);
+  return hk_stage_solve(&own->stage, &difference);
 }
 
 static int32_t step(hooke_integrator *it) {
-  const struct own *own = it->own;
-  return hk_stage_step(it, own->start, stages);
+  struct own *own = it->own;
+  return hk_stage_step(&own->stage, own->start, stages);
 }
 
 const struct hk_method hk_tr_bdf2 = {
