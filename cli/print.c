@@ -121,7 +121,7 @@ void cli_print_quoted(FILE *file, const char *text) {
 }
 
 int cli_print_flush(void) {
-  static int first; /* what could not be written is not held back any longer */
+  static int first; /* what could not be written is free back any longer */
   errno = 0;
   if (fflush(stdout) != 0 && first == 0) first = errno;
   return first;

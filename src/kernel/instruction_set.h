@@ -2,7 +2,7 @@
 #ifndef HOOKE_KERNEL_INSTRUCTION_SET_H
 #define HOOKE_KERNEL_INSTRUCTION_SET_H
 
-#include "kernel/lane_loops.h"
+#include "kernel/strided_loops.h"
 #include "kernel/spring_loops.h"
 #include "kernel/tangent_loops.h"
 #include "kernel/triangle_loops.h"
@@ -20,16 +20,16 @@
 #endif
 
 #define HOOKE_SPRING_SET    HOOKE_OF_ISA(hk_spring_set_)
-#define HOOKE_LANE_LOOP     HOOKE_OF_ISA(hk_lane_loop_)
-#define HOOKE_NET_LOOPS     HOOKE_OF_ISA(hk_net_loops_)
+#define HOOKE_STRIDED_LOOP  HOOKE_OF_ISA(hk_strided_loop_)
+#define HOOKE_TILED_LOOPS   HOOKE_OF_ISA(hk_tiled_loops_)
 #define HOOKE_BENDING_LOOPS HOOKE_OF_ISA(hk_bending_loops_)
 #define HOOKE_TANGENT_SET   HOOKE_OF_ISA(hk_tangent_set_)
 #define HOOKE_TRIANGLE_SET  HOOKE_OF_ISA(hk_triangle_set_)
 #define HOOKE_VECTOR_SET    HOOKE_OF_ISA(hk_vector_set_)
 
 extern const struct hk_spring_set HOOKE_SPRING_SET;
-hk_lane_loop HOOKE_LANE_LOOP;
-extern const struct hk_net_loops HOOKE_NET_LOOPS;
+hk_strided_loop HOOKE_STRIDED_LOOP;
+extern const struct hk_tiled_loops HOOKE_TILED_LOOPS;
 extern hk_bending_loop *const HOOKE_BENDING_LOOPS[HOOKE_BENDING_SHAPES];
 extern const struct hk_tangent_set HOOKE_TANGENT_SET;
 extern const struct hk_triangle_set HOOKE_TRIANGLE_SET;

@@ -2,7 +2,7 @@
  * first, which vectorises whatever the ends are, and are then added in spring order, which keeps every sum
  * the same to the bit. */
 #include "kernel/instruction_set.h"
-#include "kernel/net_loops.h"
+#include "kernel/tiled_loops.h"
 #include "kernel/spring_body.h"
 
 #include <stddef.h>
@@ -188,8 +188,8 @@ LOOPS(1, 1, 1)
 const struct hk_spring_set HOOKE_SPRING_SET = {
     .name = TEXT(HOOKE_ISA),
     .loop = {BY_SHAPE(offset, 0), BY_SHAPE(indexed, HOOKE_RUN_INDEXED)},
-    .lanes = HOOKE_LANE_LOOP,
-    .net = &HOOKE_NET_LOOPS,
+    .strided = HOOKE_STRIDED_LOOP,
+    .tiled = &HOOKE_TILED_LOOPS,
     .kick_then_drift = kick_then_drift,
     .drift_then_kick = drift_then_kick,
     .bending = HOOKE_BENDING_LOOPS,

@@ -7,7 +7,7 @@
 #define HOOKE_KERNEL_SPRING_LOOPS_H
 
 #include "kernel/bending_loops.h"
-#include "kernel/lane_loops.h"
+#include "kernel/strided_loops.h"
 
 #include <stddef.h>
 #include <stdint.h>
@@ -30,7 +30,7 @@ enum {
 };
 
 struct hk_run;
-struct hk_net_loops;
+struct hk_tiled_loops;
 struct hk_triangle_set;
 struct hk_tangent_set;
 struct hk_vector_set;
@@ -48,8 +48,8 @@ struct hk_run {
   const int32_t *place; /* NULL, or mixed: where in those arrays, which then are those of all springs */
   /* mixed, kappas and gammas NULL: kappa and gamma are shared, or shares of the rest length */
   int32_t strain;
-  const uint8_t *lane; /* NULL, or mixed: lane of each spring, which has its material */
-  const struct hk_lane_material *of_lanes;
+  const uint8_t *batch; /* NULL, or mixed: strided batch of each spring, which has its material */
+  const struct hk_strided_material *of_batches;
   hk_spring_loop *loop;
 };
 
@@ -76,12 +76,12 @@ struct hk_material {
 
 static inline struct hk_material hk_run_material(const struct hk_run *run, ptrdiff_t k) {
   if (!(run->shape & HOOKE_RUN_MIXED)) return (struct hk_material){run->kappa, run->gamma, run->rest_length};
-  if (run->lane) {
-    const struct hk_lane_material *of = &run->of_lanes[run->lane[k]];
+  if (run->batch) {
+    const struct hk_strided_material *of = &run->of_batches[run->batch[k]];
     const ptrdiff_t low = hk_run_lower(run, k);
-    return (struct hk_material){*hk_lane_number(of, low, HOOKE_LANE_KAPPA),
-                                *hk_lane_number(of, low, HOOKE_LANE_GAMMA),
-                                *hk_lane_number(of, low, HOOKE_LANE_REST)};
+    return (struct hk_material){*hk_strided_number(of, low, HOOKE_STRIDED_KAPPA),
+                                *hk_strided_number(of, low, HOOKE_STRIDED_GAMMA),
+                                *hk_strided_number(of, low, HOOKE_STRIDED_REST)};
   }
   const ptrdiff_t at = run->place ? run->place[k] : k;
   const double length = run->rest_lengths[at];
@@ -101,10 +101,10 @@ typedef void hk_step_loop(ptrdiff_t count, double h, const double *w, const doub
 struct hk_spring_set {
   const char *name;
   hk_spring_loop *loop[HOOKE_RUN_SHAPES];
-  hk_lane_loop *lanes;
+  hk_strided_loop *strided;
   hk_step_loop *kick_then_drift, *drift_then_kick;
   hk_bending_loop *const *bending; /* by HOOKE_BENDING_* */
-  const struct hk_net_loops *net;
+  const struct hk_tiled_loops *tiled;
   const struct hk_vector_set *vector;
   const struct hk_tangent_set *tangent;
   const struct hk_triangle_set *triangle;

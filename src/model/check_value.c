@@ -20,7 +20,7 @@ static void add_particles(uint32_t *value, const hooke_system *system) {
   hk_check_whole(value, system->velocity != NULL);
   if (system->velocity) hk_check_add(value, system->velocity, 3 * n, sizeof(double));
   hk_check_add(value, system->mass, n, sizeof(double));
-  hk_check_add(value, system->held, n, 1);
+  hk_check_add(value, system->constrained, n, 1);
 }
 
 static void add_drives(uint32_t *value, const hooke_system *system) {

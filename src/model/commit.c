@@ -11,7 +11,7 @@
 
 static int32_t check_pinned_at_rest(const hooke_system *system) {
   for (int64_t p = 0; p < system->particle_count; p++) {
-    if (system->held[p] != HOOKE_HELD_PINNED) continue;
+    if (system->constrained[p] != HOOKE_IS_PINNED) continue;
     for (int a = 0; a < 3; a++) {
       const double v = system->velocity[3 * p + a];
       if (v == 0.0) continue;
@@ -57,21 +57,21 @@ static void trim_particles(hooke_system *system) {
   if (status == HOOKE_OK && system->velocity)
     status = hk_grow((void **)&system->velocity, 3 * n, 3 * n, sizeof(double));
   if (status == HOOKE_OK) status = hk_grow((void **)&system->mass, n, n, sizeof(double));
-  if (status == HOOKE_OK) status = hk_grow((void **)&system->held, n, n, sizeof(uint8_t));
+  if (status == HOOKE_OK) status = hk_grow((void **)&system->constrained, n, n, sizeof(uint8_t));
   if (status == HOOKE_OK) system->particle_capacity = n;
 }
 
 static int32_t fill_particles(hooke_system *system) {
   const int64_t n = system->particle_count;
-  int64_t held = 0;
+  int64_t constrained = 0;
   for (int64_t p = 0; p < n; p++)
-    held += system->held[p] != 0;
-  system->inverse_mass = hk_new(n + HOOKE_LANE_UNIT, sizeof(double)); /* loops go by whole units */
-  system->held_particle = hk_new(held, sizeof(int32_t));
-  if (system->inverse_mass == NULL || system->held_particle == NULL) return HOOKE_NO_MEMORY;
+    constrained += system->constrained[p] != 0;
+  system->inverse_mass = hk_new(n + HOOKE_STRIDED_UNIT, sizeof(double)); /* loops go by whole units */
+  system->constrained_particle = hk_new(constrained, sizeof(int32_t));
+  if (system->inverse_mass == NULL || system->constrained_particle == NULL) return HOOKE_NO_MEMORY;
   for (int64_t p = 0; p < n; p++) {
-    if (system->held[p])
-      system->held_particle[system->held_count++] = (int32_t)p;
+    if (system->constrained[p])
+      system->constrained_particle[system->constrained_count++] = (int32_t)p;
     else
       system->inverse_mass[p] = 1.0 / system->mass[p];
   }
@@ -92,9 +92,9 @@ void hk_system_mark_touched(const hooke_system *system, uint8_t *touched) {
   }
 }
 
-/* A net numbers particles its own way; it goes over all of them. */
+/* A tiled batch numbers particles its own way; it goes over all of them. */
 static int32_t is_stepped(const hooke_system *system, const uint8_t *idle, int64_t from, int64_t end) {
-  return system->net.particles > 0 || memchr(idle + from, 0, (size_t)(end - from)) != NULL;
+  return system->tiled.particles > 0 || memchr(idle + from, 0, (size_t)(end - from)) != NULL;
 }
 
 /* Spans, and the pinned particles in them, which are counted before there is a list. */
@@ -105,7 +105,7 @@ static void add_tile(hooke_system *system, int64_t from, int64_t end) {
   else
     system->span[system->span_count++] = (struct hk_span){from, end - from};
   for (int64_t p = from; p < end; p++) {
-    if (system->held[p] != HOOKE_HELD_PINNED) continue;
+    if (system->constrained[p] != HOOKE_IS_PINNED) continue;
     if (system->anchor) system->anchor[system->anchor_count] = (int32_t)p;
     system->anchor_count++;
   }
@@ -130,7 +130,7 @@ static int32_t find_stepped(hooke_system *system) {
   if (status == HOOKE_OK) {
     hk_system_mark_touched(system, idle);
     for (int64_t p = 0; p < n; p++) {
-      idle[p] = !idle[p] && system->held[p] == HOOKE_HELD_PINNED && system->force == NULL;
+      idle[p] = !idle[p] && system->constrained[p] == HOOKE_IS_PINNED && system->force == NULL;
       system->idle_count += idle[p];
     }
     add_tiles(system, idle);
@@ -159,16 +159,16 @@ static int32_t choose_forces(hooke_system *system) {
 static void undo(hooke_system *system) {
   for (int64_t k = 0; k < system->group_count; k++)
     hk_group_take_back(&system->group[k]);
-  hk_lanes_release(&system->lanes);
-  hk_net_release(&system->net);
+  hk_strided_batches_release(&system->strided);
+  hk_tiled_release(&system->tiled);
   hk_forces_release(system);
   hk_free(system->inverse_mass);
-  hk_free(system->held_particle);
+  hk_free(system->constrained_particle);
   hk_free(system->force_row);
   system->inverse_mass = NULL;
-  system->held_particle = NULL;
+  system->constrained_particle = NULL;
   system->force_row = NULL;
-  system->held_count = 0;
+  system->constrained_count = 0;
   hk_free(system->span);
   hk_free(system->anchor);
   system->span = NULL;
@@ -184,10 +184,10 @@ int32_t hooke_system_commit(hooke_system *system) {
   if (status == HOOKE_OK) status = fill_particles(system);
   if (status == HOOKE_OK) status = take_groups_over(system);
   if (status == HOOKE_OK) {
-    status = hk_lanes_create(&system->springs, system->particle_count, &system->lanes);
+    status = hk_strided_batches_create(&system->springs, system->particle_count, &system->strided);
   }
-  if (status == HOOKE_OK && system->lanes.count == 0) {
-    status = hk_net_create(&system->springs, system->particle_count, system->inverse_mass, &system->net);
+  if (status == HOOKE_OK && system->strided.count == 0) {
+    status = hk_tiled_create(&system->springs, system->particle_count, system->inverse_mass, &system->tiled);
   }
   if (status == HOOKE_OK) status = choose_forces(system);
   if (status == HOOKE_OK) status = find_stepped(system);

@@ -9,7 +9,7 @@
 int64_t hk_part_record_pinned(const hooke_system *system, const struct hk_part_record *record) {
   int64_t pinned = 0;
   for (int64_t p = record->first; p < record->first + record->count; p++)
-    pinned += system->held[p] == HOOKE_HELD_PINNED;
+    pinned += system->constrained[p] == HOOKE_IS_PINNED;
   return pinned;
 }
 

@@ -22,15 +22,15 @@ void hooke_system_destroy(hooke_system *system) {
     hk_part_record_release(&system->part[k]);
   for (int64_t k = 0; k < system->drive_count; k++)
     hk_drive_release(&system->drive[k]);
-  hk_lanes_release(&system->lanes);
+  hk_strided_batches_release(&system->strided);
   hk_forces_release(system);
-  hk_net_release(&system->net);
+  hk_tiled_release(&system->tiled);
   hk_free(system->position);
   hk_free(system->velocity);
   hk_free(system->mass);
-  hk_free(system->held);
+  hk_free(system->constrained);
   hk_free(system->inverse_mass);
-  hk_free(system->held_particle);
+  hk_free(system->constrained_particle);
   hk_free(system->span);
   hk_free(system->anchor);
   hk_free(system->group);
@@ -62,7 +62,7 @@ static int32_t reserve_particles(hooke_system *system, int64_t count) {
   if (status == HOOKE_OK)
     status = hk_grow((void **)&system->velocity, 3 * used, 3 * capacity, sizeof(double));
   if (status == HOOKE_OK) status = hk_grow((void **)&system->mass, used, capacity, sizeof(double));
-  if (status == HOOKE_OK) status = hk_grow((void **)&system->held, used, capacity, sizeof(uint8_t));
+  if (status == HOOKE_OK) status = hk_grow((void **)&system->constrained, used, capacity, sizeof(uint8_t));
   if (status == HOOKE_OK) system->particle_capacity = capacity;
   return status;
 }
@@ -116,7 +116,7 @@ int32_t hooke_system_add_particles(hooke_system *system, int64_t count, const do
     } else {
       memset(system->velocity + 3 * n, 0, (size_t)(3 * count) * sizeof(double));
     }
-    memset(system->held + n, 0, (size_t)count);
+    memset(system->constrained + n, 0, (size_t)count);
   }
   for (int64_t k = 0; k < count; k++)
     system->mass[n + k] = mass[mass_count == 1 ? 0 : k];
@@ -128,10 +128,10 @@ int32_t hooke_system_add_particles(hooke_system *system, int64_t count, const do
 int32_t hooke_system_pin(hooke_system *system, int64_t count, const int64_t *particles) {
   int32_t status = hk_system_require_open(system);
   if (status == HOOKE_OK)
-    status = hk_system_check_particles(system, "pinned", count, particles, HOOKE_HELD_DRIVEN);
+    status = hk_system_check_particles(system, "pinned", count, particles, HOOKE_IS_DRIVEN);
   if (status != HOOKE_OK) return status;
   for (int64_t k = 0; k < count; k++)
-    system->held[particles[k]] = HOOKE_HELD_PINNED;
+    system->constrained[particles[k]] = HOOKE_IS_PINNED;
   return HOOKE_OK;
 }
 
@@ -142,10 +142,10 @@ int32_t hk_system_check_particles(const hooke_system *system, const char *place,
     if (p < 0 || p >= system->particle_count) {
       hk_fail(HOOKE_BAD_VALUE, NULL, "there is no particle %lld; allowed: 0 to %lld", (long long)p,
               (long long)(system->particle_count - 1));
-    } else if (system->held[p] & refused) {
+    } else if (system->constrained[p] & refused) {
       hk_fail(HOOKE_BAD_VALUE, NULL,
               "particle %lld is already %s; a particle is pinned or driven, and driven once", (long long)p,
-              system->held[p] == HOOKE_HELD_PINNED ? "pinned" : "driven");
+              system->constrained[p] == HOOKE_IS_PINNED ? "pinned" : "driven");
     } else {
       continue;
     }

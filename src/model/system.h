@@ -9,8 +9,8 @@
 #include "model/derived.h"
 #include "model/force/drive.h"
 #include "model/force/element.h"
-#include "model/sum/lane.h"
-#include "model/sum/net.h"
+#include "model/sum/strided.h"
+#include "model/sum/tiled.h"
 #include "model/part_record.h"
 #include "model/force/spring.h"
 
@@ -19,7 +19,7 @@ struct hk_force_row;
 /* Rows that the table of forces may have. */
 enum { HOOKE_FORCES = 8 };
 
-enum { HOOKE_HELD_PINNED = 1, HOOKE_HELD_DRIVEN = 2 };
+enum { HOOKE_IS_PINNED = 1, HOOKE_IS_DRIVEN = 2 };
 
 /* Whole tiles of particles (HOOKE_TILE), the last one cut at the end. */
 struct hk_span {
@@ -39,11 +39,11 @@ struct hooke_system {
   /* particles, 3 or 1 doubles each */
   int64_t particle_count, particle_capacity;
   double *position, *velocity, *mass; /* velocity NULL from commit on if all are zero */
-  uint8_t *held;                      /* HOOKE_HELD_* */
+  uint8_t *constrained;               /* HOOKE_IS_* */
   double *inverse_mass;               /* from commit on */
 
-  int64_t held_count; /* from commit on: pinned and driven particles, ascending */
-  int32_t *held_particle;
+  int64_t constrained_count; /* from commit on: pinned and driven particles, ascending */
+  int32_t *constrained_particle;
   int64_t idle_count; /* from commit on: pinned particles that nothing touches */
   int64_t span_count; /* from commit on: what is stepped, ascending */
   struct hk_span *span;
@@ -55,10 +55,10 @@ struct hooke_system {
   struct hk_group *group;
   int64_t member_total[HOOKE_FORCES]; /* of the groups of each force, as added */
   int64_t part_count;
-  struct hk_part_record *part; /* part_count, in the order of adding */
-  struct hk_springs springs;   /* from commit on */
-  struct hk_lanes lanes;       /* from commit on, of all springs or of none */
-  struct hk_net net;           /* the same, where there are no lanes */
+  struct hk_part_record *part;       /* part_count, in the order of adding */
+  struct hk_springs springs;         /* from commit on */
+  struct hk_strided_batches strided; /* from commit on, of all springs or of none */
+  struct hk_tiled tiled;             /* the same, where there are no strided batches */
 
   struct hk_bending bending;     /* from commit on */
   struct hk_altitudes altitudes; /* from commit on */
@@ -88,7 +88,7 @@ struct hooke_system {
 int32_t hk_system_require_open(const hooke_system *system);
 int32_t hk_system_require_committed(const hooke_system *system);
 
-/* HOOKE_BAD_VALUE, with "<place>[k]", for the first particle that does not exist or is held in the way
+/* HOOKE_BAD_VALUE, with "<place>[k]", for the first particle that does not exist or is constrained in the way
  * `refused` says. */
 int32_t hk_system_check_particles(const hooke_system *system, const char *place, int64_t count,
                                   const int64_t *particles, int32_t refused);

@@ -44,7 +44,7 @@ const char *hooke_system_force_name(const hooke_system *system, int64_t force) {
 static int64_t free_count(const hooke_system *system) {
   int64_t count = 0;
   for (int64_t p = 0; p < system->particle_count; p++)
-    count += system->held[p] == 0;
+    count += system->constrained[p] == 0;
   return count;
 }
 
@@ -68,16 +68,16 @@ static int64_t derived_count(const hooke_system *system) {
 }
 
 static int64_t spring_memory(const hooke_system *system) {
-  return hk_springs_memory(&system->springs) + hk_net_spring_memory(&system->net);
+  return hk_springs_memory(&system->springs) + hk_tiled_spring_memory(&system->tiled);
 }
 
 static int64_t memory(const hooke_system *system) {
-  int64_t bytes = (int64_t)sizeof *system + system->lanes.memory + hk_net_memory(&system->net);
+  int64_t bytes = (int64_t)sizeof *system + system->strided.memory + hk_tiled_memory(&system->tiled);
   for (int32_t k = 0; hk_force_table(k); k++)
     bytes += hk_force_table(k)->memory ? hk_force_table(k)->memory(system) : 0;
   bytes += system->particle_capacity * (int64_t)((system->velocity ? 7 : 4) * sizeof(double) + 1) +
            system->particle_count * (int64_t)sizeof(double) +
-           (system->held_count + system->anchor_count) * (int64_t)sizeof(int32_t);
+           (system->constrained_count + system->anchor_count) * (int64_t)sizeof(int32_t);
   bytes += system->group_count * (int64_t)sizeof *system->group +
            system->derived_capacity * (int64_t)sizeof *system->derived +
            system->drive_count * (int64_t)sizeof *system->drive;

@@ -35,7 +35,7 @@ extern const struct hooke_part_kind hk_part_strand;
 const struct hk_option_table *hk_part_table(int64_t k);
 
 /* Rows that kinds have in common: a point [m], the corner where a grid begins [m], the total mass or the
- * density, bending stiffness, held particles, a family of springs. */
+ * density, bending stiffness, constrained particles, a family of springs. */
 #define HOOKE_PART_POINT(key, such_as, text)                                                                 \
   {                                                                                                          \
     .name = (key), .type = HOOKE_OPTION_NUMBERS, .unit = "m", .min_count = 3, .max_count = 3, .required = 1, \

@@ -109,7 +109,7 @@ static void test_parts(void **unused) {
   }
 }
 
-/* With other particles and springs, and alone, where its springs form lanes. */
+/* With other particles and springs, and alone, where its springs form strided batches. */
 static void test_lattices(void **unused) {
   (void)unused;
   static const int32_t size[][3] = {{2, 2, 2},  {3, 2, 4}, {2, 17, 4},  {5, 4, 3},

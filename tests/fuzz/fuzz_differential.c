@@ -1,9 +1,9 @@
-/* Small scenes, computed twice: with the loops of every instruction set that the machine has, by lanes, nets
- * and runs, as the library does it, and by the plain loop of tests/support/canonical.c: the same bits.
+/* Small scenes, computed twice: with the loops of every instruction set that the machine has, by strided
+ * batches, tiled batches and runs, as the library does it, and by the plain loop of tests/support/canonical.c: the same bits.
  * Energies and derivatives against differences.
  *
- * Lines of: src/kernel/altitude_loops.c src/kernel/bending_loops.c src/kernel/lane_loops.c
- *           src/kernel/net_loops.c src/kernel/spring_[cl]*.c src/kernel/step_loops.c
+ * Lines of: src/kernel/altitude_loops.c src/kernel/bending_loops.c src/kernel/strided_loops.c
+ *           src/kernel/tiled_loops.c src/kernel/spring_[cl]*.c src/kernel/step_loops.c
  *           src/kernel/tangent_loops.c src/model/force/[a-z]*.c src/model/sum/[a-z]*.c
  *           src/integrate/method/forward_euler.c src/integrate/method/symplectic_euler.c
  *           src/integrate/method/rk4.c src/integrate/method/verlet.c
@@ -128,7 +128,7 @@ static void check_acceleration(const struct small_scene *scene, int first, struc
 static void check_members(const struct small_scene *scene) {
   static struct hk_pool *pool;
   const hooke_system *system = scene->system;
-  if (system->lanes.count == 0 && system->net.particles == 0) return;
+  if (system->strided.count == 0 && system->tiled.particles == 0) return;
   if (pool == NULL) pool = hk_pool_create(3);
   hooke_fuzz_require(pool != NULL, "a thread pool");
   double found[2][3 * MOST_PARTICLES];

@@ -1,6 +1,6 @@
 /* A beam and a sheet that bend under their own weight mean the same at every resolution.
  *
- * Two held particles clamp a beam in the middle between them, so a rope of N pieces l = L/(N - 1/2) begins
+ * Two pinned particles clamp a beam in the middle between them, so a rope of N pieces l = L/(N - 1/2) begins
  * half a piece before the wall. What its tip sinks by, for small deflections and masses by density, is
  *   m g l^3/(2 B) sum of s^3, s = 1 .. N - 1,   m = rho l,
  * which comes to w L^4/(8 B), w = rho g, as 1/N^2 does. */

@@ -3,7 +3,7 @@
  * Forces on a particle are added in this order: its springs in ascending spring number (added to the first
  * end, subtracted from the second), triples of bending in ascending number, tetrahedra of altitude springs
  * likewise, anchors likewise, drag, the callback. The acceleration is w f, then gravity is added to it.
- * Particles that are held (pinned or driven) have none. */
+ * Particles that are constrained (pinned or driven) have none. */
 #ifndef TESTS_SUPPORT_CANONICAL_H
 #define TESTS_SUPPORT_CANONICAL_H
 

@@ -201,7 +201,8 @@ void long_force_rate(long double t, long double *y, long double *f, void *ctx) {
   }
 }
 
-/* Held particles have no error; a velocity is measured by the largest one, and what it soon will be. */
+/* Constrained particles have no error; a velocity is measured by the largest one, and what it soon will be.
+ * */
 void long_force_scale(const long double *y, const long double *f, long double *scale, void *ctx) {
   const struct long_force *force = ctx;
   const int64_t size = 3 * force->canonical->particle_count;

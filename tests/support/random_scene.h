@@ -45,8 +45,8 @@ struct random_scene {
 void random_scene_create(struct random_scene_request request, struct random_scene *scene);
 void random_scene_destroy(struct random_scene *scene);
 
-/* Positions and velocities (3n each) around the initial ones; ends that coincide still do, held particles
- * stay. */
+/* Positions and velocities (3n each) around the initial ones; ends that coincide still do, constrained
+ * particles stay. */
 void random_scene_shake(const struct random_scene *scene, uint64_t seed, double *q, double *v);
 
 /* The callback that scenes with SCENE_CALLBACK use: a pull to the origin, a push that grows with time, and a

@@ -161,7 +161,7 @@ static void solves_s(void **unused) {
     struct random_source source = {(uint64_t)k};
     double *x = new_doubles(4 * size), *s = x + size, *ordered = s + size, *found = ordered + size;
     for (int64_t j = 0; j < size; j++)
-      x[j] = b.scene.system->held[j % b.n] ? 0.0 : random_between(&source, -1.0, 1.0);
+      x[j] = b.scene.system->constrained[j % b.n] ? 0.0 : random_between(&source, -1.0, 1.0);
     multiply(&b, x, s);
     check_ok(hk_reduced_prepare_whole(&b.reduced));
     assert_non_null(b.reduced.whole);
@@ -256,8 +256,8 @@ static void implicit_equation(void **unused) {
            *out = dv + size;
     for (int64_t j = 0; j < size; j++) {
       weight[j] = random_between(&source, 0.5, 2.0);
-      bq[j] = system->held[j % n] ? 0.0 : gamma * random_between(&source, -1.0, 1.0);
-      bv[j] = system->held[j % n] ? 0.0 : random_between(&source, -1.0, 1.0);
+      bq[j] = system->constrained[j % n] ? 0.0 : gamma * random_between(&source, -1.0, 1.0);
+      bv[j] = system->constrained[j % n] ? 0.0 : random_between(&source, -1.0, 1.0);
     }
     hk_motion_store(b.integrator->motion, q, v);
     for (int whole = 0; whole <= hk_factor_is_built(); whole++) {
@@ -275,7 +275,7 @@ static void implicit_equation(void **unused) {
       check_ok(hooke_system_derivative_product(system, 0.25, q, v, dq, dv, out));
       for (int64_t j = 0; j < size; j++) {
         const int64_t at = j % 3 * n + j / 3;
-        if (system->held[j / 3])
+        if (system->constrained[j / 3])
           check_close(z[at], 0.0, 0.0);
         else
           check_close(system->mass[j / 3] * dv[j] - gamma * out[j], system->mass[j / 3] * bv[at], 1e-9);

@@ -1,8 +1,9 @@
-/* Every instruction set that this machine has gives the same bits, for every shape of run and of nets. */
+/* Every instruction set that this machine has gives the same bits, for every shape of run and of tiled
+ * batches. */
 #include "check.h"
 #include "random.h"
 
-#include "kernel/net_loops.h"
+#include "kernel/tiled_loops.h"
 #include "kernel/spring_loops.h"
 
 #include <math.h>
@@ -99,84 +100,87 @@ static void compare_sets(struct random_source *source, int32_t shape, int64_t co
   }
 }
 
-/* ---- lanes ---- */
+/* ---- strided batches ---- */
 
 enum {
   UNITS = 40,
-  LANE_PARTICLES = UNITS * HOOKE_LANE_UNIT,
+  STRIDED_PARTICLES = UNITS * HOOKE_STRIDED_UNIT,
   FARTHEST = 100,
-  ROOM = LANE_PARTICLES + FARTHEST + 32
+  ROOM = STRIDED_PARTICLES + FARTHEST + 32
 };
 
-/* Springs of some lanes at random, and the rings that they go through. */
+/* Springs of some strided batches at random, and the rings that they go through. */
 struct lane_trial {
-  struct hk_lane_pass pass;
+  struct hk_strided_pass pass;
   double q[3][ROOM], v[3][ROOM], f[3][ROOM], w[ROOM];
-  double material[HOOKE_MOST_LANES][HOOKE_LANE_NUMBERS * LANE_PARTICLES];
-  uint32_t unit[HOOKE_MOST_LANES][HOOKE_LANE_NUMBERS * UNITS];
-  uint8_t present[HOOKE_MOST_LANES][UNITS];
-  _Alignas(64) double ring[HOOKE_MOST_LANES][3 * (256 + 3 * HOOKE_LANE_UNIT)];
+  double material[HOOKE_MOST_STRIDED][HOOKE_STRIDED_NUMBERS * STRIDED_PARTICLES];
+  uint32_t unit[HOOKE_MOST_STRIDED][HOOKE_STRIDED_NUMBERS * UNITS];
+  uint8_t present[HOOKE_MOST_STRIDED][UNITS];
+  _Alignas(64) double ring[HOOKE_MOST_STRIDED][3 * (256 + 3 * HOOKE_STRIDED_UNIT)];
 };
 
 /* Each unit has values of its own, in any order, or those of another one. */
 static void draw_lane_material(struct random_source *source, int32_t k, struct lane_trial *trial) {
-  struct hk_lane_view *lane = &trial->pass.lane[k];
-  const int mixed = lane->shape & HOOKE_RUN_MIXED;
-  for (int i = 0; i < HOOKE_LANE_NUMBERS * LANE_PARTICLES; i++)
+  struct hk_strided_view *batch = &trial->pass.batch[k];
+  const int mixed = batch->shape & HOOKE_RUN_MIXED;
+  for (int i = 0; i < HOOKE_STRIDED_NUMBERS * STRIDED_PARTICLES; i++)
     trial->material[k][i] = random_between(source, 0.1, 2.0);
-  for (int i = 0; i < HOOKE_LANE_NUMBERS * UNITS; i++)
-    trial->unit[k][i] = (uint32_t)(HOOKE_LANE_UNIT * random_whole(source, 0, HOOKE_LANE_NUMBERS * UNITS - 1));
-  lane->material = (struct hk_lane_material){trial->material[k], trial->unit[k], mixed ? -1 : 0,
-                                             random_whole(source, 0, 1) ? HOOKE_LANE_UNIT : 0};
-  for (int j = 0; j < HOOKE_LANE_NUMBERS && !mixed; j++) {
+  for (int i = 0; i < HOOKE_STRIDED_NUMBERS * UNITS; i++)
+    trial->unit[k][i] =
+        (uint32_t)(HOOKE_STRIDED_UNIT * random_whole(source, 0, HOOKE_STRIDED_NUMBERS * UNITS - 1));
+  batch->material = (struct hk_strided_material){trial->material[k], trial->unit[k], mixed ? -1 : 0,
+                                                 random_whole(source, 0, 1) ? HOOKE_STRIDED_UNIT : 0};
+  for (int j = 0; j < HOOKE_STRIDED_NUMBERS && !mixed; j++) {
     double *value = trial->material[k] + trial->unit[k][j];
-    const int zero = j == HOOKE_LANE_REST && random_whole(source, 0, 3) == 0;
-    for (int i = HOOKE_LANE_UNIT - 1; i >= 0; i--)
+    const int zero = j == HOOKE_STRIDED_REST && random_whole(source, 0, 3) == 0;
+    for (int i = HOOKE_STRIDED_UNIT - 1; i >= 0; i--)
       value[i] = zero ? 0.0 : value[0];
-    lane->shared[j] = value[0];
+    batch->shared[j] = value[0];
   }
-  for (int j = 0; j < HOOKE_LANE_NUMBERS && !mixed; j++)
-    lane->shared[j] = *hk_lane_number(&lane->material, 0, j); /* two may be in one place */
+  for (int j = 0; j < HOOKE_STRIDED_NUMBERS && !mixed; j++)
+    batch->shared[j] = *hk_strided_number(&batch->material, 0, j); /* two may be in one place */
 }
 
 static void draw_lane(struct random_source *source, int32_t k, int32_t shape, struct lane_trial *trial) {
-  struct hk_lane_view *lane = &trial->pass.lane[k];
-  *lane = (struct hk_lane_view){.shape = shape,
-                                .present = trial->present[k],
-                                .offset = random_whole(source, 1, random_whole(source, 0, 1) ? 9 : FARTHEST),
-                                .mask = 63,
-                                .ring = trial->ring[k]};
-  while (lane->mask + 1 < lane->offset + HOOKE_RING_SLACK)
-    lane->mask = 2 * lane->mask + 1;
+  struct hk_strided_view *batch = &trial->pass.batch[k];
+  *batch =
+      (struct hk_strided_view){.shape = shape,
+                               .present = trial->present[k],
+                               .offset = random_whole(source, 1, random_whole(source, 0, 1) ? 9 : FARTHEST),
+                               .mask = 63,
+                               .ring = trial->ring[k]};
+  while (batch->mask + 1 < batch->offset + HOOKE_RING_SLACK)
+    batch->mask = 2 * batch->mask + 1;
   draw_lane_material(source, k, trial);
   memset(trial->ring[k], 0, sizeof trial->ring[k]);
   memset(trial->present[k], 0, sizeof trial->present[k]);
-  for (int64_t l = 0; l + lane->offset < LANE_PARTICLES; l++) {
+  for (int64_t l = 0; l + batch->offset < STRIDED_PARTICLES; l++) {
     if (random_whole(source, 0, 9)) trial->present[k][l / 8] |= (uint8_t)(1 << l % 8);
   }
 }
 
-/* The items of all lanes in any order, or as lanes come. */
+/* The items of all strided batches in any order, or as strided batches come. */
 static void draw_items(struct random_source *source, struct lane_trial *trial) {
-  struct hk_lane_item *item = trial->pass.item;
+  struct hk_strided_item *item = trial->pass.item;
   const int any = random_whole(source, 0, 1) == 0;
   for (int32_t i = 0; i < 2 * trial->pass.count; i++) {
-    const struct hk_lane_view *lane = &trial->pass.lane[i / 2];
+    const struct hk_strided_view *batch = &trial->pass.batch[i / 2];
     const int64_t place = any ? random_whole(source, 0, i) : i;
     item[i] = item[place];
-    item[place] = (struct hk_lane_item){lane->ring, i % 2 ? 0 : lane->offset, lane->mask, i % 2 ? -1.0 : 1.0};
+    item[place] =
+        (struct hk_strided_item){batch->ring, i % 2 ? 0 : batch->offset, batch->mask, i % 2 ? -1.0 : 1.0};
   }
 }
 
 static void draw_lanes(struct random_source *source, struct lane_trial *trial) {
   const int32_t shape = HOOKE_RUN_DAMPED * (int32_t)random_whole(source, 0, 1);
-  struct hk_lane_pass *pass = &trial->pass;
-  *pass = (struct hk_lane_pass){.count = (int32_t)random_whole(source, 1, 12),
-                                .stride = ROOM,
-                                .q = trial->q[0],
-                                .v = trial->v[0],
-                                .f = trial->f[0],
-                                .w = trial->w};
+  struct hk_strided_pass *pass = &trial->pass;
+  *pass = (struct hk_strided_pass){.count = (int32_t)random_whole(source, 1, 12),
+                                   .stride = ROOM,
+                                   .q = trial->q[0],
+                                   .v = trial->v[0],
+                                   .f = trial->f[0],
+                                   .w = trial->w};
   for (int p = 0; p < ROOM; p++) {
     const int copy = p > 0 && random_whole(source, 0, 30) == 0; /* at the place of its neighbour */
     for (int a = 0; a < 3; a++) {
@@ -197,44 +201,44 @@ static void draw_lanes(struct random_source *source, struct lane_trial *trial) {
                                 .gravity = {0.0, -9.81, 0.1}};
 }
 
-/* Forces of a lane on the upper ends of its springs, one spring at a time. */
-static int64_t find_plainly(const struct lane_trial *trial, int32_t k, double (*b)[LANE_PARTICLES]) {
-  const struct hk_lane_view *lane = &trial->pass.lane[k];
+/* Forces of a strided batch on the upper ends of its springs, one spring at a time. */
+static int64_t find_plainly(const struct lane_trial *trial, int32_t k, double (*b)[STRIDED_PARTICLES]) {
+  const struct hk_strided_view *batch = &trial->pass.batch[k];
   static struct trial one;
   static double f[3][PARTICLES];
   int64_t lost = 0;
   one.run =
-      (struct hk_run){.count = 1, .shape = lane->shape & ~HOOKE_RUN_MIXED, .offset = (int32_t)lane->offset};
-  for (int64_t l = 0; l < LANE_PARTICLES; l++) {
+      (struct hk_run){.count = 1, .shape = batch->shape & ~HOOKE_RUN_MIXED, .offset = (int32_t)batch->offset};
+  for (int64_t l = 0; l < STRIDED_PARTICLES; l++) {
     if (!(trial->present[k][l / 8] >> l % 8 & 1)) continue;
-    one.run.kappa = *hk_lane_number(&lane->material, l, HOOKE_LANE_KAPPA);
-    one.run.gamma = *hk_lane_number(&lane->material, l, HOOKE_LANE_GAMMA);
-    one.run.rest_length = *hk_lane_number(&lane->material, l, HOOKE_LANE_REST);
+    one.run.kappa = *hk_strided_number(&batch->material, l, HOOKE_STRIDED_KAPPA);
+    one.run.gamma = *hk_strided_number(&batch->material, l, HOOKE_STRIDED_GAMMA);
+    one.run.rest_length = *hk_strided_number(&batch->material, l, HOOKE_STRIDED_REST);
     for (int a = 0; a < 3; a++) {
-      one.q[a][0] = trial->q[a][l], one.q[a][lane->offset] = trial->q[a][l + lane->offset];
-      one.v[a][0] = trial->v[a][l], one.v[a][lane->offset] = trial->v[a][l + lane->offset];
-      f[a][0] = f[a][lane->offset] = 0.0;
+      one.q[a][0] = trial->q[a][l], one.q[a][batch->offset] = trial->q[a][l + batch->offset];
+      one.v[a][0] = trial->v[a][l], one.v[a][batch->offset] = trial->v[a][l + batch->offset];
+      f[a][0] = f[a][batch->offset] = 0.0;
     }
     lost += plain(&one, f);
     for (int a = 0; a < 3; a++)
-      b[a][l] = f[a][lane->offset];
+      b[a][l] = f[a][batch->offset];
   }
   return lost;
 }
 
 /* Item by item. */
-static int64_t sum_plainly(const struct lane_trial *trial, double (*sum)[LANE_PARTICLES]) {
-  static double b[HOOKE_MOST_LANES][3][LANE_PARTICLES];
+static int64_t sum_plainly(const struct lane_trial *trial, double (*sum)[STRIDED_PARTICLES]) {
+  static double b[HOOKE_MOST_STRIDED][3][STRIDED_PARTICLES];
   int64_t lost = 0;
   memset(b, 0, sizeof b);
   for (int32_t k = 0; k < trial->pass.count; k++)
     lost += find_plainly(trial, k, b[k]);
   for (int32_t i = 0; i < 2 * trial->pass.count; i++) {
-    const struct hk_lane_item *item = &trial->pass.item[i];
+    const struct hk_strided_item *item = &trial->pass.item[i];
     int32_t k = 0;
     while (trial->ring[k] != item->ring)
       k++;
-    for (int64_t p = item->offset; p < LANE_PARTICLES; p++) {
+    for (int64_t p = item->offset; p < STRIDED_PARTICLES; p++) {
       for (int a = 0; a < 3; a++)
         sum[a][p] = item->offset ? sum[a][p] + b[k][a][p - item->offset] : sum[a][p] - b[k][a][p];
     }
@@ -242,10 +246,10 @@ static int64_t sum_plainly(const struct lane_trial *trial, double (*sum)[LANE_PA
   return lost;
 }
 
-static void move_plainly(struct lane_trial *trial, double (*sum)[LANE_PARTICLES]) {
+static void move_plainly(struct lane_trial *trial, double (*sum)[STRIDED_PARTICLES]) {
   const struct hk_move *move = &trial->pass.move;
   for (int a = 0; a < 3; a++) {
-    for (int p = 0; p < LANE_PARTICLES; p++) {
+    for (int p = 0; p < STRIDED_PARTICLES; p++) {
       double *q = &trial->q[a][p], *v = &trial->v[a][p], f = sum[a][p], u = *v;
       if (move->kind == HOOKE_MOVE_KEEP) trial->f[a][p] = f;
       if (move->kind == HOOKE_MOVE_KEEP || move->kind == HOOKE_MOVE_NOTHING) continue;
@@ -258,7 +262,7 @@ static void move_plainly(struct lane_trial *trial, double (*sum)[LANE_PARTICLES]
 
 static void use_own_rings(struct lane_trial *found, const struct lane_trial *from) {
   for (int32_t k = 0; k < found->pass.count; k++)
-    found->pass.lane[k].ring = found->ring[k];
+    found->pass.batch[k].ring = found->ring[k];
   for (int32_t i = 0; i < 2 * found->pass.count; i++)
     found->pass.item[i].ring = found->ring[0] + (from->pass.item[i].ring - from->ring[0]);
 }
@@ -266,7 +270,7 @@ static void use_own_rings(struct lane_trial *found, const struct lane_trial *fro
 /* Every set, and in ranges as they come, against the plain loop. */
 static void compare_lanes(struct random_source *source, struct lane_trial *trial,
                           struct lane_trial *expected) {
-  static double sum[3][LANE_PARTICLES];
+  static double sum[3][STRIDED_PARTICLES];
   draw_lanes(source, trial);
   *expected = *trial;
   memset(sum, 0, sizeof sum);
@@ -279,11 +283,11 @@ static void compare_lanes(struct random_source *source, struct lane_trial *trial
     *found = *trial;
     found->pass.q = found->q[0], found->pass.v = found->v[0], found->pass.f = found->f[0];
     use_own_rings(found, trial);
-    while (at < LANE_PARTICLES) {
+    while (at < STRIDED_PARTICLES) {
       const int64_t units = random_whole(source, 1, random_whole(source, 0, 1) ? 5 : UNITS), from = at;
-      at += units * HOOKE_LANE_UNIT;
-      if (at > LANE_PARTICLES) at = LANE_PARTICLES;
-      found_lost += set->lanes(&found->pass, from, at);
+      at += units * HOOKE_STRIDED_UNIT;
+      if (at > STRIDED_PARTICLES) at = STRIDED_PARTICLES;
+      found_lost += set->strided(&found->pass, from, at);
     }
     assert_int_equal(found_lost, lost);
     for (int a = 0; a < 3; a++) {
@@ -333,51 +337,51 @@ static void test_moves_agree(void **unused) {
   }
 }
 
-/* ---- nets ---- */
+/* ---- tiled batches ---- */
 
 /* Springs of a trial whose upper ends are looked up as rows and whose lower ends are among the first rows. */
 struct net_trial {
-  double rows[PARTICLES][HOOKE_NET_ROW], on_lower[HOOKE_NET_BATCH][HOOKE_NET_FORCE],
-      on_upper[HOOKE_NET_BATCH][HOOKE_NET_FORCE];
-  uint8_t lower[HOOKE_NET_BATCH];
-  uint16_t narrow[2 * HOOKE_NET_BATCH];
-  uint32_t wide[2 * HOOKE_NET_BATCH];
+  double rows[PARTICLES][HOOKE_TILED_ROW], on_lower[HOOKE_TILED_BATCH][HOOKE_TILED_FORCE],
+      on_upper[HOOKE_TILED_BATCH][HOOKE_TILED_FORCE];
+  uint8_t lower[HOOKE_TILED_BATCH];
+  uint16_t narrow[2 * HOOKE_TILED_BATCH];
+  uint32_t wide[2 * HOOKE_TILED_BATCH];
 };
 
 static void draw_net(struct random_source *source, int32_t shape, ptrdiff_t count, struct trial *trial,
-                     struct net_trial *net) {
+                     struct net_trial *tiled) {
   draw(source, HOOKE_RUN_INDEXED, 1, trial);
-  const int32_t material = shape & HOOKE_NET_MIXED;
+  const int32_t material = shape & HOOKE_TILED_MIXED;
   struct hk_run *run = &trial->run;
   run->count = count;
-  run->shape = HOOKE_RUN_INDEXED | (shape & HOOKE_NET_DAMPED ? HOOKE_RUN_DAMPED : 0) |
-               (shape & HOOKE_NET_PULL_ONLY ? HOOKE_RUN_PULL_ONLY : 0) | (material ? HOOKE_RUN_MIXED : 0);
+  run->shape = HOOKE_RUN_INDEXED | (shape & HOOKE_TILED_DAMPED ? HOOKE_RUN_DAMPED : 0) |
+               (shape & HOOKE_TILED_PULL_ONLY ? HOOKE_RUN_PULL_ONLY : 0) | (material ? HOOKE_RUN_MIXED : 0);
   for (ptrdiff_t k = 0; k < count; k++) {
-    net->lower[k] = (uint8_t)random_whole(source, 0, 255);
-    trial->head[k] = net->lower[k];
-    trial->tail[k] = (int32_t)(net->lower[k] + random_whole(source, 1, PARTICLES - 256));
-    net->narrow[k] = (uint16_t)trial->tail[k];
-    net->wide[k] = (uint32_t)trial->tail[k];
+    tiled->lower[k] = (uint8_t)random_whole(source, 0, 255);
+    trial->head[k] = tiled->lower[k];
+    trial->tail[k] = (int32_t)(tiled->lower[k] + random_whole(source, 1, PARTICLES - 256));
+    tiled->narrow[k] = (uint16_t)trial->tail[k];
+    tiled->wide[k] = (uint32_t)trial->tail[k];
     trial->rest_lengths[k] = random_between(source, 0.1, 2.0);
-    const double share = material == HOOKE_NET_STRAIN ? trial->rest_lengths[k] : 1.0;
-    trial->kappas[k] = material == HOOKE_NET_MIXED ? random_between(source, 1.0, 9.0) : run->kappa / share;
-    trial->gammas[k] = material == HOOKE_NET_MIXED ? random_between(source, 1.0, 9.0) : run->gamma / share;
+    const double share = material == HOOKE_TILED_STRAIN ? trial->rest_lengths[k] : 1.0;
+    trial->kappas[k] = material == HOOKE_TILED_MIXED ? random_between(source, 1.0, 9.0) : run->kappa / share;
+    trial->gammas[k] = material == HOOKE_TILED_MIXED ? random_between(source, 1.0, 9.0) : run->gamma / share;
   }
   for (int p = 0; p < PARTICLES; p++) {
-    const double row[HOOKE_NET_ROW] = {trial->q[0][p],
-                                       trial->q[1][p],
-                                       trial->q[2][p],
-                                       trial->v[2][p],
-                                       trial->v[0][p],
-                                       trial->v[1][p],
-                                       NAN,
-                                       NAN};
-    memcpy(net->rows[p], row, sizeof row);
+    const double row[HOOKE_TILED_ROW] = {trial->q[0][p],
+                                         trial->q[1][p],
+                                         trial->q[2][p],
+                                         trial->v[2][p],
+                                         trial->v[0][p],
+                                         trial->v[1][p],
+                                         NAN,
+                                         NAN};
+    memcpy(tiled->rows[p], row, sizeof row);
   }
 }
 
 /* Each spring alone, in the plain loop: what it does to its ends. */
-static void check_forces(const struct trial *trial, const struct net_trial *net, ptrdiff_t count,
+static void check_forces(const struct trial *trial, const struct net_trial *tiled, ptrdiff_t count,
                          int64_t lost) {
   double f[3][PARTICLES];
   struct trial one = *trial;
@@ -397,36 +401,36 @@ static void check_forces(const struct trial *trial, const struct net_trial *net,
       f[a][one.head[0]] = f[a][one.tail[0]] = 0.0;
     lost -= plain(&one, f);
     for (int a = 0; a < 3; a++) {
-      assert_true(net->on_upper[k][a] == f[a][one.tail[0]]);
-      assert_true(net->on_lower[k][a] == f[a][one.head[0]]);
+      assert_true(tiled->on_upper[k][a] == f[a][one.tail[0]]);
+      assert_true(tiled->on_lower[k][a] == f[a][one.head[0]]);
     }
   }
   assert_int_equal(lost, 0);
 }
 
-static void check_sums(const struct hk_net_loops *loops, struct random_source *source,
-                       struct net_trial *net) {
-  enum { MOST_PARTICLES = 2 * HOOKE_NET_BATCH };
+static void check_sums(const struct hk_tiled_loops *loops, struct random_source *source,
+                       struct net_trial *tiled) {
+  enum { MOST_PARTICLES = 2 * HOOKE_TILED_BATCH };
   uint16_t degree[MOST_PARTICLES];
   double x[MOST_PARTICLES], y[MOST_PARTICLES], z[MOST_PARTICLES], *const f[3] = {x, y, z};
   ptrdiff_t particles = 0, used = 0;
-  while (used < 2 * HOOKE_NET_BATCH) {
-    const ptrdiff_t left = 2 * HOOKE_NET_BATCH - used, own = random_whole(source, 0, 9);
+  while (used < 2 * HOOKE_TILED_BATCH) {
+    const ptrdiff_t left = 2 * HOOKE_TILED_BATCH - used, own = random_whole(source, 0, 9);
     degree[particles] = (uint16_t)(own < left ? own : left);
     used += degree[particles++];
     if (particles == MOST_PARTICLES) break;
   }
   for (ptrdiff_t k = 0; k < used; k++)
-    net->wide[k] = net->narrow[k] = (uint16_t)random_whole(source, 0, 2 * HOOKE_NET_BATCH - 1);
+    tiled->wide[k] = tiled->narrow[k] = (uint16_t)random_whole(source, 0, 2 * HOOKE_TILED_BATCH - 1);
   for (int wide = 0; wide <= 1; wide++) {
-    const void *place = wide ? (const void *)net->wide : (const void *)net->narrow;
-    const void *end = wide ? (const void *)(net->wide + used) : (const void *)(net->narrow + used);
-    assert_ptr_equal(loops->sum[wide](particles, degree, place, net->on_lower[0], f), end);
+    const void *place = wide ? (const void *)tiled->wide : (const void *)tiled->narrow;
+    const void *end = wide ? (const void *)(tiled->wide + used) : (const void *)(tiled->narrow + used);
+    assert_ptr_equal(loops->sum[wide](particles, degree, place, tiled->on_lower[0], f), end);
     for (ptrdiff_t p = 0, at = 0; p < particles; p++) {
       double sum[3] = {0.0, 0.0, 0.0};
       for (int k = 0; k < degree[p]; k++, at++) {
         for (int a = 0; a < 3; a++)
-          sum[a] += (&net->on_lower[0][0])[HOOKE_NET_FORCE * net->wide[at] + (uint32_t)a];
+          sum[a] += (&tiled->on_lower[0][0])[HOOKE_TILED_FORCE * tiled->wide[at] + (uint32_t)a];
       }
       assert_true(x[p] == sum[0] && y[p] == sum[1] && z[p] == sum[2]);
     }
@@ -437,33 +441,33 @@ static void test_nets_agree(void **unused) {
   (void)unused;
   struct random_source source = {31};
   struct trial *trial = new_block(1, (int64_t)sizeof *trial);
-  struct net_trial *net = aligned_alloc(64, (sizeof *net + 63) / 64 * 64);
-  assert_non_null(net);
+  struct net_trial *tiled = aligned_alloc(64, (sizeof *tiled + 63) / 64 * 64);
+  assert_non_null(tiled);
   const struct hk_spring_set *set;
-  for (int32_t shape = 0; shape < HOOKE_NET_SHAPES; shape++) {
-    for (ptrdiff_t count = 1; count <= HOOKE_NET_BATCH; count += count < 20 ? 1 : 9) {
+  for (int32_t shape = 0; shape < HOOKE_TILED_SHAPES; shape++) {
+    for (ptrdiff_t count = 1; count <= HOOKE_TILED_BATCH; count += count < 20 ? 1 : 9) {
       for (int32_t k = 0; (set = hk_spring_set(k)) != NULL; k++) {
-        draw_net(&source, shape, count, trial, net);
-        memset(net->on_lower, 0, sizeof net->on_lower);
-        memset(net->on_upper, 0, sizeof net->on_upper);
-        const struct hk_net_springs springs = {.lower = net->lower,
-                                               .upper = shape & HOOKE_NET_WIDE ? (const void *)net->wide
-                                                                               : (const void *)net->narrow,
-                                               .kappa = trial->run.kappa,
-                                               .gamma = trial->run.gamma,
-                                               .rest_length = trial->run.rest_length,
-                                               .kappas = trial->kappas,
-                                               .gammas = trial->gammas,
-                                               .rest_lengths = trial->rest_lengths};
-        const int64_t lost = set->net->fill[shape](&springs, count, net->rows[0], net->rows[0],
-                                                   net->on_lower[0], net->on_upper[0]);
-        check_forces(trial, net, count, lost);
-        check_sums(set->net, &source, net);
+        draw_net(&source, shape, count, trial, tiled);
+        memset(tiled->on_lower, 0, sizeof tiled->on_lower);
+        memset(tiled->on_upper, 0, sizeof tiled->on_upper);
+        const struct hk_tiled_springs springs = {
+            .lower = tiled->lower,
+            .upper = shape & HOOKE_TILED_WIDE ? (const void *)tiled->wide : (const void *)tiled->narrow,
+            .kappa = trial->run.kappa,
+            .gamma = trial->run.gamma,
+            .rest_length = trial->run.rest_length,
+            .kappas = trial->kappas,
+            .gammas = trial->gammas,
+            .rest_lengths = trial->rest_lengths};
+        const int64_t lost = set->tiled->fill[shape](&springs, count, tiled->rows[0], tiled->rows[0],
+                                                     tiled->on_lower[0], tiled->on_upper[0]);
+        check_forces(trial, tiled, count, lost);
+        check_sums(set->tiled, &source, tiled);
       }
     }
   }
   free(trial);
-  free(net);
+  free(tiled);
 }
 
 static void test_sets_agree(void **unused) {

@@ -55,7 +55,7 @@ static void check_solution(const hooke_system *system, const double *q, const do
   struct hk_reduced reduced;
   struct hk_solution solution;
   for (int64_t k = 0; k < size; k++)
-    b[k] = system->held[k % n] ? 0.0 : random_between(&source, -1.0, 1.0);
+    b[k] = system->constrained[k % n] ? 0.0 : random_between(&source, -1.0, 1.0);
   hk_motion_load(system, integrator->motion, q, v);
   check_ok(hk_reduced_create(integrator, alpha == 0.0 && system->force == NULL, &reduced));
   hk_reduced_set(&reduced, 0.25, alpha, beta);

@@ -36,7 +36,7 @@ static void check_same_system(const hooke_system *found, const hooke_system *exp
   assert_int_equal(found->velocity != NULL, expected->velocity != NULL);
   if (found->velocity) check_same_bits(3 * n, found->velocity, expected->velocity);
   check_same_bits(n, found->mass, expected->mass);
-  assert_memory_equal(found->held, expected->held, (size_t)n);
+  assert_memory_equal(found->constrained, expected->constrained, (size_t)n);
   assert_int_equal(found->group_count, expected->group_count);
   for (int64_t g = 0; g < expected->group_count; g++)
     assert_string_equal(found->group[g].name, expected->group[g].name);

@@ -1,5 +1,5 @@
 /* Batches have every spring once, with its material to the bit, whether they go by runs or by the tiles of a
- * net; and sums over them are those over the springs one by one. */
+ * tiled batch; and sums over them are those over the springs one by one. */
 #include "check.h"
 #include "model/sum/spring_batch.h"
 #include "random.h"
@@ -136,7 +136,7 @@ static void test_sheet(int64_t side, int shuffled, int lawful) {
   for (int group = 0; group < 3; group++)
     add_group(&sheet, group, lawful, system);
   check_ok(hooke_system_commit(system));
-  assert_int_equal(system->net.particles > 0, shuffled);
+  assert_int_equal(system->tiled.particles > 0, shuffled);
   check_batches(system);
   for (int64_t k = 0; k < 3 * sheet.particles; k++)
     sheet.q[k] *= 1.01;
@@ -156,7 +156,7 @@ static void test_runs(void **unused) {
 }
 
 /* The large one has materials by a law, and none of its own a spring. */
-static void test_nets(void **unused) {
+static void test_tiled(void **unused) {
   (void)unused;
   test_sheet(30, 1, 1);
   test_sheet(30, 1, 0);
@@ -164,6 +164,6 @@ static void test_nets(void **unused) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(test_runs), cmocka_unit_test(test_nets)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(test_runs), cmocka_unit_test(test_tiled)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -50,7 +50,7 @@ static void check_groups(const hooke_system *found, const hooke_system *expected
 
 static void check_same_loops(const hooke_system *found, const hooke_system *expected) {
   assert_int_equal(found->springs.run_count, expected->springs.run_count);
-  assert_int_equal(found->lanes.count, expected->lanes.count);
+  assert_int_equal(found->strided.count, expected->strided.count);
   assert_int_equal(found->force_row_count, expected->force_row_count);
   assert_memory_equal(found->force_row, expected->force_row,
                       (size_t)expected->force_row_count * sizeof *found->force_row);

@@ -17,7 +17,7 @@
 enum shape { CLOTH, ROPE, NETWORK, SHAPES };
 
 enum ingredient {
-  GROUPS,       /* two groups, whose springs would form runs and lanes of their own */
+  GROUPS,       /* two groups, whose springs would form runs and strided batches of their own */
   FAMILY,       /* a family of a part */
   SOME_SPRINGS, /* springs among others of a group */
   BENDING,
@@ -194,12 +194,12 @@ static void check_same_runs(const struct hk_springs *found, const struct hk_spri
 }
 
 static void check_same_lanes(const hooke_system *found, const hooke_system *expected) {
-  assert_int_equal(found->lanes.count, expected->lanes.count);
-  for (int32_t k = 0; k < expected->lanes.count; k++) {
-    const struct hk_lane *a = &found->lanes.lane[k], *b = &expected->lanes.lane[k];
+  assert_int_equal(found->strided.count, expected->strided.count);
+  for (int32_t k = 0; k < expected->strided.count; k++) {
+    const struct hk_strided_batch *a = &found->strided.batch[k], *b = &expected->strided.batch[k];
     assert_true(a->offset == b->offset && a->first == b->first && a->last == b->last);
     assert_int_equal(a->shape, b->shape);
-    const int64_t units = expected->particle_count / HOOKE_LANE_UNIT + 1;
+    const int64_t units = expected->particle_count / HOOKE_STRIDED_UNIT + 1;
     assert_memory_equal(a->present, b->present, (size_t)units);
   }
 }
@@ -290,7 +290,7 @@ static void strength_is_seen(void **unused) {
   }
   hooke_system_destroy(full);
   hooke_system *cloth = build((struct scene){CLOTH, GROUPS, 0, 1});
-  assert_in_range(cloth->lanes.count, 1, HOOKE_MOST_LANES);
+  assert_in_range(cloth->strided.count, 1, HOOKE_MOST_STRIDED);
   hooke_system_destroy(cloth);
 }
 

@@ -144,7 +144,7 @@ static int32_t check_rows(const char *name, int64_t count, const double *rows) {
 }
 
 static void put_rows(hooke_integrator *it, int64_t particle, const double *q, const double *v) {
-  if (it->system->held[particle] == HOOKE_HELD_DRIVEN) return;
+  if (it->system->constrained[particle] == HOOKE_IS_DRIVEN) return;
   const size_t bytes = 3 * sizeof(double);
   if (!it->method->adaptive)
     hk_motion_place(it->system, it->motion, particle, q, v);

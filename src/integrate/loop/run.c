@@ -118,7 +118,7 @@ static int32_t take_untold_steps(hooke_integrator *it, int64_t count) {
     status = hk_integrator_drive(it, next);
     if (status == HOOKE_OK) status = it->method->step(it);
     if (status != HOOKE_OK) break;
-    if (it->system && it->system->held_count > 0) hk_motion_hold(it->system, it->motion);
+    if (it->system && it->system->constrained_count > 0) hk_motion_hold(it->system, it->motion);
     it->t = next;
     it->k++;
     it->count.steps++;

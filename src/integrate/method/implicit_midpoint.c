@@ -28,7 +28,7 @@ static void destroy(hooke_integrator *it) {
   it->own = NULL;
 }
 
-/* From the middle on as far again; held particles come from the drives. */
+/* From the middle on as far again; constrained particles come from the drives. */
 static int32_t go_on(hooke_integrator *it, struct hk_span_of_time span) {
   const struct own *own = it->own;
   struct hk_motion *m = it->motion;
@@ -40,7 +40,7 @@ static int32_t go_on(hooke_integrator *it, struct hk_span_of_time span) {
       m->v[a][p] = 2.0 * m->v[a][p] - v[p];
     }
   }
-  if (it->system->held_count == 0) return HOOKE_OK;
+  if (it->system->constrained_count == 0) return HOOKE_OK;
   return hk_integrator_hold(it, span.end);
 }
 

@@ -1,4 +1,4 @@
-/* Pinned and driven particles are held in every stage. */
+/* Pinned and driven particles are constrained in every stage. */
 #include "integrate/method/stages.h"
 
 #include "core/memory.h"
@@ -74,10 +74,10 @@ static void move_motion(hooke_integrator *it, int64_t from, int64_t count, void 
   }
 }
 
-/* Held particles at the time of a stage; a stage at the time of the one before finds the drives where that
- * left them. */
+/* Constrained particles at the time of a stage; a stage at the time of the one before finds the drives where
+ * that left them. */
 static int32_t hold(hooke_integrator *it, int stage) {
-  if (it->system->held_count == 0 || stage == 0) return HOOKE_OK;
+  if (it->system->constrained_count == 0 || stage == 0) return HOOKE_OK;
   if (ahead_of(it, stage) != ahead_of(it, stage - 1)) return hk_integrator_hold(it, stage_time(it, stage));
   hk_motion_hold(it->system, it->motion);
   return HOOKE_OK;

@@ -144,7 +144,7 @@ static int32_t step(hooke_integrator *it) {
   int32_t status = first_forces(it);
   if (status != HOOKE_OK) return status;
   hk_integrator_each(it, kick_and_drift, NULL);
-  if (it->system->held_count > 0) hk_motion_hold(it->system, m);
+  if (it->system->constrained_count > 0) hk_motion_hold(it->system, m);
   status = second_kick(it);
   if (status != HOOKE_OK && own->start) hk_motion_restore(m, own->start);
   return status;

@@ -10,7 +10,7 @@
 #include <string.h>
 
 /* Where the matrix has the block of two particles: in the three columns of the later one, from number `first`
- * of each on; column -1 if an end is held. */
+ * of each on; column -1 if an end is constrained. */
 struct place {
   int32_t column, first;
 };
@@ -19,8 +19,8 @@ struct hk_factor {
   const hooke_system *system;
   int32_t free_count;
   int32_t *particle,
-      *position;            /* the free particles in order; where each is in it, -1 for those that are held */
-  struct hk_columns matrix; /* S, in order */
+      *position; /* the free particles in order; where each is in it, -1 for those that are constrained */
+  struct hk_columns matrix;    /* S, in order */
   struct place *spring, *pair; /* of each spring; of the pairs 01, 02, 12, 03, 13, 23 of each other element */
   struct hk_cholmod *cholmod;
   struct hk_triangle triangle;
@@ -44,7 +44,7 @@ static void number_free(struct hk_factor *x) {
   x->free_count = 0;
   for (int64_t p = 0; p < x->system->particle_count; p++) {
     x->position[p] = -1;
-    if (x->system->held[p]) continue;
+    if (x->system->constrained[p]) continue;
     x->particle[x->free_count] = (int32_t)p;
     x->position[p] = x->free_count++;
   }
@@ -414,9 +414,9 @@ void hk_factor_gather(const struct hk_factor *factor, const double *all, double 
 
 void hk_factor_spread(const struct hk_factor *factor, const double *ordered, double *all) {
   const int64_t n = factor->system->particle_count;
-  for (int64_t k = 0; k < factor->system->held_count; k++) {
+  for (int64_t k = 0; k < factor->system->constrained_count; k++) {
     for (int a = 0; a < 3; a++)
-      all[a * n + factor->system->held_particle[k]] = 0.0;
+      all[a * n + factor->system->constrained_particle[k]] = 0.0;
   }
   for (int64_t k = 0; k < factor->free_count; k++) {
     for (int a = 0; a < 3; a++)

@@ -42,7 +42,7 @@ int32_t hk_factor_compute(struct hk_factor *factor, const double *diagonal,
                           const struct hk_factor_parts *parts);
 
 /* With S = L L^T: x = L^-1 x and x = L^-T x in the order of the factor, 3 numbers a free particle; and
- * between that order and vectors of all particles, x, y and z apart, where held ones become 0. */
+ * between that order and vectors of all particles, x, y and z apart, where constrained ones become 0. */
 void hk_factor_forward(struct hk_factor *factor, double *x);
 void hk_factor_backward(struct hk_factor *factor, double *x);
 void hk_factor_gather(const struct hk_factor *factor, const double *all, double *ordered);

@@ -143,9 +143,9 @@ static void fill_diagonal(struct hk_reduced *reduced) {
   add_others(reduced, block);
   memcpy(reduced->factor, reduced->block, (size_t)(6 * n) * sizeof(double));
   hk_factorise_blocks(n, reduced->factor);
-  for (int64_t k = 0; k < system->held_count; k++) {
+  for (int64_t k = 0; k < system->constrained_count; k++) {
     for (int c = 0; c < 6; c++)
-      reduced->factor[c * n + system->held_particle[k]] = 0.0;
+      reduced->factor[c * n + system->constrained_particle[k]] = 0.0;
   }
 }
 
@@ -233,7 +233,7 @@ static int32_t subtract_others(struct hk_reduced *reduced, double alpha, double 
   return status;
 }
 
-/* out += the matrix without its `diagonal`, times x, where no particle is held. */
+/* out += the matrix without its `diagonal`, times x, where no particle is constrained. */
 static int32_t add_product(struct hk_reduced *reduced, const double *x, double *out) {
   const hooke_system *system = reduced->integrator->system;
   const int64_t n = system->particle_count;
@@ -308,7 +308,7 @@ static int32_t apply_whole(void *ctx, const double *unknown, double *out) {
 static int32_t solve_whole(struct hk_reduced *reduced, const double *b, double tolerance, int64_t limit,
                            double *x, struct hk_solution *solution) {
   hooke_integrator *it = reduced->integrator;
-  const struct hk_operator a = {3 * (it->system->particle_count - it->system->held_count), apply_whole,
+  const struct hk_operator a = {3 * (it->system->particle_count - it->system->constrained_count), apply_whole,
                                 reduced};
   hk_factor_gather(reduced->whole, b, reduced->right);
   hk_factor_forward(reduced->whole, reduced->right);
@@ -417,7 +417,7 @@ double hk_reduced_trace(const struct hk_reduced *reduced) {
   const int64_t n = system->particle_count;
   double sum = 0.0;
   for (int64_t k = 0; k < 3 * n; k++)
-    sum += system->held[k % n] ? 0.0 : reduced->block[k];
+    sum += system->constrained[k % n] ? 0.0 : reduced->block[k];
   return sum;
 }
 

@@ -28,14 +28,14 @@ struct hk_reduced {
   int32_t rows_needed; /* the products of some force are made by its own function, in rows */
   double t, alpha, beta;
   struct hk_tangent tangent;
-  int64_t element_count;                   /* of forces other than springs whose K and C are not constant */
-  struct hk_element *element;              /* clamped */
-  double *diagonal;                        /* n: m + beta c */
-  double *block;                           /* 6 n: diagonal blocks of S, zero where a particle is held */
-  double *factor;                          /* 6 n: L^-1 of these */
-  struct hk_factor *whole;                 /* of all of S; NULL: not asked for, too large, not built */
-  int32_t whole_state;                     /* HOOKE_WHOLE_* */
-  const double *weight;                    /* of the norm of the minimal one */
+  int64_t element_count;      /* of forces other than springs whose K and C are not constant */
+  struct hk_element *element; /* clamped */
+  double *diagonal;           /* n: m + beta c */
+  double *block;              /* 6 n: diagonal blocks of S, zero where a particle is constrained */
+  double *factor;             /* 6 n: L^-1 of these */
+  struct hk_factor *whole;    /* of all of S; NULL: not asked for, too large, not built */
+  int32_t whole_state;        /* HOOKE_WHOLE_* */
+  const double *weight;       /* of the norm of the minimal one */
   double *right, *unknown, *place, *moved; /* 3n each: L^-1 b, L^T x, x, scratch */
   double *krylov;
   double *rows; /* q, v, dq, dv and a product, in rows of x y z */
@@ -51,8 +51,9 @@ void hk_reduced_release(struct hk_reduced *reduced);
 /* Derivatives at the place of the integrator's motion; t is for callbacks. */
 void hk_reduced_set(struct hk_reduced *reduced, double t, double alpha, double beta);
 
-/* x = the solution for b (3n each, x y z apart), 0 where a particle is held; `converged` is 0 if `tolerance`
- * was not reached. Iterations and products are counted. HOOKE_STOPPED if a callback asked for it. */
+/* x = the solution for b (3n each, x y z apart), 0 where a particle is constrained; `converged` is 0 if
+ * `tolerance` was not reached. Iterations and products are counted. HOOKE_STOPPED if a callback asked for it.
+ * */
 int32_t hk_reduced_solve(struct hk_reduced *reduced, const double *b, double tolerance, double *x,
                          struct hk_solution *solution);
 

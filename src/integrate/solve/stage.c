@@ -45,7 +45,7 @@ void hk_stage_release(struct hk_stage *stage) {
 
 /* ---- the equations ---- */
 
-/* The motion at velocity v (3n), held particles where the drives have said. */
+/* The motion at velocity v (3n), constrained particles where the drives have said. */
 static void place(struct hk_stage *stage, const double *v) {
   const hooke_integrator *it = stage->reduced.integrator;
   struct hk_motion *m = it->motion;
@@ -56,7 +56,7 @@ static void place(struct hk_stage *stage, const double *v) {
       m->q[a][p] = old[p] + stage->at.a * m->v[a][p];
     }
   }
-  if (it->system->held_count > 0) hk_motion_hold(it->system, m);
+  if (it->system->constrained_count > 0) hk_motion_hold(it->system, m);
 }
 
 /* right = -F at velocity v, where it leaves the motion. */
@@ -85,14 +85,14 @@ static void set_matrix(struct hk_stage *stage) {
   hk_reduced_set(&stage->reduced, stage->at.t, a * a, a);
 }
 
-/* How far the state at the beginning moves with dv = 0: to place + a v, and held particles to where they
+/* How far the state at the beginning moves with dv = 0: to place + a v, and constrained particles to where they
  * are held. */
 static void find_moved(const struct hk_stage *stage, double *dq, double *dv) {
   const hooke_integrator *it = stage->reduced.integrator;
   const hooke_system *system = it->system;
   const int64_t n = system->particle_count;
   for (int64_t k = 0; k < 3 * n; k++) {
-    const int held = system->held[k % n] != 0;
+    const int held = system->constrained[k % n] != 0;
     const double q = stage->begin[k], v = stage->begin[3 * n + k];
     dq[k] = held ? it->motion->q[k / n][k % n] - q : (stage->at.place[k] - q) + stage->at.a * v;
     dv[k] = held ? it->motion->v[k / n][k % n] - v : 0.0;
@@ -118,7 +118,7 @@ static int32_t linearise(struct hk_stage *stage) {
     const double g = system->has_gravity ? system->gravity[k / n] : 0.0, force = m->f[k / n][p];
     stage->straight[k] = old[k] + stage->at.length * (system->inverse_mass[p] * force + g);
     stage->right[k] = stage->at.a * ((force + stage->moved[k]) + system->mass[p] * g);
-    if (system->held[p] == 0) stage->right[k] -= system->mass[p] * (old[k] - stage->at.speed[k]);
+    if (system->constrained[p] == 0) stage->right[k] -= system->mass[p] * (old[k] - stage->at.speed[k]);
   }
   return status;
 }
@@ -136,7 +136,7 @@ static double distance(const struct hk_stage *stage, const double *from) {
   double sum = 0.0;
   for (int64_t k = 0; k < 3 * n; k++) {
     const double d = stage->v[k] - from[k];
-    sum += system->held[k % n] ? 0.0 : system->mass[k % n] * (d * d);
+    sum += system->constrained[k % n] ? 0.0 : system->mass[k % n] * (d * d);
   }
   return sqrt(sum);
 }
@@ -346,7 +346,7 @@ static int32_t take_part(hooke_integrator *it, double *start, int64_t done, int6
   if (status == HOOKE_OK)
     status = stages(it, (struct hk_span_of_time){time_of(it, done),
                                                  (double)parts / FINEST_SPLIT * it->schedule.step, end});
-  if (status == HOOKE_OK && it->system->held_count > 0) hk_motion_hold(it->system, it->motion);
+  if (status == HOOKE_OK && it->system->constrained_count > 0) hk_motion_hold(it->system, it->motion);
   return status;
 }
 

@@ -7,11 +7,12 @@
 #include <string.h>
 
 static int32_t find_stretches(const hooke_system *system, struct hk_unknowns *u) {
-  u->stretch = hk_new(system->held_count + 1, sizeof *u->stretch);
+  u->stretch = hk_new(system->constrained_count + 1, sizeof *u->stretch);
   if (u->stretch == NULL) return HOOKE_NO_MEMORY;
   int64_t from = 0, place = 0;
-  for (int64_t k = 0; k <= system->held_count; k++) {
-    const int64_t to = k < system->held_count ? system->held_particle[k] : system->particle_count;
+  for (int64_t k = 0; k <= system->constrained_count; k++) {
+    const int64_t to =
+        k < system->constrained_count ? system->constrained_particle[k] : system->particle_count;
     if (to > from) {
       u->stretch[u->stretch_count++] = (struct hk_stretch_of_free){from, place, to - from};
       place += to - from;
@@ -24,7 +25,7 @@ static int32_t find_stretches(const hooke_system *system, struct hk_unknowns *u)
 int32_t hk_unknowns_create(hooke_integrator *it, int32_t products, struct hk_unknowns *u) {
   *u = (struct hk_unknowns){.size = it->size};
   if (it->rate) return HOOKE_OK;
-  u->free_count = it->system->particle_count - it->system->held_count;
+  u->free_count = it->system->particle_count - it->system->constrained_count;
   u->size = u->free_count > 0 ? 6 * u->free_count : 1;
   if (find_stretches(it->system, u) != HOOKE_OK) return HOOKE_NO_MEMORY;
   if (!products) return HOOKE_OK;
@@ -178,7 +179,7 @@ int hk_unknowns_product(hooke_integrator *it, const struct hk_unknowns *u, doubl
   }
   double *q = u->rows, *v = q + it->size, *dq = v + it->size, *dv = dq + it->size, *out = dv + it->size;
   const int64_t m = u->free_count;
-  spread_to_rows(u, direction, dq); /* held particles: zero from the start */
+  spread_to_rows(u, direction, dq); /* constrained particles: zero from the start */
   spread_to_rows(u, direction + 3 * m, dv);
   it->count.derivative_products++;
   int32_t stop_value = 0;

@@ -41,7 +41,7 @@ int32_t hk_unknowns_store(hooke_integrator *integrator, const struct hk_unknowns
 void hk_unknowns_gather(const struct hk_unknowns *unknowns, const double *const all[3], double *some);
 void hk_unknowns_spread(const struct hk_unknowns *unknowns, const double *some, double *const all[3]);
 
-/* Puts y and the held particles of time t into the working copy; a status. */
+/* Puts y and the constrained particles of time t into the working copy; a status. */
 int32_t hk_unknowns_place(hooke_integrator *integrator, const struct hk_unknowns *unknowns, double t,
                           const double *y);
 

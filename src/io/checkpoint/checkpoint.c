@@ -8,7 +8,7 @@
 #include "io/file/bytes.h"
 #include "io/checkpoint/checkpoint_file.h"
 #include "io/checkpoint/checkpoint_form.h"
-#include "io/file/place.h"
+#include "io/file/atomic_file.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -88,15 +88,15 @@ int32_t hooke_checkpoint_write(const char *path, const hooke_integrator *it, con
   if (status != HOOKE_OK) return status;
   struct hk_checkpoint_header header;
   hk_checkpoint_describe(it, &standing, run, &header);
-  struct hk_place place;
+  struct hk_atomic_file file;
   char *previous = NULL;
-  status = hk_place_make(path, &place);
-  if (status == HOOKE_OK) status = hk_place_beside(place.path, ".previous", &previous);
-  const int error = status == HOOKE_OK ? write_all(place.descriptor, &header, from) : 0;
-  if (error) status = hk_place_fail(path, "write", error);
-  if (status == HOOKE_OK) status = hk_place_take(&place, previous);
+  status = hk_atomic_file_make(path, &file);
+  if (status == HOOKE_OK) status = hk_file_beside(file.path, ".previous", &previous);
+  const int error = status == HOOKE_OK ? write_all(file.descriptor, &header, from) : 0;
+  if (error) status = hk_file_fail(path, "write", error);
+  if (status == HOOKE_OK) status = hk_atomic_file_commit(&file, previous);
   hk_free(previous);
-  hk_place_release(&place);
+  hk_atomic_file_release(&file);
   return status;
 }
 
@@ -144,7 +144,7 @@ static int32_t read_open(const char *path, FILE *file, const hooke_integrator *i
   unsigned char bytes[HOOKE_CHECKPOINT_HEADER];
   struct stat there;
   uint32_t check = 0;
-  if (fstat(fileno(file), &there) != 0) return hk_place_fail(path, "read the file", errno);
+  if (fstat(fileno(file), &there) != 0) return hk_file_fail(path, "read the file", errno);
   if (!read_some(file, &check, bytes, sizeof bytes)) return damaged(path, "is cut off");
   hk_checkpoint_unpack(bytes, &found->header);
   const char *damage = hk_checkpoint_damage(&found->header, there.st_size);
@@ -163,14 +163,14 @@ static int32_t read_open(const char *path, FILE *file, const hooke_integrator *i
 }
 
 static int32_t read_file(const char *path, const char *run, const hooke_integrator *it, struct found *found) {
-  const int descriptor = hk_place_open(path);
+  const int descriptor = hk_file_open(path);
   FILE *file = descriptor < 0 ? NULL : fdopen(descriptor, "rb");
   found->finding = file == NULL && errno == ENOENT ? HOOKE_CHECKPOINT_ABSENT : HOOKE_CHECKPOINT_DAMAGED;
   if (file == NULL) {
     const int error = errno;
     if (descriptor >= 0) close(descriptor);
     return error == EINVAL || error == EISDIR ? damaged(path, "is not a regular file")
-                                              : hk_place_fail(path, "open the checkpoint", error);
+                                              : hk_file_fail(path, "open the checkpoint", error);
   }
   int32_t status = read_open(path, file, it, found);
   fclose(file);
@@ -199,7 +199,7 @@ static int32_t find(const char *path, const char *run, const hooke_integrator *i
     return status;
   snprintf(first, sizeof first, "%s", hooke_last_error());
   drop(found);
-  const int32_t second = hk_place_beside(path, ".previous", &previous);
+  const int32_t second = hk_file_beside(path, ".previous", &previous);
   const int there = second == HOOKE_OK && access(previous, F_OK) == 0;
   if (there) {
     status = read_file(previous, run, it, found);
@@ -242,6 +242,6 @@ int32_t hooke_checkpoint_read(const char *path, const char *run, hooke_integrato
 void hk_checkpoint_remove(const char *path) {
   char *previous = NULL;
   unlink(path);
-  if (hk_place_beside(path, ".previous", &previous) == HOOKE_OK) unlink(previous);
+  if (hk_file_beside(path, ".previous", &previous) == HOOKE_OK) unlink(previous);
   hk_free(previous);
 }

@@ -6,7 +6,7 @@
 
 #include "io/hdf5/dataset_h5.h"
 #include "io/hdf5/object_h5.h"
-#include "io/file/place.h"
+#include "io/file/atomic_file.h"
 
 #include <errno.h>
 #include <math.h>
@@ -26,7 +26,7 @@ int32_t hk_dataset_refuse(const char *path, const char *name, const char *what) 
 }
 
 int32_t hk_dataset_file(struct hk_h5_guard *guard, const char *path, hid_t *file) {
-  const int descriptor = hk_place_open(path);
+  const int descriptor = hk_file_open(path);
   *file = -1;
   /* HDF5 would wait for somebody to write into a pipe */
   if (descriptor < 0 && (errno == EINVAL || errno == EISDIR))

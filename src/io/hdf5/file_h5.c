@@ -7,7 +7,7 @@
 #include "io/hdf5/driver_h5.h"
 #include "io/hdf5/file_h5.h"
 #include "io/hdf5/object_h5.h"
-#include "io/file/place.h"
+#include "io/file/atomic_file.h"
 
 #include "core/memory.h"
 
@@ -100,40 +100,40 @@ static int32_t try_room(const char *path, int descriptor, double bytes) {
   int error = bytes < 9e18 ? posix_fallocate(descriptor, 0, (off_t)bytes) : EFBIG;
   if (error == EINVAL || error == ENOTSUP) error = 0; /* this file system cannot tell */
   if (ftruncate(descriptor, 0) != 0 && error == 0) error = errno;
-  return error ? hk_place_fail(path, what, error) : HOOKE_OK;
+  return error ? hk_file_fail(path, what, error) : HOOKE_OK;
 }
 
 static int32_t create(struct hk_h5_guard *guard, const char *path, double bytes, struct hk_h5_file *file) {
-  const int32_t status = try_room(path, file->place.descriptor, bytes);
+  const int32_t status = try_room(path, file->atomic.descriptor, bytes);
   if (status != HOOKE_OK) return status;
-  file->list = hk_h5_access_list(file->place.descriptor, &file->error);
-  if (file->list >= 0) file->id = H5Fcreate(file->place.temporary, H5F_ACC_TRUNC, H5P_DEFAULT, file->list);
+  file->list = hk_h5_access_list(file->atomic.descriptor, &file->error);
+  if (file->list >= 0) file->id = H5Fcreate(file->atomic.temporary, H5F_ACC_TRUNC, H5P_DEFAULT, file->list);
   if (file->id >= 0) return HOOKE_OK;
-  return file->error && !was_without_memory(guard) ? hk_place_fail(path, "create the file", file->error)
+  return file->error && !was_without_memory(guard) ? hk_file_fail(path, "create the file", file->error)
                                                    : hk_h5_fail(guard, path, "create the file");
 }
 
 int32_t hk_h5_file_create(struct hk_h5_guard *guard, const char *path, double bytes,
                           struct hk_h5_file *file) {
   *file = HOOKE_NO_H5_FILE;
-  const int32_t status = hk_place_make(path, &file->place);
+  const int32_t status = hk_atomic_file_make(path, &file->atomic);
   return status == HOOKE_OK ? create(guard, path, bytes, file) : status;
 }
 
-int32_t hk_h5_file_create_held(struct hk_h5_guard *guard, const char *path, double bytes, int32_t again,
-                               struct hk_h5_file *file) {
+int32_t hk_h5_file_create_locked(struct hk_h5_guard *guard, const char *path, double bytes, int32_t again,
+                                 struct hk_h5_file *file) {
   *file = HOOKE_NO_H5_FILE;
-  const int32_t status = hk_place_make_held(path, again, &file->place);
+  const int32_t status = hk_atomic_file_make_locked(path, again, &file->atomic);
   return status == HOOKE_OK ? create(guard, path, bytes, file) : status;
 }
 
 /* Room on the disk for all of it, and not only in the numbering of its bytes. */
 static int32_t take_room(struct hk_h5_guard *guard, const struct hk_h5_file *file) {
   hsize_t bytes = 0;
-  if (H5Fget_filesize(file->id, &bytes) < 0) return hk_h5_fail(guard, file->place.path, "write");
-  const int error = posix_fallocate(file->place.descriptor, 0, (off_t)bytes);
+  if (H5Fget_filesize(file->id, &bytes) < 0) return hk_h5_fail(guard, file->atomic.path, "write");
+  const int error = posix_fallocate(file->atomic.descriptor, 0, (off_t)bytes);
   if (error == 0 || error == EINVAL || error == ENOTSUP) return HOOKE_OK; /* some file systems cannot tell */
-  return hk_place_fail(file->place.path, "make room for all frames", error);
+  return hk_file_fail(file->atomic.path, "make room for all frames", error);
 }
 
 /* Whatever comes of it, HDF5 has no part in the file afterwards. */
@@ -143,8 +143,8 @@ static int32_t let_go(struct hk_h5_guard *guard, struct hk_h5_file *file) {
   const herr_t result = H5Fclose(id);
   hk_h5_drop(file->list);
   file->list = -1;
-  if (file->error) return hk_place_fail(file->place.path, "write", file->error);
-  return result < 0 ? hk_h5_fail(guard, file->place.path, "close the file") : HOOKE_OK;
+  if (file->error) return hk_file_fail(file->atomic.path, "write", file->error);
+  return result < 0 ? hk_h5_fail(guard, file->atomic.path, "close the file") : HOOKE_OK;
 }
 
 int32_t hk_h5_file_settle(struct hk_h5_guard *guard, struct hk_h5_file *file) {
@@ -153,29 +153,29 @@ int32_t hk_h5_file_settle(struct hk_h5_guard *guard, struct hk_h5_file *file) {
 }
 
 int32_t hk_h5_file_publish(struct hk_h5_file *file) {
-  return hk_place_take(&file->place, NULL);
+  return hk_atomic_file_commit(&file->atomic, NULL);
 }
 
 int32_t hk_h5_file_close(struct hk_h5_file *file) {
-  int32_t status = hk_place_is(file->place.path, file->place.descriptor);
-  if (status == HOOKE_OK && fsync(file->place.descriptor) != 0)
-    status = hk_place_fail(file->place.path, "bring the data to the disk", errno);
-  const int32_t closed = hk_place_close(&file->place);
+  int32_t status = hk_file_is(file->atomic.path, file->atomic.descriptor);
+  if (status == HOOKE_OK && fsync(file->atomic.descriptor) != 0)
+    status = hk_file_fail(file->atomic.path, "bring the data to the disk", errno);
+  const int32_t closed = hk_atomic_file_close(&file->atomic);
   return status == HOOKE_OK ? closed : status;
 }
 
 int32_t hk_h5_file_finish(struct hk_h5_guard *guard, struct hk_h5_file *file) {
   const int32_t status = let_go(guard, file);
-  return status == HOOKE_OK ? hk_place_take(&file->place, NULL) : status;
+  return status == HOOKE_OK ? hk_atomic_file_commit(&file->atomic, NULL) : status;
 }
 
 int32_t hk_h5_file_open(struct hk_h5_guard *guard, const struct hk_h5_file *file, hid_t *id) {
   void *handle = NULL;
-  *id = H5Fopen(file->place.path, H5F_ACC_RDONLY, H5P_DEFAULT);
-  if (*id < 0) return hk_h5_fail(guard, file->place.path, "open the file as HDF5");
+  *id = H5Fopen(file->atomic.path, H5F_ACC_RDONLY, H5P_DEFAULT);
+  if (*id < 0) return hk_h5_fail(guard, file->atomic.path, "open the file as HDF5");
   int32_t status = H5Fget_vfd_handle(*id, H5P_DEFAULT, &handle) < 0
-                       ? hk_h5_fail(guard, file->place.path, "open the file as HDF5")
-                       : hk_place_same(file->place.path, *(const int *)handle, file->place.descriptor);
+                       ? hk_h5_fail(guard, file->atomic.path, "open the file as HDF5")
+                       : hk_file_same(file->atomic.path, *(const int *)handle, file->atomic.descriptor);
   if (status == HOOKE_OK) return status;
   H5Fclose(*id);
   *id = -1;
@@ -184,7 +184,7 @@ int32_t hk_h5_file_open(struct hk_h5_guard *guard, const struct hk_h5_file *file
 
 double hk_h5_file_bytes(const struct hk_h5_file *file) {
   struct stat now;
-  return fstat(file->place.descriptor, &now) == 0 ? (double)now.st_size : 0.0;
+  return fstat(file->atomic.descriptor, &now) == 0 ? (double)now.st_size : 0.0;
 }
 
 void hk_h5_file_release(struct hk_h5_file *file) {
@@ -193,7 +193,7 @@ void hk_h5_file_release(struct hk_h5_file *file) {
     H5Fclose(file->id);
   }
   hk_h5_drop(file->list);
-  hk_place_release(&file->place);
+  hk_atomic_file_release(&file->atomic);
   *file = HOOKE_NO_H5_FILE;
 }
 

@@ -5,7 +5,7 @@
 
 #include "hooke/base.h"
 
-#include "io/file/place.h"
+#include "io/file/atomic_file.h"
 
 #include <hdf5.h>
 
@@ -33,20 +33,20 @@ struct hk_h5_file {
   hid_t id;
   hid_t list; /* its access list, which holds the driver: HDF5 looks at that until the file is closed */
   int error;  /* of the first write that failed while HDF5 had the file, as errno has it */
-  struct hk_place place; /* bytes may be written by its descriptor once HDF5 is done with the file */
+  struct hk_atomic_file atomic; /* bytes may be written by its descriptor once HDF5 is done with the file */
 };
 
 /* A file that nothing is of yet, which may be released. */
-#define HOOKE_NO_H5_FILE ((struct hk_h5_file){.id = -1, .list = -1, .place = HOOKE_NO_PLACE})
+#define HOOKE_NO_H5_FILE ((struct hk_h5_file){.id = -1, .list = -1, .atomic = HOOKE_NO_ATOMIC_FILE})
 
-/* Creates a file that is going to have up to `bytes`, as hk_place_make() does: default format, no raw data
- * held back in memory, everything aligned to 16 bytes so that no number lies across two pages.
+/* Creates a file that is going to have up to `bytes`, as hk_atomic_file_make() does: default format, no raw
+ * data held back in memory, everything aligned to 16 bytes so that no number lies across two pages.
  * HOOKE_IO_FAILED, HOOKE_NO_MEMORY; hk_h5_file_release() has to follow in any case. */
 int32_t hk_h5_file_create(struct hk_h5_guard *guard, const char *path, double bytes, struct hk_h5_file *file);
 
-/* The same for the output of a run, as hk_place_make_held() does. */
-int32_t hk_h5_file_create_held(struct hk_h5_guard *guard, const char *path, double bytes, int32_t again,
-                               struct hk_h5_file *file);
+/* The same for the output of a run, as hk_atomic_file_make_locked() does. */
+int32_t hk_h5_file_create_locked(struct hk_h5_guard *guard, const char *path, double bytes, int32_t again,
+                                 struct hk_h5_file *file);
 
 /* Gives it room on the disk for all of it and closes it for HDF5; from here on bytes in it may be written by
  * the descriptor. HOOKE_IO_FAILED. */

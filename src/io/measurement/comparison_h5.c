@@ -16,7 +16,7 @@
 #if HOOKE_HAVE_HDF5
 
 #include "io/file/bytes.h"
-#include "io/file/place.h"
+#include "io/file/atomic_file.h"
 #include "io/hdf5/file_h5.h"
 #include "io/hdf5/object_h5.h"
 #include "io/scene/scene.h"
@@ -107,14 +107,14 @@ static herr_t make_recordings(hooke_comparison_file *file) {
 static int write_text(const hooke_comparison_file *file, int64_t at, int64_t k, const char *text) {
   char padded[TEXT_LENGTH] = {0};
   if (text) memcpy(padded, text, strnlen(text, TEXT_LENGTH));
-  return hk_bytes_write(file->file.place.descriptor, at + k * TEXT_LENGTH, TEXT_LENGTH, padded);
+  return hk_bytes_write(file->file.atomic.descriptor, at + k * TEXT_LENGTH, TEXT_LENGTH, padded);
 }
 
 /* Numbers of an array of the table, from number `first` on. */
 static int write_numbers(const hooke_comparison_file *file, int64_t at, int64_t first, int64_t count,
                          const double *value) {
   const int64_t size = (int64_t)sizeof *value;
-  return hk_bytes_write(file->file.place.descriptor, at + size * first, size * count, value);
+  return hk_bytes_write(file->file.atomic.descriptor, at + size * first, size * count, value);
 }
 
 static int write_methods(const hooke_comparison_file *file) {
@@ -132,7 +132,7 @@ static int32_t fill(struct hk_h5_guard *guard, const char *path, const char *sce
   const double runs = (double)(c->row_count + 1), text = scene_text ? (double)strlen(scene_text) : 0.0;
   const double table = runs * (256.0 + 16.0 * (double)c->frame_count);
   const double bytes = text + table + runs * hk_trajectory_writer_bytes(c->system, c->frame_count);
-  int32_t status = hk_h5_file_create_held(guard, path, bytes, 0, &file->file);
+  int32_t status = hk_h5_file_create_locked(guard, path, bytes, 0, &file->file);
   if (status != HOOKE_OK) return status;
   herr_t result = hk_h5md_describe(file->file.id, NULL, c->run, scene_text);
   if (result >= 0) result = make_recordings(file);
@@ -142,9 +142,9 @@ static int32_t fill(struct hk_h5_guard *guard, const char *path, const char *sce
   if (result < 0) return hk_h5_fail(guard, path, "make room for all frames");
   status = hk_h5_file_settle(guard, &file->file);
   for (int64_t k = 0; k <= c->row_count; k++)
-    file->writer[k].file.descriptor = file->file.place.descriptor;
+    file->writer[k].file.descriptor = file->file.atomic.descriptor;
   const int error = status == HOOKE_OK ? write_methods(file) : 0;
-  if (error) return hk_place_fail(path, "write the names of the methods", error);
+  if (error) return hk_file_fail(path, "write the names of the methods", error);
   return status == HOOKE_OK ? hk_h5_file_publish(&file->file) : status;
 }
 
@@ -169,11 +169,11 @@ static int32_t write_frame(const char *run, int64_t frame, int64_t step, const h
                            void *ctx) {
   hooke_comparison_file *file = ctx;
   struct hk_trajectory_writer *writer = find_run(file, run);
-  if (hk_place_require_own(&file->file.place) != HOOKE_OK) return 1;
+  if (hk_atomic_file_require_own(&file->file.atomic) != HOOKE_OK) return 1;
   if (file->failure[0] || writer == NULL || writer->written == writer->frame_count) {
     if (file->failure[0] == '\0') {
-      snprintf(file->failure, sizeof file->failure, "%s: no room for frame %lld of %s", file->file.place.path,
-               (long long)frame, run);
+      snprintf(file->failure, sizeof file->failure, "%s: no room for frame %lld of %s",
+               file->file.atomic.path, (long long)frame, run);
     }
     return 1;
   }
@@ -181,7 +181,7 @@ static int32_t write_frame(const char *run, int64_t frame, int64_t step, const h
   if (error == 0) return 0;
   char what[96];
   snprintf(what, sizeof what, "write frame %lld of %.40s", (long long)frame, run);
-  hk_place_fail(file->file.place.path, what, error);
+  hk_file_fail(file->file.atomic.path, what, error);
   snprintf(file->failure, sizeof file->failure, "%s", hooke_last_error());
   return 1;
 }
@@ -278,7 +278,7 @@ static herr_t make_shorter(const hooke_comparison_file *file, hid_t old, hid_t s
 
 static int copy_all(const hooke_comparison_file *file, const struct hk_h5_copy *copy, int descriptor,
                     struct hk_trajectory_writer *writer) {
-  int error = hk_h5_copy_bytes(copy, file->file.place.descriptor, descriptor);
+  int error = hk_h5_copy_bytes(copy, file->file.atomic.descriptor, descriptor);
   for (int64_t k = 0; error == 0 && k <= file->comparison->row_count; k++) {
     writer[k].file.descriptor = descriptor;
     error = hk_frame_copy(&file->writer[k].file, &writer[k].file, file->writer[k].written);
@@ -298,14 +298,14 @@ static int32_t rewrite(struct hk_h5_guard *guard, const hooke_comparison_file *f
     bytes -= hk_trajectory_writer_bytes_after(&file->writer[k], file->writer[k].written);
   int32_t status = hk_h5_file_open(guard, &file->file, &old);
   if (status != HOOKE_OK) return status;
-  status = hk_h5_file_create_held(guard, file->file.place.path, bytes, 1, &shorter);
+  status = hk_h5_file_create_locked(guard, file->file.atomic.path, bytes, 1, &shorter);
   if (status == HOOKE_OK && make_shorter(file, old, shorter.id, writer, &copy) < 0)
-    status = hk_h5_fail(guard, file->file.place.path, what);
+    status = hk_h5_fail(guard, file->file.atomic.path, what);
   H5Fclose(old);
   if (status == HOOKE_OK) status = hk_h5_file_settle(guard, &shorter);
-  const int error = status == HOOKE_OK ? copy_all(file, &copy, shorter.place.descriptor, writer) : 0;
+  const int error = status == HOOKE_OK ? copy_all(file, &copy, shorter.atomic.descriptor, writer) : 0;
   hk_h5_copy_release(&copy);
-  if (error) status = hk_place_fail(file->file.place.path, what, error);
+  if (error) status = hk_file_fail(file->file.atomic.path, what, error);
   if (status == HOOKE_OK) status = hk_h5_file_publish(&shorter);
   if (status == HOOKE_OK) status = hk_h5_file_close(&shorter);
   hk_h5_file_release(&shorter);
@@ -324,16 +324,16 @@ static int32_t shorten(const hooke_comparison_file *file) {
 }
 
 static int32_t finish(hooke_comparison_file *file) {
-  const int32_t own = hk_place_require_own(&file->file.place);
+  const int32_t own = hk_atomic_file_require_own(&file->file.atomic);
   if (own != HOOKE_OK) return own;
   if (file->failure[0]) {
-    hk_h5md_write_status(file->file.place.descriptor, file->status_at, HOOKE_IO_FAILED);
+    hk_h5md_write_status(file->file.atomic.descriptor, file->status_at, HOOKE_IO_FAILED);
     return hk_fail(HOOKE_IO_FAILED, NULL, "%s", file->failure);
   }
   int error = write_table(file);
   if (error == 0)
-    error = hk_h5md_write_status(file->file.place.descriptor, file->status_at, outcome_of(file));
-  if (error) return hk_place_fail(file->file.place.path, "write the table of the comparison", error);
+    error = hk_h5md_write_status(file->file.atomic.descriptor, file->status_at, outcome_of(file));
+  if (error) return hk_file_fail(file->file.atomic.path, "write the table of the comparison", error);
   return is_short(file) ? shorten(file) : hk_h5_file_close(&file->file);
 }
 

@@ -1,8 +1,8 @@
-/* The rows of a measurement as CSV, in the same bytes whatever the locale. A matrix that has a row for each of
- * them adds a column for each of its inner index: the errors in watched quantities. */
+/* The rows of a measurement as CSV, in the same bytes whatever the locale. A matrix that has a row for each
+ * of them adds a column for each of its inner index: the errors in watched quantities. */
 #include "core/number.h"
 #include "core/status.h"
-#include "io/file/place.h"
+#include "io/file/atomic_file.h"
 #include "io/measurement/measurement_file.h"
 
 #include <math.h>
@@ -97,8 +97,7 @@ int32_t hk_measurement_write_csv(const hooke_measurement *m, const char *path) {
   find_matrix(&sheet);
   for (int64_t row = -1; row < hk_table_count(sheet.rows, m->object); row++)
     add_line(&text, &sheet, row);
-  const int32_t status =
-      text.status == HOOKE_OK ? hk_place_write(path, text.bytes, text.length) : text.status;
+  const int32_t status = text.status == HOOKE_OK ? hk_file_write(path, text.bytes, text.length) : text.status;
   hk_text_release(&text);
   return status;
 }

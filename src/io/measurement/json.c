@@ -1,5 +1,5 @@
 /* Measurements as JSON. */
-#include "io/file/place.h"
+#include "io/file/atomic_file.h"
 #include "io/measurement/measurement_file.h"
 
 #include <math.h>
@@ -54,7 +54,7 @@ int32_t hk_measurement_write_json(const hooke_measurement *m, const char *path) 
   hk_text_close(&text, '}');
   if (text.status == HOOKE_OK) hk_text_lay_out(&text, &laid);
   int32_t status = text.status == HOOKE_OK ? laid.status : text.status;
-  if (status == HOOKE_OK) status = hk_place_write(path, laid.bytes, laid.length);
+  if (status == HOOKE_OK) status = hk_file_write(path, laid.bytes, laid.length);
   hk_text_release(&laid);
   hk_text_release(&text);
   return status;

@@ -1,6 +1,6 @@
 #include "io/page/form.h"
 
-#include "io/file/share.h"
+#include "io/file/data_folder.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -22,7 +22,7 @@ static int32_t fill(const char *from, hk_form_part add, void *ctx, struct hk_tex
 
 int32_t hk_form_fill(const char *form, hk_form_part add, void *ctx, struct hk_text *page) {
   struct hk_text text = {.bytes = NULL};
-  int32_t status = hk_share_read(form, &text);
+  int32_t status = hk_data_folder_read(form, &text);
   hk_text_add(&text, "", 1); /* ends it */
   if (status == HOOKE_OK) status = text.status;
   if (status == HOOKE_OK) status = fill(text.bytes, add, ctx, page);

@@ -3,8 +3,8 @@
 
 #include "core/status.h"
 #include "io/page/form.h"
-#include "io/file/place.h"
-#include "io/file/share.h"
+#include "io/file/atomic_file.h"
+#include "io/file/data_folder.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -30,7 +30,7 @@ static int32_t add_data(struct hk_text *page, const struct hk_report *report) {
 static int32_t add_own(struct hk_text *page, const struct hk_report *report, const char *ending) {
   char name[64];
   snprintf(name, sizeof name, "%s%s", report->name, ending);
-  return hk_share_read(name, page);
+  return hk_data_folder_read(name, page);
 }
 
 /* What stands in the form as {{name}}: a part of the report, or a file that all reports have. */
@@ -40,14 +40,14 @@ static int32_t add_part(const char *name, struct hk_text *page, void *ctx) {
   if (strcmp(name, "body") == 0) return add_own(page, report, ".html");
   if (strcmp(name, "diagrams") == 0) return add_own(page, report, ".js");
   if (strcmp(name, "tables") == 0) return add_own(page, report, "_tables.js");
-  return hk_share_read(name, page);
+  return hk_data_folder_read(name, page);
 }
 
 int32_t hk_report_write(const struct hk_report *report, const char *path) {
   struct hk_text page = {.bytes = NULL};
   struct hk_report copy = *report;
   int32_t status = hk_form_fill("page.html", add_part, &copy, &page);
-  if (status == HOOKE_OK) status = hk_place_write(path, page.bytes, page.length);
+  if (status == HOOKE_OK) status = hk_file_write(path, page.bytes, page.length);
   hk_text_release(&page);
   return status;
 }

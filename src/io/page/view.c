@@ -8,7 +8,7 @@
 #include "io/hdf5/array_h5.h"
 #include "io/page/base64.h"
 #include "io/trajectory/record.h"
-#include "io/file/share.h"
+#include "io/file/data_folder.h"
 
 #include <math.h>
 #include <string.h>
@@ -167,7 +167,7 @@ static int32_t measure_page(const struct hooke_view *view, double *bytes) {
   struct hk_text text = {.bytes = NULL};
   int32_t status = HOOKE_OK;
   for (size_t k = 0; k < sizeof parts / sizeof parts[0] && status == HOOKE_OK; k++)
-    status = hk_share_read(parts[k], &text);
+    status = hk_data_folder_read(parts[k], &text);
   *bytes = (double)(text.length + hk_base64_length(8 * view->springs + view->particles)) + 20e3;
   hk_text_release(&text);
   return status;

@@ -6,10 +6,10 @@
 #include "hooke/scene.h"
 #include "io/page/base64.h"
 #include "io/page/form.h"
-#include "io/file/place.h"
+#include "io/file/atomic_file.h"
 #include "io/trajectory/record.h"
 #include "io/page/report.h"
-#include "io/file/share.h"
+#include "io/file/data_folder.h"
 #include "model/system.h"
 
 #include <math.h>
@@ -148,7 +148,7 @@ static int32_t add_part(const char *name, struct hk_text *text, void *ctx) {
   if (strcmp(name, "data") == 0) return add_data(page, text);
   if (strcmp(name, "fixed") == 0) return add_fixed(page, text);
   if (strcmp(name, "frames") == 0) return add_frames(page, text);
-  return hk_share_read(name, text);
+  return hk_data_folder_read(name, text);
 }
 
 int32_t hooke_view_write(hooke_view *view, const char *path, const char *title) {
@@ -156,7 +156,7 @@ int32_t hooke_view_write(hooke_view *view, const char *path, const char *title) 
   struct page page = {.view = view, .title = title};
   page.box = hk_new(view->frames, sizeof *page.box);
   int32_t status = page.box ? hk_form_fill("view.html", add_part, &page, &text) : HOOKE_NO_MEMORY;
-  if (status == HOOKE_OK) status = hk_place_write(path, text.bytes, text.length);
+  if (status == HOOKE_OK) status = hk_file_write(path, text.bytes, text.length);
   if (status == HOOKE_OK) view->bytes = (double)text.length;
   hk_text_release(&text);
   hk_free(page.box);

@@ -6,7 +6,7 @@
 #include "core/print.h"
 #include "core/memory_limit.h"
 #include "core/status.h"
-#include "io/file/place.h"
+#include "io/file/atomic_file.h"
 
 #include <errno.h>
 #include <stdio.h>
@@ -62,7 +62,7 @@ static int32_t read_all(FILE *file, struct hk_json_guard *guard, char **text, in
 int32_t hk_scene_read_file(const char *path, struct hk_json_guard *guard, char **text, int64_t *length) {
   HOOKE_KEEP_ERRNO;
   *text = NULL;
-  const int descriptor = hk_place_open(path);
+  const int descriptor = hk_file_open(path);
   FILE *file = descriptor < 0 ? NULL : fdopen(descriptor, "rb");
   if (file == NULL) {
     const int number = errno;

@@ -4,7 +4,7 @@
 #include "core/status.h"
 #include "integrate/integrator.h"
 #include "hooke/scene.h"
-#include "io/file/place.h"
+#include "io/file/atomic_file.h"
 #include "io/scene/scene.h"
 #include "io/scene/scene_words.h"
 #include "io/file/text.h"
@@ -78,7 +78,7 @@ static void add_particles(struct hk_text *text, const hooke_system *system,
     if (numbering->in_part[p]) continue;
     for (int a = 0; a < 3 && system->velocity; a++)
       moving += system->velocity[3 * p + a] != 0.0 || signbit(system->velocity[3 * p + a]);
-    pinned += system->held[p] == HOOKE_HELD_PINNED;
+    pinned += system->constrained[p] == HOOKE_IS_PINNED;
   }
   hk_text_open(text, "particles", '{');
   add_rows(text, "position", system, numbering, system->position);
@@ -86,7 +86,7 @@ static void add_particles(struct hk_text *text, const hooke_system *system,
   add_masses(text, system, numbering);
   if (pinned) hk_text_open(text, "pinned", '[');
   for (int64_t p = 0; p < system->particle_count && pinned; p++) {
-    if (!numbering->in_part[p] && system->held[p] == HOOKE_HELD_PINNED)
+    if (!numbering->in_part[p] && system->constrained[p] == HOOKE_IS_PINNED)
       hk_text_number(text, NULL, (double)numbering->number[p]);
   }
   if (pinned) hk_text_close(text, ']');
@@ -99,7 +99,7 @@ static void add_particles(struct hk_text *text, const hooke_system *system,
 static void add_pins(struct hk_text *text, const hooke_system *system, const struct hk_part_record *part) {
   hk_text_open(text, "pinned", '[');
   for (int64_t p = 0; p < part->count; p++) {
-    if (system->held[part->first + p] == HOOKE_HELD_PINNED) hk_text_number(text, NULL, (double)p);
+    if (system->constrained[part->first + p] == HOOKE_IS_PINNED) hk_text_number(text, NULL, (double)p);
   }
   hk_text_close(text, ']');
 }
@@ -356,7 +356,7 @@ int32_t hooke_scene_write(const char *path, const hooke_system *system, const ch
                           const hooke_options *run) {
   struct hk_text laid = {.bytes = NULL};
   int32_t status = compose(system, title, run, &laid);
-  if (status == HOOKE_OK) status = hk_place_write(path, laid.bytes, laid.length);
+  if (status == HOOKE_OK) status = hk_file_write(path, laid.bytes, laid.length);
   hk_text_release(&laid);
   return status;
 }

@@ -12,7 +12,7 @@
 #include "io/trajectory/error_h5.h"
 #include "io/hdf5/file_h5.h"
 #include "io/trajectory/h5md_h5.h"
-#include "io/file/place.h"
+#include "io/file/atomic_file.h"
 
 #include <stdio.h>
 
@@ -28,10 +28,10 @@ static int32_t find_places(struct hk_h5_guard *guard, const struct hk_h5_file *f
   at->by = hk_h5md_place(id, "hooke/error_by", HOOKE_ERROR_BY);
   at->note = hk_h5md_place(id, "hooke/error_note", HOOKE_ERROR_NOTE);
   H5Fclose(id);
-  if (guard->no_memory) return hk_h5_fail(guard, file->place.path, "find the room for the error");
+  if (guard->no_memory) return hk_h5_fail(guard, file->atomic.path, "find the room for the error");
   if (at->numbers >= 0 && at->by >= 0 && at->note >= 0) return HOOKE_OK;
   return hk_fail(HOOKE_BAD_VALUE, NULL, "%s: is no trajectory that has room for the error of its run",
-                 file->place.path);
+                 file->atomic.path);
 }
 
 static int write_at(int descriptor, const struct places *at, const hooke_estimate *estimate) {
@@ -51,8 +51,8 @@ static int32_t write_to(struct hk_h5_guard *guard, struct hk_h5_file *file, cons
   struct places at;
   const int32_t status = find_places(guard, file, &at);
   if (status != HOOKE_OK) return status;
-  const int error = write_at(file->place.descriptor, &at, estimate);
-  return error ? hk_place_fail(file->place.path, "write the error of the run", error)
+  const int error = write_at(file->atomic.descriptor, &at, estimate);
+  return error ? hk_file_fail(file->atomic.path, "write the error of the run", error)
                : hk_h5_file_close(file);
 }
 
@@ -61,7 +61,7 @@ int32_t hooke_estimate_write_h5(const hooke_estimate *estimate, const char *path
   struct hk_h5_file file = HOOKE_NO_H5_FILE;
   struct hk_h5_guard guard;
   hk_h5_guard_begin(&guard);
-  int32_t status = hk_place_hold(path, &file.place);
+  int32_t status = hk_atomic_file_lock(path, &file.atomic);
   if (status == HOOKE_OK) status = write_to(&guard, &file, estimate);
   hk_h5_file_release(&file);
   hk_h5_guard_end(&guard);

@@ -8,7 +8,7 @@
 #include "io/trajectory/error_h5.h"
 #include "io/trajectory/h5md_h5.h"
 #include "io/hdf5/object_h5.h"
-#include "io/file/place.h"
+#include "io/file/atomic_file.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -102,11 +102,11 @@ int32_t hk_h5md_new_run(char run[HOOKE_RUN_SIZE]) {
   static const char source[] = "/dev/urandom";
   unsigned char random[(HOOKE_RUN_SIZE - 1) / 2];
   const int descriptor = open(source, O_RDONLY | O_CLOEXEC);
-  if (descriptor < 0) return hk_place_fail(source, "take a random number for the run from it", errno);
+  if (descriptor < 0) return hk_file_fail(source, "take a random number for the run from it", errno);
   const ssize_t got = read(descriptor, random, sizeof random);
   const int error = got == (ssize_t)sizeof random ? 0 : got < 0 ? errno : EIO;
   close(descriptor);
-  if (error) return hk_place_fail(source, "take a random number for the run from it", error);
+  if (error) return hk_file_fail(source, "take a random number for the run from it", error);
   for (size_t k = 0; k < sizeof random; k++)
     snprintf(run + 2 * k, 3, "%02x", random[k]);
   return HOOKE_OK;

@@ -2,7 +2,7 @@
 #include "io/trajectory/record.h"
 
 #include "core/status.h"
-#include "io/file/place.h"
+#include "io/file/atomic_file.h"
 
 #include <string.h>
 #include <unistd.h>
@@ -10,7 +10,7 @@
 int32_t hk_record_is_one(const char *path) {
   static const char signature[8] = {'\x89', 'H', 'D', 'F', '\r', '\n', '\x1a', '\n'};
   char begin[sizeof signature] = {0};
-  const int file = hk_place_open(path);
+  const int file = hk_file_open(path);
   if (file < 0) return 0;
   const ssize_t got = read(file, begin, sizeof begin);
   close(file);

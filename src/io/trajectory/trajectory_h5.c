@@ -7,7 +7,7 @@
 
 #if HOOKE_HAVE_HDF5
 
-#include "io/file/place.h"
+#include "io/file/atomic_file.h"
 #include "io/scene/scene.h"
 #include "io/trajectory/trajectory.h"
 #include "io/trajectory/trajectory_h5.h"
@@ -42,9 +42,9 @@ void hk_trajectory_release(hooke_trajectory *trajectory) {
 /* Lets HDF5 go; from here on the file is bytes. */
 static int32_t settle(struct hk_h5_guard *guard, hooke_trajectory *made) {
   if (hk_h5md_find_status(made->file.id, &made->status_at) < 0)
-    return hk_h5_fail(guard, made->file.place.path, "make room for all frames");
+    return hk_h5_fail(guard, made->file.atomic.path, "make room for all frames");
   const int32_t status = hk_h5_file_settle(guard, &made->file);
-  made->writer.file.descriptor = made->file.place.descriptor;
+  made->writer.file.descriptor = made->file.atomic.descriptor;
   return status;
 }
 
@@ -55,8 +55,8 @@ static int32_t fill(struct hk_h5_guard *guard, const char *path, const hooke_sys
   const double text = scene_text ? (double)strlen(scene_text) : 0.0;
   int32_t status = hk_h5md_new_run(made->run);
   if (status == HOOKE_OK)
-    status = hk_h5_file_create_held(guard, path, text + hk_trajectory_writer_bytes(system, frames), 0,
-                                    &made->file);
+    status = hk_h5_file_create_locked(guard, path, text + hk_trajectory_writer_bytes(system, frames), 0,
+                                      &made->file);
   if (status != HOOKE_OK) return status;
   herr_t result = hk_h5md_describe(made->file.id, hooke_options_text(options, "method"), options, scene_text);
   if (result >= 0) result = hk_h5md_write_run(made->file.id, made->run);
@@ -108,7 +108,7 @@ static int32_t refuse_bad(const hooke_trajectory *trajectory) {
 
 /* The file is bad from here on. */
 static int32_t fail(hooke_trajectory *trajectory, const char *what, int error) {
-  const int32_t status = hk_place_fail(trajectory->file.place.path, what, error);
+  const int32_t status = hk_file_fail(trajectory->file.atomic.path, what, error);
   snprintf(trajectory->failure, sizeof trajectory->failure, "%s", hooke_last_error());
   return status;
 }
@@ -122,7 +122,7 @@ static int32_t fail_frame(hooke_trajectory *trajectory, int64_t frame, int error
 int32_t hooke_trajectory_write(hooke_trajectory *trajectory, int64_t step, const hooke_state *state) {
   HOOKE_KEEP_ERRNO;
   struct hk_trajectory_writer *writer = &trajectory->writer;
-  const int32_t own = hk_place_require_own(&trajectory->file.place);
+  const int32_t own = hk_atomic_file_require_own(&trajectory->file.atomic);
   if (own != HOOKE_OK) return own;
   if (trajectory->failure[0]) return refuse_bad(trajectory);
   if (hooke_state_size(state) != 3 * writer->file.particle_count) {
@@ -166,13 +166,13 @@ const char *hooke_trajectory_run(const hooke_trajectory *trajectory) {
 
 int32_t hooke_trajectory_sync(hooke_trajectory *trajectory) {
   HOOKE_KEEP_ERRNO;
-  const int32_t own = hk_place_require_own(&trajectory->file.place);
+  const int32_t own = hk_atomic_file_require_own(&trajectory->file.atomic);
   if (own != HOOKE_OK) return own;
   if (trajectory->failure[0]) return refuse_bad(trajectory);
   const int error = trajectory->thread ? hk_frame_thread_wait(trajectory->thread) : 0;
   if (error) return fail_frame(trajectory, trajectory->taken - 1, error);
   /* what a failed one did not bring to the disk a second one does not tell of */
-  return fsync(trajectory->file.place.descriptor) == 0
+  return fsync(trajectory->file.atomic.descriptor) == 0
              ? HOOKE_OK
              : fail(trajectory, "bring the data to the disk", errno);
 }
@@ -190,28 +190,28 @@ static herr_t make_again(const hooke_trajectory *trajectory, hid_t old, int64_t 
 
 static int copy_all(const hooke_trajectory *trajectory, const struct hk_h5_copy *copy, int64_t frames,
                     int32_t outcome, const hooke_trajectory *made) {
-  int error = hk_h5_copy_bytes(copy, trajectory->file.place.descriptor, made->file.place.descriptor);
+  int error = hk_h5_copy_bytes(copy, trajectory->file.atomic.descriptor, made->file.atomic.descriptor);
   if (error == 0) error = hk_frame_copy(&trajectory->writer.file, &made->writer.file, frames);
-  return error ? error : hk_h5md_write_status(made->file.place.descriptor, made->status_at, outcome);
+  return error ? error : hk_h5md_write_status(made->file.atomic.descriptor, made->status_at, outcome);
 }
 
 int32_t hk_trajectory_remake(struct hk_h5_guard *guard, const hooke_trajectory *trajectory,
                              int64_t frame_count, int64_t copied, int32_t outcome, hooke_trajectory *made) {
-  const char *path = trajectory->file.place.path, *what = "make it again for another number of frames";
+  const char *path = trajectory->file.atomic.path, *what = "make it again for another number of frames";
   const double bytes = hk_h5_file_bytes(&trajectory->file) -
                        hk_trajectory_writer_bytes_after(&trajectory->writer, frame_count);
   struct hk_h5_copy copy = {.guard = guard};
   hid_t old;
   int32_t status = hk_h5_file_open(guard, &trajectory->file, &old);
   if (status != HOOKE_OK) return status;
-  status = hk_h5_file_create_held(guard, path, bytes, 1, &made->file);
+  status = hk_h5_file_create_locked(guard, path, bytes, 1, &made->file);
   if (status == HOOKE_OK && make_again(trajectory, old, frame_count, made, &copy) < 0)
     status = hk_h5_fail(guard, path, what);
   H5Fclose(old);
   if (status == HOOKE_OK) status = settle(guard, made);
   const int error = status == HOOKE_OK ? copy_all(trajectory, &copy, copied, outcome, made) : 0;
   hk_h5_copy_release(&copy);
-  if (error) return hk_place_fail(path, what, error);
+  if (error) return hk_file_fail(path, what, error);
   return status == HOOKE_OK ? hk_h5_file_publish(&made->file) : status;
 }
 
@@ -233,28 +233,28 @@ static int32_t finish(hooke_trajectory *trajectory, int32_t outcome) {
   const int64_t frames = writer->written > trajectory->there ? writer->written : trajectory->there;
   if (trajectory->failure[0]) {
     /* whoever finds the file may be told, too */
-    hk_h5md_write_status(trajectory->file.place.descriptor, trajectory->status_at, HOOKE_IO_FAILED);
+    hk_h5md_write_status(trajectory->file.atomic.descriptor, trajectory->status_at, HOOKE_IO_FAILED);
     return refuse_bad(trajectory);
   }
   if (frames < writer->frame_count) return shorten(trajectory, frames, outcome);
   /* the outcome is told when what it is of has come to the disk */
   const int32_t synced = hooke_trajectory_sync(trajectory);
-  const int error = hk_h5md_write_status(trajectory->file.place.descriptor, trajectory->status_at,
+  const int error = hk_h5md_write_status(trajectory->file.atomic.descriptor, trajectory->status_at,
                                          synced == HOOKE_OK ? outcome : HOOKE_IO_FAILED);
   if (synced != HOOKE_OK) return refuse_bad(trajectory);
-  return error ? hk_place_fail(trajectory->file.place.path, "write the outcome", error)
+  return error ? hk_file_fail(trajectory->file.atomic.path, "write the outcome", error)
                : hk_h5_file_close(&trajectory->file);
 }
 
 int32_t hooke_trajectory_close(hooke_trajectory *trajectory, int32_t outcome) {
   if (trajectory == NULL) return HOOKE_OK;
   HOOKE_KEEP_ERRNO;
-  int32_t status = hk_place_require_own(&trajectory->file.place);
+  int32_t status = hk_atomic_file_require_own(&trajectory->file.atomic);
   if (status == HOOKE_OK) { /* a fork has no such thread, and leaves the file alone */
     end_thread(trajectory);
     status = finish(trajectory, outcome);
   }
-  if (status == HOOKE_OK && outcome == HOOKE_OK) hk_trajectory_drop_checkpoint(trajectory->file.place.path);
+  if (status == HOOKE_OK && outcome == HOOKE_OK) hk_trajectory_drop_checkpoint(trajectory->file.atomic.path);
   hk_trajectory_release(trajectory);
   return status;
 }

@@ -8,7 +8,7 @@
 
 #include "io/hdf5/dataset_h5.h"
 #include "io/hdf5/object_h5.h"
-#include "io/file/place.h"
+#include "io/file/atomic_file.h"
 #include "io/trajectory/trajectory_h5.h"
 
 #include <errno.h>
@@ -21,12 +21,12 @@
 /* ---- what is there ---- */
 
 static int32_t refuse(const hooke_trajectory *old, const char *what) {
-  return hk_fail(HOOKE_BAD_VALUE, NULL, "%s: %s; this run cannot go on in it", old->file.place.path, what);
+  return hk_fail(HOOKE_BAD_VALUE, NULL, "%s: %s; this run cannot go on in it", old->file.atomic.path, what);
 }
 
 /* Without memory HDF5 does not see what is there. */
 static int32_t refuse_seen(const struct hk_h5_guard *guard, const hooke_trajectory *old, const char *what) {
-  return guard->no_memory ? hk_h5_fail(guard, old->file.place.path, "look at what it has")
+  return guard->no_memory ? hk_h5_fail(guard, old->file.atomic.path, "look at what it has")
                           : refuse(old, what);
 }
 
@@ -59,7 +59,7 @@ static int32_t find_array(struct hk_h5_guard *guard, hid_t file, hooke_trajector
                : array == HOOKE_FRAME_CHECK ? H5T_NATIVE_UINT32
                                             : H5T_NATIVE_DOUBLE;
   hk_trajectory_writer_path("all", array, name);
-  int32_t status = hk_dataset_find(guard, file, old->file.place.path, name, &data);
+  int32_t status = hk_dataset_find(guard, file, old->file.atomic.path, name, &data);
   if (status == HOOKE_OK) {
     if (array == 0 && data.id >= 0) writer->frame_count = (int64_t)data.size[0];
     const int fits = data.id >= 0 && is_plain(&data, type, hk_h5_file_bytes(&old->file)) &&
@@ -76,7 +76,7 @@ static int32_t find_array(struct hk_h5_guard *guard, hid_t file, hooke_trajector
 
 static int32_t find_springs(struct hk_h5_guard *guard, hid_t file, const hooke_trajectory *old) {
   struct hk_dataset data;
-  int32_t status = hk_dataset_find(guard, file, old->file.place.path, "/connectivity/springs", &data);
+  int32_t status = hk_dataset_find(guard, file, old->file.atomic.path, "/connectivity/springs", &data);
   if (status == HOOKE_OK &&
       (data.id < 0 || data.size[0] != (hsize_t)hooke_system_spring_count(old->writer.system)))
     status = refuse_seen(guard, old, "its springs are not those of this system");
@@ -98,7 +98,7 @@ static int32_t find_all(struct hk_h5_guard *guard, hid_t file, hooke_trajectory 
 static int32_t read_description(struct hk_h5_guard *guard, hooke_trajectory *old) {
   hooke_record *record;
   hid_t file;
-  int32_t status = hooke_record_open(old->file.place.path, &record);
+  int32_t status = hooke_record_open(old->file.atomic.path, &record);
   if (status == HOOKE_OK) snprintf(old->run, sizeof old->run, "%s", hooke_record_text(record, "run"));
   if (status == HOOKE_OK && strcmp(hooke_record_text(record, "status"), "finished") == 0)
     status = refuse(old, "another run has just finished it");
@@ -118,32 +118,32 @@ static int32_t look(hooke_trajectory *old, int64_t frames_kept) {
   if (frames < frames_kept) return refuse(old, "it has fewer frames than the run had written");
   while (whole && old->there < frames) {
     const int error = hk_frame_look(&old->writer.file, old->there, &whole);
-    if (error) return hk_place_fail(old->file.place.path, "read its frames", error);
+    if (error) return hk_file_fail(old->file.atomic.path, "read its frames", error);
     old->there += whole;
   }
   if (old->there >= frames_kept) return HOOKE_OK;
   return hk_fail(HOOKE_BAD_VALUE, NULL,
                  "frame %lld of %s is damaged or not there, and the run had written %lld; it cannot go on in "
                  "this file",
-                 (long long)old->there, old->file.place.path, (long long)frames_kept);
+                 (long long)old->there, old->file.atomic.path, (long long)frames_kept);
 }
 
 /* ---- going on ---- */
 
 static int32_t begin(const char *path, const hooke_system *system, hooke_trajectory *old) {
   struct hk_trajectory_writer *writer = &old->writer;
-  const int32_t status = hk_place_hold(path, &old->file.place);
+  const int32_t status = hk_atomic_file_lock(path, &old->file.atomic);
   if (status != HOOKE_OK) return status;
   writer->system = writer->file.system = system;
   snprintf(writer->group, sizeof writer->group, "all");
   writer->file.particle_count = hooke_system_particle_count(system);
-  writer->file.descriptor = old->file.place.descriptor;
+  writer->file.descriptor = old->file.atomic.descriptor;
   return HOOKE_OK;
 }
 
 static int32_t set_running(hooke_trajectory *old) {
-  const int error = hk_h5md_write_status(old->file.place.descriptor, old->status_at, HOOKE_H5MD_RUNNING);
-  return error ? hk_place_fail(old->file.place.path, "write that it is running again", error) : HOOKE_OK;
+  const int error = hk_h5md_write_status(old->file.atomic.descriptor, old->status_at, HOOKE_H5MD_RUNNING);
+  return error ? hk_file_fail(old->file.atomic.path, "write that it is running again", error) : HOOKE_OK;
 }
 
 static int32_t go_on(struct hk_h5_guard *guard, hooke_trajectory **trajectory, int64_t planned,
@@ -196,7 +196,7 @@ void hk_trajectory_keep(hooke_trajectory *trajectory, int64_t frames) {
 }
 
 const char *hk_trajectory_path(const hooke_trajectory *trajectory) {
-  return trajectory->file.place.path;
+  return trajectory->file.atomic.path;
 }
 
 void hk_trajectory_set_origin(hooke_trajectory *trajectory, const char *words) {

@@ -7,7 +7,7 @@
 #include "integrate/loop/run_loop.h"
 #include "io/checkpoint/checkpoint_file.h"
 #include "io/checkpoint/checkpoint_form.h"
-#include "io/file/place.h"
+#include "io/file/atomic_file.h"
 #include "io/trajectory/record.h"
 #include "io/trajectory/trajectory.h"
 
@@ -22,7 +22,7 @@ int32_t hooke_trajectory_checkpoint(hooke_trajectory *trajectory, const hooke_in
                                     const hooke_state *state) {
   char *path = NULL;
   int32_t status = hooke_trajectory_sync(trajectory);
-  if (status == HOOKE_OK) status = hk_place_beside(hk_trajectory_path(trajectory), ENDING, &path);
+  if (status == HOOKE_OK) status = hk_file_beside(hk_trajectory_path(trajectory), ENDING, &path);
   if (status == HOOKE_OK)
     status = hooke_checkpoint_write(path, integrator, state, hooke_trajectory_run(trajectory));
   hk_free(path);
@@ -31,7 +31,7 @@ int32_t hooke_trajectory_checkpoint(hooke_trajectory *trajectory, const hooke_in
 
 void hk_trajectory_drop_checkpoint(const char *path) {
   char *checkpoint = NULL;
-  if (hk_place_beside(path, ENDING, &checkpoint) == HOOKE_OK) hk_checkpoint_remove(checkpoint);
+  if (hk_file_beside(path, ENDING, &checkpoint) == HOOKE_OK) hk_checkpoint_remove(checkpoint);
   hk_free(checkpoint);
 }
 
@@ -181,8 +181,8 @@ static int32_t resume(struct going *going) {
   char *place = NULL, *checkpoint = NULL;
   int32_t status = check_fit(going);
   if (status == HOOKE_OK) status = read_first(going);
-  if (status == HOOKE_OK) status = hk_place_find(going->path, &place);
-  if (status == HOOKE_OK) status = hk_place_beside(place, ENDING, &checkpoint);
+  if (status == HOOKE_OK) status = hk_file_resolve(going->path, &place);
+  if (status == HOOKE_OK) status = hk_file_beside(place, ENDING, &checkpoint);
   if (status == HOOKE_OK) status = go_on(going, checkpoint);
   hk_free(checkpoint);
   hk_free(place);

@@ -113,7 +113,9 @@ static herr_t write_particles(const struct hk_trajectory_writer *writer, hid_t w
   int32_t *species = hk_new(count, sizeof(int32_t));
   if (species == NULL) return -1;
   for (int64_t k = 0; k < count; k++) {
-    species[k] = system->held[k] == HOOKE_HELD_PINNED ? 1 : system->held[k] == HOOKE_HELD_DRIVEN ? 2 : 0;
+    species[k] = system->constrained[k] == HOOKE_IS_PINNED   ? 1
+                 : system->constrained[k] == HOOKE_IS_DRIVEN ? 2
+                                                             : 0;
   }
   herr_t result = hk_h5_array_of(where, "species", H5T_STD_I32LE, H5T_NATIVE_INT32, 1, &size, species);
   hk_free(species);

@@ -6,7 +6,7 @@
 #include "core/status.h"
 #include "hooke/trajectory.h"
 #include "io/hdf5/array_h5.h"
-#include "io/file/place.h"
+#include "io/file/atomic_file.h"
 #include "io/trajectory/record.h"
 #include "io/file/text.h"
 
@@ -146,7 +146,7 @@ static int32_t find_name(struct companion *c, const char *path) {
   const char *name = slash ? slash + 1 : there;
   if (folder != (own ? own - path : -1) || (slash && strncmp(there, path, (size_t)folder) != 0)) {
     real = realpath(there, NULL);
-    if (real == NULL) return hk_place_fail(there, "follow the path", errno);
+    if (real == NULL) return hk_file_fail(there, "follow the path", errno);
     name = real;
   }
   int32_t status = check_name(name);
@@ -169,7 +169,7 @@ static int32_t name_beside(const char *there, char **name) {
   *name = NULL;
   if (begin == NULL) return HOOKE_NO_MEMORY;
   begin[stem] = '\0';
-  const int32_t status = hk_place_beside(begin, ".xdmf", name);
+  const int32_t status = hk_file_beside(begin, ".xdmf", name);
   hk_free(begin);
   return status;
 }
@@ -179,11 +179,11 @@ static int32_t check_replaced(const char *path) {
   static const char head[] = "<?xml";
   char begin[sizeof head] = {0};
   const int descriptor = open(path, O_RDONLY | O_CLOEXEC);
-  if (descriptor < 0) return errno == ENOENT ? HOOKE_OK : hk_place_fail(path, "look what is there", errno);
+  if (descriptor < 0) return errno == ENOENT ? HOOKE_OK : hk_file_fail(path, "look what is there", errno);
   const ssize_t got = read(descriptor, begin, sizeof head - 1);
   const int error = errno;
   close(descriptor);
-  if (got < 0) return hk_place_fail(path, "look what is there", error);
+  if (got < 0) return hk_file_fail(path, "look what is there", error);
   return got == 0 || strcmp(begin, head) == 0
              ? HOOKE_OK
              : hk_fail(HOOKE_BAD_VALUE, NULL, "%s: is there already and is no XDMF; it is left as it is",
@@ -233,7 +233,7 @@ int32_t hooke_record_write_xdmf(const hooke_record *record, const char *path) {
     add_all(&c);
     status = c.text.status;
   }
-  if (status == HOOKE_OK) status = hk_place_write(name, c.text.bytes, c.text.length);
+  if (status == HOOKE_OK) status = hk_file_write(name, c.text.bytes, c.text.length);
   hk_text_release(&c.text);
   hk_free(c.time);
   hk_free(c.file);

@@ -86,7 +86,7 @@ static struct trend find_trend(const struct course *course) {
 static double kinetic(const hooke_system *system, const double *v) {
   double sum = 0.0;
   for (int64_t k = 0; k < 3 * system->particle_count; k++)
-    sum += system->held[k / 3] ? 0.0 : system->mass[k / 3] * (v[k] * v[k]);
+    sum += system->constrained[k / 3] ? 0.0 : system->mass[k / 3] * (v[k] * v[k]);
   return sum;
 }
 
@@ -110,7 +110,7 @@ static void start(struct hk_growth *growth, double step, int random_only) {
     const double have = kinetic(system, v), want = kinetic(system, growth->direction);
     const double share = have > 0.0 ? RANDOM_SHARE * sqrt(want / have) : 0.0;
     for (int64_t k = 0; k < size; k++)
-      v[k] = system->held[k / 3] ? 0.0 : growth->direction[k] + share * v[k];
+      v[k] = system->constrained[k / 3] ? 0.0 : growth->direction[k] + share * v[k];
   }
   for (int64_t k = 0; k < size; k++)
     most = fmax(most, fabs(v[k]));

@@ -61,7 +61,7 @@ static void add_element(const struct hk_elements *at, const struct hk_element *e
   if (at->force == &hk_force_springs) add_spring(e, hk_element_number(at), group, stiffness, damping, blame);
 }
 
-/* Of the elements at q; their mode is 0 where a particle is held. */
+/* Of the elements at q; their mode is 0 where a particle is constrained. */
 static void find_elements(const hooke_system *system, const double *q, const double *mode, struct weights h,
                           struct whole *whole, struct hk_blame *blame) {
   const struct hk_force_row *force = NULL;
@@ -84,7 +84,7 @@ static void find_particles(const hooke_system *system, const double *mode, struc
                            struct hk_blame *blame) {
   for (int64_t p = 0; p < system->particle_count; p++) {
     const struct hk_blamed_particle blamed = {p, system->mass[p] * square_of(mode + 3 * p), system->mass[p]};
-    if (system->held[p]) continue;
+    if (system->constrained[p]) continue;
     whole->kinetic += blamed.share;
     keep(blame->particle, &blame->particle_count, sizeof blamed, offsetof(struct hk_blamed_particle, share),
          &blamed);
@@ -118,7 +118,7 @@ int32_t hk_blame_find(const hooke_system *system, const double *q, const double 
     return HOOKE_NO_MEMORY;
   }
   for (int64_t k = 0; k < 3 * system->particle_count; k++)
-    moves[k] = system->held[k / 3] ? 0.0 : mode[k];
+    moves[k] = system->constrained[k / 3] ? 0.0 : mode[k];
   find_elements(system, q, moves, (struct weights){h2, 2.0 * h}, &whole, blame);
   find_particles(system, moves, &whole, blame);
   divide(blame, &whole);

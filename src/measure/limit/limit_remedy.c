@@ -43,7 +43,7 @@ static struct set spring_set(const hooke_system *system, const struct hk_blame *
 }
 
 static struct set particle_set(const hooke_system *system, const struct hk_blame *blame) {
-  struct set set = {.of = system->particle_count - system->held_count};
+  struct set set = {.of = system->particle_count - system->constrained_count};
   while (set.share < MOST_OF_THE_MODE && set.count < blame->particle_count)
     set.share += blame->particle[set.count++].share;
   if (set.share < MOST_OF_THE_MODE) set.count = 0;
@@ -74,7 +74,7 @@ static void find_oddness(const hooke_system *system, const struct hk_blame *blam
   const double kappa = find_kappa(system, blame->spring[0].spring, &mean);
   springs->odd = kappa > 0.0 ? log(kappa) - mean : 0.0;
   for (int64_t p = 0; p < system->particle_count; p++)
-    sum += system->held[p] ? 0.0 : log(system->mass[p]);
+    sum += system->constrained[p] ? 0.0 : log(system->mass[p]);
   particles->odd = sum / (double)particles->of - log(blame->particle[0].mass);
 }
 

@@ -13,7 +13,7 @@ int32_t hk_needs_read_watch(struct hk_needs *needs) {
   int32_t status = HOOKE_OK;
   if (text[0] == '\0') {
     for (int64_t p = 0; p < system->particle_count; p++)
-      mark[p] = system->held[p] == 0;
+      mark[p] = system->constrained[p] == 0;
   } else {
     status = hk_watched_mark_particles(system, "watch", text, mark);
   }

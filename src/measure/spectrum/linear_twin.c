@@ -35,7 +35,7 @@ static void each_spring(struct making *making, struct hk_twin *twin,
     for (int64_t k = 0; k < system->springs.run[r].count; k++) {
       const struct hk_spring spring = hk_run_spring(&system->springs.run[r], k);
       const struct hk_element *e = hk_next_element(&at);
-      if (hk_element_moves(system->held, e)) see(making, twin, &spring, e);
+      if (hk_element_moves(system->constrained, e)) see(making, twin, &spring, e);
     }
   }
 }
@@ -113,7 +113,7 @@ static void keep_others(const struct making *making, struct hk_twin *twin) {
   hk_begin_elements(making->system, making->q, NULL, &at);
   at.wanted = hk_force_is_other;
   for (const struct hk_element *e; (e = hk_next_element(&at)) != NULL;) {
-    if (!hk_element_moves(making->system->held, e)) continue;
+    if (!hk_element_moves(making->system->constrained, e)) continue;
     twin->clamped += e->k_across < -HOOKE_STRETCH_ROUNDING * e->k_along;
     twin->damped |= e->c_along > 0.0 || e->c_across > 0.0;
     keep_element(twin, e);
@@ -184,7 +184,7 @@ static int32_t build(const struct making *making, const struct hk_twin *twin, co
     status = hooke_system_add_particles(system, old->particle_count, twin->place, NULL, old->particle_count,
                                         old->mass, NULL);
   for (int64_t p = 0; p < old->particle_count && status == HOOKE_OK; p++) {
-    if (old->held[p]) status = hooke_system_pin(system, 1, &p);
+    if (old->constrained[p]) status = hooke_system_pin(system, 1, &p);
   }
   if (status == HOOKE_OK && springs > 0) status = add_springs(making, springs, system);
   if (status == HOOKE_OK)
@@ -224,7 +224,7 @@ static int32_t find_slow_step(struct hk_twin *twin) {
   for (const struct hk_element *e = twin->element; e < twin->element + twin->element_count; e++) {
     const int spring = e < twin->element + twin->spring_count;
     for (int j = 0; j < e->count; j++) {
-      const double row = spring ? 2.0 : hk_element_row(system->held, e, j);
+      const double row = spring ? 2.0 : hk_element_row(system->constrained, e, j);
       sum[2 * e->particle[j]] += row * e->k_along;
       sum[2 * e->particle[j] + 1] += row * e->c_along;
     }

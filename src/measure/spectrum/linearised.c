@@ -29,9 +29,9 @@ static void see_spring(struct hk_linearised *lin, int64_t k, const struct hk_spr
     lin->clamped++;
 }
 
-/* Between held ends it moves nothing. */
+/* Between constrained ends it moves nothing. */
 static int32_t moves(const hooke_system *system, const struct hk_spring *spring) {
-  return !system->held[spring->head] || !system->held[spring->tail];
+  return !system->constrained[spring->head] || !system->constrained[spring->tail];
 }
 
 static void see_runs(struct hk_linearised *lin, const double *q, const double *spring_scale) {
@@ -62,7 +62,7 @@ static void see_batches(struct hk_linearised *lin, const double *q) {
 /* Springs in no order are many times faster in that of their batches. */
 static int32_t see_springs(struct hk_linearised *lin, const double *q, const double *spring_scale) {
   const struct hk_springs *springs = &lin->system->springs;
-  if (spring_scale || lin->system->net.particles == 0) {
+  if (spring_scale || lin->system->tiled.particles == 0) {
     lin->run = springs->run;
     lin->run_count = springs->run_count;
     see_runs(lin, q, spring_scale);
@@ -102,7 +102,7 @@ static int32_t see_others(struct hk_linearised *lin, const double *q) {
   hk_begin_elements(lin->system, q, NULL, &at);
   at.wanted = hk_force_is_other;
   for (const struct hk_element *e; (e = hk_next_element(&at)) != NULL;) {
-    if (!hk_element_moves(lin->system->held, e)) continue;
+    if (!hk_element_moves(lin->system->constrained, e)) continue;
     if (at.force->multiply)
       lin->bends = 1;
     else
@@ -121,7 +121,7 @@ static void add_rows(const struct hk_linearised *lin, const double *q, int dampi
   for (const struct hk_element *e; (e = hk_next_element(&at)) != NULL;) {
     const double most = damping ? fmax(e->c_along, e->c_across) : fmax(e->k_along, e->k_across);
     for (int j = 0; j < e->count; j++)
-      sum[e->particle[j]] += hk_element_row(lin->system->held, e, j) * most;
+      sum[e->particle[j]] += hk_element_row(lin->system->constrained, e, j) * most;
   }
 }
 
@@ -219,8 +219,8 @@ int32_t hk_linearised_create(const hooke_system *system, const double *q, const 
   lin->g_across = part(&block, m);
   for (int64_t p = 0; p < n; p++) {
     lin->mass[p] = system->mass[p] * (mass_scale ? mass_scale[p] : 1.0);
-    lin->inverse[p] = system->held[p] ? 0.0 : 1.0 / lin->mass[p];
-    lin->unknowns += system->held[p] ? 0 : 3;
+    lin->inverse[p] = system->constrained[p] ? 0.0 : 1.0 / lin->mass[p];
+    lin->unknowns += system->constrained[p] ? 0 : 3;
   }
   int32_t status = see_springs(lin, q, spring_scale);
   if (status == HOOKE_OK) status = see_others(lin, q);
@@ -338,14 +338,14 @@ void hk_linearised_start(const struct hk_linearised *lin, double *x) {
     seed ^= seed << 25;
     seed ^= seed >> 27;
     const double number = (double)((seed * 0x2545f4914f6cdd1du) >> 11) / 4503599627370496.0 - 1.0;
-    x[k] = lin->system->held[k % n] ? 0.0 : number * sqrt(lin->inverse[k % n]);
+    x[k] = lin->system->constrained[k % n] ? 0.0 : number * sqrt(lin->inverse[k % n]);
   }
 }
 
 void hk_linearised_pack(const struct hk_linearised *lin, const double *x, double *unknown) {
   const int64_t n = lin->system->particle_count;
   for (int64_t p = 0, u = 0; p < n; p++) {
-    for (int64_t a = 0; a < 3 && !lin->system->held[p]; a++)
+    for (int64_t a = 0; a < 3 && !lin->system->constrained[p]; a++)
       unknown[u++] = x[a * n + p] * sqrt(lin->mass[p]);
   }
 }
@@ -354,7 +354,7 @@ void hk_linearised_unpack(const struct hk_linearised *lin, const double *unknown
   const int64_t n = lin->system->particle_count;
   for (int64_t p = 0, u = 0; p < n; p++) {
     for (int64_t a = 0; a < 3; a++)
-      x[a * n + p] = lin->system->held[p] ? 0.0 : unknown[u++] * sqrt(lin->inverse[p]);
+      x[a * n + p] = lin->system->constrained[p] ? 0.0 : unknown[u++] * sqrt(lin->inverse[p]);
   }
 }
 

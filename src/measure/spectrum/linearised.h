@@ -6,7 +6,7 @@
  * (element.h). A compressed spring is clamped: its stiffness across, which is negative, counts as 0. A
  * spring that only pulls counts as taut; one of no length as stiff in all directions.
  *
- * Vectors are displacements of all particles, x, y and z apart (3n), 0 where a particle is held.
+ * Vectors are displacements of all particles, x, y and z apart (3n), 0 where a particle is constrained.
  * Eigenvalues come in units of `rate`, a bound of the fastest motion, so that neither stiffness nor masses
  * overflow: K is divided by rate^2, C by rate. */
 #ifndef HOOKE_MEASURE_SPECTRUM_LINEARISED_H
@@ -24,7 +24,7 @@ struct hk_linearised {
   int64_t clamped, products; /* springs clamped; products with K and C so far */
   int32_t across_any, damped;
   int32_t bends;          /* some force whose K and C are constant moves something */
-  double *mass, *inverse; /* n; the inverse is 0 where a particle is held */
+  double *mass, *inverse; /* n; the inverse is 0 where a particle is constrained */
   /* springs: by their numbers, or in the order of batches, in one run of our own */
   int64_t run_count;
   const struct hk_run *run;
@@ -58,7 +58,7 @@ void hk_linearised_release(struct hk_linearised *linearised);
 /* Makes products those with a K + b C; a, b >= 0. */
 void hk_linearised_combine(struct hk_linearised *linearised, double a, double b);
 
-/* out += (a K + b C) x; what it has where a particle is held means nothing. */
+/* out += (a K + b C) x; what it has where a particle is constrained means nothing. */
 void hk_linearised_add_product(struct hk_linearised *linearised, const double *x, double *out);
 
 /* out = M^-1 (a K + b C) x. */
@@ -73,7 +73,8 @@ double hk_linearised_energy(const struct hk_linearised *linearised, const double
 /* x.My */
 double hk_linearised_dot(const struct hk_linearised *linearised, const double *x, const double *y);
 
-/* x = a start for iterations, the same every time: numbers between -1 and 1, 0 where a particle is held. */
+/* x = a start for iterations, the same every time: numbers between -1 and 1, 0 where a particle is
+ * constrained. */
 void hk_linearised_start(const struct hk_linearised *linearised, double *x);
 
 /* The unknowns are the components of the free particles in turn, times the root of their masses (`unknowns`

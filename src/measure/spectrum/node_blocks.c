@@ -16,15 +16,15 @@ static void find_axial(double term[6], const double u[3], double along, double a
 }
 
 static void add_element(struct hk_node_blocks *blocks, const struct hk_element *e) {
-  const uint8_t *held = blocks->system->held;
+  const uint8_t *constrained = blocks->system->constrained;
   double before = -1.0, stiffness[6] = {0}, damping[6] = {0};
-  if (!hk_element_moves(held, e)) return;
+  if (!hk_element_moves(constrained, e)) return;
   if (e->k_along > 0.0) blocks->least_ratio = fmin(blocks->least_ratio, e->c_along / e->k_along);
   blocks->across |= hk_element_across(e) > 0.0;
   for (int j = 0; j < e->count; j++) {
     const int64_t p = e->particle[j];
-    const double row = hk_element_row(held, e, j);
-    if (held[p]) continue;
+    const double row = hk_element_row(constrained, e, j);
+    if (constrained[p]) continue;
     if (row != before) { /* both ends of a spring have the same */
       find_axial(stiffness, e->u, row * e->k_along, row * fmax(0.0, e->k_across));
       find_axial(damping, e->u, row * e->c_along, row * e->c_across);
@@ -101,7 +101,7 @@ static double largest_rate(const struct hk_node_blocks *blocks, const double *bl
   const int stiff = block == blocks->stiffness;
   double most = 0.0;
   for (int64_t p = 0; p < blocks->system->particle_count; p++) {
-    if (blocks->system->held[p]) continue;
+    if (blocks->system->constrained[p]) continue;
     if (stays_below(blocks, p, stiff, !stiff, ALIKE * most * blocks->system->mass[p])) continue;
     most = fmax(most, hk_eigen_largest(block + 6 * p) * blocks->system->inverse_mass[p]);
   }
@@ -120,7 +120,7 @@ int32_t hk_node_blocks_stay_below(const struct hk_node_blocks *blocks, double a,
                                   int64_t *particle) {
   const hooke_system *system = blocks->system;
   for (int64_t p = 0; p < system->particle_count; p++) {
-    if (system->held[p]) continue;
+    if (system->constrained[p]) continue;
     if (stays_below(blocks, p, a, b, limit * system->mass[p])) continue;
     *particle = p;
     return 0;
@@ -150,7 +150,7 @@ static double too_large(const struct hk_node_blocks *blocks, int64_t p) {
 double hk_node_blocks_step(const struct hk_node_blocks *blocks) {
   double best = INFINITY;
   for (int64_t p = 0; p < blocks->system->particle_count; p++) {
-    if (blocks->system->held[p]) continue;
+    if (blocks->system->constrained[p]) continue;
     const double start = too_large(blocks, p);
     double high = fmin(best, start), low = 0.0;
     if (isinf(high)) continue;

@@ -1,9 +1,9 @@
 /* Bounds of the stiffness and damping of a system by one 3x3 block for each particle, summed over the
  * elements at it:
  *   K <= blockdiag(sum w_j (k_along u u^T + max(0, k_across) (I - u u^T)))     C likewise
- * with w_j = |g_j| times the sum of |g| over the particles of the element that are not held, from
+ * with w_j = |g_j| times the sum of |g| over the particles of the element that are free, from
  *   (a + b + c)^2 <= (a^2/p + b^2/q + c^2/r) (p + q + r):
- * 2 for a spring, and 1 where its other end is held; 4, 8, 4 for a triple. */
+ * 2 for a spring, and 1 where its other end is constrained; 4, 8, 4 for a triple. */
 #ifndef HOOKE_MEASURE_SPECTRUM_NODE_BLOCKS_H
 #define HOOKE_MEASURE_SPECTRUM_NODE_BLOCKS_H
 

@@ -86,7 +86,7 @@ static int32_t find_proportion(struct hk_spectrum *s) {
       return 0;
   }
   for (int64_t p = 0; p < system->particle_count && lin->drag > 0.0; p++) {
-    if (system->held[p]) continue;
+    if (system->constrained[p]) continue;
     if (mass > 0.0 && lin->mass[p] != mass) return 0;
     mass = lin->mass[p];
   }

@@ -12,7 +12,7 @@ static double least_drag_rate(const struct hk_node_blocks *blocks) {
   const hooke_system *system = blocks->system;
   double heaviest = 0.0;
   for (int64_t p = 0; p < system->particle_count; p++) {
-    if (!system->held[p]) heaviest = fmax(heaviest, system->mass[p]);
+    if (!system->constrained[p]) heaviest = fmax(heaviest, system->mass[p]);
   }
   return system->drag / heaviest;
 }

@@ -28,7 +28,7 @@ static int32_t find_powers(const struct hk_balance *balance, const hooke_state *
   if (balance->force == NULL) return HOOKE_OK;
   const int32_t status = hooke_system_force(system, hooke_state_time(state), q, v, balance->force);
   for (int64_t p = 0; status == HOOKE_OK && p < system->particle_count; p++) {
-    if (system->held[p] != HOOKE_HELD_DRIVEN) continue;
+    if (system->constrained[p] != HOOKE_IS_DRIVEN) continue;
     for (int a = 0; a < 3; a++)
       *in -= balance->force[3 * p + a] * v[3 * p + a];
   }

@@ -4,8 +4,8 @@
  *   E(t) - E(a) = W - D,   W = integral of -(force of the springs on driven particles . their velocity),
  *                          D = integral of hooke_system_dissipated_power(),
  *
- * E as hooke_system_energy() has it, which leaves held particles out. The integrals are sums over steps by
- * the trapezoidal rule; what is left over, E(t) - E(a) - W + D, goes with the error of the method and of that
+ * E as hooke_system_energy() has it, which leaves constrained particles out. The integrals are sums over
+ * steps by the trapezoidal rule; what is left over, E(t) - E(a) - W + D, goes with the error of the method and of that
  * rule. */
 #ifndef HOOKE_MEASURE_TRIAL_BALANCE_H
 #define HOOKE_MEASURE_TRIAL_BALANCE_H

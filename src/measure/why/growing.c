@@ -10,8 +10,8 @@
 
 /* ---- products ---- */
 
-/* out = (a K + b C) x, without what held particles feel, and without what compressed springs have across; 0
- * if patience has an end. */
+/* out = (a K + b C) x, without what constrained particles feel, and without what compressed springs have
+ * across; 0 if patience has an end. */
 static int32_t multiply(struct hk_growing *g, const double *q, double a, double b) {
   const hooke_system *system = g->system;
   const double *const x[3] = {g->x, g->x + 1, g->x + 2};
@@ -27,7 +27,7 @@ static int32_t multiply(struct hk_growing *g, const double *q, double a, double 
                         x, out);
   }
   for (int64_t p = 0; p < system->particle_count; p++) {
-    for (int64_t k = 3 * p; k < 3 * p + 3 && system->held[p]; k++)
+    for (int64_t k = 3 * p; k < 3 * p + 3 && system->constrained[p]; k++)
       g->out[k] = 0.0;
   }
   return 1;
@@ -39,16 +39,16 @@ static double length_of(const struct hk_growing *g, const double *x) {
   double sum = 0.0;
   for (int64_t p = 0; p < g->system->particle_count; p++) {
     const double *a = x + 3 * p;
-    if (!g->system->held[p]) sum += g->system->mass[p] * ((a[0] * a[0] + a[1] * a[1]) + a[2] * a[2]);
+    if (!g->system->constrained[p]) sum += g->system->mass[p] * ((a[0] * a[0] + a[1] * a[1]) + a[2] * a[2]);
   }
   return sqrt(sum);
 }
 
-/* x = from / `length`, nothing where particles are held. */
+/* x = from / `length`, nothing where particles are constrained. */
 static void take(struct hk_growing *g, const double *from, double length) {
   for (int64_t p = 0; p < g->system->particle_count; p++) {
     for (int64_t k = 3 * p; k < 3 * p + 3; k++)
-      g->x[k] = g->system->held[p] ? 0.0 : from[k] / length;
+      g->x[k] = g->system->constrained[p] ? 0.0 : from[k] / length;
   }
 }
 

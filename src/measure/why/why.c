@@ -52,7 +52,7 @@ static void leave_out(char *list, size_t size, const char *what) {
 }
 
 int32_t hk_inquiry_has_room(struct hk_inquiry *inquiry, double bytes, const char *what) {
-  if (bytes <= inquiry->room - inquiry->held) return 1;
+  if (bytes <= inquiry->memory_limit - inquiry->memory_used) return 1;
   leave_out(inquiry->no_room, sizeof inquiry->no_room, what);
   return 0;
 }
@@ -70,7 +70,7 @@ static void tell_left_out(struct hk_inquiry *inquiry) {
   const size_t used = strlen(text);
   if (inquiry->no_room[0])
     hk_print(text + used, size - used, "%snot known, since memory was short (%.3g MB): %s", used ? "; " : "",
-             1e-6 * inquiry->room, inquiry->no_room);
+             1e-6 * inquiry->memory_limit, inquiry->no_room);
 }
 
 /* Nearly half of what the run took, as memory has gaps: what it holds, or what it held while the scene was
@@ -87,9 +87,9 @@ static double usual_room(const hooke_integrator *run) {
 static void begin_inquiry(struct hk_inquiry *inquiry) {
   const hooke_system *system = inquiry->system;
   enum { SHAPES = 16 }; /* numbers a coordinate, of a limit with its modes */
-  inquiry->room = usual_room(inquiry->run);
+  inquiry->memory_limit = usual_room(inquiry->run);
   const double spectrum = hk_linearised_bytes(system) + SHAPES * (double)inquiry->run->size * sizeof(double);
-  inquiry->large = spectrum > inquiry->room;
+  inquiry->large = spectrum > inquiry->memory_limit;
   inquiry->violation.bound = NAN;
   const hooke_integrator *run = inquiry->run;
   if (run->count.force_evaluations > 0)
@@ -114,7 +114,7 @@ static int32_t survey(struct hk_inquiry *inquiry) {
   const double bytes = 12.0 * (double)inquiry->system->particle_count * sizeof(double);
   if (!inquiry->large || inquiry->run->method->adaptive) return HOOKE_OK;
   if (!hk_inquiry_has_room(inquiry, bytes, "whether the step is above the limit")) return HOOKE_OK;
-  inquiry->held += bytes;
+  inquiry->memory_used += bytes;
   hk_patience_lend(&inquiry->patience, 0.8);
   int32_t status = hk_node_blocks_begin(inquiry->system, &blocks);
   blocks.patience = &inquiry->patience;
@@ -126,12 +126,12 @@ static int32_t survey(struct hk_inquiry *inquiry) {
     hk_patience_take_back(&inquiry->patience);
   else
     hk_inquiry_end_part(inquiry, "whether the step is above the limit");
-  inquiry->held -= bytes;
+  inquiry->memory_used -= bytes;
   return status;
 }
 
 static void release_growing(struct hk_inquiry *inquiry) {
-  if (inquiry->growing.x) inquiry->held -= hk_growing_bytes(inquiry->system);
+  if (inquiry->growing.x) inquiry->memory_used -= hk_growing_bytes(inquiry->system);
   hk_growing_release(&inquiry->growing);
 }
 
@@ -148,7 +148,7 @@ static int32_t find_out(struct hk_inquiry *inquiry) {
 static int32_t inquire(struct hk_inquiry *inquiry) {
   begin_inquiry(inquiry);
   inquiry->violation.q = hk_new(inquiry->run->size, sizeof(double));
-  inquiry->held = (double)inquiry->run->size * sizeof(double);
+  inquiry->memory_used = (double)inquiry->run->size * sizeof(double);
   const int32_t status = inquiry->violation.q ? find_out(inquiry) : HOOKE_NO_MEMORY;
   tell_left_out(inquiry);
   hk_growing_release(&inquiry->growing);

@@ -61,10 +61,10 @@ struct hk_inquiry {
   const hooke_system *system;
   struct hk_why *why;
   struct hk_patience patience;
-  double room, held;               /* [bytes] that may be taken, and those that are */
-  char no_time[200], no_room[200]; /* what was left out */
-  double pass;                     /* [s] that one pass over the springs for bounds takes, by estimate */
-  int32_t large;                   /* the spectrum is out of reach: what grows has to tell */
+  double memory_limit, memory_used; /* [bytes] that may be taken, and those that are */
+  char no_time[200], no_room[200];  /* what was left out */
+  double pass;                      /* [s] that one pass over the springs for bounds takes, by estimate */
+  int32_t large;                    /* the spectrum is out of reach: what grows has to tell */
   struct hk_growing growing;
 
   hooke_state *last;  /* the last one within all bounds; NULL: the run's newest is */

@@ -38,8 +38,8 @@ double hk_handy_step(double step, double limit, double every, double duration) {
 /* ---- candidates ---- */
 
 /* The largest step known to be stable by `method`: at the start, and where it was found too large. */
-static int32_t stable_step(struct hk_plan *plan, const char *method, double *limit) {
-  struct hk_inquiry *inquiry = plan->inquiry;
+static int32_t stable_step(struct hk_trials *trials, const char *method, double *limit) {
+  struct hk_inquiry *inquiry = trials->inquiry;
   const struct hk_violation *violation = &inquiry->violation;
   double later = INFINITY;
   int32_t known;
@@ -48,7 +48,7 @@ static int32_t stable_step(struct hk_plan *plan, const char *method, double *lim
     return HOOKE_OK;
   }
   hk_patience_lend(&inquiry->patience, 0.3);
-  int32_t status = hk_inquiry_limit(inquiry, plan->first->q, method, ACCURACY, limit, &known);
+  int32_t status = hk_inquiry_limit(inquiry, trials->first->q, method, ACCURACY, limit, &known);
   if (status == HOOKE_OK && violation->found)
     status = hk_inquiry_limit(inquiry, violation->q, method, ACCURACY, &later, &known);
   hk_inquiry_end_part(inquiry, "limits of steps");
@@ -58,25 +58,25 @@ static int32_t stable_step(struct hk_plan *plan, const char *method, double *lim
 
 /* A run of the same method or another, of steps up to `limit`; a shorter one where the whole would take
  * days. */
-static int32_t offer_step(struct hk_plan *plan, const char *method, double limit, const char *why_so,
+static int32_t offer_step(struct hk_trials *trials, const char *method, double limit, const char *why_so,
                           int32_t *taken) {
-  const int other = strcmp(method, plan->inquiry->run->method->name) != 0;
+  const int other = strcmp(method, trials->inquiry->run->method->name) != 0;
   struct hk_change change;
   *taken = 0;
   if (!(limit > 0.0)) return HOOKE_OK;
-  if (isinf(limit) && isnan(plan->step)) limit = plan->duration / SHORT_RUN;
-  const double most = isnan(plan->step) ? limit : fmin(limit, plan->step);
-  double step = hk_handy_step(plan->step, most, plan->every, plan->duration);
-  if (!(step > 0.0) || (!other && step == plan->step)) return HOOKE_OK;
+  if (isinf(limit) && isnan(trials->step)) limit = trials->duration / SHORT_RUN;
+  const double most = isnan(trials->step) ? limit : fmin(limit, trials->step);
+  double step = hk_handy_step(trials->step, most, trials->every, trials->duration);
+  if (!(step > 0.0) || (!other && step == trials->step)) return HOOKE_OK;
   int32_t status = hk_change_begin(&change, other ? "method" : "step");
-  const int too_long =
-      plan->inquiry->squares > 0.0 || !(plan->duration / step * plan->size <= TOO_LONG * HOOKE_TRIAL_WORK);
+  const int too_long = trials->inquiry->squares > 0.0 ||
+                       !(trials->duration / step * trials->size <= TOO_LONG * HOOKE_TRIAL_WORK);
   if (too_long) step = hk_handy_step(NAN, most, NAN, NAN);
   if (status == HOOKE_OK && other) status = hooke_options_set_text(change.run, "method", method);
-  if (status == HOOKE_OK && step != plan->step) status = hooke_options_set_number(change.run, "step", step);
+  if (status == HOOKE_OK && step != trials->step) status = hooke_options_set_number(change.run, "step", step);
   if (status == HOOKE_OK && too_long) {
     status = hooke_options_set_number(change.run, "duration", SHORT_RUN * step);
-    if (status == HOOKE_OK && !isnan(plan->every))
+    if (status == HOOKE_OK && !isnan(trials->every))
       status = hooke_options_set_number(change.run, "every", SHORT_FRAME * step);
   }
   if (status != HOOKE_OK) {
@@ -86,28 +86,28 @@ static int32_t offer_step(struct hk_plan *plan, const char *method, double limit
   hk_change_say(&change, "%s%s%sa step of %.6g s%s%s", other ? "the method " : "", other ? method : "",
                 other ? ", with " : "", step, why_so,
                 too_long ? ", for a run that is as short as such steps make it" : "");
-  return hk_plan_offer(plan, &change, taken);
+  return hk_trials_offer(trials, &change, taken);
 }
 
 /* The same method at a share of its limit, then at smaller and smaller steps. */
-static int32_t offer_smaller(struct hk_plan *plan, double limit, const char *why_so) {
+static int32_t offer_smaller(struct hk_trials *trials, double limit, const char *why_so) {
   int32_t taken = 0, status = HOOKE_OK;
   for (int k = 0; k < 4 && !taken && status == HOOKE_OK; k++) {
-    status = offer_step(plan, plan->inquiry->run->method->name, limit, k == 0 ? why_so : "", &taken);
+    status = offer_step(trials, trials->inquiry->run->method->name, limit, k == 0 ? why_so : "", &taken);
     limit *= k == 0 ? 0.5 : 0.25;
   }
   return status;
 }
 
-static int32_t offer_fixed(struct hk_plan *plan, const char *method) {
+static int32_t offer_fixed(struct hk_trials *trials, const char *method) {
   double limit = 0.0;
   int32_t taken;
-  int32_t status = stable_step(plan, method, &limit);
+  int32_t status = stable_step(trials, method, &limit);
   if (status != HOOKE_OK) return status;
-  plan->backed = plan->inquiry->violation.found;
-  status = offer_step(plan, method, MARGIN * limit,
+  trials->backed = trials->inquiry->violation.found;
+  status = offer_step(trials, method, MARGIN * limit,
                       isinf(limit) ? ": it is stable at every step" : ", which is stable", &taken);
-  plan->backed = 0;
+  trials->backed = 0;
   return status;
 }
 
@@ -119,11 +119,11 @@ static double rounded(double value) {
   return hk_number_parse(text, (int64_t)strlen(text), &read) == HOOKE_NUMBER_FINE ? read : value;
 }
 
-static int32_t offer_adaptive(struct hk_plan *plan, const char *method, double looser) {
+static int32_t offer_adaptive(struct hk_trials *trials, const char *method, double looser) {
   struct hk_change change;
   int32_t taken;
-  const hooke_options *run = plan->inquiry->run->options;
-  const int other = strcmp(method, plan->inquiry->run->method->name) != 0;
+  const hooke_options *run = trials->inquiry->run->options;
+  const int other = strcmp(method, trials->inquiry->run->method->name) != 0;
   const double rtol = rounded(looser * hooke_options_number(run, "rtol")),
                atol = rounded(looser * hooke_options_number(run, "atol"));
   if (!hooke_method_is_built(method) || rtol > 0.1) return HOOKE_OK;
@@ -141,10 +141,10 @@ static int32_t offer_adaptive(struct hk_plan *plan, const char *method, double l
     hk_change_say(&change, "the method %s, which chooses its steps itself", method);
   else
     hk_change_say(&change, "looser tolerances, %g times", looser);
-  return hk_plan_offer(plan, &change, &taken);
+  return hk_trials_offer(trials, &change, &taken);
 }
 
-static int32_t offer_one_iteration(struct hk_plan *plan) {
+static int32_t offer_one_iteration(struct hk_trials *trials) {
   struct hk_change change;
   int32_t taken;
   int32_t status = hk_change_begin(&change, "newton");
@@ -154,42 +154,42 @@ static int32_t offer_one_iteration(struct hk_plan *plan) {
     return status;
   }
   hk_change_say(&change, "one iteration a step, which has nothing to converge");
-  return hk_plan_offer(plan, &change, &taken);
+  return hk_trials_offer(trials, &change, &taken);
 }
 
 /* As many steps as it takes. */
-static int32_t offer_more_steps(struct hk_plan *plan) {
+static int32_t offer_more_steps(struct hk_trials *trials) {
   struct hk_change change;
   int32_t taken;
   int64_t steps = -1;
   int32_t status = hk_change_begin(&change, "max_steps");
   if (status == HOOKE_OK) status = hooke_options_set_number(change.run, "max_steps", 9e15);
-  if (status == HOOKE_OK) status = hk_plan_count_steps(plan, &change, &steps);
+  if (status == HOOKE_OK) status = hk_trials_count_steps(trials, &change, &steps);
   if (status == HOOKE_OK && steps > 0) {
     status = hooke_options_set_number(change.run, "max_steps", ceil(1.25 * (double)steps));
     hk_change_say(&change, "more steps: the whole run takes %lld", (long long)steps);
-    if (status == HOOKE_OK) return hk_plan_offer(plan, &change, &taken);
+    if (status == HOOKE_OK) return hk_trials_offer(trials, &change, &taken);
   }
   hk_change_drop(&change);
   return status;
 }
 
 /* The run up to where all was well. */
-static int32_t offer_shorter(struct hk_plan *plan) {
-  const struct hk_inquiry *inquiry = plan->inquiry;
+static int32_t offer_shorter(struct hk_trials *trials) {
+  const struct hk_inquiry *inquiry = trials->inquiry;
   struct hk_change change;
   int32_t taken;
-  const double step = plan->step, begun = inquiry->run->t0;
+  const double step = trials->step, begun = inquiry->run->t0;
   double duration = isnan(step) ? *hk_inquiry_last(inquiry)->t - begun : (double)inquiry->last_step * step;
   if (inquiry->bad_value.found && inquiry->bad_value.time - begun < duration) {
     duration = isnan(step) ? inquiry->bad_value.time - begun
                            : floor((inquiry->bad_value.time - begun) / step - 1.0) * step;
   }
   if (isnan(step)) duration *= 0.9;
-  if (!(duration > 0.0) || duration >= plan->duration) return HOOKE_OK;
+  if (!(duration > 0.0) || duration >= trials->duration) return HOOKE_OK;
   int32_t status = hk_change_begin(&change, "duration");
   if (status == HOOKE_OK) status = hooke_options_set_number(change.run, "duration", duration);
-  if (status == HOOKE_OK && !isnan(plan->every) && plan->every > duration)
+  if (status == HOOKE_OK && !isnan(trials->every) && trials->every > duration)
     status = hooke_options_set_number(change.run, "every", isnan(step) ? duration : step);
   if (status != HOOKE_OK) {
     hk_change_drop(&change);
@@ -197,95 +197,97 @@ static int32_t offer_shorter(struct hk_plan *plan) {
   }
   hk_change_say(&change, "a run that ends before the trouble, at t = %.6g s, to look at how it gets there",
                 begun + duration);
-  return hk_plan_offer(plan, &change, &taken);
+  return hk_trials_offer(trials, &change, &taken);
 }
 
 /* ---- what fits which cause ---- */
 
-static int32_t offer_others(struct hk_plan *plan) {
+static int32_t offer_others(struct hk_trials *trials) {
   const char *const fixed[] = {"symplectic-euler", "verlet", "tr-bdf2", "backward-euler"};
   const char *const adaptive[] = {"cvode-adams", "cvode-bdf"};
-  const char *mine = plan->inquiry->run->method->name;
+  const char *mine = trials->inquiry->run->method->name;
   int32_t status = HOOKE_OK;
   for (int k = 0; k < 4 && status == HOOKE_OK; k++) {
-    if (strcmp(mine, fixed[k]) != 0) status = offer_fixed(plan, fixed[k]);
+    if (strcmp(mine, fixed[k]) != 0) status = offer_fixed(trials, fixed[k]);
   }
   for (int k = 0; k < 2 && status == HOOKE_OK; k++) {
-    if (strcmp(mine, adaptive[k]) != 0) status = offer_adaptive(plan, adaptive[k], 1.0);
+    if (strcmp(mine, adaptive[k]) != 0) status = offer_adaptive(trials, adaptive[k], 1.0);
   }
   return status;
 }
 
-static int32_t offer_for_step(struct hk_plan *plan) {
-  const struct hk_violation *violation = &plan->inquiry->violation;
-  const char *mine = plan->inquiry->run->method->name;
-  double limit = 0.5 * plan->step;
+static int32_t offer_for_step(struct hk_trials *trials) {
+  const struct hk_violation *violation = &trials->inquiry->violation;
+  const char *mine = trials->inquiry->run->method->name;
+  double limit = 0.5 * trials->step;
   int32_t status = HOOKE_OK;
   const int above = violation->found || !isnan(violation->bound);
-  if (above) status = stable_step(plan, mine, &limit);
-  plan->backed = above;
+  if (above) status = stable_step(trials, mine, &limit);
+  trials->backed = above;
   if (status == HOOKE_OK && limit > 0.0)
-    status = offer_smaller(plan, (above ? MARGIN : 1.0) * limit, above ? ", below the limit" : "");
-  plan->backed = 0;
-  const int implicit = hk_blame_is_drag(plan->inquiry->force) || plan->inquiry->force == HOOKE_BLAME_DAMPING;
-  if (status == HOOKE_OK && implicit && strcmp(mine, "verlet") != 0) status = offer_fixed(plan, "verlet");
-  return status == HOOKE_OK ? offer_others(plan) : status;
+    status = offer_smaller(trials, (above ? MARGIN : 1.0) * limit, above ? ", below the limit" : "");
+  trials->backed = 0;
+  const int implicit =
+      hk_blame_is_drag(trials->inquiry->force) || trials->inquiry->force == HOOKE_BLAME_DAMPING;
+  if (status == HOOKE_OK && implicit && strcmp(mine, "verlet") != 0) status = offer_fixed(trials, "verlet");
+  return status == HOOKE_OK ? offer_others(trials) : status;
 }
 
-static int32_t offer_for_collapse(struct hk_plan *plan) {
+static int32_t offer_for_collapse(struct hk_trials *trials) {
   int32_t status = HOOKE_OK;
-  if (!isnan(plan->step)) status = offer_smaller(plan, 0.25 * plan->step, ", with which it jumps less far");
-  return status == HOOKE_OK ? offer_others(plan) : status;
+  if (!isnan(trials->step))
+    status = offer_smaller(trials, 0.25 * trials->step, ", with which it jumps less far");
+  return status == HOOKE_OK ? offer_others(trials) : status;
 }
 
-static int32_t offer_for_solver(struct hk_plan *plan) {
+static int32_t offer_for_solver(struct hk_trials *trials) {
   int32_t status = HOOKE_OK;
-  if (plan->inquiry->run->outcome == HOOKE_STEP_LIMIT) status = offer_more_steps(plan);
-  if (status == HOOKE_OK && !isnan(plan->step)) {
-    status = offer_smaller(plan, 0.5 * plan->step, ", which is easier to solve");
-    if (status == HOOKE_OK) status = offer_one_iteration(plan);
+  if (trials->inquiry->run->outcome == HOOKE_STEP_LIMIT) status = offer_more_steps(trials);
+  if (status == HOOKE_OK && !isnan(trials->step)) {
+    status = offer_smaller(trials, 0.5 * trials->step, ", which is easier to solve");
+    if (status == HOOKE_OK) status = offer_one_iteration(trials);
   } else {
     static const double looser[] = {10.0, 100.0, 1e3, 1e4};
     for (int k = 0; k < 4 && status == HOOKE_OK; k++)
-      status = offer_adaptive(plan, plan->inquiry->run->method->name, looser[k]);
+      status = offer_adaptive(trials, trials->inquiry->run->method->name, looser[k]);
   }
-  return status == HOOKE_OK ? offer_others(plan) : status;
+  return status == HOOKE_OK ? offer_others(trials) : status;
 }
 
 /* No step cures it; damping does, and so may what a method damps. */
-static int32_t offer_for_gain(struct hk_plan *plan) {
-  int32_t status = offer_shorter(plan);
-  if (status == HOOKE_OK) status = hk_plan_try_damping(plan);
-  if (status == HOOKE_OK) status = offer_fixed(plan, "backward-euler");
-  return status == HOOKE_OK ? offer_adaptive(plan, "cvode-bdf", 1.0) : status;
+static int32_t offer_for_gain(struct hk_trials *trials) {
+  int32_t status = offer_shorter(trials);
+  if (status == HOOKE_OK) status = hk_trials_try_damping(trials);
+  if (status == HOOKE_OK) status = offer_fixed(trials, "backward-euler");
+  return status == HOOKE_OK ? offer_adaptive(trials, "cvode-bdf", 1.0) : status;
 }
 
 /* As long as the squares of what moves have numbers. */
-static int32_t offer_for_squares(struct hk_plan *plan) {
+static int32_t offer_for_squares(struct hk_trials *trials) {
   int32_t taken;
-  if (isnan(plan->step)) return HOOKE_OK;
-  return offer_step(plan, plan->inquiry->run->method->name, plan->inquiry->squares,
+  if (isnan(trials->step)) return HOOKE_OK;
+  return offer_step(trials, trials->inquiry->run->method->name, trials->inquiry->squares,
                     ", by which nothing moves beyond numbers that have squares", &taken);
 }
 
-static int32_t offer_all(struct hk_plan *plan) {
-  const struct hk_why *why = plan->inquiry->why;
+static int32_t offer_all(struct hk_trials *trials) {
+  const struct hk_why *why = trials->inquiry->why;
   int32_t status;
   if (strcmp(why->cause, "force-not-finite") == 0)
     status = HOOKE_OK; /* no other step or method makes it finite */
   else if (strcmp(why->cause, "collapsed-spring") == 0)
-    status = offer_for_collapse(plan);
+    status = offer_for_collapse(trials);
   else if (strcmp(why->cause, "solver-failed") == 0)
-    status = offer_for_solver(plan);
+    status = offer_for_solver(trials);
   else if (strcmp(why->cause, "never-stable") == 0)
-    status = offer_others(plan);
+    status = offer_others(trials);
   else if (strcmp(why->cause, "model-gains-energy") == 0)
-    status = offer_for_gain(plan);
-  else if (strcmp(why->cause, "overflow") == 0 && plan->inquiry->squares > 0.0)
-    status = offer_for_squares(plan);
+    status = offer_for_gain(trials);
+  else if (strcmp(why->cause, "overflow") == 0 && trials->inquiry->squares > 0.0)
+    status = offer_for_squares(trials);
   else
-    status = offer_for_step(plan);
-  return status == HOOKE_OK && why->advice_count == 0 ? offer_shorter(plan) : status;
+    status = offer_for_step(trials);
+  return status == HOOKE_OK && why->advice_count == 0 ? offer_shorter(trials) : status;
 }
 
 /* ---- the scene ---- */
@@ -320,10 +322,10 @@ static void advise_scene(struct hk_inquiry *inquiry) {
 }
 
 int32_t hk_inquiry_advise(struct hk_inquiry *inquiry) {
-  struct hk_plan plan;
-  int32_t status = hk_plan_begin(inquiry, &plan);
-  if (status == HOOKE_OK && plan.duration > 0.0) status = offer_all(&plan);
-  hk_plan_release(&plan);
+  struct hk_trials trials;
+  int32_t status = hk_trials_begin(inquiry, &trials);
+  if (status == HOOKE_OK && trials.duration > 0.0) status = offer_all(&trials);
+  hk_trials_release(&trials);
   hk_inquiry_end_part(inquiry, "what else to do");
   if (status == HOOKE_OK) advise_scene(inquiry);
   return status;

@@ -37,7 +37,7 @@ static void take_blame(struct hk_inquiry *inquiry, const struct hk_blame *blame)
 
 static int32_t look(struct hk_inquiry *inquiry, struct hk_limit *limit) {
   limit->patience = &inquiry->patience;
-  limit->room = inquiry->room - inquiry->held;
+  limit->room = inquiry->memory_limit - inquiry->memory_used;
   const int32_t status = hk_limit_look(limit, inquiry->violation.q, inquiry->violation.time);
   if (limit->found) take_blame(inquiry, &limit->blame);
   const struct hk_remedy *remedy = &limit->remedy;

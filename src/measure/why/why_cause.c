@@ -180,7 +180,7 @@ static int64_t largest_unsquared(const hooke_system *system, const double *x, do
   int64_t found = -1;
   *most = HAS_SQUARE;
   for (int64_t k = 0; k < 3 * system->particle_count; k++) {
-    if (!(fabs(x[k]) > *most) || system->held[k / 3]) continue;
+    if (!(fabs(x[k]) > *most) || system->constrained[k / 3]) continue;
     *most = fabs(x[k]);
     found = k / 3;
   }

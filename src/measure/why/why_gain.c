@@ -24,9 +24,9 @@ static int32_t may_gain(const struct hk_inquiry *inquiry) {
 
 /* ---- at smaller steps ---- */
 
-static int32_t refine(const struct hk_plan *plan, int k, hooke_options *run) {
-  const hooke_options *given = plan->inquiry->run->options;
-  if (!isnan(plan->step)) return hooke_options_set_number(run, "step", plan->step / FINER[k]);
+static int32_t refine(const struct hk_trials *trials, int k, hooke_options *run) {
+  const hooke_options *given = trials->inquiry->run->options;
+  if (!isnan(trials->step)) return hooke_options_set_number(run, "step", trials->step / FINER[k]);
   static const char *const names[] = {"rtol", "atol", "atol_velocity"};
   int32_t status = HOOKE_OK;
   for (int j = 0; j < 3 && status == HOOKE_OK; j++) {
@@ -37,31 +37,31 @@ static int32_t refine(const struct hk_plan *plan, int k, hooke_options *run) {
 }
 
 /* 1 if the run with smaller steps diverges, too. */
-static int32_t diverges_finer(struct hk_plan *plan, int k, int32_t *diverges) {
+static int32_t diverges_finer(struct hk_trials *trials, int k, int32_t *diverges) {
   struct hk_change change;
   struct hk_trial trial = {.reached = NAN};
   int32_t status = hk_change_begin(&change, "step");
-  if (status == HOOKE_OK) status = refine(plan, k, change.run);
-  if (status == HOOKE_OK) status = hk_plan_try(plan, plan->inquiry->system, &change, &trial);
+  if (status == HOOKE_OK) status = refine(trials, k, change.run);
+  if (status == HOOKE_OK) status = hk_trials_try(trials, trials->inquiry->system, &change, &trial);
   *diverges = trial.diverged;
   hk_change_drop(&change);
   return status;
 }
 
 int32_t hk_inquiry_gains(struct hk_inquiry *inquiry, int32_t *gains) {
-  struct hk_plan plan;
+  struct hk_trials trials;
   *gains = 0;
   if (!may_gain(inquiry) || (inquiry->violation.found && inquiry->violation.time <= inquiry->run->t0))
     return HOOKE_OK;
-  int32_t status = hk_plan_begin(inquiry, &plan);
-  *gains = status == HOOKE_OK && plan.duration > 0.0 && !plan.late;
+  int32_t status = hk_trials_begin(inquiry, &trials);
+  *gains = status == HOOKE_OK && trials.duration > 0.0 && !trials.late;
   hk_patience_lend(&inquiry->patience, 0.5);
   for (int k = 0; k < FINER_TRIES && status == HOOKE_OK && *gains; k++)
-    status = diverges_finer(&plan, k, gains);
+    status = diverges_finer(&trials, k, gains);
   *gains = *gains && !inquiry->patience.spent;
   inquiry->cut |= inquiry->patience.spent;
   hk_inquiry_end_part(inquiry, "whether smaller steps gain energy, too");
-  hk_plan_release(&plan);
+  hk_trials_release(&trials);
   return status;
 }
 
@@ -69,9 +69,9 @@ int32_t hk_inquiry_gains(struct hk_inquiry *inquiry, int32_t *gains) {
 
 /* The run with the change, of the same system but for the damping of its altitude springs, `times` their
  * stiffness. */
-static int32_t try_damped(struct hk_plan *plan, double times, const struct hk_change *change,
+static int32_t try_damped(struct hk_trials *trials, double times, const struct hk_change *change,
                           struct hk_trial *trial) {
-  hooke_system damped = *plan->inquiry->system;
+  hooke_system damped = *trials->inquiry->system;
   struct hk_tetrahedron *own = hk_new(damped.altitudes.count, sizeof *own);
   if (own == NULL) return HOOKE_NO_MEMORY;
   memcpy(own, damped.altitudes.tetrahedron, (size_t)damped.altitudes.count * sizeof *own);
@@ -79,25 +79,25 @@ static int32_t try_damped(struct hk_plan *plan, double times, const struct hk_ch
     own[k].damping = fmax(own[k].damping, times * own[k].stiffness);
   damped.altitudes.tetrahedron = own;
   damped.altitudes.damped = 1;
-  const int32_t status = hk_plan_try(plan, &damped, change, trial);
+  const int32_t status = hk_trials_try(trials, &damped, change, trial);
   hk_free(own);
   return status;
 }
 
 /* Damping asks for smaller steps itself, so one `finer` times smaller is tried, too. */
-static int32_t try_damping(struct hk_plan *plan, double times, double finer) {
-  char *text = plan->inquiry->remedy, step[64] = "";
+static int32_t try_damping(struct hk_trials *trials, double times, double finer) {
+  char *text = trials->inquiry->remedy, step[64] = "";
   struct hk_change change;
   struct hk_trial trial = {.reached = NAN};
   int32_t status = hk_change_begin(&change, "step");
   if (status == HOOKE_OK && finer > 1.0) {
-    status = hooke_options_set_number(change.run, "step", plan->step / finer);
-    hk_print(step, sizeof step, ", with a step of %.6g s,", plan->step / finer);
+    status = hooke_options_set_number(change.run, "step", trials->step / finer);
+    hk_print(step, sizeof step, ", with a step of %.6g s,", trials->step / finer);
   }
-  if (status == HOOKE_OK) status = try_damped(plan, times, &change, &trial);
+  if (status == HOOKE_OK) status = try_damped(trials, times, &change, &trial);
   if (status == HOOKE_OK && trial.proof[0]) {
     hk_print(
-        text, sizeof plan->inquiry->remedy,
+        text, sizeof trials->inquiry->remedy,
         "damping of altitude springs of %.3g s times their stiffness%s takes out what their jumps give%s",
         times, step, trial.proof);
   }
@@ -105,14 +105,14 @@ static int32_t try_damping(struct hk_plan *plan, double times, double finer) {
   return status;
 }
 
-int32_t hk_plan_try_damping(struct hk_plan *plan) {
-  const struct hk_inquiry *inquiry = plan->inquiry;
-  const int adaptive = isnan(plan->step);
-  const double unit = adaptive ? PART_OF_TIME * (inquiry->why->noticed - inquiry->run->t0) : plan->step;
+int32_t hk_trials_try_damping(struct hk_trials *trials) {
+  const struct hk_inquiry *inquiry = trials->inquiry;
+  const int adaptive = isnan(trials->step);
+  const double unit = adaptive ? PART_OF_TIME * (inquiry->why->noticed - inquiry->run->t0) : trials->step;
   int32_t status = HOOKE_OK;
   for (int k = 0; k < 2 * DAMPING_TRIES && status == HOOKE_OK && !inquiry->remedy[0]; k++) {
     if (adaptive && k >= DAMPING_TRIES) break;
-    status = try_damping(plan, DAMPING[k % DAMPING_TRIES] * unit, k < DAMPING_TRIES ? 1.0 : FINER[0]);
+    status = try_damping(trials, DAMPING[k % DAMPING_TRIES] * unit, k < DAMPING_TRIES ? 1.0 : FINER[0]);
   }
   return status;
 }

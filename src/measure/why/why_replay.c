@@ -140,7 +140,7 @@ static void look_at_damage(struct hk_inquiry *inquiry, const hooke_integrator *a
       size = isfinite(v) && isfinite(q) ? fmax(size, fmax(q, v)) : (double)INFINITY;
     }
     const int64_t number = motion->order ? motion->order[p] : p;
-    if (inquiry->system->held[number] || !(speed >= most)) continue;
+    if (inquiry->system->constrained[number] || !(speed >= most)) continue;
     if (speed == most && number > inquiry->bad_particle) continue;
     most = speed;
     inquiry->bad_particle = number;

@@ -12,7 +12,7 @@
 
 enum { MOST_TRIALS = 16, ENOUGH = 2 };
 
-/* ---- plans ---- */
+/* ---- trials ---- */
 
 /* Evaluations that the run took to the trouble, times its size. */
 static double work_of_run(const hooke_integrator *run, double size) {
@@ -21,36 +21,36 @@ static double work_of_run(const hooke_integrator *run, double size) {
 
 /* The beginning of the run: the one that was kept, else the system's own. Where a trial would not come from
  * there to the trouble, the earliest of the last good states. */
-static int32_t find_first(struct hk_plan *plan) {
-  const hooke_integrator *run = plan->inquiry->run;
+static int32_t find_first(struct hk_trials *trials) {
+  const hooke_integrator *run = trials->inquiry->run;
   const hooke_state *oldest = hk_recent_state(&run->recent, run->recent.count - 1, NULL);
-  plan->late = work_of_run(run, plan->size) > 0.5 * HOOKE_TRIAL_WORK && *oldest->t > run->t0;
-  plan->first = plan->late ? oldest : run->recent.first;
-  if (plan->first) return HOOKE_OK;
-  const int32_t status = hooke_state_create(plan->inquiry->system, &plan->initial);
-  plan->first = run->t0 == 0.0 ? plan->initial : oldest;
+  trials->late = work_of_run(run, trials->size) > 0.5 * HOOKE_TRIAL_WORK && *oldest->t > run->t0;
+  trials->first = trials->late ? oldest : run->recent.first;
+  if (trials->first) return HOOKE_OK;
+  const int32_t status = hooke_state_create(trials->inquiry->system, &trials->initial);
+  trials->first = run->t0 == 0.0 ? trials->initial : oldest;
   return status;
 }
 
-int32_t hk_plan_begin(struct hk_inquiry *inquiry, struct hk_plan *plan) {
+int32_t hk_trials_begin(struct hk_inquiry *inquiry, struct hk_trials *trials) {
   const hooke_integrator *run = inquiry->run;
   const hooke_system *system = inquiry->system;
   const struct hk_schedule *s = &run->schedule;
   const double span = inquiry->why->noticed - run->t0;
-  *plan = (struct hk_plan){.inquiry = inquiry, .step = run->method->adaptive ? NAN : s->step};
+  *trials = (struct hk_trials){.inquiry = inquiry, .step = run->method->adaptive ? NAN : s->step};
   /* a loop of the caller's own has no end: some way past the trouble */
-  plan->duration = !isnan(s->duration) ? s->duration
-                   : isnan(plan->step) ? 2.0 * span
-                                       : 2.0 * (double)run->k * s->step;
-  plan->every = s->every_given ? s->every : NAN;
+  trials->duration = !isnan(s->duration)   ? s->duration
+                     : isnan(trials->step) ? 2.0 * span
+                                           : 2.0 * (double)run->k * s->step;
+  trials->every = s->every_given ? s->every : NAN;
   /* a callback of a script costs far more than springs */
-  plan->size =
+  trials->size =
       (double)(system->particle_count + hk_system_member_count(system) + 50 + (system->force ? 1000 : 0));
-  return find_first(plan);
+  return find_first(trials);
 }
 
-void hk_plan_release(struct hk_plan *plan) {
-  hooke_state_destroy(plan->initial);
+void hk_trials_release(struct hk_trials *trials) {
+  hooke_state_destroy(trials->initial);
 }
 
 int32_t hk_change_begin(struct hk_change *change, const char *option) {
@@ -73,13 +73,13 @@ void hk_change_drop(struct hk_change *change) {
 }
 
 /* The options of the run with the changes; frames that hooke chose are chosen anew. */
-static int32_t changed_options(const struct hk_plan *plan, const struct hk_change *change,
+static int32_t changed_options(const struct hk_trials *trials, const struct hk_change *change,
                                hooke_options **out) {
-  const hooke_integrator *run = plan->inquiry->run;
+  const hooke_integrator *run = trials->inquiry->run;
   int32_t status = hooke_options_copy(run->options, out);
   if (status == HOOKE_OK && !run->schedule.every_given) status = hooke_options_unset(*out, "every");
   if (status == HOOKE_OK && isnan(run->schedule.duration))
-    status = hooke_options_set_number(*out, "duration", plan->duration);
+    status = hooke_options_set_number(*out, "duration", trials->duration);
   return status == HOOKE_OK ? hk_why_apply(change->run, *out) : status;
 }
 
@@ -108,13 +108,13 @@ static int32_t watch_time(double done, const char *method, void *ctx) {
 }
 
 /* What a run by a method holds at most [bytes]. */
-static double bytes_of_trial(const struct hk_plan *plan, const char *method) {
+static double bytes_of_trial(const struct hk_trials *trials, const char *method) {
   static const struct {
     const char *method;
     double numbers; /* a particle: vectors of its solver, and matrices of neighbours */
   } heavy[] = {{"cvode-bdf", 300.0}, {"cvode-adams", 100.0}};
-  const hooke_integrator *run = plan->inquiry->run;
-  const double n = (double)plan->inquiry->system->particle_count;
+  const hooke_integrator *run = trials->inquiry->run;
+  const double n = (double)trials->inquiry->system->particle_count;
   /* the state, the motion, and the last states as far as 16 MB have them */
   const struct hk_method *row = hk_method_find(method);
   double numbers = row && row->implicit ? 300.0 : 25.0;
@@ -128,13 +128,14 @@ static double bytes_of_trial(const struct hk_plan *plan, const char *method) {
 }
 
 /* Runs as far as the work allows. */
-static int32_t run_trial(struct hk_plan *plan, hooke_integrator *integrator, struct hk_trial *trial) {
+static int32_t run_trial(struct hk_trials *trials, hooke_integrator *integrator, struct hk_trial *trial) {
   hooke_state *state = NULL;
-  struct effort effort = {.integrator = integrator, .patience = &plan->inquiry->patience, .size = plan->size};
-  const int64_t stride = integrator->method->adaptive ? 1 : 1 + (int64_t)(1e5 / plan->size);
-  int32_t status = hk_state_create_sized(plan->first->size, 1, &state);
+  struct effort effort = {
+      .integrator = integrator, .patience = &trials->inquiry->patience, .size = trials->size};
+  const int64_t stride = integrator->method->adaptive ? 1 : 1 + (int64_t)(1e5 / trials->size);
+  int32_t status = hk_state_create_sized(trials->first->size, 1, &state);
   if (status != HOOKE_OK) return status;
-  hooke_state_copy(plan->first, state);
+  hooke_state_copy(trials->first, state);
   hooke_integrator_on_step(integrator, stride, watch_work, &effort);
   hooke_integrator_on_progress(integrator, 0.0, watch_time, &effort);
   status = hooke_integrator_run(integrator, state);
@@ -147,23 +148,23 @@ static int32_t run_trial(struct hk_plan *plan, hooke_integrator *integrator, str
   return status > 0 || status == HOOKE_SOLVER_FAILED ? HOOKE_OK : status;
 }
 
-static int32_t try_run(struct hk_plan *plan, const hooke_system *system, const hooke_options *options,
+static int32_t try_run(struct hk_trials *trials, const hooke_system *system, const hooke_options *options,
                        struct hk_trial *trial) {
   hooke_integrator *integrator = NULL;
-  plan->trials++;
+  trials->count++;
   int32_t status = hooke_integrator_create(system, options, &integrator);
   if (status == HOOKE_BAD_VALUE || status == HOOKE_NOT_BUILT)
     return HOOKE_OK; /* it does not fit: not to be advised */
-  if (status == HOOKE_OK) status = run_trial(plan, integrator, trial);
+  if (status == HOOKE_OK) status = run_trial(trials, integrator, trial);
   hooke_integrator_destroy(integrator);
   return status;
 }
 
 /* Words for what the trial showed; 0 if it did not get past the trouble. */
-static int proves(const struct hk_plan *plan, double reached, int32_t finished, char *text, size_t size) {
-  const double noticed = plan->inquiry->why->noticed, begun = *plan->first->t;
-  if (!(finished && !plan->late) && !(reached > noticed + 0.5 * (noticed - begun))) return 0;
-  if (plan->late)
+static int proves(const struct hk_trials *trials, double reached, int32_t finished, char *text, size_t size) {
+  const double noticed = trials->inquiry->why->noticed, begun = *trials->first->t;
+  if (!(finished && !trials->late) && !(reached > noticed + 0.5 * (noticed - begun))) return 0;
+  if (trials->late)
     hk_print(text, size, " (tried from t = %.6g s to %.6g s: there it is well)", begun, reached);
   else if (finished)
     snprintf(text, size, " (tried: it runs to its end)");
@@ -173,22 +174,22 @@ static int proves(const struct hk_plan *plan, double reached, int32_t finished, 
 }
 
 /* 1 if there is time and room for a trial; if not, that is noted. */
-static int32_t can_try(const struct hk_plan *plan, const hooke_options *options) {
-  struct hk_inquiry *inquiry = plan->inquiry;
-  const double bytes = bytes_of_trial(plan, hooke_options_text(options, "method"));
+static int32_t can_try(const struct hk_trials *trials, const hooke_options *options) {
+  struct hk_inquiry *inquiry = trials->inquiry;
+  const double bytes = bytes_of_trial(trials, hooke_options_text(options, "method"));
   if (hk_patience_ends(&inquiry->patience, "trying what to do")) return 0;
   return hk_inquiry_has_room(inquiry, bytes, "trials of what to do");
 }
 
-int32_t hk_plan_try(struct hk_plan *plan, const hooke_system *system, const struct hk_change *change,
-                    struct hk_trial *trial) {
+int32_t hk_trials_try(struct hk_trials *trials, const hooke_system *system, const struct hk_change *change,
+                      struct hk_trial *trial) {
   hooke_options *options = NULL;
   *trial = (struct hk_trial){.reached = -INFINITY};
-  int32_t status = changed_options(plan, change, &options);
-  trial->tried = status == HOOKE_OK && can_try(plan, options);
-  if (trial->tried) status = try_run(plan, system, options, trial);
+  int32_t status = changed_options(trials, change, &options);
+  trial->tried = status == HOOKE_OK && can_try(trials, options);
+  if (trial->tried) status = try_run(trials, system, options, trial);
   if (trial->tried && status == HOOKE_OK)
-    proves(plan, trial->reached, trial->finished, trial->proof, sizeof trial->proof);
+    proves(trials, trial->reached, trial->finished, trial->proof, sizeof trial->proof);
   hooke_options_destroy(options);
   return status;
 }
@@ -207,16 +208,16 @@ static int same_changes(const hooke_options *a, const hooke_options *b) {
   return 1;
 }
 
-static int is_known(const struct hk_plan *plan, const struct hk_change *change) {
-  const struct hk_why *why = plan->inquiry->why;
+static int is_known(const struct hk_trials *trials, const struct hk_change *change) {
+  const struct hk_why *why = trials->inquiry->why;
   for (int64_t k = 0; k < why->advice_count; k++) {
     if (why->advice[k].run && same_changes(why->advice[k].run, change->run)) return 1;
   }
   return 0;
 }
 
-void hk_plan_take(struct hk_plan *plan, struct hk_change *change, const char *proof) {
-  struct hk_why *why = plan->inquiry->why;
+void hk_trials_take(struct hk_trials *trials, struct hk_change *change, const char *proof) {
+  struct hk_why *why = trials->inquiry->why;
   struct hk_why_advice *advice = &why->advice[why->advice_count++];
   advice->run = change->run;
   change->run = NULL;
@@ -228,28 +229,28 @@ void hk_plan_take(struct hk_plan *plan, struct hk_change *change, const char *pr
     snprintf(advice->value, sizeof advice->value, "%s", hooke_options_text(advice->run, change->option));
 }
 
-int32_t hk_plan_offer(struct hk_plan *plan, struct hk_change *change, int32_t *taken) {
-  const struct hk_inquiry *inquiry = plan->inquiry;
+int32_t hk_trials_offer(struct hk_trials *trials, struct hk_change *change, int32_t *taken) {
+  const struct hk_inquiry *inquiry = trials->inquiry;
   int32_t status = HOOKE_OK;
   *taken = 0;
-  if (inquiry->why->advice_count < ENOUGH && plan->trials < MOST_TRIALS && !is_known(plan, change)) {
+  if (inquiry->why->advice_count < ENOUGH && trials->count < MOST_TRIALS && !is_known(trials, change)) {
     struct hk_trial trial;
-    status = hk_plan_try(plan, inquiry->system, change, &trial);
+    status = hk_trials_try(trials, inquiry->system, change, &trial);
     const int32_t cut = !trial.tried || inquiry->patience.spent;
-    if (!trial.proof[0] && plan->backed && cut) {
+    if (!trial.proof[0] && trials->backed && cut) {
       snprintf(trial.proof, sizeof trial.proof, " (not tried to its end, for want of %s)",
                inquiry->patience.spent ? "time" : "memory");
     }
     *taken = status == HOOKE_OK && trial.proof[0];
-    if (*taken) hk_plan_take(plan, change, trial.proof);
+    if (*taken) hk_trials_take(trials, change, trial.proof);
   }
   hk_change_drop(change);
   return status;
 }
 
-int32_t hk_plan_count_steps(struct hk_plan *plan, const struct hk_change *change, int64_t *steps) {
+int32_t hk_trials_count_steps(struct hk_trials *trials, const struct hk_change *change, int64_t *steps) {
   struct hk_trial trial;
-  const int32_t status = hk_plan_try(plan, plan->inquiry->system, change, &trial);
-  *steps = trial.finished && !plan->late ? trial.steps : -1;
+  const int32_t status = hk_trials_try(trials, trials->inquiry->system, change, &trial);
+  *steps = trial.finished && !trials->late ? trial.steps : -1;
   return status;
 }

@@ -33,7 +33,7 @@ static int32_t by_spectrum(struct hk_inquiry *inquiry, const double *q, double t
   double limit = 0.0;
   const int32_t status =
       hk_limit_predict_within(inquiry->system, q, method_of(inquiry), NULL, NULL, LIMIT_ACCURACY,
-                              inquiry->room - inquiry->held, &inquiry->patience, &limit);
+                              inquiry->memory_limit - inquiry->memory_used, &inquiry->patience, &limit);
   if (status == HOOKE_NO_MEMORY) return status;
   if (status == HOOKE_OK && inquiry->run->schedule.step > limit) take(inquiry, q, t, limit, limit, particle);
   return HOOKE_OK;
@@ -44,7 +44,7 @@ static int32_t begin_growing(struct hk_inquiry *inquiry) {
   if (inquiry->growing.x) return HOOKE_OK;
   const double bytes = hk_growing_bytes(inquiry->system);
   if (!hk_inquiry_has_room(inquiry, bytes, "whether the step is above the limit")) return HOOKE_OK;
-  inquiry->held += bytes;
+  inquiry->memory_used += bytes;
   return hk_growing_create(inquiry->system, hk_recent_state(&inquiry->run->recent, 0, NULL)->v,
                            &inquiry->patience, &inquiry->growing);
 }
@@ -137,7 +137,7 @@ int32_t hk_inquiry_limit(struct hk_inquiry *inquiry, const double *q, const char
   int32_t status = HOOKE_STOPPED;
   if (!inquiry->large)
     status = hk_limit_predict_within(inquiry->system, q, method, NULL, NULL, accuracy,
-                                     inquiry->room - inquiry->held, &inquiry->patience, limit);
+                                     inquiry->memory_limit - inquiry->memory_used, &inquiry->patience, limit);
   *known = status == HOOKE_OK;
   if (status == HOOKE_OK || status == HOOKE_NO_MEMORY) return status;
   *limit = 0.0;

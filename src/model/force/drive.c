@@ -110,7 +110,7 @@ static int32_t append_drive(hooke_system *system, struct hk_drive_group drive, c
   for (int64_t k = 0; k < drive.count; k++) {
     drive.particle[k] = (int32_t)particles[k];
     memcpy(drive.origin + 3 * k, system->position + 3 * particles[k], 3 * sizeof(double));
-    system->held[particles[k]] = HOOKE_HELD_DRIVEN;
+    system->constrained[particles[k]] = HOOKE_IS_DRIVEN;
   }
   system->drive[system->drive_count++] = drive;
   return HOOKE_OK;
@@ -125,7 +125,7 @@ static int32_t check_driven(const hooke_system *system, int64_t count, const int
   /* of more than there are, one of the first is named twice */
   if (count > system->particle_count) count = system->particle_count + 1;
   status =
-      hk_system_check_particles(system, "particles", count, particles, HOOKE_HELD_PINNED | HOOKE_HELD_DRIVEN);
+      hk_system_check_particles(system, "particles", count, particles, HOOKE_IS_PINNED | HOOKE_IS_DRIVEN);
   if (status != HOOKE_OK) return status;
   /* a particle twice in one list */
   uint8_t *seen = hk_new(system->particle_count, 1);

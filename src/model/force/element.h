@@ -74,20 +74,20 @@ static inline struct hk_element_numbers hk_element_combine(const struct hk_eleme
                                      (a * e->k_across + b * e->c_across) / e->over};
 }
 
-/* 1 if a particle is not held; `held` is that of the system. */
-static inline int32_t hk_element_moves(const uint8_t *held, const struct hk_element *element) {
+/* 1 if a particle is free; `constrained` is that of the system. */
+static inline int32_t hk_element_moves(const uint8_t *constrained, const struct hk_element *element) {
   int32_t moves = 0;
   for (int j = 0; j < element->count; j++)
-    moves |= !held[element->particle[j]];
+    moves |= !constrained[element->particle[j]];
   return moves;
 }
 
-/* Particle j's row of g g^T, summed in size over the particles that are not held: the diagonal matrix of
+/* Particle j's row of g g^T, summed in size over the particles that are free: the diagonal matrix of
  * these is at least g g^T. */
-static inline double hk_element_row(const uint8_t *held, const struct hk_element *element, int j) {
+static inline double hk_element_row(const uint8_t *constrained, const struct hk_element *element, int j) {
   double sum = 0.0;
   for (int k = 0; k < element->count; k++)
-    sum += held[element->particle[k]] ? 0.0 : fabs(element->weight[k]);
+    sum += constrained[element->particle[k]] ? 0.0 : fabs(element->weight[k]);
   return fabs(element->weight[j]) * sum;
 }
 

@@ -9,7 +9,7 @@
 static double kinetic_energy(const hooke_system *system, const double *v) {
   struct hk_sum sum = {0.0, 0.0};
   for (int64_t p = 0; p < system->particle_count; p++) {
-    if (system->held[p]) continue;
+    if (system->constrained[p]) continue;
     const double square = (v[3 * p] * v[3 * p] + v[3 * p + 1] * v[3 * p + 1]) + v[3 * p + 2] * v[3 * p + 2];
     hk_sum_add(&sum, 0.5 * system->mass[p] * square);
   }
@@ -46,7 +46,7 @@ double hooke_system_dissipated_power(const hooke_system *system, const double *q
 void hooke_system_momentum(const hooke_system *system, const double *v, double *momentum) {
   struct hk_sum sum[3] = {{0.0, 0.0}};
   for (int64_t p = 0; system->committed && p < system->particle_count; p++) {
-    if (system->held[p]) continue;
+    if (system->constrained[p]) continue;
     for (int a = 0; a < 3; a++)
       hk_sum_add(&sum[a], system->mass[p] * v[3 * p + a]);
   }
@@ -58,7 +58,7 @@ void hooke_system_angular_momentum(const hooke_system *system, const double *q, 
                                    double *angular_momentum) {
   struct hk_sum sum[3] = {{0.0, 0.0}};
   for (int64_t p = 0; system->committed && p < system->particle_count; p++) {
-    if (system->held[p]) continue;
+    if (system->constrained[p]) continue;
     const double *x = q + 3 * p, *u = v + 3 * p, m = system->mass[p];
     hk_sum_add(&sum[0], m * (x[1] * u[2] - x[2] * u[1]));
     hk_sum_add(&sum[1], m * (x[2] * u[0] - x[0] * u[2]));

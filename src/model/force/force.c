@@ -81,7 +81,7 @@ int32_t hooke_system_force(const hooke_system *system, double t, const double *q
   if (status != HOOKE_OK) return status;
   hk_rows_from_components(motion->n, motion->f, force);
   for (int64_t p = 0; system->has_gravity && p < motion->n; p++) {
-    if (system->held[p]) continue;
+    if (system->constrained[p]) continue;
     for (int a = 0; a < 3; a++)
       force[3 * p + a] += system->mass[p] * system->gravity[a];
   }
@@ -98,7 +98,7 @@ int32_t hooke_system_acceleration(const hooke_system *system, double t, const do
     const double w = system->inverse_mass[p];
     for (int a = 0; a < 3; a++) {
       double *value = &acceleration[3 * p + a];
-      if (system->held[p])
+      if (system->constrained[p])
         *value = 0.0;
       else
         *value = system->has_gravity ? w * motion->f[a][p] + system->gravity[a] : w * motion->f[a][p];

@@ -20,9 +20,9 @@ static void brake(const hooke_system *system, struct hk_motion *motion, int64_t 
 static int32_t add(const hooke_system *system, struct hk_motion *motion, double t) {
   (void)t;
   int64_t from = 0;
-  for (int64_t k = 0; k < system->held_count; k++) {
-    brake(system, motion, from, system->held_particle[k]);
-    from = system->held_particle[k] + 1;
+  for (int64_t k = 0; k < system->constrained_count; k++) {
+    brake(system, motion, from, system->constrained_particle[k]);
+    from = system->constrained_particle[k] + 1;
   }
   brake(system, motion, from, motion->n);
   return HOOKE_OK;
@@ -32,13 +32,13 @@ static double heat(const hooke_system *system, const double *q, const double *v)
   (void)q;
   struct hk_sum sum = {0.0, 0.0};
   for (int64_t p = 0; p < system->particle_count; p++) {
-    if (system->held[p]) continue;
+    if (system->constrained[p]) continue;
     hk_sum_add(&sum, (v[3 * p] * v[3 * p] + v[3 * p + 1] * v[3 * p + 1]) + v[3 * p + 2] * v[3 * p + 2]);
   }
   return system->drag * hk_sum_value(&sum);
 }
 
-/* One for each particle, which does nothing where that is held. */
+/* One for each particle, which does nothing where that is constrained. */
 static int64_t count(const hooke_system *system) {
   return system->particle_count;
 }
@@ -47,7 +47,7 @@ static void elements(const hooke_system *system, const double *q, const double *
                      int64_t wanted, struct hk_element *out) {
   (void)q, (void)v;
   for (int64_t k = 0; k < wanted; k++) {
-    const double c = system->held[first + k] ? 0.0 : system->drag;
+    const double c = system->constrained[first + k] ? 0.0 : system->drag;
     out[k] = (struct hk_element){.count = 1,
                                  .particle = {(int32_t)(first + k)},
                                  .weight = {1.0},

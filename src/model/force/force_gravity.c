@@ -12,7 +12,7 @@ static double energy(const hooke_system *system, const double *q) {
   const double *g = system->gravity;
   struct hk_sum sum = {0.0, 0.0};
   for (int64_t p = 0; p < system->particle_count; p++) {
-    if (system->held[p]) continue;
+    if (system->constrained[p]) continue;
     hk_sum_add(&sum, -system->mass[p] * ((g[0] * q[3 * p] + g[1] * q[3 * p + 1]) + g[2] * q[3 * p + 2]));
   }
   return hk_sum_value(&sum);

@@ -17,7 +17,7 @@ static int32_t present(const hooke_system *system) {
 
 static int32_t add(const hooke_system *system, struct hk_motion *motion, double t) {
   (void)t;
-  if (system->lanes.count > 0 || system->net.particles > 0) {
+  if (system->strided.count > 0 || system->tiled.particles > 0) {
     hk_motion_pass(system, motion, &(const struct hk_move){.kind = HOOKE_MOVE_KEEP});
     return HOOKE_OK;
   }
@@ -227,9 +227,9 @@ static void elements(const hooke_system *system, const double *q, const double *
   }
 }
 
-/* In a net in the order of batches, else in that of numbers. */
+/* In a tiled batch in the order of batches, else in that of numbers. */
 static int64_t stored_elements(struct hk_elements *at) {
-  if (at->system->net.particles == 0) {
+  if (at->system->tiled.particles == 0) {
     const int64_t left = at->system->springs.count - at->done;
     const int64_t next = left < HOOKE_ELEMENTS ? left : HOOKE_ELEMENTS;
     if (next > 0) elements(at->system, at->q, at->v, at->done, next, at->element);

@@ -13,9 +13,9 @@ enum { SPRINGS_A_MEMBER = 8192, BORDERS_A_MEMBER = 8 };
 
 int32_t hk_motion_members(const hooke_system *system, int32_t most) {
   const int64_t border =
-      system->net.particles > 0 ? system->net.ring : system->lanes.count * system->lanes.reach;
+      system->tiled.particles > 0 ? system->tiled.ring : system->strided.count * system->strided.reach;
   int64_t workers = 1;
-  if (system->net.particles > 0 || system->lanes.count > 0)
+  if (system->tiled.particles > 0 || system->strided.count > 0)
     workers = system->springs.count / (SPRINGS_A_MEMBER + BORDERS_A_MEMBER * border);
   if (workers > most) workers = most;
   if (workers > hk_pool_processors()) workers = hk_pool_processors();
@@ -30,7 +30,7 @@ static int64_t driven_count(const hooke_system *system) {
 }
 
 int32_t hk_goes_by_tiles(const hooke_system *system) {
-  int by_tiles = system->lanes.count > 0 || system->net.particles > 0;
+  int by_tiles = system->strided.count > 0 || system->tiled.particles > 0;
   for (int32_t k = 0; k < system->force_row_count; k++) {
     const struct hk_force_row *row = system->force_row[k];
     by_tiles &= row->add == NULL || row == &hk_force_springs || row == &hk_force_drag;
@@ -58,8 +58,8 @@ static void clear(int32_t worker, int32_t workers, void *ctx) {
 static int32_t new_arrays(const hooke_system *system, int32_t by_tiles, struct hk_motion *motion) {
   const int64_t n = system->particle_count;
   /* rounded up to a cache line, and not a power of two apart: equal low address bits would fight over cache
-   * sets. Loops over lanes look beyond the last particle. */
-  const int64_t beyond = system->lanes.count > 0 ? system->lanes.reach + HOOKE_LANE_UNIT : 0;
+   * sets. Loops over strided batches look beyond the last particle. */
+  const int64_t beyond = system->strided.count > 0 ? system->strided.reach + HOOKE_STRIDED_UNIT : 0;
   const int64_t stride = (n + beyond + 7) / 8 * 8 + 24, arrays = by_tiles ? 6 : 9;
   const int64_t components = arrays * stride, rows = system->force ? 9 * n : 0;
   const int64_t still = 3 * system->anchor_count, driven = 6 * driven_count(system);
@@ -120,15 +120,15 @@ static int32_t new_numbers(const hooke_system *system, struct hk_motion *motion)
 }
 
 static int32_t new_scratch(const hooke_system *system, struct hk_motion *motion) {
-  if (system->lanes.count > 0) {
-    motion->rings = hk_rings_create(&system->lanes, hk_pool_members(motion->pool));
+  if (system->strided.count > 0) {
+    motion->rings = hk_rings_create(&system->strided, hk_pool_members(motion->pool));
     if (motion->rings == NULL) return HOOKE_NO_MEMORY;
   }
-  if (system->net.particles > 0) {
-    motion->net = hk_net_scratch_create(&system->net, hk_pool_members(motion->pool));
-    if (motion->net == NULL) return HOOKE_NO_MEMORY;
+  if (system->tiled.particles > 0) {
+    motion->tiled = hk_tiled_scratch_create(&system->tiled, hk_pool_members(motion->pool));
+    if (motion->tiled == NULL) return HOOKE_NO_MEMORY;
   }
-  motion->memory += hk_rings_memory(motion->rings) + hk_net_scratch_memory(motion->net);
+  motion->memory += hk_rings_memory(motion->rings) + hk_tiled_scratch_memory(motion->tiled);
   return HOOKE_OK;
 }
 
@@ -137,8 +137,8 @@ int32_t hk_motion_create(const hooke_system *system, int32_t by_tiles, struct hk
   struct hk_motion *motion = hk_new(1, sizeof *motion);
   if (motion == NULL) return HOOKE_NO_MEMORY;
   motion->pool = pool;
-  motion->order = by_tiles ? system->net.order : NULL;
-  motion->w = motion->order ? system->net.inverse_mass : system->inverse_mass;
+  motion->order = by_tiles ? system->tiled.order : NULL;
+  motion->w = motion->order ? system->tiled.inverse_mass : system->inverse_mass;
   int32_t status = new_arrays(system, by_tiles, motion);
   if (status == HOOKE_OK) status = new_numbers(system, motion);
   if (status == HOOKE_OK) status = new_scratch(system, motion);
@@ -152,7 +152,7 @@ int32_t hk_motion_create(const hooke_system *system, int32_t by_tiles, struct hk
 void hk_motion_destroy(struct hk_motion *motion) {
   if (motion == NULL) return;
   hk_rings_destroy(motion->rings);
-  hk_net_scratch_destroy(motion->net);
+  hk_tiled_scratch_destroy(motion->tiled);
   hk_free(motion->anchor);
   hk_free(motion->number);
   hk_free(motion->q[0]);

@@ -1,6 +1,6 @@
 /* The working copy of a state that forces are computed on: x, y and z apart, so that loops load whole
  * vectors. Particles have the caller's numbers, or, where a method moves them tile by tile as soon as the
- * springs of a tile are summed, the working numbers of the system's net. */
+ * springs of a tile are summed, the working numbers of the system's tiled batch. */
 #ifndef HOOKE_MODEL_SUM_MOTION_H
 #define HOOKE_MODEL_SUM_MOTION_H
 
@@ -9,7 +9,7 @@
 
 struct hk_force_row;
 struct hk_rings;
-struct hk_net_scratch;
+struct hk_tiled_scratch;
 
 struct hk_motion {
   int64_t n;
@@ -23,11 +23,11 @@ struct hk_motion {
   double *driven;             /* q and v of each drive in turn, 3 a particle each */
   int32_t *anchor,
       *moved; /* numbers here of the anchored particles of the system, and of those of its drives in turn */
-  struct hk_rings *rings;     /* of the pass over lanes; NULL without lanes */
-  struct hk_net_scratch *net; /* of the pass over a net; NULL without one */
-  int64_t memory;             /* bytes */
-  int64_t coincident;         /* springs without direction in the last force evaluation */
-  int32_t stop_value;         /* what a force or drive callback returned, 0 while all go on */
+  struct hk_rings *rings;         /* of the pass over strided batches; NULL without strided batches */
+  struct hk_tiled_scratch *tiled; /* of the pass over a tiled batch; NULL without one */
+  int64_t memory;                 /* bytes */
+  int64_t coincident;             /* springs without direction in the last force evaluation */
+  int32_t stop_value;             /* what a force or drive callback returned, 0 while all go on */
 };
 
 /* 1 if the forces on a tile of particles can be known before the rest of the motion is. */
@@ -70,7 +70,8 @@ int32_t hk_motion_forces_without(const hooke_system *system, struct hk_motion *m
                                  const struct hk_force_row *left_out);
 
 /* Sums the springs at all particles in one pass over memory, and does with the sums what `move` says; only
- * for systems with lanes or a net, and to move particles only for motions that go by tiles. */
+ * for systems with strided batches or a tiled batch, and to move particles only for motions that go by tiles.
+ * */
 void hk_motion_pass(const hooke_system *system, struct hk_motion *motion, const struct hk_move *move);
 
 /* Asks the drives where their particles are at time t; HOOKE_STOPPED if a callback asked for it. */

@@ -12,7 +12,7 @@ struct tile_move {
 /* Forces are zero before springs are added, so sums are the forces. */
 static void keep_tile(int64_t from, int64_t count, double *const f[3], void *ctx) {
   const struct tile_move *to = ctx;
-  const int32_t *order = to->motion->order ? NULL : to->system->net.order;
+  const int32_t *order = to->motion->order ? NULL : to->system->tiled.order;
   for (int a = 0; a < 3; a++) {
     double *kept = to->motion->f[a];
     if (order == NULL) memcpy(kept + from, f[a], (size_t)count * sizeof(double));
@@ -21,7 +21,8 @@ static void keep_tile(int64_t from, int64_t count, double *const f[3], void *ctx
   }
 }
 
-/* Drag on a tile, as its row in the table of forces adds it; held particles are put back after a step. */
+/* Drag on a tile, as its row in the table of forces adds it; constrained particles are put back after a step.
+ * */
 static void brake(double drag, int64_t from, int64_t count, const struct hk_motion *m, double *const f[3]) {
   for (int a = 0; a < 3; a++) {
     for (int64_t k = 0; k < count; k++)
@@ -43,9 +44,9 @@ static void move_tile(int64_t from, int64_t count, double *const f[3], void *ctx
 
 void hk_motion_pass(const hooke_system *system, struct hk_motion *motion, const struct hk_move *move) {
   struct tile_move to = {system, motion, move};
-  if (system->lanes.count > 0)
-    motion->coincident = hk_lanes_pass(system, motion, move);
+  if (system->strided.count > 0)
+    motion->coincident = hk_strided_batches_pass(system, motion, move);
   else
     motion->coincident =
-        hk_net_pass(&system->net, motion, move->kind == HOOKE_MOVE_KEEP ? keep_tile : move_tile, &to);
+        hk_tiled_pass(&system->tiled, motion, move->kind == HOOKE_MOVE_KEEP ? keep_tile : move_tile, &to);
 }

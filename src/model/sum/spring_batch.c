@@ -35,56 +35,56 @@ static int32_t next_of_runs(const struct hk_springs *springs, struct hk_spring_b
 
 /* ---- by tiles ---- */
 
-static void take_ends(const struct hk_net *net, int64_t tile, struct hk_spring_batch *batch) {
-  const int64_t first = tile * HOOKE_TILE, first_row = first % net->rows;
-  const uint16_t *narrow = net->upper;
-  const uint32_t *wide = net->upper;
+static void take_ends(const struct hk_tiled *tiled, int64_t tile, struct hk_spring_batch *batch) {
+  const int64_t first = tile * HOOKE_TILE, first_row = first % tiled->rows;
+  const uint16_t *narrow = tiled->upper;
+  const uint32_t *wide = tiled->upper;
   for (int64_t k = 0; k < batch->count; k++) {
-    const int64_t row = net->wide ? wide[batch->at + k] : narrow[batch->at + k];
-    const int64_t lower = first + net->lower[batch->at + k];
-    const int64_t upper = first + (row - first_row) + (row < first_row ? net->rows : 0);
-    batch->head[k] = net->order ? net->order[lower] : (int32_t)lower;
-    batch->tail[k] = net->order ? net->order[upper] : (int32_t)upper;
+    const int64_t row = tiled->wide ? wide[batch->at + k] : narrow[batch->at + k];
+    const int64_t lower = first + tiled->lower[batch->at + k];
+    const int64_t upper = first + (row - first_row) + (row < first_row ? tiled->rows : 0);
+    batch->head[k] = tiled->order ? tiled->order[lower] : (int32_t)lower;
+    batch->tail[k] = tiled->order ? tiled->order[upper] : (int32_t)upper;
   }
 }
 
-/* As the loops of the net have it, to the bit. */
-static void take_material(const struct hk_net *net, const struct hk_net_class *class,
+/* As the loops of the tiled batch have it, to the bit. */
+static void take_material(const struct hk_tiled *tiled, const struct hk_tiled_kind *kind,
                           struct hk_spring_batch *batch) {
-  const int32_t form = class->shape & HOOKE_NET_MIXED;
+  const int32_t form = kind->shape & HOOKE_TILED_MIXED;
   for (int64_t k = 0; k < batch->count; k++) {
-    const double length = form ? net->rest_length[batch->at + k] : class->rest_length;
+    const double length = form ? tiled->rest_length[batch->at + k] : kind->rest_length;
     batch->rest_length[k] = length;
-    batch->kappa[k] = form == HOOKE_NET_MIXED    ? net->kappa[batch->at + k]
-                      : form == HOOKE_NET_STRAIN ? class->kappa / length
-                                                 : class->kappa;
-    batch->gamma[k] = form == HOOKE_NET_MIXED    ? net->gamma[batch->at + k]
-                      : form == HOOKE_NET_STRAIN ? class->gamma / length
-                                                 : class->gamma;
+    batch->kappa[k] = form == HOOKE_TILED_MIXED    ? tiled->kappa[batch->at + k]
+                      : form == HOOKE_TILED_STRAIN ? kind->kappa / length
+                                                   : kind->kappa;
+    batch->gamma[k] = form == HOOKE_TILED_MIXED    ? tiled->gamma[batch->at + k]
+                      : form == HOOKE_TILED_STRAIN ? kind->gamma / length
+                                                   : kind->gamma;
   }
 }
 
-static int32_t next_of_net(const struct hk_net *net, struct hk_spring_batch *batch) {
-  const int64_t rows = net->tiles * net->classes;
-  while (batch->row < rows && batch->done == net->batch[batch->row]) {
+static int32_t next_of_tiled(const struct hk_tiled *tiled, struct hk_spring_batch *batch) {
+  const int64_t rows = tiled->tiles * tiled->kinds;
+  while (batch->row < rows && batch->done == tiled->batch[batch->row]) {
     batch->row++;
     batch->done = 0;
   }
   batch->at += batch->count;
   batch->count = 0;
   if (batch->row == rows) return 0;
-  const struct hk_net_class *class = &net->class[batch->row % net->classes];
-  batch->count = at_most(net->batch[batch->row] - batch->done);
-  batch->damped = (class->shape & HOOKE_NET_DAMPED) != 0;
-  batch->pull_only = (class->shape & HOOKE_NET_PULL_ONLY) != 0;
-  take_ends(net, batch->row / net->classes, batch);
-  take_material(net, class, batch);
+  const struct hk_tiled_kind *kind = &tiled->kind[batch->row % tiled->kinds];
+  batch->count = at_most(tiled->batch[batch->row] - batch->done);
+  batch->damped = (kind->shape & HOOKE_TILED_DAMPED) != 0;
+  batch->pull_only = (kind->shape & HOOKE_TILED_PULL_ONLY) != 0;
+  take_ends(tiled, batch->row / tiled->kinds, batch);
+  take_material(tiled, kind, batch);
   batch->done += batch->count;
   return 1;
 }
 
 int32_t hk_next_batch(const hooke_system *system, struct hk_spring_batch *batch) {
-  if (system->net.particles > 0) return next_of_net(&system->net, batch);
+  if (system->tiled.particles > 0) return next_of_tiled(&system->tiled, batch);
   return next_of_runs(&system->springs, batch);
 }
 

@@ -1,6 +1,6 @@
 /* All springs of a system, some at a time, in the order in which memory has them: that of their numbers, or
- * by the tiles of a net, whose springs are in no order. For sums and counts in which all springs are alike;
- * the order is the system's own, so that sums have the same bits always. */
+ * by the tiles of a tiled batch, whose springs are in no order. For sums and counts in which all springs are
+ * alike; the order is the system's own, so that sums have the same bits always. */
 #ifndef HOOKE_MODEL_SUM_SPRING_BATCH_H
 #define HOOKE_MODEL_SUM_SPRING_BATCH_H
 
@@ -13,11 +13,11 @@ struct hk_spring_batch {
   int64_t count;
   int32_t damped, pull_only;
   int32_t head[HOOKE_SPRING_BATCH],
-      tail[HOOKE_SPRING_BATCH]; /* in a net the first end is not the one that was given */
+      tail[HOOKE_SPRING_BATCH]; /* in a tiled batch the first end is not the one that was given */
   double kappa[HOOKE_SPRING_BATCH], gamma[HOOKE_SPRING_BATCH], rest_length[HOOKE_SPRING_BATCH];
 
-  int64_t row, done; /* where it is: a run, or a tile and class; springs of it behind it */
-  int64_t at;        /* place in the net */
+  int64_t row, done; /* where it is: a run, or a tile and kind; springs of it behind it */
+  int64_t at;        /* place in the tiled batch */
 };
 
 /* Before the first; the next ones, or 0 if there are none. */

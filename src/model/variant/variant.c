@@ -149,7 +149,7 @@ static void scale_stiffness(hooke_system *made, double factor) {
 
 static void add_velocity(hooke_system *made, const double velocity[3]) {
   for (int64_t i = 0; i < 3 * made->particle_count; i++)
-    if (!made->held[i / 3]) made->velocity[i] += velocity[i % 3];
+    if (!made->constrained[i / 3]) made->velocity[i] += velocity[i % 3];
 }
 
 int32_t hk_variant_make(const hooke_system *from, const struct hk_variant *variant, hooke_system **made,
@@ -162,7 +162,7 @@ int32_t hk_variant_make(const hooke_system *from, const struct hk_variant *varia
   if (status == HOOKE_OK) status = hooke_system_create(&maker.made);
   if (status == HOOKE_OK) maker.made->memory_limit = from->memory_limit;
   if (status == HOOKE_OK) status = hk_variant_add_particles(&maker);
-  if (status == HOOKE_OK) status = hk_variant_hold(&maker);
+  if (status == HOOKE_OK) status = hk_variant_constrain(&maker);
   if (status == HOOKE_OK) status = keep_groups(&maker);
   if (status == HOOKE_OK) status = add_forces(&maker);
   if (status == HOOKE_OK) {

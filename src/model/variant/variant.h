@@ -85,9 +85,9 @@ int32_t hk_variant_corners(const struct hk_variant_part *part, int64_t offset, i
 
 /* Adds particles, in parts and alone, and fills the map (variant_particles.c). */
 int32_t hk_variant_add_particles(struct hk_variant_maker *maker);
-/* Pins and drives. A particle of a part at another resolution is held if all are that it lies between, or one
- * that it is nearest to (variant_held.c). */
-int32_t hk_variant_hold(struct hk_variant_maker *maker);
+/* Pins and drives. A particle of a part at another resolution is constrained if all are that it lies between,
+ * or one that it is nearest to (variant_constrained.c). */
+int32_t hk_variant_constrain(struct hk_variant_maker *maker);
 /* 1 if the part of a group does not bring it because single springs of it are left out; those that stay are
  * added as a group of their own. `first` is the group's first member. Not in a part at another resolution,
  * where springs are others. */

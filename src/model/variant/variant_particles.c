@@ -51,7 +51,8 @@ static int32_t change_families(const struct hk_variant *variant, hooke_options *
   return status;
 }
 
-/* Held particles by number are held again by what they stand for; see hk_variant_hold(). */
+/* Constrained particles by number are constrained again by what they stand for; see hk_variant_constrain().
+ * */
 static int32_t change_resolution(const struct hk_part_record *record, const struct hk_variant_part *part,
                                  hooke_options *options) {
   int32_t status = record->grid->set_cells(options, part->made);

@@ -1,13 +1,13 @@
-/* What the workers of a thread pool go over and keep in a pass over a net. */
-#ifndef HOOKE_MODEL_SUM_NET_SHARE_H
-#define HOOKE_MODEL_SUM_NET_SHARE_H
+/* What the workers of a thread pool go over and keep in a pass over a tiled batch. */
+#ifndef HOOKE_MODEL_SUM_TILED_PARTITION_H
+#define HOOKE_MODEL_SUM_TILED_PARTITION_H
 
-#include "model/sum/net.h"
+#include "model/sum/tiled.h"
 
 /* A worker has the tiles `first` .. `end` - 1. Before any particle moves it does the springs of the tiles
  * from `begin` on, which end in its own, and saves the rows of the particles from its last one to `saved_end`
  * - 1, which others move. */
-struct hk_net_share {
+struct hk_tiled_partition {
   int64_t begin, first, end, saved_end;
   const void *place;                    /* of the first force on the first particle */
   double *rows, *forces, *saved, *f[3]; /* saved: NULL without; f: HOOKE_TILE each */
@@ -15,10 +15,10 @@ struct hk_net_share {
   int64_t lost;
 };
 
-struct hk_net_scratch {
+struct hk_tiled_scratch {
   int32_t workers, damped;
-  struct hk_net_share *share;
-  const struct hk_net_loops *loops;
+  struct hk_tiled_partition *partition;
+  const struct hk_tiled_loops *loops;
   int64_t memory;
 };
 

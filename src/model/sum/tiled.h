@@ -1,4 +1,4 @@
-/* Nets: how the forces of springs in no order are summed in one pass over the particles.
+/* Tiled batches: how the forces of springs in no order are summed in one pass over the particles.
  *
  * Particles get a working numbering in which neighbours are near each other, unless their own is good enough.
  * Springs are stored by the tile of their lower end in that numbering. The pass goes over tiles: forces of
@@ -8,41 +8,41 @@
  * particles of a tile after that, so its positions may move at once. Workers of a thread pool have ranges of
  * tiles: they do the springs that end in their range from earlier ones too, and save what they need of later
  * ones, before anything moves. */
-#ifndef HOOKE_MODEL_SUM_NET_H
-#define HOOKE_MODEL_SUM_NET_H
+#ifndef HOOKE_MODEL_SUM_TILED_H
+#define HOOKE_MODEL_SUM_TILED_H
 
-#include "kernel/net_loops.h"
-#include "model/sum/lane.h"
+#include "kernel/tiled_loops.h"
+#include "model/sum/strided.h"
 
-enum { HOOKE_NET_CLASSES = 8 };
+enum { HOOKE_TILED_KINDS = 8 };
 
 /* Springs that one loop can do. */
-struct hk_net_class {
-  int32_t shape;   /* HOOKE_NET_* */
+struct hk_tiled_kind {
+  int32_t shape;   /* HOOKE_TILED_* */
   int32_t uniform; /* one rest length */
   double kappa, gamma, rest_length;
 };
 
-struct hk_net_tile {
+struct hk_tiled_tile {
   int64_t end;    /* of its springs; they begin where those of the tile before end */
   int64_t before; /* the first spring that ends in this tile or begins there */
   int32_t reach;  /* particle after the last that springs of this tile and those before it end at */
 };
 
-/* `particles` 0: there is no net. */
-struct hk_net {
+/* `particles` 0: there is no tiled batch. */
+struct hk_tiled {
   int64_t particles, springs, tiles;
-  int32_t classes, wide;
-  struct hk_net_class class[HOOKE_NET_CLASSES];
-  struct hk_net_tile *tile;
+  int32_t kinds, wide;
+  struct hk_tiled_kind kind[HOOKE_TILED_KINDS];
+  struct hk_tiled_tile *tile;
   int32_t *order;       /* particle that has a working number; NULL: its own */
   double *inverse_mass; /* by working number; NULL without `order` */
-  int32_t *batch;       /* springs of each tile, by class */
+  int32_t *batch;       /* springs of each tile, by kind */
 
-  /* by place: tile, class, lower end */
+  /* by place: tile, kind, lower end */
   uint8_t *lower;                      /* from the first particle of the tile */
   void *upper;                         /* uint16_t, or uint32_t if wide: row of the window */
-  double *kappa, *gamma, *rest_length; /* NULL: by class */
+  double *kappa, *gamma, *rest_length; /* NULL: by kind */
   int32_t *place;                      /* of each spring; NULL without arrays of material */
 
   /* by particle */
@@ -53,30 +53,31 @@ struct hk_net {
   int64_t rows, list, ring; /* that a window, a list of a tile and a ring hold */
 };
 
-/* HOOKE_NO_MEMORY. Material goes from the springs to the net. Without a net if runs or lanes do as well. */
-int32_t hk_net_create(struct hk_springs *springs, int64_t particle_count, const double *inverse_mass,
-                      struct hk_net *net);
-void hk_net_release(struct hk_net *net);
-int64_t hk_net_memory(const struct hk_net *net);
+/* HOOKE_NO_MEMORY. Material goes from the springs to the tiled batch. Without a tiled batch if runs or
+ * strided batches do as well. */
+int32_t hk_tiled_create(struct hk_springs *springs, int64_t particle_count, const double *inverse_mass,
+                        struct hk_tiled *tiled);
+void hk_tiled_release(struct hk_tiled *tiled);
+int64_t hk_tiled_memory(const struct hk_tiled *tiled);
 /* The part of it that goes with the number of springs. */
-int64_t hk_net_spring_memory(const struct hk_net *net);
+int64_t hk_tiled_spring_memory(const struct hk_tiled *tiled);
 
 /* Numbers particles by breadth-first search along the springs from an end of each piece: order[k] is number
  * k, place[p] the number of p. HOOKE_NO_MEMORY. */
-int32_t hk_net_number(int64_t particles, int64_t springs, const int32_t *head, const int32_t *tail,
-                      int32_t *order, int32_t *place);
+int32_t hk_tiled_number(int64_t particles, int64_t springs, const int32_t *head, const int32_t *tail,
+                        int32_t *order, int32_t *place);
 
-/* Classes of the springs of all runs, in net->class; class_of has one for each run. */
-void hk_net_classify(const struct hk_springs *springs, struct hk_net *net, int32_t *class_of);
+/* Kinds of the springs of all runs, in tiled->kind; kind_of has one for each run. */
+void hk_tiled_sort_kinds(const struct hk_springs *springs, struct hk_tiled *tiled, int32_t *kind_of);
 
 /* Numbers in window, list and ring. */
-int64_t hk_net_numbers(const struct hk_net *net);
+int64_t hk_tiled_numbers(const struct hk_tiled *tiled);
 
 /* Windows and rings of one pass at a time by so many workers of a thread pool. NULL without memory. */
-struct hk_net_scratch;
-struct hk_net_scratch *hk_net_scratch_create(const struct hk_net *net, int32_t workers);
-void hk_net_scratch_destroy(struct hk_net_scratch *scratch);
-int64_t hk_net_scratch_memory(const struct hk_net_scratch *scratch);
+struct hk_tiled_scratch;
+struct hk_tiled_scratch *hk_tiled_scratch_create(const struct hk_tiled *tiled, int32_t workers);
+void hk_tiled_scratch_destroy(struct hk_tiled_scratch *scratch);
+int64_t hk_tiled_scratch_memory(const struct hk_tiled_scratch *scratch);
 
 /* Sums over `count` particles from `from` on are in f; may move these particles. */
 typedef void hk_tile(int64_t from, int64_t count, double *const f[3], void *ctx);
@@ -86,6 +87,6 @@ struct hk_motion;
 /* One pass over all particles of `motion`, whose tiles are in working numbers; returns how many springs had a
  * rest length but no direction. Workers of its pool go over tiles of their own at the same time, each in
  * ascending order. */
-int64_t hk_net_pass(const struct hk_net *net, struct hk_motion *motion, hk_tile *tile, void *ctx);
+int64_t hk_tiled_pass(const struct hk_tiled *tiled, struct hk_motion *motion, hk_tile *tile, void *ctx);
 
 #endif

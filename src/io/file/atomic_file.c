@@ -1,4 +1,4 @@
-#include "io/file/place.h"
+#include "io/file/atomic_file.h"
 
 #include "core/crc32.h"
 #include "core/keep_errno.h"
@@ -17,7 +17,7 @@
 
 enum { MOST_LINKS = 40 }; /* as Linux follows */
 
-int32_t hk_place_fail(const char *path, const char *what, int error) {
+int32_t hk_file_fail(const char *path, const char *what, int error) {
   char reason[HOOKE_ERROR_SIZE];
   return hk_fail(error == ENOMEM ? HOOKE_NO_MEMORY : HOOKE_IO_FAILED, NULL, "%s: could not %s: %s", path,
                  what, hk_print_error(error, reason));
@@ -46,36 +46,36 @@ static int follow(const char *path, char name[PATH_MAX]) {
   return error ? error : ELOOP;
 }
 
-static int32_t find_new(const char *path, char **place) {
+static int32_t find_new(const char *path, char **resolved) {
   char name[PATH_MAX], folder[PATH_MAX] = "";
   const int error = follow(path, name);
-  if (error) return hk_place_fail(path, "follow the path", error);
+  if (error) return hk_file_fail(path, "follow the path", error);
   if (name[0] != '/' && getcwd(folder, sizeof folder) == NULL)
-    return hk_place_fail(path, "find the working folder", errno);
+    return hk_file_fail(path, "find the working folder", errno);
   const size_t room = strlen(folder) + strlen(name) + 2;
-  *place = hk_new((int64_t)room, 1);
-  if (*place == NULL) return HOOKE_NO_MEMORY;
-  snprintf(*place, room, "%s%s%s", folder, folder[0] ? "/" : "", name);
+  *resolved = hk_new((int64_t)room, 1);
+  if (*resolved == NULL) return HOOKE_NO_MEMORY;
+  snprintf(*resolved, room, "%s%s%s", folder, folder[0] ? "/" : "", name);
   return HOOKE_OK;
 }
 
-int32_t hk_place_find(const char *path, char **place) {
+int32_t hk_file_resolve(const char *path, char **resolved) {
   HOOKE_KEEP_ERRNO;
   struct stat there;
-  *place = NULL;
-  if (stat(path, &there) != 0) return find_new(path, place);
+  *resolved = NULL;
+  if (stat(path, &there) != 0) return find_new(path, resolved);
   if (!S_ISREG(there.st_mode)) {
     return hk_fail(HOOKE_IO_FAILED, NULL,
                    "%s: is not a regular file, and only such are replaced; name another", path);
   }
   char *real = realpath(path, NULL);
-  if (real == NULL) return hk_place_fail(path, "follow the path", errno);
-  *place = hk_copy_text(real);
+  if (real == NULL) return hk_file_fail(path, "follow the path", errno);
+  *resolved = hk_copy_text(real);
   free(real);
-  return *place ? HOOKE_OK : HOOKE_NO_MEMORY;
+  return *resolved ? HOOKE_OK : HOOKE_NO_MEMORY;
 }
 
-int32_t hk_place_beside(const char *path, const char *ending, char **beside) {
+int32_t hk_file_beside(const char *path, const char *ending, char **beside) {
   const char *slash = strrchr(path, '/'), *name = slash ? slash + 1 : path;
   const size_t length = strlen(name), more = strlen(ending), room = strlen(path) + more + 16;
   *beside = hk_new((int64_t)room, 1);
@@ -91,8 +91,8 @@ int32_t hk_place_beside(const char *path, const char *ending, char **beside) {
 
 /* ---- what is there ---- */
 
-/* Asked of what was opened, so that nothing can be put in its place in between. */
-int hk_place_open(const char *path) {
+/* Checks the open descriptor, so that the file cannot be swapped meanwhile. */
+int hk_file_open(const char *path) {
   const int descriptor = open(path, O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
   struct stat there;
   if (descriptor < 0) return -1;
@@ -104,20 +104,20 @@ int hk_place_open(const char *path) {
 
 static int32_t compare(const char *path, const struct stat *there, int descriptor) {
   struct stat ours;
-  if (fstat(descriptor, &ours) != 0) return hk_place_fail(path, "look at the file", errno);
+  if (fstat(descriptor, &ours) != 0) return hk_file_fail(path, "look at the file", errno);
   if (there->st_dev == ours.st_dev && there->st_ino == ours.st_ino) return HOOKE_OK;
   return hk_fail(HOOKE_IO_FAILED, NULL,
                  "%s: another file has taken this name since it was written; it is left as it is", path);
 }
 
-int32_t hk_place_same(const char *path, int descriptor, int other) {
+int32_t hk_file_same(const char *path, int descriptor, int other) {
   struct stat there;
-  if (fstat(descriptor, &there) != 0) return hk_place_fail(path, "look at the file", errno);
+  if (fstat(descriptor, &there) != 0) return hk_file_fail(path, "look at the file", errno);
   return compare(path, &there, other);
 }
 
-int32_t hk_place_is(const char *path, int descriptor) {
+int32_t hk_file_is(const char *path, int descriptor) {
   struct stat there;
-  if (stat(path, &there) != 0) return hk_place_fail(path, "find the file that was written", errno);
+  if (stat(path, &there) != 0) return hk_file_fail(path, "find the file that was written", errno);
   return compare(path, &there, descriptor);
 }

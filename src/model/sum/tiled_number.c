@@ -1,6 +1,6 @@
 /* A working numbering in which neighbours are near each other (Cuthill and McKee 1969, without sorting by
  * degree, which costs more than it gains here). */
-#include "model/sum/net.h"
+#include "model/sum/tiled.h"
 
 #include "core/memory.h"
 
@@ -76,8 +76,8 @@ static void number_pieces(const struct graph *graph, int64_t particles, int32_t 
   }
 }
 
-int32_t hk_net_number(int64_t particles, int64_t springs, const int32_t *head, const int32_t *tail,
-                      int32_t *order, int32_t *place) {
+int32_t hk_tiled_number(int64_t particles, int64_t springs, const int32_t *head, const int32_t *tail,
+                        int32_t *order, int32_t *place) {
   struct graph graph = {NULL, NULL};
   const int32_t status = graph_create(particles, springs, head, tail, &graph);
   if (status == HOOKE_OK) number_pieces(&graph, particles, order, place);

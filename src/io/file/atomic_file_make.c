@@ -1,4 +1,4 @@
-/* Making a file, giving it its place, and keeping other runs from it.
+/* Makes, locks and commits files.
  *
  * The lock is on the file itself, for all of it, and belongs to the open descriptor (F_OFD_SETLK): it ends
  * with the process, and another descriptor of the same process has no part in it. HDF5's readers ask by
@@ -10,7 +10,7 @@
 #include "core/memory.h"
 #include "core/status.h"
 #include "io/file/bytes.h"
-#include "io/file/place.h"
+#include "io/file/atomic_file.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -62,7 +62,7 @@ static int32_t open_locked(const char *path, int *descriptor) {
   for (;;) {
     struct stat there, own;
     *descriptor = open(path, O_RDWR | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
-    if (*descriptor < 0) return errno == ENOENT ? HOOKE_OK : hk_place_fail(path, "open the file", errno);
+    if (*descriptor < 0) return errno == ENOENT ? HOOKE_OK : hk_file_fail(path, "open the file", errno);
     const int32_t status = lock(path, *descriptor);
     const int same = stat(path, &there) == 0 && fstat(*descriptor, &own) == 0 && there.st_dev == own.st_dev &&
                      there.st_ino == own.st_ino;
@@ -82,10 +82,10 @@ static int32_t look_whether_free(const char *path) {
   return status;
 }
 
-static int32_t hold_older(struct hk_place *place) {
-  if (access(place->path, F_OK) == 0 && access(place->path, W_OK) != 0) return look_whether_free(place->path);
-  const int32_t status = open_locked(place->path, &place->older);
-  place->is_new = status == HOOKE_OK && place->older < 0;
+static int32_t lock_older(struct hk_atomic_file *file) {
+  if (access(file->path, F_OK) == 0 && access(file->path, W_OK) != 0) return look_whether_free(file->path);
+  const int32_t status = open_locked(file->path, &file->older);
+  file->is_new = status == HOOKE_OK && file->older < 0;
   return status;
 }
 
@@ -104,74 +104,74 @@ static void inherit(int descriptor, const struct stat *older) {
 }
 
 /* A new name in the folder of the path, short enough for every folder. */
-static int32_t name_anew(struct hk_place *place) {
-  const int folder = (int)(strrchr(place->path, '/') - place->path) + 1;
+static int32_t name_anew(struct hk_atomic_file *file) {
+  const int folder = (int)(strrchr(file->path, '/') - file->path) + 1;
   const size_t room = (size_t)folder + 32;
   uint64_t number;
-  hk_free(place->temporary);
-  place->temporary = hk_new((int64_t)room, 1);
-  if (place->temporary == NULL) return HOOKE_NO_MEMORY;
+  hk_free(file->temporary);
+  file->temporary = hk_new((int64_t)room, 1);
+  if (file->temporary == NULL) return HOOKE_NO_MEMORY;
   if (getrandom(&number, sizeof number, 0) != (ssize_t)sizeof number)
-    return hk_place_fail(place->path, "take a random number for a name", errno);
-  snprintf(place->temporary, room, "%.*shooke-%016" PRIx64 ".part", folder, place->path, number);
+    return hk_file_fail(file->path, "take a random number for a name", errno);
+  snprintf(file->temporary, room, "%.*shooke-%016" PRIx64 ".part", folder, file->path, number);
   return HOOKE_OK;
 }
 
-static int32_t create(const char *path, struct hk_place *place) {
+static int32_t create(const char *path, struct hk_atomic_file *file) {
   struct stat older;
-  const int replaces = stat(place->path, &older) == 0;
+  const int replaces = stat(file->path, &older) == 0;
   do {
-    const int32_t status = name_anew(place);
+    const int32_t status = name_anew(file);
     if (status != HOOKE_OK) return status;
     /* nobody may read what takes the place of a private file, not even for a moment */
-    place->descriptor =
-        open(place->temporary, O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, replaces ? 0600 : 0666);
-  } while (place->descriptor < 0 && errno == EEXIST);
-  if (place->descriptor < 0) {
+    file->descriptor =
+        open(file->temporary, O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, replaces ? 0600 : 0666);
+  } while (file->descriptor < 0 && errno == EEXIST);
+  if (file->descriptor < 0) {
     const int error = errno;
-    hk_free(place->temporary); /* it is none of ours */
-    place->temporary = NULL;
-    return hk_place_fail(path, "create the file", error);
+    hk_free(file->temporary); /* it is none of ours */
+    file->temporary = NULL;
+    return hk_file_fail(path, "create the file", error);
   }
-  if (replaces) inherit(place->descriptor, &older);
+  if (replaces) inherit(file->descriptor, &older);
   return HOOKE_OK;
 }
 
-static int32_t begin(const char *path, struct hk_place *place) {
-  *place = HOOKE_NO_PLACE;
-  place->process = getpid();
-  return hk_place_find(path, &place->path);
+static int32_t begin(const char *path, struct hk_atomic_file *file) {
+  *file = HOOKE_NO_ATOMIC_FILE;
+  file->process = getpid();
+  return hk_file_resolve(path, &file->path);
 }
 
-int32_t hk_place_make(const char *path, struct hk_place *place) {
+int32_t hk_atomic_file_make(const char *path, struct hk_atomic_file *file) {
   HOOKE_KEEP_ERRNO;
-  int32_t status = begin(path, place);
-  if (status == HOOKE_OK) status = look_whether_free(place->path);
-  return status == HOOKE_OK ? create(path, place) : status;
+  int32_t status = begin(path, file);
+  if (status == HOOKE_OK) status = look_whether_free(file->path);
+  return status == HOOKE_OK ? create(path, file) : status;
 }
 
-int32_t hk_place_make_held(const char *path, int32_t again, struct hk_place *place) {
+int32_t hk_atomic_file_make_locked(const char *path, int32_t again, struct hk_atomic_file *file) {
   HOOKE_KEEP_ERRNO;
-  int32_t status = begin(path, place);
-  place->holds = 1;
-  if (status == HOOKE_OK && !again) status = hold_older(place);
-  if (status == HOOKE_OK) status = create(path, place);
-  if (status == HOOKE_OK) status = lock(path, place->descriptor);
-  if (status == HOOKE_OK) let_readers_in(place->temporary, place->descriptor);
+  int32_t status = begin(path, file);
+  file->locked = 1;
+  if (status == HOOKE_OK && !again) status = lock_older(file);
+  if (status == HOOKE_OK) status = create(path, file);
+  if (status == HOOKE_OK) status = lock(path, file->descriptor);
+  if (status == HOOKE_OK) let_readers_in(file->temporary, file->descriptor);
   return status;
 }
 
-int32_t hk_place_hold(const char *path, struct hk_place *place) {
+int32_t hk_atomic_file_lock(const char *path, struct hk_atomic_file *file) {
   HOOKE_KEEP_ERRNO;
-  int32_t status = begin(path, place);
-  place->holds = 1;
-  if (status == HOOKE_OK) status = open_locked(place->path, &place->descriptor);
-  if (status == HOOKE_OK && place->descriptor < 0) status = hk_place_fail(path, "open the file", ENOENT);
-  if (status == HOOKE_OK) let_readers_in(place->path, place->descriptor);
+  int32_t status = begin(path, file);
+  file->locked = 1;
+  if (status == HOOKE_OK) status = open_locked(file->path, &file->descriptor);
+  if (status == HOOKE_OK && file->descriptor < 0) status = hk_file_fail(path, "open the file", ENOENT);
+  if (status == HOOKE_OK) let_readers_in(file->path, file->descriptor);
   return status;
 }
 
-/* ---- taking the place ---- */
+/* ---- committing ---- */
 
 static int open_folder_of(const char *path) {
   const char *slash = strrchr(path, '/');
@@ -194,18 +194,18 @@ static int sync_folder(int folder) {
 }
 
 /* Where nothing was as a run began, another may have come first. */
-static int32_t rename_new(struct hk_place *place) {
-  const char *path = place->path;
-  if (place->is_new) {
-    if (renameat2(AT_FDCWD, place->temporary, AT_FDCWD, path, RENAME_NOREPLACE) == 0) return HOOKE_OK;
+static int32_t rename_new(struct hk_atomic_file *file) {
+  const char *path = file->path;
+  if (file->is_new) {
+    if (renameat2(AT_FDCWD, file->temporary, AT_FDCWD, path, RENAME_NOREPLACE) == 0) return HOOKE_OK;
     if (errno == EEXIST) {
       const int32_t status = look_whether_free(path);
       if (status != HOOKE_OK) return status;
     } else if (errno != EINVAL && errno != ENOSYS) { /* some file systems cannot do this */
-      return hk_place_fail(path, "take this name", errno);
+      return hk_file_fail(path, "take this name", errno);
     }
   }
-  return rename(place->temporary, path) == 0 ? HOOKE_OK : hk_place_fail(path, "take this name", errno);
+  return rename(file->temporary, path) == 0 ? HOOKE_OK : hk_file_fail(path, "take this name", errno);
 }
 
 /* Under a second name, so that the first is never without a file; renamed where there are no such names. */
@@ -217,73 +217,73 @@ static int keep_older(const char *path, const char *previous) {
                                                                                   : -1;
 }
 
-static int32_t take(struct hk_place *place, const char *previous, int folder) {
-  const char *path = place->path;
+static int32_t take(struct hk_atomic_file *file, const char *previous, int folder) {
+  const char *path = file->path;
   /* a folder that cannot do this is found out before anything is replaced */
-  if (sync_folder(folder) != 0) return hk_place_fail(path, "bring the name to the disk", errno);
+  if (sync_folder(folder) != 0) return hk_file_fail(path, "bring the name to the disk", errno);
   if (previous && keep_older(path, previous) != 0)
-    return hk_place_fail(path, "keep the file that was there", errno);
-  const int32_t status = rename_new(place);
+    return hk_file_fail(path, "keep the file that was there", errno);
+  const int32_t status = rename_new(file);
   if (status != HOOKE_OK) return status;
-  hk_free(place->temporary);
-  place->temporary = NULL;
+  hk_free(file->temporary);
+  file->temporary = NULL;
   if (sync_folder(folder) == 0) return HOOKE_OK;
-  return hk_place_fail(path, "bring the name to the disk, though the new file is in place", errno);
+  return hk_file_fail(path, "bring the name to the disk, though the new file is in place", errno);
 }
 
-int32_t hk_place_take(struct hk_place *place, const char *previous) {
+int32_t hk_atomic_file_commit(struct hk_atomic_file *file, const char *previous) {
   HOOKE_KEEP_ERRNO;
-  if (fsync(place->descriptor) != 0) return hk_place_fail(place->path, "bring the data to the disk", errno);
-  int32_t status = place->holds ? HOOKE_OK : hk_place_close(place);
+  if (fsync(file->descriptor) != 0) return hk_file_fail(file->path, "bring the data to the disk", errno);
+  int32_t status = file->locked ? HOOKE_OK : hk_atomic_file_close(file);
   if (status != HOOKE_OK) return status;
   /* opened once, so that nothing but the disk can fail when the file has its name */
-  const int folder = open_folder_of(place->path);
-  if (folder < 0) return hk_place_fail(place->path, "open its folder", errno);
-  status = take(place, previous, folder);
+  const int folder = open_folder_of(file->path);
+  if (folder < 0) return hk_file_fail(file->path, "open its folder", errno);
+  status = take(file, previous, folder);
   close(folder);
-  drop(place->older, 1);
-  place->older = -1;
+  drop(file->older, 1);
+  file->older = -1;
   return status;
 }
 
 /* ---- the end ---- */
 
-static int32_t is_own(const struct hk_place *place) {
-  return place->process == getpid();
+static int32_t is_own(const struct hk_atomic_file *file) {
+  return file->process == getpid();
 }
 
-int32_t hk_place_require_own(const struct hk_place *place) {
-  if (is_own(place)) return HOOKE_OK;
+int32_t hk_atomic_file_require_own(const struct hk_atomic_file *file) {
+  if (is_own(file)) return HOOKE_OK;
   return hk_fail(HOOKE_BAD_CALL, NULL,
                  "%s: belongs to the process that this one was forked from, which alone may write it",
-                 place->path);
+                 file->path);
 }
 
-int32_t hk_place_close(struct hk_place *place) {
-  const int descriptor = place->descriptor;
-  place->descriptor = -1;
-  if (place->holds && is_own(place)) unlock(descriptor);
-  return close(descriptor) == 0 ? HOOKE_OK : hk_place_fail(place->path, "write", errno);
+int32_t hk_atomic_file_close(struct hk_atomic_file *file) {
+  const int descriptor = file->descriptor;
+  file->descriptor = -1;
+  if (file->locked && is_own(file)) unlock(descriptor);
+  return close(descriptor) == 0 ? HOOKE_OK : hk_file_fail(file->path, "write", errno);
 }
 
-void hk_place_release(struct hk_place *place) {
+void hk_atomic_file_release(struct hk_atomic_file *file) {
   HOOKE_KEEP_ERRNO;
-  const int32_t own = is_own(place);
-  drop(place->older, own);
-  drop(place->descriptor, place->holds && own);
-  if (place->temporary && own) unlink(place->temporary);
-  hk_free(place->temporary);
-  hk_free(place->path);
-  *place = HOOKE_NO_PLACE;
+  const int32_t own = is_own(file);
+  drop(file->older, own);
+  drop(file->descriptor, file->locked && own);
+  if (file->temporary && own) unlink(file->temporary);
+  hk_free(file->temporary);
+  hk_free(file->path);
+  *file = HOOKE_NO_ATOMIC_FILE;
 }
 
-int32_t hk_place_write(const char *path, const char *bytes, int64_t length) {
+int32_t hk_file_write(const char *path, const char *bytes, int64_t length) {
   HOOKE_KEEP_ERRNO;
-  struct hk_place place;
-  int32_t status = hk_place_make(path, &place);
-  const int error = status == HOOKE_OK ? hk_bytes_write(place.descriptor, 0, length, bytes) : 0;
-  if (error) status = hk_place_fail(path, "write", error);
-  if (status == HOOKE_OK) status = hk_place_take(&place, NULL);
-  hk_place_release(&place);
+  struct hk_atomic_file file;
+  int32_t status = hk_atomic_file_make(path, &file);
+  const int error = status == HOOKE_OK ? hk_bytes_write(file.descriptor, 0, length, bytes) : 0;
+  if (error) status = hk_file_fail(path, "write", error);
+  if (status == HOOKE_OK) status = hk_atomic_file_commit(&file, NULL);
+  hk_atomic_file_release(&file);
   return status;
 }

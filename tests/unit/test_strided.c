@@ -1,5 +1,5 @@
-/* Systems whose springs form lanes: sums and steps have the bits of the plain order, whatever the lanes
- * are. */
+/* Systems whose springs form strided batches: sums and steps have the bits of the plain order, whatever the
+ * strided batches are. */
 #include "agree.h"
 #include "canonical.h"
 #include "check.h"
@@ -83,20 +83,20 @@ static hooke_system *build(struct random_source *source, int64_t particles, int 
   return system;
 }
 
-static void compare(uint64_t seed, int *in_lanes, int *most) {
+static void compare(uint64_t seed, int *in_strided, int *most) {
   struct random_source source = {seed};
   const int64_t particles = random_whole(&source, 70, PARTICLES);
   double *q = new_doubles(3 * particles), *v = new_doubles(3 * particles), gravity[3] = {0.0, 0.0, 0.0}, drag;
   hooke_system *system =
       build(&source, particles, (int)random_whole(&source, 1, 9), seed % 5 == 0, q, v, gravity, &drag);
-  *in_lanes += system->lanes.count > 0;
-  if (system->lanes.count > *most) *most = system->lanes.count;
+  *in_strided += system->strided.count > 0;
+  if (system->strided.count > *most) *most = system->strided.count;
   struct canonical c;
   canonical_create(system, &c);
   c.gravity = gravity[1] != 0.0 ? gravity : NULL;
   c.drag = drag;
   check_agrees(system, &c, q, v);
-  if (system->lanes.count > 0 && seed % 4 == 0) check_members(system, q, v);
+  if (system->strided.count > 0 && seed % 4 == 0) check_members(system, q, v);
   canonical_destroy(&c);
   hooke_system_destroy(system);
   free(q);
@@ -105,22 +105,22 @@ static void compare(uint64_t seed, int *in_lanes, int *most) {
 
 static void test_same_bits(void **unused) {
   (void)unused;
-  int in_lanes = 0, most = 0;
+  int in_strided = 0, most = 0;
   for (uint64_t seed = 1; seed <= 200; seed++)
-    compare(seed, &in_lanes, &most);
-  assert_in_range(in_lanes, 150, 170); /* sparse ones go by runs */
-  assert_true(most > 6);               /* more than are summed at once */
+    compare(seed, &in_strided, &most);
+  assert_in_range(in_strided, 150, 170); /* sparse ones go by runs */
+  assert_true(most > 6);                 /* more than are summed at once */
 }
 
 static int64_t spring_count(const hooke_system *system, int32_t k) {
   int64_t count = 0;
   for (int64_t p = 0; p < system->particle_count; p++)
-    count += system->lanes.lane[k].present[p / HOOKE_LANE_UNIT] >> p % HOOKE_LANE_UNIT & 1;
+    count += system->strided.batch[k].present[p / HOOKE_STRIDED_UNIT] >> p % HOOKE_STRIDED_UNIT & 1;
   return count;
 }
 
-/* Ropes side by side are two lanes, not two a rope; springs of the same offset that come again after others
- * are a third. */
+/* Ropes side by side are two strided batches, not two a rope; springs of the same offset that come again
+ * after others are a third. */
 static void test_lanes_of_ropes(void **unused) {
   (void)unused;
   hooke_system *system;
@@ -142,14 +142,14 @@ static void test_lanes_of_ropes(void **unused) {
   }
   hooke_options_destroy(options);
   check_ok(hooke_system_commit(system));
-  assert_int_equal(system->lanes.count, 3);
+  assert_int_equal(system->strided.count, 3);
   assert_int_equal(spring_count(system, 0), 3 * 29);
   assert_int_equal(spring_count(system, 1), 3 * 28);
   assert_int_equal(spring_count(system, 2), 29);
   hooke_system_destroy(system);
 }
 
-/* Ropes of one material are a lane that reads no parameters, and of several one that does. */
+/* Ropes of one material are a strided batch that reads no parameters, and of several one that does. */
 static void check_materials(int ropes, int materials, int32_t shape) {
   hooke_system *system;
   hooke_options *options;
@@ -170,8 +170,8 @@ static void check_materials(int ropes, int materials, int32_t shape) {
   }
   hooke_options_destroy(options);
   check_ok(hooke_system_commit(system));
-  assert_int_equal(system->lanes.count, 1);
-  assert_int_equal(system->lanes.lane[0].shape, shape);
+  assert_int_equal(system->strided.count, 1);
+  assert_int_equal(system->strided.batch[0].shape, shape);
   struct canonical c;
   double *v = new_doubles(3 * 30 * ropes);
   canonical_create(system, &c);
@@ -268,16 +268,16 @@ static hooke_system *build_listed(struct random_source *source, const struct lis
   return system;
 }
 
-/* As many lanes as there are offsets, and another one where one particle has its springs in an order of its
- * own; with no order at all they are no lanes. */
+/* As many strided batches as there are offsets, and another one where one particle has its springs in an
+ * order of its own; with no order at all they are no strided batches. */
 static void check_listing(uint64_t seed, struct listing listing) {
   struct random_source source = {seed};
   double *q = new_doubles(3 * MOST_LISTED), *v = new_doubles(3 * MOST_LISTED);
   hooke_system *system = build_listed(&source, &listing, q, v);
-  const int32_t lanes = system->lanes.count;
-  if (listing.order == SAME) assert_int_equal(lanes, STEPS);
-  if (listing.order == ONE_OPPOSITE) assert_in_range(lanes, STEPS + 1, 2 * STEPS);
-  if (listing.order == RANDOM) assert_int_equal(lanes, 0);
+  const int32_t strided = system->strided.count;
+  if (listing.order == SAME) assert_int_equal(strided, STEPS);
+  if (listing.order == ONE_OPPOSITE) assert_in_range(strided, STEPS + 1, 2 * STEPS);
+  if (listing.order == RANDOM) assert_int_equal(strided, 0);
   struct canonical c;
   canonical_create(system, &c);
   check_agrees(system, &c, q, v);
@@ -302,8 +302,8 @@ static void test_listed_by_particle(void **unused) {
   }
 }
 
-/* A chain whose springs to the second next particles come first, and then every second one to the next: in one
- * lane ends would have to come before beginnings at one particle, and after them at another. */
+/* A chain whose springs to the second next particles come first, and then every second one to the next: in
+ * one strided batch ends would have to come before beginnings at one particle, and after them at another. */
 static void test_every_second_first(void **unused) {
   (void)unused;
   enum { CHAIN = 150 };
@@ -331,7 +331,7 @@ static void test_every_second_first(void **unused) {
   check_ok(hooke_system_add_springs(system, NULL, count, ends, options));
   hooke_options_destroy(options);
   check_ok(hooke_system_commit(system));
-  assert_int_equal(system->lanes.count, 3);
+  assert_int_equal(system->strided.count, 3);
   struct canonical c;
   canonical_create(system, &c);
   check_agrees(system, &c, q, v);
@@ -339,7 +339,8 @@ static void test_every_second_first(void **unused) {
   hooke_system_destroy(system);
 }
 
-/* Rest lengths of rounded positions take a fraction of 24 bytes a spring, and are what they were to the bit. */
+/* Rest lengths of rounded positions take a fraction of 24 bytes a spring, and are what they were to the bit.
+ * */
 static void test_rounded_lengths(void **unused) {
   (void)unused;
   enum { EDGE = 24, EACH = EDGE * EDGE * EDGE };
@@ -364,9 +365,9 @@ static void test_rounded_lengths(void **unused) {
   check_ok(hooke_system_add_springs(system, NULL, count, ends, options));
   hooke_options_destroy(options);
   check_ok(hooke_system_commit(system));
-  assert_int_equal(system->lanes.count, 3);
-  assert_true(system->lanes.lane[0].shape & HOOKE_RUN_MIXED);
-  assert_in_range(system->lanes.memory, 1, 4 * count);
+  assert_int_equal(system->strided.count, 3);
+  assert_true(system->strided.batch[0].shape & HOOKE_RUN_MIXED);
+  assert_in_range(system->strided.memory, 1, 4 * count);
   check_ok(hooke_system_members(system, "springs", NULL, NULL, NULL, length));
   for (int64_t s = 0; s < count; s++) {
     const double *a = q + 3 * ends[2 * s], *b = q + 3 * ends[2 * s + 1];

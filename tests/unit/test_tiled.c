@@ -1,5 +1,5 @@
-/* Systems whose springs form a net, or lanes where they are listed particle by particle: sums and steps have the
- * bits of the plain order, whatever the numbers of particles and springs are. */
+/* Systems whose springs form a tiled batch, or strided batches where they are listed particle by particle:
+ * sums and steps have the bits of the plain order, whatever the numbers of particles and springs are. */
 #include "agree.h"
 #include "check.h"
 #include "workers.h"
@@ -119,31 +119,31 @@ static hooke_system *build(struct random_source *source, struct sheet *sheet, in
 /* What the springs were given is what the system answers, and no more is stored than the law needs. */
 static void check_material(const hooke_system *system, const struct canonical *c, int groups, int material,
                            int64_t side) {
-  const struct hk_net *net = &system->net;
+  const struct hk_tiled *tiled = &system->tiled;
   const int of_its_own =
-      material == OF_ITS_OWN || groups > HOOKE_NET_CLASSES || (material == STRAIN && side == SMALL);
-  assert_int_equal(net->kappa != NULL, of_its_own);
-  assert_int_equal(net->rest_length != NULL, of_its_own || material != ONE_LENGTH);
-  assert_in_range(net->classes, 1, of_its_own ? 2 : groups);
+      material == OF_ITS_OWN || groups > HOOKE_TILED_KINDS || (material == STRAIN && side == SMALL);
+  assert_int_equal(tiled->kappa != NULL, of_its_own);
+  assert_int_equal(tiled->rest_length != NULL, of_its_own || material != ONE_LENGTH);
+  assert_in_range(tiled->kinds, 1, of_its_own ? 2 : groups);
   assert_int_equal(system->springs.mixed_count, 0);
   for (int64_t s = 0; s < c->spring_count; s++)
     assert_true(c->kappa[s] > 0.0 && c->rest_length[s] >= 0.05);
 }
 
-static void check_numbering(const struct hk_net *net, int order) {
+static void check_numbering(const struct hk_tiled *tiled, int order) {
   if (order != ALL_IN_NO_ORDER) {
-    assert_null(net->order);
+    assert_null(tiled->order);
     return;
   }
-  assert_non_null(net->order);
-  unsigned char *seen = new_block(net->particles, 1);
-  for (int64_t p = 0; p < net->particles; p++) {
-    assert_in_range(net->order[p], 0, net->particles - 1);
-    assert_false(seen[net->order[p]]++);
+  assert_non_null(tiled->order);
+  unsigned char *seen = new_block(tiled->particles, 1);
+  for (int64_t p = 0; p < tiled->particles; p++) {
+    assert_in_range(tiled->order[p], 0, tiled->particles - 1);
+    assert_false(seen[tiled->order[p]]++);
   }
   free(seen);
-  assert_in_range(net->rows, HOOKE_TILE,
-                  net->particles < 1000 ? 3 * HOOKE_TILE : net->particles / 8); /* neighbours are near */
+  assert_in_range(tiled->rows, HOOKE_TILE,
+                  tiled->particles < 1000 ? 3 * HOOKE_TILE : tiled->particles / 8); /* neighbours are near */
 }
 
 /* ---- thread pools ---- */
@@ -157,15 +157,15 @@ static void compare(uint64_t seed, int64_t side, int order, int groups, int mate
   struct canonical c;
   double drag;
   hooke_system *system = build(&source, sheet, groups, material, &drag);
-  const int listed = system->lanes.count > 0;
-  assert_int_equal(system->net.particles, listed ? 0 : sheet->particles);
+  const int listed = system->strided.count > 0;
+  assert_int_equal(system->tiled.particles, listed ? 0 : sheet->particles);
   if (order != AS_BUILT || groups <= 3) assert_int_equal(listed, order == AS_BUILT);
   canonical_create(system, &c);
   c.gravity = sheet->gravity[1] != 0.0 ? sheet->gravity : NULL;
   c.drag = drag;
   if (!listed) {
     check_material(system, &c, groups, material, sheet->side);
-    check_numbering(&system->net, order);
+    check_numbering(&system->tiled, order);
   }
   check_agrees(system, &c, sheet->q, sheet->v);
   check_members(system, sheet->q, sheet->v);
@@ -223,8 +223,8 @@ static void test_wide(void **unused) {
   check_ok(hooke_system_add_springs(system, "net", COUNT, ends, options));
   hooke_options_destroy(options);
   check_ok(hooke_system_commit(system));
-  assert_int_equal(system->net.particles, CHAIN);
-  assert_true(system->net.wide);
+  assert_int_equal(system->tiled.particles, CHAIN);
+  assert_true(system->tiled.wide);
   struct canonical c;
   canonical_create(system, &c);
   check_agrees(system, &c, q, v);

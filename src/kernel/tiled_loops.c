@@ -1,6 +1,6 @@
 /* Compiled once per instruction set, with HOOKE_ISA naming it. Ends are looked up as rows and turned into
  * vectors of one component each; strengths are computed on those, and forces written some groups behind. */
-#include "kernel/net_loops.h"
+#include "kernel/tiled_loops.h"
 
 #include "kernel/instruction_set.h"
 #include "kernel/vector_unit.h"
@@ -18,7 +18,7 @@ enum { GROUP = HOOKE_WIDTH };
 
 /* Springs on their way: differences of the rows of their ends, what is known of them so far. */
 struct batch {
-  _Alignas(64) double s[HOOKE_NET_BATCH];
+  _Alignas(64) double s[HOOKE_TILED_BATCH];
   hk_vector_mask lost[GROUP / HOOKE_WIDTH];
 };
 
@@ -40,11 +40,11 @@ HOOKE_INLINE size_t index_at(const void *index, ptrdiff_t k, const int wide) {
 }
 
 HOOKE_INLINE const double *lower_row(const struct ends *ends, ptrdiff_t k) {
-  return ends->low + HOOKE_NET_ROW * (size_t)ends->lower[k];
+  return ends->low + HOOKE_TILED_ROW * (size_t)ends->lower[k];
 }
 
 HOOKE_INLINE const double *upper_row(const struct ends *ends, ptrdiff_t k, const int wide) {
-  return ends->up + HOOKE_NET_ROW * index_at(ends->upper, k, wide);
+  return ends->up + HOOKE_TILED_ROW * index_at(ends->upper, k, wide);
 }
 
 /* ---- differences: d of each spring is left where the force on its upper end goes ---- */
@@ -58,7 +58,7 @@ typedef int64_t places __attribute__((vector_size(32)));
 #define PICK(a, b, ...) __builtin_shuffle(a, b, (places){__VA_ARGS__})
 #endif
 
-#define KEEP(ends, k, d) *(quad *)((ends)->on_upper + HOOKE_NET_FORCE * (k)) = (d)
+#define KEEP(ends, k, d) *(quad *)((ends)->on_upper + HOOKE_TILED_FORCE * (k)) = (d)
 
 HOOKE_INLINE void subtract_one(const struct ends *ends, ptrdiff_t k, struct group *group, const int damped,
                                const int wide) {
@@ -150,9 +150,9 @@ HOOKE_INLINE void subtract_couples(const struct ends *ends, ptrdiff_t k, ptrdiff
       *(const couple *)(lower_row(ends, k + 1) + at) - *(const couple *)(upper_row(ends, k + 1, wide) + at);
   *(couple *)first = (couple){a[0], b[0]};
   *(couple *)second = (couple){a[1], b[1]};
-  if (at >= HOOKE_NET_FORCE) return;
-  *(couple *)(ends->on_upper + HOOKE_NET_FORCE * k + at) = a;
-  *(couple *)(ends->on_upper + HOOKE_NET_FORCE * (k + 1) + at) = b;
+  if (at >= HOOKE_TILED_FORCE) return;
+  *(couple *)(ends->on_upper + HOOKE_TILED_FORCE * k + at) = a;
+  *(couple *)(ends->on_upper + HOOKE_TILED_FORCE * (k + 1) + at) = b;
 }
 
 HOOKE_INLINE void subtract_group(const struct ends *ends, ptrdiff_t k, struct group *group, const int damped,
@@ -166,14 +166,14 @@ HOOKE_INLINE void subtract_group(const struct ends *ends, ptrdiff_t k, struct gr
 
 /* ---- strengths and forces ---- */
 
-/* Stiffness or damping of the springs from k on: their own, a share of the rest length, or one for all. */
+/* Stiffness or damping of the springs from k on: their own, over the rest length, or one for all. */
 HOOKE_INLINE vec strength_of(const double *own, double shared, ptrdiff_t k, vec rest, const int material) {
-  if (material == HOOKE_NET_MIXED) return hk_load(own + k);
-  if (material == HOOKE_NET_STRAIN) return hk_all(shared) / rest;
+  if (material == HOOKE_TILED_MIXED) return hk_load(own + k);
+  if (material == HOOKE_TILED_STRAIN) return hk_all(shared) / rest;
   return hk_all(shared);
 }
 
-HOOKE_INLINE void find_strengths(const struct hk_net_springs *springs, ptrdiff_t from,
+HOOKE_INLINE void find_strengths(const struct hk_tiled_springs *springs, ptrdiff_t from,
                                  const struct group *group, struct batch *batch, const int damped,
                                  const int pull, const int material) {
   for (ptrdiff_t n = 0; n < GROUP; n += HOOKE_WIDTH) {
@@ -197,17 +197,17 @@ HOOKE_INLINE void find_strengths(const struct hk_net_springs *springs, ptrdiff_t
 }
 
 /* Of the first of a group alone. */
-HOOKE_INLINE int64_t find_strength(const struct hk_net_springs *springs, ptrdiff_t k,
+HOOKE_INLINE int64_t find_strength(const struct hk_tiled_springs *springs, ptrdiff_t k,
                                    const struct group *group, struct batch *batch, const int damped,
                                    const int pull, const int material) {
   const double dx = group->x[0], dy = group->y[0], dz = group->z[0];
   const double rest_length = material ? springs->rest_lengths[k] : springs->rest_length;
-  const double share = material == HOOKE_NET_STRAIN ? rest_length : 1.0;
-  const double kappa = material == HOOKE_NET_MIXED ? springs->kappas[k] : springs->kappa / share;
+  const double divisor = material == HOOKE_TILED_STRAIN ? rest_length : 1.0;
+  const double kappa = material == HOOKE_TILED_MIXED ? springs->kappas[k] : springs->kappa / divisor;
   const double r = hk_spring_length(dx, dy, dz), ir = hk_spring_inverse_length(r);
   double brake = 0.0;
   if (damped) {
-    const double gamma = material == HOOKE_NET_MIXED ? springs->gammas[k] : springs->gamma / share;
+    const double gamma = material == HOOKE_TILED_MIXED ? springs->gammas[k] : springs->gamma / divisor;
     brake = gamma * (((group->vx[0] * dx + group->vy[0] * dy) + group->vz[0] * dz) * ir);
   }
   batch->s[k] = hk_spring_tension(r, rest_length, kappa, brake, damped, pull) * ir;
@@ -217,9 +217,9 @@ HOOKE_INLINE int64_t find_strength(const struct hk_net_springs *springs, ptrdiff
 HOOKE_INLINE void write_forces(const struct ends *ends, ptrdiff_t from, ptrdiff_t to, const double *s) {
   for (ptrdiff_t k = from; k < to; k++) {
     const quad strength = {s[k], s[k], s[k], s[k]};
-    const quad b = strength * *(const quad *)(ends->on_upper + HOOKE_NET_FORCE * k);
-    *(quad *)(ends->on_upper + HOOKE_NET_FORCE * k) = b;
-    *(quad *)(ends->on_lower + HOOKE_NET_FORCE * k) = -b;
+    const quad b = strength * *(const quad *)(ends->on_upper + HOOKE_TILED_FORCE * k);
+    *(quad *)(ends->on_upper + HOOKE_TILED_FORCE * k) = b;
+    *(quad *)(ends->on_lower + HOOKE_TILED_FORCE * k) = -b;
   }
 }
 
@@ -227,7 +227,7 @@ HOOKE_INLINE void write_forces(const struct ends *ends, ptrdiff_t from, ptrdiff_
  * quotients. */
 enum { BEHIND = 3 * GROUP };
 
-HOOKE_INLINE int64_t fill(const struct hk_net_springs *springs, ptrdiff_t count, const double *low,
+HOOKE_INLINE int64_t fill(const struct hk_tiled_springs *springs, ptrdiff_t count, const double *low,
                           const double *up, double *on_lower, double *on_upper, const int damped,
                           const int pull, const int wide, const int material) {
   const struct ends ends = {springs->lower, springs->upper, low, up, on_lower, on_upper};
@@ -255,7 +255,7 @@ HOOKE_INLINE int64_t fill(const struct hk_net_springs *springs, ptrdiff_t count,
 /* ---- sums ---- */
 
 HOOKE_INLINE const quad *force_at(const double *force, const void *place, ptrdiff_t k, const int wide) {
-  return (const quad *)(force + HOOKE_NET_FORCE * index_at(place, k, wide));
+  return (const quad *)(force + HOOKE_TILED_FORCE * index_at(place, k, wide));
 }
 
 HOOKE_INLINE const void *sum(ptrdiff_t count, const uint16_t *restrict degree, const void *place,
@@ -315,31 +315,31 @@ HOOKE_INLINE void turn_four(const double *x, const double *y, const double *z, c
   const quad xy02 = PICK(four_x, four_y, 0, 4, 2, 6), xy13 = PICK(four_x, four_y, 1, 5, 3, 7),
              zw02 = PICK(four_z, four_w, 0, 4, 2, 6), zw13 = PICK(four_z, four_w, 1, 5, 3, 7);
   *(quad *)row = PICK(xy02, zw02, 0, 1, 4, 5);
-  *(quad *)(row + HOOKE_NET_ROW) = PICK(xy13, zw13, 0, 1, 4, 5);
-  *(quad *)(row + (ptrdiff_t)2 * HOOKE_NET_ROW) = PICK(xy02, zw02, 2, 3, 6, 7);
-  *(quad *)(row + (ptrdiff_t)3 * HOOKE_NET_ROW) = PICK(xy13, zw13, 2, 3, 6, 7);
+  *(quad *)(row + HOOKE_TILED_ROW) = PICK(xy13, zw13, 0, 1, 4, 5);
+  *(quad *)(row + (ptrdiff_t)2 * HOOKE_TILED_ROW) = PICK(xy02, zw02, 2, 3, 6, 7);
+  *(quad *)(row + (ptrdiff_t)3 * HOOKE_TILED_ROW) = PICK(xy13, zw13, 2, 3, 6, 7);
 }
 
 static void copy_rows(ptrdiff_t count, const int32_t *order, const double *const q[3],
                       const double *const v[3], double *rows) {
   ptrdiff_t p = 0;
   for (; HOOKE_WIDTH > 2 && p + 4 <= count && order == NULL; p += 4) {
-    double *row = rows + HOOKE_NET_ROW * p;
+    double *row = rows + HOOKE_TILED_ROW * p;
     turn_four(q[0] + p, q[1] + p, q[2] + p, v ? v[2] + p : NULL, row);
     if (v) turn_four(v[0] + p, v[1] + p, NULL, NULL, row + 4);
   }
   for (; p < count; p++)
-    row_of(order ? order[p] : p, q, v, rows + HOOKE_NET_ROW * p);
+    row_of(order ? order[p] : p, q, v, rows + HOOKE_TILED_ROW * p);
 }
 
 /* ---- the set ---- */
 
 #define NAME(shape) fill_##shape
 #define FILL(shape)                                                                                          \
-  static int64_t NAME(shape)(const struct hk_net_springs *springs, ptrdiff_t count, const double *lower,     \
+  static int64_t NAME(shape)(const struct hk_tiled_springs *springs, ptrdiff_t count, const double *lower,   \
                              const double *upper, double *on_lower, double *on_upper) {                      \
-    return fill(springs, count, lower, upper, on_lower, on_upper, (shape)&HOOKE_NET_DAMPED,                  \
-                (shape)&HOOKE_NET_PULL_ONLY, (shape)&HOOKE_NET_WIDE, (shape)&HOOKE_NET_MIXED);               \
+    return fill(springs, count, lower, upper, on_lower, on_upper, (shape)&HOOKE_TILED_DAMPED,                \
+                (shape)&HOOKE_TILED_PULL_ONLY, (shape)&HOOKE_TILED_WIDE, (shape)&HOOKE_TILED_MIXED);         \
   }
 #define FOUR(what, a, b, c, d) what(a) what(b) what(c) what(d)
 #define EVERY(what)                                                                                          \
@@ -353,5 +353,5 @@ EVERY(FILL)
 
 #define ENTRY(shape) NAME(shape),
 
-const struct hk_net_loops HOOKE_NET_LOOPS = {
+const struct hk_tiled_loops HOOKE_TILED_LOOPS = {
     .fill = {EVERY(ENTRY)}, .sum = {sum_narrow, sum_wide}, .rows = copy_rows};

@@ -1,5 +1,5 @@
 #define _GNU_SOURCE /* dladdr */
-#include "io/file/share.h"
+#include "io/file/data_folder.h"
 
 #include "core/keep_errno.h"
 #include "core/print.h"
@@ -14,7 +14,7 @@
 /* Seen from the folder of the library or, where it is linked statically, of the program: the build tree and
  * the Python package, an installation (CMake knows where its libraries are), a program beside lib. An
  * installation may be moved. */
-static const char *const near_library[] = {"share/hooke", HOOKE_SHARE_FROM_LIBRARY, "../share/hooke"};
+static const char *const near_library[] = {"share/hooke", HOOKE_DATA_FROM_LIBRARY, "../share/hooke"};
 enum { NEAR_COUNT = sizeof near_library / sizeof near_library[0] };
 
 /* The folder that this code was loaded from; "." where it was started by a bare name. */
@@ -26,7 +26,7 @@ static void find_own_folder(char *folder, size_t size) {
   snprintf(folder, size, "%.*s", slash ? (int)(slash - file) : 1, slash ? file : ".");
 }
 
-static FILE *open_share(const char *name) {
+static FILE *open_data(const char *name) {
   char folder[PATH_MAX], path[2 * PATH_MAX];
   find_own_folder(folder, sizeof folder);
   for (int k = 0; k < NEAR_COUNT; k++) {
@@ -34,13 +34,13 @@ static FILE *open_share(const char *name) {
     FILE *file = fopen(path, "rb");
     if (file || errno == ENOMEM) return file;
   }
-  snprintf(path, sizeof path, "%s/%s", HOOKE_SHARE_INSTALLED, name);
+  snprintf(path, sizeof path, "%s/%s", HOOKE_DATA_INSTALLED, name);
   return fopen(path, "rb");
 }
 
-int32_t hk_share_read(const char *name, struct hk_text *text) {
+int32_t hk_data_folder_read(const char *name, struct hk_text *text) {
   HOOKE_KEEP_ERRNO;
-  FILE *file = open_share(name);
+  FILE *file = open_data(name);
   if (file == NULL && errno == ENOMEM)
     return hk_fail(HOOKE_NO_MEMORY, NULL, "no memory to open share/hooke/%s", name);
   if (file == NULL) {
@@ -48,7 +48,7 @@ int32_t hk_share_read(const char *name, struct hk_text *text) {
         HOOKE_NOT_BUILT, NULL,
         "share/hooke/%s is not where this library looks for it: beside it, or in %s; install hooke "
         "with all its files",
-        name, HOOKE_SHARE_INSTALLED);
+        name, HOOKE_DATA_INSTALLED);
   }
   char piece[1 << 14];
   size_t got;

@@ -1,15 +1,15 @@
-/* Compiled once per instruction set, with HOOKE_ISA naming it. Springs of one or two lanes are computed side
- * by side, and sums are some vectors behind, so that the processor always finds operations whose operands are
- * there. */
-#include "kernel/lane_loops.h"
+/* Compiled once per instruction set, with HOOKE_ISA naming it. Springs of one or two strided batches are
+ * computed side by side, and sums are some vectors behind, so that the processor always finds operations
+ * whose operands are there. */
+#include "kernel/strided_loops.h"
 
 #include "kernel/instruction_set.h"
 #include "kernel/vector_unit.h"
 
 typedef hk_vector vec;
 
-/* Shapes of a pass: those of its lanes, where the items of each lane follow one another in the order of lanes;
- * or all that there are. */
+/* Shapes of a pass: those of its batches, where the items of each batch follow one another in the order of
+ * batches; or all that there are. */
 enum { BEHIND = 2 * HOOKE_WIDTH, PAIRED = HOOKE_RUN_SHAPES, ANY = 2 * HOOKE_RUN_SHAPES | HOOKE_RUN_DAMPED };
 
 struct place {
@@ -19,9 +19,10 @@ struct place {
 };
 
 HOOKE_INLINE uint32_t present_at(const uint8_t *present, ptrdiff_t p) {
-  const uint32_t bits = present[(size_t)p / HOOKE_LANE_UNIT];
-  return HOOKE_WIDTH == HOOKE_LANE_UNIT ? bits
-                                        : bits >> ((size_t)p % HOOKE_LANE_UNIT) & ((1u << HOOKE_WIDTH) - 1);
+  const uint32_t bits = present[(size_t)p / HOOKE_STRIDED_UNIT];
+  return HOOKE_WIDTH == HOOKE_STRIDED_UNIT
+             ? bits
+             : bits >> ((size_t)p % HOOKE_STRIDED_UNIT) & ((1u << HOOKE_WIDTH) - 1);
 }
 
 HOOKE_INLINE void store_forces(double *ring, ptrdiff_t mask, ptrdiff_t p, const vec b[3]) {
@@ -29,13 +30,13 @@ HOOKE_INLINE void store_forces(double *ring, ptrdiff_t mask, ptrdiff_t p, const 
   double *to = ring + at;
   for (int a = 0; a < 3; a++)
     hk_store(to + a * stride, b[a]);
-  if (__builtin_expect(at < HOOKE_LANE_UNIT, 0)) {
+  if (__builtin_expect(at < HOOKE_STRIDED_UNIT, 0)) {
     for (int a = 0; a < 3; a++)
       hk_store(to + mask + 1 + a * stride, b[a]);
   }
 }
 
-#define EACH for (int i = 0; i < lanes; i++)
+#define EACH for (int i = 0; i < strided; i++)
 
 /* sum + sign x, rounded once: sign is 1 or -1. */
 HOOKE_INLINE vec add_signed(double sign, vec x, vec sum) {
@@ -46,9 +47,9 @@ HOOKE_INLINE vec add_signed(double sign, vec x, vec sum) {
 #endif
 }
 
-/* What springs do at the vector at p, by two items a lane. */
-HOOKE_INLINE void add(const struct hk_lane_item *item, const int lanes, ptrdiff_t p, vec sum[3]) {
-  for (int i = 0; i < 2 * lanes; i++) {
+/* What springs do at the vector at p, by two items a batch. */
+HOOKE_INLINE void add(const struct hk_strided_item *item, const int strided, ptrdiff_t p, vec sum[3]) {
+  for (int i = 0; i < 2 * strided; i++) {
     const ptrdiff_t mask = item[i].mask, stride = hk_ring_stride(mask);
     const double *at = item[i].ring + ((p - item[i].offset) & mask);
     for (int a = 0; a < 3; a++)
@@ -56,45 +57,47 @@ HOOKE_INLINE void add(const struct hk_lane_item *item, const int lanes, ptrdiff_
   }
 }
 
-/* The same where these are the ends and then the beginnings of each lane. */
-HOOKE_INLINE void add_pairs(const struct hk_lane_view *lane, const int lanes, ptrdiff_t p, vec sum[3]) {
+/* The same where these are the ends and then the beginnings of each batch. */
+HOOKE_INLINE void add_pairs(const struct hk_strided_view *batch, const int strided, ptrdiff_t p, vec sum[3]) {
   EACH {
-    const ptrdiff_t mask = lane[i].mask, stride = hk_ring_stride(mask);
-    const double *ring = lane[i].ring, *ending = ring + ((p - lane[i].offset) & mask),
+    const ptrdiff_t mask = batch[i].mask, stride = hk_ring_stride(mask);
+    const double *ring = batch[i].ring, *ending = ring + ((p - batch[i].offset) & mask),
                  *beginning = ring + (p & mask);
     for (int a = 0; a < 3; a++)
       sum[a] = (sum[a] + hk_load(ending + a * stride)) - hk_load(beginning + a * stride);
   }
 }
 
-/* Where the material of the springs of the vector at p is, which is fetched early where it is stored in a row. */
-HOOKE_INLINE void locate(const struct hk_lane_material *material, ptrdiff_t p, const double **number) {
+/* Where the material of the springs of the vector at p is, which is fetched early where it is stored in a
+ * row. */
+HOOKE_INLINE void locate(const struct hk_strided_material *material, ptrdiff_t p, const double **number) {
   const uint32_t *unit =
-      material->unit + (HOOKE_LANE_NUMBERS * ((size_t)p / HOOKE_LANE_UNIT) & (size_t)material->mask);
-  for (int j = 0; j < HOOKE_LANE_NUMBERS; j++)
+      material->unit + (HOOKE_STRIDED_NUMBERS * ((size_t)p / HOOKE_STRIDED_UNIT) & (size_t)material->mask);
+  for (int j = 0; j < HOOKE_STRIDED_NUMBERS; j++)
     number[j] =
-        material->value + unit[j] + (HOOKE_WIDTH == HOOKE_LANE_UNIT ? 0 : (size_t)p % HOOKE_LANE_UNIT);
+        material->value + unit[j] + (HOOKE_WIDTH == HOOKE_STRIDED_UNIT ? 0 : (size_t)p % HOOKE_STRIDED_UNIT);
   if (material->ahead == 0) return;
-  for (int j = 0; j < HOOKE_LANE_NUMBERS; j++)
+  for (int j = 0; j < HOOKE_STRIDED_NUMBERS; j++)
     __builtin_prefetch(number[j] + material->ahead);
 }
 
-HOOKE_INLINE vec number_of(const struct hk_lane_view *lane, const double *const *own, int j,
+HOOKE_INLINE vec number_of(const struct hk_strided_view *batch, const double *const *own, int j,
                            const int mixed) {
-  return mixed ? hk_load(own[j]) : hk_all(lane->shared[j]);
+  return mixed ? hk_load(own[j]) : hk_all(batch->shared[j]);
 }
 
-/* Forces of the springs of 1 or 2 lanes of one shape into their rings; `shortest` takes the least length.
+/* Forces of the springs of 1 or 2 batches of one shape into their rings; `shortest` takes the least length.
  * Whatever is stored may be anything to the compiler, so that views are read before. */
-HOOKE_INLINE void fill(const struct hk_lane_view *lane, const struct hk_lane_item *item, const int lanes,
-                       const struct place *at, const int shape, vec *shortest, vec sum[3]) {
+HOOKE_INLINE void fill(const struct hk_strided_view *batch, const struct hk_strided_item *item,
+                       const int strided, const struct place *at, const int shape, vec *shortest,
+                       vec sum[3]) {
   const int damped = (shape & HOOKE_RUN_DAMPED) != 0, pull = (shape & HOOKE_RUN_PULL_ONLY) != 0;
   const int mixed = (shape & HOOKE_RUN_MIXED) != 0;
   vec d[2][3], r[2], ir[2], along[2], tension[2];
-  struct hk_lane_view l[2];
-  const double *q[2], *v[2], *own[2][HOOKE_LANE_NUMBERS];
+  struct hk_strided_view l[2];
+  const double *q[2], *v[2], *own[2][HOOKE_STRIDED_NUMBERS];
   EACH {
-    l[i] = lane[i];
+    l[i] = batch[i];
     q[i] = at->q + l[i].offset;
     v[i] = at->v + l[i].offset;
     for (int a = 0; a < 3; a++)
@@ -109,17 +112,17 @@ HOOKE_INLINE void fill(const struct hk_lane_view *lane, const struct hk_lane_ite
     EACH along[i] = along[i] + (at->u[2] - hk_load(v[i] + 2 * at->stride)) * d[i][2];
   }
   if (shape & PAIRED)
-    add_pairs(lane, lanes, at->behind, sum);
+    add_pairs(batch, strided, at->behind, sum);
   else
-    add(item, lanes, at->behind, sum);
+    add(item, strided, at->behind, sum);
   EACH ir[i] = 1.0 / r[i];
   EACH *shortest = hk_lesser(r[i], *shortest);
   EACH {
-    const vec rest = number_of(&l[i], own[i], HOOKE_LANE_REST, mixed);
-    const vec kappa = number_of(&l[i], own[i], HOOKE_LANE_KAPPA, mixed);
+    const vec rest = number_of(&l[i], own[i], HOOKE_STRIDED_REST, mixed);
+    const vec kappa = number_of(&l[i], own[i], HOOKE_STRIDED_KAPPA, mixed);
     tension[i] = kappa * (r[i] - rest);
     if (damped) {
-      const vec gamma = number_of(&l[i], own[i], HOOKE_LANE_GAMMA, mixed);
+      const vec gamma = number_of(&l[i], own[i], HOOKE_STRIDED_GAMMA, mixed);
       tension[i] = tension[i] + gamma * (along[i] * ir[i]);
     }
     if (pull) tension[i] = (vec)((hk_vector_mask)tension[i] & ~((r[i] <= rest) | (tension[i] < 0.0)));
@@ -133,39 +136,40 @@ HOOKE_INLINE void fill(const struct hk_lane_view *lane, const struct hk_lane_ite
 
 /* Springs of the vector at p once more, one by one: some ends are at one place. Counts those that have a rest
  * length. */
-static __attribute__((noinline)) int64_t fill_with_care(const struct hk_lane_pass *pass, ptrdiff_t p) {
+static __attribute__((noinline)) int64_t fill_with_care(const struct hk_strided_pass *pass, ptrdiff_t p) {
   int64_t lost = 0;
   for (int32_t k = 0; k < pass->count; k++) {
-    const struct hk_lane_view *lane = &pass->lane[k];
-    const struct hk_lane_material *material = &lane->material;
+    const struct hk_strided_view *batch = &pass->batch[k];
+    const struct hk_strided_material *material = &batch->material;
     vec b[3] = {{0}};
     for (ptrdiff_t i = 0; i < HOOKE_WIDTH; i++) {
-      const double *q = pass->q + p + i, *v = pass->v + p + i, *qj = q + lane->offset, *vj = v + lane->offset;
+      const double *q = pass->q + p + i, *v = pass->v + p + i, *qj = q + batch->offset,
+                   *vj = v + batch->offset;
       const ptrdiff_t y = pass->stride, z = 2 * y;
-      if (!(present_at(lane->present, p) >> i & 1)) continue;
+      if (!(present_at(batch->present, p) >> i & 1)) continue;
       const double dx = q[0] - qj[0], dy = q[y] - qj[y], dz = q[z] - qj[z];
       const double r = hk_spring_length(dx, dy, dz), ir = hk_spring_inverse_length(r);
-      const double rest = *hk_lane_number(material, p + i, HOOKE_LANE_REST);
+      const double rest = *hk_strided_number(material, p + i, HOOKE_STRIDED_REST);
       double brake = 0.0;
-      if (lane->shape & HOOKE_RUN_DAMPED) {
-        brake = *hk_lane_number(material, p + i, HOOKE_LANE_GAMMA) *
+      if (batch->shape & HOOKE_RUN_DAMPED) {
+        brake = *hk_strided_number(material, p + i, HOOKE_STRIDED_GAMMA) *
                 ((((v[0] - vj[0]) * dx + (v[y] - vj[y]) * dy) + (v[z] - vj[z]) * dz) * ir);
       }
-      const double s =
-          hk_spring_tension(r, rest, *hk_lane_number(material, p + i, HOOKE_LANE_KAPPA), brake,
-                            (lane->shape & HOOKE_RUN_DAMPED) != 0, (lane->shape & HOOKE_RUN_PULL_ONLY) != 0) *
-          ir;
+      const double s = hk_spring_tension(r, rest, *hk_strided_number(material, p + i, HOOKE_STRIDED_KAPPA),
+                                         brake, (batch->shape & HOOKE_RUN_DAMPED) != 0,
+                                         (batch->shape & HOOKE_RUN_PULL_ONLY) != 0) *
+                       ir;
       b[0][i] = s * dx;
       b[1][i] = s * dy;
       b[2][i] = s * dz;
       lost += (r == 0.0) & (rest != 0.0);
     }
-    store_forces(lane->ring, lane->mask, p, b);
+    store_forces(batch->ring, batch->mask, p, b);
   }
   return lost;
 }
 
-HOOKE_INLINE void move(const struct hk_lane_pass *pass, const struct hk_move how, ptrdiff_t p,
+HOOKE_INLINE void move(const struct hk_strided_pass *pass, const struct hk_move how, ptrdiff_t p,
                        const vec sum[3]) {
   const ptrdiff_t stride = pass->stride;
   double *q = pass->q + p, *v = pass->v + p;
@@ -188,28 +192,28 @@ HOOKE_INLINE void move(const struct hk_lane_pass *pass, const struct hk_move how
   }
 }
 
-/* Forces of all lanes at a vector, and sums behind it: two lanes at a time where all have one shape, that is
- * known here. */
-HOOKE_INLINE void fill_all(const struct hk_lane_pass *pass, const int shape, const struct place *at,
+/* Forces of all batches at a vector, and sums behind it: two batches at a time where all have one shape, that
+ * is known here. */
+HOOKE_INLINE void fill_all(const struct hk_strided_pass *pass, const int shape, const struct place *at,
                            vec *shortest, vec sum[3]) {
-  const struct hk_lane_view *lane = pass->lane, *end = lane + pass->count;
-  const struct hk_lane_item *item = pass->item;
-  for (; lane + 1 < end; lane += 2, item += 4)
-    fill(lane, item, 2, at, shape, shortest, sum);
-  if (lane < end) fill(lane, item, 1, at, shape, shortest, sum);
+  const struct hk_strided_view *batch = pass->batch, *end = batch + pass->count;
+  const struct hk_strided_item *item = pass->item;
+  for (; batch + 1 < end; batch += 2, item += 4)
+    fill(batch, item, 2, at, shape, shortest, sum);
+  if (batch < end) fill(batch, item, 1, at, shape, shortest, sum);
 }
 
 #define BODY(shape)                                                                                          \
   case shape:                                                                                                \
-    fill(lane, item, 1, at, (shape) | HOOKE_RUN_MIXED, shortest, sum);                                       \
+    fill(batch, item, 1, at, (shape) | HOOKE_RUN_MIXED, shortest, sum);                                      \
     break;
 
-HOOKE_INLINE void fill_any(const struct hk_lane_pass *pass, const struct place *at, vec *shortest,
+HOOKE_INLINE void fill_any(const struct hk_strided_pass *pass, const struct place *at, vec *shortest,
                            vec sum[3]) {
   for (int32_t k = 0; k < pass->count; k++) {
-    const struct hk_lane_view *lane = pass->lane + k;
-    const struct hk_lane_item *item = pass->item + 2 * k;
-    switch (lane->shape & ~HOOKE_RUN_MIXED) {
+    const struct hk_strided_view *batch = pass->batch + k;
+    const struct hk_strided_item *item = pass->item + 2 * k;
+    switch (batch->shape & ~HOOKE_RUN_MIXED) {
       BODY(0)
       BODY(HOOKE_RUN_DAMPED)
       BODY(HOOKE_RUN_PULL_ONLY)
@@ -225,8 +229,9 @@ HOOKE_INLINE void fetch(const struct place *at, ptrdiff_t ahead) {
   }
 }
 
-/* `shape` is that of all lanes, or ANY. */
-HOOKE_INLINE int64_t advance(const struct hk_lane_pass *pass, const int shape, ptrdiff_t from, ptrdiff_t to) {
+/* `shape` is that of all batches, or ANY. */
+HOOKE_INLINE int64_t advance(const struct hk_strided_pass *pass, const int shape, ptrdiff_t from,
+                             ptrdiff_t to) {
   const struct hk_move how = pass->move;
   int64_t lost = 0;
   for (ptrdiff_t p = from; p < to; p += HOOKE_WIDTH) {
@@ -254,14 +259,14 @@ HOOKE_INLINE int64_t advance(const struct hk_lane_pass *pass, const int shape, p
   return lost;
 }
 
-HOOKE_INLINE int32_t shape_of(const struct hk_lane_pass *pass) {
-  int32_t shape = pass->count > 0 ? pass->lane[0].shape : 0, paired = PAIRED;
+HOOKE_INLINE int32_t shape_of(const struct hk_strided_pass *pass) {
+  int32_t shape = pass->count > 0 ? pass->batch[0].shape : 0, paired = PAIRED;
   for (int32_t k = 0; k < pass->count; k++) {
-    const struct hk_lane_view *lane = &pass->lane[k];
-    const struct hk_lane_item *item = &pass->item[2 * k];
-    if (item[0].ring != lane->ring || item[1].ring != lane->ring || item[1].offset != 0) paired = 0;
-    if ((shape ^ lane->shape) & ~HOOKE_RUN_MIXED) return ANY;
-    shape |= lane->shape;
+    const struct hk_strided_view *batch = &pass->batch[k];
+    const struct hk_strided_item *item = &pass->item[2 * k];
+    if (item[0].ring != batch->ring || item[1].ring != batch->ring || item[1].offset != 0) paired = 0;
+    if ((shape ^ batch->shape) & ~HOOKE_RUN_MIXED) return ANY;
+    shape |= batch->shape;
   }
   return shape | paired;
 }
@@ -272,7 +277,7 @@ HOOKE_INLINE int32_t shape_of(const struct hk_lane_pass *pass) {
   case PAIRED | (shape):                                                                                     \
     return advance(pass, PAIRED | (shape), from, to);
 
-int64_t HOOKE_LANE_LOOP(const struct hk_lane_pass *pass, ptrdiff_t from, ptrdiff_t to) {
+int64_t HOOKE_STRIDED_LOOP(const struct hk_strided_pass *pass, ptrdiff_t from, ptrdiff_t to) {
   switch (shape_of(pass)) {
     ADVANCE(0)
     ADVANCE(HOOKE_RUN_DAMPED)

@@ -8,12 +8,12 @@
 
 enum { FREE = 0, PINNED = 1, DRIVEN = 2 }; /* DRIVEN + k: by drive k */
 
-/* How each particle of the system is held; NULL without memory. */
+/* How each particle of the system is constrained; NULL without memory. */
 static int64_t *how_held(const hooke_system *system) {
   int64_t *how = hk_new(system->particle_count, sizeof *how);
   if (how == NULL) return NULL;
-  for (int64_t k = 0; k < system->held_count; k++)
-    how[system->held_particle[k]] = PINNED;
+  for (int64_t k = 0; k < system->constrained_count; k++)
+    how[system->constrained_particle[k]] = PINNED;
   for (int64_t d = 0; d < system->drive_count; d++) {
     for (int64_t k = 0; k < system->drive[d].count; k++)
       how[system->drive[d].particle[k]] = DRIVEN + d;
@@ -84,7 +84,7 @@ static int64_t list_driven(const struct hk_variant_maker *maker, int64_t d, cons
   return count;
 }
 
-int32_t hk_variant_hold(struct hk_variant_maker *maker) {
+int32_t hk_variant_constrain(struct hk_variant_maker *maker) {
   const int64_t n = maker->made->particle_count;
   int64_t most = n;
   for (int64_t d = 0; d < maker->from->drive_count; d++)

@@ -1,0 +1,154 @@
+/* Finds the strided batches of a system: each spring joins the earliest batch of its offset that has room for
+ * it and keeps an order of items. */
+#include "model/sum/strided.h"
+
+#include "core/memory.h"
+
+#include <string.h>
+
+/* A pass computes every batch at every particle: with fewer springs than this share of that, others are
+ * faster; and in a system of few particles there is nothing to gain. */
+static const double LEAST_FILLED = 0.3;
+enum { LEAST_PARTICLES = 64, MOST_WINDOW = 1 << 18 };
+
+/* Places of three numbers a particle have 32 bits. */
+enum { MOST_PARTICLES = 1 << 30 };
+
+/* Items count from 1 here: 2 k + 1 are the ends of batch k, 2 k + 2 its beginnings, 0 is none. */
+struct finder {
+  struct hk_strided_batches *strided;
+  int64_t particles;
+  uint8_t *at;                          /* the last item of the springs of each particle so far */
+  uint64_t after[HOOKE_MOST_ITEMS + 1]; /* bits of the items that an item must not come behind, and its own */
+  int32_t failed;                       /* no memory */
+};
+
+static uint64_t bit_of(int32_t item) {
+  return item ? (uint64_t)1 << (item - 1) : 0;
+}
+
+static int has_spring(const struct hk_strided_batch *batch, int64_t low) {
+  return batch->present[low / HOOKE_STRIDED_UNIT] >> low % HOOKE_STRIDED_UNIT & 1;
+}
+
+/* Whether an order is left if the end of batch k comes behind item `high`, and its beginning behind `low`. */
+static int keeps_order(const struct finder *finder, int32_t k, int32_t low, int32_t high) {
+  const uint64_t end = finder->after[2 * k + 1], begin = finder->after[2 * k + 2];
+  if (begin & bit_of(low) || end & bit_of(high)) return 0;
+  return !(begin & bit_of(high) && end & bit_of(low));
+}
+
+static void put_behind(struct finder *finder, int32_t before, int32_t item) {
+  if (before == 0 || finder->after[before] & bit_of(item)) return;
+  const uint64_t more = finder->after[item];
+  for (int32_t i = 1; i <= 2 * finder->strided->count; i++) {
+    if (finder->after[i] & bit_of(before)) finder->after[i] |= more;
+  }
+}
+
+static int32_t new_batch(struct finder *finder, int64_t offset, int64_t low, int32_t shape) {
+  struct hk_strided_batches *strided = finder->strided;
+  if (strided->count == HOOKE_MOST_STRIDED) return -1;
+  const int64_t bytes = finder->particles / HOOKE_STRIDED_UNIT + 1;
+  const int32_t k = strided->count;
+  uint8_t *present = hk_new(bytes, sizeof *present);
+  finder->failed |= present == NULL;
+  if (present == NULL) return -1;
+  strided->batch[k] = (struct hk_strided_batch){
+      .offset = offset, .first = low, .last = low, .shape = shape, .present = present};
+  finder->after[2 * k + 1] = bit_of(2 * k + 1);
+  finder->after[2 * k + 2] = bit_of(2 * k + 2);
+  strided->memory += bytes;
+  return strided->count++;
+}
+
+/* Strided batch of a spring; -1 if there is none. */
+static int32_t choose(struct finder *finder, int64_t low, int64_t high, int32_t shape) {
+  const int64_t offset = high - low;
+  for (int32_t k = 0; k < finder->strided->count; k++) {
+    const struct hk_strided_batch *batch = &finder->strided->batch[k];
+    if (batch->offset == offset && batch->shape == shape && !has_spring(batch, low) &&
+        keeps_order(finder, k, finder->at[low], finder->at[high]))
+      return k;
+  }
+  return new_batch(finder, offset, low, shape);
+}
+
+static int add_spring(struct finder *finder, const struct hk_run *run, int64_t k) {
+  const int64_t low = hk_run_lower(run, k), high = hk_run_upper(run, k);
+  const int32_t chosen = choose(finder, low, high, run->shape & HOOKE_RUN_PULL_ONLY);
+  if (chosen < 0) return 0;
+  struct hk_strided_batch *batch = &finder->strided->batch[chosen];
+  put_behind(finder, finder->at[low], 2 * chosen + 2);
+  put_behind(finder, finder->at[high], 2 * chosen + 1);
+  finder->at[low] = (uint8_t)(2 * chosen + 2);
+  finder->at[high] = (uint8_t)(2 * chosen + 1);
+  batch->present[low / HOOKE_STRIDED_UNIT] |= (uint8_t)(1u << low % HOOKE_STRIDED_UNIT);
+  if (low < batch->first) batch->first = low;
+  if (low > batch->last) batch->last = low;
+  finder->strided->batch_of[run->first + k] = (uint8_t)chosen;
+  return 1;
+}
+
+static int pays(const struct hk_strided_batches *strided, int64_t springs) {
+  int64_t window = 0, reached = 0;
+  for (int32_t k = 0; k < strided->count; k++) {
+    window += strided->batch[k].offset;
+    reached += strided->batch[k].last + strided->batch[k].offset - strided->batch[k].first;
+  }
+  return window <= MOST_WINDOW && (double)springs >= LEAST_FILLED * (double)reached;
+}
+
+/* An item that others come behind has more of them behind it than these have. */
+static void put_in_order(const struct finder *finder) {
+  struct hk_strided_batches *strided = finder->strided;
+  int32_t done = 0;
+  for (int32_t behind = 2 * strided->count; behind > 0; behind--) {
+    for (int32_t i = 1; i <= 2 * strided->count; i++) {
+      if (__builtin_popcountll(finder->after[i]) == behind) strided->item[done++] = (uint8_t)(i - 1);
+    }
+  }
+}
+
+/* 1 if all springs are in batches, and these pay. */
+static int find(struct finder *finder, const struct hk_springs *springs) {
+  struct hk_strided_batches *strided = finder->strided;
+  for (int64_t r = 0; r < springs->run_count; r++) {
+    for (int64_t k = 0; k < springs->run[r].count; k++) {
+      if (!add_spring(finder, &springs->run[r], k)) return 0;
+    }
+  }
+  for (int32_t k = 0; k < strided->count; k++) {
+    const int64_t offset = strided->batch[k].offset,
+                  whole = (offset + HOOKE_STRIDED_UNIT - 1) / HOOKE_STRIDED_UNIT * HOOKE_STRIDED_UNIT;
+    if (whole > strided->reach) strided->reach = whole;
+  }
+  put_in_order(finder);
+  return strided->count > 0 && pays(strided, springs->count);
+}
+
+int32_t hk_strided_batches_create(struct hk_springs *springs, int64_t particle_count,
+                                  struct hk_strided_batches *strided) {
+  *strided = (struct hk_strided_batches){0};
+  if (particle_count < LEAST_PARTICLES || particle_count > MOST_PARTICLES) return HOOKE_OK;
+  struct finder finder = {
+      .strided = strided, .particles = particle_count, .at = hk_new(particle_count, sizeof *finder.at)};
+  strided->batch_of = hk_new(springs->count, sizeof *strided->batch_of);
+  finder.failed = finder.at == NULL || strided->batch_of == NULL;
+  const int found = !finder.failed && find(&finder, springs);
+  int32_t status = finder.failed ? HOOKE_NO_MEMORY : HOOKE_OK;
+  hk_free(finder.at);
+  if (found) status = hk_strided_batches_take_material(springs, particle_count, strided);
+  if (!found || status != HOOKE_OK) hk_strided_batches_release(strided);
+  return status;
+}
+
+void hk_strided_batches_release(struct hk_strided_batches *strided) {
+  for (int32_t k = 0; k < strided->count; k++) {
+    hk_free(strided->batch[k].present);
+    hk_free(strided->material[k].value);
+    hk_free(strided->material[k].unit);
+  }
+  hk_free(strided->batch_of);
+  memset(strided, 0, sizeof *strided);
+}

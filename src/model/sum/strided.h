@@ -1,0 +1,57 @@
+/* Strided batches: how the forces of a whole system are summed in one pass over the particles.
+ *
+ * A batch is made of springs of one offset o > 0, one at most from each particle: spring l joins particles l
+ * and l + o. A particle sees a batch as two items, the springs that end there and those that begin there. The
+ * items of all batches are in one order in which the springs of every particle come in ascending number, so
+ * that sums have the bits of the plain order. The pass goes over the particles once;
+ * kernel/strided_loops.h says how. */
+#ifndef HOOKE_MODEL_SUM_STRIDED_H
+#define HOOKE_MODEL_SUM_STRIDED_H
+
+#include "kernel/strided_loops.h"
+#include "model/force/spring.h"
+
+enum { HOOKE_TILE = 256, HOOKE_MOST_ITEMS = 2 * HOOKE_MOST_STRIDED };
+
+struct hk_strided_batch {
+  int64_t offset, first, last; /* the lowest and the highest lower end */
+  int32_t shape;               /* HOOKE_RUN_*, never indexed */
+  uint8_t *present;            /* a bit for each particle: whether a spring begins there */
+};
+
+/* `count` 0: the springs do not form batches, or too few of them for batches to pay. */
+struct hk_strided_batches {
+  int32_t count;
+  int64_t reach; /* the largest offset, in whole units */
+  struct hk_strided_batch batch[HOOKE_MOST_STRIDED];
+  struct hk_strided_material material[HOOKE_MOST_STRIDED];
+  uint8_t item[HOOKE_MOST_ITEMS]; /* in the order of sums: 2 k the ends of batch k, 2 k + 1 its beginnings */
+  uint8_t *batch_of;              /* of each spring; NULL if no run looks its material up */
+  int64_t memory;
+};
+
+/* HOOKE_NO_MEMORY. Material that is stored one by one goes from the springs to the batches, where the runs
+ * then look it up. */
+int32_t hk_strided_batches_create(struct hk_springs *springs, int64_t particle_count,
+                                  struct hk_strided_batches *strided);
+void hk_strided_batches_release(struct hk_strided_batches *strided);
+
+/* The part of it that takes the material over, from batches that are there. HOOKE_NO_MEMORY. */
+int32_t hk_strided_batches_take_material(struct hk_springs *springs, int64_t particle_count,
+                                         struct hk_strided_batches *strided);
+
+/* Rings of one pass at a time by `workers` threads, for systems with batches; NULL without memory. */
+struct hk_rings;
+struct hk_rings *hk_rings_create(const struct hk_strided_batches *strided, int32_t workers);
+void hk_rings_destroy(struct hk_rings *rings);
+int64_t hk_rings_memory(const struct hk_rings *rings);
+
+struct hk_motion;
+struct hooke_system;
+
+/* One pass over the particles of `motion` that are stepped; returns how many springs had a rest length but no
+ * direction. */
+int64_t hk_strided_batches_pass(const struct hooke_system *system, struct hk_motion *motion,
+                                const struct hk_move *move);
+
+#endif
