@@ -28,10 +28,12 @@ COLOURS = {
     "verlet": "tab:purple",
     "rk4": "tab:brown",
     "backward-euler": "tab:pink",
+    "tr-bdf2": "tab:olive",
+    "implicit-midpoint": "tab:cyan",
     "cvode-bdf": "tab:blue",
     "cvode-adams": "tab:green",
 }
-MARKERS = dict(zip(COLOURS, "osvPX^D"))
+MARKERS = dict(zip(COLOURS, "osvPX<>^D"))
 DRAWN = "forward-euler"  # beside the reference
 
 

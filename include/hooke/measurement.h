@@ -228,7 +228,7 @@ HOOKE_API int32_t hooke_why_advice_apply(const hooke_measurement *measurement, i
  * the error of a method does, and the difference between the two runs estimates the error.
  *
  * Where the file was made with other versions of SUNDIALS or CHOLMOD, or on another machine,
- * error-controlled methods and backward-euler may differ in bits: frames then have to agree to within four
+ * error-controlled methods and linear_solver direct may differ in bits: frames then have to agree to within four
  * times the estimate.
  *
  * hooke_measurement_run() returns HOOKE_BAD_VALUE if the file is not what its scene gives, with the first

@@ -4,8 +4,19 @@
 #include <string.h>
 
 static const struct hk_method *const table[] = {
-    &hk_forward_euler,  &hk_symplectic_euler, &hk_verlet,      &hk_shardlow, &hk_heun,          &hk_rk4,
-    &hk_backward_euler, &hk_cvode_bdf,        &hk_cvode_adams, &hk_rk8pd,    &hk_arkode_esdirk,
+    &hk_forward_euler,
+    &hk_symplectic_euler,
+    &hk_verlet,
+    &hk_shardlow,
+    &hk_heun,
+    &hk_rk4,
+    &hk_backward_euler,
+    &hk_tr_bdf2,
+    &hk_implicit_midpoint,
+    &hk_cvode_bdf,
+    &hk_cvode_adams,
+    &hk_rk8pd,
+    &hk_arkode_esdirk,
 };
 
 enum { ROWS = sizeof table / sizeof table[0] };

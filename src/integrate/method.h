@@ -33,6 +33,7 @@ struct hk_method {
   int32_t adaptive;                  /* 1: chooses its steps from tolerances; 0: takes `step` */
   int32_t order;                     /* of a fixed-step method, on smooth forces */
   int32_t first_order, second_order; /* problems it takes: x' = phi(t, x); q' = v, v' = W f */
+  int32_t implicit; /* 1: takes a step by the solution of nonlinear equations, with the option `newton` */
   int32_t by_tiles; /* 1: steps by hk_integrator_pass() alone, if `choose` says nothing else */
   struct hk_stability stability;
   const char *no_first_order; /* why it takes none, if not for stepping positions and velocities apart */
@@ -52,7 +53,8 @@ struct hk_method {
 };
 
 extern const struct hk_method hk_forward_euler, hk_symplectic_euler, hk_verlet, hk_shardlow, hk_heun, hk_rk4,
-    hk_backward_euler, hk_cvode_bdf, hk_cvode_adams, hk_rk8pd, hk_arkode_esdirk;
+    hk_backward_euler, hk_tr_bdf2, hk_implicit_midpoint, hk_cvode_bdf, hk_cvode_adams, hk_rk8pd,
+    hk_arkode_esdirk;
 
 /* Row of this name, or NULL; its stability, of kind unknown if there is no such method. */
 const struct hk_method *hk_method_find(const char *name);

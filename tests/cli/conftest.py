@@ -35,8 +35,19 @@ SIX_PARTICLES = {
     "run": {"method": "symplectic-euler", "step": 1e-3, "duration": 0.5, "every": 0.05},
 }
 
-METHODS = ["forward-euler", "symplectic-euler", "verlet", "shardlow", "heun", "rk4", "backward-euler", "cvode-bdf",
-           "cvode-adams"]
+METHODS = [
+    "forward-euler",
+    "symplectic-euler",
+    "verlet",
+    "shardlow",
+    "heun",
+    "rk4",
+    "backward-euler",
+    "tr-bdf2",
+    "implicit-midpoint",
+    "cvode-bdf",
+    "cvode-adams",
+]
 
 # One mass of 1 kg on a spring of 1000 N/m, undamped: symplectic Euler is stable up to 2 / sqrt(1000) s = 0.063 s.
 STIFF_PAIR = {

@@ -8,7 +8,8 @@ from conftest import SIX_PARTICLES, STIFF_PAIR
 
 pytestmark = pytest.mark.everything
 
-FIXED_STEP = ["forward-euler", "symplectic-euler", "verlet", "shardlow", "heun", "rk4", "backward-euler"]
+FIXED_STEP = ["forward-euler", "symplectic-euler", "verlet", "shardlow", "heun", "rk4", "backward-euler", "tr-bdf2",
+              "implicit-midpoint"]
 # Of the six particles at the start, from the spectrum of the linearised system computed independently.
 LIMITS = {
     "forward-euler": 1.7768476830321846e-05,

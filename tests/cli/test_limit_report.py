@@ -23,7 +23,8 @@ from pages import (
 )
 
 ROOT = Path(__file__).resolve().parents[2]
-METHODS = ["forward-euler", "symplectic-euler", "verlet", "shardlow", "heun", "rk4", "backward-euler"]
+METHODS = ["forward-euler", "symplectic-euler", "verlet", "shardlow", "heun", "rk4", "backward-euler", "tr-bdf2",
+           "implicit-midpoint"]
 SCENE = json.loads((ROOT / "examples/scenes/stiff-spring.json").read_text())
 COLOURS = {"blue": "#0057b8", "red": "#b00020"}  # of arrows, of springs to blame
 # What stands in the diagrams, in their own numbers, and pixels of the colours of the picture.
@@ -58,7 +59,7 @@ def make(folder, scene, *arguments):
 
 def data_of(page):
     start = page.index('id="data">') + len('id="data">')
-    return json.loads(page[start:page.index("</script>", start)])
+    return json.loads(page[start : page.index("</script>", start)])
 
 
 def places(seen, name):

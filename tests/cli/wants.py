@@ -9,7 +9,7 @@ WANTS = {"1cm": 1e-2, "1mm": 1e-3, "10um": 1e-5}
 FACTOR = 3.0  # by which an estimate may be off
 FLOOR = 1e-12  # [m] below which errors are rounding
 WITHIN = 0.1  # of a want: how well the solution has to be known for a claim
-IMPLICIT = ("backward-euler", "cvode-bdf")
+IMPLICIT = ("backward-euler", "tr-bdf2", "implicit-midpoint", "cvode-bdf")
 SOLVE = 50  # evaluations of forces that a solve counts for: 20 to 80 in scenes as small as these
 
 
@@ -40,7 +40,6 @@ class End:
         assert at_end(value["time"], self.data["time"])
         found = [x for row in value["final"]["position"] for x in row]
         return distance(self.data["free"], found, self.data["position"])
-
 
     def best(self, asked):
         """What the want costs at best."""
@@ -99,4 +98,3 @@ def study_complaints(code, value, again, error, want, known=True):
     elif met and again == 0 and known and not error <= want:
         found.append(f"recommends for {want} m what is off by {error:.3g} m")
     return found
-

@@ -59,7 +59,7 @@ static struct run run_of(const char *method, int32_t threads) {
                       .duration = STEPS / 4096.0,
                       .every = STEPS / 4096.0,
                       .threads = threads,
-                      .newton = strcmp(method, "backward-euler") == 0 ? "one-iteration" : NULL};
+                      .newton = is_implicit(method) ? "one-iteration" : NULL};
 }
 
 /* A method at work, and where it has come to. */

@@ -74,7 +74,7 @@ static void test_a_stopped_run_goes_on(void **unused) {
   for (int64_t k = 0; k < hooke_method_count(); k++) {
     const char *method = hooke_method_name(k);
     if (!is_fixed_step(method)) continue;
-    const int implicit = strcmp(method, "backward-euler") == 0;
+    const int implicit = is_implicit(method);
     hooke_system *system = implicit ? small_crumpling_cloth(SIDE) : small_oscillator(1.0);
     const double step = implicit ? 0.02 : 1e-3;
     const struct run run = {.method = method, .step = step, .duration = 8.0 * step, .every = 4.0 * step};

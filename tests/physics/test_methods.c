@@ -11,8 +11,9 @@
 
 static void test_table(void **unused) {
   (void)unused;
-  const char *expected[] = {"forward-euler", "symplectic-euler", "verlet",    "shardlow",   "heun",
-                            "rk4",           "backward-euler",   "cvode-bdf", "cvode-adams"};
+  const char *expected[] = {"forward-euler", "symplectic-euler", "verlet",  "shardlow",          "heun",
+                            "rk4",           "backward-euler",   "tr-bdf2", "implicit-midpoint", "cvode-bdf",
+                            "cvode-adams"};
   for (size_t k = 0; k < sizeof expected / sizeof expected[0]; k++) {
     int64_t found = 0;
     for (int64_t m = 0; m < hooke_method_count(); m++)
@@ -32,7 +33,7 @@ static void test_table(void **unused) {
   const int32_t sundials = hooke_build_fact("sundials")[0] != '\0';
   assert_int_equal(hooke_method_is_built("cvode-bdf"), sundials);
   assert_int_equal(hooke_method_is_built("cvode-adams"), sundials);
-  for (int k = 0; k < 6; k++)
+  for (int k = 0; k < 8; k++)
     assert_int_equal(hooke_method_is_built(expected[k]), 1);
 }
 

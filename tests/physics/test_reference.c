@@ -184,6 +184,26 @@ static void test_order_of_backward_euler(void **unused) {
   climb_all("backward-euler", 1.0, 5, ladders);
 }
 
+static void test_order_of_tr_bdf2(void **unused) {
+  (void)unused;
+  const struct ladder ladders[] = {{"oscillator", 5e-3, 1},
+                                   {"six-particles", 2e-2, 1},
+                                   {"elastic-pendulum", 2e-3, 1},
+                                   {"rope-12", 2e-3, 1},
+                                   {"chain-16", 2e-2, 0}};
+  climb_all("tr-bdf2", 2.0, 5, ladders);
+}
+
+static void test_order_of_implicit_midpoint(void **unused) {
+  (void)unused;
+  const struct ladder ladders[] = {{"oscillator", 5e-3, 1},
+                                   {"six-particles", 2e-2, 1},
+                                   {"elastic-pendulum", 2e-3, 1},
+                                   {"rope-12", 2e-3, 1},
+                                   {"chain-16", 2e-2, 0}};
+  climb_all("implicit-midpoint", 2.0, 5, ladders);
+}
+
 /* ---- the errors that fixed-step methods must have, to 6 digits where nothing is solved for, or the rounding
  * of positions in a few hundred steps ---- */
 
@@ -221,6 +241,8 @@ int main(void) {
       cmocka_unit_test(test_order_of_shardlow),
       cmocka_unit_test(test_order_of_rk4),
       cmocka_unit_test(test_order_of_backward_euler),
+      cmocka_unit_test(test_order_of_tr_bdf2),
+      cmocka_unit_test(test_order_of_implicit_midpoint),
       cmocka_unit_test(test_adams),
       cmocka_unit_test(test_bdf),
   };

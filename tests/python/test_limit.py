@@ -9,7 +9,8 @@ from conftest import SIX_PARTICLES, build_oscillator, build_six_particles
 
 import hooke
 
-FIXED_STEP = ["forward-euler", "symplectic-euler", "verlet", "shardlow", "heun", "rk4", "backward-euler"]
+FIXED_STEP = ["forward-euler", "symplectic-euler", "verlet", "shardlow", "heun", "rk4", "backward-euler", "tr-bdf2",
+              "implicit-midpoint"]
 OMEGA = math.sqrt(40)  # of the oscillator
 
 
@@ -51,7 +52,7 @@ def test_rows():
         assert row["steps_run"] > 100 and np.isnan(row["smallest"])
     assert found["forward-euler"]["never_stable"] and found["forward-euler"]["predicted"] == 0
     assert np.isinf(found["backward-euler"]["predicted"]) and "accuracy" in found["backward-euler"]["note"]
-    assert found.rows["by_eigenvalue"].tolist() == [True, False, False, False, True, True, False]
+    assert found.rows["by_eigenvalue"].tolist() == [True, False, False, False, True, True, False, False, False]
     with pytest.raises(KeyError, match="cvode-bdf"):
         found["cvode-bdf"]
     with pytest.raises(ValueError):

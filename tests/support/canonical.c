@@ -2,6 +2,7 @@
 #include "canonical.h"
 
 #include "check.h"
+#include "run.h"
 
 #include <float.h>
 #include <math.h>
@@ -602,9 +603,13 @@ static int is_solved(const struct canonical *canonical, double h) {
   return !(h <= 0.8 * canonical_explicit_bound(canonical));
 }
 
+static const char *const solved[] = {"backward-euler", "tr-bdf2", "implicit-midpoint"};
+
 int32_t canonical_step(const struct canonical *canonical, const char *method, double t, double end, double h,
                        double *q, double *v) {
-  if (strcmp(method, "backward-euler") == 0) return CANONICAL_SOLVED;
+  for (size_t k = 0; k < sizeof solved / sizeof solved[0]; k++) {
+    if (strcmp(method, solved[k]) == 0) return CANONICAL_SOLVED;
+  }
   if (strcmp(method, "verlet") == 0 && is_solved(canonical, h)) return CANONICAL_SOLVED;
   int32_t result = CANONICAL_STEPPED;
   double *a = new_doubles(3 * canonical->particle_count);
@@ -637,8 +642,12 @@ static double across(const struct canonical *canonical, int64_t k, const double 
   return r > 0.0 ? tension / r : 0.0;
 }
 
-/* What 100 roundings of positions and velocities make of the change of a velocity in one step. */
-static double rounding(const struct canonical *canonical, double h, const double *q, const double *v) {
+/* The largest coordinate and velocity, and of single forces h^2 stiffness/mass and h damping/mass. */
+struct scale {
+  double extent, speed, stiff, damped;
+};
+
+static struct scale scale_of(const struct canonical *canonical, double h, const double *q, const double *v) {
   double extent = 0.0, speed = 0.0, stiffness = 0.0, damping = canonical->drag;
   for (int64_t k = 0; k < 3 * canonical->particle_count; k++) {
     extent = fmax(extent, fabs(q[k]));
@@ -668,7 +677,86 @@ static double rounding(const struct canonical *canonical, double h, const double
     stiffness = fmax(stiffness, kappa + (r > 0.0 ? tension / r : 0.0));
     damping = fmax(damping, gamma);
   }
-  return 100.0 * DBL_EPSILON * (speed + h * lightest * (stiffness * extent + damping * speed));
+  return (struct scale){extent, speed, h * h * lightest * stiffness, h * lightest * damping};
+}
+
+/* What 100 roundings of positions and velocities make of the change of a velocity in one step. */
+static double rounding(const struct canonical *canonical, double h, const double *q, const double *v) {
+  const struct scale s = scale_of(canonical, h, q, v);
+  return 100.0 * DBL_EPSILON * (s.speed + s.stiff * s.extent / h + s.damped * s.speed);
+}
+
+/* 1 if x1 is x0 but for a few roundings of numbers of this size. */
+static int is_near(double x0, double x1, double size) {
+  return fabs(x1 - x0) <= 8.0 * DBL_EPSILON * size;
+}
+
+/* Of the equations of the middle: their velocity is the mean of the old and the new one. */
+static double midpoint_defect(const struct canonical *canonical, double t, double end, double h,
+                              const double *const from[2], const double *const to[2]) {
+  const int64_t size = 3 * canonical->particle_count;
+  double *q = new_doubles(size), *v = new_doubles(size), *a = new_doubles(size), defect = 0.0;
+  for (int64_t k = 0; k < size; k++) {
+    v[k] = (from[1][k] + to[1][k]) / 2.0;
+    q[k] = is_free(canonical, k) ? from[0][k] + h / 2.0 * v[k] : from[0][k];
+    if (is_free(canonical, k) &&
+        !is_near(from[0][k] + h * v[k], to[0][k], fabs(from[0][k]) + h * (fabs(from[1][k]) + fabs(to[1][k]))))
+      defect = INFINITY;
+  }
+  place(canonical, t + (end - t) / 2.0, q, v);
+  canonical_acceleration(canonical, t + (end - t) / 2.0, q, v, a);
+  for (int64_t k = 0; k < size; k++) {
+    if (is_free(canonical, k)) defect = fmax(defect, fabs(v[k] - (from[1][k] + h / 2.0 * a[k])));
+  }
+  free(q);
+  free(v);
+  free(a);
+  return defect;
+}
+
+/* The backward difference, solved for the state between the two stages, which then has to be that of the
+ * trapezoidal rule. */
+static double tr_bdf2_defect(const struct canonical *canonical, double t, double end, double h,
+                             const double *const from[2], const double *const to[2]) {
+  const int64_t size = 3 * canonical->particle_count;
+  const double c = 2.0 - sqrt(2.0), d = (sqrt(2.0) - 1.0) / 2.0, a = c * h / 2.0;
+  double *q = new_doubles(size), *v = new_doubles(size), defect = 0.0;
+  double *first = new_doubles(size), *middle = new_doubles(size), *last = new_doubles(size);
+  canonical_acceleration(canonical, t, from[0], from[1], first);
+  canonical_acceleration(canonical, end, to[0], to[1], last);
+  for (int64_t k = 0; k < size; k++) {
+    q[k] = (to[0][k] - a * to[1][k] + d * from[0][k]) / (1.0 + d);
+    v[k] = (to[1][k] - a * last[k] + d * from[1][k]) / (1.0 + d);
+    /* an end on its anchor has no direction; a rounding away from it, it has one */
+    if (to[0][k] == from[0][k]) q[k] = from[0][k];
+  }
+  place(canonical, t + c * h, q, v);
+  for (int64_t k = 0; k < size; k++) {
+    if (is_free(canonical, k)) continue;
+    if (canonical->place == NULL) q[k] = from[0][k];
+    if (canonical->place == NULL) v[k] = 0.0;
+  }
+  canonical_acceleration(canonical, t + c * h, q, v, middle);
+  for (int64_t k = 0; k < size; k++) {
+    if (!is_free(canonical, k)) continue;
+    const double speed = v[k] - (from[1][k] + a * (first[k] + middle[k]));
+    const double place = q[k] - (from[0][k] + a * (from[1][k] + v[k]));
+    const double rounding = 16.0 * DBL_EPSILON * (fabs(to[0][k]) + fabs(from[0][k]) + a * fabs(to[1][k]));
+    defect = fmax(defect, fmax(fabs(speed), (fabs(place) - rounding) / a));
+  }
+  free(q);
+  free(v);
+  free(first);
+  free(middle);
+  free(last);
+  return defect;
+}
+
+/* Over 1e-9 of the change of velocity and rounding, by which `grown` times is allowed. */
+static double weigh(const struct canonical *canonical, double h, double defect, double grown,
+                    const double *const from[2], const double *const to[2]) {
+  const double change = largest_difference(3 * canonical->particle_count, from[1], to[1]);
+  return defect == 0.0 ? 0.0 : defect / (grown * (1e-9 * change + rounding(canonical, h, to[0], to[1])));
 }
 
 /* The size of a change of velocity: the root of the sum of its squares times masses. */
@@ -769,6 +857,15 @@ static double backward_euler_defect(const struct canonical *canonical, double en
 
 double canonical_defect(const struct canonical *canonical, const char *method, double t, double end, double h,
                         const double *q0, const double *v0, const double *q1, const double *v1) {
+  const double *const from[2] = {q0, v0}, *const to[2] = {q1, v1};
   if (strcmp(method, "verlet") == 0) return verlet_defect(canonical, t, end, h, q0, v0, q1, v1);
+  if (strcmp(method, "implicit-midpoint") == 0)
+    return weigh(canonical, h, midpoint_defect(canonical, t, end, h, from, to), 1.0, from, to);
+  if (strcmp(method, "tr-bdf2") == 0) {
+    /* what the second stage leaves open comes back through the forces of the first */
+    const struct scale s = scale_of(canonical, h, q1, v1);
+    return weigh(canonical, h, tr_bdf2_defect(canonical, t, end, h, from, to), 1.0 + s.stiff + s.damped, from,
+                 to);
+  }
   return backward_euler_defect(canonical, end, h, q0, v0, q1, v1);
 }

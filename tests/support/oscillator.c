@@ -46,6 +46,30 @@ static void runge_kutta(int degree, long double zeta, long double h, long double
   memcpy(m, sum, sizeof sum);
 }
 
+/* (1 - a A)^-1 for A = (0, 1; -1, -c). */
+static void solved(long double c, long double a, long double m[4]) {
+  const long double d = 1.0L / (1.0L + c * a + a * a);
+  memcpy(m, (long double[4]){(1.0L + c * a) * d, a * d, -a * d, d}, 4 * sizeof *m);
+}
+
+/* (1 - a A)^-1 (1 + a A) = 2 (1 - a A)^-1 - 1: also one step of the midpoint rule, with a = h/2. */
+static void trapezoid(long double c, long double a, long double m[4]) {
+  solved(c, a, m);
+  for (int j = 0; j < 4; j++)
+    m[j] = 2.0L * m[j] - (j % 3 == 0 ? 1.0L : 0.0L);
+}
+
+/* (1 - a A)^-1 ((1 + d) T - d) with T the trapezoidal rule to c h. */
+static void tr_bdf2(long double damping, long double h, long double m[4]) {
+  const long double root = sqrtl(2.0L), a = (2.0L - root) / 2.0L * h, d = (root - 1.0L) / 2.0L;
+  long double last[4];
+  trapezoid(damping, a, m);
+  for (int j = 0; j < 4; j++)
+    m[j] = (1.0L + d) * m[j] - (j % 3 == 0 ? d : 0.0L);
+  solved(damping, a, last);
+  multiply(last, m, m);
+}
+
 int32_t oscillator_step(const char *method, long double zeta, long double h, long double m[4]) {
   const long double c = 2.0L * zeta;
   if (strcmp(method, "forward-euler") == 0) {
@@ -77,9 +101,12 @@ int32_t oscillator_step(const char *method, long double zeta, long double h, lon
     runge_kutta(4, zeta, h, m);
   } else if (strcmp(method, "heun") == 0) {
     runge_kutta(2, zeta, h, m);
+  } else if (strcmp(method, "implicit-midpoint") == 0) {
+    trapezoid(c, h / 2.0L, m);
+  } else if (strcmp(method, "tr-bdf2") == 0) {
+    tr_bdf2(c, h, m);
   } else if (strcmp(method, "backward-euler") == 0) {
-    const long double d = 1.0L / (1.0L + c * h + h * h);
-    memcpy(m, (long double[4]){(1.0L + c * h) * d, h * d, -h * d, d}, 4 * sizeof *m);
+    solved(c, h, m);
   } else {
     return 0;
   }

@@ -41,7 +41,7 @@ struct reference_errors {
   double allowed;                               /* of an error, relative */
   double error[5];                              /* steps 1/50, 1/100, 1/200, 1/400, 1/800 s */
 };
-enum { REFERENCE_ERROR_COUNT = 8 };
+enum { REFERENCE_ERROR_COUNT = 12 };
 extern const struct reference_errors reference_errors[REFERENCE_ERROR_COUNT];
 
 #endif

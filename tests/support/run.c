@@ -18,6 +18,8 @@ hooke_options *run_options(struct run run) {
     check_ok(hooke_options_set_text(options, "verlet_damping", run.verlet_damping));
   if (run.linear_solver != NULL)
     check_ok(hooke_options_set_text(options, "linear_solver", run.linear_solver));
+  if (run.newton_tolerance != BY_DEFAULT)
+    set_number(options, "newton_tolerance", run.newton_tolerance == 0.0 ? 1e-12 : run.newton_tolerance);
   set_number(options, "step", run.step);
   set_number(options, "duration", run.duration);
   set_number(options, "every", run.every);
@@ -83,6 +85,14 @@ int32_t explain_run(const hooke_integrator *integrator, hooke_measurement **why)
 
 int32_t is_fixed_step(const char *method) {
   return hooke_method_is_built(method) == 1 && hooke_method_is_adaptive(method) == 0;
+}
+
+int32_t is_implicit(const char *method) {
+  const char *const known[] = {"backward-euler", "tr-bdf2", "implicit-midpoint"};
+  for (size_t k = 0; k < sizeof known / sizeof known[0]; k++) {
+    if (strcmp(method, known[k]) == 0) return 1;
+  }
+  return 0;
 }
 
 double largest_difference(int64_t count, const double *a, const double *b) {

@@ -4,6 +4,8 @@
 
 #include "hooke.h"
 
+#define BY_DEFAULT (-1.0)
+
 /* Options of a run; numbers that are 0 are left at their defaults. */
 struct run {
   const char *method;
@@ -11,6 +13,8 @@ struct run {
   double rtol, atol;
   int32_t threads;
   const char *newton, *linear_solver, *verlet_damping; /* NULL: the default */
+  /* 0: 1e-12, with which a step is its formula; BY_DEFAULT: that of the library */
+  double newton_tolerance;
 };
 
 /* The caller destroys what these return. */
@@ -28,6 +32,8 @@ int32_t explain_run(const hooke_integrator *integrator, hooke_measurement **why)
 
 /* 1 if this build has the method and it takes `step`. */
 int32_t is_fixed_step(const char *method);
+/* 1 if it solves nonlinear equations for each of its steps, in the ways of the option `newton`. */
+int32_t is_implicit(const char *method);
 
 /* The largest |a - b| and |a| of two arrays. */
 double largest_difference(int64_t count, const double *a, const double *b);

@@ -110,6 +110,8 @@ static const struct {
                {"symplectic-euler", 1.8, 2.2},
                {"backward-euler", 1.8, 2.2},
                {"verlet", 3.6, 4.4},
+               {"tr-bdf2", 3.6, 4.4},
+               {"implicit-midpoint", 3.6, 4.4},
                {"rk4", 3.6, 4.4}}; /* the trapezoidal rule is of second order */
 
 static void what_is_left_over_is_the_error_of_the_method(void **unused) {

@@ -70,7 +70,10 @@ static const struct {
     {"heun", {UINT64_C(0xbd5fd30434383e2e), UINT64_C(0x9d3f88b7dd489b5a), UINT64_C(0x05ad1f0526069e11)}},
     {"rk4", {UINT64_C(0xe4f21c7b4e25fe9d), UINT64_C(0xb8480818853f53d7), UINT64_C(0x05ad6ef5f38ebbdf)}},
     {"backward-euler",
-     {UINT64_C(0x8577ce744217a3f2), UINT64_C(0x023c0f63d3f1af88), UINT64_C(0x8f7ee54a484dc681)}},
+     {UINT64_C(0xa69bc72a494afc8c), UINT64_C(0x5b62b4e3fa9964d7), UINT64_C(0x6a9c94e09b632e50)}},
+    {"tr-bdf2", {UINT64_C(0x3e367e67c5530e37), UINT64_C(0xd2cbd729435376b2), UINT64_C(0xb8299f1144272fec)}},
+    {"implicit-midpoint",
+     {UINT64_C(0xaccb65f8579c529e), UINT64_C(0x7a6322e0405a0f21), UINT64_C(0xce555daea0bd3162)}},
 };
 
 static void check_scene(const struct scene *scene, int k) {

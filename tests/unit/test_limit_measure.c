@@ -95,6 +95,11 @@ static void undamped_oscillator(void **unused) {
   assert_true(never.step == 0.0 && never.never_stable);
   const struct hk_measured_limit always = measure(system, "backward-euler", INFINITY, NULL, 1e-3);
   assert_true(isinf(always.step) && !always.never_stable);
+  const char *const second[] = {"tr-bdf2", "implicit-midpoint"};
+  for (int k = 0; k < 2; k++) {
+    const struct hk_measured_limit none = measure(system, second[k], INFINITY, NULL, 1e-3);
+    assert_true(isinf(none.step) && !none.never_stable);
+  }
   /* predictions of no step and of every step are put to the test */
   check_close(measure(system, "symplectic-euler", 0.0, NULL, 1e-3).step, 2.0 / 7.0, 1e-3);
   check_close(measure(system, "symplectic-euler", INFINITY, NULL, 1e-3).step, 2.0 / 7.0, 1e-3);

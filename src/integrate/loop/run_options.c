@@ -45,8 +45,16 @@ static const struct hk_option_row run_rows[] = {
      .type = HOOKE_OPTION_CHOICE,
      .words = "converged one-iteration",
      .fallback = "converged",
-     .doc = "how backward-euler solves its step: converged, or one-iteration (linearised at the start of the "
-            "step)"},
+     .doc = "how backward-euler, tr-bdf2 and implicit-midpoint solve their equations: converged, or "
+            "one-iteration (linearised where they begin)"},
+    {.name = "newton_tolerance",
+     .type = HOOKE_OPTION_NUMBER,
+     .low = 0.0,
+     .above_low = 1,
+     .high = 1.0,
+     .fallback = "0.02",
+     .doc = "error in the equations of a step of backward-euler, tr-bdf2 or implicit-midpoint at which their "
+            "iterations end, over the error that the step makes itself"},
     {.name = "verlet_damping",
      .type = HOOKE_OPTION_CHOICE,
      .words = "auto explicit implicit",
@@ -87,8 +95,10 @@ static const struct hk_option_row run_rows[] = {
      .type = HOOKE_OPTION_CHOICE,
      .words = "auto direct blocks gmres",
      .fallback = "auto",
-     .doc = "how cvode-bdf and arkode-esdirk solve their linear equations: by iterations after a sparse "
-            "factorisation (direct) or one of 3x3 blocks (blocks), as it pays (auto), or by plain gmres"},
+     .doc =
+         "how implicit methods solve their linear equations: by iterations after a sparse factorisation "
+         "(direct) or one of 3x3 blocks (blocks); by blocks, or with cvode-bdf and arkode-esdirk as it pays "
+         "(auto); with these two also by plain gmres"},
     {.name = "max_steps",
      .type = HOOKE_OPTION_NUMBER,
      .low = 1,

@@ -53,6 +53,61 @@ int32_t hk_solve_symmetric(const struct hk_operator *a, const double *b, double 
   return HOOKE_OK;
 }
 
+/* ---- conjugate gradients to a known error ---- */
+
+enum { TILE = 256, LOOK_BACK = 6 };
+static const double ROUNDING = 1e-15;
+
+static double tiled_dot(int64_t size, const double *x, const double *y) {
+  const int64_t n = size / 3;
+  double sum = 0.0;
+  for (int64_t p = 0; p < n; p += TILE) {
+    const int64_t count = n - p < TILE ? n - p : TILE;
+    for (int a = 0; a < 3; a++)
+      sum += hk_dot(count, x + a * n + p, y + a * n + p);
+  }
+  return sum;
+}
+
+/* What the last few iterations have come nearer in the norm of A, squared: less than is left, but most of it
+ * where they converge. */
+static double sum_of(const double gained[LOOK_BACK]) {
+  double sum = 0.0;
+  for (int k = 0; k < LOOK_BACK; k++)
+    sum += gained[k];
+  return sum;
+}
+
+int32_t hk_solve_positive(const struct hk_operator *a, const double *b, double relative, double absolute,
+                          int64_t limit, double *scratch, double *x, struct hk_solution *solution) {
+  const int64_t size = a->size;
+  double *r = scratch, *p = r + size, *ap = p + size, length, gained[LOOK_BACK] = {0.0}, all = 0.0;
+  if (!begin(size, b, x, &length, solution)) return HOOKE_OK;
+  copy(size, b, r);
+  copy(size, b, p);
+  double square = tiled_dot(size, r, r);
+  while (!solution->converged && solution->iterations < limit) {
+    const int32_t status = a->apply(a->ctx, p, ap);
+    if (status != HOOKE_OK) return status;
+    const double curvature = tiled_dot(size, p, ap);
+    if (!(curvature > 0.0)) return HOOKE_OK;
+    const double share = square / curvature, before = square;
+    hk_add_multiple(size, share, p, x);
+    hk_add_multiple(size, -share, ap, r);
+    square = tiled_dot(size, r, r);
+    hk_scale_and_add(size, square / before, r, p);
+    gained[solution->iterations++ % LOOK_BACK] = share * before;
+    all += share * before;
+    solution->residual = sqrt(square) / length;
+    const double left = sum_of(gained);
+    /* numbers that are not finite will not get better */
+    solution->converged =
+        !(solution->residual > ROUNDING) ||
+        (solution->iterations > LOOK_BACK && left <= fmax(relative * relative * all, absolute * absolute));
+  }
+  return HOOKE_OK;
+}
+
 /* ---- BiCGSTAB(L) ---- */
 
 enum { L = HOOKE_GENERAL_SWEEP };

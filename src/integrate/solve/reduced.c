@@ -12,9 +12,8 @@
  * another force, of work on a vector for each number, of a solve with a factor for each of its numbers, of
  * a factor for each of its multiplications. */
 static const double OF_SPRING = 3.0, OF_UNKNOWN = 0.3, OF_NUMBER = 0.7, OF_PRODUCT = 0.84, OF_ELEMENT = 150.0;
-/* Of BiCGSTAB(4), an iteration. */
-static const double PRODUCTS_OF_SWEEP = 2.0, VECTORS_OF_SWEEP = 24.0;
-enum { TRIES_BY_BLOCKS = 25, TRIES_WITH_FACTOR = 12 };
+/* Of S with its factor: what rounding leaves. */
+static const double DIRECT_RESIDUAL = 1e-10;
 /* Iterations that are allowed: what well-posed equations need by far, and not for ever. */
 enum { SPARE_ITERATIONS = 1000, SIZE_SHARE = 4, MOST_ITERATIONS = 20000 };
 
@@ -27,6 +26,28 @@ static double *part(double **block, int64_t count) {
   double *start = *block;
   *block += count;
   return start;
+}
+
+static int32_t read_linear_solver(struct hk_reduced *reduced) {
+  const hooke_integrator *it = reduced->integrator;
+  const char *word = hooke_options_text(it->options, "linear_solver");
+  if (strcmp(word, "gmres") == 0)
+    return hk_fail(
+        HOOKE_UNSUITED, "linear_solver",
+        "%s has no plain gmres, which is for the methods of SUNDIALS; allowed: auto, blocks, direct",
+        it->method->name);
+  reduced->direct = strcmp(word, "direct") == 0;
+  if (reduced->direct && !hk_factor_is_built())
+    return hk_fail(HOOKE_NOT_BUILT, "linear_solver",
+                   "\"direct\" needs CHOLMOD, which this build is without; take auto");
+  return HOOKE_OK;
+}
+
+/* The factor's memory ahead of all steps. */
+static int32_t prepare_direct(struct hk_reduced *reduced) {
+  if (!reduced->direct) return HOOKE_OK;
+  const int32_t status = hk_reduced_prepare_whole(reduced);
+  return status == HOOKE_OK && reduced->whole ? hk_reduced_reserve_whole(reduced) : status;
 }
 
 int32_t hk_reduced_create(hooke_integrator *it, int32_t kind, struct hk_reduced *reduced) {
@@ -47,7 +68,7 @@ int32_t hk_reduced_create(hooke_integrator *it, int32_t kind, struct hk_reduced 
   }
   it->own_memory +=
       numbers * (int64_t)sizeof(double) + reduced->element_count * (int64_t)sizeof *reduced->element;
-  it->may_factor = !symmetric;
+  it->may_factor = kind == HOOKE_REDUCED_MINIMAL;
   for (int32_t k = 0; k < system->force_row_count && !symmetric; k++) {
     const struct hk_force_row *row = system->force_row[k];
     reduced->rows_needed |= !is_own(row) && (row->add_product || row->elements);
@@ -66,7 +87,9 @@ int32_t hk_reduced_create(hooke_integrator *it, int32_t kind, struct hk_reduced 
   reduced->moved = part(&block, 3 * n);
   reduced->krylov = part(&block, 3 * n * vectors);
   if (!symmetric || rows > 0) reduced->rows = part(&block, rows);
-  return HOOKE_OK;
+  if (kind != HOOKE_REDUCED_GENERAL) return HOOKE_OK;
+  const int32_t status = read_linear_solver(reduced);
+  return status == HOOKE_OK ? prepare_direct(reduced) : status;
 }
 
 void hk_reduced_release(struct hk_reduced *reduced) {
@@ -143,6 +166,7 @@ void hk_reduced_set(struct hk_reduced *reduced, double t, double alpha, double b
   const hooke_system *system = reduced->integrator->system;
   const struct hk_motion *motion = reduced->integrator->motion;
   reduced->t = t;
+  reduced->projected = 0;
   reduced->alpha = alpha;
   reduced->beta = beta;
   struct hk_fields fields;
@@ -227,12 +251,14 @@ static int32_t add_product(struct hk_reduced *reduced, const double *x, double *
     const struct hk_force_row *row = system->force_row[k];
     if (hk_force_is_constant(row)) row->multiply(system, reduced->alpha, reduced->beta, from, to);
   }
-  for (int64_t k = 0; k < reduced->element_count && reduced->symmetric; k++) {
+  const int by_element = reduced->symmetric || reduced->projected;
+  for (int64_t k = 0; k < reduced->element_count && by_element; k++) {
     const struct hk_element *e = &reduced->element[k];
     const struct hk_element_numbers s = hk_element_combine(e, reduced->alpha, reduced->beta);
     hk_element_multiply(e, s.along, s.across, 1, from, to);
   }
-  return reduced->rows_needed ? subtract_others(reduced, reduced->alpha, reduced->beta, x, out) : HOOKE_OK;
+  return reduced->rows_needed && !by_element ? subtract_others(reduced, reduced->alpha, reduced->beta, x, out)
+                                             : HOOKE_OK;
 }
 
 static int32_t multiply_matrix(struct hk_reduced *reduced, const double *x, double *out) {
@@ -319,55 +345,80 @@ static int64_t most_iterations(const struct hk_reduced *reduced) {
   return share < MOST_ITERATIONS ? share : MOST_ITERATIONS;
 }
 
-/* Iterations by blocks that cost what a factor does with its few. */
-static int64_t iterations_worth_a_factor(const struct hk_reduced *reduced) {
-  const double whole =
-      hk_reduced_cost_of_factor(reduced) + 2.0 * TRIES_WITH_FACTOR * hk_reduced_cost_of_solve(reduced);
-  return (int64_t)fmin(whole / hk_reduced_cost_by_blocks(reduced, PRODUCTS_OF_SWEEP, VECTORS_OF_SWEEP), 1e9);
-}
-
-static int32_t solve_as_pays(struct hk_reduced *reduced, const double *b, double tolerance, double *x,
-                             struct hk_solution *solution, int64_t *before) {
-  const int64_t most = most_iterations(reduced);
-  int32_t status = HOOKE_OK;
-  if (reduced->whole_state == HOOKE_WHOLE_IN_USE) {
-    status = solve_whole(reduced, b, tolerance, TRIES_WITH_FACTOR, x, solution);
-    if (status != HOOKE_OK || solution->iterations < TRIES_WITH_FACTOR) return status;
-  } else {
-    status = solve_by_blocks(reduced, 0, b, tolerance, TRIES_BY_BLOCKS, x, solution);
-    if (status != HOOKE_OK || solution->iterations < TRIES_BY_BLOCKS) return status;
-    status = hk_reduced_prepare_whole(reduced);
-    if (status != HOOKE_OK) return status;
-    const int64_t worth = reduced->whole ? iterations_worth_a_factor(reduced) : most;
-    if (worth > TRIES_BY_BLOCKS) {
-      *before += solution->iterations;
-      status = solve_by_blocks(reduced, 0, b, tolerance, worth < most ? worth : most, x, solution);
-      if (status != HOOKE_OK || solution->iterations < worth || reduced->whole == NULL) return status;
-    }
+/* With the factor of S at this place, or by blocks where it proves not positive. */
+static int32_t solve_direct(struct hk_reduced *reduced, const double *b, double tolerance, int64_t limit,
+                            double *x, struct hk_solution *solution) {
+  if (reduced->whole_state != HOOKE_WHOLE_IN_USE) {
+    const int32_t positive = hk_reduced_factorise(reduced);
+    if (positive < 0) return positive;
   }
-  *before += solution->iterations;
-  const int32_t positive = hk_reduced_factorise(reduced);
-  if (positive < 0) return positive;
-  return positive ? solve_whole(reduced, b, tolerance, most, x, solution)
-                  : solve_by_blocks(reduced, 0, b, tolerance, most, x, solution);
+  return reduced->whole_state == HOOKE_WHOLE_IN_USE
+             ? solve_whole(reduced, b, tolerance, limit, x, solution)
+             : solve_by_blocks(reduced, 0, b, tolerance, limit, x, solution);
 }
 
-/* By blocks as long as that may be cheap, or where all of S is too large or proves not positive; else with
- * the factor of this step, and if that has come to be old with a new one. The choice depends on the numbers
- * of the step alone. */
+int32_t hk_reduced_try(struct hk_reduced *reduced, const double *b, double tolerance, int64_t limit,
+                       double *x, struct hk_solution *solution) {
+  if (reduced->direct && reduced->whole) return solve_direct(reduced, b, tolerance, limit, x, solution);
+  return solve_by_blocks(reduced, reduced->symmetric, b, tolerance, limit, x, solution);
+}
+
 int32_t hk_reduced_solve(struct hk_reduced *reduced, const double *b, double tolerance, double *x,
                          struct hk_solution *solution) {
-  int64_t before = 0;
+  return hk_reduced_try(reduced, b, tolerance, most_iterations(reduced), x, solution);
+}
+
+/* Of every spring (e.u + b) u u^T + max(0, b) (I - u u^T), as the diagonal blocks have it. */
+void hk_reduced_project(struct hk_reduced *reduced) {
+  const struct hk_tangent *t = &reduced->tangent;
+  for (int64_t s = 0; s < reduced->integrator->system->springs.count; s++) {
+    const double b = t->b[s], across = b > 0.0 ? b : 0.0;
+    const double u[3] = {t->u[0][s], t->u[1][s], t->u[2][s]};
+    const double along = ((t->e[0][s] * u[0] + t->e[1][s] * u[1]) + t->e[2][s] * u[2]) + b - across;
+    for (int a = 0; a < 3; a++)
+      t->e[a][s] = (along > 0.0 ? along : 0.0) * u[a];
+    t->b[s] = across;
+  }
+  reduced->projected = 1;
+}
+
+int32_t hk_reduced_correct(struct hk_reduced *reduced, const double *b, double relative, double absolute,
+                           double *x, struct hk_solution *solution) {
+  hooke_integrator *it = reduced->integrator;
+  const int64_t n = it->system->particle_count, size = it->size;
+  if (reduced->direct && reduced->whole) {
+    const int32_t status = solve_direct(reduced, b, DIRECT_RESIDUAL, most_iterations(reduced), x, solution);
+    solution->converged |= status == HOOKE_OK && solution->residual <= fmax(relative, DIRECT_RESIDUAL);
+    return status;
+  }
+  const struct hk_operator a = {size, apply, reduced};
+  memcpy(reduced->right, b, (size_t)size * sizeof(double));
+  hk_apply_factor(n, reduced->factor, reduced->right);
+  const double scale = scale_of(size, reduced->right);
+  multiply(size, scale, reduced->right);
   const int32_t status =
-      reduced->symmetric ? solve_by_blocks(reduced, 1, b, tolerance, most_iterations(reduced), x, solution)
-                         : solve_as_pays(reduced, b, tolerance, x, solution, &before);
-  solution->iterations += before;
+      hk_solve_positive(&a, reduced->right, relative, scale * absolute, most_iterations(reduced),
+                        reduced->krylov, reduced->unknown, solution);
+  it->count.linear_iterations += solution->iterations;
+  hk_apply_factor_transposed(n, reduced->factor, reduced->unknown, x);
+  multiply(size, 1.0 / scale, x);
   return status;
 }
 
-int32_t hk_reduced_descend(struct hk_reduced *reduced, const double *b, double tolerance, double *x) {
-  struct hk_solution solution;
-  return solve_by_blocks(reduced, 1, b, tolerance, most_iterations(reduced), x, &solution);
+double hk_reduced_square(struct hk_reduced *reduced, const double *b) {
+  const int64_t size = reduced->integrator->size;
+  memcpy(reduced->right, b, (size_t)size * sizeof(double));
+  hk_apply_factor(size / 3, reduced->factor, reduced->right);
+  return hk_dot(size, reduced->right, reduced->right);
+}
+
+double hk_reduced_trace(const struct hk_reduced *reduced) {
+  const hooke_system *system = reduced->integrator->system;
+  const int64_t n = system->particle_count;
+  double sum = 0.0;
+  for (int64_t k = 0; k < 3 * n; k++)
+    sum += system->constrained[k % n] ? 0.0 : reduced->block[k];
+  return sum;
 }
 
 /* ---- all of S ---- */

@@ -14,7 +14,8 @@
 #include "kernel/tangent_loops.h"
 
 /* What is asked: iterations by BiCGSTAB(4), to rounding; by conjugate gradients, for alpha = 0 and with
- * callbacks left out; by GMRES, for few of them. */
+ * callbacks left out; by GMRES, for few of them. The first reads the option `linear_solver`, whose `auto` and
+ * `blocks` are by blocks, in every build. */
 enum { HOOKE_REDUCED_GENERAL, HOOKE_REDUCED_SYMMETRIC, HOOKE_REDUCED_MINIMAL };
 
 enum { HOOKE_WHOLE_UNKNOWN, HOOKE_WHOLE_READY, HOOKE_WHOLE_IN_USE, HOOKE_WHOLE_NONE };
@@ -22,6 +23,8 @@ enum { HOOKE_WHOLE_UNKNOWN, HOOKE_WHOLE_READY, HOOKE_WHOLE_IN_USE, HOOKE_WHOLE_N
 struct hk_reduced {
   hooke_integrator *integrator;
   int32_t symmetric;   /* alpha = 0, and springs, bending, altitude springs and drag alone */
+  int32_t direct;      /* by the option `linear_solver`: a factor of S at every place */
+  int32_t projected;   /* 1: S stands for the matrix */
   int32_t rows_needed; /* the products of some force are made by its own function, in rows */
   double t, alpha, beta;
   struct hk_tangent tangent;
@@ -54,6 +57,10 @@ void hk_reduced_set(struct hk_reduced *reduced, double t, double alpha, double b
 int32_t hk_reduced_solve(struct hk_reduced *reduced, const double *b, double tolerance, double *x,
                          struct hk_solution *solution);
 
+/* The same for so many iterations at most. */
+int32_t hk_reduced_try(struct hk_reduced *reduced, const double *b, double tolerance, int64_t limit,
+                       double *x, struct hk_solution *solution);
+
 /* Makes ready for factors of all of S, once; HOOKE_OK without `whole` where they would be too large, and
  * in a build without CHOLMOD. */
 int32_t hk_reduced_prepare_whole(struct hk_reduced *reduced);
@@ -79,9 +86,17 @@ int32_t hk_reduced_right(struct hk_reduced *reduced, const double *bq, const dou
 int32_t hk_reduced_minimise(struct hk_reduced *reduced, const double *b, const double *weight,
                             double tolerance, int64_t limit, double *x, struct hk_solution *solution);
 
-/* By conjugate gradients, as far as `tolerance` or to where the matrix proves not to be positive: a direction
- * with b.x > 0. For corrections far from a solution. */
-int32_t hk_reduced_descend(struct hk_reduced *reduced, const double *b, double tolerance, double *x);
+/* Has S take the place of the matrix until the next set: the matrix with all of it that is not symmetric or
+ * positive left out, element by element. */
+void hk_reduced_project(struct hk_reduced *reduced);
+/* Then x = S^-1 b, until its error in the norm of S is below `relative` times x or `absolute`: by conjugate
+ * gradients, or by the factor. b.x > 0. */
+int32_t hk_reduced_correct(struct hk_reduced *reduced, const double *b, double relative, double absolute,
+                           double *x, struct hk_solution *solution);
+/* b.B^-1 b with the diagonal blocks B of S. */
+double hk_reduced_square(struct hk_reduced *reduced, const double *b);
+/* The sum of the diagonal of S. */
+double hk_reduced_trace(const struct hk_reduced *reduced);
 
 /* HOOKE_SOLVER_FAILED, with the message, for a solution that did not converge. */
 int32_t hk_reduced_fail(const struct hk_reduced *reduced, const struct hk_solution *solution);

@@ -5,6 +5,7 @@
 #include "core/memory.h"
 #include "core/table/option.h"
 #include "core/status.h"
+#include "integrate/method.h"
 #include "io/trajectory/record.h"
 #include "measure/limit/limit_predict.h"
 #include "model/system.h"
@@ -76,8 +77,10 @@ static int32_t find_slice(struct hk_verify *verify) {
 /* Bits of these methods depend on libraries, and through them on the processor. */
 static int32_t find_makers(const struct hk_verify *verify) {
   static const char *const facts[] = {"sundials", "cholmod", "instructions", "machine"};
-  const char *method = hooke_options_text(hooke_record_options(verify->record), "method");
-  if (verify->fixed && strcmp(method, "backward-euler") != 0) return 0;
+  const hooke_options *options = hooke_record_options(verify->record);
+  const struct hk_method *method = hk_method_find(hooke_options_text(options, "method"));
+  const int32_t factor = strcmp(hooke_options_text(options, "linear_solver"), "direct") == 0;
+  if (verify->fixed && !(method->implicit && factor)) return 0;
   for (size_t k = 0; k < sizeof facts / sizeof facts[0]; k++) {
     if (strcmp(hooke_record_text(verify->record, facts[k]), hooke_build_fact(facts[k])) != 0) return 1;
   }

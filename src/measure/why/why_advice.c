@@ -203,11 +203,11 @@ static int32_t offer_shorter(struct hk_trials *trials) {
 /* ---- what fits which cause ---- */
 
 static int32_t offer_others(struct hk_trials *trials) {
-  const char *const fixed[] = {"symplectic-euler", "verlet", "backward-euler"};
+  const char *const fixed[] = {"symplectic-euler", "verlet", "tr-bdf2", "backward-euler"};
   const char *const adaptive[] = {"cvode-adams", "cvode-bdf"};
   const char *mine = trials->inquiry->run->method->name;
   int32_t status = HOOKE_OK;
-  for (int k = 0; k < 3 && status == HOOKE_OK; k++) {
+  for (int k = 0; k < 4 && status == HOOKE_OK; k++) {
     if (strcmp(mine, fixed[k]) != 0) status = offer_fixed(trials, fixed[k]);
   }
   for (int k = 0; k < 2 && status == HOOKE_OK; k++) {

@@ -18,6 +18,11 @@ static long double factor(const char *method, long double z, int *known) {
   if (strcmp(method, "shardlow") == 0)
     return 1.0L / ((1.0L + z / 2.0L + z * z / 8.0L) * (1.0L + z / 2.0L + z * z / 8.0L));
   if (strcmp(method, "backward-euler") == 0) return 1.0L / (1.0L + z);
+  if (strcmp(method, "implicit-midpoint") == 0) return (1.0L - z / 2.0L) / (1.0L + z / 2.0L);
+  if (strcmp(method, "tr-bdf2") == 0) {
+    const long double root = sqrtl(2.0L), a = (2.0L - root) / 2.0L * z, d = (root - 1.0L) / 2.0L;
+    return ((1.0L + d) * (1.0L - a) / (1.0L + a) - d) / (1.0L + a);
+  }
   if (strcmp(method, "heun") == 0) return 1.0L - z * (1.0L - z / 2.0L);
   if (strcmp(method, "rk4") == 0) return 1.0L - z * (1.0L - z / 2.0L * (1.0L - z / 3.0L * (1.0L - z / 4.0L)));
   *known = 0;
@@ -40,10 +45,13 @@ static void check_method(const hooke_system *system, const char *name, const cha
   if (known && fabsl(a) > 1.0L) {
     complaint = extreme_not_ended(&outcome, HOOKE_DIVERGED, "diverged");
   } else if (known) {
+    /* the midpoint rule has the sum of roundings of `terminal`, of which little may be left */
+    const double rounding = strcmp(method, "implicit-midpoint") == 0 ? 1e-16 * (double)steps : 0.0;
     const long double own =
         strcmp(method, "shardlow") == 0 ? -FALL * (long double)h * sqrtl(a) / (1.0L - a) : terminal;
     const long double there = drag > 0.0 ? own * (1.0L - powl(a, (long double)steps)) : right;
-    complaint = extreme_not_right(&outcome, (double)fabsl((outcome.v[1] - there) / there), 0.0, 1e-12);
+    complaint = extreme_not_right(&outcome, (double)fabsl((outcome.v[1] - there) / there), 0.0,
+                                  1e-12 + (drag > 0.0 ? rounding * (double)fabsl(terminal / there) : 0.0));
   } else if (outcome.status == HOOKE_STEP_LIMIT && z > 1e3) {
     complaint = extreme_unsound(&outcome);
   } else {

@@ -1,0 +1,102 @@
+/* TR-BDF2 (Bank and others 1985; Hosea and Shampine 1996): the trapezoidal rule to t + c h, then the second
+ * order backward difference from there, with c = 2 - sqrt 2, for which both have the same length a = c h/2:
+ *   q_c = q + a (v + v_c),                v_c = v + a (a(t, q, v) + a(t + c h, q_c, v_c))
+ *   q' = q_c + d (q_c - q) + a v',        v' = v_c + d (v_c - v) + a a(t + h, q', v'),   d = (sqrt 2 - 1)/2
+ * Order 2, stable at every step, and what no step resolves dies out (L-stable). Each of the two is a stage
+ * (integrate/solve/stage.h), the first begun at the start of the step, the second at q_c and v_c. */
+#include "core/memory.h"
+#include "core/status.h"
+#include "integrate/solve/stage.h"
+
+struct own {
+  struct hk_stage stage;
+  double *start,
+      *place; /* q and v at the start of the step, and of the stage's equations; 6 components of n each */
+};
+
+static int32_t create(hooke_integrator *it) {
+  struct own *own = hk_new(1, sizeof *own);
+  if (own == NULL) return HOOKE_NO_MEMORY;
+  it->own = own;
+  own->start = hk_new(4 * it->size, sizeof(double));
+  if (own->start == NULL) return HOOKE_NO_MEMORY;
+  it->own_memory += 4 * it->size * (int64_t)sizeof(double);
+  own->place = own->start + 2 * it->size;
+  return hk_stage_create(it, &own->stage);
+}
+
+static void destroy(hooke_integrator *it) {
+  struct own *own = it->own;
+  hk_stage_release(&own->stage);
+  hk_free(own->start);
+  hk_free(own);
+  it->own = NULL;
+}
+
+/* As numbers, so that they are the same everywhere. */
+static const double MIDDLE = 0.58578643762690495120, BACK = 0.20710678118654752440;
+
+/* Where the trapezoidal rule starts from: q + a v and v + a a(t, q, v). */
+static int32_t begin_trapezoid(hooke_integrator *it, double t, double a) {
+  const struct own *own = it->own;
+  const hooke_system *system = it->system;
+  const struct hk_motion *m = it->motion;
+  const int32_t status = hk_integrator_forces(it, t);
+  for (int c = 0; c < 3; c++) {
+    const double *q = own->start + c * m->n, *v = own->start + (3 + c) * m->n;
+    double *place = own->place + c * m->n, *speed = own->place + (3 + c) * m->n;
+    for (int64_t p = 0; p < m->n; p++) {
+      const double w = system->inverse_mass[p];
+      place[p] = q[p] + a * v[p];
+      speed[p] = v[p] + a * (w * m->f[c][p] + (w == 0.0 ? 0.0 : system->gravity[c]));
+    }
+  }
+  return status;
+}
+
+/* Where the backward difference does. What rests stays where it is to the bit. */
+static void begin_difference(hooke_integrator *it) {
+  const struct own *own = it->own;
+  hk_motion_save(it->motion, own->place);
+  for (int64_t k = 0; k < 2 * it->size; k++)
+    own->place[k] += BACK * (own->place[k] - own->start[k]);
+}
+
+static int32_t stages(hooke_integrator *it, struct hk_span_of_time span) {
+  struct own *own = it->own;
+  const double a = MIDDLE / 2.0 * span.h;
+  const struct hk_equations trapezoid = {span.t + MIDDLE * span.h, a, own->place, own->place + it->size,
+                                         2.0 * a},
+                            difference = {span.end, a, own->place, own->place + it->size,
+                                          (1.0 - MIDDLE) * span.h};
+  int32_t status = begin_trapezoid(it, span.t, a);
+  if (status == HOOKE_OK) status = hk_integrator_drive(it, trapezoid.t);
+  if (status == HOOKE_OK) status = hk_stage_solve(&own->stage, &trapezoid);
+  if (status == HOOKE_OK) status = hk_integrator_drive(it, span.end);
+  if (status != HOOKE_OK) return status;
+  begin_difference(it);
+  return hk_stage_solve(&own->stage, &difference);
+}
+
+static int32_t step(hooke_integrator *it) {
+  struct own *own = it->own;
+  return hk_stage_step(&own->stage, own->start, stages);
+}
+
+const struct hk_method hk_tr_bdf2 = {
+    .name = "tr-bdf2",
+    .summary = "fixed step, order 2, implicit; stable at every step, damps what the step does not resolve",
+    .built = 1,
+    .order = 2,
+    .second_order = 1,
+    .implicit = 1,
+    .stability = {.kind = HOOKE_STABLE_ALWAYS,
+                  .damps_implicitly = 1,
+                  .note = "stable at every step; accuracy limits it, and in large steps whether the "
+                          "equations can be solved"},
+    .no_first_order = "solves its step with the derivative of the forces, and x' = phi(t, x) brings none",
+    .create = create,
+    .destroy = destroy,
+    .begin = hk_fixed_begin,
+    .step = step,
+    .store = hk_fixed_store};

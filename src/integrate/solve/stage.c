@@ -1,0 +1,375 @@
+#include "integrate/solve/stage.h"
+
+#include "core/memory.h"
+#include "core/status.h"
+#include "kernel/vector_loops.h"
+
+#include <float.h>
+#include <math.h>
+#include <stddef.h>
+#include <string.h>
+
+/* Of what is still to be corrected: the error of the linear equations of a correction. */
+static const double LINEAR_SHARE = 0.1, LINEAR_OF_TOLERANCE = 0.1;
+/* Residuals of the whole matrix: the least and the largest that are asked for, and of one iteration. */
+static const double LEAST_RESIDUAL = 1e-12, LARGEST_RESIDUAL = 1e-2, FAR_ENOUGH = 1e-9;
+/* Corrections that do not fall below this share of the ones before are slow. No error falls faster than by
+ * the other, as far as the tolerance is concerned. */
+static const double SLOW = 0.5, FASTEST = 0.1;
+static const double LEAST_SHARE = 1e-4, ROUNDINGS = 1.0, ALL_ROUNDINGS = 100.0;
+/* One iteration is taken where it leaves no more than this of the residual of the linearised equations. */
+static const double ONE_LEAVES = 1.0;
+enum { MANY_SLOW = 4, LEAST_TRIES = 20, MOST_ITERATIONS = 100, LONGEST_PAUSE = 16, FINEST_SPLIT = 1024 };
+
+int32_t hk_stage_create(hooke_integrator *it, struct hk_stage *stage) {
+  stage->one_iteration = strcmp(hooke_options_text(it->options, "newton"), "one-iteration") == 0;
+  stage->tolerance = hooke_options_number(it->options, "newton_tolerance");
+  stage->order = it->method->order;
+  stage->whole = hk_new(17 * it->size, sizeof(double));
+  if (stage->whole == NULL) return HOOKE_NO_MEMORY;
+  it->own_memory += 17 * it->size * (int64_t)sizeof(double);
+  stage->begin = stage->whole + 2 * it->size;
+  double *const vectors = stage->begin + 2 * it->size;
+  stage->v = vectors;
+  stage->change = vectors + it->size;
+  stage->right = vectors + 2 * it->size;
+  stage->moved = vectors + 3 * it->size;
+  stage->straight = vectors + 4 * it->size;
+  return hk_reduced_create(it, HOOKE_REDUCED_GENERAL, &stage->reduced);
+}
+
+void hk_stage_release(struct hk_stage *stage) {
+  hk_reduced_release(&stage->reduced);
+  hk_free(stage->whole);
+}
+
+/* ---- the equations ---- */
+
+/* The motion at velocity v (3n), constrained particles where the drives have said. */
+static void place(struct hk_stage *stage, const double *v) {
+  const hooke_integrator *it = stage->reduced.integrator;
+  struct hk_motion *m = it->motion;
+  for (int a = 0; a < 3; a++) {
+    const double *old = stage->at.place + a * m->n;
+    for (int64_t p = 0; p < m->n; p++) {
+      m->v[a][p] = v[a * m->n + p];
+      m->q[a][p] = old[p] + stage->at.a * m->v[a][p];
+    }
+  }
+  if (it->system->constrained_count > 0) hk_motion_hold(it->system, m);
+}
+
+/* right = -F at velocity v, where it leaves the motion. */
+static int32_t find_residual(struct hk_stage *stage, const double *v) {
+  hooke_integrator *it = stage->reduced.integrator;
+  const hooke_system *system = it->system;
+  const struct hk_motion *m = it->motion;
+  const double h = stage->at.a;
+  place(stage, v);
+  const int32_t status = hk_integrator_forces(it, stage->at.t);
+  for (int a = 0; a < 3; a++) {
+    const double *speed = stage->at.speed + a * m->n, g = h * system->gravity[a];
+    for (int64_t p = 0; p < m->n; p++) {
+      const double w = system->inverse_mass[p];
+      stage->right[a * m->n + p] =
+          w == 0.0 ? 0.0 : h * m->f[a][p] - system->mass[p] * ((m->v[a][p] - speed[p]) - g);
+    }
+  }
+  return status;
+}
+
+/* Derivatives where the motion is. */
+static void set_matrix(struct hk_stage *stage) {
+  const double a = stage->at.a;
+  hk_reduced_drop_factor(&stage->reduced); /* a stage depends on its numbers alone */
+  hk_reduced_set(&stage->reduced, stage->at.t, a * a, a);
+}
+
+/* How far the state at the beginning moves with dv = 0: to place + a v, and constrained particles to where they
+ * are held. */
+static void find_moved(const struct hk_stage *stage, double *dq, double *dv) {
+  const hooke_integrator *it = stage->reduced.integrator;
+  const hooke_system *system = it->system;
+  const int64_t n = system->particle_count;
+  for (int64_t k = 0; k < 3 * n; k++) {
+    const int held = system->constrained[k % n] != 0;
+    const double q = stage->begin[k], v = stage->begin[3 * n + k];
+    dq[k] = held ? it->motion->q[k / n][k % n] - q : (stage->at.place[k] - q) + stage->at.a * v;
+    dv[k] = held ? it->motion->v[k / n][k % n] - v : 0.0;
+  }
+}
+
+/* right = -F of the equations linearised at the beginning, at the velocities there, and the matrix there. */
+static int32_t linearise(struct hk_stage *stage) {
+  hooke_integrator *it = stage->reduced.integrator;
+  const hooke_system *system = it->system;
+  struct hk_motion *m = it->motion;
+  const int64_t n = m->n;
+  const double *old = stage->begin + 3 * n;
+  place(stage, old);
+  find_moved(stage, stage->v, stage->change);
+  hk_motion_restore(m, stage->begin);
+  int32_t status = hk_integrator_forces(it, stage->at.t);
+  if (status != HOOKE_OK) return status;
+  set_matrix(stage);
+  status = hk_reduced_change(&stage->reduced, stage->v, stage->change, stage->moved);
+  for (int64_t k = 0; k < 3 * n; k++) {
+    const int64_t p = k % n;
+    const double g = system->has_gravity ? system->gravity[k / n] : 0.0, force = m->f[k / n][p];
+    stage->straight[k] = old[k] + stage->at.length * (system->inverse_mass[p] * force + g);
+    stage->right[k] = stage->at.a * ((force + stage->moved[k]) + system->mass[p] * g);
+    if (system->constrained[p] == 0) stage->right[k] -= system->mass[p] * (old[k] - stage->at.speed[k]);
+  }
+  return status;
+}
+
+/* ---- errors ---- */
+
+static double dot(const struct hk_stage *stage, const double *x, const double *y) {
+  return hk_dot(stage->reduced.integrator->size, x, y);
+}
+
+/* The length of v - from in the norm of masses. */
+static double distance(const struct hk_stage *stage, const double *from) {
+  const hooke_system *system = stage->reduced.integrator->system;
+  const int64_t n = system->particle_count;
+  double sum = 0.0;
+  for (int64_t k = 0; k < 3 * n; k++) {
+    const double d = stage->v[k] - from[k];
+    sum += system->constrained[k % n] ? 0.0 : system->mass[k % n] * (d * d);
+  }
+  return sqrt(sum);
+}
+
+/* The error of the guess that is allowed. A step of order 1 is off by h/2 of the change of velocity. One of
+ * order 2 is so by some 1/4 of h times what velocities have left the straight line, or by less than a tenth of
+ * h times their change where fast motion bends that line. Rounding of positions and velocities sets a
+ * floor. */
+static double allowed_error(const struct hk_stage *stage, double *rounding) {
+  const hooke_integrator *it = stage->reduced.integrator;
+  const struct hk_motion *m = it->motion;
+  const double change = distance(stage, stage->begin + it->size);
+  double own = change / 2.0, extent = 0.0, speed = 0.0;
+  if (stage->order > 1) own = fmin(change / 10.0, distance(stage, stage->straight) / 4.0);
+  for (int a = 0; a < 3; a++) {
+    extent = fmax(extent, hk_largest(m->n, m->q[a]));
+    speed = fmax(speed, hk_largest(m->n, m->v[a]));
+  }
+  *rounding =
+      ROUNDINGS * DBL_EPSILON * (extent / stage->at.a + speed) * sqrt(hk_reduced_trace(&stage->reduced));
+  return stage->tolerance * own + *rounding;
+}
+
+/* ---- iterations ---- */
+
+struct iteration {
+  double allowed;        /* error */
+  double rounding;       /* its share of that */
+  double size, before;   /* of this correction and the last one, in the norm of S; before 0: there is none */
+  double share;          /* of the last correction that was taken */
+  int slow, pause, wait; /* slow ones in a row; whole ones that are left out after a failure, and still are */
+  int64_t linear;        /* iterations of the last safe correction */
+};
+
+static int32_t give_up(const struct hk_stage *stage, int iterations, const struct iteration *now,
+                       const char *why) {
+  const hooke_integrator *it = stage->reduced.integrator;
+  return hk_fail(
+      HOOKE_SOLVER_FAILED, NULL,
+      "%s found no solution for the step from t = %.6g s, nor for parts of it down to 1/%d: after %d Newton "
+      "iterations %s (the last correction is %.3g, allowed is an error of %.3g, in velocity times root "
+      "mass); "
+      "take a smaller step",
+      it->method->name, it->t, (int)FINEST_SPLIT, iterations, why, now->size, now->allowed);
+}
+
+/* The whole matrix at the guess. `found` is 0 where its correction leads nowhere. */
+static int32_t whole_correction(struct hk_stage *stage, struct iteration *now, int *found) {
+  const double wanted = LINEAR_OF_TOLERANCE * now->allowed / now->before;
+  const double residual = fmin(LARGEST_RESIDUAL, fmax(LEAST_RESIDUAL, wanted));
+  struct hk_solution solution;
+  const int32_t status = hk_reduced_try(&stage->reduced, stage->right, residual, LEAST_TRIES + now->linear,
+                                        stage->change, &solution);
+  const double slope = dot(stage, stage->right, stage->change);
+  *found = solution.residual <= fmax(residual, FAR_ENOUGH) && slope > 0.0 && slope < INFINITY;
+  if (*found) now->size = sqrt(slope);
+  return status;
+}
+
+static int32_t safe_correction(struct hk_stage *stage, struct iteration *now, int *found) {
+  struct hk_solution solution;
+  hk_reduced_project(&stage->reduced);
+  const int32_t status = hk_reduced_correct(&stage->reduced, stage->right, LINEAR_SHARE,
+                                            LINEAR_OF_TOLERANCE * now->allowed, stage->change, &solution);
+  const double slope = dot(stage, stage->right, stage->change);
+  *found = slope >= 0.0 && slope < INFINITY;
+  now->linear = solution.iterations;
+  if (*found) now->size = sqrt(slope);
+  return status;
+}
+
+/* Moves the guess along the correction until F.dv, which would be 0 at the least of a potential, has turned
+ * by no more than half of what it was. */
+static int32_t search(struct hk_stage *stage, struct iteration *now, int *found) {
+  const hooke_integrator *it = stage->reduced.integrator;
+  const double slope = now->size * now->size;
+  *found = 0;
+  for (double share = 1.0; share >= LEAST_SHARE && !*found;) {
+    for (int64_t j = 0; j < it->size; j++)
+      stage->moved[j] = stage->v[j] + share * stage->change[j];
+    const int32_t status = find_residual(stage, stage->moved);
+    if (status != HOOKE_OK) return status;
+    const double left = dot(stage, stage->right, stage->change), lowest = share * slope / (slope - left);
+    *found = left >= -0.5 * slope && left < INFINITY;
+    now->share = share;
+    share = lowest > 0.1 * share ? fmin(lowest, 0.5 * share) : 0.1 * share;
+  }
+  if (*found) memcpy(stage->v, stage->moved, (size_t)it->size * sizeof(double));
+  return HOOKE_OK;
+}
+
+/* 1 if what is left after this correction is allowed, as the last two foretell it; or if corrections that are
+ * down at rounding become no smaller. */
+static int is_last(const struct iteration *now) {
+  if (now->before > 0.0 && now->size > SLOW * now->before && now->size <= ALL_ROUNDINGS * now->rounding)
+    return 1;
+  const double rate = now->before > 0.0 && now->share == 1.0 ? fmax(now->size / now->before, FASTEST) : SLOW;
+  return rate < 1.0 && rate / (1.0 - rate) * now->size <= now->allowed;
+}
+
+static int32_t iterate(struct hk_stage *stage, struct iteration *now, int *found) {
+  const int whole = now->slow >= (stage->reduced.rows_needed ? 1 : MANY_SLOW) && now->wait == 0;
+  int32_t status = HOOKE_OK;
+  *found = 0;
+  set_matrix(stage);
+  now->allowed = allowed_error(stage, &now->rounding);
+  if (whole) status = whole_correction(stage, now, found);
+  if (whole && !*found) {
+    now->pause = now->pause == 0 ? 1 : now->pause < LONGEST_PAUSE ? 2 * now->pause : now->pause;
+    now->wait = now->pause;
+  } else if (now->wait > 0) {
+    now->wait--;
+  }
+  if (status == HOOKE_OK && !*found) status = safe_correction(stage, now, found);
+  return status;
+}
+
+/* Corrections until what is left is allowed. The last one is taken without asking. */
+static int32_t converge(struct hk_stage *stage) {
+  hooke_integrator *it = stage->reduced.integrator;
+  struct iteration now = {.share = 1.0};
+  int32_t status = find_residual(stage, stage->v);
+  for (int k = 1; k <= MOST_ITERATIONS && status == HOOKE_OK; k++) {
+    int found;
+    it->count.nonlinear_iterations++;
+    status = iterate(stage, &now, &found);
+    if (status != HOOKE_OK) break;
+    if (!found) return give_up(stage, k, &now, "numbers are not finite");
+    if (is_last(&now)) {
+      hk_add_multiple(it->size, 1.0, stage->change, stage->v);
+      return HOOKE_OK;
+    }
+    now.slow = now.before > 0.0 && (now.share < 1.0 || now.size > SLOW * now.before) ? now.slow + 1 : 0;
+    now.before = now.size;
+    status = search(stage, &now, &found);
+    if (status == HOOKE_OK && !found) return give_up(stage, k, &now, "no way leads on");
+  }
+  return status == HOOKE_OK ? give_up(stage, MOST_ITERATIONS, &now, "it still changes") : status;
+}
+
+/* right.B^-1 right with B the diagonal blocks of S where it was last set. */
+static double square_of(struct hk_stage *stage) {
+  return hk_reduced_square(&stage->reduced, stage->right);
+}
+
+/* From the state at the beginning: exact in its derivatives for one iteration, else a guess. */
+static int32_t first_correction(struct hk_stage *stage, double *open) {
+  hooke_integrator *it = stage->reduced.integrator;
+  const double *old = stage->begin + it->size;
+  struct hk_solution solution = {0};
+  it->count.nonlinear_iterations++;
+  int32_t status = linearise(stage);
+  *open = square_of(stage);
+  if (status != HOOKE_OK) return status;
+  if (stage->one_iteration) {
+    const double residual = fmax(LEAST_RESIDUAL, LINEAR_OF_TOLERANCE * stage->tolerance);
+    status = hk_reduced_solve(&stage->reduced, stage->right, residual, stage->change, &solution);
+    if (solution.residual > fmax(residual, FAR_ENOUGH)) *open = 0.0;
+  } else {
+    hk_reduced_project(&stage->reduced);
+    status = hk_reduced_correct(&stage->reduced, stage->right, LINEAR_SHARE, 0.0, stage->change, &solution);
+  }
+  for (int64_t k = 0; k < it->size; k++)
+    stage->v[k] = old[k] + stage->change[k];
+  return status;
+}
+
+/* 1 if the residual at v says that one iteration was enough; rounding is. */
+static int one_is_enough(struct hk_stage *stage, double open) {
+  double rounding;
+  const double floor = allowed_error(stage, &rounding);
+  const double left = square_of(stage);
+  return left <= ONE_LEAVES * ONE_LEAVES * open || left <= floor * floor;
+}
+
+int32_t hk_stage_solve(struct hk_stage *stage, const struct hk_equations *equations) {
+  hooke_integrator *it = stage->reduced.integrator;
+  double open;
+  stage->at = *equations;
+  hk_motion_save(it->motion, stage->begin);
+  int32_t status = first_correction(stage, &open);
+  if (status == HOOKE_OK && stage->one_iteration) {
+    status = find_residual(stage, stage->v);
+    if (status != HOOKE_OK || one_is_enough(stage, open)) return status;
+  }
+  /* numbers that are none are no guess, nor is one iteration that went astray */
+  if (stage->one_iteration || !(distance(stage, stage->begin + it->size) < INFINITY))
+    memcpy(stage->v, stage->begin + it->size, (size_t)it->size * sizeof(double));
+  if (status == HOOKE_OK) status = converge(stage);
+  if (status == HOOKE_OK) place(stage, stage->v);
+  return status;
+}
+
+/* ---- steps and their parts ---- */
+
+static double time_of(const hooke_integrator *it, int64_t part) {
+  if (part == FINEST_SPLIT) return hk_integrator_next_time(it);
+  return it->t + (double)part / FINEST_SPLIT * it->schedule.step;
+}
+
+/* One part of the step, from where the motion is. */
+static int32_t take_part(hooke_integrator *it, double *start, int64_t done, int64_t parts,
+                         hk_stages_of_step *stages) {
+  const double end = time_of(it, done + parts);
+  hk_motion_save(it->motion, start);
+  int32_t status = parts == FINEST_SPLIT ? HOOKE_OK : hk_integrator_drive(it, end);
+  if (status == HOOKE_OK)
+    status = stages(it, (struct hk_span_of_time){time_of(it, done),
+                                                 (double)parts / FINEST_SPLIT * it->schedule.step, end});
+  if (status == HOOKE_OK && it->system->constrained_count > 0) hk_motion_hold(it->system, it->motion);
+  return status;
+}
+
+int32_t hk_stage_step(struct hk_stage *stage, double *start, hk_stages_of_step *stages) {
+  hooke_integrator *it = stage->reduced.integrator;
+  const struct hk_counts before = it->count;
+  int32_t status = HOOKE_OK;
+  hk_motion_save(it->motion, stage->whole);
+  for (int64_t done = 0, parts = FINEST_SPLIT; done < FINEST_SPLIT;) {
+    status = take_part(it, start, done, parts, stages);
+    if (status == HOOKE_OK) {
+      done += parts;
+      if (done % (2 * parts) == 0) parts *= 2;
+      continue;
+    }
+    if (status != HOOKE_SOLVER_FAILED) break;
+    it->count.nonlinear_failures++;
+    if (parts == 1) break;
+    hk_motion_restore(it->motion, start);
+    parts /= 2;
+  }
+  if (status == HOOKE_OK) return HOOKE_OK;
+  if (status == HOOKE_STOPPED) it->count = before;
+  hk_motion_restore(it->motion, stage->whole);
+  return status;
+}

@@ -1,0 +1,106 @@
+/* Falling cloths, soft to stiff, undamped to heavily damped, in steps from 0.1 ms to 100 ms, five of each, by
+ * every implicit method in both forms: the steps are finished, or the failure is told with its reason; what is
+ * finished has finite numbers, and at small steps the forms agree. */
+#include "check.h"
+#include "run.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const char *const methods[] = {"tr-bdf2", "backward-euler", "implicit-midpoint"};
+static const char *const forms[] = {"converged", "one-iteration"};
+enum { METHODS = 3, FORMS = 2, STEPS = 5 };
+
+static hooke_system *cloth(int side, double stiffness, double damping) {
+  hooke_system *system = NULL;
+  hooke_options *options = NULL;
+  const double down[] = {0, -9.81, 0}, edges[] = {1, 0, 0, 0, 0, 1}, size[] = {side, side};
+  check_ok(hooke_system_create(&system));
+  check_ok(hooke_options_create("cloth", &options));
+  check_ok(hooke_options_set_text(options, "origin", "0,0,0"));
+  check_ok(hooke_options_set_numbers(options, "edges", 6, edges));
+  check_ok(hooke_options_set_numbers(options, "size", 2, size));
+  check_ok(hooke_options_set_number(options, "mass", 0.2));
+  check_ok(hooke_options_set_text(options, "pinned", "top-corners"));
+  check_ok(hooke_options_set_number(options, "structural.stiffness", stiffness));
+  check_ok(hooke_options_set_number(options, "shear.stiffness", stiffness));
+  check_ok(hooke_options_set_number(options, "structural.damping", damping));
+  check_ok(hooke_options_set_number(options, "shear.damping", damping));
+  check_ok(hooke_system_set_gravity(system, down));
+  check_ok(hooke_system_add_part(system, "cloth", NULL, options, NULL, NULL));
+  check_ok(hooke_system_commit(system));
+  hooke_options_destroy(options);
+  return system;
+}
+
+/* 1 if all steps were taken; q is where they came to. */
+static int try_steps(const hooke_system *system, const char *method, const char *form, double h, double *q) {
+  const int64_t size = 3 * hooke_system_particle_count(system);
+  hooke_integrator *integrator = start_run(
+      system, (struct run){.method = method, .newton = form, .newton_tolerance = BY_DEFAULT, .step = h});
+  hooke_state *state = start_state(system);
+  const int32_t status = hooke_integrator_step(integrator, state, STEPS);
+  if (status == HOOKE_OK) {
+    assert_int_equal(hooke_integrator_count(integrator, "steps"), STEPS);
+  } else {
+    check_status(status, HOOKE_SOLVER_FAILED);
+    check_message("take a smaller step");
+    assert_true(hooke_integrator_count(integrator, "nonlinear_failures") > 0);
+  }
+  memcpy(q, hooke_state_position(state), (size_t)size * sizeof(double));
+  for (int64_t k = 0; k < size; k++)
+    assert_true(isfinite(q[k]));
+  hooke_state_destroy(state);
+  hooke_integrator_destroy(integrator);
+  return status == HOOKE_OK;
+}
+
+static void check_cloth(int side, double stiffness, double damping, double h, int count) {
+  hooke_system *system = cloth(side, stiffness, damping);
+  const int64_t size = 3 * hooke_system_particle_count(system);
+  double *first = new_doubles(size), *q = new_doubles(size);
+  for (int m = 0; m < count * FORMS; m++) {
+    const char *method = methods[m / FORMS], *form = forms[m % FORMS];
+    const int done = try_steps(system, method, form, h, m == 0 ? first : q);
+    /* the methods that damp what they do not resolve always come to the end here */
+    if (m < 2 * FORMS && !done)
+      check_failed("%s, %s: side %d, %g N, %g N s, %g s", method, form, side, stiffness, damping, h);
+    if (m == 0 || !done || h > 1e-3) continue;
+    const double fallen = 0.5 * 9.81 * (STEPS * h) * (STEPS * h), apart = largest_difference(size, q, first);
+    if (!(apart <= 0.5 * fallen))
+      check_failed("%s, %s: side %d, %g N, %g N s, %g s: %g m from tr-bdf2", method, form, side, stiffness,
+                   damping, h, apart);
+  }
+  free(first);
+  free(q);
+  hooke_system_destroy(system);
+}
+
+/* Of 100 ms the softest alone: those of stiffer cloths take a minute. There the midpoint rule turns what it
+ * does not resolve against itself, and is not asked. */
+static void check_side(int side, int largest_too) {
+  const double stiffnesses[] = {1e3, 1e4, 2e5}, dampings[] = {0.0, 0.5, 20.0}, steps[] = {1e-4, 1e-3, 1e-2};
+  for (int s = 0; s < 3; s++) {
+    for (int d = 0; d < 3; d++) {
+      for (int k = 0; k < 3; k++)
+        check_cloth(side, stiffnesses[s], dampings[d], steps[k], METHODS);
+      if (largest_too && s == 0) check_cloth(side, stiffnesses[s], dampings[d], 0.1, METHODS - 1);
+    }
+  }
+}
+
+static void cloths_of_20(void **unused) {
+  (void)unused;
+  check_side(20, 1);
+}
+
+static void cloths_of_41(void **unused) {
+  (void)unused;
+  check_side(41, 0);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {cmocka_unit_test(cloths_of_20), cmocka_unit_test(cloths_of_41)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
