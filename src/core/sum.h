@@ -15,7 +15,7 @@ static inline void hk_sum_add(struct hk_sum *total, double x) {
   total->sum = sum;
 }
 
-/* beyond the largest number there is no correction */
+/* Beyond the largest number there is no correction. */
 static inline double hk_sum_value(const struct hk_sum *total) {
   return isfinite(total->sum) ? total->sum + total->lost : total->sum;
 }

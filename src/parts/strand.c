@@ -196,7 +196,7 @@ static int32_t derive_bend(const struct hk_part *part, int64_t count) {
   return status;
 }
 
-/* for a straight strand: every second one joins particles on the axis */
+/* For a straight strand: every second one joins particles on the axis. */
 static int32_t add_bend(struct hk_part *part, const struct strand *strand) {
   const int64_t count = part->count - 2;
   int64_t *ends = hk_new(2 * count, sizeof *ends);

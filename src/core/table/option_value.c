@@ -86,7 +86,7 @@ static int32_t check_count(const struct hk_option_row *row, const char *place, i
                  given == 1 ? "" : "s", allowed(row, may));
 }
 
-/* a whole number has a single zero */
+/* A whole number has a single zero. */
 static void drop_signs_of_zero(struct hk_option_value *value) {
   value->one += 0.0;
   for (int64_t k = 0; value->many && k < value->count; k++)

@@ -1,4 +1,4 @@
-/* A trajectory that is being written: made, or gone on with. */
+/* A trajectory that is being written, new or continued. */
 #ifndef HOOKE_IO_TRAJECTORY_TRAJECTORY_H5_H
 #define HOOKE_IO_TRAJECTORY_TRAJECTORY_H5_H
 
@@ -11,22 +11,22 @@
 struct hooke_trajectory {
   struct hk_h5_file file;
   struct hk_trajectory_writer writer;
-  struct hk_frame_thread *thread; /* NULL: frames are written as they come */
-  int64_t taken;                  /* frames, the one on its way included */
-  int64_t there;                  /* whole frames that the file had when it was opened again */
-  int64_t status_at;              /* in the file */
+  struct hk_frame_thread *thread; /* NULL: frames are written synchronously */
+  int64_t taken;                  /* frames, including the queued one */
+  int64_t there;                  /* whole frames in the file when it was reopened */
+  int64_t status_at;              /* offset in the file */
   char run[HOOKE_RUN_SIZE];
-  char origin[512];  /* from where the run goes on; "" if it did not */
-  char failure[512]; /* of the write that made the file bad; "" while it is good */
+  char origin[512];  /* from where the run continued; "" if it did not */
+  char failure[512]; /* message of the write that made the file bad; "" while it is good */
 };
 
 hooke_trajectory *hk_trajectory_new(void);
 
-/* Releases everything, and leaves the file as it is. */
+/* Releases everything without changing the file. */
 void hk_trajectory_release(hooke_trajectory *trajectory);
 
-/* Makes the same file with room for `frame_count` frames, the first `copied` of them and this outcome in it,
- * and gives it the name of the old one. `made` is new. HOOKE_IO_FAILED, HOOKE_NO_MEMORY. */
+/* Replaces the file by one with space for `frame_count` frames, with the first `copied` of them and this
+ * outcome. `made` is the new one. HOOKE_IO_FAILED, HOOKE_NO_MEMORY. */
 int32_t hk_trajectory_remake(struct hk_h5_guard *guard, const hooke_trajectory *trajectory,
                              int64_t frame_count, int64_t copied, int32_t outcome, hooke_trajectory *made);
 

@@ -54,7 +54,7 @@ static double energy(const hooke_system *system, const double *q) {
   return hk_sum_value(&sum);
 }
 
-/* for springs that pull and push */
+/* For springs that pull and push. */
 static void find_heat(const struct hk_spring_batch *batch, const double *q, const double *v, double *heat) {
   for (int64_t k = 0; k < batch->count; k++) {
     const int64_t i = 3 * (int64_t)batch->head[k], j = 3 * (int64_t)batch->tail[k];
@@ -66,7 +66,7 @@ static void find_heat(const struct hk_spring_batch *batch, const double *q, cons
   }
 }
 
-/* damping of a spring that only pulls does not exceed its tension */
+/* Damping of a spring that only pulls does not exceed its tension. */
 static void find_heat_of_cables(const struct hk_spring_batch *batch, const double *q, const double *v,
                                 double *heat) {
   for (int64_t k = 0; k < batch->count; k++) {
@@ -227,7 +227,7 @@ static void elements(const hooke_system *system, const double *q, const double *
   }
 }
 
-/* for a tiled batch in the order of its tiles, otherwise in that of numbers */
+/* For a tiled batch in the order of its tiles, otherwise in that of numbers. */
 static int64_t stored_elements(struct hk_elements *at) {
   if (at->system->tiled.particles == 0) {
     const int64_t left = at->system->springs.count - at->done;

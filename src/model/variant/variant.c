@@ -76,7 +76,7 @@ int32_t hk_variant_covers(const hooke_system *system, const struct hk_variant *v
   return covered && covers_groups(system, variant, other);
 }
 
-/* in a part of another resolution all springs remain */
+/* In a part of another resolution all springs remain. */
 static int32_t is_split(const hooke_system *system, const struct hk_variant *variant, int64_t g,
                         int64_t first) {
   const struct hk_group *group = &system->group[g];

@@ -66,7 +66,7 @@ static int32_t add_drive(hooke_system *made, const struct hk_drive_group *drive,
   return hooke_system_drive_callback(made, count, particle, drive->callback, drive->ctx);
 }
 
-/* in the order of the drive if the particles are the same: its callback depends on that order */
+/* In the order of the drive if the particles are the same: its callback depends on that order. */
 static int64_t list_driven(const struct hk_variant_maker *maker, int64_t d, const int64_t *how,
                            int64_t *list) {
   const struct hk_drive_group *drive = &maker->from->drive[d];
