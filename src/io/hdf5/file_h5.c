@@ -132,9 +132,7 @@ static int32_t take_room(struct hk_h5_guard *guard, const struct hk_h5_file *fil
   hsize_t bytes = 0;
   if (H5Fget_filesize(file->id, &bytes) < 0) return hk_h5_fail(guard, file->atomic.path, "write");
   const int error = posix_fallocate(file->atomic.descriptor, 0, (off_t)bytes);
-  if (error == 0 || error == EINVAL || error == ENOTSUP)
-    return HOOKE_OK; /* unsupported by some file systems
-                                                                           */
+  if (error == 0 || error == EINVAL || error == ENOTSUP) return HOOKE_OK; /* may be unsupported */
   return hk_file_fail(file->atomic.path, "make room for all frames", error);
 }
 
