@@ -14,14 +14,14 @@ static int32_t see(struct hk_bracket *b, double step) {
     b->fails = fmin(b->fails, step);
   else
     b->unknown = 1;
-  /* a step that failed although a larger one held: the smaller one is the limit */
+  /* a step failed although a larger one held: the smaller one is the limit */
   if (b->fails < b->holds) b->holds = 0.0;
   return HOOKE_OK;
 }
 
 /* The next step outwards: about 1, 4, 16, ... times the accuracy from the guess, then by factors of 2, 4, 16,
- * 16, ... Not alike on both sides, since halving would then end at a good guess itself, where nothing can be
- * seen to grow or decay. */
+ * 16, ... The two sides differ, since halving would otherwise end at a good guess itself, where growth or
+ * decay is not visible. */
 struct reach {
   double share, factor;
 };
