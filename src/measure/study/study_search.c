@@ -142,8 +142,8 @@ static double as_fine_as_reference(const struct hk_study *study, int32_t method)
   return fmax(TIGHTEST, fmin(r->rtol, r->atol / share));
 }
 
-/* End of a search: beyond the ladder, and as fine as the reference; for steps with a budget, when that is spent.
- */
+/* End of a search: beyond the ladder, and as fine as the reference; for steps with a budget, when that is
+ * spent. */
 static double least_value(const struct hk_study *study, const struct hk_study_candidate *c) {
   const double least = as_fine_as_reference(study, c->method), farthest = c->finest / FARTHEST;
   if (is_adaptive(study, c)) return least;
