@@ -17,7 +17,7 @@ struct small_scene {
   struct canonical canonical;
   int64_t particles;
   double q[3 * MOST_PARTICLES], v[3 * MOST_PARTICLES], mass[MOST_PARTICLES], gravity[3];
-  int32_t extreme;          /* numbers may be of any size: forces may overflow, and differences say nothing */
+  int32_t extreme;          /* numbers of any size: forces may overflow, difference quotients fail */
   int32_t pulls;            /* something only pulls */
   hooke_integrator *driver; /* puts driven particles in their places; NULL: there are none */
   hooke_state *driven;
