@@ -1,5 +1,4 @@
-/* Velocity Verlet: what it costs, what a callback sees, energy over long runs, and how large its step may
- * be. */
+/* Velocity Verlet: its cost, the arguments of a callback, energy over long runs, and its stability limit. */
 #include "check.h"
 #include "reference.h"
 #include "run.h"
@@ -74,7 +73,7 @@ static int32_t brake(int64_t n, double t, const double *q, const double *v, doub
   return 0;
 }
 
-/* It sees the velocity half-way at the second kick. All numbers are binary fractions. */
+/* It receives the velocity half-way at the second kick. All numbers are binary fractions. */
 static void callback_sees_the_velocity_half_way(void **unused) {
   (void)unused;
   const double q[] = {0, 0, 0}, v[] = {1, 0, 0};
@@ -100,8 +99,7 @@ static void callback_sees_the_velocity_half_way(void **unused) {
 
 /* ---- one oscillator ---- */
 
-/* x'' + 2 zeta omega x' + omega^2 x = 0 along x, from x = 1 at rest; the damping in the spring or in the
- * ether. */
+/* x'' + 2 zeta omega x' + omega^2 x = 0 along x, from x = 1 at rest; damped by the spring or by drag. */
 static hooke_system *damped_oscillator(double omega, double zeta, int in_ether) {
   const double q[] = {0, 0, 0, 1, 0, 0}, mass = 0.5;
   const int64_t ends[] = {0, 1};
@@ -138,7 +136,7 @@ static void one_step_is_the_formula(void **unused) {
   }
 }
 
-/* A scene that has come to rest: velocities whose squares are 0 are damped like any other. */
+/* A scene that has come to rest: velocities whose squares underflow are damped like any other. */
 static void hardly_any_velocity(void **unused) {
   (void)unused;
   const double q[] = {0, 0, 0, 1, 0, 0}, h = 0.1, gamma = 2.0;
@@ -153,7 +151,7 @@ static void hardly_any_velocity(void **unused) {
     hooke_state *state = start_state(system);
     hooke_state_velocity(state)[3] = speeds[k];
     check_ok(hooke_integrator_step(integrator, state, 1));
-    const double half = 1.0 - h / 2.0 * gamma, stretch = k == 0 ? h * half : 0.0; /* else it rounds to none */
+    const double half = 1.0 - h / 2.0 * gamma, stretch = k == 0 ? h * half : 0.0; /* otherwise rounded away */
     const double expected = (half - h / 2.0 * stretch) / (1.0 + h / 2.0 * gamma);
     check_close(hooke_state_velocity(state)[3] / speeds[k], expected, 1e-12);
     hooke_state_destroy(state);
@@ -176,7 +174,7 @@ static int32_t run_long(const hooke_system *system, double step, double *reach) 
   return status;
 }
 
-/* h omega = 2, however strong the damping is. */
+/* H omega = 2, for any damping. */
 static void damping_leaves_the_limit(void **unused) {
   (void)unused;
   const double zetas[] = {0.0, 0.1, 0.5, 1.0, 5.0}, omega = 7.0;
@@ -212,7 +210,7 @@ static int32_t watch_energy(int64_t step, const hooke_state *state, void *ctx) {
   return 0;
 }
 
-/* A stiff elastic pendulum, nonlinear and without damping: energy swings, and does not drift, over 100 000
+/* A stiff elastic pendulum, nonlinear and without damping: energy oscillates without drift over 100 000
  * steps. */
 static void energy_stays_bounded(void **unused) {
   (void)unused;

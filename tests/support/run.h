@@ -1,10 +1,10 @@
-/* Short forms for making integrators. Every function fails the running test when the library refuses. */
+/* Short forms for creating integrators. Every function fails the running test when the library refuses. */
 #ifndef TESTS_SUPPORT_RUN_H
 #define TESTS_SUPPORT_RUN_H
 
 #include "hooke.h"
 
-/* Options of a run; numbers that are 0 are left at their defaults. */
+/* Options of a run; numbers that are 0 keep their defaults. */
 struct run {
   const char *method;
   double step, duration, every, checkpoint;
@@ -22,8 +22,8 @@ hooke_state *start_state(const hooke_system *system);
 /* From the initial state to the end of the run; `q` and `v` (3n, or NULL) receive the final state. */
 void run_to_end(const hooke_system *system, struct run run, double *q, double *v);
 
-/* Explains why the last run ended early, for as long as that takes. The status of what fails first; then there
- * is no measurement. */
+/* Diagnoses why the last run ended early, without a budget. Returns the status of the first failure; then
+ * there is no measurement. */
 int32_t explain_run(const hooke_integrator *integrator, hooke_measurement **why);
 
 /* 1 if this build has the method and it takes `step`. */

@@ -1,5 +1,5 @@
 /* Free fall with drag, from none to a million times what a step resolves. With z = h c/m and the terminal
- * velocity w = g m/c: v = w + (v0 - w) A^n, where A is what the method makes of exp(-z). */
+ * velocity w = g m/c: v = w + (v0 - w) A^n, where A is the method's approximation of exp(-z). */
 #include "check.h"
 #include "extreme.h"
 
@@ -9,7 +9,7 @@
 
 static const double FALL = 10.0;
 
-/* A of a method; 0 and `known` 0 for one that is not known here. */
+/* A of a method; 0 and `known` 0 for a method that is not listed here. */
 static long double factor(const char *method, long double z, int *known) {
   *known = 1;
   if (strcmp(method, "forward-euler") == 0 || strcmp(method, "symplectic-euler") == 0) return 1.0L - z;
