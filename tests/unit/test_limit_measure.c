@@ -178,8 +178,7 @@ static void frozen_system_rests(void **unused) {
   const double d[3] = {dq[3] - dq[6], dq[4] - dq[7], dq[5] - dq[8]};
   const double along = u[0] * d[0] + u[1] * d[1];
   for (int a = 0; a < 3; a++) {
-    const double clamped = -across * (d[a] - along * u[a]); /* contribution that particle 1 no longer gets
-                                                             * from it */
+    const double clamped = -across * (d[a] - along * u[a]); /* share that particle 1 loses */
     check_close(product[3 + a], moved[3 + a] - clamped, 1e-7);
     check_close(product[6 + a], moved[6 + a] + clamped, 1e-7);
   }
