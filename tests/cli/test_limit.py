@@ -1,4 +1,4 @@
-"""hooke limit: what it predicts and measures, at which state, and in which words."""
+"""hooke limit: its predictions and measurements, its state, and its words."""
 
 import copy
 import math
@@ -9,7 +9,7 @@ from conftest import SIX_PARTICLES, STIFF_PAIR
 pytestmark = pytest.mark.everything
 
 FIXED_STEP = ["forward-euler", "symplectic-euler", "verlet", "heun", "rk4", "backward-euler"]
-# Of the six particles at the start, from the spectrum of the linearised system computed independently.
+# Of the six particles at the start, from the independently computed spectrum of the linearised system.
 LIMITS = {
     "forward-euler": 1.7768476830321846e-05,
     "symplectic-euler": 0.13162450213044632,

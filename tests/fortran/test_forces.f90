@@ -140,7 +140,7 @@ contains
     call expect_near(a(3, 2), f(3, 2)/2, 1e-15_hooke_real, "force by mass")
   end subroutine
 
-  ! The derivative by blocks equals that by products; and momentum.
+  ! The derivative by blocks equals that by products; only motion dissipates.
   subroutine blocks()
     type(hooke_system) :: system
     integer, allocatable :: row_start(:), column(:)
