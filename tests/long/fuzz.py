@@ -1,4 +1,4 @@
-"""The counted campaign of tests/fuzz: 1e7 executions of each target, 1e8 of scenes. Its driver keeps where it was.
+"""The counted campaign of tests/fuzz: 1e7 executions of each target, 1e8 of scenes. Its driver stores its progress.
 
 Here are the targets that read text; fuzz_hdf5.py has those that read HDF5 files, which take as long as all others.
 `python3 tests/fuzz/run.py --executions 1e7 --quiet 60` goes on with it until no target has come to a new edge for an
