@@ -65,7 +65,8 @@ static void print_recommendation(struct cli_json *json, const struct cli_study_r
     return;
   }
   const int32_t met = hooke_measurement_number(study, "recommendation", 0, "met") == 1.0;
-  const int32_t unknown = met && !cli_study_results_trust_all(study);
+  const int32_t any = hooke_measurement_number(study, "reference", 0, "trusted_until") > 0.0;
+  const int32_t unknown = (met || !any) && !cli_study_results_trust_all(study);
   cli_json_open(json, "recommendation", '{');
   cli_table_print_row_but(json, study, "recommendation", 0, unknown ? "met" : NULL);
   if (unknown) cli_json_text(json, "met", NULL);

@@ -121,7 +121,9 @@ def test_killed_runs(write, tmp_path, side, planned, kills):
     moments = random.Random(seed)
     run = Run(tmp_path, write(cloth(side, planned)))
     unfinished = again = 0
-    for kill in range(kills):
+    for kill in range(20 * kills):
+        if kill >= kills and unfinished >= kills // 10:
+            break  # on a busy machine more kills are needed to hit the runs
         for path in tmp_path.glob("out.*"):
             path.unlink()
         run.out.write_bytes(b"old")

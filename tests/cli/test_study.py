@@ -299,6 +299,12 @@ def test_chaos_is_called_so(hooke, write):
     assert value["reference"]["ended"] == "rounding"
     out = hooke(*words).out
     assert "chaotic" in out and "trusted until" in out
+    late = [*words, "--duration", "60", "--every", "60", "--want", "1mm"]  # nothing but the start is trusted
+    answer = hooke(*late, "--json")
+    value = answer.json
+    assert answer.code == 7 and value["reference"]["trusted_until"] == 0
+    assert value["recommendation"]["method"] is None and value["recommendation"]["met"] is None
+    assert "no error is known" in hooke(*late).out
     calm = hooke("study", write(SIX_PARTICLES), *FEW).out
     assert "chaotic" not in calm and "WARNING" not in calm
 

@@ -166,11 +166,17 @@ static int32_t search_from_reference(struct hk_study *study, struct hk_study_can
   return status;
 }
 
-int32_t hk_study_find_cheapest(struct hk_study *study, double want) {
-  struct hk_study_candidate c[HOOKE_STUDY_METHODS];
-  for (int32_t m = 0; m < study->method_count; m++)
-    hk_study_candidate_create(study, m, want, &c[m]);
-  sort_by_prediction(c, study->method_count);
+/* 1 if nothing but the start is trusted, where every run is right. */
+static int is_untrusted(struct hk_study *study) {
+  const struct hk_reference *reference = &study->reference;
+  if (reference->trusted > 1 || reference->frames.count < 2) return 0;
+  hk_print(study->recommendation.note, sizeof study->recommendation.note,
+           "the two references part before %g s, the first frame after the start, so no error is known",
+           reference->frames.time[1]);
+  return 1;
+}
+
+static void clear(struct hk_study *study, double want) {
   study->recommendation = (struct hk_study_recommendation){.made = 1,
                                                            .method = -1,
                                                            .want = want,
@@ -181,9 +187,18 @@ int32_t hk_study_find_cheapest(struct hk_study *study, double want) {
                                                            .force_evaluations = NAN,
                                                            .margin = {NAN, {NAN, NAN}, {NAN, NAN}}};
   study->work_ahead = 0.0;
+}
+
+int32_t hk_study_find_cheapest(struct hk_study *study, double want) {
+  struct hk_study_candidate c[HOOKE_STUDY_METHODS];
+  clear(study, want);
+  if (is_untrusted(study)) return HOOKE_OK;
+  for (int32_t m = 0; m < study->method_count; m++)
+    hk_study_candidate_create(study, m, want, &c[m]);
+  sort_by_prediction(c, study->method_count);
   struct hk_study_candidate *best = NULL;
   /* the cost of the reference is known, that of searches beyond the rows is not */
-  const int far = !(c[0].predicted < study->reference.run_seconds);
+  const int far = study->method_count > 0 && !(c[0].predicted < study->reference.run_seconds);
   int32_t status = far ? search_from_reference(study, c) : HOOKE_OK;
   if (status == HOOKE_OK) status = search_all(study, c);
   if (status == HOOKE_OK) status = search_from_reference(study, c);
