@@ -9,32 +9,31 @@
 #include <math.h>
 #include <string.h>
 
-/* Windows of equal length cover a run. Each has the mean logarithm of the amplitude (the root of the energy)
- * over some samples at irregular times, so that no oscillation hides between them. When all are full, pairs
- * of them become one. */
+/* Windows of equal length cover a run. Each holds the mean logarithm of the amplitude (the root of the
+ * energy) over some samples at irregular times, so that no oscillation hides between them. When all are full,
+ * pairs are merged. */
 enum { WINDOWS = 96, FIRST_WINDOW = 32, SAMPLES = 4, BLOCKS = 3 };
 static const double RANDOM_SHARE = 1e-3;
 static const double SCALE_DOWN = 5.0; /* log of the amplitude at which displacements are scaled back */
-/* Less than that in the log of the amplitude may be part of a slow oscillation, unless all steps are
- * taken. */
+/* A smaller change of the log of the amplitude may be part of a slow oscillation, unless all steps are taken.
+ */
 static const double LEAST_CHANGE = 0.3, LEAST_IN_THE_END = 0.01;
-/* Log of the amplitude where less is left than any mode had at first, and rounding is not yet seen. The same
- * for speed: particles that have turned about others, which costs no energy, are not quite where linear
- * motion would have them. */
+/* Log of the amplitude below that of any initial mode, and above rounding. The same for speed: particles that
+ * have turned about others, which costs no energy, are not quite where linear motion would have them. */
 static const double NOTHING_LEFT = -12.0;
 
 struct course {
   double mean[WINDOWS]; /* of full windows */
   int64_t count, length;
-  int64_t steps;   /* in the window that is being filled, */
+  int64_t steps;   /* in the current window, */
   double sum;      /* the sum over its samples, */
   int64_t samples; /* and their number */
   double first;    /* log of the amplitude at the start */
-  double offset;   /* what scaling has taken away from the log of the amplitude */
+  double offset;   /* decrease of the log of the amplitude by scaling */
   double last;
 };
 
-/* ---- what a course says ---- */
+/* ---- evaluation of a course ---- */
 
 static void fill(struct course *course, int64_t steps, double value) {
   course->steps += steps;
@@ -90,7 +89,7 @@ static double kinetic(const hooke_system *system, const double *v) {
   return sum;
 }
 
-/* Random motion of free particles that springs and drag act on. What nothing acts on would drift away, as
+/* Random motion of free particles that springs and drag act on. Particles without forces would drift away, as
  * would a free scene, and turn the springs. */
 static void start_randomly(struct hk_growth *growth, double *x, double *v) {
   const hooke_system *system = growth->twin->system;
@@ -123,7 +122,7 @@ static double log_amplitude(const struct hk_growth *growth) {
                                   hooke_state_velocity(growth->state)));
 }
 
-/* Displacements stay where springs are linear. */
+/* Rescales displacements into the linear range of springs. */
 static void scale(const struct hk_growth *growth, struct course *course) {
   const double off = course->last - course->offset - course->first, *place = growth->twin->place;
   if (!isfinite(off) || off < SCALE_DOWN) return;
@@ -144,14 +143,13 @@ static int32_t watch(double done, const char *method, void *ctx) {
          (growth->progress && growth->progress(growth->done, method, growth->ctx) != 0);
 }
 
-/* The amplitude above which no motion that holds can rise: just below the limit the energy of an undamped
- * mode swings by 1/(1 - (h omega/2)^2), and limits closer than a quarter of the accuracy need not be told
- * apart. */
+/* The amplitude that no stable motion exceeds: just below the limit the energy of an undamped mode swings by
+ * 1/(1 - (h omega/2)^2), and limits closer than a quarter of the accuracy need not be distinguished. */
 static double certain_rise(const struct hk_growth *growth) {
   return log(30.0 / sqrt(0.5 * growth->accuracy));
 }
 
-/* Two swings of a mode at such a distance below the limit. */
+/* Two oscillations of that swing for a mode at such a distance below the limit. */
 static int64_t least_steps(const struct hk_growth *growth) {
   return 256 + (int64_t)(10.0 / sqrt(growth->accuracy));
 }
@@ -175,7 +173,7 @@ static int judge(const struct hk_growth *growth, const struct course *course, in
   return *verdict == HOOKE_GROWS || (!thorough && growth->has_direction);
 }
 
-/* What is said of a run that has taken all its steps. */
+/* Verdict on a run that has taken all its steps. */
 static enum hk_verdict last_word(const struct course *course) {
   const struct trend trend = find_trend(course);
   if (trend.steady && fabs(trend.change[0] + trend.change[1]) > LEAST_IN_THE_END)
@@ -184,7 +182,7 @@ static enum hk_verdict last_word(const struct course *course) {
   return HOOKE_STEADY;
 }
 
-/* `count` steps, beginning anew: the integrator then looks for numbers that are not finite and for no rise of
+/* `count` steps after a restart: the integrator then checks for non-finite numbers, and not for a rise of
  * energy. */
 static int32_t take(struct hk_growth *growth, hooke_integrator *integrator, int64_t count,
                     enum hk_verdict *verdict, int *ended) {
@@ -218,7 +216,7 @@ static int32_t go(struct hk_growth *growth, hooke_integrator *integrator, int th
     if (ended) return status;
     const double before = course.last, now = log_amplitude(growth) + course.offset;
     taken += count;
-    if (!isfinite(now)) { /* overflow, or nothing left */
+    if (!isfinite(now)) { /* overflow, or zero amplitude */
       *verdict = now < 0.0 ? HOOKE_HOLDS : HOOKE_GROWS;
       return HOOKE_OK;
     }
@@ -252,7 +250,7 @@ int32_t hk_growth_see(struct hk_growth *growth, double step, int32_t thorough, i
   return status;
 }
 
-/* ---- making ---- */
+/* ---- creating ---- */
 
 int32_t hk_growth_create(const struct hk_twin *twin, const hooke_options *run, const char *method,
                          const double *mode, double accuracy, double deadline, struct hk_growth *growth) {

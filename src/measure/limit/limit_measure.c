@@ -28,7 +28,7 @@ enum { STEPS_OF_VIOLENCE = 300 };
 struct trial {
   struct hk_growth *growth;
   int64_t most_steps;
-  int32_t slow;   /* needs damping: steadiness means that growth is too slow to be seen */
+  int32_t slow;   /* needs damping: steady motion means that growth is too slow to be seen */
   int32_t degree; /* if slow, growth is that of (omega h)^(2 degree) */
   const char *note;
   int32_t tries;
@@ -49,7 +49,7 @@ static int32_t try_frozen(void *ctx, double step, enum hk_trial_end *end) {
 }
 
 /* Undamped motion a fraction e above the limit grows by 1 + sqrt(8 e) a step, damped motion by 1 + 2 e or
- * somewhat less, and forward Euler by 1 + 2 zeta^2 e: told apart to a quarter of the accuracy. */
+ * somewhat less, and forward Euler by 1 + 2 zeta^2 e: distinguished to a quarter of the accuracy. */
 static int64_t steps_for(const struct hk_growth *growth, int slow) {
   const double accuracy = growth->accuracy;
   const double steps = slow                   ? 4000.0 / accuracy
@@ -58,7 +58,7 @@ static int64_t steps_for(const struct hk_growth *growth, int slow) {
   return 1000 + (int64_t)fmin(steps, 1e15);
 }
 
-/* Is there a mode that the search did not see? It has a run just below what was found. */
+/* Checks for a mode that the search did not see: it needs a run just below the limit found. */
 static int32_t confirm(struct trial *trial, struct hk_bracket *bracket) {
   for (int k = 0; k < 5 && !bracket->unknown && bracket->holds > 0.0 && isfinite(bracket->fails); k++) {
     const double found = bracket->holds;
@@ -82,7 +82,7 @@ static int32_t confirm(struct trial *trial, struct hk_bracket *bracket) {
   return HOOKE_OK;
 }
 
-/* What a search that ended early has to be certain to, if its result is to be told at all. */
+/* Certainty that a search which ended early needs for its result to be reported. */
 static const double CERTAIN = 0.05;
 
 static void read_bracket(const struct hk_bracket *bracket, struct hk_measured_limit *out) {
@@ -97,8 +97,8 @@ static void read_bracket(const struct hk_bracket *bracket, struct hk_measured_li
     out->step = 0.0, out->never_stable = 1;
 }
 
-/* Said to be stable at no step: growth has to be seen at small ones. Said to be stable at every step: none
- * may be seen at large ones, where it would be violent. `confirmed` is 0 where the bracket says otherwise. */
+/* Predicted stable at no step: growth has to be seen at small ones. Predicted stable at every step: none may
+ * be seen at large ones, where it would be violent. `confirmed` is 0 if the bracket contradicts. */
 static int32_t try_extremes(struct trial *trial, struct hk_bracket *bracket, int small, int *confirmed) {
   static const double share[2][3] = {{10.0, 100.0, 1000.0}, {0.3, 0.1, 0.03}};
   const int64_t most_steps = trial->most_steps;
