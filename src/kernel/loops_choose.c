@@ -1,5 +1,4 @@
-/* The functions of loops that are compiled for each instruction set: those of the best that this machine
- * has. */
+/* Selects the loops compiled for the best instruction set of this machine. */
 #include "kernel/spring_loops.h"
 #include "kernel/tangent_loops.h"
 #include "kernel/triangle_loops.h"

@@ -1,9 +1,10 @@
-/* Backward Euler: v' = v + h a(t + h, q', v'), q' = q + h v'. Order 1, stable at every step. With F(v') = M
- * (v' - v - h g) - h f(t + h, q + h v', v'), K = df/dq and D = df/dv,
+/* Backward Euler: v' = v + h a(t + h, q', v'), q' = q + h v'. Order 1, stable at every step. With
+ * F(v') = M (v' - v - h g) - h f(t + h, q + h v', v'), K = df/dq and D = df/dv,
  *   one iteration  (M - h D - h^2 K) dv = h (f + M g + h K v), all at the old state (Baraff and Witkin 1998)
- *   converged      from there on, Newton: (M - h D - h^2 K) dv = -F at the last guess, with a line search on F.M^-1 F
- * Driven particles are at their new place in F, and on their way to it in the first iteration: K and D
- * times their change of position and velocity stand on its right-hand side. */
+ *   converged      from there on, Newton: (M - h D - h^2 K) dv = -F at the last guess, with a line search on
+ *                  F.M^-1 F
+ * Driven particles are at their new position in F. The first iteration has their change of position and
+ * velocity, multiplied by K and D, on its right-hand side. */
 #include "core/memory.h"
 #include "core/status.h"
 #include "integrate/solve/reduced.h"
@@ -13,10 +14,9 @@
 #include <stddef.h>
 #include <string.h>
 
-/* Residual of the linear equations: what is asked for, and what is good enough where rounding allows no
- * more. */
+/* Residual of the linear equations: requested, and acceptable if rounding allows no more. */
 static const double RESIDUAL = 1e-12, FAR_ENOUGH = 1e-9;
-/* A correction below this share of the change of velocity is the last one: Newton squares what is left.
+/* A correction below this fraction of the change of velocity is the last one: Newton squares the error.
  * Rounding of positions and velocities sets a floor. */
 static const double CORRECTION = 1e-9, POSITION_FLOOR = 1e-13, VELOCITY_FLOOR = 1e-14;
 static const double SAFE_RESIDUAL = 1e-2, LEAST_NEWTON_SHARE = 0.1, LEAST_SAFE_SHARE = 1e-8;
@@ -60,7 +60,7 @@ static double largest(int64_t count, const double *x) {
   return most;
 }
 
-/* The motion at velocity v (3n): q + h v, held particles at the end of the step. */
+/* The motion at velocity v (3n): q + h v, constrained particles at the end of the step. */
 static void place(hooke_integrator *it, const double *v) {
   const struct backward_euler *own = it->own;
   struct hk_motion *m = it->motion;
@@ -75,7 +75,7 @@ static void place(hooke_integrator *it, const double *v) {
   if (it->system->constrained_count > 0) hk_motion_hold(it->system, m);
 }
 
-/* right = -F at the motion's place, and its square F.M^-1 F. */
+/* right = -F at the motion's position, and its square F.M^-1 F. */
 static int32_t find_residual(hooke_integrator *it, double *square) {
   struct backward_euler *own = it->own;
   const hooke_system *system = it->system;
@@ -96,7 +96,7 @@ static int32_t find_residual(hooke_integrator *it, double *square) {
   return status;
 }
 
-/* How far the old state moves with dv = 0: h v, and held particles to the end of the step. */
+/* Displacement of the old state with dv = 0: h v, and constrained particles to the end of the step. */
 static void find_moved(const hooke_integrator *it, double *dq, double *dv) {
   const struct backward_euler *own = it->own;
   const hooke_system *system = it->system;
@@ -157,7 +157,7 @@ static int is_last_correction(const hooke_integrator *it) {
          CORRECTION * change + VELOCITY_FLOOR * speed + POSITION_FLOOR * extent / h;
 }
 
-/* -F at the guess moved by a share of the correction. */
+/* -F at the guess moved by a fraction of the correction. */
 static int32_t try_share(hooke_integrator *it, double share, double *square) {
   struct backward_euler *own = it->own;
   for (int64_t j = 0; j < it->size; j++)
@@ -172,16 +172,16 @@ static double downhill(const hooke_integrator *it) {
 }
 
 /* Moves the guess along Newton's correction until F.M^-1 F is below `allowed`, the worst of the last few
- * (Grippo, Lampariello and Lucidi 1986: across a stiff spring the way is narrow and bent, and leads over
- * higher ground), or along a safe one until F.dv hardly falls any more; `square` is F.M^-1 F there. Shares
- * below `least` are not tried. */
+ * (Grippo, Lampariello and Lucidi 1986: across a stiff spring the valley is narrow and curved, so that F.M^-1
+ * F has to rise in between), or along a safe one until F.dv hardly falls any more; `square` is F.M^-1 F
+ * there. Fractions below `least` are not tried. */
 static int32_t search(hooke_integrator *it, int newton, double least, double allowed, double *square,
                       int *found) {
   struct backward_euler *own = it->own;
   const double slope = downhill(it);
   *found = 0;
   for (double share = 1.0; share >= least && !*found;) {
-    double there, lowest; /* the latter of the parabola through what is known */
+    double there, lowest; /* the latter from the parabola through the known values */
     const int32_t status = try_share(it, share, &there);
     if (status != HOOKE_OK) return status;
     if (newton) {
@@ -201,8 +201,8 @@ static int32_t search(hooke_integrator *it, int newton, double least, double all
   return HOOKE_OK;
 }
 
-/* Newton's correction at the guess, where the motion is; `last` if it is small enough to be taken as it
- * is. */
+/* Newton's correction at the guess, where the motion is; `last` if it is small enough to be accepted
+ * unchecked. */
 static int32_t newton_step(hooke_integrator *it, double allowed, double *square, int *found, int *last) {
   struct backward_euler *own = it->own;
   const double h = it->schedule.step;
@@ -210,7 +210,7 @@ static int32_t newton_step(hooke_integrator *it, double allowed, double *square,
   hk_reduced_set(&own->reduced, hk_integrator_next_time(it), h * h, h);
   const int32_t status = hk_reduced_solve(&own->reduced, own->right, RESIDUAL, own->change, &solution);
   *found = *last = 0;
-  /* a correction with numbers that are none leads nowhere */
+  /* a non-finite correction is useless */
   if (status != HOOKE_OK || solution.residual > FAR_ENOUGH || !(downhill(it) >= 0.0)) return status;
   *last = is_last_correction(it);
   for (int64_t j = 0; *last && j < it->size; j++)
@@ -218,8 +218,8 @@ static int32_t newton_step(hooke_integrator *it, double allowed, double *square,
   return *last ? HOOKE_OK : search(it, 1, LEAST_NEWTON_SHARE, allowed, square, found);
 }
 
-/* A correction by conjugate gradients that end where the matrix is not positive. It leads downhill in the
- * energy of the step wherever the guess is, but slowly. */
+/* A correction by conjugate gradients that end where the matrix is not positive. It decreases the energy of
+ * the step from any guess, but slowly. */
 static int32_t safe_step(hooke_integrator *it, double *square, int *found) {
   struct backward_euler *own = it->own;
   const double h = it->schedule.step;
@@ -242,7 +242,7 @@ static int32_t give_up(const hooke_integrator *it, int iterations, double first,
       it->t, iterations, why, sqrt(square), sqrt(first));
 }
 
-/* The result of the first iteration, if that makes sense, else the old velocity. */
+/* The result of the first iteration if it is reasonable, otherwise the old velocity. */
 static int32_t choose_guess(hooke_integrator *it, double *square) {
   struct backward_euler *own = it->own;
   place(it, own->v);
@@ -260,9 +260,9 @@ static double worst_of(const double past[MEMORY]) {
   return worst;
 }
 
-/* Newton wherever it works. Where the matrix is not positive, as it may be for springs under compression,
- * Newton may lead to a saddle of the energy of the step or nowhere; then safe steps, more of them each time
- * that Newton fails again. */
+/* Newton wherever it works. Where the matrix is not positive, as with springs under compression, Newton may
+ * lead to a saddle of the energy of the step or nowhere; then safe steps, more of them each time that Newton
+ * fails again. */
 static int32_t converge(hooke_integrator *it) {
   double square;
   int wait = 0, pause = 0;
@@ -300,7 +300,7 @@ static int32_t step(hooke_integrator *it) {
     return HOOKE_OK;
   }
   if (status == HOOKE_SOLVER_FAILED) it->count.nonlinear_failures++;
-  if (status == HOOKE_STOPPED) it->count = before; /* whoever goes on takes the step again */
+  if (status == HOOKE_STOPPED) it->count = before; /* a continued run repeats the step */
   hk_motion_restore(it->motion, own->start);
   return status;
 }

@@ -1,11 +1,11 @@
 /* Velocity Verlet (Swope and others 1982), order 2, as kick, drift, kick:
  *   v_half = v + h/2 a(t, q, v),  q' = q + h v_half,  v' = v_half + h/2 a(t + h, q', v')
  * The second kick takes the damping at the new velocity, which keeps the order and the limit h w = 2. With
- * spring damping it is solved for, with D = df/dv at (q', v_half):
+ * spring damping it is implicit, with D = df/dv at (q', v_half):
  *   (M - h/2 D) (v' - v_half) = h/2 (f(t + h, q', v_half) + M g)
  * which is M v' = M v_half + h/2 (f(q', 0) + D v' + M g) written for the change. D is that of the springs,
- * altitude springs and drag: a callback sees v_half. A spring that only pulls counts if it pulls at (q',
- * v_half), else not at all. Drag alone is a division. */
+ * altitude springs and drag: a callback sees v_half. A spring that only pulls counts only if it pulls at (q',
+ * v_half). Drag alone is a division. */
 #include "core/memory.h"
 #include "core/status.h"
 #include "integrate/solve/reduced.h"
@@ -18,7 +18,7 @@ static const double RESIDUAL = 1e-13;
 
 struct verlet {
   int32_t damped, callback;
-  int32_t kept;              /* motion->f is the force of the springs at q, to which only drag is missing */
+  int32_t kept;              /* motion->f is the force of the springs at q, without drag */
   struct hk_reduced reduced; /* damped */
   double *start;             /* damped or callback: q and v at the start of the step */
   double *right, *change;    /* damped: 3n each */
@@ -57,7 +57,7 @@ static int32_t begin(hooke_integrator *it, const hooke_state *state) {
 
 static void forget(hooke_integrator *it) {
   struct verlet *own = it->own;
-  it->count.force_evaluations += own->kept; /* that first_forces() does again */
+  it->count.force_evaluations += own->kept; /* counts to be added by first_forces() again */
   own->kept = 0;
 }
 
@@ -65,13 +65,13 @@ static const double *gravity(const hooke_system *system, int axis) {
   return system->has_gravity ? &system->gravity[axis] : NULL;
 }
 
-/* The force at the start of a step. Without spring damping and callback it is that of the springs, which the
- * step before has left, and drag: the same sum to the bit. */
+/* The force at the start of a step. Without spring damping and callback it is that of the springs, kept from
+ * the previous step, plus drag: the same sum to the bit. */
 static int32_t first_forces(hooke_integrator *it) {
   struct verlet *own = it->own;
   if (own->damped || own->callback) return hk_integrator_forces(it, it->t);
   const int32_t status = own->kept ? HOOKE_OK : hk_integrator_forces_without(it, it->t, &hk_force_drag);
-  if (!own->kept && it->k > 0) it->count.force_evaluations--; /* as the run counted it that came here */
+  if (!own->kept && it->k > 0) it->count.force_evaluations--; /* as counted by the run that came here */
   own->kept = 0;
   if (status != HOOKE_OK || it->system->drag == 0.0) return status;
   return hk_force_drag.add(it->system, it->motion, it->t);
