@@ -196,7 +196,7 @@ HOOKE_INLINE void find_strengths(const struct hk_tiled_springs *springs, ptrdiff
   }
 }
 
-/* Of the first spring of a group only. */
+/* For the first spring of a group only. */
 HOOKE_INLINE int64_t find_strength(const struct hk_tiled_springs *springs, ptrdiff_t k,
                                    const struct group *group, struct batch *batch, const int damped,
                                    const int pull, const int material) {

@@ -209,7 +209,7 @@ static int32_t stop_at_call(int64_t n, double t, const double *q, const double *
   return --*calls == 0 ? 77 : 0;
 }
 
-/* Whether for a step, a residual or a difference quotient: the run stops, and returns the value. */
+/* The run stops in a step, a residual or a difference quotient, and returns the value. */
 static void test_every_call_may_stop(void **unused) {
   (void)unused;
   const double q[] = {1, 0, 0};

@@ -13,7 +13,7 @@
 
 static const double LENGTH = 1.0, DENSITY = 0.1, GRAVITY = 9.81, SAG = 1e-3;
 
-/* Of a strip of 1 m width, or of a rope: the deflection is 1e-3 of its length. */
+/* For a strip of 1 m width, or a rope: the deflection is 1e-3 of its length. */
 static double stiffness(void) {
   return DENSITY * GRAVITY * pow(LENGTH, 4.0) / (8.0 * SAG * LENGTH);
 }

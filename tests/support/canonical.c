@@ -82,7 +82,7 @@ void canonical_destroy(struct canonical *canonical) {
   memset(canonical, 0, sizeof *canonical);
 }
 
-/* Whether a spring that only pulls is taut is decided at the velocities `seen`. */
+/* A spring that only pulls counts as taut by the velocities `seen`. */
 static double rate_of(int64_t i, int64_t j, double dx, double dy, double dz, double ir, const double *v) {
   const double vx = v[3 * i] - v[3 * j], vy = v[3 * i + 1] - v[3 * j + 1], vz = v[3 * i + 2] - v[3 * j + 2];
   return ((vx * dx + vy * dy) + vz * dz) * ir;

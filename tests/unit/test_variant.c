@@ -178,8 +178,8 @@ static void what_is_left_out_is_out(void **state) {
   hooke_system_destroy(system);
 }
 
-/* Of the seven springs two apart in the rope, two; the rest is a group of its own, numbered among the
- * explicit ones. */
+/* Two of the seven springs two apart in the rope; the rest is a group of its own, numbered among the explicit
+ * ones. */
 static void single_springs_of_a_family_are_left_out(void **state) {
   (void)state;
   hooke_system *system = two_parts();

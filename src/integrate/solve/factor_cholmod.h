@@ -5,8 +5,7 @@
 
 #include <stdint.h>
 
-/* Of a square matrix by columns, rows ascending: the upper triangle of a symmetric one, or a lower triangle.
- */
+/* A square matrix by columns, rows ascending: the upper triangle of a symmetric one, or a lower triangle. */
 struct hk_columns {
   int32_t size;
   int32_t *start; /* size + 1; of a factor only the first `size` */

@@ -12,7 +12,7 @@
  * a vector operation for each number, a solve with a factor for each of its numbers, a factor for each of its
  * multiplications. */
 static const double OF_SPRING = 3.0, OF_UNKNOWN = 0.3, OF_NUMBER = 0.7, OF_PRODUCT = 0.84, OF_ELEMENT = 150.0;
-/* Of an iteration of BiCGSTAB(4). */
+/* The same for an iteration of BiCGSTAB(4). */
 static const double PRODUCTS_OF_SWEEP = 2.0, VECTORS_OF_SWEEP = 24.0;
 enum { TRIES_BY_BLOCKS = 25, TRIES_WITH_FACTOR = 12 };
 /* Maximum iterations: far above the need of well-posed equations, and finite. */

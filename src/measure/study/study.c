@@ -19,7 +19,7 @@
  * seconds. */
 static const double REFERENCE_SHARE = 0.4, LARGER_SHARE = 0.6, REFERENCE_SECONDS = 0.5;
 static const double QUICK_SHARE = 0.1; /* of the budget, for all rows of fixed steps */
-/* Of the budget, for an ensemble if one is needed. */
+/* Fraction of the budget for an ensemble, if one is needed. */
 static const double ENSEMBLE_SHARE = 0.3;
 
 static const struct hk_option_row study_rows[] = {

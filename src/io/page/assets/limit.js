@@ -2,7 +2,7 @@
 /* The diagrams of a limit. */
 
 for (const row of data.rows) row.unlimited.forEach((name) => { row[name] = "none"; });
-const blames = data.blame.filter((one) => one.force === null); /* the suggestion tells of a force */
+const blames = data.blame.filter((one) => one.force === null); /* the suggestion is about a force */
 const modes = Object.fromEntries(["real", "imaginary", "frequency", "decay"]
   .map((name) => [name, data.modes.map((mode) => mode[name])]));
 const modeCount = data.modes.length;
@@ -12,7 +12,7 @@ const pale = (colour) => colour + "1a";
 
 /* ---- stability ---- */
 
-/* Steps to look at: that of the scene, and the limits that there are. */
+/* Steps to show: that of the scene, and the known limits. */
 function findSteps() {
   const list = [];
   if (data.step !== null) list.push({ key: "scene", label: "step of the scene", step: data.step });
@@ -36,7 +36,7 @@ function region(method, points) {
 const mirrored = (points) => [...points, ...[...points].reverse().map(({ x, y }) => ({ x, y: -y }))];
 const fromOrigin = (points) => [{ x: 0, y: 0 }, ...points, { x: 0, y: 0 }];
 
-/* Points of modes, and crosses at the edge in place of those beyond. */
+/* Points of modes, with crosses at the edge for those outside. */
 function pointsOf(list) {
   const look = { showLine: false, borderColor: POINT, backgroundColor: POINT, order: 1, data: [] };
   return [{ ...look, label: "modes of the scene", pointStyle: "circle",
@@ -90,7 +90,7 @@ function drawReach(h) {
   chart.canvas.dataset.regions = regions.length;
 }
 
-/* What the predictions say of a step: "stable", "grows", just at the "limit", or "open" where they leave it open. */
+/* Prediction for a step: "stable", "grows", just at the "limit", or "open" if they leave it open. */
 function judge(row, h) {
   if (row.predicted === "none") return "stable";
   if (row.predicted === null) return "open";
@@ -149,7 +149,7 @@ const looking = { view: null, zoom: "all" };
 const longestBlamed = () => Math.max(0, ...listed.filter(isBlamed).map(({ ends: [a, b] }) =>
   Math.hypot(...[0, 1, 2].map((axis) => coordinate(a, axis) - coordinate(b, axis)))));
 
-/* What is to be seen, and how long the longest arrow is. */
+/* The visible range, and the length of the longest arrow. */
 function frameOf([across, up]) {
   const near = looking.zoom === "mode" ? movers.filter((k) => sizes[k] > 0.4) : particles;
   const [left, right] = extentOf(near, across), [bottom, top] = extentOf(near, up);
@@ -159,7 +159,7 @@ function frameOf([across, up]) {
     box: { left: left - room, right: right + room, bottom: bottom - room, top: top + room } };
 }
 
-/* Arrows over everything else, from where a particle is to where the mode takes it. */
+/* Arrows over everything else, from the position of a particle to its displaced position in the mode. */
 const arrows = {
   id: "arrows",
   afterDatasetsDraw(chart) {
