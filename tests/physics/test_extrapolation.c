@@ -145,7 +145,7 @@ static void test_motions(void **unused) {
 
 /* ---- jumps, and failures ---- */
 
-/* Y'' = -1 where y > 0, else +4: crossing 0 the force jumps. */
+/* y'' = -1 where y > 0, else +4: crossing 0 the force jumps. */
 static void jumping(long double t, long double *y, long double *f, void *ctx) {
   (void)t;
   (void)ctx;
