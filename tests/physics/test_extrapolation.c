@@ -185,7 +185,7 @@ static void by_one(const long double *y, const long double *f, long double *scal
   scale[0] = 1.0L;
 }
 
-/* Y' = y^2 from 1 has y = 1/(1 - t): it ends before t = 1, and the number of steps shows it. */
+/* y' = y^2 from 1 has y = 1/(1 - t): it ends before t = 1, and the number of steps shows it. */
 static void test_giving_up(void **unused) {
   (void)unused;
   struct extrapolation problem = {

@@ -195,7 +195,7 @@ int32_t hk_reduced_change(struct hk_reduced *reduced, const double *dq, const do
   return status;
 }
 
-/* Y -= change of the other forces under alpha x, beta x. */
+/* y -= change of the other forces under alpha x, beta x. */
 static int32_t subtract_others(struct hk_reduced *reduced, double alpha, double beta, const double *x,
                                double *y) {
   const int64_t n = reduced->integrator->system->particle_count, size = reduced->integrator->size;

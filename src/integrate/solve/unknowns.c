@@ -1,4 +1,4 @@
-/* Q' = v, v' = w f + g over the free particles, on one array. */
+/* q' = v, v' = w f + g over the free particles, on one array. */
 #include "integrate/solve/unknowns.h"
 
 #include "core/memory.h"
@@ -119,7 +119,7 @@ int32_t hk_unknowns_place(hooke_integrator *it, const struct hk_unknowns *u, dou
   return hk_integrator_hold(it, t);
 }
 
-/* V' of the free particles; 0 times their sum shows whether all are finite. */
+/* v' of the free particles; 0 times their sum shows whether all are finite. */
 static double accelerations(const hooke_integrator *it, const struct hk_unknowns *u, double *out) {
   const hooke_system *system = it->system;
   double sum = 0.0;

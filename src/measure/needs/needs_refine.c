@@ -38,7 +38,7 @@ static int32_t run_at(struct hk_needs *needs, int64_t part, double scale, struct
   return status;
 }
 
-/* Richardson (1911): with a change d between N and 2N of order p, what is left at N is d 2^p / (2^p - 1). */
+/* Richardson (1911): with a change d between N and 2N of order p, the remainder at N is d 2^p / (2^p - 1). */
 static void extrapolate(const struct hk_needs *needs, double step_error, struct hk_needs_part *part) {
   if (part->change <= RESOLVED * step_error || part->change_fine <= RESOLVED * step_error) {
     hk_print(part->note, sizeof part->note,
