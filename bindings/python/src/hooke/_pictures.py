@@ -1,10 +1,10 @@
 """The parts of matplotlib used for pictures and films; without it, an error that says what to install."""
 
 try:
-    from matplotlib.animation import FuncAnimation
+    from matplotlib.animation import FuncAnimation, writers
     from matplotlib.colors import LinearSegmentedColormap
     from mpl_toolkits.mplot3d.art3d import Line3DCollection
 except ImportError as error:
     raise ImportError(f"pictures and films need matplotlib ({error}): pip install matplotlib h5py") from error
 
-__all__ = ["FuncAnimation", "Line3DCollection", "LinearSegmentedColormap"]
+__all__ = ["FuncAnimation", "Line3DCollection", "LinearSegmentedColormap", "writers"]

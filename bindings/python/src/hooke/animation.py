@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import os
+import pathlib
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ._pictures import FuncAnimation, Line3DCollection, LinearSegmentedColormap
-from ._status import BadValue
+from ._pictures import FuncAnimation, Line3DCollection, LinearSegmentedColormap, writers
+from ._status import BadValue, NotBuilt
 from ._types import FloatArray, Path
 from .plot import axis_order, fit, new_space
 
@@ -23,9 +24,14 @@ class Animation(FuncAnimation):
     """A film; a notebook shows it, ``save("film.gif")`` or ``save("film.mp4")`` writes it."""
 
     def save(self, filename: Path, writer: Any = None, *arguments: Any, **options: Any) -> None:
-        """Writes the film to a file, by its ending: ``.gif`` with Pillow, others with ffmpeg if that is installed; see
+        """Writes the film to a file, by its ending: ``.gif`` with Pillow, ``.html`` as a page, others with ffmpeg; see
         matplotlib's Animation.save for `writer` and the other options."""
         name = os.fspath(filename)
+        if writer is None and name.endswith(".html"):
+            pathlib.Path(name).write_text(self.to_jshtml(), "utf-8")
+            return
+        if writer is None and not name.endswith(".gif") and not writers.is_available("ffmpeg"):
+            raise NotBuilt(f"{name}: needs ffmpeg, which is not installed; .gif and .html do without")
         super().save(name, "pillow" if writer is None and name.endswith(".gif") else writer, *arguments, **options)
 
     def _repr_html_(self) -> str:

@@ -14,6 +14,7 @@ from . import _callback
 from ._library import lib
 from ._measurement import Measurement
 from ._memory import text
+from ._notebook import Tabled
 from ._prototypes import COMPARISON_FILE, COMPARISON_FRAME
 from ._status import BadValue
 from ._types import FloatArray, Path, Table
@@ -30,7 +31,7 @@ ComparisonObserver = Callable[[str, int, int, State], Optional[int]]
 
 
 @dataclass(frozen=True)
-class Comparison:
+class Comparison(Tabled):
     """A finished comparison.
 
     `rows` is a structured array with one row a method: method, step [s], rtol, atol [m], error (largest root mean
@@ -111,9 +112,7 @@ def _watch_frames(on_frame: ComparisonObserver, copy: State) -> Any:
         lib.hooke_state_copy(source, copy._handle)
         return on_frame(text(run), frame, step, copy)
 
-    return COMPARISON_FRAME(
-        lambda run, frame, step, state, _: _callback.guarded(call, run, frame, step, state)
-    )
+    return COMPARISON_FRAME(lambda run, frame, step, state, _: _callback.guarded(call, run, frame, step, state))
 
 
 def _read(measurement: Measurement, status: str) -> Comparison:

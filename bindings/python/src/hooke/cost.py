@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from ._measurement import Measurement
+from ._notebook import Tabled
 from ._status import OUTCOMES, plain
 from ._types import Table
 from .options import Options
@@ -12,7 +13,7 @@ from .results import Runnable, WorkProgress, prepare
 from .state import State
 
 
-class Cost:
+class Cost(Tabled):
     """The cost of a scene, as a whole and by ingredients.
 
     `rows` is a structured array with one row an ingredient: name (of the group, else the kind), kind ("springs",

@@ -12,6 +12,7 @@ import numpy as np
 from ._library import lib
 from ._measurement import Measurement
 from ._memory import Handle
+from ._notebook import Paged
 from ._prototypes import RECORD
 from ._status import OUTCOMES
 from ._types import ComplexArray, FloatArray, Path, Table
@@ -60,7 +61,7 @@ class Remedy(NamedTuple):
     gain_predicted: float
 
 
-class Limit:
+class Limit(Paged):
     """The largest stable steps of a scene, linearised at its positions and at rest.
 
     `rows` is a structured array with one row a method: method; bound (safe) [s], predicted [s], measured [s], ratio

@@ -10,6 +10,7 @@ from ._closing import Closing
 from ._library import lib
 from ._measurement import Measurement
 from ._memory import Handle, double_pointer, rows
+from ._notebook import Paged
 from ._status import OUTCOMES, BadCall, plain
 from ._types import FloatArray, Path, Table
 from .options import Options
@@ -35,7 +36,7 @@ class RunCost(NamedTuple):
     step_error: float
 
 
-class Needs(Closing):
+class Needs(Paged, Closing):
     """The needs of a scene for watched positions within `want` [m].
 
     `rows` is a structured array with one row for everything that was left out in turn: without, kind, error (the

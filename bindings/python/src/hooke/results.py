@@ -24,6 +24,7 @@ import numpy as np
 from ._callback import stop_value
 from ._library import lib
 from ._memory import Handle
+from ._notebook import embed
 from ._progress import shown
 from ._prototypes import RECORD, TRAJECTORY
 from ._status import BadCall, BadValue, Error, Unsuited
@@ -98,6 +99,11 @@ class Result:
             f"Result({self.status}, {self.options['method']}, t={self.state.t!r}, "
             f"steps={self.counts['steps']}, wall_seconds={self.wall_seconds:.3g})"
         )
+
+    def _repr_html_(self) -> str | None:
+        from .view import view
+
+        return None if self.output is None else embed(lambda page: view(self, page), 560)
 
 
 def run(

@@ -10,6 +10,7 @@ import numpy as np
 from ._closing import Closing
 from ._library import lib
 from ._measurement import Measurement
+from ._notebook import Paged
 from ._status import OUTCOMES
 from ._types import BoolArray, FloatArray, Path, StrArray, Table
 from .options import Options
@@ -112,7 +113,7 @@ class Recommendation(NamedTuple):
         return options
 
 
-class Study(Closing):
+class Study(Paged, Closing):
     """A finished study: one row a method and step or tolerance, the coarsest first.
 
     Each column is an array with one entry a row: method, status ("finished", "diverged", "stopped", "failed"), step

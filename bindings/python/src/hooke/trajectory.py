@@ -14,6 +14,7 @@ import numpy as np
 from ._closing import Closing
 from ._library import lib
 from ._memory import Handle, double_pointer, text
+from ._notebook import embed
 from ._prototypes import RECORD
 from ._status import BadValue, plain
 from ._types import FloatArray, IntArray, Path
@@ -232,6 +233,11 @@ class Trajectory(Closing):
 
     def __repr__(self) -> str:
         return f"Trajectory({self.path!r}, {self._count} frames)"
+
+    def _repr_html_(self) -> str:
+        from .view import view
+
+        return embed(lambda page: view(self.path, page), 560)
 
     def close(self) -> None:
         """Closes the file; arrays obtained from it stay valid. A second call does nothing."""

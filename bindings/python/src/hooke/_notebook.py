@@ -1,0 +1,83 @@
+"""Results in notebooks: their pages, embedded, or tables where there is no page."""
+
+from __future__ import annotations
+
+import html
+import os
+import tempfile
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ._types import Table
+
+_DOCUMENT = """<!DOCTYPE html><meta charset="utf-8"><meta name="viewport" content="width=device-width">
+<title>{title}</title><style>body{{font:15px system-ui;margin:2em}}td,th{{padding:2px 10px;text-align:right}}</style>
+<h1>{title}</h1>{table}
+"""
+
+
+def embed(write: Callable[[Path], Any], height: int) -> str:
+    """A frame for a notebook with the page that `write(path)` makes; `height` in pixels. Everything is in it."""
+    with tempfile.TemporaryDirectory() as folder:
+        page = Path(folder, "page.html")
+        write(page)
+        source = html.escape(page.read_text("utf-8"))
+    style = f"width:100%;height:{height}px;border:0"
+    return f'<iframe srcdoc="{source}" style="{style}" sandbox="allow-scripts allow-downloads"></iframe>'
+
+
+def table(rows: Table) -> str:
+    """An HTML table of a structured array, numbers with six digits."""
+
+    def cell(value: Any) -> str:
+        if isinstance(value, (float, np.floating)):
+            return "" if np.isnan(value) else f"{value:.6g}"
+        return html.escape(str(value))
+
+    names = rows.dtype.names or ()
+    lines = ["".join(f"<td>{cell(row[name])}</td>" for name in names) for row in rows]
+    head = "".join(f"<th>{html.escape(name)}</th>" for name in names)
+    return f"<table><tr>{head}</tr>" + "".join(f"<tr>{line}</tr>" for line in lines) + "</table>"
+
+
+class Tabled:
+    """A result with rows, which a notebook shows as a table."""
+
+    rows: Table
+
+    def _repr_html_(self) -> str:
+        return table(self.rows)
+
+    def report(self, path: str | os.PathLike[str]) -> Path:
+        """Writes a page to look at, offline, and returns its path."""
+        page = Path(os.fspath(path))
+        page.write_text(_DOCUMENT.format(title=type(self).__name__, table=table(self.rows)), "utf-8")
+        return page
+
+    def to_pandas(self) -> Any:
+        """The rows as a pandas data frame; pandas has to be installed."""
+        import pandas
+
+        return pandas.DataFrame.from_records(self.rows)
+
+
+class Paged(Tabled):
+    """A result with rows and a page of its own, which a notebook shows."""
+
+    def write(self, path: Any) -> None:
+        """Writes what was found by the ending of `path`."""
+        raise NotImplementedError
+
+    def _repr_html_(self) -> str:
+        return embed(self.write, 720)
+
+    def report(self, path: str | os.PathLike[str]) -> Path:
+        """Writes the page to look at, offline, and returns its path, which ends in ``.html``."""
+        page = Path(os.fspath(path))
+        if page.suffix != ".html":
+            raise ValueError(f"{page}: a page ends in .html")
+        self.write(page)
+        return page
