@@ -4,7 +4,7 @@
  *
  * REFERENCE and RUN are a method with options of a run, as in cvode-bdf,rtol=1e-6,linear_solver=gmres. Errors
  * are the largest of a component at the end against REFERENCE, which is run once and first; its own error is
- * for the caller to judge. Runs take turns; the time is processor time, the least of `repeats` (3). */
+ * for the caller to judge. Runs take turns; times are processor times, the minimum of `repeats` (3). */
 #include "hooke.h"
 
 #include <math.h>

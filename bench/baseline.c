@@ -119,7 +119,8 @@ static void verlet(struct baseline *b, double h, int64_t steps) {
   }
 }
 
-/* Adds `weight` of this stage's rates to the sums, and goes `h` along them from the start of the step. */
+/* Adds `weight` times this stage's rates to the sums, and advances by `h` along them from the start of the
+ * step. */
 static void stage(const struct baseline *b, double weight, double h) {
   compute_forces(b);
   for (int64_t p = 0; p < b->particle_count; p++) {
@@ -176,7 +177,7 @@ int baseline_has(const char *method, int is_damped) {
   return loop && (loop->does_damping || !is_damped);
 }
 
-/* ---- making ---- */
+/* ---- creating ---- */
 
 static int fill(const hooke_system *system, struct baseline *b) {
   const int64_t m = b->spring_count;

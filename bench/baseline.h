@@ -1,4 +1,4 @@
-/* The loop that a competent user would write: an array of spring structs, positions in rows of x y z. */
+/* The loop of a competent user: an array of spring structs, positions in rows of x y z. */
 #ifndef BENCH_BASELINE_H
 #define BENCH_BASELINE_H
 
@@ -9,8 +9,8 @@ struct baseline;
 /* 1 if there is such a loop: for forward-euler, symplectic-euler, rk4, and without damping verlet. */
 int baseline_has(const char *method, int is_damped);
 
-/* Steps of `method` under springs, their damping, and gravity, from a copy of `state` on; NULL without
- * memory. A system without damping has loops that read no velocity. */
+/* Does steps of `method` under springs, their damping, and gravity, starting from a copy of `state`; NULL
+ * without memory. A system without damping has loops that read no velocity. */
 struct baseline *baseline_create(const hooke_system *system, const hooke_state *state, const char *method);
 void baseline_destroy(struct baseline *baseline);
 

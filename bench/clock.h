@@ -3,7 +3,7 @@
 
 #include <time.h>
 
-/* Seconds since some moment. */
+/* Seconds since a fixed moment. */
 static inline double bench_seconds(void) {
   struct timespec now;
   clock_gettime(CLOCK_MONOTONIC, &now);

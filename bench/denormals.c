@@ -1,5 +1,5 @@
-/* What subnormal numbers cost: the time for one spring in one step of a cloth whose motion has decayed into
- * them, against that of the same cloth at ordinary speeds. Prints nanoseconds for a spring-step, the least of
+/* Cost of subnormal numbers: the time for one spring in one step of a cloth whose motion has decayed into
+ * them, and that of the same cloth at ordinary speeds. Prints nanoseconds a spring-step, the minimum of
  * several turns.
  *
  *   denormals [side [turns]] */
@@ -42,7 +42,7 @@ static hooke_system *cloth(int64_t side) {
   return system;
 }
 
-/* Velocities of this size, no two alike. */
+/* Random velocities of this size. */
 static void shake(hooke_state *state, double size) {
   double *v = hooke_state_velocity(state);
   uint64_t seed = 1;
@@ -61,7 +61,7 @@ static double share_of_subnormal(hooke_state *state) {
   return (double)count / (double)size;
 }
 
-/* `share`: of the velocities that are subnormal in the end. */
+/* `share`: fraction of velocities that are subnormal at the end. */
 static double nanoseconds(const hooke_system *system, const hooke_options *run, double speed, int64_t steps,
                           double *share) {
   hooke_integrator *integrator = NULL;
@@ -88,7 +88,7 @@ int main(int argc, char **argv) {
   hooke_system *system = cloth(side);
   demand(hooke_options_create("run", &run));
   demand(hooke_options_set_number(run, "step", 1e-4));
-  for (int64_t turn = 0; turn < turns; turn++) { /* they take turns, so that all see the same machine */
+  for (int64_t turn = 0; turn < turns; turn++) { /* in turns, so that all see the same machine */
     for (int k = 0; k < 4; k++)
       least[k] = fmin(least[k], nanoseconds(system, run, speeds[k], steps, &share[k]));
   }

@@ -10,7 +10,7 @@ static inline uint64_t bench_draw(uint64_t *state) {
   return z ^ (z >> 31);
 }
 
-/* From 0 to 1, without 1. */
+/* Uniform in [0, 1). */
 static inline double bench_draw_unit(uint64_t *state) {
   return (double)(bench_draw(state) >> 11) * 0x1p-53;
 }

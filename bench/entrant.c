@@ -6,7 +6,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* Steps of a turn, that loading and storing a state should not show, unless they take longer than a few
+/* Steps of a turn: enough that loading and storing a state does not show, unless they take longer than a few
  * turns. */
 enum { LEAST_STEPS = 5, ENOUGH_STEPS = 50, FEW = 10 };
 
@@ -17,7 +17,7 @@ struct entrant {
   double step;
   int64_t steps; /* of a turn */
   int turns;
-  double turn[MOST_TURNS]; /* seconds of a step */
+  double turn[MOST_TURNS]; /* time of a step [s] */
 };
 
 int32_t entrant_create(const hooke_system *system, const hooke_state *start, const char *method,
@@ -69,7 +69,7 @@ int32_t entrant_warm_up(struct entrant *e, double seconds) {
   int32_t status = HOOKE_OK;
   e->steps = LEAST_STEPS;
   for (int turn = 0; turn < 2 && status == HOOKE_OK;
-       turn++) { /* the first finds about how long a step takes */
+       turn++) { /* the first one measures the approximate time of a step */
     status = entrant_turn(e);
     double steps = seconds / e->turn[turn];
     if (e->plain == NULL) steps = fmax(steps, fmin(ENOUGH_STEPS, FEW * steps));

@@ -1,4 +1,4 @@
-/* What takes part in a race: the library with a method and threads, or the plain loop. */
+/* An entrant of a race: the library with a method and threads, or the plain loop. */
 #ifndef BENCH_ENTRANT_H
 #define BENCH_ENTRANT_H
 
@@ -8,7 +8,7 @@ enum { MOST_TURNS = 400 };
 
 struct entrant;
 
-/* A status; *entrant is for the caller to destroy even if it failed. `system` must outlive it, `start` is
+/* Returns a status; the caller destroys *entrant even if it failed. `system` must outlive it, `start` is
  * copied. */
 int32_t entrant_create(const hooke_system *system, const hooke_state *start, const char *method,
                        int32_t threads, double step, struct entrant **entrant);
@@ -18,18 +18,19 @@ void entrant_destroy(struct entrant *entrant); /* NULL is allowed */
 
 int32_t entrant_step(struct entrant *entrant, int64_t steps);
 
-/* Turns of about `seconds`; those after the warm-up are kept, at most MOST_TURNS. A status. */
+/* Runs turns of about `seconds`; those after the warm-up are recorded, at most MOST_TURNS. Returns a status.
+ */
 int32_t entrant_warm_up(struct entrant *entrant, double seconds);
 int32_t entrant_turn(struct entrant *entrant);
 
-/* Over the turns that were kept: how many, and seconds of a step. */
+/* Over the recorded turns: their number, and the time of a step [s]. */
 int32_t entrant_turns(const struct entrant *entrant);
 double entrant_least(const struct entrant *entrant);
 double entrant_median(const struct entrant *entrant);
 
 const double *entrant_position(const struct entrant *entrant);
 
-/* Evaluations of forces in a step; NaN for a plain loop. */
+/* Force evaluations a step; NaN for a plain loop. */
 double entrant_evaluations(const struct entrant *entrant);
 
 #endif

@@ -7,10 +7,10 @@
 #include <stdlib.h>
 
 enum {
-  TRIAD = 1 << 23,    /* elements of an array, of a thread */
-  SMALL = 512,        /* elements of an array that stays in the first cache */
-  SWEEPS = 4000,      /* over a small array, in a turn */
-  OPERATIONS = 2 * 8, /* of an element in a sweep of arithmetic() */
+  TRIAD = 1 << 23,    /* elements of an array of a thread */
+  SMALL = 512,        /* elements of an array that stays in the first-level cache */
+  SWEEPS = 4000,      /* over a small array, a turn */
+  OPERATIONS = 2 * 8, /* per element in a sweep of arithmetic() */
   TURNS = 7
 };
 
@@ -41,7 +41,7 @@ static void *triad(void *ctx) {
   return NULL;
 }
 
-/* What one sweep writes the next reads, so that none can be left out. */
+/* Each sweep reads the results of the previous one, so that none can be optimised away. */
 static void *root(void *ctx) {
   const struct worker *w = ctx;
   double *restrict a = w->a;
@@ -70,7 +70,7 @@ static void *arithmetic(void *ctx) {
 
 /* ---- all threads ---- */
 
-/* Seconds until all threads have done `work` once; 0 if they could not be started. */
+/* Time until all threads have done `work` once [s]; 0 if they could not be started. */
 static double together(struct worker *worker, int32_t threads, void *(*work)(void *)) {
   int32_t started = 0;
   const double begun = bench_seconds();
@@ -82,7 +82,7 @@ static double together(struct worker *worker, int32_t threads, void *(*work)(voi
   return started + 1 == threads ? bench_seconds() - begun : 0.0;
 }
 
-/* The least time of a turn, over the `count` things that all threads do in it; 0 if threads could not be
+/* Minimum time of a turn, over the `count` operations that all threads do in it; 0 if threads could not be
  * started. */
 static double least(struct worker *worker, int32_t threads, void *(*work)(void *), double count) {
   double best = INFINITY;

@@ -1,4 +1,4 @@
-/* What the machine can do at most, measured: what a step is held against. */
+/* Limits of the machine, measured, to compare steps with. */
 #ifndef BENCH_LIMITS_H
 #define BENCH_LIMITS_H
 
@@ -11,9 +11,9 @@ struct limits {
   double arithmetic; /* one addition or multiplication of independent numbers, not fused [s] */
 };
 
-/* Of `threads` threads together, each with arrays of its own: the best of several turns, in double precision
- * with the vectors that the compiler takes for this machine. 1, or 0 without memory or threads. The triad is
- * McCalpin's (1995). */
+/* For `threads` threads together, each with its own arrays: the best of several turns, in double precision
+ * with the vectors that the compiler uses for this machine. Returns 1, or 0 without memory or threads. The
+ * triad is McCalpin's (1995). */
 int limits_measure(int32_t threads, struct limits *limits);
 
 #endif

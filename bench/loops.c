@@ -1,5 +1,5 @@
-/* Cost of a step in time loops of the caller's own, against a step of a run: medians over turns in which each
- * way comes once.
+/* Cost of a step in the caller's own time loops, compared with a step of a run: medians over turns, each with
+ * one measurement of every variant.
  *
  *   loops [--seconds S] [SCENE ...]
  *
@@ -20,7 +20,7 @@ static const char *const usual[] = {"cloth-16", "cloth-128", "cloth-1024"};
 struct loop {
   hooke_integrator *integrator;
   hooke_state *state;
-  double turn[MOST_TURNS]; /* seconds of a step */
+  double turn[MOST_TURNS]; /* time of a step [s] */
 };
 
 static int32_t run(struct loop *loop, int64_t steps) {

@@ -7,7 +7,7 @@
 #include <time.h>
 #include <unistd.h>
 
-/* The value of "name : value" if `line` is one; else NULL. Without the end of the line. */
+/* The value of "name : value" if `line` has that name, without the end of the line; else NULL. */
 static const char *value_of(char *line, const char *name) {
   const size_t length = strlen(name);
   char *value = strchr(line, ':');
@@ -16,7 +16,7 @@ static const char *value_of(char *line, const char *name) {
   return value + 1 + strspn(value + 1, " ");
 }
 
-/* Names of virtual machines are bare ("AMD EPYC"), so family and model tell more. */
+/* Names of virtual machines are unspecific ("AMD EPYC"), so family and model are added. */
 static void read_cpu(char *cpu, size_t size) {
   char line[256], name[64] = "", family[16] = "", model[16] = "";
   struct utsname system;
@@ -37,7 +37,7 @@ static void read_cpu(char *cpu, size_t size) {
     snprintf(cpu, size, "%.100s", uname(&system) == 0 ? system.machine : "unknown");
 }
 
-/* The word that a file of the first core's caches holds; "" if there is none. */
+/* The word in a file of the first core's caches; "" if there is none. */
 static void read_word(int index, const char *name, char *word) {
   char path[96];
   snprintf(path, sizeof path, "/sys/devices/system/cpu/cpu0/cache/index%d/%s", index, name);

@@ -1,9 +1,9 @@
-"""Times what `hooke run --want` picks against the best row of a fine ladder of every method.
+"""Compares the time of the run that `hooke run --want` picks with the best row of a fine ladder of every method.
 
 HOOKE_EXTRAPOLATE=build/release/tests/long/extrapolate PYTHONPATH=build/release/python python bench/picked.py SCENE...
 
-Rows whose largest error at a frame, by extrapolation in long double, is at most the want; medians of 5, runs in turn. Needs a
-build with -DHOOKE_LONG_TESTS=ON.
+Rows whose largest error at a frame, by extrapolation in long double, is at most the want; medians of 5, runs in turn.
+Needs a build with -DHOOKE_LONG_TESTS=ON.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ WORDS = ("method", "step", "rtol", "atol", "atol_velocity")
 
 
 def picked(hooke: str, scene: Path, asked: str) -> dict[str, Any] | None:
-    """The options of the run, None where the want is not said to be met."""
+    """The options of the run; None if the want is not reported as met."""
     done = subprocess.run([hooke, "run", str(scene), "--want", asked, "--json"], capture_output=True, text=True)
     if done.returncode != 0:
         return None
@@ -48,7 +48,7 @@ def setting(options: dict[str, Any]) -> str:
 
 
 def compare(hooke: str, scene: Path, asked: str, rows: list[Row]) -> float:
-    """How many times slower the pick is than the best row; infinite where there is none."""
+    """Ratio of the times of the pick and the best row; infinite if there is none."""
     quickest = sorted((row for row in rows if row.error <= WANTS[asked]), key=lambda row: row.seconds)[:CANDIDATES]
     options = picked(hooke, scene, asked)
     if options is None or not quickest:

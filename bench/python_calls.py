@@ -1,10 +1,10 @@
-"""Times the calls of the Python package that a time loop makes: of each the time that Python adds to the library.
+"""Times the calls of the Python package in a time loop: for each, the time that Python adds to the library.
 
     PYTHONPATH=build/release/python python bench/python_calls.py
 
-One particle on one spring, so that the library itself has next to nothing to do. What it does take is timed by steps in
-one call (``step(state, 10**6)``) and by evaluations of the energy from C, and is not taken off the other rows, so that
-these are what a caller sees. The least of several rounds, since other programs only ever add time.
+One particle on one spring, so that the library itself takes little time. That time is measured by steps in one call
+(``step(state, 10**6)``) and by evaluations of the energy from C, and is not subtracted from the other rows, so that
+these are the times that a caller sees. The minimum of several rounds, since other programs only add time.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ ROUNDS, CALLS = 400, 250
 
 
 def seconds(function: Callable[[], object]) -> float:
-    """The least time of one call [s], the loop's own taken off."""
+    """Minimum time of one call [s], without the loop's own."""
 
     def once(calls: range, f: Callable[[], object]) -> float:
         begin = time.perf_counter()

@@ -17,10 +17,10 @@ struct race {
   hooke_state *start;
   int is_damped, count;
   struct entrant *entrant[2 * MOST_ROWS];
-  int own[MOST_ROWS], plain[MOST_ROWS]; /* which entrants a row compares; -1: none */
+  int own[MOST_ROWS], plain[MOST_ROWS]; /* entrants compared in a row; -1: none */
 };
 
-/* ---- where it starts ---- */
+/* ---- initial state ---- */
 
 /* The shortest rest length, and whether there is damping. */
 static int32_t read_springs(struct race *race, double *shortest) {
@@ -39,7 +39,7 @@ static int32_t read_springs(struct race *race, double *shortest) {
 }
 
 /* Scenes are built at their rest lengths, where motions agree whatever the springs do. So free particles are
- * moved by up to a hundredth of the shortest. */
+ * displaced by up to a hundredth of the shortest rest length. */
 static int32_t shake(struct race *race) {
   double shortest;
   const int32_t status = read_springs(race, &shortest);
@@ -53,8 +53,8 @@ static int32_t shake(struct race *race) {
   return HOOKE_OK;
 }
 
-/* Half of what is certain to be stable; where nothing limits the method, as much as symplectic Euler takes.
- * 0: no step is stable. */
+/* Half of the certainly stable step; if nothing limits the method, the step of symplectic Euler. 0: no step
+ * is stable. */
 static int32_t choose_step(const struct race *race, const char *method, double *step) {
   const double *q = hooke_state_position(race->start);
   double bound = 0.0;
@@ -66,7 +66,7 @@ static int32_t choose_step(const struct race *race, const char *method, double *
   return status;
 }
 
-/* ---- who takes part ---- */
+/* ---- entrants ---- */
 
 static int32_t add_rows(struct race *race, const struct race_request *request, struct race_row sample,
                         struct race_row *row, int *count) {
@@ -106,7 +106,7 @@ static int32_t prepare(struct race *race, const struct bench_scene *scene, const
   return status;
 }
 
-/* ---- the same motion ---- */
+/* ---- agreement of motions ---- */
 
 static double largest_distance(const struct race *race, const double *a, const double *b) {
   double most = 0.0;
@@ -117,8 +117,8 @@ static double largest_distance(const struct race *race, const double *a, const d
   return most;
 }
 
-/* A stable step adds some units in the last place of a coordinate, to positions and, in units of what a step
- * moves, to velocities, which the next steps add up. */
+/* A stable step adds some units in the last place of a coordinate, to positions and, in units of the
+ * displacement of a step, to velocities, which the next steps accumulate. */
 static double rounding(const struct race *race, const double *q) {
   double largest = 0.0;
   for (int64_t k = 0; k < hooke_state_size(race->start); k++)

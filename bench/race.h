@@ -1,4 +1,4 @@
-/* One scene: all that step it take turns, so that they see the same machine. */
+/* A race on one scene: all entrants step it in turns, so that they see the same machine. */
 #ifndef BENCH_RACE_H
 #define BENCH_RACE_H
 
@@ -13,7 +13,7 @@ struct race_request {
   int32_t threads[MOST_THREADS];
 };
 
-struct race_time { /* of a step [s]; NaN: there is none */
+struct race_time { /* of a step [s]; NaN: none */
   double least, median;
 };
 
@@ -23,16 +23,15 @@ struct race_row {
   int32_t threads, is_damped, turns;
   int64_t particles, springs;
   double step;            /* [s] */
-  double evaluations;     /* of forces, in a step */
+  double evaluations;     /* of forces, a step */
   struct race_time own;   /* of the library */
   struct race_time plain; /* of the plain loop, on one thread */
-  double
-      distance; /* between the two after the same steps, the largest of a component [m]; NaN without plain loop */
-  double allowed; /* what rounding explains of it [m] */
+  double distance;        /* largest of a component [m], after the same steps; NaN without plain loop */
+  double allowed;         /* the part explained by rounding [m] */
 };
 
-/* A row for each number of threads and each method that has a stable step on the scene; `row` has room for
- * MOST_ROWS. A status; HOOKE_DIVERGED where what was timed did not stay finite. */
+/* Measures a row for each number of threads and each method that has a stable step on the scene; `row` has
+ * space for MOST_ROWS. Returns a status; HOOKE_DIVERGED if a timed motion did not stay finite. */
 int32_t race_run(const struct bench_scene *scene, const struct race_request *request, struct race_row *row,
                  int *count);
 

@@ -8,13 +8,13 @@
 
 static const double STIFFNESS = 50.0, DAMPING = 0.01; /* N, N s: of the strain law */
 
-/* ---- springs one by one ---- */
+/* ---- single springs ---- */
 
 struct net {
   int64_t particles, springs;
   double *position;
   int64_t *ends;
-  int uneven; /* 1: each spring has a strength of its own */
+  int uneven; /* 1: each spring has its own strength */
 };
 
 static int32_t net_create(int64_t particles, int64_t most_springs, struct net *net) {
@@ -84,7 +84,7 @@ static int32_t set_strength(const struct net *net, const char *name, double valu
   return status;
 }
 
-/* Adds what the net has to the system, and releases it. */
+/* Adds the contents of the net to the system, and releases it. */
 static int32_t net_finish(struct net *net, int32_t status, double mass, double damping,
                           hooke_system *system) {
   hooke_options *options = NULL;
@@ -165,7 +165,7 @@ static void lay_triangles(struct net *net, int64_t size) {
   }
 }
 
-/* The edges of a triangle mesh whose vertices and edges come in no order. */
+/* The edges of a triangle mesh with vertices and edges in random order. */
 static int32_t build_mesh(hooke_system *system, int64_t size, double damping) {
   struct net net;
   int32_t status = net_create(size * size, 3 * size * size, &net);
@@ -206,7 +206,7 @@ static int32_t build_uneven_cloth(hooke_system *system, int64_t size, double dam
   return net_finish(&net, status, 1.0, damping, system);
 }
 
-/* The same in no order. */
+/* The same in random order. */
 static int32_t build_shuffled_cloth(hooke_system *system, int64_t size, double damping) {
   struct net net;
   int32_t status = list_cloth(size, &net);

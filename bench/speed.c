@@ -1,10 +1,11 @@
-/* Cost of a step, for each spring of a scene, against a plain loop over an array of springs and against what
- * the machine can do; docs/notes/performance.md says how to read it.
+/* Cost of a step, for each spring of a scene, compared with a plain loop over an array of springs and with
+ * the limits of the machine; docs/notes/performance.md says how to read it.
  *
  *   speed [--seconds S] [--methods M,...] [--threads N,...] [--csv | --markdown] [SCENE ...]
  *
- * S seconds (2) are the time for the turns of each row. By itself: all scenes with symplectic Euler, and some
- * of them with other explicit methods. Ends with 1 if the library and the plain loop do not move alike. */
+ * S (2) is the time for the turns of each row [s]. By default it runs all scenes with symplectic Euler, and
+ * some of them with other explicit methods. It returns 1 if the motions of the library and the plain loop
+ * differ. */
 #include "table.h"
 
 #include <stdio.h>
@@ -20,8 +21,8 @@ struct arguments {
   const char *name[MOST_NAMES];
 };
 
-/* Without damping; with it, steps of verlet are solved for. Forward Euler is stable at no step of these
- * scenes. */
+/* For scenes without damping; with it, steps of verlet are implicit. Forward Euler is stable at no step of
+ * these scenes. */
 static const char *const explicit_methods[] = {"symplectic-euler", "rk4", "verlet"};
 
 static int read_methods(char *list, struct race_request *request) {
@@ -98,7 +99,7 @@ static struct race_request request_of(const struct arguments *a, const struct be
   return request;
 }
 
-/* Runs a scene and prints its rows; 1 if it could, and all moved alike. */
+/* Runs a scene and prints its rows; 1 if that succeeded and all motions agreed. */
 static int show(const struct arguments *a, const struct bench_scene *scene, const struct machine *machine,
                 const struct limits *limits) {
   const struct race_request request = request_of(a, scene);

@@ -5,11 +5,10 @@
 #include <math.h>
 #include <stdio.h>
 
-/* Additions and multiplications of one spring, those with which its force is added to both ends included. */
+/* Additions and multiplications of one spring, including those that add its force to both ends. */
 static const double OPERATIONS = 20.0, OPERATIONS_OF_DAMPING = 11.0;
 
-/* What a step has to move where nothing stays in a cache: positions and velocities in and out, inverse masses
- * in. */
+/* Memory traffic of a step without caching: positions and velocities in and out, inverse masses in. */
 static const double BYTES_OF_PARTICLE = 13.0 * sizeof(double);
 
 enum {
@@ -115,7 +114,7 @@ static void print_csv_row(const struct machine *m, const struct race_row *row, c
   printf("\n");
 }
 
-/* ---- for people ---- */
+/* ---- words ---- */
 
 static void print_machine(const struct machine *m, const struct race_request *request,
                           const struct limits *limits, const char *line) {

@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { FIRST_LONG = 1000 }; /* values of getopt_long() that are no letter */
+enum { FIRST_LONG = 1000 }; /* values of getopt_long() that are not letters */
 
 static const struct cli_verb_row shared_rows[] = {
     {"json", 0, NULL, "prints one JSON object, with every digit, and nothing else"},
@@ -17,7 +17,7 @@ static const struct cli_verb_row shared_rows[] = {
 };
 enum { SHARED_COUNT = sizeof shared_rows / sizeof shared_rows[0] };
 
-/* 1 if `name` is among `words`, which blanks part. */
+/* 1 if `name` is among `words`, separated by blanks. */
 static int32_t is_among(const char *words, const char *name) {
   size_t length = strlen(name);
   for (const char *at = words; at && *at; at += strspn(at, " ")) {
@@ -51,7 +51,7 @@ static void add_option(struct cli_arguments *arguments, hooke_options *table, in
   cli_arguments_flag(argument->name, argument->flag);
 }
 
-/* A family is no option: its members are, and make it present. */
+/* A family is no option itself: its members make it present. */
 static void add_table(struct cli_arguments *arguments, hooke_options *table, const char *without) {
   for (int64_t row = 0; table && row < hooke_options_row_count(table); row++) {
     if (strcmp(hooke_options_row(table, row, "type"), "family") == 0) continue;
@@ -63,7 +63,7 @@ static int64_t row_count(const hooke_options *table) {
   return table ? hooke_options_row_count(table) : 0;
 }
 
-/* Asks for the words that take memory, so that they are there whenever something is printed. */
+/* Requests the texts that allocate memory in advance, so that they exist whenever something is printed. */
 static int has_words(const hooke_options *table) {
   for (int64_t row = 0; row < row_count(table); row++)
     if (!hooke_options_row(table, row, "allowed")) return 0;
@@ -129,7 +129,7 @@ static int take(struct cli_arguments *arguments, struct cli_argument *argument, 
   return cli_value_set(arguments, argument);
 }
 
-/* Sets what the whole command line had to be read for. */
+/* Sets values that need the whole command line. */
 static int set_what_added_up(const struct cli_arguments *arguments) {
   int answer = HOOKE_EXIT_DONE;
   for (int32_t i = 0; i < arguments->count && answer == HOOKE_EXIT_DONE; i++) {
@@ -139,7 +139,7 @@ static int set_what_added_up(const struct cli_arguments *arguments) {
   return answer;
 }
 
-/* The argument that getopt_long() or one of its letters stands for. */
+/* The argument for getopt_long() or one of its letters. */
 static struct cli_argument *argument_of(struct cli_arguments *arguments, int code) {
   if (code == 0) return NULL;
   if (code >= FIRST_LONG) return &arguments->all[code - FIRST_LONG];
@@ -150,7 +150,7 @@ static struct cli_argument *argument_of(struct cli_arguments *arguments, int cod
   return NULL;
 }
 
-/* The one word that is no option. */
+/* The one word that is not an option. */
 static int take_operand(struct cli_arguments *arguments, int argc, char **argv) {
   const char *input = arguments->verb->input;
   const char *name = arguments->verb->for_scene, *instead = name ? cli_arguments_text(arguments, name) : NULL;
@@ -176,11 +176,11 @@ static int parse_words(struct cli_arguments *arguments, int argc, char **argv, c
                        const struct option *longs) {
   int code;
   opterr = 0;
-  optind = 0; /* begins anew, whatever was parsed before */
+  optind = 0; /* restarts, whatever was parsed before */
   while ((code = getopt_long(argc, argv, letters, longs, NULL)) != -1) {
     struct cli_argument *argument = argument_of(arguments, code == '?' || code == ':' ? optopt : code);
     if (!argument) {
-      char letter[3] = {'-', (char)optopt, '\0'}; /* 0: it was a long one */
+      char letter[3] = {'-', (char)optopt, '\0'}; /* 0: it was a long option */
       return unknown_flag(arguments, optopt ? letter : argv[optind - 1]);
     }
     if (code == ':')
@@ -233,7 +233,7 @@ static int find_kind(struct cli_arguments *arguments, int argc, char **argv, con
 int cli_arguments_parse(const struct cli_verb *verb, int argc, char **argv, struct cli_arguments *arguments) {
   memset(arguments, 0, sizeof *arguments);
   arguments->verb = verb;
-  /* looked for first, so that wrong usage is reported in the form that was asked for */
+  /* parsed first, so that wrong usage is reported in the requested form */
   for (int i = 1; i < argc && strcmp(argv[i], "--") != 0; i++) {
     if (strcmp(argv[i], "--json") == 0) arguments->json = 1;
   }
@@ -280,7 +280,7 @@ void cli_arguments_destroy(struct cli_arguments *arguments) {
   hooke_options_destroy(arguments->of_kind);
 }
 
-/* ---- asking ---- */
+/* ---- queries ---- */
 
 const char *cli_arguments_text(const struct cli_arguments *arguments, const char *name) {
   for (int32_t i = 0; i < arguments->count; i++) {

@@ -1,5 +1,5 @@
-/* The words of the command line: parsed by getopt_long, with the long options of a run, and of what else a
- * verb configures, taken from the library's own option tables. */
+/* The command line: parsed by getopt_long, with the options of a run, and of anything else that a verb
+ * configures, taken from the library's option tables. */
 #ifndef HOOKE_CLI_ARGUMENTS_H
 #define HOOKE_CLI_ARGUMENTS_H
 
@@ -7,14 +7,14 @@
 
 enum { HOOKE_FLAG_SIZE = 64 };
 
-/* One option that a verb takes: a row of its own, or one of an option table. */
+/* An option of a verb: its own, or a row of an option table. */
 struct cli_argument {
   char flag[HOOKE_FLAG_SIZE];     /* as typed, without the dashes */
   const char *name;               /* "atol_velocity", "output" */
   const struct cli_verb_row *own; /* NULL: row `row` of `table` */
   hooke_options *table;
   int64_t row;
-  const char *text; /* what was given, "" for a switch; NULL: not given */
+  const char *text; /* the given text, "" for a switch; NULL: not given */
   char *value;      /* the same in SI units, for a row of a table */
 };
 
@@ -22,27 +22,27 @@ struct cli_arguments {
   const struct cli_verb *verb;
   const char *scene; /* or the kind, for a verb that takes one */
   int32_t help, json, quiet;
-  hooke_options *run;     /* the option table of a run, holding what was given */
-  hooke_options *more;    /* that of the verb, likewise; NULL: it has none */
-  hooke_options *limits;  /* that of loading a scene, likewise; NULL: the verb takes none */
-  hooke_options *of_kind; /* that of the kind, likewise; NULL: it has none */
+  hooke_options *run;     /* the option table of a run, with the given values */
+  hooke_options *more;    /* that of the verb, likewise; NULL: none */
+  hooke_options *limits;  /* that of loading a scene, likewise; NULL: the verb loads none */
+  hooke_options *of_kind; /* that of the kind, likewise; NULL: none */
   struct cli_argument *all;
   int32_t count;
 };
 
-/* Fills `arguments`, which is zeros, with every option that the verb takes (with this `kind`, NULL: none):
- * those of the kind, those of its own table, its own, those of all verbs, those of a run. */
+/* Fills `arguments`, which is zeros, with every option of the verb (with this `kind`, NULL: none): those of
+ * the kind, of its own table, its own, the common ones, those of a run. */
 int cli_arguments_collect(const struct cli_verb *verb, const char *kind, struct cli_arguments *arguments);
 
-/* Parses what follows the verb (argv[0] is the verb); wrong usage is reported and gives HOOKE_EXIT_USAGE. The
- * caller destroys `arguments` in either case. */
+/* Parses the words after the verb (argv[0] is the verb); wrong usage is reported and returns
+ * HOOKE_EXIT_USAGE. The caller destroys `arguments` in either case. */
 int cli_arguments_parse(const struct cli_verb *verb, int argc, char **argv, struct cli_arguments *arguments);
 void cli_arguments_destroy(struct cli_arguments *arguments);
 
-/* An option's name as it is typed, without the dashes: "atol-velocity". Returns `flag`. */
+/* An option's name on the command line, without the dashes: "atol-velocity". Returns `flag`. */
 const char *cli_arguments_flag(const char *name, char flag[HOOKE_FLAG_SIZE]);
 
-/* Text given for an option, NULL if it was not given. */
+/* Text given for an option; NULL if it was not given. */
 const char *cli_arguments_text(const struct cli_arguments *arguments, const char *name);
 
 /* Sets every option of a run that was given. */

@@ -1,4 +1,4 @@
-/* The command line of hooke: picks the verb, hands it its options, and answers the shell. */
+/* The command line of hooke: selects the verb, passes its options, and returns the exit code. */
 #include "arguments.h"
 #include "completion.h"
 #include "man.h"
@@ -132,9 +132,9 @@ static int end_output(int answer) {
 }
 
 int main(int argc, char **argv) {
-  (void)hooke_io_own_process(); /* nothing to keep HDF5 from in a build without it */
+  (void)hooke_io_own_process(); /* a build without HDF5 needs no guard against it */
 #ifdef SIGXFSZ
-  signal(SIGXFSZ, SIG_IGN); /* a limit on file sizes is told as every failed write */
+  signal(SIGXFSZ, SIG_IGN); /* a limit on file sizes is reported like every failed write */
 #endif
   return end_output(do_words(argc, argv));
 }

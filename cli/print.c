@@ -17,7 +17,7 @@ const char *cli_format_rounded(double value, char text[HOOKE_NUMBER_SIZE]) {
 }
 
 const char *cli_format_number(double value, char text[HOOKE_NUMBER_SIZE]) {
-  /* to 15 digits every decimal survives, but in subnormal numbers, which have fewer */
+  /* every decimal survives to 15 digits, except subnormal numbers, which have fewer */
   for (int digits = fabs(value) < DBL_MIN ? 1 : 15; digits <= 17; digits++) {
     snprintf(text, HOOKE_NUMBER_SIZE, "%.*g", digits, value);
     if (strtod(text, NULL) == value) break;
@@ -25,9 +25,9 @@ const char *cli_format_number(double value, char text[HOOKE_NUMBER_SIZE]) {
   return text;
 }
 
-/* ---- text from outside ---- */
+/* ---- foreign text ---- */
 
-/* Length of the UTF-8 character at `text` (1 to 4), 0 if the bytes are none. */
+/* Length of the UTF-8 character at `text` (1 to 4); 0 if the bytes are invalid. */
 static int32_t utf8_length(const unsigned char *text) {
   if (text[0] < 0x80) return 1;
   int32_t length = text[0] >= 0xf0 ? 4 : text[0] >= 0xe0 ? 3 : 2;
@@ -35,7 +35,7 @@ static int32_t utf8_length(const unsigned char *text) {
   for (int32_t i = 1; i < length; i++) {
     if ((text[i] & 0xc0) != 0x80) return 0;
   }
-  /* overlong forms, surrogates, and what lies past U+10FFFF */
+  /* overlong forms, surrogates, and values past U+10FFFF */
   if (text[0] == 0xe0 && text[1] < 0xa0) return 0;
   if (text[0] == 0xed && text[1] > 0x9f) return 0;
   if (text[0] == 0xf0 && text[1] < 0x90) return 0;
@@ -43,7 +43,7 @@ static int32_t utf8_length(const unsigned char *text) {
   return length;
 }
 
-/* The character at `text`, of `length` bytes, if it commands a terminal, ends a line or turns the direction
+/* The character at `text`, of `length` bytes, if it controls a terminal, ends a line or changes the direction
  * of writing; 0 if not. */
 static uint32_t control(const unsigned char *text, int32_t length) {
   static const struct {
@@ -58,8 +58,8 @@ static uint32_t control(const unsigned char *text, int32_t length) {
   return 0;
 }
 
-/* Prints what `text` begins with, one character or a byte that is of none, '?' in place of what may not be;
- * its length. */
+/* Prints the first character of `text`, or an invalid byte, with '?' in place of unsafe ones; returns its
+ * length. */
 static int32_t print_character(FILE *file, const char *text) {
   const int32_t length = utf8_length((const unsigned char *)text);
   const int plain = length > 0 && control((const unsigned char *)text, length) == 0;
@@ -87,7 +87,7 @@ void cli_print_padded(FILE *file, int32_t width, const char *text) {
     fputc(' ', file);
 }
 
-/* $'...', with bytes by number where they are no plain character. */
+/* $'...', with bytes by number unless they are plain characters. */
 static void print_escaped(FILE *file, const char *text) {
   fputs("$'", file);
   for (int32_t length; *text; text += length) {
@@ -121,7 +121,7 @@ void cli_print_quoted(FILE *file, const char *text) {
 }
 
 int cli_print_flush(void) {
-  static int first; /* what could not be written is free back any longer */
+  static int first; /* output that could not be written is discarded */
   errno = 0;
   if (fflush(stdout) != 0 && first == 0) first = errno;
   return first;

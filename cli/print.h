@@ -1,4 +1,4 @@
-/* Printing: numbers that read back to the same bits, JSON, and text that is safe on a terminal. */
+/* Prints numbers that read back to the same bits, JSON, and text that is safe on a terminal. */
 #ifndef HOOKE_CLI_PRINT_H
 #define HOOKE_CLI_PRINT_H
 
@@ -7,32 +7,30 @@
 
 enum { HOOKE_NUMBER_SIZE = 32, HOOKE_JSON_DEPTH = 8 };
 
-/* For people: writes the number to 6 digits into `text` and returns it. What is known to fewer is printed
- * with fewer. */
+/* For display: writes the number to 6 digits into `text` and returns it. Numbers of lower accuracy are
+ * printed with fewer. */
 const char *cli_format_rounded(double value, char text[HOOKE_NUMBER_SIZE]);
 
-/* For programs and for commands to type: as above, with the fewest digits that read back to the same
- * double. */
+/* For programs and for commands: as above, with the fewest digits that read back to the same double. */
 const char *cli_format_number(double value, char text[HOOKE_NUMBER_SIZE]);
 
-/* Text from outside, a title, a name or a file name, on one line: '?' for each character by which it could
- * steer a terminal, end a line or turn the direction of writing, and for bytes that are not UTF-8. All such
- * text is printed here, by what follows or as JSON. The number of characters printed. */
+/* Prints foreign text (a title, a name or a file name) on one line: '?' for each character that could control
+ * a terminal, end a line or change the direction of writing, and for bytes that are not UTF-8. All such text
+ * is printed by this function, by the ones below or as JSON. Returns the number of characters printed. */
 int32_t cli_print_text(FILE *file, const char *text);
 
-/* The same, and blanks up to `width` characters. */
+/* The same, padded with blanks to `width` characters. */
 void cli_print_padded(FILE *file, int32_t width, const char *text);
 
-/* Writes what is held back of standard output, so that words on standard error come after it. 0, or the
- * number of the system's error: the first one there was. */
+/* Flushes standard output, so that words on standard error come after it. Returns 0 or the errno of the first
+ * failure. */
 int cli_print_flush(void);
 
-/* Closes a stream of open_memstream(), which may be NULL. HOOKE_NO_MEMORY, and `text` is NULL, unless it
- * holds all. */
+/* Closes a stream of open_memstream(), which may be NULL. HOOKE_NO_MEMORY, with `text` NULL, unless it holds
+ * everything. */
 int32_t cli_print_end(FILE *stream, char **text);
 
-/* Text as one word of a shell command, quoted if it has to be; as $'...' where cli_print_text() would change
- * it. */
+/* Text as one word of a shell command, quoted if necessary; as $'...' if cli_print_text() would change it. */
 void cli_print_quoted(FILE *file, const char *text);
 
 /* Text broken at blanks before column `width`; lines after the first start at column `indent`. */
@@ -47,16 +45,16 @@ struct cli_json {
 };
 
 void cli_json_begin(struct cli_json *json, FILE *file);
-/* Closes what is open and ends the line. */
+/* Closes open brackets and ends the line. */
 void cli_json_end(struct cli_json *json);
 void cli_json_open(struct cli_json *json, const char *key, char bracket); /* '{' or '[' */
 void cli_json_close(struct cli_json *json);
-/* null if the number is not finite */
+/* Null if the number is not finite. */
 void cli_json_number(struct cli_json *json, const char *key, double value);
 void cli_json_flag(struct cli_json *json, const char *key, int32_t value); /* true or false */
 void cli_json_count(struct cli_json *json, const char *key, int64_t value);
-/* null if `text` is NULL; bytes that are not UTF-8 become U+FFFD, and what cli_print_text() replaces is
- * escaped */
+/* Null if `text` is NULL; bytes that are not UTF-8 become U+FFFD, and characters that cli_print_text()
+ * replaces are escaped. */
 void cli_json_text(struct cli_json *json, const char *key, const char *text);
 /* `rows` rows of x y z as an array of arrays */
 void cli_json_vectors(struct cli_json *json, const char *key, int64_t rows, const double *xyz);

@@ -1,4 +1,4 @@
-/* The program as a whole: its verbs, and the options that stand in place of one. */
+/* The whole program: its verbs, and the options that replace one. */
 #ifndef HOOKE_CLI_PROGRAM_H
 #define HOOKE_CLI_PROGRAM_H
 
@@ -9,15 +9,15 @@ struct cli_program;
 struct cli_program_row {
   const char *name;
   char letter;       /* 0: none */
-  const char *value; /* the word that has to follow; NULL: none */
+  const char *value; /* the required next word; NULL: none */
   const char *doc;
   int (*print)(const struct cli_program *program); /* an exit code */
 };
 
 struct cli_program {
-  const struct cli_verb *const *verbs; /* the end is NULL */
-  const struct cli_program_row *rows;  /* the end has no name */
-  const char *summary, *text;          /* what it does, in a line and in a paragraph */
+  const struct cli_verb *const *verbs; /* ends with NULL */
+  const struct cli_program_row *rows;  /* ends without a name */
+  const char *summary, *text;          /* description, in one line and in a paragraph */
 };
 
 #endif

@@ -95,10 +95,10 @@ void cli_report_command(FILE *file, const struct cli_arguments *arguments, const
     const struct cli_argument *argument = &arguments->all[i];
     if (!argument->text || is_set_by(settings, argument->name)) continue;
     if (!same && argument->table != arguments->run) continue;
-    /* what --want would choose is given */
+    /* the options that --want would choose are given */
     if (strcmp(argument->name, "want") == 0 && is_set_by(settings, "method")) continue;
     const char *instead = arguments->verb->for_scene;
-    if (instead && strcmp(argument->name, instead) == 0) continue; /* it is there as the scene */
+    if (instead && strcmp(argument->name, instead) == 0) continue; /* replaced by the scene */
     print_flag(file, argument->name);
     if (argument->own && !argument->own->value) continue;
     fputc(cli_argument_is_flag(argument) ? '=' : ' ', file);
@@ -112,7 +112,7 @@ void cli_report_command(FILE *file, const struct cli_arguments *arguments, const
   }
 }
 
-/* Letters to change, insert or drop to make one word of the other. */
+/* Edit distance: letters to change, insert or drop between two words. */
 static size_t distance(const char *a, const char *b) {
   size_t row[WORD_SIZE + 1];
   size_t width = strlen(b);
@@ -134,7 +134,7 @@ static size_t distance(const char *a, const char *b) {
 const char *cli_suggest(const char *word, const char *(*next)(int64_t i, const void *ctx), const void *ctx) {
   const char *best = NULL;
   const char *candidate;
-  size_t least = strlen(word) / 3 + 2; /* more changes than this is another word */
+  size_t least = strlen(word) / 3 + 2; /* more changes make it another word */
   if (strlen(word) > WORD_SIZE) return NULL;
   for (int64_t i = 0; (candidate = next(i, ctx)) != NULL; i++) {
     if (strlen(candidate) > WORD_SIZE) continue;

@@ -1,4 +1,4 @@
-/* Failures told to a person, to a program (--json) and to the shell. */
+/* Failures reported in words, as JSON (--json), and to the shell. */
 #ifndef HOOKE_CLI_REPORT_H
 #define HOOKE_CLI_REPORT_H
 
@@ -6,11 +6,10 @@
 
 #include <stdio.h>
 
-/* Exit code of a status of the library. */
+/* Exit code for a status of the library. */
 int cli_exit_code(int32_t status);
 
-/* Exit code of a value of an option that is refused: wrong usage, or, where the values make up a scene, bad
- * input. */
+/* Exit code for a refused value of an option: wrong usage or, where the values make up a scene, bad input. */
 int cli_refusal(const struct cli_arguments *arguments);
 
 /* Prints "hooke VERB: message" on standard error and, with --json, {"error": {"exit", "message"}} on standard
@@ -21,20 +20,20 @@ int cli_report(const struct cli_arguments *arguments, int code, const char *form
 /* The same with the library's message about `status`. */
 int cli_report_status(const struct cli_arguments *arguments, int32_t status);
 
-/* Prints "hooke VERB: message" on standard error alone. */
+/* Prints "hooke VERB: message" on standard error only. */
 void cli_report_words(const struct cli_arguments *arguments, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
 
-/* There was no memory for a part of what is printed; the rest is. */
+/* Reports that memory was missing for a part of the output; the rest is printed. */
 int cli_report_missing_words(const struct cli_arguments *arguments);
 
-/* An option of a run that a command is to have. */
+/* An option of a run, for a command to print. */
 struct cli_setting {
-  const char *name, *text; /* text NULL: not wanted after all */
+  const char *name, *text; /* text NULL: to be left out */
 };
 
-/* Prints the command again as one of `verb`, with `settings`, whose end is a NULL name, in place of its own;
- * for another verb than its own, of what was given only the options of a run. */
+/* Prints the current command as one of `verb`, with `settings`, which a NULL name ends, replacing its own.
+ * For another verb than the current one, only the given options of a run are kept. */
 void cli_report_command(FILE *file, const struct cli_arguments *arguments, const char *verb,
                         const struct cli_setting *settings);
 
@@ -45,7 +44,7 @@ void cli_report_methods(char *list, size_t size);
 int cli_report_unknown_method(const struct cli_arguments *arguments, const char *flag, const char *word,
                               size_t length);
 
-/* The candidate nearest to a mistyped word, NULL if none is near. `next` gives candidate i, NULL past the
+/* The candidate nearest to a mistyped word; NULL if none is near. `next` gives candidate i, NULL past the
  * last. */
 const char *cli_suggest(const char *word, const char *(*next)(int64_t i, const void *ctx), const void *ctx);
 

@@ -9,8 +9,8 @@ enum { CELL_SIZE = 24, LEAST_WIDTH = 10 };
 static const struct column {
   const char *what, *head, *unit;
   int width;
-  int32_t counts; /* a whole number, printed in full */
-  int32_t marked; /* a mark may stand behind it */
+  int32_t counts; /* an integer, printed in full */
+  int32_t marked; /* a mark may follow */
 } columns[] = {{"step", "step", "[s]", 9, 0, 0},
                {"rtol", "rtol", "", 9, 0, 0},
                {"error", "error", "max [m]", 10, 0, 1},

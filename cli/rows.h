@@ -12,14 +12,14 @@ struct cli_rows {
   const char *(*text)(const void *source, int64_t row, const char *what); /* "method", "status" */
   double (*number)(const void *source, int64_t row, const char *what);
   int32_t grouped; /* 1: an empty line before each method but the first */
-  /* what stands behind "error" and "wall_seconds" of a row; NULL: no room for marks */
+  /* marks after "error" and "wall_seconds" of a row; NULL: no space for marks */
   char (*mark)(const void *source, int64_t row, const char *what);
 };
 
 /* Width of the column of methods. */
 int32_t cli_rows_method_width(const struct cli_rows *rows);
 
-/* A number in `width` columns to 4 digits, "-" where there is none. */
+/* A number in `width` columns to 4 digits, "-" if there is none. */
 void cli_rows_print_cell(int32_t width, double value);
 
 /* A table of all rows. */

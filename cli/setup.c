@@ -34,13 +34,14 @@ static int32_t load_text(FILE *file, const hooke_options *limits, hooke_scene **
   return status;
 }
 
-/* "-" is standard input, so that what `make` writes can be piped; files that it names are looked for here. */
+/* "-" is standard input, so that the output of `make` can be piped; files that it names are looked up in the
+ * current folder. */
 static int32_t load(const struct cli_arguments *arguments, hooke_scene **loaded) {
   return strcmp(arguments->scene, "-") == 0 ? load_text(stdin, arguments->limits, loaded)
                                             : hooke_scene_load(arguments->scene, arguments->limits, loaded);
 }
 
-/* What loading had in small pieces goes back to the system, so that a run does not have it beside its own. */
+/* Returns free memory of loading to the system, so that a run does not hold it besides its own. */
 static void give_back(void) {
 #ifdef __GLIBC__
   malloc_trim(0);
@@ -75,7 +76,7 @@ int cli_setup_require_duration(const struct cli_arguments *arguments, const stru
 
 int cli_setup_require(const struct cli_arguments *arguments, const struct cli_setup *setup,
                       const char *method) {
-  if (hooke_method_is_adaptive(method) < 0) { /* one given as an option was refused before */
+  if (hooke_method_is_adaptive(method) < 0) { /* a value given as an option was refused before */
     return cli_report(arguments, HOOKE_EXIT_BAD_INPUT,
                       "%s: run.method: there is no method '%s'; 'hooke --help' lists them", arguments->scene,
                       method);
@@ -107,7 +108,7 @@ int cli_setup_check_apart(const struct cli_arguments *arguments, const char *inp
   return HOOKE_EXIT_DONE;
 }
 
-/* The library refuses such a file, too, but only when it comes to write it. */
+/* The library refuses such a file, too, but only when it writes it. */
 static int is_written(const char *file) {
   struct flock lock = {.l_type = F_RDLCK, .l_whence = SEEK_SET};
   const int descriptor = open(file, O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);

@@ -42,11 +42,11 @@ static const struct unit *find_unit(const char *base, const char *word, size_t l
   return NULL;
 }
 
-/* ---- a number and what follows it ---- */
+/* ---- a number and its unit ---- */
 
 struct number {
-  size_t mantissa; /* letters of sign, digits and point; 0: this is no number */
-  size_t length;   /* with its exponent */
+  size_t mantissa; /* length of sign, digits and point; 0: not a number */
+  size_t length;   /* including the exponent */
   long exponent;
 };
 
@@ -108,7 +108,7 @@ char *cli_unit_read(const char *text, const char *base, char word[HOOKE_UNIT_WOR
       to += strlen(to);
       text = name + length;
     }
-    /* the rest of a piece that has no unit, and what parts it from the next */
+    /* remainder of an item without unit, and its separator */
     size_t rest = strcspn(text, ", \t");
     rest += strspn(text + rest, ", \t");
     memcpy(to, text, rest);

@@ -61,7 +61,7 @@ static void print_option(FILE *file, const struct cli_argument *argument) {
   print_row(file, is.letter, is.flag, is.value[0] ? is.value : NULL, is.doc);
 }
 
-/* The rows of a table, after their title. */
+/* The rows of a table, under their heading. */
 static void print_table(FILE *file, const struct cli_arguments *arguments, const hooke_options *table) {
   char title[HOOKE_DOC_SIZE];
   const char *last = NULL, *doc = "";

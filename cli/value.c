@@ -33,7 +33,7 @@ static int64_t count_pieces(const char *text, size_t length) {
   return count;
 }
 
-/* A semicolon ends a row, so that rows of a wrong length are told as such. */
+/* A semicolon ends a row, so that rows of a wrong length are reported as such. */
 static int check_rows(const struct cli_arguments *arguments, const struct cli_argument *argument) {
   const int64_t columns = columns_of(argument->table, argument->row);
   int64_t row = 0;
@@ -52,7 +52,7 @@ static int check_rows(const struct cli_arguments *arguments, const struct cli_ar
   return HOOKE_EXIT_DONE;
 }
 
-/* A copy of what was given, with commas between all numbers. */
+/* A copy of the text, with commas between all numbers. */
 static char *with_commas(const struct cli_argument *argument) {
   char *text = strdup(argument->text);
   const int32_t rows = columns_of(argument->table, argument->row) > 0;
@@ -112,7 +112,7 @@ int cli_value_read(const struct cli_arguments *arguments, struct cli_argument *a
   return add_up(arguments, argument, text);
 }
 
-/* The message without the name of the option in front, which is in the report already. */
+/* The message without the leading name of the option, which the report has already. */
 static const char *without_name(const char *message, const char *name) {
   const size_t length = strlen(name);
   return strncmp(message, name, length) == 0 && strncmp(message + length, ": ", 2) == 0 ? message + length + 2

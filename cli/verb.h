@@ -1,11 +1,10 @@
-/* A verb of the command line: what it is called, which options of its own it has, and the function that does
- * it. */
+/* A verb of the command line: its name, its own options, and its function. */
 #ifndef HOOKE_CLI_VERB_H
 #define HOOKE_CLI_VERB_H
 
 #include "hooke.h"
 
-/* What the program answers to the shell. */
+/* Exit codes of the program. */
 enum cli_exit {
   HOOKE_EXIT_DONE = 0,
   HOOKE_EXIT_USAGE = 2,
@@ -13,13 +12,13 @@ enum cli_exit {
   HOOKE_EXIT_DIVERGED = 4,
   HOOKE_EXIT_IO = 5,
   HOOKE_EXIT_NOT_BUILT = 6,
-  HOOKE_EXIT_NOT_MET = 7, /* the wanted error, or nobody can know */
+  HOOKE_EXIT_NOT_MET = 7, /* the wanted error was not met, or cannot be judged */
   HOOKE_EXIT_INTERRUPTED = 130
 };
 
 struct cli_arguments;
 
-/* One option of a verb's own; `value` names what follows it, NULL for a switch. */
+/* An option of a verb; `value` names its argument, NULL for a switch. */
 struct cli_verb_row {
   const char *name;
   char letter; /* 0: none */
@@ -29,18 +28,17 @@ struct cli_verb_row {
 
 struct cli_verb {
   const char *name;
-  const char
-      *input; /* what it works on, such as "OUT.h5", with no options of a run; NULL: a scene, with them */
+  const char *input; /* its argument, such as "OUT.h5", without options of a run; NULL: a scene, with them */
   const char *summary; /* one line */
   const char *text;    /* a paragraph for --help */
   const char
-      *example; /* a command for the manual page, run after those of the verbs before it; may be NULL */
+      *example; /* an example for the manual page, run after those of the verbs before it; may be NULL */
   const struct cli_verb_row *rows;
   int32_t row_count;
-  const char *options;   /* the table of its own options, for hooke_options_create(); NULL: it has none */
-  int takes_kind;        /* 1: takes a kind of part in place of a scene, and its options */
-  const char *for_scene; /* its option that stands for the scene; NULL: there is none */
-  const char *without; /* options of a run that this verb does not take, between blanks; NULL: it takes all */
+  const char *options;   /* name of the table of its own options, for hooke_options_create(); NULL: none */
+  int takes_kind;        /* 1: takes a kind of part instead of a scene, and its options */
+  const char *for_scene; /* its option that replaces the scene; NULL: none */
+  const char *without;   /* options of a run that it does not take, separated by blanks; NULL: none */
   int (*function)(const struct cli_arguments *arguments);
 };
 

@@ -8,7 +8,7 @@
 
 enum { BAR = 24, MINUTE = 60, HOUR = 3600 };
 
-static const double first_after = 1.0; /* [s] shorter work shows nothing */
+static const double first_after = 1.0; /* [s] shorter work shows no progress */
 static const double again_after = 0.2;
 
 static volatile sig_atomic_t interrupted;
@@ -19,7 +19,7 @@ static void interrupt(int number) {
 }
 
 static void catch_signal(int number) {
-  struct sigaction action = {.sa_handler = interrupt, .sa_flags = SA_RESTART}; /* writing goes on */
+  struct sigaction action = {.sa_handler = interrupt, .sa_flags = SA_RESTART}; /* writing continues */
   struct sigaction old;
   sigemptyset(&action.sa_mask);
   /* a program started with the signal ignored (nohup, a background job) keeps ignoring it */

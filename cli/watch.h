@@ -1,4 +1,4 @@
-/* Watching work: Ctrl-C, and progress with the time left on a terminal. The only place where signals are
+/* Handles Ctrl-C, and shows progress with the remaining time on a terminal. The only place where signals are
  * handled. */
 #ifndef HOOKE_CLI_WATCH_H
 #define HOOKE_CLI_WATCH_H
@@ -7,24 +7,24 @@
 
 #include <time.h>
 
-#define HOOKE_BETWEEN_LOOKS 0.01 /* [s] at signals, while a run goes on */
+#define HOOKE_BETWEEN_LOOKS 0.01 /* [s] of signals during a run */
 
 struct cli_watch {
-  int32_t show; /* standard error is a terminal, and words are wanted */
+  int32_t show; /* standard error is a terminal, and output is not quiet */
   int32_t shown;
   struct timespec start, last;
 };
 
-/* From here on SIGINT, SIGTERM and SIGHUP set a flag, which stays; no number of them kills. */
+/* From here on SIGINT, SIGTERM and SIGHUP set a flag, which stays; repeated signals do not kill. */
 void cli_watch_start(struct cli_watch *watch, const struct cli_arguments *arguments);
 
-/* Tells the share done, 0 to 1, and of what (NULL: not said); returns 1 if the work is to stop. */
+/* Reports the fraction done, 0 to 1, of `what` (NULL: not said); returns 1 if the work is to stop. */
 int32_t cli_watch_tell(struct cli_watch *watch, double done, const char *what);
 
 /* The same as a hooke_progress of the library, with the watch as its context. */
 int32_t cli_watch_progress(double done, const char *what, void *watch);
 
-/* Takes the line of progress away. Signals stay caught, so that what was computed can be put away. */
+/* Clears the line of progress. Signals stay caught, so that results can still be saved. */
 void cli_watch_end(struct cli_watch *watch);
 
 /* 1 if a signal came. */

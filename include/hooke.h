@@ -6,11 +6,11 @@
  *   parts.h       generated parts: rope, cloth, lattice, mesh, strand
  *   state.h       time, positions, velocities
  *   integrator.h  methods and the run loop, and a warning before a run blows up
- *   measurement.h studies, limits, needs, costs, comparisons, causes, verifications: options, a run, tables
+ *   measurement.h studies, limits, needs, costs, comparisons, causes, verifications
  *   estimate.h    the error of a run, and the cheapest run for a wanted one
  *   scene.h       scene files and meshes
- *   trajectory.h  trajectories: written, read back, shown
- *   checkpoint.h  places from which a run goes on */
+ *   trajectory.h  trajectories: writing, reading, viewing
+ *   checkpoint.h  checkpoints, from which a run continues */
 #ifndef HOOKE_H
 #define HOOKE_H
 

@@ -1,4 +1,4 @@
-"""The cloth that all step: hooke's own, with the arrays that the others are given."""
+"""The cloth that all peers step: hooke's own, with its arrays for the others."""
 
 from __future__ import annotations
 
@@ -17,9 +17,9 @@ class Cloth:
     size: int  #: particles of a side
     damped: bool
     system: hooke.System
-    q: np.ndarray  #: where it starts (n, 3) [m], at rest
-    ends: np.ndarray  #: of its springs (m, 2), in hooke's order
-    family: np.ndarray  #: of every spring, its place in FAMILIES (m,)
+    q: np.ndarray  # initial positions (n, 3) [m], at rest
+    ends: np.ndarray  # ends of its springs (m, 2), in hooke's order
+    family: np.ndarray  # index into FAMILIES of every spring (m,)
     kappa: np.ndarray  #: [N/m] (m,)
     gamma: np.ndarray  #: [N s/m] (m,)
     rest_length: np.ndarray  #: [m] (m,)
@@ -47,7 +47,8 @@ class Cloth:
 
 
 def make(size: int, stiffness: float = 50.0, damping: float = 0.0) -> Cloth:
-    """A square metre of `size` x `size` particles and 1 kg, level, held at two corners; stiffness [N], damping [N s]."""
+    """A square metre of `size` x `size` particles and 1 kg, level, pinned at two corners; stiffness [N], damping [N
+    s]."""
     system = hooke.System()
     system.set_gravity([0, -GRAVITY, 0])
     family = {"stiffness": stiffness, "damping": damping}

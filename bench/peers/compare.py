@@ -1,4 +1,4 @@
-"""Which peers there are, and what they are run on."""
+"""The list of peers, and their cases."""
 
 from __future__ import annotations
 
@@ -14,10 +14,10 @@ import with_openmm
 import with_scipy
 from rows import Row
 
-#: The first of each table is what the others are held against.
+#: The others are compared with the first of each table.
 STEPPERS = [
     with_hooke.stepper("symplectic-euler"),
-    with_hooke.stepper("verlet", damped=False),  # its steps are solved for with damping
+    with_hooke.stepper("verlet", damped=False),  # its steps are implicit with damping
     with_numba.SCATTER,
     with_lammps.HARMONIC,
     with_openmm.LEAPFROG,

@@ -1,4 +1,4 @@
-"""Steps of a fixed length on cloths of several sizes: all that step a cloth take turns."""
+"""Fixed steps on cloths of several sizes: all steppers of a cloth take turns."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from rows import Row
 
 DAMPING = 0.01  # [N s]
 CHECKED = 100  # steps after which positions are compared
-ALLOWED = 1e-6  # of the longest way of a particle, in one component
+ALLOWED = 1e-6  # of the largest displacement of a particle, in one component
 TURN = 0.05  # [s]
 LEAST_TURNS = 3
 
@@ -25,7 +25,7 @@ class Different(RuntimeError):
 
 
 def compare(stepper: Stepper, q: np.ndarray, exact: np.ndarray, start: np.ndarray) -> tuple[float, float]:
-    """How far apart two motions are, the largest of a component, and how far they may be [m]."""
+    """The largest difference of two motions in a component, and its allowed value [m]."""
     apart, allowed = float(np.abs(q - exact).max()), ALLOWED * float(np.abs(exact - start).max())
     if not apart <= allowed:
         raise Different(f"{stepper.name}: {apart:.3g} m from hooke {stepper.method} after {CHECKED} steps, "
@@ -49,7 +49,7 @@ def steps_of_turn(motion: Motion) -> int:
 
 
 def race(size: int, damped: bool, steppers: list[Stepper], threads: int, seconds: float) -> Iterator[Row]:
-    """A row for each stepper; `seconds` are for the turns of each."""
+    """A row for each stepper; `seconds` is the time for the turns of each."""
     cloth = cloths.make(size, damping=DAMPING if damped else 0.0).shaken()
     step = cloth.stable_step("symplectic-euler")
     motions = [stepper.start(cloth, step, threads) for stepper in steppers]

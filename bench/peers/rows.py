@@ -1,4 +1,4 @@
-"""What was measured, as people and programs read it."""
+"""Measured rows, as text and CSV."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ class Row(NamedTuple):
     allowed: float = NAN  #: of it [m]
 
     def nanoseconds(self, seconds: float) -> float:
-        """Of a spring in a step."""
+        """Time of a spring in a step."""
         return 1e9 * seconds / self.springs if self.springs else NAN
 
 
@@ -54,7 +54,7 @@ def machine() -> dict[str, str]:
 
 
 class Printer:
-    """Prints rows as they come: "text", "csv" or "markdown"."""
+    """Prints rows as they arrive: "text", "csv" or "markdown"."""
 
     TITLES = ("scene", "peer", "threads", "rtol", "ms min", "ms median", "ns min", "ns median", "against hooke",
               "distance m")
@@ -73,7 +73,7 @@ class Printer:
             self._cells(["---", "---", *["---:"] * (len(self.TITLES) - 2)])
 
     def show(self, rows: list[Row]) -> None:
-        """Rows of one scene: all are held against the first."""
+        """Rows of one scene: all are compared with the first."""
         for row in rows:
             ns = [row.nanoseconds(s) for s in (row.seconds_min, row.seconds_median)]
             if self.form == "csv":

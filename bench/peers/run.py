@@ -1,10 +1,11 @@
-"""hooke beside LAMMPS, OpenMM, Numba and SciPy on the same cloth, in turns; docs/notes/performance.md says how to read it.
+"""hooke beside LAMMPS, OpenMM, Numba and SciPy on the same cloth, in turns; docs/notes/performance.md says how to
+read it.
 
     python bench/peers/run.py [--install] [--library FILE] [--sizes N,...] [--threads N] [--seconds S]
                               [--only fixed,tolerances,stiff] [--slow] [--csv | --markdown]
 
---install makes the virtual environment build/peers and installs the packages of requirements.txt into it; without it the
-one that is there is used. Ends with 1 if a peer does not compute the same motion.
+--install creates the virtual environment build/peers and installs the packages of requirements.txt into it; without
+it the existing one is used. Returns 1 if a peer does not compute the same motion.
 """
 
 from __future__ import annotations
@@ -42,7 +43,7 @@ def arguments() -> argparse.Namespace:
 
 
 def enter_environment(install: bool) -> None:
-    """Goes on in build/peers, with one thread where none are asked for."""
+    """Restarts in build/peers, with one thread by default."""
     python = ENVIRONMENT / "bin" / "python"
     if install:
         venv.create(ENVIRONMENT, with_pip=True)

@@ -1,4 +1,4 @@
-"""Runs with error control, on one thread: processor time against the error that is measured, all in turns."""
+"""Runs with error control, on one thread: processor time against measured error, all in turns."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ ATOL = 1e-9  # [m]
 
 
 def error_of(q: np.ndarray, exact: np.ndarray, name: str) -> float:
-    """The largest of a component [m]."""
+    """The largest difference of a component [m]."""
     error = float(np.abs(q - exact).max())
     if not error <= ALLOWED:
         raise Different(f"{name}: {error:.3g} m from the reference, {ALLOWED:.3g} m allowed")
@@ -39,7 +39,7 @@ def agree(
 
 def race(name: str, cloth: cloths.Cloth, duration: float, exact: np.ndarray, entrants: list[tuple[Solver, float]],
          seconds: float) -> Iterator[Row]:
-    """A row for each solver with its rtol. They take turns, each until its turns have taken `seconds`, once at least."""
+    """A row for each solver with its rtol. They take turns, each until its turns have taken `seconds`, at least once."""
     taken: list[list[float]] = [[] for _ in entrants]
     errors = [0.0] * len(entrants)
     for solver, _ in entrants:

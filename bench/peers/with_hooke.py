@@ -26,7 +26,7 @@ def stepper(method: str, damped: bool = True) -> Stepper:
 
 
 def solver(method: str, **options: object) -> Solver:
-    """By tolerances, or for rk4 with nine tenths of the step that is certain to be stable."""
+    """By tolerances, or for rk4 with nine tenths of the certainly stable step."""
 
     def solve(cloth: Cloth, duration: float, **tolerances: float) -> np.ndarray:
         chosen = {**tolerances, **options}

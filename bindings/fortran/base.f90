@@ -1,4 +1,4 @@
-! Statuses, messages, kinds, facts about the build; and how text and numbers go to C and back.
+! Statuses, messages, kinds, facts about the build; and conversion of text and numbers for C.
 module hooke_base
   use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_double, c_f_pointer, c_int32_t, c_int64_t, &
     c_null_char, c_ptr, c_size_t
@@ -20,11 +20,11 @@ module hooke_base
   integer, parameter, public :: hooke_bad_value = -2     ! an argument, an option or a scene is not allowed
   integer, parameter, public :: hooke_bad_call = -3      ! calls out of order
   integer, parameter, public :: hooke_io_failed = -4     ! a file could not be read or written
-  integer, parameter, public :: hooke_not_built = -5     ! this build of the library is without it
-  integer, parameter, public :: hooke_unsuited = -6      ! the method does not take this problem
+  integer, parameter, public :: hooke_not_built = -5     ! this build of the library lacks it
+  integer, parameter, public :: hooke_unsuited = -6      ! the method does not support this problem
   integer, parameter, public :: hooke_solver_failed = -7 ! a solver gave up
 
-  ! What this module itself refused last, in this thread; of length 0 where the library spoke last.
+  ! The last message of this module itself, in this thread; of length 0 if the library's is newer.
   character(400), save :: refusal = ""
   integer, save :: refusal_length = 0
   !$omp threadprivate(refusal, refusal_length)
@@ -48,7 +48,7 @@ contains
     end if
   end function
 
-  ! A short name of a status, such as "bad value".
+  ! Short name of a status, such as "bad value".
   function status_name(status) result(text)
     integer, intent(in) :: status
     character(:), allocatable :: text
@@ -57,18 +57,18 @@ contains
     text = to_text(name)
   end function
 
-  ! Version of the library that is running.
+  ! Version of the running library.
   function version() result(text)
     character(:), allocatable :: text
     text = to_text(c_version())
   end function
 
-  ! The ABI number of the library that is running.
+  ! ABI number of the running library.
   integer function abi()
     abi = int(c_abi())
   end function
 
-  ! One fact about this build: "sundials", "hdf5", "instructions", "licence" and more; "" for what is not there.
+  ! A fact about this build: "sundials", "hdf5", "instructions", "licence" and more; "" for an absent library.
   function build_fact(what) result(text)
     character(*), intent(in) :: what
     character(:), allocatable :: text
@@ -77,7 +77,7 @@ contains
 
   ! ---- for the other modules ----
 
-  ! Hands over the status of a call; where there is nobody to take it, anything but 0 ends the program.
+  ! Returns the status of a call; without an argument `status` a non-zero one ends the program.
   subroutine accept(code, status)
     integer(c_int32_t), intent(in) :: code
     integer, intent(out), optional :: status
@@ -89,7 +89,7 @@ contains
     end if
   end subroutine
 
-  ! A failure that is noticed before the library is called.
+  ! A failure that is detected before the library is called.
   subroutine refuse(code, text, status)
     integer, intent(in) :: code
     character(*), intent(in) :: text
@@ -105,7 +105,7 @@ contains
     error stop "hooke: " // text
   end subroutine
 
-  ! Text of the library as Fortran has it; "" for NULL.
+  ! Text of the library as Fortran text; "" for NULL.
   function to_text(address) result(text)
     type(c_ptr), intent(in) :: address
     character(:), allocatable :: text
@@ -129,7 +129,7 @@ contains
     terminated = trim(text) // c_null_char
   end function
 
-  ! The same of text that may be absent: what is left unallocated arrives as NULL.
+  ! The same for optional text: unallocated text is passed as NULL.
   subroutine to_c_if(text, terminated)
     character(*), intent(in), optional :: text
     character(:, kind=c_char), allocatable, intent(out) :: terminated
@@ -142,13 +142,13 @@ contains
     to_integer = int(count)
   end function
 
-  ! The number of a particle, spring, row or frame as C has it.
+  ! The index of a particle, spring, row or frame in C.
   elemental integer(c_int64_t) function zero_based(number)
     integer, intent(in) :: number
     zero_based = int(number, c_int64_t) - 1
   end function
 
-  ! A number by name: those of particles, springs and groups count from 1 here.
+  ! A number by name: indices of particles, springs and groups count from 1 here.
   real(c_double) function to_number(value, what)
     real(c_double), intent(in) :: value
     character(*), intent(in) :: what

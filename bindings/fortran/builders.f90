@@ -14,7 +14,7 @@ module hooke_builders
 
   integer, parameter :: place_of_force = 1
 
-  ! What hooke_system can do until it is committed.
+  ! The procedures of hooke_system that are allowed until it is committed.
   type, extends(hooke_system_queries) :: hooke_builder
   contains
     procedure :: create
@@ -38,7 +38,7 @@ module hooke_builders
 
 contains
 
-  ! ---- parts there are: "rope", "cloth" and so on; "" past the last ----
+  ! ---- kinds of parts: "rope", "cloth" and so on; "" past the last ----
 
   function part_kind(number, what) result(text)
     integer, intent(in) :: number
@@ -108,7 +108,7 @@ contains
     call self%pin([particle], status)
   end subroutine
 
-  ! Holds particles still.
+  ! Pins particles.
   subroutine pin_some(self, particles, status)
     class(hooke_builder), intent(inout) :: self
     integer, intent(in) :: particles(:)
@@ -227,7 +227,7 @@ contains
     call accept(c_system_set_gravity(self%address(), gravity), status)
   end subroutine
 
-  ! A force of the caller's own, which has to stay where it is as long as the system is used.
+  ! A callback force, which must exist as long as the system is used.
   subroutine set_force(self, force, status)
     class(hooke_builder), intent(inout) :: self
     class(hooke_force), target, intent(inout) :: force
@@ -253,7 +253,8 @@ contains
     call accept(code, status)
   end subroutine
 
-  ! Particles moved about where they were added: by amplitude(3) sin(2 pi frequency t + phase), in m, Hz and rad;
+  ! Particles driven about their initial positions: by amplitude(3) sin(2 pi frequency t + phase), in m, Hz
+  ! and rad;
   subroutine drive_harmonic(self, particles, amplitude, frequency, phase, status)
     class(hooke_builder), intent(inout) :: self
     integer, intent(in) :: particles(:)
@@ -283,7 +284,7 @@ contains
       size(time, kind=c_int64_t), time, displacement), status)
   end subroutine
 
-  ! or as `drive` says, which has to stay where it is as long as the system is used.
+  ! or by `drive`, which must exist as long as the system is used.
   subroutine drive_callback(self, particles, drive, status)
     class(hooke_builder), intent(inout) :: self
     integer, intent(in) :: particles(:)
@@ -304,7 +305,7 @@ contains
     call accept(code, status)
   end subroutine
 
-  ! Takes what options of a "scene" say of it: all but the title.
+  ! Applies options of a "scene", all but the title.
   subroutine apply(self, options, status)
     class(hooke_builder), intent(inout) :: self
     type(hooke_options), intent(in) :: options

@@ -1,4 +1,4 @@
-! How wrong a run is, and a method and a step or tolerance for an error that is wanted.
+! The error of a run, and a method and a step or tolerance for a wanted error.
 module hooke_estimates
   use, intrinsic :: iso_c_binding, only: c_double, c_funloc, c_int32_t, c_int64_t, c_loc, c_null_funptr, c_null_ptr, &
     c_ptr
@@ -32,7 +32,7 @@ module hooke_estimates
 
 contains
 
-  ! `want` [m] is the error that no frame is to exceed; NaN for none.
+  ! `want` [m] is the error that no frame may exceed; NaN for none.
   subroutine create(self, system, want, status)
     class(hooke_estimate), intent(inout) :: self
     class(hooke_system), intent(in) :: system
@@ -46,7 +46,7 @@ contains
     call accept(code, status)
   end subroutine
 
-  ! Told of progress; has to stay where it is as long as it is. Without one it is taken back.
+  ! Sets the progress callback, which must exist as long as it is set; without an argument it is removed.
   subroutine on_progress(self, progress)
     class(hooke_estimate), intent(inout) :: self
     class(hooke_progress), target, intent(inout), optional :: progress
@@ -73,7 +73,7 @@ contains
     call accept(c_estimate_pick(self%address(), c_method, run%address()), status)
   end subroutine
 
-  ! Before a run of `integrator` from `state`.
+  ! Call before a run of `integrator` from `state`.
   subroutine begin(self, integrator, state, status)
     class(hooke_estimate), intent(inout) :: self
     class(hooke_integrator), intent(in) :: integrator
@@ -83,7 +83,7 @@ contains
     call accept(c_estimate_begin(self%address(), integrator%address(), state%address()), status)
   end subroutine
 
-  ! Takes a state of the run, for observers to call.
+  ! Adds a state of the run, for observers to call.
   subroutine see(self, step, state)
     class(hooke_estimate), intent(in) :: self
     integer(c_int64_t), intent(in) :: step
@@ -92,7 +92,7 @@ contains
     nothing = c_estimate_see(step, state%address(), self%address())
   end subroutine
 
-  ! After the run, whose last state is `state`.
+  ! Call after the run, whose last state is `state`.
   subroutine measure(self, integrator, state, status)
     class(hooke_estimate), intent(inout) :: self
     class(hooke_integrator), intent(in) :: integrator

@@ -1,6 +1,7 @@
-! Forces and motions of the caller's own: types to extend, and what stands between them and C.
+! Callback forces and motions: types to extend, and their interface to C.
 !
-! A `stop_value` is 0 when it comes; anything else stops the run and comes out of hooke_integrator's stop_value().
+! A `stop_value` is initially 0; any other value stops the run and is returned by hooke_integrator's
+! stop_value().
 module hooke_forces
   use, intrinsic :: iso_c_binding, only: c_double, c_f_pointer, c_int32_t, c_int64_t, c_ptr
   implicit none
@@ -14,13 +15,13 @@ module hooke_forces
     procedure(add_force), deferred :: add
   end type
 
-  ! One that knows its derivative too, which spares difference quotients.
+  ! A force with its derivative, which replaces difference quotients.
   type, abstract, extends(hooke_force) :: hooke_force_with_product
   contains
     procedure(add_force_product), deferred :: add_product
   end type
 
-  ! A motion of `n` particles: a function of t alone.
+  ! A prescribed motion of `n` particles: a function of t alone.
   type, abstract :: hooke_drive
   contains
     procedure(move), deferred :: move

@@ -1,5 +1,5 @@
-! What stands for an object of the library: counted, so that it is released once, when the last variable that has it is
-! gone, and after everything that was made from it.
+! Base type of objects of the library: reference counted, so that an object is released once, when its last
+! variable is gone, and after everything that was made from it.
 module hooke_handles
   use, intrinsic :: iso_c_binding, only: c_associated, c_intptr_t, c_loc, c_null_ptr, c_ptr
   use hooke_base, only: hooke_bad_call, refuse, stop_with
@@ -14,7 +14,7 @@ module hooke_handles
     end subroutine
   end interface
 
-  ! What a callback needs, released with the object that calls it.
+  ! Data of a callback, released with the object that calls it.
   type :: kept_thing
     class(*), pointer :: thing => null()
     integer :: place = 0
@@ -32,7 +32,8 @@ module hooke_handles
   type :: hooke_handle
     private
     type(counted_object), pointer :: object => null()
-    ! Where the variable is that counts. A copy that a compiler made bit by bit is elsewhere, and releases nothing.
+    ! Address of the variable that counts. A copy that a compiler made bit by bit has another address, and
+    ! releases nothing.
     integer(c_intptr_t) :: home = 0
   contains
     procedure :: exists
@@ -57,14 +58,14 @@ contains
     if (exists) exists = c_associated(self%object%address)
   end function
 
-  ! The object as C has it, for calls of one's own.
+  ! The C pointer of the object, for calls of C.
   type(c_ptr) function address(self)
     class(hooke_handle), intent(in) :: self
     if (.not. self%exists()) call stop_with("an object is used that was not created, or was destroyed")
     address = self%object%address
   end function
 
-  ! True, with a status, where there is no object to call.
+  ! True, with a status, if there is no object.
   logical function is_missing(self, status)
     class(hooke_handle), intent(in) :: self
     integer, intent(out), optional :: status
@@ -72,7 +73,8 @@ contains
     if (is_missing) call refuse(hooke_bad_call, "an object is used that was not created, or was destroyed", status)
   end function
 
-  ! Takes over what was created in C. `owner` is kept until it is gone; what is only lent has no `destroy`.
+  ! Takes ownership of an object created in C. `owner` is kept until it is gone; a borrowed object has no
+  ! `destroy`.
   subroutine take(self, address, destroy, owner)
     class(hooke_handle), intent(inout) :: self
     type(c_ptr), intent(in) :: address
@@ -90,7 +92,7 @@ contains
     call settle(self, object)
   end subroutine
 
-  ! Hands the object to a caller who closes it himself; no other name of it has it any more.
+  ! Passes the object to a caller who closes it; no other variable has it any more.
   type(c_ptr) function give_up(self)
     class(hooke_handle), intent(inout) :: self
     give_up = self%address()
@@ -98,7 +100,7 @@ contains
     call self%destroy()
   end function
 
-  ! Points at something for the time of a callback, and with NULL takes it back, from copies too.
+  ! Points at an object for the duration of a callback; NULL clears it, in copies too.
   subroutine lend(self, address)
     class(hooke_handle), intent(inout) :: self
     type(c_ptr), intent(in) :: address
@@ -106,7 +108,7 @@ contains
     self%object%address = address
   end subroutine
 
-  ! Keeps what a callback needs; what was kept at the same `place` > 0 before is released.
+  ! Keeps data of a callback; data kept before at the same `place` > 0 are released.
   subroutine keep(self, thing, place)
     class(hooke_handle), intent(inout) :: self
     class(*), target, intent(inout) :: thing
@@ -128,7 +130,7 @@ contains
     entry%thing => thing
   end subroutine
 
-  ! Makes `self` another name of what `other` has.
+  ! Makes `self` another reference to the object of `other`.
   subroutine share(self, other)
     class(hooke_handle), intent(inout) :: self
     class(hooke_handle), intent(in) :: other
@@ -140,13 +142,13 @@ contains
     if (associated(object)) call settle(self, object)
   end subroutine
 
-  ! Whether both are names of one object.
+  ! Whether both refer to one object.
   logical function has_that_of(self, other)
     class(hooke_handle), intent(in) :: self, other
     has_that_of = associated(self%object, other%object) .and. self%home == place_of(self)
   end function
 
-  ! Lets go of the object before the variable is gone.
+  ! Releases the object before the variable is gone.
   recursive subroutine release(self)
     class(hooke_handle), intent(inout) :: self
     if (self%home == place_of(self)) call release_object(self%object)

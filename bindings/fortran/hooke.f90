@@ -1,14 +1,16 @@
-! hooke for Fortran: mass-spring systems. `use hooke` gives everything below; docs/fortran.md is the way in.
+! hooke for Fortran: mass-spring systems. `use hooke` gives everything below; docs/fortran.md is the
+! introduction.
 !
-! Numbers of particles, springs, triples, groups, rows, places and frames count from 1, in arguments and in results.
-! Texts count from 0, as scene files do: messages, sentences, and values of options such as `pinned` and `watch`.
-! Arrays of positions, velocities and forces are (3, n); units are SI.
+! Numbers of particles, springs, triples, groups, rows, places and frames count from 1, in arguments and in
+! results. Texts count from 0, as scene files do: messages, sentences, and values of options such as `pinned`
+! and `watch`. Arrays of positions, velocities and forces are (3, n); units are SI.
 !
-! What can fail has a last argument `status`, optional: 0 is fine, a negative one a failure, a positive one an outcome
-! of a run; hooke_message() then says what. Without it anything but 0 ends the program with the message.
+! Procedures that can fail have an optional last argument `status`: 0 is success, a negative value a failure,
+! a positive value an outcome of a run; hooke_message() then describes it. Without the argument a non-zero
+! status ends the program with the message.
 !
-! Variables of these types are released when they go out of scope, in any order. Assignment makes a second name of the
-! same object; copy_to(), where there is one, copies.
+! Variables of these types are released when they go out of scope, in any order. Assignment makes a second
+! reference to the same object; copy_to(), where it exists, copies.
 module hooke
   use hooke_base, only: hooke_real, hooke_long, &
     hooke_ok, hooke_stopped, hooke_diverged, hooke_step_limit, hooke_no_memory, hooke_bad_value, hooke_bad_call, &

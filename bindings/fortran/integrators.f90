@@ -19,7 +19,7 @@ module hooke_integrators
     of_progress = 6
 
   type, extends(hooke_integrator_queries) :: hooke_integrator
-    ! The options it runs with: its own copy, with defaults filled in.
+    ! Its own copy of its options, with defaults filled in.
     type(hooke_options) :: options
   contains
     procedure :: create
@@ -60,7 +60,7 @@ contains
     text = to_text(c_method_name(zero_based(number)))
   end function
 
-  ! One line about a method; "" if there is no such name.
+  ! One-line description of a method; "" if there is no such name.
   function method_summary(name) result(text)
     character(*), intent(in) :: name
     character(:), allocatable :: text
@@ -94,7 +94,7 @@ contains
     call accept(code, status)
   end subroutine
 
-  ! For x' = phi(t, x) of `size` numbers; the rate has to stay where it is as long as the integrator is used.
+  ! For x' = phi(t, x) of `size` numbers; the rate must exist as long as the integrator is used.
   subroutine create_first_order(self, size, rate, options, status)
     class(hooke_integrator), intent(inout) :: self
     integer, intent(in) :: size
@@ -126,8 +126,8 @@ contains
     call self%options%take(c_integrator_options(integrator), owner=self)
   end subroutine
 
-  ! ---- watching: at most one of each kind; without an observer it is taken back. What watches has to stay where it is
-  ! as long as it does. ----
+  ! ---- watching: at most one observer of each kind; without an argument it is removed. Observers must exist
+  ! as long as they are set. ----
 
   subroutine on_frame(self, observer, status)
     class(hooke_integrator), intent(inout) :: self
@@ -176,7 +176,7 @@ contains
     call accept(code, status)
   end subroutine
 
-  ! Told between two steps, after every `seconds` of work [s].
+  ! Called between two steps, after every `seconds` of work [s].
   subroutine on_progress(self, seconds, progress, status)
     class(hooke_integrator), intent(inout) :: self
     real(c_double), intent(in) :: seconds
@@ -223,7 +223,7 @@ contains
     call accept(code, status)
   end subroutine
 
-  ! Told once a run when the step is near the safe one, and when it is above.
+  ! Called once a run when the step comes near the safe one, and when it exceeds it.
   subroutine on_warning(self, warning, status)
     class(hooke_integrator), intent(inout) :: self
     class(hooke_warning), target, intent(inout), optional :: warning
@@ -258,7 +258,8 @@ contains
     call accept(c_integrator_run(self%address(), state%address()), status)
   end subroutine
 
-  ! Goes on from where read_checkpoint() placed integrator and state, or where a run with a fixed step was stopped.
+  ! Continues a run from where read_checkpoint() placed integrator and state, or where a run with a fixed step
+  ! was stopped.
   subroutine resume(self, state, status)
     class(hooke_integrator), intent(inout) :: self
     class(hooke_state), intent(inout) :: state
@@ -268,7 +269,7 @@ contains
     call accept(c_integrator_resume(self%address(), state%address()), status)
   end subroutine
 
-  ! Writes where the run stands; `name` says which run it is.
+  ! Writes a checkpoint of the run; `name` identifies the run.
   subroutine write_checkpoint(self, path, state, name, status)
     class(hooke_integrator), intent(in) :: self
     character(*), intent(in) :: path
@@ -282,7 +283,8 @@ contains
     call accept(c_checkpoint_write(to_c(path), self%address(), state%address(), c_name), status)
   end subroutine
 
-  ! Puts integrator and state where the file has them, for resume() or step(); of any run if `name` is absent.
+  ! Sets integrator and state to the point that the file holds, for resume() or step(); of any run if `name`
+  ! is absent.
   subroutine read_checkpoint(self, path, state, name, status)
     class(hooke_integrator), intent(inout) :: self
     character(*), intent(in) :: path
@@ -315,8 +317,8 @@ contains
     call accept(c_integrator_step(self%address(), state%address(), steps), status)
   end subroutine
 
-  ! Takes some steps of the motion that the integrator has, on from where the last call left it, which step() with 0
-  ! steps begins; states are stale until sync().
+  ! Takes some steps of the integrator's own motion, continuing from where the last call left it; step() with
+  ! 0 steps begins one. States are stale until sync().
   subroutine advance_some(self, steps, status)
     class(hooke_integrator), intent(inout) :: self
     integer(c_int32_t), intent(in) :: steps
@@ -332,7 +334,7 @@ contains
     call accept(c_integrator_advance(self%address(), steps), status)
   end subroutine
 
-  ! Writes where the motion is into `state`.
+  ! Writes the motion into `state`.
   subroutine sync(self, state, status)
     class(hooke_integrator), intent(inout) :: self
     class(hooke_state), intent(inout) :: state
@@ -354,7 +356,7 @@ contains
       velocity), status)
   end subroutine
 
-  ! Puts k particles of the motion where `position` has them, with the velocities of `velocity`.
+  ! Sets k particles of the motion to `position`, with `velocity`.
   subroutine put(self, particles, position, velocity, status)
     class(hooke_integrator), intent(inout) :: self
     integer, intent(in) :: particles(:)
@@ -376,7 +378,7 @@ contains
     if (.not. fit) call refuse(hooke_bad_value, "positions and velocities of k particles have the shape (3, k)", status)
   end function
 
-  ! ---- what it did, since it was made ----
+  ! ---- counts since it was made ----
 
   subroutine recent(self, place, state, status)
     class(hooke_integrator), intent(in) :: self

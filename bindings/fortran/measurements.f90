@@ -33,8 +33,8 @@ module hooke_measurements
     procedure :: recommend
     procedure :: on_frame      ! of a comparison
     procedure :: lean          ! of needs: the lean system,
-    procedure :: lean_run      ! the run to make of it,
-    procedure :: lean_particle ! and where it has a particle of the full one
+    procedure :: lean_run      ! its run,
+    procedure :: lean_particle ! and the map from the full one
     procedure :: lean_position
     procedure :: advice_apply  ! of a why
     procedure, private :: assign
@@ -59,7 +59,7 @@ contains
     call accept(code, status)
   end subroutine
 
-  ! Of a trajectory; `options` are those of "verify", `limits` those of "limits".
+  ! For a trajectory; `options` are those of "verify", `limits` those of "limits".
   subroutine create_verify(self, path, options, limits, status)
     class(hooke_measurement), intent(inout) :: self
     character(*), intent(in) :: path
@@ -72,7 +72,7 @@ contains
     call accept(code, status)
   end subroutine
 
-  ! A "why": from an integrator whose last run ended early, and which stays as it is until run() has returned.
+  ! A "why": for an integrator whose last run ended early; it must not change until run() has returned.
   subroutine create_why(self, integrator, options, status)
     class(hooke_measurement), intent(inout) :: self
     class(hooke_integrator), intent(in) :: integrator
@@ -86,7 +86,7 @@ contains
     call accept(code, status)
   end subroutine
 
-  ! The same from states that were kept of a run: the one it began with, and the last good one.
+  ! The same from states that were kept of a run: the initial one, and the last good one.
   subroutine create_why_kept(self, system, run, first, last, options, status)
     class(hooke_measurement), intent(inout) :: self
     class(hooke_system), intent(in) :: system
@@ -106,7 +106,7 @@ contains
     call accept(code, status)
   end subroutine
 
-  ! Told of progress; has to stay where it is as long as it is. Without one it is taken back.
+  ! Sets the progress callback, which must exist as long as it is set; without an argument it is removed.
   subroutine on_progress(self, progress)
     class(hooke_measurement), intent(inout) :: self
     class(hooke_progress), target, intent(inout), optional :: progress
@@ -121,7 +121,7 @@ contains
     call self%keep(holder, of_progress)
   end subroutine
 
-  ! Measures. A limit and a cost are those at `state`, the initial one without it; other kinds take none.
+  ! Measures. A limit and a cost are those at `state`, by default the initial one; other kinds take no state.
   subroutine run(self, state, status)
     class(hooke_measurement), intent(inout) :: self
     class(hooke_state), intent(inout), optional :: state
@@ -145,7 +145,7 @@ contains
     find = to_integer(c_measurement_find(self%address(), to_c(table), to_c(column), to_c(text))) + 1
   end function
 
-  ! Of the library; valid until it is run again.
+  ! The library's array; valid until the next run.
   function series(self, table, row, column)
     class(hooke_measurement), intent(in) :: self
     character(*), intent(in) :: table, column
@@ -155,7 +155,7 @@ contains
       c_measurement_series_count(self%address(), to_c(table), zero_based(row), to_c(column)))
   end function
 
-  ! ---- what there is ----
+  ! ---- kinds, tables and columns ----
 
   ! "name", "doc" or "shape" ("record" or "rows") of table `table` of a kind, "" past the last; without a kind the "name" of
   ! kind number `table`.
@@ -189,7 +189,8 @@ contains
 
   ! ---- a comparison ----
 
-  ! Sees the frames of all runs; has to stay where it is as long as it is. Without one it is taken back.
+  ! Sets the observer of the frames of all runs, which must exist as long as it is set; without an argument it
+  ! is removed.
   subroutine on_frame(self, observer, status)
     class(hooke_measurement), intent(inout) :: self
     class(hooke_comparison_observer), target, intent(inout), optional :: observer
@@ -212,7 +213,7 @@ contains
     call accept(code, status)
   end subroutine
 
-  ! ---- what a scene needs ----
+  ! ---- needs ----
 
   ! The lean system; hooke_bad_call before it was found.
   subroutine lean(self, system, status)
@@ -244,7 +245,7 @@ contains
     end if
   end subroutine
 
-  ! Where the lean system has a particle of the full one; 0 if it was left out.
+  ! The particle of the lean system that is a particle of the full one; 0 if it was left out.
   integer function lean_particle(self, particle)
     class(hooke_measurement), intent(in) :: self
     integer, intent(in) :: particle
@@ -271,7 +272,7 @@ contains
 
   ! ---- a limit ----
 
-  ! The step [s] up to which `method` is stable for x'' + 2 decay x' + frequency^2 x = 0.
+  ! Largest step [s] at which `method` is stable for x'' + 2 decay x' + frequency^2 x = 0.
   real(c_double) function limit_of_mode(method, frequency, decay)
     character(*), intent(in) :: method
     real(c_double), intent(in) :: frequency, decay

@@ -1,6 +1,7 @@
-! Who watches a run or makes a rate: types to extend, and what stands between them and C.
+! Observers and rates: types to extend, and their interface to C.
 !
-! A `stop_value` is 0 when it comes; anything else stops the run and comes out of hooke_integrator's stop_value().
+! A `stop_value` is initially 0; any other value stops the run and is returned by hooke_integrator's
+! stop_value().
 module hooke_observers
   use, intrinsic :: iso_c_binding, only: c_double, c_f_pointer, c_int32_t, c_int64_t, c_null_ptr, c_ptr
   use hooke_base, only: hooke_long, to_text
@@ -17,26 +18,26 @@ module hooke_observers
     procedure(evaluate_rate), deferred :: evaluate
   end type
 
-  ! Sees the state after `step` steps; may not change it, nor keep it.
+  ! Receives the state after `step` steps; must not change it, nor keep it.
   type, abstract :: hooke_observer
   contains
     procedure(see_state), deferred :: see
   end type
 
-  ! Told of progress: the share done (0..1) and what is running.
+  ! Receives progress: the fraction done (0..1) and the name of the running task.
   type, abstract :: hooke_progress
   contains
     procedure(tell_progress), deferred :: tell
   end type
 
-  ! Told that the step is no longer safe: "near-limit", "above-limit" or "never-stable"; the largest that is [s]; and
-  ! what determines the bound, 0 for no spring.
+  ! Receives a warning that the step is no longer safe: "near-limit", "above-limit" or "never-stable"; the
+  ! bound [s]; and what determines it, 0 for no spring.
   type, abstract :: hooke_warning
   contains
     procedure(warn_of_step), deferred :: warn
   end type
 
-  ! Sees a frame of a run of a comparison, "reference" or a method's name.
+  ! Receives a frame of a run of a comparison, "reference" or a method's name.
   type, abstract :: hooke_comparison_observer
   contains
     procedure(see_frame), deferred :: see

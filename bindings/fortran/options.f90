@@ -31,7 +31,7 @@ contains
     call self%share(other)
   end subroutine
 
-  ! What C gets for options that may be left out.
+  ! Values passed to C for absent options.
   type(c_ptr) function options_or_null(options)
     use, intrinsic :: iso_c_binding, only: c_null_ptr
     type(hooke_options), intent(in), optional :: options

@@ -25,14 +25,15 @@ module hooke_scenes
 
 contains
 
-  ! For a program that is its own master: keeps HDF5 from running code at exit. To be called before anything else.
+  ! For a program that owns its whole process: keeps HDF5 from running code at exit. Call it before anything
+  ! else.
   subroutine own_process(status)
     integer, intent(out), optional :: status
     call accept(c_io_own_process(), status)
   end subroutine
 
-  ! Reads a scene file, or the scene that a trajectory file was made from.
-  ! `limits` are options of create("limits"): what it may need of memory, and whether files may be anywhere.
+  ! Reads a scene file, or the scene that a trajectory file was made from. `limits` are options of
+  ! create("limits"): the maximum memory of the scene, and whether its files may be anywhere.
   subroutine load(self, path, status, limits)
     class(hooke_scene), intent(inout) :: self
     character(*), intent(in) :: path
@@ -45,8 +46,8 @@ contains
     call accept(code, status)
   end subroutine
 
-  ! The same from text; `name` stands for the file in messages, `folder` is where files named in it are looked up
-  ! (without it none are allowed).
+  ! The same from text; `name` replaces the file name in messages, `folder` is where files named in it are
+  ! looked up (without it none are allowed).
   subroutine parse(self, text, name, folder, status, limits)
     class(hooke_scene), intent(inout) :: self
     character(*, kind=c_char), intent(in) :: text

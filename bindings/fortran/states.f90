@@ -1,4 +1,4 @@
-! What moves: time, positions and velocities, where the library has them.
+! State of a motion: time, positions and velocities, in the library's memory.
 module hooke_states
   use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_f_pointer, c_int32_t, c_int64_t, c_null_ptr, c_ptr
   use hooke_base, only: accept, to_integer
@@ -9,8 +9,9 @@ module hooke_states
   private
   public :: hooke_state
 
-  ! q(3, n) [m] and v(3, n) [m/s], for reading and, except in an observer, for writing; x is q as a list, or the whole
-  ! of a first-order problem, which has no q and v. They stay where they are as long as the state is there.
+  ! q(3, n) [m] and v(3, n) [m/s], for reading and, except in an observer, for writing; x is q as a list, or
+  ! all numbers of a first-order problem, which has no q and v. The pointers are valid as long as the state
+  ! exists.
   type, extends(hooke_handle) :: hooke_state
     real(c_double), pointer, contiguous :: q(:, :) => null(), v(:, :) => null(), x(:) => null()
   contains
@@ -80,13 +81,13 @@ contains
     call c_state_set_time(self%address(), t)
   end subroutine
 
-  ! Numbers in q: 3n, or the size of a first-order problem.
+  ! Number of numbers in q: 3n, or the size of a first-order problem.
   integer function size_of(self)
     class(hooke_state), intent(in) :: self
     size_of = to_integer(c_state_size(self%address()))
   end function
 
-  ! Stands for a state of the library's during a callback; NULL ends it.
+  ! Refers to a state of the library's during a callback; NULL ends it.
   subroutine look_at(self, state)
     class(hooke_state), intent(inout) :: self
     type(c_ptr), intent(in) :: state

@@ -1,4 +1,5 @@
-! What a scene is: particles, springs and forces. Built (module hooke_builders), committed, then only asked.
+! The system: particles, springs and forces. It is built (module hooke_builders), committed, and then only
+! queried.
 !
 ! Arrays of positions, velocities and forces are (3, n). Pointers are to the library's memory, for reading.
 module hooke_systems
@@ -48,7 +49,7 @@ contains
     call self%share(other)
   end subroutine
 
-  ! Masses [kg] and inverse masses [1/kg], 0 where held or driven; not associated before commit.
+  ! Masses [kg] and inverse masses [1/kg], 0 where pinned or driven; not associated before commit.
 
   function mass(self) result(series)
     class(hooke_system), intent(in) :: self
@@ -62,8 +63,8 @@ contains
     series => to_series(c_system_inverse_mass(self%address()), int(self%particle_count(), c_int64_t))
   end function
 
-  ! All members of a force ("springs", "bending", "altitude", "anchors"): the particles of each, particles(:, k), and
-  ! stiffness, damping and rest lengths, of tetrahedra 7 each, one after the other.
+  ! All members of a force ("springs", "bending", "altitude", "anchors"): the particles of each, particles(:,
+  ! k), and stiffness, damping and rest lengths, 7 for each tetrahedron.
   subroutine members(self, force, particles, stiffness, damping, rest_length, status)
     class(hooke_system), intent(in) :: self
     character(*), intent(in) :: force
@@ -94,7 +95,7 @@ contains
     call accept(c_system_anchor_points(self%address(), points), status)
   end subroutine
 
-  ! The altitude of each that acts at q [m], 0 where none does.
+  ! The altitude of each that acts at q [m]; 0 where none acts.
   subroutine altitude_lengths(self, q, length, status)
     class(hooke_system), intent(in) :: self
     real(c_double), intent(in), contiguous :: q(:, :)
@@ -107,7 +108,7 @@ contains
 
   ! ---- forces and energies at q(3, n) and v(3, n) ----
 
-  ! Whether arrays of (3, n) suit; where there is nobody to tell, they have to.
+  ! Whether arrays have the shape (3, n); without an argument `status` they must have it.
   logical function suits(self, status, first, second)
     class(hooke_system), intent(in) :: self
     integer, intent(out), optional :: status
@@ -153,7 +154,7 @@ contains
     call accept(c_system_acceleration(self%address(), t, q, v, accelerations), status)
   end subroutine
 
-  ! Springs whose ends coincide although their rest length is not zero.
+  ! Number of springs whose ends coincide although their rest length is not zero.
   integer function coincident_springs(self, q)
     class(hooke_system), intent(in) :: self
     real(c_double), intent(in), contiguous :: q(:, :)
@@ -224,7 +225,7 @@ contains
     end if
   end function
 
-  ! Power that damping and drag turn into heat [W].
+  ! Power that damping and drag dissipate as heat [W].
   real(c_double) function dissipated_power(self, q, v)
     class(hooke_system), intent(in) :: self
     real(c_double), intent(in), contiguous :: q(:, :), v(:, :)
@@ -265,7 +266,7 @@ contains
     bound = found(1)
   end subroutine
 
-  ! The same of every method, in the order of hooke_method_name().
+  ! The same for every method, in the order of hooke_method_name().
   subroutine step_bounds(self, q, bounds, status)
     class(hooke_system), intent(in) :: self
     real(c_double), intent(in), contiguous :: q(:, :)

@@ -1,4 +1,4 @@
-! Trajectory files (HDF5): written, read back, and one for a whole comparison.
+! Trajectory files (HDF5): writing, reading, and one file for a whole comparison.
 module hooke_trajectories
   use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_int32_t, c_int64_t, c_ptr
   use hooke_base, only: accept, hooke_bad_value, hooke_long, hooke_ok, hooke_stopped, refuse, to_c, to_c_if, &
@@ -18,7 +18,7 @@ module hooke_trajectories
   private
   public :: hooke_trajectory, hooke_record, hooke_comparison_file
 
-  ! A file under way. One that goes out of scope is closed as "stopped".
+  ! A file being written. One that goes out of scope is closed as "stopped".
   type, extends(hooke_trajectory_queries) :: hooke_trajectory
   contains
     procedure :: create => create_trajectory
@@ -30,9 +30,9 @@ module hooke_trajectories
     generic :: assignment(=) => assign_trajectory
   end type
 
-  ! A file read back.
+  ! A file being read.
   type, extends(hooke_record_queries) :: hooke_record
-    type(hooke_options) :: options ! of the run, as it ran
+    type(hooke_options) :: options ! of the run, with defaults filled in
   contains
     procedure :: open => open_record
     procedure :: check => check_frame
@@ -72,8 +72,8 @@ contains
     call accept(code, status)
   end subroutine
 
-  ! Opens the file of a run that was stopped or killed, and puts a new integrator and its state where it goes on, for
-  ! their resume(). `finished`: there is nothing to go on with, and the trajectory stays empty.
+  ! Opens the file of a run that was stopped or killed, and sets a new integrator and its state to where it
+  ! continues, for resume(). `finished`: there is nothing to continue, and the trajectory stays empty.
   subroutine resume_trajectory(self, path, system, integrator, state, finished, status)
     class(hooke_trajectory), intent(inout) :: self
     character(*), intent(in) :: path
@@ -134,7 +134,7 @@ contains
     type(c_ptr), value :: trajectory
     integer(c_int32_t) :: code
     code = c_trajectory_close(trajectory, int(hooke_stopped, c_int32_t))
-    if (code /= 0) return ! nobody is left to be told
+    if (code /= 0) return ! no status can be returned
   end subroutine
 
   impure elemental subroutine assign_trajectory(self, other)
@@ -143,7 +143,7 @@ contains
     call self%share(other)
   end subroutine
 
-  ! ---- read back ----
+  ! ---- reading ----
 
   ! Opens a trajectory file, finished or not.
   subroutine open_record(self, path, status)
@@ -160,7 +160,7 @@ contains
     call accept(code, status)
   end subroutine
 
-  ! Refuses a frame whose numbers are not those that were written: 1 is the first, -1 the last.
+  ! Refuses a damaged frame, whose numbers are not those that were written: 1 is the first, -1 the last.
   subroutine check_frame(self, frame, status)
     class(hooke_record), intent(in) :: self
     integer, intent(in) :: frame
@@ -230,8 +230,8 @@ contains
 
   ! ---- comparisons ----
 
-  ! Creates one file for a comparison before it runs; its observer of frames is taken over. Its label "scene" is the
-  ! text of the scene.
+  ! Creates one file for a comparison before it runs; it replaces the observer of frames. Its label "scene" is
+  ! the text of the scene.
   subroutine create_comparison_file(self, path, comparison, status)
     class(hooke_comparison_file), intent(inout) :: self
     character(*), intent(in) :: path
@@ -259,7 +259,7 @@ contains
     type(c_ptr), value :: file
     integer(c_int32_t) :: code
     code = c_comparison_file_close(file)
-    if (code /= 0) return ! nobody is left to be told
+    if (code /= 0) return ! no status can be returned
   end subroutine
 
   impure elemental subroutine assign_comparison_file(self, other)

@@ -19,7 +19,7 @@ module hooke_views
 
 contains
 
-  ! Chooses what of the file is shown.
+  ! Selects the frames and springs that are shown.
   subroutine create(self, record, options, status)
     class(hooke_view), intent(inout) :: self
     class(hooke_record), intent(in) :: record

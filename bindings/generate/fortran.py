@@ -1,8 +1,8 @@
-"""Writes what of the Fortran module is not written by hand: python bindings/generate/fortran.py FOLDER
+"""Writes the generated part of the Fortran module: python bindings/generate/fortran.py FOLDER
 
-FOLDER/queries.f90 has the procedures that only hand on (queries.py). FOLDER/c.f90 has the interfaces of C: a module
-hooke_c_<header> for each header, and in it hooke_state_create() as c_state_create(). Pointers to numbers and text are
-optional arguments: one that is absent arrives as NULL."""
+FOLDER/queries.f90 has the procedures that only convert arguments and results (queries.py). FOLDER/c.f90 has the
+interfaces of C: a module hooke_c_<header> for each header, and in it hooke_state_create() as c_state_create().
+Pointers to numbers and text are optional arguments: an absent one is passed as NULL."""
 
 import re
 import sys
@@ -32,7 +32,7 @@ def argument(kind, callbacks):
 
 
 def result(words):
-    """Type of a result, None where there is none."""
+    """Type of a result; None if there is none."""
     if "*" in words:
         return "type(c_ptr)"
     return None if words == "void" else NUMBERS[words]

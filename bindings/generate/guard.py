@@ -1,8 +1,8 @@
-"""Writes what the guard needs to know of every public function: python bindings/generate/guard.py FOLDER
+"""Writes the tables of the guard for every public function: python bindings/generate/guard.py FOLDER
 
-FOLDER/guard/calls.inc, the functions, their texts and their handles, for src/guard/guard.c; FOLDER/guard/names.h, other
-names for the functions that they call, included by every file of the library; FOLDER/handle_calls.inc, a bad call for each
-handle of each function, for the tests."""
+FOLDER/guard/calls.inc, the functions, their texts and their handles, for src/guard/guard.c; FOLDER/guard/names.h,
+other names for the functions that they call, included by every file of the library; FOLDER/handle_calls.inc, a bad
+call for each handle of each function, for the tests."""
 
 import re
 import sys
@@ -10,9 +10,9 @@ from pathlib import Path
 
 import headers
 
-# Options may be NULL, and stand for the defaults then, but in these functions.
+# Options may be NULL, which means the defaults, except in these functions.
 NEED_OPTIONS = {"hooke_options_copy", "hooke_options_row_count", "hooke_options_row", "hooke_options_row_number"}
-# Texts that may be NULL, by the names of the parameters; and those whose name alone does not say it.
+# Texts that may be NULL, by the names of their parameters; and those that need the function's name as well.
 OPTIONAL_TEXTS = {"command", "folder", "run", "scene", "scene_text", "title"}
 MAY_BE_NO_TEXT = {("hooke_estimate_pick", "method"), ("hooke_record_write_xdmf", "path"),
                   ("hooke_measurement_label", "text"), ("hooke_measurement_table", "kind")}
@@ -21,20 +21,20 @@ MADE_BY = "/* made from the headers in include/hooke by bindings/generate/guard.
 
 
 def handle(kind, types):
-    """The type that a parameter is a handle of; None for other parameters."""
+    """Type of the handle that a parameter is; None for other parameters."""
     match = re.fullmatch(r"(?:const )?(hooke_\w+) \*", kind)
     return match.group(1) if match and match.group(1) in types else None
 
 
 def refused(result, name):
-    """What a function returns for a bad handle; None where it returns nothing."""
+    """Return value of a function for a bad handle; None if it returns nothing."""
     if "*" in result:
         return "NULL"
     return "0" if "_is_" in name and result == "int32_t" else REFUSED.get(result)
 
 
 def may_be_null(name, kind):
-    """Whether a handle may be NULL, or the function itself answers for it."""
+    """Whether a handle may be NULL, or is checked by the function itself."""
     if (name, kind) in (("hooke_measurement_run", "hooke_state"), ("hooke_estimate_measure", "hooke_integrator")):
         return True  # the initial state; an integrator that was destroyed
     return name.endswith(("_destroy", "_close")) or (kind == "hooke_options" and name not in NEED_OPTIONS)
@@ -46,7 +46,7 @@ def may_be_no_text(name, what):
 
 
 def check_of_text(result, name, what):
-    """A text is refused by a function that returns a status, and to others a word that they do not know."""
+    """A bad text argument: NULL for a function that returns a status, an unknown word for others."""
     return f"TEXT({what})" if result == "int32_t" and "_is_" not in name else f"WORD({what})"
 
 
@@ -67,7 +67,7 @@ def call(function, types):
 
 
 def bad_calls(function, types):
-    """A line for each handle: the others are good, and what else there is does not matter."""
+    """A line for each handle: the others are valid, and the other arguments do not matter."""
     result, name, parameters = function
     kinds = [handle(kind, types) for kind, _ in parameters]
     value = refused(result, name)
@@ -87,7 +87,7 @@ def zero(kind):
 
 
 def texts(public):
-    """{path: text} of all that is written, from {header: text}."""
+    """{path: text} of all generated files, from {header: text}."""
     types = headers.opaque_types("".join(public.values()))
     every = [function for text in public.values() for function in headers.declared(text)]
     includes = "".join(f'#include "hooke/{header}"\n' for header in public)

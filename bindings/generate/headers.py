@@ -1,4 +1,4 @@
-"""What the public headers declare, read from their text. All generators use this one parser; they need Python 3.8."""
+"""Parser for the declarations of the public headers. All generators use this one parser; they need Python 3.8."""
 
 import re
 from pathlib import Path
@@ -7,7 +7,7 @@ INCLUDE = Path(__file__).resolve().parents[2] / "include"
 
 NUMBERS = {"double", "int32_t", "int64_t"}
 NAME = r"hooke_[a-z0-9_]+"
-# Results of type int32_t that are neither a status nor an answer; the last one is what a callback returns.
+# Results of type int32_t that are neither a status nor a yes or no; the last one is the result of a callback.
 NUMBER_RESULTS = {"hooke_abi", "hooke_integrator_stop_value", "hooke_estimate_see"}
 
 
@@ -56,19 +56,19 @@ def callback_types(text):
 
 
 def is_status(result, name):
-    """Whether the result of a function is a status: every int32_t is, but for answers and these numbers."""
+    """Whether the result of a function is a status: every int32_t is, except answers (yes or no) and these numbers."""
     return result == "int32_t" and "_is_" not in name and name not in NUMBER_RESULTS
 
 
 def write(path, text):
-    """Writes a file, and leaves one that has this text as it is, so that nothing is compiled again."""
+    """Writes a file unless it has this text already, so that nothing is recompiled."""
     path.parent.mkdir(parents=True, exist_ok=True)
     if not path.exists() or path.read_text(encoding="utf-8") != text:
         path.write_text(text, encoding="utf-8")
 
 
 def value_complaint(words, opaque, callbacks, is_result=False):
-    """What is wrong with one parameter (or result) such as "const double *q"."""
+    """The fault of a parameter (or result) such as "const double *q"."""
     match = re.fullmatch(r"((?:const )?\w+) ?((?:\*(?: ?const\b)? ?)*) ?(\w*)", words)
     if not match:
         return f"`{words}` is not a plain value or pointer"

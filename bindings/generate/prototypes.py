@@ -1,5 +1,5 @@
-"""Writes the module of the Python package that has the prototype of every public function:
-python bindings/generate/prototypes.py FOLDER makes FOLDER/_prototypes.py"""
+"""Writes the module of the Python package with the prototypes of all public functions: python
+bindings/generate/prototypes.py FOLDER makes FOLDER/_prototypes.py"""
 
 import sys
 from pathlib import Path
@@ -41,7 +41,7 @@ def short(name):
 
 
 def argument(kind, callbacks):
-    """The name of a type such as "const double *" in Python."""
+    """Name of a type such as "const double *" in Python."""
     plain = kind[len("const "):] if kind.startswith("const ") else kind
     if plain in TYPES:
         return TYPES[plain]

@@ -1,24 +1,24 @@
-"""Procedures of Fortran that hand numbers and texts on and nothing else. A type that extends hooke_system_queries has one for
-every function hooke_system_<name>() of C that takes and gives only those and that no procedure written by hand calls."""
+"""Fortran procedures that only pass numbers and texts. A type that extends hooke_system_queries has one for every C
+function hooke_system_<name>() with such arguments and results that no hand-written procedure calls."""
 
 import re
 
 import guard
 import headers
 
-COUNTS = {"count", "size", "steps", "stride"}  # other whole numbers say which one, and count from 1 in Fortran
+COUNTS = {"count", "size", "steps", "stride"}  # other whole numbers are indices, and count from 1 in Fortran
 SIMPLE = {"double", "int32_t", "int64_t", "const char *"}
 RESULTS = {"int32_t", "int64_t", "double", "const char *", "void"}
 
 
 def called(texts):
-    """Names of C, as c_<name>, that the modules use outside of their use statements."""
+    """C functions, as c_<name>, that the modules use outside of their use statements."""
     lines = re.sub(r"&\s*\n\s*", " ", re.sub(r"!.*", "", "\n".join(texts))).splitlines()
     return {name for line in lines if not line.strip().startswith("use ") for name in re.findall(r"\bc_\w+", line)}
 
 
 def argument(name, kind, what):
-    """(declaration, what is passed, what is done before) of one parameter."""
+    """(declaration, argument passed to C, statements before the call) of one parameter."""
     if kind == "double":
         return f"real(c_double), intent(in) :: {what}", what, []
     if kind == "const char *" and guard.may_be_no_text(name, what):
@@ -31,7 +31,7 @@ def argument(name, kind, what):
 
 
 def answer(result, name, whats):
-    """(type, how it is made of what C returns) of the result of a function."""
+    """(type, conversion from C) of the result of a function."""
     if result == "const char *":
         return "character(:), allocatable", "to_text({})"
     if result == "double":
@@ -87,7 +87,7 @@ def module(type_, public, by_hand):
 
 
 def modules(public, texts):
-    """The text of queries.f90, from {header: text} and the modules that are written by hand."""
+    """The text of queries.f90, from {header: text} and the hand-written modules."""
     by_hand = called(texts)
     types = re.findall(r"extends\((hooke_\w+)_queries\)", "\n".join(texts))
     return "\n".join(["! Made from the headers in include/hooke by bindings/generate/queries.py.",

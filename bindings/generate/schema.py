@@ -8,7 +8,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 TEMPLATE = Path(__file__).with_name("scene.template.json")
 SCHEMA = ROOT / "examples/scene.schema.json"
-LARGEST = 1e300  # a bound that stands for none
+LARGEST = 1e300  # a bound that means none
 WIDTH = 110
 
 
@@ -35,7 +35,7 @@ def array(items, least, most):
 
 
 def numbers(row):
-    """An array, or one in a file; or what else the table lets through."""
+    """An array, or one in a file; or the other values that the table accepts."""
     if (row.min_count, row.max_count, row.columns) == (1, None, None):
         ways = [named("positive numbers" if row.above_low else "numbers from 0")]
     else:
@@ -69,7 +69,7 @@ def members(rows, family):
 
 
 class Tables:
-    """Objects of the schema from tables of options, each with what the template has of it."""
+    """Objects of the schema from tables of options, each with its part of the template."""
 
     def __init__(self, template, methods):
         self.template, self.methods = template["$defs"], methods
@@ -120,7 +120,7 @@ def schema():
 
 
 def laid_out(value, indent=0, lead=0):
-    """JSON with everything in one line that fits into it."""
+    """JSON in which everything that fits is on one line."""
     line = json.dumps(value, ensure_ascii=False)
     if len(line) + indent + lead < WIDTH or not isinstance(value, (dict, list)):
         return line

@@ -14,7 +14,7 @@ static int32_t changes_any(const hooke_options *changes) {
   return any;
 }
 
-/* A command without --want has to say what that had chosen. */
+/* A command without --want has to state what --want had chosen. */
 static int32_t add_chosen(const hooke_measurement *why, hooke_options *changes) {
   const char *method = hooke_measurement_text(why, "why", 0, "method");
   const double step = hooke_measurement_number(why, "why", 0, "step");
@@ -26,7 +26,7 @@ static int32_t add_chosen(const hooke_measurement *why, hooke_options *changes) 
   return status;
 }
 
-/* The options that are set, as settings whose numbers are in `text`; how many. */
+/* The set options, as settings whose numbers are in `text`; returns their number. */
 static int32_t collect(const hooke_options *changes, struct cli_setting *settings,
                        char text[][HOOKE_NUMBER_SIZE]) {
   int32_t count = 0;

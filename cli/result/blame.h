@@ -1,4 +1,4 @@
-/* What determines a limit, for a program. */
+/* Limiting springs, as JSON. */
 #ifndef HOOKE_CLI_BLAME_H
 #define HOOKE_CLI_BLAME_H
 
@@ -6,7 +6,7 @@
 
 #include <hooke/measurement.h>
 
-/* The table "blame" under its name; "spring" has the ends of a spring as a pair, null where a force is meant. */
+/* The table "blame" under its name; "spring" has the ends of a spring as a pair, null for a force. */
 void cli_blame_json(struct cli_json *json, const hooke_measurement *measurement);
 
 #endif

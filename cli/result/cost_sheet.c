@@ -44,7 +44,7 @@ static const char *time_format(double nanoseconds) {
   return nanoseconds < 100.0 ? "%.2g" : "%.0f";
 }
 
-/* A time below what can be told apart says so. */
+/* A time below the resolution is printed as such. */
 static void print_time(double nanoseconds, double resolution) {
   if (nanoseconds < resolution) {
     char format[8];
@@ -68,7 +68,7 @@ static void print_name(int width, const char *name) {
   cli_print_padded(stdout, width, name);
 }
 
-/* Of a group that was not looked at, or not yet when it was interrupted, nothing is known. */
+/* A group that was skipped, or not reached before an interruption, is unknown. */
 static int is_known(const hooke_measurement *cost, int64_t row) {
   return !isnan(hooke_measurement_number(cost, "rows", row, "memory_bytes"));
 }
@@ -107,7 +107,7 @@ void cli_cost_sheet_print(const hooke_measurement *cost, const hooke_system *sys
   char step[HOOKE_NUMBER_SIZE];
   int width = LEAST_WIDTH;
   int64_t unknown = 0;
-  if (isnan(hooke_measurement_number(cost, "cost", 0, "step"))) return; /* interrupted before there was one */
+  if (isnan(hooke_measurement_number(cost, "cost", 0, "step"))) return; /* interrupted early */
   for (int64_t row = 0; row < hooke_measurement_row_count(cost, "rows"); row++) {
     const int length = (int)strlen(name_of(cost, row));
     if (is_known(cost, row) && length > width) width = length;

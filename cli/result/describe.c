@@ -49,7 +49,7 @@ static const char *property(const struct cli_argument *argument, const char *nam
 
 /* ---- options ---- */
 
-/* Whether it has to be given, or what it is if it is not. */
+/* Says that an option is required, or gives its default. */
 static void add_default(char *doc, const struct cli_argument *argument) {
   const char *fallback = property(argument, "default"), *family = property(argument, "family");
   char example[HOOKE_EXAMPLE_SIZE];
@@ -109,7 +109,7 @@ const char *cli_describe_words(const struct cli_argument *argument, char words[H
   return words;
 }
 
-/* Its own options say it by what they call their value: FILE, FILE.html. */
+/* A verb's own options show it by the name of their value: FILE, FILE.html. */
 const char *cli_describe_file(const struct cli_argument *argument) {
   static const char *const endings[] = {"json", "html", "csv", "h5", "obj"};
   const char *value = argument->own ? argument->own->value : NULL;
@@ -145,7 +145,7 @@ const char *cli_describe_table(const struct cli_arguments *arguments, const hook
   return title;
 }
 
-/* What is required, one of what has an example besides, and the first family. */
+/* Required options, one of several with an example, and the first family. */
 const char *cli_describe_example(const struct cli_arguments *arguments, char command[HOOKE_DOC_SIZE]) {
   const char *first = "";
   command[0] = '\0';

@@ -1,4 +1,4 @@
-/* What verbs, options, kinds and exit codes say of themselves, for --help, the manual page and completion. */
+/* Descriptions of verbs, options, kinds and exit codes, for --help, the manual page and completion. */
 #ifndef HOOKE_CLI_DESCRIBE_H
 #define HOOKE_CLI_DESCRIBE_H
 
@@ -9,34 +9,34 @@ enum { HOOKE_DOC_SIZE = 1024 };
 struct cli_description {
   char letter; /* 0: none */
   const char *flag;
-  char value[HOOKE_FLAG_SIZE]; /* what follows the flag, "" for nothing */
+  char value[HOOKE_FLAG_SIZE]; /* argument of the flag, "" for none */
   char doc[HOOKE_DOC_SIZE];
 };
 
 void cli_describe(const struct cli_argument *argument, struct cli_description *description);
 
-/* The family that an option belongs to, and what that is; NULL: none. */
+/* The family of an option, and its description; NULL: none. */
 const char *cli_describe_family(const struct cli_argument *argument, const char **doc);
 
-/* What a verb is given: "SCENE", "KIND", "OUT.h5". */
+/* Argument of a verb: "SCENE", "KIND", "OUT.h5". */
 const char *cli_describe_operand(const struct cli_verb *verb);
 
-/* The title over the options of a table. */
+/* Heading of the options of a table. */
 const char *cli_describe_table(const struct cli_arguments *arguments, const hooke_options *table,
                                char title[HOOKE_DOC_SIZE]);
 
-/* A whole command that makes a part of the kind at hand, from the examples of its table. */
+/* A complete command that makes a part of the current kind, from the examples of its table. */
 const char *cli_describe_example(const struct cli_arguments *arguments, char command[HOOKE_DOC_SIZE]);
 
-/* The words that may follow an option, between blanks: methods, choices; "" if it takes anything. `many` is 1
- * if it takes several, with commas between. */
+/* The words that may follow an option, separated by blanks: methods, choices; "" if it takes anything. `many`
+ * is 1 if it takes several, separated by commas. */
 const char *cli_describe_words(const struct cli_argument *argument, char words[HOOKE_DOC_SIZE],
                                int32_t *many);
 
-/* The ending of the files that an option takes, "" for any; NULL if it takes no file. */
+/* Ending of the files that an option takes, "" for any; NULL if it takes no file. */
 const char *cli_describe_file(const struct cli_argument *argument);
 
-/* Code and meaning of exit `i`; NULL past the last. */
+/* Code and meaning of exit code `i`; NULL past the last. */
 const char *cli_describe_exit(int32_t i, int32_t *code);
 
 #endif

@@ -1,4 +1,4 @@
-/* What a scene needs, as JSON. */
+/* Needs of a scene, as JSON. */
 #include "needs_results.h"
 #include "table.h"
 

@@ -1,4 +1,4 @@
-/* What a scene needs, for a person. */
+/* Needs of a scene, in words. */
 #include "needs_results.h"
 #include "rows.h"
 
@@ -80,7 +80,7 @@ static int32_t has_unknown(const hooke_measurement *needs) {
   return 0;
 }
 
-/* Both within the want, each at its cheapest. */
+/* Both within the wanted error, each at its cheapest. */
 static void print_saving(const hooke_measurement *needs) {
   const double less = hooke_measurement_number(needs, "lean", 0, "times_less");
   const char *other = hooke_measurement_text(needs, "lean", 0, "other_method");

@@ -20,7 +20,7 @@ static void print_reference(struct cli_json *json, const hooke_measurement *stud
   cli_json_close(json);
 }
 
-/* The errors of a row in what is watched. */
+/* Errors of a row in the watched quantities. */
 static void print_watched(struct cli_json *json, const hooke_measurement *study, int64_t row) {
   const int64_t count = hooke_measurement_row_count(study, "watched");
   if (count <= 0) return;
@@ -57,7 +57,7 @@ static void print_orders(struct cli_json *json, const hooke_measurement *study) 
   cli_json_close(json);
 }
 
-/* "met" is null where the reference is not trusted to the end: beyond that time nobody can know. */
+/* "met" is null if the reference is not trusted to the end: beyond that time errors are unknown. */
 static void print_recommendation(struct cli_json *json, const struct cli_study_results *results) {
   const hooke_measurement *study = results->study;
   if (!cli_study_results_recommend(results)) {

@@ -1,4 +1,4 @@
-/* What a study gave, printed for a person and for a program. */
+/* Results of a study, printed in words and as JSON. */
 #ifndef HOOKE_CLI_STUDY_RESULTS_H
 #define HOOKE_CLI_STUDY_RESULTS_H
 
@@ -12,14 +12,14 @@ struct cli_study_results {
   struct cli_methods methods;
   hooke_measurement *study;
   int32_t interrupted;
-  char *command; /* the run that is recommended, or the closest one; NULL: there is none */
+  char *command; /* the recommended run, or the closest one; NULL: none */
 };
 
 /* The rows as a table. */
 struct cli_rows cli_study_results_rows(const struct cli_study_results *results);
 
-/* 1 if there is a recommendation: one that meets the want, or the closest to it of a study that came to its
- * end. */
+/* 1 if there is a recommendation: one that meets the wanted error or, in a study that was completed, the
+ * closest to it. */
 int32_t cli_study_results_recommend(const struct cli_study_results *results);
 
 void cli_study_results_print(const struct cli_study_results *results);

@@ -1,4 +1,4 @@
-/* What a study gave of watched quantities, and of its ensemble, for a person. */
+/* Watched quantities of a study and its ensemble, in words. */
 #include "study_watched.h"
 
 #include <math.h>
@@ -8,7 +8,7 @@
 
 enum { LABEL = 16, WIDTH = 110, CELL = 11, SETTING = 12, HEAD_SIZE = 128, TEXT_SIZE = 512 };
 
-/* A bias below this many standard errors is one that chance makes. */
+/* A bias below this many standard errors is compatible with chance. */
 static const double SEEN = 2.0;
 static const int MEMBERS_ADVISED = 16;
 
@@ -21,7 +21,7 @@ int64_t cli_study_quantity_count(const hooke_measurement *study) {
   return quantities;
 }
 
-/* "57.y [m]", of a row of a table */
+/* "57.y [m]", from a row of a table. */
 static const char *head_of(const hooke_measurement *study, const char *table, int64_t row,
                            char head[HEAD_SIZE]) {
   const char *unit = hooke_measurement_text(study, table, row, "unit");
@@ -35,7 +35,7 @@ static void print_words(const char *label, const char *text) {
   cli_print_wrapped(stdout, LABEL, LABEL, WIDTH, text);
 }
 
-/* Text on the right of a column. */
+/* Right-aligned text in a column. */
 static void print_right(int width, const char *text) {
   for (int k = (int)strlen(text); k < width; k++)
     fputc(' ', stdout);
@@ -59,14 +59,14 @@ static int print_head(const hooke_measurement *study, int64_t quantity) {
   return width;
 }
 
-/* A number, marked where it is within ten times of what the reference is known to. */
+/* A number, marked if it is within ten times the accuracy of the reference. */
 static void print_error(int width, double value, double agreement) {
   char cell[HOOKE_NUMBER_SIZE] = "-";
   if (!isnan(value)) snprintf(cell, sizeof cell, "%.4g", value);
   printf(" %*s%c", width, cell, value <= 10.0 * agreement ? '*' : ' ');
 }
 
-/* The errors of a row, the agreements if it is -1. */
+/* The errors of a row; the agreements if it is -1. */
 static void print_cells(const hooke_measurement *study, int64_t row, const int *width) {
   const int64_t count = hooke_measurement_row_count(study, "watched");
   for (int64_t k = 0; k < count; k++) {

@@ -1,4 +1,4 @@
-/* The results of a study for a person. */
+/* The results of a study in words. */
 #include "study_results.h"
 #include "study_watched.h"
 
@@ -9,12 +9,12 @@
 
 enum { LABEL = 16, WIDTH = 110, TEXT_SIZE = 1024 };
 
-/* Differences that grow more than this are called chaotic where the integrators part. */
+/* Differences that grow more than this are called chaotic if the integrators part. */
 static const double CHAOTIC = 1e3;
 
 static void print_fact(const char *label, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
-/* A label, and words that wrap beside it. */
+/* A label, with words that wrap beside it. */
 static void print_fact(const char *label, const char *format, ...) {
   char text[TEXT_SIZE];
   va_list args;
@@ -27,7 +27,7 @@ static void print_fact(const char *label, const char *format, ...) {
 
 /* ---- the reference ---- */
 
-/* Why errors are not judged over the whole run. */
+/* Reason why errors are not judged over the whole run. */
 static void print_why_not_all(const hooke_measurement *study, const char *time) {
   const int32_t hurried = strcmp(hooke_measurement_text(study, "reference", 0, "ended"), "time") == 0;
   const char *format =
@@ -133,7 +133,7 @@ static void print_orders(const struct cli_study_results *results, int32_t width)
 
 /* ---- the recommendation ---- */
 
-/* How the recommendation does where the scene is a little different. */
+/* The margin of the recommendation under small changes of the scene. */
 static void print_change(const hooke_measurement *study, const char *change, const char *holds,
                          const char *error) {
   const double held = hooke_measurement_number(study, "margin", 0, holds);
@@ -187,7 +187,7 @@ static void print_recommendation(const struct cli_study_results *results) {
   if (met) print_margin(study);
 }
 
-/* What the columns mean, and the marks that occur. */
+/* Legend of the columns, and of the marks that occur. */
 static void print_legend(const struct cli_rows *rows) {
   int32_t shared = 0;
   for (int64_t row = 0; row < rows->count; row++)

@@ -1,4 +1,4 @@
-/* What `hooke check` tells of bending, of altitude springs, and of the numbers that parts derived from their
+/* Output of `hooke check` on bending, altitude springs, and the numbers that parts derived from their
  * materials. */
 #ifndef HOOKE_CLI_DERIVED_H
 #define HOOKE_CLI_DERIVED_H
@@ -10,7 +10,7 @@
 /* The keys "triples", "bending_groups", "tetrahedra", "altitude_groups" and "derived". */
 void cli_derived_json(struct cli_json *json, const hooke_system *system);
 
-/* The same in lines; nothing where there is nothing. */
+/* The same in lines; nothing if there are none. */
 void cli_derived_words(const hooke_system *system);
 
 #endif

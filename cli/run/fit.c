@@ -7,10 +7,10 @@
 #include <stddef.h>
 
 enum { MOST_PARTS = 10000 };
-static const double SHARE_OF_SAFE = 0.5, SHARE_OF_DURATION = 1e-3; /* of which a step is taken */
-static const double SHRINK = 0.9; /* a step that is given may become as small as this share of it */
+static const double SHARE_OF_SAFE = 0.5, SHARE_OF_DURATION = 1e-3; /* of the safe step, of the duration */
+static const double SHRINK = 0.9;                                  /* smallest fraction of a given step */
 static const double MOST_COUNTED = 9e15;
-static const double MOST_STEPS = 1e8; /* that a run may mean without anyone asking for them */
+static const double MOST_STEPS = 1e8; /* maximum number of steps that is chosen by default */
 
 struct fit {
   const struct cli_arguments *arguments;
@@ -26,7 +26,7 @@ static int fits(const struct fit *fit, double step) {
   return is_whole(fit->duration / step) && (isnan(fit->every) || is_whole(fit->every / step));
 }
 
-/* The largest step that fits and is at most `most`, down to `least`; NaN if there is none. */
+/* The largest step that fits, between `least` and `most`; NaN if there is none. */
 static double largest_that_fits(const struct fit *fit, double most, double least) {
   const double shorter = isnan(fit->every) ? fit->duration : fmin(fit->every, fit->duration);
   double parts = ceil(shorter / most * (1.0 - 1e-12));
@@ -48,7 +48,7 @@ static int set(struct fit *fit, const char *name, double *number, double value, 
   return HOOKE_EXIT_DONE;
 }
 
-/* ---- no step is given ---- */
+/* ---- without a given step ---- */
 
 static int refuse(const struct fit *fit, const char *method, double safe) {
   if (safe == 0.0)
@@ -78,7 +78,7 @@ static int choose_step(struct fit *fit, const hooke_system *system, const double
              limited ? "the largest that fits, up to half of the safe one" : "a thousandth of the duration");
 }
 
-/* ---- one is given, and does not fit ---- */
+/* ---- with a given step that does not fit ---- */
 
 static int move_times(struct fit *fit) {
   int code = HOOKE_EXIT_DONE;
@@ -104,7 +104,7 @@ int cli_fit_run(const struct cli_arguments *arguments, struct cli_setup *setup) 
     const int code = choose_step(&fit, setup->system, hooke_state_position(setup->state), method);
     return code == HOOKE_EXIT_DONE ? move_times(&fit) : code;
   }
-  /* what no whole number of steps can make up is refused as it is */
+  /* times that no whole number of steps can make up are refused */
   const int countable = fit.duration / fit.step < MOST_COUNTED;
   if (!countable || fits(&fit, fit.step)) return HOOKE_EXIT_DONE;
   const double smaller = largest_that_fits(&fit, fit.step, SHRINK * fit.step);

@@ -4,9 +4,9 @@
 
 #include "setup.h"
 
-/* Chooses the step where none is given, and has step, `every` and `duration` fit one another; each change is
- * told in a line. With --strict nothing is chosen or changed. A step that cannot be chosen is reported, with
- * the reason. */
+/* Chooses the step if none is given, and adjusts step, `every` and `duration` to fit one another; each change
+ * is reported in a line. With --strict nothing is chosen or changed. A step that cannot be chosen is
+ * reported, with the reason. */
 int cli_fit_run(const struct cli_arguments *arguments, struct cli_setup *setup);
 
 #endif

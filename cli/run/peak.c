@@ -5,8 +5,8 @@
 #include <inttypes.h>
 #include <stdio.h>
 
-/* Of /proc/self/status, which counts from the start of this program; getrusage() begins with what the caller
- * had. */
+/* From /proc/self/status, which counts from the start of this program; getrusage() includes the caller's
+ * memory before it. */
 struct cli_peak cli_peak_look(void) {
   struct cli_peak peak = {0, 0};
   char line[256];
@@ -31,18 +31,18 @@ static int32_t hear_nothing(const char *kind, const char *sentence, double t, do
   return 0;
 }
 
-/* What the estimate of the error has besides: three states, and the ends of another run, which has the memory
- * of the method after this one. */
+/* Further memory of the estimate of the error: three states, and the ends of another run, which takes the
+ * memory of the method after this one. */
 static int64_t count_estimate(const struct cli_setup *setup) {
   return 8 * hooke_state_size(setup->state) * (int64_t)sizeof(double);
 }
 
-/* The pages of libhdf5 and its buffers, and a frame on its way into the file, as measured on cloths. */
+/* The pages of libhdf5 and its buffers, and a queued frame, as measured on cloths. */
 static int64_t count_output(const struct cli_setup *setup) {
   return 4800000 + 150 * hooke_system_particle_count(setup->system);
 }
 
-/* As `hooke run` makes it: steps are watched, and unless it is quiet warnings as well. */
+/* As in `hooke run`: steps are observed, and warnings as well unless it is quiet. */
 static int32_t count_method(const struct cli_arguments *arguments, const struct cli_setup *setup,
                             int64_t *bytes, int64_t *factor) {
   hooke_integrator *integrator = NULL;

@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const double MOST_STEPS = 9007199254740992.0; /* 2^53, to which doubles count one by one */
+static const double MOST_STEPS = 9007199254740992.0; /* 2^53, up to which doubles hold every integer */
 
 static int32_t may_be_given(const char *name) {
   static const char *const names[] = {"resume", "threads", "final", "no-why", "json", "quiet", "help"};
@@ -45,7 +45,7 @@ void cli_resume_tell_how(const struct cli_arguments *arguments, const char *outp
   fputc('\n', stderr);
 }
 
-/* The number of the step after which the last of `frames` was written; -1 if the file does not say. */
+/* Number of the step after which the last of `frames` was written; -1 if the file does not say. */
 static int32_t read_steps(hooke_record *record, int64_t frames, int64_t *steps) {
   int64_t rows = 0, columns = 0;
   *steps = -1;

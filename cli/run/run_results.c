@@ -57,13 +57,13 @@ int64_t cli_run_coincident(const struct cli_run *run) {
   return run->count[HOOKE_RUN_COUNTS - 1];
 }
 
-/* -1: not known, as a file keeps no count but that of steps. */
+/* -1: unknown, as a file keeps only the count of steps */
 static int64_t count_of(const struct cli_run *run, int k) {
   if (!run->was_finished) return run->count[k];
   return k == 0 ? run->finished_steps : -1;
 }
 
-/* ---- for a program ---- */
+/* ---- JSON ---- */
 
 static void print_json_count(struct cli_json *json, const struct cli_run *run, int k) {
   const int64_t count = count_of(run, k);
@@ -122,7 +122,7 @@ static void print_json(const struct cli_run *run, int32_t with_final) {
   cli_json_end(&json);
 }
 
-/* ---- for a person ---- */
+/* ---- words ---- */
 
 static void print_row(const char *label) {
   printf("%-22s", label);

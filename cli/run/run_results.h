@@ -1,4 +1,4 @@
-/* A run, and what it gave, printed for a person and for a program. */
+/* A run and its results, printed in words and as JSON. */
 #ifndef HOOKE_CLI_RUN_RESULTS_H
 #define HOOKE_CLI_RUN_RESULTS_H
 
@@ -6,23 +6,23 @@
 #include "setup.h"
 #include "watch.h"
 
-/* The counts that are told: those of work, and last the springs whose ends are at one place. */
+/* The printed counts: those of work, and last the coincident springs. */
 enum { HOOKE_RUN_COUNTS = 8 };
 
-/* A run and what is kept of it. */
+/* A run and the data kept from it. */
 struct cli_run {
   const struct cli_arguments *arguments;
   struct cli_setup setup;
-  hooke_integrator *integrator; /* NULL once its error is being measured */
+  hooke_integrator *integrator; /* NULL while its error is being measured */
   hooke_options *options;       /* the integrator's */
   int64_t count[HOOKE_RUN_COUNTS];
   double wall_seconds;
   hooke_trajectory *trajectory; /* NULL without -o */
   const char *output;
-  const char *resumed;    /* FILE of --resume, which is the output then; NULL: a run from the beginning */
-  int32_t was_finished;   /* 1: there was nothing to go on with */
-  int64_t finished_steps; /* that such a run took; -1: its file does not say */
-  int32_t kept_place;     /* 1: of an interrupted run, a checkpoint or a frame to go on from */
+  const char *resumed;    /* FILE of --resume, which is then the output; NULL: a new run */
+  int32_t was_finished;   /* 1: the run was finished already */
+  int64_t finished_steps; /* number of steps of such a run; -1: its file does not say */
+  int32_t kept_place;     /* 1: an interrupted run has a checkpoint or a frame to continue from */
   struct cli_watch watch;
   double duration;
   int32_t shown;         /* 1: the output is there to be shown and removed */
@@ -30,21 +30,20 @@ struct cli_run {
   int64_t frames_beyond; /* those of them after it diverged */
   int32_t write_status;  /* HOOKE_OK, or why a frame or a checkpoint could not be written */
   int32_t outcome;
-  hooke_measurement
-      *why; /* of an outcome that wants explaining; NULL: there is nothing, or nothing to explain it with */
-  hooke_estimate *estimate; /* of its error; NULL: none is asked for */
-  char message[2048];       /* about the outcome, or the write that failed */
+  hooke_measurement *why;   /* diagnosis of the outcome; NULL: there is none, or it could not be made */
+  hooke_estimate *estimate; /* of its error; NULL: none was requested */
+  char message[2048];       /* about the outcome, or the failed write */
   double energy_before, energy_after;
-  int64_t coincident_before; /* springs with both ends at one place at the start */
+  int64_t coincident_before; /* coincident springs at the start */
 };
 
 const char *cli_run_method(const struct cli_run *run);
 
-/* Takes over what is told of the integrator, which may be destroyed then. */
+/* Copies everything that is printed from the integrator, which may then be destroyed. */
 void cli_run_take_counts(struct cli_run *run);
 int64_t cli_run_coincident(const struct cli_run *run);
 
-/* With --json, as JSON, with --final every particle, too; for a person those come by the second function. */
+/* As JSON with --json, with --final every particle, too; in words the second function prints those. */
 void cli_run_print(const struct cli_run *run);
 void cli_run_print_final(const struct cli_run *run);
 

@@ -8,7 +8,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Of what the scene has: from there on energy grows by itself, or more becomes heat than there is. */
+/* Fractions of the energy of the scene, above which energy grows by itself, or more heat is dissipated than
+ * there is. */
 static const double MOST_RISE = 0.01, MOST_EXCESS = 0.01;
 
 /* ---- picking ---- */
@@ -62,7 +63,7 @@ int cli_want_pick(struct cli_run *run) {
 int32_t cli_want_measure(struct cli_run *run) {
   if (!run->estimate || run->outcome != HOOKE_OK) return HOOKE_OK;
   cli_watch_start(&run->watch, run->arguments);
-  hooke_integrator_destroy(run->integrator); /* the runs to come need as much memory */
+  hooke_integrator_destroy(run->integrator); /* the following runs need as much memory */
   run->integrator = NULL;
   const int32_t status = hooke_estimate_measure(run->estimate, NULL, run->setup.state);
   cli_watch_end(&run->watch);

@@ -1,4 +1,4 @@
-/* hooke check: validates a scene and tells its size, memory and step limits, without running it. */
+/* hooke check: validates a scene and reports its size, memory and step limits, without running it. */
 #include "cost_sheet.h"
 #include "derived.h"
 #include "peak.h"
@@ -18,8 +18,8 @@ enum { MOST_WARNINGS = 8, WARNING_SIZE = 512 };
 struct check {
   const struct cli_arguments *arguments;
   struct cli_setup setup;
-  hooke_measurement *cost; /* NULL: not asked for */
-  double *bound;           /* on the step of each method at the initial state [s]; NaN where none is known */
+  hooke_measurement *cost; /* NULL: not requested */
+  double *bound;           /* bound on the step of each method at the initial state [s]; NaN if unknown */
   struct cli_foretold memory;
   int64_t warning_count;
   char warning[MOST_WARNINGS][WARNING_SIZE];
@@ -94,7 +94,7 @@ static int32_t mark(const hooke_system *system, const char *force, char *held) {
   return status;
 }
 
-/* Particles that no spring of any kind and no bending holds. */
+/* Counts particles that no spring of any kind and no bending holds. */
 static int32_t warn_of_loose_particles(struct check *check) {
   const hooke_system *system = check->setup.system;
   const int64_t particles = hooke_system_particle_count(system);
@@ -120,7 +120,7 @@ static int32_t warn_of_loose_particles(struct check *check) {
 
 /* ---- the numbers ---- */
 
-/* What of the counted memory goes with the number of springs, for each; and the rest, for each particle. */
+/* The memory that grows with the number of springs, for each; and the rest, for each particle. */
 static double bytes_per_spring(const struct check *check) {
   return (double)hooke_system_count(check->setup.system, "spring_memory") /
          (double)hooke_system_spring_count(check->setup.system);

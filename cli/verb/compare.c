@@ -25,7 +25,7 @@ struct compare {
 
 /* ---- running ---- */
 
-/* Options with the methods in their order. */
+/* The options with the methods in their order. */
 static int32_t make_options(const struct cli_methods *methods, hooke_options **options) {
   char names[HOOKE_MOST_METHODS * 32] = "";
   for (int32_t k = 0; k < methods->count; k++)
@@ -50,8 +50,8 @@ static int32_t prepare(struct compare *compare) {
   return hooke_comparison_file_create(compare->output, compare->comparison, &compare->file);
 }
 
-/* Runs and puts the file away. A failure is reported and comes back as exit code; so does an interruption,
- * which is not reported yet. */
+/* Runs and closes the file. A failure is reported and returned as exit code; so is an interruption, which is
+ * not reported yet. */
 static int run_all(struct compare *compare) {
   char message[MESSAGE_SIZE];
   cli_watch_start(&compare->watch, compare->arguments);
@@ -62,7 +62,7 @@ static int run_all(struct compare *compare) {
   snprintf(message, sizeof message, "%s", hooke_last_error());
   status = hooke_comparison_file_close(compare->file);
   compare->file = NULL;
-  /* a file that fails stops the comparison; its own message says more */
+  /* a failed file stops the comparison; its own message says more */
   if (status != HOOKE_OK && outcome >= 0) return cli_report_status(compare->arguments, status);
   if (outcome == HOOKE_STOPPED && cli_watch_interrupted()) return HOOKE_EXIT_INTERRUPTED;
   if (outcome == HOOKE_OK) return HOOKE_EXIT_DONE;
@@ -71,7 +71,7 @@ static int run_all(struct compare *compare) {
 
 /* ---- results ---- */
 
-/* Rows that were run, if only in part: an interruption leaves the others out. */
+/* Rows that were run, at least in part: an interruption omits the others. */
 static int64_t rows_done(const hooke_measurement *comparison) {
   int64_t rows = 0;
   while (!isnan(hooke_measurement_number(comparison, "rows", rows, "wall_seconds")))
@@ -122,7 +122,7 @@ static void print_json(const struct compare *compare) {
   cli_json_end(&json);
 }
 
-/* Error over time at a few frames, evenly spaced, the last one included. */
+/* Error over time at a few evenly spaced frames, including the last. */
 static void print_errors(const hooke_measurement *comparison, int32_t width) {
   const double *time = hooke_measurement_series(comparison, "reference", 0, "time");
   int64_t last = hooke_measurement_series_count(comparison, "reference", 0, "time") - 1;
@@ -177,7 +177,7 @@ static int compare_and_tell(struct compare *compare) {
   return code;
 }
 
-/* What every method of the comparison needs, asked for before anything runs. */
+/* Checks the requirements of all methods before anything runs. */
 static int require_all(const struct compare *compare) {
   for (int64_t i = 0; i < compare->methods.count; i++) {
     int code = cli_setup_require(compare->arguments, &compare->setup, compare->methods.name[i]);

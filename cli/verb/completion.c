@@ -61,7 +61,7 @@ static void print_pattern(const struct cli_description *is) {
   if (is->letter) printf(" | -%c", is->letter);
 }
 
-/* What follows an option: one of some words, or a file. */
+/* Completion after an option: a list of words, or a file. */
 static void print_value(const struct cli_argument *argument) {
   struct cli_description is;
   char words[HOOKE_DOC_SIZE];
@@ -72,7 +72,7 @@ static void print_value(const struct cli_argument *argument) {
   if (!words[0] && !ending) return;
   printf("        ");
   print_pattern(&is);
-  if (!is.value[0]) { /* a flag has its word after the sign alone */
+  if (!is.value[0]) { /* a flag takes its word only after the equals sign */
     printf(") if [[ $sign ]]; then _hooke_words \"%s\"; return; fi ;;\n", words);
   } else if (words[0]) {
     printf(") %s \"%s\"; return ;;\n", many ? "_hooke_list" : "_hooke_words", words);
@@ -81,7 +81,7 @@ static void print_value(const struct cli_argument *argument) {
   }
 }
 
-/* What follows the others that take a value is for nobody to know. */
+/* Other options with a value have no completion. */
 static void print_unknown(const struct cli_arguments *arguments) {
   int32_t count = 0;
   for (int32_t i = 0; i < arguments->count; i++) {
@@ -98,7 +98,7 @@ static void print_unknown(const struct cli_arguments *arguments) {
   if (count) printf(") return ;;\n");
 }
 
-/* Each function here that tells of a verb returns an exit code, of what is reported already. */
+/* Functions here that describe a verb return an exit code; failures are reported already. */
 static int print_verb(const struct cli_verb *verb, const char *kind) {
   struct cli_arguments arguments = {.verb = verb};
   const int code = cli_arguments_collect(verb, kind, &arguments);

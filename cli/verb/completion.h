@@ -4,8 +4,8 @@
 
 #include "program.h"
 
-/* Prints a script for bash: verbs, kinds, options and their words, and files. The exit code, of what is
- * reported already. */
+/* Prints a script for bash: verbs, kinds, options and their words, and files. Returns the exit code; failures
+ * are reported already. */
 int cli_completion_print_bash(const struct cli_program *program);
 
 #endif

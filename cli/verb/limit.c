@@ -53,7 +53,7 @@ static int read_state(struct limit *l, const char *at) {
   return status == HOOKE_OK ? HOOKE_EXIT_DONE : cli_report_status(l->arguments, status);
 }
 
-/* ---- finding ---- */
+/* ---- computing ---- */
 
 static int check_names(const struct cli_arguments *arguments) {
   struct cli_methods methods;
@@ -114,7 +114,7 @@ static const char *row_text(const struct limit *l, int64_t row, const char *what
 
 static const struct column {
   const char *what, *head, *unit;
-  int32_t width, along; /* 1: along a run alone; -1: at one state alone */
+  int32_t width, along; /* 1: along a run only; -1: at one state only */
 } columns[] = {{"bound", "safe bound", "[s]", 12, 0},     {"predicted", "predicted", "[s]", 12, 0},
                {"measured", "measured", "[s]", 12, -1},   {"ratio", "measured /", "predicted", 10, -1},
                {"steps_run", "steps", "run", 10, -1},     {"smallest", "smallest", "met [s]", 12, 1},
@@ -236,7 +236,7 @@ static int tell(const struct limit *l) {
   return HOOKE_EXIT_DIVERGED;
 }
 
-/* The exit code of the limit, or that of a report that could not be written. */
+/* Exit code of the limit, or of a report that could not be written. */
 static int write_report(const struct limit *l, const char *report, int code) {
   if (!report || isnan(number_of(l, "frequency_max"))) return code;
   int32_t status = hooke_measurement_label(l->limit, "title", title_of(l));

@@ -1,4 +1,4 @@
-/* hooke make: writes the scene of one part, from options that are the part's own. */
+/* hooke make: writes the scene of one part, from the options of the part. */
 #include "describe.h"
 #include "output_file.h"
 #include "print.h"
@@ -13,9 +13,9 @@
 struct make {
   const struct cli_arguments *arguments;
   const char *output; /* NULL: standard output */
-  hooke_options *run; /* of `arguments`; NULL: nothing of it was given */
+  hooke_options *run; /* of `arguments`; NULL: none was given */
   hooke_system *system;
-  hooke_scene *scene; /* what was made, written and read again */
+  hooke_scene *scene; /* the scene, written and read again */
 };
 
 /* ---- failures, by option ---- */
@@ -28,7 +28,7 @@ static int32_t is_missing(const hooke_options *table, int64_t row) {
          (family[0] == '\0' || hooke_options_is_set(table, family));
 }
 
-/* All that is missing, at once. */
+/* Lists everything that is missing at once. */
 static int check_required(const struct make *make) {
   char list[2 * HOOKE_DOC_SIZE] = "";
   for (int32_t i = 0; i < make->arguments->count; i++) {
@@ -51,7 +51,7 @@ static int check_required(const struct make *make) {
   return cli_report(make->arguments, HOOKE_EXIT_USAGE, "missing: %s", list);
 }
 
-/* The row of `table` whose name the message begins with; -1: none. */
+/* Row of `table` whose name the message begins with; -1: none. */
 static int64_t row_of_message(const hooke_options *table, const char *message) {
   int64_t found = -1;
   size_t longest = 0;
@@ -65,7 +65,8 @@ static int64_t row_of_message(const hooke_options *table, const char *message) {
   return found;
 }
 
-/* A failure of the library, whose place is an option; one that has none may be about what is not there. */
+/* Reports a failure of the library, whose place is an option; one without place may concern a missing option.
+ */
 static int report_option(const struct make *make, const hooke_options *table, int32_t status) {
   const char *message = hooke_last_error();
   const int64_t row = row_of_message(table, message);
@@ -80,9 +81,9 @@ static int report_option(const struct make *make, const hooke_options *table, in
   return cli_report(make->arguments, cli_exit_code(status), "--%s%s", flag, message + strlen(name));
 }
 
-/* ---- making ---- */
+/* ---- creating ---- */
 
-/* The scene does not depend on the file of a mesh, which may be anywhere. */
+/* Resolves the file of a mesh, so that the scene does not depend on it. */
 static int read_file(const struct make *make) {
   hooke_options *part = make->arguments->of_kind;
   if (!hooke_options_is_set(part, "file")) return HOOKE_EXIT_DONE;
@@ -111,7 +112,7 @@ static int build(struct make *make) {
   return status == HOOKE_OK ? HOOKE_EXIT_DONE : report_option(make, arguments->of_kind, status);
 }
 
-/* Times that do not fit each other are found where a run is made of them. */
+/* Times that do not fit each other are detected when a run is created from them. */
 static int check_run(const struct make *make) {
   if (!make->run) return HOOKE_EXIT_DONE;
   const char *method = hooke_options_text(make->run, "method");
@@ -128,7 +129,7 @@ static int check_run(const struct make *make) {
   return status == HOOKE_OK ? HOOKE_EXIT_DONE : report_option(make, make->run, status);
 }
 
-/* What is written is read as every verb will read it. */
+/* Reads the written text as every verb will. */
 static int read_back(struct make *make) {
   const char *name = make->output ? make->output : "standard output";
   const char *slash = make->output ? strrchr(make->output, '/') : NULL;
@@ -141,7 +142,7 @@ static int read_back(struct make *make) {
   return status == HOOKE_OK ? HOOKE_EXIT_DONE : cli_report_status(make->arguments, status);
 }
 
-/* ---- telling ---- */
+/* ---- results ---- */
 
 static void print_json(const struct make *make) {
   struct cli_json json;
@@ -153,7 +154,7 @@ static void print_json(const struct make *make) {
   cli_json_end(&json);
 }
 
-/* What was made; and for a step that was not given, who knows it. */
+/* Describes the scene; and for a step that was not given, names the commands that find one. */
 static void tell(const struct make *make) {
   const int64_t particles = hooke_system_particle_count(make->system);
   if (make->arguments->quiet) return;

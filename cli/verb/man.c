@@ -12,9 +12,9 @@
 
 enum { LINE = 76, COMMAND = 64, TEXT_SIZE = 8 * HOOKE_DOC_SIZE, DATE_SIZE = 16 };
 
-/* ---- text in the language of the page ---- */
+/* ---- roff text ---- */
 
-/* Adds `words` so that every character is itself, and no line can begin with a request. */
+/* Adds `words` escaped, so that every character is literal and no line begins with a request. */
 static void escape(char text[TEXT_SIZE], const char *words) {
   size_t used = strlen(text);
   for (const char *at = words; *at && used + 8 < TEXT_SIZE; at++) {
@@ -38,7 +38,7 @@ static void print_paragraph(const char *words) {
   cli_print_wrapped(stdout, 0, 0, LINE, text);
 }
 
-/* A command as it is typed, over several lines if it is long. */
+/* A command line, broken over several lines if it is long. */
 static void print_command(const char *command) {
   int32_t column = 0;
   printf(".PP\n.RS 4\n.EX\n");
@@ -58,7 +58,7 @@ static void print_command(const char *command) {
   printf("\n.EE\n.RE\n");
 }
 
-/* One line: what is typed as it is, and what stands for something. */
+/* One line: literal words, and placeholders. */
 static void print_typed(const char *bold, const char *italic) {
   char text[TEXT_SIZE] = "\\fB";
   escape(text, bold);
@@ -93,7 +93,7 @@ static void print_option(const struct cli_argument *argument) {
   print_item(flag, is.value, is.doc);
 }
 
-/* A verb's own options, or those of all verbs. */
+/* A verb's own options, or the common ones. */
 static void print_own(const struct cli_arguments *arguments, int32_t shared) {
   const struct cli_verb *verb = arguments->verb;
   for (int32_t i = 0; i < arguments->count; i++) {
@@ -116,7 +116,7 @@ static void print_heading(const struct cli_verb *verb, const char *operand) {
   printf(".SS hooke %s %s [options]\n", verb->name, operand);
 }
 
-/* Each function here that tells of a verb returns an exit code, of what is reported already. */
+/* Functions here that describe a verb return an exit code; failures are reported already. */
 static int print_kind(const struct cli_verb *verb, int64_t kind) {
   struct cli_arguments arguments = {.verb = verb};
   char example[HOOKE_DOC_SIZE], words[2 * HOOKE_DOC_SIZE];
@@ -155,7 +155,7 @@ static int print_verb(const struct cli_verb *verb) {
   return code;
 }
 
-/* What all verbs take, from one that takes it all. */
+/* The common options, from a verb that takes them all. */
 static int print_options(const struct cli_program *program) {
   const struct cli_verb all = {.name = program->verbs[0]->name};
   struct cli_arguments arguments = {.verb = &all};

@@ -4,8 +4,8 @@
 
 #include "program.h"
 
-/* Prints hooke(1) in the macros of man(7). Its date is that of SOURCE_DATE_EPOCH if that is set, else today.
- * The exit code, of what is reported already. */
+/* Prints hooke(1) in the macros of man(7). Its date is that of SOURCE_DATE_EPOCH if set, else today. Returns
+ * the exit code; failures are reported already. */
 int cli_man_print(const struct cli_program *program);
 
 #endif

@@ -7,12 +7,12 @@
 enum { HOOKE_MOST_METHODS = 32 };
 
 struct cli_methods {
-  const char *name[HOOKE_MOST_METHODS]; /* the library's own copies, no two alike */
+  const char *name[HOOKE_MOST_METHODS]; /* the library's own copies, all different */
   int32_t count;
 };
 
-/* Those that were asked for, else every method that this build has. One that does not exist, is not in this
- * build or is named twice is reported and comes back as exit code. */
+/* The requested methods, or every method of this build. A method that does not exist, is not in this build or
+ * is named twice is reported and returned as exit code. */
 int cli_methods_choose(const struct cli_arguments *arguments, struct cli_methods *methods);
 
 #endif

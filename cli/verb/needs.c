@@ -1,4 +1,5 @@
-/* hooke needs: what a scene needs for a wanted accuracy, and a lean scene without the rest. */
+/* hooke needs: the ingredients that a scene needs for a wanted accuracy, and a lean scene without the rest.
+ */
 #include "needs_results.h"
 #include "output_file.h"
 #include "print.h"
@@ -82,7 +83,7 @@ static int write_report(const struct cli_needs_results *results, int code) {
   return cli_exit_code(status);
 }
 
-/* What was found is printed also when a file fails. */
+/* Results are printed also when a file fails. */
 static int tell(struct cli_needs_results *results, int32_t stopped) {
   int code = write_lean(results);
   if (results->arguments->json)

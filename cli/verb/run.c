@@ -1,4 +1,4 @@
-/* hooke run: integrates a scene and says what came out. */
+/* hooke run: integrates a scene and reports the result. */
 #include "advice.h"
 #include "fit.h"
 #include "report.h"
@@ -61,8 +61,8 @@ static int32_t see_checkpoint(int64_t step, const hooke_state *state, void *ctx)
   return 1;
 }
 
-/* Steps between two looks of an estimate of the error: about a millisecond of work, so that looking costs
- * nothing, and a hundredth of the run at most. */
+/* Steps between two states for an estimate of the error: about a millisecond of work, so that the overhead is
+ * negligible, and a hundredth of the run at most. */
 static int64_t stride(const struct cli_run *run) {
   if (hooke_method_is_adaptive(cli_run_method(run)) != 0) return 1;
   int64_t size =
@@ -74,7 +74,7 @@ static int64_t stride(const struct cli_run *run) {
   return steps < 1 ? 1 : steps > MOST_STEPS_PER_LOOK ? MOST_STEPS_PER_LOOK : steps;
 }
 
-/* The library tells of each kind once a run. */
+/* The library reports each kind once a run. */
 static int32_t see_warning(const char *kind, const char *sentence, double t, double limit, int64_t spring,
                            int64_t particle, void *ctx) {
   const struct cli_run *run = ctx;
@@ -95,7 +95,7 @@ static int32_t prepare(struct cli_run *run) {
   if (status == HOOKE_OK && run->estimate)
     status = hooke_integrator_on_step(run->integrator, stride(run), see_step, run);
   if (status == HOOKE_OK) status = hooke_integrator_on_checkpoint(run->integrator, see_checkpoint, run);
-  /* a pick has looked at the limits themselves */
+  /* a pick has computed the limits already */
   const int warns = !run->arguments->quiet && !cli_arguments_text(run->arguments, "want");
   if (status == HOOKE_OK && warns) status = hooke_integrator_on_warning(run->integrator, see_warning, run);
   if (status != HOOKE_OK || !run->output) return status;
@@ -109,8 +109,8 @@ static int32_t prepare(struct cli_run *run) {
   return hooke_trajectory_write_behind(run->trajectory);
 }
 
-/* Where an interrupted run is to go on. Some methods do so from the checkpoints of --checkpoint alone, and
- * nobody from numbers that are not finite. */
+/* Says how to continue an interrupted run. Some methods need a checkpoint of --checkpoint, and no run
+ * continues from non-finite numbers. */
 static void keep_place(struct cli_run *run) {
   if (run->outcome != HOOKE_STOPPED || run->write_status != HOOKE_OK || !run->trajectory) return;
   run->kept_place = hooke_trajectory_checkpoint(run->trajectory, run->integrator, run->setup.state);
@@ -119,7 +119,7 @@ static void keep_place(struct cli_run *run) {
   keep_message(run);
 }
 
-/* What ParaView reads beside the trajectory. A name that it cannot take is no failure of the run. */
+/* Writes the ParaView companion. A name that it cannot use is not a failure of the run. */
 static int32_t write_companion(struct cli_run *run) {
   hooke_record *record = NULL;
   int32_t status = hooke_record_open(run->output, &record);
@@ -141,7 +141,7 @@ static int32_t ask_why(struct cli_run *run) {
   return status;
 }
 
-/* The outcome stays what it is without an explanation. */
+/* The outcome is the same without an explanation. */
 static void find_why(struct cli_run *run) {
   if (cli_arguments_text(run->arguments, "no-why")) return;
   const int32_t status = cli_watch_interrupted() ? HOOKE_STOPPED : ask_why(run);
@@ -157,7 +157,7 @@ static void find_why(struct cli_run *run) {
     cli_report_words(run->arguments, "interrupted: why the run ended early is not looked into further");
 }
 
-/* The end of a run that had finished. */
+/* Reports a run that had finished already. */
 static int take_finished(struct cli_run *run) {
   const int32_t status =
       cli_resume_read_finished(run->output, run->setup.state, &run->frames, &run->finished_steps);
@@ -169,7 +169,7 @@ static int take_finished(struct cli_run *run) {
   return HOOKE_EXIT_DONE;
 }
 
-/* Before the first step. */
+/* Prepares the first step. */
 static int give_up(struct cli_run *run, int32_t status) {
   const int code = cli_report_status(run->arguments, status);
   (void)hooke_trajectory_close(run->trajectory, status);
@@ -177,7 +177,7 @@ static int give_up(struct cli_run *run, int32_t status) {
   return code;
 }
 
-/* Runs and puts the trajectory away; a failure is reported and comes back as exit code. */
+/* Runs and closes the trajectory; a failure is reported and returned as exit code. */
 static int integrate(struct cli_run *run) {
   cli_watch_start(&run->watch, run->arguments);
   run->energy_before = state_energy(run);
@@ -249,7 +249,7 @@ static void tell_end(const struct cli_run *run) {
   tell_beyond(run);
 }
 
-/* On standard error: why, and what to do. */
+/* On standard error: the cause, and suggestions. */
 static void explain(const struct cli_run *run) {
   const struct cli_arguments *arguments = run->arguments;
   if (run->why == NULL) return;
@@ -278,7 +278,7 @@ static void tell_coincident(const struct cli_run *run) {
   }
 }
 
-/* As at the beginning, for another run. */
+/* Resets everything for another run. */
 static int begin_again(struct cli_run *run) {
   hooke_integrator_destroy(run->integrator);
   hooke_options_destroy(run->options);
@@ -291,7 +291,7 @@ static int begin_again(struct cli_run *run) {
   return status == HOOKE_OK ? HOOKE_EXIT_DONE : cli_report_status(run->arguments, status);
 }
 
-/* Runs, with a wanted error until it is met or nothing finer is known to help. */
+/* Runs; with a wanted error, repeats until it is met or nothing finer is known to help. */
 static int integrate_to_want(struct cli_run *run) {
   int code = integrate(run);
   if (!cli_arguments_text(run->arguments, "want")) return code;
@@ -305,7 +305,7 @@ static int integrate_to_want(struct cli_run *run) {
   return code;
 }
 
-/* The error of a run that is over, after all else was told. */
+/* Reports the error of a run after everything else. */
 static void estimate(struct cli_run *run) {
   const int wanted = cli_arguments_text(run->arguments, "want") != NULL;
   const int32_t status = wanted ? HOOKE_OK : cli_want_measure(run);
@@ -315,7 +315,7 @@ static void estimate(struct cli_run *run) {
     cli_report_words(run->arguments, "out of memory: how wrong the run is is not looked into");
 }
 
-/* Into the output, which is whole already. */
+/* Writes it into the output, which is complete already. */
 static int write_estimate(const struct cli_run *run) {
   if (!run->output || !run->estimate || run->outcome != HOOKE_OK) return HOOKE_EXIT_DONE;
   const int32_t status = hooke_estimate_write_h5(run->estimate, run->output);
@@ -325,7 +325,7 @@ static int write_estimate(const struct cli_run *run) {
 static int run_and_tell(struct cli_run *run) {
   int code = integrate_to_want(run);
   if (code != HOOKE_EXIT_DONE) return code;
-  /* all is on the disk and told before anything is looked into; with --json it is one object that tells it */
+  /* everything is on the disk and reported before the diagnosis; with --json both are one object */
   if (!run->arguments->json) cli_run_print(run);
   if (!run->arguments->quiet) tell_coincident(run);
   if (run->outcome != HOOKE_OK) tell_end(run);

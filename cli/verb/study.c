@@ -1,4 +1,4 @@
-/* hooke study: how accurate each method is for what it costs on a scene, and which one to take. */
+/* hooke study: accuracy and cost of each method on a scene, and a recommendation. */
 #include "output_file.h"
 #include "print.h"
 #include "report.h"
@@ -33,7 +33,7 @@ static int check_output(const struct cli_arguments *arguments, const char *outpu
 
 /* ---- the file of --report ---- */
 
-/* The exit code of the study, or that of a report that could not be written. */
+/* Exit code of the study, or of a report that could not be written. */
 static int write_report(const struct cli_study_results *results, const char *report, int code) {
   if (!report || hooke_measurement_row_count(results->study, "rows") == 0) return code;
   const char *title = hooke_scene_title(results->setup.scene);
@@ -63,7 +63,7 @@ static int run_study(struct cli_study_results *results) {
   return status == HOOKE_OK || results->interrupted ? HOOKE_EXIT_DONE : cli_report_status(arguments, status);
 }
 
-/* ---- the command that is recommended ---- */
+/* ---- the recommended command ---- */
 
 static double recommended(const struct cli_study_results *results, const char *what) {
   return hooke_measurement_number(results->study, "recommendation", 0, what);
@@ -79,7 +79,7 @@ int32_t cli_study_results_trust_all(const hooke_measurement *study) {
          hooke_measurement_number(study, "study", 0, "duration") * (1.0 - 1e-9);
 }
 
-/* NULL where the number does not apply. */
+/* NULL if the number does not apply. */
 static const char *setting(const struct cli_study_results *results, const char *what,
                            char text[HOOKE_NUMBER_SIZE]) {
   double value = recommended(results, what);
@@ -98,7 +98,7 @@ static int32_t find_command(struct cli_study_results *results) {
                                    {"atol", setting(results, "atol", atol)},
                                    {"atol_velocity", NULL},
                                    {NULL, NULL}};
-  /* the study sets it to the number of atol, whatever the scene says */
+  /* the study sets it to the number of atol, for any scene */
   if (hooke_options_is_set(results->setup.options, "atol_velocity")) settings[4].text = settings[3].text;
   FILE *stream = open_memstream(&results->command, &size);
   if (stream) cli_report_command(stream, results->arguments, "run", settings);
@@ -138,11 +138,11 @@ static int32_t write_output(const struct cli_study_results *results, const char 
   return status == HOOKE_OK ? hooke_measurement_write(results->study, output) : status;
 }
 
-/* What was measured is printed also when the file fails. */
+/* Results are printed also when the file fails. */
 static int tell(struct cli_study_results *results, const char *output) {
   const struct cli_arguments *arguments = results->arguments;
   int32_t written = HOOKE_OK;
-  /* a study that was stopped before its first row takes no older file's place */
+  /* a study that was stopped before its first row does not replace an older file */
   if (hooke_measurement_row_count(results->study, "rows") == 0) output = NULL;
   const int32_t found = find_command(results);
   if (arguments->json) {

@@ -1,4 +1,4 @@
-/* hooke verify: runs a slice of a result again and says whether it is what its scene gives. */
+/* hooke verify: checks that a slice of a result reproduces from its scene. */
 #include "print.h"
 #include "report.h"
 #include "table.h"
@@ -104,7 +104,7 @@ static int do_verify(const struct cli_arguments *arguments) {
   cli_watch_end(&watch);
   const char *verdict = hooke_measurement_text(verify, "verify", 0, "verdict");
   int code = cli_exit_code(status);
-  if (verdict && arguments->json) { /* which holds the message, too */
+  if (verdict && arguments->json) { /* with the message */
     print_json(arguments, verify);
   } else {
     if (status != HOOKE_OK) code = cli_report_status(arguments, status);

@@ -15,7 +15,7 @@
 
 extern char **environ;
 
-/* What is left out of the page, "every 10th" of something; "" if nothing is. */
+/* The omitted part, "every 10th" of something; "" if nothing is omitted. */
 static void describe_stride(const hooke_view *view, const char *what, char *text, size_t size) {
   static const char *const endings[] = {"th", "st", "nd", "rd"};
   const int stride = (int)hooke_view_number(view, what), last = stride / 10 % 10 == 1 ? 0 : stride % 10;

@@ -21,15 +21,15 @@ struct why {
   hooke_record *record; /* NULL: the scene is not an output */
   hooke_options *options;
   hooke_measurement *why; /* NULL: the run did not blow up */
-  const char *status;     /* of the run, then */
-  double time;            /* reached, then */
-  int code;               /* of what was reported already */
+  const char *status;     /* of the run, if any */
+  double time;            /* reached, if any */
+  int code;               /* failures are reported already */
 };
 
-static const double SMALLEST_SHARE = 1e-3; /* that words are made of */
+static const double SMALLEST_SHARE = 1e-3; /* storage of words */
 static const double USUAL_BUDGET = 30.0;   /* [s] */
 
-/* ---- finding out ---- */
+/* ---- diagnosing ---- */
 
 static int32_t see_run(double done, const char *method, void *watch) {
   (void)method;
@@ -45,7 +45,7 @@ static int32_t explain(const struct why *why) {
   return status;
 }
 
-/* Runs the scene and asks why it ended early. */
+/* Runs the scene and finds why it ended early. */
 static int32_t run_again(struct why *why) {
   hooke_integrator *integrator = NULL;
   struct cli_watch watch;
@@ -96,9 +96,9 @@ static int32_t read_output(struct why *why) {
   return status;
 }
 
-/* ---- telling ---- */
+/* ---- results ---- */
 
-/* Of a run that did not blow up there are its method and the time that it reached. */
+/* For a run that did not diverge: its method and the time that it reached. */
 static void print_nothing(struct cli_json *json, const struct why *why) {
   const char *name;
   for (int64_t k = 0; (name = hooke_measurement_column("why", "why", k, "name")); k++) {
@@ -229,7 +229,7 @@ static int32_t print_words(const struct why *why) {
   return cli_advice_print(stdout, why->arguments, found, INT64_MAX);
 }
 
-/* 1 if an option of a run was given: then it is another run than that of the output. */
+/* 1 if an option of a run was given: the run then differs from that of the output. */
 static int32_t is_another_run(const struct cli_arguments *arguments) {
   for (int32_t k = 0; k < arguments->count; k++) {
     if (arguments->all[k].table == arguments->run && arguments->all[k].text) return 1;

@@ -25,21 +25,22 @@ typedef struct hooke_integrator hooke_integrator;
 /* Writes x' = phi(t, x) (size n) into `rate`. Return 0 to go on, anything else to stop. */
 typedef int32_t hooke_rate(int64_t n, double t, const double *x, double *rate, void *ctx);
 
-/* Sees the state after `step` steps; may not change it. Return 0 to go on, anything else to stop the run. */
+/* Receives the state after `step` steps; must not change it. Return 0 to go on, anything else to stop the
+ * run. */
 typedef int32_t hooke_observer(int64_t step, const hooke_state *state, void *ctx);
 
-/* Told of progress: the share done (0..1) and what is running. Return 0 to go on. */
+/* Receives progress: the fraction done (0..1) and the name of the running task. Return 0 to go on. */
 typedef int32_t hooke_progress(double done, const char *what, void *ctx);
 
 /* ---- methods ----
- * Count and name go over the methods for everyday use. Two more are there to check references with, "rk8pd"
- * (GSL) and "arkode-esdirk" (SUNDIALS): the option `method` and the functions that take a name know them
- * too. */
+ * hooke_method_count() and hooke_method_name() list the ordinary methods. Two more exist for checking
+ * references, "rk8pd" (GSL) and "arkode-esdirk" (SUNDIALS): the option `method` and the functions that take a
+ * name accept them, too. */
 
 HOOKE_API int64_t hooke_method_count(void);
 /* Name of a method, "forward-euler"; NULL past the last. */
 HOOKE_API const char *hooke_method_name(int64_t method);
-/* One line about a method; NULL if there is no such name. */
+/* One-line description of a method; NULL if there is no such name. */
 HOOKE_API const char *hooke_method_summary(const char *name);
 /* 1 if the method chooses its steps from tolerances, 0 if it takes `step`, -1 if there is no such name. */
 HOOKE_API int32_t hooke_method_is_adaptive(const char *name);
@@ -48,40 +49,40 @@ HOOKE_API int32_t hooke_method_is_built(const char *name);
 
 /* ---- making ---- */
 
-/* An integrator for a committed system, which must outlive it; `options` is copied.
- * HOOKE_BAD_VALUE (an option), HOOKE_BAD_CALL (not committed), HOOKE_NOT_BUILT, HOOKE_NO_MEMORY. */
+/* Creates an integrator for a committed system, which must outlive it; `options` is copied. HOOKE_BAD_VALUE
+ * (an option), HOOKE_BAD_CALL (not committed), HOOKE_NOT_BUILT, HOOKE_NO_MEMORY. */
 HOOKE_API int32_t hooke_integrator_create(const hooke_system *system, const hooke_options *options,
                                           hooke_integrator **integrator);
 
-/* An integrator for x' = phi(t, x) of `size` numbers. HOOKE_UNSUITED for a method that needs positions and
- * velocities or their derivatives, such as symplectic-euler or backward-euler. */
+/* Creates an integrator for x' = phi(t, x) of `size` numbers. HOOKE_UNSUITED for a method that needs
+ * positions and velocities or their derivatives, such as symplectic-euler or backward-euler. */
 HOOKE_API int32_t hooke_integrator_create_first_order(int64_t size, hooke_rate *rate, void *ctx,
                                                       const hooke_options *options,
                                                       hooke_integrator **integrator);
 
 HOOKE_API void hooke_integrator_destroy(hooke_integrator *integrator);
 
-/* The options it runs with (its own copy, defaults filled in: `every` and `atol_velocity`), valid as long as
- * it lives. */
+/* The integrator's own copy of its options, with `every` and `atol_velocity` filled in; valid as long as the
+ * integrator lives. */
 HOOKE_API const hooke_options *hooke_integrator_options(const hooke_integrator *integrator);
 
-/* ---- watching: at most one observer of each kind, NULL takes it back ---- */
+/* ---- watching: at most one observer of each kind; NULL removes it ---- */
 
 HOOKE_API int32_t hooke_integrator_on_frame(hooke_integrator *integrator, hooke_observer *observer,
                                             void *ctx);
 /* Called every `stride` >= 1 steps. */
 HOOKE_API int32_t hooke_integrator_on_step(hooke_integrator *integrator, int64_t stride,
                                            hooke_observer *observer, void *ctx);
-/* Called at the checkpoints of the option `checkpoint`, after the frame of that time: every so many steps as
- * come nearest to it, at least one; with error control at t0 + k checkpoint, where the method starts anew,
- * whether or not anyone watches. There hooke_checkpoint_write() has everything that the run can go on
- * from. */
+/* Called at the checkpoints of the option `checkpoint`, after the frame of that time. With a fixed step,
+ * checkpoints are a constant number of steps apart, at least one, as near to the option as whole steps allow.
+ * With error control they are at t0 + k checkpoint, where the method restarts whether or not an observer is
+ * set. At these times hooke_checkpoint_write() can save everything that the run needs to go on. */
 HOOKE_API int32_t hooke_integrator_on_checkpoint(hooke_integrator *integrator, hooke_observer *observer,
                                                  void *ctx);
 
-/* Told between two steps, after every `seconds` >= 0 of work, of the share of `duration` that is done and the
- * method. It costs nothing that can be measured and changes no bits: for a program that has to hear whether
- * it is to stop, or shows progress. Stopping leaves the state of the last whole step. HOOKE_BAD_VALUE. */
+/* Called between two steps, after every `seconds` >= 0 of work, with the fraction of `duration` that is done
+ * and the name of the method. It has no measurable cost and changes no bits. It lets a program show progress
+ * or stop a run. Stopping leaves the state of the last whole step. HOOKE_BAD_VALUE. */
 HOOKE_API int32_t hooke_integrator_on_progress(hooke_integrator *integrator, double seconds,
                                                hooke_progress *progress, void *ctx);
 
@@ -97,29 +98,29 @@ HOOKE_API int32_t hooke_integrator_on_progress(hooke_integrator *integrator, dou
  * change the time of an error-controlled method, or a state with numbers that are not finite. */
 HOOKE_API int32_t hooke_integrator_run(hooke_integrator *integrator, hooke_state *state);
 
-/* Goes on to the end of a run from where hooke_checkpoint_read() placed the integrator and the state, or
- * where an observer or callback stopped a run with a fixed step, as if it had never stopped: the same bits,
- * and the same counts. Frames that were reported are not reported again. Outcomes are those of
- * hooke_integrator_run(); HOOKE_BAD_CALL if there is nothing to go on with. */
+/* Continues a run to its end from where hooke_checkpoint_read() placed the integrator and the state, or from
+ * where an observer or callback stopped a run with a fixed step. Bits and counts are those of an
+ * uninterrupted run. Frames that were reported are not reported again. Outcomes are those of
+ * hooke_integrator_run(); HOOKE_BAD_CALL if there is no run to continue. */
 HOOKE_API int32_t hooke_integrator_resume(hooke_integrator *integrator, hooke_state *state);
 
 /* ---- time loops of the caller's own ---- */
 
 /* Takes `steps` steps of a fixed-step method, or internal steps of an error-controlled one, without frames.
- * Goes on from the state that the last call left, or begins anew where the caller has changed it; 0 steps do
- * that alone. `state` is valid on return: with the statuses of hooke_integrator_run(), but that numbers are
- * tested for being finite after every call. */
+ * It continues from the state that the last call left, or begins anew if the caller has changed that state;
+ * with 0 steps it only does the latter. `state` is valid on return. The statuses are those of
+ * hooke_integrator_run(), except that numbers are tested for being finite after every call. */
 HOOKE_API int32_t hooke_integrator_step(hooke_integrator *integrator, hooke_state *state, int64_t steps);
 
-/* Takes `steps` steps of the motion that the integrator itself has, on from where the last call left it:
- * hooke_integrator_step() with 0 steps begins one at a state. The same bits at the cost of a step of a run,
- * as no state is read or written; those of the caller are stale until hooke_integrator_sync(). Divergence is
- * tested every 1000 steps. The statuses of hooke_integrator_step(); HOOKE_BAD_CALL if there is no motion, or
- * if it ended early and did not stop. */
+/* Takes `steps` steps of the integrator's own motion, continuing from where the last call left it;
+ * hooke_integrator_step() with 0 steps begins a motion at a state. It gives the same bits at the cost of a
+ * step of a run, since it neither reads nor writes a state: the caller's state is stale until
+ * hooke_integrator_sync(). Divergence is tested every 1000 steps. The statuses are those of
+ * hooke_integrator_step(); HOOKE_BAD_CALL if there is no motion, or if it ended early and did not stop. */
 HOOKE_API int32_t hooke_integrator_advance(hooke_integrator *integrator, int64_t steps);
-/* Writes time, positions and velocities of the motion into `state`, after HOOKE_DIVERGED the last good ones.
- * hooke_integrator_step() then goes on from there. HOOKE_DIVERGED, with the last good state, for numbers that
- * are not finite; HOOKE_BAD_CALL if there is no motion. */
+/* Writes time, positions and velocities of the motion into `state`; after HOOKE_DIVERGED, the last good ones.
+ * hooke_integrator_step() then continues from there. HOOKE_DIVERGED, with the last good state, for non-finite
+ * numbers; HOOKE_BAD_CALL if there is no motion. */
 HOOKE_API int32_t hooke_integrator_sync(hooke_integrator *integrator, hooke_state *state);
 
 /* Positions and velocities (3 `count` each; NULL: not those) of some particles of the motion, read and
@@ -134,7 +135,8 @@ HOOKE_API int32_t hooke_integrator_get(hooke_integrator *integrator, int64_t cou
 HOOKE_API int32_t hooke_integrator_put(hooke_integrator *integrator, int64_t count, const int64_t *particles,
                                        const double *q, const double *v);
 
-/* ---- what it did, since it was made; after hooke_checkpoint_read() since the run began ---- */
+/* ---- counts and times since the integrator was made; after hooke_checkpoint_read(), since the run began
+ * ---- */
 
 /* A count: "steps", "force_evaluations", "derivative_products", "nonlinear_iterations", "nonlinear_failures",
  * "linear_iterations", "error_test_failures", "explicit_damping" (1 of verlet that takes the damping of
@@ -147,13 +149,13 @@ HOOKE_API int32_t hooke_integrator_put(hooke_integrator *integrator, int64_t cou
 HOOKE_API int64_t hooke_integrator_count(const hooke_integrator *integrator, const char *what);
 /* Time spent stepping [s], observers and output left out. */
 HOOKE_API double hooke_integrator_wall_seconds(const hooke_integrator *integrator);
-/* States of this run that passed the check (see hooke_integrator_run()), for a look at how it went wrong: the
- * last one always, and those before it as far as 16 MB hold them, eight in all at most. `place` 0 is the
- * last, 1 the one before; it is copied into `state`. HOOKE_BAD_VALUE if there is none, or if the state is of
+/* Copies into `state` one of the states of this run that passed the check (see hooke_integrator_run()), to
+ * see how the run went wrong. `place` 0 is the last one, which is always kept, 1 the one before it, and so
+ * on: eight at most, as far as 16 MB hold them. HOOKE_BAD_VALUE if there is none, or if the state is of
  * another size. */
 HOOKE_API int32_t hooke_integrator_recent(const hooke_integrator *integrator, int64_t place,
                                           hooke_state *state);
-/* What the callback that stopped the run returned; 0 if none did. */
+/* Value that the callback which stopped the run returned; 0 if none did. */
 HOOKE_API int32_t hooke_integrator_stop_value(const hooke_integrator *integrator);
 /* Time at which divergence was noticed [s], NaN if it was not. */
 HOOKE_API double hooke_integrator_diverged_at(const hooke_integrator *integrator);
@@ -166,9 +168,9 @@ HOOKE_API double hooke_integrator_diverged_at(const hooke_integrator *integrator
 typedef int32_t hooke_warning(const char *kind, const char *sentence, double t, double limit, int64_t spring,
                               int64_t particle, void *ctx);
 
-/* Has the runs of `integrator` watched: at the start, then at as many of the checks for divergence as cost
- * less than a hundredth of the stepping. Results do not depend on it. NULL takes it back. A method without a
- * bound is never warned of. HOOKE_UNSUITED for a first-order problem; HOOKE_NO_MEMORY. */
+/* Turns on warnings for the runs of `integrator`: it checks at the start, then at as many of the checks for
+ * divergence as cost less than a hundredth of the stepping. Results do not depend on it. NULL turns them off.
+ * A method without a bound gives no warnings. HOOKE_UNSUITED for a first-order problem; HOOKE_NO_MEMORY. */
 HOOKE_API int32_t hooke_integrator_on_warning(hooke_integrator *integrator, hooke_warning *warning,
                                               void *ctx);
 

@@ -9,7 +9,7 @@
  * A measurement is of one kind: "study", "limit", "needs", "cost", "comparison", "why" or "verify". Its
  * options are made by hooke_options_create() with the name of the kind. Its results are tables, with columns
  * that have a name, a unit and a line of documentation. A table is "rows", or a "record" of one row with the
- * numbers of the whole. The record that is named like the kind has what concerns the measurement itself.
+ * numbers of the whole. The record that is named like the kind describes the measurement itself.
  * hooke_measurement_table() lists kinds and tables, hooke_measurement_column() the columns.
  *
  * A measurement belongs to one thread at a time. */
@@ -24,48 +24,49 @@ extern "C" {
 
 typedef struct hooke_measurement hooke_measurement;
 
-/* A measurement of a committed system, which must outlive it. `run` (options of a run) and `options` (of this
- * kind; NULL: defaults) are copied; a study needs `run`. HOOKE_BAD_VALUE, HOOKE_BAD_CALL, HOOKE_NOT_BUILT
- * without a library that the kind needs, HOOKE_NO_MEMORY. */
+/* Creates a measurement of a committed system, which must outlive it. `run` (options of a run) and `options`
+ * (of this kind; NULL: defaults) are copied; a study needs `run`. HOOKE_BAD_VALUE, HOOKE_BAD_CALL,
+ * HOOKE_NOT_BUILT without a library that the kind needs, HOOKE_NO_MEMORY. */
 HOOKE_API int32_t hooke_measurement_create(const char *kind, const hooke_system *system,
                                            const hooke_options *run, const hooke_options *options,
                                            hooke_measurement **measurement);
 /* NULL is allowed. */
 HOOKE_API void hooke_measurement_destroy(hooke_measurement *measurement);
-/* The name of its kind; lives as long as the process. */
+/* Name of its kind; lives as long as the process. */
 HOOKE_API const char *hooke_measurement_kind(const hooke_measurement *measurement);
 
-/* Has `progress` told of the work; NULL takes it back. Anything but 0 from it stops the measurement. */
+/* Sets the progress callback; NULL removes it. A non-zero return value stops the measurement. */
 HOOKE_API void hooke_measurement_on_progress(hooke_measurement *measurement, hooke_progress *progress,
                                              void *ctx);
 
 /* Measures. A limit and a cost are taken at `state` (NULL: the initial one) and may be taken again; the other
- * kinds begin at the initial state, run once, and want NULL. HOOKE_STOPPED, if the progress callback or a
- * callback of the system asked to stop, keeps the results so far. HOOKE_BAD_VALUE for a state that the kind does
- * not take or that is of another system, and for a run without a duration; HOOKE_BAD_CALL for a second call;
- * HOOKE_NO_MEMORY; and what an integrator may return. */
+ * kinds begin at the initial state, run once, and require NULL. HOOKE_STOPPED, if the progress callback or a
+ * callback of the system asked to stop, keeps the results so far. HOOKE_BAD_VALUE for a state of another
+ * system or one that the kind does not accept, and for a run without a duration; HOOKE_BAD_CALL for a second
+ * call; HOOKE_NO_MEMORY; and the failures of an integrator. */
 HOOKE_API int32_t hooke_measurement_run(hooke_measurement *measurement, hooke_state *state);
 
 /* ---- tables ---- */
 
-/* Of table `table` of a kind "name", "doc" and "shape" ("record" or "rows"); NULL past the last table, and for
- * another word. hooke_measurement_table(NULL, k, "name") is the name of kind `k`. */
+/* Property of table `table` of a kind: "name", "doc" or "shape" ("record" or "rows"); NULL past the last
+ * table, and for another word. hooke_measurement_table(NULL, k, "name") is the name of kind `k`. */
 HOOKE_API const char *hooke_measurement_table(const char *kind, int64_t table, const char *what);
-/* Of column `column` of a table "name", "unit" ("" if it has none), "doc" and "type": "number", "count" (a
- * number that is whole), "flag" (0, 1, or NaN: unknown), "text" or "series". NULL past the last column, and for
- * another word. */
+/* Property of column `column` of a table: "name", "unit" ("" if it has none), "doc" or "type": "number",
+ * "count" (a whole number), "flag" (0, 1, or NaN: unknown), "text" or "series". NULL past the last column,
+ * and for another word. */
 HOOKE_API const char *hooke_measurement_column(const char *kind, const char *table, int64_t column,
                                                const char *what);
 
-/* Rows that a table has by now; -1 if the kind has no such table. A record has one row, or none where there is
- * nothing to say. */
+/* Number of rows that a table has so far; -1 if the kind has no such table. A record has one row, or none if
+ * it is empty. */
 HOOKE_API int64_t hooke_measurement_row_count(const hooke_measurement *measurement, const char *table);
-/* The first row whose `column` is `text`; -1 if there is none. In a matrix such as "statistics" rows are ordered by
- * the first index, then the second: the row of a method and a quantity is the sum of the first rows of both. */
+/* Number of the first row whose `column` is `text`; -1 if there is none. In a matrix such as "statistics"
+ * rows are ordered by the first index, then the second: the row of a method and a quantity is the sum of the
+ * first rows of both. */
 HOOKE_API int64_t hooke_measurement_find(const hooke_measurement *measurement, const char *table,
                                          const char *column, const char *text);
-/* A value. NaN where a number does not apply or is not known, and for a row, table or column that is not there;
- * NULL likewise. Texts and series stay valid until the measurement is run again or destroyed. */
+/* A value. NaN where a number does not apply or is not known, and for a row, table or column that does not
+ * exist; NULL likewise. Texts and series stay valid until the measurement is run again or destroyed. */
 HOOKE_API double hooke_measurement_number(const hooke_measurement *measurement, const char *table,
                                           int64_t row, const char *column);
 HOOKE_API const char *hooke_measurement_text(const hooke_measurement *measurement, const char *table,
@@ -77,119 +78,119 @@ HOOKE_API const double *hooke_measurement_series(const hooke_measurement *measur
 
 /* ---- files ---- */
 
-/* A text that files show, copied: "title" over a page, "command" (the line to type for what is recommended) on
- * it, "scene" (the text of the scene) in HDF5. NULL takes it back. HOOKE_BAD_VALUE for another word,
- * HOOKE_NO_MEMORY. */
+/* Sets a text that files show, copied: "title" is the heading of a page, "command" the command line of the
+ * recommendation on it, "scene" the text of the scene in HDF5. NULL removes it. HOOKE_BAD_VALUE for another
+ * word, HOOKE_NO_MEMORY. */
 HOOKE_API int32_t hooke_measurement_label(hooke_measurement *measurement, const char *what, const char *text);
 
-/* Writes what was found so far, by the ending of `path`: .csv (the table "rows"), .json and .h5 (all tables),
- * .html (a page to read offline). An older file is replaced when the new one is complete. HOOKE_BAD_VALUE for
- * another ending, HOOKE_BAD_CALL before hooke_measurement_run(), HOOKE_NOT_BUILT, HOOKE_IO_FAILED,
- * HOOKE_NO_MEMORY. */
+/* Writes the results so far in the format given by the ending of `path`: .csv (the table "rows"), .json and
+ * .h5 (all tables), .html (a page to read offline). An older file is replaced when the new one is complete.
+ * HOOKE_BAD_VALUE for another ending, HOOKE_BAD_CALL before hooke_measurement_run(), HOOKE_NOT_BUILT,
+ * HOOKE_IO_FAILED, HOOKE_NO_MEMORY. */
 HOOKE_API int32_t hooke_measurement_write(const hooke_measurement *measurement, const char *path);
 
-/* ---- a study: how accurate each method is for what it costs, and which one to take ----
- * It makes a reference by two integrators that check each other and share only the force, runs every method over
- * a ladder of steps or tolerances, measures error and cost of each run over the frames that the reference is
- * trusted for, and fits orders; with the option `want` it recommends, with `ensemble` it adds statistics where
- * the motion cannot be judged to its end. Runs that diverge stay as rows. Needs SUNDIALS.
+/* ---- a study: accuracy and cost of each method, and a recommendation ----
+ * It computes a reference by two integrators that check each other and share only the force, runs every
+ * method over a ladder of steps or tolerances, measures error and cost of each run over the frames where the
+ * reference is trusted, and fits orders. With the option `want` it recommends a run; with `ensemble` it adds
+ * statistics for motion that is not predictable to its end. Runs that diverge stay as rows. Needs SUNDIALS.
  *
- * Two fifths of a `budget`, and at least half a second, are for the reference, three tenths for an ensemble. When
- * the budget is spent, rows not begun or not finished are left out, and "budget_spent" of the table "study" is 1.
+ * The reference gets two fifths of a `budget`, and at least half a second; an ensemble gets three tenths.
+ * When the budget is spent, rows not begun or not finished are left out, and "budget_spent" of the table
+ * "study" is 1.
  *
- * Starts of an ensemble have every free particle displaced by Gaussian noise of root mean square "noise": a tenth
- * of the wanted error, or a millionth of the extent without one. Statistics are of each run's means over the
- * frames from "from" to "until", which follow those that are trusted; of a period, of its period over these.
+ * Each start of an ensemble has every free particle displaced by Gaussian noise of root mean square "noise":
+ * a tenth of the wanted error, or without one a millionth of the extent. Statistics are of each run's means
+ * (of a period: of its period) over the frames from "from" to "until", which follow the trusted ones.
  *
  * A watched quantity is 57.x, 57.y or 57.z (a coordinate of a particle [m]), part:0.y (of a part's particle),
  * group:3.length [m], group:3.strain or group:3.tension [N] (of a spring of a group: the force along it, of
- * damping, too, positive where it pulls), energy, kinetic or potential [J], or period:Q [s], the mean time between
- * passages of one of these upwards through its mean. Indices begin at 0. */
+ * damping, too, positive where it pulls), energy, kinetic or potential [J], or period:Q [s], the mean time
+ * between passages of one of these upwards through its mean. Indices begin at 0. */
 
-/* The cheapest run for another wanted error [m], found by running more of them; the tables "recommendation" and
- * "margin" then tell of it. HOOKE_OK also when nothing meets it, with "note" of what is in the way. */
+/* Finds the cheapest run for another wanted error [m] by running more of them, and updates the tables
+ * "recommendation" and "margin". HOOKE_OK also when nothing meets it; "note" then says why. */
 HOOKE_API int32_t hooke_study_recommend(hooke_measurement *study, double want);
 
 /* ---- a limit: the largest stable step of each method, and what determines it ----
  * The system is linearised at the positions of the state, at rest: M x'' + C x' + K x = 0 over the free
- * particles. K has the tension of stretched springs, bending, and altitude springs without their tension; C is
- * that of springs, altitude springs and drag. The transverse stiffness of a compressed spring is negative and
- * counts as zero: buckling is growth by physics and no limit of a step. Callbacks are left out; springs that
- * only pull count as taut. Needs LAPACK. ARPACK is used where it is built in (scenes of 34 to 3333 free
- * particles); it is not made for threads, so searches by it wait for each other.
+ * particles. K has the tension of stretched springs, bending, and altitude springs without their tension; C
+ * is that of springs, altitude springs and drag. The transverse stiffness of a compressed spring is negative
+ * and counts as zero: buckling is growth by physics and no limit of a step. Callbacks are left out; springs
+ * that only pull count as taut. Needs LAPACK. Scenes of 34 to 3333 free particles use ARPACK where it is
+ * built in; ARPACK is not thread-safe, so its searches wait for each other.
  *
  * All eigenvalues are known up to 133 free particles, and up to 500 where damping is in proportion to
  * stiffness or there is none; with C = beta K one decides at any size. Beyond that the limits of symplectic
  * Euler and Verlet are still sharp, and those of Runge-Kutta and forward Euler lie between "bound" and
  * "predicted".
  *
- * With the option "along" hooke_measurement_run() runs the scene as the options of the run say, from the state
- * on, which is its final state on return, and finds the predicted limit of every method at every frame: the
- * columns "smallest" and "smallest_time" have the smallest that was met, the rest is that of the last frame.
+ * With the option "along" hooke_measurement_run() runs the scene as the options of the run say, from the
+ * state on, which is the final state on return, and finds the predicted limit of every method at every frame.
+ * The columns "smallest" and "smallest_time" hold the smallest of these; the others describe the last frame.
  * The statuses are then those of hooke_integrator_run(). */
 
-/* The step [s] up to which `method` is stable for x'' + 2 decay x' + frequency^2 x = 0 alone, by the rules of
- * the predictions: 0 where no step is stable, infinity where nothing limits it, NaN where no rule is known, for
- * an unknown method and for a number below 0. */
+/* Largest step [s] at which `method` is stable for x'' + 2 decay x' + frequency^2 x = 0 alone, by the rules
+ * of the predictions: 0 where no step is stable, infinity where nothing limits it, NaN where no rule is
+ * known, for an unknown method and for a negative number. */
 HOOKE_API double hooke_limit_of_mode(const char *method, double frequency, double decay);
 
 /* ---- needs: the ingredients of a scene that a wanted error requires, and its resolution ----
- * One ingredient after another is left out of the system, and each variant is run. Its change is the
- * maximum over frames of the root mean square over the watched particles of the distance from where they
- * are in the full system [m]. Each run takes the largest step (or tolerance) with which it is off by at
- * most a tenth of the wanted error, judged by a run with half the step (a tenth of the tolerance). An
- * ingredient whose change is below the wanted error is not needed. Ingredients are each group of springs
- * and each family of a part; bending; altitude springs; damping; drag; gravity; a force callback; springs
- * whose force stays small; particles that touch nothing; parts without watched particles; resistance to
- * compression; half the resolution of each part, compared at equal material coordinates by linear
- * interpolation.
+ * One ingredient after another is left out of the system, and each variant is run. Its change is the maximum
+ * over frames of the root mean square distance [m] of the watched particles from their positions in the full
+ * system. Each run takes the largest step (or tolerance) with an error of at most a tenth of the wanted one,
+ * judged by a run with half the step (a tenth of the tolerance). An ingredient whose change is below the
+ * wanted error is not needed. Ingredients are each group of springs and each family of a part; bending;
+ * altitude springs; damping; drag; gravity; a force callback; springs whose force stays small; particles that
+ * touch nothing; parts without watched particles; resistance to compression; half the resolution of each
+ * part, compared at equal material coordinates by linear interpolation.
  *
- * Then everything that is not needed and saves work is left out together, the smallest change first, as
- * long as a run with the largest step that allows it stays within the wanted error, all errors together;
- * single springs of a part only where that halves the work. Where the watched particles move by less than a
- * thousandth of the wanted error, nothing can be told, and nothing is left out.
+ * Then all ingredients that are not needed and whose omission saves work are left out together, in order of
+ * increasing change, as long as a run with the largest possible step stays within the wanted error, all
+ * errors together. Single springs of a part are left out only where that halves the work. Where the watched
+ * particles move by less than a thousandth of the wanted error, needs are unknown and nothing is left out.
  *
- * The option `refine` asks the reverse: each part at once, twice and four times its resolution, in the
- * table "parts". `run` gives duration, every and the method; without a method one is picked.
- * HOOKE_BAD_VALUE if no step that could be tried holds the full system to a tenth of the wanted error. */
+ * The option `refine` does the reverse: it runs each part at once, twice and four times its resolution, for
+ * the table "parts". `run` gives duration, every and the method; without a method, one is picked.
+ * HOOKE_BAD_VALUE if no step tried keeps the full system within a tenth of the wanted error. */
 
-/* The lean system, owned by `needs`: the twin of the full one if all is needed, NULL before it was found. */
+/* The lean system, owned by `needs`: a copy of the full one if all is needed, NULL before it was found. */
 HOOKE_API const hooke_system *hooke_needs_lean(const hooke_measurement *needs);
-/* The run to make of it: method, step or tolerances, duration, every. */
+/* Options of the run for it: method, step or tolerances, duration, every. */
 HOOKE_API const hooke_options *hooke_needs_lean_run(const hooke_measurement *needs);
-/* The particle of the lean system that is `particle` of the full one; -1 if it was left out, and in parts
- * of another resolution. */
+/* The particle of the lean system that is particle `particle` of the full one; -1 if it was left out, and in
+ * parts of another resolution. */
 HOOKE_API int64_t hooke_needs_lean_particle(const hooke_measurement *needs, int64_t particle);
-/* Positions of all particles of the full system, 3 each, at a state of the lean one: of the same material
- * points, NaN where they were left out. HOOKE_BAD_CALL before it was found, and for another kind. */
+/* Positions of all particles of the full system, 3 each, at a state of the lean one: those of the same
+ * material points, NaN where they were left out. HOOKE_BAD_CALL before it was found, and for another kind. */
 HOOKE_API int32_t hooke_needs_lean_position(const hooke_measurement *needs, const double *q,
                                             double *position);
 
 /* ---- a cost: the cost of each ingredient of a scene on this machine ----
  * An ingredient is a group of springs, of bending
- * triples or of tetrahedra, all damping of springs, drag, the callback force, or gravity. The scene is made
- * again without it and both are compared: memory, the largest stable step, and the time of a step, taken by
- * turns on both in short blocks from the same state, of which the shortest count. Times differ from one machine
- * and one call to the next. Callbacks are called, at states that may not be those of a run. The state stays as
- * it is. */
+ * triples or of tetrahedra, all damping of springs, drag, the callback force, or gravity. The scene is
+ * rebuilt without it and both are compared: memory, the largest stable step, and the time of a step. Steps
+ * are timed on both in alternating short blocks from the same state, and the shortest block counts. Times
+ * differ between machines and calls. Callbacks are called, possibly at states that do not occur in a run. The
+ * state is unchanged. */
 
 /* ---- comparison: one scene by several methods, against CVODE at tight tolerance ----
- * `run` gives step, duration, every, rtol and atol, the option `methods` the rows. A row that diverges
- * stays as a row. Errors are root mean squares over the free particles of the distance to the reference,
- * frame by frame. Needs SUNDIALS. */
+ * `run` gives step, duration, every, rtol and atol, the option `methods` the rows. A row that diverges stays
+ * in the table. Errors are root mean square distances of the free particles from the reference, frame by
+ * frame. Needs SUNDIALS. */
 
-/* Sees frame `frame` of `run` ("reference" or a method's name). Return 0 to go on. */
+/* Receives frame `frame` of `run` ("reference" or a method's name). Return 0 to go on. */
 typedef int32_t hooke_comparison_frame(const char *run, int64_t frame, int64_t step, const hooke_state *state,
                                        void *ctx);
-/* Shows every frame of a comparison to `observer`; NULL takes it back. HOOKE_BAD_CALL for another kind. */
+/* Sets the observer of the frames of a comparison; NULL removes it. HOOKE_BAD_CALL for another kind. */
 HOOKE_API int32_t hooke_comparison_on_frame(hooke_measurement *comparison, hooke_comparison_frame *observer,
                                             void *ctx);
 
-/* One HDF5 file for all runs of a comparison, made before it is run: the reference under /particles/all,
- * each method under /particles/<method>. It takes the observer of frames over.
- * hooke_comparison_file_close() adds the tables and the errors over time under /comparison. The label
- * "scene" is the text of the scene, as for hooke_trajectory_create(). HOOKE_BAD_CALL for another kind,
- * HOOKE_IO_FAILED, HOOKE_NOT_BUILT, HOOKE_NO_MEMORY, and what running it may return. */
+/* Creates one HDF5 file for all runs of a comparison, before it is run: the reference under /particles/all,
+ * each method under /particles/<method>. It replaces the observer of frames. hooke_comparison_file_close()
+ * adds the tables and the errors over time under /comparison. The label "scene" is the text of the scene, as
+ * for hooke_trajectory_create(). HOOKE_BAD_CALL for another kind, HOOKE_IO_FAILED, HOOKE_NOT_BUILT,
+ * HOOKE_NO_MEMORY, and the failures of running it. */
 typedef struct hooke_comparison_file hooke_comparison_file;
 HOOKE_API int32_t hooke_comparison_file_create(const char *path, hooke_measurement *comparison,
                                                hooke_comparison_file **file);
@@ -200,59 +201,58 @@ HOOKE_API int32_t hooke_comparison_file_close(hooke_comparison_file *file);
  * there still, and callbacks are called again. */
 
 /* Explains the last run (or steps) of `integrator`, which ended with HOOKE_DIVERGED, HOOKE_SOLVER_FAILED or
- * HOOKE_STEP_LIMIT. The integrator must stay as it is until hooke_measurement_run() has returned. That takes
- * the last steps again and tries what it advises, so callbacks are called again. It keeps to the option
- * "budget" and to half again the memory of the run; the column "left_out" says what there was no time or memory
- * for. The progress callback is called throughout, in trial runs and solves as well; if it stops the work,
- * nothing is known. `options` may be NULL. HOOKE_BAD_CALL if the run did not end early; HOOKE_UNSUITED for a
+ * HOOKE_STEP_LIMIT. The integrator must not change until hooke_measurement_run() has returned. That repeats
+ * the last steps and tries its suggestions, so callbacks are called again. It stays within the option
+ * "budget" and half again the memory of the run; the column "left_out" lists the work that did not fit. The
+ * progress callback is called throughout, in trial runs and solves as well; if it stops the work, there are
+ * no results. `options` may be NULL. HOOKE_BAD_CALL if the run did not end early; HOOKE_UNSUITED for a
  * first-order problem; HOOKE_NOT_BUILT without LAPACK; HOOKE_NO_MEMORY. */
 HOOKE_API int32_t hooke_why_create(const hooke_integrator *integrator, const hooke_options *options,
                                    hooke_measurement **measurement);
-/* The same from states that were kept of a run with the options `run`, and are copied: the one it began with
- * and the last good one. From that hooke_measurement_run() takes it on until it ends early; HOOKE_BAD_CALL if
- * it does not. */
+/* The same from states that were kept of a run with the options `run`, and are copied: the initial one and
+ * the last good one. hooke_measurement_run() continues from the latter until the run ends early;
+ * HOOKE_BAD_CALL if it does not. */
 HOOKE_API int32_t hooke_why_create_kept(const hooke_system *system, const hooke_options *run,
                                         const hooke_state *first, const hooke_state *last,
                                         const hooke_options *options, hooke_measurement **measurement);
-/* Sets every option of that row of the table "advice" in `run`, options of a run. HOOKE_BAD_VALUE if there is no
- * such row. */
+/* Sets every option of this row of the table "advice" in `run`, options of a run. HOOKE_BAD_VALUE if there is
+ * no such row. */
 HOOKE_API int32_t hooke_why_advice_apply(const hooke_measurement *measurement, int64_t row,
                                          hooke_options *run);
 
-/* ---- verify: whether a trajectory reproduces from its scene ----
- * A slice of the run is run again from the numbers in the file and compared with its frames to the bit;
- * every frame is compared with its check value, and the first one with the scene. With a fixed step a slice
- * begins at any frame; an error-controlled method is run from the start. Along the slice the balance of
- * energy is taken: the work of driven particles = change of energy + heat of damping and drag. The slice is
- * run once more with half the step, or tolerances a hundredth: the residual of the balance has to fall, as
- * the error of a method does, and the difference between the two runs estimates the error.
+/* ---- verify: checks that a trajectory reproduces from its scene ----
+ * It repeats a slice of the run from the numbers in the file and compares the frames to the bit; it compares
+ * every frame with its check value, and the first one with the scene. With a fixed step a slice begins at any
+ * frame; an error-controlled method is run from the start. Along the slice it computes the energy balance:
+ * the work of driven particles = change of energy + heat of damping and drag. It then runs the slice with
+ * half the step, or a hundredth of the tolerances: the residual of the balance has to fall as the error of
+ * the method does, and the difference between the two runs estimates the error.
  *
  * Where the file was made with other versions of SUNDIALS or CHOLMOD, or on another machine,
  * error-controlled methods and linear_solver direct may differ in bits: frames then have to agree to within four
  * times the estimate.
  *
- * hooke_measurement_run() returns HOOKE_BAD_VALUE if the file is not what its scene gives, with the first
- * frame, particle and component that differ and both numbers, the frame that is damaged, or the balance
- * that does not hold; the table "verify" and files have it all the same. */
+ * hooke_measurement_run() returns HOOKE_BAD_VALUE if the file does not reproduce, with the first frame,
+ * particle and component that differ and both numbers, the damaged frame, or the balance that does not hold;
+ * the table "verify" and files are complete all the same. */
 
-/* Opens a trajectory and makes its scene again, with `limits` as in hooke_scene_load(); both sorts
- * of options may be NULL, and are copied or read here. HOOKE_BAD_VALUE for a file that holds no scene or no
- * frames, a scene that is wrong, or a slice without two frames; HOOKE_IO_FAILED, HOOKE_NOT_BUILT,
- * HOOKE_NO_MEMORY. */
+/* Opens a trajectory and makes its scene again, with `limits` as in hooke_scene_load(); both kinds of options
+ * may be NULL, and are copied or read here. HOOKE_BAD_VALUE for a file that holds no scene or no frames, a
+ * scene that is wrong, or a slice without two frames; HOOKE_IO_FAILED, HOOKE_NOT_BUILT, HOOKE_NO_MEMORY. */
 HOOKE_API int32_t hooke_verify_create(const char *path, const hooke_options *options,
                                       const hooke_options *limits, hooke_measurement **verify);
 
 /* ---- bounds on the step, from one pass over the springs ---- */
 
-/* A step [s] below which `method` is certain to be stable for the system linearised at q (3n): a bound from
- * one pass over the springs, not the sharp limit. 0: the method is stable at no step. Infinity: nothing
- * limits it. NaN: no bound is known for this method. HOOKE_BAD_VALUE for an unknown method;
+/* Step [s] below which `method` is certain to be stable for the system linearised at q (3n): a bound from one
+ * pass over the springs, not the sharp limit. 0: no step is stable. Infinity: nothing limits the step. NaN:
+ * no bound is known for this method. HOOKE_BAD_VALUE for an unknown method;
  * HOOKE_NO_MEMORY. Source: K <= 2 blockdiag(sum B_e) by (a - b)^2 <= 2 a^2 + 2 b^2, per-mode limits as in
  * docs/notes/methods.md. */
 HOOKE_API int32_t hooke_step_bound(const hooke_system *system, const char *method, const double *q,
                                    double *bound);
-/* The same of every method at once, hooke_method_count() numbers in the order of hooke_method_name(), for one
- * pass over the springs. HOOKE_BAD_CALL, HOOKE_NO_MEMORY. */
+/* The same for every method, hooke_method_count() numbers in the order of hooke_method_name(), from one pass
+ * over the springs. HOOKE_BAD_CALL, HOOKE_NO_MEMORY. */
 HOOKE_API int32_t hooke_step_bounds(const hooke_system *system, const double *q, double *bounds);
 
 #ifdef __cplusplus

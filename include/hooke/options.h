@@ -1,8 +1,8 @@
 /* hooke/options.h - named options, with their types, units, bounds and defaults.
  *
- * Whatever can be configured (a spring group, a part, a run) is described by one table. An options object
- * holds values for one such table. Scene keys, command-line flags, Python keywords and the printed reference
- * all read the same tables.
+ * One table describes each configurable object (a spring group, a part, a run). An options object holds
+ * values for one such table. Scene keys, command-line flags, Python keywords and the printed reference all
+ * read the same tables.
  *
  * A nested table (the family of springs of a part) is reached with a dot: "structural.stiffness".
  * An options object belongs to one thread at a time. */
@@ -17,10 +17,10 @@ extern "C" {
 
 typedef struct hooke_options hooke_options;
 
-/* Options of the table `name`, for the caller to set and destroy: "run", "springs", "altitude" and
- * "anchors" (of a group), a kind of part ("cloth", ...), a kind of measurement ("study", ...), "view", "limits" of what is
- * loaded, or "scene", "particles" and "driven", the keys of a scene that nothing else has. HOOKE_BAD_VALUE
- * lists them all; HOOKE_NO_MEMORY. */
+/* Creates options of the table `name`, which the caller sets and destroys: "run", "springs", "altitude" and
+ * "anchors" (of a group), a kind of part ("cloth", ...), a kind of measurement ("study", ...), "view",
+ * "limits" on loading, or "scene", "particles" and "driven", the remaining keys of a scene. The message of
+ * HOOKE_BAD_VALUE lists them all; HOOKE_NO_MEMORY. */
 HOOKE_API int32_t hooke_options_create(const char *name, hooke_options **options);
 
 /* A copy of `options` with all values; the caller owns it. HOOKE_NO_MEMORY. */
@@ -29,52 +29,52 @@ HOOKE_API int32_t hooke_options_copy(const hooke_options *options, hooke_options
 /* Releases `options`; NULL is allowed. */
 HOOKE_API void hooke_options_destroy(hooke_options *options);
 
-/* Sets the option `name` to one number, to `count` numbers (copied), or to what `text` says: "0.5", "1e-3",
- * "0,-9.81,0", "true", or one of the words that the option takes. A flag is the number 0 or 1. Setting a
- * family name
+/* Sets the option `name` to one number, to `count` numbers (copied), or to the value of `text`: "0.5",
+ * "1e-3", "0,-9.81,0", "true", or one of the words that the option accepts. A flag is the number 0 or 1.
+ * Setting a family name
  * ("structural") to "" makes it present with its defaults.
- * HOOKE_BAD_VALUE for an unknown name, a wrong type or count, a value that is not finite or out of bounds;
- * the option then keeps its old value. HOOKE_NO_MEMORY. */
+ * HOOKE_BAD_VALUE for an unknown name, a wrong type or count, a non-finite value or one out of bounds; the
+ * option then keeps its old value. HOOKE_NO_MEMORY. */
 HOOKE_API int32_t hooke_options_set_number(hooke_options *options, const char *name, double value);
 HOOKE_API int32_t hooke_options_set_numbers(hooke_options *options, const char *name, int64_t count,
                                             const double *values);
 HOOKE_API int32_t hooke_options_set_text(hooke_options *options, const char *name, const char *text);
 
-/* Takes a value back: the option has its default again. HOOKE_BAD_VALUE for an unknown name. */
+/* Resets an option to its default. HOOKE_BAD_VALUE for an unknown name. */
 HOOKE_API int32_t hooke_options_unset(hooke_options *options, const char *name);
 
-/* 1 if the option was set, 0 if it has its default or no value, or if there is no such option. */
+/* 1 if the option was set; 0 if it has its default or no value, or does not exist. */
 HOOKE_API int32_t hooke_options_is_set(const hooke_options *options, const char *name);
 
-/* Number of numbers that the option holds (defaults count); 0 if it holds a word or nothing. */
+/* Number of numbers that the option holds, defaults included; 0 if it holds a word or nothing. */
 HOOKE_API int64_t hooke_options_number_count(const hooke_options *options, const char *name);
 
 /* The numbers, valid until the option is set again or the object destroyed; NULL if there are none. */
 HOOKE_API const double *hooke_options_numbers(const hooke_options *options, const char *name);
 
-/* The first number, or NaN if there is none. */
+/* The first number; NaN if there is none. */
 HOOKE_API double hooke_options_number(const hooke_options *options, const char *name);
 
-/* The word or text that the option holds, "" if none; valid until the option is set again. */
+/* The word or text of the option, "" if none; valid until the option is set again. */
 HOOKE_API const char *hooke_options_text(const hooke_options *options, const char *name);
 
-/* The table itself. Rows of nested tables follow their family, with dotted names. */
+/* Rows of the table. The rows of a nested table follow their family, with dotted names. */
 HOOKE_API int64_t hooke_options_row_count(const hooke_options *options);
 
-/* One property of row `row` as text, "" where it has none, NULL if there is no such row or property, or no
+/* A property of row `row` as text, "" where it has none, NULL if there is no such row or property, or no
  * memory to put "allowed" into words. Lives as long as `options`.
  *   "name", "unit", "default", "doc"
  *   "type"     "number", "numbers", "flag", "choice", "text" or "family"
  *   "allowed"  in words: "a number >= 0"
- *   "words"    between blanks, the choices, or the words that may stand in place of numbers
- *   "family"   the family that it belongs to
- *   "example"  a value for a first try, as hooke_options_set_text() takes it */
+ *   "words"    the choices, or the words accepted in place of numbers, separated by blanks
+ *   "family"   the family of the row
+ *   "example"  a value for a first try, in the syntax of hooke_options_set_text() */
 HOOKE_API const char *hooke_options_row(const hooke_options *options, int64_t row, const char *property);
 
-/* One property of row `row` as a number, NaN where it has none.
- *   "low", "high"           bounds of every number, which are allowed themselves unless "above_low" is 1
+/* A property of row `row` as a number, NaN where it has none.
+ *   "low", "high"           bounds of every number, inclusive unless "above_low" is 1
  *   "above_low", "whole"    1 if low is not allowed; if only whole numbers are
- *   "required"              1 if it has to be given, for a member of a family: where the family is
+ *   "required"              1 if it has to be given; for a member of a family, where the family is given
  *   "min_count", "max_count" of the type "numbers"; NaN: any count
  *   "columns"               numbers come in rows of this many in a scene
  *   "word_lists"            1 if several words and numbers may be mixed */

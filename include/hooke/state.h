@@ -1,9 +1,9 @@
-/* hooke/state.h - what moves: time, positions and velocities.
+/* hooke/state.h - state of a motion: time, positions and velocities.
  *
  * A state is one block of doubles, t, then q (3n), then v (3n), rows of x y z in the caller's numbering,
  * which NumPy and HDF5 wrap without a copy. It is up to date at frames, in observers and callbacks, and when
- * a run or step returns; an integrator works on its own copy in between, and hooke_integrator_advance() on
- * nothing else. A state belongs to one thread at a time. */
+ * a run or step returns; in between an integrator works on its own copy, and hooke_integrator_advance() works
+ * on that copy alone. A state belongs to one thread at a time. */
 #ifndef HOOKE_STATE_H
 #define HOOKE_STATE_H
 
@@ -15,11 +15,11 @@ extern "C" {
 
 typedef struct hooke_state hooke_state;
 
-/* The initial state of a committed system: t = 0, positions and velocities as added, driven particles where
- * their motion has them. The caller owns it. HOOKE_BAD_CALL, HOOKE_NO_MEMORY, HOOKE_STOPPED. */
+/* The initial state of a committed system: t = 0, positions and velocities as added, driven particles at
+ * their prescribed positions. The caller owns it. HOOKE_BAD_CALL, HOOKE_NO_MEMORY, HOOKE_STOPPED. */
 HOOKE_API int32_t hooke_state_create(const hooke_system *system, hooke_state **state);
 
-/* A state of `size` >= 1 zeros for a first-order problem x' = phi(t, x): x is hooke_state_position(), there
+/* A state of `size` >= 1 zeros for a first-order problem x' = phi(t, x): hooke_state_position() is x; there
  * is no velocity. */
 HOOKE_API int32_t hooke_state_create_first_order(int64_t size, hooke_state **state);
 
@@ -32,11 +32,11 @@ HOOKE_API int32_t hooke_state_copy(const hooke_state *from, hooke_state *to);
 HOOKE_API double hooke_state_time(const hooke_state *state);
 HOOKE_API void hooke_state_set_time(hooke_state *state, double t);
 
-/* Numbers in q: 3n, or the size of a first-order problem. */
+/* Number of numbers in q: 3n, or the size of a first-order problem. */
 HOOKE_API int64_t hooke_state_size(const hooke_state *state);
 
-/* Where q and v are, for reading and, except in an observer, for writing; they stay there as long as the
- * state lives. The velocity of a first-order problem is NULL. */
+/* Pointers to q and v, for reading and, except in an observer, for writing; valid as long as the state lives.
+ * The velocity of a first-order problem is NULL. */
 HOOKE_API double *hooke_state_position(const hooke_state *state);
 HOOKE_API double *hooke_state_velocity(const hooke_state *state);
 

@@ -1,32 +1,32 @@
-/* hooke/system.h - what a scene is: particles, springs and forces.
+/* hooke/system.h - the system: particles, springs and forces.
  *
  * A system is built by calls that add to it, then committed: checked as a whole, its springs sorted into
  * loops. From then on it is const; its pointers never move, and any number of threads may share it. Until
- * then it belongs to one thread. Units are SI throughout. Arrays of positions, velocities and forces are
- * rows of x y z, 3 doubles a particle.
+ * then it belongs to one thread. Units are SI throughout. Arrays of positions, velocities and forces are rows
+ * of x y z, 3 doubles a particle.
  *
  * Springs (U energy, f force on the first end, x = q_i - q_j, r = |x|, u = x/r, v = v_i - v_j):
  *   strain law  U = 1/2 ks l0 (r/l0 - 1)^2      ks [N], kd [N s]     kappa = ks/l0, gamma = kd/l0
  *   length law  U = 1/2 k (r - l0)^2            k [N/m], kd [N s/m]  kappa = k,     gamma = kd
  *   both        f = -(kappa (r - l0) + gamma (v.u)) u
- * Two ends at the same place have no direction: the force is zero there by definition, and
+ * Two ends at the same position have no direction: the force is zero there by definition, and
  * hooke_system_coincident_springs() counts such springs. A spring with `compression` false only pulls: its
- * force is zero where r <= l0, and where damping would make it push.
+ * force is zero where r <= l0 and where damping would make it push.
  *
- * Bending (a force of its own: springs two apart have no linear bending stiffness, their energy goes with
- * the fourth power of the curvature) acts on triples of particles a, b, c:
+ * Bending acts on triples of particles a, b, c (springs two apart have no linear bending stiffness: their
+ * energy grows with the fourth power of the curvature):
  *   U = c/2 |q_a - 2 q_b + q_c|^2               c [N/m]
  * A beam of bending stiffness B [N m^2] in pieces of length l has c = B/l^3. Three particles in a line at
- * equal distances have no such force, wherever they are.
+ * equal distances have no bending force, wherever they are.
  *
  * Altitude springs (Selle, Lentine and Fedkiw 2008) act on tetrahedra of particles 0, 1, 2, 3: of its seven
- * altitudes (from particle 0, 1, 2 or 3 to the face of the others; between edges 01 and 23, 02 and 13, 03
- * and 12) the one that is shortest now is a spring, between a particle and the point of the face below it
- * or the nearest points of the two edges:
+ * altitudes (from particle 0, 1, 2 or 3 to the face of the others; between edges 01 and 23, 02 and 13, 03 and
+ * 12) the one that is currently the shortest is a spring, between a particle and the point of the face below
+ * it or the nearest points of the two edges:
  *   U = ks/(2 l) (h - l)^2                      ks [N], h the altitude, l its rest length
- * and damping kd/l dh/dt along it. Altitudes are negative in a tetrahedron that has turned inside out: the
- * force turns it back. Where another altitude comes to be the shortest, U and the force jump. A tetrahedron
- * whose particles are in one line has no such force.
+ * and damping kd/l dh/dt along it. Altitudes of an inverted tetrahedron are negative: the force turns it
+ * back. U and the force jump where another altitude becomes the shortest. A tetrahedron whose particles are
+ * in one line has no such force.
  *
  * Anchors are springs from a particle to a fixed point of space:
  *   U = 1/2 k (r - l0)^2                        k [N/m], r the distance from the point, l0 = 0 unless given
@@ -35,10 +35,9 @@
  *
  * Springs are numbered: groups in the order they were added, springs in the order of their pairs, then the
  * springs of parts; and so are triples, tetrahedra and anchors. Commit drops springs that have neither
- * stiffness nor damping, as if they had never been added: numbers, ends and sizes of groups are then those
- * of the springs that act; a group that is left without any keeps its name and place, and has size 0.
- * Likewise gravity, drag and damping of 0 are not there. All sums are taken in that order, springs first,
- * so results do not depend on threads or instruction sets. */
+ * stiffness nor damping: from then on only the remaining springs are numbered and counted. A group without
+ * any keeps its name and place, with size 0. Gravity, drag and damping of 0 are likewise absent. All sums are
+ * taken in that order, springs first, so results do not depend on threads or instruction sets. */
 #ifndef HOOKE_SYSTEM_H
 #define HOOKE_SYSTEM_H
 
@@ -60,20 +59,19 @@ typedef int32_t hooke_force_product(int64_t n, double t, const double *q, const 
                                     const double *dv, double *out, void *ctx);
 
 /* Writes the position [m] and velocity [m/s] at time t of `count` driven particles into q and v (3 count
- * each). Return 0 to go on, anything else to stop. Must be a function of t alone. */
+ * each). Return 0 to go on, anything else to stop. It must depend on t alone. */
 typedef int32_t hooke_drive(int64_t count, double t, double *q, double *v, void *ctx);
 
 /* ---- building ---- */
 
 /* An empty system, owned by the caller. HOOKE_NO_MEMORY. */
 HOOKE_API int32_t hooke_system_create(hooke_system **system);
-/* Releases a system; nothing that was made from it may be used afterwards. NULL is allowed. */
+/* Releases a system; objects made from it must not be used afterwards. NULL is allowed. */
 HOOKE_API void hooke_system_destroy(hooke_system *system);
 
-/* What the system may need of memory [bytes], with what an explicit method takes; 0: as much as the machine
- * has, or its limit on the address space if that is less. What is added from here on is refused as
- * HOOKE_NO_MEMORY where it would need more, before anything is allocated. HOOKE_BAD_VALUE for a negative
- * number and NaN. */
+/* Sets the maximum memory [bytes] that the system may need, with that of an explicit method; 0: the machine's
+ * memory, or its limit on the address space if that is less. An addition that would need more fails with
+ * HOOKE_NO_MEMORY, before anything is allocated. HOOKE_BAD_VALUE for a negative number and NaN. */
 HOOKE_API int32_t hooke_system_limit_memory(hooke_system *system, double bytes);
 
 /* Adds `count` particles: `position` (3 count) [m], `velocity` (3 count) [m/s] or NULL for rest, and `mass` >
@@ -83,7 +81,7 @@ HOOKE_API int32_t hooke_system_add_particles(hooke_system *system, int64_t count
                                              const double *velocity, int64_t mass_count, const double *mass,
                                              int64_t *first);
 
-/* Holds particles still: inverse mass 0. Naming one twice is allowed, a moving one is refused at commit. */
+/* Pins particles: inverse mass 0. Naming one twice is allowed; commit refuses a moving one. */
 HOOKE_API int32_t hooke_system_pin(hooke_system *system, int64_t count, const int64_t *particles);
 
 /* Adds a group of `count` springs between the pairs in `ends` (2 count particle numbers, different within a
@@ -101,14 +99,14 @@ HOOKE_API int32_t hooke_system_add_bending(hooke_system *system, const char *nam
 
 /* Adds a group of `count` tetrahedra, 4 count particle numbers (different within one), with altitude springs
  * and options "altitude". Rest lengths are the seven altitudes at the positions that the particles were added
- * with. `name` may be NULL. HOOKE_BAD_VALUE names the tetrahedron, also one that is flat; HOOKE_BAD_CALL,
+ * with. `name` may be NULL. HOOKE_BAD_VALUE names the tetrahedron, also if it is flat; HOOKE_BAD_CALL,
  * HOOKE_NO_MEMORY. */
 HOOKE_API int32_t hooke_system_add_altitude(hooke_system *system, const char *name, int64_t count,
                                             const int64_t *tetrahedra, const hooke_options *options);
 
-/* Adds a group of `count` anchors, springs from a particle to a fixed point, one for each of `particles`,
- * which may be named more than once, with options "anchors". Without `points` each is tied to the place that
- * it was added at. `name` may be NULL. HOOKE_BAD_VALUE names the anchor; HOOKE_BAD_CALL, HOOKE_NO_MEMORY. */
+/* Adds a group of `count` anchors, springs from a particle to a fixed point, one for each of `particles`
+ * (repeats are allowed), with options "anchors". Without `points` each particle is tied to its initial
+ * position. `name` may be NULL. HOOKE_BAD_VALUE names the anchor; HOOKE_BAD_CALL, HOOKE_NO_MEMORY. */
 HOOKE_API int32_t hooke_system_add_anchors(hooke_system *system, const char *name, int64_t count,
                                            const int64_t *particles, const hooke_options *options);
 
@@ -119,19 +117,19 @@ HOOKE_API int32_t hooke_system_set_gravity(hooke_system *system, const double *g
  * does not. */
 HOOKE_API int32_t hooke_system_set_drag(hooke_system *system, double coefficient);
 
-/* A force of the caller's own, on top of the others; one a system. `product` may be NULL: difference
- * quotients of `force` then stand in for it. `ctx` is handed to both and must outlive the system. */
+/* Adds a force of the caller's own; one a system. `product` may be NULL: difference quotients of `force` then
+ * replace it. Both receive `ctx`, which must outlive the system. */
 HOOKE_API int32_t hooke_system_set_force(hooke_system *system, hooke_force *force,
                                          hooke_force_product *product, void *ctx);
 
-/* Particles moved as prescribed (inverse mass 0), about where they were added:
+/* Prescribe the motion of particles (inverse mass 0) about their initial positions:
  *   harmonic  q = q0 + amplitude sin(2 pi frequency t + phase), amplitude 3 numbers [m], frequency [Hz],
  *             phase [rad]
- *   table     q = q0 + d(t), d piecewise cubic through `samples` >= 2 rows of `displacement` (3 samples) [m] at
- *             ascending `time` [s], its slope at a sample that of the parabola through three neighbouring
- *             ones, so that velocity is continuous from the first sample to the last; at rest before and
- *             after
- *   callback  q and v as `drive` says
+ *   table     q = q0 + d(t), d piecewise cubic through `samples` >= 2 rows of `displacement` (3 samples) [m]
+ *             at ascending `time` [s]; its slope at a sample is that of the parabola through three
+ *             neighbouring ones, so velocity is continuous from the first sample to the last; at rest before
+ *             and after
+ *   callback  q and v from `drive`
  * A particle is driven once at most, and not pinned as well. HOOKE_BAD_VALUE, HOOKE_BAD_CALL after commit,
  * HOOKE_NO_MEMORY. */
 HOOKE_API int32_t hooke_system_drive_harmonic(hooke_system *system, int64_t count, const int64_t *particles,
@@ -141,32 +139,34 @@ HOOKE_API int32_t hooke_system_drive_table(hooke_system *system, int64_t count, 
 HOOKE_API int32_t hooke_system_drive_callback(hooke_system *system, int64_t count, const int64_t *particles,
                                               hooke_drive *drive, void *ctx);
 
-/* Checks the system as a whole, chooses its loops and makes it const. HOOKE_BAD_VALUE names the culprit and
- * leaves the system open; HOOKE_BAD_CALL if it was committed before; HOOKE_NO_MEMORY. */
+/* Checks the system as a whole, chooses its loops and makes it const. HOOKE_BAD_VALUE names the offending
+ * item and leaves the system open; HOOKE_BAD_CALL if it was committed before; HOOKE_NO_MEMORY. */
 HOOKE_API int32_t hooke_system_commit(hooke_system *system);
 
-/* ---- asking (any thread once committed) ---- */
+/* ---- queries (from any thread once committed) ---- */
 
 HOOKE_API int32_t hooke_system_is_committed(const hooke_system *system);
 HOOKE_API int64_t hooke_system_particle_count(const hooke_system *system);
-/* Springs: all that were added, from commit on those that act. */
+/* Number of springs: before commit all that were added, afterwards those that act. */
 HOOKE_API int64_t hooke_system_spring_count(const hooke_system *system);
 /* A count; -1 for any other word:
- *   "springs", "bending" (triples), "altitude" (tetrahedra), "anchors": members of a force, all that were added,
- *       from commit on those that act: commit drops those that have neither stiffness nor damping
+ *   "springs", "bending" (triples), "altitude" (tetrahedra), "anchors": members of a force,
+ *       before commit all that were added, afterwards those that act: commit drops those that
+ *       have neither stiffness nor damping
  *   "dropped_springs"  springs that commit has dropped
  *   "free"     particles that are neither pinned nor driven
- *   "idle"     pinned particles that no member of a force and no callback touches; 0 before commit. Steps leave
- *              out blocks of 256 particles that are all idle, except where the particles of unordered springs
- *              are numbered anew
- *   "forces"   of hooke_system_force_name();  "derived"  numbers of hooke_system_derived_value()
+ *   "idle"     pinned particles that no member of a force and no callback acts on; 0 before commit. Steps
+ *              skip blocks of 256 particles that are all idle, except where the particles of unordered
+ *              springs are numbered anew
+ *   "forces"   number of hooke_system_force_name();  "derived"  of hooke_system_derived_value()
  *   "blocks"   of hooke_system_derivative_pattern(); -1 before commit and without memory
- *   "memory"   that the committed system holds [bytes];  "spring_memory"  the part of it that grows with the
+ *   "memory"   memory of the committed system [bytes];  "spring_memory"  the part of it that grows with the
  *              number of springs */
 HOOKE_API int64_t hooke_system_count(const hooke_system *system, const char *what);
 
-/* The groups of a force: "springs", "bending", "altitude" or "anchors". -1 groups for another word; the name
- * of group `group`, "" if it has none, NULL if there is no such group; its members, 0 if there is none. */
+/* Groups of a force: "springs", "bending", "altitude" or "anchors". Their number, -1 for another word; the
+ * name of group `group`, "" if it has none, NULL if there is no such group; the number of its members, 0 if
+ * there is none. */
 HOOKE_API int64_t hooke_system_group_count(const hooke_system *system, const char *force);
 HOOKE_API const char *hooke_system_group_name(const hooke_system *system, const char *force, int64_t group);
 HOOKE_API int64_t hooke_system_group_size(const hooke_system *system, const char *force, int64_t group);
@@ -176,31 +176,29 @@ HOOKE_API int64_t hooke_system_group_size(const hooke_system *system, const char
 HOOKE_API const double *hooke_system_mass(const hooke_system *system);
 HOOKE_API const double *hooke_system_inverse_mass(const hooke_system *system);
 
-/* Particles of one member of a force: 2 of a spring, 3 of bending, 4 of a tetrahedron, 1 of an anchor; 0 for
- * a force without members and for another word. */
+/* Number of particles of one member of a force: 2 of a spring, 3 of bending, 4 of a tetrahedron, 1 of an
+ * anchor; 0 for a force without members and for another word. */
 HOOKE_API int64_t hooke_member_particles(const char *force);
-/* All members of a force in their order, hooke_system_count(system, force) of them: the particles of each,
- * and its stiffness [N/m], damping [N s/m] and rest length [m]. Arrays have a number a member, `particles`
- * hooke_member_particles(), and each may be NULL. Bending has its coefficient as the stiffness and zeros.
- * Altitude springs have stiffness [N], damping [N s] and 7 rest lengths each, in the order above, negative
- * for a tetrahedron whose volume (x_1 - x_0).((x_2 - x_0) x (x_3 - x_0)) is. HOOKE_BAD_CALL before commit;
+/* Copies particles, stiffness [N/m], damping [N s/m] and rest length [m] of all hooke_system_count(system,
+ * force) members of a force, in order. Arrays have one number a member, `particles` hooke_member_particles()
+ * numbers; each array may be NULL. For bending the stiffness is its coefficient and the other numbers are
+ * zero. Altitude springs have stiffness [N], damping [N s] and 7 rest lengths each, in the order above; these
+ * are negative if the volume (x_1 - x_0).((x_2 - x_0) x (x_3 - x_0)) is. HOOKE_BAD_CALL before commit;
  * HOOKE_BAD_VALUE for another word. */
 HOOKE_API int32_t hooke_system_members(const hooke_system *system, const char *force, int64_t *particles,
                                        double *stiffness, double *damping, double *rest_length);
-/* The point of every anchor [m] (3 each). HOOKE_BAD_CALL before commit. */
+/* Copies the point of every anchor [m] (3 each). HOOKE_BAD_CALL before commit. */
 HOOKE_API int32_t hooke_system_anchor_points(const hooke_system *system, double *points);
-/* Of every tetrahedron the altitude that acts at q [m], negative where it is inside out; 0 where none
- * does. */
+/* Altitude of every tetrahedron that acts at q [m], negative where it is inverted; 0 where none acts. */
 HOOKE_API int32_t hooke_system_altitude_lengths(const hooke_system *system, const double *q, double *length);
 
-/* Numbers that parts derived from their options (`density`, `damping_ratio`, ...): a list of texts "part",
- * "family" (NULL: of the part as a whole), "name" and "unit", and the value. NULL and NaN for what is not
- * there. */
+/* Numbers that parts derived from their options (`density`, `damping_ratio`, ...): texts "part", "family"
+ * (NULL: the part as a whole), "name" and "unit", and the value. NULL and NaN past the last one. */
 HOOKE_API const char *hooke_system_derived_text(const hooke_system *system, int64_t number, const char *what);
 HOOKE_API double hooke_system_derived_value(const hooke_system *system, int64_t number);
 
-/* The forces that this system computes ("springs", "bending", "altitude", "anchors", "drag", "callback",
- * "gravity"), NULL past the last; nothing else costs anything. */
+/* Names of the forces that this system computes ("springs", "bending", "altitude", "anchors", "drag",
+ * "callback", "gravity"), NULL past the last; absent forces cost nothing. */
 HOOKE_API const char *hooke_system_force_name(const hooke_system *system, int64_t force);
 
 /* ---- forces and energies at q, v (3n each), committed systems only ----
@@ -217,8 +215,8 @@ HOOKE_API int32_t hooke_system_acceleration(const hooke_system *system, double t
 /* Springs at q whose ends coincide although their rest length is not zero. */
 HOOKE_API int64_t hooke_system_coincident_springs(const hooke_system *system, const double *q);
 
-/* out = (df/dq) dq + (df/dv) dv, 3n, of the force above. Where a callback brings no product of its own,
- * central differences of the callback alone stand in. */
+/* out = (df/dq) dq + (df/dv) dv, 3n, of the force above. A callback without a product is differentiated by
+ * central differences. */
 HOOKE_API int32_t hooke_system_derivative_product(const hooke_system *system, double t, const double *q,
                                                   const double *v, const double *dq, const double *dv,
                                                   double *out);
@@ -232,9 +230,9 @@ HOOKE_API int32_t hooke_system_derivative_blocks(const hooke_system *system, con
                                                  double *dfdq, double *dfdv);
 
 /* An energy [J]: "kinetic" of the free particles; "springs", "bending", "altitude", "anchors", "gravity" (the
- * sum of -m g.q); "potential", their sum; "total". The kinetic energy needs v alone, the others q alone; what
- * is not needed may be NULL. A callback has none. NaN for another word. Sums keep the rounding errors of
- * their additions (Neumaier 1974). Beyond the largest number they are infinite. */
+ * sum of -m g.q); "potential", their sum; "total". The kinetic energy needs v alone, the others q alone;
+ * arrays that are not needed may be NULL. A callback has no energy. NaN for another word. Sums are
+ * compensated (Neumaier 1974). They overflow to infinity. */
 HOOKE_API double hooke_system_energy(const hooke_system *system, const char *what, const double *q,
                                      const double *v);
 /* Power that damping and drag turn into heat [W], >= 0. */

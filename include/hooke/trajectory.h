@@ -1,4 +1,4 @@
-/* hooke/trajectory.h - trajectories (H5MD): written, read back, shown.
+/* hooke/trajectory.h - trajectories (H5MD): writing, reading, viewing.
  *
  * They need a build with HDF5; without it these functions return HOOKE_NOT_BUILT. */
 #ifndef HOOKE_TRAJECTORY_H
@@ -11,20 +11,21 @@
 extern "C" {
 #endif
 
-/* For a program that is its own master (the command line): keeps HDF5 from running code at exit, which
+/* For a program that owns its whole process (the command line): keeps HDF5 from running code at exit, which
  * crashes in some versions after a failed write. Call it before anything else. A library inside a larger
- * program must not. */
+ * program must not call it. */
 HOOKE_API int32_t hooke_io_own_process(void);
 
 typedef struct hooke_trajectory hooke_trajectory;
 
 /* Creates an H5MD 1.1 file for all frames that `integrator` is going to report on `system`, sized in advance
  * so that every frame written survives even if the process is killed. An existing file is replaced only when
- * the new one is ready to take frames. `scene_text` may be NULL; of a scene that names files the numbers of
- * `system` are kept in their place, so that the file needs no other (unless the system has callbacks, which
- * no scene can hold). Until it is closed no other run can have the file, here or in another process, and a
- * process that is forked from this one can only close it, which leaves the file alone: HOOKE_BAD_CALL.
- * HOOKE_IO_FAILED, also if another run is writing `path`; HOOKE_NOT_BUILT, HOOKE_NO_MEMORY. */
+ * the new one is ready to take frames. `scene_text` may be NULL; if the scene names files, the numbers of
+ * `system` are stored instead of these names, so that the file is self-contained (unless the system has
+ * callbacks, which no scene can hold). Until the trajectory is closed no other run can open the file for
+ * writing, in this process or another. A process that is forked from this one can only close the trajectory,
+ * which leaves the file alone; other calls return HOOKE_BAD_CALL. HOOKE_IO_FAILED, also if another run is
+ * writing `path`; HOOKE_NOT_BUILT, HOOKE_NO_MEMORY. */
 HOOKE_API int32_t hooke_trajectory_create(const char *path, const hooke_system *system,
                                           const hooke_integrator *integrator, const char *scene_text,
                                           hooke_trajectory **trajectory);
@@ -33,11 +34,12 @@ HOOKE_API int32_t hooke_trajectory_create(const char *path, const hooke_system *
 HOOKE_API int32_t hooke_trajectory_write(hooke_trajectory *trajectory, int64_t step,
                                          const hooke_state *state);
 
-/* From here on hooke_trajectory_write() copies a large frame, of 1366 particles or more, and returns; a
- * thread of the trajectory writes it, which takes the memory of one state and calls nothing but the system,
- * no HDF5. The next frame waits until the one before it is there. A failed write is told by the next call; a
- * process that is killed may lose the one frame on its way; the system has to stay as long as the trajectory.
- * Call it before the first frame or later. HOOKE_NO_MEMORY, HOOKE_IO_FAILED. */
+/* Turns on asynchronous writing: from here on hooke_trajectory_write() copies a large frame, of 1366
+ * particles or more, and returns, and a thread of the trajectory writes it. The thread needs the memory of
+ * one state and calls nothing but the operating system, no HDF5. The next frame waits until the previous one
+ * is written. The next call returns a failed write. A process that is killed may lose the one queued frame.
+ * The system has to outlive the trajectory. May be called before the first frame or later. HOOKE_NO_MEMORY,
+ * HOOKE_IO_FAILED. */
 HOOKE_API int32_t hooke_trajectory_write_behind(hooke_trajectory *trajectory);
 
 /* Marks the frames from the next one on as after divergence: those that the option `past_divergence` adds, which
@@ -48,35 +50,37 @@ HOOKE_API int32_t hooke_trajectory_mark_diverged(hooke_trajectory *trajectory);
  * failure, too. A failure marks the file bad. HOOKE_IO_FAILED. */
 HOOKE_API int32_t hooke_trajectory_sync(hooke_trajectory *trajectory);
 
-/* Which run the file is of: 32 hexadecimal digits that no other run has, also in the file. Valid as long as
- * the trajectory. */
+/* Identifier of the run that the file is of: 32 hexadecimal digits, unique to the run and stored in the file.
+ * Valid as long as the trajectory. */
 HOOKE_API const char *hooke_trajectory_run(const hooke_trajectory *trajectory);
 
-/* Waits for the last frame, writes the outcome (a status of hooke_integrator_run), shortens the file to the
- * frames it has, and releases it on every path. HOOKE_IO_FAILED. NULL is allowed. */
+/* Waits for the last frame, writes the outcome (a status of hooke_integrator_run), truncates the file to its
+ * frames, and releases it on every path. HOOKE_IO_FAILED. NULL is allowed. */
 HOOKE_API int32_t hooke_trajectory_close(hooke_trajectory *trajectory, int32_t outcome);
 
-/* Adds what is known of the error of a run to the trajectory file that it wrote, which is closed already:
- * /hooke/error and its texts, see docs/trajectory.md. The file is whole before, and whatever comes between.
- * HOOKE_BAD_VALUE for a file without room for it, HOOKE_IO_FAILED, HOOKE_NO_MEMORY, HOOKE_NOT_BUILT. */
+/* Adds the estimated error of a run to the trajectory file that it wrote, which is closed already:
+ * /hooke/error and its texts, see docs/trajectory.md. The file is valid before, and stays so if the call is
+ * interrupted. HOOKE_BAD_VALUE for a file without space reserved for it, HOOKE_IO_FAILED, HOOKE_NO_MEMORY,
+ * HOOKE_NOT_BUILT. */
 HOOKE_API int32_t hooke_estimate_write_h5(const hooke_estimate *estimate, const char *path);
 
-/* ---- trajectories read back ---- */
+/* ---- reading trajectories ---- */
 
 typedef struct hooke_record hooke_record;
 
-/* Opens a trajectory file, finished or not. HOOKE_IO_FAILED, HOOKE_BAD_VALUE if it is none of ours,
- * HOOKE_NOT_BUILT, HOOKE_NO_MEMORY. */
+/* Opens a trajectory file, finished or not. HOOKE_IO_FAILED, HOOKE_BAD_VALUE if it was not written by this
+ * library, HOOKE_NOT_BUILT, HOOKE_NO_MEMORY. */
 HOOKE_API int32_t hooke_record_open(const char *path, hooke_record **record);
 HOOKE_API void hooke_record_close(hooke_record *record);
 
 /* "scene": the text of the scene, "" if there was none; "status": "running", "finished", "stopped",
- * "diverged", "step-limit", "solver-failed" or "failed"; "run": which run it is, as hooke_trajectory_run()
- * says, "" if an earlier version wrote it; "error_by" and "error_note": as hooke_estimate_text() has them, ""
- * where nothing is known of the error; "version", "sundials", "cholmod", "instructions", "machine": what made
- * the file, as hooke_build_fact() has it, "" where it does not say. NULL for another word. */
+ * "diverged", "step-limit", "solver-failed" or "failed"; "run": the identifier of the run, see
+ * hooke_trajectory_run(), "" if an earlier version wrote it; "error_by" and "error_note": see
+ * hooke_estimate_text(), "" where nothing is known of the error; "version", "sundials", "cholmod",
+ * "instructions", "machine": the build that made the file, see hooke_build_fact(), "" where the file does not
+ * say. NULL for another word. */
 HOOKE_API const char *hooke_record_text(const hooke_record *record, const char *what);
-/* Options of the run, as it ran; valid as long as the record. */
+/* Options of the run, with all defaults filled in; valid as long as the record. */
 HOOKE_API const hooke_options *hooke_record_options(const hooke_record *record);
 
 /* Frames that are there; and those of them before the run diverged: the first so many, all if none were added
@@ -88,27 +92,28 @@ HOOKE_API int64_t hooke_record_good_frame_count(const hooke_record *record);
  * HOOKE_NO_MEMORY. The state is then as it was. */
 HOOKE_API int32_t hooke_record_read(const hooke_record *record, int64_t frame, hooke_state *state);
 
-/* HOOKE_BAD_VALUE for a frame that is damaged: whose numbers are not those that were written, by the check
- * value beside them. Frames without one, of files that are older than check values are, pass.
- * hooke_record_read() looks, too; arrays that are read as a whole, and what reads the file by itself, do
- * not. */
+/* Compares the numbers of a frame with its check value: HOOKE_BAD_VALUE for a damaged frame, whose numbers
+ * are not those that were written. Frames without a check value, in files of older versions, pass.
+ * hooke_record_read() makes the same check. Arrays that are read as a whole are not checked, nor are programs
+ * that read the file by themselves. */
 HOOKE_API int32_t hooke_record_check(const hooke_record *record, int64_t frame);
 
-/* A whole array of the file: hooke_record_size() tells its rows and columns, hooke_record_numbers() copies
- * rows x columns numbers. One row a frame: "time" [s], "step", "kinetic_energy" and the other observables of
- * docs/trajectory.md, of all frames that the file was made for (the first hooke_record_frame_count() are
- * there); one a spring: "springs", its two ends; one a particle: "mass" [kg], "species" (0 free, 1 pinned, 2
- * driven). "error": the error of the run, NaN as far as it is not known, in the order of docs/trajectory.md.
- * HOOKE_BAD_VALUE for another word, or if the file has no such array; HOOKE_IO_FAILED, HOOKE_NO_MEMORY. */
+/* Read a whole array of the file: hooke_record_size() returns its rows and columns, hooke_record_numbers()
+ * copies rows x columns numbers. One row a frame: "time" [s], "step", "kinetic_energy" and the other
+ * observables of docs/trajectory.md, of all frames that the file was made for (the first
+ * hooke_record_frame_count() of them were written); one a spring: "springs", its two ends; one a particle:
+ * "mass" [kg], "species" (0 free, 1 pinned, 2 driven). "error": the error of the run, NaN where it is not
+ * known, in the order of docs/trajectory.md. HOOKE_BAD_VALUE for another word, or if the file has no such
+ * array; HOOKE_IO_FAILED, HOOKE_NO_MEMORY. */
 HOOKE_API int32_t hooke_record_size(hooke_record *record, const char *what, int64_t *rows, int64_t *columns);
 HOOKE_API int32_t hooke_record_numbers(hooke_record *record, const char *what, double *values);
 
-/* Where in the file "position" or "velocity" begins [bytes], for a program that maps the file into memory:
+/* Offset of "position" or "velocity" in the file [bytes], for a program that maps the file into memory:
  * frames of n rows of x y z, doubles of this machine, one after the other. -1 where they are not stored so,
- * or for another word; then hooke_record_read() reads them. */
+ * or for another word; hooke_record_read() reads them in any case. */
 HOOKE_API int64_t hooke_record_place(const hooke_record *record, const char *what);
 
-/* ---- trajectories shown ---- */
+/* ---- viewing trajectories ---- */
 
 /* Writes a trajectory as one HTML page that plays it, readable offline: surfaces and
  * springs, strain as colour, what is pinned and what is driven, energies over time. A view is what of the file the page shows; the record has to
@@ -121,8 +126,8 @@ typedef struct hooke_view hooke_view;
  * Chart.js, or where files of share/hooke are missing; HOOKE_IO_FAILED, HOOKE_NO_MEMORY. */
 HOOKE_API int32_t hooke_view_create(const hooke_record *record, const hooke_options *options,
                                     hooke_view **view);
-/* Writes the page. `title` stands over it; NULL: the scene's, or the name of the file. An older file is
- * replaced when the new one is complete. HOOKE_IO_FAILED, HOOKE_NO_MEMORY, HOOKE_NOT_BUILT. */
+/* Writes the page. `title` is its heading; NULL: the title of the scene, or the name of the file. An older
+ * file is replaced when the new one is complete. HOOKE_IO_FAILED, HOOKE_NO_MEMORY, HOOKE_NOT_BUILT. */
 HOOKE_API int32_t hooke_view_write(hooke_view *view, const char *path, const char *title);
 /* "frames", "springs", "particles" that are shown, and "frames_there", "springs_there", "particles_there";
  * "frame_stride", "spring_stride": every how manieth; "time_first", "time_last" [s]; "strain": the one at the
@@ -132,12 +137,12 @@ HOOKE_API double hooke_view_number(const hooke_view *view, const char *what);
 /* NULL is allowed. */
 HOOKE_API void hooke_view_destroy(hooke_view *view);
 
-/* Writes the companion by which ParaView reads a trajectory: XDMF 2, a few lines of XML for each frame that
- * is there, which refer to the numbers in the HDF5 file. `path` NULL: beside the trajectory, with .xdmf in
- * place of its .h5; a file of this name that is no XDMF is then not replaced. Springs are lines, with
- * rest_length; particles have velocity, mass and species. HOOKE_BAD_VALUE if there are no frames, and for a
- * name of the trajectory that ParaView's reader cannot take: it wants ASCII without colons; HOOKE_IO_FAILED,
- * HOOKE_NO_MEMORY, HOOKE_NOT_BUILT. */
+/* Writes the companion by which ParaView reads a trajectory: XDMF 2, a few lines of XML for each frame, which
+ * refer to the numbers in the HDF5 file. `path` NULL: beside the trajectory, with .xdmf in place of its .h5;
+ * a file of this name that is no XDMF is then not replaced. Springs are lines, with rest_length; particles
+ * have velocity, mass and species. HOOKE_BAD_VALUE if there are no frames, and for a trajectory name that
+ * ParaView's reader does not accept: it requires ASCII without colons; HOOKE_IO_FAILED, HOOKE_NO_MEMORY,
+ * HOOKE_NOT_BUILT. */
 HOOKE_API int32_t hooke_record_write_xdmf(const hooke_record *record, const char *path);
 
 #ifdef __cplusplus

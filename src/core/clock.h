@@ -1,8 +1,8 @@
-/* A clock that only goes forward. */
+/* A monotonic clock. */
 #ifndef HOOKE_CORE_CLOCK_H
 #define HOOKE_CORE_CLOCK_H
 
-/* Seconds since some fixed moment. */
+/* Seconds since a fixed moment. */
 double hk_clock_seconds(void);
 
 #endif

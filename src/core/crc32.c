@@ -1,5 +1,5 @@
-/* Eight bytes at a time (Kounavis and Berry 2005). Remainders are sums without carries, so the table of a
- * byte, k bytes before the end, is made of those of its eight bits, which stand here. */
+/* Slicing by eight bytes (Kounavis and Berry 2005). Remainders are linear without carries, so the table of a
+ * byte, k bytes before the end, is composed from those of its eight bits, which stand here. */
 #include "core/crc32.h"
 
 #define SUM(b, x0, x1, x2, x3, x4, x5, x6, x7)                                                               \

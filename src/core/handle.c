@@ -7,13 +7,13 @@
 #include <pthread.h>
 #include <string.h>
 
-/* In front of every object, in its block: so that the list needs no memory of its own. */
+/* Header in front of every object, in the same block, so that the list needs no memory of its own. */
 struct entry {
   _Alignas(64) struct entry *next;
   const char *type;
 };
 
-/* The one thing that outlives a call, and only in builds for finding mistakes. Lists by address. */
+/* Global table of live handles, only in builds with HOOKE_CHECK_HANDLES. Lists by address. */
 enum { LISTS = 4096 };
 static struct entry *alive[LISTS];
 static pthread_mutex_t mutex = PTHREAD_MUTEX_INITIALIZER;
@@ -23,7 +23,7 @@ static struct entry **list_of(const struct entry *entry) {
   return &alive[(block ^ block / LISTS) % LISTS];
 }
 
-/* The link that leads to the entry; to NULL if it is not there. Reads none but entries that are alive. */
+/* Link to the entry, or to NULL if it is not in the list. Reads live entries only. */
 static struct entry **find(const struct entry *entry) {
   struct entry **link = list_of(entry);
   while (*link && *link != entry)
@@ -75,6 +75,6 @@ int32_t hk_handle_is(const void *object, const char *type, const char *function,
 
 #else
 
-typedef int hk_handle_nothing; /* a file of C has to have something */
+typedef int hk_handle_nothing; /* a C file must not be empty */
 
 #endif

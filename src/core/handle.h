@@ -1,6 +1,5 @@
-/* Handles: the opaque objects that callers hold. A build with HOOKE_CHECK_HANDLES keeps a list of those that
- * are alive, and the guard (src/guard) looks every handle up in it; in other builds nothing of this is
- * there. */
+/* Handles: the opaque objects that callers hold. A build with HOOKE_CHECK_HANDLES keeps a list of the live
+ * ones, and the guard (src/guard) checks every handle against it. Other builds have none of this. */
 #ifndef HOOKE_CORE_HANDLE_H
 #define HOOKE_CORE_HANDLE_H
 
@@ -8,12 +7,12 @@
 
 #if HOOKE_CHECK_HANDLES
 
-/* hk_new(1, size), alive as a `type` ("hooke_state") until hk_handle_free(), which takes NULL. */
+/* hk_new(1, size), registered as a live `type` ("hooke_state") until hk_handle_free(), which accepts NULL. */
 void *hk_handle_new(const char *type, size_t size);
 void hk_handle_free(void *object);
 
-/* 1 if `object`, which may be any address, is alive and of that type; else 0, with the message that
- * `function` cannot take it as `argument`. */
+/* 1 if `object`, which may be any address, is a live object of that type; otherwise 0, with a message that
+ * names `function` and `argument`. */
 int32_t hk_handle_is(const void *object, const char *type, const char *function, const char *argument);
 
 #else

@@ -1,4 +1,4 @@
-/* errno belongs to the caller: whoever calls what sets it, puts it back. */
+/* errno belongs to the caller: code that may set it restores it. */
 #ifndef HOOKE_CORE_KEEP_ERRNO_H
 #define HOOKE_CORE_KEEP_ERRNO_H
 
@@ -8,7 +8,7 @@ static inline void hk_put_errno_back(const int *kept) {
   errno = *kept;
 }
 
-/* Where this stands among the declarations of a function, errno is at its end what it is here. */
+/* Declared at the start of a block, it restores errno at the end of the block. */
 #define HOOKE_KEEP_ERRNO __attribute__((cleanup(hk_put_errno_back), unused)) const int hk_kept_errno = errno
 
 #endif

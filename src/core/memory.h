@@ -1,4 +1,4 @@
-/* Allocation: every block of the library comes from here. */
+/* Allocation of every block of the library. */
 #ifndef HOOKE_CORE_MEMORY_H
 #define HOOKE_CORE_MEMORY_H
 
@@ -16,15 +16,14 @@
  */
 void *hk_new(int64_t count, size_t size);
 
-/* The same, not zeroed: pages come to be near the processor of the thread that first writes to them. */
+/* The same, not zeroed: pages are placed near the processor of the thread that first writes to them. */
 void *hk_reserve(int64_t count, size_t size);
 
-/* Like realloc: grows `*block` to `capacity` elements of `size`, keeping the first `used`; HOOKE_NO_MEMORY
- * leaves it. */
+/* Like realloc(): grows `*block` to `capacity` elements of `size`, keeping the first `used`. HOOKE_NO_MEMORY
+ * leaves it unchanged. */
 int32_t hk_grow(void **block, int64_t used, int64_t capacity, size_t size);
 
-/* A copy of a string, "" of NULL, aligned as malloc() does; NULL, with the message recorded, if there is no
- * memory. */
+/* Copy of a string, "" for NULL, aligned as by malloc(); NULL, with the message recorded, without memory. */
 char *hk_copy_text(const char *text);
 
 void hk_free(void *block);

@@ -1,14 +1,15 @@
-/* How much memory a scene may take. */
+/* Maximum memory of a scene. */
 #ifndef HOOKE_CORE_MEMORY_LIMIT_H
 #define HOOKE_CORE_MEMORY_LIMIT_H
 
 #include "hooke/base.h"
 
-/* What there is [bytes]: the physical memory, or what is left of the address space if a limit on that leaves
- * less; `which` (may be NULL) says which of the two. INFINITY where the system does not tell. */
+/* Available memory [bytes]: the physical memory, or what a limit on the address space leaves, if that is
+ * less; `which` (may be NULL) receives the name of the two that applies. INFINITY if the system does not
+ * tell. */
 double hk_memory_limit(const char **which);
 
-/* HOOKE_NO_MEMORY with "<what> needs 412 GB of memory; ..." if `bytes` are more than `limit` (0:
+/* HOOKE_NO_MEMORY with "<what> needs 412 GB of memory; ..." if `bytes` exceeds `limit` (0:
  * hk_memory_limit()). */
 int32_t hk_memory_require(double limit, double bytes, const char *what);
 

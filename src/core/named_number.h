@@ -1,4 +1,4 @@
-/* Numbers that are asked for by name. */
+/* Numbers looked up by name. */
 #ifndef HOOKE_CORE_NAMED_NUMBER_H
 #define HOOKE_CORE_NAMED_NUMBER_H
 
@@ -11,7 +11,7 @@ struct hk_named_number {
   double value;
 };
 
-/* The value of that name among `count`, NaN where there is none. */
+/* Value of that name among `count`; NaN if there is none. */
 static inline double hk_named_number_find(const struct hk_named_number *number, size_t count,
                                           const char *name) {
   for (size_t k = 0; k < count; k++) {
@@ -20,7 +20,7 @@ static inline double hk_named_number_find(const struct hk_named_number *number, 
   return NAN;
 }
 
-/* The same in an array. */
+/* The same for an array. */
 #define HOOKE_NAMED_NUMBER(numbers, name)                                                                    \
   hk_named_number_find((numbers), sizeof(numbers) / sizeof((numbers)[0]), (name))
 

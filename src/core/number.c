@@ -10,7 +10,7 @@
 
 enum { POINT_SIZE = 16, SHORT_NUMBER = 96 };
 
-/* The decimal point of this thread's locale, which may be several bytes long. */
+/* Decimal point of this thread's locale, which may be several bytes long. */
 static size_t decimal_point(char *point) {
   char probe[POINT_SIZE];
   int length = snprintf(probe, sizeof probe, "%.1f", 0.0);
@@ -30,8 +30,8 @@ static int64_t skip_digits(const char *text, int64_t at, int64_t length) {
   return at;
 }
 
-/* Checks the grammar; `point` is where the decimal point is (or -1), `nonzero` whether a digit before the
- * exponent is. */
+/* Checks the grammar. `point` receives the offset of the decimal point (or -1), `nonzero` whether any digit
+ * before the exponent is nonzero. */
 static int is_number(const char *text, int64_t length, int64_t *point, int *nonzero) {
   int64_t at = length > 0 && (text[0] == '-' || text[0] == '+');
   int64_t start = at;

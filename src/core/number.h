@@ -1,4 +1,4 @@
-/* Decimal numbers as text, read and written alike in every locale. */
+/* Decimal numbers as text, independent of the locale. */
 #ifndef HOOKE_CORE_NUMBER_H
 #define HOOKE_CORE_NUMBER_H
 
@@ -6,18 +6,18 @@
 
 enum hk_number_result {
   HOOKE_NUMBER_FINE,
-  HOOKE_NUMBER_JUNK, /* not a decimal number from first to last character (nan, inf and hexadecimal neither)
-                      */
+  HOOKE_NUMBER_JUNK, /* not a decimal number from first to last character (nor nan, inf or hexadecimal) */
   HOOKE_NUMBER_TOO_LARGE, /* beyond the largest double */
-  HOOKE_NUMBER_TOO_SMALL, /* not zero, but would be read as zero */
+  HOOKE_NUMBER_TOO_SMALL, /* not zero, but would be rounded to zero */
   HOOKE_NUMBER_NO_MEMORY
 };
 
-/* Reads `length` characters: sign, digits with at most one point, exponent; no blanks. `value` is set if
- * fine. */
+/* Parses `length` characters: sign, digits with at most one point, exponent; no blanks. Sets `value` on
+ * success. */
 enum hk_number_result hk_number_parse(const char *text, int64_t length, double *value);
 
-/* The shortest text that reads back to the same bits; `text` has room for HOOKE_NUMBER_SIZE characters. */
+/* Writes the shortest text that reads back to the same bits; `text` has room for HOOKE_NUMBER_SIZE
+ * characters. */
 enum { HOOKE_NUMBER_SIZE = 40 };
 void hk_number_print(double value, char *text);
 

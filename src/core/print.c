@@ -7,8 +7,8 @@
 #include <stdio.h>
 #include <string.h>
 
-/* The thread's locale is the caller's; "C" takes its place for a moment, for which C libraries take no
- * memory. */
+/* Replaces the thread's locale, which is the caller's, by "C" for a moment; C libraries need no memory for
+ * that. */
 struct plain {
   locale_t locale, callers;
 };
@@ -27,8 +27,7 @@ static void end_plain(struct plain plain) {
 
 int hk_print_list(char *text, size_t size, const char *format, va_list args) {
   HOOKE_KEEP_ERRNO;
-  /* glibc loses a few bytes in newlocale() where LOCPATH is set: it is called where there is something to
-   * mend */
+  /* glibc leaks a few bytes in newlocale() if LOCPATH is set: call it only where needed */
   const struct plain plain = begin_plain(strcmp(nl_langinfo(RADIXCHAR), ".") != 0);
   const int length = vsnprintf(text, size, format, args);
   end_plain(plain);

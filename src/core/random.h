@@ -1,5 +1,5 @@
-/* Random numbers that are the same everywhere: splitmix64 (Steele, Lea and Flood 2014). A generator is one
- * 64-bit number, its seed at first. */
+/* Reproducible random numbers: splitmix64 (Steele, Lea and Flood 2014). A generator is one 64-bit number,
+ * initially the seed. */
 #ifndef HOOKE_CORE_RANDOM_H
 #define HOOKE_CORE_RANDOM_H
 

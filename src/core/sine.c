@@ -2,7 +2,7 @@
 
 #include <math.h>
 
-/* Taylor series for |x| <= pi/4, where the first term left out is below 1e-17. */
+/* Taylor series for |x| <= pi/4; the first omitted term is below 1e-17. */
 static double short_sine(double x) {
   double y = x * x, sum = 0.0;
   static const double term[] = {-1.0 / 1307674368000.0, 1.0 / 6227020800.0, -1.0 / 39916800.0, 1.0 / 362880.0,
@@ -24,7 +24,7 @@ static double short_cosine(double x) {
 
 void hk_sine_of_turns(double turns, double *sine, double *cosine) {
   const double quarter = 1.57079632679489661923;
-  double part = turns - floor(turns); /* exact, so is the split into quarters */
+  double part = turns - floor(turns); /* exact, and so is the reduction to a quadrant */
   double nearest = floor(4.0 * part + 0.5);
   double x = (4.0 * part - nearest) * quarter;
   double s = short_sine(x), c = short_cosine(x);

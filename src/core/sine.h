@@ -1,4 +1,4 @@
-/* Sine and cosine that give the same bits on every machine, which those of the C library do not. */
+/* Sine and cosine with the same bits on every machine, unlike those of the C library. */
 #ifndef HOOKE_CORE_SINE_H
 #define HOOKE_CORE_SINE_H
 

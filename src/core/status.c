@@ -36,7 +36,7 @@ int32_t hk_fail(int32_t status, const char *place, const char *format, ...) {
   va_end(args);
   snprintf(last.place, sizeof last.place, "%s", place ? place : "");
   memcpy(last.message, message, sizeof message);
-  hk_utf8_make_plain(last.place); /* libraries repeat what they were given, and long text is cut */
+  hk_utf8_make_plain(last.place); /* messages of libraries may repeat input, and long text is truncated */
   hk_utf8_make_plain(last.message);
   last.before[0] = '\0';
   last.count++;

@@ -1,5 +1,5 @@
-/* Sums that keep what each addition rounds off (Neumaier 1974): their error does not grow with their length.
- * A million equal numbers added up plainly lose five digits. */
+/* Compensated sums (Neumaier 1974): the error does not grow with the number of terms. A plain sum of a
+ * million equal numbers loses five digits. */
 #ifndef HOOKE_CORE_SUM_H
 #define HOOKE_CORE_SUM_H
 
@@ -15,7 +15,7 @@ static inline void hk_sum_add(struct hk_sum *total, double x) {
   total->sum = sum;
 }
 
-/* Beyond the largest number nothing is lost that could be named. */
+/* Beyond the largest number there is no correction. */
 static inline double hk_sum_value(const struct hk_sum *total) {
   return isfinite(total->sum) ? total->sum + total->lost : total->sum;
 }

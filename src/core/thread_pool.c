@@ -1,6 +1,6 @@
-/* Workers meet at a barrier before and after each piece of work: the first meeting starts it, the second ends
- * it. Threads have the rounding mode and the treatment of denormals that the thread had that made the thread
- * pool; where it changes them later, they do not follow. */
+/* Workers meet at a barrier before and after each task: the first one starts it, the second ends it. Threads
+ * inherit the rounding mode and the treatment of denormals of the thread that creates the pool; later changes
+ * there do not affect them. */
 #if defined(__linux__)
 #define _GNU_SOURCE /* sched_getaffinity() */
 #endif
@@ -15,8 +15,8 @@
 #include <stdatomic.h>
 #include <unistd.h>
 
-/* How often a worker that waits looks again before it gives up its processor, some tens of microseconds, and
- * then before it sleeps. */
+/* Number of polls by a waiting worker before it yields its processor (some tens of microseconds), and then
+ * before it sleeps. */
 enum { SPINS = 1000, YIELDS = 4 };
 
 struct seat {
@@ -26,14 +26,14 @@ struct seat {
 };
 
 struct hk_pool {
-  pid_t process; /* whose threads they are */
+  pid_t process; /* process that owns the threads */
   int32_t workers, spins;
   hk_pool_work *work; /* NULL: threads end */
   void *ctx;
   struct seat *seat; /* of workers 1 .. workers - 1 */
   pthread_mutex_t mutex;
   pthread_cond_t woken;
-  /* each in a line of its own: whoever waits reads `round` alone */
+  /* on separate cache lines: waiting workers read `round` alone */
   _Alignas(64) atomic_int arrived;
   _Alignas(64) atomic_uint round;
   _Alignas(64) atomic_int sleepers;
@@ -64,8 +64,8 @@ static int has_passed(struct hk_pool *pool, unsigned round) {
 
 static void sleep_until_passed(struct hk_pool *pool, unsigned round) {
   pthread_mutex_lock(&pool->mutex);
-  /* either this is seen by who ends the round, or the end of the round is seen here: both are sequentially
-   * consistent */
+  /* either the thread that ends the round sees this, or this thread sees the end of the round: both are
+   * sequentially consistent */
   atomic_fetch_add(&pool->sleepers, 1);
   while (atomic_load(&pool->round) == round)
     pthread_cond_wait(&pool->woken, &pool->mutex);
@@ -105,7 +105,7 @@ void hk_pool_barrier(struct hk_pool *pool) {
 static void *serve(void *arg) {
   const struct seat *seat = arg;
   struct hk_pool *pool = seat->pool;
-  pthread_mutex_lock(&pool->mutex); /* until it is known how many there are */
+  pthread_mutex_lock(&pool->mutex); /* until their number is known */
   pthread_mutex_unlock(&pool->mutex);
   for (;;) {
     hk_pool_barrier(pool);
@@ -115,8 +115,8 @@ static void *serve(void *arg) {
   }
 }
 
-/* Starts threads with all signals blocked, so that handlers run in the threads of the caller; fewer than
- * asked for if there are no more. */
+/* Starts threads with all signals blocked, so that handlers run in the caller's threads. Returns fewer than
+ * requested if the system has no more. */
 static void start(struct hk_pool *pool, int32_t workers) {
   sigset_t all, kept;
   sigfillset(&all);
@@ -142,7 +142,7 @@ static void end(struct hk_pool *pool) {
   pool->process = 0;
 }
 
-/* All threads, or none. */
+/* Starts all threads, or none. */
 static int32_t begin(struct hk_pool *pool, int32_t workers) {
   pthread_mutex_init(&pool->mutex, NULL);
   pthread_cond_init(&pool->woken, NULL);

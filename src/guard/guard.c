@@ -1,11 +1,10 @@
-/* Every public function stands here: it looks at the texts that it is given, in a build with
- * HOOKE_CHECK_HANDLES at the handles, too, and goes on to the one in the library, which names.h calls
- * hooke_unchecked_<name>. calls.inc lists them all; both files are made in the build tree.
+/* Wrappers of all public functions: each checks its text arguments, in a build with HOOKE_CHECK_HANDLES the
+ * handles, too, and calls the function of the library, which names.h renames to hooke_unchecked_<name>.
+ * calls.inc lists them all; both files are generated in the build tree.
  *
- * A text that is NULL is refused with HOOKE_BAD_VALUE; where no status is returned it is a word that the
- * function does not know. A handle that is no more, never was, or is of another type is refused with
- * HOOKE_BAD_CALL, or where no status is returned with -1, NaN or NULL, and with 0 of a function that answers
- * yes or no. */
+ * A NULL text is refused with HOOKE_BAD_VALUE; a function without a status treats it as an unknown word. A
+ * handle that was destroyed, never made, or is of another type is refused with HOOKE_BAD_CALL; a function
+ * without a status returns -1, NaN or NULL, and 0 if it answers yes or no. */
 #include "core/handle.h"
 #include "core/status.h"
 
@@ -14,7 +13,7 @@
 #define TEXT(text)                                                                                           \
   if ((text) == NULL)                                                                                        \
     return hk_fail(HOOKE_BAD_VALUE, NULL, "no %s given; %s() needs a text there", #text, __func__);
-/* What a function that is refused a text would have made. */
+/* Clears the outputs of a function that refuses a text. */
 #define MADE(object)                                                                                         \
   if (object) *(object) = NULL;
 #define WORD(text)                                                                                           \

@@ -1,4 +1,4 @@
-/* Making an integrator, and asking it what it did. */
+/* Creating an integrator, and querying its counts. */
 #include "integrate/integrator.h"
 
 #include "core/clock.h"

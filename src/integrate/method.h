@@ -4,8 +4,8 @@
 
 #include "hooke/integrator.h"
 
-/* The kinds of stability of a step h, from which bounds, limits and regions follow (measure/spectrum). K
- * and C are stiffness and damping over mass; lambda are the eigenvalues of the motion. */
+/* The kinds of stability of a step h, which determine bounds, limits and regions (measure/spectrum). K and C
+ * are stiffness and damping over mass; lambda are the eigenvalues of the motion. */
 enum {
   HOOKE_STABILITY_UNKNOWN,
   HOOKE_STABLE_ALWAYS,
@@ -16,7 +16,7 @@ enum {
 
 struct hk_stability {
   int32_t kind;
-  int32_t damps_implicitly; /* 1: the method solves for damping */
+  int32_t damps_implicitly; /* 1: the method treats damping implicitly */
   int32_t degree;           /* 1, 2 or 4 */
   double axis;      /* square of |h lambda| up to which all of the imaginary axis is stable; 0: none */
   double half_disc; /* |h lambda| up to which all of the left half plane is stable; 0: none */
@@ -27,9 +27,9 @@ struct hk_stability {
  * status. */
 struct hk_method {
   const char *name, *summary;
-  const char *needs;                 /* library that it needs, NULL: none */
-  int32_t built;                     /* 0: this build is without that */
-  int32_t reference;                 /* 1: there to check references with, left out of lists; found by name */
+  const char *needs;                 /* required library, NULL: none */
+  int32_t built;                     /* 0: this build lacks that library */
+  int32_t reference;                 /* 1: for checking references only, not listed; found by name */
   int32_t adaptive;                  /* 1: chooses its steps from tolerances; 0: takes `step` */
   int32_t order;                     /* of a fixed-step method, on smooth forces */
   int32_t first_order, second_order; /* problems it takes: x' = phi(t, x); q' = v, v' = W f */
@@ -41,12 +41,12 @@ struct hk_method {
   int32_t (*choose)(hooke_integrator *integrator);
   int32_t (*create)(hooke_integrator *integrator);
   void (*destroy)(hooke_integrator *integrator);
-  /* forgets what it keeps of a motion that was changed by hand; NULL if it keeps nothing. An adaptive method
-   * begins anew instead. */
+  /* discards its memory of a motion that was changed by hand; NULL if it has none. An adaptive method
+   * restarts instead. */
   void (*forget)(hooke_integrator *integrator);
-  /* takes up t, q and v */
+  /* loads t, q and v */
   int32_t (*begin)(hooke_integrator *integrator, const hooke_state *state);
-  /* one step; an adaptive method moves integrator->t, a fixed-step one has it moved for it */
+  /* one step; an adaptive method advances integrator->t, for a fixed-step one the loop does */
   int32_t (*step)(hooke_integrator *integrator);
   /* writes the solution at time t, which lies within the last step */
   int32_t (*store)(hooke_integrator *integrator, double t, hooke_state *state);
@@ -56,7 +56,7 @@ extern const struct hk_method hk_forward_euler, hk_symplectic_euler, hk_verlet, 
     hk_backward_euler, hk_tr_bdf2, hk_implicit_midpoint, hk_cvode_bdf, hk_cvode_adams, hk_rk8pd,
     hk_arkode_esdirk;
 
-/* Row of this name, or NULL; its stability, of kind unknown if there is no such method. */
+/* Row of this name, or NULL; its stability, of unknown kind if there is no such method. */
 const struct hk_method *hk_method_find(const char *name);
 const struct hk_stability *hk_method_stability(const char *name);
 

@@ -2,8 +2,8 @@
  * 0 to 3 has seven altitudes: 0 to 3 from that particle to the face of the others, 4 to 6 between the edges
  * 01 and 23, 02 and 13, 03 and 12. All of them have the volume over the size of a cross product, so the
  * shortest is that of the largest cross product; it alone acts, as a spring between a particle and a point of
- * the face, or between points of the edges. Lengths have a sign, which turns where the tetrahedron does
- * inside out: the force pushes it back.
+ * the face, or between points of the edges. Lengths have a sign, which changes when the tetrahedron is
+ * inverted: the force pushes it back.
  *
  * To the parenthesis, with the particles i0 .. i3 of altitude k from hk_altitude_role[k]:
  *   e = x_i1 - x_i0     r = x_i3 - x_i0 (k < 4) or x_i2 - x_i0     f = x_i2 - x_i0 (k < 4) or x_i3 - x_i2
@@ -23,12 +23,12 @@
 
 enum { HOOKE_ALTITUDES = 7, HOOKE_ALTITUDE_SHORTEST = -1 };
 
-/* Particles so ordered that n.r is six times the volume with its sign, for every altitude. */
+/* Particles ordered such that n.r is six times the signed volume, for every altitude. */
 extern const int8_t hk_altitude_role[HOOKE_ALTITUDES][4];
 
 struct hk_tetrahedron {
   int32_t particle[4];
-  int32_t choice; /* the altitude that acts; HOOKE_ALTITUDE_SHORTEST: the shortest at the time */
+  int32_t choice; /* the altitude that acts; HOOKE_ALTITUDE_SHORTEST: the currently shortest */
   int32_t pull_only;
   double side;               /* 1 or -1: the sign of the volume at rest */
   double stiffness, damping; /* [N], [N s] */
@@ -45,10 +45,10 @@ struct hk_altitude {
 int32_t hk_altitude_find(const struct hk_tetrahedron *tetrahedron, const double x[4][3],
                          struct hk_altitude *altitude);
 
-/* w above. */
+/* W above. */
 void hk_altitude_weigh(const struct hk_altitude *altitude, const double v[4][3], double w[3]);
 
-/* T above for u.w = rate; `slack` (may be NULL) says whether it only pulls and has nothing to pull. */
+/* T above for u.w = rate; `slack` (may be NULL) is set if it only pulls and is slack. */
 double hk_altitude_tension(const struct hk_tetrahedron *tetrahedron, const struct hk_altitude *altitude,
                            double rate, int32_t *slack);
 

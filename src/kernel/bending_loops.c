@@ -1,5 +1,5 @@
 /* Compiled once per instruction set, with HOOKE_ISA naming it. Forces of a block of triples go into a buffer
- * first, and are then added in three passes, which at every particle is the order of the triples. */
+ * first, and are then added in three passes, which for every particle is the order of the triples. */
 #include "kernel/bending_loops.h"
 
 #include "kernel/instruction_set.h"

@@ -1,4 +1,4 @@
-/* For files that are compiled once per instruction set: HOOKE_ISA names it, and what such a file exports. */
+/* For files that are compiled once per instruction set: HOOKE_ISA names the set, and the exported names. */
 #ifndef HOOKE_KERNEL_INSTRUCTION_SET_H
 #define HOOKE_KERNEL_INSTRUCTION_SET_H
 
@@ -14,7 +14,7 @@
 #define HOOKE_JOIN(a, b)       HOOKE_JOIN_NAMES(a, b)
 #define HOOKE_OF_ISA(name)     HOOKE_JOIN(name, HOOKE_ISA)
 
-/* What the loop writes is apart from all arrays that it reads, so iterations may be reordered. */
+/* The output of the loop does not overlap any array that it reads, so iterations may be reordered. */
 #if defined(__clang__)
 #define HOOKE_VECTORISE _Pragma("clang loop vectorize(assume_safety)")
 #else

@@ -1,6 +1,6 @@
 /* One spring, to the parenthesis. Every loop over springs, on every instruction set, computes exactly this;
- * the order of the operations is part of what the library promises, and no product may be contracted into a
- * fused multiply-add. */
+ * the library promises this order of operations, and no product may be contracted into a fused multiply-add.
+ */
 #ifndef HOOKE_KERNEL_SPRING_BODY_H
 #define HOOKE_KERNEL_SPRING_BODY_H
 
@@ -13,7 +13,7 @@ HOOKE_INLINE double hk_spring_length(double dx, double dy, double dz) {
   return sqrt((dx * dx + dy * dy) + dz * dz);
 }
 
-/* 1/r, and 0 where r = 0: ends at one place have no direction and no force. */
+/* 1/r, and 0 if r = 0: coincident ends have no direction and no force. */
 HOOKE_INLINE double hk_spring_inverse_length(double r) {
   return 1.0 / (r == 0.0 ? INFINITY : r);
 }

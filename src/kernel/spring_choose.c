@@ -1,4 +1,4 @@
-/* Which instruction sets the loops were compiled for, and which of them this machine runs. */
+/* The instruction sets that the loops were compiled for, and those that this machine runs. */
 #include "kernel/spring_loops.h"
 
 #include <stddef.h>

@@ -1,6 +1,6 @@
 /* Compiled once per instruction set, with HOOKE_ISA naming it. Forces of a block of springs go into a buffer
- * first, which vectorises whatever the ends are, and are then added in spring order, which keeps every sum
- * the same to the bit. */
+ * first, which vectorises for any ends, and are then added in spring order, which keeps every sum the same to
+ * the bit. */
 #include "kernel/instruction_set.h"
 #include "kernel/tiled_loops.h"
 #include "kernel/spring_body.h"
@@ -13,7 +13,7 @@ struct block {
   double x[BLOCK], y[BLOCK], z[BLOCK];
 };
 
-/* What a loop needs of a run, in locals that no store can change: materials, and the ends of its springs. */
+/* Data of a run for a loop, in locals that no store can change: materials, and the ends of its springs. */
 struct springs {
   double kappa, gamma, rest_length;
   const double *kappas, *gammas, *rest_lengths;
@@ -21,7 +21,8 @@ struct springs {
   ptrdiff_t offset;
 };
 
-/* b = s d for every spring of a block, with F = -s d; returns how many had a rest length but no direction. */
+/* b = s d for every spring of a block, with F = -s d; returns the number of springs with a rest length but no
+ * direction. */
 HOOKE_INLINE int64_t fill_block(double *restrict bx, double *restrict by, double *restrict bz,
                                 const double *restrict qx, const double *restrict qy,
                                 const double *restrict qz, const double *restrict vx,

@@ -1,8 +1,8 @@
 /* The loops that add spring forces, on raw arrays.
  *
- * Springs come in runs: consecutive springs that one loop can do. In a run of constant offset spring k joins
- * particles start + k and start + k + offset, so all loads are contiguous; in any other run the ends are
- * looked up. A run whose springs share one material reads no parameters. */
+ * Springs come in runs: consecutive springs that one loop can process. In a run of constant offset spring k
+ * joins particles start + k and start + k + offset, so all loads are contiguous; in any other run the ends
+ * are looked up. A run of one material reads no parameters. */
 #ifndef HOOKE_KERNEL_SPRING_LOOPS_H
 #define HOOKE_KERNEL_SPRING_LOOPS_H
 
@@ -37,7 +37,7 @@ struct hk_triangle_set;
 struct hk_tangent_set;
 struct hk_vector_set;
 
-/* Adds the forces of a run; returns how many of its springs had a rest length but no direction. */
+/* Adds the forces of a run; returns the number of its springs with a rest length but no direction. */
 typedef int64_t hk_spring_loop(const struct hk_run *run, const struct hk_fields *fields);
 
 struct hk_run {
@@ -47,8 +47,8 @@ struct hk_run {
   const int32_t *head, *tail;                   /* indexed: first and second ends, `count` long */
   double kappa, gamma, rest_length;             /* shared */
   const double *kappas, *gammas, *rest_lengths; /* mixed: `count` long */
-  const int32_t *place; /* NULL, or mixed: where in those arrays, which then are those of all springs */
-  /* mixed, kappas and gammas NULL: kappa and gamma are shared, or shares of the rest length */
+  const int32_t *place; /* NULL, or mixed: indices into those arrays, which then are those of all springs */
+  /* mixed, kappas and gammas NULL: kappa and gamma are shared, or shared and divided by the rest length */
   int32_t strain;
   const uint8_t *batch; /* NULL, or mixed: strided batch of each spring, which has its material */
   const struct hk_strided_material *of_batches;
@@ -93,8 +93,8 @@ static inline struct hk_material hk_run_material(const struct hk_run *run, ptrdi
 }
 
 /* The updates of explicit steps on one component of `count` particles: h [s], w inverse mass, a = w f + g.
- * Symplectic Euler v += h a, q += h v(new); forward Euler q += h v(old), v += h a. Without gravity, where g
- * is NULL, a = w f. */
+ * Symplectic Euler v += h a, q += h v(new); forward Euler q += h v(old), v += h a. Without gravity (g NULL) a
+ * = w f. */
 typedef void hk_step_loop(ptrdiff_t count, double h, const double *w, const double *f, const double *g,
                           double *q, double *v);
 
@@ -104,7 +104,7 @@ typedef void hk_verlet_loop(ptrdiff_t count, double h, double drag, const double
                             const double *g, double *half, double *q, double *v);
 
 /* The loops of one instruction set, by shape. Sets are named "avx512", "avx2", "baseline"; `set` counts from
- * the best that this machine has; NULL past the last. */
+ * the best one of this machine; NULL past the last. */
 struct hk_spring_set {
   const char *name;
   hk_spring_loop *loop[HOOKE_RUN_SHAPES];
@@ -126,7 +126,7 @@ hk_step_loop *hk_step_loop_of(int32_t move);
 /* That for HOOKE_PREDICT or HOOKE_CORRECT; NULL for any other. */
 hk_verlet_loop *hk_verlet_loop_of(int32_t move);
 
-/* Name of the set that is used on this machine. */
+/* Name of the set used on this machine. */
 const char *hk_kernel_instructions(void);
 
 #endif

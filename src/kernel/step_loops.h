@@ -19,7 +19,7 @@ void hk_kick_with_drag(int64_t n, double kick, double drag, const double *w, con
 /* f = w f + *g, or w f where g is NULL. */
 void hk_acceleration(int64_t n, const double *w, const double *g, double *f);
 
-/* Stages of the classical Runge-Kutta method, from the rate at the stage before to the place of the next:
+/* Stages of the classical Runge-Kutta method, from the rate at one stage to the position of the next:
  *   first   sum = rate, x += h rate        middle  sum += 2 rate, x = start + h rate
  *   last    x = start + sixth (sum + rate) */
 void hk_first_stage(int64_t n, double h, const double *rate, double *sum, double *x);

@@ -1,6 +1,6 @@
 /* Compiled once per instruction set, with HOOKE_ISA naming it. Springs of one or two strided batches are
- * computed side by side, and sums are some vectors behind, so that the processor always finds operations
- * whose operands are there. */
+ * computed together, and sums are some vectors behind, so that the processor always finds operations with
+ * available operands. */
 #include "kernel/strided_loops.h"
 
 #include "kernel/instruction_set.h"
@@ -8,14 +8,14 @@
 
 typedef hk_vector vec;
 
-/* Shapes of a pass: those of its batches, where the items of each batch follow one another in the order of
- * batches; or all that there are. */
+/* Shapes of a pass: that of its batches, if the items of each batch are consecutive in the order of batches;
+ * or any. */
 enum { BEHIND = 2 * HOOKE_WIDTH, PAIRED = HOOKE_RUN_SHAPES, ANY = 2 * HOOKE_RUN_SHAPES | HOOKE_RUN_DAMPED };
 
 struct place {
-  const double *q, *v;         /* of the vector of particles that the loop is at */
-  ptrdiff_t stride, p, behind; /* behind: where sums are */
-  vec x[3], u[3];              /* what is there */
+  const double *q, *v;         /* index of the current vector of particles */
+  ptrdiff_t stride, p, behind; /* behind: the vector of the sums */
+  vec x[3], u[3];              /* number of items */
 };
 
 HOOKE_INLINE uint32_t present_at(const uint8_t *present, ptrdiff_t p) {
@@ -47,7 +47,7 @@ HOOKE_INLINE vec add_signed(double sign, vec x, vec sum) {
 #endif
 }
 
-/* What springs do at the vector at p, by two items a batch. */
+/* Computes springs at the vector at p, by two items a batch. */
 HOOKE_INLINE void add(const struct hk_strided_item *item, const int strided, ptrdiff_t p, vec sum[3]) {
   for (int i = 0; i < 2 * strided; i++) {
     const ptrdiff_t mask = item[i].mask, stride = hk_ring_stride(mask);
@@ -57,7 +57,7 @@ HOOKE_INLINE void add(const struct hk_strided_item *item, const int strided, ptr
   }
 }
 
-/* The same where these are the ends and then the beginnings of each batch. */
+/* The same if these are the ends and then the beginnings of each batch. */
 HOOKE_INLINE void add_pairs(const struct hk_strided_view *batch, const int strided, ptrdiff_t p, vec sum[3]) {
   EACH {
     const ptrdiff_t mask = batch[i].mask, stride = hk_ring_stride(mask);
@@ -68,8 +68,7 @@ HOOKE_INLINE void add_pairs(const struct hk_strided_view *batch, const int strid
   }
 }
 
-/* Where the material of the springs of the vector at p is, which is fetched early where it is stored in a
- * row. */
+/* Location of the material of the springs of the vector at p, prefetched if it is stored in a row. */
 HOOKE_INLINE void locate(const struct hk_strided_material *material, ptrdiff_t p, const double **number) {
   const uint32_t *unit =
       material->unit + (HOOKE_STRIDED_NUMBERS * ((size_t)p / HOOKE_STRIDED_UNIT) & (size_t)material->mask);
@@ -86,8 +85,8 @@ HOOKE_INLINE vec number_of(const struct hk_strided_view *batch, const double *co
   return mixed ? hk_load(own[j]) : hk_all(batch->shared[j]);
 }
 
-/* Forces of the springs of 1 or 2 batches of one shape into their rings; `shortest` takes the least length.
- * Whatever is stored may be anything to the compiler, so that views are read before. */
+/* Forces of the springs of 1 or 2 batches of one shape into their rings; `shortest` receives the minimum
+ * length. Stores may alias anything for the compiler, so views are read before. */
 HOOKE_INLINE void fill(const struct hk_strided_view *batch, const struct hk_strided_item *item,
                        const int strided, const struct place *at, const int shape, vec *shortest,
                        vec sum[3]) {
@@ -134,7 +133,7 @@ HOOKE_INLINE void fill(const struct hk_strided_view *batch, const struct hk_stri
   EACH store_forces(l[i].ring, l[i].mask, at->p, d[i]);
 }
 
-/* Springs of the vector at p once more, one by one: some ends are at one place. Counts those that have a rest
+/* Repeats the springs of the vector at p one by one, since some ends coincide. Counts those with a rest
  * length. */
 static __attribute__((noinline)) int64_t fill_with_care(const struct hk_strided_pass *pass, ptrdiff_t p) {
   int64_t lost = 0;
@@ -213,8 +212,8 @@ HOOKE_INLINE void move(const struct hk_strided_pass *pass, const struct hk_move 
   }
 }
 
-/* Forces of all batches at a vector, and sums behind it: two batches at a time where all have one shape, that
- * is known here. */
+/* Forces of all batches at a vector, and sums behind it: two batches at a time if all have one shape, known
+ * at compile time. */
 HOOKE_INLINE void fill_all(const struct hk_strided_pass *pass, const int shape, const struct place *at,
                            vec *shortest, vec sum[3]) {
   const struct hk_strided_view *batch = pass->batch, *end = batch + pass->count;

@@ -1,5 +1,5 @@
-/* Blocks of springs go through a buffer, like their forces: numbers first, which vectorises whatever the ends
- * are, sums in spring order afterwards. Compiled once per instruction set, with HOOKE_ISA naming it. */
+/* Blocks of springs go through a buffer, like their forces: numbers first, which vectorises for any ends,
+ * sums in spring order afterwards. Compiled once per instruction set, with HOOKE_ISA naming it. */
 #include "kernel/tangent_loops.h"
 
 #include "kernel/instruction_set.h"
@@ -11,7 +11,7 @@ enum { BLOCK = HOOKE_TANGENT_BLOCK };
 
 /* ---- filling ---- */
 
-/* Where the material of a run is: shared, in arrays of its own, or anywhere. */
+/* Location of the material of a run: shared, in arrays of its own, or anywhere. */
 enum { SHARED, OWN, ANYWHERE };
 
 HOOKE_INLINE struct hk_material material_of(const struct hk_run *run, ptrdiff_t k, const int where) {
@@ -130,7 +130,7 @@ HOOKE_INLINE void fill_block(double *restrict bx, double *restrict by, double *r
   }
 }
 
-/* All first ends come before the second ones; particles that are both are gone over once. */
+/* All first ends precede the second ones; particles that are both are visited once. */
 HOOKE_INLINE void add_to_ends(double *out, const double *restrict b, ptrdiff_t i, ptrdiff_t j,
                               ptrdiff_t count) {
   const ptrdiff_t offset = j - i, apart = offset > 0 && offset < count ? offset : count;
@@ -211,7 +211,7 @@ HOOKE_INLINE void add_block(double *restrict out, const double *restrict b, ptrd
     out[k] += b[k];
 }
 
-/* Every particle takes its springs in ascending number. */
+/* Every particle sums its springs in ascending number. */
 static void tangent_diagonal(const struct hk_run *run, const struct hk_tangent *t, double *const block[6]) {
   double own[6][BLOCK];
   const int axial = t->b == NULL;

@@ -15,26 +15,25 @@ struct hk_tangent {
   double *u[3], *e[3], *b;
 };
 
-/* The loops are compiled once for each instruction set; these functions take the best that the machine
- * has. */
+/* The loops are compiled once for each instruction set; these functions use the best one of the machine. */
 
 /* At the positions and velocities of `fields`. */
 void hk_tangent_fill(const struct hk_run *run, const struct hk_fields *fields, double alpha, double beta,
                      const struct hk_tangent *tangent);
 
-/* Of a run of constant offset so many springs are added to their first ends, then to their second ends,
- * before the next ones are; of others one. */
+/* Springs of a run of constant offset are added in groups of this size, first ends and then second ends;
+ * those of other runs one by one. */
 enum { HOOKE_TANGENT_BLOCK = 256 };
 
 /* out += the blocks times x; x, y and z apart. */
 void hk_tangent_product(const struct hk_run *run, const struct hk_tangent *tangent, const double *const x[3],
                         double *const out[3]);
 
-/* Adds a symmetric part of B that is not negative, (e.u + b) u u^T + max(0, b) (I - u u^T), to the diagonal
- * block of either end: xx, yy, zz, xy, xz, yz. */
+/* Adds a symmetric, non-negative part of B, (e.u + b) u u^T + max(0, b) (I - u u^T), to the diagonal block of
+ * either end: xx, yy, zz, xy, xz, yz. */
 void hk_tangent_diagonal(const struct hk_run *run, const struct hk_tangent *tangent, double *const block[6]);
 
-/* out += what springs damp of velocities x: gamma u (u.x) of those that are not slack. */
+/* out += damping of springs for velocities x: gamma u (u.x) of those that are not slack. */
 void hk_tangent_damping(const struct hk_run *run, const struct hk_tangent *tangent, const double *const x[3],
                         double *const out[3]);
 

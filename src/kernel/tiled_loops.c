@@ -1,5 +1,5 @@
-/* Compiled once per instruction set, with HOOKE_ISA naming it. Ends are looked up as rows and turned into
- * vectors of one component each; strengths are computed on those, and forces written some groups behind. */
+/* Compiled once per instruction set, with HOOKE_ISA naming it. Ends are looked up as rows and transposed to
+ * vectors of one component each; strengths are computed from those, and forces written some groups behind. */
 #include "kernel/tiled_loops.h"
 
 #include "kernel/instruction_set.h"
@@ -13,16 +13,16 @@ typedef hk_vector vec;
 typedef double quad __attribute__((vector_size(32), may_alias));
 typedef double couple __attribute__((vector_size(16), may_alias));
 
-/* Springs that are done at once. */
+/* Springs processed at once. */
 enum { GROUP = HOOKE_WIDTH };
 
-/* Springs on their way: differences of the rows of their ends, what is known of them so far. */
+/* Springs in the pipeline: differences of the rows of their ends, and intermediate results. */
 struct batch {
   _Alignas(64) double s[HOOKE_TILED_BATCH];
   hk_vector_mask lost[GROUP / HOOKE_WIDTH];
 };
 
-/* Where springs are looked up, and what they do to their ends. */
+/* Indices of springs, and their forces on their ends. */
 struct ends {
   const uint8_t *lower;
   const void *upper;
@@ -47,7 +47,7 @@ HOOKE_INLINE const double *upper_row(const struct ends *ends, ptrdiff_t k, const
   return ends->up + HOOKE_TILED_ROW * index_at(ends->upper, k, wide);
 }
 
-/* ---- differences: d of each spring is left where the force on its upper end goes ---- */
+/* ---- differences: d of each spring is stored where the force on its upper end goes ---- */
 
 typedef double loose_quad __attribute__((vector_size(32), aligned(8), may_alias));
 
@@ -86,8 +86,8 @@ HOOKE_INLINE __m512d subtract_rows(const struct ends *ends, ptrdiff_t k, const i
 /* Couples of numbers: two of a, two of b. */
 #define COUPLES(a, b, a0, a1, b0, b1) _mm512_shuffle_f64x2(a, b, (a0) | (a1) << 2 | (b0) << 4 | (b1) << 6)
 
-/* Rows are x y z vz vx vy: of each two, those in even places lie couple by couple in `even`, the others in
- * `odd`. */
+/* Rows are x y z vz vx vy: from each pair of rows, numbers in even places lie couple by couple in `even`, the
+ * others in `odd`. */
 HOOKE_INLINE void subtract_group(const struct ends *ends, ptrdiff_t k, struct group *group, const int damped,
                                  const int wide) {
 #define TWO(n)                                                                                               \
@@ -196,7 +196,7 @@ HOOKE_INLINE void find_strengths(const struct hk_tiled_springs *springs, ptrdiff
   }
 }
 
-/* Of the first of a group alone. */
+/* For the first spring of a group only. */
 HOOKE_INLINE int64_t find_strength(const struct hk_tiled_springs *springs, ptrdiff_t k,
                                    const struct group *group, struct batch *batch, const int damped,
                                    const int pull, const int material) {
@@ -223,8 +223,8 @@ HOOKE_INLINE void write_forces(const struct ends *ends, ptrdiff_t from, ptrdiff_
   }
 }
 
-/* Forces are written so many springs after their strengths were begun, or groups would wait for roots and
- * quotients. */
+/* Forces are written this many springs after their strengths were begun, since groups would otherwise wait
+ * for roots and quotients. */
 enum { BEHIND = 3 * GROUP };
 
 HOOKE_INLINE int64_t fill(const struct hk_tiled_springs *springs, ptrdiff_t count, const double *low,
@@ -306,7 +306,7 @@ static void row_of(ptrdiff_t p, const double *const q[3], const double *const v[
   row[5] = v[1][p];
 }
 
-/* Four rows from four numbers of each component; zeros for z and w where they are NULL. */
+/* Four rows from four numbers of each component; zeros for z and w if they are NULL. */
 HOOKE_INLINE void turn_four(const double *x, const double *y, const double *z, const double *w, double *row) {
   const quad four_x = *(const loose_quad *)x, four_y = *(const loose_quad *)y;
   quad four_z = {0.0, 0.0, 0.0, 0.0}, four_w = {0.0, 0.0, 0.0, 0.0};

@@ -1,5 +1,5 @@
-/* Compiled once per instruction set, with HOOKE_ISA naming it. Three numbers of a block are taken with one
- * more, which goes nowhere. */
+/* Compiled once per instruction set, with HOOKE_ISA naming it. Three numbers of a block are loaded with one
+ * more, which is not used. */
 #include "kernel/triangle_loops.h"
 
 #include "kernel/instruction_set.h"
@@ -41,7 +41,7 @@ INLINE double total(const struct sums *a, const struct sums *b, int c) {
   return (sum[0] + sum[1]) + sum[2];
 }
 
-/* Down in memory all the way, which machines foresee. */
+/* Descending in memory all the way, which processors prefetch. */
 static void triangle_backward(const struct hk_triangle *l, double *x) {
   for (int64_t k = l->count - 1; k >= 0; k--) {
     struct sums one = {{{0.0}}}, other = {{{0.0}}};

@@ -1,6 +1,6 @@
-/* Vectors of `size` numbers. Sums go in interleaved parts that are added in one order, so that their bits
- * depend on nothing but the numbers. The loops are compiled once for each instruction set; these functions
- * take the best that the machine has. */
+/* Vectors of `size` numbers. Sums go in interleaved parts that are added in a fixed order, so that their bits
+ * depend on the numbers alone. The loops are compiled once for each instruction set; these functions use the
+ * best one of the machine. */
 #ifndef HOOKE_KERNEL_VECTOR_LOOPS_H
 #define HOOKE_KERNEL_VECTOR_LOOPS_H
 
@@ -12,10 +12,10 @@ double hk_dot(int64_t size, const double *x, const double *y);
 void hk_add_multiple(int64_t size, double a, const double *x, double *y);
 void hk_scale_and_add(int64_t size, double b, const double *x, double *y);
 
-/* x += a p and r -= a ap; returns r.r as hk_dot() has it. */
+/* x += a p and r -= a ap; returns r.r, the same as hk_dot(). */
 double hk_descend(int64_t size, double a, const double *p, const double *ap, double *x, double *r);
 
-/* The same sum over n particles, x, y and z apart, each weighed by one of n numbers. */
+/* The same sum over n particles, x, y and z apart, each weighted by one of n numbers. */
 double hk_dot_weighed(int64_t n, const double *weight, const double *x, const double *y);
 
 /* Half a turn each of Lanczos's recurrence in the norm of masses, on vectors as above:
@@ -34,12 +34,12 @@ void hk_apply_factor(int64_t n, const double *w, double *x);
 void hk_apply_diagonal(int64_t n, const double *d, const double *x, double *y);
 void hk_begin_product(int64_t n, const double *w, const double *d, const double *x, double *y, double *out);
 
-/* n rows of x y z from three vectors; and the bits, of all rows together, in which rows and vectors differ. */
+/* N rows of x y z from three vectors; and the number of differing bits between rows and vectors. */
 void hk_join_rows(int64_t n, const double *x, const double *y, const double *z, double *rows);
 uint64_t hk_differing_bits(int64_t n, const double *x, const double *y, const double *z, const double *rows);
 
-/* Loops for libraries that call them one by one; vectors may be the same, and else do not overlap.
- * z = a x + b y;  z = a x;  z = x y;  z = x/y;  z = 1/x;  z = |x|;  z = a + x */
+/* Loops for libraries that call them one by one; vectors may be identical, and otherwise do not overlap. z =
+ * a x + b y;  z = a x;  z = x y;  z = x/y;  z = 1/x;  z = |x|;  z = a + x */
 void hk_linear_sum(int64_t size, double a, const double *x, double b, const double *y, double *z);
 void hk_scale(int64_t size, double a, const double *x, double *z);
 void hk_multiply(int64_t size, const double *x, const double *y, double *z);

@@ -1,5 +1,5 @@
 /* The vectors of an instruction set, for loops that are written on whole vectors. HOOKE_WIDTH numbers each;
- * what the compiler does not have as an operator on vectors is a function here. */
+ * operations without a compiler operator on vectors are functions here. */
 #ifndef HOOKE_KERNEL_VECTOR_UNIT_H
 #define HOOKE_KERNEL_VECTOR_UNIT_H
 
@@ -35,8 +35,8 @@ HOOKE_INLINE hk_vector hk_all(double x) {
   return x - (hk_vector){0}; /* x - 0 is x, the sign of a zero included */
 }
 
-/* ---- square root, the lesser of two (b if one is not a number), x where a bit is set and 0 elsewhere, 1 if
- * some number is 0 ---- */
+/* ---- square root, the lesser of two (b if one is NaN), x where a bit is set and 0 elsewhere, 1 if some
+ * number is 0 ---- */
 
 #if HOOKE_WIDTH == 8
 

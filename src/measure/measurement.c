@@ -1,4 +1,4 @@
-/* Measurements: making them, running them, reading their tables. */
+/* Measurements: creating, running, reading tables. */
 #include "measure/measurement.h"
 
 #include "core/handle.h"
@@ -11,7 +11,7 @@
 #include <math.h>
 #include <string.h>
 
-/* ---- making ---- */
+/* ---- creating ---- */
 
 static int32_t check(const struct hk_measurement_kind *kind, const hooke_system *system,
                      const hooke_options *run, const hooke_options *options) {

@@ -1,5 +1,5 @@
-/* What all measurements share: options, progress, a run, and tables of results. A kind adds what it measures,
- * in an object of its own. */
+/* The common part of all measurements: options, progress, a run, and tables of results. Each kind adds an
+ * object of its own. */
 #ifndef HOOKE_MEASURE_MEASUREMENT_H
 #define HOOKE_MEASURE_MEASUREMENT_H
 
@@ -12,13 +12,12 @@ enum hk_label { HOOKE_LABEL_TITLE, HOOKE_LABEL_COMMAND, HOOKE_LABEL_SCENE, HOOKE
 struct hk_measurement_kind {
   const char *name;
   const struct hk_option_table *options;
-  const char
-      *made_by;      /* the function that makes it, "hooke_why_create()"; NULL: hooke_measurement_create() */
-  int32_t needs_run; /* 1: the options of the run have to be given */
-  int32_t takes_state; /* 1: it looks at a state, the initial one where none is given, and may do so again */
+  const char *made_by; /* function that creates it, "hooke_why_create()"; NULL: hooke_measurement_create() */
+  int32_t needs_run;   /* 1: options of a run are required */
+  int32_t takes_state; /* 1: it is taken at a state, by default the initial one, and may be repeated */
   const struct hk_table *const *tables;
   int32_t table_count;
-  /* Makes measurement->object; destroy() follows in any case. */
+  /* Creates measurement->object; destroy() follows in any case. */
   int32_t (*create)(hooke_measurement *measurement);
   int32_t (*run)(hooke_measurement *measurement, hooke_state *state);
   void (*destroy)(void *object); /* NULL is allowed */
@@ -27,33 +26,33 @@ struct hk_measurement_kind {
 struct hooke_measurement {
   const struct hk_measurement_kind *kind;
   const hooke_system *system;
-  hooke_options *run, *options; /* copies; run is NULL where it was not given */
+  hooke_options *run, *options; /* copies; run is NULL if it was not given */
   hooke_progress *progress;
   void *progress_ctx;
-  int32_t has_run, outcome;  /* what hooke_measurement_run() returned last, unless it failed */
+  int32_t has_run, outcome;  /* last return value of hooke_measurement_run(), unless it failed */
   char *label[HOOKE_LABELS]; /* texts that files show; NULL: none */
   void *object;
 };
 
-/* As hooke_measurement_create(), of a kind. `object` is what kind->create() finds in measurement->object, NULL
- * unless the kind is made from more than a system: it is taken over, and destroyed if this fails. `system` may
- * then be NULL. */
+/* Like hooke_measurement_create(), for a kind. kind->create() finds `object` in measurement->object: NULL
+ * unless the kind is made from more than a system. The measurement owns it, and it is destroyed if this
+ * fails. `system` may then be NULL. */
 int32_t hk_measurement_create(const struct hk_measurement_kind *kind, void *object,
                               const hooke_system *system, const hooke_options *run,
                               const hooke_options *options, hooke_measurement **measurement);
 
-/* HOOKE_BAD_CALL, with the name of the function that was called, for a measurement of another kind. */
+/* HOOKE_BAD_CALL, with the name of the calling function, for a measurement of another kind. */
 int32_t hk_measurement_require(const hooke_measurement *measurement, const struct hk_measurement_kind *kind,
                                const char *function);
 
-/* For a kind that is run once, from the initial state: HOOKE_BAD_CALL where it has been run, HOOKE_BAD_VALUE for
- * a state. */
+/* For a kind that runs once, from the initial state: HOOKE_BAD_CALL if it has been run, HOOKE_BAD_VALUE for a
+ * state. */
 int32_t hk_measurement_require_fresh(const hooke_measurement *measurement, const hooke_state *state);
 
-/* Tells the progress callback. HOOKE_STOPPED, with its message, if that asks to stop. */
+/* Calls the progress callback. HOOKE_STOPPED, with its message, if that asks to stop. */
 int32_t hk_measurement_tell(const hooke_measurement *measurement, double done, const char *what);
 
-/* The table of that name; NULL if the kind has none. */
+/* Table of that name; NULL if the kind has none. */
 const struct hk_table *hk_measurement_table(const struct hk_measurement_kind *kind, const char *name);
 
 #endif

@@ -1,4 +1,4 @@
-/* What this build is. CMake passes the versions of the other libraries, "" for those left out. */
+/* Facts about this build. CMake passes the versions of the other libraries, "" for absent ones. */
 #include "hooke/base.h"
 
 #include "kernel/spring_loops.h"
@@ -21,7 +21,7 @@ static const char *licence(void) {
   return "MIT";
 }
 
-/* The kind of processor that it was built for. */
+/* Processor architecture of the build. */
 static const char *machine(void) {
 #if defined(__x86_64__)
   return "x86-64";

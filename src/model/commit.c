@@ -1,5 +1,5 @@
-/* Commit: checks the system as a whole, drops springs that do nothing, sorts the others into runs, chooses
- * the forces that are there, frees what only building needed. */
+/* Commit: checks the system as a whole, drops springs that do nothing, sorts the others into runs, selects
+ * the present forces, frees memory that only building needed. */
 #include "model/force/force.h"
 
 #include "core/memory.h"
@@ -44,8 +44,8 @@ static int is_at_rest(const hooke_system *system) {
   return rest;
 }
 
-/* Gives back room for particles that never came, and velocities that are all zero; as far as that takes no
- * memory that is not there. */
+/* Releases capacity for particles that were not added, and velocities that are all zero, as far as this needs
+ * no further memory. */
 static void trim_particles(hooke_system *system) {
   const int64_t n = system->particle_count;
   if (is_at_rest(system)) {
@@ -66,7 +66,7 @@ static int32_t fill_particles(hooke_system *system) {
   int64_t constrained = 0;
   for (int64_t p = 0; p < n; p++)
     constrained += system->constrained[p] != 0;
-  system->inverse_mass = hk_new(n + HOOKE_STRIDED_UNIT, sizeof(double)); /* loops go by whole units */
+  system->inverse_mass = hk_new(n + HOOKE_STRIDED_UNIT, sizeof(double)); /* loops go by whole blocks */
   system->constrained_particle = hk_new(constrained, sizeof(int32_t));
   if (system->inverse_mass == NULL || system->constrained_particle == NULL) return HOOKE_NO_MEMORY;
   for (int64_t p = 0; p < n; p++) {
@@ -92,12 +92,12 @@ void hk_system_mark_touched(const hooke_system *system, uint8_t *touched) {
   }
 }
 
-/* A tiled batch numbers particles its own way; it goes over all of them. */
+/* A tiled batch renumbers particles and iterates over all of them. */
 static int32_t is_stepped(const hooke_system *system, const uint8_t *idle, int64_t from, int64_t end) {
   return system->tiled.particles > 0 || memchr(idle + from, 0, (size_t)(end - from)) != NULL;
 }
 
-/* Spans, and the pinned particles in them, which are counted before there is a list. */
+/* Spans, and the pinned particles in them, counted before the list exists. */
 static void add_tile(hooke_system *system, int64_t from, int64_t end) {
   struct hk_span *last = &system->span[system->span_count - 1];
   if (system->span_count > 0 && last->from + last->count == from)
@@ -120,8 +120,8 @@ static void add_tiles(hooke_system *system, const uint8_t *idle) {
   }
 }
 
-/* What no step has to go over: tiles of pinned particles that nothing touches. A callback force may look at
- * any. */
+/* Finds the particles that no step needs to visit: tiles of pinned particles that nothing acts on. A callback
+ * force may read any. */
 static int32_t find_stepped(hooke_system *system) {
   const int64_t n = system->particle_count;
   uint8_t *idle = hk_new(n, sizeof *idle);
@@ -155,7 +155,7 @@ static int32_t choose_forces(hooke_system *system) {
   return HOOKE_OK;
 }
 
-/* Back to an open system after a failure half-way. */
+/* Reopens the system after a failure midway. */
 static void undo(hooke_system *system) {
   for (int64_t k = 0; k < system->group_count; k++)
     hk_group_take_back(&system->group[k]);

@@ -1,5 +1,4 @@
-/* What parts worked out from their options: numbers for people, in a list that grows while a system is
- * built. */
+/* Numbers that parts derive from their options, for display, in a list that grows while a system is built. */
 #ifndef HOOKE_MODEL_DERIVED_H
 #define HOOKE_MODEL_DERIVED_H
 
@@ -7,7 +6,7 @@
 
 struct hk_derived {
   char *part;
-  const char *family, *name, *unit; /* texts that live as long as the library; no family: NULL */
+  const char *family, *name, *unit; /* static texts; no family: NULL */
   double value;
 };
 

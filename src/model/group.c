@@ -118,7 +118,7 @@ void hk_system_remove_groups(hooke_system *system, int64_t part) {
   system->group_count = kept;
 }
 
-/* The first group of the forces from `number` on. */
+/* First group of the forces from `number` on. */
 static int64_t first_from(const hooke_system *system, int32_t number) {
   int64_t low = 0, high = system->group_count;
   while (low < high) {

@@ -1,6 +1,5 @@
-/* Groups of what acts between particles: springs, triples of bending, tetrahedra of altitude springs. A
- * system has one table of them, in the order of the table of forces, and of each force those of parts after
- * the others. */
+/* Groups of members of a force: springs, triples of bending, tetrahedra of altitude springs. A system has one
+ * table of them, in the order of the table of forces; within a force, groups of parts follow the others. */
 #ifndef HOOKE_MODEL_GROUP_H
 #define HOOKE_MODEL_GROUP_H
 
@@ -11,7 +10,7 @@
 struct hk_force_row;
 struct hooke_system;
 
-/* Numbers of one member while a system is built. Bending has a coefficient, which is its kappa. */
+/* Numbers of a member while a system is built. Bending has a coefficient, which is its kappa. */
 enum { HOOKE_KAPPA, HOOKE_GAMMA, HOOKE_REST_LENGTH, HOOKE_GROUP_NUMBERS };
 
 struct hk_group {
@@ -19,42 +18,43 @@ struct hk_group {
   char *name;
   int32_t from_part; /* 1: added by a part */
   int32_t pull_only;
-  int64_t count;          /* from commit on without members that have neither stiffness nor damping, */
+  int64_t count;          /* from commit on excludes members that have neither stiffness nor damping, */
   int64_t dropped;        /* which are counted here */
-  int64_t part;           /* of groups of parts: which */
-  hooke_options *options; /* as given, where they hold for all springs alike; else NULL */
-  /* until commit, `count` each; NULL where the force has no such number */
+  int64_t part;           /* for groups of parts: number of the part */
+  hooke_options *options; /* as given, if they hold for all springs; else NULL */
+  /* until commit, `count` each; NULL if the force has no such number */
   int32_t *particle[3];
   double *number[HOOKE_GROUP_NUMBERS];
   void *own; /* of `own_size` bytes */
   size_t own_size;
 };
 
-/* Allocates the columns that are named by their counts, and copies the name. HOOKE_NO_MEMORY. */
+/* Allocates the columns given by their counts, and copies the name. HOOKE_NO_MEMORY. */
 int32_t hk_group_allocate(struct hk_group *group, const char *name, int32_t particles, int32_t numbers,
                           size_t own_size);
 void hk_group_release(struct hk_group *group);
 /* Releases the columns alone. */
 void hk_group_release_columns(struct hk_group *group);
 
-/* Swaps members that have neither stiffness nor damping behind the others, which keep their order, and takes
- * them out of the count; and back into it. */
+/* Moves members that have neither stiffness nor damping behind the others, in stable order, and excludes them
+ * from the count; and the reverse. */
 void hk_group_drop(struct hk_group *group);
 void hk_group_take_back(struct hk_group *group);
 
-/* Takes the group over into the table, or releases it: HOOKE_NO_MEMORY. */
+/* Takes ownership of the group and adds it to the table, or releases it: HOOKE_NO_MEMORY. */
 int32_t hk_system_add_group(struct hooke_system *system, struct hk_group *group);
 /* Removes the groups of parts from number `part` on. */
 void hk_system_remove_groups(struct hooke_system *system, int64_t part);
 
-/* How many groups a force has, its group `k` (NULL if there is none), and the members of all of them. */
+/* Number of groups of a force, its group `k` (NULL if there is none), and the number of members of all of
+ * them. */
 int64_t hk_system_groups_of(const struct hooke_system *system, const struct hk_force_row *force);
 const struct hk_group *hk_system_group(const struct hooke_system *system, const struct hk_force_row *force,
                                        int64_t k);
 int64_t hk_system_members_of(const struct hooke_system *system, const struct hk_force_row *force);
-/* Of all forces. */
+/* Number of groups of all forces. */
 int64_t hk_system_member_count(const struct hooke_system *system);
-/* The group that was added last by a part. */
+/* The group that a part added last. */
 const struct hk_group *hk_system_last_group(const struct hooke_system *system,
                                             const struct hk_force_row *force);
 /* Number of the first group of a force in the table, or where it would be. */

@@ -1,4 +1,4 @@
-/* Questions to the groups of each force, and to their members. */
+/* Queries of the groups of each force, and of their members. */
 #include "core/status.h"
 #include "model/force/force.h"
 

@@ -1,4 +1,4 @@
-/* Whether a system may grow: its numbers have 32 bits, and memory ends. Asked before anything is
+/* Limits on the size of a system: its numbers have 32 bits, and memory is finite. Checked before anything is
  * allocated. */
 #include "model/force/force.h"
 
@@ -9,11 +9,11 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Bytes at most while a scene is built, committed and given to an explicit method, with those of the
- * members of groups in the table of forces; tests hold them against what is used. */
+/* Maximum bytes a particle, a group and a part while a scene is built, committed and given to an explicit
+ * method; those of members of groups are in the table of forces. Tests compare them with the memory used. */
 static const double PER_PARTICLE = 280.0, PER_GROUP = 6000.0, PER_PART = 14000.0;
 
-/* How many members a force has, with those that are to come. */
+/* Number of members of a force, including those to come. */
 static double members_of(const hooke_system *system, const struct hk_more *more, int32_t force) {
   double count = (double)system->member_total[force];
   for (size_t k = 0; k < sizeof more->of / sizeof more->of[0]; k++)

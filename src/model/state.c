@@ -28,7 +28,7 @@ int32_t hk_state_check(const hooke_state *state, const hooke_system *system) {
                  (long long)state->size, (long long)size);
 }
 
-/* Puts driven particles where their motion has them at t = 0. */
+/* Moves driven particles to their prescribed positions at t = 0. */
 static int32_t place_driven(const hooke_system *system, hooke_state *state) {
   for (int64_t g = 0; g < system->drive_count; g++) {
     const struct hk_drive_group *drive = &system->drive[g];
@@ -54,7 +54,7 @@ int32_t hooke_state_create(const hooke_system *system, hooke_state **out) {
   if (system->particle_count > 0) {
     const size_t bytes = (size_t)state->size * sizeof(double);
     memcpy(state->q, system->position, bytes);
-    if (system->velocity) memcpy(state->v, system->velocity, bytes); /* else zeros, as it was made */
+    if (system->velocity) memcpy(state->v, system->velocity, bytes); /* otherwise zeros, as allocated */
   }
   status = place_driven(system, state);
   if (status == HOOKE_OK)

@@ -10,10 +10,10 @@ struct hooke_state {
   double *t, *q, *v; /* one block; v is NULL for a first-order problem */
 };
 
-/* A state of zeros with `size` numbers in q, and as many in v if it has one. HOOKE_NO_MEMORY. */
+/* Creates a state of zeros with `size` numbers in q, and as many in v if `has_velocity`. HOOKE_NO_MEMORY. */
 int32_t hk_state_create_sized(int64_t size, int32_t has_v, hooke_state **state);
 
-/* HOOKE_BAD_VALUE unless the state is one of a system like this. */
+/* HOOKE_BAD_VALUE unless the state has the size of this system. */
 int32_t hk_state_check(const hooke_state *state, const hooke_system *system);
 
 #endif

@@ -1,4 +1,4 @@
-/* Building a system: particles, pins, gravity, drag and the caller's own force. */
+/* Building a system: particles, pins, gravity, drag and the callback force. */
 #include "model/system.h"
 
 #include "core/handle.h"
@@ -53,7 +53,7 @@ int32_t hk_system_require_committed(const hooke_system *system) {
   return hk_fail(HOOKE_BAD_CALL, NULL, "the system is not committed yet; call hooke_system_commit() first");
 }
 
-/* Capacity for `count` more particles in every particle array. */
+/* Ensures capacity for `count` more particles in every particle array. */
 static int32_t reserve_particles(hooke_system *system, int64_t count) {
   int64_t used = system->particle_count, needed = used + count;
   if (needed <= system->particle_capacity) return HOOKE_OK;
@@ -82,7 +82,7 @@ static int32_t check_mass(int64_t count, int64_t mass_count, const double *mass)
                    (long long)mass_count, (long long)count);
   }
   for (int64_t k = 0; k < mass_count; k++) {
-    /* the inverse has to be a finite number too */
+    /* the inverse has to be finite, too */
     if (mass[k] > 0.0 && isfinite(mass[k]) && isfinite(1.0 / mass[k])) continue;
     hk_fail(HOOKE_BAD_VALUE, NULL,
             "%g is not allowed; a mass is a number > 0 (pin a particle to hold it still)", mass[k]);
@@ -162,7 +162,7 @@ int32_t hooke_system_set_gravity(hooke_system *system, const double *gravity) {
     hk_fail(HOOKE_BAD_VALUE, NULL, "%g is not allowed; a finite number is", gravity[k]);
     return hk_fail_within(HOOKE_BAD_VALUE, "gravity[%d]", k);
   }
-  /* no gravity is +0, whatever the sign of the zeros */
+  /* zero gravity is stored as +0, whatever the signs of the zeros */
   system->has_gravity = gravity[0] != 0.0 || gravity[1] != 0.0 || gravity[2] != 0.0;
   for (int k = 0; k < 3; k++)
     system->gravity[k] = system->has_gravity ? gravity[k] : 0.0;

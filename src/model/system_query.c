@@ -1,4 +1,4 @@
-/* Questions to a system. */
+/* Queries of a system. */
 #include "model/force/force.h"
 #include "model/sum/spring_batch.h"
 

@@ -94,7 +94,7 @@ static int32_t add_springs(struct hk_part *part, const struct cell *cell) {
   return status;
 }
 
-/* A line is a beam as wide as the distance of its neighbours, at right angles to it. */
+/* A line is a beam of the width between its neighbours, perpendicular to it. */
 static int32_t add_bending(struct hk_part *part, const struct cell *cell) {
   const double stiffness = hooke_options_number(part->options, "bending"), u = cell->u, v = cell->v;
   const struct hk_part_beams beams[] = {
@@ -104,7 +104,7 @@ static int32_t add_bending(struct hk_part *part, const struct cell *cell) {
   return hk_part_add_bending(part, cell->nu, 2, beams);
 }
 
-/* In numbers that cannot overflow. */
+/* In doubles, which cannot overflow. */
 static struct hk_more size_of(const struct hk_part *part, double nu, double nv) {
   const double along = (nu - 1.0) * nv + nu * (nv - 1.0), across = 2.0 * (nu - 1.0) * (nv - 1.0);
   const double two_apart = fmax(0.0, nu - 2.0) * nv + nu * fmax(0.0, nv - 2.0);

@@ -42,7 +42,7 @@ static const struct hk_option_row rows[] = {
 
 static const struct hk_option_table table = {"lattice", HOOKE_OPTION_ROWS(rows)};
 
-/* Directions of springs in their order, in steps along x, y and z; the second end has the higher number. */
+/* Directions of springs in order, in steps along x, y and z; the second end has the higher number. */
 enum { AXES = 3, DIAGONALS = 10 };
 static const int32_t axis[AXES][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
 static const int32_t diagonal[DIAGONALS][3] = {{1, 1, 0},  {-1, 1, 0}, {1, 0, 1},  {-1, 0, 1}, {0, 1, 1},
@@ -74,7 +74,7 @@ static double springs_along(const struct lattice *lattice, const int32_t *step, 
   return springs;
 }
 
-/* In numbers that cannot overflow. */
+/* In doubles, which cannot overflow. */
 static struct hk_more size_of(const struct hk_part *part, const struct lattice *lattice) {
   struct hk_more more = {.particles = 1.0, .of = {{.force = &hk_force_springs}}};
   for (int a = 0; a < 3; a++) {
@@ -114,8 +114,7 @@ static double cell_volume(const struct lattice *lattice) {
   return fabs(volume);
 }
 
-/* Half as much for each pair of faces that a particle is on: 1/2 on a face, 1/4 on an edge, 1/8 at a
- * corner. */
+/* Halved for each pair of faces that the particle is on: 1/2 on a face, 1/4 on an edge, 1/8 at a corner. */
 static void share_mass(const struct lattice *lattice, double inner, double *mass) {
   const int64_t *size = lattice->size;
   for (int64_t z = 0; z < size[2]; z++) {
@@ -179,13 +178,13 @@ static double rest_length(const struct lattice *lattice, const int32_t *step, do
   return apart * hk_part_length(vector);
 }
 
-/* Springs of one direction, a strip for every layer. */
+/* Springs of one direction, one strip a layer. */
 static void fill_strips(const struct lattice *lattice, const int32_t *step, int32_t apart, int32_t direction,
                         struct hk_part_strip *strip) {
   const int64_t nx = lattice->size[0], ny = lattice->size[1];
   int64_t low = 0, stride[3] = {1, nx, nx * ny}, jump = 0;
   for (int a = 0; a < 3; a++) {
-    if (step[a] < 0) low += stride[a]; /* begins at the other side of the cell */
+    if (step[a] < 0) low += stride[a]; /* starts at the other side of the cell */
     jump += (int64_t)step[a] * apart * stride[a];
   }
   for (int64_t z = 0; z < lattice->size[2] - (step[2] ? apart : 0); z++) {

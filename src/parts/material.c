@@ -31,7 +31,7 @@ static int is_edge(int64_t k, int64_t count) {
   return k == 0 || k == count - 1;
 }
 
-/* The kinds of particles that there are, by how many edges they are on. */
+/* The kinds of particles, by the number of edges that they are on. */
 static int32_t derive_masses(const struct hk_part *part, int64_t rows, int64_t columns) {
   const int64_t within = columns - 2, down = rows - 2;
   const int rope = rows == 1;

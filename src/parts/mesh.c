@@ -131,7 +131,7 @@ static int32_t derive_range(const struct hk_part *part, const char *family, cons
   return status;
 }
 
-/* In place of the areas. */
+/* Replaces the areas by masses. */
 static void find_masses(const struct hk_part *part, const struct hk_surface *surface, double *mass) {
   const int by_density = hooke_options_is_set(part->options, "density");
   const double given = hooke_options_number(part->options, by_density ? "density" : "mass");
@@ -243,7 +243,7 @@ static int64_t named(const struct hk_part *part, const char *word, int64_t k) {
   (void)part;
   (void)word;
   (void)k;
-  return -1; /* it has no words */
+  return -1; /* a mesh has no such words */
 }
 
 const struct hooke_part_kind hk_part_mesh = {

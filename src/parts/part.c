@@ -163,7 +163,7 @@ static int is_given(const struct hk_part *part, const char *family, const char *
   return hooke_options_is_set(part->options, dotted);
 }
 
-/* How many rest lengths (and dampings) say it all: one if they are equal to the bit. */
+/* Number of rest lengths (and dampings) needed: one if all are equal to the bit. */
 static int64_t count_given(const struct hk_part *part, int by_ratio, int64_t count,
                            const double *rest_length) {
   if (by_ratio && part->inner_mass == 0.0) return count; /* the masses differ, too */

@@ -1,4 +1,4 @@
-/* Parts: the table of kinds, and what their builders share. A new kind is one file and one row in part.c. */
+/* Parts: the table of kinds, and helpers of their builders. A new kind is one file and one row in part.c. */
 #ifndef HOOKE_PARTS_PART_H
 #define HOOKE_PARTS_PART_H
 
@@ -13,15 +13,15 @@ struct hk_part {
   const char *name;
   const hooke_options *options;
   int64_t first, count;
-  double inner_mass; /* of a particle that is on no edge [kg], once particles are added; 0: they differ */
+  double inner_mass; /* of a particle on no edge [kg], once particles are added; 0: they differ */
 };
 
 struct hooke_part_kind {
   const struct hk_option_table *table;
   int32_t (*build)(struct hk_part *part);
-  /* The k-th particle (0, 1, ...) that a word of `pinned` stands for; -1 past the last. */
+  /* The k-th particle (0, 1, ...) that a word of `pinned` denotes; -1 past the last. */
   int64_t (*named)(const struct hk_part *part, const char *word, int64_t k);
-  const struct hk_part_grid *grid; /* NULL: its particles are no grid */
+  const struct hk_part_grid *grid; /* NULL: its particles form no grid */
   const char *summary;             /* one line */
 };
 
@@ -31,11 +31,11 @@ extern const struct hooke_part_kind hk_part_lattice;
 extern const struct hooke_part_kind hk_part_mesh;
 extern const struct hooke_part_kind hk_part_strand;
 
-/* The options of kind number `k`, NULL past the last. */
+/* Options of kind number `k`, NULL past the last. */
 const struct hk_option_table *hk_part_table(int64_t k);
 
-/* Rows that kinds have in common: a point [m], the corner where a grid begins [m], the total mass or the
- * density, bending stiffness, constrained particles, a family of springs. */
+/* Rows shared by kinds: a point [m], the corner where a grid begins [m], the total mass or the density,
+ * bending stiffness, constrained particles, a family of springs. */
 #define HOOKE_PART_POINT(key, such_as, text)                                                                 \
   {                                                                                                          \
     .name = (key), .type = HOOKE_OPTION_NUMBERS, .unit = "m", .min_count = 3, .max_count = 3, .required = 1, \
@@ -73,15 +73,14 @@ const struct hk_option_table *hk_part_table(int64_t k);
 extern const struct hk_option_table hk_part_family;
 
 /* Springs of one family and direction between the points of a grid: row by row, spring (r, c) joins r*stride
- * + c + low and r*stride + c + high, low < high. One rest length serves them all, so that it is equal to the
- * bit. */
+ * + c + low and r*stride + c + high, low < high. All have one rest length, equal to the bit. */
 enum hk_part_direction {
   HOOKE_PART_ALONG,
   HOOKE_PART_U,
   HOOKE_PART_V,
   HOOKE_PART_DIAGONAL,
   HOOKE_PART_OTHER_DIAGONAL,
-  HOOKE_PART_LATTICE /* and those after it: the directions of a lattice, in its order */
+  HOOKE_PART_LATTICE /* and the following ones: the directions of a lattice, in order */
 };
 struct hk_part_strip {
   int64_t rows, columns, low, high;
@@ -89,8 +88,8 @@ struct hk_part_strip {
   enum hk_part_direction direction;
 };
 
-/* Lines of a grid as beams, side by side: triple (r, c) joins particles at = r*stride + c, at + step and at +
- * 2 step. Those in the first and the last row (or column) stand for half as much as the others. */
+/* Lines of a grid as parallel beams: triple (r, c) joins particles at = r*stride + c, at + step and at + 2
+ * step. Those in the first and the last row (or column) represent half the width of the others. */
 enum hk_part_beam_order { HOOKE_BEAMS_ALONE, HOOKE_BEAMS_ROWS, HOOKE_BEAMS_COLUMNS };
 struct hk_part_beams {
   int64_t rows, columns, step;
@@ -99,16 +98,17 @@ struct hk_part_beams {
   enum hk_part_beam_order side_by_side;
 };
 
-/* Checks that there is room for so much before anything is allocated and gives an array of 3 coordinates for
- * each particle, to be freed. The format says what is too large: "a cloth of 3 x 4 particles". */
+/* Checks that the part fits before anything is allocated, and returns an array of 3 coordinates for each
+ * particle, which the caller frees. The format describes the part in messages: "a cloth of 3 x 4 particles".
+ */
 int32_t hk_part_new_positions(struct hk_part *part, struct hk_more more, double **position,
                               const char *format, ...) __attribute__((format(printf, 4, 5)));
 
 /* `count` if the part has springs of the family, else 0. */
 double hk_part_if_family(const struct hk_part *part, const char *family, double count);
 
-/* Adds rows x columns particles; the option `mass` is their total, or `density` that of the `piece` that an
- * inner one stands for: its length (one row) or area. */
+/* Adds rows x columns particles; the option `mass` is their total, or `density` refers to the `piece` that an
+ * inner one represents: its length (one row) or area. */
 int32_t hk_part_add_particles(struct hk_part *part, int64_t rows, int64_t columns, double piece,
                               const double *position);
 
@@ -124,7 +124,7 @@ int32_t hk_part_add_pairs(struct hk_part *part, const char *family, int64_t coun
 int32_t hk_part_add_bending(struct hk_part *part, int64_t stride, int32_t count,
                             const struct hk_part_beams *beams);
 
-/* "<part>.<family>", the caller's to free; NULL without memory. */
+/* "<part>.<family>", which the caller frees; NULL without memory. */
 char *hk_part_group_name(const struct hk_part *part, const char *family);
 
 double hk_part_length(const double *vector);

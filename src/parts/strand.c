@@ -2,11 +2,11 @@
  * Transactions on Graphics 27(3)). Springs between neighbours (stretch), particles two apart (bend) and three
  * apart (twist), and the altitude springs of the tetrahedra of every four consecutive particles.
  *
- * Those of a straight line would be flat. So a straight strand has an extra particle for every segment, at
- * its middle, `offset` segment lengths off the axis: the extra particles wind about it, a sixth of a turn to
- * the right each. All tetrahedra are then congruent, and their shortest altitude is shorter than the others
- * by far (by a quarter turn two of them would be equal, so that which one acts would depend on rounding). A
- * curl (particles on a helix about the axis) has tetrahedra of its own and needs no extra particles. */
+ * Tetrahedra of a straight line would be flat. So a straight strand has an extra particle for every segment,
+ * at its middle, `offset` segment lengths off the axis: the extra particles wind about it, a sixth of a turn
+ * to the right each. All tetrahedra are then congruent, and their shortest altitude is much shorter than the
+ * others (with a quarter turn two would be equal, and rounding would decide which one acts). A curl
+ * (particles on a helix about the axis) needs no extra particles. */
 #include "parts/part.h"
 
 #include "core/memory.h"
@@ -59,16 +59,16 @@ static const struct hk_option_row rows[] = {
 
 static const struct hk_option_table table = {"strand", HOOKE_OPTION_ROWS(rows)};
 
-/* Straight, or a curl if its radius is above 0. */
+/* A straight strand, or a curl if its radius is above 0. */
 struct strand {
-  double axis[3][3]; /* two unit vectors across, and one along the axis, right-handed */
-  double piece;      /* of the axis, to a segment */
+  double axis[3][3]; /* two transverse unit vectors and one along the axis, right-handed */
+  double piece;      /* of the axis, per segment */
   double offset, radius, turns;
   int64_t segments;
 };
 
-/* The first vector across is, as nearly as can be, the axis of coordinates that the strand goes along
- * least. */
+/* The first transverse vector is as close as possible to the coordinate axis most nearly normal to the
+ * strand. */
 static void find_axes(const double span[3], double length, double axis[3][3]) {
   int least = 0;
   for (int a = 0; a < 3; a++) {
@@ -117,7 +117,7 @@ static int is_curl(const struct strand *strand) {
   return strand->radius > 0.0;
 }
 
-/* Where particle k is across the axis, and how many segments along it. */
+/* Transverse position of particle k, and its number of segments along the axis. */
 static double place(const struct strand *strand, int64_t k, double across[2]) {
   static const double s = 0.86602540378443864676; /* sin 60 degrees */
   static const double sixth[6][2] = {{1, 0}, {0.5, s}, {-0.5, s}, {-1, 0}, {-0.5, -s}, {0.5, -s}};
@@ -133,7 +133,7 @@ static double place(const struct strand *strand, int64_t k, double across[2]) {
   return 0.5 * (double)k;
 }
 
-/* Between particles k and k + apart. */
+/* Distance between particles k and k + apart. */
 static double distance(const struct strand *strand, int64_t k, int64_t apart) {
   const double half = 0.5 * (double)apart * strand->piece;
   if (is_curl(strand)) {
@@ -142,7 +142,7 @@ static double distance(const struct strand *strand, int64_t k, int64_t apart) {
     const double chord = 2.0 * strand->radius * sine, along = 2.0 * half;
     return sqrt(chord * chord + along * along);
   }
-  /* neighbouring extra particles are `offset` apart across the axis, as they are from it */
+  /* neighbouring extra particles are `offset` apart across the axis, the same as their distance from it */
   if (apart == 2 && k % 2 == 0) return half;
   return sqrt(half * half + strand->offset * strand->offset);
 }
@@ -180,7 +180,7 @@ static int is_given(const struct hk_part *part, const char *family, const char *
   return hooke_options_is_set(part->options, dotted);
 }
 
-/* What the first two springs of the bend of a straight strand have come to: no others are different. */
+/* Records the first two springs of the bend of a straight strand; all others equal one of these. */
 static int32_t derive_bend(const struct hk_part *part, int64_t count) {
   static const char *const kappa[] = {"kappa on the axis", "kappa of extra particles"};
   static const char *const gamma[] = {"gamma on the axis", "gamma of extra particles"};
@@ -196,7 +196,7 @@ static int32_t derive_bend(const struct hk_part *part, int64_t count) {
   return status;
 }
 
-/* Of a straight strand, every second one between particles on the axis. */
+/* For a straight strand: every second one joins particles on the axis. */
 static int32_t add_bend(struct hk_part *part, const struct strand *strand) {
   const int64_t count = part->count - 2;
   int64_t *ends = hk_new(2 * count, sizeof *ends);
@@ -231,8 +231,8 @@ static int32_t add_springs(struct hk_part *part, const struct strand *strand) {
 
 /* ---- altitude springs ---- */
 
-/* Four consecutive particles, the first at k, with rest lengths from their places about an axis through the
- * origin, so that those of a strand are the same to the bit wherever it is. */
+/* Four consecutive particles, the first at k. Rest lengths are computed from positions about an axis through
+ * the origin, so that they are the same to the bit wherever the strand is. */
 static int32_t find_rest(const struct hk_part *part, const struct strand *strand, int64_t k, double scale,
                          struct hk_tetrahedron *tetrahedron) {
   double x[4][3];
@@ -243,7 +243,7 @@ static int32_t find_rest(const struct hk_part *part, const struct strand *strand
   return hk_tetrahedron_rest((const double(*)[3])x, scale, tetrahedron);
 }
 
-/* Damping of the shortest altitude on particles of the inner mass, which half of them move on either side. */
+/* Damping ratio of the shortest altitude, with half of the inner mass moving on either side. */
 static int32_t find_damping(const struct hk_part *part, struct hk_tetrahedron *t) {
   t->damping = hooke_options_number(part->options, "altitude.damping");
   if (!is_given(part, "altitude", "damping_ratio")) return HOOKE_OK;
@@ -305,8 +305,8 @@ static int64_t named(const struct hk_part *part, const char *word, int64_t k) {
   return strcmp(word, "start") == 0 ? 0 : part->count - 1;
 }
 
-/* A curl is a line of points of its helix. How far the extra particles of a straight strand are off the axis
- * depends on the resolution, so that no other one is the same strand. */
+/* Changes the resolution of a curl, a line of points of its helix. A straight strand has none: the offset of
+ * its extra particles depends on its resolution, so no other resolution gives the same strand. */
 static int32_t cells(const hooke_options *options, int64_t cells[3]) {
   cells[0] = (int64_t)hooke_options_number(options, "segments");
   return hooke_options_is_set(options, "curl") ? 1 : 0;

@@ -8,7 +8,7 @@
 #include <stdio.h>
 #include <string.h>
 
-static const double FLAT = 1e-12; /* height over the longest edge, from which a triangle has no area */
+static const double FLAT = 1e-12; /* height over the longest edge, below which a triangle counts as flat */
 
 static int32_t found(struct hk_surface_fault *fault, struct hk_surface_fault what) {
   *fault = what;
@@ -51,7 +51,7 @@ static int32_t check_corners(const struct hk_surface *surface, const double *cor
   return HOOKE_OK;
 }
 
-/* The longest edge is taken out, so that small and large triangles are told from flat ones alike. */
+/* The longest edge is factored out, so that flat triangles are recognised at any size. */
 static double area_of(const double *a, const double *b, const double *c) {
   double u[3], v[3], longest = 0.0;
   for (int i = 0; i < 3; i++) {
@@ -99,7 +99,7 @@ static int32_t check_used(const struct hk_surface *surface, struct hk_surface_fa
 
 /* ---- edges ---- */
 
-/* One side of one triangle. */
+/* A side of a triangle. */
 struct side {
   int32_t low, high, across, triangle;
 };
@@ -114,8 +114,7 @@ static void list_sides(const struct hk_surface *surface, struct side *side) {
   }
 }
 
-/* Counting sort, which keeps the order of equals; `start` has room for a number more than there are
- * vertices. */
+/* Stable counting sort; `start` has room for one number more than there are vertices. */
 static void sort_sides(int64_t count, int64_t vertices, int by_low, const struct side *from, struct side *to,
                        int64_t *start) {
   memset(start, 0, (size_t)(vertices + 1) * sizeof *start);
@@ -168,7 +167,7 @@ static int32_t list_edges(struct hk_surface *surface, struct hk_surface_fault *f
   return status;
 }
 
-/* ---- the whole ---- */
+/* ---- surface ---- */
 
 static int32_t fill(const hooke_options *options, struct hk_surface *surface, int32_t *became,
                     struct hk_surface_fault *fault) {

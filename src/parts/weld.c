@@ -5,7 +5,7 @@
 #include <math.h>
 #include <string.h>
 
-/* Kept points by the cube that they are in, whose side is the distance; without a distance, by the point
+/* Kept points, hashed by the cube that contains them, of side `distance`; for distance 0, by the point
  * itself. */
 struct cubes {
   double distance;

@@ -1,7 +1,7 @@
-"""Writes down what callers of this version are compiled against: python tests/abi/freeze.py
+"""Records the headers that callers of this version are compiled against: python tests/abi/freeze.py
 
-Makes tests/abi/baseline/<major.minor>/hooke.h, all public headers as one, without comments. To be run for the release of a
-minor version, and before it where what the file has was changed; after it the file stays as it is.
+Makes tests/abi/baseline/<major.minor>/hooke.h, all public headers as one, without comments. To be run for the release
+of a minor version, and before it where what the file has was changed; after it the file stays as it is.
 """
 
 import re
@@ -12,7 +12,7 @@ INCLUDE = HERE.parents[1] / "include"
 
 
 def one_header(include=INCLUDE, name="hooke.h", seen=None):
-    """The text of a public header with those that it includes in place, each once."""
+    """The text of a public header with its includes expanded, each once."""
     seen = set() if seen is None else seen
     if name in seen:
         return ""

@@ -31,7 +31,7 @@ def changed_numbers(old, new):
 
 
 def library_of(header, folder):
-    """A shared library that has the functions of a header, and nothing in them."""
+    """A shared library with the functions of a header, and empty bodies."""
     folder.mkdir()
     (folder / "hooke.h").write_text(header)
     lines = ['#include "hooke.h"']
@@ -48,7 +48,7 @@ def library_of(header, folder):
 
 
 def differences(old, new, *options):
-    """(removed, changed, added) functions from one library to another, and the words of abidiff."""
+    """(removed, changed, added) functions from one library to another, and the output of abidiff."""
     command = [str(c) for c in ("abidiff", *options, old, new)]
     text = subprocess.run(command, capture_output=True, text=True).stdout
     counts = re.search(r"Functions changes summary: (\d+) Removed, (\d+) Changed.*?, (\d+) Added", text)
@@ -57,7 +57,7 @@ def differences(old, new, *options):
 
 
 def differences_of_headers(old, new, tmp_path):
-    """The same between two headers. Here opaque structs are opaque on both sides, so that nothing has to be taken for
+    """The same between two headers. Opaque structs are opaque on both sides, so that no change is suppressed as
     harmless."""
     return differences(library_of(old, tmp_path / "one"), library_of(new, tmp_path / "other"), "--harmless")
 
@@ -94,7 +94,7 @@ def test_library_has_the_baseline(baseline, tmp_path):
 
 
 def test_baseline_is_up_to_date():
-    """Every function of a version that is released is in its baseline."""
+    """Every function of a released version is in its baseline."""
     header = freeze.one_header()
     if f"## {numbers(header)['HOOKE_VERSION'].strip(chr(34))} (unreleased)" in (ROOT / "CHANGELOG.md").read_text():
         pytest.skip("this version is not released yet")

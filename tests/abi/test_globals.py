@@ -1,5 +1,5 @@
-"""The library has no variables that outlive a call but those named here, and calls nothing that prints, ends the process,
-changes what it has set, or is not made for threads."""
+"""The library has no global variables but those listed here, and calls nothing that prints, ends the process, changes
+its settings, or is not thread-safe."""
 
 import os
 import re
@@ -7,7 +7,7 @@ import subprocess
 
 import pytest
 
-# The message of the thread, and a lock around each library that takes one thread at a time.
+# The message of the thread, and a lock around each library that allows one thread at a time.
 VARIABLES = {"status.c.o": {"last"}, "file_h5.c.o": {"alone", "guards"}, "dominant_modes_arpack.c.o": {"alone"},
              "handle.c.o": {"alive", "mutex"}}  # of builds that check handles
 
@@ -28,7 +28,8 @@ def nm(*arguments):
 
 
 def variables(text):
-    """{object: names} of all that is writable in the output of nm on an archive: data, bss, common, be they of a thread."""
+    """{object: names} of all writable data in the output of nm on an archive: data, bss, common, including
+    thread-local."""
     found, name = {}, None
     for line in text.splitlines():
         if match := re.fullmatch(r"(\S+\.o):", line):
@@ -39,7 +40,7 @@ def variables(text):
 
 
 def sections(archive):
-    """{object: names of constants}: tables of pointers, which the loader fills in before they are made read-only."""
+    """{object: names of constants}: tables of pointers, which the loader relocates before they become read-only."""
     text = subprocess.run(["objdump", "-t", archive], capture_output=True, text=True, check=True).stdout
     found, name = {}, None
     for line in text.splitlines():

@@ -1,4 +1,4 @@
-"""The guard stands for every function of the headers, and the test of it calls each one with each of its handles bad."""
+"""The guard covers every function of the headers, and its test calls each one with each of its handles bad."""
 
 import os
 import re

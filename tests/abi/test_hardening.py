@@ -1,5 +1,5 @@
-"""What builds for release are hardened with is in the files: checked calls and canaries, tables of the loader that are
-read-only before anything runs, a program at an address of its own, and marks where the processor may jump to."""
+"""Release builds are hardened: checked calls and canaries, relocation tables that are read-only before anything runs,
+position-independent programs, and marks for control-flow protection."""
 
 import os
 import platform
@@ -39,7 +39,7 @@ def test_canaries_and_checked_calls(file):
 
 @pytest.mark.skipif(platform.machine() != "x86_64", reason="marks of x86-64")
 def test_all_code_is_marked():
-    """Each object says so; what is linked does only where the C library's own objects do."""
+    """Each object is marked; a linked file is marked only if the C library's own objects are."""
     notes = re.split(r"^File: ", readelf("-n", ARCHIVE), flags=re.MULTILINE)[1:]
     assert len(notes) > 100
     assert [note.partition("\n")[0] for note in notes if not re.search(r"x86 feature: IBT, SHSTK", note)] == []

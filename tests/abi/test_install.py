@@ -46,7 +46,7 @@ def configure(folder, *arguments, expect=0, source=CONSUMER):
 
 @pytest.fixture(scope="module")
 def prefix(tmp_path_factory):
-    """Installed in one place, then moved to another: nothing in it may know where it is."""
+    """Installed in one place, then moved to another: no file may contain the path."""
     first = tmp_path_factory.mktemp("install") / "first"
     run(CMAKE, "--install", BUILD, "--prefix", first)
     return first.rename(first.with_name("second place"))
@@ -71,7 +71,7 @@ def test_program(prefix):
 
 
 def test_report(prefix, tmp_path):
-    """The installed program finds the page of a report in its own share/hooke, wherever that has been moved."""
+    """The installed program finds the page of a report in its own share/hooke, also after a move."""
     pages = {p.name for p in (prefix / "share/hooke").glob("*.*")}
     if "HOOKE_CLI" not in os.environ or not pages:
         pytest.skip("this build writes no reports")
@@ -105,7 +105,7 @@ def test_find_package(prefix, tmp_path):
 
 
 def test_examples(prefix, tmp_path):
-    """Each example says something, and tells by its exit code that it is right."""
+    """Each example prints something, and its exit code says that it is right."""
     configure(tmp_path, f"-DCMAKE_PREFIX_PATH={prefix}", "-DCMAKE_BUILD_TYPE=Release", source=EXAMPLES)
     run(CMAKE, "--build", tmp_path)
     lines = {}
@@ -133,7 +133,7 @@ def test_pkg_config(prefix, tmp_path):
     flags = shlex.split(run("pkg-config", "--cflags", "--libs", "hooke", env=env))
     rpath = f"-Wl,-rpath,{next(prefix.rglob('libhooke.so')).parent}"
     run(CC, CONSUMER / "main.c", *flags, rpath, "-o", tmp_path / "shared_c")
-    # with both libraries in one folder, the static one is asked for by its file name
+    # with both libraries in one folder, the static one is selected by its file name
     flags = shlex.split(run("pkg-config", "--static", "--cflags", "--libs", "hooke", env=env))
     flags = ["-l:libhooke.a" if f == "-lhooke" else f for f in flags]
     run(CC, CONSUMER / "main.c", *flags, "-o", tmp_path / "static_c")
@@ -151,6 +151,6 @@ def test_sources(way, tmp_path):
 
 
 def test_missing_part_is_named(tmp_path):
-    """A part that is asked for and not there is an error that names the package."""
+    """A requested part that is missing is an error that names the package."""
     text = configure(tmp_path, f"-DHOOKE_SOURCES={ROOT}", "-DHOOKE_GSL=ON", "-DHOOKE_GSL_INCLUDE_DIR=", expect=1)
     assert "apt-get install libgsl-dev" in text

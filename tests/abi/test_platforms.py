@@ -28,6 +28,6 @@ def test_others(flag):
 
 
 def test_registers_of_more_digits():
-    """As the compiler says of x87."""
+    """As the compiler describes x87."""
     done = compile_with("-U__FLT_EVAL_METHOD__", "-D__FLT_EVAL_METHOD__=2")
     assert done.returncode != 0 and "rounds twice" in done.stderr, done.stderr

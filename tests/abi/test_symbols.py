@@ -1,4 +1,4 @@
-"""Exported symbols: the shared library has those of symbols.txt, which are those that the headers declare; the static
+"""Exported symbols: the shared library has those of symbols.txt, which are those declared in the headers; the static
 one has no global name outside hooke_ and hk_."""
 
 import os
@@ -20,7 +20,7 @@ def nm(*arguments):
 
 
 def exported(text):
-    """(name, version) of each symbol in the output of nm -D, the version's own node left out."""
+    """(name, version) of each symbol in the output of nm -D, without the version's own node."""
     for line in text.splitlines():
         kind, _, name = line[17:].partition(" ")
         if kind != "A":

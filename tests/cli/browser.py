@@ -1,4 +1,4 @@
-"""A headless browser that stays open, spoken to over its debugging pipe: pages are opened, looked at and clicked on."""
+"""A headless browser that stays open, controlled over its debugging pipe: opens, inspects and clicks pages."""
 
 import base64
 import fcntl
@@ -21,7 +21,8 @@ class Browser:
         self.number, self.loads, self.messages, self.console, self.session = 0, 0, b"", [], None
         commands, self.out = os.pipe()
         self.into, answers = os.pipe()
-        # It reads commands from descriptor 3 and answers on 4; copies from 10 on, so that neither takes the other's place.
+        # It reads commands from descriptor 3 and answers on 4; copies from 10 on, so that neither overwrites the
+        # other.
         ends = [fcntl.fcntl(end, fcntl.F_DUPFD, 10) for end in (commands, answers)]
         self.process = subprocess.Popen([BROWSER, *FLAGS, f"--user-data-dir={self.folder.name}"], close_fds=False,
                                         preexec_fn=lambda: [os.dup2(ends[0], 3), os.dup2(ends[1], 4)],
@@ -75,7 +76,7 @@ class Browser:
 
     def open(self, path):
         """Opens a file and waits until its scripts have run."""
-        for place in ("about:blank", f"file://{path}"):  # a new page also where it is another place of the same
+        for place in ("about:blank", f"file://{path}"):  # a new page even if only the fragment changes
             self.console.clear()
             loads = self.loads
             self.send("Page.navigate", url=place)
@@ -83,13 +84,13 @@ class Browser:
                 self.receive()
 
     def run(self, script):
-        """The value of a script, waited for if it is a promise."""
+        """The value of a script, awaited if it is a promise."""
         done = self.send("Runtime.evaluate", expression=script, returnByValue=True, awaitPromise=True)
         assert "exceptionDetails" not in done, done["exceptionDetails"]
         return done["result"].get("value")
 
     def settle(self):
-        """Waits until what was asked for has been drawn."""
+        """Waits until the requested drawing is done."""
         self.run("new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(() => setTimeout(done))))")
 
     def press(self, key, code, modifiers=0):
@@ -103,7 +104,7 @@ class Browser:
         self.settle()
 
     def picture(self, clip=None):
-        """What is seen, as the bytes of a PNG; `clip`: of the element of this id alone."""
+        """A screenshot as PNG; `clip`: of the element with this id only."""
         more = {}
         if clip:
             box = self.run(f"""(() => {{ const b = document.getElementById("{clip}").getBoundingClientRect();

@@ -1,4 +1,4 @@
-"""Runs the program, and holds the scenes that it is run on."""
+"""Runs the program; holds common scenes."""
 
 import copy
 import json
@@ -73,7 +73,7 @@ def pytest_collection_modifyitems(items):
 
 
 class Answer:
-    """What one call of the program gave: exit code, standard output, standard error."""
+    """The result of one call of the program: exit code, standard output, standard error."""
 
     def __init__(self, code, out, err):
         self.code, self.out, self.err = code, out, err
@@ -92,7 +92,7 @@ class Answer:
 
 
 def default_signals():
-    """A test run started in the background hands on ignored signals; the program would rightly keep ignoring them."""
+    """A test run in the background passes ignored signals on, which the program would rightly keep ignoring."""
     for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
         signal.signal(number, signal.SIG_DFL)
 
@@ -112,7 +112,7 @@ def hooke(tmp_path):
 
 
 def interrupt(process, after=0.0):
-    """Ctrl-C, so many seconds after the program has begun to listen for it."""
+    """Ctrl-C, so many seconds after the program has begun to handle it."""
     while int(re.search(r"SigCgt:\s*(\w+)", Path(f"/proc/{process.pid}/status").read_text()).group(1), 16) & 2 == 0:
         assert process.poll() is None
         time.sleep(0.01)
@@ -140,7 +140,8 @@ def start(tmp_path):
 
 @pytest.fixture
 def write(tmp_path):
-    """Writes a scene with changes to its run and returns its name: write(SIX_PARTICLES, step=0.1); None takes away."""
+    """Writes a scene with changes to its run and returns its name: write(SIX_PARTICLES, step=0.1); None removes a
+    key."""
 
     def put(scene, name="scene.json", **run):
         scene = copy.deepcopy(scene)

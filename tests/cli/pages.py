@@ -1,4 +1,4 @@
-"""Pages of reports in a headless browser, and what they say that they drew."""
+"""Pages of reports in a headless browser, and their reports of what was drawn."""
 
 import json
 import re
@@ -18,7 +18,7 @@ needs_browser = pytest.mark.skipif(BROWSER is None, reason="there is no Chromium
 
 TITLE = "a scene </script><script>throw 1</script><!-- \"&amp;\" \\ \u00b5"
 
-# Reads the pixels of a diagram inside its axes: how many have the colour of each method.
+# Counts the pixels of a diagram inside its axes that have the colour of each method.
 COUNT_PIXELS = """
 for (const id of IDS) {
   const chart = Chart.getChart(id), { left, top, width, height } = chart.chartArea, scale = chart.currentDevicePixelRatio;
@@ -34,7 +34,7 @@ for (const id of IDS) {
 
 
 class Page(HTMLParser):
-    """The page as the browser has it after its scripts: attributes and text of the elements that have an id."""
+    """The page after its scripts: attributes and text of the elements with an id."""
 
     def __init__(self, dom, console):
         super().__init__()
@@ -58,14 +58,14 @@ class Page(HTMLParser):
                 self.text[name] += data
 
     def drawn(self, name):
-        """What the page says that Chart.js drew: a dictionary of counts."""
+        """Counts of what Chart.js drew, as the page reports them."""
         data = {key[5:]: value for key, value in self.attributes[name].items() if key.startswith("data-")}
         return {key: int(value) for key, value in data.items() if value.isdigit()} | {
             key: value for key, value in data.items() if not value.isdigit()}
 
 
 def browse(folder, page, script="", body=""):
-    """Opens the page, with a script and markup added at its end, and gives it back as it is afterwards."""
+    """Opens the page with a script and markup added at its end, and returns its state afterwards."""
     added = body + (f"<script>{script}</script>" if script else "")
     (folder / "page.html").write_text(page.replace("</body>", added + "</body>"), encoding="utf-8")
     command = [BROWSER, "--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run",
@@ -83,7 +83,7 @@ def count_pixels(diagrams):
 
 
 def fetches(page):
-    """What in the text of a page would fetch something, or was left unfilled."""
+    """Parts of the text of a page that would fetch something, or were left unfilled."""
     code = re.sub(r"/\*.*?\*/", "", page, flags=re.DOTALL)
     return (re.findall(r"https?://\S{0,40}", code)
             + re.findall(r"<(?:link|img|iframe|object|embed)\b|<script[^>]+src|@import|url\(", page)
@@ -91,14 +91,14 @@ def fetches(page):
 
 
 def check_planted_faults(folder, page):
-    """A fault in a script is seen, and the page refuses to fetch anything."""
+    """A fault in a script is detected, and the page refuses to fetch anything."""
     seen = browse(folder, page, "throw new Error('planted');", '<img src="http://127.0.0.1:9/planted.png">')
     assert any("planted" in line and "Error" in line for line in seen.console)
     assert any("Content Security Policy" in line for line in seen.console)
 
 
 def check_places(hooke, scene, *command):
-    """Places for a page that cannot be written, or must not be."""
+    """Paths at which a page cannot be written, or must not be."""
     assert hooke(*command, scene, "--report", "nowhere/page.html").code == 5
     assert hooke(*command, scene, "--report", "/dev/null").code == 5
     answer = hooke(*command, scene, "--report", scene)

@@ -1,4 +1,4 @@
-"""Scenes whose solution is known to 15 digits, from tests/data/*.inc, which hold them as initialisers of a C struct."""
+"""Scenes with solutions to 15 digits, from tests/data/*.inc, which hold them as initialisers of a C struct."""
 
 import re
 from pathlib import Path
@@ -76,7 +76,7 @@ class Reference:
         }
 
     def distance(self, time, positions):
-        """Root mean square over free particles of how far `positions` are from the solution [m]."""
+        """Root mean square distance of the free particles from the solution [m]."""
         squares = [
             sum((a - b) ** 2 for a, b in zip(here, there))
             for k, (here, there) in enumerate(zip(positions, self.positions[time]))

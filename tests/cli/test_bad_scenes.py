@@ -1,4 +1,4 @@
-"""Scenes that are wrong: every one ends with exit code 3 and a message that names file, place, value and what is allowed."""
+"""Faulty scenes: each ends with exit code 3 and a message that names file, place, value and what is allowed."""
 
 import json
 import os
@@ -209,7 +209,7 @@ def test_json_keeps_standard_output_json(hooke):
     assert "mass-zero.json:5:17: particles.mass[1]: 0 is not allowed" in error["message"]
 
 
-# ---- files that cannot be kept in the folder ----
+# ---- files that cannot be in the folder ----
 
 
 def test_missing_file(hooke):

@@ -30,7 +30,7 @@ def test_json_has_exactly_the_keys(hooke, write):
     assert value["forces"] == ["springs", "gravity"]
     assert list(value["step_limit"]) == METHODS
     assert list(hooke("check", write(SIX_PARTICLES), "--json", "--cost", "--predict").json) == [*KEYS, "cost"]
-    # --predict leaves out the timing, of which there is none
+    # --predict skips the timing, so there is none
     assert list(hooke("check", write(SIX_PARTICLES), "--json", "--predict").json) == KEYS
 
 
@@ -79,7 +79,7 @@ def test_what_bends_is_not_loose(hooke, write):
 
 
 def peak_of_run(folder, *words):
-    """VmHWM of a run that is over: it waits to write more than the pipe takes."""
+    """VmHWM of a finished run: it waits to write more than the pipe takes."""
     command = [CLI, "run", *words, "--json", "--final"]
     with subprocess.Popen(command, cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, bufsize=0) as process:
         try:
@@ -104,7 +104,7 @@ def lattice(n):
 
 
 def loose_springs(n):
-    """Particles and springs in lists, in no order."""
+    """Particles and springs in lists, in random order."""
     positions = [[i % 50, i // 50, 0.1 * (i * i % 7)] for i in range(n)]
     pairs = [[i, (7919 * i + k) % n] for i in range(n) for k in (1, 2)]
     springs = [{"name": "all", "between": [p for p in pairs if p[0] != p[1]], "stiffness": 1, "damping": 0.01}]
@@ -124,7 +124,7 @@ def test_memory_is_the_peak_of_a_run(hooke, write, tmp_path, scene, method):
     said = hooke("check", file, "--json", "--method", method).json
     peak = peak_of_run(tmp_path, file, "--method", method)
     assert 0.8 < said["memory_bytes"] / peak < 1.2
-    if method == "backward-euler":  # what writing takes does not depend on the method
+    if method == "backward-euler":  # the memory of writing does not depend on the method
         return
     peak = peak_of_run(tmp_path, file, "--method", method, "-o", "out.h5")
     assert 0.8 < said["memory_bytes_output"] / peak < 1.2
@@ -142,7 +142,7 @@ def test_memory_of_a_run_whose_order_stays_low(hooke, write, tmp_path):
 @pytest.mark.skipif(os.environ.get("HOOKE_PRESET") == "asan", reason="the address sanitizer keeps what was given back")
 @pytest.mark.parametrize("solver, duration", [("auto", 0.001), ("auto", 0.05), ("direct", 0.001)])
 def test_memory_of_a_run_that_analyses_a_factor(hooke, write, tmp_path, solver, duration):
-    """By iterations, after an analysis that finds a factor too dear, and with the factor."""
+    """By iterations, after an analysis that finds a factor too costly, and with the factor."""
     scene = write({**cloth(48, damping=0.01), "gravity": [0, -9.81, 0]}, duration=duration, every=duration)
     words = [scene, "--method", "cvode-bdf", "--linear-solver", solver]
     said = hooke("check", *words, "--json").json
@@ -166,7 +166,7 @@ def test_memory_of_a_run_that_analyses_a_factor(hooke, write, tmp_path, solver, 
     ],
 )
 def test_memory_of_a_run_of_few_steps(hooke, write, tmp_path, method, n, duration, of):
-    """However long it takes: what is run again to estimate its error comes after it. With a factor where it makes one."""
+    """For any duration: the rerun that estimates the error comes after it. With a factor if it computes one."""
     scene = write({**cloth(n, damping=0.01), "gravity": [0, -9.81, 0]}, duration=duration, every=duration)
     said = hooke("check", scene, "--method", method, "--json").json
     assert 0.8 < said[of] / peak_of_run(tmp_path, scene, "--method", method) < 1.2
@@ -258,7 +258,7 @@ def test_costs_of_ingredients(hooke, write):
 
 
 def test_the_first_limit_is_within_the_budget(hooke, write):
-    """Else the step is one that is certain to be stable."""
+    """Otherwise a certainly stable step is chosen."""
     cloth = {"kind": "cloth", "size": [40, 40], "edges": [[1, 0, 0], [0, 0, 1]], "mass": 1, "structural": {"stiffness": 1e4}}
     words = ["check", write({"hooke": 1, "parts": [cloth]}, step=1), "--cost", "--predict", "--json"]
     value = hooke(*words, "--budget", "1ns").json
@@ -296,7 +296,7 @@ def test_costs_of_the_largest_groups(hooke, write):
 
 
 def test_the_budget_holds_for_very_many_groups(hooke, write):
-    """What it leaves out is said and null."""
+    """Omitted results are reported as such and null."""
     count = 1000
     particles = {"position": [[i, 0, 0] for i in range(count + 1)], "mass": 1, "pinned": [0]}
     springs = [{"name": f"g{i}", "between": [[i, i + 1]], "stiffness": 10} for i in range(count)]

@@ -37,8 +37,8 @@ def test_json_has_exactly_the_keys(hooke, write):
 
 
 def test_errors_are_in_the_right_order(hooke, write):
-    """The largest of a particle is at least the root mean square; explicit Euler at 1e-3 is off by millimetres, CVODE at
-    1e-6 by far less; halving the step halves the error."""
+    """The largest distance is at least the root mean square; explicit Euler at 1e-3 has an error of millimetres,
+    CVODE at 1e-6 a far smaller one; halving the step halves the error."""
     scene = write(SIX_PARTICLES)
     rows = rows_of(hooke("compare", scene, "--json").json)
     for row in rows.values():

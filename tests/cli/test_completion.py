@@ -1,4 +1,4 @@
-"""Completion in bash: the script as bash runs it, against what --help says."""
+"""Completion in bash: the script run by bash, compared with --help."""
 
 import functools
 import json
@@ -65,7 +65,7 @@ TAKERS = [[verb] for verb in VERBS if verb != "make"] + [["make", kind] for kind
 
 
 def flags_of(words):
-    """Options of a help text; with what is said of each."""
+    """Options of a help text; with their descriptions."""
     rows = re.findall(r"^  (?:(-\w), |    )--([\w.-]+)(.*(?:\n {20,}.*)*)", help_of(*words), re.MULTILINE)
     return {flag: (letter, " ".join(text.split())) for letter, flag, text in rows}
 

@@ -1,4 +1,4 @@
-"""Titles, names and file names that would steer a terminal: what is printed of them, as words and as JSON."""
+"""Titles, names and file names with terminal control characters: their output in words and as JSON."""
 
 import contextlib
 import copy
@@ -33,7 +33,7 @@ def scene_of(scene, parts=(), **run):
 
 @pytest.fixture
 def call(tmp_path):
-    """Calls the program and returns exit code and both outputs, which hold nothing that steers a terminal."""
+    """Calls the program and returns exit code and both outputs, which contain no control characters."""
 
     def run(*words):
         done = subprocess.run([CLI, *words], cwd=tmp_path, capture_output=True, timeout=240)
@@ -126,8 +126,8 @@ def test_an_advised_command_is_one_line_for_the_shell(call, scene, tmp_path):
 
 
 def shown_on_terminal(folder, looked_for, *words):
-    """What a call prints on standard error, that being a terminal, where everything after the first second is shown; it is
-    ended once it has shown what is looked for."""
+    """Output of a call on standard error, on a terminal, where everything after the first second is shown; the call
+    is ended once the wanted output appears."""
     terminal, end = pty.openpty()
     process = subprocess.Popen([CLI, *words], cwd=folder, stderr=end, stdout=subprocess.DEVNULL)
     os.close(end)
@@ -143,7 +143,8 @@ def shown_on_terminal(folder, looked_for, *words):
 
 
 def test_progress(scene, tmp_path):
-    """The part that is looked at is shown with it: most of the time one of many is; how long all take is the machine's matter."""
+    """The part in question is shown as progress: most of the time one of many is; their duration depends on the
+    machine."""
     ropes = [{**ROPE, "name": f"{k}{ROPE['name']}"} for k in range(40)]
     shown, duration = "", 0.5
     while "rope" not in shown and duration < 1e5:

@@ -1,4 +1,4 @@
-"""Numbers for people have at most 6 digits; those of a command to type read back to the same bits."""
+"""Displayed numbers have at most 6 digits; those of a command to type read back to the same bits."""
 
 import re
 

@@ -1,5 +1,5 @@
-"""Trajectories that somebody made to have other files opened, or code loaded: they are refused in words, and nothing else is
-opened, as the system tells."""
+"""Manipulated trajectories that try to have other files opened, or code loaded: they are refused with a message, and
+nothing else is opened, according to the system."""
 
 import contextlib
 import ctypes
@@ -26,7 +26,7 @@ POSITION, SPECIES, MASS, TIME = (f"particles/all/{name}" for name in ["position/
 
 @contextlib.contextmanager
 def untouched(path):
-    """Nobody opens the file, or lists the folder, meanwhile."""
+    """Checks that nobody opens the file, or lists the folder, meanwhile."""
     libc = ctypes.CDLL(None, use_errno=True)
     watch = libc.inotify_init1(os.O_NONBLOCK | os.O_CLOEXEC)
     assert watch >= 0 and libc.inotify_add_watch(watch, os.fsencode(path), IN_OPEN) >= 0
@@ -47,7 +47,7 @@ def call(folder, *words):
 
 @pytest.fixture(name="made", scope="module")
 def fixture_made(tmp_path_factory):
-    """A run that finished, one that was stopped, and what is nobody's business."""
+    """A finished run, one that was stopped, and a secret file."""
     folder = tmp_path_factory.mktemp("made")
     (folder / "scene.json").write_text(json.dumps(SIX_PARTICLES))
     assert call(folder, "run", "scene.json", "-o", "finished.h5", "--quiet").returncode == 0
@@ -65,7 +65,7 @@ def fixture_made(tmp_path_factory):
 
 
 def virtual(file, name, private):
-    """All rows that the other file has, which HDF5 has to ask it for."""
+    """All rows of the other file, which HDF5 has to open it for."""
     shape, kind = file[name].shape, file[name].id.get_type()
     most, begin = (h5py.h5s.UNLIMITED, *shape[1:]), (0,) * len(shape)
     spaces = [h5py.h5s.create_simple(shape, most) for _ in range(2)]

@@ -30,7 +30,7 @@ def keys_of(value):
 
 
 def documented(verb):
-    """The words of the part on a verb in the page of the command line, and those of the part on JSON as a whole."""
+    """The words of a verb's section in the page of the command line, and those of the section on JSON."""
     text = (DOCS / "command-line.md").read_text().split("## JSON", 1)[1]
     if verb == "study":  # rows are those of compare
         return documented("compare") | set(re.findall(r"\w+", re.split(r"\n`study`:\n", text)[1].split("\n`limit`:\n")[0]))

@@ -1,5 +1,5 @@
-"""A run killed at any moment leaves a file that opens and in which every frame that has a time is whole, and that goes on to the
-end that it would have had."""
+"""A run killed at any moment leaves a file that opens, in which every frame with a time is whole, and that can be
+continued to the same end."""
 
 import os
 import random
@@ -17,8 +17,8 @@ pytestmark = pytest.mark.everything
 
 LONG = os.environ.get("HOOKE_LONG") == "1"
 
-# A frame is over 3 KiB, so that many lie across two pages; the larger ones are written by a thread. Every third kill comes
-# soon after an interrupt, when a run makes its file again.
+# A frame is over 3 KiB, so that many cross a page boundary; the larger ones are written by a thread. Every third kill
+# comes soon after an interrupt, when a run rewrites its file.
 SIZES = [(12, 601, 700 if LONG else 20), (38, 101, 300 if LONG else 10)]
 
 
@@ -62,7 +62,7 @@ def check_value(times, frames, frame):
 
 
 class Run:
-    """The run that nobody kills, and how long it takes."""
+    """The uninterrupted run, and its duration."""
 
     def __init__(self, folder, scene):
         self.folder, self.out = folder, folder / "out.h5"
@@ -76,7 +76,7 @@ class Run:
             assert self.frames["check"][frame] == check_value(self.times, self.frames, frame)
 
     def kill(self, call, moment, interrupt=None):
-        """Kills it so many seconds after it began; `interrupt`: or so many after it was interrupted then."""
+        """Kills it so many seconds after its start; `interrupt`: or so many after an interrupt."""
         silent = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL, "preexec_fn": default_signals}
         process = subprocess.Popen(call, cwd=self.folder, **silent)
         time.sleep(moment)
@@ -87,7 +87,7 @@ class Run:
         process.wait()
 
     def check_left(self, kill):
-        """Frames that are there. None if the older file is."""
+        """Frames in the file. None if the older file is in place."""
         if self.out.read_bytes()[:3] == b"old":
             return None  # not yet ready to take frames
         began = time.monotonic()
@@ -98,7 +98,7 @@ class Run:
         assert np.array_equal(times[:done], self.times[:done]) and np.isnan(times[done:]).all()
         for name, values in frames.items():
             assert np.array_equal(values[:done], self.frames[name][:done]), f"{name}, kill {kill}"
-            # the frame under way may be there in part; what follows is as it was made
+            # the current frame may be there in part; the rest is as created
             rest = values[done + 1 :]
             empty = {"step": -1, "position": 0, "velocity": 0, "check": 0}.get(name, np.nan)
             assert np.array_equal(rest, np.full_like(rest, empty), equal_nan=True), name
@@ -133,7 +133,7 @@ def test_killed_runs(write, tmp_path, side, planned, kills):
         if done is None:
             continue
         unfinished += 0 < done < planned
-        if kill % 2 == 1:  # and once more while it goes on
+        if kill % 2 == 1:  # and again while it continues
             run.kill([CLI, "run", "--resume", "out.h5", "--quiet"], moments.uniform(0, run.seconds))
             now = run.check_left(kill)
             assert now >= done, "a frame that was there is lost"

@@ -1,4 +1,4 @@
-"""hooke limit: what it predicts and measures, at which state, and in which words."""
+"""hooke limit: its predictions and measurements, its state, and its words."""
 
 import copy
 import math

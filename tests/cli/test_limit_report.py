@@ -26,8 +26,8 @@ ROOT = Path(__file__).resolve().parents[2]
 METHODS = ["forward-euler", "symplectic-euler", "verlet", "shardlow", "heun", "rk4", "backward-euler", "tr-bdf2",
            "implicit-midpoint"]
 SCENE = json.loads((ROOT / "examples/scenes/stiff-spring.json").read_text())
-COLOURS = {"blue": "#0057b8", "red": "#b00020"}  # of arrows, of springs to blame
-# What stands in the diagrams, in their own numbers, and pixels of the colours of the picture.
+COLOURS = {"blue": "#0057b8", "red": "#b00020"}  # of arrows, of limiting springs
+# The numbers in the diagrams, and pixels of the colours of the picture.
 LOOK = """
 for (const id of ["plane", "reach"]) {
   const sets = Chart.getChart(id).data.datasets.filter((set) => set.list);
@@ -117,7 +117,7 @@ def test_what_is_drawn(chain, tmp_path):
     for name, drawn in (("plane", [0, 4, 5]), ("reach", [0, 1, 2, 4, 5])):  # shardlow is below verlet
         pixels = [int(n) for n in seen.drawn(name)["pixels"].split()]
         assert min(pixels[k] for k in drawn) > 100, f"{name}: {pixels} pixels of the methods' colours"
-    # one spring is to blame, of seven, and its two ends move
+    # one spring of seven is limiting, and its two ends move
     assert (picture["springs"], picture["blamed"], picture["view"]) == (7, 1, "xy")
     assert all(drawn["lines"] > 0 for drawn in (plane, reach))
     assert picture["arrows"] == 2 and all(int(seen.attributes["picture"][f"data-{name}"]) > 0 for name in COLOURS)

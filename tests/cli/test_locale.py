@@ -1,5 +1,5 @@
-"""What the program prints does not depend on the locale that it is started in, one with a decimal comma; nor does what the
-package says in a program that has taken that locale for its own."""
+"""Output of the program does not depend on the locale, such as one with a decimal comma; nor does that of the package
+in a program that has set that locale."""
 
 import os
 import re
@@ -23,7 +23,7 @@ def comma(tmp_path_factory):
     (folder / "comma").write_text(COMMA)
     subprocess.run(["localedef", "-c", "-i", folder / "comma", "-f", "UTF-8", folder / "comma.UTF-8"], capture_output=True)
     environment = {k: v for k, v in os.environ.items() if not k.startswith(("LC_", "LANG"))}
-    # glibc loses a few bytes in newlocale() where LOCPATH is set, and a library that HDF5 brings calls it as it is loaded
+    # glibc leaks a few bytes in newlocale() if LOCPATH is set, and a library of HDF5 calls it when loaded
     return environment | {"LOCPATH": str(folder), "LC_NUMERIC": "comma.UTF-8", "ASAN_OPTIONS": "detect_leaks=0"}
 
 

@@ -1,4 +1,4 @@
-"""hooke make: every kind with every option, values that are refused, and what is written."""
+"""hooke make: every kind with every option, refused values, and the written scene."""
 
 import functools
 import json
@@ -21,7 +21,7 @@ def kinds():
 
 
 def options_of(kind):
-    """Flag, what follows it and the text of every option of a kind, from its --help."""
+    """Flag, argument and text of every option of a kind, from its --help."""
     rows = run_help(kind).split(f"\noptions of a {kind}:\n")[1].split("\n\n")[0]
     found = re.findall(r"^      --([\w.-]+)(?: ([A-Z]+))?\s+(\S.*(?:\n {20,}.*)*)", rows, re.MULTILINE)
     return [(flag, value, " ".join(text.split())) for flag, value, text in found]
@@ -39,7 +39,7 @@ def command(options):
 
 
 SQUARE = "v 0 0 0\nv 9 0 0\nv 0 9 0\nv 9 9 0\nf 1 2 3\nf 2 4 3\n"  # of the examples that name a file
-ROWS = {"vertices": "0,0,0;9,0,0;0,9,0", "triangles": "0,1,2"}  # in place of it
+ROWS = {"vertices": "0,0,0;9,0,0;0,9,0", "triangles": "0,1,2"}  # instead of it
 
 
 @pytest.fixture(autouse=True)
@@ -57,10 +57,10 @@ SPRINGS = ["--structural.stiffness", "50"]
 
 
 def value_for(word, text):
-    """A value that is allowed and is not the default."""
+    """An allowed value that is not the default."""
     if "true or false" in text:
         return "false" if "default: true" in text else "true"
-    if '"' in text:  # the first of the words that it takes, which is not the default
+    if '"' in text:  # the first of its words that is not the default
         return re.search(r'"([\w-]+)"', text).group(1)
     count = re.search(r"; (\d+) numbers", text)
     if count:
@@ -82,13 +82,13 @@ def check_value(found, given):
 
 
 def needed_value(text):
-    """The example of what makes a family present."""
+    """The example of the options that make a family present."""
     found = re.search(r"needed for any \w+, such as (\S+)", text)
     return found and found.group(1)
 
 
 def check_option(part, flag, given):
-    """That a part has the option of this flag as it was given; a file was read, and is not named."""
+    """Checks that a part has the given value for the option of this flag; a file was read, and is not named."""
     family, _, member = flag.rpartition(".")
     if flag == "file":
         assert len(plain(part["triangles"])) == 6 and "file" not in part
@@ -125,7 +125,7 @@ def test_the_example_of_a_kind_comes_back_as_it_was_made(hooke, kind, tmp_path):
 @pytest.mark.parametrize("kind", KINDS)
 @pytest.mark.parametrize("other", [False, True], ids=["one", "other"])
 def test_every_option_of_every_kind(hooke, kind, other):
-    """All at once, but for those that stand in place of others: of these the `other` ones the second time."""
+    """All at once, except alternatives: of these the `other` ones the second time."""
     first = {"mass", "damping", "file", "offset"}
     left_out = first if other else {"density", "damping-ratio", "vertices", "triangles", "curl", "turns"}
     options = base_of(kind)

@@ -1,4 +1,4 @@
-"""The manual page: clean to the formatters, all that --help has, and examples that run."""
+"""The manual page: clean to the formatters, complete against --help, and with examples that run."""
 
 import re
 import shutil
@@ -18,7 +18,7 @@ def page(tmp_path_factory):
 
 @pytest.fixture(scope="module")
 def sections(page):
-    """Text of the page as it is typed, by section; escapes are taken back."""
+    """Text of the page without escapes, by section."""
     text = page.read_text()
     for escape, character in [("\\-", "-"), ("\\(aq", "'"), ("\\(ha", "^"), ("\\e", "\\")]:
         text = text.replace(escape, character)
@@ -34,7 +34,7 @@ def items(text):
 
 
 def help_rows(text):
-    """Options of a help text: what the head of an item is, and the text after it."""
+    """Options of a help text: the head of an item, and the text after it."""
     found = re.findall(r"^  (-\w, |    )(--\S+(?: [\w,.:]+)?)(?:  +|\n +)(\S.*(?:\n {20,}.*)*)", text, re.MULTILINE)
     return {(letter.strip() + " " + flag).strip(): " ".join(doc.split()) for letter, flag, doc in found}
 

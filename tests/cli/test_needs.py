@@ -1,4 +1,4 @@
-"""hooke needs: keys, exit codes, the lean scene held against the full one, resolutions, and the page."""
+"""hooke needs: keys, exit codes, the lean scene compared with the full one, resolutions, and the page."""
 
 import copy
 import json
@@ -11,7 +11,7 @@ from pages import DRAWS, TITLE, VERSION, browse, check_not_built, check_places, 
 
 pytestmark = pytest.mark.everything
 
-# A cloth with a corner let down, whose bending counts and whose drag does not, and a rope far away.
+# A cloth with a corner released, whose bending matters and whose drag does not, and a rope far away.
 SCENE = {
     "hooke": 1,
     "title": TITLE,
@@ -32,7 +32,7 @@ COST = {"wall_seconds", "springs", "step_limit", "unlimited", "particles", "step
         "steps", "step_error"}
 WHOLE = {"want", "method", "method_picked", "duration", "judged_until", "runs", "watched", "note", "warnings"}
 BLUE, RED = "#7fb2e5", "#b00020"  # of the full scene, of the lean one
-GREEN, ORANGE = "#1b7f4d", "#c2410c"  # of what is left out, of what is needed
+GREEN, ORANGE = "#1b7f4d", "#c2410c"  # unneeded and needed ingredients
 LOOK = """
 for (const [id, colours] of Object.entries(COLOURS)) {
   const { ctx, chartArea: area, currentDevicePixelRatio: scale } = Chart.getChart(id);
@@ -59,7 +59,7 @@ def data_of(page):
 
 @pytest.fixture(scope="module")
 def found(tmp_path_factory):
-    """The folder of one search, and what it printed."""
+    """The folder of one search, and its output."""
     if MINIMAL:
         pytest.skip("the minimal build reads no scenes")
     folder = tmp_path_factory.mktemp("needs")
@@ -234,7 +234,7 @@ def test_other_pages(hooke, write, tmp_path):
     for name in ("changed", "cost", "laid", "all"):
         assert "hidden" in seen.attributes[name]
     assert "rope" in seen.text["parts"] and "4 \u00d7 4" in seen.text["parts"] and "rope: " in seen.text["verdict"]
-    # all is needed: there is no picture; a particle alone is drawn as a point
+    # all is needed: there is no picture; a single particle is drawn as a point
     scene = copy.deepcopy(SIX_PARTICLES)
     scene["drag"] = 1e-9
     assert hooke("needs", write(scene), "--want", "1cm", "--duration", "0.1", "--every", "0.01", "--watch", "3",

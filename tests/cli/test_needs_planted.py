@@ -1,4 +1,4 @@
-"""Scenes with something in them that does nothing, and something that counts: `hooke needs` tells which is which."""
+"""Scenes with a planted ingredient that does nothing, and one that matters: `hooke needs` distinguishes them."""
 
 import json
 import pathlib
@@ -11,7 +11,7 @@ pytestmark = pytest.mark.everything
 
 FOLDER = pathlib.Path(__file__).parent / "scenes" / "needs"
 
-# scene: want [m], what is watched, what is not needed, what is needed
+# scene: want [m], watched particles, unneeded, needed
 PLANTED = {
     "flat-cloth": (1e-4, None, ["cloth.bend", "cloth.shear"], ["cloth.structural", "gravity"]),
     "only-falls": (1e-3, None, ["rope.stretch", "rope.bend", "damping"], ["gravity"]),
@@ -30,7 +30,7 @@ PLANTED = {
 }
 
 
-# Shapes of the grids of particles that are compared after half the resolution, in the full scene.
+# Shapes of the grids of particles compared after halving the resolution, in the full scene.
 GRIDS = {"flat-cloth": (7, 7), "only-falls": (17,), "smooth-rope": (41,), "taut-chain": (11,)}
 
 
@@ -84,7 +84,7 @@ def test_the_lean_scene_is_within_the_want_of_a_full_run_made_apart(hooke, tmp_p
 
 
 def test_a_lean_scene_keeps_its_parts(hooke, tmp_path):
-    """The 76 springs that do nothing would save less than writing the part spring by spring costs its reader."""
+    """The 76 springs that do nothing save less than writing the part spring by spring costs the reader."""
     found = find(hooke, "flat-cloth", "-o", tmp_path / "lean.json")
     full, lean = (json.loads(path.read_text()) for path in (FOLDER / "flat-cloth.json", tmp_path / "lean.json"))
     assert found["lean"]["without"] == ["cloth.shear", "cloth.bend"] and found["lean"]["note"] == ""

@@ -1,4 +1,4 @@
-"""hooke study --report: the page in a headless browser, with what it drew, its words, and no fault in the console."""
+"""hooke study --report: the page in a headless browser, its drawings, its words, and no fault in the console."""
 
 import copy
 import json

@@ -1,4 +1,4 @@
-"""Runs that were interrupted go on with --resume and end as if nothing had happened: the same results, the same file."""
+"""Interrupted runs continue with --resume and end as if uninterrupted: the same results, the same file."""
 
 import json
 import os
@@ -45,7 +45,7 @@ if os.environ.get("HOOKE_PRESET") == "asan" and not os.environ.get("HOOKE_LONG")
 
 
 def contents(path):
-    """Every number of a file, but for what names the run."""
+    """Every number of a file, except the identifier of the run."""
     found = {}
     with h5py.File(path) as file:
         file.visititems(
@@ -56,13 +56,13 @@ def contents(path):
 
 def results(out, **changed):
     value = {**json.loads(out), **changed}
-    value.pop("error", None)  # of a run that went on no error is estimated
+    value.pop("error", None)  # no error is estimated for a continued run
     del value["wall_seconds"]
     return value
 
 
 def signalled(process, seconds, number):
-    """What it printed, and whether it was stopped; None, and True, if the signal came before it began."""
+    """Its output, and whether it was stopped; None, and True, if the signal came before it began."""
     time.sleep(seconds)
     process.send_signal(number)
     out, err = process.communicate(timeout=120)

@@ -55,7 +55,7 @@ def test_json_has_exactly_the_keys_and_types(hooke, write, method, keys):
 
 
 def test_more_heat_than_there_is_comes_with_a_warning(hooke, write):
-    """A damper whose velocity turns round at each step, by Verlet; and at a step that resolves it."""
+    """A damper whose velocity reverses at each step, by Verlet; and at a step that resolves it."""
     scene = {
         "hooke": 1,
         "particles": {"position": [[0, 0, 0], [1, 0, 0]], "velocity": [[0, 0, 0], [1, 0, 0]], "mass": 1, "pinned": [0]},
@@ -78,7 +78,7 @@ def test_options_come_before_the_scene(hooke, write):
 
 
 def test_energy_and_momentum_are_those_of_the_last_state(hooke, write):
-    """Worked out here from --final: m v, 1/2 m v^2, springs and weight."""
+    """Computed from --final: m v, 1/2 m v^2, springs and weight."""
     value = hooke("run", write(SIX_PARTICLES), "--json", "--final").json
     assert list(value) == KEYS + ["error", "final"] and list(value["final"]) == ["position", "velocity"]
     q, v = value["final"]["position"], value["final"]["velocity"]
@@ -131,7 +131,7 @@ def test_words_of_an_adaptive_method_count_the_solver(hooke, write):
         assert word in out, word
 
 
-# ---- what cannot be run ----
+# ---- refused scenes ----
 
 
 @pytest.mark.parametrize(
@@ -195,7 +195,7 @@ def advised_command(err):
     "method, stiffness", [("symplectic-euler", 1000), ("symplectic-euler", 18000), ("forward-euler", 1000)]
 )
 def test_a_run_that_diverges_is_4_and_the_advice_works(hooke, write, tmp_path, method, stiffness):
-    """Symplectic Euler at 1.6 and 6.7 times its limit; forward Euler, which has none here."""
+    """Symplectic Euler at 1.6 and 6.7 times its limit; forward Euler, which has no stable step here."""
     scene = copy.deepcopy(STIFF_PAIR)
     scene["springs"][0]["stiffness"] = stiffness
     answer = hooke("run", write(scene, method=method), "--json", "-o", "it's out.h5")
@@ -262,7 +262,7 @@ def test_no_frames_after_divergence(hooke, write):
 
 
 def wait_for_frames(path, process, count):
-    """Until the run has written `count` frames: their bytes are in a file of a size known in advance."""
+    """Waits until the run has written `count` frames: their bytes are in a file of a size known in advance."""
     end = time.monotonic() + 60
     while time.monotonic() < end:
         assert process.poll() is None, process.communicate()
@@ -310,7 +310,7 @@ def test_progress_is_silent_in_a_pipe(start, write):
 
 
 def read_terminal(master, wanted, seconds):
-    """What appears on a terminal until `wanted` does, or the time is over."""
+    """Output on a terminal until `wanted` appears, or time is up."""
     seen = b""
     os.set_blocking(master, False)
     end = time.monotonic() + seconds
@@ -373,7 +373,7 @@ def test_short_work_shows_no_progress_on_a_terminal(start, write):
 
 
 def test_standard_output_is_json_and_nothing_else(write, tmp_path):
-    """Through a shell, as a user pipes it."""
+    """Through a shell, as in a pipe of the user."""
     scene = write(STIFF_PAIR)
     for verb in ["check", "run", "run --step 0.01", "run --step 0.3", "run -o no/such/out.h5"]:
         word, _, rest = verb.partition(" ")
@@ -403,7 +403,7 @@ def test_a_step_that_fits_is_chosen_and_told(hooke, write, tmp_path, run, words,
     assert answer.json["time"] == pytest.approx(duration) and times[1] - times[0] == pytest.approx(every)
     if step is not None:
         assert answer.json["step"] == pytest.approx(step)
-    else:  # half of what is certain to be stable, at most
+    else:  # at most half of the certainly stable step
         safe = hooke("check", scene, "--json").json["step_limit"]["symplectic-euler"]
         assert 0.25 * safe < answer.json["step"] <= 0.5 * safe
 
@@ -428,7 +428,7 @@ def test_an_estimate_can_be_left_out(hooke, write):
 
 @pytest.mark.parametrize("want, metres", [("1cm", 1e-2), ("1e-3", 1e-3), ("10 um", 1e-5)])
 def test_want_picks_a_method_and_keeps_to_it(hooke, write, want, metres):
-    """The error of what was picked, against a run at tight tolerance."""
+    """The error of the picked run, against a run at tight tolerance."""
     scene = write(SIX_PARTICLES)
     done = hooke("run", scene, "--want", want, "--json", "--final")
     assert done.code == 0

@@ -1,4 +1,4 @@
-"""Arrays of a scene that stand in HDF5 files."""
+"""Arrays of a scene from HDF5 files."""
 
 import copy
 import json
@@ -12,7 +12,7 @@ pytestmark = pytest.mark.everything
 
 
 def start_of(hooke, scene):
-    """Where the particles of a scene are at the beginning, by the first frame of a run of one step."""
+    """Initial positions of the particles of a scene, from the first frame of a run of one step."""
     answer = hooke("run", scene, "--step", "1e-9", "--duration", "1e-9", "--every", "1e-9", "-o", "start.h5", "--quiet")
     assert answer.code == 0, answer.err
 
@@ -55,7 +55,7 @@ def test_every_array_may_stand_in_a_file(hooke, write, tmp_path):
 @pytest.mark.parametrize("group", ["/", "one/", "one/./two/", "g" * 2000 + "/"], ids=["root", "one", "two", "long"])
 @pytest.mark.parametrize("time, last", [([0, 1, numpy.nan], 1), ([0, 1, 2], 2), ([0, numpy.nan], 2), ("group", 2), (None, 2)])
 def test_frames_count_up_to_the_first_without_a_time(hooke, write, tmp_path, group, time, last):
-    """A neighbour that is no time of each frame tells nothing."""
+    """A sibling that is not the time of each frame is ignored."""
     positions = numpy.array(SIX_PARTICLES["particles"]["position"])
     with h5py.File(tmp_path / "arrays.h5", "w") as file:
         file[group + "frames"] = [positions, positions + 1, positions + 2]

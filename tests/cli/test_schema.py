@@ -1,4 +1,4 @@
-"""The schema of scenes, held against the examples, the bad scenes, and the library's own option tables."""
+"""The schema of scenes compared with the examples, the faulty scenes, and the library's own option tables."""
 
 import json
 import os
@@ -19,7 +19,7 @@ VALIDATOR = jsonschema.Draft202012Validator(SCHEMA)
 LIBRARY = os.environ.get("HOOKE_LIBRARY", "")
 LOADABLE = LIBRARY and b"__asan_init" not in pathlib.Path(LIBRARY).read_bytes()
 
-# Bad scenes whose trouble a schema cannot see: what belongs together, what exists, whole numbers written with a point.
+# Faulty scenes that a schema cannot detect: combinations, existence, integers written with a point.
 BEYOND_A_SCHEMA = {
     "bending-of-no-length", "between-range", "between-real", "between-same", "density-of-no-length", "driven-pinned", "driven-range", "driven-twice", "file-missing",
     "file-not-hdf5", "lattice-flat", "lattice-huge", "lattice-of-no-length", "lattice-pinned-range", "mass-count",
@@ -32,7 +32,7 @@ BEYOND_A_SCHEMA = {
 
 
 def strict_json(path):
-    """The value, or None for a text that is no JSON or has a key twice."""
+    """The value; None for a text that is no JSON or repeats a key."""
 
     def refuse(word):
         raise ValueError(word)
@@ -73,7 +73,7 @@ def test_bad_scenes_fail_the_schema_or_are_beyond_it():
     scenes = {path.stem: strict_json(path) for path in BAD}
     checked = {name: scene for name, scene in scenes.items() if scene is not None}
     assert len(checked) >= 70
-    # numbers that Python reads as infinity or zero never get as far as a schema
+    # numbers that Python reads as infinity or zero never reach the schema
     accepted = {name for name, scene in checked.items() if VALIDATOR.is_valid(scene)}
     assert accepted - {"huge-exponent", "tiny-exponent", "huge-integer", "nul-in-text"} == BEYOND_A_SCHEMA
 
@@ -88,7 +88,7 @@ def test_the_schema_is_that_of_the_tables():
     assert schema.SCHEMA.read_text() == schema.laid_out(schema.schema()) + "\n", "python bindings/generate/schema.py writes it"
 
 
-# ---- what the examples are there to show ----
+# ---- the purpose of the examples ----
 
 
 def final(hooke, name, *options):
@@ -142,7 +142,7 @@ def test_drag_slows_the_fall_and_damping_does_not(hooke):
     free = 9.81 * 4
     assert speed[0] == pytest.approx(9.81 * (1 - 2.718281828459045**-4), rel=2e-3)
     assert speed[2] == pytest.approx(free, rel=1e-5)
-    # both oscillations have died alike
+    # both oscillations have decayed equally
     position = result["position"]
     light, heavy = (position[k + 1][0] - position[k][0] for k in (0, 2))
     assert 0.02 < light - 1 < 0.04

@@ -1,4 +1,5 @@
-"""Ctrl-C, SIGTERM and SIGHUP end the work alike, however many come: what was computed is kept, and a run says how to go on."""
+"""Ctrl-C, SIGTERM and SIGHUP end the work in the same way, however many arrive: results so far are kept, and a run
+says how to continue."""
 
 import re
 import signal
@@ -32,7 +33,7 @@ CLOTH = {
 
 
 def listens(process, number):
-    """Waits until the program listens to the signal."""
+    """Waits until the program handles the signal."""
     end = time.monotonic() + 60
     while time.monotonic() < end:
         caught = re.search(r"SigCgt:\s*(\w+)", Path(f"/proc/{process.pid}/status").read_text()).group(1)
@@ -44,7 +45,7 @@ def listens(process, number):
 
 
 def end_by(process, numbers, after=0.3):
-    """Sends the signals one after the other; what it said, and the seconds that it took to end."""
+    """Sends the signals one after the other; returns the output, and the seconds to the end."""
     listens(process, numbers[0])
     time.sleep(after)
     began = time.monotonic()
@@ -112,7 +113,7 @@ def test_a_signal_during_a_diagnosis_does_not_kill(start, write):
 
 @pytest.mark.parametrize("number", [signal.SIGHUP, signal.SIGTERM])
 def test_what_was_ignored_stays_ignored(start, write, number):
-    """As SIGHUP is under nohup."""
+    """As SIGHUP under nohup."""
     process = start("run", write(CLOTH), preexec_fn=lambda: signal.signal(number, signal.SIG_IGN))
     listens(process, signal.SIGINT)
     process.send_signal(number)

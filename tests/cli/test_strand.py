@@ -1,4 +1,4 @@
-"""Strands by the command line: what check says of them, and runs of a curl of either hand."""
+"""Strands by the command line: their description by check, and runs of a curl of either handedness."""
 
 import copy
 import json

@@ -1,4 +1,4 @@
-"""hooke study: its reference against the truth, keys, ladders, recommendation, table, CSV, and what stops it."""
+"""hooke study: its reference against the truth, keys, ladders, recommendation, table, CSV, and interruptions."""
 
 import csv
 import json
@@ -80,8 +80,8 @@ SCENES = [("six_particles", 1), ("oscillator", 1), ("elastic_pendulum", 1), ("ro
 @everything
 @pytest.mark.parametrize("name, duration", SCENES)
 def test_errors_are_those_against_the_solution(hooke, write, tmp_path, name, duration):
-    """The error at the end of every row, where it stands clear of the agreement, is that of the same run against the
-    solution to 15 digits: so the reference is as good as it says."""
+    """The error at the end of every row, where it is clear of the agreement, is that of the same run against the
+    solution to 15 digits: so the reference is as good as it claims."""
     known = Reference(name)
     scene = write(known.scene, duration=duration, every=duration / 20)
     value = hooke("study", scene, "--json", "-o", "rows.csv").json
@@ -181,7 +181,7 @@ PAIRS = [
 @everything
 @pytest.mark.parametrize("name, duration, methods, want", PAIRS)
 def test_a_ladder_four_times_as_fine_has_nothing_much_cheaper(hooke, name, duration, methods, want):
-    """As in tests/long/recommendation.py, for a few scenes that take no time."""
+    """As in tests/long/recommendation.py, for a few quick scenes."""
     scene = EXAMPLES / f"{name}.json"
     every = json.loads(scene.read_text())["run"]["every"]
     words = ["study", scene, "--duration", duration, "--json", "--methods"]
@@ -200,7 +200,7 @@ def test_a_ladder_four_times_as_fine_has_nothing_much_cheaper(hooke, name, durat
 
 @everything
 def test_numbers_of_no_run_are_null(hooke, write):
-    """Forward Euler diverges at every step on an undamped spring: nothing comes close, and nothing claims to."""
+    """Forward Euler diverges at every step on an undamped spring: nothing comes close, and nothing is claimed to."""
     words = ["study", write(STIFF_PAIR, duration=20, every=0.25), "--methods", "forward-euler", "--steps", "250ms"]
     value = hooke(*words, "--want", "1mm", "--json").json
     assert [row["status"] for row in value["rows"]] == ["diverged"]
@@ -342,7 +342,7 @@ DAMPED_CLOTH = {
 
 @everything
 def test_reference_keeps_to_its_share_of_the_budget(hooke, write):
-    """What it came to is used, and said to be a part."""
+    """Its result is used, and reported as a part."""
     scene = write(DAMPED_CLOTH, duration=10)
     words = ["study", scene, "--methods", "backward-euler", "--budget", "4s", "--want", "1cm"]
     begun = time.monotonic()
@@ -422,7 +422,7 @@ def interrupted(process, after):
 
 @everything
 def test_ctrl_c_is_130_and_tells_the_rows_done(start, write, tmp_path):
-    """The first of the two steps takes no time, the second hours."""
+    """The first of the two steps is quick, the second takes hours."""
     words = ["--methods", "symplectic-euler", "--steps", "10ms,1ns", "--duration", "10s", "--json", "-o", "rows.csv"]
     value = interrupted(start("study", write(SIX_PARTICLES), *words), 2)
     assert [row["status"] for row in value["rows"]] == ["finished", "stopped"]
@@ -495,7 +495,7 @@ def test_every_length_has_its_unit(hooke, write):
     for text, value in [("2um", 2e-6), ("3nm", 3e-9), ("0.5 cm", 0.5e-2), ("1e-7km", 1e-4), ("7e-3", 7e-3)]:
         answer = hooke("run", write(SIX_PARTICLES), "--method", "cvode-bdf", "--atol", text, "--json")
         assert answer.json["atol"] == value, text
-    assert math.isclose(3 * 1e-9, 3e-9) and 3 * 1e-9 != 3e-9  # what a plain product would give
+    assert math.isclose(3 * 1e-9, 3e-9) and 3 * 1e-9 != 3e-9  # result of a plain product
 
 
 # ---- watched quantities and statistics ----

@@ -1,4 +1,4 @@
-"""What is in the HDF5 files of run and compare, and what happens when they cannot be written or read."""
+"""Contents of the HDF5 files of run and compare, and failures to write or read them."""
 
 import os
 import resource
@@ -175,7 +175,7 @@ def test_interrupted_run_keeps_its_frames(start, write, tmp_path):
 
 
 def test_comparison(hooke, write, tmp_path):
-    """Forward Euler diverges: its runs are shortened, the others whole, the table has them all."""
+    """Forward Euler diverges: its runs are truncated, the others whole, the table has them all."""
     answer = hooke("compare", write(STIFF_PAIR, step=0.01, duration=5, every=0.5), "--json", "-o", "out.h5").json
     with h5py.File(tmp_path / "out.h5") as file:
         table = file["comparison"]
@@ -207,7 +207,7 @@ def test_comparison(hooke, write, tmp_path):
 
 
 def limited(size):
-    """The program may not make files longer than this."""
+    """The program cannot write files longer than this."""
 
     def limit():
         signal.signal(signal.SIGXFSZ, signal.SIG_IGN)

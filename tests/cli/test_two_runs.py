@@ -36,7 +36,7 @@ def test_an_output_in_use_is_refused(hooke, start, write, tmp_path):
         answer = hooke(*words, "--quiet")
         assert answer.code == 5 and f"{words[-1]}: {WORDS}" in answer.err, answer.err
     assert not [name for name in os.listdir(tmp_path) if name.endswith(".part")]
-    with h5py.File(tmp_path / "out.h5") as file:  # nobody keeps readers out
+    with h5py.File(tmp_path / "out.h5") as file:  # readers are not kept out
         assert file["hooke/status"][()].startswith(b"running")
     interrupt(process)
     assert process.wait(60) == 130

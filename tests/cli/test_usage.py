@@ -1,4 +1,4 @@
-"""Words: help, version, wrong usage, and what a minimal build answers."""
+"""Words: help, version, wrong usage, and the answers of a minimal build."""
 
 import re
 import subprocess
@@ -8,7 +8,7 @@ from conftest import CLI, MINIMAL, SIX_PARTICLES
 
 VERBS = ["run", "compare", "check"]
 METHODS = ["forward-euler", "symplectic-euler", "cvode-bdf", "cvode-adams"]
-RUN_OPTIONS = {  # what --help has to say about each: unit and default
+RUN_OPTIONS = {  # expected in --help for each: unit and default
     "step": ("[s]", "none"),
     "duration": ("[s]", "none"),
     "every": ("[s]", "none"),

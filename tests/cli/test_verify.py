@@ -1,4 +1,4 @@
-"""hooke verify: the output of every method is what its scene gives, and a file that was changed is found out."""
+"""hooke verify: the output of every method reproduces from its scene, and a changed file is detected."""
 
 import json
 import shutil
@@ -53,7 +53,7 @@ MOVED = {
 
 
 def seal(file):
-    """The check values of all frames, of what they are now."""
+    """The check values of the current numbers of all frames."""
     arrays = [
         file[f"particles/all/{name}"][:] for name in ["position/step", "position/time", "position/value", "velocity/value"]
     ]
@@ -78,7 +78,7 @@ def made(hooke, write, tmp_path):
 
 
 def changed(path, name, index, change, sealed=True):
-    """Changes one number of the file, and says what it was and is."""
+    """Changes one number of the file, and returns its old and new value."""
     with h5py.File(path, "r+") as file:
         before = file[name][index]
         file[name][index] = change(before)
@@ -152,7 +152,7 @@ def test_one_changed_bit_is_found(hooke, made, name, index, words, sealed):
 
 
 def test_a_changed_beginning_is_found(hooke, made):
-    """The frame that a slice begins at is taken from the file: what comes of it is no longer there."""
+    """The first frame of a slice is taken from the file: the frames computed from it differ."""
     path = made()
     changed(path, "particles/all/position/value", (5, 1, 1), lambda x: x + 1e-9)
     answer = hooke("verify", "out.h5")

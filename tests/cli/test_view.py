@@ -1,4 +1,4 @@
-"""hooke view: what is in the page, against the file that it was made from."""
+"""hooke view: the contents of the page, compared with its file."""
 
 import base64
 import json
@@ -31,7 +31,7 @@ MARKS = {"free": 0, "pinned": 1, "driven": 2, "loose": 3}
 
 
 class View:
-    """What a page holds, decoded as its script does it."""
+    """Contents of a page, decoded as by its script."""
 
     def __init__(self, page):
         self.page = page
@@ -88,7 +88,7 @@ def test_the_page_holds_the_trajectory(hooke, cloth, tmp_path):
         assert data["time"] == list(file["particles/all/position/time"])
         for name in ("kinetic", "potential", "total"):
             assert data[name] == list(file[f"observables/{name}_energy/value"])
-        assert np.array_equal(view.ends, file["connectivity/springs"])  # every particle is shown, in its own place
+        assert np.array_equal(view.ends, file["connectivity/springs"])  # every particle is shown, at its own position
         assert list(view.marks[:2]) == [MARKS["loose"]] * 2 and view.marks[-1] == MARKS["driven"]
         assert list(view.marks[2:7]) == [MARKS["pinned"]] * 5 and set(view.marks[7:-1]) == {MARKS["free"]}
         largest = max(np.abs(strains_of(file, k)).max() for k in range(11))
@@ -107,7 +107,7 @@ def test_the_page_fetches_nothing(hooke, cloth, tmp_path):
     view, _ = look(hooke, tmp_path)
     library = (Path(CLI).parent / "share/hooke/three.js").read_text(encoding="utf-8")
     assert library in view.page
-    # names of XML, which no browser fetches, and a paper that a shader of three.js refers to
+    # XML names, which no browser fetches, and a paper that a shader of three.js refers to
     names, paper = "http://www.w3.org/", "https://graphics.stanford.edu/papers/envmap/"
     assert [found for found in fetches(view.page.replace(library, "")) if not found.startswith(names)] == []
     assert [found for found in re.findall(r"https?:\S+", library) if not found.startswith((names, paper))] == []
@@ -204,7 +204,7 @@ def test_runs_that_ended_early(hooke, write, start, tmp_path):
     assert hooke("run", write(STIFF_PAIR), "-o", "out.h5").code == 4
     view, _ = look(hooke, tmp_path)
     assert view.data["status"] == "diverged" and view.data["duration"] == 100 and view.data["time_last"] < 100
-    # a file with room for more frames than there are, which nobody closed
+    # a file with space for more frames than written, which was not closed
     assert hooke("run", write(SIX_PARTICLES), "-o", "out.h5").code == 0
     with h5py.File(tmp_path / "out.h5", "a") as file:
         file["particles/all/position/time"][7:] = np.nan
@@ -259,7 +259,8 @@ def test_not_built(hooke, tmp_path):
 
 @pytest.mark.everything
 def test_the_companion(hooke, write, tmp_path):
-    """It comes with the output; where the name does not suit it, or is another file's, the run is told, and is fine."""
+    """It is written with the output; if the name does not suit it, or belongs to another file, the run says so, and
+    succeeds."""
     scene = write(SIX_PARTICLES, duration=0.1)
     assert hooke("run", scene, "-o", "out.h5").err == ""
     assert (tmp_path / "out.xdmf").read_text().count("<Time ") == 3

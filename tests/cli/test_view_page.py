@@ -1,4 +1,4 @@
-"""The page of hooke view in a headless browser: it draws, plays, turns, and says what it shows."""
+"""The page of hooke view in a headless browser: it draws, plays, turns, and states what it shows."""
 
 import base64
 import io
@@ -62,14 +62,14 @@ def page(browser, cloth):
 
 
 def seen(browser, name="picture"):
-    """The pixels of an element; of the picture without what lies over it."""
+    """The pixels of an element; of the picture without overlays."""
     image = pytest.importorskip("matplotlib.image")
     browser.run('for (const id of ["legend", "axes", "thinned"]) at(id).style.visibility = "hidden"')
     return (image.imread(io.BytesIO(browser.picture(name)))[5:-5, 5:-5, :3] * 255).round().astype(int)
 
 
 def ink(picture, background=(255, 255, 255)):
-    """How many pixels are not background."""
+    """Number of pixels that are not background."""
     return int((np.abs(picture - background).max(axis=2) > 40).sum())
 
 
@@ -197,7 +197,7 @@ def test_fewer_springs_while_it_moves(page):
     assert page.run('!at("thinned").hidden') and ink(seen(page)) < 0.6 * all_of_them
     page.run("play(); pause()")
     assert page.run("picture.stride") == 1 and page.run('at("thinned").hidden')
-    # it is slow pictures that lead to it, and only where there are many springs
+    # only slow drawing causes it, and only with many springs
     page.run("for (let k = 0; k < 20; k++) keepUp(100); data.springs = 1e5; enough = 1; costs = []")
     page.run("for (let k = 0; k < 6; k++) keepUp(20)")
     assert page.run("enough") == 1
@@ -219,7 +219,7 @@ def test_without_webgl(browser, cloth, tmp_path):
 
 
 def test_planted_faults(browser, cloth, tmp_path):
-    """A fault in a script is seen, and the page refuses to fetch anything."""
+    """A fault in a script is detected, and the page refuses to fetch anything."""
     text = cloth.read_text(encoding="utf-8").replace("</body>", """<img src="http://127.0.0.1:9/planted.png">
         <script>throw new Error("planted");</script></body>""")
     (tmp_path / "page.html").write_text(text, encoding="utf-8")

@@ -1,5 +1,6 @@
-"""hooke run --want and hooke study --want, and the error that a plain run says it has, held against ends by extrapolation in
-long double (tests/data/wants.json, made by tests/long/make_wants.py); `make test-long PART=want` asks more."""
+"""hooke run --want and hooke study --want, and the estimated error of a plain run, compared with ends by
+extrapolation in long double (tests/data/wants.json, made by tests/long/make_wants.py); `make test-long PART=want`
+tests more."""
 
 import math
 import os
@@ -15,9 +16,9 @@ pytestmark = pytest.mark.everything
 SCENES = ["six-particles", "rope", "stiff-spring", "mesh", "cloth-damped", "cantilever", "cloth-gentle", "pendulum", "cable", "swung-rope"]
 STUDIED = ["six-particles", "rope", "pendulum", "cable", "swung-rope"]
 ASKED = ["1cm", "1mm"]
-# A pick has so many seconds, in which a busy machine gets less done: here they are those of the processor.
+# A pick has a limited time, in which a busy machine does less: here it is processor time.
 BY_PROCESSOR = {**os.environ, "LD_PRELOAD": os.environ.get("HOOKE_PROCESSOR_CLOCK", "")}
-DEARER = 4.0  # times the cheapest of a fine ladder of all methods that a pick may cost, in evaluations and solves
+DEARER = 4.0  # maximum cost of a pick over the cheapest of a fine ladder of all methods, in evaluations and solves
 
 
 @pytest.mark.parametrize("asked", ASKED)
@@ -61,7 +62,7 @@ def in_status(path):
 
 
 def in_file(path):
-    """The error of a run in its file, as --json has it."""
+    """The error of a run in its file, in the form of --json."""
     with h5py.File(path) as file:
         numbers = file["hooke/error"]
         found = dict(zip(numbers.attrs["numbers"], [None if math.isnan(x) else x for x in numbers[:].tolist()]))
@@ -101,12 +102,12 @@ def test_every_example_is_there():
 
 
 def test_most_plain_runs_know_their_error(hooke):
-    """An estimate that is left out is none. Where twice the step is unstable a slice is all that half the time buys."""
+    """A skipped estimate is none. If twice the step is unstable, half the time only suffices for a slice."""
     names = ["six-particles", "oscillator", "drag-or-damping", "mesh", "cloth-gentle"]
     assert [name for name in names if not is_of_the_end(hooke("run", ENDS[name].scene, "--json").json)] == []
 
 
-# ---- the judge, on answers that are wrong ----
+# ---- the judge, on wrong answers ----
 
 
 def answer_of(met, estimate=2e-3, until=1.0, by="half-step"):
@@ -125,7 +126,7 @@ def answer_of(met, estimate=2e-3, until=1.0, by="half-step"):
         (7, answer_of(False, 1e-3, 0.5), True, 9e-3, 0),  # known until an earlier time alone
         (0, answer_of(None, 9e-4), True, 9e-4, 1),  # exit code and key differ
         (7, answer_of(True, 9e-4), True, 9e-4, 1),
-        (0, answer_of(True, 9e-4), False, 9e-4, 1),  # nobody can know
+        (0, answer_of(True, 9e-4), False, 9e-4, 1),  # unknown
         (0, answer_of(True, 9e-4), None, math.nan, 0),  # the solution took too long
         (4, answer_of(True), True, 9e-4, 1),
         (0, {"time": 1.0}, True, 9e-4, 1),  # says nothing at all

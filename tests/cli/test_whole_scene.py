@@ -1,4 +1,4 @@
-"""What a run writes needs no other file: where its scene named some, they may be gone, and the output may lie elsewhere."""
+"""The output of a run needs no other file: files named by its scene may be gone, and the output may be moved."""
 
 import copy
 import json
@@ -19,7 +19,7 @@ TITLE = 'a "whole" scene </b> é'
 
 @pytest.fixture
 def scene(tmp_path):
-    """Arrays and a mesh of other files, in a folder; its path, and the folder beside it for what is written."""
+    """Arrays and a mesh of other files, in a folder; its path, and the folder beside it for output."""
     (tmp_path / "scene").mkdir()
     (tmp_path / "out").mkdir()
     value = copy.deepcopy(SIX_PARTICLES)

@@ -1,4 +1,4 @@
-"""hooke why: runs that blow up, each of another kind, with the cause planted in the scene; and what it says of them."""
+"""hooke why: runs that blow up, each in another way, with the cause planted in the scene; and their diagnosis."""
 
 import json
 import math
@@ -16,7 +16,7 @@ SCENES = Path(os.environ["HOOKE_SOURCE_DIR"]) / "tests/cli/scenes/exploding"
 KEYS = ["cause", "sentence", "method", "time", "noticed", "step", "limit", "particle", "left_out", "blame", "advice"]
 BLAME_KEYS = ["spring", "number", "first", "second", "group", "share", "force"]
 
-# Scene: cause, and the group or the springs that are to be named first (None: none is).
+# Scene: cause, and the group or the springs that must be named first (None: none is).
 KINDS = {
     "stiff-cloth": ("step-above-limit", "sheet.shear"),
     "light-particle": ("step-above-limit", [[2, 3], [1, 2]]),
@@ -49,7 +49,7 @@ KINDS = {
     "gaining-strand-verlet": ("model-gains-energy", None),
 }
 
-# The force to blame before springs.
+# The force that is named before springs.
 FORCES = {
     "strong-damping": ["damping"],
     "damping-rk4": ["damping"],
@@ -59,7 +59,7 @@ FORCES = {
     "drag-light-particle": ["drag"],
 }
 
-# No run of these has any numbers: the scene has to change.
+# No run of these stays finite: the scene has to change.
 HOPELESS = ["squares-of-lengths"]
 
 
@@ -77,7 +77,7 @@ def words_of(command):
 def test_the_cause_named_is_the_one_planted_and_the_first_advice_works(hooke, tmp_path, kind):
     cause, first = KINDS[kind]
     shutil.copy(SCENES / f"{kind}.json", tmp_path / "scene.json")
-    # trials of what gains energy fill their time, whatever that is
+    # trials of scenes that gain energy fill their time, whatever that is
     gains = cause == "model-gains-energy"
     run = hooke("run", "scene.json", "--json", "--quiet", *(["--no-why"] if gains else []))
     assert run.code == 4
@@ -117,7 +117,7 @@ def test_the_cause_named_is_the_one_planted_and_the_first_advice_works(hooke, tm
     assert again.json["status"] == "finished"
 
 
-# ---- what is said ----
+# ---- words ----
 
 
 def test_the_limit_of_an_oscillator_is_named_to_the_digit(hooke, write):
@@ -194,7 +194,7 @@ def test_an_output_is_explained_without_its_scene(hooke, write, tmp_path):
 
 
 def test_an_output_late_in_a_run(hooke, tmp_path):
-    """Frames until it blows up: the last of them is where the inquiry begins."""
+    """Frames until it blows up: the diagnosis starts from the last one."""
     shutil.copy(SCENES / "stretching.json", tmp_path / "scene.json")
     run = hooke("run", "scene.json", "--json", "-o", "out.h5")
     assert run.code == 4 and run.json["time"] > 10
@@ -247,8 +247,8 @@ def test_run_warns_of_a_method_that_is_never_stable(hooke, write):
 
 
 def test_run_warns_when_the_step_becomes_too_large(hooke, tmp_path):
-    """Safe at the start; stretching then brings the bound down from 0.141 to 0.104 s. The run is long enough to pay for
-    looking again."""
+    """Safe at the start; stretching then lowers the bound from 0.141 to 0.104 s. The run is long enough for another
+    check."""
     scene = json.loads((SCENES / "stretching.json").read_text())
     scene["run"] = {"method": "symplectic-euler", "step": 0.1, "duration": 100000, "every": 100}
     (tmp_path / "scene.json").write_text(json.dumps(scene))

@@ -1,5 +1,5 @@
-"""What an explanation may cost: time, memory, and an end by a signal, of a cloth of 256 x 256 that diverged at 1.05 times the
-limit; the outcome and the trajectory before it."""
+"""Cost of an explanation: time, memory, and a signal, for a cloth of 256 x 256 that diverged at 1.05 times the limit;
+the outcome and the trajectory come first."""
 
 import os
 import signal
@@ -77,7 +77,7 @@ def test_why_has_a_budget_too(cloth, hooke):
 
 
 def test_a_command_to_type_has_no_want_beside_a_step(hooke):
-    """Whatever --want picks."""
+    """For any pick of --want."""
     scene = Path(os.environ["HOOKE_SOURCE_DIR"]) / "examples/scenes/mesh.json"
     answer = hooke("run", scene, "--want", "1mm", "--quiet")
     commands = [line for line in answer.err.splitlines() if line.startswith("  hooke run ")]

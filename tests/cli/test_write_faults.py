@@ -1,5 +1,5 @@
-"""Files and standard output that cannot be written, for every verb that writes: exit code 5, the file and the reason, no claim
-of success, the older file as it was, nothing left beside."""
+"""Files and standard output that cannot be written, for every verb that writes: exit code 5, the file and the reason,
+no claim of success, the older file unchanged, no other file left."""
 
 import json
 import os
@@ -22,7 +22,7 @@ NEEDS = ["needs", "scene.json", *SHORT, "--want", "1cm", "--quiet"]
 LIMIT = ["limit", "scene.json", "--predict", "--methods", "verlet", "--quiet"]
 MAKE = ["make", "rope", "--from", "0,0,0", "--to", "1,0,0", "--segments", "4", "--mass", "1", "--quiet"]
 
-# By name: the words before the file, the file's ending, and what standard output has if all went well and only then.
+# By name: the words before the file, the file's ending, and the standard output of a success only.
 WRITERS = {
     "run": (["run", "scene.json", *SHORT, "--checkpoint", "0.001", "--json", "--quiet", "-o"], ".h5", "finished"),
     "run that diverges": (["run", "stiff.json", "--json", "--quiet", "-o"], ".h5", "diagnosis"),
@@ -41,7 +41,7 @@ TAKEN = ["run", "study", "view"] if FEW else list(WRITERS)
 
 @pytest.fixture(name="scenes", scope="module")
 def fixture_scenes(tmp_path_factory):
-    """A folder with what the verbs read; not to be written in."""
+    """A folder with the input of the verbs; not to be written in."""
     folder = tmp_path_factory.mktemp("scenes")
     (folder / "scene.json").write_text(json.dumps(SIX_PARTICLES))
     stiff = {**SIX_PARTICLES, "run": {"method": "forward-euler", "step": 1, "duration": 20, "every": 1}}
@@ -87,7 +87,7 @@ def test_places_that_take_no_file(folder, writer, place):
 @pytest.mark.parametrize("writer", TAKEN)
 @pytest.mark.parametrize("ignored", [False, True], ids=["default", "ignored"])
 def test_a_limit_on_file_sizes(folder, writer, ignored):
-    """Whether the signal of such a write is ignored where the program is started, or kills."""
+    """Whether the signal of such a write is ignored when the program starts, or kills."""
 
     def limit_files():
         signal.signal(signal.SIGXFSZ, signal.SIG_IGN if ignored else signal.SIG_DFL)
@@ -102,9 +102,9 @@ def test_a_limit_on_file_sizes(folder, writer, ignored):
     assert sorted(os.listdir(folder)) == there
 
 
-# ---- file systems of their own ----
+# ---- separate file systems ----
 
-# The folder "disk" with the older file is mounted by the first words; what is left there goes to "left".
+# The folder "disk" with the older file is mounted by the first words; its remaining files go to "left".
 MOUNTED = """
 %s
 name=$1; shift
@@ -121,7 +121,7 @@ mount --bind disk disk && mount -o remount,bind,ro disk || exit 99"""
 
 
 def namespace():
-    """The words that give a command mounts of its own; None where that is not allowed."""
+    """The words that give a command its own mounts; None if that is not allowed."""
     for flags in ["-rm", "-m"]:
         words = ["unshare", flags]
         try:
@@ -170,7 +170,7 @@ SPEAKERS = {
     "view": ["view", "seen.h5", "-o", "page.html", "--json"],
     "--help": ["--help"],
     "--version": ["--version"],
-    "--man": ["--man"],  # more than is held back
+    "--man": ["--man"],  # more than is buffered
     "--completion": ["--completion", "bash"],
     "a verb's --help": ["run", "--help"],
 }

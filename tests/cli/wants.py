@@ -1,4 +1,4 @@
-"""What is asked of a run that says how wrong it is, or that a wanted error is met: that it is true."""
+"""Requirements on a run that states its error, or that a wanted error is met: the statement is true."""
 
 import json
 import math
@@ -6,7 +6,7 @@ from pathlib import Path
 
 DATA = Path(__file__).resolve().parents[1] / "data/wants.json"
 WANTS = {"1cm": 1e-2, "1mm": 1e-3, "10um": 1e-5}
-FACTOR = 3.0  # by which an estimate may be off
+FACTOR = 3.0  # allowed factor on an estimate
 FLOOR = 1e-12  # [m] below which errors are rounding
 WITHIN = 0.1  # of a want: how well the solution has to be known for a claim
 IMPLICIT = ("backward-euler", "tr-bdf2", "implicit-midpoint", "cvode-bdf")
@@ -19,7 +19,7 @@ def cost(method, evaluations):
 
 
 def distance(free, a, b):
-    """Root mean square over the free particles of how far they are apart [m]; 3n numbers each."""
+    """Root mean square distance of the free particles [m]; 3n numbers each."""
     return math.sqrt(sum((a[3 * p + k] - b[3 * p + k]) ** 2 for p in free for k in range(3)) / len(free))
 
 
@@ -29,7 +29,7 @@ def at_end(time, end):
 
 
 class End:
-    """Where the particles of a scene are at its end, from tests/data/wants.json."""
+    """Final positions of the particles of a scene, from tests/data/wants.json."""
 
     def __init__(self, data):
         self.data = data
@@ -42,7 +42,7 @@ class End:
         return distance(self.data["free"], found, self.data["position"])
 
     def best(self, asked):
-        """What the want costs at best."""
+        """The minimum cost of the want."""
         return min(cost(method, evaluations) for method, evaluations in self.data["best"][asked].items())
 
 
@@ -50,8 +50,8 @@ ENDS = {Path(one["scene"]).stem: End(one) for one in json.loads(DATA.read_text()
 
 
 def complaints(code, value, known, error, want):
-    """Of a run with a want [m], whose error at the end is `error` where that is `known`: None if the solution took too long, False if
-    it hangs on the last digits."""
+    """For a run with a want [m], whose error at the end is `error` if it is `known`: None if the solution took too
+    long, False if it depends on the last digits."""
     if code not in (0, 7):
         return [f"exit {code}"]
     met, found = value.get("want", {}).get("met"), []
@@ -65,14 +65,14 @@ def complaints(code, value, known, error, want):
 
 
 def is_of_the_end(value):
-    """Whether the estimate is of the error from the start to the end, and not of a slice or of an earlier time."""
+    """Whether the estimate is of the error from the start to the end, not of a slice or of an earlier time."""
     estimate, until, by = (value.get("error", {}).get(key) for key in ("estimate", "known_until", "by"))
     return estimate is not None and by != "slice" and at_end(until, value["time"])
 
 
 def estimate_complaints(value, error, largest=False):
-    """An estimate of the error at the end is right within the factor; with `largest` it is of the largest error at a frame, which
-    is not smaller."""
+    """An estimate of the error at the end is right within the factor; with `largest` it is of the largest error at a
+    frame, which is not smaller."""
     if not is_of_the_end(value) or math.isnan(error):
         return []
     estimate = value["error"]["estimate"]
@@ -82,8 +82,8 @@ def estimate_complaints(value, error, largest=False):
 
 
 def study_complaints(code, value, again, error, want, known=True):
-    """Of a study with a want, whose recommended run, done again, ended with the code `again` and is off by `error`, where that
-    is `known`."""
+    """For a study with a want, whose recommended run, repeated, ended with the code `again` and has the error
+    `error`, if that is `known`."""
     met = value["recommendation"]["met"]
     whole = value["reference"]["trusted_until"] >= value["duration"] * (1 - 1e-9)
     found = [] if (code == 0) == (met is True) and code in (0, 7) else [f"exit {code} with met {met}"]
@@ -92,7 +92,7 @@ def study_complaints(code, value, again, error, want, known=True):
     if met and not whole:
         found.append("recommends for all of the run what is trusted for a part of it")
     if not whole:
-        return found  # what it recommends is for the time until then
+        return found  # its recommendation holds for the time until then
     if met and again == 0 and known is False:
         found.append("recommends what nobody can know")
     elif met and again == 0 and known and not error <= want:

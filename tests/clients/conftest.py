@@ -44,7 +44,7 @@ def diverged(tmp_path_factory):
 
 @pytest.fixture(scope="session")
 def killed(tmp_path_factory):
-    """A run that was killed: its file has more room than frames, and nothing beside it."""
+    """A killed run: its file has space for more frames than written, and no companion."""
     folder = tmp_path_factory.mktemp("killed")
     (folder / "scene.json").write_text(json.dumps({**CLOTH, "run": {**CLOTH["run"], "duration": 100}}))
     process = subprocess.Popen([CLI, "run", "scene.json", "-o", "out.h5", "--quiet"], cwd=folder, stdout=subprocess.DEVNULL)
@@ -59,6 +59,6 @@ def killed(tmp_path_factory):
 
 
 def there(path):
-    """Of each frame, whether it is there."""
+    """For each frame, whether it was written."""
     with h5py.File(path) as file:
         return ~np.isnan(file["particles/all/position/time"][:])

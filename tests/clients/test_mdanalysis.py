@@ -1,4 +1,4 @@
-"""MDAnalysis reads what hooke writes, to the last bit of the single precision that it works in."""
+"""MDAnalysis reads hooke's files, to the last bit of its single precision."""
 
 import warnings
 
@@ -40,7 +40,7 @@ def test_a_run_that_diverged(diverged):
 
 
 def test_a_universe(cloth):
-    """Masses and bonds of the file, and what MDAnalysis then finds of the springs."""
+    """Masses and bonds of the file, and the springs that MDAnalysis then finds."""
     with h5py.File(cloth) as file:
         mass, springs = file["particles/all/mass"][:], file["connectivity/springs"][:]
         q = file["particles/all/position/value"][-1]
@@ -56,7 +56,7 @@ def test_a_universe(cloth):
 
 
 def test_planted(cloth, tmp_path):
-    """A file with a number that is not the run's is seen."""
+    """A file with a number that is not the run's is detected."""
     other = tmp_path / "other.h5"
     other.write_bytes(cloth.read_bytes())
     reader = H5MDReader(str(other), convert_units=False)

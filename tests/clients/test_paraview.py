@@ -34,7 +34,7 @@ def array(of, name):
 
 
 def complaints(path, xdmf, frames=None):
-    """What VTK reads otherwise than h5py."""
+    """Differences between the readings of VTK and h5py."""
     found = []
     times, grid = read(xdmf)
     with h5py.File(path) as file:
@@ -72,7 +72,7 @@ def test_a_run_that_diverged(diverged, capfd):
 
 
 def test_a_run_that_was_killed(killed, capfd):
-    """It has no companion; one can be written afterwards, of the frames that are there."""
+    """It has no companion; one can be written afterwards, of the existing frames."""
     companion = hooke.write_xdmf(killed)
     assert companion == killed.with_suffix(".xdmf")
     assert complaints(killed, companion, [0, 1, sum(there(killed)) - 1]) == []
@@ -108,7 +108,7 @@ def test_written_by_python(tmp_path):
 
 
 def test_planted(cloth, tmp_path):
-    """Frames, springs and times that are not those of the file are seen."""
+    """Frames, springs and times that differ from the file are detected."""
     text = cloth.with_suffix(".xdmf").read_text()
     shutil.copy(cloth, tmp_path)
     for old, new in [(">3 0 0 1 1 1", ">4 0 0 1 1 1"), ("/connectivity/springs", "/connectivity/others"), ('Value="0"', 'Value="0.001"'),

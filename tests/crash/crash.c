@@ -1,12 +1,12 @@
-/* Kills a process at one of its writes, to be loaded before all libraries (LD_PRELOAD). Every call that
- * changes a regular file or a name is a point; HOOKE_CRASH_AT=n kills at the n-th: before it, or with
- * HOOKE_CRASH_TORN=1 in its midst, when half of the bytes are there, and behind it where there are no bytes.
- * With HOOKE_CRASH_ERROR=number it is not killed, but told that the call has failed; with HOOKE_CRASH_FROM=1
- * every call from there on. HOOKE_CRASH_LOG names a file that is told what came about: a line "frame <time>"
- * when the time of a frame is in its file, and at the end "points <count>".
+/* Kills a process at one of its writes; to be loaded before all libraries (LD_PRELOAD). Every call that
+ * changes a regular file or a name is a point. HOOKE_CRASH_AT=n kills at the n-th: before the call or, with
+ * HOOKE_CRASH_TORN=1, in the middle of it, when half of the bytes are written, or after it if there are no
+ * bytes. With HOOKE_CRASH_ERROR=number the call fails with this errno instead; with HOOKE_CRASH_FROM=1 so
+ * does every later call. HOOKE_CRASH_LOG names a log file: it gets a line "frame <time>" when the time of a
+ * frame is in its file, and at the end "points <count>".
  *
- * System calls are made directly. Streams write through a function of ours, since the C library's own do not
- * pass here. */
+ * System calls are made directly. Streams write through a function defined here, since the C library's own
+ * functions cannot be intercepted. */
 #define _GNU_SOURCE
 #include <dlfcn.h>
 #include <errno.h>
@@ -24,7 +24,7 @@
 static atomic_long passed;
 static long at = -1;
 static int torn, failure, from_here_on, journal = -1;
-/* The time is the 8 bytes that are written right after the 4 of the check value. */
+/* The time is the 8 bytes written right after the 4 of the check value. */
 static _Thread_local int after_check;
 
 static long number_of(const char *name, long fallback) {
@@ -108,7 +108,7 @@ ssize_t write(int descriptor, const void *bytes, size_t count) {
   return write_bytes(descriptor, bytes, count, 0, 0);
 }
 
-/* A call without bytes: what is left of it is nothing or all. */
+/* A call without bytes: torn, it has no effect or its whole effect. */
 #define CALL(counts, call)                                                                                   \
   const int here = (counts) && is_here();                                                                    \
   if (here && failure) return fail();                                                                        \
@@ -161,7 +161,7 @@ int unlink(const char *path) {
   CALL(1, syscall(SYS_unlinkat, AT_FDCWD, path, 0));
 }
 
-/* One that fails has closed all the same, as on Linux. */
+/* A failed close() closes all the same, as on Linux. */
 int close(int descriptor) {
   const int counts = is_file(descriptor) && (fcntl(descriptor, F_GETFL) & O_ACCMODE) != O_RDONLY;
   const int here = counts && is_here();

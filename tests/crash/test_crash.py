@@ -1,8 +1,6 @@
-"""A run is killed at each of its writes in turn, before it and in its midst: what was reported is there to the bit, nothing
-else is taken for a frame, and what goes on ends as the run that nobody killed. The same where a write fails.
-
-The points are those of crash.c. A few of them are taken; HOOKE_LONG=1 takes them all.
-"""
+"""A run is killed at each of its writes in turn, before the write and in the middle of it: reported frames are in the
+file to the bit, nothing else counts as a frame, and the continued run ends like the uninterrupted one. The same for a
+failing write. The points are those of crash.c. A few of them are tested; HOOKE_LONG=1 tests them all."""
 
 import errno
 import json
@@ -48,7 +46,8 @@ def scene(part, **run):
     return {"hooke": 1, "gravity": [0, -9.81, 0], "parts": [part], "run": run}
 
 
-# A frame of the cloth has two rows of more than 5 KiB, which lie across pages. A run that diverges makes its file again.
+# A frame of the cloth has two rows of more than 5 KiB, which cross page boundaries. A run that diverges rewrites its
+# file.
 SCENES = {
     "rope": scene(ROPE, method="symplectic-euler", step=1e-3, duration=0.05, every=0.01, checkpoint=0.02),
     "cloth": scene(CLOTH, method="verlet", step=1e-3, duration=0.04, every=0.01, checkpoint=0.015),
@@ -60,7 +59,7 @@ SCENES = {
 
 
 class Place:
-    """A folder for runs, in memory if there is such a place: this is about processes that die, not machines."""
+    """A folder for runs, in memory if possible: this tests processes that die, not machines."""
 
     def __init__(self):
         memory = "/dev/shm"
@@ -86,7 +85,7 @@ class Place:
         return self.run("--resume", "out.h5", **crash)
 
     def told(self):
-        """Times of the frames that were reported, and the number of points if the run came to its end."""
+        """Times of the reported frames, and the number of points if the run finished."""
         lines = self.journal.read_text().split("\n") if self.journal.exists() else []
         frames = {float.fromhex(line.split()[1]) for line in lines if line.startswith("frame")}
         points = [int(line.split()[1]) for line in lines if line.startswith("points")]
@@ -104,7 +103,7 @@ def read(path):
 
 
 class Whole:
-    """The run that nobody kills."""
+    """The uninterrupted run."""
 
     def __init__(self, place, words, code=0, status="finished"):
         place.fill(words)
@@ -119,7 +118,7 @@ class Whole:
         assert code != 0 or "out.h5.checkpoint" not in os.listdir(place.folder), "a run that finished needs none"
 
     def check_left(self, place, reported, more=()):
-        """What a killed process left."""
+        """The files of a killed process."""
         began = time.monotonic()
         frames, status = read(place.out)
         with hooke.open(place.out) as out:
@@ -143,7 +142,7 @@ class Whole:
             assert np.array_equal(values, self.frames[name]), name
         with hooke.open(place.out) as out:
             out.check()
-        if left != "finished":  # else there is nothing to go on with
+        if left != "finished":  # otherwise there is nothing to continue
             assert json.loads(done.stdout)["final"] == self.final
 
 
@@ -161,7 +160,7 @@ def case(request, place):
 
 
 def points_of(count, stride=STRIDE):
-    """Every few, and the first and last ones, which make the file and close it."""
+    """Every few, and the first and last ones, which create the file and close it."""
     return sorted({*range(1, count + 1, stride), 2, count - 1, count})
 
 
@@ -195,7 +194,7 @@ def test_every_write_of_a_run_that_goes_on(place, case, torn):
     place.fill(words)
     half = sorted(whole.reported)[len(whole.reported) // 2]
     at = whole.points // 3
-    while half not in place.told()[0]:  # killed in the midst of its frames
+    while half not in place.told()[0]:  # killed in the middle of its frames
         at += 5
         place.fill(words)
         assert place.start_over(at=at).returncode == -9
@@ -221,7 +220,7 @@ def test_every_write_of_a_run_that_goes_on(place, case, torn):
     print(f"{len(points)} of {count} points")
 
 
-# What comes of a failure: exit code 5, or the run's own where nothing is lost, such as where a file is not there to remove.
+# Result of a failure: exit code 5, or the run's own if nothing is lost, such as when a file to remove does not exist.
 @pytest.mark.parametrize("more", [False, True], ids=["once", "from-then-on"])
 def test_every_failing_write(place, case, more):
     words, whole = case

@@ -1,4 +1,4 @@
-/* Every force path of the library against the canonical sum, to the bit. */
+/* Compares every force path of the library with the canonical sum, to the bit. */
 #include "canonical.h"
 #include "check.h"
 #include "hash.h"
@@ -27,7 +27,7 @@ static void compare_acceleration(const struct random_scene *scene, uint64_t seed
   free(expected);
 }
 
-/* A step that is solved for takes as long as fifty others. */
+/* An implicit step takes as long as fifty others. */
 static int64_t steps_of(const struct random_scene *scene, const char *method, double step) {
   hooke_integrator *integrator = start_run(scene->system, (struct run){.method = method, .step = step});
   hooke_state *state = start_state(scene->system);
@@ -46,8 +46,9 @@ static void compare_scene(struct random_scene_request request) {
   for (int64_t m = 0; m < hooke_method_count(); m++) {
     const char *method = hooke_method_name(m);
     if (!is_fixed_step(method)) continue;
-    /* a step that is no binary fraction: t0 + k h has to be rounded the same way */
-    /* the fourth power of a step far too large overflows within ten steps, which Euler's first does not */
+    /* a step that is no binary fraction: t0 + k h must be rounded in the same way */
+    /* the fourth power of a step far too large overflows within ten steps, which Euler's first power does not
+     */
     const double step = strcmp(method, "rk4") == 0 ? 0.00009765 : 0.0009765;
     check_lockstep(&scene, method, request.seed % 2 ? 2 : 1, start, step, steps_of(&scene, method, step));
   }
@@ -109,7 +110,7 @@ static void test_parts(void **unused) {
   }
 }
 
-/* With other particles and springs, and alone, where its springs form strided batches. */
+/* With additional particles and springs, and alone, where its springs form strided batches. */
 static void test_lattices(void **unused) {
   (void)unused;
   static const int32_t size[][3] = {{2, 2, 2},  {3, 2, 4}, {2, 17, 4},  {5, 4, 3},
@@ -167,7 +168,7 @@ static void test_parts_are_springs(void **unused) {
   free(expected);
 }
 
-/* The comparison itself: one unit in the last place, and another order of the springs, have to show. */
+/* The comparison itself: one unit in the last place, and another order of the springs, must be detected. */
 static void test_planted_faults(void **unused) {
   (void)unused;
   struct random_scene scene;
@@ -212,7 +213,7 @@ static void test_planted_faults(void **unused) {
   free(b);
 }
 
-/* Triples in another order have to show. */
+/* Triples in another order must be detected. */
 static void test_planted_bending(void **unused) {
   (void)unused;
   struct random_scene scene;
@@ -245,7 +246,7 @@ static void test_planted_bending(void **unused) {
   free(b);
 }
 
-/* Tetrahedra in another order, or with two corners exchanged, have to show. */
+/* Tetrahedra in another order, or with two corners exchanged, must be detected. */
 static void test_planted_altitude(void **unused) {
   (void)unused;
   struct random_scene scene;

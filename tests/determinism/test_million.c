@@ -10,7 +10,7 @@
 #include <stdlib.h>
 
 enum { SPRINGS = 1000000, PARTICLES = 300000, SHARE = 20 };
-/* Steps that are solved for cost a hundred others. */
+/* Implicit steps cost a hundred others. */
 enum { STEPS = 20, SOLVED_STEPS = 2 };
 
 struct task {
@@ -22,7 +22,7 @@ struct task {
   int32_t status;
 };
 
-/* No assertions here: they belong to the main thread. */
+/* No assertions in threads: they belong to the main thread. */
 static void *run_task(void *argument) {
   struct task *task = argument;
   hooke_options *options = NULL;
@@ -70,7 +70,7 @@ static void test_same_bits(void **unused) {
       (struct random_scene_request){
           .seed = 20240607, .particles = PARTICLES / share, .springs = springs, .features = SCENE_EVERYTHING},
       &scene);
-  /* but for the few that have no strength */
+  /* except the few without strength */
   assert_int_equal(hooke_system_spring_count(scene.system), scene.canonical.spring_count);
   check_between((double)scene.canonical.spring_count, 0.95 * (double)springs, (double)springs);
   for (int64_t m = 0; m < hooke_method_count(); m++) {
@@ -99,7 +99,7 @@ static void test_same_bits(void **unused) {
   random_scene_destroy(&scene);
 }
 
-/* Another seed is another scene: a hash that never changes would prove nothing. */
+/* Another seed is another scene: a constant hash would prove nothing. */
 static void test_seeds_differ(void **unused) {
   (void)unused;
   uint64_t hash[2];

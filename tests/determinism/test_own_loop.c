@@ -1,5 +1,5 @@
-/* Time loops of the caller's own: steps one by one, and steps of the motion of the integrator itself, end in
- * the bits of a run; single particles of that motion are those of the state. */
+/* Time loops of the caller's own: single steps, and steps of the integrator's own motion, end in the bits of
+ * a run; single particles of that motion are those of the state. */
 #include "check.h"
 #include "moving_scene.h"
 #include "random.h"
@@ -15,7 +15,7 @@ enum { STEPS = 24, SHEET = 120, SCENES = MOVING_SCENES + 2 };
 static const char *const counts[] = {"steps", "force_evaluations", "nonlinear_iterations",
                                      "linear_iterations"};
 
-/* A damped sheet whose particles and springs have numbers in no order. */
+/* A damped sheet whose particles and springs are numbered in random order. */
 static hooke_system *unordered_sheet(void) {
   const int64_t n = SHEET * SHEET;
   struct random_source source = {11};
@@ -52,7 +52,7 @@ static hooke_system *make_system(int scene) {
   return scene <= MOVING_SCENES ? moving_system(&moving_scenes[scene]) : unordered_sheet();
 }
 
-/* A power of two, so that times have no rounding wherever they are counted from. */
+/* A power of two, so that times have no rounding from any start. */
 static struct run run_of(const char *method, int32_t threads) {
   return (struct run){.method = method,
                       .step = 1.0 / 4096,
@@ -62,7 +62,7 @@ static struct run run_of(const char *method, int32_t threads) {
                       .newton = is_implicit(method) ? "one-iteration" : NULL};
 }
 
-/* A method at work, and where it has come to. */
+/* A running method, and its current state. */
 struct loop {
   hooke_integrator *integrator;
   hooke_state *state;
@@ -102,7 +102,7 @@ static void advance_one_by_one(struct loop *loop) {
   check_ok(hooke_integrator_sync(loop->integrator, loop->state));
 }
 
-/* Every way in turn, and nothing at all in between. */
+/* Alternates between all ways of stepping, and takes none of the states in between. */
 static void mix(struct loop *loop) {
   check_ok(hooke_integrator_step(loop->integrator, loop->state, 3));
   check_ok(hooke_integrator_advance(loop->integrator, 5));
@@ -191,7 +191,7 @@ static void check_get(const struct loop *loop, const int64_t particle[SOME]) {
   check_ok(hooke_integrator_get(loop->integrator, 0, NULL, NULL, NULL));
 }
 
-/* Small changes to some particles, of both or of one. */
+/* Small changes to position, velocity or both of some particles. */
 static void change(int round, double *q, double *v) {
   for (int k = 0; k < 3; k++) {
     if (round != 1) q[k] += 1e-3 * (k + 1);
@@ -209,12 +209,12 @@ static void put_changes(struct loop *loop, const int64_t particle[SOME], int rou
 }
 
 static void write_changes(struct loop *loop, const int64_t particle[SOME], int round) {
-  for (int k = 0; k + 1 < SOME; k++) /* the last one was there before */
+  for (int k = 0; k + 1 < SOME; k++) /* the last particle was at this position before */
     change(round, hooke_state_position(loop->state) + 3 * particle[k],
            hooke_state_velocity(loop->state) + 3 * particle[k]);
 }
 
-/* What is put into the motion does what it does in a state. */
+/* A change of the motion has the same effect as that change of a state. */
 static void check_particles(const hooke_system *system, struct run run) {
   int64_t particle[SOME];
   choose(system, particle);
@@ -239,7 +239,7 @@ static void test_particles(void **unused) {
   for_every_method(check_particles);
 }
 
-/* A pinned particle is held where it is put, and there without velocity. */
+/* A pinned particle is held where it is put, with zero velocity. */
 static void test_pinned(void **unused) {
   (void)unused;
   hooke_system *system = moving_system(&moving_scenes[0]);
@@ -257,7 +257,7 @@ static void test_pinned(void **unused) {
   hooke_system_destroy(system);
 }
 
-/* ---- who watches ---- */
+/* ---- observers ---- */
 
 struct watch {
   int64_t calls, stop_at, size;
@@ -275,7 +275,7 @@ static int32_t see(int64_t step, const hooke_state *state, void *ctx) {
   return watch->calls == watch->stop_at ? 7 : 0;
 }
 
-/* Observers see what they see of steps in one call, and may stop; the motion goes on from there. */
+/* Observers get the same calls as for steps in one call, and may stop; the motion continues from there. */
 static void check_watched(const hooke_system *system, struct run run) {
   struct loop loop = loop_start(system, run), alone = loop_start(system, run);
   struct watch watch = {.stop_at = 3, .size = hooke_state_size(loop.state)};
@@ -310,7 +310,7 @@ static struct loop start_wild(const hooke_system *system, double step) {
   return loop_start(system, (struct run){.method = "forward-euler", .step = step});
 }
 
-/* Each call of a step tests for numbers that are not finite, and leaves the state of the call before. */
+/* Each call of a step checks for non-finite numbers, and leaves the state of the previous call. */
 static void test_steps_diverge(void **unused) {
   (void)unused;
   hooke_system *system = small_oscillator(10.0);
@@ -341,7 +341,7 @@ static void test_steps_diverge(void **unused) {
   hooke_system_destroy(system);
 }
 
-/* Without a state the check comes every 1000 steps, and when the state is asked for. */
+/* Without a state the check is made every 1000 steps, and when the state is requested. */
 static void test_motion_diverges(void **unused) {
   (void)unused;
   hooke_system *system = small_oscillator(10.0);
@@ -354,7 +354,7 @@ static void test_motion_diverges(void **unused) {
   check_ok(hooke_integrator_sync(loop.integrator, loop.state));
   check_same_state(loop.state, start);
   check_status(hooke_integrator_get(loop.integrator, 0, NULL, NULL, NULL), HOOKE_BAD_CALL);
-  check_ok(hooke_integrator_step(loop.integrator, loop.state, 1)); /* begins anew */
+  check_ok(hooke_integrator_step(loop.integrator, loop.state, 1)); /* restarts */
   check_ok(hooke_integrator_advance(loop.integrator, 1));
   loop_end(&loop);
 
@@ -369,7 +369,7 @@ static void test_motion_diverges(void **unused) {
   hooke_system_destroy(system);
 }
 
-/* Whoever puts particles somewhere may bring any energy. */
+/* Moving particles may add any energy. */
 static void test_put_brings_energy(void **unused) {
   (void)unused;
   hooke_system *system = small_oscillator(10.0);
@@ -417,7 +417,7 @@ static void test_misuse(void **unused) {
   check_status(hooke_integrator_get(loop.integrator, -1, particle, q, NULL), HOOKE_BAD_VALUE);
   check_status(hooke_integrator_put(loop.integrator, 2, (int64_t[]){2, 3}, q, bad), HOOKE_BAD_VALUE);
   check_message("velocity[1][1]");
-  check_ok(hooke_integrator_sync(loop.integrator, loop.state)); /* nothing of it was written */
+  check_ok(hooke_integrator_sync(loop.integrator, loop.state)); /* nothing was written */
   check_same_state(loop.state, before);
   hooke_state_destroy(small);
   hooke_state_destroy(before);

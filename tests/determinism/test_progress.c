@@ -1,5 +1,5 @@
-/* Whoever is told of progress between steps, and stops the run there, finds the state of a whole step; what
- * goes on from it ends in the bits and the counts of the run that nobody watched. */
+/* A run stopped by its progress callback between steps has the state of a whole step; continued, it ends in
+ * the bits and counts of a run without a callback. */
 #include "check.h"
 #include "run.h"
 #include "small.h"
@@ -39,7 +39,7 @@ static void keep(const hooke_integrator *integrator, const hooke_state *state, s
     end->count[k] = hooke_integrator_count(integrator, counts[k]);
 }
 
-/* Stopped again and again, each time after more calls. */
+/* Stopped repeatedly, each time after more calls. */
 static void run_by_pieces(const hooke_system *system, struct run run, struct end *end, int64_t *stops) {
   hooke_integrator *integrator = start_run(system, run);
   hooke_state *state = start_state(system);
@@ -67,7 +67,7 @@ static void run_alone(const hooke_system *system, struct run run, struct end *en
   hooke_integrator_destroy(integrator);
 }
 
-/* A solve of the cloth takes many products: stops come within steps, too. */
+/* A solve of the cloth takes many products: stops occur within steps, too. */
 static void test_a_stopped_run_goes_on(void **unused) {
   (void)unused;
   static struct end whole, pieces;

@@ -1,5 +1,5 @@
-/* Runs that are stopped anywhere and go on elsewhere end in the same bits, with the same frames and counts,
- * as the run that was never stopped; for every method, the references as well. */
+/* Runs that are stopped anywhere and continued elsewhere end in the same bits, with the same frames and
+ * counts, as an uninterrupted run; for every method, including those for references. */
 #include "check.h"
 #include "hash.h"
 #include "moving_scene.h"
@@ -23,21 +23,21 @@ static const char *const counts[] = {"steps",
                                      "error_test_failures"};
 enum { COUNTS = sizeof counts / sizeof counts[0] };
 
-/* What came of a run: each frame, the end last, is t, step, q, v. */
+/* Output of a run: each frame, the last being the end, is t, step, q, v. */
 struct trace {
   int64_t size, frames;
   double *row;
   int64_t count[COUNTS];
 };
 
-/* A run on its way. */
+/* A running run. */
 struct course {
   struct trace *trace;
   hooke_integrator *integrator;
   char path[64];
   int64_t calls, stop_at; /* step observers so far, and the one that stops; 0: none */
-  int64_t kept;           /* frames that were there when the checkpoint was written */
-  int32_t at_points;      /* 1: checkpoints are written where they fall due, else where the run stops */
+  int64_t kept;           /* number of frames when the checkpoint was written */
+  int32_t at_points;      /* 1: checkpoints are written where they fall due, otherwise where the run stops */
 };
 
 static struct trace trace_create(const hooke_system *system) {
@@ -103,7 +103,7 @@ static int64_t run_whole(const hooke_system *system, struct run run, struct trac
   return course.calls;
 }
 
-/* Frames after the checkpoint are reported again; an error-controlled run may have come past it before it was
+/* Frames after the checkpoint are reported again; an error-controlled run may have passed it before it was
  * written. */
 static void forget_after(struct trace *trace, int64_t kept, double t) {
   trace->frames = kept;
@@ -111,7 +111,7 @@ static void forget_after(struct trace *trace, int64_t kept, double t) {
     trace->frames--;
 }
 
-/* 1 if it was stopped, with a checkpoint behind it. */
+/* 1 if it was stopped after a checkpoint. */
 static int run_stopped(const hooke_system *system, struct run run, struct course *course, int resume) {
   hooke_state *state = start_state(system);
   course->calls = 0;
@@ -164,7 +164,7 @@ static void check_stops(const hooke_system *system, struct run run, const struct
                         struct random_source *random, const char *what) {
   struct trace trace = trace_create(system);
   struct course course = {.trace = &trace, .at_points = (int32_t)random_whole(random, 0, 1)};
-  /* in memory if possible: what a checkpoint takes is fsync */
+  /* in memory if possible: the cost of a checkpoint is fsync */
   snprintf(course.path, sizeof course.path, "%s/hooke-resume-%ld.checkpoint",
            access("/dev/shm", W_OK) == 0 ? "/dev/shm" : ".", (long)getpid());
   int stopped = 1;
@@ -225,7 +225,7 @@ static void resumed_runs_end_in_the_same_bits(void **state) {
   }
 }
 
-/* Two threads, and one alone, in turn. */
+/* Alternately with two threads and with one. */
 static void threads_change_nothing(void **state) {
   (void)state;
   static const char *const methods[] = {"symplectic-euler", "verlet", "rk4", "cvode-adams"};
@@ -244,7 +244,7 @@ static void threads_change_nothing(void **state) {
   hooke_system_destroy(system);
 }
 
-/* In the same process, at the state where an observer stopped it, time and again. */
+/* In the same process, from the state where an observer stopped it, repeatedly. */
 static void fixed_steps_go_on_where_they_stopped(void **state) {
   (void)state;
   for (int64_t m = 0; m < hooke_method_count(); m++) {
@@ -264,7 +264,7 @@ static void fixed_steps_go_on_where_they_stopped(void **state) {
     check_ok(hooke_integrator_resume(course.integrator, at));
     finish(&course, at);
     check_same(method, &trace, &whole);
-    check_status(hooke_integrator_resume(course.integrator, at), HOOKE_BAD_CALL); /* it is at its end */
+    check_status(hooke_integrator_resume(course.integrator, at), HOOKE_BAD_CALL); /* at the end of the run */
     hooke_integrator_destroy(course.integrator);
     hooke_state_destroy(at);
     free(trace.row);
@@ -273,7 +273,7 @@ static void fixed_steps_go_on_where_they_stopped(void **state) {
   }
 }
 
-/* Loops of the caller's own: so many steps, a checkpoint, the other half in another integrator. */
+/* Loops of the caller's own: some steps, a checkpoint, the other half in another integrator. */
 static void single_steps_go_on_from_a_checkpoint(void **state) {
   (void)state;
   char path[64];
@@ -309,7 +309,7 @@ static void single_steps_go_on_from_a_checkpoint(void **state) {
   remove_files(path);
 }
 
-/* x' = phi(t, x), which has no velocities. */
+/* x' = phi(t, x), without velocities. */
 static int32_t circle(int64_t n, double t, const double *x, double *rate, void *ctx) {
   (void)n, (void)ctx;
   rate[0] = -x[1] + 0.1 * t;
@@ -357,7 +357,7 @@ static void first_order_problems_go_on(void **state) {
   remove_files(path);
 }
 
-/* Restarts are part of the method: without the option there are none, and with it watching changes
+/* Restarts are part of the method: without the option there are none, and with it an observer changes
  * nothing. */
 static void the_option_decides_and_nobody_else(void **state) {
   (void)state;

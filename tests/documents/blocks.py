@@ -14,8 +14,8 @@ KINDS = {"c", "fortran", "python", "console", "sh"} | NOT_RUN
 
 
 class Block:
-    """`word` is what follows the kind in the fence: of a console "exact", what is printed has to be what is shown; of C and
-    Python "prototypes", declarations that are not run."""
+    """`word` is the word after the kind in the fence: for a console "exact", the output must equal the shown one; for
+    C and Python "prototypes", declarations that are not run."""
 
     def __init__(self, document, line, kind, text, word=""):
         self.document, self.line, self.kind, self.text, self.word = document, line, kind, text, word
@@ -42,7 +42,7 @@ def blocks(document, text):
 
 
 def commands(text):
-    """(command, exit code) of each line that calls hooke; a trailing "# exit 4" states a code other than 0. Where some
+    """(command, exit code) of each line that calls hooke; a trailing "# exit 4" states a code other than 0. If some
     lines have a prompt, those without are output."""
     lines = re.sub(r"\\\n\s*", " ", text).splitlines()
     prompt = r"\$ " if any(line.startswith("$ ") for line in lines) else ""
@@ -90,7 +90,7 @@ def run_fortran(block, folder):
 
 
 def run_python(block, folder):
-    """In a copy of this process, in which the packages are imported already: most blocks take less than that."""
+    """In a copy of this process, with the packages imported already: most blocks take less time than the imports."""
     import h5py  # noqa: F401
     import matplotlib.pyplot  # noqa: F401
     import numpy  # noqa: F401
@@ -131,7 +131,7 @@ def run_command(command, folder):
 
 
 def same(shown, printed):
-    """Whether two texts agree; "..." on a line of its own stands for any lines, in a line for anything in it."""
+    """Whether two texts agree; "..." on a line of its own matches any lines, in a line any text."""
     pattern = "\n".join(r"[\s\S]*?" if line.strip() == "..." else re.escape(line).replace(r"\.\.\.", ".*?")
                         for line in shown.strip().splitlines())
     return re.fullmatch(pattern, printed.strip()) is not None
@@ -149,7 +149,7 @@ RUN = {"c": run_c, "fortran": run_fortran, "python": run_python, "console": run_
 
 
 def run_exact(block, folder):
-    """A console whose output is compared, that on standard error included."""
+    """A console whose output is compared, including standard error."""
     text = re.sub(r"\\\n\s*", " ", block.text)
     for piece in re.split(r"^\$ ", text, flags=re.MULTILINE)[1:]:
         line, _, shown = piece.partition("\n")
@@ -161,7 +161,7 @@ def run_exact(block, folder):
 
 
 def runs(block):
-    """Whether anything in the block is run."""
+    """Whether any part of the block is run."""
     if block.word == "prototypes":
         return False
     if block.kind in ("console", "sh"):
@@ -170,7 +170,7 @@ def runs(block):
 
 
 def complaint(block, folder):
-    """What is wrong with a block when it runs in `folder`; None if nothing is."""
+    """The fault of a block when it runs in `folder`; None if there is none."""
     if block.kind not in KINDS:
         return f"{block}: mark it as one of {', '.join(sorted(KINDS))}"
     if block.word not in ("", "exact", "prototypes"):

@@ -1,4 +1,4 @@
-"""Links and headings of a Markdown document, as a browser of repositories has them."""
+"""Links and headings of a Markdown document, as on a repository site."""
 
 import re
 from pathlib import Path
@@ -9,7 +9,7 @@ PARSER = MarkdownIt("commonmark").enable("table")
 
 
 def slug(title):
-    """The anchor of a heading: lower case, blanks to hyphens, punctuation away."""
+    """The anchor of a heading: lower case, blanks to hyphens, without punctuation."""
     return re.sub(r"[^\w\- ]", "", title.strip().lower()).replace(" ", "-")
 
 
@@ -35,7 +35,7 @@ def anchors(text):
 
 
 def targets(text):
-    """What links and pictures lead to."""
+    """The targets of links and pictures."""
     for token in inline(PARSER.parse(text)):
         target = token.attrGet("href") or token.attrGet("src")
         if target:
@@ -43,7 +43,7 @@ def targets(text):
 
 
 def complaints(document, root):
-    """Links of the document that lead nowhere, and links to the world outside, which are not followed."""
+    """Broken links of the document, and external links, which are not followed."""
     document, missing, outside = Path(document), [], []
     text = document.read_text(encoding="utf-8")
     for target in targets(text):

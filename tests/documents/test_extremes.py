@@ -1,4 +1,4 @@
-"""The tables of docs/notes/extremes.md are what the suite of extremes gives."""
+"""The tables of docs/notes/extremes.md equal the results of the suite of extremes."""
 
 import importlib.util
 import os

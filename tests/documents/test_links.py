@@ -1,5 +1,4 @@
-"""Every link of README.md, CONTRIBUTING.md, SECURITY.md, CHANGELOG.md, docs/ and the references inside the project leads
-somewhere."""
+"""No internal link of README.md, CONTRIBUTING.md, SECURITY.md, CHANGELOG.md, docs/ and the references is broken."""
 
 from pathlib import Path
 

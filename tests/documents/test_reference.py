@@ -1,4 +1,4 @@
-"""The pages of the references have everything that the sources have."""
+"""The pages of the references are complete against the sources."""
 
 import re
 

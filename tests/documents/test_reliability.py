@@ -1,4 +1,4 @@
-"""The promises of docs/notes/reliability.md name tests that are there, and its figures have a place that `make test-long` fills."""
+"""The promises of docs/notes/reliability.md name existing tests, and `make test-long` fills its numbers."""
 
 import importlib.util
 import json
@@ -17,7 +17,7 @@ LONG = ROOT / "tests/long"
 
 
 def promises(page):
-    """Rows of the table of promises: what, how, tests."""
+    """Rows of the table of promises: promise, means, tests."""
     table = page.split("## Promises")[1].split("\n## ")[0]
     rows = [line.strip("|").split(" | ") for line in table.splitlines() if line.startswith("| ")]
     return [[cell.strip() for cell in row] for row in rows if not set(row[0].strip()) <= {"-"}][1:]
@@ -83,7 +83,7 @@ def test_parts_took_no_longer_than_they_have(steps):
 
 
 def test_a_part_goes_on_where_it_was(steps, monkeypatch, capsys):
-    """Steps done are not run again, one that failed is, and other sources begin anew."""
+    """Finished steps are not repeated, a failed one is, and changed sources start anew."""
     ran, wrong = steps.PAGE.parent / "ran", steps.PAGE.parent / "wrong"
     part = steps.Part(
         "a part",
@@ -109,7 +109,7 @@ def test_a_part_goes_on_where_it_was(steps, monkeypatch, capsys):
     assert "<!-- figures of b -->\n<!-- end -->" in page
     assert steps.run_part(part) == 0 and len(ran.read_text().split()) == 5
     monkeypatch.setattr(steps, "sources", lambda: (str(time.monotonic()), "1234abc"))
-    assert steps.run_part(part) == 1  # the sources changed on the way: the step does not count, and is the last
+    assert steps.run_part(part) == 1  # the sources changed during the step: it does not count, and is the last
     ran.write_text("one two three two three\n")
     monkeypatch.setattr(steps, "sources", lambda: ("another", "5678def"))
     assert steps.run_part(part, "two") == 0 and len(ran.read_text().split()) == 6

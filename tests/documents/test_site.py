@@ -1,4 +1,4 @@
-"""`make docs`: the site is made without a warning, has every page, and loads nothing from elsewhere."""
+"""`make docs`: the site is built without a warning, has every page, and loads nothing from elsewhere."""
 
 import html.parser
 import re
@@ -13,7 +13,7 @@ LOADED_LINKS = {"stylesheet", "icon", "preload", "prefetch", "modulepreload", "p
 
 
 class Loads(html.parser.HTMLParser):
-    """What a browser fetches to show a page."""
+    """Everything that a browser fetches to show a page."""
 
     def __init__(self, text):
         super().__init__()

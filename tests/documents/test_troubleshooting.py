@@ -1,4 +1,4 @@
-"""docs/troubleshooting.md has every exit code, every status and every cause that there is."""
+"""docs/troubleshooting.md has every exit code, every status and every cause."""
 
 import os
 import re

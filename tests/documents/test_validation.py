@@ -1,4 +1,4 @@
-"""The tables of docs/notes/validation.md are what the library gives."""
+"""The tables of docs/notes/validation.md equal the results of the library."""
 
 import importlib.util
 import os

@@ -46,7 +46,7 @@ static int is_one(int descriptor) {
   return descriptor >= 0 && descriptor < MOST_DESCRIPTORS && is_ours[descriptor];
 }
 
-/* 1, and errno, if this call has to fail. */
+/* Returns 1, and sets errno, if this call has to fail. */
 static int fails(int concerned) {
   if (!concerned || only_cuts || !fault_strikes()) return 0;
   errno = error_number;
@@ -59,7 +59,7 @@ static int open_by(const char *name, const char *path, int flags, mode_t mode) {
   const int ours = concerns(path) && (flags & O_ACCMODE) != O_RDONLY;
   if (fails(ours)) return -1;
   const int descriptor = ((int (*)(const char *, int, mode_t))next(name))(path, flags, mode);
-  /* what is synced may be open for reading alone */
+  /* a synced file may be open for reading only */
   if (descriptor >= 0 && descriptor < MOST_DESCRIPTORS) is_ours[descriptor] = (char)concerns(path);
   return descriptor;
 }
@@ -80,7 +80,7 @@ int open64(const char *path, int flags, ...) {
   return open_by("open64", path, flags, mode);
 }
 
-/* One that fails has closed all the same, as on Linux. */
+/* A failed close() closes all the same, as on Linux. */
 int close(int descriptor) {
   int (*const real)(int) = next("close");
   const int ours = is_one(descriptor) && (fcntl(descriptor, F_GETFL) & O_ACCMODE) != O_RDONLY,
@@ -95,7 +95,7 @@ int close(int descriptor) {
 
 /* ---- writing ---- */
 
-/* Bytes to write, fewer if it is cut; -1 to fail. */
+/* Number of bytes to write, fewer if the write is cut; -1 to fail. */
 static ssize_t room_for(int descriptor, size_t count) {
   if (!is_one(descriptor)) return (ssize_t)count;
   if (!fault_strikes()) return (ssize_t)count;
@@ -141,7 +141,7 @@ int posix_fallocate(int descriptor, off_t from, off_t count) {
   return ((int (*)(int, off_t, off_t))next("posix_fallocate"))(descriptor, from, count);
 }
 
-/* Nothing is brought to a disk that may take its time: no power fails here. */
+/* Syncs do nothing: no power failures are simulated here. */
 int fsync(int descriptor) {
   return fails(is_one(descriptor)) ? -1 : 0;
 }

@@ -99,14 +99,14 @@ char *__wrap_strndup(const char *text, size_t most) {
   return fails() ? NULL : counted(__real_strndup(text, most));
 }
 
-/* The text is its caller's block. */
+/* The caller owns the text. */
 FILE *__wrap_open_memstream(char **text, size_t *size) {
   FILE *stream = fails() ? NULL : __real_open_memstream(text, size);
   if (stream) atomic_fetch_add(&blocks, 1);
   return stream;
 }
 
-/* Nothing here is about power failures, and a disk may take its time. */
+/* No power failures are simulated, and a disk may be slow. */
 int __wrap_fsync(int descriptor) {
   (void)descriptor;
   return 0;

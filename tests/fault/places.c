@@ -15,7 +15,7 @@
 
 enum { SLOTS = 1 << 16, MOST = SLOTS / 2, DEPTH = 64, OWN = 1 };
 
-extern const char __executable_start, etext; /* the linker's: what is linked into the program */
+extern const char __executable_start, etext; /* the linker's symbols: the code linked into the program */
 
 static struct places {
   int64_t count, point[MOST], times[SLOTS];
@@ -27,7 +27,7 @@ static int are_kept;
 int places_prepare(void) {
   void *some[2];
   if (getenv("HOOKE_FAULT_PLACES") == NULL) return 0;
-  backtrace(some, 2); /* loads what it needs */
+  backtrace(some, 2); /* loads its library */
   void *shared = mmap(NULL, sizeof *places, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
   if (shared == MAP_FAILED) return -1;
   places = shared;
@@ -44,8 +44,8 @@ void places_end(void) {
   are_kept = 0;
 }
 
-/* The way by which a point was come to: the calls, from the innermost one outwards, those of other libraries
- * left out. */
+/* Hash of the call path to a point: the calls, from the innermost outwards, without those of other libraries.
+ */
 static uint64_t way_here(void) {
   void *frame[DEPTH];
   fault_pause();

@@ -1,24 +1,23 @@
-/* Points of one attempt by the ways in which they were come to, through the code of hooke: of those that are
- * alike, as in a loop or within another library, the first, the 16th, the 256th ... With HOOKE_FAULT_PLACES=1
- * each of them fails, besides the share of all points that a scenario has: a short way to as many branches as
- * failures reach. */
+/* Points of one attempt by their call paths through the code of hooke: of equal paths, as in a loop or within
+ * another library, the first, the 16th, the 256th ... With HOOKE_FAULT_PLACES=1 each of them fails, besides
+ * the scenario's share of all points: a short way to as many branches as failures reach. */
 #ifndef FAULT_PLACES_H
 #define FAULT_PLACES_H
 
 #include <stdint.h>
 
-/* For what follows, in processes that are forked from this one, too; 0 if that went well. Without the
- * variable nothing is kept. */
+/* Starts recording, also in processes that are forked from this one; 0 on success. Without the variable
+ * nothing is recorded. */
 int places_prepare(void);
 
-/* Forgets them, and keeps those of what comes next. */
+/* Clears the record, for the next attempt. */
 void places_begin(void);
 void places_end(void);
 
-/* From where fault_strikes() was called, as point `k`. */
+/* Records the place of fault_strikes() as point `k`. */
 void places_note(int64_t k);
 
-/* Number `i` = 0, 1, ... of them; 0: there are no more. */
+/* Number `i` = 0, 1, ... of them; 0: no more. */
 int64_t places_point(int64_t i);
 
 #endif

@@ -36,7 +36,7 @@ void fault_resume(void) {
   paused--;
 }
 
-/* Where a debugger may stop. */
+/* A place for a breakpoint. */
 __attribute__((noinline)) static void strike(void) {
   atomic_fetch_add(&failures, 1);
 }

@@ -1,5 +1,5 @@
 #define _GNU_SOURCE /* dladdr() */
-/* Every allocation of the process, of whatever library: these functions take the place of the system's. */
+/* Every allocation of the process, in any library: these functions replace the system's. */
 #include "process_faults.h"
 
 #include "plan.h"
@@ -19,7 +19,7 @@ void *__libc_memalign(size_t alignment, size_t size);
 
 static struct fault_trace *kept;
 
-/* The first failure keeps where it came from. */
+/* The first failure records its place. */
 static int fails(void) {
   if (!fault_strikes()) return 0;
   if (kept) {
@@ -43,7 +43,7 @@ const char *process_fault_owner(const struct fault_trace *trace, int last) {
     if (dladdr(frame[k], &info) == 0 || info.dli_fname == NULL) continue;
     const char *slash = strrchr(info.dli_fname, '/'), *name = slash ? slash + 1 : info.dli_fname;
     if (strncmp(name, "lib", 3) != 0) {
-      if (k > 2) return "hooke"; /* the frames before are those of this file */
+      if (k > 2) return "hooke"; /* the frames before it belong to this file */
       continue;
     }
     if (strncmp(name, "libc.", 5) == 0 || strncmp(name, "libgomp", 7) == 0) continue;
@@ -55,7 +55,7 @@ const char *process_fault_owner(const struct fault_trace *trace, int last) {
 void process_faults_prepare(struct fault_trace *trace) {
   void *some[2];
   kept = trace;
-  backtrace(some, 2); /* loads what it needs */
+  backtrace(some, 2); /* loads its library */
 }
 
 void *malloc(size_t size) {

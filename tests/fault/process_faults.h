@@ -1,5 +1,5 @@
-/* Allocations of the whole process that fail by plan, where the C library lets its functions be replaced: not
- * under sanitizers. */
+/* Allocations of the whole process that fail by plan, where the C library allows its functions to be
+ * replaced: not under sanitizers. */
 #ifndef FAULT_PROCESS_FAULTS_H
 #define FAULT_PROCESS_FAULTS_H
 
@@ -11,17 +11,17 @@
 #define FAULT_WHOLE_PROCESS 0
 #endif
 
-/* Where the first allocation that failed was asked for. */
+/* Place of the first allocation that failed. */
 struct fault_trace {
   void *frame[24], *last[24]; /* of the first, and of the last */
   int depth, last_depth;
 };
 
-/* `trace` is kept by the first failure. */
+/* `trace` is recorded by the first failure. */
 void process_faults_prepare(struct fault_trace *trace);
 
-/* Which library that was: "hooke", or the name of its file. What the C library was asked for is its
- * caller's. */
+/* Library of that place: "hooke", or the name of its file. A request by the C library is attributed to its
+ * caller. */
 const char *process_fault_owner(const struct fault_trace *trace, int last);
 
 #endif

@@ -1,4 +1,4 @@
-/* What main() of cli/main.c is called in the tests of faults. */
+/* Name of main() of cli/main.c in the tests of faults. */
 #ifndef FAULT_PROGRAM_H
 #define FAULT_PROGRAM_H
 

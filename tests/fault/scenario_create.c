@@ -1,4 +1,4 @@
-/* Systems by hand and by parts, drives, commit, and questions that take scratch. */
+/* Systems by hand and by parts, drives, commit, and queries that need scratch. */
 #include "scenarios.h"
 
 #include <string.h>

@@ -13,7 +13,7 @@ struct scene {
   const char *file, *text;
 };
 
-/* Arrays are those of a trajectory that the first one is run into; midway.h5 is what it was before the last
+/* Data sets are those of a trajectory that the first one is run into; midway.h5 is that file before the last
  * frame. */
 static const struct scene scenes[] = {
     {"parts.json",
@@ -138,7 +138,7 @@ end:
   hooke_state_destroy(state);
 }
 
-/* `with` names the file. */
+/* `with` is the name of the file. */
 static void load(struct attempt *a, const void *with) {
   hooke_scene *scene = NULL;
   char path[PATH_SIZE];
@@ -163,7 +163,7 @@ end:
   hooke_scene_destroy(scene);
 }
 
-/* Wrong scenes are refused as such, unless there is no memory to see it. */
+/* Faulty scenes are refused as such, unless memory is missing to detect the fault. */
 static void refuse(struct attempt *a, const void *with) {
   static const char *const wrong[] = {
       "{\"hooke\": 1, \"parts\": [{\"kind\": \"rope\", \"colour\": 3}]}",

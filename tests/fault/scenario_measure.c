@@ -1,4 +1,4 @@
-/* Limits, why, needs, study, comparison, pick, cost. Times are no part of what comes out. */
+/* Limits, why, needs, study, comparison, pick, cost. Times are not among the results. */
 #include "scenarios.h"
 
 #include <math.h>
@@ -27,7 +27,7 @@ end:
   return NULL;
 }
 
-/* From the start, which a failed attempt may have left. */
+/* From the start, since a failed attempt may have left it. */
 static int32_t go_along(hooke_measurement *limit, const hooke_state *start, hooke_state *state) {
   const int32_t status = hooke_state_copy(start, state);
   return status != HOOKE_OK ? status : hooke_measurement_run(limit, state);

@@ -1,4 +1,4 @@
-/* Checkpoints, and a trajectory whose run was stopped and goes on. */
+/* Checkpoints, and a trajectory whose run was stopped and is continued. */
 #include "scenarios.h"
 
 #include <stdio.h>
@@ -33,7 +33,7 @@ end:
   hooke_system_destroy(system);
 }
 
-/* ---- a run that goes on ---- */
+/* ---- continuing a run ---- */
 
 /* A run and its trajectory. */
 struct going {
@@ -41,7 +41,7 @@ struct going {
   hooke_integrator *integrator;
   hooke_state *state;
   hooke_trajectory *trajectory;
-  int64_t frames, stop_at; /* written so far; where to stop, 0: nowhere */
+  int64_t frames, stop_at; /* frames written so far; frame to stop at, 0: none */
   int32_t status;          /* of the frame that could not be written */
   char message[512];
 };
@@ -66,7 +66,7 @@ end:
   return;
 }
 
-/* Whether it came to `expected`. */
+/* True if it returned `expected`. */
 static int32_t has_run(struct going *going, int32_t status, int32_t expected) {
   struct attempt *a = going->a;
   if (going->status != HOOKE_OK)

@@ -1,4 +1,4 @@
-/* Runs by every method, alone and by several threads, with all that watches them. */
+/* Runs by every method, with one and several threads, with all kinds of observers. */
 #include "scenarios.h"
 
 #include <dirent.h>
@@ -8,7 +8,7 @@
 struct with {
   const char *method;
   int32_t threads;
-  const char *linear_solver, *newton; /* NULL: as by default */
+  const char *linear_solver, *newton; /* NULL: the default */
   double step;                        /* 0: a safe one */
 };
 
@@ -25,7 +25,7 @@ static int32_t hear(const char *kind, const char *sentence, double t, double lim
   return 0;
 }
 
-/* From the start, whatever an attempt before has left: frames that were seen then do not count. */
+/* From the start, whatever a previous attempt has left: its frames do not count. */
 static int32_t run_from_start(struct attempt *a, hooke_integrator *integrator, const hooke_state *start,
                               hooke_state *state, uint64_t before) {
   a->hash = before;

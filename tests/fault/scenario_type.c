@@ -1,6 +1,5 @@
-/* What is typed at a shell: the program itself, verb by verb, in this process. Its exit code stands for a
- * status, and what it prints for what came out. Scenarios that a build has no program for are not in its
- * lists. */
+/* Command lines: the program itself, verb by verb, in this process. Its exit code is the status, and its
+ * output the result. Scenarios that need a program are not in the lists of builds without one. */
 #include "scenarios.h"
 
 #include "check.h"
@@ -14,16 +13,16 @@
 
 enum { MOST_WORDS = 40, WORDS_SIZE = 2048, PRINTED_SIZE = 1 << 17 };
 
-/* A word that begins with "@" is a file, in the folder of what is written if that is "out.", in that of what
- * is read else. */
+/* A word that begins with "@" is a file, in the output folder if it is "out.", otherwise in the input folder.
+ */
 struct line {
   const char *words;
-  int code;               /* that it ends with */
-  int32_t only_code;      /* what it prints is as the clock decides */
-  const char *on_failure; /* must not be on standard output then; NULL: nothing */
+  int code;               /* its ending */
+  int32_t only_code;      /* its output depends on the clock */
+  const char *on_failure; /* must not be in the output then; NULL: nothing */
 };
 
-static char printed[PRINTED_SIZE], said[PRINTED_SIZE]; /* on standard output, and on standard error */
+static char printed[PRINTED_SIZE], said[PRINTED_SIZE]; /* standard output and standard error */
 
 /* ---- the program ---- */
 
@@ -80,7 +79,7 @@ static int run_program(struct attempt *a, const struct line *line) {
   return code;
 }
 
-/* ---- what came of it ---- */
+/* ---- results ---- */
 
 static int32_t status_of(const struct line *line, int code) {
   if (code == 3 && strstr(said, "memory")) return HOOKE_NO_MEMORY;
@@ -88,19 +87,19 @@ static int32_t status_of(const struct line *line, int code) {
   return code == 5 ? HOOKE_IO_FAILED : HOOKE_BAD_CALL;
 }
 
-/* A library may have printed something before, where it is without memory to begin with. */
+/* Another library may have printed something before, if memory was missing at its start. */
 static int is_told(void) {
   return strncmp(said, "hooke", 5) == 0 || strstr(said, "\nhooke ") != NULL;
 }
 
-/* Standard output, without the times that it took. */
+/* Standard output, without its times. */
 static void take_printed(struct attempt *a) {
   static const char time[] = "\"wall_seconds\": ";
   for (char *at = printed; (at = strstr(at, time)) != NULL;) {
     at += strlen(time);
     memset(at, ' ', strcspn(at, ",}"));
   }
-  /* a number has as many digits as it needs */
+  /* the number of digits varies */
   for (const char *at = printed; *at; at++)
     if (*at != ' ') attempt_number(a, (double)(unsigned char)*at);
 }
@@ -124,7 +123,7 @@ static void type(struct attempt *a, const void *with) {
   if (!line->only_code) take_printed(a);
 }
 
-/* ---- lines ---- */
+/* ---- command lines ---- */
 
 #define LINE(text, ...)                                                                                      \
   &(const struct line) {                                                                                     \

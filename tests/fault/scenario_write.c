@@ -1,4 +1,4 @@
-/* Everything that is written, and read back: trajectories, comparisons, studies, tables, reports, pages,
+/* Everything that is written and read back: trajectories, comparisons, studies, tables, reports, pages,
  * scenes. */
 #include "scenarios.h"
 
@@ -7,7 +7,7 @@
 
 enum { PATH_SIZE = 512, FRAMES = 5 };
 
-/* A scene that names a file, in whose place the numbers of the system are kept. */
+/* A scene that names a file, replaced by the numbers of the system. */
 static const char of_files[] =
     "{ \"hooke\": 1, \"title\": \"a rope\", \"particles\": { \"position\": { \"file\": \"rope.h5\" } } }";
 
@@ -15,11 +15,11 @@ static const char of_files[] =
 
 struct course {
   double segments;
-  int64_t frames; /* to write of those that there is room for */
+  int64_t frames; /* number of planned frames to write */
   int32_t behind; /* by a thread */
 };
 
-/* States that are not those of a run: writing is what counts here. */
+/* States that are not those of a run: only writing matters here. */
 static void put(hooke_state *state, int64_t frame) {
   double *q = hooke_state_position(state), *v = hooke_state_velocity(state);
   hooke_state_set_time(state, 1e-3 * (double)frame);
@@ -64,7 +64,7 @@ end:
   hooke_system_destroy(system);
 }
 
-/* What is written from a trajectory: page and companion. */
+/* Output made from a trajectory: page and companion. */
 static void shown(struct attempt *a, const void *with) {
   hooke_record *record = NULL;
   hooke_view *view = NULL;
@@ -94,7 +94,7 @@ static void comparison(struct attempt *a, const void *with) {
   TRY(a, hooke_measurement_label(comparison, "scene", of_files));
   TRY(a, hooke_comparison_file_create(path_of(a, "out.h5"), comparison, &file));
   if (a->on_file) {
-    /* a frame that cannot be written stops the run, and closing tells why */
+    /* a frame that cannot be written stops the run, and closing reports the reason */
     const int32_t status = hooke_measurement_run(comparison, NULL);
     if (status != HOOKE_OK && (status != HOOKE_STOPPED || fault_failures() == 0))
       attempt_wrong(a, "hooke_measurement_run() returned %d: %s", (int)status, hooke_last_error());

@@ -46,7 +46,7 @@ struct counts {
   int64_t tried, refused, borne, complaints;
 };
 
-/* All that is wrong is told, a line each, before the test fails. */
+/* All faults found are printed, one a line, before the test fails. */
 static void complain(const struct scenario *scenario, int64_t k, const char *reach, const char *what,
                      struct counts *counts) {
   if (counts->complaints++ < MOST_COMPLAINTS)
@@ -66,7 +66,7 @@ static void judge(const struct scenario *scenario, int64_t k, const struct attem
   counts->borne += a->refused == 0;
 }
 
-/* The hash that comes out. */
+/* Hash of the results. */
 static uint64_t run_without_fault(const struct scenario *scenario, sweep_point *try_point,
                                   struct counts *counts) {
   struct attempt a;
@@ -82,7 +82,7 @@ static void check_without_fault(const struct scenario *scenario, sweep_point *tr
 }
 
 static int64_t share_of(const struct sweep *sweep, const struct scenario *scenario) {
-  /* one that makes whole studies would take hours, and ten times as many with a sanitizer */
+  /* scenarios with whole studies would take hours, and ten times as many with a sanitizer */
   if (getenv("HOOKE_LONG")) {
     const int64_t few = scenario->share >= 1000 ? scenario->share / 100 : 1;
     return HOOKE_SANITIZED && scenario->share > 10 * few ? scenario->share / 10 : few;
@@ -102,7 +102,7 @@ static int strike_point(const struct scenario *scenario, sweep_point *try_point,
   return 1;
 }
 
-/* A point to look at alone; 0: all. */
+/* A single point to run; 0: all. */
 static int64_t only_point(void) {
   const char *only = getenv("HOOKE_FAULT_POINT");
   return only ? strtoll(only, NULL, 10) : 0;
@@ -135,7 +135,7 @@ static void sweep_scenario(struct sweep *sweep, const struct scenario *scenario,
 }
 
 void sweep_all(struct sweep *sweep, const struct scenario *scenario, sweep_point *try_point) {
-  const char *only = getenv("HOOKE_FAULT_ONLY"); /* for a look at one of them */
+  const char *only = getenv("HOOKE_FAULT_ONLY"); /* to debug one of them */
   for (sweep->complaints = 0; scenario->name; scenario++) {
     if (only == NULL || strstr(scenario->name, only)) sweep_scenario(sweep, scenario, try_point);
   }

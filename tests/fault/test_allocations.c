@@ -1,5 +1,5 @@
-/* Every allocation of hooke and of jansson fails in turn, alone and with all after it: the call says so, its
- * objects work afterwards as if nothing had been, and every block is released. */
+/* Fails every allocation of hooke and of jansson in turn, alone and with all after it: the call reports it,
+ * its objects work afterwards as before, and every block is released. */
 #include "check.h"
 #include "memory_faults.h"
 #include "scenarios.h"

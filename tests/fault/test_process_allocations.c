@@ -1,10 +1,9 @@
 #define _DEFAULT_SOURCE /* MAP_ANONYMOUS */
-/* Every allocation of the process fails in turn, those of the libraries that hooke stands on, too, each in a
- * process of its own. A call ends with a failure, or with the result that it should have: no crash, no hang.
- * What libraries do that do not bear to be without memory themselves is told and not counted: HDF5 1.10.8
- * fails for good ("infinite loop closing library") where it was without memory as it began, SUNDIALS 6.4.1
- * writes through the NULL of some allocations, and GSL 2.7 calls abort() by its error handler, which is its
- * user's to change. */
+/* Fails every allocation of the process in turn, including those of the libraries that hooke uses, each in a
+ * process of its own. A call ends with a failure, or with its proper result: no crash, no hang. Libraries
+ * that do not survive missing memory are reported and not counted: HDF5 1.10.8 fails for good ("infinite loop
+ * closing library") if memory was missing at its start, SUNDIALS 6.4.1 writes through the NULL of some
+ * allocations, and the error handler of GSL 2.7, which belongs to its user, calls abort(). */
 #include "check.h"
 #include "hash.h"
 #include "process_faults.h"
@@ -25,7 +24,7 @@
 enum { MOST_SECONDS = 20 };
 
 #if HOOKE_COUNTED
-void __gcov_dump(void); /* _exit() forgets which lines ran */
+void __gcov_dump(void); /* _exit() discards line coverage */
 #else
 static void __gcov_dump(void) {
 }
@@ -33,10 +32,10 @@ static void __gcov_dump(void) {
 
 static struct sweep sweep = {.share = 60, .share_factor = 10};
 
-/* By name, how often they crashed. */
+/* Number of crashes, by name. */
 static struct {
   const char *library;
-  int64_t crashed, broken; /* broken: no call succeeds any more */
+  int64_t crashed, broken; /* broken: no further call succeeds */
 } excused[] = {{"libhdf5", 0, 0}, {"libsundials", 0, 0}, {"libgsl", 0, 0}};
 enum { EXCUSED = sizeof excused / sizeof excused[0] };
 
@@ -65,7 +64,7 @@ static void be_child(const struct scenario *scenario, int64_t k, enum fault_reac
   _exit(0);
 }
 
-/* It crashed or hung, which some may be excused for. */
+/* It crashed or hung, which is excused for some libraries. */
 static void look_at_end(int status, const char *owner, struct attempt *a) {
   fault_take_counts(shared->points, 1);
   a->gave_up = 1;
@@ -78,7 +77,7 @@ static void look_at_end(int status, const char *owner, struct attempt *a) {
   attempt_wrong(a, "it %s, by an allocation of %s", WTERMSIG(status) == SIGALRM ? "hangs" : "crashes", owner);
 }
 
-/* It went on without what it had asked for, and is of no use in this process any more. */
+/* It continued without the memory, and cannot be used any more in this process. */
 static void excuse_what_is_broken(const char *owner, struct attempt *a) {
   for (int e = 0; e < EXCUSED; e++) {
     if (strstr(owner, excused[e].library) == NULL) continue;

@@ -1,6 +1,6 @@
-/* Every call that writes fails in turn, once and from then on, HDF5's and hooke's own: the status, and a
- * message with the file and the reason; what was there before stays, or what comes in its place is whole;
- * frames that were reported are there; nothing is left beside. */
+/* Fails every call that writes in turn, once and from then on, HDF5's and hooke's own. It checks the status,
+ * and a message with the file and the reason; that older files stay or are replaced by whole ones; that
+ * reported frames are in the file; and that no other files are left. */
 #include "check.h"
 #include "file_faults.h"
 #include "hash.h"
@@ -18,7 +18,7 @@
 #include <unistd.h>
 
 static struct sweep sweep = {.share = 10};
-static char folder[160]; /* where files are written; scenes are read from that of the sweep */
+static char folder[160]; /* output folder; scenes are read from that of the sweep */
 
 static const struct fault {
   const char *name;
@@ -27,13 +27,13 @@ static const struct fault {
 } faults[] = {
     {"no room", ENOSPC, 0}, {"broken", EIO, 0}, {"quota", EDQUOT, 0}, {"cut, then no room", ENOSPC, 1}};
 
-static const struct fault *fault; /* the one that strikes now */
+static const struct fault *fault; /* the current fault */
 
 static const char old[] = "what was there before";
 
 /* ---- the folder ---- */
 
-/* Whether `name` is one of the `words` between blanks. */
+/* True if `name` is one of the `words`, separated by blanks. */
 static int is_among(const char *words, const char *name) {
   const size_t length = strlen(name);
   for (const char *at = words; (at = strstr(at, name)) != NULL; at++) {
@@ -42,9 +42,9 @@ static int is_among(const char *words, const char *name) {
   return 0;
 }
 
-/* Files that are there, but for those that may be. */
+/* Number of files, without those that are allowed. */
 static int64_t count_files_but(const char *names) {
-  int64_t count = -2; /* the folder itself, and the one above */
+  int64_t count = -2; /* the folder itself and its parent */
   DIR *open_folder = opendir(folder);
   assert_non_null(open_folder);
   for (struct dirent *entry; (entry = readdir(open_folder)) != NULL;)
@@ -69,7 +69,7 @@ static int is_old(const char *path) {
   return got == sizeof old - 1 && strcmp(text, old) == 0;
 }
 
-/* Bit by bit, so that it is not the library's own. */
+/* Bit by bit, independently of the library. */
 static uint32_t crc32_of(FILE *file, int64_t count) {
   uint32_t value = 0xffffffffu;
   for (int64_t k = 0; k < count; k++) {
@@ -80,7 +80,7 @@ static uint32_t crc32_of(FILE *file, int64_t count) {
   return ~value;
 }
 
-/* The last four bytes are the check value of all before them. */
+/* The last four bytes are the check value of all bytes before them. */
 static int is_whole_checkpoint(const char *path) {
   FILE *file = fopen(path, "r");
   if (file == NULL || fseek(file, 0, SEEK_END) != 0) return 0;
@@ -94,7 +94,7 @@ static int is_whole_checkpoint(const char *path) {
   return count > 0 && there == value;
 }
 
-/* A new file is there as a whole or not at all. */
+/* A new file is complete or absent. */
 static int is_whole(const char *path) {
   /* lines of CSV end with a flag */
   static const char *const ends[] = {"</html>\n", "</Xdmf>\n", "}\n", ",1\n", ",0\n"};
@@ -119,7 +119,7 @@ static int64_t open_descriptors(void) {
 
 /* ---- one point ---- */
 
-/* Frames that were reported as written are there, if the file is a trajectory at all. */
+/* Frames that were reported as written are in the file, if it is a trajectory at all. */
 static void check_frames(struct attempt *a, const char *path) {
   hooke_record *record = NULL;
   if (hooke_record_open(path, &record) != HOOKE_OK) {
@@ -130,7 +130,7 @@ static void check_frames(struct attempt *a, const char *path) {
     attempt_wrong(a, "%lld frames were reported, %lld are there", (long long)a->committed,
                   (long long)hooke_record_frame_count(record));
   const char *status = hooke_record_text(record, "status");
-  /* closing may fail when all is said and done */
+  /* closing may fail when everything is written and reported */
   if (a->gave_up && strcmp(status, "finished") == 0 && hooke_record_frame_count(record) < a->planned)
     attempt_wrong(a, "the file says that it is finished");
   for (int64_t k = 0; k < hooke_record_frame_count(record); k++) {
@@ -155,7 +155,7 @@ static int is_trajectory(const struct scenario *scenario) {
   return strstr(scenario->name, "trajectory") || strstr(scenario->name, "type, run");
 }
 
-/* Frames come when the file has its place, and a second checkpoint when the first is there. */
+/* Frames are written when the file has its name, and a second checkpoint when the first exists. */
 static int may_fail_later(const struct scenario *scenario) {
   return is_trajectory(scenario) || strstr(scenario->name, "compar") || strstr(scenario->name, "checkpoint");
 }
@@ -216,13 +216,13 @@ static void writes_fail(void **unused) {
   (void)unused;
   for (size_t k = 0; k < sizeof faults / sizeof faults[0]; k++) {
     fault = &faults[k];
-    sweep.first_point = (int32_t)(3 * k); /* others for each */
+    sweep.first_point = (int32_t)(3 * k); /* different ones for each */
     print_message("-- %s\n", fault->name);
     sweep_writers(k == 0 && !HOOKE_SANITIZED);
   }
 }
 
-/* A write that takes only half of what it was given is none that failed. */
+/* A write that takes only half of its bytes has not failed. */
 static void short_writes_are_gone_on_with(void **unused) {
   (void)unused;
   fault = &faults[0];

@@ -1,4 +1,4 @@
-! What the tests share: expectations, which are counted, and equality of bits.
+! Shared parts of the tests: expectations, which are counted, and equality of bits.
 module check
   use, intrinsic :: iso_c_binding, only: c_char, c_double, c_int32_t, c_int64_t, c_null_char
   use, intrinsic :: iso_fortran_env, only: error_unit
@@ -9,7 +9,7 @@ module check
   integer, save :: failures = 0, expectations = 0
 
   interface
-    ! The final state of a rope of 8 segments that C runs; and the statuses as C names them.
+    ! The final state of a rope of 8 segments that C runs; and the statuses by their names in C.
     integer(c_int32_t) function twin_rope(method, q, v) bind(c)
       import
       character(kind=c_char), intent(in) :: method(*)
@@ -40,7 +40,7 @@ contains
     call expect(abs(found - wanted) <= tolerance, what // ":" // numbers)
   end subroutine
 
-  ! `found` has `part` in it.
+  ! `found` contains `part`.
   subroutine expect_text(found, part, what)
     character(*), intent(in) :: found, part, what
     call expect(index(found, part) > 0, what // ": """ // part // """ in """ // found // """")
@@ -57,7 +57,7 @@ contains
     same = transfer(a, 0_c_int64_t) == transfer(b, 0_c_int64_t)
   end function
 
-  ! How many numbers of two lists are the same to the bit.
+  ! Number of equal elements of two lists, to the bit.
   integer function same_count(a, b)
     real(c_double), intent(in) :: a(:), b(:)
     same_count = count(same(a, b))

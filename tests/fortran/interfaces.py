@@ -1,4 +1,4 @@
-"""What bindings/fortran declares of C and what the headers declare, both as plain tuples, to be held against each other."""
+"""The declarations of C in bindings/fortran and in the headers, both as plain tuples, for comparison."""
 
 import re
 
@@ -16,7 +16,7 @@ def statements(text):
 
 
 def c_value(words, callbacks, pointers):
-    """(type, how it is passed) of a parameter such as "const double *q", for a Fortran that fits it."""
+    """(type, how it is passed) of a parameter such as "const double *q", in matching Fortran."""
     match = re.fullmatch(r"(const )?(\w+) ?(\**) ?\w*", words.strip())
     const, kind, stars = match.groups()
     if kind in callbacks:
@@ -76,7 +76,7 @@ def of_fortran(text):
 
 
 def complaints(have, want):
-    """What is wrong with the interfaces `have` for the functions `want`."""
+    """Faults of the interfaces `have` for the functions `want`."""
     found = [f"- {n}: no interface" for n in sorted(want.keys() - have.keys())]
     found += [f"+ {n}: no such function" for n in sorted(have.keys() - want.keys())]
     for name in sorted(have.keys() & want.keys()):

@@ -1,9 +1,9 @@
-! Callbacks that the tests share.
+! Callbacks shared by the tests.
 module parts
   use hooke
   implicit none
 
-  ! Gravity, for masses of one's own.
+  ! Gravity, for the given masses.
   type, extends(hooke_force) :: weight
     real(hooke_real) :: g(3) = 0
     real(hooke_real), allocatable :: mass(:)
@@ -37,7 +37,7 @@ module parts
     procedure :: evaluate => evaluate_turn
   end type
 
-  ! Remembers what it saw, and stops at a step.
+  ! Records its calls, and stops at a step.
   type, extends(hooke_observer) :: watcher
     integer :: seen = 0
     integer(hooke_long) :: last = -1, stop_at = huge(0_hooke_long)

@@ -1,11 +1,12 @@
-! Scenes that the tests share.
+! Scenes shared by the tests.
 module scenes
   use hooke
   implicit none
 
 contains
 
-  ! A mass on a spring of the length law: 0.5 kg, 20 N/m, 1 m, held at particle 1 and drawn out to 1.25 m; omega^2 = 40.
+  ! A mass on a spring of the length law: 0.5 kg, 20 N/m, 1 m, pinned at particle 1 and stretched to 1.25 m;
+  ! omega^2 = 40.
   subroutine make_oscillator(system, damping)
     type(hooke_system), intent(inout) :: system
     real(hooke_real), intent(in), optional :: damping
@@ -25,7 +26,7 @@ contains
     call system%commit()
   end subroutine
 
-  ! A cloth of 5 x 5 particles held at its corners, with bending that does little.
+  ! A cloth of 5 x 5 particles pinned at its corners, with weak bending.
   subroutine make_cloth(system)
     type(hooke_system), intent(inout) :: system
     type(hooke_options) :: cloth

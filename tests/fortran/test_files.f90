@@ -145,7 +145,7 @@ contains
     call abandoned(scene)
   end subroutine
 
-  ! A file that nobody closes is closed when its variable goes.
+  ! A file that is not closed explicitly is closed with its variable.
   subroutine abandoned(scene)
     type(hooke_scene), intent(in) :: scene
     type(hooke_record) :: record
@@ -156,7 +156,7 @@ contains
     call goes_on(scene)
   end subroutine
 
-  ! The frames that are missing, in the same file; and from a checkpoint.
+  ! The missing frames, in the same file; and from a checkpoint.
   subroutine goes_on(scene)
     type(hooke_scene), intent(in) :: scene
     type(hooke_integrator) :: integrator

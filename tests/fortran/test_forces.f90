@@ -1,4 +1,4 @@
-! Forces in Fortran do what those built in do; many systems at once; stops.
+! Forces in Fortran equal the built-in ones; many systems at once; stops.
 program test_forces
   use check
   use hooke
@@ -16,7 +16,7 @@ program test_forces
 
 contains
 
-  ! Four particles in a square with a diagonal, the first one held.
+  ! Four particles in a square with a diagonal, the first one pinned.
   subroutine make(system)
     type(hooke_system), intent(inout) :: system
     type(hooke_options) :: spring
@@ -111,7 +111,7 @@ contains
     call built_in%derivative_product(0.0_hooke_real, q, v, dq, dv, wanted)
     call own%derivative_product(0.0_hooke_real, q, v, dq, dv, found)
     call expect(force%products == 1, "the product was called")
-    ! The drag that is built in leaves the held particle out, where forces are without effect.
+    ! The built-in drag skips the pinned particle, where forces have no effect.
     call expect(maxval(abs(found(:, 2:) - wanted(:, 2:))) < 1e-12_hooke_real, "the product of drag")
     call expect(maxval(abs(found(:, 2:))) > 0.01_hooke_real, "which is not zero")
     call by_difference%derivative_product(0.0_hooke_real, q, v, dq, dv, plain)
@@ -121,7 +121,7 @@ contains
     call force_at_rest(own, force, q)
   end subroutine
 
-  ! Arrays that are not contiguous are copied on their way.
+  ! Arrays that are not contiguous are copied.
   subroutine force_at_rest(system, force, q)
     type(hooke_system), intent(in) :: system
     type(wind), intent(inout) :: force
@@ -140,7 +140,7 @@ contains
     call expect_near(a(3, 2), f(3, 2)/2, 1e-15_hooke_real, "force by mass")
   end subroutine
 
-  ! The derivative by blocks is that by products; and what moves.
+  ! The derivative by blocks equals that by products; only motion dissipates.
   subroutine blocks()
     type(hooke_system) :: system
     integer, allocatable :: row_start(:), column(:)

@@ -1,4 +1,4 @@
-! Objects are released once: whatever is assigned, in whatever order variables go.
+! Objects are released once, for any assignment and any order of destruction.
 module holders
   use hooke
   implicit none
@@ -16,7 +16,7 @@ program test_handles
   implicit none
   integer :: k
 
-  do k = 1, 3 ! what is left over from one turn would show in the next
+  do k = 1, 3 ! a leftover of one turn would show in the next
     call assignments()
     call keeping()
     call arrays()
@@ -54,7 +54,7 @@ contains
     system = same_one
   end subroutine
 
-  ! What was made from a system keeps it.
+  ! Objects made from a system keep it alive.
   subroutine keeping()
     type(hooke_integrator) :: integrator
     type(hooke_options) :: options
@@ -115,7 +115,7 @@ contains
     call expect(states(2)%size() == 6, "moved")
   end subroutine
 
-  ! A type that is copied as a whole: where a compiler copies it bit by bit, nothing is released twice.
+  ! A type that is copied as a whole: if a compiler copies it bit by bit, nothing is released twice.
   subroutine components()
     type(own_type) :: first, second
     call make_oscillator(first%system)

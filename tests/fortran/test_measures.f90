@@ -1,4 +1,4 @@
-! Bounds, comparisons, studies, limits, costs, needs and causes, on scenes that are known.
+! Bounds, comparisons, studies, limits, costs, needs and causes, on scenes with known results.
 program test_measures
   use check
   use hooke

@@ -1,4 +1,4 @@
-! Observers of frames and steps, stops, warnings, and states that are only lent.
+! Observers of frames and steps, stops, warnings, and borrowed states.
 program test_observers
   use check
   use hooke
@@ -68,7 +68,7 @@ contains
     call expect(second%seen == 4 .and. integrator%count("steps") == 300, "taken back")
   end subroutine
 
-  ! Steps of the motion of the integrator itself, and some of its particles.
+  ! Steps of the integrator's own motion, and some of its particles.
   subroutine motion()
     type(hooke_system) :: system
     type(hooke_options) :: run

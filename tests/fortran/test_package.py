@@ -1,5 +1,5 @@
-"""The Fortran module of an installed hooke is compiled by the compiler of the project that uses it: by find_package, by
-pkg-config, and from the sources of hooke; the examples run on it."""
+"""The Fortran module of an installed hooke is compiled by the compiler of the project that uses it: by find_package,
+by pkg-config, and from the sources of hooke; the examples run with it."""
 
 import os
 import re
@@ -75,7 +75,7 @@ end program
 
 @pytest.mark.skipif(not shutil.which("pkg-config"), reason="pkg-config is not installed")
 def test_pkg_config(prefix, tmp_path):
-    """Here with default integers of 8 bytes, which the module takes as they come."""
+    """Here with default integers of 8 bytes, which the module accepts."""
     env = os.environ | {"PKG_CONFIG_PATH": str(next(prefix.rglob("hooke.pc")).parent)}
     sources = shlex.split(run("pkg-config", "--variable=fortran_sources", "hooke", env=env).replace("\n", ""))
     assert sources and all(Path(s).is_file() for s in sources)
@@ -102,7 +102,7 @@ def test_component_in_a_project_without_fortran(prefix, tmp_path):
 
 
 def test_subdirectory(tmp_path):
-    """hooke::fortran is there in a project that has Fortran and builds hooke itself."""
+    """hooke::fortran exists in a project that has Fortran and builds hooke itself."""
     body = f"add_subdirectory({ROOT} hooke EXCLUDE_FROM_ALL)\nif(NOT TARGET hooke::fortran)\nmessage(FATAL_ERROR none)\nendif()"
     configure(project(tmp_path / "source", "C Fortran", body), tmp_path / "build",
               *(f"-DHOOKE_{part}=OFF" for part in ("SUNDIALS", "CHOLMOD", "GSL", "ARPACK", "HDF5", "JANSSON")))

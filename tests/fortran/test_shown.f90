@@ -1,4 +1,4 @@
-! Trajectories shown: as a page, and for ParaView.
+! Trajectories viewed: as a page, and in ParaView.
 program test_shown
   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
   use check

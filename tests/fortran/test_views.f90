@@ -49,7 +49,7 @@ program test_views
 
 contains
 
-  ! Dummy arguments that are contiguous are not copied either.
+  ! Contiguous dummy arguments are not copied either.
   subroutine at_place(array, place)
     real(hooke_real), intent(in), target, contiguous :: array(:, :)
     type(c_ptr), intent(in) :: place

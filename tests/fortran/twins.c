@@ -1,4 +1,4 @@
-/* What the tests in Fortran do, once more in C. */
+/* The computations of the Fortran tests, in C. */
 #include <hooke.h>
 
 #include <stddef.h>

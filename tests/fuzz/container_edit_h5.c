@@ -1,4 +1,4 @@
-/* Objects of every type, shape and layout that HDF5 makes, in the places where hooke looks for its own. */
+/* Objects of every type, shape and layout that HDF5 can make, in the places where hooke looks for its own. */
 #include "container_edit_h5.h"
 
 #include <stdio.h>
@@ -93,7 +93,7 @@ static hsize_t extent(uint32_t number) {
   return extents[number % (sizeof extents / sizeof extents[0])];
 }
 
-/* Half of them of the sizes that hooke expects. */
+/* Half of them have the sizes that hooke expects. */
 static int shape(uint64_t value, hsize_t size[4]) {
   static const struct {
     int rank;
@@ -159,9 +159,9 @@ static void set_layout(const struct container *container, uint32_t layout, const
   }
 }
 
-/* ---- what is in them ---- */
+/* ---- contents ---- */
 
-/* Small numbers that ascend, with one that does not belong there. */
+/* Small ascending numbers, with one exception. */
 static void fill(double *number, hsize_t count, const struct edit *edit) {
   const double odd = edit_double(edit->value >> 40);
   for (hsize_t k = 0; k < count; k++)
@@ -234,7 +234,7 @@ static const char *const texts[] = {
         "\"particles\": {\"position\": {\"file\": \"other.h5\", \"dataset\": \"/numbers\"}, \"mass\": 1}"),
 };
 
-/* A text of a fixed length, or of any; alone or in an array; in each layout. */
+/* A text of fixed or variable length; single or in an array; in each layout. */
 static void put_text(hid_t file, const struct container *container, const char *name,
                      const struct edit *edit) {
   const char *words = texts[edit->what % (sizeof texts / sizeof texts[0])];

@@ -6,7 +6,7 @@
 
 #include <hdf5.h>
 
-/* What HDF5 refuses is left as it was. */
+/* Edits that HDF5 refuses have no effect. */
 void container_edit_structure(hid_t file, const struct container *container, const struct edit *edit);
 
 #endif

@@ -1,8 +1,7 @@
-/* Containers: made once for each list of structures and kept, their numbers patched for each input.
+/* Containers: created once for each list of structures and cached, their numbers patched for each input.
  *
- * Opening a file takes HDF5 longer than all that hooke does with it, so images stay open: what hooke opens as
- * the file is the image, opened once more, unless its headers were patched, which HDF5 would not read
- * again. */
+ * Opening a file takes HDF5 longer than all work of hooke on it, so images stay open: hooke opens the image
+ * once more as the file, unless its headers were patched, which HDF5 would not read again. */
 #include "container.h"
 
 #include "container_edit_h5.h"
@@ -25,7 +24,7 @@
 
 enum { MOST_NAMES = 192, KEPT = 4096, OPEN = 512, LARGEST_IMAGE = 1 << 20, FRAMES = 4 };
 
-/* Where the numbers of an object lie, or its characters; `known` 0: nobody has asked yet. */
+/* Location of the numbers or characters of an object; `known` 0: not looked up yet. */
 struct place {
   int32_t known, rank, width, is_text;
   uint64_t data, stored, header, header_size;
@@ -36,10 +35,10 @@ struct image {
   uint64_t hash;
   uint8_t *bytes;
   size_t size;
-  struct place *place; /* of each name */
+  struct place *place; /* by name */
 };
 
-/* An image that HDF5 has open, and the bytes that it reads. */
+/* An image that HDF5 has open, and its bytes. */
 struct opened {
   uint64_t hash;
   hid_t file;
@@ -56,7 +55,7 @@ static struct {
   struct opened opened[OPEN];
   const char *path;
   const struct image *now;
-  hid_t warm; /* stands for the file at `path`; -1: that is to be opened itself */
+  hid_t warm; /* replaces the file at `path`; -1: that is opened itself */
   int descriptor, watch;
 } own = {.warm = -1};
 
@@ -78,7 +77,8 @@ const char *__asan_default_options(void) {
   return "malloc_context_size=6:quarantine_size_mb=8";
 }
 
-/* HDF5 1.10.8 loses the headers of objects that it makes. What hooke leaves open is counted apart. */
+/* HDF5 1.10.8 leaks the headers of objects that it creates. Objects that hooke leaves open are counted
+ * separately. */
 const char *__lsan_default_suppressions(void);
 const char *__lsan_default_suppressions(void) {
   return "leak:libhdf5";
@@ -136,7 +136,7 @@ static herr_t add_name(hid_t file, const char *name, const H5L_info_t *link, voi
   return 0;
 }
 
-/* What no reader of the container may come to. */
+/* Data that no reader of the container may reach. */
 static void write_secret(const char *path) {
   const hsize_t size[3] = {4, 4, 3};
   double number[48];
@@ -155,7 +155,7 @@ static void write_secret(const char *path) {
   if (H5Fclose(file) < 0) give_up(path);
 }
 
-/* Numbers alone, for storage that is no HDF5. */
+/* Plain numbers, for external storage. */
 static void write_raw(const char *path) {
   FILE *file = fopen(path, "wb");
   const double number = SECRET_NUMBER;
@@ -178,7 +178,7 @@ static void remove_folder(void) {
   rmdir(folder_to_remove);
 }
 
-/* HDF5 takes half a megabyte for each file that it opens; it may keep them. */
+/* HDF5 allocates half a megabyte for each file that it opens; it may keep them. */
 static void keep_memory(void) {
   const int limit = 1 << 26;
   H5set_free_list_limits(limit, limit, limit, limit, limit, limit);
@@ -218,7 +218,7 @@ void container_begin(struct container *container) {
 
 /* ---- images ---- */
 
-/* HDF5 takes two images of one name for one file. */
+/* HDF5 identifies two images of one name. */
 static hid_t open_image(uint64_t name, const void *bytes, size_t size, unsigned flags) {
   char path[32];
   snprintf(path, sizeof path, "image-%llx", (unsigned long long)name);
@@ -300,7 +300,7 @@ static void look_up(const struct image *image, int32_t number, struct place *pla
   }
 }
 
-/* Whether an edit is of the object of that name, or of a group on the way to it. */
+/* True if an edit concerns the object of that name, or a group on its path. */
 static int is_edited(const char *name, const struct edits *edits) {
   for (int32_t k = 0; k < edits->count && edits->edit[k].kind < EDIT_STRUCTURES; k++) {
     const char *edited = own.name[edits->edit[k].where % own.names];
@@ -310,7 +310,7 @@ static int is_edited(const char *name, const struct edits *edits) {
   return 0;
 }
 
-/* What is not edited stays where it is. */
+/* Objects without edits keep their location. */
 static void take_places(const struct edits *edits, struct image *image) {
   for (int32_t k = 0; k < own.names; k++) {
     if (!is_edited(own.name[k], edits)) image->place[k] = own.place[k];
@@ -329,7 +329,7 @@ static struct image *find_image(const struct container *container, const struct 
   return image;
 }
 
-/* Of all names; an image without edits is the base. */
+/* Over all names; an image without edits is the base. */
 static void find_places(const struct container *container) {
   const struct edits none = {.count = 0};
   struct image *base = find_image(container, &none);
@@ -345,8 +345,8 @@ static void patch_value(const struct place *place, const struct edit *edit) {
          width < sizeof edit->value ? width : sizeof edit->value);
 }
 
-/* One character, of few: what any text does to those who parse it is for the targets of their own to find
- * out, and with all texts here what else is in a container would hardly ever come up. */
+/* Replaces one character, by few others: texts have fuzz targets of their own, and arbitrary texts would hide
+ * the rest of a container. */
 static void patch_text(const struct place *place, const struct edit *edit) {
   static const char characters[] = "\0 \n\"{}[],:-09.e\\\xff";
   if (place->stored == 0) return;
@@ -360,9 +360,8 @@ static void replace_words(uint8_t *message, size_t size, uint64_t from, uint64_t
   }
 }
 
-/* Both the extent and the room that goes with it, so that one alone does not give it away; or one of them.
- * Nothing else of the header, which is HDF5's: HDF5 File Format Specification 3.0, IV.A.1.a, messages 0x0001
- * and 0x0008. */
+/* Patches both the extent and the allocated size, so that they agree; or one of them. The rest of the header
+ * is HDF5's business: HDF5 File Format Specification 3.0, IV.A.1.a, messages 0x0001 and 0x0008. */
 static void patch_extent(const struct place *place, const struct edit *edit) {
   enum { PREFIX = 16, MESSAGE = 8, DATASPACE = 0x0001, LAYOUT = 0x0008 };
   const uint8_t *header = own.patched + place->header;
@@ -391,7 +390,7 @@ static const struct place *place_of(const struct image *image, const char *name)
   return NULL;
 }
 
-/* Row `frame` of an array of the run, NULL if it is no longer where and what it was. */
+/* Row `frame` of an array of the run; NULL if its location or form has changed. */
 static uint8_t *row_of(const struct image *image, int array, int64_t frame) {
   char name[HOOKE_WRITER_PATH];
   hk_trajectory_writer_path("all", array, name);
@@ -451,7 +450,7 @@ void container_kill_after(int64_t frames) {
   }
 }
 
-/* ---- asking ---- */
+/* ---- queries ---- */
 
 double *container_read(const struct container *container, const char *dataset, int32_t *rank,
                        int64_t size[4]) {

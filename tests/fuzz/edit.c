@@ -69,7 +69,7 @@ static uint64_t draw_value(struct random_source *state) {
   return bits;
 }
 
-/* Structures cost a new container, and extents a file that is opened anew. */
+/* Structures need a new container, and extents a reopened file. */
 static enum edit_kind draw_kind(uint64_t r) {
   if (r % 32 == 0) return (enum edit_kind)((r >> 8) % EDIT_STRUCTURES);
   if (r % 32 <= 2) return EDIT_EXTENT;
@@ -97,13 +97,13 @@ static void change_edit(struct random_source *state, uint8_t *at) {
   case 2:
     LLVMFuzzerMutate(at + 4, 8, 8);
     break;
-  default: /* mostly of the fields that leave the structure */
+  default: /* mostly among the fields that keep the structure */
     at[at[0] % EDIT_KINDS >= EDIT_STRUCTURES ? 1 + random_bits(state) % 3 : 4 + random_bits(state) % 8] =
         (uint8_t)random_bits(state);
   }
 }
 
-/* A structure one time in three of those that chance has it. */
+/* Keeps a third of the structures that were drawn. */
 static uint8_t *choose_edit(struct random_source *state, uint8_t *list, size_t count) {
   uint8_t *at = list;
   for (int k = 0; count > 0 && k < 3; k++) {

@@ -3,7 +3,7 @@
 #include <stdio.h>
 #include <unistd.h>
 
-/* One file without a name, written again each time; what a process has open has a path all the same. */
+/* One unnamed file, rewritten each time; open files of a process have a path under /proc. */
 const char *hooke_fuzz_file(const void *data, size_t size) {
   static FILE *file;
   static char path[64];

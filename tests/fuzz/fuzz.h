@@ -1,5 +1,5 @@
-/* What the targets of fuzzing have in common: one function that takes an input, counts of how far inputs
- * come, and checks of what may never happen. */
+/* Common parts of the fuzz targets: one function that takes an input, counts of how far inputs get, and
+ * checks. */
 #ifndef HOOKE_TESTS_FUZZ_H
 #define HOOKE_TESTS_FUZZ_H
 
@@ -9,9 +9,9 @@
 /* One input; returns 0. Called by libFuzzer and by replay.c. */
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
-/* Counts in the file that the variable HOOKE_FUZZ_TALLY names, numbers of 64 bits that the driver reads:
- * executions, those past the syntax, those accepted, nanoseconds of processor. They are there whatever ends
- * the process. To be called first of all with each input; the other two count an input once. */
+/* Counters in the file named by the variable HOOKE_FUZZ_TALLY, numbers of 64 bits that the driver reads:
+ * executions, those past the syntax, accepted ones, nanoseconds of processor time. They survive any end of
+ * the process. The first is to be called first with each input; the other two count an input once. */
 void hooke_fuzz_begin(void);
 void hooke_fuzz_is_past_syntax(void);
 void hooke_fuzz_is_accepted(void);
@@ -19,14 +19,14 @@ void hooke_fuzz_is_accepted(void);
 /* Ends the process, which is a finding, unless `holds`. */
 void hooke_fuzz_require(int holds, const char *what);
 
-/* Requires that a failure (a status < 0) has a message: not empty, of one line of UTF-8 without control
+/* Requires that a failure (a status < 0) has a message: one non-empty line of UTF-8 without control
  * characters. */
 void hooke_fuzz_require_message(void);
 
-/* A path to a file that holds these bytes, until the next call. */
+/* A path to a file with these bytes, until the next call. */
 const char *hooke_fuzz_file(const void *data, size_t size);
 
-/* 1 for one in `of` inputs, always the same ones: for checks that take long. */
+/* 1 for one in `of` inputs, always the same ones: for expensive checks. */
 int hooke_fuzz_is_chosen(const void *data, size_t size, uint32_t of);
 
 #endif

@@ -1,5 +1,4 @@
-/* Arrays that a scene names in HDF5 files: whatever is in the container, the numbers that are in it or a
- * message.
+/* Arrays that a scene names in HDF5 files: for any container, the result is its numbers or a message.
  *
  * Lines of: src/io/hdf5/array_h5.c src/io/hdf5/dataset_h5.c src/io/trajectory/frame_check_h5.c
  *           src/io/scene/scene_json_array.c src/io/hdf5/object_h5.c
@@ -30,7 +29,7 @@ struct wanted {
   int32_t has_frame;
 };
 
-/* Frames before the first without a time, as the header of the reader says it. */
+/* Frames before the first without a time, as documented in the reader's header. */
 static int64_t frames_there(const char *dataset, int64_t frames) {
   char name[256];
   int32_t rank;
@@ -92,11 +91,11 @@ static void read_array(const struct wanted *wanted, int by_hdf5) {
   hk_free(numbers);
 }
 
-/* ---- by way of a scene ---- */
+/* ---- through a scene ---- */
 
 #define FOUR "'particles': {'mass': 1, 'position': [[0,0,0],[1,0,0],[0,2,0],[0,0,3]]"
 
-/* Scenes with ' for ", @ for the array and # for a particle, or what stands in its place. */
+/* Scenes with ' for ", @ for the array and # for a particle, or their replacements. */
 static const char *const scenes[] = {
     "'particles': {'position': @, 'mass': 1}",
     FOUR ", 'velocity': @}",
@@ -154,7 +153,7 @@ static void load_scene(const uint8_t head[EDIT_HEAD], const struct wanted *wante
   hooke_scene_destroy(scene);
 }
 
-/* The first byte says which dataset, the second which frame and how. */
+/* The first byte selects the dataset, the second the frame and the call. */
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
   struct edits edits;
   hooke_fuzz_begin();

@@ -1,7 +1,7 @@
-/* Checkpoints: the file, and sometimes the one before it, are any bytes. Either the run goes on from numbers
- * that are in the file, or a message says why not and everything is as it was.
+/* Checkpoints: the file, and sometimes the one before it, are any bytes. Either the run continues from
+ * numbers that are in the file, or a message says why not and nothing is changed.
  *
- * The first byte says what is asked, the rest is the file. Most inputs have a check value that fits.
+ * The first byte selects the calls, the rest is the file. Most inputs have a matching check value.
  *
  * Lines of: src/io/checkpoint/checkpoint.c src/io/checkpoint/checkpoint_form.c
  * Longest input: 640 */
@@ -23,8 +23,8 @@
 size_t LLVMFuzzerMutate(uint8_t *data, size_t size, size_t most);
 size_t LLVMFuzzerCustomMutator(uint8_t *data, size_t size, size_t most, unsigned seed);
 
-/* Bits of the first byte. `BEFORE`: the file before is there, and whole; `ONLY_BEFORE`: there is nothing
- * else. */
+/* Bits of the first byte. `BEFORE`: the previous file exists, and is valid; `ONLY_BEFORE`: it is the only
+ * one. */
 enum { OF_ANY_RUN = 1, BEFORE = 2, ONLY_BEFORE = 4, SHORT_METHOD = 8, GO_ON = 16 };
 
 enum {
@@ -47,7 +47,7 @@ static void require_ok(int32_t status) {
   hooke_fuzz_require(status == HOOKE_OK, "what is there before an input");
 }
 
-/* ---- once ---- */
+/* ---- set-up ---- */
 
 static hooke_system *new_system(void) {
   static const double q[NUMBERS] = {0, 0, 0, 1, 0, 0, 2, 0.5, 0}, mass = 1.0;
@@ -128,7 +128,7 @@ static void put(int which, const uint8_t *bytes, size_t size) {
                      "a file");
 }
 
-/* What is handed out is in the file: its last numbers, to the bit. */
+/* The numbers returned are the last ones of the file, to the bit. */
 static void check_numbers(const uint8_t *bytes, size_t size) {
   double found[2 * NUMBERS], expected[2 * NUMBERS];
   memcpy(found, hooke_state_position(own.state), NUMBERS * sizeof(double));
@@ -140,7 +140,7 @@ static void check_numbers(const uint8_t *bytes, size_t size) {
     hooke_fuzz_require(isfinite(found[k]), "a number that is none");
 }
 
-/* What was read can be written and read again. */
+/* A checkpoint that was read can be written and read again. */
 static void go_around(hooke_integrator *integrator) {
   double read[2 * NUMBERS];
   memcpy(read, hooke_state_position(own.state), NUMBERS * sizeof(double));
@@ -204,7 +204,7 @@ static void put_check(uint8_t *file, size_t length) {
     file[length - HOOKE_CHECKPOINT_END + (size_t)k] = (uint8_t)(check >> 8 * k);
 }
 
-/* One field: those of the label have 4 or 8 bytes each, on 4. */
+/* A single field: those of the label have 4 or 8 bytes each, aligned to 4. */
 static void change_field(uint8_t *file, size_t length, uint32_t drawn) {
   static const double number[] = {0.0, -0.0, 1.0, 0.04, 0.02, -1.0, 1e300, INFINITY, NAN, 5e-324, 0.08, 0.05};
   static const int64_t whole[] = {0, 1,  2,         3,         4,         5,     8,
@@ -219,7 +219,7 @@ static void change_field(uint8_t *file, size_t length, uint32_t drawn) {
     LLVMFuzzerMutate(file + at, 8, 8);
 }
 
-/* Half of them begin as the whole file; the check value fits, but for one in eight. */
+/* Half of them start as the whole file; the check value fits, except for one in eight. */
 size_t LLVMFuzzerCustomMutator(uint8_t *data, size_t size, size_t most, unsigned seed) {
   uint32_t drawn = seed * 2654435761u;
   if (own.system == NULL) begin();

@@ -1,6 +1,6 @@
-/* Small scenes, computed twice: with the loops of every instruction set that the machine has, by strided
- * batches, tiled batches and runs, as the library does it, and by the plain loop of tests/support/canonical.c: the same bits.
- * Energies and derivatives against differences.
+/* Small scenes, computed twice: by the library with the loops of every instruction set of the machine, by
+ * strided batches, tiled batches and runs, and by the plain loop of tests/support/canonical.c: the bits must
+ * agree. Energies and derivatives are compared with difference quotients.
  *
  * Lines of: src/kernel/altitude_loops.c src/kernel/bending_loops.c src/kernel/strided_loops.c
  *           src/kernel/tiled_loops.c src/kernel/spring_[cl]*.c src/kernel/step_loops.c
@@ -32,7 +32,7 @@ size_t LLVMFuzzerCustomCrossOver(const uint8_t *one, size_t one_size, const uint
   return small_scene_cross(one, one_size, two, two_size, out, most, seed);
 }
 
-/* The linker puts the second in place of the first everywhere else. */
+/* The linker replaces the first by the second everywhere else. */
 const struct hk_spring_set *__real_hk_spring_set(int32_t set);
 const struct hk_spring_set *__wrap_hk_spring_set(int32_t set);
 
@@ -42,8 +42,8 @@ const struct hk_spring_set *__wrap_hk_spring_set(int32_t set) {
   return __real_hk_spring_set(first_set + set);
 }
 
-/* A number that is none has no sign that means anything. Where none is expected, or anywhere if `lost`, there
- * may be that of `left_out`, if it is not NULL: what the plain loop comes to without dampings of zero. */
+/* The sign of a NaN is irrelevant. Where a NaN is expected, or anywhere if `lost`, the value of `left_out`,
+ * if it is not NULL, is also accepted: the result of the plain loop without dampings of zero. */
 static void require_same(int64_t count, const double *found, const double *expected, const double *left_out,
                          int lost, const char *what) {
   for (int64_t k = 0; k < count; k++) {
@@ -78,7 +78,7 @@ static double largest(int64_t count, const double *x) {
   return most;
 }
 
-/* A damping of zero times a rate that is beyond all numbers is none; the library may leave it out. */
+/* A damping of zero times an infinite rate is NaN; the library may leave it out. */
 static int leaves_damping_out(const struct small_scene *scene) {
   const struct canonical *c = &scene->canonical;
   int some = 0;
@@ -124,7 +124,7 @@ static void check_acceleration(const struct small_scene *scene, int first, struc
                "accelerations");
 }
 
-/* Forces by three threads, which the library does not spend on a scene this small, and by one. */
+/* Forces by three threads, which the library would not use for a scene this small, and by one. */
 static void check_members(const struct small_scene *scene) {
   static struct hk_pool *pool;
   const hooke_system *system = scene->system;
@@ -167,8 +167,8 @@ static void step_plainly(const struct canonical *canonical, struct stepping *by)
   hooke_fuzz_require(by->result != CANONICAL_UNKNOWN, "a step that has no definition");
 }
 
-/* A step that is solved for: one, from where it began. Where springs that only pull are damped there may be
- * no solution. */
+/* An implicit step: one step from its start. If springs that only pull are damped there may be no solution.
+ */
 static void check_solved(const struct small_scene *scene, const struct stepping *by, const double *q,
                          const double *v) {
   const double defect =
@@ -197,7 +197,8 @@ static void check_steps(const struct small_scene *scene, int first, struct expec
   if (status == HOOKE_OK && solved) {
     if (!scene->extreme) check_solved(scene, by, q, v);
   } else if (status == HOOKE_OK) {
-    /* what has come to no number is slack to springs that only pull, so that others go on with numbers */
+    /* springs that only pull are slack where positions are NaN, so that others continue with finite numbers
+     */
     const int lost = some_nan(size, by->q) || some_nan(size, by->v);
     require_same(size, q, by->q, left_out ? without->q : NULL, lost, "positions after some steps");
     require_same(size, v, by->v, left_out ? without->v : NULL, lost, "velocities after some steps");
@@ -225,7 +226,7 @@ static void move(int64_t size, const double *from, double by, const double *alon
     to[k] = from[k] + by * along[k];
 }
 
-/* Where a spring has no length a force has no derivative; so with tetrahedra at which two altitudes are
+/* A force has no derivative where a spring has no length; likewise tetrahedra at which two altitudes are
  * nearly as short. */
 static int is_smooth(const struct small_scene *scene) {
   const struct canonical *c = &scene->canonical;
@@ -249,8 +250,8 @@ static int is_smooth(const struct small_scene *scene) {
   return 1;
 }
 
-/* What forces take from motion at q is what potential energy gains, and what damping takes besides is heat.
- * The difference over a step of half the size tells how far a difference is off. */
+/* The power of the forces at q is the loss of potential energy, and that of damping is heat. A difference
+ * quotient of half the step gives the error of the other. */
 static void check_energy(const struct small_scene *scene) {
   const int64_t size = 3 * scene->particles;
   const double *q = scene->q, *v = scene->v, far = 1e-3;
@@ -287,12 +288,12 @@ static void check_energy(const struct small_scene *scene) {
   hooke_fuzz_require(heat >= 0.0 && fabs(lost - heat) <= room, "what damping takes is heat");
 }
 
-/* From -1 to 1, without a pattern that particles have. */
+/* From -1 to 1, without a pattern along the particles. */
 static double drawn_from(int64_t k) {
   return (double)((k * 7919 + 104729) % 2003) / 1001.0 - 1.0;
 }
 
-/* The blocks times dq and dv are the product. */
+/* The blocks times dq and dv equal the product. */
 static void check_blocks(const struct small_scene *scene, const double *dq, const double *dv,
                          const double *product) {
   enum { MOST_BLOCKS = 16384 };
@@ -320,7 +321,7 @@ static void check_blocks(const struct small_scene *scene, const double *dq, cons
   }
 }
 
-/* What rounding of q may do to a force. */
+/* Effect of rounding of q on a force. */
 static double force_rounding(const struct small_scene *scene) {
   const struct canonical *c = &scene->canonical;
   const double stiffness = largest(c->spring_count, c->kappa) +
@@ -393,8 +394,8 @@ static void check_momentum(const struct small_scene *scene) {
 
 static const char *const methods[] = {"symplectic-euler", "forward-euler", "verlet", "rk4"};
 
-/* Backward Euler's step takes as long as thousands of others where there is none, and a campaign keeps the
- * inputs with the longest ways to none. */
+/* A backward Euler step without solution takes as long as thousands of others, and a campaign keeps the
+ * slowest inputs. */
 static struct stepping choose_steps(uint8_t code, int may_be_long) {
   struct stepping by = {.method = code % 64 == 63 && may_be_long ? "backward-euler" : methods[code % 4],
                         .steps = 1 + code / 4 % 3};
@@ -424,7 +425,7 @@ static void check_with(const uint8_t *data, size_t size, int first, int differen
   if (first) hooke_fuzz_is_past_syntax();
   check_acceleration(&scene, first, expected);
   if (differences) check_members(&scene);
-  /* a step that is solved for is long where there is no solution, and is not compared between loops */
+  /* an implicit step is slow where there is no solution, and is not compared between loops */
   if (first || expected->by.result != CANONICAL_SOLVED) check_steps(&scene, first, expected);
   if (first && differences && is_smooth(&scene)) {
     hooke_fuzz_is_accepted();
@@ -435,8 +436,8 @@ static void check_with(const uint8_t *data, size_t size, int first, int differen
   small_scene_destroy(&scene);
 }
 
-/* The first inputs go through all of it: those that are kept. The variable HOOKE_FUZZ_WHOLE says how many; a
- * campaign has thousands of its own. */
+/* The first inputs, those that are kept, go through all checks. The variable HOOKE_FUZZ_WHOLE sets their
+ * number; a campaign has thousands of its own. */
 static int is_whole(void) {
   static int64_t left = -1;
   if (left < 0) {
@@ -446,7 +447,7 @@ static int is_whole(void) {
   return left > 0 && left-- > 0;
 }
 
-/* Others, one of millions, go through a part that their bytes choose. */
+/* Others, one of millions, go through a part chosen by their bytes. */
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
   static int32_t sets;
   hooke_fuzz_begin();

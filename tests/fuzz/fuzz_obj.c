@@ -1,6 +1,6 @@
 /* Meshes from OBJ files: reading, welding, building.
  *
- * The first two bytes choose `weld` and `transform.scale`, the rest is the file.
+ * The first two bytes select `weld` and `transform.scale`, the rest is the file.
  *
  * Lines of: src/io/scene/obj.c src/io/scene/mesh.c src/parts/mesh.c src/parts/surface.c src/parts/weld.c
  * Longest input: 2048, mostly 512 */
@@ -15,7 +15,7 @@
 struct hk_surface;
 struct hk_surface_fault;
 
-/* The first thing that is done with a file of which every line was understood. */
+/* The first function that is called for a file in which every line was valid. */
 int32_t __wrap_hk_surface_create(const hooke_options *options, struct hk_surface *surface,
                                  struct hk_surface_fault *fault);
 int32_t __real_hk_surface_create(const hooke_options *options, struct hk_surface *surface,
@@ -35,7 +35,7 @@ static int64_t count_lines(const char *text, int64_t length) {
   return lines;
 }
 
-/* "mesh.obj:LINE: " where a line is to blame. */
+/* "mesh.obj:LINE: " if a line is at fault. */
 static void require_failure(int32_t status, const char *text, int64_t length) {
   hooke_fuzz_require(status == HOOKE_BAD_VALUE || status == HOOKE_NO_MEMORY,
                      "a file that is refused is a bad value");
@@ -72,8 +72,7 @@ static hooke_options *choose_options(uint8_t weld, uint8_t scale) {
   return options;
 }
 
-/* A surface that was found to be right can be built, unless masses or springs are beyond what numbers
- * hold. */
+/* A surface that passed the checks can be built, unless masses or springs overflow. */
 static void build(const hooke_options *options) {
   hooke_system *system = NULL;
   int64_t first = -1, count = -1;
@@ -92,7 +91,7 @@ static void build(const hooke_options *options) {
   hooke_system_destroy(system);
 }
 
-/* A file gives what its text gives. */
+/* A file gives the same result as its text. */
 static void read_file(const uint8_t *data, size_t size, int32_t wanted) {
   hooke_options *options = choose_options(data[0], data[1]);
   const int32_t status = hooke_mesh_read(hooke_fuzz_file(data + 2, size - 2), options);

@@ -1,8 +1,8 @@
 /* Options as text: tables set from words, numbers read and printed, units, and the words of a command line.
  *
- * The first byte chooses what is done, the second the table, the rest are lines. A line that begins with '='
- * is taken as it is, "name=value" or a word of a command line; in any other the first byte stands for a row
- * of the table and the rest is its value. So most inputs come past the names.
+ * The first byte selects the test, the second the table, the rest are lines. A line that begins with '=' is
+ * used literally, as "name=value" or a word of a command line; in any other the first byte selects a row of
+ * the table and the rest is its value. So most inputs get past the names.
  *
  * Lines of: src/core/table/option*.c src/core/number.c cli/arguments.c cli/unit.c cli/value.c
  * Longest input: 1024, mostly 256 */
@@ -53,7 +53,7 @@ static const char *row_name(const hooke_options *options, char byte) {
 
 /* ---- option tables ---- */
 
-/* What an option holds, said again by numbers, is the same to the bit. */
+/* The value of an option, set again by numbers, is the same to the bit. */
 static void set_again(hooke_options *options, const char *name) {
   const int64_t count = hooke_options_number_count(options, name);
   const double *numbers = hooke_options_numbers(options, name);
@@ -97,7 +97,7 @@ static void require_copy(const hooke_options *options) {
   hooke_options_destroy(copy);
 }
 
-/* Bytes as they are, eight a number: any double there is. */
+/* Raw bytes, eight a number: any double. */
 static void set_bytes(hooke_options *options, const char *name, const char *bytes) {
   double number[8] = {0};
   const size_t length = strlen(bytes), size = length < sizeof number ? length : sizeof number;
@@ -112,7 +112,7 @@ static void set_bytes(hooke_options *options, const char *name, const char *byte
   }
 }
 
-/* What a table says of itself. */
+/* The properties of a table. */
 static void ask(const hooke_options *options) {
   static const char *const texts[] = {"name",    "type",  "unit",   "default", "doc",
                                       "allowed", "words", "family", "example", "?"};
@@ -126,8 +126,7 @@ static void ask(const hooke_options *options) {
   }
 }
 
-/* A value of "!" takes the option back, one of "?" asks for its row, and "#" is followed by bytes of
- * numbers. */
+/* A value of "!" resets the option, one of "?" queries its row, and "#" is followed by bytes of numbers. */
 static void set_lines(hooke_options *options, char **line, int32_t count) {
   for (int32_t k = 0; k < count; k++) {
     char *value = line[k] + 1;
@@ -151,7 +150,7 @@ static void set_lines(hooke_options *options, char **line, int32_t count) {
 
 /* ---- numbers and units ---- */
 
-/* strtod() of the C locale takes all that is a number here, to the same bits. */
+/* strtod() in the C locale accepts every number accepted here, with the same bits. */
 static void read_number(const char *text) {
   double value = 0, again = 0;
   if (hk_number_parse(text, (int64_t)strlen(text), &value) != HOOKE_NUMBER_FINE) return;
@@ -188,7 +187,7 @@ static const struct cli_verb verbs[] = {
     {.name = "make", HOOKE_VERB_ROWS(rows), .takes_kind = 1},
 };
 
-/* What the program prints is formed, and goes nowhere. */
+/* Output of the program is formatted and discarded. */
 int cli_report(const struct cli_arguments *arguments, int code, const char *format, ...) {
   char message[4096];
   va_list args;

@@ -1,4 +1,4 @@
-/* Trajectories read back: whatever is in the container, an answer that is in it or a message.
+/* Reading trajectories: for any container, the result is its contents or a message.
  *
  * Lines of: src/io/trajectory/record.c src/io/trajectory/record_h5.c
  *           src/io/trajectory/record_array_h5.c src/io/hdf5/array_h5.c src/io/hdf5/dataset_h5.c
@@ -18,8 +18,8 @@ size_t LLVMFuzzerCustomMutator(uint8_t *data, size_t size, size_t most, unsigned
 
 static struct container container;
 
-/* Bits of the second byte of an input, which says what is asked besides opening; of the first, which frame
- * and array. */
+/* Bits of the second byte of an input, which selects the calls besides opening; of the first, which selects
+ * frame and array. */
 enum {
   ASK_FRAME = 1,
   ASK_ARRAY = 2,
@@ -31,7 +31,7 @@ enum {
   ASK_RESUME = 128
 };
 
-/* A failure says why. */
+/* A failure has a message. */
 static int answered(int32_t status) {
   hooke_fuzz_require(status <= HOOKE_OK, "an outcome of a run");
   if (status != HOOKE_OK) hooke_fuzz_require_message();
@@ -50,7 +50,7 @@ static int same_numbers(int64_t count, const double *a, const double *b) {
   return 1;
 }
 
-/* What HDF5 itself reads there. A frame of an array of frames: `frame` >= 0. */
+/* The numbers as HDF5 itself reads them. A frame of an array of frames: `frame` >= 0. */
 static void check_against_hdf5(const char *dataset, int64_t frame, int64_t count, const double *number) {
   int32_t rank;
   int64_t extent[4];
@@ -68,9 +68,9 @@ static void check_against_hdf5(const char *dataset, int64_t frame, int64_t count
   free(whole);
 }
 
-/* ---- what is asked ---- */
+/* ---- calls ---- */
 
-/* Of a system of the container's size, and of another. */
+/* For a system of the container's size, and another one. */
 static struct {
   hooke_system *system;
   hooke_state *state;
@@ -179,7 +179,7 @@ static int is_short(const hooke_options *run) {
   return duration / step < MOST_STEPS && !(duration / every > MOST_STEPS);
 }
 
-/* Goes on with the run, if there is one that can. */
+/* Continues the run, if that is possible. */
 static void ask_resume(int64_t frames) {
   hooke_scene *scene = NULL;
   hooke_integrator *integrator = NULL;
@@ -229,7 +229,7 @@ static void check_texts(const hooke_record *record) {
                      "a text of another file");
 }
 
-/* `often` 0: what takes long is left out. */
+/* `often` 0: skips slow calls. */
 static void ask(const uint8_t head[EDIT_HEAD], int often) {
   const int what = head[1] & (often ? ~0 : ~(ASK_HDF5 | ASK_RESUME | ASK_XDMF));
   hooke_record *record = NULL;

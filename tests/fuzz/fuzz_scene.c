@@ -12,8 +12,7 @@
 #include <string.h>
 #include <unistd.h>
 
-/* A small machine, so that a scene that is too large for it is refused and not built: that is what is
- * tested. */
+/* A small memory limit, so that too large scenes are refused and not built. */
 enum { PAGE = 4096, PAGES = 24 };
 
 long __wrap_sysconf(int name);
@@ -22,7 +21,7 @@ long __wrap_sysconf(int name) {
   return name == _SC_PHYS_PAGES ? PAGES : name == _SC_PAGESIZE ? PAGE : __real_sysconf(name);
 }
 
-/* The first thing that is done with a text that is JSON. */
+/* The first function that is called for a text that is JSON. */
 int32_t __wrap_hooke_system_create(hooke_system **system);
 int32_t __real_hooke_system_create(hooke_system **system);
 int32_t __wrap_hooke_system_create(hooke_system **system) {
@@ -32,8 +31,7 @@ int32_t __wrap_hooke_system_create(hooke_system **system) {
 
 /* ---- failures ---- */
 
-/* "scene:LINE:COLUMN: " in front of the message is a place in the text, or the one after its last
- * character. */
+/* "scene:LINE:COLUMN: " before the message is a position in the text, or the one after its last character. */
 static void require_place(const char *text, size_t size) {
   const char *message = hooke_last_error();
   char *after;
@@ -132,7 +130,7 @@ static void go_around(hooke_scene *scene) {
 
 /* ---- one input ---- */
 
-/* A scene in a file, which is checked as it comes in, is taken or refused as the same text in memory is. */
+/* A scene in a file, which is scanned in chunks, is accepted or refused like the same text in memory. */
 static void load(const char *text, size_t size) {
   hooke_scene *scene = NULL, *loaded = NULL;
   const char *path = hooke_fuzz_file(text, size), *message = "";
@@ -147,8 +145,8 @@ static void load(const char *text, size_t size) {
   hooke_scene_destroy(loaded);
 }
 
-/* The folder of the files that scenes may name: beside the program, where a program that left the machine it
- * was built on has it, or among the sources. */
+/* The folder of the files that scenes may name: beside the program, for a program copied to another machine,
+ * or among the sources. */
 static const char *files(void) {
   static char path[PAGE];
   if (path[0]) return path;
@@ -170,7 +168,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
   if (status == HOOKE_OK) status = hooke_scene_commit(scene);
   if (status == HOOKE_OK) {
     hooke_fuzz_is_accepted();
-    if (hooke_fuzz_is_chosen(text, size, 8)) go_around(scene); /* takes as long as all the rest */
+    if (hooke_fuzz_is_chosen(text, size, 8)) go_around(scene); /* takes as long as everything else */
   } else {
     require_failure(status, text, size);
   }

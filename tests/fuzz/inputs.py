@@ -48,7 +48,7 @@ def packed(inputs):
 
 
 def unpacked(data):
-    """{name: bytes} of an archive; ValueError unless it is whole and holds inputs alone."""
+    """{name: bytes} of an archive; ValueError unless it is whole and holds inputs only."""
     inputs = {}
     try:
         with tarfile.open(fileobj=io.BytesIO(lzma.decompress(data)), mode="r:") as tar:
@@ -87,7 +87,7 @@ def digest(target):
 
 
 def unpack(target):
-    """The folder that has the inputs of the archive as it is; it is written where it has those of another."""
+    """The folder with the current inputs of the archive; it is rewritten if it holds older ones."""
     into = folder(target)
     stamp = into / "archive.sha256"
     if archive(target).exists() and stamp.exists() and stamp.read_text() == digest(target):

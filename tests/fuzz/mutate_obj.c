@@ -1,5 +1,5 @@
-/* OBJ files changed as files of lines: lines made, doubled, dropped, moved, and their words changed. The
- * first two bytes, which choose options, are kept or changed by themselves. */
+/* Mutates OBJ files line by line: lines are created, doubled, dropped, moved, and their words changed. The
+ * first two bytes, which select options, are kept or changed separately. */
 #include "fuzz.h"
 
 #include <stdio.h>
@@ -132,7 +132,7 @@ static void change_lines(struct lines *lines, char *made) {
     lines->line[MOST_LINES] = lines->line[at];
     lines->line[at] = lines->line[other];
     lines->line[other] = lines->line[MOST_LINES];
-  } else if (lines->count < MOST_LINES) { /* made, or doubled */
+  } else if (lines->count < MOST_LINES) { /* created, or doubled */
     const int64_t vertices = count_vertices(lines, at);
     memmove(&lines->line[at + 1], &lines->line[at], (lines->count - at) * sizeof lines->line[0]);
     lines->count++;
@@ -197,8 +197,7 @@ static char *new_face(long long a, long long b, long long c) {
   return text;
 }
 
-/* What is left is a file without mistakes in its lines: plain vertices, then faces of three, every vertex in
- * one. */
+/* The rest is a file without faulty lines: plain vertices, then triangles, every vertex in one. */
 static void tidy(struct lines *lines) {
   static struct lines tidied;
   static uint8_t used[MOST_LINES + 1];

@@ -1,4 +1,4 @@
-/* Lines of options changed as lines: one gets a value that some option takes, is left out, or is added. */
+/* Mutates options line by line: a line gets a value that some option accepts, is dropped, or is added. */
 #include "fuzz.h"
 
 #include "random.h"
@@ -29,8 +29,8 @@ static void draw_value(struct random_source *state, char value[VALUE_SIZE]) {
     snprintf(value, VALUE_SIZE, "%s", texts[random_bits(state) % (sizeof texts / sizeof texts[0])]);
 }
 
-/* Puts a line with the first byte of the old one, or another, in the place of the bytes from `begin` to
- * `end`; 0 if it is too long. */
+/* Replaces the bytes from `begin` to `end` by a line with the first byte of the old one, or another; 0 if it
+ * is too long. */
 static size_t put_line(struct random_source *state, uint8_t *data, size_t size, size_t begin, size_t end,
                        size_t most) {
   char line[VALUE_SIZE + 1];
@@ -52,7 +52,7 @@ size_t LLVMFuzzerCustomMutator(uint8_t *data, size_t size, size_t max_size, unsi
     begin--;
   const uint8_t *found = memchr(data + begin, '\n', size - begin);
   end = found ? (size_t)(found - data) : size;
-  if (random_bits(&state) % 4 == 0 && found) { /* the line is left out */
+  if (random_bits(&state) % 4 == 0 && found) { /* the line is dropped */
     memmove(data + begin, data + end + 1, size - end - 1);
     return size - (end + 1 - begin);
   }

@@ -1,5 +1,5 @@
-/* Scenes changed as scenes: parsed, a few values, keys or elements changed, printed again. What may stand
- * where is asked of the library's own option tables, so that a new option is tried by being there. */
+/* Mutates scenes: parses them, changes a few values, keys or elements, and prints them again. Allowed keys
+ * and values come from the library's option tables, so that new options are covered automatically. */
 #include "fuzz.h"
 
 #include "hooke/parts.h"
@@ -120,7 +120,8 @@ static json_t *value_of(const hooke_options *table, int64_t row) {
   return any_text(hooke_options_row(table, row, "name"));
 }
 
-/* Sets the key of a row; a member "structural.stiffness" inside an object of its family, which is made. */
+/* Sets the key of a row; a member "structural.stiffness" is set inside an object of its family, which is
+ * created. */
 static void set_row(json_t *object, const hooke_options *table, int64_t row) {
   const char *name = hooke_options_row(table, row, "name"), *dot;
   char family[NAME_SIZE];
@@ -134,7 +135,7 @@ static void set_row(json_t *object, const hooke_options *table, int64_t row) {
   json_object_set_new(object, name, value_of(table, row));
 }
 
-/* Sets what is required, of families those that are there, and now and then something else. */
+/* Sets required options, in present families only, and now and then an optional one. */
 static void fill(json_t *object, const hooke_options *table, uint64_t more) {
   const int64_t rows = hooke_options_row_count(table);
   for (int64_t row = 0; row < rows; row++) {
@@ -330,7 +331,7 @@ static json_t *tweak(const json_t *value) {
   }
 }
 
-/* A random walk down; what it ends at is changed, taken out or doubled. */
+/* A random walk down; the value at its end is changed, removed or doubled. */
 static void change(json_t *node) {
   for (;;) {
     const size_t count = json_is_object(node) ? json_object_size(node) : json_array_size(node);
@@ -378,7 +379,7 @@ static void start(unsigned int seed) {
   draw(2);
 }
 
-/* 0 if it has become too long. */
+/* 0 if the result is too long. */
 static size_t print(json_t *root, uint8_t *data, size_t max_size) {
   const size_t indent = draw(16) == 0 ? JSON_INDENT(1) : JSON_COMPACT;
   const size_t length = json_dumpb(root, (char *)data, max_size, indent);
@@ -416,8 +417,8 @@ static size_t mutate_copy(const uint8_t *a, size_t size, uint8_t *out, size_t ou
   return LLVMFuzzerCustomMutator(out, size, out_size, seed);
 }
 
-/* A key of the second scene takes its place in the first; libFuzzer asks for it as often as for a change of
- * one scene. */
+/* A key of the second scene replaces that of the first; libFuzzer calls this as often as the mutation of one
+ * scene. */
 size_t LLVMFuzzerCustomCrossOver(const uint8_t *a, size_t a_size, const uint8_t *b, size_t b_size,
                                  uint8_t *out, size_t out_size, unsigned int seed) {
   start(seed);

@@ -1,5 +1,4 @@
-/* Goes through inputs without libFuzzer: files, and all files of folders. A folder that is not there has
- * none. */
+/* Runs inputs without libFuzzer: files, and all files of folders. A missing folder has none. */
 #include "fuzz.h"
 
 #include <dirent.h>
@@ -12,14 +11,14 @@ enum { PATH_SIZE = 4096 };
 
 static long inputs;
 
-/* What a mutator in the file of a target asks libFuzzer for; nothing here calls it. */
+/* Function of libFuzzer that a mutator in the file of a target refers to; nothing here calls it. */
 size_t LLVMFuzzerMutate(uint8_t *data, size_t size, size_t max_size);
 __attribute__((weak)) size_t LLVMFuzzerMutate(uint8_t *data, size_t size, size_t max_size) {
   (void)data;
   return size < max_size ? size : max_size;
 }
 
-/* The block is as long as the input, so that a step beyond it is seen. */
+/* The block is as long as the input, so that a read past it is detected. */
 static int replay_file(const char *path, size_t size) {
   FILE *file = fopen(path, "rb");
   uint8_t *data = malloc(size);

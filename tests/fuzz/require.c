@@ -12,7 +12,7 @@ void hooke_fuzz_require(int holds, const char *what) {
   abort();
 }
 
-/* Bytes of the character that begins here; 0 if it is none (RFC 3629). */
+/* Bytes of the character that begins here; 0 if it is invalid (RFC 3629). */
 static size_t character(const unsigned char *at) {
   if (at[0] < 0x80) return 1;
   const size_t length = at[0] >= 0xC2 && at[0] <= 0xDF   ? 2
@@ -27,7 +27,7 @@ static size_t character(const unsigned char *at) {
   return length;
 }
 
-/* C0 and C1, what ends a line, and what turns the direction of writing. */
+/* C0 and C1 controls, line ends, and characters that change the direction of writing. */
 static int steers(const unsigned char *at) {
   const int general = at[0] == 0xE2 && at[1] == 0x80, more = at[0] == 0xE2 && at[1] == 0x81;
   return at[0] < 32 || at[0] == 127 || (at[0] == 0xC2 && at[1] < 0xA0) || (at[0] == 0xD8 && at[1] == 0x9C) ||

@@ -48,7 +48,7 @@ FLAGS = {
     f"-fsanitize-coverage-ignorelist={HERE / 'uncounted.txt'} -fsanitize=undefined,float-cast-overflow -fsanitize-trap=all {WARNINGS}",
     "fuzz-coverage": f"-O1 -fprofile-instr-generate -fcoverage-mapping {WARNINGS}",
 }
-# [s] that a turn takes, which begins with all inputs that came up before.
+# [s] of a turn, which begins with all inputs found before.
 CHUNK = {"fuzz": 60, "fuzz-fast": 240}
 TURNS = 4  # one of them with all sanitizers
 SANITIZERS = {
@@ -58,15 +58,15 @@ SANITIZERS = {
 
 
 def build(folder):
-    """The programs of a preset's folder; the compiler says what it minds."""
+    """The programs of a preset's folder; prints the compiler's errors."""
     if shutil.which("clang") is None:
         sys.exit("fuzzing is left out: there is no clang. On Debian:\n  apt-get install clang libclang-rt-14-dev")
     configure = ["cmake", "--preset", "fuzz", "-B", ROOT / "build" / folder]
     if FLAGS[folder]:
-        # the loops as they are in a release, in one of the builds: no sanitizer lets them be vectorised
+        # the loops as in a release, in one of the builds: sanitizers prevent vectorisation
         loops = "-O3;-fno-sanitize=all" if folder == "fuzz-fast" else "-O2"
         configure += [f"-DCMAKE_C_FLAGS={FLAGS[folder]}", f"-DHOOKE_KERNEL_OPTIMISATION={loops}"]
-    if folder == "fuzz-fast":  # libFuzzer does not look at what libraries compare
+    if folder == "fuzz-fast":  # libFuzzer does not intercept comparisons of libraries
         configure += ["-DCMAKE_EXE_LINKER_FLAGS=-Wl,--exclude-libs,ALL"]
     library, uncounted = ROOT / "build" / folder / "libhooke.a", HERE / "uncounted.txt"
     # clang does not tell the build which list it read
@@ -110,12 +110,12 @@ class Target:
         words = [f"-dict={self.words}"] if self.words.exists() else []
         longest = self.mostly if folder == "fuzz-fast" else self.longest
         return [self.program(folder), f"-max_len={longest}", "-timeout=600", "-rss_limit_mb=2560", "-print_funcs=0", "-print_pcs=1", "-reload=0",
-                f"-entropic={int(folder == 'fuzz')}",  # which looks for longer at what is rare, and costs time
+                f"-entropic={int(folder == 'fuzz')}",  # which favours rare features, and costs time
                 f"-artifact_prefix={self.work / 'found'}/", "-print_final_stats=1", *words, *more]
 
 
 class Tally:
-    """What a program counts in a file: executions, those past the syntax, those accepted; and seconds of processor."""
+    """Counters of a program in a file: executions, those past the syntax, accepted ones; and seconds of processor."""
 
     def __init__(self, path):
         self.path = path
@@ -128,7 +128,7 @@ class Tally:
         return [*counts, nanoseconds / 1e9]
 
     def take(self):
-        """What was counted; from now on it counts from 0."""
+        """The counters; resets them."""
         counted = self.look()
         self.path.unlink(missing_ok=True)
         return counted
@@ -254,7 +254,7 @@ class Campaign:
         return min(ahead, key=lambda t: (min(1.0, self.of(t)["executions"] / self.wanted(t)), since_edge(self.of(t))))
 
     def follow(self, target, folder, process):
-        """Reads what libFuzzer says; returns the end of it. New is an edge that no input reached which it began with."""
+        """Reads the output of libFuzzer; returns its end. An edge is new if none of the initial inputs reached it."""
         tail, new = [], []
         for line in process.stderr:
             tail = [*tail[-200:], line]
@@ -319,13 +319,13 @@ class Campaign:
 
 
 def commit():
-    """Of the sources, which the figures name."""
+    """Digest of the sources, which the results name."""
     told = subprocess.run(["git", "describe", "--always", "--dirty"], cwd=ROOT, capture_output=True, text=True).stdout
     return told.strip() or "unknown"
 
 
 def since_edge(state):
-    """Seconds of processor since the last new edge, in turns that are over."""
+    """Seconds of processor since the last new edge, over finished turns."""
     return max(0.0, state["seconds"] - state["last_edge"]["seconds"])
 
 
@@ -344,7 +344,7 @@ def campaign(targets, executions, quiet, workers, limit):
         build(folder)
     many = Campaign(targets, lambda target: executions * (10 if target.name == "scene" else 1), quiet, workers, limit)
     many.run()
-    for target in targets:  # everything that came up on the way, with every sanitizer
+    for target in targets:  # everything found on the way, with every sanitizer
         once = subprocess.run(target.command("fuzz", "-runs=0", *target.campaign_inputs()),
                               env={**os.environ, **SANITIZERS}, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
         if once.returncode and not many.stop:
@@ -356,7 +356,7 @@ def campaign(targets, executions, quiet, workers, limit):
 
 
 def write_figures(targets, many, lines):
-    """What docs/notes/reliability.md says of it."""
+    """Entry for docs/notes/reliability.md."""
     try:
         figures = json.loads(FIGURES.read_text())
     except (OSError, ValueError):
@@ -413,14 +413,14 @@ def tell_coverage(targets):
 
 
 def merge(target, folder, into, *sources, **variables):
-    """Copies inputs that reach what those in `into` do not; small ones come first."""
+    """Copies inputs that reach code which those in `into` do not; small ones come first."""
     subprocess.run(target.command(folder, "-merge=1", "-use_counters=0", str(into), *(str(f) for f in sources if f.is_dir())),
                    check=True, env={**os.environ, **SANITIZERS, **variables}, stdout=subprocess.DEVNULL,
                    stderr=subprocess.DEVNULL)
 
 
 def minimise(targets):
-    """The fewest inputs that reach as much."""
+    """The fewest inputs with the same coverage."""
     build("fuzz")
     seeds.make(BUILD / "seeds")
     for target in targets:

@@ -1,8 +1,6 @@
-"""Inputs to begin with: every scene of the repository as it is and made small, where what is wrong in it stays; meshes.
-
-A scene that is too large for an input is cut off, which is one more that is wrong. `run.py --minimise` keeps of them what
-reaches more than the others.
-"""
+"""Initial inputs: every scene of the repository unchanged and reduced, keeping its faults; meshes. A scene that is
+too large for an input is truncated, which adds a faulty one. `run.py --minimise` keeps those with more coverage than
+the others."""
 
 import json
 import pathlib
@@ -13,7 +11,7 @@ LONGEST = 4096
 
 
 def smaller(value):
-    """The same scene with fewer particles, where it can be read."""
+    """The same scene with fewer particles, if it can be read."""
     if isinstance(value, dict):
         few = {"segments": 5, "size": [4, 3, 3]}
         return {k: few[k][: len(v)] if k == "size" and isinstance(v, list) else few[k]

@@ -28,7 +28,7 @@ static uint64_t mix(uint64_t z) {
   return z ^ (z >> 31);
 }
 
-/* From 0 to 1, of a seed and a place. */
+/* From 0 to 1, from a seed and an index. */
 static double drawn(uint64_t seed, uint64_t place) {
   return (double)(mix(seed * UINT64_C(0x9e3779b97f4a7c15) + place) >> 11) * 0x1p-53;
 }
@@ -37,7 +37,7 @@ static const double extremes[] = {5e-324, 1e-308, 1e-200, 1e-160, 1e-100, 1e-30,
                                   1e30,   1e100,  1e150,  1e154,  1e200,  1e290, 1e300, 3e-162};
 enum { EXTREMES = sizeof extremes / sizeof extremes[0] };
 
-/* A number >= 0 from one byte: none, small ones, and with `extreme` those at the ends. */
+/* A number >= 0 from one byte: zero, small ones, and with `extreme` those at the ends of the range. */
 static double positive(uint8_t code, int extreme) {
   if (extreme && code >= 256 - EXTREMES) return extremes[code - (256 - EXTREMES)];
   return code / 16.0;
@@ -51,7 +51,8 @@ static double any(uint8_t code, int extreme) {
 
 /* ---- particles ---- */
 
-/* Near a grid, so that neighbours in number are neighbours; none twice, unless a record says so. */
+/* Near a grid, so that neighbours in number are neighbours in space; no two coincide, unless a record says
+ * so. */
 static void place_particles(const uint8_t head[SCENE_HEAD], struct small_scene *scene) {
   const uint64_t seed = head[3];
   const int shaken = !(head[0] & ON_A_GRID);
@@ -88,7 +89,7 @@ static void drive_by_table(const uint8_t *record, int64_t particle, hooke_system
   hooke_system_drive_table(system, 1, &particle, samples, time, position);
 }
 
-/* Pinned, in harmonic motion or along a curve. Held twice is refused. */
+/* Pinned, in harmonic motion or along a curve. Constraining a particle twice is refused. */
 static void hold_particles(const uint8_t *record, struct small_scene *scene, hooke_system *system) {
   int64_t held[4];
   const int64_t count = 1 + record[1] % 4;
@@ -104,10 +105,10 @@ static void hold_particles(const uint8_t *record, struct small_scene *scene, hoo
   }
 }
 
-/* ---- what joins them ---- */
+/* ---- members of forces ---- */
 
 /* `each` particles in each of `count` rows: along a run, at a constant distance from each other, both ways;
- * or anywhere. */
+ * or at random. */
 static int64_t draw_rows(const uint8_t *record, const struct small_scene *scene, int64_t each, int64_t most,
                          int64_t *row) {
   const int64_t n = scene->particles, want = 1 + record[2] % 64;
@@ -234,7 +235,7 @@ static int is_driven(const uint8_t *records, int64_t count) {
   return driven;
 }
 
-/* Particles with velocity are not pinned: those that would be are stopped before they are added. */
+/* Particles with velocity must not be pinned: their velocity is zeroed before they are added. */
 static void stop_pinned(const uint8_t *records, int64_t count, struct small_scene *scene) {
   for (int64_t k = 0; k < count; k++) {
     const uint8_t *record = records + k * SCENE_RECORD;
@@ -329,7 +330,7 @@ size_t small_scene_mutate(uint8_t *data, size_t size, size_t most, unsigned seed
     } else if (what == 3 && count > 0) {
       LLVMFuzzerMutate(at, SCENE_RECORD, SCENE_RECORD);
     } else if (what < 6 && count > 0 && count < room) {
-      /* nearly the same once more: what the library takes together differs in little */
+      /* a nearly equal record: members that the library groups differ in few properties */
       at = memcpy(list + count++ * SCENE_RECORD, other, SCENE_RECORD);
       at[1 + mix(state + 3) % (SCENE_RECORD - 1)] = (uint8_t)bytes;
     } else if (what < 8 && count > 0) {

@@ -1,5 +1,5 @@
-/* Small scenes made of any bytes: a head, records of what is in the scene, and numbers that are put in the
- * place of others. What the library refuses is left out, so the scene is valid. */
+/* Small scenes made from any bytes: a head, records of the contents, and numbers that replace others.
+ * Contents that the library refuses are left out, so the scene is valid. */
 #ifndef TESTS_FUZZ_SMALL_SCENE_H
 #define TESTS_FUZZ_SMALL_SCENE_H
 
@@ -17,17 +17,17 @@ struct small_scene {
   struct canonical canonical;
   int64_t particles;
   double q[3 * MOST_PARTICLES], v[3 * MOST_PARTICLES], mass[MOST_PARTICLES], gravity[3];
-  int32_t extreme;          /* numbers may be of any size: forces may overflow, and differences say nothing */
-  int32_t pulls;            /* something only pulls */
-  hooke_integrator *driver; /* puts driven particles in their places; NULL: there are none */
+  int32_t extreme;          /* numbers of any size: forces may overflow, difference quotients fail */
+  int32_t pulls;            /* some member only pulls */
+  hooke_integrator *driver; /* moves driven particles to their positions; NULL: there are none */
   hooke_state *driven;
 };
 
-/* 0 if there is no scene in it. */
+/* 0 if the bytes give no scene. */
 int small_scene_create(const uint8_t *data, size_t size, struct small_scene *scene);
 void small_scene_destroy(struct small_scene *scene);
 
-/* For LLVMFuzzerCustomMutator: keeps records records. */
+/* For LLVMFuzzerCustomMutator: keeps records well-formed. */
 size_t small_scene_mutate(uint8_t *data, size_t size, size_t most, unsigned seed);
 
 /* For LLVMFuzzerCustomCrossOver: the head of one of two scenes and about half of the records of each. */

@@ -1,4 +1,4 @@
-"""The archives of inputs are as inputs.py makes them, and one that is damaged is refused."""
+"""The archives of inputs are as inputs.py writes them, and a damaged one is refused."""
 
 import importlib.util
 import lzma
@@ -26,7 +26,7 @@ def here(tmp_path, monkeypatch):
 
 @pytest.mark.parametrize("target", TARGETS)
 def test_archive_is_as_it_is_made(target):
-    """What is compressed, to the byte; versions of the compressor may differ."""
+    """The uncompressed contents, to the byte; versions of the compressor may differ."""
     data = inputs.archive(target).read_bytes()
     assert lzma.decompress(inputs.packed(inputs.unpacked(data))) == lzma.decompress(data)
 

@@ -1,6 +1,6 @@
-/* In builds that check handles, every public function refuses each of its handles when it was destroyed, when
- * it is of another type, when it is no address of an object at all and, but for those that may be, when it is
- * NULL. The list of calls is made from the headers. */
+/* In builds that check handles, every public function refuses each of its handles if it was destroyed, if it
+ * is of another type, if it is no address of an object and, unless NULL is allowed, if it is NULL. The list
+ * of calls is made from the headers. */
 #include "check.h"
 #include "run.h"
 #include "small.h"
@@ -11,7 +11,7 @@
 
 #if HOOKE_CHECK_HANDLES
 
-/* What a call came to: 1 if the refusal was returned. */
+/* Result of a call: 1 if the refusal was returned. */
 #define NUMBER(value, call)       ((double)(call) == (double)(value))
 #define NOT_A_NUMBER(value, call) (isnan(call))
 #define NULL_POINTER(value, call) ((call) == NULL)
@@ -20,7 +20,7 @@
 static void *bad;
 static char no_object[256];
 
-/* ---- one object of each type that a call takes beside a wrong one ---- */
+/* ---- one object of each type, for the other arguments of a call ---- */
 
 struct alive {
   hooke_system *system;
@@ -65,7 +65,7 @@ static void end_life(void) {
   hooke_system_destroy(alive.system);
 }
 
-/* NULL if this build cannot make one. */
+/* NULL if this build cannot create one. */
 static void *good(const char *type) {
   const struct {
     const char *type;
@@ -144,7 +144,7 @@ static void test_every_function_refuses(void **unused) {
   end_life();
 }
 
-/* Those that were destroyed above, each in a call of its own. */
+/* Destroyed objects, each in a call of its own. */
 static void test_destroyed_is_refused(void **unused) {
   (void)unused;
   bring_to_life();
@@ -174,7 +174,7 @@ static void test_destroyed_is_refused(void **unused) {
 
 static void test_every_function_refuses(void **unused) {
   (void)unused;
-  skip(); /* this build does not look at handles */
+  skip(); /* this build does not check handles */
 }
 
 static void test_destroyed_is_refused(void **unused) {

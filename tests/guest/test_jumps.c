@@ -1,6 +1,6 @@
-/* A callback may leave by longjmp(), from any call: the integrator, the state and the system can then be
- * destroyed, and run again they give the bits that they would have given, with every method, with threads,
- * and with a frame on its way to a file. */
+/* A callback may leave any call by longjmp(): the integrator, the state and the system can then be destroyed,
+ * and run again they give the same bits as without the jump, with every method, with threads, and with a
+ * queued frame. */
 #include "check.h"
 #include "held.h"
 #include "run.h"
@@ -12,7 +12,7 @@
 #include <string.h>
 #include <unistd.h>
 
-/* ---- jumping out at one call, whoever is called ---- */
+/* ---- jumping from one call of any callback ---- */
 
 static struct {
   jmp_buf back;
@@ -70,9 +70,9 @@ static int32_t progress(double done, const char *what, void *ctx) {
 
 /* ---- a rope with every kind of callback ---- */
 
-/* LARGE: a frame is written by a thread; CREWED: enough springs for two threads to share them. */
+/* LARGE: a frame is written by a thread; CREWED: enough springs for two threads. */
 enum { SMALL = 6, LARGE = 1500, CREWED = 17000, SHARE = HOOKE_SANITIZED ? 3 : 1 };
-/* A solver that iterates calls that many times as often as one that takes a matrix apart. */
+/* An iterative solver calls many times as often as a direct one. */
 enum { OFTEN = HOOKE_HAVE_CHOLMOD ? 1 : 150 };
 
 static hooke_system *make_rope(int64_t links) {
@@ -103,7 +103,7 @@ static hooke_integrator *watched(const hooke_system *system, struct run run) {
   return integrator;
 }
 
-/* Runs, and jumps out at call `at` if there is one. 1 if it was. */
+/* Runs, and jumps from call `at` if there is one. 1 if it jumped. */
 static int run_until(hooke_integrator *integrator, hooke_state *state, int64_t at) {
   jump.calls = at;
   if (setjmp(jump.back) != 0) return 1;
@@ -120,7 +120,7 @@ static void check_same_state(hooke_state *state, hooke_state *expected) {
   check_same_bits(size, hooke_state_velocity(state), hooke_state_velocity(expected));
 }
 
-/* That so many threads were started, to which a sanitizer may add one; on one processor none are. */
+/* Checks the number of started threads, to which a sanitizer may add one; on one processor there are none. */
 static void check_crew(int64_t before, int64_t started) {
   if (before < 0 || sysconf(_SC_NPROCESSORS_ONLN) < 2) return;
   check_between((double)(thread_count() - before), (double)started, (double)started + 1.0);
@@ -142,7 +142,7 @@ static int64_t jump_everywhere(const char *method, int64_t links, int32_t thread
   if (links == CREWED) check_crew(alone, 2 * (threads - 1));
   assert_int_equal(run_until(calm, expected, 0), 0);
   int64_t at = 1;
-  for (;; at += stride + at / 4) { /* fewer and fewer, the later it gets */
+  for (;; at += stride + at / 4) { /* sparser towards the end */
     hooke_integrator *integrator = watched(system, run);
     check_ok(hooke_state_copy(start, state));
     const int jumped = run_until(integrator, state, at);
@@ -218,7 +218,7 @@ static void test_rates(void **unused) {
   }
 }
 
-/* ---- with a frame on its way ---- */
+/* ---- with a queued frame ---- */
 
 #if HOOKE_HAVE_HDF5
 
@@ -234,7 +234,7 @@ static void test_while_frames_are_written(void **unused) {
   check_ok(hooke_trajectory_create(path, system, integrator, NULL, &trajectory));
   check_ok(hooke_trajectory_write_behind(trajectory));
   check_ok(hooke_integrator_on_frame(integrator, watch, trajectory));
-  /* drive, force and frame: some frames are out by then */
+  /* drive, force and frame: some frames are written by then */
   assert_int_equal(run_until(integrator, state, 14), 1);
   hooke_integrator_destroy(integrator);
   check_ok(hooke_trajectory_close(trajectory, HOOKE_STOPPED));
@@ -262,7 +262,7 @@ static void test_while_frames_are_written(void **unused) {
 
 #endif
 
-/* ---- calls that make objects of their own on the way, which are lost, and with them some memory ---- */
+/* ---- calls that create temporary objects, which leak with their memory ---- */
 
 static void test_studies_can_be_run_again(void **unused) {
   (void)unused;

@@ -1,5 +1,5 @@
-/* Numbers have a decimal point, whatever the locale of the process or of the thread: what is read gives the
- * same bits, and what is written the same bytes, under a locale with a comma as in C. */
+/* Numbers have a decimal point in every locale of the process or of the thread: input gives the same bits,
+ * and output the same bytes, under a locale with a comma as in C. */
 #include "check.h"
 #include "run.h"
 #include "small.h"
@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* ---- a locale with a comma, made here: a machine need not have one ---- */
+/* ---- a locale with a comma, created here: a machine need not have one ---- */
 
 static const char folder[] = "guest_locale", name[] = "comma.UTF-8";
 static const char source[] =
@@ -47,11 +47,11 @@ static int has_comma(void) {
   return strcmp(text, "0,5") == 0;
 }
 
-/* ---- everything that is read and written ---- */
+/* ---- all input and output ---- */
 
 enum { ROOM = 1 << 22 };
 struct output {
-  char *text; /* all of it */
+  char *text; /* everything */
   size_t length;
 };
 
@@ -185,7 +185,7 @@ static void scenes(struct output *out) {
   check_ok(hooke_study_recommend(study, 1e-13));
   add(out, hooke_measurement_text(study, "recommendation", 0, "note"));
   check_ok(hooke_measurement_write(study, "guest_locale.csv"));
-  /* some of its columns are times on the clock: what counts is how many there are */
+  /* some of its columns are times: only their number is compared */
   FILE *table = fopen("guest_locale.csv", "r");
   char line[1024];
   assert_non_null(table);

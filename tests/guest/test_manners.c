@@ -1,6 +1,6 @@
-/* What a guest finds in a process it leaves as it is: errno, rounding mode, treatment of denormals and masks
- * of exceptions, locale, mask and handlers of signals, working folder, mask of modes, open files, threads.
- * After every call of a tour through the whole interface, calls that fail among them. */
+/* The library leaves the state of the process unchanged: errno, rounding mode, treatment of denormals and
+ * masks of exceptions, locale, mask and handlers of signals, working folder, file mode mask, open files,
+ * threads. Checked after every call of a tour through the whole interface, including calls that fail. */
 #define _GNU_SOURCE /* fegetexcept() */
 #include "check.h"
 #include "held.h"
@@ -25,7 +25,7 @@
 #include <immintrin.h>
 #endif
 
-/* ---- what there is to be left alone ---- */
+/* ---- the state of the process ---- */
 
 enum { SENTINEL = 12345, SIGNALS = 32, PATH_ROOM = 512 };
 
@@ -74,7 +74,7 @@ static void arrive(void) {
   errno = SENTINEL;
 }
 
-static int64_t complaints; /* all are told before the test fails */
+static int64_t complaints; /* all are printed before the test fails */
 
 __attribute__((format(printf, 1, 2))) static void complain(const char *format, ...) {
   va_list args;
@@ -103,7 +103,7 @@ static void leave(const char *call) {
     complain("%s\n  changes the working folder or the mask of modes", call);
 }
 
-/* A call whose result is asserted, or of none. */
+/* A call with an asserted result, or without one. */
 #define OK(call)           REFUSED(call, HOOKE_OK)
 #define REFUSED(call, yes) (arrive(), expect((call), (yes), #call))
 #define ASK(call)          (arrive(), (void)(call), leave(#call))
@@ -353,7 +353,7 @@ static void tour(void) {
   assert_int_equal(complaints, 0);
 }
 
-/* ---- in the surroundings that are usual, and in odd ones ---- */
+/* ---- in usual and unusual states ---- */
 
 static void test_as_usual(void **unused) {
   (void)unused;
@@ -364,8 +364,8 @@ static void on_signal(int number) {
   (void)number;
 }
 
-/* Everything that can be set is set to what it is not by default. Results are not looked at here: in another
- * rounding mode they are the caller's. */
+/* Sets everything to non-default values. Results are not checked here: in another rounding mode they are the
+ * caller's responsibility. */
 static void test_in_odd_surroundings(void **unused) {
   (void)unused;
   sigset_t mask, kept;
@@ -380,7 +380,7 @@ static void test_in_odd_surroundings(void **unused) {
   fesetround(FE_UPWARD);
 #if defined(__x86_64__)
   const unsigned control = _mm_getcsr();
-  _mm_setcsr(control | 0x8040U); /* denormals are zero, coming and going */
+  _mm_setcsr(control | 0x8040U); /* denormals are zero, as input and output */
 #endif
   tour();
 #if defined(__x86_64__)
@@ -393,7 +393,7 @@ static void test_in_odd_surroundings(void **unused) {
   pthread_sigmask(SIG_SETMASK, &kept, NULL);
 }
 
-/* The first tour may have made libraries open what they keep; a second one adds nothing. */
+/* The first tour may make libraries open files that they keep; a second one adds none. */
 static void test_nothing_stays_open(void **unused) {
   (void)unused;
   count_all(&start);

@@ -1,5 +1,5 @@
-/* Options all have one type, whatever they are options of: a function that is given those of something else
- * says so, in every build, and does not look for what they do not have. */
+/* Options of all tables have one C type: a function that is given those of another table says so, in every
+ * build, and does not read missing options. */
 #include "check.h"
 #include "run.h"
 #include "small.h"
@@ -7,14 +7,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* ---- every table of options that there is ---- */
+/* ---- every table of options ---- */
 
 static const char *const tables[] = {
     "run",    "springs",    "altitude", "rope",   "cloth", "lattice", "mesh", "strand", "scene", "particles",
     "driven", "comparison", "needs",    "verify", "study", "limit",   "cost", "why",    "view"};
 enum { TABLES = sizeof tables / sizeof tables[0] };
 
-/* ---- every function that takes some ---- */
+/* ---- every function that takes options ---- */
 
 static const double place[] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
 static const int64_t four[] = {0, 1, 2, 3};
@@ -181,7 +181,7 @@ static int32_t pick(hooke_options *o) {
 
 static const struct {
   const char *name,
-      *table; /* the one that it takes; NULL: some of the option are required, which nobody sets here */
+      *table; /* the table that it takes; NULL: some of its options are required, and are not set here */
   int32_t (*take)(hooke_options *options);
 } functions[] = {{"add_springs", NULL, add_springs},
                  {"add_altitude", NULL, add_altitude},
@@ -233,8 +233,7 @@ static void test_other_options_are_refused(void **unused) {
   assert_true(taken >= 4);
 }
 
-/* No options at all are the defaults where the header says so; elsewhere they are missing, and that is
- * said. */
+/* NULL options are the defaults if the header says so; otherwise they are refused. */
 static void test_missing_options_are_refused(void **unused) {
   (void)unused;
   static const char *const may_be_missing[] = {"limit_create run", "limit_create", "cost_create run",
@@ -246,7 +245,7 @@ static void test_missing_options_are_refused(void **unused) {
       may |= strcmp(functions[f].name, may_be_missing[k]) == 0;
     const int32_t status = functions[f].take(NULL);
     if (status == HOOKE_NOT_BUILT || (may && status == HOOKE_OK)) continue;
-    /* the defaults of needs lack one that is required */
+    /* the defaults of needs lack a required one */
     const char *word = strcmp(functions[f].name, "needs") == 0 ? "want" : "hooke_";
     if (may || status != HOOKE_BAD_VALUE || strstr(hooke_last_error(), word) == NULL)
       check_failed("%s without options: %d: %s", functions[f].name, (int)status, hooke_last_error());

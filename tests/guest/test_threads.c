@@ -1,5 +1,5 @@
-/* Many threads at once, each with objects of its own and all with one committed system: every one gets the
- * bits that it gets alone, its own messages, its own files. */
+/* Many threads at once, each with objects of its own and all with one committed system: each gets the bits of
+ * a single thread, its own messages, its own files. */
 #include "check.h"
 #include "hash.h"
 #include "random_scene.h"
@@ -14,10 +14,10 @@
 
 enum { THREADS = 4, PARTICLES = 400 };
 
-static struct random_scene shared;       /* by all threads, committed */
+static struct random_scene shared;       /* shared by all threads, committed */
 static hooke_system *oscillator, *chain; /* likewise */
 
-/* Work whose result is a hash. No assertion of cmocka: it would jump out of the thread. 0 is a failure. */
+/* Work whose result is a hash, 0 for a failure. No cmocka assertions: they would jump out of the thread. */
 typedef uint64_t job(int thread);
 
 static uint64_t hash_state(hooke_state *state, uint64_t hash) {
@@ -124,7 +124,7 @@ static uint64_t limits(int thread) {
   return find_limit(oscillator);
 }
 
-/* Large enough for ARPACK, of which there is one for all threads. */
+/* Large enough for ARPACK, which only one thread at a time may use. */
 static uint64_t top_modes(int thread) {
   (void)thread;
   return find_limit(chain);
@@ -277,7 +277,8 @@ struct worker {
   pthread_t thread;
 };
 
-/* Each thread begins with another job, so that unlike ones meet; twice, so that like ones do, too. */
+/* Each thread begins with another job, so that different ones run together; twice, so that equal ones do,
+ * too. */
 static void *work(void *arg) {
   struct worker *worker = arg;
   for (int k = 0; k < JOBS; k++) {

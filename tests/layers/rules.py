@@ -1,4 +1,4 @@
-"""The rules of the house on who may include what, as functions from a file to a list of complaints."""
+"""The project's rules on includes, as functions from a file to a list of complaints."""
 
 import re
 
@@ -29,7 +29,7 @@ PUBLIC = {
     "hooke/checkpoint.h": "io",
 }
 
-# Third-party headers, and the only files that may see them, be it through a header of their own.
+# Third-party headers, and the only files that may include them, directly or through a header of their own.
 FENCES = [
     (r"jansson\.h", r"src/io/scene/scene_json\w*\.[ch]|tests/fuzz/mutate_\w+\.c|tests/fault/memory_faults\.c"),
     (r"(hdf5(_hl)?|H5\w+)\.h", r"src/io/\w+/\w+_h5\.[ch]|tests/fuzz/\w+_h5\.[ch]"),
@@ -45,7 +45,7 @@ FENCES = [
     (r"cmocka\.h", r"tests/(support|unit|physics|determinism|guest|fault)/\w+\.[ch]"),
 ]
 
-# Functions of Fortran, which need no header, and the only files that may call them.
+# Fortran functions, which need no header, and the only files that may call them.
 CALLS = [(r"\b[dz](ge|st|sy|he|or)\w+_\s*\(", r"src/measure/spectrum/\w+_lapack\.c")]
 
 # Headers of C17, POSIX, Linux and the compiler.
@@ -57,7 +57,7 @@ STANDARD = set(
     "getopt spawn immintrin".split()
 )
 
-# Folders that see the library as a user does.
+# Folders that use the library like a user.
 OUTSIDE = ("cli/", "bench/", "examples/", "tests/cli/", "tests/crash/", "tests/physics/", "tests/determinism/", "tests/guest/",
            "tests/fault/", "tests/support/", "tests/abi/", "tests/fortran/", "bindings/")
 
@@ -118,7 +118,7 @@ def public_complaint(name):
 
 
 def include_complaints(path, text):
-    """What is wrong with the includes of the file at `path`, relative to the project."""
+    """Faults in the includes of the file at `path`, relative to the project."""
     found = []
     for line, angle, name in includes(text):
         if path.startswith("tests/") and re.fullmatch(r"\.\./data/\w+\.inc", name):
@@ -153,13 +153,13 @@ def call_complaints(path, text):
             for call in re.finditer(pattern, clean)]
 
 
-# Numbers with a fraction are printed by what keeps the point of the caller's locale out.
+# Numbers with a fraction are printed by functions that ignore the caller's locale.
 PRINTED = re.compile(r'\b(?:v?s(?:n)?printf|fprintf)\s*\((?:[^;"]|"(?:[^"\\]|\\.)*")*?;', re.DOTALL)
 FRACTION = re.compile(r"%[-+ 0#]*(?:\d+|\*)?(?:\.(?:\d+|\*))?l?[aefg]")
 
 
 def locale_complaints(path, text):
-    """Numbers that are printed in the caller's locale; `path` in src/."""
+    """Numbers printed in the caller's locale; `path` in src/."""
     if not path.startswith("src/") or path in ("src/core/print.c", "src/core/number.c"):
         return []
     clean = without_comments(text)
@@ -182,7 +182,7 @@ def leak_complaints(files):
 
 
 def shape_complaints(path, text):
-    """What is wrong with a file's size, name or leftovers."""
+    """Faults in a file's size, name or leftovers."""
     found = []
     lines = text.count("\n")
     if lines > LINE_LIMIT:

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(os.environ["HOOKE_SOURCE_DIR"])
-WANTED = 14  # other versions lay some things out differently
+WANTED = 14  # other versions format some code differently
 FOLDERS = ["include", "src", "cli", "bench", "examples", "tests"]
 
 

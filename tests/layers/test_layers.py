@@ -1,4 +1,4 @@
-"""Who includes whom, third-party fences, sizes and names, on the whole tree; each rule also on a bad example."""
+"""Includes, third-party fences, sizes and names, on the whole tree; each rule also on a bad example."""
 
 import os
 from pathlib import Path

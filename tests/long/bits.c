@@ -1,7 +1,7 @@
-/* Prints a hash of what every method makes of each of many random scenes, and of their forces and energies:
- * one line "<scene> <method> <threads> <kind> <hash>". Two builds compute the same when they print the same
- * lines; the kind tells how far that goes: "fixed" on every machine, "library" on one machine with one set of
- * libraries. */
+/* Prints a hash of the results of every method for each of many random scenes, and of their forces and
+ * energies: one line "<scene> <method> <threads> <kind> <hash>". Two builds compute the same when they print
+ * the same lines. The kind gives the scope: "fixed" on every machine, "library" on one machine with one set
+ * of libraries. */
 #include "check.h"
 #include "hash.h"
 #include "random_scene.h"

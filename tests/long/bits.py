@@ -1,4 +1,5 @@
-"""Compares what tests/long/bits.c printed in several builds: python tests/long/bits.py fixed|all FILE FILE [FILE ...]
+"""Compares the output of tests/long/bits.c in several builds: python tests/long/bits.py fixed|all FILE FILE [FILE
+...]
 
 "fixed" looks at what is the same on every machine, "all" also at what is the same with one set of libraries.
 """
@@ -17,7 +18,7 @@ def read(path: str, kinds: str) -> dict[str, str]:
 
 
 def compared(text: str) -> dict[str, Any]:
-    """How many lines were equal in how many files, of the output of main()."""
+    """Number of equal lines and of files, from the output of main()."""
     found = re.search(r"^(\d+) hashes are equal in (\d+) files$", text, re.MULTILINE)
     if not found:
         raise ValueError("the bits differ")

@@ -14,14 +14,14 @@ from collections import defaultdict
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-# Where the compiler sees no other way: nothing can go there while the program is right.
+# Where the compiler sees no other path: unreachable while the program is correct.
 NEVER = re.compile(r"\bassert\(|__builtin_unreachable")
-# Where a failure is looked for that a call before may have met: of memory, of a file, of a library.
+# Checks for a failure of an earlier call: of memory, of a file, of a library.
 FAILURE = re.compile(r"\bstatus\b|\bresult\b|\berror\b|\berrno\b|== NULL|!= NULL|< 0\b|NO_MEMORY|_new\(|\? HOOKE_OK")
 
 
 class Source:
-    """How often each line ran, and each branch of each line."""
+    """Execution count of each line, and of each branch of each line."""
 
     def __init__(self) -> None:
         self.lines: dict[int, int] = defaultdict(int)
@@ -70,7 +70,7 @@ def totals(sources: dict[str, Source]) -> tuple[int, int, int, int]:
 
 
 def left_after_failures(sources: dict[str, Source]) -> int:
-    """Of the branches that are left, those on lines that look for a failure."""
+    """Missed branches on lines that check for a failure."""
     count = 0
     for path, source in sources.items():
         text = (ROOT / path).read_text().splitlines()

@@ -1,8 +1,8 @@
-/* Makes, uses and destroys one kind of object again and again: cycles KIND COUNT [FOLDER]. Every cycle has to
- * come to the same numbers, and after the first ones heap, resident memory, open files and threads have to
- * stay as they are. Without arguments: the kinds, one a line. FOLDER is for the files of kinds that write
- * some; its files are replaced. GLIBC_TUNABLES=glibc.malloc.tcache_count=0 has to be set: what threads keep
- * of released memory would count as held. */
+/* Creates, uses and destroys one kind of object repeatedly: cycles KIND COUNT [FOLDER]. Every cycle has to
+ * give the same numbers; after the first ones heap, resident memory, open files and threads have to stay
+ * constant. Without arguments it prints the kinds, one a line. FOLDER is for the files of kinds that write
+ * some; its files are replaced. GLIBC_TUNABLES=glibc.malloc.tcache_count=0 has to be set: released memory
+ * cached by threads would count as held. */
 #include "check.h"
 #include "held.h"
 #include "lives.h"
@@ -14,7 +14,7 @@
 #include <string.h>
 #include <unistd.h>
 
-/* ---- what has to stay ---- */
+/* ---- what has to stay constant ---- */
 
 struct held {
   int64_t heap, resident, files, threads;

@@ -1,8 +1,8 @@
 /* The motion of a scene by extrapolation in long double: extrapolate SCENE TOLERANCE EVALUATIONS TIME ... <
  * FACTS Prints JSON: times, positions (one row of 3n numbers a time), free particles, steps and evaluations;
- * ends with 1 where the evaluations do not last to the end.
+ * returns 1 if the evaluations do not suffice.
  *
- * What a system does not tell of itself comes from the scene by way of FACTS, one a line:
+ * Facts that a system has no queries for are passed from the scene as FACTS, one a line:
  *   gravity X Y Z | drag C | pulls NUMBER | pulls-named NAME | harmonic PARTICLE X Y Z FREQUENCY PHASE
  *   table PARTICLE SAMPLES, then TIME X Y Z for each of them */
 #include "canonical.h"
@@ -34,7 +34,7 @@ static double number(void) {
   return value;
 }
 
-/* Groups of springs, or of tetrahedra, of that name, or the spring group of that number. */
+/* Groups of springs or tetrahedra of that name, or the spring group of that number. */
 static void let_pull(const hooke_system *system, struct canonical *canonical, const char *name,
                      int64_t number) {
   int64_t found = 0, at = 0;
@@ -110,7 +110,8 @@ static void print_state(double time, int64_t size, const long double *q, int fir
   printf("]}");
 }
 
-/* A state begins where motions have the driven particles; this is where they were added. */
+/* A state begins at the prescribed positions of driven particles; these are the positions they were added at.
+ */
 static double *origin(const struct facts *facts, const hooke_state *state, int64_t size) {
   double *q = new_doubles(size);
   memcpy(q, hooke_state_position(state), (size_t)size * sizeof *q);

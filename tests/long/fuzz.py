@@ -1,7 +1,8 @@
-"""The counted campaign of tests/fuzz: 1e7 executions of each target, 1e8 of scenes. Its driver keeps where it was.
+"""The counted campaign of tests/fuzz: 1e7 executions of each target, 1e8 of scenes. Its driver stores its progress.
 
 Here are the targets that read text; fuzz_hdf5.py has those that read HDF5 files, which take as long as all others.
-`python3 tests/fuzz/run.py --executions 1e7 --quiet 60` goes on with it until no target has come to a new edge for an hour.
+`python3 tests/fuzz/run.py --executions 1e7 --quiet 60` goes on with it until no target has come to a new edge for an
+hour.
 """
 
 from __future__ import annotations
@@ -26,13 +27,13 @@ def counted(name: str) -> Callable[[str], dict[str, Any]]:
 
 
 def so_far(known: dict[str, Any]) -> dict[str, Any]:
-    """With the counts of the driver, where it is done and they are not older."""
+    """With the counts of the driver, if it is finished and they are not older."""
     targets = json.loads(FIGURES.read_text())["targets"] if FIGURES.exists() else {}
     with_counts = dict(known)
     for name, figures in targets.items():
         step = known.get(name, {"seconds": 0, "processor": 0, "date": ""})
         if figures["executions"] >= figures["wanted"] and figures["date"] >= step["date"]:
-            # the step is the last sitting, the counts are of all
+            # the step is the last session, the counts are of all
             times = {"seconds": max(step["seconds"], figures["seconds"]), "processor": max(step["processor"], figures["processor_seconds"])}
             with_counts[name] = step | times | {"date": figures["date"], "commit": ", ".join(figures["commits"]), "figures": figures}
     return with_counts

@@ -1,12 +1,12 @@
-/* What cycles.c does again and again: a life is an object made, used and destroyed. */
+/* The objects of cycles.c: a life is an object created, used and destroyed. */
 #ifndef TESTS_LONG_LIVES_H
 #define TESTS_LONG_LIVES_H
 
 #include "hooke.h"
 
-/* `live` returns a hash of what the life came to; `detail` is its argument. `kept` is what the heap may grow
- * by in all lives after the first twentieth [bytes]: 0, or with libhdf5, whose lists of released blocks fill
- * slowly, less than a block in a hundred lives. Tables end with a name of NULL. */
+/* `live` returns a hash of the results of a life; `detail` is its argument. `kept` is the allowed growth of
+ * the heap in all lives after the first twentieth [bytes]: 0, or with libhdf5, whose lists of released blocks
+ * fill slowly, less than a block in a hundred lives. Tables end with a name of NULL. */
 enum { HDF5_KEEPS = 4096 };
 struct life {
   const char *name, *detail;
@@ -15,13 +15,13 @@ struct life {
 };
 extern const struct life object_lives[], file_lives[], measure_lives[];
 
-/* Files that a life may write, set before the first. */
+/* Folder of the files that a life may write, set before the first. */
 struct life_files {
   char trajectory[4096], page[4096], scene[4096], checkpoint[4096];
 };
 extern struct life_files life_files;
 
-/* A spring group and a rope, committed; the caller destroys it. MANY is enough for a frame to be written by a
+/* A committed spring group and rope; the caller destroys it. MANY is enough for a frame to be written by a
  * thread. */
 enum { SEGMENTS = 6, MANY = 1400 };
 hooke_scene *life_scene(int32_t segments);

@@ -1,4 +1,4 @@
-/* Lives of trajectories: written, read, gone on with, verified, shown. */
+/* Lives of trajectories: written, read, continued, verified, viewed. */
 #include "check.h"
 #include "hash.h"
 #include "lives.h"
@@ -58,7 +58,7 @@ static void write_all(double stop, int32_t segments, int32_t checkpoint) {
 
 /* ---- read ---- */
 
-/* Every frame, what the file says of itself, and an array of it. */
+/* Every frame, the texts of the file, and an array of it. */
 static uint64_t read_all(int32_t segments) {
   hooke_scene *scene = life_scene(segments);
   hooke_state *state = start_state(hooke_scene_system(scene));
@@ -103,9 +103,9 @@ static uint64_t live_record(const char *detail) {
   return read_all(SEGMENTS);
 }
 
-/* ---- gone on with ---- */
+/* ---- continued ---- */
 
-/* From the checkpoint beside the file, or where there is none from its last frame. */
+/* From the checkpoint beside the file or, without one, from its last frame. */
 static uint64_t live_resume(const char *detail) {
   write_all(0.01, SEGMENTS, detail != NULL);
   struct writer writer = begin(1.0, SEGMENTS);
@@ -152,7 +152,7 @@ static uint64_t live_verify(const char *detail) {
   return hash_doubles(3, found, HASH_START);
 }
 
-/* ---- shown ---- */
+/* ---- viewed ---- */
 
 static uint64_t live_view(const char *detail) {
   (void)detail;

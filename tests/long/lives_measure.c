@@ -1,4 +1,4 @@
-/* Lives of what measures: limits, costs, comparisons, studies, needs, and why a run blew up. */
+/* Lives of measurements: limits, costs, comparisons, studies, needs, and diagnoses. */
 #include "check.h"
 #include "hash.h"
 #include "lives.h"

@@ -128,8 +128,8 @@ static hooke_integrator *checkpointed(hooke_scene *scene, const char *method) {
                                                            .atol = fixed ? 0.0 : 1e-6});
 }
 
-/* Stopped, its place written, and gone on with by others from the file; from the one before where it is
- * damaged. */
+/* Stopped, saved as a checkpoint, and continued by other objects from the file; from the previous one if it
+ * is damaged. */
 static uint64_t live_checkpoint(const char *method) {
   hooke_scene *scene = life_scene(SEGMENTS);
   hooke_integrator *stopped = checkpointed(scene, method);

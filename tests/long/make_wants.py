@@ -1,5 +1,5 @@
-"""Makes tests/data/wants.json: where the particles of the scenes of tests/cli/test_want.py are at the end, by extrapolation in long
-double, and what each want costs at best on a fine ladder of every method.
+"""Writes tests/data/wants.json: the final positions of the particles of the scenes of tests/cli/test_want.py, by
+extrapolation in long double, and the minimum cost of each want on a fine ladder of every method.
 
 HOOKE_EXTRAPOLATE=build/release/tests/long/extrapolate python tests/long/make_wants.py [--ends] SCENE...
 

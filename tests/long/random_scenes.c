@@ -8,8 +8,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-/* What a scene file can hold, in turns; no springs that start without a direction, whose motion hangs on
- * rounding. */
+/* The features that a scene file can hold, in turns; no springs that start without a direction, whose motion
+ * depends on rounding. */
 static struct random_scene_request request(uint64_t seed) {
   static const int32_t features[] = {
       SCENE_GRAVITY | SCENE_PINNED, SCENE_GRAVITY | SCENE_DAMPING | SCENE_DRAG | SCENE_PINNED,

@@ -1,7 +1,7 @@
-"""Holds the recommendations of studies against finer ladders: python tests/long/recommendation.py [SCENE ...]
+"""Compares the recommendations of studies with finer ladders: python tests/long/recommendation.py [SCENE ...]
 
-For every example scene and three wants each: is the error of the recommended run, measured again against a reference of
-this script's own, at most what was wanted; and would a ladder four times as fine, over all steps that fit and all
+For every example scene and three wants each: is the error of the recommended run, measured again against a reference
+of this script's own, at most what was wanted; and would a ladder four times as fine, over all steps that fit and all
 tolerances that are allowed, have had a row much cheaper? Takes about a quarter of an hour on a quiet machine.
 """
 
@@ -17,13 +17,13 @@ import numpy as np
 import hooke
 
 SCENES = Path(__file__).resolve().parents[2] / "examples/scenes"
-WANTS = (1e-2, 1e-3, 1e-4)  # of the farthest that a particle comes from its start
+WANTS = (1e-2, 1e-3, 1e-4)  # of the largest distance of a particle from its start
 BUDGET = 60  # [s] for one study
-RATIO = 1.3  # by how much a recommendation may be dearer than the finer ladder's best
-HOLD = 0.95  # share of the pairs for which that has to hold
+RATIO = 1.3  # allowed ratio of the cost of a recommendation to the finer ladder's best
+HOLD = 0.95  # fraction of the pairs for which that has to hold
 STEP_RATIO, TOLERANCE_RATIO = 2 ** (1 / 4), 10 ** (1 / 4)  # the ladders of a study go by 2 and by 10
 LOOSEST, TIGHTEST = 0.1, 1e-11
-FARTHEST = 12  # times the cost of the dearest recommendation, where a ladder ends
+FARTHEST = 12  # times the cost of the costliest recommendation, where a ladder ends
 ADAPTIVE = [method.name for method in hooke.methods() if method.adaptive]
 LONG = {  # scenes that are shortened: duration and time between frames [s]
     "cloth-16": (0.3, 0.01),
@@ -78,7 +78,7 @@ class Truth:
 
 
 def values(method: str, unit: float) -> list[dict[str, Any]]:
-    """A ladder four times as fine as that of a study, from the coarsest that there is."""
+    """A ladder four times as fine as that of a study, from the coarsest value on."""
     rows: list[dict[str, Any]] = []
     if method in ADAPTIVE:
         rtol = LOOSEST
@@ -91,7 +91,7 @@ def values(method: str, unit: float) -> list[dict[str, Any]]:
 
 
 def climb(truth: Truth, method: str, want: float, most_seconds: float) -> list[Row]:
-    """Rows from coarse to fine, until a few in a row meet the smallest want or they become too dear."""
+    """Rows from coarse to fine, until a few in a row meet the smallest want or they become too costly."""
     rows: list[Row] = []
     for options in values(method, truth.times["every"]):
         row = truth.measure(options)
@@ -111,7 +111,7 @@ def cheapest(rows: list[Row], want: float, key: str, count: int = 1) -> list[Row
 
 
 def race(truth: Truth, runs: list[dict[str, Any]]) -> list[float]:
-    """The least time of each run. They take turns, so that all see the same machine, and go on where the first seems
+    """Minimum time of each run. They take turns, so that all see the same machine, and continue where the first seems
     slow."""
     least = [math.inf] * len(runs)
     for turn in range(30):
@@ -156,7 +156,7 @@ def judge(truth: Truth, want: float, one: Any, rows: list[Row]) -> tuple[bool, .
     winner = quickest[k - 1] if quickest else again
     value = one.step if one.step > 0 else one.rtol
     itself = winner.method == one.method and math.isclose(winner.value, value)
-    slower = 1.0 if itself else times[0] / times[k]  # else the noise of the clock
+    slower = 1.0 if itself else times[0] / times[k]  # otherwise noise of the clock
     print(
         f"{name:16} {want:8.2g} {one.method:16} {value:9.3g} {one.error / want:7.3f} {again.error / want:7.3f} "
         f"{again.evaluations:8d} {same:7.2f} {slower:7.2f} {over_all:7.2f}   {1e3 * times[0]:.3g} ms; quickest "

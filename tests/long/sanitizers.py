@@ -1,12 +1,13 @@
-"""The library watched: sanitizers, valgrind, two compilers at four levels of optimisation, and the lines that tests reach.
+"""The library watched: sanitizers, valgrind, two compilers at four levels of optimisation, and the lines that tests
+reach.
 
-Every test of C runs in every step but where this file says so. What is left to one step:
-- large and many cases of what is arithmetic (`left_out()`, `short_of_time()` of tests/support/sanitized.h) run at -O3 with both
+Every test of C runs in every step, with the exceptions in this file. Limited to one step: - large and many cases of
+what is arithmetic (`left_out()`, `short_of_time()` of tests/support/sanitized.h) run at -O3 with both
   compilers, which is what users have, and with the address sanitizer; other levels and valgrind take a share of them;
-- the thread sanitizer sees the tests that start a thread, of which a preset has the names: in others there is nothing to race;
-- valgrind sees the unit tests but for two;
-- tests/fault, and the programs and pages of tests/cli, are for the address sanitizer of gcc;
-- every point of tests/fault, where those that make whole studies have a tenth of their points sanitized, runs of 1e8 steps and
+- the thread sanitizer sees the tests that start a thread, of which a preset has the names: in others there is nothing
+to race; - valgrind sees the unit tests but for two; - tests/fault, and the programs and pages of tests/cli, are for
+the address sanitizer of gcc; - every point of tests/fault, where those that make whole studies have a tenth of their
+points sanitized, runs of 1e8 steps and
   a thousand kills are for `soak`.
 """
 
@@ -23,8 +24,9 @@ C_TESTS = "-L 'unit|physics|determinism|guest'"
 PLAIN = "-G Ninja -DCMAKE_BUILD_TYPE=None -DHOOKE_LONG_TESTS=ON -DHOOKE_TEST_TIMEOUT=3600 -DCMAKE_Fortran_COMPILER=NOTFOUND"
 LEVELS = ("-O0", "-O1", "-O2", "-O3")
 COMPILERS = ("gcc", "clang")
-# Units under valgrind, which takes thirty times as long: `thread_pool` spins in threads that wait for each other, and for `spring_batch`
-# a long double has to have more digits than valgrind gives it. What a child that was killed had is no leak.
+# Units under valgrind, which takes thirty times as long: `thread_pool` spins in threads that wait for each other, and
+# for `spring_batch` a long double has to have more digits than valgrind gives it. Memory of a killed child is no
+# leak.
 VALGRIND_LEAVES = "unit_(thread_pool|spring_batch)$"
 CLANG_SANITIZERS = (
     "-O1 -g -fno-omit-frame-pointer -fno-sanitize-recover=all -Wno-pass-failed "
@@ -66,7 +68,7 @@ def valgrind(text: str) -> dict[str, Any]:
 
 
 def reached(text: str) -> dict[str, Any]:
-    """Totals and the files with most left, of the output of coverage.py."""
+    """Totals and the files with the lowest coverage, from the output of coverage.py."""
     found = re.search(r"^lines (\d+) of (\d+), (\S+) %\nbranches (\d+) of (\d+), (\S+) %$", text, re.MULTILINE)
     files = re.findall(r"^ +(\d+) +\d+ +(\d+) +\d+  src/(\S+)$", text, re.MULTILINE)
     kinds = re.search(r"^branches left where failures are looked for: (\d+); elsewhere: (\d+)$", text, re.MULTILINE)

@@ -1,4 +1,4 @@
-"""Eight hours' worth of work, compressed: 1e9 steps, 1e4 lives of every object, a thousand kills, every fault, long runs."""
+"""Eight hours of work, compressed: 1e9 steps, 1e4 lives of every object, a thousand kills, every fault, long runs."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from steps import Part, Step, tests_passed
 
 BUILD = "build/long/release"
 STEPS, CYCLES = 10**9, 10**4
-# What a thread keeps of freed memory counts as in use.
+# Freed memory cached by threads counts as in use.
 KEEPING_NOTHING = {"GLIBC_TUNABLES": "glibc.malloc.tcache_count=0"}
 # The slow ones first, so that no processor waits at the end.
 KINDS = (
@@ -59,7 +59,7 @@ def lives(kinds: list[str], seconds: float) -> Step:
 
 
 def ctest(name: str, pattern: str, seconds: float, figures: Callable[[str], dict[str, Any]] = tests_passed) -> Step:
-    """With all that the tests print, which the figures are read from."""
+    """With all output of the tests, which the numbers are read from."""
     return Step(name, f"ctest --test-dir {BUILD} -j2 -V -R '{pattern}'", seconds, figures, {"PYTEST_ADDOPTS": "-s"})
 
 

@@ -1,9 +1,8 @@
-/* Very many steps of a small scene: steps STATE_FILE METHOD whole|pieces STEPS.
- * A free chain of eight particles that is its own image in the origin. What has to hold exactly: the image,
- * and with it a momentum of 0, and the same numbers whether one integrator takes all steps ("whole") or new
- * ones take pieces of them. What has to stay within bounds: the energy, the angular momentum, and the memory
- * of the process. The place reached is kept in STATE_FILE, from which a later call goes on; a line is printed
- * at every tenth of the way. */
+/* Very many steps of a small scene: steps STATE_FILE METHOD whole|pieces STEPS. A free chain of eight
+ * particles is symmetric about the origin. Exact invariants: the symmetry, and with it a momentum of 0, and
+ * the same numbers whether one integrator takes all steps ("whole") or new ones take pieces of them. Bounded
+ * quantities: the energy, the angular momentum, and the memory of the process. Progress is stored in
+ * STATE_FILE, from which a later call continues; a line is printed at every tenth of the steps. */
 #include "check.h"
 #include "hash.h"
 #include "run.h"
@@ -18,11 +17,11 @@
 
 enum { COUNT = 8, SIZE = 3 * COUNT, TENTHS = 10 };
 static const double STEP = 2e-3;      /* s; the fastest mode takes about 50 of them */
-static const int64_t SAMPLE = 100000; /* steps between two looks */
+static const int64_t SAMPLE = 100000; /* steps between two checks */
 static const int64_t LEAST =
-    20000000; /* twenty looks a tenth, for the energies of both to be those of the motion */
+    20000000; /* twenty checks a tenth, so that the energies of both are those of the motion */
 
-/* What is kept between calls. */
+/* Data stored between calls. */
 struct place {
   int64_t steps;            /* taken so far */
   double energy_off[2];     /* largest |E - E(0)|/E(0) in the first and in the last tenth */
@@ -86,7 +85,7 @@ static void keep(const struct place *place) {
   assert_int_equal(rename(other, asked.file), 0);
 }
 
-/* ---- what is looked at ---- */
+/* ---- checks ---- */
 
 static int64_t resident(void) {
   long long pages = 0;
@@ -141,7 +140,7 @@ static void take(struct runner *runner, struct place *place, int64_t count) {
   memcpy(place->numbers + SIZE, hooke_state_velocity(runner->state), SIZE * sizeof(double));
 }
 
-/* One look's worth; in pieces of odd lengths, each with an integrator of its own. */
+/* Steps between two checks; in pieces of odd lengths, each with an integrator of its own. */
 static void take_sample(struct runner *runner, struct place *place) {
   static const int64_t lengths[] = {1, 999, 1000, 1001, 31337};
   if (!asked.pieces) {

@@ -1,8 +1,9 @@
-"""Runs the steps of a part of `make test-long` one after the other and keeps what is done in build/long/<part>.json.
+"""Runs the steps of a part of `make test-long` one after the other and records finished ones in
+build/long/<part>.json.
 
-A part that was interrupted or killed goes on with the steps that are not done for the sources as they are; a step that failed
-is run again. Then what each step came to last, for whatever sources, goes into docs/notes/reliability.json, with its date and commit,
-and from there into the tables of docs/notes/reliability.md.
+A part that was interrupted or killed goes on with the steps that are not done for the sources as they are; a step
+that failed is run again. Then what each step came to last, for whatever sources, goes into
+docs/notes/reliability.json, with its date and commit, and from there into the tables of docs/notes/reliability.md.
 """
 
 from __future__ import annotations
@@ -29,22 +30,19 @@ KEPT = ROOT / "build/long"
 PAGE = ROOT / "docs/notes/reliability.md"
 MEASURED = ROOT / "docs/notes/reliability.json"
 SOURCES = ("src", "include", "cli", "bindings", "cmake", "examples", "tests", "CMakeLists.txt", "CMakePresets.json")
-TELL_EVERY = 60  # [s] a line while a step takes its time
+TELL_EVERY = 60  # [s] between lines during a step
 LIMIT = 150 * 60  # [s] a part has
 
 
 @dataclass
 class Step:
-    """A line for the shell, run in the root, and what its output says.
-
-    It finds HOOKE_LONG set, in WORK a folder that stays from one start to the next, and in SOURCES a name of the sources as
-    they are.
-    """
+    """A shell command, run in the root, and the results in its output. HOOKE_LONG is set, WORK is a folder that stays
+    from one start to the next, and SOURCES identifies the current sources."""
 
     name: str
     command: str
-    seconds: float  # that it takes on two processors; the next time, what it took
-    figures: Callable[[str], dict[str, Any]] = lambda text: {}  # from the output; raises where it is not as it should be
+    seconds: float  # estimate for two processors; the next time, the measured time
+    figures: Callable[[str], dict[str, Any]] = lambda text: {}  # from the output; raises if it is not as expected
     environment: dict[str, str] = field(default_factory=dict)  # "": not set
 
 
@@ -53,8 +51,8 @@ class Part:
     name: str
     packages: list[str]
     steps: list[Step]
-    rows: Callable[[str, dict[str, Any]], list[tuple[str, str]]]  # what and figure, from a step's name and its figures
-    so_far: Callable[[dict[str, Any]], dict[str, Any]] = lambda known: known  # with what steps have that go on another time
+    rows: Callable[[str, dict[str, Any]], list[tuple[str, str]]]  # names and results, from a step's name and its results
+    so_far: Callable[[dict[str, Any]], dict[str, Any]] = lambda known: known  # with the data of steps that continue later
 
 
 def git(*arguments: str) -> str:
@@ -62,7 +60,7 @@ def git(*arguments: str) -> str:
 
 
 def sources() -> tuple[str, str]:
-    """A digest of the sources as they are, and what to call them: the commit that they are of."""
+    """A digest of the current sources, and their name: the commit."""
     digest = hashlib.sha256()
     for name in sorted(set(git("ls-files", "-co", "--exclude-standard", "--", *SOURCES).split("\n")) - {""}):
         if (ROOT / name).is_file():
@@ -83,7 +81,7 @@ def write_whole(path: Path, text: str) -> None:
 
 
 def load(part: Part) -> dict[str, Any]:
-    """What is done for the sources as they are; of others the times alone."""
+    """Finished steps for the current sources; of others only the times."""
     digest, commit = sources()
     state: dict[str, Any] = {"sources": digest, "commit": commit, "done": {}, "took": {}, "failed": []}
     try:
@@ -104,7 +102,7 @@ def save(part: Part, state: dict[str, Any]) -> None:
 
 
 class SourcesChanged(Exception):
-    """What a step found is of sources that are no more."""
+    """The results of a step are of outdated sources."""
 
 
 def words(seconds: float) -> str:
@@ -112,16 +110,16 @@ def words(seconds: float) -> str:
 
 
 def die_with_parent() -> None:
-    """Where this process is killed the step ends, too: its shell is told, and passes it on."""
+    """If this process is killed the step ends, too: its shell gets a signal, and passes it on."""
     ctypes.CDLL(None).prctl(1, signal.SIGTERM)
 
 
-# Everything that a step starts is of one process group, which ends as a whole.
+# All processes of a step are of one process group, which ends as a whole.
 SHELL = "trap 'trap - TERM; kill -TERM 0' TERM\n(\n{command}\n) &\nwait $!"
 
 
 def processor_seconds() -> float:
-    """Of all that ended so far."""
+    """Output of all finished processes so far."""
     used = resource.getrusage(resource.RUSAGE_CHILDREN)
     return used.ru_utime + used.ru_stime
 
@@ -146,14 +144,14 @@ def run(step: Step, log: Path, folder: Path, mark: str, told: Callable[[str], No
                     return process.wait(timeout=TELL_EVERY)
                 except subprocess.TimeoutExpired:
                     told(last_line(log))
-        finally:  # what a step left at work that failed or was interrupted
+        finally:  # processes left by a failed or interrupted step
             with contextlib.suppress(ProcessLookupError):
                 os.killpg(process.pid, signal.SIGTERM)
             process.wait()
 
 
 def run_part(part: Part, only: str = "") -> int:
-    """Runs what is left, or of it the steps with `only` in their names; the number of steps that failed."""
+    """Runs the remaining steps, or those with `only` in their names; returns the number of failed steps."""
     folder = KEPT / part.name
     folder.mkdir(parents=True, exist_ok=True)
     with (folder / "lock").open("w") as lock:
@@ -185,7 +183,7 @@ def run_steps(part: Part, only: str, folder: Path) -> int:
 
 
 def run_step(part: Part, state: dict[str, Any], k: int, step: Step, left: float, folder: Path) -> bool:
-    """Step `k` of the part, where the steps to be run still take `left` seconds; whether it passed."""
+    """Runs step `k` of the part; the remaining steps take `left` seconds; returns whether it passed."""
     began, used, log = time.monotonic(), processor_seconds(), folder / (re.sub(r"[^a-zA-Z0-9.-]+", "_", step.name) + ".log")
     print(f"[{k}/{len(part.steps)}] {step.name} (about {words(left)} left)", flush=True)
 
@@ -217,7 +215,8 @@ def run_step(part: Part, state: dict[str, Any], k: int, step: Step, left: float,
 
 
 def measured(part: Part, state: dict[str, Any]) -> dict[str, dict[str, Any]]:
-    """Puts what is done into the file of figures, and takes out what failed; all of the part's steps that it then has."""
+    """Writes finished steps into the file of results, and removes failed ones; returns all results of the part's
+    steps."""
     try:
         kept = json.loads(MEASURED.read_text())
     except OSError:
@@ -243,7 +242,7 @@ def table(part: Part, known: dict[str, dict[str, Any]]) -> list[str]:
 
 
 def write_figures(part: Part, state: dict[str, Any]) -> None:
-    """Between the marks of this part in the page, if a step of it was ever done."""
+    """Text between the marks of this part in the page, if a step of it was ever done."""
     known = measured(part, state)
     if not known:
         return
@@ -257,7 +256,7 @@ def write_figures(part: Part, state: dict[str, Any]) -> None:
 
 
 def number(pattern: str, text: str) -> int:
-    """The whole number that the pattern's group finds, in its last place; an error where there is none."""
+    """The integer in the last match of the pattern's group; an error if there is none."""
     found = re.findall(pattern, text)
     if not found:
         raise ValueError(f"the output has nothing like {pattern}")
@@ -265,7 +264,7 @@ def number(pattern: str, text: str) -> int:
 
 
 def tests_passed(text: str) -> dict[str, Any]:
-    """Of the output of one or more runs of CTest: how many tests passed."""
+    """Number of passed tests in the output of one or more runs of CTest."""
     passed = re.findall(r"100% tests passed, 0 tests failed out of (\d+)", text)
     if not passed:
         raise ValueError("not all tests passed")

@@ -1,5 +1,5 @@
-"""Where the particles of a scene are, by extrapolation in long double (`extrapolate.c`), which shares nothing with the library but
-its reading of parts; and how far two tolerances are apart."""
+"""Final positions of the particles of a scene, by extrapolation in long double (`extrapolate.c`), which shares
+nothing with the library but its reading of parts; and the distance between two tolerances."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from wants import distance
 ROOT = Path(__file__).resolve().parents[2]
 
 TOLERANCES = (1e-14, 1e-15)  # of a step
-EVALUATIONS = 5e6  # where the reference is given up: too stiff, or too long
+EVALUATIONS = 5e6  # limit beyond which the reference is abandoned: too stiff, or too long
 
 
 @dataclass
@@ -30,11 +30,11 @@ class Truth:
     apart: dict[float, float]  # [m] root mean square, of the two tolerances
 
     def distance(self, time: float, positions: Any) -> float:
-        """Root mean square over the free particles of how far they are from here [m]."""
+        """Root mean square distance of the free particles from here [m]."""
         return distance(self.free, self.positions[time], [x for row in positions for x in row])
 
 
-# ---- what a system does not tell of itself ----
+# ---- facts that a system has no queries for ----
 
 
 def part_size(part: dict[str, Any]) -> int:
@@ -81,7 +81,7 @@ def motions(scene: dict[str, Any], drive: dict[str, Any]) -> list[str]:
 
 
 def extrapolate(path: Path, times: list[float], tolerance: float, evaluations: float) -> dict[str, Any] | None:
-    """None where it does not come to the end."""
+    """None if it does not finish."""
     program = os.environ.get("HOOKE_EXTRAPOLATE", "build/long/release/tests/long/extrapolate")
     words = [program, str(path), repr(tolerance), repr(evaluations), *map(repr, times)]
     done = subprocess.run(words, input="\n".join(facts(json.loads(path.read_text()))), capture_output=True, text=True)
@@ -91,7 +91,7 @@ def extrapolate(path: Path, times: list[float], tolerance: float, evaluations: f
 
 
 def known(path: Path, times: list[float], tolerance: float, evaluations: float, kept: Path | None) -> dict[str, Any] | None:
-    """The same from a file in the folder `kept`, if it is there."""
+    """The same from a file in the folder `kept`, if it exists."""
     if kept is None:
         return extrapolate(path, times, tolerance, evaluations)
     mark = hashlib.sha256(repr((path.read_text(), times, tolerance, evaluations)).encode()).hexdigest()[:16]

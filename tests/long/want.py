@@ -1,5 +1,5 @@
-"""Every example scene, the README's cloth and twenty random scenes are asked for three wants, by runs and by studies, the examples
-for what a plain run says of its error as well, and held against extrapolation in long double."""
+"""Tests every example scene, the README's cloth and twenty random scenes with three wants each, by runs and by
+studies, and for the examples the estimated error of a plain run as well, against extrapolation in long double."""
 
 from __future__ import annotations
 

@@ -1,8 +1,9 @@
-"""Holds runs and studies with a want, and what plain runs say of their error: wanted.py [--want LENGTH]... [--plain] [--study] SCENE...
+"""Tests runs and studies with a want, and the estimated error of plain runs: wanted.py [--want LENGTH]... [--plain]
+[--study] SCENE...
 
-`cloth.md` stands for the cloth that README.md makes, and `random:20` for twenty random scenes. For each scene and want a line: what
-was picked, what it said, and its error at the end by extrapolation in long double. Ends with 1 where a run claims what does
-not hold.
+`cloth.md` stands for the cloth that README.md makes, and `random:20` for twenty random scenes. For each scene and
+want a line: what was picked, what it said, and its error at the end by extrapolation in long double. Ends with 1
+where a run claims what does not hold.
 """
 
 from __future__ import annotations
@@ -32,7 +33,7 @@ def call(hooke: str, *words: str) -> tuple[int, dict[str, Any], str]:
 
 
 def readme_cloth(hooke: str, folder: Path) -> Path:
-    """As the README makes it."""
+    """As in the README."""
     command = re.search(r"^hooke (make cloth .*?)-o cloth\.json$", (ROOT / "README.md").read_text(), re.DOTALL | re.MULTILINE)
     assert command, "README.md makes no cloth"
     path = folder / "readme-cloth.json"
@@ -41,7 +42,7 @@ def readme_cloth(hooke: str, folder: Path) -> Path:
 
 
 def random_scenes(folder: Path, count: int) -> list[Path]:
-    """Every fourth has a particle that is swung as well."""
+    """Every fourth has a driven particle as well."""
     program = Path(os.environ.get("HOOKE_EXTRAPOLATE", "build/long/release/tests/long/extrapolate")).with_name("random_scenes")
     made = subprocess.run([program, folder, "1", str(count)], check=True, capture_output=True, text=True).stdout.split()
     for name in made[::4]:
@@ -74,7 +75,7 @@ def picked(value: dict[str, Any]) -> str:
 
 
 class Judge:
-    """Of one program and one scene after the other; counts what it hears."""
+    """For one program, one scene after the other; counts the results."""
 
     def __init__(self, hooke: str, kept: Path, evaluations: float, budget: float):
         self.hooke, self.kept, self.evaluations, self.budget = hooke, kept, evaluations, budget

@@ -1,4 +1,4 @@
-/* Altitude springs: which altitude acts, what that does, and what it leaves alone. */
+/* Altitude springs: which altitude acts, its effects, and what it must not change. */
 #include "check.h"
 #include "random.h"
 #include "run.h"
@@ -23,8 +23,8 @@ static double volume_of(const double *q, const int64_t *p) {
          e[0][2] * (e[1][0] * e[2][1] - e[1][1] * e[2][0]);
 }
 
-/* Particles of unequal masses, to be committed; with `scale` on the rest lengths of altitude springs on all
- * `tetrahedra`. */
+/* Particles of unequal masses, to be committed; with altitude springs on all `tetrahedra` whose rest lengths
+ * are scaled by `scale`. */
 static hooke_system *new_scene(int64_t n, const double *q, int64_t count, const int64_t *tetrahedra,
                                double stiffness, double damping, double scale) {
   hooke_system *system = NULL;
@@ -68,7 +68,7 @@ static void random_corners(struct random_source *source, double q[12]) {
 
 /* ---- one tetrahedron ---- */
 
-/* The width between two planes at right angles to n that hold the tetrahedron. */
+/* Width of the tetrahedron between two planes normal to n. */
 static double width_along(const double *q, const double n[3]) {
   double low = INFINITY, high = -INFINITY;
   for (int p = 0; p < 4; p++) {
@@ -79,7 +79,7 @@ static double width_along(const double *q, const double n[3]) {
   return (high - low) / sqrt(dot(n, n));
 }
 
-/* The shortest altitude is the least width of the tetrahedron: no direction has a smaller one, and that of
+/* The shortest altitude is the minimum width of the tetrahedron: no direction has a smaller one, and that of
  * the force has it. */
 static void the_shortest_is_the_least_width(void **unused) {
   (void)unused;
@@ -104,8 +104,7 @@ static void the_shortest_is_the_least_width(void **unused) {
       if (dot(n, n) > 0.01) assert_true(width_along(q, n) >= length * (1.0 - 1e-12));
     }
     check_ok(hooke_system_force(system, 0.0, q, still, force));
-    /* a push apart of 5 (1/1.25 - 1): on one side it adds up to 1, on the other side too, within the
-     * tetrahedron */
+    /* a repulsion of 5 (1/1.25 - 1), which adds up to 1 on either side, within the tetrahedron */
     double out[3], push = 0.0, most = 0.0;
     for (int p = 0; p < 4; p++) {
       if (dot(force + 3 * p, force + 3 * p) > most) {
@@ -137,8 +136,8 @@ static void rest_lengths_are_altitudes(void **unused) {
   hooke_system_destroy(system);
 }
 
-/* Pushed through the opposite face, the particle comes back; held by edges alone it stays on the wrong
- * side. */
+/* Pushed through the opposite face, the particle comes back; held by edges alone it stays on the wrong side.
+ */
 static void what_is_inside_out_turns_back(void **unused) {
   (void)unused;
   const double q0[12] = {0, 0, 0, 1, 0, 0, 0.4, 1, 0, 0.5, 0.4, 0.5};
@@ -182,7 +181,7 @@ static void run_from(const hooke_system *system, struct run run, int64_t n, doub
 /* A flat pyramid, whose shortest altitude by far is that of its top. */
 static const double pyramid[12] = {0, 0, 0, 1, 0, 0, 0.4, 1, 0, 0.5, 0.4, 0.3};
 
-/* The error of the energy at a time, over the energy; the top swings by a tenth of its height. */
+/* Relative error of the energy at a time; the top swings by a tenth of its height. */
 static double energy_error(double step) {
   double q[12], v[12] = {0};
   memcpy(q, pyramid, sizeof q);
@@ -205,8 +204,8 @@ static void verlet_keeps_the_energy_to_its_order(void **unused) {
   check_between(fine / coarse, 0.005, 0.02);
 }
 
-/* At a change of the altitude the energy jumps by what their rest lengths differ in, and momentum does
- * not. */
+/* At a change of the altitude the energy jumps by the difference due to the rest lengths, and momentum is
+ * conserved. */
 static void the_energy_jumps_where_another_altitude_acts(void **unused) {
   (void)unused;
   double q[12], jump = 0.0, last = NAN, at = NAN;
@@ -226,7 +225,7 @@ static void the_energy_jumps_where_another_altitude_acts(void **unused) {
   hooke_system_destroy(system);
 }
 
-/* Far from rest the jumps are a source of energy, whatever the step; a run that ends by them is told so. */
+/* Far from rest the jumps are a source of energy at any step; a run that they end reports it. */
 static void a_run_that_jumps_drive_is_explained(void **unused) {
   (void)unused;
   const double v[12] = {0.1, -0.1, 0.3, 0.1, -0.3, 0.2, 0.7, 0.5, -0.4, -0.6, -0.3, 0.0}, mass = 0.5;
@@ -311,7 +310,7 @@ static void momenta_stay(void **unused) {
   hooke_system_destroy(system);
 }
 
-/* Every method comes to where Runge-Kutta with a fine step does. */
+/* Every method agrees with Runge-Kutta with a fine step. */
 static void methods_agree(void **unused) {
   (void)unused;
   hooke_system *system = new_curl(2.0, 2.0, 1.0, 1e-4, "0,1,2");
@@ -340,8 +339,8 @@ static void methods_agree(void **unused) {
 
 /* ---- a hanging curl ---- */
 
-/* The share of tetrahedra of four consecutive particles that never turn inside out, frame by frame, in half a
- * second. */
+/* Fraction of tetrahedra of four consecutive particles that never invert, frame by frame, in half a second.
+ */
 static double share_kept(double turns, double twist, double altitude) {
   enum { FRAMES = 50 };
   hooke_system *system = new_curl(turns, twist, altitude, 1e-5, "0,1,2");
@@ -368,8 +367,8 @@ static double share_kept(double turns, double twist, double altitude) {
   return (double)kept / (CURL - 3);
 }
 
-/* Released, a curl keeps its hand by altitude and twist springs, whichever it is; without both of them it
- * does not, and twist springs alone do not do it. */
+/* Released, a curl keeps its handedness by altitude and twist springs, for either hand; not without both of
+ * them, nor by twist springs alone. */
 static void a_hanging_curl_stays_a_curl(void **unused) {
   (void)unused;
   check_between(share_kept(2.0, 2.0, 1.0), 1.0, 1.0);
@@ -420,11 +419,11 @@ static void groups_and_numbers(void **unused) {
   check_ok(hooke_system_members(system, "altitude", NULL, strength, brake, rest));
   check_close(strength[0], 3.0, 0.0);
   check_close(strength[1], 1.0, 0.0);
-  check_same_bits(7, rest + 7, rest + 7 * (CURL - 3)); /* of a strand they are one set of numbers */
+  check_same_bits(7, rest + 7, rest + 7 * (CURL - 3)); /* those of a strand share one set of numbers */
   hooke_system_destroy(system);
 }
 
-/* Without stiffness and damping there is no force, no memory, no other bit. */
+/* Altitude springs without stiffness and damping add no force and no memory, and change no bit. */
 static void no_strength_is_no_altitude_spring(void **unused) {
   (void)unused;
   double q[12], v[12] = {0.1, 0.2, 0.3}, other_q[12], other_v[12];
@@ -448,7 +447,7 @@ static void no_strength_is_no_altitude_spring(void **unused) {
   hooke_system_destroy(without);
 }
 
-/* All particles in one line, or in one place: no altitude, no force, nothing that is not a number. */
+/* All particles in one line, or at one point: no altitude, no force, no NaN. */
 static void a_line_has_no_altitude(void **unused) {
   (void)unused;
   double line[12], force[12], length = 1.0;

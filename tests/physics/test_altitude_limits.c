@@ -1,4 +1,5 @@
-/* Limits of the step where altitude springs act: bounds, predictions, measurements, and what determines them. */
+/* Limits of the step where altitude springs act: bounds, predictions, measurements, and the limiting
+ * elements. */
 #include "check.h"
 #include "random.h"
 #include "run.h"
@@ -39,7 +40,7 @@ static hooke_measurement *find_limit(const hooke_system *system, const char *met
   return limit;
 }
 
-/* A particle over a face that is held: one spring of ks/h, all of whose weight is on it. */
+/* A particle over a fixed face: one spring of ks/h, whose whole weight is on it. */
 static void a_top_over_a_held_face(void **unused) {
   (void)unused;
   const double q[12] = {0, 0, 0, 1, 0, 0, 0.4, 1, 0, 0.5, 0.4, 0.3}, mass = 0.2;
@@ -63,7 +64,7 @@ static void a_top_over_a_held_face(void **unused) {
   hooke_system_destroy(system);
 }
 
-/* bound <= limit, and the scene runs up to the limit. */
+/* Bound <= limit, and the scene runs up to the limit. */
 static void compare(hooke_system *system, const char *methods) {
   hooke_measurement *limit = find_limit(system, methods, 0);
   for (int64_t row = 0; row < hooke_measurement_row_count(limit, "rows"); row++) {
@@ -92,8 +93,8 @@ static double volume_of(const double *q, const int64_t *p) {
          e[0][2] * (e[1][0] * e[2][1] - e[1][1] * e[2][0]);
 }
 
-/* Tetrahedra at random, some with tension, with springs, drag, and particles of all masses, some of them
- * held. */
+/* Random tetrahedra, some with tension, with springs, drag, and particles of all masses, some of them
+ * constrained. */
 static void random_tetrahedra_run_up_to_the_prediction(void **unused) {
   (void)unused;
   for (uint64_t seed = 1; seed <= 12; seed++) {
@@ -129,7 +130,7 @@ static void random_tetrahedra_run_up_to_the_prediction(void **unused) {
   }
 }
 
-/* ---- what determines them ---- */
+/* ---- limiting elements ---- */
 
 /* A straight strand whose altitude springs are its stiffest. */
 static hooke_system *new_strand(double altitude) {
@@ -190,7 +191,7 @@ static void a_run_above_the_limit_is_explained(void **unused) {
   hooke_system_destroy(system);
 }
 
-/* ---- what they cost, and what is left without them ---- */
+/* ---- their cost, and variants without them ---- */
 
 static void they_are_an_ingredient(void **unused) {
   (void)unused;

@@ -1,4 +1,4 @@
-/* Anchors: the law, limits by formula, and every question to a scene that names them by itself. */
+/* Anchors: the force law, limits by formula, and every query on a scene that has anchors only. */
 #include "check.h"
 #include "run.h"
 
@@ -36,7 +36,7 @@ static void the_force_is_that_of_a_spring_to_the_point(void **unused) {
   const double q[9] = {0, 0, 0, 1, 0, 0, 2, 0, 0}, v[9] = {0, 0, 0, 0, 0, 0, 3, -1, 2};
   double force[9];
   check_ok(hooke_system_force(system, 0.0, q, v, force));
-  /* 2 m below its point, going away from it at 1 m/s */
+  /* 2 m below its point, moving away at 1 m/s */
   check_close(force[7], 30.0 * 1.5 + 0.7 * 1.0, 1e-13);
   check_close(force[6], 0.0, 1e-13);
   check_close(hooke_system_energy(system, "potential", q, NULL), 0.5 * 30.0 * 1.5 * 1.5, 1e-12);
@@ -51,7 +51,7 @@ static void the_force_is_that_of_a_spring_to_the_point(void **unused) {
   hooke_system_destroy(system);
 }
 
-/* Alone and at its point a particle is an oscillator of frequency sqrt(k/m) in all directions. */
+/* A single particle at its point is an oscillator of frequency sqrt(k/m) in all directions. */
 static hooke_system *oscillator(double stiffness) {
   const double place[6] = {1, 2, 3, 4, 5, 6}, mass = 0.25;
   const int64_t both[2] = {0, 1};
@@ -76,7 +76,7 @@ static void without_points_they_hold_particles_where_they_are(void **unused) {
   check_ok(hooke_system_force(system, 0.0, q, hooke_state_velocity(state), force));
   for (int k = 0; k < 6; k++)
     check_between(force[k], 0.0, 0.0);
-  /* a quarter of a period later it is where it was tied to: omega = 20/s */
+  /* a quarter of a period later it is at its point: omega = 20/s */
   q[1] += 0.1;
   const double quarter = acos(-1.0) / 40.0;
   hooke_integrator *run = start_run(system, (struct run){.method = "rk4", .step = quarter / 1000.0});
@@ -114,7 +114,7 @@ static void limits_are_those_of_the_oscillator(void **unused) {
   hooke_system_destroy(system);
 }
 
-/* The stiffest thing in the scene is named, whatever it is. */
+/* The stiffest element of the scene is named, whatever its force. */
 static void a_run_that_diverges_by_one_blames_it(void **unused) {
   (void)unused;
   hooke_system *system = chain(5e5, 0.0, 0.0);

@@ -12,7 +12,7 @@
 
 static const char *const forms[] = {"converged", "one-iteration"};
 
-/* ---- linear scenes: both forms are the formula ---- */
+/* ---- linear scenes: both forms equal the formula ---- */
 
 static void one_step_is_the_formula(void **unused) {
   (void)unused;
@@ -45,7 +45,7 @@ static void one_step_is_the_formula(void **unused) {
   }
 }
 
-/* A linear force of the caller's own, with and without its derivative, and a driven end. */
+/* A linear callback force, with and without its derivative, and a driven end. */
 static int32_t pull(int64_t n, double t, const double *q, const double *v, double *force, void *ctx) {
   (void)ctx;
   for (int64_t k = 0; k < 3 * n; k += 3)
@@ -145,7 +145,7 @@ static void strides_over_a_stiff_rod(void **unused) {
   hooke_system_destroy(system);
 }
 
-/* A hanging cloth that crumples, in steps at which the matrix of Newton is not positive any more. */
+/* A hanging cloth that crumples, in steps at which Newton's matrix is no longer positive. */
 static void gets_through_compression(void **unused) {
   (void)unused;
   hooke_system *system = NULL;
@@ -255,7 +255,7 @@ static void a_step_without_solution(void **unused) {
   hooke_system_destroy(system);
 }
 
-/* A derivative that stops: its value comes out, and the state is that of the last whole step. */
+/* A derivative that stops: its value is returned, and the state is that of the last whole step. */
 static int32_t stopping_product(int64_t n, double t, const double *q, const double *v, const double *dq,
                                 const double *dv, double *out, void *ctx) {
   pull_product(n, t, q, v, dq, dv, out, ctx);
@@ -295,7 +295,7 @@ static void a_derivative_that_stops(void **unused) {
   }
 }
 
-/* ---- what it does not take ---- */
+/* ---- refused problems ---- */
 
 static int32_t decay(int64_t n, double t, const double *x, double *rate, void *ctx) {
   (void)n, (void)t, (void)ctx;

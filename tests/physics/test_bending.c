@@ -1,4 +1,4 @@
-/* Bending: what it does, and what it leaves alone. */
+/* Bending: its effects, and what it must not change. */
 #include "check.h"
 #include "random.h"
 #include "run.h"
@@ -45,7 +45,7 @@ static hooke_system *commit(hooke_system *system) {
   return system;
 }
 
-/* A straight line with equal distances under any affine map; a bend shows. */
+/* A straight line with equal distances has no bending force under any affine map; a bend has. */
 static void straight_lines_have_no_force(void **unused) {
   (void)unused;
   struct random_source source = {5};
@@ -70,7 +70,7 @@ static void straight_lines_have_no_force(void **unused) {
   hooke_system_destroy(system);
 }
 
-/* Energies add up, and each counts its own. */
+/* Energies add up, and each counts its own force only. */
 static void energies_are_apart(void **unused) {
   (void)unused;
   double q[3 * N];
@@ -116,7 +116,7 @@ static void run_from(const hooke_system *system, struct run run, double *q, doub
   hooke_integrator_destroy(integrator);
 }
 
-/* The error of the energy after a second, over the energy. */
+/* Relative error of the energy after a second. */
 static double energy_error(const hooke_system *system, double step) {
   double q[3 * N], v[3 * N];
   kick(q, v);
@@ -150,7 +150,7 @@ static void momenta_stay(void **unused) {
   hooke_system_destroy(system);
 }
 
-/* Every method comes to where Runge-Kutta with a fine step does. */
+/* Every method agrees with Runge-Kutta with a fine step. */
 static void methods_agree(void **unused) {
   (void)unused;
   hooke_system *system = commit(new_line(3.0, 20.0, 0.02, 2));
@@ -231,7 +231,7 @@ static void explicit_triples_come_first(void **unused) {
   hooke_system_destroy(system);
 }
 
-/* Without a stiffness there is no force, no memory, no other bit. */
+/* Bending without stiffness adds no force and no memory, and changes no bit. */
 static void no_stiffness_is_no_bending(void **unused) {
   (void)unused;
   const double zero = 0.0;

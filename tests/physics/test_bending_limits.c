@@ -1,4 +1,4 @@
-/* Limits of the step where something bends: bounds, predictions, measurements, and what determines them. */
+/* Limits of the step with bending: bounds, predictions, measurements, and the limiting elements. */
 #include "check.h"
 #include "random.h"
 #include "run.h"
@@ -32,8 +32,7 @@ static hooke_system *new_rope(int segments, double bending, double stiffness, do
   return system;
 }
 
-/* The row of a particle far from the ends sums up to 16 c, and a long beam comes as near to that as one
- * likes. */
+/* The row sum of a particle far from the ends is 16 c, and a long beam comes arbitrarily close to it. */
 static void a_beam_is_bounded_by_its_middle(void **unused) {
   (void)unused;
   const double c = 0.5 / (0.1 * 0.1 * 0.1), slowest = 2.0 / sqrt(16.0 * c / 0.01);
@@ -42,13 +41,13 @@ static void a_beam_is_bounded_by_its_middle(void **unused) {
   check_close(bound_at_start(beam, "symplectic-euler"), slowest, 1e-9 * slowest);
   check_close(bound_at_start(beam, "rk4"), 2.6156 / 2.0 * slowest, 1e-12 * slowest);
   check_between(bound_at_start(beam, "forward-euler"), 0.0, 0.0);
-  /* one free particle, the third of a triple whose others are held: k = c */
+  /* one free particle, the third of a triple whose others are constrained: k = c */
   check_close(bound_at_start(short_one, "verlet"), 2.0 / sqrt(c / 0.01), 1e-12);
   hooke_system_destroy(beam);
   hooke_system_destroy(short_one);
 }
 
-/* Bending is not damped by springs that are: forward Euler has but the drag. */
+/* Damped springs do not damp bending: forward Euler has only the drag. */
 static void forward_euler_needs_drag(void **unused) {
   (void)unused;
   hooke_system *without = new_rope(20, 0.5, 5.0, 0.1, 0.0), *with = new_rope(20, 0.5, 5.0, 0.1, 0.3);
@@ -81,7 +80,7 @@ static hooke_measurement *find_limit(const hooke_system *system, const char *met
   return limit;
 }
 
-/* bound <= limit, and the scene runs up to the limit. */
+/* Bound <= limit, and the scene runs up to the limit. */
 static void compare(hooke_system *system, const char *methods) {
   hooke_measurement *limit = find_limit(system, methods, 0);
   for (int64_t row = 0; row < hooke_measurement_row_count(limit, "rows"); row++) {
@@ -109,7 +108,7 @@ static void limits_are_met(void **unused) {
   compare(new_rope(300, 0.5, 10.0, 0.0, 0.0), "symplectic-euler,verlet");
 }
 
-/* Triples at random, with springs and particles of all masses, some of them held. */
+/* Random triples, with springs and particles of all masses, some of them constrained. */
 static void random_triples_run_up_to_the_prediction(void **unused) {
   (void)unused;
   for (uint64_t seed = 1; seed <= 20; seed++) {
@@ -146,7 +145,7 @@ static void random_triples_run_up_to_the_prediction(void **unused) {
   }
 }
 
-/* ---- what determines them ---- */
+/* ---- limiting elements ---- */
 
 static void a_limit_by_bending_names_it(void **unused) {
   (void)unused;
@@ -164,7 +163,8 @@ static void a_limit_by_bending_names_it(void **unused) {
   hooke_system_destroy(system);
 }
 
-/* 1.01 times the limit blows up, 0.99 does not; the diagnosis and the warning name the bending. */
+/* A step of 1.01 times the limit diverges, one of 0.99 does not; the diagnosis and the warning name the
+ * bending. */
 static int32_t hear(const char *kind, const char *sentence, double t, double limit, int64_t spring,
                     int64_t particle, void *ctx) {
   (void)kind, (void)t, (void)limit, (void)particle;

@@ -1,4 +1,4 @@
-/* Calls that build a system refuse what makes no sense, name the culprit, and leave the system as it was. */
+/* Calls that build a system refuse invalid input, name the item at fault, and leave the system unchanged. */
 #include "check.h"
 #include "small.h"
 
@@ -49,7 +49,7 @@ static void refuse_springs(int64_t count, const int64_t *ends, const hooke_optio
   check_status(hooke_system_add_springs(system, "edges", count, ends, options), HOOKE_BAD_VALUE);
   check_message(culprit);
   check_message(value);
-  /* unchanged: it takes a good group and commits */
+  /* unchanged: it accepts a valid group and commits */
   const int64_t good[] = {0, 2};
   small_springs(system, 1, good, (struct springs){.stiffness = 1, .rest_length = -1});
   check_ok(hooke_system_commit(system));
@@ -81,7 +81,7 @@ static void test_springs(void **unused) {
   hooke_options_destroy(options);
 }
 
-/* Ends at one place have no initial length for the strain law. */
+/* Coincident ends have no initial length for the strain law. */
 static void test_initial_length_of_nothing(void **unused) {
   (void)unused;
   const double q[] = {0, 0, 0, 1, 1, 1, 1, 1, 1};
@@ -165,7 +165,7 @@ static void test_gravity_and_drag(void **unused) {
   hooke_system_destroy(system);
 }
 
-/* A pinned particle that was given a velocity is refused at commit; the system stays open. */
+/* A pinned particle with a velocity is refused at commit; the system stays open. */
 static void test_moving_pin(void **unused) {
   (void)unused;
   const double v[] = {0, 0, 0, 0, 0.25, 0, 0, 0, 0};

@@ -47,7 +47,7 @@ static void test_same_solution_with_product(void **unused) {
   free(start);
 }
 
-/* ---- a linear force, whose derivative is known: difference quotients have to find it ---- */
+/* ---- a linear force, whose derivative is known: difference quotients must match it ---- */
 
 struct linear {
   int64_t force_calls, product_calls;
@@ -90,7 +90,7 @@ static void test_difference_quotients(void **unused) {
   }
 }
 
-/* ---- the order of the sum, and what a callback is shown ---- */
+/* ---- order of summation, and arguments of a callback ---- */
 
 struct shown {
   int64_t calls;
@@ -143,7 +143,7 @@ static int32_t stop_after(int64_t n, double t, const double *q, const double *v,
   return t > *(const double *)ctx ? 1234 : 0;
 }
 
-/* The same force, and never a stop, up to the time of `state`. */
+/* The same force without a stop, up to the time of `state`. */
 static void compare_with_whole_steps(const char *method, const hooke_state *state) {
   const double q[] = {0, 0, 0};
   double never = INFINITY, whole_q[3], whole_v[3];
@@ -174,7 +174,7 @@ static void test_force_stops(void **unused) {
     check_status(hooke_integrator_run(integrator, state), HOOKE_STOPPED);
     check_message("1234");
     assert_int_equal(hooke_integrator_stop_value(integrator), 1234);
-    /* the last whole step, to the bit: the first force beyond 0.45 s is that of a step from 0.5 s, or, for
+    /* the last whole step, to the bit: the first force beyond 0.45 s is that of a step from 0.5 s or, for
      * methods that look ahead, to 0.5 s */
     const int looks_back = strcmp(method, "forward-euler") == 0 || strcmp(method, "symplectic-euler") == 0;
     if (is_fixed_step(method)) {
@@ -183,7 +183,7 @@ static void test_force_stops(void **unused) {
     } else {
       check_between(hooke_state_time(state), 0.0, 0.45);
     }
-    /* x = t^2/2 under a unit force, whatever the method made of it */
+    /* x = t^2/2 under a unit force, by any method */
     const double t = hooke_state_time(state);
     check_close(hooke_state_position(state)[0], t * t / 2.0, is_fixed_step(method) ? 0.125 * t : 1e-4);
     hooke_state_destroy(state);
@@ -200,7 +200,7 @@ static void test_force_stops(void **unused) {
   hooke_system_destroy(system);
 }
 
-/* A pull to the origin that stops at one call, whatever that call was for. */
+/* A pull to the origin that stops at one call, of any purpose. */
 static int32_t stop_at_call(int64_t n, double t, const double *q, const double *v, double *force, void *ctx) {
   (void)t, (void)v;
   int64_t *calls = ctx;
@@ -209,7 +209,7 @@ static int32_t stop_at_call(int64_t n, double t, const double *q, const double *
   return --*calls == 0 ? 77 : 0;
 }
 
-/* Be it for a step, a residual or a difference quotient: the run stops, and says with what. */
+/* The run stops in a step, a residual or a difference quotient, and returns the value. */
 static void test_every_call_may_stop(void **unused) {
   (void)unused;
   const double q[] = {1, 0, 0};

@@ -1,9 +1,9 @@
-/* A beam and a sheet that bend under their own weight mean the same at every resolution.
+/* A beam and a sheet that bend under their own weight give the same deflection at every resolution.
  *
  * Two pinned particles clamp a beam in the middle between them, so a rope of N pieces l = L/(N - 1/2) begins
- * half a piece before the wall. What its tip sinks by, for small deflections and masses by density, is
+ * half a piece before the wall. Its tip deflection, for small deflections and masses by density, is
  *   m g l^3/(2 B) sum of s^3, s = 1 .. N - 1,   m = rho l,
- * which comes to w L^4/(8 B), w = rho g, as 1/N^2 does. */
+ * which converges to w L^4/(8 B), w = rho g, like 1/N^2. */
 #include "check.h"
 #include "run.h"
 
@@ -13,7 +13,7 @@
 
 static const double LENGTH = 1.0, DENSITY = 0.1, GRAVITY = 9.81, SAG = 1e-3;
 
-/* Of a strip of 1 m width, or of a rope: what sinks by 1e-3 of its length. */
+/* For a strip of 1 m width, or a rope: the deflection is 1e-3 of its length. */
 static double stiffness(void) {
   return DENSITY * GRAVITY * pow(LENGTH, 4.0) / (8.0 * SAG * LENGTH);
 }
@@ -69,7 +69,7 @@ static hooke_system *new_sheet(int along, int across) {
   return commit(system);
 }
 
-/* ---- where forces balance: Newton on the library's own forces and blocks ---- */
+/* ---- equilibrium: Newton on the library's own forces and blocks ---- */
 
 /* -df/dq of the particles from `held` on, as a lower band of `width` numbers a row, the diagonal last. */
 static void fill_band(const hooke_system *system, const double *q, const double *v, int64_t held,
@@ -96,7 +96,7 @@ static void fill_band(const hooke_system *system, const double *q, const double 
   free(blocks);
 }
 
-/* x = A^-1 x by Cholesky, in the band's place. */
+/* x = A^-1 x by Cholesky, in place of the band. */
 static void solve(int64_t size, int64_t width, double *band, double *x) {
   for (int64_t i = 0; i < size; i++) {
     double *row = band + i * width + width - 1 - i; /* row[j] is A(i, j) */
@@ -122,8 +122,8 @@ static void solve(int64_t size, int64_t width, double *band, double *x) {
   }
 }
 
-/* What the last particle sinks by; the system is destroyed. `across` particles are in a row, two rows are
- * held. */
+/* Deflection of the last particle; the system is destroyed. `across` particles are in a row, two rows are
+ * pinned. */
 static double sag_of(hooke_system *system, int64_t across) {
   const int64_t n = hooke_system_particle_count(system), held = 2 * across, width = 3 * (2 * across + 1);
   const int64_t size = 3 * (n - held);
@@ -165,12 +165,12 @@ static void tips_sink_as_beams_do(void **unused) {
     check_between(tip[k] / (SAG * LENGTH), 0.98, 1.02);
   }
   check_between(tip[3] / tip[0], 0.98, 1.02);
-  /* the error goes with the square of a piece */
+  /* the error scales with the square of a piece */
   check_between((SAG * LENGTH - tip[0]) / (SAG * LENGTH - tip[1]), 3.5, 4.8);
 }
 
-/* Equal shares of the rope's mass give the tip twice what it stands for; a wall at the first particle is half
- * a piece off. */
+/* Equal masses give the tip twice its proper mass; with a wall at the first particle the length is off by
+ * half a piece. */
 static void other_masses_and_walls_are_noticed(void **unused) {
   (void)unused;
   const double piece = LENGTH / 15.5, other = LENGTH / 16.0, unit = SAG * LENGTH;
@@ -184,7 +184,7 @@ static void other_masses_and_walls_are_noticed(void **unused) {
   check_between(both, 0.895, 0.905);
 }
 
-/* The library's own way there: backward Euler, which damps what it does not resolve. */
+/* The library's own way to equilibrium: backward Euler, which damps modes that it does not resolve. */
 static void backward_euler_comes_to_rest_there(void **unused) {
   (void)unused;
   const double expected = tip_of(16);

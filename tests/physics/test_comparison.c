@@ -1,5 +1,4 @@
-/* Comparisons: the figures of a row are what they say, methods stand in the right order, a diverged row
- * stays. */
+/* Comparisons: the numbers of a row are correct, methods have the expected ranking, a diverged row stays. */
 #include "check.h"
 #include "reference.h"
 #include "run.h"
@@ -43,7 +42,7 @@ static double figure(const hooke_measurement *comparison, const char *method, co
   return hooke_measurement_number(comparison, "rows", row_of(comparison, method), what);
 }
 
-/* Root mean square over free particles of the distance to the 15-digit solution, of a run by itself. */
+/* Root mean square distance of the free particles from the 15-digit solution, for a separate run. */
 static double true_error(const struct reference *reference, const hooke_system *system, struct run run) {
   const struct reference_state *expected = NULL;
   for (int64_t k = 0; k < reference->state_count; k++) {
@@ -78,13 +77,13 @@ static void errors_are_true_errors(void **unused) {
     const double expected = true_error(reference, system, alone);
     const double found = figure(comparison, alone.method, "error_final");
     assert_string_equal(hooke_measurement_text(comparison, "rows", k, "status"), "finished");
-    /* the reference itself is off by about its tolerance, 1e-10 */
+    /* the reference itself has an error of about its tolerance, 1e-10 */
     if (expected < 1e-8) continue;
     judged++;
     check_between(found, 0.95 * expected, 1.05 * expected);
   }
   check_between((double)judged, 4.0, (double)hooke_method_count());
-  /* every figure bounds those it is a maximum of */
+  /* every maximum bounds its values */
   const int64_t row = row_of(comparison, "forward-euler");
   const double *series = hooke_measurement_series(comparison, "rows", row, "error_at");
   double most = 0.0;

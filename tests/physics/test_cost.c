@@ -1,5 +1,4 @@
-/* Costs of ingredients: which there are, limits and memory without them; times as far as they are the same
- * everywhere. */
+/* Costs of ingredients: the list, limits and memory without them; times as far as they are reproducible. */
 #include "check.h"
 #include "run.h"
 #include "small.h"
@@ -127,7 +126,7 @@ static void limits_are_those_without(void **unused) {
   hooke_measurement_destroy(cost);
   hooke_system_destroy(system);
 
-  /* the only spring of a scene gone, nothing limits the step */
+  /* without the only spring of a scene nothing limits the step */
   static const int64_t ends[] = {0, 1};
   static const double q[] = {0, 0, 0, 1, 0, 0};
   system = small_system(2, q, NULL, 1.0, 1);
@@ -140,8 +139,8 @@ static void limits_are_those_without(void **unused) {
   hooke_system_destroy(system);
 }
 
-/* Groups of 1, 3 and 2 springs and of 2 triples: as many as asked, the largest first, of one size the first;
- * and all that is not of a group. */
+/* Groups of 1, 3 and 2 springs and of 2 triples: as many as requested, the largest first, of equal size the
+ * first; and all ingredients without group. */
 static void the_largest_groups_are_looked_at(void **unused) {
   (void)unused;
   enum { GROUPS = 4, MOST = GROUPS + 1 };

@@ -1,6 +1,5 @@
-/* The highest order that cvode-bdf chooses where max_order is not given: 2 where stiff springs are weakly
- * damped and the tolerance is not tight, else 5. Where 5 is chosen the run is, to the bit, that with
- * max_order 5. */
+/* The highest order that cvode-bdf chooses if max_order is not given: 2 where stiff springs are weakly damped
+ * and the tolerance is not tight, otherwise 5. With 5 the run equals, to the bit, that with max_order 5. */
 #include "check.h"
 #include "run.h"
 #include "small.h"
@@ -14,7 +13,7 @@ struct outcome {
   double q[SIZE];
 };
 
-/* A rope that is let go from horizontal: one metre, 0.25 kg. */
+/* A rope released from horizontal: one metre, 0.25 kg. */
 static hooke_system *rope(double stiffness, double damping) {
   const double gravity[3] = {0.0, -9.81, 0.0};
   double position[SIZE] = {0.0};
@@ -38,7 +37,7 @@ static hooke_system *rope(double stiffness, double damping) {
   return system;
 }
 
-/* What is asked of a run; max_order 0: not given. */
+/* Options of a run; max_order 0: not given. */
 struct ask {
   const char *method;
   double rtol, atol, duration;
@@ -110,7 +109,7 @@ static void test_stiff_and_weakly_damped(void **unused) {
     /* positions are up to a metre */
     const double error = largest_difference(SIZE, chosen.q, exact.q);
     check_between(error / ask.rtol, 1e-4, 1.0);
-    /* whose many steps, held far below what the tolerance asks, leave less */
+    /* whose many steps, limited far below those of the tolerance, have a smaller error */
     check_between(error / largest_difference(SIZE, high.q, exact.q), 0.03, 300.0);
   }
   hooke_system_destroy(system);
@@ -130,7 +129,7 @@ static void test_a_given_order_stays(void **unused) {
   hooke_system_destroy(system);
 }
 
-/* A run chooses anew, whatever the one before it came to. */
+/* A run chooses anew, independently of the previous one. */
 static void test_again(void **unused) {
   (void)unused;
   needs_cvode();
@@ -144,9 +143,9 @@ static void test_again(void **unused) {
   hooke_system_destroy(system);
 }
 
-/* ---- left as it is ---- */
+/* ---- unchanged ---- */
 
-/* Not so for nothing: order 2 would be another run. */
+/* The check is meaningful: order 2 gives another run. */
 static void check_left_alone(double stiffness, double damping, struct ask ask) {
   hooke_system *system = rope(stiffness, damping);
   const struct outcome chosen = run_with(system, ask, 0);
@@ -162,8 +161,8 @@ static void test_strongly_damped(void **unused) {
   check_left_alone(STIFF, STRONG, LOOSE);
 }
 
-/* With the absolute tolerance wide, steps are long at both of these; only the first lets go of the higher
- * orders. */
+/* With a wide absolute tolerance, steps are long for both of these; only the first drops the higher orders.
+ */
 static void test_tight_tolerance(void **unused) {
   (void)unused;
   needs_cvode();
@@ -176,7 +175,7 @@ static void test_tight_tolerance(void **unused) {
   check_left_alone(STIFF, WEAK, (struct ask){"cvode-bdf", 1e-8, 1e-5, 0.3, 0});
 }
 
-/* Steps that follow the fastest motion: accuracy holds them. */
+/* Steps that follow the fastest motion: accuracy limits them. */
 static void test_soft(void **unused) {
   (void)unused;
   needs_cvode();

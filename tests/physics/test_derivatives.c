@@ -119,8 +119,8 @@ static void test_pattern(void **unused) {
   law_scene_destroy(&scene);
 }
 
-/* Blocks times unit vectors are the products with unit vectors; what a callback adds is in the products
- * alone. */
+/* Blocks times unit vectors are the products with unit vectors; contributions of a callback are in the
+ * products only. */
 static void test_blocks_are_products(void **unused) {
   (void)unused;
   const double zero[LAW_SIZE] = {0};

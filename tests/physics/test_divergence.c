@@ -10,10 +10,10 @@
 
 /* The rule, on the canonical steps: the first check (every `stride` steps and every 1000) at which a number
  * is not finite or E - E(0) > 100 (T(0) + U_springs(0) + the largest |U_gravity - U_gravity(0)| so far + M
- * g^2 h^2 / 2), the last being what gravity gives free particles at rest in one step. What rounding may give
- * them is left out: it is nothing here. 0 if there is none. */
+ * g^2 h^2 / 2), the last term being the energy that gravity gives free particles at rest in one step. The
+ * term for rounding is left out: it is negligible here. 0 if there is none. */
 struct verdict {
-  int64_t step, good; /* where it shows, and the check before */
+  int64_t step, good; /* where it is noticed, and the check before */
 };
 
 static struct verdict predict(const hooke_system *system, const double *gravity, const char *method, double h,
@@ -71,7 +71,7 @@ static void compare_with_rule(const hooke_system *system, const double *gravity,
     const double *q = hooke_state_position(state), *v = hooke_state_velocity(state);
     for (int64_t k = 0; k < size; k++)
       assert_true(isfinite(q[k]) && isfinite(v[k]));
-    if (expected.good > 0) { /* the state kept is the one of that time, to the bit */
+    if (expected.good > 0) { /* the kept state is the one of that time, to the bit */
       double *same = new_doubles(size);
       run_to_end(system, (struct run){.method = method, .step = h, .duration = (double)expected.good * h},
                  same, NULL);
@@ -115,8 +115,8 @@ static void test_check_every_thousand(void **unused) {
   hooke_system_destroy(system);
 }
 
-/* A long fall gains more than 100 times what springs and motion held at first: gravity's own swing allows for
- * it. */
+/* A long fall gains more than 100 times the initial energy of springs and motion: the term for gravity allows
+ * for it. */
 static void test_falling_is_not_diverging(void **unused) {
   (void)unused;
   const double q[] = {0, 0, 0, 1, 0, 0}, gravity[] = {0, -10, 0};
@@ -132,8 +132,8 @@ static void test_falling_is_not_diverging(void **unused) {
   hooke_system_destroy(system);
 }
 
-/* Forward Euler gives particles at rest a velocity before they have moved: nothing to compare it with yet,
- * and still no divergence, at any step. */
+/* Forward Euler gives particles at rest a velocity before they have moved: there is no energy to compare with
+ * yet, and no divergence at any step. */
 static void test_first_step_of_a_fall(void **unused) {
   (void)unused;
   const double q[] = {0, 0, 0, 1, 0, 0}, gravity[] = {0, -10, 0};
@@ -149,7 +149,7 @@ static void test_first_step_of_a_fall(void **unused) {
   }
 }
 
-/* ---- with a callback the energy proves nothing, numbers that are not finite do ---- */
+/* ---- with a callback only non-finite numbers count, not the energy ---- */
 
 static int32_t push(int64_t n, double t, const double *q, const double *v, double *force, void *ctx) {
   const double *from = ctx;
@@ -211,7 +211,7 @@ static void test_first_order(void **unused) {
       1, explode, NULL,
       (struct run){.method = "forward-euler", .step = 1.0, .duration = 100.0, .every = 1.0});
   check_status(hooke_integrator_run(integrator, state), HOOKE_DIVERGED);
-  check_close(hooke_integrator_diverged_at(integrator), 31.0, 0.0); /* 1e310 is no number */
+  check_close(hooke_integrator_diverged_at(integrator), 31.0, 0.0); /* 1e310 is infinite */
   check_close(hooke_state_time(state), 30.0, 0.0);
   check_between(hooke_state_position(state)[0], 9e299, 1.1e300);
   hooke_state_destroy(state);

@@ -1,4 +1,4 @@
-/* Particles moved as prescribed: harmonic, table and callback, seen at frames of every method. */
+/* Particles with prescribed motion: harmonic, table and callback, checked at frames of every method. */
 #include "check.h"
 #include "run.h"
 #include "small.h"
@@ -18,7 +18,7 @@ static hooke_system *driven_pair(void) {
   return system;
 }
 
-/* ---- where a drive puts its particle at time t ---- */
+/* ---- position of a driven particle at time t ---- */
 
 typedef void expected_motion(double t, double *q, double *v);
 
@@ -56,7 +56,7 @@ static void follow(hooke_system *system, expected_motion *motion) {
     check_ok(hooke_integrator_run(integrator, state));
     assert_int_equal(watch.frames, 201);
     assert_true(largest_difference(3, before + 3, hooke_state_position(state) + 3) >
-                1e-2); /* the mass is dragged along */
+                1e-2); /* the mass follows */
     hooke_state_destroy(state);
     hooke_integrator_destroy(integrator);
   }
@@ -108,7 +108,7 @@ static void test_callback(void **unused) {
   assert_true(calls > 2000);
 }
 
-/* A drive that stops the run: its value comes out, and the state is that of one time. */
+/* A drive that stops the run: its value is returned, and the state is that of one time. */
 static int32_t stopping_drive(int64_t count, double t, double *q, double *v, void *ctx) {
   (void)count;
   (void)ctx;
@@ -150,8 +150,8 @@ static void test_callback_stops(void **unused) {
   }
 }
 
-/* The same by an error-controlled method: wherever it stopped, the driven particle is where it belongs at
- * that time. */
+/* The same by an error-controlled method: wherever it stopped, the driven particle is at its position of that
+ * time. */
 static void test_callback_stops_adaptive_methods(void **unused) {
   (void)unused;
   const int64_t driven = 0;
@@ -224,7 +224,7 @@ static void test_table(void **unused) {
   follow(system, table_motion);
 }
 
-/* Place and velocity of the driven particle at time t, read off the state after a step that ends there. */
+/* Position and velocity of the driven particle at time t, from the state after a step that ends there. */
 static void place_at(const hooke_system *system, double t, double *q, double *v) {
   const double h = 0x1p-10;
   hooke_integrator *integrator = start_run(system, (struct run){.method = "symplectic-euler", .step = h});
@@ -237,7 +237,7 @@ static void place_at(const hooke_system *system, double t, double *q, double *v)
   hooke_integrator_destroy(integrator);
 }
 
-/* At inner samples the place is the sample, and the velocity the same from both sides. */
+/* At inner samples the position is the sample, and the velocity the same from both sides. */
 static void test_table_is_smooth(void **unused) {
   (void)unused;
   const int64_t driven = 0;
@@ -261,7 +261,7 @@ static void test_table_is_smooth(void **unused) {
   hooke_system_destroy(system);
 }
 
-/* The velocity of every drive is the derivative of its place. */
+/* The velocity of every drive is the derivative of its position. */
 static void test_velocity_is_derivative(void **unused) {
   (void)unused;
   const int64_t driven[] = {0, 1};

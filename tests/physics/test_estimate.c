@@ -1,5 +1,5 @@
-/* What a run is said to be off by is what it is off by; what is picked for a wanted error keeps to it; and
- * what grows by itself is seen to. */
+/* The estimated error of a run is its true error; a run picked for a wanted error meets it; spontaneous gain
+ * of energy is detected. */
 #include "check.h"
 #include "run.h"
 #include "small.h"
@@ -9,7 +9,7 @@
 
 static const double OMEGA = 6.0, DURATION = 2.0, EVERY = 0.02;
 
-/* The estimate of a run, for the caller to destroy; `state` receives its end. */
+/* Estimates a run; the caller destroys the estimate; `state` receives the end. */
 static hooke_estimate *estimated_run(const hooke_system *system, const hooke_options *options, double want,
                                      hooke_estimate *estimate, hooke_state **state) {
   hooke_integrator *integrator;
@@ -24,7 +24,7 @@ static hooke_estimate *estimated_run(const hooke_system *system, const hooke_opt
   return estimate;
 }
 
-/* Of the oscillator, whose motion is known. */
+/* Error of the oscillator, whose motion is known. */
 static double true_error(const hooke_state *state) {
   const double *q = hooke_state_position(state) + 3, t = hooke_state_time(state);
   const double x = cos(OMEGA * t), y = 0.5 * sin(OMEGA * t) / OMEGA;
@@ -64,7 +64,8 @@ static void test_estimates_are_within_a_factor_of_three(void **unused) {
   hooke_system_destroy(system);
 }
 
-/* The estimate of a run whose integrator is gone by then, for the caller to destroy; `time` [s] of its end. */
+/* Estimates a run whose integrator was destroyed before; the caller destroys the estimate; `time` [s] of its
+ * end. */
 static hooke_estimate *estimated_later(const hooke_system *system, const hooke_options *options,
                                        double time) {
   hooke_integrator *integrator;
@@ -130,7 +131,7 @@ static double number_of_run(const hooke_system *system, const char *method, doub
   return number;
 }
 
-/* By forward Euler the energy grows by the factor 1 + (h omega)^2 a step. */
+/* With forward Euler the energy grows by the factor 1 + (h omega)^2 a step. */
 static void test_energy_that_grows_by_itself_is_seen(void **unused) {
   (void)unused;
   hooke_system *system = small_oscillator(OMEGA);
@@ -144,7 +145,7 @@ static void test_energy_that_grows_by_itself_is_seen(void **unused) {
   hooke_system_destroy(system);
 }
 
-/* One particle that drag alone slows down, by h lambda a step. */
+/* One particle slowed by drag alone, by h lambda a step. */
 static hooke_system *slowed_particle(double rate) {
   hooke_system *system;
   const double mass = 2.0;
@@ -155,9 +156,9 @@ static hooke_system *slowed_particle(double rate) {
   return system;
 }
 
-/* By forward Euler the velocity is r = 1 - h lambda times as large after a step. Where r < -1/2 all of the heat
- * from the third step on is that of a velocity that reverses: 2 h lambda r^6/(1 - r^2) of the energy. The sum
- * may be cut short on a machine that is busy. */
+/* With forward Euler the velocity is multiplied by r = 1 - h lambda a step. For r < -1/2 all heat from the
+ * third step on is that of a reversing velocity: 2 h lambda r^6/(1 - r^2) of the energy. The sum may be cut
+ * short on a busy machine. */
 static void test_heat_that_was_not_there_is_seen(void **unused) {
   (void)unused;
   const double step = 1e-3, r = -0.9;
@@ -170,7 +171,7 @@ static void test_heat_that_was_not_there_is_seen(void **unused) {
   hooke_system_destroy(system);
 }
 
-/* Whatever decays without overshooting, and what oscillates, makes no heat of its own at any of these steps. */
+/* Motion that decays without overshooting, or oscillates, has no spurious heat at any of these steps. */
 static void test_heat_that_was_there_is_no_excess(void **unused) {
   (void)unused;
   for (double x = 0.1; x < 2.0; x += 0.1) {
@@ -220,8 +221,8 @@ static hooke_system *damped_chain(double gamma, int driven) {
   return system;
 }
 
-/* Euler's step is just below the limit of the damping. Verlet has none, since it takes the damping in its
- * second half as it is after the step; from h lambda = 2 on its velocities reverse. */
+/* Euler's step is just below the limit of the damping. Verlet has no such limit, since its second half takes
+ * the damping at the new velocity; from h lambda = 2 on its velocities reverse. */
 static void test_a_damper_too_stiff_for_the_step_is_seen(void **unused) {
   (void)unused;
   static const struct {
@@ -279,7 +280,7 @@ static void test_what_is_picked_keeps_to_the_wanted_error(void **unused) {
   hooke_system_destroy(system);
 }
 
-/* A soft block of 3 x 3 x 3 particles, held at one side, that sags: its bound lies far below its limit. */
+/* A soft block of 3 x 3 x 3 particles, fixed at one side, that sags: its bound lies far below its limit. */
 static hooke_system *sagging_block(void) {
   hooke_options *options;
   hooke_system *system;
@@ -316,8 +317,7 @@ static double least_limit_along(const hooke_system *system, const hooke_options 
   return least;
 }
 
-/* How many times the bound at the start the picked step is, which is at most 0.9 of the limit at every
- * frame. */
+/* Ratio of the picked step, which is at most 0.9 of the limit at every frame, to the bound at the start. */
 static double picked_over_bound(const hooke_system *system, const char *method) {
   hooke_options *options = run_options((struct run){.duration = 1.0, .every = 0.1});
   hooke_state *state = start_state(system);

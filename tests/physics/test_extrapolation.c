@@ -1,5 +1,5 @@
-/* The extrapolation in long double that wants are held against: solutions to 15 digits, the canonical forces,
- * motions, and what it does where it should give up. Nothing of the library moves here. */
+/* The extrapolation in long double, the reference for wanted errors: solutions to 15 digits, the canonical
+ * forces, motions, and its failures. The library's integrators are not used here. */
 #include "check.h"
 #include "long_force.h"
 #include "random_scene.h"
@@ -102,7 +102,7 @@ static void test_forces(void **unused) {
 
 /* ---- motions ---- */
 
-/* Where the library has a driven particle, and how fast it is. */
+/* Position and velocity of a driven particle in the library. */
 static void compare_motion(const struct long_drive *drive, double t) {
   const double origin[3] = {0.3, -0.2, 0.1}, mass = 1.0;
   const int64_t one = 0;
@@ -143,7 +143,7 @@ static void test_motions(void **unused) {
     compare_motion(&wave, 0.13 * k);
 }
 
-/* ---- jumps, and what cannot be done ---- */
+/* ---- jumps, and failures ---- */
 
 /* y'' = -1 where y > 0, else +4: crossing 0 the force jumps. */
 static void jumping(long double t, long double *y, long double *f, void *ctx) {
@@ -185,7 +185,7 @@ static void by_one(const long double *y, const long double *f, long double *scal
   scale[0] = 1.0L;
 }
 
-/* y' = y^2 from 1 has y = 1/(1 - t): it ends before t = 1, and the steps say so. */
+/* y' = y^2 from 1 has y = 1/(1 - t): it ends before t = 1, and the number of steps shows it. */
 static void test_giving_up(void **unused) {
   (void)unused;
   struct extrapolation problem = {

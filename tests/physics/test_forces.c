@@ -51,7 +51,8 @@ static void test_force_is_gradient(void **unused) {
   }
 }
 
-/* The scenes of springs that only pull hold some of each kind, or the test above would not see the switch. */
+/* The scenes of springs that only pull contain both taut and slack ones, so that the test above covers the
+ * switch. */
 static void test_pull_only_scenes_have_both_sides(void **unused) {
   (void)unused;
   int64_t slack = 0, unloaded = 0, taut = 0;
@@ -71,7 +72,7 @@ static void test_pull_only_scenes_have_both_sides(void **unused) {
   assert_true(taut >= 10);
 }
 
-/* m g and m a: the force is the mass times the acceleration, on free particles. */
+/* M g and m a: the force is the mass times the acceleration, on free particles. */
 static void test_force_is_mass_times_acceleration(void **unused) {
   (void)unused;
   for (int k = 0; k < LAW_COUNT; k++) {
@@ -89,7 +90,7 @@ static void test_force_is_mass_times_acceleration(void **unused) {
   }
 }
 
-/* ---- what damping and drag turn into heat is what the energy loses ---- */
+/* ---- the heat of damping and drag is the loss of energy ---- */
 
 struct motion_curve {
   const hooke_system *system;
@@ -163,8 +164,8 @@ static void test_third_law(void **unused) {
   }
 }
 
-/* Springs alone and nothing held: momentum stays by every fixed-step method, angular momentum by symplectic
- * Euler, whose step is q += h v(new); forward Euler changes it by h^2 v x a. */
+/* Springs alone and no constraints: every fixed-step method conserves momentum; symplectic Euler, whose step
+ * is q += h v(new), conserves angular momentum; forward Euler changes it by h^2 v x a. */
 static void drift(const char *method, double *momentum, double *angular) {
   double q[LAW_SIZE], v[LAW_SIZE], before[6], after[6], mass[LAW_PARTICLES], size = 0.0;
   struct law_scene scene;

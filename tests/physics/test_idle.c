@@ -1,5 +1,5 @@
-/* Pinned particles that nothing touches are not stepped, and nobody can tell: what moves has the same bits
- * without them, and they stay where they are. */
+/* Idle pinned particles are not stepped, without any effect: the moving particles have the same bits without
+ * them, and idle ones stay where they are. */
 #include "check.h"
 #include "run.h"
 
@@ -19,7 +19,7 @@ static void add_marks(hooke_system *system, int64_t count) {
   }
 }
 
-/* A cloth that hangs from its upper corners, `before` and `after` so many marks. */
+/* A cloth that hangs from its upper corners, with `before` and `after` idle particles. */
 static hooke_system *new_scene(int64_t before, int64_t after, double damping) {
   hooke_system *system;
   hooke_options *cloth;

@@ -1,5 +1,5 @@
-/* Lattices: how many springs of which family, where they pull, and that the part is what its springs one by
- * one are. */
+/* Lattices: the number of springs of each family, their forces, and that the part equals its springs added
+ * one by one. */
 #include "check.h"
 #include "hooke.h"
 #include "run.h"
@@ -84,8 +84,7 @@ static void springs_are_in_order(void **unused) {
   for (int d = 0; d < 16; d++) {
     const int64_t begin = k;
     for (int p = 0; p < NX * NY * NZ; p++) {
-      /* p is the corner from which the spring leaves in the cell: its lower end goes back along negative
-       * steps */
+      /* p is the corner of the cell where the spring starts: its lower end goes back along negative steps */
       const int at[3] = {p % NX, p / NX % NY, p / NX / NY};
       int low[3], high[3], fits = 1;
       for (int a = 0; a < 3; a++) {
@@ -205,7 +204,7 @@ static void a_stretched_block_pulls_with_the_sum_of_its_springs(void **unused) {
       pull(NX * NY, 5, 0, 0, 2 * z, stretch);
   check_close(-top, expected, 1e-11 * expected);
   check_between(expected, 1.0, 1e3);
-  check_close(inside, 0.0, 1e-10); /* what pulls up there pulls down as much */
+  check_close(inside, 0.0, 1e-10); /* the upward pull equals the downward one */
   check_close(aside, 0.0, 1e-10);
   free(force);
   hooke_state_destroy(state);
@@ -274,7 +273,7 @@ static void pinned_layers_have_names(void **unused) {
   check_held("7", 7, 8);
 }
 
-/* A layer that is driven takes the block along. */
+/* A driven layer moves the block. */
 static void a_layer_can_be_driven(void **unused) {
   (void)unused;
   enum { LAYER = 9, N = 27 };

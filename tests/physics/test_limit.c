@@ -1,5 +1,5 @@
-/* Predicted limits: against spectra computed independently to 13 digits, against the formulas of one mode,
- * and against the safe bounds, which they may never fall below. */
+/* Predicted limits: compared with spectra computed independently to 13 digits, with the formulas of one mode,
+ * and with the safe bounds, which they may never fall below. */
 #include "check.h"
 #include "random_scene.h"
 #include "reference.h"
@@ -52,7 +52,7 @@ static void check_digits(double value, double expected, double relative) {
 
 /* ---- scenes ---- */
 
-/* n x n particles of 0.01 kg, 0.1 m apart, springs of 50 N, hung by two corners. */
+/* N x n particles of 0.01 kg, 0.1 m apart, springs of 50 N, hung by two corners. */
 static hooke_system *build_cloth(int n, double damping) {
   hooke_system *system;
   hooke_options *options;
@@ -77,7 +77,7 @@ static hooke_system *build_cloth(int n, double damping) {
   return system;
 }
 
-/* Copies of the net of six particles, each on its own: the limits are those of one. */
+/* Copies of the net of six particles, disconnected: the limits are those of one. */
 static hooke_system *build_nets(int64_t copies) {
   const struct reference *net = find_reference("six-particles");
   const int64_t n = net->particle_count;
@@ -128,7 +128,7 @@ static hooke_system *build_nets(int64_t copies) {
   return system;
 }
 
-/* ---- against numbers ---- */
+/* ---- spectra ---- */
 
 /* Spectra of the linearised systems, computed independently with dense matrices in double precision. */
 static const struct {
@@ -197,8 +197,7 @@ static void one_mode_follows_the_table(void **unused) {
   }
 }
 
-/* The same scene many times over goes another way: iterations for more unknowns, part of the spectrum
- * beyond. */
+/* Copies of the same scene take another path: iterations for more unknowns, a partial spectrum beyond. */
 static void many_copies_have_the_limits_of_one(void **unused) {
   (void)unused;
   static const struct {
@@ -219,8 +218,8 @@ static void many_copies_have_the_limits_of_one(void **unused) {
       check_digits(predicted(limit, "rk4"), net6.rk4, 1e-9);
       check_digits(predicted(limit, "forward-euler"), net6.forward_euler, 1e-6);
     } else {
-      /* over the modes found: never below the limit, and here those found are the ones that limit
-       * Runge-Kutta */
+      /* over the modes found: never below the limit, and here these include the ones that limit Runge-Kutta
+       */
       check_between(predicted(limit, "rk4"), (1.0 - 2e-3) * net6.rk4, 1.02 * net6.rk4);
       check_between(predicted(limit, "forward-euler"), net6.forward_euler, INFINITY);
       assert_true(strstr(hooke_measurement_text(limit, "rows", row_of(limit, "rk4"), "note"),
@@ -231,7 +230,7 @@ static void many_copies_have_the_limits_of_one(void **unused) {
   }
 }
 
-/* All eigenvalues by dense matrices, the largest by iterations: just under the ceiling of the first. */
+/* All eigenvalues by dense matrices, the largest by iterations: just below the maximum size of the former. */
 static void iterations_agree_with_dense_matrices(void **unused) {
   (void)unused;
   const int sizes[] = {11, 22}; /* 357 and 1446 unknowns */
@@ -250,7 +249,7 @@ static void iterations_agree_with_dense_matrices(void **unused) {
   }
 }
 
-/* To its own accuracy, and not much better for less work. */
+/* To the given accuracy, and not much better, with less work. */
 static void large_scenes_keep_the_accuracy(void **unused) {
   (void)unused;
   hooke_system *system = build_cloth(70, 0.02);
@@ -258,7 +257,7 @@ static void large_scenes_keep_the_accuracy(void **unused) {
   const char *methods[] = {"symplectic-euler", "verlet", "rk4", "forward-euler"};
   for (int m = 0; m < 4; m++) {
     check_digits(predicted(rough, methods[m]), predicted(fine, methods[m]), 1e-3);
-    check_between(number_of(rough, methods[m], "exact"), 1, 1); /* damping is in proportion */
+    check_between(number_of(rough, methods[m], "exact"), 1, 1); /* proportional damping */
   }
   check_between(hooke_measurement_number(rough, "limit", 0, "products"), 10, 120);
   assert_true(hooke_measurement_number(fine, "limit", 0, "products") >
@@ -268,7 +267,7 @@ static void large_scenes_keep_the_accuracy(void **unused) {
   hooke_system_destroy(system);
 }
 
-/* ---- against the bounds ---- */
+/* ---- bounds ---- */
 
 static void bounds_are_never_above_the_limit(void **unused) {
   (void)unused;
@@ -306,7 +305,7 @@ static void bounds_are_never_above_the_limit(void **unused) {
     hooke_measurement_destroy(limit);
     random_scene_destroy(&scene);
   }
-  /* a bound is worth something, and only just one */
+  /* a bound is useful, and not sharp */
   check_between(lowest, 0.4, 0.9);
   check_between(highest, 0.97, 1.0 + 1e-9);
   for (int row = 0; row < 7; row++)
@@ -375,7 +374,7 @@ static void the_smallest_limit_of_a_run(void **unused) {
   hooke_system_destroy(system);
 }
 
-/* ---- edges ---- */
+/* ---- edge cases ---- */
 
 static void nothing_limits(void **unused) {
   (void)unused;
@@ -440,7 +439,7 @@ static void compression_is_left_out(void **unused) {
   }
 }
 
-/* One spring of a rope is 50 times stiffer: it carries the mode, which has the length asked for. */
+/* One spring of a rope is 50 times stiffer: it carries the mode, whose displacements have norm 1. */
 static void the_odd_spring_is_named(void **unused) {
   (void)unused;
   double position[36] = {0};
@@ -462,7 +461,7 @@ static void the_odd_spring_is_named(void **unused) {
   check_between(hooke_measurement_number(limit, "blame", 0, "second"), 6, 6);
   const double *shape = hooke_measurement_series(limit, "limit", 0, "shape");
   check_close(largest(36, shape), 1.0, 1e-12);
-  check_close(shape[15] + shape[18], 0.0, 0.05); /* its ends against each other */
+  check_close(shape[15] + shape[18], 0.0, 0.05); /* its ends move against each other */
   check_between(hooke_measurement_number(limit, "remedy", 0, "gain"), 2.0, 8.0);
   hooke_measurement_destroy(limit);
   hooke_system_destroy(system);

@@ -1,5 +1,5 @@
-/* Limits of the step, predicted from the spectrum against found by running: random networks, and ropes,
- * cloths and lattices with one odd particle or spring. */
+/* Limits of the step: predictions from the spectrum compared with measurements, on random networks, and on
+ * ropes, cloths and lattices with one odd particle or spring. */
 #include "check.h"
 #include "random.h"
 #include "run.h"
@@ -13,7 +13,8 @@
 
 enum { MOST_PARTICLES = 32, MOST_SPRINGS = 256 };
 
-/* A limit of all methods in `methods` (NULL: all) at the initial state; skips the test in builds without. */
+/* A limit of all methods in `methods` (NULL: all) at the initial state; skips the test in builds without
+ * them. */
 static hooke_measurement *find_limit(const hooke_system *system, const char *methods, double accuracy,
                                      int32_t predict, const hooke_options *run) {
   hooke_options *options;
@@ -55,7 +56,7 @@ static hooke_system *random_network(uint64_t seed, double damping) {
   for (int k = 0; k < N; k++)
     mass[k] = random_between(&source, 0.3, 3.0);
   for (int k = 0; k < SPRINGS; k++) {
-    /* a tree, and some more */
+    /* a tree, and some more springs */
     const int64_t tail = k < N - 1 ? k + 1 : random_whole(&source, 1, N - 1);
     ends[2 * k] =
         k < N - 1 ? random_whole(&source, 0, tail - 1) : (tail + random_whole(&source, 1, N - 1)) % N;
@@ -108,7 +109,7 @@ static void random_networks_run_up_to_the_prediction(void **unused) {
   }
 }
 
-/* The same comparison with the prediction of another damping: it has to notice. */
+/* The same comparison with the prediction for another damping must fail. */
 static void another_damping_is_noticed(void **unused) {
   (void)unused;
   int noticed = 0;
@@ -134,7 +135,7 @@ struct piece {
   const char *name;
   int64_t size[3]; /* particles along x, y, z, 0.1 m apart */
   int64_t reach;   /* springs join particles whose steps along the axes add up to that at most, diagonally */
-  int64_t light, stiff; /* which particle, and which spring, is the odd one */
+  int64_t light, stiff; /* number of the odd particle, and of the odd spring */
 };
 
 static const struct piece pieces[] = {
@@ -162,7 +163,7 @@ static int64_t join(const struct piece *piece, int64_t n, int64_t *ends) {
   return count;
 }
 
-/* Springs of 100 N/m with damping in proportion `beta` to stiffness, particles of 0.1 kg, the first one
+/* Springs of 100 N/m with damping `beta` in proportion to stiffness, particles of 0.1 kg, the first one
  * pinned. */
 static hooke_system *build_piece(const struct piece *piece, enum odd odd, double beta) {
   const int64_t *size = piece->size, n = size[0] * size[1] * size[2], pinned = 0;
@@ -198,7 +199,7 @@ static void check_blame(const hooke_measurement *limit, const struct piece *piec
   double sum = 0.0;
   const int64_t count = hooke_measurement_row_count(limit, "blame");
   assert_true(count > 0);
-  /* damping comes before the springs that it is of, if most of it is damping */
+  /* damping is named rather than its springs, if most of the limit is damping */
   const int64_t first = hooke_measurement_text(limit, "blame", 0, "force") != NULL;
   if (first) assert_string_equal(hooke_measurement_text(limit, "blame", 0, "force"), "damping");
   if (first) check_between(hooke_measurement_number(limit, "blame", 0, "share"), 0.5, 1.0);
@@ -208,7 +209,7 @@ static void check_blame(const hooke_measurement *limit, const struct piece *piec
     sum += share;
     assert_string_equal(hooke_measurement_text(limit, "blame", k, "group"), piece->name);
   }
-  check_close(sum, 1.0, 1e-9); /* without drag, and with less than 100 springs that move */
+  check_close(sum, 1.0, 1e-9); /* without drag, and with fewer than 100 springs that move */
   const char *kind = hooke_measurement_text(limit, "remedy", 0, "kind");
   if (odd == STIFF_SPRING) {
     assert_true((int64_t)hooke_measurement_number(limit, "blame", first, "number") == piece->stiff);
@@ -290,7 +291,7 @@ static void lattices(void **unused) {
 
 /* ---- the scene itself ---- */
 
-/* A spring of no length is linear however far it is stretched, so the whole run says the same. */
+/* A spring of no length is linear at any stretch, so the whole run gives the same limit. */
 static void linear_scene_runs_up_to_the_prediction(void **unused) {
   (void)unused;
   hooke_system *system = small_oscillator(7.0);
@@ -306,8 +307,8 @@ static void linear_scene_runs_up_to_the_prediction(void **unused) {
   hooke_system_destroy(system);
 }
 
-/* A spring that only pulls counts as taut in the linearised scene; where it never gets taut, the scene itself
- * takes any step. */
+/* A spring that only pulls counts as taut in the linear twin; where it never becomes taut, the scene itself
+ * is stable at any step. */
 static void slack_scene_takes_any_step(void **unused) {
   (void)unused;
   const double position[6] = {0.0, 0.0, 0.0, 1.0, 0.0, 0.0}, down[3] = {0.0, -1.0, 0.0};

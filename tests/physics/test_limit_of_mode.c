@@ -1,5 +1,5 @@
-/* The limit of one mode: against closed forms, against the limits of an oscillator, and what a report
- * refuses. */
+/* The limit of one mode: compared with closed forms and with the limits of an oscillator; and the refusals of
+ * a report. */
 #include "check.h"
 #include "run.h"
 
@@ -28,7 +28,7 @@ static void test_closed_forms(void **ctx) {
   assert_true(of("forward-euler", 3.0, 0.0) == 0.0);
 }
 
-/* Motion that nothing draws back, and none at all. */
+/* Motion without restoring force, and no motion at all. */
 static void test_without_stiffness(void **ctx) {
   (void)ctx;
   check_digits(of("forward-euler", 0.0, 5.0), 0.2);
@@ -78,7 +78,7 @@ static hooke_measurement *make(hooke_system *system) {
   return limit;
 }
 
-/* Over- and underdamped: the prediction for the only mode there is, and the modes that are told of. */
+/* Over- and underdamped: the prediction for the only mode, and the reported modes. */
 static void test_an_oscillator(void **ctx) {
   (void)ctx;
   const double dampings[] = {0.4, 3.0, 12.0, 90.0};

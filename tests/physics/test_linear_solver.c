@@ -1,4 +1,4 @@
-/* The ways in which cvode-bdf and arkode-esdirk solve their linear equations: all lead to the same motion. */
+/* All linear solvers of cvode-bdf and arkode-esdirk give the same motion. */
 #include "check.h"
 #include "random_scene.h"
 #include "reference.h"
@@ -20,7 +20,7 @@ static int has_factor(void) {
   return hooke_build_fact("cholmod")[0] != '\0';
 }
 
-/* `direct` is left out of a build without its library. */
+/* `direct` is skipped in a build without its library. */
 static int is_built(const char *solver) {
   return has_factor() || strcmp(solver, "direct") != 0;
 }
@@ -150,8 +150,8 @@ static struct counted run_alone(const hooke_system *system, const char *solver) 
   return found;
 }
 
-/* A factor takes few iterations, and the choice comes to it; also beside a particle of a millionth of the
- * mass. */
+/* A factor needs few iterations, and the automatic choice selects it; also beside a particle of a millionth
+ * of the mass. */
 static void factor_pays(void **unused) {
   (void)unused;
   needs_cvode();
@@ -176,7 +176,7 @@ static void factor_pays(void **unused) {
   }
 }
 
-/* Nothing of a run stays for the next. */
+/* A run keeps nothing of the previous one. */
 static void runs_repeat(void **unused) {
   (void)unused;
   needs_cvode();
@@ -193,7 +193,7 @@ static void runs_repeat(void **unused) {
   hooke_system_destroy(system);
 }
 
-/* What a build is without is named. */
+/* The message names the missing library. */
 static void not_built(void **unused) {
   (void)unused;
   needs_cvode();

@@ -1,4 +1,4 @@
-/* Meshes from arrays: their springs and masses, vertices that are welded, and what is refused. */
+/* Meshes from arrays: springs and masses, welded vertices, and refusals. */
 #include "check.h"
 #include "hooke.h"
 #include "run.h"
@@ -20,7 +20,7 @@ static void add_triangle(struct mesh *mesh, int64_t a, int64_t b, int64_t c) {
   t[2] = c;
 }
 
-/* A rectangle of nu x nv vertices, every cell of it two triangles. */
+/* A rectangle of nu x nv vertices, with two triangles in every cell. */
 static struct mesh sheet(int64_t nu, int64_t nv) {
   struct mesh mesh = {.vertices = nu * nv};
   for (int64_t p = 0; p < nu * nv; p++) {
@@ -51,7 +51,7 @@ static struct mesh icosahedron(void) {
   return mesh;
 }
 
-/* A ring of m x n vertices that closes both ways. */
+/* A torus of m x n vertices. */
 static struct mesh torus(int64_t m, int64_t n) {
   struct mesh mesh = {.vertices = m * n};
   for (int64_t p = 0; p < m * n; p++) {
@@ -127,7 +127,7 @@ static void springs_are_in_order(void **unused) {
     const int64_t *e = ends + 2 * k;
     assert_true(e[0] < e[1]);
     if (k > 0) assert_true(e[0] > e[-2] || (e[0] == e[-2] && e[1] > e[-1]));
-    /* the vertices that make a triangle with both ends, in the order of the triangles */
+    /* the vertices that form a triangle with both ends, in the order of the triangles */
     int64_t across[2] = {-1, -1};
     int faces = 0;
     for (int64_t t = 0; t < mesh.triangles; t++) {
@@ -190,7 +190,7 @@ static void mass_is_shared_by_area(void **unused) {
   hooke_system_destroy(system);
 }
 
-/* The ratio is over the critical damping of the two particles of the spring. */
+/* The ratio refers to the critical damping of the two particles of the spring. */
 static void damping_by_ratio_is_that_of_both_ends(void **unused) {
   (void)unused;
   struct mesh mesh = sheet(5, 4);
@@ -215,8 +215,8 @@ static void damping_by_ratio_is_that_of_both_ends(void **unused) {
 
 /* ---- vertices ---- */
 
-/* Every triangle with vertices of its own becomes the mesh with shared ones, in the order of first
- * appearance. */
+/* A mesh in which every triangle has its own vertices becomes the mesh with shared ones, in the order of
+ * first appearance. */
 static void vertices_at_one_place_are_one(void **unused) {
   (void)unused;
   const struct mesh shared = icosahedron();
@@ -295,7 +295,7 @@ static void the_transform_scales_then_moves(void **unused) {
   hooke_system_destroy(system);
 }
 
-/* ---- what is refused ---- */
+/* ---- refusals ---- */
 
 static void check_refused(struct mesh mesh, const char *message) {
   hooke_options *options = options_of(&mesh);

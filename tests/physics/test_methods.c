@@ -60,8 +60,8 @@ static void refuse_absent(const hooke_system *system, const char *method) {
   hooke_options_destroy(options);
 }
 
-/* Half the step at most 0.6 of the error (order 1 or better) and a tighter tolerance a smaller error; an
- * error-controlled method at rtol 1e-9 beats every fixed step of order 1 here. */
+/* Half the step gives at most 0.6 of the error (order 1 or better), a tighter tolerance a smaller error, and
+ * an error-controlled method at rtol 1e-9 a smaller error than every fixed step of order 1 here. */
 static void test_every_method_on_every_scene(void **unused) {
   (void)unused;
   for (int k = 0; k < REFERENCE_COUNT; k++) {
@@ -87,7 +87,7 @@ static void test_every_method_on_every_scene(void **unused) {
         coarse = error_of(reference, system, (struct run){.method = method, .step = step});
         fine = error_of(reference, system, (struct run){.method = method, .step = step / 2.0});
         if (strstr(method, "-euler") != NULL) best_fixed = fmin(best_fixed, fine);
-        /* down at rounding no step makes it better */
+        /* at the level of rounding no step improves it */
         if (!((fine < 0.6 * coarse || coarse < 1e-13) && fine < 1e-2)) {
           check_failed("%s by %s: errors %g at %g s, %g at half of it", reference->name, method, coarse, step,
                        fine);
@@ -102,9 +102,9 @@ static void test_every_method_on_every_scene(void **unused) {
   }
 }
 
-/* A pendulum on a stiff, strongly damped rod. Newton with the right derivative strides over the fast mode
- * once it has died out; the fixed-point iteration of cvode-adams cannot, and neither could Newton with a
- * wrong derivative. */
+/* A pendulum on a stiff, strongly damped rod. Newton with the right derivative takes long steps over the fast
+ * mode once it has died out; the fixed-point iteration of cvode-adams cannot, nor could Newton with a wrong
+ * derivative. */
 static void test_bdf_strides_over_damped_modes(void **unused) {
   (void)unused;
   if (hooke_method_is_built("cvode-bdf") != 1) skip();

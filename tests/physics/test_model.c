@@ -1,4 +1,4 @@
-/* What springs, drag, pins and cables do. */
+/* Behaviour of springs, drag, pins and cables. */
 #include "check.h"
 #include "run.h"
 #include "small.h"
@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* ---- ends at one place, and springs without length ---- */
+/* ---- coincident ends, and springs without length ---- */
 
 static void test_coincident_ends(void **unused) {
   (void)unused;
@@ -23,7 +23,7 @@ static void test_coincident_ends(void **unused) {
   for (int k = 0; k < 12; k++)
     check_close(a[k], 0.0, 0.0); /* the third spring is at rest */
 
-  /* the run counts them too, and they are none once the ends have parted */
+  /* the run counts them too, and there are none once the ends have parted */
   hooke_integrator *integrator = start_run(system, (struct run){.method = "symplectic-euler", .step = 1e-3});
   hooke_state *state = start_state(system);
   check_ok(hooke_integrator_step(integrator, state, 1));
@@ -38,7 +38,7 @@ static void test_coincident_ends(void **unused) {
   hooke_system_destroy(system);
 }
 
-/* With rest length 0 the force is -k x everywhere: smooth at the origin, and nothing to count. */
+/* With rest length 0 the force is -k x everywhere: smooth at the origin, and not counted as coincident. */
 static void test_springs_without_length(void **unused) {
   (void)unused;
   hooke_system *system = small_oscillator(3.0); /* mass 2: k = 18 */
@@ -86,7 +86,7 @@ static void test_drag_or_damping(void **unused) {
   fall(0.0, 0.0, h, 1000, &velocity, &height);
   check_close(velocity, -10.0 * n * h, 1e-11);
   check_close(height, -10.0 * h * h * n * (n + 1.0) / 2.0, 1e-11);
-  fall(3.0, 0.0, h, 1000, &velocity, &height); /* damped, and falls just the same */
+  fall(3.0, 0.0, h, 1000, &velocity, &height); /* damped, and falls in the same way */
   check_close(velocity, -10.0 * n * h, 1e-11);
   check_close(height, -10.0 * h * h * n * (n + 1.0) / 2.0, 1e-11);
   fall(0.0, 1.5, h, 1000, &velocity, &height); /* v' = (1 - c h/m) v - g h */
@@ -97,8 +97,8 @@ static void test_drag_or_damping(void **unused) {
 /* ---- a hanging rubber band ---- */
 
 /* Length at rest of a band of mass 0.4 kg and unit rest length with 0.2 kg at its end, cut into `segments`.
- * Masses lie half and half at the ends of each segment, so that the exact stretch is (0.2 + 0.4/2) g / ks for
- * any number of them. */
+ * Each segment has half its mass at either end, so that the exact stretch is (0.2 + 0.4/2) g / ks for any
+ * number of segments. */
 static double hanging_length(const char *law, int64_t segments, double step) {
   const double gravity[] = {0, 0, -10}, piece = 1.0 / (double)segments;
   double *q = new_doubles(3 * (segments + 1)), *mass = new_doubles(segments + 1);
@@ -170,7 +170,7 @@ static void test_pinned_never_move(void **unused) {
   }
 }
 
-/* A cable that is slack lets its ends pass, with damping or without; pulled tight it is a spring. */
+/* A slack cable lets its ends pass, with damping or without; a taut one is a spring. */
 static void test_cables(void **unused) {
   (void)unused;
   const int64_t ends[] = {0, 1};
@@ -178,7 +178,7 @@ static void test_cables(void **unused) {
     double distance, velocity, pull; /* force on the first end, along the second */
   } cases[] = {
       {0.9, 0.0, 0.0}, /* slack */
-      {0.9, 5.0, 0.0}, /* slack, flying apart: damping does not pull */
+      {0.9, 5.0, 0.0}, /* slack, ends separating: damping does not pull */
       {1.0, 5.0, 0.0}, /* at its rest length still slack */
       {1.2, 0.0, 20.0},        {1.2, 1.0, 20.0 + 3.0},
       {1.2, -1.0, 20.0 - 3.0}, {1.2, -7.0, 0.0}, /* damping would make it push */
@@ -200,7 +200,7 @@ static void test_cables(void **unused) {
   }
 }
 
-/* A scene pays only for what it names. */
+/* A scene pays only for the forces that it names. */
 static void test_forces_that_are_there(void **unused) {
   (void)unused;
   const double q[] = {0, 0, 0, 1, 0, 0}, gravity[] = {0, -1, 0};
@@ -222,7 +222,7 @@ static void test_forces_that_are_there(void **unused) {
   hooke_system_destroy(full);
 }
 
-/* Without damping velocities are not read: not even a NaN there can be seen in the forces. */
+/* Without damping velocities are not read: not even a NaN there affects the forces. */
 static void test_velocities_are_not_read(void **unused) {
   (void)unused;
   const double q[] = {0, 0, 0, 1, 0.5, 0}, lost[] = {NAN, NAN, NAN, NAN, NAN, NAN};

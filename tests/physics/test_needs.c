@@ -1,6 +1,6 @@
-/* What a scene needs: changes and costs are those of runs made apart, refinement predicts what a much finer
- * rope does, motion that no step can follow is judged as far as it can be, and whoever stops it keeps what is
- * known. */
+/* Needs: changes and costs equal those of separate runs, refinement predicts the result of a much finer rope,
+ * motion that no step can follow is judged as far as possible, and an interruption keeps the results so far.
+ */
 #include "check.h"
 #include "run.h"
 #include "small.h"
@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* ---- making ---- */
+/* ---- creating ---- */
 
 static hooke_measurement *make(const hooke_system *system, struct run run, double want, const char *watch,
                                int refine) {
@@ -30,7 +30,7 @@ static hooke_measurement *start(const hooke_system *system, struct run run, doub
   return make(system, run, want, watch, 0);
 }
 
-/* A rope that hangs from its start, let go unstretched; with faint springs two apart. */
+/* A rope that hangs from its start, released unstretched; with weak springs two apart. */
 static hooke_system *hanging_rope(int segments, double bend) {
   hooke_system *system;
   hooke_options *rope;
@@ -64,7 +64,7 @@ static int64_t row_of(const hooke_measurement *needs, const char *without) {
 /* ---- changes ---- */
 
 struct frames {
-  int64_t count, size, every; /* numbers of a frame; of this many particles one */
+  int64_t count, size, every; /* numbers of a frame; particles a watched one */
   double q[64 * 3 * 64];
 };
 
@@ -136,7 +136,7 @@ static void changes_are_those_of_runs_made_apart(void **state) {
   assert_true(hooke_measurement_number(needs, "rows", row_of(needs, "rope.stretch"), "needed") == 1.0);
   assert_true(hooke_measurement_number(needs, "rows", row_of(needs, "gravity"), "needed") == 1.0);
 
-  /* the lean system, run as recommended; without half the resolution, which this want does not allow */
+  /* the lean system, run as recommended; without halving the resolution, which this want does not allow */
   assert_true(hooke_measurement_number(needs, "rows", bend, "left_out") == 1.0);
   const hooke_system *lean = hooke_needs_lean(needs);
   assert_non_null(lean);
@@ -162,7 +162,7 @@ static void changes_are_those_of_runs_made_apart(void **state) {
 
 /* ---- errors and costs of the two runs within the want ---- */
 
-/* The run of a system with the step, or the tolerances, that were found for it. */
+/* The run of a system with the step or tolerances found for it. */
 static struct frames *run_found(const hooke_measurement *needs, const hooke_system *system,
                                 const char *table) {
   hooke_options *options = NULL;
@@ -177,8 +177,8 @@ static struct frames *run_found(const hooke_measurement *needs, const hooke_syst
   return frames;
 }
 
-/* What is said is an upper estimate: above the true error, by at most twice what the full run may be off
- * itself. */
+/* The reported error is an upper estimate: above the true error, by at most twice the possible error of the
+ * full run. */
 static void check_said(const hooke_measurement *needs, const char *table, const hooke_system *system,
                        const struct frames *truth) {
   struct frames *run = run_found(needs, system, table);
@@ -212,8 +212,8 @@ static void errors_include_that_of_the_full_run(void **state) {
   hooke_system_destroy(system);
 }
 
-/* By a method of order 1, whose error alone limits the step: to leave out faint springs saves no steps,
- * though the full system takes ten times as many where its error is to be a tenth of the want. */
+/* By a method of order 1, whose error alone limits the step: omitting weak springs saves no steps, though the
+ * full system takes ten times as many for an error of a tenth of the want. */
 static void savings_are_those_at_equal_error(void **state) {
   (void)state;
   const double want = 4e-4;
@@ -232,13 +232,13 @@ static void savings_are_those_at_equal_error(void **state) {
               hooke_measurement_number(needs, "cheapest", 0, "wall_seconds") /
                   hooke_measurement_number(needs, "lean", 0, "wall_seconds"),
               0.0);
-  /* and it is the cheapest: with a third less steps it is off by more than is wanted */
+  /* and it is the cheapest: a third fewer steps exceed the wanted error */
   struct frames *within = run_found(needs, system, "cheapest");
   run.step = half_a_second.every /
              floor(half_a_second.every / hooke_measurement_number(needs, "cheapest", 0, "step") / 1.4);
   hooke_options *coarse = run_options(run);
   struct frames *beyond = run_frames(system, coarse, 1);
-  const double least = sqrt(12.0 / 13.0); /* the pinned particle is watched, and off by nothing */
+  const double least = sqrt(12.0 / 13.0); /* the pinned particle is watched, and has no error */
   check_between(least * distance(truth, within), 0.6 * want, want);
   check_between(least * distance(truth, beyond), want, 2.0 * want);
   hooke_options_destroy(coarse);
@@ -249,7 +249,7 @@ static void savings_are_those_at_equal_error(void **state) {
   hooke_system_destroy(system);
 }
 
-/* ---- scenes in which nothing moves ---- */
+/* ---- scenes without motion ---- */
 
 /* A damped spring that holds a mass, stretched by its weight, or by `more` than that [m]. */
 static hooke_system *hung_mass(double gravity, double more) {
@@ -284,7 +284,7 @@ static void a_scene_that_rests_is_told_so(void **state) {
   assert_int_equal(hooke_system_spring_count(hooke_needs_lean(needs)), 1);
   hooke_measurement_destroy(needs);
 
-  /* what holds the balance is needed all the same */
+  /* ingredients that hold the balance are needed all the same */
   needs = find_hung(balance);
   assert_non_null(strstr(hooke_measurement_text(needs, "needs", 0, "note"), "nothing moves"));
   check_between(hooke_measurement_number(needs, "full", 0, "moved"), 0.0, 1e-12);
@@ -311,7 +311,7 @@ static void a_scene_that_rests_is_told_so(void **state) {
 
 /* ---- resolutions ---- */
 
-/* What is left at 8 pieces, predicted from 8, 16 and 32, against 128. */
+/* The remaining error at 8 pieces, predicted from 8, 16 and 32, compared with 128. */
 static void refinement_predicts_a_much_finer_rope(void **state) {
   (void)state;
   hooke_system *coarse = hanging_rope(8, 0.0), *fine = hanging_rope(128, 0.0);
@@ -324,7 +324,7 @@ static void refinement_predicts_a_much_finer_rope(void **state) {
   check_between(hooke_measurement_number(needs, "parts", 0, "error"), 0.9 * left, 1.15 * left);
   check_between(hooke_measurement_number(needs, "parts", 0, "order"), 0.8, 2.3);
   assert_true(hooke_measurement_number(needs, "parts", 0, "cells") == 8.0);
-  /* the want asks for a resolution at which that is what is left */
+  /* the want is set to that remaining error */
   const double order = hooke_measurement_number(needs, "parts", 0, "order"),
                wanted = hooke_measurement_number(needs, "parts", 0, "wanted");
   check_between(hooke_measurement_number(needs, "parts", 0, "error") * pow(8.0 / wanted, order), 0.5e-4,
@@ -391,7 +391,7 @@ static void every_method_finds_the_same(void **state) {
   }
 }
 
-/* Two masses on stiff rods, let go from the upright: a double pendulum. */
+/* Two masses on stiff rods, released from upright: a double pendulum. */
 static void chaos_is_judged_as_far_as_a_step_can_follow(void **state) {
   (void)state;
   const double position[9] = {0, 0, 0, 0.1, 1, 0, 0.25, 2, 0}, gravity[3] = {0, -9.81, 0};
@@ -411,7 +411,7 @@ static void chaos_is_judged_as_far_as_a_step_can_follow(void **state) {
   hooke_system_destroy(system);
 }
 
-/* ---- stopping, refusing ---- */
+/* ---- stopping, refusals ---- */
 
 struct listener {
   double last;
@@ -440,7 +440,7 @@ static void whoever_stops_it_keeps_what_is_known(void **state) {
     needs = start(system, half_a_second, 1e-3, NULL);
     hooke_measurement_on_progress(needs, listen, &some);
     const int32_t status = hooke_measurement_run(needs, NULL);
-    /* it is told by the clock: on a machine that was slower before there are fewer calls now */
+    /* progress is reported by time: on a slower machine there were fewer calls */
     check_status(status, some.calls > some.most ? HOOKE_STOPPED : HOOKE_OK);
     stopped += status == HOOKE_STOPPED;
     check_between((double)hooke_measurement_row_count(needs, "rows"), 0.0, (double)rows);
@@ -502,7 +502,7 @@ static void what_cannot_be_is_refused(void **state) {
   hooke_system_destroy(alone);
 }
 
-/* What is special of needs and of comparisons is refused of each other. */
+/* Functions for needs refuse comparisons, and the reverse. */
 static void kinds_keep_to_what_is_theirs(void **state) {
   (void)state;
   hooke_system *system = hanging_rope(4, 0.0);
@@ -534,11 +534,11 @@ static void kinds_keep_to_what_is_theirs(void **state) {
   hooke_system_destroy(system);
 }
 
-/* ---- groups of triples and tetrahedra that no part brings ---- */
+/* ---- groups of triples and tetrahedra that no part adds ---- */
 
 enum { SPRINGS = 1, TRIPLES = 2, TETRAHEDRA = 4, DAMPING = 8, DRAG = 16, GROUPS = 31 };
 
-/* A tetrahedron on a pinned corner, with two more particles on a line from it; what it has is in `has`. */
+/* A tetrahedron on a pinned corner, with two more particles on a line from it; `has` selects its forces. */
 static hooke_system *body_and_line(int has) {
   const double place[] = {0, 0, 0, 0.3, 0, 0, 0.1, 0.28, 0, 0.12, 0.1, 0.26, 0.6, 0.02, 0, 0.9, 0, 0.03};
   const double speed[] = {0, 0, 0, 0, 0.1, 0, 0, 0, 0.2, 0.1, 0, 0, 0, -0.2, 0, 0, 0.3, 0.1}, coefficient = 2;
@@ -599,7 +599,7 @@ static void groups_without_parts_are_ingredients(void **unused) {
   hooke_system_destroy(system);
 }
 
-/* Groups that are called as an ingredient is, that have no name, or nothing in them. */
+/* Groups with the name of an ingredient, without a name, or without members. */
 static void every_ingredient_has_a_name_of_its_own(void **unused) {
   (void)unused;
   const double place[] = {0, 0, 0, 0.3, 0, 0, 0.1, 0.28, 0, 0.12, 0.1, 0.26, 9, 9, 9}, none = 0.0,

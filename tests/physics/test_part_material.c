@@ -1,4 +1,4 @@
-/* Density, damping ratio and bending stiffness of parts: what particles, springs and triples come of them. */
+/* Density, damping ratio and bending stiffness of parts: the resulting particles, springs and triples. */
 #include "check.h"
 #include "run.h"
 
@@ -112,7 +112,8 @@ static void a_mass_is_shared_equally(void **unused) {
 
 /* ---- damping ratio ---- */
 
-/* Two particles of one spring: each swing is smaller than that before by exp(-2 pi zeta/sqrt(1 - zeta^2)). */
+/* Two particles of one spring: each swing is smaller than the previous one by exp(-2 pi zeta/sqrt(1 -
+ * zeta^2)). */
 static void a_pair_swings_as_its_ratio_says(void **unused) {
   (void)unused;
   const double zeta = 0.2, m = 0.25, kappa = 50.0 / 0.8;
@@ -169,13 +170,14 @@ static void every_direction_has_its_own(void **unused) {
   }
   for (; k < springs; k++)
     assert_true(gamma[k] > 0.0);
-  assert_true(isnan(derived(cloth, "bend", "gamma along u"))); /* was given as it is */
+  assert_true(isnan(derived(cloth, "bend", "gamma along u"))); /* is kept as given */
   free(kappa);
   free(gamma);
   hooke_system_destroy(cloth);
 }
 
-/* What is equal to the bit takes no memory of its own: a cloth by ratio is as small as one by damping. */
+/* Values equal to the bit take no memory of their own: a cloth with a ratio is as small as one with a
+ * damping. */
 static void ratios_keep_the_runs(void **unused) {
   (void)unused;
   hooke_options *ratio = new_cloth(40, 50, "mass", 0.3), *plain = new_cloth(40, 50, "mass", 0.3);
@@ -226,8 +228,8 @@ static void a_cloth_bends_along_its_lines(void **unused) {
   hooke_system_destroy(cloth);
 }
 
-/* A cloth of one cell across has edges alone; one of two particles along a direction does not bend along
- * it. */
+/* A cloth of one cell across has edges only; one of two particles along a direction does not bend along it.
+ */
 static void narrow_cloths(void **unused) {
   (void)unused;
   hooke_options *strip = new_cloth(2, 6, "mass", 0.3), *cell = new_cloth(2, 2, "mass", 0.3);
@@ -243,7 +245,7 @@ static void narrow_cloths(void **unused) {
   hooke_system_destroy(b);
 }
 
-/* A part that fails half-way leaves nothing behind. */
+/* A part that fails midway leaves nothing behind. */
 static void failures_are_rolled_back(void **unused) {
   (void)unused;
   hooke_system *system = NULL;

@@ -1,4 +1,4 @@
-/* Every method against solutions to 15 digits. */
+/* Every method compared with solutions to 15 digits. */
 #include "check.h"
 #include "order.h"
 #include "reference.h"
@@ -94,10 +94,10 @@ static void test_energies(void **unused) {
 struct ladder {
   const char *scene;
   double coarsest;
-  int64_t state; /* which reference state */
+  int64_t state; /* number of the reference state */
 };
 
-/* `points` steps, each half of the one before; every halving shows the order, within -0.15 and +0.25. */
+/* `points` steps, each half of the previous one; every halving shows the order, within -0.15 and +0.25. */
 static void climb(const char *method, double order, int points, struct ladder ladder) {
   const struct reference *reference = find_reference(ladder.scene);
   const struct reference_state *expected = &reference->state[ladder.state];
@@ -143,7 +143,7 @@ static void test_order_of_symplectic_euler(void **unused) {
   climb_all("symplectic-euler", 1.0, 5, ladders);
 }
 
-/* Spring damping and all: with the velocity half-way in the second kick the order would be 1.1. */
+/* Including spring damping: with the velocity half-way in the second kick the order would be 1.1. */
 static void test_order_of_verlet(void **unused) {
   (void)unused;
   const struct ladder ladders[] = {{"oscillator", 5e-3, 1},

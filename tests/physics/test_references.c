@@ -1,4 +1,4 @@
-/* The integrators that references are checked with: rk8pd of GSL and the ESDIRK formulas of ARKODE. */
+/* The integrators for checking references: rk8pd of GSL and the ESDIRK formulas of ARKODE. */
 #include "check.h"
 #include "random_scene.h"
 #include "reference.h"
@@ -149,7 +149,7 @@ static void test_everything(void **unused) {
 /* ---- first-order problems ---- */
 
 struct spiral {
-  int64_t refused; /* calls that were answered with NaN */
+  int64_t refused; /* calls that returned NaN */
   double stop_after, nan_after;
 };
 
@@ -201,7 +201,7 @@ static void test_first_order(void **unused) {
   }
 }
 
-/* ---- ends: stops, limits, numbers that are not finite ---- */
+/* ---- ends: stops, limits, non-finite numbers ---- */
 
 static void test_stop(void **unused) {
   (void)unused;
@@ -219,7 +219,7 @@ static void test_stop(void **unused) {
     check_between(t, 0.5, 1.0);
     check_close(x[0], exp(-0.5 * t) * cos(3.0 * t), 1e-6);
     check_close(x[1], exp(-0.5 * t) * sin(3.0 * t), 1e-6);
-    /* at the first evaluation: the state is what it was */
+    /* at the first evaluation: the state is unchanged */
     spiral.stop_after = 1e-300;
     hooke_state_set_time(state, 3.0);
     const double before[] = {x[0], x[1]};
@@ -252,7 +252,7 @@ static void test_not_finite(void **unused) {
   }
 }
 
-/* x' = -40 x, without a value below -0.1: steps that overshoot have to be taken again. */
+/* x' = -40 x, undefined below -0.1: steps that overshoot have to be repeated. */
 static int32_t guarded_rate(int64_t n, double t, const double *x, double *rate, void *ctx) {
   int64_t *refused = ctx;
   (void)n;
@@ -330,7 +330,7 @@ static void test_order_of_arkode(void **unused) {
   hooke_system_destroy(system);
 }
 
-/* ---- starting again, going on, nothing to do ---- */
+/* ---- restarting, continuing, zero steps ---- */
 
 static void test_again(void **unused) {
   (void)unused;

@@ -32,7 +32,7 @@ static void test_frames(void **unused) {
   } cases[] = {
       {0.01, 1.0, 0.05, 0.0, 5, 21},     {0.01, 1.0, 0.0, 0.0, 1, 101}, /* about duration/100 */
       {0.3, 3.0, 0.0, 0.7, 1, 11},                                      /* at least one step */
-      {0.001, 1.234, 0.0, 0.1, 12, 103}, /* 12.34 steps, and a last piece that is no frame */
+      {0.001, 1.234, 0.0, 0.1, 12, 103}, /* 12.34 steps, with a remainder that is no frame */
       {0.1, 1.0, 0.3, 0.0, 3, 4},        {0.1, 0.7, 0.7, -3.3, 7, 2},
   };
   hooke_system *system = small_oscillator(1.0);
@@ -60,7 +60,7 @@ static void test_frames(void **unused) {
   hooke_system_destroy(system);
 }
 
-/* A million steps of 0.1: a running sum would be off by 1e-6 s. */
+/* A million steps of 0.1: a running sum would have an error of 1e-6 s. */
 static void test_time_does_not_drift(void **unused) {
   (void)unused;
   struct frames frames = {0.3, 0.1, 1000, 0};
@@ -153,7 +153,7 @@ static void test_step_observer(void **unused) {
     check_ok(hooke_integrator_run(integrator, state));
     assert_int_equal(watch.calls, 32 / strides[k]);
     assert_int_equal(watch.last_step, 32 / strides[k] * strides[k]);
-    check_ok(hooke_integrator_on_step(integrator, 1, NULL, NULL)); /* taken back */
+    check_ok(hooke_integrator_on_step(integrator, 1, NULL, NULL)); /* removed */
     check_ok(hooke_integrator_run(integrator, state));
     assert_int_equal(watch.calls, 32 / strides[k]);
     check_status(hooke_integrator_on_step(integrator, 0, count_steps, &watch), HOOKE_BAD_VALUE);
@@ -189,8 +189,8 @@ static void test_observers_stop(void **unused) {
   hooke_system_destroy(system);
 }
 
-/* An error-controlled method reports its internal steps too: every one of them, whatever frames lie
- * within. */
+/* An error-controlled method also reports its internal steps: every one of them, for any frames in between.
+ */
 static void test_step_observer_of_adaptive_methods(void **unused) {
   (void)unused;
   if (hooke_method_is_built("cvode-adams") != 1) skip();
@@ -248,7 +248,7 @@ static void test_steps_by_hand(void **unused) {
     check_close(hooke_state_time(state), 1.0, 0.0);
     check_same_bits(6, hooke_state_position(state), q);
     check_same_bits(6, hooke_state_velocity(state), v);
-    /* a state that was changed in between is taken as it is */
+    /* a state that was changed in between is used as it is */
     hooke_state_position(state)[3] = 5.0;
     hooke_state_velocity(state)[3] = 0.0;
     check_ok(hooke_integrator_step(integrator, state, 1));
@@ -260,7 +260,7 @@ static void test_steps_by_hand(void **unused) {
   hooke_system_destroy(system);
 }
 
-/* They are said to be that, and no sum of them runs over. */
+/* Such numbers are refused, and no sum of them overflows. */
 static void test_too_many_steps(void **unused) {
   (void)unused;
   hooke_system *system = small_oscillator(1.0);
@@ -340,7 +340,8 @@ static struct energies energies_of(const char *method, double omega, double h, d
 }
 
 /* Forward Euler multiplies the energy of an undamped oscillator by 1 + (omega h)^2 a step. Symplectic Euler
- * keeps E - h omega^2 m q.v / 2, so that E stays within a share of about omega h / 2 of where it was. */
+ * conserves E - h omega^2 m q.v / 2, so that E stays within about omega h / 2, relative, of its initial
+ * value. */
 static void test_energy(void **unused) {
   (void)unused;
   const double omega = 5.0, h = 0.002, steps = 10000.0, share = omega * h / 2.0;
@@ -388,7 +389,7 @@ static void test_counts(void **unused) {
       if (strcmp(method, "forward-euler") == 0 || strcmp(method, "symplectic-euler") == 0)
         assert_int_equal(forces, 100);
       else if (strcmp(method, "verlet") == 0)
-        assert_int_equal(forces, 101); /* without damping the last force is the next one's first */
+        assert_int_equal(forces, 101); /* without damping the last force is the first one of the next step */
       else if (strcmp(method, "rk4") == 0)
         assert_int_equal(forces, 400);
       else
@@ -406,7 +407,7 @@ static void test_counts(void **unused) {
     check_between(hooke_integrator_wall_seconds(integrator), 1e-9, 60.0);
     assert_true(isnan(hooke_integrator_diverged_at(integrator)));
     assert_int_equal(hooke_integrator_stop_value(integrator), 0);
-    /* "since it was made": they add up */
+    /* counts accumulate over the integrator's life */
     check_ok(hooke_integrator_run(integrator, state));
     assert_true(hooke_integrator_count(integrator, "steps") > steps);
     hooke_state_destroy(state);

@@ -1,5 +1,4 @@
-/* Large scenes: how much memory they take, and that the last good state, of which they keep no copy, is there
- * all the same. */
+/* Large scenes: their memory, and their last good state, of which they keep no copy. */
 #include "check.h"
 #include "random.h"
 #include "run.h"
@@ -9,10 +8,10 @@
 #include <malloc.h>
 #endif
 
-/* Above the size at which states are kept besides, in a memory of 16 MB that does not grow. */
+/* Above the size at which states are kept, in a memory of at most 16 MB. */
 enum { SIDE = 420, PARTICLES = SIDE * SIDE, LONG_ROPE = 180000 };
 
-/* What the allocator has handed out; 0 where it does not tell. */
+/* Memory allocated; 0 if the allocator does not tell. */
 static double bytes_in_use(void) {
 #ifdef __GLIBC__
   const struct mallinfo2 all = mallinfo2();
@@ -22,7 +21,7 @@ static double bytes_in_use(void) {
 #endif
 }
 
-/* What is stated, which is what has been taken since `before`. */
+/* The stated memory equals that allocated since `before`. */
 static double bytes_of_run(const hooke_system *system, const char *method, double before) {
   hooke_integrator *integrator = start_run(system, (struct run){.method = method, .step = 1e-6});
   hooke_state *made = start_state(system);
@@ -65,7 +64,7 @@ static int64_t *new_order(struct random_source *source, int64_t count) {
   return order;
 }
 
-/* `kinds` springs from each particle of a sheet, all numbers in no order, every rest length another one. */
+/* `kinds` springs from each particle of a sheet, all numbers in random order, every rest length different. */
 static hooke_system *build_sheet(int kinds, int moving) {
   static const int step[6][2] = {{0, 1}, {1, 0}, {1, 1}, {1, -1}, {0, 2}, {2, 0}};
   struct random_source source = {77};
@@ -103,7 +102,7 @@ static hooke_system *build_sheet(int kinds, int moving) {
   return system;
 }
 
-/* No less than positions and velocities, twice. */
+/* At least positions and velocities, twice. */
 static void test_memory_of_a_cloth(void **unused) {
   (void)unused;
   const double before = bytes_in_use();
@@ -131,7 +130,7 @@ static void test_memory_without_order(void **unused) {
 
 struct rope {
   hooke_system *system;
-  int64_t stop_at; /* the drive gives up at that call; 0: never */
+  int64_t stop_at; /* the drive stops at that call; 0: never */
   int64_t calls;
 };
 
@@ -175,8 +174,8 @@ static int32_t look(int64_t step, const hooke_state *state, void *ctx) {
   return 0;
 }
 
-/* A run of two parts: some steps, and on from there; the second with a copy of the last good state if it is
- * watched. */
+/* A run in two parts: some steps, then a continuation; the second keeps a copy of the last good state if
+ * `watched`. */
 struct outcome {
   hooke_integrator *integrator;
   hooke_state *state;

@@ -1,5 +1,5 @@
-/* Safe steps against sharp limits that were computed independently (spectrum of the linearised system:
- * omega_max and the largest stable step of symplectic Euler, to 13 digits), and against runs. */
+/* Safe steps compared with sharp limits that were computed independently (spectrum of the linearised system:
+ * omega_max and the largest stable step of symplectic Euler, to 13 digits), and with runs. */
 #include "check.h"
 #include "reference.h"
 #include "run.h"
@@ -35,7 +35,7 @@ static hooke_system *build_cloth10(void) {
   return system;
 }
 
-/* A bound is never above the limit, and a useful one is not far below it. */
+/* A bound is never above the limit, and not far below it. */
 static void symplectic_euler_is_bounded_from_both_sides(void **unused) {
   (void)unused;
   hooke_system *net6 = build_reference(find_reference("six-particles")), *cloth10 = build_cloth10();
@@ -101,8 +101,8 @@ static void runs_agree(void **unused) {
   (void)unused;
   hooke_system *system = small_oscillator(7.0);
   const char *methods[] = {"symplectic-euler", "verlet"};
-  /* just below the limit the energy swings by 1/(1 - (h omega/2)^2), which must stay below what counts as
-   * divergence */
+  /* just below the limit the energy swings by 1/(1 - (h omega/2)^2), which must stay below the divergence
+   * threshold */
   for (int m = 0; m < 2; m++) {
     const double bound = bound_at_start(system, methods[m]);
     check_between(reach(system, methods[m], 0.98 * bound), 0.0, 100.0);

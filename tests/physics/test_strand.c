@@ -1,4 +1,4 @@
-/* Strands: where their particles are, what joins them, and that they are at rest. */
+/* Strands: their particles, what joins them, and that they are at rest. */
 #include "check.h"
 #include "run.h"
 
@@ -89,7 +89,7 @@ static void a_straight_strand_winds_about_its_axis(void **unused) {
   }
   check_close(mass, 1.5, 1e-14);
   check_at_rest(system, q);
-  /* all tetrahedra are congruent, of one hand, and it is clear which altitude is the shortest */
+  /* all tetrahedra are congruent, of one handedness, with a unique shortest altitude */
   double rest[7 * (N - 3)];
   check_ok(hooke_system_members(system, "altitude", NULL, NULL, NULL, rest));
   for (int k = 0; k < N - 3; k++) {
@@ -138,7 +138,7 @@ static void a_curl_is_a_helix(void **unused) {
   }
 }
 
-/* As short as they come: no springs that would need more particles. */
+/* The shortest strands: no springs that would need more particles. */
 static void short_strands(void **unused) {
   (void)unused;
   hooke_options *options = new_options(1, 0.0, 0.0);

@@ -1,5 +1,5 @@
-/* Studies: the reference knows what it knows, rows have true errors, orders are those of the theory, a
- * recommendation has been seen to hold, and chaos gets no false reference. */
+/* Studies: the reference knows its accuracy, rows have true errors, orders are those of the theory, a
+ * recommendation has been confirmed, and chaos gets no false reference. */
 #include "check.h"
 #include "reference.h"
 #include "run.h"
@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A study of `methods` (NULL: all) over `duration`; skips the test in builds that cannot make one. */
+/* A study of `methods` (NULL: all) over `duration`; skips the test in builds without one. */
 static hooke_measurement *start_study(const hooke_system *system, const char *methods, double duration,
                                       double every, double want) {
   hooke_measurement *study = NULL;
@@ -29,9 +29,9 @@ static hooke_measurement *start_study(const hooke_system *system, const char *me
   return study;
 }
 
-/* ---- rows against 15 digits ---- */
+/* ---- rows compared with 15 digits ---- */
 
-/* Root mean square over free particles of the distance between a run's end and the solution. */
+/* Root mean square distance of the free particles at the end of a run from the solution. */
 static double true_error(const struct reference *reference, const struct reference_state *expected,
                          const hooke_system *system, struct run run) {
   const int64_t n = reference->particle_count;
@@ -89,7 +89,7 @@ static void errors_are_true(void **unused) {
   }
 }
 
-/* The agreement says how far the reference is from the truth, within a factor. */
+/* The agreement is the error of the reference, within a factor. */
 static void agreement_is_honest(void **unused) {
   (void)unused;
   for (int r = 0; r < REFERENCE_COUNT; r++) {
@@ -229,13 +229,13 @@ static void recommendations_hold(void **unused) {
     check_between(true_error(reference, expected, system, run), 0.0, wants[k]);
     check_between(hooke_measurement_number(study, "recommendation", 0, "error"), 0.0, wants[k]);
   }
-  /* what no run can give is said, with what comes closest */
+  /* an unreachable want is reported, with the closest run */
   check_ok(hooke_study_recommend(study, 1e-15));
   assert_true(hooke_measurement_number(study, "recommendation", 0, "met") == 0.0);
   assert_true(strlen(hooke_measurement_text(study, "recommendation", 0, "note")) > 20);
   check_between(hooke_measurement_number(study, "recommendation", 0, "error"), 1e-15, 1e-5);
   hooke_measurement_destroy(study);
-  /* nor does it make the reference doubt itself */
+  /* nor does it reduce the trust in the reference */
   study = start_study(system, "cvode-adams", 1.0, 0.05, 1e-30);
   check_ok(hooke_measurement_run(study, NULL));
   check_close(hooke_measurement_number(study, "reference", 0, "trusted_until"), 1.0, 1e-12);
@@ -285,7 +285,7 @@ static int32_t listen(double done, const char *what, void *ctx) {
   return 0;
 }
 
-/* The share told is that of the whole study: it never goes back, not where one run ends and the next
+/* The reported fraction is that of the whole study: it never decreases, not where one run ends and the next
  * begins. */
 static void progress_is_of_the_whole_study(void **unused) {
   (void)unused;
@@ -303,8 +303,8 @@ static void progress_is_of_the_whole_study(void **unused) {
   hooke_system_destroy(system);
 }
 
-/* Half a second does not do for the first frame of a very long run, and a minute does for all of a short
- * one. */
+/* Half a second is too short for the first frame of a very long run, and a minute is enough for all of a
+ * short one. */
 static void a_budget_binds_the_reference(void **unused) {
   (void)unused;
   const double every[] = {1e5, 0.05};
@@ -367,8 +367,7 @@ static void a_stopped_study_keeps_its_rows(void **unused) {
   hooke_system_destroy(system);
 }
 
-/* Rows that run side by side come to the same numbers as one after the other, and stop when they are asked
- * to. */
+/* Rows that run in parallel give the same numbers as one after the other, and stop when asked to. */
 static void rows_side_by_side_are_the_same(void **unused) {
   (void)unused;
   hooke_system *system = build_reference(find_reference("oscillator"));

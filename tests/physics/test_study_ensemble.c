@@ -1,5 +1,5 @@
-/* What a study says of watched quantities is true, and where motion is chaotic its ensembles agree with ones
- * ten times as large, and see a bias that is there. */
+/* Results of a study on watched quantities are true, and where motion is chaotic its ensembles agree with
+ * ones ten times as large, and detect a planted bias. */
 #include "check.h"
 #include "run.h"
 #include "small.h"
@@ -16,7 +16,7 @@ struct study {
   double step, rtol; /* 0: ladders */
 };
 
-/* Rows of "statistics" of each method, one a quantity: the reference comes first. */
+/* Rows of "statistics" for each method, one a quantity: the reference comes first. */
 static int64_t quantity_count(const hooke_measurement *study) {
   const int64_t rows = hooke_measurement_row_count(study, "statistics");
   int64_t count = 0;
@@ -58,15 +58,15 @@ static hooke_measurement *start(const hooke_system *system, struct study s) {
 
 /* ---- watched quantities ---- */
 
-/* Of the first row; NaN where it is not watched. */
+/* From the first row; NaN if it is not watched. */
 static double error_in(const hooke_measurement *study, const char *quantity) {
   return hooke_measurement_number(study, "watched_errors",
                                   hooke_measurement_find(study, "watched_errors", "quantity", quantity),
                                   "error");
 }
 
-/* Of the oscillator x(t) = cos(w t), by the error that verlet is known to make: its period is off by (w
- * h)^2/24 of it. */
+/* For the oscillator x(t) = cos(w t), by the known error of verlet: its period has a relative error of (w
+ * h)^2/24. */
 static void errors_of_what_is_watched_are_true(void **unused) {
   (void)unused;
   const double omega = 6.0, h = 0.01, period = 2.0 * 3.14159265358979323846 / omega;
@@ -82,7 +82,7 @@ static void errors_of_what_is_watched_are_true(void **unused) {
   assert_int_equal(hooke_measurement_row_count(study, "watched"), 4);
   const double off = period * pow(omega * h, 2.0) / 24.0;
   check_between(error_in(study, "period:1.x"), 0.98 * off, 1.02 * off);
-  /* the phase is off by w t (w h)^2/24 */
+  /* the phase error is w t (w h)^2/24 */
   const double phase = omega * 10.0 * pow(omega * h, 2.0) / 24.0;
   check_between(error_in(study, "1.x"), 0.9 * phase, 1.1 * phase);
   check_close(error_in(study, "energy"), hooke_measurement_number(study, "rows", 0, "energy_drift"), 1e-12);
@@ -92,7 +92,7 @@ static void errors_of_what_is_watched_are_true(void **unused) {
                 1e-15, 1e-7);
   assert_true(isnan(error_in(study, "1.y")));
   assert_null(hooke_measurement_series(study, "watched_errors", 4, "value"));
-  /* the series that the error is of, and the motion itself */
+  /* the series of the error, and the motion itself */
   const double *time = hooke_measurement_series(study, "reference", 0, "time"),
                *exact = hooke_measurement_series(study, "watched", 0, "value"),
                *found = hooke_measurement_series(study, "watched_errors", 0, "value");
@@ -121,8 +121,8 @@ static hooke_system *double_pendulum(void) {
   return system;
 }
 
-/* How many means of a quantity are within 3 standard errors of that of the large ensemble; adds how many
- * there are. */
+/* Counts the means of a quantity within 3 standard errors of that of the large ensemble; adds the total
+ * number. */
 static int agrees(const hooke_measurement *small, const hooke_measurement *large, const char *method,
                   const char *quantity) {
   const hooke_measurement *const from[] = {small, large};
@@ -142,7 +142,7 @@ static int agrees(const hooke_measurement *small, const hooke_measurement *large
   return 0;
 }
 
-/* Adds how many means there are, and how many of them agree. */
+/* Adds the number of means, and of those that agree. */
 static void count_agreement(const hooke_measurement *small, const hooke_measurement *large,
                             const char *method, int64_t *means, int64_t *agreeing) {
   const int64_t count = quantity_count(small);
@@ -153,7 +153,7 @@ static void count_agreement(const hooke_measurement *small, const hooke_measurem
   *means += 2 * count;
 }
 
-/* Of the small ensemble, and with HOOKE_LONG=1 in the environment of nineteen others. */
+/* For the small ensemble, and with HOOKE_LONG=1 in the environment for nineteen others. */
 static void check_rate(const hooke_system *system, struct study s, const hooke_measurement *small,
                        const hooke_measurement *large, const char *method) {
   const int others = getenv("HOOKE_LONG") ? 19 : 0;
@@ -170,13 +170,13 @@ static void check_rate(const hooke_system *system, struct study s, const hooke_m
   assert_true((double)agreeing >= 0.95 * (double)means - 1e-9);
 }
 
-/* `planted` loses energy at its step, of which `method` loses nothing that is seen. */
+/* `planted` loses energy at its step; `method` loses none that is visible. */
 static void test_ensembles(hooke_system *system, struct study s, const char *method, const char *planted) {
   hooke_measurement *small = start(system, s);
   struct study ten_times = s;
   ten_times.members *= 10.0;
   ten_times.seed = 2.0;
-  ten_times.methods = "symplectic-euler"; /* of which nothing is asked here, and which takes the least time */
+  ten_times.methods = "symplectic-euler"; /* no requirement here, and the least time */
   hooke_measurement *large = start(system, ten_times);
   check_between(hooke_measurement_number(small, "reference", 0, "trusted_until"), 0.05 * s.duration,
                 0.95 * s.duration);

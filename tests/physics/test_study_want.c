@@ -1,6 +1,6 @@
-/* Studies for a wanted error on scenes whose errors follow no slope: what is recommended is as accurate as is
- * said, a looser want is never refused where a tighter one is met, and what is said of growth, rounding and
- * margins is true. */
+/* Studies for a wanted error on scenes whose errors follow no slope: the recommendation is as accurate as
+ * stated, a looser want is never refused where a tighter one is met, and statements on growth, rounding and
+ * margins are true. */
 #include "check.h"
 #include "run.h"
 #include "small.h"
@@ -11,7 +11,7 @@
 
 static const double gravity[3] = {0.0, -9.81, 0.0};
 
-/* A chain along x from the origin on, let go from horizontal. */
+/* A chain along x from the origin, released from horizontal. */
 static hooke_system *chain(int64_t springs, double spacing, double mass, struct springs material,
                            int32_t pin_first) {
   double *q = new_doubles(3 * (springs + 1));
@@ -92,14 +92,14 @@ static double apart(const hooke_system *system, const double *a, const double *b
   return sqrt(sum / count);
 }
 
-/* The end of what is judged by a method that had no part in the reference, at a step so small that only
+/* The end of the judged time by a method that is not part of the reference, at a step so small that only
  * rounding is left. */
 static void find_end(const hooke_system *system, double until, double *exact) {
   const struct run run = {.method = "rk4", .duration = until, .every = until, .step = until / 1e6};
   run_to_end(system, run, exact, NULL);
 }
 
-/* The error there of the run that is recommended. */
+/* True error there of the recommended run. */
 static double true_error(const hooke_system *system, const hooke_measurement *study, double until,
                          const double *exact) {
   const double step = recommended(study, "step");
@@ -119,7 +119,8 @@ static double true_error(const hooke_system *system, const hooke_measurement *st
   return error;
 }
 
-/* A study made for the tightest of these wants: then looser ones are met as well, and each is kept. */
+/* A study for the tightest of these wants: looser ones are then met as well, and each recommendation holds.
+ */
 static void every_want_is_met(void **unused) {
   (void)unused;
   const double wants[] = {1e-5, 1e-4, 1e-3, 1e-2, 1e-1};
@@ -146,7 +147,7 @@ static void every_want_is_met(void **unused) {
   }
 }
 
-/* Steps that are all too coarse, and tolerances: the search goes on to what is as fine as the reference. */
+/* Steps that are all too coarse, and tolerances: the search continues to values as fine as the reference. */
 static void none_is_not_said_before_the_finest(void **unused) {
   (void)unused;
   hooke_system *system = pendulum_of_three();
@@ -176,8 +177,8 @@ static void none_is_not_said_before_the_finest(void **unused) {
 
 /* ---- margins ---- */
 
-/* An oscillator of 1 rad/s by verlet: the limit is 2 s, the error goes with the third power of the frequency,
- * so that 10 % more stiffness make it 15 % larger; and in proportion to the amplitude. */
+/* An oscillator of 1 rad/s by verlet: the limit is 2 s; the error scales with the third power of the
+ * frequency, so that 10 % more stiffness makes it 15 % larger, and with the amplitude. */
 static void margins_are_those_of_an_oscillator(void **unused) {
   (void)unused;
   hooke_system *system = small_oscillator(1.0);
@@ -284,13 +285,13 @@ static void growth_is_bounded(void **unused) {
   hooke_system_destroy(system);
 }
 
-/* ---- why not all of it is judged ---- */
+/* ---- reasons for not judging the whole run ---- */
 
 static void the_reason_is_the_true_one(void **unused) {
   (void)unused;
   hooke_system *system = pendulum_of_three();
   check_ok(hooke_system_commit(system));
-  /* 6 s are known to a millimetre, and 10 s not to 10 nm: rounding grows to more than that */
+  /* 6 s are known to a millimetre, and 10 s not to 10 nm: rounding grows beyond that */
   hooke_measurement *study = made_study(system, "rk4", 6.0, 0.1, 1e-3);
   assert_string_equal(hooke_measurement_text(study, "reference", 0, "ended"), "agreed");
   check_between(hooke_measurement_number(study, "reference", 0, "agreement"), 1e-12, 1e-4);

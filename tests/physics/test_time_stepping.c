@@ -1,4 +1,4 @@
-/* x' = a x: what each method does to one number, real or complex. */
+/* x' = a x: the effect of each method on one number, real or complex. */
 #include "check.h"
 #include "order.h"
 #include "run.h"
@@ -86,7 +86,7 @@ static double size_after(struct rate a, double h, int64_t steps) {
   return size;
 }
 
-/* Inside the circle |1 + a h| < 1 it decays, outside it grows, and by that factor a step. */
+/* Inside the circle |1 + a h| < 1 it decays, outside it grows, by that factor a step. */
 static void test_stability_circle(void **unused) {
   (void)unused;
   const double h = 0.1;
@@ -105,8 +105,8 @@ static void test_stability_circle(void **unused) {
   }
 }
 
-/* Imaginary a: the solution is a circle, forward Euler a spiral outward at every step, by sqrt(1 + (a
- * h)^2). */
+/* Imaginary a: the solution is a circle, forward Euler spirals outward at every step, by sqrt(1 + (a h)^2).
+ */
 static void test_spirals_outward(void **unused) {
   (void)unused;
   for (double h = 1.0; h > 1e-4; h /= 4.0) {
@@ -192,7 +192,7 @@ static void test_symplectic_euler_refuses(void **unused) {
   check_message("positions and velocities");
 }
 
-/* The callback's own value ends the run and comes out; the state is that of the last whole step. */
+/* The callback's own value ends the run and is returned; the state is that of the last whole step. */
 static int32_t stop_late(int64_t n, double t, const double *x, double *rate, void *ctx) {
   multiply(n, t, x, rate, ctx);
   return t > 0.45 ? 42 : 0;

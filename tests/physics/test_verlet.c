@@ -114,8 +114,7 @@ static void callback_sees_the_predicted_velocity(void **unused) {
 
 /* ---- one oscillator ---- */
 
-/* x'' + 2 zeta omega x' + omega^2 x = 0 along x, from x = 1 at rest; the damping in the spring or in the
- * ether. */
+/* x'' + 2 zeta omega x' + omega^2 x = 0 along x, from x = 1 at rest; damped by the spring or by drag. */
 static hooke_system *damped_oscillator(double omega, double zeta, int in_ether) {
   const double q[] = {0, 0, 0, 1, 0, 0}, mass = 0.5;
   const int64_t ends[] = {0, 1};
@@ -154,7 +153,7 @@ static void one_step_is_the_formula(void **unused) {
   }
 }
 
-/* A scene that has come to rest: velocities whose squares are 0 are damped like any other. */
+/* A scene that has come to rest: velocities whose squares underflow are damped like any other. */
 static void hardly_any_velocity(void **unused) {
   (void)unused;
   const double q[] = {0, 0, 0, 1, 0, 0}, h = 0.1, gamma = 2.0;
@@ -196,7 +195,7 @@ static int32_t run_long(const hooke_system *system, double step, double *reach) 
   return status;
 }
 
-/* h omega = 2, however strong the damping is. */
+/* H omega = 2, for any damping. */
 static void damping_leaves_the_limit(void **unused) {
   (void)unused;
   const double zetas[] = {0.0, 0.1, 0.5, 1.0, 5.0}, omega = 7.0;
@@ -319,7 +318,7 @@ static int32_t watch_energy(int64_t step, const hooke_state *state, void *ctx) {
   return 0;
 }
 
-/* A stiff elastic pendulum, nonlinear and without damping: energy swings, and does not drift, over 100 000
+/* A stiff elastic pendulum, nonlinear and without damping: energy oscillates without drift over 100 000
  * steps. */
 static void energy_stays_bounded(void **unused) {
   (void)unused;

@@ -1,5 +1,5 @@
-/* Runs that callbacks blow up, the states that are kept, warnings, and the rules of a diagnosis. The scenes
- * without callbacks are in tests/cli/scenes/exploding. */
+/* Runs that callbacks blow up, kept states, warnings, and the rules of a diagnosis. The scenes without
+ * callbacks are in tests/cli/scenes/exploding. */
 #include "check.h"
 #include "run.h"
 #include "small.h"
@@ -20,7 +20,7 @@ static int32_t has_lapack(void) {
 
 struct fault {
   int64_t particle;
-  double from, beyond; /* time at which it begins; or the x that it begins beyond */
+  double from, beyond; /* time at which the fault begins; or the x beyond which it begins */
   double value;
   int64_t calls;
 };
@@ -57,8 +57,8 @@ static hooke_measurement *explain(hooke_integrator *integrator) {
   return why;
 }
 
-/* With a budget [s] (0: the usual one), told to `progress`; the status, and nothing is known where it is not
- * HOOKE_OK. */
+/* Diagnoses with a budget [s] (0: the default) and `progress`; returns the status, and there are no results
+ * unless it is HOOKE_OK. */
 static int32_t explain_within(const hooke_integrator *integrator, double budget, hooke_progress *progress,
                               void *ctx, hooke_measurement **why) {
   hooke_options *options = NULL;
@@ -82,7 +82,7 @@ static void check_text(const char *found, const char *expected) {
     check_failed("\"%s\" instead of \"%s\"", found ? found : "(null)", expected);
 }
 
-/* The run with advice `place` goes to its end. */
+/* The run with advice `place` finishes. */
 static void check_advice(const hooke_system *system, const hooke_integrator *integrator,
                          const hooke_measurement *why, int64_t place) {
   hooke_options *options = NULL;
@@ -123,8 +123,8 @@ static void check_callback(hooke_system *system, struct run run, const char *wor
   hooke_system_destroy(system);
 }
 
-/* Not a number from a time on; infinite beyond a place; from fixed steps, from stages within steps, from a
- * solver. */
+/* NaN from a time on; infinite beyond a position; from fixed steps, from stages within steps, from a solver.
+ */
 static void test_force_callbacks(void **unused) {
   (void)unused;
   needs_lapack();
@@ -145,7 +145,7 @@ static void test_force_callbacks(void **unused) {
     check_callback(system, runs[k], "force callback", 1.0, slack, 2);
     assert_true(at_time.calls > 0);
   }
-  /* the second mass swings about 1: beyond 1.02 when it comes from below for the first time */
+  /* the second mass swings about 1: beyond 1.02 on its first way up */
   struct fault at_place = {.particle = 1, .from = 0.3, .beyond = 1.02, .value = INFINITY};
   hooke_system *system = row(1);
   check_ok(hooke_system_set_force(system, faulty_force, NULL, &at_place));
@@ -165,7 +165,7 @@ static void test_drive_callback(void **unused) {
                  "drive callback", 1.0, 0.021, 0);
 }
 
-/* A callback that is asked for places beyond all numbers is not to blame for what it answers. */
+/* A callback called at overflowed positions is not to blame for its results. */
 static int32_t cubic_force(int64_t n, double t, const double *q, const double *v, double *force, void *ctx) {
   (void)t, (void)v, (void)ctx;
   for (int64_t k = 0; k < 3 * n; k++)
@@ -195,8 +195,8 @@ static void test_innocent_callback(void **unused) {
 
 /* ---- a diagnosis ---- */
 
-/* sqrt(k/m) = 10: the limit is 0.2, and the growth of symplectic Euler is known, so is the step that goes
- * wrong. */
+/* sqrt(k/m) = 10: the limit is 0.2; the growth of symplectic Euler is known, and so is the step that
+ * overflows. */
 static void test_numbers_of_an_oscillator(void **unused) {
   (void)unused;
   needs_lapack();
@@ -215,7 +215,7 @@ static void test_numbers_of_an_oscillator(void **unused) {
   check_text(hooke_measurement_text(why, "why", 0, "cause"), "step-above-limit");
   check_close(hooke_measurement_number(why, "why", 0, "limit"), 0.2, 1e-6);
   check_close(hooke_measurement_number(why, "why", 0, "step"), 0.21, 0.0);
-  /* the exact step, found by taking the run again */
+  /* the exact step, found by repeating the run */
   check_close(hooke_measurement_number(why, "why", 0, "time"), last_good, 0.0);
   check_close(hooke_measurement_number(why, "why", 0, "noticed"), 21.0, 1e-12);
   char words[64];
@@ -255,7 +255,7 @@ static void test_numbers_of_an_oscillator(void **unused) {
   hooke_system_destroy(system);
 }
 
-/* Taking the steps again and trying advice leaves the integrator as it was. */
+/* Repeating the steps and trying advice leaves the integrator unchanged. */
 static void test_asking_changes_nothing(void **unused) {
   (void)unused;
   needs_lapack();
@@ -278,8 +278,8 @@ static void test_asking_changes_nothing(void **unused) {
   hooke_system_destroy(system);
 }
 
-/* Methods that choose their steps, with tolerances a thousand times what moves: energy creeps up until it is
- * too much. */
+/* Error-controlled methods with tolerances a thousand times the motion: energy creeps up until it is too
+ * much. */
 static void test_tolerances_that_are_too_loose(void **unused) {
   (void)unused;
   needs_lapack();
@@ -305,8 +305,8 @@ static void test_tolerances_that_are_too_loose(void **unused) {
   }
 }
 
-/* A force that grows as the cube of the distance brings it to infinity in a finite time, at about t = 1.77 s:
- * no step and no tolerance gets past that. */
+/* A force that grows as the cube of the distance blows up in finite time, at about t = 1.77 s: no step and no
+ * tolerance gets past that. */
 static int32_t escaping_force(int64_t n, double t, const double *q, const double *v, double *force,
                               void *ctx) {
   (void)t, (void)v, (void)ctx;
@@ -338,7 +338,7 @@ static void test_solvers_that_give_up(void **unused) {
     check_text(hooke_measurement_text(why, "why", 0, "cause"), "solver-failed");
     assert_non_null(strstr(hooke_measurement_text(why, "why", 0, "sentence"), "the solver gave up: "));
     check_between(hooke_measurement_number(why, "why", 0, "time"), 1.6, 1.8);
-    /* nothing but to look at how it gets there */
+    /* only to see how it gets there */
     assert_int_equal(hooke_measurement_row_count(why, "advice"), 1);
     check_text(hooke_measurement_text(why, "advice", 0, "option"), "duration");
     check_between(strtod(hooke_measurement_text(why, "advice", 0, "value"), NULL), 1.4, 1.78);
@@ -359,7 +359,7 @@ static void test_kept_state_that_is_not_finite(void **unused) {
   hooke_state_position(last)[4] = NAN;
   check_status(hooke_why_create_kept(system, options, first, last, NULL, &why),
                has_lapack() ? HOOKE_OK : HOOKE_NOT_BUILT);
-  for (int k = 0; why && k < 2; k++) { /* again, and it stays so */
+  for (int k = 0; why && k < 2; k++) { /* again, with the same result */
     check_status(hooke_measurement_run(why, NULL), HOOKE_BAD_VALUE);
     check_message("position[1][1]: nan is not allowed");
     assert_int_equal(hooke_measurement_row_count(why, "why"), 0);
@@ -391,8 +391,8 @@ static void test_own_loop(void **unused) {
   hooke_system_destroy(system);
 }
 
-/* A mass between four springs, two of which are drawn apart after millions of steps: stretched, they are
- * stiff across, too. Advice is then tried from a state shortly before the trouble. */
+/* A mass between four springs, two of which are drawn apart after millions of steps: stretched, they are also
+ * stiff across. Advice is then tried from a state shortly before the failure. */
 static void test_trouble_that_comes_late(void **unused) {
   (void)unused;
   needs_lapack();
@@ -434,7 +434,7 @@ static int32_t explode(int64_t n, double t, const double *x, double *rate, void 
   return 0;
 }
 
-/* ---- what it may take ---- */
+/* ---- limits on time and memory ---- */
 
 static int32_t count_down(double done, const char *what, void *ctx) {
   check_between(done, 0.0, 1.0);
@@ -442,7 +442,7 @@ static int32_t count_down(double done, const char *what, void *ctx) {
   return --*(int *)ctx < 0;
 }
 
-/* At any call, within replays, searches and trials, and nothing is made; without one, the callback changes
+/* Stopping at any call, within replays, searches and trials, gives no results; otherwise the callback changes
  * nothing. */
 static void test_progress_ends_it(void **unused) {
   (void)unused;
@@ -466,14 +466,14 @@ static void test_progress_ends_it(void **unused) {
     why = NULL;
     const int32_t status = explain_within(integrator, 1e300, count_down, &calls, &why);
     tried++;
-    if (calls >= 0) { /* calls within trials come by the clock: there were fewer this time */
+    if (calls >= 0) { /* calls within trials depend on time: there were fewer this time */
       check_status(status, HOOKE_OK);
       hooke_measurement_destroy(why);
       continue;
     }
     check_status(status, HOOKE_STOPPED);
     assert_null(why);
-    check_between(calls, -1.0, -1.0); /* never asked again */
+    check_between(calls, -1.0, -1.0); /* never called again */
     stopped++;
   }
   assert_true(2 * stopped >= tried);
@@ -482,7 +482,7 @@ static void test_progress_ends_it(void **unused) {
   hooke_system_destroy(system);
 }
 
-/* Without time nothing is claimed but what is known. */
+/* Without time nothing is claimed but certain facts. */
 static void test_no_time(void **unused) {
   (void)unused;
   needs_lapack();
@@ -530,7 +530,7 @@ static void test_nothing_to_explain(void **unused) {
   hooke_integrator_destroy(first_order);
 }
 
-/* ---- states that are kept ---- */
+/* ---- kept states ---- */
 
 static int32_t record(int64_t step, const hooke_state *state, void *ctx) {
   double *seen = ctx;
@@ -567,7 +567,7 @@ static void test_recent_states(void **unused) {
   hooke_system_destroy(system);
 }
 
-/* As many as 16 MB hold, and the last one always: a state of n particles has 48 n bytes. */
+/* As many as 16 MB hold, and always the last one: a state of n particles has 48 n bytes. */
 static void test_recent_states_are_few_at_scale(void **unused) {
   (void)unused;
   const struct { int64_t n, count; } sizes[] = {{1000, 8}, {60000, 4}, {400000, 1}};
@@ -613,7 +613,7 @@ static int32_t note(const char *kind, const char *sentence, double t, double lim
   return warned->answer;
 }
 
-/* One step of a run with a watch; the bound of the oscillator is its limit. */
+/* One step of a run with warnings; the bound of the oscillator is its limit. */
 static int32_t watch_run(const char *method, double step, struct warned *warned, double *q) {
   hooke_system *system = small_oscillator(10.0);
   hooke_integrator *integrator =
@@ -720,7 +720,7 @@ static void test_without_lapack(void **unused) {
   hooke_system_destroy(system);
 }
 
-/* ---- overflow by what is no spring ---- */
+/* ---- overflow without springs ---- */
 
 static void check_overflow(hooke_system *system, int64_t particle, const char *words) {
   check_ok(hooke_system_commit(system));
@@ -740,8 +740,7 @@ static void check_overflow(hooke_system *system, int64_t particle, const char *w
   hooke_system_destroy(system);
 }
 
-/* Bending and altitude springs of 1e300: the first step leaves the range of numbers, and no spring is
- * blamed. */
+/* Bending and altitude springs of 1e300: the first step overflows, and no spring is blamed. */
 static void test_overflow_without_springs(void **unused) {
   (void)unused;
   needs_lapack();

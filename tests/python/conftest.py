@@ -1,7 +1,5 @@
-"""What the tests of the Python package share.
-
-The package is imported from the build tree, HOOKE_BUILD_DIR; HOOKE_LIBRARY names the library to test (CTest sets both).
-"""
+"""Shared parts of the tests of the Python package. The package is imported from the build tree, HOOKE_BUILD_DIR;
+HOOKE_LIBRARY names the library to test (CTest sets both)."""
 
 import os
 import sys

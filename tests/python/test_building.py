@@ -79,7 +79,7 @@ def test_anchors_are_those_of_the_scene(tmp_path):
 
 
 def test_keywords_are_those_of_the_schema():
-    """What the tables do not tell: the keys of a scene itself, of particles and of drives."""
+    """Keywords that are not in the tables: the keys of a scene itself, of particles and of drives."""
     schema = json.loads((ROOT / "examples/scene.schema.json").read_text())
 
     def keywords(method):
@@ -203,7 +203,7 @@ def test_parts_that_were_read_have_their_names():
 
 
 def test_the_scene_keeps_what_it_was_given():
-    """Arrays of the caller may change afterwards."""
+    """The caller's arrays may change afterwards."""
     q, ends, stiffness = np.array([[0.0, 0, 0], [1, 0, 0]]), np.array([[0, 1]]), np.array([5.0])
     scene = hooke.Scene().particles(q, mass=1).springs(between=ends, stiffness=stiffness)
     text = scene.text
@@ -303,7 +303,7 @@ def test_a_force_of_ones_own_joins_a_built_scene():
 
 
 def test_large_arrays_go_straight_to_the_library():
-    """No text is made of them: it would take a thousand times the memory of this scene's messages."""
+    """They are not converted to text: that would take a thousand times the memory."""
     import tracemalloc
 
     n = 200_000

@@ -1,4 +1,4 @@
-"""Python functions called by the library: what they see, and how their exceptions come out."""
+"""Python functions called by the library: their arguments, and their exceptions."""
 
 import gc
 import os

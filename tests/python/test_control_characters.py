@@ -1,4 +1,4 @@
-"""Names and files that would steer a terminal: in messages, warnings, bars and printed results."""
+"""Names and files with terminal control characters: in messages, warnings, bars and printed results."""
 
 import copy
 import re

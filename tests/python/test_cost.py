@@ -1,4 +1,4 @@
-"""hooke.cost: rows, figures, and what is left out."""
+"""hooke.cost: rows, numbers, and omissions."""
 
 import math
 

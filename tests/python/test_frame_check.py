@@ -16,7 +16,7 @@ h5py = pytest.importorskip("h5py")
 
 OBSERVABLES = ["kinetic_energy", "potential_energy", "total_energy", "dissipated_power", "momentum", "angular_momentum"]
 FRAMES = 6
-EVERY = 1 if os.environ.get("HOOKE_LONG") == "1" else 5  # manieth byte
+EVERY = 1 if os.environ.get("HOOKE_LONG") == "1" else 5  # number of the byte
 
 SCENE = {
     "hooke": 1,
@@ -67,7 +67,7 @@ def test_it_is_that_of_zlib(path):
 
 
 def test_in_a_comparison_and_where_runs_end_early(tmp_path):
-    """A comparison has one for each run; what is shortened keeps them."""
+    """A comparison has one for each run; truncated files keep them."""
     scene = tmp_path / "scene.json"
     scene.write_text(json.dumps({**SCENE, "run": {**SCENE["run"], "step": 0.01}}))
     stiff = json.loads(scene.read_text())
@@ -169,7 +169,7 @@ def test_arrays_that_do_not_belong_together(path):
 
 
 def poll(path, stop, seen, held):
-    """Every frame that is there is whole, again and again; the file is opened as anybody would."""
+    """Every existing frame is whole, again and again; the file is opened like by any reader."""
     while not stop.is_set():
         try:
             file = h5py.File(path)

@@ -1,4 +1,4 @@
-"""Trajectory files that somebody tampered with, by h5py: an error, and nothing that is not in the file."""
+"""Trajectory files that were manipulated, by h5py: an error, and no data from outside the file."""
 
 import h5py
 import numpy as np
@@ -45,7 +45,7 @@ def test_a_text_is_not_taken_from_another_file(path, tmp_path, name):
 
 
 def test_a_text_of_many_pieces_is_none(path):
-    """One piece of a thousand is stored: as many bytes as a piece has, and a thousandth of what would be read."""
+    """One chunk of a thousand is stored: as many bytes as a chunk has, and a thousandth of the data to read."""
     with h5py.File(path, "r+") as file:
         text = put_text(file["hooke"], "status", 64, count=1000)
         text[0] = b"finished"
@@ -72,7 +72,7 @@ def test_an_option_that_cannot_be_read_is_not_left_out(path, value):
 
 
 def test_a_state_is_never_half_of_a_frame(path):
-    """Positions can be read, velocities cannot: the state keeps what it had."""
+    """Positions can be read, velocities cannot: the state is unchanged."""
     with h5py.File(path, "r+") as file:
         del file["hooke/frame_check"], file["particles/all/velocity/value"]
         file["particles/all/velocity/value"] = np.zeros((len(file["particles/all/position/value"]), 5, 3))
@@ -85,7 +85,7 @@ def test_a_state_is_never_half_of_a_frame(path):
 
 
 def test_a_small_file_cannot_claim_much_memory(path):
-    """The extent of an array and the room that it claims are patched, beyond the end of the file."""
+    """The extent of an array and its allocated size are patched, beyond the end of the file."""
     with h5py.File(path, "r+") as file:
         file["hooke/rest_length"].id.get_storage_size()
         size, data = file["hooke/rest_length"].shape[0], file["particles/all/mass"]
@@ -102,7 +102,7 @@ def test_a_small_file_cannot_claim_much_memory(path):
 
 
 def grown(data, columns):
-    """The file of a dataset, with so many columns in its header; what is stored stays as it was."""
+    """The file of a dataset, with so many columns in its header; the stored data are unchanged."""
     where, old = h5py.h5o.get_info(data.id).addr, data.shape[1].to_bytes(8, "little")
     name = data.file.filename
     data.file.close()
@@ -131,7 +131,7 @@ def test_an_array_in_one_piece_is_not_read_beyond_it(tmp_path, layout):
 
 @pytest.mark.parametrize("times, need", [(False, "49.2"), (True, "16.4")])
 def test_an_array_of_many_pieces_needs_their_memory(tmp_path, times, need):
-    """HDF5 takes kilobytes for each chunk, of whatever size."""
+    """HDF5 takes kilobytes for each chunk, of any size."""
     position, pieces = np.ones((2000, 3)), {"chunks": (1, 1)}
     if times:
         position, pieces = np.ones((2000, 1, 3)), {}

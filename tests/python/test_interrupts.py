@@ -1,4 +1,4 @@
-"""Ctrl-C is heard while the library works, between frames and within long loops too, and leaves what was computed."""
+"""Ctrl-C works during the library's work, between frames and within long loops too, and keeps the results so far."""
 
 import os
 import signal
@@ -11,7 +11,7 @@ from conftest import PACKAGES, build_oscillator
 
 import hooke
 
-# Prints how long after the signal the work has ended, and what it left; `due` [s]: when the signal comes.
+# Prints the time from the signal to the end of the work, and its results; `due` [s]: time of the signal.
 SCRIPT = """
 import os, signal, sys, threading, time
 import numpy as np

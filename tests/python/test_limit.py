@@ -1,4 +1,4 @@
-"""hooke.limit: rows, modes, blame, remedy, where it is found, and the picture."""
+"""hooke.limit: rows, modes, limiting springs, remedy, the state, and the picture."""
 
 import json
 import math
@@ -24,7 +24,7 @@ def build_damped(damping):
 
 
 def eigenvalues(system, q):
-    """Of the free particles, from the derivative blocks at rest."""
+    """Matrices of the free particles, from the derivative blocks at rest."""
     blocks, n = system.derivative_blocks(q, np.zeros_like(q)), system.particle_count
     weight = np.repeat(system.inverse_masses, 3)
     whole = np.zeros((2, 3 * n, 3 * n))
@@ -162,7 +162,7 @@ def test_picture():
     r = z["rk4"]
     np.testing.assert_allclose(abs(1 + r + r**2 / 2 + r**3 / 6 + r**4 / 24), 1, atol=1e-11)
     assert abs(r.real.min() + 2.785293563) < 1e-8 and abs(r.imag).max() > 2.8
-    # no step is named: the smallest limit is taken, that of forward Euler, on whose circle its eigenvalues are
+    # no step is named: the smallest limit is used, that of forward Euler, on whose circle its eigenvalues are
     step = found["forward-euler"]["predicted"]
     np.testing.assert_allclose(abs(1 + z["modes"]).max(), 1, atol=1e-9)
     np.testing.assert_allclose(np.sort_complex(z["modes"]), np.sort_complex(np.r_[found.modes, found.modes.conj()] * step))

@@ -1,4 +1,4 @@
-"""What the package is given wrongly it refuses with a sentence; what can be copied is copied."""
+"""The package refuses wrong arguments with a sentence; objects that can be copied are copied."""
 
 import copy
 import multiprocessing
@@ -161,7 +161,7 @@ SMALL = {"method": "symplectic-euler", "step": 1e-5}
 
 
 def test_a_fork_goes_on():
-    """Threads do not live in a child; integrators that have them do, those made before the fork, too."""
+    """Threads do not survive in a child; integrators with threads do, also those made before the fork."""
     context = multiprocessing.get_context("fork")
     system = build_cloth()
     integrator, state = hooke.Integrator(system, threads=2, **SMALL), system.state()

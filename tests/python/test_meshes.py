@@ -1,4 +1,4 @@
-"""Meshes of other programs, as a user would take them: OBJ files in, results held against NumPy, SciPy and h5py."""
+"""Meshes of other programs, as a user would use them: OBJ files in, results compared with NumPy, SciPy and h5py."""
 
 import json
 
@@ -17,7 +17,7 @@ STRUCTURAL, BEND = 40.0, 6.0  # N
 
 
 def ball(folder, **export):
-    """A sphere of trimesh's as an OBJ file, and as trimesh reads it back."""
+    """A sphere of trimesh as an OBJ file, and as trimesh reads it back."""
     mesh = trimesh.creation.icosphere(subdivisions=2, radius=0.2)
     if export.pop("uv", False):
         mesh.visual = trimesh.visual.TextureVisuals(uv=np.random.default_rng(1).random((len(mesh.vertices), 2)))
@@ -36,7 +36,7 @@ def scene_of(**part):
 
 
 def energy(file, pairs, stiffness, mass, free):
-    """Of every frame, from positions and velocities alone."""
+    """For every frame, from positions and velocities alone."""
     q, v = (file[f"particles/all/{name}/value"][:] for name in ("position", "velocity"))
     rest = np.array([cdist(q[0][i : i + 1], q[0][j : j + 1])[0, 0] for i, j in pairs])
     spring = []
@@ -62,7 +62,7 @@ def test_a_sphere_of_trimesh(tmp_path, export):
     np.testing.assert_array_equal(system.state().q, vertices)
     assert np.flatnonzero(system.inverse_masses == 0).tolist() == [7]
 
-    # springs are trimesh's edges and the vertices that it finds across them
+    # springs are trimesh's edges and the vertices opposite to each other across them
     edges = np.unique(np.sort(mesh.edges_unique, axis=1), axis=0)
     count = len(edges)
     assert system.groups == [("m.structural", count), ("m.bend", count)]
@@ -81,7 +81,7 @@ def test_a_sphere_of_trimesh(tmp_path, export):
     np.testing.assert_allclose(system.masses, mass, rtol=1e-12)
     assert system.masses.sum() == pytest.approx(2 * mesh.area, rel=1e-13)
 
-    # it falls and swings; the energy that hooke reports is that of what it wrote
+    # it falls and swings; the energy that hooke reports is that of its frames
     result = scene.run(output=tmp_path / "out.h5")
     with h5py.File(tmp_path / "out.h5") as file:
         np.testing.assert_array_equal(file["connectivity/springs"][:], ends)
@@ -96,7 +96,7 @@ def test_a_sphere_of_trimesh(tmp_path, export):
 
 
 def test_quads_of_meshio(tmp_path):
-    """A cylinder of quads, which closes where its first and last columns are at the same place."""
+    """A cylinder of quads, closed where its first and last columns coincide."""
     columns, rows = 13, 5
     angle = np.linspace(0, 2 * np.pi, columns)
     angle[-1] = 0
@@ -147,8 +147,8 @@ def test_a_saved_scene_needs_no_file(tmp_path):
 
 
 def test_driven_particles_of_parts(tmp_path):
-    """A ball that is shaken by one of its vertices, on a lattice whose lower layer follows a table: by a scene, by calls,
-    and by the scene that the calls are saved as, it moves alike to the bit."""
+    """A ball that is shaken by one of its vertices, on a lattice whose lower layer follows a table: by a scene, by
+    calls, and by the scene saved from the calls, its motion is the same to the bit."""
     families = {"structural": {"stiffness": 50, "damping": 0.01}, "bend": {"stiffness": 5}}
     block = {"origin": [0, 0, 0], "edges": [[0.3, 0, 0], [0, 0, 0.3], [0, 0.2, 0]], "size": [4, 3, 3], "mass": 1,
              "shear": {"stiffness": 20}, **families}  # fmt: skip
@@ -185,7 +185,7 @@ def test_driven_particles_of_parts(tmp_path):
     moved = by_scene.q - start
     np.testing.assert_allclose(moved[52], [0.05 * np.sin(2 * np.pi * 3 * 0.2), 0, 0], atol=1e-14)
     np.testing.assert_array_equal(moved[:12].round(12), np.repeat(moved[:1].round(12), 12, axis=0))
-    assert 1e-3 < np.linalg.norm(moved[24:36], axis=1).min()  # the upper layer came along
+    assert 1e-3 < np.linalg.norm(moved[24:36], axis=1).min()  # the upper layer followed
     assert 1e-3 < np.linalg.norm(moved[36:52], axis=1).min()
 
 

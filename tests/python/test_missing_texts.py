@@ -1,4 +1,4 @@
-"""A text that is NULL is refused by every function that takes one, or is a word that it does not know, in every build."""
+"""A NULL text is refused by every function that takes one, or counts as an unknown word, in every build."""
 
 import ctypes
 import json

@@ -14,7 +14,7 @@ from hooke._library import lib
 
 
 def python(code, **environment):
-    """Runs code in a new Python without any setting of ours; a value of None takes a variable away."""
+    """Runs code in a new Python without our settings; a value of None removes a variable."""
     clean = {k: v for k, v in os.environ.items() if k not in ("PYTHONPATH", "HOOKE_LIBRARY")}
     clean.update({k: str(v) for k, v in environment.items()})
     return subprocess.run(
@@ -118,8 +118,8 @@ for k in range(3):
 
 
 def test_pip_install_gives_a_package_that_stands_alone(tmp_path):
-    """The slow one: builds the library as a user's pip does, but for time to optimise. pip fetches its build tools from
-    the network."""
+    """The slow one: builds the library as a user's pip does, but without optimisation. pip fetches its build tools
+    from the network."""
     environment = {k: v for k, v in os.environ.items() if k not in ("PYTHONPATH", "HOOKE_LIBRARY")}
     target = tmp_path / "packages"
     before = set(ROOT.iterdir()) | set((ROOT / "bindings/python").iterdir())
@@ -134,7 +134,7 @@ def test_pip_install_gives_a_package_that_stands_alone(tmp_path):
     assert install.returncode == 0, install.stderr
     assert set(ROOT.iterdir()) | set((ROOT / "bindings/python").iterdir()) == before
     files = {path.name for path in (target / "hooke").iterdir() if path.name != "__pycache__"}
-    share = {"share"} if hooke.build_facts()["chartjs"] else set()  # what reports are made of
+    share = {"share"} if hooke.build_facts()["chartjs"] else set()  # files of reports
     assert files == {path.name for path in (PACKAGES / "hooke").glob("*.py")} | {"libhooke.so", "LICENSE", "py.typed"} | share
     assert {path.name for path in target.iterdir()} - {"hooke"} == {f"libhooke-{hooke.__version__}.dist-info"}
     code = """

@@ -1,5 +1,5 @@
-"""The scripts of bench/peers, which need packages that tests do without: they compile, and their cloth is what other
-programs are told that it is."""
+"""The scripts of bench/peers, which need packages that tests do without: they compile, and their cloth is the one
+described to other programs."""
 
 import importlib.util
 import os

@@ -69,7 +69,7 @@ def test_an_integrator_closes():
     with pytest.raises(hooke.BadCall):
         integrator.counts
     integrator.close()
-    assert options["method"] == "verlet"  # what was given out stays
+    assert options["method"] == "verlet"  # arrays obtained before stay
     assert state.t == pytest.approx(0.01, rel=1e-12)
     with pytest.raises(AttributeError, match="'Integrator' object has no attribute 'nothing'"):
         integrator.nothing

@@ -1,4 +1,4 @@
-"""The table of prototypes against the public headers: every function, with the right result and arguments."""
+"""The table of prototypes compared with the public headers: every function, with the right result and arguments."""
 
 import ctypes
 import re

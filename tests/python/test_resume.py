@@ -1,4 +1,4 @@
-"""Runs that stopped go on: from files, from checkpoints, with callbacks, after exceptions."""
+"""Stopped runs continue: from files, from checkpoints, with callbacks, after exceptions."""
 
 import copy
 

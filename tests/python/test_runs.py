@@ -1,4 +1,4 @@
-"""Runs: the same bits from every side, files, frames, first-order problems."""
+"""Runs: the same bits from every interface, files, frames, first-order problems."""
 
 import json
 
@@ -273,7 +273,7 @@ def test_what_a_first_order_problem_cannot_do(tmp_path):
 
 
 def test_an_error_of_before_the_excess_of_heat(tmp_path):
-    """Files of then have six numbers."""
+    """Files written before then have six numbers."""
     path = tmp_path / "out.h5"
     hooke.run(build_oscillator(), method="verlet", step=1e-3, duration=1.0, output=path, estimate=True)
     kept = hooke.open(path).error

@@ -1,4 +1,4 @@
-"""The sources of the package: types, style, and a docstring on every public thing."""
+"""The sources of the package: types, style, and a docstring on every public object."""
 
 import importlib
 import inspect
@@ -25,7 +25,7 @@ def run(*command):
 
 @pytest.fixture(scope="module")
 def mypy(tmp_path_factory):
-    """What NumPy and matplotlib are made of is looked at once in a build."""
+    """The sources of NumPy and matplotlib are checked once a build."""
     build = os.environ.get("HOOKE_BUILD_DIR")
     cache = f"{build}/mypy" if build else tmp_path_factory.mktemp("mypy")
     return ("mypy", "--strict", "--config-file", CONFIGURATION, "--cache-dir", cache)
@@ -38,7 +38,7 @@ def test_types(mypy):
 
 
 def test_types_as_a_user_sees_them(tmp_path, mypy):
-    """What is right passes, what is wrong does not."""
+    """Correct code passes, wrong code does not."""
     (tmp_path / "right.py").write_text(
         """
 import numpy as np

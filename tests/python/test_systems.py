@@ -1,4 +1,4 @@
-"""Building systems, and asking them."""
+"""Building and querying systems."""
 
 import numpy as np
 import pytest

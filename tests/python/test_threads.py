@@ -1,8 +1,6 @@
-"""Calls of the library let go of Python's lock: other threads go on, so that two runs take two cores.
-
-A force written in C waits inside the call until another Python thread has answered. Were the lock held, nobody could
-answer, and the force would give up.
-"""
+"""Calls of the library release Python's lock: other threads continue, so that two runs use two cores. A force written
+in C waits inside the call until another Python thread has answered. If the lock were held, nobody could answer, and
+the force would time out."""
 
 import ctypes
 import os

@@ -1,4 +1,4 @@
-"""Trajectory files opened by the package, against h5py, against the run, and after accidents."""
+"""Trajectory files opened by the package, compared with h5py and with the run, and after accidents."""
 
 import gc
 import os
@@ -123,7 +123,7 @@ def test_a_file_that_another_program_has_stored_anew(path, stored):
 
 
 def test_frames_that_were_not_written_are_left_out(path):
-    with h5py.File(path, "r+") as file:  # what a killed run leaves
+    with h5py.File(path, "r+") as file:  # state of a killed run
         file["particles/all/position/time"][7:] = np.nan
         file["particles/all/position/step"][7:] = -1
         del file["hooke/status"]

@@ -1,4 +1,4 @@
-"""hooke.verify: what the library finds, as a result."""
+"""hooke.verify: the library's findings, as a result."""
 
 import pytest
 

@@ -1,4 +1,4 @@
-"""Arrays over the library's memory: no copy, and alive as long as somebody looks."""
+"""Arrays over the library's memory: no copy, and alive as long as they are used."""
 
 import ctypes
 import gc
@@ -103,7 +103,7 @@ def test_garbage_in_a_cycle_is_released_children_first():
     released = []
 
     class Spy:
-        """Stands in for a destroy function; ctypes functions cannot be watched."""
+        """Replaces a destroy function; ctypes functions cannot be observed."""
 
         def __init__(self, name, destroy):
             self.name, self.destroy = name, destroy

@@ -1,11 +1,11 @@
-/* A system against its canonical twin, to the bit. */
+/* Compares a system with its canonical twin, to the bit. */
 #ifndef TESTS_SUPPORT_AGREE_H
 #define TESTS_SUPPORT_AGREE_H
 
 #include "canonical.h"
 #include "hooke.h"
 
-/* Accelerations at (q, v), and three steps from the initial state, which that is, by each explicit method. */
+/* Accelerations at (q, v), and three steps from the initial state by each explicit method. */
 void check_agrees(const hooke_system *system, const struct canonical *canonical, const double *q,
                   const double *v);
 

@@ -83,7 +83,7 @@ void canonical_destroy(struct canonical *canonical) {
   memset(canonical, 0, sizeof *canonical);
 }
 
-/* Whether a spring that only pulls does so is seen at the velocities `seen`. */
+/* A spring that only pulls counts as taut by the velocities `seen`. */
 static double rate_of(int64_t i, int64_t j, double dx, double dy, double dz, double ir, const double *v) {
   const double vx = v[3 * i] - v[3 * j], vy = v[3 * i + 1] - v[3 * j + 1], vz = v[3 * i + 2] - v[3 * j + 2];
   return ((vx * dx + vy * dy) + vz * dz) * ir;
@@ -184,7 +184,7 @@ static int find_altitude(const struct canonical *canonical, int64_t number, cons
   const double *const x[4] = {q + 3 * p[0], q + 3 * p[1], q + 3 * p[2], q + 3 * p[3]};
   double square[7], e[3], f[3], r[3], n[3], rf[3], re[3];
   canonical_altitudes(x, square);
-  int k = -1; /* what is beyond all numbers is no altitude */
+  int k = -1; /* an overflowed altitude does not count */
   for (int other = 0; other < 7; other++) {
     if (square[other] > (k < 0 ? 0.0 : square[k])) k = other;
   }
@@ -236,7 +236,7 @@ static void add_anchor(const struct canonical *canonical, int64_t k, const doubl
     force[3 * canonical->anchored[k] + a] -= tension * ir * d[a];
 }
 
-/* Damping at v, with springs that only pull and the callback at `seen`. */
+/* Damping at v; springs that only pull and the callback are evaluated at `seen`. */
 static void accelerate(const struct canonical *canonical, double t, const double *q, const double *v,
                        const double *seen, double *acceleration) {
   const int64_t n = canonical->particle_count;
@@ -632,8 +632,8 @@ int32_t canonical_step(const struct canonical *canonical, const char *method, do
   return result;
 }
 
-/* Force by displacement across a spring: its tension over its length, which turns with it. Where two
- * particles nearly meet that is far more than the stiffness along it. */
+/* Transverse stiffness of a spring: its tension over its length. Where two particles nearly meet it is far
+ * larger than the stiffness along it. */
 static double across(const struct canonical *canonical, int64_t k, const double *q, double speed) {
   const double *a = q + 3 * canonical->ends[2 * k], *b = q + 3 * canonical->ends[2 * k + 1];
   const double r = hypot(hypot(a[0] - b[0], a[1] - b[1]), a[2] - b[2]);

@@ -13,7 +13,7 @@ struct canonical {
   int64_t particle_count, spring_count;
   int64_t *ends;                       /* 2 spring_count */
   double *kappa, *gamma, *rest_length; /* spring_count */
-  int32_t leaves_out;                  /* springs' dampings of zero, which are multiplied, too, else */
+  int32_t leaves_out;                  /* 1: skips dampings of zero, which are multiplied otherwise */
   unsigned char *pull_only;            /* spring_count */
   int64_t triple_count;
   int64_t *triples;    /* 3 triple_count */
@@ -31,13 +31,13 @@ struct canonical {
   double drag;           /* 0: none */
   hooke_force *force;    /* NULL: none */
   void *ctx;
-  /* puts driven particles where they are at time t; NULL: there are none */
+  /* moves driven particles to their positions at time t; NULL: there are none */
   void (*place)(double t, double *q, double *v, void *place_ctx);
   void *place_ctx;
 };
 
-/* Numbers of a committed system. Springs of all kinds, of groups whose name begins with "pull" only pull;
- * gravity, drag and callback are for the caller to fill in. */
+/* Copies the numbers of a committed system. Springs of groups whose name begins with "pull" only pull; the
+ * caller fills in gravity, drag and callback. */
 void canonical_create(const hooke_system *system, struct canonical *canonical);
 void canonical_destroy(struct canonical *canonical);
 
@@ -49,11 +49,10 @@ void canonical_altitudes(const double *const x[4], double square[7]);
 void canonical_acceleration(const struct canonical *canonical, double t, const double *q, const double *v,
                             double *acceleration);
 
-/* One step of a fixed-step method from time t to `end`, h long but for rounding; pinned particles stay as
- * they are. */
+/* One step of a fixed-step method from time t to `end`, of length h up to rounding; pinned particles stay. */
 enum { CANONICAL_UNKNOWN, CANONICAL_STEPPED, CANONICAL_SOLVED };
-/* CANONICAL_UNKNOWN for a method that has no definition here, CANONICAL_SOLVED, with q and v untouched, for
- * one whose step is the solution of equations and no sum. */
+/* CANONICAL_UNKNOWN for a method without a definition here; CANONICAL_SOLVED, with q and v unchanged, for an
+ * implicit one. */
 int32_t canonical_step(const struct canonical *canonical, const char *method, double t, double end, double h,
                        double *q, double *v);
 

@@ -10,8 +10,8 @@ enum { ROWS = 14, FEWEST = 3, FIRST = 7 };
 
 struct work {
   long double *rate, *before, *now, *slope, *scale; /* size each */
-  long double *row[ROWS]; /* of the scheme of Aitken and Neville, by its last members */
-  long double *result;    /* its corner */
+  long double *row[ROWS];                           /* of the Aitken-Neville scheme, by its last members */
+  long double *result;                              /* its corner */
 };
 
 static long double *new_numbers(int64_t count) {
@@ -38,7 +38,7 @@ static int substeps(int row) {
   return 2 * (row + 1);
 }
 
-/* Evaluations that the rows up to this one take. */
+/* Evaluations for the rows up to this one. */
 static long double cost(int row) {
   return 1.0L + (long double)((row + 1) * (row + 2));
 }
@@ -70,7 +70,7 @@ static void midpoint(struct extrapolation *problem, struct work *work, long doub
     work->result[i] = 0.5L * (work->before[i] + work->now[i] + s * work->slope[i]);
 }
 
-/* Takes a row into the scheme, whose error goes in even powers of the substep; returns the error in units of
+/* Adds a row to the scheme, whose error expands in even powers of the substep; returns the error in units of
  * the tolerance. */
 static long double extend(const struct extrapolation *problem, struct work *work, int row) {
   long double worst = 0.0L, ratio[ROWS];
@@ -104,7 +104,7 @@ static long double fitting(long double h, long double error, int row) {
   return h * fminl(0.9L * factor, 8.0L);
 }
 
-/* The row that brings most time for its cost. */
+/* The row with the most time per cost. */
 static struct plan plan_next(long double h, const long double *error, int last, int converged) {
   struct plan best = {0.0L, FEWEST};
   for (int row = FEWEST; row <= last; row++) {
@@ -118,7 +118,7 @@ static struct plan plan_next(long double h, const long double *error, int last, 
   return best;
 }
 
-/* Tries a step of length h; whether it converged. */
+/* Tries a step of length h; true if it converged. */
 static int try_step(struct extrapolation *problem, struct work *work, long double t, long double h,
                     const long double *y, struct plan *plan) {
   long double error[ROWS];
@@ -156,7 +156,7 @@ int32_t extrapolate(struct extrapolation *problem, long double t, long double en
       if (last) plan.step = fmaxl(plan.step, asked);
       failures = 0;
       problem->steps++;
-    } else { /* where f or a slope of it jumps no order helps, and the jump is closed in upon */
+    } else { /* where f or its derivative jumps no order helps, and steps shrink towards the jump */
       plan.step = fminl(plan.step, (++failures > 1 ? 0.1L : 0.5L) * h);
       if (!(plan.step > 0.0L)) plan.step = 0.1L * h;
       problem->rejected++;

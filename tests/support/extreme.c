@@ -106,7 +106,7 @@ void extreme_release(struct extreme_outcome *outcome) {
 
 /* ---- judges ---- */
 
-/* Words by which a message says what to do. */
+/* Words by which a message suggests an action. */
 static int says_what_to_do(const char *message) {
   static const char *const words[] = {"try ", "take ", "allowed", "give ", "needs ", "nearest"};
   for (size_t k = 0; k < sizeof words / sizeof words[0]; k++) {

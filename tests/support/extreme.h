@@ -1,14 +1,14 @@
-/* Runs at the extremes: what came of a run, judges that say what is wrong with it, and the rows of
+/* Runs at the extremes: their results, judges that find faults in them, and the rows of
  * docs/notes/extremes.md. */
 #ifndef TESTS_SUPPORT_EXTREME_H
 #define TESTS_SUPPORT_EXTREME_H
 
 #include "hooke.h"
 
-/* Numbers that are 0 are left at their defaults. */
+/* Numbers that are 0 keep their defaults. */
 struct extreme_run {
   const char *method;
-  double step; /* of a fixed-step method; an error-controlled one runs as long and makes the same frames */
+  double step; /* of a fixed-step method; an error-controlled one has the same duration and frames */
   int64_t steps, frame_steps; /* frame_steps 0: a frame each step */
   double start;               /* time of the initial state */
   double rtol, atol, atol_velocity;
@@ -18,13 +18,13 @@ struct extreme_run {
 struct extreme_outcome {
   int32_t status;
   char message[1024];
-  int32_t refused; /* there was no integrator to run */
+  int32_t refused; /* the integrator could not be created */
   double start, end, t;
   int64_t size;
   double *q, *v; /* the state on return, and the initial one; `size` each */
   double *q0, *v0;
   double energy0, energy;
-  int64_t frames, wrong_frames; /* those with a number that is not finite, or an energy that is no number */
+  int64_t frames, wrong_frames; /* those with a non-finite number, or a NaN energy */
   int64_t coincident;
   int32_t explicit_damping; /* 1: verlet took its damping at the predicted velocity */
 };
@@ -33,37 +33,36 @@ struct extreme_outcome {
 void extreme_run(const hooke_system *system, struct extreme_run run, struct extreme_outcome *outcome);
 void extreme_release(struct extreme_outcome *outcome);
 
-/* ---- judges: NULL, or what is wrong ---- */
+/* ---- judges: NULL, or the fault ---- */
 
-/* What every outcome owes: a status that is documented; finite numbers in the state and in every frame; the
- * end of the run reached to the bit, or else a message that says what to do and a state within the run. */
+/* Requirements on every outcome: a documented status; finite numbers in the state and in every frame; the end
+ * of the run reached to the bit, or else a message with a suggestion and a state within the run. */
 const char *extreme_unsound(const struct extreme_outcome *outcome);
 /* Sound, the end reached, and low <= error <= high. */
 const char *extreme_not_right(const struct extreme_outcome *outcome, double error, double low, double high);
-/* Sound, and this status with a message that has this text in it. */
+/* Sound, with this status and a message that contains this text. */
 const char *extreme_not_ended(const struct extreme_outcome *outcome, int32_t status, const char *text);
 /* Sound, and ended by any of diverged, step limit, solver failed or bad value. */
 const char *extreme_not_refused(const struct extreme_outcome *outcome);
 
-/* The largest distance of a coordinate from where it should be, over `scale` (INFINITY for one that is no
- * number). */
+/* The largest error of a coordinate, over `scale` (INFINITY for a NaN). */
 double extreme_error(const struct extreme_outcome *outcome, const double *expected, double scale);
 
-/* Fails the running test with what a judge says, if it says anything. */
+/* Fails the running test with the message of a judge, if there is one. */
 void extreme_demand(const char *family, const char *name, const char *method, const char *complaint,
                     const struct extreme_outcome *outcome);
 
 /* ---- rows ---- */
 
-/* Remembers one cell of the table of `family`: the outcome of `name` by `method`. `error` is that of a run
- * that came to its end; NaN: none is stated. */
+/* Records one cell of the table of `family`: the outcome of `name` by `method`. `error` is that of a finished
+ * run; NaN: none is stated. */
 void extreme_record(const char *family, const char *name, const char *method,
                     const struct extreme_outcome *outcome, double error);
-/* The same with words of the caller's own. */
+/* The same with the caller's words. */
 void extreme_note(const char *family, const char *name, const char *method, const char *words);
 
-/* The end of every main(): with --rows, prints what was recorded, in lines of "row", family, case, method and
- * words between tabs. Returns the exit code. */
+/* The end of every main(): with --rows, prints the recorded cells, in lines of "row", family, case, method
+ * and words, separated by tabs. Returns the exit code. */
 int extreme_finish(int argc, char **argv, int failed);
 
 /* ---- the oscillator ---- */
@@ -83,15 +82,15 @@ struct extreme_oscillator {
   int64_t steps, frame_steps, max_steps;
   double tolerance;    /* rtol of error-controlled methods; 0: 1e-8 */
   double absolute;     /* their atol, in amplitudes; 0: a hundredth of tolerance */
-  double rounding;     /* allowed difference to what the method is known to give, in amplitudes; 0: 1e-9 */
-  int32_t may_run_out; /* error-controlled methods may come to max_steps */
-  int32_t adaptive_status; /* that is promised of error-controlled methods, if not a right answer */
+  double rounding;     /* allowed difference from the known result of the method, in amplitudes; 0: 1e-9 */
+  int32_t may_run_out; /* error-controlled methods may reach max_steps */
+  int32_t adaptive_status; /* expected for error-controlled methods, if not a right answer */
   int32_t implicit_status; /* likewise of fixed-step methods that do not diverge */
 };
 
-/* Runs it by every method; each has to give, to rounding, what its known matrix gives, or to diverge where
- * that does. Error-controlled methods have to come between 1e-5 and 1e4 times their tolerance to the
- * solution; far from the origin the tolerance is relative to the distance. */
+/* Runs it by every method; each has to give, to rounding, the result of its known matrix, or to diverge where
+ * that does. Error-controlled methods need an error between 1e-5 and 1e4 times their tolerance; far from the
+ * origin the tolerance is relative to the distance. */
 void extreme_oscillate(const struct extreme_oscillator *oscillator);
 
 #endif

@@ -6,7 +6,7 @@
 #include <math.h>
 #include <string.h>
 
-/* The oscillator as it is after all roundings of its making. */
+/* The oscillator after all roundings of its construction. */
 struct model {
   hooke_system *system;
   long double omega, zeta; /* [1/s], over critical */
@@ -50,7 +50,7 @@ static void build(const struct extreme_oscillator *o, struct model *model) {
   model->start[1] = velocity[3] / (model->omega * amplitude);
 }
 
-/* Distance of the end of the run from a place in phase space, in amplitudes. */
+/* Distance of the end of the run from a point in phase space, in amplitudes. */
 static double distance_to(const struct model *model, const struct extreme_outcome *outcome,
                           const long double place[2]) {
   const long double x = ((long double)outcome->q[3] - outcome->q[0] - model->rest) / model->amplitude;
@@ -69,8 +69,7 @@ static const char *judge_known(const struct extreme_oscillator *o, const struct 
                            o->rounding != 0.0 ? o->rounding : 1e-9);
 }
 
-/* The energy that the library states is that of the state, and the momentum of a free pair that of the
- * start. */
+/* The stated energy is that of the state, and the momentum of a free pair that of the start. */
 static void check_sums(const struct model *model, const struct extreme_outcome *outcome) {
   const double *mass = hooke_system_mass(model->system), *w = hooke_system_inverse_mass(model->system);
   const long double x = (long double)outcome->q[3] - outcome->q[0] - model->rest;

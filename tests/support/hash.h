@@ -1,4 +1,4 @@
-/* 64-bit FNV-1a over the bytes of doubles, and the place where two arrays part. */
+/* 64-bit FNV-1a over the bytes of doubles, and the first difference of two arrays. */
 #ifndef TESTS_SUPPORT_HASH_H
 #define TESTS_SUPPORT_HASH_H
 

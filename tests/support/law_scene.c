@@ -102,7 +102,7 @@ static void add_bending(struct random_source *source, hooke_system *system) {
   check_ok(hooke_system_add_bending(system, "bending", LAW_TRIPLES, triples, LAW_TRIPLES, coefficient));
 }
 
-/* The shortest altitude, 0 if another one is nearly as short. */
+/* The shortest altitude; 0 if another one is nearly as short. */
 static double clear_altitude(const double *const x[4]) {
   double square[7], first = 0.0, second = 0.0, volume = 0.0;
   canonical_altitudes(x, square);
@@ -118,8 +118,8 @@ static double clear_altitude(const double *const x[4]) {
   return second < 0.75 * first ? fabs(volume) / sqrt(first) : 0.0;
 }
 
-/* Both longer and shorter than at rest; damping does not come near to cancelling the tension of those that
- * only pull. */
+/* Both longer and shorter than at rest; damping is far from cancelling the tension of those that only pull.
+ */
 static void add_altitude(const struct law *law, struct random_source *source, const double *q,
                          hooke_system *system) {
   for (int group = 0; group < 2; group++) {

@@ -53,7 +53,7 @@ static hooke_state *state_at(const struct random_scene *scene, double start) {
   return state;
 }
 
-/* Springs that only pull and are damped take up their damping with a jump where they begin to pull: there the
+/* In springs that only pull and are damped, damping sets in with a jump where they begin to pull: there the
  * equations of a step may have no solution. */
 static int may_fail(const struct random_scene *scene, const char *method) {
   const struct canonical *canonical = &scene->canonical;
@@ -63,14 +63,14 @@ static int may_fail(const struct random_scene *scene, const char *method) {
   return jumps && is_implicit(method);
 }
 
-/* Steps that succeed, or end as the first of these runs did. */
+/* Steps that succeed, or end like the first of these runs. */
 static void advance(hooke_integrator *integrator, hooke_state *state, int64_t steps, int32_t expected) {
   check_status(hooke_integrator_step(integrator, state, steps), expected);
   if (expected == HOOKE_SOLVER_FAILED) check_message("no solution");
 }
 
-/* The same in calls of one step each; and, where nothing depends on time, by a new integrator for each step:
- * a step is defined by t, q and v alone. */
+/* The same in calls of one step each; and, if nothing depends on time, by a new integrator for each step: a
+ * step is defined by t, q and v alone. */
 static void check_one_by_one(const struct random_scene *scene, struct run run, int32_t status,
                              const struct companion *expected) {
   const int64_t n = scene->canonical.particle_count;

@@ -59,14 +59,14 @@ static void add_triples(const struct canonical *canonical, const real *q, real *
   }
 }
 
-/* An altitude from a corner to a face, or from an edge to an edge: the corners, and with what weights it
- * follows them. */
+/* An altitude from a corner to a face, or from an edge to an edge: the corners, and the weights that it
+ * follows them with. */
 struct altitude {
   int64_t corner[4];
   real along[3], height, weight[4], square;
 };
 
-/* From corner k to the face of the others for k < 4, else from an edge to the opposite one. */
+/* From corner k to the face of the others for k < 4, otherwise from an edge to the opposite one. */
 static void find_altitude(const int64_t *p, int k, const real *q, struct altitude *altitude) {
   static const int order[7][4] = {{1, 3, 2, 0}, {0, 2, 3, 1}, {0, 3, 1, 2}, {0, 1, 2, 3},
                                   {0, 1, 3, 2}, {0, 2, 1, 3}, {0, 3, 2, 1}};
@@ -105,7 +105,7 @@ static void add_tetrahedra(const struct canonical *canonical, const real *q, con
     }
     if (shortest.square == 0.0L) continue;
     const real rest = canonical->altitude[2][7 * t + which], length = fabsl(rest);
-    if (rest < 0.0L) { /* measured the other way in one that is inside out */
+    if (rest < 0.0L) { /* measured in the other direction in an inverted tetrahedron */
       shortest.height = -shortest.height;
       for (int a = 0; a < 3; a++)
         shortest.along[a] = -shortest.along[a];
@@ -180,7 +180,7 @@ static void place(const struct long_force *force, real t, real *q, real *v) {
   }
 }
 
-/* ---- the whole ---- */
+/* ---- whole ---- */
 
 void long_force_rate(long double t, long double *y, long double *f, void *ctx) {
   const struct long_force *force = ctx;
@@ -201,8 +201,7 @@ void long_force_rate(long double t, long double *y, long double *f, void *ctx) {
   }
 }
 
-/* Constrained particles have no error; a velocity is measured by the largest one, and what it soon will be.
- * */
+/* Constrained particles have no error; the scale of velocities is the largest one, including its growth. */
 void long_force_scale(const long double *y, const long double *f, long double *scale, void *ctx) {
   const struct long_force *force = ctx;
   const int64_t size = 3 * force->canonical->particle_count;

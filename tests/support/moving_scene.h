@@ -1,5 +1,4 @@
-/* Small scenes that move, each with what a run has to remember: for tests that hold all methods against each
- * other. */
+/* Small moving scenes, each with something that a run has to remember: for tests that compare all methods. */
 #ifndef TESTS_SUPPORT_MOVING_SCENE_H
 #define TESTS_SUPPORT_MOVING_SCENE_H
 
@@ -10,11 +9,11 @@ struct moving_scene {
   double step; /* at which every method is stable, backward Euler and forward Euler for a while */
   int32_t gravity, drag;
   int32_t driven;   /* 1: the last particle by a sine, 2: by a table, 3: by a callback */
-  int32_t callback; /* a force that is not that of springs, with its derivative */
+  int32_t callback; /* a callback force with its derivative */
 };
 
 enum { MOVING_SCENES = 8, MOVING_LARGE = 8 };
-extern const struct moving_scene moving_scenes[MOVING_SCENES + 1]; /* the last one is worth two threads */
+extern const struct moving_scene moving_scenes[MOVING_SCENES + 1]; /* large enough for two threads */
 
 /* A committed system. */
 hooke_system *moving_system(const struct moving_scene *scene);

@@ -1,5 +1,5 @@
 /* The damped oscillator x'' + 2 zeta x' + x = 0 (lengths in its amplitude, times in 1/omega): its solution,
- * and what a fixed-step method makes of it, both to more digits than the library has. */
+ * and the result of a fixed-step method, both to more digits than the library has. */
 #ifndef TESTS_SUPPORT_OSCILLATOR_H
 #define TESTS_SUPPORT_OSCILLATOR_H
 
@@ -16,7 +16,7 @@ int32_t oscillator_step(const char *method, long double zeta, long double step, 
 void oscillator_power(const long double matrix[4], int64_t count, const long double start[2],
                       long double end[2]);
 
-/* The first step at which (x^2 + x'^2)/2 has risen by more than 100 times what it was, which is where a run
+/* The first step at which (x^2 + x'^2)/2 has risen by more than 100 times its initial value, where a run
  * counts as diverged; 0 if there is none in `count` steps. */
 int64_t oscillator_diverges(const long double matrix[4], int64_t count, const long double start[2]);
 

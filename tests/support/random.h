@@ -13,7 +13,7 @@ uint64_t random_bits(struct random_source *source);
 /* Uniform in [low, high). */
 double random_between(struct random_source *source, double low, double high);
 
-/* A whole number from low to high, both included. */
+/* A uniform integer from low to high, both included. */
 int64_t random_whole(struct random_source *source, int64_t low, int64_t high);
 
 #endif

@@ -14,7 +14,7 @@ int32_t random_scene_force(int64_t n, double t, const double *q, const double *v
   for (int64_t p = 0; p < n; p++) {
     const double *x = q + 3 * p, *u = v + 3 * p;
     double *f = force + 3 * p;
-    /* two contributions to one component: order counts */
+    /* two contributions to one component: their order matters */
     for (int a = 0; a < 3; a++)
       f[a] -= 0.7 * x[a];
     f[0] += 0.3 * t - 0.2 * u[1] * x[0];
@@ -52,7 +52,7 @@ static int32_t wave(int64_t count, double t, double *q, double *v, void *ctx) {
 
 /* ---- particles ---- */
 
-/* By Newton's method, as the last digit of cbrt() differs from one C library to the next. */
+/* By Newton's method, as the last digit of cbrt() differs between C libraries. */
 static double cube_root(double x) {
   double root = 1.0;
   while (root * root * root < x)
@@ -101,7 +101,7 @@ static void hold_particles(struct random_source *source, struct random_scene_req
 
 /* ---- springs ---- */
 
-/* Runs of constant offset both ways, the same with particles descending, and pairs without order. */
+/* Runs of constant offset both ways, the same with particles descending, and random pairs. */
 static void draw_ends(struct random_source *source, int64_t particles, int64_t count, int64_t *ends) {
   int64_t done = 0;
   while (done < count) {
@@ -127,8 +127,8 @@ static void draw_ends(struct random_source *source, int64_t particles, int64_t c
   }
 }
 
-/* What was asked for, spring by spring: the library has to hold just that, without what has neither stiffness
- * nor damping. */
+/* The requested springs one by one: the library has to hold exactly these, without those that have neither
+ * stiffness nor damping. */
 struct wanted {
   int64_t count; /* so far */
   int64_t *ends;
@@ -232,7 +232,7 @@ static void leave_out_zeros(struct wanted *wanted) {
   wanted->count = acting;
 }
 
-/* The springs of groups come first, whenever parts were added, and are what was asked for to the bit. */
+/* The springs of groups come first, whenever parts were added, and equal the requested ones to the bit. */
 static void compare_wanted(const struct canonical *canonical, struct wanted *wanted) {
   leave_out_zeros(wanted);
   assert_true(canonical->spring_count >= wanted->count);
@@ -248,7 +248,7 @@ static void compare_wanted(const struct canonical *canonical, struct wanted *wan
 
 /* ---- bending ---- */
 
-/* Lines of constant distance both ways, the same with particles descending, and triples without order. */
+/* Lines of constant distance both ways, the same with particles descending, and random triples. */
 static void draw_triples(struct random_source *source, int64_t particles, int64_t count, int64_t *triples) {
   int64_t done = 0;
   while (done < count) {
@@ -274,7 +274,7 @@ static void draw_triples(struct random_source *source, int64_t particles, int64_
   }
 }
 
-/* One for all, one each, or a few that change now and then; some of them 0. */
+/* One for all, one each, or a few values that change now and then; some of them 0. */
 static int64_t draw_coefficients(struct random_source *source, int64_t count, double *coefficient) {
   const int64_t kind = random_whole(source, 0, 2);
   for (int64_t k = 0; k < count; k++) {
@@ -285,7 +285,7 @@ static int64_t draw_coefficients(struct random_source *source, int64_t count, do
   return kind == 0 ? 1 : count;
 }
 
-/* Groups of triples, with those of a stiffness kept: the library has to hold just these. */
+/* Groups of triples, recording those with stiffness: the library has to hold exactly these. */
 static int64_t add_triples(struct random_source *source, struct random_scene_request request,
                            hooke_system *system, int64_t *kept, double *kept_coefficient) {
   int64_t *triples = new_block(3 * request.triples, (int64_t)sizeof(int64_t)), kept_count = 0;
@@ -308,7 +308,7 @@ static int64_t add_triples(struct random_source *source, struct random_scene_req
 
 /* ---- altitude springs ---- */
 
-/* Four particles that are not near a plane: the altitudes are above a tenth. */
+/* Four particles far from a common plane: the altitudes are above a tenth. */
 static void draw_corners(struct random_source *source, int64_t particles, const double *position,
                          int64_t *corner) {
   for (int tries = 0;; tries++) {
@@ -446,7 +446,7 @@ static void add_part(struct random_source *source, struct random_scene_request r
   hooke_options_destroy(options);
 }
 
-/* ---- the whole ---- */
+/* ---- whole ---- */
 
 static void place_driven(double t, double *q, double *v, void *ctx) {
   const struct random_scene *scene = ctx;

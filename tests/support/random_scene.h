@@ -5,7 +5,7 @@
 #include "hooke.h"
 #include "canonical.h"
 
-/* What a scene may have; the rest is drawn from the seed. */
+/* Features of a scene; the rest is drawn from the seed. */
 enum {
   SCENE_GRAVITY = 1,
   SCENE_DRAG = 2,
@@ -14,7 +14,7 @@ enum {
   SCENE_PINNED = 16,
   SCENE_DRIVEN = 32, /* up to three particles: harmonic, table, callback */
   SCENE_CALLBACK = 64,
-  SCENE_COINCIDENT = 128, /* some particles at the same place */
+  SCENE_COINCIDENT = 128, /* some coincident particles */
   SCENE_EVERYTHING = 255
 };
 
@@ -22,13 +22,13 @@ struct random_scene_request {
   uint64_t seed;
   int64_t particles, springs;
   int64_t triples;    /* of bending; if there are any, parts have bending as well */
-  int64_t tetrahedra; /* of altitude springs; damped and pulling only as springs are */
-  int64_t anchors;    /* damped as springs are */
+  int64_t tetrahedra; /* of altitude springs; damped and pulling only like springs */
+  int64_t anchors;    /* damped like springs */
   int32_t features;
   int32_t cloth[2];     /* size of a cloth that is added as a part; 0: none */
   int32_t lattice[3];   /* size of a lattice that is added as a part; 0: none */
   int32_t rope;         /* segments of a rope that is added as a part; 0: none */
-  int32_t with_product; /* the callback brings its derivative */
+  int32_t with_product; /* the callback has its derivative */
 };
 
 struct random_scene {
@@ -37,7 +37,7 @@ struct random_scene {
   int64_t driven_count;
   int64_t driven[3];
   hooke_integrator
-      *driver; /* of any method: it puts driven particles where they are at the time of a state */
+      *driver; /* of any method: it moves driven particles to their positions at the time of a state */
   hooke_state *driven_state;
   double gravity[3];
 };
@@ -45,12 +45,12 @@ struct random_scene {
 void random_scene_create(struct random_scene_request request, struct random_scene *scene);
 void random_scene_destroy(struct random_scene *scene);
 
-/* Positions and velocities (3n each) around the initial ones; ends that coincide still do, constrained
+/* Positions and velocities (3n each) near the initial ones; coincident ends still coincide, constrained
  * particles stay. */
 void random_scene_shake(const struct random_scene *scene, uint64_t seed, double *q, double *v);
 
-/* The callback that scenes with SCENE_CALLBACK use: a pull to the origin, a push that grows with time, and a
- * brake. It reads nothing but its arguments, so it may run in many threads. */
+/* The callback of scenes with SCENE_CALLBACK: a pull to the origin, a push that grows with time, and a brake.
+ * It reads its arguments only, so it may run in many threads. */
 int32_t random_scene_force(int64_t n, double t, const double *q, const double *v, double *force, void *ctx);
 int32_t random_scene_force_product(int64_t n, double t, const double *q, const double *v, const double *dq,
                                    const double *dv, double *out, void *ctx);

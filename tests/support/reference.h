@@ -1,4 +1,4 @@
-/* Scenes with solutions to 15 digits, and the errors that fixed-step methods must have (data: tests/data). */
+/* Scenes with solutions to 15 digits, and the expected errors of fixed-step methods (data: tests/data). */
 #ifndef TESTS_SUPPORT_REFERENCE_H
 #define TESTS_SUPPORT_REFERENCE_H
 

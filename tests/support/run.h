@@ -1,4 +1,4 @@
-/* Short forms for making integrators. Every function fails the running test when the library refuses. */
+/* Short forms for creating integrators. Every function fails the running test when the library refuses. */
 #ifndef TESTS_SUPPORT_RUN_H
 #define TESTS_SUPPORT_RUN_H
 

@@ -1,5 +1,5 @@
-/* Builds with a sanitizer take ten times as long: there a test may take a share of its cases, unless
- * HOOKE_LONG is set; and in any build with HOOKE_SHORT, for those whose every case runs elsewhere. */
+/* Builds with a sanitizer take ten times as long: there a test may run a share of its cases, unless
+ * HOOKE_LONG is set; and in any build with HOOKE_SHORT, for tests whose every case runs elsewhere. */
 #ifndef HOOKE_TEST_SANITIZED_H
 #define HOOKE_TEST_SANITIZED_H
 
@@ -17,12 +17,12 @@
 #define HOOKE_SANITIZED 0
 #endif
 
-/* Whether large cases are to be small ones here. */
+/* True if large cases are replaced by small ones. */
 static inline int short_of_time(void) {
   return HOOKE_SANITIZED || getenv("HOOKE_SHORT") != NULL;
 }
 
-/* Whether case `k` = 0, 1, ... is left out here: all but every `share`-th. */
+/* True if case `k` = 0, 1, ... is skipped: all but every `share`-th. */
 static inline int left_out(int64_t k, int64_t share) {
   if (k % share == 0) return 0;
   return getenv("HOOKE_SHORT") != NULL || (HOOKE_SANITIZED && getenv("HOOKE_LONG") == NULL);

@@ -12,7 +12,7 @@ struct springs {
   int32_t pull_only;
 };
 
-/* An open system of `count` particles of one mass, particle 0 pinned if asked for. */
+/* An open system of `count` particles of one mass, particle 0 pinned if requested. */
 hooke_system *small_system(int64_t count, const double *position, const double *velocity, double mass,
                            int32_t pin_first);
 void small_springs(hooke_system *system, int64_t count, const int64_t *ends, struct springs springs);

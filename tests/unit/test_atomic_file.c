@@ -1,5 +1,5 @@
-/* Where files come to be: written by several at once, under the longest names, through links, in place of
- * files with a mode and an owner of their own. */
+/* Creation of files: several writers at once, the longest names, links, and replacement of files with a mode
+ * and an owner of their own. */
 #include "check.h"
 #include "small.h"
 
@@ -25,7 +25,7 @@ static int set_up(void **state) {
   return 0;
 }
 
-/* Anything that was left behind keeps the folder. */
+/* Any leftover file keeps the folder. */
 static int tear_down(void **state) {
   (void)state;
   unlink(path);
@@ -37,7 +37,7 @@ static int32_t save(const char *to) {
   return hooke_scene_write(to, cloth, "a cloth", NULL);
 }
 
-/* Bytes of the file, and whether they are a whole scene; -1 if it is not there. */
+/* Bytes of the file, and whether they are a whole scene; -1 if it does not exist. */
 static int64_t look(const char *at, int *whole) {
   char text[65536];
   FILE *file = fopen(at, "r");
@@ -110,7 +110,7 @@ static void the_longest_name_will_do(void **state) {
   check_message("File name too long");
 }
 
-/* ---- what a file has beside its bytes ---- */
+/* ---- mode and owner ---- */
 
 static struct stat facts(const char *at) {
   struct stat there;
@@ -145,7 +145,7 @@ static void a_new_file_follows_the_mask(void **state) {
 static void a_replaced_file_keeps_its_owner(void **state) {
   (void)state;
   check_saved(path);
-  if (geteuid() != 0) skip(); /* nobody else may give files away */
+  if (geteuid() != 0) skip(); /* only root may give files away */
   assert_int_equal(chown(path, 1234, 5678), 0);
   assert_int_equal(chmod(path, 0640), 0);
   check_saved(path);
@@ -157,7 +157,7 @@ static void a_replaced_file_keeps_its_owner(void **state) {
 
 /* ---- links ---- */
 
-/* A link stays one, also where its target is yet to be made. */
+/* A link remains one, also if its target does not exist yet. */
 static void a_link_is_written_through(void **state) {
   (void)state;
   char link[PATH_SIZE], second[PATH_SIZE];

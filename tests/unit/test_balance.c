@@ -1,5 +1,5 @@
-/* The balance of energy: what is left over is the error of the method, gets less with the step as its order
- * says, and does not where power is wrong. */
+/* The energy balance: its residual is the error of the method, decreases with the step like its order, and
+ * does not if the power is wrong. */
 #include "hooke.h"
 #include "check.h"
 
@@ -105,7 +105,7 @@ static int32_t holds(const char *method, int driven,
 
 static const struct {
   const char *method;
-  double low, high; /* how much less at half the step */
+  double low, high; /* reduction at half the step */
 } methods[] = {{"forward-euler", 1.8, 2.2},
                {"symplectic-euler", 1.8, 2.2},
                {"backward-euler", 1.8, 2.2},
@@ -146,7 +146,7 @@ static void wrong_heat_is_seen(void **unused) {
   }
 }
 
-/* Work left out is seen, too. */
+/* Missing work is detected, too. */
 static void wrong_work_is_seen(void **unused) {
   (void)unused;
   hooke_system *system = damped_chain(1);

@@ -1,6 +1,5 @@
-/* Checkpoint files under attack: every byte changed, every length of a file that was cut off, numbers that no
- * run comes by, files of other runs, and the one before in place of the newest. What is read is what was
- * written, or nothing. */
+/* Damaged checkpoint files: every byte changed, every truncated length, impossible numbers, files of other
+ * runs, and the previous file instead of the newest. What is read is what was written, or nothing. */
 #include "check.h"
 #include "random.h"
 #include "run.h"
@@ -38,7 +37,7 @@ static int set_up(void **state) {
   return 0;
 }
 
-/* Anything that was left lying about keeps the folder. */
+/* Any leftover file keeps the folder. */
 static int tear_down(void **state) {
   (void)state;
   remove(path);
@@ -202,7 +201,7 @@ static void impossible_numbers_are_refused(void **state) {
   write_stopped(reader.system, fixed, STOP, numbers);
   remove(previous);
   const struct bytes good = read_bytes(path);
-  /* t0, t, k and frames hang together; sizes and check values with the problem */
+  /* t0, t, k and frames must be consistent; sizes and check values must match the problem */
   const int64_t places[] = {8, 12, 16, 24, 32, 36, 144, 192, 200};
   for (size_t p = 0; p < sizeof places / sizeof places[0]; p++) {
     for (int tries = 0; tries < 50; tries++) {
@@ -215,7 +214,7 @@ static void impossible_numbers_are_refused(void **state) {
     }
   }
   struct bytes bad = good;
-  memset(bad.at + 264, 0xff, 8); /* not a number */
+  memset(bad.at + 264, 0xff, 8); /* NaN */
   put_check_value(&bad);
   write_bytes(path, &bad);
   check_refused(&reader, NULL, "position[0][0]");
@@ -292,7 +291,7 @@ static void the_one_before_stands_in(void **state) {
   check_numbers(reader.state, before);
   check_status(hooke_checkpoint_read(path, "second", reader.integrator, reader.state), HOOKE_BAD_VALUE);
   check_message("another run");
-  /* an intact file of another run does not make way for an older one */
+  /* an intact file of another run is not replaced by an older one */
   write_bytes(path, &good);
   check_status(hooke_checkpoint_read(path, "second", reader.integrator, reader.state), HOOKE_BAD_VALUE);
   struct bytes torn = good;
@@ -338,7 +337,7 @@ static void only_a_place_of_the_run_is_written(void **state) {
   drop(&reader);
 }
 
-/* What was there stays, and nothing is left lying about. */
+/* The older file stays, and no other file is left. */
 static void a_failed_write_harms_nothing(void **state) {
   (void)state;
   double numbers[NUMBERS];
@@ -367,7 +366,7 @@ static void *look_often(void *unused) {
   return unused;
 }
 
-/* Though each makes way for the next, the name is never without one. */
+/* The name always exists while one file replaces the other. */
 static void there_is_one_at_all_times(void **state) {
   (void)state;
   double numbers[NUMBERS];

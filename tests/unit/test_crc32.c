@@ -1,4 +1,4 @@
-/* The check value of files against its definition, bit by bit, and the value that everyone's has. */
+/* The check value of files compared with its definition, bit by bit, and with the published value. */
 #include "core/crc32.h"
 
 #include "check.h"

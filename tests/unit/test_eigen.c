@@ -1,4 +1,5 @@
-/* Eigenvalues, the line through an order, and the reach of Runge-Kutta 4, against closed forms. */
+/* Eigenvalues, the fit of an order, and the stability limit of Runge-Kutta 4 along rays, compared with closed
+ * forms. */
 #include "measure/spectrum/dense.h"
 #include "measure/spectrum/eigen.h"
 #include "measure/spectrum/limit_rules.h"
@@ -106,7 +107,7 @@ static void test_chain(void **unused) {
 static void test_damped_chain(void **unused) {
   (void)unused;
   static double stiffness[CHAIN * CHAIN], damping[CHAIN * CHAIN];
-  const double b = 1.1; /* some modes oscillate, some creep */
+  const double b = 1.1; /* some modes oscillate, some are overdamped */
   struct hk_damped_modes modes;
   fill_chain(stiffness);
   for (int k = 0; k < CHAIN * CHAIN; k++)

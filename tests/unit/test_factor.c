@@ -1,4 +1,4 @@
-/* The sparse factor of S against S itself, found column by column from its definition; and GMRES. */
+/* The sparse factor of S compared with S itself, computed column by column from its definition; and GMRES. */
 #include "check.h"
 #include "integrate/solve/krylov.h"
 #include "integrate/solve/reduced.h"
@@ -36,7 +36,7 @@ static void tear_down(struct bench *bench) {
   random_scene_destroy(&bench->scene);
 }
 
-/* A K + b C of altitude springs in their directions, by their definition. */
+/* A K + b C of altitude springs along their directions, by definition. */
 static void multiply_altitude(const struct bench *bench, const double *x, double *out) {
   const hooke_system *system = bench->scene.system;
   const int64_t n = bench->n;
@@ -61,7 +61,7 @@ static void multiply_altitude(const struct bench *bench, const double *x, double
   free(q);
 }
 
-/* And of anchors, without what a damped one has for turning. */
+/* And of anchors, without the rotation term of a damped one. */
 static void multiply_anchors(const struct bench *bench, const double *x, double *out) {
   const struct canonical *c = &bench->scene.canonical;
   const struct hk_motion *m = bench->integrator->motion;
@@ -165,7 +165,7 @@ static void solves_s(void **unused) {
     multiply(&b, x, s);
     check_ok(hk_reduced_prepare_whole(&b.reduced));
     assert_non_null(b.reduced.whole);
-    for (int again = 0; again < 2; again++) { /* the second time on what the first has left */
+    for (int again = 0; again < 2; again++) { /* the second time on the data of the first */
       assert_int_equal(hk_reduced_factorise(&b.reduced), 1);
       hk_factor_gather(b.reduced.whole, s, ordered);
       hk_factor_forward(b.reduced.whole, ordered);
@@ -181,7 +181,7 @@ static void solves_s(void **unused) {
   }
 }
 
-/* Numbers that leave no positive matrix are told, and the blocks are in use again. */
+/* A matrix that is not positive is reported, and the blocks are used again. */
 static void not_positive(void **unused) {
   (void)unused;
   needs_factor();
@@ -203,7 +203,7 @@ static void not_positive(void **unused) {
   tear_down(&b);
 }
 
-/* A chain keeps its factor small, and what is too large is not made. */
+/* A chain has a small factor, and too large a factor is not computed. */
 static void sizes(void **unused) {
   (void)unused;
   needs_factor();
@@ -220,7 +220,7 @@ static void sizes(void **unused) {
   tear_down(&b);
 }
 
-/* A build without factors says so by having none. */
+/* A build without factors reports none. */
 static void not_built(void **unused) {
   (void)unused;
   if (hk_factor_is_built()) skip();
@@ -232,7 +232,7 @@ static void not_built(void **unused) {
   tear_down(&b);
 }
 
-/* dq - gamma dv = b_q and M dv - gamma (K dq + D dv) = M b_v, with the model's own derivative; by blocks and
+/* Dq - gamma dv = b_q and M dv - gamma (K dq + D dv) = M b_v, with the model's own derivative; by blocks and
  * by a factor. */
 static void implicit_equation(void **unused) {
   (void)unused;

@@ -1,5 +1,5 @@
-/* The direction that grows, against the spectrum: never above the largest eigenvalue, and soon near it; with
- * every force. */
+/* The growing direction compared with the spectrum: never above the largest eigenvalue, and soon near it;
+ * with every force. */
 #include "measure/why/growing.h"
 #include "measure/spectrum/dominant_mode.h"
 
@@ -25,7 +25,7 @@ static struct random_scene build(uint64_t seed) {
   return scene;
 }
 
-/* Of M^-1 (a K + b C). */
+/* Largest eigenvalue of M^-1 (a K + b C). */
 static double largest(const hooke_system *system, double a, double b) {
   struct hk_linearised lin;
   double value = 0.0, *mode = calloc((size_t)(3 * system->particle_count), sizeof *mode);
@@ -64,7 +64,7 @@ static void a_quotient_is_below_the_largest_eigenvalue_and_comes_near(void **unu
   }
 }
 
-/* It ends at the first turn that proves a step too large, and with patience. */
+/* It ends at the first iteration that proves a step too large, and when patience is over. */
 static int32_t refuse(double done, const char *what, void *ctx) {
   (void)done, (void)what;
   return --*(int *)ctx < 0;

@@ -1,5 +1,5 @@
-/* HDF5 takes one thread at a time unless it was built for more, so hooke lets in one: threads with files of
- * their own never meet in it. H5Fopen() is stood in for, to see who is there. */
+/* HDF5 allows one thread at a time unless it was built thread-safe, so hooke calls it from one: threads with
+ * files of their own are never in it together. A replacement of H5Fopen() checks this. */
 #include "check.h"
 #include "run.h"
 #include "small.h"

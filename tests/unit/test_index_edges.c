@@ -1,7 +1,6 @@
-/* Particles and springs are numbered by 32 bits, and places in memory are not: the loops give the bits that
- * they give for small numbers where particle, byte and triple of coordinates pass 2^31 and 2^32, up to the
- * last particle that there can be. Of arrays that long only a window is there; whoever goes beyond it ends
- * the test. */
+/* Particles and springs are numbered by 32 bits, and offsets in memory are not: the loops give the same bits
+ * as for small numbers where particle, byte and triple of coordinates pass 2^31 and 2^32, up to the last
+ * possible particle. Only a window of arrays this long is mapped; an access outside ends the test. */
 #define _DEFAULT_SOURCE
 #include "check.h"
 #include "random.h"
@@ -30,8 +29,8 @@ static const int64_t edges[] = {(INT64_C(1) << 28) + BESIDE, (INT64_C(1) << 29) 
                                 (INT64_C(1) << 30) + BESIDE, 2 * (MOST / 3) + BESIDE,     MOST};
 enum { EDGES = sizeof edges / sizeof edges[0] };
 
-/* Arrays of MOST doubles, of which numbers low .. low + WINDOW - 1 are there, and nothing is for a while on
- * either side. */
+/* Arrays of MOST doubles, of which numbers low .. low + WINDOW - 1 are mapped, with unmapped pages on either
+ * side. */
 struct world {
   char *reserved[ARRAYS];
   double *array[ARRAYS];
@@ -102,9 +101,9 @@ static struct hk_fields fields_of(const struct world *world) {
   return (struct hk_fields){{a[0], a[1], a[2]}, {a[3], a[4], a[5]}, {a[6], a[7], a[8]}};
 }
 
-/* ---- what the loops make of them ---- */
+/* ---- results of the loops ---- */
 
-/* Forces, and all that a tangent gives, of a run whose springs have the last numbers of the window. */
+/* Forces, and all products of a tangent, of a run whose springs have the last numbers of the window. */
 static void add_springs(struct world *world, const struct hk_spring_set *set, int32_t shape, int32_t offset) {
   int32_t head[COUNT], tail[COUNT];
   const int64_t first_spring = world->low + WINDOW - COUNT;
@@ -169,7 +168,8 @@ static void add_tetrahedra(struct world *world) {
 
 /* ---- the same at small numbers ---- */
 
-/* Also that forces came to the last particles, but for springs that only pull, of which not each does. */
+/* Also checks that the last particles have forces, except for springs that only pull, not all of which are
+ * taut. */
 static void check_same(const struct world *found, const struct world *expected, int32_t last) {
   double force = 0.0;
   for (int k = 0; k < ARRAYS; k++) {

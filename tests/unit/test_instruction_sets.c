@@ -1,5 +1,5 @@
-/* Runs of every method with a fixed step have the bits that are written here, with the loops of every
- * instruction set that this machine has, whatever the build is optimised for, for any number of threads. */
+/* Runs of every fixed-step method have the bits listed here, with the loops of every instruction set of this
+ * machine, at any optimisation of the build, for any number of threads. */
 #include "check.h"
 #include "hash.h"
 #include "random_scene.h"
@@ -10,7 +10,7 @@
 #include <inttypes.h>
 #include <stdlib.h>
 
-/* The linker puts the second in place of the first everywhere else. */
+/* The linker replaces the first by the second everywhere else. */
 const struct hk_spring_set *__real_hk_spring_set(int32_t set);
 const struct hk_spring_set *__wrap_hk_spring_set(int32_t set);
 
@@ -99,7 +99,7 @@ static void test_same_bits(void **unused) {
     check_scene(&scenes[k], k);
 }
 
-/* A method that is added needs its row. */
+/* A new method needs its row. */
 static void test_methods_are_complete(void **unused) {
   (void)unused;
   int64_t rows = 0;

@@ -1,5 +1,4 @@
-/* Every instruction set that this machine has gives the same bits, for every shape of run and of tiled
- * batches. */
+/* Every instruction set of this machine gives the same bits, for every shape of run and of tiled batches. */
 #include "check.h"
 #include "random.h"
 
@@ -22,12 +21,11 @@ struct trial {
 static void draw(struct random_source *source, int32_t shape, int64_t count, struct trial *trial) {
   memset(trial, 0, sizeof *trial);
   for (int p = 0; p < PARTICLES; p++) {
-    const int copy =
-        p > 0 && random_whole(source, 0, 9) == 0; /* ends at one place, when they are neighbours */
+    const int copy = p > 0 && random_whole(source, 0, 9) == 0; /* coincident ends, if they are neighbours */
     for (int a = 0; a < 3; a++) {
       trial->q[a][p] = copy ? trial->q[a][p - 1] : random_between(source, -1.0, 1.0);
       trial->v[a][p] = random_between(source, -1.0, 1.0);
-      trial->f[a][p] = random_between(source, -1.0, 1.0); /* forces that were there before */
+      trial->f[a][p] = random_between(source, -1.0, 1.0); /* initial forces */
     }
   }
   for (int64_t k = 0; k < count; k++) {
@@ -55,7 +53,7 @@ static void draw(struct random_source *source, int32_t shape, int64_t count, str
   run->rest_length = random_whole(source, 0, 4) ? random_between(source, 0.0, 2.0) : 0.0;
 }
 
-/* One spring at a time, as the definition has it. */
+/* One spring at a time, as in the definition. */
 static int64_t plain(const struct trial *trial, double f[3][PARTICLES]) {
   const struct hk_run *run = &trial->run;
   int64_t lost = 0;
@@ -109,7 +107,7 @@ enum {
   ROOM = STRIDED_PARTICLES + FARTHEST + 32
 };
 
-/* Springs of some strided batches at random, and the rings that they go through. */
+/* Springs of some random strided batches, and their rings. */
 struct lane_trial {
   struct hk_strided_pass pass;
   double q[3][ROOM], v[3][ROOM], f[3][ROOM], half[3][ROOM], w[ROOM];
@@ -138,7 +136,7 @@ static void draw_lane_material(struct random_source *source, int32_t k, struct l
     batch->shared[j] = value[0];
   }
   for (int j = 0; j < HOOKE_STRIDED_NUMBERS && !mixed; j++)
-    batch->shared[j] = *hk_strided_number(&batch->material, 0, j); /* two may be in one place */
+    batch->shared[j] = *hk_strided_number(&batch->material, 0, j); /* two may coincide */
 }
 
 static void draw_lane(struct random_source *source, int32_t k, int32_t shape, struct lane_trial *trial) {
@@ -159,7 +157,7 @@ static void draw_lane(struct random_source *source, int32_t k, int32_t shape, st
   }
 }
 
-/* The items of all strided batches in any order, or as strided batches come. */
+/* The items of all strided batches in random order, or in the order of batches. */
 static void draw_items(struct random_source *source, struct lane_trial *trial) {
   struct hk_strided_item *item = trial->pass.item;
   const int any = random_whole(source, 0, 1) == 0;
@@ -182,7 +180,7 @@ static void draw_lanes(struct random_source *source, struct lane_trial *trial) {
                                    .f = trial->f[0],
                                    .w = trial->w};
   for (int p = 0; p < ROOM; p++) {
-    const int copy = p > 0 && random_whole(source, 0, 30) == 0; /* at the place of its neighbour */
+    const int copy = p > 0 && random_whole(source, 0, 30) == 0; /* coincides with its neighbour */
     for (int a = 0; a < 3; a++) {
       trial->q[a][p] = copy ? trial->q[a][p - 1] : random_between(source, -1.0, 1.0);
       trial->v[a][p] = random_between(source, -1.0, 1.0);
@@ -287,7 +285,7 @@ static void use_own_rings(struct lane_trial *found, const struct lane_trial *fro
     found->pass.item[i].ring = found->ring[0] + (from->pass.item[i].ring - from->ring[0]);
 }
 
-/* Every set, and in ranges as they come, against the plain loop. */
+/* Every set, and in consecutive ranges, compared with the plain loop. */
 static void compare_lanes(struct random_source *source, struct lane_trial *trial,
                           struct lane_trial *expected) {
   static double sum[3][STRIDED_PARTICLES];
@@ -331,7 +329,7 @@ static void test_lanes_agree(void **unused) {
   free(trial);
 }
 
-/* Moves against one number at a time. */
+/* Moves compared with one number at a time. */
 static void test_moves_agree(void **unused) {
   (void)unused;
   enum { COUNT = 77 };
@@ -403,7 +401,7 @@ static void draw_net(struct random_source *source, int32_t shape, ptrdiff_t coun
   }
 }
 
-/* Each spring alone, in the plain loop: what it does to its ends. */
+/* Each spring alone, in the plain loop: its forces on its ends. */
 static void check_forces(const struct trial *trial, const struct net_trial *tiled, ptrdiff_t count,
                          int64_t lost) {
   double f[3][PARTICLES];
@@ -508,7 +506,7 @@ static void test_sets_agree(void **unused) {
   free(trial);
 }
 
-/* Bending of every shape, with what was there before and a factor, against one triple at a time. */
+/* Bending of every shape, with initial forces and a factor, compared with one triple at a time. */
 static void compare_bending(struct random_source *source, int32_t shape, int64_t count) {
   static double x[3][PARTICLES], before[3][PARTICLES], expected[3][PARTICLES], found[3][PARTICLES];
   static int32_t particle[3][LONGEST];

@@ -1,4 +1,4 @@
-/* Krylov iterations against Gaussian elimination. */
+/* Krylov iterations compared with Gaussian elimination. */
 #include "check.h"
 #include "integrate/solve/krylov.h"
 #include "random.h"
@@ -57,7 +57,7 @@ static void eliminate(const struct dense *dense, const double *b, double *x) {
   }
 }
 
-/* diag + share (R + skew-or-symmetric R^T), entries of R up to 1/SIZE in size; every `flip`-th diagonal
+/* Diag + share (R + skew-or-symmetric R^T), entries of R up to 1/SIZE in size; every `flip`-th diagonal
  * negative. */
 static void fill(struct dense *dense, uint64_t seed, double share, double mirror, int flip) {
   struct random_source source = {seed};
@@ -123,7 +123,7 @@ static void without_symmetry(void **unused) {
   }
 }
 
-/* Nothing to do, and everything done in one step. */
+/* Zero right-hand side, and convergence in one step. */
 static void trivial_sides(void **unused) {
   (void)unused;
   solver *const solvers[] = {hk_solve_symmetric, hk_solve_general};
@@ -183,7 +183,7 @@ static void limits_and_stops(void **unused) {
     dense.stop_at = 3;
     check_status(run_solver(solvers[s], &dense, b, 100, x, &solution), HOOKE_STOPPED);
     assert_int_equal(dense.calls, 3);
-    /* a matrix of zeros has no solution */
+    /* a zero matrix has no solution */
     memset(&dense, 0, sizeof dense);
     check_ok(run_solver(solvers[s], &dense, b, 20, x, &solution));
     assert_false(solution.converged);

@@ -1,4 +1,4 @@
-/* Limits found by running, against formulas; and what they are blamed on. */
+/* Measured limits compared with formulas; and their limiting elements. */
 #include "measure/trial/bracket.h"
 #include "measure/spectrum/linear_twin.h"
 #include "measure/limit/limit_blame.h"
@@ -71,7 +71,7 @@ static void one_oscillator(void **unused) {
                 {"verlet", 2.0},
                 {"rk4", rk4[k]}};
     for (int m = 0; m < 4; m++) {
-      /* from nothing, and from predictions that are wrong by much */
+      /* from no prediction, and from very wrong ones */
       const double guess[] = {NAN, 1.3 * rows[m].limit / omega, rows[m].limit / omega / 1.3};
       for (int g = 0; g < 3; g++) {
         const struct hk_measured_limit out = measure(system, rows[m].method, guess[g], NULL, 2e-3);
@@ -116,7 +116,7 @@ static void far_from_the_origin(void **unused) {
   hooke_system_destroy(system);
 }
 
-/* ---- a mode that nobody thought of ---- */
+/* ---- a mode that was not predicted ---- */
 
 static void hidden_mode_is_found(void **unused) {
   (void)unused;
@@ -139,7 +139,7 @@ static void hidden_mode_is_found(void **unused) {
   hooke_system_destroy(system);
 }
 
-/* ---- what is frozen, and how ---- */
+/* ---- the linear twin ---- */
 
 static void frozen_system_rests(void **unused) {
   (void)unused;
@@ -183,7 +183,7 @@ static void frozen_system_rests(void **unused) {
   const double d[3] = {dq[3] - dq[6], dq[4] - dq[7], dq[5] - dq[8]};
   const double along = u[0] * d[0] + u[1] * d[1];
   for (int a = 0; a < 3; a++) {
-    const double clamped = -across * (d[a] - along * u[a]); /* what particle 1 no longer feels of it */
+    const double clamped = -across * (d[a] - along * u[a]); /* share that particle 1 loses */
     check_close(product[3 + a], moved[3 + a] - clamped, 1e-7);
     check_close(product[6 + a], moved[6 + a] + clamped, 1e-7);
   }
@@ -251,7 +251,7 @@ static void what_is_refused(void **unused) {
   hooke_system_destroy(system);
 }
 
-/* Damped along a motion that has no direction yet: what is measured leaves that damping out, and says so. */
+/* Damped along a motion that has no direction yet: the measurement leaves that damping out, and says so. */
 static void damping_of_a_spring_of_no_length(void **unused) {
   (void)unused;
   const double place[6] = {0.0};
@@ -267,7 +267,7 @@ static void damping_of_a_spring_of_no_length(void **unused) {
 
 /* ---- the scene itself ---- */
 
-/* A force on everything that is nothing until `from` and not a number then, or an end of the run. */
+/* A force on all particles that is zero until `from` and NaN from then on, or a stop. */
 struct spoiler {
   double from;
   int32_t stops;
@@ -281,7 +281,7 @@ static int32_t spoil(int64_t n, double t, const double *q, const double *v, doub
   return spoiler->stops;
 }
 
-/* About 200 steps at the limit, or so many that someone looks at the clock now and then. */
+/* About 200 steps at the limit, or enough for clock readings in between. */
 static const double OMEGA = 10.0, BRIEF = 40.0, LONG = 12000.0;
 
 static int32_t measure_scene(const hooke_system *system, const char *method, double duration,
@@ -291,7 +291,7 @@ static int32_t measure_scene(const hooke_system *system, const char *method, dou
   hooke_state *start = NULL;
   check_ok(hooke_options_create("run", &run));
   if (duration > 0.0) check_ok(hooke_options_set_number(run, "duration", duration));
-  check_ok(hooke_options_set_number(run, "every", 1.0)); /* which fits few steps, and has no say here */
+  check_ok(hooke_options_set_number(run, "every", 1.0)); /* which allows few steps, and is not used here */
   check_ok(hooke_state_create(system, &start));
   const int32_t status =
       hk_limit_measure_nonlinear(system, start, run, method, predicted, 1e-2, budget, progress, NULL, out);
@@ -401,7 +401,7 @@ static void bracket_closes_from_both_sides(void **unused) {
   assert_true(isinf(high.fails) && high.holds > 1e3);
 }
 
-/* ---- blame ---- */
+/* ---- limiting springs ---- */
 
 /* Two oscillators and a mode in which both move: shares by hand. */
 static void shares_are_those_of_the_mode(void **unused) {
@@ -491,7 +491,7 @@ static void no_remedy_where_all_are_alike(void **unused) {
   hooke_system *system = oscillators(COUNT, stiffness, damping, 0.0);
   struct hk_blame blame;
   struct hk_remedy remedy;
-  /* one spring has all of the mode, but without it the next one limits the step as much */
+  /* one spring has the whole mode, but without it the next one limits the step as much */
   check_ok(hk_blame_find(system, system->position, mode, 1.0, 0.0, &blame));
   const int32_t status = hk_remedy_find(system, system->position, "verlet", 2.0 / 7.0, &blame, &remedy);
   hk_blame_release(&blame);

@@ -1,5 +1,5 @@
-/* Room: scenes that are too large are refused before anything is allocated, at the edges of 32-bit numbers
- * and of memory; what is said to be needed is held against what is used. */
+/* Memory limit: too large scenes are refused before anything is allocated, at the limits of 32-bit numbers
+ * and of memory; stated needs are compared with the memory used. */
 #include "hooke.h"
 #include "check.h"
 #include "sanitized.h"
@@ -18,7 +18,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-static const double LITTLE = 1e6; /* bytes, which no scene at the edges fits into */
+static const double LITTLE = 1e6; /* bytes, too few for any scene at the limits */
 
 static hooke_system *new_system(double limit) {
   hooke_system *system;
@@ -47,7 +47,7 @@ static hooke_options *part_options(const char *kind, int64_t size[3]) {
   return options;
 }
 
-/* Up to 2^31 - 1 of everything it is the memory that lacks, beyond it the numbers. */
+/* Up to 2^31 - 1 of everything memory is the limit, beyond it the numbers. */
 static void check_part(const char *kind, const char *family, int64_t a, int64_t b, int64_t c,
                        int32_t expected, const char *count) {
   hooke_system *system = new_system(LITTLE);
@@ -114,7 +114,7 @@ static hooke_options *altitude_options(void) {
   return options;
 }
 
-/* The arrays have room for one: nothing of them is read. */
+/* The arrays have one element: nothing of them is read. */
 static void systems_stop_at_the_edge_of_32_bits(void **unused) {
   (void)unused;
   hooke_system *system = new_system(LITTLE);
@@ -141,7 +141,7 @@ static void systems_stop_at_the_edge_of_32_bits(void **unused) {
     if (count < 0 || count > INT32_MAX)
       check_status(hooke_system_drive_harmonic(system, count, ends, place, 1.0, 0.0), HOOKE_BAD_VALUE);
   }
-  /* what is there already counts, in the numbers and in the memory */
+  /* existing members count, in numbers and in memory */
   check_ok(hooke_system_limit_memory(system, INFINITY));
   for (int k = 0; k < HOOKE_FORCES; k++)
     system->member_total[k] = INT32_MAX - 1;
@@ -161,7 +161,7 @@ static void systems_stop_at_the_edge_of_32_bits(void **unused) {
   hooke_system_destroy(system);
 }
 
-/* A part that does not come to be leaves the counts as they were. */
+/* A part that fails leaves the counts unchanged. */
 static void what_is_taken_back_does_not_count(void **unused) {
   (void)unused;
   hooke_system *system = new_system(0.0);
@@ -180,7 +180,7 @@ static void what_is_taken_back_does_not_count(void **unused) {
   hooke_system_destroy(system);
 }
 
-/* ---- what is needed ---- */
+/* ---- stated needs ---- */
 
 static double peak(void) {
   struct rusage use;
@@ -188,7 +188,7 @@ static double peak(void) {
   return 1024.0 * (double)use.ru_maxrss;
 }
 
-/* Builds, commits and runs one step; how much of what it was said to need it took. */
+/* Builds, commits and runs one step; returns the fraction of the stated memory that was used. */
 static double share_used(const char *kind, int64_t a, int64_t b, int64_t c, const char *const *families) {
   const double before = peak();
   hooke_system *system = new_system(0.0);
@@ -233,10 +233,10 @@ static const struct {
      {"stretch.stiffness", "bend.stiffness", "twist.stiffness", "altitude.stiffness", NULL}},
 };
 
-/* In a process each, since a peak stays. */
+/* Each in its own process, since a peak stays. */
 static void a_scene_takes_what_it_is_said_to_need(void **unused) {
   (void)unused;
-  if (short_of_time()) return; /* and memory is another there */
+  if (short_of_time()) return; /* and memory is counted differently there */
   for (size_t k = 0; k < sizeof scenes / sizeof scenes[0]; k++) {
     const pid_t child = fork();
     if (child == 0) {
@@ -272,7 +272,7 @@ static void bytes_are_shown_in_three_digits(void **unused) {
       "than that, or a higher limit set by the caller");
 }
 
-/* The limit on the address space is asked each time. */
+/* The limit on the address space is read each time. */
 static void a_limit_on_the_address_space_counts(void **unused) {
   (void)unused;
   struct rlimit before;
@@ -280,13 +280,13 @@ static void a_limit_on_the_address_space_counts(void **unused) {
   assert_int_equal(getrlimit(RLIMIT_AS, &before), 0);
   const double all = hk_memory_limit(&which);
   assert_true(all > 1e6);
-  if (HOOKE_SANITIZED) return; /* which reserves a great deal of it */
+  if (HOOKE_SANITIZED) return; /* which reserves a large part of it */
   struct rlimit less = before;
   less.rlim_cur = (rlim_t)(all / 2.0);
   if (setrlimit(RLIMIT_AS, &less) != 0) return;
   struct rlimit now;
   assert_int_equal(getrlimit(RLIMIT_AS, &now), 0);
-  if (now.rlim_cur != less.rlim_cur) return; /* an emulator that keeps none */
+  if (now.rlim_cur != less.rlim_cur) return; /* an emulator without such limits */
   check_close(hk_memory_limit(&which), (double)less.rlim_cur, 0.0);
   assert_string_equal(which, "the limit on the address space");
   assert_int_equal(setrlimit(RLIMIT_AS, &before), 0);
@@ -319,7 +319,7 @@ static void scenes_that_are_too_large_are_refused(void **unused) {
               "\"edges\":[[1,0,0],[0,1,0]],\"mass\":1}]}",
               0.0, HOOKE_BAD_VALUE,
               "s:1:44: parts[0].size: a cloth of 100000 x 100000 particles needs 2.8 TB of memory");
-  /* each part fits, all of them do not */
+  /* each part fits, all together do not */
   const char *parts = "{\"hooke\":1,\"parts\":["
                       "{\"kind\":\"rope\",\"from\":[0,0,0],\"to\":[1,0,0],\"segments\":1000,\"mass\":1},"
                       "{\"kind\":\"rope\",\"from\":[0,0,0],\"to\":[1,0,0],\"segments\":1000,\"mass\":1}]}";
@@ -373,7 +373,7 @@ static void check_load(const char *path, int32_t outside, int32_t expected, cons
   hooke_options_destroy(options);
 }
 
-/* Nobody writes into the pipe: whoever waits for it is ended by the alarm. */
+/* The pipe has no writer: the alarm ends a process that waits for it. */
 static void nothing_waits_for_a_pipe(void **unused) {
   (void)unused;
   char folder[] = "/tmp/hooke-room-XXXXXX";

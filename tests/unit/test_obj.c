@@ -9,7 +9,7 @@
 #include <unistd.h>
 
 static int32_t parse(const char *text, struct hk_obj *obj, int64_t *line) {
-  /* without a NUL behind it, so that a sanitizer sees what is read too far */
+  /* without a NUL at its end, so that a sanitizer detects reading too far */
   const size_t length = strlen(text);
   char *copy = malloc(length ? length : 1);
   assert_non_null(copy);
@@ -54,7 +54,7 @@ static void five_corners_make_three_triangles(void **unused) {
   check_faces(FOUR "v -1 0.5 0\nf 5 1 2 3 4\n", 3, fan);
 }
 
-/* Lines are counted alike whatever ends them. */
+/* Lines are counted in the same way for all line ends. */
 static void lines_end_in_three_ways(void **unused) {
   (void)unused;
   static const char *const ends[] = {"\n", "\r\n", "\r"};

@@ -1,4 +1,4 @@
-/* Option tables: what is taken, what is refused and how the refusal reads, defaults, families, copies. */
+/* Option tables: accepted values, refusals and their messages, defaults, families, copies. */
 #include "check.h"
 
 #include "core/number.h"
@@ -129,7 +129,7 @@ static void printed_numbers_read_back(void **state) {
   assert_string_equal(text, "0.1");
 }
 
-/* With a comma locale, where the machine has one, nothing changes. */
+/* With a comma locale, if the machine has one, nothing changes. */
 static void locale_does_not_matter(void **state) {
   (void)state;
   static const char *const names[] = {"de_DE.UTF-8", "de_DE.utf8", "de_DE", "fr_FR.UTF-8", "nl_NL.UTF-8"};
@@ -422,7 +422,7 @@ static void check_shown(const char *text, const char *wanted) {
 
 #define TWENTY "aaaaaaaaaaaaaaaaaaaa"
 
-/* What comes from a file may be anything; a message is text. */
+/* Text from a file may be anything; messages stay printable. */
 static void what_is_shown_is_text(void **state) {
   (void)state;
   check_shown("", "");

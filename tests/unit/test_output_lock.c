@@ -1,5 +1,5 @@
-/* The output of a run belongs to that run: a second one is refused at its start, whichever way it comes,
- * until the first has ended or is dead. Readers have no part in it, and a fork leaves all as it is. */
+/* The output of a run belongs to that run: a second one is refused at its start, by any function, until the
+ * first has ended or died. Readers are not affected, and a fork changes nothing. */
 #include "check.h"
 #include "core/memory.h"
 #include "io/hdf5/array_h5.h"
@@ -16,7 +16,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-/* A file system where flock() meets the library's locks: a reader is turned away. */
+/* A file system where flock() conflicts with the library's locks: a reader is refused. */
 static int one_kind_of_lock;
 int __real_flock(int descriptor, int how);
 int __wrap_flock(int descriptor, int how);
@@ -48,7 +48,7 @@ static int set_up(void **state) {
   return 0;
 }
 
-/* Anything that was left behind keeps the folder. */
+/* Any leftover file keeps the folder. */
 static int tear_down(void **state) {
   (void)state;
   hooke_state_destroy(at);
@@ -87,7 +87,7 @@ static void check_frames(int64_t count) {
   hooke_record_close(record);
 }
 
-/* ---- while a run goes on ---- */
+/* ---- during a run ---- */
 
 static void nothing_else_takes_its_place(void **state) {
   (void)state;
@@ -105,7 +105,7 @@ static void nothing_else_takes_its_place(void **state) {
   check_frames(FRAMES);
   first = create();
   write_frames(first, 0, 3);
-  check_ok(hooke_trajectory_close(first, HOOKE_STOPPED)); /* made again, shorter */
+  check_ok(hooke_trajectory_close(first, HOOKE_STOPPED)); /* created again, shorter */
   check_frames(3);
   check_ok(hooke_scene_write(path, cloth, NULL, NULL));
   assert_int_equal(unlink(link), 0);
@@ -116,7 +116,7 @@ static void readers_come_and_go(void **state) {
   hooke_trajectory *first = create();
   write_frames(first, 0, 2);
   const int reader = open(path, O_RDONLY);
-  assert_int_equal(flock(reader, LOCK_SH | LOCK_NB), 0); /* as HDF5 does */
+  assert_int_equal(flock(reader, LOCK_SH | LOCK_NB), 0); /* like HDF5 */
   check_frames(2);
   write_frames(first, 2, FRAMES);
   close(reader);
@@ -146,8 +146,8 @@ static void one_alone_goes_on_with_it(void **state) {
 
 /* ---- processes ---- */
 
-/* Begins a run when the pipe `go` is closed and tells by `out` whether it has the output; ends when `end` is
- * closed. */
+/* Starts a run when the pipe `go` is closed and reports by `out` whether it has the output; ends when `end`
+ * is closed. */
 static pid_t start_other(const int go[2], const int end[2], int out) {
   const pid_t child = fork();
   if (child != 0) return child;
@@ -189,7 +189,7 @@ static void race(void) {
   close(told[1]);
 }
 
-/* Where nothing is, and where an older file is. */
+/* Without a file, and with an older one. */
 static void of_many_at_once_one_begins(void **state) {
   (void)state;
   for (int k = 0; k < 4; k++) {
@@ -226,8 +226,8 @@ static int is_refused_in_a_fork(hooke_trajectory *trajectory) {
          strstr(hooke_last_error(), "forked") != NULL;
 }
 
-/* The child ends by what would close the file, the thread that writes being its parent's, and lives on for
- * longer. */
+/* The child exits through functions that would close the file, whose writing thread is its parent's, and
+ * lives longer. */
 static void a_fork_leaves_the_file_alone(void **state) {
   (void)state;
   int end[2], told[2], how;
@@ -248,7 +248,7 @@ static void a_fork_leaves_the_file_alone(void **state) {
   write_frames(trajectory, 5, FRAMES);
   check_ok(hooke_trajectory_close(trajectory, HOOKE_OK));
   check_frames(FRAMES);
-  check_ok(hooke_trajectory_close(create(), HOOKE_STOPPED)); /* though the child still lives */
+  check_ok(hooke_trajectory_close(create(), HOOKE_STOPPED)); /* although the child still lives */
   close(end[0]);
   close(end[1]);
   close(told[0]);
@@ -257,7 +257,7 @@ static void a_fork_leaves_the_file_alone(void **state) {
   assert_int_equal(how, 0);
 }
 
-/* ---- where locks would keep readers out ---- */
+/* ---- locks that would keep readers out ---- */
 
 static void readers_come_first(void **state) {
   (void)state;

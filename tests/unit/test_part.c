@@ -1,4 +1,4 @@
-/* Parts: what rope and cloth consist of, in which order, and that rest lengths are equal to the bit. */
+/* Parts: the contents of rope and cloth, their order, and that rest lengths are equal to the bit. */
 #include "hooke.h"
 #include "check.h"
 
@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Everything that a committed system says about its springs. */
+/* All queries of a committed system about its springs. */
 struct springs {
   int64_t count;
   int64_t *ends;
@@ -191,7 +191,7 @@ static void a_cloth_has_its_springs_in_order(void **unused) {
       check_spring(&s, k++, at(r, c), at(r + 2, c));
   assert_int_equal(k, s.count);
 
-  /* every spring at rest where it is put, and one number for each family and direction */
+  /* every spring at rest initially, and one number for each family and direction */
   hooke_state *state;
   check_ok(hooke_state_create(system, &state));
   const double *q = hooke_state_position(state);
@@ -228,7 +228,7 @@ static void a_family_that_is_absent_has_no_springs(void **unused) {
   hooke_system_destroy(system);
 }
 
-/* Which particles of a system are held, as text: "x..x". */
+/* Constrained particles of a system as text: "x..x". */
 static void held(const hooke_system *system, char *text) {
   const int64_t n = hooke_system_particle_count(system);
   for (int64_t k = 0; k < n; k++)

@@ -1,4 +1,4 @@
-/* Trajectory files read back as whole arrays, and where frames lie in them. */
+/* Trajectory files read as whole arrays, and the offsets of their frames. */
 #include "check.h"
 #include "hooke/trajectory.h"
 #include "run.h"
@@ -115,7 +115,7 @@ static void arrays_are_those_of_the_run(void **unused) {
   release(&f);
 }
 
-/* Of a finished run, and of one that was shortened to its frames. */
+/* For a finished run, and for one that was truncated to its frames. */
 static void frames_lie_where_it_says(void **unused) {
   (void)unused;
   const int64_t frames[] = {FRAMES, 3};

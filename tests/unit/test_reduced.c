@@ -1,4 +1,4 @@
-/* The linear equations of implicit steps against products of the model's own derivative. */
+/* The linear equations of implicit steps compared with products of the model's own derivative. */
 #include "check.h"
 #include "integrate/solve/reduced.h"
 #include "law_scene.h"
@@ -65,7 +65,7 @@ static void check_solution(const hooke_system *system, const double *q, const do
   if (!(wrong <= rounding)) check_failed("alpha %g, beta %g: defect %g", alpha, beta, wrong);
   assert_int_equal(hooke_integrator_count(integrator, "linear_iterations"), solution.iterations);
   assert_true(hooke_integrator_count(integrator, "derivative_products") >= solution.iterations);
-  /* the change that derivatives make of two directions at once */
+  /* the change by the derivatives along two directions at once */
   double *dq = new_doubles(2 * size), *dv = dq + size, *found = new_doubles(3 * size),
          *expected = found + size;
   double *rows = expected + size;
@@ -94,7 +94,7 @@ static void every_law(void **unused) {
   for (int l = 0; l < LAW_COUNT; l++) {
     struct law_scene scene;
     law_scene_create(&laws[l], 31, &scene);
-    /* difference quotients stand in for a callback's derivative: good to 1e-9 or so */
+    /* difference quotients replace a callback's derivative: accurate to 1e-9 or so */
     const double rounding = laws[l].callback == 1 ? 1e-7 : 1e-11;
     for (int k = 0; k < WEIGHTS; k++)
       check_solution(scene.system, scene.q, scene.v, weights[k][0], weights[k][1], rounding);

@@ -1,4 +1,4 @@
-/* The scene loader: what comes out of a good scene, and where in the text a bad one is said to be wrong. */
+/* The scene loader: the system of a valid scene, and the position of the fault in an invalid one. */
 #include "check.h"
 
 #include "core/memory.h"
@@ -51,7 +51,7 @@ static void paths_are_found(void **state) {
   check_place("\xc3\xa4 k.y.c", 0, 3, 32);
 }
 
-/* What does not exist is placed at the nearest that does. */
+/* A missing path has the position of its longest existing prefix. */
 static void missing_paths_are_found_as_far_as_they_go(void **state) {
   (void)state;
   check_place("b", 0, 1, 1);
@@ -103,16 +103,16 @@ static int32_t feed_in_pieces(const char *bytes, int64_t length, int64_t piece, 
   return hk_json_guard_end(guard);
 }
 
-/* However the text is cut into pieces, the answer and its place are the same. */
+/* Result and position do not depend on how the text is cut into pieces. */
 static void the_guard_refuses_hopeless_texts(void **state) {
   (void)state;
   static const struct {
     const char *bytes;
-    int64_t length, line, column; /* line 0: fine */
+    int64_t length, line, column; /* line 0: valid */
   } cases[] = {
       {"{\"\xc3\xa4\xe2\x82\xac\xf0\x9f\x98\x80\": 1}", 16, 0, 0},
       {"{\n \"\xff\": 1}", 9, 2, 3},
-      {"{\"a\xc3\x28\"}", 7, 1, 4},        /* broken off */
+      {"{\"a\xc3\x28\"}", 7, 1, 4},        /* truncated */
       {"{\"\xc0\xaf\"}", 6, 1, 3},         /* overlong */
       {"{\"\xed\xa0\x80\"}", 7, 1, 3},     /* a surrogate */
       {"{\"\xf4\x90\x80\x80\"}", 8, 1, 3}, /* beyond Unicode */
@@ -143,7 +143,7 @@ static void the_guard_counts_brackets_outside_of_texts(void **state) {
   assert_int_equal(guard.column, 33);
 }
 
-/* They are never right, and a long row of them must not reach the parser. */
+/* They are never valid, and many of them must not reach the parser. */
 static void the_guard_refuses_empty_brackets_in_arrays(void **state) {
   (void)state;
   static const char *const good[] = {"{\"a\": [], \"b\": {}}", "{\"a\": [{\"b\": []}, [1], \"[\", [\"]\"]]}"};
@@ -211,7 +211,7 @@ static void files_stay_in_the_folder_of_the_scene(void **state) {
 
 #if HOOKE_HAVE_JANSSON
 
-/* ---- good scenes ---- */
+/* ---- valid scenes ---- */
 
 static hooke_scene *parse(const char *quoted) {
   char *text = json(quoted);
@@ -346,7 +346,7 @@ static void driven_particles_move(void **state) {
   hooke_scene_destroy(scene);
 }
 
-/* ---- bad scenes: exact messages ---- */
+/* ---- invalid scenes: exact messages ---- */
 
 static void refuse(const char *quoted, const char *message) {
   char *text = json(quoted), *wanted = json(message);
@@ -414,7 +414,7 @@ static void parts_are_named_and_counted(void **state) {
          "strand");
 }
 
-/* Words between the numbers of a list do not shift the place. */
+/* Words between the numbers of a list do not shift the position. */
 static void mixed_lists_give_the_place_in_the_text(void **state) {
   (void)state;
   static const char rope[] =
@@ -466,7 +466,7 @@ static void syntax_errors_give_line_and_column(void **state) {
   hk_free(text);
 }
 
-/* Commit knows more than the parser; its message still has a place in the text. */
+/* Commit finds faults that the parser does not; its message still has a position in the text. */
 static void commit_gives_the_place_too(void **state) {
   (void)state;
   hooke_scene *scene = parse("{'hooke': 1, 'particles': {'position': [[0,0,0]], 'mass': 1, 'pinned': [0],\n"
@@ -502,7 +502,7 @@ static void files_that_are_none_are_bad_input(void **state) {
   hooke_scene_destroy(NULL);
 }
 
-/* A file is read in pieces: what is at its end is there, however long it is. */
+/* A file is read in pieces: its end is read at any length. */
 static void files_of_every_length_are_read_whole(void **state) {
   (void)state;
   static const char before[] = "{\"hooke\": 1,",
@@ -529,7 +529,7 @@ static void files_of_every_length_are_read_whole(void **state) {
   assert_int_equal(rmdir(folder), 0);
 }
 
-/* Every truncation and every changed byte of a good scene ends in a scene or a message, never in a fault. */
+/* Every truncation and every changed byte of a valid scene gives a scene or a message, never a crash. */
 static void damaged_scenes_are_survived(void **state) {
   (void)state;
   char *text =

@@ -161,7 +161,7 @@ static void add_strand(hooke_system *system, int curl) {
   hooke_options_destroy(options);
 }
 
-/* Tetrahedra of parts to the bit; those of its own have no words. */
+/* Tetrahedra of parts are equal to the bit; a scene cannot express explicit ones. */
 static void strands_come_back(void **state) {
   (void)state;
   hooke_system *system;
@@ -194,7 +194,7 @@ static void strands_come_back(void **state) {
   hooke_system_destroy(system);
 }
 
-/* Anchors to the bit, in a variant that leaves a group out, too; a group of nothing keeps its place. */
+/* Anchors are equal to the bit, in a variant that leaves a group out, too; an empty group keeps its place. */
 static void anchors_come_back(void **state) {
   (void)state;
   const double stiffness[2] = {0.1 + 0.2, 7.0}, point[6] = {1.0 / 3.0, 2, 3, 4, 5, 6};
@@ -239,7 +239,7 @@ static void anchors_come_back(void **state) {
   hooke_system_destroy(system);
 }
 
-/* Driven as before: at some times, in the same places to the bit. */
+/* Driven as before: at some times, to the same positions to the bit. */
 static void drives_come_back(void **state) {
   (void)state;
   const double at[9] = {0, 0, 0, 1, 0, 0, 2, 0, 0}, mass[3] = {1, 2, 3}, amplitude[3] = {0.1, 0, 0.2};
@@ -280,7 +280,7 @@ static void zeros_keep_their_sign(void **state) {
   hooke_system_destroy(system);
 }
 
-/* "-0" is a whole number too, and a scene has no word for the sign of one. */
+/* "-0" is an integer, too, and a scene cannot express the sign of one. */
 static void whole_numbers_have_one_zero(void **state) {
   (void)state;
   const double wanted[2] = {0.0, 1.0};

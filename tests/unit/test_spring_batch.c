@@ -1,5 +1,5 @@
-/* Batches have every spring once, with its material to the bit, whether they go by runs or by the tiles of a
- * tiled batch; and sums over them are those over the springs one by one. */
+/* Batches contain every spring once, with its material to the bit, by runs or by the tiles of a tiled batch;
+ * sums over them equal those over single springs. */
 #include "check.h"
 #include "model/sum/spring_batch.h"
 #include "random.h"
@@ -155,7 +155,7 @@ static void test_runs(void **unused) {
   test_sheet(30, 0, 0);
 }
 
-/* The large one has materials by a law, and none of its own a spring. */
+/* The large one has materials by a law, and none stored by spring. */
 static void test_tiled(void **unused) {
   (void)unused;
   test_sheet(30, 1, 1);

@@ -1,5 +1,5 @@
-/* Systems whose springs form strided batches: sums and steps have the bits of the plain order, whatever the
- * strided batches are. */
+/* Systems whose springs form strided batches: sums and steps have the bits of the plain order, for any
+ * batches. */
 #include "agree.h"
 #include "canonical.h"
 #include "check.h"
@@ -58,7 +58,7 @@ static hooke_system *build(struct random_source *source, int64_t particles, int 
   hooke_system *system;
   check_ok(hooke_system_create(&system));
   for (int64_t p = 0; p < particles; p++) {
-    const int copy = p > 0 && random_whole(source, 0, 30) == 0; /* at the place of its neighbour */
+    const int copy = p > 0 && random_whole(source, 0, 30) == 0; /* coincides with its neighbour */
     for (int a = 0; a < 3; a++) {
       q[3 * p + a] = copy ? q[3 * p + a - 3] : random_between(source, -1.0, 1.0);
       v[3 * p + a] = random_between(source, -1.0, 1.0);
@@ -119,8 +119,8 @@ static int64_t spring_count(const hooke_system *system, int32_t k) {
   return count;
 }
 
-/* Ropes side by side are two strided batches, not two a rope; springs of the same offset that come again
- * after others are a third. */
+/* Parallel ropes are two strided batches, not two a rope; springs of the same offset that follow later are a
+ * third. */
 static void test_lanes_of_ropes(void **unused) {
   (void)unused;
   hooke_system *system;
@@ -149,7 +149,7 @@ static void test_lanes_of_ropes(void **unused) {
   hooke_system_destroy(system);
 }
 
-/* Ropes of one material are a strided batch that reads no parameters, and of several one that does. */
+/* Ropes of one material are a strided batch that reads no parameters, those of several one that does. */
 static void check_materials(int ropes, int materials, int32_t shape) {
   hooke_system *system;
   hooke_options *options;
@@ -193,8 +193,7 @@ static void test_lanes_of_materials(void **unused) {
 
 enum { SIDE = 13, MOST_SHEETS = 5, STEPS = 6, MOST_LISTED = MOST_SHEETS * SIDE * SIDE };
 
-/* How the springs from a particle are ordered: in the same way everywhere, in the opposite way at one
- * particle, or at random everywhere. */
+/* Order of the springs of a particle: the same everywhere, reversed at one particle, or random. */
 enum order { SAME, ONE_OPPOSITE, RANDOM };
 enum { AT_REST, STIFFNESS_OF_ITS_OWN, ALL_OF_ITS_OWN, LISTED_MATERIALS };
 
@@ -232,7 +231,7 @@ static int64_t list(struct random_source *source, const struct listing *listing,
   return count;
 }
 
-/* Numbers at random up to `most`, or that. */
+/* Random numbers up to `most`, or `most`. */
 static void set_each(struct random_source *source, hooke_options *options, const char *name, int64_t count,
                      double most, int own) {
   double *value = new_doubles(count);
@@ -268,8 +267,8 @@ static hooke_system *build_listed(struct random_source *source, const struct lis
   return system;
 }
 
-/* As many strided batches as there are offsets, and another one where one particle has its springs in an
- * order of its own; with no order at all they are no strided batches. */
+/* As many strided batches as there are offsets, and another one where one particle has its springs in another
+ * order; springs in random order form no strided batches. */
 static void check_listing(uint64_t seed, struct listing listing) {
   struct random_source source = {seed};
   double *q = new_doubles(3 * MOST_LISTED), *v = new_doubles(3 * MOST_LISTED);
@@ -302,8 +301,8 @@ static void test_listed_by_particle(void **unused) {
   }
 }
 
-/* A chain whose springs to the second next particles come first, and then every second one to the next: in
- * one strided batch ends would have to come before beginnings at one particle, and after them at another. */
+/* A chain whose springs to the second next particles come first, and then every second one to the next: in a
+ * single strided batch ends would have to precede beginnings at one particle, and follow them at another. */
 static void test_every_second_first(void **unused) {
   (void)unused;
   enum { CHAIN = 150 };
@@ -339,8 +338,7 @@ static void test_every_second_first(void **unused) {
   hooke_system_destroy(system);
 }
 
-/* Rest lengths of rounded positions take a fraction of 24 bytes a spring, and are what they were to the bit.
- * */
+/* Rest lengths of rounded positions take a fraction of 24 bytes a spring, and are equal to the bit. */
 static void test_rounded_lengths(void **unused) {
   (void)unused;
   enum { EDGE = 24, EACH = EDGE * EDGE * EDGE };

@@ -1,4 +1,4 @@
-/* Every instruction set that this machine has gives the bits of plain loops in the derivatives of springs. */
+/* Every instruction set of this machine gives the bits of plain loops in the derivatives of springs. */
 #include "check.h"
 #include "random.h"
 
@@ -12,7 +12,7 @@
 enum { LONGEST = 700, PARTICLES = 1500, BLOCKS = 6 };
 static const double ALPHA = 0.3, BETA = 0.7;
 
-/* What loops make: u, e and b by springs, then a product, damping and blocks by particles. */
+/* Output of the loops: u, e and b by springs, then a product, damping and blocks by particles. */
 struct found {
   double numbers[7][LONGEST], product[3][PARTICLES], damping[3][PARTICLES], block[BLOCKS][PARTICLES];
 };
@@ -22,7 +22,7 @@ struct trial {
   int32_t head[LONGEST], tail[LONGEST], place[LONGEST];
   struct hk_run run;
   int axial;
-  struct found begin; /* sums go on from these */
+  struct found begin; /* sums start from these */
 };
 
 static void draw_numbers(struct random_source *source, int64_t count, double *x) {
@@ -64,7 +64,7 @@ static void draw(struct random_source *source, int32_t shape, int64_t count, str
   }
   for (int p = 1; p < PARTICLES; p++) {
     for (int a = 0; a < 3 && p % 17 == 0; a++)
-      trial->q[a][p] = trial->q[a][p - 1]; /* ends at one place, when they are neighbours */
+      trial->q[a][p] = trial->q[a][p - 1]; /* coincident ends, if they are neighbours */
   }
   for (int64_t k = 0; k < count; k++) {
     trial->head[k] = (int32_t)random_whole(source, 0, PARTICLES - 1);
@@ -80,7 +80,7 @@ static void draw(struct random_source *source, int32_t shape, int64_t count, str
   draw_numbers(source, 12 * PARTICLES, trial->begin.product[0]);
 }
 
-/* ---- plainly ---- */
+/* ---- plain loops ---- */
 
 static void ends_of(const struct hk_run *run, int64_t k, int64_t *i, int64_t *j) {
   const int indexed = run->shape & HOOKE_RUN_INDEXED;

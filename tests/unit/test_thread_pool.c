@@ -1,5 +1,5 @@
-/* Thread pools: every worker does its share once, what it wrote is seen by all after a meeting, and neither more
- * workers than processors nor work of unequal length holds anyone up. */
+/* Thread pools: every worker does its share once, all see its results after a barrier, and neither more
+ * workers than processors nor work of unequal length causes long waits. */
 #include "check.h"
 
 #include "core/thread_pool.h"
@@ -19,8 +19,8 @@ struct sums {
   int64_t part[MOST], value[COUNT];
 };
 
-/* In each round workers add up their shares, meet, add up what the others found, meet, and put new values
- * into the share of the next worker. */
+/* In each round workers sum their shares, wait at the barrier, sum the results of the others, wait, and write
+ * new values into the share of the next worker. */
 static void add_up(int32_t worker, int32_t workers, void *ctx) {
   struct sums *sums = ctx;
   const int64_t expected = (int64_t)COUNT * (COUNT - 1) / 2;
@@ -81,7 +81,7 @@ static void count_step(int32_t worker, int32_t workers, void *ctx) {
   steps->done[worker]++;
 }
 
-/* Many short pieces of work. */
+/* Many short tasks. */
 static void test_short_runs(void **unused) {
   (void)unused;
   for (size_t s = 0; s < sizeof sizes / sizeof sizes[0]; s++) {
@@ -101,7 +101,7 @@ static void nap(int64_t microseconds) {
   nanosleep(&time, NULL);
 }
 
-/* Everyone in turn comes so late that the others sleep. */
+/* Each worker in turn comes so late that the others sleep. */
 static void come_late(int32_t worker, int32_t workers, void *ctx) {
   struct steps *steps = ctx;
   for (int32_t late = 0; late < workers; late++) {
@@ -165,7 +165,7 @@ static void look_at_signals(int32_t worker, int32_t workers, void *ctx) {
   blocked[worker] = sigismember(&set, SIGINT) && sigismember(&set, SIGUSR1);
 }
 
-/* The caller takes them as before, the threads none. */
+/* The caller handles signals as before, the threads none. */
 static void test_signals(void **unused) {
   (void)unused;
   int blocked[3] = {-1, -1, -1};

@@ -1,5 +1,5 @@
-/* Systems whose springs form a tiled batch, or strided batches where they are listed particle by particle:
- * sums and steps have the bits of the plain order, whatever the numbers of particles and springs are. */
+/* Systems whose springs form a tiled batch, or strided batches if they are listed particle by particle: sums
+ * and steps have the bits of the plain order, for any numbering of particles and springs. */
 #include "agree.h"
 #include "check.h"
 #include "workers.h"
@@ -13,7 +13,7 @@
 /* Sides of sheets; only the springs of a large one are stored by the law that they follow. */
 enum { SMALL = 30, LARGE = 220, MOST_PARTICLES = LARGE * LARGE, MOST_SPRINGS = 5 * MOST_PARTICLES };
 
-/* What is asked of a scene: a sheet, its numbers as they come or in no order, cut up into groups. */
+/* Parameters of a scene: a sheet, in regular or random numbering, divided into groups. */
 enum { AS_BUILT, SPRINGS_IN_NO_ORDER, ALL_IN_NO_ORDER };
 enum { ONE_LENGTH, LENGTHS, STRAIN, OF_ITS_OWN, MATERIALS };
 
@@ -116,7 +116,7 @@ static hooke_system *build(struct random_source *source, struct sheet *sheet, in
   return system;
 }
 
-/* What the springs were given is what the system answers, and no more is stored than the law needs. */
+/* The system returns the given springs, and stores no more than the law needs. */
 static void check_material(const hooke_system *system, const struct canonical *c, int groups, int material,
                            int64_t side) {
   const struct hk_tiled *tiled = &system->tiled;
@@ -194,7 +194,7 @@ static void test_same_bits_by_law(void **unused) {
   compare(103, LARGE, ALL_IN_NO_ORDER, 3, LENGTHS);
 }
 
-/* So many springs between neighbours that places in the ring need more than 16 bits. */
+/* So many springs between neighbours that indices into the ring need more than 16 bits. */
 static void test_wide(void **unused) {
   (void)unused;
   enum { CHAIN = 300, EACH = 150, COUNT = (CHAIN - 1) * EACH };

@@ -1,4 +1,5 @@
-/* Trajectory files: what is written is what is read, nothing else is taken for a frame, failures are told. */
+/* Trajectory files: reading returns what was written, nothing else counts as a frame, failures are reported.
+ */
 #include "check.h"
 #include "file_copy.h"
 #include "file_limit.h"
@@ -71,7 +72,7 @@ static int tear_down(void **state) {
   hooke_system_destroy(f->system);
   unlink(f->path);
   unlink(f->copy);
-  /* anything that was left behind, such as a temporary file, keeps the folder */
+  /* any leftover file, such as a temporary one, keeps the folder */
   int result = rmdir(f->folder);
   free(f);
   return result;
@@ -120,7 +121,7 @@ static void check_no_frame(const char *path, int64_t frame, const char *message)
   assert_null(values);
 }
 
-/* Frames 0..count-1 are there, bit for bit, and no other. */
+/* Frames 0..count-1 are in the file, bit for bit, and no other. */
 static void check_file(const struct fixture *f, const char *path, int64_t count) {
   for (int64_t k = 0; k < count; k++) {
     check_frame(path, "/particles/all/position/value", k, f->q[k]);
@@ -196,7 +197,7 @@ static void all_frames_come_back(void **state) {
   hk_free(ends);
 }
 
-/* After each frame the bytes on the disk hold exactly the frames so far: nothing waits in memory. */
+/* After each frame the bytes on the disk hold exactly the frames so far: nothing is cached in memory. */
 static void every_frame_is_in_the_file_at_once(void **state) {
   struct fixture *f = *state;
   create(f);
@@ -224,7 +225,7 @@ static void an_early_end_leaves_no_empty_frames(void **state) {
   check_ok(close_file(f, HOOKE_STOPPED));
   check_file(f, f->path, 4);
   hk_free(column(f->path, "/observables/total_energy/value", 4));
-  /* before, the planned length was there, and read as the frames that were written */
+  /* before, it had the planned length, and read as the written frames */
   check_file(f, f->copy, 4);
   hk_free(column(f->copy, "/observables/total_energy/value", FRAMES));
 }

@@ -1,5 +1,5 @@
-/* Going on in the file of a run that was killed or ended early: the same frames as if it never had, and no
- * other file. */
+/* Continuing the file of a run that was killed or ended early: the same frames as without interruption; other
+ * files are refused. */
 #include "check.h"
 #include "file_limit.h"
 #include "io/trajectory/trajectory.h"
@@ -51,7 +51,7 @@ static hooke_integrator *integrator_of(hooke_system *system, double duration) {
 struct fixture {
   hooke_system *system;
   hooke_integrator *integrator;
-  hooke_state *frame[FRAMES]; /* of the run that nobody stops */
+  hooke_state *frame[FRAMES]; /* of the uninterrupted run */
   char folder[PATH_SIZE / 2], path[PATH_SIZE], other[PATH_SIZE];
 };
 
@@ -167,7 +167,7 @@ static char *bytes_of(const char *path, size_t *count) {
   return bytes;
 }
 
-/* Changes byte number `at` of bytes that are found somewhere in the file. */
+/* Changes byte number `at` of a byte string in the file. */
 static void damage(const char *path, const void *found, size_t length, int64_t at) {
   size_t count;
   char *bytes = bytes_of(path, &count);
@@ -191,7 +191,7 @@ static void a_killed_run_ends_as_if_it_never_was(void **state) {
       char run[64];
       be_killed(f, killed, -1);
       read_run(f, run);
-      be_killed(f, kept < FRAMES ? kept + 1 : kept, kept); /* once more, soon after it went on */
+      be_killed(f, kept < FRAMES ? kept + 1 : kept, kept); /* again, soon after it continued */
       check_frames(f, killed > kept ? killed : kept < FRAMES ? kept + 1 : kept, "running");
       hooke_trajectory *trajectory = reopen(f, kept);
       assert_string_equal(hooke_trajectory_run(trajectory), run);
@@ -236,7 +236,7 @@ static void a_run_that_ended_early_goes_on(void **state) {
   }
 }
 
-/* What was reported once stays, also when the second run does not come as far as the first. */
+/* A reported frame stays, also if the second run does not get as far as the first. */
 static void no_frame_is_lost(void **state) {
   const struct fixture *f = *state;
   be_killed(f, 8, -1);
@@ -270,7 +270,7 @@ static void a_damaged_frame_is_refused_by_name(void **state) {
   damage(f->path, hooke_state_velocity(f->frame[3]), 3 * N * sizeof(double), 100);
   check_refused(f, 8, "frame 3 of ");
   check_refused(f, 4, "frame 3 of ");
-  /* one that is going to be written again is no harm; those after it are not known to be there */
+  /* a damaged frame that will be written again is harmless; those after it are not known to be whole */
   hooke_trajectory *trajectory = reopen(f, 3);
   write_frames(f, trajectory, 3, FRAMES);
   check_ok(hooke_trajectory_close(trajectory, HOOKE_OK));
@@ -352,8 +352,8 @@ static void sync_brings_frames_to_the_disk(void **state) {
   check_frames(f, 4, "failed");
 }
 
-/* Another file that takes the name while a run goes on is neither written to nor replaced, and the run does
- * not say that its frames are there. */
+/* If another file takes the name during a run, it is neither written to nor replaced, and the run does not
+ * report its frames as written. */
 static void another_file_of_the_name_is_left_alone(void **state) {
   const struct fixture *f = *state;
   for (int early = 0; early <= 1; early++) {
@@ -376,13 +376,13 @@ static void another_file_of_the_name_is_left_alone(void **state) {
   }
 }
 
-/* ---- going on with the run, too ---- */
+/* ---- continuing the run, too ---- */
 
 static int32_t write_frame(int64_t step, const hooke_state *state, void *ctx) {
   return hooke_trajectory_write(ctx, step, state);
 }
 
-/* To the end of the run, which is then as if nobody had stopped it. */
+/* To the end of the run, which then equals an uninterrupted one. */
 static void check_goes_on(const struct fixture *f, const char *origin) {
   hooke_integrator *integrator = integrator_of(f->system, 0.1);
   hooke_state *state = start_state(f->system);
@@ -397,7 +397,7 @@ static void check_goes_on(const struct fixture *f, const char *origin) {
   check_same_bits(3 * N, hooke_state_position(state), hooke_state_position(f->frame[FRAMES - 1]));
   check_ok(hooke_trajectory_close(trajectory, HOOKE_OK));
   check_frames(f, FRAMES, "finished");
-  /* and there is nothing left to do */
+  /* and nothing is left to do */
   check_ok(hooke_trajectory_resume(f->path, f->system, integrator, state, &trajectory));
   assert_null(trajectory);
   hooke_state_destroy(state);
@@ -416,7 +416,7 @@ static void a_run_goes_on_where_its_file_ends(void **state) {
   check_goes_on(f, "the last whole frame, at t = 0.04");
   be_killed(f, 4, -1);
   damage(f->path, hooke_state_position(f->frame[0]), 3 * N * sizeof(double), 60);
-  check_goes_on(f, "the beginning, at t = 0 s"); /* from the scene's own beginning, which is whole */
+  check_goes_on(f, "the beginning, at t = 0 s"); /* from the scene's initial state, which is whole */
 }
 
 static void check_not_resumed(const struct fixture *f, const hooke_system *system,

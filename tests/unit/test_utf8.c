@@ -1,4 +1,4 @@
-/* Text of others in messages: what is replaced of all there is, and the rest left as it is. */
+/* Foreign text in messages: the replaced characters, and the others unchanged. */
 #include "core/utf8.h"
 
 #include "check.h"

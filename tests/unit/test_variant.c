@@ -1,5 +1,5 @@
-/* Variants of a system: what is not changed has the same bits, what is left out is out, and parts at another
- * resolution stand for the same material. */
+/* Variants of a system: unchanged contents have the same bits, omitted contents are absent, and parts at
+ * another resolution represent the same material. */
 #include "check.h"
 #include "random_scene.h"
 #include "run.h"
@@ -160,7 +160,7 @@ static void what_is_left_out_is_out(void **state) {
     assert_true(gamma[k] == 0.0);
   release(&variant, &map, made);
 
-  /* a part takes its springs with it, and the ties to it; particles after it move up */
+  /* a part takes its springs with it, and those that tie it; later particles are renumbered */
   variant = nothing_of(system);
   variant.part[ROPE] = variant.particle[1] = 1;
   made = make(system, &variant, &map);
@@ -178,8 +178,8 @@ static void what_is_left_out_is_out(void **state) {
   hooke_system_destroy(system);
 }
 
-/* Of the seven springs two apart in the rope, two; the rest is a group of its own, in the numbers of the
- * explicit ones. */
+/* Two of the seven springs two apart in the rope; the rest is a group of its own, numbered among the explicit
+ * ones. */
 static void single_springs_of_a_family_are_left_out(void **state) {
   (void)state;
   hooke_system *system = two_parts();
@@ -205,7 +205,7 @@ static void single_springs_of_a_family_are_left_out(void **state) {
 
 /* ---- resolution ---- */
 
-/* Positions of the variant that are an affine function of the material are found again at every particle. */
+/* Positions of the variant that are an affine function of the material are recovered at every particle. */
 static void check_affine(const hooke_system *system, const hooke_system *made,
                          const struct hk_variant_map *map) {
   hooke_state *from, *to;
@@ -241,11 +241,11 @@ static void parts_at_another_resolution_stand_for_the_same_material(void **state
     int64_t particles, pinned;
   } cases[] = {
       {0.5, 1.0, 2 + 5 + 35, 1 + 2 + 7},  /* the clamp of two stays one */
-      {2.0, 1.0, 2 + 17 + 35, 1 + 3 + 7}, /* and is as long as before */
+      {2.0, 1.0, 2 + 17 + 35, 1 + 3 + 7}, /* and keeps its length */
       {4.0, 1.0, 2 + 33 + 35, 1 + 5 + 7},
       {1.0, 0.5, 2 + 9 + 4 * 3, 1 + 2 + 4}, /* 6 x 4 cells: 3 x 2 */
       {1.0, 2.0, 2 + 9 + 13 * 9, 1 + 2 + 13},
-      {0.3, 0.01, 2 + 3 + 4, 1 + 1 + 2}, /* 8 cells: 2; one cell is the least */
+      {0.3, 0.01, 2 + 3 + 4, 1 + 1 + 2}, /* 8 cells: 2; one cell is the minimum */
   };
   hooke_system *system = two_parts();
   for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
@@ -289,7 +289,7 @@ static void a_callback_keeps_its_particles(void **state) {
   fewer.particle[0] = 1;
   check_status(hk_variant_make(open, &fewer, &made, &map), HOOKE_UNSUITED);
   assert_null(made);
-  fewer.force = 1; /* without the callback nobody minds */
+  fewer.force = 1; /* allowed without the callback */
   made = make(open, &fewer, &map);
   assert_int_equal(hooke_system_particle_count(made), 1);
   release(&fewer, &map, made);
@@ -306,7 +306,7 @@ enum { MOST_SINGLE = 64 };
 struct single {
   struct hk_variant variant;
   int64_t part;            /* the part that is left out or changed; -1 */
-  int64_t of_part;         /* the part that brings what is left out; -1 */
+  int64_t of_part;         /* the part of the ingredient that is left out; -1 */
   int64_t group, of_group; /* the group of springs that is left out; that of the spring that is; -1 */
 };
 
@@ -394,8 +394,8 @@ static int is_within(const struct single *all, int outer, int inner) {
   return a->group >= 0 && b->of_group == a->group;
 }
 
-/* What is out is within what is out itself, or within its group or part; and within two together if it is
- * within either. */
+/* An omission is contained in itself, and in that of its group or part; and in the union of two if it is in
+ * either. */
 static void variants_within_variants(void **state) {
   (void)state;
   hooke_system *system = everything();
@@ -409,7 +409,7 @@ static void variants_within_variants(void **state) {
     assert_int_equal(hk_variant_covers(system, &all[i].variant, &nothing), 1);
     assert_int_equal(hk_variant_covers(system, &nothing, &all[i].variant), 0);
     for (int j = 0; j < count; j++) {
-      /* a part twice as fine covers not even itself: joined, it would be four times as fine */
+      /* a part twice as fine does not even contain itself: joined, it would be four times as fine */
       const int expected = (i == j && !refined) || is_within(all, i, j);
       if (hk_variant_covers(system, &all[i].variant, &all[j].variant) != expected)
         check_failed("variants %d and %d of %d: not %d", i, j, count, expected);

@@ -1,5 +1,5 @@
-/* Systems made again with something left out: with nothing left out they are the same to the loop and the
- * bit. */
+/* Systems rebuilt with something left out: with nothing left out they are the same to the loop and the bit.
+ */
 #include "check.h"
 #include "random_scene.h"
 #include "run.h"
@@ -101,7 +101,7 @@ static int has_force(const hooke_system *system, const char *name) {
   return 0;
 }
 
-/* One ingredient is gone and all others are as they were. */
+/* One ingredient is gone and all others are unchanged. */
 static void one_is_left_out(void **unused) {
   (void)unused;
   struct random_scene scene;

@@ -1,5 +1,5 @@
-/* Every instruction set that this machine has gives the same bits in the loops of vectors and triangles; and
- * these are right. */
+/* Every instruction set of this machine gives the same bits in the loops of vectors and triangles; and these
+ * are right. */
 #include "check.h"
 #include "random.h"
 #include "run.h"
@@ -19,7 +19,7 @@ static void draw(struct random_source *source, int64_t count, double *x) {
     x[k] = random_between(source, -1.0, 1.0);
 }
 
-/* What each loop makes of x and y, one after the other, and sums at the end. */
+/* Results of each loop from x and y, one after the other, and sums at the end. */
 static void run_loops(const struct hk_vector_set *v, int64_t n, const double *x, const double *y,
                       double *out) {
   v->linear_sum(n, 0.3, x, -1.7, y, out);
@@ -82,7 +82,7 @@ static void vectors(void **unused) {
   free(other);
 }
 
-/* Rows are joined as they are, and every bit of them counts. */
+/* Rows are joined unchanged, and every bit of them counts. */
 static void rows(void **unused) {
   (void)unused;
   struct random_source source = {13};
@@ -105,7 +105,7 @@ static void rows(void **unused) {
   free(x);
 }
 
-/* ---- blocks of particles, and loops that do what several others do ---- */
+/* ---- blocks of particles, and loops that combine others ---- */
 
 enum { MOST_PARTICLES = 45 };
 
@@ -180,7 +180,7 @@ struct example {
   double dense[MOST_ROWS][MOST_ROWS]; /* rows of the same */
 };
 
-/* One column has every block below it, the others some; what is spare is no number. */
+/* One column has every block below it, the others some; the spare numbers are NaN. */
 static void draw_triangle(struct random_source *source, int columns, struct example *x) {
   int64_t blocks = 0;
   *x = (struct example){.triangle = {columns, x->begin, x->row, x->block, x->corner}};
@@ -209,7 +209,7 @@ static void draw_triangle(struct random_source *source, int columns, struct exam
   x->block[9 * blocks] = NAN;
 }
 
-/* Solutions forward and backward, `rows` each and what is spare. */
+/* Solutions forward and backward, `rows` each plus the spare ones. */
 static void run_triangle(const struct hk_triangle_set *set, const struct example *x, const double *right,
                          double *out) {
   const int64_t rows = 3 * x->triangle.count;

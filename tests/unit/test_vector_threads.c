@@ -1,5 +1,5 @@
-/* Large vectors of SUNDIALS are worked on by several threads, and its methods come to the same bits for any
- * number of them, and to the right ones. */
+/* Large vectors of SUNDIALS are processed by several threads; its methods give the same bits for any number
+ * of them, and right ones. */
 #include "check.h"
 #include "random_scene.h"
 #include "run.h"
@@ -39,8 +39,7 @@ static void same_bits(void **unused) {
   const int64_t size = 3 * hooke_system_particle_count(scene.system);
   double *exact = new_doubles(6 * size), *one = exact + 2 * size, *other = one + 2 * size;
   run_by(scene.system, (struct run){.method = "rk4", .step = 1e-6, .duration = DURATION}, exact);
-  check_between(largest(size, exact + size), 1e-4,
-                1e-3); /* velocities, from rest: what errors are held against */
+  check_between(largest(size, exact + size), 1e-4, 1e-3); /* velocities, from rest: the scale of errors */
   for (int m = 0; m < 2; m++) {
     struct run run = {.method = methods[m], .rtol = 1e-8, .atol = 1e-10, .duration = DURATION, .threads = 1};
     run_by(scene.system, run, one);

@@ -1,4 +1,4 @@
-/* Pages of trajectories and companions for ParaView: what is chosen, how it is packed, what is refused. */
+/* Pages of trajectories and companions for ParaView: selection, packing, refusals. */
 #include "check.h"
 #include "io/page/base64.h"
 #include "io/page/view.h"
@@ -34,7 +34,7 @@ static void bytes_as_text(void **unused) {
   check_text("\xff\xfe\xfb\xf0", "//778A==");
 }
 
-/* More than one piece of the text. */
+/* Longer than one chunk of the text. */
 static void long_text(void **unused) {
   (void)unused;
   enum { LONG = 10000 };
@@ -58,7 +58,8 @@ struct fixture {
   char folder[PATH_SIZE / 2], path[PATH_SIZE], page[PATH_SIZE], companion[PATH_SIZE];
 };
 
-/* Springs of rest lengths 2, 0 and 1, the last shorter than that; `far` is where the last particle is. */
+/* Springs of rest lengths 2, 0 and 1, the last shorter than that; `far` is the position of the last particle.
+ */
 static void write_file(const struct fixture *f, double far, double duration) {
   const double q[] = {0, 0, 0, 3, 0, 0, 3, 0.5, 0, 0, 0, far};
   hooke_system *system = small_system(PARTICLES, q, NULL, 1.0, 1);
@@ -192,7 +193,7 @@ static void views_are_refused_in_words(void **state) {
   hooke_view_destroy(NULL);
 }
 
-/* Beside the trajectory it takes the place of an older one, and of nothing else. */
+/* Beside the trajectory it replaces an older companion, and nothing else. */
 static void a_companion_is_written(void **state) {
   const struct fixture *f = *state;
   hooke_record *record;

@@ -1,5 +1,5 @@
-/* What is watched: every form of the grammar and what it refuses, tension against the change of energy with
- * length, and periods against known ones. */
+/* Watched quantities: every form of the grammar and its refusals, tension compared with the change of energy
+ * with length, and periods compared with known ones. */
 #include "check.h"
 #include "core/memory.h"
 #include "measure/quantity/watched.h"
@@ -72,7 +72,7 @@ static void every_form_is_read(void **unused) {
     check_close(hk_watched_value(item, system, system->position, v), forms[k].value, 1e-9);
     assert_int_equal(hk_watched_find(&list, forms[k].text), (int64_t)k);
   }
-  /* in a list, with blanks, and again */
+  /* in a list, with blanks, and repeated */
   check_ok(hk_watched_read(&list, "watch", "1.y, energy ,1.y"));
   assert_int_equal(list.count, (int64_t)COUNT(forms) + 1);
   hk_watched_release(&list);
@@ -130,7 +130,7 @@ static void what_is_nothing_is_refused(void **unused) {
   hooke_system_destroy(system);
 }
 
-/* Of springs some of which do nothing nobody knows the index. */
+/* Indices into groups with dropped springs are refused. */
 static void springs_that_are_left_out_are_said(void **unused) {
   (void)unused;
   static const double q[] = {0, 0, 0, 1, 0, 0, 2, 0, 0}, stiffness[] = {0.0, 10.0};
@@ -198,7 +198,7 @@ static void tension_is_the_slope_of_energy_and_the_force(void **unused) {
       check_close(tension(system, r, 0.0), (energy(system, r + h) - energy(system, r - h)) / (2.0 * h), 1e-7);
       for (size_t j = 0; j < COUNT(rates); j++)
         check_close(tension(system, r, rates[j]), pull(system, r, rates[j]), 1e-12);
-      /* a cable does not push, however fast it is let go */
+      /* a cable does not push, at any damping */
       assert_true(!laws[k].pull_only || tension(system, r, -40.0) >= 0.0);
     }
     hooke_system_destroy(system);
@@ -221,11 +221,11 @@ static void periods_are_known(void **unused) {
     coarse[f] = sin(2.0 * PI * time[f] / 0.13);
   }
   check_close(hk_watched_period(FRAMES, time, value), period, 2e-6);
-  /* ripples on it are no periods */
+  /* small ripples are no periods */
   check_close(hk_watched_period(FRAMES, time, noisy), period, 0.02);
   assert_true(isnan(hk_watched_period(FRAMES, time, flat)));
   assert_true(isnan(hk_watched_period(FRAMES, time, rising)));
-  /* seen 2.6 times a period only */
+  /* sampled 2.6 times a period only */
   assert_true(isnan(hk_watched_period(FRAMES, time, coarse)));
   /* too short for two passages */
   assert_true(isnan(hk_watched_period(30, time, value)));

@@ -1,5 +1,5 @@
-/* Frames that a thread writes: the same bytes in the file but for the name of the run, as many, and failures
- * told. */
+/* Frames written by a thread: the same bytes in the file but for the name of the run, the same number, and
+ * failures reported. */
 #include "check.h"
 #include "file_limit.h"
 #include "core/memory.h"
@@ -64,7 +64,7 @@ static hooke_trajectory *create(const struct fixture *f, const char *path, int b
   return trajectory;
 }
 
-/* The state changes as soon as a frame is handed over, as it does when steps go on. */
+/* The state changes as soon as a frame is queued, as it does when steps continue. */
 static int32_t write_frame(const struct fixture *f, hooke_trajectory *trajectory, int64_t frame) {
   double *q = hooke_state_position(f->state), *v = hooke_state_velocity(f->state);
   hooke_state_set_time(f->state, 0.25 * (double)frame);
@@ -85,7 +85,7 @@ static void write_file(const struct fixture *f, const char *path, int behind, in
   check_ok(hooke_trajectory_close(trajectory, frames == FRAMES ? HOOKE_OK : HOOKE_STOPPED));
 }
 
-/* Overwrites the random name of the run, which no two files share. */
+/* Overwrites the random identifier of the run, which differs between files. */
 static void blank_run(const char *path, char *bytes, size_t count) {
   hooke_record *record;
   int found = 0;
@@ -164,7 +164,7 @@ static void small_frames_are_there_at_once(void **unused) {
   release(&f);
 }
 
-/* The frame that fails is told by the next call, and by all after it. */
+/* A failed frame is reported by the next call, and by all after it. */
 static void a_failed_write_is_told(void **unused) {
   (void)unused;
   struct fixture f;

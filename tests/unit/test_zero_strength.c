@@ -1,5 +1,5 @@
-/* What has no strength is not there: a scene with it and one without it choose the same loops, and run to the
- * same bits. */
+/* Members without strength are absent: a scene with them and one without choose the same loops, and run to
+ * the same bits. */
 #include "canonical.h"
 #include "check.h"
 #include "random.h"
@@ -28,7 +28,7 @@ enum ingredient {
   INGREDIENTS
 };
 
-/* Everything but `what` has some strength if `full`; `what` is absent, or there with a strength of zero. */
+/* Everything but `what` has some strength if `full`; `what` is absent, or present with a strength of zero. */
 struct scene {
   enum shape shape;
   enum ingredient what;
@@ -82,7 +82,7 @@ struct network {
   double stiffness[2 * SPRINGS], damping[2 * SPRINGS];
 };
 
-/* Springs without order, every second one with neither stiffness nor damping, or left out. */
+/* Unordered springs, every second one with neither stiffness nor damping, or left out. */
 static void draw_network(int zeros, double damping, struct network *network) {
   struct random_source source = {77};
   network->count = 0;
@@ -274,7 +274,7 @@ static void zero_strength_is_absence(void **unused) {
   }
 }
 
-/* The comparison can fail: with some strength, every ingredient shows in what was chosen. */
+/* The comparison can fail: with some strength, every ingredient affects the choice. */
 static void strength_is_seen(void **unused) {
   (void)unused;
   hooke_system *full = build((struct scene){CLOTH, INGREDIENTS, 1, 0});
@@ -294,8 +294,8 @@ static void strength_is_seen(void **unused) {
   hooke_system_destroy(cloth);
 }
 
-/* The canonical sum over all springs, those of no strength among them, has the bits of the sum that leaves
- * them out. */
+/* The canonical sum over all springs, including those without strength, has the bits of the sum without
+ * these. */
 static void canonical_sum_agrees(void **unused) {
   (void)unused;
   struct network network;
@@ -326,7 +326,8 @@ static void canonical_sum_agrees(void **unused) {
 
 /* ---- numbers ---- */
 
-/* Four particles in a row; springs 0-1 of no strength, 1-2 that is damped alone, and a group of none. */
+/* Four particles in a row; a spring 0-1 without strength, a spring 1-2 with damping only, and a group without
+ * members. */
 static void numbers_are_of_what_is_there(void **unused) {
   (void)unused;
   static const double q[] = {0, 0, 0, 1, 0, 0, 2, 0, 0, 3, 0, 0};
@@ -368,8 +369,8 @@ static int32_t no_force(int64_t n, double t, const double *q, const double *v, d
   return 0;
 }
 
-/* A pinned particle at the end of a spring is not idle, nor one of a triple that has a strength, nor one that
- * a callback may look at, nor one that is free. */
+/* Not idle are: a pinned particle at the end of a spring, one of a triple with strength, one that a callback
+ * may read, and a free one. */
 static void idle_is_what_nothing_touches(void **unused) {
   (void)unused;
   static const double q[] = {0, 0, 0, 1, 0, 0, 2, 0, 0, 3, 0, 0};

@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Two steps in passes, and forces; all that comes of it in `out`, 9 numbers a particle. */
+/* Two steps in passes, and forces; all results in `out`, 9 numbers a particle. */
 static int64_t step_with(const hooke_system *system, const double *q, const double *v, int32_t workers,
                          double *out) {
   const struct hk_move move = {

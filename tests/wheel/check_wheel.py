@@ -1,5 +1,5 @@
-"""A wheel as a user without anything else has it: python check_wheel.py, in an environment where it is installed with h5py.
-Everything that the library can do is done once, and nothing of the machine but its C library may have been loaded."""
+"""A wheel in an otherwise empty environment: python check_wheel.py, in an environment where it is installed with
+h5py. It uses every feature of the library once, and no library of the machine but its C library may be loaded."""
 
 import ctypes
 import importlib.metadata
@@ -43,7 +43,7 @@ assert not any(facts[part] for part in ("gsl", "cholmod", "arpack")), facts
 licences = (inside / "LICENSES").read_text(encoding="utf-8")
 assert all(f"\n{name}\n===" in licences for name in ("SUNDIALS", "LAPACK and BLAS", "zlib", "jansson", "hdf5", "Chart.js"))
 assert "General Public License" not in licences and "GPL" not in licences
-exported = ctypes.CDLL(facts["path"])  # no other library of this process can take what is inside for its own
+exported = ctypes.CDLL(facts["path"])  # no other library of this process can use the symbols inside
 assert hasattr(exported, "hooke_version")
 hidden = ("H5open", "CVode", "ARKStepCreate", "json_loads", "deflate", "dsyev_", "dgemm_", "xerbla_")
 assert not any(hasattr(exported, name) for name in hidden)

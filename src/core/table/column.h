@@ -1,6 +1,6 @@
-/* Result tables, the twin of option tables: a column is described once, by its name, type, unit and
- * documentation. Every surface that shows results (C, JSON, CSV, HDF5, pages, Python, Fortran, the reference)
- * reads the same tables. */
+/* Result tables, the counterpart of option tables: a column is described once, by its name, type, unit and
+ * documentation. All output of results (C, JSON, CSV, HDF5, pages, Python, Fortran, the reference) is made
+ * from the same tables. */
 #ifndef HOOKE_CORE_TABLE_COLUMN_H
 #define HOOKE_CORE_TABLE_COLUMN_H
 
@@ -8,51 +8,51 @@
 #include <stdint.h>
 
 enum hk_column_type {
-  HOOKE_COLUMN_NUMBER, /* a double; NaN: it does not apply or is not known */
+  HOOKE_COLUMN_NUMBER, /* a double; NaN: not applicable or unknown */
   HOOKE_COLUMN_COUNT,  /* a double with a whole value */
   HOOKE_COLUMN_FLAG,   /* a double, 0 or 1; NaN: unknown */
-  HOOKE_COLUMN_TEXT,   /* const char *; NULL: there is none */
+  HOOKE_COLUMN_TEXT,   /* const char *; NULL: none */
   HOOKE_COLUMN_SERIES  /* struct hk_series */
 };
 
-/* A table may be a matrix: its rows are those of an outer index times those of an inner one. A column then
- * varies along one of them or along both. */
+/* A table may be a matrix: its rows are the pairs of an outer and an inner index. A column then varies along
+ * one of them or both. */
 enum hk_column_axis { HOOKE_AXIS_BOTH, HOOKE_AXIS_OUTER, HOOKE_AXIS_INNER };
 
-/* Numbers over time; they belong to the object that the table is of. */
+/* Numbers over time, owned by the object that the table belongs to. */
 struct hk_series {
-  const double *value; /* NULL: there are none */
+  const double *value; /* NULL: none */
   int64_t count;
 };
 
-/* A value is a member of a struct, the line, that the table fills for one row. */
+/* A value is a member of the struct `line`, which the table fills for one row. */
 struct hk_column {
   const char *name;
   enum hk_column_type type;
   const char *unit, *doc;
-  size_t offset; /* in the line */
+  size_t offset; /* in the struct */
   enum hk_column_axis axis;
 };
 
 struct hk_table {
   const char *name, *doc;
-  const char *group; /* in HDF5, where that is another than `name`; tables may share one */
-  int32_t record;    /* 1: one row at most, of numbers of the whole */
+  const char *group; /* name in HDF5, if other than `name`; tables may share one */
+  int32_t record;    /* 1: one row at most, with numbers of the whole */
   const struct hk_column *columns;
   int32_t column_count;
-  size_t size; /* of the line; at most sizeof(struct hk_line) */
+  size_t size; /* of the struct; at most sizeof(struct hk_line) */
   int64_t (*count)(const void *object);
-  /* Rows of the inner index; NULL: the table is no matrix. */
+  /* number of inner indices; NULL: the table is no matrix */
   int64_t (*inner)(const void *object);
   void (*read)(const void *object, int64_t row, void *line);
 };
 
-/* Memory for the line of any table. */
+/* Storage for the struct of any table. */
 struct hk_line {
   double words[48];
 };
 
-/* The column of a member of the struct `line`, and the columns of a table. */
+/* A column for a member of the struct `line`, and the columns of a table. */
 #define HOOKE_COLUMN(line, member, kind, units, text)                                                        \
   {                                                                                                          \
     .name = #member, .type = HOOKE_COLUMN_##kind, .unit = (units), .doc = (text),                            \
@@ -67,11 +67,11 @@ struct hk_line {
   .columns = (list), .column_count = (int32_t)(sizeof(list) / sizeof((list)[0])),                            \
   .size = sizeof(char[sizeof(line) <= sizeof(struct hk_line) ? sizeof(line) : 0])
 
-/* The column of that name; NULL if there is none. */
+/* Column of that name; NULL if there is none. */
 const struct hk_column *hk_table_find(const struct hk_table *table, const char *name);
 int64_t hk_table_count(const struct hk_table *table, const void *object);
 
-/* A value of a line: NaN or NULL for a column of another type. */
+/* Value of a column: NaN or NULL for a column of another type. */
 double hk_column_number(const struct hk_column *column, const struct hk_line *line);
 const char *hk_column_text(const struct hk_column *column, const struct hk_line *line);
 struct hk_series hk_column_series(const struct hk_column *column, const struct hk_line *line);

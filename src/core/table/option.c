@@ -11,12 +11,12 @@
 
 enum { NAME_SIZE = 128, TEXT_SIZE = 512 };
 
-/* One row of the table or of a family in it, flattened: a family is followed by its members. */
+/* One row of the table or of one of its families, flattened: a family is followed by its members. */
 struct slot {
   const struct hk_option_row *row;
-  int64_t family;   /* slot of the family that it belongs to; -1: none */
-  const char *name; /* with dots: the row's own, or one of `names` */
-  char *allowed;    /* NULL until it is asked for */
+  int64_t family;   /* slot of its family; -1: none */
+  const char *name; /* with dots: the row's own, or one in `names` */
+  char *allowed;    /* NULL until first requested */
   int32_t is_set;
   struct hk_option_value value, fallback;
 };
@@ -25,7 +25,7 @@ struct hooke_options {
   const struct hk_option_table *table;
   int64_t slot_count;
   struct slot *slot;
-  char *names; /* of members of families, one after the other */
+  char *names; /* of members of families, concatenated */
 };
 
 static int64_t count_rows(const struct hk_option_table *table) {
@@ -35,7 +35,7 @@ static int64_t count_rows(const struct hk_option_table *table) {
   return count;
 }
 
-/* Bytes that the dotted names of the members of families take, behind a prefix of so many. */
+/* Bytes needed for the dotted names of the members of families, with a prefix of `prefix` bytes. */
 static int64_t name_bytes(const struct hk_option_table *table, int64_t prefix) {
   int64_t bytes = 0;
   for (int32_t k = 0; k < table->row_count; k++) {
@@ -46,7 +46,7 @@ static int64_t name_bytes(const struct hk_option_table *table, int64_t prefix) {
   return bytes;
 }
 
-/* `names` is where the next name goes; it is moved on. */
+/* `names` points to where the next name goes; it is advanced. */
 static int32_t fill_slots(hooke_options *options, const struct hk_option_table *table, int64_t family,
                           char **names) {
   for (int32_t k = 0; k < table->row_count; k++) {
@@ -120,7 +120,7 @@ int32_t hk_options_require(const hooke_options *options, const struct hk_option_
   return hk_fail(HOOKE_BAD_VALUE, place, "are those of a %s; make them with %s", options->table->name, maker);
 }
 
-/* The row that `name` begins with, up to the end or a dot. */
+/* The row named by the beginning of `name`, up to the end or a dot. */
 static const struct hk_option_row *find_first(const struct hk_option_table *table, const char *name,
                                               const char **rest) {
   size_t length = strcspn(name, ".");
@@ -140,7 +140,7 @@ const struct hk_option_row *hk_options_find(const struct hk_option_table *table,
   return NULL;
 }
 
-/* Says which part of a dotted name is unknown, and what there is at that place. */
+/* Reports which part of a dotted name is unknown, and the names that exist there. */
 static int32_t fail_unknown(const hooke_options *options, const char *name) {
   const struct hk_option_table *table = options->table;
   const char *part = name;
@@ -171,7 +171,7 @@ static int32_t require_slot(const hooke_options *options, const char *name, stru
   return fail_unknown(options, name);
 }
 
-/* Takes over `value`, and makes the families around it present. */
+/* Takes ownership of `value`, and makes the enclosing families present. */
 static void put(hooke_options *options, struct slot *slot, const struct hk_option_value *value) {
   hk_option_value_clear(&slot->value);
   slot->value = *value;
@@ -316,7 +316,7 @@ static const char *type_name(enum hk_option_type type) {
   return "";
 }
 
-/* What a slot allows. Few ask, so it is put into words at the first time. */
+/* Allowed values of a slot, in words. They are rarely needed, so the text is made on first use. */
 static const char *allowed_of(struct slot *slot) {
   char allowed[TEXT_SIZE];
   if (slot->allowed) return slot->allowed;

@@ -1,5 +1,5 @@
-/* Option tables: one row per thing that can be configured. The rows are the only place where a name, a type,
- * a unit, a bound, a default or a line of documentation is written down. */
+/* Option tables: one row per option. The rows are the only place where a name, a type, a unit, a bound, a
+ * default or a line of documentation is written down. */
 #ifndef HOOKE_CORE_TABLE_OPTION_H
 #define HOOKE_CORE_TABLE_OPTION_H
 
@@ -21,22 +21,22 @@ struct hk_option_row {
   enum hk_option_type type;
   const char *unit;
   const char *fallback; /* as text; NULL: none */
-  double low, high;     /* bounds of every number, both included; equal: no bounds */
+  double low, high;     /* bounds of every number, inclusive; equal: no bounds */
   int32_t above_low;    /* 1: `low` itself is not allowed */
   int32_t whole;        /* 1: whole numbers only */
   int32_t required;
   int64_t min_count, max_count; /* of HOOKE_OPTION_NUMBERS; max_count 0: any */
-  int32_t columns;              /* numbers come in rows of this many in a scene ([[x,y,z],...]); 0: flat */
-  const char *words; /* separated by blanks: the words that may stand instead of numbers, or the choices */
+  int32_t columns;              /* in a scene numbers come in rows of this many ([[x,y,z],...]); 0: flat */
+  const char *words; /* separated by blanks: the words allowed instead of numbers, or the choices */
   /* 1: several words and numbers may be mixed ("start, 3"); the text is then "word word" */
   int32_t word_lists;
   const struct hk_option_table *family;
   const char *doc;
-  const char *example; /* as text: a value for a first try */
+  const char *example; /* as text: an example value */
 };
 
 struct hk_option_table {
-  const char *name; /* what is configured: "rope", "run" */
+  const char *name; /* name of the table: "rope", "run" */
   const struct hk_option_row *rows;
   int32_t row_count;
 };
@@ -47,15 +47,15 @@ int32_t hk_options_create(const struct hk_option_table *table, hooke_options **o
 
 const struct hk_option_table *hk_options_table(const hooke_options *options);
 
-/* HOOKE_BAD_VALUE, as the argument `place`, unless these are options of that table, as `maker`
- * ("hooke_options_create(\"run\", ...)") makes them. NULL is refused. */
+/* HOOKE_BAD_VALUE for the argument `place` unless these are options of that table, which `maker`
+ * ("hooke_options_create(\"run\", ...)") creates. NULL is refused. */
 int32_t hk_options_require(const hooke_options *options, const struct hk_option_table *table,
                            const char *place, const char *maker);
 
-/* The row of a dotted name, NULL if there is none. */
+/* Row of a dotted name; NULL if there is none. */
 const struct hk_option_row *hk_options_find(const struct hk_option_table *table, const char *name);
 
-/* 1 if the family `name` was made present. */
+/* 1 if the family `name` is present. */
 int32_t hk_options_has_family(const hooke_options *options, const char *name);
 
 /* Adds a word to the option's list of words (for a row with word_lists), keeping its numbers. */
@@ -64,20 +64,19 @@ int32_t hk_options_add_word(hooke_options *options, const char *name, const char
 /* HOOKE_BAD_VALUE, with the place, if a required option of this table has no value. */
 int32_t hk_options_check_required(const hooke_options *options);
 
-/* 1 if `word` is one of `words`, which are separated by blanks (NULL: none). */
+/* 1 if `word` is one of `words`, separated by blanks (NULL: none). */
 int32_t hk_option_has_word(const char *words, const char *word, int64_t length);
 
-/* What a row allows, for messages: "a number > 0", "3 numbers". */
+/* Allowed values of a row, for messages: "a number > 0", "3 numbers". */
 void hk_option_describe(const struct hk_option_row *row, char *text, int64_t size);
 
-/* A caller's text made fit for a message: shortened, without control characters, HOOKE_OPTION_SHOWN bytes at
+/* A caller's text made safe for a message: shortened, without control characters, HOOKE_OPTION_SHOWN bytes at
  * most. */
 enum { HOOKE_OPTION_SHOWN = 64 };
 void hk_option_show(const char *text, int64_t length, char *shown);
 
 /* Fails with HOOKE_BAD_VALUE: `name` is neither one of `others` (words, may be NULL) nor a row of `table`
- * (may be NULL). The message lists what there is and which one was probably meant. `what` is "option" or
- * "key". */
+ * (may be NULL). The message lists the known names and the closest match. `what` is "option" or "key". */
 int32_t hk_option_unknown(const struct hk_option_table *table, const char *others, const char *place,
                           const char *what, const char *name);
 

@@ -1,4 +1,4 @@
-/* Words for people: what a row allows, which names there are, which one was probably meant. */
+/* Texts of messages: allowed values of a row, known names, the closest match for an unknown one. */
 #include "core/table/option.h"
 
 #include "core/number.h"
@@ -22,7 +22,7 @@ static void add(char *text, int64_t size, const char *format, ...) {
   va_end(args);
 }
 
-/* The next word of a list separated by blanks; NULL at the end. */
+/* Next word of a list separated by blanks; NULL at the end. */
 static const char *next_word(const char **rest, int64_t *length) {
   const char *at = *rest ? *rest : "";
   while (*at == ' ')
@@ -77,7 +77,7 @@ static void add_bounds(const struct hk_option_row *row, char *text, int64_t size
   char low[HOOKE_NUMBER_SIZE], high[HOOKE_NUMBER_SIZE];
   hk_number_print(row->low, low);
   hk_number_print(row->high, high);
-  /* bounds that only keep arithmetic finite are nobody's concern */
+  /* bounds that only keep arithmetic finite are not shown */
   int has_low = row->low > -1e300, has_high = row->high < 1e300;
   if (has_low) add(text, size, " %s %s", row->above_low ? ">" : ">=", low);
   if (has_high) add(text, size, "%s<= %s", has_low ? " and " : " ", high);
@@ -134,7 +134,7 @@ void hk_option_describe(const struct hk_option_row *row, char *text, int64_t siz
   }
 }
 
-/* Number of single-character changes that turn one name into the other. */
+/* Edit distance: number of single-character changes that turn one name into the other. */
 static int32_t distance(const char *a, const char *b) {
   int32_t row[NAME_SIZE + 1];
   int32_t n = (int32_t)strlen(b);

@@ -86,7 +86,7 @@ static int32_t check_count(const struct hk_option_row *row, const char *place, i
                  given == 1 ? "" : "s", allowed(row, may));
 }
 
-/* A whole number has one 0. */
+/* A whole number has a single zero. */
 static void drop_signs_of_zero(struct hk_option_value *value) {
   value->one += 0.0;
   for (int64_t k = 0; value->many && k < value->count; k++)
@@ -141,7 +141,7 @@ static int is_blank(char c) {
   return c == ' ' || c == '\t';
 }
 
-/* The next piece of a list "1, 2 3"; 0 at the end, 1 for a piece (empty between two commas). */
+/* Reads the next item of a list "1, 2 3". Returns 0 at the end, 1 for an item (empty between two commas). */
 static int next_piece(const char **rest, const char **piece, int64_t *length) {
   const char *at = *rest;
   while (is_blank(*at))
@@ -153,7 +153,7 @@ static int next_piece(const char **rest, const char **piece, int64_t *length) {
   *length = at - *piece;
   while (is_blank(*at))
     at++;
-  /* a comma at the very end asks for one more piece, which is then empty */
+  /* a trailing comma is followed by one more, empty item */
   *rest = *at == ',' ? at + 1 : at;
   return 1;
 }
@@ -165,7 +165,7 @@ static int ends_with_comma(const char *text) {
   return length > 0 && text[length - 1] == ',';
 }
 
-/* Fills `numbers` and `words`, which have room for everything the text can hold. */
+/* Fills `numbers` and `words`, which have room for all items of the text. */
 static int32_t split_list(const struct hk_option_row *row, const char *place, const char *text,
                           double *numbers, int64_t *count, char *words, int64_t *word_count) {
   const char *piece = NULL;

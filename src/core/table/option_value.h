@@ -1,10 +1,10 @@
-/* The value of one option, and how it is read and checked. */
+/* The value of one option: parsing and checks. */
 #ifndef HOOKE_CORE_TABLE_OPTION_VALUE_H
 #define HOOKE_CORE_TABLE_OPTION_VALUE_H
 
 #include "core/table/option.h"
 
-/* Numbers and words; a single number needs no block of its own. All zeros: nothing. */
+/* Numbers and words; a single number needs no block of its own. All zeros: no value. */
 struct hk_option_value {
   int64_t count;
   double one;
@@ -16,8 +16,8 @@ void hk_option_value_clear(struct hk_option_value *value);
 int32_t hk_option_value_copy(const struct hk_option_value *from, struct hk_option_value *to);
 const double *hk_option_value_numbers(const struct hk_option_value *value);
 
-/* What `count` numbers, or a text, mean for a row. `place` is the option's name for messages.
- * HOOKE_BAD_VALUE, HOOKE_NO_MEMORY; `value` is then left empty. */
+/* Converts `count` numbers, or a text, to the value of a row. `place` is the option's name for messages.
+ * HOOKE_BAD_VALUE, HOOKE_NO_MEMORY; `value` is then empty. */
 int32_t hk_option_value_from_numbers(const struct hk_option_row *row, const char *place, int64_t count,
                                      const double *numbers, struct hk_option_value *value);
 int32_t hk_option_value_from_text(const struct hk_option_row *row, const char *place, const char *text,

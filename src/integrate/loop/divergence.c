@@ -1,19 +1,18 @@
-/* What "diverged" means: a component that is not finite; or, where energy can only come from the scene
- * itself (no callbacks, no drives), a rise of energy by more than 100 times what the scene had at the start
- * and what gravity has given since:
+/* Definition of "diverged": a non-finite component; or, if energy can only come from the scene itself (no
+ * callbacks, no drives), a rise of energy by more than 100 times the initial energy and the energy from
+ * gravity since then:
  *   E(t) - E(0) > 100 (T(0) + U(0) + max |U_gravity - U_gravity(0)| + 1/2 M g^2 h^2 + 1/2 K d^2 + 1/2 M u^2)
- * The last terms are what a scene at rest may have all the same: what gravity gives it in one step (forward
- * Euler has it in v before q has moved), and what errors do: U is that of springs, bending, altitude
- * springs and anchors, K the sum of all kappa, 16 c and 4 ks/l, d = 1e-12 times the largest coordinate,
- * which rounding takes some 1e9 steps to come to, and with error control d has atol besides, and u is
- * atol_velocity. Energies below the smallest normal number prove nothing, and neither do those of a scene
- * that begins with energies above the largest.
+ * The last terms are for a scene at rest: the energy from gravity in one step (forward Euler has it in v
+ * before q has moved), and the effect of errors: U is that of springs, bending, altitude springs and anchors,
+ * K the sum of all kappa, 16 c and 4 ks/l, d = 1e-12 times the largest coordinate, which rounding takes some
+ * 1e9 steps to reach; with error control d includes atol, and u is atol_velocity. Energies below the smallest
+ * normal number prove nothing, and neither do those of a scene that begins with energies above the largest.
  *
- * The last state that passed is kept in `recent`. Where that has no room, since the scene is large, the
- * caller's state is that state until the next one is stored, which happens as an exchange: the motion then
- * has what has to come back if the check fails. Steps in a loop of the caller's own are looked at before they
- * are stored, so that neither a copy nor an exchange is needed: the caller's state is the last good one until
- * then, and is kept when it turns out to be the last. */
+ * The last state that passed is kept in `recent`. If a large scene has no space there, the caller's state is
+ * that state until the next one is stored by an exchange: the motion then holds the state to restore if the
+ * check fails. Steps in a loop of the caller's own are checked before they are stored, so that neither a copy
+ * nor an exchange is needed: the caller's state is the last good one until then, and is kept if it is the
+ * last. */
 #include "integrate/integrator.h"
 
 #include "core/status.h"
@@ -33,14 +32,14 @@ static int has_energy_bound(const hooke_integrator *it) {
 
 int32_t hk_all_finite(int64_t count, const double *value) {
   if (isfinite(hk_long_dot(count, value, value))) return 1; /* by far the quickest; squares may overflow */
-  /* 0 * value is 0 or not a number, and one of those stays in the sum */
+  /* 0 * value is 0 or NaN, and a NaN stays in the sum */
   double sum = 0.0;
   for (int64_t k = 0; k < count; k++)
     sum += 0.0 * value[k];
   return sum == 0.0;
 }
 
-/* What a scene at rest may come to have. */
+/* Energy that a scene at rest may acquire. */
 static double least_energy(const hooke_integrator *it, const hooke_state *state) {
   const hooke_system *system = it->system;
   const double *g = system->gravity;
@@ -84,7 +83,7 @@ static int energy_is_bounded(hooke_integrator *it, const hooke_state *state, dou
       hooke_system_energy(it->system, "kinetic", NULL, state->v) + hk_elastic_energy(it->system, state->q);
   it->gravity_swing = fmax(it->gravity_swing, fabs(risen));
   *energy = rest + gravity;
-  /* far from the origin gravity's energy has no digits to spare for the others */
+  /* far from the origin gravity's energy has no digits left for the others */
   return !(it->scale0 < INFINITY) ||
          (rest - it->energy0) + risen <= RISE * (it->scale0 + it->gravity_swing) + DBL_MIN;
 }

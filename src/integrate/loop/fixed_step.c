@@ -1,4 +1,4 @@
-/* What all fixed-step methods share: forces and rates that are counted, loading and storing. */
+/* Common parts of all fixed-step methods: counted forces and rates, loading and storing. */
 #include "integrate/integrator.h"
 
 #include "core/status.h"

@@ -1,5 +1,5 @@
-/* Time loops of the caller's own: steps that leave a valid state, and steps that leave the motion alone, with
- * ways to look at it and to change it. */
+/* Time loops of the caller's own: steps that leave a valid state, and steps of the motion only, with access
+ * to it. */
 #include "integrate/loop/run_loop.h"
 
 #include "core/status.h"
@@ -7,12 +7,12 @@
 #include <math.h>
 #include <string.h>
 
-/* 1 if the last call left a motion from which steps can go on. */
+/* 1 if the last call left a motion that steps can continue. */
 static int goes_on(const hooke_integrator *it) {
   return it->begun && (it->placed || it->outcome == HOOKE_OK || it->outcome == HOOKE_STOPPED);
 }
 
-/* 1 if that is, to the bit, at `state`. An error-controlled method knows the states it was asked for. */
+/* 1 if that is at `state`, to the bit. For an error-controlled method the states it returned count. */
 static int is_at(const hooke_integrator *it, const hooke_state *state) {
   const hooke_state *last = hk_recent_state(&it->recent, 0, NULL);
   const size_t bytes = (size_t)state->size * sizeof(double);
@@ -65,7 +65,7 @@ static int32_t make_shown(hooke_integrator *it) {
 
 /* A copy of the last good state, since the caller's is left alone. */
 static int32_t keep_start(hooke_integrator *it) {
-  if (it->recent.count == 0) { /* stopped where the run had nothing to look at */
+  if (it->recent.count == 0) { /* stopped where the run had nothing to check */
     it->good_time = it->t;
     it->good_step = it->k;
     it->unkept = 1;
@@ -100,7 +100,7 @@ int32_t hooke_integrator_sync(hooke_integrator *it, hooke_state *state) {
 
 /* ---- single particles ---- */
 
-/* With the motion of an error-controlled method, which only its solver knows, in `shown`. */
+/* With the motion of an error-controlled method, which only its solver holds, in `shown`. */
 static int32_t prepare_particles(hooke_integrator *it, int64_t count, const int64_t *particles) {
   int32_t status = HOOKE_OK;
   if (it->system == NULL)

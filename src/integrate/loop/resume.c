@@ -1,4 +1,4 @@
-/* Going on from a place to which another run came, or this one before it was stopped. */
+/* Continuing from a point that another run reached, or this one before it was stopped. */
 #include "integrate/loop/run_loop.h"
 
 #include "core/status.h"
@@ -21,11 +21,11 @@ struct hk_standing hk_integrator_standing(const hooke_integrator *it) {
 
 int32_t hk_integrator_stand(hooke_integrator *it, const struct hk_standing *standing, hooke_state *state) {
   const struct hk_standing s = *standing, before = hk_integrator_standing(it);
-  it->count = s.count; /* a method goes on counting from here */
+  it->count = s.count; /* a method continues counting from here */
   it->wall_seconds = s.wall_seconds;
   struct hk_recent *recent = &it->recent;
   hooke_state *const first = recent->first, *const room = recent->room_of_first;
-  recent->room_of_first = NULL; /* a beginning is not the first one here */
+  recent->room_of_first = NULL; /* a start is not the first one here */
   const int32_t status = hk_run_begin(it, state);
   recent->room_of_first = room;
   recent->first = first;
@@ -97,7 +97,7 @@ int32_t hk_integrator_run_on(hooke_integrator *it, const hooke_state *first, hoo
   return hk_run_end(it, state, status);
 }
 
-/* At the place of a checkpoint, or where a fixed-step run was stopped. */
+/* At a checkpoint, or where a fixed-step run was stopped. */
 static int can_go_on(const hooke_integrator *it, const hooke_state *state) {
   const int stopped = !it->method->adaptive && it->outcome == HOOKE_STOPPED;
   return it->begun && (it->placed || stopped) && memcmp(&it->t, state->t, sizeof it->t) == 0;

@@ -8,7 +8,7 @@
 #include <math.h>
 #include <stdio.h>
 
-static const double LOOK = 1e-3; /* [s] between two looks at the clock */
+static const double LOOK = 1e-3; /* [s] between two clock readings */
 static const int64_t MOST_STRIDE = 1 << 20;
 
 int32_t hk_run_check_state(const hooke_integrator *it, const hooke_state *state) {
@@ -72,7 +72,7 @@ int32_t hk_run_store(hooke_integrator *it, double t, hooke_state *state, int32_t
   if (it->unkept) hk_recent_keep(&it->recent, state, it->good_step); /* so far `state` is that one */
   it->unkept = 0;
   const int32_t status = checked ? hk_divergence_store(it, t, state) : it->method->store(it, t, state);
-  if (!checked && it->recent.room == 0) it->recent.count = 0; /* nobody has the last good state any more */
+  if (!checked && it->recent.room == 0) it->recent.count = 0; /* the last good state is lost */
   *state->t = t;
   return status;
 }
@@ -109,7 +109,7 @@ int32_t hk_run_tell(hooke_integrator *it, int64_t steps) {
 }
 
 /* `count` steps of a fixed-step method; time is t0 + k h, not a running sum. A callback that stops leaves the
- * last whole step: drives are asked for the end of a step before anything moves. */
+ * last whole step: drives are called for the end of a step before anything moves. */
 static int32_t take_untold_steps(hooke_integrator *it, int64_t count) {
   int32_t status = HOOKE_OK;
   const double begun = hk_clock_seconds();
@@ -142,13 +142,13 @@ static int64_t until_multiple(int64_t k, int64_t stride) {
   return stride - k % stride;
 }
 
-/* What comes after the present step. */
+/* Events after the current step. */
 struct due {
   int frame, point, seen; /* a frame, a checkpoint, a step observer */
   int thorough, checked;  /* a check for divergence, with energy or of any kind */
 };
 
-/* `shows`: 1 if the state at step `last` is wanted whatever else comes there. */
+/* `shows`: 1 if the state at step `last` is needed in any case. */
 static struct due find_due(const hooke_integrator *it, int64_t last, int64_t frame_steps, int64_t point_steps,
                            int32_t shows) {
   struct due due = {.frame = frame_steps && it->k % frame_steps == 0,
@@ -159,7 +159,7 @@ static struct due find_due(const hooke_integrator *it, int64_t last, int64_t fra
   return due;
 }
 
-/* Steps that can be taken before anything is due. */
+/* Number of steps before the next event. */
 static int64_t steps_to_take(const hooke_integrator *it, int64_t last, int64_t frame_steps,
                              int64_t point_steps) {
   int64_t count = last - it->k, next = until_multiple(it->k, HOOKE_CHECK_STEPS);
@@ -177,7 +177,7 @@ static int32_t store_and_check(hooke_integrator *it, hooke_state *state, int32_t
   return checked && status == HOOKE_OK ? hk_divergence_check(it, state, due.thorough) : status;
 }
 
-/* 1 if nobody but the caller sees states, who then has the last good one. */
+/* 1 if only the caller sees states, and then has the last good one. */
 static int is_unwatched(const hooke_integrator *it) {
   return it->on_step.observer == NULL && it->on_checkpoint.observer == NULL && it->checker.look == NULL;
 }
@@ -200,7 +200,7 @@ int32_t hk_run_fixed(hooke_integrator *it, hooke_state *state, int64_t last, int
   return status;
 }
 
-/* Keeps what came of it, for a diagnosis, with the state at which a solver gave up. */
+/* Records the outcome, for a diagnosis, with the state at which a solver gave up. */
 int32_t hk_run_end(hooke_integrator *it, hooke_state *state, int32_t status) {
   it->outcome = status;
   it->message[0] = '\0';

@@ -1,8 +1,8 @@
 /* The run loop of error-controlled methods: internal steps, frames within them, and checkpoints.
  *
- * What a solver remembers of its steps cannot be written down. So where the option `checkpoint` is given, the
- * method starts anew from (t, q, v) at every t0 + k DT, whether or not anything is written there: a run that
- * goes on from such a place then does what this one did. What the step had past that time is dropped. */
+ * The history of a solver cannot be saved. So with the option `checkpoint` the method restarts from (t, q, v)
+ * at every t0 + k DT, whether or not anything is written there: a run that continues from such a point then
+ * repeats this one. The part of the step past that time is discarded. */
 #include "integrate/loop/run_loop.h"
 
 #include "core/clock.h"
@@ -45,8 +45,7 @@ int32_t hk_run_keep_restart(hooke_integrator *it, const hooke_state *state) {
   return hooke_state_copy(state, restart->state);
 }
 
-/* The step has come to the checkpoint at time t, or past it: the solution there is where the method starts
- * anew. */
+/* The step has reached or passed the checkpoint at time t: the method restarts from the solution there. */
 static int32_t start_anew(hooke_integrator *it, double t, hooke_state *state) {
   int32_t status = hk_run_store(it, t, state, 0);
   if (status == HOOKE_OK) status = hk_divergence_check(it, state, 1);
@@ -83,7 +82,7 @@ static int32_t report_step(hooke_integrator *it, hooke_state *state) {
   return status;
 }
 
-/* Progress; where that stops, the state is that of the step. */
+/* Progress; if that stops, the state is that of the step. */
 static int32_t tell_step(hooke_integrator *it, hooke_state *state) {
   const int32_t status = hk_run_tell(it, 1);
   const int32_t stored = status == HOOKE_OK ? HOOKE_OK : hk_run_store(it, it->t, state, 0);
@@ -113,7 +112,7 @@ static double frame_time(const hooke_integrator *it, int64_t frame, double end) 
   return frame < schedule->frames ? fmin(it->t0 + (double)frame * schedule->every, end) : end;
 }
 
-/* The frames that are still to come, up to time t, within the last step. */
+/* The remaining frames up to time t, within the last step. */
 static int32_t report_frames(hooke_integrator *it, hooke_state *state, double t, double end) {
   int32_t status = HOOKE_OK;
   while (status == HOOKE_OK && it->frames < it->schedule.frames) {
@@ -155,7 +154,7 @@ static int64_t step_limit(const hooke_integrator *it) {
   return isnan(steps) ? INT64_MAX : (int64_t)steps;
 }
 
-/* One internal step with all that comes of it; frames at the time of a checkpoint come first. */
+/* One internal step with everything that follows it; frames at the time of a checkpoint come first. */
 static int32_t go_on(hooke_integrator *it, hooke_state *state, double end) {
   const double next = next_point(it), point = next < end ? next : INFINITY;
   it->goal = fmin(frame_time(it, it->frames, end), point);

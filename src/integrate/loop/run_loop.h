@@ -8,24 +8,24 @@
 
 enum { HOOKE_CHECK_STEPS = 1000 };
 
-/* HOOKE_BAD_VALUE for a state of another size, and without a duration. The first also brings threads into a
+/* HOOKE_BAD_VALUE for a state of another size, and without a duration. The first also restarts threads in a
  * child of fork(). */
 int32_t hk_run_check_state(const hooke_integrator *integrator, const hooke_state *state);
 int32_t hk_run_check_duration(const hooke_integrator *integrator);
 
-/* Driven particles go where their motion has them at the time of the state, whatever the caller wrote
+/* Moves driven particles to their prescribed positions at the time of the state, whatever the caller wrote
  * there. */
 int32_t hk_run_place_driven(hooke_integrator *integrator, hooke_state *state);
-/* The beginning of a run at `state`, as step 0. */
+/* The start of a run at `state`, as step 0. */
 int32_t hk_run_begin(hooke_integrator *integrator, hooke_state *state);
-/* From there, or from where it stands, to the end of its schedule. */
+/* From there, or from the current point, to the end of its schedule. */
 int32_t hk_run_to_end(hooke_integrator *integrator, hooke_state *state);
-/* With a fixed step on to step `last` with checks, step observers and checkpoints, and frames every
- * `frame_steps` (0: none). `shows`: 1 if `state` is to be the one reached; 0: it is what checks and observers
- * are shown. */
+/* With a fixed step: continues to step `last` with checks, step observers and checkpoints, and frames every
+ * `frame_steps` (0: none). `shows`: 1 if `state` should receive the result; 0: checks and observers use it.
+ */
 int32_t hk_run_fixed(hooke_integrator *integrator, hooke_state *state, int64_t last, int64_t frame_steps,
                      int32_t shows);
-/* Keeps what came of it, for a diagnosis, with the state at which a solver gave up. Returns `status`. */
+/* Records the outcome, for a diagnosis, with the state at which a solver gave up. Returns `status`. */
 int32_t hk_run_end(hooke_integrator *integrator, hooke_state *state, int32_t status);
 
 /* hooke_integrator_run() without what may come after divergence, which trials do not want. */
@@ -39,17 +39,17 @@ int32_t hk_run_take_fixed_steps(hooke_integrator *integrator, int64_t count);
 /* Shows the state to an observer, if there is one; the second as the next frame. */
 int32_t hk_run_observe(hooke_integrator *integrator, const struct hk_watch *watch, const hooke_state *state);
 int32_t hk_run_report(hooke_integrator *integrator, const hooke_state *state);
-/* Tells of progress after so many steps, if it is time to: HOOKE_STOPPED. */
+/* Reports progress after so many steps, if it is due: HOOKE_STOPPED. */
 int32_t hk_run_tell(hooke_integrator *integrator, int64_t steps);
-/* Stores the solution at time t, the bits of a frame's time being t itself; `checked` where
- * hk_divergence_check() is next. */
+/* Stores the solution at time t, the bits of a frame's time being t itself; `checked` if
+ * hk_divergence_check() follows. */
 int32_t hk_run_store(hooke_integrator *integrator, double t, hooke_state *state, int32_t checked);
 
 /* The same two for error-controlled methods: to the end, and so many internal steps. */
 int32_t hk_run_adaptive(hooke_integrator *integrator, hooke_state *state);
 int32_t hk_run_internal_steps(hooke_integrator *integrator, hooke_state *state, int64_t steps, int32_t shows);
-/* With error control and the option `checkpoint`: keeps the state, at which the method has just begun, as the
- * place from which the run can go on. HOOKE_NO_MEMORY. */
+/* With error control and the option `checkpoint`: keeps the state, at which the method has just restarted, as
+ * the point from which the run can continue. HOOKE_NO_MEMORY. */
 int32_t hk_run_keep_restart(hooke_integrator *integrator, const hooke_state *state);
 
 /* The smallest number j >= 1 with t0 + j every > t. */

@@ -1,4 +1,4 @@
-/* Options of a run, and the schedule that follows from them. */
+/* Options of a run, and the schedule derived from them. */
 #include "integrate/integrator.h"
 
 #include "core/number.h"
@@ -154,7 +154,7 @@ static double fitting_step(double value, double other, double step, int larger) 
   return NAN;
 }
 
-/* With every digit: the steps are there to be typed. */
+/* With all digits, since the steps are meant to be typed. */
 static int32_t refuse_step(const char *name, double value, double other, double step) {
   char given[2][HOOKE_NUMBER_SIZE], low[HOOKE_NUMBER_SIZE], high[HOOKE_NUMBER_SIZE];
   hk_number_print(value, given[0]);

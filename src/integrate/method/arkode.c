@@ -48,11 +48,11 @@ static int set_up(hooke_integrator *it, struct hk_sundials *own, int order) {
   if (flag == ARK_SUCCESS) {
     flag = ARKStepSetTableNum(own->memory, tables[order - LOWEST_ORDER], ARKODE_ERK_NONE);
   }
-  /* stages predicted from the steps before: less than half the linear iterations */
+  /* stages predicted from earlier steps: less than half the linear iterations */
   if (flag == ARK_SUCCESS) flag = ARKStepSetInterpolantType(own->memory, ARK_INTERP_LAGRANGE);
   if (flag == ARK_SUCCESS) flag = ARKStepSetPredictorMethod(own->memory, HIGHEST_ORDER_PREDICTOR);
-  /* where a force jumps, as where a damped spring that only pulls goes slack, a step may have to shrink
-   * far */
+  /* where a force jumps, such as where a damped spring that only pulls becomes slack, a step may have to
+   * shrink far */
   if (flag == ARK_SUCCESS) flag = ARKStepSetMaxErrTestFails(own->memory, MOST_FAILURES);
   return flag == ARK_SUCCESS ? attach_solver(it, own) : flag;
 }
@@ -91,7 +91,7 @@ static void read_counts(hooke_integrator *it) {
                                            .linear_iterations = linear});
 }
 
-/* Steps end at the goal, where the run loop wants the solution: ARKODE's interpolants have a larger error
+/* Steps end at the goal, where the run loop needs the solution: ARKODE's interpolants have a larger error
  * than its steps. */
 static int32_t step(hooke_integrator *it) {
   struct hk_sundials *own = it->own;

@@ -60,7 +60,7 @@ static int32_t create(hooke_integrator *it) {
   const int highest = is_bdf(it) ? BDF_ORDER : ADAMS_ORDER;
   int order;
   int32_t status = hk_sundials_order(it, 1, highest, &order);
-  /* counted as far as a run of middling order touches its history */
+  /* counts the part of the history that a run of middling order uses */
   if (status == HOOKE_OK) status = hk_sundials_create(it, is_bdf(it), 10 + (highest + 2) / 2);
   if (status == HOOKE_OK && is_bdf(it)) status = hk_order_choice_create(it);
   if (status != HOOKE_OK) return status;
@@ -87,7 +87,7 @@ static int32_t begin(hooke_integrator *it, const hooke_state *state) {
   return start(it, *state->t);
 }
 
-/* CVODE writes over its history if the highest order falls below the present one, so it starts again. */
+/* CVODE writes past its history if the highest order falls below the current one, so it restarts. */
 static int32_t choose_order(hooke_integrator *it) {
   struct hk_sundials *own = it->own;
   const int32_t low = own->choice->low;
@@ -126,7 +126,7 @@ static int32_t step(hooke_integrator *it) {
   return hk_sundials_advance(it, "CVODE", flag, reached);
 }
 
-/* Before the first step y is still where it was put, and there is nothing to interpolate. */
+/* Before the first step y is still the initial value, and there is nothing to interpolate. */
 static int32_t store(hooke_integrator *it, double t, hooke_state *state) {
   struct hk_sundials *own = it->own;
   long steps = 0;

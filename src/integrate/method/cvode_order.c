@@ -1,11 +1,11 @@
-/* BDF of order 1 and 2 damps every mode that steps do not resolve. Order 3 and above feeds the weakly damped
- * ones, at omega h of order one, until the error control holds the step there although the motion asks for no
- * such step.
+/* BDF of order 1 and 2 damps every mode that steps do not resolve. Order 3 and above amplifies weakly damped
+ * ones, at omega h of order one, until the error control limits the step there although the motion does not
+ * require it.
  *
- * So: where steps are longer than LONG/omega, with omega and the damping ratio of the fastest modes, and that
- * ratio is below what order 3 takes, order 2 becomes the highest, before those modes have grown. Where steps
- * then stay shorter than SHORT/omega, accuracy holds them, and the higher orders come back. CVODE keeps its
- * history in the order that it has, so each change is a start from order 1; hence the patience. */
+ * So if steps are longer than LONG/omega, with omega and the damping ratio of the fastest modes, and that
+ * ratio is below the stable one of order 3, order 2 becomes the highest, before those modes have grown. If
+ * steps then stay shorter than SHORT/omega, accuracy limits them, and the higher orders return. CVODE keeps
+ * its history in the current order, so each change is a start from order 1; hence the patience. */
 #if HOOKE_HAVE_SUNDIALS
 
 #include "integrate/method/cvode_order.h"
@@ -15,12 +15,12 @@
 #include <math.h>
 
 enum {
-  WINDOW = 50, /* steps over which the mean is taken, with all orders and with the low ones */
+  WINDOW = 50, /* steps of the mean, with all orders and with the low ones */
   LOW_WINDOW = 100,
-  LOW_START = 200, /* steps before the first look with the low orders */
-  PATIENCE = 10,   /* windows of short steps, in a row, before the higher orders come back */
-  QUIET = 500, /* steps before the next look with all orders; 4 times as many each time that they come back */
-  REFRESH = 10, /* windows before the fastest modes are looked up again */
+  LOW_START = 200, /* steps before the first check with the low orders */
+  PATIENCE = 10,   /* successive windows of short steps before the higher orders return */
+  QUIET = 500,  /* steps before the next check with all orders; 4 times as many each time that they return */
+  REFRESH = 10, /* windows before the fastest modes are computed again */
   ITERATIONS = 15
 };
 static const double LOOSE_RTOL = 1e-6, LONG = 2.0, SHORT = 1.0;
@@ -52,7 +52,7 @@ void hk_order_choice_begin(struct hk_order_choice *c, double t) {
 
 /* ---- the fastest modes ---- */
 
-/* Both over the unknowns that are velocities; x and p are its scratch. */
+/* Both over the unknowns that are velocities; x and p are scratch. */
 static double product_of(const hooke_integrator *it, const struct hk_unknowns *u, const double *x,
                          const double *p) {
   double sum = 0.0;
@@ -68,9 +68,9 @@ static double product_of(const hooke_integrator *it, const struct hk_unknowns *u
   return sum;
 }
 
-/* Power iterations with the derivative of the forces by the positions, from numbers that prefer no direction;
- * then the damping of what they have come to. A few are enough: it is the mean over the fastest modes that
- * counts. Frequency 0 where nothing is stiff. */
+/* Power iterations with the derivative of the forces by the positions, from pseudo-random numbers; then the
+ * damping of the result. A few are enough: the mean over the fastest modes is needed. Frequency 0 if nothing
+ * is stiff. */
 static int32_t find_fastest_modes(hooke_integrator *it, struct hk_order_choice *c, const double *y) {
   const struct hk_unknowns *u = &((const struct hk_sundials *)it->own)->unknowns;
   const int64_t half = u->size / 2;

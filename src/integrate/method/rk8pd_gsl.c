@@ -1,11 +1,10 @@
 /* GSL's rk8pd: the explicit Runge-Kutta formulas of order 8(7) by Prince and Dormand (1981), under the step
- * control of gsl_odeiv2. The first choice to check a reference with, as it shares nothing with SUNDIALS but
+ * control of gsl_odeiv2. The first choice for checking a reference, as it shares nothing with SUNDIALS but
  * the force.
  *
- * GSL reports mistakes to a handler of the whole process, which by default ends it; a library may not replace
- * that. So nothing here gives GSL a reason: gsl_odeiv2_step_apply() and _hadjust() have none, the arguments
- * of the makers are in range, and memory is tried for before GSL, which would report its absence, asks for
- * it. */
+ * GSL reports errors to a global handler, which by default ends the process; a library must not replace it.
+ * So no call here can fail in this way: gsl_odeiv2_step_apply() and _hadjust() report no errors, the
+ * arguments of the constructors are in range, and memory is test-allocated before GSL requests it. */
 #include "integrate/integrator.h"
 
 #if HOOKE_HAVE_GSL
@@ -28,7 +27,7 @@ struct hk_rk8pd {
   gsl_odeiv2_control *control;
   double *y, *before, *slope, *next_slope, *error, *tolerance; /* one block */
   double rtol;
-  double step; /* what the control proposes next; 0 before the first step */
+  double step; /* next proposal of the control; 0 before the first step */
 };
 
 static int slope(double t, const double *y, double *to, void *ctx) {
@@ -87,7 +86,7 @@ static int32_t begin(hooke_integrator *it, const hooke_state *state) {
   return HOOKE_OK;
 }
 
-/* Largest |value| in units of what one step may leave as error. */
+/* Largest |value| in units of the allowed error of one step. */
 static double weighed(const struct hk_rk8pd *own, const double *value) {
   double most = 0.0;
   for (int64_t k = 0; k < own->unknowns.size; k++)
@@ -109,7 +108,7 @@ static int32_t start(hooke_integrator *it, struct hk_rk8pd *own) {
   return HOOKE_OK;
 }
 
-/* One attempt at a step of h to time `end`: 1 if it holds, 0 if it is undone; own->step is the next to
+/* One attempt at a step of h to time `end`: 1 if accepted, 0 if rejected and undone; own->step is the next to
  * try. */
 static int32_t attempt(hooke_integrator *it, struct hk_rk8pd *own, double h, double end) {
   const size_t bytes = own->system.dimension * sizeof(double);
@@ -132,7 +131,7 @@ static int32_t attempt(hooke_integrator *it, struct hk_rk8pd *own, double h, dou
   return 0;
 }
 
-/* Steps end at the goal, where the run loop wants the solution: nothing is interpolated. Two equal steps to
+/* Steps end at the goal, where the run loop needs the solution: nothing is interpolated. Two equal steps to
  * it rather than a long and a short one. */
 static int32_t step(hooke_integrator *it) {
   struct hk_rk8pd *own = it->own;

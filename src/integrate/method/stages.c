@@ -8,7 +8,7 @@
 #include <stddef.h>
 #include <string.h>
 
-/* Where the step began, and the sum of the rates: of x, or of q and v, each 3 components of n. */
+/* The start of the step, and the sum of the rates: of x, or of q and v, each 3 components of n. */
 struct own {
   const struct hk_stages *stages;
   double *start, *sum;
@@ -58,7 +58,7 @@ static int32_t step_rate(hooke_integrator *it) {
   return HOOKE_OK;
 }
 
-/* Velocities are the rate of positions, and have to be read before they move on. */
+/* Velocities are the rate of positions, and have to be read before they change. */
 static void move_motion(hooke_integrator *it, int64_t from, int64_t count, void *ctx) {
   const int stage = *(const int *)ctx;
   const struct own *own = it->own;
@@ -74,8 +74,8 @@ static void move_motion(hooke_integrator *it, int64_t from, int64_t count, void 
   }
 }
 
-/* Constrained particles at the time of a stage; a stage at the time of the one before finds the drives where
- * that left them. */
+/* Constrained particles at the time of a stage; if it is the time of the previous one the drives are not
+ * called again. */
 static int32_t hold(hooke_integrator *it, int stage) {
   if (it->system->constrained_count == 0 || stage == 0) return HOOKE_OK;
   if (ahead_of(it, stage) != ahead_of(it, stage - 1)) return hk_integrator_hold(it, stage_time(it, stage));

@@ -1,4 +1,4 @@
-/* Explicit Runge-Kutta methods each stage of which starts where the step did. */
+/* Explicit Runge-Kutta methods in which each stage starts at the beginning of the step. */
 #ifndef HOOKE_INTEGRATE_METHOD_STAGES_H
 #define HOOKE_INTEGRATE_METHOD_STAGES_H
 
@@ -6,8 +6,8 @@
 
 struct hk_stages {
   int32_t count;
-  double ahead[4]; /* where stages are, in steps: 0, 0.5 or 1 */
-  /* x from the rate at a stage, on to the next one or the end of the step, with a sum of rates */
+  double ahead[4]; /* positions of stages, in steps: 0, 0.5 or 1 */
+  /* advances x by the rate at a stage, to the next one or the end of the step, with a sum of rates */
   void (*move)(int stage, int64_t n, double h, const double *rate, const double *start, double *sum,
                double *x);
 };

@@ -71,7 +71,7 @@ static int32_t begin(hooke_integrator *it, const hooke_state *state) {
 
 static void forget(hooke_integrator *it) {
   struct verlet *own = it->own;
-  it->count.force_evaluations += own->kept; /* that first_forces() does again */
+  it->count.force_evaluations += own->kept; /* counts to be added by first_forces() again */
   own->kept = 0;
 }
 
@@ -84,7 +84,7 @@ static const double *gravity(const hooke_system *system, int axis) {
 static int32_t first_forces(hooke_integrator *it) {
   struct verlet *own = it->own;
   const int32_t status = own->kept ? HOOKE_OK : hk_integrator_forces_without(it, it->t, &hk_force_drag);
-  if (!own->kept && it->k > 0) it->count.force_evaluations--; /* as the run counted it that came here */
+  if (!own->kept && it->k > 0) it->count.force_evaluations--; /* as counted by the run that came here */
   own->kept = 0;
   if (status != HOOKE_OK || it->system->drag == 0.0) return status;
   return hk_force_drag.add(it->system, it->motion, it->t);

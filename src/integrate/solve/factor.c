@@ -9,8 +9,8 @@
 #include <math.h>
 #include <string.h>
 
-/* Where the matrix has the block of two particles: in the three columns of the later one, from number `first`
- * of each on; column -1 if an end is constrained. */
+/* Position of the block of two particles in the matrix: in the three columns of the later one, from number
+ * `first` of each on; column -1 if an end is constrained. */
 struct place {
   int32_t column, first;
 };
@@ -19,7 +19,7 @@ struct hk_factor {
   const hooke_system *system;
   int32_t free_count;
   int32_t *particle,
-      *position; /* the free particles in order; where each is in it, -1 for those that are constrained */
+      *position; /* the free particles in order; the index of each in it, -1 for constrained ones */
   struct hk_columns matrix;    /* S, in order */
   struct place *spring, *pair; /* of each spring; of the pairs 01, 02, 12, 03, 13, 23 of each other element */
   struct hk_cholmod *cholmod;
@@ -50,7 +50,7 @@ static void number_free(struct hk_factor *x) {
   }
 }
 
-/* The upper triangle of blocks in the present order: a row in each column for every earlier neighbour,
+/* The upper triangle of blocks in the current order: a row in each column for every earlier neighbour,
  * ascending, and for the particle itself. */
 static void fill_blocks(const struct hk_factor *x, const struct hk_pattern *pattern,
                         const struct hk_columns *blocks) {
@@ -83,7 +83,7 @@ static int reorder(struct hk_factor *x, const struct hk_columns *blocks) {
   return fine;
 }
 
-/* Three columns and rows of numbers for each of blocks. */
+/* Three columns and rows of numbers for each block. */
 static int make_matrix(struct hk_factor *x, const struct hk_columns *blocks) {
   struct hk_columns *m = &x->matrix;
   const int64_t numbers = 9 * (int64_t)blocks->start[x->free_count];
@@ -177,7 +177,7 @@ static int begin_triangle(struct hk_factor *x) {
   return l->begin != NULL;
 }
 
-/* 1 with the factor found to be small enough, -1 where it is not. */
+/* 1 with the factor if it is small enough, otherwise -1. */
 static int analyse(struct hk_factor *x, const struct hk_pattern *pattern, int64_t most) {
   if (pattern->count > most / 9) return -1;
   struct hk_columns blocks = {.size = x->free_count,
@@ -201,7 +201,7 @@ int32_t hk_factor_is_built(void) {
   return hk_cholmod_is_built();
 }
 
-/* `found` becomes 1 where there may be one, -1 where it has too many numbers. */
+/* `found` becomes 1 if there may be one, -1 if it has too many numbers. */
 static int32_t find(const hooke_system *system, int64_t most, struct hk_factor *x, int *found) {
   struct hk_pattern pattern;
   x->system = system;
@@ -244,7 +244,7 @@ int64_t hk_factor_memory(const struct hk_factor *x) {
   return x->bytes;
 }
 
-/* Of the matrix, of the triangle with the vector, and CHOLMOD's own. */
+/* Memory of the matrix, of the triangle with the vector, and of CHOLMOD. */
 static int64_t bytes_of_numbers(const struct hk_factor *x) {
   const int64_t own = x->matrix.start[x->matrix.size], blocks = x->triangle.begin[x->triangle.count];
   return (own + 9 * blocks + 9 * x->triangle.count) * (int64_t)sizeof(double) +
@@ -322,7 +322,7 @@ static void add_springs(const struct hk_factor *x, const struct hk_tangent *t) {
   }
 }
 
-/* Adds the blocks of an element beside the diagonal; the place after its own. */
+/* Adds the off-diagonal blocks of an element; its own first. */
 static const struct place *add_element(const struct hk_factor *x, const struct hk_element *e,
                                        const struct hk_factor_parts *parts, const struct place *place) {
   const struct hk_element_numbers s = hk_element_combine(e, parts->alpha, parts->beta);
@@ -341,7 +341,8 @@ static const struct place *add_element(const struct hk_factor *x, const struct h
   return place;
 }
 
-/* In the order in which places were found: by the table of forces, whose constant forces may be anywhere. */
+/* In the order in which positions were found: by the table of forces, whose constant forces may be anywhere.
+ */
 static void add_others(const struct hk_factor *x, const struct hk_factor_parts *parts) {
   const struct place *place = x->pair;
   const struct hk_element *kept = parts->element;
@@ -361,7 +362,7 @@ static void add_others(const struct hk_factor *x, const struct hk_factor_parts *
   }
 }
 
-/* Takes L over block by block. 0 where a number on its diagonal is not finite. */
+/* Copies L block by block. 0 if a number on its diagonal is not finite. */
 static int32_t fill_triangle(struct hk_factor *x) {
   const struct hk_columns l = hk_cholmod_factor(x->cholmod);
   struct hk_triangle *to = &x->triangle;

@@ -1,8 +1,8 @@
 /* A sparse Cholesky factor of the symmetric positive definite part S of the equations of an implicit step,
  *   M + beta c + sum over springs of (alpha kappa + beta gamma) u u^T + max(0, alpha T/r) (I - u u^T)
  *     + sum over the elements of other forces of alpha K + beta C,
- * over the free particles, computed by CHOLMOD. What of it depends on which particles are joined alone is
- * found once. */
+ * over the free particles, computed by CHOLMOD. The part that depends only on the connectivity is computed
+ * once. */
 #ifndef HOOKE_INTEGRATE_SOLVE_FACTOR_H
 #define HOOKE_INTEGRATE_SOLVE_FACTOR_H
 
@@ -15,34 +15,35 @@ struct hk_factor;
 
 int32_t hk_factor_is_built(void);
 
-/* Finds order and sizes where the numbers are not more than `most`: HOOKE_OK with *factor NULL if they are,
+/* Finds order and sizes if there are at most `most` numbers: HOOKE_OK with *factor NULL if there are more,
  * and in a build without CHOLMOD. HOOKE_NO_MEMORY. */
 int32_t hk_factor_create(const hooke_system *system, int64_t most, struct hk_factor **factor);
 void hk_factor_destroy(struct hk_factor *factor);
 
-/* Bytes that a factor takes in all, or finding that it has more numbers than `most`. HOOKE_NO_MEMORY. */
+/* Memory of a factor in total [bytes], or of finding that it has more numbers than `most`. HOOKE_NO_MEMORY.
+ */
 int32_t hk_factor_foretell(const hooke_system *system, int64_t most, int64_t *bytes);
 int64_t hk_factor_memory(const struct hk_factor *factor); /* bytes, so far */
 int64_t hk_factor_numbers(const struct hk_factor *factor);
-double hk_factor_products(const struct hk_factor *factor); /* multiplications that computing it takes */
+double hk_factor_products(const struct hk_factor *factor); /* multiplications to compute it */
 
-/* Takes memory for the numbers, once, before they are computed: many a factor is analysed and never computed.
- * HOOKE_NO_MEMORY. */
+/* Allocates memory for the numbers, once, before they are computed: many factors are analysed and never
+ * computed. HOOKE_NO_MEMORY. */
 int32_t hk_factor_reserve(struct hk_factor *factor);
 
-/* From the diagonal blocks of S, xx, yy, zz, xy, xz, yz with n numbers each, and the parts beside it. 1; 0
- * where rounding or numbers that are not finite leave it not positive; HOOKE_NO_MEMORY. */
+/* From the diagonal blocks of S, xx, yy, zz, xy, xz, yz with n numbers each, and the off-diagonal parts. 1; 0
+ * if rounding or non-finite numbers make it not positive; HOOKE_NO_MEMORY. */
 struct hk_factor_parts {
   const struct hk_tangent *tangent;
-  const struct hk_element
-      *element; /* of forces whose K and C are not constant; those of others are looked up */
+  const struct hk_element *element; /* of forces with variable K and C; those of others are looked up */
   double alpha, beta;
 };
 int32_t hk_factor_compute(struct hk_factor *factor, const double *diagonal,
                           const struct hk_factor_parts *parts);
 
 /* With S = L L^T: x = L^-1 x and x = L^-T x in the order of the factor, 3 numbers a free particle; and
- * between that order and vectors of all particles, x, y and z apart, where constrained ones become 0. */
+ * conversion between that order and vectors of all particles, x, y and z apart, where constrained ones become
+ * 0. */
 void hk_factor_forward(struct hk_factor *factor, double *x);
 void hk_factor_backward(struct hk_factor *factor, double *x);
 void hk_factor_gather(const struct hk_factor *factor, const double *all, double *ordered);

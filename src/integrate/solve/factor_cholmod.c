@@ -12,7 +12,7 @@ struct hk_cholmod {
   cholmod_factor *factor;
 };
 
-/* Nothing is printed, and nothing tried but `ordering`. */
+/* Prints nothing, and tries only `ordering`. */
 static void start(cholmod_common *common, int ordering) {
   cholmod_start(common);
   common->print = 0;

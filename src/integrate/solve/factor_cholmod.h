@@ -1,12 +1,11 @@
-/* Sparse Cholesky factors by CHOLMOD (Chen, Davis, Hager and Rajamanickam 2008). Its simplicial ones: they
- * call no BLAS, so their bits depend on the numbers alone. */
+/* Sparse Cholesky factors by CHOLMOD (Chen, Davis, Hager and Rajamanickam 2008). The simplicial ones are
+ * used: they call no BLAS, so their bits depend on the numbers alone. */
 #ifndef HOOKE_INTEGRATE_SOLVE_FACTOR_CHOLMOD_H
 #define HOOKE_INTEGRATE_SOLVE_FACTOR_CHOLMOD_H
 
 #include <stdint.h>
 
-/* Of a square matrix by columns, rows ascending: the upper triangle of a symmetric one, or a lower
- * triangle. */
+/* A square matrix by columns, rows ascending: the upper triangle of a symmetric one, or a lower triangle. */
 struct hk_columns {
   int32_t size;
   int32_t *start; /* size + 1; of a factor only the first `size` */
@@ -18,24 +17,23 @@ struct hk_cholmod;
 
 int32_t hk_cholmod_is_built(void);
 
-/* order[k]: the column that is eliminated as number k, so that little fills in (approximate minimum degree,
+/* order[k]: the column that is eliminated as number k, to reduce fill-in (approximate minimum degree,
  * Amestoy, Davis and Duff 1996). 0 without memory. */
 int32_t hk_cholmod_order(const struct hk_columns *matrix, int32_t *order);
 
-/* For factors in the order that the matrix is in. NULL without memory. */
+/* For factors in the order of the matrix. NULL without memory. */
 struct hk_cholmod *hk_cholmod_create(const struct hk_columns *matrix);
 void hk_cholmod_destroy(struct hk_cholmod *cholmod);
 
-int64_t hk_cholmod_memory(const struct hk_cholmod *cholmod); /* bytes at most so far */
+int64_t hk_cholmod_memory(const struct hk_cholmod *cholmod); /* maximum bytes so far */
 
-/* Of each column of the factor: how many numbers it has. */
+/* Number of nonzeros in each column of the factor. */
 const int32_t *hk_cholmod_counts(const struct hk_cholmod *cholmod);
 
-/* 1; 0 where the matrix proves not to be positive; HOOKE_NO_MEMORY. Numbers that are not finite may come out
- * as such. */
+/* 1; 0 if the matrix is not positive; HOOKE_NO_MEMORY. Non-finite numbers may be reported as either. */
 int32_t hk_cholmod_compute(struct hk_cholmod *cholmod, const struct hk_columns *matrix);
 
-/* L as it was last computed, L L^T the matrix; CHOLMOD's memory, valid until then. */
+/* L of the last computation, L L^T the matrix; CHOLMOD's memory, valid until the next one. */
 struct hk_columns hk_cholmod_factor(const struct hk_cholmod *cholmod);
 
 #endif

@@ -14,7 +14,7 @@ static void copy(int64_t size, const double *from, double *to) {
   memcpy(to, from, (size_t)size * sizeof(double));
 }
 
-/* x = 0, or b where it is 0 or not finite: then there is nothing to solve. */
+/* x = 0, or b if it is 0 or not finite: then there is nothing to solve. */
 static int begin(int64_t size, const double *b, double *x, double *length, struct hk_solution *solution) {
   *length = norm(size, b);
   *solution = (struct hk_solution){.converged = !(*length > 0.0 && *length < INFINITY)};
@@ -47,7 +47,7 @@ int32_t hk_solve_symmetric(const struct hk_operator *a, const double *b, double 
     hk_scale_and_add(size, square / before, r, p);
     solution->iterations++;
     solution->residual = sqrt(square) / length;
-    /* numbers that are not finite will not get better */
+    /* non-finite numbers will not improve */
     solution->converged = !(solution->residual > tolerance);
   }
   return HOOKE_OK;
@@ -119,11 +119,11 @@ struct general {
   double length, shadow_length; /* of b and of the shadow */
 };
 
-/* The recurrences start anew from the true residual each time that it has come down by this factor, which
- * keeps their residual true and their cosines above rounding; those below the second number are not. */
+/* The recurrences restart from the true residual each time that it has decreased by this factor, which keeps
+ * their residual true and their cosines above rounding; cosines below the second number are rounding. */
 static const double SWEEP = 1e-6, BROKEN = 1e-9;
 
-/* Residual from x itself, and a new start of the recurrences. */
+/* Residual from x itself, and a restart of the recurrences. */
 static int32_t restart(struct general *g, const double *b, const double *x) {
   const int64_t size = g->a->size;
   const int32_t status = g->a->apply(g->a->ctx, x, g->u[0]);
@@ -198,7 +198,7 @@ static double residual_of(const struct general *g) {
   return norm(g->a->size, g->r[0]) / g->length;
 }
 
-/* Iterations until the residual is down at `goal`, the limit, or numbers that fail. */
+/* Iterates until the residual reaches `goal`, the limit, or numbers fail. */
 static int32_t sweep(struct general *g, double goal, int64_t limit, double *x, struct hk_solution *solution) {
   int broken = 0;
   while (!broken && solution->iterations < limit) {
@@ -231,7 +231,7 @@ int32_t hk_solve_general(const struct hk_operator *a, const double *b, double to
     solution->residual = residual_of(&g);
     solution->converged = solution->residual <= tolerance;
     if (solution->converged || solution->iterations >= limit) return HOOKE_OK;
-    /* no better than when it last began: rounding allows no more */
+    /* no better than at its last start: rounding allows no more */
     if (!(solution->residual < 0.5 * best)) return HOOKE_OK;
     best = solution->residual;
     status = sweep(&g, fmax(0.5 * tolerance, SWEEP * best), limit, x, solution);
@@ -251,8 +251,8 @@ struct minimal {
   double right[SPACE + 1];    /* rotated */
 };
 
-/* Column j of the basis and of the triangle. `broken` where nothing new came, or numbers that are not
- * finite. */
+/* Column j of the basis and of the triangle. `broken` if there is no new direction, or a non-finite number.
+ */
 static int32_t extend(struct minimal *g, int j, int *broken) {
   const int64_t size = g->a->size;
   double *h = g->h[j], *next = g->v[j + 1];
@@ -280,7 +280,7 @@ static int32_t extend(struct minimal *g, int j, int *broken) {
   return HOOKE_OK;
 }
 
-/* x += the combination of the first `count` of the basis that the triangle gives. */
+/* x += the combination of the first `count` basis vectors given by the triangle. */
 static void combine(struct minimal *g, int count, double *x) {
   double share[SPACE];
   for (int j = count - 1; j >= 0; j--) {

@@ -1,18 +1,18 @@
-/* Krylov iterations for A x = b, from x = 0, with products of A alone. A is expected to be near the identity:
- * whoever calls has scaled it. The norm is the plain one. */
+/* Krylov iterations for A x = b, from x = 0, with products of A alone. A should be near the identity: the
+ * caller has to scale it. The norm is the Euclidean one. */
 #ifndef HOOKE_INTEGRATE_SOLVE_KRYLOV_H
 #define HOOKE_INTEGRATE_SOLVE_KRYLOV_H
 
 #include <stdint.h>
 
-/* out = A x, `size` numbers each; a status. */
+/* out = A x, `size` numbers each; returns a status. */
 struct hk_operator {
   int64_t size;
   int32_t (*apply)(void *ctx, const double *x, double *out);
   void *ctx;
 };
 
-/* Vectors of scratch that each of them needs. */
+/* Scratch vectors that each of them needs. */
 enum {
   HOOKE_SYMMETRIC_VECTORS = 3,
   HOOKE_GENERAL_SWEEP = 4,
@@ -24,13 +24,13 @@ enum {
 struct hk_solution {
   int32_t converged;
   int64_t iterations;
-  double residual; /* relative to b; of the general one the true one, b - A x */
+  double residual; /* relative to b; for the general solver the true one, b - A x */
 };
 
-/* Conjugate gradients (Hestenes and Stiefel 1952), for a symmetric positive definite A. A status; one that
- * did not converge within `limit` iterations is HOOKE_OK with `converged` 0. Numbers that are not finite come
- * out in x. For an A that is not positive they end at the first direction that shows it (Steihaug 1983), with
- * b.x > 0. */
+/* Conjugate gradients (Hestenes and Stiefel 1952), for a symmetric positive definite A. Returns a status:
+ * HOOKE_OK with `converged` 0 if it did not converge within `limit` iterations. Non-finite numbers are
+ * returned in x. For an A that is not positive it ends at the first direction that shows it (Steihaug 1983),
+ * with b.x > 0. */
 int32_t hk_solve_symmetric(const struct hk_operator *a, const double *b, double tolerance, int64_t limit,
                            double *scratch, double *x, struct hk_solution *solution);
 
@@ -46,8 +46,8 @@ int32_t hk_solve_positive(const struct hk_operator *a, const double *b, double r
 int32_t hk_solve_general(const struct hk_operator *a, const double *b, double tolerance, int64_t limit,
                          double *scratch, double *x, struct hk_solution *solution);
 
-/* GMRES (Saad and Schultz 1986), started again each time that its space is full: the smallest residual that
- * so many products allow, for few of them. `tolerance` is absolute, and so is `residual`. */
+/* GMRES (Saad and Schultz 1986), restarted each time that its space is full: the smallest residual for so
+ * many products, for few of them. `tolerance` is absolute, and so is `residual`. */
 int32_t hk_solve_minimal(const struct hk_operator *a, const double *b, double tolerance, int64_t limit,
                          double *scratch, double *x, struct hk_solution *solution);
 

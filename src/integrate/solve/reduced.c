@@ -8,16 +8,16 @@
 #include <math.h>
 #include <string.h>
 
-/* Nanoseconds, as measured; only their ratios count: of a product for each spring and each element of
- * another force, of work on a vector for each number, of a solve with a factor for each of its numbers, of
- * a factor for each of its multiplications. */
+/* Measured nanoseconds; only their ratios count: a product for each spring and each element of another force,
+ * a vector operation for each number, a solve with a factor for each of its numbers, a factor for each of its
+ * multiplications. */
 static const double OF_SPRING = 3.0, OF_UNKNOWN = 0.3, OF_NUMBER = 0.7, OF_PRODUCT = 0.84, OF_ELEMENT = 150.0;
 /* Of S with its factor: what rounding leaves. */
 static const double DIRECT_RESIDUAL = 1e-10;
 /* Iterations that are allowed: what well-posed equations need by far, and not for ever. */
 enum { SPARE_ITERATIONS = 1000, SIZE_SHARE = 4, MOST_ITERATIONS = 20000 };
 
-/* Springs have loops of their own, drag is on the diagonal, and what is constant multiplies by itself. */
+/* Springs have loops of their own, drag is on the diagonal, and constant forces multiply by themselves. */
 static int is_own(const struct hk_force_row *row) {
   return row == &hk_force_springs || row->multiply;
 }
@@ -99,7 +99,7 @@ void hk_reduced_release(struct hk_reduced *reduced) {
   memset(reduced, 0, sizeof *reduced);
 }
 
-/* ---- the place of the derivatives ---- */
+/* ---- the point of the derivatives ---- */
 
 /* Adds the diagonal blocks of an element of S. */
 static void add_element(const struct hk_element *e, double alpha, double beta, double *const block[6]) {
@@ -186,8 +186,8 @@ void hk_reduced_set(struct hk_reduced *reduced, double t, double alpha, double b
 
 /* ---- products ---- */
 
-/* The last rows = (df/dq) dq + (df/dv) dv, those before it, of all forces or of those that are not our
- * own. */
+/* The last rows = (df/dq) dq + (df/dv) dv of those before it, of all forces or of those without loops here.
+ */
 static int32_t multiply_rows(struct hk_reduced *reduced, int all) {
   hooke_integrator *it = reduced->integrator;
   const int64_t size = it->size;
@@ -219,7 +219,7 @@ int32_t hk_reduced_change(struct hk_reduced *reduced, const double *dq, const do
   return status;
 }
 
-/* y -= what forces of the other kinds change by under alpha x, beta x. */
+/* y -= change of the other forces under alpha x, beta x. */
 static int32_t subtract_others(struct hk_reduced *reduced, double alpha, double beta, const double *x,
                                double *y) {
   const int64_t n = reduced->integrator->system->particle_count, size = reduced->integrator->size;
@@ -233,7 +233,7 @@ static int32_t subtract_others(struct hk_reduced *reduced, double alpha, double 
   return status;
 }
 
-/* out += the matrix without its `diagonal`, times x, where no particle is constrained. */
+/* out += the matrix without its `diagonal`, times x, for free particles. */
 static int32_t add_product(struct hk_reduced *reduced, const double *x, double *out) {
   const hooke_system *system = reduced->integrator->system;
   const int64_t n = system->particle_count;
@@ -275,8 +275,8 @@ static int32_t apply(void *ctx, const double *unknown, double *out) {
   return status;
 }
 
-/* The power of two that brings numbers whose squares would overflow or underflow to about 1; 1 for all
- * others. */
+/* A power of two that scales numbers whose squares would overflow or underflow to about 1; 1 for all others.
+ */
 static double scale_of(int64_t size, const double *b) {
   static const double SAFE = 1e100;
   const double most = hk_largest(size, b);
@@ -291,7 +291,7 @@ static void multiply(int64_t size, double factor, double *x) {
     x[k] *= factor;
 }
 
-/* The factor on one side and the other; `unknown` is in its order. */
+/* Multiplies by the factor on either side; `unknown` is in its order. */
 static int32_t apply_whole(void *ctx, const double *unknown, double *out) {
   struct hk_reduced *reduced = ctx;
   const size_t bytes = (size_t)reduced->integrator->size * sizeof(double);

@@ -1,10 +1,10 @@
 /* The linear equations of an implicit step, (M - beta df/dv - alpha df/dq) x = b over the free particles.
  *
- * Products are exact. The equations are scaled by a symmetric positive definite S: M, drag, of each
- * spring (alpha kappa + beta gamma) u u^T + max(0, alpha
- * T/r) (I - u u^T), and of every other element alpha K + beta C, clamped likewise; by its 3x3 blocks on the
- * diagonal (block Jacobi), or by all of it (integrate/solve/factor.h). With S = L L^T what is iterated
- * on is L^-1 (...) L^-T, whose residual weighs particles by their mass. */
+ * Products are exact. The equations are scaled by a symmetric positive definite S: M, drag, of each spring
+ * (alpha kappa + beta gamma) u u^T + max(0, alpha T/r) (I - u u^T), and of every other element alpha K + beta
+ * C, clamped likewise; by its 3x3 blocks on the diagonal (block Jacobi), or by all of it
+ * (integrate/solve/factor.h). With S = L L^T the iteration uses L^-1 (...) L^-T, whose residual weighs
+ * particles by their mass. */
 #ifndef HOOKE_INTEGRATE_SOLVE_REDUCED_H
 #define HOOKE_INTEGRATE_SOLVE_REDUCED_H
 
@@ -28,12 +28,12 @@ struct hk_reduced {
   int32_t rows_needed; /* the products of some force are made by its own function, in rows */
   double t, alpha, beta;
   struct hk_tangent tangent;
-  int64_t element_count;      /* of forces other than springs whose K and C are not constant */
+  int64_t element_count;      /* of forces other than springs with variable K and C */
   struct hk_element *element; /* clamped */
   double *diagonal;           /* n: m + beta c */
   double *block;              /* 6 n: diagonal blocks of S, zero where a particle is constrained */
   double *factor;             /* 6 n: L^-1 of these */
-  struct hk_factor *whole;    /* of all of S; NULL: not asked for, too large, not built */
+  struct hk_factor *whole;    /* of all of S; NULL: not requested, too large, not built */
   int32_t whole_state;        /* HOOKE_WHOLE_* */
   const double *weight;       /* of the norm of the minimal one */
   double *right, *unknown, *place, *moved; /* 3n each: L^-1 b, L^T x, x, scratch */
@@ -41,14 +41,14 @@ struct hk_reduced {
   double *rows; /* q, v, dq, dv and a product, in rows of x y z */
 };
 
-/* Numbers of a factor that is still made: 2 GB. */
+/* Maximum numbers of a factor that is computed: 2 GB. */
 enum { HOOKE_MOST_NUMBERS = 100000000 };
 
 /* Its memory is counted as the method's, with that for the analysis of a factor. */
 int32_t hk_reduced_create(hooke_integrator *integrator, int32_t kind, struct hk_reduced *reduced);
 void hk_reduced_release(struct hk_reduced *reduced);
 
-/* Derivatives at the place of the integrator's motion; t is for callbacks. */
+/* Sets the derivatives at the position of the integrator's motion; t is for callbacks. */
 void hk_reduced_set(struct hk_reduced *reduced, double t, double alpha, double beta);
 
 /* x = the solution for b (3n each, x y z apart), 0 where a particle is constrained; `converged` is 0 if
@@ -64,15 +64,15 @@ int32_t hk_reduced_try(struct hk_reduced *reduced, const double *b, double toler
 /* Makes ready for factors of all of S, once; HOOKE_OK without `whole` where they would be too large, and
  * in a build without CHOLMOD. */
 int32_t hk_reduced_prepare_whole(struct hk_reduced *reduced);
-/* Takes memory for the numbers of `whole` ahead of them, and counts it. HOOKE_NO_MEMORY. */
+/* Allocates memory for the numbers of `whole` in advance, and counts it. HOOKE_NO_MEMORY. */
 int32_t hk_reduced_reserve_whole(struct hk_reduced *reduced);
 /* Factorises S where it was last set; solutions are scaled by it until it is dropped. 1; 0 if it is not
  * positive; HOOKE_NO_MEMORY. */
 int32_t hk_reduced_factorise(struct hk_reduced *reduced);
 void hk_reduced_drop_factor(struct hk_reduced *reduced);
 
-/* What things cost, in units of their own: work by blocks for so many products and works on a vector; solves
- * with a factor of S, and the factor itself, once there is room for one. */
+/* Costs, in common units: work by blocks for so many products and vector operations; solves with a factor of
+ * S, and the factor itself, once it is allocated. */
 double hk_reduced_cost_by_blocks(const struct hk_reduced *reduced, double products, double vectors);
 double hk_reduced_cost_of_solve(const struct hk_reduced *reduced);
 double hk_reduced_cost_of_factor(const struct hk_reduced *reduced);
@@ -101,7 +101,7 @@ double hk_reduced_trace(const struct hk_reduced *reduced);
 /* HOOKE_SOLVER_FAILED, with the message, for a solution that did not converge. */
 int32_t hk_reduced_fail(const struct hk_reduced *reduced, const struct hk_solution *solution);
 
-/* out = (df/dq) dq + (df/dv) dv of all forces at the place of the last set; 3n each, x y z apart. */
+/* out = (df/dq) dq + (df/dv) dv of all forces at the last set position; 3n each, x y z apart. */
 int32_t hk_reduced_change(struct hk_reduced *reduced, const double *dq, const double *dv, double *out);
 
 #endif

@@ -1,6 +1,6 @@
-/* A solver "with the matrix embedded": it is asked at every Newton iteration and finds state and gamma by
- * itself, so that its products are never old. S is, as long as that costs fewer iterations than a new
- * factor. */
+/* A solver "with the matrix embedded": it is called at every Newton iteration and finds state and gamma by
+ * itself, so that its products are always current. S is kept as long as that costs fewer iterations than a
+ * new factor. */
 #if HOOKE_HAVE_SUNDIALS
 
 #include "integrate/solve/sundials_linear.h"
@@ -14,27 +14,27 @@
 #include <sundials/sundials_linearsolver.h>
 #include <sunlinsol/sunlinsol_spgmr.h>
 
-/* Works on a vector that an iteration of GMRES takes, and for each vector of its space. */
+/* Vector operations of an iteration of GMRES, and for each vector of its space. */
 static const double VECTORS = 10.0, VECTORS_OF_SPACE = 1.0;
-/* Solves that a Newton correction takes with a factor that is not old. */
+/* Solves of a Newton correction with a current factor. */
 static const double SOLVES_OF_FACTOR = 2.0;
-/* Analysis waits for so many iterations by blocks. */
+/* The analysis waits for so many iterations by blocks. */
 static const double MANY = 160.0;
-/* With a factor the residual is the error, and the share that SUNDIALS leaves is enough. */
+/* With a factor the residual is the error, and the fraction that SUNDIALS allows suffices. */
 static const double LOOSER = 5.0;
 enum { MOST_ITERATIONS = 300 };
 
 struct solver {
   hooke_integrator *integrator;
-  int32_t direct_only, by_blocks; /* as the option says; neither: as it pays */
+  int32_t direct_only, by_blocks; /* by the option; neither: chosen by cost */
   struct hk_reduced reduced;
   N_Vector weight;
-  double *numbers; /* the next five, of all particles: b_q, b_v or dv, right-hand side or z, weights of z */
+  double *numbers; /* the next five, for all particles: b_q, b_v or dv, right-hand side or z, weights of z */
   double *bq, *bv, *right, *z, *z_weight;
-  int32_t direct, may_be_direct; /* S is factorised as a whole, or may come to be */
-  int64_t solves;                /* since the beginning, or since the last factor */
+  int32_t direct, may_be_direct; /* S is factorised as a whole, or may be later */
+  int64_t solves;                /* since the start, or since the last factor */
   double fresh, by_blocks_alone; /* iterations: with a new factor, and all of those by blocks */
-  double excess;                 /* what a new factor would have saved since then */
+  double excess;                 /* savings that a new factor would have made since then */
   int iterations;
 };
 
@@ -46,7 +46,7 @@ static const struct hk_unknowns *unknowns_of(const hooke_integrator *it) {
   return &((const struct hk_sundials *)it->own)->unknowns;
 }
 
-/* ---- which S ---- */
+/* ---- choice of S ---- */
 
 static void forget(struct solver *s) {
   hk_reduced_drop_factor(&s->reduced);
@@ -56,7 +56,7 @@ static void forget(struct solver *s) {
   s->fresh = s->excess = s->by_blocks_alone = 0.0;
 }
 
-/* S of the present place, if that is due; where it is not positive, its blocks have to do from now on. */
+/* Sets S at the current point, if due; if it is not positive, its blocks are used from now on. */
 static int32_t renew(struct solver *s, int due) {
   if (!s->direct || !due) return HOOKE_OK;
   const int32_t positive = hk_reduced_factorise(&s->reduced);
@@ -72,14 +72,14 @@ static double cost_by_blocks(const struct solver *s, double iterations) {
   return iterations * hk_reduced_cost_by_blocks(&s->reduced, 1.0, VECTORS + VECTORS_OF_SPACE * space);
 }
 
-/* What a new factor would have saved has come to its price. That is told after the fact, and so costs at most
- * twice what the best choice would have. */
+/* The savings of a new factor would have reached its cost. This is decided after the fact, and so costs at
+ * most twice the best choice. */
 static int is_due(const struct solver *s) {
   return s->excess > hk_reduced_cost_of_factor(&s->reduced);
 }
 
-/* Whether the next solves had better be with a new factor; by counts alone, so that runs repeat to the
- * bit. */
+/* Decides whether the next solves should use a new factor; by counts alone, so that runs repeat to the bit.
+ */
 static int32_t learn(struct solver *s, const struct hk_solution *solution) {
   const double iterations = (double)solution->iterations;
   s->solves++;
@@ -101,7 +101,7 @@ static int32_t learn(struct solver *s, const struct hk_solution *solution) {
 
 /* ---- one solve ---- */
 
-/* b in vectors of all particles, and the weights of z: |(gamma z, z)| weighed as q and v are. */
+/* Copies b to vectors of all particles, and the weights of z: |(gamma z, z)| in the weights of q and v. */
 static void take(struct solver *s, N_Vector b, double gamma) {
   const struct hk_unknowns *u = unknowns_of(s->integrator);
   const int64_t n = s->integrator->system->particle_count, m = u->free_count;
@@ -131,8 +131,8 @@ static void give(struct solver *s, double gamma, N_Vector x) {
   hk_unknowns_gather(u, dv, to + 3 * m);
 }
 
-/* The largest that a block of S has over its mass. Along what is soft the residual scaled by blocks is
- * smaller than the error by up to this; its root was found to make up for that. */
+/* The largest ratio of a block of S to its mass. For soft directions the residual scaled by blocks is smaller
+ * than the error by up to this factor; its root was found to compensate for that. */
 static double stiffest(const struct solver *s) {
   const hooke_system *system = s->integrator->system;
   const int64_t n = system->particle_count;
@@ -151,7 +151,7 @@ static int32_t minimise(struct solver *s, double tolerance, struct hk_solution *
   return status == HOOKE_OK ? learn(s, solution) : status;
 }
 
-/* Once more with a new factor, if the one at hand is old or there was none. */
+/* Repeats the solve with a new factor, if the current one is old or there was none. */
 static int32_t find(struct solver *s, double tolerance, struct hk_solution *solution) {
   int32_t status = renew(s, s->direct && (s->solves == 0 || is_due(s)));
   if (status == HOOKE_OK) status = minimise(s, tolerance, solution);
@@ -160,7 +160,7 @@ static int32_t find(struct solver *s, double tolerance, struct hk_solution *solu
   return status == HOOKE_OK ? minimise(s, tolerance, solution) : status;
 }
 
-/* What the solver is told of a failure; it has one number for all of them. */
+/* The flag that the solver gets for a failure; it has one for all of them. */
 static int failed(struct hk_sundials *own, int32_t status) {
   if (status == HOOKE_NO_MEMORY) own->no_memory = 1;
   return SUNLS_ATIMES_FAIL_UNREC;
@@ -258,7 +258,7 @@ int32_t hk_sundials_linear_create(hooke_integrator *it) {
   if (strcmp(word, "direct") == 0 && !hk_factor_is_built())
     return hk_fail(HOOKE_NOT_BUILT, "linear_solver",
                    "direct needs CHOLMOD, which this build is without; take auto or blocks");
-  /* a space that holds every unknown is exact as it is */
+  /* a space that holds every unknown is exact without it */
   const int32_t few = 6 * own->unknowns.free_count <= HOOKE_KRYLOV_VECTORS;
   if (!it->rate && own->unknowns.free_count > 0 && strcmp(word, "gmres") != 0 &&
       !(few && strcmp(word, "auto") == 0))

@@ -6,11 +6,11 @@
 
 #include "integrate/solve/sundials_problem.h"
 
-/* Makes own->linear as the option linear_solver says: GMRES of SUNDIALS on all unknowns for `gmres`, for
- * first-order problems and where nothing is free. HOOKE_NO_MEMORY. */
+/* Creates own->linear as the option linear_solver says: GMRES of SUNDIALS on all unknowns for `gmres`, for
+ * first-order problems and if nothing is free. HOOKE_NO_MEMORY. */
 int32_t hk_sundials_linear_create(hooke_integrator *integrator);
 
-/* Forgets what earlier solves have led to: a run starts anew. */
+/* Forgets adaptations of earlier solves: a run restarts. */
 void hk_sundials_linear_begin(hooke_integrator *integrator);
 
 /* 1 if own->linear brings its own products. */

@@ -76,7 +76,7 @@ int32_t hk_sundials_order(const hooke_integrator *it, int lowest, int highest, i
 }
 
 /* Along stiff springs a small residual is a large error, which costs steps, so this is below the 0.05 of
- * SUNDIALS; and where the Krylov space holds every unknown, accuracy is free. */
+ * SUNDIALS; if the Krylov space holds every unknown, accuracy is free. */
 double hk_sundials_linear_share(const hooke_integrator *it) {
   const struct hk_sundials *own = it->own;
   return !it->rate && 6 * own->unknowns.free_count <= HOOKE_KRYLOV_VECTORS ? 1e-4 : 1e-2;
@@ -100,8 +100,8 @@ void hk_sundials_count(hooke_integrator *it, struct hk_counts since) {
   it->count.linear_iterations = before->linear_iterations + since.linear_iterations;
 }
 
-/* Not the end of a run that is very long: the solvers try no first step below 1e-14 of the way, and one that
- * is 1e16 times too long leaves nothing of the state when it is taken back. */
+/* Not the end of a very long run: the solvers try no first step below 1e-14 of the interval, and one that is
+ * 1e16 times too long destroys the state when it is rejected. */
 static const double FARTHEST = 1e9;
 
 double hk_sundials_towards(const hooke_integrator *it) {
@@ -120,7 +120,7 @@ static int complaint_length(const char *message) {
 int32_t hk_sundials_advance(hooke_integrator *it, const char *solver, int flag, double reached) {
   const struct hk_sundials *own = it->own;
   if (it->stop_value != 0) return HOOKE_STOPPED;
-  /* GMRES takes its scratch before the first step; the number is that of ARKODE as well */
+  /* GMRES allocates its scratch before the first step; the number is that of ARKODE as well */
   if (own->spare.taken || own->no_memory || flag == CV_LINIT_FAIL) return no_memory(it, own->unknowns.size);
   if (flag < 0) {
     return hk_fail(HOOKE_SOLVER_FAILED, NULL,

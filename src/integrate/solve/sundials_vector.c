@@ -8,15 +8,15 @@
 #include <math.h>
 #include <string.h>
 
-/* Vectors are worked on in blocks, which depend on the size alone: as many as there may be sums, and none so
- * small that many vectors would not stay in cache between two of them. Below LARGE waking the others takes
+/* Vectors are processed in blocks, which depend on the size alone: as many as there may be sums, and none so
+ * small that many vectors would not stay in cache between two operations. Below LARGE waking the others takes
  * longer than it saves. */
 enum { MOST_BLOCKS = 256, LEAST_BLOCK = 1024, LARGE = 65536 };
 
-/* Begins as that of a serial vector, for whoever takes it for one. */
+/* Begins like a serial vector, for code that takes it for one. */
 struct content {
   struct _N_VectorContent_Serial serial;
-  void *plain; /* what it is a copy of */
+  void *plain; /* the vector that it is a copy of */
   struct hk_pool *pool;
   struct hk_sundials_spare *spare; /* for clones; NULL: none */
   int32_t is_spare;
@@ -195,7 +195,7 @@ static void some_combination(const struct job *j, int64_t at, int64_t count, dou
     hk_add_multiple(count, j->factor[k], numbers(j->from[k]) + at, j->z + at);
 }
 
-/* z may be the first of x. */
+/* Z may be the first of x. */
 static int combination(int count, realtype *c, N_Vector *x, N_Vector z) {
   run(z, &(struct job){.some = some_combination, .vectors = count, .factor = c, .from = x, .z = numbers(z)});
   return 0;
@@ -229,7 +229,7 @@ static int scale_each(int count, realtype *c, N_Vector *x, N_Vector *z) {
 
 static void destroy(N_Vector v) {
   struct content *content = v->content;
-  if (content->is_spare) return; /* others may still have it */
+  if (content->is_spare) return; /* others may still use it */
   v->content = content->plain;
   hk_free(content);
   N_VDestroy_Serial(v);
@@ -249,7 +249,7 @@ static N_Vector wrap(N_Vector v, struct hk_pool *pool) {
   return content ? v : NULL;
 }
 
-/* N_VClone() writes to what it gets without a look. */
+/* N_VClone() writes to its result without a check. */
 static N_Vector clone(N_Vector v) {
   const struct content *content = v->content;
   struct hk_sundials_spare *spare = content->spare;

@@ -67,7 +67,7 @@ void hk_unknowns_spread(const struct hk_unknowns *u, const double *some, double 
   }
 }
 
-/* Rows of x y z of the free particles; those of the others stay. */
+/* Rows of x y z of the free particles; others are unchanged. */
 static void spread_to_rows(const struct hk_unknowns *u, const double *some, double *rows) {
   for (int64_t k = 0; k < u->stretch_count; k++) {
     const struct hk_stretch_of_free *s = &u->stretch[k];
@@ -92,7 +92,7 @@ void hk_unknowns_load(hooke_integrator *it, const struct hk_unknowns *u, const h
     memcpy(y, state->q, (size_t)it->size * sizeof(double));
     return;
   }
-  y[0] = 0.0; /* stays where nothing is free */
+  y[0] = 0.0; /* the value if nothing is free */
   hk_motion_load(it->system, it->motion, state->q, state->v);
   gather_motion(u, it->motion, y);
 }
@@ -119,7 +119,7 @@ int32_t hk_unknowns_place(hooke_integrator *it, const struct hk_unknowns *u, dou
   return hk_integrator_hold(it, t);
 }
 
-/* v' of the free particles; 0 times their sum tells whether all are finite. */
+/* v' of the free particles; 0 times their sum shows whether all are finite. */
 static double accelerations(const hooke_integrator *it, const struct hk_unknowns *u, double *out) {
   const hooke_system *system = it->system;
   double sum = 0.0;
@@ -148,7 +148,7 @@ static int first_order_slope(hooke_integrator *it, double t, const double *x, do
 
 int hk_unknowns_slope(hooke_integrator *it, const struct hk_unknowns *u, double t, const double *y,
                       double *slope) {
-  /* a solver may take a stop for a reason to try a smaller step */
+  /* a solver may interpret a stop as a reason to try a smaller step */
   if (it->stop_value != 0) return HOOKE_SLOPE_STOPPED;
   if (it->rate) return first_order_slope(it, t, y, slope);
   if (u->free_count == 0) {

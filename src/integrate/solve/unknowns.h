@@ -1,12 +1,13 @@
-/* The problem as y' = phi(t, y), for methods that know nothing of particles: y = (q, v) of the free particles
- * with x, y and z apart, as the working copy of a state has them, or x of a first-order problem. Where
- * nothing is free y is one number that stays 0, because solvers take no empty vector. */
+/* The problem as y' = phi(t, y), for methods that do not know particles: y = (q, v) of the free particles
+ * with x, y and z apart, as the working copy of a state has them, or x of a first-order problem. If nothing
+ * is free y is one number that stays 0, because solvers accept no empty vector. */
 #ifndef HOOKE_INTEGRATE_SOLVE_UNKNOWNS_H
 #define HOOKE_INTEGRATE_SOLVE_UNKNOWNS_H
 
 #include "integrate/integrator.h"
 
-/* Free particles in a row: those from `particle` on, the first of which is free one number `place`. */
+/* Consecutive free particles: those from `particle` on, the first of which is free particle number `place`.
+ */
 struct hk_stretch_of_free {
   int64_t particle, place, count;
 };
@@ -18,11 +19,11 @@ struct hk_unknowns {
   double *rows; /* q, v, dq, dv, out in rows of all particles, for products with the derivative; or NULL */
 };
 
-/* What the functions below answer, as solvers understand it: a failure to recover from by a smaller step, or
+/* Results of the functions below, as solvers interpret them: a failure to recover from by a smaller step, or
  * one that ends the run because a callback asked for it. */
 enum { HOOKE_SLOPE_FINE = 0, HOOKE_SLOPE_NOT_FINITE = 1, HOOKE_SLOPE_STOPPED = -1 };
 
-/* `products`: 1 if products with the derivative will be asked for. HOOKE_NO_MEMORY. */
+/* `products`: 1 if products with the derivative will be needed. HOOKE_NO_MEMORY. */
 int32_t hk_unknowns_create(hooke_integrator *integrator, int32_t products, struct hk_unknowns *unknowns);
 void hk_unknowns_release(struct hk_unknowns *unknowns);
 
@@ -36,12 +37,12 @@ void hk_unknowns_load(hooke_integrator *integrator, const struct hk_unknowns *un
 int32_t hk_unknowns_store(hooke_integrator *integrator, const struct hk_unknowns *unknowns, double t,
                           const double *y, hooke_state *state);
 
-/* Three components of the free particles (3 free_count) from and to those of all (3 n); those of the others
- * stay. */
+/* Three components of the free particles (3 free_count) from and to those of all (3 n); others are unchanged.
+ */
 void hk_unknowns_gather(const struct hk_unknowns *unknowns, const double *const all[3], double *some);
 void hk_unknowns_spread(const struct hk_unknowns *unknowns, const double *some, double *const all[3]);
 
-/* Puts y and the constrained particles of time t into the working copy; a status. */
+/* Loads y and the constrained particles of time t into the working copy; returns a status. */
 int32_t hk_unknowns_place(hooke_integrator *integrator, const struct hk_unknowns *unknowns, double t,
                           const double *y);
 
@@ -49,8 +50,7 @@ int32_t hk_unknowns_place(hooke_integrator *integrator, const struct hk_unknowns
 int hk_unknowns_slope(hooke_integrator *integrator, const struct hk_unknowns *unknowns, double t,
                       const double *y, double *slope);
 
-/* Sets the point at which products of a second-order problem are taken; then product = (d phi/d y) direction
- * there. */
+/* Sets the point for products of a second-order problem; then product = (d phi/d y) direction there. */
 int hk_unknowns_linearise(hooke_integrator *integrator, const struct hk_unknowns *unknowns, double t,
                           const double *y);
 int hk_unknowns_product(hooke_integrator *integrator, const struct hk_unknowns *unknowns, double t,

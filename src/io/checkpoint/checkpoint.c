@@ -1,4 +1,4 @@
-/* Checkpoints: written as a whole, read as a whole or not at all. */
+/* Checkpoints: written and read as a whole or not at all. */
 #include "hooke/checkpoint.h"
 
 #include "core/crc32.h"
@@ -41,7 +41,7 @@ static int32_t find_place(const hooke_integrator *it, const hooke_state *state, 
   return hk_fail(HOOKE_BAD_VALUE, "state", "is not finite; nobody can go on from there");
 }
 
-/* Where the next bytes go; each function returns 0 or the number of the system's error. */
+/* The position of the next bytes; each function returns 0 or an errno. */
 struct sink {
   int descriptor;
   int64_t at;
@@ -102,7 +102,7 @@ int32_t hooke_checkpoint_write(const char *path, const hooke_integrator *it, con
 
 /* ---- reading ---- */
 
-/* One file that was read: its label, and a state of the right size with its numbers. */
+/* A file that was read: its label, and a state of the right size with its numbers. */
 struct found {
   struct hk_checkpoint_header header;
   hooke_state *state;
@@ -139,7 +139,7 @@ static int32_t read_end(const char *path, FILE *file, uint32_t check) {
   return HOOKE_OK;
 }
 
-/* Nothing is made before the length of the file and the size of the problem are known to agree. */
+/* Nothing is allocated before the length of the file is known to match the size of the problem. */
 static int32_t read_open(const char *path, FILE *file, const hooke_integrator *it, struct found *found) {
   unsigned char bytes[HOOKE_CHECKPOINT_HEADER];
   struct stat there;
@@ -190,7 +190,7 @@ static void drop(struct found *found) {
   found->state = NULL;
 }
 
-/* The newest, or where that is missing or damaged the one before it. */
+/* The newest one or, if that is missing or damaged, the previous one. */
 static int32_t find(const char *path, const char *run, const hooke_integrator *it, struct found *found) {
   char *previous = NULL, first[512];
   int32_t status = read_file(path, run, it, found);

@@ -1,10 +1,10 @@
-/* Checkpoint files beside what else a run writes. */
+/* Checkpoint files beside the other output of a run. */
 #ifndef HOOKE_IO_CHECKPOINT_CHECKPOINT_FILE_H
 #define HOOKE_IO_CHECKPOINT_CHECKPOINT_FILE_H
 
 #include "hooke/checkpoint.h"
 
-/* What was found where a checkpoint was looked for: of several files, the last one that was looked at. */
+/* Outcome of looking for a checkpoint: of several files, that of the last one examined. */
 enum hk_checkpoint_finding {
   HOOKE_CHECKPOINT_FOUND,
   HOOKE_CHECKPOINT_ABSENT,
@@ -13,11 +13,11 @@ enum hk_checkpoint_finding {
   HOOKE_CHECKPOINT_OTHER /* another scene, other options */
 };
 
-/* hooke_checkpoint_read(), and what was found. */
+/* hooke_checkpoint_read(), with this outcome. */
 int32_t hk_checkpoint_take(const char *path, const char *run, hooke_integrator *integrator,
                            hooke_state *state, enum hk_checkpoint_finding *finding);
 
-/* The file and the previous one, as far as they are there. */
+/* Removes the file and the previous one, if they exist. */
 void hk_checkpoint_remove(const char *path);
 
 #endif

@@ -15,7 +15,7 @@ enum { VERSION = 1 };
 
 /* ---- bytes ---- */
 
-/* Fields in the order of the file, taken either way. */
+/* The fields in the order of the file, for reading and writing. */
 struct tape {
   unsigned char *at;
   int32_t writing;
@@ -117,7 +117,7 @@ void hk_checkpoint_unpack_numbers(int64_t count, const unsigned char *bytes, dou
   }
 }
 
-/* ---- what it is of ---- */
+/* ---- identity of the problem ---- */
 
 uint32_t hk_checkpoint_options(const hooke_options *options) {
   uint32_t value = 0;
@@ -163,9 +163,9 @@ const char *hk_checkpoint_damage(const struct hk_checkpoint_header *h, int64_t l
   return NULL;
 }
 
-/* ---- whether it fits ---- */
+/* ---- checks ---- */
 
-/* Far from where counting on would overflow. */
+/* Well below the overflow of counts. */
 static int are_counts(const struct hk_standing *s) {
   static const int64_t most = INT64_C(1) << 62;
   const struct hk_counts *c = &s->count;
@@ -194,7 +194,7 @@ static int is_possible(const hooke_integrator *it, const struct hk_standing *s) 
     return s->t >= s->t0 && (!planned || s->t <= s->t0 + schedule->duration) && (s->k > 0) == (s->t > s->t0);
   if (memcmp(&t, &s->t, sizeof t) != 0) return 0;
   if (!planned || s->frames == 0) return !planned || s->k == 0 || schedule->frame_steps > 0;
-  /* one may be missing, if the run was stopped just before it */
+  /* one may be missing if the run was stopped just before it */
   const int64_t frames = s->k / schedule->frame_steps + 1;
   return s->k <= schedule->steps &&
          (s->frames == frames || (s->frames == frames - 1 && s->k % schedule->frame_steps == 0));

@@ -29,7 +29,7 @@ struct hk_checkpoint_header {
   struct hk_standing standing;
 };
 
-/* That of the run of an integrator that is at `standing`. */
+/* Header for the run of an integrator at `standing`. */
 void hk_checkpoint_describe(const hooke_integrator *integrator, const struct hk_standing *standing,
                             const char *run, struct hk_checkpoint_header *header);
 
@@ -40,13 +40,13 @@ void hk_checkpoint_unpack(const unsigned char bytes[HOOKE_CHECKPOINT_HEADER],
 void hk_checkpoint_pack_numbers(int64_t count, const double *value, unsigned char *bytes);
 void hk_checkpoint_unpack_numbers(int64_t count, const unsigned char *bytes, double *value);
 
-/* Check value of the options of a run that have a value, given or not, but for `threads`, which decide no
+/* Check value of the options of a run that have a value, given or default, except `threads`, which affects no
  * bit. */
 uint32_t hk_checkpoint_options(const hooke_options *options);
 
-/* NULL, or what is wrong with a header of a file of `length` bytes. */
+/* NULL, or the fault of a header of a file of `length` bytes. */
 const char *hk_checkpoint_damage(const struct hk_checkpoint_header *header, int64_t length);
-/* HOOKE_BAD_VALUE for one that is not of this problem and these options, or with impossible numbers. */
+/* HOOKE_BAD_VALUE for one of another problem or other options, or with impossible numbers. */
 int32_t hk_checkpoint_check(const char *path, const struct hk_checkpoint_header *header,
                             const hooke_integrator *integrator);
 

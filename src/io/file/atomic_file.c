@@ -15,7 +15,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-enum { MOST_LINKS = 40 }; /* as Linux follows */
+enum { MOST_LINKS = 40 }; /* maximum depth of links, as in Linux */
 
 int32_t hk_file_fail(const char *path, const char *what, int error) {
   char reason[HOOKE_ERROR_SIZE];
@@ -25,14 +25,14 @@ int32_t hk_file_fail(const char *path, const char *what, int error) {
 
 /* ---- names ---- */
 
-/* `name` in the folder of `path`, unless it begins at the root. */
+/* Puts `name` in the folder of `path`, unless it is absolute. */
 static int join(const char *path, const char *name, char joined[PATH_MAX]) {
   const char *slash = name[0] == '/' ? NULL : strrchr(path, '/');
   const int folder = slash ? (int)(slash - path + 1) : 0;
   return snprintf(joined, PATH_MAX, "%.*s%s", folder, path, name) < PATH_MAX ? 0 : ENAMETOOLONG;
 }
 
-/* Where nothing is: a link there stands for the name that it points to. */
+/* For a dangling link: the name that it points to. */
 static int follow(const char *path, char name[PATH_MAX]) {
   int error = join("", path, name);
   for (int k = 0; error == 0 && k < MOST_LINKS; k++) {
@@ -89,7 +89,7 @@ int32_t hk_file_beside(const char *path, const char *ending, char **beside) {
   return HOOKE_OK;
 }
 
-/* ---- what is there ---- */
+/* ---- existing files ---- */
 
 /* Checks the open descriptor, so that the file cannot be swapped meanwhile. */
 int hk_file_open(const char *path) {

@@ -1,10 +1,10 @@
-/* Makes, locks and commits files.
+/* Creates, locks and commits files.
  *
  * The lock is on the file itself, for all of it, and belongs to the open descriptor (F_OFD_SETLK): it ends
- * with the process, and another descriptor of the same process has no part in it. HDF5's readers ask by
- * flock(), which on local file systems is another kind of lock. A file takes its name locked, so whoever
- * finds a name finds the lock; one who got a lock makes sure that the name still is that of the file. Where a
- * file system has no locks all goes on without. */
+ * with the process, and other descriptors of the same process do not share it. HDF5's readers use flock(),
+ * which on local file systems is an independent kind of lock. A file is locked before it gets its name, so
+ * whoever opens a name finds the lock; after locking, one has to check that the name still belongs to the
+ * file. File systems without locks are used without. */
 #define _GNU_SOURCE /* F_OFD_SETLK, renameat2() */
 #include "core/keep_errno.h"
 #include "core/memory.h"
@@ -24,7 +24,7 @@
 
 /* ---- locks ---- */
 
-/* A lock of a reader, where flock() comes to the same, is none of a run. */
+/* A lock of a reader, where flock() is equivalent, is not that of a run. */
 static int32_t refuse_written(const char *path, int descriptor) {
   struct flock lock = {.l_type = F_RDLCK, .l_whence = SEEK_SET};
   if (fcntl(descriptor, F_OFD_GETLK, &lock) != 0 || lock.l_type != F_WRLCK) return HOOKE_OK;
@@ -39,7 +39,7 @@ static void unlock(int descriptor) {
 
 static void drop(int descriptor, int32_t own) {
   if (descriptor < 0) return;
-  /* a process that was forked meanwhile may have the descriptor for longer */
+  /* a process that was forked meanwhile may hold the descriptor for longer */
   if (own) unlock(descriptor);
   close(descriptor);
 }
@@ -49,15 +49,15 @@ static int32_t lock(const char *path, int descriptor) {
   return fcntl(descriptor, F_OFD_SETLK, &lock) == 0 ? HOOKE_OK : refuse_written(path, descriptor);
 }
 
-/* Readers come first where flock() and our lock are of one kind, as on NFS: there is no lock then. `path`:
- * the file's name. */
+/* Readers may hold a lock where flock() and our lock are of one kind, as on NFS: the file is then not locked.
+ * `path`: the file's name. */
 static void let_readers_in(const char *path, int descriptor) {
   const int reader = open(path, O_RDONLY | O_CLOEXEC);
   if (reader >= 0 && flock(reader, LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK) unlock(descriptor);
   if (reader >= 0) close(reader);
 }
 
-/* Opens and locks the file that has the name when that is done; -1 if there is none. */
+/* Opens and locks the file that has the name at that moment; -1 if there is none. */
 static int32_t open_locked(const char *path, int *descriptor) {
   for (;;) {
     struct stat there, own;
@@ -73,7 +73,7 @@ static int32_t open_locked(const char *path, int *descriptor) {
   }
 }
 
-/* One that may not be written may be replaced all the same. */
+/* A file without write permission may still be replaced. */
 static int32_t look_whether_free(const char *path) {
   const int descriptor = open(path, O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
   if (descriptor < 0) return HOOKE_OK;
@@ -89,9 +89,9 @@ static int32_t lock_older(struct hk_atomic_file *file) {
   return status;
 }
 
-/* ---- making ---- */
+/* ---- creating ---- */
 
-/* The owner, the group and the mode of the file that will be replaced, as far as may be. */
+/* Copies owner, group and mode of the file to be replaced, as far as permitted. */
 static void inherit(int descriptor, const struct stat *older) {
   struct stat own;
   mode_t mode = older->st_mode & 0777;
@@ -99,11 +99,11 @@ static void inherit(int descriptor, const struct stat *older) {
   if ((own.st_uid != older->st_uid || own.st_gid != older->st_gid) &&
       fchown(descriptor, older->st_uid, older->st_gid) != 0 &&
       fchown(descriptor, (uid_t)-1, older->st_gid) != 0)
-    mode = (mode & ~(mode_t)070) | (mode & 07) << 3; /* a group that it was not of has what everybody has */
+    mode = (mode & ~(mode_t)070) | (mode & 07) << 3; /* another group gets the rights of others */
   (void)fchmod(descriptor, mode);
 }
 
-/* A new name in the folder of the path, short enough for every folder. */
+/* A temporary name in the folder of the path, short enough for every file system. */
 static int32_t name_anew(struct hk_atomic_file *file) {
   const int folder = (int)(strrchr(file->path, '/') - file->path) + 1;
   const size_t room = (size_t)folder + 32;
@@ -123,13 +123,13 @@ static int32_t create(const char *path, struct hk_atomic_file *file) {
   do {
     const int32_t status = name_anew(file);
     if (status != HOOKE_OK) return status;
-    /* nobody may read what takes the place of a private file, not even for a moment */
+    /* the replacement of a private file must not be readable, not even for a moment */
     file->descriptor =
         open(file->temporary, O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, replaces ? 0600 : 0666);
   } while (file->descriptor < 0 && errno == EEXIST);
   if (file->descriptor < 0) {
     const int error = errno;
-    hk_free(file->temporary); /* it is none of ours */
+    hk_free(file->temporary); /* the file is not ours */
     file->temporary = NULL;
     return hk_file_fail(path, "create the file", error);
   }
@@ -186,14 +186,14 @@ static int open_folder_of(const char *path) {
   return descriptor;
 }
 
-/* The names of a folder's files are data of the folder. */
+/* The names of files are data of the folder. */
 static int sync_folder(int folder) {
   const int result = fsync(folder);
-  /* some file systems cannot do this for a folder; the rename is then as durable as they make it */
+  /* some file systems cannot sync a folder; the rename is then as durable as they make it */
   return result != 0 && (errno == EINVAL || errno == ENOTSUP) ? 0 : result;
 }
 
-/* Where nothing was as a run began, another may have come first. */
+/* If there was no file when the run began, another run may have created one. */
 static int32_t rename_new(struct hk_atomic_file *file) {
   const char *path = file->path;
   if (file->is_new) {
@@ -201,25 +201,26 @@ static int32_t rename_new(struct hk_atomic_file *file) {
     if (errno == EEXIST) {
       const int32_t status = look_whether_free(path);
       if (status != HOOKE_OK) return status;
-    } else if (errno != EINVAL && errno != ENOSYS) { /* some file systems cannot do this */
+    } else if (errno != EINVAL && errno != ENOSYS) { /* unsupported by some file systems */
       return hk_file_fail(path, "take this name", errno);
     }
   }
   return rename(file->temporary, path) == 0 ? HOOKE_OK : hk_file_fail(path, "take this name", errno);
 }
 
-/* Under a second name, so that the first is never without a file; renamed where there are no such names. */
+/* Links the older file under a second name, so that the first name always exists; renames where hard links
+ * are not supported. */
 static int keep_older(const char *path, const char *previous) {
   if (unlink(previous) != 0 && errno != ENOENT) return -1;
   if (link(path, previous) == 0 || errno == ENOENT || errno == EEXIST)
-    return 0; /* another has just done so */
+    return 0; /* another process has just done so */
   return errno == EPERM || errno == ENOTSUP || errno == ENOSYS || errno == EMLINK ? rename(path, previous)
                                                                                   : -1;
 }
 
 static int32_t take(struct hk_atomic_file *file, const char *previous, int folder) {
   const char *path = file->path;
-  /* a folder that cannot do this is found out before anything is replaced */
+  /* detect a folder that cannot be synced before anything is replaced */
   if (sync_folder(folder) != 0) return hk_file_fail(path, "bring the name to the disk", errno);
   if (previous && keep_older(path, previous) != 0)
     return hk_file_fail(path, "keep the file that was there", errno);
@@ -236,7 +237,7 @@ int32_t hk_atomic_file_commit(struct hk_atomic_file *file, const char *previous)
   if (fsync(file->descriptor) != 0) return hk_file_fail(file->path, "bring the data to the disk", errno);
   int32_t status = file->locked ? HOOKE_OK : hk_atomic_file_close(file);
   if (status != HOOKE_OK) return status;
-  /* opened once, so that nothing but the disk can fail when the file has its name */
+  /* open it in advance, so that nothing but the disk can fail once the file has its name */
   const int folder = open_folder_of(file->path);
   if (folder < 0) return hk_file_fail(file->path, "open its folder", errno);
   status = take(file, previous, folder);
@@ -246,7 +247,7 @@ int32_t hk_atomic_file_commit(struct hk_atomic_file *file, const char *previous)
   return status;
 }
 
-/* ---- the end ---- */
+/* ---- closing ---- */
 
 static int32_t is_own(const struct hk_atomic_file *file) {
   return file->process == getpid();

@@ -1,14 +1,14 @@
-/* Bytes at a place in a file, whole or not at all. */
+/* Reads and writes of whole blocks at an offset of a file. */
 #ifndef HOOKE_IO_FILE_BYTES_H
 #define HOOKE_IO_FILE_BYTES_H
 
 #include <stdint.h>
 
-/* Each returns 0 or the number of the system's error; a file that ends before is EIO. */
+/* Each returns 0 or an errno; a file that ends too early is EIO. */
 int hk_bytes_write(int descriptor, int64_t at, int64_t count, const void *bytes);
 int hk_bytes_read(int descriptor, int64_t at, int64_t count, void *bytes);
 
-/* Copies from one file to another through `block`, which has room for `room` bytes. */
+/* Copies from one file to another through `block` of `room` bytes. */
 int hk_bytes_copy(int from, int64_t from_at, int to, int64_t to_at, int64_t count, void *block, int64_t room);
 
 #endif

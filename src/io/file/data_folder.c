@@ -11,13 +11,13 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Seen from the folder of the library or, where it is linked statically, of the program: the build tree and
- * the Python package, an installation (CMake knows where its libraries are), a program beside lib. An
+/* Paths relative to the folder of the library or, if it is linked statically, of the program: the build tree
+ * and the Python package, an installation (CMake knows where its libraries are), a program beside lib. An
  * installation may be moved. */
 static const char *const near_library[] = {"share/hooke", HOOKE_DATA_FROM_LIBRARY, "../share/hooke"};
 enum { NEAR_COUNT = sizeof near_library / sizeof near_library[0] };
 
-/* The folder that this code was loaded from; "." where it was started by a bare name. */
+/* The folder that this code was loaded from; "." if it was started by a bare name. */
 static void find_own_folder(char *folder, size_t size) {
   static const char here = 0;
   Dl_info info;

@@ -34,8 +34,8 @@ static void add(struct hk_text *text, const char *words) {
   hk_text_add(text, words, (int64_t)strlen(words));
 }
 
-/* "<" is escaped, so that no text ends the element around it or begins a comment, and so is what could steer
- * a terminal. */
+/* Escapes "<", so that no text ends the enclosing element or begins a comment, and characters that control
+ * terminals. */
 static void add_quoted(struct hk_text *text, const char *words) {
   add(text, "\"");
   const char *at = words;
@@ -73,7 +73,7 @@ void hk_text_close(struct hk_text *text, char bracket) {
   hk_text_add(text, &bracket, 1);
 }
 
-/* "-0" would be read as a whole number, and these have one 0. */
+/* "-0" would be read as an integer, and integers have a single 0 */
 void hk_text_number(struct hk_text *text, const char *key, double value) {
   char number[HOOKE_NUMBER_SIZE] = "null";
   if (isfinite(value)) hk_number_print(value, number);

@@ -1,10 +1,10 @@
-/* Text that grows, and JSON in it. */
+/* Growing text, and JSON in it. */
 #ifndef HOOKE_IO_FILE_TEXT_H
 #define HOOKE_IO_FILE_TEXT_H
 
 #include "hooke/base.h"
 
-/* Starts as zeros. A failure stays in `status`, and what comes after it is left out. */
+/* Starts as zeros. A failure is kept in `status`; later additions are ignored. */
 struct hk_text {
   char *bytes; /* not terminated */
   int64_t length, capacity;
@@ -14,15 +14,15 @@ struct hk_text {
 void hk_text_add(struct hk_text *text, const char *bytes, int64_t length);
 void hk_text_release(struct hk_text *text);
 
-/* JSON: `key` is NULL in an array. What is not finite becomes null, and so does a text that is NULL. A text
- * may stand inside a <script> element, whatever it says. */
+/* JSON: `key` is NULL in an array. Non-finite numbers and NULL texts become null. Any text is safe inside a
+ * <script> element. */
 void hk_text_open(struct hk_text *text, const char *key, char bracket);
 void hk_text_close(struct hk_text *text, char bracket);
 void hk_text_number(struct hk_text *text, const char *key, double value);
 void hk_text_word(struct hk_text *text, const char *key, const char *word);
 void hk_text_flag(struct hk_text *text, const char *key, int32_t flag);
 
-/* Adds to `laid` what `json` holds, one whole value, in lines for people. */
+/* Appends to `laid` the one JSON value in `json`, in a readable layout. */
 void hk_text_lay_out(const struct hk_text *json, struct hk_text *laid);
 
 #endif

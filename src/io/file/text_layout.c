@@ -1,4 +1,4 @@
-/* JSON laid out for people: short objects and arrays on one line, long ones an element a line. */
+/* Readable layout of JSON: short objects and arrays on one line, long ones with one element a line. */
 #include "io/file/text.h"
 
 #include <string.h>
@@ -9,7 +9,7 @@ static void add(struct hk_text *text, const char *words) {
   hk_text_add(text, words, (int64_t)strlen(words));
 }
 
-/* Past the string, object, array or bare word that begins at `at`. */
+/* Skips the string, object, array or bare word that begins at `at`. */
 static const char *past_value(const char *at, const char *end) {
   int64_t depth = 0;
   while (at < end) {
@@ -36,7 +36,7 @@ static void new_line(struct hk_text *laid, int32_t depth) {
     add(laid, " ");
 }
 
-/* On one line, with a space after every comma and colon outside texts. */
+/* Copies it on one line, with a space after every comma and colon outside strings. */
 static void add_line(struct hk_text *laid, const char *at, const char *end) {
   int32_t quoted = 0;
   for (; at < end; at++) {

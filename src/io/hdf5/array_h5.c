@@ -1,4 +1,4 @@
-/* Reading arrays from HDF5 files that nobody vouches for. */
+/* Reads arrays from untrusted HDF5 files. */
 #include "io/hdf5/array_h5.h"
 
 #include "core/memory.h"
@@ -32,7 +32,7 @@ static int32_t fail(const struct source *source, const char *what) {
   return hk_h5_fail(source->guard, source->path, what);
 }
 
-/* For numbers of a part of `data`, and for what HDF5 takes to read them. */
+/* Memory for the numbers of a part of `data`, and for HDF5's own while reading them. */
 static int32_t check_room(const struct source *source, const struct hk_dataset *data, const hsize_t *part) {
   double bytes = sizeof(double);
   for (int k = 0; k < data->rank; k++)
@@ -57,7 +57,7 @@ static int32_t count_timed(const struct source *source, const struct hk_dataset 
   return status;
 }
 
-/* All of the frames if the neighbour `time` is not there for each of them. */
+/* All frames if the sibling `time` does not have one for each of them. */
 static int32_t count_frames(const struct source *source, int64_t *frames) {
   *frames = (int64_t)source->data.size[0];
   const char *slash = strrchr(source->dataset, '/');

@@ -1,5 +1,5 @@
-/* Arrays of numbers read from HDF5 files, which may be anybody's: sizes are checked before anything is
- * allocated, and nothing outside the file is followed. */
+/* Reads arrays of numbers from untrusted HDF5 files: sizes are checked before anything is allocated, and no
+ * links out of the file are followed. */
 #ifndef HOOKE_IO_HDF5_ARRAY_H5_H
 #define HOOKE_IO_HDF5_ARRAY_H5_H
 
@@ -7,14 +7,14 @@
 
 /* Reads a dataset of integers or floating-point numbers into `values` (rows x columns, released by the caller
  * with hk_free()): one of rank 1 (one column), of rank 2, or one frame of rank 3, [frames][rows][columns].
- * Frames count from 0; negative ones from the end, -1 being the last; without `has_frame` it is the last.
- * Where the dataset has a neighbour `time` (H5MD), only the frames before the first that has no time (NaN)
- * are there. A frame of a trajectory's position or velocity is held against its check value, where it has
- * one, and refused with HOOKE_BAD_VALUE if it is damaged. HOOKE_IO_FAILED, HOOKE_BAD_VALUE, HOOKE_NO_MEMORY,
- * HOOKE_NOT_BUILT. */
+ * Frames count from 0; negative ones from the end, -1 being the last; without `has_frame` it is the last. If
+ * the dataset has a sibling `time` (H5MD), only the frames before the first without a time (NaN) exist. A
+ * frame of a trajectory's position or velocity is compared with its check value, if it has one, and refused
+ * with HOOKE_BAD_VALUE if it is damaged. HOOKE_IO_FAILED, HOOKE_BAD_VALUE, HOOKE_NO_MEMORY, HOOKE_NOT_BUILT.
+ */
 int32_t hk_array_read(const char *path, const char *dataset, int64_t frame, int32_t has_frame,
                       double **values, int64_t *rows, int64_t *columns);
-/* The same with at most `memory_limit` bytes; 0, as above: what the machine has. */
+/* The same with at most `memory_limit` bytes; 0, as above: the machine's memory. */
 int32_t hk_array_read_within(double memory_limit, const char *path, const char *dataset, int64_t frame,
                              int32_t has_frame, double **values, int64_t *rows, int64_t *columns);
 

@@ -28,7 +28,7 @@ static herr_t copy_value(hid_t attribute, hid_t to, const char *name, hid_t type
   return result;
 }
 
-/* A reference would mean an object of the old file. */
+/* A reference would point into the old file. */
 static herr_t copy_attribute(hid_t from, const char *name, const H5A_info_t *info, void *ctx) {
   (void)info;
   const hid_t *to = ctx;

@@ -14,9 +14,9 @@
 #include <string.h>
 #include <unistd.h>
 
-/* No compression makes numbers more than about a thousand times smaller, so a dataset that claims more is a
- * trap. [bytes] is a little more than HDF5 1.10 takes, while it reads, for each chunk that it comes to,
- * written or not: 6.6 kB. */
+/* No compression makes numbers more than about a thousand times smaller, so a dataset that claims more is
+ * malicious. The [bytes] exceed slightly what HDF5 1.10 allocates while reading, for each chunk that it
+ * visits, written or not: 6.6 kB. */
 enum { LARGEST_RATIO = 2048, BYTES_OF_CHUNK = 8192 };
 
 static const char not_numbers[] = "is not an array of numbers";
@@ -28,7 +28,7 @@ int32_t hk_dataset_refuse(const char *path, const char *name, const char *what) 
 int32_t hk_dataset_file(struct hk_h5_guard *guard, const char *path, hid_t *file) {
   const int descriptor = hk_file_open(path);
   *file = -1;
-  /* HDF5 would wait for somebody to write into a pipe */
+  /* HDF5 would wait for a writer of a pipe */
   if (descriptor < 0 && (errno == EINVAL || errno == EISDIR))
     return hk_fail(HOOKE_IO_FAILED, NULL, "%s: is not a regular file", path);
   if (descriptor >= 0) close(descriptor);
@@ -52,7 +52,7 @@ static double stored_bytes(hid_t data) {
   return stored < (double)whole ? stored : (double)whole;
 }
 
-/* Numbers, and no more than the file can hold. */
+/* Refuses arrays that are not numbers or claim more than the file can hold. */
 static int32_t check_storage(const char *path, const char *name, hid_t data, double count) {
   hid_t list = H5Dget_create_plist(data), type = H5Dget_type(data);
   const H5T_class_t class = type < 0 ? H5T_NO_CLASS : H5Tget_class(type);
@@ -62,7 +62,7 @@ static int32_t check_storage(const char *path, const char *name, hid_t data, dou
   hk_h5_drop(list);
   if (class != H5T_FLOAT && class != H5T_INTEGER) return hk_dataset_refuse(path, name, not_numbers);
   const double stored = stored_bytes(data);
-  /* HDF5 reads beyond numbers that are in one piece */
+  /* HDF5 reads past the end of contiguous numbers */
   const int beyond = layout != H5D_CHUNKED && bytes > (double)H5Dget_storage_size(data);
   if (beyond || bytes > LARGEST_RATIO * stored) {
     char text[160];
@@ -87,7 +87,7 @@ double hk_dataset_read_bytes(const struct hk_dataset *data, const hsize_t *part)
   return rank > 0 ? bytes + chunks * BYTES_OF_CHUNK : 0.0;
 }
 
-/* `list`: of hk_h5_own_links(), or negative. */
+/* `list`: from hk_h5_own_links(), or negative. */
 static int32_t open_by(hid_t list, struct hk_h5_guard *guard, hid_t file, const char *path, const char *name,
                        struct hk_dataset *data) {
   *data = (struct hk_dataset){.id = -1};
@@ -125,7 +125,7 @@ int32_t hk_dataset_open(struct hk_h5_guard *guard, hid_t file, const char *path,
   return status;
 }
 
-/* 0 also where a group on the way is not there; negative where HDF5 cannot tell. */
+/* 0 also if a group on the path does not exist; negative if HDF5 cannot tell. */
 static htri_t is_there(hid_t list, hid_t file, const char *name) {
   htri_t there = H5Lexists(file, name, list);
   char *part = there < 0 ? hk_copy_text(name) : NULL;
@@ -148,7 +148,7 @@ int32_t hk_dataset_find(struct hk_h5_guard *guard, hid_t file, const char *path,
     status = open_by(list, guard, file, path, name, data);
   else if (there < 0)
     status = hk_h5_fail(guard, path, "look which arrays it has");
-  else /* an answer, no failure */
+  else /* an answer, not a failure */
     guard->reason[0] = '\0', guard->no_memory = 0;
   hk_h5_drop(list);
   return status;

@@ -1,4 +1,4 @@
-/* A driver of HDF5 that keeps failures to itself. */
+/* An HDF5 driver that records failures and never reports them to HDF5. */
 #include "core/memory.h"
 
 #if HOOKE_HAVE_HDF5
@@ -16,10 +16,10 @@
 #include <unistd.h>
 
 struct driven {
-  H5FD_t pub; /* first, as HDF5 wants it */
+  H5FD_t pub; /* must be first, by HDF5's rules */
   int descriptor;
   int *error;
-  haddr_t end, size; /* of what is taken; of the file, had all writes been made */
+  haddr_t end, size; /* of the allocated range; of the file, as if all writes had succeeded */
 };
 
 struct setting {
@@ -63,7 +63,7 @@ static int compare_files(const H5FD_t *a, const H5FD_t *b) {
   return one.st_ino < other.st_ino ? -1 : one.st_ino > other.st_ino;
 }
 
-/* As HDF5's own driver of plain files, so that it lays files out alike. */
+/* Like HDF5's own driver of plain files, so that the layout of files is the same. */
 static herr_t tell_features(const H5FD_t *file, unsigned long *flags) {
   (void)file;
   *flags = H5FD_FEAT_AGGREGATE_METADATA | H5FD_FEAT_ACCUMULATE_METADATA | H5FD_FEAT_DATA_SIEVE |
@@ -93,7 +93,7 @@ static herr_t give_handle(H5FD_t *file, hid_t list, void **handle) {
   return 0;
 }
 
-/* What is not there reads as zeros. */
+/* Missing data are read as zeros. */
 static herr_t read_file(H5FD_t *file, H5FD_mem_t type, hid_t list, haddr_t at, size_t count, void *bytes) {
   struct driven *f = (struct driven *)file;
   (void)type, (void)list;
@@ -152,7 +152,7 @@ hid_t hk_h5_access_list(int descriptor, int *error) {
   const struct setting setting = {descriptor, error};
   hid_t list = H5Pcreate(H5P_FILE_ACCESS), id = list < 0 ? -1 : H5FDregister(&driver);
   herr_t result = id < 0 ? -1 : H5Pset_driver(list, id, &setting);
-  if (id >= 0) H5FDunregister(id); /* the list has it */
+  if (id >= 0) H5FDunregister(id); /* owned by the list */
   if (result >= 0) result = H5Pset_sieve_buf_size(list, 0);
   if (result >= 0) result = H5Pset_alignment(list, 1, 16);
   if (result >= 0) result = H5Pset_fclose_degree(list, H5F_CLOSE_STRONG);

@@ -1,4 +1,4 @@
-/* HDF5 files that take their place only when they are ready, and HDF5 errors in words. */
+/* HDF5 files that are published when complete, and HDF5 errors in words. */
 #include "core/print.h"
 #include "core/status.h"
 
@@ -33,22 +33,22 @@ static herr_t keep_innermost(unsigned n, const H5E_error2_t *entry, void *ctx) {
     length = strcspn(text, "'");
   }
   snprintf(guard->reason, sizeof guard->reason, "%.*s", (int)length, text);
-  /* some of its parts say so in words alone */
+  /* some parts of HDF5 give a description only */
   guard->no_memory = entry->maj_num == H5E_RESOURCE || entry->min_num == H5E_CANTALLOC ||
                      strstr(entry->desc, "memory allocation failed") != NULL;
   return 0;
 }
 
-/* Called by HDF5 when one of its functions fails; what fails first is the reason for the rest. */
+/* Called by HDF5 when one of its functions fails; the first failure causes the others. */
 static herr_t on_error(hid_t stack, void *ctx) {
   struct hk_h5_guard *guard = ctx;
   if (guard->reason[0] == '\0') H5Ewalk2(stack, H5E_WALK_UPWARD, keep_innermost, guard);
   return 0;
 }
 
-/* HDF5 keeps its open files, and more, in variables of its own, one set for the process. */
+/* HDF5 keeps its open files, and more, in global variables. */
 static pthread_mutex_t alone = PTHREAD_MUTEX_INITIALIZER;
-static _Thread_local int32_t guards; /* of this thread, one inside the other */
+static _Thread_local int32_t guards; /* active in this thread */
 
 void hk_h5_guard_begin(struct hk_h5_guard *guard) {
   *guard = (struct hk_h5_guard){.second_version = 1, .error = errno, .failures = hk_fail_count()};
@@ -80,7 +80,7 @@ void hk_h5_guard_end(const struct hk_h5_guard *guard) {
   errno = guard->error;
 }
 
-/* HDF5 was without memory, or we were as it called us. */
+/* HDF5 was out of memory, or the library was when HDF5 called it. */
 static int was_without_memory(const struct hk_h5_guard *guard) {
   return guard->no_memory || (hk_fail_count() > guard->failures && hk_fail_status() == HOOKE_NO_MEMORY);
 }
@@ -93,12 +93,12 @@ int32_t hk_h5_fail(const struct hk_h5_guard *guard, const char *path, const char
 
 /* ---- a file ---- */
 
-/* Whether `bytes` fit is found out before anything is written. */
+/* Checks that `bytes` fit before anything is written. */
 static int32_t try_room(const char *path, int descriptor, double bytes) {
   char what[64];
   hk_print(what, sizeof what, "make room for %.3g MB", bytes / 1e6);
   int error = bytes < 9e18 ? posix_fallocate(descriptor, 0, (off_t)bytes) : EFBIG;
-  if (error == EINVAL || error == ENOTSUP) error = 0; /* this file system cannot tell */
+  if (error == EINVAL || error == ENOTSUP) error = 0; /* unsupported by this file system */
   if (ftruncate(descriptor, 0) != 0 && error == 0) error = errno;
   return error ? hk_file_fail(path, what, error) : HOOKE_OK;
 }
@@ -127,16 +127,16 @@ int32_t hk_h5_file_create_locked(struct hk_h5_guard *guard, const char *path, do
   return status == HOOKE_OK ? create(guard, path, bytes, file) : status;
 }
 
-/* Room on the disk for all of it, and not only in the numbering of its bytes. */
+/* Allocates disk space for the whole file, not only its length. */
 static int32_t take_room(struct hk_h5_guard *guard, const struct hk_h5_file *file) {
   hsize_t bytes = 0;
   if (H5Fget_filesize(file->id, &bytes) < 0) return hk_h5_fail(guard, file->atomic.path, "write");
   const int error = posix_fallocate(file->atomic.descriptor, 0, (off_t)bytes);
-  if (error == 0 || error == EINVAL || error == ENOTSUP) return HOOKE_OK; /* some file systems cannot tell */
+  if (error == 0 || error == EINVAL || error == ENOTSUP) return HOOKE_OK; /* may be unsupported */
   return hk_file_fail(file->atomic.path, "make room for all frames", error);
 }
 
-/* Whatever comes of it, HDF5 has no part in the file afterwards. */
+/* Whatever happens, HDF5 does not use the file afterwards. */
 static int32_t let_go(struct hk_h5_guard *guard, struct hk_h5_file *file) {
   const hid_t id = file->id;
   file->id = -1;
@@ -189,7 +189,7 @@ double hk_h5_file_bytes(const struct hk_h5_file *file) {
 
 void hk_h5_file_release(struct hk_h5_file *file) {
   if (file->id >= 0) {
-    file->error = ECANCELED; /* nobody wants what HDF5 has not written yet */
+    file->error = ECANCELED; /* discard everything that HDF5 has not written yet */
     H5Fclose(file->id);
   }
   hk_h5_drop(file->list);

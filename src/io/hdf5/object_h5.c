@@ -35,7 +35,7 @@ hid_t hk_h5_own_links(struct hk_h5_guard *guard) {
   return -1;
 }
 
-/* Filters that HDF5 would have to load: it may not, while a guard is there. */
+/* Filters that HDF5 would have to load, which the guard forbids. */
 static int needs_code(hid_t list) {
   int needs = 0;
   for (int k = 0; !needs && k < H5Pget_nfilters(list); k++) {
@@ -60,7 +60,7 @@ const char *hk_h5_foreign(hid_t dataset) {
   return what;
 }
 
-/* Creates and writes an attribute; takes over `type` and `space`. */
+/* Creates and writes an attribute; closes `type` and `space`. */
 static herr_t write_attribute(hid_t object, const char *name, hid_t type, hid_t memory, hid_t space,
                               const void *data) {
   hid_t attribute = H5Acreate2(object, name, type, space, H5P_DEFAULT, H5P_DEFAULT);
@@ -112,7 +112,7 @@ static hid_t new_array(hid_t where, const char *name, hid_t type, int rank, cons
   if (result >= 0) result = H5Pset_alloc_time(list, H5D_ALLOC_TIME_EARLY);
   if (result >= 0) result = H5Pset_fill_time(list, time);
   if (result >= 0 && fill) result = H5Pset_fill_value(list, type, fill);
-  /* no dates: the same run makes the same bytes */
+  /* no dates: the same run gives the same bytes */
   if (result >= 0) result = H5Pset_obj_track_times(list, 0);
   if (result >= 0) dataset = H5Dcreate2(where, name, type, space, H5P_DEFAULT, list, H5P_DEFAULT);
   hk_h5_drop(space);

@@ -1,5 +1,5 @@
-/* The small objects that HDF5 files are made of: attributes, arrays of a size known in advance, texts.
- * Functions that return herr_t or hid_t give a negative number on failure, like HDF5's own. */
+/* Helpers for small HDF5 objects: attributes, arrays of known size, texts. Functions that return herr_t or
+ * hid_t give a negative number on failure, like HDF5's own. */
 #ifndef HOOKE_IO_HDF5_OBJECT_H5_H
 #define HOOKE_IO_HDF5_OBJECT_H5_H
 
@@ -9,19 +9,19 @@
 
 #include <hdf5.h>
 
-/* Releases a handle of any kind but a file; negative ones are none. */
+/* Releases a handle of any kind but a file; negative ones are ignored. */
 void hk_h5_drop(hid_t id);
 
-/* The object of that name in a group (or a file; negative: none) by a hard link, so one that is in this very
- * file; negative if there is none, which is no error of HDF5's. */
+/* The object of that name in a group (or a file; negative: none) by a hard link, so one in this very file;
+ * negative if there is none, which sets no HDF5 error. */
 hid_t hk_h5_open_own(hid_t where, const char *name);
 
-/* An access list, of links as of datasets, that refuses links to other files, which is then the guard's
+/* An access list, for links and datasets, that refuses links to other files and makes that the guard's
  * reason; negative without memory. */
 hid_t hk_h5_own_links(struct hk_h5_guard *guard);
 
-/* NULL if what a dataset has is in this very file and HDF5 can read it by itself, else words for what it is.
- * To be asked before its space is: HDF5 opens the sources of a virtual dataset for that. */
+/* NULL if the data of a dataset are in this very file and HDF5 can read them by itself; otherwise words for
+ * what it is. Call it before querying the dataspace: HDF5 opens the sources of a virtual dataset for that. */
 const char *hk_h5_foreign(hid_t dataset);
 
 herr_t hk_h5_text_attributes(hid_t object, const char *name, int64_t count, const char *const *text);
@@ -29,20 +29,21 @@ herr_t hk_h5_text_attribute(hid_t object, const char *name, const char *text);
 herr_t hk_h5_number_attribute(hid_t object, const char *name, int64_t count, const double *number);
 herr_t hk_h5_integer_attribute(hid_t object, const char *name, int64_t count, const int32_t *number);
 
-/* `type` on disk; an array of `rank` dimensions whose space is allocated at once and filled with `fill` (of
- * the type `type`; NULL: zeros). The dataset, or a negative number. */
+/* An array of `rank` dimensions and `type` on disk, allocated at once and filled with `fill` (of the type
+ * `type`; NULL: zeros). Returns the dataset, or a negative number. */
 hid_t hk_h5_array(hid_t where, const char *name, hid_t type, int rank, const hsize_t *size, const void *fill);
 
-/* The same without anything in it: until it is written, what its bytes are is the system's choice. */
+/* The same without contents: bytes are undefined until they are written. */
 hid_t hk_h5_room(hid_t where, const char *name, hid_t type, int rank, const hsize_t *size);
 
 /* The same, filled with `data` of the type `memory`, and closed. */
 herr_t hk_h5_array_of(hid_t where, const char *name, hid_t type, hid_t memory, int rank, const hsize_t *size,
                       const void *data);
 
-/* Fixed-length texts of `length` bytes, padded with zeros: `count` < 0 for a single one. The dataset. */
+/* Fixed-length texts of `length` bytes, padded with zeros: `count` < 0 for a single one. Returns the dataset.
+ */
 hid_t hk_h5_texts(hid_t where, const char *name, int64_t count, int64_t length);
-/* Writes text number `k` of such a dataset in place; longer ones are cut. */
+/* Writes text number `k` of such a dataset in place; longer texts are truncated. */
 herr_t hk_h5_write_text(hid_t dataset, int64_t k, const char *text);
 
 #endif

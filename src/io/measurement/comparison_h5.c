@@ -2,11 +2,11 @@
  * the options that all have in common under /hooke/options, and
  *
  *   /comparison/reference              the method of the reference
- *   /comparison/<column>               [rows] of the table "rows": texts, and numbers, NaN where there is none
+ *   /comparison/<column>               [rows] of the table "rows": texts, and numbers (NaN: none)
  *   /comparison/series/time            [frames]
  *   /comparison/series/error           [rows][frames], likewise energy_drift; NaN past the end of a run
  *
- * Texts are padded with zeros. All of it is made in advance and written in place, like the frames. */
+ * Texts are padded with zeros. Everything is created in advance and written in place, like the frames. */
 #include "core/handle.h"
 #include "core/memory.h"
 #include "core/status.h"
@@ -29,7 +29,7 @@
 
 enum { TEXT_LENGTH = 32, MOST_COLUMNS = 24, NAME_SIZE = 64 };
 
-/* Where the arrays of the table begin in the file. */
+/* Offsets of the arrays of the table in the file. */
 struct table {
   int64_t reference, time, column[MOST_COLUMNS];
 };
@@ -41,13 +41,13 @@ struct hooke_comparison_file {
   hooke_measurement *measurement;
   const struct hk_comparison *comparison; /* its object */
   const struct hk_table *rows;
-  struct hk_trajectory_writer *writer; /* the reference, then a row each */
-  char failure[512];                   /* of the write that made the file bad; "" while it is good */
+  struct hk_trajectory_writer *writer; /* the reference, then one a row */
+  char failure[512];                   /* message of the write that made the file bad; "" while it is good */
 };
 
-/* ---- making ---- */
+/* ---- creating ---- */
 
-/* Where it begins; takes the dataset over. */
+/* Offset of a dataset, which this closes. */
 static herr_t find(hid_t data, int64_t *at) {
   const haddr_t first = data < 0 ? HADDR_UNDEF : H5Dget_offset(data);
   hk_h5_drop(data);
@@ -55,13 +55,13 @@ static herr_t find(hid_t data, int64_t *at) {
   return first == HADDR_UNDEF ? -1 : 0;
 }
 
-/* Numbers have the machine's order of bytes, since they are written as bytes. */
+/* Numbers have the machine's byte order, since they are written as bytes. */
 static hid_t new_numbers(hid_t where, const char *name, int rank, const hsize_t *size) {
   const double none = NAN;
   return hk_h5_array(where, name, H5T_NATIVE_DOUBLE, rank, size, &none);
 }
 
-/* "error_at" is "error" among the series. */
+/* "error_at" is called "error" among the series. */
 static void name_of(const struct hk_column *column, char name[NAME_SIZE]) {
   snprintf(name, NAME_SIZE, "%s", column->name);
   if (column->type == HOOKE_COLUMN_SERIES) name[strlen(name) - strlen("_at")] = '\0';
@@ -164,7 +164,7 @@ static struct hk_trajectory_writer *find_run(hooke_comparison_file *file, const 
   return NULL;
 }
 
-/* Observer of the comparison: anything but 0 stops it. */
+/* Observer of the comparison; a non-zero value stops it. */
 static int32_t write_frame(const char *run, int64_t frame, int64_t step, const hooke_state *state,
                            void *ctx) {
   hooke_comparison_file *file = ctx;
@@ -255,7 +255,7 @@ static int32_t is_short(const hooke_comparison_file *file) {
   return 0;
 }
 
-/* A run that was never begun, or was interrupted, makes the comparison a stopped one. */
+/* An unfinished run makes the comparison a stopped one. */
 static int32_t outcome_of(const hooke_comparison_file *file) {
   for (int64_t k = 0; k <= file->comparison->row_count; k++) {
     const char *status = k == 0 ? "finished" : file->comparison->row[k - 1].trial.status;
@@ -265,7 +265,7 @@ static int32_t outcome_of(const hooke_comparison_file *file) {
   return HOOKE_OK;
 }
 
-/* The same file with room for exactly the frames that there are, and all that does not change with them. */
+/* The same file with space for exactly the written frames, and all constant data. */
 static herr_t make_shorter(const hooke_comparison_file *file, hid_t old, hid_t shorter,
                            struct hk_trajectory_writer *writer, struct hk_h5_copy *copy) {
   herr_t result = hk_h5md_copy(old, shorter, copy);
@@ -286,7 +286,7 @@ static int copy_all(const hooke_comparison_file *file, const struct hk_h5_copy *
   return error;
 }
 
-/* A new file in which every run has exactly its frames takes the place of ours. */
+/* Replaces the file by one in which every run has exactly its frames. */
 static int32_t rewrite(struct hk_h5_guard *guard, const hooke_comparison_file *file,
                        struct hk_trajectory_writer *writer) {
   const char *what = "shorten the file to the frames it has";

@@ -1,5 +1,5 @@
-/* The rows of a measurement as CSV, in the same bytes whatever the locale. A matrix that has a row for each
- * of them adds a column for each of its inner index: the errors in watched quantities. */
+/* The rows of a measurement as CSV, with the same bytes in every locale. A matrix with an outer row for each
+ * of them adds a column for each inner index: the errors in watched quantities. */
 #include "core/number.h"
 #include "core/status.h"
 #include "io/file/atomic_file.h"
@@ -11,8 +11,8 @@
 struct sheet {
   const hooke_measurement *m;
   const struct hk_table *rows;
-  const struct hk_table *matrix;          /* NULL: there is none */
-  const struct hk_column *label, *number; /* of the matrix: what a column is called, what it has */
+  const struct hk_table *matrix;          /* NULL: none */
+  const struct hk_column *label, *number; /* of the matrix: column of the name, column of the value */
 };
 
 static void add(struct hk_text *text, const char *words) {
@@ -26,7 +26,7 @@ static void add_quoted(struct hk_text *text, const char *name) {
   add(text, "\"");
 }
 
-/* Texts that would break the line are quoted. */
+/* Quotes texts that would break the line. */
 static void add_text(struct hk_text *text, const char *words) {
   if (words == NULL) return;
   if (strpbrk(words, ",\"\r\n"))
@@ -47,7 +47,7 @@ static int64_t matrix_columns(const struct sheet *sheet) {
   return sheet->matrix ? sheet->matrix->inner(sheet->m->object) : 0;
 }
 
-/* Line `row`, that of names if it is -1. */
+/* Line `row`; -1: the line of names. */
 static void add_line(struct hk_text *text, const struct sheet *sheet, int64_t row) {
   struct hk_line line;
   int32_t first = 1;
@@ -74,7 +74,7 @@ static void add_line(struct hk_text *text, const struct sheet *sheet, int64_t ro
   add(text, "\n");
 }
 
-/* A matrix whose outer index is the number of a row. */
+/* A matrix whose outer index is the row number. */
 static void find_matrix(struct sheet *sheet) {
   const struct hk_measurement_kind *kind = sheet->m->kind;
   for (int32_t k = 0; k < kind->table_count; k++) {

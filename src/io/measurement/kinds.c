@@ -1,4 +1,4 @@
-/* The kinds of measurements by name, and what their tables have. */
+/* The kinds of measurements by name, and their tables. */
 #include "core/status.h"
 #include "io/measurement/measurement_file.h"
 #include "io/verify/verify.h"

@@ -1,14 +1,16 @@
 /* A measurement in one HDF5 file:
  *
- *   /hooke, /h5md               as in every file (h5md_h5.h): versions, units, the options of the run, the scene, the
- *                               status
+ *   /hooke, /h5md               as in every file (h5md_h5.h): versions, units, options of the run, scene, status
  *   /<kind>                     attributes: the record of that name
  *   /<kind>/options             an attribute for each option that is set
  *   /<kind>/<column>            [rows] of the table "rows"; NaN where a number does not apply
- *   /<kind>/series/<column>     [rows][frames], without the ending _at; of a record [frames]; NaN past the end of a run
- *   /<kind>/<table>             attributes of a record; arrays of other tables, [rows], or of a matrix [outer][inner]
+ *   /<kind>/series/<column>     [rows][frames], without the ending _at; of a record [frames]; NaN past the
+ *                               end of a run
+ *   /<kind>/<table>             attributes of a record; arrays of other tables, [rows], or of a matrix
+ *                               [outer][inner]
  *
- * Texts are padded with zeros. A table without rows is left out. The file takes its place when it is complete. */
+ * Texts are padded with zeros. A table without rows is left out. An older file is replaced when the new one
+ * is complete. */
 #include "core/memory.h"
 #include "core/status.h"
 #include "io/measurement/measurement_file.h"
@@ -34,7 +36,7 @@ static hid_t open_group(hid_t where, const char *name) {
 
 /* ---- one column ---- */
 
-/* Which rows of a table a column takes: every `stride`-th of the first `count` strides. */
+/* Rows of a table in a column: every `stride`-th of the first `count` strides. */
 struct extent {
   int64_t count, stride;
   hsize_t size[2];
@@ -95,7 +97,7 @@ static herr_t write_texts(hid_t group, const hooke_measurement *m, const struct 
 
 /* ---- series ---- */
 
-/* A row at a time, so that no second copy of all series is held. */
+/* One row at a time, so that no second copy of all series is held. */
 static herr_t write_series_row(hid_t data, int64_t row, const struct hk_series *series) {
   const hsize_t line = (hsize_t)series->count, begin[2] = {(hsize_t)row, 0}, size[2] = {1, line};
   hid_t there = H5Dget_space(data), here = H5Screate_simple(1, &line, NULL);
@@ -203,7 +205,7 @@ static herr_t write_all(hid_t file, const hooke_measurement *m) {
   return result;
 }
 
-/* About, and rather more. */
+/* An approximate, generous size. */
 static double bytes_of(const hooke_measurement *m) {
   double bytes = 65536.0 + (m->label[HOOKE_LABEL_SCENE] ? (double)strlen(m->label[HOOKE_LABEL_SCENE]) : 0.0);
   for (int32_t k = 0; k < m->kind->table_count; k++) {

@@ -8,7 +8,7 @@ int64_t hk_base64_length(int64_t bytes) {
   return (bytes + 2) / 3 * 4;
 }
 
-/* Three bytes as four digits; of those beyond the last byte there are none. */
+/* Three bytes as four digits; missing bytes give no digits. */
 static void put(const uint8_t *bytes, int64_t left, char *text) {
   const uint32_t second = left > 1 ? bytes[1] : 0, third = left > 2 ? bytes[2] : 0;
   const uint32_t word = (uint32_t)bytes[0] << 16 | second << 8 | third;

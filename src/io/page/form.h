@@ -1,4 +1,4 @@
-/* Forms: files in share/hooke that are pages but for {{marks}}, where parts are put in. */
+/* Forms: page files in share/hooke with {{marks}} for parts to insert. */
 #ifndef HOOKE_IO_PAGE_FORM_H
 #define HOOKE_IO_PAGE_FORM_H
 
@@ -7,8 +7,8 @@
 /* Adds the part called `name` to the page. */
 typedef int32_t (*hk_form_part)(const char *name, struct hk_text *page, void *ctx);
 
-/* Adds share/hooke/<form> to `page`, with its parts in place of their marks, in their order. HOOKE_NOT_BUILT
- * if the form is not there, HOOKE_IO_FAILED, HOOKE_NO_MEMORY, and what `add` returns. */
+/* Adds share/hooke/<form> to `page`, with its marks replaced by their parts, in order. HOOKE_NOT_BUILT if the
+ * form does not exist, HOOKE_IO_FAILED, HOOKE_NO_MEMORY, and the failures of `add`. */
 int32_t hk_form_fill(const char *form, hk_form_part add, void *ctx, struct hk_text *page);
 
 #endif

@@ -3,9 +3,9 @@
 #include "core/memory.h"
 #include "io/page/picture.h"
 
-static const double MOVE_SCALE = 1e4; /* digits of displacements against the largest */
+static const double MOVE_SCALE = 1e4; /* digits of displacements relative to the largest */
 
-/* What is left is taken evenly by number; `moves`: of each particle, it is among the movers. */
+/* Samples the remaining springs evenly by number; `moves`, by particle: it moves in the mode. */
 static void choose(struct hk_picture *p, const struct hk_limit *limit, const char *moves) {
   for (int64_t k = 0; k < limit->blame.spring_count; k++)
     hk_picture_take(p, limit->blame.spring[k].spring);

@@ -5,12 +5,12 @@
 #include "io/file/text.h"
 #include "measure/limit/limit.h"
 
-/* Springs drawn at most: those to blame, those at particles that move in the mode, and of the others as many
- * as fit. */
+/* Maximum number of springs drawn: the limiting ones, those at particles that move in the mode, and as many
+ * of the others as fit. */
 enum { HOOKE_PICTURE_SPRINGS = 3000 };
 
-/* Adds "picture": the springs that are drawn and their ends, at the positions that were looked at. Failures
- * go to the text's status. */
+/* Adds "picture": the springs drawn and their ends, at the analysed positions. Failures go to the text's
+ * status. */
 void hk_limit_picture_add(struct hk_text *data, const struct hk_limit *limit);
 
 #endif

@@ -1,4 +1,4 @@
-/* The page of a limit: what it shows, as JSON. */
+/* The page of a limit: its contents as JSON. */
 #include "core/status.h"
 #include "io/measurement/measurement_file.h"
 #include "io/page/limit_picture.h"
@@ -8,7 +8,7 @@
 
 /* Points on a quarter of a curve; the corners of regions are at half of it. */
 enum { QUARTER = 180 };
-/* Where nothing limits, a curve ends well outside of its diagram. */
+/* If nothing limits, a curve ends well outside of its diagram. */
 static const double FAR = 100.0;
 static const double RIGHT_ANGLE = 1.5707963267948966;
 
@@ -19,7 +19,7 @@ static void add_point(struct hk_text *data, double x, double y) {
   hk_text_number(data, NULL, y);
 }
 
-/* The edge of the region of h lambda, above the real axis, from the imaginary one to the left. */
+/* The boundary of the region of h lambda, above the real axis, from the imaginary one to the left. */
 static void add_region(struct hk_text *data, const char *method) {
   hk_text_open(data, "region", '[');
   for (int k = 0; k <= QUARTER; k++) {
@@ -43,7 +43,7 @@ void hk_limit_page_add_reach(struct hk_text *data, const char *method) {
 
 /* ---- rows ---- */
 
-/* The columns whose number is infinite: nothing limits that step. */
+/* Columns with infinite numbers: nothing limits that step. */
 static void add_unlimited(struct hk_text *data, const hooke_measurement *m, const struct hk_table *table,
                           int64_t row) {
   hk_text_open(data, "unlimited", '[');

@@ -1,4 +1,4 @@
-/* What the pages of measurements show, as members of a JSON object; the context is the measurement. */
+/* Contents of the pages of measurements, as members of a JSON object; the context is the measurement. */
 #ifndef HOOKE_IO_PAGE_MEASUREMENT_PAGES_H
 #define HOOKE_IO_PAGE_MEASUREMENT_PAGES_H
 

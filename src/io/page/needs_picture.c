@@ -4,7 +4,7 @@
 #include "io/page/picture.h"
 #include "measure/needs/needs.h"
 
-/* Of each particle, whether it is watched. NULL: no memory. */
+/* Marks the watched particles. NULL: no memory. */
 static char *find_watched(const struct hk_needs *needs) {
   char *watched = hk_new(hooke_system_particle_count(needs->system), 1);
   for (int64_t k = 0; k < needs->watch_count && watched; k++)
@@ -12,9 +12,9 @@ static char *find_watched(const struct hk_needs *needs) {
   return watched;
 }
 
-/* ---- which springs ---- */
+/* ---- springs ---- */
 
-/* Returns how many springs there are between watched particles. */
+/* Returns the number of springs between watched particles. */
 static int64_t choose(struct hk_picture *p, const char *watched) {
   int64_t first = 0, all = 0;
   for (int64_t g = 0; g < hooke_system_group_count(p->system, "springs"); g++) {
@@ -32,7 +32,7 @@ static int64_t choose(struct hk_picture *p, const char *watched) {
   return all;
 }
 
-/* ---- where they are ---- */
+/* ---- positions ---- */
 
 /* Positions at a frame of a path, as rows of all particles of the system; those not watched stay zero. */
 static double *spread(const struct hk_needs *needs, const struct hk_needs_path *path, int64_t frame) {
@@ -59,9 +59,9 @@ static int32_t add_positions(struct hk_text *data, const struct hk_needs *needs,
   return ready ? HOOKE_OK : HOOKE_NO_MEMORY;
 }
 
-/* ---- all of it ---- */
+/* ---- whole ---- */
 
-/* That is judged and that both paths have. */
+/* The last judged frame that both paths have. */
 static int64_t last_frame(const struct hk_needs *needs) {
   int64_t frames = needs->judged;
   if (needs->path.recorded < frames) frames = needs->path.recorded;

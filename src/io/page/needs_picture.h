@@ -1,5 +1,4 @@
-/* The full system and the lean one on the page of what a scene needs: springs as lines, at the last frame
- * that is judged. */
+/* The full system and the lean one on the page of needs: springs as lines, at the last judged frame. */
 #ifndef HOOKE_IO_PAGE_NEEDS_PICTURE_H
 #define HOOKE_IO_PAGE_NEEDS_PICTURE_H
 
@@ -7,12 +6,12 @@
 
 struct hk_needs;
 
-/* Springs drawn at most: of the groups that fit whole, the first ones; of the first group evenly if none
+/* Maximum number of springs drawn: the first groups that fit whole; an even sample of the first group if none
  * does. */
 enum { HOOKE_NEEDS_PICTURE_SPRINGS = 9000 };
 
-/* Adds "picture": the watched particles in both systems, and the springs between them; nothing while there is
- * no lean system. Failures go to the text's status. */
+/* Adds "picture": the watched particles in both systems, and the springs between them; nothing without a lean
+ * system. Failures go to the text's status. */
 void hk_needs_picture_add(struct hk_text *data, const struct hk_needs *needs);
 
 #endif

@@ -1,4 +1,4 @@
-/* The page of what a scene needs: what it shows, as JSON. */
+/* The page of needs: its contents as JSON. */
 #include "io/measurement/measurement_file.h"
 #include "io/page/measurement_pages.h"
 #include "io/page/needs_picture.h"
@@ -20,7 +20,7 @@ static void add_lean(struct hk_text *data, const hooke_measurement *m) {
   hk_text_close(data, '}');
 }
 
-/* Ingredients that were not looked at. */
+/* Ingredients that were not tested. */
 static void add_waiting(struct hk_text *data, const struct hk_needs *needs) {
   hk_text_open(data, "waiting", '[');
   for (int64_t row = hk_needs_known_rows(needs); row < needs->row_count; row++)

@@ -4,7 +4,7 @@
 
 #include <math.h>
 
-static const double POSITION_DIGITS = 6.0; /* against the extent */
+static const double POSITION_DIGITS = 6.0; /* relative to the extent */
 
 int32_t hk_picture_create(const hooke_system *system, struct hk_picture *picture) {
   *picture = (struct hk_picture){.system = system};
@@ -80,7 +80,7 @@ void hk_picture_add_particles(struct hk_text *data, const struct hk_picture *pic
   hk_text_close(data, ']');
 }
 
-/* Short as text. */
+/* A number that is short as text. */
 static void add_rounded(struct hk_text *data, double value, double scale) {
   const double rounded = rint(value * scale) / scale;
   hk_text_number(data, NULL, isfinite(rounded) ? rounded + 0.0 : value);

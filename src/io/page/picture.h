@@ -10,35 +10,35 @@ struct hk_picture {
   int64_t spring_count, drawn_count;
   int64_t *ends;       /* 2 spring_count */
   char *drawn;         /* of each spring */
-  char *shut;          /* of each spring, 1: it is not among those to take evenly; the caller's to mark */
-  int64_t shown_count; /* particles told of */
-  int64_t *place;      /* of each particle among them, from 1; 0: none */
+  char *shut;          /* by spring, 1: excluded from even sampling; the caller's to mark */
+  int64_t shown_count; /* listed particles */
+  int64_t *place;      /* by particle: its index among them, from 1; 0: none */
 };
 
-/* Nothing is drawn yet. On failure, too, release it. HOOKE_NO_MEMORY. */
+/* An empty picture. Must be released also on failure. HOOKE_NO_MEMORY. */
 int32_t hk_picture_create(const hooke_system *system, struct hk_picture *picture);
 void hk_picture_release(struct hk_picture *picture);
 
 /* Draws a spring. */
 void hk_picture_take(struct hk_picture *picture, int64_t spring);
-/* Draws of the springs from `first` up to `end` those that are left and not shut, evenly as many as there is
- * room for. */
+/* Draws an even sample, as large as fits, of the remaining springs from `first` up to `end` that are not
+ * excluded. */
 void hk_picture_take_evenly(struct hk_picture *picture, int64_t first, int64_t end, int64_t room);
-/* Tells of a particle, whether it has springs that are drawn or not. */
+/* Lists a particle, whether any of its springs are drawn or not. */
 void hk_picture_show(struct hk_picture *picture, int64_t particle);
 
-/* "spring" and "ends": the springs that are drawn by number, and the places of their ends. */
+/* "spring" and "ends": numbers of the springs drawn, and the indices of their ends. */
 void hk_picture_add_springs(struct hk_text *data, struct hk_picture *picture);
-/* The particles told of, in the order of their places; the caller frees it. NULL: no memory. */
+/* The listed particles, in the order of their indices; the caller frees it. NULL: no memory. */
 int64_t *hk_picture_list(const struct hk_picture *picture);
 /* "particle" and "held": the number of each in that list, and whether it is pinned or driven. */
 void hk_picture_add_particles(struct hk_text *data, const struct hk_picture *picture, const int64_t *list);
 
-/* Vectors as rows of x y z under `key`, those at the places of a list, rounded to whole multiples of 1/scale;
- * none of NULL. */
+/* Vectors as rows of x y z under `key`, those at the indices of a list, rounded to multiples of 1/scale; none
+ * if NULL. */
 void hk_picture_add_vectors(struct hk_text *data, const char *key, const double *vectors, const int64_t *list,
                             int64_t count, double scale);
-/* A scale that leaves six digits of the extent of positions; infinity: none is to be rounded. */
+/* A scale that keeps six digits of the extent of positions; infinity: no rounding. */
 double hk_picture_scale(const double *position, const int64_t *list, int64_t count);
 
 #endif

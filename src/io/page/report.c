@@ -1,4 +1,4 @@
-/* Pages: a frame with the style, the drawing library, the data, the body and the scripts put in. */
+/* Pages: a frame filled with the style, the drawing library, the data, the body and the scripts. */
 #include "io/page/report.h"
 
 #include "core/status.h"
@@ -26,14 +26,14 @@ static int32_t add_data(struct hk_text *page, const struct hk_report *report) {
   return status;
 }
 
-/* A file of the report that is called as the report, and `ending`. */
+/* A file with the report's name, and `ending`. */
 static int32_t add_own(struct hk_text *page, const struct hk_report *report, const char *ending) {
   char name[64];
   snprintf(name, sizeof name, "%s%s", report->name, ending);
   return hk_data_folder_read(name, page);
 }
 
-/* What stands in the form as {{name}}: a part of the report, or a file that all reports have. */
+/* Fills {{name}} in the form: a part of the report, or a file that all reports share. */
 static int32_t add_part(const char *name, struct hk_text *page, void *ctx) {
   const struct hk_report *report = ctx;
   if (strcmp(name, "data") == 0) return add_data(page, report);

@@ -1,4 +1,4 @@
-/* What pages tell alike: when, where and with what they were made, and steps. */
+/* Facts that all pages show: date, machine and versions, and steps. */
 #include "core/status.h"
 #include "io/page/report.h"
 
@@ -10,7 +10,7 @@
 #include <time.h>
 #include <unistd.h>
 
-/* The processor's name as Linux tells it; "" elsewhere. HOOKE_NO_MEMORY. */
+/* Name of the processor from Linux; "" elsewhere. HOOKE_NO_MEMORY. */
 static int32_t find_processor(char *name, size_t size) {
   char line[256];
   name[0] = '\0';

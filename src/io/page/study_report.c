@@ -1,4 +1,4 @@
-/* The page of a study: what it shows, as JSON. */
+/* The page of a study: its contents as JSON. */
 #include "io/measurement/measurement_file.h"
 #include "io/page/measurement_pages.h"
 #include "measure/study/study.h"
@@ -6,7 +6,7 @@
 #include <math.h>
 #include <stdio.h>
 
-/* A curve over time has this many points at most; each is the largest of the frames that it stands for. */
+/* A curve over time has at most this many points; each is the maximum of the frames that it represents. */
 enum { MOST_POINTS = 240 };
 
 /* ---- curves over time ---- */

@@ -1,4 +1,4 @@
-/* Trajectories as pages: what of a file is shown. */
+/* Trajectories as pages: selection of the contents. */
 #include "io/page/view.h"
 
 #include "core/handle.h"
@@ -60,7 +60,7 @@ int32_t hk_view_read(const struct hooke_view *view, const char *dataset, int64_t
                  dataset, (long long)there, (long long)wide);
 }
 
-/* Springs as the file has them, with ends that there are. */
+/* The springs of the file, with existing ends. */
 static int32_t read_ends(struct hooke_view *view, double **ends) {
   int64_t wide = 0;
   int32_t status = hk_array_read(hk_record_path(view->record), "/connectivity/springs", 0, 0, ends,
@@ -93,7 +93,7 @@ static int32_t read_columns(struct hooke_view *view) {
   return status;
 }
 
-/* Files of before there were rest lengths in them have those of their first frame. */
+/* Old files without rest lengths get those of their first frame. */
 static int32_t read_rest_lengths(struct hooke_view *view, const double *ends) {
   int32_t status = hk_view_read(view, "/hooke/rest_length", -1, view->springs_there, 1, &view->rest_length);
   if (status == HOOKE_OK || status == HOOKE_NO_MEMORY) return status;
@@ -110,15 +110,14 @@ static int32_t read_rest_lengths(struct hooke_view *view, const double *ends) {
   return status;
 }
 
-/* ---- choosing ---- */
+/* ---- selection ---- */
 
-/* The smallest whole stride by which `count` things become no more than `room`. */
+/* Smallest stride that reduces `count` items to at most `room`. */
 static int64_t stride_for(int64_t count, int64_t room) {
   return count > room ? 1 + (count - 1) / room : 1;
 }
 
-/* Particles in their order: the ends of springs that are shown, those that are held, and those without any
- * spring. */
+/* Particles in order: the ends of the springs shown, constrained ones, and those without any spring. */
 static int32_t choose_particles(struct hooke_view *view, const double *ends, const double *species) {
   const int64_t all = view->particles_there, room = (int64_t)hooke_options_number(view->options, "springs");
   char *tied = hk_new(all, 1);
@@ -160,7 +159,7 @@ static int32_t choose_springs(struct hooke_view *view) {
   return HOOKE_OK;
 }
 
-/* What the page takes besides its frames, with room for words. */
+/* Size of the page without its frames, including words. */
 static int32_t measure_page(const struct hooke_view *view, double *bytes) {
   static const char *const parts[] = {"view.html",       "view.css",     "view.js",      "view_scene.js",
                                       "view_surface.js", "view_save.js", "view_pick.js", "three.js",

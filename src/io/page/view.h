@@ -1,6 +1,6 @@
-/* What a page that plays a trajectory shows: which springs, particles and frames, and how far strains go.
+/* Contents of a page that plays a trajectory: springs, particles and frames, and the range of strains.
  *
- *   view.c           what is chosen
+ *   view.c           selection
  *   view_frames.c    a frame as bytes
  *   view_page.c      the page */
 #ifndef HOOKE_IO_PAGE_VIEW_H
@@ -12,7 +12,7 @@
 enum { HOOKE_VIEW_ENERGIES = 3 };
 extern const char *const hk_view_energy[HOOKE_VIEW_ENERGIES]; /* "kinetic", ... */
 
-/* How a particle is marked. */
+/* Mark of a particle. */
 enum { HOOKE_VIEW_FREE, HOOKE_VIEW_PINNED, HOOKE_VIEW_DRIVEN, HOOKE_VIEW_LOOSE };
 
 extern const struct hk_option_table hk_view_options;
@@ -21,12 +21,12 @@ struct hooke_view {
   const hooke_record *record;
   hooke_options *options;
   int64_t particles_there, springs_there, loose_there, frames_there;
-  double *rest_length; /* [springs there]; of the first frame if the file has none */
+  double *rest_length; /* [springs of the file]; of the first frame if the file has none */
   int32_t by_first_frame;
   int64_t spring_stride, loose_stride, frame_stride;
-  int64_t springs, particles, frames;         /* that are shown */
+  int64_t springs, particles, frames;         /* number shown */
   int64_t *spring;                            /* of each, its number */
-  int64_t *end;                               /* 2 springs: places in `particle` */
+  int64_t *end;                               /* 2 springs: indices into `particle` */
   int64_t *particle;                          /* of each, its number */
   uint8_t *mark;                              /* of each, HOOKE_VIEW_... */
   int64_t *frame;                             /* of each, its number: the last one is always among them */
@@ -43,15 +43,15 @@ int32_t hk_view_read(const struct hooke_view *view, const char *dataset, int64_t
 
 /* ---- frames as bytes ---- */
 
-/* Where 0 and 65535 of the three coordinates are. */
+/* Coordinates that map to 0 and 65535, for the three axes. */
 struct hk_view_box {
   double low[3], high[3];
 };
 
 int64_t hk_view_frame_bytes(const struct hooke_view *view);
 
-/* Coordinates of the particles as 16-bit numbers, lowest byte first, x y z in turn, then a byte for the
- * strain of each spring: 0 to 254 for -strain to strain, 255 for a spring without rest length. */
+/* Coordinates of the particles as 16-bit little-endian numbers, x y z in turn, then a byte for the strain of
+ * each spring: 0 to 254 for -strain to strain, 255 for a spring without rest length. */
 int32_t hk_view_pack(const struct hooke_view *view, int64_t frame, uint8_t *bytes, struct hk_view_box *box);
 
 /* Strain of the k-th spring shown, at positions q; NaN if it has no rest length. */

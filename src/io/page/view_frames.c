@@ -7,9 +7,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Of each frame so many springs are looked at for the scale of colours; of them so many, and of the frames so
- * many, have a strain within it. Of a run that blew up only frames count that are not much wider than the
- * first, since what comes after them leaves no colours for the others. */
+/* Sample sizes and fractions for the colour scale: so many springs of each frame; so many of these, and of
+ * the frames so many, have a strain within the scale. For a run that blew up only frames that are not much
+ * wider than the first count, since later ones leave no colours for the others. */
 enum { LOOKED_AT = 4096, WIDEST = 65535, MIDDLE = 127, NO_STRAIN = 255 };
 static const double SPRING_SHARE = 0.98, FRAME_SHARE = 0.9, WIDENED = 8.0;
 
@@ -50,7 +50,7 @@ static int compare(const void *a, const void *b) {
   return (x > y) - (x < y);
 }
 
-/* The value that a share of the others is not above. */
+/* Value of the given quantile. */
 static double quantile(double *values, int64_t count, double share) {
   if (count == 0) return 0.0;
   qsort(values, (size_t)count, sizeof *values, compare);
@@ -145,7 +145,7 @@ int32_t hk_view_find_strain(struct hooke_view *view) {
 
 /* ---- packing ---- */
 
-/* Halves, since the whole may be too large for a number. */
+/* Halves, since the whole may overflow. */
 static uint32_t place_in(double x, double low, double high) {
   const double span = 0.5 * high - 0.5 * low;
   if (!(span > 0.0) || !isfinite(x)) return 0;

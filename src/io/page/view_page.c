@@ -19,9 +19,9 @@
 
 #define COUNT_OF(list) ((int)(sizeof(list) / sizeof((list)[0])))
 
-/* ---- what it says ---- */
+/* ---- words ---- */
 
-/* Title and upward direction are those of the scene; where it cannot be read any more there are none. */
+/* Title and upward direction of the scene; none if the scene can no longer be read. */
 static void add_scene(struct hk_text *data, const struct hooke_view *view, const char *title) {
   hooke_scene *scene = NULL;
   const char *path = hk_record_path(view->record), *slash = strrchr(path, '/');
@@ -99,7 +99,7 @@ static void add_boxes(struct hk_text *data, const struct hooke_view *view, const
   hk_text_close(data, ']');
 }
 
-/* ---- its parts ---- */
+/* ---- contents ---- */
 
 struct page {
   const struct hooke_view *view;
@@ -126,8 +126,8 @@ static int32_t add_data(const struct page *page, struct hk_text *text) {
   return status == HOOKE_OK ? text->status : status;
 }
 
-/* The places of the two ends of each spring, as 32-bit numbers, lowest byte first, then the marks of the
- * particles. */
+/* Indices of the two ends of each spring, as 32-bit little-endian numbers, then the marks of the particles.
+ */
 static int32_t add_fixed(const struct page *page, struct hk_text *text) {
   const struct hooke_view *view = page->view;
   const int64_t count = 8 * view->springs + view->particles;
@@ -143,7 +143,7 @@ static int32_t add_fixed(const struct page *page, struct hk_text *text) {
   return text->status;
 }
 
-/* Each frame takes the same length, so that the page can take one by its number. */
+/* Frames have equal lengths, so that the page can access one by its number. */
 static int32_t add_frames(const struct page *page, struct hk_text *text) {
   const struct hooke_view *view = page->view;
   const int64_t count = hk_view_frame_bytes(view);

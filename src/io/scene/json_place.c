@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* All functions take a place in the text and give one further on, never past `end`. */
+/* All functions take a position in the text and return a later one, never past `end`. */
 
 static const char *skip_space(const char *at, const char *end) {
   while (at < end && (*at == ' ' || *at == '\t' || *at == '\n' || *at == '\r'))

@@ -12,13 +12,13 @@ static int is_space(char c) {
   return c == ' ' || c == '\t' || c == '\n' || c == '\r';
 }
 
-/* ---- the guard ---- */
+/* ---- scanning ---- */
 
 static int32_t refuse_byte(unsigned char c) {
   return hk_fail(HOOKE_BAD_VALUE, NULL, "byte 0x%02x is not UTF-8; allowed: JSON in UTF-8", c);
 }
 
-/* Follows the bytes of one character (RFC 3629: no surrogates, no overlong forms). */
+/* Checks the bytes of one character (RFC 3629: no surrogates, no overlong forms). */
 static int32_t follow_utf8(struct hk_json_guard *guard, unsigned char c) {
   if (guard->pending) {
     if (c < guard->lowest || c > guard->highest) return refuse_byte(guard->first);
@@ -53,8 +53,8 @@ static int32_t refuse_start(char c) {
                  shown);
 }
 
-/* Nothing in a scene is an empty array or object inside an array, and millions of them would fill the memory.
- */
+/* Refuses empty arrays and objects inside an array: no scene needs them, and millions of them would fill the
+ * memory. */
 static int32_t follow_bracket(struct hk_json_guard *guard, char c) {
   if (c == '{' || c == '[') {
     if (++guard->depth > DEEPEST)
@@ -114,8 +114,8 @@ int32_t hk_json_guard_feed(struct hk_json_guard *guard, const char *bytes, int64
 }
 
 double hk_json_guard_bytes(const struct hk_json_guard *guard, int64_t length) {
-  /* measured with jansson 2.14; the text is there, while it grows up to three times, and once more as texts
-   * in it */
+  /* measured with jansson 2.14: the text takes up to three times its size while it grows, and its strings
+   * take memory again */
   static const double per_value = 64.0, per_list = 144.0, per_object = 400.0, per_byte = 4.0;
   return per_value * (double)guard->values + per_list * (double)guard->lists +
          per_object * (double)guard->objects + per_byte * (double)length;
@@ -145,7 +145,7 @@ static int64_t skip_digits(const char *token, int64_t at, int64_t length) {
   return at;
 }
 
-/* RFC 8259; `real` tells whether there is a point or an exponent. */
+/* RFC 8259; `real` is set if there is a point or an exponent. */
 static int is_json_number(const char *token, int64_t length, int *real) {
   int64_t at = token[0] == '-', start = at;
   *real = 0;
@@ -168,7 +168,7 @@ static int is_json_number(const char *token, int64_t length, int *real) {
   return at == length;
 }
 
-/* Whether a whole number, without leading zeros, is one of 64 bits. */
+/* True if an integer without leading zeros fits 64 bits. */
 static int fits_64_bits(const char *token, int64_t length) {
   int negative = token[0] == '-';
   int64_t digits = length - negative;

@@ -20,7 +20,7 @@ int32_t hk_mesh_check_alone(const hooke_options *options) {
   return HOOKE_OK;
 }
 
-/* The same checks as when the part is added, while it is known which line is to blame. */
+/* The checks of adding the part, made here where the line of a fault is known. */
 static int32_t check_surface(const hooke_options *options, const struct hk_obj *obj, int64_t *line) {
   struct hk_surface surface;
   struct hk_surface_fault fault;
@@ -46,7 +46,7 @@ static int32_t read_text(const char *text, int64_t length, hooke_options *option
   return status;
 }
 
-/* Options that could not be made a mesh have none, and the message says which file is to blame. */
+/* If the mesh is faulty the options get none, and the message names the file. */
 static int32_t finish(int32_t status, int64_t line, const char *name, hooke_options *options) {
   if (status == HOOKE_OK) return hooke_options_unset(options, "file");
   char shown[HOOKE_OPTION_SHOWN];

@@ -1,5 +1,5 @@
-/* v and f with all forms of corners, negative numbers and polygons; lines that go on after a backslash; any
- * line ends. What has nothing to do with the surface is passed over, and what would be lost is refused. */
+/* v and f with all forms of corners, negative numbers and polygons; continued lines; any line ends.
+ * Statements that do not concern the surface are ignored; those whose loss would change it are refused. */
 #include "io/scene/obj.h"
 
 #include "core/memory.h"
@@ -30,7 +30,7 @@ static int is_end_of_line(char c) {
   return c == '\n' || c == '\r';
 }
 
-/* Past one end of line: LF, CR LF or CR. */
+/* Skips one end of line: LF, CR LF or CR. */
 static void end_line(struct reader *reader) {
   if (reader->at == reader->end) return;
   const char first = *reader->at++;
@@ -38,7 +38,7 @@ static void end_line(struct reader *reader) {
   reader->line++;
 }
 
-/* A backslash at the end of a line takes the next one along. */
+/* A backslash at the end of a line continues it. */
 static int goes_on(const struct reader *reader) {
   return *reader->at == '\\' && reader->at + 1 < reader->end && is_end_of_line(reader->at[1]);
 }
@@ -67,7 +67,7 @@ static int next_word(struct reader *reader, struct word *word) {
   return word->length > 0;
 }
 
-/* A comment ends with its line, whatever it ends with. */
+/* A comment ends with its line, even after a backslash. */
 static void skip_line(struct reader *reader) {
   const int comment = reader->at < reader->end && *reader->at == '#';
   while (reader->at < reader->end && !is_end_of_line(*reader->at)) {
@@ -90,7 +90,7 @@ static int32_t refuse(const struct word *word, const char *what) {
   return hk_fail(HOOKE_BAD_VALUE, NULL, "\"%s\" is not allowed; %s", shown, what);
 }
 
-/* ---- lists that grow ---- */
+/* ---- growing lists ---- */
 
 static int32_t grow(void **block, int64_t used, int64_t *capacity, size_t size, void **lines) {
   const int64_t wanted = *capacity > 0 ? 2 * *capacity : 1024;
@@ -222,7 +222,7 @@ int32_t hk_obj_parse(const char *text, int64_t length, struct hk_obj *obj, int64
                  (long long)obj->vertex_count);
 }
 
-/* A vertex is a line, a triangle at least a blank before its last corner. */
+/* A vertex takes a line; a triangle takes at least a blank before its last corner. */
 double hk_obj_bytes(const char *text, int64_t length) {
   static const double per_vertex = 200.0, per_triangle = 340.0;
   double vertices = 0.0, triangles = 0.0;
@@ -232,7 +232,7 @@ double hk_obj_bytes(const char *text, int64_t length) {
     const int blank = text[k] == ' ' || text[k] == '\t' || text[k] == '\\';
     if (starts && !(k > 1 && memchr(text + (k > 2 ? k - 3 : 0), '\\', (size_t)(k > 2 ? 3 : k))) && !blank)
       in_face = text[k] == 'f';
-    if (starts && blank) in_face = 1; /* whatever comes */
+    if (starts && blank) in_face = 1; /* in the worst case */
     vertices += text[k] == 'v';
     triangles += in_face && blank;
   }

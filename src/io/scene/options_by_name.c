@@ -11,7 +11,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* A table and the name that it is asked for by; NULL past the last of its source. */
+/* A table and its name; NULL past the last of its source. */
 struct named {
   const char *name;
   const struct hk_option_table *table;

@@ -1,4 +1,4 @@
-/* The parts of a scene by name, found in a time that hardly grows with their number. */
+/* The parts of a scene by name, in a sorted index. */
 #ifndef HOOKE_IO_SCENE_PART_NAMES_H
 #define HOOKE_IO_SCENE_PART_NAMES_H
 
@@ -15,13 +15,13 @@ struct hk_part_names {
   struct hk_named_part **sorted;
 };
 
-/* Room for `count` parts, to be named one by one and then sorted. HOOKE_NO_MEMORY. */
+/* Allocates an index for `count` parts, to be named one by one and then sorted. HOOKE_NO_MEMORY. */
 int32_t hk_part_names_create(int64_t count, struct hk_part_names *names);
 int32_t hk_part_names_set(struct hk_part_names *names, int64_t number, const char *name);
 void hk_part_names_sort(struct hk_part_names *names);
 void hk_part_names_release(struct hk_part_names *names);
 
-/* The first part of this name; NULL if there is none. */
+/* First part of this name; NULL if there is none. */
 struct hk_named_part *hk_part_names_find(const struct hk_part_names *names, const char *name);
 
 #endif

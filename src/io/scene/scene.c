@@ -1,4 +1,4 @@
-/* Scenes: loading, and messages that give the place in the file. */
+/* Scenes: loading, and messages with the place in the file. */
 #include "io/scene/scene.h"
 
 #include "core/handle.h"
@@ -14,7 +14,7 @@
 
 enum { NAME_SHOWN = 200 };
 
-/* Long paths lose their beginning, so that line and column stay. */
+/* Long paths lose their beginning, so that line and column remain. */
 static const char *short_name(const char *name, const char **dots) {
   size_t length = strlen(name);
   *dots = length > NAME_SHOWN ? "..." : "";
@@ -42,7 +42,7 @@ static int32_t at_place(int32_t status, const hooke_scene *scene, int32_t at_key
   return in_text(status, scene, hk_json_find(scene->text, scene->length, hk_fail_place(), at_key));
 }
 
-/* The text is in `scene` and passed the guard. */
+/* The text is in `scene` and was scanned. */
 static int32_t read_text(hooke_scene *scene, const char *folder) {
   const char *at = NULL;
   int32_t status = hk_json_check_tokens(scene->text, scene->length, &at);
@@ -77,7 +77,7 @@ static hooke_scene *new_scene(const char *name, const hooke_options *limits) {
   return scene;
 }
 
-/* Hands the scene over, or takes it apart. */
+/* Passes the scene to the caller, or releases it. */
 static int32_t finish(int32_t status, hooke_scene *made, hooke_scene **scene) {
   if (status)
     hooke_scene_destroy(made);
@@ -86,7 +86,7 @@ static int32_t finish(int32_t status, hooke_scene *made, hooke_scene **scene) {
   return status;
 }
 
-/* The scene that a trajectory was made from, as it was run. */
+/* The scene of a trajectory, with the options of its run. */
 static int32_t load_record(const char *path, const hooke_options *limits, hooke_scene **scene) {
   hooke_record *record = NULL;
   int32_t status = hooke_record_open(path, &record);

@@ -28,7 +28,7 @@ static int32_t refuse_open(int number, const struct hk_json_guard *guard) {
                  hk_print_error(number, reason), guard ? "scene " : "");
 }
 
-/* Reads up to the end; `text` has `capacity` bytes, the last kept for the NUL. */
+/* Reads to the end; `text` has `capacity` bytes, the last reserved for the NUL. */
 static int32_t read_all(FILE *file, struct hk_json_guard *guard, char **text, int64_t *length) {
   int64_t capacity = first_piece;
   char reason[HOOKE_ERROR_SIZE];

@@ -1,4 +1,4 @@
-/* Reading the file of a scene, and finding the files that it names. */
+/* Reads the file of a scene, and resolves the files that it names. */
 #ifndef HOOKE_IO_SCENE_SCENE_FILE_H
 #define HOOKE_IO_SCENE_SCENE_FILE_H
 
@@ -8,20 +8,20 @@
 /* The tables "scene", "particles", "driven" and "limits": number `k`, NULL past the last. */
 const struct hk_option_table *hk_scene_table(int64_t k);
 
-/* Reads a whole file, checking it on the way, so that a hopeless one is refused early (a guard of NULL takes
- * any bytes). `text` is the caller's to free and ends with a NUL. HOOKE_BAD_VALUE if there is no such file or
- * the guard refuses it, HOOKE_IO_FAILED if reading breaks off, HOOKE_NO_MEMORY. The message is without the
- * name of the file. */
+/* Reads a whole file and scans it on the way, so that a bad one is refused early (a NULL scanner accepts any
+ * bytes). `text` ends with a NUL; the caller frees it. HOOKE_BAD_VALUE if there is no such file or the scan
+ * refuses it, HOOKE_IO_FAILED if reading fails midway, HOOKE_NO_MEMORY. The message does not name the file.
+ */
 int32_t hk_scene_read_file(const char *path, struct hk_json_guard *guard, char **text, int64_t *length);
 
-/* The folder that a path is in; NULL if there is no memory. */
+/* The folder of a path; NULL without memory. */
 char *hk_scene_folder(const char *path);
 
-/* The real path of `file`, which a scene in `folder` names; the caller frees it. Refused, HOOKE_BAD_VALUE, if
- * it does not exist or is not inside the folder, through links neither. */
+/* Resolved path of `file`, which a scene in `folder` names; the caller frees it. HOOKE_BAD_VALUE if it does
+ * not exist or is outside the folder, also through links. */
 int32_t hk_scene_find_file(const char *folder, const char *file, char **path);
 
-/* The same where the caller lets the scene name any file; whether it exists is seen when it is opened. */
+/* The same if the caller lets the scene name any file; opening it shows whether it exists. */
 int32_t hk_scene_find_any(const char *folder, const char *file, char **path);
 
 #endif

@@ -34,8 +34,8 @@ static const char *advice(enum json_error_code code) {
   }
 }
 
-/* jansson tells of missing memory in three ways: a code, no text, or a refusal of a token that is
- * fine, as all are once their check has passed. */
+/* jansson reports missing memory in three ways: by a code, by no text, or by refusing a valid token (all
+ * tokens are valid once checked). */
 static int ran_out_of_memory(const json_error_t *error) {
   return json_error_code(error) == json_error_out_of_memory || error->text[0] == '\0' ||
          strstr(error->text, "string or '}' expected near '\"") || strstr(error->text, "invalid token");
@@ -61,11 +61,11 @@ static int32_t syntax_error(const json_error_t *error, struct hk_scene_trouble *
 struct source {
   const char *next;
   int64_t left;
-  int32_t starved; /* something could not be allocated */
+  int32_t starved; /* an allocation failed */
 };
 
-/* jansson leaves out what it has no memory for, of a word or of a number, and goes on. All that tells of it
- * is `errno`, and only until the next number; so it is given a byte at a time. */
+/* jansson silently truncates words and numbers for which it has no memory. Only `errno` shows it, and only
+ * until the next number; so the text is fed byte by byte. */
 static size_t give_byte(void *buffer, size_t size, void *ctx) {
   struct source *source = ctx;
   source->starved |= errno == ENOMEM;
@@ -75,7 +75,7 @@ static size_t give_byte(void *buffer, size_t size, void *ctx) {
   return 1;
 }
 
-/* NULL, with the failure in `status`, if it cannot be had. */
+/* NULL, with the failure in `status`, on error. */
 static json_t *load(const char *text, int64_t length, struct hk_scene_trouble *trouble, int32_t *status) {
   struct source source = {.next = text, .left = length};
   const int kept = errno;
@@ -95,7 +95,7 @@ static json_t *load(const char *text, int64_t length, struct hk_scene_trouble *t
   return root;
 }
 
-/* ---- the parts of a scene ---- */
+/* ---- pieces of a scene ---- */
 
 static int32_t check_version(const json_t *root) {
   const json_t *version = json_object_get(root, "hooke");
@@ -120,7 +120,7 @@ static int32_t read_top(struct hk_scene_reader *reader, const json_t *root) {
   return status;
 }
 
-/* The table of a run takes any text as method; a scene that names none that exists is wrong at once. */
+/* The table of a run accepts any text as method; an unknown one is refused here at once. */
 static int32_t check_method(const hooke_options *run) {
   const char *method = hooke_options_text(run, "method");
   if (!hooke_options_is_set(run, "method") || hooke_method_is_adaptive(method) >= 0) return HOOKE_OK;
@@ -142,7 +142,7 @@ static int32_t read_run(struct hk_scene_reader *reader, const json_t *run) {
   return status ? hk_fail_within(status, "run") : HOOKE_OK;
 }
 
-/* Particles first, then parts, so that springs can name them all. */
+/* Particles first, then parts, so that springs can refer to them. */
 static int32_t read_scene(struct hk_scene_reader *reader, const json_t *root) {
   const json_t *particles = json_object_get(root, "particles"), *parts = json_object_get(root, "parts");
   const json_t *springs = json_object_get(root, "springs"), *driven = json_object_get(root, "driven");
@@ -193,7 +193,7 @@ int32_t hk_scene_names_files(const char *text, int32_t *names, char **title) {
   int32_t status;
   *names = 0;
   *title = NULL;
-  if (strstr(text, "\"file\"") == NULL) return HOOKE_OK; /* most scenes, without being parsed */
+  if (strstr(text, "\"file\"") == NULL) return HOOKE_OK; /* covers most scenes without parsing */
   json_t *root = load(text, (int64_t)strlen(text), &trouble, &status);
   if (root == NULL) return status == HOOKE_NO_MEMORY ? status : HOOKE_OK;
   const char *found = json_string_value(json_object_get(root, "title"));

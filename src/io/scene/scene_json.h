@@ -1,4 +1,4 @@
-/* Between the files that read a scene from parsed JSON; nobody else includes this. */
+/* Internal interface of the files that read a scene from parsed JSON. */
 #ifndef HOOKE_IO_SCENE_SCENE_JSON_H
 #define HOOKE_IO_SCENE_SCENE_JSON_H
 
@@ -11,7 +11,7 @@ struct json_t; /* of jansson */
 struct hk_scene_reader {
   hooke_scene *scene;
   const char *folder; /* NULL: no files */
-  int32_t at_key;     /* 1 if the last failure is about a key rather than its value */
+  int32_t at_key;     /* 1 if the last failure concerns a key rather than its value */
   struct hk_part_names parts;
 };
 
@@ -25,7 +25,7 @@ int32_t hk_scene_read_options(struct hk_scene_reader *reader, const struct json_
 int32_t hk_scene_read_some_options(struct hk_scene_reader *reader, const struct json_t *object,
                                    const char *others, hooke_options *options);
 
-/* Fails unless `value` is an object, an array, a text; `place` may be NULL. */
+/* Fails unless `value` is an object, an array, or a text; `place` may be NULL. */
 int32_t hk_scene_require_object(const struct json_t *value, const char *place);
 int32_t hk_scene_require_array(const struct json_t *value, const char *place, const char *allowed);
 int32_t hk_scene_require_text(const struct json_t *value, const char *place);
@@ -33,17 +33,17 @@ int32_t hk_scene_require_text(const struct json_t *value, const char *place);
 /* "is a number, 3; allowed: ..." */
 int32_t hk_scene_refuse(const struct json_t *value, const char *place, const char *allowed);
 
-/* After a failure about number k of a list `name`: its place becomes that of the k-th element of the array
- * that is not a word. Returns `status`. */
+/* After a failure about number k of a list `name`: changes its place to the k-th element of the array that is
+ * not a word. Returns `status`. */
 int32_t hk_scene_place_number(int32_t status, const struct json_t *array, const char *name);
 
 /* ---- scene_json_array.c ---- */
 
-/* The path of a file that the scene names, for the caller to free. HOOKE_BAD_VALUE, HOOKE_NO_MEMORY. */
+/* Path of a file that the scene names, which the caller frees. HOOKE_BAD_VALUE, HOOKE_NO_MEMORY. */
 int32_t hk_scene_reader_file(const struct hk_scene_reader *reader, const char *file, char **path);
 
-/* The numbers for a row of type NUMBERS, from a number, an array, or an object that names a data set; the
- * caller frees `numbers`. */
+/* Numbers for a row of type NUMBERS, from a number, an array, or an object that names a data set; the caller
+ * frees `numbers`. */
 int32_t hk_scene_read_numbers(struct hk_scene_reader *reader, const struct json_t *value,
                               const struct hk_option_row *row, double **numbers, int64_t *count);
 
@@ -55,7 +55,7 @@ void hk_scene_forget_values(const struct json_t *array);
 int32_t hk_scene_read_particles(struct hk_scene_reader *reader, const struct json_t *value, int32_t columns,
                                 int64_t **particles, int64_t *count);
 
-/* ---- scene_json_pieces.c: what the keys of the same name add to the system ---- */
+/* ---- scene_json_pieces.c: add the contents of the key of the same name to the system ---- */
 
 int32_t hk_scene_add_particles(struct hk_scene_reader *reader, const struct json_t *particles);
 int32_t hk_scene_add_parts(struct hk_scene_reader *reader, const struct json_t *parts);

@@ -40,13 +40,13 @@ static int32_t read_dataset(const struct hk_scene_reader *reader, const hooke_op
   status = hk_array_read_within(reader->scene->memory_limit, path, hooke_options_text(source, "dataset"),
                                 frame, has_frame, numbers, rows, columns);
   hk_free(path);
-  /* a file that a scene names and that cannot be used is the scene's fault */
+  /* an unusable file that a scene names is a fault of the scene */
   if (status == HOOKE_IO_FAILED) return hk_fail(HOOKE_BAD_VALUE, "file", "%s", hk_fail_message());
   if (status == HOOKE_BAD_VALUE) return hk_fail(HOOKE_BAD_VALUE, "dataset", "%s", hk_fail_message());
   return status;
 }
 
-/* Holds a data set to the same rules as numbers in the text. */
+/* Applies the rules for numbers in the text to a data set. */
 static int32_t check_dataset(const double *numbers, int64_t rows, int64_t columns, int32_t wanted,
                              int32_t whole) {
   if (wanted > 1 ? columns != wanted : (columns != 1 && rows != 1))
@@ -145,7 +145,7 @@ int32_t hk_scene_read_numbers(struct hk_scene_reader *reader, const json_t *valu
 
 static const char particle_allowed[] = "the number of a particle, or [\"part\", index]";
 
-/* "rope0, cloth1", up to the room that there is. */
+/* Lists "rope0, cloth1", as far as there is space. */
 static void list_parts(const struct hk_part_names *parts, char *names, size_t size) {
   names[0] = '\0';
   for (int64_t k = 0; k < parts->count; k++) {
@@ -190,7 +190,7 @@ static int32_t read_particle(const struct hk_scene_reader *reader, const json_t 
                  (long long)count - 1);
 }
 
-/* Numbers become particles where they stand: large scenes have no memory for both. */
+/* Converts numbers to particles in place: large scenes have no memory for both. */
 static int32_t particles_from_file(struct hk_scene_reader *reader, const json_t *value, int32_t columns,
                                    int64_t **particles, int64_t *count) {
   _Static_assert(sizeof(int64_t) == sizeof(double), "one takes the place of the other");
@@ -209,7 +209,7 @@ static int32_t particles_from_file(struct hk_scene_reader *reader, const json_t 
       memcpy(place, &particle, sizeof particle);
     }
   }
-  *particles = (void *)numbers; /* released by the caller where this failed */
+  *particles = (void *)numbers; /* released by the caller if this failed */
   return status;
 }
 

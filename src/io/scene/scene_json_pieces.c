@@ -13,7 +13,7 @@
 
 enum { LIST_SIZE = 256 };
 
-/* The text of an optional key; `text` stays as it is without it. */
+/* Reads the text of an optional key; `text` is unchanged without it. */
 static int32_t read_text(const json_t *object, const char *key, const char **text) {
   const json_t *value = json_object_get(object, key);
   if (value == NULL) return HOOKE_OK;
@@ -94,8 +94,8 @@ static int32_t read_kind(const json_t *object, const char **kind) {
   return hk_fail(HOOKE_BAD_VALUE, "kind", "\"%s\" is not a kind of part; allowed: %s", shown, kinds);
 }
 
-/* The names of all parts, before the first is built; an unnamed part is called by its kind and number. What
- * is wrong with one is said when it is built. */
+/* Collects the names of all parts before the first is built; an unnamed part gets its kind and number. Errors
+ * in a part are reported when it is built. */
 static int32_t note_names(struct hk_scene_reader *reader, const json_t *parts) {
   int32_t status = hk_part_names_create((int64_t)json_array_size(parts), &reader->parts);
   for (int64_t k = 0; k < reader->parts.count && status == HOOKE_OK; k++) {
@@ -121,7 +121,7 @@ static int32_t check_name(const struct hk_scene_reader *reader, int64_t index) {
                  (long long)first->number);
 }
 
-/* The file of a mesh becomes its vertices and triangles, so that a system does not depend on files. */
+/* Reads the file of a mesh into its vertices and triangles, so that a system does not depend on files. */
 static int32_t read_file(const struct hk_scene_reader *reader, hooke_options *options) {
   if (!hooke_options_is_set(options, "file")) return HOOKE_OK;
   const char *file = hooke_options_text(options, "file");
@@ -133,7 +133,7 @@ static int32_t read_file(const struct hk_scene_reader *reader, hooke_options *op
   hk_free(path);
   if (status != HOOKE_BAD_VALUE && status != HOOKE_IO_FAILED) return status;
   if (hk_fail_place()[0]) return status;
-  /* a file that a scene names and that cannot be used is the scene's fault */
+  /* an unusable file that a scene names is a fault of the scene */
   return hk_fail(HOOKE_BAD_VALUE, "file", "%s", hooke_last_error());
 }
 
@@ -162,10 +162,10 @@ int32_t hk_scene_add_parts(struct hk_scene_reader *reader, const json_t *parts) 
 
 /* ---- springs and anchors ---- */
 
-/* Forces whose groups a scene lists, each member by its particles. */
+/* Forces whose groups a scene lists, with each member given by its particles. */
 static const struct group_kind {
   const char *key, *particles;
-  int32_t columns; /* of a row of particles; 0: one */
+  int32_t columns; /* for a row of particles; 0: one */
   const char *allowed;
   int32_t (*add)(hooke_system *system, const char *name, int64_t count, const int64_t *particles,
                  const hooke_options *options);
@@ -220,7 +220,7 @@ int32_t hk_scene_add_anchors(struct hk_scene_reader *reader, const json_t *ancho
 
 /* ---- drives ---- */
 
-/* The keys of the other motion are not ignored, and those of this one are needed. */
+/* Refuses the keys of another motion, and requires those of this one. */
 static int32_t check_drive(const hooke_options *options) {
   static const struct {
     const char *motion, *key;

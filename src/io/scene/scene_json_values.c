@@ -1,4 +1,4 @@
-/* From JSON to options, led by the option tables. */
+/* Converts JSON to options according to the option tables. */
 #include "io/scene/scene_json.h"
 
 #if HOOKE_HAVE_JANSSON
@@ -14,7 +14,7 @@
 
 enum { NAME_SIZE = 160, TEXT_SIZE = 512 };
 
-/* What a value is, in words: "the number 3", "an array of 2". */
+/* Describes a value: "the number 3", "an array of 2". */
 static void describe(const json_t *value, char *text) {
   char shown[(int)HOOKE_OPTION_SHOWN + HOOKE_NUMBER_SIZE];
   text[0] = '\0';
@@ -34,7 +34,7 @@ static void describe(const json_t *value, char *text) {
     break;
   case JSON_REAL:
     hk_number_print(json_real_value(value), shown);
-    /* 3.0 is not 3 where a whole number is asked for */
+    /* 3.0 is not accepted as the integer 3 */
     snprintf(text, TEXT_SIZE, "%s%s", shown, strpbrk(shown, ".e") ? "" : ".0");
     break;
   case JSON_TRUE:
@@ -75,7 +75,7 @@ int32_t hk_scene_require_text(const json_t *value, const char *place) {
   return json_is_string(value) ? HOOKE_OK : hk_scene_refuse(value, place, "a text");
 }
 
-/* A key that can be written in a place as it is. */
+/* True if a key needs no quoting in a place. */
 static int is_plain(const char *key) {
   size_t length = strlen(key);
   return length > 0 && length < HOOKE_OPTION_SHOWN &&
@@ -124,7 +124,7 @@ static int32_t set_numbers(struct hk_scene_reader *reader, const json_t *value,
   return element ? hk_scene_place_number(status, value, name) : status;
 }
 
-/* Words and numbers mixed: the numbers first, then the words one by one. */
+/* Mixed words and numbers: the numbers first, then the words one by one. */
 static int32_t set_mixed(struct hk_scene_reader *reader, const json_t *value, const struct hk_option_row *row,
                          const char *name, hooke_options *options) {
   json_t *only_numbers = json_array();
@@ -195,7 +195,7 @@ static int32_t read_row(struct hk_scene_reader *reader, const json_t *value, con
   return refuse_for_row(value, name, row);
 }
 
-/* ---- all of an object ---- */
+/* ---- whole objects ---- */
 
 static int32_t read_object(struct hk_scene_reader *reader, const json_t *object,
                            const struct hk_option_table *table, const char *prefix, const char *others,

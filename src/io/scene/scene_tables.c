@@ -1,4 +1,4 @@
-/* The keys of a scene that neither a part, nor springs, nor a run has. */
+/* The keys of a scene that do not belong to a part, springs or a run. */
 #include "io/scene/scene_file.h"
 #include "core/table/option.h"
 #include "core/status.h"

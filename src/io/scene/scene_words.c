@@ -16,7 +16,7 @@ void hk_scene_add_numbers(struct hk_text *text, const char *key, int64_t count, 
   hk_text_close(text, ']');
 }
 
-/* Words that may stand among numbers, one or an array of them. */
+/* Words mixed with numbers, one or an array of them. */
 static void add_list(struct hk_text *text, const struct hk_option_row *row, const char *words, int64_t count,
                      const double *number) {
   const int32_t single = strchr(words, ' ') == NULL;

@@ -1,5 +1,4 @@
-/* A system written as a scene: what was made from options is written as these options, the rest one by
- * one. */
+/* Writes a system as a scene: objects made from options as these options, the rest one by one. */
 #include "core/memory.h"
 #include "core/status.h"
 #include "integrate/integrator.h"
@@ -16,7 +15,7 @@
 /* A scene numbers the particles of parts after the others. */
 struct numbering {
   int64_t alone;   /* particles of no part */
-  int64_t *number; /* one a particle */
+  int64_t *number; /* by particle */
   uint8_t *in_part;
 };
 
@@ -95,7 +94,7 @@ static void add_particles(struct hk_text *text, const hooke_system *system,
 
 /* ---- parts ---- */
 
-/* Pins beyond those of its options are listed with them, by number. */
+/* Pins beyond those of the part's options are added to them, by number. */
 static void add_pins(struct hk_text *text, const hooke_system *system, const struct hk_part_record *part) {
   hk_text_open(text, "pinned", '[');
   for (int64_t p = 0; p < part->count; p++) {
@@ -127,7 +126,7 @@ static double material_of(const struct hk_spring *spring, enum material what) {
   return what == KAPPA ? spring->kappa : what == GAMMA ? spring->gamma : spring->rest_length;
 }
 
-/* One number where all springs of the group have the same. */
+/* One number if all springs of the group have the same. */
 static void add_material(struct hk_text *text, const char *key, const struct hk_springs *springs,
                          int64_t first, int64_t count, enum material what) {
   double one = NAN;
@@ -179,7 +178,7 @@ static void add_springs(struct hk_text *text, const hooke_system *system, const 
     hk_text_open(text, NULL, '{');
     if (group->name[0]) hk_text_word(text, "name", group->name);
     add_pairs(text, springs, numbering, first, group->count, &pull_only);
-    if (group->count == 0) { /* what it had was dropped */
+    if (group->count == 0) { /* all its springs were dropped */
       hk_text_number(text, "stiffness", 0.0);
     } else if (group->options) {
       hk_scene_add_options(text, group->options, NULL);
@@ -203,7 +202,7 @@ static int32_t has_groups(const hooke_system *system) {
 
 /* ---- anchors ---- */
 
-/* One number where all are equal to the bit. */
+/* One number if all are equal to the bit. */
 static void add_shared(struct hk_text *text, const char *key, int64_t count, const double *value) {
   int64_t same = 1;
   while (same < count && memcmp(&value[same], &value[0], sizeof *value) == 0)
@@ -214,7 +213,7 @@ static void add_shared(struct hk_text *text, const char *key, int64_t count, con
     hk_scene_add_numbers(text, key, count, 0, value);
 }
 
-/* All of a system, and where a group begins in them. */
+/* All members of a system, and the first of a group among them. */
 struct anchors {
   int64_t first, *particle;
   double *point, *stiffness, *damping, *rest_length;
@@ -229,7 +228,7 @@ static void add_anchor_group(struct hk_text *text, const struct hk_group *group,
   for (int64_t k = first; k < first + count; k++)
     hk_text_number(text, NULL, (double)numbering->number[all->particle[k]]);
   hk_text_close(text, ']');
-  if (count == 0) { /* what it had was dropped */
+  if (count == 0) { /* all its members were dropped */
     hk_text_number(text, "stiffness", 0.0);
   } else {
     hk_scene_add_numbers(text, "points", 3 * count, 3, all->point + 3 * first);
@@ -287,7 +286,7 @@ static void add_drive(struct hk_text *text, const struct hk_drive_group *drive,
   hk_text_close(text, '}');
 }
 
-/* What a scene has no word for. */
+/* Reports features that a scene cannot express. */
 static int32_t check_words(const hooke_system *system) {
   int32_t callbacks = system->force != NULL;
   for (int64_t g = 0; g < system->group_count; g++) {

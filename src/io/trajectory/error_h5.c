@@ -1,4 +1,4 @@
-/* The error of a run, put into its trajectory file after the run. */
+/* Adds the error of a run to its trajectory file after the run. */
 #include "hooke/trajectory.h"
 
 #include "core/keep_errno.h"

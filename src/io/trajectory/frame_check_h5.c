@@ -12,7 +12,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Numbers that are read at a time. */
+/* Numbers read at a time. */
 enum { BLOCK = 3 * 8192 };
 
 struct check {
@@ -28,7 +28,7 @@ struct check {
   uint32_t value;
 };
 
-/* Whether a dataset is the position or the velocity of a run, and of which. */
+/* True if a dataset is the position or the velocity of a run; tells which. */
 static int is_moving(const char *dataset, struct check *check) {
   char name[16] = "", rest[16] = "", more = 0;
   const int parts = sscanf(dataset[0] == '/' ? dataset + 1 : dataset, "particles/%47[^/]/%15[^/]/%15[^/]%c",
@@ -45,7 +45,8 @@ static int32_t damaged(const struct check *check, const char *why) {
                  check->path, why);
 }
 
-/* Adds `count` rows of the frame, from `first` on, or numbers of an array without rows. */
+/* Adds `count` rows of the frame, from `first` on, or the numbers of an array without rows, to the check
+ * value. */
 static herr_t add_block(struct check *check, const struct hk_dataset *data, hid_t type, hsize_t first,
                         hsize_t count) {
   const int table = data->rank == 3;
@@ -76,7 +77,7 @@ static herr_t add_row(struct check *check, int array, const struct hk_dataset *d
   return result;
 }
 
-/* Whether the array is as the writer makes it. */
+/* True if the array has the form that the writer gives it. */
 static int fits(struct check *check, int array, const struct hk_dataset *data) {
   if (data->size[0] != check->frames) return 0;
   if (array == HOOKE_FRAME_POSITION) check->particles = data->size[1];

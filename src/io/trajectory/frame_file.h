@@ -1,6 +1,6 @@
-/* Frames as plain bytes in a file whose arrays are contiguous and of their final size. No HDF5 is called,
- * which one thread at a time may use and which may be the caller's own at any time; so this may be done by a
- * thread of ours. */
+/* Frames as plain bytes in a file whose arrays are contiguous and of their final size. These functions do not
+ * call HDF5, which only one thread at a time may use, so a thread of the library may call them at any time.
+ */
 #ifndef HOOKE_IO_TRAJECTORY_FRAME_FILE_H
 #define HOOKE_IO_TRAJECTORY_FRAME_FILE_H
 
@@ -8,7 +8,7 @@
 
 enum { HOOKE_OBSERVABLE_COUNT = 6 };
 
-/* The arrays that have a row for each frame, in the order in which the check value goes over their rows. */
+/* The arrays with one row a frame, in the order in which the check value covers their rows. */
 enum hk_frame_array {
   HOOKE_FRAME_STEP,
   HOOKE_FRAME_TIME,
@@ -23,7 +23,7 @@ struct hk_frame_file {
   const hooke_system *system;
   int descriptor; /* -1: none */
   int64_t particle_count;
-  int64_t at[HOOKE_FRAME_ARRAY_COUNT]; /* first bytes of the arrays */
+  int64_t at[HOOKE_FRAME_ARRAY_COUNT]; /* offsets of the arrays */
 };
 
 struct hk_observable {
@@ -36,14 +36,13 @@ extern const struct hk_observable hk_observables[HOOKE_OBSERVABLE_COUNT];
 int64_t hk_frame_numbers(int64_t particle_count, int array);
 int64_t hk_frame_bytes(int64_t particle_count, int array);
 
-/* Writes a frame: its numbers, their check value, and its time last. 0, or the number of the system's
- * error. */
+/* Writes a frame: its numbers, their check value, and its time last. Returns 0 or an errno. */
 int hk_frame_write(const struct hk_frame_file *file, int64_t frame, int64_t step, const hooke_state *state);
 
-/* `whole`: 1 if the frame has a time and its numbers have the check value that stands beside them. */
+/* Sets `whole` to 1 if the frame has a time and its numbers match the check value. */
 int hk_frame_look(const struct hk_frame_file *file, int64_t frame, int32_t *whole);
 
-/* Copies the first `count` frames as they are. */
+/* Copies the first `count` frames unchanged. */
 int hk_frame_copy(const struct hk_frame_file *from, const struct hk_frame_file *to, int64_t count);
 
 #endif

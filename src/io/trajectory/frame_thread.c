@@ -7,9 +7,9 @@
 
 struct hk_frame_thread {
   const struct hk_frame_file *file;
-  hooke_state *state; /* the frame on its way */
+  hooke_state *state; /* the queued frame */
   int64_t step, written;
-  int32_t busy, ending; /* a frame is on its way; there will be no more */
+  int32_t busy, ending; /* a frame is queued; no more will come */
   int error;
   pthread_t thread;
   pthread_mutex_t mutex;
@@ -35,7 +35,7 @@ static void *work(void *own) {
   return NULL;
 }
 
-/* Signals are for the threads of the program. */
+/* Signals are handled by the threads of the program. */
 static int start(struct hk_frame_thread *thread) {
   sigset_t all, before;
   sigfillset(&all);
@@ -60,7 +60,7 @@ struct hk_frame_thread *hk_frame_thread_create(const struct hk_frame_file *file,
   return NULL;
 }
 
-/* Returns with the mutex, and no frame on its way. */
+/* Returns with the mutex locked, and no frame queued. */
 static void wait_for_frame(struct hk_frame_thread *thread) {
   pthread_mutex_lock(&thread->mutex);
   while (thread->busy)

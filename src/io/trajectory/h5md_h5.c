@@ -1,4 +1,4 @@
-/* The parts of an H5MD file that do not change with time. */
+/* The constant parts of an H5MD file. */
 #include "core/memory.h"
 #include "core/status.h"
 
@@ -20,13 +20,13 @@
 const char *const hk_error_number[HOOKE_ERROR_COUNT] = {
     "estimate", "known_from", "known_until", "energy_rise", "wanted", "met", "heat_excess"};
 
-enum { STATUS_LENGTH = 16 }; /* less than a page, and on a multiple of it: never torn */
+enum { STATUS_LENGTH = 16 }; /* smaller than a page, and aligned to a multiple of it: never torn */
 
 static const char units[] =
     "SI: position m, velocity m/s, time s, mass kg, energy J, power W, momentum kg m/s, "
     "angular momentum kg m^2/s";
 
-/* A group with attributes; the caller drops it. */
+/* A group with attributes; the caller closes it. */
 static hid_t new_group(hid_t where, const char *name) {
   return H5Gcreate2(where, name, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
 }
@@ -71,7 +71,7 @@ static herr_t write_text(hid_t where, const char *name, int64_t length, const ch
   return result;
 }
 
-/* The libraries that the bits of error-controlled methods depend on. */
+/* The libraries that affect the bits of error-controlled methods. */
 static herr_t write_facts(hid_t group) {
   static const char *const facts[] = {"sundials", "cholmod", "instructions", "machine"};
   herr_t result = 0;
@@ -144,7 +144,7 @@ herr_t hk_h5md_write_error_room(hid_t file) {
   return result;
 }
 
-/* Says which particles the numbers of the springs mean. */
+/* A reference to the particles that the spring indices refer to. */
 herr_t hk_h5md_refer(hid_t file, const char *group) {
   hobj_ref_t reference;
   hid_t particles = H5Gopen2(file, "particles", H5P_DEFAULT);

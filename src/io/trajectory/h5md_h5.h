@@ -1,4 +1,4 @@
-/* What an H5MD file says of itself, and the springs. Layout (H5MD 1.1):
+/* Metadata and springs of an H5MD file. Layout (H5MD 1.1):
  *
  *   /h5md                    version [1, 1]; author, creator
  *   /hooke                   attributes version, abi, sundials, cholmod, instructions, machine, units,
@@ -13,8 +13,8 @@
  *   /connectivity/springs    [springs][2] particle numbers
  *   /observables             frames (trajectory_writer_h5.h)
  *
- * The status is raw data of fixed length, like everything that is written after the first frame: metadata
- * that change in place could be torn when the process is killed. */
+ * The status is raw data of fixed length, like everything written after the first frame: a killed process
+ * could leave metadata that change in place torn. */
 #ifndef HOOKE_IO_TRAJECTORY_H5MD_H5_H
 #define HOOKE_IO_TRAJECTORY_H5MD_H5_H
 
@@ -23,23 +23,23 @@
 
 #include <hdf5.h>
 
-/* Everything but particles and observables. `method`, `options` and `scene_text` may be NULL. Negative on
- * failure. */
+/* Writes everything but particles and observables. `method`, `options` and `scene_text` may be NULL. Negative
+ * on failure. */
 herr_t hk_h5md_describe(hid_t file, const char *method, const hooke_options *options, const char *scene_text);
 
-/* A group `options` with an attribute for each option that has a value. Negative on failure. */
+/* Writes a group `options` with an attribute for each option that has a value. Negative on failure. */
 herr_t hk_h5md_write_options(hid_t where, const hooke_options *options);
 
-/* /connectivity/springs and /hooke/rest_length; the particles group has to be there. */
+/* Writes /connectivity/springs and /hooke/rest_length; the particles group must exist. */
 herr_t hk_h5md_connect(hid_t file, const hooke_system *system, const char *group);
 
-/* The attribute `run` of /hooke: 32 random hexadecimal digits, and their end. */
+/* The attribute `run` of /hooke: 32 random hexadecimal digits and a NUL. */
 enum { HOOKE_RUN_SIZE = 33 };
 int32_t hk_h5md_new_run(char run[HOOKE_RUN_SIZE]);
 herr_t hk_h5md_write_run(hid_t file, const char *run);
 
-/* Makes everything but particles, observables and check values again in another file; hk_h5md_refer() has to
- * follow when the particles group is there. */
+/* Recreates everything but particles, observables and check values in another file; hk_h5md_refer() has to
+ * follow once the particles group exists. */
 herr_t hk_h5md_copy(hid_t from, hid_t to, struct hk_h5_copy *copy);
 herr_t hk_h5md_refer(hid_t file, const char *group);
 
@@ -52,17 +52,16 @@ int hk_h5md_write_beyond(int descriptor, int64_t at, int64_t frame);
 /* Room for the error of a run. Negative on failure. */
 herr_t hk_h5md_write_error_room(hid_t file);
 
-/* Where in the file an array of so many bytes is; -1 if there is none. */
+/* Offset of an array of so many bytes in the file; -1 if there is none. */
 int64_t hk_h5md_place(hid_t file, const char *name, hsize_t bytes);
 
-/* The status is bytes in a file that HDF5 is done with: where they are, negative on failure; and writing
- * them, a word for a status of hooke_integrator_run() or HOOKE_H5MD_RUNNING: 0 or the number of the system's
- * error. */
+/* The status as bytes in a file that HDF5 has closed: its offset, negative on failure; and writing it, a word
+ * for a status of hooke_integrator_run() or HOOKE_H5MD_RUNNING: returns 0 or an errno. */
 enum { HOOKE_H5MD_RUNNING = 1000 };
 herr_t hk_h5md_find_status(hid_t file, int64_t *at);
 int hk_h5md_write_status(int descriptor, int64_t at, int32_t outcome);
 
-/* The same while HDF5 has the file. */
+/* The same while the file is open in HDF5. */
 herr_t hk_h5md_set_status(hid_t file, int32_t outcome);
 
 #endif

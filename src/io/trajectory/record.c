@@ -1,4 +1,4 @@
-/* What a file is, told by its first bytes, and whether it will do. */
+/* Identifies a file by its first bytes, and checks that it is usable. */
 #include "io/trajectory/record.h"
 
 #include "core/status.h"

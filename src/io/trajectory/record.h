@@ -1,19 +1,19 @@
-/* Telling the files apart that a scene can come from, and what is known of one inside the library. */
+/* Identifies the kinds of files that hold a scene, and internal queries of a record. */
 #ifndef HOOKE_IO_TRAJECTORY_RECORD_H
 #define HOOKE_IO_TRAJECTORY_RECORD_H
 
 #include "hooke/trajectory.h"
 
-/* 1 if the file begins as HDF5 files do. */
+/* 1 if the file begins with the HDF5 signature. */
 int32_t hk_record_is_one(const char *path);
 
-/* Where it was opened; valid as long as the record. */
+/* Path that it was opened by; valid as long as the record. */
 const char *hk_record_path(const hooke_record *record);
 
-/* [s] of a frame that there is, as the file has it: its check value is not looked at. */
+/* Time [s] of an existing frame, without checking the frame. */
 double hk_record_time(const hooke_record *record, int64_t frame);
 
-/* 0 for a file of several runs, a comparison or a study. */
+/* 0 for a file of several runs, such as a comparison or a study. */
 int32_t hk_record_is_run(const hooke_record *record);
 
 /* HOOKE_BAD_VALUE for such a file. */

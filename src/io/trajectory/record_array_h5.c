@@ -1,4 +1,4 @@
-/* Whole arrays of a trajectory file, and where in it those are that are too large to copy. */
+/* Whole arrays of a trajectory file, and the offsets of those that are too large to copy. */
 #include "hooke/trajectory.h"
 
 #include "core/memory.h"
@@ -43,7 +43,7 @@ static void drop_kept(hooke_record *record) {
   record->kept.value = NULL;
 }
 
-/* Reads the array unless it is the one that is kept. */
+/* Reads the array unless it is the cached one. */
 static int32_t keep(hooke_record *record, const char *what) {
   char dataset[sizeof record->kept.dataset];
   const int32_t status = find_dataset(what, dataset, sizeof dataset);
@@ -71,7 +71,7 @@ int32_t hooke_record_numbers(hooke_record *record, const char *what, double *val
   return HOOKE_OK;
 }
 
-/* ---- places ---- */
+/* ---- offsets ---- */
 
 static int is_plain(hid_t data) {
   if (H5Iget_type(data) != H5I_DATASET || hk_h5_foreign(data)) return 0;

@@ -1,4 +1,4 @@
-/* Trajectory files read back: scene, options, outcome and frames. */
+/* Reading trajectory files: scene, options, outcome and frames. */
 #include "hooke/trajectory.h"
 
 #include "core/handle.h"
@@ -22,7 +22,7 @@ static const hsize_t LONGEST_TEXT = (hsize_t)1 << 31;
 
 /* ---- texts and options ---- */
 
-/* 1 for one text of fixed length, whose bytes are in this very file. */
+/* 1 for one text of fixed length, stored in this very file. */
 static int is_text_here(hid_t data) {
   if (H5Iget_type(data) != H5I_DATASET || hk_h5_foreign(data)) return 0;
   hid_t type = H5Dget_type(data), space = H5Dget_space(data), list = H5Dget_create_plist(data);
@@ -57,7 +57,7 @@ static int32_t read_text(hid_t group, const char *name, char **out) {
   return status;
 }
 
-/* Of variable length; NULL if it cannot be read, else for H5free_memory(). */
+/* A text of variable length, to be released by H5free_memory(); NULL if it cannot be read. */
 static char *attribute_text(hid_t attribute) {
   char *word = NULL;
   hid_t memory = H5Tcopy(H5T_C_S1);
@@ -68,7 +68,7 @@ static char *attribute_text(hid_t attribute) {
   return word;
 }
 
-/* To leave it out would be to tell of another run. */
+/* Leaving it out would describe another run. */
 static int32_t refuse_option(const char *name) {
   return hk_fail(HOOKE_BAD_VALUE, name, "is neither a single number nor a text in /hooke/options");
 }
@@ -144,7 +144,7 @@ static int32_t read_options(hid_t group, hooke_options *options) {
 static const char *const facts[HOOKE_RECORD_FACTS] = {"version", "sundials", "cholmod", "instructions",
                                                       "machine"};
 
-/* What hooke keeps in a group of its own. */
+/* The contents of the group of hooke. */
 static int32_t read_own(struct hooke_record *record, hid_t file) {
   hid_t group = hk_h5_open_own(file, "hooke"), options = hk_h5_open_own(group, "options");
   int32_t status = read_text(group, "scene", &record->scene);
@@ -216,7 +216,7 @@ static int32_t read_file(struct hooke_record *record) {
   int32_t status = open_file(record, &guard, &file);
   if (status == HOOKE_OK) status = read_own(record, file);
   if (status == HOOKE_BAD_VALUE) status = hk_fail_before(status, "%s: ", record->path);
-  /* what could not be read is not what is not there */
+  /* an unreadable object is not a missing one */
   if (status == HOOKE_OK && guard.reason[0]) status = hk_h5_fail(&guard, record->path, "read the file");
   if (status == HOOKE_OK) status = read_times(record, &guard, file);
   if (status == HOOKE_OK) read_beyond(record, file);
@@ -313,7 +313,7 @@ int32_t hooke_record_check(const hooke_record *record, int64_t frame) {
   return status;
 }
 
-/* For hk_free(). The first of a frame's arrays to be read is where the frame is checked. */
+/* To be released by hk_free(). The first array of a frame that is read triggers the check of the frame. */
 static int32_t read_rows(const struct hooke_record *record, struct hk_h5_guard *guard, hid_t file,
                          const char *dataset, int64_t frame, int64_t size, double **values) {
   int64_t rows = 0, columns = 0;
@@ -324,7 +324,7 @@ static int32_t read_rows(const struct hooke_record *record, struct hk_h5_guard *
                  record->path, dataset, (long long)(rows * columns), (long long)size);
 }
 
-/* A state is never half of a frame. */
+/* A state never mixes two frames. */
 static void take_frame(hooke_state *state, double time, const double *q, const double *v) {
   const size_t bytes = (size_t)hooke_state_size(state) * sizeof *q;
   memcpy(hooke_state_position(state), q, bytes);

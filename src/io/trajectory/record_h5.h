@@ -1,4 +1,4 @@
-/* A trajectory file that is being read. */
+/* A trajectory file opened for reading. */
 #ifndef HOOKE_IO_TRAJECTORY_RECORD_H5_H
 #define HOOKE_IO_TRAJECTORY_RECORD_H5_H
 
@@ -11,18 +11,18 @@ enum hooke_record_place { HOOKE_PLACE_POSITION, HOOKE_PLACE_VELOCITY, HOOKE_PLAC
 enum { HOOKE_RECORD_FACTS = 5 };
 
 struct hooke_record {
-  char *fact[HOOKE_RECORD_FACTS]; /* what made the file: "" where it does not say */
+  char *fact[HOOKE_RECORD_FACTS]; /* versions of the writer: "" where the file does not say */
   char *path, *scene, *status, *run, *error_by, *error_note;
-  hooke_options *options; /* of a run, as they were stored */
+  hooke_options *options; /* of a run, as stored */
   int32_t is_run;
   int64_t frame_count, good_count; /* frames, and those before divergence */
   double *time;
-  int64_t place[HOOKE_PLACE_COUNT]; /* of frames in the file [bytes]; -1: not one after the other */
+  int64_t place[HOOKE_PLACE_COUNT]; /* offsets of frames in the file [bytes]; -1: not contiguous */
   struct {
     char dataset[64];
     double *value;
     int64_t rows, columns;
-  } kept; /* numbers whose size was asked for */
+  } kept; /* cached numbers, whose size was requested */
 };
 
 void hk_record_find_places(hooke_record *record, hid_t file);

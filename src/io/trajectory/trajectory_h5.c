@@ -23,7 +23,7 @@ int32_t hooke_io_own_process(void) {
                  "HDF5 is already running; hooke_io_own_process() has to be the first call of the process");
 }
 
-/* A thread costs more than writing a smaller frame. */
+/* Below this size a frame is cheaper to write than to pass to a thread. */
 static const int64_t LEAST_BYTES = 65536;
 
 hooke_trajectory *hk_trajectory_new(void) {
@@ -39,7 +39,7 @@ void hk_trajectory_release(hooke_trajectory *trajectory) {
   hk_handle_free(trajectory);
 }
 
-/* Lets HDF5 go; from here on the file is bytes. */
+/* Closes the file for HDF5; from here on it is written as bytes. */
 static int32_t settle(struct hk_h5_guard *guard, hooke_trajectory *made) {
   if (hk_h5md_find_status(made->file.id, &made->status_at) < 0)
     return hk_h5_fail(guard, made->file.atomic.path, "make room for all frames");
@@ -108,7 +108,7 @@ static int32_t refuse_bad(const hooke_trajectory *trajectory) {
   return hk_fail(HOOKE_IO_FAILED, NULL, "%s", trajectory->failure);
 }
 
-/* The file is bad from here on. */
+/* Marks the file bad. */
 static int32_t fail(hooke_trajectory *trajectory, const char *what, int error) {
   const int32_t status = hk_file_fail(trajectory->file.atomic.path, what, error);
   snprintf(trajectory->failure, sizeof trajectory->failure, "%s", hooke_last_error());
@@ -137,7 +137,7 @@ int32_t hooke_trajectory_write(hooke_trajectory *trajectory, int64_t step, const
   }
   const int error = trajectory->thread ? hk_frame_thread_write(trajectory->thread, step, state)
                                        : hk_trajectory_writer_write(writer, step, state);
-  /* of the thread, that of the frame before */
+  /* errno of the thread's previous frame */
   if (error) return fail_frame(trajectory, trajectory->taken - (trajectory->thread != NULL), error);
   trajectory->taken++;
   return HOOKE_OK;
@@ -153,7 +153,7 @@ int32_t hooke_trajectory_write_behind(hooke_trajectory *trajectory) {
              : hk_fail(HOOKE_NO_MEMORY, NULL, "no memory for a frame and a thread to write it");
 }
 
-/* Waits for the frame on its way. */
+/* Waits for the queued frame. */
 static void end_thread(hooke_trajectory *trajectory) {
   if (trajectory->thread == NULL) return;
   struct hk_trajectory_writer *writer = &trajectory->writer;
@@ -173,7 +173,7 @@ int32_t hooke_trajectory_sync(hooke_trajectory *trajectory) {
   if (trajectory->failure[0]) return refuse_bad(trajectory);
   const int error = trajectory->thread ? hk_frame_thread_wait(trajectory->thread) : 0;
   if (error) return fail_frame(trajectory, trajectory->taken - 1, error);
-  /* what a failed one did not bring to the disk a second one does not tell of */
+  /* a second sync does not report data that a failed one lost */
   return fsync(trajectory->file.atomic.descriptor) == 0
              ? HOOKE_OK
              : fail(trajectory, "bring the data to the disk", errno);
@@ -230,7 +230,7 @@ int32_t hk_trajectory_remake(struct hk_h5_guard *guard, const hooke_trajectory *
   return status == HOOKE_OK ? hk_h5_file_publish(&made->file) : status;
 }
 
-/* A new file with exactly the frames that are there takes the place of ours. */
+/* Replaces the file by one with exactly the written frames. */
 static int32_t shorten(hooke_trajectory *trajectory, int64_t frames, int32_t outcome) {
   hooke_trajectory *made = hk_trajectory_new();
   if (made == NULL) return HOOKE_NO_MEMORY;
@@ -247,7 +247,7 @@ static int32_t finish(hooke_trajectory *trajectory, int32_t outcome) {
   const struct hk_trajectory_writer *writer = &trajectory->writer;
   const int64_t frames = writer->written > trajectory->there ? writer->written : trajectory->there;
   if (trajectory->failure[0]) {
-    /* whoever finds the file may be told, too */
+    /* the message goes to anybody who can open the file, as well */
     hk_h5md_write_status(trajectory->file.atomic.descriptor, trajectory->status_at, HOOKE_IO_FAILED);
     return refuse_bad(trajectory);
   }
@@ -257,7 +257,7 @@ static int32_t finish(hooke_trajectory *trajectory, int32_t outcome) {
       marks ? 0 : hk_h5md_write_beyond(trajectory->file.atomic.descriptor, trajectory->beyond_at, -1);
   if (unmarked) return fail(trajectory, "mark the frames after divergence", unmarked);
   if (frames < writer->frame_count) return shorten(trajectory, frames, outcome);
-  /* the outcome is told when what it is of has come to the disk */
+  /* the outcome is written after all that it refers to is on the disk */
   const int32_t synced = hooke_trajectory_sync(trajectory);
   const int error = hk_h5md_write_status(trajectory->file.atomic.descriptor, trajectory->status_at,
                                          synced == HOOKE_OK ? outcome : HOOKE_IO_FAILED);
@@ -270,7 +270,7 @@ int32_t hooke_trajectory_close(hooke_trajectory *trajectory, int32_t outcome) {
   if (trajectory == NULL) return HOOKE_OK;
   HOOKE_KEEP_ERRNO;
   int32_t status = hk_atomic_file_require_own(&trajectory->file.atomic);
-  if (status == HOOKE_OK) { /* a fork has no such thread, and leaves the file alone */
+  if (status == HOOKE_OK) { /* a forked process has no such thread, and leaves the file alone */
     end_thread(trajectory);
     status = finish(trajectory, outcome);
   }

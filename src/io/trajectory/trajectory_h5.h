@@ -1,4 +1,4 @@
-/* A trajectory that is being written: made, or gone on with. */
+/* A trajectory that is being written, new or continued. */
 #ifndef HOOKE_IO_TRAJECTORY_TRAJECTORY_H5_H
 #define HOOKE_IO_TRAJECTORY_TRAJECTORY_H5_H
 
@@ -19,17 +19,17 @@ struct hooke_trajectory {
   int64_t beyond_at; /* in the file, where the first frame after divergence is told; -1: nowhere */
   int32_t beyond;    /* 1: it was told */
   char run[HOOKE_RUN_SIZE];
-  char origin[512];  /* from where the run goes on; "" if it did not */
-  char failure[512]; /* of the write that made the file bad; "" while it is good */
+  char origin[512];  /* from where the run continued; "" if it did not */
+  char failure[512]; /* message of the write that made the file bad; "" while it is good */
 };
 
 hooke_trajectory *hk_trajectory_new(void);
 
-/* Releases everything, and leaves the file as it is. */
+/* Releases everything without changing the file. */
 void hk_trajectory_release(hooke_trajectory *trajectory);
 
-/* Makes the same file with room for `frame_count` frames, the first `copied` of them and this outcome in it,
- * and gives it the name of the old one. `made` is new. HOOKE_IO_FAILED, HOOKE_NO_MEMORY. */
+/* Replaces the file by one with space for `frame_count` frames, with the first `copied` of them and this
+ * outcome. `made` is the new one. HOOKE_IO_FAILED, HOOKE_NO_MEMORY. */
 int32_t hk_trajectory_remake(struct hk_h5_guard *guard, const hooke_trajectory *trajectory,
                              int64_t frame_count, int64_t copied, int32_t outcome, hooke_trajectory *made);
 

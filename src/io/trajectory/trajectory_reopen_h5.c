@@ -1,5 +1,5 @@
-/* A file that a run left behind is taken for one of ours only if it is, to the last array, what the run would
- * have made. */
+/* Reopens the file of an unfinished run. It must be, to the last array, the file that the run would have
+ * created. */
 #include "core/memory.h"
 #include "core/status.h"
 #include "io/trajectory/trajectory.h"
@@ -18,19 +18,19 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-/* ---- what is there ---- */
+/* ---- existing objects ---- */
 
 static int32_t refuse(const hooke_trajectory *old, const char *what) {
   return hk_fail(HOOKE_BAD_VALUE, NULL, "%s: %s; this run cannot go on in it", old->file.atomic.path, what);
 }
 
-/* Without memory HDF5 does not see what is there. */
+/* Without memory HDF5 does not find existing objects. */
 static int32_t refuse_seen(const struct hk_h5_guard *guard, const hooke_trajectory *old, const char *what) {
   return guard->no_memory ? hk_h5_fail(guard, old->file.atomic.path, "look at what it has")
                           : refuse(old, what);
 }
 
-/* One block of bytes of the type, within the file. */
+/* One contiguous block of the type, within the file. */
 static int is_plain(const struct hk_dataset *data, hid_t type, double file_bytes) {
   hid_t own = H5Dget_type(data->id), list = H5Dget_create_plist(data->id);
   const haddr_t at = H5Dget_offset(data->id);
@@ -118,7 +118,7 @@ static int32_t read_description(struct hk_h5_guard *guard, hooke_trajectory *old
   return status;
 }
 
-/* ---- its frames ---- */
+/* ---- frames ---- */
 
 static int32_t look(hooke_trajectory *old, int64_t frames_kept) {
   const int64_t frames = old->writer.frame_count < old->good ? old->writer.frame_count : old->good;
@@ -136,7 +136,7 @@ static int32_t look(hooke_trajectory *old, int64_t frames_kept) {
                  (long long)old->there, old->file.atomic.path, (long long)frames_kept);
 }
 
-/* ---- going on ---- */
+/* ---- continuing ---- */
 
 static int32_t begin(const char *path, const hooke_system *system, hooke_trajectory *old) {
   struct hk_trajectory_writer *writer = &old->writer;

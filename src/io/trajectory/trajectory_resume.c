@@ -1,5 +1,4 @@
-/* Going on with the run of a trajectory: which place that is, and the file opened for the frames that are
- * missing. */
+/* Continues the run of a trajectory: finds the point, and opens the file for the missing frames. */
 #include "core/keep_errno.h"
 #include "core/memory.h"
 #include "core/print.h"
@@ -35,25 +34,25 @@ void hk_trajectory_drop_checkpoint(const char *path) {
   hk_free(checkpoint);
 }
 
-/* What is known on the way. */
+/* Working data. */
 struct going {
   const char *path;
   hooke_record *record;
   const hooke_system *system;
   hooke_integrator *integrator;
   hooke_state *first; /* the first frame; NULL: the file has none */
-  hooke_state *state; /* where it goes on */
+  hooke_state *state; /* continues from here */
   hooke_trajectory *trajectory;
   char origin[512];
 };
 
-/* ---- whether the file is of this run ---- */
+/* ---- match of file and run ---- */
 
 static int32_t refuse(const struct going *going, const char *what) {
   return hk_fail(HOOKE_BAD_VALUE, NULL, "%s: is of a run with other %s", going->path, what);
 }
 
-/* An array of the file against the system's own, number by number. */
+/* Compares an array of the file with the system's own, number by number. */
 static int32_t check_array(const struct going *going, const char *what, int64_t count, const double *own) {
   int64_t rows = 0, columns = 0;
   const int32_t status = hooke_record_size(going->record, what, &rows, &columns);
@@ -90,9 +89,9 @@ static int32_t check_fit(const struct going *going) {
   return status == HOOKE_OK ? check_springs(going) : status;
 }
 
-/* ---- at a frame ---- */
+/* ---- from a frame ---- */
 
-/* The checks that the run passed at its frames; the rest of its numbers is at the beginning. */
+/* Repeats the divergence checks of the run at its frames; its other numbers are those of the start. */
 static int32_t follow(const struct going *going, int64_t frames) {
   hooke_integrator *it = going->integrator;
   const int64_t place = hooke_record_place(going->record, "position"),
@@ -124,7 +123,7 @@ static int32_t stand_at_frame(struct going *going, int64_t frame) {
   return status == HOOKE_OK ? hk_integrator_stand_at_frame(it, frame, going->first, going->state) : status;
 }
 
-/* `why`: what became of the checkpoint. */
+/* `why`: the reason for not using the checkpoint. */
 static int32_t go_on_at_frame(struct going *going, const char *why) {
   const int32_t adaptive = going->integrator->method->adaptive;
   int32_t status = hk_trajectory_reopen(going->path, going->system, going->integrator, 0, &going->trajectory);
@@ -139,7 +138,7 @@ static int32_t go_on_at_frame(struct going *going, const char *why) {
   return HOOKE_OK;
 }
 
-/* ---- at a checkpoint ---- */
+/* ---- from a checkpoint ---- */
 
 static int32_t go_on(struct going *going, const char *checkpoint) {
   char why[400];
@@ -155,7 +154,7 @@ static int32_t go_on(struct going *going, const char *checkpoint) {
       hk_print(going->origin, sizeof going->origin, "the checkpoint, at t = %.6g s", *going->state->t);
     }
     if (status != HOOKE_BAD_VALUE) return status;
-    going->integrator->count = (struct hk_counts){0}; /* those of the checkpoint are of another place */
+    going->integrator->count = (struct hk_counts){0}; /* those of the checkpoint are of another point */
     going->integrator->wall_seconds = 0.0;
   }
   if (status != HOOKE_OK && finding == HOOKE_CHECKPOINT_ABSENT)
@@ -165,14 +164,14 @@ static int32_t go_on(struct going *going, const char *checkpoint) {
   return go_on_at_frame(going, why);
 }
 
-/* ---- all of it ---- */
+/* ---- whole function ---- */
 
 static int32_t read_first(struct going *going) {
   if (hooke_record_frame_count(going->record) == 0) return HOOKE_OK;
   int32_t status = hk_state_create_sized(going->integrator->size, 1, &going->first);
   if (status == HOOKE_OK) status = hooke_record_read(going->record, 0, going->first);
   if (status != HOOKE_BAD_VALUE) return status;
-  hooke_state_destroy(going->first); /* it is damaged, and will be written again */
+  hooke_state_destroy(going->first); /* a damaged frame will be written again */
   going->first = NULL;
   return HOOKE_OK;
 }

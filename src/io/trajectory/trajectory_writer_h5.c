@@ -1,4 +1,4 @@
-/* Frames: arrays made in advance, written in place, the time last. */
+/* Frames: arrays created in advance, written in place, the time last. */
 #include "core/memory.h"
 
 #if HOOKE_HAVE_HDF5
@@ -11,7 +11,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* ---- making ---- */
+/* ---- creating ---- */
 
 static double frame_bytes(int64_t particle_count) {
   double bytes = 0.0;
@@ -53,14 +53,14 @@ void hk_trajectory_writer_path(const char *group, int array, char path[HOOKE_WRI
   }
 }
 
-/* While they are being made. */
+/* Working data of creation. */
 struct arrays {
   const struct hk_trajectory_writer *writer;
   hid_t id[HOOKE_FRAME_ARRAY_COUNT];
 };
 
-/* An array of numbers for all frames, `rows` x `columns` each. Numbers have the machine's order of bytes,
- * since frames are written as bytes. */
+/* An array of numbers for all frames, `rows` x `columns` each. Numbers have the machine's byte order, since
+ * frames are written as bytes. */
 static hid_t new_frames(const struct arrays *arrays, hid_t where, int64_t rows, int32_t columns) {
   const double fill = NAN;
   const hsize_t frames = (hsize_t)arrays->writer->frame_count;
@@ -70,7 +70,7 @@ static hid_t new_frames(const struct arrays *arrays, hid_t where, int64_t rows, 
   return hk_h5_array(where, "value", H5T_NATIVE_DOUBLE, columns > 1 ? 2 : 1, line, &fill);
 }
 
-/* step and time: made with the first element, shared by the others. */
+/* step and time: created with the first element, shared by the others. */
 static herr_t add_clock(struct arrays *arrays, hid_t element) {
   hid_t *step = &arrays->id[HOOKE_FRAME_STEP], *time = &arrays->id[HOOKE_FRAME_TIME];
   if (*time >= 0) {
@@ -124,7 +124,7 @@ static herr_t write_particles(const struct hk_trajectory_writer *writer, hid_t w
                         hooke_system_mass(system));
 }
 
-/* A group, made if it is not there yet. */
+/* Opens a group, creating it if needed. */
 static hid_t group_in(hid_t where, const char *name) {
   return H5Lexists(where, name, H5P_DEFAULT) > 0
              ? H5Gopen2(where, name, H5P_DEFAULT)
@@ -137,7 +137,7 @@ static hid_t group_at(hid_t file, const char *folder, const char *name) {
   return inner;
 }
 
-/* `folder` is the one of the group `all`; the others have one of their own in it. */
+/* `folder` is the folder of the group `all`; the others have a subfolder in it. */
 static hid_t folder_of(hid_t file, const char *folder, const char *group) {
   return strcmp(group, "all") == 0 ? group_in(file, folder) : group_at(file, folder, group);
 }
@@ -173,7 +173,7 @@ static herr_t make_check(hid_t file, struct arrays *arrays) {
   return *check < 0 ? -1 : 0;
 }
 
-/* Makes them all and keeps where they begin. */
+/* Creates all arrays and records their offsets. */
 static herr_t make_arrays(hid_t file, struct hk_trajectory_writer *writer, int32_t copied) {
   struct arrays arrays = {.writer = writer};
   for (int k = 0; k < HOOKE_FRAME_ARRAY_COUNT; k++)

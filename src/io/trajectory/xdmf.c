@@ -1,4 +1,4 @@
-/* The companion of a trajectory for ParaView: XML that says where in the HDF5 file everything is. */
+/* The companion of a trajectory for ParaView: XML that locates the arrays in the HDF5 file. */
 #include "core/keep_errno.h"
 #include "core/memory.h"
 #include "core/number.h"
@@ -21,9 +21,9 @@
 
 struct companion {
   const hooke_record *record;
-  char *file; /* the trajectory as the companion names it, as XML */
+  char *file; /* name of the trajectory in the companion, as XML */
   double *time;
-  long long particles, springs, planned; /* frames that there is room for */
+  long long particles, springs, planned; /* planned frames */
   int32_t has_rest_length;
   struct hk_text text;
 };
@@ -41,7 +41,7 @@ static void add(struct hk_text *text, const char *format, ...) {
 
 /* ---- elements ---- */
 
-/* An array of the file: its path, and its size as XDMF writes it. */
+/* An array of the file: its path, and its size in the syntax of XDMF. */
 static void add_array(struct companion *c, const char *type, int bytes, const char *size, const char *path) {
   add(&c->text, "<DataItem Format=\"HDF\" NumberType=\"%s\" Precision=\"%d\" Dimensions=\"%s\">", type, bytes,
       size);
@@ -49,8 +49,8 @@ static void add_array(struct companion *c, const char *type, int bytes, const ch
   add(&c->text, ":%s</DataItem>", path);
 }
 
-/* One frame of an array of frames. VTK holds two frames for the same whose first words here are alike, so
- * there is a comment with the number. */
+/* One frame of an array of frames. VTK identifies frames by their first words here, so a comment with the
+ * number makes these unique. */
 static void add_slab(struct companion *c, int64_t frame, const char *path) {
   char size[96];
   snprintf(size, sizeof size, "%lld %lld 3", c->planned, c->particles);
@@ -125,7 +125,8 @@ static char *quote(const char *name) {
   return quoted;
 }
 
-/* The reader drops other bytes, takes what is before the first colon for a kind of file, and trims blanks. */
+/* The reader drops other bytes, interprets everything before the first colon as a file type, and trims
+ * blanks. */
 static int32_t check_name(const char *name) {
   int fits = !isspace((unsigned char)name[0]);
   for (const char *at = name; *at; at++)
@@ -136,8 +137,8 @@ static int32_t check_name(const char *name) {
                         "ASCII without colons");
 }
 
-/* How the companion at `path` names the trajectory: relative to its own folder if it lies beside it, else
- * from the root. */
+/* Name of the trajectory in the companion at `path`: relative if both are in the same folder, else absolute.
+ */
 static int32_t find_name(struct companion *c, const char *path) {
   HOOKE_KEEP_ERRNO;
   const char *there = hk_record_path(c->record), *slash = strrchr(there, '/'), *own = strrchr(path, '/');
@@ -156,7 +157,7 @@ static int32_t find_name(struct companion *c, const char *path) {
   return status;
 }
 
-/* The name beside the trajectory, for the caller to free. */
+/* The name beside the trajectory, which the caller frees. */
 static int32_t name_beside(const char *there, char **name) {
   static const char *const endings[] = {".h5", ".hdf5", ".h5md"};
   const size_t length = strlen(there);
@@ -174,7 +175,7 @@ static int32_t name_beside(const char *there, char **name) {
   return status;
 }
 
-/* A name that nobody gave takes the place of nothing but an older companion. */
+/* A default name replaces no file but an older companion. */
 static int32_t check_replaced(const char *path) {
   static const char head[] = "<?xml";
   char begin[sizeof head] = {0};
@@ -190,7 +191,7 @@ static int32_t check_replaced(const char *path) {
                        path);
 }
 
-/* ---- the whole ---- */
+/* ---- whole file ---- */
 
 static int32_t read_size(const char *path, const char *dataset, long long *rows) {
   double *values = NULL;

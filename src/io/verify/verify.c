@@ -1,4 +1,4 @@
-/* Whether a trajectory is what its scene gives: check values, bits, balance of energy, error. */
+/* Checks that a trajectory reproduces from its scene: check values, bits, energy balance, error. */
 #include "io/verify/verify.h"
 
 #include "core/crc32.h"
@@ -14,8 +14,8 @@
 #include <stdio.h>
 #include <string.h>
 
-/* How often the step is halved, or tolerances are tightened; at the end of that what is left over has to come
- * from the method, if a step is this share of the longest stable one. */
+/* Maximum number of refinements (halved step or tighter tolerances); the residual of the last one has to come
+ * from the method, if a step is this fraction of the longest stable one. */
 enum { MOST_REFINED = 4 };
 static const double RESOLVED = 0.25, ESTIMATES = 4.0;
 
@@ -44,7 +44,7 @@ static const struct hk_option_row rows[] = {
 
 static const struct hk_option_table table = {"verification", HOOKE_OPTION_ROWS(rows)};
 
-/* ---- making ---- */
+/* ---- creating ---- */
 
 static int is_on(const struct hk_verify *verify, const char *name) {
   return hooke_options_number(verify->options, name) != 0.0;
@@ -74,7 +74,7 @@ static int32_t find_slice(struct hk_verify *verify) {
   return status;
 }
 
-/* Bits of these methods depend on libraries, and through them on the processor. */
+/* The bits of these methods depend on libraries, and through them on the processor. */
 static int32_t find_makers(const struct hk_verify *verify) {
   static const char *const facts[] = {"sundials", "cholmod", "instructions", "machine"};
   const hooke_options *options = hooke_record_options(verify->record);
@@ -106,7 +106,7 @@ static int32_t open(struct hk_verify *verify) {
   return status == HOOKE_OK ? find_slice(verify) : status;
 }
 
-/* As it is before it runs. */
+/* As before it runs. */
 static void forget(struct hk_verify *verify) {
   verify->verdict = NULL;
   verify->balance = "not-checked";
@@ -119,7 +119,7 @@ static void forget(struct hk_verify *verify) {
       NAN;
 }
 
-/* Its run is that of the file. */
+/* Takes the run options of the file. */
 static int32_t create(hooke_measurement *m) {
   struct hk_verify *verify = m->object;
   verify->measurement = m;
@@ -178,7 +178,7 @@ static void keep(struct hk_verify *verify, const struct hk_verify_pass *pass) {
   verify->energy_change = balance->residual + balance->work - balance->heat;
 }
 
-/* Whether the step of a pass is short enough for its error to be that of a method of some order. */
+/* True if the step of a pass is short enough for its error to scale with a power of the step. */
 static int is_resolved(const struct hk_verify *verify, const struct hk_verify_pass *pass) {
   const hooke_options *run = hooke_record_options(verify->record);
   double limit = NAN;
@@ -189,7 +189,7 @@ static int is_resolved(const struct hk_verify *verify, const struct hk_verify_pa
   return status == HOOKE_OK && ldexp(hooke_options_number(run, "step"), -pass->refined) <= RESOLVED * limit;
 }
 
-/* Refines until what is left over of the balance is seen to be the error of the method. */
+/* Refines until the residual of the balance scales like the error of the method. */
 static int32_t find_balance(struct hk_verify *verify, struct hk_verify_pass *coarse) {
   int32_t status = HOOKE_OK, holds = 0;
   while (!holds && status == HOOKE_OK && coarse->refined < MOST_REFINED) {
@@ -214,8 +214,7 @@ static int32_t find_balance(struct hk_verify *verify, struct hk_verify_pass *coa
     }
   }
   verify->balance = holds ? "holds" : "unresolved";
-  if (status > 0 && status != HOOKE_STOPPED)
-    return HOOKE_OK; /* a refined run that does not come to its end */
+  if (status > 0 && status != HOOKE_STOPPED) return HOOKE_OK; /* a refined run that does not finish */
   if (status == HOOKE_OK && !holds && is_resolved(verify, coarse)) {
     verify->balance = "does-not-hold";
     return hk_fail(HOOKE_BAD_VALUE, NULL,
@@ -253,7 +252,7 @@ static int32_t compare_slice(struct hk_verify *verify) {
   if (status == HOOKE_OK) {
     verify->verdict = "agrees";
     keep(verify, &pass);
-    /* other failures leave it as a number that is not known */
+    /* other failures leave the number unknown */
     if (hk_limit_predict(verify->system, hooke_state_position(verify->first), method, 1e-2, NULL, NULL,
                          &verify->limit) == HOOKE_NO_MEMORY)
       status = HOOKE_NO_MEMORY;
@@ -269,7 +268,7 @@ static int32_t compare_slice(struct hk_verify *verify) {
   return status == HOOKE_OK && verify->may_differ ? within_tolerance(verify, apart) : status;
 }
 
-/* Of frames that are checked; a damaged one may have any. */
+/* Extremes over checked frames; a damaged frame may hold any numbers. */
 static void find_times(struct hk_verify *verify) {
   const int64_t from = verify->from, to = verify->to;
   verify->time_from = from < verify->checked ? hk_record_time(verify->record, from) : NAN;
@@ -281,11 +280,11 @@ static int32_t run_all(struct hk_verify *verify) {
   if (status == HOOKE_OK) status = hooke_record_read(verify->record, 0, verify->first);
   if (status == HOOKE_OK) status = hk_verify_first(verify);
   if (status == HOOKE_OK) status = compare_slice(verify);
-  find_times(verify); /* the last one may have come nearer */
+  find_times(verify); /* the last one may be closer */
   return status;
 }
 
-/* A file that disagrees is a failure, and has been run all the same. */
+/* A file that does not reproduce is a failure, and the measurement has run all the same. */
 static int32_t run(hooke_measurement *m, hooke_state *state) {
   struct hk_verify *verify = m->object;
   int32_t status = hk_measurement_require_fresh(m, state);

@@ -1,4 +1,4 @@
-/* Running a slice again, and holding its frames against those of the file. */
+/* Repeats a slice of the run and compares its frames with those of the file. */
 #include "io/verify/verify.h"
 
 #include "core/clock.h"
@@ -13,19 +13,19 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { ENOUGH = 77 }; /* what the observer returns at the end of the slice */
+enum { ENOUGH = 77 }; /* return value of the observer at the end of the slice */
 
 struct run {
   struct hk_verify *verify;
   struct hk_verify_pass *pass;
   hooke_state *stored;
-  int64_t frame; /* the next */
-  double until;  /* by the clock; 0: no limit */
+  int64_t frame; /* next frame */
+  double until;  /* wall-clock time; 0: no limit */
   int32_t status;
-  char message[512]; /* of it, since stopping a run has a message of its own */
+  char message[512]; /* status of the observer, since stopping a run has a message of its own */
 };
 
-/* What an observer returns. */
+/* Return value of an observer. */
 static int32_t answer(struct run *run, int32_t go_on) {
   if (run->status == HOOKE_OK) return go_on;
   snprintf(run->message, sizeof run->message, "%s", hooke_last_error());
@@ -58,7 +58,7 @@ static void widen(const struct hk_verify *verify, const hooke_state *computed, c
   }
 }
 
-/* To the bit. */
+/* Compares to the bit. */
 static int32_t compare(struct hk_verify *verify, int64_t frame, const hooke_state *computed,
                        const hooke_state *stored) {
   const int64_t size = 3 * hooke_system_particle_count(verify->system);
@@ -85,7 +85,7 @@ static double check_of(const struct hk_verify *verify, const hooke_state *state)
   return (double)hk_crc32(half, hooke_state_velocity(state), bytes);
 }
 
-/* How far it is from the file, and a refined one from the first pass. */
+/* Distance from the file, and of a refined pass from the first pass. */
 static void measure(struct run *run, int64_t frame, const hooke_state *state) {
   const struct hk_verify *verify = run->verify;
   struct hk_verify_pass *pass = run->pass;
@@ -121,7 +121,7 @@ static int32_t take_frame(struct run *run, const hooke_state *state) {
   return ENOUGH;
 }
 
-/* The first state of a slice from the start comes as a frame; the balance begins there. */
+/* The first state of a slice from the start arrives as a frame; the balance begins there. */
 static int32_t see_frame(int64_t step, const hooke_state *state, void *ctx) {
   struct run *run = ctx;
   (void)step;
@@ -142,7 +142,7 @@ static int32_t see_step(int64_t step, const hooke_state *state, void *ctx) {
   return answer(run, 0);
 }
 
-/* The options of the run, refined. Threads are as many as it had. */
+/* The options of the run, refined. The number of threads is that of the run. */
 static int32_t options_for(const struct hk_verify *verify, int32_t refined, hooke_options **options) {
   int32_t status = hooke_options_copy(hooke_record_options(verify->record), options);
   if (status != HOOKE_OK || refined == 0) return status;

@@ -14,7 +14,7 @@ struct verify_line {
   double check_scene, check_last;
 };
 
-/* What made the file, and what verifies it. */
+/* Versions of the writer of the file, and of the verifying library. */
 static void add_makers(const hooke_record *record, struct verify_line *line) {
   line->version = hooke_record_text(record, "version");
   line->sundials = hooke_record_text(record, "sundials");

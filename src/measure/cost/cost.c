@@ -1,4 +1,4 @@
-/* What each ingredient costs: the scene with it against the scene without it. */
+/* Cost of each ingredient: compares the scene with and without it. */
 #include "measure/cost/cost.h"
 
 #include "core/clock.h"
@@ -14,8 +14,8 @@
 
 static const double ACCURACY = 1e-3;    /* of limits, relative */
 static const double MOST_SECONDS = 0.2; /* of timing, for one ingredient */
-static const double TIMING_SHARE = 0.5; /* of the budget; scenes are made and limits found in the rest */
-static const double SOME_STEP = 1e-3;   /* [s] where nothing says which */
+static const double TIMING_SHARE = 0.5; /* of the budget; the rest is for scenes and limits */
+static const double SOME_STEP = 1e-3;   /* [s], by default */
 
 static const struct hk_option_row cost_rows[] = {
     {.name = "predict", .type = HOOKE_OPTION_FLAG, .fallback = "false", .doc = "leave out the timing"},
@@ -39,9 +39,9 @@ static const struct hk_option_row cost_rows[] = {
 
 static const struct hk_option_table cost_table = {"cost", HOOKE_OPTION_ROWS(cost_rows)};
 
-/* ---- making ---- */
+/* ---- creating ---- */
 
-/* The run's options with a method that can be timed; how long it runs does not matter. */
+/* The options of the run with a method that can be timed; its duration is irrelevant. */
 static int32_t choose_method(struct hk_cost *cost) {
   const char *method = hooke_options_text(cost->run, "method");
   int32_t status = HOOKE_OK;
@@ -54,7 +54,7 @@ static int32_t choose_method(struct hk_cost *cost) {
   return status;
 }
 
-/* What was found. */
+/* Results. */
 static void forget(struct hk_cost *cost) {
   cost->nanoseconds = cost->resolution = cost->memory = cost->limit = NAN;
   for (int64_t k = 0; k < cost->row_count; k++) {
@@ -89,16 +89,16 @@ static int32_t tell(struct hk_cost *cost, double done, const char *what) {
   return hk_measurement_tell(cost->measurement, done, what);
 }
 
-/* ---- finding ---- */
+/* ---- measuring ---- */
 
-/* Once more what was told last. */
+/* Repeats the last progress report. */
 static int32_t tell_limits(double done, const char *what, void *ctx) {
   const struct hk_cost *cost = ctx;
   (void)done, (void)what;
   return hk_measurement_tell(cost->measurement, cost->told, "limits");
 }
 
-/* NaN where this build, the method or these numbers have none, or the time is up. */
+/* NaN if this build, the method or these numbers have none, or time is up. */
 static int32_t find_limit(struct hk_cost *cost, const hooke_system *system, const hooke_state *state,
                           double *limit) {
   const double *q = hooke_state_position((hooke_state *)state);
@@ -108,7 +108,7 @@ static int32_t find_limit(struct hk_cost *cost, const hooke_system *system, cons
   return status == HOOKE_NO_MEMORY || (status == HOOKE_STOPPED && cost->patience.stopped) ? status : HOOKE_OK;
 }
 
-/* The first one, in the share of the budget that is not for the timing. */
+/* Limit of the full scene, in the fraction of the budget that is not for timing. */
 static int32_t find_first_limit(struct hk_cost *cost, const hooke_state *state) {
   hk_patience_lend(&cost->patience, 1.0 - TIMING_SHARE);
   const int32_t status = find_limit(cost, cost->system, state, &cost->limit);
@@ -116,8 +116,8 @@ static int32_t find_first_limit(struct hk_cost *cost, const hooke_state *state) 
   return status;
 }
 
-/* The step of the run, or a stable one where that is none: the cost of a step does not depend on it, but numbers
- * that are not finite may. */
+/* The step of the run, or a stable one if that is not: the cost of a step does not depend on its size, but
+ * may depend on non-finite numbers. */
 static int32_t choose_step(struct hk_cost *cost, const hooke_state *state) {
   const double *q = hooke_state_position((hooke_state *)state);
   double step = cost->run_step, safe = cost->limit;
@@ -151,7 +151,7 @@ static int32_t time_row(struct hk_cost *cost, struct hk_timed *full, struct hk_t
   return status;
 }
 
-/* The system without the ingredient of a row; NULL: without nothing. */
+/* The system without the ingredient of a row; NULL: the full one. */
 static int32_t make_without(const struct hk_cost *cost, const struct hk_cost_row *row, hooke_system **made) {
   struct hk_variant variant;
   struct hk_variant_map map;
@@ -190,7 +190,7 @@ static int32_t find_row(struct hk_cost *cost, struct hk_timed *full, const hooke
   return status;
 }
 
-/* The rows that were chosen, until the budget is spent: what is left stays unknown. */
+/* Measures the selected rows, until the budget is spent: the rest stays unknown. */
 static int32_t find_rows(struct hk_cost *cost, struct hk_timed *full, const hooke_state *state,
                          double begun) {
   const double budget = hooke_options_number(cost->options, "budget");
@@ -205,7 +205,7 @@ static int32_t find_rows(struct hk_cost *cost, struct hk_timed *full, const hook
   return status;
 }
 
-/* The scene is made again with nothing left out, so that both sides have their memory from the same hands. */
+/* The full scene is rebuilt, too, so that both sides get their memory in the same way. */
 static int32_t run(hooke_measurement *m, hooke_state *state) {
   struct hk_cost *cost = m->object;
   hooke_system *whole = NULL;

@@ -10,32 +10,32 @@
 struct hk_cost_row {
   const char *kind;
   int64_t group;  /* -1: not of a group */
-  int64_t size;   /* of the group; 1 of what is there without one */
-  int32_t chosen; /* 0: one of too many groups, not looked at */
+  int64_t size;   /* members of the group; 1 for an ingredient without group */
+  int32_t chosen; /* 0: one of too many groups, skipped */
   double nanoseconds, resolution, memory, limit;
 };
 
 struct hk_cost {
   const hooke_measurement *measurement;
   const hooke_system *system;
-  hooke_options *run; /* of the measurement, changed to the method that is timed */
+  hooke_options *run; /* of the measurement, with the method that is timed */
   const hooke_options *options;
   const char *method;          /* within `run` */
-  double run_step;             /* [s] as the caller gave it, NaN: not */
+  double run_step;             /* [s] as given by the caller, NaN: not */
   struct hk_patience patience; /* of limits, within the budget */
-  double told;                 /* share done */
+  double told;                 /* fraction done */
   double step, nanoseconds, resolution, memory, limit;
   int64_t row_count, chosen_count;
   struct hk_cost_row *row;
 };
 
-/* Lists what is there, and chooses all that is not of a group and as many groups as the options say.
+/* Lists the ingredients, and selects those without group and as many groups as the options say.
  * HOOKE_NO_MEMORY. */
 int32_t hk_cost_list_rows(struct hk_cost *cost);
 int32_t hk_cost_row_is(const struct hk_cost_row *row, const char *kind);
-/* The name of its group, else its kind. */
+/* Name of its group, otherwise its kind. */
 const char *hk_cost_row_name(const struct hk_cost *cost, const struct hk_cost_row *row);
-/* Its number among the groups of its force; -1: it is no group. */
+/* Number among the groups of its force; -1: not a group. */
 int64_t hk_cost_row_group(const struct hk_cost *cost, const struct hk_cost_row *row);
 
 enum { HOOKE_COST_TABLES = 2 };

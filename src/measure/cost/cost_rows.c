@@ -1,4 +1,4 @@
-/* The rows of a cost: which there are, and which of them are looked at. */
+/* The rows of a cost, and the selection of those to measure. */
 #include "measure/cost/cost.h"
 
 #include "core/memory.h"
@@ -38,15 +38,15 @@ static void add_others(struct hk_cost *cost) {
   add_row(cost, "gravity", -1, system->has_gravity);
 }
 
-/* The largest first; of one size in the order of the rows. */
+/* The largest first; those of one size in the order of the rows. */
 static int compare_sizes(const void *one, const void *two) {
   const struct hk_cost_row *a = *(struct hk_cost_row *const *)one, *b = *(struct hk_cost_row *const *)two;
   if (a->size != b->size) return a->size < b->size ? 1 : -1;
   return (a > b) - (a < b);
 }
 
-/* Every group makes the scene again, so that the time for all of very many would grow with their square. The
- * rows are those of groups so far. */
+/* Every group rebuilds the scene, so that the time for very many would grow with their square. The rows so
+ * far are those of groups. */
 static int32_t leave_small_groups_out(struct hk_cost *cost) {
   const int64_t count = cost->row_count, most = (int64_t)hooke_options_number(cost->options, "groups");
   if (count <= most) return HOOKE_OK;

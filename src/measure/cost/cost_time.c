@@ -7,8 +7,8 @@
 #include <math.h>
 #include <string.h>
 
-/* A block is long beside the clock and short beside what else goes on in the machine. Its state is taken up
- * and checked outside of what is timed, which a few steps pay for. */
+/* A block is long against the clock's resolution and short against disturbances of the machine. Loading and
+ * checking the state is not timed; a few steps a block are worth it. */
 static const double BLOCK = 1e-3; /* [s] */
 enum { FEWEST_STEPS = 4, MOST_STEPS = 1000, FEWEST_ROUNDS = 2, BLOCKS_OF_ROUND = 3 };
 
@@ -24,8 +24,8 @@ void hk_timed_release(struct hk_timed *timed) {
   memset(timed, 0, sizeof *timed);
 }
 
-/* One block; `nanoseconds` of a step, infinite if none was taken. A run that diverges has taken its steps all
- * the same. */
+/* One block; `nanoseconds` of a step, infinite if none was taken. A run that diverges has taken its steps
+ * nevertheless. */
 static int32_t run_block(struct hk_timed *timed, const hooke_state *start, int64_t steps,
                          double *nanoseconds) {
   hooke_integrator *it = timed->integrator;

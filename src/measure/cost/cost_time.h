@@ -1,4 +1,4 @@
-/* How much longer a step takes with an ingredient than without it. */
+/* Increase of the time of a step due to an ingredient. */
 #ifndef HOOKE_MEASURE_COST_COST_TIME_H
 #define HOOKE_MEASURE_COST_COST_TIME_H
 
@@ -11,14 +11,15 @@ struct hk_timed {
   double best[2]; /* of two series; infinite before the first block */
 };
 
-/* HOOKE_NO_MEMORY and those of hooke_integrator_create(); hk_timed_release() is allowed after a failure. */
+/* HOOKE_NO_MEMORY and the failures of hooke_integrator_create(); hk_timed_release() is allowed after a
+ * failure. */
 int32_t hk_timed_create(const hooke_system *system, const hooke_options *run, struct hk_timed *timed);
 void hk_timed_release(struct hk_timed *timed);
 
 /* Runs blocks of `full`, `lean` and `full` again in turn, each from `start`, for about `seconds`, two rounds
- * at least: both series of `full`, whose difference tells how far times can be trusted, and the first of
- * `lean`. Times stay infinite where the method can take no step. HOOKE_STOPPED by a callback; failures of the
- * method itself are none. */
+ * at least. Both series of `full` are kept, whose difference measures the noise, and the first of `lean`.
+ * Times stay infinite if the method can take no step. HOOKE_STOPPED by a callback; failures of the method are
+ * not failures here. */
 int32_t hk_timed_compare(struct hk_timed *full, struct hk_timed *lean, const hooke_state *start,
                          double seconds);
 

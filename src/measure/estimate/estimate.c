@@ -16,11 +16,11 @@
 
 enum { MOST_KEPT = 100, MOST_SEEN = 128, MOST_REFINED = 4 };
 static const int64_t KEPT_BYTES = 1 << 26;
-static const double SHORT = 2.0;                         /* [s] a run under which is run again, coarser */
+static const double SHORT = 2.0;                         /* [s] a shorter run is repeated, coarser */
 static const double SLICE = 0.04, SLICE_ADAPTIVE = 0.03; /* of the duration, for a tenth of the time */
 static const double AIM = 0.6, LEAST_GAIN = 0.7, LEAST_FACTOR = 1.0 / 16.0,
-                    MOST_FACTOR = 0.7; /* of what refines */
-static const double MOST_RUNS = 30.0;  /* times as long as the first run something finer may take */
+                    MOST_FACTOR = 0.7; /* of refinement */
+static const double MOST_RUNS = 30.0;  /* maximum time of a refined run, in times of the first */
 
 int32_t hooke_estimate_create(const hooke_system *system, double want, hooke_estimate **out) {
   const int32_t status = hk_system_require_committed(system);
@@ -62,7 +62,7 @@ void hooke_estimate_on_progress(hooke_estimate *e, hooke_progress *progress, voi
 
 /* ---- picking ---- */
 
-/* Picks for the error `want` of the whole run, and sets what was picked in `run`. */
+/* Picks for the error `want` of the whole run, and sets the result in `run`. */
 static int32_t pick(hooke_estimate *e, double want, hooke_options *run) {
   const char *only = e->only[0] ? e->only : NULL;
   hk_pick_release(&e->pick);
@@ -94,8 +94,7 @@ int32_t hooke_estimate_pick(hooke_estimate *e, const char *method, hooke_options
 
 /* ---- watching the run ---- */
 
-/* Frames that are kept with a want, to hold a finer run against: whole parts of the run, as far as memory is
- * at hand. */
+/* Frames kept for the comparison with a finer run: evenly spaced over the run, as far as memory allows. */
 static void choose_kept(hooke_estimate *e, int64_t *count) {
   const double frames = e->duration / e->every;
   const int64_t bytes = 3 * hooke_system_particle_count(e->system) * (int64_t)sizeof(double);
@@ -113,7 +112,7 @@ static int is_whole_reference(const hooke_estimate *e) {
   return e->pick.system != NULL && e->pick.share == 1.0;
 }
 
-/* No limit to look at: it has none, nothing is asked of it, or the pick looked at the same frames. */
+/* No limit is needed: the method has none, nothing is wanted, or the pick examined the same frames. */
 static int is_checked(const hooke_estimate *e, const hooke_integrator *it) {
   return it->method->adaptive || isnan(e->want) || (e->picked && is_whole_reference(e));
 }
@@ -165,7 +164,7 @@ int32_t hooke_estimate_see(int64_t step, const hooke_state *state, void *estimat
 
 /* ---- measuring ---- */
 
-/* The run is the pick's, which was held against the reference at its frames; its end is measured itself. */
+/* The picked run was compared with the reference at its frames; its end is measured on its own. */
 static void measure_by_reference(hooke_estimate *e, const hooke_state *state) {
   const struct hk_reference *r = &e->pick.reference;
   const int to_end = r->trusted == r->frames.count;
@@ -190,7 +189,7 @@ static int32_t measure_alone(hooke_estimate *e) {
   int32_t status = HOOKE_OK;
   if (!isnan(e->want)) {
     status = hk_estimate_by_finer(e);
-    /* the pick's error is over more frames, if of the beginning alone */
+    /* a pick from the beginning alone: its error is over more frames */
     if (e->picked && e->pick.met && !isnan(e->error)) e->error = fmax(e->error, e->pick.best.error);
     return status;
   }
@@ -239,7 +238,7 @@ static double met(const hooke_estimate *e) {
                                                                                                    : NAN;
 }
 
-/* The next step or tolerance of the same method. */
+/* Next finer step or tolerance of the same method. */
 static double finer(const hooke_estimate *e) {
   const double value = hk_estimate_value(e->options), order = isnan(e->order) ? 1.0 : e->order;
   double factor = pow(AIM * e->want / e->error, 1.0 / order);
@@ -261,7 +260,8 @@ static int32_t set_finer(hooke_estimate *e, hooke_options *run) {
   return hk_trial_set_value(run, method, value);
 }
 
-/* A pick from the beginning of a run was too coarse for all of it: another one, for as much less. */
+/* A pick from the beginning of a run was too coarse for the whole run: picks again, for a proportionally
+ * smaller error. */
 static int32_t pick_finer(hooke_estimate *e, hooke_options *run) {
   const double want = e->pick.want * AIM * e->want / e->error;
   const char *method = e->pick.best.method;
@@ -305,7 +305,7 @@ const char *hooke_estimate_text(const hooke_estimate *e, const char *what) {
   return strcmp(what, "note") == 0 ? e->note : NULL;
 }
 
-/* ---- a pick alone ---- */
+/* ---- picking only ---- */
 
 int32_t hk_estimate_pick_alone(const hooke_system *system, hooke_options *run, double want,
                                hooke_progress *progress, void *ctx) {

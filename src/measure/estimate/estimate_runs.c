@@ -1,5 +1,5 @@
-/* Estimates of a run's error from other runs of its method: Richardson's, where the order that is seen is
- * that of the method. */
+/* Estimates of a run's error from other runs of its method: Richardson's, if the observed order is that of
+ * the method. */
 #include "measure/estimate/estimate.h"
 
 #include "integrate/method.h"
@@ -10,10 +10,10 @@
 
 enum { LEAST_STEPS = 16 };
 static const double COARSER_TOLERANCE = 10.0, FINER_TOLERANCE = 0.01, LOOSEST = 0.1, TIGHTEST = 1e-14;
-/* Orders that are believed: of a step, this over the method's own apart from that; of a tolerance. */
+/* Accepted orders: of a step, this much above the method's; of a tolerance. */
 static const double ORDERS_APART = 0.4, LEAST_POWER = 0.5, MOST_POWER = 1.3;
-static const double CAUTIOUS_POWER = 0.7; /* errors do not follow tolerances evenly */
-static const double ROUNDING = 1e-13;     /* of the largest coordinate: below it differences say nothing */
+static const double CAUTIOUS_POWER = 0.7; /* errors do not scale evenly with tolerances */
+static const double ROUNDING = 1e-13;     /* of the largest coordinate: smaller differences are rounding */
 
 double hk_estimate_value(const hooke_options *options) {
   const int32_t adaptive = hooke_method_is_adaptive(hooke_options_text(options, "method"));
@@ -24,7 +24,7 @@ static const struct hk_method *method_of(const struct hooke_estimate *e) {
   return hk_method_find(hooke_options_text(e->options, "method"));
 }
 
-/* ---- running again ---- */
+/* ---- reruns ---- */
 
 struct run {
   struct hooke_estimate *estimate;
@@ -61,7 +61,7 @@ int32_t hk_estimate_rerun(struct hooke_estimate *e, const struct hk_rerun *rerun
   return status == HOOKE_NO_MEMORY || status == HOOKE_STOPPED ? status : HOOKE_OK;
 }
 
-/* Distance of the ends of two reruns, NaN if one did not come to its end. */
+/* Distance of the ends of two reruns; NaN if one did not finish. */
 static double end_apart(const struct hk_frames *a, const struct hk_frames *b) {
   if (a->recorded < a->count || b->recorded < b->count) return NAN;
   return hk_frames_distance(a, a->count - 1, b->position + (b->count - 1) * b->size, NULL);
@@ -82,9 +82,9 @@ static void know(struct hooke_estimate *e, double error, double from, double unt
   e->by = by;
 }
 
-/* ---- coarser ---- */
+/* ---- coarser reruns ---- */
 
-/* The step or tolerance of a run `level` times coarser, NaN if there is none. */
+/* Step or tolerance of a run `level` times coarser; NaN if there is none. */
 static double coarser(const struct hooke_estimate *e, int32_t adaptive, double value, int32_t level) {
   if (adaptive) {
     const double looser = value * pow(COARSER_TOLERANCE, level);
@@ -94,7 +94,7 @@ static double coarser(const struct hooke_estimate *e, int32_t adaptive, double v
   return steps >= LEAST_STEPS ? e->duration / ceil(steps / exp2(level) * (1.0 - 1e-12)) : NAN;
 }
 
-/* `near` is the distance of the run to the coarser one, `far` that of this to the next. */
+/* `near` is the distance of the run from the coarser one, `far` that of this from the next. */
 static double extrapolate(struct hooke_estimate *e, int32_t adaptive, double near, double far) {
   const double factor = adaptive ? COARSER_TOLERANCE : 2.0, order = (double)method_of(e)->order;
   const double seen = log(far / near) / log(factor);
@@ -130,10 +130,9 @@ int32_t hk_estimate_by_coarser(struct hooke_estimate *e) {
   return status;
 }
 
-/* ---- finer ---- */
+/* ---- finer reruns ---- */
 
-/* The largest distance of the kept frames, the last `count` of them, to those of a finer run, as an error of
- * the run. */
+/* Largest distance of the last `count` kept frames from those of a finer run, as an error of the run. */
 static double error_to(struct hooke_estimate *e, const struct hk_frames *finer) {
   const struct hk_frames *kept = &e->kept;
   const struct hk_method *method = method_of(e);

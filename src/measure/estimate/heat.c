@@ -14,13 +14,12 @@ static const double SHARE = 0.01, MOMENT = 0.02; /* of the run's time, or [s], f
 struct slice {
   const hooke_system *system;
   struct hk_balance balance;
-  double
-      *difference[4]; /* of velocities, 3n each: the last velocity, and halved first to third differences */
-  double power[4];    /* at the last states */
-  double reversing;   /* U [J] */
+  double *difference[4]; /* velocities, 3n each: the last velocity, and halved first to third differences */
+  double power[4];       /* at the last states */
+  double reversing;      /* U [J] */
   double residual[MOST_STEPS / APART];
   int64_t steps;
-  double until; /* on the clock [s] */
+  double until; /* wall-clock time [s] */
   int32_t over, status;
 };
 
@@ -36,7 +35,7 @@ static int32_t begin(struct slice *s, const hooke_state *state) {
   return status;
 }
 
-/* Takes the velocity after a step of `step` [s]. */
+/* Adds the velocity after a step of `step` [s]. */
 static void add_reversing(struct slice *s, const hooke_state *state, double step) {
   const double *v = hooke_state_velocity(state);
   double least = s->balance.power_out;
@@ -79,7 +78,7 @@ static double excess_of(const struct slice *s, double scale) {
   return least > 0.0 && scale > 0.0 ? least / (scale + fabs(s->balance.work)) : 0.0;
 }
 
-/* A slice from `from` on; NULL: from the beginning. */
+/* A slice from `from` on; NULL: from the initial state. */
 static int32_t look(struct hooke_estimate *e, const hooke_state *from) {
   const double step = hk_estimate_value(e->options);
   const double left = e->duration - (from ? hooke_state_time(from) - e->begin : 0.0);

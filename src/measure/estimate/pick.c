@@ -10,16 +10,17 @@
 #include <stddef.h>
 #include <string.h>
 
-static const double LEAST_SECONDS = 1.9; /* that a pick may take in any case */
-static const double RUNS = 5.0;          /* or as many times as long as the run it picks */
-static const double REFERENCE_RUNS = 3.0, REFERENCE_SHARE = 0.6; /* of those, at most for the reference */
-static const double DIGITS = 0.1;    /* of the wanted error, to which the reference is known */
-static const double BEGINNING = 0.1; /* studied where the reference came to no frame */
+static const double LEAST_SECONDS = 1.9; /* minimum time of a pick */
+static const double RUNS = 5.0;          /* or this multiple of the time of the picked run */
+static const double REFERENCE_RUNS = 3.0, REFERENCE_SHARE = 0.6; /* of it, at most for the reference */
+static const double DIGITS = 0.1;    /* of the wanted error: accuracy of the reference */
+static const double BEGINNING = 0.1; /* duration studied if the reference reached no frame */
 enum { FEWEST_FRAMES = 25, MOST_FRAMES = 100, EVALUATIONS = 3 };
 
-/* ---- what is studied ---- */
+/* ---- the studied duration ---- */
 
-/* Frames between FEWEST_FRAMES and MOST_FRAMES, such that the steps that fit the run fit them, too. */
+/* A number of frames between FEWEST_FRAMES and MOST_FRAMES, such that the steps that fit the run fit them,
+ * too. */
 static int32_t choose_frames(struct hk_pick *pick) {
   double every, unit;
   int32_t status = hk_step_times(pick->run, &pick->duration, &every);
@@ -35,7 +36,7 @@ static int32_t choose_frames(struct hk_pick *pick) {
   return hooke_options_set_number(pick->run, "every", every);
 }
 
-/* Seconds that one evaluation of the forces takes. */
+/* Time of one force evaluation [s]. */
 static int32_t time_evaluation(const hooke_system *system, const hooke_state *state, double *seconds) {
   double *force = hk_new(3 * hooke_system_particle_count(system), sizeof(double));
   int32_t status = force ? HOOKE_OK : HOOKE_NO_MEMORY;
@@ -50,7 +51,7 @@ static int32_t time_evaluation(const hooke_system *system, const hooke_state *st
   return status;
 }
 
-/* About what the quickest run takes [s]: symplectic Euler at its largest step. */
+/* Approximate time of the quickest run [s]: symplectic Euler at its largest step. */
 static int32_t quickest_run(struct hk_pick *pick, double *seconds) {
   hooke_state *state = NULL;
   double bound = 0.0;
@@ -85,7 +86,7 @@ static int32_t make_reference(struct hk_pick *pick, double budget) {
   return hk_reference_create(pick->system, &request, &pick->reference);
 }
 
-/* What is studied is what the reference came to, where time was short. */
+/* Limits the studied duration to the frames of the reference, if time was short. */
 static int32_t shorten(struct hk_pick *pick) {
   const struct hk_reference *r = &pick->reference;
   if (!r->hurried || r->trusted >= r->frames.count || r->trusted < 2) return HOOKE_OK;
@@ -94,8 +95,7 @@ static int32_t shorten(struct hk_pick *pick) {
   return hooke_options_set_number(pick->run, "duration", reached);
 }
 
-/* Of the whole run; where not even its second frame is reached, of a beginning with frames that are
- * closer. */
+/* Covers the whole run; if not even its second frame is reached, a beginning with closer frames. */
 static int32_t find_reference(struct hk_pick *pick, double budget) {
   int32_t status = make_reference(pick, budget);
   if (status == HOOKE_OK && (pick->reference.trusted > 1 || !pick->reference.hurried)) return shorten(pick);

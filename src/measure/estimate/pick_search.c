@@ -1,4 +1,4 @@
-/* The cheapest row of each method within the wanted error, by as few runs as its order allows. */
+/* Finds the cheapest row of each method within the wanted error, by as few runs as its order allows. */
 #include "measure/limit/limit_predict.h"
 #include "measure/estimate/pick.h"
 #include "measure/estimate/soundness.h"
@@ -14,23 +14,24 @@
 
 enum { MOST_RUNS = 12, REPEATS = 3, MOST_METHODS = 32 };
 static const double LOOSEST = 0.1, TIGHTEST = 1e-14;
-static const double AIM = 0.7, GOOD = 0.5; /* of the error that is allowed: aimed at; good enough */
-static const double CLOSE = 1.2;           /* a bracket this narrow is not searched further */
-static const double LEAST_FACTOR = 1.0 / 64.0, MOST_FACTOR = 8.0; /* from one value to the next */
-static const double LOOSER = 10.0;                                /* than a tolerance that took too long */
-static const double COST_POWER = 1.0 / 2.0;                       /* of a run, in its tolerance, at most */
-static const double PATIENCE = 1.3; /* of the best row's time, for a run that might be cheaper */
-static const double SHORT = 5e-3;   /* [s] a run this short is repeated for its time */
-static const double MOMENT = 0.05;  /* [s] that any run may take: a short one may meet a busy machine */
+static const double AIM = 0.7, GOOD = 0.5; /* of the allowed error: target; good enough */
+static const double CLOSE = 1.2;           /* a narrower bracket is not searched further */
+static const double LEAST_FACTOR = 1.0 / 64.0, MOST_FACTOR = 8.0; /* factors from one value to the next */
+static const double LOOSER = 10.0;                                /* after a tolerance that took too long */
+static const double COST_POWER = 1.0 / 2.0; /* cost of a run in its tolerance, at most */
+static const double PATIENCE = 1.3; /* times the best row's time: maximum for a run that might be cheaper */
+static const double SHORT = 5e-3;   /* [s] a shorter run is repeated for its time */
+static const double MOMENT = 0.05;  /* [s] minimum allowance of a run: a short one may hit a busy machine */
 static const double MOST_STEPS = 1e8;
-static const double SHARE_OF_LIMITS = 0.5;    /* of the time that is left, for those of one row at most */
-static const double SHARE_OF_REFERENCE = 0.2; /* that a run takes of its time, about */
+static const double SHARE_OF_LIMITS = 0.5; /* of the remaining time, at most for the limits of one row */
+static const double SHARE_OF_REFERENCE =
+    0.2; /* approximate time of a run, as a fraction of the reference's */
 
-/* A run, as the search sees it. */
+/* A run in the search. */
 struct result {
   double value, error, seconds; /* the error NaN: it did not finish */
   double allowed; /* a value clear of the stability limit at all frames; infinity: this one is */
-  int32_t gains;  /* energy by itself */
+  int32_t gains;  /* spontaneous rise of energy */
 };
 
 struct search {
@@ -38,15 +39,15 @@ struct search {
   const char *method;
   int32_t adaptive;
   double order;        /* of the error, in the value */
-  double most;         /* error that is allowed [m] */
-  double bound;        /* of a step at the start [s]; infinity if none limits it */
-  double largest;      /* value that may be taken */
-  double first;        /* value to begin with */
+  double most;         /* allowed error [m] */
+  double bound;        /* limit of the step at the start [s]; infinity if none */
+  double largest;      /* largest allowed value */
+  double first;        /* first value */
   int32_t raised;      /* that is by the limit at the start, no longer by the bound */
-  double meets, fails; /* the coarsest value that does, the finest coarser one that does not; NaN: none */
+  double meets, fails; /* coarsest value that meets the want, finest coarser one that does not */
   double error_meets, error_fails;
-  double rate;  /* least seconds for an evaluation of forces or of their derivative, in any run */
-  double until; /* where a run that costs too much ends, by the clock [s] */
+  double rate;  /* minimum time of an evaluation of forces or of their derivative, over all runs [s] */
+  double until; /* deadline of a run that costs too much, wall-clock time [s] */
   int32_t late, runs, over;
   struct result last;
 };
@@ -70,7 +71,7 @@ static int32_t on_progress(double share, void *ctx) {
   return s->late;
 }
 
-/* Seconds that the limits of one row may take. */
+/* Time for the limits of one row [s]. */
 static double time_for_limits(const struct hk_pick *pick) {
   return SHARE_OF_LIMITS * (pick->deadline - hk_clock_seconds());
 }
@@ -86,7 +87,7 @@ static int32_t on_frame(int64_t frame, int64_t step, const hooke_state *state, v
   if (looker->status != HOOKE_OK) return 1;
   const double patience = looker->soundness.patience;
   hk_soundness_see(&looker->soundness, state);
-  s->until += patience - looker->soundness.patience; /* limits are no part of the run */
+  s->until += patience - looker->soundness.patience; /* computing limits does not count as part of the run */
   return 0;
 }
 
@@ -103,12 +104,12 @@ static int32_t run_row(struct search *s, double value, struct result *result) {
   *result = (struct result){.value = value, .error = trial.error, .seconds = trial.wall_seconds};
   const double work = trial.force_evaluations + fmax(0.0, trial.linear_iterations);
   for (int k = 1; k < REPEATS && status == HOOKE_OK && result->seconds < SHORT && !isnan(trial.error); k++) {
-    looker.soundness.count = looker.soundness.capacity; /* seen already */
+    looker.soundness.count = looker.soundness.capacity; /* already recorded */
     const struct hk_listener quiet = {.on_progress = on_progress, .ctx = &looker};
     status = hk_trial_run(&trial, &r->frames, r->trusted, options, &quiet);
     result->seconds = fmin(result->seconds, trial.wall_seconds);
   }
-  /* a run's own time may have met a busy machine */
+  /* the run itself may have hit a busy machine */
   s->rate = fmin(s->rate, result->seconds / work);
   result->seconds = work * s->rate;
   s->pick->evaluation = fmin(s->pick->evaluation, s->rate);
@@ -155,7 +156,7 @@ static void learn(struct search *s, const struct result *result) {
   if (!sound && result->gains) s->largest = fmin(s->largest, 0.5 * result->value);
 }
 
-/* The value at which the error should be right, by the order, or by the slope between two runs. */
+/* Value at which the error should be right, by the order, or by the slope between two runs. */
 static double aim(const struct search *s) {
   const double from = isnan(s->meets) ? s->fails : s->meets;
   const double error = isnan(s->meets) ? s->error_fails : s->error_meets;
@@ -167,7 +168,7 @@ static double aim(const struct search *s) {
   return from * fmin(MOST_FACTOR, fmax(LEAST_FACTOR, factor));
 }
 
-/* The next value to run; NaN where the search is over. */
+/* Next value to run; NaN at the end of the search. */
 static double next_value(const struct search *s) {
   if (isnan(s->meets) && isnan(s->fails)) return fit(s, s->first);
   if (!isnan(s->meets) && (s->error_meets >= GOOD * s->most || s->fails / s->meets <= CLOSE)) return NAN;
@@ -179,13 +180,13 @@ static double next_value(const struct search *s) {
   return value;
 }
 
-/* Of the first run at least, of the others about [s]. */
+/* Minimum time of the first run, approximate time of the others [s]. */
 static double cost_of(const struct search *s, const struct result *last, double value) {
   if (last->seconds > 0.0) return last->seconds * pow(last->value / value, s->adaptive ? COST_POWER : 1.0);
   return s->adaptive ? 0.0 : s->pick->evaluation * s->pick->share * s->pick->duration / value;
 }
 
-/* Where the bound keeps the step finer than the error asks for, the limit at the start takes its place. */
+/* If the bound makes the step finer than the error requires, uses the limit at the start instead. */
 static void raise_largest(struct search *s) {
   const double *q = s->pick->reference.frames.position;
   const double seconds = time_for_limits(s->pick);
@@ -198,7 +199,7 @@ static void raise_largest(struct search *s) {
     s->largest = fmin(s->pick->unit, hk_soundness_limit_share * limit);
 }
 
-/* The bound on the step at the start, and the largest value that may be taken. */
+/* The bound on the step at the start, and the largest allowed value. */
 static void find_largest(struct search *s) {
   const double *q = s->pick->reference.frames.position;
   s->bound = INFINITY;
@@ -233,7 +234,7 @@ static int32_t try_value(struct search *s, double value) {
   return status;
 }
 
-/* What the next run is going to take [s], about; infinity where the search of this method is over. */
+/* Approximate time of the next run [s]; infinity at the end of the search of this method. */
 static double promise(const struct search *s, double *value) {
   const struct hk_pick *pick = s->pick;
   *value = s->over || s->runs == MOST_RUNS ? NAN : next_value(s);
@@ -243,14 +244,14 @@ static double promise(const struct search *s, double *value) {
   return s->order * s->order * cost_of(s, &s->last, *value);
 }
 
-/* 1 if a looser tolerance may still be quick enough, where the first one was not. */
+/* 1 if a looser tolerance may be quick enough where the first one was not. */
 static int32_t loosen(struct search *s, double value) {
   if (!s->adaptive || !isnan(s->meets) || !isnan(s->fails) || value >= LOOSEST) return 0;
   s->first = LOOSER * value;
   return 1;
 }
 
-/* The next run of a method, unless it cannot become the cheapest, or there is no time. */
+/* Does the next run of a method, unless it cannot become the cheapest, or there is no time. */
 static int32_t advance(struct search *s, double value) {
   const struct hk_pick *pick = s->pick;
   const double now = hk_clock_seconds(), cost = cost_of(s, &s->last, value);
@@ -265,7 +266,7 @@ static int32_t advance(struct search *s, double value) {
   return HOOKE_OK;
 }
 
-/* Of all methods the run that promises to be the quickest comes next. */
+/* Chooses the method whose next run promises to be the quickest. */
 static int32_t search_all(int32_t count, struct search *all) {
   int32_t status = HOOKE_OK;
   while (status == HOOKE_OK) {
@@ -295,7 +296,7 @@ int32_t hk_pick_search(struct hk_pick *pick) {
   }
   const int32_t status = search_all(count, all);
   if (status != HOOKE_OK || pick->met || pick->method) return status;
-  /* the reference meets any want that it can judge */
+  /* the reference itself meets any want that it can judge */
   struct search last = begin(pick, pick->reference.method);
   return try_value(&last, pick->reference.rtol);
 }

@@ -35,8 +35,8 @@ int32_t hk_soundness_begin(struct hk_soundness *s, const hooke_system *system, c
   return hk_step_is_bounded(method) && step > 0.0 ? hk_node_blocks_create(system, q, &s->blocks) : HOOKE_OK;
 }
 
-/* The limit itself is asked for only where the step is not clear of the bound, until it is not clear of a
- * limit; from there on the limit is taken to follow the bound, which tells what step to try next. */
+/* The limit itself is computed only where the step is not clear of the bound, until the step is not clear of
+ * a limit; after that the limit is assumed to scale with the bound, which determines the next step to try. */
 static void see_step(struct hk_soundness *s, const double *q) {
   int64_t particle;
   hk_node_blocks_fill(&s->blocks, q);

@@ -28,15 +28,15 @@ static const double NOTHING_LEFT = -12.0;
 struct course {
   double mean[WINDOWS]; /* of full windows */
   int64_t count, length;
-  int64_t steps;   /* in the window that is being filled, */
+  int64_t steps;   /* in the current window, */
   double sum;      /* the sum over its samples, */
   int64_t samples; /* and their number */
   double first;    /* log of the amplitude at the start */
-  double offset;   /* what scaling has taken away from the log of the amplitude */
+  double offset;   /* decrease of the log of the amplitude by scaling */
   double last;
 };
 
-/* ---- what a course says ---- */
+/* ---- evaluation of a course ---- */
 
 static void fill(struct course *course, int64_t steps, double value) {
   course->steps += steps;
@@ -94,7 +94,7 @@ static double kinetic(const hooke_system *system, const double *v) {
   return sum;
 }
 
-/* Random motion of free particles that springs and drag act on. What nothing acts on would drift away, as
+/* Random motion of free particles that springs and drag act on. Particles without forces would drift away, as
  * would a free scene, and turn the springs. */
 static void start_randomly(struct hk_growth *growth, double *x, double *v) {
   const hooke_system *system = growth->twin->system;
@@ -128,7 +128,7 @@ static double log_amplitude(const struct hk_growth *growth) {
                                   hooke_state_velocity(growth->state)));
 }
 
-/* Displacements stay where springs are linear. */
+/* Rescales displacements into the linear range of springs. */
 static void scale(const struct hk_growth *growth, struct course *course) {
   const double off = course->last - course->offset - course->first, *place = growth->twin->place;
   if (!isfinite(off) || off < SCALE_DOWN) return;
@@ -149,9 +149,8 @@ static int32_t watch(double done, const char *method, void *ctx) {
          (growth->progress && growth->progress(growth->done, method, growth->ctx) != 0);
 }
 
-/* The amplitude above which no motion that holds can rise: just below the limit the energy of an undamped
- * mode swings by 1/(1 - (h omega/2)^2), and limits closer than a quarter of the accuracy need not be told
- * apart. */
+/* The amplitude that no stable motion exceeds: just below the limit the energy of an undamped mode swings by
+ * 1/(1 - (h omega/2)^2), and limits closer than a quarter of the accuracy need not be distinguished. */
 static double certain_rise(const struct hk_growth *growth) {
   return log(30.0 / sqrt(0.5 * growth->accuracy));
 }
@@ -187,7 +186,7 @@ static int judge(const struct hk_growth *growth, const struct course *course, in
   return *verdict == HOOKE_GROWS || (!thorough && growth->has_direction);
 }
 
-/* What is said of a run that has taken all its steps. */
+/* Verdict on a run that has taken all its steps. */
 static enum hk_verdict last_word(const struct course *course) {
   const struct trend trend = find_trend(course);
   if (trend.steady && fabs(trend.change[0] + trend.change[1]) > LEAST_IN_THE_END)
@@ -231,7 +230,7 @@ static int32_t go(struct hk_growth *growth, hooke_integrator *integrator, int th
     if (ended) return status;
     const double before = course.last, now = log_amplitude(growth) + course.offset;
     taken += count;
-    if (!isfinite(now)) { /* overflow, or nothing left */
+    if (!isfinite(now)) { /* overflow, or zero amplitude */
       *verdict = now < 0.0 ? HOOKE_HOLDS : HOOKE_GROWS;
       return HOOKE_OK;
     }
@@ -265,7 +264,7 @@ int32_t hk_growth_see(struct hk_growth *growth, double step, int32_t thorough, i
   return status;
 }
 
-/* ---- making ---- */
+/* ---- creating ---- */
 
 int32_t hk_growth_create(const struct hk_twin *twin, const hooke_options *run, const char *method,
                          const double *mode, double accuracy, double deadline, struct hk_growth *growth) {

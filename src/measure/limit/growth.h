@@ -1,5 +1,5 @@
-/* Does the motion of a linear twin grow at a step? One run of the real integrator, seen through the energy
- * of the displacement. */
+/* Tests if the motion of a linear twin grows at a step: one run of the real integrator, observed through the
+ * energy of the displacement. */
 #ifndef HOOKE_MEASURE_LIMIT_GROWTH_H
 #define HOOKE_MEASURE_LIMIT_GROWTH_H
 
@@ -9,7 +9,7 @@
 enum hk_verdict {
   HOOKE_GROWS,
   HOOKE_HOLDS,  /* it decays */
-  HOOKE_STEADY, /* neither is seen in the steps that were allowed */
+  HOOKE_STEADY, /* neither is seen within the allowed steps */
   HOOKE_OUT_OF_TIME,
   HOOKE_UNSOLVED /* the method did not solve its step */
 };
@@ -18,7 +18,7 @@ struct hk_growth {
   const struct hk_twin *twin;
   hooke_options *run; /* its own copy, without frames */
   hooke_state *state;
-  double *direction;     /* velocities to start with, 3n; all zeros: none known */
+  double *direction;     /* initial velocities, 3n; all zeros: none known */
   int32_t has_direction; /* 1: one was given or found */
   double accuracy;       /* of the limit that is looked for, relative */
   int32_t is_named;      /* 1: the direction is that of a mode that limits the step */
@@ -29,8 +29,8 @@ struct hk_growth {
   uint64_t random;       /* of the generator */
   hooke_progress *progress;
   void *ctx;
-  double done;         /* what the progress is told */
-  int32_t out_of_time; /* what ended the last steps was the deadline */
+  double done;         /* text of the progress */
+  int32_t out_of_time; /* the deadline ended the last steps */
 };
 
 /* `mode`: 3n displacements, or NULL. `run` (options of a run) may be NULL. */
@@ -40,9 +40,9 @@ void hk_growth_release(struct hk_growth *growth);
 
 /* Runs at `step` from the known direction with a thousandth of random motion, or from random motion alone,
  * until the energy clearly grows or decays, or for `most_steps`. A `thorough` run starts from random motion
- * and takes all of its steps before it says that motion holds: a mode that nobody thought of has had the time
- * to show. Motion that grew is the direction of later runs where none was known or the run was thorough.
- * HOOKE_STOPPED by the progress; HOOKE_NO_MEMORY. */
+ * and takes all of its steps before it reports stable motion, so that an unforeseen mode has time to show.
+ * Growing motion becomes the direction of later runs if none was known or the run was thorough. HOOKE_STOPPED
+ * by the progress; HOOKE_NO_MEMORY. */
 int32_t hk_growth_see(struct hk_growth *growth, double step, int32_t thorough, int64_t most_steps,
                       enum hk_verdict *verdict);
 

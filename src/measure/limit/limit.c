@@ -1,4 +1,4 @@
-/* Making a limit, and what it does at one state and along a run. */
+/* Creating a limit, and its computation at one state and along a run. */
 #include "measure/limit/limit.h"
 
 #include "core/clock.h"
@@ -14,7 +14,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Progress: predictions are quick beside measurements. */
+/* Progress: predictions are quick compared with measurements. */
 static const double PREDICTING = 0.05;
 
 static const struct hk_option_row limit_rows[] = {
@@ -48,7 +48,7 @@ static const struct hk_option_row limit_rows[] = {
 
 static const struct hk_option_table limit_table = {"limit", HOOKE_OPTION_ROWS(limit_rows)};
 
-/* ---- making ---- */
+/* ---- creating ---- */
 
 static int32_t add_row(const char *method, void *ctx) {
   struct hk_limit *limit = ctx;
@@ -172,7 +172,7 @@ static int32_t find_blame(struct hk_limit *limit) {
   }
   for (int64_t k = 0; k < 3 * n; k++)
     limit->shape[k] = longest > 0.0 ? row->mode[k] / longest : 0.0;
-  /* where nothing is stable, stiffness alone is to blame */
+  /* if no step is stable, only stiffness is considered */
   const int stiffness_alone = hk_method_stability(row->method)->damps_implicitly || !(row->predicted > 0.0);
   const double h = stiffness_alone ? 0.0 : row->predicted;
   int32_t status =
@@ -210,7 +210,7 @@ static int32_t measure_row(struct hk_limit *limit, struct hk_limit_row *row, con
   return HOOKE_OK;
 }
 
-/* What a row leaves of the budget goes to those after it. */
+/* The unused budget of a row goes to later ones. */
 static int32_t measure(struct hk_limit *limit, const hooke_state *state) {
   const double budget = hooke_options_number(limit->options, "budget");
   double left = budget, width = (1.0 - PREDICTING) / limit->row_count;

@@ -1,4 +1,4 @@
-/* What a limit holds. */
+/* The limit object. */
 #ifndef HOOKE_MEASURE_LIMIT_LIMIT_H
 #define HOOKE_MEASURE_LIMIT_LIMIT_H
 
@@ -43,27 +43,26 @@ struct hk_limit {
   struct hk_remedy remedy;
 
   struct hk_patience endless;   /* which only the caller ends */
-  struct hk_patience *patience; /* that, or one of an inquiry, with bytes that a basis may take */
+  struct hk_patience *patience; /* that, or that of a diagnosis, with the bytes that a basis may take */
   double room;
-  double share, width; /* of all work, where the part under way begins and how much of it it is */
+  double share, width; /* of all work: start and fraction of the current part */
   const char *under_way;
 };
 
-/* Predictions at positions q (3n) of the time t, and what limits the step there. */
+/* Predictions at positions q (3n) of the time t, and the limiting elements there. */
 int32_t hk_limit_look(struct hk_limit *limit, const double *q, double t);
 
-/* Bounds, predictions and modes at positions q (3n), in place of those before. */
+/* Replaces bounds, predictions and modes by those at positions q (3n). */
 int32_t hk_limit_predict_rows(struct hk_limit *limit, const double *q);
 
-/* The row to blame springs for: that of the method of the run, or the first that has a limit; NULL if none
- * has. */
+/* The row for limiting springs: that of the method of the run, or the first with a limit; NULL if none has
+ * one. */
 const struct hk_limit_row *hk_limit_blamed(const struct hk_limit *limit);
 
-/* Tells the caller of the share done of the part under way; HOOKE_STOPPED if that is to end. `limit` is the
- * context. */
+/* Reports the fraction done of the current part; HOOKE_STOPPED if it is to end. `limit` is the context. */
 int32_t hk_limit_tell(double done, const char *what, void *limit);
 
-/* A row of the table "blame", of a limit and of an explanation. */
+/* A row of the table "blame" of a limit or a diagnosis. */
 struct hk_blame_line {
   const char *group, *force;
   double number, first, second, share;

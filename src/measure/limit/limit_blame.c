@@ -8,8 +8,8 @@
 #include <stddef.h>
 #include <string.h>
 
-/* Puts an element where it belongs in a list of HOOKE_BLAME_MOST at most, the largest share first and equal
- * ones in the order in which they come. `share_at` is where an element has its share. */
+/* Inserts an element into a list of at most HOOKE_BLAME_MOST, the largest share first and equal ones in the
+ * order of arrival. `share_at` is the offset of an element's share. */
 static void keep(void *list, int64_t *count, size_t size, size_t share_at, const void *element) {
   unsigned char *place = list;
   double share, other;
@@ -30,7 +30,7 @@ static double square_of(const double *x) {
   return (x[0] * x[0] + x[1] * x[1]) + x[2] * x[2];
 }
 
-/* The whole that elements have shares of, and its part of K; and that of particles. */
+/* The total that shares of elements refer to, and its part of K; and that of particles. */
 struct whole {
   double all, stiffness, kinetic;
 };
@@ -61,7 +61,7 @@ static void add_element(const struct hk_elements *at, const struct hk_element *e
   if (at->force == &hk_force_springs) add_spring(e, hk_element_number(at), group, stiffness, damping, blame);
 }
 
-/* Of the elements at q; their mode is 0 where a particle is constrained. */
+/* Shares of the elements at q; the mode is 0 at constrained particles. */
 static void find_elements(const hooke_system *system, const double *q, const double *mode, struct weights h,
                           struct whole *whole, struct hk_blame *blame) {
   const struct hk_force_row *force = NULL;

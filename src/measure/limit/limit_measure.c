@@ -76,7 +76,7 @@ static int64_t steps_to_confirm(const struct trial *trial) {
   return 1000 + (int64_t)fmin(2.3 / accuracy, 1e15);
 }
 
-/* Is there a mode that the search did not see? It has a run just below what was found. */
+/* Checks for a mode that the search did not see: it needs a run just below the limit found. */
 static int32_t confirm(struct trial *trial, struct hk_bracket *bracket) {
   for (int k = 0; k < 5 && !bracket->unknown && bracket->holds > 0.0 && isfinite(bracket->fails); k++) {
     const double found = bracket->holds;
@@ -99,7 +99,7 @@ static int32_t confirm(struct trial *trial, struct hk_bracket *bracket) {
   return HOOKE_OK;
 }
 
-/* What a search that ended early has to be certain to, if its result is to be told at all. */
+/* Certainty that a search which ended early needs for its result to be reported. */
 static const double CERTAIN = 0.05;
 
 static void read_bracket(const struct hk_bracket *bracket, struct hk_measured_limit *out) {
@@ -114,8 +114,8 @@ static void read_bracket(const struct hk_bracket *bracket, struct hk_measured_li
     out->step = 0.0, out->never_stable = 1;
 }
 
-/* Said to be stable at no step: growth has to be seen at small ones. Said to be stable at every step: none
- * may be seen at large ones, where it would be violent. `confirmed` is 0 where the bracket says otherwise. */
+/* Predicted stable at no step: growth has to be seen at small ones. Predicted stable at every step: none may
+ * be seen at large ones, where it would be violent. `confirmed` is 0 if the bracket contradicts. */
 static int32_t try_extremes(struct trial *trial, struct hk_bracket *bracket, int small, int *confirmed) {
   static const double share[2][3] = {{10.0, 100.0, 1000.0}, {0.3, 0.1, 0.03}};
   const int64_t most_steps = trial->most_steps;

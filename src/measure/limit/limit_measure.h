@@ -1,31 +1,30 @@
-/* Limits found by running: the step is bisected between one at which real runs hold and one at which they
- * grow. */
+/* Measured limits: bisects the step between one at which real runs are stable and one at which they grow. */
 #ifndef HOOKE_MEASURE_LIMIT_LIMIT_MEASURE_H
 #define HOOKE_MEASURE_LIMIT_LIMIT_MEASURE_H
 
 #include "hooke/measurement.h"
 
 struct hk_measured_limit {
-  /* the limit [s]: 0 where no step is stable, infinity where nothing limits it, NaN if not found */
+  /* the limit [s]: 0 if no step is stable, infinity if nothing limits it, NaN if not found */
   double step;
-  int64_t steps_run;    /* steps that it took */
+  int64_t steps_run;    /* number of steps taken */
   int32_t never_stable; /* growth was seen at every step tried, ever smaller ones */
-  const char *note;     /* what to know about it, "" if nothing */
+  const char *note;     /* remark, "" if none */
 };
 
-/* The limit of `method` on the system linearised and frozen at q (linear_twin.h), to the relative `accuracy`,
- * within `budget` [s]. The search starts at `predicted` (NaN: not known; 0 and infinity are put to the test),
- * with runs that start in `mode` (3n displacements, or NULL) and some random motion. What is found is
- * confirmed by a run just below it that starts from random motion alone. `run` (options of a run) and
- * `progress` may be NULL. A budget that ends too early is told in the note. HOOKE_BAD_VALUE, HOOKE_NOT_BUILT,
- * HOOKE_STOPPED by the progress, HOOKE_NO_MEMORY. */
+/* The limit of `method` on the linear twin of the system at q (linear_twin.h), to the relative `accuracy`,
+ * within `budget` [s]. The search starts at `predicted` (NaN: unknown; 0 and infinity are tested), with runs
+ * that start in `mode` (3n displacements, or NULL) and some random motion. The result is confirmed by a run
+ * just below it that starts from random motion alone. `run` (options of a run) and `progress` may be NULL.
+ * The note says if the budget ended too early. HOOKE_BAD_VALUE, HOOKE_NOT_BUILT, HOOKE_STOPPED by the
+ * progress, HOOKE_NO_MEMORY. */
 int32_t hk_limit_measure(const hooke_system *system, const double *q, const hooke_options *run,
                          const char *method, double predicted, const double *mode, double accuracy,
                          double budget, hooke_progress *progress, void *ctx, struct hk_measured_limit *out);
 
 /* The largest step at which the scene itself runs from `start` through the `duration` of `run` without
- * divergence. With callbacks and drives that shows only in numbers that are not finite. HOOKE_BAD_VALUE
- * without a duration; HOOKE_STOPPED also where a callback of the scene asked for it. */
+ * divergence. With callbacks and drives only non-finite numbers count. HOOKE_BAD_VALUE without a duration;
+ * HOOKE_STOPPED also if a callback of the scene asked for it. */
 int32_t hk_limit_measure_nonlinear(const hooke_system *system, const hooke_state *start,
                                    const hooke_options *run, const char *method, double predicted,
                                    double accuracy, double budget, hooke_progress *progress, void *ctx,

@@ -6,7 +6,7 @@
 
 #include <math.h>
 
-static const double SURE = 1e-3; /* accuracy of a limit that is taken for sure */
+static const double SURE = 1e-3; /* accuracy of a limit that counts as exact */
 
 int32_t hk_limit_predict(const hooke_system *system, const double *q, const char *method, double accuracy,
                          hooke_progress *progress, void *ctx, double *limit) {

@@ -1,4 +1,4 @@
-/* The largest stable step of one method on a system frozen at rest, as docs/notes/methods.md has it.
+/* The largest stable step of one method on a system linearised at rest, as in docs/notes/methods.md.
  *
  * M x'' + C x' + K x = 0 over the free particles: K = sum of kappa u u^T + max(0, T/r) (I - u u^T), C = sum
  * of gamma u u^T, plus drag; a spring that only pulls counts as taut, one of no length as stiff in all
@@ -8,22 +8,22 @@
 
 #include "measure/trial/patience.h"
 
-/* `limit` [s] of `method` at positions q (3n), to the relative `accuracy`: 0 where no step is stable,
- * infinity where nothing limits it, an upper estimate where only part of the spectrum can be had (rk4 and
- * forward-euler on large scenes). `progress` may be NULL. HOOKE_BAD_VALUE for an unknown method,
- * HOOKE_NOT_BUILT, HOOKE_NO_MEMORY, HOOKE_SOLVER_FAILED, HOOKE_STOPPED by the progress. */
+/* `limit` [s] of `method` at positions q (3n), to the relative `accuracy`: 0 if no step is stable, infinity
+ * if nothing limits it, an upper estimate if only part of the spectrum can be computed (rk4 and forward-euler
+ * on large scenes). `progress` may be NULL. HOOKE_BAD_VALUE for an unknown method, HOOKE_NOT_BUILT,
+ * HOOKE_NO_MEMORY, HOOKE_SOLVER_FAILED, HOOKE_STOPPED by the progress. */
 int32_t hk_limit_predict(const hooke_system *system, const double *q, const char *method, double accuracy,
                          hooke_progress *progress, void *ctx, double *limit);
 
-/* The same of a changed system, as long as there is patience, with `room` bytes for a basis (0: as many as
- * are usual); else HOOKE_STOPPED. `spring_scale` (one factor a spring, on kappa and gamma) and `mass_scale`
- * (n) may be NULL. */
+/* The same for a changed system, within the patience, with `room` bytes for a basis (0: the default);
+ * otherwise HOOKE_STOPPED. `spring_scale` (one factor a spring, on kappa and gamma) and `mass_scale` (n) may
+ * be NULL. */
 int32_t hk_limit_predict_within(const hooke_system *system, const double *q, const char *method,
                                 const double *spring_scale, const double *mass_scale, double accuracy,
                                 double room, struct hk_patience *patience, double *limit);
 
-/* Raises `limit`, which comes in as hooke_step_bound(), to a step [s] up to which the frozen system is stable
- * for certain by its extreme eigenvalues: the limit or close to it. Where they do not tell, and after patience
+/* Raises `limit`, initially hooke_step_bound(), to a step [s] at which the linearised system is certainly
+ * stable by its extreme eigenvalues: the limit or close to it. If these do not suffice, and after patience
  * has ended, it stays the bound. HOOKE_BAD_VALUE, HOOKE_NO_MEMORY. */
 int32_t hk_limit_sure(const hooke_system *system, const double *q, const char *method,
                       struct hk_patience *patience, double *limit);

@@ -1,4 +1,4 @@
-/* What it would buy to change the few springs or particles that determine a limit. */
+/* Gain of changing the few springs or particles that determine a limit. */
 #include "core/memory.h"
 #include "core/print.h"
 #include "core/utf8.h"
@@ -12,11 +12,11 @@
 #include <stdio.h>
 #include <string.h>
 
-/* A set has to have that share of the mode, and to be no more than that share of the scene. */
+/* A set needs that share of the mode, and must be at most that share of the scene. */
 static const double MOST_OF_THE_MODE = 0.9, SMALL = 0.1;
-/* What gets as good as nothing of a spring's stiffness, or of a particle's motion. */
+/* Threshold for a negligible share of a spring's stiffness, or of a particle's motion. */
 static const double NOTHING = 1e-6;
-/* Below that a set costs too little to be told of. */
+/* A set with a smaller cost is not mentioned. */
 static const double LEAST_COST = 1.1;
 static const double ACCURACY = 1e-3;
 
@@ -25,7 +25,7 @@ struct set {
   int springs;
   int64_t count, of;
   double share, stiffness_share; /* of the whole mode */
-  double odd;                    /* how far the first one is off the ordinary, as a factor */
+  double odd;                    /* deviation of the first one from the ordinary, as a factor */
 };
 
 static int is_small(int64_t count, int64_t of) {
@@ -50,7 +50,7 @@ static struct set particle_set(const hooke_system *system, const struct hk_blame
   return set;
 }
 
-/* ---- how far off the ordinary ---- */
+/* ---- deviation from the ordinary ---- */
 
 static double find_kappa(const hooke_system *system, int64_t number, double *mean_log) {
   double found = 0.0, sum = 0.0;
@@ -67,7 +67,7 @@ static double find_kappa(const hooke_system *system, int64_t number, double *mea
   return found;
 }
 
-/* Geometric means: a few odd ones hardly move them. */
+/* Geometric means: a few outliers hardly affect them. */
 static void find_oddness(const hooke_system *system, const struct hk_blame *blame, struct set *springs,
                          struct set *particles) {
   double mean, sum = 0.0;
@@ -78,9 +78,10 @@ static void find_oddness(const hooke_system *system, const struct hk_blame *blam
   particles->odd = sum / (double)particles->of - log(blame->particle[0].mass);
 }
 
-/* ---- what a change does ---- */
+/* ---- effect of a change ---- */
 
-/* The limit with the set changed by `factor`: stiffness and damping over it, or masses times it. */
+/* The limit with the set changed by `factor`: stiffness and damping divided by it, or masses multiplied by
+ * it. */
 static int32_t limit_with(const hooke_system *system, const double *q, const char *method,
                           const struct hk_blame *blame, const struct set *set, double factor, double *limit) {
   const int64_t size = set->springs ? system->springs.count : system->particle_count;
@@ -101,8 +102,8 @@ static int32_t limit_with(const hooke_system *system, const double *q, const cha
   return status;
 }
 
-/* By how much the mode as it is would be slower: the positive root g of g^2 k + g c = m, all over the
- * whole. */
+/* Factor by which the given mode would be slower: the positive root g of g^2 k + g c = m, all over the whole.
+ */
 static double perturbed(const struct hk_blame *blame, const struct set *set, double factor) {
   const double cut = set->springs ? 1.0 - 1.0 / factor : 0.0;
   const double k = blame->stiffness_share - cut * set->stiffness_share;
@@ -131,7 +132,7 @@ static void add(char *text, size_t size, const char *format, ...) {
   va_end(arguments);
 }
 
-/* Two digits, and no exponent up to a million: "3.5", "72", "5100". */
+/* Two digits, without exponent up to a million: "3.5", "72", "5100". */
 static const char *figure(double value, char text[24]) {
   const double unit = value >= 10.0 && value < 1e6 ? pow(10.0, floor(log10(value)) - 1.0) : 0.0;
   if (unit > 0.0)
@@ -141,7 +142,7 @@ static const char *figure(double value, char text[24]) {
   return text;
 }
 
-/* ", group `hem`" if all are of one that has a name; a single one by its number else. */
+/* ", group `hem`" if all are of one named group; a single one by its number otherwise. */
 static void add_place(const hooke_system *system, const struct hk_blame *blame, const struct set *set,
                       char *text, size_t size) {
   if (!set->springs) {
@@ -215,8 +216,8 @@ static void tell_groups(const hooke_system *system, const struct hk_blame *blame
 
 /* ---- drag and damping ---- */
 
-/* The limit without drag, or without any damping: then it is as many times Verlet's, which has none of it
- * either way. */
+/* The limit without drag, or without any damping, by its ratio to Verlet's, which has no damping in either
+ * case. */
 static int32_t limit_without(const hooke_system *system, const double *q, const char *method,
                              const struct hk_blame *blame, int32_t force, double *limit) {
   hooke_system without = *system;
@@ -248,9 +249,9 @@ static int32_t tell_force(const hooke_system *system, const double *q, const cha
   return HOOKE_OK;
 }
 
-/* ---- the whole ---- */
+/* ---- whole ---- */
 
-/* Fills in the remedy if changing the set buys anything; `kind` stays NULL if not. */
+/* Fills in the suggestion if changing the set gains anything; otherwise `kind` stays NULL. */
 static int32_t try_set(const hooke_system *system, const double *q, const char *method, double limit,
                        const struct hk_blame *blame, const struct set *set, struct hk_remedy *remedy) {
   double without, changed;
@@ -276,8 +277,8 @@ int32_t hk_remedy_find(const hooke_system *system, const double *q, const char *
   struct set first = spring_set(system, blame), second = particle_set(system, blame);
   const int springs = is_small(first.count, first.of), particles = is_small(second.count, second.of);
   if (springs && particles) find_oddness(system, blame, &first, &second);
-  /* one particle and all of its springs, or one spring and its two particles: the smaller set is the odd
-   * one */
+  /* one particle and all of its springs, or one spring and its two particles: the smaller set is the outlier
+   */
   if (particles &&
       (!springs || second.count < first.count || (second.count == first.count && second.odd > first.odd))) {
     const struct set other = first;

@@ -25,7 +25,7 @@ static int32_t find_row(struct hk_limit *limit, struct hk_spectrum *spectrum, do
   struct hk_prediction prediction = {.mode = mode};
   const int32_t status = hk_limit_rule(spectrum, row->method, &prediction);
   if (status != HOOKE_OK) return status;
-  /* a prediction to some digits may come out below the bound, which is certain */
+  /* a prediction of limited accuracy may come out below the bound, which is certain */
   row->predicted = prediction.never_stable ? 0.0 : fmax(prediction.limit, row->bound);
   row->exact = prediction.exact;
   row->never_stable = prediction.never_stable;

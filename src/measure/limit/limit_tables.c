@@ -13,7 +13,7 @@ struct limit_line {
   struct hk_series shape;
 };
 
-/* The step that the run names, for a method that takes it. */
+/* The step of the run, for a method that takes it. */
 static double own_step(const struct hk_limit *limit) {
   if (limit->run == NULL || !hooke_options_is_set(limit->run, "step")) return NAN;
   if (hooke_method_is_adaptive(hooke_options_text(limit->run, "method")) != 0) return NAN;
@@ -130,7 +130,7 @@ static const struct hk_table row_table = {
 
 /* ---- limiting springs ---- */
 
-/* 1 if a force has the first place. */
+/* 1 if a force comes first. */
 static int64_t blames_force(const struct hk_limit *limit) {
   return hk_blame_force(&limit->blame) >= 0;
 }

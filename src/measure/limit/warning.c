@@ -1,5 +1,4 @@
-/* Watching the step of a run against the safe bound, at a price that stays below a hundredth of the
- * stepping. */
+/* Compares the step of a run with the safe bound, at a cost below a hundredth of the stepping. */
 #include "core/clock.h"
 #include "core/memory.h"
 #include "core/print.h"
@@ -38,7 +37,7 @@ static int32_t tell(struct warner *warner, const hooke_integrator *it, const hoo
   const double h = it->schedule.step;
   const double limit = hk_step_bound_of(&warner->blocks, method);
   char where[HOOKE_NAMING_SIZE] = "", sentence[640];
-  if (isnan(limit)) return 0; /* a bound beyond all numbers says nothing */
+  if (isnan(limit)) return 0; /* an overflowed bound means nothing */
   const enum kind kind = limit == 0.0 ? NEVER_STABLE : h > limit ? ABOVE_LIMIT : NEAR_LIMIT;
   if (warner->told[kind]) return 0;
   warner->told[kind] = 1;

@@ -1,4 +1,4 @@
-/* What a scene needs: making one, and the table. */
+/* Needs: the object, the full system, and the table. */
 #include "measure/needs/needs.h"
 
 #include "core/memory.h"
@@ -13,8 +13,8 @@
 #include <stdio.h>
 #include <string.h>
 
-static const double LEAST_JUDGED = 0.05; /* of the duration: less says nothing of the run */
-static const double RESTS = 1e-3;        /* of the want: what moves by less says nothing of what moves it */
+static const double LEAST_JUDGED = 0.05; /* of the duration: less is not significant */
+static const double RESTS = 1e-3;        /* of the wanted error: a smaller motion shows nothing */
 
 static const struct hk_option_row needs_rows[] = {
     {.name = "want",
@@ -39,7 +39,7 @@ static const struct hk_option_row needs_rows[] = {
 
 static const struct hk_option_table needs_table = {"needs", HOOKE_OPTION_ROWS(needs_rows)};
 
-/* ---- making ---- */
+/* ---- creating ---- */
 
 static int32_t read_times(struct hk_needs *needs) {
   const int32_t status = hk_step_times(needs->run, &needs->duration, &needs->every);
@@ -134,13 +134,13 @@ static int32_t tell_pick(double done, const char *what, void *ctx) {
   return hk_needs_tell(ctx, done);
 }
 
-/* Without a method in the options of the run, the one that a study would take. */
+/* Without a method in the options of the run, chooses as a study would. */
 static int32_t pick_method(struct hk_needs *needs) {
   if (hooke_options_is_set(needs->run, "method")) return HOOKE_OK;
   needs->under_way = "picking a method";
   int32_t status = hk_estimate_pick_alone(needs->system, needs->run, HOOKE_NEEDS_STEP_SHARE * needs->want,
                                           tell_pick, needs);
-  if (status == HOOKE_NOT_BUILT) return HOOKE_OK; /* the default of the option, then */
+  if (status == HOOKE_NOT_BUILT) return HOOKE_OK; /* then the default of the option */
   needs->method_picked = status == HOOKE_OK;
   return status;
 }

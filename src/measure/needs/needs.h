@@ -1,4 +1,4 @@
-/* The object of a measurement of the kind "needs", and its pieces. */
+/* The object of a measurement of kind "needs", and its functions. */
 #ifndef HOOKE_MEASURE_NEEDS_NEEDS_H
 #define HOOKE_MEASURE_NEEDS_NEEDS_H
 
@@ -6,14 +6,14 @@
 #include "model/variant/variant.h"
 
 enum { HOOKE_NEEDS_NOTE = 320, HOOKE_NEEDS_NAME = 192 };
-#define HOOKE_NEEDS_STEP_SHARE 0.1 /* of the want: what a time step may put a run off by */
+#define HOOKE_NEEDS_STEP_SHARE 0.1 /* of the wanted error: allowed error of the time step */
 
-/* What a run takes, of one variant. NaN where it does not apply. */
+/* Cost of a run of one variant. NaN where it does not apply. */
 struct hk_needs_cost {
   double particles, springs, step_limit;
-  int64_t indexed; /* springs whose ends are looked up one by one */
+  int64_t indexed; /* springs whose ends are looked up individually */
   double step, rtol, atol, steps, force_evaluations, wall_seconds;
-  double step_error; /* how far the step may put it off [m] */
+  double step_error; /* error due to the step [m] */
 };
 
 /* Watched positions at every frame: count numbers a frame. */
@@ -29,7 +29,7 @@ struct hk_needs_row {
   struct hk_variant variant;
   double error; /* [m] */
   int32_t measured, needed, left_out;
-  int32_t untold; /* 1: nothing moves, so that it cannot be told; needed, too */
+  int32_t untold; /* 1: nothing moves, so needs are unknown; also sets `needed` */
   struct hk_needs_cost cost;
 };
 
@@ -44,16 +44,16 @@ struct hk_needs_part {
 struct hk_needs {
   const hooke_measurement *measurement;
   const hooke_system *system;
-  hooke_options *run, *options;       /* of the measurement; a method that is picked is set in `run` */
-  double want, duration, every, unit; /* unit: the largest step that frames allow [s] */
+  hooke_options *run, *options;       /* of the measurement; a picked method is set in `run` */
+  double want, duration, every, unit; /* unit: largest step that frames allow [s] */
   int32_t method_picked;
   int64_t watch_count, *watch; /* particles */
-  int64_t frame_count, judged; /* frames; those up to which differences of the step stay small */
+  int64_t frame_count, judged; /* frames; those up to which differences due to the step stay small */
 
   struct hk_needs_cost full;
   struct hk_needs_path path; /* of the full system */
-  double own_error;          /* how far `path` may be off itself [m] */
-  double moved;              /* by `path`, from where it begins [m] */
+  double own_error;          /* error of `path` itself [m] */
+  double moved;              /* largest distance from the start along `path` [m] */
   char note[HOOKE_NEEDS_NOTE];
   double *largest_force; /* of each spring over the frames of the full system [N] */
 
@@ -65,20 +65,20 @@ struct hk_needs {
   struct hk_variant_map lean_map;
   hooke_options *lean_run;
   struct hk_needs_cost lean_cost;
-  struct hk_needs_path lean_path; /* of the run that is recommended */
+  struct hk_needs_path lean_path; /* of the recommended run */
   double lean_error;
   char lean_note[HOOKE_NEEDS_NOTE];
-  struct hk_needs_cost cheapest; /* of the full system within the want, as of the lean one */
+  struct hk_needs_cost cheapest; /* of the full system within the wanted error, as of the lean one */
   double cheapest_error;
   const char
-      *other_method; /* by which the full system is cheaper than by its own; NULL: none is seen to be */
+      *other_method; /* a method by which the full system is cheaper than by its own; NULL: none found */
   double other_seconds;
 
   int64_t part_count;
   struct hk_needs_part *part;
 
   const char *under_way;
-  int64_t pieces, pieces_done, runs; /* measurements expected and done; runs made */
+  int64_t pieces, pieces_done, runs; /* measurements expected and done; number of runs */
   double told;
 };
 
@@ -89,9 +89,9 @@ int32_t hk_needs_read_watch(struct hk_needs *needs);
 
 /* ---- needs_ingredients.c ---- */
 
-/* A row for every ingredient that the system has. */
+/* Adds a row for every ingredient of the system. */
 int32_t hk_needs_list(struct hk_needs *needs);
-/* Puts into an idle row the springs whose force never passes `force` [N]; returns how many. */
+/* Selects for an idle row the springs whose force never exceeds `force` [N]; returns their number. */
 int64_t hk_needs_mark_idle(const struct hk_needs *needs, double force, struct hk_needs_row *row);
 
 /* ---- needs_run.c, needs_step.c ---- */
@@ -101,35 +101,34 @@ void hk_needs_path_release(struct hk_needs_path *path);
 /* Maximum over frames of the root mean square distance of the watched particles [m]. */
 double hk_needs_distance(const struct hk_needs *needs, const struct hk_needs_path *a,
                          const struct hk_needs_path *b);
-/* The same, from where they are at the first frame. */
+/* The same distance, from the positions at the first frame. */
 double hk_needs_moved(const struct hk_needs *needs, const struct hk_needs_path *path);
-/* Frames up to which the same stays within `bound`. */
+/* Number of frames up to which this distance stays within `bound`. */
 int64_t hk_needs_agreed(const struct hk_needs *needs, const struct hk_needs_path *a,
                         const struct hk_needs_path *b, double bound);
 
-/* One variant to run: its system, and the map into it (NULL: the full system, whose forces are noted as
+/* A variant to run: its system, and the map into it (NULL: the full system, whose forces are recorded as
  * well). */
 struct hk_needs_trial {
   const hooke_system *system;
   const struct hk_variant_map *map;
 };
-/* Finds the largest step, or tolerance, that a tenth of `want` allows, and what a run then takes; `fine` is
- * the path of the run with half the step, which for the full system may be off by `own_error`. Where
- * differences grow so fast that no step is small enough, step_error is that of the best; the full system then
- * says how many frames are judged. It is NaN, and there is no path, if no run came to its end. HOOKE_STOPPED,
- * HOOKE_NO_MEMORY and the like come out. */
+/* Finds the largest step, or tolerance, whose error is at most a tenth of `want`, and the cost of that run;
+ * `fine` is the path of the run with half the step, which for the full system may have an error of
+ * `own_error`. If differences grow so fast that no step is small enough, step_error is that of the best; the
+ * full system then determines how many frames are judged. It is NaN, and there is no path, if no run
+ * finished. Returns HOOKE_STOPPED, HOOKE_NO_MEMORY and the like. */
 int32_t hk_needs_measure(struct hk_needs *needs, const struct hk_needs_trial *trial,
                          struct hk_needs_cost *cost, struct hk_needs_path *fine);
 /* Finds the largest step, or tolerance, with which a variant is within `want` of the full system, all errors
- * together, that of the path of the full system included: the run to recommend. `error` is NaN, and there is
- * no path, if none is not much smaller than that of the full system. */
+ * together, including that of the path of the full system: the recommended run. `error` is NaN, and there is
+ * no path, if every such step is much smaller than that of the full system. */
 int32_t hk_needs_fit(struct hk_needs *needs, const struct hk_needs_trial *trial, struct hk_needs_cost *cost,
                      struct hk_needs_path *path, double *error);
-/* The wall time of the full system's cheapest run within the want by a method; NaN where it takes more than
- * `most` [s], or the method does not suit it. */
+/* Wall time of the full system's cheapest run within the wanted error by a method; NaN if it exceeds `most`
+ * [s], or the method does not suit it. */
 int32_t hk_needs_try_method(struct hk_needs *needs, const char *method, double most, double *wall_seconds);
-/* The wall times of two runs that came to their end, taken in turns so that both see the same machine: the
- * least of each. */
+/* Minimum wall times of two runs that finished, repeated in turns so that both see the same machine. */
 int32_t hk_needs_time_in_turns(struct hk_needs *needs, const struct hk_needs_trial trial[2],
                                struct hk_needs_cost *const cost[2]);
 /* Sets the step or tolerances of a cost in options of a run. */
@@ -139,19 +138,19 @@ int32_t hk_needs_set_step(const struct hk_needs_cost *cost, hooke_options *run);
 
 /* Runs the full system unless that was done. */
 int32_t hk_needs_run_full(struct hk_needs *needs);
-/* 1 if it moves by so little that nothing can be told from it. */
+/* 1 if the motion is too small to show anything. */
 int32_t hk_needs_rests(const struct hk_needs *needs);
 /* Runs one variant: its cost and its error against the full system; NaN with a note if it has none. */
 int32_t hk_needs_run_row(struct hk_needs *needs, struct hk_needs_row *row);
 int32_t hk_needs_run_rows(struct hk_needs *needs);
-/* Rows that were run; the others wait behind them. */
+/* Number of finished rows; the others are queued behind them. */
 int64_t hk_needs_known_rows(const struct hk_needs *needs);
-/* The table of ingredients, then the lean system; or the resolution of every part. A failure leaves nothing of
- * either. */
+/* Computes the table of ingredients, then the lean system; or the resolution of every part. A failure leaves
+ * no results. */
 int32_t hk_needs_find(struct hk_needs *needs);
 int32_t hk_needs_refine(struct hk_needs *needs);
 
-/* Tells the share of one measurement; anything but 0 asks to stop. */
+/* Reports the progress of one measurement; a non-zero result asks to stop. */
 int32_t hk_needs_tell(struct hk_needs *needs, double share);
 
 /* ---- needs_tables.c ---- */

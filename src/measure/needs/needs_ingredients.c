@@ -1,4 +1,4 @@
-/* What a scene is made of, as rows of what may be left out. */
+/* The ingredients of a scene, as rows that may be left out. */
 #include "measure/needs/needs.h"
 
 #include "core/memory.h"
@@ -34,7 +34,7 @@ static int32_t add_row(struct hk_needs *needs, const char *kind, struct hk_needs
   return HOOKE_OK;
 }
 
-/* A group may be called as another ingredient is. */
+/* A group may have the name of another ingredient. */
 static int32_t is_taken(const char *name) {
   static const char *const taken[] = {"damping", "drag", "gravity", "callback"};
   for (size_t k = 0; k < sizeof taken / sizeof taken[0]; k++) {

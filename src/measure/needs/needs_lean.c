@@ -1,4 +1,4 @@
-/* Leaving out together what is not needed. */
+/* Leaves out together the ingredients that are not needed. */
 #include "measure/needs/needs.h"
 
 #include "core/memory.h"
@@ -9,17 +9,16 @@
 #include <stdio.h>
 #include <string.h>
 
-static const double CLEARLY_LESS = 0.8; /* of a time: more may be noise */
-static const double WORTH_SPLITTING =
-    0.5; /* of the work, which is left if a part is written spring by spring */
+static const double CLEARLY_LESS = 0.8;    /* of a time: a larger difference may be noise */
+static const double WORTH_SPLITTING = 0.5; /* of the work, left over if a part is written spring by spring */
 
-/* What a run of a lean system found. */
+/* Result of a run of a lean system. */
 struct candidate {
   struct hk_variant variant;
   hooke_system *system;
   struct hk_variant_map map;
   struct hk_needs_cost cost;
-  struct hk_needs_path path; /* of the run that is recommended */
+  struct hk_needs_path path; /* of the recommended run */
   double error;
 };
 
@@ -31,11 +30,11 @@ static void release(struct candidate *candidate) {
   memset(candidate, 0, sizeof *candidate);
 }
 
-/* The run to recommend of it; NaN where it has none. */
+/* Its recommended run; NaN if it has none. */
 static int32_t try_variant(struct hk_needs *needs, struct candidate *candidate) {
   candidate->error = NAN;
   int32_t status = hk_variant_make(needs->system, &candidate->variant, &candidate->system, &candidate->map);
-  if (status == HOOKE_BAD_VALUE || status == HOOKE_UNSUITED) return HOOKE_OK; /* these do not go together */
+  if (status == HOOKE_BAD_VALUE || status == HOOKE_UNSUITED) return HOOKE_OK; /* mutually exclusive */
   if (status != HOOKE_OK) return status;
   const struct hk_needs_trial trial = {candidate->system, &candidate->map};
   return hk_needs_fit(needs, &trial, &candidate->cost, &candidate->path, &candidate->error);
@@ -58,13 +57,13 @@ static int32_t take(struct hk_needs *needs, struct candidate *candidate) {
   return status == HOOKE_OK ? hk_needs_set_step(&needs->lean_cost, needs->lean_run) : status;
 }
 
-/* In evaluations of springs and particles: unlike time, the same whenever it is counted. */
+/* In evaluations of springs and particles: unlike time, this is reproducible. */
 static double work(const struct hk_needs_cost *cost) {
   return cost->force_evaluations * (cost->springs + cost->particles);
 }
 
-/* 0 for what makes no run cheaper: springs that only pull cost a comparison more, and lone springs that are
- * left out break up runs of others, whose ends are then looked up. */
+/* 0 if leaving it out makes no run cheaper: springs that only pull cost one more comparison, and single
+ * springs that are left out break up runs of others, whose ends are then looked up. */
 static int32_t may_save(const struct hk_needs *needs, const struct hk_needs_row *row) {
   if (strcmp(row->kind, "compression") == 0) return 0;
   return strcmp(row->kind, "idle") != 0 || row->cost.indexed <= needs->full.indexed;
@@ -74,7 +73,7 @@ static int32_t is_split(const struct hk_needs *needs, const struct hk_variant *v
   return hk_variant_next_split(needs->system, variant, 0) >= 0;
 }
 
-/* What a part has no words for comes last: the part may have lost more by then. */
+/* Variants that the options of a part cannot express come last: the part may have lost more by then. */
 static int32_t comes_before(const struct hk_needs *needs, const struct hk_needs_row *a,
                             const struct hk_needs_row *b) {
   const int32_t split = is_split(needs, &a->variant);
@@ -130,7 +129,7 @@ static int32_t begin_with_everything(struct hk_needs *needs) {
   return status;
 }
 
-/* What went with another row is not told twice. */
+/* Skips rows that another row already covers. */
 static void tidy_up(struct hk_needs *needs) {
   for (int64_t k = 0; k < needs->row_count; k++) {
     struct hk_needs_row *row = &needs->row[k];
@@ -141,7 +140,7 @@ static void tidy_up(struct hk_needs *needs) {
   }
 }
 
-/* Why a row that is not needed stays in the lean system, where it has nothing else to say. */
+/* Reason why a row that is not needed stays in the lean system, if it has no other note. */
 static void say_why_it_stays(const struct hk_needs *needs, struct hk_needs_row *row) {
   if (row->needed || row->left_out || row->note[0]) return;
   if (hk_variant_covers(needs->system, &needs->lean_variant, &row->variant)) return;
@@ -151,7 +150,7 @@ static void say_why_it_stays(const struct hk_needs *needs, struct hk_needs_row *
                                             : "saves no work, or not together with the rest");
 }
 
-/* Groups of parts that the lean scene cannot say as a part. */
+/* Groups of parts that the lean scene cannot express as a part. */
 static void note_splits(struct hk_needs *needs) {
   const hooke_system *system = needs->system;
   char names[HOOKE_NEEDS_NAME] = "";
@@ -167,7 +166,7 @@ static void note_splits(struct hk_needs *needs) {
   hk_utf8_make_plain(needs->lean_note);
 }
 
-/* Once more, in turns, so that the two times may be compared. */
+/* Repeats both runs in turns, so that their times are comparable. */
 static int32_t compare_times(struct hk_needs *needs) {
   const struct hk_needs_trial trial[2] = {{needs->system, NULL}, {needs->lean, &needs->lean_map}};
   struct hk_needs_cost *const cost[2] = {&needs->cheapest, &needs->lean_cost};
@@ -179,7 +178,7 @@ static int32_t is_to_try(const struct hk_needs *needs, const char *method) {
          !hk_method_find(method)->reference;
 }
 
-/* So that what another method would save is not put down to what was left out. */
+/* So that savings by another method are not attributed to the omissions. */
 static int32_t find_other_method(struct hk_needs *needs) {
   double most = CLEARLY_LESS * needs->cheapest.wall_seconds;
   int32_t status = HOOKE_OK;
@@ -224,7 +223,7 @@ static int32_t find_lean(struct hk_needs *needs) {
   return status;
 }
 
-/* As it was before the table was begun. */
+/* As before the table was begun. */
 static void forget(struct hk_needs *needs) {
   for (int64_t k = 0; k < needs->row_count; k++)
     hk_variant_release(&needs->row[k].variant);

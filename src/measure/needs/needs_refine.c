@@ -1,4 +1,4 @@
-/* The reverse question: what resolution a want asks for. */
+/* The reverse: the resolution that a wanted error requires. */
 #include "measure/needs/needs.h"
 
 #include "core/memory.h"
@@ -9,9 +9,8 @@
 #include <stdio.h>
 #include <string.h>
 
-static const double LOWEST_ORDER = 0.25, HIGHEST_ORDER = 4.5; /* that a change can be extrapolated by */
-static const double RESOLVED =
-    2.0; /* a change below this many errors of the step says nothing of the resolution */
+static const double LOWEST_ORDER = 0.25, HIGHEST_ORDER = 4.5; /* order range for extrapolating a change */
+static const double RESOLVED = 2.0; /* a change below this many errors of the step is not significant */
 
 /* The path of the system with one part at `scale`. */
 static int32_t run_at(struct hk_needs *needs, int64_t part, double scale, struct hk_needs_path *path,
@@ -39,7 +38,7 @@ static int32_t run_at(struct hk_needs *needs, int64_t part, double scale, struct
   return status;
 }
 
-/* Richardson (1911): with a change d between N and 2N of order p, what is left at N is d 2^p / (2^p - 1). */
+/* Richardson (1911): with a change d between N and 2N of order p, the remainder at N is d 2^p / (2^p - 1). */
 static void extrapolate(const struct hk_needs *needs, double step_error, struct hk_needs_part *part) {
   if (part->change <= RESOLVED * step_error || part->change_fine <= RESOLVED * step_error) {
     hk_print(part->note, sizeof part->note,
@@ -75,7 +74,7 @@ static int32_t refine_part(struct hk_needs *needs, int64_t k, struct hk_needs_pa
   needs->pieces_done++;
   if (status == HOOKE_OK && four.position) {
     part->change_fine = hk_needs_distance(needs, &twice, &four);
-    /* the paths are those of half the step, which is off by half of what the step is */
+    /* the paths are those of half the step, with half its error */
     const double largest = fmax(needs->full.step_error, fmax(cost_twice.step_error, cost_four.step_error));
     extrapolate(needs, 0.5 * largest, part);
   }

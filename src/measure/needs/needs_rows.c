@@ -8,18 +8,18 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Shares of the largest force in the scene below which springs may be idle, the boldest first. */
+/* Fractions of the largest force in the scene below which springs may be idle, the largest first. */
 static const double idle_shares[] = {1e-2, 1e-3, 1e-4, 1e-6};
 enum { IDLE_SHARES = sizeof idle_shares / sizeof idle_shares[0] };
 
-/* A failure that is about this variant alone becomes a note. */
+/* A failure that concerns this variant alone becomes a note. */
 static int32_t note_failure(struct hk_needs_row *row, int32_t status) {
   if (status != HOOKE_BAD_VALUE && status != HOOKE_UNSUITED) return status;
   snprintf(row->note, sizeof row->note, "%s", hooke_last_error());
   return HOOKE_OK;
 }
 
-/* What the step may put it off by beyond its share counts against it. */
+/* The error of the step beyond its share counts against it. */
 static void judge(const struct hk_needs *needs, const struct hk_needs_path *path, struct hk_needs_row *row) {
   const double beyond = fmax(0.0, row->cost.step_error - HOOKE_NEEDS_STEP_SHARE * needs->want);
   row->error = hk_needs_distance(needs, &needs->path, path);
@@ -51,7 +51,7 @@ int32_t hk_needs_run_row(struct hk_needs *needs, struct hk_needs_row *row) {
   return status;
 }
 
-/* 1 if the springs are those of one group, which has a row of its own, or all there are. */
+/* 1 if the springs are those of one group, which has a row of its own, or all springs. */
 static int32_t is_known(const struct hk_needs *needs, const struct hk_needs_row *row, int64_t count) {
   const hooke_system *system = needs->system;
   int64_t first = 0;
@@ -69,7 +69,7 @@ static void name_idle(struct hk_needs_row *row, double force, int64_t count) {
            count == 1 ? "spring that never passes" : "springs that never pass", force);
 }
 
-/* The boldest threshold that the want allows; without springs for any, the row goes. */
+/* The largest threshold that the want allows; the row is removed if none has springs. */
 static int32_t run_idle(struct hk_needs *needs, struct hk_needs_row *row) {
   double most = 0.0;
   int64_t tried = 0;

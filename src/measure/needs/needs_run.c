@@ -1,4 +1,4 @@
-/* One run of a variant: where the watched particles are at every frame, and what it takes. */
+/* One run of a variant: the watched positions at every frame, and the cost. */
 #include "measure/needs/needs_run.h"
 
 #include "core/clock.h"
@@ -10,7 +10,7 @@
 #include <string.h>
 
 enum { TURNS = 20 };
-static const double TURNS_TAKE = 0.2; /* [s]: so long two runs are repeated in turns */
+static const double TURNS_TAKE = 0.2; /* [s]: time for repeating two runs in turns */
 
 int32_t hk_needs_path_create(const struct hk_needs *needs, struct hk_needs_path *path) {
   path->recorded = 0;
@@ -23,7 +23,7 @@ void hk_needs_path_release(struct hk_needs_path *path) {
   memset(path, 0, sizeof *path);
 }
 
-/* Of the watched positions at two frames. */
+/* Root mean square distance of the watched positions at two frames. */
 static double distance_of(const struct hk_needs *needs, const double *a, const double *b) {
   double sum = 0.0;
   for (int64_t k = 0; k < 3 * needs->watch_count; k++)

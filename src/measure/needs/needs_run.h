@@ -1,4 +1,4 @@
-/* Between the files that run variants. */
+/* Internal interface of the files that run variants. */
 #ifndef HOOKE_MEASURE_NEEDS_NEEDS_RUN_H
 #define HOOKE_MEASURE_NEEDS_NEEDS_RUN_H
 
@@ -7,15 +7,15 @@
 struct hk_needs_recorder {
   struct hk_needs *needs;
   const struct hk_needs_trial *trial;
-  struct hk_needs_path *path; /* NULL: only the time is wanted */
+  struct hk_needs_path *path; /* NULL: only the time is needed */
   double last_step;
-  double share_begun, share; /* of the measurement: before this run, and of it */
-  double deadline;           /* hk_clock_seconds() at which a run is given up; 0: none */
-  int32_t expired;           /* 1: it was */
+  double share_begun, share; /* of the measurement: before this run, and for it */
+  double deadline;           /* hk_clock_seconds() at which a run is abandoned; 0: none */
+  int32_t expired;           /* 1: it was abandoned */
 };
 
-/* Runs once. `finished`: 0 if it diverged or its solver failed, which is a result here. HOOKE_STOPPED and
- * other failures come out. */
+/* Runs once. `finished`: 0 if it diverged or its solver failed, which is a result here. Returns HOOKE_STOPPED
+ * and other failures. */
 int32_t hk_needs_run_once(struct hk_needs_recorder *recorder, const hooke_options *options, int32_t *finished,
                           struct hk_needs_cost *cost);
 

@@ -1,4 +1,4 @@
-/* Finding the step with which a variant is off by a tenth of the want at most. */
+/* Finds the step with which a variant has an error of at most a tenth of the wanted one. */
 #include "measure/needs/needs_run.h"
 
 #include "core/clock.h"
@@ -8,24 +8,22 @@
 
 #include <math.h>
 
-static const double BELOW_LIMIT = 0.9; /* where the search begins */
+static const double BELOW_LIMIT = 0.9; /* start of the search */
 static const double DIFFERENCE_FACTOR =
-    2.0; /* error of a step over the change when it is halved, at order 1 or more */
+    2.0; /* error of a step over its change when halved, at order 1 or more */
 static const double FINE_FACTOR =
-    1.25; /* error of the finer of two runs over their change: 1 at order 1, and room for what is beyond it */
-static const double FINEST = 16384.0; /* the smallest step that is tried, below the first stable one */
+    1.25; /* error of the finer of two runs over their change: 1 at order 1, with a margin for higher terms */
+static const double FINEST = 16384.0; /* smallest step that is tried, below the first stable one */
 static const double COARSEST_RTOL = 1e-3, FINEST_RTOL = 1e-13;
-static const double LEAST_GAIN =
-    1.12; /* factor on the time that can be followed, by a finer step worth its time */
-static const double WELL_BEGUN =
-    0.25; /* of the duration: beyond it one step without gain is enough to know */
+static const double LEAST_GAIN = 1.12; /* factor on the predictable time that makes a finer step worthwhile */
+static const double WELL_BEGUN = 0.25; /* of the duration: beyond it one step without gain is enough */
 static const double LEAST_SHARE = 0.1, COARSE = 256.0; /* of the duration; below the first stable step */
-static const double CERTAIN = 0.1; /* of a change, by the step, that leaves no doubt of it */
-static const double MARGIN = 4.0;  /* of the step's error, where only a part of the run can be judged */
+static const double CERTAIN = 0.1;                     /* of a change, by the step: leaves no doubt of it */
+static const double MARGIN = 4.0; /* of the step's error, if only a part of the run can be judged */
 enum { REPEATS = 20, HALVINGS = 3 };
 static const double TRIES = 4.0,
-                    AT_LEAST = 0.01; /* times what a run may take, and [s]: for all runs of another method */
-static const double SHORT = 0.02;    /* [s]: runs are repeated that long for their time */
+                    AT_LEAST = 0.01; /* limits on all runs of another method: times one run, and [s] */
+static const double SHORT = 0.02;    /* [s]: time for repeating runs */
 
 /* Steps are unit / value, tolerances 10^-value. */
 struct search {
@@ -35,8 +33,8 @@ struct search {
   double ratio; /* atol / rtol */
   double value; /* of the coarser of two runs */
   double first_stable;
-  int32_t has_limit; /* 0: nothing is known of a stable step, as in a build without LAPACK */
-  double error;      /* of the last pair; how far it agreed; how often in a row that did not improve */
+  int32_t has_limit; /* 0: no stable step is known, such as in a build without LAPACK */
+  double error;      /* of the last pair; number of agreeing frames; successive pairs without improvement */
   int64_t frames;
   int32_t stalls;
   struct hk_needs_path path[2];
@@ -55,7 +53,7 @@ static double finer(const struct search *search, double value) {
   return search->adaptive ? value + 1.0 : 2.0 * value;
 }
 
-/* Variants are run as far as they are judged; how long a whole run takes is found at the end. */
+/* Variants are run as far as they are judged; the time of a whole run is measured at the end. */
 static int32_t is_shortened(const struct search *search) {
   const struct hk_needs *needs = search->recorder.needs;
   return search->recorder.trial->map != NULL && needs->judged < needs->frame_count;
@@ -78,7 +76,7 @@ static int32_t is_exhausted(const struct search *search) {
   return search->value > FINEST * search->first_stable;
 }
 
-/* Frames up to which the two runs stay within `bound` of each other. */
+/* Number of frames up to which the two runs stay within `bound` of each other. */
 static int64_t agreed(const struct search *search, double bound) {
   return hk_needs_agreed(search->recorder.needs, &search->path[0], &search->path[1],
                          bound / DIFFERENCE_FACTOR);
@@ -95,7 +93,7 @@ static int32_t has_finished(const struct search *search) {
   return search->finished[0] && search->finished[1];
 }
 
-/* 1 while steps may be so coarse that the whole motion is wrong, and halving them still shows nothing. */
+/* 1 while steps may be so coarse that the whole motion is wrong and halving them shows no difference. */
 static int32_t may_be_too_coarse(const struct search *search, int64_t frames) {
   if (search->has_limit && (double)frames >= LEAST_SHARE * (double)search->recorder.needs->frame_count)
     return 0;
@@ -123,7 +121,7 @@ static void swap_runs(struct search *search) {
   search->cost[1] = cost;
 }
 
-/* 1 if a variant is off by more than the want, whatever the step does, and known to a tenth or with a step as
+/* 1 if the error of a variant exceeds the wanted one for any step, and is known to a tenth or with a step as
  * small as that of the full system. */
 static int32_t is_needed_for_certain(const struct search *search, double error) {
   const struct hk_needs *needs = search->recorder.needs;
@@ -133,8 +131,7 @@ static int32_t is_needed_for_certain(const struct search *search, double error) 
   return error <= CERTAIN * distance || !is_coarser_than_full(search);
 }
 
-/* Leaves the run that is good enough, or the best that can be had, in place 0 and the finer one in place
- * 1. */
+/* Leaves the run that is good enough, or the best one, at index 0 and the finer one at index 1. */
 static int32_t find_step(struct search *search) {
   const struct hk_needs *needs = search->recorder.needs;
   const double bound = HOOKE_NEEDS_STEP_SHARE * needs->want;
@@ -162,7 +159,7 @@ static int32_t tell_limit(double done, const char *what, void *needs) {
   return hk_needs_tell(needs, done);
 }
 
-/* Whoever stops it here stops the run after it. */
+/* A callback that stops here stops the run after it, too. */
 static double step_limit(struct hk_needs *needs, const hooke_system *system) {
   const char *method = hooke_options_text(needs->run, "method");
   hooke_state *state = NULL;
@@ -189,13 +186,13 @@ static void begin_search(struct search *search, double limit) {
     return;
   }
   double start = BELOW_LIMIT * limit;
-  if (limit == 0.0) start = unit / 64.0; /* stable at no step: a run is short enough or not */
+  if (limit == 0.0) start = unit / 64.0; /* no step is stable: a run is short enough or not */
   search->value = start < unit ? ceil(unit / start) : 1.0;
   search->first_stable = search->value;
 }
 
-/* The time of a whole run: the least of some, where it is too short for one clock reading. `finished` is 0 if
- * it does not come to its end, beyond what was judged. */
+/* Time of a whole run: the minimum of several if it is too short for one clock reading. `finished` is 0 if it
+ * does not finish, beyond the judged frames. */
 static int32_t find_time(struct search *search, struct hk_needs_cost *cost, int32_t *finished) {
   const struct hk_needs *needs = search->recorder.needs;
   double spent = is_shortened(search) ? 0.0 : cost->wall_seconds;
@@ -218,8 +215,8 @@ static void hand_over(struct hk_needs_path *from, struct hk_needs_path *to) {
   from->position = NULL;
 }
 
-/* The full system is judged, and all others against it, up to where the best step can be trusted with a
- * margin: variants grow differences about as fast. Up to there a larger step may do. */
+/* The full system, and all variants against it, are judged up to where the best step can be trusted, with a
+ * margin: differences of variants grow about as fast. Up to there a larger step may suffice. */
 static int32_t judge_full(struct search *search, double limit, struct hk_needs_path *fine) {
   struct hk_needs *needs = search->recorder.needs;
   const double bound = HOOKE_NEEDS_STEP_SHARE * needs->want;
@@ -284,7 +281,7 @@ int32_t hk_needs_measure(struct hk_needs *needs, const struct hk_needs_trial *tr
   return status;
 }
 
-/* ---- within the want, all errors together ---- */
+/* ---- within the wanted error, all errors together ---- */
 
 static double error_of(const struct search *search, int32_t which) {
   const struct hk_needs *needs = search->recorder.needs;
@@ -292,8 +289,7 @@ static double error_of(const struct search *search, int32_t which) {
   return hk_needs_distance(needs, &needs->path, &search->path[which]) + needs->own_error;
 }
 
-/* Towards `failed`, which is too coarse: halves the interval, and keeps the coarsest that will do in place
- * 0. */
+/* Bisects towards `failed`, which is too coarse, and keeps the coarsest sufficient run at index 0. */
 static int32_t coarsen(struct search *search, double failed, double *error) {
   int32_t status = HOOKE_OK;
   for (int k = 0; k < HALVINGS && status == HOOKE_OK; k++) {
@@ -313,7 +309,7 @@ static int32_t coarsen(struct search *search, double failed, double *error) {
   return status;
 }
 
-/* Leaves it in place 0; `error` is NaN, or above the want, where there is none. */
+/* Leaves it at index 0; `error` is NaN, or above the want, if there is none. */
 static int32_t find_coarsest(struct search *search, double *error) {
   const double want = search->recorder.needs->want;
   double failed = NAN;
@@ -355,7 +351,7 @@ static int32_t start_with(struct search *search, const char *method, double limi
   return status;
 }
 
-/* Cheap, as it is for a run that may never be made. */
+/* Kept cheap, since the run may never be made. */
 static double safe_step(const hooke_system *system, const char *method) {
   hooke_state *state = NULL;
   double bound = NAN;
@@ -365,7 +361,7 @@ static double safe_step(const hooke_system *system, const char *method) {
   return bound;
 }
 
-/* As find_coarsest(), but no further than to runs that take longer than `most` [s]. */
+/* Like find_coarsest(), but limited to runs of at most `most` [s]. */
 static int32_t find_quick(struct search *search, double most, double *error) {
   search->recorder.deadline = hk_clock_seconds() + TRIES * most + AT_LEAST;
   for (;;) {

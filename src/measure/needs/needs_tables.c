@@ -1,4 +1,4 @@
-/* The tables of what a scene needs, and its lean system. */
+/* The tables of needs and the lean system. */
 #include "measure/needs/needs.h"
 
 #include "core/status.h"
@@ -8,7 +8,7 @@
 
 /* ---- costs ---- */
 
-/* Begins the line of every table whose rows are runs. */
+/* Starts the line of every table whose rows are runs. */
 struct cost_line {
   struct hk_needs_cost cost;
   double unlimited;
@@ -34,7 +34,7 @@ static struct cost_line cost_line(const struct hk_needs_cost *cost, int32_t know
       COST(steps, COUNT, "", "steps taken"),                                                                 \
       COST(step_error, NUMBER, "m", "how far the step or the tolerance may put the run off")
 
-/* ---- the whole ---- */
+/* ---- the record ---- */
 
 struct needs_line {
   double want;

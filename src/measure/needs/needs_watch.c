@@ -1,4 +1,4 @@
-/* Which particles are watched. */
+/* The watched particles. */
 #include "measure/needs/needs.h"
 
 #include "core/memory.h"

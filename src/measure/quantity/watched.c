@@ -1,4 +1,4 @@
-/* The grammar of what is watched. */
+/* The grammar of watched quantities. */
 #include "measure/quantity/watched.h"
 
 #include "core/memory.h"
@@ -12,7 +12,7 @@
 
 enum { NAMES_SIZE = 256, TEXT_SIZE = 512 };
 
-/* What is being read: for messages the option and the text as it was written. */
+/* Parser state: for messages the option and the original text. */
 struct reading {
   const hooke_system *system;
   const char *place, *whole;
@@ -31,7 +31,7 @@ static const char *group_name(const hooke_system *system, int64_t group) {
 
 typedef const char *name_of(const hooke_system *system, int64_t number);
 
-/* Adds the names to a text, each once, as far as there is room. */
+/* Appends the names to a text, each once, as far as there is space. */
 static void list_names(const hooke_system *system, name_of *name, char text[NAMES_SIZE]) {
   for (int64_t k = 0; name(system, k); k++) {
     const size_t used = strlen(text), length = strlen(name(system, k));
@@ -49,7 +49,7 @@ static void list_names(const hooke_system *system, name_of *name, char text[NAME
 
 /* ---- numbers ---- */
 
-/* The number that `text` begins with, and where it ends; -1 for none, or one past 64 bits. */
+/* The number that `text` begins with, and its end; -1 for none, or one past 64 bits. */
 static int64_t read_number(const char *text, const char **end) {
   int64_t number = 0;
   const char *at = text;
@@ -61,7 +61,7 @@ static int64_t read_number(const char *text, const char **end) {
   return at > text ? number : -1;
 }
 
-/* The index of "name:index", and the text cut behind the name; -1 if there is none. */
+/* The index of "name:index", with the text truncated after the name; -1 if there is none. */
 static int64_t cut_index(char *text) {
   char *colon = strrchr(text, ':');
   const char *end;
@@ -127,7 +127,7 @@ static int32_t read_particle(const struct reading *reading, char *text, struct h
   return refuse_name(reading, "part", part_name);
 }
 
-/* A group has no spring of an index that anybody knows if some of its springs do nothing: they are gone. */
+/* Refuses groups with dropped springs: their indices are not those that the user knows. */
 static int32_t refuse_gaps(const struct reading *reading, const struct hk_group *group) {
   char shown[HOOKE_OPTION_SHOWN];
   hk_option_show(reading->whole, (int64_t)strlen(reading->whole), shown);
@@ -162,7 +162,7 @@ static int32_t read_spring(const struct reading *reading, char *text, struct hk_
                  (long long)asked);
 }
 
-/* The words that stand alone. */
+/* The words without an index. */
 static int find_word(const char *text, enum hk_watched_kind *kind) {
   static const char *const words[] = {"energy", "kinetic", "potential"};
   for (int k = 0; k < 3; k++) {
@@ -173,7 +173,7 @@ static int find_word(const char *text, enum hk_watched_kind *kind) {
   return 0;
 }
 
-/* `text` is cut to pieces. */
+/* `text` is modified. */
 static int32_t read_quantity(const struct reading *reading, char *text, struct hk_watched *watched) {
   static const char *const of_spring[] = {"length", "strain", "tension"};
   static const char period[] = "period:";
@@ -256,9 +256,9 @@ void hk_watched_release(struct hk_watched_list *list) {
   memset(list, 0, sizeof *list);
 }
 
-/* ---- particles alone ---- */
+/* ---- particles only ---- */
 
-/* The numbers of "0,7-9" as marks; -1 for what is no such list. */
+/* Marks the numbers of "0,7-9"; -1 if it is no such list. */
 static int mark_numbers(const char *text, int64_t count, uint8_t *mark) {
   while (*text) {
     const int64_t first = read_number(text, &text);

@@ -1,4 +1,4 @@
-/* Watched quantities: what one looks at in a motion, said in words.
+/* Watched quantities: observables of a motion, given as text.
  *
  *     57.x  57.y  57.z                           a coordinate of a particle [m]
  *     line:0.y                                   the same, of a particle of a part
@@ -6,8 +6,8 @@
  *     energy  kinetic  potential                 of everything that is free [J]
  *     period:57.y                                the mean time between passages upwards of any of these [s]
  *
- * Indices begin at 0. Several are separated by commas. watched.c reads all of it, and what `needs` watches: a
- * part, a group, or particle numbers such as 0,7-9. */
+ * Indices begin at 0. Several are separated by commas. watched.c also reads the selection of `needs`: a part,
+ * a group, or particle numbers such as 0,7-9. */
 #ifndef HOOKE_MEASURE_QUANTITY_WATCHED_H
 #define HOOKE_MEASURE_QUANTITY_WATCHED_H
 
@@ -26,7 +26,7 @@ enum hk_watched_kind {
 struct hk_watched {
   char *text; /* as it was written */
   enum hk_watched_kind kind;
-  int32_t is_period; /* of that */
+  int32_t is_period; /* of the quantity inside */
   int32_t axis;
   int64_t particle;        /* of a coordinate */
   struct hk_spring spring; /* of a length, strain or tension */
@@ -38,12 +38,12 @@ struct hk_watched_list {
   struct hk_watched *item;
 };
 
-/* Adds what `text` says to a list, which starts as zeros with the committed system; what is there already is
- * not added again. HOOKE_BAD_VALUE, said of the option `place`; HOOKE_NO_MEMORY. In either case the list
- * keeps what it has. */
+/* Adds the quantities in `text` to a list, which starts as zeros with the committed system; repeated ones are
+ * not added again. HOOKE_BAD_VALUE, for the option `place`; HOOKE_NO_MEMORY. In either case the list
+ * keeps its contents. */
 int32_t hk_watched_read(struct hk_watched_list *list, const char *place, const char *text);
 void hk_watched_release(struct hk_watched_list *list);
-/* Number of the quantity of that text, -1 if it is not there. */
+/* Number of the quantity with that text; -1 if there is none. */
 int64_t hk_watched_find(const struct hk_watched_list *list, const char *text);
 
 /* Sets mark[p] to 1 for the particles of a part, of a group or of a list of numbers. HOOKE_BAD_VALUE. */
@@ -53,16 +53,15 @@ int32_t hk_watched_mark_particles(const hooke_system *system, const char *place,
 /* "m", "N", "J", "s", "" */
 const char *hk_watched_unit(const struct hk_watched *watched);
 
-/* The value at positions q and velocities v (rows); of a period the value of what it is of. Tension is the
- * force along the spring, of damping, too: positive where it pulls its ends together, 0 where a spring that
- * only pulls is slack. */
+/* Value at positions q and velocities v (rows); for a period the value of its quantity. Tension is the force
+ * along the spring, including damping: positive where it pulls its ends together, 0 where a spring that only
+ * pulls is slack. */
 double hk_watched_value(const struct hk_watched *watched, const hooke_system *system, const double *q,
                         const double *v);
 
-/* Mean time between passages upwards through the mean of a series, each found by cubic interpolation. A
- * passage counts where the series was below the mean by a tenth of its largest deviation since the last one.
- * NaN where there are fewer than two, or fewer than four frames from one to the next, or a number that is not
- * finite. */
+/* Mean time between upward passages of a series through its mean, each found by cubic interpolation. A
+ * passage counts if the series was below the mean by a tenth of its largest deviation since the last one. NaN
+ * if there are fewer than two, or fewer than four frames from one to the next, or a non-finite number. */
 double hk_watched_period(int64_t count, const double *time, const double *value);
 
 #endif

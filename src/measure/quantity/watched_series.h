@@ -1,4 +1,4 @@
-/* Watched quantities over the frames of a run, and how far those of two runs are apart. */
+/* Watched quantities over the frames of a run, and their differences between two runs. */
 #ifndef HOOKE_MEASURE_QUANTITY_WATCHED_SERIES_H
 #define HOOKE_MEASURE_QUANTITY_WATCHED_SERIES_H
 
@@ -7,11 +7,11 @@
 struct hk_watched_series {
   const struct hk_watched_list *list; /* NULL: nothing is watched */
   int64_t frames;
-  double *value;  /* one quantity after another, `frames` each; NaN where there is none */
-  double *figure; /* one a quantity: how far it is from another run's */
+  double *value;  /* one quantity after another, `frames` each; NaN where missing */
+  double *figure; /* by quantity: difference from another run */
 };
 
-/* Room for so many frames, all NaN. HOOKE_NO_MEMORY. */
+/* Allocates space for so many frames, all NaN. HOOKE_NO_MEMORY. */
 int32_t hk_watched_series_create(const struct hk_watched_list *list, int64_t frames,
                                  struct hk_watched_series *series);
 void hk_watched_series_release(struct hk_watched_series *series);
@@ -21,13 +21,13 @@ static inline double *hk_watched_series_of(const struct hk_watched_series *serie
   return series->value + quantity * series->frames;
 }
 
-/* Keeps the values at a frame. */
+/* Records the values at a frame. */
 void hk_watched_series_keep(struct hk_watched_series *series, int64_t frame, const double *q,
                             const double *v);
 
-/* Sets the figures to `factor` times the largest difference over the first `frames` frames at `time`, in a
- * period the difference of the periods over those; NaN where that is not known. Does nothing where the other
- * is of nothing. */
+/* Sets the differences to `factor` times the largest one over the first `frames` frames at `time`; for a
+ * period to the difference of the periods over these frames; NaN if that is unknown. Does nothing if the
+ * other series watches nothing. */
 void hk_watched_series_compare(struct hk_watched_series *series, const struct hk_watched_series *other,
                                int64_t frames, const double *time, double factor);
 

@@ -35,8 +35,8 @@ double hk_watched_value(const struct hk_watched *watched, const hooke_system *sy
 /* ---- periods ---- */
 
 static const double LEAST_DIP = 0.1;    /* of the largest deviation, below the mean between two passages */
-static const double ROUNDING = 1e-12;   /* of the largest value: what varies less is constant */
-static const double LEAST_FRAMES = 4.0; /* a period; with fewer the passages seen may not be all there are */
+static const double ROUNDING = 1e-12;   /* of the largest value: a smaller variation counts as constant */
+static const double LEAST_FRAMES = 4.0; /* frames a period; with fewer, passages may be missed */
 enum { BISECTIONS = 52 };
 
 static double mean_of(int64_t count, const double *time, const double *value) {
@@ -58,7 +58,7 @@ static double interpolate(int points, const double *time, const double *value, d
   return sum;
 }
 
-/* When the series comes up to `level` between frames f - 1 and f. */
+/* Time at which the series rises to `level` between frames f - 1 and f. */
 static double passage(int64_t count, const double *time, const double *value, int64_t f, double level) {
   const int64_t first = f >= 2 ? f - 2 : 0, last = f + 1 < count ? f + 1 : f;
   double low = time[f - 1], high = time[f];

@@ -15,8 +15,8 @@ int32_t hk_dense_tridiagonal(int64_t n, const double *diagonal, const double *be
                              double *vector);
 
 /* Eigenvalues lambda of lambda^2 I + lambda C + K, K and C symmetric and not negative, with their vectors (n
- * each, real and imaginary part). What K and C both take to 0 is left out; of conjugates, the one with the
- * positive imaginary part is given. All arrays have room for 2n. */
+ * each, real and imaginary part). The common null space of K and C is left out; of conjugates, the one with
+ * the positive imaginary part is given. All arrays have space for 2n. */
 struct hk_damped_modes {
   int64_t count;
   double *real, *imaginary;

@@ -16,7 +16,7 @@ void hk_damped_modes_release(struct hk_damped_modes *modes) {
 #include <limits.h>
 #include <math.h>
 
-/* Of Fortran: matrices in columns, everything by address, the lengths of texts at the end. */
+/* In Fortran: matrices by columns, everything by address, the lengths of texts at the end. */
 extern void dsyev_(const char *job, const char *triangle, const int *n, double *a, const int *stride,
                    double *value, double *room, const int *room_size, int *info, size_t, size_t);
 extern void dstev_(const char *job, const int *n, double *diagonal, double *beside, double *vector,
@@ -25,7 +25,7 @@ extern void dgeev_(const char *left_job, const char *right_job, const int *n, do
                    double *real, double *imaginary, double *left, const int *left_stride, double *right,
                    const int *right_stride, double *room, const int *room_size, int *info, size_t, size_t);
 
-/* LAPACK ends the process over some matrices that are not finite, and counts by int. */
+/* LAPACK ends the process for some non-finite matrices, and counts by int. */
 static int32_t check(int64_t n, int64_t count, const double *matrix) {
   if (n > INT_MAX / 4) {
     return hk_fail(HOOKE_BAD_VALUE, NULL, "%lld unknowns are too many for dense eigenvalues", (long long)n);
@@ -96,7 +96,7 @@ int32_t hk_dense_tridiagonal(int64_t n, const double *diagonal, const double *be
 
 /* ---- damped ---- */
 
-/* Eigenvalues of K + C below this share of the largest are those of what neither of the two moves. */
+/* Eigenvalues of K + C below this fraction of the largest belong to its null space. */
 static const double NOTHING = 1e-14;
 
 static double *copy_of(int64_t count, const double *from) {
@@ -123,12 +123,12 @@ static void project(int64_t n, int64_t r, const double *q, const double *a, doub
   }
 }
 
-/* The rows of `basis` span what K or C moves; returns how many there are. */
+/* The rows of `basis` span the range of K and C; returns their number. */
 static int32_t find_basis(int64_t n, const double *stiffness, const double *damping, double *basis,
                           int64_t *rank) {
   double *sum = copy_of(n * n, stiffness), *value = hk_new(n, sizeof(double));
   int32_t status = sum && value ? HOOKE_OK : HOOKE_NO_MEMORY;
-  /* both of size 1, so that neither hides the other */
+  /* both scaled to size 1, so that neither hides the other */
   double size[2] = {0.0, 0.0};
   for (int64_t k = 0; k < n; k++) {
     size[0] = fmax(size[0], stiffness[k * n + k]);
@@ -157,7 +157,7 @@ static int32_t make_room(int64_t n, struct hk_damped_modes *modes) {
   return HOOKE_OK;
 }
 
-/* Takes the vector of an eigenvalue from the companion's, (u, lambda u): from the larger half. */
+/* Extracts the vector of an eigenvalue from the companion's, (u, lambda u): from the larger half. */
 static void take(int64_t n, int64_t r, const double *basis, const double *real, const double *imaginary,
                  double size, struct hk_damped_modes *modes) {
   double *re = modes->vector_real + modes->count * n, *im = modes->vector_imaginary + modes->count * n;
@@ -170,8 +170,8 @@ static void take(int64_t n, int64_t r, const double *basis, const double *real, 
   }
 }
 
-/* Column k has the vector of a real eigenvalue; of a pair, columns k and k + 1 the two parts of the first
- * one's, whose imaginary part is positive. */
+/* Column k has the vector of a real eigenvalue; for a pair, columns k and k + 1 are the two parts of the
+ * first one's, whose imaginary part is positive. */
 static void take_all(int64_t n, int64_t r, const double *basis, const double *real, const double *imaginary,
                      const double *vector, struct hk_damped_modes *modes) {
   for (int64_t k = 0; k < 2 * r; k++) {

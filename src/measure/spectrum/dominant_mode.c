@@ -9,8 +9,7 @@
 
 enum { DENSE_UNKNOWNS = 100 };
 
-/* What ARPACK is asked for: the eigenvalue's error goes with the square of the residual where values are
- * apart. */
+/* ARPACK's tolerance: the eigenvalue's error scales with the square of the residual for separated values. */
 static const double TIGHTER = 1e-3;
 
 static const double NOISE = 0.1;
@@ -31,7 +30,7 @@ static int32_t dense(struct hk_linearised *lin, double *value, double *mode) {
   return status;
 }
 
-/* A start that is not blind to what the neighbouring problem does not move. */
+/* A start with components in modes that the neighbouring problem does not excite. */
 static void begin(const struct hk_linearised *lin, const double *start, double *mode) {
   hk_linearised_start(lin, mode);
   if (start == NULL) return;
@@ -56,7 +55,7 @@ int32_t hk_dominant_mode(struct hk_linearised *lin, double a, double b, const do
     status = hk_dominant_modes_arpack(lin, 1, fmax(1e-12, TIGHTER * accuracy), value, room);
   if (status == HOOKE_SOLVER_FAILED) {
     begin(lin, start, room);
-    /* few unknowns, many digits: turns are cheap, and far beyond the accuracy they converge quickly */
+    /* few unknowns, high accuracy: iterations are cheap, and converge quickly beyond the accuracy */
     const int few = lin->unknowns <= HOOKE_ARPACK_UNKNOWNS;
     status = hk_dominant_mode_lanczos(lin, few ? fmax(1e-13, TIGHTER * TIGHTER * accuracy) : accuracy, value,
                                       room);

@@ -18,10 +18,10 @@ static const double EXHAUSTED = 1e-14;
 struct lanczos {
   struct hk_linearised *lin;
   int64_t most, count;
-  double **vector; /* up to most + 1, not of length 1 */
+  double **vector; /* up to most + 1, not normalised */
   double *length;  /* of each vector, in the norm of masses */
   double *diagonal,
-      *share; /* of the tridiagonal matrix, whose off-diagonals are length[1..]; the vector of its largest value */
+      *share; /* tridiagonal matrix with off-diagonals length[1..]; vector of its largest value */
 };
 
 static int32_t make_room(struct hk_linearised *lin, struct lanczos *z) {
@@ -68,7 +68,7 @@ static int32_t largest(const struct lanczos *z, int64_t count, double *value, do
   return hk_dense_tridiagonal(count, z->diagonal, z->length + 1, value, share);
 }
 
-/* x = the vector of the largest value, of length 1. */
+/* x = the vector of the largest value, normalised. */
 static void combine(const struct lanczos *z, double *x) {
   memset(x, 0, (size_t)z->lin->size * sizeof(double));
   for (int64_t k = 0; k < z->count; k++)
@@ -78,9 +78,9 @@ static void combine(const struct lanczos *z, double *x) {
     x[k] /= length;
 }
 
-/* Done when the residual is below the accuracy; or when the second half of the turns raised the value by
- * little. Where values lie densely what is missing falls with the square of the turns, so it is a third of
- * that rise, and seen to be up to four fifths: half of it is added. */
+/* Converged when the residual is below the accuracy; or when the second half of the iterations raised the
+ * value by little. For densely spaced values the remainder decreases with the square of the iterations, so it
+ * is a third of that rise, and was observed to be up to four fifths: half of it is added. */
 static int32_t judge(struct lanczos *z, double accuracy, double *value, int *done) {
   double half = 0.0;
   int32_t status = largest(z, z->count, value, z->share);
@@ -93,7 +93,7 @@ static int32_t judge(struct lanczos *z, double accuracy, double *value, int *don
   return status;
 }
 
-/* From `mode` on, as far as the memory reaches. */
+/* Starts from `mode`, as far as the memory reaches. */
 static int32_t sweep(struct lanczos *z, double accuracy, double *value, double *mode, int *done) {
   z->count = 0;
   if (z->vector[0] == NULL) z->vector[0] = hk_new(z->lin->size, sizeof(double));

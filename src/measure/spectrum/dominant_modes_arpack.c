@@ -13,8 +13,8 @@
 
 enum { MOST_RESTARTS = 300, SPARE_VECTORS = 20 };
 
-/* ARPACK keeps where it is in variables of its own between calls, one set for the process: a search from its
- * first call to its last has it alone. */
+/* ARPACK keeps its state in global variables between calls: a search excludes others from its first call to
+ * its last. */
 static pthread_mutex_t alone = PTHREAD_MUTEX_INITIALIZER;
 
 struct search {

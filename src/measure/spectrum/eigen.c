@@ -2,13 +2,13 @@
 
 #include <math.h>
 
-enum { MOST_SWEEPS = 32 }; /* three to five do */
+enum { MOST_SWEEPS = 32 }; /* three to five suffice */
 
-/* Off the diagonal, what is below this share of the largest entry moves no eigenvalue by more than
- * rounding. */
+/* Off-diagonal entries below this fraction of the largest entry change no eigenvalue by more than rounding.
+ */
 static const double NOTHING = 1e-17;
 
-/* Turns p and q so that their entry a vanishes; b = (p, r) and c = (q, r) go along. */
+/* Rotates p and q so that their entry a vanishes; updates b = (p, r) and c = (q, r). */
 static void rotate(double *p, double *q, double *a, double *b, double *c) {
   if (*a == 0.0) return;
   const double half = (*q - *p) / (2.0 * *a);
@@ -22,8 +22,8 @@ static void rotate(double *p, double *q, double *a, double *b, double *c) {
   *c = sine * from_b + cosine * from_c;
 }
 
-/* Jacobi's rotations: where eigenvalues are close, as in blocks of a flat cloth, a formula in closed form
- * loses half of the digits. */
+/* Jacobi's rotations: for close eigenvalues, as in blocks of a flat cloth, a closed formula loses half of the
+ * digits. */
 double hk_eigen_largest(const double matrix[6]) {
   double xx = matrix[0], yy = matrix[1], zz = matrix[2], xy = matrix[3], xz = matrix[4], yz = matrix[5];
   for (int sweep = 0; sweep < MOST_SWEEPS; sweep++) {

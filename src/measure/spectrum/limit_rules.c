@@ -21,7 +21,7 @@ static void take_mode(const struct hk_spectrum *s, const double *mode, struct hk
 /* ---- symplectic Euler ---- */
 
 enum { MOST_TURNS = 30 };
-/* From a good start a value rises little in its first turns, however much is missing. */
+/* From a good start a value rises little in its first iterations, however far it is from converged. */
 static const double WARM = 0.1;
 
 /* The h of one mode of stiffness k and damping c: h^2 k + 2 h c = 4, written so that nothing cancels. */
@@ -39,9 +39,9 @@ static int32_t damping_of(struct hk_linearised *lin, const double *x, double *ro
   return HOOKE_OK;
 }
 
-/* h at which the largest eigenvalue of M^-1 (h^2 K + 2 h C) is 4. From the mode of one h its own step, which
+/* H at which the largest eigenvalue of M^-1 (h^2 K + 2 h C) is 4. The mode of one h gives its own step, which
  * is the next h: the eigenvalue is stationary in the mode, so this is Newton's iteration, from above after
- * the first turn. */
+ * the first step. */
 static int32_t symplectic_euler(struct hk_spectrum *s, struct hk_prediction *out) {
   struct hk_linearised *lin = s->linearised;
   take_mode(s, s->stiffest_mode, out);
@@ -83,9 +83,9 @@ static void verlet(struct hk_spectrum *s, struct hk_prediction *out) {
   take_mode(s, s->stiffest_mode, out);
 }
 
-static const double HALF_DISC = 2.6; /* of the left half plane, this far from 0 all is stable by degree 4 */
+static const double HALF_DISC = 2.6; /* in the left half plane all of this is stable by degree 4 */
 
-/* Up to which step an eigenvalue is stable; infinity where that is certain to be above `best`. */
+/* Largest stable step of an eigenvalue; infinity if that is certain to be above `best`. */
 static double step_of(int32_t degree, double real, double imaginary, double best) {
   const double size = hypot(real, imaginary);
   if (degree == 1) return -2.0 * real / (real * real + imaginary * imaginary); /* |1 + h lambda| <= 1 */
@@ -93,7 +93,7 @@ static double step_of(int32_t degree, double real, double imaginary, double best
   return best * size <= HALF_DISC ? (double)INFINITY : hk_rk4_reach(real, imaginary) / size;
 }
 
-/* The smallest step over the eigenvalues that are known. */
+/* The smallest step over the known eigenvalues. */
 static void smallest(const struct hk_spectrum *s, int32_t degree, struct hk_prediction *out) {
   int64_t worst = -1;
   out->limit = INFINITY;
@@ -111,7 +111,7 @@ static void smallest(const struct hk_spectrum *s, int32_t degree, struct hk_pred
 /* The imaginary axis is not stable. */
 static void needs_damping(struct hk_spectrum *s, struct hk_prediction *out) {
   if (!s->linearised->damped && s->stiffest > 0.0) {
-    out->limit = 0.0; /* whatever modes are known */
+    out->limit = 0.0; /* for any set of known modes */
     out->exact = 1;
     take_mode(s, s->stiffest_mode, out);
   }

@@ -7,13 +7,13 @@
 #include <math.h>
 #include <string.h>
 
-/* The longest of extents over shortest lengths that is made room for. */
+/* The largest ratio of extent to shortest length that is supported. */
 static const double MOST_RATIO = 1e8;
 static const double SHORTEST = 1e9;
 
-/* ---- making ---- */
+/* ---- creating ---- */
 
-/* What is collected on the way: the springs that are kept, in spring order. */
+/* Working data: the springs that are kept, in spring order. */
 struct making {
   const hooke_system *system;
   const double *q;
@@ -22,7 +22,7 @@ struct making {
   double *kappa, *gamma, *rest_length;
 };
 
-/* Calls `see` for every spring with a free end, and what it is as an element. */
+/* Calls `see` for every spring with a free end, with its element. */
 static void each_spring(struct making *making, struct hk_twin *twin,
                         void (*see)(struct making *, struct hk_twin *, const struct hk_spring *,
                                     const struct hk_element *)) {
@@ -66,8 +66,8 @@ static void find_extent(struct making *making) {
   }
 }
 
-/* The shortest spring becomes 1e9/sqrt(extent over shortest) m long: the longer, the less springs turn; the
- * shorter, the less rounding of positions there is; this weighs the two. */
+/* The shortest spring becomes 1e9/sqrt(extent over shortest) m long: a longer one turns less, a shorter one
+ * has less rounding of positions; this balances the two. */
 static void find_factor(struct making *making) {
   if (isinf(making->shortest)) {
     making->factor = 0.0; /* no spring has a direction: all of them are linear about one place */
@@ -208,8 +208,7 @@ static int32_t build(const struct making *making, const struct hk_twin *twin, co
   return status;
 }
 
-/* The force of springs at rest, taken back: the sum that the integrators form is then 0 to the
- * bit. */
+/* The force of springs at rest, negated: the sum that the integrators form is then 0 to the bit. */
 static int32_t find_balance(struct hk_twin *twin, int *needed) {
   const int64_t size = 3 * twin->system->particle_count;
   double *still = hk_new(size, sizeof(double));
@@ -286,7 +285,7 @@ void hk_twin_release(struct hk_twin *twin) {
   memset(twin, 0, sizeof *twin);
 }
 
-/* ---- asking ---- */
+/* ---- queries ---- */
 
 static double spring_energy(const struct hk_twin_spring *s, const double *moved) {
   const double *x = moved + 3 * (int64_t)s->head, *y = moved + 3 * (int64_t)s->tail;

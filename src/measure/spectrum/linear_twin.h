@@ -1,16 +1,15 @@
-/* A system linearised and frozen at given positions, at rest, as a system of real springs, so that every
- * integrator runs on it with its own loops: implicit treatment of spring damping and all.
+/* A system linearised at given positions, at rest, as a system of real springs, so that every integrator runs
+ * on it with its own loops, including implicit treatment of spring damping.
  *
- * The scene is enlarged: positions times a factor, about the middle, until the shortest spring is 1e5 to
- * 1e9 m long, and displacements are of the order of 1 m. Springs then turn by 1e-5 or less, so the motion
- * is linear; and rounding of positions, 1e-16 of the extent, stays as far below the displacements.
- * (Displacements as small as that of the scene as it is would be the same in principle; but rest lengths
- * have to be set anew anyway, and numbers about 1 need no thought.) A spring keeps kappa and gamma; its
- * rest length l0/r of its new length keeps tension over length, the stiffness across. A compressed one is
- * clamped: its rest length is its length. One that only pulls counts as taut. One of length 0 is linear as
- * it is if it wants to be of length 0, and else has no force and is left out. The elements of other forces
- * are linear ones (force_linear.c). A constant force balances the tensions. Gravity and callbacks are left
- * out, driven particles are pinned. */
+ * The scene is enlarged: positions times a factor, about the middle, until the shortest spring is 1e5 to 1e9
+ * m long, and displacements are of the order of 1 m. Springs then turn by 1e-5 or less, so the motion is
+ * linear; and rounding of positions, 1e-16 of the extent, stays as far below the displacements. (Equally
+ * small displacements of the original scene would be the same in principle; but rest lengths have to be set
+ * anew anyway, and numbers about 1 are simpler.) A spring keeps kappa and gamma; its rest length l0/r of its
+ * new length keeps tension over length, the stiffness across. A compressed one is clamped: its rest length is
+ * its length. One that only pulls counts as taut. One of length 0 is linear if its rest length is 0;
+ * otherwise it has no force and is left out. The elements of other forces are linear ones (force_linear.c). A
+ * constant force balances the tensions. Gravity and callbacks are left out, driven particles are pinned. */
 #ifndef HOOKE_MEASURE_SPECTRUM_LINEAR_TWIN_H
 #define HOOKE_MEASURE_SPECTRUM_LINEAR_TWIN_H
 
@@ -25,8 +24,8 @@ struct hk_twin_spring {
 
 struct hk_twin {
   hooke_system *system; /* committed */
-  double *place;        /* where it rests, 3n */
-  double *balance;      /* the constant force, 3n; NULL: none is needed */
+  double *place;        /* its rest positions, 3n */
+  double *balance;      /* the constant force, 3n; NULL: not needed */
   double *moved;        /* scratch, 3n */
   /* those with a free particle, clamped: springs, then those of other forces but drag */
   int64_t spring_count, element_count;
@@ -35,7 +34,7 @@ struct hk_twin {
   int64_t clamped, left_out,
       turning;      /* springs compressed; without force; of length 0 and damped, not linear */
   int32_t damped;   /* damping along springs, or drag */
-  double slow_step; /* a step [s] of the order of the fastest motion; infinity: there is none */
+  double slow_step; /* a step [s] of the order of the fastest motion; infinity: none */
 };
 
 /* `q`: 3n positions of a committed system. HOOKE_BAD_VALUE, HOOKE_NO_MEMORY. */
@@ -45,8 +44,8 @@ void hk_twin_release(struct hk_twin *twin);
 /* Twice the energy of the displacement from `place` and the velocity (3n each): x.Kx + v.Mv. */
 double hk_twin_energy(const struct hk_twin *twin, const double *q, const double *v);
 
-/* out = M^-1 (t^2 K + t C) x, 3n each, t being the slow step: of any x it leaves what springs and drag act
- * on. */
+/* out = M^-1 (t^2 K + t C) x, 3n each, t being the slow step: projects any x onto motion that springs and
+ * drag act on. */
 void hk_twin_push(const struct hk_twin *twin, const double *x, double *out);
 
 #endif

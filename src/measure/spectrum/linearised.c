@@ -29,7 +29,7 @@ static void see_spring(struct hk_linearised *lin, int64_t k, const struct hk_spr
     lin->clamped++;
 }
 
-/* Between constrained ends it moves nothing. */
+/* Between constrained ends it has no effect. */
 static int32_t moves(const hooke_system *system, const struct hk_spring *spring) {
   return !system->constrained[spring->head] || !system->constrained[spring->tail];
 }
@@ -59,7 +59,7 @@ static void see_batches(struct hk_linearised *lin, const double *q) {
   }
 }
 
-/* Springs in no order are many times faster in that of their batches. */
+/* Unordered springs are many times faster in the order of their batches. */
 static int32_t see_springs(struct hk_linearised *lin, const double *q, const double *spring_scale) {
   const struct hk_springs *springs = &lin->system->springs;
   if (spring_scale || lin->system->tiled.particles == 0) {
@@ -125,7 +125,7 @@ static void add_rows(const struct hk_linearised *lin, const double *q, int dampi
   }
 }
 
-/* The largest row of 2 sum |B| over m, which no eigenvalue is above. */
+/* The largest row sum of 2 sum |B| over m, a bound on all eigenvalues. */
 static double largest_row(const struct hk_linearised *lin, const double *q, int damping, double *sum) {
   const hooke_system *system = lin->system;
   const double *weight = damping ? lin->gamma : lin->kappa, drag = damping ? lin->drag : 0.0;
@@ -176,7 +176,7 @@ static int32_t choose_rate(struct hk_linearised *lin, const double *q, double *s
   return HOOKE_OK;
 }
 
-/* ---- making ---- */
+/* ---- creating ---- */
 
 static double *part(double **block, int64_t count) {
   double *start = *block;
@@ -305,7 +305,7 @@ static double others_energy(const struct hk_linearised *lin, const double *x) {
   return sum;
 }
 
-/* Squares, spring by spring: what does not stretch comes out as 0, not as the rounding of a difference. */
+/* Squares, spring by spring: no stretch gives exactly 0, not the rounding of a difference. */
 double hk_linearised_energy(const struct hk_linearised *lin, const double *x) {
   const int64_t n = lin->system->particle_count;
   double sum = others_energy(lin, x);

@@ -1,4 +1,4 @@
-/* A system frozen at given positions, at rest: M x'' + C x' + K x = 0 over the free particles.
+/* A system linearised at given positions, at rest: M x'' + C x' + K x = 0 over the free particles.
  *
  *   K = sum of kappa u u^T + max(0, T/r) (I - u u^T)     C = sum of gamma u u^T, plus drag
  *
@@ -21,44 +21,44 @@ struct hk_linearised {
   int64_t size;              /* 3n */
   int64_t unknowns;          /* three a free particle */
   double rate;               /* [1/s] */
-  int64_t clamped, products; /* springs clamped; products with K and C so far */
+  int64_t clamped, products; /* clamped springs; products with K and C so far */
   int32_t across_any, damped;
-  int32_t bends;          /* some force whose K and C are constant moves something */
+  int32_t bends;          /* some force with constant K and C moves something */
   double *mass, *inverse; /* n; the inverse is 0 where a particle is constrained */
-  /* springs: by their numbers, or in the order of batches, in one run of our own */
+  /* springs: by number, or in the order of batches, in one run of our own */
   int64_t run_count;
   const struct hk_run *run;
   struct hk_run own;
   int32_t *ends;                         /* of that */
   double *u[3], *kappa, *across, *gamma; /* over rate^2 and rate */
   double drag;                           /* over rate */
-  double unit_k, unit_c;                 /* 1 over rate^2 and rate: of forces whose K and C are constant */
-  /* of other forces the elements that move something, over rate^2 and rate */
+  double unit_k, unit_c;                 /* 1 over rate^2 and rate: of forces with constant K and C */
+  /* of other forces: elements that move something, over rate^2 and rate */
   int64_t element_count;
   struct hk_element *element;
   /* a K + b C, from the last hk_linearised_combine() */
   struct hk_tangent tangent;
   double *g[3], *g_across, brake, constant_k, constant_c;
-  double *along, *beside; /* of each element: its numbers along and across */
-  /* of whoever searches for eigenvalues, set by whoever made it: an end that comes from outside, with
-   * HOOKE_STOPPED (NULL: none); and bytes that a basis may take (0: as many as are usual) */
+  double *along, *beside; /* of each element: its coefficients along and across */
+  /* set by the owner of a search for eigenvalues: patience that ends it with HOOKE_STOPPED (NULL: none); and
+   * bytes that a basis may take (0: the default) */
   struct hk_patience *patience;
   double room;
 };
 
-/* Bytes that it takes at most, with what a search for the largest eigenvalue needs besides. */
+/* Maximum memory [bytes], including that of a search for the largest eigenvalue. */
 double hk_linearised_bytes(const hooke_system *system);
 
 /* At positions q (3n). Factors on kappa and gamma, one a spring, and on masses (n) may be NULL.
- * HOOKE_BAD_VALUE for numbers that are not finite; HOOKE_NO_MEMORY. */
+ * HOOKE_BAD_VALUE for non-finite numbers; HOOKE_NO_MEMORY. */
 int32_t hk_linearised_create(const hooke_system *system, const double *q, const double *spring_scale,
                              const double *mass_scale, struct hk_linearised *linearised);
 void hk_linearised_release(struct hk_linearised *linearised);
 
-/* Makes products those with a K + b C; a, b >= 0. */
+/* Sets the matrix of products to a K + b C; a, b >= 0. */
 void hk_linearised_combine(struct hk_linearised *linearised, double a, double b);
 
-/* out += (a K + b C) x; what it has where a particle is constrained means nothing. */
+/* out += (a K + b C) x; values at constrained particles are undefined. */
 void hk_linearised_add_product(struct hk_linearised *linearised, const double *x, double *out);
 
 /* out = M^-1 (a K + b C) x. */
@@ -73,8 +73,7 @@ double hk_linearised_energy(const struct hk_linearised *linearised, const double
 /* x.My */
 double hk_linearised_dot(const struct hk_linearised *linearised, const double *x, const double *y);
 
-/* x = a start for iterations, the same every time: numbers between -1 and 1, 0 where a particle is
- * constrained. */
+/* x = a start for iterations, always the same: numbers between -1 and 1, 0 at constrained particles. */
 void hk_linearised_start(const struct hk_linearised *linearised, double *x);
 
 /* The unknowns are the components of the free particles in turn, times the root of their masses (`unknowns`

@@ -45,7 +45,7 @@ const char *hk_naming_words(const hooke_system *system, const struct hk_force_ro
   return text;
 }
 
-/* Particle `particle` of an element, -1 if it is none of it. */
+/* Particle `particle` of an element; -1 if it has fewer. */
 static int find_end(const struct hk_element *e, int64_t particle) {
   for (int j = 0; j < e->count; j++) {
     if (e->particle[j] == particle) return j;

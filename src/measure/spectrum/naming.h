@@ -5,7 +5,7 @@
 
 #include "model/force/force.h"
 
-/* Name of the group that an element of a force is of, "" if it has none. */
+/* Name of the group of an element of a force; "" if it has none. */
 const char *hk_naming_group(const hooke_system *system, const struct hk_force_row *force, int64_t number);
 
 /* Writes the words into `text` and returns it. */
@@ -13,12 +13,12 @@ enum { HOOKE_NAMING_SIZE = 160 };
 const char *hk_naming_words(const hooke_system *system, const struct hk_force_row *force, int64_t number,
                             char text[HOOKE_NAMING_SIZE]);
 
-/* The element of a group that weighs most on a particle in a step h, by g^2 (h^2 k + 2 h c) at the places
- * that the scene begins with, of one force or of all (NULL); -1 if there is none. */
+/* The element of a group that contributes most at a particle in a step h, by g^2 (h^2 k + 2 h c) at the
+ * scene's initial positions, of one force or of all (NULL); -1 if there is none. */
 int64_t hk_naming_heaviest(const hooke_system *system, const struct hk_force_row *only, int64_t particle,
                            double h, const struct hk_force_row **force);
 
-/* The same of all forces, in words ("" if there is none); returns the spring, -1 where it is none. */
+/* The same over all forces, in words ("" if there is none); returns the spring, -1 if it is none. */
 int64_t hk_naming_heaviest_words(const hooke_system *system, int64_t particle, double h,
                                  char text[HOOKE_NAMING_SIZE]);
 

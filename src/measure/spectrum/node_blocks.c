@@ -25,7 +25,7 @@ static void add_element(struct hk_node_blocks *blocks, const struct hk_element *
     const int64_t p = e->particle[j];
     const double row = hk_element_row(constrained, e, j);
     if (constrained[p]) continue;
-    if (row != before) { /* both ends of a spring have the same */
+    if (row != before) { /* both ends of a spring have the same block */
       find_axial(stiffness, e->u, row * e->k_along, row * fmax(0.0, e->k_across));
       find_axial(damping, e->u, row * e->c_along, row * e->c_across);
     }
@@ -77,7 +77,7 @@ void hk_node_blocks_release(struct hk_node_blocks *blocks) {
   memset(blocks, 0, sizeof *blocks);
 }
 
-/* By the pivots of an elimination; what is not finite is not positive. */
+/* By the pivots of an elimination; non-finite numbers are not positive. */
 static int is_positive(const double m[6]) {
   const double first = m[0], xy = m[3] / first, xz = m[4] / first;
   const double second = m[1] - xy * m[3], yz = m[5] - xy * m[4];
@@ -93,7 +93,7 @@ static int stays_below(const struct hk_node_blocks *blocks, int64_t p, double a,
   return is_positive(gap);
 }
 
-/* Particles alike differ by rounding: eigenvalues are not worth their time for that. */
+/* Equal particles differ by rounding: new eigenvalues are not worth their time for that. */
 static const double ALIKE = 1.0 + 1e-15;
 
 /* The largest eigenvalue over particles of block/m, B or G. */

@@ -14,8 +14,8 @@ struct hk_node_blocks {
   const hooke_system *system;
   double *stiffness, *damping;  /* 6 a particle: xx, yy, zz, xy, xz, yz */
   double least_ratio;           /* smallest damping over stiffness along an element, infinity without one */
-  struct hk_patience *patience; /* whose end ends a filling half-way (NULL: none) */
-  /* some element is stiff across its direction, where it has no damping */
+  struct hk_patience *patience; /* ends filling midway (NULL: none) */
+  /* some element has transverse stiffness, where it has no damping */
   int32_t across;
 };
 
@@ -23,7 +23,7 @@ struct hk_node_blocks {
 int32_t hk_node_blocks_create(const hooke_system *system, const double *q, struct hk_node_blocks *blocks);
 /* Without positions yet. */
 int32_t hk_node_blocks_begin(const hooke_system *system, struct hk_node_blocks *blocks);
-/* The same again at other positions, in the memory there is. */
+/* Recomputes them at other positions, in the existing memory. */
 void hk_node_blocks_fill(struct hk_node_blocks *blocks, const double *q);
 void hk_node_blocks_release(struct hk_node_blocks *blocks);
 
@@ -31,8 +31,8 @@ void hk_node_blocks_release(struct hk_node_blocks *blocks);
 double hk_node_blocks_frequency(const struct hk_node_blocks *blocks);
 double hk_node_blocks_damping_rate(const struct hk_node_blocks *blocks);
 
-/* 1 if no eigenvalue of (a K + b C)/m is above `limit` at any particle by these blocks, else 0, and
- * `particle` is the first one at which one is. Far quicker than eigenvalues. */
+/* 1 if no eigenvalue of (a K + b C)/m exceeds `limit` at any particle by these blocks; otherwise 0, and
+ * `particle` is the first one at which one does. Far quicker than eigenvalues. */
 int32_t hk_node_blocks_stay_below(const struct hk_node_blocks *blocks, double a, double b, double limit,
                                   int64_t *particle);
 

@@ -9,11 +9,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Damping is in proportion if this share of it at most is not. */
+/* Damping is proportional if at most this fraction of it is not. */
 static const double OUT_OF_PROPORTION = 1e-12;
-/* Eigenvalues below this are of motion that nothing holds. */
+/* Smaller eigenvalues belong to free motion. */
 static const double STILL = 1e-13;
-/* Damping of a mode below this share of the largest is rounding. */
+/* Damping of a mode below this fraction of the largest is rounding. */
 static const double UNDAMPED = 1e-18;
 
 enum { MODES_OF_STIFFNESS = 8, MODES_OF_DAMPING = 4, MOST_OF_BASIS = 16 };
@@ -66,8 +66,8 @@ static void add_both(struct hk_spectrum *s, double c, double k, const double *mo
 
 /* ---- proportional damping ---- */
 
-/* C = beta K + delta M: every element is damped along in proportion to its stiffness and has none across, and
- * drag meets one mass. */
+/* C = beta K + delta M: every element is damped along in proportion to its stiffness and has no transverse
+ * damping, and all masses with drag are equal. */
 static int32_t find_proportion(struct hk_spectrum *s) {
   const struct hk_linearised *lin = s->linearised;
   const hooke_system *system = lin->system;
@@ -99,7 +99,7 @@ static void compare_damping(struct hk_spectrum *s) {
   if (!s->proportional) s->beta = s->delta = 0.0;
 }
 
-/* All eigenvalues of K; with their modes for few. */
+/* All eigenvalues of K; with their modes if there are few. */
 static int32_t solve_proportional(struct hk_spectrum *s) {
   struct hk_linearised *lin = s->linearised;
   const int64_t n = lin->unknowns, modes = n <= HOOKE_SPECTRUM_DAMPED ? n : 0;
@@ -124,8 +124,7 @@ static int32_t solve_proportional(struct hk_spectrum *s) {
 
 /* ---- any damping ---- */
 
-/* k = u.Ku and c = u.Cu for u.Mu = 1: sums of squares, which keep their digits where a mode is hardly
- * damped. */
+/* k = u.Ku and c = u.Cu for u.Mu = 1: sums of squares, which keep their digits for weakly damped modes. */
 struct refined {
   double k, c;
 };
@@ -140,7 +139,7 @@ static struct refined refine(struct hk_linearised *lin, const double *re, const 
   return r;
 }
 
-/* mode = the real part of u, turned so that it is as large as it can be. */
+/* mode = the real part of u, rotated so that it is as large as possible. */
 static void turn(const struct hk_linearised *lin, double *re, const double *im) {
   const double a = hk_linearised_dot(lin, re, re), b = hk_linearised_dot(lin, im, im);
   const double angle = 0.5 * atan2(-2.0 * hk_linearised_dot(lin, re, im), a - b);
@@ -162,7 +161,7 @@ static void expand(const struct hk_linearised *lin, int64_t r, const double *bas
   }
 }
 
-/* All modes are refined. Those of a part are no better than the part. */
+/* All modes are refined. Those of a partial spectrum are no better than the subspace. */
 static int32_t take_modes(struct hk_spectrum *s, int64_t r, const double *basis,
                           const struct hk_damped_modes *found) {
   struct hk_linearised *lin = s->linearised;
@@ -208,9 +207,9 @@ static int32_t solve_damped(struct hk_spectrum *s) {
   return status;
 }
 
-/* ---- part of the spectrum ---- */
+/* ---- partial spectrum ---- */
 
-/* Adds what is new in x to `count` orthonormal modes. */
+/* Adds the component of x that is new to `count` orthonormal modes. */
 static void extend(const struct hk_linearised *lin, const double *x, double *basis, int64_t *count) {
   double *new_one = basis + *count * lin->size;
   memcpy(new_one, x, (size_t)lin->size * sizeof(double));
@@ -230,7 +229,7 @@ static void extend(const struct hk_linearised *lin, const double *x, double *bas
   ++*count;
 }
 
-/* More modes by ARPACK than the one that is known, where it serves. */
+/* Computes more modes by ARPACK than the known one, where it serves. */
 static int32_t extend_by_arpack(struct hk_spectrum *s, int32_t damping, double *basis, int64_t *count) {
   struct hk_linearised *lin = s->linearised;
   const int64_t wanted = damping ? MODES_OF_DAMPING : MODES_OF_STIFFNESS;
@@ -246,7 +245,7 @@ static int32_t extend_by_arpack(struct hk_spectrum *s, int32_t damping, double *
   return status == HOOKE_SOLVER_FAILED ? HOOKE_OK : status;
 }
 
-/* K or C between modes. */
+/* Matrix of K or C between modes. */
 static void project(struct hk_linearised *lin, int64_t r, const double *basis, double *out, double *matrix) {
   for (int64_t i = 0; i < r; i++) {
     hk_linearised_multiply(lin, basis + i * lin->size, out);
@@ -280,9 +279,9 @@ static int32_t solve_part(struct hk_spectrum *s, const double *decaying) {
   return status;
 }
 
-/* The stiffest mode alone. With C = beta K it limits every method: it has the largest eigenvalues, and of
- * Runge-Kutta the reach along a ray changes less than they do. With drag a softer one may limit, which drag
- * alone brakes. */
+/* The stiffest mode only. With C = beta K it limits every method: it has the largest eigenvalues, and of
+ * Runge-Kutta the stable distance along a ray changes less than they do. With drag a softer one may limit,
+ * which only drag damps. */
 static int32_t solve_stiffest(struct hk_spectrum *s) {
   const int32_t status = make_room(s, 4, 0);
   if (status == HOOKE_OK) add_both(s, s->beta * s->stiffest + s->delta, s->stiffest, s->stiffest_mode);
@@ -329,9 +328,9 @@ static int32_t sort(struct hk_spectrum *s) {
   return status;
 }
 
-/* ---- making ---- */
+/* ---- creating ---- */
 
-/* Dense solves have no end but their own: [s] for the cube of the unknowns, as much as they take at most. */
+/* Dense solves cannot be interrupted: maximum time [s] as a multiple of the cube of the unknowns. */
 static const double SECONDS_PROPORTIONAL = 2e-10, SECONDS_DAMPED = 2.5e-8;
 
 static int32_t has_time_for_all(const struct hk_spectrum *s) {
@@ -345,7 +344,7 @@ static int32_t find_fastest_decay(struct hk_spectrum *s, double *decaying) {
   struct hk_linearised *lin = s->linearised;
   s->fastest_decay = s->beta * s->stiffest + s->delta;
   if (s->proportional) return HOOKE_OK;
-  /* in large scenes only a figure, and a part of a part of the spectrum */
+  /* in large scenes only its value is used, and a part of a partial spectrum */
   const double accuracy = lin->unknowns <= HOOKE_ARPACK_UNKNOWNS ? s->accuracy : 4.0 * s->accuracy;
   return hk_dominant_mode(lin, 0.0, 1.0, s->stiffest_mode, accuracy, &s->fastest_decay, decaying);
 }

@@ -6,14 +6,14 @@
 
 #include "measure/spectrum/linearised.h"
 
-/* All eigenvalues are known where there are at most this many unknowns; or this many where damping is in
- * proportion, C = beta K + delta M (no damping at all included), since then those of K suffice. */
+/* All eigenvalues are computed up to this number of unknowns; or up to this one if damping is proportional, C
+ * = beta K + delta M (including no damping), since then those of K suffice. */
 enum { HOOKE_SPECTRUM_DAMPED = 400, HOOKE_SPECTRUM_PROPORTIONAL = 1500 };
 
 struct hk_spectrum {
   struct hk_linearised *linearised;
   double accuracy;
-  int32_t decisive; /* no eigenvalue that is left out limits any method further */
+  int32_t decisive; /* no omitted eigenvalue limits any method further */
   int32_t proportional;
   double beta, delta;
   double stiffest, fastest_decay; /* largest eigenvalues of M^-1 K and M^-1 C */
@@ -21,15 +21,15 @@ struct hk_spectrum {
   int64_t count;                  /* eigenvalues with an imaginary part >= 0, the largest first */
   double *real, *imaginary;
   double *stiffness;   /* k of its mode: lambda^2 + lambda c + k = 0 */
-  const double **mode; /* of each, NULL where it is not known */
-  double *block;       /* where they are */
+  const double **mode; /* of each, NULL if unknown */
+  double *block;       /* their number */
 };
 
-/* How much is found: the stiffest mode, and whether damping is in proportion; besides it the fastest decay,
- * and what else decides where C = beta K; as many modes as can be had. */
+/* Extent of the computation: the stiffest mode, and whether damping is proportional; in addition the fastest
+ * decay, and the deciding modes if C = beta K; or as many modes as possible. */
 enum hk_spectrum_extent { HOOKE_SPECTRUM_STIFFEST, HOOKE_SPECTRUM_EXTREMES, HOOKE_SPECTRUM_ALL };
 
-/* `start`: the stiffest mode of a state near by, or NULL. The linearised system must outlive it.
+/* `start`: the stiffest mode of a nearby state, or NULL. The linearised system must outlive it.
  * HOOKE_NOT_BUILT without LAPACK; HOOKE_NO_MEMORY. */
 int32_t hk_spectrum_create(struct hk_linearised *linearised, double accuracy, enum hk_spectrum_extent extent,
                            const double *start, struct hk_spectrum *spectrum);

@@ -12,13 +12,13 @@
 #include <string.h>
 
 static const double NOISE = 0.1;  /* of the wanted error, or */
-static const double SHARE = 1e-6; /* of the extent, where none is wanted */
-/* Of the reference's method. What it does to energies has to be small beside what the noise does. */
+static const double SHARE = 1e-6; /* of the extent, without one */
+/* For the reference's method; its effect on energies must be small against that of the noise. */
 static const double TOLERANCE = 1e-10;
 
 /* ---- sources ---- */
 
-/* So that what a method gives depends on the seed and on nothing else. */
+/* So that the results of a method depend on the seed alone. */
 static uint64_t seed_of(uint64_t seed, const char *method) {
   uint64_t random = seed;
   for (const char *at = method; *at; at++)
@@ -38,16 +38,16 @@ static int32_t add_source(const struct hk_study *study, struct hk_ensemble *ense
   return HOOKE_OK;
 }
 
-/* 1 if `row` is to be taken rather than `other` of the same method: of those that meet the want the cheaper,
- * else the finer. */
+/* 1 if `row` is preferred to `other` of the same method: of those that meet the want the cheaper, otherwise
+ * the finer. */
 static int is_better(const struct hk_study_row *row, const struct hk_study_row *other, double want) {
   const int meets = row->trial.error <= want;
   if (other == NULL || meets != (other->trial.error <= want)) return other == NULL || meets;
   return meets ? row->trial.wall_seconds < other->trial.wall_seconds : row->value < other->value;
 }
 
-/* What is recommended, else of the rows that finished the cheapest that meets the want, else the finest; NaN
- * without one. */
+/* The recommended value; otherwise, of the rows that finished, the cheapest that meets the want, or the
+ * finest; NaN without one. */
 static double choose_value(const struct hk_study *study, int32_t method) {
   const struct hk_study_recommendation *r = &study->recommendation;
   const double want = hooke_options_number(study->options, "want");
@@ -95,21 +95,21 @@ void hk_ensemble_release(struct hk_ensemble *ensemble) {
 
 /* ---- a member ---- */
 
-/* A member under way. */
+/* A running member. */
 struct member {
   struct hk_study *study;
   struct hk_ensemble *ensemble;
   struct hk_ensemble_source *source;
-  int64_t first, count;             /* frames that are not trusted: the first, and those seen so far */
-  double *time;                     /* of those */
-  struct hk_watched_series *series; /* at those */
+  int64_t first, count;             /* first untrusted frame, and number of untrusted frames so far */
+  double *time;                     /* of these frames */
+  struct hk_watched_series *series; /* at these frames */
 };
 
 static int32_t tell(double share, void *ctx) {
   return hk_study_tell_row(share, ((struct member *)ctx)->study);
 }
 
-/* Every coordinate of a free particle by noise of its own. */
+/* Adds independent noise to every coordinate of a free particle. */
 static void displace(hooke_state *state, void *ctx) {
   struct member *member = ctx;
   const struct hk_frames *frames = &member->study->reference.frames;
@@ -155,7 +155,7 @@ static int32_t source_options(const struct hk_study *study, const struct hk_ense
   return hk_reference_options(study->run, r->method, source->value, r->extent, options);
 }
 
-/* A member that does not come to its end, and a source that has one, count as failed. */
+/* A member that does not finish, and a source that has one, count as failed. */
 static int32_t run_member(struct member *member) {
   const struct hk_listener listener = {
       .on_progress = tell, .on_frame = see_frame, .on_start = displace, .ctx = member};
@@ -177,9 +177,9 @@ static int32_t run_member(struct member *member) {
   return HOOKE_OK;
 }
 
-/* ---- all of them ---- */
+/* ---- all members ---- */
 
-/* All sources in turn, so that time that runs out leaves as many members of each. */
+/* All sources in turn, so that when time runs out each has as many members. */
 static int32_t run_members(struct member *member) {
   struct hk_study *study = member->study;
   struct hk_ensemble *ensemble = member->ensemble;

@@ -1,5 +1,5 @@
-/* Ensembles: where a motion cannot be computed to the end, because small differences grow too much, means and
- * spreads over many starts that nobody could tell apart still can. */
+/* Ensembles: where small differences grow too much for a motion to be computed to its end, means and spreads
+ * over many indistinguishable starts still can be. */
 #ifndef HOOKE_MEASURE_STUDY_ENSEMBLE_H
 #define HOOKE_MEASURE_STUDY_ENSEMBLE_H
 
@@ -7,7 +7,7 @@
 
 struct hk_study;
 
-/* One that moves all members: the method of the reference, or a method of the study with one step or
+/* A source of motion for all members: the method of the reference, or a method of the study with one step or
  * tolerance. */
 struct hk_ensemble_source {
   int32_t method; /* of the study; -1: the reference */
@@ -18,7 +18,7 @@ struct hk_ensemble_source {
 };
 
 struct hk_ensemble {
-  struct hk_watched_list quantities; /* kinetic, potential, energy, and what the study watches */
+  struct hk_watched_list quantities; /* kinetic, potential, energy, and the watched quantities */
   int64_t members;                   /* of each source */
   double noise;                      /* root mean square displacement of a free particle at the start [m] */
   double from, until;                /* of the means over time [s] */
@@ -26,8 +26,8 @@ struct hk_ensemble {
   struct hk_ensemble_source *source; /* the reference first */
 };
 
-/* What a source has of a quantity: of how many members, their mean, the spread (standard deviation) of the
- * members about it. */
+/* Statistics of a quantity for a source: number of members, their mean, and the spread (standard deviation)
+ * of the members about it. */
 struct hk_ensemble_sample {
   int64_t members;
   double mean, spread;
@@ -35,12 +35,13 @@ struct hk_ensemble_sample {
 struct hk_ensemble_sample hk_ensemble_sample(const struct hk_ensemble *ensemble, int64_t source,
                                              int64_t quantity);
 
-/* The difference of a source's mean from the reference's, in standard errors of that difference; NaN where it
- * is not known. */
+/* Difference of a source's mean from the reference's, in standard errors of that difference; NaN if unknown.
+ */
 double hk_ensemble_bias(const struct hk_ensemble *ensemble, int64_t source, int64_t quantity);
 
-/* Runs the members of a study whose rows are made, of all sources in turn, until they are complete or the
- * deadline is there. Does nothing if no ensemble is asked for, or if the reference is trusted to the end. */
+/* Runs the members of a study whose rows are complete, of all sources in turn, until all are done or the
+ * deadline is reached. Does nothing if no ensemble is requested, or if the reference is trusted to the end.
+ */
 int32_t hk_ensemble_run(struct hk_study *study);
 void hk_ensemble_release(struct hk_ensemble *ensemble);
 

@@ -1,4 +1,4 @@
-/* Reading what an ensemble gave. */
+/* Statistics of an ensemble. */
 #include "measure/study/ensemble.h"
 
 #include "core/named_number.h"
@@ -12,7 +12,7 @@ struct hk_ensemble_sample hk_ensemble_sample(const struct hk_ensemble *ensemble,
                                              int64_t quantity) {
   const struct hk_ensemble_source *s = &ensemble->source[source];
   struct hk_ensemble_sample sample = {.members = 0, .mean = NAN, .spread = NAN};
-  double mean = 0.0, square = 0.0; /* running ones (Welford 1962) */
+  double mean = 0.0, square = 0.0; /* running mean and variance (Welford 1962) */
   for (int64_t k = 0; k < s->finished; k++) {
     const double value = s->sample[k * ensemble->quantities.count + quantity];
     if (isnan(value)) continue;

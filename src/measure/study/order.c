@@ -1,4 +1,4 @@
-/* The observed order of a method: least squares of log error on log step. */
+/* Observed order of a method: least-squares fit of log error against log step. */
 #include "measure/study/study.h"
 
 #include "core/print.h"
@@ -11,11 +11,11 @@
 #include <string.h>
 
 enum { MOST_POINTS = 5, FEWEST_POINTS = 3 };
-static const double CLEAR_OF_FLOOR = 10.0;      /* times the agreement of the reference */
-static const double SMALL = 0.05;               /* errors above this share of the extent are not asymptotic */
-static const double BELOW = 0.15, ABOVE = 0.25; /* how far an order may be from the theory without a word */
+static const double CLEAR_OF_FLOOR = 10.0; /* times the agreement of the reference */
+static const double SMALL = 0.05; /* larger errors, as a fraction of the extent, are not asymptotic */
+static const double BELOW = 0.15, ABOVE = 0.25; /* deviation of an order from the theory without a remark */
 
-/* The finest rows that stand clear of the floor, logarithms of step and error; rows of a method go from
+/* The finest rows that are clear of the floor, as logarithms of step and error; rows of a method go from
  * coarse to fine. */
 static int32_t collect(const struct hk_study *study, int32_t method, double *x, double *y) {
   const struct hk_reference *r = &study->reference;
@@ -39,7 +39,7 @@ static int32_t reached_floor(const struct hk_study *study, int32_t method) {
   return 0;
 }
 
-/* ---- what an order below the theory's can come from, of what the scene has ---- */
+/* ---- features of the scene that reduce orders ---- */
 
 static int pulls_only(const hooke_system *system) {
   for (int64_t g = 0; g < system->group_count; g++)
@@ -59,7 +59,7 @@ static int has_drive_callback(const hooke_system *system) {
   return 0;
 }
 
-/* Half the safe step or more: 1 if the coarsest of the rows of the fit is that near to the limit. */
+/* 1 if the coarsest row of the fit takes half the safe step or more, and so is near the limit. */
 static int near_limit(const struct hk_study *study, int32_t method, double coarsest) {
   return coarsest >= 0.5 * study->safe_step[method] && study->safe_step[method] < study->unit;
 }
@@ -104,12 +104,12 @@ static void explain(const struct hk_study *study, int32_t method, struct hk_stud
   hk_print(order->note, sizeof order->note, "%.2f instead of %g: %s", order->order, order->theory, causes);
 }
 
-/* Of Student's t distribution, its quantile 0.975 by degrees of freedom: tan(0.475 pi), 0.95 sqrt(2/0.0975),
+/* The 0.975 quantile of Student's t distribution by degrees of freedom: tan(0.475 pi), 0.95 sqrt(2/0.0975),
  * and t with u/(1 + u^2) + atan(u) = 0.475 pi, u = t/sqrt(3). */
 static const double T_QUANTILE[MOST_POINTS - 1] = {NAN, 12.7062047361747, 4.30265272974946, 3.18244630528371};
 
-/* y = offset + slope x; `half` is half the width of the 95 % confidence interval of the slope, as if the
- * points scattered about a line independently and alike: it knows nothing of a curve. */
+/* Fits y = offset + slope x; `half` is half the width of the 95 % confidence interval of the slope, if the
+ * points scatter about a line independently and alike: curvature is not accounted for. */
 static void fit_line(int32_t count, const double *x, const double *y, double *slope, double *half) {
   double mean_x = 0.0, mean_y = 0.0, xx = 0.0, xy = 0.0, squares = 0.0;
   for (int32_t k = 0; k < count; k++) {

@@ -1,5 +1,5 @@
-/* The recommendation: the cheapest step or tolerance whose error is at most what is wanted. Predicted on the
- * measured curves, then searched for by runs, so that what is recommended has been seen to hold. */
+/* The recommendation: the cheapest step or tolerance whose error is at most the wanted one. It is predicted
+ * from the measured curves, then confirmed by runs. */
 #include "measure/study/study_search.h"
 
 #include "core/clock.h"
@@ -11,7 +11,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Those whose times are this close are measured again, by turns. */
+/* Rows whose times are this close are measured again, in turns. */
 enum { MOST_ROUNDS = 7 };
 static const double CONTENDS = 1.6, RACE_SECONDS = 0.5;
 
@@ -26,7 +26,7 @@ static void keep(struct hk_study *study, const struct hk_study_candidate *c, int
   r->force_evaluations = c->best.trial.force_evaluations;
 }
 
-/* ---- when nothing meets the want ---- */
+/* ---- when nothing meets the wanted error ---- */
 
 static void explain_no_rows(struct hk_study *study) {
   struct hk_study_recommendation *r = &study->recommendation;
@@ -108,8 +108,8 @@ static int32_t run_again(struct hk_study *study, struct hk_study_candidate *c, d
   return status == HOOKE_STOPPED && study->late ? HOOKE_OK : status;
 }
 
-/* Rows were measured minutes apart, when the machine was busy or idle: those that are close take turns once
- * more. */
+/* Rows were measured minutes apart, when the machine was busy or idle: close ones are measured again in
+ * turns. */
 static int32_t race(struct hk_study *study, struct hk_study_candidate *c, struct hk_study_candidate **best) {
   double seconds[HOOKE_STUDY_METHODS], most;
   const int32_t methods = study->method_count;
@@ -129,13 +129,13 @@ static int32_t race(struct hk_study *study, struct hk_study_candidate *c, struct
   }
   for (int32_t k = 0; k < methods; k++) {
     double *least = &c[k].best.trial.wall_seconds;
-    *least = fmin(*least, seconds[k]); /* fmin leaves a NaN out */
+    *least = fmin(*least, seconds[k]); /* fmin ignores a NaN */
     if (seconds[k] < seconds[*best - c]) *best = &c[k];
   }
   return status;
 }
 
-/* The most promising first; one that cannot become cheaper than what was found is left alone. */
+/* The most promising first; a method that cannot become cheaper than the best so far is skipped. */
 static int32_t search_all(struct hk_study *study, struct hk_study_candidate *c) {
   int32_t status = HOOKE_OK;
   for (int32_t k = 0; k < study->method_count && status == HOOKE_OK; k++) {
@@ -151,8 +151,8 @@ static int made_reference(const struct hk_study *study, const struct hk_study_ca
   return strcmp(method, study->reference.method) == 0 || strcmp(method, study->reference.check) == 0;
 }
 
-/* What is as fine as the reference meets the want, since the reference does; then back from there. Its own
- * methods first. */
+/* Runs as fine as the reference meet the want, since the reference does; then coarsens from there. The
+ * reference's own methods first. */
 static int32_t search_from_reference(struct hk_study *study, struct hk_study_candidate *c) {
   int32_t status = HOOKE_OK;
   for (int own = 1; own >= 0; own--) {
@@ -197,7 +197,7 @@ int32_t hk_study_find_cheapest(struct hk_study *study, double want) {
     hk_study_candidate_create(study, m, want, &c[m]);
   sort_by_prediction(c, study->method_count);
   struct hk_study_candidate *best = NULL;
-  /* what the reference took is known, what a search takes beyond the rows is not */
+  /* the cost of the reference is known, that of searches beyond the rows is not */
   const int far = study->method_count > 0 && !(c[0].predicted < study->reference.run_seconds);
   int32_t status = far ? search_from_reference(study, c) : HOOKE_OK;
   if (status == HOOKE_OK) status = search_all(study, c);
@@ -223,7 +223,7 @@ int32_t hooke_study_recommend(hooke_measurement *m, double want) {
     return hk_fail(HOOKE_BAD_CALL, NULL,
                    "the study has not been run yet; call hooke_measurement_run() first");
   if (!(want > 0.0)) return hk_fail(HOOKE_BAD_VALUE, "want", "%g is not allowed; a number > 0 [m] is", want);
-  /* a budget counts anew */
+  /* the budget starts anew */
   study->begun = hk_clock_seconds();
   study->deadline = study->begun + study->budget;
   study->told = 0.0;

@@ -15,11 +15,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The reference may take this share of a budget, a larger one where the rows are quick, and in any case so
- * many seconds. */
+/* The reference gets this fraction of a budget, a larger one if the rows are quick, and at least so many
+ * seconds. */
 static const double REFERENCE_SHARE = 0.4, LARGER_SHARE = 0.6, REFERENCE_SECONDS = 0.5;
 static const double QUICK_SHARE = 0.1; /* of the budget, for all rows of fixed steps */
-/* And an ensemble, where one is needed, this one. */
+/* Fraction of the budget for an ensemble, if one is needed. */
 static const double ENSEMBLE_SHARE = 0.3;
 
 static const struct hk_option_row study_rows[] = {
@@ -85,7 +85,7 @@ static const struct hk_option_row study_rows[] = {
 
 static const struct hk_option_table study_table = {"study", HOOKE_OPTION_ROWS(study_rows)};
 
-/* ---- making ---- */
+/* ---- creating ---- */
 
 static int32_t add_method(const char *method, void *ctx) {
   struct hk_study *study = ctx;
@@ -174,7 +174,7 @@ static int32_t make_reference(struct hk_study *study) {
   return status;
 }
 
-/* As it was before it was run. */
+/* As before the run. */
 static void forget(struct hk_study *study) {
   release_results(study);
   memset(&study->recommendation, 0, sizeof study->recommendation);

@@ -1,4 +1,4 @@
-/* What a study holds. */
+/* The study object. */
 #ifndef HOOKE_MEASURE_STUDY_STUDY_H
 #define HOOKE_MEASURE_STUDY_STUDY_H
 
@@ -15,7 +15,7 @@ struct hk_study_row {
   struct hk_trial trial;
   double wall_median;
   int32_t repeats;
-  int32_t timed_alone; /* 0: other rows ran beside it */
+  int32_t timed_alone; /* 0: timed while other rows were running */
 };
 
 struct hk_study_order {
@@ -23,14 +23,14 @@ struct hk_study_order {
   char note[512];
 };
 
-/* What a recommendation has to spare (study_margin.c). */
+/* The margin of a recommendation (study_margin.c). */
 enum hk_study_change { HOOKE_STUDY_STIFFNESS, HOOKE_STUDY_START, HOOKE_STUDY_CHANGES };
 struct hk_study_margin {
   /* step over the largest stable one, predicted at the start; NaN: error-controlled, or unknown */
   double limit_share;
-  /* the largest with the change [m]; NaN: unknown, or a run did not finish */
+  /* largest error with the change [m]; NaN: unknown, or a run did not finish */
   double error[HOOKE_STUDY_CHANGES];
-  double holds[HOOKE_STUDY_CHANGES]; /* 1: the want is met with the change; 0: not; NaN: unknown */
+  double holds[HOOKE_STUDY_CHANGES]; /* 1: the wanted error is met with the change; 0: not; NaN: unknown */
 };
 
 struct hk_study_recommendation {
@@ -51,27 +51,27 @@ struct hk_study {
   struct hk_study_order order[HOOKE_STUDY_METHODS];
 
   double duration, every;
-  double unit; /* the largest step of which duration and every are whole multiples [s] */
+  double unit; /* largest step of which duration and every are whole multiples [s] */
   struct hk_reference reference;
   int64_t row_count, row_capacity;
   struct hk_study_row *row;
   struct hk_study_recommendation recommendation;
   struct hk_watched_list watched;
-  struct hk_ensemble *ensemble; /* NULL: none was made */
+  struct hk_ensemble *ensemble; /* NULL: none was computed */
 
-  double safe_step
-      [HOOKE_STUDY_METHODS]; /* where a method's ladder begins; error-controlled methods have none [s] */
+  double
+      safe_step[HOOKE_STUDY_METHODS]; /* start of a method's ladder; error-controlled methods have none [s] */
 
   const char *under_way;
-  double told;                           /* the largest share told */
-  double evaluation;                     /* of forces, about [s] */
-  double fixed_rows;                     /* of the ladders, about [s] */
-  double adaptive_rows;                  /* how many */
-  double work_ahead;                     /* wall seconds of the rows to come */
+  double told;                           /* largest reported fraction */
+  double evaluation;                     /* of a force evaluation, approximate [s] */
+  double fixed_rows;                     /* of the ladders, approximate [s] */
+  double adaptive_rows;                  /* number of rows */
+  double work_ahead;                     /* wall time of the rows to come [s] */
   double begun;                          /* clock at the start [s] */
-  double budget;                         /* seconds from there, infinity for none */
+  double budget;                         /* from the start [s]; infinity for none */
   double deadline;                       /* clock at which rows end [s] */
-  double row_deadline;                   /* and the one that is under way */
+  double row_deadline;                   /* and the current one */
   int32_t given_up[HOOKE_STUDY_METHODS]; /* 1: its first row took too long for the budget */
   int32_t late;                          /* a row met its deadline */
   int32_t budget_spent;
@@ -82,23 +82,23 @@ int32_t hk_study_is_adaptive(const struct hk_study *study, int32_t method);
 
 /* The k-th value of a method's ladder, the coarsest first: a step, or a tolerance; NaN past the last. */
 double hk_study_ladder(const struct hk_study *study, int32_t method, int32_t k);
-/* The step nearest to `step` that frames and duration are whole multiples of. */
+/* The step nearest to `step` that divides frames and duration evenly. */
 double hk_study_fitting_step(const struct hk_study *study, double step);
 /* Finds the safe step of each method. */
 int32_t hk_study_find_safe_steps(struct hk_study *study);
-/* Finds `unit` and checks the ladders that the caller gave. */
+/* Finds `unit` and checks the caller's ladders. */
 int32_t hk_study_check_ladder(struct hk_study *study);
 
 /* ---- progress (study_progress.c) ---- */
 
-/* Of the whole study, and never less than before. Listeners of the reference and of a row; the context is the
- * study. The last one stops a row at its deadline, too, and marks the study as late. */
+/* Progress of the whole study, which never decreases. Listeners of the reference and of a row; their context
+ * is the study. The last one also stops a row at its deadline and marks the study as late. */
 int32_t hk_study_tell_reference(double share, void *ctx);
 int32_t hk_study_tell(double share, void *ctx);
 int32_t hk_study_tell_row(double share, void *ctx);
-/* Times a force evaluation at the start, and looks at the ladders. */
+/* Times a force evaluation at the start, and counts the rows of the ladders. */
 int32_t hk_study_prepare_guesses(struct hk_study *study);
-/* Seconds that a row is going to take, very roughly: for a method that no row has been run of. */
+/* Rough prediction of the time of a row [s], for a method without rows so far. */
 double hk_study_guess(const struct hk_study *study, int32_t method, double value);
 
 /* ---- rows ---- */
@@ -112,16 +112,16 @@ int32_t hk_study_time_row(struct hk_study *study, struct hk_study_row *row);
 /* A row that the deadline ended has no status, and the study is marked as late. */
 int32_t hk_study_measure(struct hk_study *study, int32_t method, double value, struct hk_study_row *row);
 
-/* All rows, level by level, until the deadline. */
+/* Runs all rows, level by level, until the deadline. */
 int32_t hk_study_run_ladders(struct hk_study *study);
 
-/* The recommendation, until the deadline. */
+/* Finds the recommendation, until the deadline. */
 int32_t hk_study_find_cheapest(struct hk_study *study, double want);
 
-/* What the recommendation has to spare, until the deadline. */
+/* Finds the margin of the recommendation, until the deadline. */
 int32_t hk_study_find_margin(struct hk_study *study);
 
-/* Least squares of log error on log step for a method (order.c). */
+/* Least-squares fit of log error against log step for a method (order.c). */
 void hk_study_fit_order(struct hk_study *study, int32_t method);
 
 /* ---- tables ---- */

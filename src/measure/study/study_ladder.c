@@ -10,7 +10,7 @@
 #include <string.h>
 
 enum { COARSEST_EXPONENT = 3 };             /* rtol 1e-3 */
-static const double FARTHEST_BELOW = 128.0; /* that a ladder begins below the safe step of symplectic Euler */
+static const double FARTHEST_BELOW = 128.0; /* maximum factor from the safe step of symplectic Euler */
 
 int32_t hk_study_is_adaptive(const struct hk_study *study, int32_t method) {
   return hooke_method_is_adaptive(study->method[method]);
@@ -24,15 +24,15 @@ double hk_study_fitting_step(const struct hk_study *study, double step) {
   return study->unit / fmax(1.0, ceil(study->unit / step * (1.0 - 1e-12)));
 }
 
-/* NaN where none is known. */
+/* NaN if none is known. */
 static double bound_of(const struct hk_study *study, const char *method, const double *q) {
   double bound = NAN;
   if (hooke_step_bound(study->system, method, q, &bound) != HOOKE_OK || isinf(bound)) return NAN;
   return bound;
 }
 
-/* A step that is stable for certain; where a method has none, or a very small one for which the bound is to
- * blame, a part of the one that symplectic Euler would take. */
+/* A step that is certainly stable. For a method without one, or with a very small one due to the bound, a
+ * fraction of the step of symplectic Euler. */
 static double safe_step(const struct hk_study *study, const char *method, const double *q) {
   double bound = bound_of(study, method, q);
   const double other = bound_of(study, "symplectic-euler", q);
@@ -74,7 +74,7 @@ double hk_study_ladder(const struct hk_study *study, int32_t method, int32_t k) 
   const char *own = adaptive ? "tolerances" : "steps";
   if (hooke_options_is_set(study->options, own)) return given(study->options, own, k);
   if (!adaptive) return fixed_ladder(study, method, k);
-  /* a quotient of whole numbers is the nearest number to a power of ten, a product of powers is not */
+  /* a quotient of integers is the nearest double to a power of ten, a product of powers is not */
   return k < points_of(study) ? 1.0 / pow(10.0, (double)(COARSEST_EXPONENT + k)) : NAN;
 }
 

@@ -1,5 +1,5 @@
-/* What a recommendation has to spare: its share of the stable limit, and whether it meets the want where
- * stiffness or the start is a little different, each judged against a reference of its own. */
+/* Margin of a recommendation: its fraction of the stable limit, and whether it meets the wanted error with
+ * slightly changed stiffness or start, each judged against a reference of its own. */
 #include "measure/study/study.h"
 
 #include "core/clock.h"
@@ -10,11 +10,11 @@
 #include <stddef.h>
 #include <string.h>
 
-/* Stiffness is multiplied by 1 + or - this; all free particles start with this share of the largest speed
- * that the reference has, root mean square between two frames, added along (1, 1, 1) and against it. */
+/* Stiffness is multiplied by 1 + or - this; all free particles get this fraction of the largest speed of the
+ * reference (root mean square between two frames) added along (1, 1, 1) and against it. */
 static const double CHANGE = 0.1;
 static const double SHARE = 0.5;     /* of the time that the study took so far */
-static const double SECONDS = 1.0;   /* and in any case so many */
+static const double SECONDS = 1.0;   /* and at least so many seconds */
 static const double ACCURACY = 1e-3; /* of the limit, relative */
 
 static int32_t tell_limit(double done, const char *what, void *study) {
@@ -37,7 +37,7 @@ static int32_t find_limit_share(struct hk_study *study, struct hk_study_recommen
   return HOOKE_OK;
 }
 
-/* The largest root mean square speed between two frames of the reference [m/s]. */
+/* Largest root mean square speed between two frames of the reference [m/s]. */
 static double largest_speed(const struct hk_frames *frames) {
   double largest = 0.0, unused;
   for (int64_t f = 1; f < frames->recorded; f++) {
@@ -57,8 +57,7 @@ static double judge(const struct hk_study *study, const struct hk_reference *r,
   return r->trusted >= study->reference.trusted && error + r->agreement <= want ? 1.0 : NAN;
 }
 
-/* The run that is recommended, on a system that is a little different; nothing is known where time was too
- * short for it or its reference. */
+/* The recommended run on a slightly changed system; NaN if time was too short for it or its reference. */
 static int32_t try_change(struct hk_study *study, const hooke_system *changed, double seconds, double *holds,
                           double *error) {
   const struct hk_study_recommendation *best = &study->recommendation;
@@ -110,7 +109,7 @@ static int32_t make_changed(const struct hk_study *study, enum hk_study_change c
   return status;
 }
 
-/* The want is met with a change if it is so both ways. */
+/* The want is met with a change if it is met in both directions. */
 static int32_t find_change(struct hk_study *study, enum hk_study_change change, double seconds) {
   struct hk_study_margin *margin = &study->recommendation.margin;
   double holds[2] = {NAN, NAN}, error[2] = {NAN, NAN};

@@ -18,7 +18,7 @@ int32_t hk_study_row_options(const struct hk_study *study, int32_t method, doubl
   hooke_options *options = NULL;
   int32_t status = hooke_options_copy(study->run, &options);
   if (status == HOOKE_OK) status = hk_trial_set_value(options, study->method[method], value);
-  /* rows side by side, each on a thread of its own */
+  /* rows in parallel, each on its own thread */
   if (status == HOOKE_OK) status = hooke_options_set_number(options, "threads", 1);
   if (status == HOOKE_OK)
     *out = options;
@@ -32,7 +32,7 @@ static int compare_seconds(const void *a, const void *b) {
   return (x > y) - (x < y);
 }
 
-/* The first run warms up; it counts only where it is the only one. */
+/* The first run warms up; it counts only if it is the only one. */
 static int32_t repeat_for_time(struct hk_study *study, const hooke_options *options,
                                const struct hk_listener *listener, struct hk_study_row *row) {
   double seconds[MOST_REPEATS], spent = row->trial.wall_seconds;

@@ -1,4 +1,4 @@
-/* How far a study is: the seconds spent, and those to come as far as they can be told. */
+/* Progress of a study: the time spent, and an estimate of the time to come. */
 #include "measure/study/study.h"
 
 #include "core/clock.h"
@@ -7,10 +7,10 @@
 #include <math.h>
 #include <stddef.h>
 
-/* Guesses, which only progress rests on. */
-static const double EVALUATIONS_OF_STEP = 3.0; /* in time: several, or one and a solve */
-static const double SHARE_OF_REFERENCE = 0.06; /* what a row by tolerance takes of the reference's time */
-static const double SHARE_OF_SEARCH = 0.1;     /* what the search for a recommendation adds */
+/* Guesses, used for progress only. */
+static const double EVALUATIONS_OF_STEP = 3.0; /* cost of a step: several evaluations, or one and a solve */
+static const double SHARE_OF_REFERENCE = 0.06; /* time of a row by tolerance over that of the reference */
+static const double SHARE_OF_SEARCH = 0.1;     /* added by the search for a recommendation */
 
 static int32_t time_evaluation(struct hk_study *study) {
   hooke_state *state = NULL;
@@ -62,7 +62,7 @@ static int32_t tell(struct hk_study *study, double spent, double ahead) {
 int32_t hk_study_tell_reference(double share, void *ctx) {
   struct hk_study *study = ctx;
   const double spent = hk_clock_seconds() - study->begun;
-  const double reference = spent / share; /* infinite at first, and nothing is done then */
+  const double reference = spent / share; /* infinite at first, when nothing is done */
   const double rows = study->fixed_rows + study->adaptive_rows * SHARE_OF_REFERENCE * reference;
   return tell(study, spent, reference - spent + rows);
 }

@@ -1,4 +1,4 @@
-/* The ladders of a study, level by level; on several threads the rows of a level run side by side. */
+/* The ladders of a study, level by level; on several threads the rows of a level run in parallel. */
 #include "measure/study/study.h"
 
 #include "core/clock.h"
@@ -13,17 +13,16 @@
 #include <stdlib.h>
 #include <time.h>
 
-/* Where a length is wanted, the search has this share of a budget, or so many times the run of the reference,
- * but at most this share of what is left. */
+/* With a wanted error, the search gets this fraction of a budget, or so many times the run of the reference,
+ * but at most this fraction of the remaining time. */
 static const double SEARCH_SHARE = 0.2, SEARCH_RUNS = 2.0, MOST_SEARCH = 0.5;
 static const double REPEATS = 4.0, REPEAT_SECONDS = 0.1; /* short rows are repeated, for their time */
 
-/* Of the time that is left, what a first row may take: of it nothing is known, and others are to have their
- * turn. */
+/* Fraction of the remaining time for a first row, whose time is unknown: others must have their turn. */
 static const double UNKNOWN_SHARE = 0.1;
 
-/* Seconds that the next row of a method is going to take: the last one's that came to its end, scaled by
- * the steps; NaN before the first. */
+/* Predicted time of the next row of a method [s]: that of its last finished row, scaled by the steps; NaN
+ * before the first. */
 static double predict_seconds(const struct hk_study *study, int32_t method, double value) {
   for (int64_t k = study->row_count - 1; k >= 0; k--) {
     const struct hk_study_row *row = &study->row[k];
@@ -54,8 +53,8 @@ static double seconds_ahead(const struct hk_study *study, int32_t level) {
 
 struct job {
   int32_t method;
-  double value, expected; /* step or rtol; seconds */
-  double share;           /* of the time that is left when it begins, that it may take */
+  double value, expected; /* step or rtol; time [s] */
+  double share;           /* maximum fraction of the remaining time when it begins */
   double deadline;
   struct level *level;
   struct hk_study_row row;
@@ -95,8 +94,8 @@ static void *work(void *ctx) {
   return NULL;
 }
 
-/* Side by side first, for the errors; then short rows once more, alone, for their times. The caller's thread
- * works too, or listens: progress is told from it alone. */
+/* Runs rows in parallel first, for the errors; then short rows again, alone, for their times. The caller's
+ * thread works too, or reports progress, which no other thread does. */
 static int32_t run_side_by_side(struct level *level, int32_t threads) {
   pthread_t thread[HOOKE_STUDY_METHODS];
   int32_t started = 0;
@@ -150,7 +149,7 @@ static int32_t run_one_by_one(struct level *level) {
   return status;
 }
 
-/* Rows that ran, even the one that was stopped, stay. */
+/* Rows that ran, even a stopped one, are kept. */
 static int32_t keep_rows(struct level *level) {
   struct hk_study *study = level->study;
   int32_t status = HOOKE_OK;
@@ -174,14 +173,14 @@ static int compare_jobs(const void *a, const void *b) {
   return (x->expected > y->expected) - (x->expected < y->expected);
 }
 
-/* The rows of a level that the budget still allows, the quickest first: one that takes long is to keep none
- * of the others from being run. */
+/* Runs the rows of a level that the budget still allows, the quickest first, so that a slow row does not keep
+ * the others from running. */
 static void plan_level(struct hk_study *study, int32_t number, struct level *level) {
   double ahead = 0.0;
   for (int32_t m = 0; m < study->method_count; m++) {
     const double value = hk_study_ladder(study, m, number);
     if (isnan(value) || study->given_up[m]) continue;
-    /* of a first row nothing is known: it is begun, and ends when its share is over */
+    /* the time of a first row is unknown: it is begun, and ends when its share of time is over */
     const double predicted = predict_seconds(study, m, value), next = fmax(0.0, predicted);
     if (hk_clock_seconds() + ahead + next > study->deadline) {
       study->budget_spent = 1;
@@ -197,7 +196,7 @@ static void plan_level(struct hk_study *study, int32_t number, struct level *lev
   qsort(level->job, (size_t)level->count, sizeof level->job[0], compare_jobs);
 }
 
-/* A search is to have time for a run as fine as the reference. */
+/* A search needs time for a run as fine as the reference. */
 static double end_of_rows(const struct hk_study *study) {
   const double end = study->begun + study->budget, left = end - hk_clock_seconds();
   if (isnan(hooke_options_number(study->options, "want")) || isinf(end)) return end;

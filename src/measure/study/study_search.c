@@ -8,26 +8,27 @@
 enum { MOST_RUNS = 16 };
 static const double CLOSE_STEP = 1.1,
                     CLOSE_TOLERANCE = 1.5; /* a search ends when its bracket is this narrow */
-static const double CLOSE_ERROR = 0.85;    /* or when the error is at least this share of what is allowed */
+static const double CLOSE_ERROR = 0.85;    /* or when the error is this fraction of the allowed one */
 static const double GOAL = 0.92,
-                    BEYOND = 0.8;    /* what is aimed at, in that share, between rows and beyond the finest */
-static const double FARTHEST = 64.0; /* beyond the finest row, times in step */
-static const double LOOSEST = 0.1;   /* the largest rtol that a run takes */
+                    BEYOND = 0.8;    /* target, as such a fraction, between rows and beyond the finest */
+static const double FARTHEST = 64.0; /* maximum factor in the step beyond the finest row */
+static const double LOOSEST = 0.1;   /* largest rtol of a run */
 static const double COARSER_STEP = 2.0, COARSER_TOLERANCE = 10.0;  /* while the coarsest row meets the want */
 static const double HOPELESS = 4.0;                                /* times the cost of the best */
 static const double FINER = 4.0;                                   /* while runs diverge */
-static const double FARTHEST_STEP = 8.0, FARTHEST_TOLERANCE = 1e3; /* at once */
-static const double TIGHTEST = 1e-14;                              /* the smallest rtol that a run takes */
+static const double FARTHEST_STEP = 8.0, FARTHEST_TOLERANCE = 1e3; /* at a time */
+static const double TIGHTEST = 1e-14;                              /* smallest rtol of a run */
 
-/* Wall time goes as the steps do; an error-controlled method's as a power of rtol: about, and at most. */
+/* Wall time scales with the number of steps; that of an error-controlled method with a power of rtol:
+ * approximate, and at most. */
 static const double USUAL_POWER = 1.0 / 6.0, LARGEST_POWER = 1.0 / 3.0;
 
 static int is_adaptive(const struct hk_study *study, const struct hk_study_candidate *c) {
   return hk_study_is_adaptive(study, c->method);
 }
 
-/* Evaluations of forces and products with their derivatives: what the time goes with, but the same in every
- * run. */
+/* Evaluations of forces and products with their derivatives: proportional to time, but the same in every run.
+ */
 static double work_of(const struct hk_trial *trial) {
   return trial->force_evaluations + fmax(0.0, trial->linear_iterations);
 }
@@ -36,10 +37,10 @@ double hk_study_candidate_cost(const struct hk_study_candidate *c) {
   return work_of(&c->best.trial) * c->rate;
 }
 
-/* ---- what the ladder says ---- */
+/* ---- prediction from the ladder ---- */
 
-/* Where the straight line between two points in logarithms has the error that is allowed, with a little to
- * spare. */
+/* Value at which the straight line between two points in logarithms has the allowed error, with a small
+ * margin. */
 static double interpolate(const struct hk_study_candidate *c) {
   const double goal = log(GOAL * c->most), high = log(c->error_at_fails), low = log(c->error_at_meets);
   if (!(c->error_at_fails > c->error_at_meets) || !(c->error_at_meets > 0.0))
@@ -48,8 +49,8 @@ static double interpolate(const struct hk_study_candidate *c) {
   return exp(log(c->meets) + share * (log(c->fails) - log(c->meets)));
 }
 
-/* Where nothing meets the want yet, by the order where one has been seen; what is as tight as the reference
- * takes as long. */
+/* If nothing meets the want yet, extrapolates by the observed order; a value as tight as the reference takes
+ * as long. */
 static double predict_beyond(const struct hk_study *study, const struct hk_study_candidate *c) {
   const double order = study->order[c->method].order;
   if (!(c->error_at_fails > 0.0) || !(c->most > 0.0)) return INFINITY;
@@ -66,7 +67,7 @@ static void predict(const struct hk_study *study, struct hk_study_candidate *c) 
                                  : hk_study_candidate_cost(c) * pow(c->best.value / value, power);
 }
 
-/* A row joins what is known. 1 if it is the best so far. */
+/* Adds a row to the state. 1 if it is the best so far. */
 static int learn(struct hk_study_candidate *c, const struct hk_study_row *row) {
   const struct hk_trial *trial = &row->trial, *best = &c->best.trial;
   const int had = !isnan(c->meets);
@@ -141,7 +142,7 @@ static double as_fine_as_reference(const struct hk_study *study, int32_t method)
   return fmax(TIGHTEST, fmin(r->rtol, r->atol / share));
 }
 
-/* Where a search ends: farther than the ladder, and as fine as the reference; steps with a budget, when it is
+/* End of a search: beyond the ladder, and as fine as the reference; for steps with a budget, when that is
  * spent. */
 static double least_value(const struct hk_study *study, const struct hk_study_candidate *c) {
   const double least = as_fine_as_reference(study, c->method), farthest = c->finest / FARTHEST;
@@ -149,26 +150,26 @@ static double least_value(const struct hk_study *study, const struct hk_study_ca
   return isinf(study->budget) ? fmin(least, farthest) : 0.0;
 }
 
-/* Where errors that go with the step or tolerance to this power come down to what is wanted, from the finest
- * row on. */
+/* Value at which errors that scale with this power of the step or tolerance reach the wanted one, from the
+ * finest row on. */
 static double by_slope(const struct hk_study_candidate *c, double slope) {
   return c->fails * pow(BEYOND * c->most / c->error_at_fails, 1.0 / slope);
 }
 
-/* By the order that the method has been seen to have. */
+/* By the observed order of the method. */
 static double by_order(const struct hk_study *study, const struct hk_study_candidate *c) {
   const double order = study->order[c->method].order;
   return by_slope(c, isnan(order) || order < 0.5 ? 1.0 : order);
 }
 
-/* By the best that it can have. */
+/* By the highest order that it can have. */
 static double by_theory(const struct hk_study *study, const struct hk_study_candidate *c) {
   const double theory = study->order[c->method].theory;
   return by_slope(c, isnan(theory) ? 1.0 : theory);
 }
 
-/* Beyond the finest row, by the slope but not far at once, for it may become steeper; or until a run does not
- * diverge. NaN when that has led far enough. */
+/* Beyond the finest row: by the slope, but in small steps, for it may become steeper; or until a run does not
+ * diverge. NaN at the end. */
 static double finer(const struct hk_study *study, const struct hk_study_candidate *c) {
   if (c->most <= 0.0) return NAN;
   const double least = least_value(study, c);
@@ -185,7 +186,7 @@ static double coarser(const struct hk_study *study, const struct hk_study_candid
   return c->meets < largest * (1.0 - 1e-9) ? fmin(value, largest) : NAN;
 }
 
-/* The step that fits next to `step`, strictly between those that are known; NaN if there is none. */
+/* The step next to `step` that fits, strictly between the known ones; NaN if there is none. */
 static double fit_between(const struct hk_study *study, const struct hk_study_candidate *c, double step) {
   const double most = isnan(c->meets) ? INFINITY : round(study->unit / c->meets) - 1.0;
   const double least = isnan(c->fails) ? 1.0 : round(study->unit / c->fails) + 1.0;
@@ -198,7 +199,8 @@ static int is_close(const struct hk_study *study, const struct hk_study_candidat
   return c->fails / c->meets <= close || c->error_at_meets >= CLOSE_ERROR * c->most;
 }
 
-/* Between the two by turns where the error should be right, and the middle, so that both ends move. */
+/* Alternates between the value where the error should be right and the middle of the bracket, so that both
+ * ends move. */
 static double next_value(const struct hk_study *study, const struct hk_study_candidate *c, int32_t run) {
   double value;
   if (isnan(c->meets))
@@ -212,8 +214,7 @@ static double next_value(const struct hk_study *study, const struct hk_study_can
   return isnan(value) || is_adaptive(study, c) ? value : fit_between(study, c, value);
 }
 
-/* The least that a run of this candidate might still take, in wall seconds: where costs only grow from coarse
- * to fine. */
+/* Minimum wall time of a run of this candidate [s]: costs only grow from coarse to fine. */
 static double least_cost(const struct hk_study *study, const struct hk_study_candidate *c) {
   const double seconds = hk_study_candidate_cost(c);
   if (isnan(c->meets)) return isnan(c->error_at_fails) ? 0.0 : seconds;
@@ -221,14 +222,14 @@ static double least_cost(const struct hk_study *study, const struct hk_study_can
   return isnan(c->fails) ? 0.0 : seconds * pow(c->best.value / c->fails, power);
 }
 
-/* Seconds that a run of the next value is going to take, for the deadline. */
+/* Predicted time of a run of the next value [s], for the deadline. */
 static double next_cost(const struct hk_study *study, const struct hk_study_candidate *c, double value) {
   const double power = is_adaptive(study, c) ? USUAL_POWER : 1.0;
   return hk_study_candidate_cost(c) * pow(c->best.value / value, power);
 }
 
-/* Where it does not meet the want yet: 1 if it is not going to come below `cost` even at its theoretical
- * order; nor, where no run has come to its end, if any other method has done better. */
+/* While nothing meets the want yet: 1 if the candidate will not come below `cost` even at its theoretical
+ * order; nor, if none of its runs finished, if another method has done better. */
 static int is_hopeless(const struct hk_study *study, const struct hk_study_candidate *c, double cost) {
   if (!isnan(c->meets) || isinf(cost)) return 0;
   return isnan(c->error_at_fails) || next_cost(study, c, by_theory(study, c)) >= HOPELESS * cost;
@@ -241,7 +242,7 @@ int32_t hk_study_candidate_search(struct hk_study *study, struct hk_study_candid
     if (isnan(value) || is_hopeless(study, c, cost) || least_cost(study, c) >= cost) break;
     const int late = hk_clock_seconds() + next_cost(study, c, value) > study->deadline;
     study->budget_spent |= late;
-    /* where nothing meets the want yet, what time is left is better spent on it */
+    /* if nothing meets the want yet, the remaining time is better spent on this */
     if (late && !isinf(cost)) break;
     status = try_value(study, c, value);
     if (study->late) break;

@@ -4,8 +4,8 @@
 #include <math.h>
 #include <stddef.h>
 
-/* The time of frame `count` - 1, or the end of the run if that is all of them: the last may come before
- * it. */
+/* Time of frame `count` - 1, or the end of the run if that is the last frame, which may come before the end.
+ */
 static double time_until(const struct hk_study *study, int64_t count) {
   const struct hk_frames *frames = &study->reference.frames;
   if (count <= 0) return NAN;

@@ -7,7 +7,7 @@
 #include <math.h>
 #include <string.h>
 
-static const double FACTOR = 4.0; /* twice what first order needs */
+static const double FACTOR = 4.0; /* twice the first-order value */
 
 static double largest_energy(const hooke_system *system, const double *q, const double *v) {
   double sum = fabs(hooke_system_energy(system, "kinetic", NULL, v));
@@ -18,7 +18,7 @@ static double largest_energy(const hooke_system *system, const double *q, const 
   return sum;
 }
 
-/* Power that driven particles put in and that becomes heat, at a state. */
+/* Power of driven particles and dissipated power, at a state. */
 static int32_t find_powers(const struct hk_balance *balance, const hooke_state *state, double *in,
                            double *out) {
   const hooke_system *system = balance->system;

@@ -14,7 +14,7 @@ static int32_t see(struct hk_bracket *b, double step) {
     b->fails = fmin(b->fails, step);
   else
     b->unknown = 1;
-  /* a step that failed although a larger one held: the smaller one is the limit */
+  /* a step failed although a larger one held: the smaller one is the limit */
   if (b->fails < b->holds) b->holds = 0.0;
   return HOOKE_OK;
 }

@@ -1,5 +1,5 @@
-/* The search for the step at which something begins to fail: a bracket about a guess, widened until both
- * sides are known, then halved. */
+/* The search for the smallest step that fails: a bracket about a guess, widened until both sides are known,
+ * then halved. */
 #ifndef HOOKE_MEASURE_TRIAL_BRACKET_H
 #define HOOKE_MEASURE_TRIAL_BRACKET_H
 
@@ -12,7 +12,7 @@ enum hk_trial_end {
 };
 
 struct hk_bracket {
-  /* What happens at `step`: a status. */
+  /* Result of a trial at `step`: a status. */
   int32_t (*try_step)(void *ctx, double step, enum hk_trial_end *end);
   void *ctx;
   double accuracy;    /* of the limit, relative */
@@ -20,7 +20,7 @@ struct hk_bracket {
   double least, most; /* steps beyond which nobody looks */
   double holds,
       fails; /* the bracket: largest step known to hold, smallest known to fail; 0 and infinity at first */
-  int32_t unknown; /* a trial had no answer: the bracket is as far as it got */
+  int32_t unknown; /* a trial had no answer: the bracket is as far as the search got */
 };
 
 /* Narrows the bracket from `guess` on until it is as wide as half of the accuracy, or a side lies beyond

@@ -15,7 +15,7 @@ static const struct hk_option_row comparison_rows[] = {
 
 static const struct hk_option_table comparison_table = {"comparison", HOOKE_OPTION_ROWS(comparison_rows)};
 
-/* ---- making ---- */
+/* ---- creating ---- */
 
 static int32_t add_method(const char *method, void *ctx) {
   struct hk_comparison *c = ctx;
@@ -70,7 +70,7 @@ int32_t hooke_comparison_on_frame(hooke_measurement *m, hooke_comparison_frame *
 
 /* ---- preparing ---- */
 
-/* The schedule that all rows share: the one of a fixed-step method if the options have a step. */
+/* The schedule that all rows share: that of a fixed-step method if the options have a step. */
 static int32_t read_schedule(struct hk_comparison *c) {
   struct hk_schedule schedule;
   int has_fixed = 0;
@@ -159,13 +159,13 @@ static int32_t run(hooke_measurement *m, hooke_state *state) {
   struct hk_comparison *c = m->object;
   int32_t status = hk_measurement_require_fresh(m, state);
   if (status != HOOKE_OK) return status;
-  /* it failed after frames had been handed out */
+  /* it failed after frames had been shown */
   if (c->runs_begun > 0) return hk_fail(HOOKE_BAD_CALL, NULL, "the comparison has been run; make a new one");
   status = hk_comparison_prepare(c);
   if (status == HOOKE_OK) status = run_reference(c);
   for (int64_t k = 0; k < c->row_count && status == HOOKE_OK; k++)
     status = run_row(c, &c->row[k]);
-  /* as before, unless frames have been handed out */
+  /* as before, unless frames have been shown */
   if (status < 0 && c->on_frame == NULL) {
     hk_comparison_release_room(c);
     c->runs_begun = 0;

@@ -1,4 +1,4 @@
-/* The object of a measurement of the kind "comparison". */
+/* The object of a measurement of kind "comparison". */
 #ifndef HOOKE_MEASURE_TRIAL_COMPARISON_H
 #define HOOKE_MEASURE_TRIAL_COMPARISON_H
 
@@ -23,10 +23,10 @@ struct hk_comparison {
   hooke_comparison_frame *on_frame;
   void *on_frame_ctx;
 
-  int64_t runs_begun; /* the one under way is the last: 1 the reference, 2 the first row */
+  int64_t runs_begun; /* the current one is the last: 1 the reference, 2 the first row */
 };
 
-/* Room for frames and rows, and the method that gives the reference; once, before the first run. */
+/* Allocates frames and rows, and chooses the method of the reference; once, before the first run. */
 int32_t hk_comparison_prepare(struct hk_comparison *comparison);
 /* Undoes that. */
 void hk_comparison_release_room(struct hk_comparison *comparison);

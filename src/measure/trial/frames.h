@@ -1,5 +1,5 @@
-/* The frames of a run, kept to judge other runs by: memory is bounded by the number of frames, not of
- * steps. */
+/* The frames of a run, kept for judging other runs: memory is bounded by the number of frames, not of steps.
+ */
 #ifndef HOOKE_MEASURE_TRIAL_FRAMES_H
 #define HOOKE_MEASURE_TRIAL_FRAMES_H
 
@@ -14,14 +14,14 @@ struct hk_frames {
   double *energy;                     /* count [J] */
   double *position;                   /* count x size [m] */
   int64_t *free_particle, free_count; /* errors are measured over these */
-  struct hk_watched_series watched;   /* of nothing unless it is made */
+  struct hk_watched_series watched;   /* empty unless created */
 };
 
-/* Room for `count` frames of a committed system. HOOKE_NO_MEMORY. */
+/* Allocates `count` frames of a committed system. HOOKE_NO_MEMORY. */
 int32_t hk_frames_create(const hooke_system *system, int64_t count, struct hk_frames *frames);
 void hk_frames_release(struct hk_frames *frames);
 
-/* Keeps the next frame; those beyond `count` are left out. */
+/* Records the next frame; those beyond `count` are ignored. */
 void hk_frames_record(struct hk_frames *frames, const hooke_state *state);
 
 /* Root mean square over the free particles of the distance between q and frame f [m]; the largest distance

@@ -1,14 +1,15 @@
-/* Methods by their names in an option: separated by commas or spaces. */
+/* Lists of methods in an option: names separated by commas or spaces. */
 #ifndef HOOKE_MEASURE_TRIAL_METHOD_LIST_H
 #define HOOKE_MEASURE_TRIAL_METHOD_LIST_H
 
 #include "hooke/integrator.h"
 
-/* Adds a method to what `ctx` holds; a status. */
+/* Adds a method to `ctx`; returns a status. */
 typedef int32_t hk_method_taker(const char *method, void *ctx);
 
-/* Hands the methods of `names` to `take`, in their order; of an empty `names` every method of the table for
- * which `suits` is not 0. HOOKE_BAD_VALUE at "methods" for an unknown name, else what `take` says. */
+/* Calls `take` for the methods in `names`, in their order; if `names` is empty, for every method of the table
+ * for which `suits` is not 0. HOOKE_BAD_VALUE at "methods" for an unknown name, and the failures of `take`.
+ */
 int32_t hk_method_list_read(const char *names, int32_t (*suits)(const char *method), hk_method_taker *take,
                             void *ctx);
 

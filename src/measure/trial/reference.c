@@ -8,23 +8,22 @@
 #include <stddef.h>
 #include <string.h>
 
-/* Tolerances of the check, level by level. The run that is kept is ten times tighter, so that their distance
- * is mostly the error of the check, and a bound on that of the reference; at the tightest, where rounding
- * takes over, both have the same. Without a budget the first is tight at once. */
+/* Tolerances of the check, level by level. The recorded run is ten times tighter, so that their distance is
+ * mostly the error of the check, and a bound on that of the reference; at the tightest level, where rounding
+ * dominates, both have the same tolerance. Without a budget the first level is tight. */
 static const double LOOSEST = 1e-4, QUICK = 1e-7, TIGHT = 1e-9, TIGHTEST = 1e-14;
-static const double FIRST_SHARE = 0.1; /* the first tolerance, in digits as a share of the extent */
-static const double LEAST_FACTOR = 1e-2, MOST_FACTOR = 0.1;   /* from one level to the next */
-static const double AIM = 0.3;                                /* of the distance that is wanted */
+static const double FIRST_SHARE = 0.1; /* the first tolerance, in digits as a fraction of the extent */
+static const double LEAST_FACTOR = 1e-2, MOST_FACTOR = 0.1;   /* factor from one level to the next */
+static const double AIM = 0.3;                                /* of the wanted distance */
 static const double COST_POWER = 1.0 / 6.0, COST_SPARE = 1.1; /* of a level, in the factor */
 enum { EXPECTED_LEVELS = 2 };
 
-static const double CLOSE = 1e-9;  /* agreement, as a share of the extent, at which tightening ends */
-static const double DIGITS = 1e-6; /* trusted digits where nothing else is wanted or can be had */
-static const double SAFETY =
-    2.0; /* the two may be off in the same direction, and then by more than they part */
-static const double CHECK_COST = 2.0; /* of the check against the first method, before it is known */
-/* Of the budget: where the first run ends, so that there is time to check it; where the last check does; and
- * where there is no further level once all frames are trusted. */
+static const double CLOSE = 1e-9;     /* agreement, as a fraction of the extent, at which tightening ends */
+static const double DIGITS = 1e-6;    /* trusted digits if none are wanted or those are out of reach */
+static const double SAFETY = 2.0;     /* the two may err in the same direction, by more than their distance */
+static const double CHECK_COST = 2.0; /* cost of the check relative to the first method, before it is known */
+/* Fractions of the budget: end of the first run, so that there is time to check it; end of the last check;
+ * and limit for another level once all frames are trusted. */
 static const double FIRST_RUN_SHARE = 0.3, LEVELS_SHARE = 0.8, FLOOR_SHARE = 0.4;
 
 int32_t hk_reference_method(const hooke_system *system, const double *q, const char **method) {
@@ -51,7 +50,7 @@ static int32_t find_extent(const hooke_state *state, double *extent) {
 
 /* ---- agreement ---- */
 
-/* Frames from the first on whose distance, with safety, is at most `digits`. */
+/* Number of initial frames whose distance, with the safety factor, is at most `digits`. */
 static void trust(struct hk_reference *r, const struct hk_trial *check, double digits) {
   r->digits = digits;
   r->agreement = r->energy_agreement = 0.0;
@@ -63,7 +62,7 @@ static void trust(struct hk_reference *r, const struct hk_trial *check, double d
   }
 }
 
-/* Where the wanted digits are beyond reach from the first frame on, as many as there may be. */
+/* If the wanted digits are out of reach from the first frame on, as many as possible. */
 static void find_trust(struct hk_reference_watch *watch, struct hk_reference *r,
                        const struct hk_trial *check) {
   const double fallback = DIGITS * r->extent, wanted = watch->request->digits;
@@ -79,8 +78,7 @@ static void find_trust(struct hk_reference_watch *watch, struct hk_reference *r,
 
 /* ---- levels ---- */
 
-/* What is still to come beside this level, for progress: the levels that are usual, and the runs for the
- * growth. */
+/* Work to come beside this level, for progress: the usual levels, and the runs for the growth. */
 static double ahead_of_level(const struct hk_reference_watch *watch) {
   const double growth = watch->request->enough ? 0.0 : 1.0;
   return growth + fmax(0.0, EXPECTED_LEVELS - watch->levels) * (1.0 + CHECK_COST);
@@ -107,7 +105,7 @@ static int32_t agree(struct hk_reference_watch *watch, struct hk_reference *r, d
   return status;
 }
 
-/* The further agreement is kept, of equals the later; the wanted digits come before any others. */
+/* Keeps the longer agreement, of equals the later; the wanted digits come before any others. */
 static void keep_further(struct hk_reference *r, struct hk_reference *next) {
   const int better = next->coarse != r->coarse ? r->coarse : next->trusted >= r->trusted;
   struct hk_reference *worse = better ? r : next;
@@ -125,7 +123,7 @@ static int is_all(const struct hk_reference *r) {
   return r->trusted == r->frames.count && !r->coarse;
 }
 
-/* To where the two should agree: errors go with the tolerance, as long as motion is not chaotic. */
+/* The tolerance at which the two should agree: errors scale with the tolerance, unless motion is chaotic. */
 static double next_tolerance(const struct hk_reference_watch *watch, const struct hk_reference *r,
                              double tolerance) {
   const double aim = AIM * (is_all(r) ? CLOSE * r->extent : r->digits) / watch->apart;
@@ -133,17 +131,17 @@ static double next_tolerance(const struct hk_reference_watch *watch, const struc
   return fmax(TIGHTEST, tolerance * fmax(least, fmin(MOST_FACTOR, aim)));
 }
 
-/* 1 if the reference is as good as is asked for. */
+/* 1 if the reference is as good as requested. */
 static int is_enough(const struct hk_reference_request *request, const struct hk_reference *r) {
   return is_all(r) && (request->enough || r->agreement <= CLOSE * r->extent);
 }
 
-/* 1 if an integrator gave up, which it may at one tolerance and not at another. */
+/* 1 if an integrator gave up, which it may do at one tolerance and not at another. */
 static int gave_up(int32_t status) {
   return status == HOOKE_SOLVER_FAILED || status == HOOKE_DIVERGED || status == HOOKE_STEP_LIMIT;
 }
 
-/* A level beside what is kept so far, whose place it may take. */
+/* Runs a level, which may replace the best one so far. */
 static int32_t run_level(struct hk_reference_watch *watch, struct hk_reference *r, double tolerance,
                          struct hk_trial *check) {
   struct hk_reference next = *r;
@@ -161,8 +159,8 @@ static int32_t run_level(struct hk_reference_watch *watch, struct hk_reference *
   return HOOKE_OK;
 }
 
-/* 1 if a level whose tolerance is so many times smaller than that of one of so many seconds is due before the
- * share of the budget for levels ends. */
+/* 1 if a level with a tolerance smaller by this factor than that of a level of so many seconds should end
+ * within the budget for levels. */
 static int has_time(const struct hk_reference_watch *watch, const struct hk_reference *r, double times,
                     double seconds) {
   const double share = is_all(r) ? FLOOR_SHARE : LEVELS_SHARE;
@@ -170,7 +168,7 @@ static int has_time(const struct hk_reference_watch *watch, const struct hk_refe
   return hk_clock_seconds() + expected <= watch->begun + share * watch->request->budget;
 }
 
-/* Tightens until the two agree, tolerances end, or time does. */
+/* Tightens until the two agree, or tolerances or time are exhausted. */
 static int32_t tighten(struct hk_reference_watch *watch, struct hk_reference *r, struct hk_trial *check) {
   double tolerance = first_tolerance(watch->request, r->extent);
   int32_t status = hk_reference_choose_first(watch, r, 0.1 * tolerance);

@@ -1,8 +1,9 @@
-/* How much small displacements of the start grow: the largest singular value of the map from positions and
+/* Growth of small displacements of the start: the largest singular value of the map from positions and
  * velocities at the start, velocities times the duration, to positions at any frame. A small scene is
- * displaced in every coordinate, and the singular values are those of the differences. Else random
- * displacements bound them (Halko, Martinsson and Tropp 2011, lemma 4.1): of k of them, whose components are
- * normal, 10 sqrt(2/pi) times the largest displacement seen is above with probability 1 - 10^-k. */
+ * displaced in every coordinate, and the singular values are those of the differences. For larger scenes
+ * random displacements bound them (Halko, Martinsson and Tropp 2011, lemma 4.1): of k of them, whose
+ * components are normal, 10 sqrt(2/pi) times the largest displacement seen is above with probability 1 -
+ * 10^-k. */
 #include "measure/trial/reference_run.h"
 
 #include "core/clock.h"
@@ -14,28 +15,28 @@
 #include <string.h>
 
 enum { RANDOM = 3, FEWEST = 2 };     /* random displacements, and of those in a bound */
-enum { MOST_COORDINATES = 36 };      /* that are displaced one by one */
-static const int64_t ROOM = 1000000; /* numbers kept for that */
+enum { MOST_COORDINATES = 36 };      /* maximum number of coordinates displaced one by one */
+static const int64_t ROOM = 1000000; /* maximum numbers stored for that */
 static const double COORDINATES_SECONDS = 0.5,
-                    COORDINATES_SHARE = 1.0; /* in any case, and of the reference's time */
+                    COORDINATES_SHARE = 1.0; /* minimum time [s], and as a multiple of the reference's */
 static const uint64_t SEED = 1;
 static const double BOUND = 7.978845608028654; /* 10 sqrt(2/pi) */
-static const double DISPLACEMENT = 1e-7;       /* of a component, as a share of the extent */
-static const double SATURATED = 0.02;  /* of the extent: displacements that large are not small any more */
-static const double TOLERANCE = 1e-10; /* of the runs, unless the reference's is looser and good enough */
-static const double DROWNED = 1e-2;    /* agreement over displacement, from which on it is not */
-static const double TIGHTER = 2.0;     /* what such a run may take, times that of the reference */
+static const double DISPLACEMENT = 1e-7;       /* displacement of a component, as a fraction of the extent */
+static const double SATURATED = 0.02;  /* of the extent: larger displacements are not small any more */
+static const double TOLERANCE = 1e-10; /* of the runs, unless the reference's is looser and sufficient */
+static const double DROWNED = 1e-2;    /* limit of agreement over displacement */
+static const double TIGHTER = 2.0;     /* maximum time of such a run, as a multiple of the reference's */
 enum { MOST_TURNS = 200 };             /* of the iteration for a singular value */
 
-/* A displacement of the start, and what became of it. */
+/* A displacement of the start, and its result. */
 struct displacement {
   const struct hk_reference *base;
-  int64_t coordinate; /* that is displaced, positions before velocities; -1: all, at random */
+  int64_t coordinate; /* displaced coordinate, positions before velocities; -1: all, at random */
   uint64_t random;
   double length;   /* standard deviation of a component [m] */
   double duration; /* that of a velocity is `length` over it [s] */
   double square;   /* sum of the squares of all components over that of `length` */
-  double *kept;    /* free coordinates at frames, less those of `base`, over `length`; NULL: not kept */
+  double *kept;    /* free coordinates at frames, minus those of `base`, over `length`; NULL: not stored */
 };
 
 static void displace(hooke_state *state, void *ctx) {
@@ -90,7 +91,7 @@ static int32_t run_displaced(struct hk_reference_watch *watch, struct hk_referen
   return HOOKE_OK;
 }
 
-/* ---- at random ---- */
+/* ---- random displacements ---- */
 
 static int32_t displace_at_random(struct hk_reference_watch *watch, struct hk_reference *r,
                                   struct displacement *d, double deadline, struct hk_trial *trial) {
@@ -133,7 +134,7 @@ static double norm(int64_t count, const double *x) {
   return sqrt(square);
 }
 
-/* The largest singular value, by iteration from x, which becomes its vector. */
+/* The largest singular value, by power iteration from x, which becomes its vector. */
 static double singular_value(int64_t rows, int64_t columns, int64_t stride, const double *column,
                              double x[MOST_COORDINATES]) {
   double value = 0.0;
@@ -183,7 +184,7 @@ static int32_t displace_all(struct hk_reference_watch *watch, struct hk_referenc
   return status;
 }
 
-/* ---- which of the two ---- */
+/* ---- choice between the two ---- */
 
 static int takes_all(const struct hk_reference_watch *watch, const struct hk_reference *base,
                      double deadline) {

@@ -9,7 +9,7 @@
 
 static const double ABSOLUTE = 0.01;          /* of rtol times the extent: the absolute tolerance */
 static const double MOST_COST = 5.0;          /* of the explicit check against the first method */
-static const double MOST_EVALUATIONS = 10.0;  /* of rk8pd for one of the first method, in equal time */
+static const double MOST_EVALUATIONS = 10.0;  /* of rk8pd against the first method, in equal time */
 static const double TIMEABLE = 2e-3;          /* [s] */
 static const double TRIAL_SHARE = 0.05;       /* of the duration, to predict costs */
 static const double FIRST_TRIAL_SHARE = 0.05; /* of the budget, for the trial of the first method */
@@ -105,10 +105,10 @@ int32_t hk_reference_judge(struct hk_reference_watch *watch, const struct hk_ref
   return hk_fail(HOOKE_SOLVER_FAILED, NULL, "no reference: %s %s at rtol %g", method, trial->status, rtol);
 }
 
-/* ---- which integrators ---- */
+/* ---- choice of integrators ---- */
 
-/* A trial over a share of the duration, at most so many seconds and steps; infinite where it does not come to
- * its end. */
+/* A trial over a fraction of the duration, with a limit on time [s] and steps; infinite if it does not
+ * finish. */
 static int32_t try_beginning(struct hk_reference_watch *watch, const struct hk_reference *r,
                              const char *method, double rtol, double longest, double most_steps,
                              double duration, struct hk_reference_cost *cost) {
@@ -146,16 +146,16 @@ int32_t hk_reference_choose_first(struct hk_reference_watch *watch, struct hk_re
   return status;
 }
 
-/* What rk8pd needs for a short trial, over what the first method needs for the same share of its run: in
- * time, since one spends it on forces and the other on vectors and solves; trials too short to time count by
- * evaluations. */
+/* Cost of rk8pd in a short trial, relative to the cost of the first method for the same part of its run: in
+ * time, since one spends it on forces and the other on vectors and solves; in evaluations if trials are too
+ * short to time. */
 static int32_t explicit_cost(struct hk_reference_watch *watch, const struct hk_reference *r, double rtol,
                              struct hk_reference_cost first, double *ratio) {
   struct hk_reference_cost trial;
   *ratio = INFINITY;
   if (!hooke_method_is_built("rk8pd")) return HOOKE_OK;
   const double reached = r->frames.time[r->frames.recorded - 1] - r->frames.time[0];
-  /* a scene too stiff for it must not hold the study up: forces cost it no more than they cost the other */
+  /* a scene too stiff for it must not delay the study: forces cost it no more than the other */
   const double most = MOST_COST * TRIAL_SHARE * first.evaluations * MOST_EVALUATIONS;
   const double longest = fmax(TIMEABLE, 2.0 * MOST_COST * TRIAL_SHARE * first.seconds);
   const int32_t status =

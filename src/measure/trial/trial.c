@@ -58,7 +58,7 @@ struct hk_trial_line hk_trial_line(const struct hk_trial *trial, const char *met
   };
 }
 
-/* ---- a run under way ---- */
+/* ---- running ---- */
 
 struct run {
   struct hk_frames *record;          /* or */
@@ -104,7 +104,7 @@ static int32_t see_frame(int64_t step, const hooke_state *state, void *ctx) {
   return value ? value : tell((hooke_state_time(state) - run->begin) / run->duration, NULL, run);
 }
 
-/* One run on a fresh state; the integrator comes out for its counts. */
+/* One run on a fresh state; returns the integrator for its counts. */
 static int32_t run_once(struct run *run, const hooke_system *system, const hooke_options *options,
                         hooke_integrator **integrator) {
   hooke_state *state = NULL;

@@ -7,8 +7,8 @@
 #include "hooke/measurement.h"
 #include "measure/trial/frames.h"
 
-/* Who wants to hear of a run under way; any function may be NULL. Anything but 0 from the first two stops the
- * run; the third may change the initial state. */
+/* Callbacks during a run; any may be NULL. A non-zero result of the first two stops the run; the third may
+ * change the initial state. */
 struct hk_listener {
   int32_t (*on_progress)(double share, void *ctx);
   int32_t (*on_frame)(int64_t frame, int64_t step, const hooke_state *state, void *ctx);
@@ -18,32 +18,32 @@ struct hk_listener {
 
 struct hk_trial {
   const char *status;      /* "finished", "diverged", "stopped", "failed"; NULL: not run yet */
-  double step, rtol, atol; /* NaN where the method does not take it */
+  double step, rtol, atol; /* NaN if the method does not take it */
   double error, error_max, error_final, energy_drift; /* NaN unless finished */
   double force_evaluations, steps, linear_iterations, wall_seconds;
-  double *error_at, *drift_at;      /* one a frame of the reference, NaN where there is none */
-  struct hk_watched_series watched; /* of what the reference watches, with the errors */
+  double *error_at, *drift_at;      /* one a frame of the reference, NaN where missing */
+  struct hk_watched_series watched; /* quantities watched by the reference, with their errors */
 };
 
 int32_t hk_trial_create(const struct hk_frames *reference, struct hk_trial *trial);
 void hk_trial_release(struct hk_trial *trial);
 
-/* Runs with the options of a run. Divergence, a solver that fails and a step limit are results, and return
- * HOOKE_OK; HOOKE_STOPPED if the listener asked for it; other failures as they are. `frames` counts what is
- * judged: frames of the reference beyond it are left out. */
+/* Runs with the options of a run. Divergence, a failed solver and a step limit are results, and return
+ * HOOKE_OK; HOOKE_STOPPED if the listener asked for it; other failures are returned. `frames` is the number
+ * of judged frames: later frames of the reference are ignored. */
 int32_t hk_trial_run(struct hk_trial *trial, const struct hk_frames *reference, int64_t frames,
                      const hooke_options *options, const struct hk_listener *listener);
 
-/* Runs and keeps every frame, as a reference for trials; any outcome but success comes back. `wall_seconds`
- * and `force_evaluations` may be NULL. */
+/* Runs and records every frame, as a reference for trials; any outcome but success is returned.
+ * `wall_seconds` and `force_evaluations` may be NULL. */
 int32_t hk_frames_run(struct hk_frames *frames, const hooke_options *options,
                       const struct hk_listener *listener, double *wall_seconds, double *force_evaluations);
 
-/* Sets a method and its step or rtol in options of a run; atol keeps its share of rtol, and atol_velocity
+/* Sets a method and its step or rtol in options of a run; atol keeps its ratio to rtol, and atol_velocity
  * follows it. */
 int32_t hk_trial_set_value(hooke_options *run, const char *method, double value);
 
-/* A trial as a row of a table. Before it was run: "not run" and NaN. */
+/* A trial as a row of a table. Before its run: "not run" and NaN. */
 struct hk_trial_line {
   const char *method, *status;
   double step, rtol, atol, error, error_max, error_final, energy_drift;
@@ -54,7 +54,7 @@ struct hk_trial_line hk_trial_line(const struct hk_trial *trial, const char *met
 
 #define HOOKE_TRIAL_COLUMN(member, type, unit, doc)                                                          \
   HOOKE_COLUMN(struct hk_trial_line, member, type, unit, doc)
-/* Columns of the errors and the work of a trial. */
+/* Columns for the errors and the work of a trial. */
 #define HOOKE_TRIAL_COLUMNS                                                                                  \
   HOOKE_TRIAL_COLUMN(error, NUMBER, "m",                                                                     \
                      "largest root mean square over the free particles of the distance to the reference"),   \

@@ -10,8 +10,8 @@
 
 /* ---- products ---- */
 
-/* out = (a K + b C) x, without what constrained particles feel, and without what compressed springs have
- * across; 0 if patience has an end. */
+/* out = (a K + b C) x, without constrained particles and the transverse stiffness of compressed springs; 0 if
+ * patience ends. */
 static int32_t multiply(struct hk_growing *g, const double *q, double a, double b) {
   const hooke_system *system = g->system;
   const double *const x[3] = {g->x, g->x + 1, g->x + 2};
@@ -44,7 +44,7 @@ static double length_of(const struct hk_growing *g, const double *x) {
   return sqrt(sum);
 }
 
-/* x = from / `length`, nothing where particles are constrained. */
+/* x = from / `length`, zero for constrained particles */
 static void take(struct hk_growing *g, const double *from, double length) {
   for (int64_t p = 0; p < g->system->particle_count; p++) {
     for (int64_t k = 3 * p; k < 3 * p + 3; k++)
@@ -122,6 +122,6 @@ int32_t hk_growing_rule(const hooke_system *system, const char *method, double h
   *b = stability->kind == HOOKE_STABLE_BY_K_AND_C ? 2.0 * h : 0.0;
   *most = 4.0;
   if (stability->kind == HOOKE_STABLE_BY_K_AND_C || stability->kind == HOOKE_STABLE_BY_K) return 1;
-  *most = stability->axis; /* with damping it is no matter of a quotient */
+  *most = stability->axis; /* with damping the limit is not given by a quotient */
   return stability->axis > 0.0 && !hk_system_is_damped(system);
 }

@@ -1,4 +1,4 @@
-/* Making a diagnosis. */
+/* Creating a diagnosis. */
 #include "measure/why/why.h"
 
 #include "core/memory.h"
@@ -13,10 +13,10 @@
 #include <stdio.h>
 #include <string.h>
 
-/* A pass for bounds in evaluations of forces: it takes the springs one by one. */
+/* Cost of a pass for bounds in force evaluations: it processes springs one by one. */
 static const double PASS = 40.0;
 
-/* Share of its time after which nothing begins any more. */
+/* Fraction of its time after which no work is started. */
 static const double PUNCTUAL = 0.85;
 
 static const double LEAST_SECONDS = 2.0, LEAST_BYTES = 16e6, SHARE_OF_MEMORY = 0.4;
@@ -39,13 +39,13 @@ static int ended_early(const hooke_integrator *run) {
          run->outcome == HOOKE_STEP_LIMIT;
 }
 
-/* ---- what it may take ---- */
+/* ---- limits on time and memory ---- */
 
 const hooke_state *hk_inquiry_last(const struct hk_inquiry *inquiry) {
   return inquiry->last ? inquiry->last : hk_recent_state(&inquiry->run->recent, 0, NULL);
 }
 
-/* Adds to a list of what was left out. */
+/* Appends to a list of skipped work. */
 static void leave_out(char *list, size_t size, const char *what) {
   const size_t used = strlen(list);
   if (strstr(list, what) == NULL) snprintf(list + used, size - used, "%s%s", used ? ", " : "", what);
@@ -73,8 +73,8 @@ static void tell_left_out(struct hk_inquiry *inquiry) {
              1e-6 * inquiry->memory_limit, inquiry->no_room);
 }
 
-/* Nearly half of what the run took, as memory has gaps: what it holds, or what it held while the scene was
- * built. */
+/* Nearly half of the memory of the run, as memory has gaps: its current memory, or that of building the
+ * scene. */
 static double usual_room(const hooke_integrator *run) {
   const hooke_system *system = run->system;
   const double built = hk_system_needed_bytes(system, (struct hk_more){0});
@@ -108,7 +108,7 @@ static int32_t replay(struct hk_inquiry *inquiry) {
   return status;
 }
 
-/* Of a large scene first what costs least; where it gives the cause, nothing more is looked for. */
+/* For a large scene the cheapest check first; if it gives the cause, the others are skipped. */
 static int32_t survey(struct hk_inquiry *inquiry) {
   struct hk_node_blocks blocks;
   const double bytes = 12.0 * (double)inquiry->system->particle_count * sizeof(double);
@@ -158,7 +158,7 @@ static int32_t inquire(struct hk_inquiry *inquiry) {
   return status;
 }
 
-/* ---- making ---- */
+/* ---- creating ---- */
 
 static int32_t check(const hooke_integrator *run) {
   if (run->system == NULL)
@@ -240,7 +240,7 @@ int32_t hooke_why_create_kept(const hooke_system *system, const hooke_options *r
 
 /* ---- running ---- */
 
-/* From the last state that was kept until the run ends early. */
+/* Continues from the last kept state until the run ends early. */
 static int32_t run_on(struct hk_why *why) {
   hooke_state *state = NULL;
   int32_t status = copy_state(why->own, why->last, &state);
@@ -298,7 +298,7 @@ const struct hk_measurement_kind hk_why_kind = {
     .destroy = destroy,
 };
 
-/* ---- taking advice ---- */
+/* ---- applying a suggestion ---- */
 
 int32_t hk_why_apply(const hooke_options *changes, hooke_options *run) {
   int32_t status = HOOKE_OK;

@@ -1,4 +1,4 @@
-/* What to do: changes of the run, the likeliest first, each tried on a run of its own before it is given. */
+/* Suggestions: changes of the run, the likeliest first, each tried on a run of its own before it is given. */
 #include "measure/why/why_trial.h"
 
 #include "core/number.h"
@@ -9,7 +9,7 @@
 #include <stdio.h>
 #include <string.h>
 
-static const double TOO_LONG = 1e5; /* times the work of a trial: a run nobody waits for */
+static const double TOO_LONG = 1e5; /* times the work of a trial: a run of impractical length */
 static const double MARGIN = 0.9;   /* of the limit */
 static const double ACCURACY = 1e-3;
 enum { HANDY_TRIES = 9, SHORT_RUN = 1000, SHORT_FRAME = 10 };
@@ -37,7 +37,7 @@ double hk_handy_step(double step, double limit, double every, double duration) {
 
 /* ---- candidates ---- */
 
-/* The largest step known to be stable by `method`: at the start, and where it was found too large. */
+/* The largest step known to be stable by `method`: at the start, and where the step was found too large. */
 static int32_t stable_step(struct hk_trials *trials, const char *method, double *limit) {
   struct hk_inquiry *inquiry = trials->inquiry;
   const struct hk_violation *violation = &inquiry->violation;
@@ -56,8 +56,8 @@ static int32_t stable_step(struct hk_trials *trials, const char *method, double 
   return status;
 }
 
-/* A run of the same method or another, of steps up to `limit`; a shorter one where the whole would take
- * days. */
+/* A run of the same method or another, with steps up to `limit`; a shorter one if the whole would take days.
+ */
 static int32_t offer_step(struct hk_trials *trials, const char *method, double limit, const char *why_so,
                           int32_t *taken) {
   const int other = strcmp(method, trials->inquiry->run->method->name) != 0;
@@ -89,7 +89,7 @@ static int32_t offer_step(struct hk_trials *trials, const char *method, double l
   return hk_trials_offer(trials, &change, taken);
 }
 
-/* The same method at a share of its limit, then at smaller and smaller steps. */
+/* The same method at a fraction of its limit, then at smaller and smaller steps. */
 static int32_t offer_smaller(struct hk_trials *trials, double limit, const char *why_so) {
   int32_t taken = 0, status = HOOKE_OK;
   for (int k = 0; k < 4 && !taken && status == HOOKE_OK; k++) {
@@ -111,7 +111,7 @@ static int32_t offer_fixed(struct hk_trials *trials, const char *method) {
   return status;
 }
 
-/* To two digits, so that it reads well. */
+/* Rounded to two digits, for display. */
 static double rounded(double value) {
   char text[32];
   double read = value;
@@ -157,7 +157,7 @@ static int32_t offer_one_iteration(struct hk_trials *trials) {
   return hk_trials_offer(trials, &change, &taken);
 }
 
-/* As many steps as it takes. */
+/* As many steps as needed. */
 static int32_t offer_more_steps(struct hk_trials *trials) {
   struct hk_change change;
   int32_t taken;
@@ -174,7 +174,7 @@ static int32_t offer_more_steps(struct hk_trials *trials) {
   return status;
 }
 
-/* The run up to where all was well. */
+/* The run up to its last good time. */
 static int32_t offer_shorter(struct hk_trials *trials) {
   const struct hk_inquiry *inquiry = trials->inquiry;
   struct hk_change change;
@@ -200,7 +200,7 @@ static int32_t offer_shorter(struct hk_trials *trials) {
   return hk_trials_offer(trials, &change, &taken);
 }
 
-/* ---- what fits which cause ---- */
+/* ---- suggestions by cause ---- */
 
 static int32_t offer_others(struct hk_trials *trials) {
   const char *const fixed[] = {"symplectic-euler", "verlet", "tr-bdf2", "backward-euler"};
@@ -254,7 +254,7 @@ static int32_t offer_for_solver(struct hk_trials *trials) {
   return status == HOOKE_OK ? offer_others(trials) : status;
 }
 
-/* No step cures it; damping does, and so may what a method damps. */
+/* No step cures it; damping does, and perhaps the damping of a method. */
 static int32_t offer_for_gain(struct hk_trials *trials) {
   int32_t status = offer_shorter(trials);
   if (status == HOOKE_OK) status = hk_trials_try_damping(trials);
@@ -262,7 +262,7 @@ static int32_t offer_for_gain(struct hk_trials *trials) {
   return status == HOOKE_OK ? offer_adaptive(trials, "cvode-bdf", 1.0) : status;
 }
 
-/* As long as the squares of what moves have numbers. */
+/* While the squares of moving particles are finite. */
 static int32_t offer_for_squares(struct hk_trials *trials) {
   int32_t taken;
   if (isnan(trials->step)) return HOOKE_OK;

@@ -46,7 +46,7 @@ static int32_t look(struct hk_inquiry *inquiry, struct hk_limit *limit) {
   return status;
 }
 
-/* By the mode that limits, where the step was first seen above the limit. */
+/* By the limiting mode, where the step was first found above the limit. */
 static int32_t ask_limit(struct hk_inquiry *inquiry) {
   const hooke_integrator *run = inquiry->run;
   hooke_options *options = NULL;
@@ -71,7 +71,7 @@ int32_t hk_inquiry_blame(struct hk_inquiry *inquiry) {
     hk_inquiry_end_part(inquiry, "what determines the limit");
   }
   if (status == HOOKE_NO_MEMORY) return status;
-  /* where no mode is to be had, the particle at which the bound showed it */
+  /* without a mode, the particle at which the bound showed it */
   if (inquiry->why->blame_count == 0) {
     const struct hk_force_row *force;
     hk_inquiry_blame_spring(inquiry,

@@ -1,4 +1,4 @@
-/* From what the steps showed to the cause, and the words for it. */
+/* Derives the cause from the observations of the steps, and describes it. */
 #include "measure/why/why.h"
 
 #include "core/memory.h"
@@ -32,7 +32,8 @@ static void say(struct hk_inquiry *inquiry, const char *cause, const char *forma
   hk_utf8_make_plain(why->sentence);
 }
 
-/* How it showed: at the step that went wrong, or when it was noticed if the steps did not go wrong again. */
+/* Time of the failure: that of the failed step, or the time it was noticed if the repeated steps did not
+ * fail. */
 static const char *show(const struct hk_inquiry *inquiry, char text[160]) {
   const double t = inquiry->reproduced && inquiry->run->outcome == HOOKE_DIVERGED ? inquiry->bad_time
                                                                                   : inquiry->why->noticed;
@@ -69,7 +70,7 @@ static void judge_bad_value(struct hk_inquiry *inquiry) {
   }
 }
 
-/* What determines the limit. */
+/* The elements that determine the limit. */
 static void name_blamed(const struct hk_inquiry *inquiry, char text[2 * HOOKE_NAMING_SIZE]) {
   const struct hk_why *why = inquiry->why;
   const int64_t particle = inquiry->violation.particle;
@@ -117,8 +118,7 @@ static int32_t judge_violation(struct hk_inquiry *inquiry) {
   return status;
 }
 
-/* What asks for the largest acceleration: the element that is stiffest for the mass of one of its
- * particles. */
+/* The element with the largest acceleration: the stiffest for the mass of one of its particles. */
 struct steepest {
   const struct hk_force_row *force; /* NULL: none */
   int64_t number, particle;
@@ -171,11 +171,11 @@ static void judge_collapse(struct hk_inquiry *inquiry, int64_t spring, const cha
 
 /* ---- squares ---- */
 
-/* Lengths and speeds above this have no square: it is beyond all numbers. */
+/* Lengths and speeds above this have no finite square. */
 static const double HAS_SQUARE = 1e154;
 
-/* The particle of a state with the largest number of those that have no square, and that number; -1 if all
- * have. */
+/* The particle of a state with the largest number whose square overflows, and that number; -1 if there is
+ * none. */
 static int64_t largest_unsquared(const hooke_system *system, const double *x, double *most) {
   int64_t found = -1;
   *most = HAS_SQUARE;
@@ -187,7 +187,7 @@ static int64_t largest_unsquared(const hooke_system *system, const double *x, do
   return found;
 }
 
-/* 1 if a spring, or a motion from one step to the next, is too long for its square, or a speed too large. */
+/* 1 if a spring, or the motion of a step, is too long for its square, or a speed too large. */
 static int32_t judge_squares(struct hk_inquiry *inquiry, double t, const double *q, const double *v) {
   const char *const words[] = {"is at a speed of", "is at a distance of"}, *const units[] = {"m/s", "m"};
   const double *const x[] = {v, q};
@@ -206,7 +206,7 @@ static int32_t judge_squares(struct hk_inquiry *inquiry, double t, const double 
   return 0;
 }
 
-/* At the start already; where it is not known, at the last state. */
+/* At the initial state already; if that is not known, at the last state. */
 static int32_t judge_start(struct hk_inquiry *inquiry) {
   const hooke_integrator *run = inquiry->run;
   const hooke_state *known = run->recent.first ? run->recent.first : hk_inquiry_last(inquiry);
@@ -217,7 +217,7 @@ static int32_t judge_start(struct hk_inquiry *inquiry) {
 
 /* ---- solvers ---- */
 
-/* The spring nearest to no length: its length over its rest length, at the last state and at the end of the
+/* The spring nearest to zero length: its length over its rest length, at the last state and at the end of the
  * next step. */
 static int64_t shortest_spring(const struct hk_inquiry *inquiry, double *ratio) {
   const hooke_state *state = hk_inquiry_last(inquiry);
@@ -280,7 +280,7 @@ static int32_t judge_solver(struct hk_inquiry *inquiry) {
 
 /* ---- */
 
-/* What no step or tolerance cures. */
+/* Failures that no step or tolerance cures. */
 static const char *altitude_words(const struct hk_inquiry *inquiry) {
   return inquiry->system->altitudes.count == 0 ? ""
                                                : ", or altitude springs gave it energy, which they do far "
@@ -288,8 +288,8 @@ static const char *altitude_words(const struct hk_inquiry *inquiry) {
                                                  "to be the shortest";
 }
 
-/* 1 if the step was above the limit for longer than what is sudden: forces that rise faster than in
- * proportion, as a callback's may, end in a leap, too. */
+/* 1 if the step exceeded the limit for longer than a sudden failure: forces that rise faster than in
+ * proportion, such as a callback's, end in a leap, too. */
 static int grew_before(const struct hk_inquiry *inquiry) {
   const double h = inquiry->run->method->adaptive ? 0.0 : inquiry->run->schedule.step;
   return inquiry->violation.found && inquiry->violation.time < inquiry->bad_time - 3.5 * h;
@@ -307,7 +307,7 @@ static int32_t judge_gain(struct hk_inquiry *inquiry) {
   return HOOKE_OK;
 }
 
-/* There was no time or no room to look. */
+/* There was no time or memory for the check. */
 static void judge_unknown(struct hk_inquiry *inquiry) {
   const struct hk_violation *violation = &inquiry->violation;
   char end[160];
@@ -359,7 +359,7 @@ static int32_t judge_divergence(struct hk_inquiry *inquiry) {
   return HOOKE_OK;
 }
 
-/* Adds to the sentence that springs began without a direction. */
+/* Adds to the sentence that springs had coincident ends at the start. */
 static void tell_coincident(struct hk_inquiry *inquiry) {
   const hooke_integrator *run = inquiry->run;
   char *text = inquiry->why->sentence;

@@ -1,6 +1,6 @@
-/* A model that gains energy by itself, told from a step that is too large: where another altitude of a
- * tetrahedron comes to be the shortest its energy jumps, by as much at any step. So the run is tried at
- * smaller and smaller ones, and then with damping. */
+/* Distinguishes a model that gains energy itself from a step that is too large: where another altitude of a
+ * tetrahedron becomes the shortest its energy jumps, by the same amount at any step. So the run is tried at
+ * smaller and smaller steps, and then with damping. */
 #include "measure/why/why_trial.h"
 
 #include "core/memory.h"
@@ -10,10 +10,10 @@
 #include <math.h>
 #include <string.h>
 
-/* Over the step, or over the tolerances. */
+/* Factors on the step, or on the tolerances. */
 static const double FINER[] = {4.0, 16.0}, TIGHTER[] = {1e2, 1e4};
 static const double TIGHTEST = 1e-12;
-/* Damping over stiffness, in steps or, for a method that chooses those, in the time until the trouble. */
+/* Damping over stiffness, in steps or, for a method that chooses those, in the time until the failure. */
 static const double DAMPING[] = {2.0, 8.0, 32.0, 128.0}, PART_OF_TIME = 1e-4;
 enum { FINER_TRIES = 2, DAMPING_TRIES = 4 };
 
@@ -67,8 +67,8 @@ int32_t hk_inquiry_gains(struct hk_inquiry *inquiry, int32_t *gains) {
 
 /* ---- with damping ---- */
 
-/* The run with the change, of the same system but for the damping of its altitude springs, `times` their
- * stiffness. */
+/* Does the run with the change, of the same system with damping `times` the stiffness of its altitude
+ * springs. */
 static int32_t try_damped(struct hk_trials *trials, double times, const struct hk_change *change,
                           struct hk_trial *trial) {
   hooke_system damped = *trials->inquiry->system;
@@ -84,7 +84,7 @@ static int32_t try_damped(struct hk_trials *trials, double times, const struct h
   return status;
 }
 
-/* Damping asks for smaller steps itself, so one `finer` times smaller is tried, too. */
+/* Damping itself needs smaller steps, so one smaller by the factor `finer` is tried, too. */
 static int32_t try_damping(struct hk_trials *trials, double times, double finer) {
   char *text = trials->inquiry->remedy, step[64] = "";
   struct hk_change change;

@@ -1,4 +1,4 @@
-/* The last steps of a run again, one by one, with its callbacks under observation. */
+/* Repeats the last steps of a run, one by one, with its callbacks under observation. */
 #include "measure/why/why.h"
 
 #include "core/memory.h"
@@ -8,11 +8,11 @@
 #include <string.h>
 
 static const double WHOLE_RUN =
-    3e7; /* particles and springs times steps, up to which the whole run is taken again */
-static const double MOST_LOOKS = 400;            /* looks at the step along it */
-static const double MOST_TURNS = 3e8;            /* springs times steps watched for turning round */
+    3e7; /* particles and springs times steps, up to which the whole run is repeated */
+static const double MOST_LOOKS = 400;            /* number of checks of the step along it */
+static const double MOST_TURNS = 3e8;            /* springs times steps that are checked for reversal */
 static const int64_t MOST_INTERNAL_STEPS = 2000; /* of an error-controlled method */
-/* Of the last steps, where the trouble is, every third is looked at. */
+/* Of the last steps, where the failure is, every third is checked. */
 enum { BEFORE = 3, LAST_STEPS = 1200, LAST_STRIDE = 3 };
 
 /* ---- callbacks under observation ---- */
@@ -24,7 +24,7 @@ struct spied_drive {
 
 struct probe {
   const hooke_system *real;
-  hooke_system system; /* the same but for its callbacks */
+  hooke_system system; /* the same, with other callbacks */
   struct hk_drive_group *drive;
   struct spied_drive *drive_ctx;
   struct hk_bad_value *bad_value;
@@ -98,9 +98,9 @@ static void probe_release(struct probe *probe) {
   hk_free(probe->drive_ctx);
 }
 
-/* ---- what a step shows ---- */
+/* ---- observations of a step ---- */
 
-/* Springs that now point the other way than before: in between, their length went through zero. */
+/* Springs that have reversed: in between, their length passed through zero. */
 static void watch_turns(struct hk_inquiry *inquiry, const double *before, const hooke_state *state) {
   const struct hk_springs *springs = &inquiry->system->springs;
   for (int64_t r = 0; r < springs->run_count; r++) {
@@ -127,8 +127,7 @@ static double largest_of(const hooke_state *state) {
   return most;
 }
 
-/* The fastest particle of the step that went wrong, which is still in the integrator, and how large its
- * numbers are. */
+/* The fastest particle of the failed step, which is still in the integrator, and the size of its numbers. */
 static void look_at_damage(struct hk_inquiry *inquiry, const hooke_integrator *again) {
   const struct hk_motion *motion = again->motion;
   double most = -1.0, size = 0.0;
@@ -148,7 +147,7 @@ static void look_at_damage(struct hk_inquiry *inquiry, const hooke_integrator *a
   inquiry->bad_size = size;
 }
 
-/* ---- the steps again ---- */
+/* ---- repeated steps ---- */
 
 struct replay {
   struct hk_inquiry *inquiry;
@@ -156,7 +155,7 @@ struct replay {
   struct hk_node_blocks blocks;
   double *before;          /* positions one step ago */
   double size[BEFORE + 1]; /* largest number of the last steps, the newest first */
-  int64_t stride;          /* steps between looks at the step */
+  int64_t stride;          /* steps between checks of the step */
 };
 
 static int32_t take_step(struct replay *replay, hooke_state *state) {
@@ -187,8 +186,7 @@ static int32_t walk(struct replay *replay, hooke_state *state, int64_t steps) {
     note_size(replay, state);
     if (springs * (double)k <= MOST_TURNS) watch_turns(inquiry, replay->before, state);
   }
-  /* what is kept on divergence is the last good one again, and the last chance to see the step above the
-   * limit */
+  /* on divergence the last good state is kept, and the last chance to find the step above the limit */
   if (status == HOOKE_DIVERGED) {
     inquiry->violation.tries = 0;
     inquiry->violation.pause = 0;
@@ -205,7 +203,7 @@ static int32_t walk(struct replay *replay, hooke_state *state, int64_t steps) {
   return inquiry->reproduced ? HOOKE_OK : status;
 }
 
-/* From the last state that was kept; or from the first where that is cheap. */
+/* From the last kept state; or from the first if that is cheap. */
 static int32_t start(struct replay *replay, hooke_state *state, int64_t *steps) {
   struct hk_inquiry *inquiry = replay->inquiry;
   const hooke_integrator *run = inquiry->run;
@@ -240,7 +238,7 @@ static int32_t replay_with(struct replay *replay, const hooke_system *observed) 
     status = hk_inquiry_survey(inquiry, &replay->blocks);
   if (status == HOOKE_OK && run->outcome != HOOKE_STEP_LIMIT) status = walk(replay, inquiry->last, steps);
   hk_recent_state(&replay->again->recent, 0, &inquiry->last_step);
-  /* an error-controlled method that starts anew takes other steps */
+  /* a restarted error-controlled method takes other steps */
   if (status == HOOKE_OK && run->method->adaptive)
     status = hooke_state_copy(hk_recent_state(&run->recent, 0, NULL), inquiry->last);
   return status;

@@ -15,13 +15,13 @@ enum { MOST_TRIALS = 16, ENOUGH = 2 };
 
 /* ---- trials ---- */
 
-/* Evaluations that the run took to the trouble, times its size. */
+/* Evaluations of the run up to the failure, times its size. */
 static double work_of_run(const hooke_integrator *run, double size) {
   return size * (double)(run->count.force_evaluations + run->count.derivative_products);
 }
 
-/* The beginning of the run: the one that was kept, else the system's own. Where a trial would not come from
- * there to the trouble, the earliest of the last good states. */
+/* The start of the run: the kept one, else the system's own. If a trial could not reach the failure from
+ * there, the earliest of the last good states. */
 static int32_t find_first(struct hk_trials *trials) {
   const hooke_integrator *run = trials->inquiry->run;
   const hooke_state *oldest = hk_recent_state(&run->recent, run->recent.count - 1, NULL);
@@ -39,7 +39,7 @@ int32_t hk_trials_begin(struct hk_inquiry *inquiry, struct hk_trials *trials) {
   const struct hk_schedule *s = &run->schedule;
   const double span = inquiry->why->noticed - run->t0;
   *trials = (struct hk_trials){.inquiry = inquiry, .step = run->method->adaptive ? NAN : s->step};
-  /* a loop of the caller's own has no end: some way past the trouble */
+  /* a loop of the caller's own has no end: some way past the failure */
   trials->duration = !isnan(s->duration)   ? s->duration
                      : isnan(trials->step) ? 2.0 * span
                                            : 2.0 * (double)run->k * s->step;
@@ -73,7 +73,7 @@ void hk_change_drop(struct hk_change *change) {
   change->run = NULL;
 }
 
-/* The options of the run with the changes; frames that hooke chose are chosen anew. */
+/* The options of the run with the changes; frames chosen by hooke are chosen anew. */
 static int32_t changed_options(const struct hk_trials *trials, const struct hk_change *change,
                                hooke_options **out) {
   const hooke_integrator *run = trials->inquiry->run;
@@ -108,7 +108,7 @@ static int32_t watch_time(double done, const char *method, void *ctx) {
   return effort->spent;
 }
 
-/* What a run by a method holds at most [bytes]. */
+/* Maximum memory of a run by a method [bytes]. */
 static double bytes_of_trial(const struct hk_trials *trials, const char *method) {
   static const struct {
     const char *method;
@@ -155,13 +155,13 @@ static int32_t try_run(struct hk_trials *trials, const hooke_system *system, con
   trials->count++;
   int32_t status = hooke_integrator_create(system, options, &integrator);
   if (status == HOOKE_BAD_VALUE || status == HOOKE_NOT_BUILT)
-    return HOOKE_OK; /* it does not fit: not to be advised */
+    return HOOKE_OK; /* it does not fit: not to be suggested */
   if (status == HOOKE_OK) status = run_trial(trials, integrator, trial);
   hooke_integrator_destroy(integrator);
   return status;
 }
 
-/* Words for what the trial showed; 0 if it did not get past the trouble. */
+/* Describes the result of the trial; 0 if it did not get past the failure. */
 static int proves(const struct hk_trials *trials, double reached, int32_t finished, char *text, size_t size) {
   const double noticed = trials->inquiry->why->noticed, begun = *trials->first->t;
   if (!(finished && !trials->late) && !(reached > noticed + 0.5 * (noticed - begun))) return 0;
@@ -174,7 +174,7 @@ static int proves(const struct hk_trials *trials, double reached, int32_t finish
   return 1;
 }
 
-/* 1 if there is time and room for a trial; if not, that is noted. */
+/* 1 if there is time and memory for a trial; otherwise that is recorded. */
 static int32_t can_try(const struct hk_trials *trials, const hooke_options *options) {
   struct hk_inquiry *inquiry = trials->inquiry;
   const double bytes = bytes_of_trial(trials, hooke_options_text(options, "method"));

@@ -1,4 +1,4 @@
-/* Advice on trial: a change of the run is given only if a run with it was seen to get past the trouble. */
+/* Trials of suggestions: a change of the run is suggested only if a run with it got past the failure. */
 #ifndef HOOKE_MEASURE_WHY_WHY_TRIAL_H
 #define HOOKE_MEASURE_WHY_WHY_TRIAL_H
 
@@ -7,23 +7,23 @@
 /* Work of one trial: particles and springs times evaluations, about a second. */
 #define HOOKE_TRIAL_WORK 2e8
 
-/* What there is to try with. */
+/* Data of all trials. */
 struct hk_trials {
   struct hk_inquiry *inquiry;
-  const hooke_state *first;     /* where trials begin */
-  int32_t late;                 /* 1: not where the run began, since from there the trouble is too far */
-  hooke_state *initial;         /* the system's own beginning, where the run's was not kept */
+  const hooke_state *first;     /* start of trials */
+  int32_t late;                 /* 1: not the start of the run, from which the failure is too far */
+  hooke_state *initial;         /* the system's own initial state, if the run's was not kept */
   double step, every, duration; /* of the run; NaN: free */
   double size;                  /* particles and springs: the work of an evaluation */
   int32_t count;
-  int32_t backed; /* what is offered has a step below the limits that are known: it is advice untried, too */
+  int32_t backed; /* all suggestions have a step below the known limits: they are given untried, too */
 };
 
 /* HOOKE_NO_MEMORY, HOOKE_STOPPED; hk_trials_release() has to follow. */
 int32_t hk_trials_begin(struct hk_inquiry *inquiry, struct hk_trials *trials);
 void hk_trials_release(struct hk_trials *trials);
 
-/* Changes of a run, with a word on them, before they are tried. */
+/* Changes of a run, with a description, before they are tried. */
 struct hk_change {
   hooke_options *run;
   char words[240], option[32];
@@ -33,7 +33,7 @@ int32_t hk_change_begin(struct hk_change *change, const char *option);
 void hk_change_say(struct hk_change *change, const char *format, ...) __attribute__((format(printf, 2, 3)));
 void hk_change_drop(struct hk_change *change);
 
-/* What a trial showed: how far it came, and what that proves, in words ("": nothing). */
+/* Result of a trial: the time it reached, and its meaning in words ("": none). */
 struct hk_trial {
   int32_t tried, finished, diverged;
   int64_t steps;
@@ -41,21 +41,21 @@ struct hk_trial {
   char proof[96];
 };
 
-/* Runs `system`, the trials' or one like it, with the change as far as the work allows, if there is time and
- * room. */
+/* Runs `system`, that of the trials or a similar one, with the change as far as the work allows, if there is
+ * time and memory. */
 int32_t hk_trials_try(struct hk_trials *trials, const hooke_system *system, const struct hk_change *change,
                       struct hk_trial *trial);
 
-/* Tries more and more damping of altitude springs, and makes what proves well the remedy. */
+/* Tries increasing damping of altitude springs, and makes a successful one the suggestion. */
 int32_t hk_trials_try_damping(struct hk_trials *trials);
 
-/* Tries the change, and gives it as advice if it proves well; takes it over in any case. */
+/* Tries the change, and adds it to the advice if it succeeds; takes ownership of it in any case. */
 int32_t hk_trials_offer(struct hk_trials *trials, struct hk_change *change, int32_t *taken);
-/* Gives it without a trial. */
+/* Adds it without a trial. */
 void hk_trials_take(struct hk_trials *trials, struct hk_change *change, const char *proof);
 
-/* Runs with the change as far as the work allows; `steps` is how many it took, -1 if it did not come to its
- * end. */
+/* Runs with the change as far as the work allows; `steps` receives the number of steps, -1 if it did not
+ * finish. */
 int32_t hk_trials_count_steps(struct hk_trials *trials, const struct hk_change *change, int64_t *steps);
 
 #endif

@@ -1,5 +1,5 @@
-/* Whether the step was above the limit, the cheapest way first: by the bound, which is one pass over the
- * springs; then by the spectrum, or, where that is out of reach, by the motion that grows. */
+/* Checks if the step exceeds the limit, the cheapest way first: by the bound, which is one pass over the
+ * springs; then by the spectrum or, if that is out of reach, by growing motion. */
 #include "measure/why/why.h"
 
 #include "core/status.h"
@@ -28,7 +28,7 @@ static void take(struct hk_inquiry *inquiry, const double *q, double t, double l
   memcpy(violation->q, q, (size_t)inquiry->run->size * sizeof(double));
 }
 
-/* 0 if patience has an end or the numbers have none: unknown is not above. */
+/* 0 if patience ends or the numbers overflow: unknown is not above. */
 static int32_t by_spectrum(struct hk_inquiry *inquiry, const double *q, double t, int64_t particle) {
   double limit = 0.0;
   const int32_t status =
@@ -39,7 +39,7 @@ static int32_t by_spectrum(struct hk_inquiry *inquiry, const double *q, double t
   return HOOKE_OK;
 }
 
-/* Motion that the last states have most of is turned towards what grows. */
+/* Iterates the motion that dominates the last states towards growing motion. */
 static int32_t begin_growing(struct hk_inquiry *inquiry) {
   if (inquiry->growing.x) return HOOKE_OK;
   const double bytes = hk_growing_bytes(inquiry->system);
@@ -57,7 +57,7 @@ static int32_t blame_growing(struct hk_inquiry *inquiry, double h) {
   return hk_blame_find(inquiry->system, violation->q, inquiry->growing.x, a, 0.5 * b, &violation->blame);
 }
 
-/* `above`: by how much the quotient is above what is stable; infinity where no step is. */
+/* `above`: factor by which the quotient exceeds the stable value; infinity if no step is stable. */
 static int32_t take_growth(struct hk_inquiry *inquiry, const double *q, double t, int64_t particle,
                            double above) {
   const double h = inquiry->run->schedule.step;
@@ -109,8 +109,7 @@ static int32_t survey_small(struct hk_inquiry *inquiry, struct hk_node_blocks *b
   return status;
 }
 
-/* The newest first, which has most of what grows; what grew there is then asked whether it grew at the
- * start. */
+/* The newest first, which contains most of the growing motion; its direction is then tested at the start. */
 static int32_t survey_large(struct hk_inquiry *inquiry, struct hk_node_blocks *blocks) {
   const hooke_integrator *run = inquiry->run;
   const hooke_state *newest = hk_recent_state(&run->recent, 0, NULL), *first = run->recent.first;

@@ -1,4 +1,4 @@
-/* Groups of tetrahedra: their options, their checks, and the questions to them. */
+/* Groups of tetrahedra: options, checks and queries. */
 #include "model/force/altitude.h"
 
 #include "core/memory.h"
@@ -76,7 +76,7 @@ int64_t hk_altitudes_memory(const struct hk_altitudes *altitudes) {
 
 /* ---- adding a group ---- */
 
-/* An altitude below this share of the longest edge is rounding of positions. */
+/* An altitude below this fraction of the longest edge is rounding of positions. */
 static const double FLAT = 1e-9;
 
 int32_t hk_tetrahedron_rest(const double x[4][3], double scale, struct hk_tetrahedron *t) {
@@ -106,7 +106,7 @@ int32_t hk_tetrahedron_rest(const double x[4][3], double scale, struct hk_tetrah
       (int)t->particle[0], (int)t->particle[1], (int)t->particle[2], (int)t->particle[3], shortest, longest);
 }
 
-/* That they are there is known. */
+/* The particles are known to exist. */
 static int32_t check_particles(int64_t count, const struct hk_tetrahedron *tetrahedron) {
   for (int64_t k = 0; k < count; k++) {
     const int32_t *p = tetrahedron[k].particle;
@@ -217,7 +217,7 @@ int32_t hooke_system_add_altitude(hooke_system *system, const char *name, int64_
   return status;
 }
 
-/* ---- asking ---- */
+/* ---- queries ---- */
 
 int32_t hooke_system_altitude_lengths(const hooke_system *system, const double *q, double *length) {
   const int32_t status = hk_system_require_committed(system);

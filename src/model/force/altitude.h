@@ -1,4 +1,4 @@
-/* Altitude springs: their tetrahedra, all of them in one array from commit on. */
+/* Altitude springs: their tetrahedra, in one array from commit on. */
 #ifndef HOOKE_MODEL_FORCE_ALTITUDE_H
 #define HOOKE_MODEL_FORCE_ALTITUDE_H
 
@@ -17,17 +17,17 @@ struct hk_altitudes {
   struct hk_tetrahedron *tetrahedron;
 };
 
-/* A tetrahedron at given positions and velocities (rows; v may be NULL), its altitude and what that does. */
+/* A tetrahedron at given positions and velocities (rows; v may be NULL), with its altitude and force. */
 struct hk_tautness {
   struct hk_altitude altitude;
   double rate, tension, elastic;
-  int32_t slack; /* pulls only, and has nothing to pull */
+  int32_t slack; /* pulls only, and is slack */
 };
-/* 0 if no altitude acts, as where all particles are in a line. */
+/* 0 if no altitude acts, such as where all particles are in a line. */
 int32_t hk_tautness_find(const struct hk_tetrahedron *tetrahedron, const double *q, const double *v,
                          struct hk_tautness *tautness);
 
-/* Its change under dq and dv: of u, the weights and the tension. */
+/* Its derivative along dq and dv: of u, the weights and the tension. */
 struct hk_tautness_change {
   double u[3], weight[4], tension;
 };
@@ -35,16 +35,16 @@ void hk_tautness_differentiate(const struct hk_tetrahedron *tetrahedron, const s
                                const double *q, const double *v, const double *dq, const double *dv,
                                struct hk_tautness_change *change);
 
-/* Rest lengths and the side of a tetrahedron with corners x, rest lengths times `scale`. HOOKE_BAD_VALUE,
- * said of the particles that it has, if it is flat. */
+/* Rest lengths and orientation of a tetrahedron with corners x, rest lengths times `scale`. HOOKE_BAD_VALUE,
+ * with the particles, if it is flat. */
 int32_t hk_tetrahedron_rest(const double x[4][3], double scale, struct hk_tetrahedron *tetrahedron);
 
-/* Adds tetrahedra as they are: particles, rest lengths and all. `name` may be NULL. HOOKE_BAD_VALUE for
- * particles that do not exist or are named twice. */
+/* Adds tetrahedra with given particles and rest lengths. `name` may be NULL. HOOKE_BAD_VALUE for particles
+ * that do not exist or are repeated. */
 int32_t hk_system_add_tetrahedra(struct hooke_system *system, const char *name, int32_t from_part,
                                  int64_t count, const struct hk_tetrahedron *tetrahedron);
 
-/* Takes over what acts of the groups. HOOKE_NO_MEMORY leaves `altitudes` empty. */
+/* Takes over the acting members of the groups. HOOKE_NO_MEMORY leaves `altitudes` empty. */
 int32_t hk_altitudes_create(const struct hk_group *group, int64_t group_count,
                             struct hk_altitudes *altitudes);
 void hk_altitudes_release(struct hk_altitudes *altitudes);

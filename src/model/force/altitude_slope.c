@@ -1,4 +1,4 @@
-/* One altitude spring at given positions and velocities, and how it changes with them. */
+/* One altitude spring at given positions and velocities, and its derivatives. */
 #include "model/force/altitude.h"
 
 #include <math.h>
@@ -37,7 +37,7 @@ int32_t hk_tautness_find(const struct hk_tetrahedron *t, const double *q, const 
   return 1;
 }
 
-/* The vectors that the altitude is made of: e, f and r. */
+/* The vectors that define the altitude: e, f and r. */
 static void span(int32_t choice, const double x[4][3], double e[3], double f[3], double r[3]) {
   const int8_t *role = hk_altitude_role[choice];
   const double *x0 = x[role[0]], *x1 = x[role[1]], *x2 = x[role[2]], *x3 = x[role[3]];

@@ -1,4 +1,4 @@
-/* Groups of triples: their checks, and the questions to them. */
+/* Groups of triples: checks and queries. */
 #include "model/force/bending.h"
 
 #include "core/memory.h"
@@ -99,4 +99,4 @@ int32_t hk_system_add_part_bending(hooke_system *system, const char *name, int64
   return add_group(system, name, count, triples, coefficient_count, coefficient, 1);
 }
 
-/* ---- asking ---- */
+/* ---- queries ---- */

@@ -12,12 +12,12 @@ struct hk_bending {
   int64_t count;
   int64_t run_count;
   struct hk_bending_run *run;
-  int64_t indexed_count, mixed_count; /* triples whose particles, or coefficient, are stored one by one */
+  int64_t indexed_count, mixed_count; /* triples with individually stored particles or coefficient */
   int32_t *particle[3];
   double *coefficient;
 };
 
-/* One triple, whatever run it is in: c/2 |x_0 - 2 x_1 + x_2|^2, c [N/m]. */
+/* A triple, whatever run it is in: c/2 |x_0 - 2 x_1 + x_2|^2, c [N/m]. */
 struct hk_triple {
   int64_t particle[3];
   double coefficient;
@@ -38,7 +38,7 @@ struct hk_triples {
   int64_t run, k;
 };
 
-/* From triple `number` on. */
+/* Starts at triple `number`. */
 struct hk_triples hk_triples_from(const struct hk_bending *bending, int64_t number);
 
 static inline int hk_next_triple(struct hk_triples *at, struct hk_triple *triple) {

@@ -93,7 +93,7 @@ static void find_slopes(struct hk_drive_group *drive) {
   }
 }
 
-/* Appends a drive with its particles marked; on failure the system is unchanged. */
+/* Appends a drive and marks its particles; on failure the system is unchanged. */
 static int32_t append_drive(hooke_system *system, struct hk_drive_group drive, const int64_t *particles) {
   int32_t status = HOOKE_OK;
   if (system->drive_count == system->drive_capacity) {
@@ -122,12 +122,12 @@ static int32_t check_driven(const hooke_system *system, int64_t count, const int
   if (count < 0 || count > INT32_MAX)
     return hk_fail(HOOKE_BAD_VALUE, "particles", "%lld particles; allowed: 0 to 2147483647, each once",
                    (long long)count);
-  /* of more than there are, one of the first is named twice */
+  /* if there are more than particles, one of the first is repeated */
   if (count > system->particle_count) count = system->particle_count + 1;
   status =
       hk_system_check_particles(system, "particles", count, particles, HOOKE_IS_PINNED | HOOKE_IS_DRIVEN);
   if (status != HOOKE_OK) return status;
-  /* a particle twice in one list */
+  /* a particle repeated in one list */
   uint8_t *seen = hk_new(system->particle_count, 1);
   if (seen == NULL) return HOOKE_NO_MEMORY;
   for (int64_t k = 0; k < count && status == HOOKE_OK; k++) {

@@ -21,7 +21,7 @@ static int is_wanted(const struct hk_elements *at, const struct hk_force_row *fo
   return (at->only == NULL || at->only == force) && (at->wanted == NULL || at->wanted(force));
 }
 
-/* The next ones of the present force; 0 if there are none. */
+/* Fetches the next elements of the current force; 0 if there are none. */
 static int32_t fill(struct hk_elements *at) {
   const struct hk_force_row *force = at->force;
   at->done += at->count;
@@ -50,7 +50,7 @@ int32_t hk_fill_elements(struct hk_elements *at) {
   return 1;
 }
 
-/* u.(sum of g_j x_j), and the sum itself where it is needed. */
+/* u.(sum of g_j x_j), and the sum itself if needed. */
 static double gather(const struct hk_element *e, double across, int64_t stride, const double *const x[3],
                      double sum[3]) {
   double along = 0.0;

@@ -6,7 +6,7 @@
 #include <stddef.h>
 #include <string.h>
 
-/* The order of the rows is the order of the sum at a particle. Gravity is last: a = w f + g. */
+/* The order of the rows is the order of summation at a particle. Gravity is last: a = w f + g. */
 static const struct hk_force_row *const table[] = {
     &hk_force_springs, &hk_force_bending, &hk_force_altitude, &hk_force_anchor,
     &hk_force_linear,  &hk_force_drag,    &hk_force_callback, &hk_force_gravity,
@@ -61,7 +61,7 @@ int64_t hk_elements_of(const hooke_system *system, int (*wanted)(const struct hk
   return count;
 }
 
-/* ---- forces at a point, for callers with arrays of their own ---- */
+/* ---- forces at a point, for callers with their own arrays ---- */
 
 static int32_t forces_at(const hooke_system *system, double t, const double *q, const double *v,
                          struct hk_motion **motion) {
@@ -108,7 +108,7 @@ int32_t hooke_system_acceleration(const hooke_system *system, double t, const do
   return HOOKE_OK;
 }
 
-/* ---- derivatives; without a function of its own a force has them from its elements ---- */
+/* ---- derivatives: a force without a function of its own has them from its elements ---- */
 
 static int32_t add_product(const hooke_system *system, const struct hk_force_row *row,
                            const struct hk_point *point, double *out) {

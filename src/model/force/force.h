@@ -1,5 +1,5 @@
-/* The table of forces: one row each, in the order in which they are summed at a particle. A new force is one
- * file (force_*.c) and one row in force.c. */
+/* The table of forces: one row each, in the order of summation at a particle. A new force is one file
+ * (force_*.c) and one row in force.c. */
 #ifndef HOOKE_MODEL_FORCE_FORCE_H
 #define HOOKE_MODEL_FORCE_FORCE_H
 
@@ -13,27 +13,27 @@ struct hk_variant_maker;
 struct hk_point {
   double t;
   const double *q, *v, *dq, *dv;
-  int32_t *stop_value; /* receives what a callback that stopped returned */
+  int32_t *stop_value; /* receives the value of a callback that stopped */
 };
 
-/* Arrays that receive what all members of a force are, in their order; each may be NULL. */
+/* Arrays that receive the properties of all members of a force, in their order; each may be NULL. */
 struct hk_members {
   int64_t *particles;
   double *stiffness, *damping, *rest_length;
 };
 
-/* Everything but `name` and `present` may be NULL: the force then has no such part; one with elements and
+/* Everything but `name` and `present` may be NULL, if the force has no such part. A force with elements and
  * without `add_product` and `add_blocks` has its derivative from them. */
 struct hk_force_row {
   const char *name;
-  /* of forces with groups: what the members are called, and the bytes that one needs at most (see room.c) */
+  /* for forces with groups: the name of its members, and the maximum bytes of one (see room.c) */
   const char *members;
-  int32_t member_particles; /* of each */
+  int32_t member_particles; /* of each member */
   double bytes;
   const struct hk_option_table *options; /* of a group, by the name of the force */
-  const char *title;                     /* of forces with elements: "the <title> of particle 3" */
-  /* of these too: takes over what the groups have at commit (HOOKE_NO_MEMORY leaves nothing); releases it;
-   * its bytes; adds all that its forces depend on to a check value; 1 if some member resists compression;
+  const char *title;                     /* for forces with elements: "the <title> of particle 3" */
+  /* for forces with groups: takes over the groups at commit (HOOKE_NO_MEMORY leaves nothing); releases them;
+   * their bytes; adds all that the forces depend on to a check value; 1 if some member resists compression;
    * lists the members */
   int32_t (*commit)(hooke_system *system, const struct hk_group *group, int64_t count);
   void (*release)(hooke_system *system);
@@ -41,12 +41,12 @@ struct hk_force_row {
   void (*check)(const hooke_system *system, uint32_t *value);
   int32_t (*resists)(const hooke_system *system);
   void (*list)(const hooke_system *system, const struct hk_members *out);
-  /* adds a group to a variant that does not have it from its parts: see variant.h */
+  /* adds a group to a variant whose parts do not add it: see variant.h */
   int32_t (*keep)(struct hk_variant_maker *maker, const struct hk_group *group, int64_t first);
   int32_t (*present)(const hooke_system *system);
   /* f += force, on the working copy; HOOKE_STOPPED if a callback asked for it */
   int32_t (*add)(const hooke_system *system, struct hk_motion *motion, double t);
-  /* potential energy [J], and power turned into heat [W] */
+  /* potential energy [J], and power dissipated as heat [W] */
   double (*energy)(const hooke_system *system, const double *q);
   double (*heat)(const hooke_system *system, const double *q, const double *v);
   /* out += (df/dq) dq + (df/dv) dv */
@@ -54,49 +54,49 @@ struct hk_force_row {
   /* adds df/dq and df/dv to 3x3 blocks; either may be NULL */
   void (*add_blocks)(const hooke_system *system, const double *q, const double *v,
                      const struct hk_pattern *pattern, double *dfdq, double *dfdv);
-  /* how many elements it has, and those from number `first` on: see element.h. Of what comes in groups an
-   * element is a member. */
+  /* number of elements, and those from number `first` on: see element.h. In a force with groups an element is
+   * a member. */
   int64_t (*count)(const hooke_system *system);
   void (*elements)(const hooke_system *system, const double *q, const double *v, int64_t first, int64_t count,
                    struct hk_element *out);
-  /* the next ones in an order that memory is quicker in, and how many; NULL: that of their numbers is it */
+  /* the next ones in a faster memory order, and their number; NULL: that is the order of their numbers */
   int64_t (*stored_elements)(struct hk_elements *at);
-  /* of a force whose K and C are the same everywhere: out += (a K + b C) x, x, y and z apart */
+  /* for a force with constant K and C: out += (a K + b C) x, with x, y and z apart */
   void (*multiply)(const hooke_system *system, double a, double b, const double *const x[3],
                    double *const out[3]);
-  /* sum += the stiffness of every member in the direction in which it stores most, at its shortest [N/m]:
-   * what displacements of size d store, half of it times d^2 (see integrate/loop/divergence.c) */
+  /* sum += the stiffness of every member along the direction in which it stores most, at its shortest [N/m]:
+   * displacements of size d store half of it times d^2 (see integrate/loop/divergence.c) */
   void (*add_stiffness)(const hooke_system *system, double *sum);
-  /* 1 if something of it is damped; NULL of drag, which is a number that many look at */
+  /* 1 if some member is damped; NULL for drag, which callers read as a number */
   int32_t (*damped)(const hooke_system *system);
 };
 
 extern const struct hk_force_row hk_force_springs, hk_force_bending, hk_force_altitude, hk_force_anchor,
     hk_force_linear, hk_force_drag, hk_force_callback, hk_force_gravity;
 
-/* out = (df/dq) dq + (df/dv) dv of the forces that a committed system has, but for those that `left_out`
- * (NULL: none) says. HOOKE_STOPPED, with the point's stop value, if a callback asked for it. */
+/* out = (df/dq) dq + (df/dv) dv of the forces of a committed system except those with `left_out` (NULL:
+ * none). HOOKE_STOPPED, with the point's stop value, if a callback asked for it. */
 int32_t hk_forces_product(const hooke_system *system, const struct hk_point *point,
                           int (*left_out)(const struct hk_force_row *row), double *out);
 
-/* Releases what commit took over of groups. */
+/* Releases everything that commit took over from groups. */
 void hk_forces_release(hooke_system *system);
 
-/* 1 if some force but that of a callback damps motion; the second leaves drag out. */
+/* 1 if some force other than a callback damps motion; the second ignores drag. */
 int32_t hk_system_is_damped(const hooke_system *system);
 int32_t hk_elements_are_damped(const hooke_system *system);
 
-/* Filters for walks. Springs have loops of their own where speed counts, and drag is a number: all others;
- * of these those whose K and C are constant, and those of which elements are kept. */
+/* Filters of walks: all forces but springs, which have loops of their own where speed counts, and drag, which
+ * is a number; of these, those with constant K and C, and those whose elements are stored. */
 int hk_force_is_other(const struct hk_force_row *row);
 int hk_force_is_constant(const struct hk_force_row *row);
 int hk_force_is_kept(const struct hk_force_row *row);
-/* How many elements the forces of a filter have. */
+/* Number of elements of the forces of a filter. */
 int64_t hk_elements_of(const hooke_system *system, int (*wanted)(const struct hk_force_row *row));
 
 /* Row `k` of the table, NULL past the last; and the number of a row. */
 const struct hk_force_row *hk_force_table(int32_t k);
-/* The row of that name, NULL if there is none. */
+/* Row of that name; NULL if there is none. */
 const struct hk_force_row *hk_force_find(const char *name);
 int32_t hk_force_number(const struct hk_force_row *row);
 

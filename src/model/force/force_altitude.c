@@ -1,5 +1,5 @@
-/* Altitude springs (kernel/altitude_loops.h): U = ks/(2 l) (h - l)^2 for the altitude h of a tetrahedron that
- * is shortest now, l its rest length. Where another one comes to be shortest the energy jumps, since their
+/* Altitude springs (kernel/altitude_loops.h): U = ks/(2 l) (h - l)^2 for the currently shortest altitude h of
+ * a tetrahedron, l its rest length. Where another altitude becomes the shortest the energy jumps, since their
  * rest lengths differ. Between such changes f_j = -T g_j u is its exact derivative: dh = u.(sum of g_j
  * dq_j). */
 #include "model/force/force.h"
@@ -43,7 +43,7 @@ static double heat(const hooke_system *system, const double *q, const double *v)
     const struct hk_tetrahedron *t = &system->altitudes.tetrahedron[k];
     struct hk_tautness s;
     if (t->damping == 0.0 || !hk_tautness_find(t, q, v, &s)) continue;
-    if (t->pull_only) /* it brakes no more than its tension lets it */
+    if (t->pull_only) /* damping does not exceed the tension */
       hk_sum_add(&sum, (s.tension - s.elastic) * s.rate);
     else
       hk_sum_add(&sum, (t->damping / t->rest[s.altitude.choice] * s.rate) * s.rate);
@@ -51,7 +51,7 @@ static double heat(const hooke_system *system, const double *q, const double *v)
   return hk_sum_value(&sum);
 }
 
-/* change[j] += the change of the force on particle j. */
+/* change[j] += change of the force on particle j. */
 static void find_change(const struct hk_tautness *s, const struct hk_tautness_change *d,
                         double change[4][3]) {
   for (int j = 0; j < 4; j++) {
@@ -90,8 +90,7 @@ static void add_column(const struct hk_pattern *pattern, const struct hk_tetrahe
   }
 }
 
-/* The tetrahedron alone, its corners numbered 0 to 3: displaced by one component of one corner after the
- * other. */
+/* The tetrahedron alone, with corners 0 to 3: displaces one component of one corner after the other. */
 static void add_columns(const struct hk_pattern *pattern, const struct hk_tetrahedron *t, const double q[12],
                         const double v[12], double *dfdq, double *dfdv) {
   struct hk_tetrahedron own = *t;

@@ -216,7 +216,7 @@ static int32_t add(const hooke_system *system, struct hk_motion *motion, double 
   return HOOKE_OK;
 }
 
-/* A spring from end 0 to end 1, at which the point is at rest: x and u hold both. */
+/* The anchor as a spring from end 0 to end 1, with the point at rest: x and u hold both. */
 static struct hk_spring spring_of(const struct anchor *a, const double *q, const double *v, double x[6],
                                   double u[6]) {
   memcpy(x, q + 3 * a->particle, 3 * sizeof(double));
@@ -339,7 +339,7 @@ const struct hk_force_row hk_force_anchor = {.name = "anchors",
                                              .add_stiffness = add_stiffness,
                                              .damped = damped};
 
-/* ---- asking ---- */
+/* ---- queries ---- */
 
 int32_t hooke_system_anchor_points(const hooke_system *system, double *points) {
   const int32_t status = hk_system_require_committed(system);

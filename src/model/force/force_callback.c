@@ -1,4 +1,4 @@
-/* The caller's own force. */
+/* The callback force. */
 #include "model/force/force.h"
 
 #include "core/memory.h"
@@ -45,7 +45,7 @@ static double extent(int64_t n, const double *q) {
   return most;
 }
 
-/* Central difference of the callback along (dq, dv). The error of size step^2 balances rounding near
+/* Central difference of the callback along (dq, dv). The error of order step^2 balances rounding near
  * cbrt(2^-52). */
 static int32_t add_difference(const hooke_system *system, const struct hk_point *point, double *out) {
   const int64_t n = system->particle_count, size = 3 * n;

@@ -39,7 +39,7 @@ static double heat(const hooke_system *system, const double *q, const double *v)
   return system->drag * hk_sum_value(&sum);
 }
 
-/* One for each particle, which does nothing where that is constrained. */
+/* One element for each particle; zero if it is constrained. */
 static int64_t count(const hooke_system *system) {
   return system->particle_count;
 }

@@ -1,5 +1,4 @@
-/* Gravity, U = -m g.q. It is an acceleration, added to w f where a step is taken, so there is nothing to add
- * here. */
+/* Gravity, U = -m g.q. It is an acceleration that a step adds to w f, so it has no force function. */
 #include "model/force/force.h"
 
 #include "core/sum.h"

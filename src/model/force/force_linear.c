@@ -1,5 +1,5 @@
-/* Linear forces about a place: those of elements that stay as they are, f = -K (q - place) - C v. Of
- * systems that stand for another one linearised. */
+/* Linear forces about a place, f = -K (q - place) - C v, from constant elements. Used by systems that are the
+ * linear twin of another one. */
 #include "model/force/force.h"
 
 #include "core/sum.h"

@@ -215,7 +215,7 @@ static void elements(const hooke_system *system, const double *q, const double *
   }
 }
 
-/* In a tiled batch in the order of batches, else in that of numbers. */
+/* For a tiled batch in the order of its tiles, otherwise in that of numbers. */
 static int64_t stored_elements(struct hk_elements *at) {
   if (at->system->tiled.particles == 0) {
     const int64_t left = at->system->springs.count - at->done;

@@ -1,4 +1,4 @@
-/* Spring groups: their options, their checks, and the two laws made one. */
+/* Spring groups: options, checks, and the conversion of both laws to one. */
 #include "model/force/spring.h"
 
 #include "core/memory.h"
@@ -134,7 +134,7 @@ static int32_t check_count(const hooke_options *options, const char *name, int64
                  (long long)given, (long long)count);
 }
 
-/* Values that are one number or one for each spring. */
+/* Values of one number, or one number for each spring. */
 struct values {
   const double *value;
   int64_t stride;
@@ -156,7 +156,7 @@ static int32_t refuse_rest_length(int64_t k, int64_t given, double length) {
                  length, (long long)k);
 }
 
-/* Springs are in any order, so that the places of their ends come late unless they are asked for early. */
+/* Springs are in any order, so the positions of their ends are prefetched. */
 static void ask_for_ends(const struct hk_group *group, const double *position, int64_t k) {
   if (k >= group->count) return;
   __builtin_prefetch(position + 3 * (int64_t)group->particle[0][k]);

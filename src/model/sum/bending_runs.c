@@ -1,4 +1,4 @@
-/* Sorts triples into runs by looking at their numbers, as spring_runs.c does with springs. */
+/* Sorts triples into runs by their numbers, as spring_runs.c does with springs. */
 #include "model/force/bending.h"
 
 #include "core/memory.h"
@@ -10,14 +10,14 @@
 /* A shorter stretch of constant offset is not worth a loop of its own. */
 enum { SHORTEST_RUN = 8 };
 
-/* What is counted in the first pass and filled in the second. */
+/* Counters of the first pass, filled in the second. */
 struct sorter {
   struct hk_bending *bending;
   int64_t runs, indexed, mixed;
   int32_t fill;
 };
 
-/* How many triples from k on have one offset, one after the other. */
+/* Number of consecutive triples from k on with one offset. */
 static int64_t stretch_at(const struct hk_group *g, int64_t k) {
   const int32_t *a = g->particle[0], *b = g->particle[1], *c = g->particle[2];
   const int32_t offset = b[k] - a[k];

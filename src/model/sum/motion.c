@@ -7,8 +7,8 @@
 
 #include <string.h>
 
-/* Springs for each worker, so that what it does takes some ten times as long as meeting the others does; and
- * shares of what all workers do at their borders. */
+/* Minimum number of springs for each worker, so that its work takes some ten times as long as the barriers;
+ * and fractions of the work of all workers at their borders. */
 enum { SPRINGS_A_MEMBER = 8192, BORDERS_A_MEMBER = 8 };
 
 int32_t hk_motion_members(const hooke_system *system, int32_t most) {
@@ -43,7 +43,7 @@ struct arrays {
   int64_t n, count, stride, rest; /* `count` arrays of n particles, and `rest` numbers after them */
 };
 
-/* Each worker clears what it will go over, so that it is near; the last one all that follows. */
+/* Each worker clears its own part, so that it is placed near it; the last one clears the rest. */
 static void clear(int32_t worker, int32_t workers, void *ctx) {
   const struct arrays *arrays = ctx;
   const int last = worker + 1 == workers;
@@ -54,11 +54,11 @@ static void clear(int32_t worker, int32_t workers, void *ctx) {
   if (last) memset(arrays->block + arrays->count * arrays->stride, 0, (size_t)arrays->rest * sizeof(double));
 }
 
-/* Arrays of n numbers each, and what else goes with them. */
+/* Arrays of n numbers each, and other data of that size. */
 static int32_t new_arrays(const hooke_system *system, int32_t by_tiles, struct hk_motion *motion) {
   const int64_t n = system->particle_count;
-  /* rounded up to a cache line, and not a power of two apart: equal low address bits would fight over cache
-   * sets. Loops over strided batches look beyond the last particle. */
+  /* rounded up to a cache line, and not a power of two apart: equal low address bits would conflict in cache
+   * sets. Loops over strided batches read past the last particle. */
   const int64_t beyond = system->strided.count > 0 ? system->strided.reach + HOOKE_STRIDED_UNIT : 0;
   const int64_t stride = (n + beyond + 7) / 8 * 8 + 24, arrays = by_tiles ? 6 : 9;
   const int64_t components = arrays * stride, rows = system->force ? 9 * n : 0;
@@ -81,8 +81,8 @@ static int32_t new_arrays(const hooke_system *system, int32_t by_tiles, struct h
   return HOOKE_OK;
 }
 
-/* Numbers here of anchored and driven particles. `place` (NULL: the caller's numbers) is indexed by those of
- * the caller. */
+/* Working numbers of anchored and driven particles. `place` (NULL: the caller's numbers) is indexed by the
+ * caller's. */
 static void number_held(const hooke_system *system, const int32_t *place, struct hk_motion *motion) {
   int32_t *moved = motion->moved;
   for (int64_t k = 0; k < system->anchor_count; k++)
@@ -95,7 +95,7 @@ static void number_held(const hooke_system *system, const int32_t *place, struct
   }
 }
 
-/* Working numbers by those of the caller; NULL without memory. */
+/* Working numbers by the caller's; NULL without memory. */
 static int32_t *invert_order(const struct hk_motion *motion) {
   int32_t *number = hk_new(motion->n, sizeof *number);
   for (int64_t p = 0; number && p < motion->n; p++)
@@ -172,7 +172,7 @@ void hk_components_from_rows(int64_t n, const double *rows, double *const compon
   }
 }
 
-/* Rows in the caller's numbers. */
+/* Rows in the caller's numbering. */
 static void load_rows(const struct hk_motion *motion, const double *rows, double *const component[3]) {
   if (motion->order == NULL) {
     hk_components_from_rows(motion->n, rows, component);
@@ -226,7 +226,7 @@ void hk_motion_exchange(struct hk_motion *motion, double *q, double *v) {
   exchange_rows(motion, motion->v, v);
 }
 
-/* 1 if a row has other bits. */
+/* 1 if a row differs in a bit. */
 static int differs(const double *row, double x, double y, double z) {
   return memcmp(&row[0], &x, sizeof x) || memcmp(&row[1], &y, sizeof y) || memcmp(&row[2], &z, sizeof z);
 }
@@ -256,7 +256,8 @@ int64_t hk_motion_number(const struct hk_motion *motion, int64_t particle) {
   return motion->order ? motion->number[particle] : particle;
 }
 
-/* The number of a particle among the anchored ones, which ascend; of another, that of one before it, or 0. */
+/* Index of a particle among the anchored ones, which ascend; for another particle that of one before it, or
+ * 0. */
 static int64_t find_anchor(const hooke_system *system, int64_t particle) {
   int64_t low = 0, high = system->anchor_count;
   while (high - low > 1) {

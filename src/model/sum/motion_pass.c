@@ -1,4 +1,4 @@
-/* One pass over memory: sums of springs, and what is done with them. */
+/* One pass over memory: sums of springs, and their use. */
 #include "model/sum/motion.h"
 
 #include <string.h>
@@ -21,8 +21,8 @@ static void keep_tile(int64_t from, int64_t count, double *const f[3], void *ctx
   }
 }
 
-/* Drag on a tile, as its row in the table of forces adds it; constrained particles are put back after a step.
- * */
+/* Adds drag on a tile, as its row in the table of forces does; constrained particles are restored after a
+ * step. */
 static void brake(double drag, int64_t from, int64_t count, const struct hk_motion *m, double *const f[3]) {
   for (int a = 0; a < 3; a++) {
     for (int64_t k = 0; k < count; k++)

@@ -12,7 +12,7 @@ static int compare_columns(const void *a, const void *b) {
   return (x > y) - (x < y);
 }
 
-/* Both directions of every pair of particles of an element: counts them, or puts them where `next` says. */
+/* Both directions of every pair of particles of an element: counts them, or stores them at `next`. */
 static void visit_pairs(const struct hooke_system *system, int64_t *count, int64_t *column, int64_t *next) {
   struct hk_elements at;
   hk_begin_elements(system, NULL, NULL, &at);
@@ -28,7 +28,7 @@ static void visit_pairs(const struct hooke_system *system, int64_t *count, int64
   }
 }
 
-/* Sorts every row and drops what stands twice (two springs between the same particles). */
+/* Sorts every row and removes duplicates (two springs between the same particles). */
 static void sort_rows(struct hk_pattern *pattern) {
   int64_t kept = 0;
   for (int64_t p = 0; p < pattern->rows; p++) {

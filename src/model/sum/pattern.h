@@ -1,5 +1,5 @@
-/* Where the 3x3 blocks of the derivative of the forces are: particle pairs that an element joins, and the
- * diagonal. */
+/* The sparsity pattern of the 3x3 blocks of the derivative of the forces: particle pairs joined by an
+ * element, and the diagonal. */
 #ifndef HOOKE_MODEL_SUM_PATTERN_H
 #define HOOKE_MODEL_SUM_PATTERN_H
 
@@ -15,10 +15,10 @@ struct hk_pattern {
 
 int32_t hk_pattern_create(const struct hooke_system *system, struct hk_pattern *pattern);
 void hk_pattern_release(struct hk_pattern *pattern);
-/* Blocks of the pattern; -1 before commit and without memory. */
+/* Number of blocks of the pattern; -1 before commit and without memory. */
 int64_t hk_system_block_count(const struct hooke_system *system);
 
-/* Number of the block (row, column), which must be there. */
+/* Index of the block (row, column), which must exist. */
 int64_t hk_pattern_block(const struct hk_pattern *pattern, int64_t row, int64_t column);
 
 #endif

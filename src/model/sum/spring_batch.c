@@ -68,7 +68,7 @@ static void take_ends(const struct hk_tiled *tiled, int64_t tile, struct hk_spri
   }
 }
 
-/* As the loops of the tiled batch have it, to the bit. */
+/* Matches the loops of the tiled batch to the bit. */
 static void take_material(const struct hk_tiled *tiled, const struct hk_tiled_kind *kind,
                           struct hk_spring_batch *batch) {
   const int32_t form = kind->shape & HOOKE_TILED_MIXED;

@@ -1,6 +1,6 @@
-/* All springs of a system, some at a time, in the order in which memory has them: that of their numbers, or
- * by the tiles of a tiled batch, whose springs are in no order. For sums and counts in which all springs are
- * alike; the order is the system's own, so that sums have the same bits always. */
+/* Iteration over all springs of a system in batches, in memory order: by number, or by the tiles of a tiled
+ * batch, whose springs are in no order. For sums and counts that treat all springs alike; the order is fixed
+ * by the system, so that sums always have the same bits. */
 #ifndef HOOKE_MODEL_SUM_SPRING_BATCH_H
 #define HOOKE_MODEL_SUM_SPRING_BATCH_H
 
@@ -15,14 +15,14 @@ struct hk_spring_batch {
   int32_t damped, pull_only;
   int32_t consecutive; /* 1: spring k joins particles head[0] + k and tail[0] + k */
   int32_t head[HOOKE_SPRING_BATCH],
-      tail[HOOKE_SPRING_BATCH]; /* in a tiled batch the first end is not the one that was given */
+      tail[HOOKE_SPRING_BATCH]; /* in a tiled batch the first end may be the second one as given */
   double kappa[HOOKE_SPRING_BATCH], gamma[HOOKE_SPRING_BATCH], rest_length[HOOKE_SPRING_BATCH];
 
-  int64_t row, done; /* where it is: a run, or a tile and kind; springs of it behind it */
-  int64_t at;        /* place in the tiled batch */
+  int64_t row, done; /* position: a run, or a tile and kind; next spring in it */
+  int64_t at;        /* index in the tiled batch */
 };
 
-/* Before the first; the next ones, or 0 if there are none. */
+/* Starts before the first batch; fetches the next one, or returns 0 if there are none. */
 static inline void hk_begin_batches(struct hk_spring_batch *batch) {
   batch->count = batch->row = batch->done = batch->at = 0;
 }

@@ -1,5 +1,5 @@
-/* Sorts springs into runs by looking at their numbers: consecutive springs whose ends advance by one have a
- * constant offset and need no index; a material equal to the bit along a run needs no parameters. */
+/* Sorts springs into runs by their numbers: consecutive springs whose ends advance by one have a constant
+ * offset and need no index; a material equal to the bit along a run needs no parameters. */
 #include "model/force/spring.h"
 
 #include "core/memory.h"
@@ -10,7 +10,7 @@
 /* A shorter stretch of constant offset is not worth a loop of its own. */
 enum { SHORTEST_RUN = 8 };
 
-/* What is counted in the first pass and filled in the second. */
+/* Counters of the first pass, filled in the second. */
 struct sorter {
   struct hk_springs *springs;
   int64_t runs, indexed, mixed;

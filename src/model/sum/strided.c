@@ -1,25 +1,25 @@
-/* Finds the strided batches of a system: each spring joins the earliest batch of its offset that has room for
- * it and keeps an order of items. */
+/* Finds the strided batches of a system: each spring joins the earliest batch of its offset that has space
+ * for it and keeps an order of items. */
 #include "model/sum/strided.h"
 
 #include "core/memory.h"
 
 #include <string.h>
 
-/* A pass computes every batch at every particle: with fewer springs than this share of that, others are
- * faster; and in a system of few particles there is nothing to gain. */
+/* A pass computes every batch at every particle: with fewer springs than this fraction of that, other ways
+ * are faster; and a system of few particles gains nothing. */
 static const double LEAST_FILLED = 0.3;
 enum { LEAST_PARTICLES = 64, MOST_WINDOW = 1 << 18 };
 
-/* Places of three numbers a particle have 32 bits. */
+/* Indices of three numbers a particle have 32 bits. */
 enum { MOST_PARTICLES = 1 << 30 };
 
 /* Items count from 1 here: 2 k + 1 are the ends of batch k, 2 k + 2 its beginnings, 0 is none. */
 struct finder {
   struct hk_strided_batches *strided;
   int64_t particles;
-  uint8_t *at;                          /* the last item of the springs of each particle so far */
-  uint64_t after[HOOKE_MOST_ITEMS + 1]; /* bits of the items that an item must not come behind, and its own */
+  uint8_t *at;                          /* last item so far of the springs of each particle */
+  uint64_t after[HOOKE_MOST_ITEMS + 1]; /* bits of the items that must precede an item, and its own */
   int32_t failed;                       /* no memory */
 };
 
@@ -31,7 +31,7 @@ static int has_spring(const struct hk_strided_batch *batch, int64_t low) {
   return batch->present[low / HOOKE_STRIDED_UNIT] >> low % HOOKE_STRIDED_UNIT & 1;
 }
 
-/* Whether an order is left if the end of batch k comes behind item `high`, and its beginning behind `low`. */
+/* True if an order remains when the end of batch k follows item `high`, and its beginning follows `low`. */
 static int keeps_order(const struct finder *finder, int32_t k, int32_t low, int32_t high) {
   const uint64_t end = finder->after[2 * k + 1], begin = finder->after[2 * k + 2];
   if (begin & bit_of(low) || end & bit_of(high)) return 0;
@@ -99,7 +99,7 @@ static int pays(const struct hk_strided_batches *strided, int64_t springs) {
   return window <= MOST_WINDOW && (double)springs >= LEAST_FILLED * (double)reached;
 }
 
-/* An item that others come behind has more of them behind it than these have. */
+/* An item with successors has more of them than any of these. */
 static void put_in_order(const struct finder *finder) {
   struct hk_strided_batches *strided = finder->strided;
   int32_t done = 0;

@@ -1,10 +1,10 @@
-/* Strided batches: how the forces of a whole system are summed in one pass over the particles.
+/* Strided batches: sums the forces of a whole system in one pass over the particles.
  *
- * A batch is made of springs of one offset o > 0, one at most from each particle: spring l joins particles l
+ * A batch consists of springs of one offset o > 0, at most one from each particle: spring l joins particles l
  * and l + o. A particle sees a batch as two items, the springs that end there and those that begin there. The
  * items of all batches are in one order in which the springs of every particle come in ascending number, so
- * that sums have the bits of the plain order. The pass goes over the particles once;
- * kernel/strided_loops.h says how. */
+ * that sums have the bits of the plain order. The pass goes over the particles once; see
+ * kernel/strided_loops.h. */
 #ifndef HOOKE_MODEL_SUM_STRIDED_H
 #define HOOKE_MODEL_SUM_STRIDED_H
 
@@ -14,29 +14,29 @@
 enum { HOOKE_TILE = 256, HOOKE_MOST_ITEMS = 2 * HOOKE_MOST_STRIDED };
 
 struct hk_strided_batch {
-  int64_t offset, first, last; /* the lowest and the highest lower end */
+  int64_t offset, first, last; /* lowest and highest lower end */
   int32_t shape;               /* HOOKE_RUN_*, never indexed */
-  uint8_t *present;            /* a bit for each particle: whether a spring begins there */
+  uint8_t *present;            /* a bit for each particle: a spring begins there */
 };
 
 /* `count` 0: the springs do not form batches, or too few of them for batches to pay. */
 struct hk_strided_batches {
   int32_t count;
-  int64_t reach; /* the largest offset, in whole units */
+  int64_t reach; /* largest offset, in whole units */
   struct hk_strided_batch batch[HOOKE_MOST_STRIDED];
   struct hk_strided_material material[HOOKE_MOST_STRIDED];
   uint8_t item[HOOKE_MOST_ITEMS]; /* in the order of sums: 2 k the ends of batch k, 2 k + 1 its beginnings */
-  uint8_t *batch_of;              /* of each spring; NULL if no run looks its material up */
+  uint8_t *batch_of;              /* of each spring; NULL if no run looks up its material */
   int64_t memory;
 };
 
-/* HOOKE_NO_MEMORY. Material that is stored one by one goes from the springs to the batches, where the runs
- * then look it up. */
+/* HOOKE_NO_MEMORY. Individually stored material moves from the springs to the batches, where the runs then
+ * look it up. */
 int32_t hk_strided_batches_create(struct hk_springs *springs, int64_t particle_count,
                                   struct hk_strided_batches *strided);
 void hk_strided_batches_release(struct hk_strided_batches *strided);
 
-/* The part of it that takes the material over, from batches that are there. HOOKE_NO_MEMORY. */
+/* The step that moves the material, for existing batches. HOOKE_NO_MEMORY. */
 int32_t hk_strided_batches_take_material(struct hk_springs *springs, int64_t particle_count,
                                          struct hk_strided_batches *strided);
 
@@ -49,7 +49,7 @@ int64_t hk_rings_memory(const struct hk_rings *rings);
 struct hk_motion;
 struct hooke_system;
 
-/* One pass over the particles of `motion` that are stepped; returns how many springs had a rest length but no
+/* One pass over the stepped particles of `motion`; returns the number of springs with a rest length but no
  * direction. */
 int64_t hk_strided_batches_pass(const struct hooke_system *system, struct hk_motion *motion,
                                 const struct hk_move *move);

@@ -1,21 +1,21 @@
-/* The material of strided batches, where units of springs that are equal to the bit are stored once: rest
- * lengths of rounded positions differ in their last bits only, and in few ways. */
+/* The material of strided batches, which stores units of springs that are equal to the bit once: rest lengths
+ * of rounded positions differ in their last bits only, and take few values. */
 #include "model/sum/strided.h"
 
 #include "core/memory.h"
 
 #include <string.h>
 
-/* So many units do not stay in a cache of the second level, and are fetched so many early. */
+/* More units than this do not fit the second-level cache, and are prefetched so many ahead. */
 enum { UNITS_IN_CACHE = 2500, EARLY = 16 };
 
 enum { NUMBERS = HOOKE_STRIDED_NUMBERS, UNIT_BYTES = HOOKE_STRIDED_UNIT * sizeof(double) };
 
-/* One number of a batch on its way. */
+/* One number of a batch during construction. */
 struct column {
   int64_t units; /* from that of the first spring to that of the last */
-  double *value; /* of these */
-  int32_t *kind; /* for each of them the first that is equal to it */
+  double *value; /* number of these */
+  int32_t *kind; /* for each of them the first equal one */
 };
 
 static double number_in(const struct hk_material *material, int32_t j) {
@@ -25,11 +25,11 @@ static double number_in(const struct hk_material *material, int32_t j) {
   return number[j];
 }
 
-/* ---- what springs share ---- */
+/* ---- sharing between springs ---- */
 
 struct sharing {
   struct hk_material material[HOOKE_MOST_STRIDED]; /* of the first spring */
-  int64_t seen[HOOKE_MOST_STRIDED];                /* 1 + the last run that was looked at; 0: none yet */
+  int64_t seen[HOOKE_MOST_STRIDED];                /* 1 + the last run examined; 0: none yet */
   uint8_t differs[HOOKE_MOST_STRIDED][NUMBERS];
 };
 
@@ -58,7 +58,7 @@ static void find_shared(const struct hk_springs *springs, struct hk_strided_batc
   }
 }
 
-/* ---- units that are equal ---- */
+/* ---- equal units ---- */
 
 static uint64_t mix(const double *value) {
   uint64_t word[HOOKE_STRIDED_UNIT], sum = 0;
@@ -70,8 +70,8 @@ static uint64_t mix(const double *value) {
   return sum;
 }
 
-/* Finds for each unit the first that is equal, by a table of `room` places, a power of two; how many there
- * are, or 0 if that is more than half the room. */
+/* Finds for each unit the first equal one, by a hash table of `room` slots, a power of two; returns the
+ * number of distinct ones, or 0 if they exceed half the table. */
 static int64_t find_equal(const struct column *column, int32_t *table, int64_t room) {
   int64_t kinds = 0;
   for (int64_t u = 0; u < column->units; u++) {
@@ -89,7 +89,7 @@ static int64_t find_equal(const struct column *column, int32_t *table, int64_t r
   return kinds;
 }
 
-/* At most a quarter of the units, so that the room is worth it; otherwise all. */
+/* Shares units if at most a quarter are distinct, so that it pays; otherwise stores all. */
 static int32_t find_kinds(struct column *column) {
   int64_t room = 2;
   while (2 * room <= column->units / 2)
@@ -103,8 +103,8 @@ static int32_t find_kinds(struct column *column) {
   return HOOKE_OK;
 }
 
-/* Keeps the first unit of each kind, and puts its place, from that of unit `base` on, into every third of
- * `unit`. Returns how many there are. */
+/* Keeps the first unit of each kind, and stores its index, counted from unit `base`, in every third entry of
+ * `unit`. Returns the number of units. */
 static int32_t keep_kinds(struct column *column, int32_t base, uint32_t *unit) {
   int32_t kept = 0;
   for (int64_t u = 0; u < column->units; u++) {
@@ -118,7 +118,7 @@ static int32_t keep_kinds(struct column *column, int32_t base, uint32_t *unit) {
   return kept;
 }
 
-/* ---- numbers of their own ---- */
+/* ---- own numbers ---- */
 
 static void collect(const struct hk_springs *springs, const struct hk_strided_batches *strided, int32_t batch,
                     int32_t j, int64_t first, double *value) {
@@ -132,7 +132,7 @@ static void collect(const struct hk_springs *springs, const struct hk_strided_ba
   }
 }
 
-/* Number j of a batch, behind the `base` units of numbers before it; how many there are then in *units. */
+/* Number j of a batch, after the `base` units of earlier numbers; *units receives the total. */
 static int32_t store(const struct hk_springs *springs, struct hk_strided_batches *strided, int32_t batch,
                      int32_t j, int32_t *units) {
   struct hk_strided_material *material = &strided->material[batch];
@@ -163,7 +163,7 @@ static void share(double value, struct hk_strided_material *material, int32_t j)
     material->value[HOOKE_STRIDED_UNIT * j + k] = value;
 }
 
-/* Shared numbers are in the first units, at the place of the number. */
+/* Shared numbers are in the first units, at the index of the number. */
 static int32_t take(const struct hk_springs *springs, int64_t particles, struct hk_strided_batches *strided,
                     int32_t batch, const struct sharing *sharing) {
   struct hk_strided_material *material = &strided->material[batch];
@@ -188,7 +188,7 @@ static int32_t take(const struct hk_springs *springs, int64_t particles, struct 
   return status;
 }
 
-/* ---- all of it ---- */
+/* ---- whole ---- */
 
 static void look_up_in_batches(struct hk_springs *springs, struct hk_strided_batches *strided) {
   for (int64_t r = 0; r < springs->run_count; r++) {

@@ -1,22 +1,22 @@
 /* The pass over strided batches, by one thread or by a thread pool. Each worker has the particles of a range.
- * What others will have moved when it comes to it, it computes or copies before anyone moves: the springs
- * that begin below its range and end in it, and the particles above its range where its own springs end. */
+ * Before anyone moves it computes or copies what others will have changed: the springs that begin below its
+ * range and end in it, and the particles above its range where its own springs end. */
 #include "core/memory.h"
 #include "model/sum/motion.h"
 
 #include <string.h>
 
-/* In a system larger than a cache of the second level the processor is told what it will need: particles that
- * springs reach for the first time, so many before the first spring does. */
+/* In a system larger than the second-level cache data are prefetched: particles reached by springs for the
+ * first time, so many ahead of the first spring. */
 enum { PARTICLES_IN_CACHE = 20000, FETCH_AHEAD = 256 };
 
 struct partition {
   struct hk_strided_view view[HOOKE_MOST_STRIDED]; /* every batch, with its ring here */
-  struct hk_strided_pass pass;                     /* batches that the loop is at */
-  uint8_t open[HOOKE_MOST_STRIDED];                /* 0: has springs of another place, or none yet */
-  double *border; /* q and v, x y z apart, of `reach` particles at the end of the range, and of those after */
+  struct hk_strided_pass pass;                     /* batches active in the loop */
+  uint8_t open[HOOKE_MOST_STRIDED];                /* 0: holds springs of another position, or none yet */
+  double *border;   /* q and v, x y z apart, of the last `reach` particles, and of those after them */
   int64_t from, to; /* the range */
-  int64_t at, lost; /* the first particle that the loop has not come to */
+  int64_t at, lost; /* first particle that the loop has not reached */
 };
 
 struct hk_rings {
@@ -107,7 +107,7 @@ int64_t hk_rings_memory(const struct hk_rings *rings) {
   return rings ? rings->memory : 0;
 }
 
-/* No springs below particle `from`, as far as the ring is read from there on. */
+/* Clears the springs below particle `from`, as far as the ring is read from there on. */
 static void clear_below(const struct hk_strided_view *batch, int64_t from) {
   const int64_t room = batch->mask + 1, first = (from - batch->offset) & batch->mask,
                 before_end = lesser(batch->offset, room - first), wrapped = batch->offset - before_end;
@@ -119,7 +119,7 @@ static void clear_below(const struct hk_strided_view *batch, int64_t from) {
   }
 }
 
-/* Items of the batches that are marked. */
+/* Items of the marked batches. */
 static void set_items(const struct hk_strided_batches *strided, const uint8_t *there,
                       struct partition *partition) {
   struct hk_strided_item *next = partition->pass.item;
@@ -163,8 +163,8 @@ static void advance(const struct task *task, struct partition *partition, int32_
   }
 }
 
-/* Over particles that are not stepped, where no springs begin; none at all if the springs from below do not
- * reach over them. */
+/* Passes over particles that are not stepped, where no springs begin; skips them if the springs from below do
+ * not extend over them. */
 static void skip(const struct task *task, struct partition *partition, int64_t to) {
   if (to - partition->at >= task->motion->rings->reach) {
     memset(partition->open, 0, sizeof partition->open);
@@ -173,7 +173,7 @@ static void skip(const struct task *task, struct partition *partition, int64_t t
   advance(task, partition, HOOKE_MOVE_NOTHING, to);
 }
 
-/* All that is stepped from where the partition is up to `to`. */
+/* Processes all stepped particles from the current one of the partition up to `to`. */
 static void go_on(const struct task *task, struct partition *partition, int32_t kind, int64_t to) {
   const hooke_system *system = task->system;
   for (int64_t s = 0; s < system->span_count && partition->at < to; s++) {
@@ -210,7 +210,7 @@ static void begin(const struct task *task, struct partition *partition, int32_t 
   partition->lost = 0;
 }
 
-/* What has to be read before anyone moves. */
+/* Reads everything that is needed before anyone moves. */
 static void prepare(const struct task *task, struct partition *partition) {
   const struct hk_motion *m = task->motion;
   const int64_t stride = m->rings->border_stride, reach = m->rings->reach;

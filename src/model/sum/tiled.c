@@ -1,4 +1,4 @@
-/* Makes the tiled batch of a system at commit. */
+/* Creates the tiled batch of a system at commit. */
 #include "model/sum/tiled.h"
 
 #include "core/memory.h"
@@ -7,26 +7,26 @@
 #include <math.h>
 #include <string.h>
 
-/* Runs of constant offset are faster than a tiled batch if there are more of them than this; and in a system
- * of few springs there is nothing to gain. */
+/* Above this length runs of constant offset are faster than a tiled batch; and a system of few springs gains
+ * nothing. */
 static const double MOST_IN_RUNS = 0.7;
 enum { LEAST_SPRINGS = 64, MOST_DEGREE = UINT16_MAX };
 
 /* A window and ring of more bytes than this, and than this a particle, would hold most of the system, for
- * want of any order. */
+ * lack of locality. */
 static const double MOST_BYTES = 4194304.0, MOST_BYTES_A_PARTICLE = 64.0;
 
-/* Their own numbering is kept unless the springs of another one reach less than this fraction as far. */
+/* The caller's numbering is kept unless springs reach less than this fraction as far in another one. */
 static const double WORTH_NUMBERING = 0.6;
 
-/* What is needed on the way. */
+/* Working data. */
 struct maker {
   struct hk_tiled *tiled;
   struct hk_springs *springs;
   int32_t *lower, *upper; /* ends of all springs, by number in `place` */
   int32_t *order, *place; /* of particles */
   int32_t *kind_of;       /* of runs */
-  int32_t *at;            /* place of each spring */
+  int32_t *at;            /* index of each spring */
   int64_t *next;          /* counters */
 };
 
@@ -53,7 +53,7 @@ static void maker_release(struct maker *maker) {
   hk_free(maker->next);
 }
 
-/* Springs are in no order, and what they lead to comes late unless it is asked for so many springs early. */
+/* Springs are in no order, so their data are prefetched this many springs ahead. */
 enum { EARLY = 16 };
 
 static int64_t ahead(int64_t s, int64_t count) {
@@ -122,7 +122,7 @@ static void sum_up(int64_t *count, int64_t size) {
   }
 }
 
-/* Springs of one tile and kind, `sorted` until now by number alone, get their places by lower end. */
+/* Springs of one tile and kind, so far sorted by number, are sorted by lower end. */
 static void sort_bin(struct maker *maker, const int32_t *sorted, int64_t from, int64_t count) {
   int64_t next[HOOKE_TILE] = {0};
   for (int64_t k = 0; k < count; k++)
@@ -157,7 +157,7 @@ static void sort(struct maker *maker, int32_t *sorted) {
     tiled->tile[t].end = next[t * tiled->kinds + tiled->kinds - 1];
 }
 
-/* How far tiles look ahead and back, and what a window and a ring have to hold for that. */
+/* Distances that tiles look ahead and back, and the sizes of window and ring for them. */
 static void measure(struct maker *maker) {
   struct hk_tiled *tiled = maker->tiled;
   for (int64_t t = 0; t < tiled->tiles; t++) {
@@ -262,7 +262,7 @@ static void point_to_tiled(const struct hk_tiled *tiled, const struct hk_tiled_k
   run->strain = (kind->shape & HOOKE_TILED_MIXED) == HOOKE_TILED_STRAIN;
 }
 
-/* Materials go to their places in the tiled batch, and runs look them up there. */
+/* Materials move to their indices in the tiled batch, where runs look them up. */
 static int32_t move_material(struct maker *maker) {
   struct hk_tiled *tiled = maker->tiled;
   struct hk_springs *springs = maker->springs;
@@ -286,7 +286,7 @@ static int32_t move_material(struct maker *maker) {
   return HOOKE_OK;
 }
 
-/* ---- all of it ---- */
+/* ---- whole ---- */
 
 static int may_pay(const struct hk_springs *springs) {
   return springs->count >= LEAST_SPRINGS &&

@@ -1,13 +1,13 @@
-/* Tiled batches: how the forces of springs in no order are summed in one pass over the particles.
+/* Tiled batches: sums the forces of unordered springs in one pass over the particles.
  *
- * Particles get a working numbering in which neighbours are near each other, unless their own is good enough.
- * Springs are stored by the tile of their lower end in that numbering. The pass goes over tiles: forces of
- * the springs that begin in a tile go, on their lower ends, into a list of the tile and, on their upper ends,
- * into a ring, which reaches back to the first spring that ends in it; each particle then takes its springs
- * from both in ascending spring number, so that sums have the bits of the plain order. Nothing looks at the
- * particles of a tile after that, so its positions may move at once. Workers of a thread pool have ranges of
- * tiles: they do the springs that end in their range from earlier ones too, and save what they need of later
- * ones, before anything moves. */
+ * Particles get a working numbering in which neighbours are close, unless their own is good enough. Springs
+ * are stored by the tile of their lower end in that numbering. The pass goes over tiles: forces of the
+ * springs that begin in a tile go, on their lower ends, into a list of the tile and, on their upper ends,
+ * into a ring, which reaches back to the first spring that ends in it; each particle then sums its springs
+ * from both in ascending spring number, so that sums have the bits of the plain order. The particles of a
+ * tile are not read after that, so they may move at once. Workers of a thread pool have ranges of tiles:
+ * before anything moves they also compute the springs of earlier ranges that end in theirs, and save the data
+ * that they need of later ones. */
 #ifndef HOOKE_MODEL_SUM_TILED_H
 #define HOOKE_MODEL_SUM_TILED_H
 
@@ -16,7 +16,7 @@
 
 enum { HOOKE_TILED_KINDS = 8 };
 
-/* Springs that one loop can do. */
+/* Springs that one loop can process. */
 struct hk_tiled_kind {
   int32_t shape;   /* HOOKE_TILED_* */
   int32_t uniform; /* one rest length */
@@ -24,9 +24,9 @@ struct hk_tiled_kind {
 };
 
 struct hk_tiled_tile {
-  int64_t end;    /* of its springs; they begin where those of the tile before end */
-  int64_t before; /* the first spring that ends in this tile or begins there */
-  int32_t reach;  /* particle after the last that springs of this tile and those before it end at */
+  int64_t end;    /* of its springs; they begin where those of the previous tile end */
+  int64_t before; /* first spring that ends in this tile or begins there */
+  int32_t reach;  /* one past the last particle at which springs of this tile and earlier ones end */
 };
 
 /* `particles` 0: there is no tiled batch. */
@@ -35,11 +35,11 @@ struct hk_tiled {
   int32_t kinds, wide;
   struct hk_tiled_kind kind[HOOKE_TILED_KINDS];
   struct hk_tiled_tile *tile;
-  int32_t *order;       /* particle that has a working number; NULL: its own */
+  int32_t *order;       /* particle of a working number; NULL: the same number */
   double *inverse_mass; /* by working number; NULL without `order` */
   int32_t *batch;       /* springs of each tile, by kind */
 
-  /* by place: tile, kind, lower end */
+  /* by index: tile, kind, lower end */
   uint8_t *lower;                      /* from the first particle of the tile */
   void *upper;                         /* uint16_t, or uint32_t if wide: row of the window */
   double *kappa, *gamma, *rest_length; /* NULL: by kind */
@@ -47,45 +47,46 @@ struct hk_tiled {
 
   /* by particle */
   uint16_t *degree;
-  /* as wide as `upper`: places in the list, and `list` + those in the ring, in ascending spring number */
+  /* as wide as `upper`: indices into the list, and `list` + those into the ring, in ascending spring number
+   */
   void *force;
 
-  int64_t rows, list, ring; /* that a window, a list of a tile and a ring hold */
+  int64_t rows, list, ring; /* sizes of a window, a list of a tile and a ring */
 };
 
-/* HOOKE_NO_MEMORY. Material goes from the springs to the tiled batch. Without a tiled batch if runs or
- * strided batches do as well. */
+/* HOOKE_NO_MEMORY. Moves material from the springs to the tiled batch. Makes none if runs or strided batches
+ * are as good. */
 int32_t hk_tiled_create(struct hk_springs *springs, int64_t particle_count, const double *inverse_mass,
                         struct hk_tiled *tiled);
 void hk_tiled_release(struct hk_tiled *tiled);
 int64_t hk_tiled_memory(const struct hk_tiled *tiled);
-/* The part of it that goes with the number of springs. */
+/* The part of it that grows with the number of springs. */
 int64_t hk_tiled_spring_memory(const struct hk_tiled *tiled);
 
-/* Numbers particles by breadth-first search along the springs from an end of each piece: order[k] is number
- * k, place[p] the number of p. HOOKE_NO_MEMORY. */
+/* Numbers particles by breadth-first search along the springs, starting from an end of each piece: order[k]
+ * is number k, place[p] the number of p. HOOKE_NO_MEMORY. */
 int32_t hk_tiled_number(int64_t particles, int64_t springs, const int32_t *head, const int32_t *tail,
                         int32_t *order, int32_t *place);
 
-/* Kinds of the springs of all runs, in tiled->kind; kind_of has one for each run. */
+/* Finds the kinds of the springs of all runs, in tiled->kind; kind_of has one for each run. */
 void hk_tiled_sort_kinds(const struct hk_springs *springs, struct hk_tiled *tiled, int32_t *kind_of);
 
 /* Numbers in window, list and ring. */
 int64_t hk_tiled_numbers(const struct hk_tiled *tiled);
 
-/* Windows and rings of one pass at a time by so many workers of a thread pool. NULL without memory. */
+/* Windows and rings of one pass at a time, for so many workers of a thread pool. NULL without memory. */
 struct hk_tiled_scratch;
 struct hk_tiled_scratch *hk_tiled_scratch_create(const struct hk_tiled *tiled, int32_t workers);
 void hk_tiled_scratch_destroy(struct hk_tiled_scratch *scratch);
 int64_t hk_tiled_scratch_memory(const struct hk_tiled_scratch *scratch);
 
-/* Sums over `count` particles from `from` on are in f; may move these particles. */
+/* Receives sums over `count` particles from `from` on in f; may move these particles. */
 typedef void hk_tile(int64_t from, int64_t count, double *const f[3], void *ctx);
 
 struct hk_motion;
 
-/* One pass over all particles of `motion`, whose tiles are in working numbers; returns how many springs had a
- * rest length but no direction. Workers of its pool go over tiles of their own at the same time, each in
+/* One pass over all particles of `motion`, whose tiles are in working numbers; returns the number of springs
+ * with a rest length but no direction. Workers of its pool process their own tiles at the same time, each in
  * ascending order. */
 int64_t hk_tiled_pass(const struct hk_tiled *tiled, struct hk_motion *motion, hk_tile *tile, void *ctx);
 

@@ -5,8 +5,8 @@
 #include <math.h>
 #include <string.h>
 
-/* Numbers of their own are faster than divisions, and take 16 bytes a spring: with no more springs than
- * this. */
+/* Individually stored numbers are faster than divisions, and take 16 bytes a spring: used up to this number
+ * of springs. */
 enum { FEW_SPRINGS = 1 << 17 };
 
 static int same_bits(double a, double b) {
@@ -29,14 +29,14 @@ static int fits(const struct hk_tiled_kind *kind, const struct hk_run *run) {
   return 1;
 }
 
-/* The number that divided by `length` is `divisor`, as far as one spring tells: within a unit in the last
+/* The number that divided by `length` is `divisor`, as far as one spring shows: within a unit in the last
  * place. */
 static double multiple(double divisor, double length, int off) {
   const double whole = divisor * length;
   return off == 0 ? whole : nextafter(whole, off > 0 ? (double)INFINITY : 0.0);
 }
 
-/* A kind that the run fits, shared numbers first; 0 if there is none. */
+/* A kind that fits the run, shared numbers first; 0 if there is none. */
 static int make(const struct hk_run *run, struct hk_tiled_kind *kind) {
   const struct hk_spring spring = hk_run_spring(run, 0);
   const int32_t pull = spring.pull_only ? HOOKE_TILED_PULL_ONLY : 0;
@@ -54,7 +54,7 @@ static int make(const struct hk_run *run, struct hk_tiled_kind *kind) {
   return 0;
 }
 
-/* Each run into the first kind that it fits; 0 if that takes too many. */
+/* Assigns each run to the first kind that fits; 0 if that takes too many. */
 static int by_law(const struct hk_springs *springs, struct hk_tiled *tiled, int32_t *kind_of) {
   tiled->kinds = 0;
   for (int64_t r = 0; r < springs->run_count; r++) {
@@ -99,7 +99,7 @@ static void look_at_lengths(const struct hk_springs *springs, struct hk_tiled *t
   }
 }
 
-/* Where every kind has one rest length there are no arrays at all. */
+/* If every kind has one rest length there are no arrays at all. */
 static void share_lengths(struct hk_tiled *tiled) {
   int32_t uniform = 1;
   for (int32_t c = 0; c < tiled->kinds; c++)

@@ -1,10 +1,10 @@
-/* A working numbering in which neighbours are near each other (Cuthill and McKee 1969, without sorting by
- * degree, which costs more than it gains here). */
+/* A working numbering in which neighbours are close (Cuthill and McKee 1969, without sorting by degree, which
+ * costs more than it gains here). */
 #include "model/sum/tiled.h"
 
 #include "core/memory.h"
 
-/* Particles are in no order yet, and what they lead to comes late unless it is asked for so many early. */
+/* Particles are not ordered yet, so their data are prefetched this many ahead. */
 enum { EARLY = 16 };
 
 /* Neighbours of all particles, those of p at first[p] .. first[p + 1] - 1. */
@@ -18,7 +18,7 @@ static int32_t graph_create(int64_t particles, int64_t springs, const int32_t *h
   graph->first = hk_new(particles + 2, sizeof(int64_t));
   graph->neighbour = hk_new(2 * springs, sizeof(int32_t));
   if (graph->first == NULL || graph->neighbour == NULL) return HOOKE_NO_MEMORY;
-  int64_t *next = graph->first + 2; /* moves to first + 1 as the lists fill up */
+  int64_t *next = graph->first + 2; /* advances to first + 1 as the lists fill up */
   for (int64_t s = 0; s < springs; s++) {
     if (head[s] + 1 < particles) next[head[s]]++;
     if (tail[s] + 1 < particles) next[tail[s]]++;
@@ -60,8 +60,8 @@ static int64_t add_piece(const struct graph *graph, int32_t start, int64_t count
   return count;
 }
 
-/* Of each piece, in the order of their first particles: once from there to find an end, once more from that
- * end. */
+/* Searches each piece, in the order of their first particles: once from there to find an end, once more from
+ * that end. */
 static void number_pieces(const struct graph *graph, int64_t particles, int32_t *order, int32_t *place) {
   for (int64_t p = 0; p < particles; p++)
     place[p] = -1;

@@ -1,9 +1,9 @@
-/* Partition of a tiled batch: near equal ranges of tiles, which do not change from pass to pass. */
+/* Partition of a tiled batch: nearly equal ranges of tiles, the same in every pass. */
 #include "model/sum/tiled_partition.h"
 
 #include "core/memory.h"
 
-/* What it takes to move a particle, in springs. */
+/* Cost of moving a particle, in springs. */
 enum { WORK_OF_PARTICLE = 2 };
 
 static int64_t work_before(const struct hk_tiled *tiled, int64_t tile) {
@@ -23,7 +23,7 @@ static int64_t tile_at(const struct hk_tiled *tiled, int64_t work) {
   return low;
 }
 
-/* The first tile whose springs, or those of a tile after it, end in `first` .. `end` - 1. */
+/* The first tile whose springs, or those of a later tile, end in `first` .. `end` - 1. */
 static int64_t begin_of(const struct hk_tiled *tiled, int64_t first, int64_t end) {
   int64_t before = tiled->springs, tile = first;
   for (int64_t t = first; t < end; t++) {
@@ -58,7 +58,7 @@ static int64_t saved_rows(const struct hk_tiled_partition *partition) {
   return rows > 0 ? rows : 0;
 }
 
-/* A block of its own for each worker, so that no two write to one page. */
+/* A separate block for each worker, so that no two write to one page. */
 static int32_t new_block(const struct hk_tiled *tiled, struct hk_tiled_partition *partition,
                          int64_t *memory) {
   const int64_t numbers =

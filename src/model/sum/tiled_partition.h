@@ -1,12 +1,12 @@
-/* What the workers of a thread pool go over and keep in a pass over a tiled batch. */
+/* The part of each worker of a thread pool in a pass over a tiled batch, and its data. */
 #ifndef HOOKE_MODEL_SUM_TILED_PARTITION_H
 #define HOOKE_MODEL_SUM_TILED_PARTITION_H
 
 #include "model/sum/tiled.h"
 
-/* A worker has the tiles `first` .. `end` - 1. Before any particle moves it does the springs of the tiles
- * from `begin` on, which end in its own, and saves the rows of the particles from its last one to `saved_end`
- * - 1, which others move. */
+/* A worker has the tiles `first` .. `end` - 1. Before any particle moves it computes the springs of the tiles
+ * from `begin` on that end in its own, and saves the rows of the particles from its last one to `saved_end` -
+ * 1, which others move. */
 struct hk_tiled_partition {
   int64_t begin, first, end, saved_end;
   const void *place;                    /* of the first force on the first particle */

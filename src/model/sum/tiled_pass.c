@@ -1,4 +1,4 @@
-/* The pass over tiles: fills the window, then the ring, sums, hands the tile on. */
+/* The pass over tiles: fills the window, then the ring, sums, and passes the tile on. */
 #include "model/sum/tiled_partition.h"
 
 #include "model/sum/motion.h"
@@ -16,7 +16,7 @@ static int64_t least(int64_t a, int64_t b) {
   return a < b ? a : b;
 }
 
-/* Rows of particles `from` .. `to` - 1, as they are now. */
+/* Rows of the current particles `from` .. `to` - 1. */
 static void copy_rows(const struct pass *pass, int64_t from, int64_t to, double *rows) {
   const struct hk_motion *m = pass->motion;
   const int32_t *order = m->order ? NULL : pass->tiled->order;
@@ -29,7 +29,7 @@ static void copy_rows(const struct pass *pass, int64_t from, int64_t to, double 
                         rows);
 }
 
-/* The window reaches to particle `to` - 1; those from `saved` on are taken from what was saved. */
+/* Extends the window to particle `to` - 1; those from `saved` on come from the saved rows. */
 static void fill_rows(const struct pass *pass, struct hk_tiled_partition *partition, int64_t to,
                       int64_t saved) {
   const struct hk_tiled *tiled = pass->tiled;
@@ -60,7 +60,7 @@ static struct hk_tiled_springs springs_at(const struct hk_tiled *tiled, const st
   return springs;
 }
 
-/* The next `count` springs, of one kind and of one tile, into the ring. */
+/* Computes the next `count` springs, of one kind and one tile, into the ring. */
 static void fill_kind(const struct pass *pass, struct hk_tiled_partition *partition, int64_t tile, int32_t c,
                       int64_t count) {
   const struct hk_tiled *tiled = pass->tiled;
@@ -88,7 +88,7 @@ static void fill_tile(const struct pass *pass, struct hk_tiled_partition *partit
     fill_kind(pass, partition, tile, c, tiled->batch[tile * tiled->kinds + c]);
 }
 
-/* What has to be read before anyone moves. */
+/* Reads everything that is needed before anyone moves. */
 static void prepare(const struct pass *pass, struct hk_tiled_partition *partition) {
   const struct hk_tiled *tiled = pass->tiled;
   partition->seen = partition->begin * HOOKE_TILE;

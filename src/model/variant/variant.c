@@ -76,7 +76,7 @@ int32_t hk_variant_covers(const hooke_system *system, const struct hk_variant *v
   return covered && covers_groups(system, variant, other);
 }
 
-/* In a part of another resolution all springs stay. */
+/* In a part of another resolution all springs remain. */
 static int32_t is_split(const hooke_system *system, const struct hk_variant *variant, int64_t g,
                         int64_t first) {
   const struct hk_group *group = &system->group[g];
@@ -96,7 +96,7 @@ int64_t hk_variant_next_split(const hooke_system *system, const struct hk_varian
   return -1;
 }
 
-/* A callback of the caller's knows particles by their numbers. */
+/* A callback identifies particles by their numbers. */
 static int32_t check_callbacks(const hooke_system *from, const struct hk_variant *variant) {
   int32_t renumbered = 0;
   for (int64_t k = 0; k < from->particle_count; k++)
@@ -120,7 +120,7 @@ static int32_t add_forces(const struct hk_variant_maker *maker) {
   return status;
 }
 
-/* Groups that no part brings: explicit ones, and what is left of those of parts. */
+/* Groups that no part adds: explicit ones, and the remainder of those of parts. */
 static int32_t keep_groups(struct hk_variant_maker *maker) {
   const hooke_system *from = maker->from;
   const struct hk_force_row *force = NULL;

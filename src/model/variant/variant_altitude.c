@@ -1,10 +1,10 @@
-/* A group of tetrahedra of a variant that its parts do not bring. */
+/* A group of tetrahedra of a variant that its parts do not add. */
 #include "model/variant/variant.h"
 
 #include "core/memory.h"
 
-/* In the numbers of the variant, and as it has its springs; 0 where a corner is not there, or two have become
- * one. */
+/* Renumbers a tetrahedron for the variant and takes over its springs; 0 if a corner is missing, or two have
+ * become one. */
 static int32_t take_over(const struct hk_variant_maker *maker, struct hk_tetrahedron *t) {
   for (int e = 0; e < 4; e++) {
     const int64_t to = maker->map->to[t->particle[e]];

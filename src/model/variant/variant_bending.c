@@ -1,10 +1,10 @@
-/* A group of triples of a variant that its parts do not bring. */
+/* A group of triples of a variant that its parts do not add. */
 #include "model/variant/variant.h"
 
 #include "core/memory.h"
 
-/* The triples from `first` to before `end` whose particles are all there, in the numbers of the variant; how
- * many. */
+/* Renumbers the triples from `first` to before `end` whose particles are all present; returns their number.
+ */
 static int64_t collect(const struct hk_variant_maker *maker, int64_t first, int64_t end, int64_t *ends,
                        double *coefficient) {
   struct hk_triples at = {.bending = &maker->from->bending};

@@ -8,7 +8,7 @@
 
 enum { FREE = 0, PINNED = 1, DRIVEN = 2 }; /* DRIVEN + k: by drive k */
 
-/* How each particle of the system is constrained; NULL without memory. */
+/* Constraint of each particle of the system; NULL without memory. */
 static int64_t *how_held(const hooke_system *system) {
   int64_t *how = hk_new(system->particle_count, sizeof *how);
   if (how == NULL) return NULL;
@@ -21,7 +21,7 @@ static int64_t *how_held(const hooke_system *system) {
   return how;
 }
 
-/* What all the particles have in common that one of a part at another resolution lies between. */
+/* The common constraint of all particles that a particle of a part at another resolution lies between. */
 static int64_t held_between(const struct hk_variant_part *part, const int64_t *how, int64_t offset) {
   struct hk_variant_part back = *part;
   int64_t corner[8];
@@ -66,7 +66,7 @@ static int32_t add_drive(hooke_system *made, const struct hk_drive_group *drive,
   return hooke_system_drive_callback(made, count, particle, drive->callback, drive->ctx);
 }
 
-/* In the order of the drive where particles are the same, which its callback knows. */
+/* In the order of the drive if the particles are the same: its callback depends on that order. */
 static int64_t list_driven(const struct hk_variant_maker *maker, int64_t d, const int64_t *how,
                            int64_t *list) {
   const struct hk_drive_group *drive = &maker->from->drive[d];

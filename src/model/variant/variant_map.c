@@ -1,4 +1,4 @@
-/* Which particle of a variant is which of its system, and positions at equal material coordinates. */
+/* Map from the particles of a system to those of a variant, and positions at equal material coordinates. */
 #include "model/variant/variant.h"
 
 #include "core/memory.h"
@@ -19,7 +19,7 @@ int32_t hk_variant_cells(const struct hk_part_record *part, double scale, int64_
   return axes;
 }
 
-/* The part that a particle is of, -1 for none. */
+/* Part of a particle; -1 for none. */
 static int64_t part_of(const hooke_system *system, int64_t particle) {
   int64_t low = 0, high = system->part_count - 1;
   while (low < high) {
@@ -53,7 +53,7 @@ int32_t hk_variant_corners(const struct hk_variant_part *part, int64_t offset, i
   weight[0] = 1.0;
   for (int32_t a = 0; a < part->axes; a++) {
     const int64_t index = offset % (part->cells[a] + 1);
-    /* whole-number arithmetic: grid points that coincide do so exactly */
+    /* integer arithmetic: coinciding grid points coincide exactly */
     const int64_t low = index * part->made[a] / part->cells[a];
     const double share = (double)(index * part->made[a] % part->cells[a]) / (double)part->cells[a];
     const int32_t before = count;

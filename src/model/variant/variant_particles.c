@@ -1,4 +1,4 @@
-/* The particles of a variant: parts from their options, changed as asked, and the others one by one. */
+/* Particles of a variant: parts from their options, with changes, and the others one by one. */
 #include "model/variant/variant.h"
 
 #include "core/memory.h"
@@ -14,7 +14,8 @@ static const char *family_of(const char *group) {
   return dot ? dot + 1 : group;
 }
 
-/* Families of which groups or single springs are left out; what is left of them is added later, as groups. */
+/* Removes families of which groups or single springs are left out; the remaining ones are added later, as
+ * groups. */
 static int32_t leave_families_out(const struct hk_variant_maker *maker, int64_t part,
                                   hooke_options *options) {
   const hooke_system *from = maker->from;
@@ -34,7 +35,7 @@ static int ends_in(const char *name, const char *ending) {
   return length > end && strcmp(name + length - end, ending) == 0;
 }
 
-/* Damping and compression of all families that are there. */
+/* Damping and compression of all present families. */
 static int32_t change_families(const struct hk_variant *variant, hooke_options *options) {
   int32_t status = HOOKE_OK;
   for (int64_t k = 0; k < hooke_options_row_count(options) && status == HOOKE_OK; k++) {
@@ -51,8 +52,7 @@ static int32_t change_families(const struct hk_variant *variant, hooke_options *
   return status;
 }
 
-/* Constrained particles by number are constrained again by what they stand for; see hk_variant_constrain().
- * */
+/* Removes pins of parts by number; hk_variant_constrain() pins the corresponding particles. */
 static int32_t change_resolution(const struct hk_part_record *record, const struct hk_variant_part *part,
                                  hooke_options *options) {
   int32_t status = record->grid->set_cells(options, part->made);
@@ -82,7 +82,7 @@ static int32_t add_part(struct hk_variant_maker *maker, int64_t k) {
   return status;
 }
 
-/* Those from `first` to before `end`, which are of no part. */
+/* Adds those from `first` to before `end`, which belong to no part. */
 static int32_t add_alone(struct hk_variant_maker *maker, int64_t first, int64_t end) {
   const hooke_system *from = maker->from;
   int32_t status = HOOKE_OK;

@@ -1,11 +1,11 @@
-/* A group of springs of a variant that its parts do not bring. */
+/* A group of springs of a variant that its parts do not add. */
 #include "model/variant/variant.h"
 
 #include "core/memory.h"
 
 #include <string.h>
 
-/* Springs of one group that stay, in the numbers of the variant. */
+/* Springs of one group that remain, in the numbering of the variant. */
 struct staying {
   int64_t count;
   int64_t *ends;                       /* 2 count */
@@ -36,7 +36,7 @@ static void collect(const struct hk_variant_maker *maker, int64_t first, int64_t
     const struct hk_run *run = &springs->run[r];
     if (run->first + run->count <= first || run->first >= end) continue;
     for (int64_t k = 0; k < run->count; k++) {
-      if (maker->variant->spring[run->first + k]) continue; /* a run is of one group */
+      if (maker->variant->spring[run->first + k]) continue; /* a run belongs to one group */
       const struct hk_spring spring = hk_run_spring(run, k);
       const int64_t head = maker->map->to[spring.head], tail = maker->map->to[spring.tail];
       if (head < 0 || tail < 0 || head == tail) continue;
@@ -51,7 +51,7 @@ static void collect(const struct hk_variant_maker *maker, int64_t first, int64_t
   }
 }
 
-/* One number where all are equal to the bit. */
+/* One number if all are equal to the bit. */
 static int32_t set_shortest(hooke_options *options, const char *name, int64_t count, const double *value) {
   int64_t same = 1;
   while (same < count && memcmp(&value[same], &value[0], sizeof *value) == 0)
@@ -99,7 +99,7 @@ static int32_t add_staying(struct hk_variant_maker *maker, const struct hk_group
   return status;
 }
 
-/* A group that had nothing but springs of no strength keeps its place. */
+/* A group whose springs all have neither stiffness nor damping keeps its place. */
 static int32_t add_empty_group(struct hk_variant_maker *maker, const struct hk_group *group) {
   hooke_options *options = NULL;
   int32_t status = hk_options_create(&hk_spring_options, &options);

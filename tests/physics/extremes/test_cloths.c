@@ -15,7 +15,7 @@ enum { SIDE = 8, COUNT = SIDE * SIDE, SIZE = 3 * COUNT };
 static const double STEP = 2e-4;
 static const int64_t STEPS = 250;
 
-/* A committed cloth of 0.7 m, its rows shaken by 1 mm, in the shape that `place` gives it. */
+/* A committed cloth of 0.7 m, its rows shaken by 1 mm, in the shape given by `place`. */
 static hooke_system *cloth(double damping, void (*place)(double *q), double rest_scale) {
   const double origin[] = {0, 0, 0}, edges[] = {0.7, 0, 0, 0, 0, 0.7}, sides[] = {SIDE, SIDE};
   const double mass = 0.01;
@@ -32,7 +32,7 @@ static hooke_system *cloth(double damping, void (*place)(double *q), double rest
   check_ok(hooke_system_create(&plan));
   check_ok(hooke_system_add_part(plan, "cloth", NULL, part, NULL, NULL));
   check_ok(hooke_system_commit(plan));
-  /* the same springs between particles that are elsewhere */
+  /* the same springs between displaced particles */
   const int64_t springs = hooke_system_spring_count(plan), corners[] = {0, SIDE - 1};
   int64_t *ends = new_block(2 * springs, (int64_t)sizeof *ends);
   double *kappa = new_doubles(springs), *rest = new_doubles(springs), *brake = new_doubles(springs), q[SIZE];
@@ -104,7 +104,7 @@ static void check_cloth(const char *name, double damping, void (*place)(double *
     if (outcome.status == HOOKE_SOLVER_FAILED) complaint = extreme_unsound(&outcome);
     extreme_demand("cloths", name, method, complaint, &outcome);
     if (outcome.status ==
-        HOOKE_OK) /* nothing but forward Euler makes energy, and that little: a quarter here */
+        HOOKE_OK) /* no method but forward Euler gains energy, and that little: a quarter here */
       check_between(outcome.energy, 0.0, 1.5 * outcome.energy0);
     extreme_record("cloths", name, method, &outcome, error);
     extreme_release(&outcome);

@@ -1,5 +1,5 @@
 /* Damping from nothing to a million times critical, of springs and by drag: with a step that resolves it, and
- * with one that does not, where explicit methods have to say so. */
+ * with one that does not, where explicit methods have to report it. */
 #include "check.h"
 #include "extreme.h"
 

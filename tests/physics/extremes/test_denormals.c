@@ -1,4 +1,4 @@
-/* Numbers below 2.2e-308: computed with as IEEE 754 prescribes, and never set to zero. */
+/* Numbers below 2.2e-308: computed as IEEE 754 prescribes, and never flushed to zero. */
 #include "canonical.h"
 #include "check.h"
 #include "extreme.h"
@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* 0 where subnormal numbers are taken or left for zero. */
+/* 0 if subnormal operands or results are flushed to zero. */
 static double denormals_left(void) {
   volatile double smallest = 2.2250738585072014e-308, tiny = 4.9406564584124654e-324;
   return smallest / 4.0 > 0.0 && tiny + tiny > tiny ? 1.0 : 0.0;
@@ -23,7 +23,7 @@ static int32_t probe(int64_t n, double t, const double *q, const double *v, doub
   return 0;
 }
 
-/* Neither loading the library nor any method changes how this thread computes. */
+/* Neither loading the library nor any method changes the floating-point state of this thread. */
 static void test_never_flushed(void **unused) {
   (void)unused;
   const double q[] = {0, 0, 0, 1, 0, 0};
@@ -48,8 +48,8 @@ static void test_never_flushed(void **unused) {
   hooke_system_destroy(system);
 }
 
-/* An oscillator about a rest length of 1 m is not far from it: speeds, forces and changes are subnormal, and
- * every bit of them is that of the plain loop. */
+/* An oscillator close to its rest length of 1 m: speeds, forces and changes are subnormal, and every bit is
+ * that of the plain loop. */
 static void check_bits(const char *name, double amplitude, double rest_length, double drag) {
   const double q[] = {0, 0, 0, rest_length, amplitude, 0}, v[] = {0, 0, 0, 3.0 * amplitude, 0, amplitude};
   const int64_t ends[] = {0, 1}, steps = 200;

@@ -10,7 +10,7 @@
 
 static const double FALL = 10.0;
 
-/* A of a method; 0 and `known` 0 for one that is not known here. */
+/* A of a method; 0 and `known` 0 for a method that is not listed here. */
 static long double factor(const char *method, long double z, int *known) {
   *known = 1;
   if (strcmp(method, "forward-euler") == 0 || strcmp(method, "symplectic-euler") == 0) return 1.0L - z;

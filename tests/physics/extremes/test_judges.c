@@ -1,4 +1,4 @@
-/* The judges of this suite reject what they are there to reject. */
+/* The judges of this suite reject what they must reject. */
 #include "check.h"
 #include "extreme.h"
 #include "oscillator.h"
@@ -56,7 +56,7 @@ static void test_numbers(void **unused) {
   extreme_release(&outcome);
 }
 
-/* A frame with a NaN is seen while the run goes on. */
+/* A frame with a NaN is detected during the run. */
 static int32_t poison(int64_t n, double t, const double *q, const double *v, double *force, void *ctx) {
   (void)q, (void)v, (void)ctx;
   force[3 * n - 1] = t > 0.5 ? NAN : 0.0;
@@ -91,8 +91,7 @@ static void test_answers(void **unused) {
   extreme_release(&outcome);
 }
 
-/* Going on in silence with another number than was asked for: the state held within bounds, or the run cut
- * short. */
+/* Silent use of another value than the given one: the state kept within bounds, or the run cut short. */
 static void test_clamps(void **unused) {
   (void)unused;
   struct extreme_outcome outcome;
@@ -131,8 +130,8 @@ static void test_messages(void **unused) {
   extreme_release(&outcome);
 }
 
-/* What the oscillators are held against: the matrices have the determinants and traces of their methods, the
- * solution satisfies its equation, and a matrix that is off by 1e-6 is noticed. */
+/* Checks of the oscillator references: the matrices have the determinants and traces of their methods, the
+ * solution satisfies its equation, and a matrix with an error of 1e-6 is noticed. */
 static void test_oscillator(void **unused) {
   (void)unused;
   const long double start[] = {1.0L, 0.5L}, zetas[] = {0.0L, 0.3L, 1.0L, 4.0L};

@@ -1,5 +1,5 @@
-/* Springs of no rest length, of one that no position can have, and springs whose ends coincide or nearly
- * so. */
+/* Springs of rest length zero, of a rest length that no position can have, and springs whose ends coincide or
+ * nearly do. */
 #include "check.h"
 #include "extreme.h"
 #include "small.h"
@@ -64,7 +64,7 @@ static void test_refused(void **unused) {
   }
 }
 
-/* ---- ends at one place, or nearly ---- */
+/* ---- coincident ends, or nearly ---- */
 
 struct pair {
   const char *name;
@@ -90,7 +90,7 @@ static void check_pair(const struct pair *pair) {
     struct extreme_outcome outcome;
     extreme_run(system, (struct extreme_run){.method = method, .step = h, .steps = (int64_t)steps}, &outcome);
     const double error = extreme_error(&outcome, expected, 1.0);
-    /* a method of order 1 is off by some h/2 of the way */
+    /* a method of order 1 has an error of about h/2 of the way */
     const double high = pair->coincident ? 0.0 : 0.6 * h + pair->rounding;
     const char *complaint = extreme_not_right(&outcome, error, 0.0, high);
     if (pair->may_fail && outcome.status == HOOKE_SOLVER_FAILED) complaint = extreme_unsound(&outcome);
@@ -114,7 +114,7 @@ static void test_coincident(void **unused) {
     check_pair(&pairs[k]);
 }
 
-/* The length of the force, kappa l0, tells how good the direction is: below 1.5e-154 m the square of a
+/* The length of the force, kappa l0, shows the accuracy of the direction: below 1.5e-154 m the square of a
  * distance is subnormal and loses digits, below 1.6e-162 m it is 0. */
 static void test_direction(void **unused) {
   (void)unused;

@@ -1,6 +1,6 @@
-/* Very many steps of 64 oscillators of 64 phases: energy and phase go as theory has them, rounding adds up as
- * a random walk and no faster (Brouwer 1937), and time does not drift. A million steps; with HOOKE_LONG=1 in
- * the environment a hundred million, which takes a few minutes. */
+/* Very many steps of 64 oscillators of 64 phases: energy and phase follow the theory, rounding errors
+ * accumulate as a random walk and no faster (Brouwer 1937), and time does not drift. A million steps; with
+ * HOOKE_LONG=1 in the environment a hundred million, which take a few minutes. */
 #include "check.h"
 #include "extreme.h"
 #include "oscillator.h"
@@ -57,7 +57,7 @@ static void place_of(const struct ensemble *e, hooke_state *state, int k, long d
   place[1] = hooke_state_velocity(state)[at] / (e->omega * e->amplitude);
 }
 
-/* What symplectic Euler keeps but for rounding, and the energy. */
+/* The invariant of symplectic Euler, which changes by rounding only, and the energy. */
 static long double kept(const long double place[2], long double step) {
   return place[0] * place[0] + place[1] * place[1] - step * place[0] * place[1];
 }
@@ -68,10 +68,10 @@ static long double energy(const long double place[2]) {
 
 /* Root mean squares over the phases, relative to the start. */
 struct errors {
-  double rounding; /* of what symplectic Euler keeps */
+  double rounding; /* of the invariant of symplectic Euler */
   double energy;   /* of the energy */
-  double theory;   /* of the energy by theory */
-  double distance; /* largest distance from the place that theory has, phase and all */
+  double theory;   /* of the theoretical energy */
+  double distance; /* largest distance from the theoretical position, including phase */
 };
 
 static struct errors compare(const struct ensemble *e, hooke_state *start, hooke_state *state,
@@ -102,7 +102,7 @@ static int is_long(void) {
   return wanted != NULL && wanted[0] == '1';
 }
 
-/* The walk of rounding between the first and the last count of steps; the exponent of pure chance is 1/2. */
+/* The random walk of rounding between the first and the last count of steps; its expected exponent is 1/2. */
 static void check_walk(const char *name, struct ensemble e) {
   const char *method = "symplectic-euler";
   const double h = (double)(0.1L / e.omega);
@@ -123,7 +123,7 @@ static void check_walk(const char *name, struct ensemble e) {
   }
   check_between(exponent, 0.4, 0.6);
   check_between(last.rounding, 1e-17 * sqrt((double)longer), 1e-15 * sqrt((double)longer));
-  check_between(last.energy, 0.01, 0.1); /* h omega/2 and less, and it does not grow */
+  check_between(last.energy, 0.01, 0.1); /* at most h omega/2, without growth */
   check_close(last.energy, last.theory, 1e-9);
   check_close(last.distance, 0.0, 1e-16 * (double)longer + 1e-14 * sqrt((double)longer));
   assert_true(hooke_state_time(state) == (double)longer * h);
@@ -191,7 +191,7 @@ static void test_every_method(void **unused) {
   hooke_system_destroy(e.system);
 }
 
-/* Time is k times the step, to the bit, where a running sum has long gone astray. */
+/* Time is k times the step, to the bit, where a running sum would be far off. */
 static void test_time(void **unused) {
   (void)unused;
   const double q[] = {0, 0, 0}, mass = 1.0, h = 0.1;

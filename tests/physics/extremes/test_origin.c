@@ -1,5 +1,5 @@
-/* Scenes far from the origin of coordinates: forces come from differences, so that only the spacing of the
- * numbers there is lost, and the loss is what that spacing makes it. */
+/* Scenes far from the origin of coordinates: forces come from differences, so only the spacing of the numbers
+ * there limits the accuracy. */
 #include "check.h"
 #include "extreme.h"
 #include "random.h"
@@ -9,8 +9,7 @@
 #include <string.h>
 #include <stdlib.h>
 
-/* A stretch of 0.1 m on a spring of 1 m: the digits that are left of it are those of 0.1 m over the
- * spacing. */
+/* A stretch of 0.1 m on a spring of 1 m: its remaining digits are those of 0.1 m over the spacing. */
 static void test_oscillator(void **unused) {
   (void)unused;
   const double distance[] = {0.0, 1e3, 1e6, 1e9};
@@ -32,8 +31,8 @@ static void test_oscillator(void **unused) {
   }
 }
 
-/* What is lost away from the origin (at 1e9 m numbers are 1.2e-7 m apart): the run there against the one at
- * it. */
+/* The loss away from the origin (at 1e9 m numbers are 1.2e-7 m apart), compared with the run at the origin.
+ */
 static double lost_at(double distance, const char *method, double h) {
   const double amplitude = 0.1;
   double end[2] = {0.0, 0.0};
@@ -119,7 +118,7 @@ static void test_same_forces(void **unused) {
   check_ok(hooke_system_force(system, 0.0, near, v, at_origin));
   check_ok(hooke_system_force(system, 0.0, far, v, away));
   check_same_bits(SIZE, away, at_origin);
-  far[0] += 0x1p-20; /* and a shift by one spacing shows */
+  far[0] += 0x1p-20; /* a shift by one spacing is noticed */
   check_ok(hooke_system_force(system, 0.0, far, v, away));
   assert_true(away[0] != at_origin[0]);
   hooke_system_destroy(system);

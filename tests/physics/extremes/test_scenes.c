@@ -1,4 +1,4 @@
-/* Scenes with nothing to hold, nothing to move, nothing in common, nothing in them, or nothing to do. */
+/* Scenes without springs, without free particles, with disconnected parts, empty ones, and scenes at rest. */
 #include "check.h"
 #include "extreme.h"
 #include "small.h"
@@ -14,8 +14,8 @@ static struct extreme_run usual(const char *method) {
       .method = method, .step = 0.01, .steps = 200, .rtol = 1e-9, .atol = 1e-11, .max_steps = 100000};
 }
 
-/* Every method, against the place where each particle has to be; `order1` is the error that h = 0.01 s gives
- * a method of order 1 here, which all have to stay within. Returns nothing: it fails. */
+/* Runs every method and checks the position of each particle; `order1` is the error of a method of order 1 at
+ * h = 0.01 s here, which bounds all methods. Returns nothing: it fails the test. */
 static void check_scene(const hooke_system *system, const char *name, const double *expected, double order1) {
   for (int64_t m = 0; m < hooke_method_count(); m++) {
     const char *method = hooke_method_name(m);
@@ -89,8 +89,8 @@ static void test_all_pinned(void **unused) {
 
 /* ---- disconnected ---- */
 
-/* Two oscillators that know nothing of each other, a stiff and a soft one, and a particle that flies by: each
- * does what it does alone, to the bit where steps are fixed and nothing is solved. */
+/* Two independent oscillators, a stiff and a soft one, and a particle that flies by: each moves as it does
+ * alone, to the bit with fixed explicit steps. */
 static hooke_system *pieces(int32_t stiff, int32_t soft, int32_t flier) {
   const double q[] = {0, 0, 0, 1.2, 0, 0, 0, 5, 0, 0, 5.9, 0, 7, 7, 7},
                v[] = {0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1, -2, 3};
@@ -138,7 +138,7 @@ static void test_disconnected(void **unused) {
       extreme_release(&outcome);
     }
     extreme_run(all, run, &together);
-    if (worst != HOOKE_OK) { /* what one piece does by itself, the scene does */
+    if (worst != HOOKE_OK) { /* each piece alone moves as in the scene */
       extreme_demand(FAMILY, "disconnected", method, extreme_not_ended(&together, worst, ""), &together);
       extreme_record(FAMILY, "disconnected, against alone", method, &together, NAN);
     } else {
@@ -189,8 +189,8 @@ static void test_single(void **unused) {
 
 /* ---- at rest ---- */
 
-/* A chain at its rest lengths but for rounding: 0.1 k - 0.1 (k - 1) is not 0.1. Nothing happens, and nothing
- * may be made of it: the energy of rounding is no energy to diverge from. */
+/* A chain at its rest lengths but for rounding: 0.1 k - 0.1 (k - 1) is not 0.1. Nothing happens: the energy
+ * of rounding must not count as divergence. */
 static void test_at_rest(void **unused) {
   (void)unused;
   enum { COUNT = 20 };
@@ -215,7 +215,7 @@ static void test_at_rest(void **unused) {
     /* in Heun's method, of 2000 steps with omega h = 0.45, rounding grows by the factor exp(10) */
     const double most = hooke_method_is_adaptive(method) ? 1e-5 : strcmp(method, "heun") == 0 ? 1e-11 : 1e-12;
     const char *complaint = extreme_not_right(&outcome, error, 0.0, most);
-    if (strcmp(method, "forward-euler") == 0) /* unstable: it makes something of it, and says so */
+    if (strcmp(method, "forward-euler") == 0) /* unstable: rounding grows, and the run reports divergence */
       complaint = extreme_not_ended(&outcome, HOOKE_DIVERGED, "diverged");
     extreme_demand(FAMILY, "at rest but for rounding", method, complaint, &outcome);
     extreme_record(FAMILY, "at rest but for rounding", method, &outcome, error);

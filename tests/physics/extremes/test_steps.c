@@ -1,11 +1,11 @@
-/* Steps that are no steps, that are too small to show, and that are too large for any number. */
+/* Invalid steps, steps too small to change anything, and steps that overflow. */
 #include "check.h"
 #include "extreme.h"
 
 #include <math.h>
 #include <stdio.h>
 
-/* ---- refused where they are set ---- */
+/* ---- refused when set ---- */
 
 static const struct {
   const char *name, *text;
@@ -42,7 +42,7 @@ static void test_refused(void **unused) {
   hooke_options_destroy(run);
 }
 
-/* ---- taken ---- */
+/* ---- accepted ---- */
 
 static struct extreme_oscillator oscillator(const char *name, double omega, double step) {
   return (struct extreme_oscillator){.family = "steps",
@@ -55,7 +55,7 @@ static struct extreme_oscillator oscillator(const char *name, double omega, doub
                                      .max_steps = 1000};
 }
 
-/* Nothing moves by a digit, and nothing has to. */
+/* No digit of any position changes, and none has to. */
 static void test_subnormal(void **unused) {
   (void)unused;
   struct extreme_oscillator smallest = oscillator("4.9e-324 s", 1.0, 4.9e-324);
@@ -65,7 +65,7 @@ static void test_subnormal(void **unused) {
   extreme_oscillate(&small);
 }
 
-/* Steps below the last digit of the time: positions do not need it, error control does. */
+/* Steps below the last digit of the time: positions do not depend on it, error control does. */
 static void test_below_the_digits_of_time(void **unused) {
   (void)unused;
   struct extreme_oscillator late = oscillator("1e-10 s at t = 1e9 s", 5e8, 1e-10);

@@ -1,5 +1,5 @@
-/* Values at the ends of what a number can be: refused where they are no numbers, computed with where they
- * are; and energies beyond the largest number are infinite, never NaN. */
+/* Values at the ends of the range of numbers: refused if they are not finite, used if they are; energies
+ * beyond the largest number are infinite, never NaN. */
 #include "check.h"
 #include "extreme.h"
 #include "small.h"
@@ -100,9 +100,9 @@ static void test_states(void **unused) {
   note_all("initial state or time not finite", "bad value");
 }
 
-/* ---- taken ---- */
+/* ---- accepted ---- */
 
-/* A free flight at a speed whose energy is beyond the largest number, or below the smallest. */
+/* A free flight at a speed whose energy overflows, or underflows. */
 static void check_flight(const char *name, double speed, double energy) {
   const double q[] = {0, 0, 0}, v[] = {speed, 0, 0}, h = 0.25, expected[] = {speed * h * 40.0, 0, 0};
   hooke_system *system = small_system(1, q, v, 1.0, 0);
@@ -160,7 +160,7 @@ static void test_oscillators(void **unused) {
   }
 }
 
-/* The square of a length of 1e160 m is no number. */
+/* The square of a length of 1e160 m overflows. */
 static void test_too_long(void **unused) {
   (void)unused;
   const char *name = "oscillator of 1e+160 m";
@@ -201,7 +201,7 @@ static void test_long_sums(void **unused) {
   check_close(hooke_system_energy(system, "gravity", q, NULL) / (0.1 * COUNT), 1.0, 4e-16);
   check_close(hooke_system_dissipated_power(system, q, v) / (0.1 * COUNT), 1.0, 4e-16);
   check_close(momentum[0] / (0.2 * COUNT), 1.0, 4e-16);
-  double plain = 0.0; /* what a plain sum makes of it */
+  double plain = 0.0; /* a plain sum has larger errors */
   for (int64_t k = 0; k < COUNT; k++)
     plain += 0.1;
   check_between(fabs(plain / (0.1 * COUNT) - 1.0), 1e-12, 1e-10);

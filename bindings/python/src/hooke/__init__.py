@@ -1,4 +1,4 @@
-"""hooke: mass-spring systems, how they move, and how much accuracy each method buys for its cost.
+"""hooke: simulation of mass-spring systems, and the accuracy of each integration method for its cost.
 
 >>> import hooke
 >>> scene = hooke.Scene(gravity=(0, -9.81, 0)).cloth(
@@ -8,12 +8,12 @@
 ('finished', (256, 3))
 >>> film = hooke.open("cloth.h5").animate()
 
-A scene is built (`Scene`, `System`) or comes from a file (`Scene.load`) or from text (`Scene.parse`). `run` integrates
-it, `open` reads what a run wrote, `compare` sets several methods against a tight reference, `study` measures error
-against cost and recommends, `limit` finds the largest stable steps, `cost` tells what each ingredient costs, `needs`
-finds what a scene can do without, `why` explains a run that blew up, `view` makes a page that plays a
-trajectory, `verify` holds one against its scene, `Integrator` gives you the loop. Units are SI,
-positions and velocities are NumPy arrays (n, 3) over the library's own memory.
+A scene is built (`Scene`, `System`) or read from a file (`Scene.load`) or from text (`Scene.parse`). `run` integrates
+it, `open` reads the output of a run, `compare` compares several methods with a tight reference, `study` measures
+error against cost and recommends, `limit` finds the largest stable steps, `cost` measures the cost of each
+ingredient, `needs` finds the ingredients that a scene can do without, `why` explains a run that blew up, `view`
+writes a page that plays a trajectory, `verify` checks that one reproduces from its scene, `Integrator` is for time
+loops of your own. Units are SI, positions and velocities are NumPy arrays (n, 3) over the library's own memory.
 """
 
 from __future__ import annotations

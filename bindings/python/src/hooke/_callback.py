@@ -1,7 +1,7 @@
 """Python functions as callbacks of the library.
 
-An exception must not cross C: it is kept, the callback asks the library to stop, and the function that
-started it all raises the same exception again (see `_status.checker`).
+An exception must not cross C: it is stored, the callback asks the library to stop, and the outermost function raises
+the same exception again (see `_status.checker`).
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ Shape = tuple[int, ...]
 
 
 def stop_value(answer: Any) -> int:
-    """What the answer of a callback means to the library: 0 to go on."""
+    """Converts the result of a callback for the library: 0 to go on."""
     if answer is None or answer is False:
         return 0
     try:
@@ -45,7 +45,7 @@ def stop_value(answer: Any) -> int:
 
 
 def guarded(function: Callable[..., Any], *arguments: Any) -> int:
-    """Calls `function` from a callback; the answer for the library."""
+    """Calls `function` from a callback; returns the result for the library."""
     try:
         answer = stop_value(function(*arguments))
     except BaseException as exception:
@@ -55,7 +55,7 @@ def guarded(function: Callable[..., Any], *arguments: Any) -> int:
 
 
 def outside() -> int:
-    """The stacklevel of a warning that is to point at the line that called this package."""
+    """The stacklevel of a warning that should point at the line that called this package."""
     frame, level = sys._getframe(1), 1  # warnings.warn counts from `guarded`, which calls it
     while frame.f_back is not None and os.path.dirname(frame.f_code.co_filename) == _FOLDER:
         frame, level = frame.f_back, level + 1
@@ -66,7 +66,7 @@ _FOLDER = os.path.dirname(__file__)
 
 
 class _Views:
-    """Arrays over the addresses that callbacks are given. An integrator uses few, so they are kept."""
+    """Arrays over the addresses passed to callbacks. An integrator uses few, so they are cached."""
 
     LIMIT = 64
 
@@ -140,7 +140,7 @@ def rate_callback(function: Callable[..., Any], shape: Shape, dtype: Any) -> Any
 
 @contextlib.contextmanager
 def watching(progress: Shown) -> Iterator[Any]:
-    """The callback of the library for progress, while the library works; lets Ctrl-C in."""
+    """The progress callback of the library during its work; handles Ctrl-C."""
     with shown(progress) as told:
         tell = told or (lambda done, what: None)
         with interruptible():
@@ -149,8 +149,8 @@ def watching(progress: Shown) -> Iterator[Any]:
 
 @contextlib.contextmanager
 def listening(attach: Callable[..., Any], handle: Any, progress: Shown) -> Iterator[None]:
-    """Passes progress of the object on while the library works, and lets Ctrl-C in; ``attach(handle, watcher,
-    None)`` is the function of the library for that."""
+    """Reports progress of the object during the library's work, and handles Ctrl-C; ``attach(handle, watcher, None)``
+    is the library function that sets the callback."""
     with watching(progress) as watcher:
         attach(handle, watcher, None)
         try:
@@ -161,10 +161,10 @@ def listening(attach: Callable[..., Any], handle: Any, progress: Shown) -> Itera
 
 @contextlib.contextmanager
 def interruptible(integrator: Any = None) -> Iterator[None]:
-    """Lets Ctrl-C end the work at its next callback; steps of `integrator` have one every tenth of a second.
+    """Makes Ctrl-C end the work at its next callback; steps of `integrator` have one every tenth of a second.
 
-    Python would call the handler of the signal on entry to the callback, before any `try`, where ctypes can only
-    drop what it raises. So that is noted like an exception of the callback instead.
+    Python would call the handler of the signal on entry to the callback, before any `try`, where ctypes can only drop
+    its exception. So the exception is stored like one of the callback.
     """
     mine = threading.current_thread() is threading.main_thread()
     before = signal.getsignal(signal.SIGINT) if mine else None

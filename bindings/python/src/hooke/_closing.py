@@ -1,4 +1,4 @@
-"""Objects that give back what they hold at the end of a `with` block."""
+"""Objects that release their resources at the end of a `with` block."""
 
 from __future__ import annotations
 
@@ -11,11 +11,11 @@ C = TypeVar("C", bound="Closing")
 
 
 class Closing(Owner):
-    """Has a `_handle`, which `close` gives back; what needs it afterwards is a BadCall."""
+    """Has a `_handle`, which `close` releases; later use of it is a BadCall."""
 
     def close(self) -> None:
-        """Gives back the memory and the files that this object holds; arrays that it gave out stay valid. A second
-        call does nothing."""
+        """Releases the memory and the files that this object holds; arrays obtained from it stay valid. A second call
+        does nothing."""
         self.__dict__.pop("_handle", None)
 
     def __enter__(self: C) -> C:

@@ -18,7 +18,7 @@ from ._status import BadValue, checker
 #: The ABI that this package was written for, HOOKE_ABI of the headers.
 ABI = 1
 
-#: Functions whose positive status is an outcome, which their callers look at; of all others it is raised.
+#: Functions whose positive status is an outcome, which their callers handle; for all others it is raised.
 OUTCOMES = frozenset(
     (
         "hooke_integrator_advance",
@@ -35,8 +35,7 @@ _FILE_NAMES = {"darwin": "libhooke.dylib", "win32": "hooke.dll"}
 
 
 class Library:
-    """The public functions of the library. A name that is not one of them is an AttributeError, also in
-    assignment."""
+    """The public functions of the library. Any other name is an AttributeError, also in assignment."""
 
     __slots__ = (*_prototypes.PROTOTYPES, "path")
 
@@ -91,7 +90,7 @@ _CHECKS = {_prototypes.TEXT: _text, _prototypes.INT32: _whole(32), _prototypes.I
 
 
 def _guarded(function: Any) -> Any:
-    """The function with its texts and whole numbers looked at, of which ctypes would pass on only a part."""
+    """The function with its texts and integers checked, which ctypes would truncate silently."""
     checks = [(place, _CHECKS[kind]) for place, kind in enumerate(function.argtypes) if kind in _CHECKS]
     if not checks:
         return function
@@ -132,7 +131,7 @@ def _candidates() -> Iterator[str]:
 
 
 def load() -> Library:
-    """Loads the library from $HOOKE_LIBRARY or, where that is not set, from the first place that has it."""
+    """Loads the library from $HOOKE_LIBRARY or, if that is not set, from the first place that has it."""
     given = os.environ.get("HOOKE_LIBRARY")
     if given:
         try:

@@ -1,4 +1,4 @@
-"""What all measurements share: making one, running it, and reading its tables as NumPy arrays."""
+"""The common part of all measurements: creating one, running it, and reading its tables as NumPy arrays."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from ._types import FloatArray, Path, Table
 
 
 class Measurement:
-    """A measurement of the library, and its tables. `system` has to live as long as it."""
+    """A measurement of the library, and its tables. `system` has to outlive it."""
 
     def __init__(self, handle: Handle):
         self.handle = handle
@@ -32,18 +32,18 @@ class Measurement:
         return cls(Handle(pointer, lib.hooke_measurement_destroy, system._handle))
 
     def run(self, progress: Any, state: Any = None) -> int:
-        """The status."""
+        """Runs it and returns the status."""
         with self.listening(progress):
             return int(lib.hooke_measurement_run(self.handle, state and state._handle))
 
     def listening(self, progress: Any) -> Any:
-        """A context in which `progress` is told of the work."""
+        """A context in which `progress` is called during the work."""
         return listening(lib.hooke_measurement_on_progress, self.handle, progress)
 
     # ---- tables ----
 
     def columns(self, table: str) -> dict[str, str]:
-        """The types of the columns of a table, by their names."""
+        """The types of the columns of a table, by name."""
         return columns(self.kind, table)
 
     def count(self, table: str) -> int:
@@ -53,18 +53,18 @@ class Measurement:
         return float(lib.hooke_measurement_number(self.handle, table.encode(), row, column.encode()))
 
     def text(self, table: str, row: int, column: str) -> str:
-        """Empty where there is none."""
+        """A series as an array; empty if there is none."""
         return text(lib.hooke_measurement_text(self.handle, table.encode(), row, column.encode()))
 
     def series(self, table: str, row: int, column: str) -> FloatArray | None:
-        """A copy; None where there is none."""
+        """A copy; None if there is none."""
         place = (self.handle, table.encode(), row, column.encode())
         pointer = lib.hooke_measurement_series(*place)
         count = int(lib.hooke_measurement_series_count(*place))
         return view(address_of(pointer), (count,)).copy() if pointer else None
 
     def value(self, table: str, row: int, column: str) -> Any:
-        """A number, a text, or a flag: True, False, or None where that is unknown."""
+        """A number, a text, or a flag: True, False, or None if unknown."""
         kind = self.columns(table)[column]
         if kind == "text":
             return self.text(table, row, column)
@@ -74,13 +74,13 @@ class Measurement:
         return number
 
     def record(self, table: str) -> dict[str, Any] | None:
-        """The one row of a record; None where there is none."""
+        """The one row of a record; None if there is none."""
         if self.count(table) < 1:
             return None
         return {name: self.value(table, 0, name) for name, kind in self.columns(table).items() if kind != "series"}
 
     def rows(self, table: str) -> Table:
-        """A structured array with a field for each column but series; of flags bool, where all are known."""
+        """A structured array with a field for each column but series; flags are bool if all are known."""
         count = self.count(table)
         fields = []
         for name, kind in self.columns(table).items():
@@ -102,7 +102,7 @@ class Measurement:
     # ---- files ----
 
     def write(self, path: Path, **labels: str | bytes | None) -> None:
-        """By the ending of `path`: .csv, .json, .h5 or .html."""
+        """Writes the results in the format given by the ending of `path`: .csv, .json, .h5 or .html."""
         for what, label in labels.items():
             encoded = label.encode() if isinstance(label, str) else label
             lib.hooke_measurement_label(self.handle, what.encode(), encoded)
@@ -111,7 +111,7 @@ class Measurement:
 
 @functools.lru_cache
 def columns(kind: str, table: str) -> dict[str, str]:
-    """The types of the columns of a table of a kind, by their names."""
+    """The types of the columns of a table of a kind, by name."""
     found: dict[str, str] = {}
     while name := lib.hooke_measurement_column(kind.encode(), table.encode(), len(found), b"name"):
         found[text(name)] = text(lib.hooke_measurement_column(kind.encode(), table.encode(), len(found), b"type"))

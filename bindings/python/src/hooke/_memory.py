@@ -1,4 +1,4 @@
-"""Handles, and NumPy arrays that cross the border: views of the library's memory, and arguments for it."""
+"""Handles, and NumPy arrays shared with the library: views of its memory, and arguments for it."""
 
 from __future__ import annotations
 
@@ -14,7 +14,8 @@ from ._types import FloatArray, IntArray, Table
 
 
 class Owner:
-    """What holds an object of the library: that cannot be copied or pickled, as it is one of this process."""
+    """Base of classes that hold an object of the library: they cannot be copied or pickled, as it belongs to this
+    process."""
 
     __slots__ = ()
 
@@ -27,11 +28,10 @@ class Owner:
 
 
 class Handle(Owner):
-    """Owns one object of the library and gives it back when the last user is gone, parents after their
-    children.
+    """Owns one object of the library and releases it with its last user, parents after their children.
 
-    It can be passed wherever a function expects the pointer. The count makes the order of release right also
-    when Python finds parent and child in one cycle of garbage.
+    It can be passed wherever a function expects the pointer. The count keeps the order of release right also if
+    Python collects parent and child in one garbage cycle.
     """
 
     __slots__ = ("__weakref__", "_as_parameter_", "_destroy", "_parent", "_users")
@@ -68,7 +68,7 @@ class Handle(Owner):
 def view(
     address: int, shape: Sequence[int], owner: Any = None, writeable: bool = True, dtype: Any = float
 ) -> Table:
-    """An array of doubles over the library's memory, no copy; it keeps `owner` alive as long as it lives."""
+    """An array of doubles over the library's memory, without a copy; it keeps `owner` alive."""
     bytes_ = int(np.prod(shape, dtype=np.int64)) * np.dtype(dtype).itemsize
     if not bytes_:
         return np.empty(shape, dtype)
@@ -84,7 +84,7 @@ def address_of(pointer: Any) -> int:
 
 
 def plain(values: Any, name: str) -> Table:
-    """`values` as an array; BadValue where an element is masked, as NumPy would give what is beneath."""
+    """`values` as an array; BadValue if an element is masked, as NumPy would use the hidden value."""
     if isinstance(values, (list, tuple)) and any(isinstance(item, np.ma.MaskedArray) for item in values):
         values = np.ma.array(values)
     if np.ma.is_masked(values):
@@ -94,8 +94,7 @@ def plain(values: Any, name: str) -> Table:
 
 
 def doubles(values: Any, name: str, *shapes: Sequence[int]) -> FloatArray:
-    """`values` as contiguous doubles of the first of `shapes` that their shape fits, or of the size of
-    one."""
+    """`values` as contiguous doubles of the first of `shapes` that fits their shape, or of the size of one."""
     array = plain(values, name)
     if array.dtype.kind not in "iuf" and array.size:
         raise BadValue(f"{name}: numbers are needed, these are {array.dtype}")
@@ -112,7 +111,7 @@ def rows(values: Any, name: str, count: int) -> FloatArray:
 
 
 def indices(values: Any, name: str) -> IntArray:
-    """`values` as contiguous 64-bit indices; numbers that are not whole are refused rather than cut."""
+    """`values` as contiguous 64-bit indices; fractions are refused rather than truncated."""
     array = plain(values, name)
     if array.size and array.dtype.kind not in "iu":
         raise BadValue(f"{name}: whole numbers are needed, these are {array.dtype}")
@@ -123,7 +122,7 @@ def double_pointer(array: FloatArray) -> Any:
     """Contiguous doubles as an argument, which keeps the array alive."""
     try:
         buffer: Any = array
-        return ctypes.c_double.from_buffer(buffer)  # ten times quicker
+        return ctypes.c_double.from_buffer(buffer)  # ten times faster
     except (TypeError, ValueError):  # read-only or empty
         return array.ctypes.data_as(DOUBLES)
 

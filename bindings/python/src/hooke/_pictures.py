@@ -1,4 +1,4 @@
-"""The parts of matplotlib that pictures and films are made of; without it, what to install."""
+"""The parts of matplotlib used for pictures and films; without it, an error that says what to install."""
 
 try:
     from matplotlib.animation import FuncAnimation, writers

@@ -13,7 +13,7 @@ _KEY = re.compile(r"[a-z_]+(\[\d+\])*(\.[a-z_]+(\[\d+\])*)*: ")
 
 @contextlib.contextmanager
 def placed(place: str) -> Iterator[None]:
-    """Failures name their place: "stiffness: ..." becomes "cloth.stiffness: ..."."""
+    """A context in which failures name their place: "stiffness: ..." becomes "cloth.stiffness: ..."."""
     try:
         yield
     except Error as error:

@@ -9,14 +9,13 @@ from typing import Any, Callable, Union
 
 from ._status import plain
 
-#: A function that is told of progress, True for a bar, or None.
+#: A function that receives progress, True for a bar, or None.
 Shown = Union[None, bool, Callable[..., Any]]
 
 
 @contextlib.contextmanager
 def shown(progress: Shown, fills: bool = True) -> Iterator[Callable[..., Any] | None]:
-    """The function to tell of progress: a bar of tqdm if `progress` is True, which is full at the end if
-    it `fills`."""
+    """The function that receives progress: a bar of tqdm if `progress` is True, which is full at the end if `fills`."""
     if not isinstance(progress, bool):
         yield progress
         return

@@ -1,4 +1,4 @@
-"""What can be asked of a system."""
+"""Queries of a system."""
 
 from __future__ import annotations
 
@@ -53,32 +53,33 @@ class Queries(Owner):
 
     @property
     def is_committed(self) -> bool:
-        """Whether the system is finished and constant."""
+        """Whether the system is committed, and so constant."""
         return bool(lib.hooke_system_is_committed(self._handle))
 
     @property
     def particle_count(self) -> int:
-        """Particles, of parts and others."""
+        """Number of particles, including those of parts."""
         return int(lib.hooke_system_particle_count(self._handle))
 
     @property
     def free_count(self) -> int:
-        """Particles that are neither pinned nor driven; commits."""
+        """Number of particles that are neither pinned nor driven; commits."""
         return int(lib.hooke_system_count(self._committed(), b"free"))
 
     @property
     def spring_count(self) -> int:
-        """Springs: all that were added, once committed those that have stiffness or damping."""
+        """Number of springs: all that were added; once committed, those with stiffness or damping."""
         return int(lib.hooke_system_spring_count(self._handle))
 
     @property
     def dropped_spring_count(self) -> int:
-        """Springs left out since they have neither stiffness nor damping; commits."""
+        """Number of springs dropped because they have neither stiffness nor damping; commits."""
         return int(lib.hooke_system_count(self._committed(), b"dropped_springs"))
 
     @property
     def idle_count(self) -> int:
-        """Pinned particles that no spring, no bending, no altitude spring and no force callback touches; commits."""
+        """Number of pinned particles that no spring, no bending, no altitude spring and no force callback acts on;
+        commits."""
         return int(lib.hooke_system_count(self._committed(), b"idle"))
 
     @property
@@ -95,7 +96,7 @@ class Queries(Owner):
 
     @property
     def bending_count(self) -> int:
-        """Triples of bending; commit drops those of coefficient 0."""
+        """Number of triples of bending; commit drops those of coefficient 0."""
         return int(lib.hooke_system_count(self._handle, b"bending"))
 
     @property
@@ -105,7 +106,7 @@ class Queries(Owner):
 
     @property
     def altitude_count(self) -> int:
-        """Tetrahedra with altitude springs; commit drops those without stiffness and damping."""
+        """Number of tetrahedra with altitude springs; commit drops those without stiffness and damping."""
         return int(lib.hooke_system_count(self._handle, b"altitude"))
 
     @property
@@ -115,13 +116,12 @@ class Queries(Owner):
 
     @property
     def anchor_count(self) -> int:
-        """Anchors; commit drops those without stiffness and damping."""
+        """Number of anchors; commit drops those without stiffness and damping."""
         return int(lib.hooke_system_count(self._handle, b"anchors"))
 
     @property
     def anchors(self) -> tuple[IntArray, FloatArray, FloatArray, FloatArray, FloatArray]:
-        """Of every anchor the particle (m,), the point (m, 3) [m], stiffness [N/m], damping [N s/m] and rest length
-        [m] (m,)."""
+        """Particle (m,), point (m, 3) [m], stiffness [N/m], damping [N s/m] and rest length [m] (m,) of every anchor."""
         particles = self._ends(b"anchors")[:, 0]
         points = np.empty((len(particles), 3))
         lib.hooke_system_anchor_points(self._handle, double_pointer(points))
@@ -129,7 +129,7 @@ class Queries(Owner):
 
     @property
     def derived(self) -> list[Derived]:
-        """What parts derived from their density, damping ratios and bending stiffness."""
+        """Numbers that parts derived from their density, damping ratios and bending stiffness."""
 
         def word(number: int, what: bytes) -> str | None:
             found = lib.hooke_system_derived_text(self._handle, number, what)
@@ -206,8 +206,8 @@ class Queries(Owner):
         return stiffness, damping, rest_length
 
     def altitude_lengths(self, q: Any) -> np.ndarray:
-        """The altitude of every tetrahedron that acts at q (m,) [m]: negative where it is inside out, 0 where
-        none acts."""
+        """The altitude of every tetrahedron that acts at q (m,) [m]: negative where it is inverted, 0 where none
+        acts."""
         handle = self._committed()
         length = np.empty(self.altitude_count)
         (q,) = self._rows(q=q)
@@ -230,7 +230,7 @@ class Queries(Owner):
 
     @property
     def spring_memory(self) -> int:
-        """The part of it that goes with the number of springs [bytes]."""
+        """The part of it that grows with the number of springs [bytes]."""
         return int(lib.hooke_system_count(self._committed(), b"spring_memory"))
 
     # forces
@@ -271,8 +271,8 @@ class Queries(Owner):
         return blocks
 
     def coincident_springs(self, q: Any) -> int:
-        """Springs whose ends coincide although their rest length is not zero: they have no direction and
-        no force."""
+        """Number of springs whose ends coincide although their rest length is not zero: they have no direction and no
+        force."""
         return int(lib.hooke_system_coincident_springs(self._committed(), self._argument(q, "q")))
 
     # energies
@@ -302,11 +302,11 @@ class Queries(Owner):
         return float(lib.hooke_system_energy(self._committed(), b"potential", self._argument(q, "q"), None))
 
     def energy(self, q: Any, v: Any) -> float:
-        """Total energy [J]. A force callback has none."""
+        """Total energy [J]. A force callback has no energy."""
         return float(lib.hooke_system_energy(self._committed(), b"total", self._argument(q, "q"), self._argument(v, "v")))
 
     def dissipated_power(self, q: Any, v: Any) -> float:
-        """Power that damping and drag turn into heat [W]."""
+        """Power that damping and drag dissipate as heat [W]."""
         return float(lib.hooke_system_dissipated_power(self._committed(), self._argument(q, "q"), self._argument(v, "v")))
 
     def momentum(self, v: Any) -> FloatArray:
@@ -318,8 +318,8 @@ class Queries(Owner):
         return self._sum(lib.hooke_system_angular_momentum, q=q, v=v)
 
     def step_bound(self, method: str, q: Any) -> float:
-        """A step [s] below which `method` is certain to be stable for the system linearised at q: 0 if it
-        never is, infinity if nothing limits it, NaN if no bound is known."""
+        """A step [s] below which `method` is certain to be stable for the system linearised at q: 0 if no step is
+        stable, infinity if nothing limits it, NaN if no bound is known."""
         handle = self._committed()
         bound = np.empty(1)
         (q,) = self._rows(q=q)
@@ -330,7 +330,7 @@ class Queries(Owner):
         return [rows(values, name, self.particle_count) for name, values in arrays.items()]
 
     def _argument(self, values: Any, name: str) -> Any:
-        """Positions or velocities as an argument; those of a state are passed on as they are."""
+        """Positions or velocities as an argument; those of a state are passed unchanged."""
         if type(values) is np.ndarray and values.shape == self._shape and values.dtype is _DOUBLE:
             try:
                 buffer: Any = values
@@ -355,7 +355,7 @@ class Queries(Owner):
 
 
 def build_facts() -> dict[str, str]:
-    """The library's version and what it was built with; "" for a library that this build is without."""
+    """The library's version and its build; "" for a library that this build lacks."""
     facts = {what: text(lib.hooke_build_fact(what.encode())) for what in _FACTS}
     return {"version": text(lib.hooke_version()), "path": str(lib.path), **facts}
 

@@ -1,4 +1,4 @@
-"""Statuses of the library as exceptions, and exceptions of callbacks on their way through the library."""
+"""Statuses of the library as exceptions, and exceptions of callbacks passed through the library."""
 
 from __future__ import annotations
 
@@ -11,12 +11,13 @@ OUTCOMES = {0: "finished", 1: "stopped", 2: "diverged", 3: "step-limit"}
 
 
 def plain(text: str) -> str:
-    """Text from outside, a name or the name of a file, on one line: "?" for what could steer a terminal."""
+    """Foreign text, such as a name or the name of a file, on one line: "?" replaces characters that could control a
+    terminal."""
     return "".join(character if character.isprintable() else "?" for character in text)
 
 
 class Error(Exception):
-    """A failure that the library reports; the message is the library's own, `status` its number."""
+    """A failure reported by the library; the message is the library's own, `status` its number."""
 
     status: int | None = None
 
@@ -37,7 +38,7 @@ class BadValue(Error, ValueError):
 
 
 class BadCall(Error, RuntimeError):
-    """Calls out of order, such as adding to a system that was committed."""
+    """Calls out of order, such as adding to a committed system."""
 
     status = -3
 
@@ -49,13 +50,13 @@ class IOFailed(Error, OSError):
 
 
 class NotBuilt(Error, NotImplementedError):
-    """This build of the library was made without the part asked for."""
+    """This build of the library lacks the requested part."""
 
     status = -5
 
 
 class Unsuited(Error, ValueError):
-    """The method does not take this kind of problem."""
+    """The method does not support this kind of problem."""
 
     status = -6
 
@@ -65,16 +66,16 @@ class SolverFailed(Error, ArithmeticError):
     sentence."""
 
     status = -7
-    integrator: Any = None  #: the one that failed, where there is one
+    integrator: Any = None  # the one that failed, if there is one
 
     @property
     def diagnosis(self) -> str:
-        """What happened, where and when; the message if that is all there is to say."""
+        """A sentence with cause, place and time; the message if nothing more is known."""
         return str(self) if self.integrator is None else self.integrator.diagnosis
 
 
 class Stopped(Error):
-    """A callback asked to stop where nothing is run, so that there is no result to return."""
+    """A callback asked to stop outside of a run, so that there is no result to return."""
 
     status = 1
 
@@ -84,7 +85,7 @@ FAILURES = {kind.status: kind for kind in _KINDS}
 
 
 class _Pending(threading.local):
-    """The exception that a callback of this thread left behind, until the library has returned."""
+    """The stored exception of a callback of this thread, until the library has returned."""
 
     exception: BaseException | None = None
 
@@ -93,8 +94,8 @@ pending = _Pending()
 
 
 def checker(words: Sequence[Callable[..., Any]], outcomes: bool) -> Callable[[int, Any, Any], int]:
-    """The ctypes `errcheck` of functions that return a status; `words` are hooke_last_error and
-    hooke_status_name. With `outcomes` a positive status is a result and not raised."""
+    """The ctypes `errcheck` of functions that return a status; `words` are hooke_last_error and hooke_status_name.
+    With `outcomes` a positive status is a result and not raised."""
     last_error, status_name = words
 
     def check(code: int, _function: Any, _arguments: Any) -> int:

@@ -18,7 +18,7 @@ StrArray = npt.NDArray[np.str_]
 ComplexArray = npt.NDArray[np.complex128]
 #: Structured rows, or numbers of more than one kind.
 Table = npt.NDArray[Any]
-#: Particles that a part holds still: numbers within it, words such as "top-corners", or both.
+#: Pinned particles of a part: numbers within it, words such as "top-corners", or both.
 Pins = Union[str, int, Sequence[Union[str, int]], Table]
 #: A particle of a scene: its number, or the name of a part and the number within it.
 Particle = Union[int, tuple[str, int], list[Any]]
@@ -27,8 +27,8 @@ Particle = Union[int, tuple[str, int], list[Any]]
 class Springs(TypedDict, total=False):
     """A family of springs of a part; `stiffness` is required.
 
-    `stiffness` [N] is the force at double length; `damping` [N s], or `damping_ratio` as a share of the critical
-    one; `rest_scale` a factor on the rest length; ``compression=False`` makes springs that only pull.
+    `stiffness` [N] is the force at double length; `damping` [N s], or `damping_ratio` relative to critical damping;
+    `rest_scale` a factor on the rest length; ``compression=False`` makes springs that only pull.
     """
 
     stiffness: float

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from .trajectory import Trajectory
 
 _SHORTEST, _LONGEST = 4.0, 10.0
-_COLOURS = ["tab:blue", "0.35", "tab:red"]  # dark between, to be seen on white
+_COLOURS = ["tab:blue", "0.35", "tab:red"]  # dark in the middle, to be visible on white
 
 
 class Animation(FuncAnimation):
@@ -51,9 +51,9 @@ def animate(
 ) -> Animation:
     """A film of the springs of a trajectory, drawn into `ax` or into new axes.
 
-    It takes `seconds`; if None as long as the run lasted, but from 4 to 10 s. It has at most `fps` pictures a second and
-    never more than there are frames. `up` is the axis that is drawn upwards, `color` that of the springs, or "strain"
-    for red where they are stretched and blue where they are compressed. Pinned particles are marked.
+    It lasts `seconds`; if None as long as the run, but from 4 to 10 s. It has at most `fps` pictures a second and at
+    most one for each frame. `up` is the axis drawn upwards, `color` that of the springs, or "strain" for red where
+    they are stretched and blue where they are compressed. Pinned particles are marked.
     """
     if not len(trajectory):
         raise BadValue(f"{trajectory.path}: has no frames to show")
@@ -69,7 +69,7 @@ def animate(
         strains = [trajectory.strain(int(frame)) for frame in shown]
         sizes = np.abs(np.concatenate(strains))
         sizes = sizes[np.isfinite(sizes)]
-        largest = float(np.quantile(sizes, 0.99)) if sizes.any() else 1.0  # a few springs do not set the scale
+        largest = float(np.quantile(sizes, 0.99)) if sizes.any() else 1.0  # a few springs do not determine the scale
         lines.set(cmap=LinearSegmentedColormap.from_list("strain", _COLOURS), clim=(-largest, largest))
         ax.figure.colorbar(lines, ax=ax, label="strain", shrink=0.6, pad=0.15, extend="both")
     else:

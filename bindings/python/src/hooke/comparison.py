@@ -1,4 +1,4 @@
-"""One scene by several methods against CVODE at tight tolerance: how accurate each is for what it costs."""
+"""Comparison of several methods on one scene with CVODE at tight tolerance: accuracy and cost of each."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ from .scene import scene_text
 from .state import State
 from .system import Force, System
 
-#: progress(fraction, what): the share done, 0 to 1, and what is running.
+#: progress(fraction, what): the fraction done, 0 to 1, and the name of the running task.
 ComparisonProgress = Callable[[float, str], Optional[int]]
 #: observer(run, frame, step, state): `run` is "reference" or a method's name.
 ComparisonObserver = Callable[[str, int, int, State], Optional[int]]
@@ -32,12 +32,12 @@ ComparisonObserver = Callable[[str, int, int, State], Optional[int]]
 
 @dataclass(frozen=True)
 class Comparison(Tabled):
-    """A comparison that was made.
+    """A finished comparison.
 
     `rows` is a structured array with one row a method: method, step [s], rtol, atol [m], error (largest root mean
     square over the free particles [m]), error_max [m], error_final [m], energy_drift [J], force_evaluations, steps,
-    linear_iterations, wall_seconds, status; NaN where a number does not apply. Over the frames: `time` (k,)
-    [s], `error` (rows, k) [m] and `energy_drift` (rows, k) [J], NaN past the end of a run that diverged.
+    linear_iterations, wall_seconds, status; NaN where a number does not apply. Over the frames: `time` (k,) [s],
+    `error` (rows, k) [m] and `energy_drift` (rows, k) [J], NaN past the end of a run that diverged.
     """
 
     status: str
@@ -71,13 +71,13 @@ def compare(
     on_frame: ComparisonObserver | None = None,
     **options: Any,
 ) -> Comparison:
-    """Runs a scene (or the path of one) or a system by each of `methods` (all that this build has, if None)
-    and by CVODE at tight tolerance, and returns the `Comparison`.
+    """Runs a scene (or the path of one) or a system by each of `methods` (all that this build has, if None) and by
+    CVODE at tight tolerance, and returns the `Comparison`.
 
-    The keywords `options` are those of a run: step [s], duration [s], every [s], rtol, atol [m]; `output` is
-    an HDF5 file to write (`hooke.plot` draws it), `force` adds a force callback, ``progress(fraction, what)``
-    is told of progress, ``progress=True`` shows a bar (with tqdm),
-    ``on_frame(run, frame, step, state)`` sees every frame (not together with `output`).
+    The keywords `options` are those of a run: step [s], duration [s], every [s], rtol, atol [m]; `output` is an HDF5
+    file to write (`hooke.plot` draws it), `force` adds a force callback, ``progress(fraction, what)`` receives
+    progress, ``progress=True`` shows a bar (with tqdm), ``on_frame(run, frame, step, state)`` receives every frame
+    (not together with `output`).
     """
     if output is not None and on_frame is not None:
         raise BadValue("on_frame: not together with output, which takes the frames")

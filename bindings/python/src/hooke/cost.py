@@ -1,4 +1,4 @@
-"""Costs: what each ingredient of one scene costs on this machine, in time, memory and step."""
+"""Costs: time, memory and stable step of each ingredient of one scene on this machine."""
 
 from __future__ import annotations
 
@@ -14,18 +14,19 @@ from .state import State
 
 
 class Cost(Tabled):
-    """What a scene costs, whole and by its ingredients.
+    """The cost of a scene, as a whole and by ingredients.
 
-    `rows` is a structured array with one row an ingredient that is there: name (of the group, else the kind), kind
-    ("springs", "bending", "altitude", "damping", "drag", "callback", "gravity"), group and springs (its number and size,
-    NaN if it is none); nanoseconds that it adds to a step, with their resolution, 0 where nothing can be seen;
-    memory_bytes; step_limit_without [s], the largest stable step of the scene without it, infinite where nothing limits
-    it.
+    `rows` is a structured array with one row an ingredient: name (of the group, else the kind), kind ("springs",
+    "bending", "altitude", "damping", "drag", "callback", "gravity"), group and springs (its number and size, NaN if
+    it is not a group); nanoseconds that it adds to a step, with their resolution, 0 below the resolution;
+    memory_bytes; step_limit_without [s], the largest stable step of the scene without it, infinite where nothing
+    limits it.
 
-    `method` is what was timed: that of the run, or symplectic Euler if that chooses its own steps; `step` [s] its step;
-    `nanoseconds` of a whole step, `resolution` [ns] of the rows, `memory_bytes` of system, state and integrator,
-    `step_limit` [s] of the whole scene (NaN without LAPACK); `dropped_springs` have neither stiffness nor damping, and
-    `idle_particles` are pinned and touched by nothing: both cost nothing. `outcome` is "finished" or "stopped".
+    `method` is the timed method: that of the run, or symplectic Euler if that chooses its own steps; `step` [s] its
+    step; `nanoseconds` of a whole step, `resolution` [ns] of the rows, `memory_bytes` of system, state and
+    integrator, `step_limit` [s] of the whole scene (NaN without LAPACK); `dropped_springs` have neither stiffness nor
+    damping, and `idle_particles` are pinned without any force: both cost nothing. `outcome` is "finished" or
+    "stopped".
     """
 
     outcome: str
@@ -79,12 +80,13 @@ def cost(
     progress: WorkProgress | bool | None = None,
     **options: object,
 ) -> Cost:
-    """What each ingredient of a scene (or the path of one) or of a system costs: it is compared with the same scene
-    without the ingredient, at `state` (at the start, if None).
+    """Measures the cost of each ingredient of a scene (or the path of one) or of a system: compares it with the same
+    scene without the ingredient, at `state` (at the start, if None).
 
-    ``predict=True`` leaves out the timing; after `budget` [s] (2 unless given) no further ingredient is looked at. Of many
-    groups the `groups` largest are (64 unless given); the numbers of others stay NaN. ``progress(fraction, what)`` is
-    told of progress and stops the work by returning a number other than 0. The keywords `options` are those of a run.
+    ``predict=True`` skips the timing; after `budget` [s] (2 by default) no further ingredient is measured. Of many
+    groups the `groups` largest are measured (64 by default); the numbers of the others stay NaN. ``progress(fraction,
+    what)`` receives progress and stops the work by returning a non-zero number. The keywords `options` are those of a
+    run.
     """
     _, system, run = prepare("cost", problem, None, options)
     chosen = Options.for_cost().set(predict=predict, budget=budget, groups=groups)

@@ -1,4 +1,4 @@
-"""The error of a run: the one that is wanted, and the one it has."""
+"""The error of a run: the wanted one, and the estimated one."""
 
 from __future__ import annotations
 
@@ -29,15 +29,15 @@ _CHOSEN = ("step", "rtol", "atol", "atol_velocity")
 
 
 class RunError(NamedTuple):
-    """How wrong a run is.
+    """The error of a run.
 
     `estimate` is the root mean square error over free particles [m], NaN if it is not known: with a wanted error the
-    largest over frames, else that at the end. It was made between `known_from` and `known_until` [s]. `by` is "half-
-    step", "tolerance", "slice" or "reference", None without an estimate; `wanted` the wanted error [m] and `met` whether
-    it was met, None if nobody can know or none was wanted. `energy_rise` is by how much energy rose by itself over the
-    last half of the run, as a share of what the scene has, NaN if that cannot be told; `heat_excess` is by how much more
-    energy damping and drag took than there was to take, as such a share, since velocities reverse at each step. `note`
-    says why an error is not known or not met.
+    largest over frames, otherwise that at the end. It holds for the time between `known_from` and `known_until` [s].
+    `by` is "half- step", "tolerance", "slice" or "reference", None without an estimate; `wanted` the wanted error [m]
+    and `met` whether it was met, None if that is unknown or none was wanted. `energy_rise` is the spontaneous rise of
+    energy over the last half of the run, as a fraction of the energy of the scene, NaN if unknown; `heat_excess` is
+    the energy that damping and drag dissipated beyond the available energy, as such a fraction, since velocities
+    reverse at each step. `note` says why an error is not known or not met.
     """
 
     estimate: float
@@ -52,7 +52,7 @@ class RunError(NamedTuple):
 
 
 def metres(length: Length, name: str) -> float:
-    """A length in metres; BadValue for a unit that there is not."""
+    """A length in metres; BadValue for an unknown unit."""
     if not isinstance(length, str):
         return float(length)
     word = length.strip()
@@ -70,7 +70,7 @@ def _number(handle: Handle, what: str) -> float:
 
 
 class Estimate(Owner):
-    """Wraps a `hooke_estimate`: what it picks, sees and measures of runs of one system."""
+    """Wraps a `hooke_estimate`: picks, observes and measures runs of one system."""
 
     def __init__(self, system: System, want: Length | None, progress: Any = None):
         made = ESTIMATE()
@@ -80,7 +80,8 @@ class Estimate(Owner):
         self._progress = progress
 
     def pick(self, options: Options, given: dict[str, Any]) -> None:
-        """Sets a method and its step or tolerance for the wanted error; the method, if it is among those `given`."""
+        """Sets a method and its step or tolerance for the wanted error; keeps the method if it is among those
+        `given`."""
         chosen = [name for name in _CHOSEN if given.get(name) is not None]
         if chosen:
             raise BadValue(f"want picks the step or the tolerance; leave out {' and '.join(chosen)}, or want")
@@ -89,7 +90,7 @@ class Estimate(Owner):
             lib.hooke_estimate_pick(self._handle, None if method is None else method.encode(), options._handle)
 
     def begin(self, integrator: Integrator, state: State) -> None:
-        """Before a run of `integrator` from `state`."""
+        """Call before a run of `integrator` from `state`."""
         lib.hooke_estimate_begin(self._handle, integrator._handle, state._handle)
 
     def see(self, step: int, state: State) -> None:
@@ -97,7 +98,7 @@ class Estimate(Owner):
         lib.hooke_estimate_see(step, state._handle, self._handle.pointer)
 
     def measure(self, integrator: Integrator, state: State) -> RunError:
-        """What it has come to."""
+        """The result."""
         with listening(lib.hooke_estimate_on_progress, self._handle, self._progress):
             lib.hooke_estimate_measure(self._handle, integrator._handle, state._handle)
         by = lib.hooke_estimate_text(self._handle, b"by")
@@ -115,7 +116,7 @@ class Estimate(Owner):
         )
 
     def write(self, path: Path) -> None:
-        """Adds it to the file that the run wrote."""
+        """Adds it to the output file of the run."""
         lib.hooke_estimate_write_h5(self._handle, os.fsencode(path))
 
     def refine(self, options: Options) -> bool:

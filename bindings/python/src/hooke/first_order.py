@@ -24,15 +24,14 @@ Rate = Callable[[float, Table, Table], Optional[int]]
 
 
 class FirstOrder(Owner):
-    """x' = phi(t, x) from `x0` (size,), real or complex; ``phi(t, x, rate)`` writes the rate into its last
-    argument::
+    """x' = phi(t, x) from `x0` (size,), real or complex; ``phi(t, x, rate)`` writes the rate into its last argument::
 
         def decay(t, x, rate):
             rate[:] = -2 * x
 
         hooke.FirstOrder(decay, [1.0]).run(method="forward-euler", step=0.1, duration=1.0)
 
-    The arrays are valid during the call only. phi returns None or 0 to go on, any other whole number to stop.
+    The arrays are valid during the call only. phi returns None or 0 to go on, any other integer to stop.
     """
 
     def __init__(self, phi: Rate, x0: Any):

@@ -26,8 +26,7 @@ if TYPE_CHECKING:
     from .results import WorkProgress
     from .why import Why
 
-#: observer(step, state): sees the state after `step` steps and must not change it; returns None or 0 to go
-#: on.
+#: observer(step, state): receives the state after `step` steps and must not change it; returns None or 0 to go on.
 Observer = Callable[[int, State], Optional[int]]
 
 COUNTS = (
@@ -46,12 +45,12 @@ COUNTS = (
 
 _SOLVER_FAILED = -7
 _BLOWN_UP = (2, 3, _SOLVER_FAILED)
-_LONG = 50_000  #: numbers times steps that may take long enough for Ctrl-C to matter
+_LONG = 50_000  # numbers times steps that may take long enough for Ctrl-C to matter
 _RUNNING = "this integrator is running; a callback or another thread needs one of its own"
 
 
 class Method(NamedTuple):
-    """A method: its name, a line about it, whether it chooses its steps itself, whether this build has it."""
+    """A method: its name, a one-line description, whether it chooses its steps itself, whether this build has it."""
 
     name: str
     summary: str
@@ -80,10 +79,10 @@ class StepWarning(RuntimeWarning):
 class Integrator(Closing):
     """A method with its options, made for one system or first-order problem; several may share a system.
 
-    Options are those that ``hooke.describe("run")`` lists: method, step [s], duration [s], every [s], rtol,
-    atol [m], atol_velocity [m/s], ...; keywords win over `options`. The system is committed if it was not. An
-    integrator and its state belong to one thread at a time. Other Python threads go on while it runs. `close`, or the end
-    of a ``with`` block, gives its memory back.
+    Options are those that ``hooke.describe("run")`` lists: method, step [s], duration [s], every [s], rtol, atol [m],
+    atol_velocity [m/s], ...; keywords override `options`. The system is committed if it was not. An integrator and
+    its state belong to one thread at a time. Other Python threads continue while it runs. `close`, or the end of a
+    ``with`` block, releases its memory.
     """
 
     def __init__(self, problem: System | FirstOrder, options: Options | None = None, **keywords: Any):
@@ -92,12 +91,12 @@ class Integrator(Closing):
         self._handle = problem._integrator(chosen)
         self._numbers = problem._size if isinstance(problem, FirstOrder) else 3 * problem.particle_count
         self._running = False
-        self.outcome = 0  #: the last outcome as the library's number
-        self.message = ""  #: what the library said about the last outcome that was not "finished"
+        self.outcome = 0  # the last outcome as the library's number
+        self.message = ""  # the library's message about the last outcome that was not "finished"
 
     @property
     def options(self) -> Options:
-        """The options that it runs with, defaults filled in."""
+        """The options of its runs, defaults filled in."""
         return Options(Handle(lib.hooke_integrator_options(self._handle), None, self._handle), read_only=True)
 
     def run(
@@ -110,11 +109,11 @@ class Integrator(Closing):
     ) -> str:
         """Runs `duration` from the state's time on and leaves the final state in `state`.
 
-        ``on_frame(step, state)`` is called at each frame, with ``on_step=(stride, f)`` ``f(step, state)``
-        after every `stride` steps, and ``on_checkpoint(step, state)`` at each of the option `checkpoint`, where
-        `write_checkpoint` has all that the run can go on from. Returns "finished", "stopped" (a callback asked for
-        it), "diverged" or "step-limit"; `message` then has the details. An exception of a callback ends the run and is raised
-        again; so does Ctrl-C. A step that is not certain to be stable gives a `StepWarning`.
+        ``on_frame(step, state)`` is called at each frame, with ``on_step=(stride, f)`` ``f(step, state)`` after every
+        `stride` steps, and ``on_checkpoint(step, state)`` at each checkpoint of the option `checkpoint`, where
+        `write_checkpoint` can save the run. Returns "finished", "stopped" (a callback asked for it), "diverged" or
+        "step-limit"; `message` then has the details. An exception of a callback ends the run and is raised again; so
+        does Ctrl-C. A step that is not certain to be stable gives a `StepWarning`.
         """
         with self._watched(state, on_frame, on_step, on_checkpoint), self._warned():
             return self._outcome(lib.hooke_integrator_run(self._handle, state._handle))
@@ -127,21 +126,22 @@ class Integrator(Closing):
         on_step: tuple[int, Observer] | None = None,
         on_checkpoint: Observer | None = None,
     ) -> str:
-        """Goes on to the end of a run from where `read_checkpoint` placed the integrator and the state, or where a
-        callback stopped a run with a fixed step, as if it had never stopped: the same bits, and the same counts.
-        Frames that were reported are not reported again. The rest is as in `run`."""
+        """Continues a run to its end from where `read_checkpoint` placed the integrator and the state, or where a
+        callback stopped a run with a fixed step. Bits and counts are those of an uninterrupted run. Frames that were
+        reported are not reported again. The rest is as in `run`."""
         with self._watched(state, on_frame, on_step, on_checkpoint), self._warned():
             return self._outcome(lib.hooke_integrator_resume(self._handle, state._handle))
 
     def write_checkpoint(self, path: str | os.PathLike[str], state: State, run: str = "") -> None:
-        """Writes where the run stands, with `state` as observers have it, or as `run` left it where it was stopped. An
-        error-controlled method writes the last of its checkpoints. The file before stays as ``<path>.previous``; `run` (63
-        bytes at most) says which run it is."""
+        """Writes a checkpoint of the run, with `state` as observers receive it, or as a stopped `run` left it. An
+        error-controlled method writes the last of its checkpoints. The previous file stays as ``<path>.previous``;
+        `run` (63 bytes at most) identifies the run."""
         lib.hooke_checkpoint_write(os.fsencode(path), self._handle, state._handle, run.encode())
 
     def read_checkpoint(self, path: str | os.PathLike[str], state: State, run: str | None = None) -> None:
-        """Puts the integrator and `state` where the file has them, or, if it is damaged or missing, the previous one, for
-        `resume` or `step`. BadValue for files of another problem, other options (but for threads), or another `run`."""
+        """Sets the integrator and `state` to the point that the file holds, or, if it is damaged or missing, the
+        previous one, for `resume` or `step`. BadValue for files of another problem, other options (but for threads),
+        or another `run`."""
         label = None if run is None else run.encode()
         lib.hooke_checkpoint_read(os.fsencode(path), label, self._handle, state._handle)
 
@@ -151,14 +151,14 @@ class Integrator(Closing):
         return self._take(steps, lib.hooke_integrator_step, state._handle, steps)
 
     def advance(self, steps: int = 1) -> str:
-        """Takes `steps` steps of the motion that the integrator has, on from where the last call left it;
-        ``step(state, 0)`` begins one at a state. The same bits as those of `step` for less time: no state is read or
+        """Takes `steps` steps of the integrator's own motion, continuing from where the last call left it;
+        ``step(state, 0)`` begins one at a state. It gives the same bits as `step` in less time: no state is read or
         written, and states are stale until `sync`. Returns an outcome as `run` does."""
         return self._take(steps, lib.hooke_integrator_advance, steps)
 
     def sync(self, state: State) -> str:
-        """Writes time, positions and velocities of the motion into `state`, after "diverged" the last good ones. Returns
-        "finished", or "diverged" if numbers of the motion are not finite."""
+        """Writes time, positions and velocities of the motion into `state`; after "diverged", the last good ones.
+        Returns "finished", or "diverged" if numbers of the motion are not finite."""
         return self._take(1, lib.hooke_integrator_sync, state._handle)
 
     def get(self, particles: Any) -> tuple[FloatArray, FloatArray]:
@@ -174,9 +174,9 @@ class Integrator(Closing):
         return q, v
 
     def put(self, particles: Any, q: Any = None, v: Any = None) -> None:
-        """Puts particles of the motion at `q` [m] with velocities `v` [m/s], shaped as `get` has them; what is None
-        stays. Pinned particles are held where they are put, driven ones stay where their motion has them, and only
-        numbers that are not finite are divergence from then on. An error-controlled method starts anew."""
+        """Sets particles of the motion to positions `q` [m] and velocities `v` [m/s], shaped as in `get`; None leaves
+        them. A pinned particle is held at the position set, a driven one keeps its prescribed motion, and only
+        non-finite numbers count as divergence from then on. An error-controlled method restarts."""
         if self._running:
             raise BadCall(_RUNNING)
         shape, particles = (*np.shape(particles), 3), indices(particles, "particles")
@@ -218,8 +218,8 @@ class Integrator(Closing):
 
     @property
     def diagnosis(self) -> str:
-        """What happened in the last run, where and when, in a sentence or two; "" if it did not end early. It takes
-        the last steps again and tries what to do: as long as the run took, or 2 s if that is more."""
+        """The cause of an early end of the last run, with place and time, in a sentence or two; "" if it did not end
+        early. It repeats the last steps and tries suggestions: as long as the run took, or 2 s if that is more."""
         if self.outcome not in _BLOWN_UP:
             return ""
         try:
@@ -278,12 +278,12 @@ class Integrator(Closing):
 
     @property
     def frame_count(self) -> int:
-        """Frames of a whole run, the initial one included."""
+        """Number of frames of a whole run, including the initial one."""
         return int(lib.hooke_integrator_count(self._handle, b"frames"))
 
     @property
     def counts(self) -> dict[str, int]:
-        """What was done since the integrator was made: steps, force evaluations, solver iterations, ..."""
+        """Counts since the integrator was made: steps, force evaluations, solver iterations, ..."""
         return {what: lib.hooke_integrator_count(self._handle, what.encode()) for what in COUNTS}
 
     @property
@@ -293,12 +293,12 @@ class Integrator(Closing):
 
     @property
     def stop_value(self) -> int:
-        """What the callback that stopped the run returned; 0 if none did."""
+        """Value that the callback which stopped the run returned; 0 if none did."""
         return int(lib.hooke_integrator_stop_value(self._handle))
 
     @property
     def diverged_at(self) -> float:
-        """Time at which divergence was noticed [s], NaN if it was not."""
+        """Time at which divergence was noticed [s]; NaN if it was not."""
         return float(lib.hooke_integrator_diverged_at(self._handle))
 
     def __repr__(self) -> str:

@@ -23,7 +23,7 @@ from .state import State
 from .system import System
 from .why import Blame
 
-#: Where to find limits: a state, positions (n, 3) [m], or a trajectory file, its last frame or the one named.
+#: Where to find limits: a state, positions (n, 3) [m], or a trajectory file with its last frame or the given one.
 Place = Union[State, FloatArray, Path, tuple[Path, int]]
 
 _COLUMNS = (
@@ -38,7 +38,7 @@ _COLUMNS = (
 
 
 class Mover(NamedTuple):
-    """A particle that moves in the limiting mode: its number, its share of the kinetic energy, its mass [kg]."""
+    """A particle of the limiting mode: its number, its share of the kinetic energy, its mass [kg]."""
 
     particle: int
     share: float
@@ -46,10 +46,10 @@ class Mover(NamedTuple):
 
 
 class Remedy(NamedTuple):
-    """What it would buy to change the springs or particles to blame, in a sentence. `kind` is "soften" or "heavier";
-    "" where no small set is to blame, and the numbers are then NaN: how many springs or particles to change, the
-    factor by which, what they cost (a factor of the step), and what the change gains, found again with the change
-    made and by first-order perturbation."""
+    """A change of the limiting springs or particles, in a sentence. `kind` is "soften" or "heavier"; "" if no small
+    set is to blame, and the numbers are then NaN: the number of springs or particles to change, the factor by which,
+    their cost (a factor of the step), and the gain of the change, recomputed with the change made and by first-order
+    perturbation."""
 
     kind: str
     sentence: str
@@ -65,21 +65,20 @@ class Limit(Paged):
     """The largest stable steps of a scene, linearised at its positions and at rest.
 
     `rows` is a structured array with one row a method: method; bound (safe) [s], predicted [s], measured [s], ratio
-    (measured to predicted), steps_run (steps taken to measure), smallest [s] and smallest_time [s] (met along a run);
+    (measured to predicted), steps_run (steps taken to measure), smallest [s] and smallest_time [s] (along a run);
     exact, never_stable, by_eigenvalue (stable where ``step * modes`` is within one region), note. A step is infinite
     where nothing limits it, 0 where none is stable, NaN where it does not apply.
 
-    `modes` (k,) [1/s] are the eigenvalues that are known, complex, of conjugates the one with the positive imaginary
-    part, the largest first; `frequency` (k,) [rad/s] and `decay` (k,) [1/s] those of x'' + 2 decay x' + frequency^2 x
-    = 0, of which they are roots. `shape` (n, 3) is the mode that limits the method of the run (of the first row with a
-    limit, if that has none), its largest displacement 1; None where nothing is limited. `blame` has the springs that
-    determine it, at most 100, and before them a force that has half of it, and `movers` the particles that move in
-    it, each the largest share first; `remedy` the gain of changing them, None where nothing is
-    limited.
+    `modes` (k,) [1/s] are the known eigenvalues, complex, of conjugates the one with the positive imaginary part, the
+    largest first; `frequency` (k,) [rad/s] and `decay` (k,) [1/s] those of x'' + 2 decay x' + frequency^2 x = 0, of
+    which they are roots. `shape` (n, 3) is the mode that limits the method of the run (of the first row with a limit,
+    if that has none), its largest displacement 1; None if nothing is limited. `blame` has the springs that determine
+    it, at most 100, and before them a force that has half of it; `movers` has the particles that move in it, both
+    with the largest share first; `remedy` is the gain of changing them, None if nothing is limited.
 
-    `frequency_max` [rad/s] and `rate_max` [1/s] are the fastest motion and damping, `clamped` the number of compressed
-    springs whose sideways push was left out, `time` [s] that of the state, `step` [s] the step of the scene (NaN if it
-    names none), `outcome` "finished", or as the run along which limits were found ended.
+    `frequency_max` [rad/s] and `rate_max` [1/s] are the fastest motion and damping, `clamped` the number of
+    compressed springs whose sideways push was left out, `time` [s] that of the state, `step` [s] the step of the
+    scene (NaN if it names none), `outcome` "finished", or the outcome of the run along which limits were found.
     """
 
     outcome: str
@@ -128,8 +127,8 @@ class Limit(Paged):
         return row
 
     def write(self, path: Path, title: str | None = None) -> None:
-        """Writes what was found by the ending of `path`: .html, the page of ``hooke limit --report`` with `title` over
-        it (that of the scene, if None); .csv, the rows; .json or .h5, everything."""
+        """Writes the results in the format given by the ending of `path`: .html, the page of ``hooke limit --report``
+        with the heading `title` (that of the scene, if None); .csv, the rows; .json or .h5, everything."""
         title = title or (self._scene.title if self._scene else "") or "limits of steps"
         self._found.write(path, title=title, scene=scene_text(self._scene))
 
@@ -171,11 +170,11 @@ def limit(
     or a system: predicted from the eigenvalues of the scene linearised `at` its positions (at the start, if None) and
     at rest, and then measured by running the method, unless `predict` is True.
 
-    `at` is a state, positions (n, 3) [m], or a trajectory file, of which the last frame is taken, or a pair of that and
-    the number of a frame. ``along=True`` predicts at every frame of the run and tells the smallest limits met and when;
-    ``nonlinear=True`` measures on the scene itself. `accuracy` is relative, `budget` [s] the time of the measuring.
-    ``progress(fraction, what)`` is told of progress (``progress=True`` shows a bar, with tqdm) and stops
-    the work by returning a number other than 0. The keywords `options` are those of a run.
+    `at` is a state, positions (n, 3) [m], or a trajectory file, of which the last frame is taken, or a pair of that
+    and the number of a frame. ``along=True`` predicts at every frame of the run and returns the smallest limits and
+    their times; ``nonlinear=True`` measures on the scene itself. `accuracy` is relative, `budget` [s] the time of the
+    measuring. ``progress(fraction, what)`` receives progress (``progress=True`` shows a bar, with tqdm) and stops the
+    work by returning a non-zero number. The keywords `options` are those of a run.
     """
     scene, system, run = prepare("limit", problem, None, options)
     if methods is not None and not isinstance(methods, str):
@@ -188,7 +187,7 @@ def limit(
 
 
 def _state_at(system: System, at: Place | None) -> State:
-    """A state of its own, since a run may move it."""
+    """A separate state, since a run may change it."""
     state = system.state()
     if isinstance(at, State):
         lib.hooke_state_copy(at._handle, state._handle)

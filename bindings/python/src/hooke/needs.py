@@ -1,4 +1,4 @@
-"""What a scene needs: what may be left out for a wanted accuracy, and what resolution it asks for."""
+"""Needs: the ingredients of a scene that a wanted accuracy requires, and its resolution."""
 
 from __future__ import annotations
 
@@ -20,9 +20,9 @@ from .system import System, write_scene
 
 
 class RunCost(NamedTuple):
-    """What a run takes: particles and springs, the largest stable step [s] (infinite where nothing limits it), the
-    step [s] or the tolerances that it was run with, what these may put it off by [m] (a tenth of what is wanted), and
-    the time of stepping alone [s]. NaN where a number does not apply."""
+    """The cost of a run: particles and springs, the largest stable step [s] (infinite if nothing limits it), the step
+    [s] or the tolerances of the run, the error due to these [m] (a tenth of the wanted one), and the time of stepping
+    alone [s]. NaN where a number does not apply."""
 
     particles: float
     springs: float
@@ -37,27 +37,27 @@ class RunCost(NamedTuple):
 
 
 class Needs(Paged, Closing):
-    """What a scene needs for watched positions within `want` [m].
+    """The needs of a scene for watched positions within `want` [m].
 
     `rows` is a structured array with one row for everything that was left out in turn: without, kind, error (the
     change of the watched positions, the largest over frames of their root mean square [m]; NaN if that run did not
-    end), needed (True, too, where it cannot be told, as `note` says), left_out (of the lean system, too), the fields
-    of a `RunCost`, unlimited (1: nothing limits the step), note. `full` is the cost of the full system with errors of
-    its step a tenth of what is wanted, and `own_error` [m] how far the finer run of it may be off itself, against
-    which all variants are held.
+    end), needed (also True if unknown, as `note` says), left_out (also absent from the lean system), the fields of a
+    `RunCost`, unlimited (1: nothing limits the step), note. `full` is the cost of the full system with a step error
+    of a tenth of the wanted error, and `own_error` [m] the possible error of its finer run, which all variants are
+    compared with.
 
-    `lean_cost` is the cost of the lean system's recommended run, and `lean_error` [m] at most how far that is from the
-    full system, `own_error` included. `cheapest` is the cost of the full system's own run within what is wanted, by
-    the same method, `cheapest_error` its error, and `times_less` its wall time over that of the lean one;
-    `other_method` is one that would take the full system there in clearly less, `other_seconds` [s]. None and NaN
-    where there are none. `lean_note` names groups of parts that the lean system has spring by spring.
+    `lean_cost` is the cost of the lean system's recommended run, and `lean_error` [m] a bound on its error against
+    the full system, including `own_error`. `cheapest` is the cost of the full system's own run within the wanted
+    error, by the same method, `cheapest_error` its error, and `times_less` its wall time over that of the lean one;
+    `other_method` is one that runs the full system within the wanted error in clearly less time, `other_seconds` [s].
+    None and NaN if there are none. `lean_note` names groups of parts that the lean system has spring by spring.
 
-    `moved` [m] is by how much the watched particles move from where they begin, and `note` says so where nothing moves,
-    or less than is wanted; both notes are "" otherwise.
+    `moved` [m] is the motion of the watched particles from their start; `note` says if nothing moves, or less than
+    the wanted error; both notes are "" otherwise.
 
     `parts` is a structured array with one row a part, after ``refine=True``: part, cells (along its first axis;
     cells_second, cells_third), change and change_fine [m] (between once and twice, twice and four times that
-    resolution), order, error [m] (what is left at the resolution it has), wanted (cells that the want asks for;
+    resolution), order, error [m] (the remaining error at the present resolution), wanted (cells for the wanted error;
     wanted_second, wanted_third), factor, note.
 
     Changes are those up to `judged_until` [s]: beyond, differences grow so fast that no time step keeps its error
@@ -104,7 +104,7 @@ class Needs(Paged, Closing):
         self.other_method, self.other_seconds = lean.get("other_method") or None, lean.get("other_seconds", np.nan)
 
     def __getitem__(self, without: str) -> np.void:
-        """The row of what was left out."""
+        """The row of the ingredient left out."""
         names = [str(name) for name in self.rows["without"]]
         if without not in names:
             raise KeyError(f"{without!r}; there are {', '.join(names)}")
@@ -113,12 +113,12 @@ class Needs(Paged, Closing):
 
     @property
     def left_out(self) -> list[str]:
-        """What the lean system is without."""
+        """The ingredients that the lean system lacks."""
         return [str(name) for name in self.rows["without"][self.rows["left_out"]]]
 
     @property
     def lean(self) -> System | None:
-        """The lean system, committed; the full one's twin if all is needed, None if it was not found."""
+        """The lean system, committed; a copy of the full one if all is needed, None if it was not found."""
         if self.lean_cost is None:
             return None
         handle = Handle(lib.hooke_needs_lean(self._handle.handle), None, self._handle.handle)
@@ -126,7 +126,7 @@ class Needs(Paged, Closing):
 
     @property
     def lean_options(self) -> dict[str, Any]:
-        """The run to make of it: ``hooke.run(found.lean, **found.lean_options)``; {} if there is none."""
+        """Its run: ``hooke.run(found.lean, **found.lean_options)``; {} if there is none."""
         run = self._lean_run()
         return {} if run is None else {name: run[name] for name in run if run.is_set(name)}
 
@@ -144,8 +144,8 @@ class Needs(Paged, Closing):
         write_scene(path, lean, self._scene.title if self._scene is not None else "", run)
 
     def lean_position(self, q: Any) -> FloatArray:
-        """Positions (n, 3) [m] of the particles of the full system at positions `q` of the lean one: of the same
-        material points, NaN where they were left out."""
+        """Positions (n, 3) [m] of the particles of the full system at positions `q` of the lean one: those of the
+        same material points, NaN where they were left out."""
         lean = self.lean
         q = rows(q, "q", lean.particle_count if lean is not None else 0)
         position = np.empty((self._system.particle_count, 3))
@@ -153,13 +153,13 @@ class Needs(Paged, Closing):
         return position
 
     def write(self, path: Path) -> None:
-        """Writes a page to look at to a path that ends in ``.html``, the rows to one in ``.csv``, all tables to one in
+        """Writes a page to read to a path that ends in ``.html``, the rows to one in ``.csv``, all tables to one in
         ``.json`` or ``.h5``."""
         title = self._scene and self._scene.title
         self._handle.write(path, scene=scene_text(self._scene), title=title or None)
 
     def plot(self, ax: Any = None, **options: Any) -> Any:
-        """Draws by how much each ingredient changes the scene; see `hooke.plot.needs`."""
+        """Draws the change of the scene by each ingredient; see `hooke.plot.needs`."""
         from .plot import needs as draw
 
         return draw(self, ax, **options)
@@ -199,16 +199,16 @@ def needs(
     progress: WorkProgress | bool | None = None,
     **options: Any,
 ) -> Needs:
-    """Leaves out of a scene (or the path of one) or a system one ingredient after another, and finds by how much the
-    watched positions change and what it saves; then leaves out together what is not needed for errors of at most
-    `want` [m], and checks the lean system against the full one.
+    """Leaves out of a scene (or the path of one) or a system one ingredient after another, and finds the change of
+    the watched positions and the savings; then leaves out together everything that is not needed for errors of at
+    most `want` [m], and checks the lean system against the full one.
 
-    `watch` is the name of a part or of a group, or particle numbers; None: all free particles. ``refine=True`` asks
-    the reverse instead: each part at once, twice and four times its resolution, and what the want asks for.
-    ``progress(fraction, what)`` is told of progress (``progress=True`` shows a bar, with
-    tqdm) and stops the work by returning a number other than 0, with what
-    is known so far. The keywords `options` are those of a run: duration [s], every [s], method, ...; steps and
-    tolerances are found. ``found.write("page.html")`` makes a page with diagrams.
+    `watch` is the name of a part or of a group, or particle numbers; None: all free particles. ``refine=True`` does
+    the reverse: it runs each part at once, twice and four times its resolution, and finds the resolution for the
+    wanted error. ``progress(fraction, what)`` receives progress (``progress=True`` shows a bar, with tqdm) and stops
+    the work by returning a non-zero number, with the results so far. The keywords `options` are those of a run:
+    duration [s], every [s], method, ...; steps and tolerances are found. ``found.write("page.html")`` makes a page
+    with diagrams.
     """
     scene, system, run = prepare("needs", problem, None, options)
     if watch is not None and not isinstance(watch, str):
@@ -223,7 +223,7 @@ def _cost(record: dict[str, Any]) -> RunCost:
 
 
 def _plain_needed(table: Table) -> Table:
-    """With `needed` True where it cannot be told."""
+    """With `needed` True if unknown."""
     names = table.dtype.names or ()
     made = table.astype([(name, bool if name == "needed" else table.dtype[name]) for name in names])
     made.flags.writeable = False

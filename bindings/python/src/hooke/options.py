@@ -1,4 +1,4 @@
-"""Named options: of a run, of a group of springs, of a part. The library's tables say which there are."""
+"""Named options: of a run, of a group of springs, of a part. They come from the library's tables."""
 
 from __future__ import annotations
 
@@ -23,11 +23,11 @@ Value = Union[None, bool, int, float, str, Table, list[Any]]
 class Row(NamedTuple):
     """One option. Text is "" and a number None where there is none.
 
-    `type` is "number", "numbers", "flag", "choice", "text" or "family"; `allowed` says in words what is allowed;
-    `words` are the choices, or what may stand in place of numbers; `family` is the family that it belongs to;
-    `example` is a value for a first try. `low` and `high` are bounds of every number, allowed themselves unless
-    `above_low`; `required` of a member of a family is meant where the family is there; `min_count` and `max_count`
-    tell how many "numbers" there may be, in rows of `columns`; with `word_lists` words and numbers may be mixed.
+    `type` is "number", "numbers", "flag", "choice", "text" or "family"; `allowed` describes the allowed values;
+    `words` are the choices, or the words allowed instead of numbers; `family` is the family of the option; `example`
+    is a value for a first try. `low` and `high` are bounds of every number, inclusive unless `above_low`; `required`
+    of a member of a family applies if the family is given; `min_count` and `max_count` bound the count of "numbers",
+    in rows of `columns`; with `word_lists` words and numbers may be mixed.
     """
 
     name: str
@@ -53,12 +53,12 @@ class Row(NamedTuple):
 class Options(Owner, MutableMapping[str, Any]):
     """The options of one thing by name: ``options["step"] = 1e-3``.
 
-    A value is a number, a flag, a word, an array of numbers, a list where words and numbers are mixed, or
-    None where there is neither a value nor a default. Setting None, or deleting, takes a value back. A family
-    of options (the springs of a part) is set by a dict and read by dotted names: ``options["stretch"] =
-    {"stiffness": 50}``, ``options["stretch.stiffness"]``.
+    A value is a number, a flag, a word, an array of numbers, a list where words and numbers are mixed, or None if
+    there is neither a value nor a default. Setting None, or deleting, resets an option. A family of options (the
+    springs of a part) is set by a dict and read by dotted names: ``options["stretch"] = {"stiffness": 50}``,
+    ``options["stretch.stiffness"]``.
 
-    Options that belong to an integrator are those it runs with, and cannot be changed.
+    Options of an integrator cannot be changed.
     """
 
     def __init__(self, handle: Handle, read_only: bool = False):
@@ -104,7 +104,7 @@ class Options(Owner, MutableMapping[str, Any]):
 
     @classmethod
     def for_needs(cls) -> Options:
-        """Options of what a scene needs: want [m], watch, refine."""
+        """Options of needs: want [m], watch, refine."""
         return cls._of("needs")
 
     @classmethod
@@ -125,7 +125,7 @@ class Options(Owner, MutableMapping[str, Any]):
     @classmethod
     def for_scene(cls, what: str = "scene") -> Options:
         """Options for other keys of a scene: of the "scene" itself (title, gravity, drag), of its "particles", of
-        what is "driven", or the "limits" of loading it."""
+        "driven" particles, or the "limits" of loading it."""
         return cls._of(what)
 
     @classmethod
@@ -134,18 +134,18 @@ class Options(Owner, MutableMapping[str, Any]):
         return cls._of(kind)
 
     def copy(self) -> Options:
-        """Options of their own with the same values."""
+        """A copy with the same values."""
         pointer = OPTIONS()
         lib.hooke_options_copy(self._handle, ctypes.byref(pointer))
         return Options(Handle(pointer, lib.hooke_options_destroy))
 
     @property
     def rows(self) -> list[Row]:
-        """The table: every option that there is."""
+        """The table: every option."""
         return list(self._rows.values())
 
     def is_set(self, name: str) -> bool:
-        """Whether the option was given a value, rather than having its default or none."""
+        """Whether the option was set, rather than having its default or no value."""
         return bool(lib.hooke_options_is_set(self._handle, name.encode()))
 
     def __getitem__(self, name: str) -> Value:
@@ -204,7 +204,7 @@ class Options(Owner, MutableMapping[str, Any]):
         return len(self._rows)
 
     def set(self, **values: Any) -> Options:
-        """Sets options by keyword, those of None left out; ``from_`` stands for an option named ``from``."""
+        """Sets options by keyword, without those that are None; ``from_`` means the option ``from``."""
         for name, value in values.items():
             if value is not None:
                 self[option_name(name)] = value
@@ -225,19 +225,19 @@ class Options(Owner, MutableMapping[str, Any]):
 
 
 def part_kinds() -> list[str]:
-    """The kinds of parts there are: "rope", "cloth", "lattice", "mesh"."""
+    """The kinds of parts: "rope", "cloth", "lattice", "mesh"."""
     names = (text(lib.hooke_part_kind(kind, b"name")) for kind in itertools.count())
     return list(itertools.takewhile(bool, names))
 
 
 def part_kind_summary(kind: str) -> str:
-    """What a part of this kind is, in one line."""
+    """One-line description of a kind of part."""
     return text(lib.hooke_part_kind(part_kinds().index(kind), b"summary"))
 
 
 def options_of(what: str) -> Options:
     """The options of a "run", a "study", a "limit", a "cost", a "why", of "needs", of "springs", of "anchors", of a
-    "scene" itself, of its "particles", of what is "driven", or of a kind of part. Their `rows` are the table."""
+    "scene" itself, of its "particles", of "driven" particles, or of a kind of part. Their `rows` are the table."""
     makers = {
         "run": Options.for_run,
         "study": Options.for_study,
@@ -254,17 +254,17 @@ def options_of(what: str) -> Options:
 
 
 def describe(what: str) -> str:
-    """The table of `options_of` the same, as text: names, units, defaults, bounds."""
+    """The table of `options_of` as text: names, units, defaults, bounds."""
     return options_of(what).describe()
 
 
 def option_name(keyword: str) -> str:
-    """The option that a keyword stands for: ``from_`` for ``from``, which Python takes for itself."""
+    """The option of a keyword: ``from_`` means ``from``, which Python reserves."""
     return keyword[:-1] if keyword.endswith("_") else keyword
 
 
 def as_number(name: str, value: Any) -> float:
-    """`value` as a number; BadValue if it is none."""
+    """`value` as a number; BadValue if it is not one."""
     try:
         return float(value)
     except (TypeError, ValueError):

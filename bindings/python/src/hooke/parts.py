@@ -12,11 +12,11 @@ S = TypeVar("S", bound="Parts")
 class Parts:
     """The methods of a scene that add parts.
 
-    Every part takes a `name` of its own (unnamed ones are called by their kind and their number among the parts) and
-    one of `mass`, its total [kg], and `density`. `pinned` holds particles still: numbers within the part, or words. A
-    family of springs is a dict, ``dict(stiffness=50, damping=0.01)``, see `Springs`; one that is not given has no
-    springs. Stiffness is that of the strain law, so that a finer part of the same material stretches the same.
-    Each method returns the scene, for the next call.
+    Every part takes a `name` (the default is its kind and its number among the parts) and either `mass`, its total
+    [kg], or `density`. `pinned` pins particles: numbers within the part, or words. A family of springs is a dict,
+    ``dict(stiffness=50, damping=0.01)``, see `Springs`; a family that is not given has no springs. Springs follow the
+    strain law, so that a finer part of the same material stretches equally. Each method returns the scene, for the
+    next call.
     """
 
     def rope(
@@ -104,10 +104,10 @@ class Parts:
     ) -> S:
         """Adds the surface of an OBJ `file`, or of `vertices` (n, 3) [m] and `triangles` (m, 3), three vertices each.
 
-        `transform` is ``dict(scale=1, translate=(0, 0, 0))``: a factor on the coordinates and a vector [m] that is added
-        then; vertices up to `weld` [m] apart are one particle. `mass` [kg] is shared by area, or `density` [kg/m^2];
-        `pinned` are numbers; springs along each edge (`structural`) and between the two vertices opposite to each other
-        across each inner edge (`bend`). The scene keeps the vertices of a file, not its name.
+        `transform` is ``dict(scale=1, translate=(0, 0, 0))``: a factor on the coordinates and then a vector [m] to
+        add; vertices up to `weld` [m] apart are one particle. `mass` [kg] is shared by area, or `density` [kg/m^2];
+        `pinned` are numbers; springs along each edge (`structural`) and between the two vertices opposite to each
+        other across each inner edge (`bend`). The scene keeps the vertices of a file, not its name.
         """
         return self._part("mesh", locals())
 
@@ -132,10 +132,10 @@ class Parts:
         """Adds a strand of hair along an axis `from_` one end (3,) [m] `to` the other (3,) [m] in so many `segments`,
         after Selle, Lentine and Fedkiw (2008).
 
-        A straight one has a particle more in each segment, `offset` segments away from the axis (0.5 if None); with
-        `curl`, the radius [m] of a helix, and `turns` about the axis its particles lie on that. `mass` [kg] or `density`
-        [kg/m]; `pinned` also by "start" and "end"; springs between neighbours (`stretch`), two apart (`bend`) and three
-        apart (`twist`), and `altitude` springs of every four consecutive particles.
+        A straight one has an extra particle in each segment, `offset` segments away from the axis (0.5 if None); with
+        `curl`, the radius [m] of a helix, and `turns` about the axis its particles lie on that helix. `mass` [kg] or
+        `density` [kg/m]; `pinned` also by "start" and "end"; springs between neighbours (`stretch`), two apart
+        (`bend`) and three apart (`twist`), and `altitude` springs of every four consecutive particles.
         """
         return self._part("strand", locals())
 

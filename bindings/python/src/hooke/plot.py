@@ -39,12 +39,12 @@ def cloth(
     linewidth: float = 0.5,
     label: str | None = None,
 ) -> Any:
-    """Draws the springs of a cloth, or of anything else, in space.
+    """Draws the springs of a cloth, or of any other system, in space.
 
-    `source` is a file that a run or a comparison wrote, a `Trajectory`, a `Result`, or a pair of positions (n, 3) [m] and
-    spring ends (m, 2). In a file, `run` is "all" (the run, or the reference of a comparison) or a method of
-    the comparison, and `frame` counts the frames that were written, from the end if negative. `up` is the
-    axis that is drawn upwards.
+    `source` is a file that a run or a comparison wrote, a `Trajectory`, a `Result`, or a pair of positions (n, 3) [m]
+    and spring ends (m, 2). In a file, `run` is "all" (the run, or the reference of a comparison) or a method of the
+    comparison, and `frame` counts the frames that were written, from the end if negative. `up` is the axis drawn
+    upwards.
     """
     q, springs, time = _frame(source, run, frame)
     order = axis_order(up)
@@ -87,11 +87,12 @@ def error(path: Path, ax: Axes | None = None, *, series: str = "error") -> Axes:
 def study(
     source: Study | Path, axes: Any = None, *, cost: str = "wall_seconds", want: float | None = None
 ) -> Any:
-    """Draws a study, or the file that one wrote, into two axes (made if not given) and returns them: error
-    [m] against cost, one marked line a method, and error against step with the orders that were seen.
+    """Draws a study, or the file that one wrote, into two axes (made if not given) and returns them: error [m]
+    against cost, one marked line a method, and error against step with the observed orders.
 
-    `cost` is "wall_seconds" [s], "force_evaluations" or "steps". Steps at which a run diverged are marked at
-    the upper edge of the second. The grey band is what the reference does not know, and ten times that. `want` [m] draws a line.
+    `cost` is "wall_seconds" [s], "force_evaluations" or "steps". Steps at which a run diverged are marked at the
+    upper edge of the second. The grey band is the uncertainty of the reference, and ten times that. `want` [m] draws
+    a line.
     """
     table = _Table(source)
     if axes is None:
@@ -166,8 +167,8 @@ def limit(found: Limit, axes: Any = None, *, step: float | None = None) -> Any:
 
 
 def needs(found: Needs, ax: Axes | None = None) -> Axes:
-    """Draws by how much the watched positions change [m] without each ingredient, the largest on top, with what is
-    wanted as a line: needed ones in one colour, others in another, those that the lean scene is without the darker."""
+    """Draws the change of the watched positions [m] without each ingredient, the largest on top, with the wanted
+    error as a line: needed ones in one colour, others in another, those that the lean scene lacks darker."""
     rows = found.rows[np.argsort(np.where(np.isnan(found.rows["error"]), np.inf, found.rows["error"]), kind="stable")]
     if ax is None:
         ax = _new_axes()
@@ -263,7 +264,7 @@ def _new_axes(**options: Any) -> Any:
 
 
 def axis_order(up: str) -> list[int]:
-    """The axes that are drawn as x, y and z with `up` upwards; cyclic, so that the picture is not mirrored."""
+    """The axes drawn as x, y and z with `up` upwards; cyclic, so that the picture is not mirrored."""
     if up not in _AXES:
         raise BadValue(f'up: "{up}" is not allowed; allowed: "x", "y" or "z"')
     height = _AXES[up]
@@ -279,7 +280,7 @@ def new_space(order: list[int]) -> Any:
 
 
 def fit(ax: Any, points: FloatArray) -> None:
-    """Widens the limits to what is drawn, with one scale for the three axes."""
+    """Widens the limits to the drawn data, with one scale for the three axes."""
     points = points[np.isfinite(points).all(axis=1)]
     if not len(points):
         return

@@ -1,14 +1,14 @@
 """Running a scene in one call.
 
-The files that `output` names are read back with `hooke.open`. They are H5MD 1.1 (HDF5), so that h5py reads them,
-too, and nothing of this package is needed for it::
+`hooke.open` reads the files of `output`. They are H5MD 1.1 (HDF5), so that h5py reads them, too, without this
+package::
 
     with h5py.File("out.h5") as file:
         t = file["particles/all/position/time"][:]      # (frames,) [s]
         q = file["particles/all/position/value"][:]     # (frames, n, 3) [m]
         springs = file["connectivity/springs"][:]       # (m, 2)
 
-After a run that was killed, frames that were not written have the time NaN: use those with ``t == t`` only.
+After a killed run, frames that were not written have the time NaN: use only those with ``t == t``.
 """
 
 from __future__ import annotations
@@ -39,11 +39,11 @@ from .state import State
 from .system import Force, System
 from .view import write_companion
 
-#: What can be run: a scene or the path of one, a system, a first-order problem.
+#: Problems that can be run: a scene or the path of one, a system, a first-order problem.
 Runnable = Union[Path, Scene, System, FirstOrder]
-#: progress(fraction, state): told at each frame; `fraction` goes from 0 to 1.
+#: progress(fraction, state): called at each frame; `fraction` goes from 0 to 1.
 Progress = Callable[[float, State], Optional[int]]
-#: progress(fraction, what): the share done, 0 to 1, and what is running.
+#: progress(fraction, what): the fraction done, 0 to 1, and the name of the running task.
 WorkProgress = Callable[[float, str], Optional[int]]
 
 _STOPPED = 1
@@ -60,12 +60,12 @@ class Frames(NamedTuple):
 
 @dataclass(frozen=True)
 class Result:
-    """What came out of a run.
+    """The result of a run.
 
-    `status` is "finished", "stopped", "diverged" or "step-limit"; the state is then the last good one,
-    `message` has the details and `diverged_at` the time at which it was noticed [s] (NaN if not).
-    `stop_value` is what the callback that stopped the run returned, `output` the file that was written.
-    `integrator` is kept of a run that blew up, to be asked why. `error` is how wrong the run is, where that was asked for.
+    `status` is "finished", "stopped", "diverged" or "step-limit"; the state is then the last good one, `message` has
+    the details and `diverged_at` the time at which it was noticed [s] (NaN if not). `stop_value` is the value
+    returned by the callback that stopped the run, `output` the file that was written. `integrator` is kept if the run
+    blew up, for `hooke.why`. `error` is the error of the run, if that was requested.
     """
 
     status: str
@@ -84,8 +84,8 @@ class Result:
 
     @property
     def diagnosis(self) -> str:
-        """Why the run ended early, where and when, in a sentence or two; "" if it did not. ``hooke.why(result)`` has
-        the rest."""
+        """The cause of an early end of the run, with place and time, in a sentence or two; "" if it did not end
+        early. ``hooke.why(result)`` has the rest."""
         return "" if self.integrator is None else self.integrator.diagnosis
 
     @property
@@ -123,17 +123,17 @@ def run(
 ) -> Result:
     """Runs a scene (or the path of one), a system or a first-order problem, and returns the `Result`.
 
-    The keywords `options` are those that ``hooke.describe("run")`` lists: method, step [s], duration [s],
-    every [s], checkpoint [s], rtol, atol [m], atol_velocity [m/s], ...; they win over the scene's own. `state` is where to
-    start (it is changed; by default the initial state), `output` the HDF5 file to write (beside it comes the
-    ``.xdmf`` by which ParaView reads it; with `checkpoint` also ``<output>.checkpoint``, until the run has finished, for
-    `hooke.resume`), ``frames=True`` keeps all frames in memory, `force` adds a force
-    callback (see `System.set_force`), ``progress(fraction, state)`` is told at each frame, ``progress=True``
-    shows a bar (with tqdm); for `on_frame` and `on_step` see `Integrator.run`.
+    The keywords `options` are those that ``hooke.describe("run")`` lists: method, step [s], duration [s], every [s],
+    checkpoint [s], rtol, atol [m], atol_velocity [m/s], ...; they override the scene's own. `state` is the start (it
+    is changed; by default the initial state), `output` the HDF5 file to write (with its ``.xdmf`` companion for
+    ParaView; with `checkpoint` also ``<output>.checkpoint``, until the run has finished, for `hooke.resume`),
+    ``frames=True`` keeps all frames in memory, `force` adds a force callback (see `System.set_force`),
+    ``progress(fraction, state)`` is called at each frame, ``progress=True`` shows a bar (with tqdm); for `on_frame`
+    and `on_step` see `Integrator.run`.
 
-    ``want="1mm"`` (or a number [m]) picks a method and its step or tolerance so that no frame is off by more than this,
-    runs, measures the error, and takes a finer one if that is not met; a `method` that is given restricts the choice.
-    ``estimate=True`` has the error of a run estimated after it has run. The result's `error` then has it.
+    ``want="1mm"`` (or a number [m]) picks a method and its step or tolerance such that no frame has a larger error,
+    runs, measures the error, and refines if the wanted error is not met; a given `method` restricts the choice.
+    ``estimate=True`` estimates the error of the run after it. The result's `error` holds it.
     """
     scene, problem, given = resolve(problem, force)
     wanted = (given.copy() if given is not None else Options.for_run()).set(**options)
@@ -147,7 +147,7 @@ def run(
 
 @dataclass(frozen=True)
 class _Once:
-    """What stays the same from run to run."""
+    """The unchanged parts of repeated runs."""
 
     problem: System | FirstOrder
     scene: Scene | None
@@ -189,7 +189,7 @@ class _Once:
 def _run_to_want(
     once: _Once, system: System, options: Options, given: dict[str, Any], want: Length | None
 ) -> Result:
-    """Runs, with a wanted error until it is met or nothing finer is known to help."""
+    """Runs; with a wanted error, repeats until it is met or nothing finer is known to help."""
     estimate = Estimate(system, want)
     if want is not None:
         estimate.pick(options, given)
@@ -210,14 +210,14 @@ def resume(
     on_frame: Observer | None = None,
     on_step: tuple[int, Observer] | None = None,
 ) -> Result:
-    """Goes on with the run of the file `output`, which stopped or was killed, as if it had never stopped: the file, the
-    final state and the counts are then the same to the bit. Of a run that has finished, the `Result` is the last frame,
-    with the one count that its file has, "steps", and NaN for the time that it took.
+    """Continues the run of the file `output`, which was stopped or killed: the file, the final state and the counts
+    are then those of an uninterrupted run, to the bit. For a finished run the `Result` has the last frame, the one
+    count in the file, "steps", and NaN for the time of the run.
 
-    The options are those of the run, but for `threads`. So is the scene, unless `problem` is given, as it has to be
-    where the run was not made from a scene, or with callbacks; `force` is the force callback that it had. It goes on from the
-    checkpoint beside the file, where there is none from the last frame, and with error control from the beginning. The
-    rest is as in `run`.
+    The options are those of the run, except `threads`. The scene is that of the run, too, unless `problem` is given,
+    which is required if the run was not made from a scene, or used callbacks; `force` is its force callback. The run
+    continues from the checkpoint beside the file; without one, from the last frame, and with error control from the
+    beginning. The rest is as in `run`.
     """
     scene, options = Scene.load(output) if problem is None else None, _options_of(output)
     _, system, _ = resolve(scene if scene is not None else problem, force)  # type: ignore[arg-type]
@@ -270,7 +270,7 @@ def _record(path: Path) -> Handle:
 
 
 def _options_of(path: Path) -> Options:
-    """Those of the run of a file."""
+    """Options of the run of a file."""
     record = _record(path)
     return Options(Handle(lib.hooke_record_options(record), None, record), read_only=True).copy()
 
@@ -287,7 +287,7 @@ def _read_last(path: Path, state: State) -> int:
 def resolve(
     problem: Runnable, force: Force | None
 ) -> tuple[Scene | None, System | FirstOrder, Options | None]:
-    """The scene (if there is one), the problem and the options of a run that the scene gives."""
+    """The scene (if there is one), the problem and the run options of the scene."""
     scene, options = None, None
     if isinstance(problem, (str, os.PathLike)):
         problem = Scene.load(problem)
@@ -345,7 +345,7 @@ def _run_to_file(
     watchers: list[Observer],
     on_step: tuple[int, Observer] | None,
 ) -> str:
-    if not watchers:  # who watches is told of frames that are there
+    if not watchers:  # existing frames are reported to the observer
         lib.hooke_trajectory_write_behind(file)
 
     def write(step: int, state: State) -> None:
@@ -362,7 +362,7 @@ def _run_to_file(
             _keep_place(keep, state)
     except BaseException as exception:
         outcome = getattr(exception, "status", None)
-        with contextlib.suppress(Error):  # it is the exception that matters
+        with contextlib.suppress(Error):  # the exception takes precedence
             _keep_place(keep, state)
         with contextlib.suppress(BadCall):  # in a fork
             lib.hooke_trajectory_close(file, outcome if isinstance(outcome, int) else _STOPPED)
@@ -373,8 +373,8 @@ def _run_to_file(
 
 
 def _keep_place(keep: Callable[[int, State], None], state: State) -> None:
-    """A place to go on from, where the method has one: numbers that are not finite, and error control without
-    checkpoints, give none."""
+    """A point to continue from, if the method has one: non-finite numbers, and error control without checkpoints,
+    give none."""
     with contextlib.suppress(Unsuited, BadValue, BadCall):
         keep(0, state)
 

@@ -33,11 +33,11 @@ class Scene(Parts):
             size=(12, 12), edges=((1, 0, 0), (0, 0, 1)), mass=1,
             structural=dict(stiffness=50, damping=0.01), pinned="top-corners")
 
-    or read with `load` and `parse`, and then added to in the same way. Each call checks what it is given and raises
-    `BadValue` with the place (``cloth.structural.stiffness: ...``), leaving the scene as it was. Particles are numbered
-    from 0: those of `particles` first, then those of parts in their order. The first use that needs a finished system
-    (a run, a state, `save`) commits it; after that nothing can be added. Until then ``scene.system`` also takes what
-    has no word in the format, such as a force of your own.
+    or read with `load` and `parse`, and then added to in the same way. Each call checks its arguments and raises
+    `BadValue` with the place (``cloth.structural.stiffness: ...``), leaving the scene unchanged. Particles are
+    numbered from 0: those of `particles` first, then those of parts in their order. The first use that needs a
+    finished system (a run, a state, `save`) commits it; after that nothing can be added. Until then ``scene.system``
+    also accepts additions that the format cannot express, such as a force of your own.
 
     `gravity` (3,) [m/s^2]; `drag` [N s/m] of the ether, ``f = -c v``; `run` are defaults for runs of the scene, see
     `run_defaults`.
@@ -54,7 +54,7 @@ class Scene(Parts):
         self._system = System()
         self._run = Options.for_run()
         self._title = title
-        self._parts: dict[str, range] = {}  # of those that are known
+        self._parts: dict[str, range] = {}  # of the known ones
         self._text: str | None = None  # None: to be made from the document
         self._document: dict[str, Any] | None = {"hooke": 1}
         if title:
@@ -81,11 +81,9 @@ class Scene(Parts):
 
     @classmethod
     def load(cls, path: Path, *, memory: float | None = None, outside: bool = False) -> Scene:
-        """Reads a scene file, or the scene of a trajectory file with the options of its run. `memory` [GB] is what the
-        scene may need, None: as much as the machine has; with `outside` it may name files outside its folder.
-
-        BadValue says what is wrong where; IOFailed if it cannot be read.
-        """
+        """Reads a scene file, or the scene of a trajectory file with the options of its run. `memory` [GB] is the
+        maximum memory of the scene, None: the machine's; with `outside` it may name files outside its folder.
+        BadValue describes a fault and its place; IOFailed if the file cannot be read."""
         pointer = SCENE()
         limits = limits_of(memory, outside)
         lib.hooke_scene_load(os.fsencode(path), limits._handle, ctypes.byref(pointer))
@@ -103,7 +101,7 @@ class Scene(Parts):
     ) -> Scene:
         """Reads a scene from its text, or from a dict of the same shape, which may hold NumPy arrays.
 
-        `name` stands for the file in messages; files named in the scene are looked up in `folder` (None: none are
+        `name` replaces the file name in messages; files named in the scene are looked up in `folder` (None: none are
         allowed); `memory` and `outside` are those of load().
         """
         if isinstance(scene, Mapping):
@@ -123,9 +121,9 @@ class Scene(Parts):
         self, position: Numbers, velocity: Numbers | None = None, *, mass: Numbers, pinned: Numbers | None = None
     ) -> Scene:
         """Adds particles at `position` (n, 3) [m] with `velocity` (n, 3) [m/s], at rest if None, and `mass` [kg], one
-        number for all or (n,); `pinned` are the numbers of those held still.
+        number for all or (n,); `pinned` are the numbers of the pinned ones.
 
-        A scene has one block of them, given before its parts, since they are numbered first. Returns the scene.
+        A scene has one such block, given before its parts, since it is numbered first. Returns the scene.
         """
         with placed("particles"):
             self._require_no_particles()
@@ -158,12 +156,13 @@ class Scene(Parts):
         rest_scale: float | None = None,
         compression: bool | None = None,
     ) -> Scene:
-        """Adds a group of springs `between` pairs of particles (m, 2), which are there already: numbers, or
-        ``("part", number)`` within a part of that name.
+        """Adds a group of springs `between` existing pairs of particles (m, 2): numbers, or ``("part", number)``
+        within a part of that name.
 
-        `law` is "strain" (default) or "length"; `stiffness` [N], or [N/m] in the length law; `damping` [N s], or
-        [N s/m]; `rest_length` [m] or "initial" (default), the distance at the start: each one number or (m,).
-        `rest_scale` is a factor on the rest length; with ``compression=False`` the springs only pull. Returns the scene.
+        `law` is "strain" (default) or "length"; `stiffness` [N], or [N/m] in the length law; `damping` [N s], or [N
+        s/m]; `rest_length` [m] or "initial" (default), the distance at the start: each one number or (m,).
+        `rest_scale` is a factor on the rest length; with ``compression=False`` the springs only pull. Returns the
+        scene.
         """
         given = {
             "law": law,
@@ -192,9 +191,9 @@ class Scene(Parts):
         damping: Numbers | None = None,
         rest_length: Numbers | None = None,
     ) -> Scene:
-        """Adds a group of springs from `particles` (m,), which are there already, to fixed `points` (m, 3) [m], or
-        "initial" (default), where the particles are in the scene; `stiffness` [N/m], `damping` [N s/m] and
-        `rest_length` [m], 0 if None: each one number or (m,). Returns the scene."""
+        """Adds a group of springs from existing `particles` (m,) to fixed `points` (m, 3) [m], or "initial"
+        (default), the initial positions of the particles; `stiffness` [N/m], `damping` [N s/m] and `rest_length` [m],
+        0 if None: each one number or (m,). Returns the scene."""
         given = {"points": points, "stiffness": stiffness, "damping": damping, "rest_length": rest_length}
         keys = {key: _kept(value) for key, value in given.items() if value is not None}
         with placed(f"anchors[{self._count('anchors')}]"):
@@ -214,7 +213,7 @@ class Scene(Parts):
         time: Numbers | None = None,
         position: Numbers | None = None,
     ) -> Scene:
-        """Moves `particles`, which are there already, as prescribed about where they are.
+        """Prescribes the motion of existing `particles` about their initial positions.
 
         With `motion` "harmonic" by ``amplitude * sin(2 pi frequency t + phase)``: `amplitude` (3,) [m], `frequency`
         [Hz], `phase` [rad], 0 if None; with "table" along a smooth curve through `position` (k, 3) [m], displacements
@@ -234,8 +233,8 @@ class Scene(Parts):
         return self
 
     def run_defaults(self, **options: Any) -> Scene:
-        """Sets options that runs of the scene have unless they are given others: method, step [s], duration [s],
-        every [s], ..., as ``hooke.describe("run")`` lists them. Returns the scene."""
+        """Sets default options of runs of the scene: method, step [s], duration [s], every [s], ..., as
+        ``hooke.describe("run")`` lists them. Returns the scene."""
         with placed("run"):
             self._run.copy().set(**options)  # all of them or none
         self._run.set(**options)
@@ -275,17 +274,17 @@ class Scene(Parts):
 
     @property
     def run_options(self) -> Options:
-        """The options of a run that the scene gives; they may be changed."""
+        """The run options of the scene, which may be changed."""
         return self._run
 
     @property
     def title(self) -> str:
-        """Its title, "" if it has none."""
+        """Its title; "" if it has none."""
         return self._title
 
     @property
     def text(self) -> str:
-        """The scene as JSON text: what was read, or what was built."""
+        """The scene as JSON text, as read or built."""
         if self._text is not None:
             return self._text
         run = {name: self._run[name] for name in self._run if self._run.is_set(name)}
@@ -298,7 +297,7 @@ class Scene(Parts):
         return run(self, **options)
 
     def save(self, path: Path) -> None:
-        """Writes the scene as it is now, its system and `run_options`, as a scene file; see `System.save`."""
+        """Writes the current scene, its system and `run_options`, as a scene file; see `System.save`."""
         write_scene(path, self._system, self.title, self.run_options)
 
     def __repr__(self) -> str:
@@ -332,7 +331,7 @@ class Scene(Parts):
             raise BadCall("they are numbered before those of parts, so give them before the first part")
 
     def _numbers(self, particles: Any, name: str) -> IntArray:
-        """Particles as numbers, those of parts by the names of these resolved."""
+        """Particles as numbers, with particles of named parts resolved."""
         if isinstance(particles, np.ndarray):
             return np.array(indices(particles, name))  # the caller's may change
         return indices(self._resolved(particles, name), name)
@@ -357,7 +356,7 @@ class Scene(Parts):
         return particles[int(number)]
 
     def _find_parts(self, names: list[str]) -> None:
-        """The particles of parts that were read: each is as large as the same one in a system of its own."""
+        """The particles of parts in a loaded scene: each part is as large as the same one in a system of its own."""
         ranges: dict[str, range] = {}
         last = self._system.particle_count
         for name, part in reversed(list(zip(names, self._opened()["parts"]))):
@@ -380,7 +379,7 @@ def limits_of(memory: float | None, outside: bool) -> Options:
 
 
 def scene_text(scene: Scene | None) -> bytes | None:
-    """The text that files of a run keep, None if there is no scene."""
+    """The text stored in files of a run; None if there is no scene."""
     return None if scene is None else scene.text.encode()
 
 
@@ -419,7 +418,7 @@ def _require_rest(velocity: FloatArray, held: IntArray) -> None:
 
 
 def _kept(value: Any) -> Any:
-    """What the document keeps of a value, which is the caller's and may change."""
+    """The document's copy of a value, which the caller may change."""
     return value.copy() if isinstance(value, np.ndarray) else value
 
 

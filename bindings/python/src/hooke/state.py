@@ -1,4 +1,4 @@
-"""What moves: time, positions and velocities."""
+"""State of a motion: time, positions and velocities."""
 
 from __future__ import annotations
 
@@ -17,9 +17,9 @@ class State:
     """Time, positions and velocities of a system (``system.state()``) or of a first-order problem
     (``problem.state()``).
 
-    `q` and `v` are NumPy arrays over the library's own memory, no copy: write into them to set the state, and
-    read them again after a run. They stay valid however long they are kept, also when the state itself is
-    gone. A state can be copied and pickled; one that was pickled belongs to no system, and fits all of its size.
+    `q` and `v` are NumPy arrays over the library's own memory, no copy: write into them to set the state, and read
+    them again after a run. They stay valid as long as they are kept, even without the state. A state can be copied
+    and pickled; an unpickled one belongs to no system, and fits all of its size.
     """
 
     __slots__ = ("__weakref__", "_handle", "_q", "_v", "_x")
@@ -50,7 +50,7 @@ class State:
 
     @classmethod
     def _of_particles(cls, count: int) -> State:
-        """Of a system that has so many particles and nothing else."""
+        """A state of a system with that many particles and nothing else."""
         pointer = SYSTEM()
         lib.hooke_system_create(ctypes.byref(pointer))
         system = Handle(pointer, lib.hooke_system_destroy)
@@ -98,7 +98,7 @@ class State:
         self._x[...] = plain(value, "x")
 
     def copy(self) -> State:
-        """A state of its own with the same values."""
+        """A copy with the same values."""
         if self._v is None:
             other = State._of_size(lib.hooke_state_size(self._handle), self._x.dtype)
         else:
@@ -116,7 +116,7 @@ class State:
         return _restored, (self.t, self._x.copy(), None if self._v is None else self._v.copy())
 
     def assign(self, other: State) -> None:
-        """Takes over time, positions and velocities of a state of the same size."""
+        """Copies time, positions and velocities from a state of the same size."""
         lib.hooke_state_copy(other._handle, self._handle)
 
     def _no_particles(self, name: str) -> Any:

@@ -1,4 +1,4 @@
-"""Studies: how accurate each method is for what it costs on one scene, and which one to take."""
+"""Studies: accuracy and cost of each method on one scene, and a recommendation."""
 
 from __future__ import annotations
 
@@ -20,12 +20,11 @@ from .system import Force, System
 
 
 class Reference(NamedTuple):
-    """What the errors are measured against: the two integrators that made it, which share only the force;
-    how far they are apart at most [m], the floor of all errors; the time until which they agree [s], up to
-    which errors are judged; and how much a small displacement of the start grows at most, true with
-    `growth_probability`, both NaN where that is not known. `growth_seen` is the most that one of
-    `displacements` displacements grew. `energy_agreement` [J] is the floor of energy drift. `ended` says why it
-    was made no better: "agreed", "time" (the budget), or "rounding"."""
+    """The reference of the errors: the two integrators that made it, which share only the force; their largest
+    distance [m], the floor of all errors; the time until which they agree [s], up to which errors are judged; and a
+    bound on the growth of a small displacement of the start, true with `growth_probability`, both NaN if unknown.
+    `growth_seen` is the largest growth of `displacements` displacements. `energy_agreement` [J] is the floor of
+    energy drift. `ended` says why it was not refined further: "agreed", "time" (the budget), or "rounding"."""
 
     methods: tuple[str, str]
     agreement: float
@@ -39,7 +38,8 @@ class Reference(NamedTuple):
 
 
 class Order(NamedTuple):
-    """The order that a fixed-step method showed, its 95 % interval, the theory's, and why they may differ."""
+    """The observed order of a fixed-step method, its 95 % interval, the theoretical order, and reasons for a
+    difference."""
 
     order: float
     low: float
@@ -49,7 +49,7 @@ class Order(NamedTuple):
 
 
 class Series(NamedTuple):
-    """One row over the frames that are judged, each (k,): time [s], error [m], energy_drift [J]."""
+    """One row over the judged frames, each (k,): time [s], error [m], energy_drift [J]."""
 
     time: FloatArray
     error: FloatArray
@@ -57,10 +57,10 @@ class Series(NamedTuple):
 
 
 class Margin(NamedTuple):
-    """What a recommendation has to spare: its error, less and plus the agreement of the reference [m]; its step
-    over the largest stable one at the start (NaN: none, or unknown); and the error where stiffness is 10 %
-    more or less, or where all particles start with a tenth of the largest speed more or less along (1, 1, 1),
-    and whether that is still what is wanted. NaN, and None, where it is not known."""
+    """The margin of a recommendation: its error, minus and plus the agreement of the reference [m]; its step over the
+    largest stable one at the start (NaN: none, or unknown); and the error where stiffness is 10 % more or less, or
+    where all particles start with a tenth of the largest speed more or less along (1, 1, 1), and whether that still
+    meets the wanted error. NaN, and None, if unknown."""
 
     error_low: float
     error_high: float
@@ -72,10 +72,10 @@ class Margin(NamedTuple):
 
 
 class Statistic(NamedTuple):
-    """What an ensemble of displaced runs by one method, or by that of the reference, has of one quantity: at
-    which step [s] or rtol it ran, how many runs have the quantity (`members`) and how many did not come to
-    their end (`failed`), the mean of the runs, their standard deviation (`spread`), and `bias`: the difference
-    from the reference's mean in standard errors of it (below 2 in size none is seen; NaN for the reference)."""
+    """Statistics of one quantity over an ensemble of displaced runs by one method, or by that of the reference: its
+    step [s] or rtol, the number of runs with the quantity (`members`) and of those that did not finish (`failed`),
+    the mean of the runs, their standard deviation (`spread`), and `bias`: the difference from the reference's mean in
+    standard errors (none is visible below 2 in size; NaN for the reference)."""
 
     step: float
     rtol: float
@@ -87,8 +87,8 @@ class Statistic(NamedTuple):
 
 
 class Recommendation(NamedTuple):
-    """The cheapest run that was seen to meet `want` [m]; if `met` is False, the one that came closest, and
-    `note` says what is in the way. Numbers that do not apply are NaN."""
+    """The cheapest run that was seen to meet `want` [m]; if `met` is False, the closest one, and `note` says why.
+    Numbers that do not apply are NaN."""
 
     met: bool
     want: float
@@ -104,7 +104,7 @@ class Recommendation(NamedTuple):
 
     @property
     def options(self) -> dict[str, Any]:
-        """What to give to `hooke.run` to have it."""
+        """The keywords of `hooke.run` for it."""
         numbers = {name: getattr(self, name) for name in ("step", "rtol", "atol")}
         options: dict[str, Any] = {"method": self.method} if self.method else {}
         options.update({name: number for name, number in numbers.items() if not np.isnan(number)})
@@ -114,22 +114,22 @@ class Recommendation(NamedTuple):
 
 
 class Study(Paged, Closing):
-    """A study that was made: one row a method and step or tolerance, the coarsest first.
+    """A finished study: one row a method and step or tolerance, the coarsest first.
 
-    Each column is an array with one entry a row: method, status ("finished", "diverged", "stopped",
-    "failed"), step [s], rtol, atol [m], error (largest root mean square over the free particles [m]),
-    error_max [m], error_final [m], energy_drift [J], force_evaluations, steps, linear_iterations,
-    wall_seconds (the least of `repeats` runs) and wall_median [s]; near_floor (the error is within ten times
-    of what the reference is known to), near_energy_floor (likewise of energy_drift), timed_alone. NaN where a
-    number does not apply. `rows` holds them all as one structured array.
+    Each column is an array with one entry a row: method, status ("finished", "diverged", "stopped", "failed"), step
+    [s], rtol, atol [m], error (largest root mean square over the free particles [m]), error_max [m], error_final [m],
+    energy_drift [J], force_evaluations, steps, linear_iterations, wall_seconds (the least of `repeats` runs) and
+    wall_median [s]; near_floor (the error is within ten times the agreement of the reference), near_energy_floor
+    (likewise for energy_drift), timed_alone. NaN where a number does not apply. `rows` holds them all as one
+    structured array.
 
-    `outcome` is "finished", or "stopped" if the progress function asked for it; `budget_spent` says that
-    rows are missing for lack of time. `orders` has an `Order` for each fixed-step method.
+    `outcome` is "finished", or "stopped" if the progress function asked for it; `budget_spent` says that rows are
+    missing for lack of time. `orders` has an `Order` for each fixed-step method.
 
-    `watched` has for each watched quantity an array of its errors, one a row, in its unit; `agreement` to
-    how much the reference is known in it. `statistics`, empty unless an ensemble was asked for and the
-    reference is not trusted to the end, has for each quantity ("kinetic", "potential", "energy" and what is
-    watched) a `Statistic` for "reference" and for each method.
+    `watched` has for each watched quantity an array of its errors, one a row, in its unit; `agreement` is the
+    accuracy of the reference in it. `statistics`, empty unless an ensemble was requested and the reference is not
+    trusted to the end, has for each quantity ("kinetic", "potential", "energy" and the watched ones) a `Statistic`
+    for "reference" and for each method.
     """
 
     outcome: str
@@ -192,7 +192,7 @@ class Study(Paged, Closing):
 
     @property
     def methods(self) -> list[str]:
-        """The methods that have rows, in the order of the rows."""
+        """The methods with rows, in the order of the rows."""
         return [str(name) for name in dict.fromkeys(self.rows["method"])]
 
     @property
@@ -210,8 +210,7 @@ class Study(Paged, Closing):
         return found
 
     def series(self, row: int) -> Series:
-        """Error and energy drift of a row over the frames that are judged; NaN past the end of a run that
-        diverged."""
+        """Error and energy drift of a row over the judged frames; NaN past the end of a run that diverged."""
         row = range(len(self.rows))[row]
         time = self._handle.series("reference", 0, "time")
         assert time is not None
@@ -220,8 +219,7 @@ class Study(Paged, Closing):
 
     def write(self, path: Path) -> None:
         """Writes the rows as a table to a path that ends in ``.csv``, all tables to one in ``.json``, the whole study
-        to an HDF5 file, ``.h5`` (docs/study.md), which `hooke.plot.study` draws, or to a page to look at,
-        ``.html``."""
+        to an HDF5 file, ``.h5`` (docs/study.md), which `hooke.plot.study` draws, or to a page to read, ``.html``."""
         title = self._scene and self._scene.title
         self._handle.write(path, scene=scene_text(self._scene), title=title or None)
 
@@ -260,18 +258,16 @@ def study(
     progress: WorkProgress | bool | None = None,
     **options: Any,
 ) -> Study:
-    """Runs a scene (or the path of one) or a system by each of `methods` (all that this build has, if None)
-    over a ladder of steps or tolerances, judges every run by a reference that checks itself, and returns the
-    `Study`.
+    """Runs a scene (or the path of one) or a system by each of `methods` (all that this build has, if None) over a
+    ladder of steps or tolerances, judges every run by a reference that checks itself, and returns the `Study`.
 
-    `points` rows a method; `steps` [s] and `tolerances` are ladders of your own, from coarse to fine. `want`
-    [m] asks for a recommendation, `budget` [s] limits the time. `watch` names quantities whose errors are
-    told, too: "57.y" (a particle), "part:0.y", "group:3.length", ".strain" or ".tension" (a spring), "energy",
-    "kinetic", "potential", "period:57.y". `ensemble` is the number of displaced starts, by noise from `seed`,
-    of which means and spreads are told where the motion is too chaotic to be judged. `output` is a file to write (see
-    `Study.write`), `force` adds a force callback, ``progress(fraction, what)`` is told of progress
-    (``progress=True`` shows a bar, with tqdm) and stops
-    the study by returning a number other than 0. The keywords `options` are those of a run: duration [s],
+    `points` rows a method; `steps` [s] and `tolerances` are ladders of your own, from coarse to fine. `want` [m]
+    requests a recommendation, `budget` [s] limits the time. `watch` names quantities whose errors are reported, too:
+    "57.y" (a particle), "part:0.y", "group:3.length", ".strain" or ".tension" (a spring), "energy", "kinetic",
+    "potential", "period:57.y". `ensemble` is the number of starts displaced by noise from `seed`; their means and
+    spreads are reported if the motion is too chaotic to be judged. `output` is a file to write (see `Study.write`),
+    `force` adds a force callback, ``progress(fraction, what)`` receives progress (``progress=True`` shows a bar, with
+    tqdm) and stops the study by returning a non-zero number. The keywords `options` are those of a run: duration [s],
     every [s], threads, ... ``hooke study --report FILE.html`` makes a page with diagrams of the same study.
     """
     scene, system, run = prepare("study", problem, force, options)

@@ -1,4 +1,4 @@
-"""What a scene is: particles, springs and forces."""
+"""The system: particles, springs and forces."""
 
 from __future__ import annotations
 
@@ -31,13 +31,12 @@ Drive = Callable[[float, FloatArray, FloatArray], Optional[int]]
 class System(Queries):
     """Particles, springs and forces: built by calls that add to it, then committed and constant from then on.
 
-    The first use that needs a finished system (a state, a run, a force or an energy) commits it; `commit()`
-    does so at a moment of your choice. Units are SI. Particles and springs are numbered from 0 in the order
-    in which they are added, springs of parts after all others.
+    The first use that needs a finished system (a state, a run, a force or an energy) commits it; `commit()` does so
+    at a moment of your choice. Units are SI. Particles and springs are numbered from 0 in the order in which they are
+    added, springs of parts after all others.
 
-    Callbacks are given arrays that are valid during the call only: copy what you want to keep. They return
-    None or 0 to go on; any other whole number stops the run. An exception stops it too, and is raised again
-    by the call that ran.
+    Callbacks receive arrays that are valid during the call only: copy data that you want to keep. They return None or
+    0 to go on; any other integer stops the run. An exception stops it too, and is raised again by the call that ran.
     """
 
     def __init__(self) -> None:
@@ -54,7 +53,7 @@ class System(Queries):
 
     @classmethod
     def _committed_by(cls, handle: Handle, callbacks: list[Any]) -> System:
-        """One that the library made and keeps, with the callbacks of another."""
+        """A system that the library made and owns, with the callbacks of another."""
         system = cls.__new__(cls)
         system._adopt(handle, lambda: None)
         system._callbacks = callbacks
@@ -92,7 +91,7 @@ class System(Queries):
         return range(first.value, first.value + count)
 
     def pin(self, particles: Any) -> None:
-        """Holds particles (a number or several) still."""
+        """Pins particles (a number or several)."""
         particles = indices(particles, "particles").reshape(-1)
         lib.hooke_system_pin(self._handle, particles.size, index_pointer(particles))
 
@@ -134,9 +133,9 @@ class System(Queries):
         )
 
     def add_altitude(self, name: str | None, tetrahedra: Any, **options: Any) -> None:
-        """Adds altitude springs on `tetrahedra` of particles (m, 4): the altitude of each that is shortest at the
-        time is a spring whose rest length is that altitude as added. Options are ``stiffness`` [N] and
-        ``damping`` [N s], one for all or (m,), ``rest_scale`` and ``compression``."""
+        """Adds altitude springs on `tetrahedra` of particles (m, 4): the currently shortest altitude of each is a
+        spring whose rest length is that altitude as added. Options are ``stiffness`` [N] and ``damping`` [N s], one
+        for all or (m,), ``rest_scale`` and ``compression``."""
         corners = indices(tetrahedra, "tetrahedra")
         if corners.size == 0:
             corners = corners.reshape(0, 4)
@@ -152,8 +151,8 @@ class System(Queries):
 
     def add_anchors(self, name: str | None, particles: Any, **options: Any) -> None:
         """Adds anchors, springs from `particles` (m,) to fixed points, with the options that
-        ``hooke.describe("anchors")`` lists: ``points`` (m, 3) [m], "initial" for where the particles were added;
-        ``stiffness`` [N/m], ``damping`` [N s/m] and ``rest_length`` [m], one for all or (m,)."""
+        ``hooke.describe("anchors")`` lists: ``points`` (m, 3) [m], or "initial" for the initial positions of the
+        particles; ``stiffness`` [N/m], ``damping`` [N s/m] and ``rest_length`` [m], one for all or (m,)."""
         numbers = indices(particles, "particles").reshape(-1)
         lib.hooke_system_add_anchors(
             self._handle,
@@ -191,8 +190,8 @@ class System(Queries):
         lib.hooke_system_set_gravity(self._handle, double_pointer(doubles(gravity, "gravity", (3,))))
 
     def limit_memory(self, size: float) -> None:
-        """What the system may need of memory [bytes]; 0: as much as the machine has. What would need more is refused from
-        here on (NoMemory)."""
+        """Sets the maximum memory of the system [bytes]; 0: the machine's memory. From here on, additions that would
+        need more are refused (NoMemory)."""
         lib.hooke_system_limit_memory(self._handle, size)
 
     def set_drag(self, coefficient: float) -> None:
@@ -200,9 +199,9 @@ class System(Queries):
         lib.hooke_system_set_drag(self._handle, coefficient)
 
     def set_force(self, force: Force, product: ForceProduct | None = None) -> None:
-        """Adds a force of your own, ``force(t, q, v, force)``, which adds newtons to its last argument.
-        ``product(t, q, v, dq, dv, out)`` adds the product with its derivative to `out`; without it
-        difference quotients stand in."""
+        """Adds a force of your own, ``force(t, q, v, force)``, which adds newtons to its last argument. ``product(t,
+        q, v, dq, dv, out)`` adds the product with its derivative to `out`; without it difference quotients replace
+        it."""
         callbacks = (
             _callback.force_callback(force),
             _callback.product_callback(product) if product else FORCE_PRODUCT(),
@@ -263,9 +262,9 @@ class System(Queries):
         return run(self, **options)
 
     def save(self, path: str | os.PathLike[str], title: str = "", **options: Any) -> None:
-        """Writes the system as a scene file, with `options` of a run: parts and groups of springs by the options that
-        they were made from, the rest number by number. `Scene.load` then gives the same system to the bit, with the
-        particles of parts after the others. Unsuited if it has callbacks."""
+        """Writes the system as a scene file, with `options` of a run: parts and groups of springs by their options,
+        the rest number by number. `Scene.load` then gives the same system to the bit, with the particles of parts
+        after the others. Unsuited if it has callbacks."""
         write_scene(path, self, title, Options.for_run().set(**options))
 
     def _integrator(self, options: Options) -> Handle:

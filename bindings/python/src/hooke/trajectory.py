@@ -1,7 +1,5 @@
-"""Trajectory files read back, without h5py: what a run wrote, as arrays.
-
-The files are H5MD 1.1 (HDF5), so that h5py and other programs read them, too.
-"""
+"""Reading trajectory files without h5py: the output of a run, as arrays. The files are H5MD 1.1 (HDF5), so that h5py
+and other programs read them, too."""
 
 from __future__ import annotations
 
@@ -50,11 +48,11 @@ class Energy(NamedTuple):
 
 
 class Trajectory(Closing):
-    """What a run wrote to a file, see `open`.
+    """The output file of a run, see `open`.
 
-    ``len(trajectory)`` is the number of frames that are there; frames of a run that was killed before it wrote them
-    are not. ``trajectory[k]`` is a `Frame`, ``trajectory[a:b]`` the `Frames` of a slice, and a loop goes over frames.
-    Positions and velocities are mapped from the file, not read: only the pages that are looked at come into memory.
+    ``len(trajectory)`` is the number of written frames, which is less than planned if the run was killed.
+    ``trajectory[k]`` is a `Frame`, ``trajectory[a:b]`` the `Frames` of a slice, and a loop goes over frames.
+    Positions and velocities are mapped from the file, not read: only the pages accessed are loaded into memory.
     """
 
     def __init__(self, path: Path):
@@ -114,29 +112,29 @@ class Trajectory(Closing):
     @property
     def status(self) -> str:
         """How the run ended: "finished", "stopped", "diverged", "step-limit", "solver-failed" or "failed"; "running"
-        while it lasts, or where it was killed."""
+        while it lasts, or if it was killed."""
         return text(lib.hooke_record_text(self._handle, b"status"))
 
     @property
     def error(self) -> RunError | None:
-        """How wrong the run is, as it was found after it; None where that was not looked into."""
+        """The error of the run, as estimated after it; None if it was not estimated."""
         by, note = (text(lib.hooke_record_text(self._handle, what)) for what in (b"error_by", b"error_note"))
         if not by and not note:
             return None
         numbers = [float(number) for number in self._numbers("error")]
-        # files of before the excess of heat was told have a number less
+        # files written before the excess of heat was reported have one number less
         estimate, known_from, known_until, rise, wanted, met, excess = [*numbers, math.nan][:7]
         reached = None if math.isnan(met) else met == 1.0
         return RunError(estimate, known_from, known_until, by or None, wanted, reached, rise, excess, note)
 
     @property
     def options(self) -> Options:
-        """The options of the run, as it ran."""
+        """The options of the run, with defaults filled in."""
         return Options(Handle(lib.hooke_record_options(self._handle), None, self._handle), read_only=True)
 
     @property
     def scene(self) -> Scene | None:
-        """The scene that was run, with the options of the run; None if the run was not made from one."""
+        """The scene of the run, with its options; None if the run was not made from one."""
         if not text(lib.hooke_record_text(self._handle, b"scene")):
             return None
         if "scene" not in self._kept:
@@ -146,7 +144,7 @@ class Trajectory(Closing):
 
     @property
     def system(self) -> System:
-        """The system of the scene; a force or a drive that was a callback is not in it."""
+        """The system of the scene, without callbacks for a force or a drive."""
         if self.scene is None:
             raise BadValue(f"{self.path}: holds no scene: the run was not made from one")
         return self.scene.system
@@ -163,35 +161,35 @@ class Trajectory(Closing):
 
     @property
     def pinned(self) -> IntArray:
-        """Numbers of the particles that are held still (k,)."""
+        """Numbers of the pinned particles (k,)."""
         return np.flatnonzero(self._numbers("species") == 1)
 
     @property
     def driven(self) -> IntArray:
-        """Numbers of the particles that are moved as prescribed (k,)."""
+        """Numbers of the driven particles (k,)."""
         return np.flatnonzero(self._numbers("species") == 2)
 
     @property
     def run(self) -> str:
-        """Which run the file is of: 32 hexadecimal digits that no other run has."""
+        """Identifier of the run: 32 hexadecimal digits, unique to the run."""
         return text(lib.hooke_record_text(self._handle, b"run"))
 
     def check(self, frame: int | None = None) -> None:
-        """Looks whether the numbers of a frame, or of all, are those that were written, by the check values beside them.
-        BadValue names a frame that is damaged. `state` looks by itself; what is mapped or read as a whole column, such
-        as `q` and `energy`, is handed out as it is."""
+        """Compares the numbers of a frame, or of all frames, with their check values. BadValue names a damaged frame.
+        `state` makes this check itself; data that are mapped or read as a whole column, such as `q` and `energy`, are
+        not checked."""
         for k in range(self._count) if frame is None else [frame]:
             lib.hooke_record_check(self._handle, k)
 
     def state(self, frame: int = -1) -> State:
-        """The state at a frame, of its own, to go on from or to ask the system about; needs the scene. BadValue if the
-        frame is damaged."""
+        """The state at a frame, a copy, to continue from or for queries of the system; needs the scene. BadValue if
+        the frame is damaged."""
         state = self.system.state()
         lib.hooke_record_read(self._handle, frame, state._handle)
         return state
 
     def strain(self, frame: int = -1) -> FloatArray:
-        """Strain of every spring at a frame (m,): length over rest length, less 1; infinite or NaN where the rest
+        """Strain of every spring at a frame (m,): length over rest length, minus 1; infinite or NaN where the rest
         length is 0. Needs the scene."""
         rest = self.system.spring_material.rest_length
         q, ends = self[frame].q, self.springs
@@ -248,7 +246,7 @@ class Trajectory(Closing):
         return embed(lambda page: view(self.path, page), 560)
 
     def close(self) -> None:
-        """Lets go of the file; arrays that were given out stay valid. A second call does nothing."""
+        """Closes the file; arrays obtained from it stay valid. A second call does nothing."""
         self._kept.clear()
         super().close()
 
@@ -290,7 +288,7 @@ class Trajectory(Closing):
         return self._copied(what, shape)
 
     def _copied(self, what: str, shape: tuple[int, int, int]) -> FloatArray:
-        """Frames that another program has stored in another way, such as compressed."""
+        """Frames that another program has stored in another layout, such as compressed."""
         system = System()
         system.add_particles(np.zeros(shape[1:]), mass=1)
         state, frames = system.state(), np.empty(shape)
@@ -302,12 +300,12 @@ class Trajectory(Closing):
 
 
 def open(path: Path) -> Trajectory:
-    """Opens the file that a run wrote, finished or not, as a `Trajectory`::
+    """Opens the output file of a run, finished or not, as a `Trajectory`::
 
         with hooke.open("out.h5") as out:
             print(len(out), out.t[-1], out.energy.total[-1])
             out.animate().save("out.gif")
 
-    IOFailed if it cannot be read, BadValue if it is none of hooke's.
+    IOFailed if it cannot be read, BadValue if hooke did not write it.
     """
     return Trajectory(path)

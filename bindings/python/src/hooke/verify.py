@@ -1,4 +1,4 @@
-"""Whether a trajectory is what its scene gives."""
+"""Checks that a trajectory reproduces from its scene."""
 
 from __future__ import annotations
 
@@ -17,11 +17,11 @@ from .scene import limits_of
 
 
 class Verification:
-    """What was found of a trajectory; true where it is what its scene gives.
+    """The result of verifying a trajectory; true if it reproduces from its scene.
 
-    `verdict` is "agrees" (to the bit), "within-tolerance" (made by other versions or on another machine), "disagrees" or
-    "stopped"; `difference` says what differs, "" if nothing does. `texts` and `numbers` are the columns of the table
-    "verify", by name: ``found.numbers["error_estimate"]`` [m].
+    `verdict` is "agrees" (to the bit), "within-tolerance" (made by other versions or on another machine), "disagrees"
+    or "stopped"; `difference` describes the difference, "" if there is none. `texts` and `numbers` are the columns of
+    the table "verify", by name: ``found.numbers["error_estimate"]`` [m].
     """
 
     def __init__(self, record: dict[str, Any]):
@@ -45,12 +45,12 @@ def verify(
     progress: WorkProgress | bool | None = None,
     **options: Any,
 ) -> Verification:
-    """Runs a slice of a trajectory again from what the file holds and compares it with its frames to the bit; holds every
-    frame against its check value, takes the balance of energy and estimates the error.
+    """Repeats a slice of a trajectory from the contents of its file and compares it with its frames to the bit;
+    compares every frame with its check value, computes the energy balance and estimates the error.
 
-    Keywords: `slice` (from, to) [s], `all`, `budget` [s] of work where neither is given, `bits` for the bits alone;
-    `memory` and `outside` as in `Scene.load`; ``progress(share, what)`` is told how far it is, True for a bar. A file that is
-    not what its scene gives is a result, not an error.
+    Keywords: `slice` (from, to) [s], `all`, `budget` [s] of work if neither is given, `bits` for the bits alone;
+    `memory` and `outside` as in `Scene.load`; ``progress(share, what)`` receives progress, True for a bar. A file
+    that does not reproduce is a result, not an error.
     """
     given = Options._of("verify").set(**options)
     limits = limits_of(memory, outside)

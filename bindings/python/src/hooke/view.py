@@ -1,4 +1,4 @@
-"""Showing trajectory files: as a page for a browser, and to ParaView."""
+"""Viewing trajectory files: as a page for a browser, and in ParaView."""
 
 from __future__ import annotations
 
@@ -31,8 +31,9 @@ def view(
     """Writes a trajectory as one HTML page that plays it, to open in a browser, offline, and returns its path.
 
     `trajectory` is a file that ``hooke.run(..., output=...)`` or ``hooke run -o`` wrote, or the `Result` of such a
-    run; `output` the page, by default the file's name with ``.html``; `title` stands over it (by default the
-    scene's). Keywords: `frames` and `springs` at most, `size` of the page [MB]; what is left out is said on it.
+    run; `output` the page, by default the file's name with ``.html``; `title` is its heading (by default the
+    scene's). Keywords: the maximum number of `frames` and `springs`, and the maximum `size` of the page [MB]; the
+    page states what is omitted.
     """
     source = _file_of(trajectory)
     page = Path(os.fspath(output)) if output is not None else source.with_suffix(".html")
@@ -48,9 +49,9 @@ def view(
 
 
 def write_xdmf(trajectory: _PathLike | Result, output: _PathLike | None = None) -> Path:
-    """Writes the companion by which ParaView reads a trajectory, and returns its path: by default beside the
-    trajectory, with ``.xdmf`` in place of its ``.h5``. Runs with ``output=`` write it at their end; after a run that
-    was killed this writes it for the frames that are there."""
+    """Writes the companion file for ParaView of a trajectory, and returns its path: by default beside the trajectory,
+    with ``.xdmf`` in place of its ``.h5``. Runs with ``output=`` write it at their end; after a killed run this
+    writes it for the existing frames."""
     source = _file_of(trajectory)
     with _record(source) as record:
         lib.hooke_record_write_xdmf(record, None if output is None else os.fsencode(output))
@@ -61,7 +62,7 @@ def write_xdmf(trajectory: _PathLike | Result, output: _PathLike | None = None) 
 
 
 def write_companion(path: bytes) -> None:
-    """The same at the end of a run, for which a name that ParaView cannot take is no failure."""
+    """The same at the end of a run, for which a name that ParaView cannot read is no failure."""
     try:
         write_xdmf(os.fsdecode(path))
     except BadValue as trouble:

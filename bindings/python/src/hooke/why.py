@@ -1,4 +1,4 @@
-"""Why a run blew up, where, and what to do."""
+"""Diagnosis of a run that blew up: cause, place and suggestions."""
 
 from __future__ import annotations
 
@@ -19,9 +19,9 @@ from .results import Result, Runnable, WorkProgress, resolve
 
 
 class Blame(NamedTuple):
-    """A spring to blame: its number, its ends, the group that it is of ("" if that has no name), and its share of
-    the whole (NaN if that cannot be told). Or, before springs, a `force` that has half of the whole or more: "drag",
-    "damping", "bending" or "altitude"; then there is no spring, and its number and ends are -1."""
+    """A limiting spring: its number, its ends, its group ("" if that has no name), and its share of the whole (NaN if
+    unknown). Or, before springs, a `force` that has half of the whole or more: "drag", "damping", "bending" or
+    "altitude"; then there is no spring, and its number and ends are -1."""
 
     spring: int
     ends: tuple[int, int]
@@ -43,22 +43,22 @@ class Blame(NamedTuple):
 
 
 class Advice(NamedTuple):
-    """A change in words, and the options of a run that make it, for ``hooke.run(scene, **options)``; {} where it is
-    the scene that has to change."""
+    """A change in words, and the options of a run that make it, for ``hooke.run(scene, **options)``; {} if the scene
+    has to change."""
 
     change: str
     options: dict[str, Any]
 
 
 class Why:
-    """What is known of a run that ended early.
+    """The diagnosis of a run that ended early.
 
     `cause` is "step-above-limit", "never-stable", "collapsed-spring", "force-not-finite", "solver-failed",
-    "overflow", "model-gains-energy" or "unknown"; `sentence` says what happened,
-    where and when. `time` [s] is that of the last step within all bounds,
-    `noticed` [s] when the run came to notice, `step` [s] and `limit` [s] the step and the largest stable one, `particle`
-    the one concerned (None if none is); NaN where a number does not apply. `blame` has the springs, the largest share
-    first, `advice` what to do, the best first. `left_out` says what was not looked into for want of time or memory.
+    "overflow", "model-gains-energy" or "unknown"; `sentence` states the cause with place and time. `time` [s] is that
+    of the last step within all bounds, `noticed` [s] when the run came to notice, `step` [s] and `limit` [s] the step
+    and the largest stable one, `particle` the one concerned (None if none is); NaN where a number does not apply.
+    `blame` has the limiting springs, the largest share first, `advice` the suggestions, the best first. `left_out`
+    lists the checks that did not fit the time or memory.
     """
 
     def __init__(
@@ -127,9 +127,9 @@ def why(
     """Explains a run that blew up: the `Result` of one, the `SolverFailed` that it raised, or anything that
     `hooke.run` takes, which is then run with `options`. None if the run did not blow up.
 
-    The last steps are taken again and what is advised is tried, so callbacks are called again; within `budget` [s], or
-    as long as the run took (2 s if that is less). ``progress(fraction, what)`` is told of progress (``progress=True``
-    shows a bar, with tqdm) and ends it by returning a number other than 0.
+    The last steps are repeated and suggestions are tried, so callbacks are called again; within `budget` [s], or as
+    long as the run took (2 s if that is less). ``progress(fraction, what)`` receives progress (``progress=True``
+    shows a bar, with tqdm) and ends it by returning a non-zero number.
     """
     if isinstance(what, (Result, SolverFailed)):
         return what.integrator.why(budget, progress) if what.integrator is not None else None

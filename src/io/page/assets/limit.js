@@ -10,7 +10,7 @@ const pale = (colour) => colour + "1a";
 
 /* ---- stability ---- */
 
-/* Steps to look at: that of the scene, and the limits that there are. */
+/* Steps to show: that of the scene, and the known limits. */
 function findSteps() {
   const list = [];
   if (data.step !== null) list.push({ key: "scene", label: "step of the scene", step: data.step });
@@ -34,7 +34,7 @@ function region(method, points) {
 const mirrored = (points) => [...points, ...[...points].reverse().map(({ x, y }) => ({ x, y: -y }))];
 const fromOrigin = (points) => [{ x: 0, y: 0 }, ...points, { x: 0, y: 0 }];
 
-/* Points of modes, and crosses at the edge in place of those beyond. */
+/* Points of modes, with crosses at the edge for those outside. */
 function pointsOf(list) {
   const look = { showLine: false, borderColor: POINT, backgroundColor: POINT, order: 1, data: [] };
   return [{ ...look, label: "modes of the scene", pointStyle: "circle",
@@ -88,7 +88,7 @@ function drawReach(h) {
   chart.canvas.dataset.regions = regions.length;
 }
 
-/* What the predictions say of a step: "stable", "grows", just at the "limit", or "open" where they leave it open. */
+/* Prediction for a step: "stable", "grows", just at the "limit", or "open" if they leave it open. */
 function judge(row, h) {
   if (row.predicted === "none") return "stable";
   if (row.predicted === null) return "open";

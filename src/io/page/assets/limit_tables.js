@@ -11,7 +11,7 @@ function writeHead() {
       "and left out."));
 }
 
-/* What the springs of each group carry, the most first. */
+/* Shares of the springs of each group, the largest first. */
 function groupShares() {
   const sums = new Map();
   for (const one of blames) sums.set(groupOf(one), (sums.get(groupOf(one)) || 0) + one.share);
@@ -94,7 +94,7 @@ function writeAbout() {
     : `${whole(modeCount)} known, those of the fastest modes`);
 }
 
-/* ---- all of it ---- */
+/* ---- whole ---- */
 
 writeHead();
 writeVerdict();

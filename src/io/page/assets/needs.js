@@ -1,5 +1,5 @@
 "use strict";
-/* The diagrams of what a scene needs. */
+/* The diagrams of needs. */
 
 const { full, lean, want } = data;
 for (const cost of [full, ...data.rows, ...(lean ? [lean, lean.cheapest] : [])])
@@ -8,7 +8,7 @@ const ran = full.wall_seconds !== null;
 const judgedAll = data.judged_until >= data.duration * (1 - 1e-9);
 const NEEDED = "#c2410c", LEFT_OUT = "#1b7f4d", KEPT = "#8fc9a8", FULL = "#5b6770", LEAN = "#0057b8";
 
-/* What a row is: needed, left out of the lean scene, neither, or not known. */
+/* Kind of a row: needed, left out of the lean scene, neither, or unknown. */
 const KINDS = { needed: ["needed", NEEDED], left_out: ["not needed, and left out", LEFT_OUT],
   kept: ["not needed, but kept", KEPT], unknown: ["not known", "#a9b1b8"] };
 const kindOf = (row) => (row.needed === null ? "unknown" : row.needed ? "needed" : row.left_out ? "left_out"
@@ -31,7 +31,7 @@ function drawMark({ ctx, chartArea: { left, top, right, bottom }, scales: { x } 
   ctx.fillText(mark.text, at, top - 8);
 }
 
-/* What a bar stands for in words, at its end. */
+/* Label of a bar, at its end. */
 function drawWords(ctx, words, x, y) {
   ctx.fillStyle = "rgba(255, 255, 255, 0.85)";
   ctx.fillRect(x - 2, y - 8, ctx.measureText(words).width + 4, 16);
@@ -55,7 +55,7 @@ const barWords = {
   },
 };
 
-/* `bars` have label, value (null: to the far end), text, kind and lines for whoever points at them. */
+/* `bars` have label, value (null: to the far end), text, kind and lines for the tooltip. */
 function drawBars(id, bars, kinds, axis, mark) {
   const canvas = document.getElementById(id), old = Chart.getChart(canvas);
   if (old) old.destroy();
@@ -83,7 +83,7 @@ function drawBars(id, bars, kinds, axis, mark) {
   for (const kind of Object.keys(kinds)) canvas.dataset[kind] = bars.filter((bar) => bar.kind === kind).length;
 }
 
-/* Room to the right for the words at the end of the longest bar. */
+/* Space to the right for the label of the longest bar. */
 function logRange(values) {
   const [low, high] = ends(values);
   return [low, high * (high / low) ** 0.12];

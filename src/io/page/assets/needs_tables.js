@@ -1,5 +1,5 @@
 "use strict";
-/* The words and tables of what a scene needs, and the start of everything. */
+/* The words and tables of needs, and the start of everything. */
 
 const plural = (count, one) => `${whole(count)} ${one}${count === 1 ? "" : "s"}`;
 const leftOut = data.rows.filter((row) => row.left_out);
@@ -145,7 +145,7 @@ function writeAbout() {
     : `${words(data.judged_until, 6)} s of ${words(data.duration, 6)} s`);
 }
 
-/* ---- all of it ---- */
+/* ---- whole ---- */
 
 const show = (id, is) => { document.getElementById(id).hidden = !is; return is; };
 

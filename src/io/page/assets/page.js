@@ -1,6 +1,6 @@
 "use strict";
-/* What all pages share: numbers as words, what a method looks like, diagrams by Chart.js, tables. The data are those of the
- * element #data, in SI units. Text is set as text, never as markup. */
+/* Common parts of all pages: numbers as words, colours of methods, diagrams by Chart.js, tables. The data are
+ * those of the element #data, in SI units. Text is set as text, never as markup. */
 
 const data = JSON.parse(document.getElementById("data").textContent);
 const methods = [...new Set(data.rows.map((row) => row.method))];
@@ -20,7 +20,7 @@ function words(value, digits = 3) {
 }
 const whole = (value) => (value === null ? "\u2013" : value.toLocaleString("en-US", { maximumFractionDigits: 0 }));
 
-/* ---- what a method looks like ---- */
+/* ---- appearance of methods ---- */
 
 const COLOURS = ["#0072b2", "#d55e00", "#00875f", "#c2408f", "#7a5195", "#b8860b", "#2aa1c9", "#8b3a3a", "#5b6770",
   "#3d7a1f"];
@@ -42,7 +42,7 @@ Chart.defaults.font.family = 'system-ui, "DejaVu Sans", sans-serif';
 Chart.defaults.font.size = 13;
 Chart.defaults.color = INK;
 
-/* Says in the element what Chart.js has drawn, for whoever looks from outside. */
+/* Records in the element what Chart.js has drawn, for tests. */
 const tell = {
   id: "tell",
   afterDraw(chart) {
@@ -93,7 +93,7 @@ function draw(id, lines, x, y, describe) {
   });
 }
 
-/* Buttons of which one is pressed, `first` to begin with; `show` is called with its key. */
+/* Buttons of which one is pressed, `first` initially; calls `show` with its key. */
 function choice(id, options, first, show) {
   const box = document.getElementById(id);
   const press = (key) => {
@@ -112,7 +112,7 @@ function choice(id, options, first, show) {
 
 /* ---- logarithmic axes ---- */
 
-/* The ends of a logarithmic axis, with a little room around the values. */
+/* The ends of a logarithmic axis, with a margin around the values. */
 function ends(values) {
   const seen = values.filter((value) => value > 0 && value < Infinity);
   if (seen.length === 0) return [0.1, 10];

@@ -1,5 +1,5 @@
 "use strict";
-/* A scene along two of its axes, as pages have it under `picture`: springs as lines between particles. */
+/* A scene along two of its axes, from `picture` of a page: springs as lines between particles. */
 
 const AXES = ["x", "y", "z"];
 const VIEWS = { xy: [0, 1], xz: [0, 2], zy: [2, 1] };
@@ -9,7 +9,7 @@ const viewWith = (one, other) =>
 const springsOf = (picture) =>
   picture.spring.map((number, k) => ({ number, ends: [picture.ends[2 * k], picture.ends[2 * k + 1]] }));
 
-/* The least and the largest of what `of` gives. */
+/* Minimum and maximum of `of`. */
 const extentBy = (list, of) => list.reduce(([low, high], k) => [Math.min(low, of(k)), Math.max(high, of(k))],
   [Infinity, -Infinity]);
 
@@ -23,7 +23,7 @@ function lineOf(springs, at, rest) {
 const axisOf = (title) => ({ type: "linear", title: { display: true, text: title }, ticks: { includeBounds: false },
   grid: { color: (context) => (context.tick && context.tick.value === 0 ? EDGE : GRID) } });
 
-/* Shows the box, and to its sides what else there is room for; `filled` is told when the edges are known. */
+/* Shows the box, and as much beside it as fits; calls `filled` when the edges are known. */
 function equalScale(chart, box, filled) {
   const { width, height } = chart.chartArea;
   const unit = Math.max((box.right - box.left) / width, (box.top - box.bottom) / height);
@@ -36,7 +36,7 @@ function equalScale(chart, box, filled) {
 
 function drawEqual(id, lines, titles, box, describe, filled) {
   const chart = draw(id, lines, axisOf(titles[0]), axisOf(titles[1]), describe);
-  /* the first one has made room for labels, so that the second one finds the widths that remain */
+  /* the first one has reserved space for labels, so that the second one finds the remaining widths */
   equalScale(chart, box, filled);
   equalScale(chart, box, filled);
   chart.options.onResize = () => setTimeout(() => chart.ctx && equalScale(chart, box, filled));

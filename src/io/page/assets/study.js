@@ -43,7 +43,7 @@ function errorAxis(rows) {
   return { range, edge: (method) => range[1] / apart ** lost.indexOf(method) };
 }
 
-/* A marked line of a method over `range`; what cannot be on it stands at its near end. */
+/* A marked line of a method over `range`; points outside are drawn at the near end. */
 function curve(method, rows, what, range, edge) {
   const across = (value) => Math.min(Math.max(value, range[0]), range[1]);
   const colour = colourOf(method);

@@ -14,7 +14,7 @@ function writeHead() {
   document.getElementById("beside").hidden = study.rows.every((row) => row.timed_alone !== false);
 }
 
-/* How it does where the scene is a little different. */
+/* The margin under small changes of the scene. */
 function change(words_of, holds, error) {
   if (holds === null) return `${words_of}: not known in the time of the study`;
   if (error === null) return `${words_of}: no longer, a run did not come to its end or was not judged`;
@@ -137,7 +137,7 @@ function writeWatched() {
 
 /* ---- statistics ---- */
 
-/* A bias below two standard errors is one that chance makes. */
+/* A bias below two standard errors is compatible with chance. */
 function biasWords(source) {
   if (source.method === "reference") return "";
   if (source.failed > 0) return "unknown: a run did not come to its end";
@@ -192,7 +192,7 @@ function writeReference() {
   fact("about", "frames", whole(study.frames));
 }
 
-/* ---- all of it ---- */
+/* ---- whole ---- */
 
 writeHead();
 writeRecommendation();

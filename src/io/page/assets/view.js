@@ -105,7 +105,7 @@ const COLOURS = { kinetic: "#2f86c9", potential: "#e2711d" };
 const series = (key, look) => ({ label: key, data: data[key].map((y, k) => ({ x: data.time[k], y })), pointRadius: 0,
   pointHitRadius: 0, showLine: true, borderWidth: 2, ...look });
 
-/* The range of energies, without what a run that blows up ends in. */
+/* The range of energies, without the last ones of a run that blows up. */
 function energyRange() {
   const keys = ["kinetic", "potential", "total"], largest = (frames) => frames.reduce((most, k) => Math.max(most,
     ...keys.map((key) => Math.abs(data[key][k]))), 0);
@@ -234,7 +234,8 @@ function writeSpeeds() {
     { value, selected: value === list[4] })));
 }
 
-/* Where drawing does not keep up, as without a graphics card, it draws fewer springs as long as something moves. */
+/* If drawing does not keep up, such as without a graphics card, fewer springs are drawn while something
+ * moves. */
 const SLOW = 1000 / 28, WANTED = 1000 / 34, FEWEST = 5000; // [ms] for a picture; springs
 let enough = 1, costs = [], costBefore = Infinity;
 const middleOf = (values) => [...values].sort((a, b) => a - b)[values.length >> 1];
@@ -260,7 +261,7 @@ function keepUp(cost) {
   thin(enough);
 }
 
-/* How many pictures a second, of the last second. */
+/* Frames drawn in the last second. */
 function tellRate(now) {
   drawn = [...drawn.filter((then) => now - then <= 1000), now];
   const rate = (1000 * (drawn.length - 1)) / (now - drawn[0] || 1);

@@ -1,6 +1,6 @@
 "use strict";
-/* The picture: springs as lines coloured by strain, particles that are marked as points, a camera that turns. Lengths in
- * here are in units of `radius` from `centre`, so that numbers of single precision will do. */
+/* The picture: springs as lines coloured by strain, marked particles as points, a camera that turns. Lengths
+ * here are in units of `radius` from `centre`, so that single precision suffices. */
 
 const MARK = { free: 0, pinned: 1, driven: 2, loose: 3 };
 const THICK_BELOW = 40000; // springs; with more, lines are a pixel wide
@@ -81,7 +81,7 @@ function bytesOf(text) {
   return bytes;
 }
 
-/* ---- what is drawn ---- */
+/* ---- drawn objects ---- */
 
 function attribute(kind, size, length, normalised = false) {
   return new THREE.BufferAttribute(new kind(length), size, normalised).setUsage(THREE.DynamicDrawUsage);
@@ -122,9 +122,9 @@ function makePoints(marks, uniforms, inBody) {
   return { points, list };
 }
 
-/* ---- the box that the camera looks at ---- */
+/* ---- the camera's bounding box ---- */
 
-/* Numbers of the frames, of a run that blew up of those that are not much wider than the first. */
+/* Numbers of the frames; for a run that blew up, of those that are not much wider than the first. */
 function keptFrames({ box, status }) {
   const extents = box.map((sides) => Math.max(sides[3] - sides[0], sides[4] - sides[1], sides[5] - sides[2]));
   const most = ["finished", "stopped", "running"].includes(status) || extents[0] === 0 ? Infinity : 8 * extents[0];
@@ -247,7 +247,7 @@ class Picture {
     return points;
   }
 
-  /* Looks along `towards` at what there is in these frames, from as near as shows all of it. */
+  /* Looks along `towards` at the contents of these frames, from the smallest distance that shows all. */
   look(frames, towards) {
     this.resize();
     const points = this.sample(frames), target = new THREE.Box3().setFromPoints(points).getCenter(new THREE.Vector3());
