@@ -35,6 +35,7 @@ METHODS = {
     "verlet": (5e-5, 2e-5),
     "rk4": (1e-4, 5e-5),
     "backward-euler": (1e-2, 2.5e-3, 5e-4),
+    "tr-bdf2": (1e-2, 5e-3, 2e-3, 1e-3),
 }  # steps [s]
 SUBSTEPS = (5, 10, 20, 50, 100, 200, 500, 1000, 2000)  # of a frame
 TOLERANCES = (1e-2, 1e-3, 1e-4)

@@ -109,7 +109,7 @@ int32_t hooke_integrator_create_first_order(int64_t size, hooke_rate *rate, void
 
 void hooke_integrator_destroy(hooke_integrator *it) {
   if (it == NULL) return;
-  if (it->own && it->method->destroy) it->method->destroy(it);
+  if ((it->own || it->around) && it->method->destroy) it->method->destroy(it);
   hk_motion_destroy(it->motion);
   hk_pool_destroy(it->pool);
   hk_recent_release(&it->recent);

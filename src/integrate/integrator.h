@@ -79,6 +79,7 @@ struct hooke_integrator {
 
   int64_t size; /* numbers in q */
   void *own;    /* the method's own data */
+  void *around; /* scratch of a method whose step contains that of another, which has `own` */
   int64_t own_memory;
   int32_t may_factor;       /* 1: it factorises its equations where that pays */
   int32_t by_tiles;         /* 1: the motion is moved by hk_integrator_pass() alone */

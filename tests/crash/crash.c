@@ -11,6 +11,7 @@
 #include <dlfcn.h>
 #include <errno.h>
 #include <fcntl.h>
+#include <math.h>
 #include <signal.h>
 #include <stdatomic.h>
 #include <stdint.h>
@@ -89,7 +90,7 @@ static void see_frame(const void *bytes, size_t count) {
   double time;
   if (after_check && count == sizeof time) {
     memcpy(&time, bytes, sizeof time);
-    tell(line, snprintf(line, sizeof line, "frame %a\n", time));
+    if (isfinite(time)) tell(line, snprintf(line, sizeof line, "frame %a\n", time)); /* else another number */
   }
   after_check = count == 4;
 }

@@ -68,7 +68,7 @@ contains
       call expect(integrator%count("steps") > 0, method // " counts its steps")
       call expect(len(hooke_method_summary(method)) > 10, method // " has a summary")
     end do
-    call expect(fixed == 6, "the six methods of fixed step ran")
+    call expect(fixed == 9, "the nine methods of fixed step ran")
     call expect(hooke_method_name(hooke_method_count() + 1) == "", "no name past the last method")
   end subroutine
 

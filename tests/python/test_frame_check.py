@@ -128,8 +128,7 @@ def test_readers_refuse_a_damaged_frame(path, tmp_path):
             out.check()
         for frame in [0, 1, 2, 4, 5, -1]:
             assert np.array_equal(out.state(frame).q, out.q[frame])
-    with pytest.raises(hooke.BadValue, match="frame 3 of "):
-        hooke.view(path, tmp_path / "page.html")
+    assert '"damaged":1,' in hooke.view(path, tmp_path / "page.html").read_text("utf-8")
     position = {"file": "out.h5", "dataset": "particles/all/position/value"}
     for frame, fits in [(3, False), (-3, False), (2, True), (None, True)]:
         piece = position if frame is None else {**position, "frame": frame}

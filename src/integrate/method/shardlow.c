@@ -14,7 +14,6 @@ struct shardlow {
   struct hk_dampers *dampers;
   double *zero;  /* n */
   double *start; /* with a callback: q and v at the start of the step */
-  void *verlet;  /* what Verlet has of its own */
 };
 
 static int32_t make(hooke_integrator *it, struct shardlow *own) {
@@ -32,46 +31,35 @@ static int32_t make(hooke_integrator *it, struct shardlow *own) {
 static int32_t create(hooke_integrator *it) {
   struct shardlow *own = hk_new(1, sizeof *own);
   if (own == NULL) return HOOKE_NO_MEMORY;
-  int32_t status = make(it, own);
-  if (status == HOOKE_OK) status = hk_verlet.create(it);
-  own->verlet = it->own;
-  it->own = own;
-  return status;
+  it->around = own;
+  const int32_t status = make(it, own);
+  return status == HOOKE_OK ? hk_verlet.create(it) : status;
 }
 
 static void destroy(hooke_integrator *it) {
-  struct shardlow *own = it->own;
-  it->own = own->verlet;
+  struct shardlow *own = it->around;
   if (it->own) hk_verlet.destroy(it);
+  if (own == NULL) return;
   hk_dampers_destroy(own->dampers);
   hk_free(own->zero);
   hk_free(own->start);
   hk_free(own);
-  it->own = NULL;
+  it->around = NULL;
 }
 
 static int32_t begin(hooke_integrator *it, const hooke_state *state) {
-  struct shardlow *own = it->own;
-  it->own = own->verlet;
-  const int32_t status = hk_verlet.begin(it, state);
-  it->own = own;
-  return status;
+  return hk_verlet.begin(it, state);
 }
 
 static void forget(hooke_integrator *it) {
-  struct shardlow *own = it->own;
-  it->own = own->verlet;
   hk_verlet.forget(it);
-  it->own = own;
 }
 
 static int32_t step(hooke_integrator *it) {
-  struct shardlow *own = it->own;
+  struct shardlow *own = it->around;
   if (own->start) hk_motion_save(it->motion, own->start);
   hk_dampers_sweep(own->dampers, it->motion, 0);
-  it->own = own->verlet;
   const int32_t status = hk_verlet.step(it);
-  it->own = own;
   if (status != HOOKE_OK) {
     if (own->start) hk_motion_restore(it->motion, own->start);
     return status;
