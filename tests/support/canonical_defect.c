@@ -68,11 +68,21 @@ static int is_near(double x0, double x1, double size) {
   return fabs(x1 - x0) <= 8.0 * DBL_EPSILON * size;
 }
 
-/* Of the equations of the middle: their velocity is the mean of the old and the new one. */
+/* The size of a change of velocity: the root of the sum of its squares times masses. */
+static double weighed(const struct canonical *canonical, const double *v) {
+  double sum = 0.0;
+  for (int64_t k = 0; k < 3 * canonical->particle_count; k++)
+    sum += canonical_is_free(canonical, k) ? v[k] * v[k] / canonical->inverse_mass[k / 3] : 0.0;
+  return sqrt(sum);
+}
+
+/* Of the equations of the middle, whose velocity is the mean of the old and the new one: the defects of all
+ * over 1e-9 of the change of all velocities, and rounding. */
 static double midpoint_defect(const struct canonical *canonical, double t, double end, double h,
                               const double *const from[2], const double *const to[2]) {
   const int64_t size = 3 * canonical->particle_count;
   double *q = new_doubles(size), *v = new_doubles(size), *a = new_doubles(size), defect = 0.0;
+  double *wrong = new_doubles(size), *change = new_doubles(size);
   for (int64_t k = 0; k < size; k++) {
     v[k] = (from[1][k] + to[1][k]) / 2.0;
     q[k] = canonical_is_free(canonical, k) ? from[0][k] + h / 2.0 * v[k] : from[0][k];
@@ -82,9 +92,18 @@ static double midpoint_defect(const struct canonical *canonical, double t, doubl
   }
   canonical_place(canonical, t + (end - t) / 2.0, q, v);
   canonical_acceleration(canonical, t + (end - t) / 2.0, q, v, a);
+  double mass = 0.0;
   for (int64_t k = 0; k < size; k++) {
-    if (canonical_is_free(canonical, k)) defect = fmax(defect, fabs(v[k] - (from[1][k] + h / 2.0 * a[k])));
+    wrong[k] = v[k] - (from[1][k] + h / 2.0 * a[k]);
+    change[k] = to[1][k] - from[1][k];
+    mass += canonical_is_free(canonical, k) ? 1.0 / canonical->inverse_mass[k / 3] : 0.0;
   }
+  /* the forces are those of the middle, where two particles may nearly meet */
+  const double found = weighed(canonical, wrong),
+               allowed = 1e-9 * weighed(canonical, change) + sqrt(mass) * rounding(canonical, h, q, v);
+  if (found > 0.0) defect = fmax(defect, found / allowed);
+  free(wrong);
+  free(change);
   free(q);
   free(v);
   free(a);
@@ -134,14 +153,6 @@ static double weigh(const struct canonical *canonical, double h, double defect, 
                     const double *const from[2], const double *const to[2]) {
   const double change = largest_difference(3 * canonical->particle_count, from[1], to[1]);
   return defect == 0.0 ? 0.0 : defect / (grown * (1e-9 * change + rounding(canonical, h, to[0], to[1])));
-}
-
-/* The size of a change of velocity: the root of the sum of its squares times masses. */
-static double weighed(const struct canonical *canonical, const double *v) {
-  double sum = 0.0;
-  for (int64_t k = 0; k < 3 * canonical->particle_count; k++)
-    sum += canonical_is_free(canonical, k) ? v[k] * v[k] / canonical->inverse_mass[k / 3] : 0.0;
-  return sqrt(sum);
 }
 
 /* The largest h/2 c/m of a particle with all that damps it. */
@@ -236,8 +247,7 @@ double canonical_defect(const struct canonical *canonical, const char *method, d
                         const double *q0, const double *v0, const double *q1, const double *v1) {
   const double *const from[2] = {q0, v0}, *const to[2] = {q1, v1};
   if (strcmp(method, "verlet") == 0) return verlet_defect(canonical, t, end, h, q0, v0, q1, v1);
-  if (strcmp(method, "implicit-midpoint") == 0)
-    return weigh(canonical, h, midpoint_defect(canonical, t, end, h, from, to), 1.0, from, to);
+  if (strcmp(method, "implicit-midpoint") == 0) return midpoint_defect(canonical, t, end, h, from, to);
   if (strcmp(method, "tr-bdf2") == 0) {
     /* what the second stage leaves open comes back through the forces of the first */
     const struct scale s = scale_of(canonical, h, q1, v1);
