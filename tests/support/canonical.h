@@ -61,10 +61,11 @@ int32_t canonical_step(const struct canonical *canonical, const char *method, do
 double canonical_explicit_bound(const struct canonical *canonical);
 
 /* How far such a step from q0, v0 to q1, v1 is from solving its equations, over what is allowed, and what a
- * few roundings of the numbers in the equations make of it. Of Verlet and the midpoint rule the defects of all: of Verlet 1e-3 of what the
- * predicted velocity leaves, times how large that is beside the kick; of the others the largest defect of a
- * velocity, 1e-9 of the largest change of one. Infinity unless positions follow from the velocities to the
- * bit, or, where they go through those of stages, but for a few roundings. */
+ * few roundings of the numbers in the equations make of it. Of Verlet the defects of all, 1e-3 of what the
+ * predicted velocity leaves, times how large that is beside the kick; of the midpoint rule the defects of
+ * all, 1e-9 of the change of all; of the others the largest defect of a velocity, 1e-9 of the largest change
+ * of one. Infinity unless positions follow from the velocities to the bit, or, where they go through those of
+ * stages, but for a few roundings. */
 double canonical_defect(const struct canonical *canonical, const char *method, double t, double end, double h,
                         const double *q0, const double *v0, const double *q1, const double *v1);
 
