@@ -2,7 +2,6 @@
 #include "canonical_step.h"
 
 #include "check.h"
-#include "run.h"
 
 #include <float.h>
 #include <math.h>

@@ -63,3 +63,12 @@ void *new_block(int64_t count, int64_t size) {
 double *new_doubles(int64_t count) {
   return new_block(count, (int64_t)sizeof(double));
 }
+
+double largest_difference(int64_t count, const double *a, const double *b) {
+  double most = 0.0;
+  for (int64_t k = 0; k < count; k++) {
+    const double difference = fabs(a[k] - b[k]);
+    if (!(difference <= most)) most = difference;
+  }
+  return most;
+}

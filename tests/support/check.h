@@ -40,6 +40,9 @@ void check_same_bits_at(int64_t count, const double *found, const double *expect
 /* Fails the test with a message of its own. */
 __attribute__((format(printf, 1, 2))) void check_failed(const char *format, ...);
 
+/* The largest |a - b| of two arrays. */
+double largest_difference(int64_t count, const double *a, const double *b);
+
 /* Memory that fails the test when there is none; zeroed. Release it with free(). */
 double *new_doubles(int64_t count);
 void *new_block(int64_t count, int64_t size);

@@ -95,15 +95,6 @@ int32_t is_implicit(const char *method) {
   return 0;
 }
 
-double largest_difference(int64_t count, const double *a, const double *b) {
-  double most = 0.0;
-  for (int64_t k = 0; k < count; k++) {
-    const double difference = fabs(a[k] - b[k]);
-    if (!(difference <= most)) most = difference;
-  }
-  return most;
-}
-
 double largest(int64_t count, const double *a) {
   double most = 0.0;
   for (int64_t k = 0; k < count; k++) {

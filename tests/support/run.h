@@ -35,8 +35,7 @@ int32_t is_fixed_step(const char *method);
 /* 1 if it solves nonlinear equations for each of its steps, in the ways of the option `newton`. */
 int32_t is_implicit(const char *method);
 
-/* The largest |a - b| and |a| of two arrays. */
-double largest_difference(int64_t count, const double *a, const double *b);
+/* The largest |a| of an array. */
 double largest(int64_t count, const double *a);
 
 /* hooke_step_bound() at the initial positions; a build without it skips the test, and the system is
