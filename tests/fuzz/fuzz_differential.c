@@ -151,6 +151,7 @@ static int32_t take_steps(const struct small_scene *scene, const struct stepping
   int32_t status = hooke_options_create("run", &options);
   if (status == HOOKE_OK) status = hooke_options_set_text(options, "method", by->method);
   if (status == HOOKE_OK) status = hooke_options_set_number(options, "step", by->step);
+  if (status == HOOKE_OK) status = hooke_options_set_number(options, "newton_tolerance", 1e-12);
   if (status == HOOKE_OK) status = hooke_integrator_create(scene->system, options, &integrator);
   if (status == HOOKE_OK) status = hooke_integrator_step(integrator, state, by->steps);
   hooke_integrator_destroy(integrator);

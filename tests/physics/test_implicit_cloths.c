@@ -3,6 +3,7 @@
  * finished has finite numbers, and at small steps the forms agree. */
 #include "check.h"
 #include "run.h"
+#include "sanitized.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -97,6 +98,7 @@ static void cloths_of_20(void **unused) {
 
 static void cloths_of_41(void **unused) {
   (void)unused;
+  if (HOOKE_SANITIZED) skip(); /* the code is that of the other, which is shorter */
   check_side(41, 0);
 }
 

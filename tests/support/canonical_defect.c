@@ -223,7 +223,7 @@ static double backward_euler_defect(const struct canonical *canonical, double en
   double *q = new_doubles(size), *a = new_doubles(size), *seen = new_doubles(size);
   memcpy(q, q0, (size_t)size * sizeof(double));
   memcpy(seen, v1, (size_t)size * sizeof(double));
-  double change = 0.0, defect = 0.0;
+  double *wrong = new_doubles(size), *change = new_doubles(size), mass = 0.0, defect = 0.0;
   for (int64_t k = 0; k < size; k++) {
     if (canonical_is_free(canonical, k)) q[k] += h * v1[k];
   }
@@ -231,15 +231,19 @@ static double backward_euler_defect(const struct canonical *canonical, double en
   canonical_accelerate(canonical, end, q, v1, seen, a);
   for (int64_t k = 0; k < size; k++) {
     if (memcmp(&q[k], &q1[k], sizeof q[k]) != 0) defect = INFINITY;
-    if (!canonical_is_free(canonical, k)) continue;
-    const double wrong = v1[k] - (v0[k] + h * a[k]);
-    if (!(fabs(wrong) <= defect)) defect = fabs(wrong);
-    change = fmax(change, fabs(v1[k] - v0[k]));
+    wrong[k] = v1[k] - (v0[k] + h * a[k]);
+    change[k] = v1[k] - v0[k];
+    mass += canonical_is_free(canonical, k) ? 1.0 / canonical->inverse_mass[k / 3] : 0.0;
   }
+  const double found = weighed(canonical, wrong),
+               allowed = 1e-9 * weighed(canonical, change) + sqrt(mass) * rounding(canonical, h, q1, v1);
+  if (!(found <= defect)) defect = fmax(defect, found / allowed);
+  free(wrong);
+  free(change);
   free(q);
   free(a);
   free(seen);
-  return defect == 0.0 ? 0.0 : defect / (1e-9 * change + rounding(canonical, h, q1, v1));
+  return defect;
 }
 
 double canonical_defect(const struct canonical *canonical, const char *method, double t, double end, double h,
