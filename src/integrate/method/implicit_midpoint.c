@@ -1,40 +1,21 @@
 /* The implicit midpoint rule: q' = q + h v_m, v' = v + h a(t + h/2, q_m, v_m) at the mean q_m, v_m of old and
- * new state. Order 2, symplectic, stable at every step. q_m and v_m are one stage (integrate/solve/stage.h) of
- * length h/2 from q and v, beyond which the step goes as far again (Hairer, Lubich and Wanner 2006, II.1.1). */
-#include "core/memory.h"
+ * new state. Order 2, symplectic, stable at every step. q_m and v_m are one stage (integrate/solve/stage.h)
+ * of length h/2 from q and v, beyond which the step goes as far again (Hairer, Lubich and Wanner 2006,
+ * II.1.1). */
 #include "core/status.h"
 #include "integrate/solve/stage.h"
 
-struct own {
-  struct hk_stage stage;
-  double *start; /* q and v at the start of the step, 6 components of n */
-};
-
 static int32_t create(hooke_integrator *it) {
-  struct own *own = hk_new(1, sizeof *own);
-  if (own == NULL) return HOOKE_NO_MEMORY;
-  it->own = own;
-  own->start = hk_new(2 * it->size, sizeof(double));
-  if (own->start == NULL) return HOOKE_NO_MEMORY;
-  it->own_memory += 2 * it->size * (int64_t)sizeof(double);
-  return hk_stage_create(it, &own->stage);
-}
-
-static void destroy(hooke_integrator *it) {
-  struct own *own = it->own;
-  hk_stage_release(&own->stage);
-  hk_free(own->start);
-  hk_free(own);
-  it->own = NULL;
+  return hk_stage_create(it, 0);
 }
 
 /* From the middle on as far again; constrained particles come from the drives. */
 static int32_t go_on(hooke_integrator *it, struct hk_span_of_time span) {
-  const struct own *own = it->own;
+  const struct hk_stage *stage = it->own;
   struct hk_motion *m = it->motion;
   const double h = span.h;
   for (int a = 0; a < 3; a++) {
-    const double *q = own->start + a * m->n, *v = own->start + (3 + a) * m->n;
+    const double *q = stage->start + a * m->n, *v = stage->start + (3 + a) * m->n;
     for (int64_t p = 0; p < m->n; p++) {
       m->q[a][p] = q[p] + h * m->v[a][p];
       m->v[a][p] = 2.0 * m->v[a][p] - v[p];
@@ -45,17 +26,16 @@ static int32_t go_on(hooke_integrator *it, struct hk_span_of_time span) {
 }
 
 static int32_t stages(hooke_integrator *it, struct hk_span_of_time span) {
-  struct own *own = it->own;
+  struct hk_stage *stage = it->own;
   const double half = span.h / 2.0;
-  const struct hk_equations equations = {span.t + half, half, own->start, own->start + it->size, half};
+  const struct hk_equations equations = {span.t + half, half, stage->start, stage->start + it->size, half};
   int32_t status = hk_integrator_drive(it, equations.t);
-  if (status == HOOKE_OK) status = hk_stage_solve(&own->stage, &equations);
+  if (status == HOOKE_OK) status = hk_stage_solve(stage, &equations);
   return status == HOOKE_OK ? go_on(it, span) : status;
 }
 
 static int32_t step(hooke_integrator *it) {
-  struct own *own = it->own;
-  return hk_stage_step(&own->stage, own->start, stages);
+  return hk_stage_step(it->own, stages);
 }
 
 const struct hk_method hk_implicit_midpoint = {
@@ -72,7 +52,7 @@ const struct hk_method hk_implicit_midpoint = {
                       "whether the equations can be solved"},
     .no_first_order = "solves its step with the derivative of the forces, and x' = phi(t, x) brings none",
     .create = create,
-    .destroy = destroy,
+    .destroy = hk_stage_destroy,
     .begin = hk_fixed_begin,
     .step = step,
     .store = hk_fixed_store};

@@ -4,33 +4,12 @@
  *   q' = q_c + d (q_c - q) + a v',        v' = v_c + d (v_c - v) + a a(t + h, q', v'),   d = (sqrt 2 - 1)/2
  * Order 2, stable at every step, and what no step resolves dies out (L-stable). Each of the two is a stage
  * (integrate/solve/stage.h), the first begun at the start of the step, the second at q_c and v_c. */
-#include "core/memory.h"
 #include "core/status.h"
 #include "integrate/solve/stage.h"
 
-struct own {
-  struct hk_stage stage;
-  double *start,
-      *place; /* q and v at the start of the step, and of the stage's equations; 6 components of n each */
-};
-
+/* Beside the stage: the place and the speed of its equations, 6 components of n. */
 static int32_t create(hooke_integrator *it) {
-  struct own *own = hk_new(1, sizeof *own);
-  if (own == NULL) return HOOKE_NO_MEMORY;
-  it->own = own;
-  own->start = hk_new(4 * it->size, sizeof(double));
-  if (own->start == NULL) return HOOKE_NO_MEMORY;
-  it->own_memory += 4 * it->size * (int64_t)sizeof(double);
-  own->place = own->start + 2 * it->size;
-  return hk_stage_create(it, &own->stage);
-}
-
-static void destroy(hooke_integrator *it) {
-  struct own *own = it->own;
-  hk_stage_release(&own->stage);
-  hk_free(own->start);
-  hk_free(own);
-  it->own = NULL;
+  return hk_stage_create(it, 2 * it->size);
 }
 
 /* As numbers, so that they are the same everywhere. */
@@ -38,13 +17,13 @@ static const double MIDDLE = 0.58578643762690495120, BACK = 0.207106781186547524
 
 /* Where the trapezoidal rule starts from: q + a v and v + a a(t, q, v). */
 static int32_t begin_trapezoid(hooke_integrator *it, double t, double a) {
-  const struct own *own = it->own;
+  const struct hk_stage *stage = it->own;
   const hooke_system *system = it->system;
   const struct hk_motion *m = it->motion;
   const int32_t status = hk_integrator_forces(it, t);
   for (int c = 0; c < 3; c++) {
-    const double *q = own->start + c * m->n, *v = own->start + (3 + c) * m->n;
-    double *place = own->place + c * m->n, *speed = own->place + (3 + c) * m->n;
+    const double *q = stage->start + c * m->n, *v = stage->start + (3 + c) * m->n;
+    double *place = stage->others + c * m->n, *speed = stage->others + (3 + c) * m->n;
     for (int64_t p = 0; p < m->n; p++) {
       const double w = system->inverse_mass[p];
       place[p] = q[p] + a * v[p];
@@ -56,31 +35,30 @@ static int32_t begin_trapezoid(hooke_integrator *it, double t, double a) {
 
 /* Where the backward difference does. What rests stays where it is to the bit. */
 static void begin_difference(hooke_integrator *it) {
-  const struct own *own = it->own;
-  hk_motion_save(it->motion, own->place);
+  const struct hk_stage *stage = it->own;
+  hk_motion_save(it->motion, stage->others);
   for (int64_t k = 0; k < 2 * it->size; k++)
-    own->place[k] += BACK * (own->place[k] - own->start[k]);
+    stage->others[k] += BACK * (stage->others[k] - stage->start[k]);
 }
 
 static int32_t stages(hooke_integrator *it, struct hk_span_of_time span) {
-  struct own *own = it->own;
+  struct hk_stage *stage = it->own;
   const double a = MIDDLE / 2.0 * span.h;
-  const struct hk_equations trapezoid = {span.t + MIDDLE * span.h, a, own->place, own->place + it->size,
+  const struct hk_equations trapezoid = {span.t + MIDDLE * span.h, a, stage->others, stage->others + it->size,
                                          2.0 * a},
-                            difference = {span.end, a, own->place, own->place + it->size,
+                            difference = {span.end, a, stage->others, stage->others + it->size,
                                           (1.0 - MIDDLE) * span.h};
   int32_t status = begin_trapezoid(it, span.t, a);
   if (status == HOOKE_OK) status = hk_integrator_drive(it, trapezoid.t);
-  if (status == HOOKE_OK) status = hk_stage_solve(&own->stage, &trapezoid);
+  if (status == HOOKE_OK) status = hk_stage_solve(stage, &trapezoid);
   if (status == HOOKE_OK) status = hk_integrator_drive(it, span.end);
   if (status != HOOKE_OK) return status;
   begin_difference(it);
-  return hk_stage_solve(&own->stage, &difference);
+  return hk_stage_solve(stage, &difference);
 }
 
 static int32_t step(hooke_integrator *it) {
-  struct own *own = it->own;
-  return hk_stage_step(&own->stage, own->start, stages);
+  return hk_stage_step(it->own, stages);
 }
 
 const struct hk_method hk_tr_bdf2 = {
@@ -96,7 +74,7 @@ const struct hk_method hk_tr_bdf2 = {
                           "equations can be solved"},
     .no_first_order = "solves its step with the derivative of the forces, and x' = phi(t, x) brings none",
     .create = create,
-    .destroy = destroy,
+    .destroy = hk_stage_destroy,
     .begin = hk_fixed_begin,
     .step = step,
     .store = hk_fixed_store};

@@ -21,26 +21,35 @@ static const double LEAST_SHARE = 1e-4, ROUNDINGS = 1.0, ALL_ROUNDINGS = 100.0;
 static const double ONE_LEAVES = 1.0;
 enum { MANY_SLOW = 4, LEAST_TRIES = 20, MOST_ITERATIONS = 100, LONGEST_PAUSE = 16, FINEST_SPLIT = 1024 };
 
-int32_t hk_stage_create(hooke_integrator *it, struct hk_stage *stage) {
+int32_t hk_stage_create(hooke_integrator *it, int64_t numbers) {
+  struct hk_stage *stage = hk_new(1, sizeof *stage);
+  if (stage == NULL) return HOOKE_NO_MEMORY;
+  it->own = stage;
   stage->one_iteration = strcmp(hooke_options_text(it->options, "newton"), "one-iteration") == 0;
   stage->tolerance = hooke_options_number(it->options, "newton_tolerance");
   stage->order = it->method->order;
-  stage->whole = hk_new(17 * it->size, sizeof(double));
+  numbers += 11 * it->size;
+  stage->whole = hk_new(numbers, sizeof(double));
   if (stage->whole == NULL) return HOOKE_NO_MEMORY;
-  it->own_memory += 17 * it->size * (int64_t)sizeof(double);
-  stage->begin = stage->whole + 2 * it->size;
+  it->own_memory += numbers * (int64_t)sizeof(double);
+  stage->start = stage->whole + 2 * it->size;
+  stage->begin = stage->start + 2 * it->size;
   double *const vectors = stage->begin + 2 * it->size;
   stage->v = vectors;
   stage->change = vectors + it->size;
   stage->right = vectors + 2 * it->size;
   stage->moved = vectors + 3 * it->size;
   stage->straight = vectors + 4 * it->size;
+  stage->others = vectors + 5 * it->size;
   return hk_reduced_create(it, HOOKE_REDUCED_GENERAL, &stage->reduced);
 }
 
-void hk_stage_release(struct hk_stage *stage) {
+void hk_stage_destroy(hooke_integrator *it) {
+  struct hk_stage *stage = it->own;
   hk_reduced_release(&stage->reduced);
   hk_free(stage->whole);
+  hk_free(stage);
+  it->own = NULL;
 }
 
 /* ---- the equations ---- */
@@ -85,8 +94,8 @@ static void set_matrix(struct hk_stage *stage) {
   hk_reduced_set(&stage->reduced, stage->at.t, a * a, a);
 }
 
-/* How far the state at the beginning moves with dv = 0: to place + a v, and constrained particles to where they
- * are held. */
+/* How far the state at the beginning moves with dv = 0: to place + a v, and constrained particles to where
+ * they are held. */
 static void find_moved(const struct hk_stage *stage, double *dq, double *dv) {
   const hooke_integrator *it = stage->reduced.integrator;
   const hooke_system *system = it->system;
@@ -142,8 +151,8 @@ static double distance(const struct hk_stage *stage, const double *from) {
 }
 
 /* The error of the guess that is allowed. A step of order 1 is off by h/2 of the change of velocity. One of
- * order 2 is so by some 1/4 of h times what velocities have left the straight line, or by less than a tenth of
- * h times their change where fast motion bends that line. Rounding of positions and velocities sets a
+ * order 2 is so by some 1/4 of h times what velocities have left the straight line, or by less than a tenth
+ * of h times their change where fast motion bends that line. Rounding of positions and velocities sets a
  * floor. */
 static double allowed_error(const struct hk_stage *stage, double *rounding) {
   const hooke_integrator *it = stage->reduced.integrator;
@@ -338,10 +347,10 @@ static double time_of(const hooke_integrator *it, int64_t part) {
 }
 
 /* One part of the step, from where the motion is. */
-static int32_t take_part(hooke_integrator *it, double *start, int64_t done, int64_t parts,
-                         hk_stages_of_step *stages) {
+static int32_t take_part(struct hk_stage *stage, int64_t done, int64_t parts, hk_stages_of_step *stages) {
+  hooke_integrator *it = stage->reduced.integrator;
   const double end = time_of(it, done + parts);
-  hk_motion_save(it->motion, start);
+  hk_motion_save(it->motion, stage->start);
   int32_t status = parts == FINEST_SPLIT ? HOOKE_OK : hk_integrator_drive(it, end);
   if (status == HOOKE_OK)
     status = stages(it, (struct hk_span_of_time){time_of(it, done),
@@ -350,13 +359,13 @@ static int32_t take_part(hooke_integrator *it, double *start, int64_t done, int6
   return status;
 }
 
-int32_t hk_stage_step(struct hk_stage *stage, double *start, hk_stages_of_step *stages) {
+int32_t hk_stage_step(struct hk_stage *stage, hk_stages_of_step *stages) {
   hooke_integrator *it = stage->reduced.integrator;
   const struct hk_counts before = it->count;
   int32_t status = HOOKE_OK;
   hk_motion_save(it->motion, stage->whole);
   for (int64_t done = 0, parts = FINEST_SPLIT; done < FINEST_SPLIT;) {
-    status = take_part(it, start, done, parts, stages);
+    status = take_part(stage, done, parts, stages);
     if (status == HOOKE_OK) {
       done += parts;
       if (done % (2 * parts) == 0) parts *= 2;
@@ -365,7 +374,7 @@ int32_t hk_stage_step(struct hk_stage *stage, double *start, hk_stages_of_step *
     if (status != HOOKE_SOLVER_FAILED) break;
     it->count.nonlinear_failures++;
     if (parts == 1) break;
-    hk_motion_restore(it->motion, start);
+    hk_motion_restore(it->motion, stage->start);
     parts /= 2;
   }
   if (status == HOOKE_OK) return HOOKE_OK;

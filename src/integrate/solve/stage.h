@@ -1,18 +1,18 @@
 /* The equations of one stage of an implicit step, for the velocities v' of the free particles:
  *   q' = place + a v',  M (v' - speed) = a (f(t, q', v') + M g)
  * with `place` and `speed` given. Backward Euler is one such stage with a = h; other methods have one or two
- * of them with a smaller a. With F(v') = M (v' - speed - a g) - a f(t, place + a v', v'), K = df/dq and
- * D = df/dv,
+ * of them with a smaller a. With F(v') = M (v' - speed - a g) - a f(t, place + a v', v'), K = df/dq and D =
+ * df/dv,
  *   one iteration  (M - a D - a^2 K) dv = -F linearised at the state where the stage begins
  *   converged      S dv = -F at guess after guess, where S is the matrix with all that is not symmetric or
  *                  positive left out, element by element; with a search along dv, and with the whole matrix
  *                  where that is slow
- * For springs S is the Hessian, made positive spring by spring, of the potential whose least value is the step where
- * damping is gamma (r - r_old)/a along each spring (Liu and others 2013; Teran and others 2005), so every dv
- * leads downhill. The residual F is the true one throughout.
+ * For springs S is the Hessian, made positive spring by spring, of the potential whose least value is the
+ * step where damping is gamma (r - r_old)/a along each spring (Liu and others 2013; Teran and others 2005),
+ * so every dv leads downhill. The residual F is the true one throughout.
  *
- * Iterations end where the error of v', in the norm of S, is below `newton_tolerance` times the error that the
- * step makes itself. A stage that is not solved is a step that is split in two. */
+ * Iterations end where the error of v', in the norm of S, is below `newton_tolerance` times the error that
+ * the step makes itself. A stage that is not solved is a step that is split in two. */
 #ifndef HOOKE_INTEGRATE_SOLVE_STAGE_H
 #define HOOKE_INTEGRATE_SOLVE_STAGE_H
 
@@ -29,31 +29,35 @@ struct hk_stage {
   double tolerance;
   struct hk_reduced reduced;
   struct hk_equations at;
-  double *whole; /* q and v at the start of the whole step, 6 components of n */
+  double *whole; /* q and v at the start of the whole step, 6 components of n; begins the block of all */
+  double *start; /* likewise at the start of the part of it that is taken */
   double *begin; /* of the motion where the stage begins */
   double *v, *change, *right,
       *moved;       /* the guess, the correction, -F or a right-hand side, scratch; 3n each */
   double *straight; /* velocities without any change of acceleration since the beginning, 3n */
+  double *others;   /* numbers of the method's own */
 };
 
-/* Reads the options `newton`, `newton_tolerance` and `linear_solver`. Its memory is counted as the method's. */
-int32_t hk_stage_create(hooke_integrator *integrator, struct hk_stage *stage);
-void hk_stage_release(struct hk_stage *stage);
+/* Makes the stage of a method, as the integrator's `own`, with so many numbers in `others`. Reads the options
+ * `newton`, `newton_tolerance` and `linear_solver`. After a failure hk_stage_destroy() has to follow. */
+int32_t hk_stage_create(hooke_integrator *integrator, int64_t numbers);
+void hk_stage_destroy(hooke_integrator *integrator);
 
-/* Solves the stage from where the motion is, and leaves the motion at its solution. The caller has driven held
- * particles to `t`. After a failure the motion is anywhere: HOOKE_SOLVER_FAILED, or HOOKE_STOPPED by a
+/* Solves the stage from where the motion is, and leaves the motion at its solution. The caller has driven
+ * held particles to `t`. After a failure the motion is anywhere: HOOKE_SOLVER_FAILED, or HOOKE_STOPPED by a
  * callback. */
 int32_t hk_stage_solve(struct hk_stage *stage, const struct hk_equations *equations);
 
-/* A step or a part of one, from the motion at time t, which is saved in `start` (6 components of n), to `end`. */
+/* A step or a part of one, from the motion at time t, which is in the stage's `start`, to `end`. */
 struct hk_span_of_time {
   double t, h, end;
 };
 typedef int32_t hk_stages_of_step(hooke_integrator *integrator, struct hk_span_of_time span);
 
-/* One step of the integrator. Where its stages find no solution it is taken in two halves, and these likewise, down
- * to a thousandth; every such failure is counted. After a failure that remains, the motion is back at the
- * start. A step that a callback stopped is taken again by whoever goes on, so it counts nothing. */
-int32_t hk_stage_step(struct hk_stage *stage, double *start, hk_stages_of_step *stages);
+/* One step of the integrator. Where its stages find no solution it is taken in two halves, and these
+ * likewise, down to a thousandth; every such failure is counted. After a failure that remains, the motion is
+ * back at the start. A step that a callback stopped is taken again by whoever goes on, so it counts nothing.
+ * */
+int32_t hk_stage_step(struct hk_stage *stage, hk_stages_of_step *stages);
 
 #endif
