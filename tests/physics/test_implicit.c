@@ -1,5 +1,5 @@
-/* Methods that solve for their steps: what they make of a damped oscillator against the closed forms, at steps
- * from a thousandth to a million of 1/omega, and what the steps of a nonlinear scene keep. */
+/* Methods that solve for their steps: what they make of a damped oscillator against the closed forms, at
+ * steps from a thousandth to a million of 1/omega, and what the steps of a nonlinear scene keep. */
 #include "check.h"
 #include "oscillator.h"
 #include "run.h"
@@ -42,8 +42,8 @@ static void check_step(const char *method, const char *form, double zeta, double
   oscillator_power(matrix, 1, from, there);
   const double x = hooke_state_position(state)[3] - (double)there[0];
   const double v = hooke_state_velocity(state)[3] / omega - (double)there[1];
-  /* the one iteration has v' from the change of v, to the 1e-12 of its linear equations and with its rounding,
-   * and a step of h makes that of h omega of the place */
+  /* the one iteration has v' from the change of v, to the 1e-12 of its linear equations and with its
+   * rounding, and a step of h makes that of h omega of the place */
   const double open = strcmp(form, "one-iteration") == 0 ? 1e-13 * h : 0.0;
   if (!(hypot(x, v) <= 1e-12 + open)) {
     check_failed("%s, %s, zeta = %g, h omega = %g: off by %g and %g of %Lg and %Lg", method, form, zeta, h, x,

@@ -1,6 +1,6 @@
 /* Falling cloths, soft to stiff, undamped to heavily damped, in steps from 0.1 ms to 100 ms, five of each, by
- * every implicit method in both forms: the steps are finished, or the failure is told with its reason; what is
- * finished has finite numbers, and at small steps the forms agree. */
+ * every implicit method in both forms: the steps are finished, or the failure is told with its reason; what
+ * is finished has finite numbers, and at small steps the forms agree. */
 #include "check.h"
 #include "run.h"
 #include "sanitized.h"

@@ -123,6 +123,12 @@ static void climb_all(const char *method, double order, int points,
     climb(method, order, points, ladder[k]);
 }
 
+static const struct ladder second_order[] = {{"oscillator", 5e-3, 1},
+                                             {"six-particles", 2e-2, 1},
+                                             {"elastic-pendulum", 2e-3, 1},
+                                             {"rope-12", 2e-3, 1},
+                                             {"chain-16", 2e-2, 0}};
+
 static void test_order_of_forward_euler(void **unused) {
   (void)unused;
   const struct ladder ladders[] = {{"oscillator", 1e-3, 1},
@@ -146,22 +152,12 @@ static void test_order_of_symplectic_euler(void **unused) {
 /* Including spring damping: with the velocity half-way in the second kick the order would be 1.1. */
 static void test_order_of_verlet(void **unused) {
   (void)unused;
-  const struct ladder ladders[] = {{"oscillator", 5e-3, 1},
-                                   {"six-particles", 2e-2, 1},
-                                   {"elastic-pendulum", 2e-3, 1},
-                                   {"rope-12", 2e-3, 1},
-                                   {"chain-16", 2e-2, 0}};
-  climb_all("verlet", 2.0, 5, ladders);
+  climb_all("verlet", 2.0, 5, second_order);
 }
 
 static void test_order_of_shardlow(void **unused) {
   (void)unused;
-  const struct ladder ladders[] = {{"oscillator", 5e-3, 1},
-                                   {"six-particles", 2e-2, 1},
-                                   {"elastic-pendulum", 2e-3, 1},
-                                   {"rope-12", 2e-3, 1},
-                                   {"chain-16", 2e-2, 0}};
-  climb_all("shardlow", 2.0, 5, ladders);
+  climb_all("shardlow", 2.0, 5, second_order);
 }
 
 static void test_order_of_rk4(void **unused) {
@@ -186,22 +182,12 @@ static void test_order_of_backward_euler(void **unused) {
 
 static void test_order_of_tr_bdf2(void **unused) {
   (void)unused;
-  const struct ladder ladders[] = {{"oscillator", 5e-3, 1},
-                                   {"six-particles", 2e-2, 1},
-                                   {"elastic-pendulum", 2e-3, 1},
-                                   {"rope-12", 2e-3, 1},
-                                   {"chain-16", 2e-2, 0}};
-  climb_all("tr-bdf2", 2.0, 5, ladders);
+  climb_all("tr-bdf2", 2.0, 5, second_order);
 }
 
 static void test_order_of_implicit_midpoint(void **unused) {
   (void)unused;
-  const struct ladder ladders[] = {{"oscillator", 5e-3, 1},
-                                   {"six-particles", 2e-2, 1},
-                                   {"elastic-pendulum", 2e-3, 1},
-                                   {"rope-12", 2e-3, 1},
-                                   {"chain-16", 2e-2, 0}};
-  climb_all("implicit-midpoint", 2.0, 5, ladders);
+  climb_all("implicit-midpoint", 2.0, 5, second_order);
 }
 
 /* ---- the errors that fixed-step methods must have, to 6 digits where nothing is solved for, or the rounding

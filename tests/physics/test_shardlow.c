@@ -50,35 +50,6 @@ static void factor_is_the_formula(void **unused) {
 
 /* ---- many pairs ---- */
 
-enum { PARTICLES = 12, SPRINGS = 40 };
-
-/* Springs between particles at random places; what one particle turns in is none of another's. */
-static hooke_system *random_net(uint64_t seed, double damping, int pinned) {
-  struct random_source source = {seed};
-  double q[3 * PARTICLES], v[3 * PARTICLES], stiffness[SPRINGS], gamma[SPRINGS];
-  int64_t ends[2 * SPRINGS];
-  for (int k = 0; k < 3 * PARTICLES; k++) {
-    q[k] = random_between(&source, -1.0, 1.0);
-    v[k] = pinned && k < 3 ? 0.0 : random_between(&source, -1e-6, 1e-6);
-  }
-  hooke_system *system = small_system(PARTICLES, q, v, 0.1, pinned);
-  for (int k = 0; k < SPRINGS; k++) {
-    ends[2 * k] = random_whole(&source, 0, PARTICLES - 1);
-    ends[2 * k + 1] = (ends[2 * k] + random_whole(&source, 1, PARTICLES - 1)) % PARTICLES;
-    stiffness[k] = pow(10.0, random_between(&source, 0.0, 3.0));
-    gamma[k] = damping * pow(10.0, random_between(&source, -1.0, 1.0));
-  }
-  hooke_options *options = NULL;
-  check_ok(hooke_options_create("springs", &options));
-  check_ok(hooke_options_set_text(options, "law", "length"));
-  check_ok(hooke_options_set_numbers(options, "stiffness", SPRINGS, stiffness));
-  check_ok(hooke_options_set_numbers(options, "damping", SPRINGS, gamma));
-  check_ok(hooke_system_add_springs(system, "net", SPRINGS, ends, options));
-  hooke_options_destroy(options);
-  check_ok(hooke_system_commit(system));
-  return system;
-}
-
 static double total(const hooke_system *system, hooke_state *state) {
   return hooke_system_energy(system, "total", hooke_state_position(state), hooke_state_velocity(state));
 }
@@ -88,12 +59,12 @@ static void momentum_stays(void **unused) {
   (void)unused;
   const double dampings[] = {1e-3, 1.0, 1e3, 1e6};
   for (int k = 0; k < 4; k++) {
-    hooke_system *system = random_net((uint64_t)(k + 1), dampings[k], 0);
+    hooke_system *system = small_net((uint64_t)(k + 1), dampings[k], 1e-6, 0);
     hooke_integrator *integrator = start_run(system, (struct run){.method = "shardlow", .step = 1e-3});
     hooke_state *state = start_state(system);
     struct random_source source = {99};
     double *v = hooke_state_velocity(state), before[6], after[6];
-    for (int i = 0; i < 3 * PARTICLES; i++)
+    for (int i = 0; i < 3 * SMALL_NET_PARTICLES; i++)
       v[i] = random_between(&source, -1.0, 1.0);
     const double energy = total(system, state);
     hooke_system_momentum(system, v, before);
@@ -117,7 +88,7 @@ static void damping_leaves_the_limit(void **unused) {
   if (!hooke_build_fact("lapack")[0]) skip();
   const double dampings[] = {0.0, 1e-3, 0.1, 10.0, 1e4};
   for (int k = 0; k < 5; k++) {
-    hooke_system *system = random_net(7, dampings[k], 1);
+    hooke_system *system = small_net(7, dampings[k], 1e-6, 1);
     hooke_options *run = run_options((struct run){.method = "shardlow", .step = 1e-3, .duration = 1.0});
     hooke_measurement *limit = NULL;
     hooke_options *options = NULL;

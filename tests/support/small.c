@@ -1,6 +1,9 @@
 #include "small.h"
 
 #include "check.h"
+#include "random.h"
+
+#include <math.h>
 
 hooke_system *small_system(int64_t count, const double *position, const double *velocity, double mass,
                            int32_t pin_first) {
@@ -23,6 +26,33 @@ void small_springs(hooke_system *system, int64_t count, const int64_t *ends, str
   if (springs.pull_only) check_ok(hooke_options_set_number(options, "compression", 0.0));
   check_ok(hooke_system_add_springs(system, "springs", count, ends, options));
   hooke_options_destroy(options);
+}
+
+hooke_system *small_net(uint64_t seed, double damping, double speed, int32_t pin_first) {
+  enum { PARTICLES = SMALL_NET_PARTICLES, SPRINGS = SMALL_NET_SPRINGS };
+  struct random_source source = {seed};
+  double q[3 * PARTICLES], v[3 * PARTICLES] = {0}, stiffness[SPRINGS], gamma[SPRINGS];
+  int64_t ends[2 * SPRINGS];
+  for (int k = 0; k < 3 * PARTICLES; k++) {
+    q[k] = random_between(&source, -1.0, 1.0);
+    if (speed > 0.0 && !(pin_first && k < 3)) v[k] = random_between(&source, -speed, speed);
+  }
+  hooke_system *system = small_system(PARTICLES, q, v, 0.1, pin_first);
+  for (int k = 0; k < SPRINGS; k++) {
+    ends[2 * k] = random_whole(&source, 0, PARTICLES - 1);
+    ends[2 * k + 1] = (ends[2 * k] + random_whole(&source, 1, PARTICLES - 1)) % PARTICLES;
+    stiffness[k] = pow(10.0, random_between(&source, 0.0, 3.0));
+    gamma[k] = damping * pow(10.0, random_between(&source, -1.0, 1.0));
+  }
+  hooke_options *options = NULL;
+  check_ok(hooke_options_create("springs", &options));
+  check_ok(hooke_options_set_text(options, "law", "length"));
+  check_ok(hooke_options_set_numbers(options, "stiffness", SPRINGS, stiffness));
+  check_ok(hooke_options_set_numbers(options, "damping", SPRINGS, gamma));
+  check_ok(hooke_system_add_springs(system, "net", SPRINGS, ends, options));
+  hooke_options_destroy(options);
+  check_ok(hooke_system_commit(system));
+  return system;
 }
 
 hooke_system *small_oscillator(double omega) {

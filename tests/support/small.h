@@ -21,6 +21,12 @@ void small_springs(hooke_system *system, int64_t count, const int64_t *ends, str
  * angular frequency omega, without damping; it starts at (1, 0, 0) with velocity (0, 0.5, 0). */
 hooke_system *small_oscillator(double omega);
 
+/* A committed net of 40 springs between 12 particles at random places, so that stiffness and damping have no
+ * modes in common: strengths within a factor of 100 or 1000, those of dampers about `damping`; velocities are
+ * up to `speed` in each direction, that of a pinned first particle 0. */
+enum { SMALL_NET_PARTICLES = 12, SMALL_NET_SPRINGS = 40 };
+hooke_system *small_net(uint64_t seed, double damping, double speed, int32_t pin_first);
+
 /* A committed undamped cloth of `side` x `side` particles that falls, pinned at one corner, and crumples:
  * chaotic after a second or so. */
 hooke_system *small_crumpling_cloth(int64_t side);
