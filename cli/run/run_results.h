@@ -50,8 +50,8 @@ void cli_run_print_final(const struct cli_run *run);
 /* 1 if frames after divergence were asked for. */
 int32_t cli_run_goes_beyond(const struct cli_run *run);
 
-/* Runs the scene into a trajectory that is there to be shown, with --want or its own method (run.c); `outcome` as
- * hooke_integrator_run() has it. A failure is reported and gives the exit code. */
+/* Runs the scene into a trajectory that is there to be shown, with --want or its own method (run.c);
+ * `outcome` as hooke_integrator_run() has it. A failure is reported and gives the exit code. */
 int cli_run_to_show(const struct cli_arguments *arguments, const char *output, int32_t *outcome);
 
 #endif

@@ -3,8 +3,8 @@
  * An integrator is a method with its options and its scratch, made for one system (or one first-order
  * problem). It belongs to one thread at a time; many integrators may share a system, each with its own state.
  *
- * Options of a run (hooke_options_create("run", ...)): method, step [s], duration [s], every [s], checkpoint [s],
- * newton, verlet_damping, rtol, atol [m], atol_velocity [m/s], max_order, linear_solver, max_steps,
+ * Options of a run (hooke_options_create("run", ...)): method, step [s], duration [s], every [s], checkpoint
+ * [s], newton, verlet_damping, rtol, atol [m], atol_velocity [m/s], max_order, linear_solver, max_steps,
  * past_divergence, frames_after, threads.
  *
  * Frames. With a fixed-step method `every` and `duration` are whole multiples of `step`; frame k is the state

@@ -196,9 +196,9 @@ HOOKE_API int32_t hooke_comparison_file_create(const char *path, hooke_measureme
                                                hooke_comparison_file **file);
 HOOKE_API int32_t hooke_comparison_file_close(hooke_comparison_file *file);
 
-/* ---- a why: why a run ended early, where, and what to do ----
- * Its page (.html) shows the steps around the trouble, which are taken again while it is written: the system has to be
- * there still, and callbacks are called again. */
+/* ---- a why: why a run ended early, where, and what to do ---- Its page (.html) shows the steps around the
+ * trouble, which are taken again while it is written: the system has to be there still, and callbacks are
+ * called again. */
 
 /* Explains the last run (or steps) of `integrator`, which ended with HOOKE_DIVERGED, HOOKE_SOLVER_FAILED or
  * HOOKE_STEP_LIMIT. The integrator must not change until hooke_measurement_run() has returned. That repeats
@@ -220,17 +220,17 @@ HOOKE_API int32_t hooke_why_create_kept(const hooke_system *system, const hooke_
 HOOKE_API int32_t hooke_why_advice_apply(const hooke_measurement *measurement, int64_t row,
                                          hooke_options *run);
 
-/* ---- verify: checks that a trajectory reproduces from its scene ----
- * It repeats a slice of the run from the numbers in the file and compares the frames to the bit; it compares
- * every frame with its check value, and the first one with the scene. With a fixed step a slice begins at any
- * frame; an error-controlled method is run from the start. Along the slice it computes the energy balance:
- * the work of driven particles = change of energy + heat of damping and drag. It then runs the slice with
- * half the step, or a hundredth of the tolerances: the residual of the balance has to fall as the error of
- * the method does, and the difference between the two runs estimates the error.
+/* ---- verify: checks that a trajectory reproduces from its scene ---- It repeats a slice of the run from the
+ * numbers in the file and compares the frames to the bit; it compares every frame with its check value, and
+ * the first one with the scene. With a fixed step a slice begins at any frame; an error-controlled method is
+ * run from the start. Along the slice it computes the energy balance: the work of driven particles = change
+ * of energy + heat of damping and drag. It then runs the slice with half the step, or a hundredth of the
+ * tolerances: the residual of the balance has to fall as the error of the method does, and the difference
+ * between the two runs estimates the error.
  *
- * Where the file was made with other versions of SUNDIALS or CHOLMOD, or on another machine,
- * error-controlled methods and linear_solver direct may differ in bits: frames then have to agree to within four
- * times the estimate.
+ * Where the file was made with other versions of SUNDIALS or CHOLMOD, or on another machine, error-controlled
+ * methods and linear_solver direct may differ in bits: frames then have to agree to within four times the
+ * estimate.
  *
  * hooke_measurement_run() returns HOOKE_BAD_VALUE if the file does not reproduce, with the first frame,
  * particle and component that differ and both numbers, the damaged frame, or the balance that does not hold;

@@ -42,8 +42,8 @@ HOOKE_API int32_t hooke_trajectory_write(hooke_trajectory *trajectory, int64_t s
  * HOOKE_IO_FAILED. */
 HOOKE_API int32_t hooke_trajectory_write_behind(hooke_trajectory *trajectory);
 
-/* Marks the frames from the next one on as after divergence: those that the option `past_divergence` adds, which
- * come while hooke_integrator_diverged_at() is not NaN. A second call does nothing. HOOKE_IO_FAILED. */
+/* Marks the frames from the next one on as after divergence: those that the option `past_divergence` adds,
+ * which come while hooke_integrator_diverged_at() is not NaN. A second call does nothing. HOOKE_IO_FAILED. */
 HOOKE_API int32_t hooke_trajectory_mark_diverged(hooke_trajectory *trajectory);
 
 /* Waits for the frame on its way and brings all data to the disk: what is there then outlasts a power
@@ -115,15 +115,16 @@ HOOKE_API int64_t hooke_record_place(const hooke_record *record, const char *wha
 
 /* ---- viewing trajectories ---- */
 
-/* Writes a trajectory as one HTML page that plays it, readable offline: surfaces and
- * springs, strain as colour, what is pinned and what is driven, energies over time. A view is what of the file the page shows; the record has to
- * stay as long as it does. */
+/* Writes a trajectory as one HTML page that plays it, readable offline: surfaces and springs, strain as
+ * colour, what is pinned and what is driven, energies over time. A view is what of the file the page shows;
+ * the record has to stay as long as it does. */
 typedef struct hooke_view hooke_view;
 
 /* Chooses what is shown: of more springs than the options allow every k-th, of frames as many as they allow,
- * evenly, the last one always; frames that are damaged are skipped. `options` are copied; NULL: defaults. HOOKE_BAD_VALUE for a file of several
- * runs, one without frames, or a size that is too small; HOOKE_NOT_BUILT in a build without three.js and
- * Chart.js, or where files of share/hooke are missing; HOOKE_IO_FAILED, HOOKE_NO_MEMORY. */
+ * evenly, the last one always; frames that are damaged are skipped. `options` are copied; NULL: defaults.
+ * HOOKE_BAD_VALUE for a file of several runs, one without frames, or a size that is too small;
+ * HOOKE_NOT_BUILT in a build without three.js and Chart.js, or where files of share/hooke are missing;
+ * HOOKE_IO_FAILED, HOOKE_NO_MEMORY. */
 HOOKE_API int32_t hooke_view_create(const hooke_record *record, const hooke_options *options,
                                     hooke_view **view);
 /* Writes the page. `title` is its heading; NULL: the title of the scene, or the name of the file. An older
@@ -131,8 +132,8 @@ HOOKE_API int32_t hooke_view_create(const hooke_record *record, const hooke_opti
 HOOKE_API int32_t hooke_view_write(hooke_view *view, const char *path, const char *title);
 /* "frames", "springs", "particles" that are shown, and "frames_there", "springs_there", "particles_there";
  * "frame_stride", "spring_stride": every how manieth; "time_first", "time_last" [s]; "strain": the one at the
- * ends of the scale of colours, "strain_low", "strain_high": those met; "damaged": frames that were skipped; "bytes" of the page that was written.
- * NaN if it does not apply, and for another word. */
+ * ends of the scale of colours, "strain_low", "strain_high": those met; "damaged": frames that were skipped;
+ * "bytes" of the page that was written. NaN if it does not apply, and for another word. */
 HOOKE_API double hooke_view_number(const hooke_view *view, const char *what);
 /* NULL is allowed. */
 HOOKE_API void hooke_view_destroy(hooke_view *view);

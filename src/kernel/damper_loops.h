@@ -1,5 +1,5 @@
-/* The loop of dampers that are applied one pair after the other (Shardlow 2003). Springs of one colour have no
- * particle in common, so that none sees what another does and their order is any.
+/* The loop of dampers that are applied one pair after the other (Shardlow 2003). Springs of one colour have
+ * no particle in common, so that none sees what another does and their order is any.
  *
  * To the parenthesis, with d = x_i - x_j and e = v_i - v_j of a spring from i to j:
  *   r = sqrt((dx*dx + dy*dy) + dz*dz)     ir = 1/r, 0 where r = 0     rate = ((ex*dx + ey*dy) + ez*dz)*ir

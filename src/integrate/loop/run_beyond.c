@@ -1,5 +1,5 @@
-/* Frames after divergence, with a fixed step: the motion goes on from where the check failed, unchecked, until a
- * number is not finite. Nothing of it is physics any more; it shows how the run blows up. */
+/* Frames after divergence, with a fixed step: the motion goes on from where the check failed, unchecked,
+ * until a number is not finite. Nothing of it is physics any more; it shows how the run blows up. */
 #include "integrate/loop/run_loop.h"
 
 #include "core/status.h"

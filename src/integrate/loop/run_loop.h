@@ -1,6 +1,6 @@
 /* The pieces of the run loop: what is the same for every method (run.c), internal steps of an
- * error-controlled one (run_adaptive.c), going on from a place that another run came to (resume.c), and frames
- * after divergence (run_beyond.c). */
+ * error-controlled one (run_adaptive.c), going on from a place that another run came to (resume.c), and
+ * frames after divergence (run_beyond.c). */
 #ifndef HOOKE_INTEGRATE_LOOP_RUN_LOOP_H
 #define HOOKE_INTEGRATE_LOOP_RUN_LOOP_H
 
@@ -30,8 +30,9 @@ int32_t hk_run_end(hooke_integrator *integrator, hooke_state *state, int32_t sta
 
 /* hooke_integrator_run() without what may come after divergence, which trials do not want. */
 int32_t hk_run_whole(hooke_integrator *integrator, hooke_state *state);
-/* Where a run ended with `status`, as divergence, and its options ask for it: shows the frames beyond. Whatever
- * comes of them, the integrator and the state are as they were, and so is the message. Returns `status`. */
+/* Where a run ended with `status`, as divergence, and its options ask for it: shows the frames beyond.
+ * Whatever comes of them, the integrator and the state are as they were, and so is the message. Returns
+ * `status`. */
 int32_t hk_run_beyond(hooke_integrator *integrator, hooke_state *state, int32_t status);
 /* `count` steps of a fixed-step method, with progress told in between. */
 int32_t hk_run_take_fixed_steps(hooke_integrator *integrator, int64_t count);

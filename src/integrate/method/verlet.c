@@ -5,8 +5,9 @@
  * (Groot and Warren 1997, with lambda = 1), which is of order 2 and keeps nothing across steps; or, where
  * that may be unstable, solves for the new velocity, with D = df/dv at (q', v_pred):
  *   (M - h/2 D) (v' - v_pred) = h/2 (f(t + h, q', v_pred) + M g) - M (v_pred - v_half)
- * D is that of the springs, altitude springs and drag: a callback sees v_pred. A spring that only pulls counts
- * if it pulls at (q', v_pred), else not at all. Drag alone, and with explicit damping, is a division. */
+ * D is that of the springs, altitude springs and drag: a callback sees v_pred. A spring that only pulls
+ * counts if it pulls at (q', v_pred), else not at all. Drag alone, and with explicit damping, is a division.
+ * */
 #include "core/memory.h"
 #include "core/status.h"
 #include "integrate/method/verlet_damping.h"

@@ -35,9 +35,9 @@ int32_t hk_solve_symmetric(const struct hk_operator *a, const double *b, double 
                            double *scratch, double *x, struct hk_solution *solution);
 
 /* The same for a known size of error: until |x - solution|_A, in the norm of A, is below `absolute` or below
- * `relative` times that of x, as far as the last few iterations tell (Hestenes and Stiefel 1952; Strakos and Tichy
- * 2002), or rounding allows no more. Products of vectors are sums over tiles of 256 particles, each of x, y
- * and z, one after the other, so that whoever has some of the tiles comes to the same bits. */
+ * `relative` times that of x, as far as the last few iterations tell (Hestenes and Stiefel 1952; Strakos and
+ * Tichy 2002), or rounding allows no more. Products of vectors are sums over tiles of 256 particles, each of
+ * x, y and z, one after the other, so that whoever has some of the tiles comes to the same bits. */
 int32_t hk_solve_positive(const struct hk_operator *a, const double *b, double relative, double absolute,
                           int64_t limit, double *scratch, double *x, struct hk_solution *solution);
 

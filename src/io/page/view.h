@@ -57,7 +57,8 @@ int32_t hk_view_pack(const struct hooke_view *view, int64_t frame, uint8_t *byte
 /* Strain of the k-th spring shown, at positions q; NaN if it has no rest length. */
 double hk_view_strain(const struct hooke_view *view, const double *q, int64_t k);
 
-/* Finds `strain`, strain_low and strain_high, and leaves damaged frames out. HOOKE_BAD_VALUE if none is whole. */
+/* Finds `strain`, strain_low and strain_high, and leaves damaged frames out. HOOKE_BAD_VALUE if none is
+ * whole. */
 int32_t hk_view_find_strain(struct hooke_view *view);
 
 #endif

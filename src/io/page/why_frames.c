@@ -22,7 +22,8 @@ enum {
 };
 /* Particles and springs times steps that the energies, and the advised run, may take. */
 static const double ENERGY_WORK = 3e8, ADVISED_WORK = 2e9;
-/* Frames end when the scene is so much wider than at first; the mode grows about so much before the trouble. */
+/* Frames end when the scene is so much wider than at first; the mode grows about so much before the trouble.
+ * */
 static const double WIDEST = 1e5, GROWN = 1e4;
 static const double LOOK_SECONDS = 3.0, MOST_LOOKED_AT = 2e4; /* at eigenvalues, of so many particles */
 static const double MOVE_SCALE = 1e4;
@@ -120,7 +121,8 @@ static int32_t begin_limits(struct frames *f, const hooke_options *run) {
   return status;
 }
 
-/* Frequency and damping of the mode that limits, and whether it is the one to draw: the first above the limit. */
+/* Frequency and damping of the mode that limits, and whether it is the one to draw: the first above the
+ * limit. */
 static int32_t take_mode(struct frames *f, const struct hk_limit *limit, const struct hk_limit_row *row,
                          int64_t step) {
   struct hk_growing g;
@@ -247,7 +249,8 @@ static int32_t is_within_reach(const struct frames *f, const hooke_options *run,
          steps * work_of(f->system) < ADVISED_WORK;
 }
 
-/* The first advice that is another run with a fixed step, within the work; `advised` is NULL where there is none. */
+/* The first advice that is another run with a fixed step, within the work; `advised` is NULL where there is
+ * none. */
 static int32_t find_advice(const struct frames *f, const hooke_options *run, double until,
                            hooke_options **advised, const char **change) {
   int32_t status = HOOKE_OK;

@@ -43,8 +43,8 @@ herr_t hk_h5md_write_run(hid_t file, const char *run);
 herr_t hk_h5md_copy(hid_t from, hid_t to, struct hk_h5_copy *copy);
 herr_t hk_h5md_refer(hid_t file, const char *group);
 
-/* Room for the first frame after divergence; where it is, -1 in older files; and writing it, 0 or the number of
- * the system's error. Negative on failure. */
+/* Room for the first frame after divergence; where it is, -1 in older files; and writing it, 0 or the number
+ * of the system's error. Negative on failure. */
 herr_t hk_h5md_write_beyond_room(hid_t file);
 int64_t hk_h5md_find_beyond(hid_t file);
 int hk_h5md_write_beyond(int descriptor, int64_t at, int64_t frame);

@@ -2,8 +2,8 @@
 #ifndef HOOKE_MEASURE_SPECTRUM_MODE_GROWTH_H
 #define HOOKE_MEASURE_SPECTRUM_MODE_GROWTH_H
 
-/* The largest modulus of the factors by which a step h of `method` multiplies x'' + 2 decay x' + frequency^2 x = 0:
- * above 1 it grows. NaN where no rule is known. Sources: docs/notes/methods.md, "Stability". */
+/* The largest modulus of the factors by which a step h of `method` multiplies x'' + 2 decay x' + frequency^2
+ * x = 0: above 1 it grows. NaN where no rule is known. Sources: docs/notes/methods.md, "Stability". */
 double hk_mode_growth(const char *method, double h, double frequency, double decay);
 
 #endif

@@ -1,7 +1,7 @@
 /* A growing direction, iterated towards the mode of the largest eigenvalue of M^-1 (a K + b C) at given
  * positions by products only (the power method): K and C as in linearised.h, computed from the springs
- * directly, in the memory of two vectors. Every iterate gives a lower bound of that eigenvalue, so that a step
- * is proven to be above its limit long before the limit is known. */
+ * directly, in the memory of two vectors. Every iterate gives a lower bound of that eigenvalue, so that a
+ * step is proven to be above its limit long before the limit is known. */
 #ifndef HOOKE_MEASURE_WHY_GROWING_H
 #define HOOKE_MEASURE_WHY_GROWING_H
 

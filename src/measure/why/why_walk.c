@@ -41,7 +41,8 @@ void hk_why_start_release(struct hk_why_start *start) {
   *start = (struct hk_why_start){.state = NULL};
 }
 
-/* At the start: as the run itself stood there, so that the same step gives the same bits, or anew with another one. */
+/* At the start: as the run itself stood there, so that the same step gives the same bits, or anew with
+ * another one. */
 static int32_t begin(hooke_integrator *it, const struct hk_why_start *start, hooke_state *state) {
   const double begun = start->standing.t0 + (double)start->standing.k * it->schedule.step;
   const int32_t status = hooke_state_copy(start->state, state);

@@ -1,10 +1,11 @@
 /* All dampers of a system, applied to velocities one after the other for a time h, each exactly but for the
- * form of its factor (Shardlow 2003). An element with weights g, strength c along u and the inverse masses w of
- * its particles acts on W = sum of g_j^2 w_j, and takes the part 1 - 1/(1 + z + z^2/2) of its rate, z = h c W.
+ * form of its factor (Shardlow 2003). An element with weights g, strength c along u and the inverse masses w
+ * of its particles acts on W = sum of g_j^2 w_j, and takes the part 1 - 1/(1 + z + z^2/2) of its rate, z = h
+ * c W.
  *
- * Their order, which is backwards in the second sweep of a step: damped springs by colour, where the colour of
- * a spring is the lowest that no damped spring before it has at either end; then the other forces in the order
- * of the sum, with their elements in ascending number; then drag. */
+ * Their order, which is backwards in the second sweep of a step: damped springs by colour, where the colour
+ * of a spring is the lowest that no damped spring before it has at either end; then the other forces in the
+ * order of the sum, with their elements in ascending number; then drag. */
 #ifndef HOOKE_MODEL_SUM_DAMPERS_H
 #define HOOKE_MODEL_SUM_DAMPERS_H
 
