@@ -1,7 +1,6 @@
 #define _GNU_SOURCE /* F_OFD_GETLK */
 #include "setup.h"
 #include "report.h"
-#include "unit.h"
 
 #include <fcntl.h>
 #include <stdio.h>
@@ -136,22 +135,14 @@ int cli_setup_check_output(const struct cli_arguments *arguments, const char *ou
   return cli_setup_check_other_file(arguments, output);
 }
 
-int cli_setup_read_study(const struct cli_arguments *arguments, const char *name, const char *base,
-                         double *value) {
+int cli_setup_read_study(const struct cli_arguments *arguments, const char *name, double *value) {
   const char *text = cli_arguments_text(arguments, name);
-  char word[HOOKE_UNIT_WORD_SIZE], list[HOOKE_UNIT_LIST_SIZE];
   hooke_options *options = NULL;
   if (!text) return HOOKE_EXIT_DONE;
-  char *plain = cli_unit_read(text, base, word);
-  if (!plain) {
-    return cli_report(arguments, HOOKE_EXIT_USAGE, "--%s %s: there is no unit '%s'; allowed: %s", name, text,
-                      word, cli_unit_list(base, list));
-  }
   int32_t status = hooke_options_create("study", &options);
-  if (status == HOOKE_OK) status = hooke_options_set_text(options, name, plain);
+  if (status == HOOKE_OK) status = hooke_options_set_text(options, name, text);
   if (status == HOOKE_OK) *value = hooke_options_number(options, name);
   hooke_options_destroy(options);
-  free(plain);
   return status == HOOKE_OK ? HOOKE_EXIT_DONE
                             : cli_report(arguments, HOOKE_EXIT_USAGE, "--%s: %s", name, hooke_last_error());
 }

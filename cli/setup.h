@@ -31,9 +31,8 @@ int cli_setup_check_apart(const struct cli_arguments *arguments, const char *inp
 int cli_setup_check_other_file(const struct cli_arguments *arguments, const char *output);
 int cli_setup_check_output(const struct cli_arguments *arguments, const char *output);
 
-/* Reads the number in `base` ("m" or "s") given as --`name`, whose bounds come from the options of a study;
+/* Reads the number given as --`name`, whose unit and bounds are those of a study's option;
  * `value` is unchanged if it is not given. A failure is reported and returned as exit code. */
-int cli_setup_read_study(const struct cli_arguments *arguments, const char *name, const char *base,
-                         double *value);
+int cli_setup_read_study(const struct cli_arguments *arguments, const char *name, double *value);
 
 #endif

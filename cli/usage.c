@@ -1,7 +1,6 @@
 #include "usage.h"
 #include "describe.h"
 #include "print.h"
-#include "unit.h"
 
 #include <ctype.h>
 #include <string.h>
@@ -84,7 +83,6 @@ static void print_kinds(FILE *file, const struct cli_verb *verb) {
 }
 
 static void print_options(FILE *file, const struct cli_arguments *arguments) {
-  char times[HOOKE_UNIT_LIST_SIZE], lengths[HOOKE_UNIT_LIST_SIZE];
   fputs("\noptions:\n", file);
   for (int32_t i = 0; i < arguments->count; i++) {
     if (arguments->all[i].own) print_option(file, &arguments->all[i]);
@@ -94,8 +92,8 @@ static void print_options(FILE *file, const struct cli_arguments *arguments) {
   if (arguments->verb->input) return;
   print_table(file, arguments, arguments->run);
   print_table(file, arguments, arguments->limits);
-  fprintf(file, "\nnumbers in [s] and [m] may have a unit: %s; %s\n", cli_unit_list("s", times),
-          cli_unit_list("m", lengths));
+  fprintf(file,
+          "\na number in [s], [m], [kg], [N] and so on may have another unit: 5ms, 0.5 cm, 200g, 2kN\n");
 }
 
 void cli_usage_print_verb(FILE *file, const struct cli_arguments *arguments) {

@@ -1,7 +1,6 @@
 #include "value.h"
 
 #include "report.h"
-#include "unit.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -67,23 +66,6 @@ static int out_of_memory(const struct cli_arguments *arguments) {
   return cli_report(arguments, HOOKE_EXIT_BAD_INPUT, "out of memory");
 }
 
-static int in_si_units(const struct cli_arguments *arguments, const struct cli_argument *argument,
-                       char **text) {
-  const char *unit = hooke_options_row(argument->table, argument->row, "unit");
-  char word[HOOKE_UNIT_WORD_SIZE] = "", list[HOOKE_UNIT_LIST_SIZE];
-  if (!cli_unit_has_others(unit)) return HOOKE_EXIT_DONE;
-  char *read = cli_unit_read(*text, unit, word);
-  if (!read && !word[0]) return out_of_memory(arguments);
-  if (!read) {
-    return cli_report(arguments, cli_refusal(arguments),
-                      "--%s %s: there is no unit '%s' here; allowed: %s; a number without one is in %s",
-                      argument->flag, argument->text, word, cli_unit_list(unit, list), unit);
-  }
-  free(*text);
-  *text = read;
-  return HOOKE_EXIT_DONE;
-}
-
 static int add_up(const struct cli_arguments *arguments, struct cli_argument *argument, char *more) {
   if (!argument->value || !cli_value_adds_up(argument)) {
     free(argument->value);
@@ -100,15 +82,10 @@ static int add_up(const struct cli_arguments *arguments, struct cli_argument *ar
 }
 
 int cli_value_read(const struct cli_arguments *arguments, struct cli_argument *argument) {
-  int answer = check_rows(arguments, argument);
+  const int answer = check_rows(arguments, argument);
   if (answer != HOOKE_EXIT_DONE) return answer;
   char *text = with_commas(argument);
   if (!text) return out_of_memory(arguments);
-  answer = in_si_units(arguments, argument, &text);
-  if (answer != HOOKE_EXIT_DONE) {
-    free(text);
-    return answer;
-  }
   return add_up(arguments, argument, text);
 }
 

@@ -9,6 +9,7 @@ ROOT = Path(__file__).resolve().parents[2]
 TEMPLATE = Path(__file__).with_name("scene.template.json")
 SCHEMA = ROOT / "examples/scene.schema.json"
 LARGEST = 1e300  # a bound that means none
+QUANTITY = r"^[-+]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][-+]?[0-9]+)?[ \t]*[A-Za-z]+([/ ^A-Za-z0-9]*[A-Za-z0-9])?$"
 WIDTH = 110
 
 
@@ -20,13 +21,23 @@ def number(value):
     return int(value) if float(value).is_integer() else float(value)
 
 
+def with_unit(schema):
+    """Of a number, which may also be a string with a unit; bounds hold for numbers, the pattern for strings."""
+    if isinstance(schema, list):
+        return [with_unit(item) for item in schema]
+    if not isinstance(schema, dict):
+        return schema
+    inside = {key: with_unit(item) for key, item in schema.items()}
+    return {**inside, "type": ["number", "string"], "pattern": QUANTITY} if schema.get("type") == "number" else inside
+
+
 def scalar(row):
     schema = {"type": "integer" if row.whole else "number"}
     if row.low is not None and row.low > -LARGEST:
         schema["exclusiveMinimum" if row.above_low else "minimum"] = number(row.low)
     if row.high is not None and row.high < LARGEST:
         schema["maximum"] = number(row.high)
-    return schema
+    return with_unit(schema) if row.units else schema
 
 
 def array(items, least, most):
@@ -36,7 +47,7 @@ def array(items, least, most):
 
 def numbers(row):
     """An array, or one in a file; or the other values that the table accepts."""
-    if (row.min_count, row.max_count, row.columns) == (1, None, None):
+    if (row.min_count, row.max_count, row.columns) == (1, None, None) and row.units:
         ways = [named("positive numbers" if row.above_low else "numbers from 0")]
     else:
         items = {"oneOf": [scalar(row), {"enum": row.words}]} if row.word_lists else scalar(row)
@@ -102,7 +113,7 @@ class Tables:
 def schema():
     import hooke
 
-    template = json.loads(TEMPLATE.read_text(encoding="utf-8"))
+    template = with_unit(json.loads(TEMPLATE.read_text(encoding="utf-8")))
     definitions, kinds = template["$defs"], hooke.part_kinds()
     tables = Tables(template, [method.name for method in hooke.methods()])
     rows = {kind: hooke.Options.for_part(kind).rows for kind in kinds}

@@ -43,7 +43,7 @@ int cli_want_pick(struct cli_run *run) {
   double want = NAN;
   int code = text ? cli_setup_require_duration(arguments, &run->setup) : HOOKE_EXIT_DONE;
   if (code == HOOKE_EXIT_DONE && text) code = refuse_typed(arguments);
-  if (code == HOOKE_EXIT_DONE && text) code = cli_setup_read_study(arguments, "want", "m", &want);
+  if (code == HOOKE_EXIT_DONE && text) code = cli_setup_read_study(arguments, "want", &want);
   if (code != HOOKE_EXIT_DONE) return code;
   if (!text && (run->resumed || cli_arguments_text(arguments, "no-estimate"))) return HOOKE_EXIT_DONE;
   int32_t status = hooke_estimate_create(run->setup.system, want, &run->estimate);

@@ -2,7 +2,6 @@
 
 #include "describe.h"
 #include "print.h"
-#include "unit.h"
 
 #include <ctype.h>
 #include <stdio.h>
@@ -159,7 +158,7 @@ static int print_verb(const struct cli_verb *verb) {
 static int print_options(const struct cli_program *program) {
   const struct cli_verb all = {.name = program->verbs[0]->name};
   struct cli_arguments arguments = {.verb = &all};
-  char times[HOOKE_UNIT_LIST_SIZE], lengths[HOOKE_UNIT_LIST_SIZE], words[HOOKE_DOC_SIZE];
+  char words[HOOKE_DOC_SIZE];
   print_title("options");
   print_paragraph("In place of a verb:");
   for (const struct cli_program_row *row = program->rows; row->name; row++) {
@@ -176,10 +175,10 @@ static int print_options(const struct cli_program *program) {
                     "defaults are for where "
                     "neither says anything. make writes them there.");
     print_table(&arguments, arguments.run);
-    snprintf(words, sizeof words, "Numbers in [s] and [m] may have a unit: %s; %s.",
-             cli_unit_list("s", times), cli_unit_list("m", lengths));
     printf(".PP\n");
-    print_paragraph(words);
+    print_paragraph(
+        "A number in [s], [m], [kg], [N] and so on may have another unit: 5ms, 0.5 cm, 200g, 2kN. The "
+        "message about an unknown unit lists those that are allowed.");
     printf(".SS What a scene may do\n");
     print_paragraph(
         "Verbs that take a scene refuse one that needs more memory than there is, or names files outside its "

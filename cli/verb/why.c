@@ -278,7 +278,7 @@ static int find_out(struct why *why) {
 
 static int read_options(struct why *why) {
   double budget = USUAL_BUDGET;
-  const int code = cli_setup_read_study(why->arguments, "budget", "s", &budget);
+  const int code = cli_setup_read_study(why->arguments, "budget", &budget);
   if (code != HOOKE_EXIT_DONE) return code;
   int32_t status = hooke_options_create("why", &why->options);
   if (status == HOOKE_OK) status = hooke_options_set_number(why->options, "budget", budget);

@@ -59,8 +59,9 @@ def allowed(schema: dict[str, Any], definitions: dict[str, Any]) -> str:
         return f"an array of: {allowed(items, definitions)}" if items else "an array"
     bound = f" >= {schema['minimum']}" if "minimum" in schema else ""
     bound = f" > {schema['exclusiveMinimum']}" if "exclusiveMinimum" in schema else bound
+    kind = "number" if "number" in schema.get("type", "") else schema.get("type", "")  # with its unit in a string, too
     return {"number": "a number", "integer": "a whole number", "string": "a text", "object": "an object"}.get(
-        schema.get("type", ""), "") + bound
+        kind, "") + bound
 
 
 BELOW = ("particles", "springs", "anchors", "parts", "driven", "run")

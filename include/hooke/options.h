@@ -30,8 +30,8 @@ HOOKE_API int32_t hooke_options_copy(const hooke_options *options, hooke_options
 HOOKE_API void hooke_options_destroy(hooke_options *options);
 
 /* Sets the option `name` to one number, to `count` numbers (copied), or to the value of `text`: "0.5",
- * "1e-3", "0,-9.81,0", "true", or one of the words that the option accepts. A flag is the number 0 or 1.
- * Setting a family name
+ * "1e-3", "0,-9.81,0", "5ms", "0.5 cm", "true", or one of the words that the option accepts. A number without
+ * a unit is in that of the row; 3um is 3e-6 to the bit. A flag is the number 0 or 1. Setting a family name
  * ("structural") to "" makes it present with its defaults.
  * HOOKE_BAD_VALUE for an unknown name, a wrong type or count, a non-finite value or one out of bounds; the
  * option then keeps its old value. HOOKE_NO_MEMORY. */
@@ -68,6 +68,7 @@ HOOKE_API int64_t hooke_options_row_count(const hooke_options *options);
  *   "allowed"  in words: "a number >= 0"
  *   "words"    the choices, or the words accepted in place of numbers, separated by blanks
  *   "family"   the family of the row
+ *   "units"    the units that a text may name, separated by commas: "s, ms, us, ns, min, h"
  *   "example"  a value for a first try, in the syntax of hooke_options_set_text() */
 HOOKE_API const char *hooke_options_row(const hooke_options *options, int64_t row, const char *property);
 

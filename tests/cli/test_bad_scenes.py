@@ -163,7 +163,7 @@ EXPECTED = {
     # the run
     "run-key": ("11:12", "run.stepsize", '"stepsize"', "method, step, duration"),
     "step-zero": ("11:20", "run.step", "0 is not", "a number > 0 [s]"),
-    "step-text": ("11:20", "run.step", '"1ms"', "a number > 0 [s]"),
+    "step-text": ("11:20", "run.step", '"fast"', "a number > 0 [s]"),
     "method-unknown": ("11:22", "run.method", '"euler"', "forward-euler, symplectic-euler"),
     "threads-real": ("11:23", "run.threads", "1.5", "a whole number >= 1"),
     "rtol-large": ("11:20", "run.rtol", "2 is not", "<= 0.1"),

@@ -27,6 +27,22 @@ def test_the_tables_are_those_of_the_library():
         assert len(text.splitlines()) == len(options) and all(name in text for name in options)
 
 
+def test_every_unit_of_a_table_is_known_and_numbers_may_name_it():
+    tables = ["run", "springs", "altitude", "anchors", "study", "limit", "needs", "cost", "why", "view", "limits",
+              "scene", "particles", "driven", *hooke.part_kinds()]  # fmt: skip
+    for table in tables:
+        for row in hooke.options_of(table).rows:
+            assert bool(row.units) == bool(row.unit), (table, row.name)
+            assert not row.unit or {unit.split(" (")[0] for unit in row.unit.split(", ")} <= set(row.units), row.name
+    square = {"size": (4, 4), "edges": [[1, 0, 0], [0, -1, 0]]}
+    plain = hooke.Scene().cloth(mass=0.2, structural={"stiffness": 2e3, "damping": 1e-3}, **square).system
+    named = hooke.Scene().cloth(mass="200g", structural={"stiffness": "2kN", "damping": "1 mN s"}, **square).system
+    assert all(np.array_equal(a, b) for a, b in zip(plain.spring_material, named.spring_material))
+    assert np.array_equal(plain.inverse_masses, named.inverse_masses)
+    with pytest.raises(hooke.BadValue, match="mass: there is no unit 'mg/m' here; allowed: kg, t, g, mg, ug;"):
+        hooke.Scene().cloth(mass="200 mg/m", structural={"stiffness": "2kN"}, **square).system
+
+
 def test_a_row_says_all_that_the_library_knows():
     def row(what, name):
         return next(row for row in hooke.options_of(what).rows if row.name == name)

@@ -188,6 +188,29 @@ static void texts_set_every_type(void **state) {
   check_close(hooke_options_number(o, "quick"), 0, 0);
 }
 
+static void a_text_may_name_units(void **state) {
+  hooke_options *o = *state;
+  static const struct {
+    const char *text;
+    double step;
+  } times[] = {{"3ms", 3e-3},  {"3 ms", 3e-3}, {"+.7E1 us", .7e-5},    {"7.e-1ms", 0.7e-3},
+               {"0.1 s", 0.1}, {"3ns", 3e-9},  {"1e-3min", 1e-3 * 60}, {"1e-5\th", 1e-5 * 3600}};
+  for (size_t k = 0; k < sizeof times / sizeof times[0]; k++) {
+    check_ok(hooke_options_set_text(o, "step", times[k].text));
+    check_close(hooke_options_number(o, "step"), times[k].step, 0);
+  }
+  check_ok(hooke_options_set_text(o, "gravity", "1,-981 cm/s^2 2 mm/s^2"));
+  check_close(hooke_options_numbers(o, "gravity")[0], 1, 0);
+  check_close(hooke_options_numbers(o, "gravity")[1], -9.81, 0);
+  check_close(hooke_options_numbers(o, "gravity")[2], 2e-3, 0);
+  check_ok(hooke_options_set_text(o, "shear.damping", "2 kN s, 3, 4 mN s"));
+  check_close(hooke_options_numbers(o, "shear.damping")[0], 2000, 0);
+  check_close(hooke_options_numbers(o, "shear.damping")[2], 4e-3, 0);
+  assert_string_equal(hk_options_unit_given(o, "shear.damping"), "N s");
+  check_ok(hooke_options_set_text(o, "shear.damping", "2"));
+  assert_null(hk_options_unit_given(o, "shear.damping"));
+}
+
 static void a_word_and_numbers_replace_each_other(void **state) {
   hooke_options *o = *state;
   const double lengths[] = {1, 2};
@@ -252,6 +275,17 @@ static void refusals_give_value_and_allowed(void **state) {
               "step: 1e-999 is so small that it would become 0; allowed: a number > 0 and <= 10 [s]");
   refuse_text(o, "step", "1e999",
               "step: 1e999 is beyond the largest number, 1.8e308; allowed: a number > 0 and <= 10 [s]");
+  refuse_text(
+      o, "step", "3 km/h",
+      "step: there is no unit 'km/h' here; allowed: s, ms, us, ns, min, h; a number without one is in s");
+  refuse_text(o, "step", "ms", "step: \"ms\" is not allowed; allowed: a number > 0 and <= 10 [s]");
+  refuse_text(
+      o, "step", "3ms2ms",
+      "step: there is no unit 'ms2ms' here; allowed: s, ms, us, ns, min, h; a number without one is in s");
+  refuse_text(o, "step", "1e400ms",
+              "step: 1e400ms is beyond the largest number, 1.8e308; allowed: a number > 0 and <= 10 [s]");
+  refuse_text(o, "step", "1min", "step: 60 is not allowed; allowed: a number > 0 and <= 10 [s]");
+  refuse_text(o, "order", "5s", "order: \"5s\" is not allowed; allowed: a whole number >= 1 and <= 12");
   refuse_text(o, "law", "cubic", "law: \"cubic\" is not allowed; allowed: \"strain\" or \"length\"");
   refuse_text(o, "order", "2.5", "order: 2.5 is not allowed; allowed: a whole number >= 1 and <= 12");
   refuse_text(o, "quick", "yes", "quick: \"yes\" is not allowed; allowed: true or false");
@@ -449,6 +483,7 @@ int main(void) {
       TEST(locale_does_not_matter),
       TEST(defaults_are_there_and_unset),
       TEST(texts_set_every_type),
+      TEST(a_text_may_name_units),
       TEST(a_word_and_numbers_replace_each_other),
       TEST(words_and_numbers_mix_where_allowed),
       TEST(large_arrays_are_copied),

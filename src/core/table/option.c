@@ -4,6 +4,7 @@
 #include "core/memory.h"
 #include "core/table/option_value.h"
 #include "core/status.h"
+#include "core/table/unit.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -14,9 +15,9 @@ enum { NAME_SIZE = 128, TEXT_SIZE = 512 };
 /* One row of the table or of one of its families, flattened: a family is followed by its members. */
 struct slot {
   const struct hk_option_row *row;
-  int64_t family;   /* slot of its family; -1: none */
-  const char *name; /* with dots: the row's own, or one in `names` */
-  char *allowed;    /* NULL until first requested */
+  int64_t family;        /* slot of its family; -1: none */
+  const char *name;      /* with dots: the row's own, or one in `names` */
+  char *allowed, *units; /* NULL until first requested */
   int32_t is_set;
   struct hk_option_value value, fallback;
 };
@@ -90,6 +91,7 @@ void hooke_options_destroy(hooke_options *options) {
     hk_option_value_clear(&slot->value);
     hk_option_value_clear(&slot->fallback);
     hk_free(slot->allowed);
+    hk_free(slot->units);
   }
   hk_free(options->slot);
   hk_free(options->names);
@@ -180,16 +182,22 @@ static void put(hooke_options *options, struct slot *slot, const struct hk_optio
     options->slot[family].is_set = 1;
 }
 
-int32_t hooke_options_set_numbers(hooke_options *options, const char *name, int64_t count,
-                                  const double *values) {
+int32_t hk_options_set_in_unit(hooke_options *options, const char *name, int64_t count, const double *values,
+                               const char *unit) {
   struct slot *slot;
   if (require_slot(options, name, &slot)) return HOOKE_BAD_VALUE;
   if (count < 0 || (count > 0 && values == NULL))
     return hk_fail(HOOKE_BAD_VALUE, name, "no numbers given (count %lld)", (long long)count);
   struct hk_option_value value;
   int32_t status = hk_option_value_from_numbers(slot->row, slot->name, count, values, &value);
+  value.unit = unit;
   if (status == HOOKE_OK) put(options, slot, &value);
   return status;
+}
+
+int32_t hooke_options_set_numbers(hooke_options *options, const char *name, int64_t count,
+                                  const double *values) {
+  return hk_options_set_in_unit(options, name, count, values, NULL);
 }
 
 int32_t hooke_options_set_number(hooke_options *options, const char *name, double value) {
@@ -280,6 +288,10 @@ const char *hooke_options_text(const hooke_options *options, const char *name) {
   return words ? words : "";
 }
 
+const char *hk_options_unit_given(const hooke_options *options, const char *name) {
+  return value_of(options, name)->unit;
+}
+
 int32_t hk_options_check_required(const hooke_options *options) {
   for (int64_t k = 0; k < options->slot_count; k++) {
     const struct slot *slot = &options->slot[k];
@@ -324,6 +336,13 @@ static const char *allowed_of(struct slot *slot) {
   return slot->allowed = hk_copy_text(allowed);
 }
 
+static const char *units_of(struct slot *slot) {
+  char units[TEXT_SIZE];
+  if (slot->units) return slot->units;
+  hk_unit_list(slot->row->unit, units, sizeof units);
+  return slot->units = hk_copy_text(units);
+}
+
 const char *hooke_options_row(const hooke_options *options, int64_t row, const char *property) {
   if (row < 0 || row >= options->slot_count || property == NULL) return NULL;
   struct slot *slot = &options->slot[row];
@@ -331,6 +350,7 @@ const char *hooke_options_row(const hooke_options *options, int64_t row, const c
   if (strcmp(property, "name") == 0) return slot->name;
   if (strcmp(property, "type") == 0) return type_name(slot->row->type);
   if (strcmp(property, "allowed") == 0) return allowed_of(slot);
+  if (strcmp(property, "units") == 0) return units_of(slot);
   if (strcmp(property, "unit") == 0)
     text = slot->row->unit;
   else if (strcmp(property, "default") == 0)

@@ -55,6 +55,13 @@ int32_t hk_options_require(const hooke_options *options, const struct hk_option_
 /* Row of a dotted name; NULL if there is none. */
 const struct hk_option_row *hk_options_find(const struct hk_option_table *table, const char *name);
 
+/* Base of the units in which the option was given, "N" for the text "2kN"; NULL for plain numbers. */
+const char *hk_options_unit_given(const hooke_options *options, const char *name);
+
+/* Sets an option to numbers that were given in units of base `unit` (NULL: plain) and converted to it. */
+int32_t hk_options_set_in_unit(hooke_options *options, const char *name, int64_t count, const double *values,
+                               const char *unit);
+
 /* 1 if the family `name` is present. */
 int32_t hk_options_has_family(const hooke_options *options, const char *name);
 

@@ -3,6 +3,7 @@
 #include "core/memory.h"
 #include "core/number.h"
 #include "core/status.h"
+#include "core/table/unit.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -19,7 +20,7 @@ void hk_option_value_clear(struct hk_option_value *value) {
 }
 
 int32_t hk_option_value_copy(const struct hk_option_value *from, struct hk_option_value *to) {
-  struct hk_option_value copy = {.count = from->count, .one = from->one};
+  struct hk_option_value copy = {.count = from->count, .one = from->one, .unit = from->unit};
   if (from->words && (copy.words = hk_copy_text(from->words)) == NULL) return HOOKE_NO_MEMORY;
   if (from->many) {
     copy.many = hk_new(from->count, sizeof(double));
@@ -52,6 +53,18 @@ static int32_t refuse_text(const struct hk_option_row *row, const char *place, c
   return hk_fail(HOOKE_BAD_VALUE, place, "\"%s\" is not allowed; allowed: %s", shown, allowed(row, may));
 }
 
+/* The place of number `index` of `count`: "position[3][0]", "mass[3]", or that of the option. */
+static void print_place(const struct hk_option_row *row, const char *place, int64_t count, int64_t index,
+                        char *where) {
+  long long at = (long long)index, columns = row->columns;
+  if (columns > 1)
+    snprintf(where, ALLOWED_SIZE, "%s[%lld][%lld]", place, at / columns, at % columns);
+  else if (count > 1)
+    snprintf(where, ALLOWED_SIZE, "%s[%lld]", place, at);
+  else
+    snprintf(where, ALLOWED_SIZE, "%s", place);
+}
+
 static int32_t check_number(const struct hk_option_row *row, const char *place, int64_t count, int64_t index,
                             double number) {
   int bounded = row->low < row->high;
@@ -63,13 +76,7 @@ static int32_t check_number(const struct hk_option_row *row, const char *place, 
   if (fits) return HOOKE_OK;
   char may[ALLOWED_SIZE], shown[HOOKE_NUMBER_SIZE], where[ALLOWED_SIZE];
   hk_number_print(number, shown);
-  long long at = (long long)index, columns = row->columns;
-  if (columns > 1)
-    snprintf(where, sizeof where, "%s[%lld][%lld]", place, at / columns, at % columns);
-  else if (count > 1)
-    snprintf(where, sizeof where, "%s[%lld]", place, at);
-  else
-    snprintf(where, sizeof where, "%s", place);
+  print_place(row, place, count, index, where);
   return hk_fail(HOOKE_BAD_VALUE, where, "%s is not allowed; allowed: %s", shown, allowed(row, may));
 }
 
@@ -115,11 +122,47 @@ int32_t hk_option_value_from_numbers(const struct hk_option_row *row, const char
   return HOOKE_OK;
 }
 
-static int32_t parse_number(const struct hk_option_row *row, const char *place, const char *text,
-                            int64_t length, double *number) {
+static int32_t refuse_unit(const struct hk_option_row *row, const char *place, const char *name,
+                           int64_t length) {
+  char shown[HOOKE_OPTION_SHOWN], list[ALLOWED_SIZE];
+  hk_option_show(name, length, shown);
+  hk_unit_list(row->unit, list, sizeof list);
+  return hk_fail(HOOKE_BAD_VALUE, place,
+                 "there is no unit '%s' here; allowed: %s; a number without one is in %s", shown, list,
+                 row->unit);
+}
+
+/* Parses a number, with or without a unit, which is then in `unit`. */
+static enum hk_number_result parse_quantity(const char *bases, const char *text, int64_t length,
+                                            double *number, const char **wrong, const struct hk_unit **unit) {
+  *wrong = NULL;
+  *unit = NULL;
+  if (bases == NULL) return hk_number_parse(text, length, number);
+  const struct hk_quantity found = hk_unit_scan(bases, text, length);
+  if (found.whole == found.number || found.whole < length) return hk_number_parse(text, length, number);
+  const char *name = text + found.number;
+  while (*name == ' ' || *name == '\t')
+    name++;
+  *unit = hk_unit_find(bases, name, text + length - name);
+  if (*unit == NULL) {
+    *wrong = name;
+    return HOOKE_NUMBER_JUNK;
+  }
+  return hk_unit_parse(text, found.number, *unit, number);
+}
+
+int32_t hk_option_parse_number(const struct hk_option_row *row, const char *place, const char *text,
+                               int64_t length, double *number, const char **base) {
   char shown[HOOKE_OPTION_SHOWN], may[ALLOWED_SIZE];
-  enum hk_number_result result = hk_number_parse(text, length, number);
+  const char *wrong;
+  const struct hk_unit *unit;
+  enum hk_number_result result = parse_quantity(row->unit, text, length, number, &wrong, &unit);
   hk_option_show(text, length, shown);
+  if (wrong) return refuse_unit(row, place, wrong, text + length - wrong);
+  if (unit && *base && strcmp(unit->base, *base) != 0)
+    return hk_fail(HOOKE_BAD_VALUE, place, "%s after a number in %s; allowed: one kind of unit", shown,
+                   *base);
+  if (unit) *base = unit->base;
   switch (result) {
   case HOOKE_NUMBER_FINE:
     return HOOKE_OK;
@@ -142,12 +185,14 @@ static int is_blank(char c) {
 }
 
 /* Reads the next item of a list "1, 2 3". Returns 0 at the end, 1 for an item (empty between two commas). */
-static int next_piece(const char **rest, const char **piece, int64_t *length) {
+static int next_piece(const char *bases, const char **rest, const char *end, const char **piece,
+                      int64_t *length) {
   const char *at = *rest;
   while (is_blank(*at))
     at++;
   if (*at == '\0') return 0;
   *piece = at;
+  at += bases ? hk_unit_scan(bases, at, end - at).whole : 0; /* blanks may stand before and in a unit */
   while (*at && *at != ',' && !is_blank(*at))
     at++;
   *length = at - *piece;
@@ -165,13 +210,14 @@ static int ends_with_comma(const char *text) {
   return length > 0 && text[length - 1] == ',';
 }
 
-/* Fills `numbers` and `words`, which have room for all items of the text. */
+/* Fills `numbers` and `words`, which have room for all items of the text, and the counts and the unit of
+ * `found`. */
 static int32_t split_list(const struct hk_option_row *row, const char *place, const char *text,
-                          double *numbers, int64_t *count, char *words, int64_t *word_count) {
-  const char *piece = NULL;
+                          struct hk_option_value *found, double *numbers, char *words, int64_t *word_count) {
+  const char *piece = NULL, *end = text + strlen(text);
   int64_t length = 0;
   size_t used = 0;
-  for (const char *rest = text; next_piece(&rest, &piece, &length);) {
+  for (const char *rest = text; next_piece(row->unit, &rest, end, &piece, &length);) {
     if (hk_option_has_word(row->words, piece, length)) {
       if (used) words[used++] = ' ';
       memcpy(words + used, piece, (size_t)length);
@@ -180,15 +226,15 @@ static int32_t split_list(const struct hk_option_row *row, const char *place, co
       continue;
     }
     char where[ALLOWED_SIZE];
-    snprintf(where, sizeof where, "%s[%lld]", place, (long long)(*count + *word_count));
-    int alone = *count + *word_count == 0 && *rest == '\0';
-    int32_t status = parse_number(row, alone ? place : where, piece, length, &numbers[*count]);
+    const int64_t index = found->count + *word_count;
+    print_place(row, place, index == 0 && *rest == '\0' ? 1 : index + 2, index, where);
+    int32_t status = hk_option_parse_number(row, where, piece, length, &numbers[found->count], &found->unit);
     if (status) return status;
-    (*count)++;
+    found->count++;
   }
   words[used] = '\0';
   if (ends_with_comma(text)) return refuse_text(row, place, text);
-  if (*word_count && !row->word_lists && *word_count + *count > 1) return refuse_text(row, place, text);
+  if (*word_count && !row->word_lists && *word_count + found->count > 1) return refuse_text(row, place, text);
   return HOOKE_OK;
 }
 
@@ -197,11 +243,13 @@ static int32_t list_from_text(const struct hk_option_row *row, const char *place
   int64_t room = (int64_t)strlen(text) + 1;
   double *numbers = hk_new(room / 2 + 1, sizeof(double));
   char *words = hk_new(room, 1);
-  int64_t count = 0, word_count = 0;
+  struct hk_option_value found = {0};
+  int64_t word_count = 0;
   int32_t status = numbers && words ? HOOKE_OK : HOOKE_NO_MEMORY;
-  if (status == HOOKE_OK) status = split_list(row, place, text, numbers, &count, words, &word_count);
-  if (status == HOOKE_OK && (word_count == 0 || count > 0))
-    status = hk_option_value_from_numbers(row, place, count, numbers, value);
+  if (status == HOOKE_OK) status = split_list(row, place, text, &found, numbers, words, &word_count);
+  if (status == HOOKE_OK && (word_count == 0 || found.count > 0))
+    status = hk_option_value_from_numbers(row, place, found.count, numbers, value);
+  if (status == HOOKE_OK) value->unit = found.unit;
   if (status == HOOKE_OK && word_count > 0) {
     value->words = words;
     words = NULL;
@@ -225,8 +273,11 @@ int32_t hk_option_value_from_text(const struct hk_option_row *row, const char *p
   switch (row->type) {
   case HOOKE_OPTION_NUMBER: {
     double number = 0;
-    int32_t status = parse_number(row, place, text, (int64_t)strlen(text), &number);
-    return status ? status : hk_option_value_from_numbers(row, place, 1, &number, value);
+    const char *unit = NULL;
+    int32_t status = hk_option_parse_number(row, place, text, (int64_t)strlen(text), &number, &unit);
+    if (status == HOOKE_OK) status = hk_option_value_from_numbers(row, place, 1, &number, value);
+    if (status == HOOKE_OK) value->unit = unit;
+    return status;
   }
   case HOOKE_OPTION_NUMBERS:
     return list_from_text(row, place, text, value);

@@ -8,9 +8,15 @@
 struct hk_option_value {
   int64_t count;
   double one;
-  double *many; /* NULL unless count > 1 */
-  char *words;  /* text, or words separated by blanks; NULL: none */
+  double *many;     /* NULL unless count > 1 */
+  char *words;      /* text, or words separated by blanks; NULL: none */
+  const char *unit; /* base of the units that the text named: "N"; NULL: plain numbers */
 };
+
+/* Parses a number for a row, with or without one of its units. All numbers of an option that have a unit have
+ * it of one kind: `base`, NULL before the first. HOOKE_BAD_VALUE, HOOKE_NO_MEMORY. */
+int32_t hk_option_parse_number(const struct hk_option_row *row, const char *place, const char *text,
+                               int64_t length, double *number, const char **base);
 
 void hk_option_value_clear(struct hk_option_value *value);
 int32_t hk_option_value_copy(const struct hk_option_value *from, struct hk_option_value *to);

@@ -42,10 +42,14 @@ int32_t hk_scene_place_number(int32_t status, const struct json_t *array, const 
 /* Path of a file that the scene names, which the caller frees. HOOKE_BAD_VALUE, HOOKE_NO_MEMORY. */
 int32_t hk_scene_reader_file(const struct hk_scene_reader *reader, const char *file, char **path);
 
+/* 1 for a text that is a number with one unit: "5 mm". Whether the unit fits is for the parser to say. */
+int32_t hk_scene_is_quantity(const struct json_t *value, const struct hk_option_row *row);
+
 /* Numbers for a row of type NUMBERS, from a number, an array, or an object that names a data set; the caller
- * frees `numbers`. */
+ * frees `numbers`. `unit` is set to the base of their units if any has one. */
 int32_t hk_scene_read_numbers(struct hk_scene_reader *reader, const struct json_t *value,
-                              const struct hk_option_row *row, double **numbers, int64_t *count);
+                              const struct hk_option_row *row, double **numbers, int64_t *count,
+                              const char **unit);
 
 /* Empties an array whose values have been read, and nothing else: they take ten times the memory of their
  * numbers. */

@@ -5,6 +5,8 @@
 
 #include "core/memory.h"
 #include "core/status.h"
+#include "core/table/option_value.h"
+#include "core/table/unit.h"
 #include "io/hdf5/array_h5.h"
 #include "io/scene/scene_file.h"
 
@@ -79,7 +81,20 @@ void hk_scene_forget_values(const json_t *array) {
 
 /* ---- numbers ---- */
 
-static int32_t read_number(const json_t *value, int32_t whole, double *number) {
+int32_t hk_scene_is_quantity(const json_t *value, const struct hk_option_row *row) {
+  if (!json_is_string(value) || row->unit == NULL) return 0;
+  const int64_t length = (int64_t)json_string_length(value);
+  const struct hk_quantity found = hk_unit_scan(row->unit, json_string_value(value), length);
+  return found.whole > found.number && found.whole == length;
+}
+
+/* `unit` is the base of the units so far. */
+static int32_t read_number(const json_t *value, const struct hk_option_row *row, double *number,
+                           const char **unit) {
+  const int32_t whole = row->whole;
+  if (hk_scene_is_quantity(value, row))
+    return hk_option_parse_number(row, NULL, json_string_value(value), (int64_t)json_string_length(value),
+                                  number, unit);
   if (whole ? !json_is_integer(value) : !json_is_number(value))
     return hk_scene_refuse(value, NULL, whole ? "a whole number, without a point" : "a number");
   *number = json_number_value(value);
@@ -93,30 +108,33 @@ static int32_t require_row(const json_t *value, int64_t columns, const char *wha
   return hk_scene_refuse(value, NULL, allowed);
 }
 
-static int32_t read_rows(const json_t *value, const struct hk_option_row *row, double *numbers) {
+static int32_t read_rows(const json_t *value, const struct hk_option_row *row, double *numbers,
+                         const char **unit) {
   int64_t columns = row->columns;
   for (size_t r = 0; r < json_array_size(value); r++) {
     const json_t *item = json_array_get(value, r);
     int32_t status = require_row(item, columns, row->whole ? "whole numbers" : "numbers");
     if (status) return hk_fail_within(status, "[%zu]", r);
     for (int64_t c = 0; c < columns; c++) {
-      status = read_number(json_array_get(item, (size_t)c), row->whole, numbers++);
+      status = read_number(json_array_get(item, (size_t)c), row, numbers++, unit);
       if (status) return hk_fail_within(status, "[%zu][%lld]", r, (long long)c);
     }
   }
   return HOOKE_OK;
 }
 
-static int32_t read_list(const json_t *value, int32_t whole, double *numbers) {
+static int32_t read_list(const json_t *value, const struct hk_option_row *row, double *numbers,
+                         const char **unit) {
   for (size_t k = 0; k < json_array_size(value); k++) {
-    int32_t status = read_number(json_array_get(value, k), whole, &numbers[k]);
+    int32_t status = read_number(json_array_get(value, k), row, &numbers[k], unit);
     if (status) return hk_fail_within(status, "[%zu]", k);
   }
   return HOOKE_OK;
 }
 
 int32_t hk_scene_read_numbers(struct hk_scene_reader *reader, const json_t *value,
-                              const struct hk_option_row *row, double **numbers, int64_t *count) {
+                              const struct hk_option_row *row, double **numbers, int64_t *count,
+                              const char **unit) {
   int32_t status;
   *numbers = NULL;
   *count = 1;
@@ -128,11 +146,11 @@ int32_t hk_scene_read_numbers(struct hk_scene_reader *reader, const json_t *valu
     *numbers = hk_new(*count, sizeof(double));
     if (*numbers == NULL) return HOOKE_NO_MEMORY;
     if (!json_is_array(value))
-      status = read_number(value, row->whole, *numbers);
+      status = read_number(value, row, *numbers, unit);
     else if (row->columns > 1)
-      status = read_rows(value, row, *numbers);
+      status = read_rows(value, row, *numbers, unit);
     else
-      status = read_list(value, row->whole, *numbers);
+      status = read_list(value, row, *numbers, unit);
   }
   if (status) {
     hk_free(*numbers);

@@ -114,9 +114,10 @@ static int32_t set_numbers(struct hk_scene_reader *reader, const json_t *value,
                            const struct hk_option_row *row, const char *name, hooke_options *options) {
   double *numbers = NULL;
   int64_t count = 0;
-  int32_t status = hk_scene_read_numbers(reader, value, row, &numbers, &count);
+  const char *unit = NULL;
+  int32_t status = hk_scene_read_numbers(reader, value, row, &numbers, &count, &unit);
   if (status) return hk_fail_within(status, "%s", name);
-  status = hooke_options_set_numbers(options, name, count, numbers);
+  status = hk_options_set_in_unit(options, name, count, numbers, unit);
   hk_free(numbers);
   if (status == HOOKE_OK) hk_scene_forget_values(value);
   /* one number in brackets is still an element */
@@ -155,7 +156,8 @@ static int32_t read_numbers_row(struct hk_scene_reader *reader, const json_t *va
                                 const struct hk_option_row *row, const char *name, hooke_options *options) {
   if (is_word_of(value, row)) return hooke_options_set_text(options, name, json_string_value(value));
   if (row->word_lists && json_is_array(value)) return set_mixed(reader, value, row, name, options);
-  int may_be_one = json_is_number(value) && row->columns <= 1 && row->min_count == 1;
+  int is_one = json_is_number(value) || hk_scene_is_quantity(value, row);
+  int may_be_one = is_one && row->columns <= 1 && row->min_count == 1;
   if (json_is_array(value) || json_is_object(value) || may_be_one)
     return set_numbers(reader, value, row, name, options);
   return refuse_for_row(value, name, row);
@@ -178,6 +180,8 @@ static int32_t read_row(struct hk_scene_reader *reader, const json_t *value, con
                         const char *name, hooke_options *options) {
   switch (row->type) {
   case HOOKE_OPTION_NUMBER:
+    if (hk_scene_is_quantity(value, row))
+      return hooke_options_set_text(options, name, json_string_value(value));
     if (row->whole ? !json_is_integer(value) : !json_is_number(value)) break;
     return hooke_options_set_number(options, name, json_number_value(value));
   case HOOKE_OPTION_NUMBERS:

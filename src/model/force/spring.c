@@ -170,6 +170,20 @@ static double initial_length(const struct hk_group *group, const double *positio
   return hk_spring_length(qi[0] - qj[0], qi[1] - qj[1], qi[2] - qj[2]);
 }
 
+/* A number with a unit must be of the law: 2kN is not a stiffness of the length law. */
+static int32_t check_unit(const hooke_options *options, const char *name, const char *unit) {
+  const char *given = hk_options_unit_given(options, name);
+  if (given == NULL || strcmp(given, unit) == 0) return HOOKE_OK;
+  return hk_fail(HOOKE_BAD_VALUE, name, "is given in units of %s; the %s law needs one of %s", given,
+                 hooke_options_text(options, "law"), unit);
+}
+
+static int32_t check_units(const hooke_options *options) {
+  const int strain = strcmp(hooke_options_text(options, "law"), "strain") == 0;
+  const int32_t status = check_unit(options, "stiffness", strain ? "N" : "N/m");
+  return status ? status : check_unit(options, "damping", strain ? "N s" : "N s/m");
+}
+
 /* kappa, gamma and rest length of every spring of the group. */
 static int32_t find_material(const hooke_system *system, const hooke_options *options,
                              struct hk_group *group) {
@@ -201,7 +215,8 @@ static int32_t find_material(const hooke_system *system, const hooke_options *op
 static int32_t fill_group(const hooke_system *system, const char *name, const int64_t *ends,
                           const hooke_options *options, struct hk_group *group) {
   group->pull_only = hooke_options_number(options, "compression") == 0.0;
-  const int32_t status = hk_group_allocate(group, name, 2, 3, 0);
+  int32_t status = check_units(options);
+  if (status == HOOKE_OK) status = hk_group_allocate(group, name, 2, 3, 0);
   if (status != HOOKE_OK) return status;
   for (int64_t k = 0; k < group->count; k++) {
     group->particle[0][k] = (int32_t)ends[2 * k];

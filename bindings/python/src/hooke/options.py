@@ -27,12 +27,14 @@ class Row(NamedTuple):
     `words` are the choices, or the words allowed instead of numbers; `family` is the family of the option; `example`
     is a value for a first try. `low` and `high` are bounds of every number, inclusive unless `above_low`; `required`
     of a member of a family applies if the family is given; `min_count` and `max_count` bound the count of "numbers",
-    in rows of `columns`; with `word_lists` words and numbers may be mixed.
+    in rows of `columns`; with `word_lists` words and numbers may be mixed; `units` are those that a text may name
+    instead of `unit`.
     """
 
     name: str
     type: str
     unit: str
+    units: list[str]
     default: str
     allowed: str
     doc: str
@@ -285,4 +287,6 @@ def _property(handle: Handle, row: int, name: str) -> Any:
             return None
         return number if name in ("low", "high") else int(number)
     words = text(lib.hooke_options_row(handle, row, name.encode()))
+    if name == "units":
+        return words.split(", ") if words else []
     return words.split() if name == "words" else words

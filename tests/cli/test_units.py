@@ -1,0 +1,67 @@
+"""Numbers with a unit in scenes and options: the same run as with plain numbers, and clear refusals."""
+
+import copy
+
+import pytest
+from conftest import SIX_PARTICLES
+
+pytestmark = pytest.mark.everything
+
+WITH_UNITS = {
+    **copy.deepcopy(SIX_PARTICLES),
+    "gravity": ["0 m/s^2", "-981cm/s^2", 0],
+    "drag": "20 mN s/m",
+    "particles": {
+        **SIX_PARTICLES["particles"],
+        "position": [["0m", 0, 0], ["100cm", 0, "10 cm"], [2, "200mm", 0], [2, 1.1, 0.3], ["0.7 m", 1.2, 0], [3, 2, 0.2]],
+        "mass": ["1000g", 2, 3, "4 kg", 5, 6],
+    },
+    "springs": [{**SIX_PARTICLES["springs"][0], "stiffness": "0.1kN", "damping": ["500 mN s"] * 7}],
+    "run": {"method": "symplectic-euler", "step": "1ms", "duration": "0.5 s", "every": "50ms"},
+}
+
+
+def test_units_in_a_scene_change_no_bit(hooke, write):
+    plain = hooke("run", write({**SIX_PARTICLES, "drag": 0.02}), "--json", "--final")
+    named = hooke("run", write(WITH_UNITS), "--json", "--final")
+    assert plain.code == named.code == 0, named.err
+    assert named.json["final"] == plain.json["final"]
+
+
+def test_the_schema_takes_units(hooke):
+    from test_schema import VALIDATOR
+
+    VALIDATOR.validate(WITH_UNITS)
+    assert not VALIDATOR.is_valid({**WITH_UNITS, "drag": "fast"})
+    assert not VALIDATOR.is_valid({**WITH_UNITS, "drag": "3"})
+
+
+def with_springs(**changes):
+    return {**SIX_PARTICLES, "springs": [{**SIX_PARTICLES["springs"][0], **changes}]}
+
+
+@pytest.mark.parametrize(
+    "scene, message",
+    [
+        (with_springs(stiffness="2 px"), "springs[0].stiffness: there is no unit 'px' here; allowed: N, MN, kN"),
+        (with_springs(stiffness="2"), 'springs[0].stiffness: "2" is not allowed; allowed:'),
+        (with_springs(stiffness="2N, 3N"), 'springs[0].stiffness: "2N, 3N" is not allowed; allowed:'),
+        (with_springs(stiffness="1kN/m"), "springs[0].stiffness: is given in units of N/m; the strain law needs one of N"),
+        (with_springs(law="length", damping="1 N s"), "springs[0].damping: is given in units of N s; the length law"),
+        (with_springs(stiffness=["1N"] * 6 + ["1N/m"]), "springs[0].stiffness[6]: 1N/m after a number in N"),
+        (with_springs(rest_scale="1m"), 'springs[0].rest_scale: "1m" is not allowed; allowed: a number > 0'),
+        ({**SIX_PARTICLES, "gravity": [0, "9.81 m", 0]}, "gravity[1]: there is no unit 'm' here; allowed: m/s^2"),
+    ],
+    ids=range(8),
+)
+def test_a_unit_that_does_not_fit_is_refused_at_its_place(hooke, write, scene, message):
+    answer = hooke("check", write(scene))
+    assert answer.code == 3 and message in answer.err, answer.err
+
+
+def test_options_take_the_units_of_their_rows(hooke, tmp_path):
+    make = ["make", "cloth", "--size", "4x4", "-o"]
+    plain, named = tmp_path / "plain.json", tmp_path / "named.json"
+    assert hooke(*make, plain, "--mass", 0.2, "--structural.stiffness", 2e3, "--edges", "1,0,0;0,-1,0").code == 0
+    assert hooke(*make, named, "--mass", "200g", "--structural.stiffness", "2 kN", "--edges", "100cm,0,0;0,-1m,0").code == 0
+    assert named.read_text() == plain.read_text()
