@@ -23,24 +23,28 @@ static const struct cli_verb *const verbs[] = {&cli_verb_make,
                                                &cli_verb_verify,
                                                NULL};
 
-static int print_version(const struct cli_program *program) {
+static int print_version(const struct cli_program *program, const char *value) {
   (void)program;
+  (void)value;
   cli_usage_print_version(stdout);
   return HOOKE_EXIT_DONE;
 }
 
-static int print_help(const struct cli_program *program) {
+static int print_help(const struct cli_program *program, const char *value) {
+  (void)value;
   cli_usage_print_all(stdout, program);
   return HOOKE_EXIT_DONE;
 }
 
 static const struct cli_program_row rows[] = {
-    {"help", 'h', NULL, "verbs and methods; after a verb, its options with units and defaults", print_help},
-    {"version", 0, NULL, "the version, and what it was built with", print_version},
-    {"completion", 0, "bash", "a script that completes commands in bash; it is installed with the program",
-     cli_completion_print_bash},
-    {"man", 0, NULL, "this program's manual page", cli_man_print},
-    {NULL, 0, NULL, NULL, NULL},
+    {"help", 'h', NULL, NULL, "verbs and methods; after a verb, its options with units and defaults",
+     print_help},
+    {"version", 0, NULL, NULL, "the version, and what it was built with", print_version},
+    {"completion", 0, "SHELL", "bash zsh fish",
+     "a script that completes commands in bash, zsh or fish; it is installed with the program",
+     cli_completion_print},
+    {"man", 0, NULL, NULL, "this program's manual page", cli_man_print},
+    {NULL, 0, NULL, NULL, NULL, NULL},
 };
 
 static const struct cli_program program = {
@@ -103,12 +107,30 @@ static const struct cli_program_row *find_row(const char *word) {
   return NULL;
 }
 
+static int is_word_of(const char *words, const char *word) {
+  const size_t length = strlen(word);
+  for (const char *at = words; (at = strstr(at, word)) != NULL; at++) {
+    if ((at == words || at[-1] == ' ') && (at[length] == ' ' || at[length] == '\0') && length > 0) return 1;
+  }
+  return 0;
+}
+
 static int do_row(const struct cli_program_row *row, const char *value) {
-  if (row->value && (!value || strcmp(value, row->value) != 0)) {
-    fprintf(stderr, "hooke: --%s wants a word after it: %s\n", row->name, row->value);
+  if (row->value && (!value || strchr(value, ' ') || !is_word_of(row->words, value))) {
+    fprintf(stderr, "hooke: --%s wants a word after it, one of: %s\n", row->name, row->words);
     return HOOKE_EXIT_USAGE;
   }
-  return row->print(&program);
+  return row->print(&program, value);
+}
+
+/* hooke help [VERB [KIND]] */
+static int do_help(int argc, char **argv) {
+  static char flag[] = "--help";
+  const struct cli_verb *verb = argc > 0 ? find_verb(argv[0]) : NULL;
+  if (argc == 0) return print_help(&program, NULL);
+  if (!verb) return unknown_verb(argv[0]);
+  char *words[] = {argv[0], argc > 1 ? argv[1] : flag, flag, NULL};
+  return do_verb(verb, argc > 1 ? 3 : 2, words);
 }
 
 static int do_words(int argc, char **argv) {
@@ -118,6 +140,7 @@ static int do_words(int argc, char **argv) {
   }
   const struct cli_program_row *row = find_row(argv[1]);
   if (row) return do_row(row, argc > 2 ? argv[2] : NULL);
+  if (strcmp(argv[1], "help") == 0) return do_help(argc - 2, argv + 2);
   const struct cli_verb *verb = find_verb(argv[1]);
   return verb ? do_verb(verb, argc - 1, argv + 1) : unknown_verb(argv[1]);
 }

@@ -9,9 +9,10 @@ struct cli_program;
 struct cli_program_row {
   const char *name;
   char letter;       /* 0: none */
-  const char *value; /* the required next word; NULL: none */
+  const char *value; /* name of the word that has to follow; NULL: none */
+  const char *words; /* which it may be, separated by blanks */
   const char *doc;
-  int (*print)(const struct cli_program *program); /* an exit code */
+  int (*print)(const struct cli_program *program, const char *value); /* an exit code */
 };
 
 struct cli_program {

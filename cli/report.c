@@ -29,8 +29,11 @@ int cli_refusal(const struct cli_arguments *arguments) {
   return arguments->verb->takes_kind ? HOOKE_EXIT_BAD_INPUT : HOOKE_EXIT_USAGE;
 }
 
-static void say(const struct cli_arguments *arguments, const char *message) {
-  fprintf(stderr, "hooke %s: ", arguments->verb->name);
+static void say(const struct cli_arguments *arguments, const char *style, const char *message) {
+  char begin[WORD_SIZE];
+  snprintf(begin, sizeof begin, "hooke %s:", arguments->verb->name);
+  cli_print_styled(stderr, style, begin);
+  fputc(' ', stderr);
   cli_print_text(stderr, message);
   fputc('\n', stderr);
 }
@@ -41,7 +44,7 @@ int cli_report(const struct cli_arguments *arguments, int code, const char *form
   va_start(args, format);
   vsnprintf(message, sizeof message, format, args);
   va_end(args);
-  say(arguments, message);
+  say(arguments, HOOKE_RED, message);
   if (arguments->json) {
     struct cli_json json;
     cli_json_begin(&json, stdout);
@@ -64,7 +67,7 @@ void cli_report_words(const struct cli_arguments *arguments, const char *format,
   va_start(args, format);
   vsnprintf(message, sizeof message, format, args);
   va_end(args);
-  say(arguments, message);
+  say(arguments, HOOKE_BOLD, message);
 }
 
 int cli_report_missing_words(const struct cli_arguments *arguments) {

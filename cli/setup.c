@@ -1,5 +1,6 @@
 #define _GNU_SOURCE /* F_OFD_GETLK */
 #include "setup.h"
+#include "excerpt.h"
 #include "report.h"
 
 #include <fcntl.h>
@@ -47,15 +48,21 @@ static void give_back(void) {
 #endif
 }
 
+static int refuse_scene(const struct cli_arguments *arguments, int32_t status) {
+  const int code = cli_report_status(arguments, status);
+  cli_excerpt_print(stderr, arguments->scene, hooke_last_error());
+  return code;
+}
+
 int cli_setup_load(const struct cli_arguments *arguments, struct cli_setup *setup) {
   memset(setup, 0, sizeof *setup);
   int32_t status = load(arguments, &setup->scene);
   if (ferror(stdin)) return cli_report(arguments, HOOKE_EXIT_IO, "standard input could not be read");
-  if (status != HOOKE_OK) return cli_report_status(arguments, status);
+  if (status != HOOKE_OK) return refuse_scene(arguments, status);
   setup->options = hooke_scene_run_options(setup->scene);
   status = cli_arguments_apply(arguments, setup->options);
   if (status == HOOKE_OK) status = hooke_scene_commit(setup->scene);
-  if (status != HOOKE_OK) return cli_report_status(arguments, status);
+  if (status != HOOKE_OK) return refuse_scene(arguments, status);
   give_back();
   setup->system = hooke_scene_system(setup->scene);
   status = hooke_state_create(setup->system, &setup->state);

@@ -1,4 +1,4 @@
-# cmake --install: headers, both libraries, the program with its manual page and completion, the example scenes, the pages
+# cmake --install: headers, both libraries, the program with its manual page and completions, the example scenes, the pages
 # of reports, the sources of the Fortran module, and the files by which find_package(hooke) and pkg-config find them.
 # Nothing installed names a folder of this machine, so the result may be moved.
 include(CMakePackageConfigHelpers)
@@ -33,6 +33,10 @@ if(HOOKE_PAGES_OF_CLI)
   install(FILES ${CMAKE_CURRENT_BINARY_DIR}/hooke.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
   install(FILES ${CMAKE_CURRENT_BINARY_DIR}/hooke.bash
     DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME hooke)
+  install(FILES ${CMAKE_CURRENT_BINARY_DIR}/hooke.zsh
+    DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/site-functions RENAME _hooke)
+  install(FILES ${CMAKE_CURRENT_BINARY_DIR}/hooke.fish
+    DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d)
 endif()
 
 configure_package_config_file(cmake/hooke-config.cmake.in hooke-config.cmake INSTALL_DESTINATION ${config_dir}

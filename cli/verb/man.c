@@ -265,7 +265,8 @@ static void print_end(const struct cli_program *program) {
   print_paragraph("h5dump(1), python3(1)");
 }
 
-int cli_man_print(const struct cli_program *program) {
+int cli_man_print(const struct cli_program *program, const char *value) {
+  (void)value;
   int code = HOOKE_EXIT_DONE;
   print_top(program);
   print_synopsis(program);

@@ -6,6 +6,6 @@
 
 /* Prints hooke(1) in the macros of man(7). Its date is that of SOURCE_DATE_EPOCH if set, else today. Returns
  * the exit code; failures are reported already. */
-int cli_man_print(const struct cli_program *program);
+int cli_man_print(const struct cli_program *program, const char *value);
 
 #endif

@@ -187,6 +187,19 @@ def check_message(answer, name, place, path, value, allowed):
     assert value in words, message
     assert allowed in words, message
     assert all(c.isprintable() for c in message), repr(message)
+    if place:
+        check_caret(answer.err.splitlines()[1:3], FOLDER / name, *map(int, place.split(":")))
+
+
+def check_caret(lines, path, line, column):
+    """The caret stands under the place: the text above it is that of the file from there on."""
+    source = path.read_bytes().split(b"\n")[line - 1].decode("latin1").split("\0")[0].rstrip("\r").replace("\t", " ")
+    number, shown = lines[0].split(" | ", 1)
+    at = lines[1].index("^") - len(number) - 3
+    assert int(number) == line and lines[1].split() == ["|", "^"]
+    assert len(shown) <= 90
+    if source.isascii() and source.isprintable():
+        assert source[column - 1 :].startswith(shown[at:]) and len(shown[at:]) >= min(25, len(source) - column + 1)
 
 
 def test_every_file_is_expected():

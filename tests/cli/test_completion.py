@@ -2,7 +2,9 @@
 
 import functools
 import json
+import os
 import re
+import shutil
 import subprocess
 
 import pytest
@@ -81,7 +83,7 @@ def test_the_first_word(complete):
     options = re.findall(r"--\w+", help_of().split("\nin place of a verb:\n")[1].split("\n\n")[0])
     assert complete([""]) == {*VERBS, *options} and len(options) == 4
     assert complete(["li"]) == {"limit"}
-    assert complete(["--completion", ""]) == {"bash"}
+    assert complete(["--completion", ""]) == {"bash", "zsh", "fish"}
     assert complete(["make", ""]) == {*KINDS, "--help"}
     assert complete(["make", "ro"]) == {kind for kind in KINDS if kind.startswith("ro")}
 
@@ -138,3 +140,50 @@ def test_no_word_is_offered_that_the_program_refuses(hooke, complete):
     for method in complete(["run", "--method", ""]):
         answer = hooke("run", "none.json", "--json", "--method", method)
         assert json.loads(answer.out)["error"]["exit"] in (3, 6)
+
+
+# ---- the other shells ----
+
+
+def script_of(shell):
+    return subprocess.run([CLI, "--completion", shell], capture_output=True, text=True, check=True).stdout
+
+
+@pytest.mark.parametrize("words", TAKERS, ids=" ".join)
+def test_fish_offers_the_same_options(folder, complete, words):
+    if not shutil.which("fish"):
+        pytest.skip("needs fish")
+    (folder / "hooke.fish").write_text(script_of("fish"))
+    ask = f"source hooke.fish; complete -C 'hooke {' '.join(words)} --'; complete -C 'hooke {' '.join(words)} --method='"
+    done = subprocess.run(["fish", "--no-config", "-c", ask], cwd=folder, capture_output=True, text=True, timeout=60)
+    found = {line.split("\t")[0] for line in done.stdout.splitlines()}
+    assert done.stderr == ""
+    assert {word for word in found if "=" not in word} == {f"--{flag}" for flag in flags_of(words)}
+    if "method" in flags_of(words):
+        assert {f"--method={method}" for method in listed("methods")} <= found
+
+
+# _arguments is asked what it was given, since zsh completes at a prompt only.
+ZSH = r"""
+compdef() { :; }
+_arguments() { print -rl -- "$@"; return 1; }
+source ./hooke.zsh
+for line in "${(@f)LINES_}"; do
+  words=(hooke ${=line} ""); CURRENT=$#words
+  _hooke
+  print -r -- "=="
+done
+"""
+
+
+def test_zsh_offers_the_same_options(folder):
+    if not shutil.which("zsh"):
+        pytest.skip("needs zsh")
+    (folder / "hooke.zsh").write_text(script_of("zsh"))
+    lines = "\n".join(" ".join(words) for words in TAKERS)
+    done = subprocess.run(["zsh", "-f", "-c", ZSH], cwd=folder, env={**os.environ, "LINES_": lines},
+                          capture_output=True, text=True, timeout=60)  # fmt: skip
+    assert (done.returncode, done.stderr) == (0, "")
+    for words, text in zip(TAKERS, done.stdout.split("==\n"), strict=False):
+        assert set(re.findall(r"^--([\w.-]+)=?\[", text, re.M)) == set(flags_of(words)), words
+    assert f":value:({' '.join(listed('methods'))})" in done.stdout

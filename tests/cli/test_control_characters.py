@@ -109,7 +109,9 @@ def test_refusals(call, scene, tmp_path):
                   ["view", FILE, "-o", "page.html"], ["limit", scene, "--at", FILE], ["study", scene, "--watch", FILE],
                   ["run", scene, "-o", FILE + b"/x"]):
         code, out, err = call(*words)
-        assert code != 0 and "?" in err and len(err.splitlines()) == 1, (words, err)
+        message, *excerpt = err.splitlines()
+        assert code != 0 and "?" in message, (words, err)
+        assert not excerpt or [line[6:9] for line in excerpt] == [" | ", " | "], (words, err)
         if words[0] != FILE:
             code, out, err = call(*words, "--json")
             assert code != 0

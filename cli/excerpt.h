@@ -1,0 +1,11 @@
+/* The line of a file that a message is about. */
+#ifndef HOOKE_CLI_EXCERPT_H
+#define HOOKE_CLI_EXCERPT_H
+
+#include <stdio.h>
+
+/* For a message that begins with "PATH:LINE:COLUMN: ", with that path, prints the line, shortened, and a caret
+ * under its column (in characters). Prints nothing for another message or an unreadable file. */
+void cli_excerpt_print(FILE *file, const char *path, const char *message);
+
+#endif
