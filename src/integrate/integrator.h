@@ -100,6 +100,7 @@ struct hooke_integrator {
   hooke_state *shown; /* shown to observers and checks while the caller's state is stale; NULL before */
   double energy0, scale0, gravity0, gravity_swing; /* see divergence.c */
   double diverged_at;
+  struct hk_energies energies; /* of the state that was last checked; system NULL: not known */
 
   struct hk_watch on_frame, on_step, on_checkpoint;
   struct hk_teller teller;

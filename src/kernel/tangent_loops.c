@@ -4,6 +4,7 @@
 
 #include "kernel/instruction_set.h"
 #include "kernel/spring_body.h"
+#include "kernel/vector_unit.h"
 
 #include <stddef.h>
 
@@ -130,19 +131,65 @@ HOOKE_INLINE void fill_block(double *restrict bx, double *restrict by, double *r
   }
 }
 
+/* Runs of constant offset are often short, such as a row of a cloth. Their loops end with a whole vector, which
+ * overlaps the one before. */
+
+HOOKE_INLINE void fill_vector(struct block *b, const double *const x[3], const struct numbers *s,
+                              const ptrdiff_t k, const int axial) {
+  const double *const u[3] = {s->ux + k, s->uy + k, s->uz + k};
+  const double *const e[3] = {axial ? u[0] : s->ex + k, axial ? u[1] : s->ey + k, axial ? u[2] : s->ez + k};
+  double *const to[3] = {b->x + k, b->y + k, b->z + k};
+  hk_vector d[3];
+  for (int a = 0; a < 3; a++)
+    d[a] = hk_load(x[a] + k) - hk_load(x[a] + k + s->offset);
+  const hk_vector along = (hk_load(e[0]) * d[0] + hk_load(e[1]) * d[1]) + hk_load(e[2]) * d[2];
+  for (int a = 0; a < 3; a++) {
+    hk_vector part = along * hk_load(u[a]);
+    if (!axial) part = part + hk_load(s->b + k) * d[a];
+    hk_store(to[a], part);
+  }
+}
+
+HOOKE_INLINE void fill_vectors(struct block *b, const double *const x[3], const struct numbers s,
+                               const ptrdiff_t count, const int axial) {
+  const ptrdiff_t last = count - HOOKE_WIDTH;
+  for (ptrdiff_t k = 0; k < last; k += HOOKE_WIDTH)
+    fill_vector(b, x, &s, k, axial);
+  fill_vector(b, x, &s, last, axial);
+}
+
+enum { FIRST = 1, SECOND = 2 };
+
+HOOKE_INLINE hk_vector add_vector(hk_vector sum, const double *first, const double *second, const int ends) {
+  if (ends & FIRST) sum = sum + hk_load(first);
+  if (ends & SECOND) sum = sum - hk_load(second);
+  return sum;
+}
+
+/* Adds springs to their first ends, and subtracts springs from their second ends. The last vector is computed
+ * before the loop changes the sums that it shares. */
+HOOKE_INLINE void add_springs(double *out, const double *first, const double *second, const ptrdiff_t count,
+                              const int ends) {
+  const ptrdiff_t last = count - HOOKE_WIDTH;
+  if (last < 0) {
+    for (ptrdiff_t k = 0; k < count; k++) {
+      if (ends & FIRST) out[k] += first[k];
+      if (ends & SECOND) out[k] -= second[k];
+    }
+    return;
+  }
+  const hk_vector end = add_vector(hk_load(out + last), first + last, second + last, ends);
+  for (ptrdiff_t k = 0; k < last; k += HOOKE_WIDTH)
+    hk_store(out + k, add_vector(hk_load(out + k), first + k, second + k, ends));
+  hk_store(out + last, end);
+}
+
 /* All first ends precede the second ones; particles that are both are visited once. */
-HOOKE_INLINE void add_to_ends(double *out, const double *restrict b, ptrdiff_t i, ptrdiff_t j,
-                              ptrdiff_t count) {
+HOOKE_INLINE void add_to_ends(double *out, const double *b, ptrdiff_t i, ptrdiff_t j, ptrdiff_t count) {
   const ptrdiff_t offset = j - i, apart = offset > 0 && offset < count ? offset : count;
-  double *restrict first = out + i;
-  for (ptrdiff_t k = 0; k < apart; k++)
-    first[k] += b[k];
-  HOOKE_VECTORISE
-  for (ptrdiff_t k = apart; k < count; k++)
-    first[k] = (first[k] + b[k]) - b[k - apart];
-  double *restrict second = out + j;
-  for (ptrdiff_t k = count - apart; k < count; k++)
-    second[k] -= b[k];
+  add_springs(out + i, b, b, apart, FIRST);
+  add_springs(out + i + apart, b + apart, b, count - apart, FIRST | SECOND);
+  add_springs(out + j + count - apart, b, b + count - apart, apart, SECOND);
 }
 
 HOOKE_INLINE void multiply(const struct hk_run *run, const struct hk_tangent *tangent,
@@ -153,7 +200,11 @@ HOOKE_INLINE void multiply(const struct hk_run *run, const struct hk_tangent *ta
     const ptrdiff_t count = run->count - done < BLOCK ? run->count - done : BLOCK;
     const struct numbers s = numbers_of(run, tangent, done, axial);
     const ptrdiff_t i = indexed ? 0 : run->start + done, j = i + run->offset;
-    fill_block(b.x, b.y, b.z, x[0] + i, x[1] + i, x[2] + i, s, count, indexed, axial);
+    const double *const from[3] = {x[0] + i, x[1] + i, x[2] + i};
+    if (indexed || count < HOOKE_WIDTH)
+      fill_block(b.x, b.y, b.z, from[0], from[1], from[2], s, count, indexed, axial);
+    else
+      fill_vectors(&b, from, s, count, axial);
     if (!indexed) {
       add_to_ends(out[0], b.x, i, j, count);
       add_to_ends(out[1], b.y, i, j, count);
@@ -256,5 +307,22 @@ static void tangent_damping(const struct hk_run *run, const struct hk_tangent *t
   }
 }
 
+/* ---- the part of the diagonal ---- */
+
+static void tangent_project(int64_t count, const struct hk_tangent *t) {
+  const double *const ux = t->u[0], *const uy = t->u[1], *const uz = t->u[2];
+  double *const ex = t->e[0], *const ey = t->e[1], *const ez = t->e[2], *const b = t->b;
+  HOOKE_VECTORISE
+  for (int64_t s = 0; s < count; s++) {
+    const double across = b[s] > 0.0 ? b[s] : 0.0;
+    const double along = ((ex[s] * ux[s] + ey[s] * uy[s]) + ez[s] * uz[s]) + b[s] - across;
+    const double part = along > 0.0 ? along : 0.0;
+    ex[s] = part * ux[s];
+    ey[s] = part * uy[s];
+    ez[s] = part * uz[s];
+    b[s] = across;
+  }
+}
+
 const struct hk_tangent_set HOOKE_TANGENT_SET = {tangent_fill, tangent_product, tangent_diagonal,
-                                                 tangent_damping};
+                                                 tangent_project, tangent_damping};

@@ -4,10 +4,17 @@
 
 #include "hooke/state.h"
 
+/* Energies of a state in a system [J]: potential ones of all forces, elastic ones of those with elements. */
+struct hk_energies {
+  const hooke_system *system;
+  double kinetic, potential, elastic, gravity;
+};
+
 struct hooke_state {
   int64_t size; /* numbers in q */
   int32_t has_v;
-  double *t, *q, *v; /* one block; v is NULL for a first-order problem */
+  double *t, *q, *v;               /* one block; v is NULL for a first-order problem */
+  const struct hk_energies *known; /* its energies, while a run shows it as a frame; otherwise NULL */
 };
 
 /* Creates a state of zeros with `size` numbers in q, and as many in v if `has_velocity`. HOOKE_NO_MEMORY. */
@@ -15,5 +22,8 @@ int32_t hk_state_create_sized(int64_t size, int32_t has_v, hooke_state **state);
 
 /* HOOKE_BAD_VALUE unless the state has the size of this system. */
 int32_t hk_state_check(const hooke_state *state, const hooke_system *system);
+
+/* The known energies, or those computed now. */
+struct hk_energies hk_state_energies(const hooke_state *state, const hooke_system *system);
 
 #endif

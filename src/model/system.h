@@ -136,7 +136,4 @@ struct hk_system_mark {
 struct hk_system_mark hk_system_mark(const hooke_system *system);
 void hk_system_roll_back(hooke_system *system, struct hk_system_mark mark);
 
-/* Energy of the forces that have elements [J], >= 0. */
-double hk_elastic_energy(const hooke_system *system, const double *q);
-
 #endif

@@ -12,9 +12,11 @@
 enum { LONGEST = 700, PARTICLES = 1500, BLOCKS = 6 };
 static const double ALPHA = 0.3, BETA = 0.7;
 
-/* Output of the loops: u, e and b by springs, then a product, damping and blocks by particles. */
+/* Output of the loops: u, e and b by springs, then the part of them that the diagonal has, then a product,
+ * damping and blocks by particles. */
 struct found {
-  double numbers[7][LONGEST], product[3][PARTICLES], damping[3][PARTICLES], block[BLOCKS][PARTICLES];
+  double numbers[7][LONGEST], projected[7][LONGEST], product[3][PARTICLES], damping[3][PARTICLES],
+      block[BLOCKS][PARTICLES];
 };
 
 struct trial {
@@ -165,6 +167,17 @@ static void add_others(const struct trial *trial, struct found *found) {
   }
 }
 
+static void project_numbers(const struct trial *trial, struct found *found) {
+  for (int64_t k = 0; k < trial->run.count; k++) {
+    double(*n)[LONGEST] = found->numbers, (*to)[LONGEST] = found->projected;
+    const double across = n[6][k] > 0.0 ? n[6][k] : 0.0;
+    const double along = ((n[3][k] * n[0][k] + n[4][k] * n[1][k]) + n[5][k] * n[2][k]) + n[6][k] - across;
+    for (int a = 0; a < 3; a++)
+      to[a][k] = n[a][k], to[3 + a][k] = (along > 0.0 ? along : 0.0) * n[a][k];
+    to[6][k] = across;
+  }
+}
+
 /* ---- by an instruction set ---- */
 
 static void compare_set(const struct hk_tangent_set *set, const struct trial *trial,
@@ -186,6 +199,9 @@ static void compare_set(const struct hk_tangent_set *set, const struct trial *tr
                                            found.block[4], found.block[5]});
   for (int c = 0; c < (trial->axial ? 3 : 7); c++)
     check_same_bits(trial->run.count, found.numbers[c], expected->numbers[c]);
+  if (!trial->axial) set->tangent_project(trial->run.count, &tangent);
+  for (int c = 0; c < 7 && !trial->axial; c++)
+    check_same_bits(trial->run.count, found.numbers[c], expected->projected[c]);
   check_same_bits(12 * PARTICLES, found.product[0], expected->product[0]);
 }
 
@@ -207,6 +223,7 @@ static void springs(void **unused) {
     }
     add_products(&trial, &expected);
     add_others(&trial, &expected);
+    project_numbers(&trial, &expected);
     for (int32_t k = 0; (set = hk_spring_set(k)) != NULL; k++)
       compare_set(set->tangent, &trial, &expected);
   }

@@ -62,13 +62,13 @@ static double least_energy(const hooke_integrator *it, const hooke_state *state)
 
 int32_t hk_divergence_begin(hooke_integrator *it, const hooke_state *state) {
   it->diverged_at = NAN;
+  it->energies.system = NULL;
   if (has_energy_bound(it)) {
-    const double kinetic = hooke_system_energy(it->system, "kinetic", NULL, state->v);
-    const double elastic = hk_elastic_energy(it->system, state->q);
-    it->gravity0 = hooke_system_energy(it->system, "gravity", state->q, NULL);
+    const struct hk_energies at = hk_state_energies(state, it->system);
+    it->gravity0 = at.gravity;
     it->gravity_swing = 0.0;
-    it->scale0 = kinetic + elastic + least_energy(it, state);
-    it->energy0 = kinetic + elastic;
+    it->scale0 = at.kinetic + at.elastic + least_energy(it, state);
+    it->energy0 = at.kinetic + at.elastic;
   }
   hk_recent_begin(&it->recent, state);
   it->good_time = *state->t;
@@ -77,10 +77,9 @@ int32_t hk_divergence_begin(hooke_integrator *it, const hooke_state *state) {
 }
 
 static int energy_is_bounded(hooke_integrator *it, const hooke_state *state, double *energy) {
-  const double gravity = hooke_system_energy(it->system, "gravity", state->q, NULL),
-               risen = gravity - it->gravity0;
-  const double rest =
-      hooke_system_energy(it->system, "kinetic", NULL, state->v) + hk_elastic_energy(it->system, state->q);
+  it->energies = hk_state_energies(state, it->system);
+  const double gravity = it->energies.gravity, risen = gravity - it->gravity0;
+  const double rest = it->energies.kinetic + it->energies.elastic;
   it->gravity_swing = fmax(it->gravity_swing, fabs(risen));
   *energy = rest + gravity;
   /* far from the origin gravity's energy has no digits left for the others */
@@ -174,6 +173,7 @@ int32_t hk_divergence_glance(hooke_integrator *it, hooke_state *state) {
 }
 
 int32_t hk_divergence_check(hooke_integrator *it, hooke_state *state, int32_t with_energy) {
+  it->energies.system = NULL;
   double energy = NAN;
   const double t = *state->t;
   const int finite =

@@ -63,12 +63,16 @@ int32_t hk_run_observe(hooke_integrator *it, const struct hk_watch *watch, const
   return hk_fail(HOOKE_STOPPED, NULL, "an observer returned %d at t = %.6g s", (int)value, *state->t);
 }
 
-int32_t hk_run_report(hooke_integrator *it, const hooke_state *state) {
+int32_t hk_run_report(hooke_integrator *it, hooke_state *state) {
   it->frames++;
-  return hk_run_observe(it, &it->on_frame, state);
+  state->known = it->energies.system ? &it->energies : NULL;
+  const int32_t status = hk_run_observe(it, &it->on_frame, state);
+  state->known = NULL;
+  return status;
 }
 
 int32_t hk_run_store(hooke_integrator *it, double t, hooke_state *state, int32_t checked) {
+  it->energies.system = NULL;
   if (it->unkept) hk_recent_keep(&it->recent, state, it->good_step); /* so far `state` is that one */
   it->unkept = 0;
   const int32_t status = checked ? hk_divergence_store(it, t, state) : it->method->store(it, t, state);

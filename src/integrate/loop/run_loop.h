@@ -39,7 +39,7 @@ int32_t hk_run_take_fixed_steps(hooke_integrator *integrator, int64_t count);
 
 /* Shows the state to an observer, if there is one; the second as the next frame. */
 int32_t hk_run_observe(hooke_integrator *integrator, const struct hk_watch *watch, const hooke_state *state);
-int32_t hk_run_report(hooke_integrator *integrator, const hooke_state *state);
+int32_t hk_run_report(hooke_integrator *integrator, hooke_state *state);
 /* Reports progress after so many steps, if it is due: HOOKE_STOPPED. */
 int32_t hk_run_tell(hooke_integrator *integrator, int64_t steps);
 /* Stores the solution at time t, the bits of a frame's time being t itself; `checked` if

@@ -368,17 +368,9 @@ int32_t hk_reduced_solve(struct hk_reduced *reduced, const double *b, double tol
   return hk_reduced_try(reduced, b, tolerance, most_iterations(reduced), x, solution);
 }
 
-/* Of every spring (e.u + b) u u^T + max(0, b) (I - u u^T), as the diagonal blocks have it. */
+/* Of every spring what its diagonal blocks have. */
 void hk_reduced_project(struct hk_reduced *reduced) {
-  const struct hk_tangent *t = &reduced->tangent;
-  for (int64_t s = 0; s < reduced->integrator->system->springs.count; s++) {
-    const double b = t->b[s], across = b > 0.0 ? b : 0.0;
-    const double u[3] = {t->u[0][s], t->u[1][s], t->u[2][s]};
-    const double along = ((t->e[0][s] * u[0] + t->e[1][s] * u[1]) + t->e[2][s] * u[2]) + b - across;
-    for (int a = 0; a < 3; a++)
-      t->e[a][s] = (along > 0.0 ? along : 0.0) * u[a];
-    t->b[s] = across;
-  }
+  hk_tangent_project(reduced->integrator->system->springs.count, &reduced->tangent);
   reduced->projected = 1;
 }
 

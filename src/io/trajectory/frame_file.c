@@ -4,6 +4,7 @@
 #include "core/memory.h"
 #include "hooke/integrator.h"
 #include "io/file/bytes.h"
+#include "model/state.h"
 
 #include <errno.h>
 #include <math.h>
@@ -27,10 +28,12 @@ int64_t hk_frame_bytes(int64_t particle_count, int array) {
 
 /* ---- writing ---- */
 
-static void observe(const hooke_system *system, const double *q, const double *v,
+static void observe(const hooke_system *system, const hooke_state *state,
                     double value[HOOKE_OBSERVABLE_COUNT][3]) {
-  value[0][0] = hooke_system_energy(system, "kinetic", NULL, v);
-  value[1][0] = hooke_system_energy(system, "potential", q, NULL);
+  const double *q = hooke_state_position(state), *v = hooke_state_velocity(state);
+  const struct hk_energies energies = hk_state_energies(state, system);
+  value[0][0] = energies.kinetic;
+  value[1][0] = energies.potential;
   value[2][0] = value[0][0] + value[1][0];
   value[3][0] = hooke_system_dissipated_power(system, q, v);
   hooke_system_momentum(system, v, value[4]);
@@ -47,7 +50,7 @@ int hk_frame_write(const struct hk_frame_file *file, int64_t frame, int64_t step
   const double t = hooke_state_time(state);
   double value[HOOKE_OBSERVABLE_COUNT][3];
   uint32_t check = 0;
-  observe(file->system, q, v, value);
+  observe(file->system, state, value);
   const void *row[HOOKE_FRAME_ARRAY_COUNT] = {&step, &t, q, v};
   for (int k = 0; k < HOOKE_OBSERVABLE_COUNT; k++)
     row[HOOKE_FRAME_OBSERVABLE + k] = value[k];

@@ -1,13 +1,15 @@
 #include "io/trajectory/frame_thread.h"
 
 #include "core/memory.h"
+#include "model/state.h"
 
 #include <pthread.h>
 #include <signal.h>
 
 struct hk_frame_thread {
   const struct hk_frame_file *file;
-  hooke_state *state; /* the queued frame */
+  hooke_state *state;          /* the queued frame */
+  struct hk_energies energies; /* its, where they are known */
   int64_t step, written;
   int32_t busy, ending; /* a frame is queued; no more will come */
   int error;
@@ -72,6 +74,11 @@ int hk_frame_thread_write(struct hk_frame_thread *thread, int64_t step, const ho
   const int error = thread->error;
   if (error == 0) {
     hooke_state_copy(state, thread->state);
+    thread->state->known = NULL;
+    if (state->known) {
+      thread->energies = *state->known;
+      thread->state->known = &thread->energies;
+    }
     thread->step = step;
     thread->busy = 1;
     pthread_cond_signal(&thread->changed);

@@ -4,6 +4,7 @@
 #include "core/memory.h"
 #include "measure/limit/limit_predict.h"
 #include "measure/spectrum/step_bound.h"
+#include "model/state.h"
 
 #include <math.h>
 #include <string.h>
@@ -29,9 +30,9 @@ int32_t hk_soundness_begin(struct hk_soundness *s, const hooke_system *system, c
   s->time = hk_new(2 * capacity, sizeof(double));
   if (s->time == NULL) return HOOKE_NO_MEMORY;
   s->energy = s->time + capacity;
-  s->gravity0 = hooke_system_energy(system, "gravity", q, NULL);
-  s->scale = hooke_system_energy(system, "kinetic", NULL, hooke_state_velocity(state)) +
-             hk_elastic_energy(system, q);
+  const struct hk_energies at = hk_state_energies(state, system);
+  s->gravity0 = at.gravity;
+  s->scale = at.kinetic + at.elastic;
   return hk_step_is_bounded(method) && step > 0.0 ? hk_node_blocks_create(system, q, &s->blocks) : HOOKE_OK;
 }
 
@@ -56,13 +57,11 @@ static void see_step(struct hk_soundness *s, const double *q) {
 
 void hk_soundness_see(struct hk_soundness *s, const hooke_state *state) {
   if (s->count == s->capacity) return;
-  const double *q = hooke_state_position(state);
-  const double gravity = hooke_system_energy(s->system, "gravity", q, NULL);
-  s->swing = fmax(s->swing, fabs(gravity - s->gravity0));
+  const struct hk_energies at = hk_state_energies(state, s->system);
+  s->swing = fmax(s->swing, fabs(at.gravity - s->gravity0));
   s->time[s->count] = hooke_state_time(state);
-  s->energy[s->count++] = hooke_system_energy(s->system, "kinetic", NULL, hooke_state_velocity(state)) +
-                          hk_elastic_energy(s->system, q) + (gravity - s->gravity0);
-  if (s->blocks.system) see_step(s, q);
+  s->energy[s->count++] = at.kinetic + at.elastic + (at.gravity - s->gravity0);
+  if (s->blocks.system) see_step(s, hooke_state_position(state));
 }
 
 void hk_soundness_release(struct hk_soundness *s) {

@@ -2,6 +2,7 @@
 #include "model/force/force.h"
 
 #include "core/sum.h"
+#include "model/state.h"
 
 #include <math.h>
 #include <string.h>
@@ -20,6 +21,19 @@ static double potential_energy(const hooke_system *system, const double *q) {
   double sum = 0.0;
   for (int32_t k = 0; k < system->force_row_count; k++) {
     if (system->force_row[k]->energy) sum += system->force_row[k]->energy(system, q);
+  }
+  return sum;
+}
+
+struct hk_energies hk_state_energies(const hooke_state *state, const hooke_system *system) {
+  if (state->known && state->known->system == system) return *state->known;
+  struct hk_energies sum = {.system = system, .kinetic = kinetic_energy(system, state->v)};
+  for (int32_t k = 0; k < system->force_row_count; k++) {
+    const struct hk_force_row *row = system->force_row[k];
+    const double energy = row->energy ? row->energy(system, state->q) : 0.0;
+    if (row->energy) sum.potential += energy;
+    if (row->energy && row->elements) sum.elastic += energy;
+    if (row == &hk_force_gravity) sum.gravity = energy;
   }
   return sum;
 }
@@ -66,13 +80,4 @@ void hooke_system_angular_momentum(const hooke_system *system, const double *q, 
   }
   for (int a = 0; a < 3; a++)
     angular_momentum[a] = hk_sum_value(&sum[a]);
-}
-
-double hk_elastic_energy(const hooke_system *system, const double *q) {
-  double sum = 0.0;
-  for (int32_t k = 0; k < system->force_row_count; k++) {
-    const struct hk_force_row *row = system->force_row[k];
-    if (row->elements && row->energy) sum += row->energy(system, q);
-  }
-  return sum;
 }

@@ -79,40 +79,6 @@ static double heat(const hooke_system *system, const double *q, const double *v)
   return hk_sum_value(&sum);
 }
 
-int32_t hk_spring_slope_find(const struct hk_spring *spring, const double *q, const double *v,
-                             struct hk_spring_slope *slope) {
-  struct hk_stretch s;
-  hk_spring_stretch(spring, q, v, &s);
-  slope->isotropic = 0;
-  slope->gamma = spring->gamma;
-  if (s.length == 0.0) {
-    slope->isotropic = spring->rest_length == 0.0 && !spring->pull_only;
-    slope->b = spring->kappa;
-    return slope->isotropic;
-  }
-  if (s.slack) return 0;
-  const double *vi = v + 3 * spring->head, *vj = v + 3 * spring->tail;
-  slope->b = s.tension / s.length;
-  for (int a = 0; a < 3; a++) {
-    slope->u[a] = s.direction[a];
-    slope->c[a] = spring->kappa * s.direction[a] +
-                  spring->gamma * ((vi[a] - vj[a]) - s.rate * s.direction[a]) / s.length;
-  }
-  return 1;
-}
-
-static double dot(const double *a, const double *b) {
-  return (a[0] * b[0] + a[1] * b[1]) + a[2] * b[2];
-}
-
-void hk_spring_slope_change(const struct hk_spring_slope *s, const double dx[3], const double dv[3],
-                            double change[3]) {
-  const double along = s->isotropic ? 0.0 : dot(s->u, dx);
-  const double pull = s->isotropic ? 0.0 : dot(s->c, dx) + s->gamma * dot(s->u, dv);
-  for (int a = 0; a < 3; a++)
-    change[a] = s->isotropic ? s->b * dx[a] : pull * s->u[a] + s->b * (dx[a] - along * s->u[a]);
-}
-
 void hk_spring_slope_blocks(const struct hk_spring_slope *s, double stiff[9], double damp[9]) {
   for (int k = 0; k < 9; k++) {
     const int a = k / 3, b = k % 3;

@@ -72,27 +72,6 @@ struct hk_spring hk_springs_find(const struct hk_springs *springs, int64_t numbe
   return hk_run_spring(run, number - run->first);
 }
 
-void hk_spring_stretch(const struct hk_spring *spring, const double *q, const double *v,
-                       struct hk_stretch *stretch) {
-  const double *qi = q + 3 * spring->head, *qj = q + 3 * spring->tail;
-  const double d[3] = {qi[0] - qj[0], qi[1] - qj[1], qi[2] - qj[2]};
-  const double r = hk_spring_length(d[0], d[1], d[2]), ir = hk_spring_inverse_length(r);
-  double rate = 0.0;
-  if (v) {
-    const double *vi = v + 3 * spring->head, *vj = v + 3 * spring->tail;
-    rate = (((vi[0] - vj[0]) * d[0] + (vi[1] - vj[1]) * d[1]) + (vi[2] - vj[2]) * d[2]) * ir;
-  }
-  const double elastic = spring->kappa * (r - spring->rest_length);
-  const double free_tension = elastic + spring->gamma * rate;
-  stretch->length = r;
-  for (int a = 0; a < 3; a++)
-    stretch->direction[a] = d[a] * ir;
-  stretch->rate = rate;
-  stretch->slack = spring->pull_only && (r <= spring->rest_length || free_tension < 0.0);
-  stretch->tension = stretch->slack ? 0.0 : free_tension;
-  stretch->elastic = spring->pull_only && r <= spring->rest_length ? 0.0 : elastic;
-}
-
 void hk_spring_stretch_taut(const struct hk_spring *spring, const double *q, struct hk_stretch *stretch) {
   struct hk_spring taut = *spring;
   taut.pull_only = 0;

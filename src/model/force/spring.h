@@ -2,6 +2,7 @@
 #ifndef HOOKE_MODEL_FORCE_SPRING_H
 #define HOOKE_MODEL_FORCE_SPRING_H
 
+#include "kernel/spring_body.h"
 #include "kernel/spring_loops.h"
 #include "model/force/element.h"
 #include "model/group.h"
@@ -43,8 +44,27 @@ struct hk_stretch {
   double length, direction[3], tension, elastic, rate;
   int32_t slack; /* pulls only, and is slack */
 };
-void hk_spring_stretch(const struct hk_spring *spring, const double *q, const double *v,
-                       struct hk_stretch *stretch);
+HOOKE_INLINE void hk_spring_stretch(const struct hk_spring *spring, const double *q, const double *v,
+                                    struct hk_stretch *stretch) {
+  const double *qi = q + 3 * spring->head, *qj = q + 3 * spring->tail;
+  const double d[3] = {qi[0] - qj[0], qi[1] - qj[1], qi[2] - qj[2]};
+  const double r = hk_spring_length(d[0], d[1], d[2]), ir = hk_spring_inverse_length(r);
+  double rate = 0.0;
+  if (v) {
+    const double *vi = v + 3 * spring->head, *vj = v + 3 * spring->tail;
+    rate = (((vi[0] - vj[0]) * d[0] + (vi[1] - vj[1]) * d[1]) + (vi[2] - vj[2]) * d[2]) * ir;
+  }
+  const double elastic = spring->kappa * (r - spring->rest_length);
+  const double free_tension = elastic + spring->gamma * rate;
+  stretch->length = r;
+  for (int a = 0; a < 3; a++)
+    stretch->direction[a] = d[a] * ir;
+  stretch->rate = rate;
+  stretch->slack = spring->pull_only && (r <= spring->rest_length || free_tension < 0.0);
+  stretch->tension = stretch->slack ? 0.0 : free_tension;
+  stretch->elastic = spring->pull_only && r <= spring->rest_length ? 0.0 : elastic;
+}
+
 /* The same at rest and with tension: a spring that only pulls may become taut at any time. */
 void hk_spring_stretch_taut(const struct hk_spring *spring, const double *q, struct hk_stretch *stretch);
 
@@ -54,10 +74,40 @@ struct hk_spring_slope {
   double u[3], c[3], b, gamma;
   int32_t isotropic; /* coincident ends, rest length 0: df/dx = -b I */
 };
-int32_t hk_spring_slope_find(const struct hk_spring *spring, const double *q, const double *v,
-                             struct hk_spring_slope *slope);
-void hk_spring_slope_change(const struct hk_spring_slope *slope, const double dx[3], const double dv[3],
-                            double change[3]);
+HOOKE_INLINE int32_t hk_spring_slope_find(const struct hk_spring *spring, const double *q, const double *v,
+                                          struct hk_spring_slope *slope) {
+  struct hk_stretch s;
+  hk_spring_stretch(spring, q, v, &s);
+  slope->isotropic = 0;
+  slope->gamma = spring->gamma;
+  if (s.length == 0.0) {
+    slope->isotropic = spring->rest_length == 0.0 && !spring->pull_only;
+    slope->b = spring->kappa;
+    return slope->isotropic;
+  }
+  if (s.slack) return 0;
+  const double *vi = v + 3 * spring->head, *vj = v + 3 * spring->tail;
+  slope->b = s.tension / s.length;
+  for (int a = 0; a < 3; a++) {
+    slope->u[a] = s.direction[a];
+    slope->c[a] = spring->kappa * s.direction[a] +
+                  spring->gamma * ((vi[a] - vj[a]) - s.rate * s.direction[a]) / s.length;
+  }
+  return 1;
+}
+
+HOOKE_INLINE double hk_dot_of_rows(const double *a, const double *b) {
+  return (a[0] * b[0] + a[1] * b[1]) + a[2] * b[2];
+}
+
+HOOKE_INLINE void hk_spring_slope_change(const struct hk_spring_slope *s, const double dx[3],
+                                         const double dv[3], double change[3]) {
+  const double along = s->isotropic ? 0.0 : hk_dot_of_rows(s->u, dx);
+  const double pull = s->isotropic ? 0.0 : hk_dot_of_rows(s->c, dx) + s->gamma * hk_dot_of_rows(s->u, dv);
+  for (int a = 0; a < 3; a++)
+    change[a] = s->isotropic ? s->b * dx[a] : pull * s->u[a] + s->b * (dx[a] - along * s->u[a]);
+}
+
 void hk_spring_slope_blocks(const struct hk_spring_slope *slope, double stiff[9], double damp[9]);
 
 /* A spring as an element. */
