@@ -6,6 +6,7 @@
 #ifndef HOOKE_KERNEL_SPRING_LOOPS_H
 #define HOOKE_KERNEL_SPRING_LOOPS_H
 
+#include "kernel/altitude_loops.h"
 #include "kernel/bending_loops.h"
 #include "kernel/damper_loops.h"
 #include "kernel/strided_loops.h"
@@ -102,6 +103,7 @@ struct hk_spring_set {
   hk_bending_loop *const *bending; /* by HOOKE_BENDING_* */
   const struct hk_tiled_loops *tiled;
   hk_damper_loop *dampers;
+  hk_tetrahedron_loop *tetrahedra;
   const struct hk_vector_set *vector;
   const struct hk_tangent_set *tangent;
   const struct hk_energy_set *energy;

@@ -601,6 +601,68 @@ static void test_bending_agrees(void **unused) {
   }
 }
 
+/* ---- tetrahedra ---- */
+
+/* Any four particles, flat ones and coinciding corners among them; a given altitude or the shortest. */
+static void draw_tetrahedra(struct random_source *source, int64_t count, struct hk_tetrahedron *t) {
+  for (int64_t k = 0; k < count; k++) {
+    t[k] = (struct hk_tetrahedron){.choice = (int32_t)random_whole(source, 0, 1) - 1,
+                                   .pull_only = (int32_t)random_whole(source, 0, 1),
+                                   .side = random_whole(source, 0, 1) ? 1.0 : -1.0,
+                                   .stiffness = random_between(source, 0.0, 100.0),
+                                   .damping = random_between(source, 0.0, 10.0)};
+    if (t[k].choice == 0) t[k].choice = (int32_t)random_whole(source, 0, HOOKE_ALTITUDES - 1);
+    const int32_t near = (int32_t)random_whole(source, 0, PARTICLES - 4);
+    for (int j = 0; j < 4; j++)
+      t[k].particle[j] =
+          random_whole(source, 0, 1) ? near + j : (int32_t)random_whole(source, 0, PARTICLES - 1);
+    for (int a = 0; a < HOOKE_ALTITUDES; a++)
+      t[k].rest[a] = random_between(source, 0.1, 2.0);
+  }
+}
+
+static void add_tetrahedron(const struct hk_tetrahedron *t, const struct trial *at, double f[3][PARTICLES]) {
+  double x[4][3], v[4][3], w[3];
+  struct hk_altitude altitude;
+  for (int j = 0; j < 4; j++) {
+    for (int a = 0; a < 3; a++)
+      x[j][a] = at->q[a][t->particle[j]], v[j][a] = at->v[a][t->particle[j]];
+  }
+  if (!hk_altitude_find(t, (const double(*)[3])x, &altitude)) return;
+  hk_altitude_weigh(&altitude, (const double(*)[3])v, w);
+  const double *u = altitude.u, rate = (u[0] * w[0] + u[1] * w[1]) + u[2] * w[2],
+               tension = hk_altitude_tension(t, &altitude, rate, NULL);
+  for (int j = 0; j < 4; j++) {
+    for (int a = 0; a < 3; a++)
+      f[a][t->particle[j]] -= (tension * altitude.weight[j]) * u[a];
+  }
+}
+
+/* Compared with one at a time. */
+static void test_tetrahedra_agree(void **unused) {
+  (void)unused;
+  static double expected[3][PARTICLES], found[3][PARTICLES];
+  static struct hk_tetrahedron tetrahedra[LONGEST];
+  struct random_source source = {77};
+  struct trial *trial = new_block(1, (int64_t)sizeof *trial);
+  const struct hk_spring_set *set;
+  for (int64_t count = 1; count <= 777; count += count < 20 ? 1 : 59) {
+    draw(&source, HOOKE_RUN_INDEXED, 1, trial);
+    draw_tetrahedra(&source, count, tetrahedra);
+    memcpy(expected, trial->f, sizeof expected);
+    for (int64_t k = 0; k < count; k++)
+      add_tetrahedron(&tetrahedra[k], trial, expected);
+    for (int32_t s = 0; (set = hk_spring_set(s)) != NULL; s++) {
+      memcpy(found, trial->f, sizeof found);
+      set->tetrahedra(count, tetrahedra, (const double *const[]){trial->q[0], trial->q[1], trial->q[2]},
+                      (const double *const[]){trial->v[0], trial->v[1], trial->v[2]},
+                      (double *const[]){found[0], found[1], found[2]});
+      check_same_bits(3 * PARTICLES, found[0], expected[0]);
+    }
+  }
+  free(trial);
+}
+
 static void test_sets_have_names(void **unused) {
   (void)unused;
   int32_t count = 0;
@@ -618,6 +680,7 @@ int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(test_sets_have_names), cmocka_unit_test(test_sets_agree),
       cmocka_unit_test(test_nets_agree),      cmocka_unit_test(test_lanes_agree),
-      cmocka_unit_test(test_moves_agree),     cmocka_unit_test(test_bending_agrees)};
+      cmocka_unit_test(test_moves_agree),     cmocka_unit_test(test_bending_agrees),
+      cmocka_unit_test(test_tetrahedra_agree)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
