@@ -73,7 +73,7 @@ int32_t hooke_integrator_create(const hooke_system *system, const hooke_options 
   if (it == NULL) return status;
   it->system = system;
   it->size = 3 * system->particle_count;
-  it->by_tiles = it->method->by_tiles && hk_goes_by_tiles(system);
+  if (it->method->by_tiles && hk_goes_by_tiles(system)) it->by_tiles = HOOKE_MOTION_BY_TILES;
   if (!it->method->second_order) {
     status = hk_fail(HOOKE_UNSUITED, "method", "%s takes first-order problems only", it->method->name);
   }

@@ -82,7 +82,8 @@ struct hooke_integrator {
   void *around; /* scratch of a method whose step contains that of another, which has `own` */
   int64_t own_memory;
   int32_t may_factor;       /* 1: it factorises its equations where that pays */
-  int32_t by_tiles;         /* 1: the motion is moved by hk_integrator_pass() alone */
+  int32_t by_tiles;         /* HOOKE_MOTION_*: the motion is moved by the two functions of moves alone */
+  int32_t goes_on;          /* 1: the next step follows at once, and nobody sees the state before */
   int32_t explicit_damping; /* 1: of verlet, which does not solve for the damping that there is */
 
   double t0, t;   /* start and current time of the run */
@@ -129,10 +130,14 @@ int32_t hk_integrator_forces(hooke_integrator *integrator, double t);
 /* The same without one force of the table. */
 int32_t hk_integrator_forces_without(hooke_integrator *integrator, double t,
                                      const struct hk_force_row *left_out);
-/* Forces at time t, and every particle moved under them, in one pass over memory where the forces allow it:
- * in one of Euler's ways, HOOKE_KICK_THEN_DRIFT or HOOKE_DRIFT_THEN_KICK, or by a half of a Verlet step, with
- * the velocities half-way in `half`. */
-int32_t hk_integrator_pass(hooke_integrator *integrator, double t, int32_t kind, double *const half[3]);
+/* A move of this motion (kernel/move_loops.h), without arrays of its method's own. */
+struct hk_move hk_integrator_move_of(const hooke_integrator *integrator, int32_t kind, double kick,
+                                     double drift);
+/* Forces at time t, counted, and every particle moved under them, in one pass over memory where the forces
+ * allow it. HOOKE_STOPPED with the stop value kept: nothing has moved. */
+int32_t hk_integrator_move(hooke_integrator *integrator, double t, struct hk_move move);
+/* The same under the forces that the last move kept. */
+void hk_integrator_move_on(hooke_integrator *integrator, struct hk_move move);
 /* What is done with particles `from` .. from + count - 1, by several threads for particles of their own. */
 typedef void hk_particle_work(hooke_integrator *integrator, int64_t from, int64_t count, void *ctx);
 /* Applies it to all stepped particles. */

@@ -34,7 +34,7 @@ struct hk_method {
   int32_t order;                     /* of a fixed-step method, on smooth forces */
   int32_t first_order, second_order; /* problems it takes: x' = phi(t, x); q' = v, v' = W f */
   int32_t implicit; /* 1: takes a step by the solution of nonlinear equations, with the option `newton` */
-  int32_t by_tiles; /* 1: steps by hk_integrator_pass() alone, if `choose` says nothing else */
+  int32_t by_tiles; /* 1: steps by hk_integrator_move() alone, if `choose` says nothing else */
   struct hk_stability stability;
   const char *no_first_order; /* why it takes none, if not for stepping positions and velocities apart */
   /* before there is a motion: what depends on the system and the options, `by_tiles` among it */

@@ -3,8 +3,7 @@
 #include <math.h>
 #include <stddef.h>
 
-const int8_t hk_altitude_role[HOOKE_ALTITUDES][4] = {{1, 3, 2, 0}, {0, 2, 3, 1}, {0, 3, 1, 2}, {0, 1, 2, 3},
-                                                     {0, 1, 3, 2}, {0, 2, 1, 3}, {0, 3, 2, 1}};
+const int8_t hk_altitude_role[HOOKE_ALTITUDES][4] = HOOKE_ALTITUDE_ROLES;
 
 static inline double dot(const double a[3], const double b[3]) {
   return (a[0] * b[0] + a[1] * b[1]) + a[2] * b[2];
@@ -85,29 +84,4 @@ double hk_altitude_tension(const struct hk_tetrahedron *tetrahedron, const struc
   const int32_t is_slack = tetrahedron->pull_only && (altitude->length <= rest || tension < 0.0);
   if (slack) *slack = is_slack;
   return is_slack ? 0.0 : tension;
-}
-
-static inline void load(const int32_t particle[4], const double *const from[3], double to[4][3]) {
-  for (int j = 0; j < 4; j++) {
-    for (int k = 0; k < 3; k++)
-      to[j][k] = from[k][particle[j]];
-  }
-}
-
-void hk_altitude_add(int64_t count, const struct hk_tetrahedron *tetrahedron, const double *const q[3],
-                     const double *const v[3], double *const f[3]) {
-  for (const struct hk_tetrahedron *t = tetrahedron; t < tetrahedron + count; t++) {
-    struct hk_altitude altitude;
-    double x[4][3], w[3];
-    load(t->particle, q, x);
-    if (!hk_altitude_find(t, (const double(*)[3])x, &altitude)) continue;
-    load(t->particle, v, x);
-    hk_altitude_weigh(&altitude, (const double(*)[3])x, w);
-    const double tension = hk_altitude_tension(t, &altitude, dot(altitude.u, w), NULL);
-    for (int j = 0; j < 4; j++) {
-      const double s = tension * altitude.weight[j];
-      for (int k = 0; k < 3; k++)
-        f[k][t->particle[j]] -= s * altitude.u[k];
-    }
-  }
 }

@@ -24,6 +24,12 @@
 enum { HOOKE_ALTITUDES = 7, HOOKE_ALTITUDE_SHORTEST = -1 };
 
 /* Particles ordered such that n.r is six times the signed volume, for every altitude. */
+#define HOOKE_ALTITUDE_ROLES                                                                                 \
+  {                                                                                                          \
+    {1, 3, 2, 0}, {0, 2, 3, 1}, {0, 3, 1, 2}, {0, 1, 2, 3}, {0, 1, 3, 2}, {0, 2, 1, 3}, {                    \
+      0, 3, 2, 1                                                                                             \
+    }                                                                                                        \
+  }
 extern const int8_t hk_altitude_role[HOOKE_ALTITUDES][4];
 
 struct hk_tetrahedron {
@@ -52,8 +58,8 @@ void hk_altitude_weigh(const struct hk_altitude *altitude, const double v[4][3],
 double hk_altitude_tension(const struct hk_tetrahedron *tetrahedron, const struct hk_altitude *altitude,
                            double rate, int32_t *slack);
 
-/* f += the forces at q and v; x, y and z apart. */
-void hk_altitude_add(int64_t count, const struct hk_tetrahedron *tetrahedron, const double *const q[3],
-                     const double *const v[3], double *const f[3]);
+/* f += the forces at q and v; x, y and z apart. Compiled once for each instruction set. */
+typedef void hk_tetrahedron_loop(int64_t count, const struct hk_tetrahedron *tetrahedron,
+                                 const double *const q[3], const double *const v[3], double *const f[3]);
 
 #endif

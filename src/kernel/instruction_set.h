@@ -21,23 +21,27 @@
 #define HOOKE_VECTORISE _Pragma("GCC ivdep")
 #endif
 
-#define HOOKE_SPRING_SET    HOOKE_OF_ISA(hk_spring_set_)
-#define HOOKE_STRIDED_LOOP  HOOKE_OF_ISA(hk_strided_loop_)
-#define HOOKE_TILED_LOOPS   HOOKE_OF_ISA(hk_tiled_loops_)
-#define HOOKE_BENDING_LOOPS HOOKE_OF_ISA(hk_bending_loops_)
-#define HOOKE_ENERGY_SET    HOOKE_OF_ISA(hk_energy_set_)
-#define HOOKE_DAMPER_LOOP   HOOKE_OF_ISA(hk_damper_loop_)
-#define HOOKE_TANGENT_SET   HOOKE_OF_ISA(hk_tangent_set_)
-#define HOOKE_TRIANGLE_SET  HOOKE_OF_ISA(hk_triangle_set_)
-#define HOOKE_VECTOR_SET    HOOKE_OF_ISA(hk_vector_set_)
+#define HOOKE_SPRING_SET       HOOKE_OF_ISA(hk_spring_set_)
+#define HOOKE_STRIDED_LOOP     HOOKE_OF_ISA(hk_strided_loop_)
+#define HOOKE_MOVE_LOOP        HOOKE_OF_ISA(hk_move_loop_)
+#define HOOKE_TILED_LOOPS      HOOKE_OF_ISA(hk_tiled_loops_)
+#define HOOKE_BENDING_LOOPS    HOOKE_OF_ISA(hk_bending_loops_)
+#define HOOKE_ENERGY_SET       HOOKE_OF_ISA(hk_energy_set_)
+#define HOOKE_DAMPER_LOOP      HOOKE_OF_ISA(hk_damper_loop_)
+#define HOOKE_TANGENT_SET      HOOKE_OF_ISA(hk_tangent_set_)
+#define HOOKE_TETRAHEDRON_LOOP HOOKE_OF_ISA(hk_tetrahedron_loop_)
+#define HOOKE_TRIANGLE_SET     HOOKE_OF_ISA(hk_triangle_set_)
+#define HOOKE_VECTOR_SET       HOOKE_OF_ISA(hk_vector_set_)
 
 extern const struct hk_spring_set HOOKE_SPRING_SET;
 hk_strided_loop HOOKE_STRIDED_LOOP;
+hk_move_loop HOOKE_MOVE_LOOP;
 extern const struct hk_tiled_loops HOOKE_TILED_LOOPS;
 extern hk_bending_loop *const HOOKE_BENDING_LOOPS[HOOKE_BENDING_SHAPES];
 extern const struct hk_energy_set HOOKE_ENERGY_SET;
 hk_damper_loop HOOKE_DAMPER_LOOP;
 extern const struct hk_tangent_set HOOKE_TANGENT_SET;
+hk_tetrahedron_loop HOOKE_TETRAHEDRON_LOOP;
 extern const struct hk_triangle_set HOOKE_TRIANGLE_SET;
 extern const struct hk_vector_set HOOKE_VECTOR_SET;
 

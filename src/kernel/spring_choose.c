@@ -27,17 +27,6 @@ const struct hk_spring_set *hk_spring_set(int32_t set) {
   return set >= 0 && set < count ? found[set] : NULL;
 }
 
-hk_step_loop *hk_step_loop_of(int32_t move) {
-  const struct hk_spring_set *set = hk_spring_set(0);
-  return move == HOOKE_KICK_THEN_DRIFT ? set->kick_then_drift : set->drift_then_kick;
-}
-
-hk_verlet_loop *hk_verlet_loop_of(int32_t move) {
-  const struct hk_spring_set *set = hk_spring_set(0);
-  if (move == HOOKE_PREDICT) return set->predict;
-  return move == HOOKE_CORRECT ? set->correct : NULL;
-}
-
 const char *hk_kernel_instructions(void) {
   return hk_spring_set(0)->name;
 }

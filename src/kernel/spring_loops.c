@@ -127,74 +127,6 @@ HOOKE_INLINE int64_t indexed_loop(const struct hk_run *run, const struct hk_fiel
   return lost;
 }
 
-/* ---- steps ---- */
-
-static void kick_then_drift(ptrdiff_t count, double h, const double *restrict w, const double *restrict f,
-                            const double *g, double *restrict q, double *restrict v) {
-  const double gravity = g ? *g : 0.0;
-  for (ptrdiff_t k = 0; k < count && g; k++) {
-    v[k] += h * (w[k] * f[k] + gravity);
-    q[k] += h * v[k];
-  }
-  for (ptrdiff_t k = 0; k < count && !g; k++) {
-    v[k] += h * (w[k] * f[k]);
-    q[k] += h * v[k];
-  }
-}
-
-static void drift_then_kick(ptrdiff_t count, double h, const double *restrict w, const double *restrict f,
-                            const double *g, double *restrict q, double *restrict v) {
-  const double gravity = g ? *g : 0.0;
-  for (ptrdiff_t k = 0; k < count && g; k++) {
-    q[k] += h * v[k];
-    v[k] += h * (w[k] * f[k] + gravity);
-  }
-  for (ptrdiff_t k = 0; k < count && !g; k++) {
-    q[k] += h * v[k];
-    v[k] += h * (w[k] * f[k]);
-  }
-}
-
-HOOKE_INLINE void predict_half(ptrdiff_t count, double h, const double *restrict w, const double *restrict f,
-                               const int heavy, double gravity, double *restrict half, double *restrict q,
-                               double *restrict v) {
-  const double kick = h / 2.0;
-  for (ptrdiff_t k = 0; k < count; k++) {
-    const double a = heavy ? w[k] * f[k] + gravity : w[k] * f[k], u = v[k] + kick * a;
-    half[k] = u;
-    q[k] += h * u;
-    v[k] = u + kick * a;
-  }
-}
-
-static void predict(ptrdiff_t count, double h, double drag, const double *w, const double *f, const double *g,
-                    double *half, double *q, double *v) {
-  (void)drag;
-  if (g)
-    predict_half(count, h, w, f, 1, *g, half, q, v);
-  else
-    predict_half(count, h, w, f, 0, 0.0, half, q, v);
-}
-
-HOOKE_INLINE void correct_half(ptrdiff_t count, double h, double drag, const double *restrict w,
-                               const double *restrict f, const int heavy, double gravity,
-                               const double *restrict half, double *restrict v) {
-  const double kick = h / 2.0, brake = kick * drag;
-  for (ptrdiff_t k = 0; k < count && drag > 0.0; k++)
-    v[k] = (half[k] + kick * (heavy ? w[k] * f[k] + gravity : w[k] * f[k])) / (1.0 + brake * w[k]);
-  for (ptrdiff_t k = 0; k < count && drag == 0.0; k++)
-    v[k] = half[k] + kick * (heavy ? w[k] * f[k] + gravity : w[k] * f[k]);
-}
-
-static void correct(ptrdiff_t count, double h, double drag, const double *w, const double *f, const double *g,
-                    double *half, double *q, double *v) {
-  (void)q;
-  if (g)
-    correct_half(count, h, drag, w, f, 1, *g, half, v);
-  else
-    correct_half(count, h, drag, w, f, 0, 0.0, half, v);
-}
-
 /* ---- the set ---- */
 
 #define NAME(what, damped, mixed, pull) what##_##damped##mixed##pull
@@ -232,10 +164,8 @@ const struct hk_spring_set HOOKE_SPRING_SET = {
     .strided = HOOKE_STRIDED_LOOP,
     .tiled = &HOOKE_TILED_LOOPS,
     .dampers = HOOKE_DAMPER_LOOP,
-    .kick_then_drift = kick_then_drift,
-    .drift_then_kick = drift_then_kick,
-    .predict = predict,
-    .correct = correct,
+    .tetrahedra = HOOKE_TETRAHEDRON_LOOP,
+    .move = HOOKE_MOVE_LOOP,
     .bending = HOOKE_BENDING_LOOPS,
     .vector = &HOOKE_VECTOR_SET,
     .tangent = &HOOKE_TANGENT_SET,

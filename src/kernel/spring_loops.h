@@ -6,6 +6,7 @@
 #ifndef HOOKE_KERNEL_SPRING_LOOPS_H
 #define HOOKE_KERNEL_SPRING_LOOPS_H
 
+#include "kernel/altitude_loops.h"
 #include "kernel/bending_loops.h"
 #include "kernel/damper_loops.h"
 #include "kernel/strided_loops.h"
@@ -92,39 +93,23 @@ static inline struct hk_material hk_run_material(const struct hk_run *run, ptrdi
   return (struct hk_material){run->kappa, run->gamma, length};
 }
 
-/* The updates of explicit steps on one component of `count` particles: h [s], w inverse mass, a = w f + g.
- * Symplectic Euler v += h a, q += h v(new); forward Euler q += h v(old), v += h a. Without gravity (g NULL) a
- * = w f. */
-typedef void hk_step_loop(ptrdiff_t count, double h, const double *w, const double *f, const double *g,
-                          double *q, double *v);
-
-/* Halves of a Verlet step in the same way, HOOKE_PREDICT and HOOKE_CORRECT: see lane_loops.h. `f` is without
- * drag in the second, which leaves q as it is. */
-typedef void hk_verlet_loop(ptrdiff_t count, double h, double drag, const double *w, const double *f,
-                            const double *g, double *half, double *q, double *v);
-
 /* The loops of one instruction set, by shape. Sets are named "avx512", "avx2", "baseline"; `set` counts from
  * the best one of this machine; NULL past the last. */
 struct hk_spring_set {
   const char *name;
   hk_spring_loop *loop[HOOKE_RUN_SHAPES];
   hk_strided_loop *strided;
-  hk_step_loop *kick_then_drift, *drift_then_kick;
-  hk_verlet_loop *predict, *correct;
+  hk_move_loop *move;
   hk_bending_loop *const *bending; /* by HOOKE_BENDING_* */
   const struct hk_tiled_loops *tiled;
   hk_damper_loop *dampers;
+  hk_tetrahedron_loop *tetrahedra;
   const struct hk_vector_set *vector;
   const struct hk_tangent_set *tangent;
   const struct hk_energy_set *energy;
   const struct hk_triangle_set *triangle;
 };
 const struct hk_spring_set *hk_spring_set(int32_t set);
-
-/* The loop of this machine's set for HOOKE_KICK_THEN_DRIFT or HOOKE_DRIFT_THEN_KICK. */
-hk_step_loop *hk_step_loop_of(int32_t move);
-/* That for HOOKE_PREDICT or HOOKE_CORRECT; NULL for any other. */
-hk_verlet_loop *hk_verlet_loop_of(int32_t move);
 
 /* Name of the set used on this machine. */
 const char *hk_kernel_instructions(void);

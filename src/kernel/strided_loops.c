@@ -4,7 +4,7 @@
 #include "kernel/strided_loops.h"
 
 #include "kernel/instruction_set.h"
-#include "kernel/vector_unit.h"
+#include "kernel/move_body.h"
 
 typedef hk_vector vec;
 
@@ -168,48 +168,38 @@ static __attribute__((noinline)) int64_t fill_with_care(const struct hk_strided_
   return lost;
 }
 
-/* Halves of a Verlet step, from the acceleration along axis a. */
-HOOKE_INLINE void move_half(const struct hk_move *how, ptrdiff_t p, int a, vec w, vec acceleration, double *q,
-                            double *v) {
-  const double h = how->step, kick = h / 2.0;
-  double *half = how->half[a] + p;
-  if (how->kind == HOOKE_PREDICT) {
-    const vec u = hk_load(v) + kick * acceleration;
-    hk_store(half, u);
-    hk_store(q, hk_load(q) + h * u);
-    hk_store(v, u + kick * acceleration);
-    return;
+#define MOVE(kind) hk_move_vector(move, kind, p, pass->w + p, pass->q + p, pass->v + p, pass->stride, sum)
+#define CASE(kind)                                                                                           \
+  case kind:                                                                                                 \
+    MOVE(kind);                                                                                              \
+    break;
+
+/* The other moves, apart from the loop, so that it stays small and its sums stay in registers. */
+static __attribute__((noinline)) void move_otherwise(const struct hk_strided_pass *pass, ptrdiff_t p, vec x,
+                                                     vec y, vec z) {
+  const struct hk_move *move = &pass->move;
+  const vec sum[3] = {x, y, z};
+  switch (move->kind) {
+    CASE(HOOKE_MOVE_KEEP)
+    CASE(HOOKE_DRIFT_THEN_KICK)
+    CASE(HOOKE_PREDICT)
+    CASE(HOOKE_CORRECT)
+    CASE(HOOKE_KICK)
+    CASE(HOOKE_KICK_DRIFT_KICK)
+    CASE(HOOKE_FIRST_STAGE)
+    CASE(HOOKE_MIDDLE_STAGE)
+    CASE(HOOKE_LAST_STAGE)
+  default:
+    break;
   }
-  vec next = hk_load(half) + kick * acceleration;
-  if (how->drag > 0.0) next = next / (1.0 + (kick * how->drag) * w);
-  hk_store(v, next);
 }
 
-HOOKE_INLINE void move(const struct hk_strided_pass *pass, const struct hk_move how, ptrdiff_t p,
-                       const vec sum[3]) {
-  const ptrdiff_t stride = pass->stride;
-  double *q = pass->q + p, *v = pass->v + p;
-  if (how.kind == HOOKE_MOVE_NOTHING) return;
-  if (how.kind == HOOKE_MOVE_KEEP) {
-    for (int a = 0; a < 3; a++)
-      hk_store(pass->f + p + a * stride, sum[a]);
-    return;
-  }
-  const vec w = hk_load(pass->w + p), h = hk_all(how.step);
-  for (int a = 0; a < 3; a++) {
-    const vec x = hk_load(q + a * stride), u = hk_load(v + a * stride);
-    vec acceleration = sum[a];
-    if (how.drag > 0.0 && how.kind != HOOKE_CORRECT) acceleration = acceleration - how.drag * u;
-    acceleration = w * acceleration;
-    if (how.heavy) acceleration = acceleration + how.gravity[a];
-    if (how.kind >= HOOKE_PREDICT) {
-      move_half(&how, p, a, w, acceleration, q + a * stride, v + a * stride);
-      continue;
-    }
-    const vec next = u + h * acceleration;
-    hk_store(v + a * stride, next);
-    hk_store(q + a * stride, x + h * (how.kind == HOOKE_KICK_THEN_DRIFT ? next : u));
-  }
+HOOKE_INLINE void move_on(const struct hk_strided_pass *pass, const struct hk_move *move, ptrdiff_t p,
+                          const vec sum[3]) {
+  if (__builtin_expect(move->kind == HOOKE_KICK_THEN_DRIFT, 1))
+    MOVE(HOOKE_KICK_THEN_DRIFT);
+  else if (move->kind != HOOKE_MOVE_NOTHING)
+    move_otherwise(pass, p, sum[0], sum[1], sum[2]);
 }
 
 /* Forces of all batches at a vector, and sums behind it: two batches at a time if all have one shape, known
@@ -268,13 +258,13 @@ HOOKE_INLINE int64_t advance(const struct hk_strided_pass *pass, const int shape
     else
       fill_all(pass, shape, &at, &shortest, sum);
     if (__builtin_expect(hk_has_zero(shortest), 0)) lost += fill_with_care(pass, p);
-    if (at.behind >= from) move(pass, how, at.behind, sum);
+    if (at.behind >= from) move_on(pass, &how, at.behind, sum);
   }
   for (ptrdiff_t p = to - BEHIND > from ? to - BEHIND : from; p < to; p += HOOKE_WIDTH) {
     vec sum[3] = {{0}};
     for (int32_t k = 0; k < pass->count; k++)
       add(&pass->item[2 * k], 1, p, sum);
-    move(pass, how, p, sum);
+    move_on(pass, &how, p, sum);
   }
   return lost;
 }

@@ -7,8 +7,7 @@
 #ifndef HOOKE_KERNEL_STRIDED_LOOPS_H
 #define HOOKE_KERNEL_STRIDED_LOOPS_H
 
-#include <stddef.h>
-#include <stdint.h>
+#include "kernel/move_loops.h"
 
 enum {
   HOOKE_MOST_STRIDED = 32,
@@ -58,36 +57,15 @@ static inline ptrdiff_t hk_ring_stride(ptrdiff_t mask) {
   return mask + 1 + 3 * (ptrdiff_t)HOOKE_STRIDED_UNIT;
 }
 
-/* What is done with the sums: nothing; f = sum; one step of Euler's methods, v += h (w f + g) and q += h
- * v(new), or q += h v(old) first; or a half of a Verlet step, with u the velocity half-way:
- *   predict   u = v + h/2 a, q += h u, v = u + h/2 a
- *   correct   v = (u + h/2 a)/(1 + h/2 c w), or u + h/2 a without drag
- * a = w f + g, or w f without gravity; f has c v taken away before if there is drag, but for the last. */
-enum {
-  HOOKE_MOVE_NOTHING,
-  HOOKE_MOVE_KEEP,
-  HOOKE_KICK_THEN_DRIFT,
-  HOOKE_DRIFT_THEN_KICK,
-  HOOKE_PREDICT,
-  HOOKE_CORRECT
-};
-
-struct hk_move {
-  int32_t kind;
-  int32_t heavy; /* there is gravity */
-  double step, drag, gravity[3];
-  double *half[3]; /* u of Verlet's halves, with room as q has */
-};
-
 /* Arrays are padded by HOOKE_STRIDED_UNIT particles, q and v also by the largest offset; the padding is read
  * and not used. */
 struct hk_strided_pass {
   int32_t count;
   struct hk_strided_view batch[HOOKE_MOST_STRIDED];
   struct hk_strided_item item[2 * HOOKE_MOST_STRIDED]; /* two a batch, in the order of the sum */
-  ptrdiff_t stride;                                    /* between x, y and z of q, and of v and f */
-  ptrdiff_t ahead;   /* q and v are prefetched so many particles ahead; 0: never */
-  double *q, *v, *f; /* f: HOOKE_MOVE_KEEP */
+  ptrdiff_t stride;                                    /* between x, y and z of q, and of v */
+  ptrdiff_t ahead; /* q and v are prefetched so many particles ahead; 0: never */
+  double *q, *v;
   const double *w;
   struct hk_move move;
 };

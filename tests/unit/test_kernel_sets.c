@@ -110,7 +110,7 @@ enum {
 /* Springs of some random strided batches, and their rings. */
 struct lane_trial {
   struct hk_strided_pass pass;
-  double q[3][ROOM], v[3][ROOM], f[3][ROOM], half[3][ROOM], w[ROOM];
+  double q[3][ROOM], v[3][ROOM], w[ROOM], f[3][ROOM], half[3][ROOM], start[6][ROOM], sum[6][ROOM];
   double material[HOOKE_MOST_STRIDED][HOOKE_STRIDED_NUMBERS * STRIDED_PARTICLES];
   uint32_t unit[HOOKE_MOST_STRIDED][HOOKE_STRIDED_NUMBERS * UNITS];
   uint8_t present[HOOKE_MOST_STRIDED][UNITS];
@@ -170,6 +170,49 @@ static void draw_items(struct random_source *source, struct lane_trial *trial) {
   }
 }
 
+/* A motion, any move of it, and numbers where a move writes. */
+static void draw_motion(struct random_source *source, struct lane_trial *trial) {
+  for (int p = 0; p < ROOM; p++) {
+    const int copy = p > 0 && random_whole(source, 0, 30) == 0; /* coincides with its neighbour */
+    for (int a = 0; a < 3; a++) {
+      trial->q[a][p] = copy ? trial->q[a][p - 1] : random_between(source, -1.0, 1.0);
+      trial->v[a][p] = random_between(source, -1.0, 1.0);
+      trial->half[a][p] = random_between(source, -1.0, 1.0);
+      trial->f[a][p] = random_between(source, -1.0, 1.0);
+    }
+    for (int a = 0; a < 6; a++)
+      trial->start[a][p] = random_between(source, -1.0, 1.0),
+      trial->sum[a][p] = random_between(source, -1.0, 1.0);
+    trial->w[p] = random_between(source, 0.5, 2.0);
+  }
+  trial->pass.move = (struct hk_move){.kind = (int32_t)random_whole(source, 0, HOOKE_MOVES - 1),
+                                      .heavy = (int32_t)random_whole(source, 0, 1),
+                                      .kick = 0.01,
+                                      .drift = 0.02,
+                                      .drag = random_whole(source, 0, 1) ? 0.3 : 0.0,
+                                      .gravity = {0.0, -9.81, 0.1}};
+}
+
+/* The same motion in arrays of its own. */
+static void copy_motion(const struct lane_trial *from, struct lane_trial *to) {
+  *to = *from;
+  to->pass.q = to->q[0], to->pass.v = to->v[0], to->pass.w = to->w;
+  to->pass.move.stride = ROOM;
+  to->pass.move.f = to->f[0], to->pass.move.half = to->half[0];
+  to->pass.move.start = to->start[0], to->pass.move.sum = to->sum[0];
+}
+
+static void check_same_motion(const struct lane_trial *found, const struct lane_trial *expected) {
+  for (int a = 0; a < 3; a++) {
+    check_same_bits(ROOM, found->q[a], expected->q[a]);
+    check_same_bits(ROOM, found->v[a], expected->v[a]);
+    check_same_bits(ROOM, found->f[a], expected->f[a]);
+    check_same_bits(ROOM, found->half[a], expected->half[a]);
+  }
+  check_same_bits(6 * ROOM, found->start[0], expected->start[0]);
+  check_same_bits(6 * ROOM, found->sum[0], expected->sum[0]);
+}
+
 static void draw_lanes(struct random_source *source, struct lane_trial *trial) {
   const int32_t shape = HOOKE_RUN_DAMPED * (int32_t)random_whole(source, 0, 1);
   struct hk_strided_pass *pass = &trial->pass;
@@ -177,28 +220,13 @@ static void draw_lanes(struct random_source *source, struct lane_trial *trial) {
                                    .stride = ROOM,
                                    .q = trial->q[0],
                                    .v = trial->v[0],
-                                   .f = trial->f[0],
                                    .w = trial->w};
-  for (int p = 0; p < ROOM; p++) {
-    const int copy = p > 0 && random_whole(source, 0, 30) == 0; /* coincides with its neighbour */
-    for (int a = 0; a < 3; a++) {
-      trial->q[a][p] = copy ? trial->q[a][p - 1] : random_between(source, -1.0, 1.0);
-      trial->v[a][p] = random_between(source, -1.0, 1.0);
-      trial->half[a][p] = random_between(source, -1.0, 1.0);
-    }
-    trial->w[p] = random_between(source, 0.5, 2.0);
-  }
+  draw_motion(source, trial);
   for (int32_t k = 0; k < pass->count; k++) {
     const int32_t other = 2 * (int32_t)random_whole(source, 0, HOOKE_RUN_SHAPES / 2 - 1);
     draw_lane(source, k, random_whole(source, 0, 1) ? shape : other, trial);
   }
   draw_items(source, trial);
-  pass->move = (struct hk_move){.kind = HOOKE_MOVE_NOTHING + (int32_t)random_whole(source, 0, 5),
-                                .half = {trial->half[0], trial->half[1], trial->half[2]},
-                                .heavy = (int32_t)random_whole(source, 0, 1),
-                                .step = 0.01,
-                                .drag = random_whole(source, 0, 1) ? 0.3 : 0.0,
-                                .gravity = {0.0, -9.81, 0.1}};
 }
 
 /* Forces of a strided batch on the upper ends of its springs, one spring at a time. */
@@ -246,35 +274,56 @@ static int64_t sum_plainly(const struct lane_trial *trial, double (*sum)[STRIDED
   return lost;
 }
 
-static void move_half_plainly(struct lane_trial *trial, int a, int p, double rate) {
+static double rate_of(const struct lane_trial *trial, int a, int p, double f, double drag, double u) {
   const struct hk_move *move = &trial->pass.move;
-  double *half = &trial->half[a][p], kick = move->step / 2.0;
-  if (move->kind == HOOKE_PREDICT) {
-    *half = trial->v[a][p] + kick * rate;
-    trial->q[a][p] += move->step * *half;
-    trial->v[a][p] = *half + kick * rate;
+  if (drag > 0.0) f -= drag * u;
+  return move->heavy ? trial->w[p] * f + move->gravity[a] : trial->w[p] * f;
+}
+
+static void move_stage_plainly(const struct hk_move *move, double rate, double *x, double *start,
+                               double *sum) {
+  if (move->kind == HOOKE_FIRST_STAGE) {
+    *start = *x;
+    *sum = rate;
+    *x = *start + move->kick * rate;
+  } else if (move->kind == HOOKE_MIDDLE_STAGE) {
+    *sum += 2.0 * rate;
+    *x = *start + move->kick * rate;
   } else {
-    trial->v[a][p] = *half + kick * rate;
-    if (move->drag > 0.0) trial->v[a][p] /= 1.0 + kick * move->drag * trial->w[p];
+    *x = *start + move->kick * (*sum + rate);
   }
 }
 
-static void move_plainly(struct lane_trial *trial, double (*sum)[STRIDED_PARTICLES]) {
+/* One number at a time. */
+static void move_one(struct lane_trial *trial, int a, int p, double f) {
   const struct hk_move *move = &trial->pass.move;
+  const int32_t kind = move->kind;
+  double *q = &trial->q[a][p], *v = &trial->v[a][p], *half = &trial->half[a][p], u = *v;
+  const double rate = rate_of(trial, a, p, f, move->drag, u);
+  if (kind == HOOKE_MOVE_KEEP || kind == HOOKE_KICK) trial->f[a][p] = f;
+  if (kind == HOOKE_KICK_THEN_DRIFT || kind == HOOKE_DRIFT_THEN_KICK) {
+    *v += move->kick * rate;
+    *q += move->drift * (kind == HOOKE_KICK_THEN_DRIFT ? *v : u);
+  } else if (kind == HOOKE_PREDICT) {
+    *half = u + move->kick * rate;
+    *q += move->drift * *half;
+    *v = *half + move->kick * rate;
+  } else if (kind == HOOKE_CORRECT || kind == HOOKE_KICK || kind == HOOKE_KICK_DRIFT_KICK) {
+    *v = (kind == HOOKE_CORRECT ? *half : u) + move->kick * rate_of(trial, a, p, f, 0.0, 0.0);
+    if (move->drag > 0.0) *v /= 1.0 + move->kick * move->drag * trial->w[p];
+  } else if (kind >= HOOKE_FIRST_STAGE) {
+    move_stage_plainly(move, u, q, &trial->start[a][p], &trial->sum[a][p]);
+    move_stage_plainly(move, rate, v, &trial->start[3 + a][p], &trial->sum[3 + a][p]);
+  }
+  if (kind != HOOKE_KICK_DRIFT_KICK) return;
+  *v += move->kick * rate_of(trial, a, p, f, move->drag, *v);
+  *q += move->drift * *v;
+}
+
+static void move_plainly(struct lane_trial *trial, int64_t from, double (*f)[STRIDED_PARTICLES]) {
   for (int a = 0; a < 3; a++) {
-    for (int p = 0; p < STRIDED_PARTICLES; p++) {
-      double *q = &trial->q[a][p], *v = &trial->v[a][p], f = sum[a][p], u = *v;
-      if (move->kind == HOOKE_MOVE_KEEP) trial->f[a][p] = f;
-      if (move->kind == HOOKE_MOVE_KEEP || move->kind == HOOKE_MOVE_NOTHING) continue;
-      if (move->drag > 0.0 && move->kind != HOOKE_CORRECT) f -= move->drag * u;
-      const double rate = move->heavy ? trial->w[p] * f + move->gravity[a] : trial->w[p] * f;
-      if (move->kind >= HOOKE_PREDICT) {
-        move_half_plainly(trial, a, p, rate);
-        continue;
-      }
-      *v += move->step * rate;
-      *q += move->step * (move->kind == HOOKE_KICK_THEN_DRIFT ? *v : u);
-    }
+    for (int p = (int)from; p < STRIDED_PARTICLES; p++)
+      move_one(trial, a, p, f[a][p]);
   }
 }
 
@@ -293,15 +342,12 @@ static void compare_lanes(struct random_source *source, struct lane_trial *trial
   *expected = *trial;
   memset(sum, 0, sizeof sum);
   const int64_t lost = sum_plainly(trial, sum);
-  move_plainly(expected, sum);
+  move_plainly(expected, 0, sum);
   const struct hk_spring_set *set;
   struct lane_trial *found = new_block(1, (int64_t)sizeof *found + 64);
   for (int32_t s = 0; (set = hk_spring_set(s)) != NULL; s++) {
     int64_t at = 0, found_lost = 0;
-    *found = *trial;
-    found->pass.q = found->q[0], found->pass.v = found->v[0], found->pass.f = found->f[0];
-    for (int a = 0; a < 3; a++)
-      found->pass.move.half[a] = found->half[a];
+    copy_motion(trial, found);
     use_own_rings(found, trial);
     while (at < STRIDED_PARTICLES) {
       const int64_t units = random_whole(source, 1, random_whole(source, 0, 1) ? 5 : UNITS), from = at;
@@ -310,12 +356,7 @@ static void compare_lanes(struct random_source *source, struct lane_trial *trial
       found_lost += set->strided(&found->pass, from, at);
     }
     assert_int_equal(found_lost, lost);
-    for (int a = 0; a < 3; a++) {
-      check_same_bits(ROOM, found->q[a], expected->q[a]);
-      check_same_bits(ROOM, found->v[a], expected->v[a]);
-      check_same_bits(ROOM, found->f[a], expected->f[a]);
-      check_same_bits(ROOM, found->half[a], expected->half[a]);
-    }
+    check_same_motion(found, expected);
   }
   free(found);
 }
@@ -329,33 +370,30 @@ static void test_lanes_agree(void **unused) {
   free(trial);
 }
 
-/* Moves compared with one number at a time. */
+/* Moves of whole units from any of them on, under forces that are given. */
 static void test_moves_agree(void **unused) {
   (void)unused;
-  enum { COUNT = 77 };
+  static double f[3][STRIDED_PARTICLES];
   struct random_source source = {99};
-  double value[4][COUNT], q[COUNT], v[COUNT], expected_q[COUNT], expected_v[COUNT];
-  for (int k = 0; k < 4; k++) {
-    for (int p = 0; p < COUNT; p++)
-      value[k][p] = random_between(&source, -1.0, 1.0);
-  }
-  const double *w = value[0], *f = value[1], h = 0.01, gravity = -9.81;
+  struct lane_trial *trial = new_block(3, (int64_t)sizeof *trial), *expected = trial + 1, *found = trial + 2;
   const struct hk_spring_set *set;
-  for (int32_t s = 0; (set = hk_spring_set(s)) != NULL; s++) {
-    for (int kick_first = 0; kick_first <= 1; kick_first++) {
-      for (int heavy = 0; heavy <= 1; heavy++) {
-        for (int p = 0; p < COUNT; p++) {
-          const double x = q[p] = value[2][p], u = v[p] = value[3][p];
-          expected_v[p] = u + h * (heavy ? w[p] * f[p] + gravity : w[p] * f[p]);
-          expected_q[p] = x + h * (kick_first ? expected_v[p] : u);
-        }
-        (kick_first ? set->kick_then_drift : set->drift_then_kick)(COUNT, h, w, f, heavy ? &gravity : NULL, q,
-                                                                   v);
-        check_same_bits(COUNT, q, expected_q);
-        check_same_bits(COUNT, v, expected_v);
-      }
+  for (int round = 0; round < 20 * HOOKE_MOVES; round++) {
+    draw_motion(&source, trial);
+    trial->pass.move.kind = round % HOOKE_MOVES;
+    for (int k = 0; k < 3 * STRIDED_PARTICLES; k++)
+      f[k % 3][k / 3] = random_between(&source, -1.0, 1.0);
+    const int64_t from = HOOKE_STRIDED_UNIT * random_whole(&source, 0, UNITS - 1);
+    const double *const force[3] = {f[0] + from, f[1] + from, f[2] + from};
+    *expected = *trial;
+    move_plainly(expected, from, f);
+    for (int32_t s = 0; (set = hk_spring_set(s)) != NULL; s++) {
+      copy_motion(trial, found);
+      const struct hk_moved moved = {found->w, found->q[0], found->v[0], ROOM};
+      set->move(&found->pass.move, &moved, from, STRIDED_PARTICLES - from, force);
+      check_same_motion(found, expected);
     }
   }
+  free(trial);
 }
 
 /* ---- tiled batches ---- */
@@ -563,6 +601,68 @@ static void test_bending_agrees(void **unused) {
   }
 }
 
+/* ---- tetrahedra ---- */
+
+/* Any four particles, flat ones and coinciding corners among them; a given altitude or the shortest. */
+static void draw_tetrahedra(struct random_source *source, int64_t count, struct hk_tetrahedron *t) {
+  for (int64_t k = 0; k < count; k++) {
+    t[k] = (struct hk_tetrahedron){.choice = (int32_t)random_whole(source, 0, 1) - 1,
+                                   .pull_only = (int32_t)random_whole(source, 0, 1),
+                                   .side = random_whole(source, 0, 1) ? 1.0 : -1.0,
+                                   .stiffness = random_between(source, 0.0, 100.0),
+                                   .damping = random_between(source, 0.0, 10.0)};
+    if (t[k].choice == 0) t[k].choice = (int32_t)random_whole(source, 0, HOOKE_ALTITUDES - 1);
+    const int32_t near = (int32_t)random_whole(source, 0, PARTICLES - 4);
+    for (int j = 0; j < 4; j++)
+      t[k].particle[j] =
+          random_whole(source, 0, 1) ? near + j : (int32_t)random_whole(source, 0, PARTICLES - 1);
+    for (int a = 0; a < HOOKE_ALTITUDES; a++)
+      t[k].rest[a] = random_between(source, 0.1, 2.0);
+  }
+}
+
+static void add_tetrahedron(const struct hk_tetrahedron *t, const struct trial *at, double f[3][PARTICLES]) {
+  double x[4][3], v[4][3], w[3];
+  struct hk_altitude altitude;
+  for (int j = 0; j < 4; j++) {
+    for (int a = 0; a < 3; a++)
+      x[j][a] = at->q[a][t->particle[j]], v[j][a] = at->v[a][t->particle[j]];
+  }
+  if (!hk_altitude_find(t, (const double(*)[3])x, &altitude)) return;
+  hk_altitude_weigh(&altitude, (const double(*)[3])v, w);
+  const double *u = altitude.u, rate = (u[0] * w[0] + u[1] * w[1]) + u[2] * w[2],
+               tension = hk_altitude_tension(t, &altitude, rate, NULL);
+  for (int j = 0; j < 4; j++) {
+    for (int a = 0; a < 3; a++)
+      f[a][t->particle[j]] -= (tension * altitude.weight[j]) * u[a];
+  }
+}
+
+/* Compared with one at a time. */
+static void test_tetrahedra_agree(void **unused) {
+  (void)unused;
+  static double expected[3][PARTICLES], found[3][PARTICLES];
+  static struct hk_tetrahedron tetrahedra[LONGEST];
+  struct random_source source = {77};
+  struct trial *trial = new_block(1, (int64_t)sizeof *trial);
+  const struct hk_spring_set *set;
+  for (int64_t count = 1; count <= 777; count += count < 20 ? 1 : 59) {
+    draw(&source, HOOKE_RUN_INDEXED, 1, trial);
+    draw_tetrahedra(&source, count, tetrahedra);
+    memcpy(expected, trial->f, sizeof expected);
+    for (int64_t k = 0; k < count; k++)
+      add_tetrahedron(&tetrahedra[k], trial, expected);
+    for (int32_t s = 0; (set = hk_spring_set(s)) != NULL; s++) {
+      memcpy(found, trial->f, sizeof found);
+      set->tetrahedra(count, tetrahedra, (const double *const[]){trial->q[0], trial->q[1], trial->q[2]},
+                      (const double *const[]){trial->v[0], trial->v[1], trial->v[2]},
+                      (double *const[]){found[0], found[1], found[2]});
+      check_same_bits(3 * PARTICLES, found[0], expected[0]);
+    }
+  }
+  free(trial);
+}
+
 static void test_sets_have_names(void **unused) {
   (void)unused;
   int32_t count = 0;
@@ -580,6 +680,7 @@ int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(test_sets_have_names), cmocka_unit_test(test_sets_agree),
       cmocka_unit_test(test_nets_agree),      cmocka_unit_test(test_lanes_agree),
-      cmocka_unit_test(test_moves_agree),     cmocka_unit_test(test_bending_agrees)};
+      cmocka_unit_test(test_moves_agree),     cmocka_unit_test(test_bending_agrees),
+      cmocka_unit_test(test_tetrahedra_agree)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

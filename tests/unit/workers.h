@@ -13,12 +13,12 @@
 static int64_t step_with(const hooke_system *system, const double *q, const double *v, int32_t workers,
                          double *out) {
   const struct hk_move move = {
-      .kind = HOOKE_KICK_THEN_DRIFT, .heavy = 1, .step = 0.01, .gravity = {0.0, -9.81, 0.0}};
+      .kind = HOOKE_KICK_THEN_DRIFT, .heavy = 1, .kick = 0.01, .drift = 0.01, .gravity = {0.0, -9.81, 0.0}};
   struct hk_pool *pool = hk_pool_create(workers);
   struct hk_motion *moved = NULL, *still = NULL;
   const int64_t n = system->particle_count;
   assert_non_null(pool);
-  check_ok(hk_motion_create(system, 1, pool, &moved));
+  check_ok(hk_motion_create(system, HOOKE_MOTION_BY_TILES, pool, &moved));
   check_ok(hk_motion_create(system, 0, pool, &still));
   hk_motion_load(system, moved, q, v);
   int64_t lost = 0;

@@ -44,43 +44,42 @@ void hk_integrator_each(hooke_integrator *it, hk_particle_work *work, void *ctx)
   hk_pool_run(it->motion->pool, work_on_share, &(struct sharing){it, work, ctx});
 }
 
-struct moving {
-  int32_t kind;
-  double *const *half;
-};
-
-static void move(hooke_integrator *it, int64_t from, int64_t count, void *ctx) {
-  const struct moving *moving = ctx;
-  hk_step_loop *loop = hk_step_loop_of(moving->kind);
-  hk_verlet_loop *half = hk_verlet_loop_of(moving->kind);
+struct hk_move hk_integrator_move_of(const hooke_integrator *it, int32_t kind, double kick, double drift) {
   const hooke_system *system = it->system;
   const struct hk_motion *m = it->motion;
-  const double h = it->schedule.step, *w = system->inverse_mass + from;
-  for (int a = 0; a < 3; a++) {
-    const double *f = m->f[a] + from, *g = system->has_gravity ? &system->gravity[a] : NULL;
-    double *q = m->q[a] + from, *v = m->v[a] + from;
-    if (half)
-      half(count, h, m->zero ? 0.0 : system->drag, w, f, g, moving->half[a] + from, q, v);
-    else
-      loop(count, h, w, f, g, q, v);
+  struct hk_move move = {.kind = kind,
+                         .heavy = system->has_gravity,
+                         .kick = kick,
+                         .drift = drift,
+                         .drag = m->zero ? 0.0 : system->drag,
+                         .stride = hk_motion_stride(m),
+                         .f = m->f[0]};
+  memcpy(move.gravity, system->gravity, sizeof move.gravity);
+  return move;
+}
+
+static void move_share(hooke_integrator *it, int64_t from, int64_t count, void *ctx) {
+  const struct hk_motion *m = it->motion;
+  const struct hk_moved moved = hk_motion_moved(m);
+  const double *const f[3] = {m->f[0] + from, m->f[1] + from, m->f[2] + from};
+  hk_spring_set(0)->move(ctx, &moved, (ptrdiff_t)from, (ptrdiff_t)count, f);
+}
+
+void hk_integrator_move_on(hooke_integrator *it, struct hk_move move) {
+  hk_integrator_each(it, move_share, &move);
+}
+
+/* Drag is part of the move, except where a callback comes after it in the sum of forces. */
+int32_t hk_integrator_move(hooke_integrator *it, double t, struct hk_move move) {
+  if (it->by_tiles) {
+    it->count.force_evaluations++;
+    hk_motion_pass(it->system, it->motion, &move);
+    return HOOKE_OK;
   }
-}
-
-static int32_t pass_by_tiles(hooke_integrator *it, int32_t kind, double *const half[3]) {
-  const hooke_system *system = it->system;
-  struct hk_move how = {
-      .kind = kind, .heavy = system->has_gravity, .step = it->schedule.step, .drag = system->drag};
-  memcpy(how.gravity, system->gravity, sizeof how.gravity);
-  if (half) memcpy(how.half, half, sizeof how.half);
-  it->count.force_evaluations++;
-  hk_motion_pass(system, it->motion, &how);
-  return HOOKE_OK;
-}
-
-int32_t hk_integrator_pass(hooke_integrator *it, double t, int32_t kind, double *const half[3]) {
-  if (it->by_tiles) return pass_by_tiles(it, kind, half);
-  const int32_t status = hk_integrator_forces_without(it, t, kind == HOOKE_CORRECT ? &hk_force_drag : NULL);
-  if (status == HOOKE_OK) hk_integrator_each(it, move, &(struct moving){kind, half});
+  const int summed = it->system->force != NULL && !hk_move_brakes(move.kind);
+  const int32_t status = hk_integrator_forces_without(it, t, summed ? NULL : &hk_force_drag);
+  if (summed) move.drag = 0.0;
+  if (status == HOOKE_OK) hk_integrator_move_on(it, move);
   return status;
 }
 

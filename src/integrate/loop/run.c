@@ -120,6 +120,7 @@ static int32_t take_untold_steps(hooke_integrator *it, int64_t count) {
   for (int64_t s = 0; s < count && status == HOOKE_OK; s++) {
     const double next = hk_integrator_next_time(it);
     status = hk_integrator_drive(it, next);
+    it->goes_on = s + 1 < count;
     if (status == HOOKE_OK) status = it->method->step(it);
     if (status != HOOKE_OK) break;
     if (it->system && it->system->constrained_count > 0) hk_motion_hold(it->system, it->motion);

@@ -11,7 +11,8 @@ static int32_t step_rate(hooke_integrator *it) {
 
 static int32_t step(hooke_integrator *it) {
   if (it->rate) return step_rate(it);
-  return hk_integrator_pass(it, it->t, HOOKE_DRIFT_THEN_KICK, NULL);
+  const double h = it->schedule.step;
+  return hk_integrator_move(it, it->t, hk_integrator_move_of(it, HOOKE_DRIFT_THEN_KICK, h, h));
 }
 
 const struct hk_method hk_forward_euler = {.name = "forward-euler",

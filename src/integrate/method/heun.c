@@ -1,18 +1,9 @@
 /* Heun's method (1900), the explicit trapezoidal rule, order 2: two rates a step, at t and at t + h. Undamped
  * oscillations grow by (omega h)^4/8 a step. */
 #include "integrate/method/stages.h"
-#include "kernel/step_loops.h"
-
-static void move(int stage, int64_t n, double h, const double *rate, const double *start, double *sum,
-                 double *x) {
-  if (stage == 0)
-    hk_first_stage(n, h, rate, sum, x);
-  else
-    hk_last_stage(n, h / 2.0, rate, start, sum, x);
-}
 
 static int32_t create(hooke_integrator *it) {
-  static const struct hk_stages stages = {2, {0.0, 1.0}, move};
+  static const struct hk_stages stages = {2, {0.0, 1.0}, {1.0, 2.0}};
   return hk_stages_create(it, &stages);
 }
 
@@ -24,6 +15,7 @@ const struct hk_method hk_heun = {
     .first_order = 1,
     .second_order = 1,
     .stability = {.kind = HOOKE_STABLE_BY_POLYNOMIAL, .degree = 2},
+    .by_tiles = 1,
     .create = create,
     .destroy = hk_stages_destroy,
     .begin = hk_fixed_begin,

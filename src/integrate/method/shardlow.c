@@ -59,6 +59,7 @@ static int32_t step(hooke_integrator *it) {
   struct shardlow *own = it->around;
   if (own->start) hk_motion_save(it->motion, own->start);
   hk_dampers_sweep(own->dampers, it->motion, 0);
+  it->goes_on = 0; /* dampers come in between */
   const int32_t status = hk_verlet.step(it);
   if (status != HOOKE_OK) {
     if (own->start) hk_motion_restore(it->motion, own->start);

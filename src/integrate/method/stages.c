@@ -8,7 +8,7 @@
 #include <stddef.h>
 #include <string.h>
 
-/* The start of the step, and the sum of the rates: of x, or of q and v, each 3 components of n. */
+/* The start of the step, and the sum of the rates: of x, or of the components of q and v as in the motion. */
 struct own {
   const struct hk_stages *stages;
   double *start, *sum;
@@ -19,7 +19,7 @@ int32_t hk_stages_create(hooke_integrator *it, const struct hk_stages *stages) {
   if (own == NULL) return HOOKE_NO_MEMORY;
   it->own = own;
   own->stages = stages;
-  const int64_t size = (it->rate ? 1 : 2) * it->size;
+  const int64_t size = it->rate ? it->size : 6 * hk_motion_stride(it->motion);
   own->start = hk_new(2 * size, sizeof(double));
   if (own->start == NULL) return HOOKE_NO_MEMORY;
   own->sum = own->start + size;
@@ -44,34 +44,33 @@ static double stage_time(const hooke_integrator *it, int stage) {
   return ahead == 1.0 ? hk_integrator_next_time(it) : it->t + ahead * it->schedule.step;
 }
 
+static double stage_kick(const hooke_integrator *it, int stage) {
+  const struct own *own = it->own;
+  return it->schedule.step / own->stages->over[stage];
+}
+
+static void move_x(hooke_integrator *it, int stage) {
+  const struct own *own = it->own;
+  const double kick = stage_kick(it, stage);
+  if (stage == 0)
+    hk_first_stage(it->size, kick, it->slope, own->start, own->sum, it->x);
+  else if (stage < own->stages->count - 1)
+    hk_middle_stage(it->size, kick, it->slope, own->start, own->sum, it->x);
+  else
+    hk_last_stage(it->size, kick, it->slope, own->start, own->sum, it->x);
+}
+
 static int32_t step_rate(hooke_integrator *it) {
-  struct own *own = it->own;
-  memcpy(own->start, it->x, (size_t)it->size * sizeof(double));
+  const struct own *own = it->own;
   for (int stage = 0; stage < own->stages->count; stage++) {
     const int32_t status = hk_integrator_rate(it, stage_time(it, stage), it->x, it->slope);
     if (status != HOOKE_OK) {
-      memcpy(it->x, own->start, (size_t)it->size * sizeof(double));
+      if (stage > 0) memcpy(it->x, own->start, (size_t)it->size * sizeof(double));
       return status;
     }
-    own->stages->move(stage, it->size, it->schedule.step, it->slope, own->start, own->sum, it->x);
+    move_x(it, stage);
   }
   return HOOKE_OK;
-}
-
-/* Velocities are the rate of positions, and have to be read before they change. */
-static void move_motion(hooke_integrator *it, int64_t from, int64_t count, void *ctx) {
-  const int stage = *(const int *)ctx;
-  const struct own *own = it->own;
-  const hooke_system *system = it->system;
-  struct hk_motion *m = it->motion;
-  const double h = it->schedule.step;
-  for (int a = 0; a < 3; a++) {
-    const int64_t q = a * m->n + from, v = (3 + a) * m->n + from;
-    double *f = m->f[a] + from;
-    hk_acceleration(count, system->inverse_mass + from, system->has_gravity ? &system->gravity[a] : NULL, f);
-    own->stages->move(stage, count, h, m->v[a] + from, own->start + q, own->sum + q, m->q[a] + from);
-    own->stages->move(stage, count, h, f, own->start + v, own->sum + v, m->v[a] + from);
-  }
 }
 
 /* Constrained particles at the time of a stage; if it is the time of the previous one the drives are not
@@ -83,18 +82,35 @@ static int32_t hold(hooke_integrator *it, int stage) {
   return HOOKE_OK;
 }
 
+static int32_t move(hooke_integrator *it, int stage) {
+  const struct own *own = it->own;
+  const int last = own->stages->count - 1;
+  const int32_t kind = stage == 0 ? HOOKE_FIRST_STAGE : stage < last ? HOOKE_MIDDLE_STAGE : HOOKE_LAST_STAGE;
+  struct hk_move move = hk_integrator_move_of(it, kind, stage_kick(it, stage), 0.0);
+  move.start = own->start;
+  move.sum = own->sum;
+  return hk_integrator_move(it, stage_time(it, stage), move);
+}
+
+static void put_back(hooke_integrator *it, int64_t from, int64_t count, void *ctx) {
+  const double *start = ctx;
+  struct hk_motion *m = it->motion;
+  for (int a = 0; a < 6; a++) {
+    double *x = a < 3 ? m->q[a] : m->v[a - 3];
+    memcpy(x + from, start + a * hk_motion_stride(m) + from, (size_t)count * sizeof(double));
+  }
+}
+
 int32_t hk_stages_step(hooke_integrator *it) {
   if (it->rate) return step_rate(it);
   struct own *own = it->own;
-  hk_motion_save(it->motion, own->start);
   for (int stage = 0; stage < own->stages->count; stage++) {
     int32_t status = hold(it, stage);
-    if (status == HOOKE_OK) status = hk_integrator_forces(it, stage_time(it, stage));
+    if (status == HOOKE_OK) status = move(it, stage);
     if (status != HOOKE_OK) {
-      hk_motion_restore(it->motion, own->start);
+      if (stage > 0) hk_integrator_each(it, put_back, own->start);
       return status;
     }
-    hk_integrator_each(it, move_motion, &stage);
   }
   return HOOKE_OK;
 }

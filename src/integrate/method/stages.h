@@ -4,12 +4,12 @@
 
 #include "integrate/integrator.h"
 
+/* Stage k is `ahead` steps after the start, at 0, 0.5 or 1, and leads from there to the next one, or to the end
+ * of the step, by the part of its rate that lasts a step over `over`; see the moves of stages in
+ * kernel/move_loops.h. */
 struct hk_stages {
   int32_t count;
-  double ahead[4]; /* positions of stages, in steps: 0, 0.5 or 1 */
-  /* advances x by the rate at a stage, to the next one or the end of the step, with a sum of rates */
-  void (*move)(int stage, int64_t n, double h, const double *rate, const double *start, double *sum,
-               double *x);
+  double ahead[4], over[4];
 };
 
 int32_t hk_stages_create(hooke_integrator *it, const struct hk_stages *stages);

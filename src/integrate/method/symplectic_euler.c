@@ -3,7 +3,8 @@
 #include "integrate/integrator.h"
 
 static int32_t step(hooke_integrator *it) {
-  return hk_integrator_pass(it, it->t, HOOKE_KICK_THEN_DRIFT, NULL);
+  const double h = it->schedule.step;
+  return hk_integrator_move(it, it->t, hk_integrator_move_of(it, HOOKE_KICK_THEN_DRIFT, h, h));
 }
 
 const struct hk_method hk_symplectic_euler = {.name = "symplectic-euler",

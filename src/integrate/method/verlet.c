@@ -12,7 +12,6 @@
 #include "core/status.h"
 #include "integrate/method/verlet_damping.h"
 #include "integrate/solve/reduced.h"
-#include "kernel/step_loops.h"
 #include "model/force/force.h"
 
 #include <math.h>
@@ -24,7 +23,8 @@ static const double PART = 1e-3, LEAST_RESIDUAL = 1e-13;
 
 struct verlet {
   int32_t implicit, predicts;
-  int32_t kept;              /* motion->f is the force of the springs at q, to which only drag is missing */
+  int32_t kept;              /* motion->f is the force at q, to which only drag is missing */
+  int32_t drifted;           /* the motion has done the first kick of the next step, and its drift */
   struct hk_reduced reduced; /* implicit */
   double *numbers;           /* all arrays below */
   double *half[3];           /* predicts: velocities half-way, with room as in the motion */
@@ -37,7 +37,7 @@ static int32_t create(hooke_integrator *it) {
   if (own == NULL) return HOOKE_NO_MEMORY;
   it->own = own;
   const int callback = it->system->force != NULL;
-  const int64_t n = it->system->particle_count, stride = n + HOOKE_STRIDED_UNIT;
+  const int64_t stride = hk_motion_stride(it->motion);
   own->implicit = hk_elements_are_damped(it->system) && !it->explicit_damping && !it->motion->zero;
   own->predicts = own->implicit || it->explicit_damping || callback;
   if (!own->predicts) return HOOKE_OK;
@@ -66,7 +66,7 @@ static void destroy(hooke_integrator *it) {
 
 static int32_t begin(hooke_integrator *it, const hooke_state *state) {
   struct verlet *own = it->own;
-  own->kept = 0;
+  own->kept = own->drifted = 0;
   return hk_fixed_begin(it, state);
 }
 
@@ -76,55 +76,34 @@ static void forget(hooke_integrator *it) {
   own->kept = 0;
 }
 
-static const double *gravity(const hooke_system *system, int axis) {
-  return system->has_gravity ? &system->gravity[axis] : NULL;
-}
-
-/* The force at the start of a step that predicts nothing: that of the springs, which the step before has
- * left, and drag: the same sum to the bit. */
-static int32_t first_forces(hooke_integrator *it) {
+/* The first kick, and the drift. The force is that of the step before, if it has left it. */
+static int32_t begin_step(hooke_integrator *it) {
   struct verlet *own = it->own;
-  const int32_t status = own->kept ? HOOKE_OK : hk_integrator_forces_without(it, it->t, &hk_force_drag);
+  const double h = it->schedule.step;
+  const struct hk_move move = hk_integrator_move_of(it, HOOKE_KICK_THEN_DRIFT, h / 2.0, h);
+  int32_t status = HOOKE_OK;
+  if (own->kept)
+    hk_integrator_move_on(it, move);
+  else
+    status = hk_integrator_move(it, it->t, move);
   if (!own->kept && it->k > 0) it->count.force_evaluations--; /* as counted by the run that came here */
   own->kept = 0;
-  if (status != HOOKE_OK || it->system->drag == 0.0) return status;
-  return hk_force_drag.add(it->system, it->motion, it->t);
+  return status;
 }
 
-static void kick(hooke_integrator *it, int64_t from, int64_t count, void *ctx) {
-  (void)ctx;
-  const hooke_system *system = it->system;
-  struct hk_motion *m = it->motion;
-  const double half = it->schedule.step / 2.0, *w = system->inverse_mass + from;
-  for (int a = 0; a < 3; a++) {
-    if (system->drag > 0.0 && !m->zero)
-      hk_kick_with_drag(count, half, system->drag, w, m->f[a] + from, gravity(system, a), m->v[a] + from);
-    else
-      hk_kick(count, half, w, m->f[a] + from, gravity(system, a), m->v[a] + from);
-  }
-}
-
-static void kick_and_drift(hooke_integrator *it, int64_t from, int64_t count, void *ctx) {
-  (void)ctx;
-  const hooke_system *system = it->system;
-  struct hk_motion *m = it->motion;
-  const double h = it->schedule.step;
-  for (int a = 0; a < 3; a++) {
-    hk_kick_and_drift(count, h / 2.0, h, system->inverse_mass + from, m->f[a] + from, gravity(system, a),
-                      m->q[a] + from, m->v[a] + from);
-  }
-}
-
-/* A step of springs whose forces depend on positions alone, and of drag. */
+/* A step of springs whose forces depend on positions alone, and of drag. If nobody sees its end, the next one
+ * begins in the same pass; a drive may still stop before that one. */
 static int32_t step_undamped(hooke_integrator *it) {
   struct verlet *own = it->own;
-  int32_t status = first_forces(it);
+  const double h = it->schedule.step;
+  const int goes_on = it->goes_on && it->system->drive_count == 0;
+  int32_t status = own->drifted ? HOOKE_OK : begin_step(it);
   if (status != HOOKE_OK) return status;
-  hk_integrator_each(it, kick_and_drift, NULL);
   if (it->system->constrained_count > 0) hk_motion_hold(it->system, it->motion);
-  status = hk_integrator_forces_without(it, hk_integrator_next_time(it), &hk_force_drag);
-  if (status == HOOKE_OK) hk_integrator_each(it, kick, NULL);
-  own->kept = status == HOOKE_OK;
+  const int32_t kind = goes_on ? HOOKE_KICK_DRIFT_KICK : HOOKE_KICK;
+  status = hk_integrator_move(it, hk_integrator_next_time(it), hk_integrator_move_of(it, kind, h / 2.0, h));
+  own->drifted = status == HOOKE_OK && goes_on;
+  own->kept = status == HOOKE_OK && !goes_on;
   return status;
 }
 
@@ -168,10 +147,18 @@ static int32_t solve(hooke_integrator *it) {
 
 /* ---- a step that predicts the velocity ---- */
 
+static struct hk_move half_of(const hooke_integrator *it, int32_t kind) {
+  const struct verlet *own = it->own;
+  const double h = it->schedule.step;
+  struct hk_move move = hk_integrator_move_of(it, kind, h / 2.0, h);
+  move.half = own->half[0];
+  return move;
+}
+
 static int32_t second_kick(hooke_integrator *it) {
   const struct verlet *own = it->own;
   const double t = hk_integrator_next_time(it);
-  if (!own->implicit) return hk_integrator_pass(it, t, HOOKE_CORRECT, own->half);
+  if (!own->implicit) return hk_integrator_move(it, t, half_of(it, HOOKE_CORRECT));
   const int32_t status = hk_integrator_forces(it, t);
   return status == HOOKE_OK ? solve(it) : status;
 }
@@ -181,7 +168,7 @@ static int32_t step(hooke_integrator *it) {
   struct hk_motion *m = it->motion;
   if (!own->predicts) return step_undamped(it);
   if (own->start) hk_motion_save(m, own->start);
-  int32_t status = hk_integrator_pass(it, it->t, HOOKE_PREDICT, own->half);
+  int32_t status = hk_integrator_move(it, it->t, half_of(it, HOOKE_PREDICT));
   if (status != HOOKE_OK) return status;
   if (it->system->constrained_count > 0) hk_motion_hold(it->system, m);
   status = second_kick(it);

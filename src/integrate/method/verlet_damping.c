@@ -73,8 +73,10 @@ static int32_t refuse_step(double step, double most) {
 int32_t hk_verlet_choose(hooke_integrator *it) {
   const char *asked = hooke_options_text(it->options, "verlet_damping");
   const int required = strcmp(asked, "explicit") == 0;
-  it->by_tiles = 0;
-  if (!hk_elements_are_damped(it->system)) return HOOKE_OK;
+  if (!hk_elements_are_damped(it->system)) {
+    if (it->by_tiles) it->by_tiles |= HOOKE_MOTION_KEEPS;
+    return HOOKE_OK;
+  }
   double bound = 0.0;
   const int32_t by_state = depends_on_state(it->system);
   if (by_state && required)
@@ -85,7 +87,7 @@ int32_t hk_verlet_choose(hooke_integrator *it) {
   const int32_t allowed = it->schedule.step <= MARGIN * bound;
   if (required && !allowed) return refuse_step(it->schedule.step, MARGIN * bound);
   it->explicit_damping = allowed && strcmp(asked, "implicit") != 0;
-  it->by_tiles = it->explicit_damping && hk_goes_by_tiles(it->system);
+  if (!it->explicit_damping) it->by_tiles = 0;
   return hooke_options_set_text(it->options, "verlet_damping",
                                 it->explicit_damping ? "explicit" : "implicit");
 }

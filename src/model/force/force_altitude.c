@@ -5,6 +5,7 @@
 #include "model/force/force.h"
 
 #include "core/sum.h"
+#include "kernel/spring_loops.h"
 #include "model/check_value.h"
 #include "model/variant/variant.h"
 
@@ -22,7 +23,7 @@ static int32_t add(const hooke_system *system, struct hk_motion *motion, double 
   const double *const still = motion->zero;
   const double *const v[3] = {still ? still : motion->v[0], still ? still : motion->v[1],
                               still ? still : motion->v[2]};
-  hk_altitude_add(system->altitudes.count, system->altitudes.tetrahedron, q, v, motion->f);
+  hk_spring_set(0)->tetrahedra(system->altitudes.count, system->altitudes.tetrahedron, q, v, motion->f);
   return HOOKE_OK;
 }
 

@@ -18,7 +18,9 @@ static int32_t present(const hooke_system *system) {
 static int32_t add(const hooke_system *system, struct hk_motion *motion, double t) {
   (void)t;
   if (system->strided.count > 0 || system->tiled.particles > 0) {
-    hk_motion_pass(system, motion, &(const struct hk_move){.kind = HOOKE_MOVE_KEEP});
+    const struct hk_move keep = {
+        .kind = HOOKE_MOVE_KEEP, .stride = hk_motion_stride(motion), .f = motion->f[0]};
+    hk_motion_pass(system, motion, &keep);
     return HOOKE_OK;
   }
   struct hk_fields fields;

@@ -55,12 +55,12 @@ static void clear(int32_t worker, int32_t workers, void *ctx) {
 }
 
 /* Arrays of n numbers each, and other data of that size. */
-static int32_t new_arrays(const hooke_system *system, int32_t by_tiles, struct hk_motion *motion) {
+static int32_t new_arrays(const hooke_system *system, int32_t how, struct hk_motion *motion) {
   const int64_t n = system->particle_count;
   /* rounded up to a cache line, and not a power of two apart: equal low address bits would conflict in cache
    * sets. Loops over strided batches read past the last particle. */
   const int64_t beyond = system->strided.count > 0 ? system->strided.reach + HOOKE_STRIDED_UNIT : 0;
-  const int64_t stride = (n + beyond + 7) / 8 * 8 + 24, arrays = by_tiles ? 6 : 9;
+  const int64_t stride = (n + beyond + 7) / 8 * 8 + 24, arrays = how == HOOKE_MOTION_BY_TILES ? 6 : 9;
   const int64_t components = arrays * stride, rows = system->force ? 9 * n : 0;
   const int64_t still = 3 * system->anchor_count, driven = 6 * driven_count(system);
   const int64_t numbers = components + rows + still + driven;
@@ -73,7 +73,7 @@ static int32_t new_arrays(const hooke_system *system, int32_t by_tiles, struct h
   for (int a = 0; a < 3; a++) {
     motion->q[a] = block + a * stride;
     motion->v[a] = block + (3 + a) * stride;
-    if (!by_tiles) motion->f[a] = block + (6 + a) * stride;
+    if (arrays == 9) motion->f[a] = block + (6 + a) * stride;
   }
   motion->rows = rows ? block + components : NULL;
   motion->still = block + components + rows;
@@ -132,14 +132,14 @@ static int32_t new_scratch(const hooke_system *system, struct hk_motion *motion)
   return HOOKE_OK;
 }
 
-int32_t hk_motion_create(const hooke_system *system, int32_t by_tiles, struct hk_pool *pool,
+int32_t hk_motion_create(const hooke_system *system, int32_t how, struct hk_pool *pool,
                          struct hk_motion **out) {
   struct hk_motion *motion = hk_new(1, sizeof *motion);
   if (motion == NULL) return HOOKE_NO_MEMORY;
   motion->pool = pool;
-  motion->order = by_tiles ? system->tiled.order : NULL;
+  motion->order = how & HOOKE_MOTION_BY_TILES ? system->tiled.order : NULL;
   motion->w = motion->order ? system->tiled.inverse_mass : system->inverse_mass;
-  int32_t status = new_arrays(system, by_tiles, motion);
+  int32_t status = new_arrays(system, how, motion);
   if (status == HOOKE_OK) status = new_numbers(system, motion);
   if (status == HOOKE_OK) status = new_scratch(system, motion);
   if (status == HOOKE_OK)

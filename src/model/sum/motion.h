@@ -14,7 +14,7 @@ struct hk_tiled_scratch;
 struct hk_motion {
   int64_t n;
   struct hk_pool *pool;       /* that goes over tiles; NULL: the caller alone */
-  double *q[3], *v[3], *f[3]; /* n each, in one block; f NULL if particles are moved by tiles */
+  double *q[3], *v[3], *f[3]; /* n each, a stride apart in one block; f NULL if no move keeps forces */
   const int32_t *order;       /* particle that has a working number; NULL: numbers are the caller's */
   int32_t *number;            /* the other way; NULL until hk_motion_know_numbers() */
   const double *w;            /* inverse masses */
@@ -37,11 +37,19 @@ int32_t hk_goes_by_tiles(const hooke_system *system);
 /* Number of threads, up to `most`, that pay for the passes over the particles of a system. */
 int32_t hk_motion_members(const hooke_system *system, int32_t most);
 
-/* With `by_tiles` only hk_motion_pass() may move the motion; only for systems that go by tiles. The pool
- * (NULL: none) must outlive the motion. */
-int32_t hk_motion_create(const hooke_system *system, int32_t by_tiles, struct hk_pool *pool,
+/* How a motion is made: only hk_motion_pass() moves it, and only for systems that go by tiles; and, if so,
+ * with forces that moves keep. */
+enum { HOOKE_MOTION_BY_TILES = 1, HOOKE_MOTION_KEEPS = 2 };
+
+/* The pool (NULL: none) must outlive the motion. */
+int32_t hk_motion_create(const hooke_system *system, int32_t how, struct hk_pool *pool,
                          struct hk_motion **motion);
 void hk_motion_destroy(struct hk_motion *motion);
+
+/* Between the components of q, v and f. */
+static inline ptrdiff_t hk_motion_stride(const struct hk_motion *motion) {
+  return motion->q[1] - motion->q[0];
+}
 
 /* From and to rows of x y z. */
 void hk_motion_load(const hooke_system *system, struct hk_motion *motion, const double *q, const double *v);
@@ -73,6 +81,8 @@ int32_t hk_motion_forces_without(const hooke_system *system, struct hk_motion *m
 /* Sums the springs at all particles in one pass over memory, and uses the sums as `move` says; only for
  * systems with strided batches or a tiled batch, and moving particles only for motions that go by tiles. */
 void hk_motion_pass(const hooke_system *system, struct hk_motion *motion, const struct hk_move *move);
+/* What moves outside a pass move. */
+struct hk_moved hk_motion_moved(const struct hk_motion *motion);
 
 /* Calls the drives for the positions of their particles at time t; HOOKE_STOPPED if a callback asked for it.
  */

@@ -21,30 +21,15 @@ static void keep_tile(int64_t from, int64_t count, double *const f[3], void *ctx
   }
 }
 
-/* Adds drag on a tile, as its row in the table of forces does; constrained particles are restored after a
- * step. */
-static void brake(double drag, int64_t from, int64_t count, const struct hk_motion *m, double *const f[3]) {
-  for (int a = 0; a < 3; a++) {
-    for (int64_t k = 0; k < count; k++)
-      f[a][k] -= drag * m->v[a][from + k];
-  }
-}
-
 static void move_tile(int64_t from, int64_t count, double *const f[3], void *ctx) {
   const struct tile_move *to = ctx;
-  const struct hk_motion *m = to->motion;
-  const struct hk_move *move = to->move;
-  hk_step_loop *loop = hk_step_loop_of(move->kind);
-  hk_verlet_loop *half = hk_verlet_loop_of(move->kind);
-  if (move->drag > 0.0 && move->kind != HOOKE_CORRECT) brake(move->drag, from, count, m, f);
-  for (int a = 0; a < 3; a++) {
-    const double *w = m->w + from, *g = move->heavy ? &move->gravity[a] : NULL;
-    double *q = m->q[a] + from, *v = m->v[a] + from;
-    if (half)
-      half(count, move->step, move->drag, w, f[a], g, move->half[a] + from, q, v);
-    else
-      loop(count, move->step, w, f[a], g, q, v);
-  }
+  const struct hk_moved moved = hk_motion_moved(to->motion);
+  const double *const force[3] = {f[0], f[1], f[2]};
+  hk_spring_set(0)->move(to->move, &moved, (ptrdiff_t)from, (ptrdiff_t)count, force);
+}
+
+struct hk_moved hk_motion_moved(const struct hk_motion *motion) {
+  return (struct hk_moved){motion->w, motion->q[0], motion->v[0], hk_motion_stride(motion)};
 }
 
 void hk_motion_pass(const hooke_system *system, struct hk_motion *motion, const struct hk_move *move) {

@@ -198,10 +198,9 @@ static void begin(const struct task *task, struct partition *partition, int32_t 
   const struct hk_motion *m = task->motion;
   partition->from = hk_pool_share(m->n, HOOKE_TILE, worker, workers);
   partition->to = whole_units(hk_pool_share(m->n, HOOKE_TILE, worker + 1, workers));
-  partition->pass.stride = m->q[1] - m->q[0];
+  partition->pass.stride = hk_motion_stride(m);
   partition->pass.q = m->q[0];
   partition->pass.v = m->v[0];
-  partition->pass.f = m->f[0];
   partition->pass.w = m->w;
   partition->pass.move = *task->move;
   partition->pass.ahead = m->n > PARTICLES_IN_CACHE ? m->rings->reach + FETCH_AHEAD : 0;
@@ -234,7 +233,7 @@ static void finish(const struct task *task, struct partition *partition) {
   partition->pass.v = v - from;
   partition->pass.stride = stride;
   go_on(task, partition, task->move->kind, partition->to);
-  copy(q, v, stride, m->q[0] + from, m->v[0] + from, m->q[1] - m->q[0], count);
+  copy(q, v, stride, m->q[0] + from, m->v[0] + from, hk_motion_stride(m), count);
 }
 
 static void go_over(int32_t worker, int32_t workers, void *ctx) {

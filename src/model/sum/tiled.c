@@ -102,7 +102,7 @@ static int32_t number(struct maker *maker, const double *inverse_mass) {
     return HOOKE_OK;
   }
   tiled->order = hk_new(tiled->particles, sizeof(int32_t));
-  tiled->inverse_mass = hk_new(tiled->particles, sizeof(double));
+  tiled->inverse_mass = hk_new(tiled->particles + HOOKE_STRIDED_UNIT, sizeof(double)); /* whole vectors */
   if (tiled->order == NULL || tiled->inverse_mass == NULL) return HOOKE_NO_MEMORY;
   for (int64_t p = 0; p < tiled->particles; p++) {
     tiled->order[p] = maker->order[p];

@@ -1,0 +1,95 @@
+/* The moves of move_loops.h on one vector of particles, to the parenthesis. */
+#ifndef HOOKE_KERNEL_MOVE_BODY_H
+#define HOOKE_KERNEL_MOVE_BODY_H
+
+#include "kernel/move_loops.h"
+#include "kernel/vector_unit.h"
+
+/* Kinds of moves are told apart at compile time: `kind` is a constant. Everything is at the vector at particle
+ * p along axis a: w, f, q and v are its first numbers. */
+
+HOOKE_INLINE hk_vector hk_acceleration(const struct hk_move *move, int a, hk_vector w, hk_vector f) {
+  hk_vector acceleration = w * f;
+  if (move->heavy) acceleration = acceleration + move->gravity[a];
+  return acceleration;
+}
+
+HOOKE_INLINE hk_vector hk_braked(const struct hk_move *move, int a, hk_vector w, hk_vector f, hk_vector v) {
+  if (move->drag > 0.0) f = f - move->drag * v;
+  return hk_acceleration(move, a, w, f);
+}
+
+/* A kick with the drag at the new velocity. */
+HOOKE_INLINE hk_vector hk_kicked(const struct hk_move *move, int a, hk_vector w, hk_vector f, hk_vector v) {
+  hk_vector next = v + move->kick * hk_acceleration(move, a, w, f);
+  if (move->drag > 0.0) next = next / (1.0 + (move->kick * move->drag) * w);
+  return next;
+}
+
+/* X moves on at `rate`; `at` is the place of the vector in the arrays of stages. */
+HOOKE_INLINE void hk_move_stage(const struct hk_move *move, const int kind, ptrdiff_t at, hk_vector rate,
+                                double *x) {
+  double *start = move->start + at, *sum = move->sum + at;
+  if (kind == HOOKE_FIRST_STAGE) {
+    const hk_vector from = hk_load(x);
+    hk_store(start, from);
+    hk_store(sum, rate);
+    hk_store(x, from + move->kick * rate);
+  } else if (kind == HOOKE_MIDDLE_STAGE) {
+    hk_store(sum, hk_load(sum) + 2.0 * rate);
+    hk_store(x, hk_load(start) + move->kick * rate);
+  } else {
+    hk_store(x, hk_load(start) + move->kick * (hk_load(sum) + rate));
+  }
+}
+
+HOOKE_INLINE void hk_move_verlet(const struct hk_move *move, const int kind, ptrdiff_t p, int a, hk_vector w,
+                                 hk_vector f, double *q, double *v) {
+  double *half = move->half + a * move->stride + p;
+  if (kind == HOOKE_PREDICT) {
+    const hk_vector before = hk_load(v), kick = move->kick * hk_braked(move, a, w, f, before),
+                    u = before + kick;
+    hk_store(half, u);
+    hk_store(q, hk_load(q) + move->drift * u);
+    hk_store(v, u + kick);
+  } else if (kind == HOOKE_CORRECT) {
+    hk_store(v, hk_kicked(move, a, w, f, hk_load(half)));
+  } else if (kind == HOOKE_KICK) {
+    hk_store(move->f + a * move->stride + p, f);
+    hk_store(v, hk_kicked(move, a, w, f, hk_load(v)));
+  } else {
+    const hk_vector whole = hk_kicked(move, a, w, f, hk_load(v)),
+                    u = whole + move->kick * hk_braked(move, a, w, f, whole);
+    hk_store(q, hk_load(q) + move->drift * u);
+    hk_store(v, u);
+  }
+}
+
+HOOKE_INLINE void hk_move_axis(const struct hk_move *move, const int kind, ptrdiff_t p, int a, hk_vector w,
+                               hk_vector f, double *q, double *v) {
+  if (kind >= HOOKE_FIRST_STAGE) {
+    const ptrdiff_t at = a * move->stride + p;
+    const hk_vector u = hk_load(v);
+    hk_move_stage(move, kind, at, u, q);
+    hk_move_stage(move, kind, at + 3 * move->stride, hk_braked(move, a, w, f, u), v);
+  } else if (kind >= HOOKE_PREDICT) {
+    hk_move_verlet(move, kind, p, a, w, f, q, v);
+  } else if (kind >= HOOKE_KICK_THEN_DRIFT) {
+    const hk_vector x = hk_load(q), u = hk_load(v), next = u + move->kick * hk_braked(move, a, w, f, u);
+    hk_store(v, next);
+    hk_store(q, x + move->drift * (kind == HOOKE_KICK_THEN_DRIFT ? next : u));
+  } else if (kind == HOOKE_MOVE_KEEP) {
+    hk_store(move->f + a * move->stride + p, f);
+  }
+}
+
+/* `w`, `q` and `v` at particle p. */
+HOOKE_INLINE void hk_move_vector(const struct hk_move *move, const int kind, ptrdiff_t p, const double *w,
+                                 double *q, double *v, ptrdiff_t stride, const hk_vector f[3]) {
+  if (kind == HOOKE_MOVE_NOTHING) return;
+  const hk_vector inverse_mass = hk_load(w);
+  for (int a = 0; a < 3; a++)
+    hk_move_axis(move, kind, p, a, inverse_mass, f[a], q + a * stride, v + a * stride);
+}
+
+#endif
