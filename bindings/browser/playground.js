@@ -1,0 +1,398 @@
+"use strict";
+/* The page: sliders, picture, energies, words. The library runs in a worker, which is asked for one frame after another. Numbers are
+ * in SI units; text is set as text, never as markup. */
+
+const { scenes, files } = JSON.parse(at("data").textContent);
+const FIRST = "cloth-16";
+const KNOBS = ["stiffness", "damping", "mass"]; // factors, by tenths of a power of ten
+const SLOW_FRAME = 90; // [ms] between frames while it blows up
+
+let worker = null, methods = [], scene = null, picture = null, chart = null, bounds = [];
+let playing = true, asked = false, ended = null, before = 0, stepRange = [1e-5, 1e-1], tested = null;
+
+/* ---- numbers as words ---- */
+
+function number(value, digits = 3) {
+  const size = Math.abs(value);
+  if (value === 0 || (size >= 1e-3 && size < 1e5)) return String(Number(value.toPrecision(digits)));
+  return value.toExponential(digits - 1).replace(/\.?0+e/, "e");
+}
+const seconds = (value) => (value >= 1 ? `${number(value)} s` : value >= 1e-3 ? `${number(1e3 * value)} ms` : `${number(1e6 * value)} \u00b5s`);
+
+/* ---- sliders ---- */
+
+const method = () => at("method").value;
+const step = () => Number((stepRange[0] * (stepRange[1] / stepRange[0]) ** (at("step").value / 1000)).toPrecision(3));
+const shareOf = (value) => Math.log(value / stepRange[0]) / Math.log(stepRange[1] / stepRange[0]);
+const factor = (name) => Number((10 ** (at(name).value / 10)).toPrecision(2));
+let gravityMoved = false;
+const gravity = () => (gravityMoved ? at("gravity").value / 10 : null);
+const changes = () => ({ stiffness: factor("stiffness"), damping: factor("damping"), mass: factor("mass"), gravity: gravity() });
+
+function setStep(value) {
+  at("step").value = Math.round(1000 * shareOf(value));
+  tested = value;
+}
+
+/* The step as it was set, exactly, until the slider moves. */
+const stepNow = () => (tested === null ? step() : tested);
+
+function writeKnobs() {
+  at("step-out").textContent = seconds(stepNow());
+  for (const name of KNOBS) at(`${name}-out`).textContent = factor(name) === 1 ? "as in the scene" : `\u00d7 ${number(factor(name))}`;
+  at("gravity-out").textContent = `${number(at("gravity").value / 10)} m/s\u00b2`;
+}
+
+const boundNow = () => {
+  const row = methods.find(({ name }) => name === method());
+  return row ? bounds[row.place] : NaN;
+};
+
+/* The safe step of the method as a mark on the slider. */
+function markBound() {
+  const bound = boundNow(), share = bound > 0 && Number.isFinite(bound) ? shareOf(bound) : NaN;
+  at("bound").hidden = !(share >= 0 && share <= 1);
+  at("bound").style.left = `calc(8px + ${share} * (100% - 16px))`;
+  at("bound-words").textContent = Number.isNaN(bound) ? "No bound is known for this method." : bound === 0
+    ? "This method is stable at no step here." : bound === Infinity ? "Nothing limits the step of this method."
+      : `Safe up to ${seconds(bound)} (a bound; the limit may be larger)`;
+  document.body.dataset.bound = bound;
+}
+
+/* ---- words on how it goes ---- */
+
+function verdict(kind, text) {
+  at("verdict").className = kind;
+  if (at("verdict-words").textContent !== text) at("verdict-words").textContent = text;
+  document.body.dataset.verdict = kind;
+}
+
+function compare() {
+  const bound = boundNow(), now = stepNow();
+  if (Number.isNaN(bound) || bound === Infinity) return ["", `${method()} takes steps of ${seconds(now)}.`];
+  if (bound === 0) return ["risky", `${method()} is stable at no step here: energy grows, if slowly.`];
+  if (now <= bound) return ["safe", `The step ${seconds(now)} is below the safe bound, ${seconds(bound)}: nothing can blow up.`];
+  return ["risky", `The step ${seconds(now)} is above the safe bound, ${seconds(bound)}. It may blow up.`];
+}
+
+function writeVerdict(frame) {
+  at("cure").hidden = true;
+  at("why-words").textContent = "";
+  if (frame.slow) return verdict("blown", "The energy grows, and nothing in the scene feeds it. From here on, step by step.");
+  return verdict(...compare());
+}
+
+/* What is known of the cause: the step against the bound, here and at the start. */
+function explain(frame) {
+  const bound = boundNow(), now = stepNow(), when = frame.diverged === null ? frame.time : frame.diverged;
+  verdict("blown", `It blew up at t = ${number(when)} s.`);
+  const cause = bound === 0 ? `${method()} is stable at no step in this scene.`
+    : now > bound ? `The step ${seconds(now)} is ${number(now / bound)} times the safe one, ${seconds(bound)}. Above the limit, each ` +
+      "step makes the fastest vibration of the springs larger instead of following it; stiffer springs and lighter particles vibrate faster."
+      : "The step is below the safe bound, so the step is not the cause that this page can name.";
+  at("why-words").textContent = `${cause}\nWhich mode grows and by how much it passes the limit is not predicted in this build; ` +
+    "hooke why and hooke limit tell it.";
+  const safe = Number((0.9 * bound).toPrecision(2));
+  at("cure").hidden = !(bound > 0 && now > bound && Number.isFinite(bound));
+  at("cure").textContent = `Set the step to ${seconds(safe)} and start again`;
+  at("cure").onclick = () => {
+    setStep(safe);
+    writeKnobs();
+    restart();
+  };
+}
+
+/* ---- energies ---- */
+
+let energies = { motion: [], gone: [] }; // `gone` since steps are taken one by one
+
+function thinned(list) {
+  return list.length <= 700 ? list : list.filter((_, k) => k % 2 === 0 || k > list.length - 40);
+}
+
+function addEnergy(frame) {
+  const list = frame.slow ? "gone" : "motion", last = energies.motion[energies.motion.length - 1];
+  if (frame.slow && energies.gone.length === 0 && last) energies.gone.push(last);
+  if (frame.energies.motion > 0) energies[list] = thinned([...energies[list], { x: frame.time, y: frame.energies.motion }]);
+}
+
+function makeChart() {
+  const ink = styleOf("--dim"), grid = styleOf("--line");
+  if (chart) chart.destroy();
+  const axis = (title, more) => ({ title: { display: true, text: title, color: ink }, grid: { color: grid, borderColor: grid },
+    ...more, ticks: { color: ink, maxRotation: 0, ...more.ticks } });
+  const line = (label, borderColor) => ({ label, data: [], borderColor, borderWidth: 2, pointRadius: 0, showLine: true });
+  chart = new Chart(at("energy"), { type: "scatter", data: { datasets: [line("energy of motion and springs", "#2f86c9"), line("step by step", "#c0262d")] },
+    options: { animation: false, maintainAspectRatio: false, events: [],
+      scales: { x: axis("t [s]", { type: "linear", ticks: { callback: (value) => number(value, 6) } }),
+        y: axis("energy [J]", { type: "logarithmic", ticks: { callback: (value) => (Math.abs(Math.log10(value) % 1) < 1e-9 ? value.toExponential(0) : null) } }) },
+      plugins: { tooltip: { enabled: false }, legend: { align: "end", labels: { color: ink, boxHeight: 0, boxWidth: 18 } } } } });
+}
+
+let charted = 0;
+function drawEnergies(now = performance.now()) {
+  if (now - charted < 200) return;
+  charted = now;
+  chart.data.datasets[0].data = energies.motion;
+  chart.data.datasets[1].data = energies.gone;
+  chart.update();
+}
+
+/* ---- the picture ---- */
+
+/* The viewer's data: the frames of the preview, by which the camera is set, and last the live one. */
+function makePicture(opened) {
+  const canvas = at("picture"), fresh = canvas.cloneNode();
+  if (picture) picture.renderer.dispose();
+  canvas.replaceWith(fresh);
+  const frames = [...opened.frames, opened.frames[0]];
+  scene = { box: frames.map(({ box }) => box), status: "running", gravity: opened.gravity, bodies: opened.bodies, live: frames.length - 1,
+    bytes: frames.map(({ bytes }) => bytes) };
+  picture = null;
+  try {
+    picture = new Picture(fresh, scene, opened.ends, opened.marks, (k) => scene.bytes[k]);
+  } catch (trouble) {
+    at("missing").hidden = false;
+    return;
+  }
+  const palette = picture.paint();
+  picture.controls.addEventListener("change", () => picture.draw());
+  at("colours").style.background = `linear-gradient(to right, ${palette.join(", ")})`;
+  at("low").textContent = `\u2212${number(100 * opened.strain)} %`;
+  at("high").textContent = `+${number(100 * opened.strain)} %`;
+  if (!opened.bodies.length) at("tint").checked = true;
+  dress();
+}
+
+function dress() {
+  at("scale").hidden = !at("tint").checked;
+  if (picture) picture.setLook("surface", at("tint").checked);
+  drawFrame();
+}
+
+const widthOf = (box) => Math.max(box[3] - box[0], box[4] - box[1], box[5] - box[2]);
+
+function drawFrame() {
+  if (!picture) return;
+  picture.show(scene.live);
+  const width = widthOf(scene.box[scene.live]) / widthOf(picture.home), wide = width > 1.6;
+  if (wide) picture.fit(scene.live);
+  at("zoomed").textContent = wide ? `${number(width, 2)} times as wide as before; the picture zooms out` : "";
+  picture.draw();
+}
+
+function take(frame) {
+  scene.box[scene.live] = frame.box;
+  scene.bytes[scene.live] = frame.bytes;
+  drawFrame();
+  bounds = frame.bounds;
+  markBound();
+  at("now").textContent = `t = ${number(frame.time, 4)} s${frame.late ? ", slower than asked for" : ""}`;
+  document.body.dataset.time = frame.time;
+}
+
+/* ---- the worker ---- */
+
+let number_ = 0, expected = 0;
+function tell(request) {
+  number_ += 1;
+  worker.postMessage({ ...request, number: number_ });
+  return number_;
+}
+
+/* Asks for the next frame, unless one is on its way. */
+function ask() {
+  if (!playing || asked || ended || !scene) return;
+  asked = true;
+  requestAnimationFrame((now) => {
+    const passed = Math.min(Math.max(now - before, 0), 100) / 1000;
+    before = now;
+    expected = tell({ do: "piece", seconds: passed * Number(at("speed").value) });
+  });
+}
+
+function onFrame(frame) {
+  asked = false;
+  take(frame);
+  addEnergy(frame);
+  drawEnergies(frame.ended ? Infinity : performance.now());
+  if (frame.ended) {
+    ended = frame;
+    explain(frame);
+    at("play").textContent = "Start again";
+  } else {
+    writeVerdict(frame);
+    if (frame.slow) setTimeout(ask, SLOW_FRAME);
+    else ask();
+  }
+}
+
+function onOpened(opened) {
+  const low = opened.bounds.filter((value) => value > 0 && Number.isFinite(value)), usual = Math.min(...low, opened.step);
+  stepRange = [usual / 20, Math.max(...low.filter((value) => value < 50 * usual), opened.step) * 8];
+  at("method").value = opened.method;
+  setStep(opened.step);
+  if (!gravityMoved) at("gravity").value = Math.round(10 * Math.hypot(...opened.gravity));
+  bounds = opened.bounds;
+  makePicture(opened);
+  begin(opened);
+}
+
+function begin(state) {
+  ended = null;
+  asked = false;
+  energies = { motion: [], gone: [] };
+  addEnergy({ time: 0, energies: state.energies, slow: false });
+  charted = 0;
+  drawEnergies();
+  before = performance.now();
+  at("play").textContent = playing ? "Pause" : "Play";
+  markBound();
+  writeKnobs();
+  writeVerdict({ slow: false });
+  ask();
+}
+
+const HEARD = {
+  ready({ methods: list, version, lapack }) {
+    methods = list;
+    at("method").append(...list.map(({ name, summary }) => Object.assign(document.createElement("option"), { value: name, textContent: name, title: summary })));
+    at("about").textContent = `hooke ${version} as WebAssembly, with jansson${lapack ? " and LAPACK" : ""}; drawn with three.js and Chart.js (MIT licence). ` +
+      "Methods with a fixed step give the same bits here as natively. Nothing is sent anywhere.";
+    readLink(location.hash).then((linked) => openScene(linked || { text: scenes[FIRST] }));
+  },
+  opened(reply) {
+    showTrouble(null);
+    onOpened(reply);
+  },
+  bounds(reply) {
+    bounds = reply.bounds;
+    markBound();
+    if (!ended) writeVerdict({ slow: false });
+  },
+  restarted(reply) {
+    take(reply);
+    begin(reply);
+  },
+  frame: onFrame,
+  error({ message, wrong }) {
+    asked = false;
+    if (wrong) showTrouble(message);
+    else verdict("blown", `This page failed: ${message}`);
+  },
+};
+
+/* A frame that was asked for before something changed is of no use. */
+function hear({ data }) {
+  if (data.is === "frame" && data.to !== expected) return;
+  HEARD[data.is](data);
+  document.body.dataset.heard = data.is;
+}
+
+/* ---- what the reader does ---- */
+
+function openScene({ text, changes: given, method: by, step: length }) {
+  at("text").value = text;
+  numberLines(0);
+  for (const name of KNOBS) at(name).value = given ? Math.round(10 * Math.log10(given[name])) : 0;
+  gravityMoved = Boolean(given) && given.gravity !== null;
+  if (gravityMoved) at("gravity").value = 10 * given.gravity;
+  expected = 0;
+  tell({ do: "open", text, changes: changes(), method: by, step: length });
+}
+
+function reopen() {
+  gravityMoved = false;
+  openScene({ text: at("text").value });
+}
+
+function restart() {
+  expected = 0;
+  tell({ do: "restart", method: method(), step: stepNow() });
+}
+
+/* While it runs, from where it is on; after an explosion, from the start. */
+function alter(request) {
+  writeKnobs();
+  markBound();
+  if (!scene) return;
+  expected = 0;
+  asked = false;
+  tell({ ...request, method: method(), step: stepNow() });
+  if (ended) restart();
+  else ask();
+}
+
+async function copyLink() {
+  const fragment = await writeLink({ text: at("text").value, changes: changes(), method: method(), step: stepNow() });
+  const address = `${location.href.replace(/#.*/, "")}#${fragment}`;
+  history.replaceState(null, "", `#${fragment}`);
+  at("linked").textContent = "The address of this page now holds the scene.";
+  if (navigator.clipboard) navigator.clipboard.writeText(address).then(() => { at("linked").textContent = "Copied."; }, () => {});
+}
+
+function writeSliders() {
+  let text;
+  try {
+    text = JSON.parse(changedScene(at("text").value, changes()));
+  } catch (trouble) {
+    return; // the editor says what is wrong
+  }
+  text.run = { ...text.run, method: method(), step: stepNow() };
+  for (const name of ["every", "checkpoint"]) delete text.run[name];
+  openScene({ text: JSON.stringify(text, null, 2) });
+}
+
+function togglePlay() {
+  if (ended) return restart();
+  playing = !playing;
+  at("play").textContent = playing ? "Pause" : "Play";
+  before = performance.now();
+  ask();
+  return undefined;
+}
+
+function listen() {
+  at("play").onclick = togglePlay;
+  at("again").onclick = restart;
+  at("fit").onclick = () => picture && (picture.fit(scene.live), picture.draw());
+  at("tint").onchange = dress;
+  at("method").onchange = () => alter({ do: "use" });
+  at("step").oninput = () => {
+    tested = null;
+    alter({ do: "use" });
+  };
+  for (const name of [...KNOBS, "gravity"]) {
+    at(name).oninput = () => {
+      gravityMoved = gravityMoved || name === "gravity";
+      alter({ do: "change", text: at("text").value, changes: changes() });
+    };
+  }
+  at("scenes").append(...Object.keys(scenes).map((name) => Object.assign(document.createElement("option"), { value: name, textContent: name,
+    title: JSON.parse(scenes[name]).title || name, selected: name === FIRST })));
+  at("scenes").onchange = () => {
+    gravityMoved = false;
+    openScene({ text: scenes[at("scenes").value] });
+  };
+  at("link").onclick = copyLink;
+  at("write").onclick = writeSliders;
+  listenToText(reopen);
+  addEventListener("resize", () => picture && picture.draw());
+  matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => {
+    if (picture) picture.paint();
+    makeChart();
+    dress();
+  });
+}
+
+function startUp() {
+  document.body.classList.toggle("front", location.hash === "#front");
+  playing = !matchMedia("(prefers-reduced-motion: reduce)").matches;
+  makeChart();
+  listen();
+  worker = new Worker(URL.createObjectURL(new Blob([at("worker").textContent], { type: "text/javascript" })));
+  worker.onmessage = hear;
+  worker.postMessage({ wasm: bytesOf(at("wasm").textContent).buffer, files });
+}
+
+startUp();
