@@ -3,7 +3,7 @@
 #   make venv   makes a Python environment in build/venv that has what the package, its tests and the pages need
 #   make demo   sets up, builds, and compares all methods on a cloth
 #   make docs   makes the documentation as a site, build/docs/index.html
-#   make playground  makes the library for the browser, as one page: build/playground/playground.html
+#   make playground  makes the library for the browser, as one page: build/playground/live.html
 #   make test   sets up, builds, and runs every test
 #   make test-long  runs what takes hours, in six parts that go on where they were: soak, fuzz, fuzz_hdf5,
 #                   sanitizers, arm64, want; make test-long PART=soak runs one of them
@@ -117,7 +117,7 @@ build/venv/done: tests/requirements.txt docs/requirements.txt | build/packages
 TOOLS = cc cmake ninja $(PYTHON)
 build/tidy/packages: private PACKAGES = clang-tidy-14
 build/fuzz/packages: private PACKAGES = clang libclang-rt-14-dev
-build/playground/packages: private PACKAGES = emscripten
+build/playground/packages: private PACKAGES = emscripten f2c
 build/long/%.packages: private PACKAGES = $(shell $(PYTHON) tests/long/run.py --packages $*)
 build/long/arm64.packages: private FOREIGN = arm64
 $(LONG_PARTS:%=build/long/%.packages): build/long/%.packages: tests/long/%.py

@@ -71,7 +71,7 @@ class Library {
 class Live {
   /* HookeError for a scene that is wrong: "scene:line:column: what is wrong". */
   constructor(library, text) {
-    Object.assign(this, { library, scene: 0, state: 0, kept: 0, integrator: 0, options: 0 });
+    Object.assign(this, { library, scene: 0, state: 0, kept: 0, integrator: 0 });
     const bytes = library.module.lengthBytesUTF8(text);
     try {
       this.scene = library.make("scene_parse", text, BigInt(bytes), "scene", "/", 0);
@@ -90,11 +90,10 @@ class Live {
   release() {
     const { library } = this;
     library.call("integrator_destroy", this.integrator);
-    library.call("options_destroy", this.options);
     library.call("state_destroy", this.state);
     library.call("state_destroy", this.kept);
     library.call("scene_destroy", this.scene);
-    Object.assign(this, { scene: 0, state: 0, kept: 0, integrator: 0, options: 0 });
+    Object.assign(this, { scene: 0, state: 0, kept: 0, integrator: 0 });
   }
 
   /* What the scene itself says. */
@@ -105,14 +104,19 @@ class Live {
       title: library.text(library.call("scene_title", this.scene)) };
   }
 
-  /* From the state that is there on, by this method with this step [s]. */
+  /* Options of a run by this method with this step [s], which the caller destroys; without frames and an end. */
+  runOptions(method, step) {
+    const { library } = this, options = library.make("options_copy", library.call("scene_run_options", this.scene));
+    for (const name of ["every", "duration", "checkpoint"]) library.check("options_unset", options, name);
+    library.check("options_set_text", options, "method", method);
+    library.check("options_set_number", options, "step", step);
+    return options;
+  }
+
+  /* From the state that is there on. */
   use(method, step) {
-    const { library } = this;
-    const options = library.make("options_copy", library.call("scene_run_options", this.scene));
+    const { library } = this, options = this.runOptions(method, step);
     try {
-      for (const name of ["every", "duration", "checkpoint"]) library.check("options_unset", options, name);
-      library.check("options_set_text", options, "method", method);
-      library.check("options_set_number", options, "step", step);
       const integrator = library.make("integrator_create", this.system, options);
       library.call("integrator_destroy", this.integrator);
       this.integrator = integrator;
@@ -145,15 +149,14 @@ class Live {
     this.library.check("integrator_step", this.integrator, this.state, 0n);
   }
 
-  /* Takes over time, positions and velocities of another scene with as many particles; pinned particles stay. */
-  continueFrom(other) {
-    const weight = this.library.call("system_inverse_mass", this.system);
-    const free = this.library.doubles(weight, this.count);
-    for (const what of ["position", "velocity"]) {
-      const from = other[what], to = this[what];
-      for (let k = 0; k < to.length; k++) if (free[Math.floor(k / 3)] > 0) to[k] = from[k];
-    }
-    this.library.call("state_set_time", this.state, other.time);
+  /* A copy of the state, and back. */
+  get now() {
+    return { time: this.time, position: this.position.slice(), velocity: this.velocity.slice() };
+  }
+  put({ time, position, velocity }) {
+    this.position.set(position);
+    this.velocity.set(velocity);
+    this.library.call("state_set_time", this.state, time);
   }
 
   get time() {

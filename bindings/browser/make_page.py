@@ -11,7 +11,7 @@ from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
 SCENES = HERE.parent.parent / "examples" / "scenes"
-WORKER = ["scene.js", "frames.js", "live.js", "worker.js"]
+WORKER = ["scene.js", "frames.js", "live.js", "advice.js", "worker.js"]
 
 
 def read(path: Path) -> str:
@@ -38,7 +38,7 @@ def main(native: Path, built: Path) -> Path:
         return re.sub(r"</(?=script)", r"<\\/", text)
 
     page = re.sub(r"\{\{([\w.]+)\}\}", lambda mark: part(mark[1]), read(HERE / "playground.html"))
-    out = built / "playground.html"
+    out = built / "live.html"
     out.write_text(page, encoding="utf-8")
     return out
 

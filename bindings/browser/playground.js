@@ -5,10 +5,11 @@
 const { scenes, files } = JSON.parse(at("data").textContent);
 const FIRST = "cloth-16";
 const KNOBS = ["stiffness", "damping", "mass"]; // factors, by tenths of a power of ten
-const SLOW_FRAME = 90; // [ms] between frames while it blows up
+const SLOW_FRAME = 140; // [ms] between frames while it blows up
 
 let worker = null, methods = [], scene = null, picture = null, chart = null, bounds = [];
 let playing = true, asked = false, ended = null, before = 0, stepRange = [1e-5, 1e-1], tested = null;
+let predicts = false; // the build has LAPACK
 
 /* ---- numbers as words ---- */
 
@@ -48,11 +49,15 @@ const boundNow = () => {
   return row ? bounds[row.place] : NaN;
 };
 
+function markAt(id, share) {
+  at(id).hidden = !(share >= 0 && share <= 1);
+  at(id).style.left = `calc(8px + ${share} * (100% - 16px))`;
+}
+
 /* The safe step of the method as a mark on the slider. */
 function markBound() {
-  const bound = boundNow(), share = bound > 0 && Number.isFinite(bound) ? shareOf(bound) : NaN;
-  at("bound").hidden = !(share >= 0 && share <= 1);
-  at("bound").style.left = `calc(8px + ${share} * (100% - 16px))`;
+  const bound = boundNow();
+  markAt("bound", bound > 0 && Number.isFinite(bound) ? shareOf(bound) : NaN);
   at("bound-words").textContent = Number.isNaN(bound) ? "No bound is known for this method." : bound === 0
     ? "This method is stable at no step here." : bound === Infinity ? "Nothing limits the step of this method."
       : `Safe up to ${seconds(bound)} (a bound; the limit may be larger)`;
@@ -71,7 +76,7 @@ function compare() {
   const bound = boundNow(), now = stepNow();
   if (Number.isNaN(bound) || bound === Infinity) return ["", `${method()} takes steps of ${seconds(now)}.`];
   if (bound === 0) return ["risky", `${method()} is stable at no step here: energy grows, if slowly.`];
-  if (now <= bound) return ["safe", `The step ${seconds(now)} is below the safe bound, ${seconds(bound)}: nothing can blow up.`];
+  if (now <= bound) return ["safe", `The step ${seconds(now)} is below the safe bound, ${seconds(bound)}: certain to be stable about this state.`];
   return ["risky", `The step ${seconds(now)} is above the safe bound, ${seconds(bound)}. It may blow up.`];
 }
 
@@ -82,24 +87,70 @@ function writeVerdict(frame) {
   return verdict(...compare());
 }
 
-/* What is known of the cause: the step against the bound, here and at the start. */
-function explain(frame) {
-  const bound = boundNow(), now = stepNow(), when = frame.diverged === null ? frame.time : frame.diverged;
-  verdict("blown", `It blew up at t = ${number(when)} s.`);
-  const cause = bound === 0 ? `${method()} is stable at no step in this scene.`
-    : now > bound ? `The step ${seconds(now)} is ${number(now / bound)} times the safe one, ${seconds(bound)}. Above the limit, each ` +
-      "step makes the fastest vibration of the springs larger instead of following it; stiffer springs and lighter particles vibrate faster."
-      : "The step is below the safe bound, so the step is not the cause that this page can name.";
-  at("why-words").textContent = `${cause}\nWhich mode grows and by how much it passes the limit is not predicted in this build; ` +
-    "hooke why and hooke limit tell it.";
-  const safe = Number((0.9 * bound).toPrecision(2));
-  at("cure").hidden = !(bound > 0 && now > bound && Number.isFinite(bound));
-  at("cure").textContent = `Set the step to ${seconds(safe)} and start again`;
+function offerStep(value) {
+  at("cure").hidden = false;
+  at("cure").textContent = `Set the step to ${seconds(value)} and start again`;
   at("cure").onclick = () => {
-    setStep(safe);
-    writeKnobs();
+    setStep(value);
     restart();
   };
+}
+
+/* The step against the bound before the trouble; the cause itself takes LAPACK, and a moment. */
+function explain(frame) {
+  const bound = boundNow(), now = stepNow();
+  verdict("blown", `It blew up at t = ${number(frame.diverged === null ? frame.time : frame.diverged)} s.`);
+  const words = bound > 0 && now > bound ? `The step ${seconds(now)} was ${number(now / bound)} times the safe bound. ` : "";
+  at("why-words").textContent = words + (predicts ? "Looking for the cause ..." : "The cause is not looked for in this build of the page, " +
+    "which has no LAPACK: hooke why finds it.");
+  if (predicts) {
+    const steps = Math.ceil((frame.time - frame.trouble.first.time) / now) + 100;
+    consult({ do: "why", ...sceneNow(), ...frame.trouble, steps });
+  } else if (bound > 0 && now > bound) {
+    offerStep(Number((0.9 * bound).toPrecision(2)));
+  }
+}
+
+/* ---- predictions: by a worker of their own, which is ended when something else is asked ---- */
+
+const sceneNow = () => ({ text: at("text").value, changes: changes(), method: method(), step: stepNow() });
+let advisor = null, resting = 0;
+
+function consult(request) {
+  if (advisor) advisor.terminate();
+  advisor = newWorker();
+  advisor.onmessage = ({ data }) => {
+    if (data.is === "ready") advisor.postMessage(request);
+    else ADVICE[data.is](data);
+    document.body.dataset.advice = data.is;
+  };
+}
+
+const ADVICE = {
+  limit({ predicted, exact, method: of }) {
+    if (of !== method()) return;
+    const share = predicted > 0 && Number.isFinite(predicted) ? shareOf(predicted) : NaN;
+    markAt("limit", share);
+    at("limit-words").textContent = predicted === 0 ? "Predicted: no step is stable." : predicted === Infinity
+      ? "Predicted: nothing limits the step." : exact ? `Predicted limit: ${seconds(predicted)}` : `Predicted limit: ${seconds(predicted)} or less`;
+    document.body.dataset.limit = predicted;
+  },
+  why({ sentence, change, option, value }) {
+    if (!ended) return;
+    at("why-words").textContent = [sentence, change && `Advice: ${change}`].filter(Boolean).join("\n");
+    if (option === "step") offerStep(Number(value));
+  },
+  error({ message }) {
+    at(ended ? "why-words" : "limit-words").textContent = `Not known: ${message}`;
+  },
+};
+
+/* Half a second after the last change, at the state that is then shown. */
+function predictSoon() {
+  clearTimeout(resting);
+  markAt("limit", NaN);
+  at("limit-words").textContent = predicts ? "" : "The limit itself is not predicted in this build of the page.";
+  if (predicts) resting = setTimeout(() => !ended && tell({ do: "state" }), 500);
 }
 
 /* ---- energies ---- */
@@ -113,7 +164,13 @@ function thinned(list) {
 function addEnergy(frame) {
   const list = frame.slow ? "gone" : "motion", last = energies.motion[energies.motion.length - 1];
   if (frame.slow && energies.gone.length === 0 && last) energies.gone.push(last);
-  if (frame.energies.motion > 0) energies[list] = thinned([...energies[list], { x: frame.time, y: frame.energies.motion }]);
+  if (frame.energies.motion > 0 && frame.time > 0) energies[list] = thinned([...energies[list], { x: frame.time, y: frame.energies.motion }]);
+}
+
+/* Not below a millionth of what there is: a scene at rest has an energy of rounding. */
+function boundEnergies(scale) {
+  const most = Math.max(0, ...energies.motion.map(({ y }) => y));
+  if (most > 0) scale.min = Math.max(scale.min, 1e-6 * most);
 }
 
 function makeChart() {
@@ -125,7 +182,7 @@ function makeChart() {
   chart = new Chart(at("energy"), { type: "scatter", data: { datasets: [line("energy of motion and springs", "#2f86c9"), line("step by step", "#c0262d")] },
     options: { animation: false, maintainAspectRatio: false, events: [],
       scales: { x: axis("t [s]", { type: "linear", ticks: { callback: (value) => number(value, 6) } }),
-        y: axis("energy [J]", { type: "logarithmic", ticks: { callback: (value) => (Math.abs(Math.log10(value) % 1) < 1e-9 ? value.toExponential(0) : null) } }) },
+        y: axis("energy [J]", { type: "logarithmic", afterDataLimits: boundEnergies, ticks: { callback: (value) => (Math.abs(Math.log10(value) % 1) < 1e-9 ? value.toExponential(0) : null) } }) },
       plugins: { tooltip: { enabled: false }, legend: { align: "end", labels: { color: ink, boxHeight: 0, boxWidth: 18 } } } } });
 }
 
@@ -172,10 +229,20 @@ function dress() {
 
 const widthOf = (box) => Math.max(box[3] - box[0], box[4] - box[1], box[5] - box[2]);
 
-function drawFrame() {
+/* Looks from further away, at all frames of the preview and this one, where it goes beyond what was seen. */
+function widen(box) {
+  const margin = 0.05 * widthOf(picture.home), beyond = [0, 1, 2].some((axis) =>
+    box[axis] < picture.home[axis] - margin || box[axis + 3] > picture.home[axis + 3] + margin);
+  if (!beyond) return;
+  picture.home = boxAround([picture.home, box]);
+  picture.look([...scene.box.keys()], picture.camera.position.clone().sub(picture.controls.target).normalize());
+}
+
+function drawFrame(blown = false) {
   if (!picture) return;
+  const box = scene.box[scene.live], width = widthOf(box) / widthOf(picture.home), wide = blown && width > 1.6;
+  if (!blown) widen(box);
   picture.show(scene.live);
-  const width = widthOf(scene.box[scene.live]) / widthOf(picture.home), wide = width > 1.6;
   if (wide) picture.fit(scene.live);
   at("zoomed").textContent = wide ? `${number(width, 2)} times as wide as before; the picture zooms out` : "";
   picture.draw();
@@ -184,14 +251,20 @@ function drawFrame() {
 function take(frame) {
   scene.box[scene.live] = frame.box;
   scene.bytes[scene.live] = frame.bytes;
-  drawFrame();
-  bounds = frame.bounds;
+  drawFrame(Boolean(frame.slow));
+  if (!frame.slow) bounds = frame.bounds;
   markBound();
   at("now").textContent = `t = ${number(frame.time, 4)} s${frame.late ? ", slower than asked for" : ""}`;
   document.body.dataset.time = frame.time;
 }
 
 /* ---- the worker ---- */
+
+function newWorker() {
+  const made = new Worker(URL.createObjectURL(new Blob([at("worker").textContent], { type: "text/javascript" })));
+  made.postMessage({ wasm: bytesOf(at("wasm").textContent).buffer, files });
+  return made;
+}
 
 let number_ = 0, expected = 0;
 function tell(request) {
@@ -218,8 +291,8 @@ function onFrame(frame) {
   drawEnergies(frame.ended ? Infinity : performance.now());
   if (frame.ended) {
     ended = frame;
+    at("play").disabled = true;
     explain(frame);
-    at("play").textContent = "Start again";
   } else {
     writeVerdict(frame);
     if (frame.slow) setTimeout(ask, SLOW_FRAME);
@@ -240,6 +313,7 @@ function onOpened(opened) {
 
 function begin(state) {
   ended = null;
+  at("play").disabled = false;
   asked = false;
   energies = { motion: [], gone: [] };
   addEnergy({ time: 0, energies: state.energies, slow: false });
@@ -250,12 +324,14 @@ function begin(state) {
   markBound();
   writeKnobs();
   writeVerdict({ slow: false });
+  predictSoon();
   ask();
 }
 
 const HEARD = {
   ready({ methods: list, version, lapack }) {
     methods = list;
+    predicts = lapack !== "";
     at("method").append(...list.map(({ name, summary }) => Object.assign(document.createElement("option"), { value: name, textContent: name, title: summary })));
     at("about").textContent = `hooke ${version} as WebAssembly, with jansson${lapack ? " and LAPACK" : ""}; drawn with three.js and Chart.js (MIT licence). ` +
       "Methods with a fixed step give the same bits here as natively. Nothing is sent anywhere.";
@@ -275,6 +351,7 @@ const HEARD = {
     begin(reply);
   },
   frame: onFrame,
+  state: ({ state }) => consult({ do: "limit", ...sceneNow(), state }),
   error({ message, wrong }) {
     asked = false;
     if (wrong) showTrouble(message);
@@ -319,12 +396,13 @@ function alter(request) {
   expected = 0;
   asked = false;
   tell({ ...request, method: method(), step: stepNow() });
-  if (ended) restart();
-  else ask();
+  if (ended) return restart();
+  predictSoon();
+  return ask();
 }
 
 async function copyLink() {
-  const fragment = await writeLink({ text: at("text").value, changes: changes(), method: method(), step: stepNow() });
+  const fragment = await writeLink(sceneNow());
   const address = `${location.href.replace(/#.*/, "")}#${fragment}`;
   history.replaceState(null, "", `#${fragment}`);
   at("linked").textContent = "The address of this page now holds the scene.";
@@ -344,12 +422,10 @@ function writeSliders() {
 }
 
 function togglePlay() {
-  if (ended) return restart();
   playing = !playing;
   at("play").textContent = playing ? "Pause" : "Play";
   before = performance.now();
   ask();
-  return undefined;
 }
 
 function listen() {
@@ -390,9 +466,8 @@ function startUp() {
   playing = !matchMedia("(prefers-reduced-motion: reduce)").matches;
   makeChart();
   listen();
-  worker = new Worker(URL.createObjectURL(new Blob([at("worker").textContent], { type: "text/javascript" })));
+  worker = newWorker();
   worker.onmessage = hear;
-  worker.postMessage({ wasm: bytesOf(at("wasm").textContent).buffer, files });
 }
 
 startUp();

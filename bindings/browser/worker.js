@@ -7,15 +7,16 @@ const GAIN = { slow: 1, diverged: 100 }; // of the energy that there was, as whe
 const WIDEST_SHOWN = 1e5; // times the extent at the start
 
 let library = null, live = null, net = null, watch = null, pace = null, files = {};
+let first = null, calm = null; // states: where this run began, and the last one before the trouble
 
 /* ---- what a scene has of energy, and how much of it came from nowhere ---- */
 
 class Watch {
-  constructor(scene, state) {
-    this.first = scene.energies;
+  constructor() {
+    this.first = live.energies;
     this.fall = 0;
-    this.lenient = scene.isDriven ? 1e4 : 1; // a drive adds energy
-    this.extent = state;
+    this.lenient = live.isDriven ? 1e4 : 1; // a drive adds energy
+    this.extent = extentOf(boxOf(live.position));
   }
 
   look(now) {
@@ -31,8 +32,8 @@ class Watch {
 /* A few states of the scene's own run, for the camera and the colours. */
 function preview(given) {
   const states = [live.position.slice()], duration = given.duration > 0 ? given.duration : 1;
-  const from = performance.now(), steps = Math.max(1, Math.round(duration / 15 / live.step)), look = new Watch(live);
-  while (states.length < 16 && performance.now() - from < 400) {
+  const from = performance.now(), steps = Math.max(1, Math.round(duration / 15 / live.step)), look = new Watch();
+  while (states.length < 16 && performance.now() - from < 500) {
     if (!live.take(Math.min(steps, 2000)) || look.look(live.energies) > GAIN.slow) break;
     states.push(live.position.slice());
   }
@@ -48,7 +49,8 @@ function start(scene, text) {
 }
 
 function restartWatch() {
-  watch = new Watch(live, extentOf(boxOf(live.position)));
+  watch = new Watch();
+  first = live.now;
   pace = { owed: 0, slow: false, steps: 1, before: 0, cost: 0, ended: false, diverged: null, calm: 0 };
 }
 
@@ -78,7 +80,7 @@ function safeStep(method) {
 /* Another text with as many particles, from the state that is there on. */
 function change({ text, changes, method, step }) {
   const old = live, changed = changedScene(text, changes), scene = new Live(library, changed);
-  if (scene.count === old.count) scene.continueFrom(old);
+  if (scene.count === old.count) scene.put(old.now);
   start(scene, changed);
   net = { ...live.net, strain: net.strain };
   live.use(method, step);
@@ -115,34 +117,45 @@ function adaptSteps(motion) {
 
 function slowDown() {
   live.restore();
+  calm = live.now;
   Object.assign(pace, { slow: true, steps: 1, owed: 0, before: live.energies.motion });
 }
 
-function follow({ whole, taken }) {
+function follow({ whole }) {
   const gain = whole ? watch.look(live.energies) : Infinity;
-  if (gain > GAIN.diverged && pace.diverged === null && (pace.slow || taken <= 1)) pace.diverged = live.time;
-  if (!pace.slow && gain > GAIN.slow && (taken > 1 || whole)) return slowDown();
-  if (!pace.slow && whole) return undefined;
+  if (!pace.slow) {
+    if (gain > GAIN.slow) slowDown();
+    return;
+  }
+  if (gain > GAIN.diverged && pace.diverged === null) pace.diverged = live.time;
   pace.ended = !whole || extentOf(boxOf(live.position)) > WIDEST_SHOWN * watch.extent;
   adaptSteps(live.energies.motion);
   pace.calm = gain < 0.5 ? pace.calm + 1 : 0;
   if (pace.calm > 30) pace.slow = false;
-  return undefined;
 }
 
 function piece({ seconds }) {
   if (pace.ended) return null;
   live.keep();
-  const done = takeDue(seconds);
-  follow(done);
-  return { is: "frame", ...packFrame(live.position, net, net.strain), time: live.time, energies: live.energies, slow: pace.slow,
-    diverged: pace.diverged, ended: pace.ended, late: Boolean(done.late), cost: pace.cost, bounds: live.bounds };
+  const done = takeDue(seconds), { slow, diverged, ended } = (follow(done), pace);
+  return { is: "frame", ...packFrame(live.position, net, net.strain), time: live.time, energies: live.energies, bounds: live.bounds,
+    slow, diverged, ended, trouble: ended ? { first, last: calm } : null, late: Boolean(done.late) };
 }
 
 /* ---- messages ---- */
 
 const ANSWERS = {
   open, change, piece,
+  state: () => ({ is: "state", state: live.now }),
+  /* Of a worker that takes no steps. */
+  limit({ text, changes, method, state }) {
+    const other = new Live(library, changedScene(text, changes));
+    if (state.position.length === 3 * other.count) other.put(state);
+    return { is: "limit", method, ...limitOf(other, method) };
+  },
+  why({ text, changes, ...asked }) {
+    return { is: "why", ...whyOf(new Live(library, changedScene(text, changes)), asked) };
+  },
   use({ method, step }) {
     live.use(method, step);
     restartWatch();
