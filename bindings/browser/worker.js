@@ -108,11 +108,16 @@ function takeDue(seconds) {
   return { whole: true, taken, late: due > 0 };
 }
 
-/* Few steps a picture while the energy grows fast, more where it hardly does. */
+/* Few steps a picture while the energy grows fast, more where it hardly does; false where they were far too many. */
 function adaptSteps(motion) {
   const ratio = pace.before > 0 ? motion / pace.before : 1;
-  pace.steps = ratio > 3 ? Math.max(1, Math.floor(pace.steps / 2)) : ratio < 1.4 ? Math.min(256, 2 * pace.steps) : pace.steps;
+  if (pace.steps > 1 && !(ratio < 20)) {
+    pace.steps = Math.max(1, pace.steps >> 2);
+    return false;
+  }
+  pace.steps = ratio > 3 ? Math.max(1, pace.steps >> 1) : ratio < 1.4 ? Math.min(256, 2 * pace.steps) : pace.steps;
   pace.before = motion;
+  return true;
 }
 
 function slowDown() {
@@ -127,9 +132,12 @@ function follow({ whole }) {
     if (gain > GAIN.slow) slowDown();
     return;
   }
+  if (!adaptSteps(whole ? live.energies.motion : Infinity)) {
+    live.restore();
+    return;
+  }
   if (gain > GAIN.diverged && pace.diverged === null) pace.diverged = live.time;
   pace.ended = !whole || extentOf(boxOf(live.position)) > WIDEST_SHOWN * watch.extent;
-  adaptSteps(live.energies.motion);
   pace.calm = gain < 0.5 ? pace.calm + 1 : 0;
   if (pace.calm > 30) pace.slow = false;
 }

@@ -5,9 +5,10 @@ import os
 import subprocess
 from pathlib import Path
 
-import hooke
 import numpy as np
 import pytest
+
+import hooke
 
 ROOT = Path(os.environ["HOOKE_SOURCE_DIR"])
 SCRIPT = ROOT / "build/playground/hooke.js"
