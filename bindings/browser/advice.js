@@ -19,9 +19,11 @@ function limitOf(live, method) {
   }
 }
 
+const PATIENCE = 20; // [s] for a cause
+
 /* Explains a run of `steps` steps from the state `first` on that was still good at `last`, both as { time, position, velocity }. */
 function whyOf(live, { method, step, steps, first, last }) {
-  const { library } = live, run = live.runOptions(method, step), made = [];
+  const { library } = live, run = live.runOptions(method, step), options = library.make("options_create", "why"), made = [];
   let why = 0;
   const stateOf = (from) => {
     live.put(from);
@@ -33,15 +35,17 @@ function whyOf(live, { method, step, steps, first, last }) {
   try {
     library.check("options_set_number", run, "duration", steps * step);
     library.check("options_set_number", run, "every", step);
-    why = library.make("why_create_kept", live.system, run, stateOf(first), stateOf(last), 0);
+    library.check("options_set_number", options, "budget", PATIENCE);
+    why = library.make("why_create_kept", live.system, run, stateOf(first), stateOf(last), options);
     library.check("measurement_run", why, 0);
     const text = (table, column) => library.text(library.call("measurement_text", why, table, 0n, column));
     return { cause: text("why", "cause"), sentence: text("why", "sentence"), change: text("advice", "change"),
-      option: text("advice", "option"), value: text("advice", "value"),
+      option: text("advice", "option"), value: text("advice", "value"), leftOut: text("why", "left_out"),
       limit: library.call("measurement_number", why, "why", 0n, "limit") };
   } finally {
     library.call("measurement_destroy", why);
     made.forEach((state) => library.call("state_destroy", state));
+    library.call("options_destroy", options);
     library.call("options_destroy", run);
   }
 }

@@ -87,11 +87,13 @@ function writeVerdict(frame) {
   return verdict(...compare());
 }
 
-function offerStep(value) {
+/* A change of the run as a button: of the step, or of the method. */
+function offer(option, value) {
   at("cure").hidden = false;
-  at("cure").textContent = `Set the step to ${seconds(value)} and start again`;
+  at("cure").textContent = `Set the ${option} to ${option === "step" ? seconds(value) : value} and start again`;
   at("cure").onclick = () => {
-    setStep(value);
+    if (option === "step") setStep(value);
+    else at("method").value = value;
     restart();
   };
 }
@@ -103,11 +105,10 @@ function explain(frame) {
   const words = bound > 0 && now > bound ? `The step ${seconds(now)} was ${number(now / bound)} times the safe bound. ` : "";
   at("why-words").textContent = words + (predicts ? "Looking for the cause ..." : "The cause is not looked for in this build of the page, " +
     "which has no LAPACK: hooke why finds it.");
+  if (bound > 0 && now > bound) offer("step", Number((0.9 * bound).toPrecision(2)));
   if (predicts) {
     const steps = Math.ceil((frame.time - frame.trouble.first.time) / now) + 100;
     consult({ do: "why", ...sceneNow(), ...frame.trouble, steps });
-  } else if (bound > 0 && now > bound) {
-    offerStep(Number((0.9 * bound).toPrecision(2)));
   }
 }
 
@@ -137,8 +138,8 @@ const ADVICE = {
   },
   why({ sentence, change, option, value }) {
     if (!ended) return;
-    at("why-words").textContent = [sentence, change && `Advice: ${change}`].filter(Boolean).join("\n");
-    if (option === "step") offerStep(Number(value));
+    at("why-words").textContent = [sentence.replace(/^the run diverged: t/, "T"), change && `Advice: ${change}`].filter(Boolean).join("\n");
+    if (option === "step" || option === "method") offer(option, option === "step" ? Number(value) : value);
   },
   error({ message }) {
     at(ended ? "why-words" : "limit-words").textContent = `Not known: ${message}`;
