@@ -29,8 +29,11 @@ html_extra_path = [str(LIVE)] if LIVE.exists() else []
 FRONT = """```{raw} html
 <p>Drag the step to the right until the cloth blows up. This is hooke itself, in the browser
 (<a href="live.html">in a window of its own</a>).</p>
-<iframe src="live.html#front" title="A cloth that hooke integrates in the browser"
-  style="width: 100%; height: 640px; border: 0; border-radius: 6px"></iframe>
+<style>
+#live { width: 100%; height: 640px; border: 0 }
+@media (max-width: 700px) { #live { height: 880px } }
+</style>
+<iframe id="live" src="live.html#front" title="A cloth that hooke integrates in the browser"></iframe>
 ```
 """
 
@@ -57,7 +60,7 @@ def adapt(app, name, source) -> None:
     if not name.startswith("reference/"):
         source[0] = re.sub(r"\[([^\]]*)\]\(\.\./[^)]*\)", r"\1", source[0])
     if name == "playground" and LIVE.exists():
-        source[0] = source[0].replace("`build/playground/live.html`", "[`live.html`](<live.html>){.external}")
+        source[0] = source[0].replace("`build/playground/live.html`", '<a href="live.html">live.html</a>')
     if name == "reference":
         pages = re.findall(r"`(reference/[\w-]+)\.md`", source[0])
         source[0] = re.sub(r"`(reference/([\w-]+)\.md)`", r"[\2](\1)", source[0])

@@ -69,17 +69,28 @@ int32_t dlaisnan_(const double *a, const double *b) {
 double dlamch_(const char *what, int32_t length) {
   (void)length;
   switch (*what & ~32) { /* in capitals */
-  case 'E': return DBL_EPSILON / 2;
-  case 'S': return DBL_MIN;
-  case 'B': return FLT_RADIX;
-  case 'P': return DBL_EPSILON;
-  case 'N': return DBL_MANT_DIG;
-  case 'R': return 1.0;
-  case 'M': return DBL_MIN_EXP;
-  case 'U': return DBL_MIN;
-  case 'L': return DBL_MAX_EXP;
-  case 'O': return DBL_MAX;
-  default: return 0.0;
+  case 'E':
+    return DBL_EPSILON / 2;
+  case 'S':
+    return DBL_MIN;
+  case 'B':
+    return FLT_RADIX;
+  case 'P':
+    return DBL_EPSILON;
+  case 'N':
+    return DBL_MANT_DIG;
+  case 'R':
+    return 1.0;
+  case 'M':
+    return DBL_MIN_EXP;
+  case 'U':
+    return DBL_MIN;
+  case 'L':
+    return DBL_MAX_EXP;
+  case 'O':
+    return DBL_MAX;
+  default:
+    return 0.0;
   }
 }
 
@@ -122,26 +133,26 @@ int xerbla_(const char *routine, int32_t *argument, int32_t length) {
 
 /* ---- what the library calls ---- */
 
-int f2c_dsyev(const char *job, const char *triangle, const int *n, double *a, const int *stride, double *value,
-              double *room, const int *room_size, int *info, size_t, size_t);
+int f2c_dsyev(const char *job, const char *triangle, const int *n, double *a, const int *stride,
+              double *value, double *room, const int *room_size, int *info, size_t, size_t);
 void dsyev_(const char *job, const char *triangle, const int *n, double *a, const int *stride, double *value,
             double *room, const int *room_size, int *info, size_t one, size_t two) {
   f2c_dsyev(job, triangle, n, a, stride, value, room, room_size, info, one, two);
 }
 
-int f2c_dstev(const char *job, const int *n, double *diagonal, double *beside, double *vector, const int *stride,
-              double *room, int *info, size_t);
-void dstev_(const char *job, const int *n, double *diagonal, double *beside, double *vector, const int *stride,
-            double *room, int *info, size_t one) {
+int f2c_dstev(const char *job, const int *n, double *diagonal, double *beside, double *vector,
+              const int *stride, double *room, int *info, size_t);
+void dstev_(const char *job, const int *n, double *diagonal, double *beside, double *vector,
+            const int *stride, double *room, int *info, size_t one) {
   f2c_dstev(job, n, diagonal, beside, vector, stride, room, info, one);
 }
 
-int f2c_dgeev(const char *left_job, const char *right_job, const int *n, double *a, const int *stride, double *real,
-              double *imaginary, double *left, const int *left_stride, double *right, const int *right_stride,
-              double *room, const int *room_size, int *info, size_t, size_t);
-void dgeev_(const char *left_job, const char *right_job, const int *n, double *a, const int *stride, double *real,
-            double *imaginary, double *left, const int *left_stride, double *right, const int *right_stride,
-            double *room, const int *room_size, int *info, size_t one, size_t two) {
+int f2c_dgeev(const char *left_job, const char *right_job, const int *n, double *a, const int *stride,
+              double *real, double *imaginary, double *left, const int *left_stride, double *right,
+              const int *right_stride, double *room, const int *room_size, int *info, size_t, size_t);
+void dgeev_(const char *left_job, const char *right_job, const int *n, double *a, const int *stride,
+            double *real, double *imaginary, double *left, const int *left_stride, double *right,
+            const int *right_stride, double *room, const int *room_size, int *info, size_t one, size_t two) {
   f2c_dgeev(left_job, right_job, n, a, stride, real, imaginary, left, left_stride, right, right_stride, room,
             room_size, info, one, two);
 }
