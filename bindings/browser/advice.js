@@ -20,6 +20,7 @@ function limitOf(live, method) {
 }
 
 const PATIENCE = 20; // [s] for a cause
+const FRAME = 10; // steps; advised steps are whole parts of a frame
 
 /* Explains a run of `steps` steps from the state `first` on that was still good at `last`, both as { time, position, velocity }. */
 function whyOf(live, { method, step, steps, first, last }) {
@@ -33,8 +34,8 @@ function whyOf(live, { method, step, steps, first, last }) {
     return state;
   };
   try {
-    library.check("options_set_number", run, "duration", steps * step);
-    library.check("options_set_number", run, "every", step);
+    library.check("options_set_number", run, "duration", Math.ceil(steps / FRAME) * FRAME * step);
+    library.check("options_set_number", run, "every", FRAME * step);
     library.check("options_set_number", options, "budget", PATIENCE);
     why = library.make("why_create_kept", live.system, run, stateOf(first), stateOf(last), options);
     library.check("measurement_run", why, 0);

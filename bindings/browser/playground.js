@@ -23,7 +23,7 @@ const seconds = (value) => (value >= 1 ? `${number(value)} s` : value >= 1e-3 ? 
 /* ---- sliders ---- */
 
 const method = () => at("method").value;
-const step = () => Number((stepRange[0] * (stepRange[1] / stepRange[0]) ** (at("step").value / 1000)).toPrecision(3));
+const step = () => Number((stepRange[0] * (stepRange[1] / stepRange[0]) ** (at("step").value / 1000)).toPrecision(2));
 const shareOf = (value) => Math.log(value / stepRange[0]) / Math.log(stepRange[1] / stepRange[0]);
 const factor = (name) => Number((10 ** (at(name).value / 10)).toPrecision(2));
 let gravityMoved = false;
@@ -115,10 +115,18 @@ function explain(frame) {
 /* ---- predictions: by a worker of their own, which is ended when something else is asked ---- */
 
 const sceneNow = () => ({ text: at("text").value, changes: changes(), method: method(), step: stepNow() });
-let advisor = null, resting = 0;
+let advisor = null, resting = 0, stateAsked = 0;
+
+/* What was asked of another scene, method or step is not answered any more. */
+function dismiss() {
+  clearTimeout(resting);
+  stateAsked = 0;
+  if (advisor) advisor.terminate();
+  advisor = null;
+}
 
 function consult(request) {
-  if (advisor) advisor.terminate();
+  dismiss();
   advisor = newWorker();
   advisor.onmessage = ({ data }) => {
     if (data.is === "ready") advisor.postMessage(request);
@@ -128,8 +136,7 @@ function consult(request) {
 }
 
 const ADVICE = {
-  limit({ predicted, exact, method: of }) {
-    if (of !== method()) return;
+  limit({ predicted, exact }) {
     const share = predicted > 0 && Number.isFinite(predicted) ? shareOf(predicted) : NaN;
     markAt("limit", share);
     at("limit-words").textContent = predicted === 0 ? "Predicted: no step is stable." : predicted === Infinity
@@ -137,7 +144,6 @@ const ADVICE = {
     document.body.dataset.limit = predicted;
   },
   why({ sentence, change, option, value }) {
-    if (!ended) return;
     at("why-words").textContent = [sentence.replace(/^the run diverged: t/, "T"), change && `Advice: ${change}`].filter(Boolean).join("\n");
     if (option === "step" || option === "method") offer(option, option === "step" ? Number(value) : value);
   },
@@ -148,10 +154,10 @@ const ADVICE = {
 
 /* Half a second after the last change, at the state that is then shown. */
 function predictSoon() {
-  clearTimeout(resting);
+  dismiss();
   markAt("limit", NaN);
   at("limit-words").textContent = predicts ? "" : "The limit itself is not predicted in this build of the page.";
-  if (predicts) resting = setTimeout(() => !ended && tell({ do: "state" }), 500);
+  if (predicts) resting = setTimeout(() => { stateAsked = tell({ do: "state" }); }, 500);
 }
 
 /* ---- energies ---- */
@@ -202,6 +208,7 @@ function drawEnergies(now = performance.now()) {
 function makePicture(opened) {
   const canvas = at("picture"), fresh = canvas.cloneNode();
   if (picture) picture.renderer.dispose();
+  for (const side of ["width", "height"]) fresh.removeAttribute(side); // which the picture sets, and what depends on it
   canvas.replaceWith(fresh);
   const frames = [...opened.frames, opened.frames[0]];
   scene = { box: frames.map(({ box }) => box), status: "running", gravity: opened.gravity, bodies: opened.bodies, live: frames.length - 1,
@@ -352,7 +359,7 @@ const HEARD = {
     begin(reply);
   },
   frame: onFrame,
-  state: ({ state }) => consult({ do: "limit", ...sceneNow(), state }),
+  state: ({ state, to }) => to === stateAsked && consult({ do: "limit", ...sceneNow(), state }),
   error({ message, wrong }) {
     asked = false;
     if (wrong) showTrouble(message);
@@ -376,6 +383,7 @@ function openScene({ text, changes: given, method: by, step: length }) {
   gravityMoved = Boolean(given) && given.gravity !== null;
   if (gravityMoved) at("gravity").value = 10 * given.gravity;
   expected = 0;
+  dismiss();
   tell({ do: "open", text, changes: changes(), method: by, step: length });
 }
 
@@ -397,9 +405,8 @@ function alter(request) {
   expected = 0;
   asked = false;
   tell({ ...request, method: method(), step: stepNow() });
-  if (ended) return restart();
   predictSoon();
-  return ask();
+  return ended ? restart() : ask();
 }
 
 async function copyLink() {

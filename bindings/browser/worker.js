@@ -159,7 +159,7 @@ const ANSWERS = {
   limit({ text, changes, method, state }) {
     const other = new Live(library, changedScene(text, changes));
     if (state.position.length === 3 * other.count) other.put(state);
-    return { is: "limit", method, ...limitOf(other, method) };
+    return { is: "limit", ...limitOf(other, method) };
   },
   why({ text, changes, ...asked }) {
     return { is: "why", ...whyOf(new Live(library, changedScene(text, changes)), asked) };

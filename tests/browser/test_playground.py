@@ -64,6 +64,20 @@ def test_an_error_stands_at_its_place(browser):
     assert browser.run("document.querySelector('#numbers b').textContent") == "8"
 
 
+def test_another_scene_is_drawn(browser):
+    """A strand is a tube, a chain lines: pixels of neither are those of the paper, in the picture that was made anew."""
+    begin(browser)
+    for scene in ("curl", "stiff-spring"):
+        browser.run(f"at('scenes').value = '{scene}'; document.body.dataset.heard = ''; at('scenes').onchange()")
+        wait(browser, "document.body.dataset.heard === 'frame' && picture.uniforms.size.value.x > 0")
+        assert browser.run("picture.uniforms.size.value.x === Math.floor(at('picture').clientWidth * Math.min(devicePixelRatio, 2))")
+        drawn = """(() => { picture.draw(); const gl = picture.renderer.getContext(), { drawingBufferWidth: w, drawingBufferHeight: h } = gl;
+          const bytes = new Uint8Array(4 * w * h); gl.readPixels(0, 0, w, h, gl.RGBA, gl.UNSIGNED_BYTE, bytes);
+          let seen = 0; for (let k = 0; k < bytes.length; k += 4) seen += bytes[k] !== bytes[0] || bytes[k + 2] !== bytes[2];
+          return seen; })()"""
+        assert browser.run(drawn) > 2000
+
+
 def test_a_link_holds_the_scene(browser):
     begin(browser)
     browser.run("at('stiffness').value = 5; at('stiffness').oninput(); at('method').value = 'rk4'; at('method').onchange()")
