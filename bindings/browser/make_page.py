@@ -4,6 +4,7 @@ pages and libraries of scripts of a native build and the WebAssembly of the pres
 from __future__ import annotations
 
 import base64
+import html
 import json
 import re
 import sys
@@ -28,6 +29,8 @@ def main(native: Path, built: Path) -> Path:
     def part(name: str) -> str:
         if name == "data":
             text = data()
+        elif name == "licences":
+            text = "\n\n".join(html.escape(read(path)) for path in sorted(built.glob("sources/*/LICENSE")))
         elif name == "wasm":
             return base64.b64encode((built / "hooke.wasm").read_bytes()).decode("ascii")
         elif name == "worker":

@@ -362,8 +362,10 @@ const HEARD = {
   state: ({ state, to }) => to === stateAsked && consult({ do: "limit", ...sceneNow(), state }),
   error({ message, wrong }) {
     asked = false;
-    if (wrong) showTrouble(message);
-    else verdict("blown", `This page failed: ${message}`);
+    if (wrong) {
+      showTrouble(message);
+      ask(); // what runs goes on
+    } else verdict("blown", `This page failed: ${message}`);
   },
 };
 

@@ -56,24 +56,23 @@ function restartWatch() {
 
 function open({ text, changes, method, step }) {
   const own = new Live(library, text); // so that errors are at their place in the text
-  const run = own.given, changed = changedScene(text, changes);
+  const run = own.given, by = run.method || "symplectic-euler", changed = changedScene(text, changes);
   const parsed = start(changed === text ? own : (own.release(), new Live(library, changed)), changed);
   net = live.net;
-  live.use(run.method || "symplectic-euler", run.step > 0 ? run.step : safeStep(run.method) || 1e-3);
+  live.use(by, run.step > 0 ? run.step : safeStep(by) || 1e-3);
   const states = preview(run);
+  net.strain = strainScale(states, net);
   live.reset();
-  live.use(method || run.method || "symplectic-euler", step || live.step);
+  live.use(method || by, step || live.step);
   restartWatch();
-  const strain = strainScale(states, net);
-  net.strain = strain;
-  return { is: "opened", given: run, method: method || run.method || "symplectic-euler", step: live.step, count: live.count,
-    springs: live.springs, ends: net.ends, marks: net.held, bodies: bodiesOf(parsed, live.groups(), net.ends, files), strain,
-    gravity: parsed.gravity || [0, 0, 0], frames: states.map((q) => packFrame(q, net, strain)), bounds: live.bounds,
-    energies: live.energies };
+  return { is: "opened", method: method || by, step: live.step, ends: net.ends, marks: net.held, strain: net.strain,
+    bodies: bodiesOf(parsed, live.groups(), net.ends, files), gravity: parsed.gravity || [0, 0, 0],
+    frames: states.map((q) => packFrame(q, net, net.strain)), bounds: live.bounds, energies: live.energies };
 }
 
+/* Half of the bound, 0 where there is none. */
 function safeStep(method) {
-  const bound = live.bounds[library.methods().find(({ name }) => name === (method || "symplectic-euler")).place];
+  const row = library.methods().find(({ name }) => name === method), bound = row ? live.bounds[row.place] : NaN;
   return Number.isFinite(bound) && bound > 0 ? bound / 2 : 0;
 }
 
@@ -98,14 +97,14 @@ function takeDue(seconds) {
   while (due > 0 && performance.now() - from < BUDGET) {
     const few = Math.max(1, Math.min(due, pace.cost > 0 ? Math.ceil(BUDGET / pace.cost / 4) : 1));
     const begun = performance.now();
-    if (!live.take(few)) return { whole: false, taken };
+    if (!live.take(few)) return { whole: false };
     const cost = (performance.now() - begun) / few;
     pace.cost = pace.cost > 0 ? 0.8 * pace.cost + 0.2 * cost : cost;
     due -= few;
     taken += few;
   }
   pace.owed = pace.slow || due > 0 ? 0 : pace.owed - taken;
-  return { whole: true, taken, late: due > 0 };
+  return { whole: true, late: due > 0 };
 }
 
 /* Few steps a picture while the energy grows fast, more where it hardly does; false where they were far too many. */

@@ -62,6 +62,8 @@ def test_an_error_stands_at_its_place(browser):
     line, source, caret = words.splitlines()[0], *words.splitlines()[2:4]
     assert line.startswith("line 8:") and "mass" in line and source[len(caret) - 1:].startswith("-1"), words
     assert browser.run("document.querySelector('#numbers b').textContent") == "8"
+    shown = browser.run("Number(document.body.dataset.time)")
+    wait(browser, f"Number(document.body.dataset.time) > {shown} + 0.01")  # what was right goes on
 
 
 def test_another_scene_is_drawn(browser):
