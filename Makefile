@@ -3,6 +3,7 @@
 #   make venv   makes a Python environment in build/venv that has what the package, its tests and the pages need
 #   make demo   sets up, builds, and compares all methods on a cloth
 #   make docs   makes the documentation as a site, build/docs/index.html
+#   make playground  makes the library for the browser, as one page: build/playground/live.html
 #   make test   sets up, builds, and runs every test
 #   make test-long  runs what takes hours, in six parts that go on where they were: soak, fuzz, fuzz_hdf5,
 #                   sanitizers, arm64, want; make test-long PART=soak runs one of them
@@ -25,12 +26,23 @@ demo: all build/venv/done
 venv: build/venv/done
 
 .PHONY: docs
-docs: all build/venv/done
+docs: all build/venv/done playground-if-possible
 	$(VENV) docs/make_reference.py build/release
 	$(VENV) -m sphinx -a -q -W --keep-going -d build/doctrees -c docs build/release/docs build/docs
 	@echo build/docs/index.html
 
-test: $(PRESETS:%=tests-%) build/fuzz/packages
+# The page takes its viewer from the native build.
+playground: all build/playground/packages
+	cmake --preset playground >build/playground/configure.log
+	cmake --build --preset playground
+	$(PYTHON) bindings/browser/make_page.py build/release build/playground
+
+# Where neither emscripten nor a way to install it is there, tests and documentation go without.
+.PHONY: playground-if-possible
+playground-if-possible:
+	@if command -v emcc >/dev/null || command -v apt-get >/dev/null; then $(MAKE) playground; fi
+
+test: $(PRESETS:%=tests-%) build/fuzz/packages playground-if-possible
 	@failed=0; \
 	$(PYTHON) tests/fuzz/run.py --seconds 5 || failed=1; \
 	for preset in $(PRESETS); do \
@@ -105,11 +117,12 @@ build/venv/done: tests/requirements.txt docs/requirements.txt | build/packages
 TOOLS = cc cmake ninja $(PYTHON)
 build/tidy/packages: private PACKAGES = clang-tidy-14
 build/fuzz/packages: private PACKAGES = clang libclang-rt-14-dev
+build/playground/packages: private PACKAGES = emscripten f2c
 build/long/%.packages: private PACKAGES = $(shell $(PYTHON) tests/long/run.py --packages $*)
 build/long/arm64.packages: private FOREIGN = arm64
 $(LONG_PARTS:%=build/long/%.packages): build/long/%.packages: tests/long/%.py
-build/tidy/packages build/fuzz/packages $(LONG_PARTS:%=build/long/%.packages): | build/packages
-build/packages build/tidy/packages build/fuzz/packages $(LONG_PARTS:%=build/long/%.packages): Makefile cmake/packages.txt
+build/tidy/packages build/fuzz/packages build/playground/packages $(LONG_PARTS:%=build/long/%.packages): | build/packages
+build/packages build/tidy/packages build/fuzz/packages build/playground/packages $(LONG_PARTS:%=build/long/%.packages): Makefile cmake/packages.txt
 	@mkdir -p $(@D)
 	@command -v apt-get >/dev/null || for tool in $(TOOLS); do command -v $$tool >/dev/null || { \
 	  printf '%s is missing, and there is no apt-get to install it. These packages have what hooke is built with\n' $$tool; \
@@ -127,6 +140,6 @@ build/packages build/tidy/packages build/fuzz/packages $(LONG_PARTS:%=build/long
 	fi
 	@touch $@
 
-.PHONY: all venv demo test test-long tidy wheel wheel-test $(PRESETS:%=tests-%)
+.PHONY: all venv demo playground test test-long tidy wheel wheel-test $(PRESETS:%=tests-%)
 .DELETE_ON_ERROR:
 .SECONDARY:

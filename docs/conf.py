@@ -23,6 +23,20 @@ html_copy_source = False
 html_show_sourcelink = False
 templates_path: list[str] = []
 
+# The page of `make playground`, where it was made.
+LIVE = HERE.parent / "build/playground/live.html"
+html_extra_path = [str(LIVE)] if LIVE.exists() else []
+FRONT = """```{raw} html
+<p>Drag the step to the right until the cloth blows up. This is hooke itself, in the browser
+(<a href="live.html">in a window of its own</a>).</p>
+<style>
+#live { width: 100%; height: 640px; border: 0 }
+@media (max-width: 700px) { #live { height: 880px } }
+</style>
+<iframe id="live" src="live.html#front" title="A cloth that hooke integrates in the browser"></iframe>
+```
+"""
+
 
 def navigation(index: str) -> str:
     """Tables of contents from the lists of links under the headings of the first page, so that they are written once."""
@@ -39,9 +53,14 @@ def adapt(app, name, source) -> None:
     """Adds tables of contents. Links to files that are not on the site lose their address, and the page about the
     references gets its links to them."""
     if name == "index":
+        if LIVE.exists():
+            title, rest = source[0].split("\n\n", 1)
+            source[0] = f"{title}\n\n{FRONT}\n{rest}"
         source[0] += "\n\n" + navigation(source[0]) + "\n"
     if not name.startswith("reference/"):
         source[0] = re.sub(r"\[([^\]]*)\]\(\.\./[^)]*\)", r"\1", source[0])
+    if name == "playground" and LIVE.exists():
+        source[0] = source[0].replace("`build/playground/live.html`", '<a href="live.html">live.html</a>')
     if name == "reference":
         pages = re.findall(r"`(reference/[\w-]+)\.md`", source[0])
         source[0] = re.sub(r"`(reference/([\w-]+)\.md)`", r"[\2](\1)", source[0])

@@ -193,11 +193,22 @@ static int sync_folder(int folder) {
   return result != 0 && (errno == EINVAL || errno == ENOTSUP) ? 0 : result;
 }
 
+/* Renames unless there is such a file; ENOSYS from C libraries that cannot. */
+static int rename_if_free(const char *from, const char *to) {
+#ifdef RENAME_NOREPLACE
+  return renameat2(AT_FDCWD, from, AT_FDCWD, to, RENAME_NOREPLACE);
+#else
+  (void)from, (void)to;
+  errno = ENOSYS;
+  return -1;
+#endif
+}
+
 /* If there was no file when the run began, another run may have created one. */
 static int32_t rename_new(struct hk_atomic_file *file) {
   const char *path = file->path;
   if (file->is_new) {
-    if (renameat2(AT_FDCWD, file->temporary, AT_FDCWD, path, RENAME_NOREPLACE) == 0) return HOOKE_OK;
+    if (rename_if_free(file->temporary, path) == 0) return HOOKE_OK;
     if (errno == EEXIST) {
       const int32_t status = look_whether_free(path);
       if (status != HOOKE_OK) return status;

@@ -1,0 +1,158 @@
+/* What the routines of LAPACK need besides f2c's translation: the functions of Fortran that f2c calls, the routines that are
+ * no Fortran 77 (Anderson 2017 for dlartg), and the three that the library calls, which return nothing. */
+#include <float.h>
+#include <math.h>
+#include <stdint.h>
+#include <string.h>
+
+/* ---- Fortran ---- */
+
+double d_lg10(const double *x) {
+  return log10(*x);
+}
+
+double d_sign(const double *size, const double *sign) {
+  return copysign(*size, *sign);
+}
+
+int32_t i_nint(const float *x) {
+  return (int32_t)lroundf(*x);
+}
+
+int32_t i_len(const char *text, int32_t length) {
+  (void)text;
+  return length;
+}
+
+double pow_di(const double *base, const int32_t *exponent) {
+  double result = 1.0, factor = *exponent < 0 ? 1.0 / *base : *base;
+  for (uint32_t n = (uint32_t)(*exponent < 0 ? -*exponent : *exponent); n > 0; n >>= 1, factor *= factor)
+    if (n & 1) result *= factor;
+  return result;
+}
+
+/* Texts end with any number of blanks. */
+int s_cmp(const char *a, const char *b, int32_t a_length, int32_t b_length) {
+  for (int32_t k = 0; k < a_length || k < b_length; k++) {
+    const int difference = (k < a_length ? a[k] : ' ') - (k < b_length ? b[k] : ' ');
+    if (difference != 0) return difference;
+  }
+  return 0;
+}
+
+int s_copy(char *to, const char *from, int32_t to_length, int32_t from_length) {
+  for (int32_t k = 0; k < to_length; k++)
+    to[k] = k < from_length ? from[k] : ' ';
+  return 0;
+}
+
+int s_cat(char *to, char *piece[], int32_t length[], int32_t *count, int32_t to_length) {
+  int32_t at = 0;
+  for (int32_t p = 0; p < *count; p++)
+    for (int32_t k = 0; k < length[p] && at < to_length; k++)
+      to[at++] = piece[p][k];
+  while (at < to_length)
+    to[at++] = ' ';
+  return 0;
+}
+
+/* ---- routines that are no Fortran 77 ---- */
+
+int32_t disnan_(const double *x) {
+  return isnan(*x);
+}
+
+int32_t dlaisnan_(const double *a, const double *b) {
+  return *a != *b;
+}
+
+double dlamch_(const char *what, int32_t length) {
+  (void)length;
+  switch (*what & ~32) { /* in capitals */
+  case 'E':
+    return DBL_EPSILON / 2;
+  case 'S':
+    return DBL_MIN;
+  case 'B':
+    return FLT_RADIX;
+  case 'P':
+    return DBL_EPSILON;
+  case 'N':
+    return DBL_MANT_DIG;
+  case 'R':
+    return 1.0;
+  case 'M':
+    return DBL_MIN_EXP;
+  case 'U':
+    return DBL_MIN;
+  case 'L':
+    return DBL_MAX_EXP;
+  case 'O':
+    return DBL_MAX;
+  default:
+    return 0.0;
+  }
+}
+
+/* scale^2 sum = old scale^2 sum + the squares of x, without overflow. */
+int dlassq_(const int32_t *n, const double *x, const int32_t *stride, double *scale, double *sum) {
+  for (int32_t k = 0; k < *n; k++) {
+    const double size = fabs(x[k * *stride]);
+    if (!(size > 0.0) && !isnan(size)) continue;
+    if (*scale < size) {
+      *sum = 1.0 + *sum * (*scale / size) * (*scale / size);
+      *scale = size;
+    } else {
+      *sum += (size / *scale) * (size / *scale);
+    }
+  }
+  return 0;
+}
+
+double dnrm2_(const int32_t *n, const double *x, const int32_t *stride) {
+  double scale = 0.0, sum = 1.0;
+  dlassq_(n, x, stride, &scale, &sum);
+  return scale * sqrt(sum);
+}
+
+/* The rotation (c s; -s c) that takes (f, g) to (r, 0). */
+int dlartg_(const double *f, const double *g, double *c, double *s, double *r) {
+  const double size = fmin(DBL_MAX / 4, fmax(DBL_MIN, fmax(fabs(*f), fabs(*g))));
+  const double a = *f / size, b = *g / size, d = sqrt(a * a + b * b);
+  *c = *g == 0.0 ? 1.0 : *f == 0.0 ? 0.0 : fabs(a) / d;
+  *r = *g == 0.0 ? *f : *f == 0.0 ? fabs(*g) : copysign(d, *f) * size;
+  *s = *g == 0.0 ? 0.0 : *f == 0.0 ? copysign(1.0, *g) : b / copysign(d, *f);
+  return 0;
+}
+
+/* Told of a wrong argument, which the caller's `info` says as well. */
+int xerbla_(const char *routine, int32_t *argument, int32_t length) {
+  (void)routine, (void)argument, (void)length;
+  return 0;
+}
+
+/* ---- what the library calls ---- */
+
+int f2c_dsyev(const char *job, const char *triangle, const int *n, double *a, const int *stride,
+              double *value, double *room, const int *room_size, int *info, size_t, size_t);
+void dsyev_(const char *job, const char *triangle, const int *n, double *a, const int *stride, double *value,
+            double *room, const int *room_size, int *info, size_t one, size_t two) {
+  f2c_dsyev(job, triangle, n, a, stride, value, room, room_size, info, one, two);
+}
+
+int f2c_dstev(const char *job, const int *n, double *diagonal, double *beside, double *vector,
+              const int *stride, double *room, int *info, size_t);
+void dstev_(const char *job, const int *n, double *diagonal, double *beside, double *vector,
+            const int *stride, double *room, int *info, size_t one) {
+  f2c_dstev(job, n, diagonal, beside, vector, stride, room, info, one);
+}
+
+int f2c_dgeev(const char *left_job, const char *right_job, const int *n, double *a, const int *stride,
+              double *real, double *imaginary, double *left, const int *left_stride, double *right,
+              const int *right_stride, double *room, const int *room_size, int *info, size_t, size_t);
+void dgeev_(const char *left_job, const char *right_job, const int *n, double *a, const int *stride,
+            double *real, double *imaginary, double *left, const int *left_stride, double *right,
+            const int *right_stride, double *room, const int *room_size, int *info, size_t one, size_t two) {
+  f2c_dgeev(left_job, right_job, n, a, stride, real, imaginary, left, left_stride, right, right_stride, room,
+            room_size, info, one, two);
+}
