@@ -63,6 +63,17 @@ def ctest(name: str, pattern: str, seconds: float, figures: Callable[[str], dict
     return Step(name, f"ctest --test-dir {BUILD} -j2 -V -R '{pattern}'", seconds, figures, {"PYTEST_ADDOPTS": "-s"})
 
 
+def cloths(side: int, seconds: float) -> Step:
+    """Steps of implicit methods, which `make test` has for smaller sides."""
+
+    def figures(text: str) -> dict[str, Any]:
+        if "[  PASSED  ] 1 test(s)." not in text:
+            raise ValueError("a cloth failed")
+        return {"tests": 1}
+
+    return Step(f"implicit cloths of {side} x {side}", f"{BUILD}/tests/physics_implicit_cloths {side} 2>&1", seconds, figures)
+
+
 def faults_met(text: str) -> dict[str, Any]:
     found = re.findall(r" (\d+) points, +(\d+) faults: ", text)
     if not found:
@@ -104,6 +115,8 @@ PART = Part(
         ctest("crashes and kills", "crash|kill|frame_check", 200, crashes_met),
         ctest("every failing allocation and write", "^fault/", 2100, faults_met),
         ctest("long runs and resumes", "extremes/long_runs|resume|checkpoint", 500),
+        cloths(81, 600),
+        cloths(128, 1800),
     ],
     rows,
 )  # fmt: skip

@@ -4,6 +4,7 @@
 #include "check.h"
 #include "run.h"
 #include "sanitized.h"
+#include "small.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -12,28 +13,6 @@
 static const char *const methods[] = {"tr-bdf2", "backward-euler", "implicit-midpoint"};
 static const char *const forms[] = {"converged", "one-iteration"};
 enum { METHODS = 3, FORMS = 2, STEPS = 5 };
-
-static hooke_system *cloth(int side, double stiffness, double damping) {
-  hooke_system *system = NULL;
-  hooke_options *options = NULL;
-  const double down[] = {0, -9.81, 0}, edges[] = {1, 0, 0, 0, 0, 1}, size[] = {side, side};
-  check_ok(hooke_system_create(&system));
-  check_ok(hooke_options_create("cloth", &options));
-  check_ok(hooke_options_set_text(options, "origin", "0,0,0"));
-  check_ok(hooke_options_set_numbers(options, "edges", 6, edges));
-  check_ok(hooke_options_set_numbers(options, "size", 2, size));
-  check_ok(hooke_options_set_number(options, "mass", 0.2));
-  check_ok(hooke_options_set_text(options, "pinned", "top-corners"));
-  check_ok(hooke_options_set_number(options, "structural.stiffness", stiffness));
-  check_ok(hooke_options_set_number(options, "shear.stiffness", stiffness));
-  check_ok(hooke_options_set_number(options, "structural.damping", damping));
-  check_ok(hooke_options_set_number(options, "shear.damping", damping));
-  check_ok(hooke_system_set_gravity(system, down));
-  check_ok(hooke_system_add_part(system, "cloth", NULL, options, NULL, NULL));
-  check_ok(hooke_system_commit(system));
-  hooke_options_destroy(options);
-  return system;
-}
 
 /* 1 if all steps were taken; q is where they came to. */
 static int try_steps(const hooke_system *system, const char *method, const char *form, double h, double *q) {
@@ -58,7 +37,7 @@ static int try_steps(const hooke_system *system, const char *method, const char 
 }
 
 static void check_cloth(int side, double stiffness, double damping, double h, int count) {
-  hooke_system *system = cloth(side, stiffness, damping);
+  hooke_system *system = small_cloth(side, stiffness, damping);
   const int64_t size = 3 * hooke_system_particle_count(system);
   double *first = new_doubles(size), *q = new_doubles(size);
   for (int m = 0; m < count * FORMS; m++) {
@@ -91,6 +70,10 @@ static void check_side(int side, int largest_too) {
   }
 }
 
+static void check_given_side(void **side) {
+  check_side(*(const int *)*side, 1);
+}
+
 static void cloths_of_20(void **unused) {
   (void)unused;
   check_side(20, 1);
@@ -102,7 +85,10 @@ static void cloths_of_41(void **unused) {
   check_side(41, 0);
 }
 
-int main(void) {
+/* In place of these two, of a side that is given. */
+int main(int count, char **arguments) {
+  int side = count > 1 ? atoi(arguments[1]) : 0;
   const struct CMUnitTest tests[] = {cmocka_unit_test(cloths_of_20), cmocka_unit_test(cloths_of_41)};
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  const struct CMUnitTest given[] = {cmocka_unit_test_prestate(check_given_side, &side)};
+  return side > 0 ? cmocka_run_group_tests(given, NULL, NULL) : cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -9,11 +9,19 @@
 /* An observer that takes each step itself and compares. */
 struct companion {
   const struct random_scene *scene;
+  const hooke_integrator *integrator;
   const char *method;
   double start, h;
   double *q, *v;
-  int64_t steps;
+  int64_t steps, splits;
 };
+
+/* 1 if the integrator has just taken its step in parts, whose equations are not those of the step. */
+static int was_split(struct companion *companion) {
+  const int64_t before = companion->splits;
+  companion->splits = hooke_integrator_count(companion->integrator, "nonlinear_failures");
+  return companion->splits > before;
+}
 
 static int32_t follow(int64_t step, const hooke_state *state, void *ctx) {
   struct companion *companion = ctx;
@@ -33,7 +41,7 @@ static int32_t follow(int64_t step, const hooke_state *state, void *ctx) {
   if (result == CANONICAL_SOLVED) {
     const double defect = canonical_defect(&scene->canonical, companion->method, before, end, companion->h,
                                            companion->q, companion->v, q, v);
-    if (!(defect <= 1.0)) {
+    if (!was_split(companion) && !(defect <= 1.0)) {
       check_failed("%s, step %lld: the equations are off by %.3g times what is allowed", companion->method,
                    (long long)step, defect);
     }
@@ -95,13 +103,19 @@ void check_lockstep(const struct random_scene *scene, const char *method, int32_
                     double step, int64_t steps) {
   const int64_t n = scene->canonical.particle_count;
   const size_t size = (size_t)(3 * n) * sizeof(double);
-  struct companion companion = {scene, method, start, step, new_doubles(3 * n), new_doubles(3 * n), 0};
+  struct companion companion = {.scene = scene,
+                                .method = method,
+                                .start = start,
+                                .h = step,
+                                .q = new_doubles(3 * n),
+                                .v = new_doubles(3 * n)};
   const struct run run = {.method = method, .step = step, .threads = threads};
   hooke_state *watched = state_at(scene, start), *alone = state_at(scene, start);
   memcpy(companion.q, hooke_state_position(watched), size);
   memcpy(companion.v, hooke_state_velocity(watched), size);
 
   hooke_integrator *integrator = start_run(scene->system, run);
+  companion.integrator = integrator;
   check_ok(hooke_integrator_on_step(integrator, 1, follow, &companion));
   const int32_t found = hooke_integrator_step(integrator, watched, steps);
   const int32_t status = found == HOOKE_SOLVER_FAILED && may_fail(scene, method) ? found : HOOKE_OK;

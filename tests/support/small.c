@@ -85,3 +85,25 @@ hooke_system *small_crumpling_cloth(int64_t side) {
   hooke_options_destroy(cloth);
   return system;
 }
+
+hooke_system *small_cloth(int64_t side, double stiffness, double damping) {
+  hooke_system *system = NULL;
+  hooke_options *options = NULL;
+  const double down[] = {0, -9.81, 0}, edges[] = {1, 0, 0, 0, 0, 1}, size[] = {(double)side, (double)side};
+  check_ok(hooke_system_create(&system));
+  check_ok(hooke_options_create("cloth", &options));
+  check_ok(hooke_options_set_text(options, "origin", "0,0,0"));
+  check_ok(hooke_options_set_numbers(options, "edges", 6, edges));
+  check_ok(hooke_options_set_numbers(options, "size", 2, size));
+  check_ok(hooke_options_set_number(options, "mass", 0.2));
+  check_ok(hooke_options_set_text(options, "pinned", "top-corners"));
+  check_ok(hooke_options_set_number(options, "structural.stiffness", stiffness));
+  check_ok(hooke_options_set_number(options, "shear.stiffness", stiffness));
+  check_ok(hooke_options_set_number(options, "structural.damping", damping));
+  check_ok(hooke_options_set_number(options, "shear.damping", damping));
+  check_ok(hooke_system_set_gravity(system, down));
+  check_ok(hooke_system_add_part(system, "cloth", NULL, options, NULL, NULL));
+  check_ok(hooke_system_commit(system));
+  hooke_options_destroy(options);
+  return system;
+}

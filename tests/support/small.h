@@ -27,6 +27,10 @@ hooke_system *small_oscillator(double omega);
 enum { SMALL_NET_PARTICLES = 12, SMALL_NET_SPRINGS = 40 };
 hooke_system *small_net(uint64_t seed, double damping, double speed, int32_t pin_first);
 
+/* A committed cloth of 1 m and 0.2 kg with `side` x `side` particles, let go from horizontal between two
+ * pinned corners; structural and shear springs of one stiffness [N] and damping [N s]. */
+hooke_system *small_cloth(int64_t side, double stiffness, double damping);
+
 /* A committed undamped cloth of `side` x `side` particles that falls, pinned at one corner, and crumples:
  * chaotic after a second or so. */
 hooke_system *small_crumpling_cloth(int64_t side);

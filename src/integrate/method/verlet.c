@@ -184,6 +184,7 @@ const struct hk_method hk_verlet = {
     .second_order = 1,
     .stability = {.kind = HOOKE_STABLE_BY_K, .damps_implicitly = 1},
     .by_tiles = 1,
+    .explicit_step = hk_verlet_explicit_step,
     .choose = hk_verlet_choose,
     .create = create,
     .destroy = destroy,

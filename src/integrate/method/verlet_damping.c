@@ -60,6 +60,14 @@ static int32_t depends_on_state(const hooke_system *system) {
   return depends;
 }
 
+int32_t hk_verlet_explicit_step(const hooke_system *system, double *step) {
+  *step = hk_elements_are_damped(system) ? 0.0 : INFINITY;
+  if (isinf(*step) || depends_on_state(system)) return HOOKE_OK;
+  const int32_t status = find_bound(system, step);
+  *step *= MARGIN;
+  return status;
+}
+
 static int32_t refuse_step(double step, double most) {
   char given[HOOKE_NUMBER_SIZE], allowed[HOOKE_NUMBER_SIZE];
   hk_number_print(step, given);
@@ -73,19 +81,18 @@ static int32_t refuse_step(double step, double most) {
 int32_t hk_verlet_choose(hooke_integrator *it) {
   const char *asked = hooke_options_text(it->options, "verlet_damping");
   const int required = strcmp(asked, "explicit") == 0;
+  double most;
   if (!hk_elements_are_damped(it->system)) {
     if (it->by_tiles) it->by_tiles |= HOOKE_MOTION_KEEPS;
     return HOOKE_OK;
   }
-  double bound = 0.0;
-  const int32_t by_state = depends_on_state(it->system);
-  if (by_state && required)
+  if (required && depends_on_state(it->system))
     return hk_fail(HOOKE_UNSUITED, "verlet_damping",
                    "damping is solved for where damped springs only pull, and beside altitude springs");
-  const int32_t status = by_state ? HOOKE_OK : find_bound(it->system, &bound);
+  const int32_t status = hk_verlet_explicit_step(it->system, &most);
   if (status != HOOKE_OK) return status;
-  const int32_t allowed = it->schedule.step <= MARGIN * bound;
-  if (required && !allowed) return refuse_step(it->schedule.step, MARGIN * bound);
+  const int32_t allowed = it->schedule.step <= most;
+  if (required && !allowed) return refuse_step(it->schedule.step, most);
   it->explicit_damping = allowed && strcmp(asked, "implicit") != 0;
   if (!it->explicit_damping) it->by_tiles = 0;
   return hooke_options_set_text(it->options, "verlet_damping",

@@ -4,6 +4,9 @@
 
 #include "integrate/integrator.h"
 
+/* Of the row of Verlet. HOOKE_NO_MEMORY. */
+int32_t hk_verlet_explicit_step(const hooke_system *system, double *step);
+
 /* The `choose` of Verlet: decides by the system, the step and the option `verlet_damping`, whose value it
  * sets to what it decided. HOOKE_UNSUITED or HOOKE_BAD_VALUE where explicit damping is asked for and cannot
  * be. */

@@ -15,7 +15,8 @@ static const double RUNS = 5.0;          /* or this multiple of the time of the 
 static const double REFERENCE_RUNS = 3.0, REFERENCE_SHARE = 0.6; /* of it, at most for the reference */
 static const double DIGITS = 0.1;    /* of the wanted error: accuracy of the reference */
 static const double BEGINNING = 0.1; /* duration studied if the reference reached no frame */
-enum { FEWEST_FRAMES = 25, MOST_FRAMES = 100, EVALUATIONS = 3 };
+static const double LONGER = 4.0;    /* from one budget to the next while it came to nothing */
+enum { FEWEST_FRAMES = 25, MOST_FRAMES = 100, EVALUATIONS = 3, MOST_BUDGETS = 4 };
 
 /* ---- the studied duration ---- */
 
@@ -95,6 +96,16 @@ static int32_t shorten(struct hk_pick *pick) {
   return hooke_options_set_number(pick->run, "duration", reached);
 }
 
+/* A reference, by larger and larger budgets while they are too small for a single frame. */
+static int32_t insist(struct hk_pick *pick, double budget) {
+  int32_t status = make_reference(pick, budget);
+  for (int k = 1; k < MOST_BUDGETS && status == HOOKE_BAD_VALUE; k++) {
+    hk_reference_release(&pick->reference);
+    status = make_reference(pick, budget *= LONGER);
+  }
+  return status;
+}
+
 /* Covers the whole run; if not even its second frame is reached, a beginning with closer frames. */
 static int32_t find_reference(struct hk_pick *pick, double budget) {
   int32_t status = make_reference(pick, budget);
@@ -105,7 +116,7 @@ static int32_t find_reference(struct hk_pick *pick, double budget) {
   pick->share = units * pick->unit / pick->duration;
   status = hooke_options_set_number(pick->run, "every", pick->unit);
   if (status == HOOKE_OK) status = hooke_options_set_number(pick->run, "duration", units * pick->unit);
-  if (status == HOOKE_OK) status = make_reference(pick, budget);
+  if (status == HOOKE_OK) status = insist(pick, budget);
   return status == HOOKE_OK ? shorten(pick) : status;
 }
 

@@ -43,7 +43,7 @@ struct search {
   double bound;        /* limit of the step at the start [s]; infinity if none */
   double largest;      /* largest allowed value */
   double first;        /* first value */
-  int32_t raised;      /* that is by the limit at the start, no longer by the bound */
+  int32_t raised;      /* that is no longer to be raised from the bound to the limit at the start */
   double meets, fails; /* coarsest value that meets the want, finest coarser one that does not */
   double error_meets, error_fails;
   double rate;  /* minimum time of an evaluation of forces or of their derivative, over all runs [s] */
@@ -199,30 +199,35 @@ static void raise_largest(struct search *s) {
     s->largest = fmin(s->pick->unit, hk_soundness_limit_share * limit);
 }
 
-/* The bound on the step at the start, and the largest allowed value. */
-static void find_largest(struct search *s) {
+/* The bound on the step at the start, and the largest allowed value; that is below the bound where steps that
+ * solve nothing are cheaper. */
+static int32_t find_largest(struct search *s) {
   const double *q = s->pick->reference.frames.position;
   s->bound = INFINITY;
   if (!s->adaptive) (void)hooke_step_bound(s->pick->system, s->method, q, &s->bound);
   if (isnan(s->bound)) s->bound = INFINITY;
   s->largest = s->adaptive ? LOOSEST : fmin(s->pick->unit, hk_soundness_limit_share * s->bound);
+  const double before = s->largest;
+  const int32_t status = s->adaptive ? HOOKE_OK : hk_step_cheapest(s->pick->system, s->method, &s->largest);
+  s->raised = s->largest < before;
+  return status;
 }
 
-static struct search begin(struct hk_pick *pick, const char *method) {
-  struct search s = {.pick = pick,
-                     .method = method,
-                     .adaptive = hooke_method_is_adaptive(method),
-                     .most = pick->want * pick->share - pick->reference.agreement,
-                     .meets = NAN,
-                     .fails = NAN,
-                     .error_meets = NAN,
-                     .error_fails = NAN,
-                     .rate = INFINITY,
-                     .until = INFINITY};
-  s.order = s.adaptive ? 1.0 : (double)hk_method_find(method)->order;
-  find_largest(&s);
-  s.first = s.adaptive ? s.most / pick->reference.extent : s.largest;
-  return s;
+static int32_t begin(struct hk_pick *pick, const char *method, struct search *s) {
+  *s = (struct search){.pick = pick,
+                       .method = method,
+                       .adaptive = hooke_method_is_adaptive(method),
+                       .most = pick->want * pick->share - pick->reference.agreement,
+                       .meets = NAN,
+                       .fails = NAN,
+                       .error_meets = NAN,
+                       .error_fails = NAN,
+                       .rate = INFINITY,
+                       .until = INFINITY};
+  s->order = s->adaptive ? 1.0 : (double)hk_method_find(method)->order;
+  const int32_t status = find_largest(s);
+  s->first = s->adaptive ? s->most / pick->reference.extent : s->largest;
+  return status;
 }
 
 /* Runs one row. */
@@ -287,16 +292,17 @@ static int32_t search_all(int32_t count, struct search *all) {
 
 int32_t hk_pick_search(struct hk_pick *pick) {
   struct search all[MOST_METHODS];
-  int32_t count = 0;
-  for (int64_t m = 0; m < hooke_method_count() && count < MOST_METHODS; m++) {
+  int32_t count = 0, status = HOOKE_OK;
+  for (int64_t m = 0; m < hooke_method_count() && count < MOST_METHODS && status == HOOKE_OK; m++) {
     const char *method = hooke_method_name(m);
     if (pick->method ? strcmp(method, pick->method) != 0 : !hooke_method_is_built(method)) continue;
-    all[count] = begin(pick, method);
+    status = begin(pick, method, &all[count]);
     count += all[count].largest > 0.0;
   }
-  const int32_t status = search_all(count, all);
+  if (status == HOOKE_OK) status = search_all(count, all);
   if (status != HOOKE_OK || pick->met || pick->method) return status;
   /* the reference itself meets any want that it can judge */
-  struct search last = begin(pick, pick->reference.method);
-  return try_value(&last, pick->reference.rtol);
+  struct search last;
+  status = begin(pick, pick->reference.method, &last);
+  return status == HOOKE_OK ? try_value(&last, pick->reference.rtol) : status;
 }

@@ -14,4 +14,8 @@ int32_t hk_step_is_safe(const struct hk_node_blocks *blocks, const char *method,
 /* hooke_step_bound() from existing blocks, for a method of any known kind. */
 double hk_step_bound_of(const struct hk_node_blocks *blocks, const char *method);
 
+/* `step`, or the largest below it at which the method solves nothing, where that makes a run cheaper.
+ * HOOKE_NO_MEMORY. */
+int32_t hk_step_cheapest(const hooke_system *system, const char *method, double *step);
+
 #endif

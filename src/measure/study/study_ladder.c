@@ -3,6 +3,7 @@
 
 #include "core/number.h"
 #include "core/status.h"
+#include "measure/spectrum/step_bound.h"
 #include "measure/trial/step_unit.h"
 
 #include <math.h>
@@ -31,27 +32,28 @@ static double bound_of(const struct hk_study *study, const char *method, const d
   return bound;
 }
 
-/* A step that is certainly stable. For a method without one, or with a very small one due to the bound, a
- * fraction of the step of symplectic Euler. */
-static double safe_step(const struct hk_study *study, const char *method, const double *q) {
+/* A step that is certainly stable, and solves nothing if that is cheaper. For a method without one, or with a
+ * very small one due to the bound, a fraction of the step of symplectic Euler. */
+static int32_t safe_step(const struct hk_study *study, const char *method, const double *q, double *step) {
   double bound = bound_of(study, method, q);
   const double other = bound_of(study, "symplectic-euler", q);
   if (bound == 0.0) bound = other;
   if (bound < other / FARTHEST_BELOW) bound = other / FARTHEST_BELOW;
-  return bound > 0.0 ? bound : study->unit;
+  *step = bound > 0.0 ? bound : study->unit;
+  return hk_step_cheapest(study->system, method, step);
 }
 
 int32_t hk_study_find_safe_steps(struct hk_study *study) {
   hooke_state *state = NULL;
-  const int32_t status = hooke_state_create(study->system, &state);
-  if (status != HOOKE_OK) return status;
-  for (int32_t m = 0; m < study->method_count; m++) {
+  int32_t status = hooke_state_create(study->system, &state);
+  for (int32_t m = 0; m < study->method_count && status == HOOKE_OK; m++) {
+    double step = study->unit;
     if (hk_study_is_adaptive(study, m)) continue;
-    const double step = safe_step(study, study->method[m], hooke_state_position(state));
+    status = safe_step(study, study->method[m], hooke_state_position(state), &step);
     study->safe_step[m] = hk_study_fitting_step(study, fmin(study->unit, step));
   }
   hooke_state_destroy(state);
-  return HOOKE_OK;
+  return status;
 }
 
 /* From twice the safe step, which may still be stable, since the bound is not sharp. */

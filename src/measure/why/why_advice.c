@@ -144,19 +144,6 @@ static int32_t offer_adaptive(struct hk_trials *trials, const char *method, doub
   return hk_trials_offer(trials, &change, &taken);
 }
 
-static int32_t offer_one_iteration(struct hk_trials *trials) {
-  struct hk_change change;
-  int32_t taken;
-  int32_t status = hk_change_begin(&change, "newton");
-  if (status == HOOKE_OK) status = hooke_options_set_text(change.run, "newton", "one-iteration");
-  if (status != HOOKE_OK) {
-    hk_change_drop(&change);
-    return status;
-  }
-  hk_change_say(&change, "one iteration a step, which has nothing to converge");
-  return hk_trials_offer(trials, &change, &taken);
-}
-
 /* As many steps as needed. */
 static int32_t offer_more_steps(struct hk_trials *trials) {
   struct hk_change change;
@@ -245,7 +232,6 @@ static int32_t offer_for_solver(struct hk_trials *trials) {
   if (trials->inquiry->run->outcome == HOOKE_STEP_LIMIT) status = offer_more_steps(trials);
   if (status == HOOKE_OK && !isnan(trials->step)) {
     status = offer_smaller(trials, 0.5 * trials->step, ", which is easier to solve");
-    if (status == HOOKE_OK) status = offer_one_iteration(trials);
   } else {
     static const double looser[] = {10.0, 100.0, 1e3, 1e4};
     for (int k = 0; k < 4 && status == HOOKE_OK; k++)

@@ -1,0 +1,62 @@
+/* A run for a wanted error picks the methods that are cheapest: of order 2 and implicit where springs are stiff and
+ * damped, and Verlet at a step with explicit damping. */
+#include "check.h"
+#include "run.h"
+#include "small.h"
+
+#include <string.h>
+
+/* The options, with method and step; the caller destroys them. */
+static hooke_options *picked(const hooke_system *system, const char *method, double duration, double want) {
+  hooke_options *options = run_options((struct run){.duration = duration, .every = duration / 5.0});
+  hooke_estimate *estimate;
+  check_ok(hooke_estimate_create(system, want, &estimate));
+  const int32_t status = hooke_estimate_pick(estimate, method, options);
+  hooke_estimate_destroy(estimate);
+  if (status == HOOKE_NOT_BUILT) skip();
+  check_status(status, HOOKE_OK);
+  return options;
+}
+
+static int is_implicit_of_order_2(const hooke_system *system) {
+  hooke_options *options = picked(system, NULL, 0.2, 1e-3);
+  const char *method = hooke_options_text(options, "method");
+  const int found = strcmp(method, "tr-bdf2") == 0 || strcmp(method, "implicit-midpoint") == 0;
+  hooke_options_destroy(options);
+  return found;
+}
+
+/* Explicit methods take some 1e4 to 1e6 steps, backward Euler 160, CVODE 300, these 20. Three tries, since all are
+ * timed and the machine may be busy. */
+static void stiff_damped_cloths_get_an_implicit_method_of_order_2(void **unused) {
+  (void)unused;
+  hooke_system *system = small_cloth(12, 5e4, 20.0);
+  int found = 0;
+  for (int k = 0; k < 3 && !found; k++)
+    found = is_implicit_of_order_2(system);
+  assert_true(found);
+  hooke_system_destroy(system);
+}
+
+/* At its largest step Verlet solves for the damping, in the time of several steps without. */
+static void verlet_is_picked_at_a_step_that_solves_nothing(void **unused) {
+  (void)unused;
+  hooke_system *system = small_cloth(12, 50.0, 0.01);
+  hooke_options *options = picked(system, "verlet", 0.5, 1e-3);
+  hooke_integrator *integrator;
+  check_ok(hooke_integrator_create(system, options, &integrator));
+  const double step = hooke_options_number(options, "step"), bound = bound_at_start(system, "verlet");
+  if (hooke_integrator_count(integrator, "explicit_damping") != 1 || !(step > 0.2 * bound))
+    check_failed("a step of %g s of %g s is picked", step, bound);
+  hooke_integrator_destroy(integrator);
+  hooke_options_destroy(options);
+  hooke_system_destroy(system);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(stiff_damped_cloths_get_an_implicit_method_of_order_2),
+      cmocka_unit_test(verlet_is_picked_at_a_step_that_solves_nothing),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
