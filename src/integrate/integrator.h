@@ -3,6 +3,7 @@
 #define HOOKE_INTEGRATE_INTEGRATOR_H
 
 #include "core/table/option.h"
+#include "integrate/coordinates.h"
 #include "integrate/method.h"
 #include "integrate/loop/recent.h"
 #include "model/sum/motion.h"
@@ -70,7 +71,8 @@ struct hooke_integrator {
 
   /* second-order problem */
   const hooke_system *system;
-  struct hk_pool *pool; /* NULL: one thread */
+  struct hk_coordinates *coordinates; /* NULL unless the system is made of them */
+  struct hk_pool *pool;               /* NULL: one thread */
   struct hk_motion *motion;
   /* first-order problem */
   hooke_rate *rate;
@@ -144,6 +146,12 @@ int32_t hk_integrator_hold(hooke_integrator *integrator, double t);
 double hk_integrator_next_time(const hooke_integrator *integrator);
 /* slope = phi(t, x), counted. */
 int32_t hk_integrator_rate(hooke_integrator *integrator, double t, const double *x, double *slope);
+
+/* Numbers in q that the caller knows of. */
+int64_t hk_integrator_numbers(const hooke_integrator *integrator);
+/* HOOKE_UNSUITED, with what to take instead, unless the problem is a system of particles. */
+int32_t hk_integrator_require_particles(const hooke_integrator *integrator, const char *place,
+                                        const char *instead);
 
 /* `begin` and `store` of every fixed-step method. */
 int32_t hk_fixed_begin(hooke_integrator *integrator, const hooke_state *state);
