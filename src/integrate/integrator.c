@@ -70,9 +70,13 @@ static int32_t take_system(hooke_integrator *it, const hooke_system *system, hoo
   int32_t status = HOOKE_OK;
   it->system = system;
   it->size = 3 * system->particle_count;
-  it->by_tiles = it->method->by_tiles && hk_goes_by_tiles(system);
-  if (!it->method->second_order) {
-    status = hk_fail(HOOKE_UNSUITED, "method", "%s takes first-order problems only", it->method->name);
+  it->by_tiles = it->method->by_tiles && system->friction == 0.0 && hk_goes_by_tiles(system);
+  if (!hk_method_suits(it->method->name, system)) {
+    status = hk_fail(HOOKE_UNSUITED, "method", "%s %s", it->method->name,
+                     system->friction > 0.0
+                         ? "steps positions and velocities apart, and an overdamped scene has no such parts; "
+                           "take one of the methods that do not, such as rk4"
+                         : "takes first-order problems only");
   }
   if (status == HOOKE_OK && it->method->choose) status = it->method->choose(it);
   if (status == HOOKE_OK) status = gather_crew(it);

@@ -16,7 +16,7 @@ int64_t hooke_system_particle_count(const hooke_system *system) {
 }
 
 const double *hooke_system_mass(const hooke_system *system) {
-  return system->committed ? system->mass : NULL;
+  return system->committed ? hk_system_masses(system) : NULL;
 }
 
 const double *hooke_system_inverse_mass(const hooke_system *system) {

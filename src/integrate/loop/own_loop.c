@@ -163,5 +163,6 @@ int32_t hooke_integrator_put(hooke_integrator *it, int64_t count, const int64_t 
     put_rows(it, particles[k], q ? q + 3 * k : NULL, v ? v + 3 * k : NULL);
   it->scale0 = INFINITY; /* energy comes from outside: a rise of it proves nothing */
   if (it->method->forget) it->method->forget(it);
-  return it->method->adaptive ? it->method->begin(it, it->shown) : HOOKE_OK;
+  if (it->method->adaptive) return it->method->begin(it, it->shown);
+  return it->system->friction > 0.0 ? hk_integrator_flow(it, it->t) : HOOKE_OK;
 }

@@ -83,8 +83,40 @@ static int32_t hold(hooke_integrator *it, int stage) {
   return HOOKE_OK;
 }
 
+/* ---- an overdamped system: velocities are the rates, and those at the start are there ---- */
+
+static void move_positions(hooke_integrator *it, int64_t from, int64_t count, void *ctx) {
+  const int stage = *(const int *)ctx;
+  const struct own *own = it->own;
+  struct hk_motion *m = it->motion;
+  for (int a = 0; a < 3; a++) {
+    const int64_t q = a * m->n + from;
+    own->stages->move(stage, count, it->schedule.step, m->v[a] + from, own->start + q, own->sum + q,
+                      m->q[a] + from);
+  }
+}
+
+static int32_t step_overdamped(hooke_integrator *it) {
+  struct own *own = it->own;
+  hk_motion_save(it->motion, own->start);
+  for (int stage = 0; stage < own->stages->count; stage++) {
+    const int last = stage + 1 == own->stages->count;
+    const double t = last ? hk_integrator_next_time(it) : stage_time(it, stage + 1);
+    hk_integrator_each(it, move_positions, &stage);
+    int32_t status = hk_integrator_hold(it, t);
+    if (status == HOOKE_OK) status = hk_integrator_flow(it, t);
+    it->count.force_evaluations++;
+    if (status != HOOKE_OK) {
+      hk_motion_restore(it->motion, own->start);
+      return status;
+    }
+  }
+  return HOOKE_OK;
+}
+
 int32_t hk_stages_step(hooke_integrator *it) {
   if (it->rate) return step_rate(it);
+  if (it->system->friction > 0.0) return step_overdamped(it);
   struct own *own = it->own;
   hk_motion_save(it->motion, own->start);
   for (int stage = 0; stage < own->stages->count; stage++) {

@@ -36,6 +36,15 @@ static int32_t find_row(struct hk_limit *limit, struct hk_spectrum *spectrum, do
   return HOOKE_OK;
 }
 
+/* An overdamped system has the eigenvalue -k/gamma alone, and nothing swings. */
+static void find_overdamped_modes(struct hk_limit *limit, const struct hk_spectrum *s) {
+  const double rate = s->linearised->rate * s->linearised->rate;
+  for (int64_t k = 0; k < s->count; k++)
+    limit->mode[k] = (struct hk_limit_mode){.real = -rate * s->stiffness[k], .decay = rate * s->stiffness[k]};
+  limit->frequency = 0.0;
+  limit->decay = rate * s->stiffest;
+}
+
 static int32_t keep_modes(struct hk_limit *limit, const struct hk_spectrum *s) {
   const double rate = s->linearised->rate;
   limit->mode = hk_new(s->count, sizeof *limit->mode);
@@ -51,6 +60,7 @@ static int32_t keep_modes(struct hk_limit *limit, const struct hk_spectrum *s) {
   }
   limit->frequency = rate * sqrt(s->stiffest);
   limit->decay = rate * s->fastest_decay;
+  if (limit->system->friction > 0.0) find_overdamped_modes(limit, s);
   limit->clamped = s->linearised->clamped;
   memcpy(limit->stiffest, s->stiffest_mode, (size_t)s->linearised->size * sizeof(double));
   limit->has_stiffest = 1;
