@@ -242,7 +242,8 @@ static int32_t find_slow_step(struct hk_twin *twin) {
     damp = fmax(damp, (sum[2 * p + 1] + system->drag) * system->inverse_mass[p]);
   }
   hk_free(sum);
-  twin->slow_step = fmin(stiff > 0.0 ? 1.0 / sqrt(stiff) : INFINITY, damp > 0.0 ? 1.0 / damp : INFINITY);
+  const double rate = system->friction > 0.0 ? stiff : sqrt(stiff);
+  twin->slow_step = fmin(rate > 0.0 ? 1.0 / rate : INFINITY, damp > 0.0 ? 1.0 / damp : INFINITY);
   return HOOKE_OK;
 }
 
