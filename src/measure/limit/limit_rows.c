@@ -2,6 +2,7 @@
 #include "measure/limit/limit.h"
 
 #include "core/memory.h"
+#include "measure/spectrum/buckling.h"
 #include "measure/spectrum/step_bound.h"
 #include "model/sum/motion.h"
 
@@ -67,6 +68,22 @@ static int32_t keep_modes(struct hk_limit *limit, const struct hk_spectrum *s) {
   return HOOKE_OK;
 }
 
+/* In an overdamped scene what buckles grows by itself; in the limits of steps it counts as nothing. */
+static int32_t note_buckling(struct hk_limit *limit, const double *q) {
+  double rate = 0.0;
+  int32_t status = HOOKE_OK;
+  if (limit->system->friction > 0.0 && limit->clamped > 0)
+    status = hk_buckling_rate(limit->system, limit->time, q, &rate);
+  for (int32_t k = 0; k < limit->row_count && rate > 0.0; k++) {
+    if (!limit->row[k].note[0])
+      snprintf(limit->row[k].note, sizeof limit->row[k].note,
+               "buckling: springs under compression give way sideways, at any step; some motion grows by "
+               "exp(%.3g t) or faster",
+               rate);
+  }
+  return status;
+}
+
 static int32_t find_rows(struct hk_limit *limit, struct hk_linearised *linearised) {
   struct hk_spectrum spectrum;
   double *mode = hk_new(linearised->size, sizeof(double));
@@ -95,6 +112,7 @@ int32_t hk_limit_predict_rows(struct hk_limit *limit, const double *q) {
   linearised.room = limit->room;
   status = find_bounds(limit, q);
   if (status == HOOKE_OK) status = find_rows(limit, &linearised);
+  if (status == HOOKE_OK) status = note_buckling(limit, q);
   limit->products = linearised.products;
   limit->found = status == HOOKE_OK;
   hk_linearised_release(&linearised);

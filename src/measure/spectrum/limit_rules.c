@@ -180,8 +180,6 @@ static void overdamped(struct hk_spectrum *s, const struct hk_stability *stabili
   out->limit =
       s->stiffest > 0.0 ? hk_real_reach(stability->degree) / s->stiffest / s->linearised->rate : INFINITY;
   take_mode(s, s->stiffest_mode, out);
-  if (s->linearised->clamped > 0)
-    out->note = "springs under compression may buckle: such motion grows by itself, at any step";
 }
 
 static int32_t find_limit(struct hk_spectrum *s, const struct hk_stability *stability,

@@ -90,6 +90,8 @@ HOOKE_API int32_t hooke_system_add_anchors(hooke_system *system, const char *nam
                                            const int64_t *particles, const hooke_options *options);
 HOOKE_API int32_t hooke_system_set_gravity(hooke_system *system, const double *gravity);
 HOOKE_API int32_t hooke_system_set_drag(hooke_system *system, double coefficient);
+HOOKE_API int32_t hooke_system_set_dynamics(hooke_system *system, const char *dynamics);
+HOOKE_API const char *hooke_system_dynamics(const hooke_system *system);
 HOOKE_API int32_t hooke_system_set_force(hooke_system *system, hooke_force *force,
                                          hooke_force_product *product, void *ctx);
 HOOKE_API int32_t hooke_system_drive_harmonic(hooke_system *system, int64_t count, const int64_t *particles,
