@@ -178,8 +178,8 @@ HOOKE_API int64_t hooke_system_group_count(const hooke_system *system, const cha
 HOOKE_API const char *hooke_system_group_name(const hooke_system *system, const char *force, int64_t group);
 HOOKE_API int64_t hooke_system_group_size(const hooke_system *system, const char *force, int64_t group);
 
-/* Masses [kg] (n) and inverse masses [1/kg] (n; 0 = pinned or driven) of all particles; NULL before commit.
- */
+/* Masses [kg] (n; 0: not given) and inverse masses [1/kg] (n; 0 = pinned or driven; of an overdamped system
+ * 1/gamma) of all particles; NULL before commit. */
 HOOKE_API const double *hooke_system_mass(const hooke_system *system);
 HOOKE_API const double *hooke_system_inverse_mass(const hooke_system *system);
 
@@ -216,7 +216,8 @@ HOOKE_API const char *hooke_system_force_name(const hooke_system *system, int64_
  * callback, m g on free particles. */
 HOOKE_API int32_t hooke_system_force(const hooke_system *system, double t, const double *q, const double *v,
                                      double *force);
-/* Acceleration of every particle [m/s^2], 3n: w f + g, zero where pinned or driven. */
+/* Acceleration of every particle [m/s^2], 3n: w f + g, zero where pinned or driven; of an overdamped system the
+ * velocity f/gamma [m/s]. */
 HOOKE_API int32_t hooke_system_acceleration(const hooke_system *system, double t, const double *q,
                                             const double *v, double *acceleration);
 /* Springs at q whose ends coincide although their rest length is not zero. */

@@ -167,7 +167,7 @@ def judge(truth: Truth, want: float, one: Any, rows: list[Row]) -> tuple[bool, .
 
 
 def main(names: list[str]) -> int:
-    scenes = [SCENES / f"{name}.json" for name in names] or [path for path in sorted(SCENES.glob("*.json")) if path.stem != "tissue"]
+    scenes = [SCENES / f"{name}.json" for name in names] or sorted(SCENES.glob("*.json"))
     print(
         f"{'scene':16} {'want':>8} {'recommended':16} {'':>9} {'error':>7} {'again':>7} {'force':>8} {'evals':>7} "
         f"{'time':>7} {'evals':>7}\n{'':16} {'[m]':>8} {'':16} {'':>9} {'/ want':>7} {'/ want':>7} {'evals':>8} "

@@ -27,7 +27,7 @@ static int32_t add_weight(const hooke_system *system, struct hk_motion *motion, 
   (void)t;
   for (int a = 0; a < 3; a++) {
     for (int64_t p = 0; p < motion->n; p++)
-      motion->f[a][p] += system->weight[p] * system->pull[a];
+      motion->f[a][p] += system->constrained[p] ? 0.0 : system->weight[p] * system->pull[a];
   }
   return HOOKE_OK;
 }
