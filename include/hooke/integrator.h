@@ -1,7 +1,8 @@
 /* hooke/integrator.h - methods, and the loop that runs them.
  *
  * An integrator is a method with its options and its scratch, made for one system (or one first- or
- * second-order problem). It belongs to one thread at a time; many integrators may share a system, each with its own state.
+ * second-order problem). It belongs to one thread at a time; many integrators may share a system, each with
+ * its own state.
  *
  * Options of a run (hooke_options_create("run", ...)): method, step [s], duration [s], every [s], checkpoint
  * [s], newton, verlet_damping, rtol, atol [m], atol_velocity [m/s], max_order, linear_solver, max_steps,
@@ -142,8 +143,8 @@ HOOKE_API int32_t hooke_integrator_sync(hooke_integrator *integrator, hooke_stat
  * method start anew. Pinned particles are held where they are put; driven ones stay where their motion has
  * them. Since writing may bring any energy, only numbers that are not finite are divergence from then on.
  * HOOKE_BAD_CALL as for hooke_integrator_advance(), HOOKE_BAD_VALUE for a particle that does not exist or a
- * number that is not finite, HOOKE_UNSUITED for a first- or second-order problem, HOOKE_NO_MEMORY; nothing is written
- * then. */
+ * number that is not finite, HOOKE_UNSUITED for a first- or second-order problem, HOOKE_NO_MEMORY; nothing is
+ * written then. */
 HOOKE_API int32_t hooke_integrator_get(hooke_integrator *integrator, int64_t count, const int64_t *particles,
                                        double *q, double *v);
 HOOKE_API int32_t hooke_integrator_put(hooke_integrator *integrator, int64_t count, const int64_t *particles,
@@ -184,7 +185,8 @@ typedef int32_t hooke_warning(const char *kind, const char *sentence, double t, 
 
 /* Turns on warnings for the runs of `integrator`: it checks at the start, then at as many of the checks for
  * divergence as cost less than a hundredth of the stepping. Results do not depend on it. NULL turns them off.
- * A method without a bound gives no warnings. HOOKE_UNSUITED for a first- or second-order problem; HOOKE_NO_MEMORY. */
+ * A method without a bound gives no warnings. HOOKE_UNSUITED for a first- or second-order problem;
+ * HOOKE_NO_MEMORY. */
 HOOKE_API int32_t hooke_integrator_on_warning(hooke_integrator *integrator, hooke_warning *warning,
                                               void *ctx);
 

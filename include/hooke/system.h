@@ -117,8 +117,8 @@ HOOKE_API int32_t hooke_system_set_gravity(hooke_system *system, const double *g
  * does not. */
 HOOKE_API int32_t hooke_system_set_drag(hooke_system *system, double coefficient);
 
-/* "inertial", the default: M x'' = f. "overdamped": gamma x' = f, with drag as gamma > 0; masses serve gravity
- * alone and may be missing (`mass_count` 0, or masses of 0) without it; velocities and damping are refused at
+/* "inertial", the default: M x'' = f. "overdamped": gamma x' = f, with drag as gamma > 0; masses serve
+ * gravity alone and may be missing (`mass_count` 0, or masses of 0) without it; velocities and damping are refused at
  * commit. States have v = f/gamma, callback forces are given v = 0, and kinetic energy and momenta are 0.
  * To be called before particles without mass are added. HOOKE_BAD_VALUE for another word, HOOKE_BAD_CALL. */
 HOOKE_API int32_t hooke_system_set_dynamics(hooke_system *system, const char *dynamics);
@@ -216,8 +216,8 @@ HOOKE_API const char *hooke_system_force_name(const hooke_system *system, int64_
  * callback, m g on free particles. */
 HOOKE_API int32_t hooke_system_force(const hooke_system *system, double t, const double *q, const double *v,
                                      double *force);
-/* Acceleration of every particle [m/s^2], 3n: w f + g, zero where pinned or driven; of an overdamped system the
- * velocity f/gamma [m/s]. */
+/* Acceleration of every particle [m/s^2], 3n: w f + g, zero where pinned or driven; of an overdamped system
+ * the velocity f/gamma [m/s]. */
 HOOKE_API int32_t hooke_system_acceleration(const hooke_system *system, double t, const double *q,
                                             const double *v, double *acceleration);
 /* Springs at q whose ends coincide although their rest length is not zero. */
