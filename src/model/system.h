@@ -73,9 +73,9 @@ struct hooke_system {
   double gravity[3];
   int32_t has_gravity;
   double drag; /* 0: none */
-  /* An overdamped system, gamma x' = f. From commit on `mass` is gamma for every particle and drag and gravity
-   * are 0, so that everything that divides a force or a stiffness by `mass` has a rate; gamma, the masses and
-   * the gravity as given are here. */
+  /* An overdamped system, gamma x' = f. From commit on `mass` is gamma for every particle and drag and
+   * gravity are 0, so that everything that divides a force or a stiffness by `mass` has a rate; gamma, the
+   * masses and the gravity as given are here. */
   int32_t overdamped;
   double friction, *weight, pull[3]; /* friction is 0 before, and in any other system */
   hooke_force *force;

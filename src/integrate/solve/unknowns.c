@@ -127,7 +127,8 @@ int32_t hk_unknowns_place(hooke_integrator *it, const struct hk_unknowns *u, dou
   return hk_integrator_hold(it, t);
 }
 
-/* v', or of an overdamped system q', of the free particles; 0 times their sum shows whether all are finite. */
+/* v', or of an overdamped system q', of the free particles; 0 times their sum shows whether all are finite.
+ */
 static double accelerations(const hooke_integrator *it, const struct hk_unknowns *u, double *out) {
   const hooke_system *system = it->system;
   double sum = 0.0;

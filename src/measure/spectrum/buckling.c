@@ -7,8 +7,8 @@
 #include <math.h>
 #include <string.h>
 
-/* By the power method on J + s, with J = K/gamma and s a bound of its eigenvalues: they are -s to s. A growing
- * motion that is slower than LEAST of s counts as none. */
+/* By the power method on J + s, with J = K/gamma and s a bound of its eigenvalues: they are -s to s. A
+ * growing motion that is slower than LEAST of s counts as none. */
 enum { ITERATIONS = 300 };
 static const double LEAST = 1e-9;
 
