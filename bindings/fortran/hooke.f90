@@ -18,6 +18,7 @@ module hooke
     hooke_message => message, hooke_status_name => status_name, hooke_version => version, hooke_abi => abi, &
     hooke_build_fact => build_fact
   use hooke_builders, only: hooke_part_kind => part_kind
+  use hooke_coordinates, only: hooke_coordinate_force, hooke_coordinate_force_with_product
   use hooke_estimates, only: hooke_estimate
   use hooke_forces, only: hooke_force, hooke_force_with_product, hooke_drive
   use hooke_integrators, only: hooke_integrator, hooke_method_count => method_count, hooke_method_name => method_name, &

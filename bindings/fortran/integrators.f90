@@ -1,10 +1,11 @@
 ! Methods, and the loop that runs them.
 module hooke_integrators
-  use, intrinsic :: iso_c_binding, only: c_double, c_funloc, c_int32_t, c_int64_t, c_loc, c_null_funptr, &
-    c_null_ptr, c_ptr
+  use, intrinsic :: iso_c_binding, only: c_double, c_funloc, c_funptr, c_int32_t, c_int64_t, c_loc, &
+    c_null_funptr, c_null_ptr, c_ptr
   use hooke_base, only: accept, hooke_bad_value, hooke_long, refuse, to_c, to_c_if, to_integer, to_text, zero_based
   use hooke_c_checkpoint, only: c_checkpoint_read, c_checkpoint_write
   use hooke_c_integrator
+  use hooke_coordinates
   use hooke_queries_of_integrator
   use hooke_observers
   use hooke_option_tables, only: hooke_options
@@ -16,7 +17,7 @@ module hooke_integrators
   public :: method_count, method_name, method_summary, method_is_adaptive, method_is_built
 
   integer, parameter :: of_rate = 1, of_frames = 2, of_steps = 3, of_warnings = 4, of_checkpoints = 5, &
-    of_progress = 6
+    of_progress = 6, of_coordinates = 7
 
   type, extends(hooke_integrator_queries) :: hooke_integrator
     ! Its own copy of its options, with defaults filled in.
@@ -24,6 +25,7 @@ module hooke_integrators
   contains
     procedure :: create
     procedure :: create_first_order
+    procedure :: create_second_order
     procedure :: on_frame
     procedure :: on_step
     procedure :: on_checkpoint
@@ -112,6 +114,39 @@ contains
     if (code == 0) then
       call take_new(self, integrator)
       call self%keep(holder, of_rate)
+    else
+      deallocate (holder)
+    end if
+    call accept(code, status)
+  end subroutine
+
+  ! For q'' = W f(t, q, v) of `size` coordinates, with one inverse mass or one for each; the force must exist
+  ! as long as the integrator is used.
+  subroutine create_second_order(self, size, force, inverse_mass, options, status)
+    class(hooke_integrator), intent(inout) :: self
+    integer, intent(in) :: size
+    class(hooke_coordinate_force), target, intent(inout) :: force
+    real(c_double), intent(in), contiguous :: inverse_mass(:)
+    type(hooke_options), intent(in) :: options
+    integer, intent(out), optional :: status
+    type(coordinate_holder), pointer :: holder
+    type(c_funptr) :: product
+    type(c_ptr) :: integrator
+    integer(c_int32_t) :: code
+    if (options%is_missing(status)) return
+    allocate (holder)
+    holder%force => force
+    product = c_null_funptr
+    select type (force)
+    class is (hooke_coordinate_force_with_product)
+      holder%derivative => force
+      product = c_funloc(call_coordinate_product)
+    end select
+    code = c_integrator_create_second_order(int(size, c_int64_t), c_funloc(call_coordinate_force), product, &
+      c_loc(holder), ubound(inverse_mass, 1, c_int64_t), inverse_mass, options%address(), integrator)
+    if (code == 0) then
+      call take_new(self, integrator)
+      call self%keep(holder, of_coordinates)
     else
       deallocate (holder)
     end if

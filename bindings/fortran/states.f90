@@ -9,14 +9,15 @@ module hooke_states
   private
   public :: hooke_state
 
-  ! q(3, n) [m] and v(3, n) [m/s], for reading and, except in an observer, for writing; x is q as a list, or
-  ! all numbers of a first-order problem, which has no q and v. The pointers are valid as long as the state
-  ! exists.
+  ! q(3, n) [m] and v(3, n) [m/s], for reading and, except in an observer, for writing. x and dx are q and v
+  ! as lists; a first-order problem has x alone; of a second-order problem take x and dx. The pointers are valid as
+  ! long as the state exists.
   type, extends(hooke_handle) :: hooke_state
-    real(c_double), pointer, contiguous :: q(:, :) => null(), v(:, :) => null(), x(:) => null()
+    real(c_double), pointer, contiguous :: q(:, :) => null(), v(:, :) => null(), x(:) => null(), dx(:) => null()
   contains
     procedure :: create
     procedure :: create_first_order
+    procedure :: create_second_order
     procedure :: copy_to
     procedure :: time => time_of
     procedure :: set_time
@@ -60,6 +61,21 @@ contains
     call accept(code, status)
   end subroutine
 
+  ! `size` zeros for q'' = W f(t, q, v), and as many velocities.
+  subroutine create_second_order(self, size, status)
+    class(hooke_state), intent(inout) :: self
+    integer, intent(in) :: size
+    integer, intent(out), optional :: status
+    type(c_ptr) :: state
+    integer(c_int32_t) :: code
+    code = c_state_create_second_order(int(size, c_int64_t), state)
+    if (code == 0) then
+      call self%take(state, c_state_destroy)
+      call point(self)
+    end if
+    call accept(code, status)
+  end subroutine
+
   ! Copies t, q and v into another state of the same size.
   subroutine copy_to(self, other, status)
     class(hooke_state), intent(in) :: self
@@ -81,7 +97,7 @@ contains
     call c_state_set_time(self%address(), t)
   end subroutine
 
-  ! Number of numbers in q: 3n, or the size of a first-order problem.
+  ! Number of numbers in q: 3n, or the size of a first- or second-order problem.
   integer function size_of(self)
     class(hooke_state), intent(in) :: self
     size_of = to_integer(c_state_size(self%address()))
@@ -108,12 +124,14 @@ contains
     self%q => null()
     self%v => null()
     self%x => null()
+    self%dx => null()
     if (.not. self%exists()) return
     size = c_state_size(self%address())
     q = c_state_position(self%address())
     v = c_state_velocity(self%address())
     call c_f_pointer(q, self%x, [size])
     if (.not. c_associated(v)) return
+    call c_f_pointer(v, self%dx, [size])
     call c_f_pointer(q, self%q, [3_c_int64_t, size/3])
     call c_f_pointer(v, self%v, [3_c_int64_t, size/3])
   end subroutine

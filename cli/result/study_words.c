@@ -123,6 +123,8 @@ static void print_orders(const struct cli_study_results *results, int32_t width)
   for (int32_t i = 0; i < results->methods.count; i++) {
     const char *method = results->methods.name[i];
     if (hooke_method_is_adaptive(method) != 0) continue;
+    if (hooke_measurement_find(results->study, "orders", "method", method) < 0)
+      continue; /* not of this scene */
     if (!any) printf("\n%-*s %7s %16s %7s\n", width, "order", "seen", "95 % interval", "theory");
     any = 1;
     print_order(results->study, method, width);

@@ -202,6 +202,7 @@ static void print_groups(const hooke_system *system) {
 }
 
 static void print_limits(const struct check *check) {
+  const int overdamped = strcmp(hooke_system_dynamics(check->setup.system), "overdamped") == 0;
   char text[HOOKE_NUMBER_SIZE];
   printf("largest step certain to be stable, at the start:\n");
   for (int64_t i = 0; i < hooke_method_count(); i++) {
@@ -213,7 +214,7 @@ static void print_limits(const struct check *check) {
     } else if (hooke_method_is_adaptive(name) != 0) {
       printf("chooses its own\n");
     } else if (isnan(bound)) {
-      printf("not known\n");
+      printf("%s\n", overdamped ? "takes no overdamped scene" : "not known");
     } else if (isinf(bound)) {
       printf("any\n");
     } else if (bound == 0.0) {

@@ -1,7 +1,8 @@
 /* hooke/integrator.h - methods, and the loop that runs them.
  *
- * An integrator is a method with its options and its scratch, made for one system (or one first-order
- * problem). It belongs to one thread at a time; many integrators may share a system, each with its own state.
+ * An integrator is a method with its options and its scratch, made for one system (or one first- or
+ * second-order problem). It belongs to one thread at a time; many integrators may share a system, each with
+ * its own state.
  *
  * Options of a run (hooke_options_create("run", ...)): method, step [s], duration [s], every [s], checkpoint
  * [s], newton, verlet_damping, rtol, atol [m], atol_velocity [m/s], max_order, linear_solver, max_steps,
@@ -50,7 +51,8 @@ HOOKE_API int32_t hooke_method_is_built(const char *name);
 /* ---- making ---- */
 
 /* Creates an integrator for a committed system, which must outlive it; `options` is copied. HOOKE_BAD_VALUE
- * (an option), HOOKE_BAD_CALL (not committed), HOOKE_NOT_BUILT, HOOKE_NO_MEMORY. */
+ * (an option), HOOKE_BAD_CALL (not committed), HOOKE_UNSUITED (a method that an overdamped system does not
+ * have, such as verlet), HOOKE_NOT_BUILT, HOOKE_NO_MEMORY. */
 HOOKE_API int32_t hooke_integrator_create(const hooke_system *system, const hooke_options *options,
                                           hooke_integrator **integrator);
 
@@ -59,6 +61,19 @@ HOOKE_API int32_t hooke_integrator_create(const hooke_system *system, const hook
 HOOKE_API int32_t hooke_integrator_create_first_order(int64_t size, hooke_rate *rate, void *ctx,
                                                       const hooke_options *options,
                                                       hooke_integrator **integrator);
+
+/* Creates an integrator for q'' = W f(t, q, v) of `size` generalized coordinates, with W > 0 the constant
+ * inverse masses: one for all (`mass_count` 1) or one for each, copied. `force` adds f to `size` zeros, and
+ * `product` its derivative; `product` may be NULL, and both are those of hooke_system_set_force() with
+ * `size` numbers in place of n particles. Where masses depend on q let `force` add M(q)^-1 f with the inverse
+ * mass 1: no method is symplectic then. All methods take it; see docs/notes/methods.md for `verlet` where f
+ * depends on v. Divergence is a number that is not finite. HOOKE_BAD_VALUE, HOOKE_NOT_BUILT,
+ * HOOKE_NO_MEMORY. */
+HOOKE_API int32_t hooke_integrator_create_second_order(int64_t size, hooke_force *force,
+                                                       hooke_force_product *product, void *ctx,
+                                                       int64_t mass_count, const double *inverse_mass,
+                                                       const hooke_options *options,
+                                                       hooke_integrator **integrator);
 
 HOOKE_API void hooke_integrator_destroy(hooke_integrator *integrator);
 
@@ -128,8 +143,8 @@ HOOKE_API int32_t hooke_integrator_sync(hooke_integrator *integrator, hooke_stat
  * method start anew. Pinned particles are held where they are put; driven ones stay where their motion has
  * them. Since writing may bring any energy, only numbers that are not finite are divergence from then on.
  * HOOKE_BAD_CALL as for hooke_integrator_advance(), HOOKE_BAD_VALUE for a particle that does not exist or a
- * number that is not finite, HOOKE_UNSUITED for a first-order problem, HOOKE_NO_MEMORY; nothing is written
- * then. */
+ * number that is not finite, HOOKE_UNSUITED for a first- or second-order problem, HOOKE_NO_MEMORY; nothing is
+ * written then. */
 HOOKE_API int32_t hooke_integrator_get(hooke_integrator *integrator, int64_t count, const int64_t *particles,
                                        double *q, double *v);
 HOOKE_API int32_t hooke_integrator_put(hooke_integrator *integrator, int64_t count, const int64_t *particles,
@@ -170,7 +185,8 @@ typedef int32_t hooke_warning(const char *kind, const char *sentence, double t, 
 
 /* Turns on warnings for the runs of `integrator`: it checks at the start, then at as many of the checks for
  * divergence as cost less than a hundredth of the stepping. Results do not depend on it. NULL turns them off.
- * A method without a bound gives no warnings. HOOKE_UNSUITED for a first-order problem; HOOKE_NO_MEMORY. */
+ * A method without a bound gives no warnings. HOOKE_UNSUITED for a first- or second-order problem;
+ * HOOKE_NO_MEMORY. */
 HOOKE_API int32_t hooke_integrator_on_warning(hooke_integrator *integrator, hooke_warning *warning,
                                               void *ctx);
 

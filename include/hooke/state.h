@@ -23,6 +23,9 @@ HOOKE_API int32_t hooke_state_create(const hooke_system *system, hooke_state **s
  * is no velocity. */
 HOOKE_API int32_t hooke_state_create_first_order(int64_t size, hooke_state **state);
 
+/* A state of `size` >= 1 zeros for a second-order problem q'' = W f(t, q, v): q and v have `size` numbers. */
+HOOKE_API int32_t hooke_state_create_second_order(int64_t size, hooke_state **state);
+
 /* Releases a state; NULL is allowed. */
 HOOKE_API void hooke_state_destroy(hooke_state *state);
 
@@ -32,7 +35,7 @@ HOOKE_API int32_t hooke_state_copy(const hooke_state *from, hooke_state *to);
 HOOKE_API double hooke_state_time(const hooke_state *state);
 HOOKE_API void hooke_state_set_time(hooke_state *state, double t);
 
-/* Number of numbers in q: 3n, or the size of a first-order problem. */
+/* Number of numbers in q: 3n, or the size of a first- or second-order problem. */
 HOOKE_API int64_t hooke_state_size(const hooke_state *state);
 
 /* Pointers to q and v, for reading and, except in an observer, for writing; valid as long as the state lives.

@@ -117,6 +117,13 @@ HOOKE_API int32_t hooke_system_set_gravity(hooke_system *system, const double *g
  * does not. */
 HOOKE_API int32_t hooke_system_set_drag(hooke_system *system, double coefficient);
 
+/* "inertial", the default: M x'' = f. "overdamped": gamma x' = f, with drag as gamma > 0; masses serve
+ * gravity alone and may be missing (`mass_count` 0, or masses of 0) without it; velocities and damping are
+ * refused at commit. States have v = f/gamma, callback forces are given v = 0, and kinetic energy and momenta
+ * are 0. To be called before particles without mass are added. HOOKE_BAD_VALUE for another word, HOOKE_BAD_CALL. */
+HOOKE_API int32_t hooke_system_set_dynamics(hooke_system *system, const char *dynamics);
+HOOKE_API const char *hooke_system_dynamics(const hooke_system *system);
+
 /* Adds a force of the caller's own; one a system. `product` may be NULL: difference quotients of `force` then
  * replace it. Both receive `ctx`, which must outlive the system. */
 HOOKE_API int32_t hooke_system_set_force(hooke_system *system, hooke_force *force,
@@ -171,8 +178,8 @@ HOOKE_API int64_t hooke_system_group_count(const hooke_system *system, const cha
 HOOKE_API const char *hooke_system_group_name(const hooke_system *system, const char *force, int64_t group);
 HOOKE_API int64_t hooke_system_group_size(const hooke_system *system, const char *force, int64_t group);
 
-/* Masses [kg] (n) and inverse masses [1/kg] (n; 0 = pinned or driven) of all particles; NULL before commit.
- */
+/* Masses [kg] (n; 0: not given) and inverse masses [1/kg] (n; 0 = pinned or driven; of an overdamped system
+ * 1/gamma) of all particles; NULL before commit. */
 HOOKE_API const double *hooke_system_mass(const hooke_system *system);
 HOOKE_API const double *hooke_system_inverse_mass(const hooke_system *system);
 
@@ -209,7 +216,8 @@ HOOKE_API const char *hooke_system_force_name(const hooke_system *system, int64_
  * callback, m g on free particles. */
 HOOKE_API int32_t hooke_system_force(const hooke_system *system, double t, const double *q, const double *v,
                                      double *force);
-/* Acceleration of every particle [m/s^2], 3n: w f + g, zero where pinned or driven. */
+/* Acceleration of every particle [m/s^2], 3n: w f + g, zero where pinned or driven; of an overdamped system
+ * the velocity f/gamma [m/s]. */
 HOOKE_API int32_t hooke_system_acceleration(const hooke_system *system, double t, const double *q,
                                             const double *v, double *acceleration);
 /* Springs at q whose ends coincide although their rest length is not zero. */

@@ -65,23 +65,48 @@ static int32_t gather_crew(hooke_integrator *it) {
   return workers > 1 && it->pool == NULL ? HOOKE_NO_MEMORY : HOOKE_OK;
 }
 
-int32_t hooke_integrator_create(const hooke_system *system, const hooke_options *options,
-                                hooke_integrator **out) {
-  hooke_integrator *it = NULL;
-  int32_t status = hk_system_require_committed(system);
-  if (status == HOOKE_OK) status = create(options, &it);
-  if (it == NULL) return status;
+/* `it` is the integrator from here on, with its problem still missing. */
+static int32_t take_system(hooke_integrator *it, const hooke_system *system, hooke_integrator **out) {
+  int32_t status = HOOKE_OK;
   it->system = system;
   it->size = 3 * system->particle_count;
-  if (it->method->by_tiles && hk_goes_by_tiles(system)) it->by_tiles = HOOKE_MOTION_BY_TILES;
-  if (!it->method->second_order) {
-    status = hk_fail(HOOKE_UNSUITED, "method", "%s takes first-order problems only", it->method->name);
+  if (it->method->by_tiles && system->friction == 0.0 && hk_goes_by_tiles(system))
+    it->by_tiles = HOOKE_MOTION_BY_TILES;
+  if (!hk_method_suits(it->method->name, system)) {
+    status = hk_fail(HOOKE_UNSUITED, "method", "%s %s", it->method->name,
+                     system->friction > 0.0
+                         ? "steps positions and velocities apart, and an overdamped scene has no such parts; "
+                           "take one of the methods that do not, such as rk4"
+                         : "takes first-order problems only");
   }
   if (status == HOOKE_OK && it->method->choose) status = it->method->choose(it);
   if (status == HOOKE_OK) status = gather_crew(it);
   if (status == HOOKE_OK) status = hk_motion_create(system, it->by_tiles, it->pool, &it->motion);
   if (status == HOOKE_OK) status = hk_recent_create(it->size, 1, !it->by_tiles, &it->recent);
   return finish(it, status, out);
+}
+
+int32_t hooke_integrator_create(const hooke_system *system, const hooke_options *options,
+                                hooke_integrator **out) {
+  hooke_integrator *it = NULL;
+  int32_t status = hk_system_require_committed(system);
+  if (status == HOOKE_OK) status = create(options, &it);
+  return it == NULL ? status : take_system(it, system, out);
+}
+
+int32_t hooke_integrator_create_second_order(int64_t size, hooke_force *force, hooke_force_product *product,
+                                             void *ctx, int64_t mass_count, const double *inverse_mass,
+                                             const hooke_options *options, hooke_integrator **out) {
+  hooke_integrator *it = NULL;
+  struct hk_coordinates *coordinates = NULL;
+  int32_t status = hk_coordinates_create(size, force, product, ctx, mass_count, inverse_mass, &coordinates);
+  if (status == HOOKE_OK) status = create(options, &it);
+  if (it == NULL) {
+    hk_coordinates_destroy(coordinates);
+    return status;
+  }
+  it->coordinates = coordinates;
+  return take_system(it, coordinates->system, out);
 }
 
 int32_t hooke_integrator_create_first_order(int64_t size, hooke_rate *rate, void *ctx,
@@ -117,8 +142,19 @@ void hooke_integrator_destroy(hooke_integrator *it) {
   hooke_state_destroy(it->shown);
   if (it->checker.release) it->checker.release(it->checker.own);
   hooke_options_destroy(it->options);
+  hk_coordinates_destroy(it->coordinates);
   hk_free(it->x);
   hk_handle_free(it);
+}
+
+int64_t hk_integrator_numbers(const hooke_integrator *it) {
+  return it->coordinates ? it->coordinates->size : it->size;
+}
+
+int32_t hk_integrator_require_particles(const hooke_integrator *it, const char *place, const char *instead) {
+  if (it->system && it->coordinates == NULL) return HOOKE_OK;
+  return hk_fail(HOOKE_UNSUITED, place, "a %s problem %s", it->system ? "second-order" : "first-order",
+                 instead);
 }
 
 const hooke_options *hooke_integrator_options(const hooke_integrator *integrator) {

@@ -3,6 +3,7 @@
 #define HOOKE_INTEGRATE_INTEGRATOR_H
 
 #include "core/table/option.h"
+#include "integrate/coordinates.h"
 #include "integrate/method.h"
 #include "integrate/loop/recent.h"
 #include "model/sum/motion.h"
@@ -70,7 +71,8 @@ struct hooke_integrator {
 
   /* second-order problem */
   const hooke_system *system;
-  struct hk_pool *pool; /* NULL: one thread */
+  struct hk_coordinates *coordinates; /* NULL unless the system is made of them */
+  struct hk_pool *pool;               /* NULL: one thread */
   struct hk_motion *motion;
   /* first-order problem */
   hooke_rate *rate;
@@ -146,10 +148,19 @@ void hk_integrator_each(hooke_integrator *integrator, hk_particle_work *work, vo
  * particles there. */
 int32_t hk_integrator_drive(hooke_integrator *integrator, double t);
 int32_t hk_integrator_hold(hooke_integrator *integrator, double t);
+/* Of an overdamped system: velocities of free particles from the forces at time t, where the motion is, of
+ * held ones from the drives, which were called for t. Not counted. */
+int32_t hk_integrator_flow(hooke_integrator *integrator, double t);
 /* Time at the end of the next step of a fixed-step method. */
 double hk_integrator_next_time(const hooke_integrator *integrator);
 /* slope = phi(t, x), counted. */
 int32_t hk_integrator_rate(hooke_integrator *integrator, double t, const double *x, double *slope);
+
+/* Numbers in q that the caller knows of. */
+int64_t hk_integrator_numbers(const hooke_integrator *integrator);
+/* HOOKE_UNSUITED, with what to take instead, unless the problem is a system of particles. */
+int32_t hk_integrator_require_particles(const hooke_integrator *integrator, const char *place,
+                                        const char *instead);
 
 /* `begin` and `store` of every fixed-step method. */
 int32_t hk_fixed_begin(hooke_integrator *integrator, const hooke_state *state);

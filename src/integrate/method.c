@@ -1,5 +1,7 @@
 #include "integrate/method.h"
 
+#include "model/system.h"
+
 #include <stddef.h>
 #include <string.h>
 
@@ -47,6 +49,16 @@ const struct hk_stability *hk_method_stability(const char *name) {
   static const struct hk_stability unknown = {.kind = HOOKE_STABILITY_UNKNOWN};
   const struct hk_method *method = hk_method_find(name);
   return method ? &method->stability : &unknown;
+}
+
+int32_t hk_method_suits(const char *name, const hooke_system *system) {
+  const struct hk_method *method = hk_method_find(name);
+  if (system->friction > 0.0) return method->first_order || method->implicit;
+  return method->second_order;
+}
+
+const char *hk_method_of_euler(const hooke_system *system) {
+  return system->friction > 0.0 ? hk_forward_euler.name : hk_symplectic_euler.name;
 }
 
 int32_t hk_method_needs_damping(const char *name) {

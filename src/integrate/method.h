@@ -63,6 +63,13 @@ extern const struct hk_method hk_forward_euler, hk_symplectic_euler, hk_verlet, 
 const struct hk_method *hk_method_find(const char *name);
 const struct hk_stability *hk_method_stability(const char *name);
 
+/* 1 if the method takes this committed system; of an overdamped one, by the methods of first-order problems
+ * and the implicit ones. */
+int32_t hk_method_suits(const char *name, const hooke_system *system);
+
+/* The explicit method of Euler that this committed system takes. */
+const char *hk_method_of_euler(const hooke_system *system);
+
 /* 1 if no step is stable without damping. */
 int32_t hk_method_needs_damping(const char *name);
 

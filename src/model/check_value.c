@@ -48,6 +48,10 @@ uint32_t hk_system_check_value(const hooke_system *system) {
   }
   hk_check_add(&value, system->gravity, 3, sizeof(double));
   hk_check_add(&value, &system->drag, 1, sizeof(double));
+  if (system->friction > 0.0) {
+    hk_check_add(&value, system->weight, system->particle_count, sizeof(double));
+    hk_check_add(&value, system->pull, 3, sizeof(double));
+  }
   hk_check_whole(&value, system->force != NULL);
   add_drives(&value, system);
   return value;

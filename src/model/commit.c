@@ -56,7 +56,8 @@ static void trim_particles(hooke_system *system) {
   int32_t status = hk_grow((void **)&system->position, 3 * n, 3 * n, sizeof(double));
   if (status == HOOKE_OK && system->velocity)
     status = hk_grow((void **)&system->velocity, 3 * n, 3 * n, sizeof(double));
-  if (status == HOOKE_OK) status = hk_grow((void **)&system->mass, n, n, sizeof(double));
+  if (status == HOOKE_OK && system->friction == 0.0)
+    status = hk_grow((void **)&system->mass, n, n, sizeof(double));
   if (status == HOOKE_OK) status = hk_grow((void **)&system->constrained, n, n, sizeof(uint8_t));
   if (status == HOOKE_OK) system->particle_capacity = n;
 }
@@ -157,6 +158,7 @@ static int32_t choose_forces(hooke_system *system) {
 
 /* Reopens the system after a failure midway. */
 static void undo(hooke_system *system) {
+  hk_overdamped_undo(system);
   for (int64_t k = 0; k < system->group_count; k++)
     hk_group_take_back(&system->group[k]);
   hk_strided_batches_release(&system->strided);
@@ -181,8 +183,11 @@ int32_t hooke_system_commit(hooke_system *system) {
   int32_t status = hk_system_require_open(system);
   if (status != HOOKE_OK) return status;
   status = check_pinned_at_rest(system);
+  if (status == HOOKE_OK) status = hk_overdamped_check(system);
+  if (status == HOOKE_OK) status = hk_overdamped_begin(system);
   if (status == HOOKE_OK) status = fill_particles(system);
   if (status == HOOKE_OK) status = take_groups_over(system);
+  if (status == HOOKE_OK) status = hk_overdamped_check_forces(system);
   if (status == HOOKE_OK) {
     status = hk_strided_batches_create(&system->springs, system->particle_count, &system->strided);
   }

@@ -69,6 +69,14 @@ int32_t hooke_state_create_first_order(int64_t size, hooke_state **state) {
   return hk_state_create_sized(size, 0, state);
 }
 
+int32_t hooke_state_create_second_order(int64_t size, hooke_state **state) {
+  if (size < 1) return hk_fail(HOOKE_BAD_VALUE, "size", "%lld is not allowed; 1 or more is", (long long)size);
+  const int64_t padding = (3 - size % 3) % 3;
+  const int32_t status = hk_state_create_sized(size + padding, 1, state);
+  if (status == HOOKE_OK) (*state)->padding = padding;
+  return status;
+}
+
 void hooke_state_destroy(hooke_state *state) {
   if (state == NULL) return;
   hk_free(state->t);
@@ -78,7 +86,7 @@ void hooke_state_destroy(hooke_state *state) {
 int32_t hooke_state_copy(const hooke_state *from, hooke_state *to) {
   if (from->size != to->size || from->has_v != to->has_v) {
     return hk_fail(HOOKE_BAD_VALUE, NULL, "a state of %lld numbers does not fit one of %lld",
-                   (long long)from->size, (long long)to->size);
+                   (long long)hooke_state_size(from), (long long)hooke_state_size(to));
   }
   memcpy(to->t, from->t, (size_t)(1 + (from->has_v ? 2 : 1) * from->size) * sizeof(double));
   return HOOKE_OK;
@@ -93,7 +101,7 @@ void hooke_state_set_time(hooke_state *state, double t) {
 }
 
 int64_t hooke_state_size(const hooke_state *state) {
-  return state->size;
+  return state->size - state->padding;
 }
 
 double *hooke_state_position(const hooke_state *state) {

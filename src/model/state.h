@@ -11,7 +11,8 @@ struct hk_energies {
 };
 
 struct hooke_state {
-  int64_t size; /* numbers in q */
+  int64_t size;    /* numbers in q */
+  int64_t padding; /* of them, zeros at the end that nobody sees, of coordinates in rows of three */
   int32_t has_v;
   double *t, *q, *v;               /* one block; v is NULL for a first-order problem */
   const struct hk_energies *known; /* its energies, while a run shows it as a frame; otherwise NULL */

@@ -28,6 +28,7 @@ void hooke_system_destroy(hooke_system *system) {
   hk_free(system->position);
   hk_free(system->velocity);
   hk_free(system->mass);
+  hk_free(system->weight);
   hk_free(system->constrained);
   hk_free(system->inverse_mass);
   hk_free(system->constrained_particle);
@@ -76,14 +77,15 @@ static int32_t check_finite(const char *name, int64_t count, const double *value
   return HOOKE_OK;
 }
 
-static int32_t check_mass(int64_t count, int64_t mass_count, const double *mass) {
-  if (mass_count != 1 && mass_count != count) {
+static int32_t check_mass(const hooke_system *system, int64_t count, int64_t mass_count, const double *mass) {
+  if (mass_count != 1 && mass_count != count && !(mass_count == 0 && system->overdamped)) {
     return hk_fail(HOOKE_BAD_VALUE, "mass", "%lld masses for %lld particles; allowed: one, or one for each",
                    (long long)mass_count, (long long)count);
   }
   for (int64_t k = 0; k < mass_count; k++) {
     /* the inverse has to be finite, too */
     if (mass[k] > 0.0 && isfinite(mass[k]) && isfinite(1.0 / mass[k])) continue;
+    if (mass[k] == 0.0 && system->overdamped) continue;
     hk_fail(HOOKE_BAD_VALUE, NULL,
             "%g is not allowed; a mass is a number > 0 (pin a particle to hold it still)", mass[k]);
     return mass_count == 1 ? hk_fail_within(HOOKE_BAD_VALUE, "mass")
@@ -104,7 +106,7 @@ int32_t hooke_system_add_particles(hooke_system *system, int64_t count, const do
     status = hk_system_check_room(system, (struct hk_more){.particles = (double)count}, NULL);
   if (status == HOOKE_OK) status = check_finite("position", count, position);
   if (status == HOOKE_OK && velocity) status = check_finite("velocity", count, velocity);
-  if (status == HOOKE_OK) status = check_mass(count, mass_count, mass);
+  if (status == HOOKE_OK) status = check_mass(system, count, mass_count, mass);
   if (status == HOOKE_OK) status = reserve_particles(system, count);
   if (status != HOOKE_OK) return status;
 
@@ -119,7 +121,7 @@ int32_t hooke_system_add_particles(hooke_system *system, int64_t count, const do
     memset(system->constrained + n, 0, (size_t)count);
   }
   for (int64_t k = 0; k < count; k++)
-    system->mass[n + k] = mass[mass_count == 1 ? 0 : k];
+    system->mass[n + k] = mass_count == 0 ? 0.0 : mass[mass_count == 1 ? 0 : k];
   system->particle_count = n + count;
   if (first) *first = n;
   return HOOKE_OK;

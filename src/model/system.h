@@ -17,7 +17,7 @@
 struct hk_force_row;
 
 /* Maximum number of rows of the table of forces. */
-enum { HOOKE_FORCES = 8 };
+enum { HOOKE_FORCES = 9 };
 
 enum { HOOKE_IS_PINNED = 1, HOOKE_IS_DRIVEN = 2 };
 
@@ -73,6 +73,11 @@ struct hooke_system {
   double gravity[3];
   int32_t has_gravity;
   double drag; /* 0: none */
+  /* An overdamped system, gamma x' = f. From commit on `mass` is gamma for every particle and drag and
+   * gravity are 0, so that everything that divides a force or a stiffness by `mass` has a rate; gamma, the
+   * masses and the gravity as given are here. */
+  int32_t overdamped;
+  double friction, *weight, pull[3]; /* friction is 0 before, and in any other system */
   hooke_force *force;
   hooke_force_product *force_product;
   void *force_ctx;
@@ -83,6 +88,19 @@ struct hooke_system {
   int32_t force_row_count; /* from commit on: the present forces */
   const struct hk_force_row **force_row;
 };
+
+/* Masses (0: not given), drag and gravity as they were given. */
+const double *hk_system_masses(const hooke_system *system);
+double hk_system_drag(const hooke_system *system);
+const double *hk_system_gravity(const hooke_system *system);
+int32_t hk_system_has_gravity(const hooke_system *system);
+
+/* For commit: checks what an overdamped system may have, and what another one must; makes `mass` gamma
+ * (HOOKE_NO_MEMORY), and takes that back. */
+int32_t hk_overdamped_check(const hooke_system *system);
+int32_t hk_overdamped_check_forces(const hooke_system *system);
+int32_t hk_overdamped_begin(hooke_system *system);
+void hk_overdamped_undo(hooke_system *system);
 
 /* HOOKE_BAD_CALL unless the system is still open (the second: committed). */
 int32_t hk_system_require_open(const hooke_system *system);

@@ -1,5 +1,6 @@
 /* Common parts of all fixed-step methods: counted forces and rates, loading and storing. */
 #include "integrate/integrator.h"
+#include "kernel/step_loops.h"
 
 #include "core/status.h"
 #include "model/force/force.h"
@@ -85,6 +86,23 @@ int32_t hk_integrator_move(hooke_integrator *it, double t, struct hk_move move) 
 
 double hk_integrator_next_time(const hooke_integrator *it) {
   return it->t0 + (double)(it->k + 1) * it->schedule.step;
+}
+
+static void set_rates(hooke_integrator *it, int64_t from, int64_t count, void *ctx) {
+  (void)ctx;
+  struct hk_motion *m = it->motion;
+  for (int a = 0; a < 3; a++) {
+    hk_acceleration(count, it->system->inverse_mass + from, NULL, m->f[a] + from);
+    memcpy(m->v[a] + from, m->f[a] + from, (size_t)count * sizeof(double));
+  }
+}
+
+int32_t hk_integrator_flow(hooke_integrator *it, double t) {
+  const int32_t status = keep_stop_value(it, hk_motion_forces(it->system, it->motion, t));
+  if (status != HOOKE_OK) return status;
+  hk_integrator_each(it, set_rates, NULL);
+  if (it->system->constrained_count > 0) hk_motion_hold(it->system, it->motion);
+  return HOOKE_OK;
 }
 
 int32_t hk_integrator_drive(hooke_integrator *it, double t) {

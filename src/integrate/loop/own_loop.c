@@ -60,7 +60,9 @@ static int32_t require_motion(const hooke_integrator *it) {
 /* A state of the integrator's own. */
 static int32_t make_shown(hooke_integrator *it) {
   if (it->shown) return HOOKE_OK;
-  return hk_state_create_sized(it->size, it->system != NULL, &it->shown);
+  const int32_t status = hk_state_create_sized(it->size, it->system != NULL, &it->shown);
+  if (status == HOOKE_OK) it->shown->padding = it->size - hk_integrator_numbers(it);
+  return status;
 }
 
 /* A copy of the last good state, since the caller's is left alone. */
@@ -102,10 +104,7 @@ int32_t hooke_integrator_sync(hooke_integrator *it, hooke_state *state) {
 
 /* With the motion of an error-controlled method, which only its solver holds, in `shown`. */
 static int32_t prepare_particles(hooke_integrator *it, int64_t count, const int64_t *particles) {
-  int32_t status = HOOKE_OK;
-  if (it->system == NULL)
-    status =
-        hk_fail(HOOKE_UNSUITED, "particles", "a first-order problem has none; take hooke_integrator_sync()");
+  int32_t status = hk_integrator_require_particles(it, "particles", "has none; take hooke_integrator_sync()");
   if (status == HOOKE_OK) status = require_motion(it);
   if (status == HOOKE_OK && count < 0)
     status = hk_fail(HOOKE_BAD_VALUE, "count", "%lld is not allowed; 0 or more are", (long long)count);
@@ -164,5 +163,6 @@ int32_t hooke_integrator_put(hooke_integrator *it, int64_t count, const int64_t 
     put_rows(it, particles[k], q ? q + 3 * k : NULL, v ? v + 3 * k : NULL);
   it->scale0 = INFINITY; /* energy comes from outside: a rise of it proves nothing */
   if (it->method->forget) it->method->forget(it);
-  return it->method->adaptive ? it->method->begin(it, it->shown) : HOOKE_OK;
+  if (it->method->adaptive) return it->method->begin(it, it->shown);
+  return it->system->friction > 0.0 ? hk_integrator_flow(it, it->t) : HOOKE_OK;
 }

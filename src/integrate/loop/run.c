@@ -12,15 +12,18 @@ static const double LOOK = 1e-3; /* [s] between two clock readings */
 static const int64_t MOST_STRIDE = 1 << 20;
 
 int32_t hk_run_check_state(const hooke_integrator *it, const hooke_state *state) {
-  if (state->size == it->size && state->has_v == (it->system != NULL)) return hk_pool_renew(it->pool);
+  const int64_t has = hooke_state_size(state), needed = hk_integrator_numbers(it);
+  if (has == needed && state->size == it->size && state->has_v == (it->system != NULL))
+    return hk_pool_renew(it->pool);
   return hk_fail(HOOKE_BAD_VALUE, "state", "a state of %lld numbers does not fit a problem of %lld",
-                 (long long)state->size, (long long)it->size);
+                 (long long)has, (long long)needed);
 }
 
 int32_t hk_run_place_driven(hooke_integrator *it, hooke_state *state) {
-  if (it->system == NULL || it->system->drive_count == 0) return HOOKE_OK;
+  if (it->system == NULL || (it->system->drive_count == 0 && it->system->friction == 0.0)) return HOOKE_OK;
   hk_motion_load(it->system, it->motion, state->q, state->v);
-  const int32_t status = hk_integrator_hold(it, *state->t);
+  int32_t status = hk_integrator_hold(it, *state->t);
+  if (status == HOOKE_OK && it->system->friction > 0.0) status = hk_integrator_flow(it, *state->t);
   if (status == HOOKE_OK) hk_motion_store(it->motion, state->q, state->v);
   return status;
 }
@@ -33,9 +36,9 @@ static int32_t check_numbers(const hooke_integrator *it, const hooke_state *stat
     if (isfinite(state->q[k])) continue;
     const long long at = (long long)(k % state->size);
     hk_fail(HOOKE_BAD_VALUE, NULL, "%g is not allowed; a run starts at finite numbers", state->q[k]);
-    if (it->system == NULL) return hk_fail_within(HOOKE_BAD_VALUE, "x[%lld]", at);
-    return hk_fail_within(HOOKE_BAD_VALUE, "%s[%lld][%lld]", k < state->size ? "position" : "velocity",
-                          at / 3, at % 3);
+    const char *name = it->system == NULL ? "x" : k < state->size ? "position" : "velocity";
+    if (it->system == NULL || it->coordinates) return hk_fail_within(HOOKE_BAD_VALUE, "%s[%lld]", name, at);
+    return hk_fail_within(HOOKE_BAD_VALUE, "%s[%lld][%lld]", name, at / 3, at % 3);
   }
   return HOOKE_OK;
 }

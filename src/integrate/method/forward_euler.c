@@ -1,6 +1,6 @@
 /* Forward Euler: q += h v(old), v += h (w f + g); for first-order problems x += h phi(t, x). Order 1 (Euler
  * 1768). Unstable for every undamped oscillation at any step. */
-#include "integrate/integrator.h"
+#include "integrate/method/stages.h"
 #include "kernel/step_loops.h"
 
 static int32_t step_rate(hooke_integrator *it) {
@@ -9,8 +9,15 @@ static int32_t step_rate(hooke_integrator *it) {
   return status;
 }
 
+/* An overdamped system has one stage: q += h v. */
+static int32_t create(hooke_integrator *it) {
+  static const struct hk_stages stages = {1, {0.0}, {1.0}};
+  return it->system && it->system->friction > 0.0 ? hk_stages_create(it, &stages) : HOOKE_OK;
+}
+
 static int32_t step(hooke_integrator *it) {
   if (it->rate) return step_rate(it);
+  if (it->own) return hk_stages_step(it);
   const double h = it->schedule.step;
   return hk_integrator_move(it, it->t, hk_integrator_move_of(it, HOOKE_DRIFT_THEN_KICK, h, h));
 }
@@ -23,6 +30,8 @@ const struct hk_method hk_forward_euler = {.name = "forward-euler",
                                            .second_order = 1,
                                            .stability = {.kind = HOOKE_STABLE_BY_POLYNOMIAL, .degree = 1},
                                            .by_tiles = 1,
+                                           .create = create,
+                                           .destroy = hk_stages_destroy,
                                            .begin = hk_fixed_begin,
                                            .step = step,
                                            .store = hk_fixed_store};

@@ -49,15 +49,19 @@ static double stage_kick(const hooke_integrator *it, int stage) {
   return it->schedule.step / own->stages->over[stage];
 }
 
-static void move_x(hooke_integrator *it, int stage) {
+/* From one stage to the next, for `count` numbers. */
+static void move_numbers(const hooke_integrator *it, int stage, int64_t count, const double *rate,
+                         double *start, double *sum, double *x) {
   const struct own *own = it->own;
   const double kick = stage_kick(it, stage);
-  if (stage == 0)
-    hk_first_stage(it->size, kick, it->slope, own->start, own->sum, it->x);
+  if (own->stages->count == 1)
+    hk_advance(count, kick, rate, x);
+  else if (stage == 0)
+    hk_first_stage(count, kick, rate, start, sum, x);
   else if (stage < own->stages->count - 1)
-    hk_middle_stage(it->size, kick, it->slope, own->start, own->sum, it->x);
+    hk_middle_stage(count, kick, rate, start, sum, x);
   else
-    hk_last_stage(it->size, kick, it->slope, own->start, own->sum, it->x);
+    hk_last_stage(count, kick, rate, start, sum, x);
 }
 
 static int32_t step_rate(hooke_integrator *it) {
@@ -68,7 +72,7 @@ static int32_t step_rate(hooke_integrator *it) {
       if (stage > 0) memcpy(it->x, own->start, (size_t)it->size * sizeof(double));
       return status;
     }
-    move_x(it, stage);
+    move_numbers(it, stage, it->size, it->slope, own->start, own->sum, it->x);
   }
   return HOOKE_OK;
 }
@@ -101,8 +105,38 @@ static void put_back(hooke_integrator *it, int64_t from, int64_t count, void *ct
   }
 }
 
+/* ---- an overdamped system: velocities are the rates, and those at the start are there ---- */
+
+static void move_positions(hooke_integrator *it, int64_t from, int64_t count, void *ctx) {
+  const struct own *own = it->own;
+  struct hk_motion *m = it->motion;
+  for (int a = 0; a < 3; a++) {
+    const int64_t q = a * m->n + from; /* as hk_motion_save() has them */
+    move_numbers(it, *(const int *)ctx, count, m->v[a] + from, own->start + q, own->sum + q, m->q[a] + from);
+  }
+}
+
+static int32_t step_overdamped(hooke_integrator *it) {
+  struct own *own = it->own;
+  hk_motion_save(it->motion, own->start);
+  for (int stage = 0; stage < own->stages->count; stage++) {
+    const int last = stage + 1 == own->stages->count;
+    const double t = last ? hk_integrator_next_time(it) : stage_time(it, stage + 1);
+    hk_integrator_each(it, move_positions, &stage);
+    int32_t status = hk_integrator_hold(it, t);
+    if (status == HOOKE_OK) status = hk_integrator_flow(it, t);
+    it->count.force_evaluations++;
+    if (status != HOOKE_OK) {
+      hk_motion_restore(it->motion, own->start);
+      return status;
+    }
+  }
+  return HOOKE_OK;
+}
+
 int32_t hk_stages_step(hooke_integrator *it) {
   if (it->rate) return step_rate(it);
+  if (it->system->friction > 0.0) return step_overdamped(it);
   struct own *own = it->own;
   for (int stage = 0; stage < own->stages->count; stage++) {
     int32_t status = hold(it, stage);

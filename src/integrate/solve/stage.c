@@ -28,6 +28,7 @@ int32_t hk_stage_create(hooke_integrator *it, int64_t numbers) {
   stage->one_iteration = strcmp(hooke_options_text(it->options, "newton"), "one-iteration") == 0;
   stage->tolerance = hooke_options_number(it->options, "newton_tolerance");
   stage->order = it->method->order;
+  stage->overdamped = it->system->friction > 0.0;
   numbers += 11 * it->size;
   stage->whole = hk_new(numbers, sizeof(double));
   if (stage->whole == NULL) return HOOKE_NO_MEMORY;
@@ -68,20 +69,30 @@ static void place(struct hk_stage *stage, const double *v) {
   if (it->system->constrained_count > 0) hk_motion_hold(it->system, m);
 }
 
+/* The factor of the force, b. */
+static double gain(const struct hk_stage *stage) {
+  return stage->overdamped ? 1.0 : stage->at.a;
+}
+
+static double speed_of(const struct hk_stage *stage, int64_t k) {
+  return stage->overdamped ? 0.0 : stage->at.speed[k];
+}
+
 /* right = -F at velocity v, where it leaves the motion. */
 static int32_t find_residual(struct hk_stage *stage, const double *v) {
   hooke_integrator *it = stage->reduced.integrator;
   const hooke_system *system = it->system;
   const struct hk_motion *m = it->motion;
-  const double h = stage->at.a;
+  const double h = gain(stage);
   place(stage, v);
   const int32_t status = hk_integrator_forces(it, stage->at.t);
   for (int a = 0; a < 3; a++) {
-    const double *speed = stage->at.speed + a * m->n, g = h * system->gravity[a];
+    const double g = h * system->gravity[a];
     for (int64_t p = 0; p < m->n; p++) {
       const double w = system->inverse_mass[p];
       stage->right[a * m->n + p] =
-          w == 0.0 ? 0.0 : h * m->f[a][p] - system->mass[p] * ((m->v[a][p] - speed[p]) - g);
+          w == 0.0 ? 0.0
+                   : h * m->f[a][p] - system->mass[p] * ((m->v[a][p] - speed_of(stage, a * m->n + p)) - g);
     }
   }
   return status;
@@ -91,7 +102,7 @@ static int32_t find_residual(struct hk_stage *stage, const double *v) {
 static void set_matrix(struct hk_stage *stage) {
   const double a = stage->at.a;
   hk_reduced_drop_factor(&stage->reduced); /* a stage depends on its numbers alone */
-  hk_reduced_set(&stage->reduced, stage->at.t, a * a, a);
+  hk_reduced_set(&stage->reduced, stage->at.t, a * gain(stage), stage->overdamped ? 0.0 : a);
 }
 
 /* How far the state at the beginning moves with dv = 0: to place + a v, and constrained particles to where
@@ -125,9 +136,10 @@ static int32_t linearise(struct hk_stage *stage) {
   for (int64_t k = 0; k < 3 * n; k++) {
     const int64_t p = k % n;
     const double g = system->has_gravity ? system->gravity[k / n] : 0.0, force = m->f[k / n][p];
-    stage->straight[k] = old[k] + stage->at.length * (system->inverse_mass[p] * force + g);
-    stage->right[k] = stage->at.a * ((force + stage->moved[k]) + system->mass[p] * g);
-    if (system->constrained[p] == 0) stage->right[k] -= system->mass[p] * (old[k] - stage->at.speed[k]);
+    const double w = system->inverse_mass[p], turn = stage->overdamped ? stage->moved[k] : force;
+    stage->straight[k] = old[k] + (stage->overdamped ? 1.0 : stage->at.length) * (w * turn + g);
+    stage->right[k] = gain(stage) * ((force + stage->moved[k]) + system->mass[p] * g);
+    if (system->constrained[p] == 0) stage->right[k] -= system->mass[p] * (old[k] - speed_of(stage, k));
   }
   return status;
 }
@@ -356,7 +368,9 @@ static int32_t take_part(struct hk_stage *stage, int64_t done, int64_t parts, hk
     status = stages(it, (struct hk_span_of_time){time_of(it, done),
                                                  (double)parts / FINEST_SPLIT * it->schedule.step, end});
   if (status == HOOKE_OK && it->system->constrained_count > 0) hk_motion_hold(it->system, it->motion);
-  return status;
+  if (status != HOOKE_OK || !stage->overdamped) return status;
+  it->count.force_evaluations++;
+  return hk_integrator_flow(it, end);
 }
 
 int32_t hk_stage_step(struct hk_stage *stage, hk_stages_of_step *stages) {

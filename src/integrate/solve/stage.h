@@ -11,6 +11,10 @@
  * step where damping is gamma (r - r_old)/a along each spring (Liu and others 2013; Teran and others 2005),
  * so every dv leads downhill. The residual F is the true one throughout.
  *
+ * An overdamped system has M = gamma, no g and no D, and its stage is gamma v' = f(t, q'): the same with
+ * M v' = f in place of the second equation. In F, b = 1 stands for a, and 0 for `speed`; the matrix is
+ * M - a K. Velocities are f/gamma at the beginning of a stage, and after a step.
+ *
  * Iterations end where the error of v', in the norm of S, is below `newton_tolerance` times the error that
  * the step makes itself. A stage that is not solved is a step that is split in two. */
 #ifndef HOOKE_INTEGRATE_SOLVE_STAGE_H
@@ -25,7 +29,7 @@ struct hk_equations {
 };
 
 struct hk_stage {
-  int32_t one_iteration, order;
+  int32_t one_iteration, order, overdamped;
   double tolerance;
   struct hk_reduced reduced;
   struct hk_equations at;

@@ -116,6 +116,25 @@ static void take(struct solver *s, N_Vector b, double gamma) {
   hk_unknowns_spread(u, some, weight);
 }
 
+/* Of an overdamped system (M - gamma K) z = M b, with M its friction, and z is dq. */
+static void take_positions(struct solver *s, N_Vector b) {
+  const struct hk_unknowns *u = unknowns_of(s->integrator);
+  const hooke_system *system = s->integrator->system;
+  const int64_t n = system->particle_count;
+  double *const right[3] = {s->right, s->right + n, s->right + 2 * n};
+  double *const weight[3] = {s->z_weight, s->z_weight + n, s->z_weight + 2 * n};
+  hk_unknowns_spread(u, N_VGetArrayPointer(b), right);
+  hk_unknowns_spread(u, N_VGetArrayPointer(s->weight), weight);
+  for (int64_t k = 0; k < 3 * n; k++)
+    s->right[k] *= system->constrained[k % n] ? 0.0 : system->mass[k % n];
+}
+
+static void give_positions(struct solver *s, N_Vector x) {
+  const int64_t n = s->integrator->system->particle_count;
+  const double *const z[3] = {s->z, s->z + n, s->z + 2 * n};
+  hk_unknowns_gather(unknowns_of(s->integrator), z, N_VGetArrayPointer(x));
+}
+
 /* dq = gamma z, dv = z - b_q/gamma. */
 static void give(struct solver *s, double gamma, N_Vector x) {
   const struct hk_unknowns *u = unknowns_of(s->integrator);
@@ -177,13 +196,21 @@ static int solve(SUNLinearSolver linear, SUNMatrix matrix, N_Vector x, N_Vector 
   if (own->where(own->memory, &t, &gamma, &y) != 0) return SUNLS_MEM_NULL;
   int32_t status = hk_unknowns_place(it, &own->unknowns, t, N_VGetArrayPointer(y));
   if (status != HOOKE_OK) return failed(own, status);
-  hk_reduced_set(&s->reduced, t, gamma * gamma, gamma);
-  take(s, b, gamma);
+  const int32_t has_v = own->unknowns.has_v;
+  hk_reduced_set(&s->reduced, t, has_v ? gamma * gamma : gamma, has_v ? gamma : 0.0);
   struct hk_solution solution;
-  status = hk_reduced_right(&s->reduced, s->bq, s->bv, s->right);
+  if (has_v) {
+    take(s, b, gamma);
+    status = hk_reduced_right(&s->reduced, s->bq, s->bv, s->right);
+  } else {
+    take_positions(s, b);
+  }
   if (status == HOOKE_OK) status = find(s, tolerance, &solution);
   if (status != HOOKE_OK) return failed(own, status);
-  give(s, gamma, x);
+  if (has_v)
+    give(s, gamma, x);
+  else
+    give_positions(s, x);
   return solution.converged ? SUNLS_SUCCESS : SUNLS_CONV_FAIL;
 }
 

@@ -26,7 +26,8 @@ int32_t hk_unknowns_create(hooke_integrator *it, int32_t products, struct hk_unk
   *u = (struct hk_unknowns){.size = it->size};
   if (it->rate) return HOOKE_OK;
   u->free_count = it->system->particle_count - it->system->constrained_count;
-  u->size = u->free_count > 0 ? 6 * u->free_count : 1;
+  u->has_v = it->system->friction == 0.0;
+  u->size = u->free_count > 0 ? (u->has_v ? 6 : 3) * u->free_count : 1;
   if (find_stretches(it->system, u) != HOOKE_OK) return HOOKE_NO_MEMORY;
   if (!products) return HOOKE_OK;
   u->rows = hk_new(5 * it->size, sizeof(double));
@@ -83,7 +84,7 @@ static void spread_to_rows(const struct hk_unknowns *u, const double *some, doub
 
 static void gather_motion(const struct hk_unknowns *u, const struct hk_motion *motion, double *y) {
   hk_unknowns_gather(u, (const double *const *)motion->q, y);
-  hk_unknowns_gather(u, (const double *const *)motion->v, y + 3 * u->free_count);
+  if (u->has_v) hk_unknowns_gather(u, (const double *const *)motion->v, y + 3 * u->free_count);
 }
 
 void hk_unknowns_load(hooke_integrator *it, const struct hk_unknowns *u, const hooke_state *state,
@@ -104,7 +105,14 @@ int32_t hk_unknowns_store(hooke_integrator *it, const struct hk_unknowns *u, dou
     memcpy(state->q, y, (size_t)it->size * sizeof(double));
     return HOOKE_OK;
   }
-  const int32_t status = hk_integrator_hold(it, t);
+  int32_t status = HOOKE_OK;
+  if (!u->has_v) {
+    status = hk_unknowns_place(it, u, t, y);
+    if (status == HOOKE_OK) status = hk_integrator_flow(it, t);
+    if (status == HOOKE_OK) hk_motion_store(it->motion, state->q, state->v);
+    return status;
+  }
+  status = hk_integrator_hold(it, t);
   hk_motion_store(it->motion, state->q, state->v);
   spread_to_rows(u, y, state->q);
   spread_to_rows(u, y + 3 * u->free_count, state->v);
@@ -115,11 +123,12 @@ int32_t hk_unknowns_store(hooke_integrator *it, const struct hk_unknowns *u, dou
 
 int32_t hk_unknowns_place(hooke_integrator *it, const struct hk_unknowns *u, double t, const double *y) {
   hk_unknowns_spread(u, y, it->motion->q);
-  hk_unknowns_spread(u, y + 3 * u->free_count, it->motion->v);
+  if (u->has_v) hk_unknowns_spread(u, y + 3 * u->free_count, it->motion->v);
   return hk_integrator_hold(it, t);
 }
 
-/* v' of the free particles; 0 times their sum shows whether all are finite. */
+/* v', or of an overdamped system q', of the free particles; 0 times their sum shows whether all are finite.
+ */
 static double accelerations(const hooke_integrator *it, const struct hk_unknowns *u, double *out) {
   const hooke_system *system = it->system;
   double sum = 0.0;
@@ -157,7 +166,7 @@ int hk_unknowns_slope(hooke_integrator *it, const struct hk_unknowns *u, double 
   }
   if (hk_unknowns_place(it, u, t, y) != HOOKE_OK || hk_integrator_forces(it, t) != HOOKE_OK)
     return HOOKE_SLOPE_STOPPED;
-  const int64_t m = u->free_count;
+  const int64_t m = u->has_v ? u->free_count : 0;
   memcpy(slope, y + 3 * m, (size_t)(3 * m) * sizeof(double));
   return accelerations(it, u, slope + 3 * m) == 0.0 ? HOOKE_SLOPE_FINE : HOOKE_SLOPE_NOT_FINITE;
 }
@@ -180,7 +189,7 @@ int hk_unknowns_product(hooke_integrator *it, const struct hk_unknowns *u, doubl
   double *q = u->rows, *v = q + it->size, *dq = v + it->size, *dv = dq + it->size, *out = dv + it->size;
   const int64_t m = u->free_count;
   spread_to_rows(u, direction, dq); /* constrained particles: zero from the start */
-  spread_to_rows(u, direction + 3 * m, dv);
+  if (u->has_v) spread_to_rows(u, direction + 3 * m, dv);
   it->count.derivative_products++;
   int32_t stop_value = 0;
   const struct hk_point point = {t, q, v, dq, dv, &stop_value};
@@ -188,12 +197,13 @@ int hk_unknowns_product(hooke_integrator *it, const struct hk_unknowns *u, doubl
     it->stop_value = stop_value;
     return HOOKE_SLOPE_STOPPED;
   }
-  memcpy(product, direction + 3 * m, (size_t)(3 * m) * sizeof(double));
+  const int first = u->has_v ? 3 : 0;
+  memcpy(product, direction + first * m, (size_t)(first * m) * sizeof(double));
   for (int64_t k = 0; k < u->stretch_count; k++) {
     const struct hk_stretch_of_free *s = &u->stretch[k];
     for (int64_t p = 0; p < s->count; p++) {
       for (int a = 0; a < 3; a++)
-        product[(3 + a) * m + s->place + p] =
+        product[(first + a) * m + s->place + p] =
             it->system->inverse_mass[s->particle + p] * out[3 * (s->particle + p) + a];
     }
   }

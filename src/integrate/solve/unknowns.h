@@ -13,7 +13,8 @@ struct hk_stretch_of_free {
 };
 
 struct hk_unknowns {
-  int64_t size; /* numbers in y */
+  int64_t size;  /* numbers in y */
+  int32_t has_v; /* 1: positions, then velocities; 0: of an overdamped system, positions alone */
   int64_t free_count, stretch_count;
   struct hk_stretch_of_free *stretch;
   double *rows; /* q, v, dq, dv, out in rows of all particles, for products with the derivative; or NULL */

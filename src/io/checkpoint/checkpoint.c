@@ -215,9 +215,10 @@ int32_t hk_checkpoint_take(const char *path, const char *run, hooke_integrator *
                            enum hk_checkpoint_finding *finding) {
   HOOKE_KEEP_ERRNO;
   *finding = HOOKE_CHECKPOINT_OTHER;
-  if (state->size != it->size || state->has_v != (it->system != NULL))
+  const int64_t numbers = hooke_state_size(state), needed = hk_integrator_numbers(it);
+  if (numbers != needed || state->size != it->size || state->has_v != (it->system != NULL))
     return hk_fail(HOOKE_BAD_VALUE, "state", "a state of %lld numbers does not fit a problem of %lld",
-                   (long long)state->size, (long long)it->size);
+                   (long long)numbers, (long long)needed);
   struct found found = {.state = NULL};
   int32_t status = find(path, run, it, &found);
   *finding = found.finding;

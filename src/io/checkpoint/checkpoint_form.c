@@ -147,6 +147,8 @@ void hk_checkpoint_describe(const hooke_integrator *it, const struct hk_standing
   h->size = it->size;
   h->length = length_of(h->size, h->has_v);
   h->system = it->system ? hk_system_check_value(it->system) : 0;
+  if (it->coordinates)
+    h->system = hk_crc32(h->system, it->coordinates->inverse_mass, it->coordinates->size * 8);
   h->options = hk_checkpoint_options(it->options);
   snprintf(h->method, sizeof h->method, "%s", it->method->name);
   snprintf(h->run, sizeof h->run, "%s", run ? run : "");

@@ -128,9 +128,12 @@ static int32_t take_mode(struct frames *f, const struct hk_limit *limit, const s
   struct hk_growing g;
   int32_t status = hk_growing_create(f->system, row->mode, NULL, &g);
   if (status != HOOKE_OK) return status;
-  const double frequency = sqrt(fmax(0.0, hk_growing_quotient(&g, limit->q, 1.0, 0.0)));
-  const double decay = 0.5 * hk_growing_quotient(&g, limit->q, 0.0, 1.0);
-  const double growth = hk_mode_growth(row->method, f->h, frequency, decay);
+  const int inertial = f->system->friction == 0.0;
+  const double stiffness = fmax(0.0, hk_growing_quotient(&g, limit->q, 1.0, 0.0));
+  const double frequency = inertial ? sqrt(stiffness) : 0.0;
+  const double decay = inertial ? 0.5 * hk_growing_quotient(&g, limit->q, 0.0, 1.0) : stiffness;
+  const double growth = inertial ? hk_mode_growth(row->method, f->h, frequency, decay)
+                                 : hk_relaxation_growth(row->method, f->h, stiffness);
   hk_growing_release(&g);
   f->look[f->looks].frequency = frequency;
   f->look[f->looks].decay = decay;

@@ -6,6 +6,7 @@
 #include "core/memory.h"
 #include "core/status.h"
 #include "io/scene/mesh.h"
+#include "model/system.h"
 
 #include <jansson.h>
 #include <stdio.h>
@@ -53,16 +54,24 @@ static int32_t pin(hooke_system *system, const hooke_options *options) {
 
 static int32_t add_particles(struct hk_scene_reader *reader, const json_t *particles,
                              hooke_options *options) {
-  int32_t status = hk_scene_read_options(reader, particles, NULL, options);
+  const hooke_system *system = reader->scene->system;
+  const double none = 1.0; /* where masses do nothing, and none are given */
+  const int32_t given = json_object_get(particles, "mass") != NULL,
+                idle = system->overdamped && !system->has_gravity;
+  int32_t status = idle && !given ? hooke_options_set_numbers(options, "mass", 1, &none) : HOOKE_OK;
+  if (status == HOOKE_OK) status = hk_scene_read_options(reader, particles, NULL, options);
   if (status) return status;
   int64_t n = hooke_options_number_count(options, "position") / 3;
   const double *velocity = hooke_options_numbers(options, "velocity");
   int64_t velocities = hooke_options_number_count(options, "velocity") / 3;
+  if (velocity && system->overdamped)
+    return hk_fail(HOOKE_BAD_VALUE, "velocity",
+                   "is not allowed; in an overdamped scene velocities are force over drag");
   if (velocity && velocities != n)
     return hk_fail(HOOKE_BAD_VALUE, "velocity", "%lld rows given; allowed: %lld, one for each position",
                    (long long)velocities, (long long)n);
   status = hooke_system_add_particles(reader->scene->system, n, hooke_options_numbers(options, "position"),
-                                      velocity, hooke_options_number_count(options, "mass"),
+                                      velocity, given ? hooke_options_number_count(options, "mass") : 0,
                                       hooke_options_numbers(options, "mass"), NULL);
   return status ? status : pin(reader->scene->system, options);
 }

@@ -19,6 +19,11 @@ static const struct hk_option_row scene_rows[] = {
      .unit = "N s/m",
      .high = 1e300,
      .doc = "ether drag f = -c v on every free particle"},
+    {.name = "dynamics",
+     .type = HOOKE_OPTION_CHOICE,
+     .words = "inertial overdamped",
+     .fallback = "inertial",
+     .doc = "overdamped: drag v = f, without inertia"},
 };
 
 static const struct hk_option_table scene_table = {"scene", HOOKE_OPTION_ROWS(scene_rows)};
@@ -44,7 +49,7 @@ static const struct hk_option_row particle_rows[] = {
      .above_low = 1,
      .min_count = 1,
      .required = 1,
-     .doc = "one number, or one a particle"},
+     .doc = "one number, or one a particle; without gravity an overdamped scene needs none"},
     {.name = "pinned",
      .type = HOOKE_OPTION_NUMBERS,
      .whole = 1,
@@ -120,5 +125,6 @@ int32_t hooke_scene_options_apply(const hooke_options *options, hooke_system *sy
     status = hooke_system_set_gravity(system, hooke_options_numbers(options, "gravity"));
   if (status == HOOKE_OK && hooke_options_is_set(options, "drag"))
     status = hooke_system_set_drag(system, hooke_options_number(options, "drag"));
+  if (status == HOOKE_OK) status = hooke_system_set_dynamics(system, hooke_options_text(options, "dynamics"));
   return status;
 }

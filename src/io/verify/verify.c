@@ -185,7 +185,7 @@ static int is_resolved(const struct hk_verify *verify, const struct hk_verify_pa
   if (hooke_system_group_count(verify->system, "altitude") > 0) return 0; /* their energy jumps */
   if (!verify->fixed) return fabs(pass->balance.residual) > 1e-6 * pass->balance.scale;
   const int32_t status = hk_limit_predict(verify->system, hooke_state_position(verify->first),
-                                          "symplectic-euler", 1e-2, NULL, NULL, &limit);
+                                          hk_method_of_euler(verify->system), 1e-2, NULL, NULL, &limit);
   return status == HOOKE_OK && ldexp(hooke_options_number(run, "step"), -pass->refined) <= RESOLVED * limit;
 }
 

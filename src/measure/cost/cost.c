@@ -46,8 +46,9 @@ static int32_t choose_method(struct hk_cost *cost) {
   const char *method = hooke_options_text(cost->run, "method");
   int32_t status = HOOKE_OK;
   cost->run_step = hooke_options_number(cost->run, "step");
-  if (hooke_method_is_adaptive(method) != 0 || !hooke_method_is_built(method))
-    status = hooke_options_set_text(cost->run, "method", "symplectic-euler");
+  if (hooke_method_is_adaptive(method) != 0 || !hooke_method_is_built(method) ||
+      !hk_method_suits(method, cost->system))
+    status = hooke_options_set_text(cost->run, "method", hk_method_of_euler(cost->system));
   if (status == HOOKE_OK) status = hooke_options_unset(cost->run, "duration");
   if (status == HOOKE_OK) status = hooke_options_unset(cost->run, "every");
   cost->method = hooke_options_text(cost->run, "method");

@@ -52,14 +52,15 @@ static int32_t time_evaluation(const hooke_system *system, const hooke_state *st
   return status;
 }
 
-/* Approximate time of the quickest run [s]: symplectic Euler at its largest step. */
+/* Approximate time of the quickest run [s]: explicit Euler at its largest step. */
 static int32_t quickest_run(struct hk_pick *pick, double *seconds) {
   hooke_state *state = NULL;
   double bound = 0.0;
   int32_t status = hooke_state_create(pick->system, &state);
   if (status == HOOKE_OK) status = time_evaluation(pick->system, state, &pick->evaluation);
   if (status == HOOKE_OK)
-    status = hooke_step_bound(pick->system, "symplectic-euler", hooke_state_position(state), &bound);
+    status =
+        hooke_step_bound(pick->system, hk_method_of_euler(pick->system), hooke_state_position(state), &bound);
   hooke_state_destroy(state);
   *seconds =
       pick->evaluation * fmax(1.0, pick->duration / (bound > 0.0 ? fmin(bound, pick->unit) : pick->unit));

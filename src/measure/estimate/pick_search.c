@@ -296,6 +296,7 @@ int32_t hk_pick_search(struct hk_pick *pick) {
   for (int64_t m = 0; m < hooke_method_count() && count < MOST_METHODS && status == HOOKE_OK; m++) {
     const char *method = hooke_method_name(m);
     if (pick->method ? strcmp(method, pick->method) != 0 : !hooke_method_is_built(method)) continue;
+    if (!hk_method_suits(method, pick->system)) continue;
     status = begin(pick, method, &all[count]);
     count += all[count].largest > 0.0;
   }

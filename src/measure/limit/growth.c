@@ -103,7 +103,7 @@ static void start_randomly(struct hk_growth *growth, double *x, double *v) {
   hk_twin_push(growth->twin, x, v);
 }
 
-/* Displacements of one step are at most 1 m. */
+/* Displacements of one step are at most 1 m. Overdamped motion starts displaced, and finds its velocities. */
 static void start(struct hk_growth *growth, double step, int random_only) {
   const hooke_system *system = growth->twin->system;
   double *q = hooke_state_position(growth->state), *v = hooke_state_velocity(growth->state), most = 0.0;
@@ -119,8 +119,10 @@ static void start(struct hk_growth *growth, double step, int random_only) {
   }
   for (int64_t k = 0; k < size; k++)
     most = fmax(most, fabs(v[k]));
-  for (int64_t k = 0; k < size && most > 0.0; k++)
+  for (int64_t k = 0; k < size && most > 0.0; k++) {
     v[k] /= most * step;
+    if (system->friction > 0.0) q[k] += v[k] * step;
+  }
 }
 
 static double log_amplitude(const struct hk_growth *growth) {
@@ -164,12 +166,13 @@ static int64_t least_steps(const struct hk_growth *growth) {
 static int judge(const struct hk_growth *growth, const struct course *course, int64_t taken, int thorough,
                  enum hk_verdict *verdict) {
   const double rise = course->last - course->first;
+  const int inertial = growth->twin->system->friction == 0.0;
   const double speed = kinetic(growth->twin->system, hooke_state_velocity(growth->state));
   if (rise > certain_rise(growth)) {
     *verdict = HOOKE_GROWS;
     return 1;
   }
-  if (rise < NOTHING_LEFT || 0.5 * log(speed) + course->offset - course->first < NOTHING_LEFT) {
+  if (rise < NOTHING_LEFT || (inertial && 0.5 * log(speed) + course->offset - course->first < NOTHING_LEFT)) {
     *verdict = HOOKE_HOLDS;
     return 1;
   }

@@ -108,8 +108,8 @@ static int32_t create(hooke_measurement *m) {
   limit->run = m->run;
   limit->options = m->options;
   limit->patience = &limit->endless;
-  int32_t status =
-      hk_method_list_read(hooke_options_text(limit->options, "methods"), has_fixed_step, add_row, limit);
+  int32_t status = hk_method_list_read(limit->system, hooke_options_text(limit->options, "methods"),
+                                       has_fixed_step, add_row, limit);
   if (status == HOOKE_OK) status = make_room(limit);
   forget(limit);
   forget_smallest(limit);
@@ -144,7 +144,8 @@ static int32_t begin_part(struct hk_limit *limit, double share, double width, co
 /* ---- one state ---- */
 
 const struct hk_limit_row *hk_limit_blamed(const struct hk_limit *limit) {
-  const char *method = limit->run ? hooke_options_text(limit->run, "method") : "symplectic-euler";
+  const char *method =
+      limit->run ? hooke_options_text(limit->run, "method") : hk_method_of_euler(limit->system);
   const struct hk_limit_row *first = NULL;
   for (int32_t k = 0; k < limit->row_count; k++) {
     const struct hk_limit_row *row = &limit->row[k];

@@ -195,7 +195,7 @@ int32_t hk_limit_measure(const hooke_system *system, const double *q, const hook
     growth.progress = progress;
     growth.ctx = ctx;
     const struct hk_stability *stability = hk_method_stability(method);
-    const int slow = hk_method_needs_damping(method);
+    const int slow = hk_method_needs_damping(method) && system->friction == 0.0;
     growth.is_named = predicted > 0.0 && isfinite(predicted);
     growth.is_convex = !twin.damped && stability->kind == HOOKE_STABLE_BY_POLYNOMIAL;
     struct trial trial = {

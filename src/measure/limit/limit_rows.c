@@ -2,6 +2,7 @@
 #include "measure/limit/limit.h"
 
 #include "core/memory.h"
+#include "measure/spectrum/buckling.h"
 #include "measure/spectrum/step_bound.h"
 #include "model/sum/motion.h"
 
@@ -36,6 +37,15 @@ static int32_t find_row(struct hk_limit *limit, struct hk_spectrum *spectrum, do
   return HOOKE_OK;
 }
 
+/* An overdamped system has the eigenvalue -k/gamma alone, and nothing swings. */
+static void find_overdamped_modes(struct hk_limit *limit, const struct hk_spectrum *s) {
+  const double rate = s->linearised->rate * s->linearised->rate;
+  for (int64_t k = 0; k < s->count; k++)
+    limit->mode[k] = (struct hk_limit_mode){.real = -rate * s->stiffness[k], .decay = rate * s->stiffness[k]};
+  limit->frequency = 0.0;
+  limit->decay = rate * s->stiffest;
+}
+
 static int32_t keep_modes(struct hk_limit *limit, const struct hk_spectrum *s) {
   const double rate = s->linearised->rate;
   limit->mode = hk_new(s->count, sizeof *limit->mode);
@@ -51,10 +61,27 @@ static int32_t keep_modes(struct hk_limit *limit, const struct hk_spectrum *s) {
   }
   limit->frequency = rate * sqrt(s->stiffest);
   limit->decay = rate * s->fastest_decay;
+  if (limit->system->friction > 0.0) find_overdamped_modes(limit, s);
   limit->clamped = s->linearised->clamped;
   memcpy(limit->stiffest, s->stiffest_mode, (size_t)s->linearised->size * sizeof(double));
   limit->has_stiffest = 1;
   return HOOKE_OK;
+}
+
+/* In an overdamped scene what buckles grows by itself; in the limits of steps it counts as nothing. */
+static int32_t note_buckling(struct hk_limit *limit, const double *q) {
+  double rate = 0.0;
+  int32_t status = HOOKE_OK;
+  if (limit->system->friction > 0.0 && limit->clamped > 0)
+    status = hk_buckling_rate(limit->system, limit->time, q, &rate);
+  for (int32_t k = 0; k < limit->row_count && rate > 0.0; k++) {
+    if (!limit->row[k].note[0])
+      snprintf(limit->row[k].note, sizeof limit->row[k].note,
+               "buckling: springs under compression give way sideways, at any step; some motion grows by "
+               "exp(%.3g t) or faster",
+               rate);
+  }
+  return status;
 }
 
 static int32_t find_rows(struct hk_limit *limit, struct hk_linearised *linearised) {
@@ -85,6 +112,7 @@ int32_t hk_limit_predict_rows(struct hk_limit *limit, const double *q) {
   linearised.room = limit->room;
   status = find_bounds(limit, q);
   if (status == HOOKE_OK) status = find_rows(limit, &linearised);
+  if (status == HOOKE_OK) status = note_buckling(limit, q);
   limit->products = linearised.products;
   limit->found = status == HOOKE_OK;
   hk_linearised_release(&linearised);

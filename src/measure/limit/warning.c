@@ -84,13 +84,12 @@ static int32_t look(const hooke_integrator *it, const hooke_state *state, void *
 
 int32_t hooke_integrator_on_warning(hooke_integrator *it, hooke_warning *warning, void *ctx) {
   hk_integrator_set_checker(it, (struct hk_checker){.look = NULL});
-  if (it->system == NULL) {
-    return hk_fail(HOOKE_UNSUITED, NULL, "a first-order problem has no springs to bound its step by");
-  }
+  int32_t status = hk_integrator_require_particles(it, NULL, "has no springs to bound its step by");
+  if (status != HOOKE_OK) return status;
   if (warning == NULL || !hk_step_is_bounded(it->method->name)) return HOOKE_OK;
   struct warner *warner = hk_new(1, sizeof *warner);
   if (warner == NULL) return HOOKE_NO_MEMORY;
-  const int32_t status = hk_node_blocks_create(it->system, it->system->position, &warner->blocks);
+  status = hk_node_blocks_create(it->system, it->system->position, &warner->blocks);
   if (status != HOOKE_OK) {
     hk_free(warner);
     return status;

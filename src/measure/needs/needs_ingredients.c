@@ -80,7 +80,7 @@ static int32_t list_whole_forces(struct hk_needs *needs) {
     status = add_row(needs, "drag", &row, "drag");
     if (status == HOOKE_OK) row->variant.drag = 1;
   }
-  if (status == HOOKE_OK && system->has_gravity) {
+  if (status == HOOKE_OK && hk_system_has_gravity(system)) {
     status = add_row(needs, "gravity", &row, "gravity");
     if (status == HOOKE_OK) row->variant.gravity = 1;
   }

@@ -174,8 +174,20 @@ int32_t hk_limit_rule_needs_all(const char *method) {
   return hk_method_stability(method)->kind == HOOKE_STABLE_BY_POLYNOMIAL;
 }
 
+/* An overdamped system has the eigenvalues -k/gamma alone, which are those of M^-1 K here. */
+static void overdamped(struct hk_spectrum *s, const struct hk_stability *stability,
+                       struct hk_prediction *out) {
+  out->limit =
+      s->stiffest > 0.0 ? hk_real_reach(stability->degree) / s->stiffest / s->linearised->rate : INFINITY;
+  take_mode(s, s->stiffest_mode, out);
+}
+
 static int32_t find_limit(struct hk_spectrum *s, const struct hk_stability *stability,
                           struct hk_prediction *out) {
+  if (s->linearised->system->friction > 0.0) {
+    overdamped(s, stability, out);
+    return HOOKE_OK;
+  }
   switch (stability->kind) {
   case HOOKE_STABLE_BY_K:
     verlet(s, out);

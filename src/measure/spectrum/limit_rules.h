@@ -26,5 +26,7 @@ int32_t hk_limit_rule(struct hk_spectrum *spectrum, const char *method, struct h
  * real <= 0 (stable_ray.c). */
 double hk_rk4_reach(double real, double imaginary);
 double hk_heun_reach(double real, double imaginary);
+/* The same on the negative real axis, for a polynomial of degree 1, 2 or 4. */
+double hk_real_reach(int32_t degree);
 
 #endif

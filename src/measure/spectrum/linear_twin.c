@@ -188,16 +188,17 @@ static int32_t build(const struct making *making, const struct hk_twin *twin, co
   hooke_system *system = NULL;
   int32_t status = hooke_system_create(&system);
   if (status == HOOKE_OK) system->memory_limit = old->memory_limit;
+  if (status == HOOKE_OK) status = hooke_system_set_dynamics(system, hooke_system_dynamics(old));
   if (status == HOOKE_OK)
     status = hooke_system_add_particles(system, old->particle_count, twin->place, NULL, old->particle_count,
-                                        old->mass, NULL);
+                                        hk_system_masses(old), NULL);
   for (int64_t p = 0; p < old->particle_count && status == HOOKE_OK; p++) {
     if (old->constrained[p]) status = hooke_system_pin(system, 1, &p);
   }
   if (status == HOOKE_OK && springs > 0) status = add_springs(making, springs, system);
   if (status == HOOKE_OK)
     hk_system_set_linear(system, twin->element_count - springs, twin->element + springs, twin->place);
-  if (status == HOOKE_OK) status = hooke_system_set_drag(system, old->drag);
+  if (status == HOOKE_OK) status = hooke_system_set_drag(system, hk_system_drag(old));
   if (status == HOOKE_OK && balance)
     status = hooke_system_set_force(system, hold, hold_product, (void *)balance);
   if (status == HOOKE_OK) status = hooke_system_commit(system);
@@ -241,7 +242,8 @@ static int32_t find_slow_step(struct hk_twin *twin) {
     damp = fmax(damp, (sum[2 * p + 1] + system->drag) * system->inverse_mass[p]);
   }
   hk_free(sum);
-  twin->slow_step = fmin(stiff > 0.0 ? 1.0 / sqrt(stiff) : INFINITY, damp > 0.0 ? 1.0 / damp : INFINITY);
+  const double rate = system->friction > 0.0 ? stiff : sqrt(stiff);
+  twin->slow_step = fmin(rate > 0.0 ? 1.0 / rate : INFINITY, damp > 0.0 ? 1.0 / damp : INFINITY);
   return HOOKE_OK;
 }
 
@@ -301,7 +303,7 @@ double hk_twin_energy(const struct hk_twin *twin, const double *q, const double 
     const double *u = v + 3 * p;
     for (int64_t k = 3 * p; k < 3 * p + 3; k++)
       twin->moved[k] = q[k] - twin->place[k];
-    sum += mass[p] * ((u[0] * u[0] + u[1] * u[1]) + u[2] * u[2]);
+    if (twin->system->friction == 0.0) sum += mass[p] * ((u[0] * u[0] + u[1] * u[1]) + u[2] * u[2]);
   }
   for (int64_t k = 0; k < twin->spring_count; k++)
     sum += spring_energy(&twin->spring[k], twin->moved);

@@ -31,3 +31,9 @@ double hk_mode_growth(const char *method, double h, double frequency, double dec
   return fmax(polynomial(stability->degree, h * (root - decay)),
               polynomial(stability->degree, h * (-root - decay)));
 }
+
+double hk_relaxation_growth(const char *method, double h, double rate) {
+  const struct hk_stability *stability = hk_method_stability(method);
+  return stability->kind == HOOKE_STABLE_BY_POLYNOMIAL ? polynomial(stability->degree, -h * rate)
+                                                       : (double)NAN;
+}

@@ -5,5 +5,7 @@
 /* The largest modulus of the factors by which a step h of `method` multiplies x'' + 2 decay x' + frequency^2
  * x = 0: above 1 it grows. NaN where no rule is known. Sources: docs/notes/methods.md, "Stability". */
 double hk_mode_growth(const char *method, double h, double frequency, double decay);
+/* The same of a motion of an overdamped system that decays at `rate` [1/s]. */
+double hk_relaxation_growth(const char *method, double h, double rate);
 
 #endif

@@ -42,3 +42,7 @@ double hk_heun_reach(double real, double imaginary) {
   }
   return 0.5 * (low + high);
 }
+
+double hk_real_reach(int32_t degree) {
+  return degree == 4 ? hk_rk4_reach(-1.0, 0.0) : 2.0;
+}

@@ -1,6 +1,7 @@
 /* Safe steps, one rule for each kind of stability in the table of methods. */
 #include "core/status.h"
 #include "integrate/method.h"
+#include "measure/spectrum/limit_rules.h"
 #include "measure/spectrum/step_bound.h"
 
 #include "hooke/measurement.h"
@@ -60,6 +61,12 @@ static double bound_by_stiffness(const struct hk_node_blocks *blocks) {
   return frequency > 0.0 ? 2.0 / frequency : INFINITY;
 }
 
+/* Eigenvalues are -k/gamma. */
+static double overdamped_bound(const struct hk_node_blocks *blocks, const struct hk_stability *stability) {
+  const double frequency = hk_node_blocks_frequency(blocks);
+  return frequency > 0.0 ? hk_real_reach(stability->degree) / (frequency * frequency) : INFINITY;
+}
+
 int32_t hk_step_is_bounded(const char *method) {
   const int32_t kind = hk_method_stability(method)->kind;
   return kind != HOOKE_STABILITY_UNKNOWN && kind != HOOKE_STABLE_ALWAYS;
@@ -68,6 +75,8 @@ int32_t hk_step_is_bounded(const char *method) {
 int32_t hk_step_is_safe(const struct hk_node_blocks *blocks, const char *method, double h,
                         int64_t *particle) {
   const struct hk_stability *stability = hk_method_stability(method);
+  if (blocks->system->friction > 0.0 && stability->kind == HOOKE_STABLE_BY_POLYNOMIAL)
+    return hk_node_blocks_stay_below(blocks, h, 0.0, hk_real_reach(stability->degree), particle);
   switch (stability->kind) {
   case HOOKE_STABLE_BY_K:
     return hk_node_blocks_stay_below(blocks, h * h, 0.0, 4.0, particle);
@@ -82,6 +91,9 @@ int32_t hk_step_is_safe(const struct hk_node_blocks *blocks, const char *method,
 
 double hk_step_bound_of(const struct hk_node_blocks *blocks, const char *method) {
   const struct hk_stability *stability = hk_method_stability(method);
+  if (blocks->system->friction > 0.0 && !hk_method_suits(method, blocks->system)) return NAN;
+  if (blocks->system->friction > 0.0 && stability->kind == HOOKE_STABLE_BY_POLYNOMIAL)
+    return overdamped_bound(blocks, stability);
   switch (stability->kind) {
   case HOOKE_STABLE_BY_K:
     return bound_by_stiffness(blocks);

@@ -124,8 +124,8 @@ static int32_t create(hooke_measurement *m) {
   study->system = m->system;
   study->run = m->run;
   study->options = m->options;
-  int32_t status = hk_method_list_read(hooke_options_text(study->options, "methods"), hooke_method_is_built,
-                                       add_method, study);
+  int32_t status = hk_method_list_read(study->system, hooke_options_text(study->options, "methods"),
+                                       hooke_method_is_built, add_method, study);
   if (status == HOOKE_OK) status = read_times(study);
   if (status == HOOKE_OK) status = hk_study_check_ladder(study);
   return status == HOOKE_OK ? read_watch(study) : status;

@@ -1,4 +1,5 @@
 /* Ladders: steps from the safe bound down by halves, tolerances by tenths. */
+#include "integrate/method.h"
 #include "measure/study/study.h"
 
 #include "core/number.h"
@@ -33,10 +34,10 @@ static double bound_of(const struct hk_study *study, const char *method, const d
 }
 
 /* A step that is certainly stable, and solves nothing if that is cheaper. For a method without one, or with a
- * very small one due to the bound, a fraction of the step of symplectic Euler. */
+ * very small one due to the bound, a fraction of the step of explicit Euler. */
 static int32_t safe_step(const struct hk_study *study, const char *method, const double *q, double *step) {
   double bound = bound_of(study, method, q);
-  const double other = bound_of(study, "symplectic-euler", q);
+  const double other = bound_of(study, hk_method_of_euler(study->system), q);
   if (bound == 0.0) bound = other;
   if (bound < other / FARTHEST_BELOW) bound = other / FARTHEST_BELOW;
   *step = bound > 0.0 ? bound : study->unit;

@@ -41,7 +41,8 @@ static int32_t create(hooke_measurement *m) {
   c->measurement = m;
   c->system = m->system;
   c->run = m->run;
-  return hk_method_list_read(hooke_options_text(m->options, "methods"), hooke_method_is_built, add_method, c);
+  return hk_method_list_read(c->system, hooke_options_text(m->options, "methods"), hooke_method_is_built,
+                             add_method, c);
 }
 
 void hk_comparison_release_room(struct hk_comparison *c) {

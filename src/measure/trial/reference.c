@@ -31,7 +31,9 @@ int32_t hk_reference_method(const hooke_system *system, const double *q, const c
   const int32_t status = hk_node_blocks_create(system, q, &blocks);
   *method = "cvode-adams";
   if (status != HOOKE_OK) return status;
-  if (hk_node_blocks_damping_rate(&blocks) > 2.0 * hk_node_blocks_frequency(&blocks)) *method = "cvode-bdf";
+  if (system->friction > 0.0 ||
+      hk_node_blocks_damping_rate(&blocks) > 2.0 * hk_node_blocks_frequency(&blocks))
+    *method = "cvode-bdf";
   hk_node_blocks_release(&blocks);
   return HOOKE_OK;
 }

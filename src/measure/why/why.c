@@ -161,9 +161,9 @@ static int32_t inquire(struct hk_inquiry *inquiry) {
 /* ---- creating ---- */
 
 static int32_t check(const hooke_integrator *run) {
-  if (run->system == NULL)
-    return hk_fail(HOOKE_UNSUITED, NULL,
-                   "a first-order problem has no springs to blame; its own message is all there is");
+  const int32_t status =
+      hk_integrator_require_particles(run, NULL, "has no springs to blame; its own message is all there is");
+  if (status != HOOKE_OK) return status;
   if (!ended_early(run))
     return hk_fail(HOOKE_BAD_CALL, NULL,
                    "the last run of this integrator did not blow up: there is nothing to explain");

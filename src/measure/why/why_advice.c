@@ -1,4 +1,5 @@
 /* Suggestions: changes of the run, the likeliest first, each tried on a run of its own before it is given. */
+#include "integrate/method.h"
 #include "measure/why/why_trial.h"
 
 #include "core/number.h"
@@ -190,12 +191,14 @@ static int32_t offer_shorter(struct hk_trials *trials) {
 /* ---- suggestions by cause ---- */
 
 static int32_t offer_others(struct hk_trials *trials) {
-  const char *const fixed[] = {"symplectic-euler", "verlet", "tr-bdf2", "backward-euler"};
+  const hooke_system *system = trials->inquiry->system;
+  const char *const fixed[] = {hk_method_of_euler(system), "verlet", "tr-bdf2", "backward-euler"};
   const char *const adaptive[] = {"cvode-adams", "cvode-bdf"};
   const char *mine = trials->inquiry->run->method->name;
   int32_t status = HOOKE_OK;
   for (int k = 0; k < 4 && status == HOOKE_OK; k++) {
-    if (strcmp(mine, fixed[k]) != 0) status = offer_fixed(trials, fixed[k]);
+    if (strcmp(mine, fixed[k]) != 0 && hk_method_suits(fixed[k], system))
+      status = offer_fixed(trials, fixed[k]);
   }
   for (int k = 0; k < 2 && status == HOOKE_OK; k++) {
     if (strcmp(mine, adaptive[k]) != 0) status = offer_adaptive(trials, adaptive[k], 1.0);

@@ -7,14 +7,28 @@
 #include <math.h>
 #include <string.h>
 
+/* An overdamped system has no inertia. */
 static double kinetic_energy(const hooke_system *system, const double *v) {
   struct hk_sum sum = {0.0, 0.0};
+  if (system->friction > 0.0) return 0.0;
   for (int64_t p = 0; p < system->particle_count; p++) {
     if (system->constrained[p]) continue;
     const double square = (v[3 * p] * v[3 * p] + v[3 * p + 1] * v[3 * p + 1]) + v[3 * p + 2] * v[3 * p + 2];
     hk_sum_add(&sum, 0.5 * system->mass[p] * square);
   }
   return hk_sum_value(&sum);
+}
+
+static int has_inertia(const hooke_system *system) {
+  return system->committed && system->friction == 0.0;
+}
+
+/* Of gamma v. */
+static double friction_heat(const hooke_system *system, const double *v) {
+  struct hk_sum sum = {0.0, 0.0};
+  for (int64_t k = 0; system->friction > 0.0 && k < 3 * system->particle_count; k++)
+    hk_sum_add(&sum, system->constrained[k / 3] ? 0.0 : v[k] * v[k]);
+  return system->friction * hk_sum_value(&sum);
 }
 
 static double potential_energy(const hooke_system *system, const double *q) {
@@ -50,7 +64,7 @@ double hooke_system_energy(const hooke_system *system, const char *what, const d
 
 double hooke_system_dissipated_power(const hooke_system *system, const double *q, const double *v) {
   if (!system->committed) return NAN;
-  double sum = 0.0;
+  double sum = friction_heat(system, v);
   for (int32_t k = 0; k < system->force_row_count; k++) {
     if (system->force_row[k]->heat) sum += system->force_row[k]->heat(system, q, v);
   }
@@ -59,7 +73,7 @@ double hooke_system_dissipated_power(const hooke_system *system, const double *q
 
 void hooke_system_momentum(const hooke_system *system, const double *v, double *momentum) {
   struct hk_sum sum[3] = {{0.0, 0.0}};
-  for (int64_t p = 0; system->committed && p < system->particle_count; p++) {
+  for (int64_t p = 0; has_inertia(system) && p < system->particle_count; p++) {
     if (system->constrained[p]) continue;
     for (int a = 0; a < 3; a++)
       hk_sum_add(&sum[a], system->mass[p] * v[3 * p + a]);
@@ -71,7 +85,7 @@ void hooke_system_momentum(const hooke_system *system, const double *v, double *
 void hooke_system_angular_momentum(const hooke_system *system, const double *q, const double *v,
                                    double *angular_momentum) {
   struct hk_sum sum[3] = {{0.0, 0.0}};
-  for (int64_t p = 0; system->committed && p < system->particle_count; p++) {
+  for (int64_t p = 0; has_inertia(system) && p < system->particle_count; p++) {
     if (system->constrained[p]) continue;
     const double *x = q + 3 * p, *u = v + 3 * p, m = system->mass[p];
     hk_sum_add(&sum[0], m * (x[1] * u[2] - x[2] * u[1]));

@@ -8,8 +8,8 @@
 
 /* The order of the rows is the order of summation at a particle. Gravity is last: a = w f + g. */
 static const struct hk_force_row *const table[] = {
-    &hk_force_springs, &hk_force_bending, &hk_force_altitude, &hk_force_anchor,
-    &hk_force_linear,  &hk_force_drag,    &hk_force_callback, &hk_force_gravity,
+    &hk_force_springs, &hk_force_bending,  &hk_force_altitude, &hk_force_anchor,  &hk_force_linear,
+    &hk_force_drag,    &hk_force_callback, &hk_force_weight,   &hk_force_gravity,
 };
 
 _Static_assert(sizeof table / sizeof table[0] <= HOOKE_FORCES, "a system has numbers for so many forces");

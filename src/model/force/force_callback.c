@@ -20,6 +20,7 @@ static int32_t add(const hooke_system *system, struct hk_motion *motion, double 
   double *q = motion->rows, *v = q + 3 * n, *f = v + 3 * n;
   hk_rows_from_components(n, motion->q, q);
   hk_rows_from_components(n, motion->v, v);
+  if (system->friction > 0.0) memset(v, 0, (size_t)(3 * n) * sizeof(double));
   hk_rows_from_components(n, motion->f, f);
   const int32_t value = system->force(n, t, q, v, f, system->force_ctx);
   if (value != 0) {
@@ -60,7 +61,7 @@ static int32_t add_difference(const hooke_system *system, const struct hk_point 
   for (int side = 1; side >= -1 && value == 0; side -= 2) {
     for (int64_t k = 0; k < size; k++) {
       q[k] = point->q[k] + side * step * point->dq[k];
-      v[k] = point->v[k] + side * step * point->dv[k];
+      v[k] = system->friction > 0.0 ? 0.0 : point->v[k] + side * step * point->dv[k];
     }
     value = system->force(n, point->t, q, v, side > 0 ? ahead : behind, system->force_ctx);
   }
@@ -73,8 +74,12 @@ static int32_t add_difference(const hooke_system *system, const struct hk_point 
 
 static int32_t add_product(const hooke_system *system, const struct hk_point *point, double *out) {
   if (system->force_product == NULL) return add_difference(system, point, out);
-  const int32_t value = system->force_product(system->particle_count, point->t, point->q, point->v, point->dq,
-                                              point->dv, out, system->force_ctx);
+  double *still = system->friction > 0.0 ? hk_new(3 * system->particle_count, sizeof(double)) : NULL;
+  if (system->friction > 0.0 && still == NULL) return HOOKE_NO_MEMORY;
+  const int32_t value =
+      system->force_product(system->particle_count, point->t, point->q, still ? still : point->v, point->dq,
+                            still ? still : point->dv, out, system->force_ctx);
+  hk_free(still);
   *point->stop_value = value;
   return value == 0 ? HOOKE_OK : stopped(value, point->t);
 }

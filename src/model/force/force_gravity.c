@@ -4,17 +4,34 @@
 #include "core/sum.h"
 
 static int32_t present(const hooke_system *system) {
-  return system->has_gravity;
+  return hk_system_has_gravity(system);
 }
 
 static double energy(const hooke_system *system, const double *q) {
-  const double *g = system->gravity;
+  const double *g = hk_system_gravity(system), *mass = hk_system_masses(system);
   struct hk_sum sum = {0.0, 0.0};
   for (int64_t p = 0; p < system->particle_count; p++) {
     if (system->constrained[p]) continue;
-    hk_sum_add(&sum, -system->mass[p] * ((g[0] * q[3 * p] + g[1] * q[3 * p + 1]) + g[2] * q[3 * p + 2]));
+    hk_sum_add(&sum, -mass[p] * ((g[0] * q[3 * p] + g[1] * q[3 * p + 1]) + g[2] * q[3 * p + 2]));
   }
   return hk_sum_value(&sum);
 }
+
+/* ---- in an overdamped system it is a force ---- */
+
+static int32_t weighs(const hooke_system *system) {
+  return system->friction > 0.0 && hk_system_has_gravity(system);
+}
+
+static int32_t add_weight(const hooke_system *system, struct hk_motion *motion, double t) {
+  (void)t;
+  for (int a = 0; a < 3; a++) {
+    for (int64_t p = 0; p < motion->n; p++)
+      motion->f[a][p] += system->constrained[p] ? 0.0 : system->weight[p] * system->pull[a];
+  }
+  return HOOKE_OK;
+}
+
+const struct hk_force_row hk_force_weight = {.name = "weight", .present = weighs, .add = add_weight};
 
 const struct hk_force_row hk_force_gravity = {.name = "gravity", .present = present, .energy = energy};

@@ -112,8 +112,9 @@ static int32_t add_forces(const struct hk_variant_maker *maker) {
   const hooke_system *from = maker->from;
   const struct hk_variant *variant = maker->variant;
   int32_t status = HOOKE_OK;
-  if (from->has_gravity && !variant->gravity) status = hooke_system_set_gravity(maker->made, from->gravity);
-  if (status == HOOKE_OK && !variant->drag) status = hooke_system_set_drag(maker->made, from->drag);
+  if (hk_system_has_gravity(from) && !variant->gravity)
+    status = hooke_system_set_gravity(maker->made, hk_system_gravity(from));
+  if (status == HOOKE_OK && !variant->drag) status = hooke_system_set_drag(maker->made, hk_system_drag(from));
   if (status == HOOKE_OK && from->force && !variant->force) {
     status = hooke_system_set_force(maker->made, from->force, from->force_product, from->force_ctx);
   }
@@ -161,6 +162,7 @@ int32_t hk_variant_make(const hooke_system *from, const struct hk_variant *varia
   if (status == HOOKE_OK) status = check_callbacks(from, variant);
   if (status == HOOKE_OK) status = hooke_system_create(&maker.made);
   if (status == HOOKE_OK) maker.made->memory_limit = from->memory_limit;
+  if (status == HOOKE_OK) maker.made->overdamped = from->overdamped;
   if (status == HOOKE_OK) status = hk_variant_add_particles(&maker);
   if (status == HOOKE_OK) status = hk_variant_constrain(&maker);
   if (status == HOOKE_OK) status = keep_groups(&maker);

@@ -34,6 +34,7 @@ from .needs import Needs, needs
 from .options import Options, Row, describe, options_of, part_kind_summary, part_kinds
 from .results import Frames, Result, resume, run
 from .scene import Scene
+from .second_order import SecondOrder
 from .state import State
 from .study import Study, study
 from .system import System
@@ -69,6 +70,7 @@ __all__ = [
     "Row",
     "RunError",
     "Scene",
+    "SecondOrder",
     "SolverFailed",
     "Springs",
     "State",

@@ -84,21 +84,21 @@ class _Views:
         return array
 
 
-def force_callback(function: Callable[..., Any]) -> Any:
-    """The callback that adds forces, for `function` of `System.set_force`."""
+def force_callback(function: Callable[..., Any], row: Shape = (3,)) -> Any:
+    """The callback that adds forces, for `function` of `System.set_force`; `row` () for one of coordinates."""
     views = _Views()
 
     def force(n: int, t: float, q: int, v: int, out: int, _: Any) -> int:
         return guarded(call, n, t, q, v, out)
 
     def call(n: int, t: float, q: int, v: int, out: int) -> Any:
-        shape = (n, 3)
+        shape = (n, *row)
         return function(t, views(q, shape, False), views(v, shape, False), views(out, shape, True))
 
     return FORCE(force)
 
 
-def product_callback(function: Callable[..., Any]) -> Any:
+def product_callback(function: Callable[..., Any], row: Shape = (3,)) -> Any:
     """The callback for the product with the derivative of a force."""
     views = _Views()
 
@@ -106,7 +106,7 @@ def product_callback(function: Callable[..., Any]) -> Any:
         return guarded(call, n, t, (q, v, dq, dv), out)
 
     def call(n: int, t: float, inputs: tuple[int, ...], out: int) -> Any:
-        shape = (n, 3)
+        shape = (n, *row)
         return function(t, *(views(address, shape, False) for address in inputs), views(out, shape, True))
 
     return FORCE_PRODUCT(product)

@@ -19,6 +19,7 @@ from ._status import OUTCOMES, BadCall, NotBuilt, SolverFailed, Unsuited
 from ._types import FloatArray
 from .first_order import FirstOrder
 from .options import Options
+from .second_order import SecondOrder
 from .state import State
 from .system import System
 
@@ -77,7 +78,7 @@ class StepWarning(RuntimeWarning):
 
 
 class Integrator(Closing):
-    """A method with its options, made for one system or first-order problem; several may share a system.
+    """A method with its options, made for one system or first- or second-order problem; several may share a system.
 
     Options are those that ``hooke.describe("run")`` lists: method, step [s], duration [s], every [s], rtol, atol [m],
     atol_velocity [m/s], ...; keywords override `options`. The system is committed if it was not. An integrator and
@@ -85,11 +86,11 @@ class Integrator(Closing):
     ``with`` block, releases its memory.
     """
 
-    def __init__(self, problem: System | FirstOrder, options: Options | None = None, **keywords: Any):
+    def __init__(self, problem: System | FirstOrder | SecondOrder, options: Options | None = None, **keywords: Any):
         chosen = (options.copy() if options is not None else Options.for_run()).set(**keywords)
         self._problem = problem  # its callbacks are called by the library
         self._handle = problem._integrator(chosen)
-        self._numbers = problem._size if isinstance(problem, FirstOrder) else 3 * problem.particle_count
+        self._numbers = 3 * problem.particle_count if isinstance(problem, System) else problem._size
         self._running = False
         self.outcome = 0  # the last outcome as the library's number
         self.message = ""  # the library's message about the last outcome that was not "finished"

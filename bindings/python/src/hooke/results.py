@@ -35,12 +35,15 @@ from .first_order import FirstOrder
 from .integrator import Integrator, Observer
 from .options import Options
 from .scene import Scene, scene_text
+from .second_order import SecondOrder
 from .state import State
 from .system import Force, System
 from .view import write_companion
 
-#: Problems that can be run: a scene or the path of one, a system, a first-order problem.
-Runnable = Union[Path, Scene, System, FirstOrder]
+#: Problems that are no scene: a system, or a first- or second-order problem.
+Problem = Union[System, FirstOrder, SecondOrder]
+#: Problems that can be run: those, a scene or the path of one.
+Runnable = Union[Path, Scene, Problem]
 #: progress(fraction, state): called at each frame; `fraction` goes from 0 to 1.
 Progress = Callable[[float, State], Optional[int]]
 #: progress(fraction, what): the fraction done, 0 to 1, and the name of the running task.
@@ -51,7 +54,7 @@ _STOPPED = 1
 
 class Frames(NamedTuple):
     """The frames of a run: times (k,) [s], positions (k, n, 3) [m], velocities (k, n, 3) [m/s]; of a
-    first-order problem `q` is (k, size) and `v` None."""
+    first-order problem `q` is (k, size) and `v` None, of a second-order problem both are (k, size)."""
 
     t: FloatArray
     q: Table
@@ -71,7 +74,7 @@ class Result:
     status: str
     message: str
     state: State
-    problem: System | FirstOrder
+    problem: Problem
     options: Options
     counts: dict[str, int]
     wall_seconds: float
@@ -121,7 +124,7 @@ def run(
     estimate: bool = False,
     **options: Any,
 ) -> Result:
-    """Runs a scene (or the path of one), a system or a first-order problem, and returns the `Result`.
+    """Runs a scene (or the path of one), a system, or a first- or second-order problem, and returns the `Result`.
 
     The keywords `options` are those that ``hooke.describe("run")`` lists: method, step [s], duration [s], every [s],
     checkpoint [s], rtol, atol [m], atol_velocity [m/s], ...; they override the scene's own. `state` is the start (it
@@ -149,7 +152,7 @@ def run(
 class _Once:
     """The unchanged parts of repeated runs."""
 
-    problem: System | FirstOrder
+    problem: Problem
     scene: Scene | None
     output: Path | None
     frames: bool
@@ -286,7 +289,7 @@ def _read_last(path: Path, state: State) -> int:
 
 def resolve(
     problem: Runnable, force: Force | None
-) -> tuple[Scene | None, System | FirstOrder, Options | None]:
+) -> tuple[Scene | None, Problem, Options | None]:
     """The scene (if there is one), the problem and the run options of the scene."""
     scene, options = None, None
     if isinstance(problem, (str, os.PathLike)):

@@ -39,7 +39,8 @@ class Scene(Parts):
     finished system (a run, a state, `save`) commits it; after that nothing can be added. Until then ``scene.system``
     also accepts additions that the format cannot express, such as a force of your own.
 
-    `gravity` (3,) [m/s^2]; `drag` [N s/m] of the ether, ``f = -c v``; `run` are defaults for runs of the scene, see
+    `gravity` (3,) [m/s^2]; `drag` [N s/m] of the ether, ``f = -c v``; `dynamics` is
+    "inertial" or "overdamped" (see `System.dynamics`); `run` are defaults for runs of the scene, see
     `run_defaults`.
     """
 
@@ -49,6 +50,7 @@ class Scene(Parts):
         *,
         gravity: Numbers | None = None,
         drag: float | None = None,
+        dynamics: str | None = None,
         run: Mapping[str, Any] | None = None,
     ):
         self._system = System()
@@ -59,6 +61,9 @@ class Scene(Parts):
         self._document: dict[str, Any] | None = {"hooke": 1}
         if title:
             self._document["title"] = title
+        if dynamics is not None:
+            self._system.dynamics = dynamics
+            self._document["dynamics"] = dynamics
         if gravity is not None:
             self._system.set_gravity(gravity)
             self._document["gravity"] = doubles(gravity, "gravity")
@@ -118,10 +123,10 @@ class Scene(Parts):
     # building
 
     def particles(
-        self, position: Numbers, velocity: Numbers | None = None, *, mass: Numbers, pinned: Numbers | None = None
+        self, position: Numbers, velocity: Numbers | None = None, *, mass: Numbers = (), pinned: Numbers | None = None
     ) -> Scene:
         """Adds particles at `position` (n, 3) [m] with `velocity` (n, 3) [m/s], at rest if None, and `mass` [kg], one
-        number for all or (n,); `pinned` are the numbers of the pinned ones.
+        number for all or (n,), which an overdamped scene without gravity needs not have; `pinned` are the numbers of the pinned ones.
 
         A scene has one such block, given before its parts, since it is numbered first. Returns the scene.
         """
@@ -136,7 +141,8 @@ class Scene(Parts):
             if held is not None and "velocity" in piece:
                 _require_rest(piece["velocity"], held)
             kilograms = doubles(mass, "mass").reshape(-1)
-            piece["mass"] = kilograms.copy() if kilograms.size != 1 else float(kilograms[0])
+            if kilograms.size:
+                piece["mass"] = kilograms.copy() if kilograms.size != 1 else float(kilograms[0])
             self._system.add_particles(piece["position"], piece.get("velocity"), mass=kilograms)
             if held is not None and held.size:
                 self._system.pin(held)

@@ -14,7 +14,7 @@ from ._types import FloatArray, Table
 
 
 class State:
-    """Time, positions and velocities of a system (``system.state()``) or of a first-order problem
+    """Time, positions and velocities of a system (``system.state()``) or of a first- or second-order problem
     (``problem.state()``).
 
     `q` and `v` are NumPy arrays over the library's own memory, no copy: write into them to set the state, and read
@@ -24,7 +24,7 @@ class State:
 
     __slots__ = ("__weakref__", "_handle", "_q", "_v", "_x")
 
-    def __init__(self, handle: Handle, dtype: Any = float):
+    def __init__(self, handle: Handle, dtype: Any = float, in_rows: bool = True):
         self._handle = handle
         size = lib.hooke_state_size(handle)
         velocity = lib.hooke_state_velocity(handle)
@@ -33,8 +33,9 @@ class State:
         self._q: FloatArray | None = None
         self._v: FloatArray | None = None
         if velocity or not size:
-            self._q = self._x.reshape(-1, 3)
-            self._v = view(address_of(velocity), (size // 3, 3), handle)
+            shape = (size // 3, 3) if in_rows else (size,)
+            self._q = self._x.reshape(shape)
+            self._v = view(address_of(velocity), shape, handle)
 
     @classmethod
     def _of_system(cls, system: Handle) -> State:
@@ -47,6 +48,12 @@ class State:
         pointer = STATE()
         lib.hooke_state_create_first_order(size, ctypes.byref(pointer))
         return cls(Handle(pointer, lib.hooke_state_destroy), dtype)
+
+    @classmethod
+    def _of_coordinates(cls, size: int) -> State:
+        pointer = STATE()
+        lib.hooke_state_create_second_order(size, ctypes.byref(pointer))
+        return cls(Handle(pointer, lib.hooke_state_destroy), in_rows=False)
 
     @classmethod
     def _of_particles(cls, count: int) -> State:
@@ -72,7 +79,7 @@ class State:
 
     @property
     def q(self) -> FloatArray:
-        """Positions (n, 3) [m], a view."""
+        """Positions (n, 3) [m], or the coordinates of a second-order problem (size,); a view."""
         return self._q if self._q is not None else self._no_particles("q")
 
     @q.setter
@@ -81,7 +88,7 @@ class State:
 
     @property
     def v(self) -> FloatArray:
-        """Velocities (n, 3) [m/s], a view."""
+        """Velocities (n, 3) [m/s], or those of coordinates (size,); a view."""
         return self._v if self._v is not None else self._no_particles("v")
 
     @v.setter
@@ -90,7 +97,7 @@ class State:
 
     @property
     def x(self) -> Table:
-        """All positions in one row (3n,) [m], or the unknowns of a first-order problem (size,); a view."""
+        """All positions in one row (3n,) [m], or the unknowns of a first- or second-order problem (size,); a view."""
         return self._x
 
     @x.setter
@@ -101,6 +108,8 @@ class State:
         """A copy with the same values."""
         if self._v is None:
             other = State._of_size(lib.hooke_state_size(self._handle), self._x.dtype)
+        elif self._v.ndim == 1:
+            other = State._of_coordinates(self._v.size)
         else:
             other = State._of_system(self._handle.parent)
         other.assign(self)
@@ -125,12 +134,15 @@ class State:
     def __repr__(self) -> str:
         if self._v is None:
             return f"State(t={self.t!r}, {self._x.size} unknowns)"
-        return f"State(t={self.t!r}, {len(self._v)} particles)"
+        return f"State(t={self.t!r}, {len(self._v)} {'particles' if self._v.ndim == 2 else 'coordinates'})"
 
 
 def _restored(t: float, x: Table, v: FloatArray | None) -> State:
     """A state that was pickled."""
-    state = State._of_size(x.size * x.itemsize // 8, x.dtype) if v is None else State._of_particles(len(v))
+    if v is None:
+        state = State._of_size(x.size * x.itemsize // 8, x.dtype)
+    else:
+        state = State._of_particles(len(v)) if v.ndim == 2 else State._of_coordinates(len(v))
     state.t, state.x = t, x
     if v is not None:
         state.v = v

@@ -10,7 +10,7 @@ import numpy as np
 
 from . import _callback
 from ._library import lib
-from ._memory import Handle, double_pointer, doubles, index_pointer, indices
+from ._memory import Handle, double_pointer, doubles, index_pointer, indices, text
 from ._prototypes import FORCE_PRODUCT, INTEGRATOR, SYSTEM
 from ._queries import Queries
 from ._types import FloatArray
@@ -67,16 +67,17 @@ class System(Queries):
 
     # building
 
-    def add_particles(self, position: Any, velocity: Any = None, *, mass: Any) -> range:
+    def add_particles(self, position: Any, velocity: Any = None, *, mass: Any = ()) -> range:
         """Adds particles at `position` (n, 3) [m] with `velocity` (n, 3) [m/s], at rest if None, and
-        `mass` [kg], one number for all or (n,). Returns their numbers."""
+        `mass` [kg], one number for all or (n,), which an overdamped system without gravity needs not have. Returns
+        their numbers."""
         position = np.atleast_2d(doubles(position, "position"))
         count = len(position)
         position = doubles(position, "position", (count, 3))
         if velocity is not None:
             velocity = doubles(velocity, "velocity", (count, 3), (3 * count,))
         mass = doubles(mass, "mass").reshape(-1)
-        if mass.size != 1:
+        if mass.size > 1:
             mass = doubles(mass, "mass", (count,), (1,))
         first = ctypes.c_int64()
         lib.hooke_system_add_particles(
@@ -193,6 +194,17 @@ class System(Queries):
         """Sets the maximum memory of the system [bytes]; 0: the machine's memory. From here on, additions that would
         need more are refused (NoMemory)."""
         lib.hooke_system_limit_memory(self._handle, size)
+
+    @property
+    def dynamics(self) -> str:
+        """"inertial", or "overdamped": drag v = f without inertia. Masses then serve gravity alone, velocities and
+        damping are refused, callback forces are given v = 0, and states have v = f/drag. To be set before particles
+        without mass are added."""
+        return text(lib.hooke_system_dynamics(self._handle))
+
+    @dynamics.setter
+    def dynamics(self, word: str) -> None:
+        lib.hooke_system_set_dynamics(self._handle, word.encode())
 
     def set_drag(self, coefficient: float) -> None:
         """Ether drag f = -c v on every free particle, c >= 0 [N s/m]."""

@@ -90,6 +90,8 @@ HOOKE_API int32_t hooke_system_add_anchors(hooke_system *system, const char *nam
                                            const int64_t *particles, const hooke_options *options);
 HOOKE_API int32_t hooke_system_set_gravity(hooke_system *system, const double *gravity);
 HOOKE_API int32_t hooke_system_set_drag(hooke_system *system, double coefficient);
+HOOKE_API int32_t hooke_system_set_dynamics(hooke_system *system, const char *dynamics);
+HOOKE_API const char *hooke_system_dynamics(const hooke_system *system);
 HOOKE_API int32_t hooke_system_set_force(hooke_system *system, hooke_force *force,
                                          hooke_force_product *product, void *ctx);
 HOOKE_API int32_t hooke_system_drive_harmonic(hooke_system *system, int64_t count, const int64_t *particles,
@@ -160,6 +162,7 @@ extern "C" {
 typedef struct hooke_state hooke_state;
 HOOKE_API int32_t hooke_state_create(const hooke_system *system, hooke_state **state);
 HOOKE_API int32_t hooke_state_create_first_order(int64_t size, hooke_state **state);
+HOOKE_API int32_t hooke_state_create_second_order(int64_t size, hooke_state **state);
 HOOKE_API void hooke_state_destroy(hooke_state *state);
 HOOKE_API int32_t hooke_state_copy(const hooke_state *from, hooke_state *to);
 HOOKE_API double hooke_state_time(const hooke_state *state);
@@ -190,6 +193,11 @@ HOOKE_API int32_t hooke_integrator_create(const hooke_system *system, const hook
 HOOKE_API int32_t hooke_integrator_create_first_order(int64_t size, hooke_rate *rate, void *ctx,
                                                       const hooke_options *options,
                                                       hooke_integrator **integrator);
+HOOKE_API int32_t hooke_integrator_create_second_order(int64_t size, hooke_force *force,
+                                                       hooke_force_product *product, void *ctx,
+                                                       int64_t mass_count, const double *inverse_mass,
+                                                       const hooke_options *options,
+                                                       hooke_integrator **integrator);
 HOOKE_API void hooke_integrator_destroy(hooke_integrator *integrator);
 HOOKE_API const hooke_options *hooke_integrator_options(const hooke_integrator *integrator);
 HOOKE_API int32_t hooke_integrator_on_frame(hooke_integrator *integrator, hooke_observer *observer,

@@ -1,0 +1,84 @@
+#include "integrate/coordinates.h"
+
+#include "core/memory.h"
+#include "core/status.h"
+
+#include <math.h>
+#include <stddef.h>
+
+/* ---- the callbacks of the system: those of the caller, times the inverse masses ---- */
+
+static int32_t force(int64_t n, double t, const double *q, const double *v, double *out, void *ctx) {
+  (void)n;
+  const struct hk_coordinates *c = ctx;
+  const int32_t value = c->force(c->size, t, q, v, out, c->ctx);
+  for (int64_t k = 0; k < c->size; k++)
+    out[k] *= c->inverse_mass[k];
+  return value;
+}
+
+static int32_t product(int64_t n, double t, const double *q, const double *v, const double *dq,
+                       const double *dv, double *out, void *ctx) {
+  (void)n;
+  const struct hk_coordinates *c = ctx;
+  const int32_t value = c->product(c->size, t, q, v, dq, dv, out, c->ctx);
+  for (int64_t k = 0; k < c->size; k++)
+    out[k] *= c->inverse_mass[k];
+  return value;
+}
+
+/* ---- making ---- */
+
+static int32_t check(int64_t size, hooke_force *given, int64_t mass_count, const double *inverse_mass) {
+  if (size < 1) return hk_fail(HOOKE_BAD_VALUE, "size", "%lld is not allowed; 1 or more is", (long long)size);
+  if (given == NULL) return hk_fail(HOOKE_BAD_VALUE, "force", "is missing; a callback is needed");
+  if (mass_count != 1 && mass_count != size) {
+    return hk_fail(HOOKE_BAD_VALUE, "inverse_mass",
+                   "%lld for %lld coordinates; allowed: one, or one for each", (long long)mass_count,
+                   (long long)size);
+  }
+  for (int64_t k = 0; k < mass_count; k++) {
+    if (inverse_mass[k] > 0.0 && isfinite(inverse_mass[k])) continue;
+    hk_fail(HOOKE_BAD_VALUE, NULL, "%g is not allowed; a number > 0 is", inverse_mass[k]);
+    return hk_fail_within(HOOKE_BAD_VALUE, "inverse_mass[%lld]", (long long)k);
+  }
+  return HOOKE_OK;
+}
+
+static int32_t make_system(struct hk_coordinates *c) {
+  const int64_t particles = (c->size + 2) / 3;
+  const double mass = 1.0;
+  double *zeros = hk_new(3 * particles, sizeof(double));
+  int32_t status = zeros ? hooke_system_create(&c->system) : HOOKE_NO_MEMORY;
+  if (status == HOOKE_OK)
+    status = hooke_system_add_particles(c->system, particles, zeros, NULL, 1, &mass, NULL);
+  if (status == HOOKE_OK) status = hooke_system_set_force(c->system, force, c->product ? product : NULL, c);
+  if (status == HOOKE_OK) status = hooke_system_commit(c->system);
+  hk_free(zeros);
+  return status;
+}
+
+int32_t hk_coordinates_create(int64_t size, hooke_force *given, hooke_force_product *derivative, void *ctx,
+                              int64_t mass_count, const double *inverse_mass, struct hk_coordinates **out) {
+  int32_t status = check(size, given, mass_count, inverse_mass);
+  if (status != HOOKE_OK) return status;
+  struct hk_coordinates *c = hk_new(1, sizeof *c);
+  if (c == NULL) return HOOKE_NO_MEMORY;
+  *c = (struct hk_coordinates){.size = size, .force = given, .product = derivative, .ctx = ctx};
+  c->inverse_mass = hk_new(size, sizeof(double));
+  for (int64_t k = 0; k < size && c->inverse_mass; k++)
+    c->inverse_mass[k] = inverse_mass[mass_count == 1 ? 0 : k];
+  status = c->inverse_mass ? make_system(c) : HOOKE_NO_MEMORY;
+  if (status == HOOKE_OK)
+    *out = c;
+  else
+    hk_coordinates_destroy(c);
+  return status;
+}
+
+void hk_coordinates_destroy(struct hk_coordinates *c) {
+  if (c == NULL) return;
+  hooke_system_destroy(c->system);
+  hk_free(c->inverse_mass);
+  hk_free(c);
+}

@@ -1,0 +1,125 @@
+/* Overdamped systems, gamma x' = f: what they may have, and their numbers. */
+#include "model/force/force.h"
+
+#include "core/memory.h"
+#include "core/status.h"
+
+#include <math.h>
+#include <stddef.h>
+#include <string.h>
+
+int32_t hooke_system_set_dynamics(hooke_system *system, const char *dynamics) {
+  const int32_t status = hk_system_require_open(system);
+  if (status != HOOKE_OK) return status;
+  const int32_t overdamped = strcmp(dynamics, "overdamped") == 0;
+  if (!overdamped && strcmp(dynamics, "inertial") != 0)
+    return hk_fail(HOOKE_BAD_VALUE, "dynamics", "\"%s\" is not allowed; inertial and overdamped are",
+                   dynamics);
+  system->overdamped = overdamped;
+  return HOOKE_OK;
+}
+
+const char *hooke_system_dynamics(const hooke_system *system) {
+  return system->overdamped ? "overdamped" : "inertial";
+}
+
+const double *hk_system_masses(const hooke_system *system) {
+  return system->friction > 0.0 ? system->weight : system->mass;
+}
+
+double hk_system_drag(const hooke_system *system) {
+  return system->friction > 0.0 ? system->friction : system->drag;
+}
+
+const double *hk_system_gravity(const hooke_system *system) {
+  return system->friction > 0.0 ? system->pull : system->gravity;
+}
+
+int32_t hk_system_has_gravity(const hooke_system *system) {
+  const double *g = hk_system_gravity(system);
+  return g[0] != 0.0 || g[1] != 0.0 || g[2] != 0.0;
+}
+
+/* ---- checks ---- */
+
+static int32_t check_masses(const hooke_system *system) {
+  if (system->overdamped && !system->has_gravity) return HOOKE_OK;
+  for (int64_t p = 0; p < system->particle_count; p++) {
+    if (system->mass[p] > 0.0) continue;
+    hk_fail(HOOKE_BAD_VALUE, NULL, "is missing; %s needs the mass of every particle, > 0 [kg]",
+            system->overdamped ? "gravity" : "a motion with inertia");
+    return hk_fail_within(HOOKE_BAD_VALUE, "particles.mass[%lld]", (long long)p);
+  }
+  return HOOKE_OK;
+}
+
+static int32_t check_velocities(const hooke_system *system) {
+  for (int64_t k = 0; k < 3 * system->particle_count; k++) {
+    if (system->velocity[k] == 0.0) continue;
+    hk_fail(HOOKE_BAD_VALUE, NULL,
+            "%g is not allowed; an overdamped scene has no velocities of its own: they are force over drag",
+            system->velocity[k]);
+    return hk_fail_within(HOOKE_BAD_VALUE, "particles.velocity[%lld][%d]", (long long)(k / 3), (int)(k % 3));
+  }
+  return HOOKE_OK;
+}
+
+int32_t hk_overdamped_check(const hooke_system *system) {
+  int32_t status = check_masses(system);
+  if (status != HOOKE_OK || !system->overdamped) return status;
+  status = check_velocities(system);
+  if (status == HOOKE_OK && !(system->drag > 0.0 && 1.0 / system->drag < INFINITY))
+    status = hk_fail(HOOKE_BAD_VALUE, "drag",
+                     "%g is not allowed; an overdamped scene needs a drag > 0 [N s/m] on its particles",
+                     system->drag);
+  return status;
+}
+
+static int is_member(const struct hk_force_row *row) {
+  return row->members != NULL;
+}
+
+int32_t hk_overdamped_check_forces(const hooke_system *system) {
+  if (!system->overdamped || !hk_elements_are_damped(system)) return HOOKE_OK;
+  struct hk_elements at;
+  hk_begin_elements(system, system->position, NULL, &at);
+  at.wanted = is_member;
+  for (const struct hk_element *e; (e = hk_next_element(&at)) != NULL;) {
+    if (e->c_along == 0.0 && e->c_across == 0.0) continue;
+    return hk_fail(HOOKE_BAD_VALUE, "damping",
+                   "the %s of particle %d is damped; in an overdamped scene drag is the only friction, and "
+                   "damping is 0",
+                   at.force->title ? at.force->title : "spring", (int)e->particle[0]);
+  }
+  return hk_fail(HOOKE_BAD_VALUE, "damping",
+                 "is not allowed; in an overdamped scene drag is the only friction");
+}
+
+/* ---- numbers ---- */
+
+int32_t hk_overdamped_begin(hooke_system *system) {
+  if (!system->overdamped) return HOOKE_OK;
+  double *gamma = hk_new(system->particle_count, sizeof(double));
+  if (gamma == NULL) return HOOKE_NO_MEMORY;
+  for (int64_t p = 0; p < system->particle_count; p++)
+    gamma[p] = system->drag;
+  system->weight = system->mass;
+  system->mass = gamma;
+  system->friction = system->drag;
+  system->drag = 0.0;
+  memcpy(system->pull, system->gravity, sizeof system->pull);
+  memset(system->gravity, 0, sizeof system->gravity);
+  system->has_gravity = 0;
+  return HOOKE_OK;
+}
+
+void hk_overdamped_undo(hooke_system *system) {
+  if (system->friction == 0.0) return;
+  memcpy(system->gravity, system->pull, sizeof system->pull);
+  system->has_gravity = hk_system_has_gravity(system);
+  system->drag = system->friction;
+  hk_free(system->mass);
+  system->mass = system->weight;
+  system->weight = NULL;
+  system->friction = 0.0;
+}
