@@ -5,6 +5,7 @@
 #include "core/handle.h"
 #include "core/memory.h"
 #include "core/status.h"
+#include "integrate/method/bodies.h"
 #include "integrate/solve/reduced.h"
 
 #include <math.h>
@@ -65,6 +66,17 @@ static int32_t gather_crew(hooke_integrator *it) {
   return workers > 1 && it->pool == NULL ? HOOKE_NO_MEMORY : HOOKE_OK;
 }
 
+static int32_t take_bodies(hooke_integrator *it) {
+  const struct hk_method *method = hk_method_with_bodies(it->method);
+  if (method == NULL)
+    return hk_fail(HOOKE_UNSUITED, "method",
+                   "%s does not know rigid bodies yet; allowed in a scene with bodies: forward-euler, "
+                   "symplectic-euler, verlet, heun, rk4 and the error-controlled methods",
+                   it->method->name);
+  it->method = method;
+  return HOOKE_OK;
+}
+
 int32_t hooke_integrator_create(const hooke_system *system, const hooke_options *options,
                                 hooke_integrator **out) {
   hooke_integrator *it = NULL;
@@ -73,10 +85,11 @@ int32_t hooke_integrator_create(const hooke_system *system, const hooke_options 
   if (it == NULL) return status;
   it->system = system;
   it->size = 3 * system->particle_count;
-  it->by_tiles = it->method->by_tiles && hk_goes_by_tiles(system);
   if (!it->method->second_order) {
     status = hk_fail(HOOKE_UNSUITED, "method", "%s takes first-order problems only", it->method->name);
   }
+  if (status == HOOKE_OK && system->bodies.moving > 0) status = take_bodies(it);
+  it->by_tiles = it->method->by_tiles && hk_goes_by_tiles(system);
   if (status == HOOKE_OK && it->method->choose) status = it->method->choose(it);
   if (status == HOOKE_OK) status = gather_crew(it);
   if (status == HOOKE_OK) status = hk_motion_create(system, it->by_tiles, it->pool, &it->motion);
