@@ -238,7 +238,8 @@ HOOKE_API const char *hooke_system_force_name(const hooke_system *system, int64_
  * callback, m g on free particles. */
 HOOKE_API int32_t hooke_system_force(const hooke_system *system, double t, const double *q, const double *v,
                                      double *force);
-/* Acceleration of every particle [m/s^2], 3n: w f + g, zero where pinned or driven. */
+/* Acceleration of every particle [m/s^2], 3n: w f + g, zero where pinned or driven; that of the rigid motion in
+ * a body. */
 HOOKE_API int32_t hooke_system_acceleration(const hooke_system *system, double t, const double *q,
                                             const double *v, double *acceleration);
 /* Springs at q whose ends coincide although their rest length is not zero. */

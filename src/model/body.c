@@ -4,6 +4,7 @@
 #include "core/memory.h"
 #include "core/status.h"
 #include "model/body_frame.h"
+#include "model/state.h"
 #include "model/sum/motion.h"
 
 #include <math.h>
@@ -151,16 +152,11 @@ static const double VELOCITY_ROUNDING = 1e-9;
  * particle; pinned ones are at rest. */
 static void find_nearest(const hooke_system *system, const struct hk_body *body, double *q, double *v) {
   double own[HOOKE_BODY_NUMBERS];
-  struct hk_body_rows rows = {.stride = 3};
-  for (int a = 0; a < 3; a++) {
-    rows.q[a] = system->position + a;
-    rows.v[a] = system->velocity + a;
-  }
-  hk_body_read(body, &rows, own);
-  hk_body_fit(system, body, own);
-  for (int a = 0; a < 3; a++) {
-    rows.q[a] = q + a;
-    rows.v[a] = v + a;
+  const struct hk_body_rows initial = hk_body_rows_of(system->position, system->velocity),
+                            rows = hk_body_rows_of(q, v);
+  if (body->moves) {
+    hk_body_read(body, &initial, own);
+    hk_body_fit(system, body, own);
   }
   for (int64_t k = 0; k < body->count; k++)
     memset(v + 3 * (int64_t)body->particle[k], 0, 3 * sizeof(double));
@@ -234,6 +230,47 @@ int32_t hk_bodies_commit(hooke_system *system) {
   for (int64_t k = 0; k < bodies->count && status == HOOKE_OK; k++)
     hk_body_pin_if_still(system, &bodies->body[k]);
   if (status != HOOKE_OK) hk_bodies_undo(system);
+  return status;
+}
+
+/* ---- states ---- */
+
+static const double STATE_ROUNDING = 1e-6;
+
+static int32_t check_rows(const struct hk_body *body, const char *name, const char *unit, const double *found,
+                          const double *rigid) {
+  double scale = 0.0;
+  for (int64_t i = 0; i < 3 * body->count; i++)
+    scale = fmax(scale, fabs(found[3 * (int64_t)body->particle[i / 3] + i % 3]));
+  for (int64_t i = 0; i < 3 * body->count; i++) {
+    const int64_t p = body->particle[i / 3], at = 3 * p + i % 3;
+    const double distance = fabs(found[at] - rigid[at]);
+    if (distance <= STATE_ROUNDING * scale) continue;
+    hk_fail(HOOKE_BAD_VALUE, NULL,
+            "the body \"%.40s\" is rigid, and this particle is %.3g %s from where three others of it say; "
+            "allowed: a rigid motion",
+            body->name, distance, unit);
+    return hk_fail_within(HOOKE_BAD_VALUE, "%s[%lld][%lld]", name, (long long)p, (long long)(i % 3));
+  }
+  return HOOKE_OK;
+}
+
+int32_t hk_bodies_check(const hooke_system *system, const hooke_state *state) {
+  const int64_t size = 3 * system->particle_count;
+  if (system->bodies.moving == 0) return HOOKE_OK;
+  double *q = hk_new(2 * size, sizeof(double)), *v = q ? q + size : NULL;
+  int32_t status = q ? HOOKE_OK : HOOKE_NO_MEMORY;
+  if (q) memcpy(q, state->q, (size_t)(2 * size) * sizeof(double)); /* v follows */
+  const struct hk_body_rows rows = hk_body_rows_of(q, v);
+  for (int64_t k = 0; k < system->bodies.moving && status == HOOKE_OK; k++) {
+    const struct hk_body *body = system->bodies.mover[k];
+    double own[HOOKE_BODY_NUMBERS];
+    hk_body_read(body, &rows, own);
+    hk_body_write(system, body, own, &rows);
+    status = check_rows(body, "position", "m", state->q, q);
+    if (status == HOOKE_OK) status = check_rows(body, "velocity", "m/s", state->v, v);
+  }
+  hk_free(q);
   return status;
 }
 

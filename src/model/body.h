@@ -38,7 +38,6 @@ struct hk_body {
   int32_t rank;              /* 0: a single point, 1: points in a line, 2: neither */
   int32_t base[3];           /* index in `particle` of the three particles of the rule; `rank` + 1 are used */
   double triad[3][3];        /* their directions e1, e2, e3 in the axes of the body */
-  double along, beside[2];   /* |b - a|; (c - a).e1 and (c - a).e2 */
 };
 
 struct hk_bodies {
@@ -75,6 +74,9 @@ struct hk_body_rows {
   int64_t stride;
 };
 
+/* Rows of x y z. */
+struct hk_body_rows hk_body_rows_of(double *q, double *v);
+
 /* A body's own coordinates from rows of x y z. */
 void hk_body_read_rows(const struct hk_body *body, const double *q, const double *v, double *own);
 /* A body's own coordinates from its rows, and the rows of its free particles from them. */
@@ -86,6 +88,9 @@ void hk_body_write(const struct hooke_system *system, const struct hk_body *body
 void hk_body_push(const struct hooke_system *system, const struct hk_body *body, const double *own,
                   const struct hk_body_rows *rows, double *const f[3], double acceleration[3],
                   double torque[3]);
+/* Accelerations of its free particles under them, 3 each of all particles. */
+void hk_body_accelerate(const struct hooke_system *system, const struct hk_body *body, const double *own,
+                        const double acceleration[3], const double torque[3], double *out);
 /* own += h (acceleration, torque). */
 void hk_body_kick(const struct hk_body *body, double h, const double acceleration[3], const double torque[3],
                   double *own);
@@ -107,6 +112,8 @@ void hk_bodies_read(const struct hooke_system *system, const struct hk_motion *m
 void hk_bodies_write(const struct hooke_system *system, struct hk_motion *motion, const double *own);
 void hk_bodies_push(const struct hooke_system *system, const struct hk_motion *motion, const double *own,
                     double *push);
+/* Accelerations of the particles of all bodies at the forces and rows of the working copy. */
+void hk_bodies_accelerate(const struct hooke_system *system, const struct hk_motion *motion, double *out);
 
 /* ---- for commit ---- */
 
@@ -122,8 +129,8 @@ static inline int32_t hk_bodies_move(const struct hk_bodies *bodies, int64_t par
   return bodies->moving > 0 && bodies->of[particle] >= 0 && bodies->body[bodies->of[particle]].moves;
 }
 
-/* HOOKE_BAD_VALUE, with the distance, unless the rows of all bodies are those of rigid motions to 1e-6 of a
- * body's size, or speed. */
+/* HOOKE_BAD_VALUE, with the distance, unless the rows of all bodies are those of rigid motions to 1e-6 of the
+ * largest coordinate and velocity in them. HOOKE_NO_MEMORY. */
 int32_t hk_bodies_check(const struct hooke_system *system, const struct hooke_state *state);
 
 #endif

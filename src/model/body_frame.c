@@ -192,9 +192,6 @@ static void find_triad(struct hk_body *body) {
   if (body->rank > 0) subtract(body->place + 3 * (int64_t)body->base[1], a, ab);
   if (body->rank > 1) subtract(body->place + 3 * (int64_t)body->base[2], a, ac);
   hk_body_triad(body->rank, ab, ac, body->triad);
-  body->along = hk_length3(ab);
-  body->beside[0] = hk_dot3(ac, body->triad[0]);
-  body->beside[1] = hk_dot3(ac, body->triad[1]);
 }
 
 static int32_t check_numbers(const struct hk_body *body) {

@@ -7,19 +7,22 @@
 #include <math.h>
 #include <string.h>
 
-/* The matrix of a quaternion of any length but 0: m[i][k] is component i of axis k of the body. */
+/* The matrix of a quaternion of any length but 0: m[i][k] is component i of axis k of the body. A sum of squares
+ * that is 1 but for rounding is rounded to 1 more often from one side than from the other, which would add up
+ * step by step; so the length becomes one that is no power of two. */
 static void matrix_of(const double turn[4], double m[3][3]) {
-  const double w = turn[0], x = turn[1], y = turn[2], z = turn[3];
-  const double s = 2.0 / (((w * w + x * x) + y * y) + z * z);
-  m[0][0] = 1.0 - s * (y * y + z * z);
-  m[0][1] = s * (x * y - w * z);
-  m[0][2] = s * (x * z + w * y);
-  m[1][0] = s * (x * y + w * z);
-  m[1][1] = 1.0 - s * (x * x + z * z);
-  m[1][2] = s * (y * z - w * x);
-  m[2][0] = s * (x * z - w * y);
-  m[2][1] = s * (y * z + w * x);
-  m[2][2] = 1.0 - s * (x * x + y * y);
+  const double scale = 1.3, w = scale * turn[0], x = scale * turn[1], y = scale * turn[2],
+               z = scale * turn[3];
+  const double ww = w * w, xx = x * x, yy = y * y, zz = z * z, all = ((ww + xx) + yy) + zz;
+  m[0][0] = ((ww + xx) - (yy + zz)) / all;
+  m[0][1] = 2.0 * (x * y - w * z) / all;
+  m[0][2] = 2.0 * (x * z + w * y) / all;
+  m[1][0] = 2.0 * (x * y + w * z) / all;
+  m[1][1] = ((ww + yy) - (xx + zz)) / all;
+  m[1][2] = 2.0 * (y * z - w * x) / all;
+  m[2][0] = 2.0 * (x * z - w * y) / all;
+  m[2][1] = 2.0 * (y * z + w * x) / all;
+  m[2][2] = ((ww + zz) - (xx + yy)) / all;
 }
 
 /* From the axes of the body to those of space, and back. */
@@ -110,14 +113,24 @@ static void get_base(const struct hk_body *body, double *const component[3], int
   }
 }
 
-/* Angular velocity in the directions e1, e2, e3, from the velocities of b and c beside that of a. */
-static void find_rotation(const struct hk_body *body, const double e[3][3], const double v[3][3],
+/* Angular velocity from b and c beside a, as a sum of d1, d2 and n = d1 x d2. Nothing is normalised: lengths
+ * do not change, so the rounding of one would be the same in every step, and add up. */
+static void find_rotation(const struct hk_body *body, const double d[3][3], const double v[3][3],
                           double w[3]) {
-  w[0] = w[1] = w[2] = 0.0;
+  double n[3], across[3];
+  memset(w, 0, 3 * sizeof(double));
   if (body->rank == 0) return;
-  w[1] = -hk_dot3(v[1], e[2]) / body->along;
-  w[2] = hk_dot3(v[1], e[1]) / body->along;
-  if (body->rank == 2) w[0] = (hk_dot3(v[2], e[2]) + body->beside[0] * w[1]) / body->beside[1];
+  if (body->rank == 1) {
+    hk_cross3(d[1], v[1], n);
+    hk_add3(1.0 / hk_dot3(d[1], d[1]), n, w);
+    return;
+  }
+  hk_cross3(d[1], d[2], n);
+  hk_cross3(n, d[1], across);
+  const double square = hk_dot3(n, n);
+  hk_add3(hk_dot3(v[2], n) / square, d[1], w);
+  hk_add3(-hk_dot3(v[1], n) / square, d[2], w);
+  hk_add3(hk_dot3(v[1], across) / hk_dot3(across, across), n, w);
 }
 
 /* out = the sum over k of x[k] e[k]. */
@@ -127,7 +140,7 @@ static void combine(const double e[3][3], const double x[3], double out[3]) {
 }
 
 void hk_body_read(const struct hk_body *body, const struct hk_body_rows *rows, double *own) {
-  double q[3][3], v[3][3], e[3][3], m[3][3], w[3], rotation[3], momentum[3], arm[3], swing[3];
+  double q[3][3], v[3][3], e[3][3], m[3][3], rotation[3], momentum[3], arm[3], swing[3];
   get_base(body, rows->q, rows->stride, q);
   get_base(body, rows->v, rows->stride, v);
   hk_body_triad(body->rank, q[1], q[2], e);
@@ -136,9 +149,9 @@ void hk_body_read(const struct hk_body *body, const struct hk_body_rows *rows, d
     combine(body->triad, column, m[i]);
   }
   hk_body_set_turn(m, own);
-  find_rotation(body, e, v, w);
-  combine(e, w, rotation);
-  combine(body->triad, w, momentum);
+  matrix_of(own + HOOKE_BODY_TURN, m);
+  find_rotation(body, q, v, rotation);
+  to_body(m, rotation, momentum);
   for (int k = 0; k < 3; k++)
     momentum[k] *= body->inertia[k];
   to_space(m, momentum, own + HOOKE_BODY_SPIN);
@@ -150,13 +163,24 @@ void hk_body_read(const struct hk_body *body, const struct hk_body_rows *rows, d
   }
 }
 
+struct hk_body_rows hk_body_rows_of(double *q, double *v) {
+  return (struct hk_body_rows){{q, q + 1, q + 2}, {v, v + 1, v + 2}, 3};
+}
+
+/* The rule reads three particles alone. */
 void hk_body_read_rows(const struct hk_body *body, const double *q, const double *v, double *own) {
-  struct hk_body_rows rows = {.stride = 3}; /* which are only read */
-  for (int a = 0; a < 3; a++) {
-    rows.q[a] = (double *)(uintptr_t)(q + a);
-    rows.v[a] = (double *)(uintptr_t)(v + a);
+  double base_q[9], base_v[9];
+  const struct hk_body_rows rows = hk_body_rows_of(base_q, base_v);
+  struct hk_body three = *body;
+  int32_t particle[3] = {0, 1, 2};
+  for (int k = 0; k < 3; k++) {
+    memcpy(base_q + 3 * k, q + 3 * (int64_t)body->particle[body->base[k]], 3 * sizeof(double));
+    memcpy(base_v + 3 * k, v + 3 * (int64_t)body->particle[body->base[k]], 3 * sizeof(double));
+    three.base[k] = k;
   }
-  hk_body_read(body, &rows, own);
+  three.particle = particle;
+  three.place = body->place + 3 * (int64_t)body->base[0];
+  hk_body_read(&three, &rows, own);
 }
 
 static void find_angular_velocity(const struct hk_body *body, const double m[3][3], const double *own,
@@ -164,7 +188,7 @@ static void find_angular_velocity(const struct hk_body *body, const double m[3][
   double turn[3];
   to_body(m, own + HOOKE_BODY_SPIN, turn);
   for (int k = 0; k < 3; k++)
-    turn[k] *= body->inverse_inertia[k];
+    turn[k] = body->inertia[k] > 0.0 ? turn[k] / body->inertia[k] : 0.0;
   to_space(m, turn, w);
 }
 
@@ -239,6 +263,30 @@ void hk_body_kick(const struct hk_body *body, double h, const double acceleratio
   hk_add3(h, acceleration, own + HOOKE_BODY_VELOCITY);
   hk_add3(h, torque, own + HOOKE_BODY_SPIN);
   keep_axes(body, own, own + HOOKE_BODY_SPIN);
+}
+
+void hk_body_accelerate(const struct hooke_system *system, const struct hk_body *body, const double *own,
+                        const double acceleration[3], const double torque[3], double *out) {
+  double m[3][3], w[3], gyration[3], turning[3], arm[3], swing[3], inward[3], change[3];
+  matrix_of(own + HOOKE_BODY_TURN, m);
+  find_angular_velocity(body, m, own, w);
+  hk_cross3(w, own + HOOKE_BODY_SPIN, gyration);
+  for (int a = 0; a < 3; a++)
+    turning[a] = torque[a] - gyration[a];
+  to_body(m, turning, change);
+  for (int k = 0; k < 3; k++)
+    change[k] = body->inertia[k] > 0.0 ? change[k] / body->inertia[k] : 0.0;
+  to_space(m, change, turning);
+  for (int64_t k = 0; k < body->count; k++) {
+    const int64_t p = body->particle[k];
+    if (system->constrained[p]) continue;
+    to_space(m, body->place + 3 * k, arm);
+    hk_cross3(w, arm, swing);
+    hk_cross3(w, swing, inward);
+    hk_cross3(turning, arm, change);
+    for (int a = 0; a < 3; a++)
+      out[3 * p + a] = (acceleration[a] + change[a]) + inward[a];
+  }
 }
 
 /* ---- motion ---- */
@@ -328,4 +376,15 @@ void hk_bodies_push(const struct hooke_system *system, const struct hk_motion *m
   for (int64_t k = 0; k < system->bodies.moving; k++)
     hk_body_push(system, system->bodies.mover[k], own + HOOKE_BODY_NUMBERS * k, &rows, motion->f,
                  push + 6 * k, push + 6 * k + 3);
+}
+
+void hk_bodies_accelerate(const struct hooke_system *system, const struct hk_motion *motion, double *out) {
+  const struct hk_body_rows rows = hk_body_rows(motion);
+  for (int64_t k = 0; k < system->bodies.moving; k++) {
+    const struct hk_body *body = system->bodies.mover[k];
+    double own[HOOKE_BODY_NUMBERS], push[6];
+    hk_body_read(body, &rows, own);
+    hk_body_push(system, body, own, &rows, motion->f, push, push + 3);
+    hk_body_accelerate(system, body, own, push, push + 3, out);
+  }
 }

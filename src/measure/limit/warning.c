@@ -87,7 +87,8 @@ int32_t hooke_integrator_on_warning(hooke_integrator *it, hooke_warning *warning
   if (it->system == NULL) {
     return hk_fail(HOOKE_UNSUITED, NULL, "a first-order problem has no springs to bound its step by");
   }
-  if (warning == NULL || !hk_step_is_bounded(it->method->name)) return HOOKE_OK;
+  if (warning == NULL || !hk_step_is_bounded(it->method->name) || it->system->bodies.moving > 0)
+    return HOOKE_OK;
   struct warner *warner = hk_new(1, sizeof *warner);
   if (warner == NULL) return HOOKE_NO_MEMORY;
   const int32_t status = hk_node_blocks_create(it->system, it->system->position, &warner->blocks);

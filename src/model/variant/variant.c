@@ -158,6 +158,7 @@ int32_t hk_variant_make(const hooke_system *from, const struct hk_variant *varia
   *map = (struct hk_variant_map){.from = from};
   *made = NULL;
   int32_t status = hk_system_require_committed(from);
+  if (status == HOOKE_OK) status = hk_system_require_no_bodies(from, "a changed scene");
   if (status == HOOKE_OK) status = check_callbacks(from, variant);
   if (status == HOOKE_OK) status = hooke_system_create(&maker.made);
   if (status == HOOKE_OK) maker.made->memory_limit = from->memory_limit;
