@@ -182,7 +182,7 @@ struct drift {
 };
 
 static struct drift drift_of(const char *method, double step, int64_t blocks) {
-  const double still[3] = {0.0, 0.0, 0.0}, rotation[3] = {0.9, 0.1, 0.8};
+  const double still[3] = {0.0, 0.0, 0.0}, rotation[3] = {0.9123, 0.0777, 0.7654};
   hooke_system *system = free_body(still, still, rotation);
   hooke_integrator *integrator = start_run(system, (struct run){.method = method, .step = step});
   hooke_state *state = start_state(system);
@@ -210,9 +210,9 @@ static void verlet_conserves(void **unused) {
                      euler_drift = drift_of("symplectic-euler", 0.1, 10000);
   check_between(coarse.energy / fine.energy, 3.5, 4.6);
   check_between(fine.energy, 1e-5, 1e-2);
-  check_between(fine.momentum[1], 1e-14, 1e-11);
+  check_between(fine.momentum[1], 1e-14, 3e-11);
   check_between(fine.momentum[1] / fine.momentum[0], 1.0, 8.0); /* by chance sqrt(10) */
-  check_between(euler_drift.momentum[1], 1e-14, 1e-11);
+  check_between(euler_drift.momentum[1], 1e-14, 3e-11);
 }
 
 /* ---- pinned bodies ---- */
