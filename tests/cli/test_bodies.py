@@ -74,6 +74,16 @@ def test_measurements_say_that_they_do_not_know_bodies(hooke, scene):
     assert told.code != 0 and "backward-euler does not know rigid bodies yet" in told.err
 
 
+def test_a_study_has_the_orders(hooke, scene):
+    told = hooke("study", scene, "--methods", "symplectic-euler,verlet,rk4", "--duration", "0.5", "--json").json
+    orders = {method: row["order"] for method, row in told["orders"].items()}
+    assert orders == pytest.approx({"symplectic-euler": 1, "verlet": 2, "rk4": 4}, abs=0.15)
+    refused = hooke("study", scene, "--methods", "shardlow")
+    assert refused.code != 0 and "shardlow does not know rigid bodies yet" in refused.err
+    named = list(hooke("study", scene, "--duration", "0.02", "--json", "--budget", "2").json["orders"])
+    assert named == ["forward-euler", "symplectic-euler", "verlet", "heun", "rk4"]
+
+
 def test_the_schema_knows_bodies():
     schema = json.loads(SCHEMA.read_text())
     validator = jsonschema.Draft202012Validator(schema)

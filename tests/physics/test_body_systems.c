@@ -137,6 +137,41 @@ static void acceleration_is_that_of_the_motion(void **unused) {
   hooke_system_destroy(system);
 }
 
+/* ---- the largest stable step ---- */
+
+/* A bar with a heavy middle on four anchors at the corners: it rises and sways at sqrt(4 k/M), and turns about its
+ * axes at sqrt(k (the sum of squared distances)/I) = sqrt(k/m), m the mass of a corner, which is faster. verlet is
+ * stable up to 2 over that. */
+static void bar_on_springs_has_its_limit(void **unused) {
+  (void)unused;
+  const double k = 500.0, m = 0.2, mass[5] = {0.2, 0.2, 0.2, 0.2, 3.0};
+  const double q[15] = {1, 0, 0.1, 1, 0, -0.1, -1, 0, 0.1, -1, 0, -0.1, 0, 0, 0};
+  for (int above = 0; above < 2; above++) {
+    double v[15];
+    for (int p = 0; p < 5; p++) { /* turning about all axes, and rising */
+      const double *x = q + 3 * p, w[3] = {1e-5, 2e-5, 3e-5};
+      v[3 * p] = w[1] * x[2] - w[2] * x[1];
+      v[3 * p + 1] = w[2] * x[0] - w[0] * x[2] + 1e-5;
+      v[3 * p + 2] = w[0] * x[1] - w[1] * x[0];
+    }
+    hooke_system *system = NULL;
+    hooke_options *options = material("anchors", k, 0.0);
+    check_ok(hooke_system_create(&system));
+    check_ok(hooke_system_add_particles(system, 5, q, v, 5, mass, NULL));
+    check_ok(hooke_system_add_anchors(system, "feet", 4, ALL, options));
+    check_ok(hooke_system_add_body(system, "bar", 5, ALL, 0));
+    check_ok(hooke_system_commit(system));
+    hooke_options_destroy(options);
+    const double step = (above ? 1.01 : 0.99) * 2.0 * sqrt(m / k);
+    hooke_integrator *integrator = start_run(system, (struct run){.method = "verlet", .step = step});
+    hooke_state *state = start_state(system);
+    check_status(hooke_integrator_step(integrator, state, 1000), above ? HOOKE_DIVERGED : HOOKE_OK);
+    hooke_state_destroy(state);
+    hooke_integrator_destroy(integrator);
+    hooke_system_destroy(system);
+  }
+}
+
 /* ---- the limit of stiffness ---- */
 
 enum { FRAMES = 20 };
@@ -390,6 +425,7 @@ int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(hung_cube_has_the_order_of_its_method),
       cmocka_unit_test(acceleration_is_that_of_the_motion),
+      cmocka_unit_test(bar_on_springs_has_its_limit),
       cmocka_unit_test(stiff_lattice_tends_to_the_body),
       cmocka_unit_test(a_step_is_a_map_of_the_state),
       cmocka_unit_test(threads_do_not_change_bits),
