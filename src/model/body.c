@@ -255,20 +255,27 @@ static int32_t check_rows(const struct hk_body *body, const char *name, const ch
   return HOOKE_OK;
 }
 
+void hk_bodies_make_rigid(const hooke_system *system, double *q, double *v) {
+  const struct hk_body_rows rows = hk_body_rows_of(q, v);
+  for (int64_t k = 0; k < system->bodies.moving; k++) {
+    double own[HOOKE_BODY_NUMBERS];
+    hk_body_read(system->bodies.mover[k], &rows, own);
+    hk_body_write(system, system->bodies.mover[k], own, &rows);
+  }
+}
+
 int32_t hk_bodies_check(const hooke_system *system, const hooke_state *state) {
   const int64_t size = 3 * system->particle_count;
   if (system->bodies.moving == 0) return HOOKE_OK;
-  double *q = hk_new(2 * size, sizeof(double)), *v = q ? q + size : NULL;
-  int32_t status = q ? HOOKE_OK : HOOKE_NO_MEMORY;
-  if (q) memcpy(q, state->q, (size_t)(2 * size) * sizeof(double)); /* v follows */
-  const struct hk_body_rows rows = hk_body_rows_of(q, v);
+  double *q = hk_new(2 * size, sizeof(double));
+  if (q == NULL) return HOOKE_NO_MEMORY;
+  memcpy(q, state->q, (size_t)(2 * size) * sizeof(double)); /* v follows */
+  hk_bodies_make_rigid(system, q, q + size);
+  int32_t status = HOOKE_OK;
   for (int64_t k = 0; k < system->bodies.moving && status == HOOKE_OK; k++) {
-    const struct hk_body *body = system->bodies.mover[k];
-    double own[HOOKE_BODY_NUMBERS];
-    hk_body_read(body, &rows, own);
-    hk_body_write(system, body, own, &rows);
-    status = check_rows(body, "position", "m", state->q, q);
-    if (status == HOOKE_OK) status = check_rows(body, "velocity", "m/s", state->v, v);
+    status = check_rows(system->bodies.mover[k], "position", "m", state->q, q);
+    if (status == HOOKE_OK)
+      status = check_rows(system->bodies.mover[k], "velocity", "m/s", state->v, q + size);
   }
   hk_free(q);
   return status;

@@ -129,6 +129,8 @@ static inline int32_t hk_bodies_move(const struct hk_bodies *bodies, int64_t par
   return bodies->moving > 0 && bodies->of[particle] >= 0 && bodies->body[bodies->of[particle]].moves;
 }
 
+/* Writes the rows of all bodies anew from the three particles of each. */
+void hk_bodies_make_rigid(const struct hooke_system *system, double *q, double *v);
 /* HOOKE_BAD_VALUE, with the distance, unless the rows of all bodies are those of rigid motions to 1e-6 of the
  * largest coordinate and velocity in them. HOOKE_NO_MEMORY. */
 int32_t hk_bodies_check(const struct hooke_system *system, const struct hooke_state *state);

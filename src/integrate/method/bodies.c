@@ -77,18 +77,17 @@ static void give(hooke_integrator *it, double *y) {
   hk_bodies_write(it->system, it->motion, y + 6 * u->free_count);
 }
 
-/* A step that a callback stops leaves the motion as it was. */
-static int32_t finish(hooke_integrator *it, int32_t status) {
-  const struct own *own = it->own;
-  if (status != HOOKE_OK) hk_motion_restore(it->motion, own->rows);
-  return status;
-}
-
-static int32_t begin_step(hooke_integrator *it) {
+static void begin_step(hooke_integrator *it) {
   const struct own *own = it->own;
   hk_motion_save(it->motion, own->rows);
   hk_unknowns_take(it, &own->unknowns, own->y);
-  return HOOKE_OK;
+}
+
+/* A step that a callback stops leaves the motion as it was. */
+static int32_t undo_step(hooke_integrator *it, int32_t status) {
+  const struct own *own = it->own;
+  hk_motion_restore(it->motion, own->rows);
+  return status;
 }
 
 /* ---- explicit Runge-Kutta methods ---- */
@@ -124,7 +123,7 @@ static int32_t step_stages(hooke_integrator *it) {
     const double t =
         ahead[stage] == 1.0 ? hk_integrator_next_time(it) : it->t + ahead[stage] * it->schedule.step;
     if (hk_unknowns_slope(it, &own->unknowns, t, own->y, own->slope) == HOOKE_SLOPE_STOPPED)
-      return finish(it, HOOKE_STOPPED);
+      return undo_step(it, HOOKE_STOPPED);
     advance(it, stage, ahead[stage + 1]);
   }
   give(it, own->y);
@@ -167,7 +166,7 @@ static int32_t step_symplectic_euler(hooke_integrator *it) {
   const struct own *own = it->own;
   begin_step(it);
   const int32_t status = find_push(it, it->t, own->y);
-  if (status != HOOKE_OK) return finish(it, status);
+  if (status != HOOKE_OK) return undo_step(it, status);
   kick(it, it->schedule.step, own->y);
   drift(it, it->schedule.step, own->y);
   give(it, own->y);
@@ -181,7 +180,7 @@ static int32_t step_verlet(hooke_integrator *it) {
   begin_step(it);
   if (it->k > 0 && own->keeps && !own->kept) it->count.force_evaluations--; /* as counted by the run before */
   int32_t status = find_push(it, it->t, own->y);
-  if (status != HOOKE_OK) return finish(it, status);
+  if (status != HOOKE_OK) return undo_step(it, status);
   kick(it, 0.5 * h, own->y);
   drift(it, h, own->y);
   memcpy(own->start, own->y, (size_t)own->unknowns.size * sizeof(double));
@@ -189,7 +188,7 @@ static int32_t step_verlet(hooke_integrator *it) {
   give(it, own->y);
   if (it->system->constrained_count > 0) hk_motion_hold(it->system, it->motion);
   status = find_push(it, hk_integrator_next_time(it), own->y);
-  if (status != HOOKE_OK) return finish(it, status);
+  if (status != HOOKE_OK) return undo_step(it, status);
   kick(it, 0.5 * h, own->start);
   give(it, own->start);
   own->kept = own->keeps;
