@@ -27,6 +27,7 @@ module hooke_builders
     generic :: add_bending => add_bending_alike, add_bending_each
     procedure :: add_altitude
     procedure :: add_anchors
+    procedure :: add_body
     procedure :: add_part
     procedure :: set_gravity
     procedure :: set_force
@@ -195,6 +196,23 @@ contains
     call to_c_if(name, c_name)
     call accept(c_system_add_anchors(self%address(), c_name, size(particles, kind=c_int64_t), zero_based(particles), &
       options%address()), status)
+  end subroutine
+
+  ! Makes particles one rigid body; with `project` initial velocities become those of the nearest rigid motion.
+  subroutine add_body(self, particles, name, project, status)
+    class(hooke_builder), intent(inout) :: self
+    integer, intent(in) :: particles(:)
+    character(*), intent(in), optional :: name
+    logical, intent(in), optional :: project
+    integer, intent(out), optional :: status
+    character(:), allocatable :: c_name
+    integer(c_int32_t) :: projected
+    if (self%is_missing(status)) return
+    call to_c_if(name, c_name)
+    projected = 0
+    if (present(project)) projected = merge(1_c_int32_t, 0_c_int32_t, project)
+    call accept(c_system_add_body(self%address(), c_name, size(particles, kind=c_int64_t), zero_based(particles), &
+      projected), status)
   end subroutine
 
   ! Adds a generated part; `first` and `count` are its particles.

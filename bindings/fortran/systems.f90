@@ -23,6 +23,9 @@ module hooke_systems
     procedure :: inverse_mass
     procedure :: members
     procedure :: anchor_points
+    procedure :: body_particles
+    procedure :: body_inertia
+    procedure :: body_motion
     procedure :: altitude_lengths
     procedure :: force
     procedure :: acceleration
@@ -93,6 +96,49 @@ contains
     if (self%is_missing(status)) return
     allocate (points(3, self%count("anchors")), source=0.0_c_double)
     call accept(c_system_anchor_points(self%address(), points), status)
+  end subroutine
+
+  ! The particles of rigid body number `body`.
+  function body_particles(self, body) result(particles)
+    class(hooke_system), intent(in) :: self
+    integer, intent(in) :: body
+    integer, allocatable :: particles(:)
+    integer(c_int64_t), allocatable :: numbers(:)
+    integer(c_int64_t) :: count
+    count = c_system_body_particles(self%address(), zero_based(body))
+    allocate (numbers(count), source=0_c_int64_t)
+    count = c_system_body_particles(self%address(), zero_based(body), numbers)
+    particles = int(numbers) + 1
+  end function
+
+  ! Its mass [kg] and moments of inertia [kg m^2] about the axes through its point, ascending.
+  subroutine body_inertia(self, body, mass, inertia, status)
+    class(hooke_system), intent(in) :: self
+    integer, intent(in) :: body
+    real(c_double), intent(out) :: mass, inertia(3)
+    integer, intent(out), optional :: status
+    real(c_double) :: numbers(4)
+    numbers = 0.0_c_double
+    if (.not. self%is_missing(status)) call accept(c_system_body_inertia(self%address(), zero_based(body), numbers), status)
+    mass = numbers(1)
+    inertia = numbers(2:4)
+  end subroutine
+
+  ! Its motion at q(3, n) and v(3, n): its point [m], the quaternion from its axes to those of space (real part first),
+  ! the velocity of the point [m/s], the angular momentum about the point [kg m^2/s].
+  subroutine body_motion(self, body, q, v, point, quaternion, velocity, angular_momentum, status)
+    class(hooke_system), intent(in) :: self
+    integer, intent(in) :: body
+    real(c_double), intent(in), contiguous :: q(:, :), v(:, :)
+    real(c_double), intent(out) :: point(3), quaternion(4), velocity(3), angular_momentum(3)
+    integer, intent(out), optional :: status
+    real(c_double) :: numbers(13)
+    numbers = 0.0_c_double
+    if (suits(self, status, q, v)) call accept(c_system_body_motion(self%address(), zero_based(body), q, v, numbers), status)
+    point = numbers(1:3)
+    quaternion = numbers(4:7)
+    velocity = numbers(8:10)
+    angular_momentum = numbers(11:13)
   end subroutine
 
   ! The altitude of each that acts at q [m]; 0 where none acts.

@@ -94,7 +94,19 @@ static int32_t mark(const hooke_system *system, const char *force, char *held) {
   return status;
 }
 
-/* Counts particles that no spring of any kind and no bending holds. */
+/* Marks the particles of a rigid body, which may be free as a whole. */
+static int32_t mark_body(const hooke_system *system, int64_t body, char *held) {
+  const int64_t count = hooke_system_body_particles(system, body, NULL);
+  int64_t *named = malloc((size_t)(count + 1) * sizeof *named);
+  if (named == NULL) return HOOKE_NO_MEMORY;
+  hooke_system_body_particles(system, body, named);
+  for (int64_t i = 0; i < count; i++)
+    held[named[i]] = 1;
+  free(named);
+  return HOOKE_OK;
+}
+
+/* Counts particles that no spring of any kind, no bending and no body holds. */
 static int32_t warn_of_loose_particles(struct check *check) {
   const hooke_system *system = check->setup.system;
   const int64_t particles = hooke_system_particle_count(system);
@@ -105,6 +117,8 @@ static int32_t warn_of_loose_particles(struct check *check) {
     const char *force = hooke_system_force_name(system, k);
     if (hooke_member_particles(force) > 0) status = mark(system, force, held);
   }
+  for (int64_t k = 0; status == HOOKE_OK && k < hooke_system_count(system, "bodies"); k++)
+    status = mark_body(system, k, held);
   for (int64_t i = particles - 1; status == HOOKE_OK && i >= 0; i--) {
     if (held[i]) continue;
     count++;
@@ -185,6 +199,8 @@ static void print_json(const struct check *check) {
   for (int64_t i = 0; i < check->warning_count; i++)
     cli_json_text(&json, NULL, check->warning[i]);
   cli_json_close(&json);
+  cli_json_count(&json, "bodies", hooke_system_count(system, "bodies"));
+  cli_json_count(&json, "inside_bodies", hooke_system_count(system, "inside_bodies"));
   cli_json_count(&json, "dropped_springs", hooke_system_count(system, "dropped_springs"));
   cli_json_count(&json, "idle_particles", hooke_system_count(system, "idle"));
   if (check->cost) cli_cost_sheet_print_json(&json, check->cost);
@@ -196,6 +212,20 @@ static void print_groups(const hooke_system *system) {
   for (int64_t i = 0; i < hooke_system_group_count(system, "springs"); i++) {
     const char *name = hooke_system_group_name(system, "springs", i);
     printf("  %10" PRId64 " ", hooke_system_group_size(system, "springs", i));
+    cli_print_text(stdout, name[0] ? name : "(no name)");
+    printf("\n");
+  }
+}
+
+static void print_bodies(const hooke_system *system) {
+  const int64_t bodies = hooke_system_count(system, "bodies"),
+                inside = hooke_system_count(system, "inside_bodies");
+  if (bodies == 0) return;
+  printf("bodies       %" PRId64 " rigid; %" PRId64 " %s inside them dropped\n", bodies, inside,
+         inside == 1 ? "spring or other member of a force" : "springs and other members of forces");
+  for (int64_t k = 0; k < bodies; k++) {
+    const char *name = hooke_system_body_name(system, k);
+    printf("  %10" PRId64 " ", hooke_system_body_particles(system, k, NULL));
     cli_print_text(stdout, name[0] ? name : "(no name)");
     printf("\n");
   }
@@ -245,6 +275,7 @@ static void print_words(const struct check *check) {
   }
   printf("particles    %" PRId64 " (%" PRId64 " pinned or driven)\n", particles,
          particles - hooke_system_count(system, "free"));
+  print_bodies(system);
   print_groups(system);
   cli_derived_words(system);
   printf("forces       ");

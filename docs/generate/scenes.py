@@ -64,7 +64,7 @@ def allowed(schema: dict[str, Any], definitions: dict[str, Any]) -> str:
         kind, "") + bound
 
 
-BELOW = ("particles", "springs", "anchors", "parts", "driven", "run")
+BELOW = ("particles", "springs", "anchors", "parts", "bodies", "driven", "run")
 
 
 def schema_rows(schema: dict[str, Any], definitions: dict[str, Any], names: list[str] | None = None,
@@ -127,6 +127,8 @@ def page(root: Path) -> str:
               + option_rows(hooke.Options.for_anchors().rows, definitions["anchors"]["required"])),
         "## parts",
         *parts(schema),
+        "## bodies",
+        table(schema_rows(definitions["bodies"], definitions)),
         "## driven",
         *driven(definitions),
         "## run",

@@ -110,7 +110,8 @@ HOOKE_API int32_t hooke_integrator_on_progress(hooke_integrator *integrator, dou
  * the state is the last one that passed, and hooke_integrator_diverged_at() tells when it was noticed. With
  * the option `past_divergence` frames come after that, until a number is not finite. HOOKE_STEP_LIMIT,
  * HOOKE_SOLVER_FAILED: the state is the last one reached. HOOKE_BAD_VALUE: no `duration`, one that does not
- * change the time of an error-controlled method, or a state with numbers that are not finite. */
+ * change the time of an error-controlled method, or a state with numbers that are not finite or rows of a rigid
+ * body that are not those of a rigid motion. */
 HOOKE_API int32_t hooke_integrator_run(hooke_integrator *integrator, hooke_state *state);
 
 /* Continues a run to its end from where hooke_checkpoint_read() placed the integrator and the state, or from
@@ -143,8 +144,8 @@ HOOKE_API int32_t hooke_integrator_sync(hooke_integrator *integrator, hooke_stat
  * method start anew. Pinned particles are held where they are put; driven ones stay where their motion has
  * them. Since writing may bring any energy, only numbers that are not finite are divergence from then on.
  * HOOKE_BAD_CALL as for hooke_integrator_advance(), HOOKE_BAD_VALUE for a particle that does not exist or a
- * number that is not finite, HOOKE_UNSUITED for a first- or second-order problem, HOOKE_NO_MEMORY; nothing is
- * written then. */
+ * number that is not finite, HOOKE_UNSUITED for a first- or second-order problem and for writing a particle of
+ * a rigid body that moves, HOOKE_NO_MEMORY; nothing is written then. */
 HOOKE_API int32_t hooke_integrator_get(hooke_integrator *integrator, int64_t count, const int64_t *particles,
                                        double *q, double *v);
 HOOKE_API int32_t hooke_integrator_put(hooke_integrator *integrator, int64_t count, const int64_t *particles,
@@ -185,8 +186,8 @@ typedef int32_t hooke_warning(const char *kind, const char *sentence, double t, 
 
 /* Turns on warnings for the runs of `integrator`: it checks at the start, then at as many of the checks for
  * divergence as cost less than a hundredth of the stepping. Results do not depend on it. NULL turns them off.
- * A method without a bound gives no warnings. HOOKE_UNSUITED for a first- or second-order problem;
- * HOOKE_NO_MEMORY. */
+ * A method without a bound gives no warnings, and neither does a system with rigid bodies. HOOKE_UNSUITED for a
+ * first- or second-order problem; HOOKE_NO_MEMORY. */
 HOOKE_API int32_t hooke_integrator_on_warning(hooke_integrator *integrator, hooke_warning *warning,
                                               void *ctx);
 

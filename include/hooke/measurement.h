@@ -246,7 +246,7 @@ HOOKE_API int32_t hooke_verify_create(const char *path, const hooke_options *opt
 
 /* Step [s] below which `method` is certain to be stable for the system linearised at q (3n): a bound from one
  * pass over the springs, not the sharp limit. 0: no step is stable. Infinity: nothing limits the step. NaN:
- * no bound is known for this method. HOOKE_BAD_VALUE for an unknown method;
+ * no bound is known for this method, or with rigid bodies that move. HOOKE_BAD_VALUE for an unknown method;
  * HOOKE_NO_MEMORY. Source: K <= 2 blockdiag(sum B_e) by (a - b)^2 <= 2 a^2 + 2 b^2, per-mode limits as in
  * docs/notes/methods.md. */
 HOOKE_API int32_t hooke_step_bound(const hooke_system *system, const char *method, const double *q,

@@ -110,6 +110,19 @@ HOOKE_API int32_t hooke_system_add_altitude(hooke_system *system, const char *na
 HOOKE_API int32_t hooke_system_add_anchors(hooke_system *system, const char *name, int64_t count,
                                            const int64_t *particles, const hooke_options *options);
 
+/* Makes particles one rigid body: mass, centre and inertia are theirs (points in a line and single points are
+ * bodies, too), all forces act on them as on any other, and members of forces inside the body are dropped at
+ * commit. Positions and velocities stay those of the particles: every step takes the body's motion from three
+ * of them and writes all of them anew (docs/design.md). Of a body with pinned particles one is a point about
+ * which it swings, two an axis, and three not in a line hold it still. If its particles are driven, all of
+ * them are. Initial velocities have to be those of a rigid motion, or with `project` 1 become those of the
+ * nearest one: with the same momentum and angular momentum. `name` may be NULL. Commit refuses a particle in
+ * two bodies, and particles that all coincide. Methods: forward-euler, symplectic-euler, verlet (damping and
+ * drag at the predicted velocity), heun, rk4 and the error-controlled ones; others are HOOKE_UNSUITED.
+ * HOOKE_BAD_VALUE, HOOKE_BAD_CALL, HOOKE_NO_MEMORY. */
+HOOKE_API int32_t hooke_system_add_body(hooke_system *system, const char *name, int64_t count,
+                                        const int64_t *particles, int32_t project);
+
 /* Acceleration of every free particle, 3 numbers [m/s^2]. */
 HOOKE_API int32_t hooke_system_set_gravity(hooke_system *system, const double *gravity);
 
@@ -160,11 +173,12 @@ HOOKE_API int64_t hooke_system_spring_count(const hooke_system *system);
  *   "springs", "bending" (triples), "altitude" (tetrahedra), "anchors": members of a force,
  *       before commit all that were added, afterwards those that act: commit drops those that
  *       have neither stiffness nor damping
- *   "dropped_springs"  springs that commit has dropped
+ *   "dropped_springs"  springs that commit has dropped for having neither
  *   "free"     particles that are neither pinned nor driven
  *   "idle"     pinned particles that no member of a force and no callback acts on; 0 before commit. Steps
  *              skip blocks of 256 particles that are all idle, except where the particles of unordered
  *              springs are numbered anew
+ *   "bodies"   rigid bodies;  "inside_bodies"  members of forces that commit has dropped inside them
  *   "forces"   number of hooke_system_force_name();  "derived"  of hooke_system_derived_value()
  *   "blocks"   of hooke_system_derivative_pattern(); -1 before commit and without memory
  *   "memory"   memory of the committed system [bytes];  "spring_memory"  the part of it that grows with the
@@ -177,6 +191,21 @@ HOOKE_API int64_t hooke_system_count(const hooke_system *system, const char *wha
 HOOKE_API int64_t hooke_system_group_count(const hooke_system *system, const char *force);
 HOOKE_API const char *hooke_system_group_name(const hooke_system *system, const char *force, int64_t group);
 HOOKE_API int64_t hooke_system_group_size(const hooke_system *system, const char *force, int64_t group);
+
+/* Rigid bodies, numbered in the order in which they were added. The name, NULL if there is no such body; the
+ * number of its particles (0), which `particles`, unless NULL, receives. */
+HOOKE_API const char *hooke_system_body_name(const hooke_system *system, int64_t body);
+HOOKE_API int64_t hooke_system_body_particles(const hooke_system *system, int64_t body, int64_t *particles);
+/* Mass [kg] of its free particles and the moments of inertia [kg m^2] about the axes through its point,
+ * ascending (4 numbers); the point is the centre of mass, or the first pinned particle. A body with two pinned
+ * points has one moment, about their axis, before two zeros. HOOKE_BAD_CALL before commit; HOOKE_BAD_VALUE if
+ * there is no such body, or it does not move by itself. */
+HOOKE_API int32_t hooke_system_body_inertia(const hooke_system *system, int64_t body, double *inertia);
+/* Its motion at q and v (3n each), 13 numbers: position of the point [m], quaternion from the body's axes to
+ * those of space (real part first), velocity of the point [m/s], angular momentum about the point [kg m^2/s].
+ * The same failures. */
+HOOKE_API int32_t hooke_system_body_motion(const hooke_system *system, int64_t body, const double *q,
+                                           const double *v, double *motion);
 
 /* Masses [kg] (n; 0: not given) and inverse masses [1/kg] (n; 0 = pinned or driven; of an overdamped system
  * 1/gamma) of all particles; NULL before commit. */
@@ -216,8 +245,8 @@ HOOKE_API const char *hooke_system_force_name(const hooke_system *system, int64_
  * callback, m g on free particles. */
 HOOKE_API int32_t hooke_system_force(const hooke_system *system, double t, const double *q, const double *v,
                                      double *force);
-/* Acceleration of every particle [m/s^2], 3n: w f + g, zero where pinned or driven; of an overdamped system
- * the velocity f/gamma [m/s]. */
+/* Acceleration of every particle [m/s^2], 3n: w f + g, zero where pinned or driven; that of the rigid motion in
+ * a body; of an overdamped system the velocity f/gamma [m/s]. */
 HOOKE_API int32_t hooke_system_acceleration(const hooke_system *system, double t, const double *q,
                                             const double *v, double *acceleration);
 /* Springs at q whose ends coincide although their rest length is not zero. */

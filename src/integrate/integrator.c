@@ -5,6 +5,7 @@
 #include "core/handle.h"
 #include "core/memory.h"
 #include "core/status.h"
+#include "integrate/method/bodies.h"
 #include "integrate/solve/reduced.h"
 
 #include <math.h>
@@ -65,13 +66,22 @@ static int32_t gather_crew(hooke_integrator *it) {
   return workers > 1 && it->pool == NULL ? HOOKE_NO_MEMORY : HOOKE_OK;
 }
 
+static int32_t take_bodies(hooke_integrator *it) {
+  const struct hk_method *method = hk_method_with_bodies(it->method);
+  if (method == NULL)
+    return hk_fail(HOOKE_UNSUITED, "method",
+                   "%s does not know rigid bodies yet; allowed in a scene with bodies: forward-euler, "
+                   "symplectic-euler, verlet, heun, rk4 and the error-controlled methods",
+                   it->method->name);
+  it->method = method;
+  return HOOKE_OK;
+}
+
 /* `it` is the integrator from here on, with its problem still missing. */
 static int32_t take_system(hooke_integrator *it, const hooke_system *system, hooke_integrator **out) {
   int32_t status = HOOKE_OK;
   it->system = system;
   it->size = 3 * system->particle_count;
-  if (it->method->by_tiles && system->friction == 0.0 && hk_goes_by_tiles(system))
-    it->by_tiles = HOOKE_MOTION_BY_TILES;
   if (!hk_method_suits(it->method->name, system)) {
     status = hk_fail(HOOKE_UNSUITED, "method", "%s %s", it->method->name,
                      system->friction > 0.0
@@ -79,6 +89,9 @@ static int32_t take_system(hooke_integrator *it, const hooke_system *system, hoo
                            "take one of the methods that do not, such as rk4"
                          : "takes first-order problems only");
   }
+  if (status == HOOKE_OK && system->bodies.moving > 0) status = take_bodies(it);
+  if (it->method->by_tiles && system->friction == 0.0 && hk_goes_by_tiles(system))
+    it->by_tiles = HOOKE_MOTION_BY_TILES;
   if (status == HOOKE_OK && it->method->choose) status = it->method->choose(it);
   if (status == HOOKE_OK) status = gather_crew(it);
   if (status == HOOKE_OK) status = hk_motion_create(system, it->by_tiles, it->pool, &it->motion);

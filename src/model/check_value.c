@@ -40,6 +40,14 @@ static void add_drives(uint32_t *value, const hooke_system *system) {
   }
 }
 
+static void add_bodies(uint32_t *value, const hooke_system *system) {
+  for (int64_t k = 0; k < system->bodies.count; k++) {
+    const struct hk_body *body = &system->bodies.body[k];
+    hk_check_whole(value, body->count);
+    hk_check_add(value, body->particle, body->count, sizeof *body->particle);
+  }
+}
+
 uint32_t hk_system_check_value(const hooke_system *system) {
   uint32_t value = 0;
   add_particles(&value, system);
@@ -54,5 +62,6 @@ uint32_t hk_system_check_value(const hooke_system *system) {
   }
   hk_check_whole(&value, system->force != NULL);
   add_drives(&value, system);
+  add_bodies(&value, system);
   return value;
 }

@@ -27,7 +27,7 @@ static int32_t check_pinned_at_rest(const hooke_system *system) {
 static int32_t take_groups_over(hooke_system *system) {
   int32_t status = HOOKE_OK;
   for (int64_t g = 0; g < system->group_count; g++)
-    hk_group_drop(&system->group[g]);
+    hk_group_drop(&system->group[g], &system->bodies);
   for (int32_t k = 0; hk_force_table(k) && status == HOOKE_OK; k++) {
     const struct hk_force_row *force = hk_force_table(k);
     const struct hk_group *first = system->group + hk_system_first_group(system, force);
@@ -161,6 +161,7 @@ static void undo(hooke_system *system) {
   hk_overdamped_undo(system);
   for (int64_t k = 0; k < system->group_count; k++)
     hk_group_take_back(&system->group[k]);
+  hk_bodies_undo(system);
   hk_strided_batches_release(&system->strided);
   hk_tiled_release(&system->tiled);
   hk_forces_release(system);
@@ -184,6 +185,7 @@ int32_t hooke_system_commit(hooke_system *system) {
   if (status != HOOKE_OK) return status;
   status = check_pinned_at_rest(system);
   if (status == HOOKE_OK) status = hk_overdamped_check(system);
+  if (status == HOOKE_OK) status = hk_bodies_commit(system);
   if (status == HOOKE_OK) status = hk_overdamped_begin(system);
   if (status == HOOKE_OK) status = fill_particles(system);
   if (status == HOOKE_OK) status = take_groups_over(system);

@@ -61,10 +61,24 @@ static int acts(const struct hk_group *group, int64_t k) {
   return kappa[k] != 0.0 || (gamma && gamma[k] != 0.0);
 }
 
-void hk_group_drop(struct hk_group *group) {
+/* 1 if all particles of a member are in one body. */
+static int is_inside(const struct hk_group *group, int64_t k, const struct hk_bodies *bodies) {
+  const int32_t count = group->force->member_particles;
+  int32_t particle[4];
+  if (bodies->of == NULL || count < 2) return 0;
+  if (group->force == &hk_force_altitude)
+    return hk_bodies_hold(bodies, count, ((const struct hk_tetrahedron *)group->own)[k].particle);
+  for (int32_t j = 0; j < count; j++)
+    particle[j] = group->particle[j][k];
+  return hk_bodies_hold(bodies, count, particle);
+}
+
+void hk_group_drop(struct hk_group *group, const struct hk_bodies *bodies) {
   int64_t acting = 0;
   for (int64_t k = 0; k < group->count; k++) {
-    if (!acts(group, k)) continue;
+    const int inside = is_inside(group, k, bodies);
+    group->inside += inside;
+    if (inside || !acts(group, k)) continue;
     if (k != acting) swap_members(group, k, acting);
     acting++;
   }
@@ -74,7 +88,7 @@ void hk_group_drop(struct hk_group *group) {
 
 void hk_group_take_back(struct hk_group *group) {
   group->count += group->dropped;
-  group->dropped = 0;
+  group->dropped = group->inside = 0;
 }
 
 /* ---- the table ---- */

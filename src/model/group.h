@@ -7,6 +7,7 @@
 
 #include <stddef.h>
 
+struct hk_bodies;
 struct hk_force_row;
 struct hooke_system;
 
@@ -19,7 +20,8 @@ struct hk_group {
   int32_t from_part; /* 1: added by a part */
   int32_t pull_only;
   int64_t count;          /* from commit on excludes members that have neither stiffness nor damping, */
-  int64_t dropped;        /* which are counted here */
+  int64_t dropped;        /* which are counted here, with those inside a rigid body, */
+  int64_t inside;         /* which are counted here as well */
   int64_t part;           /* for groups of parts: number of the part */
   hooke_options *options; /* as given, if they hold for all springs; else NULL */
   /* until commit, `count` each; NULL if the force has no such number */
@@ -36,9 +38,9 @@ void hk_group_release(struct hk_group *group);
 /* Releases the columns alone. */
 void hk_group_release_columns(struct hk_group *group);
 
-/* Moves members that have neither stiffness nor damping behind the others, in stable order, and excludes them
- * from the count; and the reverse. */
-void hk_group_drop(struct hk_group *group);
+/* Moves members that have neither stiffness nor damping, and those inside a body, behind the others, in stable
+ * order, and excludes them from the count; and the reverse. */
+void hk_group_drop(struct hk_group *group, const struct hk_bodies *bodies);
 void hk_group_take_back(struct hk_group *group);
 
 /* Takes ownership of the group and adds it to the table, or releases it: HOOKE_NO_MEMORY. */

@@ -67,6 +67,8 @@ static int32_t check_velocities(const hooke_system *system) {
 int32_t hk_overdamped_check(const hooke_system *system) {
   int32_t status = check_masses(system);
   if (status != HOOKE_OK || !system->overdamped) return status;
+  if (system->bodies.count > 0)
+    return hk_fail(HOOKE_BAD_VALUE, "bodies", "rigid bodies have inertia; an overdamped scene takes none");
   status = check_velocities(system);
   if (status == HOOKE_OK && !(system->drag > 0.0 && 1.0 / system->drag < INFINITY))
     status = hk_fail(HOOKE_BAD_VALUE, "drag",

@@ -22,6 +22,7 @@ void hooke_system_destroy(hooke_system *system) {
     hk_part_record_release(&system->part[k]);
   for (int64_t k = 0; k < system->drive_count; k++)
     hk_drive_release(&system->drive[k]);
+  hk_bodies_release(system);
   hk_strided_batches_release(&system->strided);
   hk_forces_release(system);
   hk_tiled_release(&system->tiled);
@@ -201,6 +202,7 @@ struct hk_system_mark hk_system_mark(const hooke_system *system) {
 
 void hk_system_roll_back(hooke_system *system, struct hk_system_mark mark) {
   hk_system_remove_groups(system, mark.part_count);
+  hk_system_remove_bodies(system, mark.part_count);
   hk_system_drop_derived(system, mark.derived_count);
   system->particle_count = mark.particle_count;
   system->part_count = mark.part_count;

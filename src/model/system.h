@@ -3,6 +3,7 @@
 #define HOOKE_MODEL_SYSTEM_H
 
 #include "hooke/system.h"
+#include "model/body.h"
 #include "model/group.h"
 #include "model/force/altitude.h"
 #include "model/force/bending.h"
@@ -81,6 +82,8 @@ struct hooke_system {
   hooke_force *force;
   hooke_force_product *force_product;
   void *force_ctx;
+
+  struct hk_bodies bodies;
 
   int64_t drive_count, drive_capacity;
   struct hk_drive_group *drive;

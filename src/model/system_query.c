@@ -52,8 +52,19 @@ static int64_t free_count(const hooke_system *system) {
 static int64_t dropped_springs(const hooke_system *system) {
   int64_t count = 0;
   for (int64_t k = 0; k < hk_system_groups_of(system, &hk_force_springs); k++)
-    count += system->group[k].dropped;
+    count += system->group[k].dropped - system->group[k].inside;
   return count;
+}
+
+static int64_t inside_bodies(const hooke_system *system) {
+  int64_t count = 0;
+  for (int64_t k = 0; k < system->group_count; k++)
+    count += system->group[k].inside;
+  return count;
+}
+
+static int64_t body_count(const hooke_system *system) {
+  return system->bodies.count;
 }
 
 static int64_t idle_count(const hooke_system *system) {
@@ -79,6 +90,7 @@ static int64_t memory(const hooke_system *system) {
   bytes += system->particle_capacity * (int64_t)((system->velocity ? 7 : 4) * sizeof(double) + 1) +
            (system->weight ? 2 : 1) * system->particle_count * (int64_t)sizeof(double) +
            (system->constrained_count + system->anchor_count) * (int64_t)sizeof(int32_t);
+  bytes += hk_bodies_memory(&system->bodies) + (system->bodies.of ? system->particle_count * 4 : 0);
   bytes += system->group_count * (int64_t)sizeof *system->group +
            system->derived_capacity * (int64_t)sizeof *system->derived +
            system->drive_count * (int64_t)sizeof *system->drive;
@@ -95,7 +107,8 @@ int64_t hooke_system_count(const hooke_system *system, const char *what) {
   } counts[] = {{"free", free_count},       {"idle", idle_count},
                 {"forces", force_count},    {"dropped_springs", dropped_springs},
                 {"derived", derived_count}, {"blocks", hk_system_block_count},
-                {"memory", memory},         {"spring_memory", spring_memory}};
+                {"memory", memory},         {"spring_memory", spring_memory},
+                {"bodies", body_count},     {"inside_bodies", inside_bodies}};
   for (size_t k = 0; k < sizeof counts / sizeof counts[0]; k++) {
     if (strcmp(counts[k].name, what) == 0) return counts[k].count(system);
   }

@@ -73,6 +73,7 @@ static const struct hk_option_row rows[] = {
      .high = INT32_MAX,
      .whole = 1,
      .doc = "numbers of particles held still"},
+    HOOKE_PART_RIGID,
     HOOKE_PART_FAMILY("structural", "springs along the edges"),
     HOOKE_PART_FAMILY("bend", "springs between the vertices opposite to each other across an edge"),
 };

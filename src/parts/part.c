@@ -272,6 +272,17 @@ static int32_t pin_words(const struct hooke_part_kind *kind, const struct hk_par
   return HOOKE_OK;
 }
 
+static int32_t make_rigid(const struct hk_part *part, int64_t number) {
+  if (hooke_options_number(part->options, "rigid") == 0.0) return HOOKE_OK;
+  int64_t *particles = hk_new(part->count, sizeof *particles);
+  if (particles == NULL) return HOOKE_NO_MEMORY;
+  for (int64_t k = 0; k < part->count; k++)
+    particles[k] = part->first + k;
+  const int32_t status = hk_system_add_body(part->system, part->name, part->count, particles, 0, number);
+  hk_free(particles);
+  return status;
+}
+
 static int32_t build(const struct hooke_part_kind *kind, struct hk_part *part) {
   int32_t status = hk_options_check_required(part->options);
   if (status == HOOKE_OK) status = kind->build(part);
@@ -299,6 +310,7 @@ int32_t hooke_system_add_part(hooke_system *system, const char *kind, const char
   snprintf(unnamed, sizeof unnamed, "%s%lld", kind, (long long)number);
   struct hk_part part = {.system = system, .name = name && name[0] ? name : unnamed, .options = options};
   status = build(found, &part);
+  if (status == HOOKE_OK) status = make_rigid(&part, number);
   if (status == HOOKE_OK) {
     const struct hk_part_record record = {.add = hooke_system_add_part,
                                           .grid = found->grid,

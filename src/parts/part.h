@@ -35,7 +35,7 @@ extern const struct hooke_part_kind hk_part_strand;
 const struct hk_option_table *hk_part_table(int64_t k);
 
 /* Rows shared by kinds: a point [m], the corner where a grid begins [m], the total mass or the density,
- * bending stiffness, constrained particles, a family of springs. */
+ * bending stiffness, constrained particles, whether it is one rigid body, a family of springs. */
 #define HOOKE_PART_POINT(key, such_as, text)                                                                 \
   {                                                                                                          \
     .name = (key), .type = HOOKE_OPTION_NUMBERS, .unit = "m", .min_count = 3, .max_count = 3, .required = 1, \
@@ -65,6 +65,11 @@ const struct hk_option_table *hk_part_table(int64_t k);
   {                                                                                                          \
     .name = "pinned", .type = HOOKE_OPTION_NUMBERS, .low = 0, .high = INT32_MAX, .whole = 1,                 \
     .words = (names), .word_lists = 1, .doc = (text)                                                         \
+  }
+#define HOOKE_PART_RIGID                                                                                     \
+  {                                                                                                          \
+    .name = "rigid", .type = HOOKE_OPTION_FLAG, .fallback = "false",                                         \
+    .doc = "true: it moves as one rigid body, and springs inside it are dropped"                             \
   }
 #define HOOKE_PART_FAMILY(key, text)                                                                         \
   { .name = (key), .type = HOOKE_OPTION_FAMILY, .family = &hk_part_family, .doc = (text) }

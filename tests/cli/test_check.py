@@ -14,7 +14,8 @@ from conftest import CLI, METHODS, SIX_PARTICLES, STIFF_PAIR
 pytestmark = pytest.mark.everything
 
 KEYS = ["particles", "springs", "groups", "triples", "bending_groups", "tetrahedra", "altitude_groups", "derived", "forces", "memory_bytes", "memory_bytes_output"]
-KEYS += ["memory_bytes_factor", "bytes_per_particle", "bytes_per_spring", "step_limit", "warnings", "dropped_springs", "idle_particles"]
+KEYS += ["memory_bytes_factor", "bytes_per_particle", "bytes_per_spring", "step_limit", "warnings", "bodies", "inside_bodies"]
+KEYS += ["dropped_springs", "idle_particles"]
 COST_KEYS = ["method", "step", "nanoseconds", "resolution", "memory_bytes", "step_limit", "dropped_springs"]
 COST_KEYS += ["idle_particles", "rows"]
 ROW_KEYS = ["ingredient", "kind", "group", "springs", "nanoseconds", "resolution", "memory_bytes", "step_limit_without"]

@@ -88,6 +88,35 @@ end:
   hooke_system_destroy(system);
 }
 
+/* Three particles in a rigid body that another pulls at. */
+static void run_body(struct attempt *a, const void *method) {
+  const double q[] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 2, 2, 2}, v[] = {0, 0, 1, 0, 0, 1, 0, 0, 2, 0, 0, 0},
+               mass = 1.0;
+  const int64_t ends[] = {0, 1, 2, 3}, body[] = {0, 1, 2};
+  hooke_system *system = NULL;
+  hooke_integrator *integrator = NULL;
+  hooke_options *springs = NULL, *options = make_run(a, method, 1e-3, 4e-3, 1e-3);
+  hooke_state *state = NULL;
+  if (options == NULL) goto end;
+  TRY(a, hooke_options_create("springs", &springs));
+  TRY(a, hooke_options_set_number(springs, "stiffness", 10.0));
+  TRY(a, hooke_system_create(&system));
+  TRY(a, hooke_system_add_particles(system, 4, q, v, 1, &mass, NULL));
+  TRY(a, hooke_system_add_springs(system, "springs", 2, ends, springs));
+  TRY(a, hooke_system_add_body(system, "body", 3, body, 1));
+  TRY(a, hooke_system_commit(system));
+  TRY(a, hooke_integrator_create(system, options, &integrator));
+  TRY(a, hooke_state_create(system, &state));
+  TRY(a, hooke_integrator_run(integrator, state));
+  take_state(a, state);
+end:
+  hooke_state_destroy(state);
+  hooke_integrator_destroy(integrator);
+  hooke_options_destroy(springs);
+  hooke_options_destroy(options);
+  hooke_system_destroy(system);
+}
+
 static int32_t decay(int64_t n, double t, const double *x, double *rate, void *ctx) {
   (void)t, (void)ctx;
   for (int64_t k = 0; k < n; k++)
@@ -142,6 +171,9 @@ const struct scenario running[] = {
     {"run, cvode-adams, 2 threads", run, RUN("cvode-adams", 2), 40, "sundials", NULL},
     {"run, arkode-esdirk", run, RUN("arkode-esdirk", 1), 1, "sundials", NULL},
     {"run, rk8pd", run, RUN("rk8pd", 1), 1, "gsl", NULL},
+    {"run, rigid body, verlet", run_body, "verlet", 1, NULL, NULL},
+    {"run, rigid body, rk4", run_body, "rk4", 1, NULL, NULL},
+    {"run, rigid body, cvode-bdf", run_body, "cvode-bdf", 1, "sundials", NULL},
     {"run, first order, rk4", run_first_order, "rk4", 1, NULL, NULL},
     {"run, first order, cvode-bdf", run_first_order, "cvode-bdf", 1, "sundials", NULL},
     {"run, first order, rk8pd", run_first_order, "rk8pd", 1, "gsl", NULL},

@@ -6,30 +6,39 @@
 
 #include <string.h>
 
-static int32_t find_stretches(const hooke_system *system, struct hk_unknowns *u) {
-  u->stretch = hk_new(system->constrained_count + 1, sizeof *u->stretch);
-  if (u->stretch == NULL) return HOOKE_NO_MEMORY;
-  int64_t from = 0, place = 0;
-  for (int64_t k = 0; k <= system->constrained_count; k++) {
-    const int64_t to =
-        k < system->constrained_count ? system->constrained_particle[k] : system->particle_count;
-    if (to > from) {
-      u->stretch[u->stretch_count++] = (struct hk_stretch_of_free){from, place, to - from};
-      place += to - from;
+static int is_alone(const hooke_system *system, int64_t particle) {
+  return !system->constrained[particle] && !hk_bodies_move(&system->bodies, particle);
+}
+
+/* Finds the stretches, or counts them before there is a list. */
+static void find_stretches(const hooke_system *system, struct hk_unknowns *u) {
+  u->free_count = u->stretch_count = 0;
+  for (int64_t p = 0, from = 0; p <= system->particle_count; p++) {
+    if (p < system->particle_count && is_alone(system, p)) continue;
+    if (p > from) {
+      if (u->stretch)
+        u->stretch[u->stretch_count] = (struct hk_stretch_of_free){from, u->free_count, p - from};
+      u->stretch_count++;
+      u->free_count += p - from;
     }
-    from = to + 1;
+    from = p + 1;
   }
-  return HOOKE_OK;
 }
 
 int32_t hk_unknowns_create(hooke_integrator *it, int32_t products, struct hk_unknowns *u) {
   *u = (struct hk_unknowns){.size = it->size};
   if (it->rate) return HOOKE_OK;
-  u->free_count = it->system->particle_count - it->system->constrained_count;
+  find_stretches(it->system, u);
+  u->stretch = hk_new(u->stretch_count, sizeof *u->stretch);
+  if (u->stretch == NULL) return HOOKE_NO_MEMORY;
+  find_stretches(it->system, u);
   u->has_v = it->system->friction == 0.0;
-  u->size = u->free_count > 0 ? (u->has_v ? 6 : 3) * u->free_count : 1;
-  if (find_stretches(it->system, u) != HOOKE_OK) return HOOKE_NO_MEMORY;
-  if (!products) return HOOKE_OK;
+  u->body_count = it->system->bodies.moving;
+  u->size = (u->has_v ? 6 : 3) * u->free_count + HOOKE_BODY_NUMBERS * u->body_count;
+  if (u->size == 0) u->size = 1;
+  if (u->body_count > 0 && (u->push = hk_new(6 * u->body_count, sizeof(double))) == NULL)
+    return HOOKE_NO_MEMORY;
+  if (!products || !hk_unknowns_have_products(it, u)) return HOOKE_OK;
   u->rows = hk_new(5 * it->size, sizeof(double));
   it->own_memory += 5 * it->size * (int64_t)sizeof(double);
   return u->rows ? HOOKE_OK : HOOKE_NO_MEMORY;
@@ -38,6 +47,7 @@ int32_t hk_unknowns_create(hooke_integrator *it, int32_t products, struct hk_unk
 void hk_unknowns_release(struct hk_unknowns *u) {
   hk_free(u->stretch);
   hk_free(u->rows);
+  hk_free(u->push);
   *u = (struct hk_unknowns){0};
 }
 
@@ -46,6 +56,13 @@ void hk_unknowns_tolerance(const hooke_integrator *it, const struct hk_unknowns 
   const double velocity = hooke_options_number(it->options, "atol_velocity");
   for (int64_t k = 0; k < u->size; k++)
     tolerance[k] = it->rate || k < 3 * u->free_count ? position : velocity;
+  for (int64_t k = 0; k < u->body_count; k++)
+    hk_body_tolerance(it->system->bodies.mover[k], position, velocity,
+                      tolerance + 6 * u->free_count + HOOKE_BODY_NUMBERS * k);
+}
+
+int32_t hk_unknowns_have_products(const hooke_integrator *it, const struct hk_unknowns *u) {
+  return it->rate == NULL && u->body_count == 0;
 }
 
 /* ---- between y and all particles ---- */
@@ -82,9 +99,10 @@ static void spread_to_rows(const struct hk_unknowns *u, const double *some, doub
   }
 }
 
-static void gather_motion(const struct hk_unknowns *u, const struct hk_motion *motion, double *y) {
-  hk_unknowns_gather(u, (const double *const *)motion->q, y);
-  if (u->has_v) hk_unknowns_gather(u, (const double *const *)motion->v, y + 3 * u->free_count);
+void hk_unknowns_take(const hooke_integrator *it, const struct hk_unknowns *u, double *y) {
+  hk_unknowns_gather(u, (const double *const *)it->motion->q, y);
+  if (u->has_v) hk_unknowns_gather(u, (const double *const *)it->motion->v, y + 3 * u->free_count);
+  hk_bodies_read(it->system, it->motion, y + 6 * u->free_count);
 }
 
 void hk_unknowns_load(hooke_integrator *it, const struct hk_unknowns *u, const hooke_state *state,
@@ -95,7 +113,7 @@ void hk_unknowns_load(hooke_integrator *it, const struct hk_unknowns *u, const h
   }
   y[0] = 0.0; /* the value if nothing is free */
   hk_motion_load(it->system, it->motion, state->q, state->v);
-  gather_motion(u, it->motion, y);
+  hk_unknowns_take(it, u, y);
 }
 
 int32_t hk_unknowns_store(hooke_integrator *it, const struct hk_unknowns *u, double t, const double *y,
@@ -113,6 +131,7 @@ int32_t hk_unknowns_store(hooke_integrator *it, const struct hk_unknowns *u, dou
     return status;
   }
   status = hk_integrator_hold(it, t);
+  hk_bodies_write(it->system, it->motion, y + 6 * u->free_count);
   hk_motion_store(it->motion, state->q, state->v);
   spread_to_rows(u, y, state->q);
   spread_to_rows(u, y + 3 * u->free_count, state->v);
@@ -124,12 +143,11 @@ int32_t hk_unknowns_store(hooke_integrator *it, const struct hk_unknowns *u, dou
 int32_t hk_unknowns_place(hooke_integrator *it, const struct hk_unknowns *u, double t, const double *y) {
   hk_unknowns_spread(u, y, it->motion->q);
   if (u->has_v) hk_unknowns_spread(u, y + 3 * u->free_count, it->motion->v);
+  hk_bodies_write(it->system, it->motion, y + 6 * u->free_count);
   return hk_integrator_hold(it, t);
 }
 
-/* v', or of an overdamped system q', of the free particles; 0 times their sum shows whether all are finite.
- */
-static double accelerations(const hooke_integrator *it, const struct hk_unknowns *u, double *out) {
+double hk_unknowns_accelerations(const hooke_integrator *it, const struct hk_unknowns *u, double *out) {
   const hooke_system *system = it->system;
   double sum = 0.0;
   for (int a = 0; a < 3; a++) {
@@ -147,6 +165,21 @@ static double accelerations(const hooke_integrator *it, const struct hk_unknowns
   return sum;
 }
 
+/* The same of the bodies; y is that of the working copy. */
+static double body_slopes(const hooke_integrator *it, const struct hk_unknowns *u, const double *y,
+                          double *slope) {
+  double sum = 0.0;
+  hk_bodies_push(it->system, it->motion, y + 6 * u->free_count, u->push);
+  for (int64_t k = 0; k < u->body_count; k++) {
+    const int64_t at = 6 * u->free_count + HOOKE_BODY_NUMBERS * k;
+    const double *push = u->push + 6 * k;
+    hk_body_slope(it->system->bodies.mover[k], y + at, push, push + 3, slope + at);
+    for (int j = 0; j < HOOKE_BODY_NUMBERS; j++)
+      sum += 0.0 * slope[at + j];
+  }
+  return sum;
+}
+
 static int first_order_slope(hooke_integrator *it, double t, const double *x, double *slope) {
   if (hk_integrator_rate(it, t, x, slope) != HOOKE_OK) return HOOKE_SLOPE_STOPPED;
   double sum = 0.0;
@@ -160,7 +193,7 @@ int hk_unknowns_slope(hooke_integrator *it, const struct hk_unknowns *u, double 
   /* a solver may interpret a stop as a reason to try a smaller step */
   if (it->stop_value != 0) return HOOKE_SLOPE_STOPPED;
   if (it->rate) return first_order_slope(it, t, y, slope);
-  if (u->free_count == 0) {
+  if (u->free_count == 0 && u->body_count == 0) {
     slope[0] = 0.0;
     return HOOKE_SLOPE_FINE;
   }
@@ -168,7 +201,8 @@ int hk_unknowns_slope(hooke_integrator *it, const struct hk_unknowns *u, double 
     return HOOKE_SLOPE_STOPPED;
   const int64_t m = u->has_v ? u->free_count : 0;
   memcpy(slope, y + 3 * m, (size_t)(3 * m) * sizeof(double));
-  return accelerations(it, u, slope + 3 * m) == 0.0 ? HOOKE_SLOPE_FINE : HOOKE_SLOPE_NOT_FINITE;
+  const double sum = hk_unknowns_accelerations(it, u, slope + 3 * m) + body_slopes(it, u, y, slope);
+  return sum == 0.0 ? HOOKE_SLOPE_FINE : HOOKE_SLOPE_NOT_FINITE;
 }
 
 /* ---- its derivative ---- */

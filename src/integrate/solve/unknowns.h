@@ -1,12 +1,13 @@
 /* The problem as y' = phi(t, y), for methods that do not know particles: y = (q, v) of the free particles
- * with x, y and z apart, as the working copy of a state has them, or x of a first-order problem. If nothing
- * is free y is one number that stays 0, because solvers accept no empty vector. */
+ * with x, y and z apart, as the working copy of a state has them, then the own coordinates of rigid bodies
+ * (model/body.h); or x of a first-order problem. If nothing is free y is one number that stays 0, because
+ * solvers accept no empty vector. */
 #ifndef HOOKE_INTEGRATE_SOLVE_UNKNOWNS_H
 #define HOOKE_INTEGRATE_SOLVE_UNKNOWNS_H
 
 #include "integrate/integrator.h"
 
-/* Consecutive free particles: those from `particle` on, the first of which is free particle number `place`.
+/* Consecutive free particles, in no body: those from `particle` on, the first of which is free particle number `place`.
  */
 struct hk_stretch_of_free {
   int64_t particle, place, count;
@@ -15,9 +16,10 @@ struct hk_stretch_of_free {
 struct hk_unknowns {
   int64_t size;  /* numbers in y */
   int32_t has_v; /* 1: positions, then velocities; 0: of an overdamped system, positions alone */
-  int64_t free_count, stretch_count;
+  int64_t free_count, body_count, stretch_count; /* free particles in no body; bodies that move */
   struct hk_stretch_of_free *stretch;
   double *rows; /* q, v, dq, dv, out in rows of all particles, for products with the derivative; or NULL */
+  double *push; /* acceleration and torque of every body */
 };
 
 /* Results of the functions below, as solvers interpret them: a failure to recover from by a smaller step, or
@@ -38,6 +40,12 @@ void hk_unknowns_load(hooke_integrator *integrator, const struct hk_unknowns *un
 int32_t hk_unknowns_store(hooke_integrator *integrator, const struct hk_unknowns *unknowns, double t,
                           const double *y, hooke_state *state);
 
+/* From the working copy. */
+void hk_unknowns_take(const hooke_integrator *integrator, const struct hk_unknowns *unknowns, double *y);
+
+/* 1 if hk_unknowns_product() knows the derivative: not that of first-order problems and bodies. */
+int32_t hk_unknowns_have_products(const hooke_integrator *integrator, const struct hk_unknowns *unknowns);
+
 /* Three components of the free particles (3 free_count) from and to those of all (3 n); others are unchanged.
  */
 void hk_unknowns_gather(const struct hk_unknowns *unknowns, const double *const all[3], double *some);
@@ -46,6 +54,11 @@ void hk_unknowns_spread(const struct hk_unknowns *unknowns, const double *some, 
 /* Loads y and the constrained particles of time t into the working copy; returns a status. */
 int32_t hk_unknowns_place(hooke_integrator *integrator, const struct hk_unknowns *unknowns, double t,
                           const double *y);
+
+/* v' of the free particles (3 free_count) from the forces of the working copy; returns 0 times their sum, which
+ * shows whether all are finite. */
+double hk_unknowns_accelerations(const hooke_integrator *integrator, const struct hk_unknowns *unknowns,
+                                 double *out);
 
 /* slope = phi(t, y), counted. */
 int hk_unknowns_slope(hooke_integrator *integrator, const struct hk_unknowns *unknowns, double t,

@@ -14,7 +14,7 @@
 
 enum { METHODS_SIZE = 512 };
 
-static const char other_keys[] = "hooke particles springs anchors parts driven run";
+static const char other_keys[] = "hooke particles springs anchors parts bodies driven run";
 
 /* ---- syntax ---- */
 
@@ -146,7 +146,7 @@ static int32_t read_run(struct hk_scene_reader *reader, const json_t *run) {
 static int32_t read_scene(struct hk_scene_reader *reader, const json_t *root) {
   const json_t *particles = json_object_get(root, "particles"), *parts = json_object_get(root, "parts");
   const json_t *springs = json_object_get(root, "springs"), *driven = json_object_get(root, "driven");
-  const json_t *anchors = json_object_get(root, "anchors");
+  const json_t *anchors = json_object_get(root, "anchors"), *bodies = json_object_get(root, "bodies");
   int32_t status = check_version(root);
   if (status == HOOKE_OK) status = read_top(reader, root);
   if (status == HOOKE_OK && particles) status = hk_scene_add_particles(reader, particles);
@@ -155,6 +155,7 @@ static int32_t read_scene(struct hk_scene_reader *reader, const json_t *root) {
     status = hk_fail(HOOKE_BAD_VALUE, NULL, "a scene without particles; allowed: particles, parts or both");
   if (status == HOOKE_OK && springs) status = hk_scene_add_springs(reader, springs);
   if (status == HOOKE_OK && anchors) status = hk_scene_add_anchors(reader, anchors);
+  if (status == HOOKE_OK && bodies) status = hk_scene_add_bodies(reader, bodies);
   if (status == HOOKE_OK && driven) status = hk_scene_add_driven(reader, driven);
   if (status == HOOKE_OK) status = read_run(reader, json_object_get(root, "run"));
   return status;

@@ -227,6 +227,63 @@ int32_t hk_scene_add_anchors(struct hk_scene_reader *reader, const json_t *ancho
   return for_each(reader, anchors, anchors_kind.key, add_anchors);
 }
 
+/* ---- bodies ---- */
+
+static int32_t list_part(const struct hk_scene_reader *reader, const json_t *value, int64_t **particles,
+                         int64_t *count) {
+  int32_t status = hk_scene_require_text(value, "part");
+  if (status != HOOKE_OK) return status;
+  const struct hk_named_part *part = hk_part_names_find(&reader->parts, json_string_value(value));
+  if (part == NULL) {
+    char shown[HOOKE_OPTION_SHOWN];
+    hk_option_show(json_string_value(value), (int64_t)json_string_length(value), shown);
+    return hk_fail(HOOKE_BAD_VALUE, "part", "there is no part \"%s\"; allowed: the name of a part", shown);
+  }
+  *particles = hk_new(part->count, sizeof **particles);
+  if (*particles == NULL) return HOOKE_NO_MEMORY;
+  *count = part->count;
+  for (int64_t k = 0; k < part->count; k++)
+    (*particles)[k] = part->first + k;
+  return HOOKE_OK;
+}
+
+static int32_t read_body(struct hk_scene_reader *reader, const json_t *object, hooke_options *options) {
+  const json_t *list = json_object_get(object, "particles"), *part = json_object_get(object, "part");
+  const char *name = "";
+  int64_t *particles = NULL, count = 0;
+  int32_t status = hk_scene_read_options(reader, object, "name particles part", options);
+  if (status == HOOKE_OK) status = read_text(object, "name", &name);
+  if (status == HOOKE_OK && (list == NULL) == (part == NULL))
+    status =
+        hk_fail(HOOKE_BAD_VALUE, part ? "part" : "particles", "%s; allowed: particles, or the name of a part",
+                part ? "is given beside particles" : "is required but missing");
+  if (status != HOOKE_OK) return status;
+  if (part) {
+    status = list_part(reader, part, &particles, &count);
+  } else {
+    status = hk_scene_read_particles(reader, list, 0, &particles, &count);
+    if (status != HOOKE_OK) hk_fail_within(status, "particles");
+  }
+  if (status == HOOKE_OK)
+    status = hooke_system_add_body(reader->scene->system, name, count, particles,
+                                   hooke_options_number(options, "project") != 0.0);
+  hk_free(particles);
+  return status;
+}
+
+static int32_t add_body(struct hk_scene_reader *reader, const json_t *object, int64_t index) {
+  (void)index;
+  hooke_options *options = NULL;
+  int32_t status = hooke_options_create("bodies", &options);
+  if (status == HOOKE_OK) status = read_body(reader, object, options);
+  hooke_options_destroy(options);
+  return status;
+}
+
+int32_t hk_scene_add_bodies(struct hk_scene_reader *reader, const json_t *bodies) {
+  return for_each(reader, bodies, "bodies", add_body);
+}
+
 /* ---- drives ---- */
 
 /* Refuses the keys of another motion, and requires those of this one. */

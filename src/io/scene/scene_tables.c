@@ -92,6 +92,15 @@ static const struct hk_option_row drive_rows[] = {
 
 static const struct hk_option_table drive_table = {"driven", HOOKE_OPTION_ROWS(drive_rows)};
 
+static const struct hk_option_row body_rows[] = {
+    {.name = "project",
+     .type = HOOKE_OPTION_FLAG,
+     .fallback = "false",
+     .doc = "true: velocities become those of the nearest rigid motion"},
+};
+
+static const struct hk_option_table body_table = {"bodies", HOOKE_OPTION_ROWS(body_rows)};
+
 static const struct hk_option_row limit_rows[] = {
     {.name = "memory",
      .type = HOOKE_OPTION_NUMBER,
@@ -110,7 +119,7 @@ static const struct hk_option_table limit_table = {"limits", HOOKE_OPTION_ROWS(l
 
 const struct hk_option_table *hk_scene_table(int64_t k) {
   static const struct hk_option_table *const tables[] = {&scene_table, &particle_table, &drive_table,
-                                                         &limit_table, NULL};
+                                                         &body_table,  &limit_table,    NULL};
   return tables[k];
 }
 

@@ -267,6 +267,25 @@ static void add_anchors(struct hk_text *text, const hooke_system *system, const 
   hk_free(all.particle);
 }
 
+/* ---- bodies ---- */
+
+static void add_bodies(struct hk_text *text, const hooke_system *system, const struct numbering *numbering) {
+  int32_t open = 0;
+  for (int64_t k = 0; k < system->bodies.count; k++) {
+    const struct hk_body *body = &system->bodies.body[k];
+    if (body->part >= 0) continue; /* its part says so */
+    if (!open++) hk_text_open(text, "bodies", '[');
+    hk_text_open(text, NULL, '{');
+    if (body->name[0]) hk_text_word(text, "name", body->name);
+    hk_text_open(text, "particles", '[');
+    for (int64_t i = 0; i < body->count; i++)
+      hk_text_number(text, NULL, (double)numbering->number[body->particle[i]]);
+    hk_text_close(text, ']');
+    hk_text_close(text, '}');
+  }
+  if (open) hk_text_close(text, ']');
+}
+
 /* ---- drives ---- */
 
 static void add_drive(struct hk_text *text, const struct hk_drive_group *drive,
@@ -324,6 +343,7 @@ static void add_scene(struct hk_text *text, const hooke_system *system, const ch
   }
   if (system->part_count > 0) add_parts(text, system);
   if (hk_system_groups_of(system, &hk_force_anchor) > 0) add_anchors(text, system, numbering);
+  add_bodies(text, system, numbering);
   if (system->drive_count > 0) hk_text_open(text, "driven", '[');
   for (int64_t k = 0; k < system->drive_count; k++)
     add_drive(text, &system->drive[k], numbering);

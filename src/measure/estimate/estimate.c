@@ -23,7 +23,8 @@ static const double AIM = 0.6, LEAST_GAIN = 0.7, LEAST_FACTOR = 1.0 / 16.0,
 static const double MOST_RUNS = 30.0;  /* maximum time of a refined run, in times of the first */
 
 int32_t hooke_estimate_create(const hooke_system *system, double want, hooke_estimate **out) {
-  const int32_t status = hk_system_require_committed(system);
+  int32_t status = hk_system_require_committed(system);
+  if (status == HOOKE_OK) status = hk_system_require_no_bodies(system, "an estimate of the error");
   if (status != HOOKE_OK) return status;
   if (!isnan(want) && !(want > 0.0 && isfinite(want)))
     return hk_fail(HOOKE_BAD_VALUE, "want", "%g is not allowed; a number > 0 [m] is", want);

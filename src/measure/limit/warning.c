@@ -86,7 +86,8 @@ int32_t hooke_integrator_on_warning(hooke_integrator *it, hooke_warning *warning
   hk_integrator_set_checker(it, (struct hk_checker){.look = NULL});
   int32_t status = hk_integrator_require_particles(it, NULL, "has no springs to bound its step by");
   if (status != HOOKE_OK) return status;
-  if (warning == NULL || !hk_step_is_bounded(it->method->name)) return HOOKE_OK;
+  if (warning == NULL || !hk_step_is_bounded(it->method->name) || it->system->bodies.moving > 0)
+    return HOOKE_OK;
   struct warner *warner = hk_new(1, sizeof *warner);
   if (warner == NULL) return HOOKE_NO_MEMORY;
   status = hk_node_blocks_create(it->system, it->system->position, &warner->blocks);

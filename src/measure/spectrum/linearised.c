@@ -199,6 +199,8 @@ int32_t hk_linearised_create(const hooke_system *system, const double *q, const 
                              const double *mass_scale, struct hk_linearised *lin) {
   const int64_t n = system->particle_count, m = system->springs.count;
   *lin = (struct hk_linearised){.system = system, .size = 3 * n, .drag = system->drag};
+  int32_t status = hk_system_require_no_bodies(system, "the spectrum");
+  if (status != HOOKE_OK) return status;
   for (int64_t k = 0; k < 3 * n; k++) {
     if (isfinite(q[k])) continue;
     return hk_fail(HOOKE_BAD_VALUE, "state", "particle %lld is at a place that is not finite",
@@ -222,7 +224,7 @@ int32_t hk_linearised_create(const hooke_system *system, const double *q, const 
     lin->inverse[p] = system->constrained[p] ? 0.0 : 1.0 / lin->mass[p];
     lin->unknowns += system->constrained[p] ? 0 : 3;
   }
-  int32_t status = see_springs(lin, q, spring_scale);
+  status = see_springs(lin, q, spring_scale);
   if (status == HOOKE_OK) status = see_others(lin, q);
   if (status == HOOKE_OK) status = choose_rate(lin, q, sum);
   if (status != HOOKE_OK) hk_linearised_release(lin);

@@ -28,8 +28,9 @@ static const double FIRST_RUN_SHARE = 0.3, LEVELS_SHARE = 0.8, FLOOR_SHARE = 0.4
 
 int32_t hk_reference_method(const hooke_system *system, const double *q, const char **method) {
   struct hk_node_blocks blocks;
-  const int32_t status = hk_node_blocks_create(system, q, &blocks);
   *method = "cvode-adams";
+  if (system->bodies.moving > 0) return HOOKE_OK;
+  const int32_t status = hk_node_blocks_create(system, q, &blocks);
   if (status != HOOKE_OK) return status;
   if (system->friction > 0.0 ||
       hk_node_blocks_damping_rate(&blocks) > 2.0 * hk_node_blocks_frequency(&blocks))

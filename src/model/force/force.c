@@ -104,6 +104,7 @@ int32_t hooke_system_acceleration(const hooke_system *system, double t, const do
         *value = system->has_gravity ? w * motion->f[a][p] + system->gravity[a] : w * motion->f[a][p];
     }
   }
+  hk_bodies_accelerate(system, motion, acceleration);
   hk_motion_destroy(motion);
   return HOOKE_OK;
 }

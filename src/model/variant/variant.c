@@ -138,6 +138,27 @@ static int32_t keep_groups(struct hk_variant_maker *maker) {
   return status;
 }
 
+/* Bodies that are no parts, as long as they have all their particles. */
+static int32_t keep_bodies(const struct hk_variant_maker *maker) {
+  const struct hk_bodies *bodies = &maker->from->bodies;
+  int32_t status = HOOKE_OK;
+  for (int64_t k = 0; k < bodies->count && status == HOOKE_OK; k++) {
+    const struct hk_body *body = &bodies->body[k];
+    if (body->part >= 0) continue;
+    int64_t *particles = hk_new(body->count, sizeof *particles);
+    if (particles == NULL) return HOOKE_NO_MEMORY;
+    for (int64_t i = 0; i < body->count && status == HOOKE_OK; i++) {
+      particles[i] = maker->map->to[body->particle[i]];
+      if (!hk_variant_is_same(maker->map, body->particle[i]))
+        status = hk_fail(HOOKE_UNSUITED, NULL, "the rigid body \"%.40s\" would lose particles", body->name);
+    }
+    if (status == HOOKE_OK)
+      status = hk_system_add_body(maker->made, body->name, body->count, particles, body->project, -1);
+    hk_free(particles);
+  }
+  return status;
+}
+
 static void scale(int64_t count, double *value, double factor) {
   for (int64_t k = 0; k < count; k++)
     value[k] *= factor;
@@ -166,6 +187,7 @@ int32_t hk_variant_make(const hooke_system *from, const struct hk_variant *varia
   if (status == HOOKE_OK) status = hk_variant_add_particles(&maker);
   if (status == HOOKE_OK) status = hk_variant_constrain(&maker);
   if (status == HOOKE_OK) status = keep_groups(&maker);
+  if (status == HOOKE_OK) status = keep_bodies(&maker);
   if (status == HOOKE_OK) status = add_forces(&maker);
   if (status == HOOKE_OK) {
     if (variant->stiffness != 1.0) scale_stiffness(maker.made, variant->stiffness);

@@ -21,7 +21,7 @@ from __future__ import annotations
 import importlib
 from typing import Any
 
-from ._queries import Blocks, Derived, Material, build_facts
+from ._queries import Blocks, BodyMotion, Derived, Material, build_facts
 from ._status import BadCall, BadValue, Error, IOFailed, NoMemory, NotBuilt, SolverFailed, Stopped, Unsuited
 from ._types import Springs, Transform
 from .comparison import Comparison, compare
@@ -49,6 +49,7 @@ __all__ = [
     "BadCall",
     "BadValue",
     "Blocks",
+    "BodyMotion",
     "Comparison",
     "Cost",
     "Derived",

@@ -32,6 +32,17 @@ class Derived(NamedTuple):
     unit: str
 
 
+class BodyMotion(NamedTuple):
+    """The motion of a rigid body: position (3,) [m] and velocity (3,) [m/s] of its point, which is the centre of mass or
+    the first pinned particle; the quaternion (4,) from its axes to those of space, real part first; the angular momentum
+    about the point (3,) [kg m^2/s]."""
+
+    point: FloatArray
+    quaternion: FloatArray
+    velocity: FloatArray
+    angular_momentum: FloatArray
+
+
 class Blocks(NamedTuple):
     """A sparse matrix of 3x3 blocks in compressed rows: row_start (n + 1,), column (count,), blocks
     (count, 3, 3)."""
@@ -213,6 +224,42 @@ class Queries(Owner):
         (q,) = self._rows(q=q)
         lib.hooke_system_altitude_lengths(handle, double_pointer(q), double_pointer(length))
         return length
+
+    @property
+    def body_count(self) -> int:
+        """Number of rigid bodies."""
+        return int(lib.hooke_system_count(self._handle, b"bodies"))
+
+    @property
+    def inside_body_count(self) -> int:
+        """Number of springs and other members of forces dropped because they are inside a rigid body; commits."""
+        return int(lib.hooke_system_count(self._committed(), b"inside_bodies"))
+
+    @property
+    def body_names(self) -> list[str]:
+        """The names of the rigid bodies, "" for one without."""
+        return [text(lib.hooke_system_body_name(self._handle, k)) for k in range(self.body_count)]
+
+    def body_particles(self, body: int) -> IntArray:
+        """The particles of a rigid body (m,), ascending once committed."""
+        particles = np.empty(lib.hooke_system_body_particles(self._handle, body, None), np.int64)
+        lib.hooke_system_body_particles(self._handle, body, index_pointer(particles))
+        return particles
+
+    def body_inertia(self, body: int) -> tuple[float, FloatArray]:
+        """Mass [kg] of a rigid body and its moments of inertia (3,) [kg m^2] about the axes through its point, ascending;
+        with two pinned points one, before two zeros."""
+        inertia = np.empty(4)
+        lib.hooke_system_body_inertia(self._committed(), body, double_pointer(inertia))
+        return float(inertia[0]), inertia[1:]
+
+    def body_motion(self, body: int, q: Any, v: Any) -> BodyMotion:
+        """The motion of a rigid body at q and v."""
+        handle = self._committed()
+        q, v = self._rows(q=q, v=v)
+        motion = np.empty(13)
+        lib.hooke_system_body_motion(handle, body, double_pointer(q), double_pointer(v), double_pointer(motion))
+        return BodyMotion(motion[:3], motion[3:7], motion[7:10], motion[10:])
 
     @property
     def forces(self) -> list[str]:

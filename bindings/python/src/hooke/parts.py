@@ -14,7 +14,8 @@ class Parts:
 
     Every part takes a `name` (the default is its kind and its number among the parts) and either `mass`, its total
     [kg], or `density`. `pinned` pins particles: numbers within the part, or words. A family of springs is a dict,
-    ``dict(stiffness=50, damping=0.01)``, see `Springs`; a family that is not given has no springs. Springs follow the
+    ``dict(stiffness=50, damping=0.01)``, see `Springs`; a family that is not given has no springs. With `rigid` True the
+    part moves as one rigid body. Springs follow the
     strain law, so that a finer part of the same material stretches equally. Each method returns the scene, for the
     next call.
     """
@@ -29,6 +30,7 @@ class Parts:
         mass: float | None = None,
         density: float | None = None,
         pinned: Pins | None = None,
+        rigid: bool | None = None,
         stretch: Springs | None = None,
         bend: Springs | None = None,
         bending: float | None = None,
@@ -50,6 +52,7 @@ class Parts:
         mass: float | None = None,
         density: float | None = None,
         pinned: Pins | None = None,
+        rigid: bool | None = None,
         structural: Springs | None = None,
         shear: Springs | None = None,
         bend: Springs | None = None,
@@ -74,6 +77,7 @@ class Parts:
         mass: float | None = None,
         density: float | None = None,
         pinned: Pins | None = None,
+        rigid: bool | None = None,
         structural: Springs | None = None,
         shear: Springs | None = None,
         bend: Springs | None = None,
@@ -99,6 +103,7 @@ class Parts:
         mass: float | None = None,
         density: float | None = None,
         pinned: Pins | None = None,
+        rigid: bool | None = None,
         structural: Springs | None = None,
         bend: Springs | None = None,
     ) -> S:
@@ -124,6 +129,7 @@ class Parts:
         mass: float | None = None,
         density: float | None = None,
         pinned: Pins | None = None,
+        rigid: bool | None = None,
         stretch: Springs | None = None,
         bend: Springs | None = None,
         twist: Springs | None = None,

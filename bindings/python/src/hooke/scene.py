@@ -208,6 +208,26 @@ class Scene(Parts):
         self._note("anchors", {**({"name": name} if name else {}), "particles": numbers, **keys})
         return self
 
+    def body(
+        self,
+        name: str | None = None,
+        *,
+        particles: Particle | Sequence[Particle] | IntArray | None = None,
+        part: str | None = None,
+        project: bool = False,
+    ) -> Scene:
+        """Makes existing `particles` (m,), or all of a `part`, one rigid body. Initial velocities have to be those of a
+        rigid motion, or with `project` become those of the nearest one. Returns the scene."""
+        with placed(f"bodies[{self._count('bodies')}]"):
+            if (particles is None) == (part is None):
+                raise BadValue("particles: allowed: particles, or the name of a part")
+            which = particles if part is None else list(self._in_part(part, "part"))
+            numbers = self._numbers(which, "particles").reshape(-1)
+            self._system.add_body(name, numbers, project=project)
+        kept = {"project": True} if project else {}
+        self._note("bodies", {**({"name": name} if name else {}), "particles": numbers, **kept})
+        return self
+
     def driven(
         self,
         particles: Particle | Sequence[Particle] | IntArray,
@@ -349,14 +369,17 @@ class Scene(Parts):
             return self._number_in_part(particles[0], particles[1], name)
         return [self._resolved(particle, f"{name}[{place}]") for place, particle in enumerate(particles)]
 
-    def _number_in_part(self, part: str, number: Any, name: str) -> int:
+    def _in_part(self, part: str, name: str) -> range:
         names = self._part_names()
         if part not in names:
             known = ", ".join(f'"{other}"' for other in names) or "there are none"
             raise BadValue(f'{name}: there is no part called "{part}"; allowed: {known}')
         if part not in self._parts:
             self._find_parts(names)
-        particles = self._parts[part]
+        return self._parts[part]
+
+    def _number_in_part(self, part: str, number: Any, name: str) -> int:
+        particles = self._in_part(part, name)
         if not isinstance(number, (int, np.integer)) or not 0 <= number < len(particles):
             raise BadValue(f'{name}: "{part}" has no particle {number}; allowed: 0 to {len(particles) - 1}')
         return particles[int(number)]

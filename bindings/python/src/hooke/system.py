@@ -163,6 +163,18 @@ class System(Queries):
             Options.for_anchors().set(**options)._handle,
         )
 
+    def add_body(self, name: str | None, particles: Any, *, project: bool = False) -> None:
+        """Makes `particles` (m,) one rigid body; members of forces inside it are dropped at commit. Initial velocities
+        have to be those of a rigid motion, or with `project` become those of the nearest one."""
+        numbers = indices(particles, "particles").reshape(-1)
+        lib.hooke_system_add_body(
+            self._handle,
+            None if name is None else name.encode(),
+            len(numbers),
+            index_pointer(numbers),
+            int(project),
+        )
+
     def add_part(self, kind: str, name: str | None = None, **options: Any) -> range:
         """Adds a part, such as a "rope", a "cloth", a "lattice" or a "mesh", with the options that
         ``hooke.describe(kind)`` lists (``from_`` stands for ``from``); a family of springs is a dict:

@@ -88,6 +88,8 @@ HOOKE_API int32_t hooke_system_add_altitude(hooke_system *system, const char *na
                                             const int64_t *tetrahedra, const hooke_options *options);
 HOOKE_API int32_t hooke_system_add_anchors(hooke_system *system, const char *name, int64_t count,
                                            const int64_t *particles, const hooke_options *options);
+HOOKE_API int32_t hooke_system_add_body(hooke_system *system, const char *name, int64_t count,
+                                        const int64_t *particles, int32_t project);
 HOOKE_API int32_t hooke_system_set_gravity(hooke_system *system, const double *gravity);
 HOOKE_API int32_t hooke_system_set_drag(hooke_system *system, double coefficient);
 HOOKE_API int32_t hooke_system_set_dynamics(hooke_system *system, const char *dynamics);
@@ -108,6 +110,11 @@ HOOKE_API int64_t hooke_system_count(const hooke_system *system, const char *wha
 HOOKE_API int64_t hooke_system_group_count(const hooke_system *system, const char *force);
 HOOKE_API const char *hooke_system_group_name(const hooke_system *system, const char *force, int64_t group);
 HOOKE_API int64_t hooke_system_group_size(const hooke_system *system, const char *force, int64_t group);
+HOOKE_API const char *hooke_system_body_name(const hooke_system *system, int64_t body);
+HOOKE_API int64_t hooke_system_body_particles(const hooke_system *system, int64_t body, int64_t *particles);
+HOOKE_API int32_t hooke_system_body_inertia(const hooke_system *system, int64_t body, double *inertia);
+HOOKE_API int32_t hooke_system_body_motion(const hooke_system *system, int64_t body, const double *q,
+                                           const double *v, double *motion);
 HOOKE_API const double *hooke_system_mass(const hooke_system *system);
 HOOKE_API const double *hooke_system_inverse_mass(const hooke_system *system);
 HOOKE_API int64_t hooke_member_particles(const char *force);

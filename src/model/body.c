@@ -1,0 +1,331 @@
+/* The list of rigid bodies while a system is built, and what commit makes of it. */
+#include "model/body.h"
+
+#include "core/memory.h"
+#include "core/status.h"
+#include "model/body_frame.h"
+#include "model/state.h"
+#include "model/sum/motion.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static void release_frame(struct hk_body *body) {
+  hk_free(body->place);
+  body->place = NULL;
+  body->moves = 0;
+}
+
+static void release(struct hk_body *body) {
+  release_frame(body);
+  hk_free(body->name);
+  hk_free(body->particle);
+}
+
+void hk_bodies_undo(hooke_system *system) {
+  struct hk_bodies *bodies = &system->bodies;
+  for (int64_t k = 0; k < bodies->count; k++)
+    release_frame(&bodies->body[k]);
+  hk_free(bodies->of);
+  hk_free(bodies->mover);
+  bodies->of = NULL;
+  bodies->mover = NULL;
+  bodies->moving = 0;
+}
+
+void hk_bodies_release(hooke_system *system) {
+  hk_bodies_undo(system);
+  for (int64_t k = 0; k < system->bodies.count; k++)
+    release(&system->bodies.body[k]);
+  hk_free(system->bodies.body);
+}
+
+void hk_system_remove_bodies(hooke_system *system, int64_t part) {
+  struct hk_bodies *bodies = &system->bodies;
+  int64_t kept = 0;
+  for (int64_t k = 0; k < bodies->count; k++) {
+    if (bodies->body[k].part >= part)
+      release(&bodies->body[k]);
+    else
+      bodies->body[kept++] = bodies->body[k];
+  }
+  bodies->count = kept;
+}
+
+int64_t hk_bodies_memory(const struct hk_bodies *bodies) {
+  int64_t bytes = bodies->capacity * (int64_t)sizeof *bodies->body;
+  for (int64_t k = 0; k < bodies->count; k++)
+    bytes += bodies->body[k].count * (int64_t)(sizeof(int32_t) + 3 * sizeof(double));
+  return bytes;
+}
+
+/* ---- adding ---- */
+
+static int ascending(const void *a, const void *b) {
+  const int32_t one = *(const int32_t *)a, other = *(const int32_t *)b;
+  return (one > other) - (one < other);
+}
+
+int32_t hk_system_add_body(hooke_system *system, const char *name, int64_t count, const int64_t *particles,
+                           int32_t project, int64_t part) {
+  struct hk_bodies *bodies = &system->bodies;
+  if (bodies->count == bodies->capacity) {
+    const int64_t capacity = 2 * bodies->capacity + 4;
+    const int32_t status = hk_grow((void **)&bodies->body, bodies->count, capacity, sizeof *bodies->body);
+    if (status != HOOKE_OK) return status;
+    bodies->capacity = capacity;
+  }
+  struct hk_body body = {.part = part, .project = project, .count = count};
+  body.name = hk_copy_text(name);
+  body.particle = hk_new(count, sizeof *body.particle);
+  if (body.name == NULL || body.particle == NULL) {
+    release(&body);
+    return HOOKE_NO_MEMORY;
+  }
+  for (int64_t k = 0; k < count; k++)
+    body.particle[k] = (int32_t)particles[k];
+  qsort(body.particle, (size_t)count, sizeof *body.particle, ascending);
+  bodies->body[bodies->count++] = body;
+  return HOOKE_OK;
+}
+
+int32_t hooke_system_add_body(hooke_system *system, const char *name, int64_t count, const int64_t *particles,
+                              int32_t project) {
+  int32_t status = hk_system_require_open(system);
+  if (status == HOOKE_OK && count < 1)
+    status = hk_fail(HOOKE_BAD_VALUE, "particles", "%lld of them; allowed: 1 or more", (long long)count);
+  if (status == HOOKE_OK) status = hk_system_check_particles(system, "particles", count, particles, 0);
+  return status == HOOKE_OK ? hk_system_add_body(system, name, count, particles, project, -1) : status;
+}
+
+/* ---- commit ---- */
+
+int32_t hk_bodies_hold(const struct hk_bodies *bodies, int32_t count, const int32_t *particle) {
+  const int32_t body = bodies->of ? bodies->of[particle[0]] : -1;
+  int32_t held = body >= 0;
+  for (int32_t k = 1; k < count && held; k++)
+    held = bodies->of[particle[k]] == body;
+  return held;
+}
+
+/* The place of a body in a scene: bodies of parts are not in its list. */
+static int32_t at_body(int32_t status, const struct hk_bodies *bodies, int64_t k) {
+  int64_t number = 0;
+  if (status != HOOKE_BAD_VALUE) return status;
+  if (bodies->body[k].part >= 0)
+    return hk_fail_within(status, "parts[%lld].rigid", (long long)bodies->body[k].part);
+  for (int64_t b = 0; b < k; b++)
+    number += bodies->body[b].part < 0;
+  return hk_fail_within(status, "bodies[%lld]", (long long)number);
+}
+
+static int32_t find_owners(hooke_system *system) {
+  struct hk_bodies *bodies = &system->bodies;
+  bodies->of = hk_new(system->particle_count, sizeof *bodies->of);
+  bodies->mover = hk_new(bodies->count, sizeof(struct hk_body *));
+  if (bodies->of == NULL || bodies->mover == NULL) return HOOKE_NO_MEMORY;
+  memset(bodies->of, 0xff, (size_t)system->particle_count * sizeof *bodies->of);
+  for (int64_t k = 0; k < bodies->count; k++) {
+    for (int64_t i = 0; i < bodies->body[k].count; i++) {
+      const int32_t p = bodies->body[k].particle[i], before = bodies->of[p];
+      bodies->of[p] = (int32_t)k;
+      if (before < 0) continue;
+      if (before == k)
+        hk_fail(HOOKE_BAD_VALUE, NULL, "particle %d is named twice; allowed: once", (int)p);
+      else
+        hk_fail(HOOKE_BAD_VALUE, NULL,
+                "particle %d is already in the body \"%.40s\" (number %d); a particle is in one body at most",
+                (int)p, bodies->body[before].name, (int)before);
+      return at_body(HOOKE_BAD_VALUE, bodies, k);
+    }
+  }
+  return HOOKE_OK;
+}
+
+/* ---- initial velocities ---- */
+
+/* Velocities may differ from those of a rigid motion by this part of the largest. */
+static const double VELOCITY_ROUNDING = 1e-9;
+
+/* Rows of the nearest rigid motion: with the same momentum and angular momentum. `q` and `v` have 3 numbers a
+ * particle; pinned ones are at rest. */
+static void find_nearest(const hooke_system *system, const struct hk_body *body, double *q, double *v) {
+  double own[HOOKE_BODY_NUMBERS];
+  const struct hk_body_rows initial = hk_body_rows_of(system->position, system->velocity),
+                            rows = hk_body_rows_of(q, v);
+  if (body->moves) {
+    hk_body_read(body, &initial, own);
+    hk_body_fit(system, body, own);
+  }
+  for (int64_t k = 0; k < body->count; k++)
+    memset(v + 3 * (int64_t)body->particle[k], 0, 3 * sizeof(double));
+  if (body->moves) hk_body_write(system, body, own, &rows);
+}
+
+/* The particle whose velocity differs most from v, by `distance`; and the largest speed. */
+static int32_t farthest(const hooke_system *system, const struct hk_body *body, const double *v,
+                        double *distance, double *speed) {
+  int32_t found = body->particle[0];
+  *distance = *speed = 0.0;
+  for (int64_t k = 0; k < body->count; k++) {
+    const int64_t p = body->particle[k];
+    double by[3];
+    for (int a = 0; a < 3; a++) {
+      by[a] = system->velocity[3 * p + a] - v[3 * p + a];
+      *speed = fmax(*speed, fabs(system->velocity[3 * p + a]));
+    }
+    const double length = hk_length3(by);
+    if (!(length > *distance)) continue;
+    *distance = length;
+    found = (int32_t)p;
+  }
+  return found;
+}
+
+static int32_t check_velocities(hooke_system *system, const struct hk_body *body, double *q, double *v) {
+  double distance, speed;
+  find_nearest(system, body, q, v);
+  const int32_t p = farthest(system, body, v, &distance, &speed);
+  if (distance <= VELOCITY_ROUNDING * speed) return HOOKE_OK;
+  if (!body->project)
+    return hk_fail(HOOKE_BAD_VALUE, NULL,
+                   "the velocities of its particles are not those of a rigid motion: that of particle %d is "
+                   "%.3g m/s from the nearest one; allowed: a rigid motion, or \"project\": true",
+                   (int)p, distance);
+  for (int64_t k = 0; k < body->count; k++) {
+    const int64_t at = 3 * (int64_t)body->particle[k];
+    memcpy(system->velocity + at, v + at, 3 * sizeof(double));
+  }
+  return HOOKE_OK;
+}
+
+static int32_t check_all_velocities(hooke_system *system) {
+  const struct hk_bodies *bodies = &system->bodies;
+  double *room = hk_new(6 * system->particle_count, sizeof(double));
+  int32_t status = room ? HOOKE_OK : HOOKE_NO_MEMORY;
+  for (int64_t k = 0; k < bodies->count && status == HOOKE_OK; k++) {
+    const struct hk_body *body = &bodies->body[k];
+    if (system->constrained[body->particle[0]] == HOOKE_IS_DRIVEN) continue; /* it follows its drive */
+    status = check_velocities(system, body, room, room + 3 * system->particle_count);
+    if (status != HOOKE_OK) at_body(status, bodies, k);
+  }
+  hk_free(room);
+  return status;
+}
+
+int32_t hk_bodies_commit(hooke_system *system) {
+  struct hk_bodies *bodies = &system->bodies;
+  if (bodies->count == 0) return HOOKE_OK;
+  int32_t status = find_owners(system);
+  for (int64_t k = 0; k < bodies->count && status == HOOKE_OK; k++) {
+    struct hk_body *body = &bodies->body[k];
+    status = hk_body_commit(system, body);
+    if (status != HOOKE_OK)
+      at_body(status, bodies, k);
+    else if (body->moves)
+      bodies->mover[bodies->moving++] = body;
+  }
+  if (status == HOOKE_OK) status = check_all_velocities(system);
+  for (int64_t k = 0; k < bodies->count && status == HOOKE_OK; k++)
+    hk_body_pin_if_still(system, &bodies->body[k]);
+  if (status != HOOKE_OK) hk_bodies_undo(system);
+  return status;
+}
+
+/* ---- states ---- */
+
+static const double STATE_ROUNDING = 1e-6;
+
+static int32_t check_rows(const struct hk_body *body, const char *name, const char *unit, const double *found,
+                          const double *rigid) {
+  double scale = 0.0;
+  for (int64_t i = 0; i < 3 * body->count; i++)
+    scale = fmax(scale, fabs(found[3 * (int64_t)body->particle[i / 3] + i % 3]));
+  for (int64_t i = 0; i < 3 * body->count; i++) {
+    const int64_t p = body->particle[i / 3], at = 3 * p + i % 3;
+    const double distance = fabs(found[at] - rigid[at]);
+    if (distance <= STATE_ROUNDING * scale) continue;
+    hk_fail(HOOKE_BAD_VALUE, NULL,
+            "the body \"%.40s\" is rigid, and this particle is %.3g %s from where three others of it say; "
+            "allowed: a rigid motion",
+            body->name, distance, unit);
+    return hk_fail_within(HOOKE_BAD_VALUE, "%s[%lld][%lld]", name, (long long)p, (long long)(i % 3));
+  }
+  return HOOKE_OK;
+}
+
+void hk_bodies_make_rigid(const hooke_system *system, double *q, double *v) {
+  const struct hk_body_rows rows = hk_body_rows_of(q, v);
+  for (int64_t k = 0; k < system->bodies.moving; k++) {
+    double own[HOOKE_BODY_NUMBERS];
+    hk_body_read(system->bodies.mover[k], &rows, own);
+    hk_body_write(system, system->bodies.mover[k], own, &rows);
+  }
+}
+
+int32_t hk_bodies_check(const hooke_system *system, const hooke_state *state) {
+  const int64_t size = 3 * system->particle_count;
+  if (system->bodies.moving == 0) return HOOKE_OK;
+  double *q = hk_new(2 * size, sizeof(double));
+  if (q == NULL) return HOOKE_NO_MEMORY;
+  memcpy(q, state->q, (size_t)(2 * size) * sizeof(double)); /* v follows */
+  hk_bodies_make_rigid(system, q, q + size);
+  int32_t status = HOOKE_OK;
+  for (int64_t k = 0; k < system->bodies.moving && status == HOOKE_OK; k++) {
+    status = check_rows(system->bodies.mover[k], "position", "m", state->q, q);
+    if (status == HOOKE_OK)
+      status = check_rows(system->bodies.mover[k], "velocity", "m/s", state->v, q + size);
+  }
+  hk_free(q);
+  return status;
+}
+
+/* ---- queries ---- */
+
+int32_t hk_system_require_no_bodies(const hooke_system *system, const char *what) {
+  if (system->bodies.moving == 0) return HOOKE_OK;
+  return hk_fail(HOOKE_UNSUITED, "bodies", "%s does not know rigid bodies yet; the scene has %lld that move",
+                 what, (long long)system->bodies.moving);
+}
+
+const char *hooke_system_body_name(const hooke_system *system, int64_t body) {
+  return body >= 0 && body < system->bodies.count ? system->bodies.body[body].name : NULL;
+}
+
+int64_t hooke_system_body_particles(const hooke_system *system, int64_t body, int64_t *particles) {
+  if (body < 0 || body >= system->bodies.count) return 0;
+  const struct hk_body *found = &system->bodies.body[body];
+  for (int64_t k = 0; k < found->count && particles; k++)
+    particles[k] = found->particle[k];
+  return found->count;
+}
+
+static int32_t find_mover(const hooke_system *system, int64_t body, const struct hk_body **found) {
+  const int32_t status = hk_system_require_committed(system);
+  if (status != HOOKE_OK) return status;
+  if (body < 0 || body >= system->bodies.count)
+    return hk_fail(HOOKE_BAD_VALUE, "body", "there is no body %lld; the system has %lld", (long long)body,
+                   (long long)system->bodies.count);
+  *found = &system->bodies.body[body];
+  if ((*found)->moves) return HOOKE_OK;
+  return hk_fail(HOOKE_BAD_VALUE, "body", "body %lld is held still or driven: it has no motion of its own",
+                 (long long)body);
+}
+
+int32_t hooke_system_body_inertia(const hooke_system *system, int64_t body, double *inertia) {
+  const struct hk_body *found = NULL;
+  const int32_t status = find_mover(system, body, &found);
+  if (status != HOOKE_OK) return status;
+  inertia[0] = found->mass;
+  memcpy(inertia + 1, found->inertia, 3 * sizeof(double));
+  return HOOKE_OK;
+}
+
+int32_t hooke_system_body_motion(const hooke_system *system, int64_t body, const double *q, const double *v,
+                                 double *motion) {
+  const struct hk_body *found = NULL;
+  const int32_t status = find_mover(system, body, &found);
+  if (status == HOOKE_OK) hk_body_read_rows(found, q, v, motion);
+  return status;
+}

@@ -1,0 +1,138 @@
+/* Rigid bodies: particles that move as one. A body's own coordinates are 13 numbers (HOOKE_BODY_*): its point,
+ * a unit quaternion, the velocity of the point, and the angular momentum about it. The point is the centre of
+ * mass or, if particles are pinned, the first pinned one. They are a function of the rows of three of its
+ * particles (docs/design.md), so that a state is (t, q, v) with bodies as without. */
+#ifndef HOOKE_MODEL_BODY_H
+#define HOOKE_MODEL_BODY_H
+
+#include <stdint.h>
+
+struct hooke_system;
+struct hk_group;
+struct hk_motion;
+struct hooke_state;
+
+/* Places of a body's own coordinates. */
+enum {
+  HOOKE_BODY_POINT = 0,    /* [m] */
+  HOOKE_BODY_TURN = 3,     /* quaternion (real part first) from the body's axes to those of space */
+  HOOKE_BODY_VELOCITY = 7, /* of the point [m/s] */
+  HOOKE_BODY_SPIN = 10,    /* angular momentum about the point, in the axes of space [kg m^2/s] */
+  HOOKE_BODY_NUMBERS = 13
+};
+
+struct hk_body {
+  char *name;
+  int64_t part;    /* of a rigid part: its number; else -1 */
+  int32_t project; /* 1: initial velocities become those of the nearest rigid motion */
+  int64_t count;
+  int32_t *particle; /* ascending from commit on */
+
+  /* from commit on; nothing else is set of a body that does not move by itself */
+  int32_t moves;
+  double mass, inverse_mass; /* of the free particles; the inverse is 0 if one is pinned */
+  double inertia[3]; /* about the axes through the point, ascending; 0: it does not turn about this one */
+  double inverse_inertia[3]; /* 0 where `inertia` is */
+  double centre[3];          /* of mass, from the point, in the axes of the body; 0 if it is the point */
+  double *place;             /* particles from the point, in the axes of the body, 3 count */
+  int32_t rank;              /* 0: a single point, 1: points in a line, 2: neither */
+  int32_t base[3];           /* index in `particle` of the three particles of the rule; `rank` + 1 are used */
+  double triad[3][3];        /* their directions e1, e2, e3 in the axes of the body */
+};
+
+struct hk_bodies {
+  int64_t count, capacity;
+  struct hk_body *body;
+  /* from commit on */
+  int32_t *of;            /* by particle: its body, or -1; NULL without bodies */
+  int64_t moving;         /* bodies that move */
+  struct hk_body **mover; /* these */
+};
+
+void hk_bodies_release(struct hooke_system *system);
+/* Adds a body of particles that exist; `part` is the number of a rigid part, or -1. HOOKE_NO_MEMORY. */
+int32_t hk_system_add_body(struct hooke_system *system, const char *name, int64_t count,
+                           const int64_t *particles, int32_t project, int64_t part);
+/* Removes the bodies of parts from number `part` on. */
+void hk_system_remove_bodies(struct hooke_system *system, int64_t part);
+
+/* Finds the mechanics of all bodies, and checks or projects their velocities; pins the particles of bodies
+ * that are held at three points. Undoing leaves the list of bodies. HOOKE_BAD_VALUE, HOOKE_NO_MEMORY. */
+int32_t hk_bodies_commit(struct hooke_system *system);
+void hk_bodies_undo(struct hooke_system *system);
+/* 1 if all `count` particles are in one body: a force between them does nothing. */
+int32_t hk_bodies_hold(const struct hk_bodies *bodies, int32_t count, const int32_t *particle);
+int64_t hk_bodies_memory(const struct hk_bodies *bodies);
+/* HOOKE_UNSUITED if some body moves, for what does not know bodies: "<what> does not know rigid bodies yet".
+ */
+int32_t hk_system_require_no_bodies(const struct hooke_system *system, const char *what);
+
+/* ---- motion: components of x, y and z, each `stride` apart ---- */
+
+struct hk_body_rows {
+  double *q[3], *v[3];
+  int64_t stride;
+};
+
+/* Rows of x y z. */
+struct hk_body_rows hk_body_rows_of(double *q, double *v);
+
+/* A body's own coordinates from rows of x y z. */
+void hk_body_read_rows(const struct hk_body *body, const double *q, const double *v, double *own);
+/* A body's own coordinates from its rows, and the rows of its free particles from them. */
+void hk_body_read(const struct hk_body *body, const struct hk_body_rows *rows, double *own);
+void hk_body_write(const struct hooke_system *system, const struct hk_body *body, const double *own,
+                   const struct hk_body_rows *rows);
+/* Acceleration of the point, gravity included, and torque about it, of the forces f (components) on free
+ * particles at their rows. */
+void hk_body_push(const struct hooke_system *system, const struct hk_body *body, const double *own,
+                  const struct hk_body_rows *rows, double *const f[3], double acceleration[3],
+                  double torque[3]);
+/* Accelerations of its free particles under them, 3 each of all particles. */
+void hk_body_accelerate(const struct hooke_system *system, const struct hk_body *body, const double *own,
+                        const double acceleration[3], const double torque[3], double *out);
+/* own += h (acceleration, torque). */
+void hk_body_kick(const struct hk_body *body, double h, const double acceleration[3], const double torque[3],
+                  double *own);
+/* The free motion over h: order 2, symmetric, symplectic, with the same angular momentum. */
+void hk_body_drift(const struct hk_body *body, double h, double *own);
+/* d own/dt under them. */
+void hk_body_slope(const struct hk_body *body, const double *own, const double acceleration[3],
+                   const double torque[3], double *slope);
+/* Makes the quaternion one of length 1. */
+void hk_body_normalise(double *own);
+
+/* Tolerance of each own coordinate that allows its particles these errors of position and velocity. */
+void hk_body_tolerance(const struct hk_body *body, double position, double velocity, double *tolerance);
+
+/* The same for all bodies that move, `own` having 13 numbers for each in turn and `push` 6 (acceleration,
+ * torque), on the working copy. */
+struct hk_body_rows hk_body_rows(const struct hk_motion *motion);
+void hk_bodies_read(const struct hooke_system *system, const struct hk_motion *motion, double *own);
+void hk_bodies_write(const struct hooke_system *system, struct hk_motion *motion, const double *own);
+void hk_bodies_push(const struct hooke_system *system, const struct hk_motion *motion, const double *own,
+                    double *push);
+/* Accelerations of the particles of all bodies at the forces and rows of the working copy. */
+void hk_bodies_accelerate(const struct hooke_system *system, const struct hk_motion *motion, double *out);
+
+/* ---- for commit ---- */
+
+/* The directions e1, e2, e3 of three points: that of `ab`, that of `ac` perpendicular to it, and their cross
+ * product. Of points in a line (rank 1) the second is perpendicular in some way, and rank 0 has the axes of
+ * space. */
+void hk_body_triad(int32_t rank, const double ab[3], const double ac[3], double e[3][3]);
+/* The quaternion of a rotation matrix. */
+void hk_body_set_turn(const double m[3][3], double *own);
+
+/* 1 if a particle moves with a body. */
+static inline int32_t hk_bodies_move(const struct hk_bodies *bodies, int64_t particle) {
+  return bodies->moving > 0 && bodies->of[particle] >= 0 && bodies->body[bodies->of[particle]].moves;
+}
+
+/* Writes the rows of all bodies anew from the three particles of each. */
+void hk_bodies_make_rigid(const struct hooke_system *system, double *q, double *v);
+/* HOOKE_BAD_VALUE, with the distance, unless the rows of all bodies are those of rigid motions to 1e-6 of the
+ * largest coordinate and velocity in them. HOOKE_NO_MEMORY. */
+int32_t hk_bodies_check(const struct hooke_system *system, const struct hooke_state *state);
+
+#endif
