@@ -90,10 +90,11 @@ double hk_integrator_next_time(const hooke_integrator *it) {
 
 static void set_rates(hooke_integrator *it, int64_t from, int64_t count, void *ctx) {
   (void)ctx;
+  const double *w = it->system->inverse_mass;
   struct hk_motion *m = it->motion;
   for (int a = 0; a < 3; a++) {
-    hk_acceleration(count, it->system->inverse_mass + from, NULL, m->f[a] + from);
-    memcpy(m->v[a] + from, m->f[a] + from, (size_t)count * sizeof(double));
+    for (int64_t p = from; p < from + count; p++)
+      m->v[a][p] = w[p] * m->f[a][p];
   }
 }
 

@@ -105,7 +105,7 @@ static void advance(const hooke_integrator *it, int32_t stage, double ahead) {
   if (stages == 1)
     hk_advance(n, h, own->slope, own->y);
   else if (stage == 0)
-    hk_first_stage(n, ahead * h, own->slope, own->sum, own->y);
+    hk_first_stage(n, ahead * h, own->slope, own->start, own->sum, own->y);
   else if (stage + 1 < stages)
     hk_middle_stage(n, ahead * h, own->slope, own->start, own->sum, own->y);
   else
@@ -118,7 +118,6 @@ static int32_t step_stages(hooke_integrator *it) {
   const int32_t stages = stage_count(it);
   const double *ahead = stages == 4 ? four : two;
   begin_step(it);
-  memcpy(own->start, own->y, (size_t)own->unknowns.size * sizeof(double));
   for (int32_t stage = 0; stage < stages; stage++) {
     const double t =
         ahead[stage] == 1.0 ? hk_integrator_next_time(it) : it->t + ahead[stage] * it->schedule.step;
