@@ -5,8 +5,8 @@
 #include "kernel/move_loops.h"
 #include "kernel/vector_unit.h"
 
-/* Kinds of moves are told apart at compile time: `kind` is a constant. Everything is at the vector at particle
- * p along axis a: w, f, q and v are its first numbers. */
+/* Kinds of moves are told apart at compile time: `kind` is a constant. Axis a of the vector at particle p has
+ * its numbers at q and v. */
 
 HOOKE_INLINE hk_vector hk_acceleration(const struct hk_move *move, int a, hk_vector w, hk_vector f) {
   hk_vector acceleration = w * f;
@@ -30,32 +30,31 @@ HOOKE_INLINE hk_vector hk_kicked(const struct hk_move *move, int a, hk_vector w,
 HOOKE_INLINE void hk_move_stage(const struct hk_move *move, const int kind, ptrdiff_t at, hk_vector rate,
                                 double *x) {
   double *start = move->start + at, *sum = move->sum + at;
-  if (kind == HOOKE_FIRST_STAGE) {
-    const hk_vector from = hk_load(x);
-    hk_store(start, from);
-    hk_store(sum, rate);
-    hk_store(x, from + move->kick * rate);
-  } else if (kind == HOOKE_MIDDLE_STAGE) {
-    hk_store(sum, hk_load(sum) + 2.0 * rate);
-    hk_store(x, hk_load(start) + move->kick * rate);
-  } else {
-    hk_store(x, hk_load(start) + move->kick * (hk_load(sum) + rate));
+  const hk_vector from = hk_load(kind == HOOKE_FIRST_STAGE ? x : start);
+  if (kind == HOOKE_LAST_STAGE) {
+    hk_store(x, from + move->kick * (hk_load(sum) + rate));
+    return;
   }
+  hk_vector sum_of_rates = rate;
+  if (kind == HOOKE_MIDDLE_STAGE) sum_of_rates = hk_load(sum) + 2.0 * rate;
+  if (kind == HOOKE_FIRST_STAGE) hk_store(start, from);
+  hk_store(sum, sum_of_rates);
+  hk_store(x, from + move->kick * rate);
 }
 
 HOOKE_INLINE void hk_move_verlet(const struct hk_move *move, const int kind, ptrdiff_t p, int a, hk_vector w,
                                  hk_vector f, double *q, double *v) {
-  double *half = move->half + a * move->stride + p;
+  const ptrdiff_t at = a * move->stride + p;
   if (kind == HOOKE_PREDICT) {
     const hk_vector before = hk_load(v), kick = move->kick * hk_braked(move, a, w, f, before),
                     u = before + kick;
-    hk_store(half, u);
+    hk_store(move->half + at, u);
     hk_store(q, hk_load(q) + move->drift * u);
     hk_store(v, u + kick);
   } else if (kind == HOOKE_CORRECT) {
-    hk_store(v, hk_kicked(move, a, w, f, hk_load(half)));
+    hk_store(v, hk_kicked(move, a, w, f, hk_load(move->half + at)));
   } else if (kind == HOOKE_KICK) {
-    hk_store(move->f + a * move->stride + p, f);
+    hk_store(move->f + at, f);
     hk_store(v, hk_kicked(move, a, w, f, hk_load(v)));
   } else {
     const hk_vector whole = hk_kicked(move, a, w, f, hk_load(v)),

@@ -1,5 +1,5 @@
-/* Compiled once per instruction set, with HOOKE_ISA naming it. The tetrahedra of a block are laid out component
- * by component, computed side by side, and their forces added in their order. */
+/* Compiled once per instruction set, with HOOKE_ISA naming it. The tetrahedra of a block are laid out
+ * component by component and computed side by side; their forces are added in their order. */
 #include "kernel/altitude_loops.h"
 
 #include "kernel/instruction_set.h"

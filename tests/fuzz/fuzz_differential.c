@@ -3,10 +3,11 @@
  * agree. Energies and derivatives are compared with difference quotients.
  *
  * Lines of: src/kernel/altitude_loops.c src/kernel/bending_loops.c src/kernel/strided_loops.c
- *           src/kernel/tiled_loops.c src/kernel/spring_[cl]*.c src/kernel/step_loops.c
- *           src/kernel/tangent_loops.c src/model/force/[a-z]*.c src/model/sum/[a-z]*.c
- *           src/integrate/method/forward_euler.c src/integrate/method/symplectic_euler.c
- *           src/integrate/method/rk4.c src/integrate/method/verlet.c
+ *           src/kernel/tiled_loops.c src/kernel/spring_[cl]*.c src/kernel/move_loops.c
+ *           src/kernel/tetrahedron_loops.c src/kernel/tangent_loops.c src/model/force/[a-z]*.c
+ *           src/model/sum/[a-z]*.c src/integrate/method/forward_euler.c
+ *           src/integrate/method/symplectic_euler.c src/integrate/method/rk4.c
+ *           src/integrate/method/stages.c src/integrate/method/verlet.c
  * Longest input: 104 */
 #include "fuzz.h"
 #include "small_scene.h"
