@@ -126,8 +126,9 @@ def draw(axes: Any, cloth: Cloth, points: list[Point]) -> None:
     for method in dict.fromkeys(point.method for point in points):
         own = [(p.seconds, 100 * p.error) for p in points if p.method == method and p.error > 0]
         if own:
-            axes.loglog(*np.transpose(own), marker="o", markersize=4, label=method,
-                        color=f"C{(*EXPLICIT, *IMPLICIT, 'cvode-bdf').index(method)}", linestyle="-" if method in NEW else "--")  # fmt: skip
+            colour = f"C{(*EXPLICIT, *IMPLICIT, 'cvode-bdf').index(method)}"
+            line = "-" if method in NEW else "--"
+            axes.loglog(*np.transpose(own), line, marker="o", markersize=4, label=method, color=colour)
     axes.axhspan(100 * LEAST, 100 * MOST, color="0.93")
     axes.set(title=cloth.title(), xlabel="processor time [s]", ylabel="error [% of the motion]", ylim=(1e-3, 30))
 
