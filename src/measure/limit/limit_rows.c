@@ -2,6 +2,7 @@
 #include "measure/limit/limit.h"
 
 #include "core/memory.h"
+#include "core/print.h"
 #include "measure/spectrum/buckling.h"
 #include "measure/spectrum/step_bound.h"
 #include "model/sum/motion.h"
@@ -76,7 +77,7 @@ static int32_t note_buckling(struct hk_limit *limit, const double *q) {
     status = hk_buckling_rate(limit->system, limit->time, q, &rate);
   for (int32_t k = 0; k < limit->row_count && rate > 0.0; k++) {
     if (!limit->row[k].note[0])
-      snprintf(limit->row[k].note, sizeof limit->row[k].note,
+      hk_print(limit->row[k].note, sizeof limit->row[k].note,
                "buckling: springs under compression give way sideways, at any step; some motion grows by "
                "exp(%.3g t) or faster",
                rate);
