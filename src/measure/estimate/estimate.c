@@ -24,7 +24,7 @@ static const double MOST_RUNS = 30.0;  /* maximum time of a refined run, in time
 
 int32_t hooke_estimate_create(const hooke_system *system, double want, hooke_estimate **out) {
   int32_t status = hk_system_require_committed(system);
-  if (status == HOOKE_OK) status = hk_system_require_no_bodies(system, "an estimate of the error");
+  if (status == HOOKE_OK && !isnan(want)) status = hk_system_require_no_bodies(system, "a wanted error");
   if (status != HOOKE_OK) return status;
   if (!isnan(want) && !(want > 0.0 && isfinite(want)))
     return hk_fail(HOOKE_BAD_VALUE, "want", "%g is not allowed; a number > 0 [m] is", want);
