@@ -40,9 +40,12 @@ function whyOf(live, { method, step, steps, first, last }) {
     why = library.make("why_create_kept", live.system, run, stateOf(first), stateOf(last), options);
     library.check("measurement_run", why, 0);
     const text = (table, column) => library.text(library.call("measurement_text", why, table, 0n, column));
-    return { cause: text("why", "cause"), sentence: text("why", "sentence"), change: text("advice", "change"),
-      option: text("advice", "option"), value: text("advice", "value"), leftOut: text("why", "left_out"),
-      limit: library.call("measurement_number", why, "why", 0n, "limit") };
+    const found = { sentence: text("why", "sentence"), change: text("advice", "change"), advised: null };
+    if (text("advice", "option")) { // else it is the scene that should change
+      library.check("why_advice_apply", why, 0n, run);
+      found.advised = { method: library.text(library.call("options_text", run, "method")), step: library.call("options_number", run, "step") };
+    }
+    return found;
   } finally {
     library.call("measurement_destroy", why);
     made.forEach((state) => library.call("state_destroy", state));

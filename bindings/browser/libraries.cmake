@@ -20,7 +20,7 @@ add_library(jansson STATIC ${sources})
 target_include_directories(jansson PRIVATE ${jansson}/src)
 target_compile_definitions(jansson PRIVATE HAVE_STDINT_H HAVE_SYS_TYPES_H)
 set(HOOKE_JANSSON_INCLUDE_DIR ${jansson}/src CACHE PATH "")
-set(HOOKE_LIBRARY_jansson jansson CACHE STRING "")
+set(HOOKE_LIBRARY_jansson jansson CACHE STRING "" FORCE)
 mark_as_advanced(HOOKE_JANSSON_INCLUDE_DIR HOOKE_LIBRARY_jansson)
 
 # The eigenvalues of LAPACK, translated by f2c; without it predictions are not built.
@@ -30,7 +30,7 @@ find_file(HOOKE_F2C_HEADER f2c.h PATHS /usr/include NO_CMAKE_FIND_ROOT_PATH)
 mark_as_advanced(HOOKE_F2C_HEADER)
 if(HOOKE_F2C AND HOOKE_F2C_HEADER)
   hooke_source(l/lapack lapack_3.11.0.orig.tar.gz 4b9ba79bfd4921ca820e83979db76ab3363155709444a787979e81c22285ffa9)
-  set(lapack ${PROJECT_BINARY_DIR}/lapack)
+  set(lapack ${PROJECT_BINARY_DIR}/f2c) # not "lapack", which CMake would take for the library
   file(COPY ${HOOKE_F2C_HEADER} DESTINATION ${lapack}) # out of the folder with the headers of this machine's C library
   find_package(Python3 3.8 REQUIRED COMPONENTS Interpreter)
   add_custom_command(OUTPUT ${lapack}/lapack.c
@@ -45,6 +45,6 @@ if(HOOKE_F2C AND HOOKE_F2C_HEADER)
     dgeev_=f2c_dgeev dsyev_=f2c_dsyev dstev_=f2c_dstev)
   file(WRITE ${lapack}/lapack.pc "Version: 3.11.0\n")
   set(HOOKE_LAPACK_VERSION_FILE ${lapack}/lapack.pc CACHE FILEPATH "")
-  set(HOOKE_LIBRARY_lapack lapack CACHE STRING "")
+  set(HOOKE_LIBRARY_lapack lapack CACHE STRING "" FORCE)
   mark_as_advanced(HOOKE_LAPACK_VERSION_FILE HOOKE_LIBRARY_lapack)
 endif()

@@ -87,13 +87,14 @@ function writeVerdict(frame) {
   return verdict(...compare());
 }
 
-/* A change of the run as a button: of the step, or of the method. */
-function offer(option, value) {
+/* Another run as a button. */
+function offer(by, length) {
+  if (by === method() && length === stepNow()) return; // a shorter run, say
   at("cure").hidden = false;
-  at("cure").textContent = `Set the ${option} to ${option === "step" ? seconds(value) : value} and start again`;
+  at("cure").textContent = `${by === method() ? "" : `Set the method to ${by}. `}Set the step to ${seconds(length)} and start again`;
   at("cure").onclick = () => {
-    if (option === "step") setStep(value);
-    else at("method").value = value;
+    at("method").value = by;
+    setStep(length);
     restart();
   };
 }
@@ -105,7 +106,7 @@ function explain(frame) {
   const words = bound > 0 && now > bound ? `The step ${seconds(now)} was ${number(now / bound)} times the safe bound. ` : "";
   at("why-words").textContent = words + (predicts ? "Looking for the cause ..." : "The cause is not looked for in this build of the page, " +
     "which has no LAPACK: hooke why finds it.");
-  if (bound > 0 && now > bound) offer("step", Number((0.9 * bound).toPrecision(2)));
+  if (bound > 0 && now > bound) offer(method(), Number((0.9 * bound).toPrecision(2)));
   if (predicts) {
     const steps = Math.ceil((frame.time - frame.trouble.first.time) / now) + 100;
     consult({ do: "why", ...sceneNow(), ...frame.trouble, steps });
@@ -143,9 +144,9 @@ const ADVICE = {
       ? "Predicted: nothing limits the step." : exact ? `Predicted limit: ${seconds(predicted)}` : `Predicted limit: ${seconds(predicted)} or less`;
     document.body.dataset.limit = predicted;
   },
-  why({ sentence, change, option, value }) {
+  why({ sentence, change, advised }) {
     at("why-words").textContent = [sentence.replace(/^the run diverged: t/, "T"), change && `Advice: ${change}`].filter(Boolean).join("\n");
-    if (option === "step" || option === "method") offer(option, option === "step" ? Number(value) : value);
+    if (advised) offer(advised.method, advised.step);
   },
   error({ message }) {
     at(ended ? "why-words" : "limit-words").textContent = `Not known: ${message}`;
