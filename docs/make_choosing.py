@@ -1,6 +1,6 @@
 """Makes the diagrams of docs/choosing.md and prints its table: python docs/make_choosing.py
 
-Takes a few minutes. The times depend on the machine, and on what else it is doing; the errors do not.
+This takes a few minutes. Times depend on the machine, and on what else it is doing; the errors do not.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ SCENES = ("cloth-stiff", "cloth-damped", "cloth-gentle")
 WANT = 1e-4  # [m]
 BUDGET = 25.0  # [s] for one study
 POINTS = 8
-OTHERS = 4  # methods beside the recommended one
+OTHERS = 4  # methods shown beside the recommended one
 REPEATS = 15
 
 
@@ -29,7 +29,7 @@ def study(scene: Path, methods: list[str] | None = None) -> hooke.Study:
 
 
 def candidates(scene: Path, first: hooke.Study) -> list[Any]:
-    """What is recommended, and the same for the cheapest few of the other methods."""
+    """The recommended run, and the cheapest runs of a few other methods."""
     found = [first.recommendation]
     rows = first.rows[(first.error <= WANT) & (first.method != found[0].method)]
     rows.sort(order="wall_seconds")
@@ -39,7 +39,7 @@ def candidates(scene: Path, first: hooke.Study) -> list[Any]:
 
 
 def seconds(scene: Path, runs: list[dict[str, Any]]) -> list[float]:
-    """The least time of each run; they take turns, so that all see the same machine."""
+    """The shortest time of each run. Runs alternate, so that changes of the machine affect all of them."""
     least = [float("inf")] * len(runs)
     for _ in range(REPEATS):
         for k, options in enumerate(runs):
