@@ -96,25 +96,16 @@ double hk_step_bound_of(const struct hk_node_blocks *blocks, const char *method)
 }
 
 int32_t hooke_step_bound(const hooke_system *system, const char *method, const double *q, double *bound) {
-  const int32_t adaptive = hooke_method_is_adaptive(method);
-  if (adaptive < 0) return hk_fail(HOOKE_BAD_VALUE, "method", "there is no method \"%s\"", method);
-  int32_t status = hk_system_require_committed(system);
-  if (status != HOOKE_OK) return status;
   struct hk_node_blocks blocks = {.system = system};
-  if (hk_step_is_bounded(method)) status = hk_node_blocks_create(system, q, &blocks);
-  if (status != HOOKE_OK) return status;
-  *bound = hk_step_bound_of(&blocks, method);
-  if (hk_step_is_bounded(method)) hk_node_blocks_release(&blocks);
-  return HOOKE_OK;
-}
-
-int32_t hooke_step_bounds(const hooke_system *system, const double *q, double *bounds) {
-  struct hk_node_blocks blocks;
+  if (method && hooke_method_is_adaptive(method) < 0)
+    return hk_fail(HOOKE_BAD_VALUE, "method", "there is no method \"%s\"", method);
+  const int one_pass = method == NULL || hk_step_is_bounded(method);
   int32_t status = hk_system_require_committed(system);
-  if (status == HOOKE_OK) status = hk_node_blocks_create(system, q, &blocks);
+  if (status == HOOKE_OK && one_pass) status = hk_node_blocks_create(system, q, &blocks);
   if (status != HOOKE_OK) return status;
-  for (int64_t k = 0; k < hooke_method_count(); k++)
-    bounds[k] = hk_step_bound_of(&blocks, hooke_method_name(k));
-  hk_node_blocks_release(&blocks);
+  if (method) *bound = hk_step_bound_of(&blocks, method);
+  for (int64_t k = 0; method == NULL && k < hooke_method_count(); k++)
+    bound[k] = hk_step_bound_of(&blocks, hooke_method_name(k));
+  if (one_pass) hk_node_blocks_release(&blocks);
   return HOOKE_OK;
 }

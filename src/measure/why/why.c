@@ -152,7 +152,7 @@ static int32_t inquire(struct hk_inquiry *inquiry) {
   const int32_t status = inquiry->violation.q ? find_out(inquiry) : HOOKE_NO_MEMORY;
   tell_left_out(inquiry);
   hk_growing_release(&inquiry->growing);
-  hk_blame_release(&inquiry->violation.blame);
+  hk_participation_release(&inquiry->violation.participation);
   hk_free(inquiry->violation.q);
   hooke_state_destroy(inquiry->last);
   return status;
@@ -163,7 +163,7 @@ static int32_t inquire(struct hk_inquiry *inquiry) {
 static int32_t check(const hooke_integrator *run) {
   if (run->system == NULL)
     return hk_fail(HOOKE_UNSUITED, NULL,
-                   "a first-order problem has no springs to blame; its own message is all there is");
+                   "a first-order problem has no springs; its own message is all there is");
   if (!ended_early(run))
     return hk_fail(HOOKE_BAD_CALL, NULL,
                    "the last run of this integrator did not blow up: there is nothing to explain");
@@ -181,7 +181,7 @@ static int32_t create(hooke_measurement *m) {
 static void forget(struct hk_why *why) {
   for (int64_t k = 0; k < why->advice_count; k++)
     hooke_options_destroy(why->advice[k].run);
-  why->blame_count = why->advice_count = 0;
+  why->limiting_count = why->advice_count = 0;
   why->cause = NULL;
   why->sentence[0] = why->left_out[0] = why->method[0] = '\0';
   why->time = why->noticed = why->limit = why->particle = why->step = NAN;
