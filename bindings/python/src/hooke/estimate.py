@@ -91,8 +91,9 @@ class Estimate:
     def measure(self, state: State) -> RunError:
         """The result, after the run that ended with `state`."""
         self._measurement.run(self._progress, state)
-        found = self._measurement.record("estimate") or {}
-        return RunError(**{name: found[name] or None if name == "by" else found[name] for name in RunError._fields})
+        found: dict[str, Any] = self._measurement.record("estimate") or {}
+        found["by"] = found["by"] or None
+        return RunError(*(found[name] for name in RunError._fields))
 
     def write(self, path: Path) -> None:
         """Adds it to the output file of the run."""
