@@ -42,16 +42,21 @@ playground: all build/playground/packages
 playground-if-possible:
 	@if command -v emcc >/dev/null || command -v apt-get >/dev/null; then $(MAKE) playground; fi
 
+# The last line names everything that failed.
 test: $(PRESETS:%=tests-%) build/fuzz/packages playground-if-possible
-	@failed=0; \
-	$(PYTHON) tests/fuzz/run.py --seconds 5 || failed=1; \
+	@failed=; \
+	{ $(PYTHON) tests/fuzz/run.py --seconds 5 || echo "== fuzz: failed"; } | tee build/fuzz/tests.log; \
+	if grep -q '^== fuzz: failed' build/fuzz/tests.log; then \
+	  failed="; fuzz:$$(sed -n 's,^== fuzz/\(.*\): a finding.*, \1,p' build/fuzz/tests.log | tr -d '\n')"; \
+	fi; \
 	for preset in $(PRESETS); do \
-	  ctest --preset $$preset --output-log build/$$preset/tests.log || failed=1; \
+	  ctest --preset $$preset --output-log build/$$preset/tests.log || failed="$$failed; $$preset:$$( \
+	    sed -n '/tests FAILED/,$$s/^\t *[0-9]* - \(.*\) (.*)$$/ \1/p' build/$$preset/tests.log | tr -d '\n')"; \
 	done; \
 	for preset in $(PRESETS); do \
 	  echo; echo "== $$preset"; sed -n '/ERROR_MESSAGE/d; / tests passed/,$$p' build/$$preset/tests.log; \
 	done; \
-	exit $$failed
+	if [ -n "$$failed" ]; then echo; echo "failed:$${failed#;}"; exit 1; fi
 
 # Each part keeps what is done in build/long and writes its figures into docs/notes/reliability.md.
 LONG_PARTS = soak fuzz fuzz_hdf5 sanitizers arm64 want

@@ -200,7 +200,7 @@ struct baseline *baseline_create(const hooke_system *system, const hooke_state *
   struct baseline *b = calloc(1, sizeof *b);
   if (b == NULL) return NULL;
   b->particle_count = hooke_system_particle_count(system);
-  b->spring_count = hooke_system_spring_count(system);
+  b->spring_count = hooke_system_count(system, "springs");
   b->step = find(method)->step;
   const size_t n = (size_t)b->particle_count, bytes = 3 * n * sizeof(double);
   double **const array[] = {&b->q, &b->v, &b->f, &b->q0, &b->v0, &b->sum_q, &b->sum_v};

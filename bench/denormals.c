@@ -70,11 +70,11 @@ static double nanoseconds(const hooke_system *system, const hooke_options *run, 
   demand(hooke_state_create(system, &state));
   shake(state, speed);
   demand(hooke_integrator_step(integrator, state, steps));
-  const double seconds = hooke_integrator_wall_seconds(integrator);
+  const double seconds = hooke_integrator_number(integrator, "wall_seconds");
   *share = share_of_subnormal(state);
   hooke_state_destroy(state);
   hooke_integrator_destroy(integrator);
-  return 1e9 * seconds / ((double)steps * (double)hooke_system_spring_count(system));
+  return 1e9 * seconds / ((double)steps * (double)hooke_system_count(system, "springs"));
 }
 
 int main(int argc, char **argv) {
@@ -93,7 +93,7 @@ int main(int argc, char **argv) {
       least[k] = fmin(least[k], nanoseconds(system, run, speeds[k], steps, &share[k]));
   }
   printf("cloth %lld x %lld, %lld springs, symplectic-euler, %s\n", (long long)side, (long long)side,
-         (long long)hooke_system_spring_count(system), hooke_build_fact("instructions"));
+         (long long)hooke_system_count(system, "springs"), hooke_build_fact("instructions"));
   for (int k = 0; k < 4; k++)
     printf("%-42s %7.3f ns  %5.2f times  %3.0f %% of velocities subnormal\n", words[k], least[k],
            least[k] / least[0], 100.0 * share[k]);

@@ -24,7 +24,7 @@ struct race {
 
 /* The shortest rest length, and whether there is damping. */
 static int32_t read_springs(struct race *race, double *shortest) {
-  const int64_t m = hooke_system_spring_count(race->system);
+  const int64_t m = hooke_system_count(race->system, "springs");
   double *material = malloc((size_t)(3 * m) * sizeof *material);
   if (material == NULL) return HOOKE_NO_MEMORY;
   const int32_t status =
@@ -100,7 +100,7 @@ static int32_t prepare(struct race *race, const struct bench_scene *scene, const
                                     .method = request->method[k],
                                     .is_damped = race->is_damped,
                                     .particles = hooke_system_particle_count(race->system),
-                                    .springs = hooke_system_spring_count(race->system)};
+                                    .springs = hooke_system_count(race->system, "springs")};
     status = add_rows(race, request, sample, row, count);
   }
   return status;

@@ -1,5 +1,5 @@
-# Compiles for AArch64 with Debian's gcc-aarch64-linux-gnu; programs run under qemu-aarch64-static. Libraries are those of
-# that architecture (dpkg --add-architecture arm64), never this machine's.
+# Compiles for AArch64 with Debian's gcc-aarch64-linux-gnu; programs run under qemu-aarch64-static. Only libraries of
+# that architecture are used (dpkg --add-architecture arm64), never those of this machine.
 set(CMAKE_SYSTEM_NAME Linux)
 set(CMAKE_SYSTEM_PROCESSOR aarch64)
 set(CMAKE_C_COMPILER aarch64-linux-gnu-gcc)

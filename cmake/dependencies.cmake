@@ -1,10 +1,10 @@
-# The libraries that hooke can use, as imported targets hooke_dep::<name>. Read by the build and, for the static
-# library, by the installed package.
+# Finds the optional libraries and makes imported targets hooke_dep::<name> of them. The build includes this file; so
+# does the installed package, for the static library.
 
 # hooke_find_library(<name> [HEADER <file>] LIBRARIES <a|b>... [OPTIONAL <a>...] [ARCHIVES <a>...] [SUFFIXES <dir>...]
 #                    VERSION <file> <pattern>)
 # Alternatives to a library name are separated by "|". Sets HOOKE_<NAME>_FOUND and HOOKE_<NAME>_VERSION.
-# With HOOKE_STATIC_PARTS archives alone are found, and those that they ask for (ARCHIVES).
+# With HOOKE_STATIC_PARTS it finds only archives, and the further ones that they depend on (ARCHIVES).
 function(hooke_find_library name)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "HEADER" "LIBRARIES;OPTIONAL;ARCHIVES;SUFFIXES;VERSION")
   string(TOUPPER ${name} NAME)
@@ -57,7 +57,7 @@ function(hooke_find_library name)
   set(HOOKE_${NAME}_FOUND TRUE PARENT_SCOPE)
 endfunction()
 
-# OpenBLAS counts by itself.
+# OpenBLAS has LAPACK and BLAS in one library.
 function(hooke_name_lapack)
   if(HOOKE_LAPACK_FOUND AND EXISTS "${HOOKE_LAPACK_VERSION_FILE}")
     file(STRINGS "${HOOKE_LAPACK_VERSION_FILE}" name REGEX "^Name:.*openblas")
@@ -67,8 +67,8 @@ function(hooke_name_lapack)
   endif()
 endfunction()
 
-# Chart.js is no library to link but a file for the page of a report: the bundle for browsers (chart.umd.js from
-# version 4 on). Sets HOOKE_CHARTJS_FOUND, _FILE and _VERSION.
+# Chart.js is not linked: its bundle for browsers (chart.umd.js from version 4 on) goes into the pages of reports.
+# Sets HOOKE_CHARTJS_FOUND, _FILE and _VERSION.
 function(hooke_find_chartjs)
   set(HOOKE_CHARTJS_FOUND FALSE PARENT_SCOPE)
   find_file(HOOKE_CHARTJS_FILE NAMES chart.min.js chart.umd.js
@@ -83,8 +83,8 @@ function(hooke_find_chartjs)
   endif()
 endfunction()
 
-# three.js likewise, as the script that sets THREE, with OrbitControls as such a script beside it (they were left out of
-# later versions, of which there are modules alone). Sets HOOKE_THREEJS_FOUND, _FILE, _ORBIT_FILE and _VERSION.
+# three.js likewise: the script that sets THREE, and OrbitControls as such a script beside it. Later versions have only
+# modules, and no such scripts. Sets HOOKE_THREEJS_FOUND, _FILE, _ORBIT_FILE and _VERSION.
 function(hooke_find_threejs)
   set(HOOKE_THREEJS_FOUND FALSE PARENT_SCOPE)
   set(folders share/javascript/three share/javascript/three/build share/nodejs/three/build)
@@ -101,7 +101,7 @@ function(hooke_find_threejs)
   endif()
 endfunction()
 
-# Its three numbers are in lines of their own; in cholmod.h from SuiteSparse 7 on.
+# The header has the three numbers of the version on separate lines; from SuiteSparse 7 on it is cholmod.h.
 function(hooke_read_cholmod_version)
   set(numbers)
   foreach(header cholmod_core.h cholmod.h)

@@ -1,6 +1,6 @@
-# hooke::fortran: the module `hooke`, compiled by the Fortran compiler of the project that wants it, since no compiler
-# reads the module files of another. `folder` holds the sources, in the order of its sources.txt; in the build of hooke
-# itself another folder holds what is made.
+# hooke::fortran: the module `hooke`, compiled by the Fortran compiler of the project that wants it, since a
+# compiler cannot read the module files of another one. `folder` holds the sources, whose order is in its sources.txt.
+# In the build of hooke itself the generated sources are in another folder.
 function(hooke_add_fortran folder)
   file(STRINGS ${folder}/sources.txt names)
   set(sources)
@@ -20,7 +20,7 @@ function(hooke_add_fortran folder)
   set_target_properties(hooke_fortran PROPERTIES Fortran_MODULE_DIRECTORY ${modules} POSITION_INDEPENDENT_CODE ON)
   target_include_directories(hooke_fortran INTERFACE ${modules})
   target_link_libraries(hooke_fortran PUBLIC hooke::hooke)
-  # Objects may be shared by threads: with OpenMP, names of an object are counted by one thread at a time.
+  # Threads may share objects: with OpenMP, one thread at a time changes the reference count of an object.
   if(TARGET OpenMP::OpenMP_Fortran)
     target_link_libraries(hooke_fortran PRIVATE OpenMP::OpenMP_Fortran)
   endif()

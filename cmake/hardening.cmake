@@ -1,7 +1,6 @@
-# What compiler and linker add to builds for release so that a fault is harder to exploit, each where they take it: checked
-# calls of the C library, canaries on the stack, tables of the loader that are read-only from the start, an address of its
-# own for the program in each run, and marks where the processor may jump to. Loops have it, too: it costs them nothing that
-# can be measured.
+# Flags for release builds that make faults harder to exploit, each used where compiler and linker accept it: checked
+# calls of the C library, stack canaries, relocations that are read-only from the start, position independent programs,
+# and control-flow protection. Loops are compiled with them, too, at no measurable cost.
 include(CheckCCompilerFlag)
 include(CheckCSourceCompiles)
 include(CheckLinkerFlag)

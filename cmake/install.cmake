@@ -1,6 +1,6 @@
 # cmake --install: headers, both libraries, the program with its manual page and completions, the example scenes, the pages
 # of reports, the sources of the Fortran module, and the files by which find_package(hooke) and pkg-config find them.
-# Nothing installed names a folder of this machine, so the result may be moved.
+# No installed file names a folder of this machine, so the result can be moved.
 include(CMakePackageConfigHelpers)
 set(config_dir ${CMAKE_INSTALL_LIBDIR}/cmake/hooke)
 
@@ -18,7 +18,7 @@ endif()
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(DIRECTORY ${PROJECT_BINARY_DIR}/docs/ DESTINATION ${CMAKE_INSTALL_DOCDIR} OPTIONAL) # where `make docs` has made them
 
-# Two sets of targets: the static library alone needs the other libraries to be found.
+# There are two sets of targets, since only the static library needs the other libraries to be found.
 install(TARGETS hooke EXPORT hooke_shared_targets)
 install(TARGETS hooke_static EXPORT hooke_static_targets)
 install(EXPORT hooke_shared_targets FILE hooke-shared.cmake NAMESPACE hooke:: DESTINATION ${config_dir})
@@ -49,7 +49,7 @@ install(FILES
   cmake/fortran.cmake
   DESTINATION ${config_dir})
 
-# What the static library needs, as -L and -l.
+# The libraries that the static library needs, as -L and -l.
 set(HOOKE_PRIVATE_LIBRARIES "-lm")
 if(CMAKE_DL_LIBS)
   string(APPEND HOOKE_PRIVATE_LIBRARIES " -l${CMAKE_DL_LIBS}")

@@ -1,4 +1,4 @@
-# What is not there is said in one line, or with HOOKE_EVERYTHING an error.
+# Prints one line about the libraries that are missing; with HOOKE_EVERYTHING this is an error.
 option(HOOKE_EVERYTHING "Demand every library that is not OFF, and all that the tests need" OFF)
 
 function(hooke_missing_words words)
@@ -8,7 +8,7 @@ function(hooke_missing_words words)
   message(STATUS "${words}")
 endfunction()
 
-# By a name in packages.txt.
+# Names are those of packages.txt.
 function(hooke_missing name consequence)
   file(STRINGS ${PROJECT_SOURCE_DIR}/cmake/packages.txt row REGEX "^${name} ")
   string(REGEX MATCHALL "[^ ]+" row "${row}")

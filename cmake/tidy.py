@@ -1,4 +1,4 @@
-"""Runs clang-tidy as .clang-tidy says over src, cli, bench and examples/c, and prints what it finds.
+"""Runs clang-tidy with the settings of .clang-tidy over src, cli, bench and examples/c, and prints its findings.
 
 `python cmake/tidy.py build/tidy [name ...]`, where build/tidy is configured with CMAKE_EXPORT_COMPILE_COMMANDS, looks at the
 files whose paths contain one of the names, or at all.
@@ -16,7 +16,7 @@ FOLDERS = ("src", "cli", "bench")
 
 
 def commands(build):
-    """One command a file, the last: a loop that is compiled for several instruction sets is looked at for the widest."""
+    """One command a file, its last: a loop that is compiled for several instruction sets is checked for the widest."""
     found = {}
     for entry in json.loads((build / "compile_commands.json").read_text()):
         path = Path(entry["file"])

@@ -1,5 +1,5 @@
-"""How Sphinx makes the site: `make docs`. The pages are plain Markdown, those of the references are made besides;
-docs/index.md orders them."""
+"""Settings of Sphinx for the site that `make docs` builds. Pages are plain Markdown; those of the references are
+generated; docs/index.md gives their order."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ FRONT = """```{raw} html
 
 
 def navigation(index: str) -> str:
-    """Tables of contents from the lists of links under the headings of the first page, so that they are written once."""
+    """Makes tables of contents from the lists of links under the headings of the first page."""
     found = []
     for section in re.split(r"^## ", index, flags=re.MULTILINE)[1:]:
         pages = re.findall(r"^- \[[^\]]+\]\(([\w/-]+)\.md\)", section, flags=re.MULTILINE)
@@ -50,8 +50,8 @@ def navigation(index: str) -> str:
 
 
 def adapt(app, name, source) -> None:
-    """Adds tables of contents. Links to files that are not on the site lose their address, and the page about the
-    references gets its links to them."""
+    """Adds tables of contents, removes the addresses of links to files that are not on the site, and fills in the links
+    of the page about the references."""
     if name == "index":
         if LIVE.exists():
             title, rest = source[0].split("\n\n", 1)

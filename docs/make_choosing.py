@@ -1,6 +1,6 @@
 """Makes the diagrams of docs/choosing.md and prints its table: python docs/make_choosing.py
 
-Takes some minutes. The times are of the processor; they depend on the machine, errors do not.
+This takes a few minutes. Times are of the processor; they depend on the machine, the errors do not.
 docs/make_front.py makes the diagram of stiff cloths.
 """
 
@@ -23,7 +23,7 @@ SCENES = ("cloth-stiff", "cloth-damped", "cloth-gentle")
 WANT = 1e-4  # [m]
 BUDGET = 25.0  # [s] for one study
 POINTS = 8
-OTHERS = 2  # methods beside the recommended one
+OTHERS = 2  # methods shown beside the recommended one
 REPEATS = 15
 
 
@@ -32,7 +32,7 @@ def study(scene: Path, methods: list[str] | None = None) -> hooke.Study:
 
 
 def candidates(scene: Path, first: hooke.Study) -> list[Any]:
-    """What is recommended, and the same for the cheapest few of the other methods."""
+    """The recommended run, and the cheapest runs of a few other methods."""
     found = [first.recommendation]
     rows = first.rows[(first.error <= WANT) & (first.method != found[0].method)]
     rows.sort(order="wall_seconds")
@@ -50,7 +50,7 @@ def processor_seconds(scene: hooke.Scene, options: dict[str, Any]) -> float:
 
 
 def seconds(path: Path, runs: list[dict[str, Any]], repeats: int) -> list[float]:
-    """The least time of each run; they take turns, so that all see the same machine."""
+    """The shortest time of each run. Runs alternate, so that changes of the machine affect all of them."""
     scene, least = hooke.Scene.load(path), [float("inf")] * len(runs)
     for _ in range(repeats):
         for k, options in enumerate(runs):

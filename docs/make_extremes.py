@@ -1,6 +1,6 @@
-"""Fills the tables of docs/notes/extremes.md with what the suite measures: python docs/make_extremes.py BUILD [--check]
+"""Fills the tables of docs/notes/extremes.md with results of the suite: python docs/make_extremes.py BUILD [--check]
 
-BUILD is a build folder with its tests, such as build/release. With --check nothing is written; what differs is printed.
+BUILD is a build folder with its tests, such as build/release. With --check nothing is written; differences are printed.
 """
 
 from __future__ import annotations
@@ -13,14 +13,14 @@ from pathlib import Path
 
 PAGE = Path(__file__).with_name("notes") / "extremes.md"
 MARK = re.compile(r"(<!-- table: (?P<family>[\w ]+) -->\n).*?(<!-- end -->)", re.DOTALL)
-EXACT = 3e-12  # below this, figures are rounding: one number per machine
-FACTOR = 10.0  # within which larger figures have to agree
+EXACT = 3e-12  # smaller errors are rounding, and differ between machines
+FACTOR = 10.0  # larger errors have to agree within this factor
 
 Rows = dict[str, dict[str, dict[str, str]]]  # family, case, method: words
 
 
 def measure(build: Path) -> Rows:
-    """What every program of the suite says of its cases, in its order."""
+    """Results of all cases, in the order of the programs."""
     rows: Rows = {}
     programs = sorted((build / "tests").glob("physics_extremes_*"))
     if not programs:
@@ -37,7 +37,7 @@ def measure(build: Path) -> Rows:
 
 
 def table(cases: dict[str, dict[str, str]]) -> str:
-    fullest = sorted(cases.values(), key=len, reverse=True)  # its order is that of the library
+    fullest = sorted(cases.values(), key=len, reverse=True)  # in the order of the library
     methods = list(dict.fromkeys(m for case in fullest for m in case))
     lines = [f"| | {' | '.join(f'`{m}`' for m in methods)} |", "| --- |" + " --- |" * len(methods)]
     lines += [f"| {case} | {' | '.join(words.get(m, '') for m in methods)} |" for case, words in cases.items()]
@@ -49,7 +49,7 @@ def fill(page: str, rows: Rows) -> str:
 
 
 def read(page: str) -> Rows:
-    """The tables of the page, back into rows."""
+    """Rows of the tables of the page."""
     rows: Rows = {}
     for match in MARK.finditer(page):
         lines = [[cell.strip() for cell in line.strip("|\n").split("|")] for line in match[0].splitlines()[1:-1]]
@@ -75,7 +75,7 @@ def agree(a: str, b: str) -> bool:
 
 
 def differences(page: Rows, suite: Rows) -> list[str]:
-    """Cells in which the page and the suite differ."""
+    """Cells of the page that differ from the results of the suite."""
     found = []
     for family in {**page, **suite}:
         one, other = page.get(family, {}), suite.get(family, {})

@@ -1,4 +1,4 @@
-"""Makes the pictures of docs/gallery.md and the list of them there, and blow-up, the one of README.md:
+"""Makes the pictures of docs/gallery.md with their list there, and the picture blow-up of README.md:
 python docs/make_gallery.py [NAME ...]
 
 It takes about a minute. Scenes of the table that are not in examples/scenes are left out.
@@ -32,23 +32,23 @@ COLOURS = plt.get_cmap("viridis")
 class Picture(NamedTuple):
     scene: str  # in examples/scenes
     draw: Callable[[hooke.Result, Any], Any]
-    words: str  # what is seen, for those who do not see it
+    words: str  # text in place of the picture
 
 
 def at(result: hooke.Result, count: int) -> np.ndarray:
-    """Frames at equal distances, the first and the last among them."""
+    """Evenly spaced frames, including the first and the last."""
     return np.linspace(0, len(result.frames.t) - 1, count).round().astype(int)
 
 
 def strain(result: hooke.Result, q: np.ndarray) -> np.ndarray:
-    """Of every spring, 0 where its rest length is 0."""
+    """Strain of every spring; 0 where its rest length is 0."""
     ends, rest = result.system.spring_ends, result.system.spring_material.rest_length
     length = np.linalg.norm(q[ends[:, 0]] - q[ends[:, 1]], axis=1)
     return np.divide(length - rest, rest, out=np.zeros_like(rest), where=rest > 0)
 
 
 def side(result: hooke.Result, figure: Any, across: int = 0) -> None:
-    """From the side at several times, laid over each other."""
+    """Draws side views at several times on top of each other."""
     ax = figure.add_subplot()
     for share, frame in zip(np.linspace(0, 0.9, 6), at(result, 6)):
         segments = result.frames.q[frame][:, (across, 1)][result.system.spring_ends]
@@ -60,7 +60,7 @@ def side(result: hooke.Result, figure: Any, across: int = 0) -> None:
 
 
 def apart(result: hooke.Result, figure: Any) -> None:
-    """x and y at the end, on axes of their own scale."""
+    """Draws x and y at the end, on axes with different scales."""
     ax = figure.add_subplot()
     q = result.frames.q[-1]
     ax.add_collection(LineCollection(q[:, :2][result.system.spring_ends], colors="tab:blue", linewidths=1))
@@ -85,7 +85,7 @@ def lengths(result: hooke.Result, ax: Any) -> None:
 
 
 def oscillation(result: hooke.Result, figure: Any) -> None:
-    """The length of a spring, and the energy."""
+    """Draws the length of a spring and the energy over time."""
     length, energy = figure.subplots(2, sharex=True)
     lengths(result, length)
     energy.plot(result.frames.t, [result.system.energy(*pair) for pair in zip(result.frames.q, result.frames.v)], color="0.3")
@@ -93,7 +93,7 @@ def oscillation(result: hooke.Result, figure: Any) -> None:
 
 
 def fall(result: hooke.Result, figure: Any) -> None:
-    """The lengths of springs, and how high each is."""
+    """Draws the lengths of springs over their heights."""
     length, height = figure.subplots(2, sharex=True)
     lengths(result, length)
     for a, _ in result.system.spring_ends:
@@ -102,7 +102,7 @@ def fall(result: hooke.Result, figure: Any) -> None:
 
 
 def space(result: hooke.Result, figure: Any, share: float = 1.0, up: tuple[int, int, int] = (2, 0, 1)) -> None:
-    """In space at a share of the duration, springs coloured by strain, y upwards; pinned particles in black."""
+    """Draws the scene in space at a fraction of the duration: springs coloured by strain, pinned particles black."""
     frame = round(share * (len(result.frames.t) - 1))
     q = result.frames.q[frame][:, up]
     stretched = 100 * strain(result, result.frames.q[frame])
@@ -120,7 +120,7 @@ def space(result: hooke.Result, figure: Any, share: float = 1.0, up: tuple[int, 
     ax.set_box_aspect(np.maximum(high - low, 0.3 * (high - low).max()))
     for axis in (ax.xaxis, ax.yaxis, ax.zaxis):
         axis.set_major_locator(MaxNLocator(3))
-    narrow = high - low < 0.4 * (high - low).max()  # no room for numbers
+    narrow = high - low < 0.4 * (high - low).max()  # too narrow for numbers
     if narrow[0]:
         ax.set(xlabel="", xticks=[])
     if narrow[1]:
@@ -134,7 +134,7 @@ def half_way(result: hooke.Result, figure: Any) -> None:
 
 
 def blow_up() -> None:
-    """A cloth from the front at the last time before it diverges, and at the same time with a step below the limit."""
+    """Draws a cloth from the front, just before it diverges and at the same time with a step below the limit."""
     figure, axes = plt.subplots(1, 2, figsize=(8, 4), layout="constrained", sharey=True)
     time = np.inf
     for ax, step, words in zip(axes, (5e-3, 4e-3), ("above", "below")):

@@ -70,7 +70,7 @@ class Cloth:
 
 
 def colours(ends: np.ndarray, count: int) -> list[np.ndarray]:
-    """Numbers of springs by colour: no two springs of one colour share a particle."""
+    """Springs by colour: no two springs of one colour share a particle."""
     seen: list[set[int]] = [set() for _ in range(count)]
     colour = np.empty(len(ends), int)
     for s, (a, b) in enumerate(ends):
@@ -92,7 +92,7 @@ def frames_of(cloth: Cloth, step: float, advance) -> np.ndarray:
 
 
 class Xpbd:
-    """docs/xpbd.c, compiled."""
+    """Compiles docs/xpbd.c and loads it."""
 
     class Cloth(ctypes.Structure):
         _fields_ = (
@@ -167,24 +167,24 @@ def by_hooke(cloth: Cloth, **options) -> tuple[np.ndarray, float]:
 
 
 def error(frames: np.ndarray, reference: np.ndarray) -> float:
-    """The largest root mean square distance over all particles, in any frame [m]."""
+    """Largest root mean square distance of the particles in any frame [m]."""
     return float(np.sqrt(((frames - reference) ** 2).sum(axis=2).mean(axis=1)).max())
 
 
 def tension(cloth: Cloth, frames: np.ndarray) -> np.ndarray:
-    """Of each spring in each frame [N]."""
+    """Tension of each spring in each frame [N]."""
     a, b = cloth.ends.T
     return cloth.k * (np.linalg.norm(frames[:, a] - frames[:, b], axis=2) - cloth.rest)
 
 
 def tension_error(cloth: Cloth, frames: np.ndarray, reference: np.ndarray) -> float:
-    """The largest root mean square in any frame, over the root mean square tension of the reference."""
+    """Largest root mean square error of tension in any frame, relative to that tension of the reference."""
     right = tension(cloth, reference)
     return float(np.sqrt(((tension(cloth, frames) - right) ** 2).mean(axis=1).max() / (right**2).mean()))
 
 
 def measure(cloth: Cloth, reference: np.ndarray) -> dict[str, list[tuple[float, float, float]]]:
-    """Of each method: time [s], error [m] and error of the tension; the least of some times."""
+    """Time [s] (the shortest of several), error [m] and error of tension of each method."""
     curves: dict[str, list[tuple[float, float, float]]] = {}
 
     def add(name: str, run: Callable[[], tuple[np.ndarray, float]]) -> None:

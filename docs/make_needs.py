@@ -1,6 +1,6 @@
 """Makes the picture of docs/needs.md and prints its table: python docs/make_needs.py
 
-Takes some minutes. The times depend on the machine, and on what else it is doing; the changes do not.
+This takes some minutes. Times depend on the machine, and on what else it is doing; changes do not.
 """
 
 from __future__ import annotations
@@ -42,8 +42,8 @@ def print_row(name: str, change: str, cost: Any, says: str) -> None:
 
 
 def run_all(found: hooke.Needs, scene: hooke.Scene) -> tuple[list[Any], list[float]]:
-    """The full scene with a tenth of the want, the lean one and the full one within the want, at the last time that is
-    judged, and the least time of each up to there; they take turns, so that all see the same machine."""
+    """Runs the full scene to a tenth of the wanted error, and the lean and the full scene to the wanted error. States are
+    those at the last judged time; times are the shortest of several runs, which alternate."""
     runs = [(scene, {"step": found.full.step}), (found.lean, found.lean_options), (scene, {"step": found.cheapest.step})]
     least, results = [float("inf")] * 3, [None] * 3
     for _ in range(REPEATS):

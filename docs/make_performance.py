@@ -3,7 +3,7 @@
     python docs/make_performance.py BUILD [--seconds S] [--threads N,...] [--no-peers]
 
 BUILD is a build folder with the programs of bench/, such as build/release. The peers have to be in build/peers, where
-bench/peers/run.py --install puts them. Takes half an hour; wants a machine that does nothing else.
+bench/peers/run.py --install puts them. This takes half an hour, on a machine that does nothing else.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Writes the pages of the site, those of the references made from the sources: python docs/make_reference.py BUILD
+"""Writes the pages of the site; those of the references are generated: python docs/make_reference.py BUILD
 
 BUILD is a build folder with the library and the program, such as build/release; the pages are in BUILD/docs, those of the
 references in BUILD/docs/reference. The C reference comes from the headers, the Fortran one from the modules, the Python
@@ -37,7 +37,7 @@ def pages(build: Path) -> dict[str, str]:
 
 
 def write(build: Path, folder: Path) -> None:
-    """All pages of the site."""
+    """Writes all pages of the site."""
     shutil.rmtree(folder, ignore_errors=True)
     shutil.copytree(ROOT / "docs", folder, ignore=shutil.ignore_patterns("*.py", "*.json", "*.txt", "generate"))
     (folder / "reference").mkdir()

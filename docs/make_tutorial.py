@@ -1,6 +1,6 @@
 """Makes the pictures of docs/tutorial.md: python docs/make_tutorial.py
 
-Takes some seconds.
+This takes some seconds.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ IMAGES = Path(__file__).resolve().parent / "images"
 
 
 def spring() -> hooke.System:
-    """The spring of the tutorial: 1 m, 20 N, pulled to 1.25 m, 1 kg at its end."""
+    """Runs the spring of the tutorial: 1 m, 20 N, stretched to 1.25 m, with 1 kg at its end."""
     system = hooke.System()
     system.add_particles([[0, 0, 0], [1.25, 0, 0]], mass=1)
     system.pin(0)
@@ -39,7 +39,7 @@ def energies() -> None:
 
 
 def cloths() -> None:
-    """The cloth of the tutorial after 0.5 s with and without shear springs, from the front."""
+    """Draws the cloth of the tutorial after 0.5 s with and without shear springs, from the front."""
     figure, axes = plt.subplots(1, 2, figsize=(7, 3.6), sharey=True, layout="constrained")
     for ax, families in zip(axes, (("structural",), ("structural", "shear"))):
         system = hooke.System()

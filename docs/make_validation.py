@@ -1,6 +1,6 @@
 """Fills the tables of docs/notes/validation.md: python docs/make_validation.py [--check]
 
-Takes a second. With --check nothing is written; rows that differ are printed.
+This takes a second. With --check nothing is written; rows that differ are printed.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ PAGE = ROOT / "docs/notes/validation.md"
 SCENES = ROOT / "examples/scenes"
 MARK = re.compile(r"(<!-- table: (?P<name>\w+) -->\n).*?(<!-- end -->)", re.DOTALL)
 NUMBER = re.compile(r"-?\d+\.?\d*(?:e[-+]\d+)?")
-ROUNDING = 1e-12  # figures below are rounding: their digits mean nothing
+ROUNDING = 1e-12  # smaller numbers are rounding
 
 sys.path.append(str(ROOT / "build/release/python"))
 
@@ -25,12 +25,12 @@ import hooke  # noqa: E402
 
 
 def numbers(name: str) -> list[float]:
-    """All numbers of a block of a file in tests/data."""
+    """The numbers of one block of a file in tests/data."""
     return [float(word) for word in NUMBER.findall(name)]
 
 
 def orders() -> list[list[str]]:
-    """The largest error of a coordinate of six particles at 1 s, here and as computed without this library."""
+    """Largest error of a coordinate of six particles at 1 s, against numbers computed without this library."""
     text = (ROOT / "tests/data/six_particles.inc").read_text("utf-8")
     state = text.split(".time = 1.0,")[1]
     exact = np.array(numbers(re.search(r"\.position = \(const double\[\]\)\{(.*?)\}", state, re.DOTALL)[1])).reshape(-1, 3)
@@ -57,7 +57,7 @@ def limits() -> list[list[str]]:
 
 
 def conservation() -> list[list[str]]:
-    """A cloth that turns freely, for a second; relative to momentum and energy at the start."""
+    """Changes of momentum and energy of a freely turning cloth in one second, relative to the start."""
     rows = [["method", "momentum", "angular momentum", "energy"]]
     for method in ("symplectic-euler", "verlet", "rk4", "backward-euler", "cvode-adams"):
         system = hooke.System()
@@ -79,7 +79,7 @@ def conserved(system: hooke.System, state: hooke.State) -> list[np.ndarray]:
 
 
 def bending() -> list[list[str]]:
-    """How far the tip of a beam of 1 m sinks under its weight, against w L^4/(8 B)."""
+    """Deflection of the tip of a beam of 1 m under its weight, against w L^4/(8 B)."""
     rows = [["pieces", "tip sinks by [m]", "w L^4/(8 B) [m]", "ratio"]]
     density, stiffness = 0.1, 0.1 * 9.81 / (8 * 1e-3)
     for pieces in (8, 16, 32):
@@ -89,7 +89,7 @@ def bending() -> list[list[str]]:
                         bending=stiffness, stretch={"stiffness": 100.0})
         system.set_gravity([0, -9.81, 0])
         system.set_drag(5.0)
-        tip = -hooke.run(system, method="backward-euler", step=0.1, duration=20).state.q[-1, 1]  # damps what still moves
+        tip = -hooke.run(system, method="backward-euler", step=0.1, duration=20).state.q[-1, 1]  # damps to rest
         rows.append([str(pieces), f"{tip:.4e}", "1.0000e-03", f"{tip / 1e-3:.4f}"])
     return rows
 
@@ -109,7 +109,7 @@ def made() -> str:
 
 
 def agree(a: str, b: str) -> bool:
-    """Whether two lines say the same, numbers within a hundredth or below rounding."""
+    """Whether two lines agree: numbers to one per cent, or both below rounding."""
     if NUMBER.sub("", a) != NUMBER.sub("", b):
         return False
     pairs = zip(numbers(a), numbers(b))

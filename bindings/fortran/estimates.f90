@@ -2,10 +2,12 @@
 module hooke_estimates
   use, intrinsic :: iso_c_binding, only: c_double, c_funloc, c_int32_t, c_int64_t, c_loc, c_null_funptr, c_null_ptr, &
     c_ptr
+  use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
   use hooke_base, only: accept, to_c, to_c_if, to_text
   use hooke_c_estimate
-  use hooke_c_trajectory, only: c_estimate_write_h5
-  use hooke_queries_of_estimate
+  use hooke_c_measurement, only: c_measurement_create, c_measurement_destroy, c_measurement_number, &
+    c_measurement_on_progress, c_measurement_run, c_measurement_text
+  use hooke_handles, only: hooke_handle
   use hooke_integrators, only: hooke_integrator
   use hooke_observers, only: call_progress, hooke_progress, progress_holder
   use hooke_option_tables, only: hooke_options
@@ -17,7 +19,7 @@ module hooke_estimates
 
   integer, parameter :: of_progress = 1
 
-  type, extends(hooke_estimate_queries) :: hooke_estimate
+  type, extends(hooke_handle) :: hooke_estimate
   contains
     procedure :: create
     procedure :: on_progress
@@ -26,6 +28,9 @@ module hooke_estimates
     procedure :: see
     procedure :: measure
     procedure :: refine
+    procedure :: number
+    procedure :: text
+    procedure :: write_h5
     procedure, private :: assign
     generic :: assignment(=) => assign
   end type
@@ -38,11 +43,18 @@ contains
     class(hooke_system), intent(in) :: system
     real(c_double), intent(in) :: want
     integer, intent(out), optional :: status
+    type(hooke_options) :: options
     type(c_ptr) :: estimate
     integer(c_int32_t) :: code
     if (system%is_missing(status)) return
-    code = c_estimate_create(system%address(), want, estimate)
-    if (code == 0) call self%take(estimate, c_estimate_destroy, system)
+    call options%create("estimate", status)
+    if (.not. options%exists()) return
+    if (.not. ieee_is_nan(want)) then
+      call options%set("want", want, status)
+      if (.not. options%is_set("want")) return
+    end if
+    code = c_measurement_create(to_c("estimate"), system%address(), c_null_ptr, options%address(), estimate)
+    if (code == 0) call self%take(estimate, c_measurement_destroy, system)
     call accept(code, status)
   end subroutine
 
@@ -52,12 +64,12 @@ contains
     class(hooke_progress), target, intent(inout), optional :: progress
     type(progress_holder), pointer :: holder
     if (.not. present(progress)) then
-      call c_estimate_on_progress(self%address(), c_null_funptr, c_null_ptr)
+      call c_measurement_on_progress(self%address(), c_null_funptr, c_null_ptr)
       return
     end if
     allocate (holder)
     holder%progress => progress
-    call c_estimate_on_progress(self%address(), c_funloc(call_progress), c_loc(holder))
+    call c_measurement_on_progress(self%address(), c_funloc(call_progress), c_loc(holder))
     call self%keep(holder, of_progress)
   end subroutine
 
@@ -99,7 +111,9 @@ contains
     class(hooke_state), intent(in) :: state
     integer, intent(out), optional :: status
     if (self%is_missing(status)) return
-    call accept(c_estimate_measure(self%address(), integrator%address(), state%address()), status)
+    if (integrator%is_missing(status)) return
+    if (state%is_missing(status)) return
+    call accept(c_measurement_run(self%address(), state%address()), status)
   end subroutine
 
   ! Sets something finer in `run`.
@@ -109,6 +123,30 @@ contains
     integer, intent(out), optional :: status
     if (self%is_missing(status)) return
     call accept(c_estimate_refine(self%address(), run%address()), status)
+  end subroutine
+
+  ! "estimate", "known_from" and the other numbers of the table of an estimate.
+  real(c_double) function number(self, what)
+    class(hooke_estimate), intent(in) :: self
+    character(*), intent(in) :: what
+    number = c_measurement_number(self%address(), to_c("estimate"), 0_c_int64_t, to_c(what))
+  end function
+
+  ! "by" or "note".
+  function text(self, what)
+    class(hooke_estimate), intent(in) :: self
+    character(*), intent(in) :: what
+    character(:), allocatable :: text
+    text = to_text(c_measurement_text(self%address(), to_c("estimate"), 0_c_int64_t, to_c(what)))
+  end function
+
+  ! Adds it to the trajectory file that the run wrote, which is closed already.
+  subroutine write_h5(self, path, status)
+    class(hooke_estimate), intent(in) :: self
+    character(*), intent(in) :: path
+    integer, intent(out), optional :: status
+    if (self%is_missing(status)) return
+    call accept(c_estimate_write_h5(self%address(), to_c(path)), status)
   end subroutine
 
   impure elemental subroutine assign(self, other)

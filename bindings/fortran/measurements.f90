@@ -151,8 +151,11 @@ contains
     character(*), intent(in) :: table, column
     integer, intent(in) :: row
     real(c_double), pointer, contiguous :: series(:)
-    series => to_series(c_measurement_series(self%address(), to_c(table), zero_based(row), to_c(column)), &
-      c_measurement_series_count(self%address(), to_c(table), zero_based(row), to_c(column)))
+    integer(c_int64_t) :: count(1)
+    type(c_ptr) :: found
+    count = 0
+    found = c_measurement_series(self%address(), to_c(table), zero_based(row), to_c(column), count)
+    series => to_series(found, count(1))
   end function
 
   ! ---- kinds, tables and columns ----

@@ -10,7 +10,7 @@ module hooke_systems
   use hooke_builders, only: hooke_builder
   use hooke_c_scene, only: c_scene_write
   use hooke_c_integrator, only: c_method_count
-  use hooke_c_measurement, only: c_step_bound, c_step_bounds
+  use hooke_c_measurement, only: c_step_bound
   use hooke_c_system
   use hooke_option_tables, only: hooke_options, options_or_null
   implicit none
@@ -318,9 +318,10 @@ contains
     real(c_double), intent(in), contiguous :: q(:, :)
     real(c_double), allocatable, intent(out) :: bounds(:)
     integer, intent(out), optional :: status
+    character(:), allocatable :: every
     allocate (bounds(c_method_count()), source=0.0_c_double)
     if (.not. suits(self, status, q)) return
-    call accept(c_step_bounds(self%address(), q, bounds), status)
+    call accept(c_step_bound(self%address(), every, q, bounds), status)
   end subroutine
 
   ! Writes the committed system as a scene file, with the options of a run.

@@ -3,7 +3,7 @@ module hooke_trajectories
   use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_int32_t, c_int64_t, c_ptr
   use hooke_base, only: accept, hooke_bad_value, hooke_long, hooke_ok, hooke_stopped, refuse, to_c, to_c_if, &
     to_integer, to_text
-  use hooke_c_checkpoint, only: c_trajectory_checkpoint, c_trajectory_origin, c_trajectory_resume
+  use hooke_c_checkpoint, only: c_trajectory_checkpoint, c_trajectory_resume
   use hooke_c_trajectory
   use hooke_c_measurement, only: c_comparison_file_close, c_comparison_file_create
   use hooke_measurements, only: hooke_measurement

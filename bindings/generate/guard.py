@@ -15,7 +15,8 @@ NEED_OPTIONS = {"hooke_options_copy", "hooke_options_row_count", "hooke_options_
 # Texts that may be NULL, by the names of their parameters; and those that need the function's name as well.
 OPTIONAL_TEXTS = {"command", "folder", "run", "scene", "scene_text", "title"}
 MAY_BE_NO_TEXT = {("hooke_estimate_pick", "method"), ("hooke_record_write_xdmf", "path"),
-                  ("hooke_measurement_label", "text"), ("hooke_measurement_table", "kind")}
+                  ("hooke_measurement_label", "text"), ("hooke_measurement_table", "kind"),
+                  ("hooke_step_bound", "method")}
 REFUSED = {"double": "NAN", "int32_t": "HOOKE_BAD_CALL", "int64_t": "-1"}
 MADE_BY = "/* made from the headers in include/hooke by bindings/generate/guard.py */\n"
 
@@ -35,8 +36,8 @@ def refused(result, name):
 
 def may_be_null(name, kind):
     """Whether a handle may be NULL, or is checked by the function itself."""
-    if (name, kind) in (("hooke_measurement_run", "hooke_state"), ("hooke_estimate_measure", "hooke_integrator")):
-        return True  # the initial state; an integrator that was destroyed
+    if (name, kind) == ("hooke_measurement_run", "hooke_state"):
+        return True  # the initial state
     return name.endswith(("_destroy", "_close")) or (kind == "hooke_options" and name not in NEED_OPTIONS)
 
 

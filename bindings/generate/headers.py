@@ -8,7 +8,7 @@ INCLUDE = Path(__file__).resolve().parents[2] / "include"
 NUMBERS = {"double", "int32_t", "int64_t"}
 NAME = r"hooke_[a-z0-9_]+"
 # Results of type int32_t that are neither a status nor a yes or no; the last one is the result of a callback.
-NUMBER_RESULTS = {"hooke_abi", "hooke_integrator_stop_value", "hooke_estimate_see"}
+NUMBER_RESULTS = {"hooke_abi", "hooke_estimate_see"}
 
 
 def statements(text):

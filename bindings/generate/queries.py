@@ -9,6 +9,19 @@ import headers
 COUNTS = {"count", "size", "steps", "stride"}  # other whole numbers are indices, and count from 1 in Fortran
 SIMPLE = {"double", "int32_t", "int64_t", "const char *"}
 RESULTS = {"int32_t", "int64_t", "double", "const char *", "void"}
+# Procedures of Fortran that ask a query of C for one word, by the names that they would have in C, with their results.
+WORDS = {
+    "hooke_system_spring_count": ("int64_t", "hooke_system_count", "springs"),
+    "hooke_integrator_wall_seconds": ("double", "hooke_integrator_number", "wall_seconds"),
+    "hooke_integrator_diverged_at": ("double", "hooke_integrator_number", "diverged_at"),
+    "hooke_integrator_stop_value": ("int32_t", "hooke_integrator_count", "stop_value"),
+    "hooke_trajectory_run": ("const char *", "hooke_trajectory_text", "run"),
+    "hooke_trajectory_origin": ("const char *", "hooke_trajectory_text", "origin"),
+    "hooke_scene_title": ("const char *", "hooke_scene_text", "title"),
+    "hooke_scene_text": ("const char *", "hooke_scene_text", "text"),
+    "hooke_record_frame_count": ("int64_t", "hooke_record_count", "frames"),
+    "hooke_record_good_frame_count": ("int64_t", "hooke_record_count", "good_frames"),
+}
 
 
 def called(texts):
@@ -65,16 +78,28 @@ def procedure(function):
     return [f"  {title}", *(f"    {line}" for line in [*head, *first, *body]), f"  end {kind}", ""]
 
 
+def of_word(name):
+    """One procedure of WORDS as lines."""
+    result, query, word = WORDS[name]
+    short, of = name[len("hooke_"):], "_".join(name.split("_")[:2])
+    kind, made = answer(result, name, [])
+    call = f'c_{query[len("hooke_"):]}(self%address(), to_c("{word}"))'
+    return [f"  function {short}(self) result(found)", f"    class({of}_queries), intent(in) :: self",
+            f"    {kind} :: found", f"    found = {made.format(call)}", "  end function", ""]
+
+
 def is_query(function, type_, by_hand):
     result, name, parameters = function
     mine = name.startswith(type_ + "_") and parameters and parameters[0][0] in (f"{type_} *", f"const {type_} *")
     return (mine and result in RESULTS and all(kind in SIMPLE for kind, _ in parameters[1:])
-            and not name.endswith(("_destroy", "_close")) and "c_" + name[len("hooke_"):] not in by_hand)
+            and name not in WORDS and not name.endswith(("_destroy", "_close"))
+            and "c_" + name[len("hooke_"):] not in by_hand)
 
 
 def module(type_, public, by_hand):
     found = {header: [f for f in headers.declared(text) if is_query(f, type_, by_hand)] for header, text in public.items()}
-    names = [name for functions in found.values() for _, name, _ in functions]
+    words = [name for name in WORDS if name.startswith(type_ + "_")]
+    names = [name for functions in found.values() for _, name, _ in functions] + words
     uses = [f"  use hooke_c_{header[:-2]}" for header, functions in found.items() if functions]
     bound = [f"    procedure :: {name[len(type_) + 1:]} => {name[len('hooke_'):]}" for name in names]
     return ["", f"! What {type_} does as the functions of C of the same names; numbers of things count from 1 here.",
@@ -83,12 +108,15 @@ def module(type_, public, by_hand):
             "  use hooke_base, only: accept, to_c, to_c_if, to_integer, to_number, to_text, zero_based", *uses,
             "  use hooke_handles, only: hooke_handle", "  implicit none", "  private", f"  public :: {type_}_queries", "",
             f"  type, extends(hooke_handle) :: {type_}_queries", "  contains", *bound, "  end type", "", "contains", "",
-            *(line for functions in found.values() for f in functions for line in procedure(f)), "end module"]
+            *(line for functions in found.values() for f in functions for line in procedure(f)),
+            *(line for name in words for line in of_word(name)), "end module"]
 
 
 def modules(public, texts):
     """The text of queries.f90, from {header: text} and the hand-written modules."""
-    by_hand = called(texts)
     types = re.findall(r"extends\((hooke_\w+)_queries\)", "\n".join(texts))
+    # what estimates and views call of a measurement, hooke_measurement still needs
+    by_hand = {type_: called([text for text in texts if type_ != "hooke_measurement" or "hooke_measurement_queries" in text])
+               for type_ in types}
     return "\n".join(["! Made from the headers in include/hooke by bindings/generate/queries.py.",
-                      *(line for type_ in types for line in module(type_, public, by_hand))])
+                      *(line for type_ in types for line in module(type_, public, by_hand[type_]))])

@@ -84,7 +84,7 @@ static void print_row(const hooke_measurement *cost, int64_t row, int width) {
 
 static void print_whole(const hooke_measurement *cost, const hooke_system *system, int width) {
   print_name(width, "the whole scene");
-  print_cell(10, (double)hooke_system_spring_count(system), "%.0f");
+  print_cell(10, (double)hooke_system_count(system, "springs"), "%.0f");
   print_time(hooke_measurement_number(cost, "cost", 0, "nanoseconds"), 0.0);
   print_cell(12, hooke_measurement_number(cost, "cost", 0, "memory_bytes"), "%.0f");
   print_limit(hooke_measurement_number(cost, "cost", 0, "step_limit"));

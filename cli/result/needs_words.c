@@ -198,7 +198,7 @@ static void print_warnings(const hooke_measurement *needs) {
 
 void cli_needs_results_print(const struct cli_needs_results *results) {
   const hooke_measurement *needs = results->needs;
-  const char *title = hooke_scene_title(results->setup.scene);
+  const char *title = hooke_scene_text(results->setup.scene, "title");
   cli_print_text(stdout, title && title[0] ? title : results->arguments->scene);
   printf("\n%s%s, %g m wanted", hooke_measurement_text(needs, "needs", 0, "method"),
          hooke_measurement_number(needs, "needs", 0, "method_picked") == 1.0 ? " (picked)" : "",

@@ -64,7 +64,7 @@ int32_t cli_resume_read_finished(const char *output, hooke_state *state, int64_t
   hooke_record *record = NULL;
   int32_t status = hooke_record_open(output, &record);
   if (status == HOOKE_OK) status = hooke_record_read(record, -1, state);
-  if (status == HOOKE_OK) *frames = hooke_record_frame_count(record);
+  if (status == HOOKE_OK) *frames = hooke_record_count(record, "frames");
   if (status == HOOKE_OK) status = read_steps(record, *frames, steps);
   hooke_record_close(record);
   return status;

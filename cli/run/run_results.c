@@ -50,7 +50,7 @@ static const char *const counts[HOOKE_RUN_COUNTS][2] = {
 void cli_run_take_counts(struct cli_run *run) {
   for (int k = 0; k < HOOKE_RUN_COUNTS; k++)
     run->count[k] = hooke_integrator_count(run->integrator, counts[k][0]);
-  run->wall_seconds = hooke_integrator_wall_seconds(run->integrator);
+  run->wall_seconds = hooke_integrator_number(run->integrator, "wall_seconds");
 }
 
 int64_t cli_run_coincident(const struct cli_run *run) {
@@ -107,7 +107,7 @@ static void print_json(const struct cli_run *run, int32_t with_final) {
   print_json_count(&json, run, 1);
   cli_json_number(&json, "wall_seconds", run->was_finished ? NAN : run->wall_seconds);
   cli_json_count(&json, "particles", hooke_system_particle_count(system));
-  cli_json_count(&json, "springs", hooke_system_spring_count(system));
+  cli_json_count(&json, "springs", hooke_system_count(system, "springs"));
   print_json_motion(&json, run);
   if (cli_run_goes_beyond(run)) cli_json_count(&json, "frames_beyond", run->frames_beyond);
   cli_json_text(&json, "output", run->output);
@@ -141,7 +141,7 @@ static void print_count(const struct cli_run *run, int k) {
 }
 
 static void print_work(const struct cli_run *run) {
-  const int64_t springs = hooke_system_spring_count(run->setup.system);
+  const int64_t springs = hooke_system_count(run->setup.system, "springs");
   const int64_t steps = count_of(run, 0);
   const double seconds = run->wall_seconds;
   for (int k = 0; k < HOOKE_RUN_COUNTS; k++)
@@ -184,7 +184,7 @@ static void print_motion(const struct cli_run *run) {
 
 static void print_words(const struct cli_run *run) {
   const hooke_system *system = run->setup.system;
-  const char *title = hooke_scene_title(run->setup.scene);
+  const char *title = hooke_scene_text(run->setup.scene, "title");
   const int64_t particles = hooke_system_particle_count(system);
   if (title && title[0]) {
     print_row("scene");
@@ -193,7 +193,7 @@ static void print_words(const struct cli_run *run) {
   }
   print_row("particles");
   printf("%" PRId64 " (%" PRId64 " pinned or driven), springs %" PRId64 "\n", particles,
-         particles - hooke_system_count(system, "free"), hooke_system_spring_count(system));
+         particles - hooke_system_count(system, "free"), hooke_system_count(system, "springs"));
   print_method(run);
   print_row("time reached");
   print_quantity(hooke_state_time(run->setup.state), "s of ");

@@ -30,9 +30,9 @@ struct cli_run {
   int64_t frames_beyond; /* those of them after it diverged */
   int32_t write_status;  /* HOOKE_OK, or why a frame or a checkpoint could not be written */
   int32_t outcome;
-  hooke_measurement *why;   /* diagnosis of the outcome; NULL: there is none, or it could not be made */
-  hooke_estimate *estimate; /* of its error; NULL: none was requested */
-  char message[2048];       /* about the outcome, or the failed write */
+  hooke_measurement *why;      /* diagnosis of the outcome; NULL: there is none, or it could not be made */
+  hooke_measurement *estimate; /* of its error; NULL: none was requested */
+  char message[2048];          /* about the outcome, or the failed write */
   double energy_before, energy_after;
   int64_t coincident_before; /* coincident springs at the start */
 };

@@ -37,6 +37,17 @@ static void tell_choice(const struct cli_run *run, const char *done, const char 
                    adaptive ? "" : " s");
 }
 
+/* `want` [m]; NaN: none. */
+static int32_t create(struct cli_run *run, double want) {
+  hooke_options *options = NULL;
+  int32_t status = hooke_options_create("estimate", &options);
+  if (status == HOOKE_OK && !isnan(want)) status = hooke_options_set_number(options, "want", want);
+  if (status == HOOKE_OK)
+    status = hooke_measurement_create("estimate", run->setup.system, NULL, options, &run->estimate);
+  hooke_options_destroy(options);
+  return status;
+}
+
 int cli_want_pick(struct cli_run *run) {
   const struct cli_arguments *arguments = run->arguments;
   const char *text = cli_arguments_text(arguments, "want");
@@ -46,9 +57,9 @@ int cli_want_pick(struct cli_run *run) {
   if (code == HOOKE_EXIT_DONE && text) code = cli_setup_read_study(arguments, "want", &want);
   if (code != HOOKE_EXIT_DONE) return code;
   if (!text && (run->resumed || cli_arguments_text(arguments, "no-estimate"))) return HOOKE_EXIT_DONE;
-  int32_t status = hooke_estimate_create(run->setup.system, want, &run->estimate);
+  int32_t status = create(run, want);
   if (status != HOOKE_OK) return cli_report_status(arguments, status);
-  hooke_estimate_on_progress(run->estimate, cli_watch_progress, &run->watch);
+  hooke_measurement_on_progress(run->estimate, cli_watch_progress, &run->watch);
   if (!text) return HOOKE_EXIT_DONE;
   cli_watch_start(&run->watch, arguments);
   status = hooke_estimate_pick(run->estimate, cli_arguments_text(arguments, "method"), run->setup.options);
@@ -65,13 +76,17 @@ int32_t cli_want_measure(struct cli_run *run) {
   cli_watch_start(&run->watch, run->arguments);
   hooke_integrator_destroy(run->integrator); /* the following runs need as much memory */
   run->integrator = NULL;
-  const int32_t status = hooke_estimate_measure(run->estimate, NULL, run->setup.state);
+  const int32_t status = hooke_measurement_run(run->estimate, run->setup.state);
   cli_watch_end(&run->watch);
   return status;
 }
 
+static const char *text_of(const struct cli_run *run, const char *what) {
+  return hooke_measurement_text(run->estimate, "estimate", 0, what);
+}
+
 static double number_of(const struct cli_run *run, const char *what) {
-  return hooke_estimate_number(run->estimate, what);
+  return hooke_measurement_number(run->estimate, "estimate", 0, what);
 }
 
 static int is_wanted(const struct cli_run *run) {
@@ -82,7 +97,7 @@ int32_t cli_want_goes_on(struct cli_run *run) {
   if (!is_wanted(run) || run->outcome != HOOKE_OK || number_of(run, "met") == 1.0) return 0;
   if (cli_watch_interrupted() || hooke_estimate_refine(run->estimate, run->setup.options) != HOOKE_OK)
     return 0;
-  const char *note = hooke_estimate_text(run->estimate, "note");
+  const char *note = text_of(run, "note");
   const double error = number_of(run, "estimate"), wanted = number_of(run, "wanted");
   if (!run->arguments->quiet && error > wanted)
     cli_report_words(run->arguments, "an error of %.6g m is above the %.6g m that are wanted", error, wanted);
@@ -120,7 +135,7 @@ static void warn(const struct cli_run *run) {
 
 static void print_verdict(const struct cli_run *run) {
   const double met = number_of(run, "met");
-  const char *note = hooke_estimate_text(run->estimate, "note");
+  const char *note = text_of(run, "note");
   if (!is_wanted(run)) return;
   printf(", %s", met == 1.0 ? "within the wanted " : met == 0.0 ? "above the wanted " : "wanted is ");
   printf("%.6g m", number_of(run, "wanted"));
@@ -131,11 +146,11 @@ static void print_verdict(const struct cli_run *run) {
 
 void cli_want_print(const struct cli_run *run) {
   if (!run->estimate || run->outcome != HOOKE_OK) return;
-  const char *by = hooke_estimate_text(run->estimate, "by");
+  const char *by = text_of(run, "by");
   const double from = number_of(run, "known_from"), until = number_of(run, "known_until");
   printf("%-22s", "error");
   if (!by)
-    printf("not known: %s", hooke_estimate_text(run->estimate, "note"));
+    printf("not known: %s", text_of(run, "note"));
   else if (strcmp(by, "slice") == 0)
     printf("%.2g m made from t = %.6g to %.6g s, %s", number_of(run, "estimate"), from, until,
            source_of(run, by));
@@ -151,7 +166,7 @@ void cli_want_print(const struct cli_run *run) {
 }
 
 static void print_json_error(const struct cli_run *run, struct cli_json *json) {
-  const char *by = hooke_estimate_text(run->estimate, "by");
+  const char *by = text_of(run, "by");
   cli_json_open(json, "error", '{');
   cli_json_number(json, "estimate", number_of(run, "estimate"));
   cli_json_number(json, "known_from", number_of(run, "known_from"));
@@ -159,7 +174,7 @@ static void print_json_error(const struct cli_run *run, struct cli_json *json) {
   cli_json_text(json, "by", by);
   cli_json_number(json, "energy_rise", number_of(run, "energy_rise"));
   cli_json_number(json, "heat_excess", number_of(run, "heat_excess"));
-  cli_json_text(json, "note", hooke_estimate_text(run->estimate, "note"));
+  cli_json_text(json, "note", text_of(run, "note"));
   cli_json_close(json);
 }
 

@@ -45,7 +45,7 @@ static double bound_of(const struct check *check, const char *method) {
 static int32_t find_bounds(struct check *check) {
   check->bound = malloc((size_t)hooke_method_count() * sizeof *check->bound);
   if (check->bound == NULL) return HOOKE_NO_MEMORY;
-  return hooke_step_bounds(check->setup.system, hooke_state_position(check->setup.state), check->bound);
+  return hooke_step_bound(check->setup.system, NULL, hooke_state_position(check->setup.state), check->bound);
 }
 
 /* ---- warnings ---- */
@@ -137,7 +137,7 @@ static int32_t warn_of_loose_particles(struct check *check) {
 /* The memory that grows with the number of springs, for each; and the rest, for each particle. */
 static double bytes_per_spring(const struct check *check) {
   return (double)hooke_system_count(check->setup.system, "spring_memory") /
-         (double)hooke_system_spring_count(check->setup.system);
+         (double)hooke_system_count(check->setup.system, "springs");
 }
 
 static double bytes_per_particle(const struct check *check) {
@@ -153,7 +153,7 @@ static void print_memory(const struct check *check) {
            check->memory.factor - check->memory.most, hooke_options_text(check->setup.options, "method"));
   if (hooke_system_particle_count(check->setup.system) > 0)
     printf("; the model takes %.1f a particle", bytes_per_particle(check));
-  if (hooke_system_spring_count(check->setup.system) > 0)
+  if (hooke_system_count(check->setup.system, "springs") > 0)
     printf(" and %.1f a spring", bytes_per_spring(check));
   printf("\n");
 }
@@ -172,7 +172,7 @@ static void print_json(const struct check *check) {
   struct cli_json json;
   cli_json_begin(&json, stdout);
   cli_json_count(&json, "particles", hooke_system_particle_count(system));
-  cli_json_count(&json, "springs", hooke_system_spring_count(system));
+  cli_json_count(&json, "springs", hooke_system_count(system, "springs"));
   cli_json_open(&json, "groups", '[');
   for (int64_t i = 0; i < hooke_system_group_count(system, "springs"); i++) {
     cli_json_open(&json, NULL, '{');
@@ -208,7 +208,7 @@ static void print_json(const struct check *check) {
 }
 
 static void print_groups(const hooke_system *system) {
-  printf("springs      %" PRId64 "\n", hooke_system_spring_count(system));
+  printf("springs      %" PRId64 "\n", hooke_system_count(system, "springs"));
   for (int64_t i = 0; i < hooke_system_group_count(system, "springs"); i++) {
     const char *name = hooke_system_group_name(system, "springs", i);
     printf("  %10" PRId64 " ", hooke_system_group_size(system, "springs", i));
@@ -261,12 +261,12 @@ static void print_cost(const struct check *check) {
   double steps = round(hooke_options_number(options, "duration") / hooke_options_number(options, "step"));
   if (hooke_method_is_adaptive(method) != 0 || isnan(steps)) return;
   printf("cost         %s: %.0f steps, %.3g spring-steps\n", method, steps,
-         steps * (double)hooke_system_spring_count(check->setup.system));
+         steps * (double)hooke_system_count(check->setup.system, "springs"));
 }
 
 static void print_words(const struct check *check) {
   const hooke_system *system = check->setup.system;
-  const char *title = hooke_scene_title(check->setup.scene);
+  const char *title = hooke_scene_text(check->setup.scene, "title");
   int64_t particles = hooke_system_particle_count(system);
   if (title && title[0]) {
     printf("scene        ");

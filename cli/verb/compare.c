@@ -45,7 +45,7 @@ static int32_t prepare(struct compare *compare) {
   if (status != HOOKE_OK) return status;
   hooke_measurement_on_progress(compare->comparison, cli_watch_progress, &compare->watch);
   if (!compare->output) return HOOKE_OK;
-  status = hooke_measurement_label(compare->comparison, "scene", hooke_scene_text(setup->scene));
+  status = hooke_measurement_label(compare->comparison, "scene", hooke_scene_text(setup->scene, "text"));
   if (status != HOOKE_OK) return status;
   return hooke_comparison_file_create(compare->output, compare->comparison, &compare->file);
 }
@@ -124,16 +124,16 @@ static void print_json(const struct compare *compare) {
 
 /* Error over time at a few evenly spaced frames, including the last. */
 static void print_errors(const hooke_measurement *comparison, int32_t width) {
-  const double *time = hooke_measurement_series(comparison, "reference", 0, "time");
-  int64_t last = hooke_measurement_series_count(comparison, "reference", 0, "time") - 1;
-  int64_t frames = last < COLUMNS ? last : COLUMNS;
+  int64_t count;
+  const double *time = hooke_measurement_series(comparison, "reference", 0, "time", &count);
+  const int64_t last = count - 1, frames = last < COLUMNS ? last : COLUMNS;
   printf("error [m]: root mean square over free particles of the distance to the reference\n%-*s", width,
          "at t [s] =");
   for (int64_t i = 1; i <= frames; i++)
     cli_rows_print_cell(10, time[last * i / frames]);
   printf("\n");
   for (int64_t row = 0; row < rows_done(comparison); row++) {
-    const double *error = hooke_measurement_series(comparison, "rows", row, "error_at");
+    const double *error = hooke_measurement_series(comparison, "rows", row, "error_at", NULL);
     printf("%-*s", width, text_of(comparison, row, "method"));
     for (int64_t i = 1; i <= frames; i++)
       cli_rows_print_cell(10, error ? error[last * i / frames] : (double)NAN);
@@ -142,7 +142,7 @@ static void print_errors(const hooke_measurement *comparison, int32_t width) {
 }
 
 static void print_words(const struct compare *compare) {
-  const char *title = hooke_scene_title(compare->setup.scene);
+  const char *title = hooke_scene_text(compare->setup.scene, "title");
   const struct cli_rows rows = rows_of(compare);
   int32_t width = cli_rows_method_width(&rows);
   char text[HOOKE_NUMBER_SIZE];

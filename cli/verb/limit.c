@@ -1,7 +1,7 @@
 /* hooke limit: the largest stable step of each method, predicted and measured, and what determines it. */
 #include "methods.h"
 #include "output_file.h"
-#include "blame.h"
+#include "limiting.h"
 #include "print.h"
 #include "report.h"
 #include "rows.h"
@@ -84,7 +84,7 @@ static int find(struct limit *l) {
 }
 
 static const char *title_of(const struct limit *l) {
-  const char *title = hooke_scene_title(l->setup.scene);
+  const char *title = hooke_scene_text(l->setup.scene, "title");
   return title && title[0] ? title : l->arguments->scene;
 }
 
@@ -95,7 +95,7 @@ static void print_json(const struct limit *l) {
   cli_json_begin(&json, stdout);
   cli_table_print_row(&json, l->limit, "limit", 0);
   cli_table_print(&json, "rows", l->limit, "rows");
-  cli_blame_json(&json, l->limit);
+  cli_limiting_json(&json, l->limit);
   cli_table_print(&json, "movers", l->limit, "movers");
   cli_table_print(&json, "remedy", l->limit, "remedy");
   cli_table_print(&json, "modes", l->limit, "modes");
@@ -166,15 +166,15 @@ static void print_notes(const struct limit *l, int32_t width) {
   }
 }
 
-static double blame_number(const hooke_measurement *limit, int64_t row, const char *what) {
+static double limiting_number(const hooke_measurement *limit, int64_t row, const char *what) {
   return hooke_measurement_number(limit, "blame", row, what);
 }
 
 static void print_spring(const hooke_measurement *limit, int64_t row, const char *label) {
   const char *group = hooke_measurement_text(limit, "blame", row, "group");
   printf("%s%-*s%5.1f %%  spring %.0f, between particles %.0f and %.0f", label[0] ? "\n" : "", INDENT, label,
-         100.0 * blame_number(limit, row, "share"), blame_number(limit, row, "number"),
-         blame_number(limit, row, "first"), blame_number(limit, row, "second"));
+         100.0 * limiting_number(limit, row, "share"), limiting_number(limit, row, "number"),
+         limiting_number(limit, row, "first"), limiting_number(limit, row, "second"));
   if (group && group[0]) {
     printf(", group ");
     cli_print_text(stdout, group);
@@ -182,13 +182,13 @@ static void print_spring(const hooke_measurement *limit, int64_t row, const char
   printf("\n");
 }
 
-static void print_blame(const hooke_measurement *limit) {
+static void print_limiting(const hooke_measurement *limit) {
   const int64_t count = hooke_measurement_row_count(limit, "blame");
   const char *sentence = hooke_measurement_text(limit, "remedy", 0, "sentence");
   for (int64_t k = 0; k < count && k < MOST_SPRINGS; k++) {
     const char *force = hooke_measurement_text(limit, "blame", k, "force");
     if (force)
-      printf("\n%-*s%5.1f %%  %s\n", INDENT, "blame", 100.0 * blame_number(limit, k, "share"), force);
+      printf("\n%-*s%5.1f %%  %s\n", INDENT, "blame", 100.0 * limiting_number(limit, k, "share"), force);
     else
       print_spring(limit, k, k ? "" : "blame");
   }
@@ -217,7 +217,7 @@ static void print_words(const struct limit *l) {
   printf("\n");
   print_table(l, width);
   print_notes(l, width);
-  print_blame(l->limit);
+  print_limiting(l->limit);
 }
 
 static int tell(const struct limit *l) {
@@ -267,7 +267,8 @@ static const struct cli_verb_row own_rows[] = {
     {"at", 0, "FILE:FRAME",
      "at a frame of a trajectory, the last one if FRAME is left out; else at the start"},
     {"report", 0, "FILE.html",
-     "writes regions of stability, limiting mode, table and remedy as one page to read offline, replacing "
+     "writes regions of stability, limiting mode, table and suggestion as one page to read offline, "
+     "replacing "
      "it"},
 };
 

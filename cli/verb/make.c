@@ -150,7 +150,7 @@ static void print_json(const struct make *make) {
   cli_json_text(&json, "scene", make->output);
   cli_json_text(&json, "kind", make->arguments->scene);
   cli_json_count(&json, "particles", hooke_system_particle_count(make->system));
-  cli_json_count(&json, "springs", hooke_system_spring_count(make->system));
+  cli_json_count(&json, "springs", hooke_system_count(make->system, "springs"));
   cli_json_end(&json);
 }
 
@@ -161,7 +161,7 @@ static void tell(const struct make *make) {
   cli_report_words(
       make->arguments, "%s: a %s of %" PRId64 " particles (%" PRId64 " pinned), %" PRId64 " springs",
       make->output ? make->output : "standard output", make->arguments->scene, particles,
-      particles - hooke_system_count(make->system, "free"), hooke_system_spring_count(make->system));
+      particles - hooke_system_count(make->system, "free"), hooke_system_count(make->system, "springs"));
   if (!make->output || (make->run && hooke_options_is_set(make->run, "step"))) return;
   fputs("the largest stable steps: hooke limit ", stderr);
   cli_print_quoted(stderr, make->output);
@@ -170,7 +170,7 @@ static void tell(const struct make *make) {
 
 static int write(const struct make *make) {
   if (!make->output) {
-    fputs(hooke_scene_text(make->scene), stdout);
+    fputs(hooke_scene_text(make->scene, "text"), stdout);
     return HOOKE_EXIT_DONE;
   }
   const int32_t status = hooke_scene_write(make->output, make->system,

@@ -59,7 +59,7 @@ static int write_lean(struct cli_needs_results *results) {
   const char *output = cli_arguments_text(results->arguments, "output");
   const hooke_system *lean = hooke_needs_lean(results->needs);
   if (!output || !lean) return HOOKE_EXIT_DONE;
-  const int32_t status = hooke_scene_write(output, lean, hooke_scene_title(results->setup.scene),
+  const int32_t status = hooke_scene_write(output, lean, hooke_scene_text(results->setup.scene, "title"),
                                            hooke_needs_lean_run(results->needs));
   if (status != HOOKE_OK) {
     cli_report_words(results->arguments, "%s", hooke_last_error());
@@ -72,7 +72,7 @@ static int write_lean(struct cli_needs_results *results) {
 
 static int write_report(const struct cli_needs_results *results, int code) {
   const char *report = cli_arguments_text(results->arguments, "report");
-  const char *title = hooke_scene_title(results->setup.scene);
+  const char *title = hooke_scene_text(results->setup.scene, "title");
   if (!report) return code;
   int32_t status =
       hooke_measurement_label(results->needs, "title", title && title[0] ? title : results->arguments->scene);

@@ -37,7 +37,7 @@ static int32_t see_progress(double done, const char *method, void *ctx) {
 
 static int32_t see_frame(int64_t step, const hooke_state *state, void *ctx) {
   struct cli_run *run = ctx;
-  const int beyond = !isnan(hooke_integrator_diverged_at(run->integrator));
+  const int beyond = !isnan(hooke_integrator_number(run->integrator, "diverged_at"));
   if (run->trajectory && beyond) run->write_status = hooke_trajectory_mark_diverged(run->trajectory);
   if (run->trajectory && run->write_status == HOOKE_OK)
     run->write_status = hooke_trajectory_write(run->trajectory, step, state);
@@ -66,7 +66,7 @@ static int32_t see_checkpoint(int64_t step, const hooke_state *state, void *ctx)
 static int64_t stride(const struct cli_run *run) {
   if (hooke_method_is_adaptive(cli_run_method(run)) != 0) return 1;
   int64_t size =
-      hooke_system_spring_count(run->setup.system) + hooke_system_particle_count(run->setup.system) + 1;
+      hooke_system_count(run->setup.system, "springs") + hooke_system_particle_count(run->setup.system) + 1;
   int64_t steps = SPRINGS_PER_LOOK / size;
   const double step = hooke_options_number(run->options, "step");
   const double share = run->duration / step / LOOKS;
@@ -99,13 +99,14 @@ static int32_t prepare(struct cli_run *run) {
   const int warns = !run->arguments->quiet && !cli_arguments_text(run->arguments, "want");
   if (status == HOOKE_OK && warns) status = hooke_integrator_on_warning(run->integrator, see_warning, run);
   if (status != HOOKE_OK || !run->output) return status;
-  status = run->resumed ? hooke_trajectory_resume(run->output, run->setup.system, run->integrator,
-                                                  run->setup.state, &run->trajectory)
-                        : hooke_trajectory_create(run->output, run->setup.system, run->integrator,
-                                                  hooke_scene_text(run->setup.scene), &run->trajectory);
+  status = run->resumed
+               ? hooke_trajectory_resume(run->output, run->setup.system, run->integrator, run->setup.state,
+                                         &run->trajectory)
+               : hooke_trajectory_create(run->output, run->setup.system, run->integrator,
+                                         hooke_scene_text(run->setup.scene, "text"), &run->trajectory);
   if (status != HOOKE_OK || !run->trajectory) return status;
   if (run->resumed && !run->arguments->quiet)
-    cli_report_words(run->arguments, "goes on from %s", hooke_trajectory_origin(run->trajectory));
+    cli_report_words(run->arguments, "goes on from %s", hooke_trajectory_text(run->trajectory, "origin"));
   return hooke_trajectory_write_behind(run->trajectory);
 }
 
@@ -123,7 +124,7 @@ static void keep_place(struct cli_run *run) {
 static int32_t write_companion(struct cli_run *run) {
   hooke_record *record = NULL;
   int32_t status = hooke_record_open(run->output, &record);
-  if (status == HOOKE_OK) run->frames = hooke_record_frame_count(record);
+  if (status == HOOKE_OK) run->frames = hooke_record_count(record, "frames");
   if (status == HOOKE_OK) status = hooke_record_write_xdmf(record, NULL);
   hooke_record_close(record);
   if (status != HOOKE_BAD_VALUE) return status;
@@ -351,7 +352,7 @@ static int make_ready(struct cli_run *run) {
 
 static void release(struct cli_run *run) {
   hooke_measurement_destroy(run->why);
-  hooke_estimate_destroy(run->estimate);
+  hooke_measurement_destroy(run->estimate);
   hooke_integrator_destroy(run->integrator);
   hooke_options_destroy(run->options);
   cli_setup_destroy(&run->setup);

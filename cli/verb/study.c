@@ -36,7 +36,7 @@ static int check_output(const struct cli_arguments *arguments, const char *outpu
 /* Exit code of the study, or of a report that could not be written. */
 static int write_report(const struct cli_study_results *results, const char *report, int code) {
   if (!report || hooke_measurement_row_count(results->study, "rows") == 0) return code;
-  const char *title = hooke_scene_title(results->setup.scene);
+  const char *title = hooke_scene_text(results->setup.scene, "title");
   const char *const command = cli_study_results_recommend(results) ? results->command : NULL;
   int32_t status =
       hooke_measurement_label(results->study, "title", title && title[0] ? title : results->arguments->scene);
@@ -134,7 +134,7 @@ struct cli_rows cli_study_results_rows(const struct cli_study_results *results) 
 
 static int32_t write_output(const struct cli_study_results *results, const char *output) {
   const int32_t status =
-      hooke_measurement_label(results->study, "scene", hooke_scene_text(results->setup.scene));
+      hooke_measurement_label(results->study, "scene", hooke_scene_text(results->setup.scene, "text"));
   return status == HOOKE_OK ? hooke_measurement_write(results->study, output) : status;
 }
 

@@ -3,6 +3,7 @@
 #include "print.h"
 #include "report.h"
 #include "run_results.h"
+#include "table.h"
 
 #include <inttypes.h>
 #include <math.h>
@@ -15,52 +16,49 @@
 
 extern char **environ;
 
+static double number_of(const hooke_measurement *view, const char *what) {
+  return hooke_measurement_number(view, "view", 0, what);
+}
+
 /* The omitted part, "every 10th" of something; "" if nothing is omitted. */
-static void describe_stride(const hooke_view *view, const char *what, char *text, size_t size) {
+static void describe_stride(const hooke_measurement *view, const char *what, char *text, size_t size) {
   static const char *const endings[] = {"th", "st", "nd", "rd"};
-  const int stride = (int)hooke_view_number(view, what), last = stride / 10 % 10 == 1 ? 0 : stride % 10;
+  const int stride = (int)number_of(view, what), last = stride / 10 % 10 == 1 ? 0 : stride % 10;
   text[0] = '\0';
   if (stride > 1) snprintf(text, size, ", every %d%s", stride, endings[last < 4 ? last : 0]);
 }
 
-static void print_words(const struct cli_arguments *arguments, const hooke_view *view, const char *output) {
+static void print_words(const struct cli_arguments *arguments, const hooke_measurement *view,
+                        const char *output) {
   char frames[64], springs[64];
   describe_stride(view, "frame_stride", frames, sizeof frames);
   describe_stride(view, "spring_stride", springs, sizeof springs);
   cli_report_words(arguments, "%s: %.2f MB, %.0f of %.0f frames%s, %.0f of %.0f springs%s%s", output,
-                   hooke_view_number(view, "bytes") / 1e6, hooke_view_number(view, "frames"),
-                   hooke_view_number(view, "frames_there"), frames, hooke_view_number(view, "springs"),
-                   hooke_view_number(view, "springs_there"), springs,
+                   number_of(view, "bytes") / 1e6, number_of(view, "frames"), number_of(view, "frames_there"),
+                   frames, number_of(view, "springs"), number_of(view, "springs_there"), springs,
                    frames[0] || springs[0] ? "; --frames, --springs and --size allow more" : "");
-  const double damaged = hooke_view_number(view, "damaged");
+  const double damaged = number_of(view, "damaged");
   if (damaged > 0.0)
     cli_report_words(arguments, "%.0f damaged frame%s skipped: the numbers are not those that were written",
                      damaged, damaged == 1.0 ? " is" : "s are");
 }
 
-static void print_json(const hooke_view *view, const hooke_record *record, const char *output) {
-  static const char *const counts[] = {"bytes",           "frames",        "frames_there",  "frame_stride",
-                                       "springs",         "springs_there", "spring_stride", "particles",
-                                       "particles_there", "damaged"};
-  static const char *const numbers[] = {"time_first", "time_last", "strain", "strain_low", "strain_high"};
+static void print_json(const hooke_measurement *view, const hooke_record *record, const char *output) {
   struct cli_json json;
   cli_json_begin(&json, stdout);
   cli_json_text(&json, "output", output);
   cli_json_text(&json, "status", hooke_record_text(record, "status"));
-  for (size_t k = 0; k < sizeof counts / sizeof counts[0]; k++)
-    cli_json_count(&json, counts[k], (int64_t)hooke_view_number(view, counts[k]));
-  for (size_t k = 0; k < sizeof numbers / sizeof numbers[0]; k++)
-    cli_json_number(&json, numbers[k], hooke_view_number(view, numbers[k]));
+  cli_table_print_row(&json, view, "view", 0);
   cli_json_end(&json);
 }
 
 static int write_page(const struct cli_arguments *arguments, const hooke_record *record, const char *output) {
-  hooke_view *view = NULL;
+  hooke_measurement *view = NULL;
   int32_t status = hooke_view_create(record, arguments->more, &view);
-  if (status == HOOKE_OK) status = hooke_view_write(view, output, NULL);
+  if (status == HOOKE_OK) status = hooke_measurement_write(view, output);
   if (status == HOOKE_OK && arguments->json) print_json(view, record, output);
   if (status == HOOKE_OK && !arguments->quiet) print_words(arguments, view, output);
-  hooke_view_destroy(view);
+  hooke_measurement_destroy(view);
   return status == HOOKE_OK ? HOOKE_EXIT_DONE : cli_report_status(arguments, status);
 }
 

@@ -1,6 +1,6 @@
 /* hooke why: explains a run that blew up, from its scene or from its output. */
 #include "advice.h"
-#include "blame.h"
+#include "limiting.h"
 #include "output_file.h"
 #include "print.h"
 #include "report.h"
@@ -77,7 +77,7 @@ static int32_t read_output(struct why *why) {
   if (status == HOOKE_OK) status = hooke_state_create(why->setup.system, &last);
   if (status == HOOKE_OK) status = hooke_record_read(why->record, 0, first);
   if (status == HOOKE_OK)
-    status = hooke_record_read(why->record, hooke_record_good_frame_count(why->record) - 1, last);
+    status = hooke_record_read(why->record, hooke_record_count(why->record, "good_frames") - 1, last);
   if (status == HOOKE_OK) {
     why->time = hooke_state_time(last);
     if (blew_up(why->status))
@@ -139,7 +139,7 @@ static int32_t print_json(const struct why *why) {
   cli_json_begin(&json, stdout);
   if (why->why) {
     cli_table_print_row(&json, why->why, "why", 0);
-    cli_blame_json(&json, why->why);
+    cli_limiting_json(&json, why->why);
     status = print_advice(&json, why);
   } else {
     print_nothing(&json, why);
@@ -246,7 +246,7 @@ static int write_report(const struct why *why, int code) {
     cli_report_words(why->arguments, "no page is written, since the run did not blow up");
     return code;
   }
-  const char *title = hooke_scene_title(why->setup.scene);
+  const char *title = hooke_scene_text(why->setup.scene, "title");
   int32_t status =
       hooke_measurement_label(why->why, "title", title && title[0] ? title : why->arguments->scene);
   if (status == HOOKE_OK) status = cli_advice_command(why->arguments, why->why, 0, &command);
@@ -312,7 +312,8 @@ const struct cli_verb cli_verb_why = {
     .summary = "explains a run that blew up",
     .text = "Runs the scene, or reads an output of 'hooke run -o', and says why the run blew up: the cause, "
             "where and when, "
-            "the springs to blame, and what to do, as commands that have been tried. The exit code is 0 also "
+            "the springs that determine it, and what to do, as commands that have been tried. The exit code "
+            "is 0 also "
             "if the run did "
             "not blow up.",
     HOOKE_VERB_ROWS(rows),

@@ -1,4 +1,4 @@
-"""The C reference, from the headers: every comment, and below it what it is about."""
+"""Writes the C reference from the headers: every comment, and below it its declarations."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ int main(void) {
 
 
 def lines_of(comment: str) -> str:
-    """The words of a comment without its stars."""
+    """The text of a comment without its stars."""
     return "\n".join(re.sub(r"^\s*\* ?", "", line).rstrip() for line in comment.strip().splitlines())
 
 
@@ -42,7 +42,7 @@ def without_prefix(declaration: str) -> str:
 
 
 def entries(text: str) -> list[tuple[str, list[str]]]:
-    """(comment, declarations) in order; what follows another declaration without a blank line shares its comment."""
+    """(comment, declarations) in order. Declarations without a blank line between them share a comment."""
     found: list[tuple[str, list[str]]] = []
     comment, end = "", 0
     for token in TOKEN.finditer(text):
@@ -51,7 +51,7 @@ def entries(text: str) -> list[tuple[str, list[str]]]:
         if token["comment"] is not None:
             comment = token["comment"]
             if "\n" not in gap.strip(" ") and found and gap.strip(" ") == "":
-                comment = ""  # at the end of a line, part of it
+                comment = ""  # a comment at the end of a line is part of it
         elif token["declaration"]:
             declaration = token["declaration"]
             if near and not comment and found and found[-1][1]:

@@ -1,4 +1,4 @@
-"""The reference of measurements: every kind with its tables and columns, as the library lists them."""
+"""Writes the reference of measurements: every kind with its tables and columns, as the library lists them."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ $ hooke limit examples/scenes/rope.json --predict --json
 
 
 def listed(ask: Callable[[int, bytes], bytes | None], *words: str) -> Iterator[list[str]]:
-    """What `ask(k, word)` has for each of `words`, for k from 0 on until there is no more."""
+    """Values of `ask(k, word)` for each of `words`, for k from 0 on until there is none."""
     k = 0
     while ask(k, words[0].encode()):
         yield [(ask(k, word.encode()) or b"").decode() for word in words]

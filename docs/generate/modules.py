@@ -1,5 +1,5 @@
-"""The Fortran reference, from the comments of the modules: those right above a type or a procedure. What is made from the
-headers has those of the headers."""
+"""Writes the Fortran reference from the comments right above types and procedures. Generated procedures have
+the comments of the headers."""
 
 from __future__ import annotations
 
@@ -15,12 +15,12 @@ END = re.compile(r"^end\s*(?:subroutine|function|type|interface)?\b", re.IGNOREC
 
 
 def logical_lines(text: str) -> list[str]:
-    """Lines with what is continued joined."""
+    """Lines, with continued ones joined."""
     return re.sub(r"&\s*\n\s*&?", "", text).splitlines()
 
 
 def exported(lines: list[str]) -> dict[str, str]:
-    """What `use hooke` brings: names in the modules, and what they are called outside."""
+    """Names that `use hooke` brings: {name in its module: public name}."""
     found = {}
     for names in re.findall(r"^\s*use \w+, only:(.*)$", "\n".join(lines), re.MULTILINE):
         for name in names.split(","):
@@ -30,7 +30,7 @@ def exported(lines: list[str]) -> dict[str, str]:
 
 
 def bound_names(lines: list[str]) -> set[str]:
-    """Names that types are bound to, and the interfaces of those that are deferred."""
+    """Bindings of types to procedures, and the interfaces of deferred ones."""
     found: set[str] = set()
     for line in lines:
         words = line.split("!")[0]
@@ -40,13 +40,13 @@ def bound_names(lines: list[str]) -> set[str]:
 
 
 def names_of(lines: list[str]) -> dict[str, str]:
-    """What procedures are called by users, where that is another name."""
+    """Names by which users call procedures, where they differ."""
     bound_to = re.findall(r"^\s*procedure :: (\w+) => (\w+)\s*(?:!.*)?$", "\n".join(lines), re.MULTILINE)
     return {inside: outside for outside, inside in bound_to}
 
 
 def dummies(lines: list[str], start: int) -> list[str]:
-    """The declarations of arguments and result below the head of a procedure."""
+    """Declarations of the arguments and the result of a procedure."""
     found = []
     for line in lines[start + 1 :]:
         words = line.split("!")[0].strip()
@@ -59,7 +59,7 @@ def dummies(lines: list[str], start: int) -> list[str]:
 
 
 def entries(lines: list[str], outside: dict[str, str]) -> list[tuple[str, str, str]]:
-    """(name, comment, code) of every type and procedure that may be used."""
+    """(name, comment, code) of every public type and procedure."""
     bound_to, comment, found = bound_names(lines), [], []
     outside = {**names_of(lines), **outside}
     for number, line in enumerate(lines):
@@ -72,7 +72,7 @@ def entries(lines: list[str], outside: dict[str, str]) -> list[tuple[str, str, s
         match = PROCEDURE.match(words) or TYPE.match(words)
         is_type = match is not None and "head" not in match.groupdict() and match["name"].startswith("hooke_")
         known = match is not None and (match["name"] in outside or match["name"] in bound_to or is_type)
-        known = known and not match["name"].startswith("assign")  # what "=" does
+        known = known and not match["name"].startswith("assign")  # assignment needs no entry
         if match and known and "bind(c" not in words.lower():
             code = [words, *dummies(lines, number)] if "head" in match.groupdict() else bound(lines, number)
             found.append((outside.get(match["name"], match["name"]), "\n".join(comment), "\n".join(code)))
@@ -81,7 +81,7 @@ def entries(lines: list[str], outside: dict[str, str]) -> list[tuple[str, str, s
 
 
 def bound(lines: list[str], start: int) -> list[str]:
-    """A type with the names of what it can do."""
+    """A type with the names of its procedures."""
     found = [lines[start].strip()]
     for line in lines[start + 1 :]:
         words = line.strip()
@@ -109,7 +109,7 @@ def module(lines: list[str], outside: dict[str, str]) -> str:
 
 
 def with_comments_of_headers(queries: str, root: Path) -> str:
-    """The modules that are made, with the comments of the functions in C that they call."""
+    """The generated modules, with the comments of the functions in C that they call."""
     for path in (root / "include/hooke").glob("*.h"):
         for comment, declarations in headers.entries(path.read_text("utf-8")):
             for name in [name for one in declarations for name in headers.names_in(one)][:1]:
@@ -120,7 +120,7 @@ def with_comments_of_headers(queries: str, root: Path) -> str:
 
 
 def page(root: Path, made: Path) -> str:
-    """`made` are the modules that are made, one for each type."""
+    """`made` are the generated modules, one for each type."""
     folder = root / "bindings/fortran"
     queries = with_comments_of_headers(made.read_text("utf-8"), root)
     front = logical_lines((folder / "hooke.f90").read_text("utf-8"))

@@ -1,4 +1,4 @@
-"""The Python reference, from the docstrings of what `import hooke` brings."""
+"""Writes the Python reference from the docstrings of the public names of the package."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ def signature(name: str, value: Any) -> str:
         return name
     parameters = [one for word, one in found.parameters.items() if word != "self"]
     text = name + str(found.replace(parameters=parameters))
-    if len(text) > WIDTH:  # a line for each
+    if len(text) > WIDTH:  # one line for each
         one_by_one = [str(found.replace(parameters=[p], return_annotation=found.empty))[1:-1] for p in parameters]
         ended = text[text.rindex(")") :]
         star = next((k for k, p in enumerate(parameters) if p.kind is p.KEYWORD_ONLY), None)
@@ -45,7 +45,7 @@ def documented(value: Any) -> str:
 
 
 def own(value: type, word: str) -> str | None:
-    """The docstring of a member where the class has written one."""
+    """The docstring of a member, if the class itself has one."""
     member = inspect.getattr_static(value, word)
     if isinstance(member, (staticmethod, classmethod)):
         member = member.__func__
@@ -54,7 +54,7 @@ def own(value: type, word: str) -> str | None:
 
 
 def members(name: str, value: type) -> list[str]:
-    """Public methods and properties of hooke's own classes in the order in which they are written."""
+    """Public methods and properties of hooke's own classes, in the order of the source."""
     pieces = []
     for word in dict.fromkeys(w for c in reversed(value.__mro__) if c.__module__.startswith("hooke") for w in vars(c)):
         member = inspect.getattr_static(value, word)
@@ -85,7 +85,7 @@ def one(name: str, value: Any) -> str:
 
 
 def join(pieces: list[str]) -> str:
-    """Items of a list follow each other, everything else has a line between."""
+    """Joins paragraphs with blank lines between them, and the items of a list without."""
     text = ""
     for piece in filter(None, pieces):
         near = piece.startswith("- ") and text.splitlines()[-1:] and text.splitlines()[-1].startswith("- ")

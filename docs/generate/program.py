@@ -1,4 +1,4 @@
-"""The reference of the command line, as `--help` prints it."""
+"""Writes the reference of the command line from the output of `--help`."""
 
 from __future__ import annotations
 

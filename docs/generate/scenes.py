@@ -1,4 +1,4 @@
-"""The reference of the scene format, from the option tables of the library and the schema."""
+"""Writes the reference of the scene format from the option tables of the library and the schema."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ def option_rows(rows: Any, required: list[str], families: set[str] = frozenset()
 
 
 def allowed(schema: dict[str, Any], definitions: dict[str, Any]) -> str:
-    """What a piece of the schema lets through, in a few words."""
+    """The values that a piece of the schema allows, in a few words."""
     if "$ref" in schema:
         name = schema["$ref"].removeprefix("#/$defs/")
         named = {"vector": "3 numbers", "vectors": "rows of 3 numbers", "dataset": "", "index": "the number of a particle",
@@ -83,7 +83,7 @@ def schema_rows(schema: dict[str, Any], definitions: dict[str, Any], names: list
 
 
 def taken(words: str, pattern: str) -> tuple[str, str]:
-    """The words without what the pattern finds, and that."""
+    """The words without the match of the pattern, and the match."""
     match = re.search(pattern, words)
     return ((words[: match.start()] + words[match.end() :]).lstrip(", "), match[1]) if match else (words, "")
 
@@ -91,7 +91,7 @@ def taken(words: str, pattern: str) -> tuple[str, str]:
 def parts(schema: dict[str, Any]) -> list[str]:
     import hooke
 
-    pieces, members = [], {}  # of families of springs, which every part has under names of its own
+    pieces, members = [], {}  # of families of springs, whose names depend on the part
     for kind in hooke.part_kinds():
         rows = hooke.Options.for_part(kind).rows
         families = {row.name.split(".")[0] for row in rows if row.name.endswith(".stiffness")}

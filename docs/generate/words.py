@@ -1,4 +1,4 @@
-"""Words of comments and docstrings as Markdown."""
+"""Turns the text of comments and docstrings into Markdown."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ def kind_of(line: str) -> str:
 
 
 def markdown(text: str) -> str:
-    """Paragraphs, with what is indented as it is. A line of dashes below a word makes it a title of a list."""
+    """Joins the lines of paragraphs, keeps indented ones. A word above a line of dashes becomes the title of a list."""
     pieces: list[tuple[str, list[str]]] = []
     for line in text.splitlines():
         kind = kind_of(line)

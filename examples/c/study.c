@@ -58,7 +58,7 @@ static void run_recommended(const hooke_system *system, const hooke_measurement 
   check(hooke_state_create(system, &state));
   check(hooke_integrator_run(integrator, state));
   printf("run with it: %lld steps in %.3g s\n", (long long)hooke_integrator_count(integrator, "steps"),
-         hooke_integrator_wall_seconds(integrator));
+         hooke_integrator_number(integrator, "wall_seconds"));
   hooke_state_destroy(state);
   hooke_integrator_destroy(integrator);
 }

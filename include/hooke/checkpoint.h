@@ -34,9 +34,9 @@ HOOKE_API int32_t hooke_checkpoint_read(const char *path, const char *run, hooke
 /* ---- beside a trajectory ---- */
 
 /* Flushes the trajectory to the disk and writes "<its path>.checkpoint", labelled with
- * hooke_trajectory_run(). The trajectory then holds every frame that was reported before the checkpoint.
- * hooke_trajectory_close() removes the checkpoint after a run that finished. Failures are those of
- * hooke_trajectory_sync() and hooke_checkpoint_write(). */
+ * "run" of hooke_trajectory_text(). The trajectory then holds every frame that was reported before the
+ * checkpoint. hooke_trajectory_close() removes the checkpoint after a run that finished. Failures are
+ * those of hooke_trajectory_sync() and hooke_checkpoint_write(). */
 HOOKE_API int32_t hooke_trajectory_checkpoint(hooke_trajectory *trajectory,
                                               const hooke_integrator *integrator, const hooke_state *state);
 
@@ -52,9 +52,6 @@ HOOKE_API int32_t hooke_trajectory_checkpoint(hooke_trajectory *trajectory,
 HOOKE_API int32_t hooke_trajectory_resume(const char *path, const hooke_system *system,
                                           hooke_integrator *integrator, hooke_state *state,
                                           hooke_trajectory **trajectory);
-/* Says in words from where the run continued, and why not from a checkpoint; "" for a trajectory that was not
- * opened by hooke_trajectory_continue(). */
-HOOKE_API const char *hooke_trajectory_origin(const hooke_trajectory *trajectory);
 
 #ifdef __cplusplus
 }

@@ -104,14 +104,14 @@ HOOKE_API int32_t hooke_integrator_on_progress(hooke_integrator *integrator, dou
 /* ---- running ---- */
 
 /* Runs `duration` from the state's time on, reporting frames; `state` is the final state on return.
- * HOOKE_STOPPED: an observer, force, drive or progress returned non-zero (hooke_integrator_stop_value()); the
- * state is that of the last whole step. HOOKE_DIVERGED: a component is not finite, or, without callbacks and
+ * HOOKE_STOPPED: an observer, force, drive or progress returned non-zero, the count "stop_value"; the state
+ * is that of the last whole step. HOOKE_DIVERGED: a component is not finite, or, without callbacks and
  * drives, the energy rose by more than 100 times what the scene had; tested at frames and every 1000 steps;
- * the state is the last one that passed, and hooke_integrator_diverged_at() tells when it was noticed. With
- * the option `past_divergence` frames come after that, until a number is not finite. HOOKE_STEP_LIMIT,
- * HOOKE_SOLVER_FAILED: the state is the last one reached. HOOKE_BAD_VALUE: no `duration`, one that does not
- * change the time of an error-controlled method, or a state with numbers that are not finite or rows of a rigid
- * body that are not those of a rigid motion. */
+ * the state is the last one that passed, and "diverged_at" of hooke_integrator_number() tells when it was
+ * noticed. With the option `past_divergence` frames come after that, until a number is not finite.
+ * HOOKE_STEP_LIMIT, HOOKE_SOLVER_FAILED: the state is the last one reached. HOOKE_BAD_VALUE: no
+ * `duration`, one that does not change the time of an error-controlled method, or a state with numbers
+ * that are not finite or rows of a rigid body that are not those of a rigid motion. */
 HOOKE_API int32_t hooke_integrator_run(hooke_integrator *integrator, hooke_state *state);
 
 /* Continues a run to its end from where hooke_checkpoint_read() placed the integrator and the state, or from
@@ -159,22 +159,20 @@ HOOKE_API int32_t hooke_integrator_put(hooke_integrator *integrator, int64_t cou
  * springs at the predicted velocity, 0 where it solves for it and of anything else), "coincident_springs"
  * (springs without direction in the last force evaluation), "memory_bytes"; "frames" that
  * hooke_integrator_run() reports, the initial one included; "recent": states that hooke_integrator_recent()
- * has; "factor_bytes": what a factor of its equations takes, which an implicit method makes where that pays;
- * they are analysed for it. 0 if it makes none, or is told to; -1 without memory, with hooke_last_error(). -1
- * for any other word. */
+ * has; "stop_value": what the callback that stopped the run returned, 0 if none did; "factor_bytes": what
+ * a factor of its equations takes, which an implicit method makes where that pays; they are analysed for
+ * it. 0 if it makes none, or is told to; -1 without memory, with hooke_last_error(). -1 for any other
+ * word. */
 HOOKE_API int64_t hooke_integrator_count(const hooke_integrator *integrator, const char *what);
-/* Time spent stepping [s], observers and output left out. */
-HOOKE_API double hooke_integrator_wall_seconds(const hooke_integrator *integrator);
+/* "wall_seconds": time spent stepping [s], observers and output left out; "diverged_at": time at which
+ * divergence was noticed [s], NaN if it was not. NaN for another word. */
+HOOKE_API double hooke_integrator_number(const hooke_integrator *integrator, const char *what);
 /* Copies into `state` one of the states of this run that passed the check (see hooke_integrator_run()), to
  * see how the run went wrong. `place` 0 is the last one, which is always kept, 1 the one before it, and so
  * on: eight at most, as far as 16 MB hold them. HOOKE_BAD_VALUE if there is none, or if the state is of
  * another size. */
 HOOKE_API int32_t hooke_integrator_recent(const hooke_integrator *integrator, int64_t place,
                                           hooke_state *state);
-/* Value that the callback which stopped the run returned; 0 if none did. */
-HOOKE_API int32_t hooke_integrator_stop_value(const hooke_integrator *integrator);
-/* Time at which divergence was noticed [s], NaN if it was not. */
-HOOKE_API double hooke_integrator_diverged_at(const hooke_integrator *integrator);
 
 /* ---- a warning before a run blows up ---- Told that the step is no longer safe at the time t [s]. `kind` is
  * "near-limit" (within 5 % of hooke_step_bound() there), "above-limit" or "never-stable" (the bound is 0);

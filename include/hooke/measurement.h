@@ -6,7 +6,8 @@
  *   hooke_measurement_number(study, "rows", 0, "error");
  *   hooke_measurement_destroy(study);
  *
- * A measurement is of one kind: "study", "limit", "needs", "cost", "comparison", "why" or "verify". Its
+ * A measurement is of one kind: "study", "limit", "needs", "cost", "comparison", "why", "verify", "estimate"
+ * (estimate.h) or "view" (trajectory.h). Its
  * options are made by hooke_options_create() with the name of the kind. Its results are tables, with columns
  * that have a name, a unit and a line of documentation. A table is "rows", or a "record" of one row with the
  * numbers of the whole. The record that is named like the kind describes the measurement itself.
@@ -39,11 +40,12 @@ HOOKE_API const char *hooke_measurement_kind(const hooke_measurement *measuremen
 HOOKE_API void hooke_measurement_on_progress(hooke_measurement *measurement, hooke_progress *progress,
                                              void *ctx);
 
-/* Measures. A limit and a cost are taken at `state` (NULL: the initial one) and may be taken again; the other
- * kinds begin at the initial state, run once, and require NULL. HOOKE_STOPPED, if the progress callback or a
- * callback of the system asked to stop, keeps the results so far. HOOKE_BAD_VALUE for a state of another
- * system or one that the kind does not accept, and for a run without a duration; HOOKE_BAD_CALL for a second
- * call; HOOKE_NO_MEMORY; and the failures of an integrator. */
+/* Measures. A limit and a cost are taken at `state` (NULL: the initial one) and may be taken again; an
+ * estimate needs the last state of the run; the other kinds begin at the initial state, run once, and
+ * require NULL. HOOKE_STOPPED, if the progress callback or a callback of the system asked to stop, keeps
+ * the results so far. HOOKE_BAD_VALUE for a state of another system or one that the kind does not accept,
+ * and for a run without a duration; HOOKE_BAD_CALL for a second call; HOOKE_NO_MEMORY; and the failures of
+ * an integrator. */
 HOOKE_API int32_t hooke_measurement_run(hooke_measurement *measurement, hooke_state *state);
 
 /* ---- tables ---- */
@@ -66,15 +68,14 @@ HOOKE_API int64_t hooke_measurement_row_count(const hooke_measurement *measureme
 HOOKE_API int64_t hooke_measurement_find(const hooke_measurement *measurement, const char *table,
                                          const char *column, const char *text);
 /* A value. NaN where a number does not apply or is not known, and for a row, table or column that does not
- * exist; NULL likewise. Texts and series stay valid until the measurement is run again or destroyed. */
+ * exist; NULL likewise. `count`, unless NULL, receives the length of a series, 0 if there is none. Texts and
+ * series stay valid until the measurement is run again or destroyed. */
 HOOKE_API double hooke_measurement_number(const hooke_measurement *measurement, const char *table,
                                           int64_t row, const char *column);
 HOOKE_API const char *hooke_measurement_text(const hooke_measurement *measurement, const char *table,
                                              int64_t row, const char *column);
-HOOKE_API int64_t hooke_measurement_series_count(const hooke_measurement *measurement, const char *table,
-                                                 int64_t row, const char *column);
 HOOKE_API const double *hooke_measurement_series(const hooke_measurement *measurement, const char *table,
-                                                 int64_t row, const char *column);
+                                                 int64_t row, const char *column, int64_t *count);
 
 /* ---- files ---- */
 
@@ -245,15 +246,13 @@ HOOKE_API int32_t hooke_verify_create(const char *path, const hooke_options *opt
 /* ---- bounds on the step, from one pass over the springs ---- */
 
 /* Step [s] below which `method` is certain to be stable for the system linearised at q (3n): a bound from one
- * pass over the springs, not the sharp limit. 0: no step is stable. Infinity: nothing limits the step. NaN:
- * no bound is known for this method, or with rigid bodies that move. HOOKE_BAD_VALUE for an unknown method;
- * HOOKE_NO_MEMORY. Source: K <= 2 blockdiag(sum B_e) by (a - b)^2 <= 2 a^2 + 2 b^2, per-mode limits as in
- * docs/notes/methods.md. */
+ * pass over the springs, not the sharp limit. `method` NULL: `bound` receives that of every method,
+ * hooke_method_count() numbers in the order of hooke_method_name(), from one pass as well. 0: no step is
+ * stable. Infinity: nothing limits the step. NaN: no bound is known for this method, or with rigid bodies that
+ * move. HOOKE_BAD_VALUE for an unknown method; HOOKE_NO_MEMORY. Source: K <= 2 blockdiag(sum B_e) by (a - b)^2
+ * <= 2 a^2 + 2 b^2, per-mode limits as in docs/notes/methods.md. */
 HOOKE_API int32_t hooke_step_bound(const hooke_system *system, const char *method, const double *q,
                                    double *bound);
-/* The same for every method, hooke_method_count() numbers in the order of hooke_method_name(), from one pass
- * over the springs. HOOKE_BAD_CALL, HOOKE_NO_MEMORY. */
-HOOKE_API int32_t hooke_step_bounds(const hooke_system *system, const double *q, double *bounds);
 
 #ifdef __cplusplus
 }

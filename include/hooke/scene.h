@@ -57,11 +57,11 @@ HOOKE_API int32_t hooke_scene_of_system(const hooke_system *system, const char *
 /* Releases the scene, its system and its options. NULL is allowed. */
 HOOKE_API void hooke_scene_destroy(hooke_scene *scene);
 
-/* Contents of the scene, which owns them. The options are those of `run` and may be changed. */
+/* Contents of the scene, which owns them. The options are those of `run` and may be changed. The texts are
+ * its "title", "" if it has none, and the "text" that it was read from; NULL for another word. */
 HOOKE_API hooke_system *hooke_scene_system(hooke_scene *scene);
 HOOKE_API hooke_options *hooke_scene_run_options(hooke_scene *scene);
-HOOKE_API const char *hooke_scene_title(const hooke_scene *scene);
-HOOKE_API const char *hooke_scene_text(const hooke_scene *scene);
+HOOKE_API const char *hooke_scene_text(const hooke_scene *scene, const char *what);
 
 /* ---- meshes ---- */
 

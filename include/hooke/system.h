@@ -167,8 +167,6 @@ HOOKE_API int32_t hooke_system_commit(hooke_system *system);
 
 HOOKE_API int32_t hooke_system_is_committed(const hooke_system *system);
 HOOKE_API int64_t hooke_system_particle_count(const hooke_system *system);
-/* Number of springs: before commit all that were added, afterwards those that act. */
-HOOKE_API int64_t hooke_system_spring_count(const hooke_system *system);
 /* A count; -1 for any other word:
  *   "springs", "bending" (triples), "altitude" (tetrahedra), "anchors": members of a force,
  *       before commit all that were added, afterwards those that act: commit drops those that

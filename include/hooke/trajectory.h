@@ -4,8 +4,7 @@
 #ifndef HOOKE_TRAJECTORY_H
 #define HOOKE_TRAJECTORY_H
 
-#include "estimate.h"
-#include "integrator.h"
+#include "measurement.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -43,26 +42,22 @@ HOOKE_API int32_t hooke_trajectory_write(hooke_trajectory *trajectory, int64_t s
 HOOKE_API int32_t hooke_trajectory_write_behind(hooke_trajectory *trajectory);
 
 /* Marks the frames from the next one on as after divergence: those that the option `past_divergence` adds,
- * which come while hooke_integrator_diverged_at() is not NaN. A second call does nothing. HOOKE_IO_FAILED. */
+ * which come while the integrator's "diverged_at" is not NaN. A second call does nothing. HOOKE_IO_FAILED. */
 HOOKE_API int32_t hooke_trajectory_mark_diverged(hooke_trajectory *trajectory);
 
 /* Waits for the frame on its way and brings all data to the disk: what is there then outlasts a power
  * failure, too. A failure marks the file bad. HOOKE_IO_FAILED. */
 HOOKE_API int32_t hooke_trajectory_sync(hooke_trajectory *trajectory);
 
-/* Identifier of the run that the file is of: 32 hexadecimal digits, unique to the run and stored in the file.
- * Valid as long as the trajectory. */
-HOOKE_API const char *hooke_trajectory_run(const hooke_trajectory *trajectory);
+/* "run": identifier of the run that the file is of, 32 hexadecimal digits, unique to the run and stored in
+ * the file; "origin": says in words from where a run continued, and why not from a checkpoint, "" for a
+ * trajectory that was not opened by hooke_trajectory_resume(). NULL for another word. Valid as long as the
+ * trajectory. */
+HOOKE_API const char *hooke_trajectory_text(const hooke_trajectory *trajectory, const char *what);
 
 /* Waits for the last frame, writes the outcome (a status of hooke_integrator_run), truncates the file to its
  * frames, and releases it on every path. HOOKE_IO_FAILED. NULL is allowed. */
 HOOKE_API int32_t hooke_trajectory_close(hooke_trajectory *trajectory, int32_t outcome);
-
-/* Adds the estimated error of a run to the trajectory file that it wrote, which is closed already:
- * /hooke/error and its texts, see docs/trajectory.md. The file is valid before, and stays so if the call is
- * interrupted. HOOKE_BAD_VALUE for a file without space reserved for it, HOOKE_IO_FAILED, HOOKE_NO_MEMORY,
- * HOOKE_NOT_BUILT. */
-HOOKE_API int32_t hooke_estimate_write_h5(const hooke_estimate *estimate, const char *path);
 
 /* ---- reading trajectories ---- */
 
@@ -75,18 +70,17 @@ HOOKE_API void hooke_record_close(hooke_record *record);
 
 /* "scene": the text of the scene, "" if there was none; "status": "running", "finished", "stopped",
  * "diverged", "step-limit", "solver-failed" or "failed"; "run": the identifier of the run, see
- * hooke_trajectory_run(), "" if an earlier version wrote it; "error_by" and "error_note": see
- * hooke_estimate_text(), "" where nothing is known of the error; "version", "sundials", "cholmod",
+ * hooke_trajectory_text(), "" if an earlier version wrote it; "error_by" and "error_note": "by" and "note" of
+ * an estimate, "" where nothing is known of the error; "version", "sundials", "cholmod",
  * "instructions", "machine": the build that made the file, see hooke_build_fact(), "" where the file does not
  * say. NULL for another word. */
 HOOKE_API const char *hooke_record_text(const hooke_record *record, const char *what);
 /* Options of the run, with all defaults filled in; valid as long as the record. */
 HOOKE_API const hooke_options *hooke_record_options(const hooke_record *record);
 
-/* Frames that are there; and those of them before the run diverged: the first so many, all if none were added
- * by the option `past_divergence`. */
-HOOKE_API int64_t hooke_record_frame_count(const hooke_record *record);
-HOOKE_API int64_t hooke_record_good_frame_count(const hooke_record *record);
+/* "frames" that are there; "good_frames": those of them before the run diverged, the first so many, all if
+ * none were added by the option `past_divergence`. -1 for another word. */
+HOOKE_API int64_t hooke_record_count(const hooke_record *record, const char *what);
 /* Reads a frame into a state of the scene's system, negative ones from the end: -1 is the last.
  * HOOKE_BAD_VALUE if there is none, if it is damaged, or if the state is of another size; HOOKE_IO_FAILED,
  * HOOKE_NO_MEMORY. The state is then as it was. */
@@ -101,7 +95,7 @@ HOOKE_API int32_t hooke_record_check(const hooke_record *record, int64_t frame);
 /* Read a whole array of the file: hooke_record_size() returns its rows and columns, hooke_record_numbers()
  * copies rows x columns numbers. One row a frame: "time" [s], "step", "kinetic_energy" and the other
  * observables of docs/trajectory.md, of all frames that the file was made for (the first
- * hooke_record_frame_count() of them were written); one a spring: "springs", its two ends; one a particle:
+ * "frames" of them were written); one a spring: "springs", its two ends; one a particle:
  * "mass" [kg], "species" (0 free, 1 pinned, 2 driven). "error": the error of the run, NaN where it is not
  * known, in the order of docs/trajectory.md. HOOKE_BAD_VALUE for another word, or if the file has no such
  * array; HOOKE_IO_FAILED, HOOKE_NO_MEMORY. */
@@ -115,28 +109,17 @@ HOOKE_API int64_t hooke_record_place(const hooke_record *record, const char *wha
 
 /* ---- viewing trajectories ---- */
 
-/* Writes a trajectory as one HTML page that plays it, readable offline: surfaces and springs, strain as
- * colour, what is pinned and what is driven, energies over time. A view is what of the file the page shows;
- * the record has to stay as long as it does. */
-typedef struct hooke_view hooke_view;
-
-/* Chooses what is shown: of more springs than the options allow every k-th, of frames as many as they allow,
- * evenly, the last one always; frames that are damaged are skipped. `options` are copied; NULL: defaults.
- * HOOKE_BAD_VALUE for a file of several runs, one without frames, or a size that is too small;
- * HOOKE_NOT_BUILT in a build without three.js and Chart.js, or where files of share/hooke are missing;
- * HOOKE_IO_FAILED, HOOKE_NO_MEMORY. */
+/* Creates a measurement of kind "view": a page, in HTML and readable offline, that plays a trajectory, with
+ * surfaces and springs, strain as colour, what is pinned and what is driven, energies over time.
+ * hooke_measurement_write() writes it, whatever the ending of its path; no hooke_measurement_run() is needed.
+ * Its heading is the label "title", or else the title of the scene, or the name of the file. Its numbers are
+ * the table "view". Springs: every k-th, if there are more than the options allow. Frames: as many as they
+ * allow, evenly, and always the last one; damaged ones are skipped. The record has to live as long as the
+ * view. `options` may be NULL. HOOKE_BAD_VALUE for a file of several runs, one without frames, or a size
+ * that is too small; HOOKE_NOT_BUILT in a build without three.js and Chart.js, or where files of
+ * share/hooke are missing; HOOKE_IO_FAILED, HOOKE_NO_MEMORY. */
 HOOKE_API int32_t hooke_view_create(const hooke_record *record, const hooke_options *options,
-                                    hooke_view **view);
-/* Writes the page. `title` is its heading; NULL: the title of the scene, or the name of the file. An older
- * file is replaced when the new one is complete. HOOKE_IO_FAILED, HOOKE_NO_MEMORY, HOOKE_NOT_BUILT. */
-HOOKE_API int32_t hooke_view_write(hooke_view *view, const char *path, const char *title);
-/* "frames", "springs", "particles" that are shown, and "frames_there", "springs_there", "particles_there";
- * "frame_stride", "spring_stride": every how manieth; "time_first", "time_last" [s]; "strain": the one at the
- * ends of the scale of colours, "strain_low", "strain_high": those met; "damaged": frames that were skipped;
- * "bytes" of the page that was written. NaN if it does not apply, and for another word. */
-HOOKE_API double hooke_view_number(const hooke_view *view, const char *what);
-/* NULL is allowed. */
-HOOKE_API void hooke_view_destroy(hooke_view *view);
+                                    hooke_measurement **view);
 
 /* Writes the companion by which ParaView reads a trajectory: XDMF 2, a few lines of XML for each frame, which
  * refer to the numbers in the HDF5 file. `path` NULL: beside the trajectory, with .xdmf in place of its .h5;

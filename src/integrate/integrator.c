@@ -4,6 +4,7 @@
 #include "core/clock.h"
 #include "core/handle.h"
 #include "core/memory.h"
+#include "core/named_number.h"
 #include "core/status.h"
 #include "integrate/method/bodies.h"
 #include "integrate/solve/reduced.h"
@@ -261,6 +262,7 @@ int64_t hooke_integrator_count(const hooke_integrator *it, const char *what) {
       {"memory_bytes", memory_of(it)},
       {"frames", it->schedule.frames},
       {"recent", recent_count(it)},
+      {"stop_value", it->stop_value},
   };
   for (size_t k = 0; k < sizeof counts / sizeof counts[0]; k++) {
     if (strcmp(counts[k].name, what) == 0) return counts[k].value;
@@ -268,14 +270,8 @@ int64_t hooke_integrator_count(const hooke_integrator *it, const char *what) {
   return -1;
 }
 
-double hooke_integrator_wall_seconds(const hooke_integrator *integrator) {
-  return integrator->wall_seconds;
-}
-
-int32_t hooke_integrator_stop_value(const hooke_integrator *integrator) {
-  return integrator->stop_value;
-}
-
-double hooke_integrator_diverged_at(const hooke_integrator *integrator) {
-  return integrator->diverged_at;
+double hooke_integrator_number(const hooke_integrator *it, const char *what) {
+  const struct hk_named_number numbers[] = {{"wall_seconds", it->wall_seconds},
+                                            {"diverged_at", it->diverged_at}};
+  return HOOKE_NAMED_NUMBER(numbers, what);
 }

@@ -16,7 +16,7 @@ HOOKE_INLINE void fill(const struct hk_damped_springs springs, ptrdiff_t count, 
                        const double *restrict vy, const double *restrict vz, double *restrict bx,
                        double *restrict by, double *restrict bz, const int pull) {
   const int32_t *restrict head = springs.head, *restrict tail = springs.tail;
-  const double *restrict share = springs.share, *restrict kappa = springs.kappa,
+  const double *restrict impulse_per_rate = springs.impulse_per_rate, *restrict kappa = springs.kappa,
                          *restrict rest = springs.rest_length;
   HOOKE_VECTORISE
   for (ptrdiff_t k = 0; k < count; k++) {
@@ -24,7 +24,7 @@ HOOKE_INLINE void fill(const struct hk_damped_springs springs, ptrdiff_t count, 
     const double dx = qx[i] - qx[j], dy = qy[i] - qy[j], dz = qz[i] - qz[j];
     const double r = hk_spring_length(dx, dy, dz), ir = hk_spring_inverse_length(r);
     const double rate = (((vx[i] - vx[j]) * dx + (vy[i] - vy[j]) * dy) + (vz[i] - vz[j]) * dz) * ir;
-    double impulse = share[k] * rate;
+    double impulse = impulse_per_rate[k] * rate;
     if (pull) {
       const double least = -(springs.half * (kappa[k] * (r - rest[k])));
       impulse = impulse < least ? least : impulse;
@@ -64,7 +64,7 @@ void HOOKE_DAMPER_LOOP(const struct hk_damped_springs *springs, ptrdiff_t count,
       apply(some, next, at, 1);
     else
       apply(some, next, at, 0);
-    some.head += next, some.tail += next, some.share += next;
+    some.head += next, some.tail += next, some.impulse_per_rate += next;
     if (pull) some.kappa += next, some.rest_length += next;
   }
 }

@@ -3,7 +3,7 @@
  *
  * To the parenthesis, with d = x_i - x_j and e = v_i - v_j of a spring from i to j:
  *   r = sqrt((dx*dx + dy*dy) + dz*dz)     ir = 1/r, 0 where r = 0     rate = ((ex*dx + ey*dy) + ez*dz)*ir
- *   J = share*rate     b = (J*ir) d     v_i -= w_i b     v_j += w_j b
+ *   J = m*rate, m = impulse_per_rate     b = (J*ir) d     v_i -= w_i b     v_j += w_j b
  * A spring that only pulls has J = 0 where r <= l0, and -J is at most what its tension does: half*(kappa*(r -
  * l0)). */
 #ifndef HOOKE_KERNEL_DAMPER_LOOPS_H
@@ -12,10 +12,11 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* `share`: by how much of the rate a damper reduces it, over the sum of inverse masses. */
+/* `impulse_per_rate` [kg]: the fraction by which a damper reduces the rate, over the sum of inverse
+ * masses. */
 struct hk_damped_springs {
   const int32_t *head, *tail;
-  const double *share;
+  const double *impulse_per_rate;
   const double *kappa, *rest_length; /* of springs that only pull; else NULL */
   double half;                       /* time [s] for which they do so */
 };

@@ -166,17 +166,11 @@ const char *hooke_measurement_text(const hooke_measurement *m, const char *table
   return c ? hk_column_text(c, &line) : NULL;
 }
 
-int64_t hooke_measurement_series_count(const hooke_measurement *m, const char *table, int64_t row,
-                                       const char *column) {
+const double *hooke_measurement_series(const hooke_measurement *m, const char *table, int64_t row,
+                                       const char *column, int64_t *count) {
   struct hk_line line;
   const struct hk_column *c = find(m, table, row, column, &line);
   const struct hk_series series = c ? hk_column_series(c, &line) : (struct hk_series){NULL, 0};
-  return series.value ? series.count : 0;
-}
-
-const double *hooke_measurement_series(const hooke_measurement *m, const char *table, int64_t row,
-                                       const char *column) {
-  struct hk_line line;
-  const struct hk_column *c = find(m, table, row, column, &line);
-  return c ? hk_column_series(c, &line).value : NULL;
+  if (count) *count = series.value ? series.count : 0;
+  return series.value;
 }

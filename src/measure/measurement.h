@@ -21,6 +21,8 @@ struct hk_measurement_kind {
   /* Creates measurement->object; destroy() follows in any case. */
   int32_t (*create)(hooke_measurement *measurement);
   int32_t (*run)(hooke_measurement *measurement, hooke_state *state);
+  /* Writes its one kind of file, whatever the ending of `path`; NULL: the format is that of the ending. */
+  int32_t (*write)(const hooke_measurement *measurement, const char *path);
   void (*destroy)(void *object); /* NULL is allowed */
 };
 

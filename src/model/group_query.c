@@ -16,10 +16,6 @@ static const struct hk_force_row *force_with_groups(const char *name) {
   return force && force->member_particles > 0 ? force : NULL;
 }
 
-int64_t hooke_system_spring_count(const hooke_system *system) {
-  return hk_system_members_of(system, &hk_force_springs);
-}
-
 int64_t hooke_system_group_count(const hooke_system *system, const char *force) {
   const struct hk_force_row *found = force_with_groups(force);
   return found ? hk_system_groups_of(system, found) : -1;

@@ -104,7 +104,7 @@ int32_t hooke_system_add_particles(hooke_system *system, int64_t count, const do
         hk_fail(HOOKE_BAD_VALUE, "count", "%lld is not allowed; 0 or more particles are", (long long)count);
   }
   if (status == HOOKE_OK)
-    status = hk_system_check_room(system, (struct hk_more){.particles = (double)count}, NULL);
+    status = hk_system_check_size(system, (struct hk_more){.particles = (double)count}, NULL);
   if (status == HOOKE_OK) status = check_finite("position", count, position);
   if (status == HOOKE_OK && velocity) status = check_finite("velocity", count, velocity);
   if (status == HOOKE_OK) status = check_mass(system, count, mass_count, mass);

@@ -125,7 +125,7 @@ struct hk_more {
   } of[3];
 };
 double hk_system_needed_bytes(const hooke_system *system, struct hk_more more);
-int32_t hk_system_check_room(const hooke_system *system, struct hk_more more, const char *what);
+int32_t hk_system_check_size(const hooke_system *system, struct hk_more more, const char *what);
 int32_t hk_system_check_more(const hooke_system *system, const struct hk_force_row *force, int64_t count);
 
 /* Sets touched[p] to 1 for every particle of a spring, a triple or a tetrahedron. */

@@ -215,7 +215,7 @@ static int32_t check_room(const struct hk_part *part, const struct hk_surface *s
   const struct hk_more more = {.particles = (double)surface->vertex_count,
                                .of = {{&hk_force_springs, hk_part_if_family(part, "structural", edges) +
                                                               hk_part_if_family(part, "bend", edges)}}};
-  const int32_t status = hk_system_check_room(part->system, more, "the mesh");
+  const int32_t status = hk_system_check_size(part->system, more, "the mesh");
   return status == HOOKE_OK ? status : hk_fail_within(status, "vertices");
 }
 

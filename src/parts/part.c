@@ -92,7 +92,7 @@ int32_t hk_part_new_positions(struct hk_part *part, struct hk_more more, double 
   va_end(args);
 
   *position = NULL;
-  const int32_t status = hk_system_check_room(part->system, more, what);
+  const int32_t status = hk_system_check_size(part->system, more, what);
   if (status != HOOKE_OK) return status;
   part->count = (int64_t)more.particles;
   *position = hk_new(3 * part->count, sizeof(double));

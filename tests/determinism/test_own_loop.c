@@ -283,7 +283,7 @@ static void check_watched(const hooke_system *system, struct run run) {
   check_ok(hooke_integrator_on_step(loop.integrator, 2, see, &watch));
   check_ok(hooke_integrator_step(loop.integrator, loop.state, 0));
   check_status(hooke_integrator_advance(loop.integrator, STEPS), HOOKE_STOPPED);
-  assert_int_equal(hooke_integrator_stop_value(loop.integrator), 7);
+  assert_int_equal(hooke_integrator_count(loop.integrator, "stop_value"), 7);
   check_ok(hooke_integrator_sync(loop.integrator, loop.state));
   check_ok(hooke_integrator_step(alone.integrator, alone.state, 6));
   check_same_state(loop.state, alone.state);
@@ -329,7 +329,7 @@ static void test_steps_diverge(void **unused) {
   }
   check_status(status, HOOKE_DIVERGED);
   check_between((double)k, 70, 100);
-  check_close(hooke_integrator_diverged_at(loop.integrator), 10.0 * (double)(k + 1), 0.0);
+  check_close(hooke_integrator_number(loop.integrator, "diverged_at"), 10.0 * (double)(k + 1), 0.0);
   check_same_state(loop.state, before);
   check_ok(hooke_integrator_recent(loop.integrator, 0, recent));
   check_same_state(recent, before);
@@ -350,7 +350,7 @@ static void test_motion_diverges(void **unused) {
   check_ok(hooke_integrator_step(loop.integrator, loop.state, 0));
   check_ok(hooke_integrator_advance(loop.integrator, 999));
   check_status(hooke_integrator_advance(loop.integrator, 1), HOOKE_DIVERGED); /* by its energy */
-  check_close(hooke_integrator_diverged_at(loop.integrator), 10.0, 0.0);
+  check_close(hooke_integrator_number(loop.integrator, "diverged_at"), 10.0, 0.0);
   check_ok(hooke_integrator_sync(loop.integrator, loop.state));
   check_same_state(loop.state, start);
   check_status(hooke_integrator_get(loop.integrator, 0, NULL, NULL, NULL), HOOKE_BAD_CALL);

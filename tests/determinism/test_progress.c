@@ -47,7 +47,7 @@ static void run_by_pieces(const hooke_system *system, struct run run, struct end
   check_ok(hooke_integrator_on_progress(integrator, 0.0, listen, &listener));
   int32_t status = hooke_integrator_run(integrator, state);
   for (*stops = 0; status == HOOKE_STOPPED; (*stops)++) {
-    assert_int_equal(hooke_integrator_stop_value(integrator), 42);
+    assert_int_equal(hooke_integrator_count(integrator, "stop_value"), 42);
     check_close(hooke_state_time(state) / run.step, round(hooke_state_time(state) / run.step), 1e-6);
     listener = (struct listener){.method = run.method, .stop_at = INT64_C(2) << *stops};
     status = hooke_integrator_resume(integrator, state);

@@ -87,7 +87,7 @@ static void ask_everything(struct attempt *a, const hooke_system *system) {
   attempt_numbers(a, 9 * blocks, stiffness_blocks);
   TRY(a, hooke_system_members(system, "springs", ends, NULL, NULL, NULL));
   TRY(a, hooke_system_members(system, "springs", NULL, numbers, NULL, numbers + 32));
-  attempt_numbers(a, hooke_system_spring_count(system), numbers);
+  attempt_numbers(a, hooke_system_count(system, "springs"), numbers);
   TRY(a, hooke_system_members(system, "bending", ends, NULL, NULL, NULL));
   TRY(a, hooke_system_members(system, "bending", NULL, numbers, NULL, NULL));
   TRY(a, hooke_system_members(system, "altitude", ends, NULL, NULL, NULL));

@@ -107,7 +107,7 @@ static void write_arrays(const char *folder) {
   snprintf(arrays.path, PATH_SIZE, "%s/arrays.h5", folder);
   snprintf(arrays.midway, PATH_SIZE, "%s/midway.h5", folder);
   check_ok(hooke_trajectory_create(arrays.path, hooke_scene_system(scene), integrator,
-                                   hooke_scene_text(scene), &arrays.trajectory));
+                                   hooke_scene_text(scene, "text"), &arrays.trajectory));
   check_ok(hooke_integrator_on_frame(integrator, write_frame, &arrays));
   check_ok(hooke_integrator_run(integrator, state));
   check_ok(hooke_trajectory_close(arrays.trajectory, HOOKE_OK));
@@ -130,7 +130,7 @@ static void take_scene(struct attempt *a, hooke_scene *scene) {
   TRY(a, hooke_scene_commit(scene));
   TRY(a, hooke_state_create(hooke_scene_system(scene), &state));
   take_state(a, state);
-  attempt_text(a, hooke_scene_title(scene));
+  attempt_text(a, hooke_scene_text(scene, "title"));
   attempt_text(a, hooke_options_text(hooke_scene_run_options(scene), "method"));
   attempt_number(a, hooke_system_energy(hooke_scene_system(scene), "total", hooke_state_position(state),
                                         hooke_state_velocity(state)));

@@ -120,7 +120,7 @@ static void needs(struct attempt *a, const void *with) {
     attempt_number(a, hooke_measurement_number(needs, "rows", k, "needed"));
   }
   attempt_number(a, hooke_measurement_number(finer, "parts", 0, "change"));
-  attempt_number(a, (double)hooke_system_spring_count(hooke_needs_lean(needs)));
+  attempt_number(a, (double)hooke_system_count(hooke_needs_lean(needs), "springs"));
 end:
   hooke_measurement_destroy(needs);
   hooke_measurement_destroy(finer);
@@ -151,13 +151,17 @@ end:
 static void pick(struct attempt *a, const void *with) {
   hooke_system *system = make_oscillator(a);
   hooke_options *run = system ? make_run(a, NULL, 0.0, 0.2, 0.1) : NULL;
-  hooke_estimate *estimate = NULL;
+  hooke_options *options = NULL;
+  hooke_measurement *estimate = NULL;
   (void)with;
   if (run == NULL) goto end;
-  TRY(a, hooke_estimate_create(system, 1e-3, &estimate));
+  TRY(a, hooke_options_create("estimate", &options));
+  TRY(a, hooke_options_set_number(options, "want", 1e-3));
+  TRY(a, hooke_measurement_create("estimate", system, NULL, options, &estimate));
   TRY(a, hooke_estimate_pick(estimate, NULL, run));
 end:
-  hooke_estimate_destroy(estimate);
+  hooke_measurement_destroy(estimate);
+  hooke_options_destroy(options);
   hooke_options_destroy(run);
   hooke_system_destroy(system);
 }

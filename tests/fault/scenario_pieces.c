@@ -132,9 +132,9 @@ void read_back(struct attempt *a, const char *path, const hooke_system *system, 
   int64_t rows, columns;
   TRY(a, hooke_record_open(path, &record));
   TRY(a, hooke_state_create(system, &state));
-  if (hooke_record_frame_count(record) != frames)
+  if (hooke_record_count(record, "frames") != frames)
     attempt_wrong(a, "%lld frames were written, and %lld are there", (long long)frames,
-                  (long long)hooke_record_frame_count(record));
+                  (long long)hooke_record_count(record, "frames"));
   for (int64_t k = 0; k < frames; k++) {
     TRY(a, hooke_record_read(record, k, state));
     take_state(a, state);

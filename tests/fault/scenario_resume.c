@@ -107,7 +107,7 @@ static void go_on(struct attempt *a, const char *path, const hooke_system *syste
   prepare(&going, system, run);
   if (a->gave_up) goto end;
   TRY(a, hooke_trajectory_resume(path, system, going.integrator, going.state, &going.trajectory));
-  attempt_text(a, hooke_trajectory_origin(going.trajectory));
+  attempt_text(a, hooke_trajectory_text(going.trajectory, "origin"));
   if (!has_run(&going, hooke_integrator_resume(going.integrator, going.state), HOOKE_OK)) goto end;
   take_state(a, going.state);
   TRY_ONCE(a, end_trajectory(&going, HOOKE_OK));

@@ -67,18 +67,18 @@ end:
 /* Output made from a trajectory: page and companion. */
 static void shown(struct attempt *a, const void *with) {
   hooke_record *record = NULL;
-  hooke_view *view = NULL;
+  hooke_measurement *view = NULL;
   const int32_t page = with != NULL;
   TRY(a, hooke_record_open(path_of(a, "arrays.h5"), &record));
   if (page) {
     TRY(a, hooke_view_create(record, NULL, &view));
-    attempt_number(a, hooke_view_number(view, "strain"));
-    TRY(a, hooke_view_write(view, path_of(a, "out.html"), NULL));
+    attempt_number(a, hooke_measurement_number(view, "view", 0, "strain"));
+    TRY(a, hooke_measurement_write(view, path_of(a, "out.html")));
   } else {
     TRY(a, hooke_record_write_xdmf(record, path_of(a, "out.xdmf")));
   }
 end:
-  hooke_view_destroy(view);
+  hooke_measurement_destroy(view);
   hooke_record_close(record);
 }
 
@@ -183,11 +183,11 @@ static void scene(struct attempt *a, const void *with) {
   if (run == NULL) goto end;
   TRY(a, hooke_scene_write(path_of(a, "out.json"), system, "a rope", run));
   TRY(a, hooke_scene_load(path_of(a, "out.json"), NULL, &again));
-  attempt_text(a, hooke_scene_text(again));
+  attempt_text(a, hooke_scene_text(again, "text"));
   hooke_scene_destroy(again);
   again = NULL;
   TRY(a, hooke_scene_of_system(system, "a rope", run, "rope", NULL, &again));
-  attempt_text(a, hooke_scene_text(again));
+  attempt_text(a, hooke_scene_text(again, "text"));
 end:
   hooke_scene_destroy(again);
   hooke_options_destroy(run);

@@ -126,14 +126,14 @@ static void check_frames(struct attempt *a, const char *path) {
     attempt_wrong(a, "%s cannot be read afterwards: %s", path, hooke_last_error());
     return;
   }
-  if (hooke_record_frame_count(record) < a->committed)
+  if (hooke_record_count(record, "frames") < a->committed)
     attempt_wrong(a, "%lld frames were reported, %lld are there", (long long)a->committed,
-                  (long long)hooke_record_frame_count(record));
+                  (long long)hooke_record_count(record, "frames"));
   const char *status = hooke_record_text(record, "status");
   /* closing may fail when everything is written and reported */
-  if (a->gave_up && strcmp(status, "finished") == 0 && hooke_record_frame_count(record) < a->planned)
+  if (a->gave_up && strcmp(status, "finished") == 0 && hooke_record_count(record, "frames") < a->planned)
     attempt_wrong(a, "the file says that it is finished");
-  for (int64_t k = 0; k < hooke_record_frame_count(record); k++) {
+  for (int64_t k = 0; k < hooke_record_count(record, "frames"); k++) {
     if (hooke_record_check(record, k) != HOOKE_OK) attempt_wrong(a, "frame %lld is damaged", (long long)k);
   }
   hooke_record_close(record);

@@ -1,5 +1,29 @@
-! Bounds, comparisons, studies, limits, costs, needs and causes, on scenes with known results.
+! Bounds, estimates, comparisons, studies, limits, costs, needs and causes, on scenes with known results.
+module appraisers
+  use hooke
+  implicit none
+
+  type, extends(hooke_observer) :: appraiser
+    type(hooke_estimate) :: estimate
+  contains
+    procedure :: see => appraise
+  end type
+
+contains
+
+  subroutine appraise(self, step, state, stop_value)
+    class(appraiser), intent(inout) :: self
+    integer(hooke_long), intent(in) :: step
+    type(hooke_state), intent(in) :: state
+    integer, intent(inout) :: stop_value
+    call self%estimate%see(step, state)
+    stop_value = 0
+  end subroutine
+end module
+
 program test_measures
+  use, intrinsic :: ieee_arithmetic, only: ieee_is_nan, ieee_quiet_nan, ieee_value
+  use appraisers
   use check
   use hooke
   use parts
@@ -17,6 +41,7 @@ program test_measures
     call needs()
   end if
   call costs()
+  call estimates()
   call finish()
 
 contains
@@ -103,6 +128,29 @@ contains
     call limit%run(state)
     call expect_near(state%time(), 0.5_hooke_real, 1e-12_hooke_real, "the run was made")
     call expect(limit%number("rows", 2, "smallest") <= 2/omega*1.0001_hooke_real, "the smallest limit along it")
+  end subroutine
+
+  subroutine estimates()
+    type(hooke_system) :: system
+    type(hooke_options) :: run
+    type(hooke_integrator) :: integrator
+    type(hooke_state) :: state
+    type(appraiser), target :: watch
+    integer :: status
+    call make_oscillator(system)
+    call make_run(run, "verlet", 1e-3_hooke_real, 0.5_hooke_real)
+    call watch%estimate%create(system, -1.0_hooke_real, status)
+    call expect(status == hooke_bad_value .and. .not. watch%estimate%exists(), "no negative error")
+    call watch%estimate%create(system, ieee_value(1.0_hooke_real, ieee_quiet_nan))
+    call integrator%create(system, run)
+    call state%create(system)
+    call integrator%on_frame(watch)
+    call watch%estimate%begin(integrator, state)
+    call integrator%run(state)
+    call watch%estimate%measure(integrator, state)
+    call expect(watch%estimate%number("estimate") > 0 .and. watch%estimate%number("estimate") < 1e-3_hooke_real, &
+      "the error of a run")
+    call expect(watch%estimate%text("by") == "half-step" .and. ieee_is_nan(watch%estimate%number("met")), "by its order")
   end subroutine
 
   subroutine comparisons()

@@ -106,7 +106,7 @@ static void run_trajectory(const char *path) {
       hooke_scene_commit(made) ||
       hooke_integrator_create(hooke_scene_system(made), hooke_scene_run_options(made), &integrator) ||
       hooke_state_create(hooke_scene_system(made), &state) ||
-      hooke_trajectory_create(path, hooke_scene_system(made), integrator, hooke_scene_text(made),
+      hooke_trajectory_create(path, hooke_scene_system(made), integrator, hooke_scene_text(made, "text"),
                               &trajectory) ||
       hooke_integrator_on_frame(integrator, keep_frame, trajectory) ||
       hooke_integrator_run(integrator, state) || hooke_trajectory_close(trajectory, HOOKE_OK))

@@ -108,7 +108,7 @@ static void require_marked(hooke_state *state) {
 
 static void ask_frame(const hooke_record *record, int wanted, int by_hdf5) {
   hooke_state *state = own[(wanted & 96) == 96].state;
-  const int64_t frames = hooke_record_frame_count(record), frame = wanted % 16 - 8,
+  const int64_t frames = hooke_record_count(record, "frames"), frame = wanted % 16 - 8,
                 size = hooke_state_size(state);
   mark(state);
   if (!answered(hooke_record_read(record, frame, state))) {
@@ -214,11 +214,12 @@ static void ask_xdmf(const hooke_record *record, int beside) {
 }
 
 static void ask_view(const hooke_record *record) {
-  hooke_view *view = NULL;
+  hooke_measurement *view = NULL;
   if (!answered(hooke_view_create(record, NULL, &view))) return;
-  const double frames = hooke_view_number(view, "frames");
-  hooke_fuzz_require(frames >= 1 && frames <= (double)hooke_record_frame_count(record), "frames of a view");
-  hooke_view_destroy(view);
+  const double frames = hooke_measurement_number(view, "view", 0, "frames");
+  hooke_fuzz_require(frames >= 1 && frames <= (double)hooke_record_count(record, "frames"),
+                     "frames of a view");
+  hooke_measurement_destroy(view);
 }
 
 static void check_texts(const hooke_record *record) {

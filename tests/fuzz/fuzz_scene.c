@@ -66,8 +66,9 @@ static void require_equal_bits(const double *a, const double *b, int64_t count, 
 }
 
 static void require_equal_springs(const hooke_system *a, const hooke_system *b) {
-  const int64_t count = hooke_system_spring_count(a);
-  hooke_fuzz_require(hooke_system_spring_count(b) == count, "written and read again: the number of springs");
+  const int64_t count = hooke_system_count(a, "springs");
+  hooke_fuzz_require(hooke_system_count(b, "springs") == count,
+                     "written and read again: the number of springs");
   int64_t *ends = calloc((size_t)(4 * count + 1), sizeof *ends);
   double *value = calloc((size_t)(6 * count + 1), sizeof *value);
   if (ends && value) {
@@ -118,11 +119,11 @@ static void require_equal(const hooke_system *a, const hooke_system *b) {
 static void go_around(hooke_scene *scene) {
   hooke_scene *again = NULL;
   const hooke_system *system = hooke_scene_system(scene);
-  hooke_fuzz_require(hooke_scene_of_system(system, hooke_scene_title(scene), hooke_scene_run_options(scene),
-                                           "again", NULL, &again) == HOOKE_OK,
+  hooke_fuzz_require(hooke_scene_of_system(system, hooke_scene_text(scene, "title"),
+                                           hooke_scene_run_options(scene), "again", NULL, &again) == HOOKE_OK,
                      "what was read can be written and read again");
   hooke_fuzz_require(hooke_scene_commit(again) == HOOKE_OK, "what was committed can be committed again");
-  hooke_fuzz_require(strcmp(hooke_scene_title(scene), hooke_scene_title(again)) == 0,
+  hooke_fuzz_require(strcmp(hooke_scene_text(scene, "title"), hooke_scene_text(again, "title")) == 0,
                      "written and read again: the title");
   require_equal(system, hooke_scene_system(again));
   hooke_scene_destroy(again);

@@ -28,7 +28,6 @@ struct alive {
   hooke_state *state;
   hooke_integrator *integrator;
   hooke_measurement *measurement;
-  hooke_estimate *estimate;
   hooke_trajectory *trajectory;
   hooke_record *record;
 };
@@ -43,7 +42,6 @@ static void bring_to_life(void) {
   alive.integrator = start_run(alive.system, run);
   check_status(hooke_integrator_run(alive.integrator, alive.state), HOOKE_DIVERGED);
   check_ok(hooke_measurement_create("cost", alive.system, NULL, NULL, &alive.measurement));
-  check_ok(hooke_estimate_create(alive.system, NAN, &alive.estimate));
 #if HOOKE_HAVE_HDF5
   check_ok(hooke_trajectory_create(path, alive.system, alive.integrator, NULL, &alive.trajectory));
   check_ok(hooke_trajectory_write(alive.trajectory, 0, alive.state));
@@ -57,7 +55,6 @@ static void end_life(void) {
   hooke_record_close(alive.record);
   hooke_trajectory_close(alive.trajectory, HOOKE_OK);
   remove(path);
-  hooke_estimate_destroy(alive.estimate);
   hooke_measurement_destroy(alive.measurement);
   hooke_integrator_destroy(alive.integrator);
   hooke_state_destroy(alive.state);
@@ -75,7 +72,6 @@ static void *good(const char *type) {
                  {"hooke_state", alive.state},
                  {"hooke_integrator", alive.integrator},
                  {"hooke_measurement", alive.measurement},
-                 {"hooke_estimate", alive.estimate},
                  {"hooke_trajectory", alive.trajectory},
                  {"hooke_record", alive.record}};
   for (size_t k = 0; k < sizeof objects / sizeof objects[0]; k++)
@@ -166,7 +162,7 @@ static void test_destroyed_is_refused(void **unused) {
   assert_true(hooke_measurement_row_count(gone.measurement, "rows") == -1);
 #if HOOKE_HAVE_HDF5
   check_status(hooke_trajectory_close(gone.trajectory, HOOKE_OK), HOOKE_BAD_CALL);
-  assert_true(hooke_record_frame_count(gone.record) == -1);
+  assert_true(hooke_record_count(gone.record, "frames") == -1);
 #endif
 }
 

@@ -240,7 +240,7 @@ static void test_while_frames_are_written(void **unused) {
   check_ok(hooke_trajectory_close(trajectory, HOOKE_STOPPED));
   hooke_record *record;
   check_ok(hooke_record_open(path, &record));
-  const int64_t frames = hooke_record_frame_count(record);
+  const int64_t frames = hooke_record_count(record, "frames");
   assert_true(frames >= 2 && frames < 9);
   for (int64_t k = 0; k < frames; k++) {
     check_ok(hooke_record_read(record, k, read));

@@ -160,7 +160,7 @@ static void scenes(struct output *out) {
   add_bits(out, 1, hooke_options_numbers(run, "step"));
   add_bits(out, hooke_system_particle_count(system), hooke_system_mass(system));
   check_ok(hooke_scene_of_system(system, "of a system", run, "copy", NULL, &copy));
-  add(out, hooke_scene_text(copy));
+  add(out, hooke_scene_text(copy, "text"));
   hooke_scene_destroy(copy);
   check_ok(hooke_scene_write("guest_locale.json", system, "written", run));
   add_file(out, "guest_locale.json");
@@ -214,11 +214,12 @@ static void scenes(struct output *out) {
   add_file(out, "guest_locale.xdmf");
   add_bits(out, 1, hooke_options_numbers(hooke_record_options(record), "step"));
 #if HOOKE_HAVE_CHARTJS && HOOKE_HAVE_THREEJS
-  hooke_view *view;
+  hooke_measurement *view;
   check_ok(hooke_view_create(record, NULL, &view));
-  check_ok(hooke_view_write(view, "guest_locale.html", "title"));
+  check_ok(hooke_measurement_label(view, "title", "title"));
+  check_ok(hooke_measurement_write(view, "guest_locale.html"));
   add_file(out, "guest_locale.html");
-  hooke_view_destroy(view);
+  hooke_measurement_destroy(view);
 #endif
   hooke_record_close(record);
   remove("guest_locale.h5");

@@ -171,10 +171,10 @@ static int32_t create_needs_of_run(hooke_options *o) {
 static int32_t pick(hooke_options *o) {
   hooke_system *system = committed();
   hooke_options_set_number(o, "duration", 0.1);
-  hooke_estimate *estimate = NULL;
-  int32_t status = hooke_estimate_create(system, 0.1, &estimate);
+  hooke_measurement *estimate = NULL;
+  int32_t status = estimate_of(system, 0.1, &estimate);
   if (status == HOOKE_OK) status = hooke_estimate_pick(estimate, NULL, o);
-  hooke_estimate_destroy(estimate);
+  hooke_measurement_destroy(estimate);
   hooke_system_destroy(system);
   return status;
 }

@@ -35,7 +35,8 @@ static struct writer begin(double stop, int32_t segments) {
 
 static void create(struct writer *writer) {
   check_ok(hooke_trajectory_create(life_files.trajectory, hooke_scene_system(writer->scene),
-                                   writer->integrator, hooke_scene_text(writer->scene), &writer->trajectory));
+                                   writer->integrator, hooke_scene_text(writer->scene, "text"),
+                                   &writer->trajectory));
 }
 
 static void end(struct writer *writer) {
@@ -65,15 +66,15 @@ static uint64_t read_all(int32_t segments) {
   hooke_record *record = NULL;
   int64_t rows = 0, columns = 0;
   check_ok(hooke_record_open(life_files.trajectory, &record));
-  assert_string_equal(hooke_record_text(record, "scene"), hooke_scene_text(scene));
+  assert_string_equal(hooke_record_text(record, "scene"), hooke_scene_text(scene, "text"));
   assert_string_equal(hooke_record_text(record, "status"), "finished");
   uint64_t hash = HASH_START;
-  for (int64_t k = 0; k < hooke_record_frame_count(record); k++) {
+  for (int64_t k = 0; k < hooke_record_count(record, "frames"); k++) {
     check_ok(hooke_record_check(record, k));
     check_ok(hooke_record_read(record, k, state));
     hash = life_hash(state, hash);
   }
-  check_status(hooke_record_read(record, hooke_record_frame_count(record), state), HOOKE_BAD_VALUE);
+  check_status(hooke_record_read(record, hooke_record_count(record, "frames"), state), HOOKE_BAD_VALUE);
   check_ok(hooke_record_size(record, "total_energy", &rows, &columns));
   double *numbers = new_doubles(rows * columns);
   check_ok(hooke_record_numbers(record, "total_energy", numbers));
@@ -158,12 +159,14 @@ static uint64_t live_view(const char *detail) {
   (void)detail;
   write_once();
   hooke_record *record = NULL;
-  hooke_view *view = NULL;
+  hooke_measurement *view = NULL;
   check_ok(hooke_record_open(life_files.trajectory, &record));
   check_ok(hooke_view_create(record, NULL, &view));
-  check_ok(hooke_view_write(view, life_files.page, "life"));
-  const double found[] = {hooke_view_number(view, "frames"), hooke_view_number(view, "bytes")};
-  hooke_view_destroy(view);
+  check_ok(hooke_measurement_label(view, "title", "life"));
+  check_ok(hooke_measurement_write(view, life_files.page));
+  const double found[] = {hooke_measurement_number(view, "view", 0, "frames"),
+                          hooke_measurement_number(view, "view", 0, "bytes")};
+  hooke_measurement_destroy(view);
   hooke_record_close(record);
   return hash_doubles(2, found, HASH_START);
 }

@@ -72,7 +72,7 @@ static uint64_t live_study(const char *detail) {
     hash = hash_doubles(1, &error, hash);
   }
   check_ok(hooke_measurement_write(study, life_files.page));
-  check_ok(hooke_measurement_label(study, "scene", hooke_scene_text(scene)));
+  check_ok(hooke_measurement_label(study, "scene", hooke_scene_text(scene, "text")));
   check_ok(hooke_measurement_write(study, life_files.trajectory));
   hooke_measurement_destroy(study);
   hooke_options_destroy(options);
@@ -91,7 +91,7 @@ static uint64_t live_comparison(const char *detail) {
   check_ok(hooke_measurement_create("comparison", hooke_scene_system(scene), hooke_scene_run_options(scene),
                                     options, &comparison));
   hooke_options_destroy(options);
-  check_ok(hooke_measurement_label(comparison, "scene", hooke_scene_text(scene)));
+  check_ok(hooke_measurement_label(comparison, "scene", hooke_scene_text(scene, "text")));
   check_ok(hooke_comparison_file_create(life_files.trajectory, comparison, &file));
   check_ok(hooke_measurement_run(comparison, NULL));
   const double error[] = {hooke_measurement_number(comparison, "rows", 0, "error"),

@@ -61,7 +61,7 @@ static uint64_t live_scene(const char *detail) {
                              hooke_scene_run_options(scene)));
   check_ok(hooke_scene_load(life_files.scene, NULL, &loaded));
   check_ok(hooke_scene_commit(loaded));
-  assert_string_equal(hooke_scene_text(again), hooke_scene_text(loaded));
+  assert_string_equal(hooke_scene_text(again, "text"), hooke_scene_text(loaded, "text"));
   hooke_state *state = start_state(hooke_scene_system(loaded));
   const uint64_t hash = life_hash(state, HASH_START);
   hooke_state_destroy(state);

@@ -173,7 +173,7 @@ static void test_force_stops(void **unused) {
     hooke_state *state = start_state(system);
     check_status(hooke_integrator_run(integrator, state), HOOKE_STOPPED);
     check_message("1234");
-    assert_int_equal(hooke_integrator_stop_value(integrator), 1234);
+    assert_int_equal(hooke_integrator_count(integrator, "stop_value"), 1234);
     /* the last whole step, to the bit: the first force beyond 0.45 s is that of a step from 0.5 s or, for
      * methods that look to the end of a step, to 0.5 s */
     const int looks_back = strcmp(method, "forward-euler") == 0 || strcmp(method, "symplectic-euler") == 0 ||
@@ -226,7 +226,7 @@ static void test_every_call_may_stop(void **unused) {
           start_run(system, (struct run){.method = method, .step = 0.125, .duration = 20.0});
       hooke_state *state = start_state(system);
       check_status(hooke_integrator_run(integrator, state), HOOKE_STOPPED);
-      assert_int_equal(hooke_integrator_stop_value(integrator), 77);
+      assert_int_equal(hooke_integrator_count(integrator, "stop_value"), 77);
       hooke_state_destroy(state);
       hooke_integrator_destroy(integrator);
       hooke_system_destroy(system);

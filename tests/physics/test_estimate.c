@@ -9,17 +9,25 @@
 
 static const double OMEGA = 6.0, DURATION = 2.0, EVERY = 0.02;
 
+static double number_of(const hooke_measurement *estimate, const char *what) {
+  return hooke_measurement_number(estimate, "estimate", 0, what);
+}
+
+static const char *text_of(const hooke_measurement *estimate, const char *what) {
+  return hooke_measurement_text(estimate, "estimate", 0, what);
+}
+
 /* Estimates a run; the caller destroys the estimate; `state` receives the end. */
-static hooke_estimate *estimated_run(const hooke_system *system, const hooke_options *options, double want,
-                                     hooke_estimate *estimate, hooke_state **state) {
+static hooke_measurement *estimated_run(const hooke_system *system, const hooke_options *options, double want,
+                                        hooke_measurement *estimate, hooke_state **state) {
   hooke_integrator *integrator;
-  if (!estimate) check_ok(hooke_estimate_create(system, want, &estimate));
+  if (!estimate) check_ok(estimate_of(system, want, &estimate));
   check_ok(hooke_integrator_create(system, options, &integrator));
   *state = start_state(system);
   check_ok(hooke_integrator_on_frame(integrator, hooke_estimate_see, estimate));
   check_ok(hooke_estimate_begin(estimate, integrator, *state));
   check_ok(hooke_integrator_run(integrator, *state));
-  check_ok(hooke_estimate_measure(estimate, integrator, *state));
+  check_ok(hooke_measurement_run(estimate, *state));
   hooke_integrator_destroy(integrator);
   return estimate;
 }
@@ -35,17 +43,17 @@ static void check_estimate(const hooke_system *system, const char *method, int64
   hooke_state *state;
   hooke_options *options =
       run_options((struct run){.method = method, .step = 2.5e-3, .duration = DURATION, .every = EVERY});
-  hooke_estimate *estimate = estimated_run(system, options, NAN, NULL, &state);
-  const double found = hooke_estimate_number(estimate, "estimate"), truly = true_error(state);
-  if (!isnan(found) && strcmp(hooke_estimate_text(estimate, "by"), "slice") != 0) {
+  hooke_measurement *estimate = estimated_run(system, options, NAN, NULL, &state);
+  const double found = number_of(estimate, "estimate"), truly = true_error(state);
+  if (!isnan(found) && strcmp(text_of(estimate, "by"), "slice") != 0) {
     ++*known;
     if (!(found > truly / 3.0 && found < 3.0 * truly))
       check_failed("%s is said to be off by %.3g m, and is by %.3g m", method, found, truly);
-    check_close(hooke_estimate_number(estimate, "known_until"), DURATION, 0.0);
-    check_close(hooke_estimate_number(estimate, "known_from"), 0.0, 0.0);
+    check_close(number_of(estimate, "known_until"), DURATION, 0.0);
+    check_close(number_of(estimate, "known_from"), 0.0, 0.0);
   }
-  assert_true(isnan(hooke_estimate_number(estimate, "met")));
-  hooke_estimate_destroy(estimate);
+  assert_true(isnan(number_of(estimate, "met")));
+  hooke_measurement_destroy(estimate);
   hooke_state_destroy(state);
   hooke_options_destroy(options);
 }
@@ -66,19 +74,19 @@ static void test_estimates_are_within_a_factor_of_three(void **unused) {
 
 /* Estimates a run whose integrator was destroyed before; the caller destroys the estimate; `time` [s] of its
  * end. */
-static hooke_estimate *estimated_later(const hooke_system *system, const hooke_options *options,
-                                       double time) {
+static hooke_measurement *estimated_later(const hooke_system *system, const hooke_options *options,
+                                          double time) {
   hooke_integrator *integrator;
-  hooke_estimate *estimate;
+  hooke_measurement *estimate;
   hooke_state *state = start_state(system);
-  check_ok(hooke_estimate_create(system, NAN, &estimate));
+  check_ok(estimate_of(system, NAN, &estimate));
   check_ok(hooke_integrator_create(system, options, &integrator));
   check_ok(hooke_integrator_on_frame(integrator, hooke_estimate_see, estimate));
   check_ok(hooke_estimate_begin(estimate, integrator, state));
   check_ok(hooke_integrator_run(integrator, state));
   hooke_integrator_destroy(integrator);
   hooke_state_set_time(state, time);
-  check_ok(hooke_estimate_measure(estimate, NULL, state));
+  check_ok(hooke_measurement_run(estimate, state));
   hooke_state_destroy(state);
   return estimate;
 }
@@ -89,15 +97,15 @@ static void test_the_integrator_may_be_gone(void **unused) {
   hooke_state *state;
   hooke_options *options =
       run_options((struct run){.method = "verlet", .step = 2.5e-3, .duration = DURATION, .every = EVERY});
-  hooke_estimate *one = estimated_run(system, options, NAN, NULL, &state),
-                 *other = estimated_later(system, options, DURATION),
-                 *short_of = estimated_later(system, options, 0.5 * DURATION);
-  check_close(hooke_estimate_number(other, "estimate"), hooke_estimate_number(one, "estimate"), 0.0);
-  assert_string_equal(hooke_estimate_text(other, "by"), hooke_estimate_text(one, "by"));
-  assert_string_equal(hooke_estimate_text(short_of, "note"), "the run did not come to its end");
-  hooke_estimate_destroy(one);
-  hooke_estimate_destroy(other);
-  hooke_estimate_destroy(short_of);
+  hooke_measurement *one = estimated_run(system, options, NAN, NULL, &state),
+                    *other = estimated_later(system, options, DURATION),
+                    *short_of = estimated_later(system, options, 0.5 * DURATION);
+  check_close(number_of(other, "estimate"), number_of(one, "estimate"), 0.0);
+  assert_string_equal(text_of(other, "by"), text_of(one, "by"));
+  assert_string_equal(text_of(short_of, "note"), "the run did not come to its end");
+  hooke_measurement_destroy(one);
+  hooke_measurement_destroy(other);
+  hooke_measurement_destroy(short_of);
   hooke_state_destroy(state);
   hooke_options_destroy(options);
   hooke_system_destroy(system);
@@ -109,11 +117,11 @@ static void test_a_coarse_run_is_judged_in_a_last_piece(void **unused) {
   hooke_state *state;
   hooke_options *options =
       run_options((struct run){.method = "symplectic-euler", .step = 0.2, .duration = 20.0, .every = 0.2});
-  hooke_estimate *estimate = estimated_run(system, options, NAN, NULL, &state);
-  assert_string_equal(hooke_estimate_text(estimate, "by"), "slice");
-  assert_true(hooke_estimate_number(estimate, "known_from") >= 19.0);
-  assert_true(hooke_estimate_number(estimate, "estimate") > 0.0);
-  hooke_estimate_destroy(estimate);
+  hooke_measurement *estimate = estimated_run(system, options, NAN, NULL, &state);
+  assert_string_equal(text_of(estimate, "by"), "slice");
+  assert_true(number_of(estimate, "known_from") >= 19.0);
+  assert_true(number_of(estimate, "estimate") > 0.0);
+  hooke_measurement_destroy(estimate);
   hooke_state_destroy(state);
   hooke_options_destroy(options);
   hooke_system_destroy(system);
@@ -123,9 +131,9 @@ static double number_of_run(const hooke_system *system, const char *method, doub
   hooke_state *state;
   hooke_options *options =
       run_options((struct run){.method = method, .step = step, .duration = DURATION, .every = EVERY});
-  hooke_estimate *estimate = estimated_run(system, options, NAN, NULL, &state);
-  const double number = hooke_estimate_number(estimate, what);
-  hooke_estimate_destroy(estimate);
+  hooke_measurement *estimate = estimated_run(system, options, NAN, NULL, &state);
+  const double number = number_of(estimate, what);
+  hooke_measurement_destroy(estimate);
   hooke_state_destroy(state);
   hooke_options_destroy(options);
   return number;
@@ -246,11 +254,11 @@ static void test_a_damper_too_stiff_for_the_step_is_seen(void **unused) {
 static void check_want(const hooke_system *system, const char *method, double want) {
   hooke_state *state;
   hooke_options *options = run_options((struct run){.duration = DURATION, .every = EVERY});
-  hooke_estimate *estimate;
-  check_ok(hooke_estimate_create(system, want, &estimate));
+  hooke_measurement *estimate;
+  check_ok(estimate_of(system, want, &estimate));
   const int32_t status = hooke_estimate_pick(estimate, method, options);
   if (status == HOOKE_NOT_BUILT) {
-    hooke_estimate_destroy(estimate);
+    hooke_measurement_destroy(estimate);
     hooke_options_destroy(options);
     hooke_system_destroy((hooke_system *)(uintptr_t)system);
     skip();
@@ -258,13 +266,11 @@ static void check_want(const hooke_system *system, const char *method, double wa
   check_status(status, HOOKE_OK);
   if (method) assert_string_equal(hooke_options_text(options, "method"), method);
   estimated_run(system, options, want, estimate, &state);
-  const double truly = true_error(state), found = hooke_estimate_number(estimate, "estimate");
-  if (hooke_estimate_number(estimate, "met") != 1.0 ||
-      !(truly <= want && found <= want && found >= 0.8 * truly))
+  const double truly = true_error(state), found = number_of(estimate, "estimate");
+  if (number_of(estimate, "met") != 1.0 || !(truly <= want && found <= want && found >= 0.8 * truly))
     check_failed("%s for %g m: met %g, said to be off by %.3g m, and is by %.3g m",
-                 hooke_options_text(options, "method"), want, hooke_estimate_number(estimate, "met"), found,
-                 truly);
-  hooke_estimate_destroy(estimate);
+                 hooke_options_text(options, "method"), want, number_of(estimate, "met"), found, truly);
+  hooke_measurement_destroy(estimate);
   hooke_state_destroy(state);
   hooke_options_destroy(options);
 }
@@ -321,14 +327,14 @@ static double least_limit_along(const hooke_system *system, const hooke_options 
 static double picked_over_bound(const hooke_system *system, const char *method) {
   hooke_options *options = run_options((struct run){.duration = 1.0, .every = 0.1});
   hooke_state *state = start_state(system);
-  hooke_estimate *estimate;
+  hooke_measurement *estimate;
   double bound = NAN;
-  check_ok(hooke_estimate_create(system, 0.05, &estimate));
+  check_ok(estimate_of(system, 0.05, &estimate));
   check_ok(hooke_estimate_pick(estimate, method, options));
   check_ok(hooke_step_bound(system, method, hooke_state_position(state), &bound));
   const double step = hooke_options_number(options, "step"), limit = least_limit_along(system, options);
   if (!(step <= 0.9 * limit)) check_failed("%s is picked with %g s, of a limit of %g s", method, step, limit);
-  hooke_estimate_destroy(estimate);
+  hooke_measurement_destroy(estimate);
   hooke_state_destroy(state);
   hooke_options_destroy(options);
   return step / bound;
@@ -346,22 +352,29 @@ static void test_a_picked_step_may_pass_the_bound_but_not_the_limit(void **unuse
 static void test_what_cannot_be_asked_for(void **unused) {
   (void)unused;
   hooke_system *system = small_oscillator(OMEGA);
-  hooke_estimate *estimate = NULL;
+  hooke_measurement *estimate = NULL;
   hooke_options *options = run_options((struct run){.duration = DURATION, .every = EVERY});
   hooke_state *state = start_state(system);
-  check_status(hooke_estimate_create(system, -1.0, &estimate), HOOKE_BAD_VALUE);
-  check_status(hooke_estimate_create(system, INFINITY, &estimate), HOOKE_BAD_VALUE);
-  check_ok(hooke_estimate_create(system, NAN, &estimate));
+  check_status(estimate_of(system, -1.0, &estimate), HOOKE_BAD_VALUE);
+  check_status(estimate_of(system, INFINITY, &estimate), HOOKE_BAD_VALUE);
+  check_ok(estimate_of(system, NAN, &estimate));
   check_status(hooke_estimate_pick(estimate, NULL, options), HOOKE_BAD_CALL);
   check_status(hooke_estimate_refine(estimate, options), HOOKE_UNSUITED);
-  assert_true(isnan(hooke_estimate_number(estimate, "estimate")));
-  assert_true(hooke_estimate_text(estimate, "by") == NULL);
-  hooke_estimate_destroy(estimate);
+  check_status(hooke_measurement_run(estimate, state), HOOKE_BAD_CALL);
+  check_status(hooke_measurement_run(estimate, NULL), HOOKE_BAD_VALUE);
+  assert_true(isnan(number_of(estimate, "estimate")));
+  assert_true(text_of(estimate, "by") == NULL);
+  hooke_measurement_destroy(estimate);
+  hooke_measurement *cost;
+  check_ok(hooke_measurement_create("cost", system, NULL, NULL, &cost));
+  check_status(hooke_estimate_pick(cost, NULL, options), HOOKE_BAD_CALL);
+  check_message("needs a measurement of the kind \"estimate\", this is a \"cost\"");
+  hooke_measurement_destroy(cost);
   /* stable at no step without damping */
-  check_ok(hooke_estimate_create(system, 1e-3, &estimate));
+  check_ok(estimate_of(system, 1e-3, &estimate));
   const int32_t status = hooke_estimate_pick(estimate, "forward-euler", options);
   assert_true(status == HOOKE_UNSUITED || status == HOOKE_NOT_BUILT);
-  hooke_estimate_destroy(estimate);
+  hooke_measurement_destroy(estimate);
   hooke_state_destroy(state);
   hooke_options_destroy(options);
   hooke_system_destroy(system);

@@ -56,7 +56,7 @@ static void families_have_the_springs_of_the_formula(void **unused) {
         assert_int_equal(hooke_system_particle_count(system), n);
         assert_int_equal(hooke_system_group_size(system, "springs", 0), 3 * n - ny * nz - nx * nz - nx * ny);
         assert_int_equal(hooke_system_group_size(system, "springs", 1), 2 * faces + 4 * cells);
-        assert_int_equal(hooke_system_spring_count(system),
+        assert_int_equal(hooke_system_count(system, "springs"),
                          hooke_system_group_size(system, "springs", 0) +
                              hooke_system_group_size(system, "springs", 1) + apart);
         hooke_system_destroy(system);
@@ -74,7 +74,7 @@ static void springs_are_in_order(void **unused) {
                                   {-1, -1, 1}, {2, 0, 0}, {0, 2, 0},  {0, 0, 2}};
   static const int size[3] = {NX, NY, NZ};
   hooke_system *system = full(NX, NY, NZ);
-  const int64_t count = hooke_system_spring_count(system);
+  const int64_t count = hooke_system_count(system, "springs");
   int64_t *ends = new_block(2 * count, sizeof *ends), k = 0;
   double *material = new_doubles(3 * count), *rest = material + 2 * count;
   check_ok(hooke_system_members(system, "springs", ends, NULL, NULL, NULL));
@@ -118,7 +118,7 @@ static void springs_are_in_order(void **unused) {
 
 static hooke_system *one_by_one(const hooke_system *part) {
   static const double stiffness[] = {50, 20, 5}, damping[] = {0, 0.01, 0};
-  const int64_t n = hooke_system_particle_count(part), count = hooke_system_spring_count(part);
+  const int64_t n = hooke_system_particle_count(part), count = hooke_system_count(part, "springs");
   int64_t *ends = new_block(2 * count, sizeof *ends), first = 0;
   double *material = new_doubles(3 * count);
   hooke_system *system;

@@ -393,7 +393,7 @@ static void nothing_limits(void **unused) {
     }
     check_between(hooke_measurement_number(limit, "limit", 0, "mode_count"), 0, 0);
     check_between(hooke_measurement_number(limit, "limit", 0, "frequency_max"), 0, 0);
-    assert_null(hooke_measurement_series(limit, "limit", 0, "shape"));
+    assert_null(hooke_measurement_series(limit, "limit", 0, "shape", NULL));
     assert_true(hooke_measurement_row_count(limit, "blame") == 0);
     hooke_measurement_destroy(limit);
     hooke_system_destroy(system);
@@ -459,7 +459,7 @@ static void the_odd_spring_is_named(void **unused) {
   check_between(hooke_measurement_number(limit, "blame", 0, "share"), 0.9, 1.0);
   check_between(hooke_measurement_number(limit, "blame", 0, "first"), 5, 5);
   check_between(hooke_measurement_number(limit, "blame", 0, "second"), 6, 6);
-  const double *shape = hooke_measurement_series(limit, "limit", 0, "shape");
+  const double *shape = hooke_measurement_series(limit, "limit", 0, "shape", NULL);
   check_close(largest(36, shape), 1.0, 1e-12);
   check_close(shape[15] + shape[18], 0.0, 0.05); /* its ends move against each other */
   check_between(hooke_measurement_number(limit, "remedy", 0, "gain"), 2.0, 8.0);

@@ -114,7 +114,7 @@ static void springs_are_in_order(void **unused) {
   (void)unused;
   struct mesh mesh = sheet(5, 4);
   hooke_system *system = build_with(&mesh, "mass", 1);
-  const int64_t count = hooke_system_spring_count(system),
+  const int64_t count = hooke_system_count(system, "springs"),
                 edges = hooke_system_group_size(system, "springs", 0);
   int64_t *ends = new_block(2 * count, sizeof *ends);
   double *material = new_doubles(3 * count);
@@ -198,7 +198,7 @@ static void damping_by_ratio_is_that_of_both_ends(void **unused) {
   check_ok(hooke_options_set_number(options, "mass", 0.6));
   check_ok(hooke_options_set_number(options, "structural.damping_ratio", 0.3));
   hooke_system *system = build(options);
-  const int64_t count = hooke_system_spring_count(system),
+  const int64_t count = hooke_system_count(system, "springs"),
                 edges = hooke_system_group_size(system, "springs", 0);
   int64_t *ends = new_block(2 * count, sizeof *ends);
   double *kappa = new_doubles(3 * count);
@@ -237,7 +237,7 @@ static void vertices_at_one_place_are_one(void **unused) {
   }
   hooke_system *system = build_with(&loose, "mass", 1);
   assert_int_equal(hooke_system_particle_count(system), 12);
-  assert_int_equal(hooke_system_spring_count(system), 60);
+  assert_int_equal(hooke_system_count(system, "springs"), 60);
   hooke_state *state = start_state(system);
   for (int k = 0; k < 36; k++)
     check_close(hooke_state_position(state)[k], expected[k], 0.0);

@@ -281,7 +281,7 @@ static void a_scene_that_rests_is_told_so(void **state) {
     assert_true(hooke_measurement_number(needs, "rows", row, "error") == 0.0);
     assert_true(hooke_measurement_number(needs, "rows", row, "left_out") == 0.0);
   }
-  assert_int_equal(hooke_system_spring_count(hooke_needs_lean(needs)), 1);
+  assert_int_equal(hooke_system_count(hooke_needs_lean(needs), "springs"), 1);
   hooke_measurement_destroy(needs);
 
   /* ingredients that hold the balance are needed all the same */

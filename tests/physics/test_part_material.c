@@ -152,7 +152,7 @@ static void every_direction_has_its_own(void **unused) {
                {"structural", "kappa along v", "gamma along v", 21 * 30, 40.0, v, 0.1},
                {"shear", "kappa along u + v", "gamma along u + v", 20 * 30, 7.0, 1.1 * along, 0.3},
                {"shear", "kappa along u - v", "gamma along u - v", 20 * 30, 7.0, 1.1 * across, 0.3}};
-  const int64_t springs = hooke_system_spring_count(cloth);
+  const int64_t springs = hooke_system_count(cloth, "springs");
   double *kappa = new_doubles(springs), *gamma = new_doubles(springs);
   check_ok(hooke_system_members(cloth, "springs", NULL, kappa, gamma, NULL));
   int64_t k = 0;

@@ -214,7 +214,7 @@ static void test_stop(void **unused) {
                  (struct run){.method = checker->method, .rtol = 1e-8, .duration = 2.0, .every = 2.0},
                  &integrator, &state);
     check_status(hooke_integrator_run(integrator, state), HOOKE_STOPPED);
-    assert_int_equal(hooke_integrator_stop_value(integrator), 7);
+    assert_int_equal(hooke_integrator_count(integrator, "stop_value"), 7);
     const double t = hooke_state_time(state), *x = hooke_state_position(state);
     check_between(t, 0.5, 1.0);
     check_close(x[0], exp(-0.5 * t) * cos(3.0 * t), 1e-6);

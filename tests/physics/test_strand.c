@@ -144,14 +144,14 @@ static void short_strands(void **unused) {
   hooke_options *options = new_options(1, 0.0, 0.0);
   hooke_system *system = new_strand(options);
   assert_int_equal(hooke_system_particle_count(system), 3);
-  assert_int_equal(hooke_system_spring_count(system), 3);
+  assert_int_equal(hooke_system_count(system, "springs"), 3);
   assert_int_equal(hooke_system_count(system, "altitude"), 0);
   hooke_system_destroy(system);
   hooke_options_destroy(options);
   options = new_options(1, 0.2, 0.3);
   system = new_strand(options);
   assert_int_equal(hooke_system_particle_count(system), 2);
-  assert_int_equal(hooke_system_spring_count(system), 1);
+  assert_int_equal(hooke_system_count(system, "springs"), 1);
   hooke_system_destroy(system);
   hooke_options_destroy(options);
 }

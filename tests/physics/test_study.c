@@ -260,7 +260,7 @@ static void chaos_is_trusted_for_a_while(void **unused) {
   const int64_t frames = (int64_t)hooke_measurement_number(study, "study", 0, "frames"),
                 last = hooke_measurement_row_count(study, "rows") - 1;
   check_between((double)frames, 3.0, 36.0);
-  const double *error = hooke_measurement_series(study, "rows", last, "error_at");
+  const double *error = hooke_measurement_series(study, "rows", last, "error_at", NULL);
   assert_true(!isnan(error[frames - 1]));
   assert_true(isnan(error[frames]));
   hooke_measurement_destroy(study);

@@ -91,11 +91,11 @@ static void errors_of_what_is_watched_are_true(void **unused) {
                                          "agreement"),
                 1e-15, 1e-7);
   assert_true(isnan(error_in(study, "1.y")));
-  assert_null(hooke_measurement_series(study, "watched_errors", 4, "value"));
+  assert_null(hooke_measurement_series(study, "watched_errors", 4, "value", NULL));
   /* the series of the error, and the motion itself */
-  const double *time = hooke_measurement_series(study, "reference", 0, "time"),
-               *exact = hooke_measurement_series(study, "watched", 0, "value"),
-               *found = hooke_measurement_series(study, "watched_errors", 0, "value");
+  const double *time = hooke_measurement_series(study, "reference", 0, "time", NULL),
+               *exact = hooke_measurement_series(study, "watched", 0, "value", NULL),
+               *found = hooke_measurement_series(study, "watched_errors", 0, "value", NULL);
   double largest = 0.0;
   for (int64_t f = 0; f < (int64_t)hooke_measurement_number(study, "study", 0, "frames"); f++) {
     check_close(exact[f], cos(omega * time[f]), 1e-7);

@@ -207,7 +207,7 @@ static void test_numbers_of_an_oscillator(void **unused) {
       system, (struct run){.method = "symplectic-euler", .step = 0.21, .duration = 21.0, .every = 21.0});
   hooke_state *state = start_state(system);
   check_status(hooke_integrator_run(every_step, state), HOOKE_DIVERGED);
-  const double last_good = hooke_state_time(state), bad = hooke_integrator_diverged_at(every_step);
+  const double last_good = hooke_state_time(state), bad = hooke_integrator_number(every_step, "diverged_at");
   hooke_state *late = start_state(system);
   check_status(hooke_integrator_run(rarely, late), HOOKE_DIVERGED);
   check_close(hooke_state_time(late), 0.0, 0.0);
@@ -622,7 +622,8 @@ static int32_t watch_run(const char *method, double step, struct warned *warned,
   if (warned) check_ok(hooke_integrator_on_warning(integrator, note, warned));
   const int32_t status = hooke_integrator_run(integrator, state);
   if (q) memcpy(q, hooke_state_position(state), 6 * sizeof(double));
-  if (status == HOOKE_STOPPED) assert_int_equal(hooke_integrator_stop_value(integrator), warned->answer);
+  if (status == HOOKE_STOPPED)
+    assert_int_equal(hooke_integrator_count(integrator, "stop_value"), warned->answer);
   hooke_state_destroy(state);
   hooke_integrator_destroy(integrator);
   hooke_system_destroy(system);

@@ -59,9 +59,7 @@ def alive(tmp_path_factory):
     if objects[p.TRAJECTORY]:
         lib.hooke_trajectory_write(objects[p.TRAJECTORY], 0, state)
     add(p.RECORD, "hooke_record_open", path)
-    add(p.VIEW, "hooke_view_create", objects[p.RECORD], None)
     add(p.MEASUREMENT, "hooke_measurement_create", b"comparison", system, run, None)
-    add(p.ESTIMATE, "hooke_estimate_create", system, 1e-3)
     add(p.MEASUREMENT, "hooke_measurement_create", b"study", system, run, None)
     add(p.MEASUREMENT, "hooke_measurement_create", b"limit", system, run, None)
     add(p.MEASUREMENT, "hooke_measurement_create", b"cost", system, run, None)

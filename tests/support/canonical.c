@@ -10,7 +10,7 @@
 #include <string.h>
 
 void canonical_create(const hooke_system *system, struct canonical *canonical) {
-  const int64_t n = hooke_system_particle_count(system), m = hooke_system_spring_count(system);
+  const int64_t n = hooke_system_particle_count(system), m = hooke_system_count(system, "springs");
   memset(canonical, 0, sizeof *canonical);
   canonical->particle_count = n;
   canonical->spring_count = m;

@@ -72,6 +72,15 @@ static int32_t create_why(const hooke_integrator *integrator, hooke_measurement 
   return status;
 }
 
+int32_t estimate_of(const hooke_system *system, double want, hooke_measurement **estimate) {
+  hooke_options *options;
+  int32_t status = hooke_options_create("estimate", &options);
+  if (status == HOOKE_OK && !isnan(want)) status = hooke_options_set_number(options, "want", want);
+  if (status == HOOKE_OK) status = hooke_measurement_create("estimate", system, NULL, options, estimate);
+  hooke_options_destroy(options);
+  return status;
+}
+
 int32_t explain_run(const hooke_integrator *integrator, hooke_measurement **why) {
   *why = NULL;
   int32_t status = create_why(integrator, why);

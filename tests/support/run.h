@@ -26,6 +26,9 @@ hooke_state *start_state(const hooke_system *system);
 /* From the initial state to the end of the run; `q` and `v` (3n, or NULL) receive the final state. */
 void run_to_end(const hooke_system *system, struct run run, double *q, double *v);
 
+/* An estimate of the error of runs; `want` NaN: without a wanted error. The status of what fails first. */
+int32_t estimate_of(const hooke_system *system, double want, hooke_measurement **estimate);
+
 /* Explains why the last run ended early, for as long as that takes. The status of what fails first; then
  * there is no measurement. */
 int32_t explain_run(const hooke_integrator *integrator, hooke_measurement **why);

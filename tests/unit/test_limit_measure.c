@@ -1,7 +1,7 @@
 /* Measured limits compared with formulas; and their limiting elements. */
 #include "measure/trial/bracket.h"
 #include "measure/spectrum/linear_twin.h"
-#include "measure/limit/limit_blame.h"
+#include "measure/limit/limit_participation.h"
 #include "measure/limit/limit_measure.h"
 
 #include "check.h"
@@ -410,23 +410,23 @@ static void shares_are_those_of_the_mode(void **unused) {
   hooke_system *system = oscillators(2, stiffness, damping, 0.0);
   double mode[12] = {0.0};
   mode[3] = 1.0, mode[9] = 0.5, mode[0] = 7.0; /* the last one is pinned */
-  struct hk_blame blame;
+  struct hk_participation participation;
   const double h = 0.1, parts[2] = {h * h * 100.0 + 2.0 * h * 3.0, 0.25 * (h * h * 400.0 + 2.0 * h)};
-  check_ok(hk_blame_find(system, system->position, mode, h * h, h, &blame));
-  assert_int_equal(blame.spring_count, 2);
-  assert_int_equal(blame.spring[0].spring, 0);
-  assert_int_equal(blame.spring[0].second, 1);
-  check_close(blame.spring[0].share, parts[0] / (parts[0] + parts[1]), 1e-14);
-  check_close(blame.spring[1].share, parts[1] / (parts[0] + parts[1]), 1e-14);
-  check_close(blame.stiffness_share, h * h * 200.0 / (parts[0] + parts[1]), 1e-14);
-  check_close(blame.group_share[0] + blame.group_share[1], 1.0, 1e-14);
-  assert_int_equal(blame.particle_count, 2);
-  assert_int_equal(blame.particle[0].particle, 1);
-  check_close(blame.particle[0].share, 0.8, 1e-14);
-  hk_blame_release(&blame);
-  check_ok(hk_blame_find(system, system->position, NULL, 1.0, 0.0, &blame));
-  assert_int_equal(blame.spring_count + blame.particle_count, 0);
-  hk_blame_release(&blame);
+  check_ok(hk_participation_find(system, system->position, mode, h * h, h, &participation));
+  assert_int_equal(participation.spring_count, 2);
+  assert_int_equal(participation.spring[0].spring, 0);
+  assert_int_equal(participation.spring[0].second, 1);
+  check_close(participation.spring[0].share, parts[0] / (parts[0] + parts[1]), 1e-14);
+  check_close(participation.spring[1].share, parts[1] / (parts[0] + parts[1]), 1e-14);
+  check_close(participation.stiffness_share, h * h * 200.0 / (parts[0] + parts[1]), 1e-14);
+  check_close(participation.group_share[0] + participation.group_share[1], 1.0, 1e-14);
+  assert_int_equal(participation.particle_count, 2);
+  assert_int_equal(participation.particle[0].particle, 1);
+  check_close(participation.particle[0].share, 0.8, 1e-14);
+  hk_participation_release(&participation);
+  check_ok(hk_participation_find(system, system->position, NULL, 1.0, 0.0, &participation));
+  assert_int_equal(participation.spring_count + participation.particle_count, 0);
+  hk_participation_release(&participation);
   hooke_system_destroy(system);
 }
 
@@ -440,15 +440,15 @@ static void most_shares_are_kept_in_order(void **unused) {
     memcpy(mode + 6 * k, (const double[6]){0, 0, 0, 1, 0, 0}, 6 * sizeof(double));
   }
   hooke_system *system = oscillators(COUNT, stiffness, damping, 0.0);
-  struct hk_blame blame;
-  check_ok(hk_blame_find(system, system->position, mode, 1.0, 0.0, &blame));
-  assert_int_equal(blame.spring_count, HOOKE_BLAME_MOST);
-  for (int k = 0; k < HOOKE_BLAME_MOST; k++) {
-    check_close(blame.spring[k].share, (double)(COUNT - k) / (0.5 * COUNT * (COUNT + 1)), 1e-14);
-    check_close(stiffness[blame.spring[k].spring], (double)(COUNT - k), 0.0);
-    assert_int_equal(blame.particle[k].particle, 2 * k + 1); /* equal shares: in their order */
+  struct hk_participation participation;
+  check_ok(hk_participation_find(system, system->position, mode, 1.0, 0.0, &participation));
+  assert_int_equal(participation.spring_count, HOOKE_MOST_LIMITING);
+  for (int k = 0; k < HOOKE_MOST_LIMITING; k++) {
+    check_close(participation.spring[k].share, (double)(COUNT - k) / (0.5 * COUNT * (COUNT + 1)), 1e-14);
+    check_close(stiffness[participation.spring[k].spring], (double)(COUNT - k), 0.0);
+    assert_int_equal(participation.particle[k].particle, 2 * k + 1); /* equal shares: in their order */
   }
-  hk_blame_release(&blame);
+  hk_participation_release(&participation);
   hooke_system_destroy(system);
 }
 
@@ -461,22 +461,22 @@ static void remedy_is_what_it_costs(void **unused) {
     stiffness[k] = k == 5 ? 4900.0 : 49.0;
   mode[6 * 5 + 3] = 1.0;
   hooke_system *system = oscillators(COUNT, stiffness, damping, 0.0);
-  struct hk_blame blame;
-  struct hk_remedy remedy;
-  check_ok(hk_blame_find(system, system->position, mode, 1.0, 0.0, &blame));
-  const int32_t status =
-      hk_remedy_find(system, system->position, "symplectic-euler", 2.0 / 70.0, &blame, &remedy);
-  hk_blame_release(&blame);
+  struct hk_participation participation;
+  struct hk_suggestion suggestion;
+  check_ok(hk_participation_find(system, system->position, mode, 1.0, 0.0, &participation));
+  const int32_t status = hk_suggestion_find(system, system->position, "symplectic-euler", 2.0 / 70.0,
+                                            &participation, &suggestion);
+  hk_participation_release(&participation);
   hooke_system_destroy(system);
   if (status == HOOKE_NOT_BUILT) skip();
   check_status(status, HOOKE_OK);
-  assert_string_equal(remedy.kind, "soften");
-  assert_int_equal(remedy.count, 1);
-  check_close(remedy.cost, 10.0, 0.02);
-  check_close(remedy.factor, 100.0, 1e-9);
-  check_close(remedy.gain, 10.0, 0.02);
-  check_close(remedy.gain_predicted, 10.0, 1e-9);
-  assert_string_equal(remedy.sentence,
+  assert_string_equal(suggestion.kind, "soften");
+  assert_int_equal(suggestion.count, 1);
+  check_close(suggestion.cost, 10.0, 0.02);
+  check_close(suggestion.factor, 100.0, 1e-9);
+  check_close(suggestion.gain, 10.0, 0.02);
+  check_close(suggestion.gain_predicted, 10.0, 1e-9);
+  assert_string_equal(suggestion.sentence,
                       "1 of 12 springs, number 5, group `other`, costs a factor 10 in step; softening it by "
                       "100 allows a step 10 times larger");
 }
@@ -489,18 +489,19 @@ static void no_remedy_where_all_are_alike(void **unused) {
     stiffness[k] = 49.0;
   mode[6 * 5 + 3] = 1.0;
   hooke_system *system = oscillators(COUNT, stiffness, damping, 0.0);
-  struct hk_blame blame;
-  struct hk_remedy remedy;
+  struct hk_participation participation;
+  struct hk_suggestion suggestion;
   /* one spring has the whole mode, but without it the next one limits the step as much */
-  check_ok(hk_blame_find(system, system->position, mode, 1.0, 0.0, &blame));
-  const int32_t status = hk_remedy_find(system, system->position, "verlet", 2.0 / 7.0, &blame, &remedy);
-  hk_blame_release(&blame);
+  check_ok(hk_participation_find(system, system->position, mode, 1.0, 0.0, &participation));
+  const int32_t status =
+      hk_suggestion_find(system, system->position, "verlet", 2.0 / 7.0, &participation, &suggestion);
+  hk_participation_release(&participation);
   hooke_system_destroy(system);
   if (status == HOOKE_NOT_BUILT) skip();
   check_status(status, HOOKE_OK);
-  assert_null(remedy.kind);
-  assert_true(isnan(remedy.gain) && remedy.count == 0);
-  assert_non_null(strstr(remedy.sentence, "group `other` has 100 %"));
+  assert_null(suggestion.kind);
+  assert_true(isnan(suggestion.gain) && suggestion.count == 0);
+  assert_non_null(strstr(suggestion.sentence, "group `other` has 100 %"));
 }
 
 int main(void) {

@@ -81,7 +81,7 @@ static void write_frames(hooke_trajectory *trajectory, int64_t from, int64_t to)
 static void check_frames(int64_t count) {
   hooke_record *record;
   check_ok(hooke_record_open(path, &record));
-  assert_int_equal(hooke_record_frame_count(record), count);
+  assert_int_equal(hooke_record_count(record, "frames"), count);
   for (int64_t k = 0; k < count; k++)
     check_ok(hooke_record_check(record, k));
   hooke_record_close(record);

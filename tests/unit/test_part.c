@@ -14,7 +14,7 @@ struct springs {
 };
 
 static struct springs springs_of(const hooke_system *system) {
-  struct springs s = {.count = hooke_system_spring_count(system)};
+  struct springs s = {.count = hooke_system_count(system, "springs")};
   s.ends = new_block(2 * s.count, sizeof(int64_t));
   s.kappa = new_doubles(s.count);
   s.gamma = new_doubles(s.count);
@@ -222,7 +222,7 @@ static void a_family_that_is_absent_has_no_springs(void **unused) {
   check_ok(hooke_system_add_part(system, "cloth", NULL, options, NULL, NULL));
   check_ok(hooke_system_commit(system));
   assert_int_equal(hooke_system_group_count(system, "springs"), 1);
-  assert_int_equal(hooke_system_spring_count(system), 8);
+  assert_int_equal(hooke_system_count(system, "springs"), 8);
   assert_string_equal(hooke_system_group_name(system, "springs", 0), "cloth0.shear");
   hooke_options_destroy(options);
   hooke_system_destroy(system);

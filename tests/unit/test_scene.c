@@ -217,7 +217,7 @@ static hooke_scene *parse(const char *quoted) {
   char *text = json(quoted);
   hooke_scene *scene = NULL;
   check_ok(hooke_scene_parse(text, (int64_t)strlen(text), "test.json", NULL, NULL, &scene));
-  assert_string_equal(hooke_scene_text(scene), text);
+  assert_string_equal(hooke_scene_text(scene, "text"), text);
   hk_free(text);
   return scene;
 }
@@ -234,7 +234,7 @@ static void a_whole_scene_becomes_a_system(void **state) {
       "false}],"
       " 'run': {'method': 'forward-euler', 'step': 1e-3, 'every': 0.5}}");
   hooke_system *system = hooke_scene_system(scene);
-  assert_string_equal(hooke_scene_title(scene), "net");
+  assert_string_equal(hooke_scene_text(scene, "title"), "net");
   assert_int_equal(hooke_system_is_committed(system), 0);
   check_ok(hooke_scene_commit(scene));
   assert_int_equal(hooke_system_particle_count(system), 3);
@@ -279,9 +279,9 @@ static void what_is_not_named_is_not_computed(void **state) {
   check_ok(hooke_scene_commit(scene));
   hooke_system *system = hooke_scene_system(scene);
   assert_int_equal(hooke_system_count(system, "forces"), 0);
-  assert_int_equal(hooke_system_spring_count(system), 0);
+  assert_int_equal(hooke_system_count(system, "springs"), 0);
   assert_int_equal(hooke_system_count(system, "free"), 2);
-  assert_string_equal(hooke_scene_title(scene), "");
+  assert_string_equal(hooke_scene_text(scene, "title"), "");
   assert_int_equal(hooke_options_is_set(hooke_scene_run_options(scene), "method"), 0);
   hooke_state *initial = NULL;
   check_ok(hooke_state_create(system, &initial));
@@ -315,7 +315,7 @@ static void parts_follow_what_is_listed(void **state) {
   assert_string_equal(hooke_system_group_name(system, "springs", 3), "cloth1.structural");
   int64_t ends[20];
   const int64_t wanted[] = {1, 2, 4, 8, 0, 5, 2, 3, 3, 4, 2, 4, 5, 6, 7, 8, 5, 7, 6, 8};
-  assert_int_equal(hooke_system_spring_count(system), 10);
+  assert_int_equal(hooke_system_count(system, "springs"), 10);
   check_ok(hooke_system_members(system, "springs", ends, NULL, NULL, NULL));
   assert_memory_equal(ends, wanted, sizeof ends);
   double length[10];
@@ -519,8 +519,8 @@ static void files_of_every_length_are_read_whole(void **state) {
     assert_int_equal(fprintf(file, "%s%*s%s", before, gap, "", after), lengths[k]);
     assert_int_equal(fclose(file), 0);
     check_ok(hooke_scene_load(path, NULL, &scene));
-    assert_int_equal(strlen(hooke_scene_text(scene)), lengths[k]);
-    assert_string_equal(hooke_scene_text(scene) + lengths[k] - (int64_t)sizeof after + 1, after);
+    assert_int_equal(strlen(hooke_scene_text(scene, "text")), lengths[k]);
+    assert_string_equal(hooke_scene_text(scene, "text") + lengths[k] - (int64_t)sizeof after + 1, after);
     check_ok(hooke_scene_commit(scene));
     assert_int_equal(hooke_system_particle_count(hooke_scene_system(scene)), 1);
     hooke_scene_destroy(scene);

@@ -28,7 +28,7 @@ static struct one one_of(const struct hk_spring *spring) {
 }
 
 static void check_batches(const hooke_system *system) {
-  const int64_t count = hooke_system_spring_count(system);
+  const int64_t count = hooke_system_count(system, "springs");
   struct one *wanted = new_block(count, (int64_t)sizeof *wanted),
              *found = new_block(count, (int64_t)sizeof *found);
   int64_t at = 0, damped = 0;

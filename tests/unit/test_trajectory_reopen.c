@@ -127,7 +127,7 @@ static void check_frames(const struct fixture *f, int64_t count, const char *sta
   hooke_record *record;
   hooke_state *state = start_state(f->system);
   check_ok(hooke_record_open(f->path, &record));
-  assert_int_equal(hooke_record_frame_count(record), count);
+  assert_int_equal(hooke_record_count(record, "frames"), count);
   assert_string_equal(hooke_record_text(record, "status"), status);
   for (int64_t k = 0; k < count; k++) {
     check_ok(hooke_record_read(record, k, state));
@@ -194,7 +194,7 @@ static void a_killed_run_ends_as_if_it_never_was(void **state) {
       be_killed(f, kept < FRAMES ? kept + 1 : kept, kept); /* again, soon after it continued */
       check_frames(f, killed > kept ? killed : kept < FRAMES ? kept + 1 : kept, "running");
       hooke_trajectory *trajectory = reopen(f, kept);
-      assert_string_equal(hooke_trajectory_run(trajectory), run);
+      assert_string_equal(hooke_trajectory_text(trajectory, "run"), run);
       write_frames(f, trajectory, kept, FRAMES);
       check_status(hooke_trajectory_write(trajectory, 0, f->frame[0]), HOOKE_BAD_CALL);
       check_ok(hooke_trajectory_close(trajectory, HOOKE_OK));
@@ -203,7 +203,7 @@ static void a_killed_run_ends_as_if_it_never_was(void **state) {
       size_t size, whole_size;
       trajectory = create(f, f->other);
       write_frames(f, trajectory, 0, FRAMES);
-      memcpy(run, hooke_trajectory_run(trajectory), 33);
+      memcpy(run, hooke_trajectory_text(trajectory, "run"), 33);
       check_ok(hooke_trajectory_close(trajectory, HOOKE_OK));
       char *bytes = bytes_of(f->path, &size), *whole = bytes_of(f->other, &whole_size);
       assert_int_equal(size, whole_size);
@@ -225,7 +225,7 @@ static void a_run_that_ended_early_goes_on(void **state) {
     assert_int_equal(planned(f), 6);
     read_run(f, run);
     hooke_trajectory *trajectory = reopen(f, kept);
-    assert_string_equal(hooke_trajectory_run(trajectory), run);
+    assert_string_equal(hooke_trajectory_text(trajectory, "run"), run);
     assert_int_equal(planned(f), FRAMES);
     check_frames(f, 6, "running");
     write_frames(f, trajectory, kept, FRAMES);
@@ -389,9 +389,9 @@ static void check_goes_on(const struct fixture *f, const char *origin) {
   hooke_trajectory *trajectory = NULL;
   check_ok(hooke_trajectory_resume(f->path, f->system, integrator, state, &trajectory));
   assert_non_null(trajectory);
-  if (strncmp(hooke_trajectory_origin(trajectory), origin, strlen(origin)) != 0 ||
-      strstr(hooke_trajectory_origin(trajectory), "there is no checkpoint") == NULL)
-    check_failed("it goes on from %s", hooke_trajectory_origin(trajectory));
+  if (strncmp(hooke_trajectory_text(trajectory, "origin"), origin, strlen(origin)) != 0 ||
+      strstr(hooke_trajectory_text(trajectory, "origin"), "there is no checkpoint") == NULL)
+    check_failed("it goes on from %s", hooke_trajectory_text(trajectory, "origin"));
   check_ok(hooke_integrator_on_frame(integrator, write_frame, trajectory));
   check_ok(hooke_integrator_resume(integrator, state));
   check_same_bits(3 * N, hooke_state_position(state), hooke_state_position(f->frame[FRAMES - 1]));
@@ -526,7 +526,7 @@ static void it_is_not_in_this_build(void **unused) {
   assert_null(trajectory);
   check_status(hooke_trajectory_sync(NULL), HOOKE_NOT_BUILT);
   check_status(hooke_record_check(NULL, 0), HOOKE_NOT_BUILT);
-  assert_string_equal(hooke_trajectory_run(NULL), "");
+  assert_string_equal(hooke_trajectory_text(NULL, "run"), "");
   hooke_integrator_destroy(integrator);
   hooke_system_destroy(system);
 }

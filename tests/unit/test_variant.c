@@ -60,9 +60,9 @@ static void a_variant_that_changes_nothing_has_the_same_bits(void **state) {
     struct hk_variant variant = nothing_of(scene.system);
     struct hk_variant_map map;
     hooke_system *made = make(scene.system, &variant, &map);
-    const int64_t springs = hooke_system_spring_count(scene.system);
+    const int64_t springs = hooke_system_count(scene.system, "springs");
     assert_int_equal(hooke_system_particle_count(made), hooke_system_particle_count(scene.system));
-    assert_int_equal(hooke_system_spring_count(made), springs);
+    assert_int_equal(hooke_system_count(made, "springs"), springs);
     assert_int_equal(hooke_system_group_count(made, "springs"),
                      hooke_system_group_count(scene.system, "springs"));
     for (int64_t p = 0; p < hooke_system_particle_count(made); p++)
@@ -156,7 +156,7 @@ static void what_is_left_out_is_out(void **state) {
   assert_int_equal(hooke_system_count(made, "forces"), 1);
   double gamma[128];
   check_ok(hooke_system_members(made, "springs", NULL, NULL, gamma, NULL));
-  for (int64_t k = 0; k < hooke_system_spring_count(made); k++)
+  for (int64_t k = 0; k < hooke_system_count(made, "springs"); k++)
     assert_true(gamma[k] == 0.0);
   release(&variant, &map, made);
 

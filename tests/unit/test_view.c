@@ -103,9 +103,9 @@ static int tear_down(void **state) {
   return result;
 }
 
-static hooke_view *open_view(const struct fixture *f, double frames, hooke_record **record) {
+static hooke_measurement *open_view(const struct fixture *f, double frames, hooke_record **record) {
   hooke_options *options;
-  hooke_view *view;
+  hooke_measurement *view;
   check_ok(hooke_record_open(f->path, record));
   check_ok(hooke_options_create("view", &options));
   if (frames > 0) check_ok(hooke_options_set_number(options, "frames", frames));
@@ -114,8 +114,8 @@ static hooke_view *open_view(const struct fixture *f, double frames, hooke_recor
   return view;
 }
 
-static void close_view(hooke_view *view, hooke_record *record) {
-  hooke_view_destroy(view);
+static void close_view(hooke_measurement *view, hooke_record *record) {
+  hooke_measurement_destroy(view);
   hooke_record_close(record);
 }
 
@@ -133,9 +133,9 @@ static void a_frame_is_packed(void **state) {
     struct hk_view_box box;
     uint8_t bytes[6 * PARTICLES + 3];
     write_file(f, far[k], 1e-3);
-    hooke_view *view = open_view(f, 0, &record);
-    assert_int_equal(hk_view_frame_bytes(view), sizeof bytes);
-    check_ok(hk_view_pack(view, 0, bytes, &box));
+    hooke_measurement *view = open_view(f, 0, &record);
+    assert_int_equal(hk_view_frame_bytes(view->object), sizeof bytes);
+    check_ok(hk_view_pack(view->object, 0, bytes, &box));
     const double q[] = {0, 0, 0, 3, 0, 0, 3, 0.5, 0, 0, 0, far[k]};
     for (int i = 0; i < 3 * PARTICLES; i++)
       check_close(coordinate(bytes, &box, i), q[i],
@@ -143,7 +143,7 @@ static void a_frame_is_packed(void **state) {
     assert_int_equal(bytes[6 * PARTICLES], 254);
     assert_int_equal(bytes[6 * PARTICLES + 1], 255);
     assert_int_equal(bytes[6 * PARTICLES + 2], 0);
-    check_close(hooke_view_number(view, "strain"), 0.5, 1e-15);
+    check_close(hooke_measurement_number(view, "view", 0, "strain"), 0.5, 1e-15);
     close_view(view, record);
   }
 }
@@ -154,12 +154,13 @@ static void frames_are_thinned(void **state) {
   const int most[] = {2, 3, 7, 34, 51, 100, 101, 1000};
   for (int k = 0; k < (int)(sizeof most / sizeof most[0]); k++) {
     hooke_record *record;
-    hooke_view *view = open_view(f, most[k], &record);
-    const int64_t count = (int64_t)hooke_view_number(view, "frames");
+    hooke_measurement *view = open_view(f, most[k], &record);
+    const struct hk_view *shown = view->object;
+    const int64_t count = (int64_t)hooke_measurement_number(view, "view", 0, "frames");
     check_between((double)count, 2, most[k]);
-    assert_int_equal(view->frame[0], 0);
-    assert_int_equal(view->frame[count - 1], 100);
-    assert_true(view->frame[count - 2] < 100);
+    assert_int_equal(shown->frame[0], 0);
+    assert_int_equal(shown->frame[count - 1], 100);
+    assert_true(shown->frame[count - 2] < 100);
     if (most[k] > 100) assert_int_equal(count, 101);
     if (most[k] == 51) assert_int_equal(count, 51);
     close_view(view, record);
@@ -170,11 +171,11 @@ static void views_are_refused_in_words(void **state) {
   const struct fixture *f = *state;
   hooke_record *record;
   hooke_options *options;
-  hooke_view *view;
+  hooke_measurement *view;
   write_file(f, 1.0, 0.01);
   check_ok(hooke_record_open(f->path, &record));
   check_ok(hooke_options_create("run", &options));
-  check_status(hooke_view_create(record, options, &view), HOOKE_BAD_CALL);
+  check_status(hooke_view_create(record, options, &view), HOOKE_BAD_VALUE);
   assert_null(view);
   hooke_options_destroy(options);
   check_ok(hooke_options_create("view", &options));
@@ -184,13 +185,15 @@ static void views_are_refused_in_words(void **state) {
   check_message("size: 0.5 MB are too few");
   hooke_options_destroy(options);
   check_ok(hooke_view_create(record, NULL, &view));
-  assert_true(isnan(hooke_view_number(view, "bytes")));
-  assert_true(isnan(hooke_view_number(view, "colour")));
-  check_status(hooke_view_write(view, "/nowhere/page.html", NULL), HOOKE_IO_FAILED);
-  check_ok(hooke_view_write(view, f->page, "one </script> \"two\""));
-  check_between(hooke_view_number(view, "bytes"), 1e6, 2e6);
+  assert_true(isnan(hooke_measurement_number(view, "view", 0, "bytes")));
+  assert_true(isnan(hooke_measurement_number(view, "view", 0, "colour")));
+  check_ok(hooke_measurement_run(view, NULL));
+  check_status(hooke_measurement_write(view, "/nowhere/page"), HOOKE_IO_FAILED);
+  check_ok(hooke_measurement_label(view, "title", "one </script> \"two\""));
+  check_ok(hooke_measurement_write(view, f->page));
+  check_between(hooke_measurement_number(view, "view", 0, "bytes"), 1e6, 2e6);
   close_view(view, record);
-  hooke_view_destroy(NULL);
+  hooke_measurement_destroy(NULL);
 }
 
 /* Beside the trajectory it replaces an older companion, and nothing else. */
@@ -247,7 +250,7 @@ int main(void) {
 
 static void views_are_not_in_this_build(void **unused) {
   (void)unused;
-  hooke_view *view;
+  hooke_measurement *view;
   check_status(hooke_view_create(NULL, NULL, &view), HOOKE_NOT_BUILT);
   assert_null(view);
   check_message("three.js");

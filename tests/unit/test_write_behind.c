@@ -138,7 +138,7 @@ static void the_file_is_the_same(void **unused) {
 static int64_t frames_in(const char *path) {
   hooke_record *record;
   check_ok(hooke_record_open(path, &record));
-  const int64_t count = hooke_record_frame_count(record);
+  const int64_t count = hooke_record_count(record, "frames");
   hooke_record_close(record);
   return count;
 }

@@ -210,7 +210,7 @@ static void check_same_choice(const hooke_system *found, const hooke_system *exp
   assert_int_equal(found->bending.count, expected->bending.count);
   assert_int_equal(found->bending.run_count, expected->bending.run_count);
   check_same_lanes(found, expected);
-  assert_int_equal(hooke_system_spring_count(found), hooke_system_spring_count(expected));
+  assert_int_equal(hooke_system_count(found, "springs"), hooke_system_count(expected, "springs"));
   assert_int_equal(hooke_system_count(found, "idle"), hooke_system_count(expected, "idle"));
 }
 
@@ -346,11 +346,11 @@ static void numbers_are_of_what_is_there(void **unused) {
   check_ok(hooke_system_add_springs(system, "none", 1, last, options));
   hooke_options_destroy(options);
   check_ok(hooke_system_pin(system, 2, pinned));
-  assert_int_equal(hooke_system_spring_count(system), 3);
+  assert_int_equal(hooke_system_count(system, "springs"), 3);
   assert_int_equal(hooke_system_count(system, "dropped_springs"), 0);
   assert_int_equal(hooke_system_count(system, "idle"), 0);
   check_ok(hooke_system_commit(system));
-  assert_int_equal(hooke_system_spring_count(system), 1);
+  assert_int_equal(hooke_system_count(system, "springs"), 1);
   assert_int_equal(hooke_system_count(system, "dropped_springs"), 2);
   assert_int_equal(hooke_system_group_count(system, "springs"), 2);
   assert_int_equal(hooke_system_group_size(system, "springs", 0), 1);

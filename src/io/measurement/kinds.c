@@ -1,8 +1,10 @@
 /* The kinds of measurements by name, and their tables. */
 #include "core/status.h"
 #include "io/measurement/measurement_file.h"
+#include "io/page/view.h"
 #include "io/verify/verify.h"
 #include "measure/cost/cost.h"
+#include "measure/estimate/estimate.h"
 #include "measure/limit/limit.h"
 #include "measure/needs/needs.h"
 #include "measure/study/study.h"
@@ -12,8 +14,8 @@
 #include <string.h>
 
 static const struct hk_measurement_kind *const kinds[] = {
-    &hk_study_kind,      &hk_limit_kind, &hk_needs_kind,  &hk_cost_kind,
-    &hk_comparison_kind, &hk_why_kind,   &hk_verify_kind, NULL,
+    &hk_study_kind, &hk_limit_kind,  &hk_needs_kind,    &hk_cost_kind, &hk_comparison_kind,
+    &hk_why_kind,   &hk_verify_kind, &hk_estimate_kind, &hk_view_kind, NULL,
 };
 enum { KINDS = sizeof kinds / sizeof kinds[0] - 1 };
 

@@ -7,8 +7,8 @@ static const double MOVE_SCALE = 1e4; /* digits of displacements relative to the
 
 /* Samples the remaining springs evenly by number; `moves`, by particle: it moves in the mode. */
 static void choose(struct hk_picture *p, const struct hk_limit *limit, const char *moves) {
-  for (int64_t k = 0; k < limit->blame.spring_count; k++)
-    hk_picture_take(p, limit->blame.spring[k].spring);
+  for (int64_t k = 0; k < limit->participation.spring_count; k++)
+    hk_picture_take(p, limit->participation.spring[k].spring);
   for (int64_t k = 0; k < p->spring_count && p->drawn_count < HOOKE_PICTURE_SPRINGS / 2; k++) {
     if (moves[p->ends[2 * k]] || moves[p->ends[2 * k + 1]]) hk_picture_take(p, k);
   }
@@ -25,8 +25,8 @@ static void add(struct hk_text *data, struct hk_picture *p, const struct hk_limi
     hk_picture_add_particles(data, p, list);
     hk_picture_add_vectors(data, "position", limit->q, list, p->shown_count,
                            hk_picture_scale(limit->q, list, p->shown_count));
-    hk_picture_add_vectors(data, "move", hk_limit_blamed(limit) ? limit->shape : NULL, list, p->shown_count,
-                           MOVE_SCALE);
+    hk_picture_add_vectors(data, "move", hk_limit_limiting_row(limit) ? limit->shape : NULL, list,
+                           p->shown_count, MOVE_SCALE);
   } else {
     data->status = HOOKE_NO_MEMORY;
   }
@@ -39,8 +39,8 @@ void hk_limit_picture_add(struct hk_text *data, const struct hk_limit *limit) {
   int32_t status = hk_picture_create(limit->system, &p);
   char *moves = hk_new(hooke_system_particle_count(limit->system), 1);
   if (status == HOOKE_OK && moves == NULL) status = HOOKE_NO_MEMORY;
-  for (int64_t k = 0; k < limit->blame.particle_count && status == HOOKE_OK; k++)
-    moves[limit->blame.particle[k].particle] = 1;
+  for (int64_t k = 0; k < limit->participation.particle_count && status == HOOKE_OK; k++)
+    moves[limit->participation.particle[k].particle] = 1;
   if (status == HOOKE_OK) {
     choose(&p, limit, moves);
     add(data, &p, limit);

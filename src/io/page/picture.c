@@ -8,7 +8,7 @@ static const double POSITION_DIGITS = 6.0; /* relative to the extent */
 
 int32_t hk_picture_create(const hooke_system *system, struct hk_picture *picture) {
   *picture = (struct hk_picture){.system = system};
-  picture->spring_count = hooke_system_spring_count(system);
+  picture->spring_count = hooke_system_count(system, "springs");
   picture->ends = hk_new(2 * picture->spring_count, sizeof *picture->ends);
   picture->drawn = hk_new(picture->spring_count, 1);
   picture->shut = hk_new(picture->spring_count, 1);

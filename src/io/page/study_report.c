@@ -21,8 +21,8 @@ static int64_t first_frame(int64_t frames, int64_t point) {
 }
 
 static void add_times(struct hk_text *text, const hooke_measurement *m) {
-  const double *time = hooke_measurement_series(m, "reference", 0, "time");
-  const int64_t frames = hooke_measurement_series_count(m, "reference", 0, "time");
+  int64_t frames;
+  const double *time = hooke_measurement_series(m, "reference", 0, "time", &frames);
   hk_text_open(text, "time", '[');
   for (int64_t k = 0; time && k < point_count(frames); k++)
     hk_text_number(text, NULL, time[first_frame(frames, k + 1) - 1]);
@@ -30,8 +30,8 @@ static void add_times(struct hk_text *text, const hooke_measurement *m) {
 }
 
 static void add_curve(struct hk_text *text, const hooke_measurement *m, int64_t row, const char *column) {
-  const double *value = hooke_measurement_series(m, "rows", row, column);
-  const int64_t frames = hooke_measurement_series_count(m, "rows", row, column);
+  int64_t frames;
+  const double *value = hooke_measurement_series(m, "rows", row, column, &frames);
   hk_text_open(text, column, '[');
   for (int64_t k = 0; value && k < point_count(frames); k++) {
     double largest = NAN;

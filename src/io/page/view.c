@@ -1,7 +1,6 @@
 /* Trajectories as pages: selection of the contents. */
 #include "io/page/view.h"
 
-#include "core/handle.h"
 #include "core/memory.h"
 #include "core/table/option.h"
 #include "core/status.h"
@@ -11,7 +10,7 @@
 #include "io/file/data_folder.h"
 
 #include <math.h>
-#include <string.h>
+#include <stddef.h>
 
 static const struct hk_option_row rows[] = {
     {.name = "frames",
@@ -36,17 +35,17 @@ static const struct hk_option_row rows[] = {
      .fallback = "50",
      .doc = "size of the page at most, which frames are left out for"},
 };
-const struct hk_option_table hk_view_options = {"view", HOOKE_OPTION_ROWS(rows)};
+static const struct hk_option_table view_options = {"view", HOOKE_OPTION_ROWS(rows)};
 
 const char *const hk_view_energy[HOOKE_VIEW_ENERGIES] = {"kinetic", "potential", "total"};
 
 /* ---- reading ---- */
 
-static int32_t refuse(const struct hooke_view *view, const char *what) {
+static int32_t refuse(const struct hk_view *view, const char *what) {
   return hk_fail(HOOKE_BAD_VALUE, NULL, "%s: %s", hk_record_path(view->record), what);
 }
 
-int32_t hk_view_read(const struct hooke_view *view, const char *dataset, int64_t frame, int64_t count,
+int32_t hk_view_read(const struct hk_view *view, const char *dataset, int64_t frame, int64_t count,
                      int64_t columns, double **values) {
   int64_t there, wide;
   const char *path = hk_record_path(view->record);
@@ -61,7 +60,7 @@ int32_t hk_view_read(const struct hooke_view *view, const char *dataset, int64_t
 }
 
 /* The springs of the file, with existing ends. */
-static int32_t read_ends(struct hooke_view *view, double **ends) {
+static int32_t read_ends(struct hk_view *view, double **ends) {
   int64_t wide = 0;
   int32_t status = hk_array_read(hk_record_path(view->record), "/connectivity/springs", 0, 0, ends,
                                  &view->springs_there, &wide);
@@ -74,7 +73,7 @@ static int32_t read_ends(struct hooke_view *view, double **ends) {
   return status;
 }
 
-static int32_t read_species(struct hooke_view *view, double **species) {
+static int32_t read_species(struct hk_view *view, double **species) {
   int64_t wide = 0;
   const int32_t status = hk_array_read(hk_record_path(view->record), "/particles/all/species", 0, 0, species,
                                        &view->particles_there, &wide);
@@ -82,11 +81,11 @@ static int32_t read_species(struct hooke_view *view, double **species) {
                                          : status;
 }
 
-static int32_t read_columns(struct hooke_view *view) {
+static int32_t read_columns(struct hk_view *view) {
   static const char *const names[HOOKE_VIEW_ENERGIES] = {"/observables/kinetic_energy/value",
                                                          "/observables/potential_energy/value",
                                                          "/observables/total_energy/value"};
-  view->frames_there = hooke_record_frame_count(view->record);
+  view->frames_there = hooke_record_count(view->record, "frames");
   int32_t status = hk_view_read(view, "/particles/all/position/time", -1, view->frames_there, 1, &view->time);
   for (int k = 0; k < HOOKE_VIEW_ENERGIES && status == HOOKE_OK; k++)
     status = hk_view_read(view, names[k], -1, view->frames_there, 1, &view->energy[k]);
@@ -94,7 +93,7 @@ static int32_t read_columns(struct hooke_view *view) {
 }
 
 /* Old files without rest lengths get those of their first frame. */
-static int32_t read_rest_lengths(struct hooke_view *view, const double *ends) {
+static int32_t read_rest_lengths(struct hk_view *view, const double *ends) {
   int32_t status = hk_view_read(view, "/hooke/rest_length", -1, view->springs_there, 1, &view->rest_length);
   if (status == HOOKE_OK || status == HOOKE_NO_MEMORY) return status;
   double *q = NULL;
@@ -118,7 +117,7 @@ static int64_t stride_for(int64_t count, int64_t room) {
 }
 
 /* Particles in order: the ends of the springs shown, constrained ones, and those without any spring. */
-static int32_t choose_particles(struct hooke_view *view, const double *ends, const double *species) {
+static int32_t choose_particles(struct hk_view *view, const double *ends, const double *species) {
   const int64_t all = view->particles_there, room = (int64_t)hooke_options_number(view->options, "springs");
   char *tied = hk_new(all, 1);
   int64_t *place = hk_new(all, sizeof *place), loose = 0;
@@ -147,7 +146,7 @@ static int32_t choose_particles(struct hooke_view *view, const double *ends, con
   return status;
 }
 
-static int32_t choose_springs(struct hooke_view *view) {
+static int32_t choose_springs(struct hk_view *view) {
   const int64_t room = (int64_t)hooke_options_number(view->options, "springs");
   view->spring_stride = stride_for(view->springs_there, room);
   view->springs = (view->springs_there + view->spring_stride - 1) / view->spring_stride;
@@ -160,7 +159,7 @@ static int32_t choose_springs(struct hooke_view *view) {
 }
 
 /* Size of the page without its frames, including words. */
-static int32_t measure_page(const struct hooke_view *view, double *bytes) {
+static int32_t measure_page(const struct hk_view *view, double *bytes) {
   static const char *const parts[] = {"view.html",       "view.css",     "view.js",      "view_scene.js",
                                       "view_surface.js", "view_save.js", "view_pick.js", "three.js",
                                       "three_orbit.js",  "chart.js"};
@@ -174,7 +173,7 @@ static int32_t measure_page(const struct hooke_view *view, double *bytes) {
 }
 
 /* All frames, or as few as the option says and the size allows: every k-th and the last. */
-static int32_t choose_frames(struct hooke_view *view) {
+static int32_t choose_frames(struct hk_view *view) {
   enum { NUMBERS_OF_FRAME = 300 }; /* bytes, as text */
   double fixed;
   const int32_t status = measure_page(view, &fixed);
@@ -201,7 +200,7 @@ static int32_t choose_frames(struct hooke_view *view) {
   return view->frame ? HOOKE_OK : HOOKE_NO_MEMORY;
 }
 
-static int32_t choose(struct hooke_view *view) {
+static int32_t choose(struct hk_view *view) {
   double *ends = NULL, *species = NULL;
   int32_t status = read_species(view, &species);
   if (status == HOOKE_OK) status = read_ends(view, &ends);
@@ -225,41 +224,33 @@ static int32_t check_built(void) {
       "libjs-chart.js, then configure again), and this build of the library is without");
 }
 
-static int32_t check_record(const struct hooke_view *view) {
+static int32_t check_record(const struct hk_view *view) {
   if (!hk_record_is_run(view->record)) {
     return refuse(view,
                   "holds several runs, and a view shows one; write the one to look at with 'hooke run -o'");
   }
-  return hooke_record_frame_count(view->record) > 0 ? HOOKE_OK : refuse(view, "has no frames yet");
+  return hooke_record_count(view->record, "frames") > 0 ? HOOKE_OK : refuse(view, "has no frames yet");
 }
 
-int32_t hooke_view_create(const hooke_record *record, const hooke_options *options, hooke_view **out) {
-  *out = NULL;
-  int32_t status = check_built();
-  if (status != HOOKE_OK) return status;
-  struct hooke_view *view = hk_handle_new("hooke_view", sizeof *view);
-  if (view == NULL) return HOOKE_NO_MEMORY;
-  view->record = record;
+/* Everything is selected here, so that a page too large is refused at once. */
+static int32_t create(hooke_measurement *m) {
+  struct hk_view *view = m->object;
+  view->options = m->options;
   view->bytes = NAN;
-  if (options && hk_options_table(options) != &hk_view_options)
-    status = hk_fail(HOOKE_BAD_CALL, "options",
-                     "are not those of a view; make them with hooke_options_create(\"view\", ...)");
-  if (status == HOOKE_OK) status = check_record(view);
-  if (status == HOOKE_OK)
-    status = options ? hooke_options_copy(options, &view->options)
-                     : hk_options_create(&hk_view_options, &view->options);
+  int32_t status = check_record(view);
   if (status == HOOKE_OK) status = choose(view);
   if (status == HOOKE_OK) status = hk_view_find_strain(view);
-  if (status == HOOKE_OK)
-    *out = view;
-  else
-    hooke_view_destroy(view);
+  m->has_run = status == HOOKE_OK;
   return status;
 }
 
-void hooke_view_destroy(hooke_view *view) {
+static int32_t run(hooke_measurement *m, hooke_state *state) {
+  return state ? hk_measurement_require_fresh(m, state) : HOOKE_OK;
+}
+
+static void destroy(void *object) {
+  struct hk_view *view = object;
   if (view == NULL) return;
-  hooke_options_destroy(view->options);
   hk_free(view->rest_length);
   hk_free(view->spring);
   hk_free(view->end);
@@ -269,33 +260,26 @@ void hooke_view_destroy(hooke_view *view) {
   hk_free(view->time);
   for (int k = 0; k < HOOKE_VIEW_ENERGIES; k++)
     hk_free(view->energy[k]);
-  hk_handle_free(view);
+  hk_free(view);
 }
 
-double hooke_view_number(const hooke_view *view, const char *what) {
-  const struct {
-    const char *name;
-    double value;
-  } numbers[] = {
-      {"frames", (double)view->frames},
-      {"frames_there", (double)view->frames_there},
-      {"damaged", (double)view->damaged},
-      {"frame_stride", (double)view->frame_stride},
-      {"springs", (double)view->springs},
-      {"springs_there", (double)view->springs_there},
-      {"spring_stride", (double)view->spring_stride},
-      {"particles", (double)view->particles},
-      {"particles_there", (double)view->particles_there},
-      {"time_first", view->time[0]},
-      {"time_last", view->time[view->frames_there - 1]},
-      {"strain", view->strain},
-      {"strain_low", view->strain_low},
-      {"strain_high", view->strain_high},
-      {"bytes", view->bytes},
-  };
-  for (size_t k = 0; k < sizeof numbers / sizeof numbers[0]; k++) {
-    if (strcmp(numbers[k].name, what) == 0)
-      return isfinite(numbers[k].value) ? numbers[k].value : (double)NAN;
-  }
-  return NAN;
+int32_t hooke_view_create(const hooke_record *record, const hooke_options *options, hooke_measurement **out) {
+  *out = NULL;
+  const int32_t status = check_built();
+  if (status != HOOKE_OK) return status;
+  struct hk_view *view = hk_new(1, sizeof *view);
+  if (view == NULL) return HOOKE_NO_MEMORY;
+  view->record = record;
+  return hk_measurement_create(&hk_view_kind, view, NULL, NULL, options, out);
 }
+
+static const struct hk_table *const tables[] = {&hk_view_table};
+const struct hk_measurement_kind hk_view_kind = {.name = "view",
+                                                 .options = &view_options,
+                                                 .made_by = "hooke_view_create()",
+                                                 .tables = tables,
+                                                 .table_count = 1,
+                                                 .create = create,
+                                                 .run = run,
+                                                 .write = hk_view_write,
+                                                 .destroy = destroy};

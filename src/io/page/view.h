@@ -2,12 +2,13 @@
  *
  *   view.c           selection
  *   view_frames.c    a frame as bytes
- *   view_page.c      the page */
+ *   view_page.c      the page
+ *   view_tables.c    the numbers of a view */
 #ifndef HOOKE_IO_PAGE_VIEW_H
 #define HOOKE_IO_PAGE_VIEW_H
 
-#include "core/table/option.h"
 #include "hooke/trajectory.h"
+#include "measure/measurement.h"
 
 enum { HOOKE_VIEW_ENERGIES = 3 };
 extern const char *const hk_view_energy[HOOKE_VIEW_ENERGIES]; /* "kinetic", ... */
@@ -15,11 +16,13 @@ extern const char *const hk_view_energy[HOOKE_VIEW_ENERGIES]; /* "kinetic", ... 
 /* Mark of a particle. */
 enum { HOOKE_VIEW_FREE, HOOKE_VIEW_PINNED, HOOKE_VIEW_DRIVEN, HOOKE_VIEW_LOOSE };
 
-extern const struct hk_option_table hk_view_options;
+extern const struct hk_measurement_kind hk_view_kind;
+extern const struct hk_table hk_view_table; /* of one row: the numbers of a view */
 
-struct hooke_view {
+/* The object of a measurement of kind "view". */
+struct hk_view {
   const hooke_record *record;
-  hooke_options *options;
+  const hooke_options *options; /* of the measurement */
   int64_t particles_there, springs_there, loose_there, frames_there;
   double *rest_length; /* [springs of the file]; of the first frame if the file has none */
   int32_t by_first_frame;
@@ -38,7 +41,7 @@ struct hooke_view {
 };
 
 /* A column of numbers, or `columns` of them, from the file; the caller frees it. */
-int32_t hk_view_read(const struct hooke_view *view, const char *dataset, int64_t frame, int64_t rows,
+int32_t hk_view_read(const struct hk_view *view, const char *dataset, int64_t frame, int64_t rows,
                      int64_t columns, double **values);
 
 /* ---- frames as bytes ---- */
@@ -48,17 +51,22 @@ struct hk_view_box {
   double low[3], high[3];
 };
 
-int64_t hk_view_frame_bytes(const struct hooke_view *view);
+int64_t hk_view_frame_bytes(const struct hk_view *view);
 
 /* Coordinates of the particles as 16-bit little-endian numbers, x y z in turn, then a byte for the strain of
  * each spring: 0 to 254 for -strain to strain, 255 for a spring without rest length. */
-int32_t hk_view_pack(const struct hooke_view *view, int64_t frame, uint8_t *bytes, struct hk_view_box *box);
+int32_t hk_view_pack(const struct hk_view *view, int64_t frame, uint8_t *bytes, struct hk_view_box *box);
 
 /* Strain of the k-th spring shown, at positions q; NaN if it has no rest length. */
-double hk_view_strain(const struct hooke_view *view, const double *q, int64_t k);
+double hk_view_strain(const struct hk_view *view, const double *q, int64_t k);
 
 /* Finds `strain`, strain_low and strain_high, and leaves damaged frames out. HOOKE_BAD_VALUE if none is
  * whole. */
-int32_t hk_view_find_strain(struct hooke_view *view);
+int32_t hk_view_find_strain(struct hk_view *view);
+
+/* ---- the page ---- */
+
+/* Writes it, with the label "title" as its heading. */
+int32_t hk_view_write(const hooke_measurement *measurement, const char *path);
 
 #endif

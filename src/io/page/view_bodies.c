@@ -75,7 +75,7 @@ static void add_groups(struct hk_text *data, const hooke_system *system, const d
 }
 
 void hk_view_bodies_add(struct hk_text *data, const hooke_system *system) {
-  const int64_t count = hooke_system_spring_count(system);
+  const int64_t count = hooke_system_count(system, "springs");
   double *stiffness = hk_new(2 * count, sizeof *stiffness);
   int32_t status = stiffness ? HOOKE_OK : HOOKE_NO_MEMORY;
   if (status == HOOKE_OK)

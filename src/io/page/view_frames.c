@@ -15,11 +15,11 @@ static const double SPRING_SHARE = 0.98, FRAME_SHARE = 0.9, WIDENED = 8.0;
 
 static const char position[] = "/particles/all/position/value";
 
-int64_t hk_view_frame_bytes(const struct hooke_view *view) {
+int64_t hk_view_frame_bytes(const struct hk_view *view) {
   return 6 * view->particles + view->springs;
 }
 
-double hk_view_strain(const struct hooke_view *view, const double *q, int64_t k) {
+double hk_view_strain(const struct hk_view *view, const double *q, int64_t k) {
   const double rest = view->rest_length[view->spring[k]];
   const double *a = q + 3 * view->particle[view->end[2 * k]];
   const double *b = q + 3 * view->particle[view->end[2 * k + 1]];
@@ -29,7 +29,7 @@ double hk_view_strain(const struct hooke_view *view, const double *q, int64_t k)
 
 /* ---- the box ---- */
 
-static void find_box(const struct hooke_view *view, const double *q, struct hk_view_box *box) {
+static void find_box(const struct hk_view *view, const double *q, struct hk_view_box *box) {
   for (int axis = 0; axis < 3; axis++) {
     double low = INFINITY, high = -INFINITY;
     for (int64_t k = 0; k < view->particles; k++) {
@@ -64,7 +64,7 @@ static double round_up(double value) {
   return (head <= 1.0 ? 1.0 : head <= 2.0 ? 2.0 : head <= 5.0 ? 5.0 : 10.0) * power;
 }
 
-static double largest_of_most(struct hooke_view *view, const double *q, double *sizes) {
+static double largest_of_most(struct hk_view *view, const double *q, double *sizes) {
   const int64_t stride = 1 + (view->springs - 1) / LOOKED_AT;
   int64_t count = 0;
   for (int64_t k = 0; k < view->springs; k++) {
@@ -77,7 +77,7 @@ static double largest_of_most(struct hooke_view *view, const double *q, double *
   return quantile(sizes, count, SPRING_SHARE);
 }
 
-static double extent_of(const struct hooke_view *view, const double *q) {
+static double extent_of(const struct hk_view *view, const double *q) {
   struct hk_view_box box;
   double extent = 0.0;
   find_box(view, q, &box);
@@ -86,7 +86,7 @@ static double extent_of(const struct hooke_view *view, const double *q) {
   return extent;
 }
 
-static int blew_up(const struct hooke_view *view) {
+static int blew_up(const struct hk_view *view) {
   const char *status = hooke_record_text(view->record, "status");
   return strcmp(status, "finished") != 0 && strcmp(status, "stopped") != 0 && strcmp(status, "running") != 0;
 }
@@ -97,13 +97,13 @@ struct strains {
   int64_t count;
 };
 
-static void take_frame(struct hooke_view *view, const double *q, int64_t k, struct strains *s) {
+static void take_frame(struct hk_view *view, const double *q, int64_t k, struct strains *s) {
   const double most = largest_of_most(view, q, s->sizes), extent = extent_of(view, q);
   if (k == 0 && extent > 0.0 && blew_up(view)) s->widest = WIDENED * extent;
   if (extent <= s->widest) s->largest[s->count++] = most;
 }
 
-static int32_t look_at_frames(struct hooke_view *view, struct strains *s) {
+static int32_t look_at_frames(struct hk_view *view, struct strains *s) {
   int64_t whole = 0;
   int32_t status = HOOKE_OK;
   for (int64_t k = 0; k < view->frames && status == HOOKE_OK; k++) {
@@ -125,7 +125,7 @@ static int32_t look_at_frames(struct hooke_view *view, struct strains *s) {
   return status;
 }
 
-int32_t hk_view_find_strain(struct hooke_view *view) {
+int32_t hk_view_find_strain(struct hk_view *view) {
   struct strains s = {.widest = INFINITY};
   s.sizes = hk_new(LOOKED_AT + 1, sizeof *s.sizes);
   s.largest = hk_new(view->frames, sizeof *s.largest);
@@ -153,13 +153,13 @@ static uint32_t place_in(double x, double low, double high) {
   return share >= WIDEST ? WIDEST : share > 0.0 ? (uint32_t)share : 0;
 }
 
-static uint8_t colour_of(const struct hooke_view *view, double strain) {
+static uint8_t colour_of(const struct hk_view *view, double strain) {
   if (isnan(strain)) return NO_STRAIN;
   const double place = rint(MIDDLE + MIDDLE * (strain / view->strain));
   return (uint8_t)fmin(fmax(place, 0.0), 2 * MIDDLE);
 }
 
-int32_t hk_view_pack(const struct hooke_view *view, int64_t frame, uint8_t *bytes, struct hk_view_box *box) {
+int32_t hk_view_pack(const struct hk_view *view, int64_t frame, uint8_t *bytes, struct hk_view_box *box) {
   double *q = NULL;
   const int32_t status = hk_view_read(view, position, frame, view->particles_there, 3, &q);
   if (status != HOOKE_OK) return status;

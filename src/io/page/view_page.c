@@ -22,7 +22,7 @@
 /* ---- words ---- */
 
 /* Title and upward direction of the scene; none if the scene can no longer be read. */
-static void add_scene(struct hk_text *data, const struct hooke_view *view, const char *title) {
+static void add_scene(struct hk_text *data, const struct hk_view *view, const char *title) {
   hooke_scene *scene = NULL;
   const char *path = hk_record_path(view->record), *slash = strrchr(path, '/');
   const double *gravity = NULL;
@@ -33,7 +33,7 @@ static void add_scene(struct hk_text *data, const struct hooke_view *view, const
   if (status == HOOKE_OK) {
     gravity = hooke_scene_system(scene)->gravity;
     hk_view_bodies_add(data, hooke_scene_system(scene));
-    if (title == NULL && hooke_scene_title(scene)[0]) title = hooke_scene_title(scene);
+    if (title == NULL && hooke_scene_text(scene, "title")[0]) title = hooke_scene_text(scene, "title");
   }
   hk_text_word(data, "title", title ? title : slash ? slash + 1 : path);
   hk_text_word(data, "file", slash ? slash + 1 : path);
@@ -44,7 +44,7 @@ static void add_scene(struct hk_text *data, const struct hooke_view *view, const
   hooke_scene_destroy(scene);
 }
 
-static void add_run(struct hk_text *data, const struct hooke_view *view) {
+static void add_run(struct hk_text *data, const struct hk_view *view) {
   static const char *const numbers[] = {"step", "rtol", "atol", "duration"};
   const hooke_options *run = hooke_record_options(view->record);
   const char *method = hooke_options_text(run, "method");
@@ -65,22 +65,22 @@ static void add_numbers(struct hk_text *data, const char *key, int64_t count, co
   hk_text_close(data, ']');
 }
 
-static void add_counts(struct hk_text *data, const struct hooke_view *view) {
-  static const char *const counts[] = {"frames",        "frames_there",  "frame_stride",    "springs",
-                                       "springs_there", "spring_stride", "particles_there", "particles",
-                                       "time_last",     "strain",        "strain_low",      "strain_high",
-                                       "damaged"};
-  for (int k = 0; k < COUNT_OF(counts); k++)
-    hk_text_number(data, counts[k], hooke_view_number(view, counts[k]));
+static void add_counts(struct hk_text *data, const struct hk_view *view) {
+  struct hk_line line;
+  hk_view_table.read(view, 0, &line);
+  for (int k = 1; k < hk_view_table.column_count; k++) { /* without "bytes", which is not known yet */
+    const struct hk_column *column = &hk_view_table.columns[k];
+    hk_text_number(data, column->name, hk_column_number(column, &line));
+  }
   hk_text_number(data, "loose_there", (double)view->loose_there);
   hk_text_number(data, "loose_stride", (double)view->loose_stride);
-  hk_text_number(data, "good_frames", (double)hooke_record_good_frame_count(view->record));
+  hk_text_number(data, "good_frames", (double)hooke_record_count(view->record, "good_frames"));
   hk_text_flag(data, "by_first_frame", view->by_first_frame);
   add_numbers(data, "frame", view->frames, view->frame);
   if (view->particles < view->particles_there) add_numbers(data, "particle", view->particles, view->particle);
 }
 
-static void add_column(struct hk_text *data, const struct hooke_view *view, const char *key,
+static void add_column(struct hk_text *data, const struct hk_view *view, const char *key,
                        const double *column) {
   hk_text_open(data, key, '[');
   for (int64_t k = 0; k < view->frames; k++)
@@ -88,7 +88,7 @@ static void add_column(struct hk_text *data, const struct hooke_view *view, cons
   hk_text_close(data, ']');
 }
 
-static void add_boxes(struct hk_text *data, const struct hooke_view *view, const struct hk_view_box *box) {
+static void add_boxes(struct hk_text *data, const struct hk_view *view, const struct hk_view_box *box) {
   hk_text_open(data, "box", '[');
   for (int64_t k = 0; k < view->frames; k++) {
     hk_text_open(data, NULL, '[');
@@ -102,14 +102,14 @@ static void add_boxes(struct hk_text *data, const struct hooke_view *view, const
 /* ---- contents ---- */
 
 struct page {
-  const struct hooke_view *view;
+  const struct hk_view *view;
   const char *title;
   struct hk_view_box *box; /* of each frame; known once the frames are added */
 };
 
 static int32_t add_data(const struct page *page, struct hk_text *text) {
   struct hk_text all = {.bytes = NULL}, *data = &all;
-  const struct hooke_view *view = page->view;
+  const struct hk_view *view = page->view;
   hk_text_open(data, NULL, '{');
   add_scene(data, view, page->title);
   add_run(data, view);
@@ -129,7 +129,7 @@ static int32_t add_data(const struct page *page, struct hk_text *text) {
 /* Indices of the two ends of each spring, as 32-bit little-endian numbers, then the marks of the particles.
  */
 static int32_t add_fixed(const struct page *page, struct hk_text *text) {
-  const struct hooke_view *view = page->view;
+  const struct hk_view *view = page->view;
   const int64_t count = 8 * view->springs + view->particles;
   uint8_t *bytes = hk_new(count, 1), *at = bytes;
   if (bytes == NULL) return HOOKE_NO_MEMORY;
@@ -145,7 +145,7 @@ static int32_t add_fixed(const struct page *page, struct hk_text *text) {
 
 /* Frames have equal lengths, so that the page can access one by its number. */
 static int32_t add_frames(const struct page *page, struct hk_text *text) {
-  const struct hooke_view *view = page->view;
+  const struct hk_view *view = page->view;
   const int64_t count = hk_view_frame_bytes(view);
   uint8_t *bytes = hk_new(count, 1);
   int32_t status = bytes ? HOOKE_OK : HOOKE_NO_MEMORY;
@@ -165,9 +165,10 @@ static int32_t add_part(const char *name, struct hk_text *text, void *ctx) {
   return hk_data_folder_read(name, text);
 }
 
-int32_t hooke_view_write(hooke_view *view, const char *path, const char *title) {
+int32_t hk_view_write(const hooke_measurement *m, const char *path) {
+  struct hk_view *view = m->object;
   struct hk_text text = {.bytes = NULL};
-  struct page page = {.view = view, .title = title};
+  struct page page = {.view = view, .title = m->label[HOOKE_LABEL_TITLE]};
   page.box = hk_new(view->frames, sizeof *page.box);
   int32_t status = page.box ? hk_form_fill("view.html", add_part, &page, &text) : HOOKE_NO_MEMORY;
   if (status == HOOKE_OK) status = hk_file_write(path, text.bytes, text.length);

@@ -72,7 +72,7 @@ static double time_of(const struct frames *f, int64_t step) {
 }
 
 static double work_of(const hooke_system *system) {
-  return (double)(hooke_system_particle_count(system) + hooke_system_spring_count(system) + 1);
+  return (double)(hooke_system_particle_count(system) + hooke_system_count(system, "springs") + 1);
 }
 
 static int32_t find_energies(struct frames *f, const hooke_options *run) {
@@ -159,7 +159,7 @@ static int32_t look(struct frames *f, const hooke_state *state, int64_t step) {
   int32_t status = hk_limit_look(limit, q, hooke_state_time(state));
   if (status != HOOKE_OK)
     return status == HOOKE_NO_MEMORY ? status : HOOKE_OK; /* then it is not known there */
-  const struct hk_limit_row *row = hk_limit_blamed(limit);
+  const struct hk_limit_row *row = hk_limit_limiting_row(limit);
   f->look[f->looks].time = hooke_state_time(state);
   f->look[f->looks].limit = limit->row[0].predicted;
   f->look[f->looks].frequency = f->look[f->looks].decay = f->look[f->looks].growth = NAN;
@@ -189,8 +189,8 @@ static void add_limits(const struct frames *f) {
 
 static int32_t choose_springs(struct frames *f) {
   int32_t status = hk_picture_create(f->system, &f->picture);
-  for (int64_t k = 0; k < f->why->blame_count && status == HOOKE_OK; k++) {
-    if (f->why->blame[k].spring >= 0) hk_picture_take(&f->picture, f->why->blame[k].spring);
+  for (int64_t k = 0; k < f->why->limiting_count && status == HOOKE_OK; k++) {
+    if (f->why->limiting[k].spring >= 0) hk_picture_take(&f->picture, f->why->limiting[k].spring);
   }
   if (status != HOOKE_OK) return status;
   hk_picture_take_evenly(&f->picture, 0, f->picture.spring_count, SPRINGS - f->picture.drawn_count);

@@ -3,7 +3,6 @@
 #include "hooke/measurement.h"
 #include "integrate/integrator.h"
 #include "io/measurement/measurement_file.h"
-#include "io/page/view.h"
 #include "io/scene/scene_file.h"
 #include "model/force/force.h"
 #include "parts/part.h"
@@ -21,9 +20,8 @@ static struct named by_own_name(const struct hk_option_table *table) {
   return table ? (struct named){table->name, table} : (struct named){NULL, NULL};
 }
 
-static struct named other(int64_t k) {
-  const struct named tables[] = {{"run", &hk_run_options}, {"view", &hk_view_options}, {NULL, NULL}};
-  return tables[k];
+static struct named of_run(int64_t k) {
+  return k == 0 ? (struct named){"run", &hk_run_options} : by_own_name(NULL);
 }
 
 static struct named of_force(int64_t k) {
@@ -47,7 +45,7 @@ static struct named of_measurement(int64_t k) {
   return (struct named){kind, kind ? hk_measurement_options(kind) : NULL};
 }
 
-static struct named (*const sources[])(int64_t k) = {other, of_force, of_scene, of_part, of_measurement};
+static struct named (*const sources[])(int64_t k) = {of_run, of_force, of_scene, of_part, of_measurement};
 enum { SOURCES = sizeof sources / sizeof sources[0] };
 
 static int32_t refuse(const char *name) {

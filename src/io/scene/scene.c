@@ -181,10 +181,8 @@ hooke_options *hooke_scene_run_options(hooke_scene *scene) {
   return scene->run;
 }
 
-const char *hooke_scene_title(const hooke_scene *scene) {
-  return scene->title ? scene->title : "";
-}
-
-const char *hooke_scene_text(const hooke_scene *scene) {
-  return scene->text;
+const char *hooke_scene_text(const hooke_scene *scene, const char *what) {
+  if (strcmp(what, "text") == 0) return scene->text;
+  if (strcmp(what, "title") == 0) return scene->title ? scene->title : "";
+  return NULL;
 }

@@ -13,6 +13,7 @@
 #include "io/hdf5/file_h5.h"
 #include "io/trajectory/h5md_h5.h"
 #include "io/file/atomic_file.h"
+#include "measure/estimate/estimate.h"
 
 #include <stdio.h>
 
@@ -34,20 +35,21 @@ static int32_t find_places(struct hk_h5_guard *guard, const struct hk_h5_file *f
                  file->atomic.path);
 }
 
-static int write_at(int descriptor, const struct places *at, const hooke_estimate *estimate) {
+static int write_at(int descriptor, const struct places *at, const hooke_measurement *estimate) {
   double number[HOOKE_ERROR_COUNT];
   char by[HOOKE_ERROR_BY] = {0}, note[HOOKE_ERROR_NOTE] = {0};
-  const char *source = hooke_estimate_text(estimate, "by");
+  const char *source = hooke_measurement_text(estimate, "estimate", 0, "by");
   for (int k = 0; k < HOOKE_ERROR_COUNT; k++)
-    number[k] = hooke_estimate_number(estimate, hk_error_number[k]);
+    number[k] = hooke_measurement_number(estimate, "estimate", 0, hk_error_number[k]);
   snprintf(by, sizeof by, "%s", source ? source : "");
-  snprintf(note, sizeof note, "%s", hooke_estimate_text(estimate, "note"));
+  snprintf(note, sizeof note, "%s", hooke_measurement_text(estimate, "estimate", 0, "note"));
   int error = hk_bytes_write(descriptor, at->note, sizeof note, note);
   if (error == 0) error = hk_bytes_write(descriptor, at->numbers, sizeof number, number);
   return error ? error : hk_bytes_write(descriptor, at->by, sizeof by, by);
 }
 
-static int32_t write_to(struct hk_h5_guard *guard, struct hk_h5_file *file, const hooke_estimate *estimate) {
+static int32_t write_to(struct hk_h5_guard *guard, struct hk_h5_file *file,
+                        const hooke_measurement *estimate) {
   struct places at;
   const int32_t status = find_places(guard, file, &at);
   if (status != HOOKE_OK) return status;
@@ -56,12 +58,14 @@ static int32_t write_to(struct hk_h5_guard *guard, struct hk_h5_file *file, cons
                : hk_h5_file_close(file);
 }
 
-int32_t hooke_estimate_write_h5(const hooke_estimate *estimate, const char *path) {
+int32_t hooke_estimate_write_h5(const hooke_measurement *estimate, const char *path) {
   HOOKE_KEEP_ERRNO;
   struct hk_h5_file file = HOOKE_NO_H5_FILE;
   struct hk_h5_guard guard;
+  int32_t status = hk_measurement_require(estimate, &hk_estimate_kind, "hooke_estimate_write_h5");
+  if (status != HOOKE_OK) return status;
   hk_h5_guard_begin(&guard);
-  int32_t status = hk_atomic_file_lock(path, &file.atomic);
+  status = hk_atomic_file_lock(path, &file.atomic);
   if (status == HOOKE_OK) status = write_to(&guard, &file, estimate);
   hk_h5_file_release(&file);
   hk_h5_guard_end(&guard);
@@ -70,7 +74,7 @@ int32_t hooke_estimate_write_h5(const hooke_estimate *estimate, const char *path
 
 #else
 
-int32_t hooke_estimate_write_h5(const hooke_estimate *estimate, const char *path) {
+int32_t hooke_estimate_write_h5(const hooke_measurement *estimate, const char *path) {
   (void)estimate, (void)path;
   return hk_fail(HOOKE_NOT_BUILT, NULL,
                  "trajectories need HDF5, and this build of the library is without it");

@@ -165,7 +165,7 @@ herr_t hk_h5md_refer(hid_t file, const char *group) {
 }
 
 static herr_t write_rest_lengths(hid_t file, const hooke_system *system) {
-  const hsize_t count = (hsize_t)hooke_system_spring_count(system);
+  const hsize_t count = (hsize_t)hooke_system_count(system, "springs");
   double *rest_length = hk_new((int64_t)count, sizeof(double));
   herr_t result = rest_length == NULL ? -1 : 0;
   if (result >= 0 && hooke_system_members(system, "springs", NULL, NULL, NULL, rest_length) != HOOKE_OK)
@@ -179,7 +179,7 @@ static herr_t write_rest_lengths(hid_t file, const hooke_system *system) {
 }
 
 herr_t hk_h5md_connect(hid_t file, const hooke_system *system, const char *group) {
-  const int64_t count = hooke_system_spring_count(system);
+  const int64_t count = hooke_system_count(system, "springs");
   const hsize_t size[2] = {(hsize_t)count, 2};
   int64_t *ends = hk_new(2 * count, sizeof(int64_t));
   hid_t connectivity = ends ? new_group(file, "connectivity") : -1;

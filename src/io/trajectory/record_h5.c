@@ -284,12 +284,9 @@ const hooke_options *hooke_record_options(const hooke_record *record) {
   return record->options;
 }
 
-int64_t hooke_record_frame_count(const hooke_record *record) {
-  return record->frame_count;
-}
-
-int64_t hooke_record_good_frame_count(const hooke_record *record) {
-  return record->good_count;
+int64_t hooke_record_count(const hooke_record *record, const char *what) {
+  if (strcmp(what, "frames") == 0) return record->frame_count;
+  return strcmp(what, "good_frames") == 0 ? record->good_count : -1;
 }
 
 static const char position[] = "/particles/all/position/value", velocity[] = "/particles/all/velocity/value";
@@ -390,13 +387,8 @@ const hooke_options *hooke_record_options(const hooke_record *record) {
   return NULL;
 }
 
-int64_t hooke_record_frame_count(const hooke_record *record) {
-  (void)record;
-  return 0;
-}
-
-int64_t hooke_record_good_frame_count(const hooke_record *record) {
-  (void)record;
+int64_t hooke_record_count(const hooke_record *record, const char *what) {
+  (void)record, (void)what;
   return 0;
 }
 

@@ -22,7 +22,7 @@ void hk_trajectory_keep(hooke_trajectory *trajectory, int64_t frames);
 
 /* Absolute path of the file. */
 const char *hk_trajectory_path(const hooke_trajectory *trajectory);
-/* Text of hooke_trajectory_origin(). */
+/* "origin" of hooke_trajectory_text(). */
 void hk_trajectory_set_origin(hooke_trajectory *trajectory, const char *words);
 
 /* Removes the checkpoint beside the trajectory of a finished run. */

@@ -162,8 +162,9 @@ static void end_thread(hooke_trajectory *trajectory) {
   if (error && trajectory->failure[0] == '\0') fail_frame(trajectory, writer->written, error);
 }
 
-const char *hooke_trajectory_run(const hooke_trajectory *trajectory) {
-  return trajectory->run;
+const char *hooke_trajectory_text(const hooke_trajectory *trajectory, const char *what) {
+  if (strcmp(what, "run") == 0) return trajectory->run;
+  return strcmp(what, "origin") == 0 ? trajectory->origin : NULL;
 }
 
 int32_t hooke_trajectory_sync(hooke_trajectory *trajectory) {
@@ -308,8 +309,8 @@ int32_t hooke_trajectory_write_behind(hooke_trajectory *trajectory) {
   return not_built();
 }
 
-const char *hooke_trajectory_run(const hooke_trajectory *trajectory) {
-  (void)trajectory;
+const char *hooke_trajectory_text(const hooke_trajectory *trajectory, const char *what) {
+  (void)trajectory, (void)what;
   return "";
 }
 

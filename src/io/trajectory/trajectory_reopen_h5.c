@@ -78,7 +78,7 @@ static int32_t find_springs(struct hk_h5_guard *guard, hid_t file, const hooke_t
   struct hk_dataset data;
   int32_t status = hk_dataset_find(guard, file, old->file.atomic.path, "/connectivity/springs", &data);
   if (status == HOOKE_OK &&
-      (data.id < 0 || data.size[0] != (hsize_t)hooke_system_spring_count(old->writer.system)))
+      (data.id < 0 || data.size[0] != (hsize_t)hooke_system_count(old->writer.system, "springs")))
     status = refuse_seen(guard, old, "its springs are not those of this system");
   hk_h5_drop(data.id);
   return status;
@@ -97,8 +97,8 @@ static int32_t find_all(struct hk_h5_guard *guard, hid_t file, hooke_trajectory 
 
 /* Frames up to which a run goes on from it. */
 static int64_t good_frames(const hooke_record *record) {
-  const int64_t good = hooke_record_good_frame_count(record);
-  return good < hooke_record_frame_count(record) ? good : INT64_MAX;
+  const int64_t good = hooke_record_count(record, "good_frames");
+  return good < hooke_record_count(record, "frames") ? good : INT64_MAX;
 }
 
 /* The run that it is of, and the places of everything. */
@@ -211,10 +211,6 @@ void hk_trajectory_set_origin(hooke_trajectory *trajectory, const char *words) {
   snprintf(trajectory->origin, sizeof trajectory->origin, "%s", words);
 }
 
-const char *hooke_trajectory_origin(const hooke_trajectory *trajectory) {
-  return trajectory->origin;
-}
-
 #else
 
 int32_t hk_trajectory_reopen(const char *path, const hooke_system *system, const hooke_integrator *integrator,
@@ -241,11 +237,6 @@ const char *hk_trajectory_path(const hooke_trajectory *trajectory) {
 
 void hk_trajectory_set_origin(hooke_trajectory *trajectory, const char *words) {
   (void)trajectory, (void)words;
-}
-
-const char *hooke_trajectory_origin(const hooke_trajectory *trajectory) {
-  (void)trajectory;
-  return "";
 }
 
 #endif

@@ -23,7 +23,7 @@ int32_t hooke_trajectory_checkpoint(hooke_trajectory *trajectory, const hooke_in
   int32_t status = hooke_trajectory_sync(trajectory);
   if (status == HOOKE_OK) status = hk_file_beside(hk_trajectory_path(trajectory), ENDING, &path);
   if (status == HOOKE_OK)
-    status = hooke_checkpoint_write(path, integrator, state, hooke_trajectory_run(trajectory));
+    status = hooke_checkpoint_write(path, integrator, state, hooke_trajectory_text(trajectory, "run"));
   hk_free(path);
   return status;
 }
@@ -67,7 +67,7 @@ static int32_t check_array(const struct going *going, const char *what, int64_t 
 }
 
 static int32_t check_springs(const struct going *going) {
-  const int64_t count = 2 * hooke_system_spring_count(going->system);
+  const int64_t count = 2 * hooke_system_count(going->system, "springs");
   int64_t *ends = hk_new(count, sizeof *ends);
   double *numbers = hk_new(count, sizeof *numbers);
   int32_t status = ends && numbers ? hooke_system_members(going->system, "springs", ends, NULL, NULL, NULL)
@@ -167,7 +167,7 @@ static int32_t go_on(struct going *going, const char *checkpoint) {
 /* ---- whole function ---- */
 
 static int32_t read_first(struct going *going) {
-  if (hooke_record_frame_count(going->record) == 0) return HOOKE_OK;
+  if (hooke_record_count(going->record, "frames") == 0) return HOOKE_OK;
   int32_t status = hk_state_create_sized(going->integrator->size, 1, &going->first);
   if (status == HOOKE_OK) status = hooke_record_read(going->record, 0, going->first);
   if (status != HOOKE_BAD_VALUE) return status;

@@ -22,7 +22,8 @@ static double frame_bytes(int64_t particle_count) {
 
 double hk_trajectory_writer_bytes(const hooke_system *system, int64_t frame_count) {
   const int64_t n = hooke_system_particle_count(system);
-  const double groups = 32768.0, fixed = 12.0 * (double)n + 16.0 * (double)hooke_system_spring_count(system);
+  const double groups = 32768.0,
+               fixed = 12.0 * (double)n + 16.0 * (double)hooke_system_count(system, "springs");
   return groups + fixed + frame_bytes(n) * (double)frame_count;
 }
 

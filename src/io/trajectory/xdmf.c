@@ -104,7 +104,7 @@ static void add_frame(struct companion *c, int64_t frame) {
 static void add_all(struct companion *c) {
   add(&c->text, "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<Xdmf Version=\"2.0\">\n<Domain>\n"
                 "<Grid Name=\"trajectory\" GridType=\"Collection\" CollectionType=\"Temporal\">\n");
-  for (int64_t k = 0; k < hooke_record_frame_count(c->record); k++)
+  for (int64_t k = 0; k < hooke_record_count(c->record, "frames"); k++)
     add_frame(c, k);
   add(&c->text, "</Grid>\n</Domain>\n</Xdmf>\n");
 }
@@ -208,7 +208,7 @@ static int32_t read_sizes(struct companion *c) {
   long long lengths;
   int32_t status = hk_array_read(path, "/particles/all/position/time", 0, 0, &c->time, &planned, &wide);
   c->planned = planned;
-  if (status == HOOKE_OK && planned < hooke_record_frame_count(c->record))
+  if (status == HOOKE_OK && planned < hooke_record_count(c->record, "frames"))
     status = hk_fail(HOOKE_BAD_VALUE, NULL, "%s: is another file than the one that was opened", path);
   if (status == HOOKE_OK) status = read_size(path, "/particles/all/mass", &c->particles);
   if (status == HOOKE_OK) status = read_size(path, "/connectivity/springs", &c->springs);
@@ -222,7 +222,7 @@ int32_t hooke_record_write_xdmf(const hooke_record *record, const char *path) {
   const char *there = hk_record_path(record);
   struct companion c = {.record = record};
   if (there == NULL) return hk_fail(HOOKE_NOT_BUILT, NULL, "this build of the library is without HDF5");
-  if (hooke_record_frame_count(record) == 0)
+  if (hooke_record_count(record, "frames") == 0)
     return hk_fail(HOOKE_BAD_VALUE, NULL, "%s: has no frames yet", there);
   char *beside = NULL;
   int32_t status = path ? HOOKE_OK : name_beside(there, &beside);

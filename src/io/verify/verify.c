@@ -51,7 +51,7 @@ static int is_on(const struct hk_verify *verify, const char *name) {
 }
 
 static int32_t find_slice(struct hk_verify *verify) {
-  const int64_t last = hooke_record_good_frame_count(verify->record) - 1;
+  const int64_t last = hooke_record_count(verify->record, "good_frames") - 1;
   const double *slice = hooke_options_numbers(verify->options, "slice");
   int64_t rows_there = 0, columns = 0;
   verify->by_budget = !slice && !is_on(verify, "all");
@@ -90,7 +90,7 @@ static int32_t find_makers(const struct hk_verify *verify) {
 static int32_t open(struct hk_verify *verify) {
   int32_t status = hooke_record_open(verify->path, &verify->record);
   if (status == HOOKE_OK) status = hk_record_require_run(verify->record);
-  if (status == HOOKE_OK && hooke_record_frame_count(verify->record) == 0)
+  if (status == HOOKE_OK && hooke_record_count(verify->record, "frames") == 0)
     status =
         hk_fail(HOOKE_BAD_VALUE, NULL, "%s: has no frames; allowed: a trajectory of one run", verify->path);
   if (status == HOOKE_OK) status = hooke_scene_load(verify->path, verify->limits, &verify->scene);
@@ -157,7 +157,7 @@ int32_t hooke_verify_create(const char *path, const hooke_options *options, cons
 /* ---- running ---- */
 
 static int32_t check_frames(struct hk_verify *verify) {
-  const int64_t count = hooke_record_frame_count(verify->record);
+  const int64_t count = hooke_record_count(verify->record, "frames");
   int32_t status = HOOKE_OK;
   for (verify->checked = 0; verify->checked < count && status == HOOKE_OK; verify->checked++) {
     status = hooke_record_check(verify->record, verify->checked);

@@ -172,7 +172,7 @@ static int32_t run_slice(struct run *run, hooke_integrator *integrator, hooke_st
   }
   run->pass->steps = (double)hooke_integrator_count(integrator, "steps");
   if (run->status != HOOKE_OK) return told(run);
-  if (status == HOOKE_STOPPED && hooke_integrator_stop_value(integrator) == ENOUGH) return HOOKE_OK;
+  if (status == HOOKE_STOPPED && hooke_integrator_count(integrator, "stop_value") == ENOUGH) return HOOKE_OK;
   if (status == HOOKE_OK && run->frame > verify->to) return HOOKE_OK;
   if (status == HOOKE_OK)
     return hk_fail(HOOKE_BAD_VALUE, NULL, "%s: the run that its scene gives ends before frame %lld",
@@ -226,7 +226,7 @@ int32_t hk_verify_first(struct hk_verify *verify) {
     status = hooke_integrator_create(verify->system, hooke_record_options(verify->record), &integrator);
   if (status == HOOKE_OK) status = hooke_integrator_on_frame(integrator, see_first, &run);
   if (status == HOOKE_OK) status = hk_run_whole(integrator, state);
-  if (integrator && hooke_integrator_stop_value(integrator) == ENOUGH) status = HOOKE_OK;
+  if (integrator && hooke_integrator_count(integrator, "stop_value") == ENOUGH) status = HOOKE_OK;
   hooke_integrator_destroy(integrator);
   hooke_state_destroy(state);
   return run.status != HOOKE_OK ? told(&run) : status;

@@ -40,7 +40,7 @@ static void read_verify(const void *object, int64_t row, void *line) {
       .run = hooke_record_text(v->record, "run"),
       .method = hooke_options_text(run, "method"),
       .balance = v->balance,
-      .frames = (double)hooke_record_frame_count(v->record),
+      .frames = (double)hooke_record_count(v->record, "frames"),
       .frames_checked = (double)v->checked,
       .frame_first = (double)v->from,
       .frame_last = (double)v->to,

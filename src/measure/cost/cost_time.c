@@ -30,12 +30,12 @@ static int32_t run_block(struct hk_timed *timed, const hooke_state *start, int64
                          double *nanoseconds) {
   hooke_integrator *it = timed->integrator;
   int32_t status = hooke_state_copy(start, timed->state);
-  const double seconds = hooke_integrator_wall_seconds(it);
+  const double seconds = hooke_integrator_number(it, "wall_seconds");
   const int64_t before = hooke_integrator_count(it, "steps");
   if (status == HOOKE_OK) status = hooke_integrator_step(it, timed->state, steps);
   const int64_t taken = hooke_integrator_count(it, "steps") - before;
-  *nanoseconds =
-      taken > 0 ? 1e9 * (hooke_integrator_wall_seconds(it) - seconds) / (double)taken : (double)INFINITY;
+  *nanoseconds = taken > 0 ? 1e9 * (hooke_integrator_number(it, "wall_seconds") - seconds) / (double)taken
+                           : (double)INFINITY;
   return status == HOOKE_DIVERGED || status == HOOKE_SOLVER_FAILED ? HOOKE_OK : status;
 }
 

@@ -1,13 +1,13 @@
 #include "measure/estimate/estimate.h"
 
 #include "core/clock.h"
-#include "core/named_number.h"
-#include "core/handle.h"
+#include "core/memory.h"
 #include "core/print.h"
 #include "core/status.h"
 #include "integrate/integrator.h"
 #include "measure/estimate/heat.h"
 #include "measure/trial/step_unit.h"
+#include "model/state.h"
 
 #include <math.h>
 #include <stddef.h>
@@ -22,22 +22,30 @@ static const double AIM = 0.6, LEAST_GAIN = 0.7, LEAST_FACTOR = 1.0 / 16.0,
                     MOST_FACTOR = 0.7; /* of refinement */
 static const double MOST_RUNS = 30.0;  /* maximum time of a refined run, in times of the first */
 
-int32_t hooke_estimate_create(const hooke_system *system, double want, hooke_estimate **out) {
-  int32_t status = hk_system_require_committed(system);
-  if (status == HOOKE_OK && !isnan(want)) status = hk_system_require_no_bodies(system, "a wanted error");
-  if (status != HOOKE_OK) return status;
-  if (!isnan(want) && !(want > 0.0 && isfinite(want)))
-    return hk_fail(HOOKE_BAD_VALUE, "want", "%g is not allowed; a number > 0 [m] is", want);
-  hooke_estimate *e = hk_handle_new("hooke_estimate", sizeof *e);
+static const struct hk_option_row rows[] = {
+    {.name = "want",
+     .type = HOOKE_OPTION_NUMBER,
+     .unit = "m",
+     .low = 0.0,
+     .above_low = 1,
+     .high = 1e300,
+     .doc =
+         "root mean square error over free particles that no frame may exceed; only estimates if not given"},
+};
+
+static const struct hk_option_table options = {"estimate", HOOKE_OPTION_ROWS(rows)};
+
+static int32_t create(hooke_measurement *m) {
+  struct hk_estimate *e = m->object = hk_new(1, sizeof *e);
   if (e == NULL) return HOOKE_NO_MEMORY;
-  e->system = system;
-  e->want = want;
+  e->measurement = m;
+  e->system = m->system;
+  e->want = hooke_options_number(m->options, "want");
   e->error = e->known_from = e->known_until = e->rise = e->heat_excess = e->first = NAN;
-  *out = e;
-  return HOOKE_OK;
+  return isnan(e->want) ? HOOKE_OK : hk_system_require_no_bodies(m->system, "a wanted error");
 }
 
-static void forget_run(hooke_estimate *e) {
+static void forget_run(struct hk_estimate *e) {
   hooke_options_destroy(e->options);
   hk_frames_release(&e->kept);
   hk_soundness_release(&e->soundness);
@@ -49,26 +57,23 @@ static void forget_run(hooke_estimate *e) {
   e->note[0] = '\0';
 }
 
-void hooke_estimate_destroy(hooke_estimate *e) {
+static void destroy(void *object) {
+  struct hk_estimate *e = object;
   if (e == NULL) return;
   forget_run(e);
   hk_pick_release(&e->pick);
-  hk_handle_free(e);
-}
-
-void hooke_estimate_on_progress(hooke_estimate *e, hooke_progress *progress, void *ctx) {
-  e->progress = progress;
-  e->ctx = ctx;
+  hk_free(e);
 }
 
 /* ---- picking ---- */
 
 /* Picks for the error `want` of the whole run, and sets the result in `run`. */
-static int32_t pick(hooke_estimate *e, double want, hooke_options *run) {
+static int32_t pick(struct hk_estimate *e, double want, hooke_options *run) {
   const char *only = e->only[0] ? e->only : NULL;
   hk_pick_release(&e->pick);
   const double begun = hk_clock_seconds();
-  int32_t status = hk_pick_run(&e->pick, e->system, run, want, only, e->progress, e->ctx);
+  int32_t status = hk_pick_run(&e->pick, e->system, run, want, only, e->measurement->progress,
+                               e->measurement->progress_ctx);
   e->spent += hk_clock_seconds() - begun;
   if (status == HOOKE_OK && e->pick.best.method == NULL)
     status =
@@ -79,8 +84,10 @@ static int32_t pick(hooke_estimate *e, double want, hooke_options *run) {
   return status;
 }
 
-int32_t hooke_estimate_pick(hooke_estimate *e, const char *method, hooke_options *run) {
-  const int32_t status = hk_run_options_require(run, "run");
+int32_t hooke_estimate_pick(hooke_measurement *m, const char *method, hooke_options *run) {
+  struct hk_estimate *e = m->object;
+  int32_t status = hk_measurement_require(m, &hk_estimate_kind, "hooke_estimate_pick");
+  if (status == HOOKE_OK) status = hk_run_options_require(run, "run");
   if (status != HOOKE_OK) return status;
   if (isnan(e->want)) return hk_fail(HOOKE_BAD_CALL, NULL, "no error is wanted of this estimate");
   if (method && !hooke_method_is_built(method))
@@ -96,7 +103,7 @@ int32_t hooke_estimate_pick(hooke_estimate *e, const char *method, hooke_options
 /* ---- watching the run ---- */
 
 /* Frames kept for the comparison with a finer run: evenly spaced over the run, as far as memory allows. */
-static void choose_kept(hooke_estimate *e, int64_t *count) {
+static void choose_kept(struct hk_estimate *e, int64_t *count) {
   const double frames = e->duration / e->every;
   const int64_t bytes = 3 * hooke_system_particle_count(e->system) * (int64_t)sizeof(double);
   double apart = fmax(1.0, ceil(round(frames) / MOST_KEPT));
@@ -109,24 +116,28 @@ static void choose_kept(hooke_estimate *e, int64_t *count) {
   e->apart = e->duration;
 }
 
-static int is_whole_reference(const hooke_estimate *e) {
+static int is_whole_reference(const struct hk_estimate *e) {
   return e->pick.system != NULL && e->pick.share == 1.0;
 }
 
 /* No limit is needed: the method has none, nothing is wanted, or the pick examined the same frames. */
-static int is_checked(const hooke_estimate *e, const hooke_integrator *it) {
+static int is_checked(const struct hk_estimate *e, const hooke_integrator *it) {
   return it->method->adaptive || isnan(e->want) || (e->picked && is_whole_reference(e));
 }
 
-int32_t hooke_estimate_begin(hooke_estimate *e, const hooke_integrator *it, const hooke_state *state) {
+int32_t hooke_estimate_begin(hooke_measurement *m, const hooke_integrator *it, const hooke_state *state) {
+  struct hk_estimate *e = m->object;
+  int32_t status = hk_measurement_require(m, &hk_estimate_kind, "hooke_estimate_begin");
+  if (status != HOOKE_OK) return status;
   if (it->system != e->system)
     return hk_fail(HOOKE_BAD_VALUE, "integrator", "is not one of the system that the estimate is for");
   forget_run(e);
-  int32_t status = hooke_options_copy(it->options, &e->options);
+  status = hooke_options_copy(it->options, &e->options);
   if (status != HOOKE_OK) return status;
   int64_t count;
   const int64_t frames = hooke_integrator_count(it, "frames");
-  e->begun = hk_clock_seconds();
+  e->integrator = it;
+  e->seconds = 0.0;
   e->begin = hooke_state_time(state);
   e->duration = it->schedule.duration;
   e->every = it->schedule.every;
@@ -142,7 +153,7 @@ int32_t hooke_estimate_begin(hooke_estimate *e, const hooke_integrator *it, cons
   return status;
 }
 
-static void keep(hooke_estimate *e, const hooke_state *state) {
+static void keep(struct hk_estimate *e, const hooke_state *state) {
   const double t = hooke_state_time(state) - e->begin;
   if (fabs(t - (double)e->kept.recorded * e->apart) <= 1e-9 * e->duration) hk_frames_record(&e->kept, state);
   if (!(t + e->begin >= e->late_after) || t >= e->duration * (1.0 - 1e-9)) return;
@@ -151,9 +162,11 @@ static void keep(hooke_estimate *e, const hooke_state *state) {
 }
 
 int32_t hooke_estimate_see(int64_t step, const hooke_state *state, void *estimate) {
-  hooke_estimate *e = estimate;
+  const hooke_measurement *m = estimate;
+  struct hk_estimate *e = m->object;
   (void)step;
-  if (e->options == NULL) return 0;
+  if (m->kind != &hk_estimate_kind || e->options == NULL) return 0;
+  e->seconds = e->integrator->wall_seconds;
   keep(e, state);
   const double frame = (hooke_state_time(state) - e->begin) / e->every;
   if (frame >= (double)e->frames_seen * (1.0 - 1e-12)) {
@@ -166,7 +179,7 @@ int32_t hooke_estimate_see(int64_t step, const hooke_state *state, void *estimat
 /* ---- measuring ---- */
 
 /* The picked run was compared with the reference at its frames; its end is measured on its own. */
-static void measure_by_reference(hooke_estimate *e, const hooke_state *state) {
+static void measure_by_reference(struct hk_estimate *e, const hooke_state *state) {
   const struct hk_reference *r = &e->pick.reference;
   const int to_end = r->trusted == r->frames.count;
   double end = 0.0;
@@ -182,11 +195,11 @@ static void measure_by_reference(hooke_estimate *e, const hooke_state *state) {
            r->hurried ? ", for want of time" : ", whatever their tolerance: the motion is chaotic");
 }
 
-static int is_sound(const hooke_estimate *e) {
+static int is_sound(const struct hk_estimate *e) {
   return isinf(e->soundness.least_limit) && !(e->rise > hk_soundness_most_rise);
 }
 
-static int32_t measure_alone(hooke_estimate *e) {
+static int32_t measure_alone(struct hk_estimate *e) {
   int32_t status = HOOKE_OK;
   if (!isnan(e->want)) {
     status = hk_estimate_by_finer(e);
@@ -199,13 +212,10 @@ static int32_t measure_alone(hooke_estimate *e) {
   return status;
 }
 
-int32_t hooke_estimate_measure(hooke_estimate *e, const hooke_integrator *it, const hooke_state *state) {
-  if (e->options == NULL)
-    return hk_fail(HOOKE_BAD_CALL, NULL, "the estimate was not there when the run began");
+static int32_t measure(struct hk_estimate *e, const hooke_state *state) {
   const double end = e->begin + e->duration;
-  const int over = it ? it->outcome == HOOKE_OK : fabs(hooke_state_time(state) - end) <= 1e-9 * e->duration;
+  const int over = fabs(hooke_state_time(state) - end) <= 1e-9 * e->duration;
   if (e->kept.recorded == e->kept.count - 1) hk_frames_record(&e->kept, state);
-  e->seconds = it ? hooke_integrator_wall_seconds(it) : hk_clock_seconds() - e->begun;
   e->rise = hk_soundness_rise(&e->soundness);
   if (isnan(e->first)) e->first = e->seconds;
   if (!over || e->kept.recorded < e->kept.count) {
@@ -229,9 +239,20 @@ int32_t hooke_estimate_measure(hooke_estimate *e, const hooke_integrator *it, co
   return status;
 }
 
+static int32_t run(hooke_measurement *m, hooke_state *state) {
+  struct hk_estimate *e = m->object;
+  if (state == NULL)
+    return hk_fail(HOOKE_BAD_VALUE, "state", "is missing; an estimate needs the last one of the run");
+  const int32_t status = hk_state_check(state, m->system);
+  if (status != HOOKE_OK) return status;
+  if (e->options == NULL)
+    return hk_fail(HOOKE_BAD_CALL, NULL, "the estimate was not there when the run began");
+  return measure(e, state);
+}
+
 /* ---- refining ---- */
 
-static double met(const hooke_estimate *e) {
+double hk_estimate_met(const struct hk_estimate *e) {
   const double end = e->begin + e->duration;
   if (isnan(e->want)) return NAN;
   if (e->error > e->want || (e->options && !isnan(e->error) && !is_sound(e))) return 0.0;
@@ -240,14 +261,14 @@ static double met(const hooke_estimate *e) {
 }
 
 /* Next finer step or tolerance of the same method. */
-static double finer(const hooke_estimate *e) {
+static double finer(const struct hk_estimate *e) {
   const double value = hk_estimate_value(e->options), order = isnan(e->order) ? 1.0 : e->order;
   double factor = pow(AIM * e->want / e->error, 1.0 / order);
   factor = fmin(MOST_FACTOR, fmax(LEAST_FACTOR, factor));
   return fmin(value * factor, hk_soundness_limit_share * e->soundness.least_limit);
 }
 
-static int32_t set_finer(hooke_estimate *e, hooke_options *run) {
+static int32_t set_finer(struct hk_estimate *e, hooke_options *run) {
   const char *method = hooke_options_text(e->options, "method");
   double value = finer(e), duration, every, unit;
   if (hooke_method_is_adaptive(method)) return hk_trial_set_value(run, method, value);
@@ -263,7 +284,7 @@ static int32_t set_finer(hooke_estimate *e, hooke_options *run) {
 
 /* A pick from the beginning of a run was too coarse for the whole run: picks again, for a proportionally
  * smaller error. */
-static int32_t pick_finer(hooke_estimate *e, hooke_options *run) {
+static int32_t pick_finer(struct hk_estimate *e, hooke_options *run) {
   const double want = e->pick.want * AIM * e->want / e->error;
   const char *method = e->pick.best.method;
   const double value = e->pick.best.value;
@@ -273,52 +294,54 @@ static int32_t pick_finer(hooke_estimate *e, hooke_options *run) {
   return hk_fail(HOOKE_UNSUITED, NULL, "nothing finer is known to help");
 }
 
-int32_t hooke_estimate_refine(hooke_estimate *e, hooke_options *run) {
-  const int32_t known = e->options != NULL && !isnan(met(e)) && e->error <= LEAST_GAIN * e->before;
+int32_t hooke_estimate_refine(hooke_measurement *m, hooke_options *run) {
+  struct hk_estimate *e = m->object;
+  int32_t status = hk_measurement_require(m, &hk_estimate_kind, "hooke_estimate_refine");
+  if (status != HOOKE_OK) return status;
+  const int32_t known =
+      e->options != NULL && !isnan(hk_estimate_met(e)) && e->error <= LEAST_GAIN * e->before;
   if (!known || e->refined == MOST_REFINED)
     return hk_fail(HOOKE_UNSUITED, NULL, "nothing finer is known to help: %s", e->note);
   const int32_t again = e->pick.system != NULL && !is_whole_reference(e) && e->error > e->want;
-  const int32_t status = again ? pick_finer(e, run) : set_finer(e, run);
+  status = again ? pick_finer(e, run) : set_finer(e, run);
   e->refined++;
   e->before = e->error;
   if (!again) e->picked = 0;
   return status;
 }
 
-/* ---- queries ---- */
-
-double hooke_estimate_number(const hooke_estimate *e, const char *what) {
-  const struct hk_named_number numbers[] = {
-      {"estimate", e->error},
-      {"known_from", e->known_from},
-      {"known_until", e->known_until},
-      {"wanted", e->want},
-      {"met", met(e)},
-      {"energy_rise", e->rise},
-      {"heat_excess", e->heat_excess},
-      {"seconds", e->spent},
-  };
-  return HOOKE_NAMED_NUMBER(numbers, what);
-}
-
-const char *hooke_estimate_text(const hooke_estimate *e, const char *what) {
-  if (strcmp(what, "by") == 0) return e->by;
-  return strcmp(what, "note") == 0 ? e->note : NULL;
-}
-
 /* ---- picking only ---- */
+
+static int32_t create_for(const hooke_system *system, double want, hooke_measurement **m) {
+  hooke_options *own = NULL;
+  int32_t status = hk_options_create(&options, &own);
+  if (status == HOOKE_OK) status = hooke_options_set_number(own, "want", want);
+  if (status == HOOKE_OK) status = hk_measurement_create(&hk_estimate_kind, NULL, system, NULL, own, m);
+  hooke_options_destroy(own);
+  return status;
+}
 
 int32_t hk_estimate_pick_alone(const hooke_system *system, hooke_options *run, double want,
                                hooke_progress *progress, void *ctx) {
-  hooke_estimate *e = NULL;
-  int32_t status = hooke_estimate_create(system, want, &e);
+  hooke_measurement *m = NULL;
+  int32_t status = create_for(system, want, &m);
   if (status != HOOKE_OK) return status;
-  hooke_estimate_on_progress(e, progress, ctx);
-  status = hooke_estimate_pick(e, NULL, run);
-  if (status == HOOKE_OK && !e->pick.met) {
+  hooke_measurement_on_progress(m, progress, ctx);
+  status = hooke_estimate_pick(m, NULL, run);
+  const struct hk_pick *pick = &((const struct hk_estimate *)m->object)->pick;
+  if (status == HOOKE_OK && !pick->met) {
     status = hk_fail(HOOKE_BAD_VALUE, "want", "%g m is not reached: the closest run, %s at %g, is %g m off",
-                     want, e->pick.best.method, e->pick.best.value, e->pick.best.error);
+                     want, pick->best.method, pick->best.value, pick->best.error);
   }
-  hooke_estimate_destroy(e);
+  hooke_measurement_destroy(m);
   return status;
 }
+
+const struct hk_measurement_kind hk_estimate_kind = {.name = "estimate",
+                                                     .knows_bodies = 1,
+                                                     .options = &options,
+                                                     .tables = hk_estimate_tables,
+                                                     .table_count = 1,
+                                                     .create = create,
+                                                     .run = run,
+                                                     .destroy = destroy};

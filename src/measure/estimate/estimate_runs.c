@@ -20,14 +20,14 @@ double hk_estimate_value(const hooke_options *options) {
   return hooke_options_number(options, adaptive ? "rtol" : "step");
 }
 
-static const struct hk_method *method_of(const struct hooke_estimate *e) {
+static const struct hk_method *method_of(const struct hk_estimate *e) {
   return hk_method_find(hooke_options_text(e->options, "method"));
 }
 
 /* ---- reruns ---- */
 
 struct run {
-  struct hooke_estimate *estimate;
+  struct hk_estimate *estimate;
   const struct hk_rerun *rerun;
 };
 
@@ -37,8 +37,8 @@ static void start_from(hooke_state *state, void *ctx) {
 }
 
 static int32_t tell(double share, void *ctx) {
-  const struct hooke_estimate *e = ((const struct run *)ctx)->estimate;
-  return e->progress ? e->progress(share, "error", e->ctx) : 0;
+  const struct hk_estimate *e = ((const struct run *)ctx)->estimate;
+  return hk_measurement_tell(e->measurement, share, "error");
 }
 
 static int32_t show(int64_t frame, int64_t step, const hooke_state *state, void *ctx) {
@@ -47,7 +47,7 @@ static int32_t show(int64_t frame, int64_t step, const hooke_state *state, void 
   return rerun->observer ? rerun->observer(step, state, rerun->ctx) : 0;
 }
 
-int32_t hk_estimate_rerun(struct hooke_estimate *e, const struct hk_rerun *rerun, struct hk_frames *frames) {
+int32_t hk_estimate_rerun(struct hk_estimate *e, const struct hk_rerun *rerun, struct hk_frames *frames) {
   struct run run = {e, rerun};
   const struct hk_listener listener = {tell, show, start_from, &run};
   const char *method = hooke_options_text(e->options, "method");
@@ -74,7 +74,7 @@ static double floor_of(const struct hk_frames *frames) {
   return ROUNDING * largest;
 }
 
-static void know(struct hooke_estimate *e, double error, double from, double until, const char *by) {
+static void know(struct hk_estimate *e, double error, double from, double until, const char *by) {
   if (!(error >= 0.0)) return;
   e->error = error;
   e->known_from = from;
@@ -85,7 +85,7 @@ static void know(struct hooke_estimate *e, double error, double from, double unt
 /* ---- coarser reruns ---- */
 
 /* Step or tolerance of a run `level` times coarser; NaN if there is none. */
-static double coarser(const struct hooke_estimate *e, int32_t adaptive, double value, int32_t level) {
+static double coarser(const struct hk_estimate *e, int32_t adaptive, double value, int32_t level) {
   if (adaptive) {
     const double looser = value * pow(COARSER_TOLERANCE, level);
     return looser <= LOOSEST * (1.0 + 1e-9) ? looser : NAN;
@@ -95,7 +95,7 @@ static double coarser(const struct hooke_estimate *e, int32_t adaptive, double v
 }
 
 /* `near` is the distance of the run from the coarser one, `far` that of this from the next. */
-static double extrapolate(struct hooke_estimate *e, int32_t adaptive, double near, double far) {
+static double extrapolate(struct hk_estimate *e, int32_t adaptive, double near, double far) {
   const double factor = adaptive ? COARSER_TOLERANCE : 2.0, order = (double)method_of(e)->order;
   const double seen = log(far / near) / log(factor);
   const int believed =
@@ -105,7 +105,7 @@ static double extrapolate(struct hooke_estimate *e, int32_t adaptive, double nea
   return near / (pow(factor, e->order) - 1.0);
 }
 
-int32_t hk_estimate_by_coarser(struct hooke_estimate *e) {
+int32_t hk_estimate_by_coarser(struct hk_estimate *e) {
   const int32_t adaptive = method_of(e)->adaptive;
   const double value = hk_estimate_value(e->options);
   struct hk_frames frames[2] = {{.count = 0}, {.count = 0}};
@@ -133,7 +133,7 @@ int32_t hk_estimate_by_coarser(struct hooke_estimate *e) {
 /* ---- finer reruns ---- */
 
 /* Largest distance of the last `count` kept frames from those of a finer run, as an error of the run. */
-static double error_to(struct hooke_estimate *e, const struct hk_frames *finer) {
+static double error_to(struct hk_estimate *e, const struct hk_frames *finer) {
   const struct hk_frames *kept = &e->kept;
   const struct hk_method *method = method_of(e);
   double apart = 0.0;
@@ -147,12 +147,12 @@ static double error_to(struct hooke_estimate *e, const struct hk_frames *finer) 
   return apart / (1.0 - gain);
 }
 
-static double finer_value(const struct hooke_estimate *e) {
+static double finer_value(const struct hk_estimate *e) {
   const double value = hk_estimate_value(e->options);
   return method_of(e)->adaptive ? fmax(TIGHTEST, FINER_TOLERANCE * value) : 0.5 * value;
 }
 
-int32_t hk_estimate_by_slice(struct hooke_estimate *e) {
+int32_t hk_estimate_by_slice(struct hk_estimate *e) {
   struct hk_frames frames;
   if (e->late == NULL || !isnan(e->late_after)) return HOOKE_OK;
   const double from = hooke_state_time(e->late), duration = e->begin + e->duration - from;
@@ -167,7 +167,7 @@ int32_t hk_estimate_by_slice(struct hooke_estimate *e) {
   return status;
 }
 
-int32_t hk_estimate_by_finer(struct hooke_estimate *e) {
+int32_t hk_estimate_by_finer(struct hk_estimate *e) {
   struct hk_frames frames;
   int32_t status = hk_frames_create(e->system, e->kept.count, &frames);
   if (status != HOOKE_OK) return status;

@@ -79,7 +79,7 @@ static double excess_of(const struct slice *s, double scale) {
 }
 
 /* A slice from `from` on; NULL: from the initial state. */
-static int32_t look(struct hooke_estimate *e, const hooke_state *from) {
+static int32_t look(struct hk_estimate *e, const hooke_state *from) {
   const double step = hk_estimate_value(e->options);
   const double left = e->duration - (from ? hooke_state_time(from) - e->begin : 0.0);
   const double count = fmin(MOST_STEPS, round(left / step));
@@ -95,7 +95,7 @@ static int32_t look(struct hooke_estimate *e, const hooke_state *from) {
   return status;
 }
 
-int32_t hk_estimate_heat(struct hooke_estimate *e) {
+int32_t hk_estimate_heat(struct hk_estimate *e) {
   const char *method = hooke_options_text(e->options, "method");
   if (hooke_method_is_adaptive(method) || e->system->force) return HOOKE_OK;
   int32_t status = look(e, NULL);

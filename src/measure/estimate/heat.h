@@ -17,6 +17,6 @@
  * without overshooting: so the error that R has with every method is not counted as excess. Sets
  * estimate->heat_excess, that of the slice where it is larger; NaN with callbacks or error control, or where
  * there was no time for a slice. HOOKE_STOPPED, HOOKE_NO_MEMORY. */
-int32_t hk_estimate_heat(struct hooke_estimate *estimate);
+int32_t hk_estimate_heat(struct hk_estimate *estimate);
 
 #endif

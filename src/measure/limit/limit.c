@@ -69,9 +69,9 @@ static void forget(struct hk_limit *limit) {
   limit->mode_count = limit->products = limit->clamped = 0;
   hk_free(limit->mode);
   limit->mode = NULL;
-  hk_blame_release(&limit->blame);
-  memset(&limit->blame, 0, sizeof limit->blame);
-  memset(&limit->remedy, 0, sizeof limit->remedy);
+  hk_participation_release(&limit->participation);
+  memset(&limit->participation, 0, sizeof limit->participation);
+  memset(&limit->suggestion, 0, sizeof limit->suggestion);
   for (int32_t k = 0; k < limit->row_count; k++) {
     struct hk_limit_row *row = &limit->row[k];
     row->bound = row->predicted = row->measured = row->steps_run = NAN;
@@ -143,7 +143,7 @@ static int32_t begin_part(struct hk_limit *limit, double share, double width, co
 
 /* ---- one state ---- */
 
-const struct hk_limit_row *hk_limit_blamed(const struct hk_limit *limit) {
+const struct hk_limit_row *hk_limit_limiting_row(const struct hk_limit *limit) {
   const char *method =
       limit->run ? hooke_options_text(limit->run, "method") : hk_method_of_euler(limit->system);
   const struct hk_limit_row *first = NULL;
@@ -162,8 +162,8 @@ static void remember(struct hk_limit *limit, const double *q, double t) {
 }
 
 /* The mode, the springs and particles that limit the step in it, and a suggestion. */
-static int32_t find_blame(struct hk_limit *limit) {
-  const struct hk_limit_row *row = hk_limit_blamed(limit);
+static int32_t find_participation(struct hk_limit *limit) {
+  const struct hk_limit_row *row = hk_limit_limiting_row(limit);
   if (row == NULL) return HOOKE_OK;
   const int64_t n = limit->system->particle_count;
   double longest = 0.0;
@@ -176,13 +176,13 @@ static int32_t find_blame(struct hk_limit *limit) {
   /* if no step is stable, only stiffness is considered */
   const int stiffness_alone = hk_method_stability(row->method)->damps_implicitly || !(row->predicted > 0.0);
   const double h = stiffness_alone ? 0.0 : row->predicted;
-  int32_t status =
-      hk_blame_find(limit->system, limit->q, limit->shape, stiffness_alone ? 1.0 : h * h, h, &limit->blame);
-  limit->blame.patience = limit->patience;
-  limit->blame.room = limit->room;
+  int32_t status = hk_participation_find(limit->system, limit->q, limit->shape, stiffness_alone ? 1.0 : h * h,
+                                         h, &limit->participation);
+  limit->participation.patience = limit->patience;
+  limit->participation.room = limit->room;
   if (status == HOOKE_OK && row->predicted > 0.0)
-    status =
-        hk_remedy_find(limit->system, limit->q, row->method, row->predicted, &limit->blame, &limit->remedy);
+    status = hk_suggestion_find(limit->system, limit->q, row->method, row->predicted, &limit->participation,
+                                &limit->suggestion);
   return status;
 }
 
@@ -233,7 +233,7 @@ int32_t hk_limit_look(struct hk_limit *limit, const double *q, double t) {
   remember(limit, q, t);
   int32_t status = begin_part(limit, 0.0, PREDICTING, "eigenvalues");
   if (status == HOOKE_OK) status = hk_limit_predict_rows(limit, limit->q);
-  return status == HOOKE_OK ? find_blame(limit) : status;
+  return status == HOOKE_OK ? find_participation(limit) : status;
 }
 
 static int32_t find(struct hk_limit *limit, const hooke_state *state) {
@@ -293,8 +293,8 @@ static int32_t go_along(struct hk_limit *limit, hooke_state *state) {
   hooke_integrator_destroy(integrator);
   remember(limit, hooke_state_position(state), hooke_state_time(state));
   if (walk.status != HOOKE_OK) return walk.status;
-  const int32_t blame = status < 0 || !limit->found ? HOOKE_OK : find_blame(limit);
-  return blame != HOOKE_OK ? blame : status;
+  const int32_t found = status < 0 || !limit->found ? HOOKE_OK : find_participation(limit);
+  return found != HOOKE_OK ? found : status;
 }
 
 static int32_t run(hooke_measurement *m, hooke_state *state) {

@@ -2,7 +2,7 @@
 #ifndef HOOKE_MEASURE_LIMIT_LIMIT_H
 #define HOOKE_MEASURE_LIMIT_LIMIT_H
 
-#include "measure/limit/limit_blame.h"
+#include "measure/limit/limit_participation.h"
 #include "measure/measurement.h"
 #include "measure/spectrum/limit_rules.h"
 
@@ -39,8 +39,8 @@ struct hk_limit {
   struct hk_limit_mode *mode;
   double *shape, *stiffest; /* 3n; the second, a start for the next state, x, y and z apart */
   int32_t has_stiffest;
-  struct hk_blame blame;
-  struct hk_remedy remedy;
+  struct hk_participation participation;
+  struct hk_suggestion suggestion;
 
   struct hk_patience endless;   /* which only the caller ends */
   struct hk_patience *patience; /* that, or that of a diagnosis, with the bytes that a basis may take */
@@ -57,23 +57,23 @@ int32_t hk_limit_predict_rows(struct hk_limit *limit, const double *q);
 
 /* The row for limiting springs: that of the method of the run, or the first with a limit; NULL if none has
  * one. */
-const struct hk_limit_row *hk_limit_blamed(const struct hk_limit *limit);
+const struct hk_limit_row *hk_limit_limiting_row(const struct hk_limit *limit);
 
 /* Reports the fraction done of the current part; HOOKE_STOPPED if it is to end. `limit` is the context. */
 int32_t hk_limit_tell(double done, const char *what, void *limit);
 
 /* A row of the table "blame" of a limit or a diagnosis. */
-struct hk_blame_line {
+struct hk_limiting_line {
   const char *group, *force;
   double number, first, second, share;
 };
-enum { HOOKE_BLAME_COLUMNS = 6 };
-extern const struct hk_column hk_blame_columns[HOOKE_BLAME_COLUMNS];
-#define HOOKE_BLAME_TABLE                                                                                    \
+enum { HOOKE_LIMITING_COLUMNS = 6 };
+extern const struct hk_column hk_limiting_columns[HOOKE_LIMITING_COLUMNS];
+#define HOOKE_LIMITING_TABLE                                                                                 \
   .doc =                                                                                                     \
       "limiting springs, at most 100, the largest share first; before them the force that has half of the "  \
       "whole or more, if it is not the stiffness of springs",                                                \
-  HOOKE_TABLE_COLUMNS(hk_blame_columns, struct hk_blame_line)
+  HOOKE_TABLE_COLUMNS(hk_limiting_columns, struct hk_limiting_line)
 
 enum { HOOKE_LIMIT_TABLES = 6 };
 extern const struct hk_table *const hk_limit_tables[HOOKE_LIMIT_TABLES];

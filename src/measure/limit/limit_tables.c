@@ -26,7 +26,7 @@ static double if_found(const struct hk_limit *limit, int64_t count) {
 
 static void read_limit(const void *object, int64_t row, void *line) {
   const struct hk_limit *limit = object;
-  const struct hk_limit_row *blamed = limit->found ? hk_limit_blamed(limit) : NULL;
+  const struct hk_limit_row *blamed = limit->found ? hk_limit_limiting_row(limit) : NULL;
   (void)row;
   *(struct limit_line *)line =
       (struct limit_line){.time = limit->time,
@@ -131,133 +131,136 @@ static const struct hk_table row_table = {
 /* ---- limiting springs ---- */
 
 /* 1 if a force comes first. */
-static int64_t blames_force(const struct hk_limit *limit) {
-  return hk_blame_force(&limit->blame) >= 0;
+static int64_t has_force_row(const struct hk_limit *limit) {
+  return hk_participation_force(&limit->participation) >= 0;
 }
 
-static int64_t count_blame(const void *object) {
+static int64_t count_limiting(const void *object) {
   const struct hk_limit *limit = object;
-  return limit->blame.spring_count + blames_force(limit);
+  return limit->participation.spring_count + has_force_row(limit);
 }
 
-static void read_blame(const void *object, int64_t row, void *line) {
+static void read_limiting(const void *object, int64_t row, void *line) {
   const struct hk_limit *limit = object;
-  const int32_t force = row == 0 ? hk_blame_force(&limit->blame) : -1;
+  const int32_t force = row == 0 ? hk_participation_force(&limit->participation) : -1;
   if (force >= 0) {
-    *(struct hk_blame_line *)line = (struct hk_blame_line){.number = NAN,
-                                                           .first = NAN,
-                                                           .second = NAN,
-                                                           .group = "",
-                                                           .share = limit->blame.force_share[force],
-                                                           .force = hk_blame_force_name(force)};
+    *(struct hk_limiting_line *)line =
+        (struct hk_limiting_line){.number = NAN,
+                                  .first = NAN,
+                                  .second = NAN,
+                                  .group = "",
+                                  .share = limit->participation.force_share[force],
+                                  .force = hk_participation_force_name(force)};
     return;
   }
-  const struct hk_blamed_spring *s = &limit->blame.spring[row - blames_force(limit)];
-  *(struct hk_blame_line *)line =
-      (struct hk_blame_line){.number = (double)s->spring,
-                             .first = (double)s->first,
-                             .second = (double)s->second,
-                             .group = hooke_system_group_name(limit->system, "springs", s->group),
-                             .share = s->share};
+  const struct hk_limiting_spring *s = &limit->participation.spring[row - has_force_row(limit)];
+  *(struct hk_limiting_line *)line =
+      (struct hk_limiting_line){.number = (double)s->spring,
+                                .first = (double)s->first,
+                                .second = (double)s->second,
+                                .group = hooke_system_group_name(limit->system, "springs", s->group),
+                                .share = s->share};
 }
 
-const struct hk_column hk_blame_columns[HOOKE_BLAME_COLUMNS] = {
-    HOOKE_COLUMN(struct hk_blame_line, number, COUNT, "", "number of the spring; NaN of a force"),
-    HOOKE_COLUMN(struct hk_blame_line, first, COUNT, "", "particle at its first end"),
-    HOOKE_COLUMN(struct hk_blame_line, second, COUNT, "", "particle at its second end"),
-    HOOKE_COLUMN(struct hk_blame_line, group, TEXT, "", "name of its group or part; empty if that has none"),
+const struct hk_column hk_limiting_columns[HOOKE_LIMITING_COLUMNS] = {
+    HOOKE_COLUMN(struct hk_limiting_line, number, COUNT, "", "number of the spring; NaN of a force"),
+    HOOKE_COLUMN(struct hk_limiting_line, first, COUNT, "", "particle at its first end"),
+    HOOKE_COLUMN(struct hk_limiting_line, second, COUNT, "", "particle at its second end"),
+    HOOKE_COLUMN(struct hk_limiting_line, group, TEXT, "",
+                 "name of its group or part; empty if that has none"),
     HOOKE_COLUMN(
-        struct hk_blame_line, share, NUMBER, "",
+        struct hk_limiting_line, share, NUMBER, "",
         "share of h^2 K + 2 h C in the limiting mode, 0 to 1; bending, altitude springs and drag are "
         "part of the whole; NaN if it cannot be told"),
-    HOOKE_COLUMN(struct hk_blame_line, force, TEXT, "",
+    HOOKE_COLUMN(struct hk_limiting_line, force, TEXT, "",
                  "drag, damping, bending or altitude, where no spring but that force is meant"),
 };
 
-static const struct hk_table blame_table = {
+static const struct hk_table limiting_table = {
     .name = "blame",
-    HOOKE_BLAME_TABLE,
-    .count = count_blame,
-    .read = read_blame,
+    HOOKE_LIMITING_TABLE,
+    .count = count_limiting,
+    .read = read_limiting,
 };
 
 /* ---- participation ---- */
 
-struct mover_line {
+struct particle_line {
   double particle, share, mass;
 };
 
-static int64_t count_movers(const void *object) {
-  return ((const struct hk_limit *)object)->blame.particle_count;
+static int64_t count_particles(const void *object) {
+  return ((const struct hk_limit *)object)->participation.particle_count;
 }
 
-static void read_mover(const void *object, int64_t row, void *line) {
-  const struct hk_blamed_particle *p = &((const struct hk_limit *)object)->blame.particle[row];
-  *(struct mover_line *)line =
-      (struct mover_line){.particle = (double)p->particle, .share = p->share, .mass = p->mass};
+static void read_particle(const void *object, int64_t row, void *line) {
+  const struct hk_limiting_particle *p = &((const struct hk_limit *)object)->participation.particle[row];
+  *(struct particle_line *)line =
+      (struct particle_line){.particle = (double)p->particle, .share = p->share, .mass = p->mass};
 }
 
-static const struct hk_column mover_columns[] = {
-    HOOKE_COLUMN(struct mover_line, particle, COUNT, "", "number of the particle"),
-    HOOKE_COLUMN(struct mover_line, share, NUMBER, "", "share of the kinetic energy of the mode, 0 to 1"),
-    HOOKE_COLUMN(struct mover_line, mass, NUMBER, "kg", "its mass"),
+static const struct hk_column particle_columns[] = {
+    HOOKE_COLUMN(struct particle_line, particle, COUNT, "", "number of the particle"),
+    HOOKE_COLUMN(struct particle_line, share, NUMBER, "", "share of the kinetic energy of the mode, 0 to 1"),
+    HOOKE_COLUMN(struct particle_line, mass, NUMBER, "kg", "its mass"),
 };
 
-static const struct hk_table mover_table = {
+static const struct hk_table particle_table = {
     .name = "movers",
     .doc = "participation of particles in the limiting mode, at most 100, the largest share first",
-    HOOKE_TABLE_COLUMNS(mover_columns, struct mover_line),
-    .count = count_movers,
-    .read = read_mover,
+    HOOKE_TABLE_COLUMNS(particle_columns, struct particle_line),
+    .count = count_particles,
+    .read = read_particle,
 };
 
 /* ---- the suggestion ---- */
 
-struct remedy_line {
+struct suggestion_line {
   const char *kind, *sentence;
   double springs, particles, factor, cost, gain, gain_predicted;
 };
 
-static int64_t count_remedies(const void *object) {
-  return ((const struct hk_limit *)object)->remedy.sentence[0] != '\0';
+static int64_t count_suggestions(const void *object) {
+  return ((const struct hk_limit *)object)->suggestion.sentence[0] != '\0';
 }
 
-static void read_remedy(const void *object, int64_t row, void *line) {
-  const struct hk_remedy *r = &((const struct hk_limit *)object)->remedy;
+static void read_suggestion(const void *object, int64_t row, void *line) {
+  const struct hk_suggestion *r = &((const struct hk_limit *)object)->suggestion;
   const int soften = r->kind && strcmp(r->kind, "soften") == 0;
   (void)row;
-  *(struct remedy_line *)line = (struct remedy_line){.kind = r->kind,
-                                                     .springs = soften ? (double)r->count : NAN,
-                                                     .particles = r->kind && !soften ? (double)r->count : NAN,
-                                                     .factor = r->factor,
-                                                     .cost = r->cost,
-                                                     .gain = r->gain,
-                                                     .gain_predicted = r->gain_predicted,
-                                                     .sentence = r->sentence};
+  *(struct suggestion_line *)line =
+      (struct suggestion_line){.kind = r->kind,
+                               .springs = soften ? (double)r->count : NAN,
+                               .particles = r->kind && !soften ? (double)r->count : NAN,
+                               .factor = r->factor,
+                               .cost = r->cost,
+                               .gain = r->gain,
+                               .gain_predicted = r->gain_predicted,
+                               .sentence = r->sentence};
 }
 
-static const struct hk_column remedy_columns[] = {
-    HOOKE_COLUMN(struct remedy_line, kind, TEXT, "",
+static const struct hk_column suggestion_columns[] = {
+    HOOKE_COLUMN(struct suggestion_line, kind, TEXT, "",
                  "soften (springs) or heavier (particles); none where no small set limits the step"),
-    HOOKE_COLUMN(struct remedy_line, springs, COUNT, "", "springs to change, the first limiting springs"),
-    HOOKE_COLUMN(struct remedy_line, particles, COUNT, "",
+    HOOKE_COLUMN(struct suggestion_line, springs, COUNT, "", "springs to change, the first limiting springs"),
+    HOOKE_COLUMN(struct suggestion_line, particles, COUNT, "",
                  "particles to change, those that participate most"),
-    HOOKE_COLUMN(struct remedy_line, factor, NUMBER, "", "factor by which to change them"),
-    HOOKE_COLUMN(struct remedy_line, cost, NUMBER, "", "factor of the step without them"),
-    HOOKE_COLUMN(struct remedy_line, gain, NUMBER, "",
+    HOOKE_COLUMN(struct suggestion_line, factor, NUMBER, "", "factor by which to change them"),
+    HOOKE_COLUMN(struct suggestion_line, cost, NUMBER, "", "factor of the step without them"),
+    HOOKE_COLUMN(struct suggestion_line, gain, NUMBER, "",
                  "factor of the step, computed again with the change made"),
-    HOOKE_COLUMN(struct remedy_line, gain_predicted, NUMBER, "",
+    HOOKE_COLUMN(struct suggestion_line, gain_predicted, NUMBER, "",
                  "factor of the step by first-order perturbation"),
-    HOOKE_COLUMN(struct remedy_line, sentence, TEXT, "", "the suggestion in words"),
+    HOOKE_COLUMN(struct suggestion_line, sentence, TEXT, "", "the suggestion in words"),
 };
 
-static const struct hk_table remedy_table = {
+static const struct hk_table suggestion_table = {
     .name = "remedy",
     .doc = "suggestion: what changing the limiting springs, or the particles, would gain",
     .record = 1,
-    HOOKE_TABLE_COLUMNS(remedy_columns, struct remedy_line),
-    .count = count_remedies,
-    .read = read_remedy,
+    HOOKE_TABLE_COLUMNS(suggestion_columns, struct suggestion_line),
+    .count = count_suggestions,
+    .read = read_suggestion,
 };
 
 /* ---- modes ---- */
@@ -291,5 +294,5 @@ static const struct hk_table mode_table = {
 
 /* ---- the list ---- */
 
-const struct hk_table *const hk_limit_tables[HOOKE_LIMIT_TABLES] = {&limit_table, &row_table,    &blame_table,
-                                                                    &mover_table, &remedy_table, &mode_table};
+const struct hk_table *const hk_limit_tables[HOOKE_LIMIT_TABLES] = {
+    &limit_table, &row_table, &limiting_table, &particle_table, &suggestion_table, &mode_table};

@@ -89,8 +89,14 @@ int32_t hk_step_is_safe(const struct hk_node_blocks *blocks, const char *method,
   }
 }
 
+/* With rigid bodies no bound is known: about a pin or an axis, tensions and gravity are stiffness. */
+static double bound_with_bodies(const char *method) {
+  return hooke_method_is_adaptive(method) ? INFINITY : (double)NAN;
+}
+
 double hk_step_bound_of(const struct hk_node_blocks *blocks, const char *method) {
   const struct hk_stability *stability = hk_method_stability(method);
+  if (blocks->system->bodies.moving > 0) return bound_with_bodies(method);
   if (blocks->system->friction > 0.0 && !hk_method_suits(method, blocks->system)) return NAN;
   if (blocks->system->friction > 0.0 && stability->kind == HOOKE_STABLE_BY_POLYNOMIAL)
     return overdamped_bound(blocks, stability);
@@ -107,39 +113,19 @@ double hk_step_bound_of(const struct hk_node_blocks *blocks, const char *method)
   }
 }
 
-/* With rigid bodies no bound is known: about a pin or an axis, tensions and gravity are stiffness. */
-static double bound_with_bodies(const char *method) {
-  return hooke_method_is_adaptive(method) ? INFINITY : (double)NAN;
-}
-
 int32_t hooke_step_bound(const hooke_system *system, const char *method, const double *q, double *bound) {
-  const int32_t adaptive = hooke_method_is_adaptive(method);
-  if (adaptive < 0) return hk_fail(HOOKE_BAD_VALUE, "method", "there is no method \"%s\"", method);
-  int32_t status = hk_system_require_committed(system);
-  if (status != HOOKE_OK) return status;
-  if (system->bodies.moving > 0) {
-    *bound = bound_with_bodies(method);
-    return HOOKE_OK;
-  }
   struct hk_node_blocks blocks = {.system = system};
-  if (hk_step_is_bounded(method)) status = hk_node_blocks_create(system, q, &blocks);
-  if (status != HOOKE_OK) return status;
-  *bound = hk_step_bound_of(&blocks, method);
-  if (hk_step_is_bounded(method)) hk_node_blocks_release(&blocks);
-  return HOOKE_OK;
-}
-
-int32_t hooke_step_bounds(const hooke_system *system, const double *q, double *bounds) {
-  struct hk_node_blocks blocks;
+  if (method && hooke_method_is_adaptive(method) < 0)
+    return hk_fail(HOOKE_BAD_VALUE, "method", "there is no method \"%s\"", method);
   int32_t status = hk_system_require_committed(system);
-  for (int64_t k = 0; k < hooke_method_count() && system->bodies.moving > 0; k++)
-    bounds[k] = bound_with_bodies(hooke_method_name(k));
-  if (status != HOOKE_OK || system->bodies.moving > 0) return status;
-  status = hk_node_blocks_create(system, q, &blocks);
   if (status != HOOKE_OK) return status;
-  for (int64_t k = 0; k < hooke_method_count(); k++)
-    bounds[k] = hk_step_bound_of(&blocks, hooke_method_name(k));
-  hk_node_blocks_release(&blocks);
+  const int one_pass = system->bodies.moving == 0 && (method == NULL || hk_step_is_bounded(method));
+  if (one_pass) status = hk_node_blocks_create(system, q, &blocks);
+  if (status != HOOKE_OK) return status;
+  if (method) *bound = hk_step_bound_of(&blocks, method);
+  for (int64_t k = 0; method == NULL && k < hooke_method_count(); k++)
+    bound[k] = hk_step_bound_of(&blocks, hooke_method_name(k));
+  if (one_pass) hk_node_blocks_release(&blocks);
   return HOOKE_OK;
 }
 

@@ -131,7 +131,7 @@ static void keep_counts(struct hk_trial *trial, const hooke_integrator *integrat
   trial->force_evaluations = (double)hooke_integrator_count(integrator, "force_evaluations");
   trial->steps = (double)hooke_integrator_count(integrator, "steps");
   trial->linear_iterations = (double)hooke_integrator_count(integrator, "linear_iterations");
-  trial->wall_seconds = hooke_integrator_wall_seconds(integrator);
+  trial->wall_seconds = hooke_integrator_number(integrator, "wall_seconds");
 }
 
 int32_t hk_trial_run(struct hk_trial *trial, const struct hk_frames *reference, int64_t frames,
@@ -166,7 +166,7 @@ int32_t hk_frames_run(struct hk_frames *frames, const hooke_options *options,
   hooke_integrator *integrator = NULL;
   frames->recorded = 0;
   const int32_t status = run_once(&run, frames->system, options, &integrator);
-  if (integrator && wall_seconds) *wall_seconds = hooke_integrator_wall_seconds(integrator);
+  if (integrator && wall_seconds) *wall_seconds = hooke_integrator_number(integrator, "wall_seconds");
   if (integrator && force_evaluations) {
     *force_evaluations = (double)hooke_integrator_count(integrator, "force_evaluations");
   }

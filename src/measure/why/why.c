@@ -152,7 +152,7 @@ static int32_t inquire(struct hk_inquiry *inquiry) {
   const int32_t status = inquiry->violation.q ? find_out(inquiry) : HOOKE_NO_MEMORY;
   tell_left_out(inquiry);
   hk_growing_release(&inquiry->growing);
-  hk_blame_release(&inquiry->violation.blame);
+  hk_participation_release(&inquiry->violation.participation);
   hk_free(inquiry->violation.q);
   hooke_state_destroy(inquiry->last);
   return status;
@@ -162,7 +162,7 @@ static int32_t inquire(struct hk_inquiry *inquiry) {
 
 static int32_t check(const hooke_integrator *run) {
   const int32_t status =
-      hk_integrator_require_particles(run, NULL, "has no springs to blame; its own message is all there is");
+      hk_integrator_require_particles(run, NULL, "has no springs; its own message is all there is");
   if (status != HOOKE_OK) return status;
   if (!ended_early(run))
     return hk_fail(HOOKE_BAD_CALL, NULL,
@@ -181,7 +181,7 @@ static int32_t create(hooke_measurement *m) {
 static void forget(struct hk_why *why) {
   for (int64_t k = 0; k < why->advice_count; k++)
     hooke_options_destroy(why->advice[k].run);
-  why->blame_count = why->advice_count = 0;
+  why->limiting_count = why->advice_count = 0;
   why->cause = NULL;
   why->sentence[0] = why->left_out[0] = why->method[0] = '\0';
   why->time = why->noticed = why->limit = why->particle = why->step = NAN;

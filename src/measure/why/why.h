@@ -3,16 +3,16 @@
 #define HOOKE_MEASURE_WHY_WHY_H
 
 #include "integrate/integrator.h"
-#include "measure/limit/limit_blame.h"
+#include "measure/limit/limit_participation.h"
 #include "measure/measurement.h"
 #include "measure/spectrum/node_blocks.h"
 #include "measure/trial/patience.h"
 #include "measure/why/growing.h"
 #include "measure/why/why_walk.h"
 
-enum { HOOKE_WHY_MOST_BLAME = 100, HOOKE_WHY_MOST_ADVICE = 4 };
+enum { HOOKE_WHY_MOST_LIMITING = 100, HOOKE_WHY_MOST_ADVICE = 4 };
 
-struct hk_why_blame {
+struct hk_why_limiting {
   int64_t spring, first, second;
   double share;
   char group[96];
@@ -33,8 +33,8 @@ struct hk_why {
   const char *cause;                  /* NULL: not found yet */
   char sentence[1024], method[32], left_out[640];
   double time, noticed, step, limit, particle;
-  int64_t blame_count, advice_count;
-  struct hk_why_blame blame[HOOKE_WHY_MOST_BLAME];
+  int64_t limiting_count, advice_count;
+  struct hk_why_limiting limiting[HOOKE_WHY_MOST_LIMITING];
   struct hk_why_advice advice[HOOKE_WHY_MOST_ADVICE];
 };
 
@@ -50,12 +50,12 @@ struct hk_violation {
   int32_t found, tries;
   int64_t pause; /* checks to skip: between bound and limit repeated checks gain nothing */
   double time, *q;
-  double limit,      /* NaN: it is only known to be exceeded */
-      at_most;       /* upper bound of it; infinity: unknown */
-  int64_t particle;  /* where the bound shows it */
-  double bound;      /* first bound that the step exceeded; NaN: none */
-  int32_t has_blame; /* of the growing motion there */
-  struct hk_blame blame;
+  double limit,              /* NaN: it is only known to be exceeded */
+      at_most;               /* upper bound of it; infinity: unknown */
+  int64_t particle;          /* where the bound shows it */
+  double bound;              /* first bound that the step exceeded; NaN: none */
+  int32_t has_participation; /* of the growing motion there */
+  struct hk_participation participation;
 };
 
 struct hk_inquiry {
@@ -83,8 +83,8 @@ struct hk_inquiry {
   struct hk_violation violation;
   int64_t flips, flipped; /* number of reversals of a spring through zero length, and the last such spring */
   double flip_time;
-  int32_t force;    /* force that determines the limit, by hk_blame_force(); -1: springs */
-  char remedy[640]; /* gain of a change of the scene; "" if unknown */
+  int32_t force;        /* force that determines the limit, by hk_participation_force(); -1: springs */
+  char suggestion[640]; /* gain of a change of the scene; "" if unknown */
 };
 
 /* Numbers up to this size (in SI units) count as intended. */
@@ -109,8 +109,8 @@ int32_t hk_inquiry_limit(struct hk_inquiry *inquiry, const double *q, const char
 int32_t hk_inquiry_gains(struct hk_inquiry *inquiry, int32_t *gains);
 
 /* Finds the limiting springs and force of a violation, and a suggestion. */
-int32_t hk_inquiry_blame(struct hk_inquiry *inquiry);
-void hk_inquiry_blame_spring(struct hk_inquiry *inquiry, int64_t spring, double share);
+int32_t hk_inquiry_find_limiting(struct hk_inquiry *inquiry);
+void hk_inquiry_add_limiting(struct hk_inquiry *inquiry, int64_t spring, double share);
 
 /* The last state within all bounds. */
 const hooke_state *hk_inquiry_last(const struct hk_inquiry *inquiry);

@@ -217,8 +217,8 @@ static int32_t offer_for_step(struct hk_trials *trials) {
   if (status == HOOKE_OK && limit > 0.0)
     status = offer_smaller(trials, (above ? MARGIN : 1.0) * limit, above ? ", below the limit" : "");
   trials->backed = 0;
-  const int implicit =
-      hk_blame_is_drag(trials->inquiry->force) || trials->inquiry->force == HOOKE_BLAME_DAMPING;
+  const int implicit = hk_participation_is_drag(trials->inquiry->force) ||
+                       trials->inquiry->force == HOOKE_PARTICIPATION_DAMPING;
   if (status == HOOKE_OK && implicit && strcmp(mine, "verlet") != 0) status = offer_fixed(trials, "verlet");
   return status == HOOKE_OK ? offer_others(trials) : status;
 }
@@ -289,10 +289,10 @@ static void advise_scene(struct hk_inquiry *inquiry) {
              "correct the %s callback: what it gives for particle %lld at t = %.6g s is not finite",
              inquiry->bad_value.of_drive ? "drive" : "force", (long long)inquiry->bad_value.particle,
              inquiry->bad_value.time);
-  } else if (inquiry->remedy[0]) {
-    snprintf(advice->change, sizeof advice->change, "change the scene: %s", inquiry->remedy);
+  } else if (inquiry->suggestion[0]) {
+    snprintf(advice->change, sizeof advice->change, "change the scene: %s", inquiry->suggestion);
   } else if (strcmp(why->cause, "overflow") == 0 && inquiry->run->outcome == HOOKE_DIVERGED &&
-             !isnan(why->particle) && why->blame_count == 0) {
+             !isnan(why->particle) && why->limiting_count == 0) {
     snprintf(
         advice->change, sizeof advice->change,
         "look at the units of the scene: positions in m, velocities in m/s; no square of them may be beyond "

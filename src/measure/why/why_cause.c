@@ -71,15 +71,15 @@ static void judge_bad_value(struct hk_inquiry *inquiry) {
 }
 
 /* The elements that determine the limit. */
-static void name_blamed(const struct hk_inquiry *inquiry, char text[2 * HOOKE_NAMING_SIZE]) {
+static void name_limiting(const struct hk_inquiry *inquiry, char text[2 * HOOKE_NAMING_SIZE]) {
   const struct hk_why *why = inquiry->why;
   const int64_t particle = inquiry->violation.particle;
-  const int damping = inquiry->force == HOOKE_BLAME_DAMPING;
+  const int damping = inquiry->force == HOOKE_PARTICIPATION_DAMPING;
   const struct hk_force_row *force = damping || inquiry->force < 0 ? NULL : hk_force_table(inquiry->force);
   char spring[HOOKE_NAMING_SIZE] = "no spring";
   const int64_t first = inquiry->force >= 0;
-  if (first < why->blame_count)
-    hk_naming_words(inquiry->system, &hk_force_springs, why->blame[first].spring, spring);
+  if (first < why->limiting_count)
+    hk_naming_words(inquiry->system, &hk_force_springs, why->limiting[first].spring, spring);
   if (force && !force->members)
     snprintf(text, 2 * HOOKE_NAMING_SIZE, "the %s of particle %lld", force->title, (long long)particle);
   else if (force)
@@ -94,8 +94,8 @@ static int32_t judge_violation(struct hk_inquiry *inquiry) {
   char where[2 * HOOKE_NAMING_SIZE], end[160];
   inquiry->why->limit = violation->limit;
   inquiry->why->particle = (double)violation->particle;
-  const int32_t status = hk_inquiry_blame(inquiry);
-  name_blamed(inquiry, where);
+  const int32_t status = hk_inquiry_find_limiting(inquiry);
+  name_limiting(inquiry, where);
   show(inquiry, end);
   if (violation->at_most == 0.0) {
     inquiry->why->limit = 0.0;
@@ -147,7 +147,7 @@ static void judge_overflow(struct hk_inquiry *inquiry) {
   const hooke_system *system = inquiry->system;
   const struct steepest steepest = find_steepest(system);
   char where[HOOKE_NAMING_SIZE], what[HOOKE_NAMING_SIZE + 80] = "", step[64] = "";
-  if (steepest.force == &hk_force_springs) hk_inquiry_blame_spring(inquiry, steepest.number, NAN);
+  if (steepest.force == &hk_force_springs) hk_inquiry_add_limiting(inquiry, steepest.number, NAN);
   if (inquiry->violation.found) inquiry->why->limit = inquiry->violation.limit;
   if (inquiry->bad_particle >= 0) inquiry->why->particle = (double)inquiry->bad_particle;
   if (!isnan(inquiry->why->step)) hk_print(step, sizeof step, ", with a step of %.6g s", inquiry->why->step);
@@ -162,7 +162,7 @@ static void judge_overflow(struct hk_inquiry *inquiry) {
 
 static void judge_collapse(struct hk_inquiry *inquiry, int64_t spring, const char *what) {
   char where[HOOKE_NAMING_SIZE], end[160];
-  hk_inquiry_blame_spring(inquiry, spring, 1.0);
+  hk_inquiry_add_limiting(inquiry, spring, 1.0);
   hk_naming_words(inquiry->system, &hk_force_springs, spring, where);
   say(inquiry, "collapsed-spring",
       "%s %s, where a spring loses its direction and its force turns round from one step to the next; %s",

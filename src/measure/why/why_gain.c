@@ -86,7 +86,7 @@ static int32_t try_damped(struct hk_trials *trials, double times, const struct h
 
 /* Damping itself needs smaller steps, so one smaller by the factor `finer` is tried, too. */
 static int32_t try_damping(struct hk_trials *trials, double times, double finer) {
-  char *text = trials->inquiry->remedy, step[64] = "";
+  char *text = trials->inquiry->suggestion, step[64] = "";
   struct hk_change change;
   struct hk_trial trial = {.reached = NAN};
   int32_t status = hk_change_begin(&change, "step");
@@ -97,7 +97,7 @@ static int32_t try_damping(struct hk_trials *trials, double times, double finer)
   if (status == HOOKE_OK) status = try_damped(trials, times, &change, &trial);
   if (status == HOOKE_OK && trial.proof[0]) {
     hk_print(
-        text, sizeof trials->inquiry->remedy,
+        text, sizeof trials->inquiry->suggestion,
         "damping of altitude springs of %.3g s times their stiffness%s takes out what their jumps give%s",
         times, step, trial.proof);
   }
@@ -110,7 +110,7 @@ int32_t hk_trials_try_damping(struct hk_trials *trials) {
   const int adaptive = isnan(trials->step);
   const double unit = adaptive ? PART_OF_TIME * (inquiry->why->noticed - inquiry->run->t0) : trials->step;
   int32_t status = HOOKE_OK;
-  for (int k = 0; k < 2 * DAMPING_TRIES && status == HOOKE_OK && !inquiry->remedy[0]; k++) {
+  for (int k = 0; k < 2 * DAMPING_TRIES && status == HOOKE_OK && !inquiry->suggestion[0]; k++) {
     if (adaptive && k >= DAMPING_TRIES) break;
     status = try_damping(trials, DAMPING[k % DAMPING_TRIES] * unit, k < DAMPING_TRIES ? 1.0 : FINER[0]);
   }

@@ -59,29 +59,29 @@ static const struct hk_table why_table = {
 
 /* ---- limiting springs ---- */
 
-static int64_t count_blame(const void *object) {
-  return ((const struct hk_why *)object)->blame_count;
+static int64_t count_limiting(const void *object) {
+  return ((const struct hk_why *)object)->limiting_count;
 }
 
-static double if_spring(const struct hk_why_blame *blame, int64_t number) {
-  return blame->spring < 0 ? NAN : (double)number;
+static double if_spring(const struct hk_why_limiting *limiting, int64_t number) {
+  return limiting->spring < 0 ? NAN : (double)number;
 }
 
-static void read_blame(const void *object, int64_t row, void *line) {
-  const struct hk_why_blame *b = &((const struct hk_why *)object)->blame[row];
-  *(struct hk_blame_line *)line = (struct hk_blame_line){.number = if_spring(b, b->spring),
-                                                         .first = if_spring(b, b->first),
-                                                         .second = if_spring(b, b->second),
-                                                         .group = b->group,
-                                                         .share = b->share,
-                                                         .force = b->force[0] ? b->force : NULL};
+static void read_limiting(const void *object, int64_t row, void *line) {
+  const struct hk_why_limiting *b = &((const struct hk_why *)object)->limiting[row];
+  *(struct hk_limiting_line *)line = (struct hk_limiting_line){.number = if_spring(b, b->spring),
+                                                               .first = if_spring(b, b->first),
+                                                               .second = if_spring(b, b->second),
+                                                               .group = b->group,
+                                                               .share = b->share,
+                                                               .force = b->force[0] ? b->force : NULL};
 }
 
-static const struct hk_table blame_table = {
+static const struct hk_table limiting_table = {
     .name = "blame",
-    HOOKE_BLAME_TABLE,
-    .count = count_blame,
-    .read = read_blame,
+    HOOKE_LIMITING_TABLE,
+    .count = count_limiting,
+    .read = read_limiting,
 };
 
 /* ---- advice ---- */
@@ -117,4 +117,4 @@ static const struct hk_table advice_table = {
 
 /* ---- the list ---- */
 
-const struct hk_table *const hk_why_tables[HOOKE_WHY_TABLES] = {&why_table, &blame_table, &advice_table};
+const struct hk_table *const hk_why_tables[HOOKE_WHY_TABLES] = {&why_table, &limiting_table, &advice_table};

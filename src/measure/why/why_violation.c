@@ -49,12 +49,13 @@ static int32_t begin_growing(struct hk_inquiry *inquiry) {
                            &inquiry->patience, &inquiry->growing);
 }
 
-static int32_t blame_growing(struct hk_inquiry *inquiry, double h) {
+static int32_t find_growing_participation(struct hk_inquiry *inquiry, double h) {
   struct hk_violation *violation = &inquiry->violation;
   double a = 1.0, b = 0.0, most;
   hk_growing_rule(inquiry->system, method_of(inquiry), h, &a, &b, &most);
-  violation->has_blame = 1;
-  return hk_blame_find(inquiry->system, violation->q, inquiry->growing.x, a, 0.5 * b, &violation->blame);
+  violation->has_participation = 1;
+  return hk_participation_find(inquiry->system, violation->q, inquiry->growing.x, a, 0.5 * b,
+                               &violation->participation);
 }
 
 /* `above`: factor by which the quotient exceeds the stable value; infinity if no step is stable. */
@@ -62,7 +63,7 @@ static int32_t take_growth(struct hk_inquiry *inquiry, const double *q, double t
                            double above) {
   const double h = inquiry->run->schedule.step;
   take(inquiry, q, t, isinf(above) ? 0.0 : (double)NAN, h / sqrt(above), particle);
-  return blame_growing(inquiry, h);
+  return find_growing_participation(inquiry, h);
 }
 
 static int32_t by_growth(struct hk_inquiry *inquiry, const double *q, double t, int64_t particle) {
@@ -121,7 +122,7 @@ static int32_t survey_large(struct hk_inquiry *inquiry, struct hk_node_blocks *b
   if (!hk_growing_rule(inquiry->system, method_of(inquiry), run->schedule.step, &a, &b, &most)) return status;
   const double above = hk_growing_quotient(&inquiry->growing, q, a, b) / most;
   if (!(above > 1.0)) return HOOKE_OK;
-  hk_blame_release(&inquiry->violation.blame);
+  hk_participation_release(&inquiry->violation.participation);
   return take_growth(inquiry, q, run->t0, inquiry->violation.particle, above);
 }
 

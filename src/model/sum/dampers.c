@@ -15,7 +15,7 @@ struct hk_dampers {
   const hooke_system *system;
   double h;
   struct hk_damper_colours colours;
-  double *share;               /* of each damped spring */
+  double *impulse_per_rate;    /* of each damped spring */
   double *kappa, *rest_length; /* of those that only pull, in place of each spring; NULL if there are none */
   double *drag;                /* n: 1 + z + z^2/2; NULL without drag */
   double *rows;                /* 3n: positions in rows, for elements of other forces; NULL without any */
@@ -45,7 +45,7 @@ static double *new_numbers(struct hk_dampers *d, int64_t count, int32_t *status)
 static int32_t take_springs(const hooke_system *system, struct hk_dampers *d) {
   const struct hk_damper_colours *colours = &d->colours;
   int32_t status = HOOKE_OK;
-  d->share = new_numbers(d, colours->springs, &status);
+  d->impulse_per_rate = new_numbers(d, colours->springs, &status);
   if (colours->pulling) {
     d->kappa = new_numbers(d, colours->springs, &status);
     d->rest_length = new_numbers(d, colours->springs, &status);
@@ -57,7 +57,7 @@ static int32_t take_springs(const hooke_system *system, struct hk_dampers *d) {
       if (at < 0) continue;
       const struct hk_spring spring = hk_run_spring(run, k);
       const double w = system->inverse_mass[spring.head] + system->inverse_mass[spring.tail];
-      d->share[at] = hk_damper_part(d->h * spring.gamma * w) / w;
+      d->impulse_per_rate[at] = hk_damper_part(d->h * spring.gamma * w) / w;
       if (colours->pulling) d->kappa[at] = spring.kappa, d->rest_length[at] = spring.rest_length;
     }
   }
@@ -95,7 +95,7 @@ int32_t hk_dampers_create(const hooke_system *system, double h, struct hk_damper
 void hk_dampers_destroy(struct hk_dampers *d) {
   if (d == NULL) return;
   hk_damper_colours_release(&d->colours);
-  hk_free(d->share);
+  hk_free(d->impulse_per_rate);
   hk_free(d->kappa);
   hk_free(d->rest_length);
   hk_free(d->drag);
@@ -118,8 +118,10 @@ struct sweep {
 static void damp_springs(const struct sweep *sweep, int64_t from, int64_t count, int pull) {
   const struct hk_dampers *d = sweep->dampers;
   struct hk_motion *m = sweep->motion;
-  struct hk_damped_springs springs = {
-      .head = d->colours.head + from, .tail = d->colours.tail + from, .share = d->share + from, .half = d->h};
+  struct hk_damped_springs springs = {.head = d->colours.head + from,
+                                      .tail = d->colours.tail + from,
+                                      .impulse_per_rate = d->impulse_per_rate + from,
+                                      .half = d->h};
   if (pull) springs.kappa = d->kappa + from, springs.rest_length = d->rest_length + from;
   const struct hk_damper_point at = {
       {m->q[0], m->q[1], m->q[2]}, d->system->inverse_mass, {m->v[0], m->v[1], m->v[2]}};

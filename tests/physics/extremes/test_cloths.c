@@ -33,7 +33,7 @@ static hooke_system *cloth(double damping, void (*place)(double *q), double rest
   check_ok(hooke_system_add_part(plan, "cloth", NULL, part, NULL, NULL));
   check_ok(hooke_system_commit(plan));
   /* the same springs between displaced particles */
-  const int64_t springs = hooke_system_spring_count(plan), corners[] = {0, SIDE - 1};
+  const int64_t springs = hooke_system_count(plan, "springs"), corners[] = {0, SIDE - 1};
   int64_t *ends = new_block(2 * springs, (int64_t)sizeof *ends);
   double *kappa = new_doubles(springs), *rest = new_doubles(springs), *brake = new_doubles(springs), q[SIZE];
   check_ok(hooke_system_members(plan, "springs", ends, NULL, NULL, NULL));

@@ -58,10 +58,11 @@ class Measurement:
 
     def series(self, table: str, row: int, column: str) -> FloatArray | None:
         """A copy; None if there is none."""
-        place = (self.handle, table.encode(), row, column.encode())
-        pointer = lib.hooke_measurement_series(*place)
-        count = int(lib.hooke_measurement_series_count(*place))
-        return view(address_of(pointer), (count,)).copy() if pointer else None
+        count = ctypes.c_int64()
+        pointer = lib.hooke_measurement_series(
+            self.handle, table.encode(), row, column.encode(), ctypes.byref(count)
+        )
+        return view(address_of(pointer), (count.value,)).copy() if pointer else None
 
     def value(self, table: str, row: int, column: str) -> Any:
         """A number, a text, or a flag: True, False, or None if unknown."""

@@ -80,7 +80,7 @@ class Queries(Owner):
     @property
     def spring_count(self) -> int:
         """Number of springs: all that were added; once committed, those with stiffness or damping."""
-        return int(lib.hooke_system_spring_count(self._handle))
+        return int(lib.hooke_system_count(self._handle, b"springs"))
 
     @property
     def dropped_spring_count(self) -> int:

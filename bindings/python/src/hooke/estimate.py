@@ -2,22 +2,18 @@
 
 from __future__ import annotations
 
-import ctypes
-import math
 import os
 from decimal import Decimal, InvalidOperation
 from typing import TYPE_CHECKING, Any, NamedTuple, Union
 
-from ._callback import listening
 from ._library import lib
-from ._memory import Handle, Owner, text
-from ._prototypes import ESTIMATE
+from ._measurement import Measurement
 from ._status import BadValue, Unsuited
+from .options import Options
 
 if TYPE_CHECKING:
     from ._types import Path
     from .integrator import Integrator
-    from .options import Options
     from .state import State
     from .system import System
 
@@ -65,18 +61,13 @@ def metres(length: Length, name: str) -> float:
         raise BadValue(f"{name}: {length!r} is not a length; a number [m] is, or one with a unit: {units}") from None
 
 
-def _number(handle: Handle, what: str) -> float:
-    return float(lib.hooke_estimate_number(handle, what.encode()))
-
-
-class Estimate(Owner):
-    """Wraps a `hooke_estimate`: picks, observes and measures runs of one system."""
+class Estimate:
+    """A measurement of kind "estimate": picks, observes and measures runs of one system."""
 
     def __init__(self, system: System, want: Length | None, progress: Any = None):
-        made = ESTIMATE()
-        wanted = math.nan if want is None else metres(want, "want")
-        lib.hooke_estimate_create(system._committed(), wanted, ctypes.byref(made))
-        self._handle = Handle(made, lib.hooke_estimate_destroy, system._handle)
+        options = Options._of("estimate").set(want=None if want is None else metres(want, "want"))
+        self._measurement = Measurement.create("estimate", system, None, options)
+        self._handle = self._measurement.handle
         self._progress = progress
 
     def pick(self, options: Options, given: dict[str, Any]) -> None:
@@ -86,7 +77,7 @@ class Estimate(Owner):
         if chosen:
             raise BadValue(f"want picks the step or the tolerance; leave out {' and '.join(chosen)}, or want")
         method = given.get("method")
-        with listening(lib.hooke_estimate_on_progress, self._handle, self._progress):
+        with self._measurement.listening(self._progress):
             lib.hooke_estimate_pick(self._handle, None if method is None else method.encode(), options._handle)
 
     def begin(self, integrator: Integrator, state: State) -> None:
@@ -97,23 +88,12 @@ class Estimate(Owner):
         """An observer of its frames."""
         lib.hooke_estimate_see(step, state._handle, self._handle.pointer)
 
-    def measure(self, integrator: Integrator, state: State) -> RunError:
-        """The result."""
-        with listening(lib.hooke_estimate_on_progress, self._handle, self._progress):
-            lib.hooke_estimate_measure(self._handle, integrator._handle, state._handle)
-        by = lib.hooke_estimate_text(self._handle, b"by")
-        met = _number(self._handle, "met")
-        return RunError(
-            _number(self._handle, "estimate"),
-            _number(self._handle, "known_from"),
-            _number(self._handle, "known_until"),
-            text(by) if by else None,
-            _number(self._handle, "wanted"),
-            None if math.isnan(met) else met == 1.0,
-            _number(self._handle, "energy_rise"),
-            _number(self._handle, "heat_excess"),
-            text(lib.hooke_estimate_text(self._handle, b"note")),
-        )
+    def measure(self, state: State) -> RunError:
+        """The result, after the run that ended with `state`."""
+        self._measurement.run(self._progress, state)
+        found: dict[str, Any] = self._measurement.record("estimate") or {}
+        found["by"] = found["by"] or None
+        return RunError(*(found[name] for name in RunError._fields))
 
     def write(self, path: Path) -> None:
         """Adds it to the output file of the run."""

@@ -290,17 +290,17 @@ class Integrator(Closing):
     @property
     def wall_seconds(self) -> float:
         """Time spent stepping [s], without observers and output."""
-        return float(lib.hooke_integrator_wall_seconds(self._handle))
+        return float(lib.hooke_integrator_number(self._handle, b"wall_seconds"))
 
     @property
     def stop_value(self) -> int:
         """Value that the callback which stopped the run returned; 0 if none did."""
-        return int(lib.hooke_integrator_stop_value(self._handle))
+        return int(lib.hooke_integrator_count(self._handle, b"stop_value"))
 
     @property
     def diverged_at(self) -> float:
         """Time at which divergence was noticed [s]; NaN if it was not."""
-        return float(lib.hooke_integrator_diverged_at(self._handle))
+        return float(lib.hooke_integrator_number(self._handle, b"diverged_at"))
 
     def __repr__(self) -> str:
         return f"Integrator({self._problem!r}, {self.options!r})"

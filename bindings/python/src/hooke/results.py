@@ -176,7 +176,7 @@ class _Once:
         result = _result(status, integrator, state, self.output, recorder.frames() if recorder else None)
         if estimate is None:
             return result
-        error = estimate.measure(integrator, state)
+        error = estimate.measure(state)
         if self.output is not None and status == "finished":
             estimate.write(self.output)
         return replace(result, error=error)

@@ -78,8 +78,8 @@ class Scene(Parts):
         scene = cls.__new__(cls)
         scene._system = System._of_scene(handle)
         scene._run = Options(Handle(lib.hooke_scene_run_options(handle), None, handle))
-        scene._title = text(lib.hooke_scene_title(handle))
-        scene._text = text(lib.hooke_scene_text(handle))
+        scene._title = text(lib.hooke_scene_text(handle, b"title"))
+        scene._text = text(lib.hooke_scene_text(handle, b"text"))
         scene._document = None  # read from the text when it is needed
         scene._parts = {}
         return scene

@@ -61,7 +61,7 @@ class Trajectory(Closing):
         lib.hooke_record_open(os.fsencode(path), ctypes.byref(pointer))
         self._handle = Handle(pointer, lib.hooke_record_close)
         self._kept: dict[Any, Any] = {}
-        self._count: int = lib.hooke_record_frame_count(self._handle)
+        self._count: int = lib.hooke_record_count(self._handle, b"frames")
 
     # frames
 
@@ -105,7 +105,7 @@ class Trajectory(Closing):
     def beyond(self) -> slice:
         """The frames after the run diverged, which ``past_divergence`` adds and which are no physics, as a slice; an empty
         one where there are none."""
-        return slice(int(lib.hooke_record_good_frame_count(self._handle)), self._count)
+        return slice(int(lib.hooke_record_count(self._handle, b"good_frames")), self._count)
 
     # what was run
 

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Union
 
 from ._library import lib
-from ._prototypes import RECORD, VIEW
+from ._prototypes import MEASUREMENT, RECORD
 from ._status import BadValue
 from .options import Options
 
@@ -38,13 +38,14 @@ def view(
     source = _file_of(trajectory)
     page = Path(os.fspath(output)) if output is not None else source.with_suffix(".html")
     given = Options._of("view").set(**options)
-    made = VIEW()
+    made = MEASUREMENT()
     with _record(source) as record:
         try:
             lib.hooke_view_create(record, given._handle, ctypes.byref(made))
-            lib.hooke_view_write(made, os.fsencode(page), None if title is None else title.encode())
+            lib.hooke_measurement_label(made, b"title", None if title is None else title.encode())
+            lib.hooke_measurement_write(made, os.fsencode(page))
         finally:
-            lib.hooke_view_destroy(made)
+            lib.hooke_measurement_destroy(made)
     return page
 
 

@@ -105,7 +105,6 @@ HOOKE_API int32_t hooke_system_drive_callback(hooke_system *system, int64_t coun
 HOOKE_API int32_t hooke_system_commit(hooke_system *system);
 HOOKE_API int32_t hooke_system_is_committed(const hooke_system *system);
 HOOKE_API int64_t hooke_system_particle_count(const hooke_system *system);
-HOOKE_API int64_t hooke_system_spring_count(const hooke_system *system);
 HOOKE_API int64_t hooke_system_count(const hooke_system *system, const char *what);
 HOOKE_API int64_t hooke_system_group_count(const hooke_system *system, const char *force);
 HOOKE_API const char *hooke_system_group_name(const hooke_system *system, const char *force, int64_t group);
@@ -225,11 +224,9 @@ HOOKE_API int32_t hooke_integrator_get(hooke_integrator *integrator, int64_t cou
 HOOKE_API int32_t hooke_integrator_put(hooke_integrator *integrator, int64_t count, const int64_t *particles,
                                        const double *q, const double *v);
 HOOKE_API int64_t hooke_integrator_count(const hooke_integrator *integrator, const char *what);
-HOOKE_API double hooke_integrator_wall_seconds(const hooke_integrator *integrator);
+HOOKE_API double hooke_integrator_number(const hooke_integrator *integrator, const char *what);
 HOOKE_API int32_t hooke_integrator_recent(const hooke_integrator *integrator, int64_t place,
                                           hooke_state *state);
-HOOKE_API int32_t hooke_integrator_stop_value(const hooke_integrator *integrator);
-HOOKE_API double hooke_integrator_diverged_at(const hooke_integrator *integrator);
 typedef int32_t hooke_warning(const char *kind, const char *sentence, double t, double limit, int64_t spring,
                               int64_t particle, void *ctx);
 HOOKE_API int32_t hooke_integrator_on_warning(hooke_integrator *integrator, hooke_warning *warning,
@@ -262,10 +259,8 @@ HOOKE_API double hooke_measurement_number(const hooke_measurement *measurement, 
                                           int64_t row, const char *column);
 HOOKE_API const char *hooke_measurement_text(const hooke_measurement *measurement, const char *table,
                                              int64_t row, const char *column);
-HOOKE_API int64_t hooke_measurement_series_count(const hooke_measurement *measurement, const char *table,
-                                                 int64_t row, const char *column);
 HOOKE_API const double *hooke_measurement_series(const hooke_measurement *measurement, const char *table,
-                                                 int64_t row, const char *column);
+                                                 int64_t row, const char *column, int64_t *count);
 HOOKE_API int32_t hooke_measurement_label(hooke_measurement *measurement, const char *what, const char *text);
 HOOKE_API int32_t hooke_measurement_write(const hooke_measurement *measurement, const char *path);
 HOOKE_API int32_t hooke_study_recommend(hooke_measurement *study, double want);
@@ -294,7 +289,6 @@ HOOKE_API int32_t hooke_verify_create(const char *path, const hooke_options *opt
                                       const hooke_options *limits, hooke_measurement **verify);
 HOOKE_API int32_t hooke_step_bound(const hooke_system *system, const char *method, const double *q,
                                    double *bound);
-HOOKE_API int32_t hooke_step_bounds(const hooke_system *system, const double *q, double *bounds);
 #ifdef __cplusplus
 }
 #endif
@@ -304,19 +298,12 @@ HOOKE_API int32_t hooke_step_bounds(const hooke_system *system, const double *q,
 #ifdef __cplusplus
 extern "C" {
 #endif
-typedef struct hooke_estimate hooke_estimate;
-HOOKE_API int32_t hooke_estimate_create(const hooke_system *system, double want, hooke_estimate **estimate);
-HOOKE_API void hooke_estimate_destroy(hooke_estimate *estimate);
-HOOKE_API void hooke_estimate_on_progress(hooke_estimate *estimate, hooke_progress *progress, void *ctx);
-HOOKE_API int32_t hooke_estimate_pick(hooke_estimate *estimate, const char *method, hooke_options *run);
-HOOKE_API int32_t hooke_estimate_begin(hooke_estimate *estimate, const hooke_integrator *integrator,
+HOOKE_API int32_t hooke_estimate_pick(hooke_measurement *estimate, const char *method, hooke_options *run);
+HOOKE_API int32_t hooke_estimate_begin(hooke_measurement *estimate, const hooke_integrator *integrator,
                                        const hooke_state *state);
 HOOKE_API int32_t hooke_estimate_see(int64_t step, const hooke_state *state, void *estimate);
-HOOKE_API int32_t hooke_estimate_measure(hooke_estimate *estimate, const hooke_integrator *integrator,
-                                         const hooke_state *state);
-HOOKE_API int32_t hooke_estimate_refine(hooke_estimate *estimate, hooke_options *run);
-HOOKE_API double hooke_estimate_number(const hooke_estimate *estimate, const char *what);
-HOOKE_API const char *hooke_estimate_text(const hooke_estimate *estimate, const char *what);
+HOOKE_API int32_t hooke_estimate_refine(hooke_measurement *estimate, hooke_options *run);
+HOOKE_API int32_t hooke_estimate_write_h5(const hooke_measurement *estimate, const char *path);
 #ifdef __cplusplus
 }
 #endif
@@ -340,8 +327,7 @@ HOOKE_API int32_t hooke_scene_of_system(const hooke_system *system, const char *
 HOOKE_API void hooke_scene_destroy(hooke_scene *scene);
 HOOKE_API hooke_system *hooke_scene_system(hooke_scene *scene);
 HOOKE_API hooke_options *hooke_scene_run_options(hooke_scene *scene);
-HOOKE_API const char *hooke_scene_title(const hooke_scene *scene);
-HOOKE_API const char *hooke_scene_text(const hooke_scene *scene);
+HOOKE_API const char *hooke_scene_text(const hooke_scene *scene, const char *what);
 HOOKE_API int32_t hooke_mesh_read(const char *path, hooke_options *options);
 #ifdef __cplusplus
 }
@@ -362,27 +348,21 @@ HOOKE_API int32_t hooke_trajectory_write(hooke_trajectory *trajectory, int64_t s
 HOOKE_API int32_t hooke_trajectory_write_behind(hooke_trajectory *trajectory);
 HOOKE_API int32_t hooke_trajectory_mark_diverged(hooke_trajectory *trajectory);
 HOOKE_API int32_t hooke_trajectory_sync(hooke_trajectory *trajectory);
-HOOKE_API const char *hooke_trajectory_run(const hooke_trajectory *trajectory);
+HOOKE_API const char *hooke_trajectory_text(const hooke_trajectory *trajectory, const char *what);
 HOOKE_API int32_t hooke_trajectory_close(hooke_trajectory *trajectory, int32_t outcome);
-HOOKE_API int32_t hooke_estimate_write_h5(const hooke_estimate *estimate, const char *path);
 typedef struct hooke_record hooke_record;
 HOOKE_API int32_t hooke_record_open(const char *path, hooke_record **record);
 HOOKE_API void hooke_record_close(hooke_record *record);
 HOOKE_API const char *hooke_record_text(const hooke_record *record, const char *what);
 HOOKE_API const hooke_options *hooke_record_options(const hooke_record *record);
-HOOKE_API int64_t hooke_record_frame_count(const hooke_record *record);
-HOOKE_API int64_t hooke_record_good_frame_count(const hooke_record *record);
+HOOKE_API int64_t hooke_record_count(const hooke_record *record, const char *what);
 HOOKE_API int32_t hooke_record_read(const hooke_record *record, int64_t frame, hooke_state *state);
 HOOKE_API int32_t hooke_record_check(const hooke_record *record, int64_t frame);
 HOOKE_API int32_t hooke_record_size(hooke_record *record, const char *what, int64_t *rows, int64_t *columns);
 HOOKE_API int32_t hooke_record_numbers(hooke_record *record, const char *what, double *values);
 HOOKE_API int64_t hooke_record_place(const hooke_record *record, const char *what);
-typedef struct hooke_view hooke_view;
 HOOKE_API int32_t hooke_view_create(const hooke_record *record, const hooke_options *options,
-                                    hooke_view **view);
-HOOKE_API int32_t hooke_view_write(hooke_view *view, const char *path, const char *title);
-HOOKE_API double hooke_view_number(const hooke_view *view, const char *what);
-HOOKE_API void hooke_view_destroy(hooke_view *view);
+                                    hooke_measurement **view);
 HOOKE_API int32_t hooke_record_write_xdmf(const hooke_record *record, const char *path);
 #ifdef __cplusplus
 }
@@ -402,7 +382,6 @@ HOOKE_API int32_t hooke_trajectory_checkpoint(hooke_trajectory *trajectory,
 HOOKE_API int32_t hooke_trajectory_resume(const char *path, const hooke_system *system,
                                           hooke_integrator *integrator, hooke_state *state,
                                           hooke_trajectory **trajectory);
-HOOKE_API const char *hooke_trajectory_origin(const hooke_trajectory *trajectory);
 #ifdef __cplusplus
 }
 #endif

@@ -48,7 +48,7 @@ static int build(hooke_system **system, double *newtons) {
   CHECK(first == 3 && count == 3);
   CHECK(hooke_system_set_force(*system, pull, NULL, newtons) == 0);
   CHECK(hooke_system_commit(*system) == 0);
-  CHECK(hooke_system_particle_count(*system) == 6 && hooke_system_spring_count(*system) == 4);
+  CHECK(hooke_system_particle_count(*system) == 6 && hooke_system_count(*system, "springs") == 4);
   hooke_options_destroy(spring);
   hooke_options_destroy(rope);
   return 0;

@@ -38,7 +38,7 @@ static void add_count(char *list, size_t size, double count, const char *name, i
   if (count > 0.0) hk_print(list + used, size - used, "%s%.10g %s", used ? ", " : "", count, name);
 }
 
-int32_t hk_system_check_room(const hooke_system *system, struct hk_more more, const char *what) {
+int32_t hk_system_check_size(const hooke_system *system, struct hk_more more, const char *what) {
   const double bytes = hk_system_needed_bytes(system, more);
   char list[160] = "", shown[HOOKE_BYTES_SHOWN];
   int fits = 1;
@@ -53,7 +53,7 @@ int32_t hk_system_check_room(const hooke_system *system, struct hk_more more, co
 }
 
 int32_t hk_system_check_more(const hooke_system *system, const struct hk_force_row *force, int64_t count) {
-  return hk_system_check_room(system, (struct hk_more){.of = {{force, (double)count}}}, NULL);
+  return hk_system_check_size(system, (struct hk_more){.of = {{force, (double)count}}}, NULL);
 }
 
 int32_t hooke_system_limit_memory(hooke_system *system, double bytes) {

@@ -1,35 +1,35 @@
 /* The elements that determine a limit: the springs and particles that carry the limiting mode, and the gain
  * of changing them. */
-#ifndef HOOKE_MEASURE_LIMIT_LIMIT_BLAME_H
-#define HOOKE_MEASURE_LIMIT_LIMIT_BLAME_H
+#ifndef HOOKE_MEASURE_LIMIT_LIMIT_PARTICIPATION_H
+#define HOOKE_MEASURE_LIMIT_LIMIT_PARTICIPATION_H
 
 #include "measure/trial/patience.h"
 #include "model/system.h"
 
-enum { HOOKE_BLAME_MOST = 100 };
+enum { HOOKE_MOST_LIMITING = 100 };
 
-struct hk_blamed_spring {
+struct hk_limiting_spring {
   int64_t spring, first, second, group;
   double share;           /* of x.(h^2 K + 2 h C)x, all forces included in the whole */
   double stiffness_share; /* part of `share` due to h^2 K */
 };
 
-struct hk_blamed_particle {
+struct hk_limiting_particle {
   int64_t particle;
   double share; /* of the kinetic energy */
   double mass;  /* [kg] */
 };
 
 /* Shares by the number of a force in its table, and the damping of all forces with groups. */
-enum { HOOKE_BLAME_DAMPING = HOOKE_FORCES, HOOKE_BLAME_SHARES };
+enum { HOOKE_PARTICIPATION_DAMPING = HOOKE_FORCES, HOOKE_PARTICIPATION_SHARES };
 
-struct hk_blame {
+struct hk_participation {
   /* the largest shares first */
   int64_t spring_count, particle_count;
-  struct hk_blamed_spring spring[HOOKE_BLAME_MOST];
-  struct hk_blamed_particle particle[HOOKE_BLAME_MOST];
+  struct hk_limiting_spring spring[HOOKE_MOST_LIMITING];
+  struct hk_limiting_particle particle[HOOKE_MOST_LIMITING];
   double stiffness_share; /* of h^2 K in the whole */
-  double force_share[HOOKE_BLAME_SHARES];
+  double force_share[HOOKE_PARTICIPATION_SHARES];
   int64_t group_count;
   double *group_share; /* by group of the system */
   /* for a suggestion: as in linearised.h */
@@ -39,22 +39,22 @@ struct hk_blame {
 
 /* Shares of the springs, groups, forces and particles of a committed system at q (3n) in a mode (3n
  * displacements, NULL: unknown), with `h2` the weight of K and `h` that of 2 C. HOOKE_NO_MEMORY. */
-int32_t hk_blame_find(const hooke_system *system, const double *q, const double *mode, double h2, double h,
-                      struct hk_blame *blame);
-void hk_blame_release(struct hk_blame *blame);
+int32_t hk_participation_find(const hooke_system *system, const double *q, const double *mode, double h2,
+                              double h, struct hk_participation *participation);
+void hk_participation_release(struct hk_participation *participation);
 
-/* The force with half of the total or more, or HOOKE_BLAME_DAMPING; -1 if it is the stiffness of springs, or
- * none. Its name. */
-int32_t hk_blame_force(const struct hk_blame *blame);
-const char *hk_blame_force_name(int32_t force);
-int32_t hk_blame_is_drag(int32_t force);
+/* The force with half of the total or more, or HOOKE_PARTICIPATION_DAMPING; -1 if it is the stiffness of
+ * springs, or none. Its name. */
+int32_t hk_participation_force(const struct hk_participation *participation);
+const char *hk_participation_force_name(int32_t force);
+int32_t hk_participation_is_drag(int32_t force);
 
 /* Name of a group by its index in `group_share`; "" if it has none. */
-const char *hk_blame_group_name(const hooke_system *system, int64_t group);
+const char *hk_participation_group_name(const hooke_system *system, int64_t group);
 
-struct hk_remedy {
+struct hk_suggestion {
   const char *kind;      /* "soften" springs or make particles "heavier"; NULL: no small set is limiting */
-  int64_t count;         /* springs or particles to change, the first of the blame */
+  int64_t count;         /* springs or particles to change, the first of the participation */
   double cost;           /* ratio of the step limit without them */
   double factor;         /* factor of the change */
   double gain;           /* ratio of the step limits after the change: recomputed, */
@@ -67,7 +67,7 @@ struct hk_remedy {
  * step without it would be larger; `factor` is the cost of the set. `limit` is that of `method` at q as it
  * is. Without such a set `sentence` describes the limiting groups, the counts are 0 and the numbers NaN. The
  * failures of hk_limit_predict(). */
-int32_t hk_remedy_find(const hooke_system *system, const double *q, const char *method, double limit,
-                       const struct hk_blame *blame, struct hk_remedy *remedy);
+int32_t hk_suggestion_find(const hooke_system *system, const double *q, const char *method, double limit,
+                           const struct hk_participation *participation, struct hk_suggestion *suggestion);
 
 #endif

@@ -3,7 +3,7 @@
 #include "core/print.h"
 #include "core/utf8.h"
 #include "integrate/method.h"
-#include "measure/limit/limit_blame.h"
+#include "measure/limit/limit_participation.h"
 #include "measure/limit/limit_predict.h"
 #include "model/force/force.h"
 
@@ -32,20 +32,20 @@ static int is_small(int64_t count, int64_t of) {
   return count > 0 && of > 1 && (double)count <= fmax(1.0, SMALL * (double)of);
 }
 
-static struct set spring_set(const hooke_system *system, const struct hk_blame *blame) {
+static struct set spring_set(const hooke_system *system, const struct hk_participation *participation) {
   struct set set = {.springs = 1, .of = system->springs.count};
-  while (set.share < MOST_OF_THE_MODE && set.count < blame->spring_count) {
-    set.share += blame->spring[set.count].share;
-    set.stiffness_share += blame->spring[set.count++].stiffness_share;
+  while (set.share < MOST_OF_THE_MODE && set.count < participation->spring_count) {
+    set.share += participation->spring[set.count].share;
+    set.stiffness_share += participation->spring[set.count++].stiffness_share;
   }
   if (set.share < MOST_OF_THE_MODE) set.count = 0;
   return set;
 }
 
-static struct set particle_set(const hooke_system *system, const struct hk_blame *blame) {
+static struct set particle_set(const hooke_system *system, const struct hk_participation *participation) {
   struct set set = {.of = system->particle_count - system->constrained_count};
-  while (set.share < MOST_OF_THE_MODE && set.count < blame->particle_count)
-    set.share += blame->particle[set.count++].share;
+  while (set.share < MOST_OF_THE_MODE && set.count < participation->particle_count)
+    set.share += participation->particle[set.count++].share;
   if (set.share < MOST_OF_THE_MODE) set.count = 0;
   return set;
 }
@@ -68,14 +68,14 @@ static double find_kappa(const hooke_system *system, int64_t number, double *mea
 }
 
 /* Geometric means: a few outliers hardly affect them. */
-static void find_oddness(const hooke_system *system, const struct hk_blame *blame, struct set *springs,
-                         struct set *particles) {
+static void find_oddness(const hooke_system *system, const struct hk_participation *participation,
+                         struct set *springs, struct set *particles) {
   double mean, sum = 0.0;
-  const double kappa = find_kappa(system, blame->spring[0].spring, &mean);
+  const double kappa = find_kappa(system, participation->spring[0].spring, &mean);
   springs->odd = kappa > 0.0 ? log(kappa) - mean : 0.0;
   for (int64_t p = 0; p < system->particle_count; p++)
     sum += system->constrained[p] ? 0.0 : log(system->mass[p]);
-  particles->odd = sum / (double)particles->of - log(blame->particle[0].mass);
+  particles->odd = sum / (double)particles->of - log(participation->particle[0].mass);
 }
 
 /* ---- effect of a change ---- */
@@ -83,7 +83,8 @@ static void find_oddness(const hooke_system *system, const struct hk_blame *blam
 /* The limit with the set changed by `factor`: stiffness and damping divided by it, or masses multiplied by
  * it. */
 static int32_t limit_with(const hooke_system *system, const double *q, const char *method,
-                          const struct hk_blame *blame, const struct set *set, double factor, double *limit) {
+                          const struct hk_participation *participation, const struct set *set, double factor,
+                          double *limit) {
   const int64_t size = set->springs ? system->springs.count : system->particle_count;
   double *scale = hk_new(size, sizeof(double));
   if (scale == NULL) return HOOKE_NO_MEMORY;
@@ -91,31 +92,32 @@ static int32_t limit_with(const hooke_system *system, const double *q, const cha
     scale[k] = 1.0;
   for (int64_t k = 0; k < set->count; k++) {
     if (set->springs)
-      scale[blame->spring[k].spring] = 1.0 / factor;
+      scale[participation->spring[k].spring] = 1.0 / factor;
     else
-      scale[blame->particle[k].particle] = factor;
+      scale[participation->particle[k].particle] = factor;
   }
   const int32_t status =
       hk_limit_predict_within(system, q, method, set->springs ? scale : NULL, set->springs ? NULL : scale,
-                              ACCURACY, blame->room, blame->patience, limit);
+                              ACCURACY, participation->room, participation->patience, limit);
   hk_free(scale);
   return status;
 }
 
 /* Factor by which the given mode would be slower: the positive root g of g^2 k + g c = m, all over the whole.
  */
-static double perturbed(const struct hk_blame *blame, const struct set *set, double factor) {
+static double perturbed(const struct hk_participation *participation, const struct set *set, double factor) {
   const double cut = set->springs ? 1.0 - 1.0 / factor : 0.0;
-  const double k = blame->stiffness_share - cut * set->stiffness_share;
-  const double c = (1.0 - blame->stiffness_share) - cut * (set->share - set->stiffness_share);
+  const double k = participation->stiffness_share - cut * set->stiffness_share;
+  const double c = (1.0 - participation->stiffness_share) - cut * (set->share - set->stiffness_share);
   const double m = set->springs ? 1.0 : 1.0 - set->share + factor * set->share;
   return 2.0 * m / (c + sqrt(c * c + 4.0 * k * m));
 }
 
 /* The factor that makes the set as slow as the rest, for a step `gain` times larger: g^2 k + g c of its own k
  * and c. */
-static double fitting_factor(const struct hk_blame *blame, const struct set *set, double gain) {
-  const double stiff = set->springs ? set->stiffness_share / set->share : blame->stiffness_share;
+static double fitting_factor(const struct hk_participation *participation, const struct set *set,
+                             double gain) {
+  const double stiff = set->springs ? set->stiffness_share / set->share : participation->stiffness_share;
   const double factor = gain * gain * stiff + gain * (1.0 - stiff);
   const double unit = pow(10.0, floor(log10(factor)) - 1.0);
   return ceil(factor / unit * (1.0 - 1e-9)) * unit;
@@ -143,33 +145,34 @@ static const char *figure(double value, char text[24]) {
 }
 
 /* ", group `hem`" if all are of one named group; a single one by its number otherwise. */
-static void add_place(const hooke_system *system, const struct hk_blame *blame, const struct set *set,
-                      char *text, size_t size) {
+static void add_place(const hooke_system *system, const struct hk_participation *participation,
+                      const struct set *set, char *text, size_t size) {
   if (!set->springs) {
-    if (set->count == 1) add(text, size, ", number %lld,", (long long)blame->particle[0].particle);
+    if (set->count == 1) add(text, size, ", number %lld,", (long long)participation->particle[0].particle);
     return;
   }
-  const int64_t group = blame->spring[0].group;
-  int one = hk_blame_group_name(system, group)[0] != '\0';
+  const int64_t group = participation->spring[0].group;
+  int one = hk_participation_group_name(system, group)[0] != '\0';
   for (int64_t k = 0; k < set->count; k++)
-    one &= blame->spring[k].group == group;
-  if (set->count == 1) add(text, size, ", number %lld,", (long long)blame->spring[0].spring);
+    one &= participation->spring[k].group == group;
+  if (set->count == 1) add(text, size, ", number %lld,", (long long)participation->spring[0].spring);
   if (one)
-    add(text, size, "%s group `%.60s`,", set->count == 1 ? "" : ",", hk_blame_group_name(system, group));
+    add(text, size, "%s group `%.60s`,", set->count == 1 ? "" : ",",
+        hk_participation_group_name(system, group));
 }
 
-static void tell(const hooke_system *system, const struct hk_blame *blame, const struct set *set,
-                 struct hk_remedy *remedy) {
-  char *text = remedy->sentence;
-  const size_t size = sizeof remedy->sentence;
+static void tell(const hooke_system *system, const struct hk_participation *participation,
+                 const struct set *set, struct hk_suggestion *suggestion) {
+  char *text = suggestion->sentence;
+  const size_t size = sizeof suggestion->sentence;
   const int one = set->count == 1;
   char cost[24], factor[24], gain[24];
-  figure(remedy->cost, cost);
-  figure(remedy->factor, factor);
-  figure(remedy->gain, gain);
+  figure(suggestion->cost, cost);
+  figure(suggestion->factor, factor);
+  figure(suggestion->gain, gain);
   add(text, size, "%lld of %lld %s", (long long)set->count, (long long)set->of,
       set->springs ? "springs" : "free particles");
-  add_place(system, blame, set, text, size);
+  add_place(system, participation, set, text, size);
   add(text, size, " %s a factor %s in step; ", one ? "costs" : "cost", cost);
   if (set->springs)
     add(text, size, "softening %s by %s", one ? "it" : "them", factor);
@@ -187,10 +190,11 @@ static void add_number(const hooke_system *system, int64_t group, char *text, si
 }
 
 /* No small set: shares by group, the largest first. */
-static void tell_groups(const hooke_system *system, const struct hk_blame *blame, struct hk_remedy *remedy) {
-  char *text = remedy->sentence;
-  const size_t size = sizeof remedy->sentence;
-  if (!(blame->stiffness_share > 0.0) && blame->spring_count == 0) {
+static void tell_groups(const hooke_system *system, const struct hk_participation *participation,
+                        struct hk_suggestion *suggestion) {
+  char *text = suggestion->sentence;
+  const size_t size = sizeof suggestion->sentence;
+  if (!(participation->stiffness_share > 0.0) && participation->spring_count == 0) {
     add(text, size, "no spring limits the step");
     return;
   }
@@ -198,15 +202,16 @@ static void tell_groups(const hooke_system *system, const struct hk_blame *blame
   double before = INFINITY;
   for (int k = 0; k < 3; k++) {
     int64_t best = -1;
-    for (int64_t g = 0; g < blame->group_count; g++) {
-      if (blame->group_share[g] < before && (best < 0 || blame->group_share[g] > blame->group_share[best]))
+    for (int64_t g = 0; g < participation->group_count; g++) {
+      if (participation->group_share[g] < before &&
+          (best < 0 || participation->group_share[g] > participation->group_share[best]))
         best = g;
     }
-    if (best < 0 || blame->group_share[best] < 0.01) break;
-    before = blame->group_share[best];
+    if (best < 0 || participation->group_share[best] < 0.01) break;
+    before = participation->group_share[best];
     add(text, size, k == 0 ? " (" : ", ");
-    if (hk_blame_group_name(system, best)[0] != '\0')
-      add(text, size, "group `%.60s`", hk_blame_group_name(system, best));
+    if (hk_participation_group_name(system, best)[0] != '\0')
+      add(text, size, "group `%.60s`", hk_participation_group_name(system, best));
     else
       add_number(system, best, text, size);
     add(text, size, " has %.0f %% of it", 100.0 * before);
@@ -219,33 +224,36 @@ static void tell_groups(const hooke_system *system, const struct hk_blame *blame
 /* The limit without drag, or without any damping, by its ratio to Verlet's, which has no damping in either
  * case. */
 static int32_t limit_without(const hooke_system *system, const double *q, const char *method,
-                             const struct hk_blame *blame, int32_t force, double *limit) {
+                             const struct hk_participation *participation, int32_t force, double *limit) {
   hooke_system without = *system;
   without.drag = 0.0;
-  const int drag = hk_blame_is_drag(force);
+  const int drag = hk_participation_is_drag(force);
   const int32_t status = hk_limit_predict_within(&without, q, drag ? method : "verlet", NULL, NULL, ACCURACY,
-                                                 blame->room, blame->patience, limit);
+                                                 participation->room, participation->patience, limit);
   const struct hk_stability *stability = hk_method_stability(method);
   if (!drag && stability->kind == HOOKE_STABLE_BY_POLYNOMIAL) *limit *= sqrt(stability->axis / 4.0);
   return status;
 }
 
 static int32_t tell_force(const hooke_system *system, const double *q, const char *method, double limit,
-                          const struct hk_blame *blame, int32_t force, struct hk_remedy *remedy) {
+                          const struct hk_participation *participation, int32_t force,
+                          struct hk_suggestion *suggestion) {
   double without = 0.0;
-  const int32_t status = limit_without(system, q, method, blame, force, &without);
+  const int32_t status = limit_without(system, q, method, participation, force, &without);
   if (status != HOOKE_OK) return status;
-  add(remedy->sentence, sizeof remedy->sentence, "%s%s limits the step", remedy->kind ? "; " : "",
-      hk_blame_is_drag(force) ? "drag" : "damping along springs");
+  add(suggestion->sentence, sizeof suggestion->sentence, "%s%s limits the step", suggestion->kind ? "; " : "",
+      hk_participation_is_drag(force) ? "drag" : "damping along springs");
   if (without > LEAST_COST * limit && isfinite(without)) {
-    add(remedy->sentence, sizeof remedy->sentence, ": without it %s would be stable up to %.6g s", method,
-        without);
+    add(suggestion->sentence, sizeof suggestion->sentence, ": without it %s would be stable up to %.6g s",
+        method, without);
   } else if (isinf(without)) {
-    add(remedy->sentence, sizeof remedy->sentence, ": without it nothing would limit that of %s", method);
+    add(suggestion->sentence, sizeof suggestion->sentence, ": without it nothing would limit that of %s",
+        method);
   }
-  add(remedy->sentence, sizeof remedy->sentence, "; verlet takes %s implicitly, and has no limit by it",
-      hk_blame_is_drag(force) ? "drag" : "damping");
-  remedy->force = 1;
+  add(suggestion->sentence, sizeof suggestion->sentence,
+      "; verlet takes %s implicitly, and has no limit by it",
+      hk_participation_is_drag(force) ? "drag" : "damping");
+  suggestion->force = 1;
   return HOOKE_OK;
 }
 
@@ -253,30 +261,31 @@ static int32_t tell_force(const hooke_system *system, const double *q, const cha
 
 /* Fills in the suggestion if changing the set gains anything; otherwise `kind` stays NULL. */
 static int32_t try_set(const hooke_system *system, const double *q, const char *method, double limit,
-                       const struct hk_blame *blame, const struct set *set, struct hk_remedy *remedy) {
+                       const struct hk_participation *participation, const struct set *set,
+                       struct hk_suggestion *suggestion) {
   double without, changed;
-  int32_t status = limit_with(system, q, method, blame, set, 1.0 / NOTHING, &without);
+  int32_t status = limit_with(system, q, method, participation, set, 1.0 / NOTHING, &without);
   if (status != HOOKE_OK) return status;
   if (!isfinite(without) || !(without > LEAST_COST * limit)) return HOOKE_OK;
-  const double factor = fitting_factor(blame, set, without / limit);
-  status = limit_with(system, q, method, blame, set, factor, &changed);
+  const double factor = fitting_factor(participation, set, without / limit);
+  status = limit_with(system, q, method, participation, set, factor, &changed);
   if (status != HOOKE_OK || !(changed > LEAST_COST * limit)) return status;
-  remedy->kind = set->springs ? "soften" : "heavier";
-  remedy->count = set->count;
-  remedy->cost = without / limit;
-  remedy->factor = factor;
-  remedy->gain = changed / limit;
-  remedy->gain_predicted = perturbed(blame, set, factor);
-  tell(system, blame, set, remedy);
+  suggestion->kind = set->springs ? "soften" : "heavier";
+  suggestion->count = set->count;
+  suggestion->cost = without / limit;
+  suggestion->factor = factor;
+  suggestion->gain = changed / limit;
+  suggestion->gain_predicted = perturbed(participation, set, factor);
+  tell(system, participation, set, suggestion);
   return HOOKE_OK;
 }
 
-int32_t hk_remedy_find(const hooke_system *system, const double *q, const char *method, double limit,
-                       const struct hk_blame *blame, struct hk_remedy *remedy) {
-  *remedy = (struct hk_remedy){.cost = NAN, .factor = NAN, .gain = NAN, .gain_predicted = NAN};
-  struct set first = spring_set(system, blame), second = particle_set(system, blame);
+int32_t hk_suggestion_find(const hooke_system *system, const double *q, const char *method, double limit,
+                           const struct hk_participation *participation, struct hk_suggestion *suggestion) {
+  *suggestion = (struct hk_suggestion){.cost = NAN, .factor = NAN, .gain = NAN, .gain_predicted = NAN};
+  struct set first = spring_set(system, participation), second = particle_set(system, participation);
   const int springs = is_small(first.count, first.of), particles = is_small(second.count, second.of);
-  if (springs && particles) find_oddness(system, blame, &first, &second);
+  if (springs && particles) find_oddness(system, participation, &first, &second);
   /* one particle and all of its springs, or one spring and its two particles: the smaller set is the outlier
    */
   if (particles &&
@@ -287,15 +296,15 @@ int32_t hk_remedy_find(const hooke_system *system, const double *q, const char *
   }
   int32_t status = HOOKE_OK;
   if (limit > 0.0 && isfinite(limit)) {
-    if (springs || particles) status = try_set(system, q, method, limit, blame, &first, remedy);
-    if (status == HOOKE_OK && remedy->kind == NULL && springs && particles)
-      status = try_set(system, q, method, limit, blame, &second, remedy);
+    if (springs || particles) status = try_set(system, q, method, limit, participation, &first, suggestion);
+    if (status == HOOKE_OK && suggestion->kind == NULL && springs && particles)
+      status = try_set(system, q, method, limit, participation, &second, suggestion);
   }
-  const int32_t force = hk_blame_force(blame);
-  if (status == HOOKE_OK && (hk_blame_is_drag(force) || force == HOOKE_BLAME_DAMPING))
-    status = tell_force(system, q, method, limit, blame, force, remedy);
-  else if (status == HOOKE_OK && remedy->kind == NULL)
-    tell_groups(system, blame, remedy);
-  hk_utf8_make_plain(remedy->sentence);
+  const int32_t force = hk_participation_force(participation);
+  if (status == HOOKE_OK && (hk_participation_is_drag(force) || force == HOOKE_PARTICIPATION_DAMPING))
+    status = tell_force(system, q, method, limit, participation, force, suggestion);
+  else if (status == HOOKE_OK && suggestion->kind == NULL)
+    tell_groups(system, participation, suggestion);
+  hk_utf8_make_plain(suggestion->sentence);
   return status;
 }

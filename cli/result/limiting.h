@@ -1,12 +1,12 @@
 /* Limiting springs, as JSON. */
-#ifndef HOOKE_CLI_BLAME_H
-#define HOOKE_CLI_BLAME_H
+#ifndef HOOKE_CLI_LIMITING_H
+#define HOOKE_CLI_LIMITING_H
 
 #include "print.h"
 
 #include <hooke/measurement.h>
 
 /* The table "blame" under its name; "spring" has the ends of a spring as a pair, null for a force. */
-void cli_blame_json(struct cli_json *json, const hooke_measurement *measurement);
+void cli_limiting_json(struct cli_json *json, const hooke_measurement *measurement);
 
 #endif

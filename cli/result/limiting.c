@@ -1,4 +1,4 @@
-#include "blame.h"
+#include "limiting.h"
 
 #include "table.h"
 
@@ -16,7 +16,7 @@ static void print_ends(struct cli_json *json, const hooke_measurement *m, int64_
   cli_json_close(json);
 }
 
-void cli_blame_json(struct cli_json *json, const hooke_measurement *m) {
+void cli_limiting_json(struct cli_json *json, const hooke_measurement *m) {
   cli_json_open(json, "blame", '[');
   for (int64_t row = 0; row < hooke_measurement_row_count(m, "blame"); row++) {
     cli_json_open(json, NULL, '{');

@@ -8,41 +8,42 @@
 #include <stdio.h>
 #include <string.h>
 
-void hk_inquiry_blame_spring(struct hk_inquiry *inquiry, int64_t spring, double share) {
+void hk_inquiry_add_limiting(struct hk_inquiry *inquiry, int64_t spring, double share) {
   struct hk_why *why = inquiry->why;
-  if (spring < 0 || why->blame_count == HOOKE_WHY_MOST_BLAME) return;
+  if (spring < 0 || why->limiting_count == HOOKE_WHY_MOST_LIMITING) return;
   const struct hk_spring found = hk_springs_find(&inquiry->system->springs, spring);
-  struct hk_why_blame *blame = &why->blame[why->blame_count++];
-  *blame = (struct hk_why_blame){
+  struct hk_why_limiting *limiting = &why->limiting[why->limiting_count++];
+  *limiting = (struct hk_why_limiting){
       .spring = spring, .first = found.head, .second = found.tail, .share = share, .force = ""};
-  snprintf(blame->group, sizeof blame->group, "%s",
+  snprintf(limiting->group, sizeof limiting->group, "%s",
            hk_naming_group(inquiry->system, &hk_force_springs, spring));
 }
 
 /* A force first, then springs. */
-static void take_blame(struct hk_inquiry *inquiry, const struct hk_blame *blame) {
+static void take_participation(struct hk_inquiry *inquiry, const struct hk_participation *participation) {
   struct hk_why *why = inquiry->why;
-  why->blame_count = 0;
-  inquiry->force = hk_blame_force(blame);
+  why->limiting_count = 0;
+  inquiry->force = hk_participation_force(participation);
   if (inquiry->force >= 0) {
-    why->blame[why->blame_count++] = (struct hk_why_blame){.spring = -1,
-                                                           .first = -1,
-                                                           .second = -1,
-                                                           .share = blame->force_share[inquiry->force],
-                                                           .force = hk_blame_force_name(inquiry->force)};
+    why->limiting[why->limiting_count++] =
+        (struct hk_why_limiting){.spring = -1,
+                                 .first = -1,
+                                 .second = -1,
+                                 .share = participation->force_share[inquiry->force],
+                                 .force = hk_participation_force_name(inquiry->force)};
   }
-  for (int64_t k = 0; k < blame->spring_count; k++)
-    hk_inquiry_blame_spring(inquiry, blame->spring[k].spring, blame->spring[k].share);
+  for (int64_t k = 0; k < participation->spring_count; k++)
+    hk_inquiry_add_limiting(inquiry, participation->spring[k].spring, participation->spring[k].share);
 }
 
 static int32_t look(struct hk_inquiry *inquiry, struct hk_limit *limit) {
   limit->patience = &inquiry->patience;
   limit->room = inquiry->memory_limit - inquiry->memory_used;
   const int32_t status = hk_limit_look(limit, inquiry->violation.q, inquiry->violation.time);
-  if (limit->found) take_blame(inquiry, &limit->blame);
-  const struct hk_remedy *remedy = &limit->remedy;
-  if (status == HOOKE_OK && (remedy->kind || remedy->force))
-    snprintf(inquiry->remedy, sizeof inquiry->remedy, "%s", remedy->sentence);
+  if (limit->found) take_participation(inquiry, &limit->participation);
+  const struct hk_suggestion *suggestion = &limit->suggestion;
+  if (status == HOOKE_OK && (suggestion->kind || suggestion->force))
+    snprintf(inquiry->suggestion, sizeof inquiry->suggestion, "%s", suggestion->sentence);
   return status;
 }
 
@@ -61,10 +62,10 @@ static int32_t ask_limit(struct hk_inquiry *inquiry) {
   return status;
 }
 
-int32_t hk_inquiry_blame(struct hk_inquiry *inquiry) {
+int32_t hk_inquiry_find_limiting(struct hk_inquiry *inquiry) {
   const struct hk_violation *violation = &inquiry->violation;
   int32_t status = HOOKE_OK;
-  if (violation->has_blame) take_blame(inquiry, &violation->blame);
+  if (violation->has_participation) take_participation(inquiry, &violation->participation);
   if (!inquiry->large) {
     hk_patience_lend(&inquiry->patience, 0.5);
     status = ask_limit(inquiry);
@@ -72,9 +73,9 @@ int32_t hk_inquiry_blame(struct hk_inquiry *inquiry) {
   }
   if (status == HOOKE_NO_MEMORY) return status;
   /* without a mode, the particle at which the bound showed it */
-  if (inquiry->why->blame_count == 0) {
+  if (inquiry->why->limiting_count == 0) {
     const struct hk_force_row *force;
-    hk_inquiry_blame_spring(inquiry,
+    hk_inquiry_add_limiting(inquiry,
                             hk_naming_heaviest(inquiry->system, &hk_force_springs, violation->particle,
                                                inquiry->run->schedule.step, &force),
                             NAN);

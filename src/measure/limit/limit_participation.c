@@ -1,0 +1,155 @@
+#include "measure/limit/limit_participation.h"
+
+#include "core/memory.h"
+#include "core/status.h"
+#include "model/force/force.h"
+
+#include <math.h>
+#include <stddef.h>
+#include <string.h>
+
+/* Inserts an element into a list of at most HOOKE_MOST_LIMITING, the largest share first and equal ones in
+ * the order of arrival. `share_at` is the offset of an element's share. */
+static void keep(void *list, int64_t *count, size_t size, size_t share_at, const void *element) {
+  unsigned char *place = list;
+  double share, other;
+  memcpy(&share, (const unsigned char *)element + share_at, sizeof share);
+  if (!(share > 0.0)) return;
+  int64_t k = *count;
+  for (; k > 0; k--) {
+    memcpy(&other, place + (size_t)(k - 1) * size + share_at, sizeof other);
+    if (other >= share) break;
+    if (k < HOOKE_MOST_LIMITING) memcpy(place + (size_t)k * size, place + (size_t)(k - 1) * size, size);
+  }
+  if (k == HOOKE_MOST_LIMITING) return;
+  memcpy(place + (size_t)k * size, element, size);
+  if (*count < HOOKE_MOST_LIMITING) ++*count;
+}
+
+static double square_of(const double *x) {
+  return (x[0] * x[0] + x[1] * x[1]) + x[2] * x[2];
+}
+
+/* The total that shares of elements refer to, and its part of K; and that of particles. */
+struct whole {
+  double all, stiffness, kinetic;
+};
+
+/* Weights of K and of C. */
+struct weights {
+  double k, c;
+};
+
+static void add_spring(const struct hk_element *e, int64_t number, int64_t group, double stiffness,
+                       double damping, struct hk_participation *participation) {
+  const struct hk_limiting_spring spring = {number, e->particle[0],      e->particle[1],
+                                            group,  stiffness + damping, stiffness};
+  keep(participation->spring, &participation->spring_count, sizeof spring,
+       offsetof(struct hk_limiting_spring, share), &spring);
+}
+
+static void add_element(const struct hk_elements *at, const struct hk_element *e, int64_t group,
+                        const double *mode, struct weights h, struct whole *whole,
+                        struct hk_participation *participation) {
+  const double *const x[3] = {mode, mode + 1, mode + 2};
+  const double stiffness = h.k * hk_element_energy(e, e->k_along, hk_element_across(e), 3, x);
+  const double damping = h.c * hk_element_energy(e, e->c_along, e->c_across, 3, x);
+  const int32_t force = hk_force_number(at->force);
+  whole->all += stiffness + damping;
+  whole->stiffness += stiffness;
+  participation->force_share[force] += stiffness;
+  participation->force_share[group < 0 ? force : HOOKE_PARTICIPATION_DAMPING] += damping;
+  if (group >= 0) participation->group_share[group] += stiffness + damping;
+  if (at->force == &hk_force_springs)
+    add_spring(e, hk_element_number(at), group, stiffness, damping, participation);
+}
+
+/* Shares of the elements at q; the mode is 0 at constrained particles. */
+static void find_elements(const hooke_system *system, const double *q, const double *mode, struct weights h,
+                          struct whole *whole, struct hk_participation *participation) {
+  const struct hk_force_row *force = NULL;
+  int64_t group = -1, in_group = 0;
+  struct hk_elements at;
+  hk_begin_elements(system, q, NULL, &at);
+  at.by_number = 1;
+  for (const struct hk_element *e; (e = hk_next_element(&at)) != NULL;) {
+    if (at.force != force) group = at.force->members ? hk_system_first_group(system, at.force) : -1;
+    if (at.force != force) in_group = 0;
+    force = at.force;
+    while (group >= 0 && in_group == system->group[group].count)
+      group++, in_group = 0;
+    in_group++;
+    add_element(&at, e, group, mode, h, whole, participation);
+  }
+}
+
+static void find_particles(const hooke_system *system, const double *mode, struct whole *whole,
+                           struct hk_participation *participation) {
+  for (int64_t p = 0; p < system->particle_count; p++) {
+    const struct hk_limiting_particle particle = {p, system->mass[p] * square_of(mode + 3 * p),
+                                                  system->mass[p]};
+    if (system->constrained[p]) continue;
+    whole->kinetic += particle.share;
+    keep(participation->particle, &participation->particle_count, sizeof particle,
+         offsetof(struct hk_limiting_particle, share), &particle);
+  }
+}
+
+static void divide(struct hk_participation *participation, const struct whole *whole) {
+  for (int64_t k = 0; k < participation->spring_count; k++) {
+    participation->spring[k].share /= whole->all;
+    participation->spring[k].stiffness_share /= whole->all;
+  }
+  for (int64_t k = 0; k < participation->particle_count; k++)
+    participation->particle[k].share /= whole->kinetic;
+  for (int64_t k = 0; k < participation->group_count && whole->all > 0.0; k++)
+    participation->group_share[k] /= whole->all;
+  for (int k = 0; k < HOOKE_PARTICIPATION_SHARES && whole->all > 0.0; k++)
+    participation->force_share[k] /= whole->all;
+  participation->stiffness_share = whole->all > 0.0 ? whole->stiffness / whole->all : 0.0;
+}
+
+int32_t hk_participation_find(const hooke_system *system, const double *q, const double *mode, double h2,
+                              double h, struct hk_participation *participation) {
+  struct whole whole = {0.0, 0.0, 0.0};
+  *participation = (struct hk_participation){.group_count = system->group_count};
+  participation->group_share = hk_new(participation->group_count, sizeof(double));
+  if (participation->group_share == NULL) return HOOKE_NO_MEMORY;
+  if (mode == NULL) return HOOKE_OK;
+  double *moves = hk_new(3 * system->particle_count, sizeof(double));
+  if (moves == NULL) {
+    hk_participation_release(participation);
+    return HOOKE_NO_MEMORY;
+  }
+  for (int64_t k = 0; k < 3 * system->particle_count; k++)
+    moves[k] = system->constrained[k / 3] ? 0.0 : mode[k];
+  find_elements(system, q, moves, (struct weights){h2, 2.0 * h}, &whole, participation);
+  find_particles(system, moves, &whole, participation);
+  divide(participation, &whole);
+  hk_free(moves);
+  return HOOKE_OK;
+}
+
+const char *hk_participation_group_name(const hooke_system *system, int64_t group) {
+  return system->group[group].name ? system->group[group].name : "";
+}
+
+int32_t hk_participation_force(const struct hk_participation *participation) {
+  for (int32_t k = 0; k < HOOKE_PARTICIPATION_SHARES; k++) {
+    if (participation->force_share[k] >= 0.5 && hk_force_table(k) != &hk_force_springs) return k;
+  }
+  return -1;
+}
+
+int32_t hk_participation_is_drag(int32_t force) {
+  return hk_force_table(force) == &hk_force_drag;
+}
+
+const char *hk_participation_force_name(int32_t force) {
+  return force < 0 ? "" : force == HOOKE_PARTICIPATION_DAMPING ? "damping" : hk_force_table(force)->name;
+}
+
+void hk_participation_release(struct hk_participation *participation) {
+  hk_free(participation->group_share);
+  memset(participation, 0, sizeof *participation);
+}
