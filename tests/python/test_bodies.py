@@ -41,7 +41,7 @@ def test_python_builds_the_same_system(tmp_path):
     box, bar = BOARD["parts"]
     built.lattice("box", **{key: box[key] for key in ("origin", "size", "edges", "mass", "structural")}, rigid=True)
     built.rope("bar", from_=bar["from"], to=bar["to"], segments=4, mass=1, pinned="start", stretch=bar["stretch"])
-    built.body("board", particles=[0, 1, 2, 3]).body(part="bar")
+    built.bodies("board", particles=[0, 1, 2, 3]).bodies(part="bar")
     ends = [hooke.run(one, method="rk4", step=0.001, duration=0.1).state.q for one in (loaded, again, built)]
     assert np.array_equal(ends[0], ends[1]) and np.array_equal(ends[0], ends[2])
     mass, inertia = built.system.body_inertia(1)

@@ -86,8 +86,9 @@ def test_keywords_are_those_of_the_schema():
         return set(inspect.signature(method).parameters) - {"self"}
 
     properties = schema["properties"]
-    pieces = set(properties) - {"$schema", "hooke", "particles", "springs", "anchors", "parts", "driven"}
+    pieces = set(properties) - {"$schema", "hooke", "particles", "springs", "anchors", "parts", "bodies", "driven"}
     assert keywords(hooke.Scene.__init__) == pieces
+    assert keywords(hooke.Scene.bodies) == set(_keys(schema, properties["bodies"]["items"]))
     assert keywords(hooke.Scene.particles) == set(_keys(schema, properties["particles"]))
     assert keywords(hooke.Scene.driven) == set(_keys(schema, properties["driven"]["items"]))
 

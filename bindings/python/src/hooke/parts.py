@@ -38,7 +38,8 @@ class Parts:
         """Adds a rope of ``segments + 1`` particles `from_` one end (3,) [m] `to` the other (3,) [m].
 
         `mass` [kg] or `density` [kg/m]; `pinned` also by "start" and "end"; springs between neighbours (`stretch`) and
-        between particles two apart (`bend`); `bending` is the stiffness of the rope as a beam [N m^2].
+        between particles two apart (`bend`); `bending` is the stiffness of the rope as a beam [N m^2]. `rigid` True makes
+        it one rigid body.
         """
         return self._part("rope", locals())
 
@@ -63,7 +64,8 @@ class Parts:
         Particle (r, c) has the number ``r*nu + c`` within the cloth. `mass` [kg] or `density` [kg/m^2]; `pinned` also
         by "corners", "top" (the row at the origin) and "top-corners"; springs between neighbours (`structural`), along
         both diagonals of each cell (`shear`) and two apart (`bend`); `bending` is the stiffness of a strip as a beam
-        over its width [N m].
+        over its width [N m]. `rigid` True makes
+        it one rigid body.
         """
         return self._part("cloth", locals())
 
@@ -87,7 +89,8 @@ class Parts:
 
         Numbers within it run along x first, then y, then z. `mass` [kg] or `density` [kg/m^3]; `pinned` also by
         "bottom" (the layer at the origin) and "top"; springs between neighbours (`structural`), along all diagonals of
-        the faces and of the body of each cell (`shear`), and two apart (`bend`).
+        the faces and of the body of each cell (`shear`), and two apart (`bend`). `rigid` True makes
+        it one rigid body.
         """
         return self._part("lattice", locals())
 
@@ -112,7 +115,8 @@ class Parts:
         `transform` is ``dict(scale=1, translate=(0, 0, 0))``: a factor on the coordinates and then a vector [m] to
         add; vertices up to `weld` [m] apart are one particle. `mass` [kg] is shared by area, or `density` [kg/m^2];
         `pinned` are numbers; springs along each edge (`structural`) and between the two vertices opposite to each
-        other across each inner edge (`bend`). The scene keeps the vertices of a file, not its name.
+        other across each inner edge (`bend`). The scene keeps the vertices of a file, not its name. `rigid` True makes
+        it one rigid body.
         """
         return self._part("mesh", locals())
 
@@ -141,7 +145,8 @@ class Parts:
         A straight one has an extra particle in each segment, `offset` segments away from the axis (0.5 if None); with
         `curl`, the radius [m] of a helix, and `turns` about the axis its particles lie on that helix. `mass` [kg] or
         `density` [kg/m]; `pinned` also by "start" and "end"; springs between neighbours (`stretch`), two apart
-        (`bend`) and three apart (`twist`), and `altitude` springs of every four consecutive particles.
+        (`bend`) and three apart (`twist`), and `altitude` springs of every four consecutive particles. `rigid` True makes
+        it one rigid body.
         """
         return self._part("strand", locals())
 

@@ -208,7 +208,7 @@ class Scene(Parts):
         self._note("anchors", {**({"name": name} if name else {}), "particles": numbers, **keys})
         return self
 
-    def body(
+    def bodies(
         self,
         name: str | None = None,
         *,
