@@ -133,7 +133,8 @@ HOOKE_API int32_t hooke_system_set_drag(hooke_system *system, double coefficient
 /* "inertial", the default: M x'' = f. "overdamped": gamma x' = f, with drag as gamma > 0; masses serve
  * gravity alone and may be missing (`mass_count` 0, or masses of 0) without it; velocities and damping are
  * refused at commit. States have v = f/gamma, callback forces are given v = 0, and kinetic energy and momenta
- * are 0. To be called before particles without mass are added. HOOKE_BAD_VALUE for another word, HOOKE_BAD_CALL. */
+ * are 0. To be called before particles without mass are added. HOOKE_BAD_VALUE for another word,
+ * HOOKE_BAD_CALL. */
 HOOKE_API int32_t hooke_system_set_dynamics(hooke_system *system, const char *dynamics);
 HOOKE_API const char *hooke_system_dynamics(const hooke_system *system);
 

@@ -126,7 +126,8 @@ class Scene(Parts):
         self, position: Numbers, velocity: Numbers | None = None, *, mass: Numbers = (), pinned: Numbers | None = None
     ) -> Scene:
         """Adds particles at `position` (n, 3) [m] with `velocity` (n, 3) [m/s], at rest if None, and `mass` [kg], one
-        number for all or (n,), which an overdamped scene without gravity needs not have; `pinned` are the numbers of the pinned ones.
+        number for all or (n,), which an overdamped scene without gravity needs not have; `pinned` are the numbers of
+        the pinned ones.
 
         A scene has one such block, given before its parts, since it is numbered first. Returns the scene.
         """
