@@ -9,10 +9,14 @@
 /* The options, with method and step; the caller destroys them. */
 static hooke_options *picked(const hooke_system *system, const char *method, double duration, double want) {
   hooke_options *options = run_options((struct run){.duration = duration, .every = duration / 5.0});
-  hooke_estimate *estimate;
-  check_ok(hooke_estimate_create(system, want, &estimate));
+  hooke_options *wanted;
+  hooke_measurement *estimate;
+  check_ok(hooke_options_create("estimate", &wanted));
+  check_ok(hooke_options_set_number(wanted, "want", want));
+  check_ok(hooke_measurement_create("estimate", system, NULL, wanted, &estimate));
+  hooke_options_destroy(wanted);
   const int32_t status = hooke_estimate_pick(estimate, method, options);
-  hooke_estimate_destroy(estimate);
+  hooke_measurement_destroy(estimate);
   if (status == HOOKE_NOT_BUILT) skip();
   check_status(status, HOOKE_OK);
   return options;

@@ -219,7 +219,7 @@ static void test_outcomes(void **unused) {
   stops.stop_at = 0.5;
   start_problem(&stops, (struct run){.method = "rk4", .step = 1e-2, .duration = 1.0}, &it, &state);
   check_status(hooke_integrator_run(it, state), HOOKE_STOPPED);
-  assert_int_equal(hooke_integrator_stop_value(it), 23);
+  assert_int_equal(hooke_integrator_count(it, "stop_value"), 23);
   check_between(hooke_state_time(state), 0.48, 0.5);
   check_status(hooke_integrator_get(it, 1, &particle, q, NULL), HOOKE_UNSUITED);
   check_message("second-order problem");
@@ -230,7 +230,7 @@ static void test_outcomes(void **unused) {
   rises.force = blow_up;
   start_problem(&rises, (struct run){.method = "verlet", .step = 1e-3, .duration = 10.0}, &it, &state);
   check_status(hooke_integrator_run(it, state), HOOKE_DIVERGED);
-  check_between(hooke_integrator_diverged_at(it), 1.8, 2.8);
+  check_between(hooke_integrator_number(it, "diverged_at"), 1.8, 2.8);
   assert_true(isfinite(hooke_state_position(state)[0]));
   hooke_measurement *why;
   check_status(explain_run(it, &why), HOOKE_UNSUITED);
