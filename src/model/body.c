@@ -4,6 +4,7 @@
 #include "core/memory.h"
 #include "core/status.h"
 #include "model/body_frame.h"
+#include "model/part_record.h"
 #include "model/state.h"
 #include "model/sum/motion.h"
 
@@ -214,6 +215,16 @@ static int32_t check_all_velocities(hooke_system *system) {
   return status;
 }
 
+/* These pins are not those that somebody added to a part by number (part_record.h). */
+static void pin_still(hooke_system *system) {
+  for (int64_t k = 0; k < system->part_count; k++)
+    system->part[k].pinned -= hk_part_record_pinned(system, &system->part[k]);
+  for (int64_t k = 0; k < system->bodies.count; k++)
+    hk_body_pin_if_still(system, &system->bodies.body[k]);
+  for (int64_t k = 0; k < system->part_count; k++)
+    system->part[k].pinned += hk_part_record_pinned(system, &system->part[k]);
+}
+
 int32_t hk_bodies_commit(hooke_system *system) {
   struct hk_bodies *bodies = &system->bodies;
   if (bodies->count == 0) return HOOKE_OK;
@@ -227,8 +238,7 @@ int32_t hk_bodies_commit(hooke_system *system) {
       bodies->mover[bodies->moving++] = body;
   }
   if (status == HOOKE_OK) status = check_all_velocities(system);
-  for (int64_t k = 0; k < bodies->count && status == HOOKE_OK; k++)
-    hk_body_pin_if_still(system, &bodies->body[k]);
+  if (status == HOOKE_OK) pin_still(system);
   if (status != HOOKE_OK) hk_bodies_undo(system);
   return status;
 }

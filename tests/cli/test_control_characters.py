@@ -131,7 +131,8 @@ def shown_on_terminal(folder, looked_for, *words):
     """Output of a call on standard error, on a terminal, where everything after the first second is shown; the call
     is ended once the wanted output appears."""
     terminal, end = pty.openpty()
-    process = subprocess.Popen([CLI, *words], cwd=folder, stderr=end, stdout=subprocess.DEVNULL)
+    plain = {**os.environ, "NO_COLOR": "1"}  # or the program itself changes colours
+    process = subprocess.Popen([CLI, *words], cwd=folder, env=plain, stderr=end, stdout=subprocess.DEVNULL)
     os.close(end)
     shown = b""
     with contextlib.suppress(OSError):  # which tells the end
