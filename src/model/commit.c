@@ -30,8 +30,9 @@ static int32_t take_groups_over(hooke_system *system) {
     hk_group_drop(&system->group[g], &system->bodies);
   for (int32_t k = 0; hk_force_table(k) && status == HOOKE_OK; k++) {
     const struct hk_force_row *force = hk_force_table(k);
-    const struct hk_group *first = system->group + hk_system_first_group(system, force);
-    if (force->commit) status = force->commit(system, first, hk_system_groups_of(system, force));
+    const int64_t count = hk_system_groups_of(system, force); /* without any there may be no array */
+    const struct hk_group *first = count > 0 ? system->group + hk_system_first_group(system, force) : NULL;
+    if (force->commit) status = force->commit(system, first, count);
   }
   return status;
 }

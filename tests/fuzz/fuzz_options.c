@@ -4,17 +4,17 @@
  * used literally, as "name=value" or a word of a command line; in any other the first byte selects a row of
  * the table and the rest is its value. So most inputs get past the names.
  *
- * Lines of: src/core/table/option*.c src/core/number.c cli/arguments.c cli/unit.c cli/value.c
+ * Lines of: src/core/table/option*.c src/core/table/unit.c src/core/number.c cli/arguments.c cli/value.c
  * Longest input: 1024, mostly 256 */
 #include "fuzz.h"
 
 #include "arguments.h"
 #include "core/number.h"
 #include "core/table/option.h"
+#include "core/table/unit.h"
 #include "describe.h"
 #include "hooke.h"
 #include "report.h"
-#include "unit.h"
 
 #include <math.h>
 #include <stdarg.h>
@@ -114,7 +114,7 @@ static void set_bytes(hooke_options *options, const char *name, const char *byte
 
 /* The properties of a table. */
 static void ask(const hooke_options *options) {
-  static const char *const texts[] = {"name",    "type",  "unit",   "default", "doc",
+  static const char *const texts[] = {"name",    "type",  "unit",   "units",   "default", "doc",
                                       "allowed", "words", "family", "example", "?"};
   static const char *const numbers[] = {"low",       "high",      "above_low", "whole",      "required",
                                         "min_count", "max_count", "columns",   "word_lists", "?"};
@@ -165,15 +165,21 @@ static void read_number(const char *text) {
                      "a number that is printed reads back to the same bits");
 }
 
-static void read_units(const char *text, const char *base) {
-  char word[HOOKE_UNIT_WORD_SIZE], list[HOOKE_UNIT_LIST_SIZE];
-  char *read = cli_unit_read(text, base, word);
-  hooke_fuzz_require(cli_unit_has_others(base) && strlen(cli_unit_list(base, list)) > 0, "there are units");
-  if (read == NULL)
-    hooke_fuzz_require(word[0] != '\0', "a unit that is refused is named");
-  else
-    read_number(read);
-  free(read);
+/* A number and its unit are within the text, of which nothing else is read, and give a finite number. */
+static void read_units(const char *text, const char *bases, const char *name) {
+  const struct hk_unit *unit = hk_unit_find(bases, name, (int64_t)strlen(name));
+  const size_t length = strlen(text);
+  char *alone = malloc(length + (length == 0)); /* without the zero at its end */
+  if (alone == NULL) return;
+  memcpy(alone, text, length);
+  const struct hk_quantity found = hk_unit_scan(bases, alone, (int64_t)length);
+  hooke_fuzz_require(unit && 0 <= found.number && found.number <= found.whole &&
+                         found.whole <= (int64_t)length,
+                     "a number and its unit are in the text");
+  double value = 0.0;
+  if (found.number > 0 && hk_unit_parse(alone, found.number, unit, &value) == HOOKE_NUMBER_FINE)
+    hooke_fuzz_require(isfinite(value), "a number in a unit is finite");
+  free(alone);
 }
 
 /* ---- the command line ---- */
@@ -264,7 +270,7 @@ static void run_lines(uint8_t what, uint8_t which, char **line, int32_t count) {
   }
   if (what % 4 == 3) {
     for (int32_t k = 0; k < count; k++)
-      read_units(line[k], which & 1 ? "m" : "s");
+      read_units(line[k], which & 1 ? "m" : "N (strain law), N/m (length law)", which & 1 ? "mm" : "Pa m");
     return;
   }
   hooke_fuzz_require((what % 4 == 0 ? create_table(which, &options)

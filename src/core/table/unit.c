@@ -2,6 +2,7 @@
 
 #include "core/memory.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -177,7 +178,7 @@ enum hk_number_result hk_unit_parse(const char *text, int64_t length, const stru
   if (unit->exponent == 0) {
     const enum hk_number_result result = hk_number_parse(text, length, value);
     if (result == HOOKE_NUMBER_FINE && unit->factor > 0) *value *= unit->factor;
-    return result;
+    return result == HOOKE_NUMBER_FINE && isinf(*value) ? HOOKE_NUMBER_TOO_LARGE : result;
   }
   const int64_t mantissa = scan_mantissa(text, length);
   char *scaled = hk_new(length + EXPONENT_SIZE, 1);

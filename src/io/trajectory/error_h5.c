@@ -1,5 +1,5 @@
 /* Adds the error of a run to its trajectory file after the run. */
-#include "hooke/trajectory.h"
+#include "hooke/estimate.h"
 
 #include "core/keep_errno.h"
 #include "core/status.h"
