@@ -80,7 +80,7 @@ class Live {
       this.state = library.make("state_create", this.system);
       this.kept = library.make("state_create", this.system);
       this.count = Number(library.call("system_particle_count", this.system));
-      this.springs = Number(library.call("system_spring_count", this.system));
+      this.springs = Number(library.call("system_count", this.system, "springs"));
     } catch (trouble) {
       this.release();
       throw trouble;
@@ -101,7 +101,7 @@ class Live {
     const { library } = this, run = library.call("scene_run_options", this.scene);
     const number = (name) => library.call("options_number", run, name);
     return { method: library.text(library.call("options_text", run, "method")), step: number("step"), duration: number("duration"),
-      title: library.text(library.call("scene_title", this.scene)) };
+      title: library.text(library.call("scene_text", this.scene, "title")) };
   }
 
   /* Options of a run by this method with this step [s], which the caller destroys; without frames and an end. */
@@ -185,7 +185,7 @@ class Live {
   get bounds() {
     const { library } = this, count = Number(library.call("method_count"));
     return library.filled(Float64Array, count, (pointer) =>
-      library.check("step_bounds", this.system, library.call("state_position", this.state), pointer));
+      library.check("step_bound", this.system, 0, library.call("state_position", this.state), pointer));
   }
 
   /* Ends and rest lengths of the springs, and which particles are held. */

@@ -111,7 +111,7 @@ static int32_t name_anew(struct hk_atomic_file *file) {
   hk_free(file->temporary);
   file->temporary = hk_new((int64_t)room, 1);
   if (file->temporary == NULL) return HOOKE_NO_MEMORY;
-  if (getrandom(&number, sizeof number, 0) != (ssize_t)sizeof number)
+  if (getentropy(&number, sizeof number) != 0)
     return hk_file_fail(file->path, "take a random number for a name", errno);
   snprintf(file->temporary, room, "%.*shooke-%016" PRIx64 ".part", folder, file->path, number);
   return HOOKE_OK;
