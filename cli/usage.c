@@ -82,6 +82,24 @@ static void print_kinds(FILE *file, const struct cli_verb *verb) {
   fprintf(file, "\nhooke %s KIND --help   the options of a kind, with units and defaults\n", verb->name);
 }
 
+static const char *units_of(const struct cli_argument *argument) {
+  return argument->table ? hooke_options_row(argument->table, argument->row, "units") : "";
+}
+
+/* Lists the units of all options, those of a kind once. */
+static void print_units(FILE *file, const struct cli_arguments *arguments) {
+  fputs("\nnumbers may have a unit:\n", file);
+  for (int32_t i = 0; i < arguments->count; i++) {
+    const char *units = units_of(&arguments->all[i]);
+    int32_t again = !units || !units[0];
+    for (int32_t k = 0; k < i && !again; k++) {
+      const char *before = units_of(&arguments->all[k]);
+      again = before && strcmp(before, units) == 0;
+    }
+    if (!again) fprintf(file, "  %s\n", units);
+  }
+}
+
 static void print_options(FILE *file, const struct cli_arguments *arguments) {
   fputs("\noptions:\n", file);
   for (int32_t i = 0; i < arguments->count; i++) {
@@ -92,8 +110,7 @@ static void print_options(FILE *file, const struct cli_arguments *arguments) {
   if (arguments->verb->input) return;
   print_table(file, arguments, arguments->run);
   print_table(file, arguments, arguments->limits);
-  fprintf(file,
-          "\na number in [s], [m], [kg], [N] and so on may have another unit: 5ms, 0.5 cm, 200g, 2kN\n");
+  print_units(file, arguments);
 }
 
 void cli_usage_print_verb(FILE *file, const struct cli_arguments *arguments) {
