@@ -9,6 +9,7 @@
 
 #include "core/memory.h"
 #include "core/status.h"
+#include "integrate/method/stages.h"
 #include "integrate/solve/unknowns.h"
 #include "kernel/step_loops.h"
 #include "model/force/force.h"
@@ -92,38 +93,18 @@ static int32_t undo_step(hooke_integrator *it, int32_t status) {
 
 /* ---- explicit Runge-Kutta methods ---- */
 
-static int32_t stage_count(const hooke_integrator *it) {
-  return it->method->order; /* as many as orders, for 1, 2 and 4 */
-}
-
-/* From the rate at a stage to the next one, or the end of the step. */
-static void advance(const hooke_integrator *it, int32_t stage, double ahead) {
-  const struct own *own = it->own;
-  const int64_t n = own->unknowns.size;
-  const double h = it->schedule.step;
-  const int32_t stages = stage_count(it);
-  if (stages == 1)
-    hk_advance(n, h, own->slope, own->y);
-  else if (stage == 0)
-    hk_first_stage(n, ahead * h, own->slope, own->start, own->sum, own->y);
-  else if (stage + 1 < stages)
-    hk_middle_stage(n, ahead * h, own->slope, own->start, own->sum, own->y);
-  else
-    hk_last_stage(n, h / (stages == 2 ? 2.0 : 6.0), own->slope, own->start, own->sum, own->y);
-}
-
 static int32_t step_stages(hooke_integrator *it) {
-  static const double two[] = {0.0, 1.0, 1.0}, four[] = {0.0, 0.5, 0.5, 1.0, 1.0};
+  static const struct hk_stages *const of_order[] = {NULL, &hk_forward_euler_stages, &hk_heun_stages, NULL,
+                                                     &hk_rk4_stages};
+  const struct hk_stages *stages = of_order[it->method->order];
   struct own *own = it->own;
-  const int32_t stages = stage_count(it);
-  const double *ahead = stages == 4 ? four : two;
   begin_step(it);
-  for (int32_t stage = 0; stage < stages; stage++) {
-    const double t =
-        ahead[stage] == 1.0 ? hk_integrator_next_time(it) : it->t + ahead[stage] * it->schedule.step;
+  for (int stage = 0; stage < stages->count; stage++) {
+    const double t = hk_stage_time(it, stages, stage);
     if (hk_unknowns_slope(it, &own->unknowns, t, own->y, own->slope) == HOOKE_SLOPE_STOPPED)
       return undo_step(it, HOOKE_STOPPED);
-    advance(it, stage, ahead[stage + 1]);
+    hk_stage_move(stages, stage, it->schedule.step, own->unknowns.size, own->slope, own->start, own->sum,
+                  own->y);
   }
   give(it, own->y);
   return HOOKE_OK;

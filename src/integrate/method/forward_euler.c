@@ -9,10 +9,11 @@ static int32_t step_rate(hooke_integrator *it) {
   return status;
 }
 
+const struct hk_stages hk_forward_euler_stages = {1, {0.0}, {1.0}};
+
 /* An overdamped system has one stage: q += h v. */
 static int32_t create(hooke_integrator *it) {
-  static const struct hk_stages stages = {1, {0.0}, {1.0}};
-  return it->system && it->system->friction > 0.0 ? hk_stages_create(it, &stages) : HOOKE_OK;
+  return it->system && it->system->friction > 0.0 ? hk_stages_create(it, &hk_forward_euler_stages) : HOOKE_OK;
 }
 
 static int32_t step(hooke_integrator *it) {

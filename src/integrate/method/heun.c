@@ -2,9 +2,10 @@
  * oscillations grow by (omega h)^4/8 a step. */
 #include "integrate/method/stages.h"
 
+const struct hk_stages hk_heun_stages = {2, {0.0, 1.0}, {1.0, 2.0}};
+
 static int32_t create(hooke_integrator *it) {
-  static const struct hk_stages stages = {2, {0.0, 1.0}, {1.0, 2.0}};
-  return hk_stages_create(it, &stages);
+  return hk_stages_create(it, &hk_heun_stages);
 }
 
 const struct hk_method hk_heun = {

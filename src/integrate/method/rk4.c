@@ -2,9 +2,10 @@
  * + h. */
 #include "integrate/method/stages.h"
 
+const struct hk_stages hk_rk4_stages = {4, {0.0, 0.5, 0.5, 1.0}, {2.0, 2.0, 1.0, 6.0}};
+
 static int32_t create(hooke_integrator *it) {
-  static const struct hk_stages stages = {4, {0.0, 0.5, 0.5, 1.0}, {2.0, 2.0, 1.0, 6.0}};
-  return hk_stages_create(it, &stages);
+  return hk_stages_create(it, &hk_rk4_stages);
 }
 
 const struct hk_method hk_rk4 = {

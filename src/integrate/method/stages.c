@@ -34,34 +34,27 @@ void hk_stages_destroy(hooke_integrator *it) {
   it->own = NULL;
 }
 
-static double ahead_of(const hooke_integrator *it, int stage) {
-  const struct own *own = it->own;
-  return own->stages->ahead[stage];
-}
-
-static double stage_time(const hooke_integrator *it, int stage) {
-  const double ahead = ahead_of(it, stage);
+double hk_stage_time(const hooke_integrator *it, const struct hk_stages *stages, int stage) {
+  const double ahead = stages->ahead[stage];
   return ahead == 1.0 ? hk_integrator_next_time(it) : it->t + ahead * it->schedule.step;
 }
 
-static double stage_kick(const hooke_integrator *it, int stage) {
-  const struct own *own = it->own;
-  return it->schedule.step / own->stages->over[stage];
-}
-
-/* From one stage to the next, for `count` numbers. */
-static void move_numbers(const hooke_integrator *it, int stage, int64_t count, const double *rate,
-                         double *start, double *sum, double *x) {
-  const struct own *own = it->own;
-  const double kick = stage_kick(it, stage);
-  if (own->stages->count == 1)
+void hk_stage_move(const struct hk_stages *stages, int stage, double step, int64_t count, const double *rate,
+                   double *start, double *sum, double *x) {
+  const double kick = step / stages->over[stage];
+  if (stages->count == 1)
     hk_advance(count, kick, rate, x);
   else if (stage == 0)
     hk_first_stage(count, kick, rate, start, sum, x);
-  else if (stage < own->stages->count - 1)
+  else if (stage < stages->count - 1)
     hk_middle_stage(count, kick, rate, start, sum, x);
   else
     hk_last_stage(count, kick, rate, start, sum, x);
+}
+
+static double stage_time(const hooke_integrator *it, int stage) {
+  const struct own *own = it->own;
+  return hk_stage_time(it, own->stages, stage);
 }
 
 static int32_t step_rate(hooke_integrator *it) {
@@ -72,7 +65,7 @@ static int32_t step_rate(hooke_integrator *it) {
       if (stage > 0) memcpy(it->x, own->start, (size_t)it->size * sizeof(double));
       return status;
     }
-    move_numbers(it, stage, it->size, it->slope, own->start, own->sum, it->x);
+    hk_stage_move(own->stages, stage, it->schedule.step, it->size, it->slope, own->start, own->sum, it->x);
   }
   return HOOKE_OK;
 }
@@ -81,7 +74,9 @@ static int32_t step_rate(hooke_integrator *it) {
  * called again. */
 static int32_t hold(hooke_integrator *it, int stage) {
   if (it->system->constrained_count == 0 || stage == 0) return HOOKE_OK;
-  if (ahead_of(it, stage) != ahead_of(it, stage - 1)) return hk_integrator_hold(it, stage_time(it, stage));
+  const struct own *own = it->own;
+  if (own->stages->ahead[stage] != own->stages->ahead[stage - 1])
+    return hk_integrator_hold(it, stage_time(it, stage));
   hk_motion_hold(it->system, it->motion);
   return HOOKE_OK;
 }
@@ -90,7 +85,7 @@ static int32_t move(hooke_integrator *it, int stage) {
   const struct own *own = it->own;
   const int last = own->stages->count - 1;
   const int32_t kind = stage == 0 ? HOOKE_FIRST_STAGE : stage < last ? HOOKE_MIDDLE_STAGE : HOOKE_LAST_STAGE;
-  struct hk_move move = hk_integrator_move_of(it, kind, stage_kick(it, stage), 0.0);
+  struct hk_move move = hk_integrator_move_of(it, kind, it->schedule.step / own->stages->over[stage], 0.0);
   move.start = own->start;
   move.sum = own->sum;
   return hk_integrator_move(it, stage_time(it, stage), move);
@@ -112,7 +107,8 @@ static void move_positions(hooke_integrator *it, int64_t from, int64_t count, vo
   struct hk_motion *m = it->motion;
   for (int a = 0; a < 3; a++) {
     const int64_t q = a * m->n + from; /* as hk_motion_save() has them */
-    move_numbers(it, *(const int *)ctx, count, m->v[a] + from, own->start + q, own->sum + q, m->q[a] + from);
+    hk_stage_move(own->stages, *(const int *)ctx, it->schedule.step, count, m->v[a] + from, own->start + q,
+                  own->sum + q, m->q[a] + from);
   }
 }
 
