@@ -30,6 +30,19 @@ module hooke_states
 
 contains
 
+  ! Takes a state that was made with this code.
+  subroutine begin(self, state, code, status)
+    class(hooke_state), intent(inout) :: self
+    type(c_ptr), intent(in) :: state
+    integer(c_int32_t), intent(in) :: code
+    integer, intent(out), optional :: status
+    if (code == 0) then
+      call self%take(state, c_state_destroy)
+      call point(self)
+    end if
+    call accept(code, status)
+  end subroutine
+
   ! The initial state of a committed system.
   subroutine create(self, system, status)
     class(hooke_state), intent(inout) :: self
@@ -39,11 +52,7 @@ contains
     integer(c_int32_t) :: code
     if (system%is_missing(status)) return
     code = c_state_create(system%address(), state)
-    if (code == 0) then
-      call self%take(state, c_state_destroy)
-      call point(self)
-    end if
-    call accept(code, status)
+    call begin(self, state, code, status)
   end subroutine
 
   ! `size` zeros for x' = phi(t, x).
@@ -54,11 +63,7 @@ contains
     type(c_ptr) :: state
     integer(c_int32_t) :: code
     code = c_state_create_first_order(int(size, c_int64_t), state)
-    if (code == 0) then
-      call self%take(state, c_state_destroy)
-      call point(self)
-    end if
-    call accept(code, status)
+    call begin(self, state, code, status)
   end subroutine
 
   ! `size` zeros for q'' = W f(t, q, v), and as many velocities.
@@ -69,11 +74,7 @@ contains
     type(c_ptr) :: state
     integer(c_int32_t) :: code
     code = c_state_create_second_order(int(size, c_int64_t), state)
-    if (code == 0) then
-      call self%take(state, c_state_destroy)
-      call point(self)
-    end if
-    call accept(code, status)
+    call begin(self, state, code, status)
   end subroutine
 
   ! Copies t, q and v into another state of the same size.

@@ -23,16 +23,21 @@ static int32_t read_text(const json_t *object, const char *key, const char **tex
   return status;
 }
 
-/* Calls `add` for every object of an array. */
-typedef int32_t add_one(struct hk_scene_reader *reader, const json_t *object, int64_t index);
+typedef int32_t add_one(struct hk_scene_reader *reader, const json_t *object, int64_t index,
+                        hooke_options *options);
 
-static int32_t for_each(struct hk_scene_reader *reader, const json_t *array, const char *name, add_one *add) {
+/* Calls `add` for every object of an array, with new options of `table` (NULL: none). */
+static int32_t for_each(struct hk_scene_reader *reader, const json_t *array, const char *name,
+                        const char *table, add_one *add) {
   int32_t status = hk_scene_require_array(array, name, "an array of objects [{ ... }, ...]");
   if (status) return status;
   for (size_t k = 0; k < json_array_size(array); k++) {
     const json_t *object = json_array_get(array, k);
+    hooke_options *options = NULL;
     status = hk_scene_require_object(object, NULL);
-    if (status == HOOKE_OK) status = add(reader, object, (int64_t)k);
+    if (status == HOOKE_OK && table) status = hooke_options_create(table, &options);
+    if (status == HOOKE_OK) status = add(reader, object, (int64_t)k, options);
+    hooke_options_destroy(options);
     if (status) return hk_fail_within(status, "%s[%zu]", name, k);
   }
   return HOOKE_OK;
@@ -146,9 +151,9 @@ static int32_t read_file(const struct hk_scene_reader *reader, hooke_options *op
   return hk_fail(HOOKE_BAD_VALUE, "file", "%s", hooke_last_error());
 }
 
-static int32_t add_part(struct hk_scene_reader *reader, const json_t *object, int64_t index) {
+static int32_t add_part(struct hk_scene_reader *reader, const json_t *object, int64_t index,
+                        hooke_options *options) {
   const char *kind = NULL, *name = "";
-  hooke_options *options = NULL;
   int32_t status = read_kind(object, &kind);
   if (status == HOOKE_OK) status = read_text(object, "name", &name);
   if (status == HOOKE_OK) status = check_name(reader, index);
@@ -166,7 +171,7 @@ static int32_t add_part(struct hk_scene_reader *reader, const json_t *object, in
 
 int32_t hk_scene_add_parts(struct hk_scene_reader *reader, const json_t *parts) {
   const int32_t status = note_names(reader, parts);
-  return status == HOOKE_OK ? for_each(reader, parts, "parts", add_part) : status;
+  return status == HOOKE_OK ? for_each(reader, parts, "parts", NULL, add_part) : status;
 }
 
 /* ---- springs and anchors ---- */
@@ -201,30 +206,24 @@ static int32_t read_group(struct hk_scene_reader *reader, const json_t *object, 
   return status;
 }
 
-static int32_t add_kind(struct hk_scene_reader *reader, const json_t *object, const struct group_kind *kind) {
-  hooke_options *options = NULL;
-  int32_t status = hooke_options_create(kind->key, &options);
-  if (status == HOOKE_OK) status = read_group(reader, object, kind, options);
-  hooke_options_destroy(options);
-  return status;
+static int32_t add_springs(struct hk_scene_reader *reader, const json_t *object, int64_t index,
+                           hooke_options *options) {
+  (void)index;
+  return read_group(reader, object, &springs_kind, options);
 }
 
-static int32_t add_springs(struct hk_scene_reader *reader, const json_t *object, int64_t index) {
+static int32_t add_anchors(struct hk_scene_reader *reader, const json_t *object, int64_t index,
+                           hooke_options *options) {
   (void)index;
-  return add_kind(reader, object, &springs_kind);
-}
-
-static int32_t add_anchors(struct hk_scene_reader *reader, const json_t *object, int64_t index) {
-  (void)index;
-  return add_kind(reader, object, &anchors_kind);
+  return read_group(reader, object, &anchors_kind, options);
 }
 
 int32_t hk_scene_add_springs(struct hk_scene_reader *reader, const json_t *springs) {
-  return for_each(reader, springs, springs_kind.key, add_springs);
+  return for_each(reader, springs, springs_kind.key, springs_kind.key, add_springs);
 }
 
 int32_t hk_scene_add_anchors(struct hk_scene_reader *reader, const json_t *anchors) {
-  return for_each(reader, anchors, anchors_kind.key, add_anchors);
+  return for_each(reader, anchors, anchors_kind.key, anchors_kind.key, add_anchors);
 }
 
 /* ---- bodies ---- */
@@ -247,7 +246,9 @@ static int32_t list_part(const struct hk_scene_reader *reader, const json_t *val
   return HOOKE_OK;
 }
 
-static int32_t read_body(struct hk_scene_reader *reader, const json_t *object, hooke_options *options) {
+static int32_t add_body(struct hk_scene_reader *reader, const json_t *object, int64_t index,
+                        hooke_options *options) {
+  (void)index;
   const json_t *list = json_object_get(object, "particles"), *part = json_object_get(object, "part");
   const char *name = "";
   int64_t *particles = NULL, count = 0;
@@ -271,17 +272,8 @@ static int32_t read_body(struct hk_scene_reader *reader, const json_t *object, h
   return status;
 }
 
-static int32_t add_body(struct hk_scene_reader *reader, const json_t *object, int64_t index) {
-  (void)index;
-  hooke_options *options = NULL;
-  int32_t status = hooke_options_create("bodies", &options);
-  if (status == HOOKE_OK) status = read_body(reader, object, options);
-  hooke_options_destroy(options);
-  return status;
-}
-
 int32_t hk_scene_add_bodies(struct hk_scene_reader *reader, const json_t *bodies) {
-  return for_each(reader, bodies, "bodies", add_body);
+  return for_each(reader, bodies, "bodies", "bodies", add_body);
 }
 
 /* ---- drives ---- */
@@ -326,7 +318,9 @@ static int32_t drive(hooke_system *system, const hooke_options *options, int64_t
                                   hooke_options_numbers(options, "position"));
 }
 
-static int32_t read_drive(struct hk_scene_reader *reader, const json_t *object, hooke_options *options) {
+static int32_t add_driven(struct hk_scene_reader *reader, const json_t *object, int64_t index,
+                          hooke_options *options) {
+  (void)index;
   int64_t *particles = NULL, count = 0;
   int32_t status = hk_scene_read_options(reader, object, "particles", options);
   if (status == HOOKE_OK) status = check_drive(options);
@@ -341,17 +335,8 @@ static int32_t read_drive(struct hk_scene_reader *reader, const json_t *object, 
   return status;
 }
 
-static int32_t add_driven(struct hk_scene_reader *reader, const json_t *object, int64_t index) {
-  (void)index;
-  hooke_options *options = NULL;
-  int32_t status = hooke_options_create("driven", &options);
-  if (status == HOOKE_OK) status = read_drive(reader, object, options);
-  hooke_options_destroy(options);
-  return status;
-}
-
 int32_t hk_scene_add_driven(struct hk_scene_reader *reader, const json_t *driven) {
-  return for_each(reader, driven, "driven", add_driven);
+  return for_each(reader, driven, "driven", "driven", add_driven);
 }
 
 #else
