@@ -107,20 +107,11 @@ static const struct cli_program_row *find_row(const char *word) {
   return NULL;
 }
 
-static int is_word_of(const char *words, const char *word) {
-  const size_t length = strlen(word);
-  for (const char *at = words; (at = strstr(at, word)) != NULL; at++) {
-    if ((at == words || at[-1] == ' ') && (at[length] == ' ' || at[length] == '\0') && length > 0) return 1;
-  }
-  return 0;
-}
-
 static int do_row(const struct cli_program_row *row, const char *value) {
-  if (row->value && (!value || strchr(value, ' ') || !is_word_of(row->words, value))) {
+  const int code = row->value && !value ? HOOKE_EXIT_USAGE : row->print(&program, value);
+  if (code == HOOKE_EXIT_USAGE)
     fprintf(stderr, "hooke: --%s wants a word after it, one of: %s\n", row->name, row->words);
-    return HOOKE_EXIT_USAGE;
-  }
-  return row->print(&program, value);
+  return code;
 }
 
 /* hooke help [VERB [KIND]] */

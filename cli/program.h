@@ -12,7 +12,8 @@ struct cli_program_row {
   const char *value; /* name of the word that has to follow; NULL: none */
   const char *words; /* which it may be, separated by blanks */
   const char *doc;
-  int (*print)(const struct cli_program *program, const char *value); /* an exit code */
+  /* returns an exit code, HOOKE_EXIT_USAGE for another word than these */
+  int (*print)(const struct cli_program *program, const char *value);
 };
 
 struct cli_program {

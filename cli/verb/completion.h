@@ -6,7 +6,7 @@
 #include "program.h"
 
 /* Prints a script for the shell "bash", "zsh" or "fish": verbs, kinds, options and their words, and files.
- * Returns the exit code; failures are reported already. */
+ * Returns the exit code, HOOKE_EXIT_USAGE for another shell; other failures are reported already. */
 int cli_completion_print(const struct cli_program *program, const char *shell);
 
 /* ---- one file a shell ---- */

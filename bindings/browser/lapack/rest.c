@@ -1,5 +1,6 @@
-/* What the routines of LAPACK need besides f2c's translation: the functions of Fortran that f2c calls, the routines that are
- * no Fortran 77 (Anderson 2017 for dlartg), and the three that the library calls, which return nothing. */
+/* What the routines of LAPACK need besides f2c's translation: the functions of Fortran that f2c calls, the
+ * routines that are no Fortran 77 (Anderson 2017 for dlartg), and the three that the library calls, which return
+ * nothing. */
 #include <float.h>
 #include <math.h>
 #include <stdint.h>
