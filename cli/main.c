@@ -87,13 +87,8 @@ static int do_verb(const struct cli_verb *verb, int argc, char **argv) {
     return HOOKE_EXIT_USAGE;
   }
   int answer = cli_arguments_parse(verb, argc, argv, &arguments);
-  if (answer == HOOKE_EXIT_DONE) {
-    if (arguments.help) {
-      cli_usage_print_verb(stdout, &arguments);
-    } else {
-      answer = verb->function(&arguments);
-    }
-  }
+  if (answer == HOOKE_EXIT_DONE)
+    answer = arguments.help ? cli_usage_print_verb(stdout, &arguments) : verb->function(&arguments);
   cli_arguments_destroy(&arguments);
   return answer;
 }

@@ -1,6 +1,7 @@
 #include "usage.h"
 #include "describe.h"
 #include "print.h"
+#include "report.h"
 
 #include <ctype.h>
 #include <string.h>
@@ -86,46 +87,49 @@ static const char *units_of(const struct cli_argument *argument) {
   return argument->table ? hooke_options_row(argument->table, argument->row, "units") : "";
 }
 
-/* Lists the units of all options, those of a kind once. */
-static void print_units(FILE *file, const struct cli_arguments *arguments) {
+/* Lists the units of all options, those of a kind once. HOOKE_NO_MEMORY */
+static int32_t print_units(FILE *file, const struct cli_arguments *arguments) {
   fputs("\nnumbers may have a unit:\n", file);
   for (int32_t i = 0; i < arguments->count; i++) {
     const char *units = units_of(&arguments->all[i]);
-    int32_t again = !units || !units[0];
-    for (int32_t k = 0; k < i && !again; k++) {
-      const char *before = units_of(&arguments->all[k]);
-      again = before && strcmp(before, units) == 0;
-    }
+    if (!units) return HOOKE_NO_MEMORY;
+    int32_t again = !units[0];
+    for (int32_t k = 0; k < i && !again; k++)
+      again = strcmp(units_of(&arguments->all[k]), units) == 0;
     if (!again) fprintf(file, "  %s\n", units);
   }
+  return HOOKE_OK;
 }
 
-static void print_options(FILE *file, const struct cli_arguments *arguments) {
+/* HOOKE_NO_MEMORY */
+static int32_t print_options(FILE *file, const struct cli_arguments *arguments) {
   fputs("\noptions:\n", file);
   for (int32_t i = 0; i < arguments->count; i++) {
     if (arguments->all[i].own) print_option(file, &arguments->all[i]);
   }
   print_table(file, arguments, arguments->of_kind);
   print_table(file, arguments, arguments->more);
-  if (arguments->verb->input) return;
+  if (arguments->verb->input) return HOOKE_OK;
   print_table(file, arguments, arguments->run);
   print_table(file, arguments, arguments->limits);
-  print_units(file, arguments);
+  return print_units(file, arguments);
 }
 
-void cli_usage_print_verb(FILE *file, const struct cli_arguments *arguments) {
+int cli_usage_print_verb(FILE *file, const struct cli_arguments *arguments) {
   const struct cli_verb *verb = arguments->verb;
   const char *kind = verb->takes_kind ? arguments->scene : NULL;
   char example[HOOKE_DOC_SIZE];
+  int32_t status = HOOKE_OK;
   fprintf(file, "usage: hooke %s %s [options]\n\n", verb->name, kind ? kind : cli_describe_operand(verb));
   cli_print_wrapped(file, 0, 0, WIDTH, verb->text);
   if (verb->takes_kind && !kind) {
     print_kinds(file, verb);
   } else {
-    print_options(file, arguments);
+    status = print_options(file, arguments);
   }
   if (kind) fprintf(file, "\nexample:\n  %s\n", cli_describe_example(arguments, example));
   print_exits(file);
+  return status == HOOKE_OK ? HOOKE_EXIT_DONE : cli_report(arguments, cli_exit_code(status), "out of memory");
 }
 
 /* ---- version ---- */

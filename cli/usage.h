@@ -10,8 +10,8 @@
 /* `hooke --help`. */
 void cli_usage_print_all(FILE *file, const struct cli_program *program);
 
-/* `hooke VERB --help`. */
-void cli_usage_print_verb(FILE *file, const struct cli_arguments *arguments);
+/* `hooke VERB --help`. Returns an exit code. */
+int cli_usage_print_verb(FILE *file, const struct cli_arguments *arguments);
 
 /* `hooke --version`. */
 void cli_usage_print_version(FILE *file);

@@ -62,7 +62,7 @@ HOOKE_API const char *hooke_options_text(const hooke_options *options, const cha
 HOOKE_API int64_t hooke_options_row_count(const hooke_options *options);
 
 /* A property of row `row` as text, "" where it has none, NULL if there is no such row or property, or no
- * memory to put "allowed" into words. Lives as long as `options`.
+ * memory to put "allowed" or "units" into words. Lives as long as `options`.
  *   "name", "unit", "default", "doc"
  *   "type"     "number", "numbers", "flag", "choice", "text" or "family"
  *   "allowed"  in words: "a number >= 0"
