@@ -118,13 +118,19 @@ int32_t cli_argument_is_flag(const struct cli_argument *argument) {
          strcmp(hooke_options_row(argument->table, argument->row, "type"), "flag") == 0;
 }
 
+static int name_method(const struct cli_arguments *arguments, struct cli_argument *argument) {
+  const char *name = hooke_method_meant(argument->text);
+  if (hooke_method_is_adaptive(name) < 0)
+    return cli_report_unknown_method(arguments, argument->flag, argument->text, strlen(argument->text));
+  argument->text = name;
+  return HOOKE_EXIT_DONE;
+}
+
 static int take(struct cli_arguments *arguments, struct cli_argument *argument, const char *text) {
   argument->text = text ? text : cli_argument_is_flag(argument) ? "true" : "";
   if (argument->own) return HOOKE_EXIT_DONE;
-  if (strcmp(argument->name, "method") == 0 && hooke_method_is_adaptive(argument->text) < 0) {
-    return cli_report_unknown_method(arguments, argument->flag, argument->text, strlen(argument->text));
-  }
-  int answer = cli_value_read(arguments, argument);
+  int answer = strcmp(argument->name, "method") == 0 ? name_method(arguments, argument) : HOOKE_EXIT_DONE;
+  if (answer == HOOKE_EXIT_DONE) answer = cli_value_read(arguments, argument);
   if (answer != HOOKE_EXIT_DONE || cli_value_adds_up(argument)) return answer;
   return cli_value_set(arguments, argument);
 }
@@ -150,7 +156,7 @@ static struct cli_argument *argument_of(struct cli_arguments *arguments, int cod
   return NULL;
 }
 
-/* The one word that is not an option. */
+/* The word that is not an option, or several. */
 static int take_operand(struct cli_arguments *arguments, int argc, char **argv) {
   const char *input = arguments->verb->input;
   const char *name = arguments->verb->for_scene, *instead = name ? cli_arguments_text(arguments, name) : NULL;
@@ -164,7 +170,9 @@ static int take_operand(struct cli_arguments *arguments, int argc, char **argv) 
     return cli_report(arguments, HOOKE_EXIT_USAGE, "no %s given; usage: hooke %s %s [options]",
                       input ? input : "scene", arguments->verb->name, cli_describe_operand(arguments->verb));
   }
-  if (optind + 1 < argc) {
+  arguments->more_scenes = argv + optind + 1;
+  arguments->more_count = argc - optind - 1;
+  if (arguments->more_count > 0 && !arguments->verb->several) {
     return cli_report(arguments, HOOKE_EXIT_USAGE, "one %s at a time: '%s' and '%s' were given",
                       input ? "file" : "scene", argv[optind], argv[optind + 1]);
   }

@@ -1,4 +1,5 @@
 #include "report.h"
+#include "excerpt.h"
 #include "print.h"
 
 #include <stdarg.h>
@@ -29,13 +30,20 @@ int cli_refusal(const struct cli_arguments *arguments) {
   return arguments->verb->takes_kind ? HOOKE_EXIT_BAD_INPUT : HOOKE_EXIT_USAGE;
 }
 
+/* Each line of a message, and below it the place of the scene that it names. */
 static void say(const struct cli_arguments *arguments, const char *style, const char *message) {
-  char begin[WORD_SIZE];
+  char begin[WORD_SIZE], line[MESSAGE_SIZE];
   snprintf(begin, sizeof begin, "hooke %s:", arguments->verb->name);
-  cli_print_styled(stderr, style, begin);
-  fputc(' ', stderr);
-  cli_print_text(stderr, message);
-  fputc('\n', stderr);
+  for (; *message; message += strspn(message, "\n")) {
+    const size_t length = strcspn(message, "\n");
+    snprintf(line, sizeof line, "%.*s", (int)length, message);
+    message += length;
+    cli_print_styled(stderr, style, begin);
+    fputc(' ', stderr);
+    cli_print_text(stderr, line);
+    fputc('\n', stderr);
+    if (arguments->scene) cli_excerpt_print(stderr, arguments->scene, line);
+  }
 }
 
 int cli_report(const struct cli_arguments *arguments, int code, const char *format, ...) {
@@ -168,7 +176,10 @@ int cli_report_unknown_method(const struct cli_arguments *arguments, const char 
   char name[HOOKE_FLAG_SIZE], list[LIST_SIZE] = "";
   snprintf(name, sizeof name, "%.*s", (int)(length < sizeof name ? length : sizeof name - 1), word);
   cli_report_methods(list, sizeof list);
-  const char *near = cli_suggest(name, next_method, NULL);
-  return cli_report(arguments, cli_refusal(arguments), "--%s: there is no method '%s'%s%s%s; methods: %s",
-                    flag, name, near ? ", did you mean " : "", near ? near : "", near ? "?" : "", list);
+  const char *near = hooke_method_meant(name);
+  const int several = near[0] != '\0';
+  if (!several) near = cli_suggest(name, next_method, NULL);
+  return cli_report(arguments, cli_refusal(arguments), "--%s: there is no method '%s'%s%s%s%s; methods: %s",
+                    flag, name, near ? ", did you mean " : "", several ? "one of " : "", near ? near : "",
+                    near ? "?" : "", list);
 }

@@ -5,9 +5,11 @@
 
 /* The method that `word` begins with, up to `length`; NULL if there is none. */
 static const char *find_method(const char *word, size_t length) {
+  char given[HOOKE_FLAG_SIZE];
+  snprintf(given, sizeof given, "%.*s", (int)(length < sizeof given ? length : sizeof given - 1), word);
+  const char *meant = hooke_method_meant(given);
   for (int64_t i = 0; i < hooke_method_count(); i++) {
-    const char *name = hooke_method_name(i);
-    if (strlen(name) == length && strncmp(name, word, length) == 0) return name;
+    if (strcmp(hooke_method_name(i), meant) == 0) return hooke_method_name(i);
   }
   return NULL;
 }

@@ -41,6 +41,9 @@ typedef int32_t hooke_progress(double done, const char *what, void *ctx);
 HOOKE_API int64_t hooke_method_count(void);
 /* Name of a method, "forward-euler"; NULL past the last. */
 HOOKE_API const char *hooke_method_name(int64_t method);
+/* The method that a word means: itself, or the one that another common name stands for ("velocity-verlet"); several,
+ * separated by blanks, to choose from ("euler"); "" if none. Options and scenes take names alone. */
+HOOKE_API const char *hooke_method_meant(const char *word);
 /* One-line description of a method; NULL if there is no such name. */
 HOOKE_API const char *hooke_method_summary(const char *name);
 /* 1 if the method chooses its steps from tolerances, 0 if it takes `step`, -1 if there is no such name. */

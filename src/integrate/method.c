@@ -38,6 +38,27 @@ const char *hooke_method_name(int64_t method) {
   return NULL;
 }
 
+/* Other common names; several methods where texts do not agree. */
+static const struct {
+  const char *word, *methods;
+} common_names[] = {
+    {"explicit-euler", "forward-euler"},
+    {"semi-implicit-euler", "symplectic-euler"},
+    {"implicit-euler", "backward-euler"},
+    {"velocity-verlet", "verlet"},
+    {"euler", "forward-euler symplectic-euler backward-euler"},
+    {"midpoint", "implicit-midpoint heun"}, /* the nearest to the explicit rule */
+};
+
+const char *hooke_method_meant(const char *word) {
+  const struct hk_method *method = hk_method_find(word);
+  if (method) return method->name;
+  for (size_t k = 0; k < sizeof common_names / sizeof common_names[0]; k++) {
+    if (strcmp(common_names[k].word, word) == 0) return common_names[k].methods;
+  }
+  return "";
+}
+
 const struct hk_method *hk_method_find(const char *name) {
   for (int64_t k = 0; k < ROWS; k++) {
     if (strcmp(table[k]->name, name) == 0) return table[k];

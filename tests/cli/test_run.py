@@ -444,3 +444,10 @@ def test_want_that_is_no_length(hooke, write, want, word):
     done = hooke("run", write(SIX_PARTICLES), "--want=" + want)
     assert done.code == 2
     assert word in done.err
+
+
+@pytest.mark.parametrize("word, name", [("explicit-euler", "forward-euler"), ("semi-implicit-euler", "symplectic-euler"),
+                                        ("implicit-euler", "backward-euler"), ("velocity-verlet", "verlet")])
+def test_other_names_of_methods(hooke, write, word, name):
+    answer = hooke("run", write(SIX_PARTICLES), "--method", word, "--json")
+    assert (answer.code, answer.json["method"]) == (0, name)

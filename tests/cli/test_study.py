@@ -391,6 +391,8 @@ def test_ctrl_c_while_the_reference_is_checked(start, write):
         (["--points", "5"], 2, ">= 6"),
         (["--methods", "rk5"], 2, "did you mean rk4?"),
         (["--methods", "rk4,rk4"], 2, "named twice"),
+        (["--methods", "verlet,velocity-verlet"], 2, "verlet is named twice"),
+        (["--methods", "euler"], 2, "did you mean one of forward-euler symplectic-euler backward-euler?"),
         (["--methods", "rk8pd"], 2, "no method 'rk8pd'"),
         (["--tolerances", "1e-3;1e-4"], 2, "--tolerances"),
         (["--steps", "1ms,2ms"], 3, "steps[1]"),

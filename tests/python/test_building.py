@@ -317,3 +317,11 @@ def test_large_arrays_go_straight_to_the_library():
     arrays = q.nbytes + ends.nbytes + 8 * n
     assert peak < 4 * arrays  # a list of as many numbers takes ten times its array
     assert scene.system.spring_count == n - 1
+
+
+def test_methods_by_other_names():
+    options = hooke.Options.for_run().set(method="velocity-verlet")
+    assert options["method"] == "verlet"
+    assert hooke.Options.for_study().set(methods="rk4, implicit-euler")["methods"] == "rk4,backward-euler"
+    with pytest.raises(hooke.BadValue, match="'euler' is no method; choose one of forward-euler, symplectic-euler"):
+        options.set(method="euler")

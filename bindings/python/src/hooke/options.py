@@ -175,6 +175,8 @@ class Options(Owner, MutableMapping[str, Any]):
                 "these are the options that an integrator runs with; make another integrator to change them"
             )
         key = name.encode()
+        if name in ("method", "methods") and isinstance(value, str):
+            value = ",".join(_method_meant(name, word) for word in value.split(","))
         if value is None:
             lib.hooke_options_unset(self._handle, key)
         elif isinstance(value, str):
@@ -224,6 +226,14 @@ class Options(Owner, MutableMapping[str, Any]):
     def __repr__(self) -> str:
         values = ", ".join(f"{name}={self[name]!r}" for name in self if self.is_set(name))
         return f"Options({values})"
+
+
+def _method_meant(option: str, word: str) -> str:
+    """The name of a method of which another common name may be given; other words as they are."""
+    meant = text(lib.hooke_method_meant(word.strip().encode()))
+    if " " in meant:
+        raise BadValue(f"{option}: {word!r} is no method; choose one of {', '.join(meant.split())}")
+    return meant or word
 
 
 def part_kinds() -> list[str]:
