@@ -20,7 +20,9 @@ struct cli_argument {
 
 struct cli_arguments {
   const struct cli_verb *verb;
-  const char *scene; /* or the kind, for a verb that takes one */
+  const char *scene;        /* or the kind, for a verb that takes one */
+  char *const *more_scenes; /* beside it, for a verb that takes several */
+  int32_t more_count;
   int32_t help, json, quiet;
   hooke_options *run;     /* the option table of a run, with the given values */
   hooke_options *more;    /* that of the verb, likewise; NULL: none */

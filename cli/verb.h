@@ -29,6 +29,7 @@ struct cli_verb_row {
 struct cli_verb {
   const char *name;
   const char *input; /* its argument, such as "OUT.h5", without options of a run; NULL: a scene, with them */
+  int several;       /* 1: it takes more than one */
   const char *summary; /* one line */
   const char *text;    /* a paragraph for --help */
   const char

@@ -14,6 +14,8 @@
 #include <string.h>
 #include <unistd.h>
 
+enum { MOST_VIEWS = 8 };
+
 extern char **environ;
 
 static double number_of(const hooke_measurement *view, const char *what) {
@@ -28,12 +30,20 @@ static void describe_stride(const hooke_measurement *view, const char *what, cha
   if (stride > 1) snprintf(text, size, ", every %d%s", stride, endings[last < 4 ? last : 0]);
 }
 
+/* What is shown, side by side. */
+struct shown {
+  int32_t count;
+  const char *path[MOST_VIEWS];
+  hooke_record *record[MOST_VIEWS];
+  hooke_measurement *view[MOST_VIEWS];
+};
+
 static void print_words(const struct cli_arguments *arguments, const hooke_measurement *view,
-                        const char *output) {
+                        const char *name) {
   char frames[64], springs[64];
   describe_stride(view, "frame_stride", frames, sizeof frames);
   describe_stride(view, "spring_stride", springs, sizeof springs);
-  cli_report_words(arguments, "%s: %.2f MB, %.0f of %.0f frames%s, %.0f of %.0f springs%s%s", output,
+  cli_report_words(arguments, "%s: %.2f MB, %.0f of %.0f frames%s, %.0f of %.0f springs%s%s", name,
                    number_of(view, "bytes") / 1e6, number_of(view, "frames"), number_of(view, "frames_there"),
                    frames, number_of(view, "springs"), number_of(view, "springs_there"), springs,
                    frames[0] || springs[0] ? "; --frames, --springs and --size allow more" : "");
@@ -43,23 +53,36 @@ static void print_words(const struct cli_arguments *arguments, const hooke_measu
                      damaged, damaged == 1.0 ? " is" : "s are");
 }
 
-static void print_json(const hooke_measurement *view, const hooke_record *record, const char *output) {
+static void print_one(struct cli_json *json, const struct shown *shown, int32_t k) {
+  cli_json_text(json, "status", hooke_record_text(shown->record[k], "status"));
+  cli_table_print_row(json, shown->view[k], "view", 0);
+}
+
+static void print_json(const struct shown *shown, const char *output) {
   struct cli_json json;
   cli_json_begin(&json, stdout);
   cli_json_text(&json, "output", output);
-  cli_json_text(&json, "status", hooke_record_text(record, "status"));
-  cli_table_print_row(&json, view, "view", 0);
+  if (shown->count == 1) print_one(&json, shown, 0);
+  if (shown->count > 1) cli_json_open(&json, "views", '[');
+  for (int32_t k = 0; k < shown->count && shown->count > 1; k++) {
+    cli_json_open(&json, NULL, '{');
+    cli_json_text(&json, "trajectory", shown->path[k]);
+    print_one(&json, shown, k);
+    cli_json_close(&json);
+  }
   cli_json_end(&json);
 }
 
-static int write_page(const struct cli_arguments *arguments, const hooke_record *record, const char *output) {
-  hooke_measurement *view = NULL;
-  int32_t status = hooke_view_create(record, arguments->more, &view);
-  if (status == HOOKE_OK) status = hooke_measurement_write(view, output);
-  if (status == HOOKE_OK && arguments->json) print_json(view, record, output);
-  if (status == HOOKE_OK && !arguments->quiet) print_words(arguments, view, output);
-  hooke_measurement_destroy(view);
-  return status == HOOKE_OK ? HOOKE_EXIT_DONE : cli_report_status(arguments, status);
+static int write_page(const struct cli_arguments *arguments, const struct shown *shown, const char *output) {
+  int32_t status = HOOKE_OK;
+  for (int32_t k = 1; k < shown->count && status == HOOKE_OK; k++)
+    status = hooke_view_add(shown->view[0], shown->view[k]);
+  if (status == HOOKE_OK) status = hooke_measurement_write(shown->view[0], output);
+  if (status != HOOKE_OK) return cli_report_status(arguments, status);
+  if (arguments->json) print_json(shown, output);
+  for (int32_t k = 0; k < shown->count && !arguments->quiet; k++)
+    print_words(arguments, shown->view[k], shown->count == 1 ? output : shown->path[k]);
+  return HOOKE_EXIT_DONE;
 }
 
 /* ---- where the page goes ---- */
@@ -98,17 +121,23 @@ static int is_to_run(const struct cli_arguments *arguments) {
   return cli_arguments_text(arguments, "want") != NULL;
 }
 
-static int show_trajectory(const struct cli_arguments *arguments, const char *path, const char *output) {
-  hooke_record *record = NULL;
-  const int32_t status = hooke_record_open(path, &record);
-  int code;
-  if (status == HOOKE_OK)
-    code = write_page(arguments, record, output);
-  else if (status == HOOKE_IO_FAILED) /* no file, or no HDF5 */
-    code = cli_report(arguments, HOOKE_EXIT_BAD_INPUT, "%s", hooke_last_error());
-  else
-    code = cli_report_status(arguments, status);
-  hooke_record_close(record);
+static int open_trajectory(const struct cli_arguments *arguments, struct shown *shown, int32_t k) {
+  int32_t status = hooke_record_open(shown->path[k], &shown->record[k]);
+  if (status == HOOKE_IO_FAILED) /* no file, or no HDF5 */
+    return cli_report(arguments, HOOKE_EXIT_BAD_INPUT, "%s", hooke_last_error());
+  if (status == HOOKE_OK) status = hooke_view_create(shown->record[k], arguments->more, &shown->view[k]);
+  return status == HOOKE_OK ? HOOKE_EXIT_DONE : cli_report_status(arguments, status);
+}
+
+static int show_trajectories(const struct cli_arguments *arguments, struct shown *shown, const char *output) {
+  int code = HOOKE_EXIT_DONE;
+  for (int32_t k = 0; k < shown->count && code == HOOKE_EXIT_DONE; k++)
+    code = open_trajectory(arguments, shown, k);
+  if (code == HOOKE_EXIT_DONE) code = write_page(arguments, shown, output);
+  for (int32_t k = 0; k < shown->count; k++) {
+    hooke_measurement_destroy(shown->view[k]);
+    hooke_record_close(shown->record[k]);
+  }
   return code;
 }
 
@@ -120,7 +149,8 @@ static int run_and_show(const struct cli_arguments *arguments, const char *outpu
   if (!path) return cli_report(arguments, HOOKE_EXIT_BAD_INPUT, "out of memory");
   snprintf(path, size, "%s.%ld.h5", output, (long)getpid());
   int code = cli_run_to_show(arguments, path, &outcome);
-  if (code == HOOKE_EXIT_DONE) code = show_trajectory(arguments, path, output);
+  struct shown shown = {.count = 1, .path = {path}};
+  if (code == HOOKE_EXIT_DONE) code = show_trajectories(arguments, &shown, output);
   unlink(path);
   free(path);
   return code == HOOKE_EXIT_DONE ? cli_exit_code(outcome) : code;
@@ -136,13 +166,37 @@ static int is_scene(const char *path) {
   return same;
 }
 
+/* Several trajectories have a page of another name than theirs, and none is run anew. */
+static int check_several(const struct cli_arguments *arguments) {
+  if (arguments->more_count == 0) return HOOKE_EXIT_DONE;
+  if (arguments->more_count >= MOST_VIEWS)
+    return cli_report(arguments, HOOKE_EXIT_USAGE, "%d trajectories at once; allowed: up to %d",
+                      (int)arguments->more_count + 1, MOST_VIEWS);
+  if (!cli_arguments_text(arguments, "output"))
+    return cli_report(arguments, HOOKE_EXIT_USAGE, "several trajectories need -o, the name of their page");
+  if (is_to_run(arguments))
+    return cli_report(arguments, HOOKE_EXIT_USAGE,
+                      "several trajectories are shown as they are; leave out "
+                      "the options of a run");
+  return HOOKE_EXIT_DONE;
+}
+
+static int write_view(const struct cli_arguments *arguments, const char *output) {
+  struct shown shown = {.count = 1 + arguments->more_count, .path = {arguments->scene}};
+  for (int32_t k = 1; k < shown.count; k++)
+    shown.path[k] = arguments->more_scenes[k - 1];
+  const int runs = shown.count == 1 && (is_scene(arguments->scene) || is_to_run(arguments));
+  return runs ? run_and_show(arguments, output) : show_trajectories(arguments, &shown, output);
+}
+
 static int do_view(const struct cli_arguments *arguments) {
+  int code = check_several(arguments);
+  if (code != HOOKE_EXIT_DONE) return code;
   char *output = output_of(arguments);
   if (!output) return cli_report(arguments, HOOKE_EXIT_BAD_INPUT, "out of memory");
-  int code = cli_output_file_check(arguments, "-o", output);
+  code = cli_output_file_check(arguments, "-o", output);
   if (code == HOOKE_EXIT_DONE) {
-    const int runs = is_scene(arguments->scene) || is_to_run(arguments);
-    code = runs ? run_and_show(arguments, output) : show_trajectory(arguments, arguments->scene, output);
+    code = write_view(arguments, output);
     const int written = code == HOOKE_EXIT_DONE || code == HOOKE_EXIT_DIVERGED;
     if (written && cli_arguments_text(arguments, "open")) open_page(arguments, output);
   }
@@ -166,7 +220,9 @@ const struct cli_verb cli_verb_view = {
             "and what is driven "
             "marked, energies below. A scene is run first; its trajectory is not kept. What is left out, to "
             "keep the page small "
-            "and quick, is said on it and here. A run that was killed shows the frames it has.",
+            "and quick, is said on it and here. A run that was killed shows the frames it has. Several "
+            "trajectories play side by side on one page, at the same time and seen from the same angle.",
+    .several = 1,
     .example = "hooke view cloth.h5 -o cloth.html",
     HOOKE_VERB_ROWS(rows),
     .options = "view",

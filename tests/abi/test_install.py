@@ -90,9 +90,10 @@ def test_report(prefix, tmp_path):
     seen |= {name for name in pages if (prefix / "share/hooke" / name).read_text() in text}
     run(prefix / "bin/hooke", "run", command[2], "-o", tmp_path / "out.h5")
     run(prefix / "bin/hooke", "view", tmp_path / "out.h5", "-o", tmp_path / "page.html")
-    text = (tmp_path / "page.html").read_text()
+    run(prefix / "bin/hooke", "view", tmp_path / "out.h5", tmp_path / "out.h5", "-o", tmp_path / "both.html")
+    text = (tmp_path / "page.html").read_text() + (tmp_path / "both.html").read_text()
     seen |= {name for name in pages if (prefix / "share/hooke" / name).read_text() in text}
-    assert pages - seen == {"page.html", "view.html"}, "the forms, with marks where the others are put in"
+    assert pages - seen == {"page.html", "view.html", "views.html"}, "the forms, with marks where the others are put in"
     (prefix / "share/hooke/study.js").rename(prefix / "share/hooke/away.js")
     assert "share/hooke/study.js" in run(*command, expect=6)
     (prefix / "share/hooke/away.js").rename(prefix / "share/hooke/study.js")

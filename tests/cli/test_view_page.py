@@ -335,3 +335,43 @@ def test_files_to_keep(page):
             assert np.allclose(np.linalg.norm(numbers(primitive["attributes"]["NORMAL"]), axis=1), 1, atol=1e-5)
     q = np.array([page.run(f"positionOf({k})") for k in (0, 20)]) - model["extras"]["origin"]
     assert np.allclose(numbers(model["meshes"][0]["primitives"][0]["attributes"]["POSITION"])[[0, 20]], q, atol=1e-6)
+
+
+# ---- several trajectories ----
+
+
+PAGES = "frames.map((frame) => frame.contentWindow)"
+
+
+def test_trajectories_beside_one_another_play_and_turn_together(browser, tmp_path):
+    long, short = (tmp_path / name for name in ("long", "short"))
+    for folder, duration in ((long, 0.4), (short, 0.2)):
+        folder.mkdir()
+        make(folder, CLOTH, duration=duration)
+    page = tmp_path / "both.html"
+    assert subprocess.run([CLI, "view", short / "out.h5", long / "out.h5", "-o", page, "-q"]).returncode == 0
+    browser.size(1000, 620)
+    browser.open(page)
+
+    def words(name, what="textContent"):
+        browser.settle()
+        return browser.run(f"{PAGES}.map((page) => page.document.getElementById('{name}').{what})")
+
+    def press(which, key):
+        browser.run(f"void {PAGES}[{which}].dispatchEvent(new KeyboardEvent('keydown', {{ key: '{key}' }}))")
+
+    def axes():
+        return [[round(float(number), 6) for number in re.findall(r'="(-?[0-9][^"]*)"', text)] for text in words("axes", "innerHTML")]
+
+    assert words("play") == ["Play", "Pause"]  # the longer one leads
+    press(1, "End")
+    assert words("play") == ["Play", "Play"]
+    assert [re.search(r"t = (.*) s", text)[1] for text in words("now")] == ["0.2", "0.4"]
+    press(0, "Home")
+    assert [re.search(r"t = (.*) s", text)[1] for text in words("now")] == ["0", "0"]
+    before = axes()
+    assert before[0] == before[1]
+    browser.drag(750, 200, 100, 60)
+    after = axes()
+    assert after[0] == after[1] != before[0]
+    assert browser.console == []

@@ -3,14 +3,16 @@
  *   view.c           selection
  *   view_frames.c    a frame as bytes
  *   view_page.c      the page
+ *   views.c          several pages side by side
  *   view_tables.c    the numbers of a view */
 #ifndef HOOKE_IO_PAGE_VIEW_H
 #define HOOKE_IO_PAGE_VIEW_H
 
 #include "hooke/trajectory.h"
+#include "io/file/text.h"
 #include "measure/measurement.h"
 
-enum { HOOKE_VIEW_ENERGIES = 3 };
+enum { HOOKE_VIEW_ENERGIES = 3, HOOKE_VIEW_MOST_BESIDE = 7 };
 extern const char *const hk_view_energy[HOOKE_VIEW_ENERGIES]; /* "kinetic", ... */
 
 /* Mark of a particle. */
@@ -38,6 +40,8 @@ struct hk_view {
   double strain;                              /* the largest that has a colour of its own */
   double strain_low, strain_high;             /* that were met */
   double bytes;                               /* of the page, once it is written; NaN */
+  const hooke_measurement *beside[HOOKE_VIEW_MOST_BESIDE];
+  int32_t beside_count;
 };
 
 /* A column of numbers, or `columns` of them, from the file; the caller frees it. */
@@ -66,7 +70,9 @@ int32_t hk_view_find_strain(struct hk_view *view);
 
 /* ---- the page ---- */
 
-/* Writes it, with the label "title" as its heading. */
+/* Adds it, with the label "title" as its heading; adds that of all beside one another; writes the one or the other. */
+int32_t hk_view_add_page(const hooke_measurement *measurement, struct hk_text *text);
+int32_t hk_views_add_page(const hooke_measurement *measurement, struct hk_text *text);
 int32_t hk_view_write(const hooke_measurement *measurement, const char *path);
 
 #endif

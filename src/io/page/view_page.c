@@ -165,15 +165,22 @@ static int32_t add_part(const char *name, struct hk_text *text, void *ctx) {
   return hk_data_folder_read(name, text);
 }
 
-int32_t hk_view_write(const hooke_measurement *m, const char *path) {
+int32_t hk_view_add_page(const hooke_measurement *m, struct hk_text *text) {
   struct hk_view *view = m->object;
-  struct hk_text text = {.bytes = NULL};
   struct page page = {.view = view, .title = m->label[HOOKE_LABEL_TITLE]};
+  const int64_t before = text->length;
   page.box = hk_new(view->frames, sizeof *page.box);
-  int32_t status = page.box ? hk_form_fill("view.html", add_part, &page, &text) : HOOKE_NO_MEMORY;
-  if (status == HOOKE_OK) status = hk_file_write(path, text.bytes, text.length);
-  if (status == HOOKE_OK) view->bytes = (double)text.length;
-  hk_text_release(&text);
+  const int32_t status = page.box ? hk_form_fill("view.html", add_part, &page, text) : HOOKE_NO_MEMORY;
+  view->bytes = (double)(text->length - before);
   hk_free(page.box);
+  return status;
+}
+
+int32_t hk_view_write(const hooke_measurement *m, const char *path) {
+  struct hk_text text = {.bytes = NULL};
+  const struct hk_view *view = m->object;
+  int32_t status = view->beside_count > 0 ? hk_views_add_page(m, &text) : hk_view_add_page(m, &text);
+  if (status == HOOKE_OK) status = hk_file_write(path, text.bytes, text.length);
+  hk_text_release(&text);
   return status;
 }

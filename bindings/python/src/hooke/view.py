@@ -5,8 +5,8 @@ from __future__ import annotations
 import ctypes
 import os
 import warnings
-from collections.abc import Iterator
-from contextlib import contextmanager
+from collections.abc import Iterator, Sequence
+from contextlib import ExitStack, contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Union
 
@@ -22,7 +22,7 @@ _PathLike = Union[str, "os.PathLike[str]"]
 
 
 def view(
-    trajectory: _PathLike | Result,
+    trajectory: _PathLike | Result | Sequence[_PathLike | Result],
     output: _PathLike | None = None,
     *,
     title: str | None = None,
@@ -32,20 +32,20 @@ def view(
 
     `trajectory` is a file that ``hooke.run(..., output=...)`` or ``hooke run -o`` wrote, or the `Result` of such a
     run; `output` the page, by default the file's name with ``.html``; `title` is its heading (by default the
-    scene's). Keywords: the maximum number of `frames` and `springs`, and the maximum `size` of the page [MB]; the
-    page states what is omitted.
+    scene's). Several trajectories play side by side on one page, `output`, at the same time and seen from the same
+    angle. Keywords: the maximum number of `frames` and `springs`, and the maximum `size` of the page [MB]; the page
+    states what is omitted.
     """
-    source = _file_of(trajectory)
-    page = Path(os.fspath(output)) if output is not None else source.with_suffix(".html")
-    given = Options._of("view").set(**options)
-    made = MEASUREMENT()
-    with _record(source) as record:
-        try:
-            lib.hooke_view_create(record, given._handle, ctypes.byref(made))
-            lib.hooke_measurement_label(made, b"title", None if title is None else title.encode())
-            lib.hooke_measurement_write(made, os.fsencode(page))
-        finally:
-            lib.hooke_measurement_destroy(made)
+    alone = isinstance(trajectory, (str, os.PathLike)) or not isinstance(trajectory, Sequence)
+    sources = [_file_of(one) for one in ([trajectory] if alone else trajectory)]
+    if output is None and len(sources) != 1:
+        raise BadValue("output: is required for several trajectories")
+    page = Path(os.fspath(output)) if output is not None else sources[0].with_suffix(".html")
+    with ExitStack() as stack:
+        views = [stack.enter_context(_view(source, title, options)) for source in sources]
+        for other in views[1:]:
+            lib.hooke_view_add(views[0], other)
+        lib.hooke_measurement_write(views[0], os.fsencode(page))
     return page
 
 
@@ -77,6 +77,18 @@ def _file_of(trajectory: _PathLike | Result) -> Path:
     if output is None:
         raise BadValue("trajectory: this run was not written to a file; run it with output=...")
     return Path(os.fspath(output))
+
+
+@contextmanager
+def _view(source: Path, title: str | None, options: dict[str, Any]) -> Iterator[Any]:
+    made = MEASUREMENT()
+    with _record(source) as record:
+        try:
+            lib.hooke_view_create(record, Options._of("view").set(**options)._handle, ctypes.byref(made))
+            lib.hooke_measurement_label(made, b"title", None if title is None else title.encode())
+            yield made
+        finally:
+            lib.hooke_measurement_destroy(made)
 
 
 @contextmanager

@@ -216,12 +216,36 @@ function show(k, now = false) {
   moveCursor();
   if (now) drawNow();
   else draw();
+  tell("time", data.time[shown]);
 }
 
 function step(by) {
   pause();
   show(shown + by);
 }
+
+/* ---- pages beside this one ---- */
+
+let following = false;
+function tell(what, value) {
+  if (window.name === "beside" && !following) window.parent.tellOthers(window, what, value);
+}
+
+window.duration = data.time[last] - data.time[0];
+window.follow = (what, value) => {
+  following = true;
+  if (what === "time") {
+    if (playing) pause();
+    show(frameNear(value));
+  } else if (picture) {
+    picture.setAngle(value);
+  }
+  following = false;
+};
+window.lead = () => {
+  if (picture) tell("angle", picture.angle());
+  if (!matchMedia("(prefers-reduced-motion: reduce)").matches) play();
+};
 
 /* ---- playing ---- */
 
@@ -382,6 +406,7 @@ function start() {
   try {
     picture = new Picture(at("picture"), data, ends, marks, bytesOfFrame);
     picture.controls.addEventListener("change", draw);
+    picture.controls.addEventListener("change", () => tell("angle", picture.angle()));
     picture.controls.addEventListener("start", () => thin(enough));
     picture.controls.addEventListener("end", () => playing || thin(1));
   } catch (trouble) {
@@ -395,7 +420,7 @@ function start() {
   relook();
   const asked = new URLSearchParams(location.hash.slice(1)).get("frame"); // page.html#frame=40
   show(asked === null && picture ? firstFrame() : Number(asked) || 0, true);
-  if (asked === null && picture && !matchMedia("(prefers-reduced-motion: reduce)").matches) play();
+  if (asked === null && picture && window.name !== "beside" && !matchMedia("(prefers-reduced-motion: reduce)").matches) play();
 }
 
 /* The one in which the most is seen, of a few. */

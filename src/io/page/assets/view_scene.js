@@ -271,6 +271,19 @@ class Picture {
     this.controls.update();
   }
 
+  /* Where it is seen from. */
+  angle() {
+    const { camera: { position, near, far }, controls: { target } } = this;
+    return { position: position.toArray(), target: target.toArray(), near, far };
+  }
+
+  setAngle({ position, target, near, far }) {
+    this.camera.position.fromArray(position);
+    this.controls.target.fromArray(target);
+    Object.assign(this.camera, { near, far }).updateProjectionMatrix();
+    this.controls.update();
+  }
+
   fit(frame) {
     this.look([frame], this.camera.position.clone().sub(this.controls.target).normalize());
   }

@@ -191,6 +191,7 @@ typedef int32_t hooke_observer(int64_t step, const hooke_state *state, void *ctx
 typedef int32_t hooke_progress(double done, const char *what, void *ctx);
 HOOKE_API int64_t hooke_method_count(void);
 HOOKE_API const char *hooke_method_name(int64_t method);
+HOOKE_API const char *hooke_method_meant(const char *word);
 HOOKE_API const char *hooke_method_summary(const char *name);
 HOOKE_API int32_t hooke_method_is_adaptive(const char *name);
 HOOKE_API int32_t hooke_method_is_built(const char *name);
@@ -363,6 +364,7 @@ HOOKE_API int32_t hooke_record_numbers(hooke_record *record, const char *what, d
 HOOKE_API int64_t hooke_record_place(const hooke_record *record, const char *what);
 HOOKE_API int32_t hooke_view_create(const hooke_record *record, const hooke_options *options,
                                     hooke_measurement **view);
+HOOKE_API int32_t hooke_view_add(hooke_measurement *view, const hooke_measurement *other);
 HOOKE_API int32_t hooke_record_write_xdmf(const hooke_record *record, const char *path);
 #ifdef __cplusplus
 }
