@@ -1,6 +1,5 @@
 #define _GNU_SOURCE /* F_OFD_GETLK */
 #include "setup.h"
-#include "excerpt.h"
 #include "report.h"
 
 #include <fcntl.h>
@@ -48,21 +47,15 @@ static void give_back(void) {
 #endif
 }
 
-static int refuse_scene(const struct cli_arguments *arguments, int32_t status) {
-  const int code = cli_report_status(arguments, status);
-  cli_excerpt_print(stderr, arguments->scene, hooke_last_error());
-  return code;
-}
-
 int cli_setup_load(const struct cli_arguments *arguments, struct cli_setup *setup) {
   memset(setup, 0, sizeof *setup);
   int32_t status = load(arguments, &setup->scene);
   if (ferror(stdin)) return cli_report(arguments, HOOKE_EXIT_IO, "standard input could not be read");
-  if (status != HOOKE_OK) return refuse_scene(arguments, status);
+  if (status != HOOKE_OK) return cli_report_status(arguments, status);
   setup->options = hooke_scene_run_options(setup->scene);
   status = cli_arguments_apply(arguments, setup->options);
   if (status == HOOKE_OK) status = hooke_scene_commit(setup->scene);
-  if (status != HOOKE_OK) return refuse_scene(arguments, status);
+  if (status != HOOKE_OK) return cli_report_status(arguments, status);
   give_back();
   setup->system = hooke_scene_system(setup->scene);
   status = hooke_state_create(setup->system, &setup->state);
@@ -74,10 +67,26 @@ void cli_setup_destroy(struct cli_setup *setup) {
   hooke_scene_destroy(setup->scene);
 }
 
+int32_t cli_setup_missing(const struct cli_setup *setup, const char *method, char text[HOOKE_DOC_SIZE]) {
+  const int duration = hooke_options_number_count(setup->options, "duration") == 0;
+  const int step = method && hooke_method_is_adaptive(method) == 0 &&
+                   hooke_options_number_count(setup->options, "step") == 0;
+  snprintf(text, HOOKE_DOC_SIZE, "%s%s%s%s%s: the scene's run names none; give %s in seconds, such as%s%s",
+           duration ? "no duration" : "", duration && step ? " and " : "", step ? "no step, which " : "",
+           step ? method : "", step ? " takes" : "", duration && step ? "them" : "one",
+           duration ? " --duration 1" : "", step ? " --step 1e-3" : "");
+  return duration || step;
+}
+
+static int require_times(const struct cli_arguments *arguments, const struct cli_setup *setup,
+                         const char *method) {
+  char text[HOOKE_DOC_SIZE];
+  if (!cli_setup_missing(setup, method, text)) return HOOKE_EXIT_DONE;
+  return cli_report(arguments, HOOKE_EXIT_USAGE, "%s", text);
+}
+
 int cli_setup_require_duration(const struct cli_arguments *arguments, const struct cli_setup *setup) {
-  if (hooke_options_number_count(setup->options, "duration") > 0) return HOOKE_EXIT_DONE;
-  return cli_report(arguments, HOOKE_EXIT_USAGE,
-                    "no duration: the scene's run names none; give one in seconds, such as --duration 1");
+  return require_times(arguments, setup, NULL);
 }
 
 int cli_setup_require(const struct cli_arguments *arguments, const struct cli_setup *setup,
@@ -92,15 +101,7 @@ int cli_setup_require(const struct cli_arguments *arguments, const struct cli_se
                       "%s is not in this build of hooke; 'hooke --version' says what it was built with",
                       method);
   }
-  int code = cli_setup_require_duration(arguments, setup);
-  if (code != HOOKE_EXIT_DONE) return code;
-  if (hooke_method_is_adaptive(method) == 0 && hooke_options_number_count(setup->options, "step") == 0) {
-    return cli_report(arguments, HOOKE_EXIT_USAGE,
-                      "no step: %s takes steps of a fixed size and the scene's run names none; give one in "
-                      "seconds, such as --step 1e-3",
-                      method);
-  }
-  return HOOKE_EXIT_DONE;
+  return require_times(arguments, setup, method);
 }
 
 int cli_setup_check_apart(const struct cli_arguments *arguments, const char *input, const char *what,

@@ -4,6 +4,7 @@
 #define HOOKE_CLI_SETUP_H
 
 #include "arguments.h"
+#include "describe.h"
 
 struct cli_setup {
   hooke_scene *scene;
@@ -16,6 +17,9 @@ struct cli_setup {
  * set-up in either case. */
 int cli_setup_load(const struct cli_arguments *arguments, struct cli_setup *setup);
 void cli_setup_destroy(struct cli_setup *setup);
+
+/* Whether a run by `method` (NULL: by one of variable step) lacks a duration or a step, and which, in words. */
+int32_t cli_setup_missing(const struct cli_setup *setup, const char *method, char text[HOOKE_DOC_SIZE]);
 
 /* Report what a run by `method` lacks: a duration, a step, the method itself in this build; the first
  * function checks the duration only. */

@@ -71,6 +71,16 @@ static void warn_of_method(struct check *check) {
   }
 }
 
+/* A scene may leave all of it to the command line. */
+static void warn_of_missing_times(struct check *check) {
+  const hooke_options *run = check->setup.options;
+  char text[HOOKE_DOC_SIZE];
+  const int some = hooke_options_is_set(run, "method") || hooke_options_is_set(run, "step") ||
+                   hooke_options_is_set(run, "duration");
+  if (some && cli_setup_missing(&check->setup, hooke_options_text(check->setup.options, "method"), text))
+    warn(check, "%s", text);
+}
+
 static void warn_of_coincident_springs(struct check *check) {
   int64_t count =
       hooke_system_coincident_springs(check->setup.system, hooke_state_position(check->setup.state));
@@ -299,6 +309,7 @@ static int check_and_tell(struct check *check, struct cli_peak loaded) {
   if (code != HOOKE_EXIT_DONE) return code;
   int32_t status = find_bounds(check);
   if (status == HOOKE_OK) warn_of_method(check);
+  warn_of_missing_times(check);
   warn_of_coincident_springs(check);
   if (status == HOOKE_OK) status = warn_of_loose_particles(check);
   if (status != HOOKE_OK) return cli_report(check->arguments, cli_exit_code(status), "out of memory");

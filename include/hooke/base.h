@@ -54,8 +54,8 @@ extern "C" {
 #define HOOKE_UNSUITED      (-6) /* the method does not support this kind of problem */
 #define HOOKE_SOLVER_FAILED (-7) /* a nonlinear or error-controlled solver gave up */
 
-/* Message of the last failure or outcome in this thread; "" if there was none. Valid until the next call into
- * the library from this thread. */
+/* Message of the last failure or outcome in this thread, with a line for each fault of a scene; "" if there was
+ * none. Valid until the next call into the library from this thread. */
 HOOKE_API const char *hooke_last_error(void);
 
 /* Short name of a status, such as "bad value"; "unknown status" for any other number. */

@@ -11,7 +11,7 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { PLACE_SIZE = 256, MESSAGE_SIZE = 1024, LINE_SIZE = 2048 };
+enum { PLACE_SIZE = 256, MESSAGE_SIZE = 1024, LINE_SIZE = 4096, MORE_SIZE = 32 };
 
 static _Thread_local struct {
   char before[PLACE_SIZE];
@@ -45,6 +45,11 @@ int32_t hk_fail(int32_t status, const char *place, const char *format, ...) {
   return status;
 }
 
+int32_t hk_fail_index(const char *place, const char *none, double number, int64_t count) {
+  return hk_fail(HOOKE_BAD_VALUE, place, "%s %.17g; allowed: 0 to %lld, as numbers begin at 0", none, number,
+                 (long long)count - 1);
+}
+
 int32_t hk_fail_within(int32_t status, const char *format, ...) {
   char outer[PLACE_SIZE];
   char place[2 * PLACE_SIZE];
@@ -68,6 +73,23 @@ int32_t hk_fail_before(int32_t status, const char *format, ...) {
   hk_utf8_make_plain(last.before);
   compose();
   return status;
+}
+
+int32_t hk_fail_lines(int32_t status, int64_t count, char *const *lines) {
+  size_t used = 0;
+  last.line[0] = '\0';
+  for (int64_t k = 0; k < count; k++) {
+    const size_t length = strlen(lines[k]);
+    if (used + length + MORE_SIZE > sizeof last.line) {
+      snprintf(last.line + used, sizeof last.line - used, "\nand %lld more", (long long)(count - k));
+      break;
+    }
+    used += (size_t)snprintf(last.line + used, sizeof last.line - used, "%s%s", k ? "\n" : "", lines[k]);
+  }
+  last.before[0] = last.place[0] = '\0';
+  snprintf(last.message, sizeof last.message, "%.*s", MESSAGE_SIZE - 1, lines[0]);
+  last.count++;
+  return last.status = status;
 }
 
 int64_t hk_fail_count(void) {

@@ -143,8 +143,7 @@ int32_t hk_system_check_particles(const hooke_system *system, const char *place,
   for (int64_t k = 0; k < count; k++) {
     const int64_t p = particles[k];
     if (p < 0 || p >= system->particle_count) {
-      hk_fail(HOOKE_BAD_VALUE, NULL, "there is no particle %lld; allowed: 0 to %lld", (long long)p,
-              (long long)(system->particle_count - 1));
+      hk_fail_index(NULL, "there is no particle", (double)p, system->particle_count);
     } else if (system->constrained[p] & refused) {
       hk_fail(HOOKE_BAD_VALUE, NULL,
               "particle %lld is already %s; a particle is pinned or driven, and driven once", (long long)p,

@@ -244,9 +244,8 @@ static int32_t pin_numbers(const struct hk_part *part) {
   const double *number = hooke_options_numbers(part->options, "pinned");
   for (int64_t k = 0; k < count; k++) {
     if (number[k] >= (double)part->count) {
-      hk_fail(HOOKE_BAD_VALUE, NULL, "the part has no particle %.0f; allowed: 0 to %lld", number[k],
-              (long long)(part->count - 1));
-      return hk_fail_within(HOOKE_BAD_VALUE, "pinned[%lld]", (long long)k);
+      const int32_t status = hk_fail_index(NULL, "the part has no particle", number[k], part->count);
+      return hk_fail_within(status, "pinned[%lld]", (long long)k);
     }
     const int64_t particle = part->first + (int64_t)number[k];
     int32_t status = hooke_system_pin(part->system, 1, &particle);

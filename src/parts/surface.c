@@ -30,8 +30,7 @@ static int32_t check_range(const double *corner, int64_t count, int64_t vertices
     if (corner[k] < (double)vertices) continue;
     char place[64];
     snprintf(place, sizeof place, "triangles[%lld][%lld]", (long long)(k / 3), (long long)(k % 3));
-    return hk_fail(HOOKE_BAD_VALUE, place, "there is no vertex %.0f; allowed: 0 to %lld", corner[k],
-                   (long long)vertices - 1);
+    return hk_fail_index(place, "there is no vertex", corner[k], vertices);
   }
   return HOOKE_OK;
 }

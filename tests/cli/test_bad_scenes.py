@@ -291,3 +291,54 @@ def test_200_megabytes_of_brackets(tmp_path, kind):
     assert "long.json:1:" in error and "allowed" in error and "Sanitizer" not in error
     assert usage.ru_utime < 20
     assert usage.ru_maxrss < 200_000, "kilobytes"
+
+
+# ---- several faults ----
+
+SEVERAL = """{
+ "hooke": 1,
+ "gravty": [0, 0, -9.81],
+ "particles": {"position": [[0, 0, 0], [1, 0, 0]], "mass": [1, -1], "pined": [0]},
+ "parts": [{"kind": "rope", "from": [0, 0, 0], "to": [1, 0, 0], "segments": 2.5, "mass": "1 m"},
+           {"kind": "clot"},
+           {"kind": "rope", "from": [0, 0, 0], "to": [1, 0, 0], "segments": 2, "mass": 1, "stretch": {"stifness": 1}}],
+ "springs": [{"between": [[0, 700]], "stiffness": 1}],
+ "run": {"method": "rk5", "duration": -1, "step": 1e-3}
+}
+"""
+
+
+def test_all_faults_are_told_at_once(hooke, tmp_path):
+    path = tmp_path / "several.json"
+    path.write_text(SEVERAL)
+    answer = hooke("check", path)
+    lines = answer.err.splitlines()
+    told = [line.split("several.json:", 1)[1] for line in lines[::3]]
+    assert answer.code == 3
+    assert [line.split(": ")[1] for line in told] == [
+        "gravty",
+        "particles.mass[1]",
+        "particles.pined",
+        "parts[0].segments",
+        "parts[0].mass",
+        "parts[1].kind",
+        "parts[2].stretch.stifness",
+        "run.duration",
+    ]
+    for number, line in enumerate(told):
+        check_caret(lines[3 * number + 1 :], path, *map(int, line.split(":")[:2]))
+
+
+def test_springs_are_read_once_their_particles_are_right(hooke, tmp_path):
+    path = tmp_path / "several.json"
+    group = {"between": [[0, 1]], "stiffness": 1}
+    springs = [{**group, "stiffness": -1}, group, {**group, "between": [[0, 2]]}, {**group, "law": "cubic"}]
+    path.write_text(json.dumps({"hooke": 1, "particles": {"position": [[0, 0, 0], [1, 0, 0]], "mass": 1}, "springs": springs}))
+    told = hooke("check", path, "--json").json["error"]["message"].splitlines()
+    assert [line.split(": ")[1] for line in told] == ["springs[0].stiffness", "springs[2].between[0][1]", "springs[3].law"]
+
+
+def test_no_more_than_twenty_faults_are_told(hooke, tmp_path):
+    path = tmp_path / "many.json"
+    path.write_text(json.dumps({"hooke": 1, "parts": [{"kind": "clot"}] * 100_000}))
+    assert len(hooke("check", path, "--json").json["error"]["message"].splitlines()) == 20

@@ -1,6 +1,7 @@
 """hooke check: the numbers of a scene, its step limits and its warnings."""
 
 import copy
+import json
 import math
 import os
 import re
@@ -47,7 +48,7 @@ BEAM = {
 
 
 def test_tells_what_parts_derived(hooke, write):
-    scene = write(BEAM, step=1e-4)
+    scene = write(BEAM, step=1e-4, duration=1)
     answer = hooke("check", scene, "--json")
     assert (answer.code, answer.json["warnings"]) == (0, [])
     value = answer.json
@@ -75,7 +76,7 @@ def test_tells_what_parts_derived(hooke, write):
 def test_what_bends_is_not_loose(hooke, write):
     scene = copy.deepcopy(BEAM)
     del scene["parts"][0]["stretch"]
-    answer = hooke("check", write(scene, step=1e-4), "--json")
+    answer = hooke("check", write(scene, step=1e-4, duration=1), "--json")
     assert (answer.code, answer.json["springs"], answer.json["warnings"]) == (0, 0, [])
 
 
@@ -351,3 +352,18 @@ def test_strings_are_escaped(hooke, write):
     answer = hooke("check", file, "--json")
     assert answer.json["groups"][0]["name"] == name
     assert "\x01" not in hooke("check", file).out
+
+
+@pytest.mark.parametrize(
+    "run, lacks",
+    [
+        ({"method": "verlet"}, ["no duration and no step, which verlet takes: the scene's run names none; give them in seconds, "
+                                "such as --duration 1 --step 1e-3"]),
+        ({"step": 1e-3}, ["no duration: the scene's run names none; give one in seconds, such as --duration 1"]),
+        ({"method": "cvode-bdf", "duration": 1}, []),
+        ({}, []),
+    ],
+)  # fmt: skip
+def test_says_at_once_what_a_run_lacks(hooke, tmp_path, run, lacks):
+    (tmp_path / "scene.json").write_text(json.dumps({**BEAM, "run": run}))
+    assert hooke("check", tmp_path / "scene.json", "--json").json["warnings"] == lacks

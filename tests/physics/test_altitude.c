@@ -479,7 +479,7 @@ static void bad_tetrahedra_are_refused(void **unused) {
   check_status(hooke_system_add_altitude(system, "a", 2, flat, options), HOOKE_BAD_VALUE);
   check_message("tetrahedra[1]: particles 0, 1, 2 and 3 lie in a plane at rest: their shortest altitude is");
   check_status(hooke_system_add_altitude(system, "a", 1, far, options), HOOKE_BAD_VALUE);
-  check_message("tetrahedra[0][2]: there is no particle 5; allowed: 0 to 4");
+  check_message("tetrahedra[0][2]: there is no particle 5; allowed: 0 to 4, as numbers begin at 0");
   check_status(hooke_system_add_altitude(system, "a", 1, twice, options), HOOKE_BAD_VALUE);
   check_message("tetrahedra[0]: particles 0, 4, 2 and 4; a tetrahedron has four different ones");
   check_status(hooke_system_add_altitude(system, "a", -1, flat, options), HOOKE_BAD_VALUE);

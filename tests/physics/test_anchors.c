@@ -149,7 +149,7 @@ static void what_is_wrong_is_said(void **unused) {
   check_ok(hooke_options_set_number(options, "stiffness", 1.0));
   check_status(hooke_system_add_anchors(system, NULL, 1, particles, spring), HOOKE_BAD_VALUE);
   check_status(hooke_system_add_anchors(system, NULL, 2, particles, options), HOOKE_BAD_VALUE);
-  check_message("particles[1]: there is no particle 2; allowed: 0 to 1");
+  check_message("particles[1]: there is no particle 2; allowed: 0 to 1, as numbers begin at 0");
   check_status(hooke_system_add_anchors(system, NULL, -1, particles, options), HOOKE_BAD_VALUE);
   check_ok(hooke_options_set_numbers(options, "damping", 3, three));
   check_status(hooke_system_add_anchors(system, NULL, 2, twice, options), HOOKE_BAD_VALUE);

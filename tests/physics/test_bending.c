@@ -266,7 +266,7 @@ static void bad_triples_are_refused(void **unused) {
   const double one = 1.0, two[2] = {1.0, -2.0};
   const int64_t fine[6] = {0, 1, 2, 1, 2, 3}, far[3] = {0, 30, 1}, twice[6] = {0, 1, 2, 3, 4, 3};
   check_status(hooke_system_add_bending(system, "b", 1, far, 1, &one), HOOKE_BAD_VALUE);
-  check_message("triples[0][1]: there is no particle 30; allowed: 0 to 29");
+  check_message("triples[0][1]: there is no particle 30; allowed: 0 to 29, as numbers begin at 0");
   check_status(hooke_system_add_bending(system, "b", 2, twice, 1, &one), HOOKE_BAD_VALUE);
   check_message("triples[1]: particles 3, 4 and 3");
   check_status(hooke_system_add_bending(system, "b", 2, fine, 2, two), HOOKE_BAD_VALUE);

@@ -313,7 +313,7 @@ static void planted_faults_are_found(void **unused) {
   (void)unused;
   struct mesh mesh = sheet(5, 4);
   mesh.triangle[17] = 20;
-  check_refused(mesh, "triangles[5][2]: there is no vertex 20; allowed: 0 to 19");
+  check_refused(mesh, "triangles[5][2]: there is no vertex 20; allowed: 0 to 19, as numbers begin at 0");
   mesh = sheet(5, 4);
   mesh.triangle[17] = mesh.triangle[15];
   check_refused(mesh, "triangles[5]: vertex ");

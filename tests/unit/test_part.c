@@ -338,7 +338,7 @@ static void bad_parts_are_refused(void **unused) {
   options = full_cloth();
   check_ok(hooke_options_set_numbers(options, "pinned", 3, (double[]){0, 19, 20}));
   check_refused("cloth", options, HOOKE_BAD_VALUE,
-                "pinned[2]: the part has no particle 20; allowed: 0 to 19");
+                "pinned[2]: the part has no particle 20; allowed: 0 to 19, as numbers begin at 0");
 
   options = rope_options(3);
   check_ok(hooke_options_set_number(options, "bend.stiffness", 1));

@@ -365,7 +365,8 @@ static void messages_give_file_line_column_and_path(void **state) {
   refuse(
       "{'hooke': 1, " TWO
       ",\n'springs': [{'between': [[0,1]], 'stiffness': 1},\n {'between': [[0,1], [0,2]], 'stiffness': 1}]}",
-      "t.json:3:25: springs[1].between[1][1]: there is no particle 2; allowed: 0 to 1");
+      "t.json:3:25: springs[1].between[1][1]: there is no particle 2; allowed: 0 to 1, as numbers begin at "
+      "0");
   refuse("{'hooke': 1, " TWO ",\n 'springs': [{'between': [[0,1]],\n  'stifness': 1}]}",
          "t.json:3:3: springs[0].stifness: unknown key 'stifness'; did you mean 'stiffness'? allowed: name, "
          "between, law, "
@@ -401,7 +402,8 @@ static void parts_are_named_and_counted(void **state) {
   snprintf(text, sizeof text,
            "{'hooke': 1,\n'parts': [{%s}],\n'springs': [{'between': [[0, ['rope0', 3]]], 'stiffness': 1}]}",
            rope);
-  refuse(text, "t.json:3:40: springs[0].between[0][1][1]: part 'rope0' has no particle 3; allowed: 0 to 2");
+  refuse(text, "t.json:3:40: springs[0].between[0][1][1]: part 'rope0' has no particle 3; allowed: 0 to 2, "
+               "as numbers begin at 0");
   snprintf(text, sizeof text,
            "{'hooke': 1,\n'parts': [{%s}],\n'springs': [{'between': [[0, ['string', 0]]], 'stiffness': 1}]}",
            rope);
@@ -424,7 +426,7 @@ static void mixed_lists_give_the_place_in_the_text(void **state) {
     const char *pinned, *message;
   } cases[] = {
       {"['start', 1, 'end', 3]",
-       "t.json:3:31: parts[0].pinned[3]: the part has no particle 3; allowed: 0 to 2"},
+       "t.json:3:31: parts[0].pinned[3]: the part has no particle 3; allowed: 0 to 2, as numbers begin at 0"},
       {"['start', -1]",
        "t.json:3:21: parts[0].pinned[1]: -1 is not allowed; allowed: any number of whole numbers >= 0 and <= "
        "2147483647, or any of 'start' or 'end'"},

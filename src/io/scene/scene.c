@@ -26,7 +26,7 @@ static int32_t in_file(int32_t status, const char *name) {
   return hk_fail_before(status, "%s%s: ", dots, shown);
 }
 
-static int32_t in_line(int32_t status, const char *name, int64_t line, int64_t column) {
+int32_t hk_scene_place_line(int32_t status, const char *name, int64_t line, int64_t column) {
   const char *dots, *shown = short_name(name, &dots);
   if (column < 1) column = 1; /* at the end of a line, before its first character */
   return hk_fail_before(status, "%s%s:%lld:%lld: ", dots, shown, (long long)line, (long long)column);
@@ -35,10 +35,10 @@ static int32_t in_line(int32_t status, const char *name, int64_t line, int64_t c
 static int32_t in_text(int32_t status, const hooke_scene *scene, const char *at) {
   int64_t line, column;
   hk_json_line(scene->text, at, &line, &column);
-  return in_line(status, scene->name, line, column);
+  return hk_scene_place_line(status, scene->name, line, column);
 }
 
-static int32_t at_place(int32_t status, const hooke_scene *scene, int32_t at_key) {
+int32_t hk_scene_place(int32_t status, const hooke_scene *scene, int32_t at_key) {
   return in_text(status, scene, hk_json_find(scene->text, scene->length, hk_fail_place(), at_key));
 }
 
@@ -48,11 +48,7 @@ static int32_t read_text(hooke_scene *scene, const char *folder) {
   int32_t status = hk_json_check_tokens(scene->text, scene->length, &at);
   if (status == HOOKE_BAD_VALUE) return in_text(status, scene, at);
   if (status) return status;
-  struct hk_scene_trouble trouble = {0};
-  status = hk_scene_build(scene, folder, &trouble);
-  if (status == HOOKE_OK || (status == HOOKE_NO_MEMORY && hk_fail_place()[0] == '\0')) return status;
-  if (trouble.line) return in_line(status, scene->name, trouble.line, trouble.column);
-  return at_place(status, scene, trouble.at_key);
+  return hk_scene_build(scene, folder);
 }
 
 static int32_t require_jansson(void) {
@@ -125,7 +121,7 @@ int32_t hooke_scene_load(const char *path, const hooke_options *limits, hooke_sc
   struct hk_json_guard guard = {.memory_limit = made->memory_limit};
   int32_t status = hk_scene_read_file(path, &guard, &made->text, &made->length);
   if (status == HOOKE_BAD_VALUE && guard.line)
-    in_line(status, path, guard.line, guard.column);
+    hk_scene_place_line(status, path, guard.line, guard.column);
   else if (status)
     in_file(status, path);
   if (status == HOOKE_OK) {
@@ -146,7 +142,7 @@ int32_t hooke_scene_parse(const char *text, int64_t length, const char *name, co
   struct hk_json_guard guard = {0};
   int32_t status = hk_json_guard_feed(&guard, text, length);
   if (status == HOOKE_OK) status = hk_json_guard_end(&guard);
-  if (status) return in_line(status, name, guard.line, guard.column);
+  if (status) return hk_scene_place_line(status, name, guard.line, guard.column);
   hooke_scene *made = new_scene(name, limits);
   if (made == NULL) return HOOKE_NO_MEMORY;
   status = hk_memory_require(made->memory_limit, hk_json_guard_bytes(&guard, length), "this scene");
@@ -160,7 +156,7 @@ int32_t hooke_scene_parse(const char *text, int64_t length, const char *name, co
 
 int32_t hooke_scene_commit(hooke_scene *scene) {
   int32_t status = hooke_system_commit(scene->system);
-  return status == HOOKE_BAD_VALUE ? at_place(status, scene, 0) : status;
+  return status == HOOKE_BAD_VALUE ? hk_scene_place(status, scene, 0) : status;
 }
 
 void hooke_scene_destroy(hooke_scene *scene) {

@@ -15,14 +15,14 @@ struct hooke_scene {
   int32_t outside;     /* files that it names may be anywhere */
 };
 
-/* Fills system, run and title from the text, which was scanned and whose tokens were checked. On failure the
- * place of the message is a path in the text; `at_key` is set to 1 if the fault is a key and not its value,
- * and `line` is not 0 for a syntax error, which has no path. `folder` may be NULL. */
-struct hk_scene_trouble {
-  int32_t at_key;
-  int64_t line, column;
-};
-int32_t hk_scene_build(hooke_scene *scene, const char *folder, struct hk_scene_trouble *trouble);
+/* Fills system, run and title from the text, which was scanned and whose tokens were checked. `folder` may be
+ * NULL. The message of a failure has its place in the text; that of HOOKE_BAD_VALUE has a line for each fault. */
+int32_t hk_scene_build(hooke_scene *scene, const char *folder);
+
+/* Prefixes name, line and column to the last failure, whose place is a path in the text; `at_key` is 1 if the
+ * fault is a key and not its value. Returns `status`. */
+int32_t hk_scene_place(int32_t status, const hooke_scene *scene, int32_t at_key);
+int32_t hk_scene_place_line(int32_t status, const char *name, int64_t line, int64_t column);
 
 /* True if a text is a scene that names files; the caller then frees its title. HOOKE_NO_MEMORY. */
 int32_t hk_scene_names_files(const char *text, int32_t *names, char **title);

@@ -45,7 +45,7 @@ static int32_t no_memory(void) {
   return hk_fail(HOOKE_NO_MEMORY, NULL, "no memory for the scene");
 }
 
-static int32_t syntax_error(const json_error_t *error, struct hk_scene_trouble *trouble) {
+static int32_t syntax_error(const json_error_t *error, const char *name) {
   enum json_error_code code = json_error_code(error);
   if (ran_out_of_memory(error)) return no_memory();
   char text[JSON_ERROR_TEXT_LENGTH];
@@ -53,9 +53,8 @@ static int32_t syntax_error(const json_error_t *error, struct hk_scene_trouble *
   snprintf(text, sizeof text, "%s", null_character ? "the character \\u0000 in a text" : error->text);
   for (char *c = text; *c; c++)
     if ((unsigned char)*c < 32 || *c == 127) *c = '?';
-  trouble->line = error->line > 0 ? error->line : 1;
-  trouble->column = error->column;
-  return hk_fail(HOOKE_BAD_VALUE, NULL, "%s; %s", text, advice(code));
+  hk_fail(HOOKE_BAD_VALUE, NULL, "%s; %s", text, advice(code));
+  return hk_scene_place_line(HOOKE_BAD_VALUE, name, error->line > 0 ? error->line : 1, error->column);
 }
 
 struct source {
@@ -76,7 +75,7 @@ static size_t give_byte(void *buffer, size_t size, void *ctx) {
 }
 
 /* NULL, with the failure in `status`, on error. */
-static json_t *load(const char *text, int64_t length, struct hk_scene_trouble *trouble, int32_t *status) {
+static json_t *load(const char *text, int64_t length, const char *name, int32_t *status) {
   struct source source = {.next = text, .left = length};
   const int kept = errno;
   json_error_t error;
@@ -90,7 +89,7 @@ static json_t *load(const char *text, int64_t length, struct hk_scene_trouble *t
     root = NULL;
     *status = no_memory();
   } else if (root == NULL) {
-    *status = syntax_error(&error, trouble);
+    *status = syntax_error(&error, name);
   }
   return root;
 }
@@ -136,43 +135,83 @@ static int32_t check_method(const hooke_options *run) {
 static int32_t read_run(struct hk_scene_reader *reader, const json_t *run) {
   int32_t status = hooke_options_create("run", &reader->scene->run);
   if (status || run == NULL) return status;
+  strcpy(reader->within, "run");
   status = hk_scene_require_object(run, NULL);
   if (status == HOOKE_OK) status = hk_scene_read_some_options(reader, run, NULL, reader->scene->run);
   if (status == HOOKE_OK) status = check_method(reader->scene->run);
-  return status ? hk_fail_within(status, "run") : HOOKE_OK;
-}
-
-/* Particles first, then parts, so that springs can refer to them. */
-static int32_t read_scene(struct hk_scene_reader *reader, const json_t *root) {
-  const json_t *particles = json_object_get(root, "particles"), *parts = json_object_get(root, "parts");
-  const json_t *springs = json_object_get(root, "springs"), *driven = json_object_get(root, "driven");
-  const json_t *anchors = json_object_get(root, "anchors"), *bodies = json_object_get(root, "bodies");
-  int32_t status = check_version(root);
-  if (status == HOOKE_OK) status = read_top(reader, root);
-  if (status == HOOKE_OK && particles) status = hk_scene_add_particles(reader, particles);
-  if (status == HOOKE_OK && parts) status = hk_scene_add_parts(reader, parts);
-  if (status == HOOKE_OK && hooke_system_particle_count(reader->scene->system) == 0)
-    status = hk_fail(HOOKE_BAD_VALUE, NULL, "a scene without particles; allowed: particles, parts or both");
-  if (status == HOOKE_OK && springs) status = hk_scene_add_springs(reader, springs);
-  if (status == HOOKE_OK && anchors) status = hk_scene_add_anchors(reader, anchors);
-  if (status == HOOKE_OK && bodies) status = hk_scene_add_bodies(reader, bodies);
-  if (status == HOOKE_OK && driven) status = hk_scene_add_driven(reader, driven);
-  if (status == HOOKE_OK) status = read_run(reader, json_object_get(root, "run"));
   return status;
 }
 
-int32_t hk_scene_build(hooke_scene *scene, const char *folder, struct hk_scene_trouble *trouble) {
+typedef int32_t add_piece(struct hk_scene_reader *reader, const json_t *value);
+
+static int32_t add(struct hk_scene_reader *reader, const json_t *root, const char *key, add_piece *piece) {
+  const json_t *value = json_object_get(root, key);
+  return value ? hk_scene_note(reader, piece(reader, value)) : HOOKE_OK;
+}
+
+/* Particles first, then parts, so that the others can refer to them, which are read only if both are right. */
+static int32_t add_pieces(struct hk_scene_reader *reader, const json_t *root) {
+  const json_t *particles = json_object_get(root, "particles");
+  if (reader->faults > 0 && particles && !json_object_get(particles, "mass"))
+    return HOOKE_OK; /* a right `dynamics` may do without */
+  int32_t status = add(reader, root, "particles", hk_scene_add_particles);
+  if (status == HOOKE_OK) status = add(reader, root, "parts", hk_scene_add_parts);
+  reader->within[0] = '\0';
+  if (status != HOOKE_OK || reader->faults > 0) return status;
+  if (hooke_system_particle_count(reader->scene->system) == 0)
+    return hk_fail(HOOKE_BAD_VALUE, NULL, "a scene without particles; allowed: particles, parts or both");
+  status = add(reader, root, "springs", hk_scene_add_springs);
+  if (status == HOOKE_OK) status = add(reader, root, "anchors", hk_scene_add_anchors);
+  if (status == HOOKE_OK) status = add(reader, root, "bodies", hk_scene_add_bodies);
+  return status == HOOKE_OK ? add(reader, root, "driven", hk_scene_add_driven) : status;
+}
+
+static int32_t read_scene(struct hk_scene_reader *reader, const json_t *root) {
+  int32_t status = hk_scene_note(reader, check_version(root));
+  if (status == HOOKE_OK) status = hk_scene_note(reader, read_top(reader, root));
+  if (status == HOOKE_OK) status = hk_scene_note(reader, add_pieces(reader, root));
+  if (status == HOOKE_OK) status = hk_scene_note(reader, read_run(reader, json_object_get(root, "run")));
+  return status == HOOKE_OK && reader->faults > 0 ? HOOKE_BAD_VALUE : status;
+}
+
+int32_t hk_scene_note(struct hk_scene_reader *reader, int32_t status) {
+  if (status == HOOKE_OK || reader->in_value || reader->faults == HOOKE_SCENE_MOST_FAULTS) return status;
+  const int32_t noted = reader->noted;
+  if (!noted && reader->within[0]) hk_fail_within(status, "%s", reader->within);
+  reader->noted = status != HOOKE_BAD_VALUE;
+  if (reader->noted) return status;
+  if (noted) return HOOKE_OK;
+  hk_scene_place(status, reader->scene, reader->at_key);
+  reader->at_key = 0;
+  reader->fault[reader->faults] = hk_copy_text(hooke_last_error());
+  if (reader->fault[reader->faults] == NULL) {
+    reader->noted = 1;
+    return no_memory();
+  }
+  reader->faults++;
+  return reader->faults < HOOKE_SCENE_MOST_FAULTS ? HOOKE_OK : status;
+}
+
+static int32_t tell(int32_t status, const struct hk_scene_reader *reader) {
+  if (status == HOOKE_BAD_VALUE) return hk_fail_lines(status, reader->faults, reader->fault);
+  const int placeless = status == HOOKE_OK || (status == HOOKE_NO_MEMORY && hk_fail_place()[0] == '\0');
+  return placeless ? status : hk_scene_place(status, reader->scene, reader->at_key);
+}
+
+int32_t hk_scene_build(hooke_scene *scene, const char *folder) {
   HOOKE_KEEP_ERRNO;
   int32_t status;
-  json_t *root = load(scene->text, scene->length, trouble, &status);
+  json_t *root = load(scene->text, scene->length, scene->name, &status);
   if (root == NULL) return status;
   struct hk_scene_reader reader = {.scene = scene, .folder = folder};
   status = hooke_system_create(&scene->system);
   if (status == HOOKE_OK) status = hooke_system_limit_memory(scene->system, scene->memory_limit);
   if (status == HOOKE_OK) status = read_scene(&reader, root);
+  status = tell(status, &reader);
+  for (int64_t k = 0; k < reader.faults; k++)
+    hk_free(reader.fault[k]);
   hk_part_names_release(&reader.parts);
   json_decref(root);
-  trouble->at_key = reader.at_key;
   return status;
 }
 
@@ -190,12 +229,11 @@ static int names_file(const json_t *value) {
 
 int32_t hk_scene_names_files(const char *text, int32_t *names, char **title) {
   HOOKE_KEEP_ERRNO;
-  struct hk_scene_trouble trouble = {0};
   int32_t status;
   *names = 0;
   *title = NULL;
   if (strstr(text, "\"file\"") == NULL) return HOOKE_OK; /* covers most scenes without parsing */
-  json_t *root = load(text, (int64_t)strlen(text), &trouble, &status);
+  json_t *root = load(text, (int64_t)strlen(text), "", &status);
   if (root == NULL) return status == HOOKE_NO_MEMORY ? status : HOOKE_OK;
   const char *found = json_string_value(json_object_get(root, "title"));
   *names = names_file(root);
@@ -206,10 +244,9 @@ int32_t hk_scene_names_files(const char *text, int32_t *names, char **title) {
 
 #else
 
-int32_t hk_scene_build(hooke_scene *scene, const char *folder, struct hk_scene_trouble *trouble) {
+int32_t hk_scene_build(hooke_scene *scene, const char *folder) {
   (void)scene;
   (void)folder;
-  (void)trouble;
   return hk_fail(HOOKE_NOT_BUILT, NULL, "scenes need a build with jansson");
 }
 

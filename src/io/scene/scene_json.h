@@ -8,12 +8,24 @@
 
 struct json_t; /* of jansson */
 
+enum { HOOKE_SCENE_MOST_FAULTS = 20 };
+
 struct hk_scene_reader {
   hooke_scene *scene;
   const char *folder; /* NULL: no files */
   int32_t at_key;     /* 1 if the last failure concerns a key rather than its value */
   struct hk_part_names parts;
+  char within[64]; /* path of the object that is read */
+  int32_t
+      in_value; /* 1: an object that is a value of it is read, whose failure is noted as that of the value */
+  char *fault[HOOKE_SCENE_MOST_FAULTS];
+  int64_t faults;
+  int32_t noted; /* 1 if the last failure is among them */
 };
+
+/* Notes a failure whose place is in the object that is read, and returns HOOKE_OK, so that reading goes on and finds
+ * all faults of a scene; returns `status` if it is no fault of the scene, or if there are too many. */
+int32_t hk_scene_note(struct hk_scene_reader *reader, int32_t status);
 
 /* ---- scene_json_values.c ---- */
 

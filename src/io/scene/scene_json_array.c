@@ -67,7 +67,9 @@ static int32_t numbers_from_file(struct hk_scene_reader *reader, const json_t *v
   int64_t rows = 0, columns = 0;
   hooke_options *source = NULL;
   int32_t status = hk_options_create(&source_table, &source);
+  reader->in_value = 1;
   if (status == HOOKE_OK) status = hk_scene_read_options(reader, value, NULL, source);
+  reader->in_value = 0;
   if (status == HOOKE_OK) status = read_dataset(reader, source, numbers, &rows, &columns);
   hooke_options_destroy(source);
   if (status == HOOKE_OK) status = check_dataset(*numbers, rows, columns, wanted, whole);
@@ -185,9 +187,10 @@ static int32_t find_in_part(const struct hk_scene_reader *reader, const char *na
     *particle = part->first + index;
     return HOOKE_OK;
   }
-  if (part)
-    return hk_fail(HOOKE_BAD_VALUE, "[1]", "part \"%s\" has no particle %lld; allowed: 0 to %lld", shown,
-                   (long long)index, (long long)part->count - 1);
+  if (part) {
+    snprintf(names, sizeof names, "part \"%s\" has no particle", shown);
+    return hk_fail_index("[1]", names, (double)index, part->count);
+  }
   list_parts(&reader->parts, names, sizeof names);
   return hk_fail(HOOKE_BAD_VALUE, "[0]", "there is no part \"%s\"; allowed: %s", shown,
                  names[0] ? names : "none, as this scene has no parts");
@@ -204,8 +207,7 @@ static int32_t read_particle(const struct hk_scene_reader *reader, const json_t 
   int64_t count = hooke_system_particle_count(reader->scene->system);
   *particle = json_integer_value(value);
   if (*particle >= 0 && *particle < count) return HOOKE_OK;
-  return hk_fail(HOOKE_BAD_VALUE, NULL, "there is no particle %lld; allowed: 0 to %lld", (long long)*particle,
-                 (long long)count - 1);
+  return hk_fail_index(NULL, "there is no particle", (double)*particle, count);
 }
 
 /* Converts numbers to particles in place: large scenes have no memory for both. */
@@ -220,8 +222,7 @@ static int32_t particles_from_file(struct hk_scene_reader *reader, const json_t 
     double number;
     memcpy(&number, place, sizeof number);
     if (number < 0 || number >= (double)particle_count) {
-      status = hk_fail(HOOKE_BAD_VALUE, "dataset", "there is no particle %.17g; allowed: 0 to %lld", number,
-                       (long long)particle_count - 1);
+      status = hk_fail_index("dataset", "there is no particle", number, particle_count);
     } else {
       const int64_t particle = (int64_t)number;
       memcpy(place, &particle, sizeof particle);

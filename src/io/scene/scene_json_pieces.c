@@ -29,16 +29,19 @@ typedef int32_t add_one(struct hk_scene_reader *reader, const json_t *object, in
 /* Calls `add` for every object of an array, with new options of `table` (NULL: none). */
 static int32_t for_each(struct hk_scene_reader *reader, const json_t *array, const char *name,
                         const char *table, add_one *add) {
+  reader->within[0] = '\0';
   int32_t status = hk_scene_require_array(array, name, "an array of objects [{ ... }, ...]");
   if (status) return status;
   for (size_t k = 0; k < json_array_size(array); k++) {
     const json_t *object = json_array_get(array, k);
     hooke_options *options = NULL;
+    snprintf(reader->within, sizeof reader->within, "%s[%zu]", name, k);
     status = hk_scene_require_object(object, NULL);
     if (status == HOOKE_OK && table) status = hooke_options_create(table, &options);
     if (status == HOOKE_OK) status = add(reader, object, (int64_t)k, options);
     hooke_options_destroy(options);
-    if (status) return hk_fail_within(status, "%s[%zu]", name, k);
+    status = hk_scene_note(reader, status);
+    if (status) return status;
   }
   return HOOKE_OK;
 }
@@ -83,11 +86,12 @@ static int32_t add_particles(struct hk_scene_reader *reader, const json_t *parti
 
 int32_t hk_scene_add_particles(struct hk_scene_reader *reader, const json_t *particles) {
   hooke_options *options = NULL;
+  strcpy(reader->within, "particles");
   int32_t status = hk_scene_require_object(particles, NULL);
   if (status == HOOKE_OK) status = hooke_options_create("particles", &options);
   if (status == HOOKE_OK) status = add_particles(reader, particles, options);
   hooke_options_destroy(options);
-  return status ? hk_fail_within(status, "particles") : HOOKE_OK;
+  return status;
 }
 
 /* ---- parts ---- */

@@ -209,13 +209,16 @@ static int32_t read_object(struct hk_scene_reader *reader, const json_t *object,
   json_object_foreach((json_t *)object, key, value) {
     if (hk_option_has_word(others, key, (int64_t)strlen(key))) continue;
     const struct hk_option_row *row = strchr(key, '.') ? NULL : hk_options_find(table, key);
-    if (row == NULL) {
-      int32_t status = unknown_key(reader, table, others, key);
-      return prefix[0] ? hk_fail_within(status, "%.*s", (int)strlen(prefix) - 1, prefix) : status;
-    }
     char name[NAME_SIZE];
-    snprintf(name, sizeof name, "%s%s", prefix, row->name);
-    int32_t status = read_row(reader, value, row, name, options);
+    int32_t status;
+    if (row) {
+      snprintf(name, sizeof name, "%s%s", prefix, row->name);
+      status = read_row(reader, value, row, name, options);
+    } else {
+      status = unknown_key(reader, table, others, key);
+      if (prefix[0]) hk_fail_within(status, "%.*s", (int)strlen(prefix) - 1, prefix);
+    }
+    status = hk_scene_note(reader, status);
     if (status) return status;
   }
   return HOOKE_OK;
@@ -223,7 +226,11 @@ static int32_t read_object(struct hk_scene_reader *reader, const json_t *object,
 
 int32_t hk_scene_read_some_options(struct hk_scene_reader *reader, const json_t *object, const char *others,
                                    hooke_options *options) {
-  return read_object(reader, object, hk_options_table(options), "", others, options);
+  const int64_t before = reader->faults;
+  const int32_t status = read_object(reader, object, hk_options_table(options), "", others, options);
+  if (status != HOOKE_OK || reader->faults == before) return status;
+  reader->noted = 1;
+  return HOOKE_BAD_VALUE;
 }
 
 int32_t hk_scene_read_options(struct hk_scene_reader *reader, const json_t *object, const char *others,

@@ -169,9 +169,8 @@ static int32_t check_call(const hooke_system *system, int64_t count, const int64
   if (status == HOOKE_OK) status = check_count(options, "damping", count);
   for (int64_t k = 0; k < 4 * count && status == HOOKE_OK; k++) {
     if (corners[k] >= 0 && corners[k] < system->particle_count) continue;
-    hk_fail(HOOKE_BAD_VALUE, NULL, "there is no particle %lld; allowed: 0 to %lld", (long long)corners[k],
-            (long long)(system->particle_count - 1));
-    status = hk_fail_within(HOOKE_BAD_VALUE, "tetrahedra[%lld][%d]", (long long)(k / 4), (int)(k % 4));
+    status = hk_fail_index(NULL, "there is no particle", (double)corners[k], system->particle_count);
+    status = hk_fail_within(status, "tetrahedra[%lld][%d]", (long long)(k / 4), (int)(k % 4));
   }
   return status;
 }

@@ -39,9 +39,8 @@ static int32_t check_triples(const hooke_system *system, int64_t count, const in
     const int64_t *t = triples + 3 * k;
     for (int e = 0; e < 3; e++) {
       if (t[e] >= 0 && t[e] < system->particle_count) continue;
-      hk_fail(HOOKE_BAD_VALUE, NULL, "there is no particle %lld; allowed: 0 to %lld", (long long)t[e],
-              (long long)(system->particle_count - 1));
-      return hk_fail_within(HOOKE_BAD_VALUE, "triples[%lld][%d]", (long long)k, e);
+      const int32_t bad = hk_fail_index(NULL, "there is no particle", (double)t[e], system->particle_count);
+      return hk_fail_within(bad, "triples[%lld][%d]", (long long)k, e);
     }
     if (t[0] != t[1] && t[1] != t[2] && t[2] != t[0]) continue;
     hk_fail(HOOKE_BAD_VALUE, NULL, "particles %lld, %lld and %lld; a triple has three different ones",

@@ -92,8 +92,7 @@ static int32_t check_ends(const hooke_system *system, int64_t count, const int64
       if (p >= 0 && p < system->particle_count) continue;
       char place[64];
       snprintf(place, sizeof place, "between[%lld][%d]", (long long)k, end);
-      return hk_fail(HOOKE_BAD_VALUE, place, "there is no particle %lld; allowed: 0 to %lld", (long long)p,
-                     (long long)(system->particle_count - 1));
+      return hk_fail_index(place, "there is no particle", (double)p, system->particle_count);
     }
     if (ends[2 * k] == ends[2 * k + 1]) {
       char place[64];

@@ -382,7 +382,7 @@ class Scene(Parts):
     def _number_in_part(self, part: str, number: Any, name: str) -> int:
         particles = self._in_part(part, name)
         if not isinstance(number, (int, np.integer)) or not 0 <= number < len(particles):
-            raise BadValue(f'{name}: "{part}" has no particle {number}; allowed: 0 to {len(particles) - 1}')
+            raise BadValue(f'{name}: "{part}" has no particle {number}; {_numbers(len(particles))}')
         return particles[int(number)]
 
     def _find_parts(self, names: list[str]) -> None:
@@ -431,12 +431,16 @@ def _check_motion(motion: str, keys: dict[str, Any]) -> None:
             raise BadValue(f'{key}: is not allowed with motion "{motion}"; allowed: {", ".join((*required, *optional))}')
 
 
+def _numbers(count: int) -> str:
+    return f"allowed: 0 to {count - 1}, as numbers begin at 0"
+
+
 def _in_range(particles: IntArray, name: str, count: int) -> IntArray:
     particles = particles.reshape(-1)
     wrong = np.flatnonzero((particles < 0) | (particles >= count))
     if wrong.size:
         first = int(wrong[0])
-        raise BadValue(f"{name}[{first}]: there is no particle {particles[first]}; allowed: 0 to {count - 1}")
+        raise BadValue(f"{name}[{first}]: there is no particle {particles[first]}; {_numbers(count)}")
     return particles
 
 
