@@ -45,7 +45,7 @@ playground-if-possible:
 # The last line names everything that failed.
 test: $(PRESETS:%=tests-%) build/fuzz/packages playground-if-possible
 	@failed=; \
-	{ $(PYTHON) tests/fuzz/run.py --seconds 5 || echo "== fuzz: failed"; } | tee build/fuzz/tests.log; \
+	{ $(PYTHON) tests/fuzz/run.py --seconds 3 || echo "== fuzz: failed"; } | tee build/fuzz/tests.log; \
 	if grep -q '^== fuzz: failed' build/fuzz/tests.log; then \
 	  failed="; fuzz:$$(sed -n 's,^== fuzz/\(.*\): a finding.*, \1,p' build/fuzz/tests.log | tr -d '\n')"; \
 	fi; \
