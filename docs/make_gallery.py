@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import re
 import sys
+import tempfile
 import warnings
 from pathlib import Path
 from typing import Any, Callable, NamedTuple
@@ -17,9 +18,8 @@ import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
+from chromium import photograph
 from matplotlib.collections import LineCollection
-from matplotlib.ticker import MaxNLocator
-from mpl_toolkits.mplot3d.art3d import Line3DCollection
 
 import hooke
 
@@ -31,7 +31,7 @@ COLOURS = plt.get_cmap("viridis")
 
 class Picture(NamedTuple):
     scene: str  # in examples/scenes
-    draw: Callable[[hooke.Result, Any], Any]
+    draw: float | Callable[[hooke.Result, Any], Any]  # the fraction of the duration at which the viewer shows it, or a diagram
     words: str  # text in place of the picture
 
 
@@ -101,38 +101,6 @@ def fall(result: hooke.Result, figure: Any) -> None:
     height.set(xlabel="t [s]", ylabel="y [m]")
 
 
-def space(result: hooke.Result, figure: Any, share: float = 1.0, up: tuple[int, int, int] = (2, 0, 1)) -> None:
-    """Draws the scene in space at a fraction of the duration: springs coloured by strain, pinned particles black."""
-    frame = round(share * (len(result.frames.t) - 1))
-    q = result.frames.q[frame][:, up]
-    stretched = 100 * strain(result, result.frames.q[frame])
-    reach = max(np.percentile(np.abs(stretched), 98), 1e-6)
-    lines = Line3DCollection(q[result.system.spring_ends], cmap="coolwarm", linewidths=0.7,
-                             norm=plt.Normalize(-reach, reach))
-    lines.set_array(np.clip(stretched, -reach, reach))
-    ax = figure.add_subplot(projection="3d")
-    ax.add_collection3d(lines)
-    held = q[result.system.inverse_masses == 0]
-    ax.scatter(*held.T, color="black", s=8)
-    low, high = q.min(axis=0), q.max(axis=0)
-    ax.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]), zlim=(low[2], high[2] + 1e-9), xlabel="z [m]", ylabel="x [m]",
-           zlabel="y [m]", title=f"t = {result.frames.t[frame]:.3g} s")
-    ax.set_box_aspect(np.maximum(high - low, 0.3 * (high - low).max()))
-    for axis in (ax.xaxis, ax.yaxis, ax.zaxis):
-        axis.set_major_locator(MaxNLocator(3))
-    narrow = high - low < 0.4 * (high - low).max()  # too narrow for numbers
-    if narrow[0]:
-        ax.set(xlabel="", xticks=[])
-    if narrow[1]:
-        ax.set(ylabel="", yticks=[])
-    ax.view_init(elev=15, azim=30)
-    figure.colorbar(lines, ax=ax, label="strain [%]", shrink=0.6, pad=0.08)
-
-
-def half_way(result: hooke.Result, figure: Any) -> None:
-    space(result, figure, 0.5)
-
-
 def blow_up() -> None:
     """Draws a cloth from the front, just before it diverges and at the same time with a step below the limit."""
     figure, axes = plt.subplots(1, 2, figsize=(8, 4), layout="constrained", sharey=True)
@@ -158,25 +126,33 @@ def blow_up() -> None:
 
 PICTURES = [
     Picture("rope", side, "A rope at six times, from horizontal to swinging past the vertical."),
-    Picture("cloth-16", half_way, "A sagging cloth, pinned at two corners, its springs coloured by strain."),
+    Picture("cloth-16", 0.5, "A sagging cloth, pinned at two corners."),
     Picture("cloth-damped", from_the_edge, "A heavily damped cloth, pinned at its upper edge, from its side at six times."),
-    Picture("cloth-gentle", half_way, "A soft cloth, pinned at its upper edge, in the middle of its swing."),
+    Picture("cloth-gentle", 0.5, "A soft cloth, pinned at its upper edge, in the middle of its swing."),
     Picture("oscillator", oscillation, "The length of a spring, a dying oscillation, and the energy, which falls."),
     Picture("rope-resolution", apart, "Eight hanging bands: four of equal length, four of growing length."),
     Picture("drag-or-damping", fall, "The lengths of two springs that fall, and how high they are."),
     Picture("cantilever", beam, "A beam that bends under its own weight, at six times."),
-    Picture("curl", space, "A hanging curl, its springs coloured by strain."),
-    Picture("lattice", space, "A block of springs, coloured by strain."),
-    Picture("mesh", space, "A surface of triangles, its edges coloured by strain."),
+    Picture("curl", 1, "A hanging curl."),
+    Picture("lattice", 1, "A block that hangs from one end."),
+    Picture("buoy", 0.6, "A buoy on three slack lines; four springs that end in driven points lift it."),
+    Picture("tissue", 1, "A sheet of cells."),
+    Picture("mesh", 1, "A ball that hangs from its highest point."),
 ]
 
 
 def make(picture: Picture) -> None:
-    result = hooke.run(ROOT / f"examples/scenes/{picture.scene}.json", frames=True)
-    figure = plt.figure(figsize=(6, 4), layout="constrained")
-    picture.draw(result, figure)
-    figure.savefig(ROOT / f"docs/images/gallery-{picture.scene}.png", dpi=90)
-    plt.close(figure)
+    scene, image = ROOT / f"examples/scenes/{picture.scene}.json", ROOT / f"docs/images/gallery-{picture.scene}.png"
+    if callable(picture.draw):
+        figure = plt.figure(figsize=(6, 4), layout="constrained")
+        picture.draw(hooke.run(scene, frames=True), figure)
+        figure.savefig(image, dpi=90)
+        plt.close(figure)
+        return
+    with tempfile.TemporaryDirectory() as folder:
+        hooke.run(scene, output=Path(folder, "out.h5"))
+        page, last = hooke.view(Path(folder, "out.h5")), len(hooke.open(Path(folder, "out.h5")).t) - 1
+        photograph(page, f"frame={round(picture.draw * last)}&bare", (540, 400), image)
 
 
 def entry(picture: Picture) -> str:

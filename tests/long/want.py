@@ -13,8 +13,8 @@ ASKED = "--want 1cm --want 1mm --want 10um --study"
 EVALUATIONS = 5e6  # that a solution may take: nothing in the examples needs more
 LARGEST = "cloth-64"  # half an hour for the solution
 LARGE = {"curl", "cloth-16", "lattice", "cloth-damped", "rope-resolution"}
-OVERDAMPED = "tissue"  # the independent solution has inertia
-EXAMPLES = sorted({path.stem for path in (ROOT / "examples/scenes").glob("*.json")} - {OVERDAMPED})
+OTHERS = {"buoy", "tissue"}  # the independent solution has inertia, and no bodies
+EXAMPLES = sorted({path.stem for path in (ROOT / "examples/scenes").glob("*.json")} - OTHERS)
 
 
 def hold(name: str, scenes: str, seconds: float) -> Step:

@@ -325,3 +325,10 @@ def test_methods_by_other_names():
     assert hooke.Options.for_study().set(methods="rk4, implicit-euler")["methods"] == "rk4,backward-euler"
     with pytest.raises(hooke.BadValue, match="'euler' is no method; choose one of forward-euler, symplectic-euler"):
         options.set(method="euler")
+
+
+def test_all_faults_of_a_scene_are_told():
+    text = '{"hooke": 1, "gravty": 1,\n"particles": {"position": [[0, 0, 0]], "mass": -1}}'
+    with pytest.raises(hooke.BadValue) as told:
+        hooke.Scene.parse(text)
+    assert [line.split(": ")[1] for line in str(told.value).splitlines()] == ["gravty", "particles.mass"]

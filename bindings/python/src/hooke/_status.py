@@ -20,9 +20,10 @@ class Error(Exception):
     """A failure reported by the library; the message is the library's own, `status` its number."""
 
     status: int | None = None
+    lines: int = 1  # of a message of the library
 
     def __str__(self) -> str:
-        return plain(super().__str__())
+        return "\n".join(plain(line) for line in super().__str__().split("\n", self.lines - 1))
 
 
 class NoMemory(Error, MemoryError):
@@ -107,6 +108,7 @@ def checker(words: Sequence[Callable[..., Any]], outcomes: bool) -> Callable[[in
             message = last_error().decode("utf-8", "replace") or status_name(code).decode()
             failure = FAILURES.get(code, Error)(message)
             failure.status = code
+            failure.lines = message.count("\n") + 1
             raise failure
         return code
 

@@ -400,6 +400,8 @@ function dress() {
 }
 
 function start() {
+  const fragment = new URLSearchParams(location.hash.slice(1)), asked = fragment.get("frame"); // page.html#frame=40&bare
+  document.body.classList.toggle("bare", fragment.has("bare"));
   writeHead();
   writeShown();
   writeSpeeds();
@@ -418,7 +420,6 @@ function start() {
   if (picture) listenToPicks();
   dress();
   relook();
-  const asked = new URLSearchParams(location.hash.slice(1)).get("frame"); // page.html#frame=40
   show(asked === null && picture ? firstFrame() : Number(asked) || 0, true);
   if (asked === null && picture && window.name !== "beside" && !matchMedia("(prefers-reduced-motion: reduce)").matches) play();
 }

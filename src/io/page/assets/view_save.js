@@ -103,7 +103,7 @@ function modelOf() {
   }
   const material = (name) => ({ name, doubleSided: true, pbrMetallicRoughness: { metallicFactor: 0, roughnessFactor: 0.8 } });
   return { asset: { version: "2.0", generator: `hooke ${data.versions.hooke}` }, scene: 0, scenes: [{ nodes: meshes.map((_, k) => k) }],
-    nodes: meshes.map(({ name }, mesh) => ({ name, mesh })), meshes, materials: [material("springs"), material("surface")],
+    nodes: meshes.map(({ name }, mesh) => ({ name, mesh })), meshes, materials: meshes.map(({ name }) => material(name)),
     accessors: buffer.accessors, bufferViews: buffer.views, buffers: [{ byteLength: buffer.bytes, uri: buffer.uri() }],
     extras: { file: data.file, frame: data.frame[shown], time: data.time[shown], origin: centre } };
 }

@@ -112,7 +112,8 @@ function makeLines(count, uniforms, tubes = false) {
 
 function makePoints(marks, uniforms, inBody) {
   const free = marks.reduce((sum, mark) => sum + (mark === MARK.free), 0);
-  const list = [...marks.keys()].filter((k) => marks[k] !== MARK.free || (free <= DOTS_BELOW && !inBody[k]));
+  const held = (k) => marks[k] === MARK.pinned || marks[k] === MARK.driven;
+  const list = [...marks.keys()].filter((k) => held(k) || (!inBody[k] && (marks[k] !== MARK.free || free <= DOTS_BELOW)));
   const geometry = new THREE.BufferGeometry();
   geometry.setAttribute("position", attribute(Float32Array, 3, 3 * list.length));
   geometry.setAttribute("mark", new THREE.BufferAttribute(Uint8Array.from(list, (k) => marks[k]), 1, true));
