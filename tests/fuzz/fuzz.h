@@ -23,6 +23,10 @@ void hooke_fuzz_require(int holds, const char *what);
  * characters. */
 void hooke_fuzz_require_message(void);
 
+/* The same for scenes, whose faults have a line each: at most so many lines. */
+enum { HOOKE_FUZZ_FAULTS = 21 };
+void hooke_fuzz_require_lines(int most);
+
 /* A path to a file with these bytes, until the next call. */
 const char *hooke_fuzz_file(const void *data, size_t size);
 

@@ -34,7 +34,7 @@ enum {
 /* A failure has a message. */
 static int answered(int32_t status) {
   hooke_fuzz_require(status <= HOOKE_OK, "an outcome of a run");
-  if (status != HOOKE_OK) hooke_fuzz_require_message();
+  if (status != HOOKE_OK) hooke_fuzz_require_lines(HOOKE_FUZZ_FAULTS);
   return status == HOOKE_OK;
 }
 

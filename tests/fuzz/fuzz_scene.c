@@ -32,8 +32,7 @@ int32_t __wrap_hooke_system_create(hooke_system **system) {
 /* ---- failures ---- */
 
 /* "scene:LINE:COLUMN: " before the message is a position in the text, or the one after its last character. */
-static void require_place(const char *text, size_t size) {
-  const char *message = hooke_last_error();
+static void require_place(const char *message, const char *text, size_t size) {
   char *after;
   hooke_fuzz_require(strncmp(message, "scene:", 6) == 0, "a message begins with the name of the scene");
   const long line = strtol(message + 6, &after, 10);
@@ -55,8 +54,11 @@ static void require_place(const char *text, size_t size) {
 static void require_failure(int32_t status, const char *text, size_t size) {
   hooke_fuzz_require(status == HOOKE_BAD_VALUE || status == HOOKE_NO_MEMORY || status == HOOKE_NOT_BUILT,
                      "a scene that is refused is a bad value, or too large");
-  hooke_fuzz_require_message();
-  if (status == HOOKE_BAD_VALUE) require_place(text, size);
+  hooke_fuzz_require_lines(HOOKE_FUZZ_FAULTS);
+  for (const char *line = hooke_last_error(); status == HOOKE_BAD_VALUE && line; line = strchr(line, '\n')) {
+    line += *line == '\n';
+    if (strncmp(line, "and ", 4) != 0) require_place(line, text, size); /* "and 3 more" */
+  }
 }
 
 /* ---- systems ---- */

@@ -35,13 +35,21 @@ static int steers(const unsigned char *at) {
          (more && at[2] >= 0xA6 && at[2] <= 0xA9);
 }
 
-void hooke_fuzz_require_message(void) {
+void hooke_fuzz_require_lines(int most) {
   const unsigned char *at = (const unsigned char *)hooke_last_error();
+  int lines = 1;
   hooke_fuzz_require(*at != '\0', "a failure has a message");
   while (*at) {
     const size_t length = character(at);
+    const int ends = *at == '\n' && at[1] != '\0' && at[1] != '\n';
     hooke_fuzz_require(length > 0, "a message is UTF-8");
-    hooke_fuzz_require(!steers(at), "a message is one line without control characters");
+    hooke_fuzz_require(ends || !steers(at), "a message is text without control characters");
+    lines += ends;
     at += length;
   }
+  hooke_fuzz_require(lines <= most, "a message has no more lines than faults are told");
+}
+
+void hooke_fuzz_require_message(void) {
+  hooke_fuzz_require_lines(1);
 }
