@@ -1,6 +1,6 @@
 # cmake --install: headers, both libraries, the program with its manual page and completions, the example scenes, the pages
 # of reports, the sources of the Fortran module, and the files by which find_package(hooke) and pkg-config find them.
-# No installed file names a folder of this machine, so the result can be moved.
+# No installed file names a folder of this machine, so the result can be moved, if no folder is given in full.
 include(CMakePackageConfigHelpers)
 set(config_dir ${CMAKE_INSTALL_LIBDIR}/cmake/hooke)
 
@@ -19,13 +19,15 @@ install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(DIRECTORY ${PROJECT_BINARY_DIR}/docs/ DESTINATION ${CMAKE_INSTALL_DOCDIR} OPTIONAL) # where `make docs` has made them
 
 # There are two sets of targets, since only the static library needs the other libraries to be found.
-install(TARGETS hooke EXPORT hooke_shared_targets)
+if(TARGET hooke)
+  install(TARGETS hooke EXPORT hooke_shared_targets)
+  install(EXPORT hooke_shared_targets FILE hooke-shared.cmake NAMESPACE hooke:: DESTINATION ${config_dir})
+endif()
 install(TARGETS hooke_static EXPORT hooke_static_targets)
-install(EXPORT hooke_shared_targets FILE hooke-shared.cmake NAMESPACE hooke:: DESTINATION ${config_dir})
 install(EXPORT hooke_static_targets FILE hooke-static.cmake NAMESPACE hooke:: DESTINATION ${config_dir})
 
 if(HOOKE_BUILD_CLI)
-  file(RELATIVE_PATH to_library /${CMAKE_INSTALL_BINDIR} /${CMAKE_INSTALL_LIBDIR})
+  file(RELATIVE_PATH to_library ${CMAKE_INSTALL_FULL_BINDIR} ${CMAKE_INSTALL_FULL_LIBDIR})
   set_target_properties(hooke_cli PROPERTIES INSTALL_RPATH "$ORIGIN/${to_library}")
   install(TARGETS hooke_cli)
 endif()
@@ -69,8 +71,17 @@ foreach(dependency IN LISTS HOOKE_DEPENDENCIES)
     string(APPEND HOOKE_PRIVATE_LIBRARIES " -l${name}")
   endforeach()
 endforeach()
-file(RELATIVE_PATH HOOKE_PREFIX_FROM_PC /${CMAKE_INSTALL_LIBDIR}/pkgconfig /)
-string(REGEX REPLACE "/$" "" HOOKE_PREFIX_FROM_PC "${HOOKE_PREFIX_FROM_PC}")
+if(NOT TARGET hooke) # the static library alone
+  set(HOOKE_PUBLIC_LIBRARIES " ${HOOKE_PRIVATE_LIBRARIES}")
+endif()
+file(RELATIVE_PATH to_prefix ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig ${CMAKE_INSTALL_PREFIX})
+set(HOOKE_PC_PREFIX "\${pcfiledir}/${to_prefix}")
+foreach(folder INCLUDEDIR DATADIR)
+  set(HOOKE_PC_${folder} "\${prefix}/${CMAKE_INSTALL_${folder}}")
+  if(IS_ABSOLUTE "${CMAKE_INSTALL_${folder}}")
+    set(HOOKE_PC_${folder} "${CMAKE_INSTALL_${folder}}")
+  endif()
+endforeach()
 list(TRANSFORM HOOKE_FORTRAN_SOURCES PREPEND "\${fortrandir}/")
 list(JOIN HOOKE_FORTRAN_SOURCES " " HOOKE_FORTRAN_SOURCES)
 configure_file(cmake/hooke.pc.in hooke.pc @ONLY)

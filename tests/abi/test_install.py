@@ -143,11 +143,29 @@ def test_pkg_config(prefix, tmp_path):
     check(tmp_path, languages=("c",))
 
 
+def test_folders_given_in_full(prefix, tmp_path):
+    """A package stages the files below DESTDIR; a folder of its own for libraries is found from wherever it is."""
+    stage = tmp_path / "stage"
+    run(CMAKE, "--install", BUILD, "--prefix", "/usr", env={"DESTDIR": str(stage)})
+    assert (stage / "usr/include/hooke.h").exists()
+    if "HOOKE_CLI" in os.environ:
+        assert VERSION in run(stage / "usr/bin/hooke", "--version")
+    run(CMAKE, "-S", ROOT, "-B", tmp_path / "build", "-G", "Ninja", f"-DCMAKE_C_COMPILER={CC}", "-DCMAKE_INSTALL_PREFIX=/usr",
+        "-DCMAKE_INSTALL_LIBDIR=/opt/hooke/lib64", "-DBUILD_TESTING=OFF", *(f"-DHOOKE_{part}=OFF" for part in PARTS))
+    folder = tmp_path / "opt/hooke/lib64/pkgconfig"
+    folder.mkdir(parents=True)
+    shutil.copy(tmp_path / "build/hooke.pc", folder)
+    if shutil.which("pkg-config"):
+        flags = shlex.split(run("pkg-config", "--cflags", "--libs", "hooke", env={"PKG_CONFIG_PATH": str(folder)}))
+        places = [os.path.normpath(flag[2:]) for flag in flags[:2]]
+        assert places == [str(tmp_path / "usr/include"), str(tmp_path / "opt/hooke/lib64")]
+
+
 @pytest.mark.parametrize("way", ["SOURCES", "FETCHED"])
 def test_sources(way, tmp_path):
     """As a subdirectory or by FetchContent, which configure alike: it is built once, without other libraries."""
-    configure(tmp_path, f"-DHOOKE_{way}={ROOT}", "-DHOOKE_BUILD_CLI=OFF", "-DCMAKE_BUILD_TYPE=Debug",
-              *(f"-DHOOKE_{part}=OFF" for part in PARTS))
+    told = configure(tmp_path, f"-DHOOKE_{way}={ROOT}", "-DCMAKE_BUILD_TYPE=Debug")
+    assert all(f"{part.lower()}: left out" in told for part in PARTS)
     if way == "FETCHED" and PRESET in ("minimal", ""):
         run(CMAKE, "--build", tmp_path, "-j2")
         check(tmp_path)
