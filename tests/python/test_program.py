@@ -14,13 +14,13 @@ from conftest import PACKAGES, ROOT
 COMMANDS = {"module": [sys.executable, "-m", "hooke"],
             "command": [sys.executable, "-c", "import sys; from hooke_program import main; sys.exit(main())"]}  # fmt: skip
 
+ENVIRONMENT = os.environ | {"PYTHONPATH": str(PACKAGES)}
+
 
 @pytest.fixture(params=COMMANDS)
 def hooke(request):
-    environment = os.environ | {"PYTHONPATH": str(PACKAGES)}
-
     def start(*arguments):
-        return subprocess.Popen([*COMMANDS[request.param], *arguments], env=environment, text=True,
+        return subprocess.Popen([*COMMANDS[request.param], *arguments], env=ENVIRONMENT, text=True,
                                 stdout=subprocess.PIPE, stderr=subprocess.PIPE)  # fmt: skip
 
     return start
@@ -67,5 +67,5 @@ def test_a_package_without_its_program_says_so(tmp_path):
 
 
 def test_examples_have_the_bits_that_every_machine_gives():
-    done = subprocess.run([sys.executable, ROOT / "tests/wheel/bits.py"], capture_output=True, text=True)
+    done = subprocess.run([sys.executable, ROOT / "tests/wheel/bits.py"], env=ENVIRONMENT, capture_output=True, text=True)
     assert done.returncode == 0, done.stdout + done.stderr

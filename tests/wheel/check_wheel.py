@@ -58,8 +58,11 @@ hidden = ("H5open", "CVode", "ARKStepCreate", "json_loads", "deflate", "dsyev_",
 assert not any(hasattr(exported, name) for name in hidden)
 
 
-def program(*arguments, command=(str(Path(sys.executable).with_name("hooke")),), code=0):
-    done = subprocess.run([*command, *arguments], capture_output=True, text=True, timeout=60, check=False)
+PROGRAM = [Path(sys.executable).with_name("hooke")]
+
+
+def program(*arguments, command=PROGRAM, code=0):
+    done = subprocess.run([*command, *arguments], capture_output=True, text=True, timeout=60)
     assert done.returncode == code, (arguments, done)
     return done.stdout
 
@@ -67,7 +70,7 @@ def program(*arguments, command=(str(Path(sys.executable).with_name("hooke")),),
 def interrupted(*arguments):
     """Ctrl-C: the signal arrives at the program, whose process is that of the command."""
     quiet = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
-    running = subprocess.Popen([Path(sys.executable).with_name("hooke"), *arguments], **quiet)
+    running = subprocess.Popen([*PROGRAM, *arguments], **quiet)
     time.sleep(2)
     running.send_signal(signal.SIGINT)
     return running.wait(timeout=60)
@@ -111,7 +114,7 @@ with tempfile.TemporaryDirectory() as folder:
     assert len(hooke.needs(scene, want=0.05, duration=0.3, every=0.05).rows) > 0
 
     version = program("--version")
-    assert program("--version", command=(sys.executable, "-m", "hooke")) == version
+    assert program("--version", command=[sys.executable, "-m", "hooke"]) == version
     assert re.search(rf"^instructions +{best}$", version, re.MULTILINE) and re.search(r"^licence +MIT$", version, re.MULTILINE)
     assert program("--man").startswith(".") and "_hooke()" in program("--completion", "bash")
     program("nothing", code=2)
