@@ -5,8 +5,8 @@
 #   make docs   makes the documentation as a site, build/docs/index.html
 #   make playground  makes the library for the browser, as one page: build/playground/live.html
 #   make test   sets up, builds, and runs every test
-#   make test-long  runs what takes hours, in six parts that go on where they were: soak, fuzz, fuzz_hdf5,
-#                   sanitizers, arm64, want; make test-long PART=soak runs one of them
+#   make test-long  runs what takes hours, in seven parts that go on where they were: soak, fuzz, fuzz_hdf5,
+#                   sanitizers, arm64, want, wheels; make test-long PART=soak runs one of them
 #   make tidy   runs clang-tidy over the sources in C
 #   make wheel  makes the Python package to hand on, in build/wheel: a wheel that needs nothing else, and the sources
 #   make wheel-test  installs that wheel into an empty environment and uses it
@@ -59,7 +59,7 @@ test: $(PRESETS:%=tests-%) build/fuzz/packages playground-if-possible
 	if [ -n "$$failed" ]; then echo; echo "failed:$${failed#;}"; exit 1; fi
 
 # Each part keeps what is done in build/long and writes its figures into docs/notes/reliability.md.
-LONG_PARTS = soak fuzz fuzz_hdf5 sanitizers arm64 want
+LONG_PARTS = soak fuzz fuzz_hdf5 sanitizers arm64 want wheels
 PART = $(LONG_PARTS)
 ifneq ($(filter-out $(LONG_PARTS),$(PART)),)
 $(error no part is called $(filter-out $(LONG_PARTS),$(PART)); there are $(LONG_PARTS))
