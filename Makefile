@@ -108,7 +108,7 @@ build/wheel/tools/done: Makefile | build/wheel/packages
 	ln -s $(WHEEL_TOOLS)/../lib/python3*/site-packages/ziglang/zig $(WHEEL_TOOLS)/zig
 	touch $@
 
-build/wheel/%/done: $(wildcard bindings/python/wheel/* bindings/browser/lapack/*) cmake/zig.cmake build/wheel/tools/done
+build/wheel/%/done: $(wildcard bindings/python/wheel/* bindings/browser/lapack/*) cmake/zig.cmake | build/wheel/tools/done
 	cmake -S bindings/python/wheel -B build/wheel/$* -G Ninja
 	cmake --build build/wheel/$*
 	touch $@
