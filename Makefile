@@ -75,7 +75,8 @@ tidy: build/tidy/packages
 	$(PYTHON) cmake/tidy.py build/tidy
 
 # The wheel is built from the sources that are handed on, and the libraries inside it once, all by zig's C compiler, which
-# compiles for an old C library and for other machines: make wheel WHEEL=aarch64-linux-gnu.2.28, or x86_64-linux-musl.
+# compiles for an old C library and for other machines: make wheel WHEEL=aarch64-linux-gnu.2.28, or x86_64-linux-musl,
+# whose libc.so auditwheel would look for on this machine.
 WHEEL = $(shell uname -m)-linux-gnu.2.28
 WHEEL_ARCHITECTURE = $(firstword $(subst -, ,$(WHEEL)))
 WHEEL_TOOLS = $(CURDIR)/build/wheel/tools/bin
@@ -92,7 +93,7 @@ wheel: build/wheel/tools/done build/wheel/$(WHEEL)/done
 	  -C cmake.define.LIBHOOKE_COMPLETE=ON \
 	  -C cmake.define.LIBHOOKE_LICENSES=$(WHEEL_LIBRARIES)/installed/LICENSES \
 	  -C cmake.define.CMAKE_PREFIX_PATH=$(WHEEL_LIBRARIES)/installed
-	PATH="$(WHEEL_TOOLS):$$PATH" auditwheel repair -w build/wheel build/wheel/unrepaired/*.whl
+	PATH="$(WHEEL_TOOLS):$$PATH" auditwheel repair --exclude libc.so -w build/wheel build/wheel/unrepaired/*.whl
 	mv build/wheel/unrepaired/*.tar.gz build/wheel
 	ls -l build/wheel/*.whl build/wheel/*.tar.gz
 

@@ -1,4 +1,4 @@
-"""The wheels: made, used in an empty environment and on an older system, and the bits of the one for AArch64."""
+"""The wheels: made, used in an empty environment and on an older system, and the bits of those for AArch64 and musl."""
 
 from __future__ import annotations
 
@@ -7,12 +7,11 @@ from typing import Any
 
 from steps import Part, Step
 
-AARCH64 = "aarch64-linux-gnu.2.28"
 SCENES = "cloth-16 cloth-gentle curl drag-or-damping lattice mesh oscillator rope six-particles stiff-spring"
 
 
 def verified(text: str) -> dict[str, Any]:
-    """Number of runs on AArch64 that this machine repeated to the bit."""
+    """Number of runs elsewhere that this machine repeated to the bit."""
     same = len(re.findall(r"^verdict +agrees to the bit$", text, re.MULTILINE))
     if same != len(SCENES.split()):
         raise ValueError(f"{same} of {len(SCENES.split())} runs have the same bits")
@@ -27,24 +26,27 @@ def took(text: str) -> dict[str, Any]:
 
 
 def rows(step: str, figures: dict[str, Any]) -> list[tuple[str, str]]:
-    if step == "bits of AArch64":
-        return [("scenes run by the wheel for AArch64 and verified here", f"{figures['scenes']} with equal bits")]
+    if step.startswith("bits of "):
+        system = step.removeprefix("bits of ")
+        return [(f"scenes run by the wheel for {system} and verified here", f"{figures['scenes']} with equal bits")]
     if step == "Debian 11":
         return [("`pip install` of the wheel on Debian 11, from files", f"{figures['install']} s"),
                 ("a cloth from `hooke make` to its page there", f"{figures['cloth']} s")]  # fmt: skip
     return []
 
 
-BITS = f"""
-rm -rf $WORK/there; mkdir $WORK/there
-python3 -m zipfile -e build/wheel/*manylinux*_aarch64.whl $WORK/there
-chmod +x $WORK/there/hooke/hooke
+def bits(wheel: str, run: str = "") -> str:
+    return f"""
+there=$WORK/{wheel}
+rm -rf $there; mkdir $there
+python3 -m zipfile -e build/wheel/*-{wheel}*.whl $there
+chmod +x $there/hooke/hooke
 for scene in {SCENES}; do
-  qemu-aarch64-static -L /usr/aarch64-linux-gnu $WORK/there/hooke/hooke run examples/scenes/$scene.json --duration 0.02 \\
-    --every 0.01 -o $WORK/there/$scene.h5 --quiet
-  build/wheel/bare/bin/hooke verify $WORK/there/$scene.h5 --all --bits
+  {run} $there/hooke/hooke run examples/scenes/$scene.json --duration 0.02 --every 0.01 -o $there/$scene.h5 --quiet
+  build/wheel/bare/bin/hooke verify $there/$scene.h5 --all --bits
 done
 """
+
 
 # NumPy comes from outside, so that the system inside needs no network.
 DEBIAN_11 = """
@@ -75,11 +77,13 @@ inside "/venv/bin/python /hooke/tests/wheel/bits.py"
 
 PART = Part(
     "wheels",
-    ["qemu-user-static", "libc6-arm64-cross", "debootstrap"],
+    ["qemu-user-static", "libc6-arm64-cross", "musl", "debootstrap"],
     [
         Step("wheel", "make wheel-test", 500),
-        Step("wheel for AArch64", f"make wheel WHEEL={AARCH64}", 400),
-        Step("bits of AArch64", BITS, 30, verified),
+        Step("wheel for AArch64", "make wheel WHEEL=aarch64-linux-gnu.2.28", 400),
+        Step("bits of AArch64", bits("manylinux_2_28_aarch64", "qemu-aarch64-static -L /usr/aarch64-linux-gnu"), 30, verified),
+        Step("wheel for musl", "make wheel WHEEL=x86_64-linux-musl", 400),
+        Step("bits of musl", bits("musllinux_1_2_x86_64"), 30, verified),
         Step("Debian 11", DEBIAN_11, 120, took),
     ],
     rows,
