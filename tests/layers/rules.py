@@ -54,7 +54,7 @@ STANDARD = set(
     "stdbool stddef stdint stdio stdlib stdnoreturn string tgmath threads time uchar wchar wctype "
     "dirent dlfcn fcntl langinfo libgen pthread sched strings termios unistd "
     "sys/file sys/inotify sys/ioctl sys/mman sys/random sys/resource sys/stat sys/time sys/types sys/utsname sys/wait "
-    "getopt spawn immintrin".split()
+    "getopt spawn cpuid immintrin".split()
 )
 
 # Folders that use the library like a user.

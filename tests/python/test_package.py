@@ -135,8 +135,10 @@ def test_pip_install_gives_a_package_that_stands_alone(tmp_path):
     assert set(ROOT.iterdir()) | set((ROOT / "bindings/python").iterdir()) == before
     files = {path.name for path in (target / "hooke").iterdir() if path.name != "__pycache__"}
     share = {"share"} if hooke.build_facts()["chartjs"] else set()  # files of reports
-    assert files == {path.name for path in (PACKAGES / "hooke").glob("*.py")} | {"libhooke.so", "LICENSE", "py.typed"} | share
-    assert {path.name for path in target.iterdir()} - {"hooke"} == {f"libhooke-{hooke.__version__}.dist-info"}
+    others = {"libhooke.so", "hooke", "LICENSE", "py.typed"}
+    assert files == {path.name for path in (PACKAGES / "hooke").glob("*.py")} | others | share
+    beside = {path.name for path in target.iterdir()} - {"__pycache__"}
+    assert beside == {"hooke", "hooke_program.py", "bin", f"libhooke-{hooke.__version__}.dist-info"}
     code = """
 import hooke
 scene = hooke.Scene.parse(
@@ -147,3 +149,5 @@ print(hooke.build_facts()["path"], result.state.v[0, 1], hooke.build_facts()["su
 """
     run = python(code, PYTHONPATH=target)
     assert run.stdout.split() == [str(target / "hooke" / "libhooke.so"), "-8.0", "True"], run.stderr
+    version = subprocess.run([target / "bin/hooke", "--version"], env=environment | {"PYTHONPATH": str(target)}, capture_output=True, text=True)
+    assert re.search("^licence +MIT$", version.stdout, re.MULTILINE), version

@@ -99,6 +99,18 @@ static void test_same_bits(void **unused) {
     check_scene(&scenes[k], k);
 }
 
+/* The compiler's own library, where it has one, knows the processor as well. */
+static void test_best_set(void **unused) {
+  (void)unused;
+#if defined(__x86_64__) && defined(__GNUC__)
+  const int avx512 = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
+                     __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512bw");
+  const char *best = avx512 ? "avx512" : __builtin_cpu_supports("avx2") ? "avx2" : "baseline";
+  assert_string_equal(__real_hk_spring_set(0)->name, best);
+#endif
+  assert_string_equal(__real_hk_spring_set(0)->name, hooke_build_fact("instructions"));
+}
+
 /* A new method needs its row. */
 static void test_methods_are_complete(void **unused) {
   (void)unused;
@@ -109,7 +121,8 @@ static void test_methods_are_complete(void **unused) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(test_methods_are_complete),
+  const struct CMUnitTest tests[] = {cmocka_unit_test(test_best_set),
+                                     cmocka_unit_test(test_methods_are_complete),
                                      cmocka_unit_test(test_same_bits)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

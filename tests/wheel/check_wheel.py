@@ -4,17 +4,21 @@ h5py. It uses every feature of the library once, and no library of the machine b
 import ctypes
 import importlib.metadata
 import os
+import platform
 import re
+import signal
+import subprocess
 import sys
 import tempfile
 import threading
+import time
 import warnings
 from pathlib import Path
 
 import h5py
 import numpy as np
 
-C_LIBRARY = re.compile(r"/(ld-linux-x86-64|libc|libm|libdl|libpthread|librt|libutil)(-2\.\d+)?\.so[.\d]*$")
+C_LIBRARY = re.compile(r"/(ld-linux-\w+(-\d+)?|ld-musl-\w+|libc|libm|libdl|libpthread|librt|libutil)(-2\.\d+)?\.so[.\d]*$")
 SCENE = {
     "hooke": 1,
     "gravity": [0, -9.81, 0],
@@ -36,17 +40,41 @@ import hooke  # noqa: E402
 facts = hooke.build_facts()
 inside = Path(hooke.__file__).parent
 tags = re.findall(r"^Tag: (.*)$", importlib.metadata.distribution("libhooke").read_text("WHEEL"), re.MULTILINE)
-assert tags == ["py3-none-manylinux_2_36_x86_64"], tags
+libc = "musllinux_1_" if any("musl" in tag for tag in tags) else "manylinux_2_28_"
+assert any(tag.startswith(f"py3-none-{libc}") and tag.endswith(platform.machine()) for tag in tags), tags
 assert facts["path"] == str(inside / "libhooke.so") and facts["licence"] == "MIT", facts
 assert all(facts[part] for part in ("sundials", "lapack", "hdf5", "jansson", "chartjs")), facts
 assert not any(facts[part] for part in ("gsl", "cholmod", "arpack")), facts
 licences = (inside / "LICENSES").read_text(encoding="utf-8")
 assert all(f"\n{name}\n===" in licences for name in ("SUNDIALS", "LAPACK and BLAS", "zlib", "jansson", "hdf5", "Chart.js"))
 assert "General Public License" not in licences and "GPL" not in licences
+flags = (line.split() for line in Path("/proc/cpuinfo").read_text("utf-8").splitlines() if line.startswith("flags"))
+flags = set(next(flags, ()))
+best = "avx512" if flags >= {"avx512f", "avx512dq", "avx512vl", "avx512bw"} else "avx2" if "avx2" in flags else "baseline"
+assert facts["instructions"] == best, (facts, best)
 exported = ctypes.CDLL(facts["path"])  # no other library of this process can use the symbols inside
 assert hasattr(exported, "hooke_version")
 hidden = ("H5open", "CVode", "ARKStepCreate", "json_loads", "deflate", "dsyev_", "dgemm_", "xerbla_")
 assert not any(hasattr(exported, name) for name in hidden)
+
+
+PROGRAM = [Path(sys.executable).with_name("hooke")]
+
+
+def program(*arguments, command=PROGRAM, code=0):
+    done = subprocess.run([*command, *arguments], capture_output=True, text=True, timeout=60)
+    assert done.returncode == code, (arguments, done)
+    return done.stdout
+
+
+def interrupted(*arguments):
+    """Ctrl-C: the signal arrives at the program, whose process is that of the command."""
+    quiet = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
+    running = subprocess.Popen([*PROGRAM, *arguments], **quiet)
+    time.sleep(2)
+    running.send_signal(signal.SIGINT)
+    return running.wait(timeout=60)
+
 
 scene = hooke.Scene.parse(SCENE)
 with tempfile.TemporaryDirectory() as folder:
@@ -85,6 +113,18 @@ with tempfile.TemporaryDirectory() as folder:
     assert hooke.why(above).advice
     assert len(hooke.needs(scene, want=0.05, duration=0.3, every=0.05).rows) > 0
 
+    version = program("--version")
+    assert program("--version", command=[sys.executable, "-m", "hooke"]) == version
+    assert re.search(rf"^instructions +{best}$", version, re.MULTILINE) and re.search(r"^licence +MIT$", version, re.MULTILINE)
+    assert program("--man").startswith(".") and "_hooke()" in program("--completion", "bash")
+    program("nothing", code=2)
+    scene.save("cloth.json")
+    long = ("run", "cloth.json", "--method", "symplectic-euler", "--step", "1e-3")
+    program(*long, "--duration", "0.5", "--every", "0.05", "-o", "cloth.h5", "--quiet")
+    program("view", "cloth.h5", "-o", "cloth.html")
+    assert "THREE" in Path("cloth.html").read_text(encoding="utf-8")
+    assert interrupted(*long, "--duration", "1e9") == 130
+
     ends = []
     threads = [
         threading.Thread(target=lambda: ends.append(scene.run(method="rk4", step=1e-3, duration=2.0, every=1.0)))
@@ -96,6 +136,8 @@ with tempfile.TemporaryDirectory() as folder:
         thread.join()
     assert len(ends) == 2 and np.array_equal(ends[0].state.q, ends[1].state.q)
     os.chdir("/")
+
+subprocess.run([sys.executable, Path(__file__).with_name("bits.py")], check=True)
 
 root = Path(sys.prefix)
 foreign = {path for path in loaded() - before if not Path(path).is_relative_to(root) and not C_LIBRARY.search(path)}

@@ -116,10 +116,13 @@ def _require_abi(path: str, library: ctypes.CDLL) -> None:
 
 
 def _candidates() -> Iterator[str]:
+    import hooke
+
     name = _FILE_NAMES.get(sys.platform, "libhooke.so")
-    bundled = Path(__file__).parent / name
-    if bundled.exists():
-        yield str(bundled)
+    for folder in hooke.__path__:  # two, where the sources are installed to be edited
+        bundled = Path(folder) / name
+        if bundled.exists():
+            yield str(bundled)
     found = ctypes.util.find_library("hooke")
     if found:
         yield found

@@ -1,0 +1,5 @@
+"""`python -m hooke` is the program `hooke`."""
+
+from hooke_program import main
+
+main()

@@ -1,0 +1,21 @@
+# Compiles with zig's C compiler (the Python package ziglang), whose path is HOOKE_ZIG in the environment, for HOOKE_TARGET,
+# such as x86_64-linux-gnu.2.28: an old C library, or another machine. Programs for another machine run under qemu, where
+# that is installed.
+string(REGEX MATCH "^[^-]+" HOOKE_ARCHITECTURE "$ENV{HOOKE_TARGET}")
+if(NOT HOOKE_ARCHITECTURE OR "$ENV{HOOKE_ZIG}" STREQUAL "")
+  message(FATAL_ERROR "HOOKE_ZIG and HOOKE_TARGET are needed in the environment")
+endif()
+set(CMAKE_C_COMPILER $ENV{HOOKE_ZIG} cc)
+set(CMAKE_C_COMPILER_TARGET $ENV{HOOKE_TARGET})
+set(CMAKE_C_ARCHIVE_CREATE "$ENV{HOOKE_ZIG} ar qcs <TARGET> <OBJECTS>")
+set(CMAKE_C_ARCHIVE_APPEND "$ENV{HOOKE_ZIG} ar qs <TARGET> <OBJECTS>")
+set(CMAKE_C_ARCHIVE_FINISH "")
+if(NOT HOOKE_ARCHITECTURE STREQUAL CMAKE_HOST_SYSTEM_PROCESSOR)
+  set(CMAKE_SYSTEM_NAME Linux)
+  set(CMAKE_SYSTEM_PROCESSOR ${HOOKE_ARCHITECTURE})
+  find_program(HOOKE_EMULATOR qemu-${HOOKE_ARCHITECTURE}-static)
+  mark_as_advanced(HOOKE_EMULATOR)
+  if(HOOKE_EMULATOR)
+    set(CMAKE_CROSSCOMPILING_EMULATOR ${HOOKE_EMULATOR} -L /usr/${HOOKE_ARCHITECTURE}-linux-gnu)
+  endif()
+endif()
