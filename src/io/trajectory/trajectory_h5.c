@@ -2,6 +2,7 @@
 #include "core/handle.h"
 #include "core/keep_errno.h"
 #include "core/memory.h"
+#include "core/os_file.h"
 #include "core/status.h"
 #include "hooke/trajectory.h"
 
@@ -15,7 +16,6 @@
 #include <errno.h>
 #include <stdio.h>
 #include <string.h>
-#include <unistd.h>
 
 int32_t hooke_io_own_process(void) {
   if (H5dont_atexit() >= 0) return HOOKE_OK;
@@ -175,7 +175,7 @@ int32_t hooke_trajectory_sync(hooke_trajectory *trajectory) {
   const int error = trajectory->thread ? hk_frame_thread_wait(trajectory->thread) : 0;
   if (error) return fail_frame(trajectory, trajectory->taken - 1, error);
   /* a second sync does not report data that a failed one lost */
-  return fsync(trajectory->file.atomic.descriptor) == 0
+  return hk_os_sync(trajectory->file.atomic.descriptor) == 0
              ? HOOKE_OK
              : fail(trajectory, "bring the data to the disk", errno);
 }
