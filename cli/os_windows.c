@@ -90,9 +90,9 @@ int cli_os_may_write(const char *folder) {
   return _access(folder, 2);
 }
 
-/* The lock is on one byte that no file is long enough to have. */
+/* The lock is on the last byte that there could be. */
 int32_t cli_os_is_written(const char *path) {
-  OVERLAPPED place = {.OffsetHigh = 1u << 30};
+  OVERLAPPED place = {.Offset = MAXDWORD, .OffsetHigh = MAXDWORD};
   HANDLE file = open_file(path, GENERIC_READ);
   if (file == INVALID_HANDLE_VALUE) return 0;
   const int written =

@@ -86,9 +86,10 @@ int hk_os_open_folder(const char *path, int *folder);
 int hk_os_sync_folder(int folder);
 void hk_os_close_folder(int folder);
 
-/* Renames, replacing a file of that name; the second function fails with EEXIST if there is one, and with
+/* Renames, replacing a file of that name, of which `older` (-1: none) is a descriptor: it is closed, and set to
+ * -1, where no open file can be replaced. The second function fails with EEXIST if there is a file, and with
  * EINVAL or ENOSYS where that cannot be had. */
-int hk_os_rename(const char *from, const char *to);
+int hk_os_rename(const char *from, const char *to, int *older);
 int hk_os_rename_if_free(const char *from, const char *to);
 
 /* A second name for a file: a hard link or, where there are none, the only name from then on. */

@@ -109,7 +109,7 @@ static void inherit(int descriptor, const struct stat *older) {
   if ((own.st_uid != older->st_uid || own.st_gid != older->st_gid) &&
       fchown(descriptor, older->st_uid, older->st_gid) != 0 &&
       fchown(descriptor, (uid_t)-1, older->st_gid) != 0)
-    mode = (mode & ~(mode_t)070) | (mode & 07) << 3; /* another group gets the rights of others */
+    mode = (mode_t)((mode & ~070U) | (mode & 07U) << 3); /* another group gets the rights of others */
   (void)fchmod(descriptor, mode);
 }
 
@@ -213,7 +213,8 @@ void hk_os_close_folder(int folder) {
   close(folder);
 }
 
-int hk_os_rename(const char *from, const char *to) {
+int hk_os_rename(const char *from, const char *to, int *older) {
+  (void)older;
   return rename(from, to);
 }
 

@@ -114,12 +114,12 @@ char *hk_os_new_path(const char *path) {
 
 /* ---- what there is ---- */
 
+/* Without the number of the volume: wine does not know it of a file that was renamed while it is open. */
 static int look(HANDLE handle, struct hk_os_file *file) {
   BY_HANDLE_FILE_INFORMATION there;
   if (!GetFileInformationByHandle(handle, &there)) return fail();
   const int32_t folder = (there.dwFileAttributes & FILE_ATTRIBUTE_DIRECTORY) != 0;
-  *file = (struct hk_os_file){.device = there.dwVolumeSerialNumber,
-                              .number = (uint64_t)there.nFileIndexHigh << 32 | there.nFileIndexLow,
+  *file = (struct hk_os_file){.number = (uint64_t)there.nFileIndexHigh << 32 | there.nFileIndexLow,
                               .bytes = (int64_t)((uint64_t)there.nFileSizeHigh << 32 | there.nFileSizeLow),
                               .is_regular = !folder && GetFileType(handle) == FILE_TYPE_DISK,
                               .is_folder = folder};
@@ -222,9 +222,9 @@ int hk_os_sync(int descriptor) {
 
 /* ---- locks ---- */
 
-/* Windows keeps others from reading what is locked, so the lock is on one byte that no file is long enough to
- * have. */
-static const int64_t locked_byte = (int64_t)1 << 62;
+/* Windows keeps others from reading what is locked, so the lock is on the last byte that there could be, which no
+ * file has. HDF5's readers lock all bytes before it. */
+static const int64_t locked_byte = -1;
 
 static int take(int descriptor, DWORD kind) {
   OVERLAPPED place = place_of(locked_byte);
@@ -304,8 +304,11 @@ static int replace(const char *from, const char *to) {
   return done;
 }
 
-int hk_os_rename(const char *from, const char *to) {
-  return replace(from, to) ? 0 : move(from, to, MOVEFILE_REPLACE_EXISTING | MOVEFILE_WRITE_THROUGH);
+int hk_os_rename(const char *from, const char *to, int *older) {
+  if (replace(from, to)) return 0;
+  if (*older >= 0) _close(*older);
+  *older = -1;
+  return move(from, to, MOVEFILE_REPLACE_EXISTING | MOVEFILE_WRITE_THROUGH);
 }
 
 int hk_os_rename_if_free(const char *from, const char *to) {
@@ -315,7 +318,10 @@ int hk_os_rename_if_free(const char *from, const char *to) {
 int hk_os_link(const char *from, const char *to) {
   wchar_t *wide_from = widen(from), *wide_to = wide_from ? widen(to) : NULL;
   int result = wide_to == NULL ? -1 : CreateHardLinkW(wide_to, wide_from, NULL) ? 0 : fail();
-  if (result != 0 && wide_to && errno != ENOENT && errno != EEXIST) result = hk_os_rename(from, to);
+  if (result != 0 && wide_to && errno != ENOENT && errno != EEXIST) {
+    int none = -1;
+    result = hk_os_rename(from, to, &none);
+  }
   hk_os_free(wide_from);
   hk_os_free(wide_to);
   return result;

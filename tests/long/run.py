@@ -14,9 +14,10 @@ import fuzz_hdf5
 import sanitizers
 import soak
 import want
+import windows
 from steps import load, main, write_figures
 
-PARTS = {part.PART.name: part.PART for part in (soak, fuzz, fuzz_hdf5, sanitizers, arm64, want)}
+PARTS = {part.PART.name: part.PART for part in (soak, fuzz, fuzz_hdf5, sanitizers, arm64, windows, want)}
 
 if __name__ == "__main__":
     option, *names = sys.argv[1:] or [""]

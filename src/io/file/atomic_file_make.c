@@ -147,7 +147,8 @@ static int32_t rename_new(struct hk_atomic_file *file) {
       return hk_file_fail(path, "take this name", errno);
     }
   }
-  return hk_os_rename(file->temporary, path) == 0 ? HOOKE_OK : hk_file_fail(path, "take this name", errno);
+  return hk_os_rename(file->temporary, path, &file->older) == 0 ? HOOKE_OK
+                                                                : hk_file_fail(path, "take this name", errno);
 }
 
 /* Gives the older file a second name, so that the first one always exists. */
