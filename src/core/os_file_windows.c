@@ -304,11 +304,18 @@ static int replace(const char *from, const char *to) {
   return done;
 }
 
+/* A reader, or a program that looks for viruses, may have the older file open for a moment. */
 int hk_os_rename(const char *from, const char *to, int *older) {
+  enum { ATTEMPTS = 100, MILLISECONDS = 20 };
   if (replace(from, to)) return 0;
   if (*older >= 0) _close(*older);
   *older = -1;
-  return move(from, to, MOVEFILE_REPLACE_EXISTING | MOVEFILE_WRITE_THROUGH);
+  int result = move(from, to, MOVEFILE_REPLACE_EXISTING | MOVEFILE_WRITE_THROUGH);
+  for (int k = 0; result != 0 && errno == EACCES && k < ATTEMPTS; k++) {
+    Sleep(MILLISECONDS);
+    result = move(from, to, MOVEFILE_REPLACE_EXISTING | MOVEFILE_WRITE_THROUGH);
+  }
+  return result;
 }
 
 int hk_os_rename_if_free(const char *from, const char *to) {

@@ -211,8 +211,8 @@ static int copy_all(const hooke_trajectory *trajectory, const struct hk_h5_copy 
   return error ? error : hk_h5md_write_status(made->file.atomic.descriptor, made->status_at, outcome);
 }
 
-int32_t hk_trajectory_remake(struct hk_h5_guard *guard, const hooke_trajectory *trajectory,
-                             int64_t frame_count, int64_t copied, int32_t outcome, hooke_trajectory *made) {
+int32_t hk_trajectory_remake(struct hk_h5_guard *guard, hooke_trajectory *trajectory, int64_t frame_count,
+                             int64_t copied, int32_t outcome, hooke_trajectory *made) {
   const char *path = trajectory->file.atomic.path, *what = "make it again for another number of frames";
   const double bytes = hk_h5_file_bytes(&trajectory->file) -
                        hk_trajectory_writer_bytes_after(&trajectory->writer, frame_count);
@@ -228,7 +228,10 @@ int32_t hk_trajectory_remake(struct hk_h5_guard *guard, const hooke_trajectory *
   const int error = status == HOOKE_OK ? copy_all(trajectory, &copy, copied, outcome, made) : 0;
   hk_h5_copy_release(&copy);
   if (error) return hk_file_fail(path, what, error);
-  return status == HOOKE_OK ? hk_h5_file_publish(&made->file) : status;
+  if (status != HOOKE_OK) return status;
+  made->file.atomic.older = trajectory->file.atomic.descriptor;
+  trajectory->file.atomic.descriptor = -1;
+  return hk_h5_file_publish(&made->file);
 }
 
 /* Replaces the file by one with exactly the written frames. */
