@@ -5,8 +5,9 @@
 #   make docs   makes the documentation as a site, build/docs/index.html
 #   make playground  makes the library for the browser, as one page: build/playground/live.html
 #   make test   sets up, builds, and runs every test
-#   make test-long  runs what takes hours, in seven parts that go on where they were: soak, fuzz, fuzz_hdf5,
-#                   sanitizers, arm64, want, wheels; make test-long PART=soak runs one of them
+#   make windows  compiles the library and the program for Windows, build/windows, whose tests run under wine
+#   make test-long  runs what takes hours, in eight parts that go on where they were: soak, fuzz, fuzz_hdf5,
+#                   sanitizers, arm64, windows, want, wheels; make test-long PART=soak runs one of them
 #   make tidy   runs clang-tidy over the sources in C
 #   make wheel  makes the Python package to hand on, in build/wheel: a wheel that needs nothing else, and the sources
 #   make wheel-test  installs that wheel into an empty environment and uses it
@@ -37,6 +38,11 @@ playground: all build/playground/packages
 	cmake --build --preset playground
 	$(PYTHON) bindings/browser/make_page.py build/release build/playground
 
+windows: build/windows/packages
+	cmake --preset windows >build/windows/configure.log
+	cmake --build --preset windows
+	cmake --build --preset windows --target hooke_windows_states
+
 # Where neither emscripten nor a way to install it is there, tests and documentation go without.
 .PHONY: playground-if-possible
 playground-if-possible:
@@ -59,7 +65,7 @@ test: $(PRESETS:%=tests-%) build/fuzz/packages playground-if-possible
 	if [ -n "$$failed" ]; then echo; echo "failed:$${failed#;}"; exit 1; fi
 
 # Each part keeps what is done in build/long and writes its figures into docs/notes/reliability.md.
-LONG_PARTS = soak fuzz fuzz_hdf5 sanitizers arm64 want wheels
+LONG_PARTS = soak fuzz fuzz_hdf5 sanitizers arm64 windows want wheels
 PART = $(LONG_PARTS)
 ifneq ($(filter-out $(LONG_PARTS),$(PART)),)
 $(error no part is called $(filter-out $(LONG_PARTS),$(PART)); there are $(LONG_PARTS))
@@ -134,10 +140,11 @@ build/tidy/packages: private PACKAGES = clang-tidy-14
 build/fuzz/packages: private PACKAGES = clang libclang-rt-14-dev
 build/playground/packages: private PACKAGES = emscripten f2c
 build/wheel/packages: private PACKAGES = f2c libjs-chart.js libjs-three
+build/windows/packages: private PACKAGES = gcc-mingw-w64-x86-64-posix libz-mingw-w64-dev wine64 f2c
 build/long/%.packages: private PACKAGES = $(shell $(PYTHON) tests/long/run.py --packages $*)
 build/long/arm64.packages: private FOREIGN = arm64
 $(LONG_PARTS:%=build/long/%.packages): build/long/%.packages: tests/long/%.py
-OTHER_PACKAGES = $(patsubst %,build/%/packages,tidy fuzz playground wheel) $(LONG_PARTS:%=build/long/%.packages)
+OTHER_PACKAGES = $(patsubst %,build/%/packages,tidy fuzz playground wheel windows) $(LONG_PARTS:%=build/long/%.packages)
 $(OTHER_PACKAGES): | build/packages
 build/packages $(OTHER_PACKAGES): Makefile cmake/packages.txt
 	@mkdir -p $(@D)
@@ -157,6 +164,6 @@ build/packages $(OTHER_PACKAGES): Makefile cmake/packages.txt
 	fi
 	@touch $@
 
-.PHONY: all venv demo playground test test-long tidy wheel wheel-test $(PRESETS:%=tests-%)
+.PHONY: all venv demo playground windows test test-long tidy wheel wheel-test $(PRESETS:%=tests-%)
 .DELETE_ON_ERROR:
 .SECONDARY:

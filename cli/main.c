@@ -2,11 +2,11 @@
 #include "arguments.h"
 #include "completion.h"
 #include "man.h"
+#include "os.h"
 #include "print.h"
 #include "report.h"
 #include "usage.h"
 
-#include <signal.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -142,8 +142,6 @@ static int end_output(int answer) {
 
 int main(int argc, char **argv) {
   (void)hooke_io_own_process(); /* a build without HDF5 needs no guard against it */
-#ifdef SIGXFSZ
-  signal(SIGXFSZ, SIG_IGN); /* a limit on file sizes is reported like every failed write */
-#endif
+  cli_os_begin();
   return end_output(do_words(argc, argv));
 }

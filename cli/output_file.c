@@ -1,25 +1,23 @@
 #include "output_file.h"
 
+#include "os.h"
 #include "report.h"
 #include "setup.h"
 
 #include <errno.h>
 #include <stdio.h>
 #include <string.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 enum { FOLDER_SIZE = 4096 };
 
 int cli_output_file_check(const struct cli_arguments *arguments, const char *flag, const char *file) {
-  struct stat there;
   char folder[FOLDER_SIZE] = ".";
-  const char *slash = strrchr(file, '/');
+  const char *slash = cli_os_last_slash(file);
   if (slash) snprintf(folder, sizeof folder, "%.*s", (int)(slash - file + 1), file);
-  if (access(folder, W_OK) != 0) {
+  if (cli_os_may_write(folder) != 0) {
     return cli_report(arguments, HOOKE_EXIT_IO, "%s %s: cannot write there: %s", flag, file, strerror(errno));
   }
-  if (stat(file, &there) == 0 && !S_ISREG(there.st_mode)) {
+  if (cli_os_is_other_than_file(file)) {
     return cli_report(arguments, HOOKE_EXIT_IO, "%s %s: is not a regular file; name another", flag, file);
   }
   return cli_setup_check_other_file(arguments, file);

@@ -1,6 +1,7 @@
 #include "print.h"
 
 #include "hooke.h"
+#include "os.h"
 
 #include <errno.h>
 #include <float.h>
@@ -142,7 +143,7 @@ int cli_print_flush(void) {
 
 int32_t cli_print_end(FILE *stream, char **text) {
   const int fine = stream && !ferror(stream);
-  if (stream && fclose(stream) == 0 && fine && *text) return HOOKE_OK;
+  if (stream && cli_os_close_text(stream, text) == 0 && fine && *text) return HOOKE_OK;
   free(*text);
   *text = NULL;
   return HOOKE_NO_MEMORY;

@@ -33,7 +33,7 @@ void cli_print_styled(FILE *file, const char *style, const char *text);
  * failure. */
 int cli_print_flush(void);
 
-/* Closes a stream of open_memstream(), which may be NULL. HOOKE_NO_MEMORY, with `text` NULL, unless it holds
+/* Closes a stream of cli_os_open_text(), which may be NULL. HOOKE_NO_MEMORY, with `text` NULL, unless it holds
  * everything. */
 int32_t cli_print_end(FILE *stream, char **text);
 

@@ -1,16 +1,10 @@
-#define _GNU_SOURCE /* F_OFD_GETLK */
 #include "setup.h"
+#include "os.h"
 #include "report.h"
 
-#include <fcntl.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
-#include <unistd.h>
-#ifdef __GLIBC__
-#include <malloc.h>
-#endif
 
 enum { READ_SIZE = 1 << 16 };
 
@@ -40,13 +34,6 @@ static int32_t load(const struct cli_arguments *arguments, hooke_scene **loaded)
                                             : hooke_scene_load(arguments->scene, arguments->limits, loaded);
 }
 
-/* Returns free memory of loading to the system, so that a run does not hold it besides its own. */
-static void give_back(void) {
-#ifdef __GLIBC__
-  malloc_trim(0);
-#endif
-}
-
 int cli_setup_load(const struct cli_arguments *arguments, struct cli_setup *setup) {
   memset(setup, 0, sizeof *setup);
   int32_t status = load(arguments, &setup->scene);
@@ -56,7 +43,7 @@ int cli_setup_load(const struct cli_arguments *arguments, struct cli_setup *setu
   status = cli_arguments_apply(arguments, setup->options);
   if (status == HOOKE_OK) status = hooke_scene_commit(setup->scene);
   if (status != HOOKE_OK) return cli_report_status(arguments, status);
-  give_back();
+  cli_os_give_back_memory(); /* of loading, so that a run does not hold it besides its own */
   setup->system = hooke_scene_system(setup->scene);
   status = hooke_state_create(setup->system, &setup->state);
   return status == HOOKE_OK ? HOOKE_EXIT_DONE : cli_report_status(arguments, status);
@@ -106,27 +93,17 @@ int cli_setup_require(const struct cli_arguments *arguments, const struct cli_se
 
 int cli_setup_check_apart(const struct cli_arguments *arguments, const char *input, const char *what,
                           const char *output) {
-  struct stat in, out;
-  if (output && stat(input, &in) == 0 && stat(output, &out) == 0 && in.st_dev == out.st_dev &&
-      in.st_ino == out.st_ino) {
+  if (output && cli_os_is_same_file(input, output)) {
     return cli_report(arguments, HOOKE_EXIT_USAGE, "%s is %s itself; name another file for the output",
                       output, what);
   }
   return HOOKE_EXIT_DONE;
 }
 
-/* The library refuses such a file, too, but only when it writes it. */
-static int is_written(const char *file) {
-  struct flock lock = {.l_type = F_RDLCK, .l_whence = SEEK_SET};
-  const int descriptor = open(file, O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
-  const int written = descriptor >= 0 && fcntl(descriptor, F_OFD_GETLK, &lock) == 0 && lock.l_type == F_WRLCK;
-  if (descriptor >= 0) close(descriptor);
-  return written;
-}
-
+/* The library refuses a file that is being written, too, but only when it writes it. */
 int cli_setup_check_other_file(const struct cli_arguments *arguments, const char *output) {
   const int code = cli_setup_check_apart(arguments, arguments->scene, "the scene", output);
-  if (code != HOOKE_EXIT_DONE || !output || !is_written(output)) return code;
+  if (code != HOOKE_EXIT_DONE || !output || !cli_os_is_written(output)) return code;
   return cli_report(arguments, HOOKE_EXIT_IO,
                     "%s: another run is writing this file; wait for it to end, or name another file", output);
 }

@@ -1,11 +1,11 @@
 #include "usage.h"
 #include "describe.h"
+#include "os.h"
 #include "print.h"
 #include "report.h"
 
 #include <ctype.h>
 #include <string.h>
-#include <unistd.h>
 
 enum { DOC_COLUMN = 28, WIDTH = 100 };
 
@@ -140,7 +140,6 @@ static void print_part(FILE *file, const char *name, const char *what) {
 }
 
 void cli_usage_print_version(FILE *file) {
-  long threads = sysconf(_SC_NPROCESSORS_ONLN);
   fprintf(file, "hooke %s\n%-13s %d\n", hooke_version(), "ABI", (int)hooke_abi());
   print_part(file, "SUNDIALS", "sundials");
   print_part(file, "CHOLMOD", "cholmod");
@@ -152,6 +151,6 @@ void cli_usage_print_version(FILE *file) {
   print_part(file, "Chart.js", "chartjs");
   print_part(file, "three.js", "threejs");
   print_part(file, "instructions", "instructions");
-  fprintf(file, "%-13s %ld on this machine\n", "threads", threads > 0 ? threads : 1);
+  fprintf(file, "%-13s %d on this machine\n", "threads", (int)cli_os_processors());
   print_part(file, "licence", "licence");
 }

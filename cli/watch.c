@@ -1,5 +1,6 @@
 #include "watch.h"
 
+#include "os.h"
 #include "print.h"
 
 #include <signal.h>
@@ -18,14 +19,6 @@ static void interrupt(int number) {
   interrupted = 1;
 }
 
-static void catch_signal(int number) {
-  struct sigaction action = {.sa_handler = interrupt, .sa_flags = SA_RESTART}; /* writing continues */
-  struct sigaction old;
-  sigemptyset(&action.sa_mask);
-  /* a program started with the signal ignored (nohup, a background job) keeps ignoring it */
-  if (sigaction(number, NULL, &old) == 0 && old.sa_handler != SIG_IGN) sigaction(number, &action, NULL);
-}
-
 static double seconds_since(const struct timespec *from, const struct timespec *now) {
   return (double)(now->tv_sec - from->tv_sec) + 1e-9 * (double)(now->tv_nsec - from->tv_nsec);
 }
@@ -35,9 +28,7 @@ void cli_watch_start(struct cli_watch *watch, const struct cli_arguments *argume
   watch->shown = 0;
   clock_gettime(CLOCK_MONOTONIC, &watch->start);
   watch->last = watch->start;
-  catch_signal(SIGINT);
-  catch_signal(SIGTERM);
-  catch_signal(SIGHUP);
+  cli_os_catch_interrupts(interrupt);
 }
 
 static void print_left(double seconds) {

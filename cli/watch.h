@@ -1,5 +1,4 @@
-/* Handles Ctrl-C, and shows progress with the remaining time on a terminal. The only place where signals are
- * handled. */
+/* Handles Ctrl-C, and shows progress with the remaining time on a terminal. */
 #ifndef HOOKE_CLI_WATCH_H
 #define HOOKE_CLI_WATCH_H
 
@@ -15,7 +14,7 @@ struct cli_watch {
   struct timespec start, last;
 };
 
-/* From here on SIGINT, SIGTERM and SIGHUP set a flag, which stays; repeated signals do not kill. */
+/* From here on a request to end the program sets a flag, which stays; repeated ones do not kill. */
 void cli_watch_start(struct cli_watch *watch, const struct cli_arguments *arguments);
 
 /* Reports the fraction done, 0 to 1, of `what` (NULL: not said); returns 1 if the work is to stop. */

@@ -28,7 +28,11 @@ install(EXPORT hooke_static_targets FILE hooke-static.cmake NAMESPACE hooke:: DE
 
 if(HOOKE_BUILD_CLI)
   file(RELATIVE_PATH to_library ${CMAKE_INSTALL_FULL_BINDIR} ${CMAKE_INSTALL_FULL_LIBDIR})
-  set_target_properties(hooke_cli PROPERTIES INSTALL_RPATH "$ORIGIN/${to_library}")
+  set(own_folder "$ORIGIN")
+  if(APPLE)
+    set(own_folder @loader_path)
+  endif()
+  set_target_properties(hooke_cli PROPERTIES INSTALL_RPATH "${own_folder}/${to_library}")
   install(TARGETS hooke_cli)
 endif()
 if(HOOKE_PAGES_OF_CLI)

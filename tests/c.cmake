@@ -8,17 +8,33 @@ target_compile_definitions(hooke_test_flags INTERFACE
   HOOKE_SOURCE_DIR="${PROJECT_SOURCE_DIR}" ${HOOKE_HAVE_DEFINITIONS}
   HOOKE_CHECK_HANDLES=$<BOOL:${HOOKE_CHECK_HANDLES}>)
 
+# Windows goes without the sources that use what POSIX alone has.
+function(hooke_drop_foreign list)
+  if(WIN32)
+    foreach(source IN LISTS ${list})
+      file(STRINGS ${source} foreign LIMIT_COUNT 1 REGEX
+        "#include <(dirent|dlfcn|fcntl|locale|signal|spawn|sys/.*|unistd)\\.h>|#include \"(file_limit|held)\\.h\"")
+      if(foreign)
+        list(REMOVE_ITEM ${list} ${source})
+      endif()
+    endforeach()
+    set(${list} ${${list}} PARENT_SCOPE)
+  endif()
+endfunction()
+
 file(GLOB support_sources CONFIGURE_DEPENDS support/*.c)
+hooke_drop_foreign(support_sources)
 if(support_sources)
   add_library(hooke_test_support STATIC ${support_sources})
   target_link_libraries(hooke_test_support PRIVATE hooke_test_flags)
-  set_target_properties(hooke_test_support PROPERTIES C_EXTENSIONS OFF)
+  set_target_properties(hooke_test_support PROPERTIES C_EXTENSIONS ${HOOKE_EXTENSIONS})
 endif()
 
 # Tests of a unit see the insides and use the static library; the others use the shared one, as a user does. A suite in
 # a suite (physics/extremes) has the label of the outer one too.
 function(hooke_add_c_tests suite library)
   file(GLOB sources CONFIGURE_DEPENDS ${suite}/test_*.c)
+  hooke_drop_foreign(sources)
   string(REPLACE "/" "_" prefix ${suite})
   string(REPLACE "/" ";" labels ${suite})
   foreach(source IN LISTS sources)
@@ -29,7 +45,7 @@ function(hooke_add_c_tests suite library)
     target_link_libraries(${target} PRIVATE
       hooke_test_flags $<TARGET_NAME_IF_EXISTS:hooke_test_support> ${library} ${HOOKE_CMOCKA_LIBRARY} m)
     target_include_directories(${target} PRIVATE ${ARGN})
-    set_target_properties(${target} PROPERTIES C_EXTENSIONS OFF OUTPUT_NAME ${prefix}_${name})
+    set_target_properties(${target} PROPERTIES C_EXTENSIONS ${HOOKE_EXTENSIONS} OUTPUT_NAME ${prefix}_${name})
     add_test(NAME ${suite}/${name} COMMAND ${target})
     set_tests_properties(${suite}/${name} PROPERTIES LABELS "${labels}" TIMEOUT ${HOOKE_TEST_TIMEOUT} ENVIRONMENT OPENBLAS_NUM_THREADS=1)
   endforeach()
@@ -39,12 +55,26 @@ hooke_add_c_tests(unit hooke_static ${PROJECT_SOURCE_DIR}/src)
 # Loops of every instruction set in turn, in place of the best that the machine has.
 target_link_options(hooke_test_unit_instruction_sets PRIVATE LINKER:--wrap=hk_spring_set)
 # A file system where readers and runs share one kind of lock.
-target_link_options(hooke_test_unit_output_lock PRIVATE LINKER:--wrap=flock)
+if(TARGET hooke_test_unit_output_lock)
+  target_link_options(hooke_test_unit_output_lock PRIVATE LINKER:--wrap=flock)
+endif()
 # Sees how many threads are in HDF5.
 target_link_options(hooke_test_unit_hdf5_alone PRIVATE LINKER:--wrap=H5Fopen)
 get_property(unit_tests DIRECTORY PROPERTY BUILDSYSTEM_TARGETS)
 list(FILTER unit_tests INCLUDE REGEX "^hooke_test_unit_")
 add_custom_target(hooke_unit_tests DEPENDS ${unit_tests})
+if(WIN32) # where a program finds the library beside itself
+  add_executable(hooke_windows_states windows/states.c)
+  add_executable(hooke_long_bits long/bits.c)
+  target_link_libraries(hooke_long_bits PRIVATE hooke_test_flags hooke_test_support ${HOOKE_CMOCKA_LIBRARY})
+  foreach(target hooke_windows_states hooke_long_bits)
+    target_link_libraries(${target} PRIVATE hooke hooke_flags)
+    set_target_properties(${target} PROPERTIES C_EXTENSIONS ON RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR})
+  endforeach()
+  set_target_properties(hooke_windows_states PROPERTIES OUTPUT_NAME states)
+  set_target_properties(hooke_long_bits PROPERTIES OUTPUT_NAME bits)
+  return()
+endif()
 hooke_add_c_tests(physics hooke)
 hooke_add_c_tests(physics/extremes hooke)
 hooke_add_c_tests(determinism hooke)

@@ -1,5 +1,5 @@
-# The libraries of the playground, compiled for it from sources that Debian distributes. An archive is downloaded once:
-# what is in build/downloads and has the right checksum is taken.
+# The libraries of the playground and of Windows, compiled for them from sources that Debian distributes. An archive is
+# downloaded once: what is in build/downloads and has the right checksum is taken.
 set(HOOKE_POOL http://deb.debian.org/debian/pool/main CACHE STRING "Debian's archives")
 mark_as_advanced(HOOKE_POOL)
 
@@ -16,11 +16,11 @@ set(jansson ${PROJECT_BINARY_DIR}/sources/jansson-2.14)
 file(COPY ${jansson}/android/jansson_config.h DESTINATION ${jansson}/src)
 file(CONFIGURE OUTPUT ${jansson}/src/jansson_private_config.h CONTENT "")
 file(GLOB sources ${jansson}/src/*.c)
-add_library(playground_jansson STATIC ${sources})
-target_include_directories(playground_jansson PRIVATE ${jansson}/src)
-target_compile_definitions(playground_jansson PRIVATE HAVE_STDINT_H HAVE_SYS_TYPES_H)
+add_library(hooke_jansson STATIC ${sources})
+target_include_directories(hooke_jansson PRIVATE ${jansson}/src)
+target_compile_definitions(hooke_jansson PRIVATE HAVE_STDINT_H HAVE_SYS_TYPES_H)
 set(HOOKE_JANSSON_INCLUDE_DIR ${jansson}/src CACHE PATH "")
-set(HOOKE_LIBRARY_jansson playground_jansson CACHE STRING "" FORCE)
+set(HOOKE_LIBRARY_jansson hooke_jansson CACHE STRING "" FORCE)
 mark_as_advanced(HOOKE_JANSSON_INCLUDE_DIR HOOKE_LIBRARY_jansson)
 
 # Without f2c predictions are not built.
@@ -28,9 +28,21 @@ include(${CMAKE_CURRENT_LIST_DIR}/lapack/library.cmake)
 if(HOOKE_F2C AND HOOKE_F2C_HEADER)
   hooke_source(l/lapack lapack_3.11.0.orig.tar.gz 4b9ba79bfd4921ca820e83979db76ab3363155709444a787979e81c22285ffa9)
   set(lapack ${PROJECT_BINARY_DIR}/f2c)
-  hooke_add_lapack(playground_lapack ${PROJECT_BINARY_DIR}/sources/lapack-3.11.0 ${lapack})
+  hooke_add_lapack(hooke_lapack ${PROJECT_BINARY_DIR}/sources/lapack-3.11.0 ${lapack})
   file(WRITE ${lapack}/lapack.pc "Version: 3.11.0\n")
   set(HOOKE_LAPACK_VERSION_FILE ${lapack}/lapack.pc CACHE FILEPATH "" FORCE)
-  set(HOOKE_LIBRARY_lapack playground_lapack CACHE STRING "" FORCE)
+  set(HOOKE_LIBRARY_lapack hooke_lapack CACHE STRING "" FORCE)
   mark_as_advanced(HOOKE_LAPACK_VERSION_FILE HOOKE_LIBRARY_lapack)
+endif()
+
+# The tests in C run under Windows, too.
+if(WIN32 AND HOOKE_BUILD_TESTS)
+  hooke_source(c/cmocka cmocka_1.1.5.orig.tar.xz f0ccd8242d55e2fd74b16ba518359151f6f8383ff8aef4976e48393f77bba8b6)
+  set(cmocka ${PROJECT_BINARY_DIR}/sources/cmocka-1.1.5)
+  add_library(hooke_cmocka STATIC ${cmocka}/src/cmocka.c)
+  target_include_directories(hooke_cmocka PRIVATE ${cmocka}/include)
+  target_compile_definitions(hooke_cmocka PRIVATE HAVE_SIGNAL_H)
+  target_compile_options(hooke_cmocka PRIVATE -w)
+  set(HOOKE_CMOCKA_INCLUDE_DIR ${cmocka}/include CACHE PATH "" FORCE)
+  set(HOOKE_CMOCKA_LIBRARY hooke_cmocka CACHE STRING "" FORCE)
 endif()

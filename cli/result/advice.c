@@ -1,4 +1,5 @@
 #include "advice.h"
+#include "os.h"
 #include "print.h"
 #include "report.h"
 
@@ -54,7 +55,7 @@ int32_t cli_advice_command(const struct cli_arguments *arguments, const hooke_me
   const int32_t was_picked = cli_arguments_text(arguments, "want") != NULL;
   if (status == HOOKE_OK && was_picked && changes_any(changes)) status = add_chosen(why, changes);
   if (status == HOOKE_OK && collect(changes, settings, text) > 0) {
-    FILE *stream = open_memstream(command, &size);
+    FILE *stream = cli_os_open_text(command, &size);
     if (stream) cli_report_command(stream, arguments, "run", settings);
     status = cli_print_end(stream, command);
   }

@@ -1,22 +1,11 @@
 #include "peak.h"
 
+#include "os.h"
 #include "report.h"
 
-#include <inttypes.h>
-#include <stdio.h>
-
-/* From /proc/self/status, which counts from the start of this program; getrusage() includes the caller's
- * memory before it. */
 struct cli_peak cli_peak_look(void) {
   struct cli_peak peak = {0, 0};
-  char line[256];
-  int64_t kilobytes;
-  FILE *file = fopen("/proc/self/status", "r");
-  while (file && fgets(line, sizeof line, file)) {
-    if (sscanf(line, "VmHWM: %" SCNd64, &kilobytes) == 1) peak.most = 1024 * kilobytes;
-    if (sscanf(line, "VmRSS: %" SCNd64, &kilobytes) == 1) peak.now = 1024 * kilobytes;
-  }
-  if (file) fclose(file);
+  cli_os_memory(&peak.now, &peak.most);
   return peak;
 }
 

@@ -41,7 +41,8 @@ static int read_state(struct limit *l, const char *at) {
         at);
   }
   hooke_record *record = NULL;
-  char *file = strndup(at, colon ? (size_t)(colon - at) : strlen(at));
+  char *file = strdup(at);
+  if (file && colon) file[colon - at] = '\0';
   if (!file) return cli_report(l->arguments, HOOKE_EXIT_BAD_INPUT, "out of memory");
   const char *report = cli_arguments_text(l->arguments, "report");
   const int code = cli_setup_check_apart(l->arguments, file, "the trajectory of --at", report);

@@ -1,5 +1,6 @@
 /* hooke make: writes the scene of one part, from the options of the part. */
 #include "describe.h"
+#include "os.h"
 #include "output_file.h"
 #include "print.h"
 #include "report.h"
@@ -132,8 +133,9 @@ static int check_run(const struct make *make) {
 /* Reads the written text as every verb will. */
 static int read_back(struct make *make) {
   const char *name = make->output ? make->output : "standard output";
-  const char *slash = make->output ? strrchr(make->output, '/') : NULL;
-  char *folder = slash ? strndup(make->output, (size_t)(slash - make->output + 1)) : strdup(".");
+  const char *slash = make->output ? cli_os_last_slash(make->output) : NULL;
+  char *folder = strdup(slash ? make->output : ".");
+  if (folder && slash) folder[slash - make->output + 1] = '\0';
   if (!folder) return cli_report(make->arguments, HOOKE_EXIT_BAD_INPUT, "out of memory");
   int32_t status = hooke_scene_of_system(make->system, hooke_options_text(make->arguments->more, "title"),
                                          make->run, name, folder, &make->scene);

@@ -1,6 +1,7 @@
 /* hooke needs: the ingredients that a scene needs for a wanted accuracy, and a lean scene without the rest.
  */
 #include "needs_results.h"
+#include "os.h"
 #include "output_file.h"
 #include "print.h"
 #include "report.h"
@@ -47,7 +48,7 @@ static int find(struct cli_needs_results *results, int32_t *stopped) {
 /* HOOKE_NO_MEMORY */
 static int32_t make_command(const char *file, char **command) {
   size_t size;
-  FILE *stream = open_memstream(command, &size);
+  FILE *stream = cli_os_open_text(command, &size);
   if (stream) {
     fputs("hooke run ", stream);
     cli_print_quoted(stream, file);

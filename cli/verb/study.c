@@ -1,4 +1,5 @@
 /* hooke study: accuracy and cost of each method on a scene, and a recommendation. */
+#include "os.h"
 #include "output_file.h"
 #include "print.h"
 #include "report.h"
@@ -100,7 +101,7 @@ static int32_t find_command(struct cli_study_results *results) {
                                    {NULL, NULL}};
   /* the study sets it to the number of atol, for any scene */
   if (hooke_options_is_set(results->setup.options, "atol_velocity")) settings[4].text = settings[3].text;
-  FILE *stream = open_memstream(&results->command, &size);
+  FILE *stream = cli_os_open_text(&results->command, &size);
   if (stream) cli_report_command(stream, results->arguments, "run", settings);
   return cli_print_end(stream, &results->command);
 }

@@ -1,4 +1,5 @@
 /* hooke view: writes a trajectory as a page that plays it. */
+#include "os.h"
 #include "output_file.h"
 #include "print.h"
 #include "report.h"
@@ -7,16 +8,12 @@
 
 #include <inttypes.h>
 #include <math.h>
-#include <spawn.h>
-#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
 enum { MOST_VIEWS = 8 };
-
-extern char **environ;
 
 static double number_of(const hooke_measurement *view, const char *what) {
   return hooke_measurement_number(view, "view", 0, what);
@@ -92,22 +89,15 @@ static char *output_of(const struct cli_arguments *arguments) {
   const char *given = cli_arguments_text(arguments, "output"), *input = arguments->scene;
   if (given) return strdup(given);
   if (strcmp(input, "-") == 0) input = "scene";
-  const char *slash = strrchr(input, '/'), *dot = strrchr(slash ? slash : input, '.');
+  const char *slash = cli_os_last_slash(input), *dot = strrchr(slash ? slash : input, '.');
   const size_t length = dot ? (size_t)(dot - input) : strlen(input);
   char *path = malloc(length + sizeof ".html");
   if (path) snprintf(path, length + sizeof ".html", "%.*s.html", (int)length, input);
   return path;
 }
 
-/* With the reader's browser, which stays when hooke ends. */
 static void open_page(const struct cli_arguments *arguments, const char *page) {
-  const char *own = getenv("BROWSER");
-  const char *const programs[] = {own && own[0] ? own : "xdg-open", "xdg-open", "open"};
-  pid_t child;
-  for (size_t k = 0; k < sizeof programs / sizeof programs[0]; k++) {
-    char *words[] = {(char *)(uintptr_t)programs[k], (char *)(uintptr_t)page, NULL};
-    if (posix_spawnp(&child, programs[k], NULL, NULL, words, environ) == 0) return;
-  }
+  if (cli_os_show_page(page)) return;
   cli_report_words(arguments, "there is no program to open it with; open %s in a browser", page);
 }
 

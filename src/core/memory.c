@@ -1,8 +1,8 @@
 #include "core/memory.h"
 #include "core/keep_errno.h"
+#include "core/os.h"
 #include "core/status.h"
 
-#include <stdlib.h>
 #include <string.h>
 
 enum { ALIGNMENT = 64 };
@@ -21,7 +21,7 @@ void *hk_reserve(int64_t count, size_t size) {
     no_memory(count, size);
     return NULL;
   }
-  void *block = aligned_alloc(ALIGNMENT, whole_lines(count, size));
+  void *block = hk_os_allocate(ALIGNMENT, whole_lines(count, size));
   if (block == NULL) no_memory(count, size);
   return block;
 }
@@ -45,11 +45,11 @@ char *hk_copy_text(const char *text) {
   HOOKE_KEEP_ERRNO;
   if (text == NULL) text = "";
   const size_t size = strlen(text) + 1;
-  char *copy = malloc(size);
+  char *copy = hk_os_allocate(0, size);
   if (copy == NULL) no_memory((int64_t)size, 1);
   return copy ? memcpy(copy, text, size) : NULL;
 }
 
 void hk_free(void *block) {
-  free(block);
+  hk_os_free(block);
 }

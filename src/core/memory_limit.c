@@ -1,19 +1,14 @@
 #include "core/memory_limit.h"
 
+#include "core/os.h"
 #include "core/print.h"
 #include "core/status.h"
 
 #include <math.h>
 #include <stdio.h>
-#include <sys/resource.h>
-#include <unistd.h>
 
 double hk_memory_limit(const char **which) {
-  const long pages = sysconf(_SC_PHYS_PAGES), page = sysconf(_SC_PAGESIZE);
-  const double physical = pages > 0 && page > 0 ? (double)pages * (double)page : (double)INFINITY;
-  struct rlimit space;
-  const int limited = getrlimit(RLIMIT_AS, &space) == 0 && space.rlim_cur != RLIM_INFINITY;
-  const double allowed = limited ? (double)space.rlim_cur : (double)INFINITY;
+  const double physical = hk_os_physical_memory(), allowed = hk_os_address_limit();
   if (which) *which = allowed < physical ? "the limit on the address space" : "physical memory";
   return fmin(physical, allowed);
 }

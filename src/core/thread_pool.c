@@ -1,17 +1,14 @@
 /* Workers meet at a barrier before and after each task: the first one starts it, the second ends it. Threads
  * inherit the rounding mode and the treatment of denormals of the thread that creates the pool; later changes
  * there do not affect them. */
-#if defined(__linux__)
-#define _GNU_SOURCE /* sched_getaffinity() */
-#endif
 #include "core/thread_pool.h"
 
 #include "core/memory.h"
+#include "core/os.h"
 #include "core/status.h"
 
 #include <pthread.h>
 #include <sched.h>
-#include <signal.h>
 #include <stdatomic.h>
 #include <unistd.h>
 
@@ -48,12 +45,7 @@ static inline void relax(void) {
 }
 
 int32_t hk_pool_processors(void) {
-#if defined(__linux__)
-  cpu_set_t set;
-  if (sched_getaffinity(0, sizeof set, &set) == 0) return (int32_t)CPU_COUNT(&set);
-#endif
-  const long count = sysconf(_SC_NPROCESSORS_ONLN);
-  return count > 0 ? (int32_t)count : 1;
+  return hk_os_processors();
 }
 
 /* ---- the barrier ---- */
@@ -115,19 +107,14 @@ static void *serve(void *arg) {
   }
 }
 
-/* Starts threads with all signals blocked, so that handlers run in the caller's threads. Returns fewer than
- * requested if the system has no more. */
+/* Starts fewer threads than requested if the system has no more. */
 static void start(struct hk_pool *pool, int32_t workers) {
-  sigset_t all, kept;
-  sigfillset(&all);
   pthread_mutex_lock(&pool->mutex);
-  pthread_sigmask(SIG_SETMASK, &all, &kept);
   for (pool->workers = 1; pool->workers < workers; pool->workers++) {
     struct seat *seat = &pool->seat[pool->workers - 1];
     *seat = (struct seat){.pool = pool, .worker = pool->workers};
-    if (pthread_create(&seat->thread, NULL, serve, seat) != 0) break;
+    if (hk_os_start_thread(&seat->thread, serve, seat) != 0) break;
   }
-  pthread_sigmask(SIG_SETMASK, &kept, NULL);
   pool->spins = pool->workers <= hk_pool_processors() ? SPINS : 0;
   pthread_mutex_unlock(&pool->mutex);
 }

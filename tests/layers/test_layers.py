@@ -45,6 +45,17 @@ def test_planted_number():
     assert rules.locale_complaints("src/io/file/text.c", "hk_print" + call[8:]) == []
 
 
+def test_systems_are_fenced():
+    complaints = [c for path, text in tree(".c", ".h") for c in rules.system_complaints(path, text)]
+    assert not complaints, "\n".join(complaints)
+
+
+def test_planted_system():
+    line = "#if defined(__APPLE__)\n"
+    assert rules.system_complaints("src/io/file/bytes.c", line) and rules.system_complaints("cli/main.c", line)
+    assert rules.system_complaints("src/core/os_file_posix.c", line) == []
+
+
 def test_fences_do_not_leak():
     complaints = rules.leak_complaints(dict(tree(".c", ".h")))
     assert not complaints, "\n".join(complaints)
@@ -94,6 +105,9 @@ def test_every_layer_and_public_header_is_known():
         ("src/measure/spectrum/eigen.c", "#include <lapack.h>"),
         ("src/model/system.c", "#include <mpi.h>"),
         ("src/model/system.c", "#include <cmocka.h>"),
+        ("src/io/file/bytes.c", "#include <sys/stat.h>"),
+        ("cli/watch.c", "#include <fcntl.h>"),
+        ("cli/os_posix.c", "#include <windows.h>"),
         ("include/hooke/trajectory.h", "#include <hdf5.h>"),
         ("include/hooke/base.h", "#include <stdbool.h>"),
         ("include/hooke/base.h", '#include "core/status.h"'),

@@ -15,9 +15,10 @@ import sanitizers
 import soak
 import want
 import wheels
+import windows
 from steps import load, main, write_figures
 
-PARTS = {part.PART.name: part.PART for part in (soak, fuzz, fuzz_hdf5, sanitizers, arm64, want, wheels)}
+PARTS = {part.PART.name: part.PART for part in (soak, fuzz, fuzz_hdf5, sanitizers, arm64, windows, want, wheels)}
 
 if __name__ == "__main__":
     option, *names = sys.argv[1:] or [""]

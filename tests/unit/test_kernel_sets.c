@@ -2,6 +2,7 @@
 #include "check.h"
 #include "random.h"
 
+#include "core/memory.h"
 #include "kernel/tiled_loops.h"
 #include "kernel/spring_loops.h"
 
@@ -500,7 +501,7 @@ static void test_nets_agree(void **unused) {
   (void)unused;
   struct random_source source = {31};
   struct trial *trial = new_block(1, (int64_t)sizeof *trial);
-  struct net_trial *tiled = aligned_alloc(64, (sizeof *tiled + 63) / 64 * 64);
+  struct net_trial *tiled = hk_new(1, sizeof *tiled);
   assert_non_null(tiled);
   const struct hk_spring_set *set;
   for (int32_t shape = 0; shape < HOOKE_TILED_SHAPES; shape++) {
@@ -526,7 +527,7 @@ static void test_nets_agree(void **unused) {
     }
   }
   free(trial);
-  free(tiled);
+  hk_free(tiled);
 }
 
 static void test_sets_agree(void **unused) {

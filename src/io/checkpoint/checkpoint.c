@@ -4,6 +4,7 @@
 #include "core/crc32.h"
 #include "core/keep_errno.h"
 #include "core/memory.h"
+#include "core/os_file.h"
 #include "core/status.h"
 #include "io/file/bytes.h"
 #include "io/checkpoint/checkpoint_file.h"
@@ -11,10 +12,8 @@
 #include "io/file/atomic_file.h"
 
 #include <errno.h>
-#include <fcntl.h>
 #include <stdio.h>
 #include <string.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 enum { CHUNK = 1024 };
@@ -142,12 +141,12 @@ static int32_t read_end(const char *path, FILE *file, uint32_t check) {
 /* Nothing is allocated before the length of the file is known to match the size of the problem. */
 static int32_t read_open(const char *path, FILE *file, const hooke_integrator *it, struct found *found) {
   unsigned char bytes[HOOKE_CHECKPOINT_HEADER];
-  struct stat there;
+  struct hk_os_file there;
   uint32_t check = 0;
-  if (fstat(fileno(file), &there) != 0) return hk_file_fail(path, "read the file", errno);
+  if (hk_os_look_open(fileno(file), &there) != 0) return hk_file_fail(path, "read the file", errno);
   if (!read_some(file, &check, bytes, sizeof bytes)) return damaged(path, "is cut off");
   hk_checkpoint_unpack(bytes, &found->header);
-  const char *damage = hk_checkpoint_damage(&found->header, there.st_size);
+  const char *damage = hk_checkpoint_damage(&found->header, there.bytes);
   if (damage) return damaged(path, damage);
   const int64_t size = found->header.size;
   if (size != it->size || found->header.has_v != (it->system != NULL)) {
@@ -200,7 +199,8 @@ static int32_t find(const char *path, const char *run, const hooke_integrator *i
   snprintf(first, sizeof first, "%s", hooke_last_error());
   drop(found);
   const int32_t second = hk_file_beside(path, ".previous", &previous);
-  const int there = second == HOOKE_OK && access(previous, F_OK) == 0;
+  struct hk_os_file older;
+  const int there = second == HOOKE_OK && hk_os_look(previous, &older) == 0;
   if (there) {
     status = read_file(previous, run, it, found);
     if (status != HOOKE_OK) hk_fail_before(status, "%s; ", first);
@@ -242,7 +242,7 @@ int32_t hooke_checkpoint_read(const char *path, const char *run, hooke_integrato
 
 void hk_checkpoint_remove(const char *path) {
   char *previous = NULL;
-  unlink(path);
-  if (hk_file_beside(path, ".previous", &previous) == HOOKE_OK) unlink(previous);
+  hk_os_remove(path);
+  if (hk_file_beside(path, ".previous", &previous) == HOOKE_OK) hk_os_remove(previous);
   hk_free(previous);
 }

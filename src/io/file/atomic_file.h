@@ -5,8 +5,6 @@
 
 #include "hooke/base.h"
 
-#include <sys/types.h>
-
 /* Fails with "path: could not <what>: reason"; `error` is an errno. HOOKE_IO_FAILED, HOOKE_NO_MEMORY for
  * ENOMEM. */
 int32_t hk_file_fail(const char *path, const char *what, int error);
@@ -24,7 +22,7 @@ struct hk_atomic_file {
   int32_t locked;  /* against other runs */
   int32_t is_new;  /* no file had the name when a run began */
   int older;       /* the file to be replaced, locked until then; -1: none */
-  pid_t process;   /* process that made it: a forked one has the same descriptors, and leaves files alone */
+  int64_t process; /* process that made it: a forked one has the same descriptors, and leaves files alone */
 };
 
 /* Initial value, which may be released. */

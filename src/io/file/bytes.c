@@ -1,12 +1,13 @@
 #include "io/file/bytes.h"
 
+#include "core/os_file.h"
+
 #include <errno.h>
-#include <unistd.h>
 
 int hk_bytes_write(int descriptor, int64_t at, int64_t count, const void *bytes) {
   const char *rest = bytes;
   while (count > 0) {
-    const ssize_t done = pwrite(descriptor, rest, (size_t)count, (off_t)at);
+    const int64_t done = hk_os_write_at(descriptor, at, count, rest);
     if (done < 0 && errno == EINTR) continue;
     if (done <= 0) return done < 0 ? errno : ENOSPC;
     rest += done;
@@ -19,7 +20,7 @@ int hk_bytes_write(int descriptor, int64_t at, int64_t count, const void *bytes)
 int hk_bytes_read(int descriptor, int64_t at, int64_t count, void *bytes) {
   char *rest = bytes;
   while (count > 0) {
-    const ssize_t done = pread(descriptor, rest, (size_t)count, (off_t)at);
+    const int64_t done = hk_os_read_at(descriptor, at, count, rest);
     if (done < 0 && errno == EINTR) continue;
     if (done <= 0) return done < 0 ? errno : EIO;
     rest += done;

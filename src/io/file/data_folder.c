@@ -1,41 +1,33 @@
-#define _GNU_SOURCE /* dladdr */
 #include "io/file/data_folder.h"
 
 #include "core/keep_errno.h"
+#include "core/os.h"
+#include "core/os_file.h"
 #include "core/print.h"
 #include "core/status.h"
 
-#include <dlfcn.h>
 #include <errno.h>
-#include <limits.h>
 #include <stdio.h>
-#include <string.h>
 
 /* Paths relative to the folder of the library or, if it is linked statically, of the program: the build tree
  * and the Python package, an installation (CMake knows where its libraries are), a program beside lib. An
  * installation may be moved. */
 static const char *const near_library[] = {"share/hooke", HOOKE_DATA_FROM_LIBRARY, "../share/hooke"};
-enum { NEAR_COUNT = sizeof near_library / sizeof near_library[0] };
+enum { NEAR_COUNT = sizeof near_library / sizeof near_library[0], PATH_SIZE = 4096 };
 
-/* The folder that this code was loaded from; "." if it was started by a bare name. */
-static void find_own_folder(char *folder, size_t size) {
-  static const char here = 0;
-  Dl_info info;
-  const char *file = dladdr(&here, &info) != 0 && info.dli_fname ? info.dli_fname : "";
-  const char *slash = strrchr(file, '/');
-  snprintf(folder, size, "%.*s", slash ? (int)(slash - file) : 1, slash ? file : ".");
-}
-
+/* The folder that this code was loaded from is "" if it was started by a bare name. */
 static FILE *open_data(const char *name) {
-  char folder[PATH_MAX], path[2 * PATH_MAX];
-  find_own_folder(folder, sizeof folder);
+  char own[PATH_SIZE], path[2 * PATH_SIZE];
+  hk_os_own_file(own, sizeof own);
+  const char *slash = hk_os_last_slash(own);
+  const int length = slash ? (int)(slash - own) + 1 : 0;
   for (int k = 0; k < NEAR_COUNT; k++) {
-    snprintf(path, sizeof path, "%s/%s/%s", folder, near_library[k], name);
-    FILE *file = fopen(path, "rb");
+    snprintf(path, sizeof path, "%.*s%s/%s", length, own, near_library[k], name);
+    FILE *file = hk_os_fopen(path);
     if (file || errno == ENOMEM) return file;
   }
   snprintf(path, sizeof path, "%s/%s", HOOKE_DATA_INSTALLED, name);
-  return fopen(path, "rb");
+  return hk_os_fopen(path);
 }
 
 int32_t hk_data_folder_read(const char *name, struct hk_text *text) {

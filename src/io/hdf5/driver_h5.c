@@ -4,6 +4,7 @@
 #if HOOKE_HAVE_HDF5
 
 #include "io/file/bytes.h"
+#include "core/os_file.h"
 #include "io/hdf5/driver_h5.h"
 
 #if H5_VERSION_GE(1, 13, 0)
@@ -12,8 +13,6 @@
 
 #include <errno.h>
 #include <string.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 struct driven {
   H5FD_t pub; /* must be first, by HDF5's rules */
@@ -33,19 +32,19 @@ static void keep(struct driven *f, int error) {
 
 static H5FD_t *open_file(const char *name, unsigned flags, hid_t list, haddr_t longest) {
   const struct setting *setting = H5Pget_driver_info(list);
-  struct stat there;
+  struct hk_os_file there;
   (void)name, (void)flags, (void)longest;
   if (setting == NULL) return NULL;
   struct driven *f = hk_new(1, sizeof *f);
   if (f == NULL) return NULL;
   f->error = setting->error;
   f->descriptor = setting->descriptor;
-  if (fstat(f->descriptor, &there) != 0) {
+  if (hk_os_look_open(f->descriptor, &there) != 0) {
     keep(f, errno);
     hk_free(f);
     return NULL;
   }
-  f->size = (haddr_t)there.st_size;
+  f->size = (haddr_t)there.bytes;
   return &f->pub;
 }
 
@@ -55,12 +54,12 @@ static herr_t close_file(H5FD_t *file) {
 }
 
 static int compare_files(const H5FD_t *a, const H5FD_t *b) {
-  struct stat one, other;
-  if (fstat(((const struct driven *)a)->descriptor, &one) != 0 ||
-      fstat(((const struct driven *)b)->descriptor, &other) != 0)
+  struct hk_os_file one, other;
+  if (hk_os_look_open(((const struct driven *)a)->descriptor, &one) != 0 ||
+      hk_os_look_open(((const struct driven *)b)->descriptor, &other) != 0)
     return a < b ? -1 : a > b;
-  if (one.st_dev != other.st_dev) return one.st_dev < other.st_dev ? -1 : 1;
-  return one.st_ino < other.st_ino ? -1 : one.st_ino > other.st_ino;
+  if (one.device != other.device) return one.device < other.device ? -1 : 1;
+  return one.number < other.number ? -1 : one.number > other.number;
 }
 
 /* Like HDF5's own driver of plain files, so that the layout of files is the same. */
@@ -120,7 +119,7 @@ static herr_t cut_file(H5FD_t *file, hid_t list, hbool_t closing) {
   struct driven *f = (struct driven *)file;
   (void)list, (void)closing;
   if (f->end == f->size) return 0;
-  if (*f->error == 0 && ftruncate(f->descriptor, (off_t)f->end) != 0) keep(f, errno);
+  if (*f->error == 0 && hk_os_set_length(f->descriptor, (int64_t)f->end) != 0) keep(f, errno);
   f->size = f->end;
   return 0;
 }

@@ -5,6 +5,7 @@
 #if HOOKE_HAVE_HDF5
 
 #include "io/hdf5/driver_h5.h"
+#include "core/os_file.h"
 #include "io/hdf5/file_h5.h"
 #include "io/hdf5/object_h5.h"
 #include "io/file/atomic_file.h"
@@ -12,12 +13,9 @@
 #include "core/memory.h"
 
 #include <errno.h>
-#include <fcntl.h>
 #include <pthread.h>
 #include <stdio.h>
 #include <string.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 /* ---- errors ---- */
 
@@ -97,9 +95,8 @@ int32_t hk_h5_fail(const struct hk_h5_guard *guard, const char *path, const char
 static int32_t try_room(const char *path, int descriptor, double bytes) {
   char what[64];
   hk_print(what, sizeof what, "make room for %.3g MB", bytes / 1e6);
-  int error = bytes < 9e18 ? posix_fallocate(descriptor, 0, (off_t)bytes) : EFBIG;
-  if (error == EINVAL || error == ENOTSUP) error = 0; /* unsupported by this file system */
-  if (ftruncate(descriptor, 0) != 0 && error == 0) error = errno;
+  int error = bytes < 9e18 ? hk_os_take_room(descriptor, (int64_t)bytes) : EFBIG;
+  if (hk_os_set_length(descriptor, 0) != 0 && error == 0) error = errno;
   return error ? hk_file_fail(path, what, error) : HOOKE_OK;
 }
 
@@ -131,9 +128,8 @@ int32_t hk_h5_file_create_locked(struct hk_h5_guard *guard, const char *path, do
 static int32_t take_room(struct hk_h5_guard *guard, const struct hk_h5_file *file) {
   hsize_t bytes = 0;
   if (H5Fget_filesize(file->id, &bytes) < 0) return hk_h5_fail(guard, file->atomic.path, "write");
-  const int error = posix_fallocate(file->atomic.descriptor, 0, (off_t)bytes);
-  if (error == 0 || error == EINVAL || error == ENOTSUP) return HOOKE_OK; /* may be unsupported */
-  return hk_file_fail(file->atomic.path, "make room for all frames", error);
+  const int error = hk_os_take_room(file->atomic.descriptor, (int64_t)bytes);
+  return error ? hk_file_fail(file->atomic.path, "make room for all frames", error) : HOOKE_OK;
 }
 
 /* Whatever happens, HDF5 does not use the file afterwards. */
@@ -158,7 +154,7 @@ int32_t hk_h5_file_publish(struct hk_h5_file *file) {
 
 int32_t hk_h5_file_close(struct hk_h5_file *file) {
   int32_t status = hk_file_is(file->atomic.path, file->atomic.descriptor);
-  if (status == HOOKE_OK && fsync(file->atomic.descriptor) != 0)
+  if (status == HOOKE_OK && hk_os_sync(file->atomic.descriptor) != 0)
     status = hk_file_fail(file->atomic.path, "bring the data to the disk", errno);
   const int32_t closed = hk_atomic_file_close(&file->atomic);
   return status == HOOKE_OK ? closed : status;
@@ -183,8 +179,8 @@ int32_t hk_h5_file_open(struct hk_h5_guard *guard, const struct hk_h5_file *file
 }
 
 double hk_h5_file_bytes(const struct hk_h5_file *file) {
-  struct stat now;
-  return fstat(file->atomic.descriptor, &now) == 0 ? (double)now.st_size : 0.0;
+  struct hk_os_file now;
+  return hk_os_look_open(file->atomic.descriptor, &now) == 0 ? (double)now.bytes : 0.0;
 }
 
 void hk_h5_file_release(struct hk_h5_file *file) {

@@ -3,6 +3,7 @@
 #include "io/page/view_bodies.h"
 
 #include "core/memory.h"
+#include "core/os_file.h"
 #include "core/status.h"
 #include "hooke/scene.h"
 #include "io/page/base64.h"
@@ -24,7 +25,7 @@
 /* Title and upward direction of the scene; none if the scene can no longer be read. */
 static void add_scene(struct hk_text *data, const struct hk_view *view, const char *title) {
   hooke_scene *scene = NULL;
-  const char *path = hk_record_path(view->record), *slash = strrchr(path, '/');
+  const char *path = hk_record_path(view->record), *slash = hk_os_last_slash(path);
   const double *gravity = NULL;
   int32_t status =
       hooke_record_text(view->record, "scene")[0] ? hooke_scene_load(path, NULL, &scene) : HOOKE_BAD_VALUE;

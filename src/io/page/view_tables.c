@@ -8,7 +8,7 @@ struct line {
       particles_there, damaged, time_first, time_last, strain, strain_low, strain_high;
 };
 
-static double finite(double number) {
+static double if_finite(double number) {
   return isfinite(number) ? number : (double)NAN;
 }
 
@@ -25,11 +25,11 @@ static void read(const void *object, int64_t row, void *line) {
                                        .particles = (double)view->particles,
                                        .particles_there = (double)view->particles_there,
                                        .damaged = (double)view->damaged,
-                                       .time_first = finite(view->time[0]),
-                                       .time_last = finite(view->time[view->frames_there - 1]),
-                                       .strain = finite(view->strain),
-                                       .strain_low = finite(view->strain_low),
-                                       .strain_high = finite(view->strain_high)};
+                                       .time_first = if_finite(view->time[0]),
+                                       .time_last = if_finite(view->time[view->frames_there - 1]),
+                                       .strain = if_finite(view->strain),
+                                       .strain_low = if_finite(view->strain_low),
+                                       .strain_high = if_finite(view->strain_high)};
 }
 
 #define COLUMN(member, kind, units, text) HOOKE_COLUMN(struct line, member, kind, units, text)

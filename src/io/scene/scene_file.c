@@ -2,6 +2,8 @@
 
 #include "core/keep_errno.h"
 #include "core/memory.h"
+#include "core/os.h"
+#include "core/os_file.h"
 #include "core/table/option.h"
 #include "core/print.h"
 #include "core/memory_limit.h"
@@ -10,7 +12,6 @@
 
 #include <errno.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -79,7 +80,7 @@ int32_t hk_scene_read_file(const char *path, struct hk_json_guard *guard, char *
 }
 
 char *hk_scene_folder(const char *path) {
-  const char *slash = strrchr(path, '/');
+  const char *slash = hk_os_last_slash(path);
   if (slash == NULL) return hk_copy_text(".");
   if (slash == path) return hk_copy_text("/");
   char *folder = hk_copy_text(path);
@@ -102,7 +103,7 @@ static int is_inside(const char *folder, const char *path) {
 }
 
 int32_t hk_scene_find_any(const char *folder, const char *file, char **path) {
-  const char *base = file[0] == '/' ? "" : folder ? folder : ".";
+  const char *base = hk_os_is_absolute(file) ? "" : folder ? folder : ".";
   const size_t room = strlen(base) + strlen(file) + 2;
   *path = hk_new((int64_t)room, 1);
   if (*path) snprintf(*path, room, "%s%s%s", base, base[0] ? "/" : "", file);
@@ -117,7 +118,7 @@ int32_t hk_scene_find_file(const char *folder, const char *file, char **path) {
   if (folder == NULL)
     return hk_fail(HOOKE_BAD_VALUE, NULL,
                    "\"%s\" is not allowed; this scene has no folder to take files from", shown);
-  if (file[0] == '\0' || file[0] == '/' || climbs(file))
+  if (file[0] == '\0' || hk_os_is_absolute(file) || climbs(file))
     return hk_fail(
         HOOKE_BAD_VALUE, NULL,
         "\"%s\" is not allowed; allowed: a path inside the scene's folder, relative and without ..", shown);
@@ -125,8 +126,8 @@ int32_t hk_scene_find_file(const char *folder, const char *file, char **path) {
   char *joined = hk_new((int64_t)room, 1);
   if (joined == NULL) return HOOKE_NO_MEMORY;
   snprintf(joined, room, "%s/%s", folder, file);
-  char *real_folder = realpath(folder, NULL);
-  char *real_file = real_folder ? realpath(joined, NULL) : NULL;
+  char *real_folder = hk_os_real_path(folder);
+  char *real_file = real_folder ? hk_os_real_path(joined) : NULL;
   int32_t status = HOOKE_OK;
   if (real_file == NULL && errno == ENOMEM)
     status = hk_fail(HOOKE_NO_MEMORY, NULL, "no memory to find the file");
@@ -139,8 +140,8 @@ int32_t hk_scene_find_file(const char *folder, const char *file, char **path) {
                      "\"%s\" leads out of the scene's folder; allowed: a file inside it", shown);
   else if ((*path = hk_copy_text(real_file)) == NULL)
     status = HOOKE_NO_MEMORY;
-  free(real_folder);
-  free(real_file);
+  hk_os_free(real_folder);
+  hk_os_free(real_file);
   hk_free(joined);
   return status;
 }

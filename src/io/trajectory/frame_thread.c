@@ -1,10 +1,10 @@
 #include "io/trajectory/frame_thread.h"
 
 #include "core/memory.h"
+#include "core/os.h"
 #include "model/state.h"
 
 #include <pthread.h>
-#include <signal.h>
 
 struct hk_frame_thread {
   const struct hk_frame_file *file;
@@ -37,16 +37,6 @@ static void *work(void *own) {
   return NULL;
 }
 
-/* Signals are handled by the threads of the program. */
-static int start(struct hk_frame_thread *thread) {
-  sigset_t all, before;
-  sigfillset(&all);
-  pthread_sigmask(SIG_SETMASK, &all, &before);
-  const int error = pthread_create(&thread->thread, NULL, work, thread);
-  pthread_sigmask(SIG_SETMASK, &before, NULL);
-  return error;
-}
-
 struct hk_frame_thread *hk_frame_thread_create(const struct hk_frame_file *file, int64_t first) {
   struct hk_frame_thread *thread = hk_new(1, sizeof *thread);
   if (thread == NULL) return NULL;
@@ -54,7 +44,9 @@ struct hk_frame_thread *hk_frame_thread_create(const struct hk_frame_file *file,
   thread->written = first;
   pthread_mutex_init(&thread->mutex, NULL);
   pthread_cond_init(&thread->changed, NULL);
-  if (hooke_state_create(file->system, &thread->state) == HOOKE_OK && start(thread) == 0) return thread;
+  if (hooke_state_create(file->system, &thread->state) == HOOKE_OK &&
+      hk_os_start_thread(&thread->thread, work, thread) == 0)
+    return thread;
   pthread_cond_destroy(&thread->changed);
   pthread_mutex_destroy(&thread->mutex);
   hooke_state_destroy(thread->state);

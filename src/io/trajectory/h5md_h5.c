@@ -5,17 +5,17 @@
 #if HOOKE_HAVE_HDF5
 
 #include "io/file/bytes.h"
+#include "core/os_file.h"
+#include "core/print.h"
 #include "io/trajectory/error_h5.h"
 #include "io/trajectory/h5md_h5.h"
 #include "io/hdf5/object_h5.h"
 #include "io/file/atomic_file.h"
 
 #include <errno.h>
-#include <fcntl.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
-#include <unistd.h>
 
 const char *const hk_error_number[HOOKE_ERROR_COUNT] = {
     "estimate", "known_from", "known_until", "energy_rise", "wanted", "met", "heat_excess"};
@@ -99,14 +99,11 @@ herr_t hk_h5md_describe(hid_t file, const char *method, const hooke_options *opt
 }
 
 int32_t hk_h5md_new_run(char run[HOOKE_RUN_SIZE]) {
-  static const char source[] = "/dev/urandom";
   unsigned char random[(HOOKE_RUN_SIZE - 1) / 2];
-  const int descriptor = open(source, O_RDONLY | O_CLOEXEC);
-  if (descriptor < 0) return hk_file_fail(source, "take a random number for the run from it", errno);
-  const ssize_t got = read(descriptor, random, sizeof random);
-  const int error = got == (ssize_t)sizeof random ? 0 : got < 0 ? errno : EIO;
-  close(descriptor);
-  if (error) return hk_file_fail(source, "take a random number for the run from it", error);
+  char reason[HOOKE_ERROR_SIZE];
+  if (hk_os_random(random, sizeof random) != 0)
+    return hk_fail(HOOKE_IO_FAILED, NULL, "could not take a random number for the run: %s",
+                   hk_print_error(errno, reason));
   for (size_t k = 0; k < sizeof random; k++)
     snprintf(run + 2 * k, 3, "%02x", random[k]);
   return HOOKE_OK;

@@ -3,6 +3,7 @@
 
 #include "core/status.h"
 #include "io/file/atomic_file.h"
+#include "io/file/bytes.h"
 
 #include <string.h>
 #include <unistd.h>
@@ -12,9 +13,9 @@ int32_t hk_record_is_one(const char *path) {
   char begin[sizeof signature] = {0};
   const int file = hk_file_open(path);
   if (file < 0) return 0;
-  const ssize_t got = read(file, begin, sizeof begin);
+  const int error = hk_bytes_read(file, 0, sizeof begin, begin);
   close(file);
-  return got == (ssize_t)sizeof begin && memcmp(begin, signature, sizeof begin) == 0;
+  return error == 0 && memcmp(begin, signature, sizeof begin) == 0;
 }
 
 int32_t hk_record_require_run(const hooke_record *record) {

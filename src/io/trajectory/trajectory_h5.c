@@ -2,6 +2,7 @@
 #include "core/handle.h"
 #include "core/keep_errno.h"
 #include "core/memory.h"
+#include "core/os_file.h"
 #include "core/status.h"
 #include "hooke/trajectory.h"
 
@@ -15,7 +16,6 @@
 #include <errno.h>
 #include <stdio.h>
 #include <string.h>
-#include <unistd.h>
 
 int32_t hooke_io_own_process(void) {
   if (H5dont_atexit() >= 0) return HOOKE_OK;
@@ -175,7 +175,7 @@ int32_t hooke_trajectory_sync(hooke_trajectory *trajectory) {
   const int error = trajectory->thread ? hk_frame_thread_wait(trajectory->thread) : 0;
   if (error) return fail_frame(trajectory, trajectory->taken - 1, error);
   /* a second sync does not report data that a failed one lost */
-  return fsync(trajectory->file.atomic.descriptor) == 0
+  return hk_os_sync(trajectory->file.atomic.descriptor) == 0
              ? HOOKE_OK
              : fail(trajectory, "bring the data to the disk", errno);
 }
@@ -211,8 +211,8 @@ static int copy_all(const hooke_trajectory *trajectory, const struct hk_h5_copy 
   return error ? error : hk_h5md_write_status(made->file.atomic.descriptor, made->status_at, outcome);
 }
 
-int32_t hk_trajectory_remake(struct hk_h5_guard *guard, const hooke_trajectory *trajectory,
-                             int64_t frame_count, int64_t copied, int32_t outcome, hooke_trajectory *made) {
+int32_t hk_trajectory_remake(struct hk_h5_guard *guard, hooke_trajectory *trajectory, int64_t frame_count,
+                             int64_t copied, int32_t outcome, hooke_trajectory *made) {
   const char *path = trajectory->file.atomic.path, *what = "make it again for another number of frames";
   const double bytes = hk_h5_file_bytes(&trajectory->file) -
                        hk_trajectory_writer_bytes_after(&trajectory->writer, frame_count);
@@ -228,7 +228,10 @@ int32_t hk_trajectory_remake(struct hk_h5_guard *guard, const hooke_trajectory *
   const int error = status == HOOKE_OK ? copy_all(trajectory, &copy, copied, outcome, made) : 0;
   hk_h5_copy_release(&copy);
   if (error) return hk_file_fail(path, what, error);
-  return status == HOOKE_OK ? hk_h5_file_publish(&made->file) : status;
+  if (status != HOOKE_OK) return status;
+  made->file.atomic.older = trajectory->file.atomic.descriptor;
+  trajectory->file.atomic.descriptor = -1;
+  return hk_h5_file_publish(&made->file);
 }
 
 /* Replaces the file by one with exactly the written frames. */

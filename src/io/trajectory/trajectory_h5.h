@@ -29,8 +29,9 @@ hooke_trajectory *hk_trajectory_new(void);
 void hk_trajectory_release(hooke_trajectory *trajectory);
 
 /* Replaces the file by one with space for `frame_count` frames, with the first `copied` of them and this
- * outcome. `made` is the new one. HOOKE_IO_FAILED, HOOKE_NO_MEMORY. */
-int32_t hk_trajectory_remake(struct hk_h5_guard *guard, const hooke_trajectory *trajectory,
-                             int64_t frame_count, int64_t copied, int32_t outcome, hooke_trajectory *made);
+ * outcome. `made` is the new one, and `trajectory` can only be released afterwards. HOOKE_IO_FAILED,
+ * HOOKE_NO_MEMORY. */
+int32_t hk_trajectory_remake(struct hk_h5_guard *guard, hooke_trajectory *trajectory, int64_t frame_count,
+                             int64_t copied, int32_t outcome, hooke_trajectory *made);
 
 #endif

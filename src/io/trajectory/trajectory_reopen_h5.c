@@ -11,12 +11,8 @@
 #include "io/file/atomic_file.h"
 #include "io/trajectory/trajectory_h5.h"
 
-#include <errno.h>
-#include <fcntl.h>
 #include <stdio.h>
 #include <string.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 /* ---- existing objects ---- */
 

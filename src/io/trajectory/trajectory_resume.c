@@ -1,16 +1,17 @@
 /* Continues the run of a trajectory: finds the point, and opens the file for the missing frames. */
 #include "core/keep_errno.h"
 #include "core/memory.h"
+#include "core/os_file.h"
 #include "core/print.h"
 #include "core/status.h"
 #include "integrate/loop/run_loop.h"
 #include "io/checkpoint/checkpoint_file.h"
 #include "io/checkpoint/checkpoint_form.h"
 #include "io/file/atomic_file.h"
+#include "io/file/bytes.h"
 #include "io/trajectory/record.h"
 #include "io/trajectory/trajectory.h"
 
-#include <fcntl.h>
 #include <stdio.h>
 #include <string.h>
 #include <unistd.h>
@@ -96,11 +97,11 @@ static int32_t follow(const struct going *going, int64_t frames) {
   hooke_integrator *it = going->integrator;
   const int64_t place = hooke_record_place(going->record, "position"),
                 bytes = it->size * (int64_t)sizeof(double);
-  const int descriptor = place < 0 ? -1 : open(going->path, O_RDONLY | O_CLOEXEC);
+  const int descriptor = place < 0 ? -1 : hk_os_open(going->path);
   int32_t status = HOOKE_OK;
   for (int64_t k = 1; k < frames && status == HOOKE_OK; k++) {
     const int there =
-        descriptor >= 0 && pread(descriptor, going->state->q, (size_t)bytes, place + k * bytes) == bytes;
+        descriptor >= 0 && hk_bytes_read(descriptor, place + k * bytes, bytes, going->state->q) == 0;
     if (!there) status = hooke_record_read(going->record, k, going->state);
     if (status == HOOKE_OK) hk_divergence_follow(it, going->state);
   }

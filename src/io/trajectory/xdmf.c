@@ -2,6 +2,8 @@
 #include "core/keep_errno.h"
 #include "core/memory.h"
 #include "core/number.h"
+#include "core/os.h"
+#include "core/os_file.h"
 #include "core/print.h"
 #include "core/status.h"
 #include "hooke/trajectory.h"
@@ -12,10 +14,8 @@
 
 #include <ctype.h>
 #include <errno.h>
-#include <fcntl.h>
 #include <stdarg.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -141,19 +141,20 @@ static int32_t check_name(const char *name) {
  */
 static int32_t find_name(struct companion *c, const char *path) {
   HOOKE_KEEP_ERRNO;
-  const char *there = hk_record_path(c->record), *slash = strrchr(there, '/'), *own = strrchr(path, '/');
+  const char *there = hk_record_path(c->record), *slash = hk_os_last_slash(there),
+             *own = hk_os_last_slash(path);
   const int64_t folder = slash ? slash - there : -1;
   char *real = NULL;
   const char *name = slash ? slash + 1 : there;
   if (folder != (own ? own - path : -1) || (slash && strncmp(there, path, (size_t)folder) != 0)) {
-    real = realpath(there, NULL);
+    real = hk_os_real_path(there);
     if (real == NULL) return hk_file_fail(there, "follow the path", errno);
     name = real;
   }
   int32_t status = check_name(name);
   if (status == HOOKE_OK) c->file = quote(name);
   if (status == HOOKE_OK && c->file == NULL) status = HOOKE_NO_MEMORY;
-  free(real);
+  hk_os_free(real);
   return status;
 }
 
@@ -179,9 +180,9 @@ static int32_t name_beside(const char *there, char **name) {
 static int32_t check_replaced(const char *path) {
   static const char head[] = "<?xml";
   char begin[sizeof head] = {0};
-  const int descriptor = open(path, O_RDONLY | O_CLOEXEC);
+  const int descriptor = hk_os_open(path);
   if (descriptor < 0) return errno == ENOENT ? HOOKE_OK : hk_file_fail(path, "look what is there", errno);
-  const ssize_t got = read(descriptor, begin, sizeof head - 1);
+  const int64_t got = hk_os_read_at(descriptor, 0, sizeof head - 1, begin);
   const int error = errno;
   close(descriptor);
   if (got < 0) return hk_file_fail(path, "look what is there", error);

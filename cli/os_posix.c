@@ -1,0 +1,113 @@
+#define _GNU_SOURCE /* F_OFD_GETLK */
+#include "os.h"
+
+#include <fcntl.h>
+#include <inttypes.h>
+#include <signal.h>
+#include <spawn.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
+
+extern char **environ;
+
+void cli_os_begin(void) {
+#ifdef SIGXFSZ
+  signal(SIGXFSZ, SIG_IGN); /* a limit on file sizes is reported like every failed write */
+#endif
+}
+
+static void catch_signal(int number, void (*interrupt)(int)) {
+  struct sigaction action = {.sa_handler = interrupt, .sa_flags = SA_RESTART}; /* writing continues */
+  struct sigaction old;
+  sigemptyset(&action.sa_mask);
+  /* a program started with the signal ignored (nohup, a background job) keeps ignoring it */
+  if (sigaction(number, NULL, &old) == 0 && old.sa_handler != SIG_IGN) sigaction(number, &action, NULL);
+}
+
+void cli_os_catch_interrupts(void (*interrupt)(int number)) {
+  catch_signal(SIGINT, interrupt);
+  catch_signal(SIGTERM, interrupt);
+  catch_signal(SIGHUP, interrupt);
+}
+
+int32_t cli_os_processors(void) {
+  const long count = sysconf(_SC_NPROCESSORS_ONLN);
+  return count > 0 ? (int32_t)count : 1;
+}
+
+/* From /proc/self/status, which counts from the start of this program; getrusage() includes the caller's
+ * memory before it. */
+void cli_os_memory(int64_t *now, int64_t *most) {
+  char line[256];
+  int64_t kilobytes;
+  FILE *file = fopen("/proc/self/status", "r");
+  while (file && fgets(line, sizeof line, file)) {
+    if (sscanf(line, "VmHWM: %" SCNd64, &kilobytes) == 1) *most = 1024 * kilobytes;
+    if (sscanf(line, "VmRSS: %" SCNd64, &kilobytes) == 1) *now = 1024 * kilobytes;
+  }
+  if (file) fclose(file);
+}
+
+void cli_os_give_back_memory(void) {
+#ifdef __GLIBC__
+  malloc_trim(0);
+#endif
+}
+
+/* ---- files ---- */
+
+const char *cli_os_last_slash(const char *path) {
+  return strrchr(path, '/');
+}
+
+int32_t cli_os_is_same_file(const char *one, const char *other) {
+  struct stat first, second;
+  return stat(one, &first) == 0 && stat(other, &second) == 0 && first.st_dev == second.st_dev &&
+         first.st_ino == second.st_ino;
+}
+
+int32_t cli_os_is_other_than_file(const char *path) {
+  struct stat there;
+  return stat(path, &there) == 0 && !S_ISREG(there.st_mode);
+}
+
+int cli_os_may_write(const char *folder) {
+  return access(folder, W_OK);
+}
+
+#if !defined(F_OFD_GETLK) /* systems without such locks */
+#define F_OFD_GETLK (-1)
+#endif
+
+int32_t cli_os_is_written(const char *path) {
+  struct flock lock = {.l_type = F_RDLCK, .l_whence = SEEK_SET};
+  const int descriptor = open(path, O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
+  const int written = descriptor >= 0 && fcntl(descriptor, F_OFD_GETLK, &lock) == 0 && lock.l_type == F_WRLCK;
+  if (descriptor >= 0) close(descriptor);
+  return written;
+}
+
+FILE *cli_os_open_text(char **text, size_t *size) {
+  return open_memstream(text, size);
+}
+
+int cli_os_close_text(FILE *stream, char **text) {
+  (void)text;
+  return fclose(stream);
+}
+
+int32_t cli_os_show_page(const char *page) {
+  const char *own = getenv("BROWSER");
+  const char *const programs[] = {own && own[0] ? own : "xdg-open", "xdg-open", "open"};
+  pid_t child;
+  for (size_t k = 0; k < sizeof programs / sizeof programs[0]; k++) {
+    char *words[] = {(char *)(uintptr_t)programs[k], (char *)(uintptr_t)page, NULL};
+    if (posix_spawnp(&child, programs[k], NULL, NULL, words, environ) == 0) return 1;
+  }
+  return 0;
+}

@@ -1,0 +1,129 @@
+#include "os.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <io.h>
+#include <signal.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <windows.h>
+/* after windows.h */
+#include <psapi.h>
+#include <shellapi.h>
+
+void cli_os_begin(void) {
+  static const DWORD streams[] = {STD_OUTPUT_HANDLE, STD_ERROR_HANDLE};
+  for (int k = 0; k < 2; k++) {
+    DWORD mode;
+    HANDLE stream = GetStdHandle(streams[k]);
+    if (!GetConsoleMode(stream, &mode)) continue;
+    SetConsoleMode(stream, mode | ENABLE_VIRTUAL_TERMINAL_PROCESSING);
+    SetConsoleOutputCP(CP_UTF8);
+  }
+  _setmode(0, _O_BINARY);
+  _setmode(1, _O_BINARY);
+  _setmode(2, _O_BINARY);
+}
+
+static void (*on_interrupt)(int number);
+
+static BOOL WINAPI hear(DWORD event) {
+  if (event != CTRL_C_EVENT && event != CTRL_BREAK_EVENT) return FALSE;
+  on_interrupt(SIGINT);
+  return TRUE;
+}
+
+void cli_os_catch_interrupts(void (*interrupt)(int number)) {
+  on_interrupt = interrupt;
+  SetConsoleCtrlHandler(hear, TRUE);
+}
+
+int32_t cli_os_processors(void) {
+  SYSTEM_INFO info;
+  GetSystemInfo(&info);
+  return info.dwNumberOfProcessors > 0 ? (int32_t)info.dwNumberOfProcessors : 1;
+}
+
+void cli_os_memory(int64_t *now, int64_t *most) {
+  PROCESS_MEMORY_COUNTERS memory = {.cb = sizeof memory};
+  if (!K32GetProcessMemoryInfo(GetCurrentProcess(), &memory, sizeof memory)) return;
+  *now = (int64_t)memory.WorkingSetSize;
+  *most = (int64_t)memory.PeakWorkingSetSize;
+}
+
+void cli_os_give_back_memory(void) {
+}
+
+/* ---- files ---- */
+
+const char *cli_os_last_slash(const char *path) {
+  const char *forward = strrchr(path, '/'), *back = strrchr(path, '\\');
+  return back > forward ? back : forward;
+}
+
+static HANDLE open_file(const char *path, DWORD access) {
+  return CreateFileA(path, access, FILE_SHARE_READ | FILE_SHARE_WRITE | FILE_SHARE_DELETE, NULL,
+                     OPEN_EXISTING, FILE_FLAG_BACKUP_SEMANTICS, NULL);
+}
+
+static int look(const char *path, BY_HANDLE_FILE_INFORMATION *there) {
+  HANDLE file = open_file(path, FILE_READ_ATTRIBUTES);
+  const int found = file != INVALID_HANDLE_VALUE && GetFileInformationByHandle(file, there);
+  if (file != INVALID_HANDLE_VALUE) CloseHandle(file);
+  return found;
+}
+
+int32_t cli_os_is_same_file(const char *one, const char *other) {
+  BY_HANDLE_FILE_INFORMATION first, second;
+  return look(one, &first) && look(other, &second) &&
+         first.dwVolumeSerialNumber == second.dwVolumeSerialNumber &&
+         first.nFileIndexHigh == second.nFileIndexHigh && first.nFileIndexLow == second.nFileIndexLow;
+}
+
+int32_t cli_os_is_other_than_file(const char *path) {
+  struct stat there;
+  return stat(path, &there) == 0 && !S_ISREG(there.st_mode);
+}
+
+int cli_os_may_write(const char *folder) {
+  return _access(folder, 2);
+}
+
+/* The lock is on the last byte that there could be. */
+int32_t cli_os_is_written(const char *path) {
+  OVERLAPPED place = {.Offset = MAXDWORD, .OffsetHigh = MAXDWORD};
+  HANDLE file = open_file(path, GENERIC_READ);
+  if (file == INVALID_HANDLE_VALUE) return 0;
+  const int written =
+      !LockFileEx(file, LOCKFILE_FAIL_IMMEDIATELY, 0, 1, 0, &place) && GetLastError() == ERROR_LOCK_VIOLATION;
+  CloseHandle(file);
+  return written;
+}
+
+/* A file that is removed when it is closed. */
+FILE *cli_os_open_text(char **text, size_t *size) {
+  char folder[MAX_PATH + 1], path[MAX_PATH + 1];
+  *text = NULL;
+  *size = 0;
+  if (GetTempPathA(sizeof folder, folder) == 0 || GetTempFileNameA(folder, "hk", 0, path) == 0) return NULL;
+  return fopen(path, "w+bD");
+}
+
+int cli_os_close_text(FILE *stream, char **text) {
+  const long length = fflush(stream) == 0 ? ftell(stream) : -1;
+  char *whole = length >= 0 ? malloc((size_t)length + 1) : NULL;
+  rewind(stream);
+  if (whole && fread(whole, 1, (size_t)length, stream) == (size_t)length) {
+    whole[length] = '\0';
+    *text = whole;
+  } else {
+    free(whole);
+  }
+  fclose(stream);
+  return *text ? 0 : -1;
+}
+
+int32_t cli_os_show_page(const char *page) {
+  return (intptr_t)ShellExecuteA(NULL, "open", page, NULL, NULL, SW_SHOWNORMAL) > 32;
+}

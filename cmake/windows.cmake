@@ -1,0 +1,15 @@
+# Compiles for Windows, x86-64, with Debian's gcc-mingw-w64-x86-64-posix; programs run under wine64. The libraries of the
+# compiler are linked in.
+set(CMAKE_SYSTEM_NAME Windows)
+set(CMAKE_SYSTEM_PROCESSOR x86_64)
+set(CMAKE_C_COMPILER x86_64-w64-mingw32-gcc-posix)
+set(CMAKE_RC_COMPILER x86_64-w64-mingw32-windres)
+find_program(HOOKE_WINE NAMES wine64 wine64-stable wine PATHS /usr/lib/wine)
+mark_as_advanced(HOOKE_WINE)
+set(CMAKE_CROSSCOMPILING_EMULATOR ${HOOKE_WINE})
+set(CMAKE_FIND_ROOT_PATH /usr/x86_64-w64-mingw32)
+set(CMAKE_FIND_ROOT_PATH_MODE_INCLUDE ONLY)
+set(CMAKE_FIND_ROOT_PATH_MODE_LIBRARY ONLY)
+set(CMAKE_FIND_ROOT_PATH_MODE_PACKAGE ONLY)
+set(CMAKE_EXE_LINKER_FLAGS_INIT -static)
+set(CMAKE_SHARED_LINKER_FLAGS_INIT -static)
