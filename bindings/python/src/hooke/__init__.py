@@ -43,7 +43,7 @@ from .verify import Verification, verify
 from .view import view, write_xdmf
 from .why import Why, why
 
-__version__ = "0.2.0"
+__version__: str = build_facts()["version"]
 
 __all__ = [
     "BadCall",
