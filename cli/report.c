@@ -30,20 +30,26 @@ int cli_refusal(const struct cli_arguments *arguments) {
   return arguments->verb->takes_kind ? HOOKE_EXIT_BAD_INPUT : HOOKE_EXIT_USAGE;
 }
 
-/* Each line of a message, and below it the place of the scene that it names. */
+/* With the place of the scene that a message names below it. */
 static void say(const struct cli_arguments *arguments, const char *style, const char *message) {
-  char begin[WORD_SIZE], line[MESSAGE_SIZE];
+  char begin[WORD_SIZE];
   snprintf(begin, sizeof begin, "hooke %s:", arguments->verb->name);
-  for (; *message; message += strspn(message, "\n")) {
-    const size_t length = strcspn(message, "\n");
-    snprintf(line, sizeof line, "%.*s", (int)length, message);
-    message += length;
-    cli_print_styled(stderr, style, begin);
-    fputc(' ', stderr);
-    cli_print_text(stderr, line);
-    fputc('\n', stderr);
-    if (arguments->scene) cli_excerpt_print(stderr, arguments->scene, line);
-  }
+  cli_print_styled(stderr, style, begin);
+  fputc(' ', stderr);
+  cli_print_text(stderr, message);
+  fputc('\n', stderr);
+  if (arguments->scene) cli_excerpt_print(stderr, arguments->scene, message);
+}
+
+static int report_json(const struct cli_arguments *arguments, int code, const char *message) {
+  struct cli_json json;
+  if (!arguments->json) return code;
+  cli_json_begin(&json, stdout);
+  cli_json_open(&json, "error", '{');
+  cli_json_count(&json, "exit", code);
+  cli_json_text(&json, "message", message);
+  cli_json_end(&json);
+  return code;
 }
 
 int cli_report(const struct cli_arguments *arguments, int code, const char *format, ...) {
@@ -53,20 +59,20 @@ int cli_report(const struct cli_arguments *arguments, int code, const char *form
   vsnprintf(message, sizeof message, format, args);
   va_end(args);
   say(arguments, HOOKE_RED, message);
-  if (arguments->json) {
-    struct cli_json json;
-    cli_json_begin(&json, stdout);
-    cli_json_open(&json, "error", '{');
-    cli_json_count(&json, "exit", code);
-    cli_json_text(&json, "message", message);
-    cli_json_end(&json);
-  }
-  return code;
+  return report_json(arguments, code, message);
 }
 
+/* The library's message has a line for each fault of a scene; in other ones a line end is foreign text. */
 int cli_report_status(const struct cli_arguments *arguments, int32_t status) {
-  const char *message = hooke_last_error();
-  return cli_report(arguments, cli_exit_code(status), "%s", message[0] ? message : hooke_status_name(status));
+  const char *message = hooke_last_error()[0] ? hooke_last_error() : hooke_status_name(status);
+  char line[MESSAGE_SIZE];
+  for (const char *at = message; *at; at += strspn(at, "\n")) {
+    const size_t length = strcspn(at, "\n");
+    snprintf(line, sizeof line, "%.*s", (int)length, at);
+    say(arguments, HOOKE_RED, line);
+    at += length;
+  }
+  return report_json(arguments, cli_exit_code(status), message);
 }
 
 void cli_report_words(const struct cli_arguments *arguments, const char *format, ...) {

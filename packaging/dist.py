@@ -10,11 +10,12 @@ import uuid
 from datetime import datetime, timezone
 from pathlib import Path
 
-import hooke
 from cyclonedx.contrib.license.factories import LicenseFactory
 from cyclonedx.model.bom import Bom
 from cyclonedx.model.component import Component, ComponentType
 from cyclonedx.output.json import JsonV1Dot5
+
+import hooke
 
 ROOT = Path(__file__).resolve().parent.parent
 LICENCES = {

@@ -14,7 +14,7 @@ module hooke_integrators
   implicit none
   private
   public :: hooke_integrator
-  public :: method_count, method_name, method_summary, method_is_adaptive, method_is_built
+  public :: method_count, method_name, method_meant, method_summary, method_is_adaptive, method_is_built
 
   integer, parameter :: of_rate = 1, of_frames = 2, of_steps = 3, of_warnings = 4, of_checkpoints = 5, &
     of_progress = 6, of_coordinates = 7
@@ -60,6 +60,13 @@ contains
     integer, intent(in) :: number
     character(:), allocatable :: text
     text = to_text(c_method_name(zero_based(number)))
+  end function
+
+  ! The method that a word means: itself, or that of another common name; several to choose from ("euler"); "" if none.
+  function method_meant(word) result(text)
+    character(*), intent(in) :: word
+    character(:), allocatable :: text
+    text = to_text(c_method_meant(to_c(word)))
   end function
 
   ! One-line description of a method; "" if there is no such name.

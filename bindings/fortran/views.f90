@@ -3,7 +3,7 @@ module hooke_views
   use, intrinsic :: iso_c_binding, only: c_double, c_int32_t, c_int64_t, c_ptr
   use hooke_base, only: accept, to_c, to_c_if
   use hooke_c_measurement, only: c_measurement_destroy, c_measurement_label, c_measurement_number, c_measurement_write
-  use hooke_c_trajectory, only: c_view_create
+  use hooke_c_trajectory, only: c_view_add, c_view_create
   use hooke_handles, only: hooke_handle
   use hooke_option_tables, only: hooke_options, options_or_null
   use hooke_trajectories, only: hooke_record
@@ -14,6 +14,7 @@ module hooke_views
   type, extends(hooke_handle) :: hooke_view
   contains
     procedure :: create
+    procedure :: add
     procedure :: write => write_page
     procedure :: number
     procedure, private :: assign
@@ -34,6 +35,16 @@ contains
     code = c_view_create(record%address(), options_or_null(options), view)
     if (code == 0) call self%take(view, c_measurement_destroy, record)
     call accept(code, status)
+  end subroutine
+
+  ! Shows another one beside it on its page; that one has to live until the page is written.
+  subroutine add(self, other, status)
+    class(hooke_view), intent(inout) :: self
+    class(hooke_view), intent(in) :: other
+    integer, intent(out), optional :: status
+    if (self%is_missing(status)) return
+    if (other%is_missing(status)) return
+    call accept(c_view_add(self%address(), other%address()), status)
   end subroutine
 
   ! Writes the page; without a `title` its heading is that of the scene.

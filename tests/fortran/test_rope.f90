@@ -66,6 +66,7 @@ contains
       call expect(twin_rope(method // c_null_char, q, v) == 0, method // " runs in C")
       call expect(same_count([state%q, state%v], [q, v]) == 54, method // " gives the same bits")
       call expect(integrator%count("steps") > 0, method // " counts its steps")
+      call expect(hooke_method_meant(method) == method, method // " means itself")
       call expect(len(hooke_method_summary(method)) > 10, method // " has a summary")
     end do
     call expect(fixed == 9, "the nine methods of fixed step ran")

@@ -17,9 +17,9 @@ contains
   subroutine show()
     type(hooke_record) :: record
     type(hooke_options) :: options
-    type(hooke_view) :: view
+    type(hooke_view) :: view, beside
     logical :: there
-    integer :: status
+    integer :: status, bytes
     call write_one()
     call record%open(output("shown.h5"))
     call record%write_xdmf(output("shown.xdmf"))
@@ -32,9 +32,14 @@ contains
     if (status == hooke_not_built) return
     call expect(status == hooke_ok .and. nint(view%number("particles")) == 2, "two particles are shown")
     call expect(ieee_is_nan(view%number("no such number")), "and numbers that there are")
+    call beside%create(record, options)
     call record%destroy()
     call view%write(output("shown.html"), "an oscillator")
     call expect(view%number("bytes") > 1000, "as a page")
+    call view%add(beside)
+    call view%write(output("shown.html"))
+    inquire (file=output("shown.html"), size=bytes)
+    call expect(bytes > view%number("bytes") + beside%number("bytes"), "with another beside it")
   end subroutine
 
   subroutine write_one()

@@ -36,8 +36,10 @@ def view(
     angle. Keywords: the maximum number of `frames` and `springs`, and the maximum `size` of the page [MB]; the page
     states what is omitted.
     """
-    alone = isinstance(trajectory, (str, os.PathLike)) or not isinstance(trajectory, Sequence)
-    sources = [_file_of(one) for one in ([trajectory] if alone else trajectory)]
+    if isinstance(trajectory, Sequence) and not isinstance(trajectory, str):
+        sources = [_file_of(one) for one in trajectory]
+    else:
+        sources = [_file_of(trajectory)]
     if output is None and len(sources) != 1:
         raise BadValue("output: is required for several trajectories")
     page = Path(os.fspath(output)) if output is not None else sources[0].with_suffix(".html")
