@@ -183,7 +183,7 @@ int cli_report_unknown_method(const struct cli_arguments *arguments, const char 
   snprintf(name, sizeof name, "%.*s", (int)(length < sizeof name ? length : sizeof name - 1), word);
   cli_report_methods(list, sizeof list);
   const char *near = hooke_method_meant(name);
-  const int several = near[0] != '\0';
+  const int several = strchr(near, ' ') != NULL;
   if (!several) near = cli_suggest(name, next_method, NULL);
   return cli_report(arguments, cli_refusal(arguments), "--%s: there is no method '%s'%s%s%s%s; methods: %s",
                     flag, name, near ? ", did you mean " : "", several ? "one of " : "", near ? near : "",

@@ -102,7 +102,9 @@ int cli_setup_check_apart(const struct cli_arguments *arguments, const char *inp
 
 /* The library refuses a file that is being written, too, but only when it writes it. */
 int cli_setup_check_other_file(const struct cli_arguments *arguments, const char *output) {
-  const int code = cli_setup_check_apart(arguments, arguments->scene, "the scene", output);
+  int code = cli_setup_check_apart(arguments, arguments->scene, "the scene", output);
+  for (int32_t k = 0; k < arguments->more_count && code == HOOKE_EXIT_DONE; k++)
+    code = cli_setup_check_apart(arguments, arguments->more_scenes[k], "one of the inputs", output);
   if (code != HOOKE_EXIT_DONE || !output || !cli_os_is_written(output)) return code;
   return cli_report(arguments, HOOKE_EXIT_IO,
                     "%s: another run is writing this file; wait for it to end, or name another file", output);

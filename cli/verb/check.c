@@ -77,7 +77,7 @@ static void warn_of_missing_times(struct check *check) {
   char text[HOOKE_DOC_SIZE];
   const int some = hooke_options_is_set(run, "method") || hooke_options_is_set(run, "step") ||
                    hooke_options_is_set(run, "duration");
-  if (some && cli_setup_missing(&check->setup, hooke_options_text(check->setup.options, "method"), text))
+  if (some && cli_setup_missing(&check->setup, hooke_options_text(run, "method"), text))
     warn(check, "%s", text);
 }
 

@@ -243,6 +243,25 @@ def test_what_is_refused(hooke, write, tmp_path):
     assert not (tmp_path / "page.html").exists()
 
 
+@needs_view
+def test_several_are_refused_before_anything_is_written(hooke, cloth, tmp_path):
+    paths, content = [tmp_path / f"{k}.h5" for k in range(9)], (tmp_path / cloth).read_bytes()
+    for path in paths:
+        path.write_bytes(content)
+    first, second = paths[:2]
+    for words, message in [
+        ((first, second, "-o", second), "is one of the inputs itself"),
+        ((first, second), "several trajectories need -o"),
+        ((*paths, "-o", "page.html"), "9 trajectories at once; allowed: up to 8"),
+        ((first, second, "-o", "page.html", "--step", "1e-4"), "leave out the options of a run"),
+    ]:
+        answer = hooke("view", *words)
+        assert answer.code == 2 and message in answer.err
+    assert second.read_bytes() == content and not (tmp_path / "page.html").exists()
+    told = hooke("view", first, second, "-o", "page.html", "--json").json
+    assert [view["trajectory"] for view in told["views"]] == [str(first), str(second)] and told["output"] == "page.html"
+
+
 def test_help(hooke):
     answer = hooke("view", "--help")
     assert answer.code == 0 and "usage: hooke view SCENE [options]" in answer.out
