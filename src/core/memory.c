@@ -1,6 +1,6 @@
 #include "core/memory.h"
 #include "core/keep_errno.h"
-#include "core/os.h"
+#include "core/os/os.h"
 #include "core/status.h"
 
 #include <string.h>

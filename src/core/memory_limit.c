@@ -1,6 +1,6 @@
 #include "core/memory_limit.h"
 
-#include "core/os.h"
+#include "core/os/os.h"
 #include "core/print.h"
 #include "core/status.h"
 

@@ -1,7 +1,7 @@
 #include "core/print.h"
 
 #include "core/keep_errno.h"
-#include "core/os_text.h"
+#include "core/os/os_text.h"
 
 #include <stdio.h>
 

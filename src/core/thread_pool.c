@@ -4,7 +4,7 @@
 #include "core/thread_pool.h"
 
 #include "core/memory.h"
-#include "core/os.h"
+#include "core/os/os.h"
 #include "core/status.h"
 
 #include <pthread.h>

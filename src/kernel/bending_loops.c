@@ -3,7 +3,7 @@
 #include "kernel/bending_loops.h"
 
 #include "kernel/instruction_set.h"
-#include "kernel/spring_body.h"
+#include "kernel/spring/spring_body.h"
 
 #include <stddef.h>
 

@@ -3,7 +3,7 @@
 #include "kernel/energy_loops.h"
 
 #include "kernel/instruction_set.h"
-#include "kernel/spring_body.h"
+#include "kernel/spring/spring_body.h"
 
 HOOKE_INLINE void find_lengths(const struct hk_some_springs s, const double *q, double *length,
                                const int consecutive) {

@@ -3,10 +3,10 @@
 #define HOOKE_KERNEL_INSTRUCTION_SET_H
 
 #include "kernel/energy_loops.h"
-#include "kernel/damper_loops.h"
-#include "kernel/strided_loops.h"
-#include "kernel/spring_loops.h"
-#include "kernel/tangent_loops.h"
+#include "kernel/spring/damper_loops.h"
+#include "kernel/spring/strided_loops.h"
+#include "kernel/spring/spring_loops.h"
+#include "kernel/spring/tangent_loops.h"
 #include "kernel/triangle_loops.h"
 #include "kernel/vector_loops.h"
 

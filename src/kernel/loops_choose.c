@@ -1,8 +1,8 @@
 /* The functions of loops that are compiled for each instruction set: those of the best that this machine
  * has. */
 #include "kernel/energy_loops.h"
-#include "kernel/spring_loops.h"
-#include "kernel/tangent_loops.h"
+#include "kernel/spring/spring_loops.h"
+#include "kernel/spring/tangent_loops.h"
 #include "kernel/triangle_loops.h"
 #include "kernel/vector_loops.h"
 

@@ -3,7 +3,7 @@
 #ifndef HOOKE_KERNEL_VECTOR_UNIT_H
 #define HOOKE_KERNEL_VECTOR_UNIT_H
 
-#include "kernel/spring_body.h"
+#include "kernel/spring/spring_body.h"
 
 #include <stdint.h>
 

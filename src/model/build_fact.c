@@ -1,7 +1,7 @@
 /* Facts about this build. CMake passes the versions of the other libraries, "" for absent ones. */
 #include "hooke/base.h"
 
-#include "kernel/spring_loops.h"
+#include "kernel/spring/spring_loops.h"
 
 #include <string.h>
 

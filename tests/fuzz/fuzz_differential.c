@@ -2,9 +2,9 @@
  * strided batches, tiled batches and runs, and by the plain loop of tests/support/canonical.c: the bits must
  * agree. Energies and derivatives are compared with difference quotients.
  *
- * Lines of: src/kernel/altitude_loops.c src/kernel/bending_loops.c src/kernel/strided_loops.c
- *           src/kernel/tiled_loops.c src/kernel/spring_[cl]*.c src/kernel/move_loops.c
- *           src/kernel/tetrahedron_loops.c src/kernel/tangent_loops.c src/model/force/[a-z]*.c
+ * Lines of: src/kernel/altitude_loops.c src/kernel/bending_loops.c src/kernel/spring/strided_loops.c
+ *           src/kernel/spring/tiled_loops.c src/kernel/spring/spring_[cl]*.c src/kernel/move_loops.c
+ *           src/kernel/tetrahedron_loops.c src/kernel/spring/tangent_loops.c src/model/force/[a-z]*.c
  *           src/model/sum/[a-z]*.c src/integrate/method/forward_euler.c
  *           src/integrate/method/symplectic_euler.c src/integrate/method/rk4.c
  *           src/integrate/method/stages.c src/integrate/method/verlet.c
@@ -12,7 +12,7 @@
 #include "fuzz.h"
 #include "small_scene.h"
 
-#include "kernel/spring_loops.h"
+#include "kernel/spring/spring_loops.h"
 #include "model/sum/motion.h"
 
 #include <float.h>

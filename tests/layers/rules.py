@@ -41,10 +41,10 @@ FENCES = [
     (r"arpack/.*", r"src/measure/spectrum/\w+_arpack\.[ch]"),
     (r"execinfo\.h", r"tests/fault/(process_faults|places)\.c"),  # of glibc
     (r"sys/syscall\.h", r"tests/crash/crash\.c"),  # of Linux
-    (r"malloc\.h", r"cli/os_posix\.c|src/core/os_windows\.c|tests/physics/test_scale\.c|tests/long/\w+\.c"),
-    (r"(io|psapi|shellapi|windows)\.h", r"(src/core|cli)/os_\w*windows\.c"),
+    (r"malloc\.h", r"cli/os/os_posix\.c|src/core/os/os_windows\.c|tests/physics/test_scale\.c|tests/long/\w+\.c"),
+    (r"(io|psapi|shellapi|windows)\.h", r"(src/core|cli)/os/os_\w*windows\.c"),
     (r"(dirent|dlfcn|fcntl|langinfo|spawn|sys/\w+|termios)\.h",
-     r"(src/core|cli)/os_\w*(posix|windows)\.c|(?!src/|cli/).*"),
+     r"(src/core|cli)/os/os_\w*(posix|windows)\.c|(?!src/|cli/).*"),
     (r"cmocka\.h", r"tests/(support|unit|physics|determinism|guest|fault)/\w+\.[ch]"),
 ]
 
@@ -176,10 +176,10 @@ SYSTEM = re.compile(r"\b(_GNU_SOURCE|_WIN32|WIN32|__MINGW\w+|_MSC_VER|__APPLE__|
 
 def system_complaints(path, text):
     """Files of the library and the program that differ between systems, past the fence around those."""
-    if not path.startswith(("src/", "cli/")) or re.fullmatch(r"(src/core|cli)/os_\w*(posix|windows)\.c", path):
+    if not path.startswith(("src/", "cli/")) or re.fullmatch(r"(src/core|cli)/os/os_\w*(posix|windows)\.c", path):
         return []
     clean = without_comments(text)
-    return [f"{path}:{clean.count(chr(10), 0, word.start()) + 1}: {word.group()} belongs into src/core/os_*.c or cli/os_*.c"
+    return [f"{path}:{clean.count(chr(10), 0, word.start()) + 1}: {word.group()} belongs into src/core/os or cli/os"
             for word in SYSTEM.finditer(clean)]
 
 

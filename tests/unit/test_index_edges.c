@@ -6,8 +6,8 @@
 #include "random.h"
 
 #include "kernel/altitude_loops.h"
-#include "kernel/spring_loops.h"
-#include "kernel/tangent_loops.h"
+#include "kernel/spring/spring_loops.h"
+#include "kernel/spring/tangent_loops.h"
 
 #include <math.h>
 #include <string.h>

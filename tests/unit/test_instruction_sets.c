@@ -5,7 +5,7 @@
 #include "random_scene.h"
 #include "run.h"
 
-#include "kernel/spring_loops.h"
+#include "kernel/spring/spring_loops.h"
 
 #include <inttypes.h>
 #include <stdlib.h>

@@ -3,8 +3,8 @@
 #include "random.h"
 
 #include "core/memory.h"
-#include "kernel/tiled_loops.h"
-#include "kernel/spring_loops.h"
+#include "kernel/spring/tiled_loops.h"
+#include "kernel/spring/spring_loops.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -2,8 +2,8 @@
 #include "check.h"
 #include "random.h"
 
-#include "kernel/spring_loops.h"
-#include "kernel/tangent_loops.h"
+#include "kernel/spring/spring_loops.h"
+#include "kernel/spring/tangent_loops.h"
 
 #include <math.h>
 #include <stdlib.h>

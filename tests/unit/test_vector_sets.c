@@ -4,7 +4,7 @@
 #include "random.h"
 #include "run.h"
 
-#include "kernel/spring_loops.h"
+#include "kernel/spring/spring_loops.h"
 #include "kernel/triangle_loops.h"
 #include "kernel/vector_loops.h"
 

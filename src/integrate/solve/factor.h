@@ -6,7 +6,7 @@
 #ifndef HOOKE_INTEGRATE_SOLVE_FACTOR_H
 #define HOOKE_INTEGRATE_SOLVE_FACTOR_H
 
-#include "kernel/tangent_loops.h"
+#include "kernel/spring/tangent_loops.h"
 #include "model/force/force.h"
 
 #include <stdint.h>

@@ -11,7 +11,7 @@
 #include "integrate/solve/factor.h"
 #include "integrate/integrator.h"
 #include "integrate/solve/krylov.h"
-#include "kernel/tangent_loops.h"
+#include "kernel/spring/tangent_loops.h"
 
 /* What is asked: iterations by BiCGSTAB(4), to rounding; by conjugate gradients, for alpha = 0 and with
  * callbacks left out; by GMRES, for few of them. The first reads the option `linear_solver`, whose `auto` and

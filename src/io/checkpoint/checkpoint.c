@@ -4,7 +4,7 @@
 #include "core/crc32.h"
 #include "core/keep_errno.h"
 #include "core/memory.h"
-#include "core/os_file.h"
+#include "core/os/os_file.h"
 #include "core/status.h"
 #include "io/file/bytes.h"
 #include "io/checkpoint/checkpoint_file.h"

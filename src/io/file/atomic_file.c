@@ -3,8 +3,8 @@
 #include "core/crc32.h"
 #include "core/keep_errno.h"
 #include "core/memory.h"
-#include "core/os.h"
-#include "core/os_file.h"
+#include "core/os/os.h"
+#include "core/os/os_file.h"
 #include "core/print.h"
 #include "core/status.h"
 

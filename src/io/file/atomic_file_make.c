@@ -4,7 +4,7 @@
  * check that the name still belongs to the file. File systems without locks are used without. */
 #include "core/keep_errno.h"
 #include "core/memory.h"
-#include "core/os_file.h"
+#include "core/os/os_file.h"
 #include "core/status.h"
 #include "io/file/bytes.h"
 #include "io/file/atomic_file.h"

@@ -1,6 +1,6 @@
 #include "io/file/bytes.h"
 
-#include "core/os_file.h"
+#include "core/os/os_file.h"
 
 #include <errno.h>
 

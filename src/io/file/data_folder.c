@@ -1,8 +1,8 @@
 #include "io/file/data_folder.h"
 
 #include "core/keep_errno.h"
-#include "core/os.h"
-#include "core/os_file.h"
+#include "core/os/os.h"
+#include "core/os/os_file.h"
 #include "core/print.h"
 #include "core/status.h"
 

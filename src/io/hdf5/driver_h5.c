@@ -4,7 +4,7 @@
 #if HOOKE_HAVE_HDF5
 
 #include "io/file/bytes.h"
-#include "core/os_file.h"
+#include "core/os/os_file.h"
 #include "io/hdf5/driver_h5.h"
 
 #if H5_VERSION_GE(1, 13, 0)

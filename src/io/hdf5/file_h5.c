@@ -5,7 +5,7 @@
 #if HOOKE_HAVE_HDF5
 
 #include "io/hdf5/driver_h5.h"
-#include "core/os_file.h"
+#include "core/os/os_file.h"
 #include "io/hdf5/file_h5.h"
 #include "io/hdf5/object_h5.h"
 #include "io/file/atomic_file.h"

@@ -1,7 +1,7 @@
 /* The kinds of measurements by name, and their tables. */
 #include "core/status.h"
 #include "io/measurement/measurement_file.h"
-#include "io/page/view.h"
+#include "io/page/view/view.h"
 #include "io/verify/verify.h"
 #include "measure/cost/cost.h"
 #include "measure/estimate/estimate.h"

@@ -1,5 +1,5 @@
 /* Facts that all pages show: date, machine and versions, and steps. */
-#include "core/os.h"
+#include "core/os/os.h"
 #include "core/status.h"
 #include "io/page/report.h"
 

@@ -2,8 +2,8 @@
 
 #include "core/keep_errno.h"
 #include "core/memory.h"
-#include "core/os.h"
-#include "core/os_file.h"
+#include "core/os/os.h"
+#include "core/os/os_file.h"
 #include "core/table/option.h"
 #include "core/print.h"
 #include "core/memory_limit.h"

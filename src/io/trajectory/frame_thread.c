@@ -1,7 +1,7 @@
 #include "io/trajectory/frame_thread.h"
 
 #include "core/memory.h"
-#include "core/os.h"
+#include "core/os/os.h"
 #include "model/state.h"
 
 #include <pthread.h>

@@ -5,7 +5,7 @@
 #if HOOKE_HAVE_HDF5
 
 #include "io/file/bytes.h"
-#include "core/os_file.h"
+#include "core/os/os_file.h"
 #include "core/print.h"
 #include "io/trajectory/error_h5.h"
 #include "io/trajectory/h5md_h5.h"

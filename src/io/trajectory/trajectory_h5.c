@@ -2,7 +2,7 @@
 #include "core/handle.h"
 #include "core/keep_errno.h"
 #include "core/memory.h"
-#include "core/os_file.h"
+#include "core/os/os_file.h"
 #include "core/status.h"
 #include "hooke/trajectory.h"
 

@@ -1,7 +1,7 @@
 /* Continues the run of a trajectory: finds the point, and opens the file for the missing frames. */
 #include "core/keep_errno.h"
 #include "core/memory.h"
-#include "core/os_file.h"
+#include "core/os/os_file.h"
 #include "core/print.h"
 #include "core/status.h"
 #include "integrate/loop/run_loop.h"

@@ -12,7 +12,7 @@
 #ifndef HOOKE_MEASURE_SPECTRUM_LINEARISED_H
 #define HOOKE_MEASURE_SPECTRUM_LINEARISED_H
 
-#include "kernel/tangent_loops.h"
+#include "kernel/spring/tangent_loops.h"
 #include "measure/trial/patience.h"
 #include "model/force/force.h"
 

@@ -5,7 +5,7 @@
 #include "model/force/force.h"
 
 #include "core/sum.h"
-#include "kernel/spring_loops.h"
+#include "kernel/spring/spring_loops.h"
 #include "model/check_value.h"
 #include "model/variant/variant.h"
 

@@ -6,7 +6,7 @@
 #include "core/table/option.h"
 #include "core/status.h"
 #include "core/sum.h"
-#include "kernel/spring_body.h"
+#include "kernel/spring/spring_body.h"
 #include "model/check_value.h"
 #include "model/variant/variant.h"
 

@@ -3,7 +3,7 @@
 #include "model/force/force.h"
 
 #include "core/sum.h"
-#include "kernel/spring_body.h"
+#include "kernel/spring/spring_body.h"
 #include "model/sum/spring_batch.h"
 #include "model/check_value.h"
 #include "model/variant/variant.h"

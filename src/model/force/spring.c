@@ -3,7 +3,7 @@
 
 #include "core/memory.h"
 #include "core/status.h"
-#include "kernel/spring_body.h"
+#include "kernel/spring/spring_body.h"
 #include "model/force/force.h"
 
 #include <stdio.h>

@@ -2,8 +2,8 @@
 #ifndef HOOKE_MODEL_FORCE_SPRING_H
 #define HOOKE_MODEL_FORCE_SPRING_H
 
-#include "kernel/spring_body.h"
-#include "kernel/spring_loops.h"
+#include "kernel/spring/spring_body.h"
+#include "kernel/spring/spring_loops.h"
 #include "model/force/element.h"
 #include "model/group.h"
 

@@ -3,7 +3,7 @@
 
 #include "core/memory.h"
 #include "core/status.h"
-#include "kernel/spring_loops.h"
+#include "kernel/spring/spring_loops.h"
 
 #include <string.h>
 

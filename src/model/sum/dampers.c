@@ -2,7 +2,7 @@
 
 #include "core/memory.h"
 #include "core/status.h"
-#include "kernel/damper_loops.h"
+#include "kernel/spring/damper_loops.h"
 #include "model/force/force.h"
 #include "model/sum/damper_colours.h"
 

@@ -4,11 +4,11 @@
  * and l + o. A particle sees a batch as two items, the springs that end there and those that begin there. The
  * items of all batches are in one order in which the springs of every particle come in ascending number, so
  * that sums have the bits of the plain order. The pass goes over the particles once; see
- * kernel/strided_loops.h. */
+ * kernel/spring/strided_loops.h. */
 #ifndef HOOKE_MODEL_SUM_STRIDED_H
 #define HOOKE_MODEL_SUM_STRIDED_H
 
-#include "kernel/strided_loops.h"
+#include "kernel/spring/strided_loops.h"
 #include "model/force/spring.h"
 
 enum { HOOKE_TILE = 256, HOOKE_MOST_ITEMS = 2 * HOOKE_MOST_STRIDED };

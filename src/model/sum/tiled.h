@@ -11,7 +11,7 @@
 #ifndef HOOKE_MODEL_SUM_TILED_H
 #define HOOKE_MODEL_SUM_TILED_H
 
-#include "kernel/tiled_loops.h"
+#include "kernel/spring/tiled_loops.h"
 #include "model/sum/strided.h"
 
 enum { HOOKE_TILED_KINDS = 8 };

@@ -1,5 +1,5 @@
 /* Several trajectories as one page, which plays them side by side: the page of each in a frame of its own. */
-#include "io/page/view.h"
+#include "io/page/view/view.h"
 
 #include "core/status.h"
 #include "io/file/data_folder.h"

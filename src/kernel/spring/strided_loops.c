@@ -1,7 +1,7 @@
 /* Compiled once per instruction set, with HOOKE_ISA naming it. Springs of one or two strided batches are
  * computed together, and sums are some vectors behind, so that the processor always finds operations with
  * available operands. */
-#include "kernel/strided_loops.h"
+#include "kernel/spring/strided_loops.h"
 
 #include "kernel/instruction_set.h"
 #include "kernel/move_body.h"

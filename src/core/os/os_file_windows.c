@@ -1,7 +1,7 @@
 #define _CRT_RAND_S
-#include "core/os_file.h"
+#include "core/os/os_file.h"
 
-#include "core/os.h"
+#include "core/os/os.h"
 
 #include <errno.h>
 #include <fcntl.h>

@@ -1,5 +1,5 @@
 #define _GNU_SOURCE /* F_OFD_SETLK, renameat2() */
-#include "core/os_file.h"
+#include "core/os/os_file.h"
 
 #include <errno.h>
 #include <fcntl.h>

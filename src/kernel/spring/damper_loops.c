@@ -1,9 +1,9 @@
 /* Compiled once per instruction set, with HOOKE_ISA naming it. What a block of springs does goes into a
  * buffer first, which vectorises, and then to the particles. */
-#include "kernel/damper_loops.h"
+#include "kernel/spring/damper_loops.h"
 
 #include "kernel/instruction_set.h"
-#include "kernel/spring_body.h"
+#include "kernel/spring/spring_body.h"
 
 enum { BLOCK = 256 };
 

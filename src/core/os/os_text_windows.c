@@ -1,4 +1,4 @@
-#include "core/os_text.h"
+#include "core/os/os_text.h"
 
 #include <locale.h>
 #include <stdlib.h>

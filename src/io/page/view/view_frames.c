@@ -1,5 +1,5 @@
 /* Frames of a page as bytes. */
-#include "io/page/view.h"
+#include "io/page/view/view.h"
 
 #include "core/memory.h"
 

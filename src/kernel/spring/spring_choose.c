@@ -1,5 +1,5 @@
 /* The instruction sets that the loops were compiled for, and those that this machine runs. */
-#include "kernel/spring_loops.h"
+#include "kernel/spring/spring_loops.h"
 
 #include <stdatomic.h>
 #include <stddef.h>

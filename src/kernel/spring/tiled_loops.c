@@ -1,6 +1,6 @@
 /* Compiled once per instruction set, with HOOKE_ISA naming it. Ends are looked up as rows and transposed to
  * vectors of one component each; strengths are computed from those, and forces written some groups behind. */
-#include "kernel/tiled_loops.h"
+#include "kernel/spring/tiled_loops.h"
 
 #include "kernel/instruction_set.h"
 #include "kernel/vector_unit.h"

@@ -1,5 +1,5 @@
 #define _GNU_SOURCE /* dladdr(), sched_getaffinity() */
-#include "core/os.h"
+#include "core/os/os.h"
 
 #include <dlfcn.h>
 #include <errno.h>

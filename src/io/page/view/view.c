@@ -1,5 +1,5 @@
 /* Trajectories as pages: selection of the contents. */
-#include "io/page/view.h"
+#include "io/page/view/view.h"
 
 #include "core/memory.h"
 #include "core/table/option.h"

@@ -1,5 +1,5 @@
 /* The table of a view. */
-#include "io/page/view.h"
+#include "io/page/view/view.h"
 
 #include <math.h>
 

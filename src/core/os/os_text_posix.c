@@ -1,4 +1,4 @@
-#include "core/os_text.h"
+#include "core/os/os_text.h"
 
 #include <langinfo.h>
 #include <locale.h>

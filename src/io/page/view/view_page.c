@@ -1,9 +1,9 @@
 /* Trajectories as pages: the page. */
-#include "io/page/view.h"
-#include "io/page/view_bodies.h"
+#include "io/page/view/view.h"
+#include "io/page/view/view_bodies.h"
 
 #include "core/memory.h"
-#include "core/os_file.h"
+#include "core/os/os_file.h"
 #include "core/status.h"
 #include "hooke/scene.h"
 #include "io/page/base64.h"

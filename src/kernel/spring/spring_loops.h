@@ -8,8 +8,8 @@
 
 #include "kernel/altitude_loops.h"
 #include "kernel/bending_loops.h"
-#include "kernel/damper_loops.h"
-#include "kernel/strided_loops.h"
+#include "kernel/spring/damper_loops.h"
+#include "kernel/spring/strided_loops.h"
 
 #include <stddef.h>
 #include <stdint.h>

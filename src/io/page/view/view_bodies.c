@@ -1,4 +1,4 @@
-#include "io/page/view_bodies.h"
+#include "io/page/view/view_bodies.h"
 
 #include "core/memory.h"
 #include "model/system.h"

@@ -1,9 +1,9 @@
 /* Blocks of springs go through a buffer, like their forces: numbers first, which vectorises for any ends,
  * sums in spring order afterwards. Compiled once per instruction set, with HOOKE_ISA naming it. */
-#include "kernel/tangent_loops.h"
+#include "kernel/spring/tangent_loops.h"
 
 #include "kernel/instruction_set.h"
-#include "kernel/spring_body.h"
+#include "kernel/spring/spring_body.h"
 #include "kernel/vector_unit.h"
 
 #include <stddef.h>

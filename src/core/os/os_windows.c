@@ -1,4 +1,4 @@
-#include "core/os.h"
+#include "core/os/os.h"
 
 #include <errno.h>
 #include <malloc.h>

@@ -8,7 +8,7 @@
 #ifndef HOOKE_KERNEL_TANGENT_LOOPS_H
 #define HOOKE_KERNEL_TANGENT_LOOPS_H
 
-#include "kernel/spring_loops.h"
+#include "kernel/spring/spring_loops.h"
 
 /* By spring number. With alpha = 0, u is g, e is the same arrays, and b is NULL. */
 struct hk_tangent {
