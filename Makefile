@@ -10,6 +10,7 @@
 #                   sanitizers, arm64, windows, want, wheels; make test-long PART=soak runs one of them
 #   make tidy   runs clang-tidy over the sources in C
 #   make wheel  makes the Python package to hand on, in build/wheel: a wheel that needs nothing else, and the sources
+#   make wheel-windows  makes the wheel for Windows
 #   make wheel-test  installs that wheel into an empty environment and uses it
 #   make dist   makes the sources of a release, their checksums and a bill of materials, in build/dist
 
@@ -109,6 +110,15 @@ wheel-test: wheel
 	build/wheel/bare/bin/python -m pip install --quiet --disable-pip-version-check --find-links build/wheel libhooke h5py
 	env -u PYTHONPATH -u HOOKE_LIBRARY build/wheel/bare/bin/python tests/wheel/check_wheel.py
 
+# By mingw-w64, with the libraries of `make windows`.
+wheel-windows: build/wheel/tools/done windows
+	rm -rf build/wheel/*win_amd64.whl
+	_PYTHON_HOST_PLATFORM=win-amd64 CMAKE_TOOLCHAIN_FILE=$(CURDIR)/cmake/windows.cmake $(WHEEL_TOOLS)/python -m build \
+	  --no-isolation --wheel --outdir build/wheel . -C build-dir=build/wheel/windows \
+	  -C cmake.define.LIBHOOKE_COMPLETE=ON -C cmake.define.HOOKE_HARDENING=OFF \
+	  -C cmake.define.HOOKE_INSTALLED=$(CURDIR)/build/windows/installed
+	ls -l build/wheel/*win_amd64.whl
+
 dist: all build/dist/tools/done
 	PYTHONPATH=build/release/python build/dist/tools/bin/python packaging/dist.py
 
@@ -173,6 +183,6 @@ build/packages $(OTHER_PACKAGES): Makefile cmake/packages.txt
 	fi
 	@touch $@
 
-.PHONY: all venv demo playground windows test test-long tidy wheel wheel-test dist $(PRESETS:%=tests-%)
+.PHONY: all venv demo playground windows test test-long tidy wheel wheel-test wheel-windows dist $(PRESETS:%=tests-%)
 .DELETE_ON_ERROR:
 .SECONDARY:

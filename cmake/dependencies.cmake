@@ -67,12 +67,15 @@ function(hooke_name_lapack)
   endif()
 endfunction()
 
+# Scripts for browsers are those of this machine, whatever it compiles for.
+set(HOOKE_SCRIPTS_OF_HOST PATHS /usr NO_CMAKE_FIND_ROOT_PATH)
+
 # Chart.js is not linked: its bundle for browsers (chart.umd.js from version 4 on) goes into the pages of reports.
 # Sets HOOKE_CHARTJS_FOUND, _FILE and _VERSION.
 function(hooke_find_chartjs)
   set(HOOKE_CHARTJS_FOUND FALSE PARENT_SCOPE)
   find_file(HOOKE_CHARTJS_FILE NAMES chart.min.js chart.umd.js
-    PATH_SUFFIXES share/javascript/chart.js share/nodejs/chart.js/dist)
+    PATH_SUFFIXES share/javascript/chart.js share/nodejs/chart.js/dist ${HOOKE_SCRIPTS_OF_HOST})
   mark_as_advanced(HOOKE_CHARTJS_FILE)
   if(HOOKE_CHARTJS_FILE)
     file(READ "${HOOKE_CHARTJS_FILE}" banner LIMIT 400)
@@ -88,9 +91,10 @@ endfunction()
 function(hooke_find_threejs)
   set(HOOKE_THREEJS_FOUND FALSE PARENT_SCOPE)
   set(folders share/javascript/three share/javascript/three/build share/nodejs/three/build)
-  find_file(HOOKE_THREEJS_FILE NAMES three.min.js PATH_SUFFIXES ${folders})
+  find_file(HOOKE_THREEJS_FILE NAMES three.min.js PATH_SUFFIXES ${folders} ${HOOKE_SCRIPTS_OF_HOST})
   find_file(HOOKE_THREEJS_ORBIT_FILE NAMES OrbitControls.js
-    PATH_SUFFIXES share/javascript/three/examples/js/controls share/nodejs/three/examples/js/controls)
+    PATH_SUFFIXES share/javascript/three/examples/js/controls share/nodejs/three/examples/js/controls
+    ${HOOKE_SCRIPTS_OF_HOST})
   mark_as_advanced(HOOKE_THREEJS_FILE HOOKE_THREEJS_ORBIT_FILE)
   if(HOOKE_THREEJS_FILE AND HOOKE_THREEJS_ORBIT_FILE)
     file(STRINGS "${HOOKE_THREEJS_FILE}" line REGEX "REVISION *= *\"[0-9]+" LIMIT_COUNT 1)

@@ -1,6 +1,7 @@
 # SUNDIALS and HDF5 for Windows, compiled from Debian's sources when CMake is configured, once for a build tree; zlib is in
 # Debian's libz-mingw-w64-dev. HDF5 runs programs of its own while it is configured, by wine.
-set(HOOKE_INSTALLED ${PROJECT_BINARY_DIR}/installed)
+set(HOOKE_INSTALLED ${PROJECT_BINARY_DIR}/installed CACHE PATH "Where they are or will be")
+mark_as_advanced(HOOKE_INSTALLED)
 set(ENV{WINEPREFIX} ${PROJECT_BINARY_DIR}/wine)
 set(ENV{WINEDEBUG} -all)
 list(PREPEND CMAKE_FIND_ROOT_PATH ${HOOKE_INSTALLED})
@@ -36,5 +37,5 @@ if(NOT "${HOOKE_HDF5}" STREQUAL "OFF" AND CMAKE_CROSSCOMPILING_EMULATOR)
     -DHDF5_ENABLE_SZIP_SUPPORT=OFF -DHDF5_ENABLE_Z_LIB_SUPPORT=ON -DZLIB_USE_EXTERNAL=OFF
     -DZLIB_LIBRARY=/usr/x86_64-w64-mingw32/lib/libz.a -DH5_HAVE_UNISTD_H:INTERNAL=0)
 endif()
-set(HOOKE_LIBRARY_blas hooke_lapack CACHE STRING "" FORCE) # which has what it needs of BLAS
-mark_as_advanced(HOOKE_LIBRARY_blas)
+set(HOOKE_LIBRARY_blas_lapack hooke_lapack CACHE STRING "" FORCE) # which has what it needs of BLAS
+mark_as_advanced(HOOKE_LIBRARY_blas_lapack)

@@ -3,6 +3,7 @@ and files."""
 
 import json
 import os
+import signal
 import subprocess
 import time
 
@@ -124,3 +125,29 @@ def test_two_runs(wine, tmp_path):
         refused = wine("hooke.exe", "run", "--resume", "slow.h5", folder=tmp_path, expect=5)
         assert "another run is writing this file" in refused.stderr
     killed(wine, tmp_path, meanwhile)
+
+
+def test_pages(wine, tmp_path):
+    """Pages are those of Linux but for the names of files and what was measured in time; a folder may have any name."""
+    folder = tmp_path / "Größe ☃"
+    folder.mkdir()
+    words = ["run", str(ROOT / "examples/scenes/cloth-16.json"), "--duration", "0.02", "--every", "0.002", "-o", "Fäden.h5"]
+    wine("hooke.exe", *words, folder=folder)
+    wine("hooke.exe", "view", "Fäden.h5", "-o", "there.html", folder=folder)
+    here("view", "Fäden.h5", "-o", "here.html", folder=folder)
+    assert (folder / "there.html").read_bytes() == (folder / "here.html").read_bytes()
+    wine("hooke.exe", "limit", ROOT / "examples/scenes/curl.json", "--methods", "rk4", "--predict", "--report", "limit.html", folder=folder)
+    assert "new Chart(" in (folder / "limit.html").read_text(encoding="utf-8")
+
+
+def test_interrupt(wine, tmp_path):
+    """Ctrl-C keeps what there is, and the run goes on from there."""
+    words = ["run", str(ROOT / "examples/scenes/cloth-16.json"), "--duration", "1", "--every", "0.01", "--step", "2e-6", "-o", "slow.h5"]
+    run, end = wine("hooke.exe", *words, folder=tmp_path, start=True), time.monotonic() + 60
+    while not (tmp_path / "slow.h5").exists():
+        assert run.poll() is None and time.monotonic() < end
+        time.sleep(0.02)
+    time.sleep(0.5)
+    run.send_signal(signal.SIGINT)
+    assert run.wait(timeout=60) == 130
+    wine("hooke.exe", "verify", "slow.h5", "--bits", folder=tmp_path)

@@ -1,6 +1,6 @@
 # Writes OUT from LICENCES, <name>=<file> separated by "|".
 string(REPLACE "|" ";" LICENCES "${LICENCES}")
-set(text "hooke is under the MIT licence, see LICENSE. libhooke.so and share/ hold parts of other works besides, each under
+set(text "hooke is under the MIT licence, see LICENSE. The library, the program and share/ hold parts of other works besides, each under
 a licence that allows that. For each, its own words or what Debian records of its source, of which some files are not in here:\n")
 foreach(entry IN LISTS LICENCES)
   string(REGEX MATCH "^([^=]+)=(.*)$" _ "${entry}")

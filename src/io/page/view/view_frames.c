@@ -57,11 +57,12 @@ static double quantile(double *values, int64_t count, double share) {
   return values[(int64_t)(share * (double)(count - 1))];
 }
 
-/* 1, 2 or 5 times a power of ten, not below `value`. */
+/* 1, 2 or 5 times a power of ten, not below `value`. Only powers without a negative exponent are exact. */
 static double round_up(double value) {
-  const double power = pow(10.0, floor(log10(value)));
-  const double head = value / power;
-  return (head <= 1.0 ? 1.0 : head <= 2.0 ? 2.0 : head <= 5.0 ? 5.0 : 10.0) * power;
+  const double exponent = floor(log10(value)), power = pow(10.0, fabs(exponent));
+  const double head = exponent < 0.0 ? value * power : value / power;
+  const double digit = head <= 1.0 ? 1.0 : head <= 2.0 ? 2.0 : head <= 5.0 ? 5.0 : 10.0;
+  return exponent < 0.0 ? digit / power : digit * power;
 }
 
 static double largest_of_most(struct hk_view *view, const double *q, double *sizes) {
