@@ -10,6 +10,7 @@ void hk_variant_release(struct hk_variant *variant) {
   hk_free(variant->spring);
   hk_free(variant->particle);
   hk_free(variant->part);
+  hk_free(variant->rigid);
   hk_free(variant->scale);
   memset(variant, 0, sizeof *variant);
 }
@@ -20,8 +21,10 @@ int32_t hk_variant_create(const hooke_system *system, struct hk_variant *variant
   variant->spring = hk_new(system->springs.count, 1);
   variant->particle = hk_new(system->particle_count, 1);
   variant->part = hk_new(system->part_count, 1);
+  variant->rigid = hk_new(system->part_count, 1);
   variant->scale = hk_new(system->part_count, sizeof(double));
-  if (!variant->group || !variant->spring || !variant->particle || !variant->part || !variant->scale) {
+  if (!variant->group || !variant->spring || !variant->particle || !variant->part || !variant->rigid ||
+      !variant->scale) {
     hk_variant_release(variant);
     return HOOKE_NO_MEMORY;
   }
@@ -46,8 +49,14 @@ void hk_variant_join(const hooke_system *system, struct hk_variant *variant, con
   join(system->springs.count, variant->spring, other->spring);
   join(system->particle_count, variant->particle, other->particle);
   join(system->part_count, variant->part, other->part);
+  join(system->part_count, variant->rigid, other->rigid);
   for (int64_t k = 0; k < system->part_count; k++)
     variant->scale[k] *= other->scale[k];
+}
+
+/* 1 if a part adds the group and is left out, or is a body, which has nothing inside. */
+static int32_t goes_with_part(const struct hk_variant *variant, const struct hk_group *group) {
+  return group->from_part && (variant->part[group->part] || variant->rigid[group->part]);
 }
 
 static int32_t covers_groups(const hooke_system *system, const struct hk_variant *variant,
@@ -55,7 +64,7 @@ static int32_t covers_groups(const hooke_system *system, const struct hk_variant
   int64_t first = 0;
   for (int64_t g = 0; g < system->group_count; first += system->group[g++].count) {
     const struct hk_group *group = &system->group[g];
-    if (variant->group[g] || (group->from_part && variant->part[group->part])) continue;
+    if (variant->group[g] || goes_with_part(variant, group)) continue;
     if (other->group[g]) return 0;
     for (int64_t s = first; s < first + group->count && group->force == &hk_force_springs; s++) {
       if (other->spring[s] && !variant->spring[s]) return 0;
@@ -70,7 +79,8 @@ int32_t hk_variant_covers(const hooke_system *system, const struct hk_variant *v
                     other->force <= variant->force && other->damping <= variant->damping &&
                     other->compression <= variant->compression;
   for (int64_t k = 0; k < system->part_count && covered; k++)
-    covered = variant->part[k] || (!other->part[k] && other->scale[k] == 1.0);
+    covered = variant->part[k] ||
+              (!other->part[k] && other->scale[k] == 1.0 && other->rigid[k] <= variant->rigid[k]);
   for (int64_t p = 0; p < system->particle_count && covered; p++)
     covered = other->particle[p] <= variant->particle[p];
   return covered && covers_groups(system, variant, other);
@@ -81,7 +91,7 @@ static int32_t is_split(const hooke_system *system, const struct hk_variant *var
                         int64_t first) {
   const struct hk_group *group = &system->group[g];
   if (!group->from_part || group->force != &hk_force_springs || variant->group[g] ||
-      variant->part[group->part])
+      goes_with_part(variant, group))
     return 0;
   if (variant->scale[group->part] != 1.0 || group->count == 0) return 0;
   const uint8_t *spring = variant->spring + first;
