@@ -148,24 +148,31 @@ static int32_t keep_groups(struct hk_variant_maker *maker) {
   return status;
 }
 
-/* Bodies that are no parts, as long as they have all their particles. */
+/* A body keeps all its particles, or goes with them. */
+static int32_t keep_body(const struct hk_variant_maker *maker, const struct hk_body *body) {
+  int64_t same = 0, gone = 0;
+  int64_t *particles = hk_new(body->count, sizeof *particles);
+  if (particles == NULL) return HOOKE_NO_MEMORY;
+  for (int64_t i = 0; i < body->count; i++) {
+    particles[i] = maker->map->to[body->particle[i]];
+    same += hk_variant_is_same(maker->map, body->particle[i]);
+    gone += particles[i] < 0;
+  }
+  int32_t status = HOOKE_OK;
+  if (same == body->count)
+    status = hk_system_add_body(maker->made, body->name, body->count, particles, body->project, -1);
+  else if (gone < body->count)
+    status = hk_fail(HOOKE_UNSUITED, NULL, "the rigid body \"%.40s\" would lose particles", body->name);
+  hk_free(particles);
+  return status;
+}
+
+/* Bodies that are no parts. */
 static int32_t keep_bodies(const struct hk_variant_maker *maker) {
   const struct hk_bodies *bodies = &maker->from->bodies;
   int32_t status = HOOKE_OK;
-  for (int64_t k = 0; k < bodies->count && status == HOOKE_OK; k++) {
-    const struct hk_body *body = &bodies->body[k];
-    if (body->part >= 0) continue;
-    int64_t *particles = hk_new(body->count, sizeof *particles);
-    if (particles == NULL) return HOOKE_NO_MEMORY;
-    for (int64_t i = 0; i < body->count && status == HOOKE_OK; i++) {
-      particles[i] = maker->map->to[body->particle[i]];
-      if (!hk_variant_is_same(maker->map, body->particle[i]))
-        status = hk_fail(HOOKE_UNSUITED, NULL, "the rigid body \"%.40s\" would lose particles", body->name);
-    }
-    if (status == HOOKE_OK)
-      status = hk_system_add_body(maker->made, body->name, body->count, particles, body->project, -1);
-    hk_free(particles);
-  }
+  for (int64_t k = 0; k < bodies->count && status == HOOKE_OK; k++)
+    if (bodies->body[k].part < 0) status = keep_body(maker, &bodies->body[k]);
   return status;
 }
 
@@ -179,9 +186,13 @@ static void scale_stiffness(hooke_system *made, double factor) {
     scale(made->group[g].count, made->group[g].number[HOOKE_KAPPA], factor);
 }
 
+/* Rigid bodies take it as far as their pins let them. */
 static void add_velocity(hooke_system *made, const double velocity[3]) {
+  if (velocity[0] == 0.0 && velocity[1] == 0.0 && velocity[2] == 0.0) return;
   for (int64_t i = 0; i < 3 * made->particle_count; i++)
     if (!made->constrained[i / 3]) made->velocity[i] += velocity[i % 3];
+  for (int64_t k = 0; k < made->bodies.count; k++)
+    made->bodies.body[k].project = 1;
 }
 
 int32_t hk_variant_make(const hooke_system *from, const struct hk_variant *variant, hooke_system **made,
