@@ -148,9 +148,10 @@ HOOKE_API double hooke_limit_of_mode(const char *method, double frequency, doubl
  * linear interpolation.
  *
  * Then all ingredients that are not needed and whose omission saves work are left out together, whole parts
- * first, then deformations, then the rest, each in order of increasing change, as long as a run with the largest possible step stays within the wanted error, all
- * errors together. Single springs of a part are left out only where that halves the work. Where the watched
- * particles move by less than a thousandth of the wanted error, needs are unknown and nothing is left out.
+ * first, then deformations, then the rest, each in order of increasing change, as long as a run with the
+ * largest possible step stays within the wanted error, all errors together. Single springs of a part are left
+ * out only where that halves the work. Where the watched particles move by less than a thousandth of the
+ * wanted error, needs are unknown and nothing is left out.
  *
  * The option `refine` does the reverse: it runs each part at once, twice and four times its resolution, for
  * the table "parts". `run` gives duration, every and the method; without a method, one is picked.

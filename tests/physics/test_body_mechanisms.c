@@ -1,5 +1,5 @@
-/* Mechanisms of rigid bodies, pins and stiff springs: the nutating top, the flyball governor, a linkage of two
- * bars, and a frame that hangs in a cloth. */
+/* Mechanisms of rigid bodies, pins and stiff springs: the nutating top, the flyball governor, a linkage of
+ * two bars, and a frame that hangs in a cloth. */
 #include "check.h"
 #include "elliptic.h"
 #include "order.h"
@@ -137,11 +137,11 @@ static void fill_rod(const double start[3], const double along[3], double mass, 
 
 /* ---- IFToMM's benchmark A05, the stiff flyball governor ----
  *
- * Two rods of 1 x 0.01 x 0.01 m and 3000 kg/m^3, each with 5 kg at its end, hang from one point and turn at 2 pi
- * rad/s. Springs of 8e5 N/m with 4e4 N s/m and 0.5 m lead from their middles to a slider of 0.1^3 m^3 on the axis,
- * 0.5 m below the point; the rods begin 30 degrees below the horizontal. Here each rod is a body that swings about a
- * pin, without the shaft, whose moment of inertia is a millionth of that of the rods, and the slider is a point that
- * stays on the axis by symmetry. */
+ * Two rods of 1 x 0.01 x 0.01 m and 3000 kg/m^3, each with 5 kg at its end, hang from one point and turn
+ * at 2 pi rad/s. Springs of 8e5 N/m with 4e4 N s/m and 0.5 m lead from their middles to a slider of 0.1^3
+ * m^3 on the axis, 0.5 m below the point; the rods begin 30 degrees below the horizontal. Here each rod is
+ * a body that swings about a pin, without the shaft, whose moment of inertia is a millionth of that of the
+ * rods, and the slider is a point that stays on the axis by symmetry. */
 
 static const double ROD_MASS = 0.3, BALL = 5.0, SLIDER = 3.0, LINK = 0.5;
 enum { GOVERNOR = 2 * ROD + 1 };
@@ -178,9 +178,12 @@ static hooke_system *governor(double stiffness) {
   return system;
 }
 
-/* With rigid links the angle x of the rods from the vertical is all: the slider is 2 l cos x below the point, each rod
- * turns about the vertical with the momentum p = J sin^2 x w that it began with, and Lagrange's equation is
- * (2 J + 4 l^2 M sin^2 x) x'' + 4 l^2 M sin x cos x x'^2 = 2 p^2 cos x / (J sin^3 x) - 2 (S + l M) g sin x
+/* With rigid links the angle x of the rods from the vertical is all: the slider is 2 l cos x below the
+ * point, each rod turns about the vertical with the momentum p = J sin^2 x w that it began with, and Lagrange's
+ * equation is
+ *
+ *     (2 J + 4 l^2 M sin^2 x) x'' + 4 l^2 M sin x cos x x'^2 = 2 p^2 cos x/(J sin^3 x) - 2 (S + l M) g sin x
+ *
  * with the moment of inertia J and the static moment S of a rod with its ball. */
 static void accelerate_governor(const double *angle, const double *rate, double *acceleration) {
   const double j = ROD_MASS / 3.0 + BALL, moment = ROD_MASS / 2.0 + BALL, p = j * 0.75 * 2.0 * PI;
@@ -380,7 +383,8 @@ static void framed_cloth_keeps_its_energy(void **unused) {
   hooke_system_destroy(system);
 }
 
-/* Once it has come to rest, what acts on the frame adds up to no force and no torque; on its particles it does not. */
+/* Once it has come to rest, what acts on the frame adds up to no force and no torque; on its particles it
+ * does not. */
 static void frame_hangs_in_balance(void **unused) {
   (void)unused;
   enum { N = CLOTH * CLOTH };

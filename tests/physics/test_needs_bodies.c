@@ -1,5 +1,5 @@
-/* Needs and rigid bodies: a stiff plate that hangs on soft springs is offered as a body, with the error that a
- * run of the scene made anew has; one that bends by more than the wanted error is not. */
+/* Needs and rigid bodies: a stiff plate that hangs on soft springs is offered as a body, with the error
+ * that a run of the scene made anew has; one that bends by more than the wanted error is not. */
 #include "check.h"
 #include "run.h"
 

@@ -7,8 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A body's own coordinates: its point, the quaternion from its axes to those of space, the velocity of the point,
- * and the angular momentum about it. */
+/* A body's own coordinates: its point, the quaternion from its axes to those of space, the velocity of the
+ * point, and the angular momentum about it. */
 struct own {
   double x[3], turn[4], v[3], l[3];
 };
@@ -72,7 +72,8 @@ static void multiply(const double *a, const double *b, double *out) {
 
 /* ---- from rows to a body's own coordinates ---- */
 
-/* e1 along d1, e2 across it towards d2 or, of points in a line, towards the axis of space farthest from it. */
+/* e1 along d1, e2 across it towards d2 or, of points in a line, towards the axis of space farthest from
+ * it. */
 static void directions(int32_t rank, double d[3][3], double e[3][3]) {
   double other[3] = {0.0, 0.0, 0.0};
   memset(e, 0, 9 * sizeof(double));
@@ -256,7 +257,8 @@ static void turn_about(int k, double a, double *turn, double *momentum) {
   momentum[j] = (1.0 - a * a) * scale * y - 2.0 * a * scale * x;
 }
 
-/* A sphere of the middle moment about the momentum, after what the first and the last axis turn differently. */
+/* A sphere of the middle moment about the momentum, after what the first and the last axis turn
+ * differently. */
 static void drift(const struct canonical_body *body, double h, struct own *own) {
   const double *inverse = body->inverse_inertia;
   const double first = inverse[0] > 0.0 ? inverse[0] - inverse[1] : 0.0;
@@ -326,7 +328,8 @@ static void write_all(const struct stepped *s, struct own *own, double *q, doubl
     write(s->canonical, &s->body[b], &own[b], q, v);
 }
 
-/* The second kick is that of the forces at the velocities and momenta that the first, taken twice, predicts. */
+/* The second kick is that of the forces at the velocities and momenta that the first, taken twice,
+ * predicts. */
 static void verlet(const struct stepped *s, double t, double end, double h, double *q, double *v) {
   const size_t size = 3 * (size_t)s->canonical->particle_count * sizeof(double);
   double *half = malloc(size);

@@ -1,5 +1,5 @@
-/* Steps of systems with rigid bodies have the bits of the plain loops of tests/support/canonical_body.c, for bodies
- * of every kind among other particles. */
+/* Steps of systems with rigid bodies have the bits of the plain loops of tests/support/canonical_body.c,
+ * for bodies of every kind among other particles. */
 #include "canonical_body.h"
 #include "check.h"
 #include "random.h"
@@ -10,7 +10,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Bodies: a free one, a bar, a pair, a single particle, one about a pin, a bar about its end, one about an axis. */
+/* Bodies: a free one, a bar, a pair, a single particle, one about a pin, a bar about its end, one about an
+ * axis. */
 static const int sizes[] = {6, 4, 2, 1, 5, 3, 5};
 static const int pins[] = {0, 0, 0, 0, 1, 1, 2}, in_line[] = {0, 1, 1, 0, 0, 1, 0};
 enum {

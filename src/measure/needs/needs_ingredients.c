@@ -100,10 +100,10 @@ static int32_t list_loose(struct hk_needs *needs, const uint8_t *watched) {
   uint8_t *touched = hk_new(system->particle_count, 1);
   if (touched == NULL) return HOOKE_NO_MEMORY;
   hk_system_mark_touched(system, touched);
-  for (int64_t k = 0; k < system->part_count; k++) /* these go with their part */
+  /* particles of parts go with these, and those of bodies have mass in them */
+  for (int64_t k = 0; k < system->part_count; k++)
     memset(touched + system->part[k].first, 1, (size_t)system->part[k].count);
-  for (int64_t p = 0; p < system->particle_count && system->bodies.of;
-       p++) /* and these have mass in a body */
+  for (int64_t p = 0; p < system->particle_count && system->bodies.of; p++)
     touched[p] |= system->bodies.of[p] >= 0;
   int64_t loose = 0;
   for (int64_t p = 0; p < system->particle_count; p++)

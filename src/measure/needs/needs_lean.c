@@ -91,8 +91,8 @@ static int32_t comes_before(const struct hk_needs *needs, const struct hk_needs_
   return a->cost.particles + a->cost.springs < b->cost.particles + b->cost.springs;
 }
 
-/* The unneeded row of the first rank with the smallest change, of equal ones that which leaves the least, that
- * is not yet left out or tried; -1 if there is none. */
+/* The unneeded row of the first rank with the smallest change, of equal ones that which leaves the least,
+ * that is not yet left out or tried; -1 if there is none. */
 static int64_t next_row(const struct hk_needs *needs, const uint8_t *tried) {
   int64_t found = -1;
   for (int64_t k = 0; k < needs->row_count; k++) {
