@@ -100,7 +100,7 @@ class Tables:
                 properties[row.name] = {**schema, "description": row.doc + (f" [{row.unit}]" if row.unit else "")}
         required = [*(["kind"] if own else []), *template.get("required", []),
                     *(row.name for row in rows if row.required and "." not in row.name)]
-        one = {"oneOf": [{"required": ["mass"]}, {"required": ["density"]}]} if "density" in properties else {}
+        one = {"not": {"required": ["mass", "density"]}} if "density" in properties else {}
         return {"type": "object", "additionalProperties": False, **({"required": required} if required else {}), **one,
                 **{key: words for key, words in template.items() if key not in ("required", "properties")},
                 "properties": properties}

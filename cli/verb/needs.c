@@ -124,12 +124,11 @@ const struct cli_verb cli_verb_needs = {
     .summary = "what a scene needs for a wanted accuracy, and a lean scene without the rest",
     .text =
         "Leaves out one ingredient after another (spring groups and families, damping, drag, gravity, idle "
-        "springs, what touches nothing, resistance to compression, half the resolution), runs each variant "
-        "with errors of the time step a tenth of --want, and prints by how much the watched positions "
-        "change and what it saves. Then leaves out together what is not needed, checks the lean scene "
-        "against "
-        "the full one, and compares what each takes at its cheapest within --want. Ctrl-C prints what is "
-        "known so far.",
+        "springs, what touches nothing, resistance to compression, the deformation of parts, which become "
+        "rigid bodies, half the resolution), runs each variant with errors of the time step a tenth of "
+        "--want, and prints by how much the watched positions change and what it saves. Then leaves out "
+        "together what is not needed, checks the lean scene against the full one, and compares what each "
+        "takes at its cheapest within --want. Ctrl-C prints what is known so far.",
     .example = "hooke needs cloth.json --want 1cm -o lean.json",
     HOOKE_VERB_ROWS(own_rows),
     .options = "needs",

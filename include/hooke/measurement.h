@@ -143,13 +143,15 @@ HOOKE_API double hooke_limit_of_mode(const char *method, double frequency, doubl
  * judged by a run with half the step (a tenth of the tolerance). An ingredient whose change is below the
  * wanted error is not needed. Ingredients are each group of springs and each family of a part; bending;
  * altitude springs; damping; drag; gravity; a force callback; springs whose force stays small; particles that
- * touch nothing; parts without watched particles; resistance to compression; half the resolution of each
- * part, compared at equal material coordinates by linear interpolation.
+ * touch nothing; parts without watched particles; resistance to compression; the deformation of each part,
+ * which becomes one rigid body; half the resolution of each part, compared at equal material coordinates by
+ * linear interpolation.
  *
- * Then all ingredients that are not needed and whose omission saves work are left out together, in order of
- * increasing change, as long as a run with the largest possible step stays within the wanted error, all
- * errors together. Single springs of a part are left out only where that halves the work. Where the watched
- * particles move by less than a thousandth of the wanted error, needs are unknown and nothing is left out.
+ * Then all ingredients that are not needed and whose omission saves work are left out together, whole parts
+ * first, then deformations, then the rest, each in order of increasing change, as long as a run with the
+ * largest possible step stays within the wanted error, all errors together. Single springs of a part are left
+ * out only where that halves the work. Where the watched particles move by less than a thousandth of the
+ * wanted error, needs are unknown and nothing is left out.
  *
  * The option `refine` does the reverse: it runs each part at once, twice and four times its resolution, for
  * the table "parts". `run` gives duration, every and the method; without a method, one is picked.

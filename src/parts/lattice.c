@@ -164,7 +164,7 @@ static int32_t add_particles(struct hk_part *part, const struct lattice *lattice
   int32_t status = hk_part_check_masses(part);
   if (status != HOOKE_OK) return status;
   if (hooke_options_is_set(part->options, "density")) return add_by_density(part, lattice, position);
-  part->inner_mass = hooke_options_number(part->options, "mass") / (double)part->count;
+  part->inner_mass = hk_part_total_mass(part) / (double)part->count;
   return hooke_system_add_particles(part->system, part->count, position, NULL, 1, &part->inner_mass,
                                     &part->first);
 }

@@ -5,6 +5,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 static double option_of(const struct hk_part *part, const char *family, const char *key) {
   char dotted[64];
@@ -19,9 +20,22 @@ static int32_t derive(const struct hk_part *part, const char *family, const char
 
 /* ---- masses ---- */
 
+/* Of an overdamped system, where masses serve gravity and damping ratios alone. */
+static int32_t check_massless(const struct hk_part *part) {
+  const char *const ending = ".damping_ratio";
+  for (int64_t k = 0; k < hooke_options_row_count(part->options); k++) {
+    const char *name = hooke_options_row(part->options, k, "name");
+    const size_t length = strlen(name), end = strlen(ending);
+    if (length > end && strcmp(name + length - end, ending) == 0 && hooke_options_is_set(part->options, name))
+      return hk_fail(HOOKE_BAD_VALUE, name, "is given to a part that has neither mass nor density");
+  }
+  return HOOKE_OK;
+}
+
 int32_t hk_part_check_masses(const struct hk_part *part) {
   const int both = hooke_options_is_set(part->options, "density");
   if (both != hooke_options_is_set(part->options, "mass")) return HOOKE_OK;
+  if (!both && part->system->overdamped) return check_massless(part);
   return hk_fail(HOOKE_BAD_VALUE, both ? "density" : NULL,
                  "%s; a part needs one of mass (total, kg) and density (of its material)",
                  both ? "mass and density are both given" : "neither mass nor density is given");
@@ -46,6 +60,10 @@ static int32_t derive_masses(const struct hk_part *part, int64_t rows, int64_t c
   return status;
 }
 
+double hk_part_total_mass(const struct hk_part *part) {
+  return hooke_options_is_set(part->options, "mass") ? hooke_options_number(part->options, "mass") : 0.0;
+}
+
 int32_t hk_part_masses(struct hk_part *part, int64_t rows, int64_t columns, double piece, int64_t *mass_count,
                        double **mass) {
   const int32_t status = hk_part_check_masses(part);
@@ -55,7 +73,7 @@ int32_t hk_part_masses(struct hk_part *part, int64_t rows, int64_t columns, doub
   *mass = hk_new(*mass_count, sizeof(double));
   if (*mass == NULL) return HOOKE_NO_MEMORY;
   if (!by_density) {
-    part->inner_mass = **mass = hooke_options_number(part->options, "mass") / (double)part->count;
+    part->inner_mass = **mass = hk_part_total_mass(part) / (double)part->count;
     return HOOKE_OK;
   }
   const double inner = part->inner_mass = hooke_options_number(part->options, "density") * piece;

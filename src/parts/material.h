@@ -12,8 +12,11 @@
 int32_t hk_part_masses(struct hk_part *part, int64_t rows, int64_t columns, double piece, int64_t *mass_count,
                        double **mass);
 
-/* HOOKE_BAD_VALUE unless one of the options `mass` and `density` is given. */
+/* HOOKE_BAD_VALUE unless one of the options `mass` and `density` is given or, in an overdamped system,
+ * none. */
 int32_t hk_part_check_masses(const struct hk_part *part);
+/* The option `mass` [kg]; 0: not given. */
+double hk_part_total_mass(const struct hk_part *part);
 
 /* The option damping [N s] of every spring of a family, `count` long, from its damping_ratio: kd = gamma l0,
  * gamma = 2 zeta sqrt(kappa m/2), l0 the rest length of the springs, m the part's inner mass; without an

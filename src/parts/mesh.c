@@ -135,7 +135,7 @@ static int32_t derive_range(const struct hk_part *part, const char *family, cons
 /* Replaces the areas by masses. */
 static void find_masses(const struct hk_part *part, const struct hk_surface *surface, double *mass) {
   const int by_density = hooke_options_is_set(part->options, "density");
-  const double given = hooke_options_number(part->options, by_density ? "density" : "mass");
+  const double given = by_density ? hooke_options_number(part->options, "density") : hk_part_total_mass(part);
   double area = 0.0;
   for (int64_t v = 0; v < surface->vertex_count; v++)
     area += surface->area[v];

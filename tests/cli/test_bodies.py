@@ -67,10 +67,77 @@ def test_a_run_is_repeated_and_continued(hooke, scene, tmp_path):
                 assert np.abs(now - before).max() < 1e-14 and np.abs(q[frame] - q[0])[body].max() > 1e-3
 
 
-def test_measurements_say_that_they_do_not_know_bodies(hooke, scene):
-    for words in (["limit"], ["needs", "--want", "1cm"], ["run", "--want", "1cm"], ["check", "--cost"]):
-        told = hooke(words[0], scene, *words[1:])
-        assert told.code != 0 and "rigid bodies yet" in told.err
+def positions(hooke, scene, path, *options):
+    assert hooke("run", scene, "-o", path, *options).code == 0
+    with h5py.File(path) as file:
+        return file["particles/all/position/value"][:]
+
+
+def distance(one, other):
+    """The largest over the frames of the root mean square distance."""
+    return np.sqrt(((one - other) ** 2).sum(axis=2).mean(axis=1)).max()
+
+
+@pytest.mark.parametrize("method", [None, "verlet", "symplectic-euler", "cvode-bdf"])
+def test_a_wanted_error_is_kept(hooke, scene, tmp_path, method):
+    fine = positions(hooke, scene, tmp_path / "fine.h5", "--method", "rk4", "--step", "1e-5")
+    free = np.abs(fine - fine[0]).max(axis=(0, 2)) > 0
+    for want in (1e-3, 1e-5):
+        options = ["--want", repr(want), *(["--method", method] if method else [])]
+        told = hooke("run", scene, *options, "-o", tmp_path / "run.h5", "--json")
+        with h5py.File(tmp_path / "run.h5") as file:
+            found = distance(file["particles/all/position/value"][:, free], fine[:, free])
+        assert told.code == 0 and told.json["want"]["wanted"] == want, told.err
+        told = told.json["error"]["estimate"]  # against a reference that is good for a tenth of the want
+        assert 1e-8 < found <= want and found - 0.1 * want <= told <= want
+
+
+def test_needs_takes_bodies(hooke, scene, tmp_path):
+    told = hooke("needs", scene, "--want", "1mm", "-o", tmp_path / "lean.json", "--json").json
+    rows = {row["without"]: row for row in told["rows"]}
+    assert rows["ropes"]["needed"] and rows["gravity"]["needed"] and not rows["damping"]["needed"]
+    assert "would lose particles" in rows["half the resolution of bar"]["note"]
+    assert not [name for name in rows if name.startswith("deformation")]  # all parts are bodies already
+    assert told["lean"]["without"] == ["damping", "half the resolution of box"]
+    full = positions(hooke, scene, tmp_path / "full.h5", "--method", "rk4", "--step", "1e-5")
+    lean = positions(hooke, tmp_path / "lean.json", tmp_path / "lean.h5")
+    board = slice(0, 4)  # of which the error in the mean over all 20 free particles is the larger part
+    assert 1e-4 < distance(full[:, board], lean[:, board]) < 1e-3 * np.sqrt(20 / 4)
+    scene.write_text(json.dumps({**BOARD, "parts": [{**BOARD["parts"][0], "rigid": False}, BOARD["parts"][1]]}))
+    names = [row["without"] for row in hooke("needs", scene, "--want", "1mm", "--json").json["rows"]]
+    assert [name for name in names if name.startswith("deformation")] == ["deformation of box"]
+
+
+def test_cost_takes_bodies(hooke, scene):
+    told = hooke("check", scene, "--cost", "--json").json["cost"]
+    assert told["nanoseconds"] > 0 and [row["ingredient"] for row in told["rows"]] == ["ropes", "damping", "gravity"]
+    assert all(row["nanoseconds"] >= 0 and row["memory_bytes"] >= 0 for row in told["rows"]) and told["step_limit"] is None
+
+
+def test_an_ensemble_starts_bodies_elsewhere(hooke, tmp_path):
+    """A bar that hangs from a bar, of which nobody can tell for long where they are, keeps its energy."""
+    linkage = {
+        "hooke": 1,
+        "gravity": [0, -9.81, 0],
+        "particles": {
+            "position": [[0, 0, 0], [0.6, 0.05, 0], [0.3, 0.1, 0.05], [0.62, 0.05, 0], [1.1, 0.3, 0.1], [0.9, 0.1, -0.1]],
+            "mass": 0.5, "pinned": [0]},
+        "bodies": [{"particles": [0, 1, 2]}, {"particles": [3, 4, 5]}],
+        "springs": [{"between": [[1, 3]], "stiffness": 200}],
+        "run": {"method": "rk4", "duration": 8, "every": 0.05},
+    }
+    (tmp_path / "linkage.json").write_text(json.dumps(linkage))
+    words = ["--methods", "rk4", "--steps", "1ms", "--want", "1e-7m", "--ensemble", "3", "--budget", "6s", "--json"]
+    found = hooke("study", tmp_path / "linkage.json", *words).json["statistics"]
+    (energy,) = [quantity["reference"] for quantity in found["quantities"] if quantity["quantity"] == "energy"]
+    start = 0.5 * 9.81 * (0.05 + 0.1 + 0.05 + 0.3 + 0.1)
+    assert energy["members"] >= 2 and energy["failed"] == 0
+    assert energy["mean"] == pytest.approx(start, rel=1e-6) and 1e-10 < energy["spread"] < 1e-6
+
+
+def test_what_does_not_know_bodies_says_so(hooke, scene):
+    told = hooke("limit", scene)
+    assert told.code != 0 and "rigid bodies yet" in told.err
     told = hooke("run", scene, "--method", "backward-euler")
     assert told.code != 0 and "backward-euler does not know rigid bodies yet" in told.err
 

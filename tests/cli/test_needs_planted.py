@@ -26,6 +26,8 @@ PLANTED = {
     "damped-mass": (1e-3, None, ["drag"], ["damper", "damping"]),
     "shaken-rope": (1e-3, "rope", ["rope.bend", "twin"], ["rope.stretch", "damping"]),
     "free-sheet": (1e-3, "0-24", ["u", "v", "damping", "drag"], []),
+    "hung-plate": (2e-3, None, ["deformation of plate", "half the resolution of plate"],
+                   ["hangers", "plate.shear", "gravity"]),
     "pinned-cloth": (5e-3, None, ["195 springs that never pass"], ["cloth.structural", "cloth.shear", "gravity"]),
 }
 

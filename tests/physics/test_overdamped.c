@@ -214,6 +214,54 @@ static void check_refused(hooke_system *system, const char *message) {
   hooke_system_destroy(system);
 }
 
+/* A lattice and a rope; `mass` 0: not given. */
+static hooke_system *open_parts(double mass, double gravity, const char *option) {
+  const char *const kinds[] = {"lattice", "rope"}, *const family[] = {"structural", "stretch"};
+  const double edges[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1}, size[3] = {3, 2, 3}, end[3] = {6, 1, 0};
+  hooke_system *system = NULL;
+  check_ok(hooke_system_create(&system));
+  check_ok(hooke_system_set_dynamics(system, "overdamped"));
+  check_ok(hooke_system_set_drag(system, GAMMA));
+  check_ok(hooke_system_set_gravity(system, (double[]){0.0, gravity, 0.0}));
+  for (int k = 0; k < 2; k++) {
+    hooke_options *part = NULL;
+    char name[64];
+    check_ok(hooke_options_create(kinds[k], &part));
+    if (k == 0) check_ok(hooke_options_set_numbers(part, "edges", 9, edges));
+    if (k == 0) check_ok(hooke_options_set_numbers(part, "size", 3, size));
+    if (k == 1) check_ok(hooke_options_set_numbers(part, "from", 3, (double[]){4, 0, 0}));
+    if (k == 1) check_ok(hooke_options_set_numbers(part, "to", 3, end));
+    if (k == 1) check_ok(hooke_options_set_number(part, "segments", 5));
+    if (mass > 0.0) check_ok(hooke_options_set_number(part, "mass", mass));
+    snprintf(name, sizeof name, "%s.stiffness", family[k]);
+    check_ok(hooke_options_set_number(part, name, 7.0));
+    snprintf(name, sizeof name, "%s.%s", family[k], option ? option : "rest_scale");
+    check_ok(hooke_options_set_number(part, name, 0.8));
+    const int32_t status = hooke_system_add_part(system, kinds[k], NULL, part, NULL, NULL);
+    assert_int_equal(status, option ? HOOKE_BAD_VALUE : HOOKE_OK);
+    hooke_options_destroy(part);
+  }
+  return system;
+}
+
+/* Masses do nothing without gravity, so parts need none. */
+static void test_parts_without_mass(void **unused) {
+  (void)unused;
+  enum { N = 18 + 6 };
+  double q[2][3 * N];
+  for (int k = 0; k < 2; k++) {
+    hooke_system *system = open_parts(k ? 3.0 : 0.0, 0.0, NULL);
+    check_ok(hooke_system_commit(system));
+    run_to_end(system, (struct run){.method = "rk4", .step = 0.01, .duration = 1.0}, q[k], NULL);
+    hooke_system_destroy(system);
+  }
+  check_same_bits(3 * N, q[0], q[1]);
+  check_between(fabs(q[0][3 * N - 3] - 6.0), 0.05, 0.5); /* the end of the rope has moved */
+  check_refused(open_parts(0.0, -9.81, NULL), "particles.mass[0]: is missing; gravity");
+  hooke_system_destroy(open_parts(0.0, 0.0, "damping_ratio"));
+  check_message("stretch.damping_ratio: is given to a part that has neither mass nor density");
+}
+
 static void test_refusals(void **unused) {
   (void)unused;
   const double g[3] = {0.0, 0.0, 1.0}, q[3] = {0.0, 0.0, 1.0}, v[3] = {0.0, 1.0, 0.0}, mass = 1.0;
@@ -251,8 +299,13 @@ static void test_refusals(void **unused) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_orders),     cmocka_unit_test(test_adaptive), cmocka_unit_test(test_limits),
-      cmocka_unit_test(test_divergence), cmocka_unit_test(test_forces),   cmocka_unit_test(test_driven),
+      cmocka_unit_test(test_orders),
+      cmocka_unit_test(test_adaptive),
+      cmocka_unit_test(test_limits),
+      cmocka_unit_test(test_divergence),
+      cmocka_unit_test(test_forces),
+      cmocka_unit_test(test_driven),
+      cmocka_unit_test(test_parts_without_mass),
       cmocka_unit_test(test_refusals),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

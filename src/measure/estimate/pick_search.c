@@ -3,6 +3,7 @@
 #include "measure/estimate/pick.h"
 #include "measure/estimate/soundness.h"
 #include "measure/spectrum/step_bound.h"
+#include "measure/trial/method_list.h"
 
 #include "core/clock.h"
 #include "core/status.h"
@@ -208,7 +209,8 @@ static int32_t find_largest(struct search *s) {
   if (isnan(s->bound)) s->bound = INFINITY;
   s->largest = s->adaptive ? LOOSEST : fmin(s->pick->unit, hk_soundness_limit_share * s->bound);
   const double before = s->largest;
-  const int32_t status = s->adaptive ? HOOKE_OK : hk_step_cheapest(s->pick->system, s->method, &s->largest);
+  const int32_t solves = !s->adaptive && s->pick->system->bodies.moving == 0; /* no step solves with bodies */
+  const int32_t status = solves ? hk_step_cheapest(s->pick->system, s->method, &s->largest) : HOOKE_OK;
   s->raised = s->largest < before;
   return status;
 }
@@ -296,7 +298,7 @@ int32_t hk_pick_search(struct hk_pick *pick) {
   for (int64_t m = 0; m < hooke_method_count() && count < MOST_METHODS && status == HOOKE_OK; m++) {
     const char *method = hooke_method_name(m);
     if (pick->method ? strcmp(method, pick->method) != 0 : !hooke_method_is_built(method)) continue;
-    if (!hk_method_suits(method, pick->system)) continue;
+    if (!hk_method_takes(pick->system, method)) continue;
     status = begin(pick, method, &all[count]);
     count += all[count].largest > 0.0;
   }

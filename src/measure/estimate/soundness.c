@@ -33,7 +33,9 @@ int32_t hk_soundness_begin(struct hk_soundness *s, const hooke_system *system, c
   const struct hk_energies at = hk_state_energies(state, system);
   s->gravity0 = at.gravity;
   s->scale = at.kinetic + at.elastic;
-  return hk_step_is_bounded(method) && step > 0.0 ? hk_node_blocks_create(system, q, &s->blocks) : HOOKE_OK;
+  if (!hk_step_is_bounded(method) || !(step > 0.0)) return HOOKE_OK;
+  s->no_limit = system->bodies.moving > 0;
+  return s->no_limit ? HOOKE_OK : hk_node_blocks_create(system, q, &s->blocks);
 }
 
 /* The limit itself is computed only where the step is not clear of the bound, until the step is not clear of

@@ -18,6 +18,7 @@ struct hk_soundness {
   double limit_over_bound;
   double patience;               /* remaining time for limits, where the step is not clear of the bound [s] */
   double scale, gravity0, swing; /* energy scale, as in the definition of "diverged" [J] */
+  int32_t no_limit;              /* 1: there is one, but with rigid bodies nobody knows it */
   int64_t count, capacity;
   double *time, *energy; /* of the recorded states */
 };

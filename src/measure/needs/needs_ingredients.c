@@ -100,8 +100,11 @@ static int32_t list_loose(struct hk_needs *needs, const uint8_t *watched) {
   uint8_t *touched = hk_new(system->particle_count, 1);
   if (touched == NULL) return HOOKE_NO_MEMORY;
   hk_system_mark_touched(system, touched);
-  for (int64_t k = 0; k < system->part_count; k++) /* these go with their part */
+  /* particles of parts go with these, and those of bodies have mass in them */
+  for (int64_t k = 0; k < system->part_count; k++)
     memset(touched + system->part[k].first, 1, (size_t)system->part[k].count);
+  for (int64_t p = 0; p < system->particle_count && system->bodies.of; p++)
+    touched[p] |= system->bodies.of[p] >= 0;
   int64_t loose = 0;
   for (int64_t p = 0; p < system->particle_count; p++)
     loose += !touched[p] && !watched[p];
@@ -146,6 +149,33 @@ static int32_t list_resolutions(struct hk_needs *needs) {
   return HOOKE_OK;
 }
 
+/* 1 if a part has forces inside, and may be one body: it is none, nor in one, and nothing drives it. */
+static int32_t may_be_rigid(const hooke_system *system, int64_t part) {
+  const struct hk_part_record *record = &system->part[part];
+  int64_t inside = 0;
+  for (int64_t g = 0; g < system->group_count; g++) {
+    const struct hk_group *group = &system->group[g];
+    if (group->from_part && group->part == part) inside += group->count;
+  }
+  for (int64_t p = record->first; p < record->first + record->count && inside > 0; p++) {
+    const int32_t driven = system->constrained[p] == HOOKE_IS_DRIVEN;
+    if (driven || (system->bodies.of && system->bodies.of[p] >= 0)) inside = 0;
+  }
+  return inside > 0 && !system->overdamped;
+}
+
+static int32_t list_bodies(struct hk_needs *needs) {
+  const hooke_system *system = needs->system;
+  for (int64_t k = 0; k < system->part_count; k++) {
+    struct hk_needs_row *row;
+    if (!may_be_rigid(system, k)) continue;
+    const int32_t status = add_row(needs, "rigid", &row, "deformation of %s", system->part[k].name);
+    if (status != HOOKE_OK) return status;
+    row->variant.rigid[k] = 1;
+  }
+  return HOOKE_OK;
+}
+
 int32_t hk_needs_list(struct hk_needs *needs) {
   uint8_t *watched = hk_new(needs->system->particle_count, 1);
   if (watched == NULL) return HOOKE_NO_MEMORY;
@@ -159,6 +189,7 @@ int32_t hk_needs_list(struct hk_needs *needs) {
   }
   if (status == HOOKE_OK) status = list_loose(needs, watched);
   if (status == HOOKE_OK) status = list_parts(needs, watched);
+  if (status == HOOKE_OK) status = list_bodies(needs);
   if (status == HOOKE_OK) status = list_resolutions(needs);
   hk_free(watched);
   return status;

@@ -2,8 +2,10 @@
 #include "measure/needs/needs.h"
 
 #include "core/memory.h"
+#include "core/print.h"
 #include "core/utf8.h"
 #include "integrate/method.h"
+#include "measure/trial/method_list.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -73,17 +75,24 @@ static int32_t is_split(const struct hk_needs *needs, const struct hk_variant *v
   return hk_variant_next_split(needs->system, variant, 0) >= 0;
 }
 
-/* Variants that the options of a part cannot express come last: the part may have lost more by then. */
+/* Whole parts come first, then bodies: all that is inside drops out with them. Variants that the options of a
+ * part cannot express come last: the part may have lost more by then. */
+static int32_t rank(const struct hk_needs *needs, const struct hk_needs_row *row) {
+  if (strcmp(row->kind, "part") == 0) return 0;
+  if (strcmp(row->kind, "rigid") == 0) return 1;
+  return is_split(needs, &row->variant) ? 3 : 2;
+}
+
 static int32_t comes_before(const struct hk_needs *needs, const struct hk_needs_row *a,
                             const struct hk_needs_row *b) {
-  const int32_t split = is_split(needs, &a->variant);
-  if (split != is_split(needs, &b->variant)) return !split;
+  const int32_t one = rank(needs, a), other = rank(needs, b);
+  if (one != other) return one < other;
   if (a->error != b->error) return a->error < b->error;
   return a->cost.particles + a->cost.springs < b->cost.particles + b->cost.springs;
 }
 
-/* The unneeded row with the smallest change, of equal ones that which leaves the least, that is not yet left
- * out or tried; -1 if there is none. */
+/* The unneeded row of the first rank with the smallest change, of equal ones that which leaves the least,
+ * that is not yet left out or tried; -1 if there is none. */
 static int64_t next_row(const struct hk_needs *needs, const uint8_t *tried) {
   int64_t found = -1;
   for (int64_t k = 0; k < needs->row_count; k++) {
@@ -150,19 +159,47 @@ static void say_why_it_stays(const struct hk_needs *needs, struct hk_needs_row *
                                             : "saves no work, or not together with the rest");
 }
 
+/* One name more of a list. */
+static void append(char names[HOOKE_NEEDS_NAME], const char *name) {
+  const size_t used = strlen(names);
+  snprintf(names + used, HOOKE_NEEDS_NAME - used, "%s%s", used ? ", " : "", name);
+}
+
+/* "100 steps of 0.02 s", or "100 steps" with error control. */
+static void print_steps(const struct hk_needs_cost *cost, char text[64]) {
+  if (isnan(cost->step))
+    hk_print(text, 64, "%.0f steps", cost->steps);
+  else
+    hk_print(text, 64, "%.0f steps of %.3g s", cost->steps, cost->step);
+}
+
+/* Parts that are bodies in the lean scene, and the steps that this saves. */
+static void note_bodies(struct hk_needs *needs) {
+  char names[HOOKE_NEEDS_NAME] = "", lean[64], full[64];
+  for (int64_t k = 0; k < needs->system->part_count; k++)
+    if (needs->lean_variant.rigid[k] && !needs->lean_variant.part[k])
+      append(names, needs->system->part[k].name);
+  if (names[0] == '\0') return;
+  print_steps(&needs->lean_cost, lean);
+  print_steps(&needs->cheapest, full);
+  hk_print(needs->lean_note, sizeof needs->lean_note, "%s: rigid (\"rigid\": true); %s instead of %s", names,
+           lean, full);
+  hk_utf8_make_plain(needs->lean_note);
+}
+
 /* Groups of parts that the lean scene cannot express as a part. */
 static void note_splits(struct hk_needs *needs) {
   const hooke_system *system = needs->system;
   char names[HOOKE_NEEDS_NAME] = "";
   int64_t count = 0;
   for (int64_t g = -1; (g = hk_variant_next_split(system, &needs->lean_variant, g + 1)) >= 0; count++) {
-    const size_t used = strlen(names);
-    snprintf(names + used, sizeof names - used, "%s%s", used ? ", " : "", system->group[g].name);
+    append(names, system->group[g].name);
   }
   if (count == 0) return;
-  snprintf(needs->lean_note, sizeof needs->lean_note,
-           "%s: written spring by spring, not as a part has it, since single springs of %s are left out",
-           names, count == 1 ? "it" : "them");
+  const size_t used = strlen(needs->lean_note);
+  snprintf(needs->lean_note + used, sizeof needs->lean_note - used,
+           "%s%s: written spring by spring, not as a part has it, since single springs of %s are left out",
+           used ? "; " : "", names, count == 1 ? "it" : "them");
   hk_utf8_make_plain(needs->lean_note);
 }
 
@@ -175,7 +212,7 @@ static int32_t compare_times(struct hk_needs *needs) {
 
 static int32_t is_to_try(const struct hk_needs *needs, const char *method) {
   return strcmp(method, hooke_options_text(needs->run, "method")) != 0 && hooke_method_is_built(method) &&
-         hk_method_suits(method, needs->system) && !hk_method_find(method)->reference;
+         hk_method_takes(needs->system, method) && !hk_method_find(method)->reference;
 }
 
 /* So that savings by another method are not attributed to the omissions. */
@@ -214,6 +251,7 @@ static int32_t find_lean(struct hk_needs *needs) {
   hk_free(tried);
   tidy_up(needs);
   if (status != HOOKE_OK) return status;
+  note_bodies(needs);
   note_splits(needs);
   for (int64_t k = 0; k < needs->row_count; k++)
     say_why_it_stays(needs, &needs->row[k]);

@@ -48,7 +48,7 @@ int32_t hk_needs_run_row(struct hk_needs *needs, struct hk_needs_row *row) {
   hk_variant_map_release(&map);
   hooke_system_destroy(made);
   row->measured = status == HOOKE_OK;
-  return status;
+  return status == HOOKE_UNSUITED ? note_failure(row, status) : status; /* the method may not know bodies */
 }
 
 /* 1 if the springs are those of one group, which has a row of its own, or all springs. */

@@ -146,8 +146,8 @@ static const struct hk_column lean_columns[] = {
                  "where nothing is left out"),
     HOOKE_COLUMN(struct lean_line, other_seconds, NUMBER, "s", "wall time of the full system by that method"),
     HOOKE_COLUMN(struct lean_line, note, TEXT, "",
-                 "groups of parts that the lean system has spring by spring, since it has some of their "
-                 "springs only"),
+                 "parts that are rigid bodies in the lean system, and groups of parts that it has spring by "
+                 "spring, since it has some of their springs only"),
 };
 
 static const struct hk_table lean_table = {
@@ -214,7 +214,7 @@ static const struct hk_column row_columns[] = {
     HOOKE_COLUMN(struct row_line, without, TEXT, "", "what was left out"),
     HOOKE_COLUMN(
         struct row_line, kind, TEXT, "",
-        "springs, bending, altitude, damping, drag, gravity, callback, idle, loose, part, compression "
+        "springs, bending, altitude, damping, drag, gravity, callback, idle, loose, part, rigid, compression "
         "or resolution"),
     HOOKE_COLUMN(struct row_line, error, NUMBER, "m",
                  "change of the watched particles without it; NaN if the run did not end"),

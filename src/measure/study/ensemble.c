@@ -109,7 +109,8 @@ static int32_t tell(double share, void *ctx) {
   return hk_study_tell_row(share, ((struct member *)ctx)->study);
 }
 
-/* Adds independent noise to every coordinate of a free particle. */
+/* Adds independent noise to every coordinate of a free particle; a rigid body goes where the three particles
+ * go that say where it is. */
 static void displace(hooke_state *state, void *ctx) {
   struct member *member = ctx;
   const struct hk_frames *frames = &member->study->reference.frames;
@@ -119,6 +120,7 @@ static void displace(hooke_state *state, void *ctx) {
     for (int a = 0; a < 3; a++)
       q[3 * frames->free_particle[k] + a] += size * hk_random_normal(&member->source->random);
   }
+  hk_bodies_make_rigid(frames->system, q, hooke_state_velocity(state));
 }
 
 static int32_t see_frame(int64_t frame, int64_t step, const hooke_state *state, void *ctx) {

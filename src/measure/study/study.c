@@ -7,7 +7,6 @@
 #include "core/table/option.h"
 #include "core/status.h"
 #include "integrate/integrator.h"
-#include "integrate/method/bodies.h"
 #include "measure/trial/method_list.h"
 #include "measure/trial/step_unit.h"
 
@@ -90,12 +89,11 @@ static const struct hk_option_table study_table = {"study", HOOKE_OPTION_ROWS(st
 
 static int32_t add_method(const char *method, void *ctx) {
   struct hk_study *study = ctx;
-  const int given = hooke_options_is_set(study->options, "methods");
   if (!hooke_method_is_built(method)) {
     return hk_fail(HOOKE_NOT_BUILT, "methods", "this build is without %s", method);
   }
-  if (study->system->bodies.moving > 0 && hk_method_with_bodies(hk_method_find(method)) == NULL)
-    return given ? hk_system_require_no_bodies(study->system, method) : HOOKE_OK;
+  if (study->system->bodies.moving > 0 && !hk_method_takes(study->system, method))
+    return hk_system_require_no_bodies(study->system, method);
   if (study->method_count == HOOKE_STUDY_METHODS) {
     return hk_fail(HOOKE_BAD_VALUE, "methods", "more than %d methods", HOOKE_STUDY_METHODS);
   }
@@ -115,10 +113,6 @@ static int32_t read_watch(struct hk_study *study) {
   if (hooke_options_number(study->options, "ensemble") == 1.0) {
     return hk_fail(HOOKE_BAD_VALUE, "ensemble",
                    "1 is not allowed: one start has no spread; allowed: 0 (none), or at least 2");
-  }
-  if (hooke_options_number(study->options, "ensemble") > 0.0) {
-    const int32_t status = hk_system_require_no_bodies(study->system, "an ensemble");
-    if (status != HOOKE_OK) return status;
   }
   return text[0] ? hk_watched_read(&study->watched, "watch", text) : HOOKE_OK;
 }

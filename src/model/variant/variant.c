@@ -10,6 +10,7 @@ void hk_variant_release(struct hk_variant *variant) {
   hk_free(variant->spring);
   hk_free(variant->particle);
   hk_free(variant->part);
+  hk_free(variant->rigid);
   hk_free(variant->scale);
   memset(variant, 0, sizeof *variant);
 }
@@ -20,8 +21,10 @@ int32_t hk_variant_create(const hooke_system *system, struct hk_variant *variant
   variant->spring = hk_new(system->springs.count, 1);
   variant->particle = hk_new(system->particle_count, 1);
   variant->part = hk_new(system->part_count, 1);
+  variant->rigid = hk_new(system->part_count, 1);
   variant->scale = hk_new(system->part_count, sizeof(double));
-  if (!variant->group || !variant->spring || !variant->particle || !variant->part || !variant->scale) {
+  if (!variant->group || !variant->spring || !variant->particle || !variant->part || !variant->rigid ||
+      !variant->scale) {
     hk_variant_release(variant);
     return HOOKE_NO_MEMORY;
   }
@@ -46,8 +49,14 @@ void hk_variant_join(const hooke_system *system, struct hk_variant *variant, con
   join(system->springs.count, variant->spring, other->spring);
   join(system->particle_count, variant->particle, other->particle);
   join(system->part_count, variant->part, other->part);
+  join(system->part_count, variant->rigid, other->rigid);
   for (int64_t k = 0; k < system->part_count; k++)
     variant->scale[k] *= other->scale[k];
+}
+
+/* 1 if a part adds the group and is left out, or is a body, which has nothing inside. */
+static int32_t goes_with_part(const struct hk_variant *variant, const struct hk_group *group) {
+  return group->from_part && (variant->part[group->part] || variant->rigid[group->part]);
 }
 
 static int32_t covers_groups(const hooke_system *system, const struct hk_variant *variant,
@@ -55,7 +64,7 @@ static int32_t covers_groups(const hooke_system *system, const struct hk_variant
   int64_t first = 0;
   for (int64_t g = 0; g < system->group_count; first += system->group[g++].count) {
     const struct hk_group *group = &system->group[g];
-    if (variant->group[g] || (group->from_part && variant->part[group->part])) continue;
+    if (variant->group[g] || goes_with_part(variant, group)) continue;
     if (other->group[g]) return 0;
     for (int64_t s = first; s < first + group->count && group->force == &hk_force_springs; s++) {
       if (other->spring[s] && !variant->spring[s]) return 0;
@@ -70,7 +79,8 @@ int32_t hk_variant_covers(const hooke_system *system, const struct hk_variant *v
                     other->force <= variant->force && other->damping <= variant->damping &&
                     other->compression <= variant->compression;
   for (int64_t k = 0; k < system->part_count && covered; k++)
-    covered = variant->part[k] || (!other->part[k] && other->scale[k] == 1.0);
+    covered = variant->part[k] ||
+              (!other->part[k] && other->scale[k] == 1.0 && other->rigid[k] <= variant->rigid[k]);
   for (int64_t p = 0; p < system->particle_count && covered; p++)
     covered = other->particle[p] <= variant->particle[p];
   return covered && covers_groups(system, variant, other);
@@ -81,7 +91,7 @@ static int32_t is_split(const hooke_system *system, const struct hk_variant *var
                         int64_t first) {
   const struct hk_group *group = &system->group[g];
   if (!group->from_part || group->force != &hk_force_springs || variant->group[g] ||
-      variant->part[group->part])
+      goes_with_part(variant, group))
     return 0;
   if (variant->scale[group->part] != 1.0 || group->count == 0) return 0;
   const uint8_t *spring = variant->spring + first;
@@ -138,24 +148,31 @@ static int32_t keep_groups(struct hk_variant_maker *maker) {
   return status;
 }
 
-/* Bodies that are no parts, as long as they have all their particles. */
+/* A body keeps all its particles, or goes with them. */
+static int32_t keep_body(const struct hk_variant_maker *maker, const struct hk_body *body) {
+  int64_t same = 0, gone = 0;
+  int64_t *particles = hk_new(body->count, sizeof *particles);
+  if (particles == NULL) return HOOKE_NO_MEMORY;
+  for (int64_t i = 0; i < body->count; i++) {
+    particles[i] = maker->map->to[body->particle[i]];
+    same += hk_variant_is_same(maker->map, body->particle[i]);
+    gone += particles[i] < 0;
+  }
+  int32_t status = HOOKE_OK;
+  if (same == body->count)
+    status = hk_system_add_body(maker->made, body->name, body->count, particles, body->project, -1);
+  else if (gone < body->count)
+    status = hk_fail(HOOKE_UNSUITED, NULL, "the rigid body \"%.40s\" would lose particles", body->name);
+  hk_free(particles);
+  return status;
+}
+
+/* Bodies that are no parts. */
 static int32_t keep_bodies(const struct hk_variant_maker *maker) {
   const struct hk_bodies *bodies = &maker->from->bodies;
   int32_t status = HOOKE_OK;
-  for (int64_t k = 0; k < bodies->count && status == HOOKE_OK; k++) {
-    const struct hk_body *body = &bodies->body[k];
-    if (body->part >= 0) continue;
-    int64_t *particles = hk_new(body->count, sizeof *particles);
-    if (particles == NULL) return HOOKE_NO_MEMORY;
-    for (int64_t i = 0; i < body->count && status == HOOKE_OK; i++) {
-      particles[i] = maker->map->to[body->particle[i]];
-      if (!hk_variant_is_same(maker->map, body->particle[i]))
-        status = hk_fail(HOOKE_UNSUITED, NULL, "the rigid body \"%.40s\" would lose particles", body->name);
-    }
-    if (status == HOOKE_OK)
-      status = hk_system_add_body(maker->made, body->name, body->count, particles, body->project, -1);
-    hk_free(particles);
-  }
+  for (int64_t k = 0; k < bodies->count && status == HOOKE_OK; k++)
+    if (bodies->body[k].part < 0) status = keep_body(maker, &bodies->body[k]);
   return status;
 }
 
@@ -169,9 +186,13 @@ static void scale_stiffness(hooke_system *made, double factor) {
     scale(made->group[g].count, made->group[g].number[HOOKE_KAPPA], factor);
 }
 
+/* Rigid bodies take it as far as their pins let them. */
 static void add_velocity(hooke_system *made, const double velocity[3]) {
+  if (velocity[0] == 0.0 && velocity[1] == 0.0 && velocity[2] == 0.0) return;
   for (int64_t i = 0; i < 3 * made->particle_count; i++)
     if (!made->constrained[i / 3]) made->velocity[i] += velocity[i % 3];
+  for (int64_t k = 0; k < made->bodies.count; k++)
+    made->bodies.body[k].project = 1;
 }
 
 int32_t hk_variant_make(const hooke_system *from, const struct hk_variant *variant, hooke_system **made,

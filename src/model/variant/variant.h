@@ -12,6 +12,7 @@ struct hk_variant {
   uint8_t *spring;     /* by spring */
   uint8_t *particle;   /* by particle; particles of parts are left out only with their part */
   uint8_t *part;       /* by part */
+  uint8_t *rigid;      /* by part: 1: it is one rigid body, and what is inside it drops out */
   double *scale;       /* by part: factor on the cells along each axis */
   double stiffness;    /* factor on all stiffness, initially 1; ignored by hk_variant_join() */
   double velocity[3];  /* added to the initial velocity of every free particle [m/s]; ignored there, too */

@@ -72,6 +72,8 @@ static int32_t add_part(struct hk_variant_maker *maker, int64_t k) {
   if (status == HOOKE_OK && part->axes > 0) status = change_resolution(record, part, options);
   if (status == HOOKE_OK) status = leave_families_out(maker, k, options);
   if (status == HOOKE_OK) status = change_families(maker->variant, options);
+  if (status == HOOKE_OK && maker->variant->rigid[k])
+    status = hooke_options_set_number(options, "rigid", 1.0);
   if (status == HOOKE_OK) {
     status = record->add(maker->made, record->kind, record->name, options, &part->first, &part->count);
   }

@@ -111,7 +111,9 @@ static int32_t add_empty_group(struct hk_variant_maker *maker, const struct hk_g
 
 int32_t hk_variant_breaks_up(const struct hk_variant_maker *maker, const struct hk_group *group,
                              int64_t first) {
-  if (group->force != &hk_force_springs || maker->map->part[group->part].axes > 0) return 0;
+  if (group->force != &hk_force_springs || maker->map->part[group->part].axes > 0 ||
+      maker->variant->rigid[group->part])
+    return 0;
   for (int64_t k = 0; k < group->count; k++) {
     if (maker->variant->spring[first + k]) return 1;
   }

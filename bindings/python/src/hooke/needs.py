@@ -50,7 +50,8 @@ class Needs(Paged, Closing):
     the full system, including `own_error`. `cheapest` is the cost of the full system's own run within the wanted
     error, by the same method, `cheapest_error` its error, and `times_less` its wall time over that of the lean one;
     `other_method` is one that runs the full system within the wanted error in clearly less time, `other_seconds` [s].
-    None and NaN if there are none. `lean_note` names groups of parts that the lean system has spring by spring.
+    None and NaN if there are none. `lean_note` names parts that are rigid bodies in the lean system, with its steps and
+    those of the full one, and groups of parts that it has spring by spring.
 
     `moved` [m] is the motion of the watched particles from their start; `note` says if nothing moves, or less than
     the wanted error; both notes are "" otherwise.

@@ -1,0 +1,24 @@
+/* The steps of systems with rigid bodies as plain loops, which the library reproduces to the bit. */
+#ifndef TESTS_SUPPORT_CANONICAL_BODY_H
+#define TESTS_SUPPORT_CANONICAL_BODY_H
+
+#include "canonical.h"
+
+/* What commit finds of a body that moves; not owned. */
+struct canonical_body {
+  int64_t count;
+  const int32_t *particle; /* ascending */
+  double mass, inverse_mass;
+  const double *inertia, *inverse_inertia; /* 3 each, of the body's axes */
+  const double *centre;                    /* of mass, from the point, in these axes */
+  const double *place;                     /* of each particle, likewise */
+  int32_t rank;                            /* 0: one point, 1: points in a line, 2: neither */
+  const int32_t *base;                     /* index of the particles a, b, c */
+  const double (*triad)[3];                /* e1, e2, e3 of these in the body's axes */
+};
+
+/* One step of symplectic-euler or verlet. Nothing is driven. */
+void canonical_body_step(const struct canonical *canonical, int64_t count, const struct canonical_body *body,
+                         const char *method, double t, double end, double h, double *q, double *v);
+
+#endif
