@@ -156,7 +156,7 @@ static int32_t look(struct frames *f, const hooke_state *state, int64_t step) {
   if (f->limit == NULL || f->looks > LOOKS || (late && step != f->last)) return HOOKE_OK;
   struct hk_limit *limit = f->limit->object;
   const double *q = hooke_state_position((hooke_state *)state);
-  int32_t status = hk_limit_look(limit, q, hooke_state_time(state));
+  int32_t status = hk_limit_look(limit, q, state->v, hooke_state_time(state));
   if (status != HOOKE_OK)
     return status == HOOKE_NO_MEMORY ? status : HOOKE_OK; /* then it is not known there */
   const struct hk_limit_row *row = hk_limit_limiting_row(limit);

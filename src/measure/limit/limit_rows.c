@@ -64,6 +64,7 @@ static int32_t keep_modes(struct hk_limit *limit, const struct hk_spectrum *s) {
   limit->decay = rate * s->fastest_decay;
   if (limit->system->friction > 0.0) find_overdamped_modes(limit, s);
   limit->clamped = s->linearised->clamped;
+  limit->tipping = s->linearised->rigid.tipping;
   memcpy(limit->stiffest, s->stiffest_mode, (size_t)s->linearised->size * sizeof(double));
   limit->has_stiffest = 1;
   return HOOKE_OK;
@@ -105,9 +106,9 @@ static int32_t find_rows(struct hk_limit *limit, struct hk_linearised *linearise
   return status;
 }
 
-int32_t hk_limit_predict_rows(struct hk_limit *limit, const double *q) {
+int32_t hk_limit_predict_rows(struct hk_limit *limit, const double *q, const double *v) {
   struct hk_linearised linearised;
-  int32_t status = hk_linearised_create(limit->system, q, NULL, NULL, &linearised);
+  int32_t status = hk_linearised_create(limit->system, q, v, NULL, NULL, &linearised);
   if (status != HOOKE_OK) return status;
   linearised.patience = limit->patience;
   linearised.room = limit->room;
