@@ -84,7 +84,7 @@ static void forget(struct hk_limit *limit) {
 
 static void forget_smallest(struct hk_limit *limit) {
   for (int32_t k = 0; k < limit->row_count; k++)
-    limit->row[k].smallest = limit->row[k].smallest_time = NAN;
+    limit->row[k].smallest = limit->row[k].smallest_time = NAN, limit->row[k].unknown = 0;
 }
 
 static int32_t make_room(struct hk_limit *limit) {
@@ -263,6 +263,7 @@ static int32_t see_frame(int64_t step, const hooke_state *state, void *ctx) {
   if (walk->status == HOOKE_OK) walk->status = hk_limit_predict_rows(limit, state->q, state->v);
   for (int32_t k = 0; k < limit->row_count && walk->status == HOOKE_OK; k++) {
     struct hk_limit_row *row = &limit->row[k];
+    row->unknown += isnan(row->predicted);
     if (row->predicted >= row->smallest || isnan(row->predicted)) continue;
     row->smallest = row->predicted;
     if (isfinite(row->predicted)) row->smallest_time = hooke_state_time(state);
@@ -275,6 +276,18 @@ static int32_t see_steps(double done, const char *method, void *ctx) {
   (void)method;
   walk->status = begin_part(walk->limit, done, 0.0, "limits along the run");
   return walk->status != HOOKE_OK;
+}
+
+/* The smallest prediction is that of the other frames. */
+static void note_unknown(struct hk_limit *limit, int64_t frames) {
+  char note[96];
+  for (int32_t k = 0; k < limit->row_count && limit->system->bodies.moving > 0; k++) {
+    struct hk_limit_row *row = &limit->row[k];
+    if (row->unknown == 0) continue;
+    snprintf(note, sizeof note, "along the run not known at %lld of %lld frames", (long long)row->unknown,
+             (long long)frames);
+    add_note(row, note);
+  }
 }
 
 static int32_t go_along(struct hk_limit *limit, hooke_state *state) {
@@ -294,6 +307,7 @@ static int32_t go_along(struct hk_limit *limit, hooke_state *state) {
   hooke_integrator_destroy(integrator);
   remember(limit, hooke_state_position(state), hooke_state_time(state));
   if (walk.status != HOOKE_OK) return walk.status;
+  note_unknown(limit, walk.frame);
   const int32_t found = status < 0 || !limit->found ? HOOKE_OK : find_participation(limit);
   return found != HOOKE_OK ? found : status;
 }

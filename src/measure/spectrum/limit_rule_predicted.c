@@ -17,7 +17,8 @@ static const double TOLERANCE = 1e-10;
 static const char *const TOO_LARGE =
     "not known: damping out of proportion is at predicted velocities, and the "
     "scene too large to solve for all motion at once";
-static const char *const NOT_ALL = "damping out of proportion could make motion grow below the prediction";
+static const char *const NOT_ALL =
+    "with damping out of proportion it is not proved that no motion grows below the prediction";
 
 /* h^2 (k - d) + 2 h c = 4, written so that nothing cancels; infinity if it is met nowhere. */
 static double reach(double k, double c, double d) {
@@ -25,14 +26,17 @@ static double reach(double k, double c, double d) {
   return square >= 0.0 && c + sqrt(square) > 0.0 ? 4.0 / (c + sqrt(square)) : INFINITY;
 }
 
-static double by_damping(const struct hk_spectrum *s) {
-  return s->fastest_decay > 0.0 ? 2.0 / s->fastest_decay : INFINITY;
+static double by_damping(double c) {
+  return c > 0.0 ? 2.0 / c : INFINITY;
+}
+
+double hk_limit_predicted_step(double k, double c) {
+  return fmin(reach(k, c, c * c), by_damping(c));
 }
 
 /* Where C = beta K + delta M, the stiffest mode meets both first. */
 static void proportional(const struct hk_spectrum *s, struct hk_prediction *out) {
-  const double k = s->stiffest, c = s->beta * k + s->delta;
-  out->limit = fmin(reach(k, c, c * c), c > 0.0 ? 2.0 / c : INFINITY);
+  out->limit = hk_limit_predicted_step(s->stiffest, s->beta * s->stiffest + s->delta);
   hk_limit_take_mode(s, s->stiffest_mode, out);
 }
 
@@ -113,7 +117,7 @@ int32_t hk_limit_rule_predicted(struct hk_spectrum *s, struct hk_prediction *out
     return HOOKE_OK;
   }
   const int32_t status = out_of_proportion(s, out);
-  out->limit = fmin(out->limit, by_damping(s));
+  out->limit = fmin(out->limit, by_damping(s->fastest_decay));
   out->exact = 0;
   out->note = NOT_ALL;
   return status;

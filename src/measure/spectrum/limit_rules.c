@@ -164,14 +164,24 @@ static double mode_step(const struct hk_stability *stability, double k, double c
     return verlet_step(k);
   case HOOKE_STABLE_BY_K_AND_C:
     return symplectic_step(k, c);
+  case HOOKE_STABLE_BY_PREDICTION:
+    return hk_limit_predicted_step(k, c);
   default:
     return stability->degree > 0 ? polynomial_mode(stability->degree, k, c) : (double)NAN;
   }
 }
 
-double hooke_limit_of_mode(const char *method, double frequency, double decay) {
+static double limit_of_mode(const struct hk_stability *stability, double frequency, double decay) {
   if (!(frequency >= 0.0) || !(decay >= 0.0)) return NAN;
-  return mode_step(hk_method_stability(method), frequency * frequency, 2.0 * decay);
+  return mode_step(stability, frequency * frequency, 2.0 * decay);
+}
+
+double hooke_limit_of_mode(const char *method, double frequency, double decay) {
+  return limit_of_mode(hk_method_stability(method), frequency, decay);
+}
+
+double hk_limit_of_mode_in(const hooke_system *system, const char *method, double frequency, double decay) {
+  return limit_of_mode(hk_method_stability_in(method, system), frequency, decay);
 }
 
 /* ---- by kinds of stability ---- */

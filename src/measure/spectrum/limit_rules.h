@@ -25,8 +25,13 @@ int32_t hk_limit_rule_needs_all(const char *method);
  * eigenvalue by no more than that. Otherwise the limit is NaN. HOOKE_BAD_VALUE for an unknown method. */
 int32_t hk_limit_rule(struct hk_spectrum *spectrum, const char *method, struct hk_prediction *out);
 
-/* For the rules: the mode, if it is not NULL; and that of HOOKE_STABLE_BY_PREDICTION. */
+/* hooke_limit_of_mode() for steps of this system, in which bodies may move. */
+double hk_limit_of_mode_in(const hooke_system *system, const char *method, double frequency, double decay);
+
+/* For the rules: the mode, if it is not NULL; and that of HOOKE_STABLE_BY_PREDICTION, of one mode x'' + c x' + k x =
+ * 0 and of all. */
 void hk_limit_take_mode(const struct hk_spectrum *spectrum, const double *mode, struct hk_prediction *out);
+double hk_limit_predicted_step(double k, double c);
 int32_t hk_limit_rule_predicted(struct hk_spectrum *spectrum, struct hk_prediction *out);
 
 /* Distance from 0 up to which Runge-Kutta 4 and Heun's method are stable on the ray to (real, imaginary),

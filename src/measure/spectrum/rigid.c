@@ -9,8 +9,8 @@
 #include <math.h>
 #include <string.h>
 
-/* Negative eigenvalues above this part of the largest are rounding. */
-static const double TIPPING_ROUNDING = 1e-9;
+/* Rounding of positions, as part of the largest coordinate. */
+static const double POSITION_ROUNDING = 1e-14;
 
 /* ---- creating ---- */
 
@@ -34,9 +34,37 @@ static void transform(const double a[3][3], const double m[3][3], double out[3][
   }
 }
 
-/* Over the inertia, so that only axes count about which the body turns, and without negative eigenvalues. */
-static void make_positive(struct hk_rigid *rigid, struct hk_body_tangent *t) {
-  double axis[3][3], m[3][3], vector[3][3], positive[3][3] = {{0.0}}, least = 0.0, most = 0.0;
+/* The sum of the stiffnesses of all elements at each body, by its number. */
+static void find_strengths(const hooke_system *system, const double *q, double *strength) {
+  struct hk_elements at;
+  hk_begin_elements(system, q, NULL, &at);
+  for (const struct hk_element *e; (e = hk_next_element(&at)) != NULL;) {
+    for (int j = 0; j < e->count; j++) {
+      const int32_t body = system->bodies.of[e->particle[j]];
+      if (body >= 0) strength[body] += fabs(e->weight[j]) * e->k_along;
+    }
+  }
+}
+
+/* Geometric stiffness [N m] that springs of this strength at their rest lengths, and gravity about the centre of
+ * mass, have by rounding. */
+static double rounding_of(const hooke_system *system, const double *q, const struct hk_body_tangent *t,
+                          double strength) {
+  double extent = 0.0, size = 0.0;
+  for (int64_t k = 0; k < 3 * system->particle_count; k++)
+    extent = fmax(extent, fabs(q[k]));
+  for (int64_t i = 0; i < t->body->count; i++)
+    size = fmax(size, hk_length3(t->arm + 3 * i));
+  return POSITION_ROUNDING * size * (strength * extent + t->body->mass * hk_length3(system->gravity));
+}
+
+/* Over the inertia, so that only axes count about which the body turns, and without negative eigenvalues and those
+ * of rounding, `slight`. */
+static void make_positive(struct hk_rigid *rigid, struct hk_body_tangent *t, double slight) {
+  const double *inverse = t->body->inverse_inertia;
+  double axis[3][3], m[3][3], vector[3][3], positive[3][3] = {{0.0}};
+  int tips = 0;
+  slight *= fmax(inverse[0], fmax(inverse[1], inverse[2]));
   scale_axes(t, 1, axis);
   for (int i = 0; i < 3; i++) {
     for (int j = 0; j < 3; j++) {
@@ -49,12 +77,11 @@ static void make_positive(struct hk_rigid *rigid, struct hk_body_tangent *t) {
   }
   hk_body_diagonalise(m, vector);
   for (int k = 0; k < 3; k++) {
-    least = fmin(least, m[k][k]);
-    most = fmax(most, fabs(m[k][k]));
-    positive[k][k] = fmax(0.0, m[k][k]);
-    rigid->stiffest = fmax(rigid->stiffest, m[k][k]);
+    tips |= m[k][k] < -slight;
+    positive[k][k] = m[k][k] > slight ? m[k][k] : 0.0;
+    rigid->stiffest = fmax(rigid->stiffest, positive[k][k]);
   }
-  rigid->tipping += least < -TIPPING_ROUNDING * most;
+  rigid->tipping += tips;
   transform(vector, positive, m);
   scale_axes(t, 0, axis);
   transform(axis, m, t->geometric);
@@ -82,11 +109,15 @@ int32_t hk_rigid_create(const hooke_system *system, const double *q, struct hk_r
   if (system->bodies.moving == 0) return HOOKE_OK;
   int32_t status = hk_body_tangents_create(system, q, &rigid->tangents);
   if (status != HOOKE_OK) return status;
-  double *still = hk_new(3 * system->particle_count, sizeof(double));
+  double *still = hk_new(3 * system->particle_count + system->bodies.count, sizeof(double));
+  double *strength = still ? still + 3 * system->particle_count : NULL;
   status = still ? stiffen(rigid, q, still) : HOOKE_NO_MEMORY;
+  if (status == HOOKE_OK) find_strengths(system, q, strength);
+  for (int64_t k = 0; k < rigid->tangents.count && status == HOOKE_OK; k++) {
+    struct hk_body_tangent *t = &rigid->tangents.body[k];
+    make_positive(rigid, t, rounding_of(system, q, t, strength[t->body - system->bodies.body]));
+  }
   hk_free(still);
-  for (int64_t k = 0; k < rigid->tangents.count && status == HOOKE_OK; k++)
-    make_positive(rigid, &rigid->tangents.body[k]);
   if (status != HOOKE_OK) hk_rigid_release(rigid);
   return status;
 }
