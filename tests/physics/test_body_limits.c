@@ -1,5 +1,5 @@
-/* Limits of steps with rigid bodies: modes against closed forms, predictions against measurements, what determines a
- * limit, and spins with which it is not known. */
+/* Limits of steps with rigid bodies: modes against closed forms, predictions against measurements, what
+ * determines a limit, and spins with which it is not known. */
 #include "check.h"
 #include "run.h"
 #include "small.h"
@@ -9,7 +9,8 @@
 
 static const double G = 9.81;
 
-/* With the run's velocities, `methods` (NULL: all), measured or predicted alone. A build without LAPACK skips. */
+/* With the run's velocities, `methods` (NULL: all), measured or predicted alone. A build without LAPACK
+ * skips. */
 static hooke_measurement *limit_of(hooke_system *system, const char *methods, int measured) {
   hooke_options *options;
   hooke_measurement *limit = NULL;
@@ -168,8 +169,8 @@ static void bar_runs_up_to_its_limits_where_one_spring_is_damped_more(void **unu
 
 /* ---- gravity and tensions are the stiffness of what turns ---- */
 
-/* A bar of length 1 from the origin at an angle from the vertical below, its first end pinned, or an axis along z
- * through it. */
+/* A bar of length 1 from the origin at an angle from the vertical below, its first end pinned, or an axis
+ * along z through it. */
 static hooke_system *pendulum(int pins, double angle) {
   double q[9] = {0.0};
   q[3] = sin(angle), q[4] = -cos(angle), q[8] = 0.3;
@@ -215,8 +216,8 @@ static void a_pendulum_upside_down_is_said_to_tip(void **unused) {
   hooke_system_destroy(system);
 }
 
-/* A bar of length 2a between two springs of length l and tension t, in a line: it moves along by 2 kappa/m, across
- * by 2t/(l m), and turns by 2 t a (1 + a/l) over its inertia m a^2; the second and the third twice. */
+/* A bar of length 2a between two springs of length l and tension t, in a line: it moves along by 2 kappa/m,
+ * across by 2t/(l m), and turns by 2 t a (1 + a/l) over its inertia m a^2; the second and the third twice. */
 static void tension_holds_a_bar(void **unused) {
   (void)unused;
   const double a = 0.3, l = 0.5, kappa = 40.0, t = kappa * (l - 0.35), m = 2.0;
@@ -277,7 +278,8 @@ static void spin_makes_a_limit_unknown(void **unused) {
 
 /* ---- a body is what a stiff lattice becomes ---- */
 
-/* Four masses at the corners of a tetrahedron, rigid or joined by springs of a stiffness, hung on a soft spring. */
+/* Four masses at the corners of a tetrahedron, rigid or joined by springs of a stiffness, hung on a soft
+ * spring. */
 static double tetrahedron_limit(double stiffness) {
   const double q[15] = {0, 0, 0, 1, 0, 0, 0.5, 0.8, 0, 0.5, 0.3, 0.8, 0, -1.5, 0};
   hooke_system *system = small_system(5, q, NULL, 1.0, 0);

@@ -14,8 +14,8 @@ enum { CORNERS = 5, ALL = 2 * CORNERS };
 static const double CORNER[3 * CORNERS] = {0,   0,   0,   0.7, 0.1, 0,    -0.2, 0.8,
                                            0.1, 0.3, 0.2, 0.9, 0.5, -0.4, 0.3};
 
-/* A body of unequal masses that five stretched springs hold at pinned particles, none of them in equilibrium; its
- * first particle may be pinned, too. */
+/* A body of unequal masses that five stretched springs hold at pinned particles, none of them in equilibrium;
+ * its first particle may be pinned, too. */
 static hooke_system *hung_body(int pinned) {
   double q[3 * ALL];
   const double mass[ALL] = {1.0, 0.5, 2.0, 0.7, 0.3, 1, 1, 1, 1, 1};
@@ -47,8 +47,8 @@ static hooke_system *hung_body(int pinned) {
   return system;
 }
 
-/* Force and torque about the point at the rows that are `size` times the motion away: (I + a x + b a x a x) is
- * the rotation by the length of a (Rodrigues). */
+/* Force and torque about the point at the rows that are `size` times the motion away: (I + a x + b a x a x)
+ * is the rotation by the length of a (Rodrigues). */
 static void pushed(const hooke_system *system, const struct hk_body_tangent *t, const double motion[6],
                    double size, double push[6]) {
   double q[3 * ALL], force[3 * ALL], turn[3];

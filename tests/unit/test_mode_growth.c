@@ -8,7 +8,8 @@
 
 enum { STEPS = 160 };
 
-/* Of x'' + 2 d x' + w^2 x = 0, of a particle or of a body of one: the mean factor of a step, late in a run. */
+/* Of x'' + 2 d x' + w^2 x = 0, of a particle or of a body of one: the mean factor of a step, late in a
+ * run. */
 static double measure(const char *method, double h, double w, double d, int rigid, double *expected) {
   const double q[] = {0.7, 0, 0}, point[] = {0, 0, 0};
   const int64_t particle = 0;

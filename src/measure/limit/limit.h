@@ -50,8 +50,8 @@ struct hk_limit {
   const char *under_way;
 };
 
-/* Predictions at positions q and velocities v (3n; NULL: at rest) of the time t, and the limiting elements there.
- */
+/* Predictions at positions q and velocities v (3n; NULL: at rest) of the time t, and the limiting elements
+ * there. */
 int32_t hk_limit_look(struct hk_limit *limit, const double *q, const double *v, double t);
 
 /* Replaces bounds, predictions and modes by those at positions q and velocities v (3n; NULL: at rest). */

@@ -10,8 +10,9 @@
 
 /* `limit` [s] of `method` at positions q (3n), to the relative `accuracy`: 0 if no step is stable, infinity
  * if nothing limits it, an upper estimate if only part of the spectrum can be computed (rk4 and forward-euler
- * on large scenes), NaN if bodies spin too fast to know it at velocities v (3n, NULL: at rest). `progress` may be NULL. HOOKE_BAD_VALUE for an unknown method, HOOKE_NOT_BUILT,
- * HOOKE_NO_MEMORY, HOOKE_SOLVER_FAILED, HOOKE_STOPPED by the progress. */
+ * on large scenes), NaN if bodies spin too fast to know it at velocities v (3n, NULL: at rest). `progress`
+ * may be NULL. HOOKE_BAD_VALUE for an unknown method, HOOKE_NOT_BUILT, HOOKE_NO_MEMORY, HOOKE_SOLVER_FAILED,
+ * HOOKE_STOPPED by the progress. */
 int32_t hk_limit_predict(const hooke_system *system, const double *q, const double *v, const char *method,
                          double accuracy, hooke_progress *progress, void *ctx, double *limit);
 

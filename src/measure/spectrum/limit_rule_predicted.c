@@ -1,6 +1,6 @@
-/* Verlet of bodies, which takes damping at a predicted velocity: stable where h^2 K + 2 h C - h^2 C^2 < 4 and h C <
- * 2, over the masses. An eigenvalue of its step is -1 or 1 where one of these is met, whatever K and C are; of one
- * mode its eigenvalues leave the unit circle nowhere else. */
+/* Verlet of bodies, which takes damping at a predicted velocity: stable where h^2 K + 2 h C - h^2 C^2 < 4 and
+ * h C < 2, over the masses. An eigenvalue of its step is -1 or 1 where one of these is met, whatever K and C
+ * are; of one mode its eigenvalues leave the unit circle nowhere else. */
 #include "core/memory.h"
 #include "core/status.h"
 #include "kernel/vector_loops.h"

@@ -5,8 +5,8 @@
 #include "measure/spectrum/spectrum.h"
 
 struct hk_prediction {
-  /* [s]: 0 if no step is stable, infinity if nothing limits it, NaN if no rule is known or bodies spin too fast
-   * for it */
+  /* [s]: 0 if no step is stable, infinity if nothing limits it, NaN if no rule is known or bodies spin too
+   * fast for it */
   double limit;
   /* [s]: certainly stable up to here, by the extreme eigenvalues; at most `limit`, NaN if they do not suffice
    */
@@ -28,8 +28,8 @@ int32_t hk_limit_rule(struct hk_spectrum *spectrum, const char *method, struct h
 /* hooke_limit_of_mode() for steps of this system, in which bodies may move. */
 double hk_limit_of_mode_in(const hooke_system *system, const char *method, double frequency, double decay);
 
-/* For the rules: the mode, if it is not NULL; and that of HOOKE_STABLE_BY_PREDICTION, of one mode x'' + c x' + k x =
- * 0 and of all. */
+/* For the rules: the mode, if it is not NULL; and that of HOOKE_STABLE_BY_PREDICTION, of one mode x'' + c x'
+ * + k x = 0 and of all. */
 void hk_limit_take_mode(const struct hk_spectrum *spectrum, const double *mode, struct hk_prediction *out);
 double hk_limit_predicted_step(double k, double c);
 int32_t hk_limit_rule_predicted(struct hk_spectrum *spectrum, struct hk_prediction *out);

@@ -250,7 +250,8 @@ static int32_t find_balance(struct hk_twin *twin, int *needed) {
   return status;
 }
 
-/* The sum over a body's particles of `row` (two numbers a particle) over the mass and inertia that resist it. */
+/* The sum over a body's particles of `row` (two numbers a particle) over the mass and inertia that resist
+ * it. */
 static double body_rate(const hooke_system *system, const struct hk_body_tangent *t, const double *row,
                         double more) {
   const double *inverse = t->body->inverse_inertia, turning = fmax(inverse[0], fmax(inverse[1], inverse[2]));

@@ -9,8 +9,9 @@
  * new length keeps tension over length, the stiffness across. A compressed one is clamped: its rest length is
  * its length. One that only pulls counts as taut. One of length 0 is linear if its rest length is 0;
  * otherwise it has no force and is left out. The elements of other forces are linear ones (force_linear.c). A
- * constant force balances the tensions. Gravity and callbacks are left out, driven particles are pinned. Rigid
- * bodies that move are rigid bodies; their geometric stiffness (rigid.h) is part of the force that balances. */
+ * constant force balances the tensions. Gravity and callbacks are left out, driven particles are pinned.
+ * Rigid bodies that move are rigid bodies, their geometric stiffness (rigid.h) a part of the force that
+ * balances. */
 #ifndef HOOKE_MEASURE_SPECTRUM_LINEAR_TWIN_H
 #define HOOKE_MEASURE_SPECTRUM_LINEAR_TWIN_H
 

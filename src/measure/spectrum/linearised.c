@@ -190,10 +190,12 @@ double hk_linearised_bytes(const hooke_system *system) {
   enum {
     OF_SPRINGS = 11,
     OF_PARTICLES = 3 + 3 * 20,
+    OF_PARTICLES_WITH_BODIES = OF_PARTICLES + 18,
     OF_ELEMENTS = 2 + sizeof(struct hk_element) / sizeof(double)
   };
+  const int of_particles = system->bodies.moving > 0 ? OF_PARTICLES_WITH_BODIES : OF_PARTICLES;
   return sizeof(double) *
-         (OF_SPRINGS * (double)system->springs.count + OF_PARTICLES * (double)system->particle_count +
+         (OF_SPRINGS * (double)system->springs.count + of_particles * (double)system->particle_count +
           OF_ELEMENTS * (double)hk_elements_of(system, hk_force_is_kept));
 }
 

@@ -3,9 +3,9 @@
  *   K = sum of kappa u u^T + max(0, T/r) (I - u u^T)     C = sum of gamma u u^T, plus drag
  *
  * each in the pattern (B, -B; -B, B) over the ends of a spring; and the elements of all other forces
- * (element.h). A compressed spring is clamped: its stiffness across, which is negative, counts as 0. A
- * spring that only pulls counts as taut; one of no length as stiff in all directions. Particles of a rigid body
- * move as one (rigid.h).
+ * (element.h). A compressed spring is clamped: its stiffness across, which is negative, counts as 0. A spring
+ * that only pulls counts as taut; one of no length as stiff in all directions. Particles of a rigid body move
+ * as one (rigid.h).
  *
  * Vectors are displacements of all particles, x, y and z apart (3n), 0 where a particle is constrained.
  * Eigenvalues come in units of `rate`, a bound of the fastest motion, so that neither stiffness nor masses
@@ -53,8 +53,9 @@ struct hk_linearised {
 /* Maximum memory [bytes], including that of a search for the largest eigenvalue. */
 double hk_linearised_bytes(const hooke_system *system);
 
-/* At positions q (3n). Velocities (3n, of which only `spin` depends), factors on kappa and gamma, one a spring,
- * and on masses (n; 1 in a body) may be NULL. HOOKE_BAD_VALUE for non-finite numbers; HOOKE_NO_MEMORY. */
+/* At positions q (3n). Velocities (3n, of which only `spin` depends), factors on kappa and gamma, one a
+ * spring, and on masses (n; 1 in a body) may be NULL. HOOKE_BAD_VALUE for non-finite numbers;
+ * HOOKE_NO_MEMORY. */
 int32_t hk_linearised_create(const hooke_system *system, const double *q, const double *v,
                              const double *spring_scale, const double *mass_scale,
                              struct hk_linearised *linearised);
@@ -63,8 +64,8 @@ void hk_linearised_release(struct hk_linearised *linearised);
 /* Sets the matrix of products to a K + b C; a, b >= 0. */
 void hk_linearised_combine(struct hk_linearised *linearised, double a, double b);
 
-/* out += (a K + b C) x; values at constrained particles are undefined. In a body these are the masses times the
- * accelerations that the forces make. */
+/* out += (a K + b C) x; values at constrained particles are undefined. In a body these are the masses times
+ * the accelerations that the forces make. */
 void hk_linearised_add_product(struct hk_linearised *linearised, const double *x, double *out);
 
 /* out = M^-1 (a K + b C) x. */

@@ -4,8 +4,9 @@
 
 #include "integrate/method.h"
 
-/* The largest modulus of the factors by which a step h of a method that is stable so multiplies x'' + 2 decay x' + frequency^2
- * x = 0: above 1 it grows. NaN where no rule is known. Sources: docs/notes/methods.md, "Stability". */
+/* The largest modulus of the factors by which a step h of a method that is stable so multiplies x'' + 2 decay
+ * x' + frequency^2 x = 0: above 1 it grows. NaN where no rule is known. Sources: docs/notes/methods.md,
+ * "Stability". */
 double hk_mode_growth(const struct hk_stability *stability, double h, double frequency, double decay);
 /* The same of a motion of an overdamped system that decays at `rate` [1/s]. */
 double hk_relaxation_growth(const struct hk_stability *stability, double h, double rate);

@@ -46,8 +46,8 @@ static void find_strengths(const hooke_system *system, const double *q, double *
   }
 }
 
-/* Geometric stiffness [N m] that springs of this strength at their rest lengths, and gravity about the centre of
- * mass, have by rounding. */
+/* Geometric stiffness [N m] that springs of this strength at their rest lengths, and gravity about the centre
+ * of mass, have by rounding. */
 static double rounding_of(const hooke_system *system, const double *q, const struct hk_body_tangent *t,
                           double strength) {
   double extent = 0.0, size = 0.0;
@@ -58,8 +58,8 @@ static double rounding_of(const hooke_system *system, const double *q, const str
   return POSITION_ROUNDING * size * (strength * extent + t->body->mass * hk_length3(system->gravity));
 }
 
-/* Over the inertia, so that only axes count about which the body turns, and without negative eigenvalues and those
- * of rounding, `slight`. */
+/* Over the inertia, so that only axes count about which the body turns, and without negative eigenvalues and
+ * those of rounding, `slight`. */
 static void make_positive(struct hk_rigid *rigid, struct hk_body_tangent *t, double slight) {
   const double *inverse = t->body->inverse_inertia;
   double axis[3][3], m[3][3], vector[3][3], positive[3][3] = {{0.0}};

@@ -1,8 +1,9 @@
-/* Rigid bodies in a linearised system. Displacements are those of all particles still, restricted to rigid motions
- * of each body: K, C and M of particles give those of bodies by the restriction. What it leaves out is that forces
- * at rest turn with the arms of a body, the geometric stiffness (model/body_tangent.h): of gravity and tensions,
- * callbacks left out. It is made symmetric, which it is by itself in equilibrium, and what would tip a body over,
- * like the transverse stiffness of compressed springs, counts as 0. Components are `stride` apart. */
+/* Rigid bodies in a linearised system. Displacements are those of all particles still, restricted to rigid
+ * motions of each body: K, C and M of particles give those of bodies by the restriction. What it leaves out
+ * is that forces at rest turn with the arms of a body, the geometric stiffness (model/body_tangent.h): of
+ * gravity and tensions, callbacks left out. It is made symmetric, which it is by itself in equilibrium, and
+ * what would tip a body over, like the transverse stiffness of compressed springs, counts as 0. Components
+ * are `stride` apart. */
 #ifndef HOOKE_MEASURE_SPECTRUM_RIGID_H
 #define HOOKE_MEASURE_SPECTRUM_RIGID_H
 
@@ -38,8 +39,8 @@ double hk_rigid_energy(const struct hk_rigid *rigid, const double *const x[3], i
 /* The largest angular velocity of a body [rad/s]. */
 double hk_rigid_spin(const struct hk_rigid *rigid, const double *v);
 
-/* Unknowns of all bodies: of each the point's three (none where it is pinned), then one for every axis that it
- * turns about, times the roots of mass and inertia. */
+/* Unknowns of all bodies: of each the point's three (none where it is pinned), then one for every axis that
+ * it turns about, times the roots of mass and inertia. */
 int64_t hk_rigid_unknowns(const struct hk_rigid *rigid);
 void hk_rigid_pack(const struct hk_rigid *rigid, const double *const x[3], int64_t stride, double *unknown);
 void hk_rigid_unpack(const struct hk_rigid *rigid, const double *unknown, double *const x[3], int64_t stride);
