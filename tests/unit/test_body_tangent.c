@@ -1,4 +1,5 @@
 /* Forces and torques on a body in small motions, by its tangent and by differences. */
+#include "measure/spectrum/rigid.h"
 #include "model/body_tangent.h"
 #include "model/force/force.h"
 #include "model/vector3.h"
@@ -16,7 +17,7 @@ static const double CORNER[3 * CORNERS] = {0,   0,   0,   0.7, 0.1, 0,    -0.2, 
 
 /* A body of unequal masses that five stretched springs hold at pinned particles, none of them in equilibrium;
  * its first particle may be pinned, too. */
-static hooke_system *hung_body(int pinned) {
+static hooke_system *hung_body(int pinned, double stiffness) {
   double q[3 * ALL];
   const double mass[ALL] = {1.0, 0.5, 2.0, 0.7, 0.3, 1, 1, 1, 1, 1};
   int64_t body[CORNERS], posts[CORNERS], ends[2 * CORNERS];
@@ -37,7 +38,7 @@ static hooke_system *hung_body(int pinned) {
   check_ok(hooke_system_pin(system, CORNERS, posts));
   if (pinned) check_ok(hooke_system_pin(system, 1, body));
   check_ok(hooke_options_create("springs", &options));
-  check_ok(hooke_options_set_number(options, "stiffness", 40.0));
+  check_ok(hooke_options_set_number(options, "stiffness", stiffness));
   check_ok(hooke_options_set_number(options, "rest_length", 0.2));
   check_ok(hooke_system_add_springs(system, NULL, CORNERS, ends, options));
   hooke_options_destroy(options);
@@ -75,7 +76,7 @@ static void pushed(const hooke_system *system, const struct hk_body_tangent *t, 
 static void derivative_is_that_of_differences(void **unused) {
   (void)unused;
   for (int pinned = 0; pinned <= 1; pinned++) {
-    hooke_system *system = hung_body(pinned);
+    hooke_system *system = hung_body(pinned, 40.0);
     struct hk_body_tangents tangents;
     double force[3 * ALL], x[3 * ALL] = {0.0}, change[3 * ALL];
     const double still[3 * ALL] = {0.0}, *const forces[3] = {force, force + 1, force + 2},
@@ -105,7 +106,28 @@ static void derivative_is_that_of_differences(void **unused) {
   }
 }
 
+/* Of springs that factors make stiffer as of springs that are. */
+static void stiffer_springs_turn_more(void **unused) {
+  (void)unused;
+  const double twice[CORNERS] = {2.0, 2.0, 2.0, 2.0, 2.0};
+  hooke_system *soft = hung_body(1, 40.0), *stiff = hung_body(1, 80.0);
+  struct hk_rigid factors, found;
+  check_ok(hk_rigid_create(soft, soft->position, twice, &factors));
+  check_ok(hk_rigid_create(stiff, stiff->position, NULL, &found));
+  const double *expected = found.tangents.body[0].geometric[0];
+  check_between(expected[0], 1.0, 1e4);
+  check_close(largest_difference(9, factors.tangents.body[0].geometric[0], expected) / expected[0], 0.0,
+              1e-12);
+  hk_rigid_release(&factors);
+  hk_rigid_release(&found);
+  hooke_system_destroy(soft);
+  hooke_system_destroy(stiff);
+}
+
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(derivative_is_that_of_differences)};
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(derivative_is_that_of_differences),
+      cmocka_unit_test(stiffer_springs_turn_more),
+  };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

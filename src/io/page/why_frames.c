@@ -128,9 +128,9 @@ static int32_t take_mode(struct frames *f, const struct hk_limit *limit, const s
   const struct hk_stability *stability = hk_method_stability_in(row->method, f->system);
   struct hk_growing g;
   struct hk_rigid rigid;
-  int32_t status = hk_rigid_create(f->system, limit->q, &rigid);
+  int32_t status = hk_rigid_create(f->system, limit->q, NULL, &rigid);
   if (status != HOOKE_OK) return status;
-  /* the mode has the length 1 by masses, and so has x */
+  /* modes have the length 1 by masses */
   const double *const mode[3] = {row->mode, row->mode + 1, row->mode + 2};
   const double geometric = hk_rigid_energy(&rigid, mode, 3);
   hk_rigid_release(&rigid);

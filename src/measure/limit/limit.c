@@ -77,7 +77,7 @@ static void forget(struct hk_limit *limit) {
   for (int32_t k = 0; k < limit->row_count; k++) {
     struct hk_limit_row *row = &limit->row[k];
     row->bound = row->predicted = row->measured = row->steps_run = NAN;
-    row->exact = row->never_stable = row->has_mode = 0;
+    row->exact = row->never_stable = row->spins = row->has_mode = 0;
     row->note[0] = '\0';
   }
 }
@@ -200,6 +200,7 @@ static int32_t measure_row(struct hk_limit *limit, struct hk_limit_row *row, con
   const double *q = hooke_state_position((hooke_state *)state);
   struct hk_measured_limit m = {.step = NAN, .note = ""};
   const int nonlinear = hooke_options_number(limit->options, "nonlinear") != 0.0;
+  if (row->spins && !nonlinear) return HOOKE_OK; /* what runs is at rest */
   const int32_t status =
       nonlinear
           ? hk_limit_measure_nonlinear(limit->system, state, limit->run, row->method, row->predicted,

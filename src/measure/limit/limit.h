@@ -12,7 +12,7 @@ struct hk_limit_row {
   const char *method;
   double bound, predicted, measured; /* [s] */
   double steps_run, smallest, smallest_time;
-  int32_t exact, never_stable, has_mode;
+  int32_t exact, never_stable, spins, has_mode;
   double *mode;    /* 3n, in rows of x y z */
   int64_t unknown; /* frames along a run at which there is no prediction */
   char note[HOOKE_LIMIT_NOTE];

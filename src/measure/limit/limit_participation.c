@@ -89,7 +89,7 @@ static int32_t find_geometric(const hooke_system *system, const double *q, const
                               struct weights h, struct whole *whole, struct hk_participation *participation) {
   const double *const x[3] = {mode, mode + 1, mode + 2};
   struct hk_rigid rigid;
-  const int32_t status = hk_rigid_create(system, q, &rigid);
+  const int32_t status = hk_rigid_create(system, q, NULL, &rigid);
   if (status != HOOKE_OK) return status;
   const double stiffness = h.k * hk_rigid_energy(&rigid, x, 3);
   whole->all += stiffness;

@@ -31,6 +31,7 @@ static int32_t find_row(struct hk_limit *limit, struct hk_spectrum *spectrum, do
   row->predicted = prediction.never_stable ? 0.0 : fmax(prediction.limit, row->bound);
   row->exact = prediction.exact;
   row->never_stable = prediction.never_stable;
+  row->spins = prediction.spins;
   row->has_mode = prediction.has_mode;
   snprintf(row->note, sizeof row->note, "%s", prediction.note);
   double *const component[3] = {mode, mode + n, mode + 2 * n};

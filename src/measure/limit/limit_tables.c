@@ -177,8 +177,7 @@ const struct hk_column hk_limiting_columns[HOOKE_LIMITING_COLUMNS] = {
         "part of the whole; NaN if it cannot be told"),
     HOOKE_COLUMN(struct hk_limiting_line, force, TEXT, "",
                  "drag, damping, bending or altitude, where no spring but that force is meant; geometric: "
-                 "what gravity and "
-                 "tensions do to rigid bodies that turn"),
+                 "gravity and tensions, which turn rigid bodies"),
 };
 
 static const struct hk_table limiting_table = {

@@ -13,9 +13,8 @@
 /* See limit_rules.h. */
 static const double SLOW_SPIN = 1e-3;
 
-static const char *const SPINS = "not known: a body spins so fast that gyroscopic and centrifugal forces, "
-                                 "which the linearised scene leaves "
-                                 "out, count";
+static const char *const SPINS =
+    "not known: a body spins so fast that gyroscopic and centrifugal forces count, which are left out";
 static const char *const PART_KNOWN =
     "only the fastest modes are known: the limit lies between the bound and the prediction";
 
@@ -240,7 +239,7 @@ int32_t hk_limit_rule(struct hk_spectrum *s, const char *method, struct hk_predi
   out->limit = adaptive ? INFINITY : NAN;
   out->exact = 1;
   out->sure = NAN;
-  out->never_stable = out->has_mode = 0;
+  out->never_stable = out->has_mode = out->spins = 0;
   out->note = adaptive ? "chooses its steps; error control limits them" : "no rule is known for this method";
   const struct hk_stability *stability = hk_method_stability_in(method, s->linearised->system);
   if (stability->kind == HOOKE_STABILITY_UNKNOWN) return HOOKE_OK;
@@ -251,7 +250,8 @@ int32_t hk_limit_rule(struct hk_spectrum *s, const char *method, struct hk_predi
   }
   const int32_t status = find_limit(s, stability, out);
   if (status != HOOKE_OK) return status;
-  if (spins(s, out)) {
+  out->spins = spins(s, out);
+  if (out->spins) {
     out->limit = out->sure = NAN;
     out->exact = out->has_mode = 0;
     out->note = SPINS;

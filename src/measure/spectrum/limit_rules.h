@@ -12,6 +12,7 @@ struct hk_prediction {
    */
   double sure;
   int32_t exact, never_stable;
+  int32_t spins; /* 1: not known for that reason */
   const char *note;
   int32_t has_mode; /* `mode` was written */
   double *mode;     /* 3n from the caller: the limiting mode, x.Mx = 1 */

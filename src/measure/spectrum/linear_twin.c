@@ -320,7 +320,7 @@ static int32_t freeze(struct making *making, struct hk_twin *twin) {
 int32_t hk_twin_create(const hooke_system *system, const double *q, struct hk_twin *twin) {
   struct making making = {.system = system, .q = q, .shortest = INFINITY};
   *twin = (struct hk_twin){.damped = system->drag > 0.0};
-  int32_t status = hk_rigid_create(system, q, &making.rigid);
+  int32_t status = hk_rigid_create(system, q, NULL, &making.rigid);
   if (status == HOOKE_OK) status = freeze(&making, twin);
   hk_rigid_release(&making.rigid);
   hk_free(making.ends);

@@ -204,8 +204,9 @@ static int is_alone(const hooke_system *system, int64_t particle) {
   return !system->constrained[particle] && !hk_bodies_move(&system->bodies, particle);
 }
 
-static int32_t see_bodies(struct hk_linearised *lin, const double *q, const double *v) {
-  const int32_t status = hk_rigid_create(lin->system, q, &lin->rigid);
+static int32_t see_bodies(struct hk_linearised *lin, const double *q, const double *v,
+                          const double *spring_scale) {
+  const int32_t status = hk_rigid_create(lin->system, q, spring_scale, &lin->rigid);
   if (status != HOOKE_OK) return status;
   lin->unknowns += hk_rigid_unknowns(&lin->rigid);
   if (v) lin->spin = hk_rigid_spin(&lin->rigid, v);
@@ -242,7 +243,7 @@ int32_t hk_linearised_create(const hooke_system *system, const double *q, const 
   }
   int32_t status = see_springs(lin, q, spring_scale);
   if (status == HOOKE_OK) status = see_others(lin, q);
-  if (status == HOOKE_OK) status = see_bodies(lin, q, v);
+  if (status == HOOKE_OK) status = see_bodies(lin, q, v, spring_scale);
   if (status == HOOKE_OK) status = choose_rate(lin, q, sum);
   if (status != HOOKE_OK) hk_linearised_release(lin);
   return status;

@@ -87,8 +87,28 @@ static void make_positive(struct hk_rigid *rigid, struct hk_body_tangent *t, dou
   transform(axis, m, t->geometric);
 }
 
+/* Forces of springs become those of springs that are stiffer by their factors. */
+static void scale_springs(const hooke_system *system, const double *q, const double *spring_scale,
+                          double *const f[3]) {
+  for (int64_t r = 0; r < system->springs.run_count; r++) {
+    const struct hk_run *run = &system->springs.run[r];
+    for (int64_t k = 0; k < run->count; k++) {
+      const double more = spring_scale[run->first + k] - 1.0;
+      if (more == 0.0) continue;
+      const struct hk_spring spring = hk_run_spring(run, k);
+      struct hk_stretch s;
+      hk_spring_stretch(&spring, q, NULL, &s);
+      for (int a = 0; a < 3; a++) {
+        f[a][spring.head] -= more * s.tension * s.direction[a];
+        f[a][spring.tail] += more * s.tension * s.direction[a];
+      }
+    }
+  }
+}
+
 /* Of springs and gravity at rest; `still` has 3n zeros. */
-static int32_t stiffen(struct hk_rigid *rigid, const double *q, const double *still) {
+static int32_t stiffen(struct hk_rigid *rigid, const double *q, const double *still,
+                       const double *spring_scale) {
   const hooke_system *system = rigid->tangents.system;
   struct hk_motion *motion = NULL;
   int32_t status = hk_motion_create(system, 0, NULL, &motion);
@@ -99,19 +119,21 @@ static int32_t stiffen(struct hk_rigid *rigid, const double *q, const double *st
     for (int64_t p = 0; p < system->particle_count; p++)
       motion->f[a][p] += system->mass[p] * system->gravity[a];
   }
+  if (spring_scale) scale_springs(system, q, spring_scale, motion->f);
   hk_body_tangents_stiffen(&rigid->tangents, (const double *const *)motion->f, 1);
   hk_motion_destroy(motion);
   return status;
 }
 
-int32_t hk_rigid_create(const hooke_system *system, const double *q, struct hk_rigid *rigid) {
+int32_t hk_rigid_create(const hooke_system *system, const double *q, const double *spring_scale,
+                        struct hk_rigid *rigid) {
   memset(rigid, 0, sizeof *rigid);
   if (system->bodies.moving == 0) return HOOKE_OK;
   int32_t status = hk_body_tangents_create(system, q, &rigid->tangents);
   if (status != HOOKE_OK) return status;
   double *still = hk_new(3 * system->particle_count + system->bodies.count, sizeof(double));
   double *strength = still ? still + 3 * system->particle_count : NULL;
-  status = still ? stiffen(rigid, q, still) : HOOKE_NO_MEMORY;
+  status = still ? stiffen(rigid, q, still, spring_scale) : HOOKE_NO_MEMORY;
   if (status == HOOKE_OK) find_strengths(system, q, strength);
   for (int64_t k = 0; k < rigid->tangents.count && status == HOOKE_OK; k++) {
     struct hk_body_tangent *t = &rigid->tangents.body[k];

@@ -15,8 +15,10 @@ struct hk_rigid {
   int64_t tipping;                  /* bodies of which something was left out */
 };
 
-/* At rest at positions q (3n); all zeros without bodies. HOOKE_NO_MEMORY. */
-int32_t hk_rigid_create(const hooke_system *system, const double *q, struct hk_rigid *rigid);
+/* At rest at positions q (3n), with factors on the stiffness of springs, one each, that may be NULL; all
+ * zeros without bodies. HOOKE_NO_MEMORY. */
+int32_t hk_rigid_create(const hooke_system *system, const double *q, const double *spring_scale,
+                        struct hk_rigid *rigid);
 /* For the same bodies at positions that are `factor` times as large, in a system of such positions. */
 int32_t hk_rigid_enlarge(const struct hk_rigid *from, const hooke_system *system, const double *q,
                          double factor, struct hk_rigid *rigid);
