@@ -215,6 +215,10 @@ static void print_words(const struct limit *l) {
     printf("%.0f %s compressed: what pushes %s sideways is growth by physics, and left out\n", clamped,
            clamped == 1.0 ? "spring is" : "springs are", clamped == 1.0 ? "its ends" : "their ends");
   }
+  const double tipping = number_of(l, "tipping");
+  if (tipping > 0.0)
+    printf("%.0f rigid %s tipped over by gravity or tensions: that is growth by physics, and left out\n",
+           tipping, tipping == 1.0 ? "body is" : "bodies are");
   printf("\n");
   print_table(l, width);
   print_notes(l, width);

@@ -83,7 +83,7 @@ static int32_t take_system(hooke_integrator *it, const hooke_system *system, hoo
   int32_t status = HOOKE_OK;
   it->system = system;
   it->size = 3 * system->particle_count;
-  if (!hk_method_suits(it->method->name, system)) {
+  if (system->bodies.moving == 0 && !hk_method_suits(it->method->name, system)) {
     status = hk_fail(HOOKE_UNSUITED, "method", "%s %s", it->method->name,
                      system->friction > 0.0
                          ? "steps positions and velocities apart, and an overdamped scene has no such parts; "

@@ -1,5 +1,6 @@
 #include "integrate/method.h"
 
+#include "integrate/method/bodies.h"
 #include "model/system.h"
 
 #include <stddef.h>
@@ -72,8 +73,15 @@ const struct hk_stability *hk_method_stability(const char *name) {
   return method ? &method->stability : &unknown;
 }
 
+const struct hk_stability *hk_method_stability_in(const char *name, const hooke_system *system) {
+  const struct hk_method *method = system->bodies.moving > 0 ? hk_method_find(name) : NULL,
+                         *row = method ? hk_method_with_bodies(method) : NULL;
+  return row && row->stability.kind != HOOKE_STABILITY_UNKNOWN ? &row->stability : hk_method_stability(name);
+}
+
 int32_t hk_method_suits(const char *name, const hooke_system *system) {
   const struct hk_method *method = hk_method_find(name);
+  if (system->bodies.moving > 0 && hk_method_with_bodies(method) == NULL) return 0;
   if (system->friction > 0.0) return method->first_order || method->implicit;
   return method->second_order;
 }

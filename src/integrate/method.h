@@ -9,9 +9,10 @@
 enum {
   HOOKE_STABILITY_UNKNOWN,
   HOOKE_STABLE_ALWAYS,
-  HOOKE_STABLE_BY_K,         /* where h^2 K <= 4: damping is implicit */
-  HOOKE_STABLE_BY_K_AND_C,   /* where h^2 K + 2 h C <= 4 */
-  HOOKE_STABLE_BY_POLYNOMIAL /* where |R(h lambda)| <= 1, R(z) = 1 + z + ... + z^degree/degree! */
+  HOOKE_STABLE_BY_K,          /* where h^2 K <= 4: damping is implicit */
+  HOOKE_STABLE_BY_K_AND_C,    /* where h^2 K + 2 h C <= 4 */
+  HOOKE_STABLE_BY_POLYNOMIAL, /* where |R(h lambda)| <= 1, R(z) = 1 + z + ... + z^degree/degree! */
+  HOOKE_STABLE_BY_PREDICTION  /* where h^2 K + 2 h C - h^2 C^2 <= 4 and h C <= 2: damping is at predicted v */
 };
 
 struct hk_stability {
@@ -62,6 +63,8 @@ extern const struct hk_method hk_forward_euler, hk_symplectic_euler, hk_verlet, 
 /* Row of this name, or NULL; its stability, of unknown kind if there is no such method. */
 const struct hk_method *hk_method_find(const char *name);
 const struct hk_stability *hk_method_stability(const char *name);
+/* The same for steps of this committed system, in which bodies may move. */
+const struct hk_stability *hk_method_stability_in(const char *name, const hooke_system *system);
 
 /* 1 if the method takes this committed system; of an overdamped one, by the methods of first-order problems
  * and the implicit ones. */

@@ -115,6 +115,17 @@ static void rotate(int i, int j, double m[3][3], double axis[3][3]) {
 
 enum { SWEEPS = 12 }; /* it converges quadratically: 5 suffice */
 
+void hk_body_diagonalise(double m[3][3], double axis[3][3]) {
+  memset(axis, 0, 9 * sizeof(double));
+  for (int a = 0; a < 3; a++)
+    axis[a][a] = 1.0;
+  for (int sweep = 0; sweep < SWEEPS; sweep++) {
+    rotate(0, 1, m, axis);
+    rotate(0, 2, m, axis);
+    rotate(1, 2, m, axis);
+  }
+}
+
 static void swap_axes(int i, int j, double m[3][3], double axis[3][3]) {
   if (m[i][i] <= m[j][j]) return;
   const double value = m[i][i];
@@ -131,7 +142,6 @@ static void swap_axes(int i, int j, double m[3][3], double axis[3][3]) {
 static void find_principal_axes(const hooke_system *system, const struct hk_body *body, const double point[3],
                                 double axis[3][3]) {
   double m[3][3] = {{0.0}};
-  memset(axis, 0, 9 * sizeof(double));
   for (int64_t k = 0; k < body->count; k++) {
     if (!is_free(system, body, k)) continue;
     double d[3];
@@ -142,13 +152,7 @@ static void find_principal_axes(const hooke_system *system, const struct hk_body
         m[i][j] += mass * ((i == j ? square : 0.0) - d[i] * d[j]);
     }
   }
-  for (int a = 0; a < 3; a++)
-    axis[a][a] = 1.0;
-  for (int sweep = 0; sweep < SWEEPS; sweep++) {
-    rotate(0, 1, m, axis);
-    rotate(0, 2, m, axis);
-    rotate(1, 2, m, axis);
-  }
+  hk_body_diagonalise(m, axis);
   swap_axes(0, 1, m, axis);
   swap_axes(1, 2, m, axis);
   swap_axes(0, 1, m, axis);

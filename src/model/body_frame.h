@@ -15,4 +15,7 @@ void hk_body_pin_if_still(hooke_system *system, const struct hk_body *body);
 /* Sets velocity and angular momentum of own coordinates to those of the initial velocities. */
 void hk_body_fit(const hooke_system *system, const struct hk_body *body, double *own);
 
+/* Makes a symmetric matrix m diagonal; the rows of `axis` become its eigenvectors. */
+void hk_body_diagonalise(double m[3][3], double axis[3][3]);
+
 #endif

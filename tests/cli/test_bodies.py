@@ -136,10 +136,25 @@ def test_an_ensemble_starts_bodies_elsewhere(hooke, tmp_path):
 
 
 def test_what_does_not_know_bodies_says_so(hooke, scene):
-    told = hooke("limit", scene)
-    assert told.code != 0 and "rigid bodies yet" in told.err
     told = hooke("run", scene, "--method", "backward-euler")
     assert told.code != 0 and "backward-euler does not know rigid bodies yet" in told.err
+
+
+def test_limit_and_why_know_bodies(hooke, scene):
+    told = hooke("limit", scene, "--methods", "symplectic-euler,verlet,rk4", "--json").json
+    assert [row["ratio"] for row in told["rows"]] == pytest.approx([1, 1, 1], abs=1e-3)
+    assert [row["bound"] for row in told["rows"]] == [None] * 3
+    assert told["tipping"] == 1  # the bar, which begins above its pin
+    assert {one["group"] for one in told["blame"]} == {"ropes"}
+    words = hooke("limit", scene, "--predict").out
+    assert "1 rigid body is tipped over by gravity or tensions" in words and "backward-euler" not in words
+    stiff = {**BOARD["springs"][0], "stiffness": 2e5}
+    scene.write_text(json.dumps({**BOARD, "springs": [stiff]}))
+    limit = hooke("limit", scene, "--methods", "verlet", "--predict", "--json").json["rows"][0]["predicted"]
+    blown = hooke("run", scene, "--step", "0.0025", "--duration", "5", "--every", "0.1")
+    assert blown.code == 4 and "group ropes" in blown.err
+    said = float(blown.err.split("is above ")[1].split(" s,")[0])
+    assert said == pytest.approx(limit, rel=0.01) and said < 0.0025
 
 
 def test_a_study_has_the_orders(hooke, scene):

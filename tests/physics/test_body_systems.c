@@ -383,11 +383,11 @@ static void unknown_is_said(void **unused) {
   hooke_options *options =
       run_options((struct run){.method = "backward-euler", .step = 0.01, .duration = 1.0});
   hooke_integrator *integrator = NULL;
-  hooke_measurement *limit = NULL;
+  hooke_measurement *needs = NULL;
   check_status(hooke_integrator_create(system, options, &integrator), HOOKE_UNSUITED);
   check_message("backward-euler does not know rigid bodies yet");
-  check_status(hooke_measurement_create("limit", system, options, NULL, &limit), HOOKE_UNSUITED);
-  check_message("limit does not know rigid bodies yet");
+  check_status(hooke_measurement_create("needs", system, options, NULL, &needs), HOOKE_UNSUITED);
+  check_message("needs does not know rigid bodies yet");
   double bound = 0.0;
   check_ok(hooke_step_bound(system, "verlet", hooke_state_position(state), &bound));
   assert_true(isnan(bound));

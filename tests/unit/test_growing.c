@@ -29,7 +29,7 @@ static struct random_scene build(uint64_t seed) {
 static double largest(const hooke_system *system, double a, double b) {
   struct hk_linearised lin;
   double value = 0.0, *mode = calloc((size_t)(3 * system->particle_count), sizeof *mode);
-  check_ok(hk_linearised_create(system, system->position, NULL, NULL, &lin));
+  check_ok(hk_linearised_create(system, system->position, NULL, NULL, NULL, &lin));
   const int32_t status =
       hk_dominant_mode(&lin, a * lin.rate * lin.rate, b * lin.rate, NULL, 1e-9, &value, mode);
   hk_linearised_release(&lin);

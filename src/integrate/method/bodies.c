@@ -194,6 +194,7 @@ static const struct hk_method rows[] = {
     {.name = "symplectic-euler", .order = 1, .step = step_symplectic_euler, HOOKE_BODY_METHOD},
     {.name = "verlet",
      .order = 2,
+     .stability = {.kind = HOOKE_STABLE_BY_PREDICTION},
      .choose = choose_verlet,
      .forget = forget,
      .step = step_verlet,

@@ -3,6 +3,7 @@
 #include "io/measurement/measurement_file.h"
 #include "io/page/limit_picture.h"
 #include "io/page/measurement_pages.h"
+#include "measure/spectrum/limit_rules.h"
 
 #include <math.h>
 
@@ -20,22 +21,22 @@ static void add_point(struct hk_text *data, double x, double y) {
 }
 
 /* The boundary of the region of h lambda, above the real axis, from the imaginary one to the left. */
-static void add_region(struct hk_text *data, const char *method) {
+static void add_region(struct hk_text *data, const hooke_system *system, const char *method) {
   hk_text_open(data, "region", '[');
   for (int k = 0; k <= QUARTER; k++) {
     const double damping = sin(RIGHT_ANGLE * k / QUARTER), swing = cos(RIGHT_ANGLE * k / QUARTER);
-    const double reach = hooke_limit_of_mode(method, 1.0, damping);
+    const double reach = hk_limit_of_mode_in(system, method, 1.0, damping);
     add_point(data, -reach * damping, reach * swing);
   }
   hk_text_close(data, ']');
 }
 
-void hk_limit_page_add_reach(struct hk_text *data, const char *method) {
-  if (!isfinite(hooke_limit_of_mode(method, 1.0, 0.5))) return;
+void hk_limit_page_add_reach(struct hk_text *data, const hooke_system *system, const char *method) {
+  if (!isfinite(hk_limit_of_mode_in(system, method, 1.0, 0.5))) return;
   hk_text_open(data, "reach", '[');
   for (int k = 0; k <= QUARTER; k++) {
     const double decay = sin(RIGHT_ANGLE * k / QUARTER), frequency = cos(RIGHT_ANGLE * k / QUARTER);
-    const double reach = fmin(FAR, hooke_limit_of_mode(method, frequency, decay));
+    const double reach = fmin(FAR, hk_limit_of_mode_in(system, method, frequency, decay));
     add_point(data, reach * frequency, reach * decay);
   }
   hk_text_close(data, ']');
@@ -57,13 +58,13 @@ static void add_unlimited(struct hk_text *data, const hooke_measurement *m, cons
 static void add_row(struct hk_text *data, const hooke_measurement *m, const struct hk_table *table,
                     int64_t row) {
   const char *method = hooke_measurement_text(m, table->name, row, "method");
-  const double alone = hooke_limit_of_mode(method, 1.0, 0.5);
+  const double alone = hk_limit_of_mode_in(m->system, method, 1.0, 0.5);
   hk_text_open(data, NULL, '{');
   hk_measurement_add_row(data, m, table, row);
   add_unlimited(data, m, table, row);
-  hk_limit_page_add_reach(data, method);
+  hk_limit_page_add_reach(data, m->system, method);
   if (isfinite(alone) && hooke_measurement_number(m, table->name, row, "by_eigenvalue") == 1.0)
-    add_region(data, method);
+    add_region(data, m->system, method);
   hk_text_close(data, '}');
 }
 

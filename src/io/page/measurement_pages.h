@@ -9,7 +9,7 @@ void hk_study_page_add(struct hk_text *data, const void *measurement);
 void hk_why_page_add(struct hk_text *data, const void *measurement);
 /* Adds "reach": the edge of what is stable by h times frequency and h times decay, as x, y in turn, where a
  * method has one. */
-void hk_limit_page_add_reach(struct hk_text *data, const char *method);
+void hk_limit_page_add_reach(struct hk_text *data, const hooke_system *system, const char *method);
 void hk_limit_page_add(struct hk_text *data, const void *measurement);
 
 #endif

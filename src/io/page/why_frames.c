@@ -125,15 +125,23 @@ static int32_t begin_limits(struct frames *f, const hooke_options *run) {
  * limit. */
 static int32_t take_mode(struct frames *f, const struct hk_limit *limit, const struct hk_limit_row *row,
                          int64_t step) {
+  const struct hk_stability *stability = hk_method_stability_in(row->method, f->system);
   struct hk_growing g;
-  int32_t status = hk_growing_create(f->system, row->mode, NULL, &g);
+  struct hk_rigid rigid;
+  int32_t status = hk_rigid_create(f->system, limit->q, NULL, &rigid);
+  if (status != HOOKE_OK) return status;
+  /* modes have the length 1 by masses */
+  const double *const mode[3] = {row->mode, row->mode + 1, row->mode + 2};
+  const double geometric = hk_rigid_energy(&rigid, mode, 3);
+  hk_rigid_release(&rigid);
+  status = hk_growing_create(f->system, row->mode, NULL, &g);
   if (status != HOOKE_OK) return status;
   const int inertial = f->system->friction == 0.0;
-  const double stiffness = fmax(0.0, hk_growing_quotient(&g, limit->q, 1.0, 0.0));
+  const double stiffness = fmax(0.0, hk_growing_quotient(&g, limit->q, 1.0, 0.0) + geometric);
   const double frequency = inertial ? sqrt(stiffness) : 0.0;
   const double decay = inertial ? 0.5 * hk_growing_quotient(&g, limit->q, 0.0, 1.0) : stiffness;
-  const double growth = inertial ? hk_mode_growth(row->method, f->h, frequency, decay)
-                                 : hk_relaxation_growth(row->method, f->h, stiffness);
+  const double growth = inertial ? hk_mode_growth(stability, f->h, frequency, decay)
+                                 : hk_relaxation_growth(stability, f->h, stiffness);
   hk_growing_release(&g);
   f->look[f->looks].frequency = frequency;
   f->look[f->looks].decay = decay;
@@ -156,7 +164,7 @@ static int32_t look(struct frames *f, const hooke_state *state, int64_t step) {
   if (f->limit == NULL || f->looks > LOOKS || (late && step != f->last)) return HOOKE_OK;
   struct hk_limit *limit = f->limit->object;
   const double *q = hooke_state_position((hooke_state *)state);
-  int32_t status = hk_limit_look(limit, q, hooke_state_time(state));
+  int32_t status = hk_limit_look(limit, q, state->v, hooke_state_time(state));
   if (status != HOOKE_OK)
     return status == HOOKE_NO_MEMORY ? status : HOOKE_OK; /* then it is not known there */
   const struct hk_limit_row *row = hk_limit_limiting_row(limit);

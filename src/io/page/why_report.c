@@ -20,7 +20,7 @@ void hk_why_page_add(struct hk_text *data, const void *measurement) {
   hk_text_open(data, "rows", '[');
   hk_text_open(data, NULL, '{');
   hk_text_word(data, "method", why->method);
-  hk_limit_page_add_reach(data, why->method);
+  hk_limit_page_add_reach(data, why->system, why->method);
   hk_text_close(data, '}');
   hk_text_close(data, ']');
   if (why->start.state && !isnan(why->step)) hk_why_frames_add(data, why, m->run);

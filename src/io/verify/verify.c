@@ -185,6 +185,7 @@ static int is_resolved(const struct hk_verify *verify, const struct hk_verify_pa
   if (hooke_system_group_count(verify->system, "altitude") > 0) return 0; /* their energy jumps */
   if (!verify->fixed) return fabs(pass->balance.residual) > 1e-6 * pass->balance.scale;
   const int32_t status = hk_limit_predict(verify->system, hooke_state_position(verify->first),
+                                          hooke_state_velocity(verify->first),
                                           hk_method_of_euler(verify->system), 1e-2, NULL, NULL, &limit);
   return status == HOOKE_OK && ldexp(hooke_options_number(run, "step"), -pass->refined) <= RESOLVED * limit;
 }
@@ -253,7 +254,8 @@ static int32_t compare_slice(struct hk_verify *verify) {
     verify->verdict = "agrees";
     keep(verify, &pass);
     /* other failures leave the number unknown */
-    if (hk_limit_predict(verify->system, hooke_state_position(verify->first), method, 1e-2, NULL, NULL,
+    if (hk_limit_predict(verify->system, hooke_state_position(verify->first),
+                         hooke_state_velocity(verify->first), method, 1e-2, NULL, NULL,
                          &verify->limit) == HOOKE_NO_MEMORY)
       status = HOOKE_NO_MEMORY;
     if (status == HOOKE_OK && pass.count > 0 && (!is_on(verify, "bits") || verify->may_differ))

@@ -105,8 +105,8 @@ static int32_t find_limit(struct hk_cost *cost, const hooke_system *system, cons
                           double *limit) {
   const double *q = hooke_state_position((hooke_state *)state);
   *limit = NAN;
-  const int32_t status =
-      hk_limit_predict_within(system, q, cost->method, NULL, NULL, ACCURACY, 0.0, &cost->patience, limit);
+  const int32_t status = hk_limit_predict_within(system, q, NULL, cost->method, NULL, NULL, ACCURACY, 0.0,
+                                                 &cost->patience, limit);
   return status == HOOKE_NO_MEMORY || (status == HOOKE_STOPPED && cost->patience.stopped) ? status : HOOKE_OK;
 }
 

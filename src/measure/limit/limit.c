@@ -52,6 +52,8 @@ static const struct hk_option_table limit_table = {"limit", HOOKE_OPTION_ROWS(li
 
 static int32_t add_row(const char *method, void *ctx) {
   struct hk_limit *limit = ctx;
+  if (!hk_method_suits(method, limit->system) && limit->system->bodies.moving > 0)
+    return hk_system_require_no_bodies(limit->system, method);
   if (limit->row_count == HOOKE_LIMIT_METHODS)
     return hk_fail(HOOKE_BAD_VALUE, "methods", "more than %d methods", HOOKE_LIMIT_METHODS);
   limit->row[limit->row_count++].method = method;
@@ -66,7 +68,7 @@ static void forget(struct hk_limit *limit) {
   limit->endless = hk_patience_of(INFINITY, hk_limit_tell, limit);
   limit->found = 0;
   limit->frequency = limit->decay = limit->time = NAN;
-  limit->mode_count = limit->products = limit->clamped = 0;
+  limit->mode_count = limit->products = limit->clamped = limit->tipping = 0;
   hk_free(limit->mode);
   limit->mode = NULL;
   hk_participation_release(&limit->participation);
@@ -75,14 +77,14 @@ static void forget(struct hk_limit *limit) {
   for (int32_t k = 0; k < limit->row_count; k++) {
     struct hk_limit_row *row = &limit->row[k];
     row->bound = row->predicted = row->measured = row->steps_run = NAN;
-    row->exact = row->never_stable = row->has_mode = 0;
+    row->exact = row->never_stable = row->spins = row->has_mode = 0;
     row->note[0] = '\0';
   }
 }
 
 static void forget_smallest(struct hk_limit *limit) {
   for (int32_t k = 0; k < limit->row_count; k++)
-    limit->row[k].smallest = limit->row[k].smallest_time = NAN;
+    limit->row[k].smallest = limit->row[k].smallest_time = NAN, limit->row[k].unknown = 0;
 }
 
 static int32_t make_room(struct hk_limit *limit) {
@@ -174,7 +176,8 @@ static int32_t find_participation(struct hk_limit *limit) {
   for (int64_t k = 0; k < 3 * n; k++)
     limit->shape[k] = longest > 0.0 ? row->mode[k] / longest : 0.0;
   /* if no step is stable, only stiffness is considered */
-  const int stiffness_alone = hk_method_stability(row->method)->damps_implicitly || !(row->predicted > 0.0);
+  const int stiffness_alone =
+      hk_method_stability_in(row->method, limit->system)->damps_implicitly || !(row->predicted > 0.0);
   const double h = stiffness_alone ? 0.0 : row->predicted;
   int32_t status = hk_participation_find(limit->system, limit->q, limit->shape, stiffness_alone ? 1.0 : h * h,
                                          h, &limit->participation);
@@ -197,6 +200,7 @@ static int32_t measure_row(struct hk_limit *limit, struct hk_limit_row *row, con
   const double *q = hooke_state_position((hooke_state *)state);
   struct hk_measured_limit m = {.step = NAN, .note = ""};
   const int nonlinear = hooke_options_number(limit->options, "nonlinear") != 0.0;
+  if (row->spins && !nonlinear) return HOOKE_OK; /* what runs is at rest */
   const int32_t status =
       nonlinear
           ? hk_limit_measure_nonlinear(limit->system, state, limit->run, row->method, row->predicted,
@@ -227,18 +231,17 @@ static int32_t measure(struct hk_limit *limit, const hooke_state *state) {
   return begin_part(limit, 1.0, 0.0, "done");
 }
 
-int32_t hk_limit_look(struct hk_limit *limit, const double *q, double t) {
+int32_t hk_limit_look(struct hk_limit *limit, const double *q, const double *v, double t) {
   forget(limit);
   forget_smallest(limit);
   remember(limit, q, t);
   int32_t status = begin_part(limit, 0.0, PREDICTING, "eigenvalues");
-  if (status == HOOKE_OK) status = hk_limit_predict_rows(limit, limit->q);
+  if (status == HOOKE_OK) status = hk_limit_predict_rows(limit, limit->q, v);
   return status == HOOKE_OK ? find_participation(limit) : status;
 }
 
 static int32_t find(struct hk_limit *limit, const hooke_state *state) {
-  const int32_t status =
-      hk_limit_look(limit, hooke_state_position((hooke_state *)state), hooke_state_time(state));
+  const int32_t status = hk_limit_look(limit, state->q, state->v, *state->t);
   const int predict = hooke_options_number(limit->options, "predict") != 0.0;
   return status == HOOKE_OK && !predict ? measure(limit, state) : status;
 }
@@ -258,10 +261,10 @@ static int32_t see_frame(int64_t step, const hooke_state *state, void *ctx) {
   forget(limit);
   walk->status =
       begin_part(limit, (double)walk->frame++ / (double)walk->frame_count, 0.0, "limits along the run");
-  if (walk->status == HOOKE_OK)
-    walk->status = hk_limit_predict_rows(limit, hooke_state_position((hooke_state *)state));
+  if (walk->status == HOOKE_OK) walk->status = hk_limit_predict_rows(limit, state->q, state->v);
   for (int32_t k = 0; k < limit->row_count && walk->status == HOOKE_OK; k++) {
     struct hk_limit_row *row = &limit->row[k];
+    row->unknown += isnan(row->predicted);
     if (row->predicted >= row->smallest || isnan(row->predicted)) continue;
     row->smallest = row->predicted;
     if (isfinite(row->predicted)) row->smallest_time = hooke_state_time(state);
@@ -274,6 +277,18 @@ static int32_t see_steps(double done, const char *method, void *ctx) {
   (void)method;
   walk->status = begin_part(walk->limit, done, 0.0, "limits along the run");
   return walk->status != HOOKE_OK;
+}
+
+/* The smallest prediction is that of the other frames. */
+static void note_unknown(struct hk_limit *limit, int64_t frames) {
+  char note[96];
+  for (int32_t k = 0; k < limit->row_count && limit->system->bodies.moving > 0; k++) {
+    struct hk_limit_row *row = &limit->row[k];
+    if (row->unknown == 0) continue;
+    snprintf(note, sizeof note, "along the run not known at %lld of %lld frames", (long long)row->unknown,
+             (long long)frames);
+    add_note(row, note);
+  }
 }
 
 static int32_t go_along(struct hk_limit *limit, hooke_state *state) {
@@ -293,6 +308,7 @@ static int32_t go_along(struct hk_limit *limit, hooke_state *state) {
   hooke_integrator_destroy(integrator);
   remember(limit, hooke_state_position(state), hooke_state_time(state));
   if (walk.status != HOOKE_OK) return walk.status;
+  note_unknown(limit, walk.frame);
   const int32_t found = status < 0 || !limit->found ? HOOKE_OK : find_participation(limit);
   return found != HOOKE_OK ? found : status;
 }
@@ -306,6 +322,7 @@ const struct hk_measurement_kind hk_limit_kind = {
     .name = "limit",
     .options = &limit_table,
     .takes_state = 1,
+    .knows_bodies = 1,
     .tables = hk_limit_tables,
     .table_count = HOOKE_LIMIT_TABLES,
     .create = create,

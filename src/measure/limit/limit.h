@@ -12,8 +12,9 @@ struct hk_limit_row {
   const char *method;
   double bound, predicted, measured; /* [s] */
   double steps_run, smallest, smallest_time;
-  int32_t exact, never_stable, has_mode;
-  double *mode; /* 3n, in rows of x y z */
+  int32_t exact, never_stable, spins, has_mode;
+  double *mode;    /* 3n, in rows of x y z */
+  int64_t unknown; /* frames along a run at which there is no prediction */
   char note[HOOKE_LIMIT_NOTE];
 };
 
@@ -34,7 +35,7 @@ struct hk_limit {
   double time;
   int32_t found;
   double frequency, decay; /* [rad/s], [1/s] */
-  int64_t products, clamped;
+  int64_t products, clamped, tipping;
   int64_t mode_count;
   struct hk_limit_mode *mode;
   double *shape, *stiffest; /* 3n; the second, a start for the next state, x, y and z apart */
@@ -49,11 +50,12 @@ struct hk_limit {
   const char *under_way;
 };
 
-/* Predictions at positions q (3n) of the time t, and the limiting elements there. */
-int32_t hk_limit_look(struct hk_limit *limit, const double *q, double t);
+/* Predictions at positions q and velocities v (3n; NULL: at rest) of the time t, and the limiting elements
+ * there. */
+int32_t hk_limit_look(struct hk_limit *limit, const double *q, const double *v, double t);
 
-/* Replaces bounds, predictions and modes by those at positions q (3n). */
-int32_t hk_limit_predict_rows(struct hk_limit *limit, const double *q);
+/* Replaces bounds, predictions and modes by those at positions q and velocities v (3n; NULL: at rest). */
+int32_t hk_limit_predict_rows(struct hk_limit *limit, const double *q, const double *v);
 
 /* The row for limiting springs: that of the method of the run, or the first with a limit; NULL if none has
  * one. */

@@ -53,7 +53,7 @@ static int32_t try_frozen(void *ctx, double step, enum hk_trial_end *end) {
 
 static int is_symplectic(const struct trial *trial) {
   const int32_t kind = trial->stability->kind;
-  return kind == HOOKE_STABLE_BY_K || kind == HOOKE_STABLE_BY_K_AND_C;
+  return kind == HOOKE_STABLE_BY_K || kind == HOOKE_STABLE_BY_PREDICTION || kind == HOOKE_STABLE_BY_K_AND_C;
 }
 
 /* A fraction e above the limit, undamped motion grows by 1 + sqrt(8 e) a step of a symplectic method, and by
@@ -194,7 +194,7 @@ int32_t hk_limit_measure(const hooke_system *system, const double *q, const hook
   if (status == HOOKE_OK) {
     growth.progress = progress;
     growth.ctx = ctx;
-    const struct hk_stability *stability = hk_method_stability(method);
+    const struct hk_stability *stability = hk_method_stability_in(method, system);
     const int slow = hk_method_needs_damping(method) && system->friction == 0.0;
     growth.is_named = predicted > 0.0 && isfinite(predicted);
     growth.is_convex = !twin.damped && stability->kind == HOOKE_STABLE_BY_POLYNOMIAL;

@@ -2,6 +2,7 @@
 
 #include "core/memory.h"
 #include "core/status.h"
+#include "measure/spectrum/rigid.h"
 #include "model/force/force.h"
 
 #include <math.h>
@@ -83,6 +84,21 @@ static void find_elements(const hooke_system *system, const double *q, const dou
   }
 }
 
+/* Gravity and tensions, which turn bodies. */
+static int32_t find_geometric(const hooke_system *system, const double *q, const double *mode,
+                              struct weights h, struct whole *whole, struct hk_participation *participation) {
+  const double *const x[3] = {mode, mode + 1, mode + 2};
+  struct hk_rigid rigid;
+  const int32_t status = hk_rigid_create(system, q, NULL, &rigid);
+  if (status != HOOKE_OK) return status;
+  const double stiffness = h.k * hk_rigid_energy(&rigid, x, 3);
+  whole->all += stiffness;
+  whole->stiffness += stiffness;
+  participation->force_share[HOOKE_PARTICIPATION_GEOMETRIC] += stiffness;
+  hk_rigid_release(&rigid);
+  return HOOKE_OK;
+}
+
 static void find_particles(const hooke_system *system, const double *mode, struct whole *whole,
                            struct hk_participation *participation) {
   for (int64_t p = 0; p < system->particle_count; p++) {
@@ -123,11 +139,14 @@ int32_t hk_participation_find(const hooke_system *system, const double *q, const
   }
   for (int64_t k = 0; k < 3 * system->particle_count; k++)
     moves[k] = system->constrained[k / 3] ? 0.0 : mode[k];
-  find_elements(system, q, moves, (struct weights){h2, 2.0 * h}, &whole, participation);
+  const struct weights weights = {h2, 2.0 * h};
+  find_elements(system, q, moves, weights, &whole, participation);
+  const int32_t status = find_geometric(system, q, moves, weights, &whole, participation);
   find_particles(system, moves, &whole, participation);
   divide(participation, &whole);
   hk_free(moves);
-  return HOOKE_OK;
+  if (status != HOOKE_OK) hk_participation_release(participation);
+  return status;
 }
 
 const char *hk_participation_group_name(const hooke_system *system, int64_t group) {
@@ -146,6 +165,7 @@ int32_t hk_participation_is_drag(int32_t force) {
 }
 
 const char *hk_participation_force_name(int32_t force) {
+  if (force == HOOKE_PARTICIPATION_GEOMETRIC) return "geometric";
   return force < 0 ? "" : force == HOOKE_PARTICIPATION_DAMPING ? "damping" : hk_force_table(force)->name;
 }
 

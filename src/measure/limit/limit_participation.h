@@ -20,8 +20,13 @@ struct hk_limiting_particle {
   double mass;  /* [kg] */
 };
 
-/* Shares by the number of a force in its table, and the damping of all forces with groups. */
-enum { HOOKE_PARTICIPATION_DAMPING = HOOKE_FORCES, HOOKE_PARTICIPATION_SHARES };
+/* Shares by the number of a force in its table, the damping of all forces with groups, and the geometric
+ * stiffness of bodies (rigid.h). */
+enum {
+  HOOKE_PARTICIPATION_DAMPING = HOOKE_FORCES,
+  HOOKE_PARTICIPATION_GEOMETRIC,
+  HOOKE_PARTICIPATION_SHARES
+};
 
 struct hk_participation {
   /* the largest shares first */
@@ -43,8 +48,8 @@ int32_t hk_participation_find(const hooke_system *system, const double *q, const
                               double h, struct hk_participation *participation);
 void hk_participation_release(struct hk_participation *participation);
 
-/* The force with half of the total or more, or HOOKE_PARTICIPATION_DAMPING; -1 if it is the stiffness of
- * springs, or none. Its name. */
+/* The force with half of the total or more, or HOOKE_PARTICIPATION_DAMPING or _GEOMETRIC; -1 if it is the
+ * stiffness of springs, or none. Its name. */
 int32_t hk_participation_force(const struct hk_participation *participation);
 const char *hk_participation_force_name(int32_t force);
 int32_t hk_participation_is_drag(int32_t force);

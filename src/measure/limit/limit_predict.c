@@ -8,10 +8,10 @@
 
 static const double SURE = 1e-3; /* accuracy of a limit that counts as exact */
 
-int32_t hk_limit_predict(const hooke_system *system, const double *q, const char *method, double accuracy,
-                         hooke_progress *progress, void *ctx, double *limit) {
+int32_t hk_limit_predict(const hooke_system *system, const double *q, const double *v, const char *method,
+                         double accuracy, hooke_progress *progress, void *ctx, double *limit) {
   struct hk_patience endless = hk_patience_of(INFINITY, progress, ctx);
-  return hk_limit_predict_within(system, q, method, NULL, NULL, accuracy, 0.0, &endless, limit);
+  return hk_limit_predict_within(system, q, v, method, NULL, NULL, accuracy, 0.0, &endless, limit);
 }
 
 /* `prediction` without its mode. */
@@ -29,12 +29,12 @@ static int32_t predict(struct hk_linearised *linearised, const char *method, dou
   return status;
 }
 
-int32_t hk_limit_predict_within(const hooke_system *system, const double *q, const char *method,
-                                const double *spring_scale, const double *mass_scale, double accuracy,
-                                double room, struct hk_patience *patience, double *limit) {
+int32_t hk_limit_predict_within(const hooke_system *system, const double *q, const double *v,
+                                const char *method, const double *spring_scale, const double *mass_scale,
+                                double accuracy, double room, struct hk_patience *patience, double *limit) {
   struct hk_linearised linearised;
   struct hk_prediction prediction;
-  int32_t status = hk_linearised_create(system, q, spring_scale, mass_scale, &linearised);
+  int32_t status = hk_linearised_create(system, q, v, spring_scale, mass_scale, &linearised);
   if (status != HOOKE_OK) return status;
   linearised.patience = patience;
   linearised.room = room;
@@ -48,7 +48,7 @@ int32_t hk_limit_sure(const hooke_system *system, const double *q, const char *m
                       struct hk_patience *patience, double *limit) {
   struct hk_linearised linearised;
   struct hk_prediction prediction;
-  int32_t status = hk_linearised_create(system, q, NULL, NULL, &linearised);
+  int32_t status = hk_linearised_create(system, q, NULL, NULL, NULL, &linearised);
   if (status != HOOKE_OK) return status;
   linearised.patience = patience;
   status = predict(&linearised, method, SURE, HOOKE_SPECTRUM_EXTREMES, &prediction);

@@ -10,17 +10,18 @@
 
 /* `limit` [s] of `method` at positions q (3n), to the relative `accuracy`: 0 if no step is stable, infinity
  * if nothing limits it, an upper estimate if only part of the spectrum can be computed (rk4 and forward-euler
- * on large scenes). `progress` may be NULL. HOOKE_BAD_VALUE for an unknown method, HOOKE_NOT_BUILT,
- * HOOKE_NO_MEMORY, HOOKE_SOLVER_FAILED, HOOKE_STOPPED by the progress. */
-int32_t hk_limit_predict(const hooke_system *system, const double *q, const char *method, double accuracy,
-                         hooke_progress *progress, void *ctx, double *limit);
+ * on large scenes), NaN if bodies spin too fast to know it at velocities v (3n, NULL: at rest). `progress`
+ * may be NULL. HOOKE_BAD_VALUE for an unknown method, HOOKE_NOT_BUILT, HOOKE_NO_MEMORY, HOOKE_SOLVER_FAILED,
+ * HOOKE_STOPPED by the progress. */
+int32_t hk_limit_predict(const hooke_system *system, const double *q, const double *v, const char *method,
+                         double accuracy, hooke_progress *progress, void *ctx, double *limit);
 
 /* The same for a changed system, within the patience, with `room` bytes for a basis (0: the default);
  * otherwise HOOKE_STOPPED. `spring_scale` (one factor a spring, on kappa and gamma) and `mass_scale` (n) may
  * be NULL. */
-int32_t hk_limit_predict_within(const hooke_system *system, const double *q, const char *method,
-                                const double *spring_scale, const double *mass_scale, double accuracy,
-                                double room, struct hk_patience *patience, double *limit);
+int32_t hk_limit_predict_within(const hooke_system *system, const double *q, const double *v,
+                                const char *method, const double *spring_scale, const double *mass_scale,
+                                double accuracy, double room, struct hk_patience *patience, double *limit);
 
 /* Raises `limit`, initially hooke_step_bound(), to a step [s] at which the linearised system is certainly
  * stable by its extreme eigenvalues: the limit or close to it. If these do not suffice, and after patience

@@ -31,6 +31,7 @@ static int32_t find_row(struct hk_limit *limit, struct hk_spectrum *spectrum, do
   row->predicted = prediction.never_stable ? 0.0 : fmax(prediction.limit, row->bound);
   row->exact = prediction.exact;
   row->never_stable = prediction.never_stable;
+  row->spins = prediction.spins;
   row->has_mode = prediction.has_mode;
   snprintf(row->note, sizeof row->note, "%s", prediction.note);
   double *const component[3] = {mode, mode + n, mode + 2 * n};
@@ -64,6 +65,7 @@ static int32_t keep_modes(struct hk_limit *limit, const struct hk_spectrum *s) {
   limit->decay = rate * s->fastest_decay;
   if (limit->system->friction > 0.0) find_overdamped_modes(limit, s);
   limit->clamped = s->linearised->clamped;
+  limit->tipping = s->linearised->rigid.tipping;
   memcpy(limit->stiffest, s->stiffest_mode, (size_t)s->linearised->size * sizeof(double));
   limit->has_stiffest = 1;
   return HOOKE_OK;
@@ -105,9 +107,9 @@ static int32_t find_rows(struct hk_limit *limit, struct hk_linearised *linearise
   return status;
 }
 
-int32_t hk_limit_predict_rows(struct hk_limit *limit, const double *q) {
+int32_t hk_limit_predict_rows(struct hk_limit *limit, const double *q, const double *v) {
   struct hk_linearised linearised;
-  int32_t status = hk_linearised_create(limit->system, q, NULL, NULL, &linearised);
+  int32_t status = hk_linearised_create(limit->system, q, v, NULL, NULL, &linearised);
   if (status != HOOKE_OK) return status;
   linearised.patience = limit->patience;
   linearised.room = limit->room;

@@ -42,11 +42,15 @@ static struct set spring_set(const hooke_system *system, const struct hk_partici
   return set;
 }
 
+/* None with particles of bodies: each changes the mass and the inertia of all of its body. */
 static struct set particle_set(const hooke_system *system, const struct hk_participation *participation) {
   struct set set = {.of = system->particle_count - system->constrained_count};
-  while (set.share < MOST_OF_THE_MODE && set.count < participation->particle_count)
+  int32_t in_body = 0;
+  while (set.share < MOST_OF_THE_MODE && set.count < participation->particle_count) {
+    in_body |= hk_bodies_move(&system->bodies, participation->particle[set.count].particle);
     set.share += participation->particle[set.count++].share;
-  if (set.share < MOST_OF_THE_MODE) set.count = 0;
+  }
+  if (set.share < MOST_OF_THE_MODE || in_body) set.count = 0;
   return set;
 }
 
@@ -96,9 +100,9 @@ static int32_t limit_with(const hooke_system *system, const double *q, const cha
     else
       scale[participation->particle[k].particle] = factor;
   }
-  const int32_t status =
-      hk_limit_predict_within(system, q, method, set->springs ? scale : NULL, set->springs ? NULL : scale,
-                              ACCURACY, participation->room, participation->patience, limit);
+  const int32_t status = hk_limit_predict_within(system, q, NULL, method, set->springs ? scale : NULL,
+                                                 set->springs ? NULL : scale, ACCURACY, participation->room,
+                                                 participation->patience, limit);
   hk_free(scale);
   return status;
 }
@@ -228,8 +232,9 @@ static int32_t limit_without(const hooke_system *system, const double *q, const 
   hooke_system without = *system;
   without.drag = 0.0;
   const int drag = hk_participation_is_drag(force);
-  const int32_t status = hk_limit_predict_within(&without, q, drag ? method : "verlet", NULL, NULL, ACCURACY,
-                                                 participation->room, participation->patience, limit);
+  const int32_t status =
+      hk_limit_predict_within(&without, q, NULL, drag ? method : "verlet", NULL, NULL, ACCURACY,
+                              participation->room, participation->patience, limit);
   const struct hk_stability *stability = hk_method_stability(method);
   if (!drag && stability->kind == HOOKE_STABLE_BY_POLYNOMIAL) *limit *= sqrt(stability->axis / 4.0);
   return status;
@@ -239,10 +244,13 @@ static int32_t tell_force(const hooke_system *system, const double *q, const cha
                           const struct hk_participation *participation, int32_t force,
                           struct hk_suggestion *suggestion) {
   double without = 0.0;
-  const int32_t status = limit_without(system, q, method, participation, force, &without);
+  const int32_t drag = hk_participation_is_drag(force), bodies = system->bodies.moving > 0;
+  int32_t status = HOOKE_OK;
+  /* no method has no limit by the damping of bodies */
+  if (drag || !bodies) status = limit_without(system, q, method, participation, force, &without);
   if (status != HOOKE_OK) return status;
   add(suggestion->sentence, sizeof suggestion->sentence, "%s%s limits the step", suggestion->kind ? "; " : "",
-      hk_participation_is_drag(force) ? "drag" : "damping along springs");
+      drag ? "drag" : "damping along springs");
   if (without > LEAST_COST * limit && isfinite(without)) {
     add(suggestion->sentence, sizeof suggestion->sentence, ": without it %s would be stable up to %.6g s",
         method, without);
@@ -250,9 +258,9 @@ static int32_t tell_force(const hooke_system *system, const double *q, const cha
     add(suggestion->sentence, sizeof suggestion->sentence, ": without it nothing would limit that of %s",
         method);
   }
-  add(suggestion->sentence, sizeof suggestion->sentence,
-      "; verlet takes %s implicitly, and has no limit by it",
-      hk_participation_is_drag(force) ? "drag" : "damping");
+  if (!bodies)
+    add(suggestion->sentence, sizeof suggestion->sentence,
+        "; verlet takes %s implicitly, and has no limit by it", drag ? "drag" : "damping");
   suggestion->force = 1;
   return HOOKE_OK;
 }

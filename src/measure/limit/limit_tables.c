@@ -9,7 +9,7 @@
 
 struct limit_line {
   const char *method, *blamed;
-  double time, step, frequency_max, rate_max, mode_count, clamped, products;
+  double time, step, frequency_max, rate_max, mode_count, clamped, tipping, products;
   struct hk_series shape;
 };
 
@@ -36,6 +36,7 @@ static void read_limit(const void *object, int64_t row, void *line) {
                           .rate_max = limit->found ? limit->decay : NAN,
                           .mode_count = if_found(limit, limit->mode_count),
                           .clamped = if_found(limit, limit->clamped),
+                          .tipping = if_found(limit, limit->tipping),
                           .products = if_found(limit, limit->products),
                           .blamed = blamed ? blamed->method : NULL,
                           .shape = {blamed ? limit->shape : NULL, 3 * limit->system->particle_count}};
@@ -52,6 +53,8 @@ static const struct hk_column limit_columns[] = {
     HOOKE_COLUMN(struct limit_line, mode_count, COUNT, "", "modes that are known"),
     HOOKE_COLUMN(struct limit_line, clamped, COUNT, "",
                  "springs under compression whose transverse stiffness was left out"),
+    HOOKE_COLUMN(struct limit_line, tipping, COUNT, "",
+                 "rigid bodies that gravity or tensions would tip over, which was left out"),
     HOOKE_COLUMN(struct limit_line, products, COUNT, "", "products with K and C that it took"),
     HOOKE_COLUMN(
         struct limit_line, blamed, TEXT, "",
@@ -173,7 +176,8 @@ const struct hk_column hk_limiting_columns[HOOKE_LIMITING_COLUMNS] = {
         "share of h^2 K + 2 h C in the limiting mode, 0 to 1; bending, altitude springs and drag are "
         "part of the whole; NaN if it cannot be told"),
     HOOKE_COLUMN(struct hk_limiting_line, force, TEXT, "",
-                 "drag, damping, bending or altitude, where no spring but that force is meant"),
+                 "drag, damping, bending or altitude, where no spring but that force is meant; geometric: "
+                 "gravity and tensions, which turn rigid bodies"),
 };
 
 static const struct hk_table limiting_table = {

@@ -166,7 +166,7 @@ static double step_limit(struct hk_needs *needs, const hooke_system *system) {
   double limit = NAN;
   if (hooke_state_create(system, &state) != HOOKE_OK) return NAN;
   const double *q = hooke_state_position(state);
-  if (hk_limit_predict(system, q, method, 1e-3, tell_limit, needs, &limit) != HOOKE_OK &&
+  if (hk_limit_predict(system, q, NULL, method, 1e-3, tell_limit, needs, &limit) != HOOKE_OK &&
       hooke_step_bound(system, method, q, &limit) != HOOKE_OK) {
     limit = NAN;
   }

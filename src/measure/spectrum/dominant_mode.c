@@ -38,6 +38,7 @@ static void begin(const struct hk_linearised *lin, const double *start, double *
   const double length = sqrt(hk_linearised_dot(lin, start, start));
   for (int64_t k = 0; k < lin->size && length > 0.0 && size > 0.0; k++)
     mode[k] = start[k] / length + NOISE * mode[k] / size;
+  hk_linearised_project(lin, mode);
 }
 
 int32_t hk_dominant_mode(struct hk_linearised *lin, double a, double b, const double *start, double accuracy,

@@ -10,10 +10,15 @@
 #include <math.h>
 #include <string.h>
 
+/* See limit_rules.h. */
+static const double SLOW_SPIN = 1e-3;
+
+static const char *const SPINS =
+    "not known: a body spins so fast that gyroscopic and centrifugal forces count, which are left out";
 static const char *const PART_KNOWN =
     "only the fastest modes are known: the limit lies between the bound and the prediction";
 
-static void take_mode(const struct hk_spectrum *s, const double *mode, struct hk_prediction *out) {
+void hk_limit_take_mode(const struct hk_spectrum *s, const double *mode, struct hk_prediction *out) {
   out->has_mode = mode != NULL;
   if (mode) memcpy(out->mode, mode, (size_t)s->linearised->size * sizeof(double));
 }
@@ -44,7 +49,7 @@ static int32_t damping_of(struct hk_linearised *lin, const double *x, double *ro
  * the first step. */
 static int32_t symplectic_euler(struct hk_spectrum *s, struct hk_prediction *out) {
   struct hk_linearised *lin = s->linearised;
-  take_mode(s, s->stiffest_mode, out);
+  hk_limit_take_mode(s, s->stiffest_mode, out);
   out->limit = symplectic_step(s->stiffest, s->beta * s->stiffest + s->delta);
   if (s->proportional) return HOOKE_OK;
   const double tolerance =
@@ -80,7 +85,7 @@ static double verlet_step(double k) {
 
 static void verlet(struct hk_spectrum *s, struct hk_prediction *out) {
   out->limit = verlet_step(s->stiffest);
-  take_mode(s, s->stiffest_mode, out);
+  hk_limit_take_mode(s, s->stiffest_mode, out);
 }
 
 static const double HALF_DISC = 2.6; /* in the left half plane all of this is stable by degree 4 */
@@ -103,7 +108,7 @@ static void smallest(const struct hk_spectrum *s, int32_t degree, struct hk_pred
     out->limit = h;
     worst = k;
   }
-  if (worst >= 0) take_mode(s, s->mode[worst], out);
+  if (worst >= 0) hk_limit_take_mode(s, s->mode[worst], out);
   out->exact = s->decisive;
   if (!s->decisive) out->note = PART_KNOWN;
 }
@@ -113,7 +118,7 @@ static void needs_damping(struct hk_spectrum *s, struct hk_prediction *out) {
   if (!s->linearised->damped && s->stiffest > 0.0) {
     out->limit = 0.0; /* for any set of known modes */
     out->exact = 1;
-    take_mode(s, s->stiffest_mode, out);
+    hk_limit_take_mode(s, s->stiffest_mode, out);
   }
   if (out->limit <= 0.0) {
     out->limit = 0.0;
@@ -158,14 +163,24 @@ static double mode_step(const struct hk_stability *stability, double k, double c
     return verlet_step(k);
   case HOOKE_STABLE_BY_K_AND_C:
     return symplectic_step(k, c);
+  case HOOKE_STABLE_BY_PREDICTION:
+    return hk_limit_predicted_step(k, c);
   default:
     return stability->degree > 0 ? polynomial_mode(stability->degree, k, c) : (double)NAN;
   }
 }
 
-double hooke_limit_of_mode(const char *method, double frequency, double decay) {
+static double limit_of_mode(const struct hk_stability *stability, double frequency, double decay) {
   if (!(frequency >= 0.0) || !(decay >= 0.0)) return NAN;
-  return mode_step(hk_method_stability(method), frequency * frequency, 2.0 * decay);
+  return mode_step(stability, frequency * frequency, 2.0 * decay);
+}
+
+double hooke_limit_of_mode(const char *method, double frequency, double decay) {
+  return limit_of_mode(hk_method_stability(method), frequency, decay);
+}
+
+double hk_limit_of_mode_in(const hooke_system *system, const char *method, double frequency, double decay) {
+  return limit_of_mode(hk_method_stability_in(method, system), frequency, decay);
 }
 
 /* ---- by kinds of stability ---- */
@@ -179,7 +194,7 @@ static void overdamped(struct hk_spectrum *s, const struct hk_stability *stabili
                        struct hk_prediction *out) {
   out->limit =
       s->stiffest > 0.0 ? hk_real_reach(stability->degree) / s->stiffest / s->linearised->rate : INFINITY;
-  take_mode(s, s->stiffest_mode, out);
+  hk_limit_take_mode(s, s->stiffest_mode, out);
 }
 
 static int32_t find_limit(struct hk_spectrum *s, const struct hk_stability *stability,
@@ -194,10 +209,28 @@ static int32_t find_limit(struct hk_spectrum *s, const struct hk_stability *stab
     return HOOKE_OK;
   case HOOKE_STABLE_BY_K_AND_C:
     return symplectic_euler(s, out);
+  case HOOKE_STABLE_BY_PREDICTION:
+    return hk_limit_rule_predicted(s, out);
   default:
     polynomial(s, stability, out);
     return HOOKE_OK;
   }
+}
+
+/* Of the limiting mode, by its energies: the larger root of lambda^2 + c lambda + k. */
+static double pace_of(const struct hk_spectrum *s, const struct hk_prediction *p) {
+  struct hk_linearised *lin = s->linearised;
+  double real[2], imaginary[2];
+  if (!p->has_mode) return 1.0 / p->limit;
+  hk_linearised_combine(lin, 1.0, 0.0);
+  const double k = hk_linearised_energy(lin, p->mode);
+  hk_linearised_combine(lin, 0.0, 1.0);
+  hk_spectrum_roots(hk_linearised_energy(lin, p->mode), k, real, imaginary);
+  return hypot(real[0], imaginary[0]);
+}
+
+static int spins(const struct hk_spectrum *s, const struct hk_prediction *p) {
+  return s->linearised->spin > 0.0 && p->limit > 0.0 && s->linearised->spin > SLOW_SPIN * pace_of(s, p);
 }
 
 int32_t hk_limit_rule(struct hk_spectrum *s, const char *method, struct hk_prediction *out) {
@@ -206,9 +239,9 @@ int32_t hk_limit_rule(struct hk_spectrum *s, const char *method, struct hk_predi
   out->limit = adaptive ? INFINITY : NAN;
   out->exact = 1;
   out->sure = NAN;
-  out->never_stable = out->has_mode = 0;
+  out->never_stable = out->has_mode = out->spins = 0;
   out->note = adaptive ? "chooses its steps; error control limits them" : "no rule is known for this method";
-  const struct hk_stability *stability = hk_method_stability(method);
+  const struct hk_stability *stability = hk_method_stability_in(method, s->linearised->system);
   if (stability->kind == HOOKE_STABILITY_UNKNOWN) return HOOKE_OK;
   out->note = stability->note ? stability->note : "";
   if (stability->kind == HOOKE_STABLE_ALWAYS) {
@@ -217,6 +250,12 @@ int32_t hk_limit_rule(struct hk_spectrum *s, const char *method, struct hk_predi
   }
   const int32_t status = find_limit(s, stability, out);
   if (status != HOOKE_OK) return status;
+  out->spins = spins(s, out);
+  if (out->spins) {
+    out->limit = out->sure = NAN;
+    out->exact = out->has_mode = 0;
+    out->note = SPINS;
+  }
   out->limit /= s->linearised->rate;
   out->sure = out->exact ? out->limit : out->sure / s->linearised->rate;
   if (out->limit == INFINITY) {

@@ -3,6 +3,7 @@
 #include "core/memory.h"
 #include "core/status.h"
 #include "model/force/force.h"
+#include "model/vector3.h"
 
 #include <math.h>
 #include <string.h>
@@ -20,6 +21,7 @@ struct making {
   double middle[3], extent, shortest, factor;
   int64_t *ends;
   double *kappa, *gamma, *rest_length;
+  struct hk_rigid rigid; /* of the system */
 };
 
 /* Calls `see` for every spring with a free end, with its element. */
@@ -52,6 +54,18 @@ static void see_length(struct making *making, struct hk_twin *twin, const struct
   (void)e;
   twin->damped |= spring->gamma > 0.0;
   if (r > 0.0) making->shortest = fmin(making->shortest, r);
+}
+
+/* Bodies turn as springs do. */
+static void see_bodies(struct making *making) {
+  const struct hk_bodies *bodies = &making->system->bodies;
+  for (int64_t k = 0; k < bodies->moving; k++) {
+    const struct hk_body *body = bodies->mover[k];
+    const double *first = body->place + 3 * (int64_t)body->base[0],
+                 *second = body->place + 3 * (int64_t)body->base[1];
+    const double d[3] = {second[0] - first[0], second[1] - first[1], second[2] - first[2]};
+    if (body->rank > 0) making->shortest = fmin(making->shortest, hk_length3(d));
+  }
 }
 
 static void find_extent(struct making *making) {
@@ -159,11 +173,14 @@ static int32_t add_springs(const struct making *making, int64_t count, hooke_sys
 
 static int32_t hold(int64_t n, double t, const double *q, const double *v, double *force, void *ctx) {
   (void)t;
-  (void)q;
   (void)v;
-  const double *balance = ctx;
+  const struct hk_twin *twin = ctx;
   for (int64_t k = 0; k < 3 * n; k++)
-    force[k] += balance[k];
+    force[k] += twin->balance[k];
+  if (!hk_rigid_is_any(&twin->rigid)) return 0;
+  for (int64_t k = 0; k < 3 * n; k++)
+    twin->moved[k] = q[k] - twin->place[k];
+  hk_rigid_add_forces(&twin->rigid, twin->moved, force);
   return 0;
 }
 
@@ -173,16 +190,24 @@ static int32_t hold_product(int64_t n, double t, const double *q, const double *
   (void)t;
   (void)q;
   (void)v;
-  (void)dq;
   (void)dv;
-  (void)out;
-  (void)ctx;
+  const struct hk_twin *twin = ctx;
+  hk_rigid_add_forces(&twin->rigid, dq, out);
   return 0;
 }
 
+static int32_t add_body(const struct hk_body *body, hooke_system *system) {
+  int64_t *particles = hk_new(body->count, sizeof *particles);
+  if (particles == NULL) return HOOKE_NO_MEMORY;
+  for (int64_t k = 0; k < body->count; k++)
+    particles[k] = body->particle[k];
+  const int32_t status = hk_system_add_body(system, body->name, body->count, particles, 0, -1);
+  hk_free(particles);
+  return status;
+}
+
 /* An open or committed system; the caller destroys it. */
-static int32_t build(const struct making *making, const struct hk_twin *twin, const double *balance,
-                     hooke_system **out) {
+static int32_t build(const struct making *making, struct hk_twin *twin, int held, hooke_system **out) {
   const hooke_system *old = making->system;
   const int64_t springs = twin->spring_count;
   hooke_system *system = NULL;
@@ -196,11 +221,12 @@ static int32_t build(const struct making *making, const struct hk_twin *twin, co
     if (old->constrained[p]) status = hooke_system_pin(system, 1, &p);
   }
   if (status == HOOKE_OK && springs > 0) status = add_springs(making, springs, system);
+  for (int64_t k = 0; k < old->bodies.moving && status == HOOKE_OK; k++)
+    status = add_body(old->bodies.mover[k], system);
   if (status == HOOKE_OK)
     hk_system_set_linear(system, twin->element_count - springs, twin->element + springs, twin->place);
   if (status == HOOKE_OK) status = hooke_system_set_drag(system, hk_system_drag(old));
-  if (status == HOOKE_OK && balance)
-    status = hooke_system_set_force(system, hold, hold_product, (void *)balance);
+  if (status == HOOKE_OK && held) status = hooke_system_set_force(system, hold, hold_product, twin);
   if (status == HOOKE_OK) status = hooke_system_commit(system);
   if (status == HOOKE_OK)
     *out = system;
@@ -224,6 +250,21 @@ static int32_t find_balance(struct hk_twin *twin, int *needed) {
   return status;
 }
 
+/* The sum over a body's particles of `row` (two numbers a particle) over the mass and inertia that resist
+ * it. */
+static double body_rate(const hooke_system *system, const struct hk_body_tangent *t, const double *row,
+                        double more) {
+  const double *inverse = t->body->inverse_inertia, turning = fmax(inverse[0], fmax(inverse[1], inverse[2]));
+  double sum = 0.0;
+  for (int64_t i = 0; i < t->body->count; i++) {
+    const int64_t p = t->body->particle[i];
+    const double *arm = t->arm + 3 * i;
+    if (!system->constrained[p])
+      sum += (row[2 * p] + more) * (t->body->inverse_mass + hk_dot3(arm, arm) * turning);
+  }
+  return sum;
+}
+
 static int32_t find_slow_step(struct hk_twin *twin) {
   const hooke_system *system = twin->system;
   double *sum = hk_new(2 * system->particle_count, sizeof(double));
@@ -238,8 +279,14 @@ static int32_t find_slow_step(struct hk_twin *twin) {
     }
   }
   for (int64_t p = 0; p < system->particle_count; p++) {
+    if (hk_bodies_move(&system->bodies, p)) continue;
     stiff = fmax(stiff, sum[2 * p] * system->inverse_mass[p]);
     damp = fmax(damp, (sum[2 * p + 1] + system->drag) * system->inverse_mass[p]);
+  }
+  for (int64_t k = 0; k < twin->rigid.tangents.count; k++) {
+    const struct hk_body_tangent *t = &twin->rigid.tangents.body[k];
+    stiff = fmax(stiff, body_rate(system, t, sum, 0.0) + twin->rigid.stiffest);
+    damp = fmax(damp, body_rate(system, t, sum + 1, system->drag));
   }
   hk_free(sum);
   const double rate = system->friction > 0.0 ? stiff : sqrt(stiff);
@@ -252,25 +299,30 @@ static int32_t freeze(struct making *making, struct hk_twin *twin) {
   if (status != HOOKE_OK) return status;
   find_extent(making);
   each_spring(making, twin, see_length);
+  see_bodies(making);
   find_factor(making);
   place_particles(making, twin->place);
   each_spring(making, twin, keep_spring);
   keep_others(making, twin);
   int needed = 0;
-  status = build(making, twin, NULL, &twin->system);
+  status = build(making, twin, 0, &twin->system);
   if (status == HOOKE_OK) status = find_balance(twin, &needed);
-  if (status == HOOKE_OK && needed) {
+  if (status == HOOKE_OK && (needed || making->rigid.stiffest > 0.0)) {
     hooke_system_destroy(twin->system);
     twin->system = NULL;
-    status = build(making, twin, twin->balance, &twin->system);
+    status = build(making, twin, 1, &twin->system);
   }
+  if (status == HOOKE_OK)
+    status = hk_rigid_enlarge(&making->rigid, twin->system, twin->place, making->factor, &twin->rigid);
   return status == HOOKE_OK ? find_slow_step(twin) : status;
 }
 
 int32_t hk_twin_create(const hooke_system *system, const double *q, struct hk_twin *twin) {
   struct making making = {.system = system, .q = q, .shortest = INFINITY};
   *twin = (struct hk_twin){.damped = system->drag > 0.0};
-  const int32_t status = freeze(&making, twin);
+  int32_t status = hk_rigid_create(system, q, NULL, &making.rigid);
+  if (status == HOOKE_OK) status = freeze(&making, twin);
+  hk_rigid_release(&making.rigid);
   hk_free(making.ends);
   hk_free(making.kappa);
   if (status != HOOKE_OK) hk_twin_release(twin);
@@ -278,6 +330,7 @@ int32_t hk_twin_create(const hooke_system *system, const double *q, struct hk_tw
 }
 
 void hk_twin_release(struct hk_twin *twin) {
+  hk_rigid_release(&twin->rigid);
   hooke_system_destroy(twin->system);
   hk_free(twin->place);
   hk_free(twin->balance);
@@ -311,6 +364,7 @@ double hk_twin_energy(const struct hk_twin *twin, const double *q, const double 
     const struct hk_element *e = &twin->element[k];
     sum += hk_element_energy(e, e->k_along, e->k_across, 3, x);
   }
+  sum += hk_rigid_energy(&twin->rigid, x, 3);
   return sum;
 }
 
@@ -323,6 +377,7 @@ void hk_twin_push(const struct hk_twin *twin, const double *x, double *out) {
   for (const struct hk_element *e = twin->element; e < twin->element + twin->element_count; e++)
     hk_element_multiply(e, t * (t * e->k_along + e->c_along), t * (t * e->k_across + e->c_across), 3, from,
                         to);
+  hk_rigid_reduce(&twin->rigid, t * t, from, to, 3);
   for (int64_t k = 0; k < 3 * system->particle_count; k++)
     out[k] *= system->inverse_mass[k / 3];
 }

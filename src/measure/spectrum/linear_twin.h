@@ -9,11 +9,13 @@
  * new length keeps tension over length, the stiffness across. A compressed one is clamped: its rest length is
  * its length. One that only pulls counts as taut. One of length 0 is linear if its rest length is 0;
  * otherwise it has no force and is left out. The elements of other forces are linear ones (force_linear.c). A
- * constant force balances the tensions. Gravity and callbacks are left out, driven particles are pinned. */
+ * constant force balances the tensions. Gravity and callbacks are left out, driven particles are pinned.
+ * Rigid bodies that move are rigid bodies, their geometric stiffness (rigid.h) a part of the force that
+ * balances. */
 #ifndef HOOKE_MEASURE_SPECTRUM_LINEAR_TWIN_H
 #define HOOKE_MEASURE_SPECTRUM_LINEAR_TWIN_H
 
-#include "model/system.h"
+#include "measure/spectrum/rigid.h"
 
 /* What the energy of a spring takes of its element, close together: half of the energies of a measurement
  * would else be waiting for memory. */
@@ -25,8 +27,9 @@ struct hk_twin_spring {
 struct hk_twin {
   hooke_system *system; /* committed */
   double *place;        /* its rest positions, 3n */
-  double *balance;      /* the constant force, 3n; NULL: not needed */
+  double *balance;      /* the constant force, 3n */
   double *moved;        /* scratch, 3n */
+  struct hk_rigid rigid;
   /* those with a free particle, clamped: springs, then those of other forces but drag */
   int64_t spring_count, element_count;
   struct hk_element *element;

@@ -147,7 +147,8 @@ static double largest_row(const struct hk_linearised *lin, const double *q, int 
 }
 
 static int32_t choose_rate(struct hk_linearised *lin, const double *q, double *sum) {
-  const double stiffest = largest_row(lin, q, 0, sum), quickest = largest_row(lin, q, 1, sum);
+  const double stiffest = largest_row(lin, q, 0, sum) + lin->rigid.stiffest,
+               quickest = largest_row(lin, q, 1, sum);
   lin->damped = quickest > 0.0;
   lin->rate = stiffest > 0.0 ? sqrt(stiffest) : quickest > 0.0 ? quickest : 1.0;
   const double k = 1.0 / lin->rate / lin->rate, c = 1.0 / lin->rate;
@@ -171,6 +172,7 @@ static int32_t choose_rate(struct hk_linearised *lin, const double *q, double *s
     e->c_across *= c;
   }
   lin->drag *= c;
+  lin->spin *= c;
   lin->unit_k = k;
   lin->unit_c = c;
   return HOOKE_OK;
@@ -188,19 +190,34 @@ double hk_linearised_bytes(const hooke_system *system) {
   enum {
     OF_SPRINGS = 11,
     OF_PARTICLES = 3 + 3 * 20,
+    OF_PARTICLES_WITH_BODIES = OF_PARTICLES + 18,
     OF_ELEMENTS = 2 + sizeof(struct hk_element) / sizeof(double)
   };
+  const int of_particles = system->bodies.moving > 0 ? OF_PARTICLES_WITH_BODIES : OF_PARTICLES;
   return sizeof(double) *
-         (OF_SPRINGS * (double)system->springs.count + OF_PARTICLES * (double)system->particle_count +
+         (OF_SPRINGS * (double)system->springs.count + of_particles * (double)system->particle_count +
           OF_ELEMENTS * (double)hk_elements_of(system, hk_force_is_kept));
 }
 
-int32_t hk_linearised_create(const hooke_system *system, const double *q, const double *spring_scale,
-                             const double *mass_scale, struct hk_linearised *lin) {
+/* Three of every free particle that moves by itself. */
+static int is_alone(const hooke_system *system, int64_t particle) {
+  return !system->constrained[particle] && !hk_bodies_move(&system->bodies, particle);
+}
+
+static int32_t see_bodies(struct hk_linearised *lin, const double *q, const double *v,
+                          const double *spring_scale) {
+  const int32_t status = hk_rigid_create(lin->system, q, spring_scale, &lin->rigid);
+  if (status != HOOKE_OK) return status;
+  lin->unknowns += hk_rigid_unknowns(&lin->rigid);
+  if (v) lin->spin = hk_rigid_spin(&lin->rigid, v);
+  return HOOKE_OK;
+}
+
+int32_t hk_linearised_create(const hooke_system *system, const double *q, const double *v,
+                             const double *spring_scale, const double *mass_scale,
+                             struct hk_linearised *lin) {
   const int64_t n = system->particle_count, m = system->springs.count;
   *lin = (struct hk_linearised){.system = system, .size = 3 * n, .drag = system->drag};
-  int32_t status = hk_system_require_no_bodies(system, "the spectrum");
-  if (status != HOOKE_OK) return status;
   for (int64_t k = 0; k < 3 * n; k++) {
     if (isfinite(q[k])) continue;
     return hk_fail(HOOKE_BAD_VALUE, "state", "particle %lld is at a place that is not finite",
@@ -222,16 +239,18 @@ int32_t hk_linearised_create(const hooke_system *system, const double *q, const 
   for (int64_t p = 0; p < n; p++) {
     lin->mass[p] = system->mass[p] * (mass_scale ? mass_scale[p] : 1.0);
     lin->inverse[p] = system->constrained[p] ? 0.0 : 1.0 / lin->mass[p];
-    lin->unknowns += system->constrained[p] ? 0 : 3;
+    lin->unknowns += is_alone(system, p) ? 3 : 0;
   }
-  status = see_springs(lin, q, spring_scale);
+  int32_t status = see_springs(lin, q, spring_scale);
   if (status == HOOKE_OK) status = see_others(lin, q);
+  if (status == HOOKE_OK) status = see_bodies(lin, q, v, spring_scale);
   if (status == HOOKE_OK) status = choose_rate(lin, q, sum);
   if (status != HOOKE_OK) hk_linearised_release(lin);
   return status;
 }
 
 void hk_linearised_release(struct hk_linearised *lin) {
+  hk_rigid_release(&lin->rigid);
   hk_free(lin->mass);
   hk_free(lin->ends);
   hk_free(lin->element);
@@ -281,6 +300,7 @@ void hk_linearised_add_product(struct hk_linearised *lin, const double *x, doubl
   for (int64_t t = 0; t < lin->element_count; t++)
     hk_element_multiply(&lin->element[t], lin->along[t], lin->beside[t], 1, from, to);
   if (lin->brake > 0.0) hk_add_multiple(lin->size, lin->brake, x, out);
+  hk_rigid_reduce(&lin->rigid, lin->constant_k, from, to, 1);
 }
 
 void hk_linearised_multiply(struct hk_linearised *lin, const double *x, double *out) {
@@ -296,7 +316,7 @@ void hk_linearised_multiply(struct hk_linearised *lin, const double *x, double *
 static double others_energy(const struct hk_linearised *lin, const double *x) {
   const int64_t n = lin->system->particle_count;
   const double *const from[3] = {x, x + n, x + 2 * n}, a = lin->constant_k, b = lin->constant_c;
-  double sum = 0.0;
+  double sum = a > 0.0 ? a * hk_rigid_energy(&lin->rigid, from, 1) : 0.0;
   struct hk_elements at;
   hk_begin_elements(lin->system, lin->system->position, NULL, &at);
   at.wanted = hk_force_is_constant;
@@ -342,22 +362,31 @@ void hk_linearised_start(const struct hk_linearised *lin, double *x) {
     const double number = (double)((seed * 0x2545f4914f6cdd1du) >> 11) / 4503599627370496.0 - 1.0;
     x[k] = lin->system->constrained[k % n] ? 0.0 : number * sqrt(lin->inverse[k % n]);
   }
+  hk_linearised_project(lin, x);
+}
+
+void hk_linearised_project(const struct hk_linearised *lin, double *x) {
+  const int64_t n = lin->system->particle_count;
+  hk_rigid_project(&lin->rigid, (double *const[3]){x, x + n, x + 2 * n}, 1);
 }
 
 void hk_linearised_pack(const struct hk_linearised *lin, const double *x, double *unknown) {
   const int64_t n = lin->system->particle_count;
-  for (int64_t p = 0, u = 0; p < n; p++) {
-    for (int64_t a = 0; a < 3 && !lin->system->constrained[p]; a++)
-      unknown[u++] = x[a * n + p] * sqrt(lin->mass[p]);
+  for (int64_t p = 0; p < n; p++) {
+    for (int64_t a = 0; a < 3 && is_alone(lin->system, p); a++)
+      *unknown++ = x[a * n + p] * sqrt(lin->mass[p]);
   }
+  hk_rigid_pack(&lin->rigid, (const double *const[3]){x, x + n, x + 2 * n}, 1, unknown);
 }
 
 void hk_linearised_unpack(const struct hk_linearised *lin, const double *unknown, double *x) {
   const int64_t n = lin->system->particle_count;
-  for (int64_t p = 0, u = 0; p < n; p++) {
+  for (int64_t p = 0; p < n; p++) {
+    const int alone = is_alone(lin->system, p);
     for (int64_t a = 0; a < 3; a++)
-      x[a * n + p] = lin->system->constrained[p] ? 0.0 : unknown[u++] * sqrt(lin->inverse[p]);
+      x[a * n + p] = alone ? *unknown++ * sqrt(lin->inverse[p]) : 0.0;
   }
+  hk_rigid_unpack(&lin->rigid, unknown, (double *const[3]){x, x + n, x + 2 * n}, 1);
 }
 
 int32_t hk_linearised_assemble(struct hk_linearised *lin, double *matrix) {

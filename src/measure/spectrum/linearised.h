@@ -3,8 +3,9 @@
  *   K = sum of kappa u u^T + max(0, T/r) (I - u u^T)     C = sum of gamma u u^T, plus drag
  *
  * each in the pattern (B, -B; -B, B) over the ends of a spring; and the elements of all other forces
- * (element.h). A compressed spring is clamped: its stiffness across, which is negative, counts as 0. A
- * spring that only pulls counts as taut; one of no length as stiff in all directions.
+ * (element.h). A compressed spring is clamped: its stiffness across, which is negative, counts as 0. A spring
+ * that only pulls counts as taut; one of no length as stiff in all directions. Particles of a rigid body move
+ * as one (rigid.h).
  *
  * Vectors are displacements of all particles, x, y and z apart (3n), 0 where a particle is constrained.
  * Eigenvalues come in units of `rate`, a bound of the fastest motion, so that neither stiffness nor masses
@@ -13,13 +14,14 @@
 #define HOOKE_MEASURE_SPECTRUM_LINEARISED_H
 
 #include "kernel/spring/tangent_loops.h"
+#include "measure/spectrum/rigid.h"
 #include "measure/trial/patience.h"
 #include "model/force/force.h"
 
 struct hk_linearised {
   const hooke_system *system;
   int64_t size;              /* 3n */
-  int64_t unknowns;          /* three a free particle */
+  int64_t unknowns;          /* three a free particle in no body, and those of bodies */
   double rate;               /* [1/s] */
   int64_t clamped, products; /* clamped springs; products with K and C so far */
   int32_t across_any, damped;
@@ -32,6 +34,8 @@ struct hk_linearised {
   int32_t *ends;                         /* of that */
   double *u[3], *kappa, *across, *gamma; /* over rate^2 and rate */
   double drag;                           /* over rate */
+  struct hk_rigid rigid;                 /* in units of the system */
+  double spin;                           /* largest angular velocity of a body, over rate */
   double unit_k, unit_c;                 /* 1 over rate^2 and rate: of forces with constant K and C */
   /* of other forces: elements that move something, over rate^2 and rate */
   int64_t element_count;
@@ -49,16 +53,19 @@ struct hk_linearised {
 /* Maximum memory [bytes], including that of a search for the largest eigenvalue. */
 double hk_linearised_bytes(const hooke_system *system);
 
-/* At positions q (3n). Factors on kappa and gamma, one a spring, and on masses (n) may be NULL.
- * HOOKE_BAD_VALUE for non-finite numbers; HOOKE_NO_MEMORY. */
-int32_t hk_linearised_create(const hooke_system *system, const double *q, const double *spring_scale,
-                             const double *mass_scale, struct hk_linearised *linearised);
+/* At positions q (3n). Velocities (3n, of which only `spin` depends), factors on kappa and gamma, one a
+ * spring, and on masses (n; 1 in a body) may be NULL. HOOKE_BAD_VALUE for non-finite numbers;
+ * HOOKE_NO_MEMORY. */
+int32_t hk_linearised_create(const hooke_system *system, const double *q, const double *v,
+                             const double *spring_scale, const double *mass_scale,
+                             struct hk_linearised *linearised);
 void hk_linearised_release(struct hk_linearised *linearised);
 
 /* Sets the matrix of products to a K + b C; a, b >= 0. */
 void hk_linearised_combine(struct hk_linearised *linearised, double a, double b);
 
-/* out += (a K + b C) x; values at constrained particles are undefined. */
+/* out += (a K + b C) x; values at constrained particles are undefined. In a body these are the masses times
+ * the accelerations that the forces make. */
 void hk_linearised_add_product(struct hk_linearised *linearised, const double *x, double *out);
 
 /* out = M^-1 (a K + b C) x. */
@@ -76,8 +83,11 @@ double hk_linearised_dot(const struct hk_linearised *linearised, const double *x
 /* x = a start for iterations, always the same: numbers between -1 and 1, 0 at constrained particles. */
 void hk_linearised_start(const struct hk_linearised *linearised, double *x);
 
+/* x becomes the nearest motion in which bodies are rigid. */
+void hk_linearised_project(const struct hk_linearised *linearised, double *x);
+
 /* The unknowns are the components of the free particles in turn, times the root of their masses (`unknowns`
- * long). */
+ * long), then those of bodies (rigid.h). */
 void hk_linearised_pack(const struct hk_linearised *linearised, const double *x, double *unknown);
 void hk_linearised_unpack(const struct hk_linearised *linearised, const double *unknown, double *x);
 

@@ -1,7 +1,5 @@
 #include "measure/spectrum/mode_growth.h"
 
-#include "integrate/method.h"
-
 #include <complex.h>
 #include <math.h>
 
@@ -21,19 +19,23 @@ static double polynomial(int32_t degree, double complex z) {
   return cabs(sum);
 }
 
-double hk_mode_growth(const char *method, double h, double frequency, double decay) {
-  const struct hk_stability *stability = hk_method_stability(method);
+/* The trace and the determinant of the matrix of a step; c is its damping. */
+static double by_prediction(double k, double c) {
+  return larger_root(1.0, 2.0 - k - c + 0.25 * k * c + 0.5 * c * c, 1.0 - c + 0.5 * c * c - 0.25 * k * c);
+}
+
+double hk_mode_growth(const struct hk_stability *stability, double h, double frequency, double decay) {
   const double k = h * h * frequency * frequency, c = h * decay;
   if (stability->kind == HOOKE_STABLE_BY_K_AND_C) return larger_root(1.0, 2.0 - k - 2.0 * c, 1.0 - 2.0 * c);
   if (stability->kind == HOOKE_STABLE_BY_K) return larger_root(1.0 + c, 2.0 - k, 1.0 - c);
+  if (stability->kind == HOOKE_STABLE_BY_PREDICTION) return by_prediction(k, 2.0 * c);
   if (stability->kind != HOOKE_STABLE_BY_POLYNOMIAL) return NAN;
   const double complex root = csqrt(decay * decay - frequency * frequency);
   return fmax(polynomial(stability->degree, h * (root - decay)),
               polynomial(stability->degree, h * (-root - decay)));
 }
 
-double hk_relaxation_growth(const char *method, double h, double rate) {
-  const struct hk_stability *stability = hk_method_stability(method);
+double hk_relaxation_growth(const struct hk_stability *stability, double h, double rate) {
   return stability->kind == HOOKE_STABLE_BY_POLYNOMIAL ? polynomial(stability->degree, -h * rate)
                                                        : (double)NAN;
 }

@@ -2,10 +2,13 @@
 #ifndef HOOKE_MEASURE_SPECTRUM_MODE_GROWTH_H
 #define HOOKE_MEASURE_SPECTRUM_MODE_GROWTH_H
 
-/* The largest modulus of the factors by which a step h of `method` multiplies x'' + 2 decay x' + frequency^2
- * x = 0: above 1 it grows. NaN where no rule is known. Sources: docs/notes/methods.md, "Stability". */
-double hk_mode_growth(const char *method, double h, double frequency, double decay);
+#include "integrate/method.h"
+
+/* The largest modulus of the factors by which a step h of a method that is stable so multiplies x'' + 2 decay
+ * x' + frequency^2 x = 0: above 1 it grows. NaN where no rule is known. Sources: docs/notes/methods.md,
+ * "Stability". */
+double hk_mode_growth(const struct hk_stability *stability, double h, double frequency, double decay);
 /* The same of a motion of an overdamped system that decays at `rate` [1/s]. */
-double hk_relaxation_growth(const char *method, double h, double rate);
+double hk_relaxation_growth(const struct hk_stability *stability, double h, double rate);
 
 #endif

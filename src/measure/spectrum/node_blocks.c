@@ -39,8 +39,6 @@ static void add_element(struct hk_node_blocks *blocks, const struct hk_element *
 
 int32_t hk_node_blocks_begin(const hooke_system *system, struct hk_node_blocks *blocks) {
   *blocks = (struct hk_node_blocks){.system = system, .least_ratio = INFINITY};
-  const int32_t status = hk_system_require_no_bodies(system, "the bound of a step");
-  if (status != HOOKE_OK) return status;
   blocks->stiffness = hk_new(6 * system->particle_count, sizeof(double));
   blocks->damping = hk_new(6 * system->particle_count, sizeof(double));
   if (blocks->stiffness == NULL || blocks->damping == NULL) {

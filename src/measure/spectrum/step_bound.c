@@ -75,6 +75,7 @@ int32_t hk_step_is_bounded(const char *method) {
 int32_t hk_step_is_safe(const struct hk_node_blocks *blocks, const char *method, double h,
                         int64_t *particle) {
   const struct hk_stability *stability = hk_method_stability(method);
+  if (blocks->system->bodies.moving > 0) return 1;
   if (blocks->system->friction > 0.0 && stability->kind == HOOKE_STABLE_BY_POLYNOMIAL)
     return hk_node_blocks_stay_below(blocks, h, 0.0, hk_real_reach(stability->degree), particle);
   switch (stability->kind) {

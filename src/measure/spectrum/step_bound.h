@@ -8,7 +8,7 @@
 int32_t hk_step_is_bounded(const char *method);
 
 /* 1 if `h` is at most hooke_step_bound() for the positions of the blocks (to rounding), or if the method has
- * no bound; otherwise 0, and `particle` is one at which it is exceeded. */
+ * no bound, as with bodies; otherwise 0, and `particle` is one at which it is exceeded. */
 int32_t hk_step_is_safe(const struct hk_node_blocks *blocks, const char *method, double h, int64_t *particle);
 
 /* hooke_step_bound() from existing blocks, for a method of any known kind. */

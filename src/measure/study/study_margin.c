@@ -29,8 +29,8 @@ static int32_t find_limit_share(struct hk_study *study, struct hk_study_recommen
   if (hk_study_is_adaptive(study, r->method)) return HOOKE_OK;
   int32_t status = hooke_state_create(study->system, &state);
   if (status != HOOKE_OK) return status;
-  status = hk_limit_predict(study->system, hooke_state_position(state), method, ACCURACY, tell_limit, study,
-                            &limit);
+  status = hk_limit_predict(study->system, hooke_state_position(state), hooke_state_velocity(state), method,
+                            ACCURACY, tell_limit, study, &limit);
   hooke_state_destroy(state);
   if (status == HOOKE_NO_MEMORY || status == HOOKE_STOPPED) return status;
   if (status == HOOKE_OK) r->margin.limit_share = r->value / limit;

@@ -94,9 +94,9 @@ struct hk_inquiry {
  * of hooke_integrator_create(); HOOKE_STOPPED if a callback asked for it. */
 int32_t hk_inquiry_replay(struct hk_inquiry *inquiry);
 
-/* Checks if the step exceeds the limit at positions q of the time t, unless it was found to before. */
-int32_t hk_inquiry_consider(struct hk_inquiry *inquiry, struct hk_node_blocks *blocks, const double *q,
-                            double t);
+/* Checks if the step exceeds the limit at a state, unless it was found to before. */
+int32_t hk_inquiry_consider(struct hk_inquiry *inquiry, struct hk_node_blocks *blocks,
+                            const hooke_state *state);
 
 /* The same at the states that the run kept. */
 int32_t hk_inquiry_survey(struct hk_inquiry *inquiry, struct hk_node_blocks *blocks);

@@ -75,12 +75,15 @@ static void name_limiting(const struct hk_inquiry *inquiry, char text[2 * HOOKE_
   const struct hk_why *why = inquiry->why;
   const int64_t particle = inquiry->violation.particle;
   const int damping = inquiry->force == HOOKE_PARTICIPATION_DAMPING;
-  const struct hk_force_row *force = damping || inquiry->force < 0 ? NULL : hk_force_table(inquiry->force);
+  const struct hk_force_row *force = hk_force_table(inquiry->force);
   char spring[HOOKE_NAMING_SIZE] = "no spring";
   const int64_t first = inquiry->force >= 0;
   if (first < why->limiting_count)
     hk_naming_words(inquiry->system, &hk_force_springs, why->limiting[first].spring, spring);
-  if (force && !force->members)
+  if (inquiry->force == HOOKE_PARTICIPATION_GEOMETRIC)
+    snprintf(text, 2 * HOOKE_NAMING_SIZE, "the turning of particle %lld's body by gravity and tensions",
+             (long long)particle);
+  else if (force && !force->members)
     snprintf(text, 2 * HOOKE_NAMING_SIZE, "the %s of particle %lld", force->title, (long long)particle);
   else if (force)
     hk_naming_heaviest_words(inquiry->system, particle, inquiry->run->schedule.step, text);
@@ -93,8 +96,8 @@ static int32_t judge_violation(struct hk_inquiry *inquiry) {
   const char *method = inquiry->run->method->name;
   char where[2 * HOOKE_NAMING_SIZE], end[160];
   inquiry->why->limit = violation->limit;
-  inquiry->why->particle = (double)violation->particle;
   const int32_t status = hk_inquiry_find_limiting(inquiry);
+  inquiry->why->particle = violation->particle >= 0 ? (double)violation->particle : NAN;
   name_limiting(inquiry, where);
   show(inquiry, end);
   if (violation->at_most == 0.0) {

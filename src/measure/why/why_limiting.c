@@ -24,6 +24,8 @@ static void take_participation(struct hk_inquiry *inquiry, const struct hk_parti
   struct hk_why *why = inquiry->why;
   why->limiting_count = 0;
   inquiry->force = hk_participation_force(participation);
+  if (inquiry->violation.particle < 0 && participation->particle_count > 0)
+    inquiry->violation.particle = participation->particle[0].particle;
   if (inquiry->force >= 0) {
     why->limiting[why->limiting_count++] =
         (struct hk_why_limiting){.spring = -1,
@@ -39,7 +41,7 @@ static void take_participation(struct hk_inquiry *inquiry, const struct hk_parti
 static int32_t look(struct hk_inquiry *inquiry, struct hk_limit *limit) {
   limit->patience = &inquiry->patience;
   limit->room = inquiry->memory_limit - inquiry->memory_used;
-  const int32_t status = hk_limit_look(limit, inquiry->violation.q, inquiry->violation.time);
+  const int32_t status = hk_limit_look(limit, inquiry->violation.q, NULL, inquiry->violation.time);
   if (limit->found) take_participation(inquiry, &limit->participation);
   const struct hk_suggestion *suggestion = &limit->suggestion;
   if (status == HOOKE_OK && (suggestion->kind || suggestion->force))

@@ -179,7 +179,7 @@ static int32_t walk(struct replay *replay, hooke_state *state, int64_t steps) {
     inquiry->cut = hk_patience_ends(&inquiry->patience, "the last steps again");
     if (inquiry->cut) return HOOKE_OK;
     if (k % (steps - k > LAST_STEPS ? replay->stride : LAST_STRIDE) == 0)
-      status = hk_inquiry_consider(inquiry, &replay->blocks, state->q, *state->t);
+      status = hk_inquiry_consider(inquiry, &replay->blocks, state);
     if (status != HOOKE_OK) return status;
     status = take_step(replay, state);
     if (status != HOOKE_OK) break;
@@ -190,7 +190,7 @@ static int32_t walk(struct replay *replay, hooke_state *state, int64_t steps) {
   if (status == HOOKE_DIVERGED) {
     inquiry->violation.tries = 0;
     inquiry->violation.pause = 0;
-    const int32_t looked = hk_inquiry_consider(inquiry, &replay->blocks, state->q, *state->t);
+    const int32_t looked = hk_inquiry_consider(inquiry, &replay->blocks, state);
     if (looked != HOOKE_OK) return looked;
   }
   inquiry->reproduced = status == HOOKE_DIVERGED || status == HOOKE_SOLVER_FAILED;

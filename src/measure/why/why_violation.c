@@ -29,10 +29,11 @@ static void take(struct hk_inquiry *inquiry, const double *q, double t, double l
 }
 
 /* 0 if patience ends or the numbers overflow: unknown is not above. */
-static int32_t by_spectrum(struct hk_inquiry *inquiry, const double *q, double t, int64_t particle) {
+static int32_t by_spectrum(struct hk_inquiry *inquiry, const double *q, const double *v, double t,
+                           int64_t particle) {
   double limit = 0.0;
   const int32_t status =
-      hk_limit_predict_within(inquiry->system, q, method_of(inquiry), NULL, NULL, LIMIT_ACCURACY,
+      hk_limit_predict_within(inquiry->system, q, v, method_of(inquiry), NULL, NULL, LIMIT_ACCURACY,
                               inquiry->memory_limit - inquiry->memory_used, &inquiry->patience, &limit);
   if (status == HOOKE_NO_MEMORY) return status;
   if (status == HOOKE_OK && inquiry->run->schedule.step > limit) take(inquiry, q, t, limit, limit, particle);
@@ -82,30 +83,33 @@ static int32_t by_growth(struct hk_inquiry *inquiry, const double *q, double t, 
   return take_growth(inquiry, q, t, particle, quotient / most);
 }
 
-int32_t hk_inquiry_consider(struct hk_inquiry *inquiry, struct hk_node_blocks *blocks, const double *q,
-                            double t) {
+int32_t hk_inquiry_consider(struct hk_inquiry *inquiry, struct hk_node_blocks *blocks,
+                            const hooke_state *state) {
+  const double *q = state->q, t = *state->t;
   struct hk_violation *violation = &inquiry->violation;
-  int64_t particle;
+  int64_t particle = -1;
   if (violation->found || violation->tries >= MOST_TRIES || !hk_step_is_bounded(method_of(inquiry)))
     return HOOKE_OK;
   if (!hk_all_finite(inquiry->run->size, q)) return HOOKE_OK;
   hk_node_blocks_fill(blocks, q);
   if (hk_patience_ends(&inquiry->patience, "bounds")) return HOOKE_OK;
-  if (hk_step_is_safe(blocks, method_of(inquiry), inquiry->run->schedule.step, &particle)) return HOOKE_OK;
+  const int32_t bodies = inquiry->system->bodies.moving > 0; /* without a bound, nor growing motion */
+  if (bodies && inquiry->large) return HOOKE_OK;
+  if (!bodies && hk_step_is_safe(blocks, method_of(inquiry), inquiry->run->schedule.step, &particle))
+    return HOOKE_OK;
   if (violation->pause-- > 0) return HOOKE_OK;
   violation->pause = violation->tries++;
   if (isnan(violation->bound)) violation->bound = hk_step_bound_of(blocks, method_of(inquiry));
-  return inquiry->large ? by_growth(inquiry, q, t, particle) : by_spectrum(inquiry, q, t, particle);
+  return inquiry->large ? by_growth(inquiry, q, t, particle) : by_spectrum(inquiry, q, state->v, t, particle);
 }
 
 /* Earlier states first, so that the time at which the step became too large is the earliest known. */
 static int32_t survey_small(struct hk_inquiry *inquiry, struct hk_node_blocks *blocks) {
   const struct hk_recent *recent = &inquiry->run->recent;
   int32_t status = HOOKE_OK;
-  if (recent->first) status = hk_inquiry_consider(inquiry, blocks, recent->first->q, *recent->first->t);
+  if (recent->first) status = hk_inquiry_consider(inquiry, blocks, recent->first);
   for (int64_t k = recent->count - 1; k >= 0 && status == HOOKE_OK; k--) {
-    const hooke_state *state = hk_recent_state(recent, k, NULL);
-    status = hk_inquiry_consider(inquiry, blocks, state->q, *state->t);
+    status = hk_inquiry_consider(inquiry, blocks, hk_recent_state(recent, k, NULL));
   }
   return status;
 }
@@ -114,7 +118,7 @@ static int32_t survey_small(struct hk_inquiry *inquiry, struct hk_node_blocks *b
 static int32_t survey_large(struct hk_inquiry *inquiry, struct hk_node_blocks *blocks) {
   const hooke_integrator *run = inquiry->run;
   const hooke_state *newest = hk_recent_state(&run->recent, 0, NULL), *first = run->recent.first;
-  int32_t status = hk_inquiry_consider(inquiry, blocks, newest->q, *newest->t);
+  int32_t status = hk_inquiry_consider(inquiry, blocks, newest);
   const double *q = first ? first->q : run->t0 == 0.0 ? inquiry->system->position : NULL;
   double a = 1.0, b = 0.0, most;
   if (status != HOOKE_OK || !inquiry->violation.found || inquiry->growing.x == NULL || q == NULL)
@@ -136,9 +140,9 @@ int32_t hk_inquiry_limit(struct hk_inquiry *inquiry, const double *q, const char
                          double *limit, int32_t *known) {
   int32_t status = HOOKE_STOPPED;
   if (!inquiry->large)
-    status = hk_limit_predict_within(inquiry->system, q, method, NULL, NULL, accuracy,
+    status = hk_limit_predict_within(inquiry->system, q, NULL, method, NULL, NULL, accuracy,
                                      inquiry->memory_limit - inquiry->memory_used, &inquiry->patience, limit);
-  *known = status == HOOKE_OK;
+  *known = status == HOOKE_OK && !isnan(*limit);
   if (status == HOOKE_OK || status == HOOKE_NO_MEMORY) return status;
   *limit = 0.0;
   if (!hk_patience_has(&inquiry->patience, 2.0 * inquiry->pass)) return HOOKE_OK;

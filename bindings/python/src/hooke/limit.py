@@ -77,7 +77,8 @@ class Limit(Paged):
     with the largest share first; `remedy` is the gain of changing them, None if nothing is limited.
 
     `frequency_max` [rad/s] and `rate_max` [1/s] are the fastest motion and damping, `clamped` the number of
-    compressed springs whose sideways push was left out, `time` [s] that of the state, `step` [s] the step of the
+    compressed springs whose sideways push was left out, `tipping` the number of rigid bodies that gravity or tensions
+    would tip over, which was left out, too, `time` [s] that of the state, `step` [s] the step of the
     scene (NaN if it names none), `outcome` "finished", or the outcome of the run along which limits were found.
     """
 
@@ -92,6 +93,7 @@ class Limit(Paged):
     frequency_max: float
     rate_max: float
     clamped: int
+    tipping: int
     blame: list[Blame]
     movers: list[Mover]
     remedy: Remedy | None
@@ -103,6 +105,7 @@ class Limit(Paged):
         self.time, self.step = record["time"], record["step"]
         self.frequency_max, self.rate_max = record["frequency_max"], record["rate_max"]
         self.clamped = 0 if np.isnan(record["clamped"]) else int(record["clamped"])
+        self.tipping = 0 if np.isnan(record["tipping"]) else int(record["tipping"])
         self.rows = found.rows("rows")
         modes = found.rows("modes")
         self.modes = modes["real"] + 1j * modes["imaginary"]

@@ -20,8 +20,9 @@ from .results import Result, Runnable, WorkProgress, resolve
 
 class Blame(NamedTuple):
     """A limiting spring: its number, its ends, its group ("" if that has no name), and its share of the whole (NaN if
-    unknown). Or, before springs, a `force` that has half of the whole or more: "drag", "damping", "bending" or
-    "altitude"; then there is no spring, and its number and ends are -1."""
+    unknown). Or, before springs, a `force` that has half of the whole or more: "drag", "damping", "bending",
+    "altitude" or "geometric" (gravity and tensions that turn rigid bodies); then there is no spring, and its number
+    and ends are -1."""
 
     spring: int
     ends: tuple[int, int]

@@ -8,7 +8,9 @@ function writeHead() {
     `t = ${words(data.time, 6)} s. The fastest motion has ${words(data.frequency_max, 6)} rad/s, the fastest damping ` +
     `${words(data.rate_max, 6)} 1/s, ${data.date}.` + (data.clamped === 0 ? ""
     : ` ${whole(data.clamped)} of the springs are compressed; what pushes their ends sideways is growth by physics, ` +
-      "and left out."));
+      "and left out.") + (data.tipping === 0 ? ""
+    : ` ${whole(data.tipping)} of the rigid bodies are tipped over by gravity or tensions; that is growth by physics, ` +
+      "too."));
 }
 
 /* Shares of the springs of each group, the largest first. */

@@ -1,0 +1,293 @@
+#include "measure/spectrum/rigid.h"
+
+#include "core/memory.h"
+#include "core/status.h"
+#include "model/body_frame.h"
+#include "model/force/force.h"
+#include "model/vector3.h"
+
+#include <math.h>
+#include <string.h>
+
+/* Rounding of positions, as part of the largest coordinate. */
+static const double POSITION_ROUNDING = 1e-14;
+
+/* ---- creating ---- */
+
+/* The rows of `axis` are the body's axes in space, over (`inverse`) or times the roots of their inertia. */
+static void scale_axes(const struct hk_body_tangent *t, int inverse, double axis[3][3]) {
+  for (int k = 0; k < 3; k++) {
+    const double size = sqrt(inverse ? t->body->inverse_inertia[k] : t->body->inertia[k]);
+    for (int a = 0; a < 3; a++)
+      axis[k][a] = size * t->axes[a][k];
+  }
+}
+
+/* out = the sum of m[k][l] a[k] a[l]^T over the rows of a. */
+static void transform(const double a[3][3], const double m[3][3], double out[3][3]) {
+  memset(out, 0, 9 * sizeof(double));
+  for (int k = 0; k < 3; k++) {
+    for (int l = 0; l < 3; l++) {
+      for (int i = 0; i < 3; i++)
+        hk_add3(m[k][l] * a[k][i], a[l], out[i]);
+    }
+  }
+}
+
+/* The sum of the stiffnesses of all elements at each body, by its number. */
+static void find_strengths(const hooke_system *system, const double *q, double *strength) {
+  struct hk_elements at;
+  hk_begin_elements(system, q, NULL, &at);
+  for (const struct hk_element *e; (e = hk_next_element(&at)) != NULL;) {
+    for (int j = 0; j < e->count; j++) {
+      const int32_t body = system->bodies.of[e->particle[j]];
+      if (body >= 0) strength[body] += fabs(e->weight[j]) * e->k_along;
+    }
+  }
+}
+
+/* Geometric stiffness [N m] that springs of this strength at their rest lengths, and gravity about the centre
+ * of mass, have by rounding. */
+static double rounding_of(const hooke_system *system, const double *q, const struct hk_body_tangent *t,
+                          double strength) {
+  double extent = 0.0, size = 0.0;
+  for (int64_t k = 0; k < 3 * system->particle_count; k++)
+    extent = fmax(extent, fabs(q[k]));
+  for (int64_t i = 0; i < t->body->count; i++)
+    size = fmax(size, hk_length3(t->arm + 3 * i));
+  return POSITION_ROUNDING * size * (strength * extent + t->body->mass * hk_length3(system->gravity));
+}
+
+/* Over the inertia, so that only axes count about which the body turns, and without negative eigenvalues and
+ * those of rounding, `slight`. */
+static void make_positive(struct hk_rigid *rigid, struct hk_body_tangent *t, double slight) {
+  const double *inverse = t->body->inverse_inertia;
+  double axis[3][3], m[3][3], vector[3][3], positive[3][3] = {{0.0}};
+  int tips = 0;
+  slight *= fmax(inverse[0], fmax(inverse[1], inverse[2]));
+  scale_axes(t, 1, axis);
+  for (int i = 0; i < 3; i++) {
+    for (int j = 0; j < 3; j++) {
+      const double there[3] = {hk_dot3(t->geometric[0], axis[j]), hk_dot3(t->geometric[1], axis[j]),
+                               hk_dot3(t->geometric[2], axis[j])};
+      m[i][j] = hk_dot3(axis[i], there);
+    }
+    for (int j = 0; j < i; j++)
+      m[i][j] = m[j][i] = 0.5 * (m[i][j] + m[j][i]);
+  }
+  hk_body_diagonalise(m, vector);
+  for (int k = 0; k < 3; k++) {
+    tips |= m[k][k] < -slight;
+    positive[k][k] = m[k][k] > slight ? m[k][k] : 0.0;
+    rigid->stiffest = fmax(rigid->stiffest, positive[k][k]);
+  }
+  rigid->tipping += tips;
+  transform(vector, positive, m);
+  scale_axes(t, 0, axis);
+  transform(axis, m, t->geometric);
+}
+
+/* Forces of springs become those of springs that are stiffer by their factors. */
+static void scale_springs(const hooke_system *system, const double *q, const double *spring_scale,
+                          double *const f[3]) {
+  for (int64_t r = 0; r < system->springs.run_count; r++) {
+    const struct hk_run *run = &system->springs.run[r];
+    for (int64_t k = 0; k < run->count; k++) {
+      const double more = spring_scale[run->first + k] - 1.0;
+      if (more == 0.0) continue;
+      const struct hk_spring spring = hk_run_spring(run, k);
+      struct hk_stretch s;
+      hk_spring_stretch(&spring, q, NULL, &s);
+      for (int a = 0; a < 3; a++) {
+        f[a][spring.head] -= more * s.tension * s.direction[a];
+        f[a][spring.tail] += more * s.tension * s.direction[a];
+      }
+    }
+  }
+}
+
+/* Of springs and gravity at rest; `still` has 3n zeros. */
+static int32_t stiffen(struct hk_rigid *rigid, const double *q, const double *still,
+                       const double *spring_scale) {
+  const hooke_system *system = rigid->tangents.system;
+  struct hk_motion *motion = NULL;
+  int32_t status = hk_motion_create(system, 0, NULL, &motion);
+  if (status != HOOKE_OK) return status;
+  hk_motion_load(system, motion, q, still);
+  status = hk_motion_forces_without(system, motion, 0.0, &hk_force_callback);
+  for (int a = 0; a < 3 && system->has_gravity; a++) {
+    for (int64_t p = 0; p < system->particle_count; p++)
+      motion->f[a][p] += system->mass[p] * system->gravity[a];
+  }
+  if (spring_scale) scale_springs(system, q, spring_scale, motion->f);
+  hk_body_tangents_stiffen(&rigid->tangents, (const double *const *)motion->f, 1);
+  hk_motion_destroy(motion);
+  return status;
+}
+
+int32_t hk_rigid_create(const hooke_system *system, const double *q, const double *spring_scale,
+                        struct hk_rigid *rigid) {
+  memset(rigid, 0, sizeof *rigid);
+  if (system->bodies.moving == 0) return HOOKE_OK;
+  int32_t status = hk_body_tangents_create(system, q, &rigid->tangents);
+  if (status != HOOKE_OK) return status;
+  double *still = hk_new(3 * system->particle_count + system->bodies.count, sizeof(double));
+  double *strength = still ? still + 3 * system->particle_count : NULL;
+  status = still ? stiffen(rigid, q, still, spring_scale) : HOOKE_NO_MEMORY;
+  if (status == HOOKE_OK) find_strengths(system, q, strength);
+  for (int64_t k = 0; k < rigid->tangents.count && status == HOOKE_OK; k++) {
+    struct hk_body_tangent *t = &rigid->tangents.body[k];
+    make_positive(rigid, t, rounding_of(system, q, t, strength[t->body - system->bodies.body]));
+  }
+  hk_free(still);
+  if (status != HOOKE_OK) hk_rigid_release(rigid);
+  return status;
+}
+
+/* Inertia and geometric stiffness are squares of lengths. */
+int32_t hk_rigid_enlarge(const struct hk_rigid *from, const hooke_system *system, const double *q,
+                         double factor, struct hk_rigid *rigid) {
+  memset(rigid, 0, sizeof *rigid);
+  if (!hk_rigid_is_any(from)) return HOOKE_OK;
+  const int32_t status = hk_body_tangents_create(system, q, &rigid->tangents);
+  rigid->stiffest = from->stiffest;
+  for (int64_t k = 0; k < rigid->tangents.count; k++) {
+    for (int a = 0; a < 3; a++)
+      hk_scale3(factor * factor, from->tangents.body[k].geometric[a], rigid->tangents.body[k].geometric[a]);
+  }
+  return status;
+}
+
+void hk_rigid_release(struct hk_rigid *rigid) {
+  hk_body_tangents_release(&rigid->tangents);
+  memset(rigid, 0, sizeof *rigid);
+}
+
+/* ---- products ---- */
+
+/* Rows of the motion. */
+static void spread(const struct hk_rigid *rigid, const struct hk_body_tangent *t, const double move[3],
+                   const double turn[3], double *const x[3], int64_t stride) {
+  hk_body_spread(rigid->tangents.system, t, move, turn, x, stride);
+}
+
+static void find_motion(const struct hk_rigid *rigid, const struct hk_body_tangent *t,
+                        const double *const x[3], int64_t stride, double move[3], double turn[3]) {
+  hk_body_find_motion(rigid->tangents.system, t, x, stride, move, turn);
+}
+
+void hk_rigid_project(const struct hk_rigid *rigid, double *const x[3], int64_t stride) {
+  for (int64_t k = 0; k < rigid->tangents.count; k++) {
+    const struct hk_body_tangent *t = &rigid->tangents.body[k];
+    double move[3], turn[3];
+    find_motion(rigid, t, (const double *const *)x, stride, move, turn);
+    spread(rigid, t, move, turn, x, stride);
+  }
+}
+
+/* f = masses times the motion. */
+static void spread_inertia(const struct hk_rigid *rigid, const struct hk_body_tangent *t,
+                           const double move[3], const double turn[3], double *const f[3], int64_t stride) {
+  const hooke_system *system = rigid->tangents.system;
+  spread(rigid, t, move, turn, f, stride);
+  for (int64_t i = 0; i < t->body->count; i++) {
+    const int64_t p = t->body->particle[i];
+    for (int a = 0; a < 3 && !system->constrained[p]; a++)
+      f[a][stride * p] *= system->mass[p];
+  }
+}
+
+void hk_rigid_reduce(const struct hk_rigid *rigid, double scale, const double *const x[3], double *const f[3],
+                     int64_t stride) {
+  for (int64_t k = 0; k < rigid->tangents.count; k++) {
+    const struct hk_body_tangent *t = &rigid->tangents.body[k];
+    double force[3], torque[3], move[3], turn[3];
+    hk_body_gather(rigid->tangents.system, t, NULL, (const double *const *)f, stride, force, torque);
+    find_motion(rigid, t, x, stride, move, turn);
+    hk_body_turn_forces(t, -scale, turn, torque);
+    hk_body_respond(t, force, torque, move, turn);
+    spread_inertia(rigid, t, move, turn, f, stride);
+  }
+}
+
+void hk_rigid_add_forces(const struct hk_rigid *rigid, const double *x, double *f) {
+  const double no_force[3] = {0.0}, *const from[3] = {x, x + 1, x + 2};
+  for (int64_t k = 0; k < rigid->tangents.count && rigid->stiffest > 0.0; k++) {
+    const struct hk_body_tangent *t = &rigid->tangents.body[k];
+    double move[3], turn[3], torque[3] = {0.0};
+    find_motion(rigid, t, from, 3, move, turn);
+    hk_body_turn_forces(t, 1.0, turn, torque);
+    hk_body_respond(t, no_force, torque, move, turn);
+    for (int64_t i = 0; i < t->body->count; i++) {
+      const int64_t p = t->body->particle[i];
+      double swing[3];
+      if (rigid->tangents.system->constrained[p]) continue;
+      hk_cross3(turn, t->arm + 3 * i, swing);
+      hk_add3(rigid->tangents.system->mass[p], swing, f + 3 * p);
+    }
+  }
+}
+
+double hk_rigid_energy(const struct hk_rigid *rigid, const double *const x[3], int64_t stride) {
+  double sum = 0.0;
+  for (int64_t k = 0; k < rigid->tangents.count && rigid->stiffest > 0.0; k++) {
+    double move[3], turn[3], torque[3] = {0.0};
+    find_motion(rigid, &rigid->tangents.body[k], x, stride, move, turn);
+    hk_body_turn_forces(&rigid->tangents.body[k], -1.0, turn, torque);
+    sum += hk_dot3(turn, torque);
+  }
+  return sum;
+}
+
+double hk_rigid_spin(const struct hk_rigid *rigid, const double *v) {
+  const double *const from[3] = {v, v + 1, v + 2};
+  double most = 0.0;
+  for (int64_t k = 0; k < rigid->tangents.count; k++) {
+    double move[3], turn[3];
+    find_motion(rigid, &rigid->tangents.body[k], from, 3, move, turn);
+    most = fmax(most, hk_length3(turn));
+  }
+  return most;
+}
+
+/* ---- unknowns ---- */
+
+int64_t hk_rigid_unknowns(const struct hk_rigid *rigid) {
+  int64_t count = 0;
+  for (int64_t k = 0; k < rigid->tangents.count; k++) {
+    const struct hk_body *body = rigid->tangents.body[k].body;
+    count += body->inverse_mass > 0.0 ? 3 : 0;
+    for (int a = 0; a < 3; a++)
+      count += body->inverse_inertia[a] > 0.0;
+  }
+  return count;
+}
+
+void hk_rigid_pack(const struct hk_rigid *rigid, const double *const x[3], int64_t stride, double *unknown) {
+  for (int64_t k = 0; k < rigid->tangents.count; k++) {
+    const struct hk_body_tangent *t = &rigid->tangents.body[k];
+    double move[3], turn[3], axis[3][3];
+    find_motion(rigid, t, x, stride, move, turn);
+    scale_axes(t, 0, axis);
+    for (int a = 0; a < 3 && t->body->inverse_mass > 0.0; a++)
+      *unknown++ = sqrt(t->body->mass) * move[a];
+    for (int a = 0; a < 3; a++) {
+      if (t->body->inverse_inertia[a] > 0.0) *unknown++ = hk_dot3(axis[a], turn);
+    }
+  }
+}
+
+void hk_rigid_unpack(const struct hk_rigid *rigid, const double *unknown, double *const x[3],
+                     int64_t stride) {
+  for (int64_t k = 0; k < rigid->tangents.count; k++) {
+    const struct hk_body_tangent *t = &rigid->tangents.body[k];
+    double move[3] = {0.0}, turn[3] = {0.0}, axis[3][3];
+    scale_axes(t, 1, axis);
+    for (int a = 0; a < 3 && t->body->inverse_mass > 0.0; a++)
+      move[a] = sqrt(t->body->inverse_mass) * *unknown++;
+    for (int a = 0; a < 3; a++) {
+      if (t->body->inverse_inertia[a] > 0.0) hk_add3(*unknown++, axis[a], turn);
+    }
+    spread(rigid, t, move, turn, x, stride);
+  }
+}
