@@ -65,7 +65,7 @@ def build(folder):
     if FLAGS[folder]:
         # the loops as in a release, in one of the builds: sanitizers prevent vectorisation
         loops = "-O3;-fno-sanitize=all" if folder == "fuzz-fast" else "-O2"
-        configure += [f"-DCMAKE_C_FLAGS={FLAGS[folder]}", f"-DHOOKE_KERNEL_OPTIMISATION={loops}"]
+        configure += [f"-DCMAKE_C_FLAGS={FLAGS[folder]}", f"-DHOOKE_KERNEL_OPTIMISATION={loops}", "-DHOOKE_KERNEL_COPIES=ON"]
     if folder == "fuzz-fast":  # libFuzzer does not intercept comparisons of libraries
         configure += ["-DCMAKE_EXE_LINKER_FLAGS=-Wl,--exclude-libs,ALL"]
     library, uncounted = ROOT / "build" / folder / "libhooke.a", HERE / "uncounted.txt"

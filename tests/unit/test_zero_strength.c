@@ -222,7 +222,7 @@ enum { COUNTS = sizeof counts / sizeof counts[0] };
 
 static void run(const hooke_system *system, const char *method, hooke_state *state, int64_t count[COUNTS]) {
   hooke_integrator *it =
-      start_run(system, (struct run){.method = method, .step = 1.0 / 1024, .duration = 40.0 / 1024});
+      start_run(system, (struct run){.method = method, .step = 1.0 / 1024, .duration = 10.0 / 1024});
   check_ok(hooke_integrator_run(it, state));
   for (int k = 0; k < COUNTS; k++)
     count[k] = hooke_integrator_count(it, counts[k]);

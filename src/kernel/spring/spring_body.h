@@ -6,7 +6,9 @@
 
 #include <math.h>
 
+#ifndef HOOKE_INLINE
 #define HOOKE_INLINE static inline __attribute__((always_inline))
+#endif
 
 /* The length of (dx, dy, dz). */
 HOOKE_INLINE double hk_spring_length(double dx, double dy, double dz) {
