@@ -31,6 +31,7 @@ venv: build/venv/done
 .PHONY: docs
 docs: all build/venv/done playground-if-possible
 	$(VENV) docs/make_reference.py build/release
+	$(VENV) docs/make_playing.py build/release
 	$(VENV) -m sphinx -a -q -W --keep-going -d build/doctrees -c docs build/release/docs build/docs
 	@echo build/docs/index.html
 

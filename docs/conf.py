@@ -3,8 +3,12 @@ generated; docs/index.md gives their order."""
 
 from __future__ import annotations
 
+import html
 import re
+import shutil
 from pathlib import Path
+
+from docutils import nodes
 
 HERE = Path(__file__).parent
 
@@ -14,6 +18,7 @@ copyright = "the authors of hooke, MIT licence"
 extensions = ["myst_parser"]
 source_suffix = {".md": "markdown"}
 myst_heading_anchors = 4
+myst_enable_extensions = ["dollarmath"]
 exclude_patterns = ["README.md"]
 nitpicky = True
 
@@ -22,6 +27,17 @@ html_title = f"hooke {release}"
 html_copy_source = False
 html_show_sourcelink = False
 templates_path: list[str] = []
+html_static_path = ["site.css"]
+html_css_files = ["site.css"]
+
+# KaTeX typesets formulas in the reader's browser, from files of the site; without it they are shown as TeX.
+KATEX = next(filter(Path.exists, map(Path, ["/usr/share/javascript/katex", "/usr/share/katex"])), None)
+html_math_renderer = "katex"
+TYPESET = """document.addEventListener("DOMContentLoaded", () => {
+  for (const formula of document.querySelectorAll(".math")) {
+    katex.render(formula.textContent, formula, { displayMode: formula.tagName === "DIV" });
+  }
+});"""
 
 # The page of `make playground`, where it was made.
 LIVE = HERE.parent / "build/playground/live.html"
@@ -29,11 +45,7 @@ html_extra_path = [str(LIVE)] if LIVE.exists() else []
 FRONT = """```{raw} html
 <p>Drag the step to the right until the cloth blows up. This is hooke itself, in the browser
 (<a href="live.html">in a window of its own</a>).</p>
-<style>
-#live { width: 100%; height: 640px; border: 0 }
-@media (max-width: 700px) { #live { height: 880px } }
-</style>
-<iframe id="live" src="live.html#front" title="A cloth that hooke integrates in the browser"></iframe>
+<iframe class="front" src="live.html#front" title="A cloth that hooke integrates in the browser"></iframe>
 ```
 """
 
@@ -67,5 +79,55 @@ def adapt(app, name, source) -> None:
         source[0] += "\n\n" + "\n".join(["```{toctree}", ":hidden:", "", *pages, "```"]) + "\n"
 
 
+def play(app, name, source) -> None:
+    """Puts a page that make_playing.py made where the comment `<!-- plays page.html: title -->` is."""
+
+    def frame(mark: re.Match) -> str:
+        page, fragment, title = mark[1], mark[2] or "", html.escape(mark[3])
+        if not (Path(app.srcdir) / "playing" / page).exists():
+            return ""
+        kind = "why" if fragment == "#bare" else "view"
+        return (f'```{{raw}} html\n<iframe class="{kind}" src="{page}{fragment}" title="{title}" loading="lazy"></iframe>\n'
+                f'<p>{title} (<a href="{page}">all of it</a>).</p>\n```')  # fmt: skip
+
+    source[0] = re.sub(r"<!-- plays ([\w.-]+)(#\w+)?: (.*?) -->", frame, source[0], flags=re.DOTALL)
+
+
+def inline_formula(self, node) -> None:
+    self.body.append(f'<span class="math">{html.escape(node.astext())}</span>')
+    raise nodes.SkipNode
+
+
+def formula(self, node) -> None:
+    self.body.append(f'<div class="math">{html.escape(node.astext())}</div>\n')
+    raise nodes.SkipNode
+
+
+def typeset(app, pagename, templatename, context, doctree) -> None:
+    """KaTeX is on pages with formulas only."""
+    if KATEX and doctree and any(doctree.findall(lambda node: isinstance(node, (nodes.math, nodes.math_block)))):
+        app.add_css_file("katex/katex.min.css")
+        app.add_js_file("katex/katex.min.js")
+        app.add_js_file(None, body=TYPESET)
+
+
+def add_files(app, exception) -> None:
+    if KATEX and not exception:
+        folder = Path(app.outdir) / "_static/katex"
+        shutil.copytree(KATEX / "fonts", folder / "fonts", dirs_exist_ok=True, ignore=shutil.ignore_patterns("*.ttf", "*.woff"))
+        for name in ("katex.min.css", "katex.min.js"):
+            shutil.copyfile(KATEX / name, folder / name)
+
+
+def add_pages(app, config) -> None:
+    if (Path(app.srcdir) / "playing").exists():
+        config.html_extra_path.append(str(Path(app.srcdir) / "playing"))
+
+
 def setup(app) -> None:
+    app.add_html_math_renderer("katex", (inline_formula, None), (formula, None))
+    app.connect("config-inited", add_pages)
     app.connect("source-read", adapt)
+    app.connect("source-read", play)
+    app.connect("html-page-context", typeset)
+    app.connect("build-finished", add_files)

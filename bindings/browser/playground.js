@@ -216,7 +216,7 @@ function makePicture(opened) {
     bytes: frames.map(({ bytes }) => bytes) };
   picture = null;
   try {
-    picture = new Picture(fresh, scene, opened.ends, opened.marks, (k) => scene.bytes[k]);
+    picture = new Picture(fresh, { data: scene, ends: opened.ends, marks: opened.marks, bytesOfFrame: (k) => scene.bytes[k] });
   } catch (trouble) {
     at("missing").hidden = false;
     return;

@@ -27,7 +27,7 @@ static void describe_stride(const hooke_measurement *view, const char *what, cha
   if (stride > 1) snprintf(text, size, ", every %d%s", stride, endings[last < 4 ? last : 0]);
 }
 
-/* What is shown, side by side. */
+/* What is shown, on one page. */
 struct shown {
   int32_t count;
   const char *path[MOST_VIEWS];
@@ -211,7 +211,8 @@ const struct cli_verb cli_verb_view = {
             "marked, energies below. A scene is run first; its trajectory is not kept. What is left out, to "
             "keep the page small "
             "and quick, is said on it and here. A run that was killed shows the frames it has. Several "
-            "trajectories play side by side on one page, at the same time and seen from the same angle.",
+            "trajectories play on one page, side by side or over one another, at the same time and seen from "
+            "the same angle.",
     .several = 1,
     .example = "hooke view cloth.h5 -o cloth.html",
     HOOKE_VERB_ROWS(rows),

@@ -54,8 +54,13 @@ class View:
         shares = np.frombuffer(self.frames[k], "<u2", 3 * len(self.marks)).reshape(-1, 3) / 65535
         return low + (high - low) * shares, (high - low) / 131070
 
-    def strains(self, k):
-        return np.frombuffer(self.frames[k], "u1", offset=6 * len(self.marks))
+    def elongations(self, k):
+        """[m], as the upper halves of floats."""
+        halves = np.frombuffer(self.frames[k], "<u2", offset=6 * len(self.marks))
+        return (halves.astype("<u4") << 16).view("<f4").astype(float)
+
+    def floats(self, key):
+        return np.frombuffer(base64.b64decode(self.data[key], validate=True), "<f4")
 
 
 def look(hooke, folder, *options, source="out.h5"):
@@ -64,10 +69,13 @@ def look(hooke, folder, *options, source="out.h5"):
     return View((folder / "page.html").read_text(encoding="utf-8")), answer
 
 
-def strains_of(file, k, springs=slice(None)):
-    q, ends = file["particles/all/position/value"][k], file["connectivity/springs"][springs]
-    rest = file["hooke/rest_length"][springs]
-    return np.linalg.norm(q[ends[:, 0]] - q[ends[:, 1]], axis=1) / rest - 1
+def elongations_of(file, k):
+    q, ends = file["particles/all/position/value"][k], file["connectivity/springs"]
+    return np.linalg.norm(q[ends[:, 0]] - q[ends[:, 1]], axis=1) - file["hooke/rest_length"]
+
+
+def strains_of(file, k):
+    return elongations_of(file, k) / file["hooke/rest_length"]
 
 
 @pytest.fixture
@@ -97,8 +105,13 @@ def test_the_page_holds_the_trajectory(hooke, cloth, tmp_path):
         for k in range(11):
             places, allowed = view.positions(k)
             assert (np.abs(places - q[k]) <= allowed * 1.000001).all()
-            codes = np.clip(np.rint(127 + 127 * strains_of(file, k) / r), 0, 254)
-            assert (np.abs(view.strains(k) - codes) <= 1).all() and (view.strains(k) == codes).mean() > 0.99
+            exact = elongations_of(file, k)
+            rounding = np.abs(view.elongations(k) - exact)  # 8 significant bits, but for what the difference of lengths loses
+            assert (rounding <= 2**-8 * np.abs(exact) + 1e-15).all() and (k == 0 or rounding.max() > 2**-11 * np.abs(exact).max())
+        assert np.array_equal(view.floats("rest_length"), file["hooke/rest_length"][:].astype("<f4"))
+        groups = [(group["name"], group["count"], group["pull_only"]) for group in data["groups"]]
+        assert groups == [("cloth0.structural", 58, False), ("cloth0.shear", 48, False)]
+        assert view.floats("stiffness") * view.floats("rest_length") == pytest.approx(58 * [20] + 48 * [5], rel=1e-6)
         assert data["strain_high"] == pytest.approx(max(strains_of(file, k).max() for k in range(11)), rel=1e-9)
 
 
@@ -112,7 +125,7 @@ def test_the_page_fetches_nothing(hooke, cloth, tmp_path):
     assert [found for found in fetches(view.page.replace(library, "")) if not found.startswith(names)] == []
     assert [found for found in re.findall(r"https?:\S+", library) if not found.startswith((names, paper))] == []
     assert view.page.count("default-src 'none'") == 1
-    assert view.page.lower().count("<script") == view.page.lower().count("</script>") == 11
+    assert view.page.lower().count("<script") == view.page.lower().count("</script>") == 15
 
 
 @needs_view
@@ -218,7 +231,7 @@ def test_files_without_rest_lengths(hooke, cloth, tmp_path):
     with h5py.File(tmp_path / "out.h5", "a") as file:
         del file["hooke/rest_length"]
     view, _ = look(hooke, tmp_path)
-    assert view.data["by_first_frame"] and set(view.strains(0)) == {127} and len(set(view.strains(10))) > 5
+    assert view.data["by_first_frame"] and set(view.elongations(0)) == {0} and len(set(view.elongations(10))) > 5
 
 
 @needs_view

@@ -87,7 +87,7 @@ def test_it_draws(page):
     assert "all 41 frames; all springs" in page.run('at("shown").textContent')
     assert page.run('[...at("marks").children].map((item) => item.textContent).join()') == "pinned,driven"
     assert page.run('at("alert").hidden && at("thinned").hidden && at("missing").hidden')
-    assert page.run("[data.strain_low < 0, chart.data.datasets.length, chart.data.datasets[0].data.length]") == [True, 3, 41]
+    assert page.run("[data.strain_low < 0, energies.chart.data.datasets.length, energies.chart.data.datasets[0].data.length]") == [True, 3, 41]
 
 
 def test_scrubbing(page):
@@ -97,10 +97,10 @@ def test_scrubbing(page):
     assert (np.abs(first - later).max(axis=2) > 40).sum() > 500
     assert frame(page) == 30 and page.run('at("now").textContent').startswith("frame 30 / 40 ")
     cursor = page.run('at("cursor").getBoundingClientRect().left - at("energy").getBoundingClientRect().left')
-    assert cursor == pytest.approx(page.run("chart.scales.x.getPixelForValue(0.3)"), abs=1.5)
+    assert cursor == pytest.approx(page.run("energies.chart.scales.x.getPixelForValue(0.3)"), abs=1.5)
     page.run("show(0, true)")
     assert (seen(page) == first).all()
-    left, right, top = page.run("""(({ left, top }) => [0, 0.2].map((t) => left + chart.scales.x.getPixelForValue(t)).concat(top +
+    left, right, top = page.run("""(({ left, top }) => [0, 0.2].map((t) => left + energies.chart.scales.x.getPixelForValue(t)).concat(top +
         40))(at("energy").getBoundingClientRect())""")
     page.drag(right, top, 0, 0)
     assert frame(page) == 20
@@ -158,7 +158,7 @@ def test_small_screens(page, cloth):
 def test_colours_of_strain(browser, tmp_path):
     """A spring that swings about its rest length: orange when it is long, blue when it is short."""
     browser.open(still(make(tmp_path, STIFF_PAIR, step=0.001, duration=0.2, every=0.001)))
-    strains = browser.run("data.time.map((t, k) => bytesOfFrame(k)[6 * data.particles])")
+    strains = browser.run("data.time.map((t, k) => run.bytesOfFrame(k)[6 * data.particles])")
     for k, code in enumerate(strains):
         assert code == pytest.approx(127 + 127 * np.cos(np.sqrt(1000) * 0.001 * k), abs=3)
     for strongest, red_over_blue in ((0, True), (int(np.argmin(strains)), False)):
@@ -294,15 +294,40 @@ def test_picking(page):
     q = page.run("positionOf(20)")
     text = page.run('at("picked").textContent')
     assert page.run('!at("picked").hidden') and text.startswith("particle 20") and f"x {q[0]:.5g}"[:6] in text
-    page.run("picked = { spring: 30 }; writePicked()")
+    page.run("pick({ of: 0, spring: 30 })")
     text = page.run('at("picked").textContent')
-    ends = page.run("[ends[60], ends[61]]")
+    ends = page.run("[run.ends[60], run.ends[61]]")
     assert f"spring 30, between particles {ends[0]} and {ends[1]}, group cloth0.structural" in text
-    assert "strain" in text and "elastic tension" in text and page.run('at("picked").querySelector("path").getAttribute("d").length') > 100
-    strains = page.run("data.time.map((_, frame) => [strainByte(frame, 30), bytesOfFrame(frame)[6 * data.particles + 30]])")
-    assert all(a == b for a, b in strains)
+    assert "strain" in text and "elastic tension" in text
+    page.run("pick({ of: 0, particle: 20 })")
+    assert page.run("[...at('quantity').options].map((option) => option.value)") == ["x", "y", "z"]
     page.drag(left + 5, top + 5, 0, 0)
-    assert page.run('at("picked").hidden')
+    assert page.run('at("picked").hidden && at("picked-course").hidden')
+
+
+def test_tension_over_time(browser, tmp_path):
+    """That of every spring in every frame is the one that the file has, to the 8 bits that the page states; a cable has none
+    where it is slack."""
+    h5py = pytest.importorskip("h5py")
+    scene = {"hooke": 1, "particles": {"position": [[0, 0, 0], [1, 0, 0], [3, 0, 0]], "velocity": [[0, 0, 0], [2, 0, 0], [0, 1, 0]],
+                                       "mass": [1, 2, 3]},
+             "springs": [{"name": "cable", "between": [[0, 1]], "law": "length", "stiffness": 3, "rest_length": 0.9, "compression": False},
+                         {"name": "pair", "between": [[1, 2], [0, 2]], "law": "length", "stiffness": [40, 7000], "rest_length": [2.001, 0]}],
+             "run": {"method": "rk4", "step": 1e-3, "duration": 1, "every": 0.01}}
+    browser.open(still(make(tmp_path, scene)))
+    with h5py.File(tmp_path / "out.h5") as file:
+        q, ends = file["particles/all/position/value"][:], file["connectivity/springs"][:]
+    elongations = np.linalg.norm(q[:, ends[:, 0]] - q[:, ends[:, 1]], axis=2) - [0.9, 2.001, 0]
+    tensions = elongations * [3, 40, 7000]
+    tensions[:, 0] = np.maximum(tensions[:, 0], 0)
+    for k in range(3):
+        browser.run(f'pick({{ of: 0, spring: {k} }}); at("quantity").value = "elastic tension"; drawCourse()')
+        shown = np.array(browser.run("course.chart.data.datasets[0].data.map(({ y }) => y)"))
+        assert (np.abs(shown - tensions[:, k]) <= 2**-8 * np.abs(tensions[:, k]) + 1e-6 * np.ptp(tensions[:, k])).all()
+        assert "each to 0.4 %" in browser.run('at("quantity-words").textContent')
+    assert (tensions[:, 0] == 0).any() and (shown > 0).all()
+    assert browser.run("[...at('quantity').options].map((option) => option.value)") == ["elastic tension", "length"]  # no strain
+    assert browser.console == []
 
 
 def test_files_to_keep(page):
@@ -375,3 +400,32 @@ def test_trajectories_beside_one_another_play_and_turn_together(browser, tmp_pat
     after = axes()
     assert after[0] == after[1] != before[0]
     assert browser.console == []
+
+
+def test_trajectories_over_one_another(browser, tmp_path):
+    """Each in its colour where it is alone; a picked spring has a line for each of them."""
+    paths = []
+    for name, run in (("long", {"duration": 0.4}), ("short", {"duration": 0.2, "method": "backward-euler", "step": 0.01})):
+        (tmp_path / name).mkdir()
+        make(tmp_path / name, CLOTH, **run)
+        paths.append(tmp_path / name / "out.h5")
+    page = tmp_path / "both.html"
+    assert subprocess.run([CLI, "view", *paths, "-o", page, "-q"]).returncode == 0
+    browser.size(1000, 700)
+    browser.open(page)
+    browser.run("leader.pause(); leader.show(40, true)")
+    browser.press("o", 79)
+    assert browser.run("[over.checked, frames.map((frame) => frame.hidden)]") == [True, [False, True]]
+    legend = browser.run("[...leader.document.getElementById('runs').children].map((item) => item.textContent)")
+    assert legend == ["out.h5: symplectic-euler, step 1e-4 s", "out.h5: backward-euler, step 0.01 s, until t = 0.2 s"]
+    browser.run("leader.document.getElementById('look').value = 'springs'; leader.relook()")
+    image = pytest.importorskip("matplotlib.image").imread(io.BytesIO(browser.picture()))[110:400, 40:-40, :3]
+    red, blue = image[..., 0] - image[..., 2] > 0.2, image[..., 2] - image[..., 0] > 0.2
+    assert red.sum() > 500 and blue.sum() > 500
+    browser.run("leader.pick({ of: 0, spring: 30 })")
+    lines = browser.run("""Object.values(leader.Chart.instances).find(({ canvas }) => canvas.parentNode.id === "course").data.datasets
+        .map(({ data, borderColor }) => [borderColor, data.length])""")
+    assert lines == [["#0072b2", 41], ["#d55e00", 21]]
+    browser.run("void leader.dispatchEvent(new KeyboardEvent('keydown', { key: 'o' }))")
+    assert browser.run("[over.checked, frames.map((frame) => frame.hidden)]") == [False, [False, False]]
+    assert browser.run("leader.document.getElementById('runs').children.length") == 0 and browser.console == []

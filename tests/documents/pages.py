@@ -9,10 +9,17 @@ from pathlib import Path
 
 ROOT = Path(os.environ["HOOKE_SOURCE_DIR"])
 
-spec = importlib.util.spec_from_file_location("make_reference", ROOT / "docs/make_reference.py")
-make_reference = importlib.util.module_from_spec(spec)
-spec.loader.exec_module(make_reference)
 
+
+def script(name):
+    spec = importlib.util.spec_from_file_location(name, ROOT / f"docs/{name}.py")
+    found = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(found)
+    return found
+
+
+BUILD = Path(os.environ["HOOKE_BUILD_DIR"])
 SITE = Path(tempfile.mkdtemp()) / "docs"
 atexit.register(shutil.rmtree, SITE.parent, ignore_errors=True)
-make_reference.write(Path(os.environ["HOOKE_BUILD_DIR"]), SITE)
+make_reference = script("make_reference")
+make_reference.write(BUILD, SITE)

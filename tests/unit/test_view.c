@@ -124,14 +124,14 @@ static double coordinate(const uint8_t *bytes, const struct hk_view_box *box, in
   return (1.0 - share) * box->low[k % 3] + share * box->high[k % 3];
 }
 
-/* Coordinates to a 131070th of the extent; strains 0.5, none and -0.5 on a scale to 0.5. */
+/* Coordinates to a 131070th of the extent; elongations 1, 0.5 and -0.5 as halves of floats. */
 static void a_frame_is_packed(void **state) {
   const struct fixture *f = *state;
   const double far[] = {7.0, -1e-300, 1e308};
   for (int k = 0; k < 3; k++) {
     hooke_record *record;
     struct hk_view_box box;
-    uint8_t bytes[6 * PARTICLES + 3];
+    uint8_t bytes[6 * PARTICLES + 6];
     write_file(f, far[k], 1e-3);
     hooke_measurement *view = open_view(f, 0, &record);
     assert_int_equal(hk_view_frame_bytes(view->object), sizeof bytes);
@@ -140,12 +140,18 @@ static void a_frame_is_packed(void **state) {
     for (int i = 0; i < 3 * PARTICLES; i++)
       check_close(coordinate(bytes, &box, i), q[i],
                   (box.high[i % 3] - box.low[i % 3]) / 131070.0 * (1 + 1e-9));
-    assert_int_equal(bytes[6 * PARTICLES], 254);
-    assert_int_equal(bytes[6 * PARTICLES + 1], 255);
-    assert_int_equal(bytes[6 * PARTICLES + 2], 0);
+    assert_memory_equal(bytes + 6 * PARTICLES, "\x80\x3f\x00\x3f\x00\xbf", 6);
     check_close(hooke_measurement_number(view, "view", 0, "strain"), 0.5, 1e-15);
     close_view(view, record);
   }
+}
+
+static void numbers_as_floats(void **unused) {
+  (void)unused;
+  assert_int_equal(hk_view_float(1.0), 0x3f800000);
+  assert_int_equal(hk_view_float(1e308), 0x7f800000);
+  assert_int_equal(hk_view_float(-1e308), 0xff800000);
+  check_between(hk_view_float(NAN) & 0x7fffffff, 0x7f800001, 0x7fffffff);
 }
 
 static void frames_are_thinned(void **state) {
@@ -235,13 +241,10 @@ static void names_that_paraview_cannot_take(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(bytes_as_text),
-      cmocka_unit_test(long_text),
-      TEST(a_frame_is_packed),
-      TEST(frames_are_thinned),
-      TEST(views_are_refused_in_words),
-      TEST(a_companion_is_written),
-      TEST(names_that_paraview_cannot_take),
+      cmocka_unit_test(bytes_as_text), cmocka_unit_test(long_text),
+      TEST(a_frame_is_packed),         cmocka_unit_test(numbers_as_floats),
+      TEST(frames_are_thinned),        TEST(views_are_refused_in_words),
+      TEST(a_companion_is_written),    TEST(names_that_paraview_cannot_take),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

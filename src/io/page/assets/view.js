@@ -1,18 +1,7 @@
 "use strict";
-/* The page: time, controls, energies, words. The data are those of the element #data, in SI units; frames are in #frames, in
- * texts of one length. Text is set as text, never as markup. */
+/* The page: time, controls, words. Text is set as text, never as markup. */
 
-const data = JSON.parse(document.getElementById("data").textContent);
-const at = (id) => document.getElementById(id);
 const last = data.frames - 1;
-
-/* ---- bytes ---- */
-
-const fixed = bytesOf(at("fixed").textContent);
-const ends = new Uint32Array(fixed.buffer, 0, 2 * data.springs);
-const marks = fixed.subarray(8 * data.springs);
-const frameText = at("frames").textContent, frameLength = frameText.length / data.frames;
-const bytesOfFrame = (k) => bytesOf(frameText.slice(k * frameLength, (k + 1) * frameLength));
 
 /* ---- words ---- */
 
@@ -46,9 +35,7 @@ const ALERTS = {
 function writeHead() {
   document.title = `hooke view: ${data.title}`;
   at("title").textContent = data.title;
-  const accuracy = data.step !== undefined ? `step ${number(data.step, 6)} s`
-    : data.rtol !== undefined ? `rtol ${number(data.rtol, 6)}` : "";
-  at("lead").textContent = [`${data.method}${accuracy ? `, ${accuracy}` : ""}`,
+  at("lead").textContent = [`${data.method}${accuracyOf(data)}`,
     `${OUTCOMES[data.status] || data.status} at t = ${number(data.time_last, 6)} s`,
     counted(data.particles_there, "particle"), counted(data.springs_there, "spring")].join(" \u00b7 ");
   if (ALERTS[data.status]) {
@@ -78,7 +65,6 @@ function writeShown() {
 }
 
 function writeLegend(palette) {
-  at("scale").hidden = data.springs === 0 || !at("tint").checked;
   at("colours").style.background = `linear-gradient(to right, ${palette.join(", ")})`;
   at("low").textContent = `\u2212${percent(data.strain)}`;
   at("high").textContent = `+${percent(data.strain)}`;
@@ -99,73 +85,6 @@ function writeLegend(palette) {
   }));
 }
 
-/* ---- energies ---- */
-
-const COLOURS = { kinetic: "#2f86c9", potential: "#e2711d" };
-const series = (key, look) => ({ label: key, data: data[key].map((y, k) => ({ x: data.time[k], y })), pointRadius: 0,
-  pointHitRadius: 0, showLine: true, borderWidth: 2, ...look });
-
-/* The range of energies, without the last ones of a run that blows up. */
-function energyRange() {
-  const keys = ["kinetic", "potential", "total"], largest = (frames) => frames.reduce((most, k) => Math.max(most,
-    ...keys.map((key) => Math.abs(data[key][k]))), 0);
-  const most = largest(keptFrames(data)), all = largest([...data.time.keys()]);
-  if (!(most > 0) || all <= 2 * most) return {};
-  at("clipped").textContent = `Energies reach ${number(all)} J, beyond the edge of the diagram.`;
-  at("clipped").hidden = false;
-  const power = 10 ** Math.floor(Math.log10(most)), round = power * [1, 2, 5, 10].find((head) => head * power >= most);
-  return { min: -round, max: round };
-}
-
-let chart = null;
-function drawEnergies() {
-  const ink = styleOf("--ink"), grid = styleOf("--line"), text = styleOf("--dim");
-  if (chart) chart.destroy();
-  const axis = (title, more) => ({ type: "linear", title: { display: true, text: title, color: text }, ticks: { color: text,
-    maxRotation: 0 }, grid: { color: grid, borderColor: grid }, ...more });
-  chart = new Chart(at("energy"), {
-    type: "scatter",
-    data: { datasets: [series("total", { borderColor: ink, borderDash: [6, 4] }), series("kinetic", { borderColor: COLOURS.kinetic }),
-      series("potential", { borderColor: COLOURS.potential })] },
-    options: {
-      animation: false, maintainAspectRatio: false, events: [],
-      scales: { x: axis("t [s]", { min: data.time[0], max: data.time[last] > data.time[0] ? data.time[last] : undefined }),
-        y: axis("energy [J]", energyRange()) },
-      plugins: { tooltip: { enabled: false }, legend: { align: "end", labels: { color: ink, usePointStyle: true, pointStyle: "line",
-        boxHeight: 6 } } },
-      onResize: () => requestAnimationFrame(moveCursor),
-    },
-  });
-}
-
-function moveCursor() {
-  const { left, top, bottom } = chart.chartArea, cursor = at("cursor");
-  Object.assign(cursor.style, { display: "block", top: `${top}px`, height: `${bottom - top}px`,
-    left: `${Math.max(left, chart.scales.x.getPixelForValue(data.time[shown])) - 0.75}px` });
-}
-
-/* The frame whose time is nearest. */
-function frameNear(time) {
-  let low = 0, high = last;
-  while (high - low > 1) {
-    const middle = (low + high) >> 1;
-    if (data.time[middle] <= time) low = middle;
-    else high = middle;
-  }
-  return Math.abs(data.time[high] - time) < Math.abs(data.time[low] - time) ? high : low;
-}
-
-function seekOnEnergies() {
-  const seek = (event) => show(frameNear(chart.scales.x.getValueForPixel(event.clientX -
-    at("energy").getBoundingClientRect().left)));
-  at("energy").addEventListener("pointerdown", (event) => {
-    pause();
-    at("energy").setPointerCapture(event.pointerId);
-    seek(event);
-  });
-  at("energy").addEventListener("pointermove", (event) => event.buttons && seek(event));
-}
-
 /* ---- axes ---- */
 
 const AXES = [["x", "#d1495b"], ["y", "#3a9d5d"], ["z", "#3f78c9"]];
@@ -184,6 +103,7 @@ function drawAxes() {
 
 /* ---- frames ---- */
 
+const energies = new Diagram(at("energies")), course = new Diagram(at("course"));
 let picture = null, shown = 0, playing = false, wanted = false, turned = false, time = data.time[0], before = 0, drawn = [];
 
 /* Draws at the next occasion, once. */
@@ -210,10 +130,11 @@ function show(k, now = false) {
   at("frame").value = shown;
   at("now").textContent = `frame ${number_} / ${data.frames_there - 1}  \u00b7  t = ${number(data.time[shown], 4)} s` +
     (number_ >= data.good_frames ? "  \u00b7  after it diverged" : "");
-  if (picked) writePicked();
+  writePicked();
   document.body.dataset.frame = shown;
   if (!playing) time = data.time[shown];
-  moveCursor();
+  energies.moveCursor();
+  course.moveCursor();
   if (now) drawNow();
   else draw();
   tell("time", data.time[shown]);
@@ -231,12 +152,13 @@ function tell(what, value) {
   if (window.name === "beside" && !following) window.parent.tellOthers(window, what, value);
 }
 
+window.isPlaying = () => playing;
 window.duration = data.time[last] - data.time[0];
 window.follow = (what, value) => {
   following = true;
   if (what === "time") {
     if (playing) pause();
-    show(frameNear(value));
+    show(frameNear(data.time, value));
   } else if (picture) {
     picture.setAngle(value);
   }
@@ -303,7 +225,7 @@ function tick(now) {
     ended = true;
     time = data.time[0];
   }
-  const k = frameNear(time);
+  const k = frameNear(data.time, time);
   drew = k !== shown || turned;
   turned = false;
   if (k !== shown) show(k, true);
@@ -335,6 +257,7 @@ function pause() {
 const KEYS = {
   " ": () => (playing ? pause() : play()), ArrowLeft: (event) => step(event.shiftKey ? -10 : -1),
   ArrowRight: (event) => step(event.shiftKey ? 10 : 1), Home: () => step(-data.frames), End: () => step(data.frames), f: fit, F: fit,
+  o: () => window.name === "beside" && window.parent.putOver(),
 };
 
 function fit() {
@@ -359,7 +282,6 @@ function listen() {
   });
   addEventListener("resize", draw);
   matchMedia("(prefers-color-scheme: dark)").addEventListener("change", dress);
-  seekOnEnergies();
 }
 
 /* ---- what is shown ---- */
@@ -370,7 +292,8 @@ function say(text) {
 }
 
 function relook() {
-  const tinted = at("tint").checked;
+  const tinted = at("tint").checked && runs.length === 1;
+  at("tint").disabled = runs.length > 1;
   at("scale").hidden = data.springs === 0 || !tinted;
   if (!picture) return;
   picture.setLook(at("look").value || "springs", tinted);
@@ -393,20 +316,22 @@ function writeLooks() {
 
 /* Colours, as light or dark as the reader's. */
 function dress() {
+  colourRuns();
   writeLegend(picture ? picture.paint() : PALETTE[isDark() ? "dark" : "light"]);
   drawEnergies();
-  moveCursor();
+  drawCourse();
   draw();
 }
 
 function start() {
   const fragment = new URLSearchParams(location.hash.slice(1)), asked = fragment.get("frame"); // page.html#frame=40&bare
   document.body.classList.toggle("bare", fragment.has("bare"));
+  runs = [run];
   writeHead();
   writeShown();
   writeSpeeds();
   try {
-    picture = new Picture(at("picture"), data, ends, marks, bytesOfFrame);
+    picture = new Picture(at("picture"), run);
     picture.controls.addEventListener("change", draw);
     picture.controls.addEventListener("change", () => tell("angle", picture.angle()));
     picture.controls.addEventListener("start", () => thin(enough));

@@ -2,103 +2,138 @@
 /* A click on a particle or on a spring shows its numbers, now and over time. */
 
 const NEAR = { particle: 12, spring: 7 }; // pixels
-let picked = null; // { spring } or { particle }, places among those shown
+let picked = null; // { of, spring } or { of, particle }: the number of the run, and the place among those shown
 
 /* Where a particle is in the picture [pixels], and how far from the eye. */
-function projector() {
+function projector(drawn = picture) {
   const { clientWidth: wide, clientHeight: tall } = at("picture"), point = new THREE.Vector3();
   return (k) => {
-    point.fromArray(picture.place, 3 * k).project(picture.camera);
+    point.fromArray(drawn.place, 3 * k).project(picture.camera);
     return [(0.5 + 0.5 * point.x) * wide, (0.5 - 0.5 * point.y) * tall, point.z];
   };
 }
 
-function pickAt(x, y) {
-  const where = projector(), seen = Array.from({ length: picture.marks.length }, (_, k) => where(k));
+/* The nearest of one run within reach, and how near: particles before springs. */
+function nearestOf(drawn, of, x, y) {
+  const where = projector(drawn), seen = Array.from({ length: drawn.marks.length }, (_, k) => where(k));
   let best = null, least = NEAR.particle;
   seen.forEach(([a, b, z], k) => {
     const far = Math.hypot(a - x, b - y) + z;
-    if (z < 1 && far < least) [best, least] = [{ particle: k }, far];
+    if (z < 1 && far < least) [best, least] = [{ of, particle: k }, far];
   });
-  if (best) return best;
+  if (best) return [best, least];
   least = NEAR.spring;
-  for (let k = 0; k < picture.ends.length; k += 2) {
-    const [a, b] = [seen[picture.ends[k]], seen[picture.ends[k + 1]]], dx = b[0] - a[0], dy = b[1] - a[1];
+  for (let k = 0; k < drawn.ends.length; k += 2) {
+    const [a, b] = [seen[drawn.ends[k]], seen[drawn.ends[k + 1]]], dx = b[0] - a[0], dy = b[1] - a[1];
     const t = Math.max(0, Math.min(1, ((x - a[0]) * dx + (y - a[1]) * dy) / (dx * dx + dy * dy || 1)));
     const far = Math.hypot(a[0] + t * dx - x, a[1] + t * dy - y) + Math.min(a[2], b[2]);
-    if (far < least) [best, least] = [{ spring: k / 2 }, far];
+    if (far < least) [best, least] = [{ of, spring: k / 2 }, far];
   }
-  return best;
+  return [best, best ? least : Infinity];
 }
 
-const particleNumber = (k) => (data.particle ? data.particle[k] : k);
-const springNumber = (k) => k * data.spring_stride;
+function pickAt(x, y) {
+  const found = picture.runs.map((drawn, of) => nearestOf(drawn, of, x, y));
+  return found.reduce((a, b) => (b[1] < a[1] ? b : a))[0];
+}
 
-function groupOf(spring) {
+/* ---- numbers, and places among those shown ---- */
+
+const particleNumber = ({ data: { particle } }, k) => (particle ? particle[k] : k);
+const springNumber = ({ data: { spring_stride: stride } }, k) => k * stride;
+const particlePlace = ({ data: { particle, particles } }, number_) => (particle ? particle.indexOf(number_) : number_ < particles ? number_ : -1);
+const springPlace = ({ data: { spring_stride: stride, springs } }, number_) =>
+  (number_ % stride === 0 && number_ / stride < springs ? number_ / stride : -1);
+
+function groupOf({ data: { groups } }, spring) {
   let first = 0;
-  for (const group of data.groups || []) {
+  for (const group of groups || []) {
     if (spring < first + group.count) return group;
     first += group.count;
   }
   return null;
 }
 
-/* The byte of a spring in a frame, without decoding all of it. */
-function strainByte(frame, spring) {
-  const at_ = 6 * data.particles + spring, from = 4 * Math.floor(at_ / 3);
-  return atob(frameText.substr(frame * frameLength + from, 4)).charCodeAt(at_ % 3);
+/* ---- what is known of a particle or a spring in a frame ---- */
+
+const strainOf = (of, frame, k) => (of.rest[k] > 0 ? of.elongation(frame, k) / of.rest[k] : NaN);
+
+/* Of the spring's stiffness; what its damping adds takes velocities, which a page does not have. */
+function tensionOf(of, frame, k) {
+  if (!of.stiffness) return NaN;
+  const group = groupOf(of, springNumber(of, k)), elongation = of.elongation(frame, k);
+  return group && group.pull_only && elongation <= 0 ? 0 : of.stiffness[k] * elongation;
 }
-const strainAt = (frame, spring) => {
-  const byte = strainByte(frame, spring);
-  return byte === NO_STRAIN ? NaN : ((byte - 127) / 127) * data.strain;
+
+const farthest = ({ data: { box } }) => Math.max(...box.map((sides) => Math.max(sides[3] - sides[0], sides[4] - sides[1], sides[5] - sides[2])));
+const rounding = () => `to ${number(100 * ROUNDING, 1)} %`;
+const QUANTITIES = {
+  spring: [
+    { name: "elastic tension", unit: "N", of: tensionOf, known: () => `each ${rounding()}, without what damping adds` },
+    { name: "strain", unit: "", percents: true, of: strainOf, known: () => `each ${rounding()}` },
+    { name: "length", unit: "m", of: (of, frame, k) => of.rest[k] + of.elongation(frame, k),
+      known: () => `what it has beyond the rest length ${rounding()}` },
+  ],
+  particle: [..."xyz"].map((name, axis) => ({ name, unit: "m", of: (of, frame, k) => of.coordinate(frame, k, axis),
+    known: (of) => `each to ${number(farthest(of) / 131070)} m or better` })),
 };
 
-/* A line over time, with a mark at the frame that is shown. */
-function sparkline(values) {
-  const space = "http://www.w3.org/2000/svg", svg = document.createElementNS(space, "svg");
-  const low = Math.min(...values), high = Math.max(...values), span = high - low || 1;
-  const xOf = (k) => (200 * (data.time[k] - data.time[0])) / (data.time[last] - data.time[0] || 1);
-  const path = document.createElementNS(space, "path"), mark = document.createElementNS(space, "path");
-  svg.setAttribute("viewBox", "0 0 200 40");
-  svg.setAttribute("preserveAspectRatio", "none");
-  path.setAttribute("d", values.map((value, k) => `${k ? "L" : "M"}${xOf(k).toFixed(1)},${(38 - (36 * (value - low)) / span).toFixed(1)}`).join(""));
-  mark.setAttribute("d", `M${xOf(shown)},0V40`);
-  for (const [line, stroke] of [[path, "#e2711d"], [mark, "var(--ink)"]]) {
-    for (const [key, value] of Object.entries({ fill: "none", stroke, "vector-effect": "non-scaling-stroke" })) line.setAttribute(key, value);
-    svg.append(line);
-  }
-  return svg;
+const kindOf = ({ spring }) => (spring === undefined ? "particle" : "spring");
+
+/* The same spring or particle of each run that has it. */
+function placesOf({ of, ...there }) {
+  const kind = kindOf(there), [numberOf, placeOf] = kind === "spring" ? [springNumber, springPlace] : [particleNumber, particlePlace];
+  const number_ = numberOf(runs[of], there[kind]);
+  return runs.map((one) => ({ one, k: placeOf(one, number_) })).filter(({ k }) => k >= 0);
 }
 
-function positionOf(k) {
-  return [0, 1, 2].map((axis) => picture.centre[axis] + picture.radius * picture.place[3 * k + axis]);
-}
+/* ---- words and diagram ---- */
 
 const MARK_WORDS = { 0: "", 1: ", pinned", 2: ", driven", 3: ", without springs" };
 
-function describeParticle(k) {
-  return [element("p", `particle ${particleNumber(k)}${MARK_WORDS[picture.marks[k]]}`),
-    element("p", positionOf(k).map((value, axis) => `${"xyz"[axis]} ${number(value, 5)}`).join(", ") + " m")];
+function positionOf(k, drawn = picture) {
+  return [0, 1, 2].map((axis) => drawn.centre[axis] + drawn.radius * drawn.place[3 * k + axis]);
 }
 
-function describeSpring(k) {
-  const spring = springNumber(k), group = groupOf(spring), strain = strainAt(shown, k);
-  const lines = [element("p", `spring ${spring}, between particles ${[0, 1].map((end) => particleNumber(picture.ends[2 * k + end])).join(" and ")}` +
-    (group && group.name ? `, group ${group.name}` : ""))];
-  if (!Number.isFinite(strain)) return [...lines, element("p", "without a rest length")];
-  const full = Math.abs(strain) >= data.strain * 0.999 ? (strain > 0 ? " or more" : " or less") : "";
-  const force = group && group.stiffness !== null && group.rest_length !== null ? group.stiffness * group.rest_length * strain : NaN;
-  lines.push(element("p", `strain ${percent(strain)}${full}` + (Number.isFinite(force) ? `, elastic tension ${number(force)} N${full}` : "")));
-  if (data.frames > 1 && data.frames <= 4000) {
-    const values = data.time.map((_, frame) => strainAt(frame, k));
-    lines.push(sparkline(values), element("p", `strain over time, ${percent(Math.min(...values))} to ${percent(Math.max(...values))}`));
-  }
-  return lines;
+function describeParticle({ of, particle: k }) {
+  const drawn = picture.runs[of];
+  return [`particle ${particleNumber(drawn, k)}${MARK_WORDS[drawn.marks[k]]}`,
+    positionOf(k, drawn).map((value, axis) => `${"xyz"[axis]} ${number(value, 5)}`).join(", ") + " m"];
+}
+
+function describeSpring({ of, spring: k }) {
+  const one = runs[of], frame = frameNear(one.data.time, data.time[shown]), spring = springNumber(one, k), group = groupOf(one, spring);
+  const strain = strainOf(one, frame, k), tension = tensionOf(one, frame, k);
+  return [`spring ${spring}, between particles ${[0, 1].map((end) => particleNumber(one, one.ends[2 * k + end])).join(" and ")}` +
+    (group && group.name ? `, group ${group.name}` : ""),
+  Number.isNaN(strain) ? "without a rest length" : `strain ${percent(strain)}`,
+  Number.isNaN(tension) ? "tension not known: the file does not hold its scene, or no rest lengths" : `elastic tension ${number(tension)} N`];
 }
 
 function writePicked() {
-  at("picked").hidden = picked === null;
-  if (picked) at("picked").replaceChildren(...(picked.spring === undefined ? describeParticle(picked.particle) : describeSpring(picked.spring)));
+  if (!picked || !picture) return;
+  const lines = kindOf(picked) === "spring" ? describeSpring(picked) : describeParticle(picked);
+  at("picked").replaceChildren(...(runs.length > 1 ? [nameOf(runs[picked.of])] : []).concat(lines).map((line) => element("p", line)));
+}
+
+function drawCourse() {
+  if (!picked) return;
+  const quantity = QUANTITIES[kindOf(picked)].find(({ name }) => name === at("quantity").value), ink = styleOf("--ink");
+  const lines = placesOf(picked).map(({ one, k }) => lineOf(nameOf(one), one, (frame) => quantity.of(one, frame, k), { borderColor: one.own || ink }));
+  course.draw(lines, `${quantity.name}${quantity.unit && ` [${quantity.unit}]`}`, quantity.percents);
+  const met = lines.flatMap((line) => line.data.map(({ y }) => y)), say_ = quantity.percents ? percent : (value) => `${number(value)} ${quantity.unit}`;
+  at("quantity-words").textContent = `${say_(met.reduce((a, b) => Math.min(a, b)))} to ${say_(met.reduce((a, b) => Math.max(a, b)))}; ${quantity.known(runs[picked.of])}`;
+}
+
+function pick(what) {
+  picked = what;
+  at("picked").hidden = at("picked-course").hidden = what === null;
+  if (what === null) return;
+  const { of, ...there } = what, kind = kindOf(there), before_ = at("quantity").value;
+  const known = QUANTITIES[kind].filter((quantity) => !Number.isNaN(quantity.of(runs[of], 0, there[kind])));
+  at("quantity").replaceChildren(...known.map(({ name }) => element("option", name, { value: name, selected: name === before_ })));
+  writePicked();
+  drawCourse();
 }
 
 function listenToPicks() {
@@ -106,7 +141,7 @@ function listenToPicks() {
   at("picture").addEventListener("pointerdown", (event) => { from = [event.offsetX, event.offsetY]; });
   at("picture").addEventListener("click", (event) => {
     if (from && Math.hypot(event.offsetX - from[0], event.offsetY - from[1]) > 4) return; // it was a turn
-    picked = pickAt(event.offsetX, event.offsetY);
-    writePicked();
+    pick(pickAt(event.offsetX, event.offsetY));
   });
+  at("quantity").onchange = drawCourse;
 }

@@ -60,7 +60,7 @@ const SURFACE_VERTEX = `
   }`;
 /* Light from above and from the eye, the same on both sides. */
 const surfaceFragment = (shade) => `${shade}
-  uniform vec3 cloth; uniform float tinted; uniform float night; varying float tension; varying vec3 facing; varying vec3 towards;
+  uniform vec3 cloth; uniform float tinted; uniform float night; uniform float opacity; varying float tension; varying vec3 facing; varying vec3 towards;
   void main() {
     vec3 n = normalize(facing);
     bool back = !gl_FrontFacing;
@@ -69,9 +69,9 @@ const surfaceFragment = (shade) => `${shade}
     float high = 0.5 + 0.5 * n.y, side = 0.5 + 0.5 * dot(n, lamp);
     float gleam = pow(max(0.0, dot(n, normalize(eye + lamp))), 40.0);
     vec3 base = mix(cloth, colourOf(tension), tinted);
-    if (back && tinted < 0.5) base = mix(base, vec3(0.86, 0.78, 0.66), 0.6);
+    if (back && tinted < 0.5 && opacity == 1.0) base = mix(base, vec3(0.86, 0.78, 0.66), 0.6);
     float light = mix(0.36, 0.28, night) + 0.14 * high + 0.22 * max(0.0, dot(n, eye)) + 0.36 * side * side;
-    gl_FragColor = vec4(base * light + 0.08 * gleam, 1.0);
+    gl_FragColor = vec4(base * light + 0.08 * gleam, opacity);
   }`;
 
 function makeSurface(triangles, count, uniforms, shade) {

@@ -146,8 +146,9 @@ function startFilm() {
   });
   addEventListener("resize", () => show(shown));
   choice("views", Object.keys(VIEWS).map((key) => [key, [[...key].join(" ")]]), moving ? firstView() : firstAxes(), (key) => { axes = key; show(shown); });
-  const frame = Number(new URLSearchParams(location.hash.slice(1)).get("frame")); // why.html#frame=40
-  if (location.hash) play(false);
+  const fragment = new URLSearchParams(location.hash.slice(1)), frame = Number(fragment.get("frame")); // why.html#frame=40&bare
+  document.body.classList.toggle("bare", fragment.has("bare"));
+  if (fragment.has("frame")) play(false);
   show(frame || 0);
   requestAnimationFrame(tick);
 }

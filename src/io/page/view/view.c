@@ -160,14 +160,15 @@ static int32_t choose_springs(struct hk_view *view) {
 
 /* Size of the page without its frames, including words. */
 static int32_t measure_page(const struct hk_view *view, double *bytes) {
-  static const char *const parts[] = {"view.html",       "view.css",     "view.js",      "view_scene.js",
-                                      "view_surface.js", "view_save.js", "view_pick.js", "three.js",
-                                      "three_orbit.js",  "chart.js"};
+  static const char *const parts[] = {"view.html",      "view.css",      "view.js",         "view_data.js",
+                                      "view_run.js",    "view_scene.js", "view_chart.js",   "view_over.js",
+                                      "view_pick.js",   "view_save.js",  "view_surface.js", "three.js",
+                                      "three_orbit.js", "chart.js"};
   struct hk_text text = {.bytes = NULL};
   int32_t status = HOOKE_OK;
   for (size_t k = 0; k < sizeof parts / sizeof parts[0] && status == HOOKE_OK; k++)
     status = hk_data_folder_read(parts[k], &text);
-  *bytes = (double)(text.length + hk_base64_length(8 * view->springs + view->particles)) + 20e3;
+  *bytes = (double)(text.length + hk_base64_length(16 * view->springs + view->particles)) + 20e3;
   hk_text_release(&text);
   return status;
 }

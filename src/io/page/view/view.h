@@ -3,7 +3,7 @@
  *   view.c           selection
  *   view_frames.c    a frame as bytes
  *   view_page.c      the page
- *   views.c          several pages side by side
+ *   views.c          several pages as one
  *   view_tables.c    the numbers of a view */
 #ifndef HOOKE_IO_PAGE_VIEW_H
 #define HOOKE_IO_PAGE_VIEW_H
@@ -57,12 +57,11 @@ struct hk_view_box {
 
 int64_t hk_view_frame_bytes(const struct hk_view *view);
 
-/* Coordinates of the particles as 16-bit little-endian numbers, x y z in turn, then a byte for the strain of
- * each spring: 0 to 254 for -strain to strain, 255 for a spring without rest length. */
-int32_t hk_view_pack(const struct hk_view *view, int64_t frame, uint8_t *bytes, struct hk_view_box *box);
+uint32_t hk_view_float(double value); /* its bits as a float */
 
-/* Strain of the k-th spring shown, at positions q; NaN if it has no rest length. */
-double hk_view_strain(const struct hk_view *view, const double *q, int64_t k);
+/* Coordinates of the particles as 16-bit little-endian numbers, x y z in turn, then the elongation of each
+ * spring [m] as the upper half of a float. */
+int32_t hk_view_pack(const struct hk_view *view, int64_t frame, uint8_t *bytes, struct hk_view_box *box);
 
 /* Finds `strain`, strain_low and strain_high, and leaves damaged frames out. HOOKE_BAD_VALUE if none is
  * whole. */

@@ -1,13 +1,12 @@
 #include "io/page/view/view_bodies.h"
 
 #include "core/memory.h"
+#include "io/page/base64.h"
+#include "model/force/force.h"
 #include "model/system.h"
 #include "parts/surface.h"
 
-#include <math.h>
 #include <string.h>
-
-static const double SAME = 1e-9; /* relative, as rest lengths of rounded positions differ */
 
 /* ---- bodies ---- */
 
@@ -47,44 +46,50 @@ static void add_bodies(struct hk_text *data, const hooke_system *system) {
   hk_text_close(data, ']');
 }
 
-/* ---- groups ---- */
+/* ---- springs ---- */
 
-/* The value that all of them have; NaN if they differ. */
-static double common(int64_t count, const double *value) {
-  for (int64_t k = 1; k < count; k++) {
-    if (!(fabs(value[k] - value[0]) <= SAME * fabs(value[0]))) return NAN;
-  }
-  return count > 0 ? value[0] : NAN;
-}
-
-static void add_groups(struct hk_text *data, const hooke_system *system, const double *stiffness,
-                       const double *rest_length) {
-  int64_t first = 0;
+static void add_groups(struct hk_text *data, const hooke_system *system) {
   hk_text_open(data, "groups", '[');
   for (int64_t g = 0; g < hooke_system_group_count(system, "springs"); g++) {
-    const int64_t count = hooke_system_group_size(system, "springs", g);
+    const struct hk_group *group = hk_system_group(system, &hk_force_springs, g);
     hk_text_open(data, NULL, '{');
     hk_text_word(data, "name", hooke_system_group_name(system, "springs", g));
-    hk_text_number(data, "count", (double)count);
-    hk_text_number(data, "stiffness", common(count, stiffness + first));
-    hk_text_number(data, "rest_length", common(count, rest_length + first));
+    hk_text_number(data, "count", (double)hooke_system_group_size(system, "springs", g));
+    hk_text_flag(data, "pull_only", group->pull_only);
     hk_text_close(data, '}');
-    first += count;
   }
   hk_text_close(data, ']');
 }
 
-void hk_view_bodies_add(struct hk_text *data, const hooke_system *system) {
-  const int64_t count = hooke_system_count(system, "springs");
-  double *stiffness = hk_new(2 * count, sizeof *stiffness);
+void hk_view_add_floats(struct hk_text *data, const char *key, const struct hk_view *view,
+                        const double *all) {
+  struct hk_text text = {.bytes = NULL};
+  uint8_t *bytes = hk_new(4 * view->springs, 1);
+  for (int64_t k = 0; k < 4 * view->springs && bytes; k++)
+    bytes[k] = (uint8_t)(hk_view_float(all[view->spring[k / 4]]) >> 8 * (k % 4) & 255);
+  if (bytes) hk_base64_add(&text, bytes, 4 * view->springs);
+  hk_text_add(&text, "", 1); /* ends it */
+  if (bytes == NULL || text.status != HOOKE_OK)
+    data->status = HOOKE_NO_MEMORY;
+  else
+    hk_text_word(data, key, text.bytes);
+  hk_text_release(&text);
+  hk_free(bytes);
+}
+
+static int32_t add_stiffness(struct hk_text *data, const struct hk_view *view, const hooke_system *system) {
+  double *stiffness = hk_new(view->springs_there, sizeof *stiffness);
   int32_t status = stiffness ? HOOKE_OK : HOOKE_NO_MEMORY;
-  if (status == HOOKE_OK)
-    status = hooke_system_members(system, "springs", NULL, stiffness, NULL, stiffness + count);
-  if (status == HOOKE_OK) {
-    add_bodies(data, system);
-    add_groups(data, system, stiffness, stiffness + count);
-  } else if (data->status == HOOKE_OK) {
-    data->status = status;
-  }
+  if (status == HOOKE_OK) status = hooke_system_members(system, "springs", NULL, stiffness, NULL, NULL);
+  if (status == HOOKE_OK) hk_view_add_floats(data, "stiffness", view, stiffness);
   hk_free(stiffness);
+  return status;
+}
+
+void hk_view_bodies_add(struct hk_text *data, const struct hk_view *view, const hooke_system *system) {
+  add_bodies(data, system);
+  add_groups(data, system);
+  if (hooke_system_count(system, "springs") != view->springs_there) return;
+  const int32_t status = add_stiffness(data, view, system);
+  if (status != HOOKE_OK && data->status == HOOKE_OK) data->status = status;
 }

@@ -3,6 +3,7 @@
 
 #include "core/memory.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -10,21 +11,25 @@
 /* Sample sizes and fractions for the colour scale: so many springs of each frame; so many of these, and of
  * the frames so many, have a strain within the scale. For a run that blew up only frames that are not much
  * wider than the first count, since later ones leave no colours for the others. */
-enum { LOOKED_AT = 4096, WIDEST = 65535, MIDDLE = 127, NO_STRAIN = 255 };
+enum { LOOKED_AT = 4096, WIDEST = 65535 };
 static const double SPRING_SHARE = 0.98, FRAME_SHARE = 0.9, WIDENED = 8.0;
 
 static const char position[] = "/particles/all/position/value";
 
 int64_t hk_view_frame_bytes(const struct hk_view *view) {
-  return 6 * view->particles + view->springs;
+  return 6 * view->particles + 2 * view->springs;
 }
 
-double hk_view_strain(const struct hk_view *view, const double *q, int64_t k) {
-  const double rest = view->rest_length[view->spring[k]];
+static double elongation_of(const struct hk_view *view, const double *q, int64_t k) {
   const double *a = q + 3 * view->particle[view->end[2 * k]];
   const double *b = q + 3 * view->particle[view->end[2 * k + 1]];
-  const double length = hypot(hypot(a[0] - b[0], a[1] - b[1]), a[2] - b[2]);
-  return rest > 0.0 ? length / rest - 1.0 : (double)NAN;
+  return hypot(hypot(a[0] - b[0], a[1] - b[1]), a[2] - b[2]) - view->rest_length[view->spring[k]];
+}
+
+/* NaN if it has no rest length. */
+static double strain_of(const struct hk_view *view, const double *q, int64_t k) {
+  const double rest = view->rest_length[view->spring[k]];
+  return rest > 0.0 ? elongation_of(view, q, k) / rest : (double)NAN;
 }
 
 /* ---- the box ---- */
@@ -69,7 +74,7 @@ static double largest_of_most(struct hk_view *view, const double *q, double *siz
   const int64_t stride = 1 + (view->springs - 1) / LOOKED_AT;
   int64_t count = 0;
   for (int64_t k = 0; k < view->springs; k++) {
-    const double strain = hk_view_strain(view, q, k);
+    const double strain = strain_of(view, q, k);
     if (!isfinite(strain)) continue;
     view->strain_low = fmin(view->strain_low, strain);
     view->strain_high = fmax(view->strain_high, strain);
@@ -154,10 +159,24 @@ static uint32_t place_in(double x, double low, double high) {
   return share >= WIDEST ? WIDEST : share > 0.0 ? (uint32_t)share : 0;
 }
 
-static uint8_t colour_of(const struct hk_view *view, double strain) {
-  if (isnan(strain)) return NO_STRAIN;
-  const double place = rint(MIDDLE + MIDDLE * (strain / view->strain));
-  return (uint8_t)fmin(fmax(place, 0.0), 2 * MIDDLE);
+static uint8_t *put(uint8_t *bytes, uint32_t word) {
+  *bytes++ = (uint8_t)(word & 255);
+  *bytes++ = (uint8_t)(word >> 8 & 255);
+  return bytes;
+}
+
+uint32_t hk_view_float(double value) {
+  const float narrow =
+      fabs(value) > FLT_MAX ? copysignf(INFINITY, signbit(value) ? -1.0F : 1.0F) : (float)value;
+  uint32_t word;
+  memcpy(&word, &narrow, sizeof word);
+  return word;
+}
+
+/* The upper half of a float, rounded to even: 8 significant bits. */
+static uint32_t upper_half(double value) {
+  const uint32_t word = hk_view_float(value);
+  return isnan(value) ? word >> 16 : (word + 0x7fff + (word >> 16 & 1)) >> 16;
 }
 
 int32_t hk_view_pack(const struct hk_view *view, int64_t frame, uint8_t *bytes, struct hk_view_box *box) {
@@ -165,13 +184,10 @@ int32_t hk_view_pack(const struct hk_view *view, int64_t frame, uint8_t *bytes, 
   const int32_t status = hk_view_read(view, position, frame, view->particles_there, 3, &q);
   if (status != HOOKE_OK) return status;
   find_box(view, q, box);
-  for (int64_t k = 0; k < 3 * view->particles; k++) {
-    const uint32_t place = place_in(q[3 * view->particle[k / 3] + k % 3], box->low[k % 3], box->high[k % 3]);
-    *bytes++ = (uint8_t)(place & 255);
-    *bytes++ = (uint8_t)(place >> 8);
-  }
+  for (int64_t k = 0; k < 3 * view->particles; k++)
+    bytes = put(bytes, place_in(q[3 * view->particle[k / 3] + k % 3], box->low[k % 3], box->high[k % 3]));
   for (int64_t k = 0; k < view->springs; k++)
-    *bytes++ = colour_of(view, hk_view_strain(view, q, k));
+    bytes = put(bytes, upper_half(elongation_of(view, q, k)));
   hk_free(q);
   return HOOKE_OK;
 }

@@ -33,7 +33,7 @@ static void add_scene(struct hk_text *data, const struct hk_view *view, const ch
   if (status == HOOKE_NO_MEMORY) data->status = status;
   if (status == HOOKE_OK) {
     gravity = hooke_scene_system(scene)->gravity;
-    hk_view_bodies_add(data, hooke_scene_system(scene));
+    hk_view_bodies_add(data, view, hooke_scene_system(scene));
     if (title == NULL && hooke_scene_text(scene, "title")[0]) title = hooke_scene_text(scene, "title");
   }
   hk_text_word(data, "title", title ? title : slash ? slash + 1 : path);
@@ -115,6 +115,7 @@ static int32_t add_data(const struct page *page, struct hk_text *text) {
   add_scene(data, view, page->title);
   add_run(data, view);
   add_counts(data, view);
+  hk_view_add_floats(data, "rest_length", view, view->rest_length);
   add_column(data, view, "time", view->time);
   for (int k = 0; k < HOOKE_VIEW_ENERGIES; k++)
     add_column(data, view, hk_view_energy[k], view->energy[k]);

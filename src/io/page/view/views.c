@@ -1,4 +1,4 @@
-/* Several trajectories as one page, which plays them side by side: the page of each in a frame of its own. */
+/* Several trajectories as one page, the page of each in a frame of its own. */
 #include "io/page/view/view.h"
 
 #include "core/status.h"

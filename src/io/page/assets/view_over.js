@@ -1,0 +1,48 @@
+"use strict";
+/* Several runs over one another: the other pages' runs are drawn in this one. */
+
+/* Told apart by eyes of every kind, on paper and in the dark. */
+const RUN_COLOURS = {
+  light: ["#0072b2", "#d55e00", "#009e73", "#b4458e", "#b88a00", "#2aa1c9", "#7a5195", "#5b6770"],
+  dark: ["#56b4e9", "#f08a3c", "#2fc79a", "#e28fc4", "#e6c24a", "#8fd3ee", "#b79ad6", "#a3adb8"],
+};
+
+let runs = []; // this page's first
+const accuracyOf = (data) => (data.step !== undefined ? `, step ${number(data.step, 6)} s` : data.rtol !== undefined ? `, rtol ${number(data.rtol, 6)}` : "");
+const nameOf = ({ data }) => `${data.file}: ${data.method}${accuracyOf(data)}`;
+
+function endOf({ status, time_last: end }) {
+  if (ALERTS[status]) return `, ${OUTCOMES[status]} at t = ${number(end, 4)} s`;
+  return end < data.time_last ? `, until t = ${number(end, 4)} s` : "";
+}
+
+function writeRuns() {
+  at("runs").replaceChildren(...(runs.length > 1 ? runs : []).map((one) => {
+    const item = element("li", nameOf(one) + endOf(one.data));
+    item.prepend(Object.assign(element("i"), { style: `background: ${one.own}` }));
+    return item;
+  }));
+}
+
+/* Of several, each has a colour of its own. */
+function colourRuns() {
+  const colours = RUN_COLOURS[isDark() ? "dark" : "light"];
+  runs.forEach((one, k) => {
+    one.own = runs.length > 1 ? colours[k] : null;
+    if (picture) picture.runs[k].setOwn(one.own);
+  });
+  writeRuns();
+}
+
+/* Draws these runs over this page's; without any, this page's alone. */
+window.drawOver = (others) => {
+  runs = [run, ...others.map((other) => ({ ...other }))];
+  document.body.classList.toggle("over", runs.length > 1);
+  pick(null);
+  if (picture) {
+    picture.drawOver(runs.slice(1));
+    picture.fit(...picture.someFrames);
+  }
+  dress();
+  relook();
+};
