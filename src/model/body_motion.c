@@ -10,7 +10,7 @@
 /* The matrix of a quaternion of any length but 0: m[i][k] is component i of axis k of the body. A sum of squares
  * that is 1 but for rounding is rounded to 1 more often from one side than from the other, which would add up
  * step by step; so the length becomes one that is no power of two. */
-static void matrix_of(const double turn[4], double m[3][3]) {
+void hk_body_axes(const double turn[4], double m[3][3]) {
   const double scale = 1.3, w = scale * turn[0], x = scale * turn[1], y = scale * turn[2],
                z = scale * turn[3];
   const double ww = w * w, xx = x * x, yy = y * y, zz = z * z, all = ((ww + xx) + yy) + zz;
@@ -149,7 +149,7 @@ void hk_body_read(const struct hk_body *body, const struct hk_body_rows *rows, d
     combine(body->triad, column, m[i]);
   }
   hk_body_set_turn(m, own);
-  matrix_of(own + HOOKE_BODY_TURN, m);
+  hk_body_axes(own + HOOKE_BODY_TURN, m);
   find_rotation(body, q, v, rotation);
   to_body(m, rotation, momentum);
   for (int k = 0; k < 3; k++)
@@ -195,7 +195,7 @@ static void find_angular_velocity(const struct hk_body *body, const double m[3][
 void hk_body_write(const struct hooke_system *system, const struct hk_body *body, const double *own,
                    const struct hk_body_rows *rows) {
   double m[3][3], w[3], arm[3], swing[3];
-  matrix_of(own + HOOKE_BODY_TURN, m);
+  hk_body_axes(own + HOOKE_BODY_TURN, m);
   find_angular_velocity(body, m, own, w);
   for (int64_t k = 0; k < body->count; k++) {
     const int64_t p = body->particle[k], at = rows->stride * p;
@@ -216,7 +216,7 @@ static void keep_axes(const struct hk_body *body, const double *own, double x[3]
   const double *inverse = body->inverse_inertia;
   if (inverse[0] > 0.0 && inverse[1] > 0.0 && inverse[2] > 0.0) return;
   double m[3][3], turn[3];
-  matrix_of(own + HOOKE_BODY_TURN, m);
+  hk_body_axes(own + HOOKE_BODY_TURN, m);
   to_body(m, x, turn);
   for (int k = 0; k < 3; k++)
     turn[k] = inverse[k] > 0.0 ? turn[k] : 0.0;
@@ -231,7 +231,7 @@ static void add_gravity(const struct hooke_system *system, const struct hk_body 
     return;
   }
   double m[3][3], centre[3], turning[3];
-  matrix_of(own + HOOKE_BODY_TURN, m);
+  hk_body_axes(own + HOOKE_BODY_TURN, m);
   to_space(m, body->centre, centre);
   hk_cross3(centre, system->gravity, turning);
   hk_add3(body->mass, turning, torque);
@@ -268,7 +268,7 @@ void hk_body_kick(const struct hk_body *body, double h, const double acceleratio
 void hk_body_accelerate(const struct hooke_system *system, const struct hk_body *body, const double *own,
                         const double acceleration[3], const double torque[3], double *out) {
   double m[3][3], w[3], gyration[3], turning[3], arm[3], swing[3], inward[3], change[3];
-  matrix_of(own + HOOKE_BODY_TURN, m);
+  hk_body_axes(own + HOOKE_BODY_TURN, m);
   find_angular_velocity(body, m, own, w);
   hk_cross3(w, own + HOOKE_BODY_SPIN, gyration);
   for (int a = 0; a < 3; a++)
@@ -309,7 +309,7 @@ void hk_body_drift(const struct hk_body *body, double h, double *own) {
   const double first = inverse[0] > 0.0 ? inverse[0] - inverse[1] : 0.0,
                last = inverse[2] > 0.0 ? inverse[2] - inverse[1] : 0.0, half = 0.5 * h * inverse[1];
   hk_add3(h, own + HOOKE_BODY_VELOCITY, own + HOOKE_BODY_POINT);
-  matrix_of(turn, m);
+  hk_body_axes(turn, m);
   to_body(m, spin, momentum);
   turn_about(0, 0.25 * h * (first * momentum[0]), turn, momentum);
   turn_about(2, 0.5 * h * (last * momentum[2]), turn, momentum);
@@ -322,7 +322,7 @@ void hk_body_drift(const struct hk_body *body, double h, double *own) {
 void hk_body_slope(const struct hk_body *body, const double *own, const double acceleration[3],
                    const double torque[3], double *slope) {
   double m[3][3], w[3];
-  matrix_of(own + HOOKE_BODY_TURN, m);
+  hk_body_axes(own + HOOKE_BODY_TURN, m);
   find_angular_velocity(body, m, own, w);
   const double rotation[4] = {0.0, 0.5 * w[0], 0.5 * w[1], 0.5 * w[2]};
   multiply(rotation, own + HOOKE_BODY_TURN, slope + HOOKE_BODY_TURN);
