@@ -43,18 +43,21 @@ static void add_block(const double t[3][6], const double *s, int64_t n, double g
   }
 }
 
-/* Moments about the axes that a body does not turn about. */
-static void find_others(const struct hk_body *body, double other[3]) {
-  hk_body_moments(body, other);
-  for (int k = 0; k < 3; k++)
-    other[k] = body->inertia[k] > 0.0 ? 0.0 : other[k];
+/* The inertia of the equations is that at the beginning of the stage: it takes the place of the particles'. */
+static void add_inertia(const struct hk_stage *stage, int64_t k, const double z[3], double out[3]) {
+  const struct hk_body_tangent *tangent = &stage->body.tangents.body[k];
+  double spin[3];
+  hk_body_momentum(stage, k, z, spin);
+  hk_add3(1.0, spin, out);
+  hk_body_weigh(tangent->axes, tangent->body->inertia, z, spin);
+  hk_add3(-1.0, spin, out);
 }
 
 static void fill_block(const struct hk_stage *stage, int64_t k, double g[6][6]) {
   const struct hk_reduced *reduced = &stage->reduced;
   const struct hk_body_tangent *tangent = &stage->body.tangents.body[k];
   const hooke_system *system = reduced->integrator->system;
-  double other[3], t[3][6];
+  double t[3][6];
   memset(g, 0, 36 * sizeof(double));
   for (int64_t i = 0; i < tangent->body->count; i++) {
     const int64_t p = tangent->body->particle[i];
@@ -62,11 +65,10 @@ static void fill_block(const struct hk_stage *stage, int64_t k, double g[6][6]) 
     find_columns(tangent, tangent->arm + 3 * i, t);
     add_block(t, reduced->block + p, system->particle_count, g);
   }
-  find_others(tangent->body, other);
   for (int j = 0; j < 3; j++) {
     const double unit[3] = {j == 0, j == 1, j == 2};
-    double turning[3];
-    hk_body_weigh(tangent->axes, other, unit, turning);
+    double turning[3] = {0.0, 0.0, 0.0};
+    add_inertia(stage, k, unit, turning);
     if (!(tangent->body->inverse_mass > 0.0)) g[j][j] = 1.0;
     for (int a = 0; a < 3; a++)
       g[3 + a][3 + j] += turning[a];
@@ -136,7 +138,7 @@ static void find_forces(struct hk_stage *stage) {
   hk_body_tangents_stiffen(&stage->body.tangents, force, 1);
 }
 
-void hk_body_stage_set(struct hk_stage *stage, const double *v) {
+void hk_body_stage_set(struct hk_stage *stage) {
   struct hk_body_stage *bodies = &stage->body;
   const hooke_integrator *it = stage->reduced.integrator;
   find_forces(stage);
@@ -144,12 +146,10 @@ void hk_body_stage_set(struct hk_stage *stage, const double *v) {
   hk_body_stage_clear(stage, stage->reduced.factor + it->size);
   for (int64_t k = 0; k < bodies->count; k++) {
     const double *spin = stage->at.speed + it->size + HOOKE_BODY_NUMBERS * k + HOOKE_BODY_SPIN;
-    double g[6][6], *rotation = bodies->rotation + 6 * k, *push = bodies->push + 6 * k;
+    double g[6][6], *push = bodies->push + 6 * k;
     hk_body_stage_gather(stage, k, bodies->df, push);
-    for (int a = 0; a < 3; a++) {
-      rotation[a] = v[it->size + HOOKE_BODY_VELOCITIES * k + 3 + a];
-      rotation[3 + a] = spin[a] + stage->at.a * push[3 + a];
-    }
+    for (int a = 0; a < 3; a++)
+      bodies->rotation[k].spin[a] = spin[a] + stage->at.a * push[3 + a];
     fill_block(stage, k, g);
     factorise(g);
     memcpy(bodies->factor + 36 * k, g, sizeof g);
@@ -158,17 +158,38 @@ void hk_body_stage_set(struct hk_stage *stage, const double *v) {
 
 /* ---- products ---- */
 
-/* Changes of the velocities of a body's particles: d(w x r) = dw x r + w x dr, with the change of w along with the
- * axes that it turns about. */
-static void spread_change(const struct hk_stage *stage, int64_t k, double *dq, double *dv) {
+void hk_body_turn_by(const double w[3], double h, const double change[3], double turn[3]) {
+  hk_cross3(w, change, turn);
+  for (int c = 0; c < 3; c++)
+    turn[c] = h / (1.0 + 0.25 * h * h * hk_dot3(w, w)) * (change[c] + 0.5 * h * turn[c]);
+}
+
+/* A small change of a body: of its position, orientation, and both velocities. */
+struct change {
+  double move[3], turn[3], velocity[3], rotation[3];
+};
+
+/* By a change of the unknowns. */
+static void find_change(const struct hk_stage *stage, int64_t k, const double *x, struct change *change) {
+  const struct hk_body_rotation *r = &stage->body.rotation[k];
+  double p[3];
+  memcpy(change->velocity, x, sizeof change->velocity);
+  hk_scale3(stage->at.a, x, change->move);
+  hk_body_momentum(stage, k, x + 3, p);
+  for (int c = 0; c < 3; c++)
+    change->rotation[c] = hk_dot3(r->inverse[c], p);
+  hk_body_turn_by(r->w, stage->at.a, change->rotation, change->turn);
+}
+
+/* Of a body's particles: d (w x r) = dw x r + w x dr, where P w is what the body turns with. */
+static void spread_change(const struct hk_stage *stage, int64_t k, const struct change *change, double *dq,
+                          double *dv) {
   const hooke_system *system = stage->reduced.integrator->system;
   const struct hk_body_tangent *tangent = &stage->body.tangents.body[k];
-  const struct hk_body_change *change = &stage->body.change[k];
-  const double *rotation = stage->body.rotation + 6 * k;
   double kept[3], w[3], dw[3], across[3], less[3];
   hk_body_kept(tangent->body, kept);
-  hk_body_weigh(tangent->axes, kept, rotation, w);
-  hk_cross3(change->turn, rotation, across);
+  hk_body_weigh(tangent->axes, kept, stage->body.rotation[k].w, w);
+  hk_cross3(change->turn, stage->body.rotation[k].w, across);
   hk_add3(-1.0, change->rotation, across);
   hk_body_weigh(tangent->axes, kept, across, less);
   hk_cross3(change->turn, w, dw);
@@ -187,46 +208,29 @@ static void spread_change(const struct hk_stage *stage, int64_t k, double *dq, d
   }
 }
 
-/* d (J w - P s) = d x (J w - P s) - J (d x w) + P (d x s) + J dw - P ds for a turn d and s = L + a T. */
-static void change_right(const struct hk_stage *stage, int64_t k, const double *df, double out[6]) {
+/* out = the change of F of body k, with that of the forces of particles, df: d (p - P s) = dp - d x P s + P (d x s) -
+ * P ds for a turn d. */
+static void change_right(const struct hk_stage *stage, int64_t k, const double *x, const double *df,
+                         double out[6]) {
   const struct hk_body_tangent *tangent = &stage->body.tangents.body[k];
-  const struct hk_body_change *change = &stage->body.change[k];
-  const double *w = stage->body.rotation + 6 * k, *s = w + 3, a = stage->at.a;
+  const double *s = stage->body.rotation[k].spin, a = stage->at.a;
   const double mass = tangent->body->inverse_mass > 0.0 ? tangent->body->mass : 0.0;
-  double kept[3], moment[3], push[6], other[3], x[3], y[3];
+  struct change change;
+  double kept[3], push[6], along[3], across[3];
+  find_change(stage, k, x, &change);
   hk_body_kept(tangent->body, kept);
-  hk_body_moments(tangent->body, moment);
   hk_body_stage_gather(stage, k, df, push);
-  hk_body_turn_forces(tangent, 1.0, change->turn, push + 3);
+  hk_body_turn_forces(tangent, 1.0, change.turn, push + 3);
   for (int c = 0; c < 3; c++)
-    out[c] = mass * change->velocity[c] - a * push[c];
-  hk_body_weigh(tangent->axes, moment, w, x);
-  hk_body_weigh(tangent->axes, kept, s, y);
-  hk_add3(-1.0, y, x);
-  hk_cross3(change->turn, x, out + 3);
-  hk_cross3(change->turn, w, other);
-  for (int c = 0; c < 3; c++)
-    x[c] = change->rotation[c] - other[c];
-  hk_body_weigh(tangent->axes, moment, x, y);
-  hk_add3(1.0, y, out + 3);
-  hk_cross3(change->turn, s, x);
-  hk_add3(-a, push + 3, x);
-  hk_body_weigh(tangent->axes, kept, x, y);
-  hk_add3(1.0, y, out + 3);
-}
-
-/* The change of a body by one of its velocities: of a rotation in Cayley form d = a (dw + a/2 w x dw)/(1 + a^2
- * w^2/4). */
-static void find_change(struct hk_stage *stage, int64_t k, const double *velocity) {
-  const double *w = stage->body.rotation + 6 * k, a = stage->at.a;
-  struct hk_body_change *change = &stage->body.change[k];
-  memcpy(change->velocity, velocity, 3 * sizeof(double));
-  memcpy(change->rotation, velocity + 3, 3 * sizeof(double));
-  hk_scale3(a, velocity, change->move);
-  hk_cross3(w, velocity + 3, change->turn);
-  for (int c = 0; c < 3; c++)
-    change->turn[c] =
-        a / (1.0 + 0.25 * a * a * hk_dot3(w, w)) * (velocity[3 + c] + 0.5 * a * change->turn[c]);
+    out[c] = mass * x[c] - a * push[c];
+  hk_body_momentum(stage, k, x + 3, out + 3);
+  hk_body_weigh(tangent->axes, kept, s, along);
+  hk_cross3(change.turn, along, across);
+  hk_add3(-1.0, across, out + 3);
+  hk_cross3(change.turn, s, across);
+  hk_add3(-a, push + 3, across);
+  hk_body_weigh(tangent->axes, kept, across, along);
+  hk_add3(1.0, along, out + 3);
 }
 
 static int32_t multiply_whole(struct hk_stage *stage, const double *x, double *out) {
@@ -240,14 +244,17 @@ static int32_t multiply_whole(struct hk_stage *stage, const double *x, double *o
     bodies->dv[j] = x[j];
   }
   for (int64_t k = 0; k < bodies->count; k++) {
-    find_change(stage, k, x + it->size + HOOKE_BODY_VELOCITIES * k);
-    spread_change(stage, k, bodies->dq, bodies->dv);
+    struct change change;
+    find_change(stage, k, x + it->size + HOOKE_BODY_VELOCITIES * k, &change);
+    spread_change(stage, k, &change, bodies->dq, bodies->dv);
   }
   status = hk_reduced_change(&stage->reduced, bodies->dq, bodies->dv, bodies->df);
   for (int64_t j = 0; j < it->size; j++)
     out[j] = it->system->mass[j % n] * x[j] - stage->at.a * bodies->df[j];
-  for (int64_t k = 0; k < bodies->count; k++)
-    change_right(stage, k, bodies->df, out + it->size + HOOKE_BODY_VELOCITIES * k);
+  for (int64_t k = 0; k < bodies->count; k++) {
+    const int64_t at = it->size + HOOKE_BODY_VELOCITIES * k;
+    change_right(stage, k, x + at, bodies->df, out + at);
+  }
   return status;
 }
 
@@ -269,14 +276,12 @@ static int32_t multiply_positive(struct hk_stage *stage, const double *x, double
   for (int64_t k = 0; k < bodies->count; k++) {
     const struct hk_body_tangent *tangent = &bodies->tangents.body[k];
     const int64_t at = 3 * n + HOOKE_BODY_VELOCITIES * k;
-    double push[6], kept[3], other[3], turning[3];
+    double push[6], kept[3];
     hk_body_kept(tangent->body, kept);
-    find_others(tangent->body, other);
     hk_body_stage_gather(stage, k, out, push);
     memcpy(out + at, push, 3 * sizeof(double));
     hk_body_weigh(tangent->axes, kept, push + 3, out + at + 3);
-    hk_body_weigh(tangent->axes, other, x + at + 3, turning);
-    hk_add3(1.0, turning, out + at + 3);
+    add_inertia(stage, k, x + at + 3, out + at + 3);
   }
   return status;
 }

@@ -8,6 +8,10 @@
 #include <math.h>
 #include <string.h>
 
+/* Of J(w) w = p: the error that may be left, in which rounding ends, and the most iterations. */
+static const double ROTATION_ROUNDING = 1e-12;
+enum { MOST_ROTATIONS = 50 };
+
 /* ---- creating ---- */
 
 static double *part(double **block, int64_t count) {
@@ -18,16 +22,15 @@ static double *part(double **block, int64_t count) {
 
 static int32_t allocate(hooke_integrator *it, struct hk_body_stage *body) {
   const int64_t count = body->count, size = it->size + HOOKE_BODY_VELOCITIES * count,
-                numbers = (HOOKE_BODY_NUMBERS + 6 + 6 + 36) * count + 3 * it->size +
-                          (3 + HOOKE_GENERAL_VECTORS) * size;
+                numbers =
+                    (HOOKE_BODY_NUMBERS + 6 + 36) * count + 3 * it->size + (3 + HOOKE_GENERAL_VECTORS) * size;
   double *block = hk_new(numbers, sizeof(double));
   body->own = block;
-  body->change = hk_new(count, sizeof *body->change);
-  if (block == NULL || body->change == NULL) return HOOKE_NO_MEMORY;
-  it->own_memory += numbers * (int64_t)sizeof(double) + count * (int64_t)sizeof *body->change;
+  body->rotation = hk_new(count, sizeof *body->rotation);
+  if (block == NULL || body->rotation == NULL) return HOOKE_NO_MEMORY;
+  it->own_memory += numbers * (int64_t)sizeof(double) + count * (int64_t)sizeof *body->rotation;
   block += HOOKE_BODY_NUMBERS * count;
   body->push = part(&block, 6 * count);
-  body->rotation = part(&block, 6 * count);
   body->factor = part(&block, 36 * count);
   body->dq = part(&block, it->size);
   body->dv = part(&block, it->size);
@@ -52,7 +55,7 @@ int32_t hk_body_stage_create(hooke_integrator *it, struct hk_body_stage *body) {
 
 void hk_body_stage_release(struct hk_body_stage *body) {
   if (body->count > 0) hk_body_tangents_release(&body->tangents);
-  hk_free(body->change);
+  hk_free(body->rotation);
   hk_free(body->own);
 }
 
@@ -109,19 +112,77 @@ void hk_body_stage_clear(const struct hk_stage *stage, double *x) {
   }
 }
 
+/* ---- from momentum to rotation ---- */
+
+void hk_body_momentum(const struct hk_stage *stage, int64_t k, const double z[3], double p[3]) {
+  double moment[3];
+  hk_body_moments(body_of(stage, k), moment);
+  hk_body_weigh(stage->body.rotation[k].begin, moment, z, p);
+}
+
+/* With d (J w) = d x J w - J (d x w) + J dw for the turn d, where the axes are those of w. */
+static void find_slope(const struct hk_stage *stage, int64_t k, const double axes[3][3],
+                       const double spin[3]) {
+  struct hk_body_rotation *r = &stage->body.rotation[k];
+  double moment[3], column[3][3];
+  hk_body_moments(body_of(stage, k), moment);
+  for (int j = 0; j < 3; j++) {
+    double change[3] = {j == 0, j == 1, j == 2}, turn[3], other[3];
+    hk_body_turn_by(r->w, stage->at.a, change, turn);
+    hk_cross3(turn, r->w, other);
+    hk_add3(-1.0, other, change);
+    hk_body_weigh(axes, moment, change, column[j]);
+    hk_cross3(turn, spin, other);
+    hk_add3(1.0, other, column[j]);
+  }
+  hk_cross3(column[1], column[2], r->inverse[0]);
+  hk_cross3(column[2], column[0], r->inverse[1]);
+  hk_cross3(column[0], column[1], r->inverse[2]);
+  const double volume = hk_dot3(column[0], r->inverse[0]);
+  for (int j = 0; j < 3; j++)
+    hk_scale3(1.0 / volume, r->inverse[j], r->inverse[j]);
+}
+
+/* Solves J(w) w = p by Newton's method, down to rounding; w is not a number where it does not get there. */
+static void find_rotation(struct hk_stage *stage, int64_t k, const double z[3]) {
+  struct hk_body_rotation *r = &stage->body.rotation[k];
+  double *own = own_of(stage, k), moment[3], axes[3][3], p[3], spin[3], left[3], before = INFINITY;
+  hk_body_moments(body_of(stage, k), moment);
+  hk_body_momentum(stage, k, z, p);
+  memcpy(r->w, z, sizeof r->w);
+  for (int i = 0; i < MOST_ROTATIONS; i++) {
+    hk_body_turn(r->w, stage->at.a, origin_of(stage, k) + HOOKE_BODY_TURN, own + HOOKE_BODY_TURN);
+    hk_body_axes(own + HOOKE_BODY_TURN, axes);
+    hk_body_weigh(axes, moment, r->w, spin);
+    for (int c = 0; c < 3; c++)
+      left[c] = p[c] - spin[c];
+    find_slope(stage, k, axes, spin);
+    const double size = hk_length3(left), rounding = ROTATION_ROUNDING * hk_length3(p);
+    if (size == 0.0 || (size <= rounding && size >= 0.5 * before)) return;
+    before = size;
+    for (int c = 0; c < 3; c++)
+      r->w[c] += hk_dot3(r->inverse[c], left);
+  }
+  for (int c = 0; c < 3; c++)
+    r->w[c] = NAN;
+  hk_body_turn(r->w, stage->at.a, origin_of(stage, k) + HOOKE_BODY_TURN, own + HOOKE_BODY_TURN);
+}
+
 /* A component of L about an axis that the body does not turn about stays as it is. */
-static void place_body(const struct hk_stage *stage, int64_t k, const double *v) {
+static void place_body(struct hk_stage *stage, int64_t k, const double *v) {
   const struct hk_body *body = body_of(stage, k);
-  const double *from = origin_of(stage, k), *u = v + at_velocity(stage, k), *w = u + 3;
+  const double *from = origin_of(stage, k), *u = v + at_velocity(stage, k);
   double *own = own_of(stage, k), axes[3][3], other[3], rest[3];
   for (int a = 0; a < 3; a++) {
     own[HOOKE_BODY_POINT + a] = from[HOOKE_BODY_POINT + a] + stage->at.a * u[a];
     own[HOOKE_BODY_VELOCITY + a] = u[a];
     other[a] = body->inertia[a] > 0.0 ? 0.0 : 1.0;
   }
-  hk_body_turn(w, stage->at.a, from + HOOKE_BODY_TURN, own + HOOKE_BODY_TURN);
+  find_rotation(stage, k, u + 3);
+  hk_body_momentum(stage, k, u + 3, own + HOOKE_BODY_SPIN);
+  if (body->inertia[0] > 0.0) return;
   hk_body_axes(own + HOOKE_BODY_TURN, axes);
-  hk_body_weigh(axes, body->inertia, w, own + HOOKE_BODY_SPIN);
+  hk_body_weigh(axes, body->inertia, stage->body.rotation[k].w, own + HOOKE_BODY_SPIN);
   hk_body_weigh(axes, other, from + HOOKE_BODY_SPIN, rest);
   hk_add3(1.0, rest, own + HOOKE_BODY_SPIN);
 }
@@ -144,10 +205,11 @@ void hk_body_stage_begin(struct hk_stage *stage) {
   hk_body_stage_clear(stage, stage->old);
   for (int64_t k = 0; k < stage->body.count; k++) {
     const double *own = own_of(stage, k);
-    double *u = stage->old + at_velocity(stage, k), axes[3][3];
+    double *u = stage->old + at_velocity(stage, k);
+    struct hk_body_rotation *r = &stage->body.rotation[k];
     memcpy(u, own + HOOKE_BODY_VELOCITY, 3 * sizeof(double));
-    hk_body_axes(own + HOOKE_BODY_TURN, axes);
-    hk_body_weigh(axes, body_of(stage, k)->inverse_inertia, own + HOOKE_BODY_SPIN, u + 3);
+    hk_body_axes(own + HOOKE_BODY_TURN, r->begin);
+    hk_body_weigh(r->begin, body_of(stage, k)->inverse_inertia, own + HOOKE_BODY_SPIN, u + 3);
   }
 }
 
@@ -175,7 +237,7 @@ void hk_body_stage_go_on(struct hk_stage *stage) {
 static void find_right(struct hk_stage *stage, int64_t k, const double *v) {
   const struct hk_body *body = body_of(stage, k);
   const double *from = origin_of(stage, k), *push = stage->body.push + 6 * k, *u = v + at_velocity(stage, k);
-  double *right = stage->right + at_velocity(stage, k), axes[3][3], kept[3], moment[3], spin[3], turning[3];
+  double *right = stage->right + at_velocity(stage, k), axes[3][3], kept[3], spin[3], p[3];
   for (int c = 0; c < 3; c++) {
     right[c] = body->inverse_mass > 0.0
                    ? stage->at.a * push[c] - body->mass * (u[c] - from[HOOKE_BODY_VELOCITY + c])
@@ -183,11 +245,10 @@ static void find_right(struct hk_stage *stage, int64_t k, const double *v) {
     spin[c] = from[HOOKE_BODY_SPIN + c] + stage->at.a * push[3 + c];
   }
   hk_body_kept(body, kept);
-  hk_body_moments(body, moment);
   hk_body_axes(own_of(stage, k) + HOOKE_BODY_TURN, axes);
   hk_body_weigh(axes, kept, spin, right + 3);
-  hk_body_weigh(axes, moment, u + 3, turning);
-  hk_add3(-1.0, turning, right + 3);
+  hk_body_momentum(stage, k, u + 3, p);
+  hk_add3(-1.0, p, right + 3);
 }
 
 void hk_body_stage_residual(struct hk_stage *stage, const double *v) {
@@ -200,14 +261,11 @@ void hk_body_stage_residual(struct hk_stage *stage, const double *v) {
   }
 }
 
-/* Without a change of force and torque w changes by J^-1 (T - w x L). */
 static void find_straight(struct hk_stage *stage, int64_t k) {
   const struct hk_body *body = body_of(stage, k);
   const double *push = stage->body.push + 6 * k, *u = stage->old + at_velocity(stage, k);
-  double *straight = stage->straight + at_velocity(stage, k), turning[3], change[3];
-  hk_cross3(own_of(stage, k) + HOOKE_BODY_SPIN, u + 3, turning);
-  hk_add3(1.0, push + 3, turning);
-  hk_body_weigh(stage->body.tangents.body[k].axes, body->inverse_inertia, turning, change);
+  double *straight = stage->straight + at_velocity(stage, k), change[3];
+  hk_body_weigh(stage->body.rotation[k].begin, body->inverse_inertia, push + 3, change);
   for (int c = 0; c < 3; c++) {
     straight[c] = u[c] + stage->at.length * (body->inverse_mass * push[c]);
     straight[3 + c] = u[3 + c] + stage->at.length * change[c];
@@ -233,9 +291,8 @@ double hk_body_stage_distance(const struct hk_stage *stage, const double *from) 
     const double *v = stage->v + at_velocity(stage, k), *u = from + at_velocity(stage, k);
     const double move[3] = {v[0] - u[0], v[1] - u[1], v[2] - u[2]},
                  turn[3] = {v[3] - u[3], v[4] - u[4], v[5] - u[5]};
-    double moment[3], spin[3];
-    hk_body_moments(body_of(stage, k), moment);
-    hk_body_weigh(stage->body.tangents.body[k].axes, moment, turn, spin);
+    double spin[3];
+    hk_body_momentum(stage, k, turn, spin);
     sum += body_of(stage, k)->mass * hk_dot3(move, move) + hk_dot3(turn, spin);
   }
   return sum;

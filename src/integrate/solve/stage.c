@@ -135,12 +135,12 @@ static int32_t find_residual(struct hk_stage *stage, const double *v) {
   return status;
 }
 
-/* Derivatives where the motion is, at velocity v. */
-static void set_matrix(struct hk_stage *stage, const double *v) {
+/* Derivatives where the motion is. */
+static void set_matrix(struct hk_stage *stage) {
   const double a = stage->at.a;
   hk_reduced_drop_factor(&stage->reduced); /* a stage depends on its numbers alone */
   hk_reduced_set(&stage->reduced, stage->at.t, a * gain(stage), stage->overdamped ? 0.0 : a);
-  if (stage->body.count > 0) hk_body_stage_set(stage, v);
+  if (stage->body.count > 0) hk_body_stage_set(stage);
 }
 
 /* How far the state at the beginning moves with dv = 0: to place + a v, and particles that are constrained or
@@ -170,7 +170,7 @@ static int32_t linearise(struct hk_stage *stage) {
   hk_motion_restore(m, stage->begin);
   int32_t status = hk_integrator_forces(it, stage->at.t);
   if (status != HOOKE_OK) return status;
-  set_matrix(stage, old);
+  set_matrix(stage);
   status = hk_reduced_change(&stage->reduced, stage->v, stage->change, stage->moved);
   for (int64_t k = 0; k < 3 * n; k++) {
     const int64_t p = k % n;
@@ -314,7 +314,7 @@ static int32_t iterate(struct hk_stage *stage, struct iteration *now, int *found
   int32_t status = HOOKE_OK;
   *found = 0;
   if (stage->body.count > 0) hk_body_stage_aim(stage);
-  set_matrix(stage, stage->v);
+  set_matrix(stage);
   now->allowed = allowed_error(stage, &now->rounding);
   if (whole) status = whole_correction(stage, now, found);
   if (whole && !*found) {
