@@ -72,7 +72,8 @@ static int32_t take_bodies(hooke_integrator *it) {
   if (method == NULL)
     return hk_fail(HOOKE_UNSUITED, "method",
                    "%s does not know rigid bodies yet; allowed in a scene with bodies: forward-euler, "
-                   "symplectic-euler, verlet, heun, rk4 and the error-controlled methods",
+                   "symplectic-euler, verlet, heun, rk4, backward-euler, tr-bdf2, implicit-midpoint and the "
+                   "error-controlled methods",
                    it->method->name);
   it->method = method;
   return HOOKE_OK;

@@ -99,6 +99,8 @@ void hk_body_drift(const struct hk_body *body, double h, double *own);
 /* d own/dt under them. */
 void hk_body_slope(const struct hk_body *body, const double *own, const double acceleration[3],
                    const double torque[3], double *slope);
+/* The quaternion `turn` = `from` + h (0, w) turn/2: a rotation by the angle 2 atan(h |w|/2) in space. */
+void hk_body_turn(const double w[3], double h, const double from[4], double turn[4]);
 /* The body's axes in space by its quaternion: m[i][k] is component i of axis k. */
 void hk_body_axes(const double turn[4], double m[3][3]);
 /* Makes the quaternion one of length 1. */

@@ -333,6 +333,12 @@ void hk_body_slope(const struct hk_body *body, const double *own, const double a
   }
 }
 
+void hk_body_turn(const double w[3], double h, const double from[4], double turn[4]) {
+  const double half[3] = {0.5 * h * w[0], 0.5 * h * w[1], 0.5 * h * w[2]}, all = 1.0 + hk_dot3(half, half);
+  const double step[4] = {1.0 / all, half[0] / all, half[1] / all, half[2] / all};
+  multiply(step, from, turn);
+}
+
 void hk_body_tolerance(const struct hk_body *body, double position, double velocity, double *tolerance) {
   double size = 0.0, inertia = 0.0;
   for (int64_t k = 0; k < body->count; k++)

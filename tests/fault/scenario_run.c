@@ -173,6 +173,7 @@ const struct scenario running[] = {
     {"run, rk8pd", run, RUN("rk8pd", 1), 1, "gsl", NULL},
     {"run, rigid body, verlet", run_body, "verlet", 1, NULL, NULL},
     {"run, rigid body, rk4", run_body, "rk4", 1, NULL, NULL},
+    {"run, rigid body, tr-bdf2", run_body, "tr-bdf2", 1, NULL, NULL},
     {"run, rigid body, cvode-bdf", run_body, "cvode-bdf", 1, "sundials", NULL},
     {"run, first order, rk4", run_first_order, "rk4", 1, NULL, NULL},
     {"run, first order, cvode-bdf", run_first_order, "cvode-bdf", 1, "sundials", NULL},

@@ -204,7 +204,7 @@ static const struct hk_method rows[] = {
 };
 
 const struct hk_method *hk_method_with_bodies(const struct hk_method *method) {
-  if (method->adaptive) return method; /* it steps any unknowns */
+  if (method->adaptive || method->implicit) return method; /* it steps or solves for any unknowns */
   for (size_t k = 0; k < sizeof rows / sizeof rows[0]; k++) {
     if (strcmp(rows[k].name, method->name) == 0) return &rows[k];
   }

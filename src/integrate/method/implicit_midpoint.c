@@ -11,7 +11,7 @@ static int32_t create(hooke_integrator *it) {
 
 /* From the middle on as far again; constrained particles come from the drives. */
 static int32_t go_on(hooke_integrator *it, struct hk_span_of_time span) {
-  const struct hk_stage *stage = it->own;
+  struct hk_stage *stage = it->own;
   struct hk_motion *m = it->motion;
   const double h = span.h;
   for (int a = 0; a < 3; a++) {
@@ -21,6 +21,7 @@ static int32_t go_on(hooke_integrator *it, struct hk_span_of_time span) {
       m->v[a][p] = 2.0 * m->v[a][p] - v[p];
     }
   }
+  if (stage->body.count > 0) hk_body_stage_go_on(stage);
   if (it->system->constrained_count == 0) return HOOKE_OK;
   return hk_integrator_hold(it, span.end);
 }

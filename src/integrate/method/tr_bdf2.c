@@ -7,9 +7,9 @@
 #include "core/status.h"
 #include "integrate/solve/stage.h"
 
-/* Beside the stage: the place and the speed of its equations, 6 components of n. */
+/* Beside the stage: the place and the speed of its equations, a state. */
 static int32_t create(hooke_integrator *it) {
-  return hk_stage_create(it, 2 * it->size);
+  return hk_stage_create(it, 1);
 }
 
 /* As numbers, so that they are the same everywhere. */
@@ -17,7 +17,7 @@ static const double MIDDLE = 0.58578643762690495120, BACK = 0.207106781186547524
 
 /* Where the trapezoidal rule starts from: q + a v and v + a a(t, q, v). */
 static int32_t begin_trapezoid(hooke_integrator *it, double t, double a) {
-  const struct hk_stage *stage = it->own;
+  struct hk_stage *stage = it->own;
   const hooke_system *system = it->system;
   const struct hk_motion *m = it->motion;
   const int32_t status = hk_integrator_forces(it, t);
@@ -30,14 +30,15 @@ static int32_t begin_trapezoid(hooke_integrator *it, double t, double a) {
       speed[p] = v[p] + a * (w * m->f[c][p] + (w == 0.0 ? 0.0 : system->gravity[c]));
     }
   }
+  if (stage->body.count > 0) hk_body_stage_explicit(stage, a, stage->others + 2 * it->size);
   return status;
 }
 
 /* Where the backward difference does. What rests stays where it is to the bit. */
 static void begin_difference(hooke_integrator *it) {
   const struct hk_stage *stage = it->own;
-  hk_motion_save(it->motion, stage->others);
-  for (int64_t k = 0; k < 2 * it->size; k++)
+  hk_stage_save(stage, stage->others);
+  for (int64_t k = 0; k < stage->state_size; k++)
     stage->others[k] += BACK * (stage->others[k] - stage->start[k]);
 }
 

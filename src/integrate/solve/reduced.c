@@ -261,7 +261,7 @@ static int32_t add_product(struct hk_reduced *reduced, const double *x, double *
                                              : HOOKE_OK;
 }
 
-static int32_t multiply_matrix(struct hk_reduced *reduced, const double *x, double *out) {
+int32_t hk_reduced_multiply(struct hk_reduced *reduced, const double *x, double *out) {
   hk_apply_diagonal(reduced->integrator->system->particle_count, reduced->diagonal, x, out);
   return add_product(reduced, x, out);
 }
@@ -299,7 +299,7 @@ static int32_t apply_whole(void *ctx, const double *unknown, double *out) {
   memcpy(product, unknown, bytes);
   hk_factor_backward(reduced->whole, product);
   hk_factor_spread(reduced->whole, product, x);
-  const int32_t status = multiply_matrix(reduced, x, product);
+  const int32_t status = hk_reduced_multiply(reduced, x, product);
   hk_factor_gather(reduced->whole, product, out);
   hk_factor_forward(reduced->whole, out);
   return status;
@@ -340,7 +340,7 @@ static int32_t solve_by_blocks(struct hk_reduced *reduced, int symmetric, const 
   return status;
 }
 
-static int64_t most_iterations(const struct hk_reduced *reduced) {
+int64_t hk_reduced_limit(const struct hk_reduced *reduced) {
   const int64_t share = reduced->integrator->size / SIZE_SHARE + SPARE_ITERATIONS;
   return share < MOST_ITERATIONS ? share : MOST_ITERATIONS;
 }
@@ -365,7 +365,7 @@ int32_t hk_reduced_try(struct hk_reduced *reduced, const double *b, double toler
 
 int32_t hk_reduced_solve(struct hk_reduced *reduced, const double *b, double tolerance, double *x,
                          struct hk_solution *solution) {
-  return hk_reduced_try(reduced, b, tolerance, most_iterations(reduced), x, solution);
+  return hk_reduced_try(reduced, b, tolerance, hk_reduced_limit(reduced), x, solution);
 }
 
 /* Of every spring what its diagonal blocks have. */
@@ -379,7 +379,7 @@ int32_t hk_reduced_correct(struct hk_reduced *reduced, const double *b, double r
   hooke_integrator *it = reduced->integrator;
   const int64_t n = it->system->particle_count, size = it->size;
   if (reduced->direct && reduced->whole) {
-    const int32_t status = solve_direct(reduced, b, DIRECT_RESIDUAL, most_iterations(reduced), x, solution);
+    const int32_t status = solve_direct(reduced, b, DIRECT_RESIDUAL, hk_reduced_limit(reduced), x, solution);
     solution->converged |= status == HOOKE_OK && solution->residual <= fmax(relative, DIRECT_RESIDUAL);
     return status;
   }
@@ -389,7 +389,7 @@ int32_t hk_reduced_correct(struct hk_reduced *reduced, const double *b, double r
   const double scale = scale_of(size, reduced->right);
   multiply(size, scale, reduced->right);
   const int32_t status =
-      hk_solve_positive(&a, reduced->right, relative, scale * absolute, most_iterations(reduced),
+      hk_solve_positive(&a, reduced->right, relative, scale * absolute, hk_reduced_limit(reduced),
                         reduced->krylov, reduced->unknown, solution);
   it->count.linear_iterations += solution->iterations;
   hk_apply_factor_transposed(n, reduced->factor, reduced->unknown, x);
@@ -502,7 +502,7 @@ static int32_t apply_weighed(void *ctx, const double *weighed, double *out) {
   struct hk_reduced *reduced = ctx;
   const int64_t size = reduced->integrator->size;
   hk_divide(size, weighed, reduced->weight, reduced->place);
-  const int32_t status = multiply_matrix(reduced, reduced->place, out);
+  const int32_t status = hk_reduced_multiply(reduced, reduced->place, out);
   divide(reduced, out);
   hk_multiply(size, reduced->weight, out, out);
   return status;

@@ -57,6 +57,8 @@ void hk_reduced_set(struct hk_reduced *reduced, double t, double alpha, double b
 int32_t hk_reduced_solve(struct hk_reduced *reduced, const double *b, double tolerance, double *x,
                          struct hk_solution *solution);
 
+/* Iterations that it is allowed. */
+int64_t hk_reduced_limit(const struct hk_reduced *reduced);
 /* The same for so many iterations at most. */
 int32_t hk_reduced_try(struct hk_reduced *reduced, const double *b, double tolerance, int64_t limit,
                        double *x, struct hk_solution *solution);
@@ -97,6 +99,9 @@ int32_t hk_reduced_correct(struct hk_reduced *reduced, const double *b, double r
 double hk_reduced_square(struct hk_reduced *reduced, const double *b);
 /* The sum of the diagonal of S. */
 double hk_reduced_trace(const struct hk_reduced *reduced);
+
+/* out = the matrix times x, which is 0 where a particle is constrained. */
+int32_t hk_reduced_multiply(struct hk_reduced *reduced, const double *x, double *out);
 
 /* HOOKE_SOLVER_FAILED, with the message, for a solution that did not converge. */
 int32_t hk_reduced_fail(const struct hk_reduced *reduced, const struct hk_solution *solution);

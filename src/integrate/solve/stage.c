@@ -21,7 +21,34 @@ static const double LEAST_SHARE = 1e-4, ROUNDINGS = 1.0, ALL_ROUNDINGS = 100.0;
 static const double ONE_LEAVES = 1.0;
 enum { MANY_SLOW = 4, LEAST_TRIES = 20, MOST_ITERATIONS = 100, LONGEST_PAUSE = 16, FINEST_SPLIT = 1024 };
 
-int32_t hk_stage_create(hooke_integrator *it, int64_t numbers) {
+static double *part(double **block, int64_t count) {
+  double *start = *block;
+  *block += count;
+  return start;
+}
+
+static int32_t allocate(struct hk_stage *stage, int64_t states) {
+  hooke_integrator *it = stage->reduced.integrator;
+  const int64_t own = stage->body.count > 0,
+                numbers = (3 + states) * stage->state_size + (5 + own) * stage->size;
+  double *block = hk_new(numbers, sizeof(double));
+  stage->whole = block;
+  if (block == NULL) return HOOKE_NO_MEMORY;
+  it->own_memory += numbers * (int64_t)sizeof(double);
+  block += stage->state_size;
+  stage->start = part(&block, stage->state_size);
+  stage->begin = part(&block, stage->state_size);
+  stage->old = own ? part(&block, stage->size) : stage->begin + it->size;
+  stage->v = part(&block, stage->size);
+  stage->change = part(&block, stage->size);
+  stage->right = part(&block, stage->size);
+  stage->moved = part(&block, stage->size);
+  stage->straight = part(&block, stage->size);
+  stage->others = block;
+  return HOOKE_OK;
+}
+
+int32_t hk_stage_create(hooke_integrator *it, int64_t states) {
   struct hk_stage *stage = hk_new(1, sizeof *stage);
   if (stage == NULL) return HOOKE_NO_MEMORY;
   it->own = stage;
@@ -29,28 +56,36 @@ int32_t hk_stage_create(hooke_integrator *it, int64_t numbers) {
   stage->tolerance = hooke_options_number(it->options, "newton_tolerance");
   stage->order = it->method->order;
   stage->overdamped = it->system->friction > 0.0;
-  numbers += 11 * it->size;
-  stage->whole = hk_new(numbers, sizeof(double));
-  if (stage->whole == NULL) return HOOKE_NO_MEMORY;
-  it->own_memory += numbers * (int64_t)sizeof(double);
-  stage->start = stage->whole + 2 * it->size;
-  stage->begin = stage->start + 2 * it->size;
-  double *const vectors = stage->begin + 2 * it->size;
-  stage->v = vectors;
-  stage->change = vectors + it->size;
-  stage->right = vectors + 2 * it->size;
-  stage->moved = vectors + 3 * it->size;
-  stage->straight = vectors + 4 * it->size;
-  stage->others = vectors + 5 * it->size;
-  return hk_reduced_create(it, HOOKE_REDUCED_GENERAL, &stage->reduced);
+  int32_t status = hk_body_stage_create(it, &stage->body);
+  if (status == HOOKE_OK) status = hk_reduced_create(it, HOOKE_REDUCED_GENERAL, &stage->reduced);
+  stage->size = it->size + HOOKE_BODY_VELOCITIES * stage->body.count;
+  stage->state_size = 2 * it->size + HOOKE_BODY_NUMBERS * stage->body.count;
+  return status == HOOKE_OK ? allocate(stage, states) : status;
 }
 
 void hk_stage_destroy(hooke_integrator *it) {
   struct hk_stage *stage = it->own;
+  hk_body_stage_release(&stage->body);
   hk_reduced_release(&stage->reduced);
   hk_free(stage->whole);
   hk_free(stage);
   it->own = NULL;
+}
+
+void hk_stage_save(const struct hk_stage *stage, double *state) {
+  const hooke_integrator *it = stage->reduced.integrator;
+  hk_motion_save(it->motion, state);
+  if (stage->body.count > 0)
+    memcpy(state + 2 * it->size, stage->body.own,
+           (size_t)(HOOKE_BODY_NUMBERS * stage->body.count) * sizeof(double));
+}
+
+void hk_stage_restore(struct hk_stage *stage, double *state) {
+  const hooke_integrator *it = stage->reduced.integrator;
+  hk_motion_restore(it->motion, state);
+  if (stage->body.count > 0)
+    memcpy(stage->body.own, state + 2 * it->size,
+           (size_t)(HOOKE_BODY_NUMBERS * stage->body.count) * sizeof(double));
 }
 
 /* ---- the equations ---- */
@@ -66,6 +101,7 @@ static void place(struct hk_stage *stage, const double *v) {
       m->q[a][p] = old[p] + stage->at.a * m->v[a][p];
     }
   }
+  if (stage->body.count > 0) hk_body_stage_place(stage, v);
   if (it->system->constrained_count > 0) hk_motion_hold(it->system, m);
 }
 
@@ -95,6 +131,7 @@ static int32_t find_residual(struct hk_stage *stage, const double *v) {
                    : h * m->f[a][p] - system->mass[p] * ((m->v[a][p] - speed_of(stage, a * m->n + p)) - g);
     }
   }
+  if (stage->body.count > 0) hk_body_stage_residual(stage, v);
   return status;
 }
 
@@ -103,16 +140,17 @@ static void set_matrix(struct hk_stage *stage) {
   const double a = stage->at.a;
   hk_reduced_drop_factor(&stage->reduced); /* a stage depends on its numbers alone */
   hk_reduced_set(&stage->reduced, stage->at.t, a * gain(stage), stage->overdamped ? 0.0 : a);
+  if (stage->body.count > 0) hk_body_stage_set(stage);
 }
 
-/* How far the state at the beginning moves with dv = 0: to place + a v, and constrained particles to where
- * they are held. */
+/* How far the state at the beginning moves with dv = 0: to place + a v, and particles that are constrained or
+ * in bodies to where they are now. */
 static void find_moved(const struct hk_stage *stage, double *dq, double *dv) {
   const hooke_integrator *it = stage->reduced.integrator;
   const hooke_system *system = it->system;
   const int64_t n = system->particle_count;
   for (int64_t k = 0; k < 3 * n; k++) {
-    const int held = system->constrained[k % n] != 0;
+    const int held = system->constrained[k % n] != 0 || hk_bodies_move(&system->bodies, k % n);
     const double q = stage->begin[k], v = stage->begin[3 * n + k];
     dq[k] = held ? it->motion->q[k / n][k % n] - q : (stage->at.place[k] - q) + stage->at.a * v;
     dv[k] = held ? it->motion->v[k / n][k % n] - v : 0.0;
@@ -125,9 +163,10 @@ static int32_t linearise(struct hk_stage *stage) {
   const hooke_system *system = it->system;
   struct hk_motion *m = it->motion;
   const int64_t n = m->n;
-  const double *old = stage->begin + 3 * n;
+  const double *old = stage->old;
   place(stage, old);
   find_moved(stage, stage->v, stage->change);
+  if (stage->body.count > 0) hk_body_stage_aim(stage);
   hk_motion_restore(m, stage->begin);
   int32_t status = hk_integrator_forces(it, stage->at.t);
   if (status != HOOKE_OK) return status;
@@ -141,13 +180,14 @@ static int32_t linearise(struct hk_stage *stage) {
     stage->right[k] = gain(stage) * ((force + stage->moved[k]) + system->mass[p] * g);
     if (system->constrained[p] == 0) stage->right[k] -= system->mass[p] * (old[k] - speed_of(stage, k));
   }
+  if (stage->body.count > 0) hk_body_stage_linearise(stage);
   return status;
 }
 
 /* ---- errors ---- */
 
 static double dot(const struct hk_stage *stage, const double *x, const double *y) {
-  return hk_dot(stage->reduced.integrator->size, x, y);
+  return hk_dot(stage->size, x, y);
 }
 
 /* The length of v - from in the norm of masses. */
@@ -159,6 +199,7 @@ static double distance(const struct hk_stage *stage, const double *from) {
     const double d = stage->v[k] - from[k];
     sum += system->constrained[k % n] ? 0.0 : system->mass[k % n] * (d * d);
   }
+  if (stage->body.count > 0) sum += hk_body_stage_distance(stage, from);
   return sqrt(sum);
 }
 
@@ -169,7 +210,7 @@ static double distance(const struct hk_stage *stage, const double *from) {
 static double allowed_error(const struct hk_stage *stage, double *rounding) {
   const hooke_integrator *it = stage->reduced.integrator;
   const struct hk_motion *m = it->motion;
-  const double change = distance(stage, stage->begin + it->size);
+  const double change = distance(stage, stage->old);
   double own = change / 2.0, extent = 0.0, speed = 0.0;
   if (stage->order > 1) own = fmin(change / 10.0, distance(stage, stage->straight) / 4.0);
   for (int a = 0; a < 3; a++) {
@@ -204,13 +245,25 @@ static int32_t give_up(const struct hk_stage *stage, int iterations, const struc
       it->method->name, it->t, (int)FINEST_SPLIT, iterations, why, now->size, now->allowed);
 }
 
+/* change = the solution for `right` with the whole matrix, and with S. */
+static int32_t solve(struct hk_stage *stage, double tolerance, int64_t limit, struct hk_solution *solution) {
+  if (stage->body.count > 0) return hk_body_stage_solve(stage, tolerance, limit, solution);
+  return hk_reduced_try(&stage->reduced, stage->right, tolerance, limit, stage->change, solution);
+}
+
+static int32_t correct(struct hk_stage *stage, double relative, double absolute,
+                       struct hk_solution *solution) {
+  hk_reduced_project(&stage->reduced);
+  if (stage->body.count > 0) return hk_body_stage_correct(stage, relative, absolute, solution);
+  return hk_reduced_correct(&stage->reduced, stage->right, relative, absolute, stage->change, solution);
+}
+
 /* The whole matrix at the guess. `found` is 0 where its correction leads nowhere. */
 static int32_t whole_correction(struct hk_stage *stage, struct iteration *now, int *found) {
   const double wanted = LINEAR_OF_TOLERANCE * now->allowed / now->before;
   const double residual = fmin(LARGEST_RESIDUAL, fmax(LEAST_RESIDUAL, wanted));
   struct hk_solution solution;
-  const int32_t status = hk_reduced_try(&stage->reduced, stage->right, residual, LEAST_TRIES + now->linear,
-                                        stage->change, &solution);
+  const int32_t status = solve(stage, residual, LEAST_TRIES + now->linear, &solution);
   const double slope = dot(stage, stage->right, stage->change);
   *found = solution.residual <= fmax(residual, FAR_ENOUGH) && slope > 0.0 && slope < INFINITY;
   if (*found) now->size = sqrt(slope);
@@ -219,9 +272,7 @@ static int32_t whole_correction(struct hk_stage *stage, struct iteration *now, i
 
 static int32_t safe_correction(struct hk_stage *stage, struct iteration *now, int *found) {
   struct hk_solution solution;
-  hk_reduced_project(&stage->reduced);
-  const int32_t status = hk_reduced_correct(&stage->reduced, stage->right, LINEAR_SHARE,
-                                            LINEAR_OF_TOLERANCE * now->allowed, stage->change, &solution);
+  const int32_t status = correct(stage, LINEAR_SHARE, LINEAR_OF_TOLERANCE * now->allowed, &solution);
   const double slope = dot(stage, stage->right, stage->change);
   *found = slope >= 0.0 && slope < INFINITY;
   now->linear = solution.iterations;
@@ -232,11 +283,10 @@ static int32_t safe_correction(struct hk_stage *stage, struct iteration *now, in
 /* Moves the guess along the correction until F.dv, which would be 0 at the least of a potential, has turned
  * by no more than half of what it was. */
 static int32_t search(struct hk_stage *stage, struct iteration *now, int *found) {
-  const hooke_integrator *it = stage->reduced.integrator;
   const double slope = now->size * now->size;
   *found = 0;
   for (double share = 1.0; share >= LEAST_SHARE && !*found;) {
-    for (int64_t j = 0; j < it->size; j++)
+    for (int64_t j = 0; j < stage->size; j++)
       stage->moved[j] = stage->v[j] + share * stage->change[j];
     const int32_t status = find_residual(stage, stage->moved);
     if (status != HOOKE_OK) return status;
@@ -245,7 +295,7 @@ static int32_t search(struct hk_stage *stage, struct iteration *now, int *found)
     now->share = share;
     share = lowest > 0.1 * share ? fmin(lowest, 0.5 * share) : 0.1 * share;
   }
-  if (*found) memcpy(stage->v, stage->moved, (size_t)it->size * sizeof(double));
+  if (*found) memcpy(stage->v, stage->moved, (size_t)stage->size * sizeof(double));
   return HOOKE_OK;
 }
 
@@ -259,9 +309,11 @@ static int is_last(const struct iteration *now) {
 }
 
 static int32_t iterate(struct hk_stage *stage, struct iteration *now, int *found) {
-  const int whole = now->slow >= (stage->reduced.rows_needed ? 1 : MANY_SLOW) && now->wait == 0;
+  const int soon = stage->reduced.rows_needed || stage->body.count > 0;
+  const int whole = now->slow >= (soon ? 1 : MANY_SLOW) && now->wait == 0;
   int32_t status = HOOKE_OK;
   *found = 0;
+  if (stage->body.count > 0) hk_body_stage_aim(stage);
   set_matrix(stage);
   now->allowed = allowed_error(stage, &now->rounding);
   if (whole) status = whole_correction(stage, now, found);
@@ -287,7 +339,7 @@ static int32_t converge(struct hk_stage *stage) {
     if (status != HOOKE_OK) break;
     if (!found) return give_up(stage, k, &now, "numbers are not finite");
     if (is_last(&now)) {
-      hk_add_multiple(it->size, 1.0, stage->change, stage->v);
+      hk_add_multiple(stage->size, 1.0, stage->change, stage->v);
       return HOOKE_OK;
     }
     now.slow = now.before > 0.0 && (now.share < 1.0 || now.size > SLOW * now.before) ? now.slow + 1 : 0;
@@ -300,13 +352,13 @@ static int32_t converge(struct hk_stage *stage) {
 
 /* right.B^-1 right with B the diagonal blocks of S where it was last set. */
 static double square_of(struct hk_stage *stage) {
-  return hk_reduced_square(&stage->reduced, stage->right);
+  const double square = hk_reduced_square(&stage->reduced, stage->right);
+  return stage->body.count > 0 ? square + hk_body_stage_square(stage) : square;
 }
 
 /* From the state at the beginning: exact in its derivatives for one iteration, else a guess. */
 static int32_t first_correction(struct hk_stage *stage, double *open) {
   hooke_integrator *it = stage->reduced.integrator;
-  const double *old = stage->begin + it->size;
   struct hk_solution solution = {0};
   it->count.nonlinear_iterations++;
   int32_t status = linearise(stage);
@@ -314,14 +366,13 @@ static int32_t first_correction(struct hk_stage *stage, double *open) {
   if (status != HOOKE_OK) return status;
   if (stage->one_iteration) {
     const double residual = fmax(LEAST_RESIDUAL, LINEAR_OF_TOLERANCE * stage->tolerance);
-    status = hk_reduced_solve(&stage->reduced, stage->right, residual, stage->change, &solution);
+    status = solve(stage, residual, hk_reduced_limit(&stage->reduced), &solution);
     if (solution.residual > fmax(residual, FAR_ENOUGH)) *open = 0.0;
   } else {
-    hk_reduced_project(&stage->reduced);
-    status = hk_reduced_correct(&stage->reduced, stage->right, LINEAR_SHARE, 0.0, stage->change, &solution);
+    status = correct(stage, LINEAR_SHARE, 0.0, &solution);
   }
-  for (int64_t k = 0; k < it->size; k++)
-    stage->v[k] = old[k] + stage->change[k];
+  for (int64_t k = 0; k < stage->size; k++)
+    stage->v[k] = stage->old[k] + stage->change[k];
   return status;
 }
 
@@ -334,18 +385,18 @@ static int one_is_enough(struct hk_stage *stage, double open) {
 }
 
 int32_t hk_stage_solve(struct hk_stage *stage, const struct hk_equations *equations) {
-  hooke_integrator *it = stage->reduced.integrator;
   double open;
   stage->at = *equations;
-  hk_motion_save(it->motion, stage->begin);
+  hk_stage_save(stage, stage->begin);
+  if (stage->body.count > 0) hk_body_stage_begin(stage);
   int32_t status = first_correction(stage, &open);
   if (status == HOOKE_OK && stage->one_iteration) {
     status = find_residual(stage, stage->v);
     if (status != HOOKE_OK || one_is_enough(stage, open)) return status;
   }
   /* numbers that are none are no guess, nor is one iteration that went astray */
-  if (stage->one_iteration || !(distance(stage, stage->begin + it->size) < INFINITY))
-    memcpy(stage->v, stage->begin + it->size, (size_t)it->size * sizeof(double));
+  if (stage->one_iteration || !(distance(stage, stage->old) < INFINITY))
+    memcpy(stage->v, stage->old, (size_t)stage->size * sizeof(double));
   if (status == HOOKE_OK) status = converge(stage);
   if (status == HOOKE_OK) place(stage, stage->v);
   return status;
@@ -362,12 +413,13 @@ static double time_of(const hooke_integrator *it, int64_t part) {
 static int32_t take_part(struct hk_stage *stage, int64_t done, int64_t parts, hk_stages_of_step *stages) {
   hooke_integrator *it = stage->reduced.integrator;
   const double end = time_of(it, done + parts);
-  hk_motion_save(it->motion, stage->start);
+  hk_stage_save(stage, stage->start);
   int32_t status = parts == FINEST_SPLIT ? HOOKE_OK : hk_integrator_drive(it, end);
   if (status == HOOKE_OK)
     status = stages(it, (struct hk_span_of_time){time_of(it, done),
                                                  (double)parts / FINEST_SPLIT * it->schedule.step, end});
   if (status == HOOKE_OK && it->system->constrained_count > 0) hk_motion_hold(it->system, it->motion);
+  if (status == HOOKE_OK && stage->body.count > 0) hk_body_stage_end(stage);
   if (status != HOOKE_OK || !stage->overdamped) return status;
   it->count.force_evaluations++;
   return hk_integrator_flow(it, end);
@@ -377,7 +429,8 @@ int32_t hk_stage_step(struct hk_stage *stage, hk_stages_of_step *stages) {
   hooke_integrator *it = stage->reduced.integrator;
   const struct hk_counts before = it->count;
   int32_t status = HOOKE_OK;
-  hk_motion_save(it->motion, stage->whole);
+  if (stage->body.count > 0) hk_bodies_read(it->system, it->motion, stage->body.own);
+  hk_stage_save(stage, stage->whole);
   for (int64_t done = 0, parts = FINEST_SPLIT; done < FINEST_SPLIT;) {
     status = take_part(stage, done, parts, stages);
     if (status == HOOKE_OK) {
@@ -388,11 +441,11 @@ int32_t hk_stage_step(struct hk_stage *stage, hk_stages_of_step *stages) {
     if (status != HOOKE_SOLVER_FAILED) break;
     it->count.nonlinear_failures++;
     if (parts == 1) break;
-    hk_motion_restore(it->motion, stage->start);
+    hk_stage_restore(stage, stage->start);
     parts /= 2;
   }
   if (status == HOOKE_OK) return HOOKE_OK;
   if (status == HOOKE_STOPPED) it->count = before;
-  hk_motion_restore(it->motion, stage->whole);
+  hk_stage_restore(stage, stage->whole);
   return status;
 }

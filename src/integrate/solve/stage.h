@@ -20,11 +20,12 @@
 #ifndef HOOKE_INTEGRATE_SOLVE_STAGE_H
 #define HOOKE_INTEGRATE_SOLVE_STAGE_H
 
+#include "integrate/solve/body_stage.h"
 #include "integrate/solve/reduced.h"
 
 struct hk_equations {
   double t, a;
-  const double *place, *speed; /* 3n each, x y z apart */
+  const double *place, *speed; /* 3n each, x y z apart; behind `speed` own coordinates of bodies likewise */
   double length; /* of the step from where the stage begins, for its error, of the order of the method */
 };
 
@@ -33,19 +34,27 @@ struct hk_stage {
   double tolerance;
   struct hk_reduced reduced;
   struct hk_equations at;
-  double *whole; /* q and v at the start of the whole step, 6 components of n; begins the block of all */
+  int64_t size, state_size;  /* numbers of velocities, and of a state */
+  struct hk_body_stage body; /* what bodies add to all below */
+  double *
+      whole; /* the state at the start of the whole step: q and v, 6 components of n; begins the block of all */
   double *start; /* likewise at the start of the part of it that is taken */
   double *begin; /* of the motion where the stage begins */
+  double *old;   /* velocities there, 3n */
   double *v, *change, *right,
       *moved;       /* the guess, the correction, -F or a right-hand side, scratch; 3n each */
   double *straight; /* velocities without any change of acceleration since the beginning, 3n */
-  double *others;   /* numbers of the method's own */
+  double *others;   /* states of the method's own */
 };
 
-/* Makes the stage of a method, as the integrator's `own`, with so many numbers in `others`. Reads the options
+/* Makes the stage of a method, as the integrator's `own`, with so many states in `others`. Reads the options
  * `newton`, `newton_tolerance` and `linear_solver`. After a failure hk_stage_destroy() has to follow. */
-int32_t hk_stage_create(hooke_integrator *integrator, int64_t numbers);
+int32_t hk_stage_create(hooke_integrator *integrator, int64_t states);
 void hk_stage_destroy(hooke_integrator *integrator);
+
+/* The state to and from the motion. */
+void hk_stage_save(const struct hk_stage *stage, double *state);
+void hk_stage_restore(struct hk_stage *stage, double *state);
 
 /* Solves the stage from where the motion is, and leaves the motion at its solution. The caller has driven
  * held particles to `t`. After a failure the motion is anywhere: HOOKE_SOLVER_FAILED, or HOOKE_STOPPED by a
