@@ -8,6 +8,13 @@ target_compile_definitions(hooke_test_flags INTERFACE
   HOOKE_SOURCE_DIR="${PROJECT_SOURCE_DIR}" ${HOOKE_HAVE_DEFINITIONS}
   HOOKE_CHECK_HANDLES=$<BOOL:${HOOKE_CHECK_HANDLES}>)
 
+# A hundred programs are linked in half the time.
+include(CheckLinkerFlag)
+check_linker_flag(C -fuse-ld=gold HOOKE_HAS_GOLD)
+if(HOOKE_HAS_GOLD)
+  target_link_options(hooke_test_flags INTERFACE -fuse-ld=gold)
+endif()
+
 # Windows goes without the sources that use what POSIX alone has.
 function(hooke_drop_foreign list)
   if(WIN32)

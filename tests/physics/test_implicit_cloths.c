@@ -58,31 +58,32 @@ static void check_cloth(int side, double stiffness, double damping, double h, in
 }
 
 /* Of 100 ms the softest alone: those of stiffer cloths take a minute. There the midpoint rule turns what it
- * does not resolve against itself, and is not asked. */
-static void check_side(int side, int largest_too) {
+ * does not resolve against itself, and is not asked. If `some`, with the ends of each range alone, and without
+ * 100 ms. */
+static void check_side(int side, int some) {
   const double stiffnesses[] = {1e3, 1e4, 2e5}, dampings[] = {0.0, 0.5, 20.0}, steps[] = {1e-4, 1e-3, 1e-2};
-  for (int s = 0; s < 3; s++) {
-    for (int d = 0; d < 3; d++) {
+  for (int s = 0; s < 3; s += some ? 2 : 1) {
+    for (int d = 0; d < 3; d += some ? 2 : 1) {
       for (int k = 0; k < 3; k++)
         check_cloth(side, stiffnesses[s], dampings[d], steps[k], METHODS);
-      if (largest_too && s == 0) check_cloth(side, stiffnesses[s], dampings[d], 0.1, METHODS - 1);
+      if (!some && s == 0) check_cloth(side, stiffnesses[s], dampings[d], 0.1, METHODS - 1);
     }
   }
 }
 
 static void check_given_side(void **side) {
-  check_side(*(const int *)*side, 1);
+  check_side(*(const int *)*side, 0);
 }
 
 static void cloths_of_20(void **unused) {
   (void)unused;
-  check_side(20, 1);
+  check_side(20, 0);
 }
 
 static void cloths_of_41(void **unused) {
   (void)unused;
   if (HOOKE_SANITIZED) skip(); /* the code is that of the other, which is shorter */
-  check_side(41, 0);
+  check_side(41, 1);
 }
 
 /* In place of these two, of a side that is given. */

@@ -4,6 +4,7 @@
 #include "random_scene.h"
 #include "reference.h"
 #include "run.h"
+#include "sanitized.h"
 #include "small.h"
 
 #include <math.h>
@@ -274,8 +275,10 @@ static void bounds_are_never_above_the_limit(void **unused) {
   const int features[] = {SCENE_GRAVITY, SCENE_DRAG, SCENE_DAMPING, SCENE_PULL_ONLY, SCENE_PINNED};
   double lowest = INFINITY, highest = 0.0;
   enum { MOST_ROWS = 16 };
-  int64_t limited[MOST_ROWS] = {0};
+  int64_t limited[MOST_ROWS] = {0}, tried = 0;
   for (uint64_t seed = 1; seed <= 10000; seed++) {
+    if (left_out((int64_t)seed, 11)) continue;
+    tried++;
     struct random_scene scene;
     struct random_scene_request request = {.seed = seed, .particles = 4 + (int64_t)(seed % 5)};
     request.springs = request.particles + (int64_t)(seed % 7);
@@ -309,7 +312,7 @@ static void bounds_are_never_above_the_limit(void **unused) {
   check_between(lowest, 0.4, 0.9);
   check_between(highest, 0.97, 1.0 + 1e-9);
   for (int row = 0; row < 7; row++)
-    assert_true(limited[row] > 1000);
+    assert_true(limited[row] > tried / 10);
 }
 
 /* ---- along a run ---- */

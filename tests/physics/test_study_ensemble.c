@@ -224,7 +224,7 @@ static void the_seed_decides(void **unused) {
   double mean[3];
   for (int k = 0; k < 3; k++) {
     hooke_measurement *study =
-        start(system, (struct study){.duration = 30.0,
+        start(system, (struct study){.duration = 20.0,
                                      .every = 0.1,
                                      .members = 2.0,
                                      .seed = k == 2 ? 2.0 : 1.0,
