@@ -33,7 +33,7 @@ struct hk_body_stage {
   struct hk_body_tangents tangents; /* by which the matrix was last set */
   struct hk_body_rotation *rotation;
   double *own;                         /* own coordinates of the motion, 13 each; begins the block of all */
-  double *push;                        /* acceleration and torque of each, by the last forces */
+  double *push;                        /* force and torque on each, with gravity */
   double *factor;                      /* 6 x 6 lower triangles of the diagonal blocks of S, 36 each */
   double *dq, *dv, *df;                /* of particles, 3n each */
   double *scaled, *unknown, *velocity; /* of the size of the stage */
