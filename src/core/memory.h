@@ -30,4 +30,11 @@ char *hk_copy_text(const char *text);
 
 void hk_free(void *block);
 
+/* The first `count` numbers of what is left of a block. */
+static inline double *hk_part(double **block, int64_t count) {
+  double *start = *block;
+  *block += count;
+  return start;
+}
+
 #endif

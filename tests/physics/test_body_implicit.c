@@ -1,5 +1,5 @@
-/* Implicit methods with rigid bodies: stiff springs at steps that do not resolve them, light particles between
- * bodies, and what is conserved. */
+/* Implicit methods with rigid bodies: stiff springs at steps that do not resolve them, light particles
+ * between bodies, and what is conserved. */
 #include "check.h"
 #include "run.h"
 
@@ -102,8 +102,8 @@ static void unresolved_motion_dies_out(void **unused) {
 
 enum { CHAIN = 11 };
 
-/* A post, a light particle, a bar of 3, a light particle, a tetrahedron of 4, a last particle; the bar swings and the
- * tetrahedron turns. `pinned`: its first corner. */
+/* A post, a light particle, a bar of 3, a light particle, a tetrahedron of 4, a last particle; the bar
+ * swings and the tetrahedron turns. `pinned`: its first corner. */
 static const double MASS[CHAIN] = {1, 1e-4, 0.2, 0.1, 0.2, 1e-4, 0.3, 0.2, 0.1, 0.2, 0.1};
 
 static hooke_system *chain(double stiffness, double damping, int pinned) {
@@ -131,7 +131,7 @@ static hooke_system *chain(double stiffness, double damping, int pinned) {
   return system;
 }
 
-/* Sum of m u of particles from `first` on, and of m r x u with r from the centre of mass or from the first. */
+/* Sums of m u and of m r x u of particles from `first` on, r from their centre of mass or from the first. */
 static void add_up(const double *q, const double *u, int first, int count, int pinned, double sum[6]) {
   double mass = 0.0, from[3] = {0.0, 0.0, 0.0};
   memset(sum, 0, 6 * sizeof *sum);
@@ -155,8 +155,9 @@ static void add_up(const double *q, const double *u, int first, int count, int p
   }
 }
 
-/* A step of backward Euler solves its equations: momentum and angular momentum of each particle and body have changed
- * by h times the force and the torque at its end, but for the bar's turning about its own axis, which there is not. */
+/* A step of backward Euler solves its equations: momentum and angular momentum of each particle and body
+ * have changed by h times the force and the torque at its end, but for the bar's turning about its own axis,
+ * which there is not. */
 static void check_step(const hooke_system *system, double step, int pinned) {
   static const int first[] = {1, 2, 5, 6, 10}, count[] = {1, 3, 1, 4, 1};
   hooke_integrator *integrator = start_run(system, (struct run){.method = "backward-euler", .step = step});
@@ -248,8 +249,8 @@ static void one_iteration_has_the_order(void **unused) {
 
 /* ---- momentum ---- */
 
-/* Two turning bodies that a spring joins, with nothing else: both momenta stay, by implicit midpoint the angular one
- * too. */
+/* Two turning bodies that two springs join, with nothing else: both momenta stay, by implicit midpoint the
+ * angular one too. */
 static void momentum_is_kept(void **unused) {
   (void)unused;
   const double q[] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 2, 0, 0, 3, 0.2, 0, 2.5, 1, 0.5, 2, 0.5, 1},

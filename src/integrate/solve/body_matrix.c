@@ -43,7 +43,7 @@ static void add_block(const double t[3][6], const double *s, int64_t n, double g
   }
 }
 
-/* The inertia of the equations is that at the beginning of the stage: it takes the place of the particles'. */
+/* The inertia of the equations is that where the stage begins: it takes the place of the particles'. */
 static void add_inertia(const struct hk_stage *stage, int64_t k, const double z[3], double out[3]) {
   const struct hk_body_tangent *tangent = &stage->body.tangents.body[k];
   double spin[3];
@@ -208,8 +208,8 @@ static void spread_change(const struct hk_stage *stage, int64_t k, const struct 
   }
 }
 
-/* out = the change of F of body k, with that of the forces of particles, df: d (p - P s) = dp - d x P s + P (d x s) -
- * P ds for a turn d. */
+/* out = the change of F of body k, with that of the forces of particles, df: d (p - P s) = dp - d x P s + P
+ * (d x s) - P ds for a turn d. */
 static void change_right(const struct hk_stage *stage, int64_t k, const double *x, const double *df,
                          double out[6]) {
   const struct hk_body_tangent *tangent = &stage->body.tangents.body[k];

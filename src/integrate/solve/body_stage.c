@@ -14,30 +14,27 @@ enum { MOST_ROTATIONS = 50 };
 
 /* ---- creating ---- */
 
-static double *part(double **block, int64_t count) {
-  double *start = *block;
-  *block += count;
-  return start;
-}
-
 static int32_t allocate(hooke_integrator *it, struct hk_body_stage *body) {
-  const int64_t count = body->count, size = it->size + HOOKE_BODY_VELOCITIES * count,
+  int64_t count = body->count, arms = 0;
+  const int64_t size = it->size + HOOKE_BODY_VELOCITIES * count,
                 numbers =
                     (HOOKE_BODY_NUMBERS + 6 + 36) * count + 3 * it->size + (3 + HOOKE_GENERAL_VECTORS) * size;
   double *block = hk_new(numbers, sizeof(double));
   body->own = block;
   body->rotation = hk_new(count, sizeof *body->rotation);
   if (block == NULL || body->rotation == NULL) return HOOKE_NO_MEMORY;
-  it->own_memory += numbers * (int64_t)sizeof(double) + count * (int64_t)sizeof *body->rotation;
+  for (int64_t k = 0; k < count; k++)
+    arms += 3 * it->system->bodies.mover[k]->count;
+  it->own_memory += (numbers + arms) * (int64_t)sizeof(double) + count * (int64_t)sizeof *body->rotation;
   block += HOOKE_BODY_NUMBERS * count;
-  body->push = part(&block, 6 * count);
-  body->factor = part(&block, 36 * count);
-  body->dq = part(&block, it->size);
-  body->dv = part(&block, it->size);
-  body->df = part(&block, it->size);
-  body->scaled = part(&block, size);
-  body->unknown = part(&block, size);
-  body->velocity = part(&block, size);
+  body->push = hk_part(&block, 6 * count);
+  body->factor = hk_part(&block, 36 * count);
+  body->dq = hk_part(&block, it->size);
+  body->dv = hk_part(&block, it->size);
+  body->df = hk_part(&block, it->size);
+  body->scaled = hk_part(&block, size);
+  body->unknown = hk_part(&block, size);
+  body->velocity = hk_part(&block, size);
   body->krylov = block;
   return HOOKE_OK;
 }

@@ -1,15 +1,15 @@
-/* What rigid bodies add to the stage of an implicit step (stage.h). Behind the velocities of particles, which are
- * 0 for those of bodies, each body has 6 unknowns: the velocity u of its point, and z with p = J0 z for its
- * moment of inertia J0 where the stage begins; behind the q and v of a state are its own coordinates
- * (model/body.h). From X, Q, V and L its stage goes to
+/* What rigid bodies add to the stage of an implicit step (stage.h). Behind the velocities of particles,
+ * which are 0 for those of bodies, each body has 6 unknowns: the velocity u of its point, and z with p = J0
+ * z for its moment of inertia J0 where the stage begins; behind the q and v of a state are its own
+ * coordinates (model/body.h). From X, Q, V and L its stage goes to
  *   X' = X + a u,  Q' = Q + a (0, w) Q'/2,  m (u - V) = a F,  p = P (L + a T),  J w = p
- * with force F and torque T there, gravity included, and its moment of inertia J and the projection P on the axes
- * that it turns about in the position X', Q'. About other axes J has a moment of its own, so that w has no
- * component there. Q' follows from w by a rotation in Cayley form, and w from p body by body, down to rounding: so
- * a free body keeps its angular momentum whatever the tolerance.
+ * with force F and torque T there, gravity included, and its moment of inertia J and the projection P on the
+ * axes that it turns about in the position X', Q'. About other axes J has a moment of its own, so that w has
+ * no component there. Q' follows from w by a rotation in Cayley form, and w from p body by body, down to
+ * rounding: so a free body keeps its angular momentum whatever the tolerance.
  *
- * The whole matrix is the derivative of all this. S is T^T S T of the particles' S, with the displacements T of
- * the particles of bodies and with J0 as inertia: changes of arms and axes are left out. */
+ * The whole matrix is the derivative of all this. S is T^T S T of the particles' S, with the displacements
+ * T of the particles of bodies and with J0 as inertia: changes of arms and axes are left out. */
 #ifndef HOOKE_INTEGRATE_SOLVE_BODY_STAGE_H
 #define HOOKE_INTEGRATE_SOLVE_BODY_STAGE_H
 
@@ -33,7 +33,7 @@ struct hk_body_stage {
   struct hk_body_tangents tangents; /* by which the matrix was last set */
   struct hk_body_rotation *rotation;
   double *own;                         /* own coordinates of the motion, 13 each; begins the block of all */
-  double *push;                        /* acceleration and torque of each, by the last forces */
+  double *push;                        /* force and torque on each, with gravity */
   double *factor;                      /* 6 x 6 lower triangles of the diagonal blocks of S, 36 each */
   double *dq, *dv, *df;                /* of particles, 3n each */
   double *scaled, *unknown, *velocity; /* of the size of the stage */
@@ -53,15 +53,16 @@ void hk_body_stage_begin(struct hk_stage *stage);
 /* The bodies' part of `right`, from the forces of the motion. */
 void hk_body_stage_residual(struct hk_stage *stage, const double *v);
 
-/* The bodies' part of linearise(), where the change of the forces is in `moved`, and their own change is in arms
- * and axes: `right` and `straight`. */
+/* The bodies' part of linearise(), where the change of the forces is in `moved`, and their own change is in
+ * arms and axes: `right` and `straight`. */
 void hk_body_stage_linearise(struct hk_stage *stage);
 
 /* The part of the square of a distance, and of right.B^-1 right. */
 double hk_body_stage_distance(const struct hk_stage *stage, const double *from);
 double hk_body_stage_square(const struct hk_stage *stage);
 
-/* out = y + a y' of own coordinates y, by the forces of the motion; and from the middle of a step to its end. */
+/* out = y + a y' of own coordinates y, by the forces of the motion; and on from the middle of a
+ * step to its end. */
 void hk_body_stage_explicit(struct hk_stage *stage, double a, double *out);
 void hk_body_stage_go_on(struct hk_stage *stage);
 

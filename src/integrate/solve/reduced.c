@@ -22,12 +22,6 @@ static int is_own(const struct hk_force_row *row) {
   return row == &hk_force_springs || row->multiply;
 }
 
-static double *part(double **block, int64_t count) {
-  double *start = *block;
-  *block += count;
-  return start;
-}
-
 static int32_t read_linear_solver(struct hk_reduced *reduced) {
   const hooke_integrator *it = reduced->integrator;
   const char *word = hooke_options_text(it->options, "linear_solver");
@@ -73,20 +67,20 @@ int32_t hk_reduced_create(hooke_integrator *it, int32_t kind, struct hk_reduced 
     const struct hk_force_row *row = system->force_row[k];
     reduced->rows_needed |= !is_own(row) && (row->add_product || row->elements);
   }
-  reduced->diagonal = part(&block, n);
+  reduced->diagonal = hk_part(&block, n);
   for (int a = 0; a < 3; a++)
-    reduced->tangent.u[a] = reduced->tangent.e[a] = part(&block, m);
+    reduced->tangent.u[a] = reduced->tangent.e[a] = hk_part(&block, m);
   for (int a = 0; a < 3 && !symmetric; a++)
-    reduced->tangent.e[a] = part(&block, m);
-  if (!symmetric) reduced->tangent.b = part(&block, m);
-  reduced->block = part(&block, 6 * n);
-  reduced->factor = part(&block, 6 * n);
-  reduced->right = part(&block, 3 * n);
-  reduced->unknown = part(&block, 3 * n);
-  reduced->place = part(&block, 3 * n);
-  reduced->moved = part(&block, 3 * n);
-  reduced->krylov = part(&block, 3 * n * vectors);
-  if (!symmetric || rows > 0) reduced->rows = part(&block, rows);
+    reduced->tangent.e[a] = hk_part(&block, m);
+  if (!symmetric) reduced->tangent.b = hk_part(&block, m);
+  reduced->block = hk_part(&block, 6 * n);
+  reduced->factor = hk_part(&block, 6 * n);
+  reduced->right = hk_part(&block, 3 * n);
+  reduced->unknown = hk_part(&block, 3 * n);
+  reduced->place = hk_part(&block, 3 * n);
+  reduced->moved = hk_part(&block, 3 * n);
+  reduced->krylov = hk_part(&block, 3 * n * vectors);
+  if (!symmetric || rows > 0) reduced->rows = hk_part(&block, rows);
   if (kind != HOOKE_REDUCED_GENERAL) return HOOKE_OK;
   const int32_t status = read_linear_solver(reduced);
   return status == HOOKE_OK ? prepare_direct(reduced) : status;

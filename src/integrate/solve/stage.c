@@ -21,12 +21,6 @@ static const double LEAST_SHARE = 1e-4, ROUNDINGS = 1.0, ALL_ROUNDINGS = 100.0;
 static const double ONE_LEAVES = 1.0;
 enum { MANY_SLOW = 4, LEAST_TRIES = 20, MOST_ITERATIONS = 100, LONGEST_PAUSE = 16, FINEST_SPLIT = 1024 };
 
-static double *part(double **block, int64_t count) {
-  double *start = *block;
-  *block += count;
-  return start;
-}
-
 static int32_t allocate(struct hk_stage *stage, int64_t states) {
   hooke_integrator *it = stage->reduced.integrator;
   const int64_t own = stage->body.count > 0,
@@ -36,14 +30,14 @@ static int32_t allocate(struct hk_stage *stage, int64_t states) {
   if (block == NULL) return HOOKE_NO_MEMORY;
   it->own_memory += numbers * (int64_t)sizeof(double);
   block += stage->state_size;
-  stage->start = part(&block, stage->state_size);
-  stage->begin = part(&block, stage->state_size);
-  stage->old = own ? part(&block, stage->size) : stage->begin + it->size;
-  stage->v = part(&block, stage->size);
-  stage->change = part(&block, stage->size);
-  stage->right = part(&block, stage->size);
-  stage->moved = part(&block, stage->size);
-  stage->straight = part(&block, stage->size);
+  stage->start = hk_part(&block, stage->state_size);
+  stage->begin = hk_part(&block, stage->state_size);
+  stage->old = own ? hk_part(&block, stage->size) : stage->begin + it->size;
+  stage->v = hk_part(&block, stage->size);
+  stage->change = hk_part(&block, stage->size);
+  stage->right = hk_part(&block, stage->size);
+  stage->moved = hk_part(&block, stage->size);
+  stage->straight = hk_part(&block, stage->size);
   stage->others = block;
   return HOOKE_OK;
 }

@@ -15,6 +15,8 @@
  * M v' = f in place of the second equation. In F, b = 1 stands for a, and 0 for `speed`; the matrix is
  * M - a K. Velocities are f/gamma at the beginning of a stage, and after a step.
  *
+ * Rigid bodies add unknowns of their own (body_stage.h).
+ *
  * Iterations end where the error of v', in the norm of S, is below `newton_tolerance` times the error that
  * the step makes itself. A stage that is not solved is a step that is split in two. */
 #ifndef HOOKE_INTEGRATE_SOLVE_STAGE_H
@@ -25,7 +27,7 @@
 
 struct hk_equations {
   double t, a;
-  const double *place, *speed; /* 3n each, x y z apart; behind `speed` own coordinates of bodies likewise */
+  const double *place, *speed; /* 3n each, x y z apart; behind `speed` own coordinates of bodies */
   double length; /* of the step from where the stage begins, for its error, of the order of the method */
 };
 
@@ -34,17 +36,16 @@ struct hk_stage {
   double tolerance;
   struct hk_reduced reduced;
   struct hk_equations at;
-  int64_t size, state_size;  /* numbers of velocities, and of a state */
-  struct hk_body_stage body; /* what bodies add to all below */
-  double *
-      whole; /* the state at the start of the whole step: q and v, 6 components of n; begins the block of all */
-  double *start; /* likewise at the start of the part of it that is taken */
-  double *begin; /* of the motion where the stage begins */
-  double *old;   /* velocities there, 3n */
-  double *v, *change, *right,
-      *moved;       /* the guess, the correction, -F or a right-hand side, scratch; 3n each */
-  double *straight; /* velocities without any change of acceleration since the beginning, 3n */
-  double *others;   /* states of the method's own */
+  struct hk_body_stage body; /* what bodies add */
+  int64_t state_size;        /* numbers of a state: q and v, 6 components of n, and those of bodies */
+  int64_t size;              /* numbers of velocities, 3n and those of bodies */
+  double *whole;             /* the state at the start of the whole step; begins the block of all */
+  double *start;             /* likewise at the start of the part of it that is taken */
+  double *begin;             /* of the motion where the stage begins */
+  double *old;               /* velocities there */
+  double *v, *change, *right, *moved; /* the guess, the correction, -F or a right-hand side, scratch */
+  double *straight;                   /* velocities without any change of acceleration since the beginning */
+  double *others;                     /* states of the method's own */
 };
 
 /* Makes the stage of a method, as the integrator's `own`, with so many states in `others`. Reads the options
