@@ -40,7 +40,7 @@ function widen(box) {
     box[axis] < picture.home[axis] - margin || box[axis + 3] > picture.home[axis + 3] + margin);
   if (!beyond) return;
   picture.home = boxAround([picture.home, box]);
-  picture.look([...scene.box.keys()], picture.camera.position.clone().sub(picture.controls.target).normalize());
+  picture.look(picture.sample([...scene.box.keys()]), picture.towards);
 }
 
 function drawFrame(blown = false) {
