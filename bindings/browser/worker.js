@@ -12,7 +12,7 @@ let first = null, calm = null; // states: where this run began, and the last one
 /* ---- what a scene has of energy, and how much of it came from nowhere ---- */
 
 class Watch {
-  constructor() {
+  constructor(live) {
     this.first = live.energies;
     this.fall = 0;
     this.lenient = live.isDriven ? 1e4 : 1; // a drive adds energy
@@ -32,7 +32,7 @@ class Watch {
 /* A few states of the scene's own run, for the camera and the colours. */
 function preview(given) {
   const states = [live.position.slice()], duration = given.duration > 0 ? given.duration : 1;
-  const from = performance.now(), steps = Math.max(1, Math.round(duration / 15 / live.step)), look = new Watch();
+  const from = performance.now(), steps = Math.max(1, Math.round(duration / 15 / live.step)), look = new Watch(live);
   while (states.length < 16 && performance.now() - from < 500) {
     if (!live.take(Math.min(steps, 2000)) || look.look(live.energies) > GAIN.slow) break;
     states.push(live.position.slice());
@@ -49,7 +49,7 @@ function start(scene, text) {
 }
 
 function restartWatch() {
-  watch = new Watch();
+  watch = new Watch(live);
   first = live.now;
   pace = { owed: 0, slow: false, steps: 1, before: 0, cost: 0, ended: false, diverged: null, calm: 0 };
 }
@@ -162,6 +162,9 @@ const ANSWERS = {
   },
   why({ text, changes, ...asked }) {
     return { is: "why", ...whyOf(new Live(library, changedScene(text, changes)), asked) };
+  },
+  study({ text, changes }) {
+    return { is: "studied", ...studyOf(new Live(library, changedScene(text, changes)), library.methods(), postMessage) };
   },
   use({ method, step }) {
     live.use(method, step);

@@ -1,6 +1,7 @@
 """The playground in Chromium, from a file: it runs, blows up by one drag, says why, and is set right; bits, errors, links."""
 
 import json
+import math
 import time
 
 import pytest
@@ -8,6 +9,8 @@ from browser import Browser
 from conftest import ROOT
 from pages import BROWSER
 from test_same_bits import native
+
+import hooke
 
 PAGE = ROOT / "build/playground/live.html"
 pytestmark = [pytest.mark.skipif(not PAGE.exists(), reason="the playground is not built (`make playground`)"),
@@ -111,3 +114,30 @@ def test_bits_in_the_browser(browser):
       };
     })"""
     assert browser.run(script.replace("RUNS", json.dumps(runs))) == [native(run) for run in runs]
+
+
+def test_a_small_study(browser):
+    """Its errors are those of the program, whose reference is another; each method has its order; the front is the front."""
+    begin(browser)
+    browser.run("openScene({ text: scenes['six-particles'] })")
+    wait(browser, "document.body.dataset.heard === 'frame' && at('text').value === scenes['six-particles']")
+    browser.run("at('study-begin').click()")
+    wait(browser, "['done', 'failed'].includes(document.body.dataset.study)")
+    assert not browser.run("playing") and browser.run("document.body.dataset.study") == "done"
+    rows, agreement = browser.run("[studied.rows, studied.agreement]")
+    assert len(rows) > 25 and 0 < agreement < 1e-5
+    scene = hooke.Scene.load(ROOT / "examples/scenes/six-particles.json")
+    for method, order in (("symplectic-euler", 1), ("verlet", 2), ("rk4", 4), ("tr-bdf2", 2)):
+        coarser, finest = sorted((row for row in rows if row["method"] == method), key=lambda row: -row["step"])[-2:]
+        assert math.log2(coarser["error"] / finest["error"]) == pytest.approx(order, rel=0.2), method
+        here = hooke.compare(scene, methods=[method], step=finest["step"], duration=5, every=0.25).rows["error"][0]
+        assert finest["error"] == pytest.approx(here, rel=1e-3, abs=2 * agreement), method
+    whole = [(row["seconds"], max(row["error"], agreement), row["front"]) for row in rows if not row.get("blown")]
+    for time_, error, front in whole:
+        beaten = any(t <= time_ and e <= error and (t, e) != (time_, error) for t, e, _ in whole)
+        assert front != beaten
+    browser.run("document.querySelector('#study-rows button').click()")
+    wait(browser, "playing && !ended && Number(document.body.dataset.time) > 0.1")
+    assert browser.run("[method(), stepNow()]") == [rows[0]["method"], rows[0]["step"]]
+    browser.run("at('mass').value = 3; at('mass').oninput()")
+    assert browser.run("at('study-result').hidden") and browser.console == []

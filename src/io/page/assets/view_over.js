@@ -41,7 +41,7 @@ window.drawOver = (others) => {
   pick(null);
   if (picture) {
     picture.drawOver(runs.slice(1));
-    picture.fit(...picture.someFrames);
+    picture.fitAll();
   }
   dress();
   relook();

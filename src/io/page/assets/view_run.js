@@ -234,6 +234,12 @@ class Run {
 
   /* ---- frames ---- */
 
+  /* Some of the frames that are laid out for. */
+  get someFrames() {
+    const kept = keptFrames(this.data), stride = Math.ceil(kept.length / 16);
+    return kept.filter((_, place) => place % stride === 0 || place === kept.length - 1);
+  }
+
   /* Some of the particles in these frames. */
   sample(frames) {
     const stride = Math.max(1, Math.floor((this.marks.length * frames.length) / 6000)), points = [];

@@ -20,12 +20,6 @@ class Picture extends Run {
     this.setUp();
   }
 
-  /* Some of the frames that are laid out for. */
-  get someFrames() {
-    const kept = keptFrames(this.data), stride = Math.ceil(kept.length / 16);
-    return kept.filter((_, place) => place % stride === 0 || place === kept.length - 1);
-  }
-
   get runs() {
     return [this, ...this.others];
   }
@@ -49,7 +43,7 @@ class Picture extends Run {
     this.camera.up.set(0, 0, 0).setComponent(up, gravity[up] > 0 ? -1 : 1);
     this.controls = new THREE.OrbitControls(this.camera, this.canvas);
     this.controls.enableKeys = false; // arrows step frames
-    this.look(frames, this.directionOf(this.home, frames));
+    this.look(this.sample(frames), this.directionOf(this.home, frames));
   }
 
   /* What is flat is looked at from its front, all else from a corner and above. */
@@ -80,8 +74,7 @@ class Picture extends Run {
 
   /* The frame of these in which the most is seen from where the camera is. */
   fullest(frames) {
-    const towards = this.camera.position.clone().sub(this.controls.target).normalize();
-    const spread = frames.map((frame) => this.spreadOf(this.sample([frame]), towards));
+    const { towards } = this, spread = frames.map((frame) => this.spreadOf(this.sample([frame]), towards));
     return frames[spread.reduce((best, value, k) => (value > 1.1 * spread[best] ? k : best), 0)];
   }
 
@@ -94,10 +87,10 @@ class Picture extends Run {
     return frameNear(run.data.time, this.data.time[frame]);
   }
 
-  /* Looks along `towards` at the contents of these frames, from the smallest distance that shows all. */
-  look(frames, towards) {
+  /* Looks along `towards` at these points, from the smallest distance that shows all. */
+  look(points, towards) {
     this.resize();
-    const points = this.sample(frames), target = new THREE.Box3().setFromPoints(points).getCenter(new THREE.Vector3());
+    const target = new THREE.Box3().setFromPoints(points).getCenter(new THREE.Vector3());
     const right = new THREE.Vector3().crossVectors(this.camera.up, towards).normalize();
     const above = new THREE.Vector3().crossVectors(towards, right);
     const tall = 0.86 * Math.tan((this.camera.fov * Math.PI) / 360), wide = tall * this.camera.aspect;
@@ -131,8 +124,17 @@ class Picture extends Run {
     this.controls.update();
   }
 
-  fit(...frames) {
-    this.look(frames, this.camera.position.clone().sub(this.controls.target).normalize());
+  get towards() {
+    return this.camera.position.clone().sub(this.controls.target).normalize();
+  }
+
+  fit(frame) {
+    this.look(this.sample([frame]), this.towards);
+  }
+
+  /* To all that the runs are laid out for. */
+  fitAll() {
+    this.look(this.runs.flatMap((run) => Run.prototype.sample.call(run, run.someFrames)), this.towards);
   }
 
   resize() {

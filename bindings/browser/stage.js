@@ -1,0 +1,64 @@
+"use strict";
+/* The picture, drawn by the viewer. */
+
+/* The viewer's data: the frames of the preview, by which the camera is set, and last the live one. */
+function makePicture(opened) {
+  const canvas = at("picture"), fresh = canvas.cloneNode();
+  if (picture) picture.renderer.dispose();
+  for (const side of ["width", "height"]) fresh.removeAttribute(side); // which the picture sets, and what depends on it
+  canvas.replaceWith(fresh);
+  const frames = [...opened.frames, opened.frames[0]];
+  scene = { box: frames.map(({ box }) => box), status: "running", gravity: opened.gravity, bodies: opened.bodies, live: frames.length - 1,
+    bytes: frames.map(({ bytes }) => bytes) };
+  picture = null;
+  try {
+    picture = new Picture(fresh, { data: scene, ends: opened.ends, marks: opened.marks, bytesOfFrame: (k) => scene.bytes[k] });
+  } catch (trouble) {
+    at("missing").hidden = false;
+    return;
+  }
+  const palette = picture.paint();
+  picture.controls.addEventListener("change", () => picture.draw());
+  at("colours").style.background = `linear-gradient(to right, ${palette.join(", ")})`;
+  at("low").textContent = `\u2212${number(100 * opened.strain)} %`;
+  at("high").textContent = `+${number(100 * opened.strain)} %`;
+  if (!opened.bodies.length) at("tint").checked = true;
+  dress();
+}
+
+function dress() {
+  at("scale").hidden = !at("tint").checked;
+  if (picture) picture.setLook("surface", at("tint").checked);
+  drawFrame();
+}
+
+const widthOf = (box) => Math.max(box[3] - box[0], box[4] - box[1], box[5] - box[2]);
+
+/* Looks from further away, at all frames of the preview and this one, where it goes beyond what was seen. */
+function widen(box) {
+  const margin = 0.05 * widthOf(picture.home), beyond = [0, 1, 2].some((axis) =>
+    box[axis] < picture.home[axis] - margin || box[axis + 3] > picture.home[axis + 3] + margin);
+  if (!beyond) return;
+  picture.home = boxAround([picture.home, box]);
+  picture.look(picture.sample([...scene.box.keys()]), picture.towards);
+}
+
+function drawFrame(blown = false) {
+  if (!picture) return;
+  const box = scene.box[scene.live], width = widthOf(box) / widthOf(picture.home), wide = blown && width > 1.6;
+  if (!blown) widen(box);
+  picture.show(scene.live);
+  if (wide) picture.fit(scene.live);
+  at("zoomed").textContent = wide ? `${number(width, 2)} times as wide as before; the picture zooms out` : "";
+  picture.draw();
+}
+
+function take(frame) {
+  scene.box[scene.live] = frame.box;
+  scene.bytes[scene.live] = frame.bytes;
+  drawFrame(Boolean(frame.slow));
+  if (!frame.slow) bounds = frame.bounds;
+  markBound();
+  at("now").textContent = `t = ${number(frame.time, 4)} s${frame.late ? ", slower than asked for" : ""}`;
+  document.body.dataset.time = frame.time;
+}
