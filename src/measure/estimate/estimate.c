@@ -236,8 +236,8 @@ static int32_t measure(struct hk_estimate *e, const hooke_state *state) {
     hk_print(e->note, sizeof e->note,
              isinf(e->soundness.least_limit) ? "its energy grows by itself"
                                              : "its step is above 0.9 of the stable one");
-  else if (status == HOOKE_OK && e->soundness.no_limit && !e->note[0])
-    hk_print(e->note, sizeof e->note, "the stable step is not known: the scene has rigid bodies");
+  else if (status == HOOKE_OK && e->soundness.unknown_limit && !e->note[0])
+    hk_print(e->note, sizeof e->note, "the stable step of its rigid bodies is not known at all times");
   return status;
 }
 
@@ -258,7 +258,7 @@ double hk_estimate_met(const struct hk_estimate *e) {
   const double end = e->begin + e->duration;
   if (isnan(e->want)) return NAN;
   if (e->error > e->want || (e->options && !isnan(e->error) && !is_sound(e))) return 0.0;
-  if (e->soundness.no_limit) return NAN;
+  if (e->soundness.unknown_limit) return NAN;
   return e->error <= e->want && e->known_until >= end * (1.0 - 1e-12) && e->known_from <= e->begin ? 1.0
                                                                                                    : NAN;
 }

@@ -196,12 +196,12 @@ static void raise_largest(struct search *s) {
     return;
   s->raised = 1;
   struct hk_patience patience = hk_patience_of(seconds, NULL, NULL);
-  if (hk_limit_sure(s->pick->system, q, s->method, &patience, &limit) == HOOKE_OK)
+  if (hk_limit_sure(s->pick->system, q, NULL, s->method, &patience, &limit) == HOOKE_OK)
     s->largest = fmin(s->pick->unit, hk_soundness_limit_share * limit);
 }
 
 /* The bound on the step at the start, and the largest allowed value; that is below the bound where steps that
- * solve nothing are cheaper. */
+ * solve nothing are cheaper, as verlet's with bodies always are. */
 static int32_t find_largest(struct search *s) {
   const double *q = s->pick->reference.frames.position;
   s->bound = INFINITY;
@@ -209,7 +209,7 @@ static int32_t find_largest(struct search *s) {
   if (isnan(s->bound)) s->bound = INFINITY;
   s->largest = s->adaptive ? LOOSEST : fmin(s->pick->unit, hk_soundness_limit_share * s->bound);
   const double before = s->largest;
-  const int32_t solves = !s->adaptive && s->pick->system->bodies.moving == 0; /* no step solves with bodies */
+  const int32_t solves = !s->adaptive && s->pick->system->bodies.moving == 0;
   const int32_t status = solves ? hk_step_cheapest(s->pick->system, s->method, &s->largest) : HOOKE_OK;
   s->raised = s->largest < before;
   return status;

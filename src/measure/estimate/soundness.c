@@ -34,24 +34,37 @@ int32_t hk_soundness_begin(struct hk_soundness *s, const hooke_system *system, c
   s->gravity0 = at.gravity;
   s->scale = at.kinetic + at.elastic;
   if (!hk_step_is_bounded(method) || !(step > 0.0)) return HOOKE_OK;
-  s->no_limit = system->bodies.moving > 0;
-  return s->no_limit ? HOOKE_OK : hk_node_blocks_create(system, q, &s->blocks);
+  s->by_limit = system->bodies.moving > 0;
+  return s->by_limit ? HOOKE_OK : hk_node_blocks_create(system, q, &s->blocks);
+}
+
+/* Takes its time from the patience. */
+static void find_limit(struct hk_soundness *s, const double *q, const double *v, double *limit) {
+  const double begun = hk_clock_seconds();
+  struct hk_patience patience = hk_patience_of(s->patience, NULL, NULL);
+  (void)hk_limit_sure(s->system, q, v, s->method, &patience, limit);
+  s->patience -= hk_clock_seconds() - begun;
+}
+
+/* With bodies there is no bound to begin with. */
+static void see_limit(struct hk_soundness *s, const double *q, const double *v) {
+  double limit = 0.0;
+  if (s->patience > 0.0) find_limit(s, q, v, &limit);
+  if (limit == 0.0) s->unknown_limit = 1;
+  if (limit > 0.0 && s->step > hk_soundness_limit_share * limit) s->least_limit = fmin(s->least_limit, limit);
 }
 
 /* The limit itself is computed only where the step is not clear of the bound, until the step is not clear of
  * a limit; after that the limit is assumed to scale with the bound, which determines the next step to try. */
-static void see_step(struct hk_soundness *s, const double *q) {
+static void see_step(struct hk_soundness *s, const double *q, const double *v) {
   int64_t particle;
   hk_node_blocks_fill(&s->blocks, q);
   if (hk_step_is_safe(&s->blocks, s->method, s->step / hk_soundness_limit_share, &particle)) return;
   const double bound = hk_step_bound_of(&s->blocks, s->method);
   double limit = s->limit_over_bound * bound;
   if (s->patience > 0.0 && isinf(s->least_limit)) {
-    const double begun = hk_clock_seconds();
-    struct hk_patience patience = hk_patience_of(s->patience, NULL, NULL);
     limit = bound;
-    (void)hk_limit_sure(s->system, q, s->method, &patience, &limit);
-    s->patience -= hk_clock_seconds() - begun;
+    find_limit(s, q, v, &limit);
     s->limit_over_bound = limit > 0.0 && s->patience > 0.0 ? limit / bound : 1.0;
   }
   if (s->step > hk_soundness_limit_share * limit) s->least_limit = fmin(s->least_limit, limit);
@@ -63,7 +76,9 @@ void hk_soundness_see(struct hk_soundness *s, const hooke_state *state) {
   s->swing = fmax(s->swing, fabs(at.gravity - s->gravity0));
   s->time[s->count] = hooke_state_time(state);
   s->energy[s->count++] = at.kinetic + at.elastic + (at.gravity - s->gravity0);
-  if (s->blocks.system) see_step(s, hooke_state_position(state));
+  if (s->blocks.system) see_step(s, hooke_state_position(state), hooke_state_velocity(state));
+  if (s->by_limit && !s->unknown_limit)
+    see_limit(s, hooke_state_position(state), hooke_state_velocity(state));
 }
 
 void hk_soundness_release(struct hk_soundness *s) {

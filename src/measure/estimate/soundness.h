@@ -18,7 +18,8 @@ struct hk_soundness {
   double limit_over_bound;
   double patience;               /* remaining time for limits, where the step is not clear of the bound [s] */
   double scale, gravity0, swing; /* energy scale, as in the definition of "diverged" [J] */
-  int32_t no_limit;              /* 1: there is one, but with rigid bodies nobody knows it */
+  int32_t by_limit;              /* 1: with rigid bodies, of which no bound is known */
+  int32_t unknown_limit;         /* 1: at some state their limit is not known, or patience had ended */
   int64_t count, capacity;
   double *time, *energy; /* of the recorded states */
 };

@@ -44,11 +44,11 @@ int32_t hk_limit_predict_within(const hooke_system *system, const double *q, con
   return status;
 }
 
-int32_t hk_limit_sure(const hooke_system *system, const double *q, const char *method,
+int32_t hk_limit_sure(const hooke_system *system, const double *q, const double *v, const char *method,
                       struct hk_patience *patience, double *limit) {
   struct hk_linearised linearised;
   struct hk_prediction prediction;
-  int32_t status = hk_linearised_create(system, q, NULL, NULL, NULL, &linearised);
+  int32_t status = hk_linearised_create(system, q, v, NULL, NULL, &linearised);
   if (status != HOOKE_OK) return status;
   linearised.patience = patience;
   status = predict(&linearised, method, SURE, HOOKE_SPECTRUM_EXTREMES, &prediction);

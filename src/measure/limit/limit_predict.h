@@ -23,10 +23,10 @@ int32_t hk_limit_predict_within(const hooke_system *system, const double *q, con
                                 const char *method, const double *spring_scale, const double *mass_scale,
                                 double accuracy, double room, struct hk_patience *patience, double *limit);
 
-/* Raises `limit`, initially hooke_step_bound(), to a step [s] at which the linearised system is certainly
- * stable by its extreme eigenvalues: the limit or close to it. If these do not suffice, and after patience
- * has ended, it stays the bound. HOOKE_BAD_VALUE, HOOKE_NO_MEMORY. */
-int32_t hk_limit_sure(const hooke_system *system, const double *q, const char *method,
+/* Raises `limit`, initially hooke_step_bound() (with bodies 0), to a step [s] at which the linearised system is
+ * certainly stable by its extreme eigenvalues: the limit or close to it. If these do not suffice, where bodies
+ * spin too fast, and after patience has ended, it stays what it was. HOOKE_BAD_VALUE, HOOKE_NO_MEMORY. */
+int32_t hk_limit_sure(const hooke_system *system, const double *q, const double *v, const char *method,
                       struct hk_patience *patience, double *limit);
 
 #endif
