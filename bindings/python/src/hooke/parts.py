@@ -13,10 +13,10 @@ class Parts:
     """The methods of a scene that add parts.
 
     Every part takes a `name` (the default is its kind and its number among the parts) and either `mass`, its total
-    [kg], or `density`; an overdamped scene without gravity needs neither. `pinned` pins particles: numbers within the part, or words. A family of springs is a dict,
-    ``dict(stiffness=50, damping=0.01)``, see `Springs`; a family that is not given has no springs. With `rigid` True the
-    part moves as one rigid body. Springs follow the
-    strain law, so that a finer part of the same material stretches equally. Each method returns the scene, for the
+    [kg], or `density`; an overdamped scene without gravity needs neither. `pinned` pins particles: numbers within the
+    part, or words. A family of springs is a dict, ``dict(stiffness=50, damping=0.01)``, see `Springs`; a family that
+    is not given has no springs. With `rigid` True the part moves as one rigid body. Springs follow the strain law, so
+    that a finer part of the same material stretches equally. Each method returns the scene, for the
     next call.
     """
 
