@@ -78,7 +78,7 @@ def test_report(prefix, tmp_path):
     pages = {p.name for p in (prefix / "share/hooke").glob("*.*")}
     if "HOOKE_CLI" not in os.environ or not pages:
         pytest.skip("this build writes no reports")
-    sources = {p.name for p in (ROOT / "src/io/page/assets").iterdir()}
+    sources = {p.name for p in (ROOT / "src/io/page/assets").rglob("*.*")}
     assert pages == sources | {"chart.js", "three.js", "three_orbit.js"}
     seen = set()
     for verb, *options in (("needs", "--want", "0.1"), ("limit", "--methods", "rk4"), ("study", "--methods", "rk4")):

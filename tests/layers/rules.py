@@ -36,9 +36,9 @@ FENCES = [
     (r"(arkode|cvode|nvector|sundials|sunlinsol|sunmatrix|sunnonlinsol)/.*",
      r"src/integrate/\w+/(arkode|cvode|sundials)\w*\.[ch]"),
     (r"cholmod\.h", r"src/integrate/solve/\w+_cholmod\.c"),
-    (r"lapacke?\w*\.h", r"src/measure/spectrum/\w+_lapack\.c"),
+    (r"lapacke?\w*\.h", r"src/measure/spectrum/eigen/\w+_lapack\.c"),
     (r"gsl/.*", r"src/integrate/method/\w+_gsl\.c"),
-    (r"arpack/.*", r"src/measure/spectrum/\w+_arpack\.[ch]"),
+    (r"arpack/.*", r"src/measure/spectrum/eigen/\w+_arpack\.[ch]"),
     (r"execinfo\.h", r"tests/fault/(process_faults|places)\.c"),  # of glibc
     (r"sys/syscall\.h", r"tests/crash/crash\.c"),  # of Linux
     (r"malloc\.h", r"cli/os/os_posix\.c|src/core/os/os_windows\.c|tests/physics/test_scale\.c|tests/long/\w+\.c"),
@@ -49,7 +49,7 @@ FENCES = [
 ]
 
 # Fortran functions, which need no header, and the only files that may call them.
-CALLS = [(r"\b[dz](ge|st|sy|he|or)\w+_\s*\(", r"src/measure/spectrum/\w+_lapack\.c")]
+CALLS = [(r"\b[dz](ge|st|sy|he|or)\w+_\s*\(", r"src/measure/spectrum/eigen/\w+_lapack\.c")]
 
 # Headers of C17, POSIX, Linux and the compiler.
 STANDARD = set(

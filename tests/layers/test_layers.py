@@ -29,8 +29,8 @@ def test_calls():
 
 def test_planted_call():
     call = "extern void dsyev_(const char *job);\n"
-    assert rules.call_complaints("src/measure/spectrum/eigen.c", call)
-    assert rules.call_complaints("src/measure/spectrum/dense_lapack.c", call) == []
+    assert rules.call_complaints("src/measure/spectrum/eigen/eigen.c", call)
+    assert rules.call_complaints("src/measure/spectrum/eigen/dense_lapack.c", call) == []
 
 
 def test_numbers_are_printed_in_no_locale():
@@ -102,7 +102,7 @@ def test_every_layer_and_public_header_is_known():
         ("src/integrate/solve/factor.c", "#include <cholmod.h>"),
         ("src/integrate/solve/factor_cholmod.h", "#include <cholmod.h>"),
         ("src/measure/study/order_gsl.c", "#include <gsl/gsl_fit.h>"),
-        ("src/measure/spectrum/eigen.c", "#include <lapack.h>"),
+        ("src/measure/spectrum/eigen/eigen.c", "#include <lapack.h>"),
         ("src/model/system.c", "#include <mpi.h>"),
         ("src/model/system.c", "#include <cmocka.h>"),
         ("src/io/file/bytes.c", "#include <sys/stat.h>"),
@@ -138,7 +138,7 @@ def test_planted_leak():
         ("src/integrate/solve/sundials_problem.h", "#include <nvector/nvector_serial.h>"),
         ("src/integrate/method/rk8pd_gsl.c", "#include <gsl/gsl_odeiv2.h>"),
         ("src/integrate/solve/factor_cholmod.c", "#include <cholmod.h>"),
-        ("src/measure/spectrum/dense_lapack.c", "#include <lapacke.h>"),
+        ("src/measure/spectrum/eigen/dense_lapack.c", "#include <lapacke.h>"),
         ("src/io/page/report.c", '#include "parts/rope.h"'),
         ("src/measure/energy.c", '#include "hooke/integrator.h"'),
         ("src/core/status.c", '/* #include "io/scene/scene.h" */'),

@@ -1,7 +1,7 @@
 /* Eigenvalues, the fit of an order, and the stability limit of Runge-Kutta 4 along rays, compared with closed
  * forms. */
-#include "measure/spectrum/dense.h"
-#include "measure/spectrum/eigen.h"
+#include "measure/spectrum/eigen/dense.h"
+#include "measure/spectrum/eigen/eigen.h"
 #include "measure/spectrum/limit_rules.h"
 #include "measure/study/study.h"
 

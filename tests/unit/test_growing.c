@@ -1,7 +1,7 @@
 /* The growing direction compared with the spectrum: never above the largest eigenvalue, and soon near it;
  * with every force. */
 #include "measure/why/growing.h"
-#include "measure/spectrum/dominant_mode.h"
+#include "measure/spectrum/eigen/dominant_mode.h"
 
 #include "check.h"
 #include "random_scene.h"

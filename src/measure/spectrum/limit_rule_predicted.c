@@ -4,7 +4,7 @@
 #include "core/memory.h"
 #include "core/status.h"
 #include "kernel/vector_loops.h"
-#include "measure/spectrum/dense.h"
+#include "measure/spectrum/eigen/dense.h"
 #include "measure/spectrum/limit_rules.h"
 
 #include <math.h>

@@ -5,7 +5,7 @@
 #include "hooke/integrator.h"
 #include "hooke/measurement.h"
 #include "integrate/method.h"
-#include "measure/spectrum/dominant_mode.h"
+#include "measure/spectrum/eigen/dominant_mode.h"
 
 #include <math.h>
 #include <string.h>

@@ -2,7 +2,7 @@
 
 #include "core/memory.h"
 #include "core/status.h"
-#include "measure/spectrum/eigen.h"
+#include "measure/spectrum/eigen/eigen.h"
 #include "model/force/force.h"
 
 #include <math.h>

@@ -2,8 +2,8 @@
 
 #include "core/memory.h"
 #include "core/status.h"
-#include "measure/spectrum/dense.h"
-#include "measure/spectrum/dominant_mode.h"
+#include "measure/spectrum/eigen/dense.h"
+#include "measure/spectrum/eigen/dominant_mode.h"
 
 #include <math.h>
 #include <stdlib.h>

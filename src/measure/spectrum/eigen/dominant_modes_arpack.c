@@ -1,5 +1,5 @@
 /* ARPACK-NG: implicitly restarted Lanczos, fully orthogonalised (Lehoucq, Sorensen and Yang 1998). */
-#include "measure/spectrum/dominant_mode.h"
+#include "measure/spectrum/eigen/dominant_mode.h"
 
 #include "core/memory.h"
 #include "core/status.h"

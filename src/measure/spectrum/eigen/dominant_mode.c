@@ -1,8 +1,8 @@
-#include "measure/spectrum/dominant_mode.h"
+#include "measure/spectrum/eigen/dominant_mode.h"
 
 #include "core/memory.h"
 #include "core/status.h"
-#include "measure/spectrum/dense.h"
+#include "measure/spectrum/eigen/dense.h"
 
 #include <math.h>
 #include <string.h>

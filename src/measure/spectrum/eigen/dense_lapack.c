@@ -1,4 +1,4 @@
-#include "measure/spectrum/dense.h"
+#include "measure/spectrum/eigen/dense.h"
 
 #include "core/memory.h"
 #include "core/status.h"

@@ -1,4 +1,4 @@
-#include "measure/spectrum/eigen.h"
+#include "measure/spectrum/eigen/eigen.h"
 
 #include <math.h>
 

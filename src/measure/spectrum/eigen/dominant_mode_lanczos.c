@@ -1,10 +1,10 @@
 /* Lanczos's recurrence, restarted from its best vector when its memory is full. */
-#include "measure/spectrum/dominant_mode.h"
+#include "measure/spectrum/eigen/dominant_mode.h"
 
 #include "core/memory.h"
 #include "core/status.h"
 #include "kernel/vector_loops.h"
-#include "measure/spectrum/dense.h"
+#include "measure/spectrum/eigen/dense.h"
 
 #include <math.h>
 #include <string.h>
