@@ -1,6 +1,7 @@
 """Rigid bodies in scenes: check, run, resume and verify, the schema, and the scene written again."""
 
 import json
+import os
 from pathlib import Path
 
 import h5py
@@ -67,6 +68,10 @@ def test_a_run_is_repeated_and_continued(hooke, scene, tmp_path):
                 assert np.abs(now - before).max() < 1e-14 and np.abs(q[frame] - q[0])[body].max() > 1e-3
 
 
+LONG = pytest.mark.skipif(os.environ.get("HOOKE_PRESET") == "asan" and not os.environ.get("HOOKE_LONG"),
+                          reason="takes ten times as long with a sanitizer; the tests in C run there")
+
+
 def positions(hooke, scene, path, *options):
     assert hooke("run", scene, "-o", path, *options).code == 0
     with h5py.File(path) as file:
@@ -78,6 +83,7 @@ def distance(one, other):
     return np.sqrt(((one - other) ** 2).sum(axis=2).mean(axis=1)).max()
 
 
+@LONG
 @pytest.mark.parametrize("method", [None, "verlet", "symplectic-euler", "cvode-bdf"])
 def test_a_wanted_error_is_kept(hooke, scene, tmp_path, method):
     fine = positions(hooke, scene, tmp_path / "fine.h5", "--method", "rk4", "--step", "1e-5")
@@ -116,6 +122,7 @@ def test_cost_takes_bodies(hooke, scene):
     assert told["step_limit"] == pytest.approx(limit, rel=1e-3)
 
 
+@LONG
 def test_an_ensemble_starts_bodies_elsewhere(hooke, tmp_path):
     """A bar that hangs from a bar, of which nobody can tell for long where they are, keeps its energy."""
     linkage = {
