@@ -95,11 +95,10 @@ wheel wheel-test: export HOOKE_ZIG = $(WHEEL_TOOLS)/zig
 wheel wheel-test: export CMAKE_TOOLCHAIN_FILE = $(CURDIR)/cmake/zig.cmake
 wheel wheel-test: export ZIG_GLOBAL_CACHE_DIR = $(CURDIR)/build/wheel/zig
 
-# The folder of a build is no part of the sources, and not searched for them.
 wheel: build/wheel/tools/done build/wheel/$(WHEEL)/done
 	rm -rf build/wheel/*$(if $(findstring musl,$(WHEEL)),musllinux,manylinux)*_$(WHEEL_ARCHITECTURE).whl build/wheel/unrepaired
 	_PYTHON_HOST_PLATFORM=linux-$(WHEEL_ARCHITECTURE) $(WHEEL_TOOLS)/python -m build --no-isolation \
-	  --outdir build/wheel/unrepaired . -C build-dir=build \
+	  --outdir build/wheel/unrepaired . \
 	  -C cmake.define.LIBHOOKE_COMPLETE=ON \
 	  -C cmake.define.LIBHOOKE_LICENSES=$(WHEEL_LIBRARIES)/installed/LICENSES \
 	  -C cmake.define.CMAKE_PREFIX_PATH=$(WHEEL_LIBRARIES)/installed
