@@ -1,5 +1,5 @@
-/* What systems do differently, besides files (core/os/os_file.h) and text (core/os/os_text.h): os_posix.c is for
- * POSIX, os_windows.c for Windows. Threads are those of POSIX on both. */
+/* What systems do differently, besides files (core/os/os_file.h) and text (core/os/os_text.h): os_posix.c is
+ * for POSIX, os_windows.c for Windows. Threads are those of POSIX on both. */
 #ifndef HOOKE_CORE_OS_H
 #define HOOKE_CORE_OS_H
 
