@@ -8,6 +8,7 @@
 #include "io/page/base64.h"
 #include "io/trajectory/record.h"
 #include "io/file/data_folder.h"
+#include "model/vector3.h"
 
 #include <math.h>
 #include <stddef.h>
@@ -102,7 +103,7 @@ static int32_t read_rest_lengths(struct hk_view *view, const double *ends) {
   if (status == HOOKE_OK && view->rest_length == NULL) status = HOOKE_NO_MEMORY;
   for (int64_t k = 0; k < view->springs_there && status == HOOKE_OK; k++) {
     const double *a = q + 3 * (int64_t)ends[2 * k], *b = q + 3 * (int64_t)ends[2 * k + 1];
-    view->rest_length[k] = hypot(hypot(a[0] - b[0], a[1] - b[1]), a[2] - b[2]);
+    view->rest_length[k] = hk_distance3(a, b);
   }
   view->by_first_frame = 1;
   hk_free(q);

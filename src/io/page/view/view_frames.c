@@ -2,6 +2,7 @@
 #include "io/page/view/view.h"
 
 #include "core/memory.h"
+#include "model/vector3.h"
 
 #include <float.h>
 #include <math.h>
@@ -23,7 +24,7 @@ int64_t hk_view_frame_bytes(const struct hk_view *view) {
 static double elongation_of(const struct hk_view *view, const double *q, int64_t k) {
   const double *a = q + 3 * view->particle[view->end[2 * k]];
   const double *b = q + 3 * view->particle[view->end[2 * k + 1]];
-  return hypot(hypot(a[0] - b[0], a[1] - b[1]), a[2] - b[2]) - view->rest_length[view->spring[k]];
+  return hk_distance3(a, b) - view->rest_length[view->spring[k]];
 }
 
 /* NaN if it has no rest length. */
