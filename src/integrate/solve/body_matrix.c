@@ -304,20 +304,21 @@ static void divide_all_transposed(const struct hk_stage *stage, const double *x,
     divide_transposed(&stage->body, k, out + size + HOOKE_BODY_VELOCITIES * k);
 }
 
-static int32_t apply_whole(void *ctx, const double *x, double *out) {
-  struct hk_stage *stage = ctx;
+typedef int32_t product(struct hk_stage *stage, const double *x, double *out);
+
+static int32_t apply(product *multiply, struct hk_stage *stage, const double *x, double *out) {
   divide_all_transposed(stage, x, stage->body.velocity);
-  const int32_t status = multiply_whole(stage, stage->body.velocity, out);
+  const int32_t status = multiply(stage, stage->body.velocity, out);
   divide_all(stage, out);
   return status;
 }
 
+static int32_t apply_whole(void *ctx, const double *x, double *out) {
+  return apply(multiply_whole, ctx, x, out);
+}
+
 static int32_t apply_positive(void *ctx, const double *x, double *out) {
-  struct hk_stage *stage = ctx;
-  divide_all_transposed(stage, x, stage->body.velocity);
-  const int32_t status = multiply_positive(stage, stage->body.velocity, out);
-  divide_all(stage, out);
-  return status;
+  return apply(multiply_positive, ctx, x, out);
 }
 
 static const double *scaled_right(struct hk_stage *stage) {

@@ -180,12 +180,6 @@ static int32_t choose_rate(struct hk_linearised *lin, const double *q, double *s
 
 /* ---- creating ---- */
 
-static double *part(double **block, int64_t count) {
-  double *start = *block;
-  *block += count;
-  return start;
-}
-
 double hk_linearised_bytes(const hooke_system *system) {
   enum {
     OF_SPRINGS = 11,
@@ -225,17 +219,17 @@ int32_t hk_linearised_create(const hooke_system *system, const double *q, const 
   }
   double *block = hk_new(10 * m + 3 * n, sizeof(double));
   if (block == NULL) return HOOKE_NO_MEMORY;
-  lin->mass = part(&block, n);
-  lin->inverse = part(&block, n);
-  double *sum = part(&block, n);
+  lin->mass = hk_part(&block, n);
+  lin->inverse = hk_part(&block, n);
+  double *sum = hk_part(&block, n);
   for (int a = 0; a < 3; a++) {
-    lin->u[a] = part(&block, m);
-    lin->g[a] = part(&block, m);
+    lin->u[a] = hk_part(&block, m);
+    lin->g[a] = hk_part(&block, m);
   }
-  lin->kappa = part(&block, m);
-  lin->across = part(&block, m);
-  lin->gamma = part(&block, m);
-  lin->g_across = part(&block, m);
+  lin->kappa = hk_part(&block, m);
+  lin->across = hk_part(&block, m);
+  lin->gamma = hk_part(&block, m);
+  lin->g_across = hk_part(&block, m);
   for (int64_t p = 0; p < n; p++) {
     lin->mass[p] = system->mass[p] * (mass_scale ? mass_scale[p] : 1.0);
     lin->inverse[p] = system->constrained[p] ? 0.0 : 1.0 / lin->mass[p];

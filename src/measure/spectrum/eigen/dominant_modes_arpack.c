@@ -26,12 +26,6 @@ struct search {
   a_int *select;
 };
 
-static double *part(double **block, int64_t count) {
-  double *start = *block;
-  *block += count;
-  return start;
-}
-
 static int32_t make_room(struct hk_linearised *lin, int64_t count, struct search *s) {
   const int64_t n = lin->unknowns, vectors = 2 * count + SPARE_VECTORS < n ? 2 * count + SPARE_VECTORS : n;
   const int64_t room_size = vectors * (vectors + 8);
@@ -46,13 +40,13 @@ static int32_t make_room(struct hk_linearised *lin, int64_t count, struct search
     hk_free(block);
     return HOOKE_NO_MEMORY;
   }
-  s->residual = part(&block, n);
-  s->basis = part(&block, n * vectors);
-  s->work = part(&block, 3 * n);
-  s->room = part(&block, room_size);
-  s->value = part(&block, count);
-  s->place = part(&block, lin->size);
-  s->product = part(&block, lin->size);
+  s->residual = hk_part(&block, n);
+  s->basis = hk_part(&block, n * vectors);
+  s->work = hk_part(&block, 3 * n);
+  s->room = hk_part(&block, room_size);
+  s->value = hk_part(&block, count);
+  s->place = hk_part(&block, lin->size);
+  s->product = hk_part(&block, lin->size);
   return HOOKE_OK;
 }
 
