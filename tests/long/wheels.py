@@ -66,11 +66,11 @@ SECONDS=0
 inside "/venv/bin/pip install --quiet --no-index --find-links /wheels libhooke"
 echo install $SECONDS s
 SECONDS=0
-inside "cd /root; . /venv/bin/activate
+inside "cd /hooke; . /venv/bin/activate
   hooke make cloth --edges '1,0,0;0,0,1' --size 24x24 --mass 0.5 --pinned top-corners --structural.stiffness 60 -o cloth.json
   hooke run cloth.json --method symplectic-euler --step 5e-4 --duration 1 --every 0.02 -o cloth.h5
   hooke view cloth.h5 -o cloth.html"
-test -s $root/root/cloth.html
+test -s $root/hooke/cloth.html
 echo cloth $SECONDS s
 inside "/venv/bin/python /hooke/tests/wheel/bits.py"
 """

@@ -21,23 +21,12 @@ static void add_altitude(hooke_system *system, int64_t count, const int64_t *tet
 
 static hooke_measurement *find_limit(const hooke_system *system, const char *methods, int32_t predict) {
   hooke_options *options;
-  hooke_measurement *limit = NULL;
   check_ok(hooke_options_create("limit", &options));
   check_ok(hooke_options_set_text(options, "methods", methods));
   check_ok(hooke_options_set_number(options, "accuracy", 1e-3));
   check_ok(hooke_options_set_number(options, "predict", predict));
   check_ok(hooke_options_set_number(options, "budget", 200.0));
-  const int32_t status = hooke_measurement_create("limit", system, NULL, options, &limit);
-  hooke_options_destroy(options);
-  if (status == HOOKE_NOT_BUILT) {
-    hooke_system_destroy((hooke_system *)(uintptr_t)system);
-    skip();
-  }
-  check_status(status, HOOKE_OK);
-  hooke_state *state = start_state(system);
-  check_ok(hooke_measurement_run(limit, state));
-  hooke_state_destroy(state);
-  return limit;
+  return limit_at_start(system, NULL, options);
 }
 
 /* A particle over a fixed face: one spring of ks/h, whose whole weight is on it. */

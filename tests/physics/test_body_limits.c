@@ -13,21 +13,10 @@ static const double G = 9.81;
  * skips. */
 static hooke_measurement *limit_of(hooke_system *system, const char *methods, int measured) {
   hooke_options *options;
-  hooke_measurement *limit = NULL;
   check_ok(hooke_options_create("limit", &options));
   if (methods) check_ok(hooke_options_set_text(options, "methods", methods));
   check_ok(hooke_options_set_number(options, "predict", measured ? 0.0 : 1.0));
-  const int32_t status = hooke_measurement_create("limit", system, NULL, options, &limit);
-  hooke_options_destroy(options);
-  if (status == HOOKE_NOT_BUILT) {
-    hooke_system_destroy(system);
-    skip();
-  }
-  check_ok(status);
-  hooke_state *state = start_state(system);
-  check_ok(hooke_measurement_run(limit, state));
-  hooke_state_destroy(state);
-  return limit;
+  return limit_at_start(system, NULL, options);
 }
 
 static double of_row(const hooke_measurement *limit, int64_t row, const char *what) {

@@ -14,21 +14,10 @@
 /* Limits of all methods at the initial state, without measuring. `accuracy` 0: the default. */
 static hooke_measurement *limit_of(const hooke_system *system, double accuracy) {
   hooke_options *options;
-  hooke_measurement *limit = NULL;
   check_ok(hooke_options_create("limit", &options));
   check_ok(hooke_options_set_number(options, "predict", 1.0));
   if (accuracy > 0.0) check_ok(hooke_options_set_number(options, "accuracy", accuracy));
-  const int32_t status = hooke_measurement_create("limit", system, NULL, options, &limit);
-  hooke_options_destroy(options);
-  if (status == HOOKE_NOT_BUILT) {
-    hooke_system_destroy((hooke_system *)(uintptr_t)system);
-    skip();
-  }
-  check_ok(status);
-  hooke_state *state = start_state(system);
-  check_ok(hooke_measurement_run(limit, state));
-  hooke_state_destroy(state);
-  return limit;
+  return limit_at_start(system, NULL, options);
 }
 
 static int64_t row_of(const hooke_measurement *limit, const char *method) {

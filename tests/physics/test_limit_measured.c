@@ -18,24 +18,13 @@ enum { MOST_PARTICLES = 32, MOST_SPRINGS = 256 };
 static hooke_measurement *find_limit(const hooke_system *system, const char *methods, double accuracy,
                                      int32_t predict, const hooke_options *run) {
   hooke_options *options;
-  hooke_measurement *limit = NULL;
   check_ok(hooke_options_create("limit", &options));
   if (methods) check_ok(hooke_options_set_text(options, "methods", methods));
   check_ok(hooke_options_set_number(options, "accuracy", accuracy));
   check_ok(hooke_options_set_number(options, "predict", predict));
   check_ok(hooke_options_set_number(options, "nonlinear", run != NULL));
   check_ok(hooke_options_set_number(options, "budget", 200.0));
-  const int32_t status = hooke_measurement_create("limit", system, run, options, &limit);
-  hooke_options_destroy(options);
-  if (status == HOOKE_NOT_BUILT) {
-    hooke_system_destroy((hooke_system *)(uintptr_t)system);
-    skip();
-  }
-  check_status(status, HOOKE_OK);
-  hooke_state *state = start_state(system);
-  check_ok(hooke_measurement_run(limit, state));
-  hooke_state_destroy(state);
-  return limit;
+  return limit_at_start(system, run, options);
 }
 
 static int agree(double measured, double predicted, double tolerance) {

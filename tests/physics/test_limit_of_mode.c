@@ -65,17 +65,9 @@ static hooke_system *build(double damping) {
 
 static hooke_measurement *make(hooke_system *system) {
   hooke_options *options;
-  hooke_measurement *limit = NULL;
   check_ok(hooke_options_create("limit", &options));
   check_ok(hooke_options_set_number(options, "predict", 1.0));
-  const int32_t status = hooke_measurement_create("limit", system, NULL, options, &limit);
-  hooke_options_destroy(options);
-  if (status == HOOKE_NOT_BUILT) {
-    hooke_system_destroy(system);
-    skip();
-  }
-  check_ok(status);
-  return limit;
+  return start_limit(system, NULL, options);
 }
 
 /* Over- and underdamped: the prediction for the only mode, and the reported modes. */

@@ -112,15 +112,37 @@ double largest(int64_t count, const double *a) {
   return most;
 }
 
+/* Ends the test where a build is without something. */
+static void skip_if_not_built(int32_t status, const hooke_system *system) {
+  if (status != HOOKE_NOT_BUILT) return;
+  hooke_system_destroy((hooke_system *)(uintptr_t)system);
+  skip();
+}
+
 double bound_at_start(const hooke_system *system, const char *method) {
   hooke_state *state = start_state(system);
   double bound = NAN;
   const int32_t status = hooke_step_bound(system, method, hooke_state_position(state), &bound);
   hooke_state_destroy(state);
-  if (status == HOOKE_NOT_BUILT) {
-    hooke_system_destroy((hooke_system *)(uintptr_t)system);
-    skip();
-  }
+  skip_if_not_built(status, system);
   check_status(status, HOOKE_OK);
   return bound;
+}
+
+hooke_measurement *start_limit(const hooke_system *system, const hooke_options *run, hooke_options *options) {
+  hooke_measurement *limit = NULL;
+  const int32_t status = hooke_measurement_create("limit", system, run, options, &limit);
+  hooke_options_destroy(options);
+  skip_if_not_built(status, system);
+  check_status(status, HOOKE_OK);
+  return limit;
+}
+
+hooke_measurement *limit_at_start(const hooke_system *system, const hooke_options *run,
+                                  hooke_options *options) {
+  hooke_measurement *limit = start_limit(system, run, options);
+  hooke_state *state = start_state(system);
+  check_ok(hooke_measurement_run(limit, state));
+  hooke_state_destroy(state);
+  return limit;
 }

@@ -29,6 +29,13 @@ void run_to_end(const hooke_system *system, struct run run, double *q, double *v
 /* An estimate of the error of runs; `want` NaN: without a wanted error. The status of what fails first. */
 int32_t estimate_of(const hooke_system *system, double want, hooke_measurement **estimate);
 
+/* A limit with these options, which it destroys; a build without limits skips the test, and the system is
+ * destroyed. `run` may be NULL. */
+hooke_measurement *start_limit(const hooke_system *system, const hooke_options *run, hooke_options *options);
+/* The same, run at the initial state. */
+hooke_measurement *limit_at_start(const hooke_system *system, const hooke_options *run,
+                                  hooke_options *options);
+
 /* Explains why the last run ended early, for as long as that takes. The status of what fails first; then
  * there is no measurement. */
 int32_t explain_run(const hooke_integrator *integrator, hooke_measurement **why);
