@@ -1,5 +1,6 @@
 #include "integrate/method.h"
 
+#include "core/status.h"
 #include "integrate/method/bodies.h"
 #include "model/system.h"
 
@@ -84,6 +85,12 @@ int32_t hk_method_suits(const char *name, const hooke_system *system) {
   if (system->bodies.moving > 0 && hk_method_with_bodies(method) == NULL) return 0;
   if (system->friction > 0.0) return method->first_order || method->implicit;
   return method->second_order;
+}
+
+int32_t hk_method_require_bodies(const char *name, const hooke_system *system) {
+  if (system->bodies.moving == 0 || hk_method_suits(name, system)) return HOOKE_OK;
+  return hk_fail(HOOKE_UNSUITED, "bodies", "%s does not know rigid bodies yet; the scene has %lld that move",
+                 name, (long long)system->bodies.moving);
 }
 
 const char *hk_method_of_euler(const hooke_system *system) {

@@ -69,6 +69,8 @@ const struct hk_stability *hk_method_stability_in(const char *name, const hooke_
 /* 1 if the method takes this committed system; of an overdamped one, by the methods of first-order problems
  * and the implicit ones. */
 int32_t hk_method_suits(const char *name, const hooke_system *system);
+/* HOOKE_UNSUITED if the system has bodies that move, and the method does not take it. */
+int32_t hk_method_require_bodies(const char *name, const hooke_system *system);
 
 /* The explicit method of Euler that this committed system takes. */
 const char *hk_method_of_euler(const hooke_system *system);

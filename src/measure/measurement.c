@@ -16,8 +16,6 @@
 static int32_t check(const struct hk_measurement_kind *kind, const hooke_system *system,
                      const hooke_options *run, const hooke_options *options) {
   int32_t status = system ? hk_system_require_committed(system) : HOOKE_OK;
-  if (status == HOOKE_OK && system && !kind->knows_bodies)
-    status = hk_system_require_no_bodies(system, kind->name);
   if (status == HOOKE_OK && (run || kind->needs_run)) status = hk_run_options_require(run, "run");
   if (status == HOOKE_OK && options)
     status = hk_options_require(options, kind->options, "options", "hooke_options_create()");

@@ -12,10 +12,9 @@ enum hk_label { HOOKE_LABEL_TITLE, HOOKE_LABEL_COMMAND, HOOKE_LABEL_SCENE, HOOKE
 struct hk_measurement_kind {
   const char *name;
   const struct hk_option_table *options;
-  const char *made_by;  /* function that creates it, "hooke_why_create()"; NULL: hooke_measurement_create() */
-  int32_t needs_run;    /* 1: options of a run are required */
-  int32_t knows_bodies; /* 1: the system may have rigid bodies */
-  int32_t takes_state;  /* 1: it is taken at a state, by default the initial one, and may be repeated */
+  const char *made_by; /* function that creates it, "hooke_why_create()"; NULL: hooke_measurement_create() */
+  int32_t needs_run;   /* 1: options of a run are required */
+  int32_t takes_state; /* 1: it is taken at a state, by default the initial one, and may be repeated */
   const struct hk_table *const *tables;
   int32_t table_count;
   /* Creates measurement->object; destroy() follows in any case. */

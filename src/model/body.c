@@ -293,12 +293,6 @@ int32_t hk_bodies_check(const hooke_system *system, const hooke_state *state) {
 
 /* ---- queries ---- */
 
-int32_t hk_system_require_no_bodies(const hooke_system *system, const char *what) {
-  if (system->bodies.moving == 0) return HOOKE_OK;
-  return hk_fail(HOOKE_UNSUITED, "bodies", "%s does not know rigid bodies yet; the scene has %lld that move",
-                 what, (long long)system->bodies.moving);
-}
-
 const char *hooke_system_body_name(const hooke_system *system, int64_t body) {
   return body >= 0 && body < system->bodies.count ? system->bodies.body[body].name : NULL;
 }

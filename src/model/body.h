@@ -63,9 +63,6 @@ void hk_bodies_undo(struct hooke_system *system);
 /* 1 if all `count` particles are in one body: a force between them does nothing. */
 int32_t hk_bodies_hold(const struct hk_bodies *bodies, int32_t count, const int32_t *particle);
 int64_t hk_bodies_memory(const struct hk_bodies *bodies);
-/* HOOKE_UNSUITED if some body moves, for what does not know bodies: "<what> does not know rigid bodies yet".
- */
-int32_t hk_system_require_no_bodies(const struct hooke_system *system, const char *what);
 
 /* ---- motion: components of x, y and z, each `stride` apart ---- */
 

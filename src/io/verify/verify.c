@@ -304,7 +304,6 @@ static int32_t run(hooke_measurement *m, hooke_state *state) {
 const struct hk_measurement_kind hk_verify_kind = {.name = "verify",
                                                    .options = &table,
                                                    .made_by = "hooke_verify_create()",
-                                                   .knows_bodies = 1,
                                                    .tables = hk_verify_tables,
                                                    .table_count = HOOKE_VERIFY_TABLES,
                                                    .create = create,

@@ -7,7 +7,6 @@
 #include "core/status.h"
 #include "integrate/integrator.h"
 #include "measure/limit/limit_predict.h"
-#include "measure/trial/method_list.h"
 #include "model/variant/variant.h"
 
 #include <math.h>
@@ -48,7 +47,7 @@ static int32_t choose_method(struct hk_cost *cost) {
   int32_t status = HOOKE_OK;
   cost->run_step = hooke_options_number(cost->run, "step");
   if (hooke_method_is_adaptive(method) != 0 || !hooke_method_is_built(method) ||
-      !hk_method_takes(cost->system, method))
+      !hk_method_suits(method, cost->system))
     status = hooke_options_set_text(cost->run, "method", hk_method_of_euler(cost->system));
   if (status == HOOKE_OK) status = hooke_options_unset(cost->run, "duration");
   if (status == HOOKE_OK) status = hooke_options_unset(cost->run, "every");
@@ -231,7 +230,6 @@ const struct hk_measurement_kind hk_cost_kind = {
     .name = "cost",
     .options = &cost_table,
     .takes_state = 1,
-    .knows_bodies = 1,
     .tables = hk_cost_tables,
     .table_count = HOOKE_COST_TABLES,
     .create = create,

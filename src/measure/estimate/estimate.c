@@ -341,7 +341,6 @@ int32_t hk_estimate_pick_alone(const hooke_system *system, hooke_options *run, d
 }
 
 const struct hk_measurement_kind hk_estimate_kind = {.name = "estimate",
-                                                     .knows_bodies = 1,
                                                      .options = &options,
                                                      .tables = hk_estimate_tables,
                                                      .table_count = 1,

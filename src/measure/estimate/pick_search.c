@@ -3,7 +3,6 @@
 #include "measure/estimate/pick.h"
 #include "measure/estimate/soundness.h"
 #include "measure/spectrum/step_bound.h"
-#include "measure/trial/method_list.h"
 
 #include "core/clock.h"
 #include "core/status.h"
@@ -298,7 +297,7 @@ int32_t hk_pick_search(struct hk_pick *pick) {
   for (int64_t m = 0; m < hooke_method_count() && count < MOST_METHODS && status == HOOKE_OK; m++) {
     const char *method = hooke_method_name(m);
     if (pick->method ? strcmp(method, pick->method) != 0 : !hooke_method_is_built(method)) continue;
-    if (!hk_method_takes(pick->system, method)) continue;
+    if (!hk_method_suits(method, pick->system)) continue;
     status = begin(pick, method, &all[count]);
     count += all[count].largest > 0.0;
   }

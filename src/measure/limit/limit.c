@@ -52,8 +52,8 @@ static const struct hk_option_table limit_table = {"limit", HOOKE_OPTION_ROWS(li
 
 static int32_t add_row(const char *method, void *ctx) {
   struct hk_limit *limit = ctx;
-  if (!hk_method_suits(method, limit->system) && limit->system->bodies.moving > 0)
-    return hk_system_require_no_bodies(limit->system, method);
+  const int32_t status = hk_method_require_bodies(method, limit->system);
+  if (status != HOOKE_OK) return status;
   if (limit->row_count == HOOKE_LIMIT_METHODS)
     return hk_fail(HOOKE_BAD_VALUE, "methods", "more than %d methods", HOOKE_LIMIT_METHODS);
   limit->row[limit->row_count++].method = method;
@@ -322,7 +322,6 @@ const struct hk_measurement_kind hk_limit_kind = {
     .name = "limit",
     .options = &limit_table,
     .takes_state = 1,
-    .knows_bodies = 1,
     .tables = hk_limit_tables,
     .table_count = HOOKE_LIMIT_TABLES,
     .create = create,

@@ -115,7 +115,6 @@ static int32_t run(hooke_measurement *m, hooke_state *state) {
 const struct hk_measurement_kind hk_needs_kind = {.name = "needs",
                                                   .options = &needs_table,
                                                   .needs_run = 1,
-                                                  .knows_bodies = 1,
                                                   .tables = hk_needs_tables,
                                                   .table_count = HOOKE_NEEDS_TABLES,
                                                   .create = create,

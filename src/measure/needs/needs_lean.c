@@ -5,7 +5,6 @@
 #include "core/print.h"
 #include "core/utf8.h"
 #include "integrate/method.h"
-#include "measure/trial/method_list.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -212,7 +211,7 @@ static int32_t compare_times(struct hk_needs *needs) {
 
 static int32_t is_to_try(const struct hk_needs *needs, const char *method) {
   return strcmp(method, hooke_options_text(needs->run, "method")) != 0 && hooke_method_is_built(method) &&
-         hk_method_takes(needs->system, method) && !hk_method_find(method)->reference;
+         hk_method_suits(method, needs->system) && !hk_method_find(method)->reference;
 }
 
 /* So that savings by another method are not attributed to the omissions. */

@@ -92,8 +92,8 @@ static int32_t add_method(const char *method, void *ctx) {
   if (!hooke_method_is_built(method)) {
     return hk_fail(HOOKE_NOT_BUILT, "methods", "this build is without %s", method);
   }
-  if (study->system->bodies.moving > 0 && !hk_method_takes(study->system, method))
-    return hk_system_require_no_bodies(study->system, method);
+  const int32_t status = hk_method_require_bodies(method, study->system);
+  if (status != HOOKE_OK) return status;
   if (study->method_count == HOOKE_STUDY_METHODS) {
     return hk_fail(HOOKE_BAD_VALUE, "methods", "more than %d methods", HOOKE_STUDY_METHODS);
   }
@@ -214,7 +214,6 @@ const struct hk_measurement_kind hk_study_kind = {
     .name = "study",
     .options = &study_table,
     .needs_run = 1,
-    .knows_bodies = 1,
     .tables = hk_study_tables,
     .table_count = HOOKE_STUDY_TABLES,
     .create = create,

@@ -177,7 +177,6 @@ static int32_t run(hooke_measurement *m, hooke_state *state) {
 const struct hk_measurement_kind hk_comparison_kind = {.name = "comparison",
                                                        .options = &comparison_table,
                                                        .needs_run = 1,
-                                                       .knows_bodies = 1,
                                                        .tables = hk_comparison_tables,
                                                        .table_count = HOOKE_COMPARISON_TABLES,
                                                        .create = create,

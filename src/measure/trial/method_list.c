@@ -1,14 +1,9 @@
 #include "measure/trial/method_list.h"
 
 #include "core/status.h"
-#include "integrate/method/bodies.h"
+#include "integrate/method.h"
 
 #include <string.h>
-
-int32_t hk_method_takes(const hooke_system *system, const char *method) {
-  const int32_t bodies = system->bodies.moving == 0 || hk_method_with_bodies(hk_method_find(method)) != NULL;
-  return bodies && hk_method_suits(method, system);
-}
 
 static int32_t take_named(const char *name, size_t length, hk_method_taker *take, void *ctx) {
   for (int64_t k = 0; k < hooke_method_count(); k++) {
@@ -23,7 +18,7 @@ int32_t hk_method_list_read(const hooke_system *system, const char *names,
   int32_t status = HOOKE_OK;
   for (int64_t k = 0; k < hooke_method_count() && names[0] == '\0' && status == HOOKE_OK; k++) {
     const char *name = hooke_method_name(k);
-    if (suits(name) && hk_method_takes(system, name)) status = take(name, ctx);
+    if (suits(name) && hk_method_suits(name, system)) status = take(name, ctx);
   }
   while (status == HOOKE_OK && *names) {
     const size_t length = strcspn(names, ", ");

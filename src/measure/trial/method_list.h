@@ -4,9 +4,6 @@
 
 #include "hooke/integrator.h"
 
-/* 1 if a method takes a system, with its rigid bodies if it has any. */
-int32_t hk_method_takes(const hooke_system *system, const char *method);
-
 /* Adds a method to `ctx`; returns a status. */
 typedef int32_t hk_method_taker(const char *method, void *ctx);
 

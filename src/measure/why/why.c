@@ -291,7 +291,6 @@ const struct hk_measurement_kind hk_why_kind = {
     .name = "why",
     .options = &why_table,
     .made_by = "hooke_why_create()",
-    .knows_bodies = 1,
     .tables = hk_why_tables,
     .table_count = HOOKE_WHY_TABLES,
     .create = create,
