@@ -1,169 +1,226 @@
-/* Compiled once per instruction set, with HOOKE_ISA naming it. Springs of one or two strided batches are
- * computed together, and sums are some vectors behind, so that the processor always finds operations with
- * available operands. */
+/* Compiled once per instruction set, with HOOKE_ISA naming it. Two vectors of springs are computed together,
+ * and sums are some vectors behind, so that the processor always finds operations with available operands. It
+ * looks ahead by a limited number of operations and loads, so those of addresses are kept few. */
 #include "kernel/spring/strided_loops.h"
 
 #include "kernel/instruction_set.h"
 #include "kernel/move_body.h"
 
+#include <string.h>
+
 typedef hk_vector vec;
 
 /* Shapes of a pass: that of its batches, if the items of each batch are consecutive in the order of batches;
  * or any. */
-enum { BEHIND = 2 * HOOKE_WIDTH, PAIRED = HOOKE_RUN_SHAPES, ANY = 2 * HOOKE_RUN_SHAPES | HOOKE_RUN_DAMPED };
+enum { PAIRED = HOOKE_RUN_SHAPES, ANY = 2 * HOOKE_RUN_SHAPES | HOOKE_RUN_DAMPED };
 
-struct place {
-  const double *q, *v;         /* index of the current vector of particles */
-  ptrdiff_t stride, p, behind; /* behind: the vector of the sums */
-  vec x[3], u[3];              /* number of items */
+/* The two vectors belong to TOGETHER batches and to VECTORS successive vectors of particles, which make a step
+ * of the loop. Sums are BEHIND particles behind. */
+enum {
+  VECTORS = HOOKE_WIDTH == HOOKE_STRIDED_UNIT ? 1 : 2,
+  TOGETHER = 2 / VECTORS,
+  STEP = VECTORS * HOOKE_WIDTH,
+  BEHIND = HOOKE_WIDTH == HOOKE_STRIDED_UNIT ? 2 * STEP : STEP,
+  BYTES = sizeof(double)
 };
 
-HOOKE_INLINE uint32_t present_at(const uint8_t *present, ptrdiff_t p) {
-  const uint32_t bits = present[(size_t)p / HOOKE_STRIDED_UNIT];
-  return HOOKE_WIDTH == HOOKE_STRIDED_UNIT
-             ? bits
-             : bits >> ((size_t)p % HOOKE_STRIDED_UNIT) & ((1u << HOOKE_WIDTH) - 1);
+/* Copies of views and items with addresses in bytes, which need no scaling. */
+struct batch {
+  ptrdiff_t offset, mask, stride;
+  char *ring;
+  const uint8_t *present;
+  double shared[HOOKE_STRIDED_NUMBERS];
+  const struct hk_strided_material *material;
+  int32_t shape;
+};
+
+struct item {
+  ptrdiff_t offset, mask, stride;
+  const char *ring;
+  int32_t begins;
+};
+
+struct place {
+  const char *q, *v;   /* index of the current vectors of particles */
+  ptrdiff_t stride, p; /* in bytes; number of particles */
+};
+
+#define EACH_VECTOR for (int j = 0; j < VECTORS; j++)
+
+HOOKE_INLINE vec load_at(const char *at, int j) {
+  return hk_load((const double *)(const void *)at + j * HOOKE_WIDTH);
 }
 
-HOOKE_INLINE void store_forces(double *ring, ptrdiff_t mask, ptrdiff_t p, const vec b[3]) {
-  const ptrdiff_t at = p & mask, stride = hk_ring_stride(mask);
-  double *to = ring + at;
+HOOKE_INLINE void store_three(char *x, ptrdiff_t stride, vec b[VECTORS][3]) {
   for (int a = 0; a < 3; a++)
-    hk_store(to + a * stride, b[a]);
-  if (__builtin_expect(at < HOOKE_STRIDED_UNIT, 0)) {
-    for (int a = 0; a < 3; a++)
-      hk_store(to + mask + 1 + a * stride, b[a]);
+    EACH_VECTOR hk_store((double *)(void *)(x + a * stride) + j * HOOKE_WIDTH, b[j][a]);
+}
+
+HOOKE_INLINE void store_forces(const struct batch *batch, ptrdiff_t p, vec b[VECTORS][3]) {
+  const ptrdiff_t mask = batch->mask, stride = batch->stride, at = BYTES * p & mask;
+  char *x = batch->ring + at;
+  store_three(x, stride, b);
+  if (__builtin_expect(at < BYTES * HOOKE_STRIDED_UNIT, 0)) store_three(x + mask + BYTES, stride, b);
+}
+
+/* Adds the springs at `x` of a ring, or subtracts those that begin at the particles. */
+HOOKE_INLINE void add_ring(const char *x, ptrdiff_t stride, const int begins, vec sum[VECTORS][3]) {
+  for (int a = 0; a < 3; a++) {
+    EACH_VECTOR {
+      const vec b = load_at(x + a * stride, j);
+      sum[j][a] = begins ? sum[j][a] - b : sum[j][a] + b;
+    }
   }
 }
 
-#define EACH for (int i = 0; i < strided; i++)
-
-/* sum + sign x, rounded once: sign is 1 or -1. */
-HOOKE_INLINE vec add_signed(double sign, vec x, vec sum) {
-#if HOOKE_WIDTH == 8
-  return (vec)_mm512_fmadd_pd((__m512d)hk_all(sign), (__m512d)x, (__m512d)sum);
-#else
-  return sum + sign * x;
-#endif
+HOOKE_INLINE void add(const struct item *item, ptrdiff_t p, vec sum[VECTORS][3]) {
+  const char *x = item->ring + ((BYTES * p - item->offset) & item->mask);
+  if (item->begins)
+    add_ring(x, item->stride, 1, sum);
+  else
+    add_ring(x, item->stride, 0, sum);
 }
 
-/* Computes springs at the vector at p, by two items a batch. */
-HOOKE_INLINE void add(const struct hk_strided_item *item, const int strided, ptrdiff_t p, vec sum[3]) {
-  for (int i = 0; i < 2 * strided; i++) {
-    const ptrdiff_t mask = item[i].mask, stride = hk_ring_stride(mask);
-    const double *at = item[i].ring + ((p - item[i].offset) & mask);
-    for (int a = 0; a < 3; a++)
-      sum[a] = add_signed(item[i].sign, hk_load(at + a * stride), sum[a]);
-  }
+/* The ends and then the beginnings of a batch. */
+HOOKE_INLINE void add_pair(const struct batch *batch, ptrdiff_t p, vec sum[VECTORS][3]) {
+  const ptrdiff_t mask = batch->mask, stride = batch->stride;
+  add_ring(batch->ring + ((BYTES * p - batch->offset) & mask), stride, 0, sum);
+  add_ring(batch->ring + (BYTES * p & mask), stride, 1, sum);
 }
 
-/* The same if these are the ends and then the beginnings of each batch. */
-HOOKE_INLINE void add_pairs(const struct hk_strided_view *batch, const int strided, ptrdiff_t p, vec sum[3]) {
-  EACH {
-    const ptrdiff_t mask = batch[i].mask, stride = hk_ring_stride(mask);
-    const double *ring = batch[i].ring, *ending = ring + ((p - batch[i].offset) & mask),
-                 *beginning = ring + (p & mask);
-    for (int a = 0; a < 3; a++)
-      sum[a] = (sum[a] + hk_load(ending + a * stride)) - hk_load(beginning + a * stride);
-  }
+/* p modulo a unit, where steps are shorter. */
+HOOKE_INLINE size_t within_unit(ptrdiff_t p) {
+  return (int)STEP == (int)HOOKE_STRIDED_UNIT ? 0 : (size_t)p % HOOKE_STRIDED_UNIT;
 }
 
-/* Location of the material of the springs of the vector at p, prefetched if it is stored in a row. */
+/* Location of the material of the springs at p, prefetched if it is stored in a row. */
 HOOKE_INLINE void locate(const struct hk_strided_material *material, ptrdiff_t p, const double **number) {
   const uint32_t *unit =
       material->unit + (HOOKE_STRIDED_NUMBERS * ((size_t)p / HOOKE_STRIDED_UNIT) & (size_t)material->mask);
-  for (int j = 0; j < HOOKE_STRIDED_NUMBERS; j++)
-    number[j] =
-        material->value + unit[j] + (HOOKE_WIDTH == HOOKE_STRIDED_UNIT ? 0 : (size_t)p % HOOKE_STRIDED_UNIT);
+  for (int n = 0; n < HOOKE_STRIDED_NUMBERS; n++)
+    number[n] = material->value + unit[n] + within_unit(p);
   if (material->ahead == 0) return;
-  for (int j = 0; j < HOOKE_STRIDED_NUMBERS; j++)
-    __builtin_prefetch(number[j] + material->ahead);
+  for (int n = 0; n < HOOKE_STRIDED_NUMBERS; n++)
+    __builtin_prefetch(number[n] + material->ahead);
 }
 
-HOOKE_INLINE vec number_of(const struct hk_strided_view *batch, const double *const *own, int j,
+HOOKE_INLINE vec number_of(const struct batch *batch, const double *const *own, int n, int j,
                            const int mixed) {
-  return mixed ? hk_load(own[j]) : hk_all(batch->shared[j]);
+  return mixed ? hk_load(own[n] + j * HOOKE_WIDTH) : hk_all(batch->shared[n]);
 }
 
-/* Forces of the springs of 1 or 2 batches of one shape into their rings; `shortest` receives the minimum
- * length. Stores may alias anything for the compiler, so views are read before. */
-HOOKE_INLINE void fill(const struct hk_strided_view *batch, const struct hk_strided_item *item,
-                       const int strided, const struct place *at, const int shape, vec *shortest,
-                       vec sum[3]) {
-  const int damped = (shape & HOOKE_RUN_DAMPED) != 0, pull = (shape & HOOKE_RUN_PULL_ONLY) != 0;
-  const int mixed = (shape & HOOKE_RUN_MIXED) != 0;
-  vec d[2][3], r[2], ir[2], along[2], tension[2];
-  struct hk_strided_view l[2];
-  const double *q[2], *v[2], *own[2][HOOKE_STRIDED_NUMBERS];
-  EACH {
-    l[i] = batch[i];
-    q[i] = at->q + l[i].offset;
-    v[i] = at->v + l[i].offset;
-    for (int a = 0; a < 3; a++)
-      d[i][a] = at->x[a] - hk_load(q[i] + a * at->stride);
+/* Clears the forces of springs that do not exist. */
+HOOKE_INLINE void clear_absent(const struct batch *batch, ptrdiff_t p, vec b[VECTORS][3]) {
+  const uint32_t all = (1u << STEP) - 1, vector = (1u << HOOKE_WIDTH) - 1;
+  const uint32_t bits = (uint32_t)batch->present[(size_t)p / HOOKE_STRIDED_UNIT] >> within_unit(p) & all;
+  if (__builtin_expect(bits == all, 1)) return;
+  for (int a = 0; a < 3; a++)
+    EACH_VECTOR b[j][a] = hk_keep(bits >> j * HOOKE_WIDTH & vector, b[j][a]);
+}
+
+#define EACH   for (int i = 0; i < together * VECTORS; i++)
+#define BATCH  (batch + i / VECTORS)
+#define VECTOR (i % VECTORS)
+
+/* The velocity of the ends against each other times their distance vector `d`. */
+HOOKE_INLINE void find_along(const struct batch *batch, const int together, const char *v, ptrdiff_t stride,
+                             vec d[2][3], vec along[2]) {
+  EACH along[i] = (load_at(v, VECTOR) - load_at(v + BATCH->offset, VECTOR)) * d[i][0];
+  for (int a = 1; a < 3; a++) {
+    const char *u = v + a * stride;
+    EACH along[i] = along[i] + (load_at(u, VECTOR) - load_at(u + BATCH->offset, VECTOR)) * d[i][a];
   }
-  if (mixed) EACH locate(&l[i].material, at->p, own[i]);
+}
+
+/* Tension over length of springs of length r. */
+HOOKE_INLINE vec tension_of(const struct batch *batch, const double *const *own, int j, const int shape,
+                            vec r, vec ir, vec along) {
+  const int mixed = (shape & HOOKE_RUN_MIXED) != 0;
+  const vec rest = number_of(batch, own, HOOKE_STRIDED_REST, j, mixed);
+  vec tension = number_of(batch, own, HOOKE_STRIDED_KAPPA, j, mixed) * (r - rest);
+  if (shape & HOOKE_RUN_DAMPED)
+    tension = tension + number_of(batch, own, HOOKE_STRIDED_GAMMA, j, mixed) * (along * ir);
+  if (shape & HOOKE_RUN_PULL_ONLY)
+    tension = (vec)((hk_vector_mask)tension & ~((r <= rest) | (tension < 0.0)));
+  return tension * ir;
+}
+
+/* Forces of the springs of 1 or TOGETHER batches of one shape into their rings, and sums behind; `shortest`
+ * receives the minimum length. Stores may alias anything for the compiler, so they come last. The empty
+ * instruction keeps it from storing sums of addresses outside the loop, whose loads cost more than adding. */
+HOOKE_INLINE void fill(const struct batch *batch, const struct item *item, const int together,
+                       const struct place *at, const int shape, vec *shortest, vec sum[VECTORS][3]) {
+  const char *q = at->q, *v = at->v;
+  ptrdiff_t stride = at->stride, p = at->p;
+  const double *own[TOGETHER][HOOKE_STRIDED_NUMBERS];
+  vec d[2][3], r[2], ir[2], along[2] = {{0}, {0}};
+  __asm__("" : "+r"(q), "+r"(v), "+r"(stride), "+r"(p));
+  for (int k = 0; k < together && shape & HOOKE_RUN_MIXED; k++)
+    locate(batch[k].material, p, own[k]);
+  for (int a = 0; a < 3; a++) {
+    const char *x = q + a * stride;
+    EACH d[i][a] = load_at(x, VECTOR) - load_at(x + BATCH->offset, VECTOR);
+  }
   EACH r[i] = d[i][0] * d[i][0] + d[i][1] * d[i][1];
   EACH r[i] = hk_vector_sqrt(r[i] + d[i][2] * d[i][2]);
-  if (damped) {
-    EACH along[i] = (at->u[0] - hk_load(v[i])) * d[i][0];
-    EACH along[i] = along[i] + (at->u[1] - hk_load(v[i] + at->stride)) * d[i][1];
-    EACH along[i] = along[i] + (at->u[2] - hk_load(v[i] + 2 * at->stride)) * d[i][2];
+  if (shape & HOOKE_RUN_DAMPED) find_along(batch, together, v, stride, d, along);
+  for (int k = 0; k < together; k++) {
+    if (shape & PAIRED) {
+      add_pair(batch + k, p - BEHIND, sum);
+    } else {
+      add(item + 2 * k, p - BEHIND, sum);
+      add(item + 2 * k + 1, p - BEHIND, sum);
+    }
   }
-  if (shape & PAIRED)
-    add_pairs(batch, strided, at->behind, sum);
-  else
-    add(item, strided, at->behind, sum);
   EACH ir[i] = 1.0 / r[i];
   EACH *shortest = hk_lesser(r[i], *shortest);
   EACH {
-    const vec rest = number_of(&l[i], own[i], HOOKE_STRIDED_REST, mixed);
-    const vec kappa = number_of(&l[i], own[i], HOOKE_STRIDED_KAPPA, mixed);
-    tension[i] = kappa * (r[i] - rest);
-    if (damped) {
-      const vec gamma = number_of(&l[i], own[i], HOOKE_STRIDED_GAMMA, mixed);
-      tension[i] = tension[i] + gamma * (along[i] * ir[i]);
-    }
-    if (pull) tension[i] = (vec)((hk_vector_mask)tension[i] & ~((r[i] <= rest) | (tension[i] < 0.0)));
-    tension[i] = tension[i] * ir[i];
-    const uint32_t bits = present_at(l[i].present, at->p);
+    const vec s = tension_of(BATCH, own[i / VECTORS], VECTOR, shape, r[i], ir[i], along[i]);
     for (int a = 0; a < 3; a++)
-      d[i][a] = hk_keep(bits, tension[i] * d[i][a]);
+      d[i][a] = s * d[i][a];
   }
-  EACH store_forces(l[i].ring, l[i].mask, at->p, d[i]);
+  for (int k = 0; k < together; k++)
+    clear_absent(batch + k, p, d + k * VECTORS);
+  for (int k = 0; k < together; k++)
+    store_forces(batch + k, p, d + k * VECTORS);
 }
 
-/* Repeats the springs of the vector at p one by one, since some ends coincide. Counts those with a rest
- * length. */
+HOOKE_INLINE int present_at(const struct hk_strided_view *batch, ptrdiff_t p) {
+  return batch->present[p / HOOKE_STRIDED_UNIT] >> p % HOOKE_STRIDED_UNIT & 1;
+}
+
+/* The force of the spring of a batch at p into its ring. Returns 1 if it has a rest length but no direction. */
+static int fill_one(const struct hk_strided_pass *pass, const struct hk_strided_view *batch, ptrdiff_t p) {
+  const struct hk_strided_material *material = &batch->material;
+  const double *q = pass->q + p, *v = pass->v + p, *qj = q + batch->offset, *vj = v + batch->offset;
+  const ptrdiff_t y = pass->stride, z = 2 * y, at = p & batch->mask;
+  const int damped = (batch->shape & HOOKE_RUN_DAMPED) != 0;
+  const double d[3] = {q[0] - qj[0], q[y] - qj[y], q[z] - qj[z]};
+  const double r = hk_spring_length(d[0], d[1], d[2]), ir = hk_spring_inverse_length(r);
+  const double rest = *hk_strided_number(material, p, HOOKE_STRIDED_REST);
+  double brake = 0.0;
+  if (damped) {
+    brake = *hk_strided_number(material, p, HOOKE_STRIDED_GAMMA) *
+            ((((v[0] - vj[0]) * d[0] + (v[y] - vj[y]) * d[1]) + (v[z] - vj[z]) * d[2]) * ir);
+  }
+  const double s = hk_spring_tension(r, rest, *hk_strided_number(material, p, HOOKE_STRIDED_KAPPA), brake,
+                                     damped, (batch->shape & HOOKE_RUN_PULL_ONLY) != 0) *
+                   ir;
+  for (int a = 0; a < 3; a++) {
+    double *to = batch->ring + a * hk_ring_stride(batch->mask) + at;
+    *to = s * d[a];
+    if (at < HOOKE_STRIDED_UNIT) to[batch->mask + 1] = *to;
+  }
+  return (r == 0.0) & (rest != 0.0);
+}
+
+/* Repeats the springs of a step at p one by one, since some ends coincide. Counts those with a rest length. */
 static __attribute__((noinline)) int64_t fill_with_care(const struct hk_strided_pass *pass, ptrdiff_t p) {
   int64_t lost = 0;
   for (int32_t k = 0; k < pass->count; k++) {
-    const struct hk_strided_view *batch = &pass->batch[k];
-    const struct hk_strided_material *material = &batch->material;
-    vec b[3] = {{0}};
-    for (ptrdiff_t i = 0; i < HOOKE_WIDTH; i++) {
-      const double *q = pass->q + p + i, *v = pass->v + p + i, *qj = q + batch->offset,
-                   *vj = v + batch->offset;
-      const ptrdiff_t y = pass->stride, z = 2 * y;
-      if (!(present_at(batch->present, p) >> i & 1)) continue;
-      const double dx = q[0] - qj[0], dy = q[y] - qj[y], dz = q[z] - qj[z];
-      const double r = hk_spring_length(dx, dy, dz), ir = hk_spring_inverse_length(r);
-      const double rest = *hk_strided_number(material, p + i, HOOKE_STRIDED_REST);
-      double brake = 0.0;
-      if (batch->shape & HOOKE_RUN_DAMPED) {
-        brake = *hk_strided_number(material, p + i, HOOKE_STRIDED_GAMMA) *
-                ((((v[0] - vj[0]) * dx + (v[y] - vj[y]) * dy) + (v[z] - vj[z]) * dz) * ir);
-      }
-      const double s = hk_spring_tension(r, rest, *hk_strided_number(material, p + i, HOOKE_STRIDED_KAPPA),
-                                         brake, (batch->shape & HOOKE_RUN_DAMPED) != 0,
-                                         (batch->shape & HOOKE_RUN_PULL_ONLY) != 0) *
-                       ir;
-      b[0][i] = s * dx;
-      b[1][i] = s * dy;
-      b[2][i] = s * dz;
-      lost += (r == 0.0) & (rest != 0.0);
+    for (ptrdiff_t l = p; l < p + STEP; l++) {
+      if (present_at(&pass->batch[k], l)) lost += fill_one(pass, &pass->batch[k], l);
     }
-    store_forces(batch->ring, batch->mask, p, b);
   }
   return lost;
 }
@@ -194,23 +251,16 @@ static __attribute__((noinline)) void move_otherwise(const struct hk_strided_pas
   }
 }
 
-HOOKE_INLINE void move_on(const struct hk_strided_pass *pass, const struct hk_move *move, ptrdiff_t p,
-                          const vec sum[3]) {
-  if (__builtin_expect(move->kind == HOOKE_KICK_THEN_DRIFT, 1))
-    MOVE(HOOKE_KICK_THEN_DRIFT);
-  else if (move->kind != HOOKE_MOVE_NOTHING)
-    move_otherwise(pass, p, sum[0], sum[1], sum[2]);
-}
-
-/* Forces of all batches at a vector, and sums behind it: two batches at a time if all have one shape, known
- * at compile time. */
-HOOKE_INLINE void fill_all(const struct hk_strided_pass *pass, const int shape, const struct place *at,
-                           vec *shortest, vec sum[3]) {
-  const struct hk_strided_view *batch = pass->batch, *end = batch + pass->count;
-  const struct hk_strided_item *item = pass->item;
-  for (; batch + 1 < end; batch += 2, item += 4)
-    fill(batch, item, 2, at, shape, shortest, sum);
-  if (batch < end) fill(batch, item, 1, at, shape, shortest, sum);
+HOOKE_INLINE void move_on(const struct hk_strided_pass *pass, const struct hk_move *move, ptrdiff_t first,
+                          vec sums[VECTORS][3]) {
+  EACH_VECTOR {
+    const ptrdiff_t p = first + j * HOOKE_WIDTH;
+    const vec *sum = sums[j];
+    if (__builtin_expect(move->kind == HOOKE_KICK_THEN_DRIFT, 1))
+      MOVE(HOOKE_KICK_THEN_DRIFT);
+    else if (move->kind != HOOKE_MOVE_NOTHING)
+      move_otherwise(pass, p, sum[0], sum[1], sum[2]);
+  }
 }
 
 #define BODY(shape)                                                                                          \
@@ -218,24 +268,57 @@ HOOKE_INLINE void fill_all(const struct hk_strided_pass *pass, const int shape, 
     fill(batch, item, 1, at, (shape) | HOOKE_RUN_MIXED, shortest, sum);                                      \
     break;
 
-HOOKE_INLINE void fill_any(const struct hk_strided_pass *pass, const struct place *at, vec *shortest,
-                           vec sum[3]) {
-  for (int32_t k = 0; k < pass->count; k++) {
-    const struct hk_strided_view *batch = pass->batch + k;
-    const struct hk_strided_item *item = pass->item + 2 * k;
-    switch (batch->shape & ~HOOKE_RUN_MIXED) {
-      BODY(0)
-      BODY(HOOKE_RUN_DAMPED)
-      BODY(HOOKE_RUN_PULL_ONLY)
-      BODY(HOOKE_RUN_PULL_ONLY | HOOKE_RUN_DAMPED)
-    }
+HOOKE_INLINE void fill_any(const struct batch *batch, const struct item *item, const struct place *at,
+                           vec *shortest, vec sum[VECTORS][3]) {
+  switch (batch->shape & ~HOOKE_RUN_MIXED) {
+    BODY(0)
+    BODY(HOOKE_RUN_DAMPED)
+    BODY(HOOKE_RUN_PULL_ONLY)
+    BODY(HOOKE_RUN_PULL_ONLY | HOOKE_RUN_DAMPED)
   }
+}
+
+/* Forces of all batches at a step of the loop, and sums behind it: TOGETHER batches at a time if all have one
+ * shape, known at compile time. */
+HOOKE_INLINE void fill_all(const struct batch *batch, const struct item *item, int32_t count, const int shape,
+                           const struct place *at, vec *shortest, vec sum[VECTORS][3]) {
+  const struct batch *end = batch + count;
+  if (shape == ANY) {
+    for (; batch < end; batch++, item += 2)
+      fill_any(batch, item, at, shortest, sum);
+    return;
+  }
+  for (; batch + TOGETHER <= end; batch += TOGETHER, item += 2 * TOGETHER)
+    fill(batch, item, TOGETHER, at, shape, shortest, sum);
+  if (TOGETHER > 1 && batch < end) fill(batch, item, 1, at, shape, shortest, sum);
 }
 
 HOOKE_INLINE void fetch(const struct place *at, ptrdiff_t ahead) {
   for (int a = 0; a < 3; a++) {
-    __builtin_prefetch(at->q + ahead + a * at->stride);
-    __builtin_prefetch(at->v + ahead + a * at->stride);
+    __builtin_prefetch(at->q + BYTES * ahead + a * at->stride);
+    __builtin_prefetch(at->v + BYTES * ahead + a * at->stride);
+  }
+}
+
+static void copy_batches(const struct hk_strided_pass *pass, struct batch *batch, struct item *item) {
+  for (int32_t k = 0; k < pass->count; k++) {
+    const struct hk_strided_view *view = &pass->batch[k];
+    batch[k] = (struct batch){.offset = BYTES * view->offset,
+                              .mask = BYTES * view->mask,
+                              .stride = BYTES * hk_ring_stride(view->mask),
+                              .ring = (char *)view->ring,
+                              .present = view->present,
+                              .material = &view->material,
+                              .shape = view->shape};
+    memcpy(batch[k].shared, view->shared, sizeof view->shared);
+  }
+  for (int32_t i = 0; i < 2 * pass->count; i++) {
+    const struct hk_strided_item *from = &pass->item[i];
+    item[i] = (struct item){.offset = BYTES * from->offset,
+                            .mask = BYTES * from->mask,
+                            .stride = BYTES * hk_ring_stride(from->mask),
+                            .ring = (const char *)from->ring,
+                            .begins = from->begins};
   }
 }
 
@@ -243,27 +326,26 @@ HOOKE_INLINE void fetch(const struct place *at, ptrdiff_t ahead) {
 HOOKE_INLINE int64_t advance(const struct hk_strided_pass *pass, const int shape, ptrdiff_t from,
                              ptrdiff_t to) {
   const struct hk_move how = pass->move;
+  const int32_t count = pass->count;
+  struct batch batch[HOOKE_MOST_STRIDED];
+  struct item item[2 * HOOKE_MOST_STRIDED];
   int64_t lost = 0;
-  for (ptrdiff_t p = from; p < to; p += HOOKE_WIDTH) {
-    struct place at = {
-        .q = pass->q + p, .v = pass->v + p, .stride = pass->stride, .p = p, .behind = p - BEHIND};
-    vec sum[3] = {{0}}, shortest = hk_all(INFINITY);
-    for (int a = 0; a < 3; a++) {
-      at.x[a] = hk_load(at.q + a * at.stride);
-      if (shape & HOOKE_RUN_DAMPED) at.u[a] = hk_load(at.v + a * at.stride);
-    }
+  copy_batches(pass, batch, item);
+  for (ptrdiff_t p = from; p < to; p += STEP) {
+    const struct place at = {.q = (const char *)(pass->q + p),
+                             .v = (const char *)(pass->v + p),
+                             .stride = BYTES * pass->stride,
+                             .p = p};
+    vec sum[VECTORS][3] = {{{0}}}, shortest = hk_all(INFINITY);
     if (pass->ahead > 0) fetch(&at, pass->ahead);
-    if (shape == ANY)
-      fill_any(pass, &at, &shortest, sum);
-    else
-      fill_all(pass, shape, &at, &shortest, sum);
+    fill_all(batch, item, count, shape, &at, &shortest, sum);
     if (__builtin_expect(hk_has_zero(shortest), 0)) lost += fill_with_care(pass, p);
-    if (at.behind >= from) move_on(pass, &how, at.behind, sum);
+    if (p - BEHIND >= from) move_on(pass, &how, p - BEHIND, sum);
   }
-  for (ptrdiff_t p = to - BEHIND > from ? to - BEHIND : from; p < to; p += HOOKE_WIDTH) {
-    vec sum[3] = {{0}};
-    for (int32_t k = 0; k < pass->count; k++)
-      add(&pass->item[2 * k], 1, p, sum);
+  for (ptrdiff_t p = to - BEHIND > from ? to - BEHIND : from; p < to; p += STEP) {
+    vec sum[VECTORS][3] = {{{0}}};
+    for (int32_t i = 0; i < 2 * count; i++)
+      add(&item[i], p, sum);
     move_on(pass, &how, p, sum);
   }
   return lost;

@@ -48,7 +48,7 @@ struct hk_strided_view {
 struct hk_strided_item {
   const double *ring;
   ptrdiff_t offset, mask;
-  double sign; /* of forces: 1 at ends, -1 where springs begin */
+  int32_t begins; /* 0: forces are added; 1: subtracted, where springs begin */
 };
 
 /* Distance between x, y and z of a ring, including the repeated first unit, chosen to avoid cache conflicts.

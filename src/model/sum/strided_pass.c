@@ -127,8 +127,7 @@ static void set_items(const struct hk_strided_batches *strided, const uint8_t *t
     const struct hk_strided_view *batch = &partition->view[strided->item[i] / 2];
     const int begins = strided->item[i] % 2;
     if (!there[strided->item[i] / 2]) continue;
-    *next++ =
-        (struct hk_strided_item){batch->ring, begins ? 0 : batch->offset, batch->mask, begins ? -1.0 : 1.0};
+    *next++ = (struct hk_strided_item){batch->ring, begins ? 0 : batch->offset, batch->mask, begins};
   }
 }
 
