@@ -133,13 +133,13 @@ int32_t hk_integrator_forces(hooke_integrator *integrator, double t);
 int32_t hk_integrator_forces_without(hooke_integrator *integrator, double t,
                                      const struct hk_force_row *left_out);
 /* A move of this motion (kernel/move_loops.h), without arrays of its method's own. */
-struct hk_move hk_integrator_move_of(const hooke_integrator *integrator, int32_t kind, double kick,
-                                     double drift);
+void hk_integrator_move_of(const hooke_integrator *integrator, int32_t kind, double kick, double drift,
+                           struct hk_move *move);
 /* Forces at time t, counted, and every particle moved under them, in one pass over memory where the forces
  * allow it. HOOKE_STOPPED with the stop value kept: nothing has moved. */
-int32_t hk_integrator_move(hooke_integrator *integrator, double t, struct hk_move move);
+int32_t hk_integrator_move(hooke_integrator *integrator, double t, struct hk_move *move);
 /* The same under the forces that the last move kept. */
-void hk_integrator_move_on(hooke_integrator *integrator, struct hk_move move);
+void hk_integrator_move_on(hooke_integrator *integrator, struct hk_move *move);
 /* What is done with particles `from` .. from + count - 1, by several threads for particles of their own. */
 typedef void hk_particle_work(hooke_integrator *integrator, int64_t from, int64_t count, void *ctx);
 /* Applies it to all stepped particles. */

@@ -6,6 +6,7 @@
 #include "random.h"
 
 #include "model/sum/motion.h"
+#include "model/sum/spring_batch.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -233,8 +234,62 @@ static void test_wide(void **unused) {
   free(ends);
 }
 
+enum { FEW = 6, PAIRS = FEW * (FEW - 1) / 2 };
+
+/* A spring for every pair of particles, from the last to the first. */
+static hooke_system *join_all(const double *q, const double *v, int64_t *ends) {
+  hooke_system *system;
+  hooke_options *options;
+  const double mass = 1.0;
+  int64_t *end = ends;
+  for (int64_t p = FEW - 1; p > 0; p--) {
+    for (int64_t other = 0; other < p; other++) {
+      *end++ = p;
+      *end++ = other;
+    }
+  }
+  check_ok(hooke_system_create(&system));
+  check_ok(hooke_system_add_particles(system, FEW, q, v, 1, &mass, NULL));
+  check_ok(hooke_options_create("springs", &options));
+  check_ok(hooke_options_set_number(options, "stiffness", 50.0));
+  check_ok(hooke_options_set_number(options, "damping", 0.1));
+  check_ok(hooke_system_add_springs(system, "pairs", PAIRS, ends, options));
+  check_ok(hooke_system_commit(system));
+  hooke_options_destroy(options);
+  return system;
+}
+
+/* All that iterates over the springs of a small system keeps their order. */
+static void test_small(void **unused) {
+  (void)unused;
+  struct random_source source = {15};
+  double q[3 * FEW], v[3 * FEW];
+  int64_t ends[2 * PAIRS];
+  for (int k = 0; k < 3 * FEW; k++) {
+    q[k] = random_between(&source, -1.0, 1.0);
+    v[k] = random_between(&source, -1.0, 1.0);
+  }
+  hooke_system *system = join_all(q, v, ends);
+  assert_int_equal(system->tiled.particles, FEW);
+  struct canonical c;
+  canonical_create(system, &c);
+  check_agrees(system, &c, q, v);
+  struct hk_spring_batch batch;
+  hk_begin_batches(&batch);
+  assert_true(hk_next_batch(system, &batch));
+  assert_int_equal(batch.count, PAIRS);
+  for (int64_t k = 0; k < PAIRS; k++) {
+    assert_int_equal(batch.head[k], ends[2 * k]);
+    assert_int_equal(batch.tail[k], ends[2 * k + 1]);
+    assert_true(batch.kappa[k] == c.kappa[k] && batch.gamma[k] == c.gamma[k]);
+  }
+  canonical_destroy(&c);
+  hooke_system_destroy(system);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(test_same_bits),
-                                     cmocka_unit_test(test_same_bits_by_law), cmocka_unit_test(test_wide)};
+                                     cmocka_unit_test(test_same_bits_by_law), cmocka_unit_test(test_wide),
+                                     cmocka_unit_test(test_small)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -45,18 +45,21 @@ void hk_integrator_each(hooke_integrator *it, hk_particle_work *work, void *ctx)
   hk_pool_run(it->motion->pool, work_on_share, &(struct sharing){it, work, ctx});
 }
 
-struct hk_move hk_integrator_move_of(const hooke_integrator *it, int32_t kind, double kick, double drift) {
+/* Field by field: a copy of the whole would wait for what was just written in pieces. */
+void hk_integrator_move_of(const hooke_integrator *it, int32_t kind, double kick, double drift,
+                           struct hk_move *move) {
   const hooke_system *system = it->system;
   const struct hk_motion *m = it->motion;
-  struct hk_move move = {.kind = kind,
-                         .heavy = system->has_gravity,
-                         .kick = kick,
-                         .drift = drift,
-                         .drag = m->zero ? 0.0 : system->drag,
-                         .stride = hk_motion_stride(m),
-                         .f = m->f[0]};
-  memcpy(move.gravity, system->gravity, sizeof move.gravity);
-  return move;
+  move->kind = kind;
+  move->heavy = system->has_gravity;
+  move->kick = kick;
+  move->drift = drift;
+  move->drag = m->zero ? 0.0 : system->drag;
+  for (int a = 0; a < 3; a++)
+    move->gravity[a] = system->gravity[a];
+  move->stride = hk_motion_stride(m);
+  move->f = m->f[0];
+  move->half = move->start = move->sum = NULL;
 }
 
 static void move_share(hooke_integrator *it, int64_t from, int64_t count, void *ctx) {
@@ -66,20 +69,20 @@ static void move_share(hooke_integrator *it, int64_t from, int64_t count, void *
   hk_spring_set(0)->move(ctx, &moved, (ptrdiff_t)from, (ptrdiff_t)count, f);
 }
 
-void hk_integrator_move_on(hooke_integrator *it, struct hk_move move) {
-  hk_integrator_each(it, move_share, &move);
+void hk_integrator_move_on(hooke_integrator *it, struct hk_move *move) {
+  hk_integrator_each(it, move_share, move);
 }
 
 /* Drag is part of the move, except where a callback comes after it in the sum of forces. */
-int32_t hk_integrator_move(hooke_integrator *it, double t, struct hk_move move) {
+int32_t hk_integrator_move(hooke_integrator *it, double t, struct hk_move *move) {
   if (it->by_tiles) {
     it->count.force_evaluations++;
-    hk_motion_pass(it->system, it->motion, &move);
+    hk_motion_pass(it->system, it->motion, move);
     return HOOKE_OK;
   }
-  const int summed = it->system->force != NULL && !hk_move_brakes(move.kind);
+  const int summed = it->system->force != NULL && !hk_move_brakes(move->kind);
   const int32_t status = hk_integrator_forces_without(it, t, summed ? NULL : &hk_force_drag);
-  if (summed) move.drag = 0.0;
+  if (summed) move->drag = 0.0;
   if (status == HOOKE_OK) hk_integrator_move_on(it, move);
   return status;
 }

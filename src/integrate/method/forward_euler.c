@@ -20,7 +20,9 @@ static int32_t step(hooke_integrator *it) {
   if (it->rate) return step_rate(it);
   if (it->own) return hk_stages_step(it);
   const double h = it->schedule.step;
-  return hk_integrator_move(it, it->t, hk_integrator_move_of(it, HOOKE_DRIFT_THEN_KICK, h, h));
+  struct hk_move move;
+  hk_integrator_move_of(it, HOOKE_DRIFT_THEN_KICK, h, h, &move);
+  return hk_integrator_move(it, it->t, &move);
 }
 
 const struct hk_method hk_forward_euler = {.name = "forward-euler",

@@ -85,10 +85,11 @@ static int32_t move(hooke_integrator *it, int stage) {
   const struct own *own = it->own;
   const int last = own->stages->count - 1;
   const int32_t kind = stage == 0 ? HOOKE_FIRST_STAGE : stage < last ? HOOKE_MIDDLE_STAGE : HOOKE_LAST_STAGE;
-  struct hk_move move = hk_integrator_move_of(it, kind, it->schedule.step / own->stages->over[stage], 0.0);
+  struct hk_move move;
+  hk_integrator_move_of(it, kind, it->schedule.step / own->stages->over[stage], 0.0, &move);
   move.start = own->start;
   move.sum = own->sum;
-  return hk_integrator_move(it, stage_time(it, stage), move);
+  return hk_integrator_move(it, stage_time(it, stage), &move);
 }
 
 static void put_back(hooke_integrator *it, int64_t from, int64_t count, void *ctx) {

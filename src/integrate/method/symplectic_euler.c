@@ -4,7 +4,9 @@
 
 static int32_t step(hooke_integrator *it) {
   const double h = it->schedule.step;
-  return hk_integrator_move(it, it->t, hk_integrator_move_of(it, HOOKE_KICK_THEN_DRIFT, h, h));
+  struct hk_move move;
+  hk_integrator_move_of(it, HOOKE_KICK_THEN_DRIFT, h, h, &move);
+  return hk_integrator_move(it, it->t, &move);
 }
 
 const struct hk_method hk_symplectic_euler = {.name = "symplectic-euler",

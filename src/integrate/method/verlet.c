@@ -80,12 +80,13 @@ static void forget(hooke_integrator *it) {
 static int32_t begin_step(hooke_integrator *it) {
   struct verlet *own = it->own;
   const double h = it->schedule.step;
-  const struct hk_move move = hk_integrator_move_of(it, HOOKE_KICK_THEN_DRIFT, h / 2.0, h);
+  struct hk_move move;
   int32_t status = HOOKE_OK;
+  hk_integrator_move_of(it, HOOKE_KICK_THEN_DRIFT, h / 2.0, h, &move);
   if (own->kept)
-    hk_integrator_move_on(it, move);
+    hk_integrator_move_on(it, &move);
   else
-    status = hk_integrator_move(it, it->t, move);
+    status = hk_integrator_move(it, it->t, &move);
   if (!own->kept && it->k > 0) it->count.force_evaluations--; /* as counted by the run that came here */
   own->kept = 0;
   return status;
@@ -100,8 +101,9 @@ static int32_t step_undamped(hooke_integrator *it) {
   int32_t status = own->drifted ? HOOKE_OK : begin_step(it);
   if (status != HOOKE_OK) return status;
   if (it->system->constrained_count > 0) hk_motion_hold(it->system, it->motion);
-  const int32_t kind = goes_on ? HOOKE_KICK_DRIFT_KICK : HOOKE_KICK;
-  status = hk_integrator_move(it, hk_integrator_next_time(it), hk_integrator_move_of(it, kind, h / 2.0, h));
+  struct hk_move move;
+  hk_integrator_move_of(it, goes_on ? HOOKE_KICK_DRIFT_KICK : HOOKE_KICK, h / 2.0, h, &move);
+  status = hk_integrator_move(it, hk_integrator_next_time(it), &move);
   own->drifted = status == HOOKE_OK && goes_on;
   own->kept = status == HOOKE_OK && !goes_on;
   return status;
@@ -147,18 +149,19 @@ static int32_t solve(hooke_integrator *it) {
 
 /* ---- a step that predicts the velocity ---- */
 
-static struct hk_move half_of(const hooke_integrator *it, int32_t kind) {
+static int32_t move_half(hooke_integrator *it, double t, int32_t kind) {
   const struct verlet *own = it->own;
   const double h = it->schedule.step;
-  struct hk_move move = hk_integrator_move_of(it, kind, h / 2.0, h);
+  struct hk_move move;
+  hk_integrator_move_of(it, kind, h / 2.0, h, &move);
   move.half = own->half[0];
-  return move;
+  return hk_integrator_move(it, t, &move);
 }
 
 static int32_t second_kick(hooke_integrator *it) {
   const struct verlet *own = it->own;
   const double t = hk_integrator_next_time(it);
-  if (!own->implicit) return hk_integrator_move(it, t, half_of(it, HOOKE_CORRECT));
+  if (!own->implicit) return move_half(it, t, HOOKE_CORRECT);
   const int32_t status = hk_integrator_forces(it, t);
   return status == HOOKE_OK ? solve(it) : status;
 }
@@ -168,7 +171,7 @@ static int32_t step(hooke_integrator *it) {
   struct hk_motion *m = it->motion;
   if (!own->predicts) return step_undamped(it);
   if (own->start) hk_motion_save(m, own->start);
-  int32_t status = hk_integrator_move(it, it->t, half_of(it, HOOKE_PREDICT));
+  int32_t status = move_half(it, it->t, HOOKE_PREDICT);
   if (status != HOOKE_OK) return status;
   if (it->system->constrained_count > 0) hk_motion_hold(it->system, m);
   status = second_kick(it);

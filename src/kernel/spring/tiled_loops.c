@@ -227,6 +227,15 @@ HOOKE_INLINE void write_forces(const struct ends *ends, ptrdiff_t from, ptrdiff_
  * for roots and quotients. */
 enum { BEHIND = 3 * GROUP };
 
+/* Of the springs in places `first` and later of their groups, since the last call. */
+HOOKE_INLINE int64_t take_lost(ptrdiff_t first, struct batch *batch) {
+  int64_t lost = 0;
+  for (ptrdiff_t n = first; n < GROUP; n++)
+    lost += batch->lost[n / HOOKE_WIDTH][n % HOOKE_WIDTH];
+  memset(batch->lost, 0, sizeof batch->lost);
+  return lost;
+}
+
 HOOKE_INLINE int64_t fill(const struct hk_tiled_springs *springs, ptrdiff_t count, const double *low,
                           const double *up, double *on_lower, double *on_upper, const int damped,
                           const int pull, const int wide, const int material) {
@@ -235,20 +244,25 @@ HOOKE_INLINE int64_t fill(const struct hk_tiled_springs *springs, ptrdiff_t coun
   struct group group;
   memset(batch.lost, 0, sizeof batch.lost);
   ptrdiff_t k = 0;
-  int64_t lost = 0;
   for (; k + GROUP <= count; k += GROUP) {
     subtract_group(&ends, k, &group, damped, wide);
     find_strengths(springs, k, &group, &batch, damped, pull, material);
     if (k >= BEHIND) write_forces(&ends, k - BEHIND, k - BEHIND + GROUP, batch.s);
   }
-  const ptrdiff_t written = k > BEHIND ? k - BEHIND : 0;
+  const ptrdiff_t written = k > BEHIND ? k - BEHIND : 0, rest = count - k;
+  int64_t lost = take_lost(0, &batch);
+  if (rest > 0 && k > 0) { /* one more whole group, whose first springs are computed again */
+    k = count - GROUP;
+    subtract_group(&ends, k, &group, damped, wide);
+    find_strengths(springs, k, &group, &batch, damped, pull, material);
+    lost += take_lost(GROUP - rest, &batch);
+    k = count;
+  }
   for (; k < count; k++) {
     subtract_one(&ends, k, &group, damped, wide);
     lost += find_strength(springs, k, &group, &batch, damped, pull, material);
   }
   write_forces(&ends, written, count, batch.s);
-  for (int n = 0; n < GROUP; n++)
-    lost += batch.lost[n / HOOKE_WIDTH][n % HOOKE_WIDTH];
   return lost;
 }
 

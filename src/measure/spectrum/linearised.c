@@ -62,7 +62,7 @@ static void see_batches(struct hk_linearised *lin, const double *q) {
 /* Unordered springs are many times faster in the order of their batches. */
 static int32_t see_springs(struct hk_linearised *lin, const double *q, const double *spring_scale) {
   const struct hk_springs *springs = &lin->system->springs;
-  if (spring_scale || lin->system->tiled.particles == 0) {
+  if (spring_scale || !lin->system->tiled.stored) {
     lin->run = springs->run;
     lin->run_count = springs->run_count;
     see_runs(lin, q, spring_scale);

@@ -105,6 +105,6 @@ static int32_t next_of_tiled(const struct hk_tiled *tiled, struct hk_spring_batc
 }
 
 int32_t hk_next_batch(const hooke_system *system, struct hk_spring_batch *batch) {
-  if (system->tiled.particles > 0) return next_of_tiled(&system->tiled, batch);
+  if (system->tiled.stored) return next_of_tiled(&system->tiled, batch);
   return next_of_runs(&system->springs, batch);
 }

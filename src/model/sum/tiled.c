@@ -7,10 +7,10 @@
 #include <math.h>
 #include <string.h>
 
-/* Above this length runs of constant offset are faster than a tiled batch; and a system of few springs gains
- * nothing. */
+/* Above this length runs of constant offset are faster than a tiled batch, and so are very few springs. In a
+ * small system springs and particles keep their order: all of it is near. */
 static const double MOST_IN_RUNS = 0.7;
-enum { LEAST_SPRINGS = 64, MOST_DEGREE = UINT16_MAX };
+enum { LEAST_SPRINGS = 10, LEAST_STORED = 64, MOST_DEGREE = UINT16_MAX };
 
 /* A window and ring of more bytes than this, and than this a particle, would hold most of the system, for
  * lack of locality. */
@@ -91,6 +91,7 @@ static int32_t number(struct maker *maker, const double *inverse_mass) {
   struct hk_tiled *tiled = maker->tiled;
   number_as_given(maker);
   number_ends(maker);
+  if (!tiled->stored) return HOOKE_OK;
   const double given = sum_of_reaches(maker);
   const int32_t status = hk_tiled_number(tiled->particles, maker->springs->count, maker->lower, maker->upper,
                                          maker->order, maker->place);
@@ -288,8 +289,8 @@ static int32_t move_material(struct maker *maker) {
 
 /* ---- whole ---- */
 
-static int may_pay(const struct hk_springs *springs) {
-  return springs->count >= LEAST_SPRINGS &&
+static int may_pay(const struct hk_springs *springs, int64_t particle_count) {
+  return springs->count >= (particle_count <= HOOKE_TILE ? LEAST_SPRINGS : LEAST_STORED) &&
          (double)(springs->count - springs->indexed_count) <= MOST_IN_RUNS * (double)springs->count;
 }
 
@@ -321,9 +322,10 @@ static int32_t make(struct maker *maker, const double *inverse_mass) {
 int32_t hk_tiled_create(struct hk_springs *springs, int64_t particle_count, const double *inverse_mass,
                         struct hk_tiled *tiled) {
   *tiled = (struct hk_tiled){0};
-  if (!may_pay(springs)) return HOOKE_OK;
+  if (!may_pay(springs, particle_count)) return HOOKE_OK;
   tiled->particles = particle_count;
   tiled->springs = springs->count;
+  tiled->stored = springs->count >= LEAST_STORED;
   tiled->tiles = (particle_count + HOOKE_TILE - 1) / HOOKE_TILE;
   struct maker maker;
   int32_t status = maker_create(springs, tiled, &maker);

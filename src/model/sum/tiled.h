@@ -33,6 +33,7 @@ struct hk_tiled_tile {
 struct hk_tiled {
   int64_t particles, springs, tiles;
   int32_t kinds, wide;
+  int32_t stored; /* 1: all that iterates over springs goes by index; 0, in a small system: by number */
   struct hk_tiled_kind kind[HOOKE_TILED_KINDS];
   struct hk_tiled_tile *tile;
   int32_t *order;       /* particle of a working number; NULL: the same number */
