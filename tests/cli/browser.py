@@ -12,11 +12,13 @@ from pages import BROWSER
 
 FLAGS = ["--headless=new", "--no-sandbox", "--disable-quic", "--no-first-run", "--disable-background-networking",
          "--disable-component-update", "--disable-sync", "--disable-extensions", "--force-color-profile=srgb", "--hide-scrollbars",
-         "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--remote-debugging-pipe"]
+         "--remote-debugging-pipe"]
+WEBGL = ["--use-angle=swiftshader", "--enable-unsafe-swiftshader"]
+NO_WEBGL = ["--disable-gpu"]  # a page is drawn in half the time
 
 
 class Browser:
-    def __init__(self):
+    def __init__(self, drawing=WEBGL):
         self.folder = tempfile.TemporaryDirectory(ignore_cleanup_errors=True)
         self.number, self.loads, self.messages, self.console, self.session = 0, 0, b"", [], None
         commands, self.out = os.pipe()
@@ -24,7 +26,7 @@ class Browser:
         # It reads commands from descriptor 3 and answers on 4; copies from 10 on, so that neither overwrites the
         # other.
         ends = [fcntl.fcntl(end, fcntl.F_DUPFD, 10) for end in (commands, answers)]
-        self.process = subprocess.Popen([BROWSER, *FLAGS, f"--user-data-dir={self.folder.name}"], close_fds=False,
+        self.process = subprocess.Popen([BROWSER, *FLAGS, *drawing, f"--user-data-dir={self.folder.name}"], close_fds=False,
                                         preexec_fn=lambda: [os.dup2(ends[0], 3), os.dup2(ends[1], 4)],
                                         stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         for end in (commands, answers, *ends):

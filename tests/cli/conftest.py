@@ -13,6 +13,8 @@ import pytest
 
 CLI = os.environ["HOOKE_CLI"]
 MINIMAL = os.environ.get("HOOKE_PRESET") == "minimal"
+LONG = pytest.mark.skipif(os.environ.get("HOOKE_PRESET") == "asan" and not os.environ.get("HOOKE_LONG"),
+                          reason="takes ten times as long with a sanitizer; the tests in C run there")
 
 SIX_PARTICLES = {
     "hooke": 1,

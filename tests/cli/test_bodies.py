@@ -1,13 +1,13 @@
 """Rigid bodies in scenes: check, run, resume and verify, the schema, and the scene written again."""
 
 import json
-import os
 from pathlib import Path
 
 import h5py
 import jsonschema
 import numpy as np
 import pytest
+from conftest import LONG
 
 SCHEMA = Path(__file__).resolve().parents[2] / "examples/scene.schema.json"
 
@@ -66,10 +66,6 @@ def test_a_run_is_repeated_and_continued(hooke, scene, tmp_path):
             for frame in (5, 20):
                 before, now = (np.linalg.norm(x[body, None] - x[None, body], axis=-1) for x in (q[0], q[frame]))
                 assert np.abs(now - before).max() < 1e-14 and np.abs(q[frame] - q[0])[body].max() > 1e-3
-
-
-LONG = pytest.mark.skipif(os.environ.get("HOOKE_PRESET") == "asan" and not os.environ.get("HOOKE_LONG"),
-                          reason="takes ten times as long with a sanitizer; the tests in C run there")
 
 
 def positions(hooke, scene, path, *options):
@@ -133,10 +129,10 @@ def test_an_ensemble_starts_bodies_elsewhere(hooke, tmp_path):
             "mass": 0.5, "pinned": [0]},
         "bodies": [{"particles": [0, 1, 2]}, {"particles": [3, 4, 5]}],
         "springs": [{"between": [[1, 3]], "stiffness": 200}],
-        "run": {"method": "rk4", "duration": 8, "every": 0.05},
+        "run": {"method": "rk4", "duration": 5, "every": 0.05},
     }
     (tmp_path / "linkage.json").write_text(json.dumps(linkage))
-    words = ["--methods", "rk4", "--steps", "1ms", "--want", "1e-7m", "--ensemble", "3", "--budget", "60s", "--json"]
+    words = ["--methods", "rk4", "--steps", "1ms", "--want", "1e-7m", "--ensemble", "3", "--budget", "20s", "--json"]
     found = hooke("study", tmp_path / "linkage.json", *words).json["statistics"]
     (energy,) = [quantity["reference"] for quantity in found["quantities"] if quantity["quantity"] == "energy"]
     start = 0.5 * 9.81 * (0.05 + 0.1 + 0.05 + 0.3 + 0.1)

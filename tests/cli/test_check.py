@@ -95,14 +95,14 @@ def peak_of_run(folder, *words):
 def cloth(n, **more):
     part = {"kind": "cloth", "origin": [0, 0, 0], "edges": [[1, 0, 0], [0, 0, 1]], "size": [n, n], "mass": 1}
     part["structural"] = {"stiffness": 10, **more}
-    return {"hooke": 1, "parts": [part], "run": {"step": 1e-6, "duration": 1e-4}}
+    return {"hooke": 1, "parts": [part], "run": {"step": 1e-6, "duration": 1e-5}}
 
 
 def lattice(n):
     part = {"kind": "lattice", "origin": [0, 0, 0], "size": [n] * 3}
     part["edges"] = [[1, 0, 0], [0, 1, 0], [0, 0, 1]]
     part.update(mass=1, structural={"stiffness": 10})
-    return {"hooke": 1, "parts": [part], "run": {"step": 1e-6, "duration": 1e-4}}
+    return {"hooke": 1, "parts": [part], "run": {"step": 1e-6, "duration": 1e-5}}
 
 
 def loose_springs(n):
@@ -111,7 +111,7 @@ def loose_springs(n):
     pairs = [[i, (7919 * i + k) % n] for i in range(n) for k in (1, 2)]
     springs = [{"name": "all", "between": [p for p in pairs if p[0] != p[1]], "stiffness": 1, "damping": 0.01}]
     particles = {"position": positions, "mass": 1}
-    return {"hooke": 1, "particles": particles, "springs": springs, "run": {"step": 1e-6, "duration": 1e-4}}
+    return {"hooke": 1, "particles": particles, "springs": springs, "run": {"step": 1e-6, "duration": 1e-5}}
 
 
 @pytest.mark.skipif(not sys.platform.startswith("linux"), reason="the peak of a process is read from /proc")

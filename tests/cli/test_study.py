@@ -226,17 +226,6 @@ def test_a_recommendation_looks_beyond_the_ladder(hooke, write):
 
 
 @everything
-def test_what_is_known_for_a_part_of_the_run_is_not_met(hooke, write):
-    words = ["study", write(CHAIN), "--methods", "cvode-adams", "--tolerances", "1e-8,1e-10", "--want", "1mm"]
-    answer = hooke(*words, "--json")
-    found, until = answer.json["recommendation"], answer.json["reference"]["trusted_until"]
-    assert 1 < until < 14 and answer.code == 7
-    assert found["met"] is None and found["error"] <= 1e-3 and found["command"]
-    answer = hooke(*words)
-    assert answer.code == 7 and re.search(r"at most 0.001 m up to [\d.]+ s; of what comes later", answer.out)
-
-
-@everything
 def test_what_cannot_be_had_is_said(hooke, write):
     scene = write(SIX_PARTICLES)
     words = ["study", scene, "--methods", "forward-euler", "--want", "1um"]
@@ -291,15 +280,17 @@ CHAIN = {
 
 
 @everything
-def test_chaos_is_called_so(hooke, write):
-    words = ["study", write(CHAIN), "--methods", "cvode-adams", "--tolerances", "1e-6,1e-8"]
-    value = hooke(*words, "--json").json
-    assert 1 < value["reference"]["trusted_until"] < 12
-    assert value["reference"]["growth_seen"] > 1e4 and value["reference"]["growth"] is None
-    assert value["reference"]["ended"] == "rounding"
-    out = hooke(*words).out
-    assert "chaotic" in out and "trusted until" in out
-    late = [*words, "--duration", "20", "--every", "20", "--want", "1mm"]  # nothing but the start is trusted
+def test_chaos_is_called_so_and_what_is_known_for_a_part_of_the_run_is_not_met(hooke, write):
+    words = ["study", write(CHAIN), "--methods", "cvode-adams", "--tolerances", "1e-6,1e-8", "--want", "1mm"]
+    answer = hooke(*words, "--json")
+    found, reference = answer.json["recommendation"], answer.json["reference"]
+    assert 1 < reference["trusted_until"] < 12 and answer.code == 7
+    assert reference["growth_seen"] > 1e4 and reference["growth"] is None and reference["ended"] == "rounding"
+    assert found["met"] is None and found["error"] <= 1e-3 and found["command"]
+    answer = hooke(*words)
+    assert "chaotic" in answer.out and "trusted until" in answer.out
+    assert answer.code == 7 and re.search(r"at most 0.001 m up to [\d.]+ s; of what comes later", answer.out)
+    late = [*words, "--duration", "20", "--every", "20"]  # nothing but the start is trusted
     answer = hooke(*late, "--json")
     value = answer.json
     assert answer.code == 7 and value["reference"]["trusted_until"] == 0

@@ -8,7 +8,7 @@ import shutil
 from pathlib import Path
 
 import pytest
-from conftest import SIX_PARTICLES, STIFF_PAIR
+from conftest import LONG, SIX_PARTICLES, STIFF_PAIR
 
 pytestmark = pytest.mark.everything
 
@@ -73,7 +73,7 @@ def words_of(command):
     return words[1:]
 
 
-@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize("kind", [pytest.param(k, marks=[LONG] * k.startswith("gaining")) for k in KINDS])
 def test_the_cause_named_is_the_one_planted_and_the_first_advice_works(hooke, tmp_path, kind):
     cause, first = KINDS[kind]
     shutil.copy(SCENES / f"{kind}.json", tmp_path / "scene.json")

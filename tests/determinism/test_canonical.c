@@ -77,14 +77,14 @@ static void test_large_scenes(void **unused) {
   (void)unused;
   const int32_t features[] = {0, SCENE_DAMPING | SCENE_GRAVITY,
                               SCENE_DAMPING | SCENE_PULL_ONLY | SCENE_DRIVEN, SCENE_EVERYTHING};
-  const int64_t share = short_of_time() ? 5 : 1;
+  const int64_t share = short_of_time() ? 3 : 1;
   for (uint64_t k = 0; k < sizeof features / sizeof features[0]; k++) {
     compare_scene((struct random_scene_request){.seed = 7001 + k,
-                                                .particles = 30011 / share,
-                                                .springs = 100003 / share,
-                                                .triples = 10007 / share,
-                                                .tetrahedra = 3001 / share,
-                                                .anchors = k % 2 ? 2003 / share : 0,
+                                                .particles = 15013 / share,
+                                                .springs = 50021 / share,
+                                                .triples = 5003 / share,
+                                                .tetrahedra = 1501 / share,
+                                                .anchors = k % 2 ? 1009 / share : 0,
                                                 .features = features[k]});
   }
 }

@@ -49,7 +49,7 @@ static hooke_measurement *cost_of(const hooke_system *system, struct run run, in
   hooke_measurement *cost;
   check_ok(hooke_options_create("cost", &options));
   check_ok(hooke_options_set_number(options, "predict", predict));
-  check_ok(hooke_options_set_number(options, "budget", 1.0));
+  check_ok(hooke_options_set_number(options, "budget", 0.3));
   check_ok(hooke_measurement_create("cost", system, given, options, &cost));
   hooke_options_destroy(given);
   hooke_options_destroy(options);

@@ -2,6 +2,7 @@
  * that a run of the scene made anew has; one that bends by more than the wanted error is not. */
 #include "check.h"
 #include "run.h"
+#include "sanitized.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -130,6 +131,7 @@ static void a_stiff_plate_is_offered_as_a_body(void **unused) {
   (void)unused;
   const char *const methods[] = {"verlet", "symplectic-euler"};
   for (int m = 0; m < 2; m++) {
+    if (left_out(m, 2)) continue;
     hooke_system *system = hanging_plate(2e4);
     hooke_measurement *needs = needs_of(system, methods[m]);
     const int64_t row = body_row(needs);

@@ -2,6 +2,7 @@
  * callbacks are in tests/cli/scenes/exploding. */
 #include "check.h"
 #include "run.h"
+#include "sanitized.h"
 #include "small.h"
 
 #include <math.h>
@@ -395,6 +396,7 @@ static void test_own_loop(void **unused) {
  * stiff across. Advice is then tried from a state shortly before the failure. */
 static void test_trouble_that_comes_late(void **unused) {
   (void)unused;
+  if (left_out(1, 2)) skip(); /* the code is that of the others, after far fewer steps */
   needs_lapack();
   const double position[] = {-1, 0, 0, 1, 0, 0, 0, 0, 0, 0, -1, 0, 0, 1, 0};
   const double velocity[] = {0, 0, 0, 0, 0, 0, 1e-3, 1e-3, 0, 0, 0, 0, 0, 0, 0};

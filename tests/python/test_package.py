@@ -122,7 +122,7 @@ def test_pip_install_gives_a_package_that_stands_alone(tmp_path):
     target = tmp_path / "packages"
     before = set(ROOT.iterdir()) | set((ROOT / "bindings/python").iterdir())
     command = [sys.executable, "-m", "pip", "install", "--quiet", "--disable-pip-version-check", "--no-deps"]
-    settings = ["cmake.build-type=Debug", "cmake.define.HOOKE_KERNEL_OPTIMISATION=-O0", "cmake.define.HOOKE_KERNEL_COPIES=OFF"]
+    settings = ["cmake.build-type=None", "cmake.define.HOOKE_KERNEL_OPTIMISATION=-O0", "cmake.define.HOOKE_KERNEL_COPIES=OFF"]
     install = subprocess.run(
         [*command, *(f"--config-settings={setting}" for setting in settings), "--target", target, "."],
         cwd=ROOT,

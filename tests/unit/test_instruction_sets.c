@@ -4,6 +4,7 @@
 #include "hash.h"
 #include "random_scene.h"
 #include "run.h"
+#include "sanitized.h"
 
 #include "kernel/spring/spring_loops.h"
 
@@ -82,6 +83,7 @@ static void check_scene(const struct scene *scene, int k) {
     random_scene_create(scene->request, &made); /* runs take their loops when a system is committed */
     for (size_t m = 0; m < sizeof expected / sizeof expected[0]; m++) {
       for (int32_t threads = 1; threads <= 3; threads++) {
+        if (left_out(3 * (int64_t)m + threads + first_set, 4)) continue;
         const uint64_t hash = hash_of(made.system, expected[m].method, scene->step, threads);
         if (hash == expected[m].hash[k]) continue;
         check_failed("%s, %s, loops for %s, %d threads: hash %016" PRIx64 ", expected %016" PRIx64,
