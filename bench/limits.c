@@ -7,10 +7,11 @@
 #include <stdlib.h>
 
 enum {
-  TRIAD = 1 << 23,    /* elements of an array of a thread */
-  SMALL = 512,        /* elements of an array that stays in the first-level cache */
-  SWEEPS = 4000,      /* over a small array, a turn */
-  OPERATIONS = 2 * 8, /* per element in a sweep of arithmetic() */
+  TRIAD = 1 << 23,     /* elements of an array of a thread */
+  SMALL = 480,         /* elements of an array that stays in the first-level cache */
+  SWEEPS = 4000,       /* over a small array, a turn */
+  OPERATIONS = 2 * 64, /* per element in a sweep of arithmetic() */
+  SIDE = 48,           /* elements side by side there */
   TURNS = 7
 };
 
@@ -53,16 +54,22 @@ static void *root(void *ctx) {
   return NULL;
 }
 
+/* Chains of operations, as many side by side as hide their latency. */
 static void *arithmetic(void *ctx) {
   const struct worker *w = ctx;
   double *restrict a = w->a;
   const double s = w->b[0] * 0.5, t = w->b[0] * 0.25;
   for (int sweep = 0; sweep < SWEEPS; sweep++) {
-    for (int k = 0; k < SMALL; k++) {
-      double x = a[k];
-      x = (((x * s + t) * s + t) * s + t) * s + t;
-      x = (((x * s + t) * s + t) * s + t) * s + t;
-      a[k] = x;
+    for (int k = 0; k < SMALL; k += SIDE) {
+      double x[SIDE];
+      for (int i = 0; i < SIDE; i++)
+        x[i] = a[k + i];
+      for (int operation = 0; operation < OPERATIONS / 2; operation++) {
+        for (int i = 0; i < SIDE; i++)
+          x[i] = x[i] * s + t;
+      }
+      for (int i = 0; i < SIDE; i++)
+        a[k + i] = x[i];
     }
   }
   return NULL;
