@@ -28,6 +28,7 @@
 #define HOOKE_BENDING_LOOPS    HOOKE_OF_ISA(hk_bending_loops_)
 #define HOOKE_ENERGY_SET       HOOKE_OF_ISA(hk_energy_set_)
 #define HOOKE_DAMPER_LOOP      HOOKE_OF_ISA(hk_damper_loop_)
+#define HOOKE_DERIVATIVE_LOOP  HOOKE_OF_ISA(hk_derivative_loop_)
 #define HOOKE_TANGENT_SET      HOOKE_OF_ISA(hk_tangent_set_)
 #define HOOKE_TETRAHEDRON_LOOP HOOKE_OF_ISA(hk_tetrahedron_loop_)
 #define HOOKE_TRIANGLE_SET     HOOKE_OF_ISA(hk_triangle_set_)
@@ -40,6 +41,7 @@ extern const struct hk_tiled_loops HOOKE_TILED_LOOPS;
 extern hk_bending_loop *const HOOKE_BENDING_LOOPS[HOOKE_BENDING_SHAPES];
 extern const struct hk_energy_set HOOKE_ENERGY_SET;
 hk_damper_loop HOOKE_DAMPER_LOOP;
+hk_derivative_loop HOOKE_DERIVATIVE_LOOP;
 extern const struct hk_tangent_set HOOKE_TANGENT_SET;
 hk_tetrahedron_loop HOOKE_TETRAHEDRON_LOOP;
 extern const struct hk_triangle_set HOOKE_TRIANGLE_SET;

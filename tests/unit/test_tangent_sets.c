@@ -229,7 +229,67 @@ static void springs(void **unused) {
   }
 }
 
+/* ---- the product with the derivative ---- */
+
+static double dot(const double *a, const double *b) {
+  return (a[0] * b[0] + a[1] * b[1]) + a[2] * b[2];
+}
+
+/* A change of v in positions and of q in velocities. */
+static void change_one(const struct trial *trial, int64_t k, double change[3]) {
+  const int pull = trial->run.shape & HOOKE_RUN_PULL_ONLY;
+  const struct hk_material m = hk_run_material(&trial->run, k);
+  int64_t i, j;
+  double d[3], w[3], u[3], c[3];
+  ends_of(&trial->run, k, &i, &j);
+  for (int a = 0; a < 3; a++)
+    d[a] = trial->q[a][i] - trial->q[a][j], w[a] = trial->v[a][i] - trial->v[a][j];
+  const double r = sqrt(dot(d, d)), rate = r > 0.0 ? dot(w, d) * (1.0 / r) : 0.0;
+  const double tension = m.kappa * (r - m.rest_length) + m.gamma * rate;
+  for (int a = 0; a < 3; a++)
+    change[a] = m.rest_length == 0.0 && !pull ? m.kappa * w[a] : 0.0;
+  if (r == 0.0) return;
+  for (int a = 0; a < 3; a++) {
+    u[a] = d[a] * (1.0 / r);
+    c[a] = m.kappa * u[a] + m.gamma * (w[a] - rate * u[a]) / r;
+  }
+  const double force = dot(c, w) + m.gamma * dot(u, d), along = dot(u, w);
+  const int slack = pull && (r <= m.rest_length || tension < 0.0);
+  for (int a = 0; a < 3; a++)
+    change[a] = slack ? 0.0 : force * u[a] + tension / r * (w[a] - along * u[a]);
+}
+
+static void derivatives(void **unused) {
+  (void)unused;
+  static struct trial trial;
+  static double q[3 * PARTICLES], v[3 * PARTICLES], expected[3 * PARTICLES], found[3 * PARTICLES];
+  const struct hk_derivative_rows rows = {q, v, v, q, found};
+  struct random_source source = {24};
+  const struct hk_spring_set *set;
+  for (int round = 0; round < 320; round++) {
+    draw(&source, round % HOOKE_RUN_SHAPES, random_whole(&source, 1, round % 3 ? 40 : LONGEST), &trial);
+    for (int k = 0; k < 3 * PARTICLES; k++) {
+      q[k] = trial.q[k % 3][k / 3], v[k] = trial.v[k % 3][k / 3];
+      expected[k] = trial.begin.product[k % 3][k / 3];
+    }
+    for (int64_t k = 0; k < trial.run.count; k++) {
+      int64_t i, j;
+      double change[3];
+      ends_of(&trial.run, k, &i, &j);
+      change_one(&trial, k, change);
+      for (int a = 0; a < 3; a++)
+        expected[3 * i + a] -= change[a], expected[3 * j + a] += change[a];
+    }
+    for (int32_t s = 0; (set = hk_spring_set(s)) != NULL; s++) {
+      for (int k = 0; k < 3 * PARTICLES; k++)
+        found[k] = trial.begin.product[k % 3][k / 3];
+      set->derivative(&trial.run, &rows);
+      check_same_bits(3 * PARTICLES, found, expected);
+    }
+  }
+}
+
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(springs)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(springs), cmocka_unit_test(derivatives)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

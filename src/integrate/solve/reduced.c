@@ -402,8 +402,9 @@ double hk_reduced_trace(const struct hk_reduced *reduced) {
   const hooke_system *system = reduced->integrator->system;
   const int64_t n = system->particle_count;
   double sum = 0.0;
-  for (int64_t k = 0; k < 3 * n; k++)
-    sum += system->constrained[k % n] ? 0.0 : reduced->block[k];
+  for (int a = 0; a < 3; a++)
+    for (int64_t p = 0; p < n; p++)
+      sum += system->constrained[p] ? 0.0 : reduced->block[a * n + p];
   return sum;
 }
 

@@ -143,11 +143,13 @@ static void find_moved(const struct hk_stage *stage, double *dq, double *dv) {
   const hooke_integrator *it = stage->reduced.integrator;
   const hooke_system *system = it->system;
   const int64_t n = system->particle_count;
-  for (int64_t k = 0; k < 3 * n; k++) {
-    const int held = system->constrained[k % n] != 0 || hk_bodies_move(&system->bodies, k % n);
-    const double q = stage->begin[k], v = stage->begin[3 * n + k];
-    dq[k] = held ? it->motion->q[k / n][k % n] - q : (stage->at.place[k] - q) + stage->at.a * v;
-    dv[k] = held ? it->motion->v[k / n][k % n] - v : 0.0;
+  for (int64_t a = 0, k = 0; a < 3; a++) {
+    for (int64_t p = 0; p < n; p++, k++) {
+      const int held = system->constrained[p] != 0 || hk_bodies_move(&system->bodies, p);
+      const double q = stage->begin[k], v = stage->begin[3 * n + k];
+      dq[k] = held ? it->motion->q[a][p] - q : (stage->at.place[k] - q) + stage->at.a * v;
+      dv[k] = held ? it->motion->v[a][p] - v : 0.0;
+    }
   }
 }
 
@@ -166,13 +168,15 @@ static int32_t linearise(struct hk_stage *stage) {
   if (status != HOOKE_OK) return status;
   set_matrix(stage);
   status = hk_reduced_change(&stage->reduced, stage->v, stage->change, stage->moved);
-  for (int64_t k = 0; k < 3 * n; k++) {
-    const int64_t p = k % n;
-    const double g = system->has_gravity ? system->gravity[k / n] : 0.0, force = m->f[k / n][p];
-    const double w = system->inverse_mass[p], turn = stage->overdamped ? stage->moved[k] : force;
-    stage->straight[k] = old[k] + (stage->overdamped ? 1.0 : stage->at.length) * (w * turn + g);
-    stage->right[k] = gain(stage) * ((force + stage->moved[k]) + system->mass[p] * g);
-    if (system->constrained[p] == 0) stage->right[k] -= system->mass[p] * (old[k] - speed_of(stage, k));
+  for (int64_t a = 0, k = 0; a < 3; a++) {
+    const double g = system->has_gravity ? system->gravity[a] : 0.0;
+    for (int64_t p = 0; p < n; p++, k++) {
+      const double force = m->f[a][p], turn = stage->overdamped ? stage->moved[k] : force;
+      const double w = system->inverse_mass[p];
+      stage->straight[k] = old[k] + (stage->overdamped ? 1.0 : stage->at.length) * (w * turn + g);
+      stage->right[k] = gain(stage) * ((force + stage->moved[k]) + system->mass[p] * g);
+      if (system->constrained[p] == 0) stage->right[k] -= system->mass[p] * (old[k] - speed_of(stage, k));
+    }
   }
   if (stage->body.count > 0) hk_body_stage_linearise(stage);
   return status;
@@ -189,9 +193,10 @@ static double distance(const struct hk_stage *stage, const double *from) {
   const hooke_system *system = stage->reduced.integrator->system;
   const int64_t n = system->particle_count;
   double sum = 0.0;
-  for (int64_t k = 0; k < 3 * n; k++) {
-    const double d = stage->v[k] - from[k];
-    sum += system->constrained[k % n] ? 0.0 : system->mass[k % n] * (d * d);
+  for (int a = 0; a < 3; a++) {
+    const double *to = stage->v + a * n, *of = from + a * n;
+    for (int64_t p = 0; p < n; p++)
+      sum += system->constrained[p] ? 0.0 : system->mass[p] * ((to[p] - of[p]) * (to[p] - of[p]));
   }
   if (stage->body.count > 0) sum += hk_body_stage_distance(stage, from);
   return sqrt(sum);

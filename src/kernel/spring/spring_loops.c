@@ -164,6 +164,7 @@ const struct hk_spring_set HOOKE_SPRING_SET = {
     .strided = HOOKE_STRIDED_LOOP,
     .tiled = &HOOKE_TILED_LOOPS,
     .dampers = HOOKE_DAMPER_LOOP,
+    .derivative = HOOKE_DERIVATIVE_LOOP,
     .tetrahedra = HOOKE_TETRAHEDRON_LOOP,
     .move = HOOKE_MOVE_LOOP,
     .bending = HOOKE_BENDING_LOOPS,

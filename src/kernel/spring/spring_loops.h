@@ -9,6 +9,7 @@
 #include "kernel/altitude_loops.h"
 #include "kernel/bending_loops.h"
 #include "kernel/spring/damper_loops.h"
+#include "kernel/spring/derivative_loops.h"
 #include "kernel/spring/strided_loops.h"
 
 #include <stddef.h>
@@ -103,6 +104,7 @@ struct hk_spring_set {
   hk_bending_loop *const *bending; /* by HOOKE_BENDING_* */
   const struct hk_tiled_loops *tiled;
   hk_damper_loop *dampers;
+  hk_derivative_loop *derivative;
   hk_tetrahedron_loop *tetrahedra;
   const struct hk_vector_set *vector;
   const struct hk_tangent_set *tangent;

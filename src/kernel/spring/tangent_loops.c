@@ -23,11 +23,11 @@ HOOKE_INLINE struct hk_material material_of(const struct hk_run *run, ptrdiff_t 
 
 HOOKE_INLINE void fill(const struct hk_run run, const struct hk_fields fields, const double alpha,
                        const double beta, const struct hk_tangent tangent, const int axial, const int indexed,
-                       const int where) {
+                       const int where, const ptrdiff_t from, const ptrdiff_t to) {
   const double *const *q = fields.q, *const *v = fields.v;
   const int pull = (run.shape & HOOKE_RUN_PULL_ONLY) != 0;
   HOOKE_VECTORISE
-  for (ptrdiff_t k = 0; k < run.count; k++) {
+  for (ptrdiff_t k = from; k < to; k++) {
     const ptrdiff_t i = indexed ? run.head[k] : run.start + k, j = indexed ? run.tail[k] : i + run.offset;
     const struct hk_material material = material_of(&run, k, where);
     const double kappa = material.kappa, gamma = material.gamma, rest_length = material.rest_length;
@@ -56,19 +56,34 @@ HOOKE_INLINE void fill(const struct hk_run run, const struct hk_fields fields, c
   }
 }
 
+/* Whole vectors, of which the last overlaps the one before: runs are often short, such as a row of a cloth. */
+HOOKE_INLINE void fill_run(const struct hk_run run, const struct hk_fields fields, const double alpha,
+                           const double beta, const struct hk_tangent tangent, const int axial,
+                           const int indexed, const int where) {
+  const ptrdiff_t last = run.count - HOOKE_WIDTH;
+  if (last < 0) {
+    fill(run, fields, alpha, beta, tangent, axial, indexed, where, 0, run.count);
+    return;
+  }
+  for (ptrdiff_t k = 0; k < run.count; k += HOOKE_WIDTH) {
+    const ptrdiff_t from = k < last ? k : last;
+    fill(run, fields, alpha, beta, tangent, axial, indexed, where, from, from + HOOKE_WIDTH);
+  }
+}
+
 HOOKE_INLINE void fill_any(const struct hk_run *run, const struct hk_fields *fields, const double alpha,
                            const double beta, const struct hk_tangent *tangent, const int axial) {
   const int indexed = run->shape & HOOKE_RUN_INDEXED, mixed = run->shape & HOOKE_RUN_MIXED;
   if (mixed && (run->place || run->kappas == NULL))
-    fill(*run, *fields, alpha, beta, *tangent, axial, indexed, ANYWHERE);
+    fill_run(*run, *fields, alpha, beta, *tangent, axial, indexed, ANYWHERE);
   else if (mixed && indexed)
-    fill(*run, *fields, alpha, beta, *tangent, axial, 1, OWN);
+    fill_run(*run, *fields, alpha, beta, *tangent, axial, 1, OWN);
   else if (mixed)
-    fill(*run, *fields, alpha, beta, *tangent, axial, 0, OWN);
+    fill_run(*run, *fields, alpha, beta, *tangent, axial, 0, OWN);
   else if (indexed)
-    fill(*run, *fields, alpha, beta, *tangent, axial, 1, SHARED);
+    fill_run(*run, *fields, alpha, beta, *tangent, axial, 1, SHARED);
   else
-    fill(*run, *fields, alpha, beta, *tangent, axial, 0, SHARED);
+    fill_run(*run, *fields, alpha, beta, *tangent, axial, 0, SHARED);
 }
 
 static void tangent_fill(const struct hk_run *run, const struct hk_fields *fields, double alpha, double beta,
@@ -257,11 +272,6 @@ HOOKE_INLINE void fill_blocks(double (*restrict block)[BLOCK], const struct numb
   }
 }
 
-HOOKE_INLINE void add_block(double *restrict out, const double *restrict b, ptrdiff_t count) {
-  for (ptrdiff_t k = 0; k < count; k++)
-    out[k] += b[k];
-}
-
 /* Every particle sums its springs in ascending number. */
 static void tangent_diagonal(const struct hk_run *run, const struct hk_tangent *t, double *const block[6]) {
   double own[6][BLOCK];
@@ -276,8 +286,8 @@ static void tangent_diagonal(const struct hk_run *run, const struct hk_tangent *
       fill_blocks(own, s, count, 0);
     for (int c = 0; c < 6; c++) {
       if (!(run->shape & HOOKE_RUN_INDEXED)) {
-        add_block(block[c] + (j > i ? j : i), own[c], count);
-        add_block(block[c] + (j > i ? i : j), own[c], count);
+        add_springs(block[c] + (j > i ? j : i), own[c], own[c], count, FIRST);
+        add_springs(block[c] + (j > i ? i : j), own[c], own[c], count, FIRST);
         continue;
       }
       for (ptrdiff_t k = 0; k < count; k++) {

@@ -91,25 +91,9 @@ void hk_spring_slope_blocks(const struct hk_spring_slope *s, double stiff[9], do
 }
 
 static int32_t add_product(const hooke_system *system, const struct hk_point *point, double *out) {
-  for (int64_t r = 0; r < system->springs.run_count; r++) {
-    const struct hk_run *run = &system->springs.run[r];
-    for (int64_t k = 0; k < run->count; k++) {
-      const struct hk_spring spring = hk_run_spring(run, k);
-      struct hk_spring_slope s;
-      if (!hk_spring_slope_find(&spring, point->q, point->v, &s)) continue;
-      const int64_t i = 3 * spring.head, j = 3 * spring.tail;
-      double dx[3], dv[3], change[3];
-      for (int a = 0; a < 3; a++) {
-        dx[a] = point->dq[i + a] - point->dq[j + a];
-        dv[a] = point->dv[i + a] - point->dv[j + a];
-      }
-      hk_spring_slope_change(&s, dx, dv, change);
-      for (int a = 0; a < 3; a++) {
-        out[i + a] -= change[a];
-        out[j + a] += change[a];
-      }
-    }
-  }
+  const struct hk_derivative_rows rows = {point->q, point->v, point->dq, point->dv, out};
+  for (int64_t r = 0; r < system->springs.run_count; r++)
+    hk_spring_set(0)->derivative(&system->springs.run[r], &rows);
   return 0;
 }
 
