@@ -181,6 +181,7 @@ static int32_t find_participation(struct hk_limit *limit) {
   const double h = stiffness_alone ? 0.0 : row->predicted;
   int32_t status = hk_participation_find(limit->system, limit->q, limit->shape, stiffness_alone ? 1.0 : h * h,
                                          h, &limit->participation);
+  limit->participation.undamped = 2.0 / limit->frequency;
   limit->participation.patience = limit->patience;
   limit->participation.room = limit->room;
   if (status == HOOKE_OK && row->predicted > 0.0)

@@ -37,7 +37,8 @@ struct hk_participation {
   double force_share[HOOKE_PARTICIPATION_SHARES];
   int64_t group_count;
   double *group_share; /* by group of the system */
-  /* for a suggestion: as in linearised.h */
+  /* for a suggestion: the largest stable step if nothing were damped, by verlet [s]; as in linearised.h */
+  double undamped;
   struct hk_patience *patience;
   double room;
 };

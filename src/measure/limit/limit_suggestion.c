@@ -225,19 +225,19 @@ static void tell_groups(const hooke_system *system, const struct hk_participatio
 
 /* ---- drag and damping ---- */
 
-/* The limit without drag, or without any damping, by its ratio to Verlet's, which has no damping in either
- * case. */
+/* The limit without drag, or without any damping. The latter is that of verlet, which has no limit by damping,
+ * times the ratio of the two where nothing is damped. */
 static int32_t limit_without(const hooke_system *system, const double *q, const char *method,
-                             const struct hk_participation *participation, int32_t force, double *limit) {
+                             const struct hk_participation *participation, int32_t drag, double *limit) {
+  const struct hk_stability *stability = hk_method_stability(method);
   hooke_system without = *system;
   without.drag = 0.0;
-  const int drag = hk_participation_is_drag(force);
-  const int32_t status =
-      hk_limit_predict_within(&without, q, NULL, drag ? method : "verlet", NULL, NULL, ACCURACY,
-                              participation->room, participation->patience, limit);
-  const struct hk_stability *stability = hk_method_stability(method);
-  if (!drag && stability->kind == HOOKE_STABLE_BY_POLYNOMIAL) *limit *= sqrt(stability->axis / 4.0);
-  return status;
+  if (drag)
+    return hk_limit_predict_within(&without, q, NULL, method, NULL, NULL, ACCURACY, participation->room,
+                                   participation->patience, limit);
+  *limit = participation->undamped;
+  if (stability->kind == HOOKE_STABLE_BY_POLYNOMIAL) *limit *= sqrt(stability->axis / 4.0);
+  return HOOKE_OK;
 }
 
 static int32_t tell_force(const hooke_system *system, const double *q, const char *method, double limit,
@@ -247,7 +247,7 @@ static int32_t tell_force(const hooke_system *system, const double *q, const cha
   const int32_t drag = hk_participation_is_drag(force), bodies = system->bodies.moving > 0;
   int32_t status = HOOKE_OK;
   /* no method has no limit by the damping of bodies */
-  if (drag || !bodies) status = limit_without(system, q, method, participation, force, &without);
+  if (drag || !bodies) status = limit_without(system, q, method, participation, drag, &without);
   if (status != HOOKE_OK) return status;
   add(suggestion->sentence, sizeof suggestion->sentence, "%s%s limits the step", suggestion->kind ? "; " : "",
       drag ? "drag" : "damping along springs");
