@@ -6,14 +6,15 @@ static int64_t at_most(int64_t count) {
 
 /* ---- by runs ---- */
 
-/* Of one material, and of one offset: numbers that nobody has to look up. */
+/* Of one material, and of one offset: numbers that nobody has to look up. The first batch of a run is the
+ * longest, and has the material of those that follow. */
 static void take_plain(const struct hk_run *run, struct hk_spring_batch *batch) {
   const int32_t first = run->start + (int32_t)batch->done;
   for (int32_t k = 0; k < (int32_t)batch->count; k++) {
     batch->head[k] = first + k;
     batch->tail[k] = first + k + run->offset;
   }
-  for (int64_t k = 0; k < batch->count; k++) {
+  for (int64_t k = 0; k < batch->count && batch->done == 0; k++) {
     batch->kappa[k] = run->kappa;
     batch->gamma[k] = run->gamma;
     batch->rest_length[k] = run->rest_length;
