@@ -166,7 +166,7 @@ static void draw_items(struct random_source *source, struct lane_trial *trial) {
     const struct hk_strided_view *batch = &trial->pass.batch[i / 2];
     const int64_t place = any ? random_whole(source, 0, i) : i;
     item[i] = item[place];
-    item[place] = (struct hk_strided_item){batch->ring, i % 2 ? 0 : batch->offset, batch->mask, i % 2};
+    item[place] = (struct hk_strided_item){batch->ring, i % 2 ? 0 : batch->offset, batch->mask};
   }
 }
 

@@ -37,7 +37,6 @@ struct batch {
 struct item {
   ptrdiff_t offset, mask, stride;
   const char *ring;
-  int32_t begins;
 };
 
 struct place {
@@ -75,7 +74,7 @@ HOOKE_INLINE void add_ring(const char *x, ptrdiff_t stride, const int begins, ve
 
 HOOKE_INLINE void add(const struct item *item, ptrdiff_t p, vec sum[VECTORS][3]) {
   const char *x = item->ring + ((BYTES * p - item->offset) & item->mask);
-  if (item->begins)
+  if (item->offset == 0)
     add_ring(x, item->stride, 1, sum);
   else
     add_ring(x, item->stride, 0, sum);
@@ -317,8 +316,7 @@ static void copy_batches(const struct hk_strided_pass *pass, struct batch *batch
     item[i] = (struct item){.offset = BYTES * from->offset,
                             .mask = BYTES * from->mask,
                             .stride = BYTES * hk_ring_stride(from->mask),
-                            .ring = (const char *)from->ring,
-                            .begins = from->begins};
+                            .ring = (const char *)from->ring};
   }
 }
 

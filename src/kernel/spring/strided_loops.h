@@ -44,11 +44,11 @@ struct hk_strided_view {
   struct hk_strided_material material;
 };
 
-/* A batch as seen by particles: the springs that end at them, or, if `offset` is 0, that begin there. */
+/* A batch as seen by particles: the springs that end at them, whose forces are added, or, if `offset` is 0,
+ * that begin there, whose forces are subtracted. */
 struct hk_strided_item {
   const double *ring;
   ptrdiff_t offset, mask;
-  int32_t begins; /* 0: forces are added; 1: subtracted, where springs begin */
 };
 
 /* Distance between x, y and z of a ring, including the repeated first unit, chosen to avoid cache conflicts.

@@ -125,9 +125,8 @@ static void set_items(const struct hk_strided_batches *strided, const uint8_t *t
   struct hk_strided_item *next = partition->pass.item;
   for (int32_t i = 0; i < 2 * strided->count; i++) {
     const struct hk_strided_view *batch = &partition->view[strided->item[i] / 2];
-    const int begins = strided->item[i] % 2;
     if (!there[strided->item[i] / 2]) continue;
-    *next++ = (struct hk_strided_item){batch->ring, begins ? 0 : batch->offset, batch->mask, begins};
+    *next++ = (struct hk_strided_item){batch->ring, strided->item[i] % 2 ? 0 : batch->offset, batch->mask};
   }
 }
 
