@@ -3,6 +3,7 @@
 #include "core/memory.h"
 #include "core/status.h"
 #include "integrate/loop/run_loop.h"
+#include "measure/work/work.h"
 
 #include <math.h>
 #include <stddef.h>
@@ -67,11 +68,18 @@ struct run {
   int64_t frames, next;
   double begin, duration;
   const struct hk_listener *listener;
+  const hooke_integrator *integrator;
 };
+
+static int works_too_long(const struct run *run) {
+  const double most = run->listener ? run->listener->most_work : 0.0;
+  return most > 0.0 && hk_work_of(run->integrator) > most;
+}
 
 static int32_t tell(double share, const char *method, void *ctx) {
   const struct run *run = ctx;
   (void)method;
+  if (works_too_long(run)) return 1;
   if (run->listener == NULL || run->listener->on_progress == NULL) return 0;
   return run->listener->on_progress(fmin(1.0, share), run->listener->ctx);
 }
@@ -112,6 +120,7 @@ static int32_t run_once(struct run *run, const hooke_system *system, const hooke
   if (status == HOOKE_OK) status = hooke_state_create(system, &state);
   if (status == HOOKE_OK) {
     if (run->listener && run->listener->on_start) run->listener->on_start(state, run->listener->ctx);
+    run->integrator = *integrator;
     run->begin = hooke_state_time(state);
     run->duration = hooke_options_number(options, "duration");
     hooke_integrator_on_frame(*integrator, see_frame, run);
@@ -132,6 +141,7 @@ static void keep_counts(struct hk_trial *trial, const hooke_integrator *integrat
   trial->steps = (double)hooke_integrator_count(integrator, "steps");
   trial->linear_iterations = (double)hooke_integrator_count(integrator, "linear_iterations");
   trial->wall_seconds = hooke_integrator_number(integrator, "wall_seconds");
+  trial->work = hk_work_of(integrator);
 }
 
 int32_t hk_trial_run(struct hk_trial *trial, const struct hk_frames *reference, int64_t frames,
@@ -142,9 +152,12 @@ int32_t hk_trial_run(struct hk_trial *trial, const struct hk_frames *reference, 
   for (int64_t f = 0; f < reference->count; f++)
     trial->error_at[f] = trial->drift_at[f] = NAN;
   hk_watched_series_clear(&trial->watched);
-  const int32_t status = run_once(&run, reference->system, options, &integrator);
+  int32_t status = run_once(&run, reference->system, options, &integrator);
   if (integrator == NULL) return status;
   keep_counts(trial, integrator);
+  /* whenever that was noticed */
+  const int32_t too_long = (status == HOOKE_OK || status == HOOKE_STOPPED) && works_too_long(&run);
+  if (too_long) status = HOOKE_STOPPED;
   hooke_integrator_destroy(integrator);
   trial->status = status == HOOKE_OK         ? "finished"
                   : status == HOOKE_DIVERGED ? "diverged"
@@ -156,7 +169,7 @@ int32_t hk_trial_run(struct hk_trial *trial, const struct hk_frames *reference, 
   }
   trial->error = trial->error_max = trial->error_final = trial->energy_drift = NAN;
   const int is_result =
-      status == HOOKE_DIVERGED || status == HOOKE_SOLVER_FAILED || status == HOOKE_STEP_LIMIT;
+      too_long || status == HOOKE_DIVERGED || status == HOOKE_SOLVER_FAILED || status == HOOKE_STEP_LIMIT;
   return is_result ? HOOKE_OK : status;
 }
 

@@ -13,6 +13,7 @@ struct hk_listener {
   int32_t (*on_progress)(double share, void *ctx);
   int32_t (*on_frame)(int64_t frame, int64_t step, const hooke_state *state, void *ctx);
   void (*on_start)(hooke_state *state, void *ctx);
+  double most_work; /* counted work [s] after which a trial is stopped, as a result; 0: any */
   void *ctx;
 };
 
@@ -21,6 +22,7 @@ struct hk_trial {
   double step, rtol, atol; /* NaN if the method does not take it */
   double error, error_max, error_final, energy_drift; /* NaN unless finished */
   double force_evaluations, steps, linear_iterations, wall_seconds;
+  double work;                      /* counted (measure/work) [s] */
   double *error_at, *drift_at;      /* one a frame of the reference, NaN where missing */
   struct hk_watched_series watched; /* quantities watched by the reference, with their errors */
 };
