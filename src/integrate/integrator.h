@@ -25,7 +25,7 @@ struct hk_schedule {
   double step, duration, every, checkpoint; /* NaN if not given */
   int64_t steps, frame_steps;               /* fixed step: in total, and between frames */
   int64_t checkpoint_steps;                 /* fixed step: between checkpoints; 0: none */
-  int64_t frames;                           /* including the initial one; 0 without a duration */
+  int64_t frames;                           /* with those of start and end; 0 without a duration */
   int32_t every_given;                      /* 0: `every` was chosen here */
 };
 
@@ -129,6 +129,12 @@ int32_t hk_integrator_tell(hooke_integrator *integrator);
 /* Reads `step`, `duration` and `every` of the options into a schedule, filling in `every`. */
 int32_t hk_schedule_read(const struct hk_method *method, hooke_options *options,
                          struct hk_schedule *schedule);
+/* Frames of a run: of its start, of the whole multiples of `every` after it, and of its end, unless it is such
+ * a multiple. HOOKE_MOST_STEPS + 1 if they are too many. */
+int64_t hk_schedule_frames(double duration, double every);
+/* The same with a fixed step: 1 if step k has a frame; and the frames before it. */
+int32_t hk_schedule_has_frame(const struct hk_schedule *schedule, int64_t k);
+int64_t hk_schedule_frames_before(const struct hk_schedule *schedule, int64_t k);
 
 /* Forces at the motion's position and time t, counted; HOOKE_STOPPED with the stop value kept. */
 int32_t hk_integrator_forces(hooke_integrator *integrator, double t);

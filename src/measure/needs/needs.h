@@ -103,6 +103,8 @@ double hk_needs_distance(const struct hk_needs *needs, const struct hk_needs_pat
                          const struct hk_needs_path *b);
 /* The same distance, from the positions at the first frame. */
 double hk_needs_moved(const struct hk_needs *needs, const struct hk_needs_path *path);
+/* Time of a frame since the start [s]. */
+double hk_needs_time(const struct hk_needs *needs, int64_t frame);
 /* Number of frames up to which this distance stays within `bound`. */
 int64_t hk_needs_agreed(const struct hk_needs *needs, const struct hk_needs_path *a,
                         const struct hk_needs_path *b, double bound);

@@ -55,6 +55,10 @@ double hk_needs_moved(const struct hk_needs *needs, const struct hk_needs_path *
   return most;
 }
 
+double hk_needs_time(const struct hk_needs *needs, int64_t frame) {
+  return fmin((double)frame * needs->every, needs->duration);
+}
+
 int64_t hk_needs_agreed(const struct hk_needs *needs, const struct hk_needs_path *a,
                         const struct hk_needs_path *b, double bound) {
   int64_t frames = 0;

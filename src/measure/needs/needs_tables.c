@@ -50,7 +50,7 @@ static void read_needs(const void *object, int64_t row, void *line) {
                                                    .method = hooke_options_text(needs->run, "method"),
                                                    .method_picked = (double)needs->method_picked,
                                                    .duration = needs->duration,
-                                                   .judged_until = (double)(needs->judged - 1) * needs->every,
+                                                   .judged_until = hk_needs_time(needs, needs->judged - 1),
                                                    .runs = (double)needs->runs,
                                                    .watched = (double)needs->watch_count,
                                                    .note = needs->note};

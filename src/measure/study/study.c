@@ -163,7 +163,7 @@ static int32_t make_reference(struct hk_study *study) {
   const int quick = study->fixed_rows <= QUICK_SHARE * study->budget;
   const struct hk_reference_request request = {
       .run = study->run,
-      .frame_count = 1 + (int64_t)floor(study->duration / study->every * (1.0 + 1e-9)),
+      .frame_count = hk_schedule_frames(study->duration, study->every),
       .digits = isnan(want) ? NAN : want / 10.0,
       .budget = fmax(REFERENCE_SECONDS, (quick ? LARGER_SHARE : REFERENCE_SHARE) * study->budget),
       .listener = &listener,

@@ -4,8 +4,7 @@
 #include <math.h>
 #include <stddef.h>
 
-/* Time of frame `count` - 1, or the end of the run if that is the last frame, which may come before the end.
- */
+/* Time of frame `count` - 1; that of the last one, which is the end, without the rounding of a multiple. */
 static double time_until(const struct hk_study *study, int64_t count) {
   const struct hk_frames *frames = &study->reference.frames;
   if (count <= 0) return NAN;
