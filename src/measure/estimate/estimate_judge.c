@@ -6,13 +6,15 @@
 #include "measure/spectrum/step_bound.h"
 #include "measure/work/work.h"
 #include "model/state.h"
+#include "model/system.h"
 
 #include <math.h>
 #include <string.h>
 
 static const double APART = 10.0; /* times the error: another method that is farther away contradicts */
 enum { LEAST_STEPS = 20, HALVINGS = 3 };
-static const double SAFE = 0.5; /* of the bound: a stable step that resolves the motion */
+static const int64_t MOST_PARTICLES = 10000; /* of beginnings: their judges may take more memory than runs */
+static const double SAFE = 0.5;              /* of the bound: a stable step that resolves the motion */
 static const double TOLERANCE = 1e-9, TIGHTER = 0.1; /* of error-controlled judges */
 
 static const char *method_of(const struct hk_estimate *e) {
@@ -82,7 +84,9 @@ static const char *beginning_judge(const struct hk_estimate *e) {
   const char *judge = "rk4";
   for (int k = 0; k < 2; k++)
     if (strcmp(method_of(e), pairs[k][0]) == 0) judge = pairs[k][1];
-  return hooke_method_is_built(judge) && hk_method_suits(judge, e->system) ? judge : NULL;
+  const int suits = e->system->particle_count <= MOST_PARTICLES && hooke_method_is_built(judge) &&
+                    hk_method_suits(judge, e->system);
+  return suits ? judge : NULL;
 }
 
 static int32_t find_first_value(const struct hk_estimate *e, const char *judge, double *value) {

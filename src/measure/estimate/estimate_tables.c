@@ -1,12 +1,21 @@
 /* The table of an estimate. */
 #include "measure/estimate/estimate.h"
 
+#include <math.h>
+
 struct line {
   double estimate, rms, known_until;
   const char *by;
-  double wanted, met, energy_rise, heat_excess, last_piece, last_from, seconds;
+  double wanted, met, energy_rise, heat_excess, last_piece, last_from, seconds, memory_bytes;
   const char *reason;
 };
+
+/* States, and frames of times, energies and positions. */
+static double memory_of(const struct hk_estimate *e) {
+  if (e->options == NULL) return NAN;
+  const double state = 2.0 * (double)e->kept.size + 1.0, frame = (double)e->kept.size + 2.0;
+  return (double)sizeof(double) * (2.0 * state + (double)e->kept.count * frame);
+}
 
 static void read(const void *object, int64_t row, void *line) {
   const struct hk_estimate *e = object;
@@ -22,6 +31,7 @@ static void read(const void *object, int64_t row, void *line) {
                                        .last_piece = e->last_error,
                                        .last_from = e->last_from,
                                        .seconds = e->spent,
+                                       .memory_bytes = memory_of(e),
                                        .reason = e->reason};
 }
 
@@ -53,6 +63,7 @@ static const struct hk_column columns[] = {
         "run of that piece"),
     COLUMN(last_from, NUMBER, "s", "start of that piece, whose end is that of the run"),
     COLUMN(seconds, NUMBER, "s", "time that picking and measuring took so far"),
+    COLUMN(memory_bytes, COUNT, "bytes", "memory of the states that it keeps while the run goes on"),
     COLUMN(reason, TEXT, "", "why the error is not known, or why the wanted one is not met"),
 };
 
