@@ -129,8 +129,8 @@ int32_t hk_integrator_tell(hooke_integrator *integrator);
 /* Reads `step`, `duration` and `every` of the options into a schedule, filling in `every`. */
 int32_t hk_schedule_read(const struct hk_method *method, hooke_options *options,
                          struct hk_schedule *schedule);
-/* Frames of a run: of its start, of the whole multiples of `every` after it, and of its end, unless it is such
- * a multiple. HOOKE_MOST_STEPS + 1 if they are too many. */
+/* Frames of a run: its start, whole multiples of `every` after it, and its end, if that is none of them.
+ * HOOKE_MOST_STEPS + 1 if they are too many. */
 int64_t hk_schedule_frames(double duration, double every);
 /* The same with a fixed step: 1 if step k has a frame; and the frames before it. */
 int32_t hk_schedule_has_frame(const struct hk_schedule *schedule, int64_t k);
