@@ -136,10 +136,15 @@ static int is_all(const struct hk_reference *r) {
   return r->trusted == r->frames.count && !r->coarse;
 }
 
+/* The distance at which tightening ends [m]. */
+static double aim_of(const struct hk_reference *r) {
+  return is_all(r) ? CLOSE * r->extent : r->digits;
+}
+
 /* The tolerance at which the two should agree: errors scale with the tolerance, unless motion is chaotic. */
 static double next_tolerance(const struct hk_reference_watch *watch, const struct hk_reference *r,
                              double tolerance) {
-  const double aim = AIM * (is_all(r) ? CLOSE * r->extent : r->digits) / watch->apart;
+  const double aim = AIM * aim_of(r) / watch->apart;
   const double least = tolerance > TIGHT ? LEAST_FACTOR : MOST_FACTOR;
   return fmax(TIGHTEST, tolerance * fmax(least, fmin(MOST_FACTOR, aim)));
 }
@@ -147,6 +152,12 @@ static double next_tolerance(const struct hk_reference_watch *watch, const struc
 /* 1 if the reference is as good as requested. */
 static int is_enough(const struct hk_reference_request *request, const struct hk_reference *r) {
   return is_all(r) && (request->enough || r->agreement <= CLOSE * r->extent);
+}
+
+/* 1 if rounding alone is above the distance that tightening aims at, where more steps would only add to it. */
+static int is_drowned(const struct hk_reference *r) {
+  const int64_t frame = r->trusted < r->frames.recorded ? r->trusted : r->frames.recorded - 1;
+  return SAFETY * r->frames.rounding[frame] > aim_of(r);
 }
 
 /* 1 if an integrator gave up, which it may do at one tolerance and not at another. */
@@ -192,7 +203,8 @@ static int32_t tighten(struct hk_reference_watch *watch, struct hk_reference *r,
     const int failed = gave_up(status);
     if (failed && r->checked > 0) status = HOOKE_OK;
     if (status != HOOKE_OK && (!failed || tolerance <= TIGHTEST)) return status;
-    if (r->checked > 0 && (failed || is_enough(watch->request, r) || tolerance <= TIGHTEST)) break;
+    if (r->checked > 0 && (failed || is_enough(watch->request, r) || is_drowned(r) || tolerance <= TIGHTEST))
+      break;
     const double seconds = hk_clock_seconds() - begun;
     double finer = failed ? tolerance * LEAST_FACTOR : next_tolerance(watch, r, tolerance);
     if (!has_time(watch, r, tolerance / finer, seconds)) finer = fmax(finer, MOST_FACTOR * tolerance);
