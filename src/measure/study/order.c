@@ -89,7 +89,8 @@ static void explain(const struct hk_study *study, int32_t method, struct hk_stud
   char causes[sizeof order->note - 32];
   if (points < FEWEST_POINTS) {
     snprintf(order->note, sizeof order->note, "%s",
-             reached_floor(study, method)
+             study->reference.trusted < 2 ? "no error is known: the reference is not trusted beyond the start"
+             : reached_floor(study, method)
                  ? "too few rows clear of the floor: the error is down to what the reference knows"
                  : "too few rows in the asymptotic range; finer steps would show the order");
     return;
