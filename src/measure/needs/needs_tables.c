@@ -217,7 +217,7 @@ static const struct hk_column row_columns[] = {
         "springs, bending, altitude, damping, drag, gravity, callback, idle, loose, part, rigid, compression "
         "or resolution"),
     HOOKE_COLUMN(struct row_line, error, NUMBER, "m",
-                 "change of the watched particles without it; NaN if the run did not end"),
+                 "largest change of position of a watched particle without it; NaN if the run did not end"),
     HOOKE_COLUMN(struct row_line, needed, FLAG, "",
                  "the change is more than the wanted error; NaN where nothing moves that it could change"),
     HOOKE_COLUMN(struct row_line, left_out, FLAG, "", "the lean system is without it, too"),

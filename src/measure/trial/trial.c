@@ -12,15 +12,17 @@
 int32_t hk_trial_create(const struct hk_frames *reference, struct hk_trial *trial) {
   *trial = (struct hk_trial){.status = NULL};
   trial->error_at = hk_new(reference->count, sizeof(double));
+  trial->error_max_at = hk_new(reference->count, sizeof(double));
   trial->drift_at = hk_new(reference->count, sizeof(double));
   const int32_t status = hk_watched_series_create(reference->watched.list, reference->count, &trial->watched);
-  if (trial->error_at && trial->drift_at && status == HOOKE_OK) return HOOKE_OK;
+  if (trial->error_at && trial->error_max_at && trial->drift_at && status == HOOKE_OK) return HOOKE_OK;
   hk_trial_release(trial);
   return HOOKE_NO_MEMORY;
 }
 
 void hk_trial_release(struct hk_trial *trial) {
   hk_free(trial->error_at);
+  hk_free(trial->error_max_at);
   hk_free(trial->drift_at);
   hk_watched_series_release(&trial->watched);
   memset(trial, 0, sizeof *trial);
@@ -55,6 +57,7 @@ struct hk_trial_line hk_trial_line(const struct hk_trial *trial, const char *met
       .linear_iterations = t->linear_iterations,
       .wall_seconds = t->wall_seconds,
       .error_at = {t->error_at, frames},
+      .error_max_at = {t->error_max_at, frames},
       .energy_drift_at = {t->drift_at, frames},
   };
 }
@@ -66,7 +69,7 @@ struct run {
   const struct hk_frames *reference; /* with */
   struct hk_trial *trial;
   int64_t frames, next;
-  double begin, duration;
+  double begin, duration, rounding; /* rounding: what it may have displaced a particle by so far [m] */
   const struct hk_listener *listener;
   const hooke_integrator *integrator;
 };
@@ -87,20 +90,28 @@ static int32_t tell(double share, const char *method, void *ctx) {
 static void judge(const struct run *run, int64_t f, const hooke_state *state) {
   struct hk_trial *trial = run->trial;
   const double *q = hooke_state_position(state);
+  const double rounding = fmax(run->rounding, run->reference->rounding[f]);
   double largest;
-  trial->error_at[f] = hk_frames_distance(run->reference, f, q, &largest);
+  trial->rounding = rounding;
+  trial->error_at[f] = fmax(rounding, hk_frames_distance(run->reference, f, q, &largest));
+  trial->error_max_at[f] = fmax(rounding, largest);
   trial->drift_at[f] = hooke_system_energy(run->reference->system, "total", q, hooke_state_velocity(state)) -
                        run->reference->energy[f];
   hk_watched_series_keep(&trial->watched, f, q, hooke_state_velocity(state));
   trial->error = fmax(trial->error, trial->error_at[f]);
-  trial->error_max = fmax(trial->error_max, largest);
+  trial->error_max = fmax(trial->error_max, trial->error_max_at[f]);
   trial->error_final = trial->error_at[f];
   trial->energy_drift = fmax(trial->energy_drift, fabs(trial->drift_at[f]));
 }
 
+/* Every step may round every position, always in the same direction where it moves on by less than that. */
 static int32_t see_frame(int64_t step, const hooke_state *state, void *ctx) {
   struct run *run = ctx;
   const int64_t f = run->next++;
+  const struct hk_frames *frames = run->record ? run->record : run->reference;
+  const double *q = hooke_state_position(state);
+  run->rounding = fmax(run->rounding, (double)step * hk_frames_rounding(frames, q));
+  if (run->record && f < frames->count) frames->rounding[f] = run->rounding;
   if (run->record)
     hk_frames_record(run->record, state);
   else if (f < run->frames)
@@ -150,7 +161,7 @@ int32_t hk_trial_run(struct hk_trial *trial, const struct hk_frames *reference, 
   hooke_integrator *integrator = NULL;
   trial->error = trial->error_max = trial->error_final = trial->energy_drift = 0.0;
   for (int64_t f = 0; f < reference->count; f++)
-    trial->error_at[f] = trial->drift_at[f] = NAN;
+    trial->error_at[f] = trial->error_max_at[f] = trial->drift_at[f] = NAN;
   hk_watched_series_clear(&trial->watched);
   int32_t status = run_once(&run, reference->system, options, &integrator);
   if (integrator == NULL) return status;
@@ -163,11 +174,10 @@ int32_t hk_trial_run(struct hk_trial *trial, const struct hk_frames *reference, 
                   : status == HOOKE_DIVERGED ? "diverged"
                   : status == HOOKE_STOPPED  ? "stopped"
                                              : "failed";
-  if (status == HOOKE_OK) {
+  if (status == HOOKE_OK)
     hk_watched_series_compare(&trial->watched, &reference->watched, frames, reference->time, 1.0);
-    return HOOKE_OK;
-  }
-  trial->error = trial->error_max = trial->error_final = trial->energy_drift = NAN;
+  if (status != HOOKE_OK || frames < 2)
+    trial->error = trial->error_max = trial->error_final = trial->energy_drift = NAN;
   const int is_result =
       too_long || status == HOOKE_DIVERGED || status == HOOKE_SOLVER_FAILED || status == HOOKE_STEP_LIMIT;
   return is_result ? HOOKE_OK : status;
