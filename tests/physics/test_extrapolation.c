@@ -29,7 +29,7 @@ static double worst_error(const struct reference *reference, long double toleran
   canonical_create(system, &canonical);
   canonical.gravity = reference->gravity;
   const double *q = hooke_state_position(state);
-  struct long_force force = {&canonical, 0, NULL, q, long_force_extent(size / 3, q)};
+  struct long_force force = {.canonical = &canonical, .origin = q, .extent = long_force_extent(size / 3, q)};
   struct extrapolation problem = problem_of(&force, tolerance);
   long double *y = new_block(2 * size, (int64_t)sizeof *y), step = 1e-3L, t = 0.0L, worst = 0.0L;
   for (int64_t k = 0; k < size; k++)
@@ -76,7 +76,7 @@ static void compare_forces(uint64_t seed, int32_t features) {
     y[k] = q[k];
     y[size + k] = v[k];
   }
-  struct long_force force = {&scene.canonical, 0, NULL, q, 1.0};
+  struct long_force force = {.canonical = &scene.canonical, .origin = q, .extent = 1.0};
   long_force_rate(0.0L, y, f, &force);
   const double scale = largest(size, a);
   for (int64_t k = 0; k < size; k++) {
