@@ -22,7 +22,6 @@ from typing import Any
 
 import h5py
 import numpy as np
-
 from calibration_scenes import options_of, scene_of
 from truth import ROOT, TOLERANCES, known
 
@@ -49,6 +48,11 @@ def farthest(a: np.ndarray, b: np.ndarray, free: list[int]) -> np.ndarray:
     return np.sqrt(((a - b)[:, free] ** 2).sum(axis=2)).max(axis=1)
 
 
+def positions_of(solution: dict[str, Any]) -> np.ndarray:
+    states = [state["position"] for state in solution["states"]]
+    return np.array(states).reshape(len(states), -1, 3)
+
+
 class Truth:
     """At the times of the frames, [frames][particles][3], by two tolerances; None if one takes too long."""
 
@@ -56,7 +60,7 @@ class Truth:
         with ThreadPoolExecutor() as pool:
             found = list(pool.map(lambda tolerance: known(path, times, tolerance, EVALUATIONS, kept), TOLERANCES))
         self.free = found[1]["free"] if found[1] else []
-        self.loose, self.tight = (one and np.array([state["position"] for state in one["states"]]).reshape(len(times), -1, 3) for one in found)
+        self.loose, self.tight = (one and positions_of(one) for one in found)
 
     def known(self) -> bool:
         return self.loose is not None and self.tight is not None
@@ -231,8 +235,8 @@ def report(rows: list[dict[str, Any]], left_out: dict[int, dict[str, Any]]) -> N
     for row in low:
         print(f"seed {row['seed']:5} {row['kind']:15} {row['method']:17} step {row['step'] or row['rtol']:.3g} by {row['by']}: "
               f"figure {row['figure']:.3g} m, error {row['true']:.3g} m")  # fmt: skip
-    reasons = sorted({row["left_out"] for row in left_out.values() if "left_out" in row})
-    print("\nleft out: " + ", ".join(f"{sum(row.get('left_out') == why for row in left_out.values())} where {why}" for why in reasons))
+    reasons = [row["left_out"] for row in left_out.values() if "left_out" in row]
+    print("\nleft out: " + ", ".join(f"{reasons.count(why)} where {why}" for why in sorted(set(reasons))))
 
 
 # ---- the picture ----

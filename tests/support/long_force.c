@@ -282,7 +282,8 @@ static void place(const struct long_force *force, real t, real *q, real *v) {
 static void accelerate(const struct long_force *force, const real *v, real *a) {
   const struct canonical *canonical = force->canonical;
   for (int64_t k = 0; k < 3 * canonical->particle_count; k++) {
-    const real w = canonical->inverse_mass[k / 3], m = force->mass != NULL ? w * (real)force->mass[k / 3] : 1.0L;
+    const real w = canonical->inverse_mass[k / 3],
+               m = force->mass != NULL ? w * (real)force->mass[k / 3] : 1.0L;
     const real g = canonical->gravity != NULL ? m * (real)canonical->gravity[k % 3] : 0.0L;
     const real drag = force->mass != NULL ? 0.0L : (real)canonical->drag;
     a[k] = w != 0.0L ? w * (a[k] - drag * v[k]) + g : 0.0L;
