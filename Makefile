@@ -6,8 +6,10 @@
 #   make playground  makes the library for the browser, as one page: build/playground/live.html
 #   make test   sets up, builds, and runs every test
 #   make windows  compiles the library and the program for Windows, build/windows, whose tests run under wine
-#   make test-long  runs what takes hours, in eight parts that go on where they were: soak, fuzz, fuzz_hdf5,
-#                   sanitizers, arm64, windows, want, wheels; make test-long PART=soak runs one of them
+#   make test-long  runs what takes hours, in nine parts that go on where they were: soak, fuzz, fuzz_hdf5,
+#                   sanitizers, arm64, windows, want, calibration, wheels; make test-long PART=soak runs one of them
+#   make calibration  holds the error that hooke run prints against the truth, on 1000 random runs; make calibration
+#                   RUNS=100 on fewer, without writing the figures into the pages
 #   make tidy   runs clang-tidy over the sources in C
 #   make wheel  makes the Python package to hand on, in build/wheel: a wheel that needs nothing else, and the sources
 #   make wheel-windows  makes the wheel for Windows
@@ -68,7 +70,7 @@ test: $(PRESETS:%=tests-%) build/fuzz/packages playground-if-possible
 	if [ -n "$$failed" ]; then echo; echo "failed:$${failed#;}"; exit 1; fi
 
 # Each part keeps what is done in build/long and writes its figures into docs/notes/reliability.md.
-LONG_PARTS = soak fuzz fuzz_hdf5 sanitizers arm64 windows want wheels
+LONG_PARTS = soak fuzz fuzz_hdf5 sanitizers arm64 windows want calibration wheels
 PART = $(LONG_PARTS)
 ifneq ($(filter-out $(LONG_PARTS),$(PART)),)
 $(error no part is called $(filter-out $(LONG_PARTS),$(PART)); there are $(LONG_PARTS))
@@ -76,6 +78,15 @@ endif
 
 test-long: $(PART:%=build/long/%.packages) | build/venv/done
 	$(PYTHON) tests/long/run.py $(PART)
+
+calibration: build/long/calibration.packages | build/venv/done
+ifdef RUNS
+	cmake --preset release -B build/long/release -DHOOKE_LONG_TESTS=ON >build/long/configure.log
+	cmake --build build/long/release --target hooke_cli hooke_long_extrapolate
+	HOOKE_EXTRAPOLATE=build/long/release/tests/long/extrapolate $(VENV) tests/long/calibrate.py --runs $(RUNS)
+else
+	$(PYTHON) tests/long/run.py calibration
+endif
 
 # Nothing is compiled; bench needs the header that says what commit it is of.
 tidy: build/tidy/packages
@@ -184,6 +195,6 @@ build/packages $(OTHER_PACKAGES): Makefile cmake/packages.txt
 	fi
 	@touch $@
 
-.PHONY: all venv demo playground windows test test-long tidy wheel wheel-test wheel-windows dist $(PRESETS:%=tests-%)
+.PHONY: all venv demo playground windows test test-long calibration tidy wheel wheel-test wheel-windows dist $(PRESETS:%=tests-%)
 .DELETE_ON_ERROR:
 .SECONDARY:

@@ -54,7 +54,7 @@ def test_planted(planted):
 @pytest.fixture
 def steps(monkeypatch, tmp_path):
     monkeypatch.syspath_prepend(str(LONG))
-    for name in ("steps", "soak", "fuzz", "fuzz_hdf5", "sanitizers", "arm64", "windows", "bits", "wheels"):
+    for name in ("steps", "soak", "fuzz", "fuzz_hdf5", "sanitizers", "arm64", "windows", "bits", "calibration", "wheels"):
         monkeypatch.delitem(sys.modules, name, raising=False)
     spec = importlib.util.spec_from_file_location("steps", LONG / "steps.py")
     module = importlib.util.module_from_spec(spec)
@@ -69,7 +69,7 @@ def steps(monkeypatch, tmp_path):
 
 
 def test_parts_have_their_place(steps):
-    for name in ("soak", "fuzz", "fuzz_hdf5", "sanitizers", "arm64", "windows", "want", "wheels"):
+    for name in ("soak", "fuzz", "fuzz_hdf5", "sanitizers", "arm64", "windows", "want", "calibration", "wheels"):
         assert re.search(rf"<!-- figures of {name} -->\n(?:(?!<!--).)*\n<!-- end -->", PAGE, re.DOTALL)
         part = importlib.import_module(name).PART
         assert part.name == name

@@ -103,6 +103,32 @@ static void read_facts(const hooke_system *system, struct canonical *canonical, 
   }
 }
 
+/* The bodies of a system, each with one pinned particle at most. */
+static struct long_body *find_bodies(const hooke_system *system, struct long_force *force) {
+  force->body_count = hooke_system_count(system, "bodies");
+  struct long_body *bodies = new_block(force->body_count, (int64_t)sizeof *bodies);
+  for (int64_t b = 0; b < force->body_count; b++) {
+    struct long_body *body = &bodies[b];
+    body->count = hooke_system_body_particles(system, b, NULL);
+    body->particle = new_block(body->count, (int64_t)sizeof(int64_t));
+    hooke_system_body_particles(system, b, body->particle);
+    body->pivot = -1;
+    for (int64_t k = 0; k < body->count; k++) {
+      if (force->canonical->inverse_mass[body->particle[k]] != 0.0) continue;
+      need(body->pivot < 0, "a body has two pinned particles");
+      body->pivot = body->particle[k];
+    }
+  }
+  force->body = bodies;
+  return bodies;
+}
+
+static void free_bodies(struct long_body *bodies, int64_t count) {
+  for (int64_t b = 0; b < count; b++)
+    free(bodies[b].particle);
+  free(bodies);
+}
+
 static void print_state(double time, int64_t size, const long double *q, int first) {
   printf("%s{\"time\": %.17g, \"position\": [", first ? "" : ", ", time);
   for (int64_t k = 0; k < size; k++)
@@ -175,12 +201,15 @@ int main(int argc, char **argv) {
                              .drive = facts.drive,
                              .origin = q,
                              .extent = long_force_extent(canonical.particle_count, q)};
+  if (strcmp(hooke_system_dynamics(system), "overdamped") == 0) force.mass = hooke_system_mass(system);
+  struct long_body *bodies = find_bodies(system, &force);
   const int32_t result = follow(&force, state, argv + 2, argc - 2);
   for (int64_t k = 0; k < facts.drive_count; k++) {
     free(facts.drive[k].time);
     free(facts.drive[k].displacement);
   }
   free(facts.drive);
+  free_bodies(bodies, force.body_count);
   free(q);
   canonical_destroy(&canonical);
   hooke_state_destroy(state);

@@ -9,6 +9,7 @@ from __future__ import annotations
 import sys
 
 import arm64
+import calibration
 import fuzz
 import fuzz_hdf5
 import sanitizers
@@ -18,7 +19,7 @@ import wheels
 import windows
 from steps import load, main, write_figures
 
-PARTS = {part.PART.name: part.PART for part in (soak, fuzz, fuzz_hdf5, sanitizers, arm64, windows, want, wheels)}
+PARTS = {part.PART.name: part.PART for part in (soak, fuzz, fuzz_hdf5, sanitizers, arm64, windows, want, calibration, wheels)}
 
 if __name__ == "__main__":
     option, *names = sys.argv[1:] or [""]

@@ -5,6 +5,7 @@
 #include "random_scene.h"
 #include "reference.h"
 #include "run.h"
+#include "small.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -29,7 +30,7 @@ static double worst_error(const struct reference *reference, long double toleran
   canonical_create(system, &canonical);
   canonical.gravity = reference->gravity;
   const double *q = hooke_state_position(state);
-  struct long_force force = {&canonical, 0, NULL, q, long_force_extent(size / 3, q)};
+  struct long_force force = {.canonical = &canonical, .origin = q, .extent = long_force_extent(size / 3, q)};
   struct extrapolation problem = problem_of(&force, tolerance);
   long double *y = new_block(2 * size, (int64_t)sizeof *y), step = 1e-3L, t = 0.0L, worst = 0.0L;
   for (int64_t k = 0; k < size; k++)
@@ -65,6 +66,7 @@ static void compare_forces(uint64_t seed, int32_t features) {
                                                     .springs = 90,
                                                     .triples = 12,
                                                     .tetrahedra = 12,
+                                                    .anchors = 12,
                                                     .features = features},
                       &scene);
   const int64_t size = 3 * scene.canonical.particle_count;
@@ -76,7 +78,7 @@ static void compare_forces(uint64_t seed, int32_t features) {
     y[k] = q[k];
     y[size + k] = v[k];
   }
-  struct long_force force = {&scene.canonical, 0, NULL, q, 1.0};
+  struct long_force force = {.canonical = &scene.canonical, .origin = q, .extent = 1.0};
   long_force_rate(0.0L, y, f, &force);
   const double scale = largest(size, a);
   for (int64_t k = 0; k < size; k++) {
@@ -98,6 +100,82 @@ static void test_forces(void **unused) {
     compare_forces(seed,
                    (SCENE_EVERYTHING & ~SCENE_CALLBACK & ~SCENE_DRIVEN) & (int32_t)(seed * 0x9e3779b9u));
   compare_forces(41, SCENE_EVERYTHING & ~SCENE_CALLBACK & ~SCENE_DRIVEN);
+}
+
+enum { NET = 7 };
+
+/* A net of seven particles under gravity, committed with a body of four of them that turns, held at particle 0
+ * or free, or overdamped. */
+static hooke_system *make_net(const double *q, int64_t pinned, int32_t overdamped) {
+  const double mass[NET] = {0.5, 1, 2, 0.7, 1.3, 0.4, 3}, spin[3] = {0.5, -1.0, 2.0};
+  const int64_t ends[] = {0, 4, 1, 4, 2, 5, 3, 6, 4, 5, 5, 6}, body[4] = {0, 1, 2, 3};
+  double v[3 * NET] = {[12] = 0.3, [16] = -0.2};
+  for (int64_t p = 0; p < 4; p++) {
+    for (int a = 0; a < 3; a++)
+      v[3 * p + a] = spin[(a + 1) % 3] * (q[3 * p + (a + 2) % 3] - q[(a + 2) % 3]) -
+                     spin[(a + 2) % 3] * (q[3 * p + (a + 1) % 3] - q[(a + 1) % 3]);
+  }
+  hooke_system *system = NULL;
+  check_ok(hooke_system_create(&system));
+  if (overdamped) check_ok(hooke_system_set_dynamics(system, "overdamped"));
+  check_ok(hooke_system_add_particles(system, NET, q, overdamped ? NULL : v, NET, mass, NULL));
+  small_springs(system, 6, ends,
+                (struct springs){.stiffness = 40.0, .damping = !overdamped, .rest_length = 0.5});
+  check_ok(hooke_system_set_gravity(system, (double[]){0.0, -9.81, 1.0}));
+  check_ok(hooke_system_set_drag(system, 0.8));
+  if (pinned >= 0) check_ok(hooke_system_pin(system, 1, &pinned));
+  if (!overdamped) check_ok(hooke_system_add_body(system, "body", 4, body, 0));
+  check_ok(hooke_system_commit(system));
+  return system;
+}
+
+/* The library's accelerations, those of a rigid motion in a body, or velocities of an overdamped system. */
+static void compare_net(int64_t pinned, int32_t overdamped) {
+  const double q[3 * NET] = {0, 0, 0, 1, 0.1, 0, 0.2, 0.9, 0.1, 0, 0.2, 1.1, 2, 0, 0, 1.5, 1.5, 0, 0, 2, 2};
+  int64_t body[4] = {0, 1, 2, 3};
+  const struct long_body bodies[] = {{4, body, pinned}};
+  const double gravity[3] = {0.0, -9.81, 1.0};
+  double a[3 * NET];
+  long double y[6 * NET], f[6 * NET];
+  hooke_system *system = make_net(q, pinned, overdamped);
+  hooke_state *state = start_state(system);
+  struct canonical canonical;
+  canonical_create(system, &canonical);
+  canonical.gravity = gravity;
+  canonical.drag = 0.8;
+  struct long_force force = {.canonical = &canonical,
+                             .origin = q,
+                             .extent = 1.0,
+                             .mass = overdamped ? hooke_system_mass(system) : NULL,
+                             .body_count = !overdamped,
+                             .body = bodies};
+  const double *v = hooke_state_velocity(state);
+  check_ok(hooke_system_acceleration(system, 0.0, q, v, a));
+  for (int k = 0; k < 3 * NET; k++) {
+    y[k] = q[k];
+    y[3 * NET + k] = v[k];
+  }
+  long_force_rate(0.0L, y, f, &force);
+  check_between(largest(3 * NET, a), 10.0, 1000.0);
+  for (int k = 0; k < 3 * NET; k++) {
+    check_close((double)f[(overdamped ? 0 : 3 * NET) + k], a[k], 1e-12 * largest(3 * NET, a));
+    check_close((double)f[(overdamped ? 3 * NET : 0) + k], overdamped ? 0.0 : v[k], 0.0);
+  }
+  canonical_destroy(&canonical);
+  hooke_state_destroy(state);
+  hooke_system_destroy(system);
+}
+
+static void test_bodies(void **unused) {
+  (void)unused;
+  compare_net(-1, 0);
+  compare_net(0, 0);
+}
+
+static void test_overdamped(void **unused) {
+  (void)unused;
+  compare_net(-1, 1);
+  compare_net(0, 1);
 }
 
 /* ---- motions ---- */
@@ -198,7 +276,8 @@ static void test_giving_up(void **unused) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(test_solutions), cmocka_unit_test(test_forces),
-                                     cmocka_unit_test(test_motions), cmocka_unit_test(test_jumps),
+                                     cmocka_unit_test(test_bodies),    cmocka_unit_test(test_overdamped),
+                                     cmocka_unit_test(test_motions),   cmocka_unit_test(test_jumps),
                                      cmocka_unit_test(test_giving_up)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -124,6 +124,102 @@ static void add_tetrahedra(const struct canonical *canonical, const real *q, con
   }
 }
 
+/* As a spring whose second end is a point at rest. */
+static void add_anchors(const struct canonical *canonical, const real *q, const real *v, real *force) {
+  for (int64_t k = 0; k < canonical->anchor_count; k++) {
+    const int64_t i = 3 * canonical->anchored[k];
+    const double *point = canonical->anchor_point + 3 * k;
+    const real d[3] = {q[i] - point[0], q[i + 1] - point[1], q[i + 2] - point[2]}, r = sqrtl(dot(d, d));
+    if (r == 0.0L) continue;
+    const real stretch = r - canonical->anchor[2][k];
+    const real tension = canonical->anchor[0][k] * stretch + canonical->anchor[1][k] * dot(v + i, d) / r;
+    for (int a = 0; a < 3; a++)
+      force[i + a] -= tension / r * d[a];
+  }
+}
+
+/* ---- bodies ---- */
+
+/* The solution of a x = b with a symmetric 3x3 matrix, of its rows. */
+static void solve(real a[3][3], const real b[3], real x[3]) {
+  real side[3][3];
+  for (int k = 0; k < 3; k++)
+    cross(a[(k + 1) % 3], a[(k + 2) % 3], side[k]);
+  const real determinant = dot(a[0], side[0]);
+  for (int k = 0; k < 3; k++)
+    x[k] = (side[0][k] * b[0] + side[1][k] * b[1] + side[2][k] * b[2]) / determinant;
+}
+
+static real mass_of(const struct long_force *force, int64_t particle) {
+  const real w = force->canonical->inverse_mass[particle];
+  return w != 0.0L ? 1.0L / w : 0.0L;
+}
+
+/* The point about which a body turns, its centre of mass or its pinned particle, and the velocity and the
+ * acceleration of that point; `a` has the accelerations that the particles would have by themselves. */
+static void find_point(const struct long_force *force, const struct long_body *body, const real *y,
+                       const real *a, real point[3][3]) {
+  const int64_t size = 3 * force->canonical->particle_count;
+  const real *of[3] = {y, y + size, a};
+  real mass = 0.0L;
+  memset(point, 0, 9 * sizeof(real));
+  for (int64_t k = 0; k < body->count; k++) {
+    const real m = body->pivot < 0 ? mass_of(force, body->particle[k]) : body->particle[k] == body->pivot;
+    mass += m;
+    for (int n = 0; n < 9; n++)
+      point[n / 3][n % 3] += m * of[n / 3][3 * body->particle[k] + n % 3];
+  }
+  for (int n = 0; n < 9; n++)
+    point[n / 3][n % 3] /= mass;
+}
+
+/* Angular momentum, torque and inertia about that point. */
+struct turning {
+  real momentum[3], torque[3], inertia[3][3];
+};
+
+static void find_turning(const struct long_force *force, const struct long_body *body, const real *y,
+                         const real *a, real point[3][3], struct turning *turning) {
+  const real *v = y + 3 * force->canonical->particle_count;
+  memset(turning, 0, sizeof *turning);
+  for (int64_t k = 0; k < body->count; k++) {
+    const int64_t at = 3 * body->particle[k];
+    const real m = mass_of(force, body->particle[k]);
+    real r[3], u[3], moment[3], torque[3];
+    subtract(y + at, point[0], r);
+    subtract(v + at, point[1], u);
+    cross(r, u, moment);
+    cross(r, a + at, torque);
+    for (int i = 0; i < 3; i++) {
+      turning->momentum[i] += m * moment[i];
+      turning->torque[i] += m * torque[i];
+      for (int j = 0; j < 3; j++)
+        turning->inertia[i][j] += m * ((i == j ? dot(r, r) : 0.0L) - r[i] * r[j]);
+    }
+  }
+}
+
+/* Replaces the accelerations of its particles by those of a rigid motion, which keeps their distances. */
+static void stiffen(const struct long_force *force, const struct long_body *body, const real *y, real *a) {
+  struct turning turning;
+  real point[3][3], omega[3], alpha[3], spin[3], gyration[3];
+  find_point(force, body, y, a, point);
+  find_turning(force, body, y, a, point, &turning);
+  solve(turning.inertia, turning.momentum, omega);
+  cross(omega, turning.momentum, gyration);
+  subtract(turning.torque, gyration, spin);
+  solve(turning.inertia, spin, alpha);
+  for (int64_t k = 0; k < body->count; k++) {
+    real r[3], u[3], along[3], inward[3];
+    subtract(y + 3 * body->particle[k], point[0], r);
+    cross(alpha, r, along);
+    cross(omega, r, u);
+    cross(omega, u, inward);
+    for (int i = 0; i < 3; i++)
+      a[3 * body->particle[k] + i] = point[2][i] + along[i] + inward[i];
+  }
+}
+
 /* ---- motions ---- */
 
 static void move_harmonic(const struct long_drive *drive, real t, real d[3], real u[3]) {
@@ -182,6 +278,18 @@ static void place(const struct long_force *force, real t, real *q, real *v) {
 
 /* ---- whole ---- */
 
+/* From the forces: accelerations, or the velocities of an overdamped system, whose w is 1/gamma. */
+static void accelerate(const struct long_force *force, const real *v, real *a) {
+  const struct canonical *canonical = force->canonical;
+  for (int64_t k = 0; k < 3 * canonical->particle_count; k++) {
+    const real w = canonical->inverse_mass[k / 3],
+               m = force->mass != NULL ? w * (real)force->mass[k / 3] : 1.0L;
+    const real g = canonical->gravity != NULL ? m * (real)canonical->gravity[k % 3] : 0.0L;
+    const real drag = force->mass != NULL ? 0.0L : (real)canonical->drag;
+    a[k] = w != 0.0L ? w * (a[k] - drag * v[k]) + g : 0.0L;
+  }
+}
+
 void long_force_rate(long double t, long double *y, long double *f, void *ctx) {
   const struct long_force *force = ctx;
   const struct canonical *canonical = force->canonical;
@@ -193,11 +301,14 @@ void long_force_rate(long double t, long double *y, long double *f, void *ctx) {
   add_springs(canonical, q, v, a);
   add_triples(canonical, q, a);
   add_tetrahedra(canonical, q, v, a);
+  add_anchors(canonical, q, v, a);
+  accelerate(force, v, a);
+  for (int64_t b = 0; b < force->body_count; b++)
+    stiffen(force, &force->body[b], y, a);
   for (int64_t k = 0; k < size; k++) {
-    const real w = canonical->inverse_mass[k / 3], drag = canonical->drag;
-    const real g = canonical->gravity != NULL ? (real)canonical->gravity[k % 3] : 0.0L;
-    f[k] = w != 0.0L ? v[k] : 0.0L;
-    a[k] = w != 0.0L ? w * (a[k] - drag * v[k]) + g : 0.0L;
+    const real moves = canonical->inverse_mass[k / 3] != 0.0;
+    f[k] = moves * (force->mass != NULL ? a[k] : v[k]);
+    if (force->mass != NULL) a[k] = 0.0L;
   }
 }
 
