@@ -200,7 +200,7 @@ static void measure_by_reference(struct hk_estimate *e, const hooke_state *state
     end_rms = hk_frames_distance(&r->frames, r->frames.count - 1, hooke_state_position(state), &end);
   if (e->picked || to_end) {
     if (e->picked) end = fmax(end, e->pick.best.error), end_rms = fmax(end_rms, e->pick.best.rms);
-    e->error = fmax(hk_estimate_rounding(e), end + r->agreement);
+    e->error = end + r->agreement;
     e->rms = fmin(e->error, end_rms + r->agreement);
     e->known_until = e->begin + hk_pick_trusted(&e->pick);
     e->by = "reference";

@@ -65,7 +65,7 @@ double hk_frames_distance(const struct hk_frames *frames, int64_t f, const doubl
   return frames->free_count > 0 ? sqrt(sum / (double)frames->free_count) : 0.0;
 }
 
-double hk_frames_rounding(const struct hk_frames *frames, const double *q) {
+double hk_frames_resolution(const struct hk_frames *frames, const double *q) {
   double most = 0.0;
   for (int64_t k = 0; k < frames->free_count; k++) {
     const double *at = q + 3 * frames->free_particle[k];
