@@ -29,8 +29,8 @@ void hk_frames_record(struct hk_frames *frames, const hooke_state *state);
  * too. */
 double hk_frames_distance(const struct hk_frames *frames, int64_t f, const double *q, double *largest);
 
-/* What positions of the size of q can hold [m]: half a unit in the last place of the distance of the farthest
- * free particle from the origin. */
+/* What the positions q can hold [m]: half a unit in the last place of the largest coordinate of a free
+ * particle. */
 double hk_frames_resolution(const struct hk_frames *frames, const double *q);
 
 #endif
