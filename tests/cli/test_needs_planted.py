@@ -13,7 +13,7 @@ FOLDER = pathlib.Path(__file__).parent / "scenes" / "needs"
 
 # scene: want [m], watched particles, unneeded, needed
 PLANTED = {
-    "flat-cloth": (1e-4, None, ["cloth.bend", "cloth.shear"], ["cloth.structural", "gravity"]),
+    "flat-cloth": (2e-4, None, ["cloth.bend", "cloth.shear"], ["cloth.structural", "gravity"]),
     "only-falls": (1e-3, None, ["rope.stretch", "rope.bend", "damping"], ["gravity"]),
     "far-away": (1e-3, "rope", ["curtain", "curtain.structural", "curtain.shear", "half the resolution of curtain"],
                  ["rope.stretch", "gravity"]),

@@ -575,7 +575,7 @@ static void groups_without_parts_are_ingredients(void **unused) {
               {"bending[0]", GROUPS - TRIPLES},
               {"damping", GROUPS - DAMPING},
               {"drag", GROUPS - DRAG}};
-  const double want = 2e-3;
+  const double want = 1.5e-3;
   hooke_system *system = body_and_line(GROUPS);
   hooke_measurement *needs = start(system, half_a_second, want, NULL);
   check_ok(hooke_measurement_run(needs, NULL));

@@ -160,7 +160,7 @@ static void a_want_is_met_by_every_particle(void **unused) {
   const double wants[] = {1e-4, 1e-3};
   const double until = 0.5;
   hooke_system *system =
-      chain(60, 0.02, 0.002, (struct springs){.law = "length", .stiffness = 20.0, .rest_length = -1.0}, 1);
+      chain(60, 0.02, 0.002, (struct springs){.law = "length", .stiffness = 500.0, .rest_length = -1.0}, 1);
   check_ok(hooke_system_commit(system));
   double *exact = new_doubles(3 * hooke_system_particle_count(system));
   find_end(system, until, exact);
@@ -171,7 +171,7 @@ static void a_want_is_met_by_every_particle(void **unused) {
     assert_true(recommended(study, "met") == 1.0);
     check_close(recommended(study, "error"), error, 1e-3 * wants[w]);
     check_between(error, 0.7 * wants[w], wants[w]);
-    check_between(error / rms, 1.6, 10.0);
+    check_between(error / rms, 1.8, 4.0);
     hooke_measurement_destroy(study);
   }
   free(exact);
