@@ -37,12 +37,14 @@ module hooke_estimates
 
 contains
 
-  ! `want` [m] is the error that no frame may exceed; NaN for none.
-  subroutine create(self, system, want, status)
+  ! `want` [m] is the error that no particle may exceed at any frame; NaN for none. `callbacks`: whether runs are
+  ! repeated even if callbacks take part; they are not if it is left out.
+  subroutine create(self, system, want, status, callbacks)
     class(hooke_estimate), intent(inout) :: self
     class(hooke_system), intent(in) :: system
     real(c_double), intent(in) :: want
     integer, intent(out), optional :: status
+    logical, intent(in), optional :: callbacks
     type(hooke_options) :: options
     type(c_ptr) :: estimate
     integer(c_int32_t) :: code
@@ -53,6 +55,7 @@ contains
       call options%set("want", want, status)
       if (.not. options%is_set("want")) return
     end if
+    if (present(callbacks)) call options%set("callbacks", merge(1.0_c_double, 0.0_c_double, callbacks), status)
     code = c_measurement_create(to_c("estimate"), system%address(), c_null_ptr, options%address(), estimate)
     if (code == 0) call self%take(estimate, c_measurement_destroy, system)
     call accept(code, status)
@@ -125,14 +128,14 @@ contains
     call accept(c_estimate_refine(self%address(), run%address()), status)
   end subroutine
 
-  ! "estimate", "known_from" and the other numbers of the table of an estimate.
+  ! "estimate", "rms" and the other numbers of the table of an estimate.
   real(c_double) function number(self, what)
     class(hooke_estimate), intent(in) :: self
     character(*), intent(in) :: what
     number = c_measurement_number(self%address(), to_c("estimate"), 0_c_int64_t, to_c(what))
   end function
 
-  ! "by" or "note".
+  ! "by" or "reason".
   function text(self, what)
     class(hooke_estimate), intent(in) :: self
     character(*), intent(in) :: what

@@ -215,6 +215,6 @@ void cli_needs_results_print(const struct cli_needs_results *results) {
     return;
   }
   print_table(needs);
-  printf("\nchange: of the watched positions, the largest over time of their root mean square\n");
+  printf("\nchange: the largest distance of a watched position at any time\n");
   print_lean(results);
 }

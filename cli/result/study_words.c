@@ -74,19 +74,23 @@ static void print_trust(const hooke_measurement *study, double agreement) {
   cli_format_rounded(until, time);
   cli_format_rounded(duration, all);
   int32_t parted = until < hooke_measurement_number(study, "reference", 0, "checked_until");
-  print_fact("agreement",
-             "%.3g m%s: no error below that means anything; those within ten times of it are marked *, "
-             "as is energy drift within ten times of %.3g J",
-             agreement, parted ? ", until they part" : "",
-             hooke_measurement_number(study, "reference", 0, "energy_agreement"));
+  if (isnan(agreement))
+    print_fact("agreement",
+               "not known: the two part before the first frame after the start, so no error is known");
+  else
+    print_fact("agreement",
+               "%.3g m%s: no error below that means anything; those within ten times of it are marked *, "
+               "as is energy drift within ten times of %.3g J",
+               agreement, parted ? ", until they part" : "",
+               hooke_measurement_number(study, "reference", 0, "energy_agreement"));
   print_fact("trusted until", whole ? "%s s, the whole run" : "%s s of %s s", time, all);
   print_growth(study);
   if (!whole) print_why_not_all(study, time);
 }
 
 static void print_reference(const hooke_measurement *study) {
-  double agreement = hooke_measurement_number(study, "reference", 0, "agreement");
-  if (isnan(agreement)) {
+  const double agreement = hooke_measurement_number(study, "reference", 0, "agreement");
+  if (isnan(hooke_measurement_number(study, "reference", 0, "trusted_until"))) {
     print_fact("reference", "not finished, so there is nothing to measure against");
     return;
   }
@@ -194,8 +198,8 @@ static void print_legend(const struct cli_rows *rows) {
   int32_t shared = 0;
   for (int64_t row = 0; row < rows->count; row++)
     shared |= rows->mark(rows->source, row, "wall_seconds") == '+';
-  printf("\nerror: the root mean square over free particles of the distance to the reference; wall time: the "
-         "least of "
+  printf("\nerror: the root mean square over free particles of the distance to the reference; farthest: the "
+         "largest distance of\na particle, which a wanted error is held against; wall time: the least of "
          "several runs%s\n",
          shared ? "; +: other rows ran beside it, so its time may be too long" : "");
 }

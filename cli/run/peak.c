@@ -20,10 +20,15 @@ static int32_t hear_nothing(const char *kind, const char *sentence, double t, do
   return 0;
 }
 
-/* Further memory of the estimate of the error: three states, and the ends of another run, which takes the
- * memory of the method after this one. */
-static int64_t count_estimate(const struct cli_setup *setup) {
-  return 8 * hooke_state_size(setup->state) * (int64_t)sizeof(double);
+/* Memory of the estimate of the error, whose other runs take that of the method after this one. */
+static int32_t count_estimate(const struct cli_setup *setup, const hooke_integrator *integrator,
+                              int64_t *bytes) {
+  hooke_measurement *estimate = NULL;
+  int32_t status = hooke_measurement_create("estimate", setup->system, NULL, NULL, &estimate);
+  if (status == HOOKE_OK) status = hooke_estimate_begin(estimate, integrator, setup->state);
+  if (status == HOOKE_OK) *bytes = (int64_t)hooke_measurement_number(estimate, "estimate", 0, "memory_bytes");
+  hooke_measurement_destroy(estimate);
+  return status;
 }
 
 /* The pages of libhdf5 and its buffers, and a queued frame, as measured on cloths. */
@@ -33,7 +38,7 @@ static int64_t count_output(const struct cli_setup *setup) {
 
 /* As in `hooke run`: steps are observed, and warnings as well unless it is quiet. */
 static int32_t count_method(const struct cli_arguments *arguments, const struct cli_setup *setup,
-                            int64_t *bytes, int64_t *factor) {
+                            int64_t *bytes, int64_t *kept, int64_t *factor) {
   hooke_integrator *integrator = NULL;
   int32_t status = hooke_integrator_create(setup->system, setup->options, &integrator);
   if (status == HOOKE_OK) status = hooke_integrator_on_step(integrator, 1, see_nothing, NULL);
@@ -42,6 +47,8 @@ static int32_t count_method(const struct cli_arguments *arguments, const struct 
   if (status == HOOKE_OK) *bytes = hooke_integrator_count(integrator, "memory_bytes");
   if (status == HOOKE_OK) *factor = hooke_integrator_count(integrator, "factor_bytes");
   if (*factor < 0) status = HOOKE_NO_MEMORY;
+  if (status == HOOKE_OK && hooke_integrator_count(integrator, "frames") > 0)
+    status = count_estimate(setup, integrator, kept);
   hooke_integrator_destroy(integrator);
   return status;
 }
@@ -54,11 +61,10 @@ int cli_peak_of_run(const struct cli_arguments *arguments, const struct cli_setu
                           !(adaptive == 0 && hooke_options_number_count(setup->options, "step") == 0);
   const int64_t model = hooke_system_count(setup->system, "memory") +
                         (2 * hooke_state_size(setup->state) + 1) * (int64_t)sizeof(double);
-  int64_t of_method = 0, of_factor = 0;
-  const int32_t status = can_run ? count_method(arguments, setup, &of_method, &of_factor) : HOOKE_OK;
+  int64_t of_method = 0, of_factor = 0, kept = 0;
+  const int32_t status = can_run ? count_method(arguments, setup, &of_method, &kept, &of_factor) : HOOKE_OK;
   if (status != HOOKE_OK) return cli_report_status(arguments, status);
-  const int64_t running =
-      (loaded.now > 0 ? loaded.now : model) + of_method + (can_run ? count_estimate(setup) : 0);
+  const int64_t running = (loaded.now > 0 ? loaded.now : model) + of_method + kept;
   foretold->most = running > loaded.most ? running : loaded.most;
   foretold->written = foretold->most + count_output(setup);
   if (of_factor > 0)

@@ -56,7 +56,7 @@ int cli_want_pick(struct cli_run *run) {
   if (code == HOOKE_EXIT_DONE && text) code = refuse_typed(arguments);
   if (code == HOOKE_EXIT_DONE && text) code = cli_setup_read_study(arguments, "want", &want);
   if (code != HOOKE_EXIT_DONE) return code;
-  if (!text && (run->resumed || cli_arguments_text(arguments, "no-estimate"))) return HOOKE_EXIT_DONE;
+  if (!text && cli_arguments_text(arguments, "no-estimate")) return HOOKE_EXIT_DONE;
   int32_t status = create(run, want);
   if (status != HOOKE_OK) return cli_report_status(arguments, status);
   hooke_measurement_on_progress(run->estimate, cli_watch_progress, &run->watch);
@@ -72,7 +72,7 @@ int cli_want_pick(struct cli_run *run) {
 /* ---- after the run ---- */
 
 int32_t cli_want_measure(struct cli_run *run) {
-  if (!run->estimate || run->outcome != HOOKE_OK) return HOOKE_OK;
+  if (!run->estimate || run->outcome != HOOKE_OK || run->was_finished) return HOOKE_OK;
   cli_watch_start(&run->watch, run->arguments);
   hooke_integrator_destroy(run->integrator); /* the following runs need as much memory */
   run->integrator = NULL;
@@ -97,24 +97,26 @@ int32_t cli_want_goes_on(struct cli_run *run) {
   if (!is_wanted(run) || run->outcome != HOOKE_OK || number_of(run, "met") == 1.0) return 0;
   if (cli_watch_interrupted() || hooke_estimate_refine(run->estimate, run->setup.options) != HOOKE_OK)
     return 0;
-  const char *note = text_of(run, "note");
+  const char *reason = text_of(run, "reason");
   const double error = number_of(run, "estimate"), wanted = number_of(run, "wanted");
   if (!run->arguments->quiet && error > wanted)
     cli_report_words(run->arguments, "an error of %.6g m is above the %.6g m that are wanted", error, wanted);
   else if (!run->arguments->quiet)
-    cli_report_words(run->arguments, "that run does not do: %s", note);
+    cli_report_words(run->arguments, "that run does not do: %s", reason);
   tell_choice(run, "once more for", cli_arguments_text(run->arguments, "want"));
   return 1;
 }
 
-/* "against the same method at half the step" and the like. */
-static const char *source_of(const struct cli_run *run, const char *by) {
-  if (strcmp(by, "reference") == 0) return "against a reference that was checked by another";
-  if (is_wanted(run))
-    return strcmp(by, "tolerance") == 0 ? "against the same method at a hundredth of the tolerance"
-                                        : "against the same method at half the step";
-  if (strcmp(by, "slice") == 0) return "in a last piece that was run finer";
-  return strcmp(by, "tolerance") == 0 ? "from runs at looser tolerances" : "from runs at larger steps";
+static const char *source_of(const char *by) {
+  static const char *const sources[][2] = {
+      {"half-step", "from runs of the method at other steps"},
+      {"tolerance", "from runs of the method at other tolerances"},
+      {"other-method", "from a run by another method"},
+      {"reference", "against a reference that was checked by another"},
+  };
+  for (size_t k = 0; k < sizeof sources / sizeof sources[0]; k++)
+    if (strcmp(by, sources[k][0]) == 0) return sources[k][1];
+  return by;
 }
 
 static void warn(const struct cli_run *run) {
@@ -135,53 +137,69 @@ static void warn(const struct cli_run *run) {
 
 static void print_verdict(const struct cli_run *run) {
   const double met = number_of(run, "met");
-  const char *note = text_of(run, "note");
+  const char *reason = text_of(run, "reason");
   if (!is_wanted(run)) return;
   printf(", %s", met == 1.0 ? "within the wanted " : met == 0.0 ? "above the wanted " : "wanted is ");
   printf("%.6g m", number_of(run, "wanted"));
   if (isnan(met)) printf(", and nobody knows for all of the run");
-  if (met != 1.0 && note[0]) printf(" (%s)", note);
+  if (met != 1.0 && reason[0] && text_of(run, "by")) printf(" (%s)", reason);
   printf("; picking and measuring took %.3g s", number_of(run, "seconds"));
 }
 
+static void print_last_piece(const struct cli_run *run) {
+  const double piece = number_of(run, "last_piece");
+  if (isnan(piece)) return;
+  printf(
+      "%-22s%.2g m more or less at the end, made from t = %.6g s on: a part of an error that is not known\n",
+      "last piece", piece, number_of(run, "last_from"));
+}
+
 void cli_want_print(const struct cli_run *run) {
-  if (!run->estimate || run->outcome != HOOKE_OK) return;
+  if (!run->estimate || run->outcome != HOOKE_OK || run->was_finished) return;
   const char *by = text_of(run, "by");
-  const double from = number_of(run, "known_from"), until = number_of(run, "known_until");
   printf("%-22s", "error");
-  if (!by)
-    printf("not known: %s", text_of(run, "note"));
-  else if (strcmp(by, "slice") == 0)
-    printf("%.2g m made from t = %.6g to %.6g s, %s", number_of(run, "estimate"), from, until,
-           source_of(run, by));
-  else if (is_wanted(run))
-    printf("%.3g m at most until t = %.6g s, %s", number_of(run, "estimate"), until, source_of(run, by));
+  if (by)
+    printf("%.3g m at most until t = %.6g s, of any particle (root mean square %.2g m), %s",
+           number_of(run, "estimate"), number_of(run, "known_until"), number_of(run, "rms"), source_of(by));
   else
-    printf("%sabout %.2g m at the end, %s", strcmp(by, "tolerance") == 0 ? "at most " : "",
-           number_of(run, "estimate"), source_of(run, by));
+    printf("not known: %s", text_of(run, "reason"));
   print_verdict(run);
   printf("\n");
+  print_last_piece(run);
   cli_print_flush();
   warn(run);
 }
 
+static void print_json_piece(const struct cli_run *run, struct cli_json *json) {
+  const double piece = number_of(run, "last_piece");
+  if (isnan(piece)) return;
+  cli_json_open(json, "last_piece", '{');
+  cli_json_number(json, "error", piece);
+  cli_json_number(json, "from", number_of(run, "last_from"));
+  cli_json_number(json, "until", hooke_state_time(run->setup.state));
+  cli_json_close(json);
+}
+
 static void print_json_error(const struct cli_run *run, struct cli_json *json) {
-  const char *by = text_of(run, "by");
+  const char *by = text_of(run, "by"), *reason = text_of(run, "reason");
   cli_json_open(json, "error", '{');
   cli_json_number(json, "estimate", number_of(run, "estimate"));
-  cli_json_number(json, "known_from", number_of(run, "known_from"));
+  cli_json_number(json, "rms", number_of(run, "rms"));
   cli_json_number(json, "known_until", number_of(run, "known_until"));
   cli_json_text(json, "by", by);
   cli_json_number(json, "energy_rise", number_of(run, "energy_rise"));
   cli_json_number(json, "heat_excess", number_of(run, "heat_excess"));
-  cli_json_text(json, "note", text_of(run, "note"));
+  cli_json_text(json, "reason", reason[0] ? reason : NULL);
   cli_json_close(json);
 }
 
 void cli_want_print_json(const struct cli_run *run, struct cli_json *json) {
-  if (!run->estimate) return;
+  if (!run->estimate || run->was_finished) return;
   const double met = number_of(run, "met");
-  if (run->outcome == HOOKE_OK) print_json_error(run, json);
+  if (run->outcome == HOOKE_OK) {
+    print_json_error(run, json);
+    print_json_piece(run, json);
+  }
   if (!is_wanted(run)) return;
   cli_json_open(json, "want", '{');
   cli_json_number(json, "wanted", number_of(run, "wanted"));

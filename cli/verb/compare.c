@@ -1,4 +1,4 @@
-/* hooke compare: a scene by several methods, each against CVODE at tight tolerance. */
+/* hooke compare: a scene by several methods, each against a reference that checks itself. */
 #include "methods.h"
 #include "print.h"
 #include "report.h"
@@ -94,8 +94,12 @@ static struct cli_rows rows_of(const struct compare *compare) {
                            .number = number_of};
 }
 
-static const char *reference_of(const struct compare *compare) {
-  return hooke_measurement_text(compare->comparison, "reference", 0, "method");
+static const char *reference_of(const struct compare *compare, const char *what) {
+  return hooke_measurement_text(compare->comparison, "reference", 0, what);
+}
+
+static double reference_number(const struct compare *compare, const char *what) {
+  return hooke_measurement_number(compare->comparison, "reference", 0, what);
 }
 
 static void print_json(const struct compare *compare) {
@@ -106,11 +110,11 @@ static void print_json(const struct compare *compare) {
   cli_table_print_row(&json, comparison, "comparison", 0);
   cli_json_open(&json, "reference", '{');
   cli_json_open(&json, "methods", '[');
-  cli_json_text(&json, NULL, reference_of(compare));
+  if (reference_of(compare, "method")) cli_json_text(&json, NULL, reference_of(compare, "method"));
+  if (reference_of(compare, "check")) cli_json_text(&json, NULL, reference_of(compare, "check"));
   cli_json_close(&json);
-  /* one reference, unchecked by a second: these do not apply */
-  cli_json_number(&json, "agreement", (double)NAN);
-  cli_json_number(&json, "trusted_until", (double)NAN);
+  cli_json_number(&json, "agreement", reference_number(compare, "agreement"));
+  cli_json_number(&json, "trusted_until", reference_number(compare, "trusted_until"));
   cli_json_close(&json);
   cli_json_open(&json, "rows", '[');
   for (int64_t row = 0; row < rows_done(comparison); row++) {
@@ -141,6 +145,28 @@ static void print_errors(const hooke_measurement *comparison, int32_t width) {
   }
 }
 
+/* The reference, and what is known by it. */
+static void print_reference(const struct compare *compare) {
+  const double agreement = reference_number(compare, "agreement");
+  const double until = reference_number(compare, "trusted_until");
+  char time[HOOKE_NUMBER_SIZE];
+  if (isnan(until)) {
+    printf("reference: not finished, so there is nothing to measure against\n\n");
+    return;
+  }
+  printf("reference: %s at tight tolerance, checked by %s\n", reference_of(compare, "method"),
+         reference_of(compare, "check"));
+  cli_format_rounded(until, time);
+  if (isnan(agreement))
+    printf("WARNING: the two part before the first frame after the start, so no error is known\n");
+  else if (until < hooke_options_number(compare->setup.options, "duration") * (1.0 - 1e-9))
+    printf("agreement: %.3g m until they part after %s s; errors and energy drift are those up to then\n",
+           agreement, time);
+  else
+    printf("agreement: %.3g m, up to the end\n", agreement);
+  printf("\n");
+}
+
 static void print_words(const struct compare *compare) {
   const char *title = hooke_scene_text(compare->setup.scene, "title");
   const struct cli_rows rows = rows_of(compare);
@@ -148,7 +174,7 @@ static void print_words(const struct compare *compare) {
   char text[HOOKE_NUMBER_SIZE];
   cli_print_text(stdout, title && title[0] ? title : compare->arguments->scene);
   printf(", %s s\n", cli_format_rounded(hooke_options_number(compare->setup.options, "duration"), text));
-  printf("reference: %s at tight tolerance\n\n", reference_of(compare));
+  print_reference(compare);
   if (rows.count > 0) {
     print_errors(compare->comparison, width);
     printf("\n");
@@ -207,11 +233,10 @@ static const struct cli_verb_row own_rows[] = {
 
 const struct cli_verb cli_verb_compare = {
     .name = "compare",
-    .summary = "the scene by each method against CVODE at tight tolerance",
-    .text = "Runs the scene by each method and by CVODE at tight tolerance, and prints how far each method "
-            "is from that "
-            "reference over time, how far its energy drifts, and what it costs. A method that diverges stays "
-            "as a row. "
+    .summary = "the scene by each method against a reference that checks itself",
+    .text = "Runs the scene by each method and by two integrators at tight tolerances that check each other, "
+            "and prints how far each method is from that reference over time, as long as the two agree, how "
+            "far its energy drifts, and what it costs. A method that diverges stays as a row. "
             "Tables are rounded; --json has every digit.",
     .example = "hooke compare cloth.json --methods symplectic-euler,cvode-adams",
     HOOKE_VERB_ROWS(own_rows),

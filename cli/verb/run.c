@@ -318,7 +318,7 @@ static void estimate(struct cli_run *run) {
 
 /* Writes it into the output, which is complete already. */
 static int write_estimate(const struct cli_run *run) {
-  if (!run->output || !run->estimate || run->outcome != HOOKE_OK) return HOOKE_EXIT_DONE;
+  if (!run->output || !run->estimate || run->was_finished || run->outcome != HOOKE_OK) return HOOKE_EXIT_DONE;
   const int32_t status = hooke_estimate_write_h5(run->estimate, run->output);
   return status == HOOKE_OK ? HOOKE_EXIT_DONE : cli_report_status(run->arguments, status);
 }

@@ -11,7 +11,8 @@
  * Frames. With a fixed-step method `every` and `duration` are whole multiples of `step`; frame k is the state
  * after k m steps, frame 0 the initial one, and its time is t0 + k m step, never a running sum. Without
  * `every` it is the multiple of `step` nearest to duration/100. Error-controlled methods interpolate frames
- * to their order, or end a step at each. */
+ * to their order, or end a step at each. The end of a run is a frame, too: where `every` does not divide
+ * `duration`, to 1e-9 relative, the last interval is shorter. */
 #ifndef HOOKE_INTEGRATOR_H
 #define HOOKE_INTEGRATOR_H
 

@@ -93,7 +93,8 @@ HOOKE_API int32_t hooke_measurement_write(const hooke_measurement *measurement, 
 /* ---- a study: accuracy and cost of each method, and a recommendation ----
  * It computes a reference by two integrators that check each other and share only the force, runs every
  * method over a ladder of steps or tolerances, measures error and cost of each run over the frames where the
- * reference is trusted, and fits orders. With the option `want` it recommends a run; with `ensemble` it adds
+ * reference is trusted, and fits orders. With the option `want` it recommends a run whose "error_max", the
+ * largest distance of any free particle at any frame, is at most that; with `ensemble` it adds
  * statistics for motion that is not predictable to its end. Runs that diverge stay as rows. Needs SUNDIALS.
  *
  * The reference gets two fifths of a `budget`, and at least half a second; an ensemble gets three tenths.
@@ -137,9 +138,8 @@ HOOKE_API int32_t hooke_study_recommend(hooke_measurement *study, double want);
 HOOKE_API double hooke_limit_of_mode(const char *method, double frequency, double decay);
 
 /* ---- needs: the ingredients of a scene that a wanted error requires, and its resolution ----
- * One ingredient after another is left out of the system, and each variant is run. Its change is the maximum
- * over frames of the root mean square distance [m] of the watched particles from their positions in the full
- * system. Each run takes the largest step (or tolerance) with an error of at most a tenth of the wanted one,
+ * One ingredient after another is left out of the system, and each variant is run. Its change is the
+ * largest distance [m] of any watched particle, over all frames, from its position in the full system. Each run takes the largest step (or tolerance) with an error of at most a tenth of the wanted one,
  * judged by a run with half the step (a tenth of the tolerance). An ingredient whose change is below the
  * wanted error is not needed. Ingredients are each group of springs and each family of a part; bending;
  * altitude springs; damping; drag; gravity; a force callback; springs whose force stays small; particles that
@@ -177,10 +177,10 @@ HOOKE_API int32_t hooke_needs_lean_position(const hooke_measurement *needs, cons
  * differ between machines and calls. Callbacks are called, possibly at states that do not occur in a run. The
  * state is unchanged. */
 
-/* ---- comparison: one scene by several methods, against CVODE at tight tolerance ----
+/* ---- comparison: one scene by several methods, against a checked reference ----
  * `run` gives step, duration, every, rtol and atol, the option `methods` the rows. A row that diverges stays
- * in the table. Errors are root mean square distances of the free particles from the reference, frame by
- * frame. Needs SUNDIALS. */
+ * in the table. Errors are distances of the free particles from the reference, that of a study without a
+ * budget, at every frame at which its two integrators agree. Needs SUNDIALS. */
 
 /* Receives frame `frame` of `run` ("reference" or a method's name). Return 0 to go on. */
 typedef int32_t hooke_comparison_frame(const char *run, int64_t frame, int64_t step, const hooke_state *state,

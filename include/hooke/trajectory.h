@@ -70,7 +70,7 @@ HOOKE_API void hooke_record_close(hooke_record *record);
 
 /* "scene": the text of the scene, "" if there was none; "status": "running", "finished", "stopped",
  * "diverged", "step-limit", "solver-failed" or "failed"; "run": the identifier of the run, see
- * hooke_trajectory_text(), "" if an earlier version wrote it; "error_by" and "error_note": "by" and "note" of
+ * hooke_trajectory_text(), "" if an earlier version wrote it; "error_by" and "error_reason": "by" and "reason" of
  * an estimate, "" where nothing is known of the error; "version", "sundials", "cholmod",
  * "instructions", "machine": the build that made the file, see hooke_build_fact(), "" where the file does not
  * say. NULL for another word. */

@@ -12,6 +12,9 @@
 struct hk_counts {
   int64_t steps, force_evaluations, derivative_products, nonlinear_iterations, nonlinear_failures,
       linear_iterations, error_test_failures;
+  /* matrices of linear equations; multiplications to factorise them, numbers of factors in solutions: only
+   * measure/work reads these, and checkpoints in files are without them */
+  int64_t matrices, factor_products, factor_numbers;
 };
 
 /* Upper bound on the steps of a run: doubles count them exactly. */
@@ -22,7 +25,7 @@ struct hk_schedule {
   double step, duration, every, checkpoint; /* NaN if not given */
   int64_t steps, frame_steps;               /* fixed step: in total, and between frames */
   int64_t checkpoint_steps;                 /* fixed step: between checkpoints; 0: none */
-  int64_t frames;                           /* including the initial one; 0 without a duration */
+  int64_t frames;                           /* with those of start and end; 0 without a duration */
   int32_t every_given;                      /* 0: `every` was chosen here */
 };
 
@@ -126,6 +129,12 @@ int32_t hk_integrator_tell(hooke_integrator *integrator);
 /* Reads `step`, `duration` and `every` of the options into a schedule, filling in `every`. */
 int32_t hk_schedule_read(const struct hk_method *method, hooke_options *options,
                          struct hk_schedule *schedule);
+/* Frames of a run: its start, whole multiples of `every` after it, and its end, if that is none of them.
+ * HOOKE_MOST_STEPS + 1 if they are too many. */
+int64_t hk_schedule_frames(double duration, double every);
+/* The same with a fixed step: 1 if step k has a frame; and the frames before it. */
+int32_t hk_schedule_has_frame(const struct hk_schedule *schedule, int64_t k);
+int64_t hk_schedule_frames_before(const struct hk_schedule *schedule, int64_t k);
 
 /* Forces at the motion's position and time t, counted; HOOKE_STOPPED with the stop value kept. */
 int32_t hk_integrator_forces(hooke_integrator *integrator, double t);

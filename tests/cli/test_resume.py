@@ -102,7 +102,10 @@ def test_interrupted_anywhere(hooke, start, write, tmp_path, name):
         else:
             out = hooke(*words, "--json", "--final").out
         assert results(out) == results(whole.out, output="out name.h5")
-        assert contents(tmp_path / "out name.h5") == contents(tmp_path / "whole.h5")
+        found, whole_found = contents(tmp_path / "out name.h5"), contents(tmp_path / "whole.h5")
+        assert whole_found.pop("hooke/error_reason") == b""
+        assert (b"went on from" in found.pop("hooke/error_reason")) == ("--resume" in words)
+        assert found == whole_found
         left = {path.name for path in tmp_path.iterdir()}
         assert left == {scene, "whole.h5", "whole.xdmf", "out name.h5", "out name.xdmf"}
     if not stopped:

@@ -21,7 +21,7 @@ pytestmark = pytest.mark.everything
 KEYS = ["status", "method", "step", "time", "steps", "force_evaluations", "wall_seconds", "particles", "springs",
         "energy", "momentum", "output", "diagnosis"]
 ADAPTIVE_KEYS = KEYS[:2] + ["rtol", "atol"] + KEYS[3:]
-ERROR_KEYS = ["estimate", "known_from", "known_until", "by", "energy_rise", "heat_excess", "note"]
+ERROR_KEYS = ["estimate", "rms", "known_until", "by", "energy_rise", "heat_excess", "reason"]
 
 
 def is_number(value):

@@ -6,7 +6,6 @@ from pathlib import Path
 
 DATA = Path(__file__).resolve().parents[1] / "data/wants.json"
 WANTS = {"1cm": 1e-2, "1mm": 1e-3, "10um": 1e-5}
-FACTOR = 3.0  # allowed factor on an estimate
 FLOOR = 1e-12  # [m] below which errors are rounding
 WITHIN = 0.1  # of a want: how well the solution has to be known for a claim
 IMPLICIT = ("backward-euler", "tr-bdf2", "implicit-midpoint", "cvode-bdf")
@@ -19,8 +18,8 @@ def cost(method, evaluations):
 
 
 def distance(free, a, b):
-    """Root mean square distance of the free particles [m]; 3n numbers each."""
-    return math.sqrt(sum((a[3 * p + k] - b[3 * p + k]) ** 2 for p in free for k in range(3)) / len(free))
+    """The largest distance of a free particle [m]; 3n numbers each."""
+    return max(math.dist(a[3 * p : 3 * p + 3], b[3 * p : 3 * p + 3]) for p in free)
 
 
 def at_end(time, end):
@@ -61,22 +60,21 @@ def complaints(code, value, known, error, want):
         found.append(f"claims {want} m, but is off by {error:.3g} m")
     if code == 0 and known is False:
         found.append("claims what nobody can know")
-    return found + estimate_complaints(value, error if known else math.nan, largest=True)
+    return found + estimate_complaints(value, error if known else math.nan)
 
 
 def is_of_the_end(value):
-    """Whether the estimate is of the error from the start to the end, not of a slice or of an earlier time."""
-    estimate, until, by = (value.get("error", {}).get(key) for key in ("estimate", "known_until", "by"))
-    return estimate is not None and by != "slice" and at_end(until, value["time"])
+    """Whether the error is known up to the end."""
+    estimate, until = (value.get("error", {}).get(key) for key in ("estimate", "known_until"))
+    return estimate is not None and at_end(until, value["time"])
 
 
-def estimate_complaints(value, error, largest=False):
-    """An estimate of the error at the end is right within the factor; with `largest` it is of the largest error at a
-    frame, which is not smaller."""
+def estimate_complaints(value, error):
+    """The error at the end is at most that of all frames."""
     if not is_of_the_end(value) or math.isnan(error):
         return []
     estimate = value["error"]["estimate"]
-    if max(estimate, error) <= FLOOR or (error <= FACTOR * estimate and (largest or estimate <= FACTOR * error)):
+    if error <= estimate or error <= FLOOR:
         return []
     return [f"is estimated as {estimate:.3g} m by {value['error']['by']}, but is {error:.3g} m"]
 

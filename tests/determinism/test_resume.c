@@ -180,9 +180,9 @@ static void check_stops(const hooke_system *system, struct run run, const struct
 
 static struct run run_of(const struct moving_scene *scene, const char *method, int variant) {
   const double step = scene->step, rtol[] = {1e-4, 1e-7};
-  struct run run = {.method = method, .duration = STEPS * step, .every = FRAME_STEPS * step, .threads = 1};
-  run.duration = FRAME_STEPS * 8 * step;
-  run.checkpoint = (variant ? 3.3 : 14.0) * step; /* between frames, or at every other one */
+  struct run run = {.method = method, .every = FRAME_STEPS * step, .threads = 1};
+  run.duration = (variant ? STEPS : FRAME_STEPS * 8) * step; /* or a last interval of 4 steps */
+  run.checkpoint = (variant ? 3.3 : 14.0) * step;            /* between frames, or at every other one */
   run.step = step;
   run.rtol = rtol[variant];
   run.newton = variant ? "one-iteration" : NULL;
@@ -267,6 +267,36 @@ static void fixed_steps_go_on_where_they_stopped(void **state) {
     check_status(hooke_integrator_resume(course.integrator, at), HOOKE_BAD_CALL); /* at the end of the run */
     hooke_integrator_destroy(course.integrator);
     hooke_state_destroy(at);
+    free(trace.row);
+    free(whole.row);
+    hooke_system_destroy(system);
+  }
+}
+
+/* Before, at and after the last whole multiple of `every`, and at the end, before its frame was shown. */
+static void the_last_short_interval_goes_on(void **state) {
+  (void)state;
+  static const int64_t stops[] = {STEPS - 5, STEPS - 4, STEPS - 3, STEPS - 1, STEPS};
+  for (int64_t m = 0; m < hooke_method_count(); m++) {
+    const char *method = hooke_method_name(m);
+    if (!is_fixed_step(method)) continue;
+    hooke_system *system = moving_system(&moving_scenes[1]);
+    const struct run run = run_of(&moving_scenes[1], method, 1);
+    struct trace whole = trace_create(system), trace = trace_create(system);
+    run_whole(system, run, &whole);
+    assert_int_equal(whole.frames, 1 + 9 + 1); /* the last row is the final state */
+    check_same_bits(whole.size, whole.row + 9 * whole.size, whole.row + 10 * whole.size);
+    for (int k = 0; k < 5; k++) {
+      struct course course = {.trace = &trace, .stop_at = stops[k]};
+      snprintf(course.path, sizeof course.path, "%s/hooke-end-%ld",
+               access("/dev/shm", W_OK) == 0 ? "/dev/shm" : ".", (long)getpid());
+      trace.frames = 0;
+      assert_true(run_stopped(system, run, &course, 0));
+      course.stop_at = 0;
+      assert_false(run_stopped(system, run, &course, 1));
+      remove_files(course.path);
+      check_same(method, &trace, &whole);
+    }
     free(trace.row);
     free(whole.row);
     hooke_system_destroy(system);
@@ -394,6 +424,7 @@ int main(void) {
       cmocka_unit_test(resumed_runs_end_in_the_same_bits),
       cmocka_unit_test(threads_change_nothing),
       cmocka_unit_test(fixed_steps_go_on_where_they_stopped),
+      cmocka_unit_test(the_last_short_interval_goes_on),
       cmocka_unit_test(single_steps_go_on_from_a_checkpoint),
       cmocka_unit_test(first_order_problems_go_on),
       cmocka_unit_test(the_option_decides_and_nobody_else),

@@ -56,7 +56,7 @@ def measure(scene: Path, options: dict[str, Any], true: Truth) -> Row:
         nonlocal frame, worst
         if frame in solutions:
             with np.errstate(over="ignore"):
-                worst = max(worst, math.sqrt(np.mean(np.sum((state.q[true.free] - solutions[frame]) ** 2, axis=1))))
+                worst = max(worst, np.sqrt(np.sum((state.q[true.free] - solutions[frame]) ** 2, axis=1).max()))
         frame += 1
 
     done = run(scene, options, on_frame=judge)

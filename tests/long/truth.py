@@ -27,10 +27,10 @@ EVALUATIONS = 5e6  # limit beyond which the reference is abandoned: too stiff, o
 class Truth:
     free: list[int]
     positions: dict[float, list[float]]  # 3n numbers a time
-    apart: dict[float, float]  # [m] root mean square, of the two tolerances
+    apart: dict[float, float]  # [m] of the two tolerances
 
     def distance(self, time: float, positions: Any) -> float:
-        """Root mean square distance of the free particles from here [m]."""
+        """The largest distance of a free particle from here [m]."""
         return distance(self.free, self.positions[time], [x for row in positions for x in row])
 
 

@@ -18,21 +18,6 @@ static const char *text_of(const hooke_measurement *estimate, const char *what) 
   return hooke_measurement_text(estimate, "estimate", 0, what);
 }
 
-/* Estimates a run; the caller destroys the estimate; `state` receives the end. */
-static hooke_measurement *estimated_run(const hooke_system *system, const hooke_options *options, double want,
-                                        hooke_measurement *estimate, hooke_state **state) {
-  hooke_integrator *integrator;
-  if (!estimate) check_ok(estimate_of(system, want, &estimate));
-  check_ok(hooke_integrator_create(system, options, &integrator));
-  *state = start_state(system);
-  check_ok(hooke_integrator_on_frame(integrator, hooke_estimate_see, estimate));
-  check_ok(hooke_estimate_begin(estimate, integrator, *state));
-  check_ok(hooke_integrator_run(integrator, *state));
-  check_ok(hooke_measurement_run(estimate, *state));
-  hooke_integrator_destroy(integrator);
-  return estimate;
-}
-
 /* Error of the oscillator, whose motion is known. */
 static double true_error(const hooke_state *state) {
   const double *q = hooke_state_position(state) + 3, t = hooke_state_time(state);
@@ -40,26 +25,56 @@ static double true_error(const hooke_state *state) {
   return hypot(q[0] - x, q[1] - y);
 }
 
+/* Shows frames to an estimate, and keeps the largest error of the oscillator at them. */
+struct watcher {
+  hooke_measurement *estimate;
+  double worst;
+};
+
+static int32_t see(int64_t step, const hooke_state *state, void *ctx) {
+  struct watcher *watcher = ctx;
+  watcher->worst = fmax(watcher->worst, true_error(state));
+  return hooke_estimate_see(step, state, watcher->estimate);
+}
+
+/* Estimates a run; the caller destroys the estimate; returns the largest error of the oscillator. */
+static double estimated_run(const hooke_system *system, const hooke_options *options,
+                            hooke_measurement *estimate) {
+  struct watcher watcher = {estimate, 0.0};
+  hooke_integrator *integrator;
+  hooke_state *state = start_state(system);
+  check_ok(hooke_integrator_create(system, options, &integrator));
+  check_ok(hooke_integrator_on_frame(integrator, see, &watcher));
+  check_ok(hooke_estimate_begin(estimate, integrator, state));
+  check_ok(hooke_integrator_run(integrator, state));
+  check_ok(hooke_measurement_run(estimate, state));
+  hooke_integrator_destroy(integrator);
+  hooke_state_destroy(state);
+  return watcher.worst;
+}
+
+/* The farthest particle at any frame is at most as far off as is said; the excess is at most that of a safety
+ * factor of 3 for an order of 1, or of one more where errors do not follow the tolerance. */
 static void check_estimate(const hooke_system *system, const char *method, int64_t *known) {
-  hooke_state *state;
+  hooke_measurement *estimate;
   hooke_options *options =
       run_options((struct run){.method = method, .step = 2.5e-3, .duration = DURATION, .every = EVERY});
-  hooke_measurement *estimate = estimated_run(system, options, NAN, NULL, &state);
-  const double found = number_of(estimate, "estimate"), truly = true_error(state);
-  if (!isnan(found) && strcmp(text_of(estimate, "by"), "slice") != 0) {
+  check_ok(estimate_of(system, NAN, &estimate));
+  const double truly = estimated_run(system, options, estimate), found = number_of(estimate, "estimate");
+  if (!isnan(found)) {
     ++*known;
-    if (!(found > truly / 3.0 && found < 3.0 * truly))
+    const double most = hooke_method_is_adaptive(method) ? 10.0 : 1.5;
+    if (!(found >= truly && found <= most * truly))
       check_failed("%s is said to be off by %.3g m, and is by %.3g m", method, found, truly);
     check_close(number_of(estimate, "known_until"), DURATION, 0.0);
-    check_close(number_of(estimate, "known_from"), 0.0, 0.0);
+    check_close(number_of(estimate, "rms"), found, 1e-12 * found); /* one particle is free */
   }
   assert_true(isnan(number_of(estimate, "met")));
   hooke_measurement_destroy(estimate);
-  hooke_state_destroy(state);
   hooke_options_destroy(options);
 }
 
-static void test_estimates_are_within_a_factor_of_three(void **unused) {
+static void test_errors_are_at_most_what_is_said_and_not_much_less(void **unused) {
   (void)unused;
   hooke_system *system = small_oscillator(OMEGA);
   int64_t known = 0, methods = 0;
@@ -69,7 +84,7 @@ static void test_estimates_are_within_a_factor_of_three(void **unused) {
     methods += hooke_method_is_adaptive(method) == 0;
     check_estimate(system, method, &known);
   }
-  if (known < methods - 1) check_failed("%d estimates for %d methods", (int)known, (int)methods);
+  if (known < methods) check_failed("%d estimates for %d methods", (int)known, (int)methods);
   hooke_system_destroy(system);
 }
 
@@ -95,47 +110,89 @@ static hooke_measurement *estimated_later(const hooke_system *system, const hook
 static void test_the_integrator_may_be_gone(void **unused) {
   (void)unused;
   hooke_system *system = small_oscillator(OMEGA);
-  hooke_state *state;
   hooke_options *options =
       run_options((struct run){.method = "verlet", .step = 2.5e-3, .duration = DURATION, .every = EVERY});
-  hooke_measurement *one = estimated_run(system, options, NAN, NULL, &state),
+  hooke_measurement *one = estimated_later(system, options, DURATION),
                     *other = estimated_later(system, options, DURATION),
                     *short_of = estimated_later(system, options, 0.5 * DURATION);
   check_close(number_of(other, "estimate"), number_of(one, "estimate"), 0.0);
   assert_string_equal(text_of(other, "by"), text_of(one, "by"));
-  assert_string_equal(text_of(short_of, "note"), "the run did not come to its end");
+  assert_string_equal(text_of(short_of, "reason"), "the run did not come to its end");
   hooke_measurement_destroy(one);
   hooke_measurement_destroy(other);
   hooke_measurement_destroy(short_of);
-  hooke_state_destroy(state);
   hooke_options_destroy(options);
   hooke_system_destroy(system);
 }
 
-static void test_a_coarse_run_is_judged_in_a_last_piece(void **unused) {
+/* At a step of 0.2 s, h omega is 1.2, and the phase is lost after some periods, whatever half the step does. */
+static void test_a_run_that_lost_the_motion_is_not_known(void **unused) {
   (void)unused;
   hooke_system *system = small_oscillator(OMEGA);
-  hooke_state *state;
+  hooke_measurement *estimate;
   hooke_options *options =
-      run_options((struct run){.method = "symplectic-euler", .step = 0.2, .duration = 20.0, .every = 0.2});
-  hooke_measurement *estimate = estimated_run(system, options, NAN, NULL, &state);
-  assert_string_equal(text_of(estimate, "by"), "slice");
-  assert_true(number_of(estimate, "known_from") >= 19.0);
-  assert_true(number_of(estimate, "estimate") > 0.0);
+      run_options((struct run){.method = "symplectic-euler", .step = 0.2, .duration = 200.0, .every = 0.2});
+  check_ok(estimate_of(system, NAN, &estimate));
+  const double truly = estimated_run(system, options, estimate), found = number_of(estimate, "estimate");
+  if (isnan(found)) {
+    assert_true(text_of(estimate, "by") == NULL && text_of(estimate, "reason")[0] != '\0');
+    assert_true(isnan(number_of(estimate, "known_until")) && isnan(number_of(estimate, "rms")));
+    assert_true(number_of(estimate, "last_from") >= 190.0 && number_of(estimate, "last_piece") > 0.0);
+  } else if (found < truly) {
+    check_failed("said to be off by %.3g m, and is by %.3g m", found, truly);
+  }
   hooke_measurement_destroy(estimate);
-  hooke_state_destroy(state);
   hooke_options_destroy(options);
   hooke_system_destroy(system);
+}
+
+static int32_t no_force(int64_t n, double t, const double *q, const double *v, double *force, void *ctx) {
+  (void)n, (void)t, (void)q, (void)v, (void)force, (void)ctx;
+  return 0;
+}
+
+static void test_callbacks_are_not_called_again_unless_asked(void **unused) {
+  (void)unused;
+  for (int asked = 0; asked < 2; asked++) {
+    hooke_system *system;
+    hooke_options *own,
+        *options =
+            run_options((struct run){.method = "verlet", .step = 2.5e-3, .duration = 0.5, .every = EVERY});
+    hooke_measurement *estimate;
+    const double mass = 1.0;
+    check_ok(hooke_system_create(&system));
+    check_ok(hooke_system_add_particles(system, 1, (double[]){0, 0, 0}, (double[]){1, 0, 0}, 1, &mass, NULL));
+    check_ok(hooke_system_set_force(system, no_force, NULL, NULL));
+    check_ok(hooke_system_commit(system));
+    check_ok(hooke_options_create("estimate", &own));
+    check_ok(hooke_options_set_number(own, "callbacks", asked));
+    check_ok(hooke_measurement_create("estimate", system, NULL, own, &estimate));
+    hooke_integrator *integrator;
+    hooke_state *state = start_state(system);
+    check_ok(hooke_integrator_create(system, options, &integrator));
+    check_ok(hooke_integrator_on_frame(integrator, hooke_estimate_see, estimate));
+    check_ok(hooke_estimate_begin(estimate, integrator, state));
+    check_ok(hooke_integrator_run(integrator, state));
+    check_ok(hooke_measurement_run(estimate, state));
+    assert_int_equal(isnan(number_of(estimate, "estimate")) != 0, !asked);
+    assert_string_equal(text_of(estimate, "reason"), asked ? "" : "a callback takes part");
+    hooke_integrator_destroy(integrator);
+    hooke_state_destroy(state);
+    hooke_measurement_destroy(estimate);
+    hooke_options_destroy(own);
+    hooke_options_destroy(options);
+    hooke_system_destroy(system);
+  }
 }
 
 static double number_of_run(const hooke_system *system, const char *method, double step, const char *what) {
-  hooke_state *state;
   hooke_options *options =
       run_options((struct run){.method = method, .step = step, .duration = DURATION, .every = EVERY});
-  hooke_measurement *estimate = estimated_run(system, options, NAN, NULL, &state);
+  hooke_measurement *estimate;
+  check_ok(estimate_of(system, NAN, &estimate));
+  estimated_run(system, options, estimate);
   const double number = number_of(estimate, what);
   hooke_measurement_destroy(estimate);
-  hooke_state_destroy(state);
   hooke_options_destroy(options);
   return number;
 }
@@ -253,7 +310,6 @@ static void test_a_damper_too_stiff_for_the_step_is_seen(void **unused) {
 }
 
 static void check_want(const hooke_system *system, const char *method, double want) {
-  hooke_state *state;
   hooke_options *options = run_options((struct run){.duration = DURATION, .every = EVERY});
   hooke_measurement *estimate;
   check_ok(estimate_of(system, want, &estimate));
@@ -266,13 +322,11 @@ static void check_want(const hooke_system *system, const char *method, double wa
   }
   check_status(status, HOOKE_OK);
   if (method) assert_string_equal(hooke_options_text(options, "method"), method);
-  estimated_run(system, options, want, estimate, &state);
-  const double truly = true_error(state), found = number_of(estimate, "estimate");
+  const double truly = estimated_run(system, options, estimate), found = number_of(estimate, "estimate");
   if (number_of(estimate, "met") != 1.0 || !(truly <= want && found <= want && found >= 0.8 * truly))
     check_failed("%s for %g m: met %g, said to be off by %.3g m, and is by %.3g m",
                  hooke_options_text(options, "method"), want, number_of(estimate, "met"), found, truly);
   hooke_measurement_destroy(estimate);
-  hooke_state_destroy(state);
   hooke_options_destroy(options);
 }
 
@@ -383,9 +437,10 @@ static void test_what_cannot_be_asked_for(void **unused) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_estimates_are_within_a_factor_of_three),
+      cmocka_unit_test(test_errors_are_at_most_what_is_said_and_not_much_less),
       cmocka_unit_test(test_the_integrator_may_be_gone),
-      cmocka_unit_test(test_a_coarse_run_is_judged_in_a_last_piece),
+      cmocka_unit_test(test_a_run_that_lost_the_motion_is_not_known),
+      cmocka_unit_test(test_callbacks_are_not_called_again_unless_asked),
       cmocka_unit_test(test_energy_that_grows_by_itself_is_seen),
       cmocka_unit_test(test_heat_that_was_not_there_is_seen),
       cmocka_unit_test(test_heat_that_was_there_is_no_excess),

@@ -54,7 +54,7 @@ static void test_names(void **unused) {
 
 struct visit {
   const struct reference *reference;
-  double every, error;
+  double every, duration, error;
   int64_t frame, seen;
 };
 
@@ -63,7 +63,7 @@ static int32_t at_frame(int64_t step, const hooke_state *state, void *ctx) {
   const struct reference *reference = visit->reference;
   hooke_state *readable = (hooke_state *)(uintptr_t)state;
   (void)step;
-  check_close(hooke_state_time(state), (double)visit->frame++ * visit->every, 0.0);
+  check_close(hooke_state_time(state), fmin((double)visit->frame++ * visit->every, visit->duration), 0.0);
   for (int64_t k = 0; k < reference->state_count; k++) {
     const struct reference_state *expected = &reference->state[k];
     if (fabs(hooke_state_time(state) - expected->time) > 1e-9) continue;
@@ -77,8 +77,8 @@ static int32_t at_frame(int64_t step, const hooke_state *state, void *ctx) {
 
 /* The largest error relative to max |x|, at the states that are frames and at the end. */
 static double largest_error(const struct reference *reference, const char *method, double every) {
-  struct visit visit = {.reference = reference, .every = every};
   const struct reference_state *last = &reference->state[reference->state_count - 1];
+  struct visit visit = {.reference = reference, .every = every, .duration = last->time};
   const int64_t size = 3 * reference->particle_count;
   hooke_system *system = build_reference(reference);
   hooke_integrator *integrator = start_run(
@@ -88,7 +88,9 @@ static double largest_error(const struct reference *reference, const char *metho
   check_ok(hooke_integrator_on_frame(integrator, at_frame, &visit));
   check_ok(hooke_integrator_run(integrator, state));
   assert_int_equal(visit.frame, hooke_integrator_count(integrator, "frames"));
+  assert_int_equal(visit.frame, 1 + (int64_t)ceil(last->time / every - 1e-6));
   if (every == 0.05) assert_int_equal(visit.seen, reference->state_count);
+  assert_true(visit.seen >= 1); /* the end is one */
   check_close(hooke_state_time(state), last->time, 0.0);
   const double error = largest_difference(size, hooke_state_position(state), last->position);
   hooke_state_destroy(state);

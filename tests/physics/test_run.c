@@ -12,15 +12,32 @@
 struct frames {
   double start, step;
   int64_t stride; /* steps between frames */
+  int64_t last;   /* step at the end */
   int64_t seen;
 };
 
 static int32_t check_frame(int64_t step, const hooke_state *state, void *ctx) {
   struct frames *frames = ctx;
   const double t = hooke_state_time(state), expected = frames->start + (double)step * frames->step;
-  assert_int_equal(step, frames->seen * frames->stride);
+  const int64_t k = frames->seen * frames->stride;
+  assert_int_equal(step, k < frames->last ? k : frames->last);
   check_same_bits(1, &t, &expected);
   frames->seen++;
+  return 0;
+}
+
+struct times {
+  double before, now; /* of the last two frames */
+  int64_t seen;
+};
+
+static int32_t note_time(int64_t step, const hooke_state *state, void *ctx) {
+  struct times *times = ctx;
+  (void)step;
+  assert_true(hooke_state_time(state) > times->now);
+  times->before = times->now;
+  times->now = hooke_state_time(state);
+  times->seen++;
   return 0;
 }
 
@@ -32,12 +49,14 @@ static void test_frames(void **unused) {
   } cases[] = {
       {0.01, 1.0, 0.05, 0.0, 5, 21},     {0.01, 1.0, 0.0, 0.0, 1, 101}, /* about duration/100 */
       {0.3, 3.0, 0.0, 0.7, 1, 11},                                      /* at least one step */
-      {0.001, 1.234, 0.0, 0.1, 12, 103}, /* 12.34 steps, with a remainder that is no frame */
-      {0.1, 1.0, 0.3, 0.0, 3, 4},        {0.1, 0.7, 0.7, -3.3, 7, 2},
+      {0.001, 1.234, 0.0, 0.1, 12, 104}, /* 12.34 steps: the last 10 are a shorter interval */
+      {0.1, 1.0, 0.3, 0.0, 3, 5},        {0.1, 0.7, 0.7, -3.3, 7, 2},
+      {0.1, 0.7, 0.8, 0.0, 8, 2}, /* longer than the run */
   };
   hooke_system *system = small_oscillator(1.0);
   for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
-    struct frames frames = {cases[k].start, cases[k].step, cases[k].stride, 0};
+    const double steps = round(cases[k].duration / cases[k].step);
+    struct frames frames = {cases[k].start, cases[k].step, cases[k].stride, (int64_t)steps, 0};
     hooke_integrator *integrator = start_run(system, (struct run){.method = "symplectic-euler",
                                                                   .step = cases[k].step,
                                                                   .duration = cases[k].duration,
@@ -50,7 +69,6 @@ static void test_frames(void **unused) {
     check_ok(hooke_integrator_on_frame(integrator, check_frame, &frames));
     check_ok(hooke_integrator_run(integrator, state));
     assert_int_equal(frames.seen, cases[k].count);
-    const double steps = round(cases[k].duration / cases[k].step);
     const double end = hooke_state_time(state), expected = cases[k].start + steps * cases[k].step;
     check_same_bits(1, &end, &expected);
     assert_int_equal(hooke_integrator_count(integrator, "steps"), (int64_t)steps);
@@ -60,10 +78,49 @@ static void test_frames(void **unused) {
   hooke_system_destroy(system);
 }
 
+/* With error control frames are at whole multiples of `every`, and at the end, which is no second frame where
+ * they come within 1e-9 of it. */
+static void test_frames_of_adaptive_methods(void **unused) {
+  (void)unused;
+  if (hooke_method_is_built("cvode-adams") != 1) skip();
+  const struct {
+    double duration, every;
+    int64_t count;
+    double before; /* time of the frame before the last */
+  } cases[] = {
+      {0.5, 0.06, 10, 0.48},
+      {0.5, 0.0, 101, 0.495},
+      {0.5, 0.05, 11, 0.45},
+      {0.5, 0.5, 2, 0.0},
+      {0.5, 2.0, 2, 0.0},
+      {0.5, 0.05 * (1 + 5e-10), 11, 0.45},
+      {0.5, 0.05 * (1 - 5e-10), 11, 0.45},
+      {0.5, 0.05 * (1 + 1e-8), 11, 0.45},
+      {0.5, 0.05 * (1 - 1e-8), 12, 0.5},
+  };
+  hooke_system *system = small_oscillator(3.0);
+  for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
+    struct times times = {.now = -1.0};
+    hooke_integrator *integrator = start_run(
+        system,
+        (struct run){.method = "cvode-adams", .duration = cases[k].duration, .every = cases[k].every});
+    hooke_state *state = start_state(system);
+    assert_int_equal(hooke_integrator_count(integrator, "frames"), cases[k].count);
+    check_ok(hooke_integrator_on_frame(integrator, note_time, &times));
+    check_ok(hooke_integrator_run(integrator, state));
+    assert_int_equal(times.seen, cases[k].count);
+    check_close(times.before, cases[k].before, 1e-8);
+    check_close(times.now, cases[k].duration, 1e-9);
+    hooke_state_destroy(state);
+    hooke_integrator_destroy(integrator);
+  }
+  hooke_system_destroy(system);
+}
+
 /* A million steps of 0.1: a running sum would have an error of 1e-6 s. */
 static void test_time_does_not_drift(void **unused) {
   (void)unused;
-  struct frames frames = {0.3, 0.1, 1000, 0};
+  struct frames frames = {0.3, 0.1, 1000, 1000000, 0};
   hooke_system *system = small_oscillator(1.0);
   hooke_integrator *integrator = start_run(
       system, (struct run){.method = "symplectic-euler", .step = 0.1, .duration = 100000.0, .every = 100.0});
@@ -419,6 +476,7 @@ static void test_counts(void **unused) {
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(test_frames),
+      cmocka_unit_test(test_frames_of_adaptive_methods),
       cmocka_unit_test(test_time_does_not_drift),
       cmocka_unit_test(test_steps_that_do_not_fit),
       cmocka_unit_test(test_run_needs_duration),

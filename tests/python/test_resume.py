@@ -61,6 +61,33 @@ def test_a_file_is_gone_on_with(tmp_path, name, value):
     assert again.counts == {"steps": whole.counts["steps"]} and np.isnan(again.wall_seconds)
 
 
+@pytest.mark.parametrize("checkpoint", [True, False])
+@pytest.mark.parametrize("stop", [("on_step", 47), ("on_step", 48), ("on_step", 49), ("on_step", 50), ("on_frame", 10)])
+@pytest.mark.parametrize("method", ["symplectic-euler", "verlet", "rk4"])
+def test_the_last_interval_may_be_short(tmp_path, method, stop, checkpoint):
+    """Stopped before, at and after the last whole multiple of every, at the end, and when its frame is in the file."""
+    options = {"method": method, "step": 0.01, "every": 0.06, "duration": 0.5}
+    scene, (where, calls) = hooke.Scene.parse(SIX_PARTICLES), stop
+    whole = hooke.run(scene, output=tmp_path / "whole.h5", **options)
+    observer = stop_after(calls) if where == "on_frame" else (1, stop_after(calls))
+    stopped = hooke.run(scene, output=tmp_path / "out.h5", **{where: observer}, **options)
+    assert stopped.status == "stopped" and stopped.counts["steps"] == (50 if where == "on_frame" else calls)
+    if not checkpoint:
+        (tmp_path / "out.h5.checkpoint").unlink()
+    found = hooke.resume(tmp_path / "out.h5")
+    if checkpoint:
+        check_equal(found, whole)
+    assert found.status == "finished" and found.state.t == 0.5 and np.array_equal(found.state.q, whole.state.q)
+    with h5py.File(tmp_path / "out.h5") as a, h5py.File(tmp_path / "whole.h5") as b:
+        time = a["particles/all/position/time"][:]
+        assert len(time) == 10 and time[-1] == 0.5
+        names = []
+        b.visit(names.append)
+        for name in names:
+            if isinstance(b[name], h5py.Dataset):
+                assert np.asarray(a[name][()]).tobytes() == np.asarray(b[name][()]).tobytes(), name
+
+
 def push(t, q, v, f):
     f += 3 * np.sin(t) - 0.1 * v
 

@@ -49,13 +49,14 @@ int32_t hk_integrator_stand(hooke_integrator *it, const struct hk_standing *stan
 
 int32_t hk_integrator_stand_at_frame(hooke_integrator *it, int64_t frame, const hooke_state *first,
                                      hooke_state *state) {
-  const int64_t k = it->method->adaptive ? 0 : frame * it->schedule.frame_steps;
+  const struct hk_schedule *s = &it->schedule;
+  const int64_t k = it->method->adaptive ? 0 : frame == s->frames - 1 ? s->steps : frame * s->frame_steps;
   struct hk_standing standing = hk_integrator_standing(it); /* with the energies at the first frame */
   standing.t0 = *first->t;
   standing.t = *state->t;
   standing.k = standing.count.steps = k;
   standing.frames = frame + 1;
-  const double t = standing.t0 + (double)k * it->schedule.step;
+  const double t = standing.t0 + (double)k * s->step;
   if (frame > 0 && memcmp(&t, &standing.t, sizeof t) != 0)
     return hk_fail(HOOKE_BAD_VALUE, NULL, "frame %lld is not at the time of this run's, %.17g s",
                    (long long)frame, t);
@@ -106,7 +107,8 @@ static int can_go_on(const hooke_integrator *it, const hooke_state *state) {
 /* The frame of this very time, if the run was stopped before it was reported. */
 static int is_frame_missing(const hooke_integrator *it) {
   if (it->method->adaptive) return it->frames == 0;
-  return it->k % it->schedule.frame_steps == 0 && it->frames == it->k / it->schedule.frame_steps;
+  return hk_schedule_has_frame(&it->schedule, it->k) &&
+         it->frames == hk_schedule_frames_before(&it->schedule, it->k);
 }
 
 int32_t hooke_integrator_resume(hooke_integrator *it, hooke_state *state) {

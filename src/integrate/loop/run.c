@@ -160,7 +160,7 @@ struct due {
 /* `shows`: 1 if the state at step `last` is needed in any case. */
 static struct due find_due(const hooke_integrator *it, int64_t last, int64_t frame_steps, int64_t point_steps,
                            int32_t shows) {
-  struct due due = {.frame = frame_steps && it->k % frame_steps == 0,
+  struct due due = {.frame = frame_steps && hk_schedule_has_frame(&it->schedule, it->k),
                     .point = point_steps && it->k % point_steps == 0 && it->k < last,
                     .seen = it->on_step.observer && it->k % it->on_step.stride == 0};
   due.thorough = due.frame || it->thorough || it->k % HOOKE_CHECK_STEPS == 0;

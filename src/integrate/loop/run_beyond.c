@@ -24,15 +24,15 @@ static int32_t show(hooke_integrator *it, hooke_state *state) {
 
 /* From the step that failed the check on; ends for a callback, too, and where a solver gives up. */
 static void go_on(hooke_integrator *it, hooke_state *state, int64_t most) {
-  const int64_t frame_steps = it->schedule.frame_steps;
+  const int64_t frame_steps = it->schedule.frame_steps, last = it->schedule.steps;
   int32_t status = HOOKE_OK;
   for (int64_t shown = 0; shown < most && hk_motion_is_finite(it) && status == HOOKE_OK;) {
-    const int due = it->k % frame_steps == 0;
+    const int due = hk_schedule_has_frame(&it->schedule, it->k);
     if (due) status = show(it, state);
     shown += due;
-    const int64_t steps = frame_steps - it->k % frame_steps;
-    if (status != HOOKE_OK || it->k + steps > it->schedule.steps) return;
-    status = hk_run_take_fixed_steps(it, steps);
+    const int64_t left = last - it->k, steps = frame_steps - it->k % frame_steps;
+    if (status != HOOKE_OK || left == 0) return;
+    status = hk_run_take_fixed_steps(it, steps < left ? steps : left);
   }
 }
 

@@ -21,8 +21,8 @@ int32_t hk_run_begin(hooke_integrator *integrator, hooke_state *state);
 /* From there, or from the current point, to the end of its schedule. */
 int32_t hk_run_to_end(hooke_integrator *integrator, hooke_state *state);
 /* With a fixed step: continues to step `last` with checks, step observers and checkpoints, and frames every
- * `frame_steps` (0: none). `shows`: 1 if `state` should receive the result; 0: checks and observers use it.
- */
+ * `frame_steps` and at the end of the schedule (0: none). `shows`: 1 if `state` should receive the result; 0:
+ * checks and observers use it. */
 int32_t hk_run_fixed(hooke_integrator *integrator, hooke_state *state, int64_t last, int64_t frame_steps,
                      int32_t shows);
 /* Records the outcome, for a diagnosis, with the state at which a solver gave up. Returns `status`. */

@@ -32,7 +32,8 @@ static const struct hk_option_row run_rows[] = {
      .low = 0.0,
      .above_low = 1,
      .high = 1e300,
-     .doc = "time between frames, a whole multiple of step; about duration/100 if not given"},
+     .doc = "time between frames, a whole multiple of step; about duration/100 if not given; the end is a "
+            "frame, too"},
     {.name = "checkpoint",
      .type = HOOKE_OPTION_NUMBER,
      .unit = "s",
@@ -187,6 +188,20 @@ static int32_t read_fixed(struct hk_schedule *s, double step) {
   return HOOKE_OK;
 }
 
+int64_t hk_schedule_frames(double duration, double every) {
+  int64_t whole;
+  if (is_multiple(duration, every, &whole)) return 1 + whole;
+  return 1 + (int64_t)fmin(ceil(duration / every), (double)HOOKE_MOST_STEPS);
+}
+
+int32_t hk_schedule_has_frame(const struct hk_schedule *s, int64_t k) {
+  return k % s->frame_steps == 0 || k == s->steps;
+}
+
+int64_t hk_schedule_frames_before(const struct hk_schedule *s, int64_t k) {
+  return k / s->frame_steps + (k % s->frame_steps != 0);
+}
+
 int32_t hk_schedule_read(const struct hk_method *method, hooke_options *options, struct hk_schedule *s) {
   const double step = hooke_options_number(options, "step");
   *s = (struct hk_schedule){.step = step,
@@ -207,12 +222,11 @@ int32_t hk_schedule_read(const struct hk_method *method, hooke_options *options,
     const int32_t status = hooke_options_set_number(options, "every", s->every);
     if (status != HOOKE_OK) return status;
   }
-  const double frames = method->adaptive ? floor(s->duration / s->every * (1.0 + 1e-9)) : 0.0;
-  if (frames > 9e15) {
-    return hk_fail(HOOKE_BAD_VALUE, "every", "%.6g s gives %g frames; allowed: up to 9e15", s->every, frames);
-  }
   /* NOLINTNEXTLINE(clang-analyzer-core.DivideZero): with a fixed step, every is a multiple of it, from 1
    * on */
-  s->frames = 1 + (method->adaptive ? (int64_t)frames : s->steps / s->frame_steps);
-  return HOOKE_OK;
+  s->frames = method->adaptive ? hk_schedule_frames(s->duration, s->every)
+                               : 1 + hk_schedule_frames_before(s, s->steps);
+  if (s->frames <= HOOKE_MOST_STEPS) return HOOKE_OK;
+  return hk_fail(HOOKE_BAD_VALUE, "every", "%.6g s gives %g frames; allowed: up to 9e15", s->every,
+                 s->duration / s->every);
 }

@@ -21,6 +21,7 @@ const struct hk_method hk_backward_euler = {
     .summary = "fixed step, order 1, implicit; stable at every step, damps everything",
     .built = 1,
     .order = 1,
+    .judge = "implicit-midpoint",
     .second_order = 1,
     .implicit = 1,
     .stability = {.kind = HOOKE_STABLE_ALWAYS,

@@ -13,6 +13,7 @@ const struct hk_method hk_heun = {
     .summary = "fixed step, order 2, two force evaluations a step; unstable without damping",
     .built = 1,
     .order = 2,
+    .judge = "rk4",
     .first_order = 1,
     .second_order = 1,
     .stability = {.kind = HOOKE_STABLE_BY_POLYNOMIAL, .degree = 2},

@@ -67,6 +67,7 @@ const struct hk_method hk_tr_bdf2 = {
     .summary = "fixed step, order 2, implicit; stable at every step, damps what the step does not resolve",
     .built = 1,
     .order = 2,
+    .judge = "implicit-midpoint",
     .second_order = 1,
     .implicit = 1,
     .stability = {.kind = HOOKE_STABLE_ALWAYS,

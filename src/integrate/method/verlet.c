@@ -184,6 +184,7 @@ const struct hk_method hk_verlet = {
     .summary = "fixed step, order 2; keeps undamped motion bounded, and damping leaves its limit",
     .built = 1,
     .order = 2,
+    .judge = "rk4",
     .second_order = 1,
     .stability = {.kind = HOOKE_STABLE_BY_K, .damps_implicitly = 1},
     .by_tiles = 1,

@@ -159,6 +159,7 @@ static void see_elements(struct hk_reduced *reduced) {
 void hk_reduced_set(struct hk_reduced *reduced, double t, double alpha, double beta) {
   const hooke_system *system = reduced->integrator->system;
   const struct hk_motion *motion = reduced->integrator->motion;
+  reduced->integrator->count.matrices++;
   reduced->t = t;
   reduced->projected = 0;
   reduced->alpha = alpha;
@@ -285,17 +286,28 @@ static void multiply(int64_t size, double factor, double *x) {
     x[k] *= factor;
 }
 
+/* x = L^-1 x and x = L^-T x, counted. */
+static void forward(struct hk_reduced *reduced, double *x) {
+  reduced->integrator->count.factor_numbers += hk_factor_numbers(reduced->whole);
+  hk_factor_forward(reduced->whole, x);
+}
+
+static void backward(struct hk_reduced *reduced, double *x) {
+  reduced->integrator->count.factor_numbers += hk_factor_numbers(reduced->whole);
+  hk_factor_backward(reduced->whole, x);
+}
+
 /* Multiplies by the factor on either side; `unknown` is in its order. */
 static int32_t apply_whole(void *ctx, const double *unknown, double *out) {
   struct hk_reduced *reduced = ctx;
   const size_t bytes = (size_t)reduced->integrator->size * sizeof(double);
   double *x = reduced->place, *product = reduced->moved;
   memcpy(product, unknown, bytes);
-  hk_factor_backward(reduced->whole, product);
+  backward(reduced, product);
   hk_factor_spread(reduced->whole, product, x);
   const int32_t status = hk_reduced_multiply(reduced, x, product);
   hk_factor_gather(reduced->whole, product, out);
-  hk_factor_forward(reduced->whole, out);
+  forward(reduced, out);
   return status;
 }
 
@@ -305,13 +317,13 @@ static int32_t solve_whole(struct hk_reduced *reduced, const double *b, double t
   const struct hk_operator a = {3 * (it->system->particle_count - it->system->constrained_count), apply_whole,
                                 reduced};
   hk_factor_gather(reduced->whole, b, reduced->right);
-  hk_factor_forward(reduced->whole, reduced->right);
+  forward(reduced, reduced->right);
   const double scale = scale_of(a.size, reduced->right);
   multiply(a.size, scale, reduced->right);
   const int32_t status =
       hk_solve_general(&a, reduced->right, tolerance, limit, reduced->krylov, reduced->unknown, solution);
   it->count.linear_iterations += solution->iterations;
-  hk_factor_backward(reduced->whole, reduced->unknown);
+  backward(reduced, reduced->unknown);
   hk_factor_spread(reduced->whole, reduced->unknown, x);
   multiply(it->size, 1.0 / scale, x);
   return status;
@@ -430,6 +442,7 @@ int32_t hk_reduced_factorise(struct hk_reduced *reduced) {
   const int32_t status = hk_reduced_reserve_whole(reduced);
   if (status != HOOKE_OK) return status;
   const struct hk_factor_parts parts = {&reduced->tangent, reduced->element, reduced->alpha, reduced->beta};
+  reduced->integrator->count.factor_products += (int64_t)hk_factor_products(reduced->whole);
   const int32_t positive = hk_factor_compute(reduced->whole, reduced->block, &parts);
   reduced->whole_state = positive == 1 ? HOOKE_WHOLE_IN_USE : HOOKE_WHOLE_READY;
   return positive;
@@ -483,8 +496,8 @@ static void divide(struct hk_reduced *reduced, double *x) {
   const int64_t n = reduced->integrator->system->particle_count;
   if (reduced->whole_state == HOOKE_WHOLE_IN_USE) {
     hk_factor_gather(reduced->whole, x, reduced->unknown);
-    hk_factor_forward(reduced->whole, reduced->unknown);
-    hk_factor_backward(reduced->whole, reduced->unknown);
+    forward(reduced, reduced->unknown);
+    backward(reduced, reduced->unknown);
     hk_factor_spread(reduced->whole, reduced->unknown, x);
     return;
   }

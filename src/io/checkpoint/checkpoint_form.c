@@ -197,9 +197,9 @@ static int is_possible(const hooke_integrator *it, const struct hk_standing *s) 
   if (memcmp(&t, &s->t, sizeof t) != 0) return 0;
   if (!planned || s->frames == 0) return !planned || s->k == 0 || schedule->frame_steps > 0;
   /* one may be missing if the run was stopped just before it */
-  const int64_t frames = s->k / schedule->frame_steps + 1;
+  const int64_t before = hk_schedule_frames_before(schedule, s->k);
   return s->k <= schedule->steps &&
-         (s->frames == frames || (s->frames == frames - 1 && s->k % schedule->frame_steps == 0));
+         (s->frames == before || (s->frames == before + 1 && hk_schedule_has_frame(schedule, s->k)));
 }
 
 int32_t hk_checkpoint_check(const char *path, const struct hk_checkpoint_header *h,

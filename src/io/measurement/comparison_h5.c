@@ -237,8 +237,9 @@ static int write_column(const hooke_comparison_file *file, int64_t row, int32_t 
 static int write_table(const hooke_comparison_file *file) {
   const struct hk_comparison *c = file->comparison;
   const int64_t frames = file->writer[0].written;
-  int error = write_text(file, file->at.reference, 0, c->reference);
-  if (error == 0 && frames > 0) error = write_numbers(file, file->at.time, 0, frames, c->frames.time);
+  int error = write_text(file, file->at.reference, 0, c->reference.method);
+  if (error == 0 && frames > 0)
+    error = write_numbers(file, file->at.time, 0, frames, c->reference.frames.time);
   for (int64_t row = 0; row < c->row_count; row++) {
     for (int32_t k = 0; error == 0 && k < file->rows->column_count; k++)
       error = write_column(file, row, k);

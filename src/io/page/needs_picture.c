@@ -72,7 +72,7 @@ static int32_t add(struct hk_text *data, const struct hk_needs *needs, struct hk
                    const char *watched) {
   const int64_t frame = last_frame(needs), springs = choose(p, watched);
   hk_text_open(data, "picture", '{');
-  hk_text_number(data, "time", (double)frame * needs->every);
+  hk_text_number(data, "time", hk_needs_time(needs, frame));
   hk_text_number(data, "springs", (double)springs);
   hk_picture_add_springs(data, p);
   for (int64_t k = 0; k < needs->watch_count; k++) {

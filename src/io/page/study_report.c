@@ -53,7 +53,7 @@ static void add_rows(struct hk_text *text, const hooke_measurement *m) {
   for (int64_t row = 0; row < hooke_measurement_row_count(m, "rows"); row++) {
     hk_text_open(text, NULL, '{');
     add_row(text, m, "rows", row);
-    add_curve(text, m, row, "error_at");
+    add_curve(text, m, row, "error_max_at");
     add_curve(text, m, row, "energy_drift_at");
     hk_text_close(text, '}');
   }

@@ -18,7 +18,7 @@
 #include <stdio.h>
 
 struct places {
-  int64_t numbers, by, note;
+  int64_t numbers, by, reason;
 };
 
 static int32_t find_places(struct hk_h5_guard *guard, const struct hk_h5_file *file, struct places *at) {
@@ -27,23 +27,23 @@ static int32_t find_places(struct hk_h5_guard *guard, const struct hk_h5_file *f
   if (status != HOOKE_OK) return status;
   at->numbers = hk_h5md_place(id, "hooke/error", HOOKE_ERROR_COUNT * sizeof(double));
   at->by = hk_h5md_place(id, "hooke/error_by", HOOKE_ERROR_BY);
-  at->note = hk_h5md_place(id, "hooke/error_note", HOOKE_ERROR_NOTE);
+  at->reason = hk_h5md_place(id, "hooke/error_reason", HOOKE_ERROR_REASON);
   H5Fclose(id);
   if (guard->no_memory) return hk_h5_fail(guard, file->atomic.path, "find the room for the error");
-  if (at->numbers >= 0 && at->by >= 0 && at->note >= 0) return HOOKE_OK;
+  if (at->numbers >= 0 && at->by >= 0 && at->reason >= 0) return HOOKE_OK;
   return hk_fail(HOOKE_BAD_VALUE, NULL, "%s: is no trajectory that has room for the error of its run",
                  file->atomic.path);
 }
 
 static int write_at(int descriptor, const struct places *at, const hooke_measurement *estimate) {
   double number[HOOKE_ERROR_COUNT];
-  char by[HOOKE_ERROR_BY] = {0}, note[HOOKE_ERROR_NOTE] = {0};
+  char by[HOOKE_ERROR_BY] = {0}, reason[HOOKE_ERROR_REASON] = {0};
   const char *source = hooke_measurement_text(estimate, "estimate", 0, "by");
   for (int k = 0; k < HOOKE_ERROR_COUNT; k++)
     number[k] = hooke_measurement_number(estimate, "estimate", 0, hk_error_number[k]);
   snprintf(by, sizeof by, "%s", source ? source : "");
-  snprintf(note, sizeof note, "%s", hooke_measurement_text(estimate, "estimate", 0, "note"));
-  int error = hk_bytes_write(descriptor, at->note, sizeof note, note);
+  snprintf(reason, sizeof reason, "%s", hooke_measurement_text(estimate, "estimate", 0, "reason"));
+  int error = hk_bytes_write(descriptor, at->reason, sizeof reason, reason);
   if (error == 0) error = hk_bytes_write(descriptor, at->numbers, sizeof number, number);
   return error ? error : hk_bytes_write(descriptor, at->by, sizeof by, by);
 }

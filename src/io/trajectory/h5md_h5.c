@@ -17,8 +17,9 @@
 #include <stdio.h>
 #include <string.h>
 
-const char *const hk_error_number[HOOKE_ERROR_COUNT] = {
-    "estimate", "known_from", "known_until", "energy_rise", "wanted", "met", "heat_excess"};
+const char *const hk_error_number[HOOKE_ERROR_COUNT] = {"estimate",    "rms",        "known_until",
+                                                        "energy_rise", "wanted",     "met",
+                                                        "heat_excess", "last_piece", "last_from"};
 
 enum { STATUS_LENGTH = 16 }; /* smaller than a page, and aligned to a multiple of it: never torn */
 
@@ -135,7 +136,7 @@ herr_t hk_h5md_write_error_room(hid_t file) {
   herr_t result =
       numbers < 0 ? -1 : hk_h5_text_attributes(numbers, "numbers", HOOKE_ERROR_COUNT, hk_error_number);
   if (result >= 0) result = write_text(group, "error_by", HOOKE_ERROR_BY, "");
-  if (result >= 0) result = write_text(group, "error_note", HOOKE_ERROR_NOTE, "");
+  if (result >= 0) result = write_text(group, "error_reason", HOOKE_ERROR_REASON, "");
   hk_h5_drop(numbers);
   hk_h5_drop(group);
   return result;

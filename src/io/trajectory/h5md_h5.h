@@ -8,7 +8,7 @@
  *   /hooke/rest_length       [springs]
  *   /hooke/beyond            of a single run: the first frame after it diverged; -1: there is none
  *   /hooke/error             of a single run: HOOKE_ERROR_COUNT numbers, NaN until they are known; texts
- *                            `error_by`, `error_note`
+ *                            `error_by`, `error_reason`
  *   /particles/<group>       frames (trajectory_writer_h5.h)
  *   /connectivity/springs    [springs][2] particle numbers
  *   /observables             frames (trajectory_writer_h5.h)

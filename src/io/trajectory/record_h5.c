@@ -150,7 +150,7 @@ static int32_t read_own(struct hooke_record *record, hid_t file) {
   int32_t status = read_text(group, "scene", &record->scene);
   if (status == HOOKE_OK) status = read_text(group, "status", &record->status);
   if (status == HOOKE_OK) status = read_text(group, "error_by", &record->error_by);
-  if (status == HOOKE_OK) status = read_text(group, "error_note", &record->error_note);
+  if (status == HOOKE_OK) status = read_text(group, "error_reason", &record->error_reason);
   record->run = read_attribute(group, "run");
   if (status == HOOKE_OK && record->run == NULL) status = HOOKE_NO_MEMORY;
   for (int k = 0; status == HOOKE_OK && k < HOOKE_RECORD_FACTS; k++) {
@@ -250,7 +250,7 @@ void hooke_record_close(hooke_record *record) {
   hk_free(record->status);
   hk_free(record->run);
   hk_free(record->error_by);
-  hk_free(record->error_note);
+  hk_free(record->error_reason);
   for (int k = 0; k < HOOKE_RECORD_FACTS; k++)
     hk_free(record->fact[k]);
   hk_free(record->time);
@@ -262,7 +262,7 @@ const char *hooke_record_text(const hooke_record *record, const char *what) {
   if (strcmp(what, "scene") == 0) return record->scene ? record->scene : "";
   if (strcmp(what, "run") == 0) return record->run;
   if (strcmp(what, "error_by") == 0) return record->error_by ? record->error_by : "";
-  if (strcmp(what, "error_note") == 0) return record->error_note ? record->error_note : "";
+  if (strcmp(what, "error_reason") == 0) return record->error_reason ? record->error_reason : "";
   for (int k = 0; k < HOOKE_RECORD_FACTS; k++)
     if (strcmp(what, facts[k]) == 0) return record->fact[k] ? record->fact[k] : "";
   return strcmp(what, "status") == 0 ? record->status : NULL;

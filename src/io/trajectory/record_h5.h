@@ -12,7 +12,7 @@ enum { HOOKE_RECORD_FACTS = 5 };
 
 struct hooke_record {
   char *fact[HOOKE_RECORD_FACTS]; /* versions of the writer: "" where the file does not say */
-  char *path, *scene, *status, *run, *error_by, *error_note;
+  char *path, *scene, *status, *run, *error_by, *error_reason;
   hooke_options *options; /* of a run, as stored */
   int32_t is_run;
   int64_t frame_count, good_count; /* frames, and those before divergence */

@@ -7,7 +7,9 @@
 #include "integrate/integrator.h"
 #include "measure/estimate/heat.h"
 #include "measure/trial/step_unit.h"
+#include "measure/work/work.h"
 #include "model/state.h"
+#include "model/system.h"
 
 #include <math.h>
 #include <stddef.h>
@@ -16,11 +18,11 @@
 
 enum { MOST_KEPT = 100, MOST_SEEN = 128, MOST_REFINED = 4 };
 static const int64_t KEPT_BYTES = 1 << 26;
-static const double SHORT = 2.0;                         /* [s] a shorter run is repeated, coarser */
+static const double PATIENCE = 2.0;                      /* [s] for limits */
 static const double SLICE = 0.04, SLICE_ADAPTIVE = 0.03; /* of the duration, for a tenth of the time */
 static const double AIM = 0.6, LEAST_GAIN = 0.7, LEAST_FACTOR = 1.0 / 16.0,
-                    MOST_FACTOR = 0.7; /* of refinement */
-static const double MOST_RUNS = 30.0;  /* maximum time of a refined run, in times of the first */
+                    MOST_FACTOR = 0.7;             /* of refinement */
+static const double SHORT = 2.0, MOST_RUNS = 30.0; /* most work of a refined run [s], or times the first */
 
 static const struct hk_option_row rows[] = {
     {.name = "want",
@@ -29,11 +31,20 @@ static const struct hk_option_row rows[] = {
      .low = 0.0,
      .above_low = 1,
      .high = 1e300,
-     .doc =
-         "root mean square error over free particles that no frame may exceed; only estimates if not given"},
+     .doc = "error that no free particle may exceed at any frame; only estimates if not given"},
+    {.name = "callbacks",
+     .type = HOOKE_OPTION_FLAG,
+     .fallback = "false",
+     .doc = "repeats runs for the estimate even if they call callbacks of forces or drives"},
 };
 
 static const struct hk_option_table options = {"estimate", HOOKE_OPTION_ROWS(rows)};
+
+static void clear(struct hk_estimate *e) {
+  e->error = e->rms = e->known_until = e->order = e->last_error = e->last_from = NAN;
+  e->by = NULL;
+  e->reason[0] = '\0';
+}
 
 static int32_t create(hooke_measurement *m) {
   struct hk_estimate *e = m->object = hk_new(1, sizeof *e);
@@ -41,7 +52,9 @@ static int32_t create(hooke_measurement *m) {
   e->measurement = m;
   e->system = m->system;
   e->want = hooke_options_number(m->options, "want");
-  e->error = e->known_from = e->known_until = e->rise = e->heat_excess = e->first = NAN;
+  e->callbacks = hooke_options_number(m->options, "callbacks") != 0.0;
+  e->first = e->rise = e->heat_excess = NAN;
+  clear(e);
   return HOOKE_OK;
 }
 
@@ -49,12 +62,12 @@ static void forget_run(struct hk_estimate *e) {
   hooke_options_destroy(e->options);
   hk_frames_release(&e->kept);
   hk_soundness_release(&e->soundness);
+  hooke_state_destroy(e->start);
   hooke_state_destroy(e->late);
   e->options = NULL;
-  e->late = NULL;
-  e->error = e->known_from = e->known_until = e->rise = e->heat_excess = e->order = NAN;
-  e->by = NULL;
-  e->note[0] = '\0';
+  e->start = e->late = NULL;
+  e->rise = e->heat_excess = NAN;
+  clear(e);
 }
 
 static void destroy(void *object) {
@@ -102,18 +115,14 @@ int32_t hooke_estimate_pick(hooke_measurement *m, const char *method, hooke_opti
 
 /* ---- watching the run ---- */
 
-/* Frames kept for the comparison with a finer run: evenly spaced over the run, as far as memory allows. */
+/* Frames kept for the comparison with other runs: evenly spaced, and the end; as many as memory allows. */
 static void choose_kept(struct hk_estimate *e, int64_t *count) {
-  const double frames = e->duration / e->every;
-  const int64_t bytes = 3 * hooke_system_particle_count(e->system) * (int64_t)sizeof(double);
-  double apart = fmax(1.0, ceil(round(frames) / MOST_KEPT));
-  while (fmod(round(frames), apart) != 0.0)
-    apart++;
-  *count = 1 + (int64_t)(round(frames) / apart);
-  e->apart = apart * e->every;
-  if (!isnan(e->want) && hk_step_is_whole(frames) && *count * bytes <= KEPT_BYTES) return;
-  *count = 2;
-  e->apart = e->duration;
+  const double intervals = ceil(e->duration / e->every * (1.0 - 1e-9));
+  const int64_t bytes = 3 * hooke_system_particle_count(e->system) * (int64_t)sizeof(double) + 1;
+  const double most = fmax(1.0, fmin(MOST_KEPT, (double)(KEPT_BYTES / bytes)));
+  const double apart = ceil(intervals / most);
+  *count = 1 + (int64_t)ceil(intervals / apart);
+  e->apart = fmin(apart * e->every, e->duration);
 }
 
 static int is_whole_reference(const struct hk_estimate *e) {
@@ -137,7 +146,8 @@ int32_t hooke_estimate_begin(hooke_measurement *m, const hooke_integrator *it, c
   int64_t count;
   const int64_t frames = hooke_integrator_count(it, "frames");
   e->integrator = it;
-  e->seconds = 0.0;
+  e->work = e->steps = 0.0;
+  e->resumed = it->placed;
   e->begin = hooke_state_time(state);
   e->duration = it->schedule.duration;
   e->every = it->schedule.every;
@@ -146,10 +156,12 @@ int32_t hooke_estimate_begin(hooke_measurement *m, const hooke_integrator *it, c
   e->late_after = e->begin + e->duration * (1.0 - (it->method->adaptive ? SLICE_ADAPTIVE : SLICE));
   choose_kept(e, &count);
   status = hk_frames_create(e->system, count, &e->kept);
+  if (status == HOOKE_OK) status = hooke_state_create(e->system, &e->start);
+  if (status == HOOKE_OK) status = hooke_state_copy(state, e->start);
   if (status == HOOKE_OK) status = hooke_state_create(e->system, &e->late);
   if (status == HOOKE_OK)
     status = hk_soundness_begin(&e->soundness, e->system, it->method->name,
-                                is_checked(e, it) ? NAN : it->schedule.step, SHORT, state, MOST_SEEN + 2);
+                                is_checked(e, it) ? NAN : it->schedule.step, PATIENCE, state, MOST_SEEN + 2);
   return status;
 }
 
@@ -166,7 +178,8 @@ int32_t hooke_estimate_see(int64_t step, const hooke_state *state, void *estimat
   struct hk_estimate *e = m->object;
   (void)step;
   if (m->kind != &hk_estimate_kind || e->options == NULL) return 0;
-  e->seconds = e->integrator->wall_seconds;
+  e->work = hk_work_of(e->integrator);
+  e->steps = (double)e->integrator->count.steps;
   keep(e, state);
   const double frame = (hooke_state_time(state) - e->begin) / e->every;
   if (frame >= (double)e->frames_seen * (1.0 - 1e-12)) {
@@ -182,16 +195,20 @@ int32_t hooke_estimate_see(int64_t step, const hooke_state *state, void *estimat
 static void measure_by_reference(struct hk_estimate *e, const hooke_state *state) {
   const struct hk_reference *r = &e->pick.reference;
   const int to_end = r->trusted == r->frames.count;
-  double end = 0.0;
-  if (to_end) end = hk_frames_distance(&r->frames, r->frames.count - 1, hooke_state_position(state), NULL);
-  e->error = e->picked ? fmax(end, e->pick.best.error) : to_end ? end : NAN;
-  e->known_from = e->begin;
-  e->known_until = e->begin + hk_pick_trusted(&e->pick);
-  e->order = NAN;
-  e->by = isnan(e->error) ? NULL : "reference";
+  double end = 0.0, end_rms = 0.0;
+  if (to_end)
+    end_rms = hk_frames_distance(&r->frames, r->frames.count - 1, hooke_state_position(state), &end);
+  if (e->picked || to_end) {
+    if (e->picked) end = fmax(end, e->pick.best.error), end_rms = fmax(end_rms, e->pick.best.rms);
+    e->error = fmax(hk_estimate_rounding(e), end + r->agreement);
+    e->rms = fmin(e->error, end_rms + r->agreement);
+    e->known_until = e->begin + hk_pick_trusted(&e->pick);
+    e->by = "reference";
+  }
   if (to_end) return;
-  hk_print(e->note, sizeof e->note,
-           "after %.6g s two references part by more than a tenth of the wanted error%s", e->known_until,
+  hk_print(e->reason, sizeof e->reason,
+           "after %.6g s two references part by more than a tenth of the wanted error%s",
+           e->begin + hk_pick_trusted(&e->pick),
            r->hurried ? ", for want of time" : ", whatever their tolerance: the motion is chaotic");
 }
 
@@ -199,45 +216,66 @@ static int is_sound(const struct hk_estimate *e) {
   return isinf(e->soundness.least_limit) && !(e->rise > hk_soundness_most_rise);
 }
 
-static int32_t measure_alone(struct hk_estimate *e) {
-  int32_t status = HOOKE_OK;
-  if (!isnan(e->want)) {
-    status = hk_estimate_by_finer(e);
-    /* a pick from the beginning alone: its error is over more frames */
-    if (e->picked && e->pick.met && !isnan(e->error)) e->error = fmax(e->error, e->pick.best.error);
-    return status;
+static int calls_back(const hooke_system *system) {
+  int calls = system->force != NULL;
+  for (int64_t d = 0; d < system->drive_count; d++)
+    calls |= system->drive[d].kind == HOOKE_DRIVE_CALLBACK;
+  return calls;
+}
+
+/* Why nothing is run again; NULL: it is. */
+static const char *find_obstacle(const struct hk_estimate *e, const hooke_state *state) {
+  const double end = e->begin + e->duration;
+  if (e->resumed) return "the run went on from a state of another one, whose error is not known here";
+  if (fabs(hooke_state_time(state) - end) > 1e-9 * e->duration || e->kept.recorded < e->kept.count)
+    return "the run did not come to its end";
+  return calls_back(e->system) && !e->callbacks ? "a callback takes part" : NULL;
+}
+
+static int32_t measure_again(struct hk_estimate *e, const hooke_state *state) {
+  if (is_whole_reference(e)) {
+    measure_by_reference(e, state);
+    return HOOKE_OK;
   }
-  if (e->seconds < SHORT) status = hk_estimate_by_coarser(e);
-  if (status == HOOKE_OK && isnan(e->error)) status = hk_estimate_by_slice(e);
+  int32_t status = hk_estimate_by_runs(e);
+  /* a pick from the beginning alone: its error is over more frames */
+  if (e->picked && e->pick.met && e->pick.best.error > e->error) e->error = e->pick.best.error;
+  if (status == HOOKE_OK && isnan(e->error)) status = hk_estimate_last_slice(e);
   return status;
 }
 
+static void explain_want(struct hk_estimate *e) {
+  if (!isnan(e->want) && !is_sound(e))
+    hk_print(e->reason, sizeof e->reason,
+             isinf(e->soundness.least_limit) ? "its energy grows by itself"
+                                             : "its step is above 0.9 of the stable one");
+  else if (e->soundness.unknown_limit && !e->reason[0])
+    hk_print(e->reason, sizeof e->reason, "the stable step of its rigid bodies is not known at all times");
+}
+
+static void give_up(struct hk_estimate *e, int32_t status) {
+  clear(e);
+  hk_print(e->reason, sizeof e->reason,
+           status == HOOKE_STOPPED ? "interrupted" : "memory was too short to find it out");
+}
+
 static int32_t measure(struct hk_estimate *e, const hooke_state *state) {
-  const double end = e->begin + e->duration;
-  const int over = fabs(hooke_state_time(state) - end) <= 1e-9 * e->duration;
   if (e->kept.recorded == e->kept.count - 1) hk_frames_record(&e->kept, state);
   e->rise = hk_soundness_rise(&e->soundness);
-  if (isnan(e->first)) e->first = e->seconds;
-  if (!over || e->kept.recorded < e->kept.count) {
-    hk_print(e->note, sizeof e->note, "the run did not come to its end");
+  if (isnan(e->first)) e->first = e->work;
+  const char *obstacle = find_obstacle(e, state);
+  if (obstacle) {
+    hk_print(e->reason, sizeof e->reason, "%s", obstacle);
     return HOOKE_OK;
   }
   const double begun = hk_clock_seconds();
-  int32_t status = HOOKE_OK;
-  if (is_whole_reference(e))
-    measure_by_reference(e, state);
+  int32_t status = measure_again(e, state);
+  if (status == HOOKE_OK)
+    status = hk_estimate_heat(e);
   else
-    status = measure_alone(e);
-  if (status == HOOKE_OK) status = hk_estimate_heat(e);
+    give_up(e, status);
   e->spent += hk_clock_seconds() - begun;
-  if (status == HOOKE_OK && isnan(e->error) && !e->note[0])
-    hk_print(e->note, sizeof e->note, "other steps of this method do not tell how wrong it is");
-  if (status == HOOKE_OK && !isnan(e->want) && !is_sound(e))
-    hk_print(e->note, sizeof e->note,
-             isinf(e->soundness.least_limit) ? "its energy grows by itself"
-                                             : "its step is above 0.9 of the stable one");
-  else if (status == HOOKE_OK && e->soundness.unknown_limit && !e->note[0])
-    hk_print(e->note, sizeof e->note, "the stable step of its rigid bodies is not known at all times");
+  if (status == HOOKE_OK) explain_want(e);
   return status;
 }
 
@@ -259,8 +297,7 @@ double hk_estimate_met(const struct hk_estimate *e) {
   if (isnan(e->want)) return NAN;
   if (e->error > e->want || (e->options && !isnan(e->error) && !is_sound(e))) return 0.0;
   if (e->soundness.unknown_limit) return NAN;
-  return e->error <= e->want && e->known_until >= end * (1.0 - 1e-12) && e->known_from <= e->begin ? 1.0
-                                                                                                   : NAN;
+  return e->error <= e->want && e->known_until >= end - 1e-9 * e->duration ? 1.0 : NAN;
 }
 
 /* Next finer step or tolerance of the same method. */
@@ -279,9 +316,9 @@ static int32_t set_finer(struct hk_estimate *e, hooke_options *run) {
   if (status == HOOKE_OK) status = hk_step_unit(duration, every, &unit);
   if (status != HOOKE_OK) return status;
   value = unit / ceil(unit / value * (1.0 - 1e-12));
-  const double seconds = e->seconds * hk_estimate_value(e->options) / value;
-  if (seconds > fmax(SHORT, MOST_RUNS * e->first))
-    return hk_fail(HOOKE_UNSUITED, NULL, "a step of %g s would take %.3g s", value, seconds);
+  const double work = e->work * hk_estimate_value(e->options) / value;
+  if (work > fmax(SHORT, MOST_RUNS * e->first))
+    return hk_fail(HOOKE_UNSUITED, NULL, "a step of %g s would take about %.3g s", value, work);
   return hk_trial_set_value(run, method, value);
 }
 
@@ -304,7 +341,7 @@ int32_t hooke_estimate_refine(hooke_measurement *m, hooke_options *run) {
   const int32_t known =
       e->options != NULL && !isnan(hk_estimate_met(e)) && e->error <= LEAST_GAIN * e->before;
   if (!known || e->refined == MOST_REFINED)
-    return hk_fail(HOOKE_UNSUITED, NULL, "nothing finer is known to help: %s", e->note);
+    return hk_fail(HOOKE_UNSUITED, NULL, "nothing finer is known to help: %s", e->reason);
   const int32_t again = e->pick.system != NULL && !is_whole_reference(e) && e->error > e->want;
   status = again ? pick_finer(e, run) : set_finer(e, run);
   e->refined++;

@@ -11,18 +11,22 @@ struct hk_estimate {
   const hooke_measurement *measurement;
   const hooke_system *system;
   double want;         /* [m], NaN: none */
+  int32_t callbacks;   /* 1: runs are repeated even if callbacks take part */
   struct hk_pick pick; /* with a system, after its run */
   int32_t picked;      /* 1: the next run is the picked one, not a refined one */
   char only[64];       /* the only method allowed; "": any */
-  double first;        /* time of the first run [s] */
+  double first;        /* counted work of the first run [s] */
   double before;       /* error before refinement [m]; infinity at first */
   int32_t refined;     /* number of refinements */
 
   /* the run */
   hooke_options *options;             /* copy of the integrator's */
   const hooke_integrator *integrator; /* valid while it runs */
-  double begin, duration, every, seconds;
-  struct hk_frames kept; /* recorded states of the run: the start, and frames `apart` [s], up to the end */
+  double begin, duration, every;
+  double work, steps;    /* counted work [s] (measure/work), and steps */
+  int32_t resumed;       /* 1: it continued another run */
+  hooke_state *start;    /* its first state */
+  struct hk_frames kept; /* recorded states of the run: frames `apart` [s], and its end */
   double apart;
   struct hk_soundness soundness;
   int64_t frames_apart; /* of the states that the soundness records */
@@ -31,10 +35,12 @@ struct hk_estimate {
   double late_after; /* its earliest time [s]; NaN once recorded */
 
   /* results */
-  double error, known_from, known_until, order; /* the order of the error in the step or tolerance */
+  double error, rms, known_until, order; /* the order of the error in the step or tolerance */
   const char *by;
+  double last_error, last_from; /* what the last piece of the run made; NaN: not measured */
   double rise, heat_excess, spent;
-  char note[256];
+  double left; /* counted work that other runs may still take [s] */
+  char reason[256];
 };
 
 extern const struct hk_measurement_kind hk_estimate_kind;
@@ -43,26 +49,47 @@ extern const struct hk_table *const hk_estimate_tables[1];
 /* 1 if the run meets the wanted error, 0 if not, NaN if that is unknown or none is wanted. */
 double hk_estimate_met(const struct hk_estimate *estimate);
 
-/* Method, and step or tolerance, in options of a run. */
+/* Step or tolerance in options of a run. */
 double hk_estimate_value(const hooke_options *options);
 
-/* A rerun: by a step or tolerance, for `duration` with frames `every` apart [s]. */
+/* Another run: by a method with a step or tolerance, for `duration` with frames `every` apart [s]. */
 struct hk_rerun {
+  const char *method;
   double value, duration, every;
-  const hooke_state *from;  /* NULL: the initial state */
+  const hooke_state *from;  /* NULL: the start of the run */
   hooke_observer *observer; /* observer of its frames, with `ctx`; or NULL */
   void *ctx;
 };
 
+/* Its options, which the caller owns. */
+int32_t hk_estimate_rerun_options(const struct hk_estimate *estimate, const struct hk_rerun *rerun,
+                                  hooke_options **options);
 /* `frames` receives its start and as many frames as there is memory for; fewer if it ends early.
  * HOOKE_STOPPED, HOOKE_NO_MEMORY. */
 int32_t hk_estimate_rerun(struct hk_estimate *estimate, const struct hk_rerun *rerun,
                           struct hk_frames *frames);
-/* Estimates from reruns: coarser ones, and finer ones of the last slice or the whole run. They leave the
- * error NaN where it cannot be determined (estimate_runs.c). */
-int32_t hk_estimate_by_coarser(struct hk_estimate *estimate);
-int32_t hk_estimate_by_slice(struct hk_estimate *estimate);
-int32_t hk_estimate_by_finer(struct hk_estimate *estimate);
+
+/* Estimates the error of the whole run from other runs (estimate_runs.c), or says in `reason` why it is not
+ * known. HOOKE_STOPPED, HOOKE_NO_MEMORY. */
+int32_t hk_estimate_by_runs(struct hk_estimate *estimate);
+/* What positions of this size lose by rounding over the steps of the run: no error is smaller [m]. */
+double hk_estimate_rounding(const struct hk_estimate *estimate);
+/* What its last slice added to the error, from a finer run of that. */
+int32_t hk_estimate_last_slice(struct hk_estimate *estimate);
+/* Holds the run against another method (estimate_judge.c): a larger distance becomes the error, and a
+ * contradiction makes it unknown. */
+int32_t hk_estimate_by_other_method(struct hk_estimate *estimate);
+
+/* Distances of a run from this one over frames [m]: of the farthest free particle, and root mean square. NaN
+ * if it did not finish. */
+struct hk_distance {
+  double most, rms;
+};
+/* Runs, within the work that is left, and compares the first `frames` of the kept ones. */
+int32_t hk_estimate_compare(struct hk_estimate *estimate, const struct hk_rerun *rerun, int64_t frames,
+                            struct hk_distance *distance);
+/* The smallest step [s] from `least` on that fits the kept frames; NaN if there is none. */
+double hk_estimate_fit_step(const struct hk_estimate *estimate, double least);
 
 /* Picks only: sets a method and its step or tolerance for the wanted error [m] in `run`. HOOKE_BAD_VALUE if
  * nothing is known to meet it, and the failures of hooke_estimate_pick(). */

@@ -1,19 +1,27 @@
-/* Estimates of a run's error from other runs of its method: Richardson's, if the observed order is that of
- * the method. */
+/* The error of a run from runs of its method at other steps or tolerances: Roache's grid convergence index
+ * (Perspective: a method for uniform reporting of grid refinement studies, J. Fluids Eng. 116, 1994). With d
+ * the largest distance of the run from the one at half the step, p the smaller of the order of the method and
+ * the one seen with a third run, the error is F d/(1 - 2^-p). */
 #include "measure/estimate/estimate.h"
 
+#include "core/print.h"
 #include "integrate/method.h"
+#include "measure/trial/step_unit.h"
+#include "model/state.h"
 
+#include <float.h>
 #include <math.h>
 #include <stddef.h>
 #include <string.h>
 
-enum { LEAST_STEPS = 16 };
-static const double COARSER_TOLERANCE = 10.0, FINER_TOLERANCE = 0.01, LOOSEST = 0.1, TIGHTEST = 1e-14;
-/* Accepted orders: of a step, this much above the method's; of a tolerance. */
-static const double ORDERS_APART = 0.4, LEAST_POWER = 0.5, MOST_POWER = 1.3;
-static const double CAUTIOUS_POWER = 0.7; /* errors do not scale evenly with tolerances */
-static const double ROUNDING = 1e-13;     /* of the largest coordinate: smaller differences are rounding */
+static const double LONG = 10.0;                /* [s] of counted work */
+static const double FACTOR = 10.0, POWER = 0.7; /* of tolerances, and how errors scale with them */
+static const double LEAST_POWER = 0.5, MOST_POWER = 1.5, LOOSEST = 0.1, TIGHTEST = 1e-14;
+static const double ORDERS_APART = 0.4, LEAST_ORDER = 0.05, ORDERS_ABOVE = 1.0;
+/* safety factors: where the order is the expected one, and where it is another or not seen */
+static const double SURE = 1.25, SURE_TOLERANCE = 1.5, UNSURE = 3.0;
+static const double LEAST_MOVE = 1e3;               /* of a step, in half units in the last place */
+static const double MOST_WORK = 4.0, MOMENT = 0.01; /* of other runs in all, in times of the run, or [s] */
 
 double hk_estimate_value(const hooke_options *options) {
   const int32_t adaptive = hooke_method_is_adaptive(hooke_options_text(options, "method"));
@@ -24,7 +32,7 @@ static const struct hk_method *method_of(const struct hk_estimate *e) {
   return hk_method_find(hooke_options_text(e->options, "method"));
 }
 
-/* ---- reruns ---- */
+/* ---- other runs ---- */
 
 struct run {
   struct hk_estimate *estimate;
@@ -32,8 +40,8 @@ struct run {
 };
 
 static void start_from(hooke_state *state, void *ctx) {
-  const struct hk_rerun *rerun = ((const struct run *)ctx)->rerun;
-  if (rerun->from) hooke_state_copy(rerun->from, state);
+  const struct run *run = ctx;
+  hooke_state_copy(run->rerun->from ? run->rerun->from : run->estimate->start, state);
 }
 
 static int32_t tell(double share, void *ctx) {
@@ -47,135 +55,219 @@ static int32_t show(int64_t frame, int64_t step, const hooke_state *state, void 
   return rerun->observer ? rerun->observer(step, state, rerun->ctx) : 0;
 }
 
-int32_t hk_estimate_rerun(struct hk_estimate *e, const struct hk_rerun *rerun, struct hk_frames *frames) {
-  struct run run = {e, rerun};
-  const struct hk_listener listener = {tell, show, start_from, &run};
-  const char *method = hooke_options_text(e->options, "method");
+int32_t hk_estimate_rerun_options(const struct hk_estimate *e, const struct hk_rerun *rerun,
+                                  hooke_options **out) {
   hooke_options *options = NULL;
-  int32_t status = hk_pick_options(e->options, method, rerun->value, &options);
+  int32_t status = hk_pick_options(e->options, rerun->method, rerun->value, &options);
   if (status == HOOKE_OK) status = hooke_options_set_number(options, "duration", rerun->duration);
   if (status == HOOKE_OK) status = hooke_options_set_number(options, "every", rerun->every);
   if (status == HOOKE_OK) status = hooke_options_unset(options, "max_steps");
+  if (status == HOOKE_OK)
+    *out = options;
+  else
+    hooke_options_destroy(options);
+  return status;
+}
+
+int32_t hk_estimate_rerun(struct hk_estimate *e, const struct hk_rerun *rerun, struct hk_frames *frames) {
+  struct run run = {e, rerun};
+  const struct hk_listener listener = {
+      .on_progress = tell, .on_frame = show, .on_start = start_from, .ctx = &run};
+  hooke_options *options = NULL;
+  int32_t status = hk_estimate_rerun_options(e, rerun, &options);
   if (status == HOOKE_OK) status = hk_frames_run(frames, options, &listener, NULL, NULL);
   hooke_options_destroy(options);
   return status == HOOKE_NO_MEMORY || status == HOOKE_STOPPED ? status : HOOKE_OK;
 }
 
-/* Distance of the ends of two reruns; NaN if one did not finish. */
-static double end_apart(const struct hk_frames *a, const struct hk_frames *b) {
-  if (a->recorded < a->count || b->recorded < b->count) return NAN;
-  return hk_frames_distance(a, a->count - 1, b->position + (b->count - 1) * b->size, NULL);
+int32_t hk_estimate_compare(struct hk_estimate *e, const struct hk_rerun *rerun, int64_t frames,
+                            struct hk_distance *distance) {
+  struct run run = {e, rerun};
+  const struct hk_listener listener = {
+      .on_progress = tell, .on_start = start_from, .most_work = e->left, .ctx = &run};
+  struct hk_trial trial = {.status = NULL};
+  hooke_options *options = NULL;
+  *distance = (struct hk_distance){NAN, NAN};
+  int32_t status = hk_trial_create(&e->kept, &trial);
+  if (status == HOOKE_OK) status = hk_estimate_rerun_options(e, rerun, &options);
+  if (status == HOOKE_OK) status = hk_trial_run(&trial, &e->kept, frames, options, &listener);
+  if (status == HOOKE_OK) *distance = (struct hk_distance){trial.error_max, trial.error};
+  e->left -= trial.work;
+  hk_trial_release(&trial);
+  hooke_options_destroy(options);
+  return status == HOOKE_NO_MEMORY || status == HOOKE_STOPPED ? status : HOOKE_OK;
 }
 
-static double floor_of(const struct hk_frames *frames) {
+double hk_estimate_fit_step(const struct hk_estimate *e, double least) {
+  double unit;
+  if (hk_step_unit(e->duration, e->apart, &unit) != HOOKE_OK) return NAN;
+  const double parts = floor(unit / least * (1.0 + 1e-12));
+  return parts >= 1.0 ? unit / parts : NAN;
+}
+
+/* ---- the index ---- */
+
+/* A run of the same method at `factor` times the step or tolerance, and its distance; `factor` NaN: none. */
+struct level {
+  double factor;
+  struct hk_distance from;
+};
+
+static int32_t run_level(struct hk_estimate *e, double factor, struct level *level) {
+  const int32_t adaptive = method_of(e)->adaptive;
+  const double value = hk_estimate_value(e->options);
+  double other = factor * value;
+  if (!adaptive && factor > 1.0) other = hk_estimate_fit_step(e, other);
+  if (adaptive && (other > LOOSEST * (1.0 + 1e-9) || other < TIGHTEST * (1.0 - 1e-9))) other = NAN;
+  *level = (struct level){other / value, {NAN, NAN}};
+  if (isnan(other)) return HOOKE_OK;
+  const struct hk_rerun rerun = {method_of(e)->name, other, e->duration, e->apart, NULL, NULL, NULL};
+  return hk_estimate_compare(e, &rerun, e->kept.count, &level->from);
+}
+
+/* The order q of which errors in proportion to h^q put two runs at a and b times the step at distances of
+ * this ratio from the run: |a^q - 1| / |b^q - 1|, which grows with q. */
+static double order_seen(double a, double b, double ratio) {
+  double low = -20.0, high = 21.0; /* whose middles are not 0 */
+  for (int k = 0; k < 60; k++) {
+    const double q = 0.5 * (low + high);
+    if (fabs(expm1(q * log(a)) / expm1(q * log(b))) < ratio)
+      low = q;
+    else
+      high = q;
+  }
+  return 0.5 * (low + high);
+}
+
+/* Half a unit in the last place of the largest coordinate [m]: what positions can hold. */
+static double resolution(const struct hk_estimate *e) {
   double largest = 0.0;
-  for (int64_t k = 0; k < frames->recorded * frames->size; k++)
-    largest = fmax(largest, fabs(frames->position[k]));
-  return ROUNDING * largest;
+  for (int64_t f = 0; f < e->kept.recorded; f++)
+    for (int64_t k = 0; k < e->kept.free_count; k++)
+      for (int64_t i = 3 * e->kept.free_particle[k], c = 0; c < 3; c++)
+        largest = fmax(largest, fabs(e->kept.position[f * e->kept.size + i + c]));
+  return 0.5 * DBL_EPSILON * largest;
 }
 
-static void know(struct hk_estimate *e, double error, double from, double until, const char *by) {
-  if (!(error >= 0.0)) return;
-  e->error = error;
-  e->known_from = from;
-  e->known_until = until;
+/* Largest distance of a particle at two kept frames that follow each other [m]. */
+static double longest_move(const struct hk_estimate *e) {
+  double longest = 0.0, most;
+  for (int64_t f = 1; f < e->kept.recorded; f++) {
+    (void)hk_frames_distance(&e->kept, f, e->kept.position + (f - 1) * e->kept.size, &most);
+    longest = fmax(longest, most);
+  }
+  return longest;
+}
+
+/* Error of positions that are rounded at each step [m]: by chance, but where a step moves them by little more
+ * than they can hold, always in one direction. */
+double hk_estimate_rounding(const struct hk_estimate *e) {
+  const double hold = resolution(e), steps = fmax(1.0, e->steps);
+  const double move = longest_move(e) * (double)(e->kept.recorded - 1) / steps;
+  return hold * (move < LEAST_MOVE * hold ? steps : sqrt(steps));
+}
+
+/* Distance of two runs that rounding alone may make [m]: that of velocities turns the phase of oscillations,
+ * in proportion to the power 3/2 of the number of steps. Orders are not seen below. */
+static double noise(const struct hk_estimate *e) {
+  return resolution(e) * (128.0 + 0.1 * e->steps * sqrt(e->steps));
+}
+
+static void know(struct hk_estimate *e, const struct hk_distance *from, double factor, const char *by) {
+  e->error = fmax(factor * from->most, hk_estimate_rounding(e));
+  e->rms = fmin(e->error, fmax(factor * from->rms, hk_estimate_rounding(e)));
+  e->known_until = e->begin + e->duration;
   e->by = by;
 }
 
-/* ---- coarser reruns ---- */
-
-/* Step or tolerance of a run `level` times coarser; NaN if there is none. */
-static double coarser(const struct hk_estimate *e, int32_t adaptive, double value, int32_t level) {
-  if (adaptive) {
-    const double looser = value * pow(COARSER_TOLERANCE, level);
-    return looser <= LOOSEST * (1.0 + 1e-9) ? looser : NAN;
-  }
-  const double steps = round(e->duration / value);
-  return steps >= LEAST_STEPS ? e->duration / ceil(steps / exp2(level) * (1.0 - 1e-12)) : NAN;
+static void say(struct hk_estimate *e, const char *reason) {
+  hk_print(e->reason, sizeof e->reason, "%s", reason);
 }
 
-/* `near` is the distance of the run from the coarser one, `far` that of this from the next. */
-static double extrapolate(struct hk_estimate *e, int32_t adaptive, double near, double far) {
-  const double factor = adaptive ? COARSER_TOLERANCE : 2.0, order = (double)method_of(e)->order;
-  const double seen = log(far / near) / log(factor);
-  const int believed =
-      adaptive ? seen >= LEAST_POWER && seen <= MOST_POWER : fabs(seen - order) <= ORDERS_APART / order;
-  if (!believed) return NAN;
-  e->order = adaptive ? fmin(seen, CAUTIOUS_POWER) : order;
-  return near / (pow(factor, e->order) - 1.0);
+static double expected_order(const struct hk_estimate *e) {
+  return method_of(e)->adaptive ? POWER : (double)method_of(e)->order;
 }
 
-int32_t hk_estimate_by_coarser(struct hk_estimate *e) {
+static int is_expected(const struct hk_estimate *e, double seen) {
+  if (method_of(e)->adaptive) return seen >= LEAST_POWER && seen <= MOST_POWER;
+  return fabs(seen - expected_order(e)) <= ORDERS_APART;
+}
+
+/* From the run `near`, at half the step, and `far`, at twice the step or unknown. */
+static void judge_by_finer(struct hk_estimate *e, const struct level *near, const struct level *far) {
   const int32_t adaptive = method_of(e)->adaptive;
-  const double value = hk_estimate_value(e->options);
-  struct hk_frames frames[2] = {{.count = 0}, {.count = 0}};
-  int32_t status = HOOKE_OK;
-  for (int32_t k = 0; k < 2 && status == HOOKE_OK; k++) {
-    const double next = coarser(e, adaptive, value, k + 1);
-    if (isnan(next)) break;
-    status = hk_frames_create(e->system, 2, &frames[k]);
-    const struct hk_rerun rerun = {.value = next, .duration = e->duration, .every = e->duration};
-    if (status == HOOKE_OK) status = hk_estimate_rerun(e, &rerun, &frames[k]);
-    if (frames[k].recorded < 2) break;
+  const char *by = adaptive ? "tolerance" : "half-step";
+  double order = expected_order(e), safety = UNSURE;
+  if (far->from.most > 0.0 && near->from.most > noise(e)) {
+    const double seen = order_seen(far->factor, near->factor, far->from.most / near->from.most);
+    if (is_expected(e, seen)) safety = adaptive ? SURE_TOLERANCE : SURE;
+    if (!adaptive && seen < LEAST_ORDER) {
+      say(e, "half the step gives another motion");
+      return;
+    }
+    if (!adaptive && seen > order + ORDERS_ABOVE) {
+      say(e, "twice the step loses the motion, and so may this step");
+      return;
+    }
+    if (!adaptive) order = fmin(order, seen);
   }
-  if (status == HOOKE_OK && frames[1].recorded == 2) {
-    const double *end = e->kept.position + (e->kept.count - 1) * e->kept.size;
-    const double near = hk_frames_distance(&frames[0], 1, end, NULL), far = end_apart(&frames[0], &frames[1]);
-    if (near > floor_of(&frames[0]))
-      know(e, extrapolate(e, adaptive, near, far), e->begin, e->begin + e->duration,
-           adaptive ? "tolerance" : "half-step");
-  }
-  hk_frames_release(&frames[0]);
-  hk_frames_release(&frames[1]);
-  return status;
+  e->order = adaptive ? POWER : order;
+  know(e, &near->from, safety / fabs(expm1(order * log(near->factor))), by);
 }
 
-/* ---- finer reruns ---- */
-
-/* Largest distance of the last `count` kept frames from those of a finer run, as an error of the run. */
-static double error_to(struct hk_estimate *e, const struct hk_frames *finer) {
-  const struct hk_frames *kept = &e->kept;
-  const struct hk_method *method = method_of(e);
-  double apart = 0.0;
-  if (finer->recorded < finer->count) return NAN;
-  for (int64_t f = 1; f < finer->count; f++) {
-    const double *q = kept->position + (kept->count - finer->count + f) * kept->size;
-    apart = fmax(apart, hk_frames_distance(finer, f, q, NULL));
+/* From runs at twice the step and at four times, if the order is seen. */
+static void judge_by_coarser(struct hk_estimate *e, const struct level *near, const struct level *far) {
+  const double order = expected_order(e);
+  if (!(near->from.most > 0.0 && far->from.most > 0.0 &&
+        is_expected(e, order_seen(far->factor, near->factor, far->from.most / near->from.most)))) {
+    say(e,
+        "the run is too long to be repeated at half the step, and larger steps do not tell how wrong it is");
+    return;
   }
-  e->order = method->adaptive ? 1.0 : (double)method->order;
-  const double gain = method->adaptive ? FINER_TOLERANCE : exp2(-e->order);
-  return apart / (1.0 - gain);
+  e->order = order;
+  know(e, &near->from, UNSURE / expm1(order * log(near->factor)),
+       method_of(e)->adaptive ? "tolerance" : "half-step");
 }
 
-static double finer_value(const struct hk_estimate *e) {
-  const double value = hk_estimate_value(e->options);
-  return method_of(e)->adaptive ? fmax(TIGHTEST, FINER_TOLERANCE * value) : 0.5 * value;
+int32_t hk_estimate_by_runs(struct hk_estimate *e) {
+  const double ratio = method_of(e)->adaptive ? FACTOR : 2.0;
+  const int32_t finer = e->work <= LONG || !isnan(e->want);
+  struct level near, far;
+  e->left = MOST_WORK * fmax(e->work, MOMENT);
+  int32_t status = run_level(e, finer ? 1.0 / ratio : ratio, &near);
+  if (status == HOOKE_OK && !isnan(near.from.most))
+    status = run_level(e, finer ? ratio : ratio * ratio, &far);
+  if (status != HOOKE_OK) return status;
+  if (isnan(near.from.most))
+    say(e, finer ? "a finer run did not come to its end"
+                 : "the run is too long to be repeated at half the step");
+  else if (finer)
+    judge_by_finer(e, &near, &far);
+  else
+    judge_by_coarser(e, &near, &far);
+  return isnan(e->error) ? HOOKE_OK : hk_estimate_by_other_method(e);
 }
 
-int32_t hk_estimate_by_slice(struct hk_estimate *e) {
-  struct hk_frames frames;
-  if (e->late == NULL || !isnan(e->late_after)) return HOOKE_OK;
+int32_t hk_estimate_last_slice(struct hk_estimate *e) {
+  if (!isnan(e->late_after)) return HOOKE_OK;
   const double from = hooke_state_time(e->late), duration = e->begin + e->duration - from;
-  if (!(duration > 0.0)) return HOOKE_OK;
-  int32_t status = hk_frames_create(e->system, 2, &frames);
-  if (status != HOOKE_OK) return status;
-  const struct hk_rerun rerun = {
-      .value = finer_value(e), .duration = duration, .every = duration, .from = e->late};
-  status = hk_estimate_rerun(e, &rerun, &frames);
-  if (status == HOOKE_OK) know(e, error_to(e, &frames), from, e->begin + e->duration, "slice");
-  hk_frames_release(&frames);
-  return status;
-}
-
-int32_t hk_estimate_by_finer(struct hk_estimate *e) {
+  const double value = hk_estimate_value(e->options);
   struct hk_frames frames;
-  int32_t status = hk_frames_create(e->system, e->kept.count, &frames);
-  if (status != HOOKE_OK) return status;
-  const struct hk_rerun rerun = {.value = finer_value(e), .duration = e->duration, .every = e->apart};
-  status = hk_estimate_rerun(e, &rerun, &frames);
-  if (status == HOOKE_OK)
-    know(e, error_to(e, &frames), e->begin, e->begin + e->duration,
-         method_of(e)->adaptive ? "tolerance" : "half-step");
+  int32_t status = hk_frames_create(e->system, 2, &frames);
+  const struct hk_rerun rerun = {.method = method_of(e)->name,
+                                 .value =
+                                     method_of(e)->adaptive ? fmax(TIGHTEST, value / FACTOR) : 0.5 * value,
+                                 .duration = duration,
+                                 .every = duration,
+                                 .from = e->late};
+  if (status == HOOKE_OK) status = hk_estimate_rerun(e, &rerun, &frames);
+  if (status == HOOKE_OK && frames.recorded == 2) {
+    const double order = expected_order(e);
+    const double *end = e->kept.position + (e->kept.count - 1) * e->kept.size;
+    (void)hk_frames_distance(&frames, 1, end, &e->last_error);
+    e->last_error *= SURE / fabs(expm1(order * log(rerun.value / value)));
+    e->last_from = from;
+  }
   hk_frames_release(&frames);
   return status;
 }

@@ -83,8 +83,9 @@ static int32_t look(struct hk_estimate *e, const hooke_state *from) {
   const double step = hk_estimate_value(e->options);
   const double left = e->duration - (from ? hooke_state_time(from) - e->begin : 0.0);
   const double count = fmin(MOST_STEPS, round(left / step));
-  struct slice s = {.system = e->system, .until = hk_clock_seconds() + fmax(MOMENT, SHARE * e->seconds)};
-  const struct hk_rerun rerun = {step, count * step, step, from, see, &s};
+  struct slice s = {.system = e->system, .until = hk_clock_seconds() + fmax(MOMENT, SHARE * e->work)};
+  const char *method = hooke_options_text(e->options, "method");
+  const struct hk_rerun rerun = {method, step, count * step, step, from, see, &s};
   struct hk_frames none = {.system = e->system};
   if (count < LEAST_STEPS) return HOOKE_OK;
   int32_t status = hk_estimate_rerun(e, &rerun, &none);
@@ -99,6 +100,6 @@ int32_t hk_estimate_heat(struct hk_estimate *e) {
   const char *method = hooke_options_text(e->options, "method");
   if (hooke_method_is_adaptive(method) || e->system->force) return HOOKE_OK;
   int32_t status = look(e, NULL);
-  if (status == HOOKE_OK && e->late && isnan(e->late_after)) status = look(e, e->late);
+  if (status == HOOKE_OK && isnan(e->late_after)) status = look(e, e->late);
   return status;
 }

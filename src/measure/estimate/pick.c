@@ -79,8 +79,7 @@ static int32_t make_reference(struct hk_pick *pick, double budget) {
   const double duration = hooke_options_number(pick->run, "duration");
   const double every = hooke_options_number(pick->run, "every");
   const struct hk_reference_request request = {.run = pick->run,
-                                               .frame_count =
-                                                   1 + (int64_t)floor(duration / every * (1.0 + 1e-9)),
+                                               .frame_count = hk_schedule_frames(duration, every),
                                                .digits = DIGITS * pick->want,
                                                .enough = 1,
                                                .budget = budget,

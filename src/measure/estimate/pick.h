@@ -11,8 +11,9 @@
 struct hk_pick_row {
   const char *method; /* NULL: none */
   double value;       /* step [s] or rtol */
-  double error;       /* largest over the judged frames [m] */
-  double seconds;     /* for the studied duration */
+  double error,
+      rms;        /* largest distance of a free particle, and root mean square, over the judged frames [m] */
+  double seconds; /* for the studied duration */
 };
 
 struct hk_pick {

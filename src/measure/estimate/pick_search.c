@@ -29,7 +29,7 @@ static const double SHARE_OF_REFERENCE =
 
 /* A run in the search. */
 struct result {
-  double value, error, seconds; /* the error NaN: it did not finish */
+  double value, error, rms, seconds; /* the errors NaN: it did not finish */
   double allowed; /* a value clear of the stability limit at all frames; infinity: this one is */
   int32_t gains;  /* spontaneous rise of energy */
 };
@@ -101,7 +101,8 @@ static int32_t run_row(struct search *s, double value, struct result *result) {
   int32_t status = hk_pick_options(s->pick->run, s->method, value, &options);
   if (status == HOOKE_OK) status = hk_trial_create(&r->frames, &trial);
   if (status == HOOKE_OK) status = hk_trial_run(&trial, &r->frames, r->trusted, options, &listener);
-  *result = (struct result){.value = value, .error = trial.error, .seconds = trial.wall_seconds};
+  *result = (struct result){
+      .value = value, .error = trial.error_max, .rms = trial.error, .seconds = trial.wall_seconds};
   const double work = trial.force_evaluations + fmax(0.0, trial.linear_iterations);
   for (int k = 1; k < REPEATS && status == HOOKE_OK && result->seconds < SHORT && !isnan(trial.error); k++) {
     looker.soundness.count = looker.soundness.capacity; /* already recorded */
@@ -141,7 +142,8 @@ static void learn(struct search *s, const struct result *result) {
   const int32_t sound = !isnan(result->error) && isinf(result->allowed) && !result->gains;
   const int32_t meets = sound && s->pick->reference.trusted > 1 && result->error <= s->most;
   if (sound && beats(s, result, meets)) {
-    s->pick->best = (struct hk_pick_row){s->method, result->value, result->error, result->seconds};
+    s->pick->best =
+        (struct hk_pick_row){s->method, result->value, result->error, result->rms, result->seconds};
     s->pick->met = meets;
   }
   if (meets && !(result->value <= s->meets)) {

@@ -24,7 +24,7 @@ static const struct hk_option_row needs_rows[] = {
      .above_low = 1,
      .high = 1e300,
      .required = 1,
-     .doc = "error that one can live with"},
+     .doc = "error that one can live with, the largest distance of any watched particle"},
     {.name = "watch",
      .type = HOOKE_OPTION_TEXT,
      .doc =
@@ -44,7 +44,7 @@ static const struct hk_option_table needs_table = {"needs", HOOKE_OPTION_ROWS(ne
 static int32_t read_times(struct hk_needs *needs) {
   const int32_t status = hk_step_times(needs->run, &needs->duration, &needs->every);
   if (status != HOOKE_OK) return status;
-  needs->judged = needs->frame_count = 1 + (int64_t)floor(needs->duration / needs->every * (1.0 + 1e-9));
+  needs->judged = needs->frame_count = hk_schedule_frames(needs->duration, needs->every);
   return hk_step_unit(needs->duration, needs->every, &needs->unit);
 }
 

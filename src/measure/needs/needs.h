@@ -98,11 +98,13 @@ int64_t hk_needs_mark_idle(const struct hk_needs *needs, double force, struct hk
 
 int32_t hk_needs_path_create(const struct hk_needs *needs, struct hk_needs_path *path);
 void hk_needs_path_release(struct hk_needs_path *path);
-/* Maximum over frames of the root mean square distance of the watched particles [m]. */
+/* Largest distance of any watched particle over the frames [m]. */
 double hk_needs_distance(const struct hk_needs *needs, const struct hk_needs_path *a,
                          const struct hk_needs_path *b);
 /* The same distance, from the positions at the first frame. */
 double hk_needs_moved(const struct hk_needs *needs, const struct hk_needs_path *path);
+/* Time of a frame since the start [s]. */
+double hk_needs_time(const struct hk_needs *needs, int64_t frame);
 /* Number of frames up to which this distance stays within `bound`. */
 int64_t hk_needs_agreed(const struct hk_needs *needs, const struct hk_needs_path *a,
                         const struct hk_needs_path *b, double bound);

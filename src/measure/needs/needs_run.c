@@ -23,12 +23,16 @@ void hk_needs_path_release(struct hk_needs_path *path) {
   memset(path, 0, sizeof *path);
 }
 
-/* Root mean square distance of the watched positions at two frames. */
+/* Largest distance of a watched position at two frames; NaN if one is. */
 static double distance_of(const struct hk_needs *needs, const double *a, const double *b) {
-  double sum = 0.0;
-  for (int64_t k = 0; k < 3 * needs->watch_count; k++)
-    sum += (a[k] - b[k]) * (a[k] - b[k]);
-  return sqrt(sum / (double)needs->watch_count);
+  double most = 0.0;
+  for (int64_t k = 0; k < 3 * needs->watch_count; k += 3) {
+    const double dx = a[k] - b[k], dy = a[k + 1] - b[k + 1], dz = a[k + 2] - b[k + 2];
+    const double square = (dx * dx + dy * dy) + dz * dz;
+    if (!(square <= most)) most = square;
+    if (isnan(most)) break;
+  }
+  return sqrt(most);
 }
 
 static double distance_at(const struct hk_needs *needs, const struct hk_needs_path *a,
@@ -53,6 +57,10 @@ double hk_needs_moved(const struct hk_needs *needs, const struct hk_needs_path *
   for (int64_t f = 1; f < needs->judged && f < path->recorded; f++)
     most = fmax(most, distance_of(needs, path->position, path->position + f * 3 * needs->watch_count));
   return most;
+}
+
+double hk_needs_time(const struct hk_needs *needs, int64_t frame) {
+  return fmin((double)frame * needs->every, needs->duration);
 }
 
 int64_t hk_needs_agreed(const struct hk_needs *needs, const struct hk_needs_path *a,

@@ -50,7 +50,7 @@ static void read_needs(const void *object, int64_t row, void *line) {
                                                    .method = hooke_options_text(needs->run, "method"),
                                                    .method_picked = (double)needs->method_picked,
                                                    .duration = needs->duration,
-                                                   .judged_until = (double)(needs->judged - 1) * needs->every,
+                                                   .judged_until = hk_needs_time(needs, needs->judged - 1),
                                                    .runs = (double)needs->runs,
                                                    .watched = (double)needs->watch_count,
                                                    .note = needs->note};
@@ -217,7 +217,7 @@ static const struct hk_column row_columns[] = {
         "springs, bending, altitude, damping, drag, gravity, callback, idle, loose, part, rigid, compression "
         "or resolution"),
     HOOKE_COLUMN(struct row_line, error, NUMBER, "m",
-                 "change of the watched particles without it; NaN if the run did not end"),
+                 "largest change of position of a watched particle without it; NaN if the run did not end"),
     HOOKE_COLUMN(struct row_line, needed, FLAG, "",
                  "the change is more than the wanted error; NaN where nothing moves that it could change"),
     HOOKE_COLUMN(struct row_line, left_out, FLAG, "", "the lean system is without it, too"),

@@ -45,6 +45,7 @@ void hk_watched_series_keep(struct hk_watched_series *series, int64_t frame, con
         hk_watched_value(&series->list->item[k], series->list->system, q, v);
 }
 
+/* The start alone says nothing. */
 static double largest_difference(int64_t frames, const double *a, const double *b) {
   double largest = 0.0;
   for (int64_t f = 0; f < frames; f++) {
@@ -52,7 +53,7 @@ static double largest_difference(int64_t frames, const double *a, const double *
     if (!(difference <= largest)) largest = difference;
     if (isnan(difference)) break;
   }
-  return frames > 0 ? largest : NAN;
+  return frames > 1 ? largest : NAN;
 }
 
 void hk_watched_series_compare(struct hk_watched_series *series, const struct hk_watched_series *other,

@@ -26,8 +26,8 @@ void hk_watched_series_keep(struct hk_watched_series *series, int64_t frame, con
                             const double *v);
 
 /* Sets the differences to `factor` times the largest one over the first `frames` frames at `time`; for a
- * period to the difference of the periods over these frames; NaN if that is unknown. Does nothing if the
- * other series watches nothing. */
+ * period to the difference of the periods over these frames; NaN if that is unknown, or without a frame after
+ * the first. Does nothing if the other series watches nothing. */
 void hk_watched_series_compare(struct hk_watched_series *series, const struct hk_watched_series *other,
                                int64_t frames, const double *time, double factor);
 

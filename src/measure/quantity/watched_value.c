@@ -94,6 +94,5 @@ double hk_watched_period(int64_t count, const double *time, const double *value)
   }
   if (passages < 2) return NAN;
   const double period = (ended - begun) / (double)(passages - 1);
-  const double spacing = (time[count - 1] - time[0]) / (double)(count - 1);
-  return period >= LEAST_FRAMES * spacing ? period : NAN;
+  return period >= LEAST_FRAMES * (time[1] - time[0]) ? period : NAN; /* the last two may be closer */
 }

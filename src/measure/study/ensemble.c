@@ -41,8 +41,8 @@ static int32_t add_source(const struct hk_study *study, struct hk_ensemble *ense
 /* 1 if `row` is preferred to `other` of the same method: of those that meet the want the cheaper, otherwise
  * the finer. */
 static int is_better(const struct hk_study_row *row, const struct hk_study_row *other, double want) {
-  const int meets = row->trial.error <= want;
-  if (other == NULL || meets != (other->trial.error <= want)) return other == NULL || meets;
+  const int meets = row->trial.error_max <= want;
+  if (other == NULL || meets != (other->trial.error_max <= want)) return other == NULL || meets;
   return meets ? row->trial.wall_seconds < other->trial.wall_seconds : row->value < other->value;
 }
 
@@ -55,7 +55,8 @@ static double choose_value(const struct hk_study *study, int32_t method) {
   if (r->made && r->met && r->method == method) return r->value;
   for (int64_t k = 0; k < study->row_count; k++) {
     const struct hk_study_row *row = &study->row[k];
-    if (row->method == method && row->trial.error >= 0.0 && is_better(row, best, want)) best = row;
+    if (row->method != method || strcmp(row->trial.status, "finished") != 0) continue;
+    if (is_better(row, best, want)) best = row;
   }
   return best ? best->value : NAN;
 }

@@ -11,7 +11,6 @@
 #include <string.h>
 
 enum { MOST_POINTS = 5, FEWEST_POINTS = 3 };
-static const double CLEAR_OF_FLOOR = 10.0; /* times the agreement of the reference */
 static const double SMALL = 0.05; /* larger errors, as a fraction of the extent, are not asymptotic */
 static const double BELOW = 0.15, ABOVE = 0.25; /* deviation of an order from the theory without a remark */
 
@@ -23,7 +22,7 @@ static int32_t collect(const struct hk_study *study, int32_t method, double *x, 
   for (int64_t k = study->row_count - 1; k >= 0 && count < MOST_POINTS; k--) {
     const struct hk_study_row *row = &study->row[k];
     if (row->method != method || !(row->trial.error > 0.0)) continue;
-    if (row->trial.error < CLEAR_OF_FLOOR * r->agreement || row->trial.error > SMALL * r->extent) continue;
+    if (hk_study_is_near_floor(study, row) || row->trial.error > SMALL * r->extent) continue;
     x[count] = log(row->value);
     y[count] = log(row->trial.error);
     count++;
@@ -33,8 +32,7 @@ static int32_t collect(const struct hk_study *study, int32_t method, double *x, 
 
 static int32_t reached_floor(const struct hk_study *study, int32_t method) {
   for (int64_t k = 0; k < study->row_count; k++) {
-    const double error = study->row[k].trial.error;
-    if (study->row[k].method == method && error < CLEAR_OF_FLOOR * study->reference.agreement) return 1;
+    if (study->row[k].method == method && hk_study_is_near_floor(study, &study->row[k])) return 1;
   }
   return 0;
 }
@@ -91,7 +89,8 @@ static void explain(const struct hk_study *study, int32_t method, struct hk_stud
   char causes[sizeof order->note - 32];
   if (points < FEWEST_POINTS) {
     snprintf(order->note, sizeof order->note, "%s",
-             reached_floor(study, method)
+             study->reference.trusted < 2 ? "no error is known: the reference is not trusted beyond the start"
+             : reached_floor(study, method)
                  ? "too few rows clear of the floor: the error is down to what the reference knows"
                  : "too few rows in the asymptotic range; finer steps would show the order");
     return;

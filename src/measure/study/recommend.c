@@ -21,7 +21,7 @@ static void keep(struct hk_study *study, const struct hk_study_candidate *c, int
   r->method = c->method;
   r->value = c->best.value;
   r->atol = c->best.trial.atol;
-  r->error = c->best.trial.error;
+  r->error = c->best.trial.error_max;
   r->wall_seconds = c->best.trial.wall_seconds;
   r->force_evaluations = c->best.trial.force_evaluations;
 }
@@ -54,8 +54,8 @@ static void keep_closest(struct hk_study *study, const struct hk_study_candidate
   struct hk_study_recommendation *r = &study->recommendation;
   const struct hk_study_candidate *closest = NULL;
   for (int32_t m = 0; m < study->method_count; m++) {
-    const double error = candidates[m].best.trial.error;
-    if (error >= 0.0 && (closest == NULL || error < closest->best.trial.error)) closest = &candidates[m];
+    const double error = candidates[m].best.trial.error_max;
+    if (error >= 0.0 && (closest == NULL || error < closest->best.trial.error_max)) closest = &candidates[m];
   }
   if (closest == NULL) {
     explain_no_rows(study);
@@ -169,7 +169,7 @@ static int32_t search_from_reference(struct hk_study *study, struct hk_study_can
 /* 1 if nothing but the start is trusted, where every run is right. */
 static int is_untrusted(struct hk_study *study) {
   const struct hk_reference *reference = &study->reference;
-  if (reference->trusted > 1 || reference->frames.count < 2) return 0;
+  if (reference->trusted > 1) return 0;
   hk_print(study->recommendation.note, sizeof study->recommendation.note,
            "the two references part before %g s, the first frame after the start, so no error is known",
            reference->frames.time[1]);

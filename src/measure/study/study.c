@@ -52,7 +52,7 @@ static const struct hk_option_row study_rows[] = {
      .low = 0.0,
      .above_low = 1,
      .high = 1e300,
-     .doc = "error that one can live with, for a recommendation"},
+     .doc = "error that one can live with, the largest distance of any free particle, for a recommendation"},
     {.name = "budget",
      .type = HOOKE_OPTION_NUMBER,
      .unit = "s",
@@ -163,7 +163,7 @@ static int32_t make_reference(struct hk_study *study) {
   const int quick = study->fixed_rows <= QUICK_SHARE * study->budget;
   const struct hk_reference_request request = {
       .run = study->run,
-      .frame_count = 1 + (int64_t)floor(study->duration / study->every * (1.0 + 1e-9)),
+      .frame_count = hk_schedule_frames(study->duration, study->every),
       .digits = isnan(want) ? NAN : want / 10.0,
       .budget = fmax(REFERENCE_SECONDS, (quick ? LARGER_SHARE : REFERENCE_SHARE) * study->budget),
       .listener = &listener,

@@ -36,7 +36,8 @@ struct hk_study_margin {
 struct hk_study_recommendation {
   int32_t made, met;
   int32_t method;
-  double want, value, atol, error, wall_seconds, force_evaluations;
+  double want, value, atol, wall_seconds, force_evaluations;
+  double error; /* largest distance of any particle [m] */
   struct hk_study_margin margin;
   char note[512];
 };
@@ -120,6 +121,9 @@ int32_t hk_study_find_cheapest(struct hk_study *study, double want);
 
 /* Finds the margin of the recommendation, until the deadline. */
 int32_t hk_study_find_margin(struct hk_study *study);
+
+/* 1 if the error of a row is within ten times of what the reference is known to, or of its rounding. */
+int32_t hk_study_is_near_floor(const struct hk_study *study, const struct hk_study_row *row);
 
 /* Least-squares fit of log error against log step for a method (order.c). */
 void hk_study_fit_order(struct hk_study *study, int32_t method);

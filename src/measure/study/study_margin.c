@@ -51,7 +51,7 @@ static double largest_speed(const struct hk_frames *frames) {
 /* 1, 0 or NaN, from a trial against a reference that is known to its agreement. */
 static double judge(const struct hk_study *study, const struct hk_reference *r,
                     const struct hk_trial *trial) {
-  const double want = study->recommendation.want, error = trial->error;
+  const double want = study->recommendation.want, error = trial->error_max;
   if (strcmp(trial->status, "finished") != 0) return 0.0;
   if (r->trusted < 2 || error - r->agreement > want) return r->trusted < 2 ? NAN : 0.0;
   return r->trusted >= study->reference.trusted && error + r->agreement <= want ? 1.0 : NAN;
@@ -82,7 +82,7 @@ static int32_t try_change(struct hk_study *study, const hooke_system *changed, d
   if (status == HOOKE_OK) status = hk_trial_run(&trial, &reference.frames, judged, options, &stopped);
   if (status == HOOKE_OK) {
     *holds = judge(study, &reference, &trial);
-    *error = trial.error;
+    *error = trial.error_max;
   }
   hk_trial_release(&trial);
   hooke_options_destroy(options);

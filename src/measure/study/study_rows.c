@@ -11,6 +11,7 @@
 #include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 #include <time.h>
 
 /* With a wanted error, the search gets this fraction of a budget, or so many times the run of the reference,
@@ -26,7 +27,7 @@ static const double UNKNOWN_SHARE = 0.1;
 static double predict_seconds(const struct hk_study *study, int32_t method, double value) {
   for (int64_t k = study->row_count - 1; k >= 0; k--) {
     const struct hk_study_row *row = &study->row[k];
-    if (row->method != method || isnan(row->trial.error)) continue;
+    if (row->method != method || strcmp(row->trial.status, "finished") != 0) continue;
     const double growth = hk_study_is_adaptive(study, method) ? 1.6 : row->value / value;
     return row->trial.wall_seconds * growth;
   }

@@ -72,12 +72,12 @@ static int learn(struct hk_study_candidate *c, const struct hk_study_row *row) {
   const struct hk_trial *trial = &row->trial, *best = &c->best.trial;
   const int had = !isnan(c->meets);
   c->rate = fmin(c->rate, trial->wall_seconds / work_of(trial));
-  if (isnan(c->finest) || (!c->finished && !isnan(trial->error))) c->finest = row->value;
-  c->finished |= !isnan(trial->error);
-  if (trial->error <= c->most) {
+  if (isnan(c->finest) || (!c->finished && !isnan(trial->error_max))) c->finest = row->value;
+  c->finished |= !isnan(trial->error_max);
+  if (trial->error_max <= c->most) {
     if (!had || row->value > c->meets) {
       c->meets = row->value;
-      c->error_at_meets = trial->error;
+      c->error_at_meets = trial->error_max;
       if (c->fails <= c->meets) c->fails = NAN;
     }
     return !had || work_of(trial) < work_of(best);
@@ -85,9 +85,9 @@ static int learn(struct hk_study_candidate *c, const struct hk_study_row *row) {
   /* a coarser row that meets the want wins over a finer one that does not */
   if ((!had || row->value > c->meets) && !(row->value >= c->fails)) {
     c->fails = row->value;
-    c->error_at_fails = trial->error;
+    c->error_at_fails = trial->error_max;
   }
-  return !had && (best->status == NULL || isnan(best->error) || trial->error < best->error);
+  return !had && (best->status == NULL || isnan(best->error_max) || trial->error_max < best->error_max);
 }
 
 void hk_study_candidate_create(const struct hk_study *study, int32_t method, double want,
@@ -101,7 +101,7 @@ void hk_study_candidate_create(const struct hk_study *study, int32_t method, dou
                                    .finest = NAN,
                                    .rate = INFINITY};
   c->best.value = NAN;
-  c->best.trial.error = NAN;
+  c->best.trial.error_max = NAN;
   /* rows go from coarse to fine */
   for (int64_t k = study->row_count - 1; k >= 0; k--) {
     const struct hk_study_row *row = &study->row[k];

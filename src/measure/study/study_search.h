@@ -9,7 +9,7 @@ struct hk_study_candidate {
   int32_t method;
   double most;         /* allowed error: the reference is known only to its agreement [m] */
   double meets, fails; /* the coarsest that meets it, the finest coarser one that does not; NaN: none */
-  double error_at_meets, error_at_fails; /* [m]; NaN if a run did not finish */
+  double error_at_meets, error_at_fails; /* largest distances [m]; NaN if a run did not finish */
   double finest;                         /* coarsest row that finished; if none did, the finest row */
   int32_t finished;                      /* 1: some row finished */
   double rate;      /* minimum time of a unit of work over all rows [s]; one row may have been disturbed */

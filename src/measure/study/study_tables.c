@@ -4,13 +4,7 @@
 #include <math.h>
 #include <stddef.h>
 
-/* Time of frame `count` - 1, or the end of the run if that is the last frame, which may come before the end.
- */
-static double time_until(const struct hk_study *study, int64_t count) {
-  const struct hk_frames *frames = &study->reference.frames;
-  if (count <= 0) return NAN;
-  return count == frames->count ? frames->time[0] + study->duration : frames->time[count - 1];
-}
+static const double NEAR = 10.0; /* times a floor */
 
 static int is_made(const struct hk_study *study) {
   return study->reference.frames.count > 0;
@@ -74,8 +68,8 @@ static void read_reference(const void *object, int64_t row, void *line) {
       .ended = how_it_ended(r),
       .agreement = r->agreement,
       .energy_agreement = r->energy_agreement,
-      .trusted_until = time_until(study, r->trusted),
-      .checked_until = time_until(study, r->checked),
+      .trusted_until = hk_reference_time(r, r->trusted, study->duration),
+      .checked_until = hk_reference_time(r, r->checked, study->duration),
       .growth = r->growth,
       .growth_probability = r->growth_probability,
       .growth_seen = r->growth_seen,
@@ -87,8 +81,9 @@ static void read_reference(const void *object, int64_t row, void *line) {
 static const struct hk_column reference_columns[] = {
     HOOKE_COLUMN(
         struct reference_line, agreement, NUMBER, "m",
-        "twice the largest root mean square distance between the two over the frames that are trusted; no "
-        "error below it means anything, and none within ten times of it much"),
+        "twice the largest distance of a particle between the two over the frames that are trusted, and of "
+        "what rounding may do to one; no error below it means anything, and none within ten times of it "
+        "much; NaN if no frame after the start is trusted"),
     HOOKE_COLUMN(struct reference_line, trusted_until, NUMBER, "s",
                  "time up to which the two agree to the wanted digits; errors are judged up to there"),
     HOOKE_COLUMN(
@@ -133,7 +128,11 @@ static int64_t count_rows(const void *object) {
 }
 
 static double is_near(double value, double floor) {
-  return value <= 10.0 * floor ? 1.0 : 0.0;
+  return value <= NEAR * floor ? 1.0 : 0.0;
+}
+
+int32_t hk_study_is_near_floor(const struct hk_study *study, const struct hk_study_row *row) {
+  return row->trial.error <= NEAR * fmax(study->reference.agreement, row->trial.rounding);
 }
 
 static void read_row(const void *object, int64_t row, void *line) {
@@ -144,7 +143,7 @@ static void read_row(const void *object, int64_t row, void *line) {
       .trial = hk_trial_line(t, study->method[r->method], study->reference.trusted),
       .wall_median = r->wall_median,
       .repeats = (double)r->repeats,
-      .near_floor = is_near(t->error, study->reference.agreement),
+      .near_floor = (double)hk_study_is_near_floor(study, r),
       .near_energy_floor = is_near(t->energy_drift, study->reference.energy_agreement),
       .timed_alone = (double)r->timed_alone,
   };
@@ -161,12 +160,14 @@ static const struct hk_column row_columns[] = {
     HOOKE_TRIAL_COLUMN(linear_iterations, COUNT, "", "iterations of linear solvers"),
     HOOKE_COLUMN(struct row_line, wall_median, NUMBER, "s", "median of the repeated runs"),
     HOOKE_COLUMN(struct row_line, repeats, COUNT, "", "runs that were timed"),
-    HOOKE_COLUMN(struct row_line, near_floor, FLAG, "", "the error is within ten times of the agreement"),
+    HOOKE_COLUMN(struct row_line, near_floor, FLAG, "",
+                 "the error is within ten times of the agreement, or of what rounding may do"),
     HOOKE_COLUMN(struct row_line, near_energy_floor, FLAG, "",
                  "the energy drift is within ten times of the agreement of energies"),
     HOOKE_COLUMN(struct row_line, timed_alone, FLAG, "",
                  "0: timed while other rows were running, so its time may be too long"),
     HOOKE_TRIAL_COLUMN(error_at, SERIES, "m", "root mean square distance at every frame"),
+    HOOKE_TRIAL_COLUMN(error_max_at, SERIES, "m", "largest distance of any free particle at every frame"),
     HOOKE_TRIAL_COLUMN(energy_drift_at, SERIES, "J", "energy less that of the reference at every frame"),
 };
 
@@ -255,12 +256,14 @@ static void read_recommendation(const void *object, int64_t row, void *line) {
 }
 
 static const struct hk_column recommendation_columns[] = {
-    HOOKE_COLUMN(struct recommendation_line, want, NUMBER, "m", "the wanted error"),
+    HOOKE_COLUMN(struct recommendation_line, want, NUMBER, "m",
+                 "the wanted error, a distance that no free particle exceeds"),
     HOOKE_COLUMN(struct recommendation_line, method, TEXT, "",
                  "method of the cheapest run that meets the wanted error, else of the closest run"),
     HOOKE_COLUMN(struct recommendation_line, step, NUMBER, "s", "its step"),
     HOOKE_COLUMN(struct recommendation_line, rtol, NUMBER, "", "its relative tolerance"),
-    HOOKE_COLUMN(struct recommendation_line, error, NUMBER, "m", "its error"),
+    HOOKE_COLUMN(struct recommendation_line, error, NUMBER, "m",
+                 "its error: the largest distance of any free particle"),
     HOOKE_COLUMN(struct recommendation_line, wall_seconds, NUMBER, "s", "its wall time"),
     HOOKE_COLUMN(struct recommendation_line, met, FLAG, "", "a run was seen to have at most that error"),
     HOOKE_COLUMN(struct recommendation_line, note, TEXT, "",

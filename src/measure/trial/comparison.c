@@ -1,12 +1,12 @@
-/* Comparison: one scene by several methods, against CVODE at tight tolerance, frame by frame. */
+/* Comparison: one scene by several methods, against a reference that checks itself, frame by frame. */
 #include "measure/trial/comparison.h"
 
 #include "core/memory.h"
 #include "core/status.h"
 #include "integrate/integrator.h"
 #include "measure/trial/method_list.h"
-#include "measure/trial/reference.h"
 
+#include <math.h>
 #include <stddef.h>
 
 static const struct hk_option_row comparison_rows[] = {
@@ -45,17 +45,18 @@ static int32_t create(hooke_measurement *m) {
                              add_method, c);
 }
 
-void hk_comparison_release_room(struct hk_comparison *c) {
+static void release_results(struct hk_comparison *c) {
   for (int64_t k = 0; k < c->row_count; k++)
     hk_trial_release(&c->row[k].trial);
-  hk_frames_release(&c->frames);
-  c->reference = NULL;
+  hk_reference_release(&c->reference);
+  c->frame_count = c->runs_begun = 0;
+  c->told = 0.0;
 }
 
 static void destroy(void *object) {
   struct hk_comparison *c = object;
   if (c == NULL) return;
-  hk_comparison_release_room(c);
+  release_results(c);
   hk_free(c->row);
   hk_free(c);
 }
@@ -72,9 +73,10 @@ int32_t hooke_comparison_on_frame(hooke_measurement *m, hooke_comparison_frame *
 /* ---- preparing ---- */
 
 /* The schedule that all rows share: that of a fixed-step method if the options have a step. */
-static int32_t read_schedule(struct hk_comparison *c) {
+int32_t hk_comparison_prepare(struct hk_comparison *c) {
   struct hk_schedule schedule;
   int has_fixed = 0;
+  if (c->frame_count > 0) return HOOKE_OK;
   for (int64_t k = 0; k < c->row_count; k++)
     has_fixed |= !hooke_method_is_adaptive(c->row[k].method);
   const struct hk_method *method = hk_method_find(has_fixed ? "forward-euler" : "cvode-adams");
@@ -87,26 +89,6 @@ static int32_t read_schedule(struct hk_comparison *c) {
   return HOOKE_OK;
 }
 
-static int32_t make_room(struct hk_comparison *c) {
-  int32_t status = hk_frames_create(c->system, c->frame_count, &c->frames);
-  for (int64_t k = 0; k < c->row_count && status == HOOKE_OK; k++) {
-    status = hk_trial_create(&c->frames, &c->row[k].trial);
-  }
-  return status;
-}
-
-int32_t hk_comparison_prepare(struct hk_comparison *c) {
-  if (c->reference) return HOOKE_OK;
-  hooke_state *state = NULL;
-  int32_t status = read_schedule(c);
-  if (status == HOOKE_OK) status = hooke_state_create(c->system, &state);
-  if (status == HOOKE_OK) status = make_room(c);
-  if (status == HOOKE_OK) status = hk_reference_method(c->system, hooke_state_position(state), &c->reference);
-  hooke_state_destroy(state);
-  if (status != HOOKE_OK) hk_comparison_release_room(c);
-  return status;
-}
-
 /* ---- running ---- */
 
 static const char *name_of_run(const struct hk_comparison *c) {
@@ -114,9 +96,10 @@ static const char *name_of_run(const struct hk_comparison *c) {
 }
 
 static int32_t tell_progress(double share, void *ctx) {
-  const struct hk_comparison *c = ctx;
+  struct hk_comparison *c = ctx;
   const double done = ((double)(c->runs_begun - 1) + share) / (double)(c->row_count + 1);
-  return hk_measurement_tell(c->measurement, done, name_of_run(c));
+  c->told = fmax(c->told, done);
+  return hk_measurement_tell(c->measurement, c->told, name_of_run(c));
 }
 
 static int32_t tell_frame(int64_t frame, int64_t step, const hooke_state *state, void *ctx) {
@@ -129,29 +112,39 @@ static struct hk_listener listener_of(struct hk_comparison *c) {
       .on_progress = tell_progress, .on_frame = c->on_frame ? tell_frame : NULL, .ctx = c};
 }
 
-static int32_t run_reference(struct hk_comparison *c) {
-  const struct hk_listener listener = listener_of(c);
-  hooke_options *options = NULL;
-  int32_t status = hooke_options_copy(c->run, &options);
-  if (status == HOOKE_OK) status = hooke_options_set_text(options, "method", c->reference);
-  if (status == HOOKE_OK) status = hooke_options_set_number(options, "rtol", 1e-10);
-  if (status == HOOKE_OK) status = hooke_options_set_number(options, "atol", 1e-12);
-  if (status == HOOKE_OK) status = hooke_options_unset(options, "atol_velocity");
-  if (status == HOOKE_OK) status = hooke_options_unset(options, "max_order");
-  if (status == HOOKE_OK) status = hooke_options_unset(options, "max_steps");
+static int32_t make_reference(struct hk_comparison *c) {
+  const struct hk_listener listener = {.on_progress = tell_progress, .ctx = c};
+  const struct hk_reference_request request = {.run = c->run,
+                                               .frame_count = c->frame_count,
+                                               .digits = NAN,
+                                               .repeatable = 1,
+                                               .budget = INFINITY,
+                                               .listener = &listener};
   c->runs_begun++;
-  if (status == HOOKE_OK) status = hk_frames_run(&c->frames, options, &listener, NULL, NULL);
+  return hk_reference_create(c->system, &request, &c->reference);
+}
+
+/* Its last run once more, since its frames are kept without velocities and steps. */
+static int32_t show_reference(struct hk_comparison *c) {
+  const struct hk_listener listener = listener_of(c);
+  struct hk_reference *r = &c->reference;
+  hooke_options *options = NULL;
+  int32_t status = hk_reference_options(c->run, r->method, r->rtol, r->extent, &options);
+  if (status == HOOKE_OK) status = hooke_options_set_number(options, "atol", r->atol);
+  if (status == HOOKE_OK) status = hk_frames_run(&r->frames, options, &listener, NULL, NULL);
   hooke_options_destroy(options);
   return status;
 }
 
 static int32_t run_row(struct hk_comparison *c, struct hk_comparison_row *row) {
+  const struct hk_reference *r = &c->reference;
   const struct hk_listener listener = listener_of(c);
   hooke_options *options = NULL;
   int32_t status = hooke_options_copy(c->run, &options);
   if (status == HOOKE_OK) status = hooke_options_set_text(options, "method", row->method);
   c->runs_begun++;
-  if (status == HOOKE_OK) status = hk_trial_run(&row->trial, &c->frames, c->frames.count, options, &listener);
+  if (status == HOOKE_OK) status = hk_trial_create(&r->frames, &row->trial);
+  if (status == HOOKE_OK) status = hk_trial_run(&row->trial, &r->frames, r->trusted, options, &listener);
   hooke_options_destroy(options);
   return status;
 }
@@ -163,13 +156,13 @@ static int32_t run(hooke_measurement *m, hooke_state *state) {
   /* it failed after frames had been shown */
   if (c->runs_begun > 0) return hk_fail(HOOKE_BAD_CALL, NULL, "the comparison has been run; make a new one");
   status = hk_comparison_prepare(c);
-  if (status == HOOKE_OK) status = run_reference(c);
+  if (status == HOOKE_OK) status = make_reference(c);
+  if (status == HOOKE_OK && c->on_frame) status = show_reference(c);
   for (int64_t k = 0; k < c->row_count && status == HOOKE_OK; k++)
     status = run_row(c, &c->row[k]);
   /* as before, unless frames have been shown */
   if (status < 0 && c->on_frame == NULL) {
-    hk_comparison_release_room(c);
-    c->runs_begun = 0;
+    release_results(c);
   }
   return status;
 }

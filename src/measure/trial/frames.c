@@ -3,6 +3,7 @@
 #include "core/memory.h"
 #include "core/status.h"
 
+#include <float.h>
 #include <math.h>
 #include <stddef.h>
 #include <string.h>
@@ -20,8 +21,9 @@ int32_t hk_frames_create(const hooke_system *system, int64_t count, struct hk_fr
   frames->time = hk_new(count, sizeof(double));
   frames->energy = hk_new(count, sizeof(double));
   frames->position = hk_new(count, (size_t)(size + 1) * sizeof(double));
+  frames->rounding = hk_new(count, sizeof(double));
   frames->free_particle = hk_new(hooke_system_count(system, "free"), sizeof(int64_t));
-  if (!frames->time || !frames->energy || !frames->position || !frames->free_particle) {
+  if (!frames->time || !frames->energy || !frames->position || !frames->rounding || !frames->free_particle) {
     hk_frames_release(frames);
     return HOOKE_NO_MEMORY;
   }
@@ -33,6 +35,7 @@ void hk_frames_release(struct hk_frames *frames) {
   hk_free(frames->time);
   hk_free(frames->energy);
   hk_free(frames->position);
+  hk_free(frames->rounding);
   hk_free(frames->free_particle);
   hk_watched_series_release(&frames->watched);
   memset(frames, 0, sizeof *frames);
@@ -60,4 +63,13 @@ double hk_frames_distance(const struct hk_frames *frames, int64_t f, const doubl
   }
   if (largest) *largest = sqrt(most);
   return frames->free_count > 0 ? sqrt(sum / (double)frames->free_count) : 0.0;
+}
+
+double hk_frames_rounding(const struct hk_frames *frames, const double *q) {
+  double most = 0.0;
+  for (int64_t k = 0; k < frames->free_count; k++) {
+    const double *at = q + 3 * frames->free_particle[k];
+    most = fmax(most, (at[0] * at[0] + at[1] * at[1]) + at[2] * at[2]);
+  }
+  return 0.5 * DBL_EPSILON * sqrt(most);
 }

@@ -8,11 +8,12 @@
 
 struct hk_frames {
   const hooke_system *system;
-  int64_t count, size;                /* frames, and numbers in a position (3n) */
-  int64_t recorded;                   /* frames recorded so far */
-  double *time;                       /* count [s] */
-  double *energy;                     /* count [J] */
-  double *position;                   /* count x size [m] */
+  int64_t count, size; /* frames, and numbers in a position (3n) */
+  int64_t recorded;    /* frames recorded so far */
+  double *time;        /* count [s] */
+  double *energy;      /* count [J] */
+  double *position;    /* count x size [m] */
+  double *rounding;    /* count: by how much rounding may have displaced a particle until then [m] */
   int64_t *free_particle, free_count; /* errors are measured over these */
   struct hk_watched_series watched;   /* empty unless created */
 };
@@ -27,5 +28,9 @@ void hk_frames_record(struct hk_frames *frames, const hooke_state *state);
 /* Root mean square over the free particles of the distance between q and frame f [m]; the largest distance
  * too. */
 double hk_frames_distance(const struct hk_frames *frames, int64_t f, const double *q, double *largest);
+
+/* A bound on the distance by which rounding displaces a free particle in one step to q [m]: of each coordinate
+ * it takes half a unit in the last place. */
+double hk_frames_rounding(const struct hk_frames *frames, const double *q);
 
 #endif

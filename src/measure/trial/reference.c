@@ -39,6 +39,11 @@ int32_t hk_reference_method(const hooke_system *system, const double *q, const c
   return HOOKE_OK;
 }
 
+double hk_reference_time(const struct hk_reference *r, int64_t count, double duration) {
+  if (count <= 0) return NAN;
+  return count == r->frames.count ? r->frames.time[0] + duration : r->frames.time[count - 1];
+}
+
 void hk_reference_release(struct hk_reference *reference) {
   hk_frames_release(&reference->frames);
   memset(reference, 0, sizeof *reference);
@@ -58,11 +63,12 @@ static void trust(struct hk_reference *r, const struct hk_trial *check, double d
   r->digits = digits;
   r->agreement = r->energy_agreement = 0.0;
   for (r->trusted = 0; r->trusted < r->checked; r->trusted++) {
-    const double apart = SAFETY * check->error_at[r->trusted];
+    const double apart = SAFETY * check->error_max_at[r->trusted];
     if (!(apart <= digits)) break;
     r->agreement = fmax(r->agreement, apart);
     r->energy_agreement = fmax(r->energy_agreement, SAFETY * fabs(check->drift_at[r->trusted]));
   }
+  if (r->trusted < 2) r->agreement = r->energy_agreement = NAN;
 }
 
 /* If the wanted digits are out of reach from the first frame on, as many as possible. */
@@ -71,8 +77,8 @@ static void find_trust(struct hk_reference_watch *watch, struct hk_reference *r,
   const double fallback = DIGITS * r->extent, wanted = watch->request->digits;
   r->checked = 0;
   watch->apart = 0.0;
-  while (r->checked < r->frames.recorded && !isnan(check->error_at[r->checked]))
-    watch->apart = fmax(watch->apart, SAFETY * check->error_at[r->checked++]);
+  while (r->checked < r->frames.recorded && !isnan(check->error_max_at[r->checked]))
+    watch->apart = fmax(watch->apart, SAFETY * check->error_max_at[r->checked++]);
   trust(r, check, isnan(wanted) ? fallback : wanted);
   r->coarse = r->trusted < 2 && r->digits < fallback;
   if (r->coarse) trust(r, check, fallback);
@@ -81,9 +87,13 @@ static void find_trust(struct hk_reference_watch *watch, struct hk_reference *r,
 
 /* ---- levels ---- */
 
+static int measures_growth(const struct hk_reference_request *request) {
+  return !request->enough && !request->repeatable;
+}
+
 /* Work to come beside this level, for progress: the usual levels, and the runs for the growth. */
 static double ahead_of_level(const struct hk_reference_watch *watch) {
-  const double growth = watch->request->enough ? 0.0 : 1.0;
+  const double growth = measures_growth(watch->request) ? 1.0 : 0.0;
   return growth + fmax(0.0, EXPECTED_LEVELS - watch->levels) * (1.0 + CHECK_COST);
 }
 
@@ -126,10 +136,15 @@ static int is_all(const struct hk_reference *r) {
   return r->trusted == r->frames.count && !r->coarse;
 }
 
+/* The distance at which tightening ends [m]. */
+static double aim_of(const struct hk_reference *r) {
+  return is_all(r) ? CLOSE * r->extent : r->digits;
+}
+
 /* The tolerance at which the two should agree: errors scale with the tolerance, unless motion is chaotic. */
 static double next_tolerance(const struct hk_reference_watch *watch, const struct hk_reference *r,
                              double tolerance) {
-  const double aim = AIM * (is_all(r) ? CLOSE * r->extent : r->digits) / watch->apart;
+  const double aim = AIM * aim_of(r) / watch->apart;
   const double least = tolerance > TIGHT ? LEAST_FACTOR : MOST_FACTOR;
   return fmax(TIGHTEST, tolerance * fmax(least, fmin(MOST_FACTOR, aim)));
 }
@@ -137,6 +152,12 @@ static double next_tolerance(const struct hk_reference_watch *watch, const struc
 /* 1 if the reference is as good as requested. */
 static int is_enough(const struct hk_reference_request *request, const struct hk_reference *r) {
   return is_all(r) && (request->enough || r->agreement <= CLOSE * r->extent);
+}
+
+/* 1 if rounding alone is above the distance that tightening aims at, where more steps would only add to it. */
+static int is_drowned(const struct hk_reference *r) {
+  const int64_t frame = r->trusted < r->frames.recorded ? r->trusted : r->frames.recorded - 1;
+  return SAFETY * r->frames.rounding[frame] > aim_of(r);
 }
 
 /* 1 if an integrator gave up, which it may do at one tolerance and not at another. */
@@ -182,7 +203,8 @@ static int32_t tighten(struct hk_reference_watch *watch, struct hk_reference *r,
     const int failed = gave_up(status);
     if (failed && r->checked > 0) status = HOOKE_OK;
     if (status != HOOKE_OK && (!failed || tolerance <= TIGHTEST)) return status;
-    if (r->checked > 0 && (failed || is_enough(watch->request, r) || tolerance <= TIGHTEST)) break;
+    if (r->checked > 0 && (failed || is_enough(watch->request, r) || is_drowned(r) || tolerance <= TIGHTEST))
+      break;
     const double seconds = hk_clock_seconds() - begun;
     double finer = failed ? tolerance * LEAST_FACTOR : next_tolerance(watch, r, tolerance);
     if (!has_time(watch, r, tolerance / finer, seconds)) finer = fmax(finer, MOST_FACTOR * tolerance);
@@ -222,7 +244,7 @@ int32_t hk_reference_create(const hooke_system *system, const struct hk_referenc
     status = hk_watched_series_create(request->watched, request->frame_count, &r->frames.watched);
   if (status == HOOKE_OK) status = hk_trial_create(&r->frames, &trial);
   if (status == HOOKE_OK) status = tighten(&watch, r, &trial);
-  if (status == HOOKE_OK && !request->enough) status = hk_reference_measure_growth(&watch, r, &trial);
+  if (status == HOOKE_OK && measures_growth(request)) status = hk_reference_measure_growth(&watch, r, &trial);
   hk_trial_release(&trial);
   r->wall_seconds = hk_clock_seconds() - watch.begun;
   if (status != HOOKE_OK) hk_reference_release(r);

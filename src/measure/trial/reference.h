@@ -11,9 +11,11 @@ struct hk_reference {
   double rtol, atol;               /* its tolerances, */
   double evaluations, run_seconds; /* force evaluations and wall time */
   double extent;                   /* diagonal of the box that holds all frames [m] */
-  double digits;    /* distance up to which frames are trusted: the wanted one, or see `coarse` [m] */
-  double agreement; /* twice the largest rms distance of the two over trusted frames [m]; at most `digits` */
-  double energy_agreement; /* twice the largest difference of their energies there [J] */
+  double digits; /* distance up to which frames are trusted: the wanted one, or see `coarse` [m] */
+  /* twice the largest distance of a particle between the two over trusted frames, and of what rounding may do
+   * to one [m]; at most `digits`; NaN if nothing after the start is trusted */
+  double agreement;
+  double energy_agreement; /* twice the largest difference of their energies there [J]; NaN likewise */
   int64_t checked;         /* frames at which the two were compared: all, or as many as the budget allowed */
   int64_t trusted;         /* of these, initial frames that agree to the digits */
   int32_t coarse; /* 1: no frame agrees to the wanted digits; the trusted ones agree to 1e-6 of the extent */
@@ -36,7 +38,8 @@ struct hk_reference_request {
   /* 1: no tighter than needed to trust all frames, beginning loosely, and no growth. 0: down to 1e-9 of the
    * extent, while there is time */
   int32_t enough;
-  double budget; /* [s], infinity for none */
+  int32_t repeatable; /* 1: no choice depends on a clock, without a budget, and no growth */
+  double budget;      /* [s], infinity for none */
   const struct hk_watched_list
       *watched; /* recorded at every frame, with the difference of the two; NULL: nothing */
   const struct hk_listener *listener; /* receives progress as a fraction of the whole reference */
@@ -48,6 +51,10 @@ struct hk_reference_request {
 int32_t hk_reference_create(const hooke_system *system, const struct hk_reference_request *request,
                             struct hk_reference *reference);
 void hk_reference_release(struct hk_reference *reference);
+
+/* Time of frame `count` - 1, or the end of the run if that is the last frame, which may come before the end.
+ * NaN for none [s]. */
+double hk_reference_time(const struct hk_reference *reference, int64_t count, double duration);
 
 /* Options of a run by `method` at a tolerance; the absolute one scales with the size of the scene. */
 int32_t hk_reference_options(const hooke_options *run, const char *method, double rtol, double extent,

@@ -210,7 +210,8 @@ static int32_t displace_and_run(struct hk_reference_watch *watch, struct hk_refe
 int32_t hk_reference_measure_growth(struct hk_reference_watch *watch, struct hk_reference *r,
                                     struct hk_trial *trial) {
   const double deadline = watch->begun + watch->request->budget;
-  if (r->frames.free_count == 0) return HOOKE_OK;
+  const double rounding = r->frames.rounding[r->frames.recorded - 1];
+  if (r->frames.free_count == 0 || rounding > DISPLACEMENT * r->extent) return HOOKE_OK;
   if (r->agreement <= DROWNED * DISPLACEMENT * r->extent)
     return displace_and_run(watch, r, r, deadline, trial);
   if (hk_clock_seconds() + 2.0 * TIGHTER * r->run_seconds > deadline) return HOOKE_OK;

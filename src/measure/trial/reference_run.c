@@ -133,7 +133,7 @@ static int32_t try_beginning(struct hk_reference_watch *watch, const struct hk_r
 }
 
 int32_t hk_reference_choose_first(struct hk_reference_watch *watch, struct hk_reference *r, double rtol) {
-  if (strcmp(r->method, "cvode-bdf") != 0) return HOOKE_OK;
+  if (strcmp(r->method, "cvode-bdf") != 0 || watch->request->repeatable) return HOOKE_OK;
   const double duration = TRIAL_SHARE * hooke_options_number(watch->request->run, "duration");
   const double longest = FIRST_TRIAL_SHARE * watch->request->budget;
   struct hk_reference_cost bdf, adams;
@@ -148,7 +148,7 @@ int32_t hk_reference_choose_first(struct hk_reference_watch *watch, struct hk_re
 
 /* Cost of rk8pd in a short trial, relative to the cost of the first method for the same part of its run: in
  * time, since one spends it on forces and the other on vectors and solves; in evaluations if trials are too
- * short to time. */
+ * short to time, and for a repeatable choice. */
 static int32_t explicit_cost(struct hk_reference_watch *watch, const struct hk_reference *r, double rtol,
                              struct hk_reference_cost first, double *ratio) {
   struct hk_reference_cost trial;
@@ -157,12 +157,14 @@ static int32_t explicit_cost(struct hk_reference_watch *watch, const struct hk_r
   const double reached = r->frames.time[r->frames.recorded - 1] - r->frames.time[0];
   /* a scene too stiff for it must not delay the study: forces cost it no more than the other */
   const double most = MOST_COST * TRIAL_SHARE * first.evaluations * MOST_EVALUATIONS;
-  const double longest = fmax(TIMEABLE, 2.0 * MOST_COST * TRIAL_SHARE * first.seconds);
+  const int32_t repeatable = watch->request->repeatable;
+  const double longest =
+      repeatable ? INFINITY : fmax(TIMEABLE, 2.0 * MOST_COST * TRIAL_SHARE * first.seconds);
   const int32_t status =
       try_beginning(watch, r, "rk8pd", rtol, longest, fmax(10.0, ceil(most)), TRIAL_SHARE * reached, &trial);
   const double by_time = trial.seconds / (TRIAL_SHARE * first.seconds);
   const double by_evaluations = trial.evaluations / (TRIAL_SHARE * first.evaluations);
-  if (status == HOOKE_OK) *ratio = trial.seconds > TIMEABLE ? by_time : by_evaluations;
+  if (status == HOOKE_OK) *ratio = trial.seconds > TIMEABLE && !repeatable ? by_time : by_evaluations;
   return status;
 }
 

@@ -14,7 +14,7 @@ struct hk_reference_watch {
   int32_t levels;                    /* begun */
   int32_t expired;                   /* the deadline ended a run */
   int32_t cut;                       /* the last level was not run to its end */
-  double apart;                      /* there, twice the largest rms distance of the two [m] */
+  double apart;                      /* there, twice the largest distance of the two [m] */
   void *displacement;                /* displacement of the start of the next run */
 };
 

@@ -3,6 +3,7 @@
 #include "core/memory.h"
 #include "core/status.h"
 #include "integrate/loop/run_loop.h"
+#include "measure/work/work.h"
 
 #include <math.h>
 #include <stddef.h>
@@ -11,15 +12,17 @@
 int32_t hk_trial_create(const struct hk_frames *reference, struct hk_trial *trial) {
   *trial = (struct hk_trial){.status = NULL};
   trial->error_at = hk_new(reference->count, sizeof(double));
+  trial->error_max_at = hk_new(reference->count, sizeof(double));
   trial->drift_at = hk_new(reference->count, sizeof(double));
   const int32_t status = hk_watched_series_create(reference->watched.list, reference->count, &trial->watched);
-  if (trial->error_at && trial->drift_at && status == HOOKE_OK) return HOOKE_OK;
+  if (trial->error_at && trial->error_max_at && trial->drift_at && status == HOOKE_OK) return HOOKE_OK;
   hk_trial_release(trial);
   return HOOKE_NO_MEMORY;
 }
 
 void hk_trial_release(struct hk_trial *trial) {
   hk_free(trial->error_at);
+  hk_free(trial->error_max_at);
   hk_free(trial->drift_at);
   hk_watched_series_release(&trial->watched);
   memset(trial, 0, sizeof *trial);
@@ -54,6 +57,7 @@ struct hk_trial_line hk_trial_line(const struct hk_trial *trial, const char *met
       .linear_iterations = t->linear_iterations,
       .wall_seconds = t->wall_seconds,
       .error_at = {t->error_at, frames},
+      .error_max_at = {t->error_max_at, frames},
       .energy_drift_at = {t->drift_at, frames},
   };
 }
@@ -65,13 +69,20 @@ struct run {
   const struct hk_frames *reference; /* with */
   struct hk_trial *trial;
   int64_t frames, next;
-  double begin, duration;
+  double begin, duration, rounding; /* rounding: what it may have displaced a particle by so far [m] */
   const struct hk_listener *listener;
+  const hooke_integrator *integrator;
 };
+
+static int works_too_long(const struct run *run) {
+  const double most = run->listener ? run->listener->most_work : 0.0;
+  return most > 0.0 && hk_work_of(run->integrator) > most;
+}
 
 static int32_t tell(double share, const char *method, void *ctx) {
   const struct run *run = ctx;
   (void)method;
+  if (works_too_long(run)) return 1;
   if (run->listener == NULL || run->listener->on_progress == NULL) return 0;
   return run->listener->on_progress(fmin(1.0, share), run->listener->ctx);
 }
@@ -79,20 +90,28 @@ static int32_t tell(double share, const char *method, void *ctx) {
 static void judge(const struct run *run, int64_t f, const hooke_state *state) {
   struct hk_trial *trial = run->trial;
   const double *q = hooke_state_position(state);
+  const double rounding = fmax(run->rounding, run->reference->rounding[f]);
   double largest;
-  trial->error_at[f] = hk_frames_distance(run->reference, f, q, &largest);
+  trial->rounding = rounding;
+  trial->error_at[f] = fmax(rounding, hk_frames_distance(run->reference, f, q, &largest));
+  trial->error_max_at[f] = fmax(rounding, largest);
   trial->drift_at[f] = hooke_system_energy(run->reference->system, "total", q, hooke_state_velocity(state)) -
                        run->reference->energy[f];
   hk_watched_series_keep(&trial->watched, f, q, hooke_state_velocity(state));
   trial->error = fmax(trial->error, trial->error_at[f]);
-  trial->error_max = fmax(trial->error_max, largest);
+  trial->error_max = fmax(trial->error_max, trial->error_max_at[f]);
   trial->error_final = trial->error_at[f];
   trial->energy_drift = fmax(trial->energy_drift, fabs(trial->drift_at[f]));
 }
 
+/* Every step may round every position, always in the same direction where it moves on by less than that. */
 static int32_t see_frame(int64_t step, const hooke_state *state, void *ctx) {
   struct run *run = ctx;
   const int64_t f = run->next++;
+  const struct hk_frames *frames = run->record ? run->record : run->reference;
+  const double *q = hooke_state_position(state);
+  run->rounding = fmax(run->rounding, (double)step * hk_frames_rounding(frames, q));
+  if (run->record && f < frames->count) frames->rounding[f] = run->rounding;
   if (run->record)
     hk_frames_record(run->record, state);
   else if (f < run->frames)
@@ -112,6 +131,7 @@ static int32_t run_once(struct run *run, const hooke_system *system, const hooke
   if (status == HOOKE_OK) status = hooke_state_create(system, &state);
   if (status == HOOKE_OK) {
     if (run->listener && run->listener->on_start) run->listener->on_start(state, run->listener->ctx);
+    run->integrator = *integrator;
     run->begin = hooke_state_time(state);
     run->duration = hooke_options_number(options, "duration");
     hooke_integrator_on_frame(*integrator, see_frame, run);
@@ -132,6 +152,7 @@ static void keep_counts(struct hk_trial *trial, const hooke_integrator *integrat
   trial->steps = (double)hooke_integrator_count(integrator, "steps");
   trial->linear_iterations = (double)hooke_integrator_count(integrator, "linear_iterations");
   trial->wall_seconds = hooke_integrator_number(integrator, "wall_seconds");
+  trial->work = hk_work_of(integrator);
 }
 
 int32_t hk_trial_run(struct hk_trial *trial, const struct hk_frames *reference, int64_t frames,
@@ -140,23 +161,25 @@ int32_t hk_trial_run(struct hk_trial *trial, const struct hk_frames *reference, 
   hooke_integrator *integrator = NULL;
   trial->error = trial->error_max = trial->error_final = trial->energy_drift = 0.0;
   for (int64_t f = 0; f < reference->count; f++)
-    trial->error_at[f] = trial->drift_at[f] = NAN;
+    trial->error_at[f] = trial->error_max_at[f] = trial->drift_at[f] = NAN;
   hk_watched_series_clear(&trial->watched);
-  const int32_t status = run_once(&run, reference->system, options, &integrator);
+  int32_t status = run_once(&run, reference->system, options, &integrator);
   if (integrator == NULL) return status;
   keep_counts(trial, integrator);
+  /* whenever that was noticed */
+  const int32_t too_long = (status == HOOKE_OK || status == HOOKE_STOPPED) && works_too_long(&run);
+  if (too_long) status = HOOKE_STOPPED;
   hooke_integrator_destroy(integrator);
   trial->status = status == HOOKE_OK         ? "finished"
                   : status == HOOKE_DIVERGED ? "diverged"
                   : status == HOOKE_STOPPED  ? "stopped"
                                              : "failed";
-  if (status == HOOKE_OK) {
+  if (status == HOOKE_OK)
     hk_watched_series_compare(&trial->watched, &reference->watched, frames, reference->time, 1.0);
-    return HOOKE_OK;
-  }
-  trial->error = trial->error_max = trial->error_final = trial->energy_drift = NAN;
+  if (status != HOOKE_OK || frames < 2)
+    trial->error = trial->error_max = trial->error_final = trial->energy_drift = NAN;
   const int is_result =
-      status == HOOKE_DIVERGED || status == HOOKE_SOLVER_FAILED || status == HOOKE_STEP_LIMIT;
+      too_long || status == HOOKE_DIVERGED || status == HOOKE_SOLVER_FAILED || status == HOOKE_STEP_LIMIT;
   return is_result ? HOOKE_OK : status;
 }
 

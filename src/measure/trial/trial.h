@@ -13,16 +13,20 @@ struct hk_listener {
   int32_t (*on_progress)(double share, void *ctx);
   int32_t (*on_frame)(int64_t frame, int64_t step, const hooke_state *state, void *ctx);
   void (*on_start)(hooke_state *state, void *ctx);
+  double most_work; /* counted work [s] after which a trial is stopped, as a result; 0: any */
   void *ctx;
 };
 
 struct hk_trial {
   const char *status;      /* "finished", "diverged", "stopped", "failed"; NULL: not run yet */
   double step, rtol, atol; /* NaN if the method does not take it */
-  double error, error_max, error_final, energy_drift; /* NaN unless finished */
+  /* NaN unless finished, with a judged frame after the start; no distance is below what rounding may do */
+  double error, error_max, error_final, energy_drift;
+  double rounding; /* by how much it may have displaced a particle [m] */
   double force_evaluations, steps, linear_iterations, wall_seconds;
-  double *error_at, *drift_at;      /* one a frame of the reference, NaN where missing */
-  struct hk_watched_series watched; /* quantities watched by the reference, with their errors */
+  double work;                                /* counted (measure/work) [s] */
+  double *error_at, *error_max_at, *drift_at; /* one a frame of the reference, NaN where missing */
+  struct hk_watched_series watched;           /* quantities watched by the reference, with their errors */
 };
 
 int32_t hk_trial_create(const struct hk_frames *reference, struct hk_trial *trial);
@@ -48,7 +52,7 @@ struct hk_trial_line {
   const char *method, *status;
   double step, rtol, atol, error, error_max, error_final, energy_drift;
   double force_evaluations, steps, linear_iterations, wall_seconds;
-  struct hk_series error_at, energy_drift_at; /* of `frames` */
+  struct hk_series error_at, error_max_at, energy_drift_at; /* of `frames` */
 };
 struct hk_trial_line hk_trial_line(const struct hk_trial *trial, const char *method, int64_t frames);
 
@@ -57,9 +61,12 @@ struct hk_trial_line hk_trial_line(const struct hk_trial *trial, const char *met
 /* Columns for the errors and the work of a trial. */
 #define HOOKE_TRIAL_COLUMNS                                                                                  \
   HOOKE_TRIAL_COLUMN(error, NUMBER, "m",                                                                     \
-                     "largest root mean square over the free particles of the distance to the reference"),   \
-      HOOKE_TRIAL_COLUMN(error_max, NUMBER, "m", "largest distance of any free particle"),                   \
-      HOOKE_TRIAL_COLUMN(error_final, NUMBER, "m", "root mean square distance at the last frame"),           \
+                     "largest root mean square over the free particles of the distance to the reference; "   \
+                     "no error is below what rounding may do to a position in the steps taken, half a unit " \
+                     "in its last place in each; NaN where nothing after the start is judged"),              \
+      HOOKE_TRIAL_COLUMN(error_max, NUMBER, "m",                                                             \
+                         "largest distance of any free particle, which a wanted error is held against"),     \
+      HOOKE_TRIAL_COLUMN(error_final, NUMBER, "m", "root mean square distance at the last judged frame"),    \
       HOOKE_TRIAL_COLUMN(energy_drift, NUMBER, "J", "largest difference of energy from the reference"),      \
       HOOKE_TRIAL_COLUMN(force_evaluations, COUNT, "", "evaluations of the forces"),                         \
       HOOKE_TRIAL_COLUMN(steps, COUNT, "", "steps taken")

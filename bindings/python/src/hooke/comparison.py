@@ -1,4 +1,4 @@
-"""Comparison of several methods on one scene with CVODE at tight tolerance: accuracy and cost of each."""
+"""Comparison of several methods on one scene with a checked reference: accuracy and cost of each."""
 
 from __future__ import annotations
 
@@ -37,7 +37,8 @@ class Comparison(Tabled):
     `rows` is a structured array with one row a method: method, step [s], rtol, atol [m], error (largest root mean
     square over the free particles [m]), error_max [m], error_final [m], energy_drift [J], force_evaluations, steps,
     linear_iterations, wall_seconds, status; NaN where a number does not apply. Over the frames: `time` (k,) [s],
-    `error` (rows, k) [m] and `energy_drift` (rows, k) [J], NaN past the end of a run that diverged.
+    `error` (rows, k) [m] and `energy_drift` (rows, k) [J], NaN past the end of a run that diverged and past
+    `trusted_until` [s], until when the two integrators of the reference agree, to `agreement` [m].
     """
 
     status: str
@@ -46,6 +47,8 @@ class Comparison(Tabled):
     time: FloatArray
     error: FloatArray
     energy_drift: FloatArray
+    agreement: float = np.nan
+    trusted_until: float = np.nan
 
     @property
     def methods(self) -> list[str]:
@@ -72,7 +75,7 @@ def compare(
     **options: Any,
 ) -> Comparison:
     """Runs a scene (or the path of one) or a system by each of `methods` (all that this build has, if None) and by
-    CVODE at tight tolerance, and returns the `Comparison`.
+    two integrators at tight tolerances that check each other, and returns the `Comparison`.
 
     The keywords `options` are those of a run: step [s], duration [s], every [s], rtol, atol [m]; `output` is an HDF5
     file to write (`hooke.plot` draws it), `force` adds a force callback, ``progress(fraction, what)`` receives
@@ -128,7 +131,13 @@ def _read(measurement: Measurement, status: str) -> Comparison:
                 out[row] = found
         return out
 
-    reference = measurement.text("reference", 0, "method")
     return Comparison(
-        status, reference, rows, np.empty(0) if time is None else time, series("error_at"), series("energy_drift_at")
+        status,
+        measurement.text("reference", 0, "method"),
+        rows,
+        np.empty(0) if time is None else time,
+        series("error_at"),
+        series("energy_drift_at"),
+        measurement.number("reference", 0, "agreement"),
+        measurement.number("reference", 0, "trusted_until"),
     )

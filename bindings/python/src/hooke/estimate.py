@@ -27,24 +27,27 @@ _CHOSEN = ("step", "rtol", "atol", "atol_velocity")
 class RunError(NamedTuple):
     """The error of a run.
 
-    `estimate` is the root mean square error over free particles [m], NaN if it is not known: with a wanted error the
-    largest over frames, otherwise that at the end. It holds for the time between `known_from` and `known_until` [s].
-    `by` is "half- step", "tolerance", "slice" or "reference", None without an estimate; `wanted` the wanted error [m]
-    and `met` whether it was met, None if that is unknown or none was wanted. `energy_rise` is the spontaneous rise of
-    energy over the last half of the run, as a fraction of the energy of the scene, NaN if unknown; `heat_excess` is
-    the energy that damping and drag dissipated beyond the available energy, as such a fraction, since velocities
-    reverse at each step. `note` says why an error is not known or not met.
+    `estimate` is the distance of the farthest free particle, at any frame, from where it should be [m], and `rms` the
+    root mean square over free particles at the worst frame; NaN if they are not known. They hold up to `known_until`
+    [s]. `by` is "half-step", "tolerance", "other-method" or "reference", None without an estimate; `wanted` the wanted
+    error [m] and `met` whether it was met, None if that is unknown or none was wanted. `energy_rise` is the
+    spontaneous rise of energy over the last half of the run, as a fraction of the energy of the scene, NaN if unknown;
+    `heat_excess` is the energy that damping and drag dissipated beyond the available energy, as such a fraction, since
+    velocities reverse at each step. Where the error is not known, `last_piece` is what the run from `last_from` [s] to
+    its end added to it there [m], NaN if that was not measured. `reason` says why an error is not known or not met.
     """
 
     estimate: float
-    known_from: float
+    rms: float
     known_until: float
     by: str | None
     wanted: float
     met: bool | None
     energy_rise: float
     heat_excess: float
-    note: str
+    last_piece: float
+    last_from: float
+    reason: str
 
 
 def metres(length: Length, name: str) -> float:
@@ -65,7 +68,7 @@ class Estimate:
     """A measurement of kind "estimate": picks, observes and measures runs of one system."""
 
     def __init__(self, system: System, want: Length | None, progress: Any = None):
-        options = Options._of("estimate").set(want=None if want is None else metres(want, "want"))
+        options = Options._of("estimate").set(want=None if want is None else metres(want, "want"), callbacks=True)
         self._measurement = Measurement.create("estimate", system, None, options)
         self._handle = self._measurement.handle
         self._progress = progress

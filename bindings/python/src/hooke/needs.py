@@ -40,7 +40,7 @@ class Needs(Paged, Closing):
     """The needs of a scene for watched positions within `want` [m].
 
     `rows` is a structured array with one row for everything that was left out in turn: without, kind, error (the
-    change of the watched positions, the largest over frames of their root mean square [m]; NaN if that run did not
+    change of the watched positions, the largest distance of any at any frame [m]; NaN if that run did not
     end), needed (also True if unknown, as `note` says), left_out (also absent from the lean system), the fields of a
     `RunCost`, unlimited (1: nothing limits the step), note. `full` is the cost of the full system with a step error
     of a tenth of the wanted error, and `own_error` [m] the possible error of its finer run, which all variants are

@@ -87,7 +87,7 @@ def error(path: Path, ax: Axes | None = None, *, series: str = "error") -> Axes:
 def study(
     source: Study | Path, axes: Any = None, *, cost: str = "wall_seconds", want: float | None = None
 ) -> Any:
-    """Draws a study, or the file that one wrote, into two axes (made if not given) and returns them: error [m]
+    """Draws a study, or the file that one wrote, into two axes (made if not given) and returns them: error_max [m]
     against cost, one marked line a method, and error against step with the observed orders.
 
     `cost` is "wall_seconds" [s], "force_evaluations" or "steps". Steps at which a run diverged are marked at the
@@ -103,12 +103,12 @@ def study(
     for number, method in enumerate(dict.fromkeys(table["method"])):
         rows = np.flatnonzero(table["method"] == method)
         style = {"color": f"C{number % 10}", "marker": _MARKERS[number % len(_MARKERS)], "markersize": 4}
-        _ladder(costs, table[cost][rows], table["error"][rows], method, style)
+        _ladder(costs, table[cost][rows], table["error_max"][rows], method, style)
         if np.isfinite(table["step"][rows]).any():
             order = table.orders.get(method, np.nan)
             label = f"{method}, order {order:.2f}" if np.isfinite(order) else method
-            _ladder(steps, table["step"][rows], table["error"][rows], label, style)
-            _edge(steps, table["step"][rows[np.isnan(table["error"][rows])]], style)
+            _ladder(steps, table["step"][rows], table["error_max"][rows], label, style)
+            _edge(steps, table["step"][rows[np.isnan(table["error_max"][rows])]], style)
     costs.set_xlabel({"wall_seconds": "wall time [s]"}.get(cost, cost.replace("_", " ")))
     steps.set_xlabel("step [s]")
     for ax in (costs, steps):

@@ -117,7 +117,7 @@ class Study(Paged, Closing):
     """A finished study: one row a method and step or tolerance, the coarsest first.
 
     Each column is an array with one entry a row: method, status ("finished", "diverged", "stopped", "failed"), step
-    [s], rtol, atol [m], error (largest root mean square over the free particles [m]), error_max [m], error_final [m],
+    [s], rtol, atol [m], error (largest root mean square over the free particles [m]), error_max (largest distance of one), error_final [m],
     energy_drift [J], force_evaluations, steps, linear_iterations, wall_seconds (the least of `repeats` runs) and
     wall_median [s]; near_floor (the error is within ten times the agreement of the reference), near_energy_floor
     (likewise for energy_drift), timed_alone. NaN where a number does not apply. `rows` holds them all as one
@@ -202,7 +202,7 @@ class Study(Paged, Closing):
         return None if found is None or margin is None else Recommendation(margin=Margin(**margin), **found)
 
     def recommend(self, want: float) -> Recommendation:
-        """Finds the cheapest step or tolerance whose error is at most `want` [m], by running it."""
+        """Finds the cheapest step or tolerance whose error_max is at most `want` [m], by running it."""
         with self._handle.listening(self._progress):
             lib.hooke_study_recommend(self._handle.handle, want)
         found = self.recommendation

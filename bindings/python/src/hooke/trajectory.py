@@ -118,14 +118,13 @@ class Trajectory(Closing):
     @property
     def error(self) -> RunError | None:
         """The error of the run, as estimated after it; None if it was not estimated."""
-        by, note = (text(lib.hooke_record_text(self._handle, what)) for what in (b"error_by", b"error_note"))
-        if not by and not note:
-            return None
+        by, reason = (text(lib.hooke_record_text(self._handle, what)) for what in (b"error_by", b"error_reason"))
+        if not (by or reason) or len(self._numbers("error")) != len(RunError._fields) - 2:
+            return None  # not estimated, or by an earlier version, which knew parts alone
         numbers = [float(number) for number in self._numbers("error")]
-        # files written before the excess of heat was reported have one number less
-        estimate, known_from, known_until, rise, wanted, met, excess = [*numbers, math.nan][:7]
+        estimate, rms, known_until, rise, wanted, met, excess, piece, piece_from = numbers
         reached = None if math.isnan(met) else met == 1.0
-        return RunError(estimate, known_from, known_until, by or None, wanted, reached, rise, excess, note)
+        return RunError(estimate, rms, known_until, by or None, wanted, reached, rise, excess, piece, piece_from, reason)
 
     @property
     def options(self) -> Options:

@@ -11,6 +11,8 @@ const wholeRun = trusted === null || trusted >= duration * (1 - 1e-9);
 const setting = (row) => (row.step !== null ? `step ${words(row.step, 4)} s` : `rtol ${words(row.rtol)}`);
 
 const rowsOf = (method) => study.rows.filter((row) => row.method === method);
+/* What is wanted is held against the largest distance of a particle, which is the error of a recommendation. */
+const errorOf = (row) => row.error_max ?? row.error;
 const finished = (row) => row.status === "finished" && row.error !== null;
 
 /* ---- axes ---- */
@@ -36,7 +38,7 @@ function levels(range) {
 
 /* The error axis of some rows. Runs without an error stand at its upper edge, one row of crosses for each method. */
 function errorAxis(rows) {
-  const [low, high] = ends([...rows.filter(finished), recommended || {}].map((row) => row.error).concat(floor, want));
+  const [low, high] = ends([...rows.filter(finished), recommended || {}].map(errorOf).concat(floor, want));
   const lost = methods.filter((method) => rows.some((row) => row.method === method && !finished(row)));
   const apart = (high / low) ** 0.035;
   const range = [low, high * apart ** lost.length];
@@ -50,7 +52,7 @@ function curve(method, rows, what, range, edge) {
   const lost = rows.map((row) => !finished(row));
   return {
     label: method,
-    data: rows.map((row, k) => ({ x: across(row[what]), y: lost[k] ? edge(method) : row.error, row })),
+    data: rows.map((row, k) => ({ x: across(row[what]), y: lost[k] ? edge(method) : errorOf(row), row })),
     borderColor: colour, backgroundColor: colour, borderWidth: 2, clip: 9,
     segment: { borderColor: (at) => (lost[at.p0DataIndex] || lost[at.p1DataIndex] ? "transparent" : undefined) },
     pointStyle: lost.map((is) => (is ? "crossRot" : markOf(method))),
@@ -65,7 +67,7 @@ function curve(method, rows, what, range, edge) {
 function describeRow(item) {
   const row = item.raw.row;
   if (!row) return "";
-  return [setting(row), finished(row) ? `error ${words(row.error)} m` : row.status,
+  return [setting(row), finished(row) ? `error ${words(errorOf(row))} m` : row.status,
     `wall time ${words(row.wall_seconds)} s`, `${whole(row.force_evaluations)} force evaluations`];
 }
 
@@ -89,10 +91,10 @@ function drawCost(what) {
 /* Through the finest point clear of the floor, with the slope of the order. */
 function slopeLine(method, rows) {
   const order = study.orders.find((one) => one.method === method);
-  const clear = rows.filter((row) => finished(row) && !row.near_floor && row.error > 0);
+  const clear = rows.filter((row) => finished(row) && !row.near_floor && errorOf(row) > 0);
   if (!order || order.order === null || clear.length < 2) return [];
   const from = clear[clear.length - 1], to = clear[0].step;
-  const at = (x) => ({ x, y: from.error * (x / from.step) ** order.order });
+  const at = (x) => ({ x, y: errorOf(from) * (x / from.step) ** order.order });
   return [{ label: "", role: "slope", data: [at(from.step / 1.4), at(to)], pointRadius: 0, pointHitRadius: 0,
     borderColor: colourOf(method), borderWidth: 1.5, borderDash: [3, 4] }];
 }
@@ -125,7 +127,7 @@ function pick(method, how) {
   const rows = rowsOf(method).filter(finished);
   if (how === "coarse") return rows[0];
   if (how === "middle") return rows[Math.floor((rows.length - 1) / 2)];
-  const enough = how === "enough" ? rows.find((row) => row.error <= want) : undefined;
+  const enough = how === "enough" ? rows.find((row) => errorOf(row) <= want) : undefined;
   return enough || rows[rows.length - 1];
 }
 
@@ -144,11 +146,11 @@ function drawTimes(how) {
     const list = lines(what);
     const seen = list.flatMap((line) => line.data.map((point) => point.y)).filter((y) => y > 0);
     const high = Math.max(...seen, ...extra), low = Math.max(Math.min(...seen), high * 1e-16);
-    const unnamed = what === "error_at" ? levels(study.time).map((line) => ({ ...line, label: "" })) : [];
+    const unnamed = what === "error_max_at" ? levels(study.time).map((line) => ({ ...line, label: "" })) : [];
     draw(id, [...list, ...unnamed],
       timeAxis(), logAxis(title, ends([low, high])),
       (item) => [setting(item.raw.row), `t = ${words(item.raw.x)} s: ${words(item.raw.y)}`]);
   };
-  draws("error-over-time", "error_at", "error [m]", want === null ? [] : [want]);
+  draws("error-over-time", "error_max_at", "error [m]", want === null ? [] : [want]);
   draws("energy-over-time", "energy_drift_at", "|E \u2212 E of the reference| [J]", []);
 }

@@ -71,7 +71,7 @@ function numberCell(row, what) {
   if (what === "error" && row.near_floor && value !== null) cell.textContent += " \u25cb";
   if (what === "energy_drift" && row.near_energy_floor && value !== null) cell.textContent += " \u25cb";
   if (what === "wall_seconds" && row.timed_alone === false) cell.textContent += " +";
-  if (what === "error" && want !== null && value !== null && value <= want) cell.className = "enough";
+  if (what === "error_max" && want !== null && value !== null && value <= want) cell.className = "enough";
   return cell;
 }
 

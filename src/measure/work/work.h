@@ -1,0 +1,48 @@
+/* The counted work of a run: the time [s] that its counts take on one thread of the machine of the table of
+ * costs (costs.c). It follows from the counts and the system alone, so that it is the same on any machine,
+ * however busy, for any number of threads and any instruction set. Callbacks count as their calls: nobody
+ * knows what is inside of them. */
+#ifndef HOOKE_MEASURE_WORK_WORK_H
+#define HOOKE_MEASURE_WORK_WORK_H
+
+#include "integrate/integrator.h"
+
+/* What is counted. The first ones are of each force, by its number in the table of forces: members evaluated,
+ * multiplied by their derivative, and put into a matrix. */
+enum {
+  HOOKE_WORKS_OF_FORCE = 3,
+  HOOKE_WORK_STEP = HOOKE_WORKS_OF_FORCE * HOOKE_FORCES, /* steps */
+  HOOKE_WORK_ADAPTIVE_STEP,                              /* of methods with error control */
+  HOOKE_WORK_ADAPTIVE_PARTICLE,                          /* particles of these steps */
+  HOOKE_WORK_EVALUATION,                                 /* evaluations of all forces */
+  HOOKE_WORK_PARTICLE,                                   /* particles of these */
+  HOOKE_WORK_ADAPTIVE_EVALUATED,                         /* with error control */
+  HOOKE_WORK_UNORDERED,                                  /* springs outside of strided batches */
+  HOOKE_WORK_SCATTERED,                                  /* springs whose particles are renumbered */
+  HOOKE_WORK_BODY,                                       /* bodies evaluated */
+  HOOKE_WORK_DAMPER,                                     /* springs of steps of shardlow */
+  HOOKE_WORK_PRODUCT,                                    /* products with the derivative */
+  HOOKE_WORK_PRODUCT_PARTICLE,                           /* particles of these */
+  HOOKE_WORK_MATRIX,                                     /* matrices */
+  HOOKE_WORK_MATRIX_PARTICLE,                            /* particles of these */
+  HOOKE_WORK_ITERATION,                                  /* particles of linear iterations */
+  HOOKE_WORK_SPACE,                                      /* with error control */
+  HOOKE_WORK_FACTOR_PRODUCT,                             /* multiplications to factorise */
+  HOOKE_WORK_FACTOR_NUMBER,                              /* numbers of a factor in a solution */
+  HOOKE_WORKS
+};
+
+/* Nanoseconds of each. */
+extern const double hk_costs[HOOKE_WORKS];
+
+/* Work so far [s]; of a run from a checkpoint, without what its factors had taken before. */
+double hk_work_of(const hooke_integrator *integrator);
+/* How much of each that is. */
+void hk_work_amounts(const hooke_integrator *integrator, double amount[HOOKE_WORKS]);
+/* One evaluation of all forces of a committed system [s]. */
+double hk_work_of_evaluation(const hooke_system *system);
+/* So many steps of a method [s]; NaN if that depends on the steps, as with error control, or where equations
+ * are solved. */
+double hk_work_of_steps(const hooke_system *system, const char *method, int64_t steps);
+
+#endif
