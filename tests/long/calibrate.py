@@ -56,9 +56,9 @@ def positions_of(solution: dict[str, Any]) -> np.ndarray:
 class Truth:
     """At the times of the frames, [frames][particles][3], by two tolerances; None if one takes too long."""
 
-    def __init__(self, path: Path, times: list[float], kept: Path | None):
+    def __init__(self, path: Path, times: list[float], kept: Path | None, evaluations: float = EVALUATIONS):
         with ThreadPoolExecutor() as pool:
-            found = list(pool.map(lambda tolerance: known(path, times, tolerance, EVALUATIONS, kept), TOLERANCES))
+            found = list(pool.map(lambda tolerance: known(path, times, tolerance, evaluations, kept), TOLERANCES))
         self.free = found[1]["free"] if found[1] else []
         self.loose, self.tight = (one and positions_of(one) for one in found)
 

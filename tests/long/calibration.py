@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 from typing import Any
 
-from steps import Part, Step
+from steps import ROOT, Part, Step
 
 BUILD = "build/long/release"
 PICTURE = "docs/images/calibration.svg"
@@ -55,4 +55,5 @@ PART = Part(
                                     f"--runs {RUNS} --hooke {BUILD}/hooke --picture {PICTURE}", 600, calibrate),
     ],
     rows,
+    page=ROOT / "docs/notes/errors.md",
 )  # fmt: skip

@@ -9,6 +9,7 @@
 #include "check.h"
 #include "long_force.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -101,6 +102,14 @@ static void read_facts(const hooke_system *system, struct canonical *canonical, 
       leave(word);
     }
   }
+}
+
+/* Of positions, or of springs, where the motion begins with particles side by side. */
+static double find_extent(const struct canonical *canonical, const double *q) {
+  double extent = long_force_extent(canonical->particle_count, q);
+  for (int64_t k = 0; k < canonical->spring_count; k++)
+    extent = fmax(extent, 0.5 * canonical->rest_length[k]);
+  return extent;
 }
 
 /* The bodies of a system, each with one pinned particle at most. */
@@ -200,7 +209,7 @@ int main(int argc, char **argv) {
                              .drive_count = facts.drive_count,
                              .drive = facts.drive,
                              .origin = q,
-                             .extent = long_force_extent(canonical.particle_count, q)};
+                             .extent = find_extent(&canonical, q)};
   if (strcmp(hooke_system_dynamics(system), "overdamped") == 0) force.mass = hooke_system_mass(system);
   struct long_body *bodies = find_bodies(system, &force);
   const int32_t result = follow(&force, state, argv + 2, argc - 2);

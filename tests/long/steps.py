@@ -3,7 +3,7 @@ build/long/<part>.json.
 
 A part that was interrupted or killed goes on with the steps that are not done for the sources as they are; a step
 that failed is run again. Then what each step came to last, for whatever sources, goes into
-docs/notes/reliability.json, with its date and commit, and from there into the tables of docs/notes/reliability.md.
+docs/notes/reliability.json, with its date and commit, and from there into the tables of docs/notes/reliability.md, or of the page that the part names.
 """
 
 from __future__ import annotations
@@ -53,6 +53,7 @@ class Part:
     steps: list[Step]
     rows: Callable[[str, dict[str, Any]], list[tuple[str, str]]]  # names and results, from a step's name and its results
     so_far: Callable[[dict[str, Any]], dict[str, Any]] = lambda known: known  # with the data of steps that continue later
+    page: Path | None = None  # with the marks for its figures, if not PAGE
 
 
 def git(*arguments: str) -> str:
@@ -248,11 +249,12 @@ def write_figures(part: Part, state: dict[str, Any]) -> None:
         return
     marks = re.compile(rf"(<!-- figures of {part.name} -->\n).*?(<!-- end -->)", re.DOTALL)
     lines = "\n".join(table(part, known))
-    text, count = marks.subn(lambda found: found[1] + lines + "\n" + found[2], PAGE.read_text())
+    page = part.page or PAGE
+    text, count = marks.subn(lambda found: found[1] + lines + "\n" + found[2], page.read_text())
     if count != 1:
-        raise SystemExit(f"{os.path.relpath(PAGE, ROOT)} has no place for the figures of {part.name}")
-    write_whole(PAGE, text)
-    print(f"figures of {part.name}: {os.path.relpath(PAGE, ROOT)}", flush=True)
+        raise SystemExit(f"{os.path.relpath(page, ROOT)} has no place for the figures of {part.name}")
+    write_whole(page, text)
+    print(f"figures of {part.name}: {os.path.relpath(page, ROOT)}", flush=True)
 
 
 def number(pattern: str, text: str) -> int:
