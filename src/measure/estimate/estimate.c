@@ -203,7 +203,7 @@ static void measure_by_reference(struct hk_estimate *e, const hooke_state *state
   double end = 0.0, end_rms = 0.0;
   if (to_end)
     end_rms = hk_frames_distance(&r->frames, r->frames.count - 1, hooke_state_position(state), &end);
-  if (e->picked || to_end) {
+  if ((e->picked && r->trusted > 1) || to_end) {
     if (e->picked) end = fmax(end, e->pick.best.error), end_rms = fmax(end_rms, e->pick.best.rms);
     e->error = end + r->agreement;
     e->rms = fmin(e->error, end_rms + r->agreement);
@@ -216,7 +216,8 @@ static void measure_by_reference(struct hk_estimate *e, const hooke_state *state
   hk_print(e->reason, sizeof e->reason,
            "after %.6g s two references part by more than a tenth of the wanted error%s",
            e->begin + hk_pick_trusted(&e->pick),
-           r->hurried ? ", for want of time" : ", whatever their tolerance: the motion is chaotic");
+           r->hurried ? ", for want of time"
+                      : ", whatever their tolerance: the motion is chaotic, or rounding parts them");
 }
 
 static int is_sound(const struct hk_estimate *e) {
@@ -302,6 +303,7 @@ static int32_t run(hooke_measurement *m, hooke_state *state) {
 double hk_estimate_met(const struct hk_estimate *e) {
   const double end = e->begin + e->duration;
   if (isnan(e->want)) return NAN;
+  if (is_out_of_reach(e) && e->error - 2.0 * e->pick.reference.agreement <= e->want) return NAN;
   if (e->error > e->want || (e->options && !isnan(e->error) && !is_sound(e))) return 0.0;
   if (e->soundness.unknown_limit) return NAN;
   return e->error <= e->want && e->known_until >= end - 1e-9 * e->duration ? 1.0 : NAN;
