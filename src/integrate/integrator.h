@@ -12,9 +12,9 @@
 struct hk_counts {
   int64_t steps, force_evaluations, derivative_products, nonlinear_iterations, nonlinear_failures,
       linear_iterations, error_test_failures;
-  /* matrices of linear equations; multiplications to factorise them, numbers of factors in solutions: only
-   * measure/work reads these, and checkpoints in files are without them */
-  int64_t matrices, factor_products, factor_numbers;
+  /* matrices of linear equations, multiplications to factorise them, numbers of factors in solutions, and
+   * vectors that GMRES has made others orthogonal to: for measure/work alone, and not in checkpoints */
+  int64_t matrices, factor_products, factor_numbers, space;
 };
 
 /* Upper bound on the steps of a run: doubles count them exactly. */

@@ -155,12 +155,62 @@ static void bad_requests(void **unused) {
   hooke_system_destroy(system);
 }
 
+/* The oscillator of small.h, of another length [m]. */
+static hooke_system *oscillator_of_length(double length) {
+  const double position[] = {0, 0, 0, length, 0, 0}, velocity[] = {0, 0, 0, 0, 0.5 * length, 0};
+  const int64_t ends[] = {0, 1};
+  hooke_system *system = small_system(2, position, velocity, 2.0, 1);
+  small_springs(system, 1, ends, (struct springs){.law = "length", .stiffness = 200.0});
+  check_ok(hooke_system_commit(system));
+  return system;
+}
+
+static void errors_scale_with_the_scene(void **unused) {
+  (void)unused;
+  const double length[] = {1.0, 1e-6, 1e-9};
+  double share[3];
+  for (int k = 0; k < 3; k++) {
+    hooke_system *system = oscillator_of_length(length[k]);
+    hooke_measurement *comparison =
+        compare(system, (struct run){.step = 0.01, .duration = 2.0, .every = 0.1}, "rk4");
+    check_ok(hooke_measurement_run(comparison, NULL));
+    share[k] = figure(comparison, "rk4", "error_max") / length[k];
+    check_between(hooke_measurement_number(comparison, "reference", 0, "agreement"), 1e-16 * length[k],
+                  1e-2 * share[k] * length[k]);
+    check_close(hooke_measurement_number(comparison, "reference", 0, "trusted_until"), 2.0, 1e-12);
+    hooke_measurement_destroy(comparison);
+    hooke_system_destroy(system);
+  }
+  /* rk4 is behind by (omega step)^4 / 120 of a turn of omega t: 1.7e-5 */
+  check_between(share[0], 1e-5, 3e-5);
+  check_between(share[1] / share[0], 0.99, 1.01);
+  check_between(share[2] / share[0], 0.99, 1.01);
+}
+
+/* Chaotic motion is compared as long as the reference is known, and no further. */
+static void chaos_is_compared_for_a_while(void **unused) {
+  (void)unused;
+  hooke_system *system = small_crumpling_cloth(4);
+  hooke_measurement *comparison =
+      compare(system, (struct run){.step = 1e-3, .duration = 6.0, .every = 0.1}, "rk4");
+  check_ok(hooke_measurement_run(comparison, NULL));
+  const double until = hooke_measurement_number(comparison, "reference", 0, "trusted_until");
+  const double *error = hooke_measurement_series(comparison, "rows", 0, "error_at", NULL);
+  const int64_t last = llround(until / 0.1);
+  check_between(until, 0.3, 5.9);
+  assert_string_equal(hooke_measurement_text(comparison, "rows", 0, "status"), "finished");
+  check_between(error[last], 0.0, 1.0);
+  assert_true(isnan(error[last + 1]));
+  check_close(figure(comparison, "rk4", "error_final"), error[last], 0.0);
+  hooke_measurement_destroy(comparison);
+  hooke_system_destroy(system);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(errors_are_true_errors),
-      cmocka_unit_test(a_diverged_row_stays),
-      cmocka_unit_test(progress_goes_on_and_stops),
-      cmocka_unit_test(bad_requests),
+      cmocka_unit_test(errors_are_true_errors),      cmocka_unit_test(a_diverged_row_stays),
+      cmocka_unit_test(progress_goes_on_and_stops),  cmocka_unit_test(bad_requests),
+      cmocka_unit_test(errors_scale_with_the_scene), cmocka_unit_test(chaos_is_compared_for_a_while),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -108,15 +108,17 @@ static struct path *path_of(const hooke_system *system, const hooke_options *opt
   return path;
 }
 
-/* Largest over the frames of the root mean square over the plate, which all that is free belongs to. */
+/* Largest distance of a particle of the plate, which all that is free belongs to, at any frame. */
 static double apart(const struct path *a, const struct path *b) {
   double most = 0.0;
   assert_int_equal(a->count, b->count);
   for (int64_t f = 0; f < a->count; f++) {
-    double sum = 0.0;
-    for (int k = 0; k < 3 * PLATE; k++)
-      sum += (a->q[f][k] - b->q[f][k]) * (a->q[f][k] - b->q[f][k]);
-    most = fmax(most, sqrt(sum / PLATE));
+    for (int k = 0; k < 3 * PLATE; k += 3) {
+      double square = 0.0;
+      for (int c = 0; c < 3; c++)
+        square += (a->q[f][k + c] - b->q[f][k + c]) * (a->q[f][k + c] - b->q[f][k + c]);
+      most = fmax(most, sqrt(square));
+    }
   }
   return most;
 }

@@ -288,7 +288,7 @@ def test_pictures(file):
     for method in study.methods:
         rows = study.rows[(study.method == method) & (study.error > 0)]
         np.testing.assert_array_equal(lines[method].get_xdata(), rows["wall_seconds"])
-        np.testing.assert_array_equal(lines[method].get_ydata(), rows["error"])
+        np.testing.assert_array_equal(lines[method].get_ydata(), rows["error_max"])
         assert lines[method].get_marker() not in ("", "None", None)
     slopes = [line.get_label() for line in drawn[1].lines]
     assert any(label.startswith("rk4, order ") for label in slopes)

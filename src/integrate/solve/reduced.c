@@ -525,7 +525,11 @@ int32_t hk_reduced_minimise(struct hk_reduced *reduced, const double *b, const d
   divide(reduced, reduced->right);
   hk_multiply(size, weight, reduced->right, reduced->right);
   const int32_t status = hk_solve_minimal(&a, reduced->right, tolerance, limit, reduced->krylov, x, solution);
+  const int64_t spaces = solution->iterations / HOOKE_MINIMAL_SPACE,
+                rest = solution->iterations % HOOKE_MINIMAL_SPACE;
   reduced->integrator->count.linear_iterations += solution->iterations;
+  reduced->integrator->count.space +=
+      (spaces * HOOKE_MINIMAL_SPACE * (HOOKE_MINIMAL_SPACE + 1) + rest * (rest + 1)) / 2;
   hk_divide(size, x, weight, x);
   return status;
 }

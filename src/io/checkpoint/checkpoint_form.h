@@ -5,7 +5,7 @@
  *   32   check values of the system and of the options u32 each
  *   40   method, 32 bytes; run, 64 bytes; both end in zeros
  *   136  t0, t, energy0, scale0, gravity0, gravity_swing, wall_seconds f64 each
- *   192  k, frames, and the counts in the order of struct hk_counts i64 each
+ *   192  k, frames, and the counts, the first seven of struct hk_counts i64 each
  *   264  q, then v f64 each
  *   end  CRC-32 of all bytes before it u32 */
 #ifndef HOOKE_IO_CHECKPOINT_CHECKPOINT_FORM_H

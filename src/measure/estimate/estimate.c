@@ -191,6 +191,11 @@ int32_t hooke_estimate_see(int64_t step, const hooke_state *state, void *estimat
 
 /* ---- measuring ---- */
 
+/* 1 if nobody can know that the want is met. */
+static int is_out_of_reach(const struct hk_estimate *e) {
+  return is_whole_reference(e) && !(e->pick.reference.agreement < e->want);
+}
+
 /* The picked run was compared with the reference at its frames; its end is measured on its own. */
 static void measure_by_reference(struct hk_estimate *e, const hooke_state *state) {
   const struct hk_reference *r = &e->pick.reference;
@@ -198,18 +203,21 @@ static void measure_by_reference(struct hk_estimate *e, const hooke_state *state
   double end = 0.0, end_rms = 0.0;
   if (to_end)
     end_rms = hk_frames_distance(&r->frames, r->frames.count - 1, hooke_state_position(state), &end);
-  if (e->picked || to_end) {
+  if ((e->picked && r->trusted > 1) || to_end) {
     if (e->picked) end = fmax(end, e->pick.best.error), end_rms = fmax(end_rms, e->pick.best.rms);
-    e->error = fmax(hk_estimate_rounding(e), end + r->agreement);
+    e->error = end + r->agreement;
     e->rms = fmin(e->error, end_rms + r->agreement);
     e->known_until = e->begin + hk_pick_trusted(&e->pick);
     e->by = "reference";
   }
+  if (is_out_of_reach(e))
+    hk_print(e->reason, sizeof e->reason, "the reference itself is known to %.3g m alone", r->agreement);
   if (to_end) return;
   hk_print(e->reason, sizeof e->reason,
            "after %.6g s two references part by more than a tenth of the wanted error%s",
            e->begin + hk_pick_trusted(&e->pick),
-           r->hurried ? ", for want of time" : ", whatever their tolerance: the motion is chaotic");
+           r->hurried ? ", for want of time"
+                      : ", whatever their tolerance: the motion is chaotic, or rounding parts them");
 }
 
 static int is_sound(const struct hk_estimate *e) {
@@ -295,6 +303,7 @@ static int32_t run(hooke_measurement *m, hooke_state *state) {
 double hk_estimate_met(const struct hk_estimate *e) {
   const double end = e->begin + e->duration;
   if (isnan(e->want)) return NAN;
+  if (is_out_of_reach(e) && e->error - 2.0 * e->pick.reference.agreement <= e->want) return NAN;
   if (e->error > e->want || (e->options && !isnan(e->error) && !is_sound(e))) return 0.0;
   if (e->soundness.unknown_limit) return NAN;
   return e->error <= e->want && e->known_until >= end - 1e-9 * e->duration ? 1.0 : NAN;
@@ -338,8 +347,8 @@ int32_t hooke_estimate_refine(hooke_measurement *m, hooke_options *run) {
   struct hk_estimate *e = m->object;
   int32_t status = hk_measurement_require(m, &hk_estimate_kind, "hooke_estimate_refine");
   if (status != HOOKE_OK) return status;
-  const int32_t known =
-      e->options != NULL && !isnan(hk_estimate_met(e)) && e->error <= LEAST_GAIN * e->before;
+  const int32_t known = e->options != NULL && !is_out_of_reach(e) && !isnan(hk_estimate_met(e)) &&
+                        e->error <= LEAST_GAIN * e->before;
   if (!known || e->refined == MOST_REFINED)
     return hk_fail(HOOKE_UNSUITED, NULL, "nothing finer is known to help: %s", e->reason);
   const int32_t again = e->pick.system != NULL && !is_whole_reference(e) && e->error > e->want;

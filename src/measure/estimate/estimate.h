@@ -72,8 +72,6 @@ int32_t hk_estimate_rerun(struct hk_estimate *estimate, const struct hk_rerun *r
 /* Estimates the error of the whole run from other runs (estimate_runs.c), or says in `reason` why it is not
  * known. HOOKE_STOPPED, HOOKE_NO_MEMORY. */
 int32_t hk_estimate_by_runs(struct hk_estimate *estimate);
-/* What positions of this size lose by rounding over the steps of the run: no error is smaller [m]. */
-double hk_estimate_rounding(const struct hk_estimate *estimate);
 /* What its last slice added to the error, from a finer run of that. */
 int32_t hk_estimate_last_slice(struct hk_estimate *estimate);
 /* Holds the run against another method (estimate_judge.c): a larger distance becomes the error, and a

@@ -9,7 +9,6 @@
 #include "measure/trial/step_unit.h"
 #include "model/state.h"
 
-#include <float.h>
 #include <math.h>
 #include <stddef.h>
 #include <string.h>
@@ -20,7 +19,6 @@ static const double LEAST_POWER = 0.5, MOST_POWER = 1.5, LOOSEST = 0.1, TIGHTEST
 static const double ORDERS_APART = 0.4, LEAST_ORDER = 0.05, ORDERS_ABOVE = 1.0;
 /* safety factors: where the order is the expected one, and where it is another or not seen */
 static const double SURE = 1.25, SURE_TOLERANCE = 1.5, UNSURE = 3.0;
-static const double LEAST_MOVE = 1e3;               /* of a step, in half units in the last place */
 static const double MOST_WORK = 4.0, MOMENT = 0.01; /* of other runs in all, in times of the run, or [s] */
 
 double hk_estimate_value(const hooke_options *options) {
@@ -139,43 +137,18 @@ static double order_seen(double a, double b, double ratio) {
   return 0.5 * (low + high);
 }
 
-/* Half a unit in the last place of the largest coordinate [m]: what positions can hold. */
-static double resolution(const struct hk_estimate *e) {
-  double largest = 0.0;
-  for (int64_t f = 0; f < e->kept.recorded; f++)
-    for (int64_t k = 0; k < e->kept.free_count; k++)
-      for (int64_t i = 3 * e->kept.free_particle[k], c = 0; c < 3; c++)
-        largest = fmax(largest, fabs(e->kept.position[f * e->kept.size + i + c]));
-  return 0.5 * DBL_EPSILON * largest;
-}
-
-/* Largest distance of a particle at two kept frames that follow each other [m]. */
-static double longest_move(const struct hk_estimate *e) {
-  double longest = 0.0, most;
-  for (int64_t f = 1; f < e->kept.recorded; f++) {
-    (void)hk_frames_distance(&e->kept, f, e->kept.position + (f - 1) * e->kept.size, &most);
-    longest = fmax(longest, most);
-  }
-  return longest;
-}
-
-/* Error of positions that are rounded at each step [m]: by chance, but where a step moves them by little more
- * than they can hold, always in one direction. */
-double hk_estimate_rounding(const struct hk_estimate *e) {
-  const double hold = resolution(e), steps = fmax(1.0, e->steps);
-  const double move = longest_move(e) * (double)(e->kept.recorded - 1) / steps;
-  return hold * (move < LEAST_MOVE * hold ? steps : sqrt(steps));
-}
-
-/* Distance of two runs that rounding alone may make [m]: that of velocities turns the phase of oscillations,
- * in proportion to the power 3/2 of the number of steps. Orders are not seen below. */
+/* Distance of two runs that rounding alone may make [m]: that of velocities turns the phase of oscillations, in
+ * proportion to the power 3/2 of the number of steps. Orders are not seen below. */
 static double noise(const struct hk_estimate *e) {
-  return resolution(e) * (128.0 + 0.1 * e->steps * sqrt(e->steps));
+  double hold = 0.0;
+  for (int64_t f = 0; f < e->kept.recorded; f++)
+    hold = fmax(hold, hk_frames_resolution(&e->kept, e->kept.position + f * e->kept.size));
+  return hold * (128.0 + 0.1 * e->steps * sqrt(e->steps));
 }
 
 static void know(struct hk_estimate *e, const struct hk_distance *from, double factor, const char *by) {
-  e->error = fmax(factor * from->most, hk_estimate_rounding(e));
-  e->rms = fmin(e->error, fmax(factor * from->rms, hk_estimate_rounding(e)));
+  e->error = factor * from->most;
+  e->rms = factor * from->rms;
   e->known_until = e->begin + e->duration;
   e->by = by;
 }

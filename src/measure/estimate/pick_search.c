@@ -308,5 +308,9 @@ int32_t hk_pick_search(struct hk_pick *pick) {
   /* the reference itself meets any want that it can judge */
   struct search last;
   status = begin(pick, pick->reference.method, &last);
-  return status == HOOKE_OK ? try_value(&last, pick->reference.rtol) : status;
+  if (status == HOOKE_OK) status = try_value(&last, pick->reference.rtol);
+  if (pick->best.method == NULL) /* nothing after the start can be judged */
+    pick->best =
+        (struct hk_pick_row){pick->reference.method, pick->reference.rtol, NAN, NAN, last.last.seconds};
+  return status;
 }

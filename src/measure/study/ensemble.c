@@ -155,7 +155,7 @@ static int32_t source_options(const struct hk_study *study, const struct hk_ense
                               hooke_options **options) {
   const struct hk_reference *r = &study->reference;
   if (source->method >= 0) return hk_study_row_options(study, source->method, source->value, options);
-  return hk_reference_options(study->run, r->method, source->value, r->extent, options);
+  return hk_reference_options(study->run, r->method, source->value, r, options);
 }
 
 /* A member that does not finish, and a source that has one, count as failed. */

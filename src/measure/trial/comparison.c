@@ -129,7 +129,7 @@ static int32_t show_reference(struct hk_comparison *c) {
   const struct hk_listener listener = listener_of(c);
   struct hk_reference *r = &c->reference;
   hooke_options *options = NULL;
-  int32_t status = hk_reference_options(c->run, r->method, r->rtol, r->extent, &options);
+  int32_t status = hk_reference_options(c->run, r->method, r->rtol, r, &options);
   if (status == HOOKE_OK) status = hooke_options_set_number(options, "atol", r->atol);
   if (status == HOOKE_OK) status = hk_frames_run(&r->frames, options, &listener, NULL, NULL);
   hooke_options_destroy(options);

@@ -3,7 +3,6 @@
 #include "core/memory.h"
 #include "core/status.h"
 
-#include <float.h>
 #include <math.h>
 #include <stddef.h>
 #include <string.h>
@@ -65,11 +64,10 @@ double hk_frames_distance(const struct hk_frames *frames, int64_t f, const doubl
   return frames->free_count > 0 ? sqrt(sum / (double)frames->free_count) : 0.0;
 }
 
-double hk_frames_rounding(const struct hk_frames *frames, const double *q) {
+double hk_frames_resolution(const struct hk_frames *frames, const double *q) {
   double most = 0.0;
-  for (int64_t k = 0; k < frames->free_count; k++) {
-    const double *at = q + 3 * frames->free_particle[k];
-    most = fmax(most, (at[0] * at[0] + at[1] * at[1]) + at[2] * at[2]);
-  }
-  return 0.5 * DBL_EPSILON * sqrt(most);
+  for (int64_t k = 0; k < frames->free_count; k++)
+    for (const double *x = q + 3 * frames->free_particle[k], *end = x + 3; x < end; x++)
+      most = fmax(most, fabs(*x));
+  return 0.5 * (nextafter(most, INFINITY) - most);
 }

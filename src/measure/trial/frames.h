@@ -29,8 +29,8 @@ void hk_frames_record(struct hk_frames *frames, const hooke_state *state);
  * too. */
 double hk_frames_distance(const struct hk_frames *frames, int64_t f, const double *q, double *largest);
 
-/* A bound on the distance by which rounding displaces a free particle in one step to q [m]: of each coordinate
- * it takes half a unit in the last place. */
-double hk_frames_rounding(const struct hk_frames *frames, const double *q);
+/* What the positions q can hold [m]: half a unit in the last place of the largest coordinate of a free
+ * particle. */
+double hk_frames_resolution(const struct hk_frames *frames, const double *q);
 
 #endif

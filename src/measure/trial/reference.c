@@ -50,10 +50,13 @@ void hk_reference_release(struct hk_reference *reference) {
 }
 
 /* Before any run: the start alone, and 1 m for a scene without size. */
-static int32_t find_extent(const hooke_state *state, double *extent) {
-  *extent = hk_reference_diagonal(hooke_state_size(state) / 3, hooke_state_position(state));
-  if (!(*extent > 0.0)) *extent = 1.0;
-  return HOOKE_OK;
+static void find_extent(struct hk_reference *r, const hooke_state *state) {
+  const double *q = hooke_state_position(state);
+  r->extent = hk_reference_diagonal(hooke_state_size(state) / 3, q);
+  if (!(r->extent > 0.0)) r->extent = 1.0;
+  r->farthest = r->extent;
+  for (int64_t k = 0; k < hooke_state_size(state); k++)
+    r->farthest = fmax(r->farthest, fabs(q[k]));
 }
 
 /* ---- agreement ---- */
@@ -237,7 +240,7 @@ int32_t hk_reference_create(const hooke_system *system, const struct hk_referenc
   }
   int32_t status = hooke_state_create(system, &state);
   if (status == HOOKE_OK) status = hk_reference_method(system, hooke_state_position(state), &r->method);
-  if (status == HOOKE_OK) status = find_extent(state, &r->extent);
+  if (status == HOOKE_OK) find_extent(r, state);
   hooke_state_destroy(state);
   if (status == HOOKE_OK) status = hk_frames_create(system, request->frame_count, &r->frames);
   if (status == HOOKE_OK)

@@ -11,6 +11,7 @@ struct hk_reference {
   double rtol, atol;               /* its tolerances, */
   double evaluations, run_seconds; /* force evaluations and wall time */
   double extent;                   /* diagonal of the box that holds all frames [m] */
+  double farthest;                 /* largest coordinate at the start, at least the extent then [m] */
   double digits; /* distance up to which frames are trusted: the wanted one, or see `coarse` [m] */
   /* twice the largest distance of a particle between the two over trusted frames, and of what rounding may do
    * to one [m]; at most `digits`; NaN if nothing after the start is trusted */
@@ -56,9 +57,10 @@ void hk_reference_release(struct hk_reference *reference);
  * NaN for none [s]. */
 double hk_reference_time(const struct hk_reference *reference, int64_t count, double duration);
 
-/* Options of a run by `method` at a tolerance; the absolute one scales with the size of the scene. */
-int32_t hk_reference_options(const hooke_options *run, const char *method, double rtol, double extent,
-                             hooke_options **out);
+/* Options of a run by `method` at a tolerance, which counts in the size of the scene, wherever that lies: the
+ * absolute one scales with it, and the relative one is smaller far from the origin. */
+int32_t hk_reference_options(const hooke_options *run, const char *method, double rtol,
+                             const struct hk_reference *reference, hooke_options **out);
 
 /* The method that makes references cheapest on this system at positions q: Adams, or BDF if damping is faster
  * than the fastest oscillation, so that fast motion dies out and an implicit method can take long steps. */

@@ -8,19 +8,21 @@
 #include <string.h>
 
 static const double ABSOLUTE = 0.01;          /* of rtol times the extent: the absolute tolerance */
+static const double LEAST_RELATIVE = 1e-15;   /* that CVODE takes */
 static const double MOST_COST = 5.0;          /* of the explicit check against the first method */
 static const double MOST_EVALUATIONS = 10.0;  /* of rk8pd against the first method, in equal time */
 static const double TIMEABLE = 2e-3;          /* [s] */
 static const double TRIAL_SHARE = 0.05;       /* of the duration, to predict costs */
 static const double FIRST_TRIAL_SHARE = 0.05; /* of the budget, for the trial of the first method */
 
-int32_t hk_reference_options(const hooke_options *run, const char *method, double rtol, double extent,
-                             hooke_options **out) {
+int32_t hk_reference_options(const hooke_options *run, const char *method, double rtol,
+                             const struct hk_reference *r, hooke_options **out) {
+  const double relative = fmax(rtol * fmin(1.0, r->extent / r->farthest), LEAST_RELATIVE);
   hooke_options *options = NULL;
   int32_t status = hooke_options_copy(run, &options);
   if (status == HOOKE_OK) status = hooke_options_set_text(options, "method", method);
-  if (status == HOOKE_OK) status = hooke_options_set_number(options, "rtol", rtol);
-  if (status == HOOKE_OK) status = hooke_options_set_number(options, "atol", ABSOLUTE * rtol * extent);
+  if (status == HOOKE_OK) status = hooke_options_set_number(options, "rtol", fmin(rtol, relative));
+  if (status == HOOKE_OK) status = hooke_options_set_number(options, "atol", ABSOLUTE * rtol * r->extent);
   if (status == HOOKE_OK) status = hooke_options_unset(options, "atol_velocity");
   if (status == HOOKE_OK) status = hooke_options_unset(options, "max_order");
   if (status == HOOKE_OK) status = hooke_options_unset(options, "max_steps");
@@ -74,7 +76,7 @@ int32_t hk_reference_make_frames(struct hk_reference_watch *watch, struct hk_ref
                                  struct hk_reference_cost *cost) {
   const struct hk_listener listener = hk_reference_listen(watch, deadline);
   hooke_options *options = NULL;
-  int32_t status = hk_reference_options(watch->request->run, r->method, r->rtol, r->extent, &options);
+  int32_t status = hk_reference_options(watch->request->run, r->method, r->rtol, r, &options);
   if (status == HOOKE_OK)
     status = hk_frames_run(&r->frames, options, &listener, &cost->seconds, &cost->evaluations);
   hooke_options_destroy(options);
@@ -93,7 +95,7 @@ int32_t hk_reference_judge(struct hk_reference_watch *watch, const struct hk_ref
                            double rtol, const struct hk_listener *listener, struct hk_trial *trial) {
   const struct hk_frames *frames = &r->frames;
   hooke_options *options = NULL;
-  int32_t status = hk_reference_options(watch->request->run, method, rtol, r->extent, &options);
+  int32_t status = hk_reference_options(watch->request->run, method, rtol, r, &options);
   if (status == HOOKE_OK && frames->recorded < frames->count) {
     const double reached = frames->time[frames->recorded - 1] - frames->time[0];
     status = hooke_options_set_number(options, "duration", reached);
@@ -116,7 +118,7 @@ static int32_t try_beginning(struct hk_reference_watch *watch, const struct hk_r
   hooke_options *options = NULL;
   int32_t status = hk_frames_create(r->frames.system, 2, &frames);
   if (status != HOOKE_OK) return status;
-  status = hk_reference_options(watch->request->run, method, rtol, r->extent, &options);
+  status = hk_reference_options(watch->request->run, method, rtol, r, &options);
   if (status == HOOKE_OK) status = hooke_options_set_number(options, "duration", duration);
   if (status == HOOKE_OK) status = hooke_options_set_number(options, "every", duration);
   if (status == HOOKE_OK && !isinf(most_steps))

@@ -64,12 +64,16 @@ struct hk_trial_line hk_trial_line(const struct hk_trial *trial, const char *met
 
 /* ---- running ---- */
 
+static const double LEAST_MOVE = 1e3; /* of a step, in what positions can hold */
+
 struct run {
   struct hk_frames *record;          /* or */
   const struct hk_frames *reference; /* with */
   struct hk_trial *trial;
   int64_t frames, next;
-  double begin, duration, rounding; /* rounding: what it may have displaced a particle by so far [m] */
+  double begin, duration;
+  int64_t last_step;           /* of the last frame */
+  double hold, move, rounding; /* see round_off() */
   const struct hk_listener *listener;
   const hooke_integrator *integrator;
 };
@@ -104,14 +108,24 @@ static void judge(const struct run *run, int64_t f, const hooke_state *state) {
   trial->energy_drift = fmax(trial->energy_drift, fabs(trial->drift_at[f]));
 }
 
-/* Every step may round every position, always in the same direction where it moves on by less than that. */
+/* What rounding may have displaced a particle by so far [m]: by chance in every step, but always in the same
+ * direction where steps move particles by little more than positions can hold. */
+static void round_off(struct run *run, int64_t f, int64_t step, const double *q) {
+  const struct hk_frames *frames = run->record ? run->record : run->reference;
+  const double steps = (double)step;
+  double move = 0.0;
+  if (f > 0 && f <= frames->count) (void)hk_frames_distance(frames, f - 1, q, &move);
+  if (step > run->last_step) run->move = fmax(run->move, move / (steps - (double)run->last_step));
+  run->last_step = step;
+  run->hold = fmax(run->hold, hk_frames_resolution(frames, q));
+  run->rounding = fmax(run->rounding, run->hold * (run->move < LEAST_MOVE * run->hold ? steps : sqrt(steps)));
+  if (run->record && f < frames->count) frames->rounding[f] = run->rounding;
+}
+
 static int32_t see_frame(int64_t step, const hooke_state *state, void *ctx) {
   struct run *run = ctx;
   const int64_t f = run->next++;
-  const struct hk_frames *frames = run->record ? run->record : run->reference;
-  const double *q = hooke_state_position(state);
-  run->rounding = fmax(run->rounding, (double)step * hk_frames_rounding(frames, q));
-  if (run->record && f < frames->count) frames->rounding[f] = run->rounding;
+  round_off(run, f, step, hooke_state_position(state));
   if (run->record)
     hk_frames_record(run->record, state);
   else if (f < run->frames)

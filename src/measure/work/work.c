@@ -5,42 +5,79 @@
 #include <math.h>
 #include <string.h>
 
-/* Of every force: its members, or all particles where it has none. */
-static void add_forces(const hooke_system *system, const struct hk_counts *count, double *amount) {
+/* Particles that a cache of the second level holds, some 100 bytes each. */
+static const double NEAR = 30000.0;
+/* Share of the derivative of a spring that is of its damping. */
+static const double OF_DAMPING = 0.5;
+/* Of all dampers, in a step of shardlow. */
+static const double SWEEPS = 2.0;
+
+static double damped_springs(const hooke_system *system) {
+  int64_t sum = 0;
+  for (int64_t r = 0; r < system->springs.run_count; r++)
+    sum += system->springs.run[r].shape & HOOKE_RUN_DAMPED ? system->springs.run[r].count : 0;
+  return (double)sum;
+}
+
+/* Of every force: its members, or all particles where it has none. The matrix of verlet has the damping of
+ * springs alone. */
+static void add_forces(const hooke_system *system, const struct hk_method *method,
+                       const struct hk_counts *count, double *amount) {
   const double times[HOOKE_WORKS_OF_FORCE] = {(double)count->force_evaluations,
                                               (double)count->derivative_products, (double)count->matrices};
   for (int32_t k = 0; k < system->force_row_count; k++) {
     const struct hk_force_row *row = system->force_row[k];
-    const double members = (double)(row->count ? row->count(system) : system->particle_count);
-    for (int what = 0; what < HOOKE_WORKS_OF_FORCE; what++)
-      amount[HOOKE_WORKS_OF_FORCE * hk_force_number(row) + what] = times[what] * members;
+    if (row->add == NULL) continue; /* gravity is in the moves */
+    const double members = (double)(row->count ? row->count(system) : system->particle_count),
+                 damped = row == &hk_force_springs ? damped_springs(system) : members;
+    double *of = amount + HOOKE_WORKS_OF_FORCE * hk_force_number(row);
+    of[0] = times[0] * members;
+    for (int what = 1; what < HOOKE_WORKS_OF_FORCE; what++)
+      of[what] = times[what] * (method == &hk_verlet ? OF_DAMPING * damped : members);
+    if (method != &hk_shardlow || !row->damped || !row->damped(system)) continue;
+    if (row == &hk_force_springs)
+      amount[HOOKE_WORK_DAMPER] = (double)count->steps * damped;
+    else
+      of[0] += SWEEPS * (double)count->steps * members; /* a damper finds its element anew */
   }
-  const double springs = times[0] * (double)system->springs.count;
-  amount[HOOKE_WORK_UNORDERED] = system->strided.count == 0 ? springs : 0.0;
-  amount[HOOKE_WORK_SCATTERED] = system->tiled.order ? springs : 0.0;
-  amount[HOOKE_WORK_BODY] = times[0] * (double)system->bodies.moving;
+  if (system->tiled.order)
+    amount[HOOKE_WORK_SCATTERED] = (times[0] + times[1] + times[2]) * (double)system->springs.count;
+  if (method->adaptive)
+    amount[HOOKE_WORK_ROWS] = (times[1] + times[2]) * (double)hk_elements_of(system, hk_force_is_kept);
+}
+
+static void add_bodies(const struct hk_bodies *bodies, const struct hk_counts *count, double *amount) {
+  int64_t particles = 0;
+  for (int64_t k = 0; k < bodies->moving; k++)
+    particles += bodies->mover[k]->count;
+  amount[HOOKE_WORK_BODY] = (double)count->force_evaluations * (double)bodies->moving;
+  amount[HOOKE_WORK_BODY_PARTICLE] =
+      (double)(count->force_evaluations + count->derivative_products) * (double)particles;
 }
 
 static void find_amounts(const hooke_system *system, const struct hk_method *method, double particles,
                          const struct hk_counts *count, double *amount) {
   const double steps = (double)count->steps, evaluations = (double)count->force_evaluations,
-               products = (double)count->derivative_products, matrices = (double)count->matrices,
-               iterations = (double)count->linear_iterations, adaptive = method->adaptive;
+               products = (double)count->derivative_products, matrices = (double)count->matrices;
+  /* with error control: particles with positions and velocities, or halves of them */
+  const double whole = system && system->friction == 0.0 ? 1.0 : 0.5,
+               adapted = method->adaptive ? whole * particles : 0.0;
   memset(amount, 0, HOOKE_WORKS * sizeof *amount);
-  if (system) add_forces(system, count, amount);
+  if (system) add_forces(system, method, count, amount);
+  if (system) add_bodies(&system->bodies, count, amount);
   amount[HOOKE_WORK_STEP] = steps;
-  amount[HOOKE_WORK_ADAPTIVE_STEP] = adaptive * steps;
-  amount[HOOKE_WORK_ADAPTIVE_PARTICLE] = adaptive * steps * particles;
+  amount[HOOKE_WORK_ADAPTIVE_STEP] = method->adaptive ? steps : 0.0;
+  amount[HOOKE_WORK_ADAPTIVE_PARTICLE] = steps * adapted;
   amount[HOOKE_WORK_EVALUATION] = evaluations;
   amount[HOOKE_WORK_PARTICLE] = evaluations * particles;
-  amount[HOOKE_WORK_ADAPTIVE_EVALUATED] = adaptive * evaluations * particles;
-  if (method == &hk_shardlow) amount[HOOKE_WORK_DAMPER] = steps * (double)system->springs.count;
+  amount[HOOKE_WORK_FAR] = evaluations * fmax(0.0, particles - NEAR);
+  amount[HOOKE_WORK_ADAPTIVE_EVALUATED] = evaluations * adapted;
   amount[HOOKE_WORK_PRODUCT] = products;
   amount[HOOKE_WORK_PRODUCT_PARTICLE] = products * particles;
   amount[HOOKE_WORK_MATRIX] = matrices;
   amount[HOOKE_WORK_MATRIX_PARTICLE] = matrices * particles;
-  amount[HOOKE_WORK_ITERATION] = iterations * particles;
-  amount[HOOKE_WORK_SPACE] = adaptive * iterations * particles;
+  amount[HOOKE_WORK_VECTOR] = (double)count->space;
+  amount[HOOKE_WORK_VECTOR_PARTICLE] = (double)count->space * adapted;
   amount[HOOKE_WORK_FACTOR_PRODUCT] = (double)count->factor_products;
   amount[HOOKE_WORK_FACTOR_NUMBER] = (double)count->factor_numbers;
 }

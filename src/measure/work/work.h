@@ -16,19 +16,21 @@ enum {
   HOOKE_WORK_ADAPTIVE_PARTICLE,                          /* particles of these steps */
   HOOKE_WORK_EVALUATION,                                 /* evaluations of all forces */
   HOOKE_WORK_PARTICLE,                                   /* particles of these */
+  HOOKE_WORK_FAR,                                        /* those of them that no cache holds */
   HOOKE_WORK_ADAPTIVE_EVALUATED,                         /* with error control */
-  HOOKE_WORK_UNORDERED,                                  /* springs outside of strided batches */
-  HOOKE_WORK_SCATTERED,                                  /* springs whose particles are renumbered */
-  HOOKE_WORK_BODY,                                       /* bodies evaluated */
-  HOOKE_WORK_DAMPER,                                     /* springs of steps of shardlow */
-  HOOKE_WORK_PRODUCT,                                    /* products with the derivative */
-  HOOKE_WORK_PRODUCT_PARTICLE,                           /* particles of these */
-  HOOKE_WORK_MATRIX,                                     /* matrices */
-  HOOKE_WORK_MATRIX_PARTICLE,                            /* particles of these */
-  HOOKE_WORK_ITERATION,                                  /* particles of linear iterations */
-  HOOKE_WORK_SPACE,                                      /* with error control */
-  HOOKE_WORK_FACTOR_PRODUCT,                             /* multiplications to factorise */
-  HOOKE_WORK_FACTOR_NUMBER,                              /* numbers of a factor in a solution */
+  HOOKE_WORK_SCATTERED,        /* springs in no order, multiplied and in matrices as well */
+  HOOKE_WORK_BODY,             /* bodies evaluated */
+  HOOKE_WORK_BODY_PARTICLE,    /* their particles, multiplied as well */
+  HOOKE_WORK_DAMPER,           /* damped springs of steps of shardlow */
+  HOOKE_WORK_PRODUCT,          /* products with the derivative */
+  HOOKE_WORK_PRODUCT_PARTICLE, /* particles of these */
+  HOOKE_WORK_ROWS,             /* elements of products in rows */
+  HOOKE_WORK_MATRIX,           /* matrices */
+  HOOKE_WORK_MATRIX_PARTICLE,  /* particles of these */
+  HOOKE_WORK_VECTOR,           /* vectors that GMRES has made others orthogonal to */
+  HOOKE_WORK_VECTOR_PARTICLE,  /* particles of these */
+  HOOKE_WORK_FACTOR_PRODUCT,   /* multiplications to factorise */
+  HOOKE_WORK_FACTOR_NUMBER,    /* numbers of a factor in a solution */
   HOOKE_WORKS
 };
 
