@@ -58,7 +58,7 @@ def main(hooke: str) -> None:
         RUNS.write_text("[\n" + ",\n".join(json.dumps(run) for run in runs) + "\n]\n")
         cases = json.loads((CASES / "right.json").read_text())
         for case in cases:
-            for run in case["runs"]:
+            for run in case.get("runs", []):
                 run["error"] = case_run(hooke, case, run, folder)
         (CASES / "right.json").write_text("[\n" + ",\n".join(" " + json.dumps(case) for case in cases) + "\n]\n")
 
