@@ -14,8 +14,9 @@ from wants import ENDS, at_end
 pytestmark = pytest.mark.everything
 
 CASES = Path(__file__).resolve().parents[1] / "data/cases"
+RIGHT = json.loads((CASES / "right.json").read_text())
 RUNS = [pytest.param(case, run, id=f"{case['scene']} {run['options']}".strip().replace(" ", "_"))
-        for case in json.loads((CASES / "right.json").read_text()) for run in case["runs"]]  # fmt: skip
+        for case in RIGHT for run in case.get("runs", [])]  # fmt: skip
 EXAMPLES = sorted(name for name, end in ENDS.items() if end.scene.parent.name == "scenes" and end.scene.parents[1].name == "examples")
 
 
@@ -37,7 +38,8 @@ def test_case(finished, case, run):
     value = finished(case["scene"], run["options"])
     found = [value["final"]["position"][int(particle)] for particle in case["right"]]
     end = farthest(found, case["right"].values())
-    assert end <= 1.01 * run["error"] + case["known"]
+    same = 2.0 if value["method"].startswith("cvode") else 1.01  # the steps of CVODE depend on its version
+    assert end <= same * run["error"] + case["known"]
     assert covers(value["error"], end, case["known"]), f"{value['error']}, but is {end:.3g} m off"
     assert not complaints(value["error"], run["error"], run.get("above", ABOVE))
 
@@ -46,6 +48,15 @@ def test_most_cases_are_known(finished):
     """An error that is not known claims nothing, so most have to be known."""
     printed = [finished(case["scene"], run["options"])["error"]["estimate"] for case, run in (one.values for one in RUNS)]
     assert sum(figure is not None for figure in printed) >= 0.85 * len(printed)
+
+
+@pytest.mark.parametrize("case", [case for case in RIGHT if "frequencies" in case], ids=lambda case: case["scene"])
+def test_frequencies(hooke, case):
+    """Of a scene where it begins [rad/s]; of a cloth the largest one."""
+    value = hooke("limit", CASES / f"{case['scene']}.json", "--predict", "--json").json
+    right, found = case["frequencies"], sorted(mode["frequency"] for mode in value["modes"])
+    assert value["frequency_max"] == pytest.approx(right[-1], rel=case["known"])
+    assert len(right) == 1 or found == pytest.approx(right, rel=case["known"])
 
 
 @LONG

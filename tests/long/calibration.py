@@ -10,7 +10,8 @@ from steps import ROOT, Part, Step
 BUILD = "build/long/release"
 PICTURE = "docs/images/calibration.svg"
 RUNS = 1000
-LEAST_COVERED, MOST_LOW, MOST_UNKNOWN = 0.95, 0.01, 0.15  # that the intervals of the shares have to allow
+LEAST_COVERED, MOST_LOW, MOST_UNKNOWN = 0.95, 0.01, 0.1  # that the intervals of the shares have to allow
+MOST_EXCESS = 3  # of a figure over an error, in the median
 
 
 def calibrate(text: str) -> dict[str, Any]:
@@ -23,6 +24,8 @@ def calibrate(text: str) -> dict[str, Any]:
         raise ValueError(f"{percent(all_runs['low'])} of the errors are above three times the printed ones")
     if all_runs["unknown"][1] > MOST_UNKNOWN:
         raise ValueError(f"of {percent(all_runs['unknown'])} of the runs no error is known")
+    if not all_runs["excess"][0] <= MOST_EXCESS:
+        raise ValueError(f"half of the printed errors are above {all_runs['excess'][0]:.3g} times the true ones")
     return found
 
 

@@ -12,7 +12,7 @@ IMPLICIT = ["backward-euler", "tr-bdf2", "implicit-midpoint"]
 TOLERANT = ["cvode-bdf", "cvode-adams"]
 FIRST_ORDER = ["forward-euler", "heun", "rk4", *IMPLICIT, *TOLERANT]  # of an overdamped scene
 MOST_STEPS = 20000
-MANY_TURNS, FEW_TURNS = 1500, 150  # of the fastest motion [radians]: of what is chaotic later, few
+MOST_TURNS, MANY_TURNS, FEW_TURNS = 5000, 1500, 150  # of the fastest motion [radians]: of what is chaotic later, few
 RELAXED = 15  # the fastest rate times the duration of an overdamped scene, which does nothing later
 
 
@@ -108,6 +108,14 @@ def stiff_net(random: Random) -> Scene:
     one = net(random, "length", most=7, damping=0.05, spread=40)
     one.scene["drag"] = among(random, 0.5, 5)
     return moving(random, one, 0.5)
+
+
+def heavy_net(random: Random) -> Scene:
+    """Dampers as stiff as springs, or stiffer."""
+    one = net(random, random.choice(["strain", "length"]), most=8, damping=random.choice([1.0, 3.0]))
+    one.scene["gravity"] = [0, -9.81, 0]
+    one.fastest *= 3
+    return moving(random, one, random.choice([0.0, 1.0]))
 
 
 def anchored_net(random: Random) -> Scene:
@@ -231,6 +239,21 @@ def lattice(random: Random) -> Scene:
     return Scene("lattice", {"hooke": 1, "gravity": [0, -9.81, 0], "drag": random.choice([0, 0.5]), "parts": [part]}, fastest)
 
 
+def strand(random: Random) -> Scene:
+    """A curl with altitude springs, near its shape."""
+    segments, mass, stiffness = random.randint(8, 20), among(random, 0.01, 0.1), among(random, 5, 50)
+    families = {
+        name: {"stiffness": round(stiffness * share, 3)}
+        for name, share in (("stretch", 1), ("bend", 0.3), ("twist", 0.2), ("altitude", 0.1))
+    }
+    part = {"kind": "strand", "name": "curl", "from": [0, 0, 0], "to": [0, -0.5, 0], "segments": segments, "mass": mass, "curl": 0.05,
+            "turns": round(segments / 8, 2), "pinned": [0, 1, 2], **families}  # fmt: skip
+    fastest = math.sqrt(12 * stiffness * segments / 0.5 / (mass / segments))
+    return Scene(
+        "strand", {"hooke": 1, "gravity": [0, -1, 0], "drag": random.choice([0, 1e-3]), "parts": [part]}, fastest, FEW_TURNS
+    )
+
+
 # ---- small ones, for many periods ----
 
 
@@ -244,7 +267,35 @@ def oscillator(random: Random) -> Scene:
     scene = {"hooke": 1, "particles": particles, "springs": [spring]}
     if random.random() < 0.5:
         scene["gravity"] = [0, -0.5, 0]
-    return Scene("oscillator", scene, fastest)
+    return Scene("oscillator", scene, fastest, MOST_TURNS)
+
+
+def pendulum(random: Random) -> Scene:
+    """On a stiff spring, which hardly swings itself."""
+    mass, stiffness = among(random, 0.2, 5), among(random, 500, 50000)
+    angle = random.uniform(0.2, 1.5)
+    particles = {"position": [[0, 0, 0], [round(math.sin(angle), 6), round(-math.cos(angle), 6), 0]], "mass": mass, "pinned": [0]}
+    spring = {"between": [[0, 1]], "law": "length", "stiffness": stiffness, "rest_length": 1}
+    return Scene(
+        "pendulum",
+        {"hooke": 1, "gravity": [0, -9.81, 0], "particles": particles, "springs": [spring]},
+        math.sqrt(stiffness / mass),
+    )
+
+
+def bouncer(random: Random) -> Scene:
+    """A mass that falls on a stiff floor, a spring that only pushes: it only pulls, from above."""
+    mass, stiffness = among(random, 0.2, 5), among(random, 200, 50000)
+    particles = {"position": [[0, 10, 0], [0, round(random.uniform(0.1, 1), 3), 0]], "mass": mass, "pinned": [0]}
+    spring = {"between": [[0, 1]], "law": "length", "stiffness": stiffness, "rest_length": 10, "compression": False,
+              "damping": random.choice([0, 0.05]) * round(math.sqrt(stiffness * mass), 3)}  # fmt: skip
+    fastest = math.sqrt(stiffness / mass)
+    return Scene(
+        "bouncer",
+        {"hooke": 1, "gravity": [0, -9.81, 0], "particles": particles, "springs": [spring]},
+        fastest,
+        max(FEW_TURNS, 4 * fastest),
+    )
 
 
 def chain(random: Random) -> Scene:
@@ -258,8 +309,8 @@ def chain(random: Random) -> Scene:
     return Scene("chain", scene, rate_of(masses, pairs, stiffness))
 
 
-KINDS = [strain_net, length_net, slack_net, dragged_net, stiff_net, anchored_net, table_net, overdamped_net, body_net, rope, pulling_rope,
-         slack_rope, taut_rope, bending_rope, driven_rope, cloth, lattice, oscillator, chain]  # fmt: skip
+KINDS = [strain_net, length_net, slack_net, dragged_net, stiff_net, heavy_net, anchored_net, table_net, overdamped_net, body_net, rope, pulling_rope,
+         slack_rope, taut_rope, bending_rope, driven_rope, cloth, lattice, strand, oscillator, pendulum, bouncer, chain]  # fmt: skip
 
 
 def scene_of(seed: int) -> Scene:
@@ -269,7 +320,7 @@ def scene_of(seed: int) -> Scene:
     one = make(random)
     one.kind = make.__name__.replace("_", " ")
     turns = among(random, min(10, one.turns / 10), one.turns)
-    frames = random.choice([5, 10, 20, 40])
+    frames = random.choice([5, 10, 20, 40, 250])
     every = float(f"{turns / one.fastest / frames:.3g}")
     one.scene["run"] = {"duration": frames * every, "every": every}
     return one
@@ -303,7 +354,7 @@ def options_of(seed: int, one: Scene) -> list[str]:
         return []
     method = random.choice(methods_of(one))
     if method in TOLERANT:
-        rtol = among(random, 1e-9, 1e-2)
+        rtol = among(random, 1e-9, 3e-2)
         atol = ["--atol", f"{rtol * among(random, 1e-3, 1):.3g}"] if random.random() < 0.5 else []
         return ["--method", method, "--rtol", repr(rtol), *atol]
     return ["--method", method, "--step", repr(step_of(random, one, method))]

@@ -19,7 +19,7 @@ from truth import EVALUATIONS, ROOT
 
 RUNS = ROOT / "tests/data/calibration.json"
 CASES = ROOT / "tests/data/cases"
-SEEDS = [5, 24, 32, 48, 77, 84, 90, 106, 146, 150, 169, 205]  # of calibrate.py: every method but one, and many kinds
+SEEDS = [5, 21, 79, 94, 107, 151, 153, 179, 211, 217, 406, 859]  # of calibrate.py: every method, each of another kind
 
 
 def random_run(hooke: str, seed: int, folder: Path) -> dict[str, Any]:
@@ -58,7 +58,7 @@ def main(hooke: str) -> None:
         RUNS.write_text("[\n" + ",\n".join(json.dumps(run) for run in runs) + "\n]\n")
         cases = json.loads((CASES / "right.json").read_text())
         for case in cases:
-            for run in case["runs"]:
+            for run in case.get("runs", []):
                 run["error"] = case_run(hooke, case, run, folder)
         (CASES / "right.json").write_text("[\n" + ",\n".join(" " + json.dumps(case) for case in cases) + "\n]\n")
 
