@@ -75,8 +75,8 @@ def positions(hooke, scene, path, *options):
 
 
 def distance(one, other):
-    """The largest over the frames of the root mean square distance."""
-    return np.sqrt(((one - other) ** 2).sum(axis=2).mean(axis=1)).max()
+    """The largest of a particle at any frame."""
+    return np.sqrt(((one - other) ** 2).sum(axis=2)).max()
 
 
 @LONG
@@ -91,11 +91,11 @@ def test_a_wanted_error_is_kept(hooke, scene, tmp_path, method):
             found = distance(file["particles/all/position/value"][:, free], fine[:, free])
         assert told.code == 0 and told.json["want"]["wanted"] == want, told.err
         told = told.json["error"]["estimate"]  # against a reference that is good for a tenth of the want
-        assert 1e-8 < found <= want and found - 0.1 * want <= told <= want
+        assert 1e-8 < found <= told <= want and told <= found + 0.1 * want
 
 
 def test_needs_takes_bodies(hooke, scene, tmp_path):
-    told = hooke("needs", scene, "--want", "1mm", "-o", tmp_path / "lean.json", "--json").json
+    told = hooke("needs", scene, "--want", "3mm", "-o", tmp_path / "lean.json", "--json").json
     rows = {row["without"]: row for row in told["rows"]}
     assert rows["ropes"]["needed"] and rows["gravity"]["needed"] and not rows["damping"]["needed"]
     assert "would lose particles" in rows["half the resolution of bar"]["note"]
@@ -103,8 +103,8 @@ def test_needs_takes_bodies(hooke, scene, tmp_path):
     assert told["lean"]["without"] == ["damping", "half the resolution of box"]
     full = positions(hooke, scene, tmp_path / "full.h5", "--method", "rk4", "--step", "1e-5")
     lean = positions(hooke, tmp_path / "lean.json", tmp_path / "lean.h5")
-    board = slice(0, 4)  # of which the error in the mean over all 20 free particles is the larger part
-    assert 1e-4 < distance(full[:, board], lean[:, board]) < 1e-3 * np.sqrt(20 / 4)
+    board = slice(0, 4)  # the first particles of the lean scene, too
+    assert 1e-4 < distance(full[:, board], lean[:, board]) < 3e-3
     scene.write_text(json.dumps({**BOARD, "parts": [{**BOARD["parts"][0], "rigid": False}, BOARD["parts"][1]]}))
     names = [row["without"] for row in hooke("needs", scene, "--want", "1mm", "--json").json["rows"]]
     assert [name for name in names if name.startswith("deformation")] == ["deformation of box"]

@@ -117,10 +117,10 @@ class Study(Paged, Closing):
     """A finished study: one row a method and step or tolerance, the coarsest first.
 
     Each column is an array with one entry a row: method, status ("finished", "diverged", "stopped", "failed"), step
-    [s], rtol, atol [m], error (largest root mean square over the free particles [m]), error_max (largest distance of one), error_final [m],
-    energy_drift [J], force_evaluations, steps, linear_iterations, wall_seconds (the least of `repeats` runs) and
-    wall_median [s]; near_floor (the error is within ten times the agreement of the reference), near_energy_floor
-    (likewise for energy_drift), timed_alone. NaN where a number does not apply. `rows` holds them all as one
+    [s], rtol, atol [m], error (largest root mean square over the free particles [m]), error_max (largest distance of one
+    [m]), error_final [m], energy_drift [J], force_evaluations, steps, linear_iterations, wall_seconds (the least of
+    `repeats` runs) and wall_median [s]; near_floor (the error is within ten times the agreement of the reference),
+    near_energy_floor (likewise for energy_drift), timed_alone. NaN where a number does not apply. `rows` holds them all as one
     structured array.
 
     `outcome` is "finished", or "stopped" if the progress function asked for it; `budget_spent` says that rows are
