@@ -16,8 +16,8 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { MOST_KEPT = 100, MOST_SEEN = 128, MOST_REFINED = 4 };
-static const int64_t KEPT_BYTES = 1 << 26;
+enum { KEPT = 100, MOST_KEPT = 1000, STEPS_APART = 4, MOST_SEEN = 128, MOST_REFINED = 4 };
+static const double KEPT_BYTES = 1 << 26, FEW_BYTES = 1 << 22;
 static const double PATIENCE = 2.0;                      /* [s] for limits */
 static const double SLICE = 0.04, SLICE_ADAPTIVE = 0.03; /* of the duration, for a tenth of the time */
 static const double AIM = 0.6, LEAST_GAIN = 0.7, LEAST_FACTOR = 1.0 / 16.0,
@@ -115,12 +115,13 @@ int32_t hooke_estimate_pick(hooke_measurement *m, const char *method, hooke_opti
 
 /* ---- watching the run ---- */
 
-/* Frames kept for the comparison with other runs: evenly spaced, and the end; as many as memory allows. */
-static void choose_kept(struct hk_estimate *e, int64_t *count) {
+/* Frames kept for the comparison with other runs: evenly spaced, and the end; as many as memory allows, and
+ * more of small scenes, where those fit longer steps. */
+static void choose_kept(struct hk_estimate *e, double steps, int64_t *count) {
   const double intervals = ceil(e->duration / e->every * (1.0 - 1e-9));
-  const int64_t bytes = 3 * hooke_system_particle_count(e->system) * (int64_t)sizeof(double) + 1;
-  const double most = fmax(1.0, fmin(MOST_KEPT, (double)(KEPT_BYTES / bytes)));
-  const double apart = ceil(intervals / most);
+  const double bytes = (double)(3 * hooke_system_particle_count(e->system) + 1) * sizeof(double);
+  const double many = fmin(fmin(MOST_KEPT, FEW_BYTES / bytes), steps / STEPS_APART);
+  const double apart = ceil(intervals / fmax(1.0, fmax(many, fmin(KEPT, KEPT_BYTES / bytes))));
   *count = 1 + (int64_t)ceil(intervals / apart);
   e->apart = fmin(apart * e->every, e->duration);
 }
@@ -154,7 +155,7 @@ int32_t hooke_estimate_begin(hooke_measurement *m, const hooke_integrator *it, c
   e->frames_apart = 1 + (frames - 1) / MOST_SEEN;
   e->frames_seen = 0;
   e->late_after = e->begin + e->duration * (1.0 - (it->method->adaptive ? SLICE_ADAPTIVE : SLICE));
-  choose_kept(e, &count);
+  choose_kept(e, it->method->adaptive ? INFINITY : (double)it->schedule.steps, &count);
   status = hk_frames_create(e->system, count, &e->kept);
   if (status == HOOKE_OK) status = hooke_state_create(e->system, &e->start);
   if (status == HOOKE_OK) status = hooke_state_copy(state, e->start);
