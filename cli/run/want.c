@@ -166,6 +166,8 @@ void cli_want_print(const struct cli_run *run) {
   print_verdict(run);
   printf("\n");
   print_last_piece(run);
+  if (!by && !run->arguments->quiet)
+    cli_report_words(run->arguments, "'hooke study' on the same may tell how wrong it is");
   cli_print_flush();
   warn(run);
 }

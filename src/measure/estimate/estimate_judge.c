@@ -17,6 +17,8 @@ static const int64_t MOST_PARTICLES = 10000; /* of beginnings: their judges may 
 static const double SAFE = 0.5;              /* of the bound: a stable step that resolves the motion */
 static const double TOLERANCE = 1e-9, TIGHTER = 0.1; /* of error-controlled judges */
 
+static const char OTHER[] = "error, another method";
+
 static const char *method_of(const struct hk_estimate *e) {
   return hooke_options_text(e->options, "method");
 }
@@ -60,7 +62,7 @@ static int32_t judge_whole(struct hk_estimate *e, int32_t *judged) {
   int32_t status = judge ? find_bound(e, judge, &limit) : HOOKE_OK;
   const double step = judge && status == HOOKE_OK ? judge_step(e, judge, limit) : NAN;
   if (isnan(step)) return status;
-  const struct hk_rerun rerun = {judge, step, e->duration, e->apart, NULL, NULL, NULL};
+  const struct hk_rerun rerun = {judge, step, e->duration, e->apart, OTHER, 0.7, 0.3, NULL, NULL, NULL};
   status = hk_estimate_compare(e, &rerun, e->kept.count, &from);
   *judged = !isnan(from.most);
   if (from.most > e->error) {
@@ -113,7 +115,8 @@ static int32_t judge_beginning(struct hk_estimate *e) {
   for (int k = 0; judge && status == HOOKE_OK && k <= HALVINGS; k++) {
     struct hk_distance from;
     const double duration = e->kept.time[frames - 1] - e->kept.time[0];
-    const struct hk_rerun rerun = {judge, value, duration, fmin(e->apart, duration), NULL, NULL, NULL};
+    const struct hk_rerun rerun = {judge, value, duration, fmin(e->apart, duration), OTHER, 0.7, 0.1,
+                                   NULL,  NULL,  NULL};
     status = hk_estimate_compare(e, &rerun, frames, &from);
     if (status != HOOKE_OK || isnan(from.most) || from.most <= APART * e->error) break;
     if (k == 0) first = from.most;

@@ -21,6 +21,9 @@ static const double ORDERS_APART = 0.4, LEAST_ORDER = 0.05, ORDERS_ABOVE = 1.0;
 static const double SURE = 1.25, SURE_TOLERANCE = 1.5, UNSURE = 3.0;
 static const double MOST_WORK = 4.0, MOMENT = 0.01; /* of other runs in all, in times of the run, or [s] */
 
+static const char TOO_LONG[] =
+    "the run is too long, or its tolerance too tight, for a finer one, and coarser ones do not tell";
+
 double hk_estimate_value(const hooke_options *options) {
   const int32_t adaptive = hooke_method_is_adaptive(hooke_options_text(options, "method"));
   return hooke_options_number(options, adaptive ? "rtol" : "step");
@@ -43,8 +46,9 @@ static void start_from(hooke_state *state, void *ctx) {
 }
 
 static int32_t tell(double share, void *ctx) {
-  const struct hk_estimate *e = ((const struct run *)ctx)->estimate;
-  return hk_measurement_tell(e->measurement, share, "error");
+  const struct run *run = ctx;
+  const struct hk_rerun *rerun = run->rerun;
+  return hk_measurement_tell(run->estimate->measurement, rerun->done + rerun->share * share, rerun->what);
 }
 
 static int32_t show(int64_t frame, int64_t step, const hooke_state *state, void *ctx) {
@@ -111,7 +115,14 @@ struct level {
   struct hk_distance from;
 };
 
-static int32_t run_level(struct hk_estimate *e, double factor, struct level *level) {
+static const char *name_of(int32_t adaptive, double factor) {
+  if (adaptive) return factor < 1.0 ? "error, a tenth of the tolerance" : "error, a looser tolerance";
+  return factor < 1.0 ? "error, half the step" : "error, a larger step";
+}
+
+/* `done` and `share` of all other runs. */
+static int32_t run_level(struct hk_estimate *e, double factor, double done, double share,
+                         struct level *level) {
   const int32_t adaptive = method_of(e)->adaptive;
   const double value = hk_estimate_value(e->options);
   double other = factor * value;
@@ -119,7 +130,13 @@ static int32_t run_level(struct hk_estimate *e, double factor, struct level *lev
   if (adaptive && (other > LOOSEST * (1.0 + 1e-9) || other < TIGHTEST * (1.0 - 1e-9))) other = NAN;
   *level = (struct level){other / value, {NAN, NAN}};
   if (isnan(other)) return HOOKE_OK;
-  const struct hk_rerun rerun = {method_of(e)->name, other, e->duration, e->apart, NULL, NULL, NULL};
+  const struct hk_rerun rerun = {.method = method_of(e)->name,
+                                 .value = other,
+                                 .duration = e->duration,
+                                 .every = e->apart,
+                                 .what = name_of(adaptive, factor),
+                                 .done = done,
+                                 .share = share};
   return hk_estimate_compare(e, &rerun, e->kept.count, &level->from);
 }
 
@@ -193,8 +210,7 @@ static void judge_by_coarser(struct hk_estimate *e, const struct level *near, co
   const double order = expected_order(e);
   if (!(near->from.most > 0.0 && far->from.most > 0.0 &&
         is_expected(e, order_seen(far->factor, near->factor, far->from.most / near->from.most)))) {
-    say(e,
-        "the run is too long to be repeated at half the step, and larger steps do not tell how wrong it is");
+    say(e, TOO_LONG);
     return;
   }
   e->order = order;
@@ -204,16 +220,16 @@ static void judge_by_coarser(struct hk_estimate *e, const struct level *near, co
 
 int32_t hk_estimate_by_runs(struct hk_estimate *e) {
   const double ratio = method_of(e)->adaptive ? FACTOR : 2.0;
-  const int32_t finer = e->work <= LONG || !isnan(e->want);
+  const int32_t tightest = method_of(e)->adaptive && hk_estimate_value(e->options) < TIGHTEST * FACTOR;
+  const int32_t finer = (e->work <= LONG || !isnan(e->want)) && !tightest;
   struct level near, far;
   e->left = MOST_WORK * fmax(e->work, MOMENT);
-  int32_t status = run_level(e, finer ? 1.0 / ratio : ratio, &near);
+  int32_t status = run_level(e, finer ? 1.0 / ratio : ratio, 0.0, 0.6, &near);
   if (status == HOOKE_OK && !isnan(near.from.most))
-    status = run_level(e, finer ? ratio : ratio * ratio, &far);
+    status = run_level(e, finer ? ratio : ratio * ratio, 0.6, 0.1, &far);
   if (status != HOOKE_OK) return status;
   if (isnan(near.from.most))
-    say(e, finer ? "a finer run did not come to its end"
-                 : "the run is too long to be repeated at half the step");
+    say(e, finer ? "a finer run did not come to its end" : TOO_LONG);
   else if (finer)
     judge_by_finer(e, &near, &far);
   else
@@ -226,12 +242,15 @@ int32_t hk_estimate_last_slice(struct hk_estimate *e) {
   const double from = hooke_state_time(e->late), duration = e->begin + e->duration - from;
   const double value = hk_estimate_value(e->options);
   struct hk_frames frames;
+  if (!(value > TIGHTEST) && method_of(e)->adaptive) return HOOKE_OK;
   int32_t status = hk_frames_create(e->system, 2, &frames);
   const struct hk_rerun rerun = {.method = method_of(e)->name,
                                  .value =
                                      method_of(e)->adaptive ? fmax(TIGHTEST, value / FACTOR) : 0.5 * value,
                                  .duration = duration,
                                  .every = duration,
+                                 .what = "error, the last piece",
+                                 .share = 1.0,
                                  .from = e->late};
   if (status == HOOKE_OK) status = hk_estimate_rerun(e, &rerun, &frames);
   if (status == HOOKE_OK && frames.recorded == 2) {

@@ -85,7 +85,7 @@ static int32_t look(struct hk_estimate *e, const hooke_state *from) {
   const double count = fmin(MOST_STEPS, round(left / step));
   struct slice s = {.system = e->system, .until = hk_clock_seconds() + fmax(MOMENT, SHARE * e->work)};
   const char *method = hooke_options_text(e->options, "method");
-  const struct hk_rerun rerun = {method, step, count * step, step, from, see, &s};
+  const struct hk_rerun rerun = {method, step, count * step, step, "error, heat", 1.0, 0.0, from, see, &s};
   struct hk_frames none = {.system = e->system};
   if (count < LEAST_STEPS) return HOOKE_OK;
   int32_t status = hk_estimate_rerun(e, &rerun, &none);
