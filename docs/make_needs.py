@@ -20,7 +20,7 @@ import hooke.plot
 
 ROOT = Path(__file__).resolve().parents[1]
 NAME = "cloth-64"
-WANT = 5e-3  # [m]
+WANT = 2e-2  # [m]
 REPEATS = 3
 
 
