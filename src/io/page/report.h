@@ -15,9 +15,6 @@ struct hk_report {
 /* Writes the page. HOOKE_IO_FAILED, HOOKE_NO_MEMORY, HOOKE_NOT_BUILT. */
 int32_t hk_report_write(const struct hk_report *report, const char *path);
 
-/* Adds a step [s]; "none" if nothing limits it (infinity). */
-void hk_report_add_step(struct hk_text *data, const char *key, double step);
-
 /* Adds date, machine and versions. */
 void hk_report_add_facts(struct hk_text *data);
 

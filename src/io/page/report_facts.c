@@ -43,9 +43,3 @@ void hk_report_add_facts(struct hk_text *text) {
   add_versions(text);
 }
 
-void hk_report_add_step(struct hk_text *data, const char *key, double step) {
-  if (step == INFINITY)
-    hk_text_word(data, key, "none");
-  else
-    hk_text_number(data, key, step);
-}
