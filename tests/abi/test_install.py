@@ -108,10 +108,21 @@ def test_find_package(prefix, tmp_path):
     check(tmp_path)
 
 
+QUARTERED = {
+    "driven_particles": ("step = 1e-4", "step = 2.5e-5"), "many_systems": ('"step", 1e-4', '"step", 2.5e-5'),
+    "own_force": ("{1e-4, 5e-4}", "{2.5e-5, 1.25e-4}"), "own_time_loop": ("step = 1e-4", "step = 2.5e-5"),
+}  # fmt: skip
+
+
+def build_examples(prefix, source, folder, *targets):
+    configure(folder, f"-DCMAKE_PREFIX_PATH={prefix}", "-DCMAKE_BUILD_TYPE=Release", source=source)
+    run(CMAKE, "--build", folder, *(["--target", *targets] if targets else []))
+
+
 def test_examples(prefix, tmp_path):
-    """Each example prints something, and its exit code says that it is right."""
-    configure(tmp_path, f"-DCMAKE_PREFIX_PATH={prefix}", "-DCMAKE_BUILD_TYPE=Release", source=EXAMPLES)
-    run(CMAKE, "--build", tmp_path)
+    """Each example prints something, and its exit code says that it is right; at a quarter of the step it prints the same
+    digits, to one in the last place."""
+    build_examples(prefix, EXAMPLES, tmp_path)
     lines = {}
     for source in sorted(EXAMPLES.glob("*.c")):
         if source.stem != "study" or PRESET != "minimal":
@@ -122,26 +133,14 @@ def test_examples(prefix, tmp_path):
     assert [line.split()[-2] for line in lines["driven_particles"]] == ["-0.050", "+0.000", "+0.050", "+0.000"]
     assert lines["many_systems"][-1] == "the same bits as in one thread"
     assert "study" not in lines or lines["study"][-1].startswith("run with it: ")
-
-
-QUARTERED = {
-    "driven_particles": ("step = 1e-4", "step = 2.5e-5"), "many_systems": ('"step", 1e-4', '"step", 2.5e-5'),
-    "own_force": ("{1e-4, 5e-4}", "{2.5e-5, 1.25e-4}"), "own_time_loop": ("step = 1e-4", "step = 2.5e-5"),
-}  # fmt: skip
-
-
-def test_examples_print_right_digits(prefix, tmp_path):
-    """At a quarter of the step they print the same, to one in the last place."""
     finer = shutil.copytree(EXAMPLES, tmp_path / "finer")
     for name, (step, quarter) in QUARTERED.items():
         text = (finer / f"{name}.c").read_text()
         assert text.count(step) == 1, name
         (finer / f"{name}.c").write_text(text.replace(step, quarter))
-    for place, source in (("as-is", EXAMPLES), ("fine", finer)):
-        configure(tmp_path / place, f"-DCMAKE_PREFIX_PATH={prefix}", "-DCMAKE_BUILD_TYPE=Release", source=source)
-        run(CMAKE, "--build", tmp_path / place, "--target", *QUARTERED)
+    build_examples(prefix, finer, tmp_path / "fine", *QUARTERED)
     for name in QUARTERED:
-        one, other = (re.findall(r"[-+]?\d+\.\d+", run(tmp_path / place / name)) for place in ("as-is", "fine"))
+        one, other = (re.findall(r"[-+]?\d+\.\d+", text) for text in ("\n".join(lines[name]), run(tmp_path / "fine" / name)))
         assert len(one) == len(other) > 0
         for a, b in zip(one, other):
             assert abs(float(a) - float(b)) < 1.01 * 10.0 ** -len(a.split(".")[1]), (name, a, b)
