@@ -9,11 +9,6 @@ struct cli_peak cli_peak_look(void) {
   return peak;
 }
 
-static int32_t see_nothing(int64_t step, const hooke_state *state, void *ctx) {
-  (void)step, (void)state, (void)ctx;
-  return 0;
-}
-
 static int32_t hear_nothing(const char *kind, const char *sentence, double t, double limit, int64_t spring,
                             int64_t particle, void *ctx) {
   (void)kind, (void)sentence, (void)t, (void)limit, (void)spring, (void)particle, (void)ctx;
@@ -36,12 +31,11 @@ static int64_t count_output(const struct cli_setup *setup) {
   return 4800000 + 150 * hooke_system_particle_count(setup->system);
 }
 
-/* As in `hooke run`: steps are observed, and warnings as well unless it is quiet. */
+/* As in `hooke run`: warnings are observed unless it is quiet. */
 static int32_t count_method(const struct cli_arguments *arguments, const struct cli_setup *setup,
                             int64_t *bytes, int64_t *kept, int64_t *factor) {
   hooke_integrator *integrator = NULL;
   int32_t status = hooke_integrator_create(setup->system, setup->options, &integrator);
-  if (status == HOOKE_OK) status = hooke_integrator_on_step(integrator, 1, see_nothing, NULL);
   if (status == HOOKE_OK && !arguments->quiet)
     status = hooke_integrator_on_warning(integrator, hear_nothing, NULL);
   if (status == HOOKE_OK) *bytes = hooke_integrator_count(integrator, "memory_bytes");

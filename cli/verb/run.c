@@ -11,8 +11,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-enum { SPRINGS_PER_LOOK = 1000000, MOST_STEPS_PER_LOOK = 1000, LOOKS = 100 };
-
 static double state_energy(const struct cli_run *run) {
   return hooke_system_energy(run->setup.system, "total", hooke_state_position(run->setup.state),
                              hooke_state_velocity(run->setup.state));
@@ -22,11 +20,6 @@ static double state_energy(const struct cli_run *run) {
 
 static void keep_message(struct cli_run *run) {
   snprintf(run->message, sizeof run->message, "%s", hooke_last_error());
-}
-
-static int32_t see_step(int64_t step, const hooke_state *state, void *ctx) {
-  struct cli_run *run = ctx;
-  return run->estimate ? hooke_estimate_see(step, state, run->estimate) : 0;
 }
 
 static int32_t see_progress(double done, const char *method, void *ctx) {
@@ -47,8 +40,7 @@ static int32_t see_frame(int64_t step, const hooke_state *state, void *ctx) {
   }
   run->frames++;
   run->frames_beyond += beyond;
-  if (beyond) return 0;
-  return see_step(step, state, run);
+  return run->estimate && !beyond ? hooke_estimate_see(step, state, run->estimate) : 0;
 }
 
 static int32_t see_checkpoint(int64_t step, const hooke_state *state, void *ctx) {
@@ -59,19 +51,6 @@ static int32_t see_checkpoint(int64_t step, const hooke_state *state, void *ctx)
   if (run->write_status == HOOKE_OK) return 0;
   keep_message(run);
   return 1;
-}
-
-/* Steps between two states for an estimate of the error: about a millisecond of work, so that the overhead is
- * negligible, and a hundredth of the run at most. */
-static int64_t stride(const struct cli_run *run) {
-  if (hooke_method_is_adaptive(cli_run_method(run)) != 0) return 1;
-  int64_t size =
-      hooke_system_count(run->setup.system, "springs") + hooke_system_particle_count(run->setup.system) + 1;
-  int64_t steps = SPRINGS_PER_LOOK / size;
-  const double step = hooke_options_number(run->options, "step");
-  const double share = run->duration / step / LOOKS;
-  if ((double)steps > share) steps = (int64_t)share;
-  return steps < 1 ? 1 : steps > MOST_STEPS_PER_LOOK ? MOST_STEPS_PER_LOOK : steps;
 }
 
 /* The library reports each kind once a run. */
@@ -92,8 +71,6 @@ static int32_t prepare(struct cli_run *run) {
   status = hooke_integrator_on_frame(run->integrator, see_frame, run);
   if (status == HOOKE_OK)
     status = hooke_integrator_on_progress(run->integrator, HOOKE_BETWEEN_LOOKS, see_progress, run);
-  if (status == HOOKE_OK && run->estimate)
-    status = hooke_integrator_on_step(run->integrator, stride(run), see_step, run);
   if (status == HOOKE_OK) status = hooke_integrator_on_checkpoint(run->integrator, see_checkpoint, run);
   /* a pick has computed the limits already */
   const int warns = !run->arguments->quiet && !cli_arguments_text(run->arguments, "want");
