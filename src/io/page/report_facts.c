@@ -42,4 +42,3 @@ void hk_report_add_facts(struct hk_text *text) {
   add_machine(text);
   add_versions(text);
 }
-
