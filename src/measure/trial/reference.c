@@ -163,6 +163,11 @@ static int is_drowned(const struct hk_reference *r) {
   return SAFETY * r->frames.rounding[frame] > aim_of(r);
 }
 
+/* 1 if the two part for good, which tighter tolerances put off a little: what takes no budget ends here. */
+static int is_lost(const struct hk_reference_watch *watch, const struct hk_reference *r) {
+  return watch->request->repeatable && !is_all(r);
+}
+
 /* 1 if an integrator gave up, which it may do at one tolerance and not at another. */
 static int gave_up(int32_t status) {
   return status == HOOKE_SOLVER_FAILED || status == HOOKE_DIVERGED || status == HOOKE_STEP_LIMIT;
@@ -206,8 +211,8 @@ static int32_t tighten(struct hk_reference_watch *watch, struct hk_reference *r,
     const int failed = gave_up(status);
     if (failed && r->checked > 0) status = HOOKE_OK;
     if (status != HOOKE_OK && (!failed || tolerance <= TIGHTEST)) return status;
-    if (r->checked > 0 && (failed || is_enough(watch->request, r) || is_drowned(r) || tolerance <= TIGHTEST))
-      break;
+    const int last = tolerance <= TIGHTEST || is_lost(watch, r) || is_drowned(r);
+    if (r->checked > 0 && (failed || last || is_enough(watch->request, r))) break;
     const double seconds = hk_clock_seconds() - begun;
     double finer = failed ? tolerance * LEAST_FACTOR : next_tolerance(watch, r, tolerance);
     if (!has_time(watch, r, tolerance / finer, seconds)) finer = fmax(finer, MOST_FACTOR * tolerance);
