@@ -62,7 +62,7 @@ def draw(found: hooke.Needs, results: list[Any], path: Path) -> None:
         hooke.plot.cloth((q, springs), ax, color=color, linewidth=width, label=label)
     ax.set(xlabel="z [m]", ylabel="x [m]", zlabel="y [m]", title=f"{NAME} at t = {found.judged_until:g} s")
     ax.legend()
-    figure.savefig(path, dpi=75)
+    figure.savefig(path, dpi=67)
 
 
 def main(folder: Path) -> None:
