@@ -1,4 +1,4 @@
-/* Measures the table of costs (src/measure/work/costs.c): runs scenes by every method, holds the time that
+/* Measures the table of costs (src/measure/counted_work/costs.c): runs scenes by every method, holds the time that
  * they took against their counted work, fits the costs to that, and prints the table as the source has it.
  *
  *   costs [--seconds S]
@@ -7,7 +7,7 @@
 #include "machine.h"
 #include "scenes.h"
 
-#include "measure/work/work.h"
+#include "measure/counted_work/work.h"
 #include "model/force/force.h"
 
 #include <math.h>

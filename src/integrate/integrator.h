@@ -13,7 +13,7 @@ struct hk_counts {
   int64_t steps, force_evaluations, derivative_products, nonlinear_iterations, nonlinear_failures,
       linear_iterations, error_test_failures;
   /* matrices of linear equations, multiplications to factorise them, numbers of factors in solutions, and
-   * vectors that GMRES has made others orthogonal to: for measure/work alone, and not in checkpoints */
+   * vectors that GMRES has made others orthogonal to: for measure/counted_work alone, and not in checkpoints */
   int64_t matrices, factor_products, factor_numbers, space;
 };
 

@@ -3,7 +3,7 @@
 #include "random_scene.h"
 #include "run.h"
 
-#include "measure/work/work.h"
+#include "measure/counted_work/work.h"
 #include "model/force/force.h"
 
 #include <math.h>

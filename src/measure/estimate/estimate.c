@@ -7,7 +7,7 @@
 #include "integrate/integrator.h"
 #include "measure/estimate/heat.h"
 #include "measure/trial/step_unit.h"
-#include "measure/work/work.h"
+#include "measure/counted_work/work.h"
 #include "model/state.h"
 #include "model/system.h"
 

@@ -23,7 +23,7 @@ struct hk_estimate {
   hooke_options *options;             /* copy of the integrator's */
   const hooke_integrator *integrator; /* valid while it runs */
   double begin, duration, every;
-  double work, steps;    /* counted work [s] (measure/work), and steps */
+  double work, steps;    /* counted work [s] (measure/counted_work), and steps */
   int32_t resumed;       /* 1: it continued another run */
   hooke_state *start;    /* its first state */
   struct hk_frames kept; /* recorded states of the run: frames `apart` [s], and its end */

@@ -4,7 +4,7 @@
 #include "core/print.h"
 #include "integrate/method.h"
 #include "measure/spectrum/step_bound.h"
-#include "measure/work/work.h"
+#include "measure/counted_work/work.h"
 #include "model/state.h"
 #include "model/system.h"
 

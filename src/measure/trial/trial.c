@@ -3,7 +3,7 @@
 #include "core/memory.h"
 #include "core/status.h"
 #include "integrate/loop/run_loop.h"
-#include "measure/work/work.h"
+#include "measure/counted_work/work.h"
 
 #include <math.h>
 #include <stddef.h>

@@ -1,4 +1,4 @@
-#include "measure/work/work.h"
+#include "measure/counted_work/work.h"
 
 #include "model/force/force.h"
 

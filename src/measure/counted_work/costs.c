@@ -1,6 +1,6 @@
 /* The costs of counted work [ns], as bench/costs.c measured and fitted them: docs/notes/performance.md. A
  * force that none of its scenes has keeps a nominal cost; that of a callback is of its call. */
-#include "measure/work/work.h"
+#include "measure/counted_work/work.h"
 
 /* On 2026-11-27, Intel(R) Xeon(R) Processor, family 6 model 167. */
 const double hk_costs[HOOKE_WORKS] = {
