@@ -33,8 +33,8 @@ struct hk_method {
   int32_t reference; /* 1: for checking references only, not listed; found by name */
   int32_t adaptive;  /* 1: chooses its steps from tolerances; 0: takes `step` */
   int32_t order;     /* of a fixed-step method, on smooth forces */
-  const char
-      *judge; /* of a run's error: a method of higher order, or of another kind; NULL: none of its cost */
+  const char *judge; /* of its runs: a method of higher order, or of another kind; NULL: none of its cost */
+  const char *checked_by; /* the method that the beginning of its runs is held against; NULL: rk4 */
   int32_t first_order, second_order; /* problems it takes: x' = phi(t, x); q' = v, v' = W f */
   int32_t implicit; /* 1: takes a step by the solution of nonlinear equations, with the option `newton` */
   int32_t by_tiles; /* 1: steps by hk_integrator_move() alone, if `choose` says nothing else */

@@ -44,6 +44,7 @@ const struct hk_method hk_implicit_midpoint = {
     .summary = "fixed step, order 2, implicit; stable at every step, damps nothing that the scene does not",
     .built = 1,
     .order = 2,
+    .checked_by = "tr-bdf2",
     .second_order = 1,
     .implicit = 1,
     .stability = {.kind = HOOKE_STABLE_ALWAYS,

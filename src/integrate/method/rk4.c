@@ -13,6 +13,7 @@ const struct hk_method hk_rk4 = {
     .summary = "fixed step, order 4, four force evaluations a step",
     .built = 1,
     .order = 4,
+    .checked_by = "cvode-adams",
     .first_order = 1,
     .second_order = 1,
     .stability = {.kind = HOOKE_STABLE_BY_POLYNOMIAL, .degree = 4, .axis = 8.0, .half_disc = 2.6156},

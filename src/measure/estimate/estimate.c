@@ -117,13 +117,14 @@ int32_t hooke_estimate_pick(hooke_measurement *m, const char *method, hooke_opti
 
 /* Frames kept for the comparison with other runs: evenly spaced, and the end; as many as memory allows, and
  * more of small scenes, where those fit longer steps. */
-static void choose_kept(struct hk_estimate *e, double steps, int64_t *count) {
-  const double intervals = ceil(e->duration / e->every * (1.0 - 1e-9));
+static void choose_kept(struct hk_estimate *e, const hooke_integrator *it, int64_t *count) {
+  const double intervals = (double)(it->schedule.frames - 1);
+  const double steps = it->method->adaptive ? INFINITY : (double)it->schedule.steps;
   const double bytes = (double)(3 * hooke_system_particle_count(e->system) + 1) * sizeof(double);
   const double many = fmin(fmin(MOST_KEPT, FEW_BYTES / bytes), steps / STEPS_APART);
   const double apart = ceil(intervals / fmax(1.0, fmax(many, fmin(KEPT, KEPT_BYTES / bytes))));
-  *count = 1 + (int64_t)ceil(intervals / apart);
   e->apart = fmin(apart * e->every, e->duration);
+  *count = hk_schedule_frames(e->duration, e->apart);
 }
 
 static int is_whole_reference(const struct hk_estimate *e) {
@@ -155,7 +156,7 @@ int32_t hooke_estimate_begin(hooke_measurement *m, const hooke_integrator *it, c
   e->frames_apart = 1 + (frames - 1) / MOST_SEEN;
   e->frames_seen = 0;
   e->late_after = e->begin + e->duration * (1.0 - (it->method->adaptive ? SLICE_ADAPTIVE : SLICE));
-  choose_kept(e, it->method->adaptive ? INFINITY : (double)it->schedule.steps, &count);
+  choose_kept(e, it, &count);
   status = hk_frames_create(e->system, count, &e->kept);
   if (status == HOOKE_OK) status = hooke_state_create(e->system, &e->start);
   if (status == HOOKE_OK) status = hooke_state_copy(state, e->start);

@@ -63,9 +63,6 @@ struct hk_rerun {
   void *ctx;
 };
 
-/* Its options, which the caller owns. */
-int32_t hk_estimate_rerun_options(const struct hk_estimate *estimate, const struct hk_rerun *rerun,
-                                  hooke_options **options);
 /* `frames` receives its start and as many frames as there is memory for; fewer if it ends early.
  * HOOKE_STOPPED, HOOKE_NO_MEMORY. */
 int32_t hk_estimate_rerun(struct hk_estimate *estimate, const struct hk_rerun *rerun,

@@ -3,13 +3,12 @@
 
 #include "core/print.h"
 #include "integrate/method.h"
-#include "measure/spectrum/step_bound.h"
 #include "measure/counted_work/work.h"
+#include "measure/spectrum/step_bound.h"
 #include "model/state.h"
 #include "model/system.h"
 
 #include <math.h>
-#include <string.h>
 
 static const double APART = 10.0; /* times the error: another method that is farther away contradicts */
 enum { LEAST_STEPS = 20, HALVINGS = 3 };
@@ -82,10 +81,7 @@ static int64_t beginning(const struct hk_estimate *e) {
 }
 
 static const char *beginning_judge(const struct hk_estimate *e) {
-  static const char *const pairs[][2] = {{"rk4", "cvode-adams"}, {"implicit-midpoint", "tr-bdf2"}};
-  const char *judge = "rk4";
-  for (int k = 0; k < 2; k++)
-    if (strcmp(method_of(e), pairs[k][0]) == 0) judge = pairs[k][1];
+  const char *row = hk_method_find(method_of(e))->checked_by, *judge = row ? row : hk_rk4.name;
   const int suits = e->system->particle_count <= MOST_PARTICLES && hooke_method_is_built(judge) &&
                     hk_method_suits(judge, e->system);
   return suits ? judge : NULL;

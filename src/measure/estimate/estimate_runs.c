@@ -57,8 +57,7 @@ static int32_t show(int64_t frame, int64_t step, const hooke_state *state, void 
   return rerun->observer ? rerun->observer(step, state, rerun->ctx) : 0;
 }
 
-int32_t hk_estimate_rerun_options(const struct hk_estimate *e, const struct hk_rerun *rerun,
-                                  hooke_options **out) {
+static int32_t make_options(const struct hk_estimate *e, const struct hk_rerun *rerun, hooke_options **out) {
   hooke_options *options = NULL;
   int32_t status = hk_pick_options(e->options, rerun->method, rerun->value, &options);
   if (status == HOOKE_OK) status = hooke_options_set_number(options, "duration", rerun->duration);
@@ -76,7 +75,7 @@ int32_t hk_estimate_rerun(struct hk_estimate *e, const struct hk_rerun *rerun, s
   const struct hk_listener listener = {
       .on_progress = tell, .on_frame = show, .on_start = start_from, .ctx = &run};
   hooke_options *options = NULL;
-  int32_t status = hk_estimate_rerun_options(e, rerun, &options);
+  int32_t status = make_options(e, rerun, &options);
   if (status == HOOKE_OK) status = hk_frames_run(frames, options, &listener, NULL, NULL);
   hooke_options_destroy(options);
   return status == HOOKE_NO_MEMORY || status == HOOKE_STOPPED ? status : HOOKE_OK;
@@ -91,7 +90,7 @@ int32_t hk_estimate_compare(struct hk_estimate *e, const struct hk_rerun *rerun,
   hooke_options *options = NULL;
   *distance = (struct hk_distance){NAN, NAN};
   int32_t status = hk_trial_create(&e->kept, &trial);
-  if (status == HOOKE_OK) status = hk_estimate_rerun_options(e, rerun, &options);
+  if (status == HOOKE_OK) status = make_options(e, rerun, &options);
   if (status == HOOKE_OK) status = hk_trial_run(&trial, &e->kept, frames, options, &listener);
   if (status == HOOKE_OK) *distance = (struct hk_distance){trial.error_max, trial.error};
   e->left -= trial.work;
