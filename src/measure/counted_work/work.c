@@ -9,6 +9,8 @@
 static const double NEAR = 30000.0;
 /* Share of the derivative of a spring that is of its damping. */
 static const double OF_DAMPING = 0.5;
+/* Evaluations of forces that a pass over their elements takes. */
+static const double PASS = 40.0;
 /* Of all dampers, in a step of shardlow. */
 static const double SWEEPS = 2.0;
 
@@ -108,6 +110,14 @@ static double work_of_counts(const hooke_system *system, const struct hk_method 
 
 double hk_work_of_evaluation(const hooke_system *system) {
   return work_of_counts(system, &hk_rk4, (struct hk_counts){.force_evaluations = 1});
+}
+
+double hk_work_of_product(const hooke_system *system) {
+  return work_of_counts(system, &hk_rk4, (struct hk_counts){.derivative_products = 1});
+}
+
+double hk_work_of_pass(const hooke_system *system) {
+  return PASS * hk_work_of_evaluation(system);
 }
 
 double hk_work_of_steps(const hooke_system *system, const char *name, int64_t steps) {

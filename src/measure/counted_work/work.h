@@ -43,6 +43,10 @@ double hk_work_of(const hooke_integrator *integrator);
 void hk_work_amounts(const hooke_integrator *integrator, double amount[HOOKE_WORKS]);
 /* One evaluation of all forces of a committed system [s]. */
 double hk_work_of_evaluation(const hooke_system *system);
+/* One product with the derivative of all forces [s]. */
+double hk_work_of_product(const hooke_system *system);
+/* One pass over the elements of all forces, one by one, as bounds take it [s]. */
+double hk_work_of_pass(const hooke_system *system);
 /* So many steps of a method [s]; NaN if that depends on the steps, as with error control, or where equations
  * are solved. */
 double hk_work_of_steps(const hooke_system *system, const char *method, int64_t steps);

@@ -3,6 +3,7 @@
 #include "core/memory.h"
 #include "core/status.h"
 #include "kernel/vector_loops.h"
+#include "measure/counted_work/work.h"
 #include "model/force/force.h"
 #include "model/sum/spring_batch.h"
 
@@ -285,6 +286,7 @@ void hk_linearised_add_product(struct hk_linearised *lin, const double *x, doubl
   const double *const from[3] = {x, x + n, x + 2 * n};
   double *const to[3] = {out, out + n, out + 2 * n};
   lin->products++;
+  if (lin->patience) hk_patience_spend(lin->patience, hk_work_of_product(lin->system));
   for (int64_t k = 0; k < lin->run_count; k++)
     hk_tangent_product(&lin->run[k], &lin->tangent, from, to);
   for (int32_t k = 0; k < lin->system->force_row_count; k++) {

@@ -2,6 +2,7 @@
 
 #include "core/memory.h"
 #include "core/status.h"
+#include "measure/counted_work/work.h"
 #include "measure/spectrum/eigen/eigen.h"
 #include "model/force/force.h"
 
@@ -61,6 +62,7 @@ void hk_node_blocks_fill(struct hk_node_blocks *blocks, const double *q) {
   memset(blocks->damping, 0, bytes);
   blocks->least_ratio = INFINITY;
   blocks->across = 0;
+  if (blocks->patience) hk_patience_spend(blocks->patience, hk_work_of_pass(system));
   struct hk_elements at;
   hk_begin_elements(system, q, NULL, &at);
   for (const struct hk_element *e; (e = hk_next_element(&at)) != NULL;) {

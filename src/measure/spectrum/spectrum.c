@@ -336,8 +336,10 @@ static const double SECONDS_PROPORTIONAL = 2e-10, SECONDS_DAMPED = 2.5e-8;
 static int32_t has_time_for_all(const struct hk_spectrum *s) {
   const double n = (double)s->linearised->unknowns;
   if (n > (s->proportional ? HOOKE_SPECTRUM_PROPORTIONAL : HOOKE_SPECTRUM_DAMPED)) return 1;
-  return hk_patience_has(s->linearised->patience,
-                         (s->proportional ? SECONDS_PROPORTIONAL : SECONDS_DAMPED) * n * n * n);
+  const double seconds = (s->proportional ? SECONDS_PROPORTIONAL : SECONDS_DAMPED) * n * n * n;
+  if (!hk_patience_has(s->linearised->patience, seconds)) return 0;
+  if (s->linearised->patience) hk_patience_spend(s->linearised->patience, seconds);
+  return 1;
 }
 
 static int32_t find_fastest_decay(struct hk_spectrum *s, double *decaying) {

@@ -1,4 +1,5 @@
-/* Time limit of a measurement: until its time is up, or until the caller asks to stop. */
+/* Limit of a measurement, on its time or on its counted work (counted_work), which is the same on any machine,
+ * however busy; or until the caller asks to stop. */
 #ifndef HOOKE_MEASURE_TRIAL_PATIENCE_H
 #define HOOKE_MEASURE_TRIAL_PATIENCE_H
 
@@ -8,7 +9,10 @@
 enum { HOOKE_BATCHES_PER_LOOK = 2048 };
 
 struct hk_patience {
-  double begun, until, end; /* by hk_clock_seconds(): deadline of the current part, and of the whole */
+  int32_t counted; /* 1: by counted work, which hk_patience_spend() adds up */
+  double work;     /* spent so far [s] */
+  /* by hk_clock_seconds(), or in counted work: start, and end of the current part and of the whole [s] */
+  double begun, until, end;
   hooke_progress *progress;
   void *ctx;
   int32_t spent, stopped; /* it ended: time was up, or the caller asked to stop */
@@ -16,6 +20,13 @@ struct hk_patience {
 
 /* `seconds` from now on; infinity for no limit. */
 struct hk_patience hk_patience_of(double seconds, hooke_progress *progress, void *ctx);
+
+/* `work`: counted [s]. */
+struct hk_patience hk_patience_of_work(double work, hooke_progress *progress, void *ctx);
+/* Adds counted work [s]. */
+void hk_patience_spend(struct hk_patience *patience, double work);
+/* What the current part has left [s]; infinity without patience. */
+double hk_patience_left(const struct hk_patience *patience);
 
 /* Reports `what` to the caller; 1 if the work is to end, and from then on at every call. Without patience
  * (NULL) it never ends. */

@@ -3,6 +3,7 @@
 #include "core/memory.h"
 #include "core/status.h"
 #include "integrate/method.h"
+#include "measure/counted_work/work.h"
 #include "model/force/force.h"
 
 #include <math.h>
@@ -17,6 +18,7 @@ static int32_t multiply(struct hk_growing *g, const double *q, double a, double 
   const double *const x[3] = {g->x, g->x + 1, g->x + 2};
   double *const out[3] = {g->out, g->out + 1, g->out + 2};
   memset(g->out, 0, 3 * (size_t)system->particle_count * sizeof(double));
+  if (g->patience) hk_patience_spend(g->patience, hk_work_of_pass(system));
   struct hk_elements at;
   hk_begin_elements(system, q, NULL, &at);
   for (const struct hk_element *e; (e = hk_next_element(&at)) != NULL;) {
