@@ -170,7 +170,7 @@ static int32_t run_member(struct member *member) {
   int32_t status = source_options(study, member->source, &options);
   if (status == HOOKE_OK) {
     status = hk_frames_create(study->system, 0, &none);
-    if (status == HOOKE_OK) status = hk_frames_run(&none, options, &listener, NULL, NULL);
+    if (status == HOOKE_OK) status = hk_frames_run(&none, options, &listener, NULL);
     hk_frames_release(&none);
   }
   hooke_options_destroy(options);

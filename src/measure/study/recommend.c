@@ -198,7 +198,7 @@ int32_t hk_study_find_cheapest(struct hk_study *study, double want) {
   sort_by_prediction(c, study->method_count);
   struct hk_study_candidate *best = NULL;
   /* the cost of the reference is known, that of searches beyond the rows is not */
-  const int far = study->method_count > 0 && !(c[0].predicted < study->reference.run_seconds);
+  const int far = study->method_count > 0 && !(c[0].predicted < study->reference.run_work);
   int32_t status = far ? search_from_reference(study, c) : HOOKE_OK;
   if (status == HOOKE_OK) status = search_all(study, c);
   if (status == HOOKE_OK) status = search_from_reference(study, c);

@@ -54,7 +54,7 @@ static double interpolate(const struct hk_study_candidate *c) {
 static double predict_beyond(const struct hk_study *study, const struct hk_study_candidate *c) {
   const double order = study->order[c->method].order;
   if (!(c->error_at_fails > 0.0) || !(c->most > 0.0)) return INFINITY;
-  if (is_adaptive(study, c)) return study->reference.run_seconds;
+  if (is_adaptive(study, c)) return study->reference.run_work;
   return isnan(order) || order < 0.5
              ? INFINITY
              : hk_study_candidate_cost(c) * pow(c->error_at_fails / c->most, 1.0 / order);

@@ -198,15 +198,15 @@ int32_t hk_trial_run(struct hk_trial *trial, const struct hk_frames *reference, 
 }
 
 int32_t hk_frames_run(struct hk_frames *frames, const hooke_options *options,
-                      const struct hk_listener *listener, double *wall_seconds, double *force_evaluations) {
+                      const struct hk_listener *listener, struct hk_run_cost *cost) {
   struct run run = {.record = frames, .listener = listener};
   hooke_integrator *integrator = NULL;
   frames->recorded = 0;
   const int32_t status = run_once(&run, frames->system, options, &integrator);
-  if (integrator && wall_seconds) *wall_seconds = hooke_integrator_number(integrator, "wall_seconds");
-  if (integrator && force_evaluations) {
-    *force_evaluations = (double)hooke_integrator_count(integrator, "force_evaluations");
-  }
+  if (integrator && cost)
+    *cost = (struct hk_run_cost){hooke_integrator_number(integrator, "wall_seconds"),
+                                 (double)hooke_integrator_count(integrator, "force_evaluations"),
+                                 hk_work_of(integrator), works_too_long(&run)};
   hooke_integrator_destroy(integrator);
   return status;
 }
