@@ -2,17 +2,20 @@
 
 #include "core/clock.h"
 #include "core/status.h"
+#include "measure/trial/step_unit.h"
 
 #include <math.h>
 #include <stddef.h>
 #include <string.h>
 
-static const double ABSOLUTE = 0.01;          /* of rtol times the extent: the absolute tolerance */
-static const double LEAST_RELATIVE = 1e-15;   /* that CVODE takes */
-static const double LEAST_WORK = 1e-300;      /* [s]: none, where 0 is without limit */
-static const double MOST_COST = 5.0;          /* of the explicit check against the first method */
-static const double MOST_EVALUATIONS = 10.0;  /* of rk8pd against the first method, in equal time */
-static const double TRIAL_SHARE = 0.05;       /* of the duration, to predict costs */
+static const double ABSOLUTE = 0.01;         /* of rtol times the extent: the absolute tolerance */
+static const double LEAST_RELATIVE = 1e-15;  /* that CVODE takes */
+static const double LEAST_WORK = 1e-300;     /* [s]: none, where 0 is without limit */
+static const double MOST_COST = 5.0;         /* of the explicit check against the first method */
+static const double MOST_EVALUATIONS = 10.0; /* of rk8pd against the first method, in equal time */
+static const double MOST_ESDIRK = 20.0;    /* of arkode-esdirk against the first method, where less will do */
+static const double COARSEST_CHECK = 1e-4; /* tolerance at which tr-bdf2 takes one step a frame */
+static const double TRIAL_SHARE = 0.05;    /* of the duration, to predict costs */
 static const double FIRST_TRIAL_SHARE = 0.05; /* of the budget, for the trial of the first method */
 
 int32_t hk_reference_options(const hooke_options *run, const char *method, double rtol,
@@ -102,11 +105,21 @@ int32_t hk_reference_make_frames(struct hk_reference_watch *watch, struct hk_ref
   return HOOKE_OK;
 }
 
+/* Of a method of order 2, whose error goes with the square of the step, as a tolerance has it. */
+static int32_t set_step(hooke_options *run, double rtol) {
+  double duration, every, unit;
+  int32_t status = hk_step_times(run, &duration, &every);
+  if (status == HOOKE_OK) status = hk_step_unit(duration, every, &unit);
+  const double parts = ceil(sqrt(COARSEST_CHECK / rtol) * (1.0 - 1e-9));
+  return status == HOOKE_OK ? hooke_options_set_number(run, "step", unit / fmax(1.0, parts)) : status;
+}
+
 int32_t hk_reference_judge(struct hk_reference_watch *watch, const struct hk_reference *r, const char *method,
                            double rtol, const struct hk_listener *listener, struct hk_trial *trial) {
   const struct hk_frames *frames = &r->frames;
   hooke_options *options = NULL;
   int32_t status = hk_reference_options(watch->request->run, method, rtol, r, &options);
+  if (status == HOOKE_OK && !hooke_method_is_adaptive(method)) status = set_step(options, rtol);
   if (status == HOOKE_OK && frames->recorded < frames->count) {
     const double reached = frames->time[frames->recorded - 1] - frames->time[0];
     status = hooke_options_set_number(options, "duration", reached);
@@ -184,5 +197,13 @@ int32_t hk_reference_choose_check(struct hk_reference_watch *watch, struct hk_re
   double ratio;
   const int32_t status = explicit_cost(watch, r, rtol, first, &ratio);
   r->check = ratio < MOST_COST ? "rk8pd" : "arkode-esdirk";
-  return status;
+  if (status != HOOKE_OK || ratio < MOST_COST || !watch->request->enough) return status;
+  /* it may come to no end where springs are very stiff; hooke's own method may do for a few digits */
+  struct hk_run_cost trial;
+  const double most = MOST_ESDIRK * TRIAL_SHARE * first.work;
+  const double reached = r->frames.time[r->frames.recorded - 1] - r->frames.time[0];
+  const int32_t tried =
+      try_beginning(watch, r, r->check, rtol, most, INFINITY, TRIAL_SHARE * reached, &trial);
+  if (tried == HOOKE_OK && isinf(trial.work)) r->check = "tr-bdf2";
+  return tried;
 }
