@@ -21,7 +21,7 @@ static const double REFERENCE_RUNS = 3.0, REFERENCE_SHARE = 0.6; /* of it, at mo
 static const double QUICK = 0.5,
                     SLOWER = 4.0; /* of LEAST_WORK / RUNS: first cap of quick runs; to the next */
 static const double QUICK_TOLERANCE = 1e-2;
-static const double DIGITS = 0.1;       /* of the wanted error: accuracy of the reference */
+static const double DIGITS = 0.02;      /* of the wanted error: accuracy of the reference */
 static const double BEGINNING = 0.1;    /* duration studied if the reference reached no frame */
 static const double LONGER = 4.0;       /* from one budget to the next while it came to nothing */
 static const double LIMITS_SHARE = 0.1; /* of LEAST_WORK, for the limit of bodies at the start */

@@ -16,8 +16,8 @@
 
 enum { MOST_RUNS = 12, MOST_METHODS = 32, MOST_DOUBTS = 6 };
 static const double LOOSEST = 0.1, TIGHTEST = 1e-14;
-static const double AIM = 0.7, GOOD = 0.5; /* of the allowed error: target; good enough */
-static const double CLOSE = 1.2;           /* a narrower bracket is not searched further */
+static const double AIM = 0.85, GOOD = 0.75; /* of the allowed error: target; good enough */
+static const double CLOSE = 1.1;           /* a narrower bracket is not searched further */
 static const double LEAST_FACTOR = 1.0 / 64.0, MOST_FACTOR = 8.0; /* factors from one value to the next */
 static const double LOOSER = 10.0;                                /* after a tolerance that took too long */
 static const double COST_POWER = 1.0 / 2.0; /* cost of a run in its tolerance, at most */
@@ -188,6 +188,13 @@ static double aim(const struct search *s) {
   return from * fmin(MOST_FACTOR, fmax(LEAST_FACTOR, factor));
 }
 
+/* The next coarser step that fits, if by the order of the method it meets the want; else NaN. */
+static double coarser_step(const struct search *s) {
+  const double parts = round(s->pick->unit / s->meets) - 1.0, value = s->pick->unit / fmax(1.0, parts);
+  if (s->adaptive || parts < 1.0 || value > s->largest) return NAN;
+  return s->error_meets * pow(value / s->meets, s->order) <= s->most ? value : NAN;
+}
+
 /* Next value to run; NaN at the end of the search. */
 static double next_value(const struct search *s) {
   if (isnan(s->meets) && isnan(s->fails)) return fit(s, s->first);
@@ -196,7 +203,8 @@ static double next_value(const struct search *s) {
   if (!isnan(s->meets) && !isnan(s->fails)) /* within the bracket, and clear of its ends */
     value = fmin(s->fails / CLOSE, fmax(s->meets * CLOSE, value));
   value = fit(s, fmin(value, s->largest));
-  if (value <= s->meets * (1.0 + 1e-9) || value >= s->fails * (1.0 - 1e-9)) return NAN;
+  if (value <= s->meets * (1.0 + 1e-9)) value = coarser_step(s);
+  if (isnan(value) || value <= s->meets * (1.0 + 1e-9) || value >= s->fails * (1.0 - 1e-9)) return NAN;
   return value;
 }
 
