@@ -97,10 +97,11 @@ static int32_t on_frame(int64_t frame, int64_t step, const hooke_state *state, v
   return 0;
 }
 
-/* Judges the step and the energy of a run that finished. */
+/* Judges the step and the energy of a run. */
 static int32_t judge(struct search *s, struct hk_soundness *soundness, struct result *result) {
   struct hk_patience patience =
       hk_patience_of_work(SHARE_OF_LIMITS * fmax(0.0, work_left(s->pick)), NULL, NULL);
+  if (isnan(result->error)) soundness->at[1].bound = INFINITY; /* nothing is sure of where it went */
   const int32_t status = hk_soundness_find_limits(soundness, &patience);
   s->pick->work += hk_soundness_work(soundness) + patience.work;
   result->allowed = hk_soundness_limit_share * soundness->least_limit;
