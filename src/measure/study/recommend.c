@@ -39,17 +39,50 @@ static void keep(struct hk_study *study, const struct hk_study_row *row) {
 
 /* ---- when nothing meets the wanted error ---- */
 
+static void explain_no_rows(struct hk_study *study) {
+  struct hk_study_recommendation *r = &study->recommendation;
+  const struct hk_study_row *finest = NULL;
+  for (int64_t k = 0; k < study->row_count; k++)
+    if (finest == NULL || study->row[k].value < finest->value) finest = &study->row[k];
+  const int adaptive = finest && hk_study_is_adaptive(study, finest->method);
+  if (finest == NULL)
+    snprintf(r->note, sizeof r->note, "there are no runs to choose from");
+  else
+    hk_print(
+        r->note, sizeof r->note,
+        "no run finished, so none comes close: %s %s even at %s %.3g%s; give smaller steps or other methods",
+        study->method[finest->method], finest->trial.status, adaptive ? "rtol" : "a step of", finest->value,
+        adaptive ? "" : " s");
+}
+
+/* Where nothing is picked, the row that comes closest. */
+static void keep_closest_row(struct hk_study *study) {
+  const struct hk_study_row *closest = NULL;
+  for (int64_t k = 0; k < study->row_count; k++) {
+    const struct hk_study_row *row = &study->row[k];
+    if (row->trial.error_max >= 0.0 && (closest == NULL || row->trial.error_max < closest->trial.error_max))
+      closest = row;
+  }
+  if (closest) keep(study, closest);
+}
+
 static void explain(struct hk_study *study) {
   struct hk_study_recommendation *r = &study->recommendation;
+  const int picked = r->method >= 0;
+  if (!picked) keep_closest_row(study);
   if (study->budget_spent && r->method < 0) {
     hk_print(r->note, sizeof r->note, "the budget of %g s ended before a run was found; give a larger one",
              study->budget);
   } else if (r->method < 0) {
-    snprintf(r->note, sizeof r->note, "no run finished with a step clear of its stability limit");
+    explain_no_rows(study);
   } else if (r->want <= study->reference.agreement) {
     hk_print(r->note, sizeof r->note,
              "%.3g m is below %.3g m, to which the reference itself is known; want more than that", r->want,
              study->reference.agreement);
+  } else if (!picked) {
+    hk_print(r->note, sizeof r->note,
+             "no run of these methods is clear of its stability limit; the closest row is %.3g m off",
+             r->error);
   } else {
     hk_print(r->note, sizeof r->note, "no run comes within %.3g m; the closest is %.3g m off; %s", r->want,
              r->error,
