@@ -215,7 +215,7 @@ static void measure_by_reference(struct hk_estimate *e, const hooke_state *state
     hk_print(e->reason, sizeof e->reason, "the reference itself is known to %.3g m alone", r->agreement);
   if (to_end) return;
   hk_print(e->reason, sizeof e->reason,
-           "after %.6g s two references part by more than a tenth of the wanted error%s",
+           "after %.6g s two references part by more than a fiftieth of the wanted error%s",
            e->begin + hk_pick_trusted(&e->pick),
            r->hurried ? ", for want of time"
                       : ", whatever their tolerance: the motion is chaotic, or rounding parts them");

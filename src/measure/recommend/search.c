@@ -26,9 +26,9 @@ static const double SPARE = 1.3;            /* of a run that might be cheaper, o
 static const double MOST_STEPS = 1e8;
 static const double SHARE_OF_LIMITS = 0.25; /* of the work that is left, at most for the limits of one row */
 static const double SHARE_OF_REFERENCE =
-    0.2;                                  /* approximate work of a run, as a fraction of the reference's */
-static const double DISPLACEMENT = 1e-12; /* of the start, as a fraction of the extent */
-static const uint64_t SEED = 1;           /* of that */
+    0.2;                                 /* approximate work of a run, as a fraction of the reference's */
+static const double DISPLACEMENT = 10.0; /* of the start, in halves of a unit in the last place */
+static const uint64_t SEED = 1;          /* of that */
 
 /* A run in the search. */
 struct result {
@@ -361,20 +361,20 @@ static int32_t search_all(struct hk_pick *pick, int32_t count, struct search *al
 
 /* ---- from a displaced start ---- */
 
-/* So little that a motion of the scene may grow a millionfold and more [m]; what a step above the limit
- * amplifies shows in it all the same. */
+/* As rounding does: so little that the scene's own motion may let it grow a millionfold and more [m]; what a
+ * step above the limit amplifies shows in it all the same. */
 static double displacement_of(const struct hk_reference *r) {
-  return fmax(DISPLACEMENT * r->extent, hk_frames_resolution(&r->frames, r->frames.position));
+  return DISPLACEMENT * hk_frames_resolution(&r->frames, r->frames.position);
 }
 
-/* Runs the best row once more, and forgets it if the want is not met there. */
+/* Runs the best row once more; if the want is not met there, the search goes on. */
 static int32_t confirm(struct search *s, int32_t *holds) {
   struct result again;
   const int32_t status = run_row(s, s->best.value, displacement_of(&s->pick->reference), 0.0, &again);
   *holds = status == HOOKE_OK && is_sound(&again) && again.error <= s->most;
-  if (*holds) s->best.error = fmax(s->best.error, again.error);
+  s->best.error = fmax(s->best.error, again.error);
   if (*holds || status != HOOKE_OK) return status;
-  s->best.method = NULL;
+  if (!is_sound(&again)) s->best.method = NULL;
   s->met = 0;
   s->meets = s->error_meets = NAN;
   s->fails = again.value;
