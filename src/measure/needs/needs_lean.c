@@ -271,6 +271,7 @@ static void forget(struct hk_needs *needs) {
   for (int64_t k = 0; k < needs->row_count; k++)
     hk_variant_release(&needs->row[k].variant);
   needs->row_count = 0;
+  hk_needs_path_release(&needs->displaced);
   hk_needs_path_release(&needs->lean_path);
   hk_variant_release(&needs->lean_variant);
   hk_variant_map_release(&needs->lean_map);

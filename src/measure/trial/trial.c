@@ -82,7 +82,7 @@ struct run {
 /* A step that is given up takes its counts with it. */
 static int32_t works_too_long(struct run *run) {
   const double most = run->listener ? run->listener->most_work : 0.0;
-  run->too_long |= most > 0.0 && hk_work_of(run->integrator) > most;
+  run->too_long |= most > 0.0 && run->integrator && hk_work_of(run->integrator) > most;
   return run->too_long;
 }
 
