@@ -27,7 +27,6 @@ struct why {
 };
 
 static const double SMALLEST_SHARE = 1e-3; /* storage of words */
-static const double USUAL_BUDGET = 30.0;   /* [s] */
 
 /* ---- diagnosing ---- */
 
@@ -277,11 +276,11 @@ static int find_out(struct why *why) {
 }
 
 static int read_options(struct why *why) {
-  double budget = USUAL_BUDGET;
+  double budget = NAN;
   const int code = cli_setup_read_study(why->arguments, "budget", &budget);
   if (code != HOOKE_EXIT_DONE) return code;
   int32_t status = hooke_options_create("why", &why->options);
-  if (status == HOOKE_OK) status = hooke_options_set_number(why->options, "budget", budget);
+  if (status == HOOKE_OK && !isnan(budget)) status = hooke_options_set_number(why->options, "budget", budget);
   return status == HOOKE_OK ? HOOKE_EXIT_DONE : cli_report_status(why->arguments, status);
 }
 
@@ -300,7 +299,9 @@ static int do_why(const struct cli_arguments *arguments) {
 
 static const struct cli_verb_row rows[] = {
     {"budget", 0, "SECONDS",
-     "time that the explanation may take after the run, such as 5s or 2min; 30 s if not given"},
+     "wall time that the explanation may take after the run, such as 5s or 2min; if not given, as much "
+     "counted work "
+     "as the run took, or 2 s if that is more, which is the same however busy the machine is"},
     {"report", 0, "FILE.html",
      "writes the explanation as one page to read offline, replacing it: the steps around the trouble, played "
      "slowly, "

@@ -2,6 +2,7 @@
 the outcome and the trajectory come first."""
 
 import os
+import shutil
 import signal
 import subprocess
 import time
@@ -74,6 +75,22 @@ def test_why_has_a_budget_too(cloth, hooke):
     assert answer.code == 0 and time.monotonic() - begun < 3.0
     assert answer.json["cause"] == "unknown" and "time was short" in answer.json["left_out"]
     assert hooke("why", "cloth.json", *RUN, "--budget", "1 kg").code == 2
+
+
+@pytest.mark.skipif("HOOKE_PROCESSOR_CLOCK" not in os.environ, reason="no clock to load before the program")
+@pytest.mark.parametrize("kind, words", [("cloth-16", ["--step", "10ms"]), ("curl", ["--step", "20ms", "--every", "0.1"]),
+                                         ("collapsing", []), ("gaining-strand", []), ("cvode-cable", [])])  # fmt: skip
+def test_no_clock_decides(hooke, tmp_path, kind, words):
+    """A clock that runs a million times too fast, as on a machine with a million other programs, changes no byte of an
+    explanation; it does of one that is given a budget, which is wall time."""
+    (found,) = [path for folder in ("examples/scenes", "tests/cli/scenes/exploding")
+                for path in [Path(os.environ["HOOKE_SOURCE_DIR"]) / folder / f"{kind}.json"] if path.exists()]  # fmt: skip
+    shutil.copy(found, tmp_path / "scene.json")
+    racing = {**os.environ, "LD_PRELOAD": os.environ["HOOKE_PROCESSOR_CLOCK"], "HOOKE_CLOCK_TIMES": "1000000"}
+    for more in ([], ["--json"]):
+        usual, raced = hooke("why", "scene.json", *words, *more), hooke("why", "scene.json", *words, *more, env=racing)
+        assert usual.code == 0 and (usual.out, usual.err) == (raced.out, raced.err)
+    assert "time was short" in hooke("why", "scene.json", *words, "--budget", "10s", env=racing).out
 
 
 def test_a_command_to_type_has_no_want_beside_a_step(hooke):
