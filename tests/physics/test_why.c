@@ -351,6 +351,39 @@ static void test_solvers_that_give_up(void **unused) {
   }
 }
 
+/* A step above the limit of 0.2 s, and the same force, which no step gets past: the step that the limit gives comes
+ * last, and its words own up to that. */
+static void test_a_step_that_is_not_enough(void **unused) {
+  (void)unused;
+  needs_lapack();
+  const double position[] = {0, 0, 0, 1, 0, 0}, velocity[] = {0, 0, 0, 0, 60, 0};
+  const int64_t ends[] = {0, 1};
+  hooke_system *system = small_system(2, position, velocity, 1.0, 1);
+  small_springs(system, 1, ends, (struct springs){.law = "length", .stiffness = 100.0, .rest_length = 1.0});
+  check_ok(hooke_system_set_force(system, escaping_force, NULL, NULL));
+  check_ok(hooke_system_commit(system));
+  hooke_integrator *integrator = start_run(
+      system, (struct run){.method = "symplectic-euler", .step = 0.21, .duration = 21.0, .every = 0.21});
+  hooke_state *state = start_state(system);
+  check_status(hooke_integrator_run(integrator, state), HOOKE_DIVERGED);
+  hooke_measurement *why = explain(integrator);
+  check_close(hooke_measurement_number(why, "why", 0, "limit"), 0.2, 1e-6);
+  int64_t found = -1;
+  for (int64_t k = 0; k < hooke_measurement_row_count(why, "advice"); k++) {
+    if (strcmp(hooke_measurement_text(why, "advice", k, "option"), "step") == 0) found = k;
+  }
+  assert_int_equal(found, 1);
+  check_text(hooke_measurement_text(why, "advice", 0, "option"), "duration");
+  check_advice(system, integrator, why, 0);
+  check_text(
+      hooke_measurement_text(why, "advice", 1, "change"),
+      "a step of 0.01 s, below the limit, which is not enough (tried: the run ends early with it, too)");
+  hooke_measurement_destroy(why);
+  hooke_state_destroy(state);
+  hooke_integrator_destroy(integrator);
+  hooke_system_destroy(system);
+}
+
 static void test_kept_state_that_is_not_finite(void **unused) {
   (void)unused;
   hooke_system *system = small_oscillator(10.0);
@@ -774,6 +807,7 @@ int main(void) {
       cmocka_unit_test(test_asking_changes_nothing),
       cmocka_unit_test(test_tolerances_that_are_too_loose),
       cmocka_unit_test(test_solvers_that_give_up),
+      cmocka_unit_test(test_a_step_that_is_not_enough),
       cmocka_unit_test(test_kept_state_that_is_not_finite),
       cmocka_unit_test(test_own_loop),
       cmocka_unit_test(test_trouble_that_comes_late),
