@@ -18,7 +18,7 @@
 
 enum { KEPT = 100, MOST_KEPT = 1000, STEPS_APART = 4, MOST_SEEN = 128, MOST_REFINED = 4 };
 static const double KEPT_BYTES = 1 << 26, FEW_BYTES = 1 << 22;
-static const double PATIENCE = 2.0;                      /* [s] for limits */
+static const double PATIENCE = 2.0;                      /* counted work for limits [s] */
 static const double SLICE = 0.04, SLICE_ADAPTIVE = 0.03; /* of the duration, for a tenth of the time */
 static const double AIM = 0.6, LEAST_GAIN = 0.7, LEAST_FACTOR = 1.0 / 16.0,
                     MOST_FACTOR = 0.7;             /* of refinement */
@@ -82,15 +82,14 @@ static void destroy(void *object) {
 
 /* Picks for the error `want` of the whole run, and sets the result in `run`. */
 static int32_t pick(struct hk_estimate *e, double want, hooke_options *run) {
-  const char *only = e->only[0] ? e->only : NULL;
   hk_pick_release(&e->pick);
   const double begun = hk_clock_seconds();
-  int32_t status = hk_pick_run(&e->pick, e->system, run, want, only, e->measurement->progress,
-                               e->measurement->progress_ctx);
+  int32_t status = hk_pick_run(&e->pick, e->system, run, want, e->only != NULL, &e->only,
+                               e->measurement->progress, e->measurement->progress_ctx);
   e->spent += hk_clock_seconds() - begun;
   if (status == HOOKE_OK && e->pick.best.method == NULL)
-    status =
-        hk_fail(HOOKE_UNSUITED, "method", "%s has no step that is stable here", only ? only : "no method");
+    status = hk_fail(HOOKE_UNSUITED, "method", "%s has no step that is stable here",
+                     e->only ? e->only : "no method");
   if (status == HOOKE_OK) status = hk_trial_set_value(run, e->pick.best.method, e->pick.best.value);
   if (status != HOOKE_OK) hk_pick_release(&e->pick);
   e->picked = status == HOOKE_OK;
@@ -106,7 +105,7 @@ int32_t hooke_estimate_pick(hooke_measurement *m, const char *method, hooke_opti
   if (method && !hooke_method_is_built(method))
     return hk_fail(hooke_method_is_adaptive(method) < 0 ? HOOKE_BAD_VALUE : HOOKE_NOT_BUILT, "method",
                    "this build has no method \"%s\"", method);
-  snprintf(e->only, sizeof e->only, "%s", method ? method : "");
+  e->only = method ? hk_method_find(method)->name : NULL;
   e->refined = 0;
   e->first = NAN;
   e->before = INFINITY;
@@ -163,7 +162,7 @@ int32_t hooke_estimate_begin(hooke_measurement *m, const hooke_integrator *it, c
   if (status == HOOKE_OK) status = hooke_state_create(e->system, &e->late);
   if (status == HOOKE_OK)
     status = hk_soundness_begin(&e->soundness, e->system, it->method->name,
-                                is_checked(e, it) ? NAN : it->schedule.step, PATIENCE, state, MOST_SEEN + 2);
+                                is_checked(e, it) ? NAN : it->schedule.step, state, MOST_SEEN + 2);
   return status;
 }
 
@@ -265,6 +264,9 @@ static void give_up(struct hk_estimate *e, int32_t status) {
 static int32_t measure(struct hk_estimate *e, const hooke_state *state) {
   if (e->kept.recorded == e->kept.count - 1) hk_frames_record(&e->kept, state);
   e->rise = hk_soundness_rise(&e->soundness);
+  struct hk_patience patience = hk_patience_of_work(PATIENCE, NULL, NULL);
+  int32_t status = hk_soundness_find_limits(&e->soundness, &patience);
+  if (status != HOOKE_OK) return status;
   if (isnan(e->first)) e->first = e->work;
   const char *obstacle = find_obstacle(e, state);
   if (obstacle) {
@@ -272,7 +274,7 @@ static int32_t measure(struct hk_estimate *e, const hooke_state *state) {
     return HOOKE_OK;
   }
   const double begun = hk_clock_seconds();
-  int32_t status = measure_again(e, state);
+  status = measure_again(e, state);
   if (status == HOOKE_OK)
     status = hk_estimate_heat(e);
   else

@@ -3,8 +3,8 @@
 #define HOOKE_MEASURE_ESTIMATE_ESTIMATE_H
 
 #include "hooke/estimate.h"
-#include "measure/estimate/pick.h"
-#include "measure/estimate/soundness.h"
+#include "measure/recommend/pick.h"
+#include "measure/recommend/soundness.h"
 #include "measure/measurement.h"
 
 struct hk_estimate {
@@ -14,7 +14,7 @@ struct hk_estimate {
   int32_t callbacks;   /* 1: runs are repeated even if callbacks take part */
   struct hk_pick pick; /* with a system, after its run */
   int32_t picked;      /* 1: the next run is the picked one, not a refined one */
-  char only[64];       /* the only method allowed; "": any */
+  const char *only;    /* the only method allowed; NULL: any */
   double first;        /* counted work of the first run [s] */
   double before;       /* error before refinement [m]; infinity at first */
   int32_t refined;     /* number of refinements */

@@ -76,7 +76,7 @@ int32_t hk_estimate_rerun(struct hk_estimate *e, const struct hk_rerun *rerun, s
       .on_progress = tell, .on_frame = show, .on_start = start_from, .ctx = &run};
   hooke_options *options = NULL;
   int32_t status = make_options(e, rerun, &options);
-  if (status == HOOKE_OK) status = hk_frames_run(frames, options, &listener, NULL, NULL);
+  if (status == HOOKE_OK) status = hk_frames_run(frames, options, &listener, NULL);
   hooke_options_destroy(options);
   return status == HOOKE_NO_MEMORY || status == HOOKE_STOPPED ? status : HOOKE_OK;
 }

@@ -118,13 +118,15 @@ static int32_t see_progress(double share, void *ctx) {
 int32_t hk_needs_run_once(struct hk_needs_recorder *recorder, const hooke_options *options, int32_t *finished,
                           struct hk_needs_cost *cost) {
   const struct hk_listener listener = {.on_progress = see_progress, .on_frame = see_frame, .ctx = recorder};
+  struct hk_run_cost taken = {.wall_seconds = NAN, .force_evaluations = NAN};
   struct hk_frames none;
   if (recorder->path) recorder->path->recorded = 0;
   recorder->needs->runs++;
   int32_t status = hk_frames_create(recorder->trial->system, 0, &none);
-  if (status == HOOKE_OK)
-    status = hk_frames_run(&none, options, &listener, &cost->wall_seconds, &cost->force_evaluations);
+  if (status == HOOKE_OK) status = hk_frames_run(&none, options, &listener, &taken);
   hk_frames_release(&none);
+  cost->wall_seconds = taken.wall_seconds;
+  cost->force_evaluations = taken.force_evaluations;
   cost->steps = recorder->last_step;
   *finished = status == HOOKE_OK;
   if (status == HOOKE_STOPPED && recorder->expired) return HOOKE_OK;

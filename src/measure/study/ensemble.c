@@ -5,6 +5,7 @@
 #include "core/random.h"
 #include "core/status.h"
 #include "measure/study/study.h"
+#include "measure/trial/displaced.h"
 
 #include <math.h>
 #include <stddef.h>
@@ -110,18 +111,9 @@ static int32_t tell(double share, void *ctx) {
   return hk_study_tell_row(share, ((struct member *)ctx)->study);
 }
 
-/* Adds independent noise to every coordinate of a free particle; a rigid body goes where the three particles
- * go that say where it is. */
 static void displace(hooke_state *state, void *ctx) {
   struct member *member = ctx;
-  const struct hk_frames *frames = &member->study->reference.frames;
-  const double size = member->ensemble->noise / sqrt(3.0);
-  double *q = hooke_state_position(state);
-  for (int64_t k = 0; k < frames->free_count; k++) {
-    for (int a = 0; a < 3; a++)
-      q[3 * frames->free_particle[k] + a] += size * hk_random_normal(&member->source->random);
-  }
-  hk_bodies_make_rigid(frames->system, q, hooke_state_velocity(state));
+  hk_displace(state, member->study->system, member->ensemble->noise / sqrt(3.0), &member->source->random);
 }
 
 static int32_t see_frame(int64_t frame, int64_t step, const hooke_state *state, void *ctx) {
@@ -170,7 +162,7 @@ static int32_t run_member(struct member *member) {
   int32_t status = source_options(study, member->source, &options);
   if (status == HOOKE_OK) {
     status = hk_frames_create(study->system, 0, &none);
-    if (status == HOOKE_OK) status = hk_frames_run(&none, options, &listener, NULL, NULL);
+    if (status == HOOKE_OK) status = hk_frames_run(&none, options, &listener, NULL);
     hk_frames_release(&none);
   }
   hooke_options_destroy(options);

@@ -1,68 +1,52 @@
-/* The recommendation: the cheapest step or tolerance whose error is at most the wanted one. It is predicted
- * from the measured curves, then confirmed by runs. */
-#include "measure/study/study_search.h"
+/* The recommendation: what 'run --want' picks (measure/recommend), held against the reference of the study. */
+#include "measure/study/study.h"
 
 #include "core/clock.h"
 #include "core/print.h"
 #include "core/status.h"
+#include "measure/recommend/pick.h"
 
 #include <math.h>
 #include <stddef.h>
 #include <stdio.h>
 #include <string.h>
 
-/* Rows whose times are this close are measured again, in turns. */
-enum { MOST_ROUNDS = 7 };
-static const double CONTENDS = 1.6, RACE_SECONDS = 0.5;
+enum { MOST_PICKS = 3 };
+static const double AIM = 0.6; /* of the want, where a pick of the beginning was too coarse for the run */
 
-static void keep(struct hk_study *study, const struct hk_study_candidate *c, int32_t met) {
+static int32_t tell_pick(double share, const char *what, void *ctx) {
+  struct hk_study *study = ctx;
+  study->under_way = what;
+  return hk_study_tell_row(share, study);
+}
+
+static int32_t method_number(const struct hk_study *study, const char *name) {
+  for (int32_t m = 0; m < study->method_count; m++)
+    if (strcmp(study->method[m], name) == 0) return m;
+  return -1;
+}
+
+static void keep(struct hk_study *study, const struct hk_study_row *row) {
   struct hk_study_recommendation *r = &study->recommendation;
-  r->met = met;
-  r->method = c->method;
-  r->value = c->best.value;
-  r->atol = c->best.trial.atol;
-  r->error = c->best.trial.error_max;
-  r->wall_seconds = c->best.trial.wall_seconds;
-  r->force_evaluations = c->best.trial.force_evaluations;
+  r->method = row->method;
+  r->value = row->value;
+  r->atol = row->trial.atol;
+  r->error = row->trial.error_max;
+  r->wall_seconds = row->trial.wall_seconds;
+  r->wall_median = row->wall_median;
+  r->force_evaluations = row->trial.force_evaluations;
 }
 
 /* ---- when nothing meets the wanted error ---- */
 
-static void explain_no_rows(struct hk_study *study) {
+static void explain(struct hk_study *study) {
   struct hk_study_recommendation *r = &study->recommendation;
-  const struct hk_study_row *finest = NULL;
-  for (int64_t k = 0; k < study->row_count; k++) {
-    const struct hk_study_row *row = &study->row[k];
-    if (finest == NULL || row->value < finest->value) finest = row;
-  }
-  if (finest == NULL && study->budget_spent) {
-    hk_print(r->note, sizeof r->note, "the budget of %g s ended before the first run did; give a larger one",
+  if (study->budget_spent && r->method < 0) {
+    hk_print(r->note, sizeof r->note, "the budget of %g s ended before a run was found; give a larger one",
              study->budget);
-  } else if (finest == NULL) {
-    snprintf(r->note, sizeof r->note, "there are no runs to choose from");
-  } else {
-    const int adaptive = hk_study_is_adaptive(study, finest->method);
-    hk_print(
-        r->note, sizeof r->note,
-        "no run finished, so none comes close: %s %s even at %s %.3g%s; give smaller steps or other methods",
-        study->method[finest->method], finest->trial.status, adaptive ? "rtol" : "a step of", finest->value,
-        adaptive ? "" : " s");
-  }
-}
-
-static void keep_closest(struct hk_study *study, const struct hk_study_candidate *candidates) {
-  struct hk_study_recommendation *r = &study->recommendation;
-  const struct hk_study_candidate *closest = NULL;
-  for (int32_t m = 0; m < study->method_count; m++) {
-    const double error = candidates[m].best.trial.error_max;
-    if (error >= 0.0 && (closest == NULL || error < closest->best.trial.error_max)) closest = &candidates[m];
-  }
-  if (closest == NULL) {
-    explain_no_rows(study);
-    return;
-  }
-  keep(study, closest, 0);
-  if (r->want <= study->reference.agreement) {
+  } else if (r->method < 0) {
+    snprintf(r->note, sizeof r->note, "no run finished with a step clear of its stability limit");
+  } else if (r->want <= study->reference.agreement) {
     hk_print(r->note, sizeof r->note,
              "%.3g m is below %.3g m, to which the reference itself is known; want more than that", r->want,
              study->reference.agreement);
@@ -72,98 +56,6 @@ static void keep_closest(struct hk_study *study, const struct hk_study_candidate
              study->budget_spent ? "a larger budget would try finer steps"
                                  : "finer steps or tighter tolerances, or other methods, might");
   }
-}
-
-/* ---- choosing ---- */
-
-static void sort_by_prediction(struct hk_study_candidate *c, int32_t count) {
-  for (int32_t k = 1; k < count; k++) {
-    for (int32_t i = k; i > 0 && c[i].predicted < c[i - 1].predicted; i--) {
-      const struct hk_study_candidate swap = c[i];
-      c[i] = c[i - 1];
-      c[i - 1] = swap;
-    }
-  }
-}
-
-static struct hk_study_candidate *cheapest_of(struct hk_study_candidate *c, int32_t count) {
-  struct hk_study_candidate *best = NULL;
-  for (int32_t k = 0; k < count; k++) {
-    if (isnan(c[k].meets)) continue;
-    if (best == NULL || hk_study_candidate_cost(&c[k]) < hk_study_candidate_cost(best)) best = &c[k];
-  }
-  return best;
-}
-
-/* One more run, for its time. */
-static int32_t run_again(struct hk_study *study, struct hk_study_candidate *c, double *seconds) {
-  const struct hk_listener listener = {.on_progress = hk_study_tell_row, .ctx = study};
-  struct hk_study_row again;
-  study->late = 0;
-  study->row_deadline = study->deadline;
-  study->under_way = study->method[c->method];
-  const int32_t status = hk_study_run_row(study, c->method, c->best.value, &listener, &again);
-  if (status == HOOKE_OK) *seconds = fmin(*seconds, again.trial.wall_seconds);
-  hk_trial_release(&again.trial);
-  return status == HOOKE_STOPPED && study->late ? HOOKE_OK : status;
-}
-
-/* Rows were measured minutes apart, when the machine was busy or idle: close ones are measured again in
- * turns. */
-static int32_t race(struct hk_study *study, struct hk_study_candidate *c, struct hk_study_candidate **best) {
-  double seconds[HOOKE_STUDY_METHODS], most;
-  const int32_t methods = study->method_count;
-  int32_t status = HOOKE_OK, contenders = 0;
-  *best = cheapest_of(c, methods);
-  if (*best == NULL) return HOOKE_OK;
-  most = CONTENDS * hk_study_candidate_cost(*best);
-  for (int32_t k = 0; k < methods; k++) {
-    seconds[k] = !isnan(c[k].meets) && hk_study_candidate_cost(&c[k]) <= most ? INFINITY : NAN;
-    contenders += isinf(seconds[k]) != 0;
-  }
-  const double begun = hk_clock_seconds();
-  for (int32_t round = 0; contenders > 1 && round < MOST_ROUNDS && status == HOOKE_OK; round++) {
-    if (hk_clock_seconds() > fmin(begun + RACE_SECONDS, study->deadline)) break;
-    for (int32_t k = 0; k < methods && status == HOOKE_OK; k++)
-      if (!isnan(seconds[k])) status = run_again(study, &c[k], &seconds[k]);
-  }
-  for (int32_t k = 0; k < methods; k++) {
-    double *least = &c[k].best.trial.wall_seconds;
-    *least = fmin(*least, seconds[k]); /* fmin ignores a NaN */
-    if (seconds[k] < seconds[*best - c]) *best = &c[k];
-  }
-  return status;
-}
-
-/* The most promising first; a method that cannot become cheaper than the best so far is skipped. */
-static int32_t search_all(struct hk_study *study, struct hk_study_candidate *c) {
-  int32_t status = HOOKE_OK;
-  for (int32_t k = 0; k < study->method_count && status == HOOKE_OK; k++) {
-    const struct hk_study_candidate *best = cheapest_of(c, k);
-    status = hk_study_candidate_search(study, &c[k], best ? hk_study_candidate_cost(best) : INFINITY);
-  }
-  return status;
-}
-
-/* 1 if the method is one of the two that made the reference. */
-static int made_reference(const struct hk_study *study, const struct hk_study_candidate *c) {
-  const char *method = study->method[c->method];
-  return strcmp(method, study->reference.method) == 0 || strcmp(method, study->reference.check) == 0;
-}
-
-/* Runs as fine as the reference meet the want, since the reference does; then coarsens from there. The
- * reference's own methods first. */
-static int32_t search_from_reference(struct hk_study *study, struct hk_study_candidate *c) {
-  int32_t status = HOOKE_OK;
-  for (int own = 1; own >= 0; own--) {
-    for (int32_t k = 0; k < study->method_count && status == HOOKE_OK; k++) {
-      if (made_reference(study, &c[k]) != own || cheapest_of(c, study->method_count)) continue;
-      status = hk_study_candidate_try_finest(study, &c[k]);
-      if (status == HOOKE_OK && !isnan(c[k].meets))
-        status = hk_study_candidate_search(study, &c[k], INFINITY);
-    }
-  }
-  return status;
 }
 
 /* 1 if nothing but the start is trusted, where every run is right. */
@@ -176,6 +68,44 @@ static int is_untrusted(struct hk_study *study) {
   return 1;
 }
 
+/* ---- picking ---- */
+
+/* Measures the picked run as rows are; a closest one only if there is none yet. */
+static int32_t measure(struct hk_study *study, const struct hk_pick *pick, double *error) {
+  struct hk_study_recommendation *r = &study->recommendation;
+  const int32_t method = pick->best.method ? method_number(study, pick->best.method) : -1;
+  struct hk_study_row row;
+  *error = NAN;
+  if (method < 0) return HOOKE_OK;
+  study->row_deadline = study->deadline;
+  const int32_t status = hk_study_measure(study, method, pick->best.value, &row);
+  if (status == HOOKE_OK && row.trial.status) {
+    *error = row.trial.error_max;
+    r->met = pick->met && *error <= r->want;
+    keep(study, &row);
+    if (r->met) hk_pick_say_reversal(pick, r->note, sizeof r->note);
+  }
+  hk_trial_release(&row.trial);
+  return status;
+}
+
+/* Picks for `want`, by one pick. */
+static int32_t pick_once(struct hk_study *study, double want, double *error, int32_t *met) {
+  struct hk_pick pick;
+  study->late = 0;
+  study->row_deadline = study->deadline;
+  int32_t status = hk_pick_run(&pick, study->system, study->run, want, study->method_count, study->method,
+                               tell_pick, study);
+  if (status == HOOKE_STOPPED && study->late) {
+    study->budget_spent = 1;
+    status = HOOKE_OK;
+  }
+  if (status == HOOKE_OK) status = measure(study, &pick, error);
+  *met = pick.met;
+  hk_pick_release(&pick);
+  return status;
+}
+
 static void clear(struct hk_study *study, double want) {
   study->recommendation = (struct hk_study_recommendation){.made = 1,
                                                            .method = -1,
@@ -184,35 +114,26 @@ static void clear(struct hk_study *study, double want) {
                                                            .atol = NAN,
                                                            .error = NAN,
                                                            .wall_seconds = NAN,
+                                                           .wall_median = NAN,
                                                            .force_evaluations = NAN,
                                                            .margin = {NAN, {NAN, NAN}, {NAN, NAN}}};
   study->work_ahead = 0.0;
 }
 
 int32_t hk_study_find_cheapest(struct hk_study *study, double want) {
-  struct hk_study_candidate c[HOOKE_STUDY_METHODS];
+  struct hk_study_recommendation *r = &study->recommendation;
+  double error = NAN, aim = want;
+  int32_t status = HOOKE_OK, met = 1;
   clear(study, want);
   if (is_untrusted(study)) return HOOKE_OK;
-  for (int32_t m = 0; m < study->method_count; m++)
-    hk_study_candidate_create(study, m, want, &c[m]);
-  sort_by_prediction(c, study->method_count);
-  struct hk_study_candidate *best = NULL;
-  /* the cost of the reference is known, that of searches beyond the rows is not */
-  const int far = study->method_count > 0 && !(c[0].predicted < study->reference.run_seconds);
-  int32_t status = far ? search_from_reference(study, c) : HOOKE_OK;
-  if (status == HOOKE_OK) status = search_all(study, c);
-  if (status == HOOKE_OK) status = search_from_reference(study, c);
-  if (status == HOOKE_OK)
-    status = race(study, c, &best);
-  else
-    best = cheapest_of(c, study->method_count);
-  if (best)
-    keep(study, best, 1);
-  else
-    keep_closest(study, c);
-  for (int32_t k = 0; k < study->method_count; k++)
-    hk_study_candidate_release(&c[k]);
-  return status == HOOKE_OK && best ? hk_study_find_margin(study) : status;
+  for (int k = 0; k < MOST_PICKS && met && !r->met && status == HOOKE_OK; k++) {
+    if (error > want) aim *= AIM * want / error;
+    status = pick_once(study, aim, &error, &met);
+  }
+  if (status != HOOKE_OK) return status;
+  if (r->met) return hk_study_find_margin(study);
+  explain(study);
+  return HOOKE_OK;
 }
 
 int32_t hooke_study_recommend(hooke_measurement *m, double want) {

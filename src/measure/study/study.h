@@ -36,7 +36,7 @@ struct hk_study_margin {
 struct hk_study_recommendation {
   int32_t made, met;
   int32_t method;
-  double want, value, atol, wall_seconds, force_evaluations;
+  double want, value, atol, wall_seconds, wall_median, force_evaluations;
   double error; /* largest distance of any particle [m] */
   struct hk_study_margin margin;
   char note[512];

@@ -2,7 +2,6 @@
  * slightly changed stiffness or start, each judged against a reference of its own. */
 #include "measure/study/study.h"
 
-#include "core/clock.h"
 #include "measure/limit/limit_predict.h"
 #include "model/variant/variant.h"
 
@@ -13,8 +12,8 @@
 /* Stiffness is multiplied by 1 + or - this; all free particles get this fraction of the largest speed of the
  * reference (root mean square between two frames) added along (1, 1, 1) and against it. */
 static const double CHANGE = 0.1;
-static const double SHARE = 0.5;     /* of the time that the study took so far */
-static const double SECONDS = 1.0;   /* and at least so many seconds */
+static const double RUNS = 2.0;      /* counted work of all, over that of the study's reference */
+static const double WORK = 1.0;      /* and at least so much [s] */
 static const double ACCURACY = 1e-3; /* of the limit, relative */
 
 static int32_t tell_limit(double done, const char *what, void *study) {
@@ -57,30 +56,31 @@ static double judge(const struct hk_study *study, const struct hk_reference *r,
   return r->trusted >= study->reference.trusted && error + r->agreement <= want ? 1.0 : NAN;
 }
 
-/* The recommended run on a slightly changed system; NaN if time was too short for it or its reference. */
-static int32_t try_change(struct hk_study *study, const hooke_system *changed, double seconds, double *holds,
+/* The recommended run on a slightly changed system; NaN if the work was too little for it or its reference. */
+static int32_t try_change(struct hk_study *study, const hooke_system *changed, double work, double *holds,
                           double *error) {
   const struct hk_study_recommendation *best = &study->recommendation;
-  const struct hk_listener told = {.on_progress = hk_study_tell, .ctx = study};
-  const struct hk_listener stopped = {.on_progress = hk_study_tell_row, .ctx = study};
+  const struct hk_listener listener = {.on_progress = hk_study_tell_row, .most_work = work, .ctx = study};
   const struct hk_reference_request request = {.run = study->run,
                                                .frame_count = study->reference.frames.count,
                                                .digits = best->want / 10.0,
                                                .enough = 1,
-                                               .budget = seconds,
-                                               .listener = &told};
+                                               .counted = 1,
+                                               .budget = work,
+                                               .listener = &listener};
   struct hk_reference reference;
   struct hk_trial trial = {.status = NULL};
   hooke_options *options = NULL;
-  int32_t status = hk_reference_create(changed, &request, &reference);
-  if (status != HOOKE_OK) return status == HOOKE_NO_MEMORY || status == HOOKE_STOPPED ? status : HOOKE_OK;
   study->late = 0;
-  study->row_deadline = hk_clock_seconds() + seconds;
+  study->row_deadline = study->deadline;
+  int32_t status = hk_reference_create(changed, &request, &reference);
+  if (status == HOOKE_STOPPED && study->late) return HOOKE_OK;
+  if (status != HOOKE_OK) return status == HOOKE_NO_MEMORY || status == HOOKE_STOPPED ? status : HOOKE_OK;
   const int64_t judged = (int64_t)fmin((double)reference.trusted, (double)study->reference.trusted);
   status = hk_study_row_options(study, best->method, best->value, &options);
   if (status == HOOKE_OK) status = hk_trial_create(&reference.frames, &trial);
-  if (status == HOOKE_OK) status = hk_trial_run(&trial, &reference.frames, judged, options, &stopped);
-  if (status == HOOKE_OK) {
+  if (status == HOOKE_OK) status = hk_trial_run(&trial, &reference.frames, judged, options, &listener);
+  if (status == HOOKE_OK && strcmp(trial.status, "stopped") != 0) {
     *holds = judge(study, &reference, &trial);
     *error = trial.error_max;
   }
@@ -110,14 +110,14 @@ static int32_t make_changed(const struct hk_study *study, enum hk_study_change c
 }
 
 /* The want is met with a change if it is met in both directions. */
-static int32_t find_change(struct hk_study *study, enum hk_study_change change, double seconds) {
+static int32_t find_change(struct hk_study *study, enum hk_study_change change, double work) {
   struct hk_study_margin *margin = &study->recommendation.margin;
   double holds[2] = {NAN, NAN}, error[2] = {NAN, NAN};
   int32_t status = HOOKE_OK;
   for (int k = 0; k < 2 && status == HOOKE_OK; k++) {
     hooke_system *changed = NULL;
     status = make_changed(study, change, k == 0 ? 1.0 : -1.0, &changed);
-    if (status == HOOKE_OK) status = try_change(study, changed, seconds / 2.0, &holds[k], &error[k]);
+    if (status == HOOKE_OK) status = try_change(study, changed, work / 2.0, &holds[k], &error[k]);
     hooke_system_destroy(changed);
   }
   if (holds[0] == 0.0 || holds[1] == 0.0)
@@ -129,11 +129,10 @@ static int32_t find_change(struct hk_study *study, enum hk_study_change change, 
 }
 
 int32_t hk_study_find_margin(struct hk_study *study) {
-  const double now = hk_clock_seconds(), left = study->begun + study->budget - now;
-  const double seconds = fmin(left, fmax(SECONDS, SHARE * (now - study->begun)));
+  const double work = fmax(WORK, RUNS * study->reference.work) / HOOKE_STUDY_CHANGES;
   study->under_way = "margin";
   int32_t status = find_limit_share(study, &study->recommendation);
-  for (int k = 0; k < HOOKE_STUDY_CHANGES && status == HOOKE_OK && seconds > 0.0; k++)
-    status = find_change(study, (enum hk_study_change)k, seconds / HOOKE_STUDY_CHANGES);
+  for (int k = 0; k < HOOKE_STUDY_CHANGES && status == HOOKE_OK; k++)
+    status = find_change(study, (enum hk_study_change)k, work);
   return status;
 }

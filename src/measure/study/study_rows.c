@@ -201,7 +201,7 @@ static void plan_level(struct hk_study *study, int32_t number, struct level *lev
 static double end_of_rows(const struct hk_study *study) {
   const double end = study->begun + study->budget, left = end - hk_clock_seconds();
   if (isnan(hooke_options_number(study->options, "want")) || isinf(end)) return end;
-  const double search = fmax(SEARCH_SHARE * study->budget, SEARCH_RUNS * study->reference.run_seconds);
+  const double search = fmax(SEARCH_SHARE * study->budget, SEARCH_RUNS * study->reference.run_work);
   return end - fmin(search, MOST_SEARCH * left);
 }
 

@@ -117,7 +117,7 @@ static int32_t make_reference(struct hk_comparison *c) {
   const struct hk_reference_request request = {.run = c->run,
                                                .frame_count = c->frame_count,
                                                .digits = NAN,
-                                               .repeatable = 1,
+                                               .brief = 1,
                                                .budget = INFINITY,
                                                .listener = &listener};
   c->runs_begun++;
@@ -131,7 +131,7 @@ static int32_t show_reference(struct hk_comparison *c) {
   hooke_options *options = NULL;
   int32_t status = hk_reference_options(c->run, r->method, r->rtol, r, &options);
   if (status == HOOKE_OK) status = hooke_options_set_number(options, "atol", r->atol);
-  if (status == HOOKE_OK) status = hk_frames_run(&r->frames, options, &listener, NULL, NULL);
+  if (status == HOOKE_OK) status = hk_frames_run(&r->frames, options, &listener, NULL);
   hooke_options_destroy(options);
   return status;
 }

@@ -91,7 +91,7 @@ static void find_trust(struct hk_reference_watch *watch, struct hk_reference *r,
 /* ---- levels ---- */
 
 static int measures_growth(const struct hk_reference_request *request) {
-  return !request->enough && !request->repeatable;
+  return !request->enough && !request->brief;
 }
 
 /* Work to come beside this level, for progress: the usual levels, and the runs for the growth. */
@@ -105,13 +105,13 @@ static int32_t agree(struct hk_reference_watch *watch, struct hk_reference *r, d
                      struct hk_trial *check) {
   const double budget = watch->request->budget;
   const int first = r->check == NULL;
-  const double deadline = watch->begun + LEVELS_SHARE * budget;
-  struct hk_reference_cost cost;
+  const double deadline = watch->start + LEVELS_SHARE * budget;
+  struct hk_run_cost cost;
   r->rtol = fmax(TIGHTEST, 0.1 * tolerance);
   watch->levels++;
   watch->ahead = ahead_of_level(watch) + CHECK_COST;
   int32_t status =
-      hk_reference_make_frames(watch, r, first ? watch->begun + FIRST_RUN_SHARE * budget : deadline, &cost);
+      hk_reference_make_frames(watch, r, first ? watch->start + FIRST_RUN_SHARE * budget : deadline, &cost);
   if (status != HOOKE_OK || r->frames.recorded < 2) return status;
   if (first) status = hk_reference_choose_check(watch, r, tolerance, cost);
   watch->ahead = ahead_of_level(watch);
@@ -163,9 +163,9 @@ static int is_drowned(const struct hk_reference *r) {
   return SAFETY * r->frames.rounding[frame] > aim_of(r);
 }
 
-/* 1 if the two part for good, which tighter tolerances put off a little: what takes no budget ends here. */
+/* 1 if the two part for good, which tighter tolerances put off a little. */
 static int is_lost(const struct hk_reference_watch *watch, const struct hk_reference *r) {
-  return watch->request->repeatable && !is_all(r);
+  return watch->request->brief && !is_all(r);
 }
 
 /* 1 if an integrator gave up, which it may do at one tolerance and not at another. */
@@ -197,7 +197,7 @@ static int has_time(const struct hk_reference_watch *watch, const struct hk_refe
                     double seconds) {
   const double share = is_all(r) ? FLOOR_SHARE : LEVELS_SHARE;
   const double expected = COST_SPARE * pow(times, COST_POWER) * seconds;
-  return hk_clock_seconds() + expected <= watch->begun + share * watch->request->budget;
+  return hk_reference_now(watch) + expected <= watch->start + share * watch->request->budget;
 }
 
 /* Tightens until the two agree, or tolerances or time are exhausted. */
@@ -206,14 +206,14 @@ static int32_t tighten(struct hk_reference_watch *watch, struct hk_reference *r,
   int32_t status = hk_reference_choose_first(watch, r, 0.1 * tolerance);
   if (status != HOOKE_OK) return status;
   for (;;) {
-    const double begun = hk_clock_seconds();
+    const double begun = hk_reference_now(watch);
     status = run_level(watch, r, tolerance, check);
     const int failed = gave_up(status);
     if (failed && r->checked > 0) status = HOOKE_OK;
     if (status != HOOKE_OK && (!failed || tolerance <= TIGHTEST)) return status;
     const int last = tolerance <= TIGHTEST || is_lost(watch, r) || is_drowned(r);
     if (r->checked > 0 && (failed || last || is_enough(watch->request, r))) break;
-    const double seconds = hk_clock_seconds() - begun;
+    const double seconds = hk_reference_now(watch) - begun;
     double finer = failed ? tolerance * LEAST_FACTOR : next_tolerance(watch, r, tolerance);
     if (!has_time(watch, r, tolerance / finer, seconds)) finer = fmax(finer, MOST_FACTOR * tolerance);
     r->hurried = watch->cut || !has_time(watch, r, tolerance / finer, seconds);
@@ -232,6 +232,7 @@ static int32_t tighten(struct hk_reference_watch *watch, struct hk_reference *r,
 int32_t hk_reference_create(const hooke_system *system, const struct hk_reference_request *request,
                             struct hk_reference *r) {
   struct hk_reference_watch watch = {.request = request, .begun = hk_clock_seconds()};
+  watch.start = hk_reference_now(&watch);
   struct hk_trial trial = {.status = NULL};
   hooke_state *state = NULL;
   *r = (struct hk_reference){.growth = NAN,
@@ -255,6 +256,7 @@ int32_t hk_reference_create(const hooke_system *system, const struct hk_referenc
   if (status == HOOKE_OK && measures_growth(request)) status = hk_reference_measure_growth(&watch, r, &trial);
   hk_trial_release(&trial);
   r->wall_seconds = hk_clock_seconds() - watch.begun;
+  r->work = watch.work;
   if (status != HOOKE_OK) hk_reference_release(r);
   return status;
 }

@@ -8,10 +8,10 @@
 struct hk_reference {
   struct hk_frames frames; /* of `method` at `rtol` */
   const char *method, *check;
-  double rtol, atol;               /* its tolerances, */
-  double evaluations, run_seconds; /* force evaluations and wall time */
-  double extent;                   /* diagonal of the box that holds all frames [m] */
-  double farthest;                 /* largest coordinate at the start, at least the extent then [m] */
+  double rtol, atol;            /* its tolerances, */
+  double evaluations, run_work; /* force evaluations and counted work of its run */
+  double extent;                /* diagonal of the box that holds all frames [m] */
+  double farthest;              /* largest coordinate at the start, at least the extent then [m] */
   double digits; /* distance up to which frames are trusted: the wanted one, or see `coarse` [m] */
   /* twice the largest distance of a particle between the two over trusted frames, and of what rounding may do
    * to one [m]; at most `digits`; NaN if nothing after the start is trusted */
@@ -28,7 +28,7 @@ struct hk_reference {
   double growth_seen;        /* largest growth of one displacement; NaN: not measured */
   int32_t displacements;     /* number of displacements */
   int32_t growth_saturated;  /* 1: displacements grew too large, so no bound is known */
-  double wall_seconds;       /* of the whole reference */
+  double wall_seconds, work; /* of the whole reference; counted [s] */
 };
 
 /* Requirements of a reference. */
@@ -39,14 +39,15 @@ struct hk_reference_request {
   /* 1: no tighter than needed to trust all frames, beginning loosely, and no growth. 0: down to 1e-9 of the
    * extent, while there is time */
   int32_t enough;
-  int32_t repeatable; /* 1: no choice depends on a clock, without a budget, and no growth */
-  double budget;      /* [s], infinity for none */
+  int32_t brief;   /* 1: it ends where the two part, and measures no growth */
+  int32_t counted; /* 1: the budget is one of counted work, which is the same on any machine */
+  double budget;   /* [s], infinity for none */
   const struct hk_watched_list
       *watched; /* recorded at every frame, with the difference of the two; NULL: nothing */
   const struct hk_listener *listener; /* receives progress as a fraction of the whole reference */
 };
 
-/* Works within the budget: a run that the budget ends is compared as far as it got, and counts if that is
+/* Without a budget, or with a counted one, no choice depends on a clock. Works within the budget: a run that the budget ends is compared as far as it got, and counts if that is
  * further than before. HOOKE_NOT_BUILT without SUNDIALS; HOOKE_BAD_VALUE if the budget ends before one frame
  * after the start; HOOKE_STOPPED; HOOKE_SOLVER_FAILED, HOOKE_DIVERGED if an integrator gave up. */
 int32_t hk_reference_create(const hooke_system *system, const struct hk_reference_request *request,

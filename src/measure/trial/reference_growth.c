@@ -6,7 +6,6 @@
  * 10^-k. */
 #include "measure/trial/reference_run.h"
 
-#include "core/clock.h"
 #include "core/memory.h"
 #include "core/random.h"
 #include "model/system.h"
@@ -18,8 +17,8 @@
 enum { RANDOM = 3, FEWEST = 2 };     /* random displacements, and of those in a bound */
 enum { MOST_COORDINATES = 36 };      /* maximum number of coordinates displaced one by one */
 static const int64_t ROOM = 1000000; /* maximum numbers stored for that */
-static const double COORDINATES_SECONDS = 0.5,
-                    COORDINATES_SHARE = 1.0; /* minimum time [s], and as a multiple of the reference's */
+static const double COORDINATES_WORK = 0.5,
+                    COORDINATES_SHARE = 1.0; /* least work [s], and as a multiple of the reference's */
 static const uint64_t SEED = 1;
 static const double BOUND = 7.978845608028654; /* 10 sqrt(2/pi) */
 static const double DISPLACEMENT = 1e-7;       /* displacement of a component, as a fraction of the extent */
@@ -192,9 +191,8 @@ static int takes_all(const struct hk_reference_watch *watch, const struct hk_ref
                      double deadline) {
   const int64_t columns = 6 * base->frames.free_count;
   if (columns > MOST_COORDINATES || columns * columns / 2 * base->frames.recorded > ROOM) return 0;
-  const double now = hk_clock_seconds(), seconds = (double)columns * base->run_seconds;
-  return seconds <=
-         fmin(0.5 * (deadline - now), fmax(COORDINATES_SECONDS, COORDINATES_SHARE * (now - watch->begun)));
+  const double left = deadline - hk_reference_now(watch), work = (double)columns * base->run_work;
+  return work <= fmin(0.5 * left, fmax(COORDINATES_WORK, COORDINATES_SHARE * watch->work));
 }
 
 static int32_t displace_and_run(struct hk_reference_watch *watch, struct hk_reference *r,
@@ -209,14 +207,14 @@ static int32_t displace_and_run(struct hk_reference_watch *watch, struct hk_refe
 
 int32_t hk_reference_measure_growth(struct hk_reference_watch *watch, struct hk_reference *r,
                                     struct hk_trial *trial) {
-  const double deadline = watch->begun + watch->request->budget;
+  const double deadline = watch->start + watch->request->budget;
   const double rounding = r->frames.rounding[r->frames.recorded - 1];
   if (r->frames.free_count == 0 || rounding > DISPLACEMENT * r->extent) return HOOKE_OK;
   if (r->agreement <= DROWNED * DISPLACEMENT * r->extent)
     return displace_and_run(watch, r, r, deadline, trial);
-  if (hk_clock_seconds() + 2.0 * TIGHTER * r->run_seconds > deadline) return HOOKE_OK;
+  if (hk_reference_now(watch) + 2.0 * TIGHTER * r->run_work > deadline) return HOOKE_OK;
   struct hk_reference base = *r;
-  struct hk_reference_cost cost;
+  struct hk_run_cost cost;
   base.rtol = fmin(r->rtol, TOLERANCE);
   watch->ahead = RANDOM;
   int32_t status = hk_frames_create(r->frames.system, r->frames.count, &base.frames);

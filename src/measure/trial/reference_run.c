@@ -2,17 +2,20 @@
 
 #include "core/clock.h"
 #include "core/status.h"
+#include "measure/trial/step_unit.h"
 
 #include <math.h>
 #include <stddef.h>
 #include <string.h>
 
-static const double ABSOLUTE = 0.01;          /* of rtol times the extent: the absolute tolerance */
-static const double LEAST_RELATIVE = 1e-15;   /* that CVODE takes */
-static const double MOST_COST = 5.0;          /* of the explicit check against the first method */
-static const double MOST_EVALUATIONS = 10.0;  /* of rk8pd against the first method, in equal time */
-static const double TIMEABLE = 2e-3;          /* [s] */
-static const double TRIAL_SHARE = 0.05;       /* of the duration, to predict costs */
+static const double ABSOLUTE = 0.01;         /* of rtol times the extent: the absolute tolerance */
+static const double LEAST_RELATIVE = 1e-15;  /* that CVODE takes */
+static const double LEAST_WORK = 1e-300;     /* [s]: none, where 0 is without limit */
+static const double MOST_COST = 5.0;         /* of the explicit check against the first method */
+static const double MOST_EVALUATIONS = 10.0; /* of rk8pd against the first method, in equal time */
+static const double MOST_ESDIRK = 20.0;    /* of arkode-esdirk against the first method, where less will do */
+static const double COARSEST_CHECK = 1e-4; /* tolerance at which tr-bdf2 takes one step a frame */
+static const double TRIAL_SHARE = 0.05;    /* of the duration, to predict costs */
 static const double FIRST_TRIAL_SHARE = 0.05; /* of the budget, for the trial of the first method */
 
 int32_t hk_reference_options(const hooke_options *run, const char *method, double rtol,
@@ -60,35 +63,55 @@ static int32_t watch_progress(double share, void *ctx) {
     const int32_t value = listener->on_progress(share_of_all(watch, share, now), listener->ctx);
     if (value != 0) return value;
   }
-  if (now < watch->deadline) return 0;
+  if (watch->request->counted || now < watch->deadline) return 0;
   watch->expired = 1;
   return 1;
+}
+
+double hk_reference_now(const struct hk_reference_watch *watch) {
+  return watch->request->counted ? watch->work : hk_clock_seconds();
+}
+
+static struct hk_listener limited(struct hk_reference_watch *watch, double most_work) {
+  return (struct hk_listener){
+      .on_progress = watch_progress, .most_work = fmax(LEAST_WORK, most_work), .ctx = watch};
 }
 
 struct hk_listener hk_reference_listen(struct hk_reference_watch *watch, double deadline) {
   watch->run_begun = hk_clock_seconds();
   watch->deadline = deadline;
   watch->expired = 0;
-  return (struct hk_listener){.on_progress = watch_progress, .ctx = watch};
+  return limited(watch, watch->request->counted ? deadline - watch->work : INFINITY);
 }
 
 int32_t hk_reference_make_frames(struct hk_reference_watch *watch, struct hk_reference *r, double deadline,
-                                 struct hk_reference_cost *cost) {
+                                 struct hk_run_cost *cost) {
   const struct hk_listener listener = hk_reference_listen(watch, deadline);
   hooke_options *options = NULL;
+  *cost = (struct hk_run_cost){.work = 0.0};
   int32_t status = hk_reference_options(watch->request->run, r->method, r->rtol, r, &options);
-  if (status == HOOKE_OK)
-    status = hk_frames_run(&r->frames, options, &listener, &cost->seconds, &cost->evaluations);
+  if (status == HOOKE_OK) status = hk_frames_run(&r->frames, options, &listener, cost);
   hooke_options_destroy(options);
+  watch->work += cost->work;
+  watch->expired |= cost->too_long;
   if (status == HOOKE_STOPPED && watch->expired) status = HOOKE_OK;
   if (status != HOOKE_OK) return status;
   r->atol = ABSOLUTE * r->rtol * r->extent;
-  r->evaluations = cost->evaluations;
-  r->run_seconds = cost->seconds;
+  r->evaluations = cost->force_evaluations;
+  r->run_work = cost->work;
   if (watch->unit == 0.0) watch->unit = hk_clock_seconds() - watch->run_begun;
   const double size = hk_reference_diagonal(r->frames.recorded * r->frames.size / 3, r->frames.position);
   if (size > 0.0) r->extent = size;
   return HOOKE_OK;
+}
+
+/* Of a method of order 2, whose error goes with the square of the step, as a tolerance has it. */
+static int32_t set_step(hooke_options *run, double rtol) {
+  double duration, every, unit;
+  int32_t status = hk_step_times(run, &duration, &every);
+  if (status == HOOKE_OK) status = hk_step_unit(duration, every, &unit);
+  const double parts = ceil(sqrt(COARSEST_CHECK / rtol) * (1.0 - 1e-9));
+  return status == HOOKE_OK ? hooke_options_set_number(run, "step", unit / fmax(1.0, parts)) : status;
 }
 
 int32_t hk_reference_judge(struct hk_reference_watch *watch, const struct hk_reference *r, const char *method,
@@ -96,26 +119,30 @@ int32_t hk_reference_judge(struct hk_reference_watch *watch, const struct hk_ref
   const struct hk_frames *frames = &r->frames;
   hooke_options *options = NULL;
   int32_t status = hk_reference_options(watch->request->run, method, rtol, r, &options);
+  if (status == HOOKE_OK && !hooke_method_is_adaptive(method)) status = set_step(options, rtol);
   if (status == HOOKE_OK && frames->recorded < frames->count) {
     const double reached = frames->time[frames->recorded - 1] - frames->time[0];
     status = hooke_options_set_number(options, "duration", reached);
   }
   if (status == HOOKE_OK) status = hk_trial_run(trial, frames, frames->recorded, options, listener);
   hooke_options_destroy(options);
-  if (status == HOOKE_STOPPED && watch->expired) return HOOKE_OK;
+  if (status == HOOKE_OK) watch->work += trial->work;
+  if (status == HOOKE_OK && strcmp(trial->status, "stopped") == 0) watch->expired = 1;
+  if ((status == HOOKE_OK || status == HOOKE_STOPPED) && watch->expired) return HOOKE_OK;
   if (status != HOOKE_OK || strcmp(trial->status, "finished") == 0) return status;
   return hk_fail(HOOKE_SOLVER_FAILED, NULL, "no reference: %s %s at rtol %g", method, trial->status, rtol);
 }
 
 /* ---- choice of integrators ---- */
 
-/* A trial over a fraction of the duration, with a limit on time [s] and steps; infinite if it does not
+/* A trial over a fraction of the duration, with a limit on counted work [s] and steps; infinite if it does not
  * finish. */
 static int32_t try_beginning(struct hk_reference_watch *watch, const struct hk_reference *r,
-                             const char *method, double rtol, double longest, double most_steps,
-                             double duration, struct hk_reference_cost *cost) {
+                             const char *method, double rtol, double most_work, double most_steps,
+                             double duration, struct hk_run_cost *cost) {
   struct hk_frames frames;
   hooke_options *options = NULL;
+  *cost = (struct hk_run_cost){.work = 0.0};
   int32_t status = hk_frames_create(r->frames.system, 2, &frames);
   if (status != HOOKE_OK) return status;
   status = hk_reference_options(watch->request->run, method, rtol, r, &options);
@@ -123,57 +150,60 @@ static int32_t try_beginning(struct hk_reference_watch *watch, const struct hk_r
   if (status == HOOKE_OK) status = hooke_options_set_number(options, "every", duration);
   if (status == HOOKE_OK && !isinf(most_steps))
     status = hooke_options_set_number(options, "max_steps", most_steps);
-  const struct hk_listener listener = hk_reference_listen(watch, hk_clock_seconds() + longest);
-  if (status == HOOKE_OK)
-    status = hk_frames_run(&frames, options, &listener, &cost->seconds, &cost->evaluations);
+  const double end = watch->start + watch->request->budget;
+  (void)hk_reference_listen(watch, end);
+  const struct hk_listener listener = limited(watch, most_work);
+  if (status == HOOKE_OK) status = hk_frames_run(&frames, options, &listener, cost);
   hooke_options_destroy(options);
   hk_frames_release(&frames);
+  watch->work += cost->work;
+  watch->expired |= cost->too_long;
   const int gave_up = status == HOOKE_STEP_LIMIT || status == HOOKE_SOLVER_FAILED || status == HOOKE_DIVERGED;
   if (!gave_up && !(status == HOOKE_STOPPED && watch->expired)) return status;
-  *cost = (struct hk_reference_cost){INFINITY, INFINITY};
+  cost->work = INFINITY;
   return HOOKE_OK;
 }
 
 int32_t hk_reference_choose_first(struct hk_reference_watch *watch, struct hk_reference *r, double rtol) {
-  if (strcmp(r->method, "cvode-bdf") != 0 || watch->request->repeatable) return HOOKE_OK;
+  if (strcmp(r->method, "cvode-bdf") != 0) return HOOKE_OK;
   const double duration = TRIAL_SHARE * hooke_options_number(watch->request->run, "duration");
-  const double longest = FIRST_TRIAL_SHARE * watch->request->budget;
-  struct hk_reference_cost bdf, adams;
-  int32_t status = try_beginning(watch, r, "cvode-bdf", rtol, longest, INFINITY, duration, &bdf);
-  if (status == HOOKE_OK) {
-    const double most = isinf(bdf.seconds) ? longest : fmax(TIMEABLE, bdf.seconds);
-    status = try_beginning(watch, r, "cvode-adams", rtol, most, INFINITY, duration, &adams);
-  }
-  if (status == HOOKE_OK && adams.seconds < bdf.seconds && bdf.seconds > TIMEABLE) r->method = "cvode-adams";
+  const double most = FIRST_TRIAL_SHARE * watch->request->budget;
+  struct hk_run_cost bdf, adams;
+  int32_t status = try_beginning(watch, r, "cvode-bdf", rtol, most, INFINITY, duration, &bdf);
+  if (status == HOOKE_OK)
+    status = try_beginning(watch, r, "cvode-adams", rtol, fmin(most, bdf.work), INFINITY, duration, &adams);
+  if (status == HOOKE_OK && adams.work < bdf.work) r->method = "cvode-adams";
   return status;
 }
 
-/* Cost of rk8pd in a short trial, relative to the cost of the first method for the same part of its run: in
- * time, since one spends it on forces and the other on vectors and solves; in evaluations if trials are too
- * short to time, and for a repeatable choice. */
+/* Counted work of rk8pd in a short trial, relative to that of the first method for the same part of its run. */
 static int32_t explicit_cost(struct hk_reference_watch *watch, const struct hk_reference *r, double rtol,
-                             struct hk_reference_cost first, double *ratio) {
-  struct hk_reference_cost trial;
+                             struct hk_run_cost first, double *ratio) {
+  struct hk_run_cost trial;
   *ratio = INFINITY;
   if (!hooke_method_is_built("rk8pd")) return HOOKE_OK;
   const double reached = r->frames.time[r->frames.recorded - 1] - r->frames.time[0];
   /* a scene too stiff for it must not delay the study: forces cost it no more than the other */
-  const double most = MOST_COST * TRIAL_SHARE * first.evaluations * MOST_EVALUATIONS;
-  const int32_t repeatable = watch->request->repeatable;
-  const double longest =
-      repeatable ? INFINITY : fmax(TIMEABLE, 2.0 * MOST_COST * TRIAL_SHARE * first.seconds);
+  const double steps = MOST_COST * TRIAL_SHARE * first.force_evaluations * MOST_EVALUATIONS;
+  const double work = 2.0 * MOST_COST * TRIAL_SHARE * first.work;
   const int32_t status =
-      try_beginning(watch, r, "rk8pd", rtol, longest, fmax(10.0, ceil(most)), TRIAL_SHARE * reached, &trial);
-  const double by_time = trial.seconds / (TRIAL_SHARE * first.seconds);
-  const double by_evaluations = trial.evaluations / (TRIAL_SHARE * first.evaluations);
-  if (status == HOOKE_OK) *ratio = trial.seconds > TIMEABLE && !repeatable ? by_time : by_evaluations;
+      try_beginning(watch, r, "rk8pd", rtol, work, fmax(10.0, ceil(steps)), TRIAL_SHARE * reached, &trial);
+  if (status == HOOKE_OK) *ratio = trial.work / (TRIAL_SHARE * first.work);
   return status;
 }
 
 int32_t hk_reference_choose_check(struct hk_reference_watch *watch, struct hk_reference *r, double rtol,
-                                  struct hk_reference_cost first) {
+                                  struct hk_run_cost first) {
   double ratio;
   const int32_t status = explicit_cost(watch, r, rtol, first, &ratio);
   r->check = ratio < MOST_COST ? "rk8pd" : "arkode-esdirk";
-  return status;
+  if (status != HOOKE_OK || ratio < MOST_COST || !watch->request->enough) return status;
+  /* it may come to no end where springs are very stiff; hooke's own method may do for a few digits */
+  struct hk_run_cost trial;
+  const double most = MOST_ESDIRK * TRIAL_SHARE * first.work;
+  const double reached = r->frames.time[r->frames.recorded - 1] - r->frames.time[0];
+  const int32_t tried =
+      try_beginning(watch, r, r->check, rtol, most, INFINITY, TRIAL_SHARE * reached, &trial);
+  if (tried == HOOKE_OK && isinf(trial.work)) r->check = "tr-bdf2";
+  return tried;
 }

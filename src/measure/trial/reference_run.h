@@ -8,27 +8,27 @@
  * deadline. */
 struct hk_reference_watch {
   const struct hk_reference_request *request;
-  double begun, run_begun, deadline; /* wall-clock time [s] */
-  double unit;                       /* of the first run [s]; 0 until it is over */
-  double ahead;                      /* of the runs to come, in units */
-  int32_t levels;                    /* begun */
-  int32_t expired;                   /* the deadline ended a run */
-  int32_t cut;                       /* the last level was not run to its end */
-  double apart;                      /* there, twice the largest distance of the two [m] */
-  void *displacement;                /* displacement of the start of the next run */
+  double begun, run_begun; /* wall-clock time [s] */
+  double start, deadline;  /* by hk_reference_now() */
+  double work;             /* counted, of all runs so far [s] */
+  double unit;             /* of the first run [s]; 0 until it is over */
+  double ahead;            /* of the runs to come, in units */
+  int32_t levels;          /* begun */
+  int32_t expired;         /* the deadline ended a run */
+  int32_t cut;             /* the last level was not run to its end */
+  double apart;            /* there, twice the largest distance of the two [m] */
+  void *displacement;      /* displacement of the start of the next run */
 };
 
-/* Cost of a run. */
-struct hk_reference_cost {
-  double evaluations, seconds;
-};
+/* Time that counts for the budget: counted work so far, or wall-clock time [s]. */
+double hk_reference_now(const struct hk_reference_watch *watch);
 
 /* Sets the deadline of the next run, and listens to it. */
 struct hk_listener hk_reference_listen(struct hk_reference_watch *watch, double deadline);
 
 /* Runs `method` at `rtol` and records frames, until the deadline; then sets the extent from them. */
 int32_t hk_reference_make_frames(struct hk_reference_watch *watch, struct hk_reference *reference,
-                                 double deadline, struct hk_reference_cost *cost);
+                                 double deadline, struct hk_run_cost *cost);
 
 /* Diagonal of the box that holds `rows` points [m]; 0 for none. */
 double hk_reference_diagonal(int64_t rows, const double *position);
@@ -45,7 +45,7 @@ int32_t hk_reference_choose_first(struct hk_reference_watch *watch, struct hk_re
 
 /* Chooses the second integrator, after the first has run at about `rtol` at this cost. */
 int32_t hk_reference_choose_check(struct hk_reference_watch *watch, struct hk_reference *reference,
-                                  double rtol, struct hk_reference_cost first);
+                                  double rtol, struct hk_run_cost first);
 
 /* Largest growth of a small displacement of the start, over the frames (reference_growth.c). */
 int32_t hk_reference_measure_growth(struct hk_reference_watch *watch, struct hk_reference *reference,

@@ -76,15 +76,18 @@ struct run {
   double hold, move, rounding; /* see round_off() */
   const struct hk_listener *listener;
   const hooke_integrator *integrator;
+  int32_t too_long; /* 1: it worked more than its listener allows, whenever that was noticed */
 };
 
-static int works_too_long(const struct run *run) {
+/* A step that is given up takes its counts with it. */
+static int32_t works_too_long(struct run *run) {
   const double most = run->listener ? run->listener->most_work : 0.0;
-  return most > 0.0 && hk_work_of(run->integrator) > most;
+  run->too_long |= most > 0.0 && hk_work_of(run->integrator) > most;
+  return run->too_long;
 }
 
 static int32_t tell(double share, const char *method, void *ctx) {
-  const struct run *run = ctx;
+  struct run *run = ctx;
   (void)method;
   if (works_too_long(run)) return 1;
   if (run->listener == NULL || run->listener->on_progress == NULL) return 0;
@@ -180,7 +183,6 @@ int32_t hk_trial_run(struct hk_trial *trial, const struct hk_frames *reference, 
   int32_t status = run_once(&run, reference->system, options, &integrator);
   if (integrator == NULL) return status;
   keep_counts(trial, integrator);
-  /* whenever that was noticed */
   const int32_t too_long = (status == HOOKE_OK || status == HOOKE_STOPPED) && works_too_long(&run);
   if (too_long) status = HOOKE_STOPPED;
   hooke_integrator_destroy(integrator);
@@ -198,15 +200,15 @@ int32_t hk_trial_run(struct hk_trial *trial, const struct hk_frames *reference, 
 }
 
 int32_t hk_frames_run(struct hk_frames *frames, const hooke_options *options,
-                      const struct hk_listener *listener, double *wall_seconds, double *force_evaluations) {
+                      const struct hk_listener *listener, struct hk_run_cost *cost) {
   struct run run = {.record = frames, .listener = listener};
   hooke_integrator *integrator = NULL;
   frames->recorded = 0;
   const int32_t status = run_once(&run, frames->system, options, &integrator);
-  if (integrator && wall_seconds) *wall_seconds = hooke_integrator_number(integrator, "wall_seconds");
-  if (integrator && force_evaluations) {
-    *force_evaluations = (double)hooke_integrator_count(integrator, "force_evaluations");
-  }
+  if (integrator && cost)
+    *cost = (struct hk_run_cost){hooke_integrator_number(integrator, "wall_seconds"),
+                                 (double)hooke_integrator_count(integrator, "force_evaluations"),
+                                 hk_work_of(integrator), works_too_long(&run)};
   hooke_integrator_destroy(integrator);
   return status;
 }

@@ -38,10 +38,17 @@ void hk_trial_release(struct hk_trial *trial);
 int32_t hk_trial_run(struct hk_trial *trial, const struct hk_frames *reference, int64_t frames,
                      const hooke_options *options, const struct hk_listener *listener);
 
-/* Runs and records every frame, as a reference for trials; any outcome but success is returned.
- * `wall_seconds` and `force_evaluations` may be NULL. */
+/* What a run took. */
+struct hk_run_cost {
+  double wall_seconds, force_evaluations;
+  double work;      /* counted [s] */
+  int32_t too_long; /* 1: the most work of its listener ended it */
+};
+
+/* Runs and records every frame, as a reference for trials; any outcome but success is returned. `cost` may be
+ * NULL. */
 int32_t hk_frames_run(struct hk_frames *frames, const hooke_options *options,
-                      const struct hk_listener *listener, double *wall_seconds, double *force_evaluations);
+                      const struct hk_listener *listener, struct hk_run_cost *cost);
 
 /* Sets a method and its step or rtol in options of a run; atol keeps its ratio to rtol, and atol_velocity
  * follows it. */

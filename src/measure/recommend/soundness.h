@@ -1,36 +1,45 @@
 /* Soundness of a run: its step must stay clear of the stability limit, and its energy must not grow by
  * itself. */
-#ifndef HOOKE_MEASURE_ESTIMATE_SOUNDNESS_H
-#define HOOKE_MEASURE_ESTIMATE_SOUNDNESS_H
+#ifndef HOOKE_MEASURE_RECOMMEND_SOUNDNESS_H
+#define HOOKE_MEASURE_RECOMMEND_SOUNDNESS_H
 
 #include "measure/spectrum/node_blocks.h"
 
 #include "hooke/state.h"
 
+/* States at which the limit itself is predicted: the first, and the one whose bound is least, each where the
+ * step is not clear of the bound; with rigid bodies, of which no bound is known, the first and the last. */
+enum { HOOKE_SOUNDNESS_STATES = 2 };
+struct hk_soundness_state {
+  double bound;  /* [s]; 0: none is known, infinity: the step is clear of it */
+  double *q, *v; /* 3n each */
+};
+
 struct hk_soundness {
   const hooke_system *system;
   const char *method;
-  double step;                  /* NaN for an error-controlled method [s] */
-  struct hk_node_blocks blocks; /* released for a method without a limit */
+  double step;                  /* NaN: nothing limits it [s] */
+  struct hk_node_blocks blocks; /* without a system: no bound is to be known */
+  struct hk_soundness_state at[HOOKE_SOUNDNESS_STATES];
   /* smallest stable step at a state where the step is not clear of it [s]; otherwise infinity */
   double least_limit;
-  /* at the last state whose limit was computed; 1 before and after the patience is used up */
-  double limit_over_bound;
-  double patience;               /* remaining time for limits, where the step is not clear of the bound [s] */
+  int32_t unknown_limit;         /* 1: at some state it is not known */
   double scale, gravity0, swing; /* energy scale, as in the definition of "diverged" [J] */
-  int32_t by_limit;              /* 1: with rigid bodies, of which no bound is known */
-  int32_t unknown_limit;         /* 1: at some state their limit is not known, or patience had ended */
   int64_t count, capacity;
   double *time, *energy; /* of the recorded states */
 };
 
-/* Starts at `state`, with memory for `capacity` states and `patience` [s] for limits; must be released in
- * either case. HOOKE_NO_MEMORY. */
+/* Starts at `state`, with memory for `capacity` states; must be released in either case. HOOKE_NO_MEMORY. */
 int32_t hk_soundness_begin(struct hk_soundness *soundness, const hooke_system *system, const char *method,
-                           double step, double patience, const hooke_state *state, int64_t capacity);
+                           double step, const hooke_state *state, int64_t capacity);
 /* Records another state, such as a frame; those beyond the capacity are ignored. */
 void hk_soundness_see(struct hk_soundness *soundness, const hooke_state *state);
+/* Finds the limits, within the patience; without it the bounds are the limits. HOOKE_NO_MEMORY. */
+int32_t hk_soundness_find_limits(struct hk_soundness *soundness, struct hk_patience *patience);
 void hk_soundness_release(struct hk_soundness *soundness);
+
+/* Counted work of the bounds so far [s]. */
+double hk_soundness_work(const struct hk_soundness *soundness);
 
 /* Rise of energy over the last half of the recorded states, as a fraction of the scale: the slope of a
  * least-squares line times its duration if the slope is over three times its standard error; otherwise 0. NaN
