@@ -1,6 +1,6 @@
 /* Suggestions: changes of the run, the likeliest first, each tried on a run of its own before it is given. */
 #include "integrate/method.h"
-#include "measure/estimate/soundness.h"
+#include "measure/recommend/soundness.h"
 #include "measure/why/why_trial.h"
 
 #include "core/number.h"
