@@ -1,5 +1,6 @@
 /* hooke why: explains a run that blew up, from its scene or from its output. */
 #include "advice.h"
+#include "fit.h"
 #include "limiting.h"
 #include "output_file.h"
 #include "print.h"
@@ -225,7 +226,7 @@ static int32_t print_words(const struct why *why) {
   print_springs(found);
   if (text_of(found, "left_out")) print_wrapped("left out", text_of(found, "left_out"));
   printf("\n");
-  return cli_advice_print(stdout, why->arguments, found, INT64_MAX);
+  return cli_advice_print(why->arguments, found);
 }
 
 /* 1 if an option of a run was given: the run then differs from that of the output. */
@@ -263,7 +264,9 @@ static int find_out(struct why *why) {
   if (why->record && !is_another_run(arguments)) {
     status = read_output(why);
   } else {
-    int code = cli_setup_require(arguments, &why->setup, hooke_options_text(why->setup.options, "method"));
+    int code = cli_fit_run(arguments, &why->setup);
+    if (code == HOOKE_EXIT_DONE)
+      code = cli_setup_require(arguments, &why->setup, hooke_options_text(why->setup.options, "method"));
     if (code != HOOKE_EXIT_DONE) return code;
     status = run_again(why);
   }
