@@ -11,6 +11,7 @@ from pathlib import Path
 import h5py
 import pytest
 from conftest import CLI
+from pages import DRAWS
 
 pytestmark = pytest.mark.everything
 
@@ -92,9 +93,14 @@ def test_no_clock_decides(hooke, tmp_path, kind, words):
                 for path in [Path(os.environ["HOOKE_SOURCE_DIR"]) / folder / f"{kind}.json"] if path.exists()]  # fmt: skip
     shutil.copy(found, tmp_path / "scene.json")
     racing = {**os.environ, "LD_PRELOAD": os.environ["HOOKE_PROCESSOR_CLOCK"], "HOOKE_CLOCK_TIMES": "1000000"}
-    for more in ([], ["--json"]):
-        usual, raced = hooke("why", "scene.json", *words, *more), hooke("why", "scene.json", *words, *more, env=racing)
+    pages = []
+    for more in ([], ["--json"], *([["--json", "--report", "page.html"]] if DRAWS else [])):
+        usual = hooke("why", "scene.json", *words, *more)
+        pages += [page.read_bytes() for page in tmp_path.glob("page.html")]
+        raced = hooke("why", "scene.json", *words, *more, env=racing)
+        pages += [page.read_bytes() for page in tmp_path.glob("page.html")]
         assert usual.code == 0 and (usual.out, usual.err) == (raced.out, raced.err)
+    assert len(set(pages)) == DRAWS
     assert "time was short" in hooke("why", "scene.json", *words, "--budget", "10s", env=racing).out
 
 
