@@ -22,7 +22,7 @@ static const double PATIENCE = 2.0;                      /* counted work for lim
 static const double SLICE = 0.04, SLICE_ADAPTIVE = 0.03; /* of the duration, for a tenth of the time */
 static const double AIM = 0.6, LEAST_GAIN = 0.7, LEAST_FACTOR = 1.0 / 16.0,
                     MOST_FACTOR = 0.7;             /* of refinement */
-static const double SHORT = 2.0, MOST_RUNS = 30.0; /* most work of a refined run [s], or times the first */
+static const double SHORT = 2.0, MOST_RUNS = 10.0; /* most work of a refined run [s], or times the first */
 
 static const struct hk_option_row rows[] = {
     {.name = "want",
@@ -328,18 +328,6 @@ static int32_t set_finer(struct hk_estimate *e, hooke_options *run) {
   return hk_trial_set_value(run, method, value);
 }
 
-/* A pick from the beginning of a run was too coarse for the whole run: picks again, for a proportionally
- * smaller error. */
-static int32_t pick_finer(struct hk_estimate *e, hooke_options *run) {
-  const double want = e->pick.want * AIM * e->want / e->error;
-  const char *method = e->pick.best.method;
-  const double value = e->pick.best.value;
-  const int32_t status = pick(e, want, run);
-  if (status != HOOKE_OK) return status;
-  if (e->pick.met && (strcmp(e->pick.best.method, method) != 0 || e->pick.best.value < value)) return status;
-  return hk_fail(HOOKE_UNSUITED, NULL, "nothing finer is known to help");
-}
-
 int32_t hooke_estimate_refine(hooke_measurement *m, hooke_options *run) {
   struct hk_estimate *e = m->object;
   int32_t status = hk_measurement_require(m, &hk_estimate_kind, "hooke_estimate_refine");
@@ -348,11 +336,10 @@ int32_t hooke_estimate_refine(hooke_measurement *m, hooke_options *run) {
                         e->error <= LEAST_GAIN * e->before;
   if (!known || e->refined == MOST_REFINED)
     return hk_fail(HOOKE_UNSUITED, NULL, "nothing finer is known to help: %s", e->reason);
-  const int32_t again = e->pick.system != NULL && !is_whole_reference(e) && e->error > e->want;
-  status = again ? pick_finer(e, run) : set_finer(e, run);
+  status = set_finer(e, run);
   e->refined++;
   e->before = e->error;
-  if (!again) e->picked = 0;
+  e->picked = 0;
   return status;
 }
 

@@ -17,7 +17,7 @@
 /* All in counted work: at least so much [s], and so many times the picked run, the run itself once more among
  * them. */
 static const double LEAST_WORK = 1.8, RUNS = 9.0;
-static const double REFERENCE_RUNS = 3.0, REFERENCE_SHARE = 0.6; /* of it, at most for the reference */
+static const double REFERENCE_RUNS = 5.0, REFERENCE_SHARE = 0.75; /* of it, at most for the reference */
 static const double QUICK = 0.5,
                     SLOWER = 4.0; /* of LEAST_WORK / RUNS: first cap of quick runs; to the next */
 static const double QUICK_TOLERANCE = 1e-2;

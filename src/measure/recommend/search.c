@@ -17,7 +17,7 @@
 enum { MOST_RUNS = 12, MOST_METHODS = 32, MOST_DOUBTS = 6 };
 static const double LOOSEST = 0.1, TIGHTEST = 1e-14;
 static const double AIM = 0.85, GOOD = 0.75; /* of the allowed error: target; good enough */
-static const double CLOSE = 1.1;           /* a narrower bracket is not searched further */
+static const double CLOSE = 1.1;             /* a narrower bracket is not searched further */
 static const double LEAST_FACTOR = 1.0 / 64.0, MOST_FACTOR = 8.0; /* factors from one value to the next */
 static const double LOOSER = 10.0;                                /* after a tolerance that took too long */
 static const double COST_POWER = 1.0 / 2.0; /* cost of a run in its tolerance, at most */
@@ -26,8 +26,9 @@ static const double SPARE = 1.3;            /* of a run that might be cheaper, o
 static const double MOST_STEPS = 1e8;
 static const double SHARE_OF_LIMITS = 0.25; /* of the work that is left, at most for the limits of one row */
 static const double SHARE_OF_REFERENCE =
-    0.2;                        /* approximate work of a run, as a fraction of the reference's */
-static const uint64_t SEED = 1; /* of the displaced start */
+    0.2;                                  /* approximate work of a run, as a fraction of the reference's */
+static const double DISPLACEMENT = 1e-12; /* of the start, as a fraction of the extent */
+static const uint64_t SEED = 1;           /* of that */
 
 /* A run in the search. */
 struct result {
@@ -360,15 +361,16 @@ static int32_t search_all(struct hk_pick *pick, int32_t count, struct search *al
 
 /* ---- from a displaced start ---- */
 
-/* By what the reference may be wrong at the start [m]: its absolute tolerance, or rounding. */
-static double floor_of(const struct hk_reference *r) {
-  return fmax(r->atol, hk_frames_resolution(&r->frames, r->frames.position));
+/* So little that a motion of the scene may grow a millionfold and more [m]; what a step above the limit
+ * amplifies shows in it all the same. */
+static double displacement_of(const struct hk_reference *r) {
+  return fmax(DISPLACEMENT * r->extent, hk_frames_resolution(&r->frames, r->frames.position));
 }
 
 /* Runs the best row once more, and forgets it if the want is not met there. */
 static int32_t confirm(struct search *s, int32_t *holds) {
   struct result again;
-  const int32_t status = run_row(s, s->best.value, floor_of(&s->pick->reference), 0.0, &again);
+  const int32_t status = run_row(s, s->best.value, displacement_of(&s->pick->reference), 0.0, &again);
   *holds = status == HOOKE_OK && is_sound(&again) && again.error <= s->most;
   if (*holds) s->best.error = fmax(s->best.error, again.error);
   if (*holds || status != HOOKE_OK) return status;

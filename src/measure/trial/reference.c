@@ -24,7 +24,7 @@ static const double SAFETY = 2.0;     /* the two may err in the same direction, 
 static const double CHECK_COST = 2.0; /* cost of the check relative to the first method, before it is known */
 /* Fractions of the budget: end of the first run, so that there is time to check it; end of the last check;
  * and limit for another level once all frames are trusted. */
-static const double FIRST_RUN_SHARE = 0.3, LEVELS_SHARE = 0.8, FLOOR_SHARE = 0.4;
+static const double FIRST_RUN_SHARE = 0.3, FIRST_OF_FEW = 0.45, LEVELS_SHARE = 0.8, FLOOR_SHARE = 0.4;
 
 int32_t hk_reference_method(const hooke_system *system, const double *q, const char **method) {
   struct hk_node_blocks blocks;
@@ -105,13 +105,14 @@ static int32_t agree(struct hk_reference_watch *watch, struct hk_reference *r, d
                      struct hk_trial *check) {
   const double budget = watch->request->budget;
   const int first = r->check == NULL;
+  const double share = watch->request->enough ? FIRST_OF_FEW : FIRST_RUN_SHARE;
   const double deadline = watch->start + LEVELS_SHARE * budget;
   struct hk_run_cost cost;
   r->rtol = fmax(TIGHTEST, 0.1 * tolerance);
   watch->levels++;
   watch->ahead = ahead_of_level(watch) + CHECK_COST;
   int32_t status =
-      hk_reference_make_frames(watch, r, first ? watch->start + FIRST_RUN_SHARE * budget : deadline, &cost);
+      hk_reference_make_frames(watch, r, first ? watch->start + share * budget : deadline, &cost);
   if (status != HOOKE_OK || r->frames.recorded < 2) return status;
   if (first) status = hk_reference_choose_check(watch, r, tolerance, cost);
   watch->ahead = ahead_of_level(watch);

@@ -192,18 +192,26 @@ static int32_t explicit_cost(struct hk_reference_watch *watch, const struct hk_r
   return status;
 }
 
+/* The same of arkode-esdirk; it may come to no end where springs are very stiff. */
+static int32_t implicit_cost(struct hk_reference_watch *watch, const struct hk_reference *r, double rtol,
+                             struct hk_run_cost first, double *ratio) {
+  struct hk_run_cost trial;
+  const double reached = r->frames.time[r->frames.recorded - 1] - r->frames.time[0];
+  const int32_t status =
+      try_beginning(watch, r, "arkode-esdirk", rtol, MOST_ESDIRK * TRIAL_SHARE * first.work, INFINITY,
+                    TRIAL_SHARE * reached, &trial);
+  *ratio = status == HOOKE_OK ? trial.work / (TRIAL_SHARE * first.work) : INFINITY;
+  return status;
+}
+
 int32_t hk_reference_choose_check(struct hk_reference_watch *watch, struct hk_reference *r, double rtol,
                                   struct hk_run_cost first) {
-  double ratio;
-  const int32_t status = explicit_cost(watch, r, rtol, first, &ratio);
-  r->check = ratio < MOST_COST ? "rk8pd" : "arkode-esdirk";
-  if (status != HOOKE_OK || ratio < MOST_COST || !watch->request->enough) return status;
-  /* it may come to no end where springs are very stiff; hooke's own method may do for a few digits */
-  struct hk_run_cost trial;
-  const double most = MOST_ESDIRK * TRIAL_SHARE * first.work;
-  const double reached = r->frames.time[r->frames.recorded - 1] - r->frames.time[0];
-  const int32_t tried =
-      try_beginning(watch, r, r->check, rtol, most, INFINITY, TRIAL_SHARE * reached, &trial);
-  if (tried == HOOKE_OK && isinf(trial.work)) r->check = "tr-bdf2";
-  return tried;
+  double by_explicit, by_implicit = MOST_COST;
+  int32_t status = explicit_cost(watch, r, rtol, first, &by_explicit);
+  if (status == HOOKE_OK && by_explicit >= MOST_COST && watch->request->enough)
+    status = implicit_cost(watch, r, rtol, first, &by_implicit);
+  r->check = by_explicit <= by_implicit ? "rk8pd" : "arkode-esdirk";
+  /* a method of our own does for a few digits */
+  if (isinf(by_explicit) && isinf(by_implicit)) r->check = "tr-bdf2";
+  return status;
 }
