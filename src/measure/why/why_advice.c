@@ -63,6 +63,14 @@ static int32_t stable_step(struct hk_trials *trials, const char *method, double 
   return status;
 }
 
+static int32_t set_step(const struct hk_trials *trials, hooke_options *run, double step, int shorter) {
+  int32_t status = step == trials->step ? HOOKE_OK : hooke_options_set_number(run, "step", step);
+  if (status == HOOKE_OK && shorter) status = hooke_options_set_number(run, "duration", SHORT_RUN * step);
+  if (status == HOOKE_OK && shorter && !isnan(trials->every))
+    status = hooke_options_set_number(run, "every", SHORT_FRAME * step);
+  return status;
+}
+
 /* A run of the same method or another, with steps up to `limit`; a shorter one if the whole would take days.
  * Without a run if no step fits. */
 static int32_t change_step(const struct hk_trials *trials, const char *method, double limit,
@@ -79,21 +87,12 @@ static int32_t change_step(const struct hk_trials *trials, const char *method, d
                        !(trials->duration / step * trials->size <= TOO_LONG * HOOKE_TRIAL_WORK);
   if (too_long) step = hk_handy_step(NAN, most, NAN, NAN);
   if (status == HOOKE_OK && other) status = hooke_options_set_text(change->run, "method", method);
-  if (status == HOOKE_OK && step != trials->step)
-    status = hooke_options_set_number(change->run, "step", step);
-  if (status == HOOKE_OK && too_long) {
-    status = hooke_options_set_number(change->run, "duration", SHORT_RUN * step);
-    if (status == HOOKE_OK && !isnan(trials->every))
-      status = hooke_options_set_number(change->run, "every", SHORT_FRAME * step);
-  }
-  if (status != HOOKE_OK) {
-    hk_change_drop(change);
-    return status;
-  }
+  if (status == HOOKE_OK) status = set_step(trials, change->run, step, too_long);
+  if (status != HOOKE_OK) hk_change_drop(change);
   hk_change_say(change, "%s%s%sa step of %.6g s%s%s", other ? "the method " : "", other ? method : "",
                 other ? ", with " : "", step, why_so,
                 too_long ? ", for a run that is as short as such steps make it" : "");
-  return HOOKE_OK;
+  return status;
 }
 
 static int32_t offer_step(struct hk_trials *trials, const char *method, double limit, const char *why_so,
