@@ -116,9 +116,13 @@ static void print_lean(const struct cli_needs_results *results) {
     left_out++;
   }
   if (!left_out) {
-    printf("\n%-*s%s\n", LABEL, "lean",
-           has_unknown(needs) ? "nothing is left out: it cannot be told what is not needed"
-                              : "all that would save something is needed: there is nothing to leave out");
+    const char *note = hooke_measurement_text(needs, "lean", 0, "note");
+    printf("\n%-*s", LABEL, "lean");
+    cli_print_wrapped(stdout, LABEL, LABEL, WIDTH,
+                      note[0] ? note
+                      : has_unknown(needs)
+                          ? "nothing is left out: it cannot be told what is not needed"
+                          : "all that would save something is needed: there is nothing to leave out");
     return;
   }
   print_saving(needs);

@@ -166,13 +166,23 @@ static void print_margin(const hooke_measurement *study) {
                "holds_start", "error_start");
 }
 
+/* No command: nothing is recommended. */
+static void print_closest(const hooke_measurement *study) {
+  const double step = hooke_measurement_number(study, "recommendation", 0, "step");
+  char value[HOOKE_NUMBER_SIZE];
+  cli_format_rounded(isnan(step) ? hooke_measurement_number(study, "recommendation", 0, "rtol") : step,
+                     value);
+  print_fact("closest", "%s, %s %s%s", hooke_measurement_text(study, "recommendation", 0, "method"),
+             isnan(step) ? "rtol" : "step", value, isnan(step) ? "" : " s");
+}
+
 static void print_recommendation(const struct cli_study_results *results) {
   const hooke_measurement *study = results->study;
   double want = hooke_measurement_number(study, "recommendation", 0, "want");
   int32_t met = hooke_measurement_number(study, "recommendation", 0, "met") == 1.0;
   char text[HOOKE_NUMBER_SIZE], time[HOOKE_NUMBER_SIZE];
   cli_format_rounded(want, text);
-  cli_format_rounded(hooke_measurement_number(study, "reference", 0, "trusted_until"), time);
+  cli_format_rounded(hooke_measurement_number(study, "recommendation", 0, "until"), time);
   printf("\n");
   if (met) {
     print_fact("recommendation", "the cheapest run found whose error is at most %s m up to %s s%s:", text,
@@ -182,25 +192,36 @@ static void print_recommendation(const struct cli_study_results *results) {
                hooke_measurement_text(study, "recommendation", 0, "note"));
   }
   if (!results->command) return;
-  if (!met) print_fact("closest", "%s", hooke_measurement_text(study, "recommendation", 0, "method"));
-  printf("%*s", LABEL, "");
-  cli_print_text(stdout, results->command);
-  printf("\n");
-  print_fact("", "error %.3g m, wall time %.3g s, %.0f force evaluations, as measured",
+  if (met) {
+    printf("%*s", LABEL, "");
+    cli_print_text(stdout, results->command);
+    printf("\n");
+  } else {
+    print_closest(study);
+  }
+  print_fact("", "error %.3g m, wall time %.3g s (median %.3g s), %.0f force evaluations, as measured",
              hooke_measurement_number(study, "recommendation", 0, "error"),
              hooke_measurement_number(study, "recommendation", 0, "wall_seconds"),
+             hooke_measurement_number(study, "recommendation", 0, "wall_median"),
              hooke_measurement_number(study, "recommendation", 0, "force_evaluations"));
+  if (met && hooke_measurement_text(study, "recommendation", 0, "note")[0])
+    print_fact("", "%s", hooke_measurement_text(study, "recommendation", 0, "note"));
   if (met) print_margin(study);
 }
 
 /* Legend of the columns, and of the marks that occur. */
-static void print_legend(const struct cli_rows *rows) {
+static void print_legend(const struct cli_rows *rows, const hooke_measurement *study) {
   int32_t shared = 0;
-  for (int64_t row = 0; row < rows->count; row++)
+  double spread = 0.0;
+  for (int64_t row = 0; row < rows->count; row++) {
     shared |= rows->mark(rows->source, row, "wall_seconds") == '+';
+    spread = fmax(spread, hooke_measurement_number(study, "rows", row, "wall_median") /
+                              hooke_measurement_number(study, "rows", row, "wall_seconds"));
+  }
   printf("\nerror: the root mean square over free particles of the distance to the reference; farthest: the "
          "largest distance of\na particle, which a wanted error is held against; wall time: the least of "
-         "several runs%s\n",
+         "several runs, whose median is up to %.0f %% longer%s\n",
+         fmax(0.0, 100.0 * (spread - 1.0)),
          shared ? "; +: other rows ran beside it, so its time may be too long" : "");
 }
 
@@ -217,7 +238,7 @@ void cli_study_results_print(const struct cli_study_results *results) {
   if (rows.count > 0) {
     printf("\n");
     cli_rows_print(&rows, width);
-    print_legend(&rows);
+    print_legend(&rows, results->study);
     cli_study_watched_print(results, width);
   }
   if (hooke_measurement_number(results->study, "study", 0, "budget_spent") == 1.0)

@@ -215,7 +215,7 @@ static void measure_by_reference(struct hk_estimate *e, const hooke_state *state
     hk_print(e->reason, sizeof e->reason, "the reference itself is known to %.3g m alone", r->agreement);
   if (to_end) return;
   hk_print(e->reason, sizeof e->reason,
-           "after %.6g s two references part by more than a tenth of the wanted error%s",
+           "after %.6g s two references part by more than a fiftieth of the wanted error%s",
            e->begin + hk_pick_trusted(&e->pick),
            r->hurried ? ", for want of time"
                       : ", whatever their tolerance: the motion is chaotic, or rounding parts them");
@@ -340,33 +340,6 @@ int32_t hooke_estimate_refine(hooke_measurement *m, hooke_options *run) {
   e->refined++;
   e->before = e->error;
   e->picked = 0;
-  return status;
-}
-
-/* ---- picking only ---- */
-
-static int32_t create_for(const hooke_system *system, double want, hooke_measurement **m) {
-  hooke_options *own = NULL;
-  int32_t status = hk_options_create(&options, &own);
-  if (status == HOOKE_OK) status = hooke_options_set_number(own, "want", want);
-  if (status == HOOKE_OK) status = hk_measurement_create(&hk_estimate_kind, NULL, system, NULL, own, m);
-  hooke_options_destroy(own);
-  return status;
-}
-
-int32_t hk_estimate_pick_alone(const hooke_system *system, hooke_options *run, double want,
-                               hooke_progress *progress, void *ctx) {
-  hooke_measurement *m = NULL;
-  int32_t status = create_for(system, want, &m);
-  if (status != HOOKE_OK) return status;
-  hooke_measurement_on_progress(m, progress, ctx);
-  status = hooke_estimate_pick(m, NULL, run);
-  const struct hk_pick *pick = &((const struct hk_estimate *)m->object)->pick;
-  if (status == HOOKE_OK && !pick->met) {
-    status = hk_fail(HOOKE_BAD_VALUE, "want", "%g m is not reached: the closest run, %s at %g, is %g m off",
-                     want, pick->best.method, pick->best.value, pick->best.error);
-  }
-  hooke_measurement_destroy(m);
   return status;
 }
 

@@ -88,9 +88,4 @@ int32_t hk_estimate_compare(struct hk_estimate *estimate, const struct hk_rerun 
 /* The smallest step [s] from `least` on that fits the kept frames; NaN if there is none. */
 double hk_estimate_fit_step(const struct hk_estimate *estimate, double least);
 
-/* Picks only: sets a method and its step or tolerance for the wanted error [m] in `run`. HOOKE_BAD_VALUE if
- * nothing is known to meet it, and the failures of hooke_estimate_pick(). */
-int32_t hk_estimate_pick_alone(const hooke_system *system, hooke_options *run, double want,
-                               hooke_progress *progress, void *ctx);
-
 #endif

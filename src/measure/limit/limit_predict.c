@@ -53,6 +53,12 @@ int32_t hk_limit_sure(const hooke_system *system, const double *q, const double 
   linearised.patience = patience;
   status = predict(&linearised, method, SURE, HOOKE_SPECTRUM_EXTREMES, &prediction);
   if (status == HOOKE_OK) *limit = fmax(*limit, (1.0 - SURE) * prediction.sure);
+  const int more = hk_limit_rule_needs_all(method) && !prediction.exact && !prediction.spins &&
+                   linearised.unknowns <= HOOKE_SPECTRUM_DAMPED;
+  if (status == HOOKE_OK && more) {
+    status = predict(&linearised, method, SURE, HOOKE_SPECTRUM_ALL, &prediction);
+    if (status == HOOKE_OK && prediction.exact) *limit = fmax(*limit, (1.0 - SURE) * prediction.limit);
+  }
   hk_linearised_release(&linearised);
   return status == HOOKE_NO_MEMORY ? status : HOOKE_OK;
 }

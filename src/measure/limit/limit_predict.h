@@ -24,8 +24,9 @@ int32_t hk_limit_predict_within(const hooke_system *system, const double *q, con
                                 double accuracy, double room, struct hk_patience *patience, double *limit);
 
 /* Raises `limit`, initially hooke_step_bound() (with bodies 0), to a step [s] at which the linearised system is
- * certainly stable by its extreme eigenvalues: the limit or close to it. If these do not suffice, where bodies
- * spin too fast, and after patience has ended, it stays what it was. HOOKE_BAD_VALUE, HOOKE_NO_MEMORY. */
+ * certainly stable: the limit or close to it, by its extreme eigenvalues or, if these do not suffice, by all of a
+ * small scene. Where that is not known, where bodies spin too fast, and after patience has ended, it stays what it
+ * was. HOOKE_NO_MEMORY. */
 int32_t hk_limit_sure(const hooke_system *system, const double *q, const double *v, const char *method,
                       struct hk_patience *patience, double *limit);
 

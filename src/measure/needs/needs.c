@@ -6,7 +6,7 @@
 #include "core/print.h"
 #include "core/status.h"
 #include "integrate/integrator.h"
-#include "measure/estimate/estimate.h"
+#include "measure/recommend/pick.h"
 #include "measure/trial/step_unit.h"
 
 #include <math.h>
@@ -90,6 +90,7 @@ static void destroy(void *object) {
   for (int64_t k = 0; k < needs->row_count; k++)
     hk_variant_release(&needs->row[k].variant);
   hk_needs_path_release(&needs->path);
+  hk_needs_path_release(&needs->displaced);
   hk_needs_path_release(&needs->lean_path);
   hk_variant_release(&needs->lean_variant);
   hk_variant_map_release(&needs->lean_map);
@@ -129,20 +130,30 @@ int32_t hk_needs_tell(struct hk_needs *needs, double share) {
 
 /* ---- the full system ---- */
 
-static int32_t tell_pick(double done, const char *what, void *ctx) {
+int32_t hk_needs_tell_pick(double done, const char *what, void *ctx) {
   (void)what;
   return hk_needs_tell(ctx, done);
 }
 
-/* Without a method in the options of the run, chooses as a study would. */
+static int32_t refuse_pick(const struct hk_pick *pick) {
+  if (pick->best.method == NULL)
+    return hk_fail(HOOKE_UNSUITED, "method", "no method has a step that is stable here");
+  return hk_fail(HOOKE_BAD_VALUE, "want", "%g m is not reached: the closest run, %s at %g, is %g m off",
+                 pick->want, pick->best.method, pick->best.value, pick->best.error);
+}
+
+/* Without a method in the options of the run, chooses as 'run --want' would. */
 static int32_t pick_method(struct hk_needs *needs) {
+  struct hk_pick pick;
   if (hooke_options_is_set(needs->run, "method")) return HOOKE_OK;
   needs->under_way = "picking a method";
-  int32_t status = hk_estimate_pick_alone(needs->system, needs->run, HOOKE_NEEDS_STEP_SHARE * needs->want,
-                                          tell_pick, needs);
-  if (status == HOOKE_NOT_BUILT) return HOOKE_OK; /* then the default of the option */
+  int32_t status = hk_pick_run(&pick, needs->system, needs->run, HOOKE_NEEDS_STEP_SHARE * needs->want, 0,
+                               NULL, hk_needs_tell_pick, needs);
+  if (status == HOOKE_OK && !pick.met) status = refuse_pick(&pick);
+  if (status == HOOKE_OK) status = hk_trial_set_value(needs->run, pick.best.method, pick.best.value);
   needs->method_picked = status == HOOKE_OK;
-  return status;
+  hk_pick_release(&pick);
+  return status == HOOKE_NOT_BUILT ? HOOKE_OK : status; /* then the default of the option */
 }
 
 static int32_t refuse_full(const struct hk_needs *needs) {
@@ -188,6 +199,7 @@ int32_t hk_needs_run_full(struct hk_needs *needs) {
     say_how_it_moves(needs);
   } else {
     hk_needs_path_release(&needs->path);
+    hk_needs_path_release(&needs->displaced);
     needs->judged = needs->frame_count;
   }
   return status;

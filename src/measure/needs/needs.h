@@ -12,8 +12,8 @@ enum { HOOKE_NEEDS_NOTE = 320, HOOKE_NEEDS_NAME = 192 };
 struct hk_needs_cost {
   double particles, springs, step_limit;
   int64_t indexed; /* springs whose ends are looked up individually */
-  double step, rtol, atol, steps, force_evaluations, wall_seconds;
-  double step_error; /* error due to the step [m] */
+  double step, rtol, atol, steps, force_evaluations, wall_seconds, work; /* counted [s] */
+  double step_error;                                                     /* error due to the step [m] */
 };
 
 /* Watched positions at every frame: count numbers a frame. */
@@ -51,9 +51,10 @@ struct hk_needs {
   int64_t frame_count, judged; /* frames; those up to which differences due to the step stay small */
 
   struct hk_needs_cost full;
-  struct hk_needs_path path; /* of the full system */
-  double own_error;          /* error of `path` itself [m] */
-  double moved;              /* largest distance from the start along `path` [m] */
+  struct hk_needs_path path;      /* of the full system */
+  struct hk_needs_path displaced; /* of the full system, from a displaced start; made when it is needed */
+  double own_error;               /* error of `path` itself [m] */
+  double moved;                   /* largest distance from the start along `path` [m] */
   char note[HOOKE_NEEDS_NOTE];
   double *largest_force; /* of each spring over the frames of the full system [N] */
 
@@ -127,9 +128,10 @@ int32_t hk_needs_measure(struct hk_needs *needs, const struct hk_needs_trial *tr
  * no path, if every such step is much smaller than that of the full system. */
 int32_t hk_needs_fit(struct hk_needs *needs, const struct hk_needs_trial *trial, struct hk_needs_cost *cost,
                      struct hk_needs_path *path, double *error);
-/* Wall time of the full system's cheapest run within the wanted error by a method; NaN if it exceeds `most`
- * [s], or the method does not suit it. */
-int32_t hk_needs_try_method(struct hk_needs *needs, const char *method, double most, double *wall_seconds);
+/* Distance of a variant from the full system, both from a start that is displaced at random by a hundredth of
+ * the wanted error, at the steps of their costs; infinity if it does not finish. */
+int32_t hk_needs_displace(struct hk_needs *needs, const struct hk_needs_trial *trial,
+                          const struct hk_needs_cost *cost, double *error);
 /* Minimum wall times of two runs that finished, repeated in turns so that both see the same machine. */
 int32_t hk_needs_time_in_turns(struct hk_needs *needs, const struct hk_needs_trial trial[2],
                                struct hk_needs_cost *const cost[2]);
@@ -152,8 +154,9 @@ int64_t hk_needs_known_rows(const struct hk_needs *needs);
 int32_t hk_needs_find(struct hk_needs *needs);
 int32_t hk_needs_refine(struct hk_needs *needs);
 
-/* Reports the progress of one measurement; a non-zero result asks to stop. */
+/* Reports the progress of one measurement; a non-zero result asks to stop. The second is that of a pick. */
 int32_t hk_needs_tell(struct hk_needs *needs, double share);
+int32_t hk_needs_tell_pick(double done, const char *what, void *needs);
 
 /* ---- needs_tables.c ---- */
 

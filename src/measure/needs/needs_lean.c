@@ -4,13 +4,13 @@
 #include "core/memory.h"
 #include "core/print.h"
 #include "core/utf8.h"
-#include "integrate/method.h"
+#include "measure/recommend/pick.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-static const double CLEARLY_LESS = 0.8;    /* of a time: a larger difference may be noise */
+static const double CLEARLY_LESS = 0.8;    /* of the work: less is not worth telling */
 static const double WORTH_SPLITTING = 0.5; /* of the work, left over if a part is written spring by spring */
 
 /* Result of a run of a lean system. */
@@ -38,7 +38,12 @@ static int32_t try_variant(struct hk_needs *needs, struct candidate *candidate) 
   if (status == HOOKE_BAD_VALUE || status == HOOKE_UNSUITED) return HOOKE_OK; /* mutually exclusive */
   if (status != HOOKE_OK) return status;
   const struct hk_needs_trial trial = {candidate->system, &candidate->map};
-  return hk_needs_fit(needs, &trial, &candidate->cost, &candidate->path, &candidate->error);
+  double displaced = 0.0;
+  status = hk_needs_fit(needs, &trial, &candidate->cost, &candidate->path, &candidate->error);
+  if (status == HOOKE_OK && !isnan(candidate->error))
+    status = hk_needs_displace(needs, &trial, &candidate->cost, &displaced);
+  if (!(displaced <= needs->want)) candidate->error = NAN;
+  return status;
 }
 
 static int32_t take(struct hk_needs *needs, struct candidate *candidate) {
@@ -53,6 +58,7 @@ static int32_t take(struct hk_needs *needs, struct candidate *candidate) {
   needs->lean_cost = candidate->cost;
   needs->lean_path = candidate->path;
   needs->lean_error = candidate->error;
+  needs->lean_note[0] = '\0';
   memset(candidate, 0, sizeof *candidate);
   const int32_t status = hooke_options_copy(needs->run, &needs->lean_run);
   return status == HOOKE_OK ? hk_needs_set_step(&needs->lean_cost, needs->lean_run) : status;
@@ -133,6 +139,12 @@ static int32_t begin_with_everything(struct hk_needs *needs) {
     needs->cheapest_error = candidate.error;
     status = take(needs, &candidate);
   }
+  if (status == HOOKE_OK && isnan(needs->cheapest_error))
+    hk_print(
+        needs->lean_note, sizeof needs->lean_note,
+        "no run of the full scene by %s is recommended: none that was tried is within the want, clear of its "
+        "stability limit and without a rise of energy",
+        hooke_options_text(needs->run, "method"));
   release(&candidate);
   return status;
 }
@@ -209,24 +221,18 @@ static int32_t compare_times(struct hk_needs *needs) {
   return hk_needs_time_in_turns(needs, trial, cost);
 }
 
-static int32_t is_to_try(const struct hk_needs *needs, const char *method) {
-  return strcmp(method, hooke_options_text(needs->run, "method")) != 0 && hooke_method_is_built(method) &&
-         hk_method_suits(method, needs->system) && !hk_method_find(method)->reference;
-}
-
 /* So that savings by another method are not attributed to the omissions. */
 static int32_t find_other_method(struct hk_needs *needs) {
-  double most = CLEARLY_LESS * needs->cheapest.wall_seconds;
-  int32_t status = HOOKE_OK;
-  for (int64_t k = 0; k < hooke_method_count() && status == HOOKE_OK; k++) {
-    const char *method = hooke_method_name(k);
-    double seconds = NAN;
-    if (is_to_try(needs, method)) status = hk_needs_try_method(needs, method, most, &seconds);
-    if (!(seconds < most)) continue;
-    needs->other_method = method;
-    needs->other_seconds = most = seconds;
+  struct hk_pick pick;
+  const int32_t status =
+      hk_pick_run(&pick, needs->system, needs->run, needs->want, 0, NULL, hk_needs_tell_pick, needs);
+  if (status == HOOKE_OK && pick.met && pick.best.work < CLEARLY_LESS * pick.share * needs->cheapest.work &&
+      strcmp(pick.best.method, hooke_options_text(needs->run, "method")) != 0) {
+    needs->other_method = pick.best.method;
+    needs->other_seconds = pick.best.wall_seconds / pick.share;
   }
-  return status;
+  hk_pick_release(&pick);
+  return status == HOOKE_STOPPED || status == HOOKE_NO_MEMORY ? status : HOOKE_OK;
 }
 
 static int32_t has_left_out(const struct hk_needs *needs) {

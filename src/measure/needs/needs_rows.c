@@ -30,6 +30,20 @@ static void judge(const struct hk_needs *needs, const struct hk_needs_path *path
     hk_print(row->note, sizeof row->note, "its time step may put it off by %.2g m", row->cost.step_error);
 }
 
+/* What only the exact start does without is needed. */
+static int32_t judge_displaced(struct hk_needs *needs, const struct hk_needs_trial *trial,
+                               struct hk_needs_row *row) {
+  double error;
+  if (row->needed) return HOOKE_OK;
+  const int32_t status = hk_needs_displace(needs, trial, &row->cost, &error);
+  if (status != HOOKE_OK || error <= needs->want) return status;
+  row->needed = 1;
+  if (isfinite(error)) row->error = error;
+  snprintf(row->note, sizeof row->note, "%s",
+           "from a start displaced by a hundredth of the want: the exact one does not excite what it holds");
+  return HOOKE_OK;
+}
+
 int32_t hk_needs_run_row(struct hk_needs *needs, struct hk_needs_row *row) {
   hooke_system *made = NULL;
   struct hk_variant_map map;
@@ -44,6 +58,7 @@ int32_t hk_needs_run_row(struct hk_needs *needs, struct hk_needs_row *row) {
     judge(needs, &fine, row);
   else if (status == HOOKE_OK)
     snprintf(row->note, sizeof row->note, "does not run to its end with any step that was tried");
+  if (status == HOOKE_OK && fine.position) status = judge_displaced(needs, &trial, row);
   hk_needs_path_release(&fine);
   hk_variant_map_release(&map);
   hooke_system_destroy(made);

@@ -1,8 +1,8 @@
 /* One run of a variant: the watched positions at every frame, and the cost. */
 #include "measure/needs/needs_run.h"
 
-#include "core/clock.h"
 #include "core/memory.h"
+#include "core/random.h"
 #include "core/status.h"
 #include "measure/trial/trial.h"
 
@@ -10,7 +10,9 @@
 #include <string.h>
 
 enum { TURNS = 20 };
-static const double TURNS_TAKE = 0.2; /* [s]: time for repeating two runs in turns */
+static const double DISPLACEMENT = 0.01; /* of the wanted error: who can live with that has no exact start */
+static const uint64_t SEED = 1;          /* of the displaced start */
+static const double TURNS_TAKE = 0.2;    /* [s]: time for repeating two runs in turns */
 
 int32_t hk_needs_path_create(const struct hk_needs *needs, struct hk_needs_path *path) {
   path->recorded = 0;
@@ -95,8 +97,9 @@ static int32_t see_frame(int64_t frame, int64_t step, const hooke_state *state, 
   const struct hk_needs *needs = recorder->needs;
   struct hk_needs_path *path = recorder->path;
   recorder->last_step = (double)step;
+  if (recorder->judges) hk_soundness_see(&recorder->soundness, state);
   if (path == NULL || path->recorded >= needs->frame_count) return 0;
-  if (recorder->trial->map == NULL) note_forces(recorder->needs, frame, state);
+  if (recorder->trial->map == NULL && !recorder->displaced) note_forces(recorder->needs, frame, state);
   double *row = path->position + path->recorded++ * 3 * needs->watch_count;
   for (int64_t k = 0; k < needs->watch_count; k++) {
     const double *q = hooke_state_position(state);
@@ -110,26 +113,72 @@ static int32_t see_frame(int64_t frame, int64_t step, const hooke_state *state, 
 
 static int32_t see_progress(double share, void *ctx) {
   struct hk_needs_recorder *recorder = ctx;
-  recorder->expired = recorder->deadline > 0.0 && hk_clock_seconds() > recorder->deadline;
-  if (recorder->expired) return 1;
   return hk_needs_tell(recorder->needs, recorder->share_begun + recorder->share * share);
+}
+
+/* All variants by the same, particle by particle of the full system. */
+static void see_start(hooke_state *state, void *ctx) {
+  const struct hk_needs_recorder *recorder = ctx;
+  const hooke_system *full = recorder->needs->system, *own = recorder->trial->system;
+  const struct hk_variant_map *map = recorder->trial->map;
+  uint64_t random = SEED;
+  for (int64_t p = 0; p < full->particle_count && recorder->displaced; p++) {
+    const int64_t to = map ? map->to[p] : p;
+    for (int64_t a = 0; a < 3; a++) {
+      const double way = DISPLACEMENT * recorder->needs->want * hk_random_normal(&random);
+      if (to >= 0 && own->inverse_mass[to] > 0.0) hooke_state_position(state)[3 * to + a] += way;
+    }
+  }
+  if (recorder->displaced)
+    hk_bodies_make_rigid(own, hooke_state_position(state), hooke_state_velocity(state));
+}
+
+static int32_t judge_begin(struct hk_needs_recorder *recorder, const hooke_options *options) {
+  hooke_state *state = NULL;
+  const char *method = hooke_options_text(options, "method");
+  recorder->sound = 1;
+  if (!recorder->judges) return HOOKE_OK;
+  const double step = hooke_method_is_adaptive(method) ? NAN : hooke_options_number(options, "step");
+  int32_t status = hooke_state_create(recorder->trial->system, &state);
+  if (status == HOOKE_OK)
+    status = hk_soundness_begin(&recorder->soundness, recorder->trial->system, method, step, state,
+                                recorder->needs->frame_count);
+  hooke_state_destroy(state);
+  return status;
+}
+
+static int32_t judge_end(struct hk_needs_recorder *recorder, int32_t finished) {
+  int32_t status = HOOKE_OK;
+  if (recorder->judges && finished) status = hk_soundness_find_limits(&recorder->soundness, NULL);
+  if (recorder->judges)
+    recorder->sound = isinf(recorder->soundness.least_limit) &&
+                      !(hk_soundness_rise(&recorder->soundness) > hk_soundness_most_rise);
+  hk_soundness_release(&recorder->soundness);
+  return status;
 }
 
 int32_t hk_needs_run_once(struct hk_needs_recorder *recorder, const hooke_options *options, int32_t *finished,
                           struct hk_needs_cost *cost) {
-  const struct hk_listener listener = {.on_progress = see_progress, .on_frame = see_frame, .ctx = recorder};
-  struct hk_run_cost taken = {.wall_seconds = NAN, .force_evaluations = NAN};
+  const struct hk_listener listener = {
+      .on_progress = see_progress, .on_frame = see_frame, .on_start = see_start, .ctx = recorder};
+  struct hk_run_cost taken = {.wall_seconds = NAN, .force_evaluations = NAN, .work = NAN};
   struct hk_frames none;
   if (recorder->path) recorder->path->recorded = 0;
   recorder->needs->runs++;
-  int32_t status = hk_frames_create(recorder->trial->system, 0, &none);
-  if (status == HOOKE_OK) status = hk_frames_run(&none, options, &listener, &taken);
-  hk_frames_release(&none);
+  *finished = 0;
+  int32_t status = judge_begin(recorder, options);
+  if (status == HOOKE_OK) status = hk_frames_create(recorder->trial->system, 0, &none);
+  if (status == HOOKE_OK) {
+    status = hk_frames_run(&none, options, &listener, &taken);
+    hk_frames_release(&none);
+  }
   cost->wall_seconds = taken.wall_seconds;
   cost->force_evaluations = taken.force_evaluations;
+  cost->work = taken.work;
   cost->steps = recorder->last_step;
   *finished = status == HOOKE_OK;
-  if (status == HOOKE_STOPPED && recorder->expired) return HOOKE_OK;
+  const int32_t judged = judge_end(recorder, *finished);
+  if (judged != HOOKE_OK) return judged;
   return status == HOOKE_DIVERGED || status == HOOKE_SOLVER_FAILED || status == HOOKE_STEP_LIMIT ? HOOKE_OK
                                                                                                  : status;
 }

@@ -3,6 +3,7 @@
 #define HOOKE_MEASURE_NEEDS_NEEDS_RUN_H
 
 #include "measure/needs/needs.h"
+#include "measure/recommend/soundness.h"
 
 struct hk_needs_recorder {
   struct hk_needs *needs;
@@ -10,8 +11,9 @@ struct hk_needs_recorder {
   struct hk_needs_path *path; /* NULL: only the time is needed */
   double last_step;
   double share_begun, share; /* of the measurement: before this run, and for it */
-  double deadline;           /* hk_clock_seconds() at which a run is abandoned; 0: none */
-  int32_t expired;           /* 1: it was abandoned */
+  int32_t displaced;         /* 1: it starts from a displaced start */
+  int32_t judges, sound; /* 1: its step and its energy are judged; they are sound (recommend/soundness.h) */
+  struct hk_soundness soundness;
 };
 
 /* Runs once. `finished`: 0 if it diverged or its solver failed, which is a result here. Returns HOOKE_STOPPED

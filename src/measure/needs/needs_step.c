@@ -21,9 +21,7 @@ static const double LEAST_SHARE = 0.1, COARSE = 256.0; /* of the duration; below
 static const double CERTAIN = 0.1;                     /* of a change, by the step: leaves no doubt of it */
 static const double MARGIN = 4.0; /* of the step's error, if only a part of the run can be judged */
 enum { REPEATS = 20, HALVINGS = 3 };
-static const double TRIES = 4.0,
-                    AT_LEAST = 0.01; /* limits on all runs of another method: times one run, and [s] */
-static const double SHORT = 0.02;    /* [s]: time for repeating runs */
+static const double SHORT = 0.02; /* [s]: time for repeating runs */
 
 /* Steps are unit / value, tolerances 10^-value. */
 struct search {
@@ -281,11 +279,51 @@ int32_t hk_needs_measure(struct hk_needs *needs, const struct hk_needs_trial *tr
   return status;
 }
 
+/* ---- from a displaced start ---- */
+
+/* A run with the step of `cost`. */
+static int32_t run_displaced(struct search *search, const struct hk_needs_cost *cost,
+                             struct hk_needs_path *path, int32_t *finished) {
+  struct hk_needs_cost taken;
+  search->recorder.path = path;
+  search->recorder.displaced = 1;
+  int32_t status = hk_needs_set_step(cost, search->options);
+  if (status == HOOKE_OK) status = hk_needs_run_once(&search->recorder, search->options, finished, &taken);
+  search->recorder.displaced = 0;
+  return status;
+}
+
+/* The full system, once. */
+static int32_t displace_full(struct hk_needs *needs) {
+  const struct hk_needs_trial trial = {needs->system, NULL};
+  struct search search = new_search(needs, &trial);
+  int32_t finished = 0;
+  if (needs->displaced.position) return HOOKE_OK;
+  int32_t status = start(&search, NAN);
+  if (status == HOOKE_OK) status = hk_needs_path_create(needs, &needs->displaced);
+  if (status == HOOKE_OK) status = run_displaced(&search, &needs->full, &needs->displaced, &finished);
+  end(&search);
+  return status;
+}
+
+int32_t hk_needs_displace(struct hk_needs *needs, const struct hk_needs_trial *trial,
+                          const struct hk_needs_cost *cost, double *error) {
+  struct search search = new_search(needs, trial);
+  int32_t finished = 0;
+  int32_t status = displace_full(needs);
+  if (status == HOOKE_OK) status = start(&search, NAN);
+  if (status == HOOKE_OK) status = run_displaced(&search, cost, &search.path[0], &finished);
+  *error = finished ? hk_needs_distance(needs, &needs->displaced, &search.path[0]) : INFINITY;
+  end(&search);
+  return status;
+}
+
 /* ---- within the wanted error, all errors together ---- */
 
+/* NaN for a run that did not finish, or whose step or energy is not sound. */
 static double error_of(const struct search *search, int32_t which) {
   const struct hk_needs *needs = search->recorder.needs;
-  if (!search->finished[which]) return NAN;
+  if (!search->finished[which] || !search->recorder.sound) return NAN;
   return hk_needs_distance(needs, &needs->path, &search->path[which]) + needs->own_error;
 }
 
@@ -330,7 +368,9 @@ int32_t hk_needs_fit(struct hk_needs *needs, const struct hk_needs_trial *trial,
   struct search search = new_search(needs, trial);
   int32_t status = start(&search, limit);
   *error = NAN;
+  search.recorder.judges = 1;
   if (status == HOOKE_OK) status = find_coarsest(&search, error);
+  search.recorder.judges = 0;
   fill_cost(&search, limit, cost);
   int32_t finished = *error <= needs->want;
   if (status == HOOKE_OK && finished) status = find_time(&search, cost, &finished);
@@ -340,54 +380,4 @@ int32_t hk_needs_fit(struct hk_needs *needs, const struct hk_needs_trial *trial,
     *error = NAN;
   end(&search);
   return status;
-}
-
-/* ---- the full system by another method ---- */
-
-static int32_t start_with(struct search *search, const char *method, double limit) {
-  int32_t status = start(search, limit);
-  if (status == HOOKE_OK) status = hooke_options_set_text(search->options, "method", method);
-  if (status == HOOKE_OK && search->adaptive) status = hooke_options_unset(search->options, "step");
-  return status;
-}
-
-/* Kept cheap, since the run may never be made. */
-static double safe_step(const hooke_system *system, const char *method) {
-  hooke_state *state = NULL;
-  double bound = NAN;
-  if (hooke_state_create(system, &state) != HOOKE_OK) return NAN;
-  if (hooke_step_bound(system, method, hooke_state_position(state), &bound) != HOOKE_OK) bound = NAN;
-  hooke_state_destroy(state);
-  return bound;
-}
-
-/* Like find_coarsest(), but limited to runs of at most `most` [s]. */
-static int32_t find_quick(struct search *search, double most, double *error) {
-  search->recorder.deadline = hk_clock_seconds() + TRIES * most + AT_LEAST;
-  for (;;) {
-    const int32_t status = run_at(search, search->value, 0);
-    if (status != HOOKE_OK) return status;
-    *error = error_of(search, 0);
-    if (*error <= search->recorder.needs->want || search->cost[0].wall_seconds > most ||
-        search->recorder.expired || is_exhausted(search))
-      return HOOKE_OK;
-    search->value = finer(search, search->value);
-  }
-}
-
-int32_t hk_needs_try_method(struct hk_needs *needs, const char *method, double most, double *wall_seconds) {
-  const struct hk_needs_trial trial = {needs->system, NULL};
-  const double limit = safe_step(trial.system, method);
-  struct search search = {.recorder = {.needs = needs, .trial = &trial},
-                          .adaptive = hk_method_find(method)->adaptive};
-  double error = NAN;
-  *wall_seconds = NAN;
-  int32_t status = start_with(&search, method, limit), finished;
-  if (status == HOOKE_OK) status = find_quick(&search, most, &error);
-  finished = error <= needs->want;
-  search.recorder.deadline = 0.0;
-  if (status == HOOKE_OK && finished) status = find_time(&search, &search.cost[0], &finished);
-  if (status == HOOKE_OK && finished) *wall_seconds = search.cost[0].wall_seconds;
-  end(&search);
-  return status == HOOKE_BAD_VALUE || status == HOOKE_UNSUITED ? HOOKE_OK : status;
 }

@@ -15,7 +15,7 @@ struct cost_line {
 };
 
 static struct cost_line cost_line(const struct hk_needs_cost *cost, int32_t known) {
-  static const struct hk_needs_cost none = {NAN, NAN, NAN, 0, NAN, NAN, NAN, NAN, NAN, NAN, NAN};
+  static const struct hk_needs_cost none = {NAN, NAN, NAN, 0, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN};
   return (struct cost_line){.cost = known ? *cost : none,
                             .unlimited = known ? (double)isinf(cost->step_limit) : (double)NAN};
 }

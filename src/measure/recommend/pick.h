@@ -4,8 +4,8 @@
  *
  * - No step is above 0.9 of the limit: of the bound at every frame, and of the prediction where it is above
  *   0.9 of the bound (soundness.h). No run's energy grows by itself.
- * - The run has met the wanted error twice: from the start, and from one displaced at random by 1e-12 of the
- *   extent, or by rounding, so that it does not rest on a motion that only the exact start has.
+ * - The run has met the wanted error twice: from the start, and from one displaced at random by as much as
+ *   rounding does, so that it does not rest on a motion that only the exact start has.
  * - Costs are counted work; of methods whose costs are within 1.2 the first one in the table of methods.
  *
  * All of that takes at most ten times the work of the picked run, or the counted equal of 2 s. Where it does

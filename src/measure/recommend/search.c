@@ -26,16 +26,17 @@ static const double SPARE = 1.3;            /* of a run that might be cheaper, o
 static const double MOST_STEPS = 1e8;
 static const double SHARE_OF_LIMITS = 0.25; /* of the work that is left, at most for the limits of one row */
 static const double SHARE_OF_REFERENCE =
-    0.2;                                  /* approximate work of a run, as a fraction of the reference's */
-static const double DISPLACEMENT = 1e-12; /* of the start, as a fraction of the extent */
-static const uint64_t SEED = 1;           /* of that */
+    0.2;                                 /* approximate work of a run, as a fraction of the reference's */
+static const double DISPLACEMENT = 10.0; /* of the start, in halves of a unit in the last place */
+static const uint64_t SEED = 1;          /* of that */
 
 /* A run in the search. */
 struct result {
   double value, error, rms, work, wall_seconds; /* the errors NaN: it did not finish */
-  double allowed; /* a value clear of the stability limit at all frames; infinity: this one is */
-  int32_t gains;  /* spontaneous rise of energy */
-  int32_t late;   /* its work was too much */
+  double allowed;  /* a value clear of the stability limit at all frames; infinity: this one is */
+  int32_t gains;   /* spontaneous rise of energy */
+  int32_t unknown; /* 1: that limit is not known at some state, so that nobody knows whether it is sound */
+  int32_t late;    /* its work was too much */
 };
 
 struct search {
@@ -106,6 +107,7 @@ static int32_t judge(struct search *s, struct hk_soundness *soundness, struct re
   const int32_t status = hk_soundness_find_limits(soundness, &patience);
   s->pick->work += hk_soundness_work(soundness) + patience.work;
   result->allowed = hk_soundness_limit_share * soundness->least_limit;
+  result->unknown = soundness->unknown_limit;
   result->gains = hk_soundness_rise(soundness) > hk_soundness_most_rise;
   return status;
 }
@@ -160,7 +162,8 @@ static int32_t is_sound(const struct result *result) {
 
 static void learn(struct search *s, const struct result *result) {
   const int32_t sound = is_sound(result);
-  const int32_t meets = sound && s->pick->reference.trusted > 1 && result->error <= s->most;
+  const int32_t meets =
+      sound && !result->unknown && s->pick->reference.trusted > 1 && result->error <= s->most;
   if (sound && beats(s, result, meets)) {
     s->best = (struct hk_pick_row){s->method,   result->value, result->error,
                                    result->rms, result->work,  result->wall_seconds};
@@ -323,6 +326,7 @@ static int32_t try_value(struct search *s, double value, double most_work) {
     return HOOKE_OK;
   }
   learn(s, &s->last);
+  s->over |= s->last.unknown && s->last.error <= s->most; /* no finer one is known any better */
   if (s->error_meets < GOOD * s->most && isnan(s->fails)) status = raise_largest(s);
   return status;
 }
@@ -361,20 +365,20 @@ static int32_t search_all(struct hk_pick *pick, int32_t count, struct search *al
 
 /* ---- from a displaced start ---- */
 
-/* So little that a motion of the scene may grow a millionfold and more [m]; what a step above the limit
- * amplifies shows in it all the same. */
+/* As rounding does: so little that the scene's own motion may let it grow a millionfold and more [m]; what a
+ * step above the limit amplifies shows in it all the same. */
 static double displacement_of(const struct hk_reference *r) {
-  return fmax(DISPLACEMENT * r->extent, hk_frames_resolution(&r->frames, r->frames.position));
+  return DISPLACEMENT * hk_frames_resolution(&r->frames, r->frames.position);
 }
 
-/* Runs the best row once more, and forgets it if the want is not met there. */
+/* Runs the best row once more; if the want is not met there, the search goes on. */
 static int32_t confirm(struct search *s, int32_t *holds) {
   struct result again;
   const int32_t status = run_row(s, s->best.value, displacement_of(&s->pick->reference), 0.0, &again);
-  *holds = status == HOOKE_OK && is_sound(&again) && again.error <= s->most;
-  if (*holds) s->best.error = fmax(s->best.error, again.error);
+  *holds = status == HOOKE_OK && is_sound(&again) && !again.unknown && again.error <= s->most;
+  s->best.error = fmax(s->best.error, again.error);
   if (*holds || status != HOOKE_OK) return status;
-  s->best.method = NULL;
+  if (!is_sound(&again)) s->best.method = NULL;
   s->met = 0;
   s->meets = s->error_meets = NAN;
   s->fails = again.value;

@@ -26,12 +26,25 @@ static int32_t method_number(const struct hk_study *study, const char *name) {
   return -1;
 }
 
-static void keep(struct hk_study *study, const struct hk_study_row *row) {
+/* The first of the trusted frames, up to a time. */
+static int64_t frames_until(const struct hk_reference *r, double until) {
+  int64_t count = r->trusted;
+  while (count > 1 && r->frames.time[count - 1] > until * (1.0 + 1e-9))
+    count--;
+  return count;
+}
+
+/* Its error over the first `frames`. */
+static void keep(struct hk_study *study, const struct hk_study_row *row, int64_t frames) {
   struct hk_study_recommendation *r = &study->recommendation;
+  const int finished = row->trial.error_max >= 0.0;
+  r->error = finished ? 0.0 : NAN;
+  for (int64_t f = 0; f < frames && finished; f++)
+    r->error = fmax(r->error, row->trial.error_max_at[f]);
+  r->until = hk_reference_time(&study->reference, frames, study->duration);
   r->method = row->method;
   r->value = row->value;
   r->atol = row->trial.atol;
-  r->error = row->trial.error_max;
   r->wall_seconds = row->trial.wall_seconds;
   r->wall_median = row->wall_median;
   r->force_evaluations = row->trial.force_evaluations;
@@ -39,17 +52,50 @@ static void keep(struct hk_study *study, const struct hk_study_row *row) {
 
 /* ---- when nothing meets the wanted error ---- */
 
+static void explain_no_rows(struct hk_study *study) {
+  struct hk_study_recommendation *r = &study->recommendation;
+  const struct hk_study_row *finest = NULL;
+  for (int64_t k = 0; k < study->row_count; k++)
+    if (finest == NULL || study->row[k].value < finest->value) finest = &study->row[k];
+  const int adaptive = finest && hk_study_is_adaptive(study, finest->method);
+  if (finest == NULL)
+    snprintf(r->note, sizeof r->note, "there are no runs to choose from");
+  else
+    hk_print(
+        r->note, sizeof r->note,
+        "no run finished, so none comes close: %s %s even at %s %.3g%s; give smaller steps or other methods",
+        study->method[finest->method], finest->trial.status, adaptive ? "rtol" : "a step of", finest->value,
+        adaptive ? "" : " s");
+}
+
+/* Where nothing is picked, the row that comes closest. */
+static void keep_closest_row(struct hk_study *study) {
+  const struct hk_study_row *closest = NULL;
+  for (int64_t k = 0; k < study->row_count; k++) {
+    const struct hk_study_row *row = &study->row[k];
+    if (row->trial.error_max >= 0.0 && (closest == NULL || row->trial.error_max < closest->trial.error_max))
+      closest = row;
+  }
+  if (closest) keep(study, closest, study->reference.trusted);
+}
+
 static void explain(struct hk_study *study) {
   struct hk_study_recommendation *r = &study->recommendation;
+  const int picked = r->method >= 0;
+  if (!picked) keep_closest_row(study);
   if (study->budget_spent && r->method < 0) {
     hk_print(r->note, sizeof r->note, "the budget of %g s ended before a run was found; give a larger one",
              study->budget);
   } else if (r->method < 0) {
-    snprintf(r->note, sizeof r->note, "no run finished with a step clear of its stability limit");
+    explain_no_rows(study);
   } else if (r->want <= study->reference.agreement) {
     hk_print(r->note, sizeof r->note,
              "%.3g m is below %.3g m, to which the reference itself is known; want more than that", r->want,
              study->reference.agreement);
+  } else if (!picked) {
+    hk_print(r->note, sizeof r->note,
+             "no run of these methods is clear of its stability limit; the closest row is %.3g m off",
+             r->error);
   } else {
     hk_print(r->note, sizeof r->note, "no run comes within %.3g m; the closest is %.3g m off; %s", r->want,
              r->error,
@@ -70,19 +116,19 @@ static int is_untrusted(struct hk_study *study) {
 
 /* ---- picking ---- */
 
-/* Measures the picked run as rows are; a closest one only if there is none yet. */
-static int32_t measure(struct hk_study *study, const struct hk_pick *pick, double *error) {
+/* Measures the picked run as rows are, up to the time that the references of both can be trusted; to the end
+ * where that of the pick was short of work alone. */
+static int32_t measure(struct hk_study *study, const struct hk_pick *pick) {
   struct hk_study_recommendation *r = &study->recommendation;
+  const double until = pick->share < 1.0 ? INFINITY : hk_pick_trusted(pick);
   const int32_t method = pick->best.method ? method_number(study, pick->best.method) : -1;
   struct hk_study_row row;
-  *error = NAN;
   if (method < 0) return HOOKE_OK;
   study->row_deadline = study->deadline;
   const int32_t status = hk_study_measure(study, method, pick->best.value, &row);
   if (status == HOOKE_OK && row.trial.status) {
-    *error = row.trial.error_max;
-    r->met = pick->met && *error <= r->want;
-    keep(study, &row);
+    keep(study, &row, frames_until(&study->reference, study->reference.frames.time[0] + until));
+    r->met = pick->met && r->error <= r->want;
     if (r->met) hk_pick_say_reversal(pick, r->note, sizeof r->note);
   }
   hk_trial_release(&row.trial);
@@ -90,7 +136,7 @@ static int32_t measure(struct hk_study *study, const struct hk_pick *pick, doubl
 }
 
 /* Picks for `want`, by one pick. */
-static int32_t pick_once(struct hk_study *study, double want, double *error, int32_t *met) {
+static int32_t pick_once(struct hk_study *study, double want, int32_t *met) {
   struct hk_pick pick;
   study->late = 0;
   study->row_deadline = study->deadline;
@@ -100,7 +146,7 @@ static int32_t pick_once(struct hk_study *study, double want, double *error, int
     study->budget_spent = 1;
     status = HOOKE_OK;
   }
-  if (status == HOOKE_OK) status = measure(study, &pick, error);
+  if (status == HOOKE_OK) status = measure(study, &pick);
   *met = pick.met;
   hk_pick_release(&pick);
   return status;
@@ -113,6 +159,7 @@ static void clear(struct hk_study *study, double want) {
                                                            .value = NAN,
                                                            .atol = NAN,
                                                            .error = NAN,
+                                                           .until = NAN,
                                                            .wall_seconds = NAN,
                                                            .wall_median = NAN,
                                                            .force_evaluations = NAN,
@@ -122,13 +169,13 @@ static void clear(struct hk_study *study, double want) {
 
 int32_t hk_study_find_cheapest(struct hk_study *study, double want) {
   struct hk_study_recommendation *r = &study->recommendation;
-  double error = NAN, aim = want;
+  double aim = want;
   int32_t status = HOOKE_OK, met = 1;
   clear(study, want);
   if (is_untrusted(study)) return HOOKE_OK;
   for (int k = 0; k < MOST_PICKS && met && !r->met && status == HOOKE_OK; k++) {
-    if (error > want) aim *= AIM * want / error;
-    status = pick_once(study, aim, &error, &met);
+    if (r->error > want) aim *= AIM * want / r->error;
+    status = pick_once(study, aim, &met);
   }
   if (status != HOOKE_OK) return status;
   if (r->met) return hk_study_find_margin(study);

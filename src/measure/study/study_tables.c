@@ -229,7 +229,7 @@ static const struct hk_table order_table = {
 
 struct recommendation_line {
   const char *method, *note;
-  double met, want, step, rtol, atol, error, wall_seconds, force_evaluations;
+  double met, want, step, rtol, atol, error, until, wall_seconds, wall_median, force_evaluations;
 };
 
 static int64_t count_recommendations(const void *object) {
@@ -250,7 +250,9 @@ static void read_recommendation(const void *object, int64_t row, void *line) {
       .rtol = adaptive ? r->value : NAN,
       .atol = adaptive ? r->atol : NAN,
       .error = r->error,
+      .until = r->until,
       .wall_seconds = r->wall_seconds,
+      .wall_median = r->wall_median,
       .force_evaluations = r->force_evaluations,
   };
 }
@@ -264,10 +266,16 @@ static const struct hk_column recommendation_columns[] = {
     HOOKE_COLUMN(struct recommendation_line, rtol, NUMBER, "", "its relative tolerance"),
     HOOKE_COLUMN(struct recommendation_line, error, NUMBER, "m",
                  "its error: the largest distance of any free particle"),
-    HOOKE_COLUMN(struct recommendation_line, wall_seconds, NUMBER, "s", "its wall time"),
+    HOOKE_COLUMN(struct recommendation_line, until, NUMBER, "s",
+                 "time up to which that holds; before the end where nobody knows the motion that long"),
+    HOOKE_COLUMN(struct recommendation_line, wall_seconds, NUMBER, "s",
+                 "its wall time, the least of several"),
+    HOOKE_COLUMN(struct recommendation_line, wall_median, NUMBER, "s", "their median"),
     HOOKE_COLUMN(struct recommendation_line, met, FLAG, "", "a run was seen to have at most that error"),
-    HOOKE_COLUMN(struct recommendation_line, note, TEXT, "",
-                 "what is in the way where nothing meets it, else empty"),
+    HOOKE_COLUMN(
+        struct recommendation_line, note, TEXT, "",
+        "what is in the way where nothing meets it; else empty, or that this machine's times would reverse "
+        "the choice, which is by counted work"),
     HOOKE_COLUMN(struct recommendation_line, atol, NUMBER, "m", "its absolute tolerance of positions"),
     HOOKE_COLUMN(struct recommendation_line, force_evaluations, COUNT, "", "its evaluations of the forces"),
 };

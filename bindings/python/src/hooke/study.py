@@ -87,8 +87,9 @@ class Statistic(NamedTuple):
 
 
 class Recommendation(NamedTuple):
-    """The cheapest run that was seen to meet `want` [m]; if `met` is False, the closest one, and `note` says why.
-    Numbers that do not apply are NaN."""
+    """The cheapest run that was seen to meet `want` [m], `until` [s]; if `met` is False, the closest one, and `note`
+    says why. `wall_seconds` is the least of several runs, `wall_median` their median. Numbers that do not apply are
+    NaN."""
 
     met: bool
     want: float
@@ -97,7 +98,9 @@ class Recommendation(NamedTuple):
     rtol: float
     atol: float
     error: float
+    until: float
     wall_seconds: float
+    wall_median: float
     force_evaluations: float
     note: str
     margin: Margin
