@@ -37,6 +37,11 @@ static void tell_choice(const struct cli_run *run, const char *done, const char 
                    adaptive ? "" : " s");
 }
 
+static void tell_reversal(const struct cli_run *run) {
+  const char *reversal = hooke_measurement_text(run->estimate, "estimate", 0, "reversal");
+  if (!run->arguments->quiet && reversal[0]) cli_report_words(run->arguments, "picked %s", reversal);
+}
+
 /* `want` [m]; NaN: none. */
 static int32_t create(struct cli_run *run, double want) {
   hooke_options *options = NULL;
@@ -64,8 +69,12 @@ int cli_want_pick(struct cli_run *run) {
   cli_watch_start(&run->watch, arguments);
   status = hooke_estimate_pick(run->estimate, cli_arguments_text(arguments, "method"), run->setup.options);
   cli_watch_end(&run->watch);
+  if (status == HOOKE_STOPPED)
+    return cli_report(arguments, HOOKE_EXIT_INTERRUPTED,
+                      "interrupted while a method was picked; nothing was run");
   if (status != HOOKE_OK) return cli_report_status(arguments, status);
   tell_choice(run, "picked for an error of", text);
+  tell_reversal(run);
   return HOOKE_EXIT_DONE;
 }
 

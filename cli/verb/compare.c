@@ -131,8 +131,9 @@ static void print_errors(const hooke_measurement *comparison, int32_t width) {
   int64_t count;
   const double *time = hooke_measurement_series(comparison, "reference", 0, "time", &count);
   const int64_t last = count - 1, frames = last < COLUMNS ? last : COLUMNS;
-  printf("error [m]: root mean square over free particles of the distance to the reference\n%-*s", width,
-         "at t [s] =");
+  printf("error [m]: root mean square over free particles of the distance to the reference; wall time: of "
+         "one run\n%-*s",
+         width, "at t [s] =");
   for (int64_t i = 1; i <= frames; i++)
     cli_rows_print_cell(10, time[last * i / frames]);
   printf("\n");

@@ -91,6 +91,7 @@ static int32_t pick(struct hk_estimate *e, double want, hooke_options *run) {
     status = hk_fail(HOOKE_UNSUITED, "method", "%s has no step that is stable here",
                      e->only ? e->only : "no method");
   if (status == HOOKE_OK) status = hk_trial_set_value(run, e->pick.best.method, e->pick.best.value);
+  hk_pick_say_reversal(&e->pick, e->reversal, sizeof e->reversal);
   if (status != HOOKE_OK) hk_pick_release(&e->pick);
   e->picked = status == HOOKE_OK;
   return status;

@@ -40,7 +40,7 @@ struct hk_estimate {
   double last_error, last_from; /* what the last piece of the run made; NaN: not measured */
   double rise, heat_excess, spent;
   double left; /* counted work that other runs may still take [s] */
-  char reason[256];
+  char reason[256], reversal[160];
 };
 
 extern const struct hk_measurement_kind hk_estimate_kind;

@@ -7,7 +7,7 @@ struct line {
   double estimate, rms, known_until;
   const char *by;
   double wanted, met, energy_rise, heat_excess, last_piece, last_from, seconds, memory_bytes;
-  const char *reason;
+  const char *reason, *reversal;
 };
 
 /* States, and frames of times, energies and positions. */
@@ -32,7 +32,8 @@ static void read(const void *object, int64_t row, void *line) {
                                        .last_from = e->last_from,
                                        .seconds = e->spent,
                                        .memory_bytes = memory_of(e),
-                                       .reason = e->reason};
+                                       .reason = e->reason,
+                                       .reversal = e->reversal};
 }
 
 #define COLUMN(member, kind, units, text) HOOKE_COLUMN(struct line, member, kind, units, text)
@@ -65,6 +66,9 @@ static const struct hk_column columns[] = {
     COLUMN(seconds, NUMBER, "s", "time that picking and measuring took so far"),
     COLUMN(memory_bytes, COUNT, "bytes", "memory of the states that it keeps while the run goes on"),
     COLUMN(reason, TEXT, "", "why the error is not known, or why the wanted one is not met"),
+    COLUMN(reversal, TEXT, "",
+           "the times on this machine of the two best picks, where they would reverse the choice by more "
+           "than 2"),
 };
 
 static const struct hk_table table = {

@@ -1,7 +1,7 @@
 #include "measure/estimate/heat.h"
 
-#include "core/clock.h"
 #include "core/memory.h"
+#include "measure/counted_work/work.h"
 #include "measure/trial/balance.h"
 #include "model/system.h"
 
@@ -9,7 +9,8 @@
 #include <string.h>
 
 enum { MOST_STEPS = 1024, LEAST_STEPS = 8, APART = 8 /* steps between two residuals */ };
-static const double SHARE = 0.01, MOMENT = 0.02; /* of the run's time, or [s], for a slice */
+static const double SHARE = 0.01, LEAST_WORK = 0.02; /* of the run's counted work, or [s], for a slice */
+static const double SUMS = 10.0;                     /* evaluations of forces that the sums of a step take */
 
 struct slice {
   const hooke_system *system;
@@ -19,8 +20,7 @@ struct slice {
   double reversing;      /* U [J] */
   double residual[MOST_STEPS / APART];
   int64_t steps;
-  double until; /* wall-clock time [s] */
-  int32_t over, status;
+  int32_t status;
 };
 
 static int32_t begin(struct slice *s, const hooke_state *state) {
@@ -65,8 +65,7 @@ static int32_t see(int64_t step, const hooke_state *state, void *ctx) {
   if (step % APART != 0) return 0;
   hk_balance_close(&s->balance, state);
   s->residual[step / APART - 1] = s->balance.residual;
-  s->over = hk_clock_seconds() > s->until;
-  return s->over;
+  return 0;
 }
 
 static double excess_of(const struct slice *s, double scale) {
@@ -82,14 +81,16 @@ static double excess_of(const struct slice *s, double scale) {
 static int32_t look(struct hk_estimate *e, const hooke_state *from) {
   const double step = hk_estimate_value(e->options);
   const double left = e->duration - (from ? hooke_state_time(from) - e->begin : 0.0);
-  const double count = fmin(MOST_STEPS, round(left / step));
-  struct slice s = {.system = e->system, .until = hk_clock_seconds() + fmax(MOMENT, SHARE * e->work)};
+  const double of_step = SUMS * hk_work_of_evaluation(e->system) + e->work / fmax(1.0, e->steps);
+  const double affordable = floor(fmax(LEAST_WORK, SHARE * e->work) / of_step / APART) * APART;
+  const double count = fmin(fmin(MOST_STEPS, fmax(APART, affordable)), round(left / step));
+  struct slice s = {.system = e->system};
   const char *method = hooke_options_text(e->options, "method");
   const struct hk_rerun rerun = {method, step, count * step, step, "error, heat", 1.0, 0.0, from, see, &s};
   struct hk_frames none = {.system = e->system};
   if (count < LEAST_STEPS) return HOOKE_OK;
   int32_t status = hk_estimate_rerun(e, &rerun, &none);
-  if (status == HOOKE_STOPPED && (s.over || s.status != HOOKE_OK)) status = s.status;
+  if (status == HOOKE_STOPPED && s.status != HOOKE_OK) status = s.status;
   e->heat_excess = fmax(e->heat_excess, excess_of(&s, e->soundness.scale + e->soundness.swing));
   hk_balance_release(&s.balance);
   hk_free(s.difference[0]);

@@ -1,5 +1,4 @@
-/* Compares the step of a run with the safe bound, at a cost below a hundredth of the stepping. */
-#include "core/clock.h"
+/* Compares the step of a run with the safe bound, at a cost of about a hundredth of the stepping. */
 #include "core/memory.h"
 #include "core/print.h"
 #include "core/status.h"
@@ -11,7 +10,10 @@
 #include <math.h>
 #include <stdio.h>
 
-static const double SHARE = 0.008, MARGIN = 0.05;
+static const double MARGIN = 0.05;
+enum {
+  EVALUATIONS = 5000
+}; /* of forces from one check to the next, which takes as long as some 40 of them */
 
 enum kind { NEAR_LIMIT, ABOVE_LIMIT, NEVER_STABLE, KINDS };
 static const char *const kinds[KINDS] = {"near-limit", "above-limit", "never-stable"};
@@ -21,7 +23,7 @@ struct warner {
   hooke_warning *warning;
   void *ctx;
   int32_t told[KINDS];
-  double begun, spent, longest; /* [s]: stepping before this run, checks of this run, the longest check */
+  int64_t next; /* evaluations of forces at which it is checked again */
 };
 
 static void release(void *own) {
@@ -62,23 +64,18 @@ static int32_t tell(struct warner *warner, const hooke_integrator *it, const hoo
 static int32_t look(const hooke_integrator *it, const hooke_state *state, void *own) {
   struct warner *warner = own;
   if (it->k == 0) {
-    warner->begun = it->wall_seconds;
-    warner->spent = warner->longest = 0.0;
     for (int k = 0; k < KINDS; k++)
       warner->told[k] = 0;
-  } else if (warner->spent + warner->longest > SHARE * (it->wall_seconds - warner->begun)) {
+  } else if (it->count.force_evaluations < warner->next) {
     return 0; /* not yet earned by stepping */
   }
+  warner->next = it->count.force_evaluations + EVALUATIONS;
   if (warner->told[ABOVE_LIMIT] || warner->told[NEVER_STABLE]) return 0;
-  const double begun = hk_clock_seconds();
   const double margin = warner->told[NEAR_LIMIT] ? 0.0 : MARGIN;
   int64_t particle;
   hk_node_blocks_fill(&warner->blocks, state->q);
   const int safe =
       hk_step_is_safe(&warner->blocks, it->method->name, it->schedule.step / (1.0 - margin), &particle);
-  const double taken = hk_clock_seconds() - begun;
-  warner->spent += taken;
-  warner->longest = fmax(warner->longest, taken);
   return safe ? 0 : tell(warner, it, state, particle);
 }
 

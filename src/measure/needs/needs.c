@@ -109,6 +109,7 @@ static int32_t run(hooke_measurement *m, hooke_state *state) {
   if (status != HOOKE_OK) return status;
   needs->pieces = needs->pieces_done = 0;
   needs->told = 0.0;
+  needs->spread = 1.0;
   return hooke_options_number(needs->options, "refine") != 0.0 ? hk_needs_refine(needs)
                                                                : hk_needs_find(needs);
 }

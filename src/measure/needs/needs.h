@@ -80,6 +80,7 @@ struct hk_needs {
 
   const char *under_way;
   int64_t pieces, pieces_done, runs; /* measurements expected and done; number of runs */
+  double spread;                     /* of the times of equal runs: the largest quotient of two */
   double told;
 };
 

@@ -35,6 +35,7 @@ struct search {
   double error;      /* of the last pair; number of agreeing frames; successive pairs without improvement */
   int64_t frames;
   int32_t stalls;
+  int32_t was_judged; /* 1: the times of runs have the judging in them */
   struct hk_needs_path path[2];
   struct hk_needs_cost cost[2];
   int32_t finished[2];
@@ -192,10 +193,11 @@ static void begin_search(struct search *search, double limit) {
 /* Time of a whole run: the minimum of several if it is too short for one clock reading. `finished` is 0 if it
  * does not finish, beyond the judged frames. */
 static int32_t find_time(struct search *search, struct hk_needs_cost *cost, int32_t *finished) {
-  const struct hk_needs *needs = search->recorder.needs;
-  double spent = is_shortened(search) ? 0.0 : cost->wall_seconds;
+  struct hk_needs *needs = search->recorder.needs;
+  const int32_t untimed = is_shortened(search) || search->was_judged;
+  double spent = untimed ? 0.0 : cost->wall_seconds, slowest = spent;
   search->recorder.path = NULL;
-  if (is_shortened(search)) cost->wall_seconds = INFINITY;
+  if (untimed) cost->wall_seconds = INFINITY;
   int32_t status = hooke_options_set_number(search->options, "duration", needs->duration);
   if (status == HOOKE_OK) status = hk_needs_set_step(cost, search->options);
   for (int k = 0; k < REPEATS && spent < SHORT && *finished && status == HOOKE_OK; k++) {
@@ -203,7 +205,9 @@ static int32_t find_time(struct search *search, struct hk_needs_cost *cost, int3
     status = hk_needs_run_once(&search->recorder, search->options, finished, &again);
     if (again.wall_seconds < cost->wall_seconds) *cost = again;
     spent += again.wall_seconds;
+    slowest = fmax(slowest, again.wall_seconds);
   }
+  if (*finished && slowest > 0.0) needs->spread = fmax(needs->spread, slowest / cost->wall_seconds);
   return status;
 }
 
@@ -371,6 +375,7 @@ int32_t hk_needs_fit(struct hk_needs *needs, const struct hk_needs_trial *trial,
   search.recorder.judges = 1;
   if (status == HOOKE_OK) status = find_coarsest(&search, error);
   search.recorder.judges = 0;
+  search.was_judged = 1;
   fill_cost(&search, limit, cost);
   int32_t finished = *error <= needs->want;
   if (status == HOOKE_OK && finished) status = find_time(&search, cost, &finished);

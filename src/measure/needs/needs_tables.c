@@ -39,7 +39,7 @@ static struct cost_line cost_line(const struct hk_needs_cost *cost, int32_t know
 struct needs_line {
   double want;
   const char *method;
-  double method_picked, duration, judged_until, runs, watched;
+  double method_picked, duration, judged_until, runs, watched, spread;
   const char *note;
 };
 
@@ -53,6 +53,7 @@ static void read_needs(const void *object, int64_t row, void *line) {
                                                    .judged_until = hk_needs_time(needs, needs->judged - 1),
                                                    .runs = (double)needs->runs,
                                                    .watched = (double)needs->watch_count,
+                                                   .spread = needs->spread,
                                                    .note = needs->note};
 }
 
@@ -66,6 +67,8 @@ static const struct hk_column needs_columns[] = {
                  "keep its error small"),
     HOOKE_COLUMN(struct needs_line, runs, COUNT, "", "runs made so far"),
     HOOKE_COLUMN(struct needs_line, watched, COUNT, "", "watched particles"),
+    HOOKE_COLUMN(struct needs_line, spread, NUMBER, "",
+                 "largest quotient of the slowest and the quickest of equal runs, whose least is told"),
     HOOKE_COLUMN(struct needs_line, note, TEXT, "", "says that nothing moves, or less than the wanted error"),
 };
 

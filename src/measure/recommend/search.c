@@ -377,6 +377,7 @@ static int32_t confirm(struct search *s, int32_t *holds) {
   const int32_t status = run_row(s, s->best.value, displacement_of(&s->pick->reference), 0.0, &again);
   *holds = status == HOOKE_OK && is_sound(&again) && !again.unknown && again.error <= s->most;
   s->best.error = fmax(s->best.error, again.error);
+  s->best.rms = fmax(s->best.rms, again.rms);
   if (*holds || status != HOOKE_OK) return status;
   if (!is_sound(&again)) s->best.method = NULL;
   s->met = 0;

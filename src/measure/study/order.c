@@ -90,6 +90,8 @@ static void explain(const struct hk_study *study, int32_t method, struct hk_stud
   if (points < FEWEST_POINTS) {
     snprintf(order->note, sizeof order->note, "%s",
              study->reference.trusted < 2 ? "no error is known: the reference is not trusted beyond the start"
+             : isnan(hk_study_ladder(study, method, 0))
+                 ? "no rows: even its largest step would mean over 1e8 steps"
              : reached_floor(study, method)
                  ? "too few rows clear of the floor: the error is down to what the reference knows"
                  : "too few rows in the asymptotic range; finer steps would show the order");

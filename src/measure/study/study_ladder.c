@@ -13,6 +13,7 @@
 
 enum { COARSEST_EXPONENT = 3 };             /* rtol 1e-3 */
 static const double FARTHEST_BELOW = 128.0; /* maximum factor from the safe step of symplectic Euler */
+static const double MOST_STEPS = 1e8;       /* of a row, unless its step is given */
 
 int32_t hk_study_is_adaptive(const struct hk_study *study, int32_t method) {
   return hooke_method_is_adaptive(study->method[method]);
@@ -63,8 +64,8 @@ static double fixed_ladder(const struct hk_study *study, int32_t method, int32_t
   const double start =
       safe < study->unit ? hk_study_fitting_step(study, fmin(study->unit, 2.0 * safe)) : safe;
   const int32_t above = start > safe;
-  if (k >= points_of(study) + above) return NAN;
-  return k == 0 ? start : study->unit / (round(study->unit / safe) * exp2((double)(k - above)));
+  const double step = k == 0 ? start : study->unit / (round(study->unit / safe) * exp2((double)(k - above)));
+  return k < points_of(study) + above && study->duration / step <= MOST_STEPS ? step : NAN;
 }
 
 static double given(const hooke_options *options, const char *name, int32_t k) {

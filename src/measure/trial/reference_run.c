@@ -8,14 +8,14 @@
 #include <stddef.h>
 #include <string.h>
 
-static const double ABSOLUTE = 0.01;         /* of rtol times the extent: the absolute tolerance */
-static const double LEAST_RELATIVE = 1e-15;  /* that CVODE takes */
-static const double LEAST_WORK = 1e-300;     /* [s]: none, where 0 is without limit */
-static const double MOST_COST = 5.0;         /* of the explicit check against the first method */
-static const double MOST_EVALUATIONS = 10.0; /* of rk8pd against the first method, in equal time */
-static const double MOST_ESDIRK = 20.0;    /* of arkode-esdirk against the first method, where less will do */
-static const double COARSEST_CHECK = 1e-4; /* tolerance at which tr-bdf2 takes one step a frame */
-static const double TRIAL_SHARE = 0.05;    /* of the duration, to predict costs */
+static const double ABSOLUTE = 0.01;          /* of rtol times the extent: the absolute tolerance */
+static const double LEAST_RELATIVE = 1e-15;   /* that CVODE takes */
+static const double LEAST_WORK = 1e-300;      /* [s]: none, where 0 is without limit */
+static const double MOST_COST = 5.0;          /* of the explicit check against the first method */
+static const double MOST_EVALUATIONS = 10.0;  /* of rk8pd against the first method, in equal time */
+static const double MOST_ESDIRK = 20.0;       /* of arkode-esdirk against the first method */
+static const double COARSEST_CHECK = 1e-4;    /* tolerance at which tr-bdf2 takes one step a frame */
+static const double TRIAL_SHARE = 0.05;       /* of the duration, to predict costs */
 static const double FIRST_TRIAL_SHARE = 0.05; /* of the budget, for the trial of the first method */
 
 int32_t hk_reference_options(const hooke_options *run, const char *method, double rtol,
@@ -208,10 +208,10 @@ int32_t hk_reference_choose_check(struct hk_reference_watch *watch, struct hk_re
                                   struct hk_run_cost first) {
   double by_explicit, by_implicit = MOST_COST;
   int32_t status = explicit_cost(watch, r, rtol, first, &by_explicit);
-  if (status == HOOKE_OK && by_explicit >= MOST_COST && watch->request->enough)
+  if (status == HOOKE_OK && by_explicit >= MOST_COST)
     status = implicit_cost(watch, r, rtol, first, &by_implicit);
   r->check = by_explicit <= by_implicit ? "rk8pd" : "arkode-esdirk";
-  /* a method of our own does for a few digits */
+  /* of order 2 alone, but it comes to an end */
   if (isinf(by_explicit) && isinf(by_implicit)) r->check = "tr-bdf2";
   return status;
 }
