@@ -103,6 +103,11 @@ static void print_flag(FILE *file, const char *name) {
     fputc(*name == '_' ? '-' : *name, file);
 }
 
+/* Options that show a run that diverges: one that is advised does not. */
+static int32_t shows_divergence(const char *name) {
+  return strcmp(name, "past_divergence") == 0 || strcmp(name, "frames_after") == 0;
+}
+
 void cli_report_command(FILE *file, const struct cli_arguments *arguments, const char *verb,
                         const struct cli_setting *settings) {
   int32_t same = strcmp(verb, arguments->verb->name) == 0;
@@ -110,7 +115,7 @@ void cli_report_command(FILE *file, const struct cli_arguments *arguments, const
   cli_print_quoted(file, arguments->scene);
   for (int32_t i = 0; i < arguments->count; i++) {
     const struct cli_argument *argument = &arguments->all[i];
-    if (!argument->text || is_set_by(settings, argument->name)) continue;
+    if (!argument->text || is_set_by(settings, argument->name) || shows_divergence(argument->name)) continue;
     if (!same && argument->table != arguments->run) continue;
     /* the options that --want would choose are given */
     if (strcmp(argument->name, "want") == 0 && is_set_by(settings, "method")) continue;

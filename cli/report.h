@@ -32,7 +32,8 @@ struct cli_setting {
   const char *name, *text; /* text NULL: to be left out */
 };
 
-/* Prints the current command as one of `verb`, with `settings`, which a NULL name ends, replacing its own.
+/* Prints the current command as one of `verb`, with `settings`, which a NULL name ends, replacing its own,
+ * and without the options that only show how a run diverges.
  * For another verb than the current one, only the given options of a run are kept. */
 void cli_report_command(FILE *file, const struct cli_arguments *arguments, const char *verb,
                         const struct cli_setting *settings);

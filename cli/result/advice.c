@@ -63,16 +63,15 @@ int32_t cli_advice_command(const struct cli_arguments *arguments, const hooke_me
   return status == HOOKE_NO_MEMORY ? status : HOOKE_OK;
 }
 
-int32_t cli_advice_print(FILE *file, const struct cli_arguments *arguments, const hooke_measurement *why,
-                         int64_t most) {
+int32_t cli_advice_print(const struct cli_arguments *arguments, const hooke_measurement *why) {
   int32_t status = HOOKE_OK;
-  for (int64_t k = 0; k < hooke_measurement_row_count(why, "advice") && k < most; k++) {
+  for (int64_t k = 0; k < hooke_measurement_row_count(why, "advice"); k++) {
     char *command;
     if (cli_advice_command(arguments, why, k, &command) != HOOKE_OK) status = HOOKE_NO_MEMORY;
-    fprintf(file, "%s ", k == 0 ? "what to do:" : "or:");
-    cli_print_text(file, hooke_measurement_text(why, "advice", k, "change"));
-    fputc('\n', file);
-    if (command) fprintf(file, "  %s\n", command);
+    printf("%s ", k == 0 ? "what to do:" : "or:");
+    cli_print_text(stdout, hooke_measurement_text(why, "advice", k, "change"));
+    printf("\n");
+    if (command) printf("  %s\n", command);
     free(command);
   }
   return status;

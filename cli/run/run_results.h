@@ -28,6 +28,9 @@ struct cli_run {
   int32_t shown;         /* 1: the output is there to be shown and removed */
   int64_t frames;        /* reported so far */
   int64_t frames_beyond; /* those of them after it diverged */
+  double last_frame;     /* time of the last one before that [s]; NaN: none was reported */
+  char warning[2048];    /* a line each, held back for the first second of work */
+  int32_t is_long;       /* 1: that is over */
   int32_t write_status;  /* HOOKE_OK, or why a frame or a checkpoint could not be written */
   int32_t outcome;
   hooke_measurement *why;      /* diagnosis of the outcome; NULL: there is none, or it could not be made */

@@ -1,5 +1,5 @@
 /* hooke run: integrates a scene and reports the result. */
-#include "advice.h"
+#include "blow_up.h"
 #include "fit.h"
 #include "report.h"
 #include "resume.h"
@@ -10,6 +10,7 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 static double state_energy(const struct cli_run *run) {
   return hooke_system_energy(run->setup.system, "total", hooke_state_position(run->setup.state),
@@ -40,6 +41,7 @@ static int32_t see_frame(int64_t step, const hooke_state *state, void *ctx) {
   }
   run->frames++;
   run->frames_beyond += beyond;
+  if (!beyond) run->last_frame = hooke_state_time(state);
   return run->estimate && !beyond ? hooke_estimate_see(step, state, run->estimate) : 0;
 }
 
@@ -53,13 +55,41 @@ static int32_t see_checkpoint(int64_t step, const hooke_state *state, void *ctx)
   return 1;
 }
 
-/* The library reports each kind once a run. */
+static void tell_warnings(struct cli_run *run) {
+  for (char *line = run->warning, *end; (end = strchr(line, '\n')) != NULL; line = end + 1)
+    cli_report_words(run->arguments, "warning: %.*s", (int)(end - line), line);
+  run->warning[0] = '\0';
+}
+
+/* The library reports each kind once a run. A run that soon blows up is told of by that alone. */
 static int32_t see_warning(const char *kind, const char *sentence, double t, double limit, int64_t spring,
                            int64_t particle, void *ctx) {
-  const struct cli_run *run = ctx;
+  struct cli_run *run = ctx;
+  const size_t used = strlen(run->warning);
   (void)kind, (void)t, (void)limit, (void)spring, (void)particle;
-  cli_report_words(run->arguments, "warning: %s", sentence);
+  snprintf(run->warning + used, sizeof run->warning - used, "%s\n", sentence);
+  if (run->is_long) tell_warnings(run);
   return 0;
+}
+
+static int32_t see_long(int64_t step, const hooke_state *state, void *ctx) {
+  struct cli_run *run = ctx;
+  (void)step, (void)state;
+  run->is_long = 1;
+  tell_warnings(run);
+  return 0;
+}
+
+/* Steps of about a second of work. */
+static int64_t steps_of_a_second(const hooke_system *system) {
+  const int64_t size = hooke_system_particle_count(system) + hooke_system_count(system, "springs");
+  return 1 + 200000000 / (50 + size);
+}
+
+static int32_t watch_warnings(struct cli_run *run) {
+  const int32_t status = hooke_integrator_on_warning(run->integrator, see_warning, run);
+  if (status != HOOKE_OK) return status;
+  return hooke_integrator_on_step(run->integrator, steps_of_a_second(run->setup.system), see_long, run);
 }
 
 static int32_t prepare(struct cli_run *run) {
@@ -74,7 +104,7 @@ static int32_t prepare(struct cli_run *run) {
   if (status == HOOKE_OK) status = hooke_integrator_on_checkpoint(run->integrator, see_checkpoint, run);
   /* a pick has computed the limits already */
   const int warns = !run->arguments->quiet && !cli_arguments_text(run->arguments, "want");
-  if (status == HOOKE_OK && warns) status = hooke_integrator_on_warning(run->integrator, see_warning, run);
+  if (status == HOOKE_OK && warns) status = watch_warnings(run);
   if (status != HOOKE_OK || !run->output) return status;
   status = run->resumed
                ? hooke_trajectory_resume(run->output, run->setup.system, run->integrator, run->setup.state,
@@ -158,6 +188,7 @@ static int give_up(struct cli_run *run, int32_t status) {
 /* Runs and closes the trajectory; a failure is reported and returned as exit code. */
 static int integrate(struct cli_run *run) {
   cli_watch_start(&run->watch, run->arguments);
+  run->last_frame = NAN;
   run->energy_before = state_energy(run);
   run->coincident_before =
       hooke_system_coincident_springs(run->setup.system, hooke_state_position(run->setup.state));
@@ -190,24 +221,8 @@ static int integrate(struct cli_run *run) {
   return status == HOOKE_OK ? HOOKE_EXIT_DONE : cli_report_status(run->arguments, status);
 }
 
-/* What the option past_divergence added. */
-static void tell_beyond(const struct cli_run *run) {
-  if (!cli_run_goes_beyond(run) || run->outcome != HOOKE_DIVERGED) return;
-  if (run->frames_beyond > 0)
-    cli_report_words(run->arguments, "%" PRId64 " of the frames are after it diverged, and no physics",
-                     run->frames_beyond);
-  else if (hooke_method_is_adaptive(cli_run_method(run)))
-    cli_report_words(run->arguments,
-                     "an error-controlled method ends where it diverges: no frames are after that");
-  else
-    cli_report_words(
-        run->arguments,
-        "no frames are after it diverged: numbers overflowed before the next one; a smaller --every "
-        "shows how");
-}
-
-/* On standard error: that a run ended early, and what is kept. */
-static void tell_end(const struct cli_run *run) {
+/* On standard error: that a run was interrupted, and what is kept. */
+static void tell_interrupted(const struct cli_run *run) {
   const struct cli_arguments *arguments = run->arguments;
   char text[HOOKE_NUMBER_SIZE];
   char kept[sizeof run->message] = "";
@@ -215,27 +230,9 @@ static void tell_end(const struct cli_run *run) {
     snprintf(kept, sizeof kept, ", and %" PRId64 " frame%s in %s", run->frames, run->frames == 1 ? "" : "s",
              run->output);
   }
-  if (run->outcome == HOOKE_STOPPED) {
-    cli_report_words(arguments, "interrupted at t = %s s; kept: the state then%s",
-                     cli_format_rounded(hooke_state_time(run->setup.state), text), kept);
-    if (run->output) cli_resume_tell_how(arguments, run->output, run->kept_place);
-    return;
-  }
-  cli_report_words(arguments, "%s", run->message);
-  cli_report_words(arguments, "kept: the state at t = %s s, the last one reached%s",
+  cli_report_words(arguments, "interrupted at t = %s s; kept: the state then%s",
                    cli_format_rounded(hooke_state_time(run->setup.state), text), kept);
-  tell_beyond(run);
-}
-
-/* On standard error: the cause, and suggestions. */
-static void explain(const struct cli_run *run) {
-  const struct cli_arguments *arguments = run->arguments;
-  if (run->why == NULL) return;
-  const char *left_out = hooke_measurement_text(run->why, "why", 0, "left_out");
-  cli_report_words(arguments, "%s", run->message);
-  if (left_out) cli_report_words(arguments, "%s", left_out);
-  if (cli_advice_print(stderr, arguments, run->why, 1) != HOOKE_OK) (void)cli_report_missing_words(arguments);
-  fputs("'hooke why' on the same says more\n", stderr);
+  if (run->output) cli_resume_tell_how(arguments, run->output, run->kept_place);
 }
 
 static void tell_coincident(const struct cli_run *run) {
@@ -303,18 +300,21 @@ static int write_estimate(const struct cli_run *run) {
 static int run_and_tell(struct cli_run *run) {
   int code = integrate_to_want(run);
   if (code != HOOKE_EXIT_DONE) return code;
-  /* everything is on the disk and reported before the diagnosis; with --json both are one object */
+  const int blew_up = cli_exit_code(run->outcome) == HOOKE_EXIT_DIVERGED;
+  /* everything is on the disk and printed before the diagnosis; with --json both are one object */
   if (!run->arguments->json) cli_run_print(run);
-  if (!run->arguments->quiet) tell_coincident(run);
-  if (run->outcome != HOOKE_OK) tell_end(run);
+  if (!blew_up) tell_warnings(run);
+  if (!blew_up && !run->arguments->quiet) tell_coincident(run);
+  if (run->outcome == HOOKE_STOPPED) tell_interrupted(run);
   estimate(run);
   if (!run->arguments->json) cli_want_print(run);
   code = write_estimate(run);
   if (code != HOOKE_EXIT_DONE) return code;
   cli_run_print_final(run);
-  if (cli_exit_code(run->outcome) == HOOKE_EXIT_DIVERGED) find_why(run);
+  if (blew_up) find_why(run);
   if (run->arguments->json) cli_run_print(run);
-  explain(run);
+  if (blew_up && !run->why) tell_warnings(run);
+  if (blew_up) cli_blow_up_tell(run);
   return run->outcome == HOOKE_OK ? cli_want_exit_code(run) : cli_exit_code(run->outcome);
 }
 
@@ -339,6 +339,7 @@ int cli_run_to_show(const struct cli_arguments *arguments, const char *output, i
   struct cli_run run = {.arguments = arguments, .output = output, .shown = 1};
   int code = make_ready(&run);
   if (code == HOOKE_EXIT_DONE) code = integrate_to_want(&run);
+  tell_warnings(&run);
   if (code == HOOKE_EXIT_DONE && run.outcome != HOOKE_OK && !arguments->quiet)
     cli_report_words(arguments, "%s", run.message);
   *outcome = run.outcome;

@@ -1,5 +1,6 @@
 /* hooke why: explains a run that blew up, from its scene or from its output. */
 #include "advice.h"
+#include "fit.h"
 #include "limiting.h"
 #include "output_file.h"
 #include "print.h"
@@ -27,7 +28,6 @@ struct why {
 };
 
 static const double SMALLEST_SHARE = 1e-3; /* storage of words */
-static const double USUAL_BUDGET = 30.0;   /* [s] */
 
 /* ---- diagnosing ---- */
 
@@ -226,7 +226,7 @@ static int32_t print_words(const struct why *why) {
   print_springs(found);
   if (text_of(found, "left_out")) print_wrapped("left out", text_of(found, "left_out"));
   printf("\n");
-  return cli_advice_print(stdout, why->arguments, found, INT64_MAX);
+  return cli_advice_print(why->arguments, found);
 }
 
 /* 1 if an option of a run was given: the run then differs from that of the output. */
@@ -264,7 +264,9 @@ static int find_out(struct why *why) {
   if (why->record && !is_another_run(arguments)) {
     status = read_output(why);
   } else {
-    int code = cli_setup_require(arguments, &why->setup, hooke_options_text(why->setup.options, "method"));
+    int code = cli_fit_run(arguments, &why->setup);
+    if (code == HOOKE_EXIT_DONE)
+      code = cli_setup_require(arguments, &why->setup, hooke_options_text(why->setup.options, "method"));
     if (code != HOOKE_EXIT_DONE) return code;
     status = run_again(why);
   }
@@ -277,11 +279,11 @@ static int find_out(struct why *why) {
 }
 
 static int read_options(struct why *why) {
-  double budget = USUAL_BUDGET;
+  double budget = NAN;
   const int code = cli_setup_read_study(why->arguments, "budget", &budget);
   if (code != HOOKE_EXIT_DONE) return code;
   int32_t status = hooke_options_create("why", &why->options);
-  if (status == HOOKE_OK) status = hooke_options_set_number(why->options, "budget", budget);
+  if (status == HOOKE_OK && !isnan(budget)) status = hooke_options_set_number(why->options, "budget", budget);
   return status == HOOKE_OK ? HOOKE_EXIT_DONE : cli_report_status(why->arguments, status);
 }
 
@@ -300,7 +302,9 @@ static int do_why(const struct cli_arguments *arguments) {
 
 static const struct cli_verb_row rows[] = {
     {"budget", 0, "SECONDS",
-     "time that the explanation may take after the run, such as 5s or 2min; 30 s if not given"},
+     "wall time that the explanation may take after the run, such as 5s or 2min; if not given, as much "
+     "counted work "
+     "as the run took, or 2 s if that is more, which is the same however busy the machine is"},
     {"report", 0, "FILE.html",
      "writes the explanation as one page to read offline, replacing it: the steps around the trouble, played "
      "slowly, "

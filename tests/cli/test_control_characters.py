@@ -86,7 +86,9 @@ def test_a_scene_that_is_made_escapes_them(call):
 
 def test_warnings_diagnoses_and_advice(call, scene):
     code, out, err = call("run", "stiff.json")
-    assert code == 4 and "title" + PLAIN in out and "group" + PLAIN in err
+    assert code == 4 and "title" + PLAIN in out and len(err.splitlines()) == 4
+    code, out, err = call("run", "stiff.json", "--no-why")
+    assert code == 4 and "warning: " in err and "group" + PLAIN in err
     code, out, err = call("why", "stiff.json")
     assert code == 0 and out.count("group" + PLAIN) >= 2 and "hooke run stiff.json" in out
 

@@ -5,11 +5,14 @@ import json
 import math
 import os
 import pty
+import re
 import shlex
+import shutil
 import signal
 import subprocess
 import sys
 import time
+from pathlib import Path
 
 import h5py
 import numpy as np
@@ -187,8 +190,8 @@ def test_a_step_limit_is_4_and_keeps_what_there_was(hooke, write):
 
 
 def advised_command(err):
-    (line,) = [line for line in err.splitlines() if line.startswith("  hooke run ")]
-    return shlex.split(line)[1:]
+    (line,) = [line for line in err.splitlines() if line.startswith("try: hooke run ")]
+    return shlex.split(line, comments=True)[2:]
 
 
 @pytest.mark.parametrize(
@@ -205,7 +208,8 @@ def test_a_run_that_diverges_is_4_and_the_advice_works(hooke, write, tmp_path, m
     assert value["status"] == "diverged" and value["diagnosis"]
     assert 0 <= value["time"] < 100
     assert value["output"] == "it's out.h5"
-    assert value["diagnosis"] in answer.err
+    start, clause = re.fullmatch(r"hooke run: (.*) after t = \S+ s: (.*)", answer.err.splitlines()[0]).groups()
+    assert value["diagnosis"].startswith(f"{start}: {clause}")
     with h5py.File(tmp_path / "it's out.h5") as file:
         times = file["/particles/all/position/time"][:].tolist()
         assert times == [float(k) for k in range(len(times))] and times[-1] <= value["time"]
@@ -220,8 +224,53 @@ def test_a_run_that_diverges_is_4_and_the_advice_works(hooke, write, tmp_path, m
 def test_divergence_is_explained_in_words(hooke, write):
     answer = hooke("run", write(STIFF_PAIR))
     assert answer.code == 4
-    assert "diverged" in answer.err and "kept:" in answer.err and "the largest stable one of" in answer.err
     assert "time reached" in answer.out and "diverged" not in answer.out
+
+
+EXPLODING = sorted(path.stem for path in (Path(os.environ["HOOKE_SOURCE_DIR"]) / "tests/cli/scenes/exploding").glob("*.json"))
+
+
+@pytest.mark.parametrize("kind", EXPLODING)
+def test_a_blow_up_is_told_in_four_lines(hooke, tmp_path, kind):
+    """What happened and when, what to try, where to see more, and what is kept; and with --quiet the first of them."""
+    shutil.copy(Path(os.environ["HOOKE_SOURCE_DIR"]) / f"tests/cli/scenes/exploding/{kind}.json", tmp_path / "scene.json")
+    answer = hooke("run", "scene.json", "--json", "--past-divergence", "-o", "out.h5")
+    what, advice, see, kept = lines = answer.err.splitlines()
+    assert (answer.code, [line.split()[0] for line in lines]) == (4, ["hooke", "try:", "see:", "kept:"])
+    why = hooke("why", "out.h5", "--json").json
+    start, _, clause = why["sentence"].partition(": ")
+    assert what.startswith(f"hooke run: {start} after t = ") and max(map(len, lines)) < 320
+    assert why["cause"] != "step-above-limit" or (clause.split(",")[0] in what and len(what) < 160)
+    assert not why["limit"] or f"{why['limit']:.6g} s" in what
+    assert not any(word in advice for word in ("--past-divergence", "--frames-after"))
+    with h5py.File(tmp_path / "out.h5") as file:
+        times, beyond = file["/particles/all/position/time"][:], file["/hooke/beyond"][0]
+    good = times if beyond < 0 else times[:beyond]
+    assert f"kept: {len(good)} frame{'s' * (len(good) != 1)} up to t = {good[-1]:.6g} s in out.h5" in kept
+    assert (f", and {len(times) - len(good)} after it diverged, which are no physics" in kept) == (beyond >= 0)
+    assert see == "see: hooke why out.h5 --report why.html"
+    assert hooke(*shlex.split(see)[2:]).code in (0, 6)  # 6: a build without Chart.js
+    bare = hooke("run", "scene.json").err.splitlines()
+    assert bare[0] == what and bare[2].startswith("see: hooke why scene.json") and len(bare) == 4
+    assert hooke(*shlex.split(bare[2])[2:]).code in (0, 6)
+    assert bare[3] == "kept: nothing; -o out.h5 keeps the frames up to there"
+    assert hooke("run", "scene.json", "--quiet").err.splitlines() == [what]
+
+
+def test_a_blow_up_that_is_not_looked_into(hooke, write):
+    """The warning that was held back has the bound on the step, and the message a suggestion."""
+    warning, what, *rest = hooke("run", write(STIFF_PAIR), "--no-why").err.splitlines()
+    assert "warning: at t = 0 s the step 0.1 s is above 0.0632456 s" in warning and "the run diverged: at t = " in what
+    assert rest == ["try: a smaller step", "see: hooke why scene.json --report why.html",
+                    "kept: nothing; -o out.h5 keeps the frames up to there"]  # fmt: skip
+
+
+def test_where_to_see_more_of_times_that_do_not_fit(hooke, write):
+    """The step of a run decides what its times are moved to, and that of its explanation likewise."""
+    answer = hooke("run", write(STIFF_PAIR), "--step", "0.3", "--every", "0.5")
+    (see,) = [line for line in answer.err.splitlines() if line.startswith("see: ")]
+    again = hooke(*shlex.split(see)[2:], "--json")
+    assert answer.code == 4 and again.code in (0, 6) and again.json["cause"] == "step-above-limit"
 
 
 def test_frames_after_divergence(hooke, write, tmp_path):
@@ -232,7 +281,7 @@ def test_frames_after_divergence(hooke, write, tmp_path):
     assert {**answer.json, "output": "", "wall_seconds": 0} == {
         **plain.json, "output": "", "wall_seconds": 0, "frames_beyond": answer.json["frames_beyond"]}
     assert answer.json["frames_beyond"] > 5
-    assert f"{answer.json['frames_beyond']} of the frames are after it diverged" in answer.err
+    assert f", and {answer.json['frames_beyond']} after it diverged, which are no physics" in answer.err
     with h5py.File(tmp_path / "out.h5") as file, h5py.File(tmp_path / "plain.h5") as short:
         times, first = file["/particles/all/position/time"][:], file["/hooke/beyond"][0]
         assert short["/hooke/beyond"][0] == -1
@@ -244,7 +293,7 @@ def test_frames_after_divergence(hooke, write, tmp_path):
     few = hooke("run", "out.h5", "--json", "--frames-after", "2", "-o", "few.h5")
     assert (few.code, few.json["frames_beyond"]) == (4, 2)
     words = advised_command(few.err)
-    assert "--past-divergence=true" not in words and "--frames-after" in words
+    assert not any("--past-divergence" in word or "--frames-after" in word for word in [*words, *advised_command(answer.err)])
     again = hooke("run", "--resume", "out.h5", "--json", "--no-why")
     assert (again.code, again.json["frames_beyond"]) == (4, answer.json["frames_beyond"])
     with h5py.File(tmp_path / "out.h5") as file:
@@ -254,7 +303,8 @@ def test_frames_after_divergence(hooke, write, tmp_path):
 
 
 def test_no_frames_after_divergence(hooke, write):
-    coarse = hooke("run", write(STIFF_PAIR), "--method", "forward-euler", "--every", "50", "--past-divergence", "--no-why")
+    coarse = hooke("run", write(STIFF_PAIR), "--method", "forward-euler", "--every", "50", "--past-divergence", "--no-why",
+                   "-o", "out.h5")  # fmt: skip
     assert coarse.code == 4 and "a smaller --every shows how" in coarse.err
 
 

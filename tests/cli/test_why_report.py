@@ -62,7 +62,7 @@ def test_the_steps_and_their_growth(chain):
     assert [frame["time"] for frame in data["advised"]["frames"]] == pytest.approx(times, abs=5.1e-4)
     # the mode of the stiff spring hardly changes: the energy grows as it predicts
     value, at = data["energy"]["value"], data["energy"]["last"]
-    measured, growth = (value[at + 20] / value[at]) ** 0.05, data["limits"][-1]["growth"]
+    measured, growth = (value[at + 20] / value[at]) ** 0.05, data["mode"]["growth"]
     assert measured == pytest.approx(growth**2, rel=0.05) and growth > 10
     assert data["limits"][0]["limit"] == pytest.approx(data["limit"], rel=1e-6)
     moves = [max(abs(x) for x in data["mode"]["move"][3 * k:3 * k + 3]) for k in range(8)]
@@ -85,6 +85,24 @@ def test_what_is_drawn(chain, tmp_path):
     assert seen.drawn("picture")["arrows"] == 2
     assert "predicts" in seen.text["rates"] and "it is outside" in seen.text["left"]
     check_planted_faults(tmp_path, chain[0])
+
+
+@needs_page
+@needs_browser
+def test_one_mode_and_one_factor(tmp_path):
+    """Words and lines have the growth of the mode that is drawn, also where that of other times is another."""
+    (tmp_path / "scene.json").write_text((ROOT / "examples/scenes/cloth-16.json").read_text())
+    page, _ = make(tmp_path, "--step", "1ms", "--duration", "1", "--every", "0.1")
+    data, seen = data_of(page), browse(tmp_path, page)
+    growth, time = data["mode"]["growth"], data["mode"]["time"]
+    above = [look for look in data["limits"] if look["limit"] < data["step"]]
+    assert above[0]["time"] == time and above[0]["growth"] == growth > 1
+    assert max(look["growth"] for look in above) > 1.001 * growth
+    assert f"each step multiplies its amplitude by {growth:.4g}." in seen.text["left"]
+    assert f"Each step multiplies them by {growth:.4g}." in seen.text["pictured"]
+    assert f"predicts {growth**2:.4g}, the square of its growth." in seen.text["rates"]
+    for name in ("left", "pictured", "rates"):
+        assert f"at t = {time:.5g} s".lower() in seen.text[name].lower()
 
 
 @needs_page

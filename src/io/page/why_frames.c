@@ -1,6 +1,5 @@
 #include "io/page/why_frames.h"
 
-#include "core/clock.h"
 #include "core/memory.h"
 #include "core/table/option.h"
 #include "io/page/picture.h"
@@ -25,7 +24,8 @@ static const double ENERGY_WORK = 3e8, ADVISED_WORK = 2e9;
 /* Frames end when the scene is so much wider than at first; the mode grows about so much before the trouble.
  * */
 static const double WIDEST = 1e5, GROWN = 1e4;
-static const double LOOK_SECONDS = 3.0, MOST_LOOKED_AT = 2e4; /* at eigenvalues, of so many particles */
+/* Counted work at eigenvalues [s], of so many particles. */
+static const double LOOK_WORK = 3.0, MOST_LOOKED_AT = 2e4;
 static const double MOVE_SCALE = 1e4;
 
 struct frames {
@@ -43,7 +43,9 @@ struct frames {
   int64_t energies, first_energy;
 
   hooke_measurement *limit;
-  double begun, *shape, *mode_q, mode_time; /* 3n: NULL before a mode was found; positions then */
+  struct hk_patience patience;
+  /* 3n: NULL before a mode was found; positions and time then, and its growth in a step */
+  double *shape, *mode_q, mode_time, mode_growth;
   int32_t is_above, looks;
   struct {
     double time, limit, frequency, decay, growth;
@@ -117,7 +119,7 @@ static int32_t begin_limits(struct frames *f, const hooke_options *run) {
   if (status == HOOKE_OK)
     status = hk_measurement_create(&hk_limit_kind, NULL, f->system, run, options, &f->limit);
   hooke_options_destroy(options);
-  f->begun = hk_clock_seconds();
+  f->patience = hk_patience_of_work(LOOK_WORK, NULL, NULL);
   return status;
 }
 
@@ -155,14 +157,16 @@ static int32_t take_mode(struct frames *f, const struct hk_limit *limit, const s
   memcpy(f->shape, limit->shape, bytes);
   memcpy(f->mode_q, limit->q, bytes);
   f->mode_time = limit->time;
+  f->mode_growth = growth;
   f->is_above = above;
   return HOOKE_OK;
 }
 
 static int32_t look(struct frames *f, const hooke_state *state, int64_t step) {
-  const int late = hk_clock_seconds() - f->begun > LOOK_SECONDS;
-  if (f->limit == NULL || f->looks > LOOKS || (late && step != f->last)) return HOOKE_OK;
+  if (f->limit == NULL || f->looks > LOOKS) return HOOKE_OK;
+  if (step != f->last && hk_patience_ends(&f->patience, NULL)) return HOOKE_OK;
   struct hk_limit *limit = f->limit->object;
+  limit->patience = step == f->last ? &limit->endless : &f->patience;
   const double *q = hooke_state_position((hooke_state *)state);
   int32_t status = hk_limit_look(limit, q, state->v, hooke_state_time(state));
   if (status != HOOKE_OK)
@@ -303,6 +307,7 @@ static void add_mode(const struct frames *f) {
   if (f->shape == NULL) return;
   hk_text_open(f->data, "mode", '{');
   hk_text_number(f->data, "time", f->mode_time);
+  hk_text_number(f->data, "growth", f->mode_growth);
   hk_picture_add_vectors(f->data, "position", f->mode_q, f->list, f->picture.shown_count,
                          hk_picture_scale(f->mode_q, f->list, f->picture.shown_count));
   hk_picture_add_vectors(f->data, "move", f->shape, f->list, f->picture.shown_count, MOVE_SCALE);

@@ -226,20 +226,13 @@ static int is_sound(const struct hk_estimate *e) {
   return isinf(e->soundness.least_limit) && !(e->rise > hk_soundness_most_rise);
 }
 
-static int calls_back(const hooke_system *system) {
-  int calls = system->force != NULL;
-  for (int64_t d = 0; d < system->drive_count; d++)
-    calls |= system->drive[d].kind == HOOKE_DRIVE_CALLBACK;
-  return calls;
-}
-
 /* Why nothing is run again; NULL: it is. */
 static const char *find_obstacle(const struct hk_estimate *e, const hooke_state *state) {
   const double end = e->begin + e->duration;
   if (e->resumed) return "the run went on from a state of another one, whose error is not known here";
   if (fabs(hooke_state_time(state) - end) > 1e-9 * e->duration || e->kept.recorded < e->kept.count)
     return "the run did not come to its end";
-  return calls_back(e->system) && !e->callbacks ? "a callback takes part" : NULL;
+  return hk_system_calls_back(e->system) && !e->callbacks ? "a callback takes part" : NULL;
 }
 
 static int32_t measure_again(struct hk_estimate *e, const hooke_state *state) {

@@ -7,14 +7,15 @@
 #include "core/status.h"
 #include "integrate/integrator.h"
 #include "integrate/loop/run_loop.h"
+#include "measure/counted_work/work.h"
 #include "measure/spectrum/linearised.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-/* Cost of a pass for bounds in force evaluations: it processes springs one by one. */
-static const double PASS = 40.0;
+/* Counted work of an evaluation with a callback [s]: a script takes about so long, and nobody knows. */
+static const double CALLBACK = 5e-5;
 
 /* Fraction of its time after which no work is started. */
 static const double PUNCTUAL = 0.85;
@@ -28,8 +29,8 @@ static const struct hk_option_row why_rows[] = {
      .low = 0.0,
      .above_low = 1,
      .high = 1e300,
-     .doc =
-         "time that the explanation may take; as long as the run took if not given, or 2 s if that is more"},
+     .doc = "wall time that the explanation may take; if not given, as much counted work as the run took, "
+            "or 2 s if that is more, which is the same however busy the machine is"},
 };
 
 static const struct hk_option_table why_table = {"why", HOOKE_OPTION_ROWS(why_rows)};
@@ -57,6 +58,17 @@ int32_t hk_inquiry_has_room(struct hk_inquiry *inquiry, double bytes, const char
   return 0;
 }
 
+double hk_why_work_of(const hooke_integrator *run) {
+  const double callback = hk_system_calls_back(run->system) ? CALLBACK : 0.0;
+  return hk_work_of(run) + callback * (double)run->count.force_evaluations;
+}
+
+void hk_inquiry_spend(struct hk_inquiry *inquiry, const hooke_integrator *run, double *before) {
+  const double now = hk_why_work_of(run);
+  hk_patience_spend(&inquiry->patience, now - *before);
+  *before = now;
+}
+
 void hk_inquiry_end_part(struct hk_inquiry *inquiry, const char *what) {
   if (hk_patience_take_back(&inquiry->patience)) leave_out(inquiry->no_time, sizeof inquiry->no_time, what);
 }
@@ -65,8 +77,9 @@ static void tell_left_out(struct hk_inquiry *inquiry) {
   char *text = inquiry->why->left_out;
   const size_t size = sizeof inquiry->why->left_out;
   if (inquiry->no_time[0])
-    hk_print(text, size, "not known, since time was short (%.3g s): %s",
-             (inquiry->patience.end - inquiry->patience.begun) / PUNCTUAL, inquiry->no_time);
+    hk_print(text, size, "not known, since time was short (%.3g s%s): %s",
+             (inquiry->patience.end - inquiry->patience.begun) / PUNCTUAL,
+             inquiry->patience.counted ? " of counted work" : "", inquiry->no_time);
   const size_t used = strlen(text);
   if (inquiry->no_room[0])
     hk_print(text + used, size - used, "%snot known, since memory was short (%.3g MB): %s", used ? "; " : "",
@@ -91,9 +104,6 @@ static void begin_inquiry(struct hk_inquiry *inquiry) {
   const double spectrum = hk_linearised_bytes(system) + SHAPES * (double)inquiry->run->size * sizeof(double);
   inquiry->large = spectrum > inquiry->memory_limit;
   inquiry->violation.bound = NAN;
-  const hooke_integrator *run = inquiry->run;
-  if (run->count.force_evaluations > 0)
-    inquiry->pass = PASS * run->wall_seconds / (double)run->count.force_evaluations;
 }
 
 static int32_t replay(struct hk_inquiry *inquiry) {
@@ -251,14 +261,16 @@ static int32_t run_on(struct hk_why *why) {
   return HOOKE_OK;
 }
 
-/* [s] */
-static double usual_time(const hooke_integrator *run) {
-  return fmax(LEAST_SECONDS, run->wall_seconds);
+/* The caller's in wall time; else as much work as the run was. */
+static struct hk_patience patience_of(const hooke_integrator *run, const hooke_measurement *m) {
+  const double budget = hooke_options_number(m->options, "budget");
+  if (!isnan(budget)) return hk_patience_of(PUNCTUAL * budget, m->progress, m->progress_ctx);
+  return hk_patience_of_work(PUNCTUAL * fmax(LEAST_SECONDS, hk_why_work_of(run)), m->progress,
+                             m->progress_ctx);
 }
 
 static int32_t explain(struct hk_why *why, const hooke_measurement *m) {
   const hooke_integrator *run = why->integrator;
-  const double budget = hooke_options_number(m->options, "budget");
   const int32_t status = check(run);
   if (status != HOOKE_OK) return status;
   why->noticed = run->outcome == HOOKE_DIVERGED ? run->diverged_at : run->t;
@@ -270,9 +282,7 @@ static int32_t explain(struct hk_why *why, const hooke_measurement *m) {
                                .bad_particle = -1,
                                .force = -1,
                                .flipped = -1,
-                               .patience =
-                                   hk_patience_of(PUNCTUAL * (isnan(budget) ? usual_time(run) : budget),
-                                                  m->progress, m->progress_ctx)};
+                               .patience = patience_of(run, m)};
   return inquire(&inquiry);
 }
 

@@ -65,7 +65,6 @@ struct hk_inquiry {
   struct hk_patience patience;
   double memory_limit, memory_used; /* [bytes] allowed, and in use */
   char no_time[200], no_room[200];  /* skipped work */
-  double pass;                      /* [s] estimated time of one pass over the springs for bounds */
   int32_t large;                    /* the spectrum is out of reach: growing motion is used instead */
   struct hk_growing growing;
 
@@ -117,6 +116,11 @@ const hooke_state *hk_inquiry_last(const struct hk_inquiry *inquiry);
 
 /* 1 if that many more bytes fit; otherwise `what` is recorded as skipped. */
 int32_t hk_inquiry_has_room(struct hk_inquiry *inquiry, double bytes, const char *what);
+
+/* Counted work of a run so far [s], in which every evaluation with a callback stands for as much as a script
+ * may take; and the spending of what it did since `before`, which follows. */
+double hk_why_work_of(const hooke_integrator *run);
+void hk_inquiry_spend(struct hk_inquiry *inquiry, const hooke_integrator *run, double *before);
 
 /* Ends a part with limited patience; if that was spent, `what` is recorded as skipped for lack of time. */
 void hk_inquiry_end_part(struct hk_inquiry *inquiry, const char *what);

@@ -1,5 +1,6 @@
 /* Suggestions: changes of the run, the likeliest first, each tried on a run of its own before it is given. */
 #include "integrate/method.h"
+#include "measure/recommend/soundness.h"
 #include "measure/why/why_trial.h"
 
 #include "core/number.h"
@@ -11,7 +12,6 @@
 #include <string.h>
 
 static const double TOO_LONG = 1e5; /* times the work of a trial: a run of impractical length */
-static const double MARGIN = 0.9;   /* of the limit */
 static const double ACCURACY = 1e-3;
 enum { HANDY_TRIES = 9, SHORT_RUN = 1000, SHORT_FRAME = 10 };
 
@@ -38,63 +38,76 @@ double hk_handy_step(double step, double limit, double every, double duration) {
 
 /* ---- candidates ---- */
 
-/* The largest step known to be stable by `method`: at the start, and where the step was found too large. */
+static const char *method_of(const struct hk_trials *trials) {
+  return trials->inquiry->run->method->name;
+}
+
+/* The largest step known to be stable by `method`: what is known of the run; of others at the start, and where
+ * the step was found too large. */
 static int32_t stable_step(struct hk_trials *trials, const char *method, double *limit) {
   struct hk_inquiry *inquiry = trials->inquiry;
   const struct hk_violation *violation = &inquiry->violation;
   double later = INFINITY;
   int32_t known;
-  if (inquiry->large && !isnan(violation->bound) && strcmp(method, inquiry->run->method->name) == 0) {
-    *limit = violation->found && !(violation->at_most > 0.0) ? 0.0 : violation->bound;
+  if (strcmp(method, method_of(trials)) == 0 && !isnan(violation->bound) &&
+      (violation->found || inquiry->large)) {
+    *limit = violation->found && !isnan(violation->limit) ? violation->limit : violation->bound;
     return HOOKE_OK;
   }
   hk_patience_lend(&inquiry->patience, 0.3);
   int32_t status = hk_inquiry_limit(inquiry, trials->first->q, method, ACCURACY, limit, &known);
   if (status == HOOKE_OK && violation->found)
     status = hk_inquiry_limit(inquiry, violation->q, method, ACCURACY, &later, &known);
-  hk_inquiry_end_part(inquiry, "limits of steps");
+  hk_inquiry_end_part(inquiry, "what else to do");
   *limit = fmin(*limit, later);
   return status;
 }
 
+static int32_t set_step(const struct hk_trials *trials, hooke_options *run, double step, int shorter) {
+  int32_t status = step == trials->step ? HOOKE_OK : hooke_options_set_number(run, "step", step);
+  if (status == HOOKE_OK && shorter) status = hooke_options_set_number(run, "duration", SHORT_RUN * step);
+  if (status == HOOKE_OK && shorter && !isnan(trials->every))
+    status = hooke_options_set_number(run, "every", SHORT_FRAME * step);
+  return status;
+}
+
 /* A run of the same method or another, with steps up to `limit`; a shorter one if the whole would take days.
- */
-static int32_t offer_step(struct hk_trials *trials, const char *method, double limit, const char *why_so,
-                          int32_t *taken) {
-  const int other = strcmp(method, trials->inquiry->run->method->name) != 0;
-  struct hk_change change;
-  *taken = 0;
+ * Without a run if no step fits. */
+static int32_t change_step(const struct hk_trials *trials, const char *method, double limit,
+                           const char *why_so, struct hk_change *change) {
+  const int other = strcmp(method, method_of(trials)) != 0;
+  change->run = NULL;
   if (!(limit > 0.0)) return HOOKE_OK;
   if (isinf(limit) && isnan(trials->step)) limit = trials->duration / SHORT_RUN;
   const double most = isnan(trials->step) ? limit : fmin(limit, trials->step);
   double step = hk_handy_step(trials->step, most, trials->every, trials->duration);
   if (!(step > 0.0) || (!other && step == trials->step)) return HOOKE_OK;
-  int32_t status = hk_change_begin(&change, other ? "method" : "step");
+  int32_t status = hk_change_begin(change, other ? "method" : "step");
   const int too_long = trials->inquiry->squares > 0.0 ||
                        !(trials->duration / step * trials->size <= TOO_LONG * HOOKE_TRIAL_WORK);
   if (too_long) step = hk_handy_step(NAN, most, NAN, NAN);
-  if (status == HOOKE_OK && other) status = hooke_options_set_text(change.run, "method", method);
-  if (status == HOOKE_OK && step != trials->step) status = hooke_options_set_number(change.run, "step", step);
-  if (status == HOOKE_OK && too_long) {
-    status = hooke_options_set_number(change.run, "duration", SHORT_RUN * step);
-    if (status == HOOKE_OK && !isnan(trials->every))
-      status = hooke_options_set_number(change.run, "every", SHORT_FRAME * step);
-  }
-  if (status != HOOKE_OK) {
-    hk_change_drop(&change);
-    return status;
-  }
-  hk_change_say(&change, "%s%s%sa step of %.6g s%s%s", other ? "the method " : "", other ? method : "",
+  if (status == HOOKE_OK && other) status = hooke_options_set_text(change->run, "method", method);
+  if (status == HOOKE_OK) status = set_step(trials, change->run, step, too_long);
+  if (status != HOOKE_OK) hk_change_drop(change);
+  hk_change_say(change, "%s%s%sa step of %.6g s%s%s", other ? "the method " : "", other ? method : "",
                 other ? ", with " : "", step, why_so,
                 too_long ? ", for a run that is as short as such steps make it" : "");
-  return hk_trials_offer(trials, &change, taken);
+  return status;
+}
+
+static int32_t offer_step(struct hk_trials *trials, const char *method, double limit, const char *why_so,
+                          int32_t *taken) {
+  struct hk_change change;
+  const int32_t status = change_step(trials, method, limit, why_so, &change);
+  *taken = 0;
+  return status == HOOKE_OK && change.run ? hk_trials_offer(trials, &change, taken) : status;
 }
 
 /* The same method at a fraction of its limit, then at smaller and smaller steps. */
 static int32_t offer_smaller(struct hk_trials *trials, double limit, const char *why_so) {
   int32_t taken = 0, status = HOOKE_OK;
   for (int k = 0; k < 4 && !taken && status == HOOKE_OK; k++) {
-    status = offer_step(trials, trials->inquiry->run->method->name, limit, k == 0 ? why_so : "", &taken);
+    status = offer_step(trials, method_of(trials), limit, k == 0 ? why_so : "", &taken);
     limit *= k == 0 ? 0.5 : 0.25;
   }
   return status;
@@ -106,7 +119,7 @@ static int32_t offer_fixed(struct hk_trials *trials, const char *method) {
   int32_t status = stable_step(trials, method, &limit);
   if (status != HOOKE_OK) return status;
   trials->backed = trials->inquiry->violation.found;
-  status = offer_step(trials, method, MARGIN * limit,
+  status = offer_step(trials, method, hk_soundness_limit_share * limit,
                       isinf(limit) ? ": it is stable at every step" : ", which is stable", &taken);
   trials->backed = 0;
   return status;
@@ -124,7 +137,7 @@ static int32_t offer_adaptive(struct hk_trials *trials, const char *method, doub
   struct hk_change change;
   int32_t taken;
   const hooke_options *run = trials->inquiry->run->options;
-  const int other = strcmp(method, trials->inquiry->run->method->name) != 0;
+  const int other = strcmp(method, method_of(trials)) != 0;
   const double rtol = rounded(looser * hooke_options_number(run, "rtol")),
                atol = rounded(looser * hooke_options_number(run, "atol"));
   if (!hooke_method_is_built(method) || rtol > 0.1) return HOOKE_OK;
@@ -194,7 +207,7 @@ static int32_t offer_others(struct hk_trials *trials) {
   const hooke_system *system = trials->inquiry->system;
   const char *const fixed[] = {hk_method_of_euler(system), "verlet", "tr-bdf2", "backward-euler"};
   const char *const adaptive[] = {"cvode-adams", "cvode-bdf"};
-  const char *mine = trials->inquiry->run->method->name;
+  const char *mine = method_of(trials);
   int32_t status = HOOKE_OK;
   for (int k = 0; k < 4 && status == HOOKE_OK; k++) {
     if (strcmp(mine, fixed[k]) != 0 && hk_method_suits(fixed[k], system))
@@ -208,14 +221,15 @@ static int32_t offer_others(struct hk_trials *trials) {
 
 static int32_t offer_for_step(struct hk_trials *trials) {
   const struct hk_violation *violation = &trials->inquiry->violation;
-  const char *mine = trials->inquiry->run->method->name;
+  const char *mine = method_of(trials);
   double limit = 0.5 * trials->step;
   int32_t status = HOOKE_OK;
   const int above = violation->found || !isnan(violation->bound);
   if (above) status = stable_step(trials, mine, &limit);
   trials->backed = above;
   if (status == HOOKE_OK && limit > 0.0)
-    status = offer_smaller(trials, (above ? MARGIN : 1.0) * limit, above ? ", below the limit" : "");
+    status = offer_smaller(trials, (above ? hk_soundness_limit_share : 1.0) * limit,
+                           above ? ", below the limit" : "");
   trials->backed = 0;
   const int implicit = hk_participation_is_drag(trials->inquiry->force) ||
                        trials->inquiry->force == HOOKE_PARTICIPATION_DAMPING;
@@ -238,7 +252,7 @@ static int32_t offer_for_solver(struct hk_trials *trials) {
   } else {
     static const double looser[] = {10.0, 100.0, 1e3, 1e4};
     for (int k = 0; k < 4 && status == HOOKE_OK; k++)
-      status = offer_adaptive(trials, trials->inquiry->run->method->name, looser[k]);
+      status = offer_adaptive(trials, method_of(trials), looser[k]);
   }
   return status == HOOKE_OK ? offer_others(trials) : status;
 }
@@ -255,8 +269,23 @@ static int32_t offer_for_gain(struct hk_trials *trials) {
 static int32_t offer_for_squares(struct hk_trials *trials) {
   int32_t taken;
   if (isnan(trials->step)) return HOOKE_OK;
-  return offer_step(trials, trials->inquiry->run->method->name, trials->inquiry->squares,
+  return offer_step(trials, method_of(trials), trials->inquiry->squares,
                     ", by which nothing moves beyond numbers that have squares", &taken);
+}
+
+/* A known limit gives a step even where no trial of one below it ran on: something else goes wrong as well. */
+static int32_t give_step(struct hk_trials *trials) {
+  const struct hk_why *why = trials->inquiry->why;
+  struct hk_change change;
+  if (!(why->limit > 0.0) || isinf(why->limit)) return HOOKE_OK;
+  for (int64_t k = 0; k < why->advice_count; k++) {
+    if (strcmp(why->advice[k].option, "step") == 0) return HOOKE_OK;
+  }
+  const int32_t status = change_step(trials, method_of(trials), hk_soundness_limit_share * why->limit,
+                                     ", below the limit", &change);
+  if (status == HOOKE_OK && change.run)
+    hk_trials_take(trials, &change, ", which is not enough (tried: the run ends early with it, too)");
+  return status;
 }
 
 static int32_t offer_all(struct hk_trials *trials) {
@@ -276,7 +305,8 @@ static int32_t offer_all(struct hk_trials *trials) {
     status = offer_for_squares(trials);
   else
     status = offer_for_step(trials);
-  return status == HOOKE_OK && why->advice_count == 0 ? offer_shorter(trials) : status;
+  if (status == HOOKE_OK && why->advice_count == 0) status = offer_shorter(trials);
+  return status == HOOKE_OK ? give_step(trials) : status;
 }
 
 /* ---- the scene ---- */

@@ -301,12 +301,11 @@ static int grew_before(const struct hk_inquiry *inquiry) {
 static int32_t judge_gain(struct hk_inquiry *inquiry) {
   char end[160];
   say(inquiry, "model-gains-energy",
-      "with %s steps it does, too, so it is no matter of the step %.6g s: the model gains energy by itself, "
-      "as "
-      "altitude springs do wherever another altitude of a tetrahedron comes to be the shortest, far from "
-      "rest; %s",
-      inquiry->run->method->adaptive ? "far tighter tolerances and smaller" : "16 times smaller",
-      inquiry->why->step, show(inquiry, end));
+      "the model gains energy by itself, with %s as well; altitude springs do so wherever another altitude "
+      "of a "
+      "tetrahedron comes to be the shortest, far from rest; %s",
+      inquiry->run->method->adaptive ? "far tighter tolerances" : "16 times smaller steps",
+      show(inquiry, end));
   return HOOKE_OK;
 }
 
@@ -354,9 +353,9 @@ static int32_t judge_divergence(struct hk_inquiry *inquiry) {
         hooke_options_number(inquiry->run->options, "rtol"), altitude_words(inquiry), show(inquiry, end));
   } else {
     say(inquiry, "step-above-limit",
-        "no step was seen above the limit of the motion frozen at one moment, no spring collapsed and no "
-        "callback "
-        "failed; so the step %.6g s is too large for how quickly this motion changes%s; %s",
+        "the step %.6g s is too large for how quickly this motion changes%s; no step was seen above the "
+        "limit of "
+        "the motion frozen at one moment, no spring collapsed and no callback failed; %s",
         inquiry->why->step, altitude_words(inquiry), show(inquiry, end));
   }
   return HOOKE_OK;

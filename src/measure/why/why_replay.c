@@ -156,6 +156,7 @@ struct replay {
   double *before;          /* positions one step ago */
   double size[BEFORE + 1]; /* largest number of the last steps, the newest first */
   int64_t stride;          /* steps between checks of the step */
+  double work;             /* counted so far [s] */
 };
 
 static int32_t take_step(struct replay *replay, hooke_state *state) {
@@ -175,6 +176,7 @@ static int32_t walk(struct replay *replay, hooke_state *state, int64_t steps) {
   int32_t status = HOOKE_OK;
   for (int k = 0; k <= BEFORE; k++)
     replay->size[k] = largest_of(state);
+  replay->work = hk_why_work_of(replay->again);
   for (int64_t k = 0; k < steps && status == HOOKE_OK; k++) {
     inquiry->cut = hk_patience_ends(&inquiry->patience, "the last steps again");
     if (inquiry->cut) return HOOKE_OK;
@@ -182,6 +184,7 @@ static int32_t walk(struct replay *replay, hooke_state *state, int64_t steps) {
       status = hk_inquiry_consider(inquiry, &replay->blocks, state);
     if (status != HOOKE_OK) return status;
     status = take_step(replay, state);
+    hk_inquiry_spend(inquiry, replay->again, &replay->work);
     if (status != HOOKE_OK) break;
     note_size(replay, state);
     if (springs * (double)k <= MOST_TURNS) watch_turns(inquiry, replay->before, state);

@@ -42,7 +42,7 @@ int32_t hk_trials_begin(struct hk_inquiry *inquiry, struct hk_trials *trials) {
   /* a loop of the caller's own has no end: some way past the failure */
   trials->duration = !isnan(s->duration)   ? s->duration
                      : isnan(trials->step) ? 2.0 * span
-                                           : 2.0 * (double)run->k * s->step;
+                                           : 2.0 * fmax(1.0, (double)run->k) * s->step;
   trials->every = s->every_given ? s->every : NAN;
   /* a callback of a script costs far more than springs */
   trials->size =
@@ -88,8 +88,8 @@ static int32_t changed_options(const struct hk_trials *trials, const struct hk_c
 
 struct effort {
   const hooke_integrator *integrator;
-  struct hk_patience *patience;
-  double size;
+  struct hk_inquiry *inquiry;
+  double size, work; /* of an evaluation; counted so far [s] */
   int32_t spent;
 };
 
@@ -97,14 +97,16 @@ static int32_t watch_work(int64_t step, const hooke_state *state, void *ctx) {
   struct effort *effort = ctx;
   const struct hk_counts *c = &effort->integrator->count;
   (void)step, (void)state;
-  effort->spent = effort->size * (double)(c->force_evaluations + c->derivative_products) > HOOKE_TRIAL_WORK;
+  hk_inquiry_spend(effort->inquiry, effort->integrator, &effort->work);
+  effort->spent = effort->size * (double)(c->force_evaluations + c->derivative_products) > HOOKE_TRIAL_WORK ||
+                  !hk_patience_has(&effort->inquiry->patience, 0.0);
   return effort->spent;
 }
 
 static int32_t watch_time(double done, const char *method, void *ctx) {
   struct effort *effort = ctx;
   (void)done, (void)method;
-  effort->spent = hk_patience_ends(effort->patience, "trying what to do");
+  effort->spent = hk_patience_ends(&effort->inquiry->patience, "trying what to do");
   return effort->spent;
 }
 
@@ -131,8 +133,7 @@ static double bytes_of_trial(const struct hk_trials *trials, const char *method)
 /* Runs as far as the work allows. */
 static int32_t run_trial(struct hk_trials *trials, hooke_integrator *integrator, struct hk_trial *trial) {
   hooke_state *state = NULL;
-  struct effort effort = {
-      .integrator = integrator, .patience = &trials->inquiry->patience, .size = trials->size};
+  struct effort effort = {.integrator = integrator, .inquiry = trials->inquiry, .size = trials->size};
   const int64_t stride = integrator->method->adaptive ? 1 : 1 + (int64_t)(1e5 / trials->size);
   int32_t status = hk_state_create_sized(trials->first->size, 1, &state);
   if (status != HOOKE_OK) return status;
@@ -140,8 +141,10 @@ static int32_t run_trial(struct hk_trials *trials, hooke_integrator *integrator,
   hooke_integrator_on_step(integrator, stride, watch_work, &effort);
   hooke_integrator_on_progress(integrator, 0.0, watch_time, &effort);
   status = hk_run_whole(integrator, state);
+  hk_inquiry_spend(trials->inquiry, integrator, &effort.work);
   trial->finished = status == HOOKE_OK;
   trial->diverged = status == HOOKE_DIVERGED;
+  trial->failed = !trial->finished && !effort.spent;
   trial->steps = hooke_integrator_count(integrator, "steps");
   if (trial->finished || effort.spent) trial->reached = *state->t;
   hooke_state_destroy(state);
@@ -153,6 +156,7 @@ static int32_t try_run(struct hk_trials *trials, const hooke_system *system, con
                        struct hk_trial *trial) {
   hooke_integrator *integrator = NULL;
   trials->count++;
+  trial->failed = 1;
   int32_t status = hooke_integrator_create(system, options, &integrator);
   if (status == HOOKE_BAD_VALUE || status == HOOKE_NOT_BUILT)
     return HOOKE_OK; /* it does not fit: not to be suggested */
@@ -164,7 +168,7 @@ static int32_t try_run(struct hk_trials *trials, const hooke_system *system, con
 /* Describes the result of the trial; 0 if it did not get past the failure. */
 static int proves(const struct hk_trials *trials, double reached, int32_t finished, char *text, size_t size) {
   const double noticed = trials->inquiry->why->noticed, begun = *trials->first->t;
-  if (!(finished && !trials->late) && !(reached > noticed + 0.5 * (noticed - begun))) return 0;
+  if (!finished && !(reached > noticed + 0.5 * (noticed - begun))) return 0;
   if (trials->late)
     hk_print(text, size, " (tried from t = %.6g s to %.6g s: there it is well)", begun, reached);
   else if (finished)
@@ -237,10 +241,11 @@ int32_t hk_trials_offer(struct hk_trials *trials, struct hk_change *change, int3
   if (inquiry->why->advice_count < ENOUGH && trials->count < MOST_TRIALS && !is_known(trials, change)) {
     struct hk_trial trial;
     status = hk_trials_try(trials, inquiry->system, change, &trial);
-    const int32_t cut = !trial.tried || inquiry->patience.spent;
-    if (!trial.proof[0] && trials->backed && cut) {
-      snprintf(trial.proof, sizeof trial.proof, " (not tried to its end, for want of %s)",
-               inquiry->patience.spent ? "time" : "memory");
+    /* another method is worth the trial of a third one */
+    const int32_t cut = !trial.tried || inquiry->patience.spent || strcmp(change->option, "step") == 0;
+    if (!trial.proof[0] && trials->backed && cut && !trial.failed) {
+      snprintf(trial.proof, sizeof trial.proof, " (not tried%s, for want of %s)",
+               trial.tried ? " to its end" : "", trial.tried || inquiry->patience.spent ? "time" : "memory");
     }
     *taken = status == HOOKE_OK && trial.proof[0];
     if (*taken) hk_trials_take(trials, change, trial.proof);

@@ -35,7 +35,7 @@ void hk_change_drop(struct hk_change *change);
 
 /* Result of a trial: the time it reached, and its meaning in words ("": none). */
 struct hk_trial {
-  int32_t tried, finished, diverged;
+  int32_t tried, finished, diverged, failed; /* failed: it ended before its end and its work */
   int64_t steps;
   double reached;
   char proof[96];

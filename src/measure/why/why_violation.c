@@ -3,6 +3,7 @@
 #include "measure/why/why.h"
 
 #include "core/status.h"
+#include "measure/counted_work/work.h"
 #include "measure/limit/limit_predict.h"
 #include "measure/spectrum/step_bound.h"
 #include "model/force/force.h"
@@ -11,6 +12,7 @@
 #include <string.h>
 
 static const double LIMIT_ACCURACY = 1e-4, LEAST_RISE = 2e-3;
+static const double PASSES = 2.0; /* of a bound */
 enum { MOST_TRIES = 12, MOST_TURNS = 60, MORE_TURNS = 12 };
 
 static const char *method_of(const struct hk_inquiry *inquiry) {
@@ -145,6 +147,8 @@ int32_t hk_inquiry_limit(struct hk_inquiry *inquiry, const double *q, const char
   *known = status == HOOKE_OK && !isnan(*limit);
   if (status == HOOKE_OK || status == HOOKE_NO_MEMORY) return status;
   *limit = 0.0;
-  if (!hk_patience_has(&inquiry->patience, 2.0 * inquiry->pass)) return HOOKE_OK;
+  const double work = PASSES * hk_work_of_pass(inquiry->system);
+  if (!hk_patience_has(&inquiry->patience, work)) return HOOKE_OK;
+  hk_patience_spend(&inquiry->patience, work);
   return hooke_step_bound(inquiry->system, method, q, limit);
 }

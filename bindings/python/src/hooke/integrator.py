@@ -220,7 +220,7 @@ class Integrator(Closing):
     @property
     def diagnosis(self) -> str:
         """The cause of an early end of the last run, with place and time, in a sentence or two; "" if it did not end
-        early. It repeats the last steps and tries suggestions: as long as the run took, or 2 s if that is more."""
+        early. It repeats the last steps and tries suggestions, with as much work as the run took, or 2 s if that is more."""
         if self.outcome not in _BLOWN_UP:
             return ""
         try:

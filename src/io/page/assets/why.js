@@ -157,12 +157,14 @@ function startFilm() {
 
 let chart = null;
 
-/* Growth of the energy per step: as measured after the last step within bounds, and as the mode there has it. */
+/* The growth of the mode that is drawn, in a step: every word and line has it from here. */
+const growth = data.mode && data.mode.growth !== null ? data.mode.growth : NaN;
+
+/* Growth of the energy per step: as measured after the last step within bounds, and as that mode has it. */
 function rates() {
   const { value, last: at } = data.energy, to = Math.min(value.length - 1, at + 20);
   const measured = to > at && value[at] > 0 ? (value[to] / value[at]) ** (1 / (to - at)) : NaN;
-  const known = (data.limits || []).filter((one) => one.growth !== null);
-  return { at, to, measured, predicted: known.length ? known[known.length - 1].growth ** 2 : NaN };
+  return { at, to, measured, predicted: growth ** 2 };
 }
 
 /* A vertical line at the frame that is shown. */
@@ -216,7 +218,7 @@ function drawReach(looks) {
   const region = { label: `${data.method} is stable within`, data: [{ x: 0, y: 0 }, ...pairs, { x: 0, y: 0 }], borderColor: "#00875f",
     backgroundColor: "#00875f22", borderWidth: 2, fill: "shape", pointRadius: 0, pointHitRadius: 0, pointStyle: "line", order: 3 };
   const path = { label: "the mode that limits, over time", data: points, borderColor: RED, backgroundColor: RED, borderWidth: 1.5,
-    pointRadius: points.map((_, k) => (k === points.length - 1 ? 6 : 3)), pointStyle: "circle", order: 1 };
+    pointRadius: points.map(({ look }) => (data.mode && look.time === data.mode.time ? 6 : 3)), pointStyle: "circle", order: 1 };
   drawEqual("reach", [region, path], ["h \u03c9, step times frequency", "h d, step times damping"],
     { left: -0.1, right: Math.max(3, 1.15 * far("x")), bottom: -0.1, top: Math.max(1.2, 1.15 * far("y")) },
     (item) => (item.raw.look ? [`t = ${words(item.raw.look.time, 5)} s`, `${words(item.raw.look.frequency, 4)} rad/s, damping ` +

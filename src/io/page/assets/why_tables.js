@@ -31,24 +31,23 @@ function writeRates({ measured, predicted, at: from, to }) {
   const says = [];
   if (Number.isFinite(measured)) says.push(`In the ${counted(to - from, "step")} from t = ${words(data.time, 5)} s on each step ` +
     `multiplies the energy by ${words(measured, 4)}, measured.`);
-  if (Number.isFinite(predicted)) says.push(predicted > 1 ? `The mode that limits the step, alone and frozen, predicts ${words(predicted, 4)}.`
-    : `The mode that limits the step, alone and frozen, does not grow there (${words(predicted, 4)}).`);
+  if (Number.isFinite(predicted)) says.push(`The mode that limits the step, alone and frozen at t = ${words(data.mode.time, 5)} s, ` +
+    (predicted > 1 ? `predicts ${words(predicted, 4)}, the square of its growth.` : `does not grow (${words(predicted, 4)}).`));
   says.push("That of gravity is left out.");
   at("rates").textContent = says.join(" ");
 }
 
-function writeLeft(looks) {
-  const out = looks.filter((look) => look.growth > 1), first = out[0];
-  at("left").textContent = first
-    ? `At t = ${words(first.time, 5)} s it is outside: each step multiplies its amplitude by ${words(first.growth, 4)}.`
-    : "At the times that were looked at it is not outside.";
+function writeLeft() {
+  at("left").textContent = growth > 1
+    ? `At t = ${words(data.mode.time, 5)} s it is outside: each step multiplies its amplitude by ${words(growth, 4)}.`
+    : Number.isFinite(growth) ? "At the times that were looked at it is not outside." : "Whether it is outside is not known.";
 }
 
 function writeMode() {
   at("mode").hidden = !moving && blames.length === 0;
   if (at("mode").hidden) return;
   at("pictured").textContent = moving ? `Arrows show how particles move in it, to one side and back, at t = ${words(data.mode.time, 5)} s; ` +
-    "the longest is as long as one can see." : "The mode is not known.";
+    `the longest is as long as one can see.${growth > 1 ? ` Each step multiplies them by ${words(growth, 4)}.` : ""}` : "The mode is not known.";
   writeBlame();
   if (moving && movers.length < particles.length)
     choice("zoom", [["all", ["whole scene"]], ["mode", ["where it moves"]]], "all", (key) => look("zoom", key));
@@ -77,7 +76,7 @@ if (ran.length) {
   drawEnergy(found);
   at("leaves").hidden = looks.length === 0 || !data.rows[0].reach;
   if (!at("leaves").hidden) {
-    writeLeft(looks);
+    writeLeft();
     drawReach(looks);
   }
   startFilm();

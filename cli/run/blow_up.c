@@ -1,0 +1,134 @@
+#include "blow_up.h"
+
+#include "advice.h"
+#include "report.h"
+
+#include <inttypes.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const char report_name[] = "why.html";
+
+/* ---- what happened ---- */
+
+/* Length of the first clause of a sentence: the rest is for 'hooke why'. */
+static int first_clause(const char *sentence) {
+  static const char *const ends[] = {"; ", ", so motion grows"};
+  size_t length = strlen(sentence);
+  for (size_t k = 0; k < sizeof ends / sizeof ends[0]; k++) {
+    const char *end = strstr(sentence, ends[k]);
+    if (end && (size_t)(end - sentence) < length) length = (size_t)(end - sentence);
+  }
+  return (int)length;
+}
+
+/* The limit where the sentence of the cause is about something else. */
+static void add_limit(const struct cli_run *run, char *text, size_t size) {
+  const double limit = hooke_measurement_number(run->why, "why", 0, "limit");
+  const char *cause = hooke_measurement_text(run->why, "why", 0, "cause");
+  char number[HOOKE_NUMBER_SIZE];
+  if (limit > 0.0 && !isinf(limit) && strcmp(cause, "step-above-limit") != 0)
+    snprintf(text, size, "; the largest stable step is %s s", cli_format_rounded(limit, number));
+}
+
+/* Sentences of a diagnosis begin with what the run did, to which the time is added. */
+static void tell_what(const struct cli_run *run) {
+  const char *sentence = run->message, *rest = strstr(sentence, ": ");
+  char number[HOOKE_NUMBER_SIZE], limit[80] = "";
+  if (!run->why || !rest) {
+    cli_report_words(run->arguments, "%.*s", first_clause(sentence), sentence);
+    return;
+  }
+  add_limit(run, limit, sizeof limit);
+  cli_report_words(run->arguments, "%.*s after t = %s s%.*s%s", (int)(rest - sentence), sentence,
+                   cli_format_rounded(hooke_measurement_number(run->why, "why", 0, "time"), number),
+                   first_clause(rest), rest, limit);
+}
+
+/* ---- what to try ---- */
+
+/* Without a diagnosis the message of the run has a suggestion. */
+static void tell_suggestion(const char *message) {
+  const char *suggestion = strstr(message, "try ");
+  fputs("try: ", stderr);
+  cli_print_text(stderr, suggestion ? suggestion + strlen("try ") : "a smaller step");
+  fputc('\n', stderr);
+}
+
+static void tell_try(const struct cli_run *run) {
+  char *command = NULL;
+  if (!run->why) {
+    tell_suggestion(run->message);
+    return;
+  }
+  const char *change = hooke_measurement_text(run->why, "advice", 0, "change");
+  if (cli_advice_command(run->arguments, run->why, 0, &command) != HOOKE_OK)
+    (void)cli_report_missing_words(run->arguments);
+  fprintf(stderr, "try: %s%s", command ? command : "", command ? "  # " : "");
+  cli_print_text(stderr, change ? change : "another model: no run that was tried got any further");
+  fputc('\n', stderr);
+  free(command);
+}
+
+/* ---- where to see more ---- */
+
+/* By the output, else by the scene with the options of the run; those that --want chose have to be named. */
+static void tell_see(const struct cli_run *run) {
+  char number[HOOKE_NUMBER_SIZE];
+  const int chosen = cli_arguments_text(run->arguments, "want") != NULL;
+  const double step = hooke_options_number(run->options, "step");
+  const char *report = hooke_build_fact("chartjs")[0] ? report_name : NULL;
+  const struct cli_setting settings[] = {
+      {"method", chosen ? cli_run_method(run) : NULL},
+      {"step", chosen && !isnan(step) ? cli_format_number(step, number) : NULL},
+      {"report", report},
+      {NULL, NULL}};
+  fputs("see: ", stderr);
+  if (run->output) {
+    fputs("hooke why ", stderr);
+    cli_print_quoted(stderr, run->output);
+    if (report) fprintf(stderr, " --report %s", report);
+  } else {
+    cli_report_command(stderr, run->arguments, "why", settings);
+  }
+  fputc('\n', stderr);
+}
+
+/* ---- what is kept ---- */
+
+/* What the option past_divergence added. */
+static void tell_beyond(const struct cli_run *run) {
+  if (run->frames_beyond > 0)
+    fprintf(stderr, ", and %" PRId64 " after it diverged, which are no physics", run->frames_beyond);
+  else if (hooke_method_is_adaptive(cli_run_method(run)))
+    fputs("; none after it diverged, where an error-controlled method ends", stderr);
+  else
+    fputs(
+        "; none after it diverged, since numbers overflowed before the next one: a smaller --every shows how",
+        stderr);
+}
+
+static void tell_kept(const struct cli_run *run) {
+  const int64_t frames = run->frames - run->frames_beyond;
+  char number[HOOKE_NUMBER_SIZE];
+  if (!run->output) {
+    fputs("kept: nothing; -o out.h5 keeps the frames up to there\n", stderr);
+    return;
+  }
+  fprintf(stderr, "kept: %" PRId64 " frame%s ", frames, frames == 1 ? "" : "s");
+  if (!isnan(run->last_frame))
+    fprintf(stderr, "up to t = %s s ", cli_format_rounded(run->last_frame, number));
+  fputs("in ", stderr);
+  cli_print_text(stderr, run->output);
+  if (cli_run_goes_beyond(run)) tell_beyond(run);
+  fputc('\n', stderr);
+}
+
+void cli_blow_up_tell(const struct cli_run *run) {
+  tell_what(run);
+  if (run->arguments->quiet) return;
+  tell_try(run);
+  tell_see(run);
+  tell_kept(run);
+}

@@ -1,0 +1,11 @@
+/* A run that blew up, told on standard error in four lines: what happened, what to try, where to see more, and
+ * what is kept. */
+#ifndef HOOKE_CLI_BLOW_UP_H
+#define HOOKE_CLI_BLOW_UP_H
+
+#include "run_results.h"
+
+/* The first line alone with --quiet. */
+void cli_blow_up_tell(const struct cli_run *run);
+
+#endif

@@ -1,0 +1,131 @@
+/* Warnings of a step that is near its limit or above it, while a run goes on. */
+#include "check.h"
+#include "run.h"
+#include "small.h"
+
+#include <stdio.h>
+#include <string.h>
+
+struct warned {
+  int64_t count;
+  char kind[32], sentence[640];
+  double t, limit;
+  int64_t spring, particle;
+  int32_t answer;
+};
+
+static int32_t note(const char *kind, const char *sentence, double t, double limit, int64_t spring,
+                    int64_t particle, void *ctx) {
+  struct warned *warned = ctx;
+  warned->count++;
+  snprintf(warned->kind, sizeof warned->kind, "%s", kind);
+  snprintf(warned->sentence, sizeof warned->sentence, "%s", sentence);
+  warned->t = t;
+  warned->limit = limit;
+  warned->spring = spring;
+  warned->particle = particle;
+  return warned->answer;
+}
+
+/* One step of a run with warnings; the bound of the oscillator is its limit. */
+static int32_t watch_run(const char *method, double step, struct warned *warned, double *q) {
+  hooke_system *system = small_oscillator(10.0);
+  hooke_integrator *integrator =
+      start_run(system, (struct run){.method = method, .step = step, .duration = 10.0 * step, .every = step});
+  hooke_state *state = start_state(system);
+  if (warned) check_ok(hooke_integrator_on_warning(integrator, note, warned));
+  const int32_t status = hooke_integrator_run(integrator, state);
+  if (q) memcpy(q, hooke_state_position(state), 6 * sizeof(double));
+  if (status == HOOKE_STOPPED)
+    assert_int_equal(hooke_integrator_count(integrator, "stop_value"), warned->answer);
+  hooke_state_destroy(state);
+  hooke_integrator_destroy(integrator);
+  hooke_system_destroy(system);
+  return status;
+}
+
+static void test_warnings(void **unused) {
+  (void)unused;
+  const struct {
+    const char *method;
+    double step;
+    const char *kind;
+  } cases[] = {
+      {"symplectic-euler", 0.188, ""},
+      {"symplectic-euler", 0.192, "near-limit"},
+      {"symplectic-euler", 0.2001, "above-limit"},
+      {"verlet", 0.188, ""},
+      {"verlet", 0.192, "near-limit"},
+      {"verlet", 0.2001, "above-limit"},
+      {"rk4", 0.2456, ""},
+      {"rk4", 0.2512, "near-limit"},
+      {"rk4", 0.2623, "above-limit"},
+      {"forward-euler", 1e-6, "never-stable"},
+      {"backward-euler", 100.0, ""},
+  };
+  for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
+    struct warned warned = {.count = 0};
+    watch_run(cases[k].method, cases[k].step, &warned, NULL);
+    assert_string_equal(warned.kind, cases[k].kind);
+    assert_int_equal(warned.count, cases[k].kind[0] != '\0');
+    if (warned.count == 0) continue;
+    const double limit = strcmp(cases[k].kind, "never-stable") == 0 ? 0.0
+                         : strcmp(cases[k].method, "rk4") == 0      ? 0.26156
+                                                                    : 0.2;
+    check_close(warned.limit, limit, 1e-9);
+    check_close(warned.t, 0.0, 0.0);
+    assert_int_equal(warned.spring, 0);
+    assert_int_equal(warned.particle, 1);
+    assert_non_null(strstr(warned.sentence, "spring 0 (particles 0 and 1, group springs)"));
+  }
+}
+
+static void test_a_warning_may_stop_the_run(void **unused) {
+  (void)unused;
+  struct warned warned = {.answer = 7};
+  check_status(watch_run("verlet", 0.192, &warned, NULL), HOOKE_STOPPED);
+  check_message("warning callback returned 7");
+}
+
+static void test_a_watch_changes_no_bits(void **unused) {
+  (void)unused;
+  double watched[6], alone[6];
+  struct warned warned = {.count = 0};
+  check_ok(watch_run("symplectic-euler", 0.192, &warned, watched));
+  check_ok(watch_run("symplectic-euler", 0.192, NULL, alone));
+  assert_int_equal(warned.count, 1);
+  check_same_bits(6, watched, alone);
+}
+
+/* Each kind once a run, and again in the next run. */
+static void test_once_a_run(void **unused) {
+  (void)unused;
+  struct warned warned = {.count = 0};
+  hooke_system *system = small_oscillator(10.0);
+  hooke_integrator *integrator = start_run(
+      system, (struct run){.method = "symplectic-euler", .step = 0.192, .duration = 1920.0, .every = 0.192});
+  check_ok(hooke_integrator_on_warning(integrator, note, &warned));
+  for (int k = 1; k <= 2; k++) {
+    hooke_state *state = start_state(system);
+    check_ok(hooke_integrator_run(integrator, state));
+    hooke_state_destroy(state);
+    assert_int_equal(warned.count, k);
+  }
+  check_ok(hooke_integrator_on_warning(integrator, NULL, NULL));
+  hooke_state *state = start_state(system);
+  check_ok(hooke_integrator_run(integrator, state));
+  assert_int_equal(warned.count, 2);
+  hooke_state_destroy(state);
+  hooke_integrator_destroy(integrator);
+  hooke_system_destroy(system);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(test_warnings),
+      cmocka_unit_test(test_a_warning_may_stop_the_run),
+      cmocka_unit_test(test_a_watch_changes_no_bits),
+      cmocka_unit_test(test_once_a_run),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
