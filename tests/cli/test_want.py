@@ -3,7 +3,6 @@ extrapolation in long double (tests/data/wants.json, made by tests/long/make_wan
 tests more."""
 
 import math
-import os
 import shlex
 import time
 
@@ -18,8 +17,6 @@ ASKED = ["1cm", "1mm"]
 # The examples with one want here, since `make test-long PART=want` studies them with every one.
 STUDIED = [("six-particles", "1mm"), ("rope", "1cm"),
            *((name, asked) for name in ("pendulum", "cable", "swung-rope") for asked in ASKED)]
-# A pick has a limited time, in which a busy machine does less: here it is processor time.
-BY_PROCESSOR = {**os.environ, "LD_PRELOAD": os.environ.get("HOOKE_PROCESSOR_CLOCK", "")}
 DEARER = 4.0  # maximum cost of a pick over the cheapest of a fine ladder of all methods, in evaluations and solves
 
 
@@ -27,7 +24,7 @@ DEARER = 4.0  # maximum cost of a pick over the cheapest of a fine ladder of all
 @pytest.mark.parametrize("name", SCENES)
 def test_a_run_keeps_its_want(hooke, name, asked):
     end = ENDS[name]
-    answer = hooke("run", end.scene, "--want", asked, "--json", "--final", env=BY_PROCESSOR)
+    answer = hooke("run", end.scene, "--want", asked, "--json", "--final")
     assert answer.code == 0, answer.err
     value = answer.json
     assert complaints(answer.code, value, True, end.error(value), WANTS[asked]) == []
