@@ -17,10 +17,6 @@ static const char TOO_SLOW_WITHIN[] = "growth near the limit is too slow to be s
                                       "limit measured is certain to 5 % only";
 static const char UNSOLVED[] = "the method did not solve its step while the limit was measured";
 static const char DIFFERS[] = "a mode that the prediction did not name limits the step";
-static const char WITHOUT_DIRECTION[] =
-    "springs whose ends coincide have no force, and were left out of the measurement";
-static const char TURNING[] =
-    "springs of length 0 are damped along their motion, which the linearised system leaves out";
 
 /* ---- the linear twin ---- */
 
@@ -209,10 +205,6 @@ int32_t hk_limit_measure(const hooke_system *system, const double *q, const hook
       out->note = TOO_SLOW_WITHIN;
     else if (trial.note)
       out->note = trial.note;
-    else if (twin.left_out > 0)
-      out->note = WITHOUT_DIRECTION;
-    else if (twin.turning > 0)
-      out->note = TURNING;
     hk_growth_release(&growth);
   }
   hk_twin_release(&twin);

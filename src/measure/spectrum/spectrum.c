@@ -91,7 +91,8 @@ static int32_t find_proportion(struct hk_spectrum *s) {
     mass = lin->mass[p];
   }
   s->delta = lin->drag > 0.0 ? lin->drag / mass : 0.0;
-  return s->beta == 0.0 || (!lin->across_any && !lin->bends && lin->rigid.stiffest == 0.0);
+  return s->beta == 0.0 ||
+         (!lin->across_any && !lin->points_damped && !lin->bends && lin->rigid.stiffest == 0.0);
 }
 
 static void compare_damping(struct hk_spectrum *s) {
