@@ -21,9 +21,11 @@ static const double LEAST_CHANGE = 0.3, LEAST_IN_THE_END = 0.01;
 /* A straight line: alike from block to block to this share, and so many times above the scatter. */
 static const double ALIKE = 0.05, ABOVE_SCATTER = 30.0;
 /* Log of the amplitude where less is left than any mode had at first, and rounding is not yet seen. The same
- * for speed: particles that have turned about others, which costs no energy, are not quite where linear
- * motion would have them. */
-static const double NOTHING_LEFT = -12.0;
+ * for speed, where displacements have little left: particles that have turned about others, which costs no
+ * energy, are not quite where linear motion would have them. */
+static const double NOTHING_LEFT = -12.0, LITTLE_LEFT = -8.0;
+/* Strong damping may answer a velocity with a jump in the first steps, in a run that is stable. */
+enum { SAMPLES_OF_JUMPS = 2 };
 
 struct course {
   double mean[WINDOWS]; /* of full windows */
@@ -103,7 +105,8 @@ static void start_randomly(struct hk_growth *growth, double *x, double *v) {
   hk_twin_push(growth->twin, x, v);
 }
 
-/* Displacements of one step are at most 1 m. Overdamped motion starts displaced, and finds its velocities. */
+/* Displaced by as much as the velocities move in a step, which is at most 1 m: strong damping may take either of
+ * the two away before it moves the other. */
 static void start(struct hk_growth *growth, double step, int random_only) {
   const hooke_system *system = growth->twin->system;
   double *q = hooke_state_position(growth->state), *v = hooke_state_velocity(growth->state), most = 0.0;
@@ -121,7 +124,7 @@ static void start(struct hk_growth *growth, double step, int random_only) {
     most = fmax(most, fabs(v[k]));
   for (int64_t k = 0; k < size && most > 0.0; k++) {
     v[k] /= most * step;
-    if (system->friction > 0.0) q[k] += v[k] * step;
+    q[k] += v[k] * step;
   }
 }
 
@@ -172,7 +175,8 @@ static int judge(const struct hk_growth *growth, const struct course *course, in
     *verdict = HOOKE_GROWS;
     return 1;
   }
-  if (rise < NOTHING_LEFT || (inertial && 0.5 * log(speed) + course->offset - course->first < NOTHING_LEFT)) {
+  if (rise < NOTHING_LEFT ||
+      (inertial && rise < LITTLE_LEFT && 0.5 * log(speed) + course->offset - course->first < NOTHING_LEFT)) {
     *verdict = HOOKE_HOLDS;
     return 1;
   }
@@ -221,7 +225,7 @@ static int32_t go(struct hk_growth *growth, hooke_integrator *integrator, int th
   course.first = course.last = log_amplitude(growth);
   *verdict = HOOKE_HOLDS;
   if (!isfinite(course.first)) return HOOKE_OK; /* nothing can move */
-  int64_t taken = 0, longest = 1;
+  int64_t taken = 0, longest = 1, seen = 0;
   while (taken < most_steps) {
     const int64_t samples = thorough ? SAMPLES : FIRST_WINDOW;
     const int64_t twice_the_mean = course.length > samples ? 2 * course.length / samples : 0;
@@ -239,6 +243,7 @@ static int32_t go(struct hk_growth *growth, hooke_integrator *integrator, int th
     }
     longest = fabs(now - before) > 2.0 ? (longest + 1) / 2 : longest < 900 ? longest + 1 : longest;
     fill(&course, count, now);
+    if (seen++ < SAMPLES_OF_JUMPS) course.first = fmax(course.first, now);
     scale(growth, &course);
     if (judge(growth, &course, taken, thorough, verdict)) return HOOKE_OK;
   }
