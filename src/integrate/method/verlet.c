@@ -17,8 +17,8 @@
 #include <math.h>
 #include <stddef.h>
 
-/* The residual, over that of the predicted velocity: what the solve leaves is a part of what the step does.
- * */
+/* The residual, over that of the predicted velocity: what the solve leaves is a part of what the step does, or,
+ * where damping is so strong that the prediction is beside the point, of the velocity before it. */
 static const double PART = 1e-3, LEAST_RESIDUAL = 1e-13;
 
 struct verlet {
@@ -111,8 +111,8 @@ static int32_t step_undamped(hooke_integrator *it) {
 
 /* ---- the second kick, solved for ---- */
 
-/* The right side; returns how large it is beside the whole step's kick, both as squares of velocities times
- * masses. */
+/* The right side; returns how large it is beside the whole step's kick, or the inverse if that is below 1, both as
+ * squares of velocities times masses. */
 static double set_right(const hooke_integrator *it) {
   const struct verlet *own = it->own;
   const hooke_system *system = it->system;
@@ -129,7 +129,8 @@ static double set_right(const hooke_integrator *it) {
       kicked += system->constrained[p] ? 0.0 : (mass * by) * by;
     }
   }
-  return left < 4.0 * kicked ? sqrt(left / (4.0 * kicked)) : 1.0;
+  const double beside = sqrt(left / (4.0 * kicked));
+  return beside > 1.0 ? 1.0 / beside : beside;
 }
 
 static int32_t solve(hooke_integrator *it) {

@@ -24,8 +24,6 @@ static const double ALIKE = 0.05, ABOVE_SCATTER = 30.0;
  * for speed, where displacements have little left: particles that have turned about others, which costs no
  * energy, are not quite where linear motion would have them. */
 static const double NOTHING_LEFT = -12.0, LITTLE_LEFT = -8.0;
-/* Strong damping may answer a velocity with a jump in the first steps, in a run that is stable. */
-enum { SAMPLES_OF_JUMPS = 2 };
 
 struct course {
   double mean[WINDOWS]; /* of full windows */
@@ -105,8 +103,9 @@ static void start_randomly(struct hk_growth *growth, double *x, double *v) {
   hk_twin_push(growth->twin, x, v);
 }
 
-/* Displaced by as much as the velocities move in a step, which is at most 1 m: strong damping may take either of
- * the two away before it moves the other. */
+/* Displaced by half of what the velocities move in a step, which is at most 1 m, as is motion that turns round in
+ * every step of symplectic Euler. In one of Verlet it has no velocity then; one would be a jump where damping is
+ * strong. */
 static void start(struct hk_growth *growth, double step, int random_only) {
   const hooke_system *system = growth->twin->system;
   double *q = hooke_state_position(growth->state), *v = hooke_state_velocity(growth->state), most = 0.0;
@@ -124,7 +123,8 @@ static void start(struct hk_growth *growth, double step, int random_only) {
     most = fmax(most, fabs(v[k]));
   for (int64_t k = 0; k < size && most > 0.0; k++) {
     v[k] /= most * step;
-    q[k] += v[k] * step;
+    q[k] += 0.5 * v[k] * step;
+    if (growth->turns_at_rest) v[k] = 0.0;
   }
 }
 
@@ -225,7 +225,7 @@ static int32_t go(struct hk_growth *growth, hooke_integrator *integrator, int th
   course.first = course.last = log_amplitude(growth);
   *verdict = HOOKE_HOLDS;
   if (!isfinite(course.first)) return HOOKE_OK; /* nothing can move */
-  int64_t taken = 0, longest = 1, seen = 0;
+  int64_t taken = 0, longest = 1;
   while (taken < most_steps) {
     const int64_t samples = thorough ? SAMPLES : FIRST_WINDOW;
     const int64_t twice_the_mean = course.length > samples ? 2 * course.length / samples : 0;
@@ -243,12 +243,23 @@ static int32_t go(struct hk_growth *growth, hooke_integrator *integrator, int th
     }
     longest = fabs(now - before) > 2.0 ? (longest + 1) / 2 : longest < 900 ? longest + 1 : longest;
     fill(&course, count, now);
-    if (seen++ < SAMPLES_OF_JUMPS) course.first = fmax(course.first, now);
     scale(growth, &course);
     if (judge(growth, &course, taken, thorough, verdict)) return HOOKE_OK;
   }
   *verdict = last_word(&course);
   return HOOKE_OK;
+}
+
+static void take_direction(struct hk_growth *growth) {
+  const double *q = hooke_state_position(growth->state), *v = hooke_state_velocity(growth->state),
+               *place = growth->twin->place;
+  double sum = 0.0;
+  for (int64_t k = 0; k < hooke_state_size(growth->state); k++)
+    sum += growth->turns_at_rest ? fabs(q[k] - place[k]) : fabs(v[k]);
+  if (!isfinite(sum) || !(sum > 0.0)) return;
+  for (int64_t k = 0; k < hooke_state_size(growth->state); k++)
+    growth->direction[k] = growth->turns_at_rest ? q[k] - place[k] : v[k];
+  growth->has_direction = 1;
 }
 
 int32_t hk_growth_see(struct hk_growth *growth, double step, int32_t thorough, int64_t most_steps,
@@ -261,14 +272,8 @@ int32_t hk_growth_see(struct hk_growth *growth, double step, int32_t thorough, i
   start(growth, step, thorough);
   status = go(growth, integrator, thorough, most_steps, verdict);
   hooke_integrator_destroy(integrator);
-  if (status == HOOKE_OK && *verdict == HOOKE_GROWS && (thorough || !growth->has_direction)) {
-    const double *v = hooke_state_velocity(growth->state);
-    const double sum = kinetic(growth->twin->system, v);
-    if (isfinite(sum) && sum > 0.0) {
-      memcpy(growth->direction, v, (size_t)hooke_state_size(growth->state) * sizeof(double));
-      growth->has_direction = 1;
-    }
-  }
+  if (status == HOOKE_OK && *verdict == HOOKE_GROWS && (thorough || !growth->has_direction))
+    take_direction(growth);
   return status;
 }
 

@@ -193,6 +193,7 @@ int32_t hk_limit_measure(const hooke_system *system, const double *q, const hook
     const struct hk_stability *stability = hk_method_stability_in(method, system);
     const int slow = hk_method_needs_damping(method) && system->friction == 0.0;
     growth.is_named = predicted > 0.0 && isfinite(predicted);
+    growth.turns_at_rest = stability->kind == HOOKE_STABLE_BY_K;
     growth.is_convex = !twin.damped && stability->kind == HOOKE_STABLE_BY_POLYNOMIAL;
     struct trial trial = {
         .growth = &growth, .stability = stability, .slow = slow, .degree = slow ? stability->degree : 1};
