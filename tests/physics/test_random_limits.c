@@ -335,15 +335,15 @@ static double square(int n, double *a) {
   return log(most);
 }
 
-/* 1 if 2^28 steps grow by more than powers of the number of steps and the largest jumps do, which is by 2e-7 a
- * step. Rounding makes free motion grow by the root of 1e-16. */
-static int grows(const struct scene *s, const char *method, double h) {
-  enum { SQUARES = 28 };
+/* 1 if 2^squares steps grow by more than powers of the number of steps and the largest jumps do. SURE: by 2e-7 a
+ * step; rounding makes free motion grow by the root of 1e-16. FINE: by 2e-10. */
+enum { SURE = 28, FINE = 38 };
+static int grows(const struct scene *s, const char *method, double h, int squares) {
   static const double CLEAR = 60.0;
   static double matrix[MOST * MOST];
   const int size = find_matrix(s, method, h, matrix);
   double size_of_all = 0.0;
-  for (int k = 0; k < SQUARES && fabs(size_of_all) < CLEAR; k++)
+  for (int k = 0; k < squares && fabs(size_of_all) < CLEAR; k++)
     size_of_all = 2.0 * size_of_all + square(size, matrix);
   return size_of_all > CLEAR;
 }
@@ -359,13 +359,17 @@ static hooke_measurement *limits_of(const struct scene *s, const char *methods, 
   return limit_at_start(s->system, NULL, options);
 }
 
-/* Methods that need damping are unstable by less than that at far smaller steps than the others take. */
+static int needs_damping(const char *method) {
+  return strcmp(method, "heun") == 0 || strcmp(method, "forward-euler") == 0;
+}
+
+/* Methods that need damping are unstable so slowly at far smaller steps than the others take that rounding hides
+ * it. */
 static int is_seen(const struct scene *s, const char *method, double limit) {
   double verlet = 0.0;
-  const int heun = strcmp(method, "heun") == 0;
-  if (s->overdamped || (!heun && strcmp(method, "forward-euler") != 0)) return 1;
+  if (s->overdamped || !needs_damping(method)) return 1;
   check_ok(hooke_step_bound(s->system, "verlet", s->q, &verlet));
-  return limit > (heun ? 0.3 : 0.05) * verlet;
+  return limit > 0.05 * verlet;
 }
 
 static void check_limit(const struct scene *s, uint64_t seed, const char *method, const char *what,
@@ -378,9 +382,9 @@ static void check_limit(const struct scene *s, uint64_t seed, const char *method
                        : limit == 0.0                      ? 0.01
                                                            : NAN;
   if (isnan(limit)) check_failed("scene %d, %s: %s is not known", (int)seed, method, what);
-  if (!isnan(below) && grows(s, method, below))
+  if (!isnan(below) && grows(s, method, below, SURE))
     check_failed("scene %d, %s: %s %.8g s, and %.8g s grows", (int)seed, method, what, limit, below);
-  if (!isnan(above) && !grows(s, method, above))
+  if (!isnan(above) && !grows(s, method, above, needs_damping(method) ? FINE : SURE))
     check_failed("scene %d, %s: %s %.8g s, and %.8g s is stable", (int)seed, method, what, limit, above);
 }
 
@@ -397,12 +401,15 @@ static void check_scene(uint64_t seed) {
                  bound = hooke_measurement_number(predicted, "rows", row, "bound");
     check_limit(&s, seed, methods[m], "predicted", limit);
     check_between(bound, 0.0, limit);
-    if (bound > 0.0 && isfinite(bound) && grows(&s, methods[m], (1.0 - 1e-6) * bound))
+    if (bound > 0.0 && isfinite(bound) && grows(&s, methods[m], (1.0 - 1e-6) * bound, SURE))
       check_failed("scene %d, %s: grows below the bound %.8g s", (int)seed, methods[m], bound);
     /* what grows at every step is slow to measure */
-    if (!(limit > 0.0) || (m % 4 == 0 && !getenv("HOOKE_LONG"))) continue;
+    if (!(limit > 0.0) || (needs_damping(methods[m]) && !getenv("HOOKE_LONG"))) continue;
     hooke_measurement *measured = limits_of(&s, methods[m], 0);
-    check_limit(&s, seed, methods[m], "measured", hooke_measurement_number(measured, "rows", 0, "measured"));
+    const double found = hooke_measurement_number(measured, "rows", 0, "measured");
+    /* or growth is too slow to be seen, which a note says */
+    if (!isnan(found) || !needs_damping(methods[m]) || !hooke_measurement_text(measured, "rows", 0, "note"))
+      check_limit(&s, seed, methods[m], "measured", found);
     hooke_measurement_destroy(measured);
   }
   hooke_measurement_destroy(predicted);
@@ -426,9 +433,9 @@ static void damping_left_out_is_noticed(void **unused) {
     draw(seed, &s);
     double limit;
     check_ok(hooke_step_bound(s.system, "symplectic-euler", s.q, &limit));
-    const int before = grows(&s, "symplectic-euler", limit);
+    const int before = grows(&s, "symplectic-euler", limit, SURE);
     memset(s.c, 0, sizeof s.c);
-    noticed += !before && !grows(&s, "symplectic-euler", 1.5 * limit);
+    noticed += !before && !grows(&s, "symplectic-euler", 1.5 * limit, SURE);
     hooke_system_destroy(s.system);
   }
   check_between(noticed, 6, 24);

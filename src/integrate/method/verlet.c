@@ -19,7 +19,7 @@
 
 /* The residual, over that of the predicted velocity: what the solve leaves is a part of what the step does, or,
  * where damping is so strong that the prediction is beside the point, of the velocity before it. */
-static const double PART = 1e-3, LEAST_RESIDUAL = 1e-13;
+static const double PART = 1e-3, EXACT = 1e-9, LEAST_RESIDUAL = 1e-13;
 
 struct verlet {
   int32_t implicit, predicts;
@@ -136,7 +136,8 @@ static double set_right(const hooke_integrator *it) {
 static int32_t solve(hooke_integrator *it) {
   struct verlet *own = it->own;
   const struct hk_motion *m = it->motion;
-  const double part = PART * set_right(it), tolerance = part > LEAST_RESIDUAL ? part : LEAST_RESIDUAL;
+  const double part = set_right(it) * (it->exactly ? EXACT : PART);
+  const double tolerance = part > LEAST_RESIDUAL ? part : LEAST_RESIDUAL;
   hk_reduced_set(&own->reduced, hk_integrator_next_time(it), 0.0, it->schedule.step / 2.0);
   struct hk_solution solution;
   int32_t status = hk_reduced_solve(&own->reduced, own->right, tolerance, own->change, &solution);

@@ -268,6 +268,7 @@ int32_t hk_growth_see(struct hk_growth *growth, double step, int32_t thorough, i
   int32_t status = hooke_options_set_number(growth->run, "step", step);
   if (status == HOOKE_OK) status = hooke_integrator_create(growth->twin->system, growth->run, &integrator);
   if (status != HOOKE_OK) return status;
+  integrator->exactly = 1;
   hooke_integrator_on_progress(integrator, 0.0, watch, growth);
   start(growth, step, thorough);
   status = go(growth, integrator, thorough, most_steps, verdict);
