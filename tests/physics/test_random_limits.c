@@ -369,7 +369,7 @@ static int is_seen(const struct scene *s, const char *method, double limit) {
   double verlet = 0.0;
   if (s->overdamped || !needs_damping(method)) return 1;
   check_ok(hooke_step_bound(s->system, "verlet", s->q, &verlet));
-  return limit > 0.05 * verlet;
+  return limit > (strcmp(method, "heun") == 0 ? 0.3 : 0.05) * verlet;
 }
 
 static void check_limit(const struct scene *s, uint64_t seed, const char *method, const char *what,

@@ -22,8 +22,8 @@ static const double LEAST_CHANGE = 0.3, LEAST_IN_THE_END = 0.01;
 static const double ALIKE = 0.05, ABOVE_SCATTER = 30.0;
 /* Log of the amplitude where less is left than any mode had at first, and rounding is not yet seen. The same
  * for speed, where displacements have little left: particles that have turned about others, which costs no
- * energy, are not quite where linear motion would have them. */
-static const double NOTHING_LEFT = -12.0, LITTLE_LEFT = -8.0;
+ * energy, are not quite where linear motion would have them, and what is left may rise slowly. */
+static const double NOTHING_LEFT = -12.0, LITTLE_LEFT = -5.0;
 
 struct course {
   double mean[WINDOWS]; /* of full windows */
@@ -189,6 +189,7 @@ static int judge(const struct hk_growth *growth, const struct course *course, in
   const int direct = trend.straight && growth->is_named && growth->has_direction && !thorough;
   const double least = direct ? LEAST_IN_THE_END : LEAST_CHANGE;
   if (!trend.steady || fabs(trend.change[0] + trend.change[1]) < least) return 0;
+  if (trend.change[0] > 0.0 && rise < LITTLE_LEFT) return 0;
   *verdict = trend.change[0] > 0.0 ? HOOKE_GROWS : HOOKE_HOLDS;
   return *verdict == HOOKE_GROWS || (!thorough && growth->has_direction);
 }
@@ -196,6 +197,7 @@ static int judge(const struct hk_growth *growth, const struct course *course, in
 /* Verdict on a run that has taken all its steps. */
 static enum hk_verdict last_word(const struct course *course) {
   const struct trend trend = find_trend(course);
+  if (trend.change[0] > 0.0 && course->last - course->first < LITTLE_LEFT) return HOOKE_STEADY;
   if (trend.steady && fabs(trend.change[0] + trend.change[1]) > LEAST_IN_THE_END)
     return trend.change[0] > 0.0 ? HOOKE_GROWS : HOOKE_HOLDS;
   if (trend.change[0] > 0.0 && trend.change[1] > 1.0) return HOOKE_GROWS;
