@@ -363,13 +363,17 @@ static int needs_damping(const char *method) {
   return strcmp(method, "heun") == 0 || strcmp(method, "forward-euler") == 0;
 }
 
+static double verlet_bound(const struct scene *s) {
+  double bound = 0.0;
+  check_ok(hooke_step_bound(s->system, "verlet", s->q, &bound));
+  return bound;
+}
+
 /* Methods that need damping are unstable so slowly at far smaller steps than the others take that rounding hides
  * it. */
 static int is_seen(const struct scene *s, const char *method, double limit) {
-  double verlet = 0.0;
   if (s->overdamped || !needs_damping(method)) return 1;
-  check_ok(hooke_step_bound(s->system, "verlet", s->q, &verlet));
-  return limit > (strcmp(method, "heun") == 0 ? 0.3 : 0.05) * verlet;
+  return limit > (strcmp(method, "heun") == 0 ? 0.3 : 0.05) * verlet_bound(s);
 }
 
 static void check_limit(const struct scene *s, uint64_t seed, const char *method, const char *what,
@@ -379,7 +383,7 @@ static void check_limit(const struct scene *s, uint64_t seed, const char *method
                        : isinf(limit) ? 1e3
                                       : NAN,
                above = finite && is_seen(s, method, limit) ? (1.0 + WITHIN) * limit
-                       : limit == 0.0                      ? 0.01
+                       : limit == 0.0                      ? verlet_bound(s)
                                                            : NAN;
   if (isnan(limit)) check_failed("scene %d, %s: %s is not known", (int)seed, method, what);
   if (!isnan(below) && grows(s, method, below, SURE))
