@@ -89,6 +89,7 @@ struct hooke_integrator {
   int32_t may_factor;       /* 1: it factorises its equations where that pays */
   int32_t by_tiles;         /* HOOKE_MOTION_*: the motion is moved by the two functions of moves alone */
   int32_t goes_on;          /* 1: the next step follows at once, and nobody sees the state before */
+  int32_t exactly;          /* 1: verlet solves nearly to rounding, for a limit that is that of its formula */
   int32_t explicit_damping; /* 1: of verlet, which does not solve for the damping that there is */
 
   double t0, t;   /* start and current time of the run */

@@ -74,6 +74,17 @@ def cloths(side: int, seconds: float) -> Step:
     return Step(f"implicit cloths of {side} x {side}", f"{BUILD}/tests/physics_implicit_cloths {side} 2>&1", seconds, figures)
 
 
+def limits(seconds: float) -> Step:
+    """Scenes by seed, of which `make test` has the first few."""
+
+    def figures(text: str) -> dict[str, Any]:
+        if "[  PASSED  ] 2 test(s)." not in text:
+            raise ValueError("a limit is not that of the matrices")
+        return {"tests": 1}
+
+    return Step("limits of 2000 random scenes", f"HOOKE_LONG=1 {BUILD}/tests/physics_random_limits 2>&1", seconds, figures)
+
+
 def faults_met(text: str) -> dict[str, Any]:
     found = re.findall(r" (\d+) points, +(\d+) faults: ", text)
     if not found:
@@ -115,6 +126,7 @@ PART = Part(
         ctest("crashes and kills", "crash|kill|frame_check", 200, crashes_met),
         ctest("every failing allocation and write", "^fault/", 2100, faults_met),
         ctest("long runs and resumes", "extremes/long_runs|resume|checkpoint", 500),
+        limits(1500),
         cloths(81, 600),
         cloths(128, 1800),
     ],

@@ -114,6 +114,81 @@ static void limits_are_those_of_the_oscillator(void **unused) {
   hooke_system_destroy(system);
 }
 
+/* A particle at the place of its anchor, which has no direction there: it is damped in all. */
+static hooke_system *damped_at_its_place(double damping) {
+  const double place[3] = {1, 2, 3}, velocity[3] = {0, 1, 0}, mass = 1.0;
+  const int64_t tied = 0;
+  hooke_system *system;
+  hooke_options *options;
+  check_ok(hooke_system_create(&system));
+  check_ok(hooke_system_add_particles(system, 1, place, velocity, 1, &mass, NULL));
+  check_ok(hooke_options_create("anchors", &options));
+  check_ok(hooke_options_set_number(options, "stiffness", 1.0));
+  check_ok(hooke_options_set_number(options, "damping", damping));
+  check_ok(hooke_system_add_anchors(system, "wall", 1, &tied, options));
+  hooke_options_destroy(options);
+  check_ok(hooke_system_commit(system));
+  return system;
+}
+
+static void damping_at_its_place_limits_the_step(void **unused) {
+  (void)unused;
+  const double c = 1000.0, euler = 4.0 / (c + sqrt(c * c + 4.0)),
+               fast = 2.0 / (c / 2.0 + sqrt(c * c / 4.0 - 1.0));
+  const struct {
+    const char *method;
+    double limit;
+  } rows[] = {{"symplectic-euler", euler},
+              {"forward-euler", fast},
+              {"heun", fast},
+              {"verlet", 2.0},
+              {"shardlow", 2.0}};
+  hooke_system *system = damped_at_its_place(c);
+  hooke_state *state = start_state(system);
+  hooke_measurement *limit;
+  check_ok(hooke_measurement_create("limit", system, NULL, NULL, &limit));
+  check_ok(hooke_measurement_run(limit, state));
+  for (size_t k = 0; k < sizeof rows / sizeof rows[0]; k++) {
+    const double right = rows[k].limit;
+    double bound;
+    check_ok(hooke_step_bound(system, rows[k].method, hooke_state_position(state), &bound));
+    check_between(bound, 0.99 * right, right * (1.0 + 1e-9));
+    const int64_t row = hooke_measurement_find(limit, "rows", "method", rows[k].method);
+    check_close(hooke_measurement_number(limit, "rows", row, "predicted"), right, 1e-9 * right);
+    check_close(hooke_measurement_number(limit, "rows", row, "measured"), right, 1e-3 * right);
+  }
+  assert_string_equal(hooke_measurement_text(limit, "blame", 0, "force"), "damping");
+  hooke_measurement_destroy(limit);
+  hooke_state_destroy(state);
+  hooke_system_destroy(system);
+}
+
+/* A run just below that limit ends, and one above it diverges and is blamed on the anchor. */
+static void damping_at_its_place_is_blamed_on_the_anchor(void **unused) {
+  (void)unused;
+  hooke_system *system = damped_at_its_place(1000.0);
+  const double limit = 4.0 / (1000.0 + sqrt(1e6 + 4.0));
+  for (int above = 0; above <= 1; above++) {
+    const double step = (above ? 1.01 : 0.99) * limit;
+    hooke_integrator *run = start_run(
+        system, (struct run){
+                    .method = "symplectic-euler", .step = step, .duration = 2000 * step, .every = 20 * step});
+    hooke_state *state = start_state(system);
+    check_status(hooke_integrator_run(run, state), above ? HOOKE_DIVERGED : HOOKE_OK);
+    hooke_measurement *why = NULL;
+    if (above) {
+      check_ok(explain_run(run, &why));
+      const char *sentence = hooke_measurement_text(why, "why", 0, "sentence");
+      if (!strstr(sentence, "most of all in the damping of the anchor of particle 0 (group wall)"))
+        check_failed("it says: %s", sentence);
+    }
+    hooke_measurement_destroy(why);
+    hooke_state_destroy(state);
+    hooke_integrator_destroy(run);
+  }
+  hooke_system_destroy(system);
+}
+
 /* The stiffest element of the scene is named, whatever its force. */
 static void a_run_that_diverges_by_one_blames_it(void **unused) {
   (void)unused;
@@ -177,6 +252,8 @@ int main(void) {
 #if HOOKE_HAVE_LAPACK
     cmocka_unit_test(limits_are_those_of_the_oscillator),
     cmocka_unit_test(a_run_that_diverges_by_one_blames_it),
+    cmocka_unit_test(damping_at_its_place_limits_the_step),
+    cmocka_unit_test(damping_at_its_place_is_blamed_on_the_anchor),
 #endif
     cmocka_unit_test(what_is_wrong_is_said),
   };

@@ -43,7 +43,7 @@ static void check_digits(double value, double expected, double relative) {
 /* ---- scenes ---- */
 
 /* N x n particles of 0.01 kg, 0.1 m apart, springs of 50 N, hung by two corners. */
-static hooke_system *build_cloth(int n, double damping) {
+static hooke_system *build_cloth(int n, double damping, double drag) {
   hooke_system *system;
   hooke_options *options;
   const double side = 0.1 * (n - 1), edges[6] = {side, 0.0, 0.0, 0.0, 0.0, side}, size[2] = {n, n};
@@ -62,6 +62,7 @@ static hooke_system *build_cloth(int n, double damping) {
     check_ok(hooke_options_set_number(options, family[k][1], damping));
   }
   check_ok(hooke_system_add_part(system, "cloth", NULL, options, NULL, NULL));
+  check_ok(hooke_system_set_drag(system, drag));
   check_ok(hooke_system_commit(system));
   hooke_options_destroy(options);
   return system;
@@ -143,7 +144,7 @@ static void critical_steps_to_ten_digits(void **unused) {
   hooke_measurement_destroy(limit);
   hooke_system_destroy(system);
 
-  system = build_cloth(10, 0.02);
+  system = build_cloth(10, 0.02, 0.0);
   limit = limit_of(system, 0.0);
   check_digits(hooke_measurement_number(limit, "limit", 0, "frequency_max"), cloth10.frequency, 1e-11);
   check_digits(predicted(limit, "verlet"), cloth10.verlet, 1e-11);
@@ -225,7 +226,7 @@ static void iterations_agree_with_dense_matrices(void **unused) {
   (void)unused;
   const int sizes[] = {11, 22}; /* 357 and 1446 unknowns */
   for (int k = 0; k < 2; k++) {
-    hooke_system *system = build_cloth(sizes[k], 0.0);
+    hooke_system *system = build_cloth(sizes[k], 0.0, 0.0);
     hooke_measurement *limit = limit_of(system, 1e-6);
     const double omega = hooke_measurement_number(limit, "limit", 0, "frequency_max");
     double most = 0.0;
@@ -242,7 +243,7 @@ static void iterations_agree_with_dense_matrices(void **unused) {
 /* To the given accuracy, and not much better, with less work. */
 static void large_scenes_keep_the_accuracy(void **unused) {
   (void)unused;
-  hooke_system *system = build_cloth(70, 0.02);
+  hooke_system *system = build_cloth(70, 0.02, 0.0);
   hooke_measurement *rough = limit_of(system, 1e-3), *fine = limit_of(system, 1e-7);
   const char *methods[] = {"symplectic-euler", "verlet", "rk4", "forward-euler"};
   for (int m = 0; m < 4; m++) {
@@ -408,6 +409,27 @@ static void drag_alone(void **unused) {
   hooke_system_destroy(falling);
 }
 
+/* Of a cloth with so many particles that not all modes are computed: what drag limits, it is named for. */
+static void drag_is_named_whatever_its_amount(void **unused) {
+  (void)unused;
+  hooke_options *run = run_options((struct run){.method = "heun"});
+  for (double drag = 20.0; drag < 1e6; drag *= 100.0) {
+    hooke_system *cloth = build_cloth(14, 0.0, drag);
+    hooke_options *options;
+    check_ok(hooke_options_create("limit", &options));
+    check_ok(hooke_options_set_number(options, "predict", 1.0));
+    hooke_measurement *limit = limit_at_start(cloth, run, options);
+    check_digits(predicted(limit, "heun"), 2.0 * 0.01 / drag, 1e-3);
+    const char *force = hooke_measurement_text(limit, "blame", 0, "force");
+    if (force == NULL || strcmp(force, "drag") != 0) check_failed("drag of %g: blamed on %s", drag, force);
+    check_between(hooke_measurement_number(limit, "blame", 0, "share"), 0.99, 1.0);
+    assert_non_null(strstr(hooke_measurement_text(limit, "remedy", 0, "sentence"), "drag limits the step"));
+    hooke_measurement_destroy(limit);
+    hooke_system_destroy(cloth);
+  }
+  hooke_options_destroy(run);
+}
+
 /* A compressed spring pushes its ends apart sideways: that is no limit of a step, and it is counted. */
 static void compression_is_left_out(void **unused) {
   (void)unused;
@@ -532,6 +554,7 @@ int main(void) {
       cmocka_unit_test(the_smallest_limit_of_a_run),
       cmocka_unit_test(nothing_limits),
       cmocka_unit_test(drag_alone),
+      cmocka_unit_test(drag_is_named_whatever_its_amount),
       cmocka_unit_test(compression_is_left_out),
       cmocka_unit_test(the_odd_spring_is_named),
       cmocka_unit_test(the_same_every_time),

@@ -17,9 +17,9 @@
 #include <math.h>
 #include <stddef.h>
 
-/* The residual, over that of the predicted velocity: what the solve leaves is a part of what the step does.
- * */
-static const double PART = 1e-3, LEAST_RESIDUAL = 1e-13;
+/* The residual, over that of the predicted velocity: what the solve leaves is a part of what the step does, or,
+ * where damping is so strong that the prediction is beside the point, of the velocity before it. */
+static const double PART = 1e-3, EXACT = 1e-9, LEAST_RESIDUAL = 1e-13;
 
 struct verlet {
   int32_t implicit, predicts;
@@ -111,8 +111,8 @@ static int32_t step_undamped(hooke_integrator *it) {
 
 /* ---- the second kick, solved for ---- */
 
-/* The right side; returns how large it is beside the whole step's kick, both as squares of velocities times
- * masses. */
+/* The right side; returns how large it is beside the whole step's kick, or the inverse if that is below 1, both as
+ * squares of velocities times masses. */
 static double set_right(const hooke_integrator *it) {
   const struct verlet *own = it->own;
   const hooke_system *system = it->system;
@@ -129,13 +129,15 @@ static double set_right(const hooke_integrator *it) {
       kicked += system->constrained[p] ? 0.0 : (mass * by) * by;
     }
   }
-  return left < 4.0 * kicked ? sqrt(left / (4.0 * kicked)) : 1.0;
+  const double beside = sqrt(left / (4.0 * kicked));
+  return beside > 1.0 ? 1.0 / beside : beside;
 }
 
 static int32_t solve(hooke_integrator *it) {
   struct verlet *own = it->own;
   const struct hk_motion *m = it->motion;
-  const double part = PART * set_right(it), tolerance = part > LEAST_RESIDUAL ? part : LEAST_RESIDUAL;
+  const double part = set_right(it) * (it->exactly ? EXACT : PART);
+  const double tolerance = part > LEAST_RESIDUAL ? part : LEAST_RESIDUAL;
   hk_reduced_set(&own->reduced, hk_integrator_next_time(it), 0.0, it->schedule.step / 2.0);
   struct hk_solution solution;
   int32_t status = hk_reduced_solve(&own->reduced, own->right, tolerance, own->change, &solution);

@@ -21,9 +21,9 @@ static const double LEAST_CHANGE = 0.3, LEAST_IN_THE_END = 0.01;
 /* A straight line: alike from block to block to this share, and so many times above the scatter. */
 static const double ALIKE = 0.05, ABOVE_SCATTER = 30.0;
 /* Log of the amplitude where less is left than any mode had at first, and rounding is not yet seen. The same
- * for speed: particles that have turned about others, which costs no energy, are not quite where linear
- * motion would have them. */
-static const double NOTHING_LEFT = -12.0;
+ * for speed, where displacements have little left: particles that have turned about others, which costs no
+ * energy, are not quite where linear motion would have them, and what is left may rise slowly. */
+static const double NOTHING_LEFT = -12.0, LITTLE_LEFT = -5.0;
 
 struct course {
   double mean[WINDOWS]; /* of full windows */
@@ -103,7 +103,9 @@ static void start_randomly(struct hk_growth *growth, double *x, double *v) {
   hk_twin_push(growth->twin, x, v);
 }
 
-/* Displacements of one step are at most 1 m. Overdamped motion starts displaced, and finds its velocities. */
+/* Displaced by half of what the velocities move in a step, which is at most 1 m, as is motion that turns round in
+ * every step of symplectic Euler. In one of Verlet it has no velocity then; one would be a jump where damping is
+ * strong. */
 static void start(struct hk_growth *growth, double step, int random_only) {
   const hooke_system *system = growth->twin->system;
   double *q = hooke_state_position(growth->state), *v = hooke_state_velocity(growth->state), most = 0.0;
@@ -121,7 +123,8 @@ static void start(struct hk_growth *growth, double step, int random_only) {
     most = fmax(most, fabs(v[k]));
   for (int64_t k = 0; k < size && most > 0.0; k++) {
     v[k] /= most * step;
-    if (system->friction > 0.0) q[k] += v[k] * step;
+    q[k] += 0.5 * v[k] * step;
+    if (growth->turns_at_rest) v[k] = 0.0;
   }
 }
 
@@ -172,7 +175,8 @@ static int judge(const struct hk_growth *growth, const struct course *course, in
     *verdict = HOOKE_GROWS;
     return 1;
   }
-  if (rise < NOTHING_LEFT || (inertial && 0.5 * log(speed) + course->offset - course->first < NOTHING_LEFT)) {
+  if (rise < NOTHING_LEFT ||
+      (inertial && rise < LITTLE_LEFT && 0.5 * log(speed) + course->offset - course->first < NOTHING_LEFT)) {
     *verdict = HOOKE_HOLDS;
     return 1;
   }
@@ -185,6 +189,7 @@ static int judge(const struct hk_growth *growth, const struct course *course, in
   const int direct = trend.straight && growth->is_named && growth->has_direction && !thorough;
   const double least = direct ? LEAST_IN_THE_END : LEAST_CHANGE;
   if (!trend.steady || fabs(trend.change[0] + trend.change[1]) < least) return 0;
+  if (trend.change[0] > 0.0 && rise < LITTLE_LEFT) return 0;
   *verdict = trend.change[0] > 0.0 ? HOOKE_GROWS : HOOKE_HOLDS;
   return *verdict == HOOKE_GROWS || (!thorough && growth->has_direction);
 }
@@ -192,6 +197,7 @@ static int judge(const struct hk_growth *growth, const struct course *course, in
 /* Verdict on a run that has taken all its steps. */
 static enum hk_verdict last_word(const struct course *course) {
   const struct trend trend = find_trend(course);
+  if (trend.change[0] > 0.0 && course->last - course->first < LITTLE_LEFT) return HOOKE_STEADY;
   if (trend.steady && fabs(trend.change[0] + trend.change[1]) > LEAST_IN_THE_END)
     return trend.change[0] > 0.0 ? HOOKE_GROWS : HOOKE_HOLDS;
   if (trend.change[0] > 0.0 && trend.change[1] > 1.0) return HOOKE_GROWS;
@@ -246,24 +252,31 @@ static int32_t go(struct hk_growth *growth, hooke_integrator *integrator, int th
   return HOOKE_OK;
 }
 
+static void take_direction(struct hk_growth *growth) {
+  const double *q = hooke_state_position(growth->state), *v = hooke_state_velocity(growth->state),
+               *place = growth->twin->place;
+  double sum = 0.0;
+  for (int64_t k = 0; k < hooke_state_size(growth->state); k++)
+    sum += growth->turns_at_rest ? fabs(q[k] - place[k]) : fabs(v[k]);
+  if (!isfinite(sum) || !(sum > 0.0)) return;
+  for (int64_t k = 0; k < hooke_state_size(growth->state); k++)
+    growth->direction[k] = growth->turns_at_rest ? q[k] - place[k] : v[k];
+  growth->has_direction = 1;
+}
+
 int32_t hk_growth_see(struct hk_growth *growth, double step, int32_t thorough, int64_t most_steps,
                       enum hk_verdict *verdict) {
   hooke_integrator *integrator = NULL;
   int32_t status = hooke_options_set_number(growth->run, "step", step);
   if (status == HOOKE_OK) status = hooke_integrator_create(growth->twin->system, growth->run, &integrator);
   if (status != HOOKE_OK) return status;
+  integrator->exactly = 1;
   hooke_integrator_on_progress(integrator, 0.0, watch, growth);
   start(growth, step, thorough);
   status = go(growth, integrator, thorough, most_steps, verdict);
   hooke_integrator_destroy(integrator);
-  if (status == HOOKE_OK && *verdict == HOOKE_GROWS && (thorough || !growth->has_direction)) {
-    const double *v = hooke_state_velocity(growth->state);
-    const double sum = kinetic(growth->twin->system, v);
-    if (isfinite(sum) && sum > 0.0) {
-      memcpy(growth->direction, v, (size_t)hooke_state_size(growth->state) * sizeof(double));
-      growth->has_direction = 1;
-    }
-  }
+  if (status == HOOKE_OK && *verdict == HOOKE_GROWS && (thorough || !growth->has_direction))
+    take_direction(growth);
   return status;
 }
 

@@ -18,10 +18,11 @@ struct hk_growth {
   const struct hk_twin *twin;
   hooke_options *run; /* its own copy, without frames */
   hooke_state *state;
-  double *direction;     /* initial velocities, 3n; all zeros: none known */
+  double *direction;     /* of the initial motion, 3n; all zeros: none known */
   int32_t has_direction; /* 1: one was given or found */
   double accuracy;       /* of the limit that is looked for, relative */
   int32_t is_named;      /* 1: the direction is that of a mode that limits the step */
+  int32_t turns_at_rest; /* 1: motion that turns round in every step has no velocity at its ends */
   int32_t is_convex;     /* 1: the energy is a sum of powers, so that what rises rises for ever */
   int64_t most_steps;    /* of one run */
   double deadline;       /* hk_clock_seconds() at which runs end */

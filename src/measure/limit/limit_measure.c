@@ -17,10 +17,6 @@ static const char TOO_SLOW_WITHIN[] = "growth near the limit is too slow to be s
                                       "limit measured is certain to 5 % only";
 static const char UNSOLVED[] = "the method did not solve its step while the limit was measured";
 static const char DIFFERS[] = "a mode that the prediction did not name limits the step";
-static const char WITHOUT_DIRECTION[] =
-    "springs whose ends coincide have no force, and were left out of the measurement";
-static const char TURNING[] =
-    "springs of length 0 are damped along their motion, which the linearised system leaves out";
 
 /* ---- the linear twin ---- */
 
@@ -197,6 +193,7 @@ int32_t hk_limit_measure(const hooke_system *system, const double *q, const hook
     const struct hk_stability *stability = hk_method_stability_in(method, system);
     const int slow = hk_method_needs_damping(method) && system->friction == 0.0;
     growth.is_named = predicted > 0.0 && isfinite(predicted);
+    growth.turns_at_rest = stability->kind == HOOKE_STABLE_BY_K;
     growth.is_convex = !twin.damped && stability->kind == HOOKE_STABLE_BY_POLYNOMIAL;
     struct trial trial = {
         .growth = &growth, .stability = stability, .slow = slow, .degree = slow ? stability->degree : 1};
@@ -209,10 +206,6 @@ int32_t hk_limit_measure(const hooke_system *system, const double *q, const hook
       out->note = TOO_SLOW_WITHIN;
     else if (trial.note)
       out->note = trial.note;
-    else if (twin.left_out > 0)
-      out->note = WITHOUT_DIRECTION;
-    else if (twin.turning > 0)
-      out->note = TURNING;
     hk_growth_release(&growth);
   }
   hk_twin_release(&twin);

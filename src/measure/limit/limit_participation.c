@@ -61,6 +61,8 @@ static void add_element(const struct hk_elements *at, const struct hk_element *e
   participation->force_share[force] += stiffness;
   participation->force_share[group < 0 ? force : HOOKE_PARTICIPATION_DAMPING] += damping;
   if (group >= 0) participation->group_share[group] += stiffness + damping;
+  if (group >= 0 && stiffness + damping > participation->heaviest.share)
+    participation->heaviest = (struct hk_limiting_element){force, hk_element_number(at), stiffness + damping};
   if (at->force == &hk_force_springs)
     add_spring(e, hk_element_number(at), group, stiffness, damping, participation);
 }
@@ -116,6 +118,7 @@ static void divide(struct hk_participation *participation, const struct whole *w
     participation->spring[k].share /= whole->all;
     participation->spring[k].stiffness_share /= whole->all;
   }
+  if (whole->all > 0.0) participation->heaviest.share /= whole->all;
   for (int64_t k = 0; k < participation->particle_count; k++)
     participation->particle[k].share /= whole->kinetic;
   for (int64_t k = 0; k < participation->group_count && whole->all > 0.0; k++)
@@ -147,6 +150,14 @@ int32_t hk_participation_find(const hooke_system *system, const double *q, const
   hk_free(moves);
   if (status != HOOKE_OK) hk_participation_release(participation);
   return status;
+}
+
+int64_t hk_participation_group(const struct hk_participation *participation) {
+  int64_t best = -1;
+  for (int64_t g = 0; g < participation->group_count; g++) {
+    if (participation->group_share[g] > (best < 0 ? 0.0 : participation->group_share[best])) best = g;
+  }
+  return best;
 }
 
 const char *hk_participation_group_name(const hooke_system *system, int64_t group) {

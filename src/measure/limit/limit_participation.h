@@ -14,6 +14,13 @@ struct hk_limiting_spring {
   double stiffness_share; /* part of `share` due to h^2 K */
 };
 
+/* The element of a group, of any force, with the largest share; 0: none. */
+struct hk_limiting_element {
+  int32_t force; /* its number */
+  int64_t number;
+  double share;
+};
+
 struct hk_limiting_particle {
   int64_t particle;
   double share; /* of the kinetic energy */
@@ -33,6 +40,7 @@ struct hk_participation {
   int64_t spring_count, particle_count;
   struct hk_limiting_spring spring[HOOKE_MOST_LIMITING];
   struct hk_limiting_particle particle[HOOKE_MOST_LIMITING];
+  struct hk_limiting_element heaviest;
   double stiffness_share; /* of h^2 K in the whole */
   double force_share[HOOKE_PARTICIPATION_SHARES];
   int64_t group_count;
@@ -55,6 +63,8 @@ int32_t hk_participation_force(const struct hk_participation *participation);
 const char *hk_participation_force_name(int32_t force);
 int32_t hk_participation_is_drag(int32_t force);
 
+/* The group with the largest share; -1 if there is none. */
+int64_t hk_participation_group(const struct hk_participation *participation);
 /* Name of a group by its index in `group_share`; "" if it has none. */
 const char *hk_participation_group_name(const hooke_system *system, int64_t group);
 

@@ -250,7 +250,7 @@ static int32_t tell_force(const hooke_system *system, const double *q, const cha
   if (drag || !bodies) status = limit_without(system, q, method, participation, drag, &without);
   if (status != HOOKE_OK) return status;
   add(suggestion->sentence, sizeof suggestion->sentence, "%s%s limits the step", suggestion->kind ? "; " : "",
-      drag ? "drag" : "damping along springs");
+      drag ? "drag" : "damping");
   if (without > LEAST_COST * limit && isfinite(without)) {
     add(suggestion->sentence, sizeof suggestion->sentence, ": without it %s would be stable up to %.6g s",
         method, without);

@@ -111,13 +111,9 @@ static void keep_spring(struct making *making, struct hk_twin *twin, const struc
                         const struct hk_element *e) {
   const double before = length_at(spring, making->q), after = length_at(spring, twin->place);
   twin->clamped += e->k_across < -HOOKE_STRETCH_ROUNDING * e->k_along;
-  if (after == 0.0 && spring->rest_length > 0.0) {
-    twin->left_out++;
-    return;
-  }
-  twin->turning += after == 0.0 && spring->gamma > 0.0;
+  if (after == 0.0) return;
   const int64_t k = twin->spring_count++;
-  const int stretched = hk_element_across(e) > 0.0 && before > 0.0;
+  const int stretched = hk_element_across(e) > 0.0;
   making->ends[2 * k] = spring->head;
   making->ends[2 * k + 1] = spring->tail;
   making->kappa[k] = spring->kappa;
@@ -127,7 +123,14 @@ static void keep_spring(struct making *making, struct hk_twin *twin, const struc
   twin->spring[k] = spring_of(&twin->element[k]);
 }
 
-/* Springs are springs in the twin, and drag is drag. */
+/* A spring of no length is linear as it stands. */
+static void keep_point(struct making *making, struct hk_twin *twin, const struct hk_spring *spring,
+                       const struct hk_element *e) {
+  (void)making;
+  if (length_at(spring, twin->place) == 0.0) keep_element(twin, e);
+}
+
+/* Other springs are springs in the twin, and drag is drag. */
 static void keep_others(const struct making *making, struct hk_twin *twin) {
   struct hk_elements at;
   hk_begin_elements(making->system, making->q, NULL, &at);
@@ -303,6 +306,7 @@ static int32_t freeze(struct making *making, struct hk_twin *twin) {
   find_factor(making);
   place_particles(making, twin->place);
   each_spring(making, twin, keep_spring);
+  each_spring(making, twin, keep_point);
   keep_others(making, twin);
   int needed = 0;
   status = build(making, twin, 0, &twin->system);

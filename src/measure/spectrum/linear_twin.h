@@ -7,8 +7,8 @@
  * small displacements of the original scene would be the same in principle; but rest lengths have to be set
  * anew anyway, and numbers about 1 are simpler.) A spring keeps kappa and gamma; its rest length l0/r of its
  * new length keeps tension over length, the stiffness across. A compressed one is clamped: its rest length is
- * its length. One that only pulls counts as taut. One of length 0 is linear if its rest length is 0;
- * otherwise it has no force and is left out. The elements of other forces are linear ones (force_linear.c). A
+ * its length. One that only pulls counts as taut. One of length 0, stiff and damped in all directions, and the
+ * elements of other forces are linear ones (force_linear.c). A
  * constant force balances the tensions. Gravity and callbacks are left out, driven particles are pinned.
  * Rigid bodies that move are rigid bodies, their geometric stiffness (rigid.h) a part of the force that
  * balances. */
@@ -30,14 +30,14 @@ struct hk_twin {
   double *balance;      /* the constant force, 3n */
   double *moved;        /* scratch, 3n */
   struct hk_rigid rigid;
-  /* those with a free particle, clamped: springs, then those of other forces but drag */
+  /* those with a free particle, clamped: springs with a length, then the others, and those of other forces but
+   * drag */
   int64_t spring_count, element_count;
   struct hk_element *element;
   struct hk_twin_spring *spring; /* the first elements once more */
-  int64_t clamped, left_out,
-      turning;      /* springs compressed; without force; of length 0 and damped, not linear */
-  int32_t damped;   /* damping along springs, or drag */
-  double slow_step; /* a step [s] of the order of the fastest motion; infinity: none */
+  int64_t clamped;               /* springs compressed */
+  int32_t damped;                /* damping along springs, or drag */
+  double slow_step;              /* a step [s] of the order of the fastest motion; infinity: none */
 };
 
 /* `q`: 3n positions of a committed system. HOOKE_BAD_VALUE, HOOKE_NO_MEMORY. */

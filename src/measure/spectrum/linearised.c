@@ -22,8 +22,8 @@ static void see_spring(struct hk_linearised *lin, int64_t k, const struct hk_spr
   lin->kappa[k] = scale * spring->kappa;
   lin->gamma[k] = scale * spring->gamma;
   lin->across[k] = 0.0;
-  if (s.length == 0.0)
-    lin->across[k] = scale * spring->kappa;
+  if (s.length == 0.0) /* stiff and damped in all directions */
+    lin->across[k] = scale * spring->kappa, lin->points_damped |= spring->gamma > 0.0;
   else if (s.tension > slight)
     lin->across[k] = scale * (s.tension / s.length);
   else if (s.tension < -slight)
@@ -255,6 +255,12 @@ void hk_linearised_release(struct hk_linearised *lin) {
 
 /* ---- products ---- */
 
+/* A spring without a direction is damped as it is stiff, in all directions. */
+static double beside(const struct hk_linearised *lin, int64_t s, double a, double b) {
+  const int points = lin->u[0][s] != 0.0 || lin->u[1][s] != 0.0 || lin->u[2][s] != 0.0;
+  return a * lin->across[s] + (points ? 0.0 : b * lin->gamma[s]);
+}
+
 /* A spring is g g^T + b I with g = sqrt(along - across) u: tension over length is below kappa, so nothing is
  * negative. */
 void hk_linearised_combine(struct hk_linearised *lin, double a, double b) {
@@ -265,9 +271,9 @@ void hk_linearised_combine(struct hk_linearised *lin, double a, double b) {
     for (int k = 0; k < 3; k++)
       lin->g[k][s] = size * lin->u[k][s];
   }
-  const int32_t across = lin->across_any && a > 0.0;
+  const int32_t across = (lin->across_any && a > 0.0) || (lin->points_damped && b > 0.0);
   for (int64_t s = 0; s < m && across; s++)
-    lin->g_across[s] = a * lin->across[s];
+    lin->g_across[s] = beside(lin, s, a, b);
   for (int64_t t = 0; t < lin->element_count; t++) {
     const struct hk_element *e = &lin->element[t];
     lin->along[t] = a * e->k_along + b * e->c_along;

@@ -4,8 +4,8 @@
  *
  * each in the pattern (B, -B; -B, B) over the ends of a spring; and the elements of all other forces
  * (element.h). A compressed spring is clamped: its stiffness across, which is negative, counts as 0. A spring
- * that only pulls counts as taut; one of no length as stiff in all directions. Particles of a rigid body move
- * as one (rigid.h).
+ * that only pulls counts as taut; one of no length as stiff and damped in all directions. Particles of a rigid
+ * body move as one (rigid.h).
  *
  * Vectors are displacements of all particles, x, y and z apart (3n), 0 where a particle is constrained.
  * Eigenvalues come in units of `rate`, a bound of the fastest motion, so that neither stiffness nor masses
@@ -25,6 +25,7 @@ struct hk_linearised {
   double rate;               /* [1/s] */
   int64_t clamped, products; /* clamped springs; products with K and C so far */
   int32_t across_any, damped;
+  int32_t points_damped;  /* some spring of no length is damped, in all directions */
   int32_t bends;          /* some force with constant K and C moves something */
   double *mass, *inverse; /* n; the inverse is 0 where a particle is constrained */
   /* springs: by number, or in the order of batches, in one run of our own */

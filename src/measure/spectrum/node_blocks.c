@@ -21,7 +21,7 @@ static void add_element(struct hk_node_blocks *blocks, const struct hk_element *
   double before = -1.0, stiffness[6] = {0}, damping[6] = {0};
   if (!hk_element_moves(constrained, e)) return;
   if (e->k_along > 0.0) blocks->least_ratio = fmin(blocks->least_ratio, e->c_along / e->k_along);
-  blocks->across |= hk_element_across(e) > 0.0;
+  if (hk_element_across(e) > 0.0) blocks->least_ratio = fmin(blocks->least_ratio, e->c_across / e->k_across);
   for (int j = 0; j < e->count; j++) {
     const int64_t p = e->particle[j];
     const double row = hk_element_row(constrained, e, j);
@@ -61,7 +61,6 @@ void hk_node_blocks_fill(struct hk_node_blocks *blocks, const double *q) {
   memset(blocks->stiffness, 0, bytes);
   memset(blocks->damping, 0, bytes);
   blocks->least_ratio = INFINITY;
-  blocks->across = 0;
   if (blocks->patience) hk_patience_spend(blocks->patience, hk_work_of_pass(system));
   struct hk_elements at;
   hk_begin_elements(system, q, NULL, &at);

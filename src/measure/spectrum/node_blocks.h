@@ -12,11 +12,9 @@
 
 struct hk_node_blocks {
   const hooke_system *system;
-  double *stiffness, *damping;  /* 6 a particle: xx, yy, zz, xy, xz, yz */
-  double least_ratio;           /* smallest damping over stiffness along an element, infinity without one */
+  double *stiffness, *damping; /* 6 a particle: xx, yy, zz, xy, xz, yz */
+  double least_ratio; /* smallest damping over stiffness of an element, in any direction; infinity: none */
   struct hk_patience *patience; /* ends filling midway (NULL: none) */
-  /* some element has transverse stiffness, where it has no damping */
-  int32_t across;
 };
 
 /* At positions q (3n). HOOKE_NO_MEMORY. */

@@ -15,6 +15,8 @@ static const double OUT_OF_PROPORTION = 1e-12;
 static const double STILL = 1e-13;
 /* Damping of a mode below this fraction of the largest is rounding. */
 static const double UNDAMPED = 1e-18;
+/* Stiffness over the square of drag, below which drag alone says how motion decays, to a billionth. */
+static const double SOFT = 1e-9;
 
 enum { MODES_OF_STIFFNESS = 8, MODES_OF_DAMPING = 4, MOST_OF_BASIS = 16 };
 
@@ -91,12 +93,31 @@ static int32_t find_proportion(struct hk_spectrum *s) {
     mass = lin->mass[p];
   }
   s->delta = lin->drag > 0.0 ? lin->drag / mass : 0.0;
-  return s->beta == 0.0 || (!lin->across_any && !lin->bends && lin->rigid.stiffest == 0.0);
+  return s->beta == 0.0 ||
+         (!lin->across_any && !lin->points_damped && !lin->bends && lin->rigid.stiffest == 0.0);
 }
 
 static void compare_damping(struct hk_spectrum *s) {
   s->proportional = find_proportion(s);
   if (!s->proportional) s->beta = s->delta = 0.0;
+}
+
+/* The softest mode, in the block. */
+static int32_t find_softest(struct hk_spectrum *s, double *matrix) {
+  struct hk_linearised *lin = s->linearised;
+  double *vector = hk_new(lin->unknowns, sizeof(double));
+  int32_t status = vector ? hk_linearised_assemble(lin, matrix) : HOOKE_NO_MEMORY;
+  if (status == HOOKE_OK) status = hk_dense_softest(lin->unknowns, matrix, vector);
+  if (status == HOOKE_OK) hk_linearised_unpack(lin, vector, s->block);
+  hk_free(vector);
+  return status;
+}
+
+/* Where not all modes are known, the stiffest is, and with drag the softest, also of all that is as soft beside
+ * drag: one of the two limits every method. */
+static const double *end_of(const struct hk_spectrum *s, int64_t j, double k) {
+  const int soft = j == s->linearised->unknowns - 1 || k <= SOFT * s->delta * s->delta;
+  return j == 0 ? s->stiffest_mode : s->delta > 0.0 && soft ? s->block : NULL;
 }
 
 /* All eigenvalues of K; with their modes if there are few. */
@@ -105,15 +126,17 @@ static int32_t solve_proportional(struct hk_spectrum *s) {
   const int64_t n = lin->unknowns, modes = n <= HOOKE_SPECTRUM_DAMPED ? n : 0;
   double *matrix = hk_new(n * n, sizeof(double)), *value = hk_new(n, sizeof(double));
   double *vector = modes ? hk_new(n * n, sizeof(double)) : NULL;
-  int32_t status = matrix && value && (vector || !modes) ? make_room(s, 2 * n, modes) : HOOKE_NO_MEMORY;
+  int32_t status = matrix && value && (vector || !modes) ? make_room(s, 2 * n, modes ? modes : s->delta > 0.0)
+                                                         : HOOKE_NO_MEMORY;
   hk_linearised_combine(lin, 1.0, 0.0);
   if (status == HOOKE_OK) status = hk_linearised_assemble(lin, matrix);
   if (status == HOOKE_OK) status = hk_dense_symmetric(n, matrix, value, vector);
+  if (status == HOOKE_OK && !modes && s->delta > 0.0) status = find_softest(s, matrix);
   for (int64_t j = 0; j < n && status == HOOKE_OK; j++) {
     const double k = value[j] > (double)n * 1e-15 * value[0] ? value[j] : 0.0;
     double *mode = modes ? s->block + j * lin->size : NULL;
     if (modes) hk_linearised_unpack(lin, vector + j * n, mode);
-    add_both(s, s->beta * k + s->delta, k, mode ? mode : j == 0 ? s->stiffest_mode : NULL);
+    add_both(s, s->beta * k + s->delta, k, mode ? mode : end_of(s, j, k));
   }
   s->decisive = 1;
   hk_free(matrix);

@@ -19,25 +19,25 @@ static double least_drag_rate(const struct hk_node_blocks *blocks) {
 }
 
 /* The imaginary axis is not stable: h k <= c of Euler's method and h^3 k^2 <= 4 c of degree 2, for every
- * mode with k its stiffness and c its damping, and h <= 2/c. Along springs c/k is at least the smallest
- * gamma/kappa; across a taut spring, in bending, and where a spring is undamped, only drag damps. */
+ * mode with k its stiffness and c its damping, and h <= 2/c. Of elements c/k is at least the smallest
+ * gamma/kappa, which is 0 across a taut spring, in bending, and where a spring is undamped; there only drag
+ * damps. */
 static double bound_by_damping(const struct hk_node_blocks *blocks, int32_t degree, double frequency,
                                double rate) {
   if (frequency == 0.0) return rate > 0.0 ? 2.0 / rate : INFINITY;
-  const double by_springs = blocks->across ? 0.0 : blocks->least_ratio;
   const double by_drag = least_drag_rate(blocks) / (frequency * frequency);
-  const double ratio = fmax(by_springs, by_drag);
+  const double ratio = fmax(blocks->least_ratio, by_drag);
   return fmin(degree == 1 ? ratio : cbrt(4.0 * ratio / (frequency * frequency)), 2.0 / rate);
 }
 
 static int32_t allowed_by_damping(const struct hk_node_blocks *blocks, int32_t degree, double h,
                                   int64_t *particle) {
   if (!hk_node_blocks_stay_below(blocks, 0.0, h, 2.0, particle)) return 0;
-  const double ratio = blocks->across ? 0.0 : blocks->least_ratio, drag = least_drag_rate(blocks);
+  const double ratio = blocks->least_ratio, drag = least_drag_rate(blocks);
   if (degree > 1)
     return hk_node_blocks_stay_below(blocks, h * h, 0.0, fmax(4.0 * ratio / h, 2.0 * sqrt(drag * h)),
                                      particle);
-  return (!blocks->across && h <= ratio) || hk_node_blocks_stay_below(blocks, h, 0.0, drag, particle);
+  return h <= ratio || hk_node_blocks_stay_below(blocks, h, 0.0, drag, particle);
 }
 
 /* An eigenvalue is at most omega where it oscillates, and at most c where it does not. */

@@ -82,7 +82,11 @@ struct hk_inquiry {
   struct hk_violation violation;
   int64_t flips, flipped; /* number of reversals of a spring through zero length, and the last such spring */
   double flip_time;
-  int32_t force;        /* force that determines the limit, by hk_participation_force(); -1: springs */
+  int32_t force; /* force that determines the limit, by hk_participation_force(); -1: springs */
+  /* what has the largest shares of the motion that grows, if they are known */
+  struct hk_limiting_element heaviest;
+  int64_t group;
+  double group_share;
   char suggestion[640]; /* gain of a change of the scene; "" if unknown */
 };
 

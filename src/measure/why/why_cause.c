@@ -70,6 +70,24 @@ static void judge_bad_value(struct hk_inquiry *inquiry) {
   }
 }
 
+/* A smaller share of the motion that grows is not where it is most of all. */
+static const double LEAST_SHARE = 0.05;
+
+/* The element with the largest share, or its group where that share is small. */
+static void name_heaviest(const struct hk_inquiry *inquiry, char text[2 * HOOKE_NAMING_SIZE]) {
+  const char *damping = inquiry->force == HOOKE_PARTICIPATION_DAMPING ? "the damping of " : "";
+  const struct hk_group *group = &inquiry->system->group[inquiry->group];
+  char element[HOOKE_NAMING_SIZE];
+  if (inquiry->heaviest.share >= LEAST_SHARE)
+    snprintf(text, 2 * HOOKE_NAMING_SIZE, "%s%s", damping,
+             hk_naming_words(inquiry->system, hk_force_table(inquiry->heaviest.force),
+                             inquiry->heaviest.number, element));
+  else
+    hk_print(text, 2 * HOOKE_NAMING_SIZE, "%s%s %.80s (%.0f %% of that motion, first at particle %lld)",
+             damping, group->name ? "group" : "the", group->name ? group->name : group->force->members,
+             100.0 * inquiry->group_share, (long long)inquiry->violation.particle);
+}
+
 /* The elements that determine the limit. */
 static void name_limiting(const struct hk_inquiry *inquiry, char text[2 * HOOKE_NAMING_SIZE]) {
   const struct hk_why *why = inquiry->why;
@@ -85,6 +103,8 @@ static void name_limiting(const struct hk_inquiry *inquiry, char text[2 * HOOKE_
              (long long)particle);
   else if (force && !force->members)
     snprintf(text, 2 * HOOKE_NAMING_SIZE, "the %s of particle %lld", force->title, (long long)particle);
+  else if (inquiry->heaviest.share > 0.0)
+    name_heaviest(inquiry, text);
   else if (force)
     hk_naming_heaviest_words(inquiry->system, particle, inquiry->run->schedule.step, text);
   else

@@ -24,6 +24,9 @@ static void take_participation(struct hk_inquiry *inquiry, const struct hk_parti
   struct hk_why *why = inquiry->why;
   why->limiting_count = 0;
   inquiry->force = hk_participation_force(participation);
+  inquiry->heaviest = participation->heaviest;
+  inquiry->group = hk_participation_group(participation);
+  inquiry->group_share = inquiry->group < 0 ? 0.0 : participation->group_share[inquiry->group];
   if (inquiry->violation.particle < 0 && participation->particle_count > 0)
     inquiry->violation.particle = participation->particle[0].particle;
   if (inquiry->force >= 0) {

@@ -150,7 +150,7 @@ void hk_spring_element(const struct hk_spring *spring, const double *q, const do
   out->k_along = acts ? spring->kappa : 0.0;
   out->k_across = !acts ? 0.0 : isotropic ? spring->kappa : s.tension / s.length;
   out->c_along = acts ? spring->gamma : 0.0;
-  out->c_across = 0.0;
+  out->c_across = isotropic && !v ? spring->gamma : 0.0;
   out->over = 1.0;
   out->pull_only = spring->pull_only;
   out->elastic = s.elastic;

@@ -9,6 +9,9 @@
  * value, of length 1) may be NULL, which is ten times faster. */
 int32_t hk_dense_symmetric(int64_t n, double *matrix, double *value, double *vector);
 
+/* The vector (n, of length 1) of the smallest eigenvalue of such a matrix, which is destroyed; n >= 1. */
+int32_t hk_dense_softest(int64_t n, double *matrix, double *vector);
+
 /* The largest eigenvalue of the tridiagonal matrix with `diagonal` (n) and `beside` (n - 1), and its vector
  * (n, or NULL). */
 int32_t hk_dense_tridiagonal(int64_t n, const double *diagonal, const double *beside, double *value,

@@ -19,6 +19,11 @@ void hk_damped_modes_release(struct hk_damped_modes *modes) {
 /* In Fortran: matrices by columns, everything by address, the lengths of texts at the end. */
 extern void dsyev_(const char *job, const char *triangle, const int *n, double *a, const int *stride,
                    double *value, double *room, const int *room_size, int *info, size_t, size_t);
+extern void dsyevx_(const char *job, const char *range, const char *triangle, const int *n, double *a,
+                    const int *stride, const double *low, const double *high, const int *first,
+                    const int *last, const double *accuracy, int *found, double *value, double *vector,
+                    const int *vector_stride, double *room, const int *room_size, int *whole, int *failed,
+                    int *info, size_t, size_t, size_t);
 extern void dstev_(const char *job, const int *n, double *diagonal, double *beside, double *vector,
                    const int *stride, double *room, int *info, size_t);
 extern void dgeev_(const char *left_job, const char *right_job, const int *n, double *a, const int *stride,
@@ -73,6 +78,23 @@ int32_t hk_dense_symmetric(int64_t n, double *matrix, double *value, double *vec
   }
   if (vector) memcpy(vector, matrix, (size_t)(n * n) * sizeof(double));
   return HOOKE_OK;
+}
+
+int32_t hk_dense_softest(int64_t n, double *matrix, double *vector) {
+  int32_t status = check(n, n * n, matrix);
+  if (status != HOOKE_OK) return status;
+  const int size = (int)n, room_size = 40 * size, first = 1;
+  const double none = 0.0;
+  double *room = hk_new(room_size + n, sizeof(double));
+  int *whole = hk_new(6 * n, sizeof(int)), found = 0, info = 0;
+  if (room && whole)
+    dsyevx_("V", "I", "U", &size, matrix, &size, &none, &none, &first, &first, &none, &found,
+            room + room_size, vector, &size, room, &room_size, whole, whole + 5 * n, &info, 1, 1, 1);
+  else
+    status = HOOKE_NO_MEMORY;
+  hk_free(room);
+  hk_free(whole);
+  return status != HOOKE_OK || (info == 0 && found == 1) ? status : not_found();
 }
 
 int32_t hk_dense_tridiagonal(int64_t n, const double *diagonal, const double *beside, double *value,
@@ -247,6 +269,13 @@ static int32_t not_built(void) {
 
 int32_t hk_dense_symmetric(int64_t n, double *matrix, double *value, double *vector) {
   (void)n, (void)matrix, (void)value, (void)vector;
+  return not_built();
+}
+
+int32_t hk_dense_softest(int64_t n, double *matrix, double *vector) {
+  (void)n;
+  (void)matrix;
+  (void)vector;
   return not_built();
 }
 
