@@ -110,8 +110,9 @@ HOOKE_API int32_t hooke_measurement_write(const hooke_measurement *measurement, 
  * damping, too, positive where it pulls), energy, kinetic or potential [J], or period:Q [s], the mean time
  * between passages of one of these upwards through its mean. Indices begin at 0. */
 
-/* Finds the cheapest run for another wanted error [m] by running more of them, and updates the tables
- * "recommendation" and "margin". HOOKE_OK also when nothing meets it; "note" then says why. */
+/* Recommends the run that hooke_estimate_pick() picks for another wanted error [m] among the methods of the
+ * study, and updates the tables "recommendation" and "margin". HOOKE_OK also when nothing meets it; "note" then
+ * says why. */
 HOOKE_API int32_t hooke_study_recommend(hooke_measurement *study, double want);
 
 /* ---- a limit: the largest stable step of each method, and what determines it ----
@@ -142,7 +143,7 @@ HOOKE_API double hooke_limit_of_mode(const char *method, double frequency, doubl
  * distance [m] of any watched particle, over all frames, from its position in the full system. Each run takes
  * the largest step (or tolerance) with an error of at most a tenth of the wanted one, judged by a run with
  * half the step (a tenth of the tolerance). An ingredient whose change is below the wanted error is not
- * needed. Ingredients are each group of springs and each family of a part; bending; altitude springs;
+ * needed, unless it is above it from a start displaced by a hundredth of that. Ingredients are each group of springs and each family of a part; bending; altitude springs;
  * damping; drag; gravity; a force callback; springs whose force stays small; particles that touch nothing;
  * parts without watched particles; resistance to compression; the deformation of each part, which becomes one
  * rigid body; half the resolution of each part, compared at equal material coordinates by linear

@@ -5,6 +5,7 @@
 #include "core/status.h"
 #include "integrate/method.h"
 #include "measure/limit/limit_predict.h"
+#include "measure/spectrum/step_bound.h"
 
 #include <math.h>
 
@@ -173,7 +174,7 @@ static double step_limit(struct hk_needs *needs, const hooke_system *system) {
   return limit;
 }
 
-static void begin_search(struct search *search, double limit) {
+static int32_t begin_search(struct search *search, double limit) {
   search->frames = search->stalls = 0;
   search->has_limit = search->adaptive || !isnan(limit);
   const struct hk_needs *needs = search->recorder.needs;
@@ -182,12 +183,17 @@ static void begin_search(struct search *search, double limit) {
   search->recorder.share = 0.25;
   if (search->adaptive) {
     search->value = -log10(COARSEST_RTOL);
-    return;
+    return HOOKE_OK;
   }
   double start = BELOW_LIMIT * limit;
+  /* a smaller step that solves nothing is cheaper */
+  const char *method = hooke_options_text(needs->run, "method");
+  int32_t status = HOOKE_OK;
+  if (limit > 0.0) status = hk_step_cheapest(search->recorder.trial->system, method, &start);
   if (limit == 0.0) start = unit / 64.0; /* no step is stable: a run is short enough or not */
   search->value = start < unit ? ceil(unit / start) : 1.0;
   search->first_stable = search->value;
+  return status;
 }
 
 /* Time of a whole run: the minimum of several if it is too short for one clock reading. `finished` is 0 if it
@@ -226,15 +232,15 @@ static int32_t judge_full(struct search *search, double limit, struct hk_needs_p
   needs->judged = agreed(search, bound / MARGIN);
   needs->own_error = FINE_FACTOR * hk_needs_distance(needs, &search->path[0], &search->path[1]);
   hand_over(&search->path[1], fine);
-  const int32_t status = hk_needs_path_create(needs, &search->path[1]);
-  begin_search(search, limit);
+  int32_t status = hk_needs_path_create(needs, &search->path[1]);
+  if (status == HOOKE_OK) status = begin_search(search, limit);
   return status == HOOKE_OK ? find_step(search) : status;
 }
 
 static int32_t start(struct search *search, double limit) {
   const struct hk_needs *needs = search->recorder.needs;
-  begin_search(search, limit);
-  int32_t status = hooke_options_copy(needs->run, &search->options);
+  int32_t status = begin_search(search, limit);
+  if (status == HOOKE_OK) status = hooke_options_copy(needs->run, &search->options);
   if (status == HOOKE_OK && is_shortened(search))
     status =
         hooke_options_set_number(search->options, "duration", (double)(needs->judged - 1) * needs->every);
