@@ -193,6 +193,9 @@ double hk_linearised_bytes(const hooke_system *system) {
           OF_ELEMENTS * (double)hk_elements_of(system, hk_force_is_kept));
 }
 
+/* Squares of distances within it are finite [m]. */
+static const double FARTHEST = 1e153;
+
 /* Three of every free particle that moves by itself. */
 static int is_alone(const hooke_system *system, int64_t particle) {
   return !system->constrained[particle] && !hk_bodies_move(&system->bodies, particle);
@@ -213,9 +216,12 @@ int32_t hk_linearised_create(const hooke_system *system, const double *q, const 
   const int64_t n = system->particle_count, m = system->springs.count;
   *lin = (struct hk_linearised){.system = system, .size = 3 * n, .drag = system->drag};
   for (int64_t k = 0; k < 3 * n; k++) {
-    if (isfinite(q[k])) continue;
-    return hk_fail(HOOKE_BAD_VALUE, "state", "particle %lld is at a place that is not finite",
-                   (long long)(k / 3));
+    if (fabs(q[k]) <= FARTHEST) continue;
+    return hk_fail(
+        HOOKE_BAD_VALUE, "state",
+        "particle %lld is at %g m, where squares of distances may leave the range of numbers; limits "
+        "can be found up to %g m from the origin",
+        (long long)(k / 3), q[k], FARTHEST);
   }
   double *block = hk_new(10 * m + 3 * n, sizeof(double));
   if (block == NULL) return HOOKE_NO_MEMORY;
