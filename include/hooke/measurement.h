@@ -252,8 +252,9 @@ HOOKE_API int32_t hooke_verify_create(const char *path, const hooke_options *opt
 /* Step [s] below which `method` is certain to be stable for the system linearised at q (3n): a bound from one
  * pass over the springs, not the sharp limit. `method` NULL: `bound` receives that of every method,
  * hooke_method_count() numbers in the order of hooke_method_name(), from one pass as well. 0: no step is
- * stable. Infinity: nothing limits the step. NaN: no bound is known for this method, or with rigid bodies that
- * move. HOOKE_BAD_VALUE for an unknown method; HOOKE_NO_MEMORY. Source: K <= 2 blockdiag(sum B_e) by (a - b)^2
+ * stable. Infinity: nothing limits the step. NaN: no bound is known for this method, with rigid bodies that
+ * move, or where a spring is so long that its square overflows. HOOKE_BAD_VALUE for an unknown method;
+ * HOOKE_NO_MEMORY. Source: K <= 2 blockdiag(sum B_e) by (a - b)^2
  * <= 2 a^2 + 2 b^2, per-mode limits as in docs/notes/methods.md. */
 HOOKE_API int32_t hooke_step_bound(const hooke_system *system, const char *method, const double *q,
                                    double *bound);

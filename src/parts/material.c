@@ -3,6 +3,7 @@
 #include "core/memory.h"
 #include "core/status.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -100,6 +101,13 @@ static double reduced_mass(const struct hk_part *part, const int64_t *ends) {
   return a * (b / (a + b));
 }
 
+/* By the product, or by the roots where that leaves the range of numbers. */
+double hk_critical_damping(double kappa, double mass) {
+  const double product = kappa * mass;
+  const int fits = product >= DBL_MIN && product <= DBL_MAX;
+  return 2.0 * (fits ? sqrt(product) : sqrt(kappa) * sqrt(mass));
+}
+
 void hk_part_damping(const struct hk_part *part, const char *family, int64_t count, const int64_t *ends,
                      const double *rest_length, double *damping) {
   const double zeta = option_of(part, family, "damping_ratio");
@@ -107,7 +115,7 @@ void hk_part_damping(const struct hk_part *part, const char *family, int64_t cou
   const double scale = option_of(part, family, "rest_scale");
   for (int64_t k = 0; k < count; k++) {
     const double length = rest_length[k] * scale, kappa = stiffness / length;
-    damping[k] = 2.0 * zeta * sqrt(kappa * reduced_mass(part, ends + 2 * k)) * length;
+    damping[k] = zeta * hk_critical_damping(kappa, reduced_mass(part, ends + 2 * k)) * length;
   }
 }
 

@@ -18,6 +18,9 @@ int32_t hk_part_check_masses(const struct hk_part *part);
 /* The option `mass` [kg]; 0: not given. */
 double hk_part_total_mass(const struct hk_part *part);
 
+/* 2 sqrt(kappa m). */
+double hk_critical_damping(double kappa, double mass);
+
 /* The option damping [N s] of every spring of a family, `count` long, from its damping_ratio: kd = gamma l0,
  * gamma = 2 zeta sqrt(kappa m/2), l0 the rest length of the springs, m the part's inner mass; without an
  * inner mass m/2 is the reduced mass of the two `ends`. */

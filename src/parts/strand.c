@@ -7,6 +7,7 @@
  * to the right each. All tetrahedra are then congruent, and their shortest altitude is much shorter than the
  * others (with a quarter turn two would be equal, and rounding would decide which one acts). A curl
  * (particles on a helix about the axis) needs no extra particles. */
+#include "parts/material.h"
 #include "parts/part.h"
 
 #include "core/memory.h"
@@ -256,7 +257,7 @@ static int32_t find_damping(const struct hk_part *part, struct hk_tetrahedron *t
   for (int k = 1; k < HOOKE_ALTITUDES; k++)
     l = fmin(l, t->rest[k]);
   const double zeta = hooke_options_number(part->options, "altitude.damping_ratio");
-  t->damping = 2.0 * zeta * sqrt(t->stiffness / l * (0.5 * part->inner_mass)) * l;
+  t->damping = zeta * hk_critical_damping(t->stiffness / l, 0.5 * part->inner_mass) * l;
   return hk_system_add_derived(part->system, part->name, "altitude", "kd", "N s", t->damping);
 }
 

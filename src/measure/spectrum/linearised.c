@@ -194,6 +194,9 @@ double hk_linearised_bytes(const hooke_system *system) {
           OF_ELEMENTS * (double)hk_elements_of(system, hk_force_is_kept));
 }
 
+/* Squares of distances within it are finite [m]. */
+static const double FARTHEST = 1e153;
+
 /* Three of every free particle that moves by itself. */
 static int is_alone(const hooke_system *system, int64_t particle) {
   return !system->constrained[particle] && !hk_bodies_move(&system->bodies, particle);
@@ -208,16 +211,28 @@ static int32_t see_bodies(struct hk_linearised *lin, const double *q, const doub
   return HOOKE_OK;
 }
 
+static int32_t check_places(int64_t n, const double *q) {
+  for (int64_t k = 0; k < 3 * n; k++) {
+    if (fabs(q[k]) <= FARTHEST) continue;
+    if (!isfinite(q[k]))
+      return hk_fail(HOOKE_BAD_VALUE, "state", "particle %lld is at a place that is not finite",
+                     (long long)(k / 3));
+    return hk_fail(
+        HOOKE_BAD_VALUE, "state",
+        "particle %lld is at %g m, where squares of distances may leave the range of numbers; limits "
+        "can be found up to %g m from the origin",
+        (long long)(k / 3), q[k], FARTHEST);
+  }
+  return HOOKE_OK;
+}
+
 int32_t hk_linearised_create(const hooke_system *system, const double *q, const double *v,
                              const double *spring_scale, const double *mass_scale,
                              struct hk_linearised *lin) {
   const int64_t n = system->particle_count, m = system->springs.count;
   *lin = (struct hk_linearised){.system = system, .size = 3 * n, .drag = system->drag};
-  for (int64_t k = 0; k < 3 * n; k++) {
-    if (isfinite(q[k])) continue;
-    return hk_fail(HOOKE_BAD_VALUE, "state", "particle %lld is at a place that is not finite",
-                   (long long)(k / 3));
-  }
+  int32_t status = check_places(n, q);
+  if (status != HOOKE_OK) return status;
   double *block = hk_new(10 * m + 3 * n, sizeof(double));
   if (block == NULL) return HOOKE_NO_MEMORY;
   lin->mass = hk_part(&block, n);
@@ -236,7 +251,7 @@ int32_t hk_linearised_create(const hooke_system *system, const double *q, const 
     lin->inverse[p] = system->constrained[p] ? 0.0 : 1.0 / lin->mass[p];
     lin->unknowns += is_alone(system, p) ? 3 : 0;
   }
-  int32_t status = see_springs(lin, q, spring_scale);
+  status = see_springs(lin, q, spring_scale);
   if (status == HOOKE_OK) status = see_others(lin, q);
   if (status == HOOKE_OK) status = see_bodies(lin, q, v, spring_scale);
   if (status == HOOKE_OK) status = choose_rate(lin, q, sum);

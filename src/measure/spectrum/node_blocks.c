@@ -20,6 +20,7 @@ static void add_element(struct hk_node_blocks *blocks, const struct hk_element *
   const uint8_t *constrained = blocks->system->constrained;
   double before = -1.0, stiffness[6] = {0}, damping[6] = {0};
   if (!hk_element_moves(constrained, e)) return;
+  blocks->unknown |= isnan(e->k_across);
   if (e->k_along > 0.0) blocks->least_ratio = fmin(blocks->least_ratio, e->c_along / e->k_along);
   if (hk_element_across(e) > 0.0) blocks->least_ratio = fmin(blocks->least_ratio, e->c_across / e->k_across);
   for (int j = 0; j < e->count; j++) {
@@ -62,6 +63,7 @@ void hk_node_blocks_fill(struct hk_node_blocks *blocks, const double *q) {
   memset(blocks->damping, 0, bytes);
   blocks->least_ratio = INFINITY;
   if (blocks->patience) hk_patience_spend(blocks->patience, hk_work_of_pass(system));
+  blocks->unknown = 0;
   struct hk_elements at;
   hk_begin_elements(system, q, NULL, &at);
   for (const struct hk_element *e; (e = hk_next_element(&at)) != NULL;) {
@@ -141,11 +143,11 @@ static double growth(const struct hk_node_blocks *blocks, int64_t p, double h) {
 /* A step that is too large for particle p: the largest eigenvalue is at least a third of the trace. */
 static double too_large(const struct hk_node_blocks *blocks, int64_t p) {
   const double *b = blocks->stiffness + 6 * p, *g = blocks->damping + 6 * p;
-  const double trace_b = b[0] + b[1] + b[2], trace_g = g[0] + g[1] + g[2];
-  const double mass = blocks->system->mass[p];
+  const double w = blocks->system->inverse_mass[p];
+  const double trace_b = (b[0] + b[1] + b[2]) * w, trace_g = (g[0] + g[1] + g[2]) * w;
   if (!(trace_b > 0.0) && !(trace_g > 0.0)) return INFINITY;
-  /* h^2 b + 2 h g = 12 m, written so that nothing cancels */
-  return 12.0 * mass / (trace_g + sqrt(trace_g * trace_g + 12.0 * mass * trace_b));
+  /* h^2 b + 2 h g = 12 over the mass, written so that nothing cancels */
+  return 12.0 / (trace_g + sqrt(trace_g * trace_g + 12.0 * trace_b));
 }
 
 double hk_node_blocks_step(const struct hk_node_blocks *blocks) {

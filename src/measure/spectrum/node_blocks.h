@@ -14,6 +14,7 @@ struct hk_node_blocks {
   const hooke_system *system;
   double *stiffness, *damping; /* 6 a particle: xx, yy, zz, xy, xz, yz */
   double least_ratio; /* smallest damping over stiffness of an element, in any direction; infinity: none */
+  int32_t unknown;    /* 1: some element is so long that its square overflows */
   struct hk_patience *patience; /* ends filling midway (NULL: none) */
 };
 

@@ -75,7 +75,7 @@ int32_t hk_step_is_bounded(const char *method) {
 int32_t hk_step_is_safe(const struct hk_node_blocks *blocks, const char *method, double h,
                         int64_t *particle) {
   const struct hk_stability *stability = hk_method_stability(method);
-  if (blocks->system->bodies.moving > 0) return 1;
+  if (blocks->system->bodies.moving > 0 || blocks->unknown) return 1;
   if (blocks->system->friction > 0.0 && stability->kind == HOOKE_STABLE_BY_POLYNOMIAL)
     return hk_node_blocks_stay_below(blocks, h, 0.0, hk_real_reach(stability->degree), particle);
   switch (stability->kind) {
@@ -90,14 +90,14 @@ int32_t hk_step_is_safe(const struct hk_node_blocks *blocks, const char *method,
   }
 }
 
-/* With rigid bodies no bound is known: about a pin or an axis, tensions and gravity are stiffness. */
-static double bound_with_bodies(const char *method) {
+/* With rigid bodies, where tensions and gravity are stiffness about a pin or an axis, and without lengths. */
+static double unknown_bound(const char *method) {
   return hooke_method_is_adaptive(method) ? INFINITY : (double)NAN;
 }
 
 double hk_step_bound_of(const struct hk_node_blocks *blocks, const char *method) {
   const struct hk_stability *stability = hk_method_stability(method);
-  if (blocks->system->bodies.moving > 0) return bound_with_bodies(method);
+  if (blocks->system->bodies.moving > 0 || blocks->unknown) return unknown_bound(method);
   if (blocks->system->friction > 0.0 && !hk_method_suits(method, blocks->system)) return NAN;
   if (blocks->system->friction > 0.0 && stability->kind == HOOKE_STABLE_BY_POLYNOMIAL)
     return overdamped_bound(blocks, stability);
