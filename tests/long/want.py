@@ -41,9 +41,18 @@ def agreement(text: str) -> dict[str, Any]:
     return {"means": sum(int(of) for _, of in found), "agreeing": sum(int(number) for number, _ in found)}
 
 
+def repeats(text: str) -> dict[str, Any]:
+    found = re.search(r"^(\d+) of (\d+) picks repeat$", text, re.MULTILINE)
+    if not found or found[1] != found[2]:
+        raise ValueError("some picks do not repeat")
+    return {"repeated": int(found[1])}
+
+
 def rows(step: str, figures: dict[str, Any]) -> list[tuple[str, str]]:
     if not figures:
         return []
+    if "repeated" in figures:
+        return [("wants of 1 cm and 1 mm asked for ten times beside busy cores: the same pick each time", f"{figures['repeated']} of {figures['repeated']}")]
     if "means" in figures:
         return [(f"means of ensembles within 3 standard errors of those of ensembles ten times as large: {step}",
                  f"{figures['agreeing']} of {figures['means']}")]  # fmt: skip
@@ -59,6 +68,8 @@ PART = Part(
                       f"cmake --build {BUILD} --target hooke_cli hooke_long_extrapolate hooke_long_random_scenes", 240),
         hold("small example scenes", examples([name for name in EXAMPLES if name not in {*LARGE, LARGEST}]), 300),
         hold("twenty random scenes", "random:20", 120),
+        Step("the same ten times", f"python3 tests/long/repeated.py --hooke {BUILD}/hooke "
+                                   + " ".join(f"examples/scenes/{name}.json" for name in EXAMPLES if name != LARGEST), 600, repeats),
         hold("large example scenes", examples([name for name in EXAMPLES if name in LARGE]), 1200),
         hold("the largest example scene", examples([LARGEST]), 4000),
         hold("the cloth of the README", "cloth.md", 600),
