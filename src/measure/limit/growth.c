@@ -19,7 +19,7 @@ static const double SCALE_DOWN = 5.0; /* log of the amplitude at which displacem
  * taken or it is the straight line of a known direction. */
 static const double LEAST_CHANGE = 0.3, LEAST_IN_THE_END = 0.01;
 /* A straight line: alike from block to block to this share, and so many times above the scatter. */
-static const double ALIKE = 0.05, ABOVE_SCATTER = 30.0;
+static const double ALIKE = 0.02, ABOVE_SCATTER = 30.0;
 /* Log of the amplitude where less is left than any mode had at first, and rounding is not yet seen. The same
  * for speed, where displacements have little left: particles that have turned about others, which costs no
  * energy, are not quite where linear motion would have them, and what is left may rise slowly. */
