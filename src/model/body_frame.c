@@ -198,11 +198,26 @@ static void find_triad(struct hk_body *body) {
   hk_body_triad(body->rank, ab, ac, body->triad);
 }
 
+static const double SMALLEST = 1e-50,
+                    LARGEST = 1e50; /* radii of gyration whose sixth powers are numbers [m] */
+
+static int32_t check_size(const struct hk_body *body) {
+  for (int a = 0; a < 3; a++) {
+    const double radius = sqrt(body->inertia[a] * body->inverse_mass);
+    if (radius == 0.0 || (radius >= SMALLEST && radius <= LARGEST)) continue;
+    return hk_fail(
+        HOOKE_BAD_VALUE, NULL,
+        "its radius of gyration, %g m, is too large or too small to calculate with; allowed: %g to %g m",
+        radius, SMALLEST, LARGEST);
+  }
+  return HOOKE_OK;
+}
+
 static int32_t check_numbers(const struct hk_body *body) {
   double sum = body->mass + body->inverse_mass;
   for (int a = 0; a < 3; a++)
     sum += body->inertia[a] + body->inverse_inertia[a];
-  if (isfinite(sum)) return HOOKE_OK;
+  if (isfinite(sum)) return check_size(body);
   return hk_fail(
       HOOKE_BAD_VALUE, NULL,
       "its mass %g kg and inertia (%g, %g, %g) kg m^2 are too large or too small to calculate with",

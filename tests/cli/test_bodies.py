@@ -195,3 +195,25 @@ def test_a_bad_body_is_named(hooke, scene, body, words):
     scene.write_text(json.dumps({**BOARD, "bodies": [BOARD["bodies"][0], body]}))
     told = hooke("check", scene)
     assert told.code == 3 and words in told.err
+
+
+@pytest.mark.parametrize("size, runs", [(2.0**-300, False), (2.0**-120, True), (2.0**120, True), (2.0**300, False)])
+def test_a_body_has_a_size_to_calculate_with(hooke, write, size, runs):
+    """The motion has no scale of length; where the sixth powers of a body's size are no numbers, it is refused."""
+    rows = [[0, 0, 0], [1, 0, 0], [2, 0, 0], [2, 1, 0], [3, 0, 1]]
+    scene = {
+        "hooke": 1,
+        "gravity": [0, -9.81 * size, 0],
+        "particles": {"position": [[size * x for x in row] for row in rows], "mass": 1, "pinned": [0]},
+        "bodies": [{"particles": [1, 2, 3, 4]}],
+        "springs": [{"between": [[0, 1]], "law": "length", "stiffness": 100}],
+        "run": {"method": "rk4", "step": 0.01, "duration": 1, "every": 0.1},
+    }
+    answer = hooke("run", write(scene), "--json", "--final", "--no-estimate")
+    if not runs:
+        assert answer.code == 3 and "radius of gyration" in answer.err and "1e-50 to 1e+50 m" in answer.err
+        return
+    one = hooke("run", write(scene | {"gravity": [0, -9.81, 0], "particles": {"position": rows, "mass": 1, "pinned": [0]}}, "one.json"),
+                "--json", "--final", "--no-estimate")  # fmt: skip
+    for here, there in zip(answer.json["final"]["position"], one.json["final"]["position"]):
+        assert [x / size for x in here] == pytest.approx(there, rel=1e-9, abs=1e-9)
