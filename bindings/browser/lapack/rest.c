@@ -141,6 +141,20 @@ void dsyev_(const char *job, const char *triangle, const int *n, double *a, cons
   f2c_dsyev(job, triangle, n, a, stride, value, room, room_size, info, one, two);
 }
 
+int f2c_dsyevx(const char *job, const char *range, const char *triangle, const int *n, double *a,
+               const int *stride, const double *low, const double *high, const int *first, const int *last,
+               const double *accuracy, int *found, double *value, double *vector, const int *vector_stride,
+               double *room, const int *room_size, int *whole, int *failed, int *info, size_t, size_t,
+               size_t);
+void dsyevx_(const char *job, const char *range, const char *triangle, const int *n, double *a,
+             const int *stride, const double *low, const double *high, const int *first, const int *last,
+             const double *accuracy, int *found, double *value, double *vector, const int *vector_stride,
+             double *room, const int *room_size, int *whole, int *failed, int *info, size_t one, size_t two,
+             size_t three) {
+  f2c_dsyevx(job, range, triangle, n, a, stride, low, high, first, last, accuracy, found, value, vector,
+             vector_stride, room, room_size, whole, failed, info, one, two, three);
+}
+
 int f2c_dstev(const char *job, const int *n, double *diagonal, double *beside, double *vector,
               const int *stride, double *room, int *info, size_t);
 void dstev_(const char *job, const int *n, double *diagonal, double *beside, double *vector,

@@ -8,7 +8,7 @@ import subprocess
 import sys
 from pathlib import Path
 
-CALLED = ["dgeev", "dsyev", "dstev"]
+CALLED = ["dgeev", "dsyev", "dsyevx", "dstev"]
 REST = {"disnan", "dlaisnan", "xerbla"}
 
 

@@ -129,7 +129,8 @@ def why(
     `hooke.run` takes, which is then run with `options`. None if the run did not blow up.
 
     The last steps are repeated and suggestions are tried, so callbacks are called again; within `budget` [s] of wall
-    time, or as much counted work as the run took (2 s if that is less), however busy the machine is. ``progress(fraction, what)`` receives progress (``progress=True``
+    time, or as much counted work as the run took (2 s if that is less), however busy the machine is.
+    ``progress(fraction, what)`` receives progress (``progress=True``
     shows a bar, with tqdm) and ends it by returning a non-zero number.
     """
     if isinstance(what, (Result, SolverFailed)):
