@@ -72,6 +72,7 @@ int cli_want_pick(struct cli_run *run) {
   if (status == HOOKE_STOPPED)
     return cli_report(arguments, HOOKE_EXIT_INTERRUPTED,
                       "interrupted while a method was picked; nothing was run");
+  if (status == HOOKE_UNSUITED) return cli_report(arguments, HOOKE_EXIT_NOT_MET, "%s", hooke_last_error());
   if (status != HOOKE_OK) return cli_report_status(arguments, status);
   tell_choice(run, "picked for an error of", text);
   tell_reversal(run);
