@@ -181,7 +181,7 @@ contains
 
   ! ---- a study ----
 
-  ! Finds the cheapest run whose error_max, the largest distance of any free particle, is at most `want` [m].
+  ! Recommends the cheapest run found whose error_max, the largest distance of any free particle, is at most `want` [m].
   subroutine recommend(self, want, status)
     class(hooke_measurement), intent(inout) :: self
     real(c_double), intent(in) :: want

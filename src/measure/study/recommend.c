@@ -83,7 +83,7 @@ static void explain(struct hk_study *study) {
   struct hk_study_recommendation *r = &study->recommendation;
   const int picked = r->method >= 0;
   if (!picked) keep_closest_row(study);
-  if (study->budget_spent && r->method < 0) {
+  if (study->budget_spent && (r->method < 0 || (!picked && study->late))) {
     hk_print(r->note, sizeof r->note, "the budget of %g s ended before a run was found; give a larger one",
              study->budget);
   } else if (r->method < 0) {

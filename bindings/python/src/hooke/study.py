@@ -205,7 +205,8 @@ class Study(Paged, Closing):
         return None if found is None or margin is None else Recommendation(margin=Margin(**margin), **found)
 
     def recommend(self, want: float) -> Recommendation:
-        """Finds the cheapest step or tolerance whose error_max is at most `want` [m], by running it."""
+        """Recommends the cheapest run found whose error_max is at most `want` [m], as ``hooke.run(want=...)`` picks
+        it among the methods of the study, and measures it."""
         with self._handle.listening(self._progress):
             lib.hooke_study_recommend(self._handle.handle, want)
         found = self.recommendation
