@@ -30,14 +30,15 @@ extern "C" {
 #endif
 
 /* Picks a method (`method`, or any that is built if NULL) and its step or tolerance for the wanted error by
- * trial runs that it compares with a reference no tighter than needed, and sets them in `run`. The cheapest in
- * counted work is picked, of methods within 1.2 the first of the table, so that the pick is the same on a busy
- * machine. All of it takes the work of ten times the picked run or that of 2 s, whichever is more; where that is
- * too little for a reference of the whole run, only its beginning is used. No step exceeds 0.9 of the stable step:
- * of the bound at any frame, or of the prediction at the start and where the bound is least. No picked method
- * gains energy by itself, and the pick has met the want from a displaced start, too. If nothing is known to meet
- * the wanted error, the closest choice is set; the column "met" says so. HOOKE_BAD_CALL without a wanted error, HOOKE_BAD_VALUE, HOOKE_NOT_BUILT without
- * SUNDIALS, HOOKE_UNSUITED if no method has a stable step, HOOKE_STOPPED, HOOKE_NO_MEMORY. */
+ * trial runs that it compares with a reference no tighter than needed, and sets them in `run`. The cheapest
+ * in counted work is picked, of methods within 1.2 the first of the table, so that the pick is the same on a
+ * busy machine. All of it takes the work of ten times the picked run or that of 2 s, whichever is more; where
+ * that is too little for a reference of the whole run, only its beginning is used. No step exceeds 0.9 of the
+ * stable step: of the bound at any frame, or of the prediction at the start and where the bound is least. No
+ * picked method gains energy by itself, and the pick has met the want from a displaced start, too. If nothing
+ * is known to meet the wanted error, the closest choice is set; the column "met" says so. HOOKE_BAD_CALL
+ * without a wanted error, HOOKE_BAD_VALUE, HOOKE_NOT_BUILT without SUNDIALS, HOOKE_UNSUITED if no method has
+ * a stable step, HOOKE_STOPPED, HOOKE_NO_MEMORY. */
 HOOKE_API int32_t hooke_estimate_pick(hooke_measurement *estimate, const char *method, hooke_options *run);
 
 /* Call before a run of `integrator` from `state`. The integrator has to stay until the run is over. The

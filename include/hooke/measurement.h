@@ -143,11 +143,11 @@ HOOKE_API double hooke_limit_of_mode(const char *method, double frequency, doubl
  * distance [m] of any watched particle, over all frames, from its position in the full system. Each run takes
  * the largest step (or tolerance) with an error of at most a tenth of the wanted one, judged by a run with
  * half the step (a tenth of the tolerance). An ingredient whose change is below the wanted error is not
- * needed, unless it is above it from a start displaced by a hundredth of that. Ingredients are each group of springs and each family of a part; bending; altitude springs;
- * damping; drag; gravity; a force callback; springs whose force stays small; particles that touch nothing;
- * parts without watched particles; resistance to compression; the deformation of each part, which becomes one
- * rigid body; half the resolution of each part, compared at equal material coordinates by linear
- * interpolation.
+ * needed, unless it is above it from a start displaced by a hundredth of that. Ingredients are each group of
+ * springs and each family of a part; bending; altitude springs; damping; drag; gravity; a force callback;
+ * springs whose force stays small; particles that touch nothing; parts without watched particles; resistance
+ * to compression; the deformation of each part, which becomes one rigid body; half the resolution of each
+ * part, compared at equal material coordinates by linear interpolation.
  *
  * Then all ingredients that are not needed and whose omission saves work are left out together, whole parts
  * first, then deformations, then the rest, each in order of increasing change, as long as a run with the

@@ -222,10 +222,6 @@ static void measure_by_reference(struct hk_estimate *e, const hooke_state *state
                       : ", whatever their tolerance: the motion is chaotic, or rounding parts them");
 }
 
-static int is_sound(const struct hk_estimate *e) {
-  return isinf(e->soundness.least_limit) && !(e->rise > hk_soundness_most_rise);
-}
-
 /* Why nothing is run again; NULL: it is. */
 static const char *find_obstacle(const struct hk_estimate *e, const hooke_state *state) {
   const double end = e->begin + e->duration;
@@ -248,7 +244,7 @@ static int32_t measure_again(struct hk_estimate *e, const hooke_state *state) {
 }
 
 static void explain_want(struct hk_estimate *e) {
-  if (!isnan(e->want) && !is_sound(e))
+  if (!isnan(e->want) && !hk_soundness_holds(&e->soundness))
     hk_print(e->reason, sizeof e->reason,
              isinf(e->soundness.least_limit) ? "its energy grows by itself"
                                              : "its step is above 0.9 of the stable one");
@@ -302,7 +298,8 @@ double hk_estimate_met(const struct hk_estimate *e) {
   const double end = e->begin + e->duration;
   if (isnan(e->want)) return NAN;
   if (is_out_of_reach(e) && e->error - 2.0 * e->pick.reference.agreement <= e->want) return NAN;
-  if (e->error > e->want || (e->options && !isnan(e->error) && !is_sound(e))) return 0.0;
+  if (e->error > e->want || (e->options && !isnan(e->error) && !hk_soundness_holds(&e->soundness)))
+    return 0.0;
   if (e->soundness.unknown_limit) return NAN;
   return e->error <= e->want && e->known_until >= end - 1e-9 * e->duration ? 1.0 : NAN;
 }

@@ -150,9 +150,7 @@ static int32_t judge_begin(struct hk_needs_recorder *recorder, const hooke_optio
 static int32_t judge_end(struct hk_needs_recorder *recorder, int32_t finished) {
   int32_t status = HOOKE_OK;
   if (recorder->judges && finished) status = hk_soundness_find_limits(&recorder->soundness, NULL);
-  if (recorder->judges)
-    recorder->sound = isinf(recorder->soundness.least_limit) &&
-                      !(hk_soundness_rise(&recorder->soundness) > hk_soundness_most_rise);
+  if (recorder->judges) recorder->sound = hk_soundness_holds(&recorder->soundness);
   hk_soundness_release(&recorder->soundness);
   return status;
 }

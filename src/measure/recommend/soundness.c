@@ -123,3 +123,7 @@ double hk_soundness_rise(const struct hk_soundness *s) {
   const double slope = fit_slope(count, s->time + from, s->energy + from, &error);
   return slope > SIGNIFICANT * error && scale > 0.0 ? slope * span / scale : 0.0;
 }
+
+int32_t hk_soundness_holds(const struct hk_soundness *s) {
+  return isinf(s->least_limit) && !(hk_soundness_rise(s) > hk_soundness_most_rise);
+}

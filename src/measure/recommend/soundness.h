@@ -46,6 +46,9 @@ double hk_soundness_work(const struct hk_soundness *soundness);
  * if energy comes from outside (callbacks, drives) or there are fewer than eight states. */
 double hk_soundness_rise(const struct hk_soundness *soundness);
 
+/* 1 if the step is clear of every limit that was found, and no energy grows by itself. */
+int32_t hk_soundness_holds(const struct hk_soundness *soundness);
+
 /* Fraction of energy from which on a run counts as gaining energy by itself, and fraction of the stable step
  * that may be taken. */
 extern const double hk_soundness_most_rise, hk_soundness_limit_share;

@@ -47,9 +47,10 @@ struct hk_reference_request {
   const struct hk_listener *listener; /* receives progress as a fraction of the whole reference */
 };
 
-/* Without a budget, or with a counted one, no choice depends on a clock. Works within the budget: a run that the budget ends is compared as far as it got, and counts if that is
- * further than before. HOOKE_NOT_BUILT without SUNDIALS; HOOKE_BAD_VALUE if the budget ends before one frame
- * after the start; HOOKE_STOPPED; HOOKE_SOLVER_FAILED, HOOKE_DIVERGED if an integrator gave up. */
+/* Without a budget, or with a counted one, no choice depends on a clock. Works within the budget: a run that
+ * the budget ends is compared as far as it got, and counts if that is further than before. HOOKE_NOT_BUILT
+ * without SUNDIALS; HOOKE_BAD_VALUE if the budget ends before one frame after the start; HOOKE_STOPPED;
+ * HOOKE_SOLVER_FAILED, HOOKE_DIVERGED if an integrator gave up. */
 int32_t hk_reference_create(const hooke_system *system, const struct hk_reference_request *request,
                             struct hk_reference *reference);
 void hk_reference_release(struct hk_reference *reference);
