@@ -1,4 +1,5 @@
 #include "excerpt.h"
+#include "hooke.h"
 #include "print.h"
 
 #include <stdlib.h>
@@ -37,11 +38,22 @@ static void read_line(FILE *from, long first, char *text) {
   *text = '\0';
 }
 
+/* Of a trajectory, the text of its scene. */
+static FILE *open_source(const char *path) {
+  hooke_record *record;
+  if (hooke_record_open(path, &record) != HOOKE_OK) return fopen(path, "rb");
+  FILE *file = tmpfile();
+  if (file) fputs(hooke_record_text(record, "scene"), file);
+  if (file) rewind(file);
+  hooke_record_close(record);
+  return file;
+}
+
 void cli_excerpt_print(FILE *file, const char *path, const char *message) {
   char text[LONGEST_CHARACTER * WIDTH + 1];
   long line, column;
   if (!find_place(path, message, &line, &column)) return;
-  FILE *from = fopen(path, "rb");
+  FILE *from = open_source(path);
   if (!from) return;
   const long first = column > LEFT ? column - LEFT : 1;
   skip_lines(from, line - 1);

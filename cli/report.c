@@ -64,8 +64,9 @@ int cli_report(const struct cli_arguments *arguments, int code, const char *form
 
 /* The library's message has a line for each fault of a scene; in other ones a line end is foreign text. */
 int cli_report_status(const struct cli_arguments *arguments, int32_t status) {
-  const char *message = hooke_last_error()[0] ? hooke_last_error() : hooke_status_name(status);
-  char line[MESSAGE_SIZE];
+  char message[MESSAGE_SIZE], line[MESSAGE_SIZE]; /* an excerpt may change the last error */
+  snprintf(message, sizeof message, "%s",
+           hooke_last_error()[0] ? hooke_last_error() : hooke_status_name(status));
   for (const char *at = message; *at; at += strspn(at, "\n")) {
     const size_t length = strcspn(at, "\n");
     snprintf(line, sizeof line, "%.*s", (int)length, at);
