@@ -64,6 +64,17 @@ int hk_file_open(const char *path) {
   return -1;
 }
 
+int32_t hk_file_refuse(int error, const char *kind) {
+  if (error == ENOMEM) return hk_fail(HOOKE_NO_MEMORY, NULL, "no memory to open the file");
+  if (error == EINVAL)
+    return hk_fail(HOOKE_BAD_VALUE, NULL, "is not a regular file; allowed: a %s, no pipe and no device",
+                   kind);
+  char reason[HOOKE_ERROR_SIZE];
+  return hk_fail(HOOKE_BAD_VALUE, NULL, "%s: %s; allowed: a %s that can be read",
+                 error == EISDIR ? "is a directory" : "cannot be opened", hk_print_error(error, reason),
+                 kind);
+}
+
 static int32_t compare(const char *path, const struct hk_os_file *there, int descriptor) {
   struct hk_os_file ours;
   if (hk_os_look_open(descriptor, &ours) != 0) return hk_file_fail(path, "look at the file", errno);

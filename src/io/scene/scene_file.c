@@ -18,17 +18,6 @@
 static const int64_t first_piece = 1 << 16;
 static const int64_t largest_file = (int64_t)1 << 31;
 
-static int32_t refuse_open(int number, const struct hk_json_guard *guard) {
-  if (number == ENOMEM) return hk_fail(HOOKE_NO_MEMORY, NULL, "no memory to open the file");
-  const char *advice = number == EISDIR ? "is a directory" : "cannot be opened";
-  if (number == EINVAL)
-    return hk_fail(HOOKE_BAD_VALUE, NULL, "is not a regular file; allowed: a %sfile, no pipe and no device",
-                   guard ? "scene " : "");
-  char reason[HOOKE_ERROR_SIZE];
-  return hk_fail(HOOKE_BAD_VALUE, NULL, "%s: %s; allowed: a %sfile that can be read", advice,
-                 hk_print_error(number, reason), guard ? "scene " : "");
-}
-
 /* Reads to the end; `text` has `capacity` bytes, the last reserved for the NUL. */
 static int32_t read_all(FILE *file, struct hk_json_guard *guard, char **text, int64_t *length) {
   int64_t capacity = first_piece;
@@ -68,7 +57,7 @@ int32_t hk_scene_read_file(const char *path, struct hk_json_guard *guard, char *
   if (file == NULL) {
     const int number = errno;
     if (descriptor >= 0) close(descriptor);
-    return refuse_open(number, guard);
+    return hk_file_refuse(number, guard ? "scene file" : "file");
   }
   int32_t status = read_all(file, guard, text, length);
   fclose(file);
