@@ -2,6 +2,7 @@
 
 #include "os.h"
 #include "print.h"
+#include "report.h"
 
 #include <signal.h>
 #include <stdio.h>
@@ -78,4 +79,9 @@ void cli_watch_end(struct cli_watch *watch) {
 
 int32_t cli_watch_interrupted(void) {
   return interrupted != 0;
+}
+
+int cli_watch_check(const struct cli_arguments *arguments, int code) {
+  if (!interrupted || code != HOOKE_EXIT_DONE) return code;
+  return cli_report(arguments, HOOKE_EXIT_INTERRUPTED, "interrupted; nothing is written");
 }

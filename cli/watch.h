@@ -29,4 +29,7 @@ void cli_watch_end(struct cli_watch *watch);
 /* 1 if a signal came. */
 int32_t cli_watch_interrupted(void);
 
+/* `code` or, where that is HOOKE_EXIT_DONE and a signal came, its exit code, reported: nothing is written. */
+int cli_watch_check(const struct cli_arguments *arguments, int code);
+
 #endif

@@ -32,8 +32,6 @@ function dress() {
   drawFrame();
 }
 
-const widthOf = (box) => Math.max(box[3] - box[0], box[4] - box[1], box[5] - box[2]);
-
 /* Looks from further away, at all frames of the preview and this one, where it goes beyond what was seen. */
 function widen(box) {
   const margin = 0.05 * widthOf(picture.home), beyond = [0, 1, 2].some((axis) =>
@@ -45,11 +43,8 @@ function widen(box) {
 
 function drawFrame(blown = false) {
   if (!picture) return;
-  const box = scene.box[scene.live], width = widthOf(box) / widthOf(picture.home), wide = blown && width > 1.6;
-  if (!blown) widen(box);
+  if (!blown) widen(scene.box[scene.live]);
   picture.show(scene.live);
-  if (wide) picture.fit(scene.live);
-  at("zoomed").textContent = wide ? `${number(width, 2)} times as wide as before; the picture zooms out` : "";
   picture.draw();
 }
 

@@ -80,6 +80,11 @@ int cli_os_may_write(const char *folder) {
   return access(folder, W_OK);
 }
 
+int cli_os_make_file(char *path) {
+  const int descriptor = mkstemp(path);
+  return descriptor < 0 ? -1 : close(descriptor);
+}
+
 #if !defined(F_OFD_GETLK) /* systems without such locks */
 #define F_OFD_GETLK (-1)
 #endif

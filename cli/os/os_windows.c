@@ -1,3 +1,4 @@
+#define _CRT_RAND_S /* rand_s() */
 #include "os.h"
 
 #include <errno.h>
@@ -88,6 +89,19 @@ int32_t cli_os_is_other_than_file(const char *path) {
 
 int cli_os_may_write(const char *folder) {
   return _access(folder, 2);
+}
+
+int cli_os_make_file(char *path) {
+  static const char letters[] = "0123456789abcdefghijklmnopqrstuv";
+  int descriptor;
+  do {
+    unsigned number;
+    if (rand_s(&number) != 0) return -1;
+    for (char *at = path + strlen(path) - 6; *at; at++, number >>= 5)
+      *at = letters[number & 31];
+    descriptor = _open(path, _O_CREAT | _O_EXCL | _O_RDWR | _O_BINARY, _S_IREAD | _S_IWRITE);
+  } while (descriptor < 0 && errno == EEXIST);
+  return descriptor < 0 ? -1 : _close(descriptor);
 }
 
 /* The lock is on the last byte that there could be. */

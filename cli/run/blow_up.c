@@ -73,8 +73,7 @@ static void tell_try(const struct cli_run *run) {
 
 /* ---- where to see more ---- */
 
-/* By the output, else by the scene with the options of the run; those that --want chose have to be named. */
-static void tell_see(const struct cli_run *run) {
+void cli_blow_up_print_why(FILE *file, const struct cli_run *run) {
   char number[HOOKE_NUMBER_SIZE];
   const int chosen = cli_arguments_text(run->arguments, "want") != NULL;
   const double step = hooke_options_number(run->options, "step");
@@ -84,15 +83,13 @@ static void tell_see(const struct cli_run *run) {
       {"step", chosen && !isnan(step) ? cli_format_number(step, number) : NULL},
       {"report", report},
       {NULL, NULL}};
-  fputs("see: ", stderr);
-  if (run->output) {
-    fputs("hooke why ", stderr);
-    cli_print_quoted(stderr, run->output);
-    if (report) fprintf(stderr, " --report %s", report);
-  } else {
-    cli_report_command(stderr, run->arguments, "why", settings);
+  if (!run->output || run->page) {
+    cli_report_command(file, run->arguments, "why", settings);
+    return;
   }
-  fputc('\n', stderr);
+  fputs("hooke why ", file);
+  cli_print_quoted(file, run->output);
+  if (report) fprintf(file, " --report %s", report);
 }
 
 /* ---- what is kept ---- */
@@ -120,7 +117,7 @@ static void tell_kept(const struct cli_run *run) {
   if (!isnan(run->last_frame))
     fprintf(stderr, "up to t = %s s ", cli_format_rounded(run->last_frame, number));
   fputs("in ", stderr);
-  cli_print_text(stderr, run->output);
+  cli_print_text(stderr, run->page ? run->page : run->output);
   if (cli_run_goes_beyond(run)) tell_beyond(run);
   fputc('\n', stderr);
 }
@@ -129,6 +126,8 @@ void cli_blow_up_tell(const struct cli_run *run) {
   tell_what(run);
   if (run->arguments->quiet) return;
   tell_try(run);
-  tell_see(run);
+  fputs("see: ", stderr);
+  cli_blow_up_print_why(stderr, run);
+  fputc('\n', stderr);
   tell_kept(run);
 }

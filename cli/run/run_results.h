@@ -25,7 +25,7 @@ struct cli_run {
   int32_t kept_place;     /* 1: an interrupted run has a checkpoint or a frame to continue from */
   struct cli_watch watch;
   double duration;
-  int32_t shown;         /* 1: the output is there to be shown and removed */
+  const char *page;      /* where the output is shown before it is removed; NULL: it stays */
   int64_t frames;        /* reported so far */
   int64_t frames_beyond; /* those of them after it diverged */
   double last_frame;     /* time of the last one before that [s]; NaN: none was reported */
@@ -53,8 +53,12 @@ void cli_run_print_final(const struct cli_run *run);
 /* 1 if frames after divergence were asked for. */
 int32_t cli_run_goes_beyond(const struct cli_run *run);
 
-/* Runs the scene into a trajectory that is there to be shown, with --want or its own method (run.c);
- * `outcome` as hooke_integrator_run() has it. A failure is reported and gives the exit code. */
-int cli_run_to_show(const struct cli_arguments *arguments, const char *output, int32_t *outcome);
+/* Runs the scene, with --want or its own method, into a trajectory that is removed once `show` has written it as
+ * `page` (run.c). `path` names it, for cli_os_make_file(); `title` is the scene's, `why` a command that explains the
+ * run. After a blow-up, up to `beyond` frames show how it goes on. Everything is reported; returns the exit code. */
+typedef int cli_show(const struct cli_arguments *arguments, const char *path, const char *page,
+                     const char *title, const char *why);
+int cli_run_to_show(const struct cli_arguments *arguments, char *path, const char *page, double beyond,
+                    cli_show *show);
 
 #endif

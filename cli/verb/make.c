@@ -5,6 +5,7 @@
 #include "print.h"
 #include "report.h"
 #include "value.h"
+#include "watch.h"
 
 #include <inttypes.h>
 #include <stdio.h>
@@ -184,16 +185,18 @@ static int write(const struct make *make) {
 
 static int do_make(const struct cli_arguments *arguments) {
   struct make make = {.arguments = arguments, .output = cli_arguments_text(arguments, "output")};
+  struct cli_watch watch;
   if (make.output && strcmp(make.output, "-") == 0) make.output = NULL;
   for (int64_t row = 0; row < hooke_options_row_count(arguments->run); row++) {
     if (hooke_options_is_set(arguments->run, hooke_options_row(arguments->run, row, "name")))
       make.run = arguments->run;
   }
+  cli_watch_start(&watch, arguments);
   int code = make.output ? cli_output_file_check(arguments, "-o", make.output) : HOOKE_EXIT_DONE;
   if (code == HOOKE_EXIT_DONE) code = check_required(&make);
-  if (code == HOOKE_EXIT_DONE) code = build(&make);
+  if (code == HOOKE_EXIT_DONE) code = cli_watch_check(arguments, build(&make));
   if (code == HOOKE_EXIT_DONE) code = check_run(&make);
-  if (code == HOOKE_EXIT_DONE) code = read_back(&make);
+  if (code == HOOKE_EXIT_DONE) code = cli_watch_check(arguments, read_back(&make));
   if (code == HOOKE_EXIT_DONE) code = write(&make);
   if (code == HOOKE_EXIT_DONE) tell(&make);
   hooke_scene_destroy(make.scene);

@@ -1,16 +1,19 @@
 /* hooke run: integrates a scene and reports the result. */
 #include "blow_up.h"
 #include "fit.h"
+#include "os.h"
 #include "report.h"
 #include "resume.h"
 #include "run_results.h"
 #include "want.h"
 
+#include <errno.h>
 #include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 static double state_energy(const struct cli_run *run) {
   return hooke_system_energy(run->setup.system, "total", hooke_state_position(run->setup.state),
@@ -48,7 +51,7 @@ static int32_t see_frame(int64_t step, const hooke_state *state, void *ctx) {
 static int32_t see_checkpoint(int64_t step, const hooke_state *state, void *ctx) {
   struct cli_run *run = ctx;
   (void)step;
-  if (run->trajectory)
+  if (run->trajectory && !run->page)
     run->write_status = hooke_trajectory_checkpoint(run->trajectory, run->integrator, state);
   if (run->write_status == HOOKE_OK) return 0;
   keep_message(run);
@@ -120,7 +123,7 @@ static int32_t prepare(struct cli_run *run) {
 /* Says how to continue an interrupted run. Some methods need a checkpoint of --checkpoint, and no run
  * continues from non-finite numbers. */
 static void keep_place(struct cli_run *run) {
-  if (run->outcome != HOOKE_STOPPED || run->write_status != HOOKE_OK || !run->trajectory) return;
+  if (run->outcome != HOOKE_STOPPED || run->write_status != HOOKE_OK || !run->trajectory || run->page) return;
   run->kept_place = hooke_trajectory_checkpoint(run->trajectory, run->integrator, run->setup.state);
   if (run->kept_place != HOOKE_IO_FAILED && run->kept_place != HOOKE_NO_MEMORY) return;
   run->write_status = run->kept_place;
@@ -217,7 +220,7 @@ static int integrate(struct cli_run *run) {
   if (run->outcome < 0 && code != HOOKE_EXIT_DIVERGED) {
     return cli_report(run->arguments, code, "%s", run->message);
   }
-  if (run->output && !run->shown) status = write_companion(run);
+  if (run->output && !run->page) status = write_companion(run);
   return status == HOOKE_OK ? HOOKE_EXIT_DONE : cli_report_status(run->arguments, status);
 }
 
@@ -335,14 +338,50 @@ static void release(struct cli_run *run) {
   cli_setup_destroy(&run->setup);
 }
 
-int cli_run_to_show(const struct cli_arguments *arguments, const char *output, int32_t *outcome) {
-  struct cli_run run = {.arguments = arguments, .output = output, .shown = 1};
+/* Shows the output, which is removed after that. */
+static int show_output(const struct cli_run *run, cli_show *show) {
+  const char *title = hooke_scene_text(run->setup.scene, "title");
+  size_t size;
+  char *why = NULL;
+  FILE *stream = cli_os_open_text(&why, &size);
+  if (stream) cli_blow_up_print_why(stream, run);
+  const int32_t status = cli_print_end(stream, &why);
+  const int code = status == HOOKE_OK ? show(run->arguments, run->output, run->page,
+                                             title && title[0] ? title : run->arguments->scene, why)
+                                      : cli_report_missing_words(run->arguments);
+  free(why);
+  return code;
+}
+
+/* Why the run blew up is looked into when it is shown. */
+static int run_and_show(struct cli_run *run, cli_show *show) {
+  int code = integrate_to_want(run);
+  const int blew_up = cli_exit_code(run->outcome) == HOOKE_EXIT_DIVERGED;
+  if (!blew_up) tell_warnings(run);
+  code = cli_watch_check(run->arguments, code);
+  if (code == HOOKE_EXIT_DONE) code = show_output(run, show);
+  if (code != HOOKE_EXIT_DONE || !blew_up) return code;
+  find_why(run);
+  if (!run->why) tell_warnings(run);
+  cli_blow_up_tell(run);
+  return cli_exit_code(run->outcome);
+}
+
+/* Signals are caught before there is a file to remove. */
+int cli_run_to_show(const struct cli_arguments *arguments, char *path, const char *page, double beyond,
+                    cli_show *show) {
+  struct cli_run run = {.arguments = arguments, .output = path, .page = page};
   int code = make_ready(&run);
-  if (code == HOOKE_EXIT_DONE) code = integrate_to_want(&run);
-  tell_warnings(&run);
-  if (code == HOOKE_EXIT_DONE && run.outcome != HOOKE_OK && !arguments->quiet)
-    cli_report_words(arguments, "%s", run.message);
-  *outcome = run.outcome;
+  if (code == HOOKE_EXIT_DONE) {
+    cli_watch_start(&run.watch, arguments);
+    (void)hooke_options_set_number(run.setup.options, "frames_after", beyond); /* in bounds */
+    if (cli_os_make_file(path) == 0) {
+      code = run_and_show(&run, show);
+      unlink(path);
+    } else {
+      code = cli_report(arguments, HOOKE_EXIT_IO, "%s: cannot write there: %s", page, strerror(errno));
+    }
+  }
   release(&run);
   return code;
 }

@@ -11,7 +11,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 enum { MOST_VIEWS = 8 };
 
@@ -33,18 +32,21 @@ struct shown {
   const char *path[MOST_VIEWS];
   hooke_record *record[MOST_VIEWS];
   hooke_measurement *view[MOST_VIEWS];
+  const char *title, *why; /* of a scene that was run, and the command that explains the run; NULL */
 };
 
 static void print_words(const struct cli_arguments *arguments, const hooke_measurement *view,
                         const char *name) {
   char frames[64], springs[64];
+  const double damaged = number_of(view, "damaged");
+  const int all = number_of(view, "frames") + damaged == number_of(view, "frames_there") &&
+                  number_of(view, "springs") == number_of(view, "springs_there");
   describe_stride(view, "frame_stride", frames, sizeof frames);
   describe_stride(view, "spring_stride", springs, sizeof springs);
   cli_report_words(arguments, "%s: %.2f MB, %.0f of %.0f frames%s, %.0f of %.0f springs%s%s", name,
                    number_of(view, "bytes") / 1e6, number_of(view, "frames"), number_of(view, "frames_there"),
                    frames, number_of(view, "springs"), number_of(view, "springs_there"), springs,
-                   frames[0] || springs[0] ? "; --frames, --springs and --size allow more" : "");
-  const double damaged = number_of(view, "damaged");
+                   all ? "" : "; --frames, --springs, --size and --beyond allow more");
   if (damaged > 0.0)
     cli_report_words(arguments, "%.0f damaged frame%s skipped: the numbers are not those that were written",
                      damaged, damaged == 1.0 ? " is" : "s are");
@@ -119,10 +121,21 @@ static int open_trajectory(const struct cli_arguments *arguments, struct shown *
   return status == HOOKE_OK ? HOOKE_EXIT_DONE : cli_report_status(arguments, status);
 }
 
+/* What a scene was run for is called by it, as its trajectory is removed. */
+static int label(const struct cli_arguments *arguments, const struct shown *shown) {
+  if (!shown->title) return HOOKE_EXIT_DONE;
+  int32_t status = hooke_measurement_label(shown->view[0], "title", shown->title);
+  if (status == HOOKE_OK) status = hooke_measurement_label(shown->view[0], "command", shown->why);
+  return status == HOOKE_OK ? HOOKE_EXIT_DONE : cli_report_status(arguments, status);
+}
+
 static int show_trajectories(const struct cli_arguments *arguments, struct shown *shown, const char *output) {
   int code = HOOKE_EXIT_DONE;
+  struct cli_watch watch;
+  cli_watch_start(&watch, arguments);
   for (int32_t k = 0; k < shown->count && code == HOOKE_EXIT_DONE; k++)
-    code = open_trajectory(arguments, shown, k);
+    code = cli_watch_check(arguments, open_trajectory(arguments, shown, k));
+  if (code == HOOKE_EXIT_DONE) code = label(arguments, shown);
   if (code == HOOKE_EXIT_DONE) code = write_page(arguments, shown, output);
   for (int32_t k = 0; k < shown->count; k++) {
     hooke_measurement_destroy(shown->view[k]);
@@ -131,29 +144,32 @@ static int show_trajectories(const struct cli_arguments *arguments, struct shown
   return code;
 }
 
-/* By way of a trajectory beside the page. */
-static int run_and_show(const struct cli_arguments *arguments, const char *output) {
-  const size_t size = strlen(output) + 32;
-  char *path = malloc(size);
-  int32_t outcome = HOOKE_OK;
-  if (!path) return cli_report(arguments, HOOKE_EXIT_BAD_INPUT, "out of memory");
-  snprintf(path, size, "%s.%ld.h5", output, (long)getpid());
-  int code = cli_run_to_show(arguments, path, &outcome);
-  struct shown shown = {.count = 1, .path = {path}};
-  if (code == HOOKE_EXIT_DONE) code = show_trajectories(arguments, &shown, output);
-  unlink(path);
-  free(path);
-  return code == HOOKE_EXIT_DONE ? cli_exit_code(outcome) : code;
+static int show_one(const struct cli_arguments *arguments, const char *path, const char *output,
+                    const char *title, const char *why) {
+  struct shown shown = {.count = 1, .path = {path}, .title = title, .why = why};
+  return show_trajectories(arguments, &shown, output);
 }
 
-/* Anything but a scene: its own message tells what is wrong with it. */
-static int is_scene(const char *path) {
-  char first = '\0';
-  FILE *file = strcmp(path, "-") == 0 ? stdin : fopen(path, "rb");
-  if (file == stdin) return 1;
-  const int same = file && fscanf(file, " %c", &first) == 1 && first == '{';
-  if (file) fclose(file);
-  return same;
+/* By way of a trajectory beside the page. */
+static int run_and_show(const struct cli_arguments *arguments, const char *output) {
+  static const char name[] = "hooke-XXXXXX";
+  const char *slash = cli_os_last_slash(output);
+  const int folder = slash ? (int)(slash - output) + 1 : 0;
+  char *path = malloc((size_t)folder + sizeof name);
+  if (!path) return cli_report(arguments, HOOKE_EXIT_BAD_INPUT, "out of memory");
+  snprintf(path, (size_t)folder + sizeof name, "%.*s%s", folder, output, name);
+  const double beyond = hooke_options_number(arguments->more, "beyond");
+  const int code = cli_run_to_show(arguments, path, output, beyond, show_one);
+  free(path);
+  return code;
+}
+
+/* Anything else is loaded as a scene, whose message tells what is wrong with it. */
+static int is_trajectory(const char *path) {
+  hooke_record *record = NULL;
+  const int32_t status = strcmp(path, "-") == 0 ? HOOKE_BAD_VALUE : hooke_record_open(path, &record);
+  hooke_record_close(record);
+  return status == HOOKE_OK;
 }
 
 /* Several trajectories have a page of another name than theirs, and none is run anew. */
@@ -175,7 +191,7 @@ static int write_view(const struct cli_arguments *arguments, const char *output)
   struct shown shown = {.count = 1 + arguments->more_count, .path = {arguments->scene}};
   for (int32_t k = 1; k < shown.count; k++)
     shown.path[k] = arguments->more_scenes[k - 1];
-  const int runs = shown.count == 1 && (is_scene(arguments->scene) || is_to_run(arguments));
+  const int runs = shown.count == 1 && (is_to_run(arguments) || !is_trajectory(arguments->scene));
   return runs ? run_and_show(arguments, output) : show_trajectories(arguments, &shown, output);
 }
 
@@ -217,6 +233,6 @@ const struct cli_verb cli_verb_view = {
     .example = "hooke view cloth.h5 -o cloth.html",
     HOOKE_VERB_ROWS(rows),
     .options = "view",
-    .without = "checkpoint",
+    .without = "checkpoint past_divergence frames_after",
     .function = do_view,
 };

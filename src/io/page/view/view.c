@@ -35,6 +35,13 @@ static const struct hk_option_row rows[] = {
      .high = 2000,
      .fallback = "50",
      .doc = "size of the page at most, which frames are left out for"},
+    {.name = "beyond",
+     .type = HOOKE_OPTION_NUMBER,
+     .low = 0,
+     .high = 1e9,
+     .whole = 1,
+     .fallback = "30",
+     .doc = "frames after the run diverged that are shown at most; of a scene, so many are run"},
 };
 static const struct hk_option_table view_options = {"view", HOOKE_OPTION_ROWS(rows)};
 
@@ -87,6 +94,7 @@ static int32_t read_columns(struct hk_view *view) {
                                                          "/observables/potential_energy/value",
                                                          "/observables/total_energy/value"};
   view->frames_there = hooke_record_count(view->record, "frames");
+  view->good_frames = hooke_record_count(view->record, "good_frames");
   int32_t status = hk_view_read(view, "/particles/all/position/time", -1, view->frames_there, 1, &view->time);
   for (int k = 0; k < HOOKE_VIEW_ENERGIES && status == HOOKE_OK; k++)
     status = hk_view_read(view, names[k], -1, view->frames_there, 1, &view->energy[k]);
@@ -174,6 +182,12 @@ static int32_t measure_page(const struct hk_view *view, double *bytes) {
   return status;
 }
 
+/* Frames of which some are shown: those before the run diverged, and so many after that; at least one. */
+static int64_t frames_open(const struct hk_view *view) {
+  const double most = (double)view->good_frames + hooke_options_number(view->options, "beyond");
+  return most < (double)view->frames_there ? (int64_t)fmax(most, 1.0) : view->frames_there;
+}
+
 /* All frames, or as few as the option says and the size allows: every k-th and the last. */
 static int32_t choose_frames(struct hk_view *view) {
   enum { NUMBERS_OF_FRAME = 300 }; /* bytes, as text */
@@ -182,7 +196,7 @@ static int32_t choose_frames(struct hk_view *view) {
   if (status != HOOKE_OK) return status;
   const double size = 1e6 * hooke_options_number(view->options, "size");
   const double each = (double)hk_base64_length(hk_view_frame_bytes(view)) + NUMBERS_OF_FRAME;
-  const int64_t least = view->frames_there < 2 ? view->frames_there : 2;
+  const int64_t least = frames_open(view) < 2 ? 1 : 2;
   double room = floor((size - fixed) / each);
   if (room < (double)least) {
     return hk_fail(
@@ -193,7 +207,7 @@ static int32_t choose_frames(struct hk_view *view) {
   }
   if (hooke_options_is_set(view->options, "frames"))
     room = fmin(room, hooke_options_number(view->options, "frames"));
-  const int64_t gaps = view->frames_there - 1;
+  const int64_t gaps = frames_open(view) - 1;
   view->frame_stride = room > (double)gaps ? 1 : stride_for(gaps, (int64_t)room - 1);
   view->frames = 1 + (gaps + view->frame_stride - 1) / view->frame_stride;
   view->frame = hk_new(view->frames, sizeof *view->frame);

@@ -26,6 +26,7 @@ struct hk_view {
   const hooke_record *record;
   const hooke_options *options; /* of the measurement */
   int64_t particles_there, springs_there, loose_there, frames_there;
+  int64_t good_frames; /* of those there, before the run diverged */
   double *rest_length; /* [springs of the file]; of the first frame if the file has none */
   int32_t by_first_frame;
   int64_t spring_stride, loose_stride, frame_stride;

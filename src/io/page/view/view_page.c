@@ -23,7 +23,7 @@
 /* ---- words ---- */
 
 /* Title and upward direction of the scene; none if the scene can no longer be read. */
-static void add_scene(struct hk_text *data, const struct hk_view *view, const char *title) {
+static void add_scene(struct hk_text *data, const struct hk_view *view, const char *title, const char *why) {
   hooke_scene *scene = NULL;
   const char *path = hk_record_path(view->record), *slash = hk_os_last_slash(path);
   const double *gravity = NULL;
@@ -37,7 +37,8 @@ static void add_scene(struct hk_text *data, const struct hk_view *view, const ch
     if (title == NULL && hooke_scene_text(scene, "title")[0]) title = hooke_scene_text(scene, "title");
   }
   hk_text_word(data, "title", title ? title : slash ? slash + 1 : path);
-  hk_text_word(data, "file", slash ? slash + 1 : path);
+  hk_text_word(data, "file", why ? NULL : slash ? slash + 1 : path); /* that of a scene is removed */
+  hk_text_word(data, "why", why);
   hk_text_open(data, "gravity", '[');
   for (int k = 0; k < 3; k++)
     hk_text_number(data, NULL, gravity ? gravity[k] : 0.0);
@@ -75,7 +76,8 @@ static void add_counts(struct hk_text *data, const struct hk_view *view) {
   }
   hk_text_number(data, "loose_there", (double)view->loose_there);
   hk_text_number(data, "loose_stride", (double)view->loose_stride);
-  hk_text_number(data, "good_frames", (double)hooke_record_count(view->record, "good_frames"));
+  hk_text_number(data, "good_frames", (double)view->good_frames);
+  hk_text_number(data, "time_good", view->good_frames > 0 ? view->time[view->good_frames - 1] : (double)NAN);
   hk_text_flag(data, "by_first_frame", view->by_first_frame);
   add_numbers(data, "frame", view->frames, view->frame);
   if (view->particles < view->particles_there) add_numbers(data, "particle", view->particles, view->particle);
@@ -104,7 +106,7 @@ static void add_boxes(struct hk_text *data, const struct hk_view *view, const st
 
 struct page {
   const struct hk_view *view;
-  const char *title;
+  const char *title, *why;
   struct hk_view_box *box; /* of each frame; known once the frames are added */
 };
 
@@ -112,7 +114,7 @@ static int32_t add_data(const struct page *page, struct hk_text *text) {
   struct hk_text all = {.bytes = NULL}, *data = &all;
   const struct hk_view *view = page->view;
   hk_text_open(data, NULL, '{');
-  add_scene(data, view, page->title);
+  add_scene(data, view, page->title, page->why);
   add_run(data, view);
   add_counts(data, view);
   hk_view_add_floats(data, "rest_length", view, view->rest_length);
@@ -169,7 +171,8 @@ static int32_t add_part(const char *name, struct hk_text *text, void *ctx) {
 
 int32_t hk_view_add_page(const hooke_measurement *m, struct hk_text *text) {
   struct hk_view *view = m->object;
-  struct page page = {.view = view, .title = m->label[HOOKE_LABEL_TITLE]};
+  struct page page = {
+      .view = view, .title = m->label[HOOKE_LABEL_TITLE], .why = m->label[HOOKE_LABEL_COMMAND]};
   const int64_t before = text->length;
   page.box = hk_new(view->frames, sizeof *page.box);
   const int32_t status = page.box ? hk_form_fill("view.html", add_part, &page, text) : HOOKE_NO_MEMORY;

@@ -26,7 +26,7 @@ static void read(const void *object, int64_t row, void *line) {
                                        .particles_there = (double)view->particles_there,
                                        .damaged = (double)view->damaged,
                                        .time_first = if_finite(view->time[0]),
-                                       .time_last = if_finite(view->time[view->frames_there - 1]),
+                                       .time_last = if_finite(view->time[view->frame[view->frames - 1]]),
                                        .strain = if_finite(view->strain),
                                        .strain_low = if_finite(view->strain_low),
                                        .strain_high = if_finite(view->strain_high)};
@@ -46,7 +46,7 @@ static const struct hk_column columns[] = {
     COLUMN(particles_there, COUNT, "", "particles of the trajectory"),
     COLUMN(damaged, COUNT, "", "damaged frames, which are skipped"),
     COLUMN(time_first, NUMBER, "s", "time of the first frame"),
-    COLUMN(time_last, NUMBER, "s", "time of the last frame"),
+    COLUMN(time_last, NUMBER, "s", "time of the last frame shown"),
     COLUMN(strain, NUMBER, "", "strain at the ends of the scale of colours"),
     COLUMN(strain_low, NUMBER, "", "lowest strain"),
     COLUMN(strain_high, NUMBER, "", "highest strain"),

@@ -25,36 +25,42 @@ const OUTCOMES = {
   "solver-failed": "ended, its solver having failed", failed: "failed", running: "not closed",
 };
 const ALERTS = {
-  diverged: "The run diverged. These are the frames up to then",
-  "step-limit": "The run used up its steps. These are the frames up to then",
-  "solver-failed": "The solver of the run failed. These are the frames up to then",
-  failed: "The run failed. These are the frames up to then",
-  running: "The run has not been closed: it still goes on, or was killed. These are the frames so far",
+  diverged: "The run diverged", "step-limit": "The run used up its steps", "solver-failed": "The solver of the run failed",
+  failed: "The run failed", running: "The run has not been closed: it still goes on, or was killed. These are the frames so far,",
 };
+const shownAfter = data.frame.filter((k) => k >= data.good_frames).length;
+const where = (data) => `${data.status === "running" ? "up to" : ALERTS[data.status] ? "after" : "at"} t = ${number(data.time_good, 6)} s`;
+
+/* What happened, by what, what is shown of it, and where to see more. */
+function alertOf() {
+  const words = [`${ALERTS[data.status]} ${where(data)}${data.duration ? ` of ${number(data.duration, 6)} s` : ""}, by ${data.method}${accuracyOf(data)}.`];
+  if (shownAfter > 0) words.push(`${counted(shownAfter, "frame")} after that ${shownAfter === 1 ? "shows" : "show"} how it blows up, and ${shownAfter === 1 ? "is" : "are"} no physics.`);
+  if (["diverged", "step-limit", "solver-failed"].includes(data.status)) words.push(`Why, and what to do: ${data.why || `hooke why ${data.file}`}`);
+  return words.join(" ");
+}
 
 function writeHead() {
   document.title = `hooke view: ${data.title}`;
   at("title").textContent = data.title;
   at("lead").textContent = [`${data.method}${accuracyOf(data)}`,
-    `${OUTCOMES[data.status] || data.status} at t = ${number(data.time_last, 6)} s`,
+    `${OUTCOMES[data.status] || data.status} ${where(data)}`,
     counted(data.particles_there, "particle"), counted(data.springs_there, "spring")].join(" \u00b7 ");
-  if (ALERTS[data.status]) {
-    at("alert").textContent = `${ALERTS[data.status]}, t = ${number(data.time_last, 6)} s` +
-      (data.duration ? ` of ${number(data.duration, 6)} s.` : ".");
-    at("alert").hidden = false;
-  }
+  at("alert").hidden = !ALERTS[data.status];
+  if (ALERTS[data.status]) at("alert").textContent = alertOf();
 }
 
 function writeShown() {
   const words = [data.frame_stride > 1
     ? `Shown: ${every(data.frame_stride)} of ${counted(data.frames_there, "frame")} and the last (${whole(data.frames)})`
-    : `Shown: ${data.frames_there === 1 ? "the one frame that there is" : `all ${counted(data.frames_there, "frame")}`}`];
+    : `Shown: ${data.frames < data.frames_there ? `${whole(data.frames)} of ${whole(data.frames_there)} frames`
+      : data.frames_there === 1 ? "the one frame that there is" : `all ${counted(data.frames_there, "frame")}`}`];
   words.push(data.spring_stride > 1
     ? `drawn: ${every(data.spring_stride)} spring of ${whole(data.springs_there)} (${whole(data.springs)})` : "all springs");
   if (data.loose_stride > 1) words.push(`${every(data.loose_stride)} of ${whole(data.loose_there)} particles without springs`);
-  const far = Math.max(...data.box.map((box) => Math.max(box[3] - box[0], box[4] - box[1], box[5] - box[2])));
+  const cut = data.frames_there - data.good_frames - shownAfter;
+  if (data.frame_stride === 1 && cut > 0) words.push(`${counted(cut, "frame")} after it diverged left out`);
   if (data.damaged > 0) words.push(`${counted(data.damaged, "damaged frame")} skipped`);
-  words.push(`positions to 1/131,070 of the extent of their frame (at most ${number(far / 131070)} m)`);
+  words.push(`positions to 1/131,070 of the extent of their frame (at most ${number(farthest(run) / 131070)} m)`);
   if (data.by_first_frame) words.push("strain against the first frame, since the file holds no rest lengths");
   at("shown").textContent = `${words.join("; ")}.`;
   const { machine, versions } = data;
@@ -164,8 +170,19 @@ window.follow = (what, value) => {
   }
   following = false;
 };
-window.lead = () => {
-  if (picture) tell("angle", picture.angle());
+window.points = () => (picture ? picture.sample(picture.someFrames) : []);
+window.share = (runs_) => {
+  shared = runs_;
+  data.strain = Math.max(...shared.map((one) => one.data.strain));
+  if (picture) picture.setHome(boxAround(shared.map((one) => homeOf(one.data).home)));
+  dress();
+  show(shown);
+};
+window.lead = (points) => {
+  if (picture) {
+    picture.look(points, picture.towards);
+    tell("angle", picture.angle());
+  }
   if (!matchMedia("(prefers-reduced-motion: reduce)").matches) play();
 };
 

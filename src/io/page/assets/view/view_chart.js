@@ -8,16 +8,27 @@ const COLOURS = { kinetic: "#2f86c9", potential: "#e2711d" };
 const lineOf = (label, run, value, look) => ({ label, run, pointRadius: 0, pointHitRadius: 0, showLine: true, borderWidth: 2, ...look,
   data: run.data.time.map((x, frame) => ({ x, y: value(frame) })) });
 
-const largestOf = (points) => points.reduce((most, { y }) => (Number.isFinite(y) ? Math.max(most, Math.abs(y)) : most), 0);
-const largest = (lines, kept) => Math.max(0, ...lines.map(({ run, data: points }) =>
-  largestOf(kept ? keptFrames(run.data).map((k) => points[k]) : points)));
+const sizesOf = (lines, kept) => lines.flatMap(({ run, data: points }) => (kept ? keptFrames(run.data).map((k) => points[k]) : points)
+  .map(({ y }) => Math.abs(y)).filter((y) => y > 0 && y < Infinity));
+const largest = (sizes) => sizes.reduce((most, size) => Math.max(most, size), 0);
+const blewUp = (lines) => largest(sizesOf(lines, false)) > 10 * largest(sizesOf(lines, true));
 
-/* The range of the lines, without the last frames of a run that blows up. */
+/* The same for the lines of all pages beside this one, without the last frames of a run that blows up. */
 function rangeOf(lines) {
-  const most = largest(lines, true), all = largest(lines, false);
-  if (!(most > 0) || all <= 2 * most) return {};
-  const power = 10 ** Math.floor(Math.log10(most)), round = power * [1, 2, 5, 10].find((head) => head * power >= most);
-  return { min: -round, max: round };
+  const most = largest(sizesOf(lines, true)), round = 10 ** Math.floor(Math.log10(most || 1));
+  const values = lines.flatMap(({ data: points }) => points.map(({ y }) => y)).filter(Number.isFinite);
+  const edge = round * [1, 2, 5, 10].find((head) => head * round >= most);
+  if (most > 0 && largest(sizesOf(lines, false)) > 2 * most) return { min: -edge, max: edge };
+  return { suggestedMin: values.reduce((a, b) => Math.min(a, b), Infinity), suggestedMax: values.reduce((a, b) => Math.max(a, b), -Infinity) };
+}
+
+/* Of sizes, down to a millionth of what there was before the run blew up. */
+function logarithmic(lines) {
+  const sizes = sizesOf(lines, false), low = Math.max(sizes.reduce((a, b) => Math.min(a, b)), 1e-6 * largest(sizesOf(lines, true)));
+  const [first, end] = [Math.floor(Math.log10(low)), Math.min(308, Math.ceil(Math.log10(largest(sizes))))], every = [1, 2, 5, 10, 20, 50, 100].find((k) => end - first <= 7 * k);
+  const isTick = (power) => Math.abs(power - Math.round(power)) < 1e-9 && Math.round(power) % every === 0;
+  return { type: "logarithmic", min: 10 ** first, max: 10 ** end,
+    ticks: { callback: (value) => (isTick(Math.log10(value)) ? value.toExponential(0) : null) } };
 }
 
 class Diagram {
@@ -33,17 +44,17 @@ class Diagram {
     this.canvas.addEventListener("pointermove", (event) => event.buttons && seek(event));
   }
 
-  draw(lines, title, percents = false) {
-    const ink = styleOf("--ink"), grid = styleOf("--line"), text = styleOf("--dim"), last_ = Math.max(...lines.map(({ run }) => run.data.time_last));
+  draw(lines, title, scale) {
+    const ink = styleOf("--ink"), grid = styleOf("--line"), text = styleOf("--dim");
+    const [first, last_] = [Math.min(...shared.map((one) => one.data.time[0])), Math.max(...shared.map((one) => one.data.time_last))];
     if (this.chart) this.chart.destroy();
-    const axis = (words, more, ticks) => ({ type: "linear", title: { display: true, text: words, color: text }, ticks: { color: text,
-      maxRotation: 0, ...ticks }, grid: { color: grid, borderColor: grid }, ...more });
+    const axis = (words, more) => ({ type: "linear", title: { display: true, text: words, color: text },
+      grid: { color: grid, borderColor: grid }, ...more, ticks: { color: text, maxRotation: 0, ...more.ticks } });
     this.chart = new Chart(this.canvas, {
       type: "scatter", data: { datasets: lines },
       options: {
         animation: false, maintainAspectRatio: false, events: [],
-        scales: { x: axis("t [s]", { min: data.time[0], max: last_ > data.time[0] ? last_ : undefined }),
-          y: axis(title, rangeOf(lines), percents ? { callback: percent } : {}) },
+        scales: { x: axis("t [s]", { min: first, max: last_ > first ? last_ : undefined }), y: axis(title, scale) },
         plugins: { tooltip: { enabled: false }, legend: { display: lines.length > 1, align: "end", labels: { color: ink,
           usePointStyle: true, pointStyle: "line", boxHeight: 6 } } },
         onResize: () => requestAnimationFrame(() => this.moveCursor()),
@@ -60,13 +71,13 @@ class Diagram {
   }
 }
 
-/* Of one run its energies, of several the total of each. */
+/* Of one run its energies, of several the total of each; their sizes, once a run has blown up. */
 function drawEnergies() {
-  const ink = styleOf("--ink"), lines = runs.length > 1
-    ? runs.map((run) => lineOf(nameOf(run), run, (frame) => run.data.total[frame], { borderColor: run.own }))
-    : ENERGIES.map((key) => lineOf(key, run, (frame) => data[key][frame], { borderColor: COLOURS[key] || ink, borderDash: key === "total" ? [6, 4] : [] }));
-  energies.draw(lines, runs.length > 1 ? "total energy [J]" : "energy [J]");
-  const clipped = rangeOf(lines).max !== undefined;
-  at("clipped").hidden = !clipped;
-  if (clipped) at("clipped").textContent = `Energies reach ${number(largest(lines, false))} J, beyond the edge of the diagram.`;
+  const ink = styleOf("--ink"), keys = runs.length > 1 ? ["total"] : ENERGIES;
+  const linesOf = (list, value, look) => list.flatMap((one) => keys.map((key) => lineOf(runs.length > 1 ? nameOf(one) : key, one,
+    (frame) => value(one.data[key][frame]), look(one, key))));
+  const all = linesOf(shared, (y) => y, () => ({})), log = blewUp(all);
+  energies.draw(linesOf(runs, (y) => (log ? Math.abs(y) || null : y), (one, key) => (runs.length > 1 ? { borderColor: one.own }
+    : { borderColor: COLOURS[key] || ink, borderDash: key === "total" ? [6, 4] : [] })),
+  `${log ? "size of " : ""}${runs.length > 1 ? "total " : ""}energy [J]`, log ? logarithmic(all) : rangeOf(all));
 }

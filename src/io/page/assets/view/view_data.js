@@ -13,7 +13,7 @@ function readRun() {
   const rest = floatsOf(data.rest_length), stiffness = data.stiffness && !data.by_first_frame ? floatsOf(data.stiffness) : null;
   const text = at("frames").textContent, length = text.length / data.frames;
   const words = new Uint32Array(Math.max(1, springs)), values = new Float32Array(words.buffer);
-  const tints = Float64Array.from(rest, (rest_) => (rest_ > 0 ? 127 / (rest_ * data.strain) : NaN));
+  const tints = Float64Array.from(rest, (rest_) => (rest_ > 0 ? 127 / rest_ : NaN));
 
   /* A number of 16 bits, without decoding the rest of its frame. */
   function wordAt(frame, place) {
@@ -36,7 +36,7 @@ function readRun() {
     const bytes = bytesOf(text.slice(frame * length, (frame + 1) * length)), halves = new Uint16Array(bytes.buffer, first, springs);
     for (let k = 0; k < springs; k++) words[k] = halves[k] << 16;
     for (let k = 0; k < springs; k++) {
-      const place = values[k] * tints[k];
+      const place = values[k] * (tints[k] / data.strain);
       bytes[first + k] = place !== place ? NO_STRAIN : Math.max(0, Math.min(254.5, 127.5 + place)); // NaN without a rest length
     }
     return bytes.subarray(0, first + springs);

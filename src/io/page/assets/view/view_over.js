@@ -8,11 +8,13 @@ const RUN_COLOURS = {
 };
 
 let runs = []; // this page's first
+let shared = [run]; // whose axes are the same
 const accuracyOf = (data) => (data.step !== undefined ? `, step ${number(data.step, 6)} s` : data.rtol !== undefined ? `, rtol ${number(data.rtol, 6)}` : "");
 const nameOf = ({ data }) => `${data.file}: ${data.method}${accuracyOf(data)}`;
 
-function endOf({ status, time_last: end }) {
-  if (ALERTS[status]) return `, ${OUTCOMES[status]} at t = ${number(end, 4)} s`;
+function endOf(one) {
+  const { status, time_last: end } = one;
+  if (ALERTS[status]) return `, ${OUTCOMES[status]} ${where(one)}`;
   return end < data.time_last ? `, until t = ${number(end, 4)} s` : "";
 }
 

@@ -65,7 +65,7 @@ function tensionOf(of, frame, k) {
   return group && group.pull_only && elongation <= 0 ? 0 : of.stiffness[k] * elongation;
 }
 
-const farthest = ({ data: { box } }) => Math.max(...box.map((sides) => Math.max(sides[3] - sides[0], sides[4] - sides[1], sides[5] - sides[2])));
+const farthest = ({ data: { box } }) => Math.max(...box.map(widthOf));
 const rounding = () => `to ${number(100 * ROUNDING, 1)} %`;
 const QUANTITIES = {
   spring: [
@@ -92,7 +92,8 @@ function placesOf({ of, ...there }) {
 const MARK_WORDS = { 0: "", 1: ", pinned", 2: ", driven", 3: ", without springs" };
 
 function positionOf(k, drawn = picture) {
-  return [0, 1, 2].map((axis) => drawn.centre[axis] + drawn.radius * drawn.place[3 * k + axis]);
+  const { centre, radius, target = [0, 0, 0] } = drawn.unit;
+  return [0, 1, 2].map((axis) => centre[axis] + radius * (drawn.place[3 * k + axis] - target[axis]));
 }
 
 function describeParticle({ of, particle: k }) {
@@ -120,7 +121,8 @@ function drawCourse() {
   if (!picked) return;
   const quantity = QUANTITIES[kindOf(picked)].find(({ name }) => name === at("quantity").value), ink = styleOf("--ink");
   const lines = placesOf(picked).map(({ one, k }) => lineOf(nameOf(one), one, (frame) => quantity.of(one, frame, k), { borderColor: one.own || ink }));
-  course.draw(lines, `${quantity.name}${quantity.unit && ` [${quantity.unit}]`}`, quantity.percents);
+  course.draw(lines, `${quantity.name}${quantity.unit && ` [${quantity.unit}]`}`,
+    { ...rangeOf(lines), ticks: quantity.percents ? { callback: percent } : {} });
   const met = lines.flatMap((line) => line.data.map(({ y }) => y)), say_ = quantity.percents ? percent : (value) => `${number(value)} ${quantity.unit}`;
   at("quantity-words").textContent = `${say_(met.reduce((a, b) => Math.min(a, b)))} to ${say_(met.reduce((a, b) => Math.max(a, b)))}; ${quantity.known(runs[picked.of])}`;
 }

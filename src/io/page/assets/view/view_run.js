@@ -126,9 +126,11 @@ function makePoints(marks, uniforms, inBody) {
 
 /* ---- the camera's bounding box ---- */
 
+const widthOf = (box) => Math.max(box[3] - box[0], box[4] - box[1], box[5] - box[2]);
+
 /* Numbers of the frames; for a run that blew up, of those that are not much wider than the first. */
 function keptFrames({ box, status }) {
-  const extents = box.map((sides) => Math.max(sides[3] - sides[0], sides[4] - sides[1], sides[5] - sides[2]));
+  const extents = box.map(widthOf);
   const most = ["finished", "stopped", "running"].includes(status) || extents[0] === 0 ? Infinity : 8 * extents[0];
   return [...box.keys()].filter((k) => extents[k] <= most);
 }
@@ -241,20 +243,20 @@ class Run {
   }
 
   /* Some of the particles in these frames. */
-  sample(frames) {
+  sample(frames, unit = this) {
     const stride = Math.max(1, Math.floor((this.marks.length * frames.length) / 6000)), points = [];
     for (const frame of frames) {
-      this.placeAll(this.bytesOfFrame(frame), this.data.box[frame]);
+      this.placeAll(this.bytesOfFrame(frame), this.data.box[frame], unit);
       for (let k = 0; k < this.marks.length; k += stride) points.push(new THREE.Vector3().fromArray(this.place, 3 * k));
     }
     return points;
   }
 
-  placeAll(bytes, box) {
-    const { place, centre, radius } = this, count = place.length;
+  placeAll(bytes, box, { centre, radius, target = [0, 0, 0] } = this) {
+    const { place } = this, count = place.length;
     const words = new Uint16Array(bytes.buffer, 0, count);
     const scale = [0, 1, 2].map((axis) => Math.min((box[axis + 3] / radius - box[axis] / radius) / 65535, 1e30));
-    const from = [0, 1, 2].map((axis) => Math.max(-1e30, Math.min(1e30, (box[axis] - centre[axis]) / radius)));
+    const from = [0, 1, 2].map((axis) => target[axis] + Math.max(-1e30, Math.min(1e30, (box[axis] - centre[axis]) / radius)));
     for (let k = 0; k < count; k += 3) {
       place[k] = from[0] + scale[0] * words[k];
       place[k + 1] = from[1] + scale[1] * words[k + 1];
@@ -276,9 +278,10 @@ class Run {
     return Math.ceil(this.order.length / this.stride);
   }
 
-  show(frame) {
+  show(frame, unit) {
     const bytes = this.bytesOfFrame(frame), { place } = this;
-    this.placeAll(bytes, this.data.box[frame]);
+    this.unit = unit;
+    this.placeAll(bytes, this.data.box[frame], unit);
     const attributes = this.lines.geometry.attributes, strain = bytes.subarray(2 * place.length);
     if (this.thick) this.fillThick(attributes, strain);
     else this.fillThin(attributes, strain);

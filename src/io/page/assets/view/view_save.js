@@ -84,8 +84,8 @@ function colourBytes(values) {
 /* The frame that is shown, in metres from the middle of the scene, which `extras` has: springs as lines, surfaces shaded, strain
  * as the colour of corners. */
 function modelOf() {
-  const buffer = new Buffer(), { place, ends, radius, centre, triangles } = picture, meshes = [];
-  const position = place.map((value) => value * radius);
+  const buffer = new Buffer(), { place, ends, unit: { radius, centre, target = [0, 0, 0] }, triangles } = picture, meshes = [];
+  const position = place.map((value, k) => (value - target[k % 3]) * radius);
   const strain = colourBytes(picture.meanStrains(picture.bytesOfFrame(shown).subarray(2 * place.length)));
   const corners = { POSITION: buffer.add(position, "VEC3", 3, PLAIN, true), COLOR_0: buffer.add(strain, "VEC3", 3, PLAIN) };
   if (ends.length) meshes.push({ name: "springs", primitives: [{ attributes: corners, mode: 1,

@@ -2,8 +2,9 @@
 /* The picture: a trajectory, others over it, and a camera that turns. */
 
 /* What is seen of a run: of one that blew up, the frames that are not much wider than the first. */
-function homeOf(data) {
-  const home = boxAround(keptFrames(data).map((k) => data.box[k]));
+const homeOf = (data) => around(boxAround(keptFrames(data).map((k) => data.box[k])));
+
+function around(home) {
   return { home, centre: [0, 1, 2].map((axis) => home[axis] / 2 + home[axis + 3] / 2),
     radius: Math.max(...[0, 1, 2].map((axis) => home[axis + 3] / 2 - home[axis] / 2)) || 1 };
 }
@@ -18,6 +19,13 @@ class Picture extends Run {
     this.camera = new THREE.PerspectiveCamera(32, 1, 0.01, 1000);
     this.scene.add(...this.objects);
     this.setUp();
+  }
+
+  /* Lays it out for another box. */
+  setHome(home) {
+    const before_ = this.radius;
+    Object.assign(this, around(home));
+    if (this.tubes) this.tubes.material.uniforms.thickness.value *= before_ / this.radius;
   }
 
   get runs() {
@@ -78,8 +86,8 @@ class Picture extends Run {
     return frames[spread.reduce((best, value, k) => (value > 1.1 * spread[best] ? k : best), 0)];
   }
 
-  sample(frames) {
-    return [...super.sample(frames), ...this.others.flatMap((run) => run.sample(frames.map((frame) => this.frameOf(run, frame))))];
+  sample(frames, unit = this) {
+    return [...super.sample(frames, unit), ...this.others.flatMap((run) => run.sample(frames.map((frame) => this.frameOf(run, frame)), unit))];
   }
 
   /* The frame of another run at the time of this one's. */
@@ -103,6 +111,7 @@ class Picture extends Run {
         target.addScaledVector(way, (distance * (Math.min(...shares) + Math.max(...shares))) / 2);
       }
     }
+    this.distance = distance;
     this.controls.target.copy(target);
     this.camera.position.copy(target).addScaledVector(towards, distance);
     this.camera.far = 100 * Math.max(distance, 1);
@@ -129,7 +138,7 @@ class Picture extends Run {
   }
 
   fit(frame) {
-    this.look(this.sample([frame]), this.towards);
+    this.look(this.sample([frame], this.unit), this.towards);
   }
 
   /* To all that the runs are laid out for. */
@@ -166,9 +175,20 @@ class Picture extends Run {
     for (const run of this.others) run.thin(stride);
   }
 
+  /* Where a box is drawn. One much wider than what was seen, as after a blow-up, is made smaller, until all of it is seen. */
+  unitOf(box) {
+    const width = widthOf(box) / widthOf(this.home), half = [0, 1, 2].map((axis) => box[axis + 3] / 2 - box[axis] / 2);
+    at("zoomed").textContent = width > 1.6 ? `${number(width, 2)} times as wide as before; the picture zooms out` : "";
+    if (!(width > 1.6)) return this;
+    const tall = (this.camera.fov * Math.PI) / 360, wide = Math.atan(this.camera.aspect * Math.tan(tall));
+    return { centre: half.map((side, axis) => box[axis] + side), target: this.controls.target.toArray(),
+      radius: Math.hypot(...half) / (this.distance * Math.sin(Math.min(tall, wide))) };
+  }
+
   show(frame) {
-    super.show(frame);
-    for (const run of this.others) run.show(this.frameOf(run, frame));
+    const { runs } = this, frames = runs.map((run) => (run === this ? frame : this.frameOf(run, frame)));
+    const unit = this.unitOf(boxAround(runs.map(({ data }, k) => data.box[frames[k]])));
+    runs.forEach((run, k) => Run.prototype.show.call(run, frames[k], unit));
   }
 
   draw() {

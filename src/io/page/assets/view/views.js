@@ -32,7 +32,8 @@ for (const frame of frames) {
     if (--awaited > 0) return;
     const pages = others(null), longest = Math.max(...pages.map((page) => page.duration));
     leader = pages.find((page) => page.duration === longest);
-    leader.lead();
+    pages.forEach((page) => page.share(pages.map(({ run }) => run)));
+    leader.lead(pages.flatMap((page) => page.points()));
     over.disabled = false;
     document.title = `hooke view: ${frames.map(({ contentDocument }) => contentDocument.title.replace("hooke view: ", "")).join(", ")}`;
     if (location.hash === "#over") window.putOver();
