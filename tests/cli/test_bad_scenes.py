@@ -1,12 +1,13 @@
 """Faulty scenes: each ends with exit code 3 and a message that names file, place, value and what is allowed."""
 
+import copy
 import json
 import os
 import pathlib
 import subprocess
 
 import pytest
-from conftest import CLI
+from conftest import CLI, SIX_PARTICLES
 
 pytestmark = pytest.mark.everything
 
@@ -342,3 +343,24 @@ def test_no_more_than_twenty_faults_are_told(hooke, tmp_path):
     path = tmp_path / "many.json"
     path.write_text(json.dumps({"hooke": 1, "parts": [{"kind": "clot"}] * 100_000}))
     assert len(hooke("check", path, "--json").json["error"]["message"].splitlines()) == 20
+
+
+def test_a_bad_scene_in_a_trajectory_is_quoted_as_text(hooke, write, tmp_path):
+    h5py = pytest.importorskip("h5py")
+    scene = copy.deepcopy(SIX_PARTICLES)
+    scene["title"] = "a title"
+    (tmp_path / "scene.json").write_text(json.dumps(scene, indent=1))
+    assert hooke("run", "scene.json", "-o", "out.h5", "-q").code == 0
+    with h5py.File(tmp_path / "out.h5", "r+") as file:
+        text = file["hooke/scene"][()]
+        file["hooke/scene"][()] = text.replace(b'"stiffness": 100', b'"stiffness": -10')
+    line = text.split(b"\n").index(b'   "stiffness": 100,') + 1
+    said = f"""out.h5:{line}:17: springs[0].stiffness: -10 is not allowed; allowed: one or more numbers >= 0 [N (strain law), N/m (length law)]
+{line:6} |    "stiffness": -10,
+       |                 ^
+"""
+    for verb in (["run"], ["run", "--resume"], ["check"], ["why"], ["limit", "--predict"], ["verify"], ["view", "--step", "1e-4"],
+                 ["compare"], ["needs", "--want", "1mm"]):
+        answer = hooke(*verb, "out.h5")
+        assert answer.code == 3 and answer.err == f"hooke {verb[0]}: {said}", answer.err
+    assert hooke("run", "out.h5", "--json").json["error"]["message"] == said.split("\n")[0]

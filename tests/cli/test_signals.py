@@ -1,6 +1,8 @@
 """Ctrl-C, SIGTERM and SIGHUP end the work in the same way, however many arrive: results so far are kept, and a run
 says how to continue."""
 
+import json
+import random
 import re
 import signal
 import subprocess
@@ -122,3 +124,65 @@ def test_what_was_ignored_stays_ignored(start, write, number):
     interrupt(process)
     process.communicate(timeout=60)
     assert process.returncode == 130
+
+
+def names(folder):
+    return sorted(path.name for path in folder.iterdir())
+
+
+@pytest.mark.parametrize("number", ALL)
+def test_a_view_leaves_nothing(start, write, tmp_path, number):
+    """Neither trajectory nor checkpoint, and the page that was there stays as it is."""
+    scene = write(CLOTH, checkpoint=1e-4)
+    (tmp_path / "page.html").write_text("older")
+    temporary = set()
+    for after in (0.1, 0):
+        process = start("view", scene, "-o", "page.html", "--json")
+        listens(process, number)
+        time.sleep(after)
+        temporary |= set(names(tmp_path)) - {"page.html", "scene.json"}
+        out, err, seconds = end_by(process, [number] * 20, 0)
+        if process.returncode == 6:
+            pytest.skip("this build writes no pages")
+        assert process.returncode == 130 and "interrupted; nothing is written" in err, (out, err)
+        assert json.loads(out)["error"]["exit"] == 130 and seconds < 10
+        assert names(tmp_path) == ["page.html", "scene.json"] and (tmp_path / "page.html").read_text() == "older"
+    unguessable = [name for name in temporary if re.fullmatch(r"hooke-\w{6}", name)]
+    assert unguessable and str(process.pid) not in str(temporary)
+
+
+def test_a_view_leaves_nothing_whenever_it_is_interrupted(start, write, tmp_path):
+    """Also before it listens: it is then killed."""
+    scene = write(CLOTH, duration=0.02, every=0.002, step=1e-5)
+    for number in 4 * ALL:
+        process = start("view", scene)
+        time.sleep(random.Random(process.pid).uniform(0, 0.08))
+        process.send_signal(number)
+        process.communicate(timeout=60)
+        assert process.returncode in (0, 6, 130, -number)
+        assert names(tmp_path) == sorted(["scene.json"] + ["scene.html"] * (process.returncode == 0))
+        (tmp_path / "scene.html").unlink(missing_ok=True)
+
+
+@pytest.mark.parametrize("number", ALL)
+def test_making_a_scene_ends_too(start, tmp_path, number):
+    words = ["make", "cloth", "--size", "1000x1000", "--edges", "1,0,0;0,0,1", "--mass", "1", "--structural.stiffness", "100"]
+    process = start(*words, "-o", "cloth.json")
+    _, err, seconds = end_by(process, [number] * 20, 0)
+    assert process.returncode == 130 and "hooke make: interrupted; nothing is written" in err
+    assert names(tmp_path) == [] and seconds < 10
+
+
+@pytest.mark.parametrize("number", ALL)
+def test_the_page_of_a_file_is_whole_or_not_there(hooke, start, write, tmp_path, number):
+    assert hooke("run", write(CLOTH, step=1e-5, duration=2e-3, every=1e-5), "-o", "out.h5", "-q").code == 0
+    there = names(tmp_path)
+    process = start("view", "out.h5", "-o", "page.html")
+    _, err, _ = end_by(process, [number] * 20, 0)
+    if process.returncode == 130:
+        assert "interrupted; nothing is written" in err and names(tmp_path) == there
+    elif process.returncode == 0:
+        assert names(tmp_path) == sorted([*there, "page.html"])
+        assert (tmp_path / "page.html").read_text(encoding="utf-8").endswith("</html>\n")
+    else:
+        assert process.returncode == 6, err

@@ -180,6 +180,31 @@ def test_frames_after_divergence(hooke, write, tmp_path):
     view, _ = look(hooke, tmp_path)
     with h5py.File(tmp_path / "out.h5") as file:
         assert view.data["good_frames"] == file["hooke/beyond"][0] < view.data["frames"]
+        assert view.data["time_good"] == file["particles/all/position/time"][view.data["good_frames"] - 1]
+
+
+@needs_view
+def test_so_many_frames_after_divergence(hooke, write, tmp_path):
+    """30 unless told otherwise, of a file that has more and of a scene, whose run is told of as 'hooke run' does."""
+    scene = write(STIFF_PAIR, step=0.0635, every=0.0635, duration=12.7)  # slowly
+    assert hooke("run", scene, "-o", "out.h5", "--past-divergence", "--no-why").code == 4
+    with h5py.File(tmp_path / "out.h5") as file:
+        good, there = int(file["hooke/beyond"][0]), len(file["particles/all/position/time"])
+    assert there > good + 40
+    for words, after in (((), 30), (("--beyond", "40"), 40), (("--beyond", "0"), 0)):
+        view, answer = look(hooke, tmp_path, *words)
+        assert view.data["frame"] == list(range(good + after)) and view.data["frames_there"] == there
+        assert f"{good + after} of {there} frames" in answer.err and "--beyond allow more" in answer.err
+        answer = hooke("view", scene, "-o", "page.html", *words)
+        data = View((tmp_path / "page.html").read_text(encoding="utf-8")).data
+        assert answer.code == 4 and (data["good_frames"], data["frames_there"]) == (good, good + after)
+        told = answer.err.splitlines()[1:]
+        assert re.match("hooke view: the run diverged after t = ", told[0]) and told[1].startswith("try: hooke run scene.json --step ")
+        assert told[2] == "see: hooke why scene.json --report why.html"
+        kept = f", and {after} after it diverged, which are no physics" if after else ""
+        assert re.fullmatch(rf"kept: {good} frames up to t = \S+ s in page.html{kept}", told[3]) and len(told) == 4
+        assert (data["title"], data["file"], data["why"]) == ("scene.json", None, told[2][5:])
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["out.h5", "out.xdmf", "page.html", "scene.json"]
 
 
 @needs_view
@@ -189,7 +214,7 @@ def test_what_is_left_out(hooke, cloth, tmp_path):
     assert (value["frames"], value["frames_there"], value["frame_stride"]) == (4, 11, 4)
     assert (value["springs"], value["springs_there"], value["spring_stride"]) == (18, 106, 6)
     assert value["bytes"] == (tmp_path / "page.html").stat().st_size and value["output"] == "page.html"
-    assert "4 of 11 frames, every 4th, 18 of 106 springs, every 6th; --frames, --springs and --size allow more" in answer.err
+    assert "4 of 11 frames, every 4th, 18 of 106 springs, every 6th; --frames, --springs, --size and --beyond allow more" in answer.err
     assert view.data["time"] == pytest.approx([0, 0.04, 0.08, 0.1])
     with h5py.File(tmp_path / "out.h5") as file:
         springs, q = file["connectivity/springs"][::6], file["particles/all/position/value"]
@@ -239,7 +264,7 @@ def test_what_is_refused(hooke, write, tmp_path):
     scene = write(SIX_PARTICLES, duration=0.1)
     assert hooke("run", scene, "-o", "out.h5").code == 0
     (tmp_path / "other.txt").write_text("words")
-    for source, words in (("other.txt", "HDF5"), ("nothing.h5", "nothing.h5")):
+    for source, words in (("other.txt", 'other.txt:1:1: starts with "w"'), ("nothing.h5", "nothing.h5: cannot be opened")):
         answer = hooke("view", source, "-o", "page.html", "--json")
         assert answer.code == 3 and words in answer.json["error"]["message"]
     assert hooke("compare", scene, "--methods", "rk4", "-o", "several.h5").code == 0

@@ -171,9 +171,48 @@ def test_colours_of_strain(browser, tmp_path):
 
 def test_a_run_that_diverged(browser, tmp_path):
     browser.open(still(make(tmp_path, CLOTH, 4, step=0.02, every=0.02, duration=2)))
-    assert re.match(r"The run diverged. These are the frames up to then, t = \S+ s of 2 s", browser.run('at("alert").textContent'))
+    assert re.fullmatch(r"The run diverged after t = \S+ s of 2 s, by symplectic-euler, step 0.02 s. Why, and what to do: hooke why out.h5",
+                        browser.run('at("alert").textContent'))
     assert browser.run('!at("alert").hidden') and ink(seen(browser)) > 1000
     browser.press(*END)
+    assert browser.console == []
+
+
+def test_frames_after_divergence(browser, tmp_path):
+    """However wide they are, the picture shows them as large as the scene was, and as a frame before once it is back there; energies
+    have an axis of powers of ten."""
+    (tmp_path / "scene.json").write_text(json.dumps({**CLOTH, "driven": [], "run": {**CLOTH["run"], "step": 0.02, "every": 0.02, "duration": 2}}))
+    assert subprocess.run([CLI, "view", "scene.json", "-q"], cwd=tmp_path, capture_output=True).returncode == 4
+    browser.open(still(tmp_path / "scene.html"))
+    after = browser.run("data.frames_there - data.good_frames")
+    assert after == 30 and f"{after} frames after that show how it blows up, and are no physics." in browser.run('at("alert").textContent')
+    assert browser.run('at("alert").textContent').endswith("Why, and what to do: hooke why scene.json --report why.html")
+
+    def across(picture):
+        rows, columns = np.nonzero(np.abs(picture - 255).max(axis=2) > 40)
+        return np.ptp(rows) / len(picture), np.ptp(columns) / picture.shape[1]
+
+    browser.run("for (const id of ['legend', 'axes', 'zoomed']) at(id).style.visibility = 'hidden'")
+    first, camera = seen(browser), "JSON.stringify(picture.angle())"
+    before, wide = browser.run(camera), browser.run("data.box.map(widthOf).map((width) => width / widthOf(data.box[0]))")
+    assert wide[-1] > 1e6 and browser.run('at("zoomed").textContent') == ""
+    for frame_ in (np.argmax(np.array(wide) > 20), len(wide) - 1):
+        browser.run(f"show({frame_}, true)")
+        tall, broad = across(seen(browser))
+        assert max(tall, broad) > 0.3 and tall < 0.98 and broad < 0.98, (frame_, tall, broad)
+        assert browser.run('at("now").textContent.endsWith("after it diverged")') == (frame_ >= len(wide) - 30)
+        said = re.fullmatch(r"(\S+) times as wide as before; the picture zooms out", browser.run('at("zoomed").textContent'))
+        assert float(said[1]) == pytest.approx(wide[frame_] * browser.run("widthOf(data.box[0]) / widthOf(picture.home)"), rel=0.06)
+        places = np.array(browser.run("[...Array(data.particles).keys()].map((k) => positionOf(k))"))
+        size = browser.run(f"widthOf(data.box[{frame_}])")
+        assert np.ptp(places, axis=0).max() == pytest.approx(size, rel=1e-4)
+    browser.run("show(0, true)")
+    assert (seen(browser) == first).all() and browser.run(camera) == before
+    y = browser.run("(({ type, min, max, ticks }) => [type, min, max, ticks.map(({ label }) => label)])(energies.chart.scales.y)")
+    most = browser.run("largest(data.total)")
+    assert y[0] == "logarithmic" and y[2] / 10 <= most <= y[2] and y[1] < browser.run("data.kinetic[5]")
+    assert 3 <= len(y[3]) <= 8 and all(re.fullmatch(r"1e[+-]\d+", label) for label in y[3])
+    assert browser.run("energies.chart.data.datasets.every(({ data }) => data.every(({ y }) => y === null || y > 0))")
     assert browser.console == []
 
 
@@ -399,6 +438,33 @@ def test_trajectories_beside_one_another_play_and_turn_together(browser, tmp_pat
     browser.drag(750, 200, 100, 60)
     after = axes()
     assert after[0] == after[1] != before[0]
+    assert browser.console == []
+
+
+def test_trajectories_beside_one_another_have_the_same_axes(browser, tmp_path):
+    """Time, energy, strain and the extent in space: a strand of half the length is drawn half as long."""
+    folders = [tmp_path / name for name in ("whole", "half")]
+    for folder, length in zip(folders, (2, 1)):
+        folder.mkdir()
+        scene = {"hooke": 1, "springs": [{"between": [[0, 1]], "stiffness": 10 * length, "law": "length", "rest_length": 0.9 * length}],
+                 "particles": {"position": [[0, 0, 0], [length, 0, 0]], "mass": 1},
+                 "run": {"method": "rk4", "step": 1e-3, "duration": 0.2 * length, "every": 0.02}}
+        make(folder, scene)
+    page = tmp_path / "both.html"
+    assert subprocess.run([CLI, "view", *(folder / "out.h5" for folder in folders), "-o", page, "-q"]).returncode == 0
+    browser.size(1000, 620)
+    browser.open(page)
+    browser.run(f"{PAGES}.forEach((page) => {{ page.pause(); page.show(0, true); }})")
+    browser.settle()
+    shared = browser.run(PAGES + """.map((page) => { const { x, y } = Object.values(page.Chart.instances)[0].scales;
+        return [x.min, x.max, y.min, y.max, page.run.data.strain]; })""")
+    assert shared[0] == shared[1] and shared[0][:2] == [0, 0.4]
+    assert shared[0][3] >= 0.999 * 0.5 * 20 * 0.2**2 > 3 * 0.5 * 10 * 0.1**2  # the larger of both
+    top, bottom = browser.run("(({ top, bottom }) => [top, bottom])(leader.document.getElementById('stage').getBoundingClientRect())")
+    drawn = pytest.importorskip("matplotlib.image").imread(io.BytesIO(browser.picture()))[int(top) + 40:int(bottom) - 60, :, :3]
+    inked = (drawn < 0.8).any(axis=(0, 2))  # a column with something of the strand
+    lengths = [np.ptp(np.nonzero(inked[half])[0]) for half in (np.s_[20:480], np.s_[520:980])]
+    assert 100 < lengths[0] < 450 and lengths[0] / lengths[1] == pytest.approx(2, rel=0.05)
     assert browser.console == []
 
 
