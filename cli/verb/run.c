@@ -338,28 +338,13 @@ static void release(struct cli_run *run) {
   cli_setup_destroy(&run->setup);
 }
 
-/* Shows the output, which is removed after that. */
-static int show_output(const struct cli_run *run, cli_show *show) {
-  const char *title = hooke_scene_text(run->setup.scene, "title");
-  size_t size;
-  char *why = NULL;
-  FILE *stream = cli_os_open_text(&why, &size);
-  if (stream) cli_blow_up_print_why(stream, run);
-  const int32_t status = cli_print_end(stream, &why);
-  const int code = status == HOOKE_OK ? show(run->arguments, run->output, run->page,
-                                             title && title[0] ? title : run->arguments->scene, why)
-                                      : cli_report_missing_words(run->arguments);
-  free(why);
-  return code;
-}
-
 /* Why the run blew up is looked into when it is shown. */
 static int run_and_show(struct cli_run *run, cli_show *show) {
   int code = integrate_to_want(run);
   const int blew_up = cli_exit_code(run->outcome) == HOOKE_EXIT_DIVERGED;
   if (!blew_up) tell_warnings(run);
   code = cli_watch_check(run->arguments, code);
-  if (code == HOOKE_EXIT_DONE) code = show_output(run, show);
+  if (code == HOOKE_EXIT_DONE) code = show(run);
   if (code != HOOKE_EXIT_DONE || !blew_up) return code;
   find_why(run);
   if (!run->why) tell_warnings(run);

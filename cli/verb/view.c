@@ -1,4 +1,5 @@
 /* hooke view: writes a trajectory as a page that plays it. */
+#include "blow_up.h"
 #include "os.h"
 #include "output_file.h"
 #include "print.h"
@@ -32,7 +33,7 @@ struct shown {
   const char *path[MOST_VIEWS];
   hooke_record *record[MOST_VIEWS];
   hooke_measurement *view[MOST_VIEWS];
-  const char *title, *why; /* of a scene that was run, and the command that explains the run; NULL */
+  const struct cli_run *run; /* that made it; NULL: it was there */
 };
 
 static void print_words(const struct cli_arguments *arguments, const hooke_measurement *view,
@@ -121,12 +122,19 @@ static int open_trajectory(const struct cli_arguments *arguments, struct shown *
   return status == HOOKE_OK ? HOOKE_EXIT_DONE : cli_report_status(arguments, status);
 }
 
-/* What a scene was run for is called by it, as its trajectory is removed. */
-static int label(const struct cli_arguments *arguments, const struct shown *shown) {
-  if (!shown->title) return HOOKE_EXIT_DONE;
-  int32_t status = hooke_measurement_label(shown->view[0], "title", shown->title);
-  if (status == HOOKE_OK) status = hooke_measurement_label(shown->view[0], "command", shown->why);
-  return status == HOOKE_OK ? HOOKE_EXIT_DONE : cli_report_status(arguments, status);
+/* What was run for the page is called by its scene, as its trajectory is removed. */
+static int label(const struct cli_run *run, hooke_measurement *view) {
+  const char *title = hooke_scene_text(run->setup.scene, "title");
+  size_t size;
+  char *why = NULL;
+  FILE *stream = cli_os_open_text(&why, &size);
+  if (stream) cli_blow_up_print_why(stream, run);
+  int32_t status = cli_print_end(stream, &why);
+  if (status == HOOKE_OK)
+    status = hooke_measurement_label(view, "title", title && title[0] ? title : run->arguments->scene);
+  if (status == HOOKE_OK) status = hooke_measurement_label(view, "command", why);
+  free(why);
+  return status == HOOKE_OK ? HOOKE_EXIT_DONE : cli_report_status(run->arguments, status);
 }
 
 static int show_trajectories(const struct cli_arguments *arguments, struct shown *shown, const char *output) {
@@ -135,7 +143,7 @@ static int show_trajectories(const struct cli_arguments *arguments, struct shown
   cli_watch_start(&watch, arguments);
   for (int32_t k = 0; k < shown->count && code == HOOKE_EXIT_DONE; k++)
     code = cli_watch_check(arguments, open_trajectory(arguments, shown, k));
-  if (code == HOOKE_EXIT_DONE) code = label(arguments, shown);
+  if (code == HOOKE_EXIT_DONE && shown->run) code = label(shown->run, shown->view[0]);
   if (code == HOOKE_EXIT_DONE) code = write_page(arguments, shown, output);
   for (int32_t k = 0; k < shown->count; k++) {
     hooke_measurement_destroy(shown->view[k]);
@@ -144,10 +152,9 @@ static int show_trajectories(const struct cli_arguments *arguments, struct shown
   return code;
 }
 
-static int show_one(const struct cli_arguments *arguments, const char *path, const char *output,
-                    const char *title, const char *why) {
-  struct shown shown = {.count = 1, .path = {path}, .title = title, .why = why};
-  return show_trajectories(arguments, &shown, output);
+static int show_run(const struct cli_run *run) {
+  struct shown shown = {.count = 1, .path = {run->output}, .run = run};
+  return show_trajectories(run->arguments, &shown, run->page);
 }
 
 /* By way of a trajectory beside the page. */
@@ -159,7 +166,7 @@ static int run_and_show(const struct cli_arguments *arguments, const char *outpu
   if (!path) return cli_report(arguments, HOOKE_EXIT_BAD_INPUT, "out of memory");
   snprintf(path, (size_t)folder + sizeof name, "%.*s%s", folder, output, name);
   const double beyond = hooke_options_number(arguments->more, "beyond");
-  const int code = cli_run_to_show(arguments, path, output, beyond, show_one);
+  const int code = cli_run_to_show(arguments, path, output, beyond, show_run);
   free(path);
   return code;
 }

@@ -185,7 +185,7 @@ def test_frames_after_divergence(browser, tmp_path):
     assert subprocess.run([CLI, "view", "scene.json", "-q"], cwd=tmp_path, capture_output=True).returncode == 4
     browser.open(still(tmp_path / "scene.html"))
     after = browser.run("data.frames_there - data.good_frames")
-    assert after == 30 and f"{after} frames after that show how it blows up, and are no physics." in browser.run('at("alert").textContent')
+    assert after == 30 and f"Frames after that, {after} here, show how it blows up, and are no physics." in browser.run('at("alert").textContent')
     assert browser.run('at("alert").textContent').endswith("Why, and what to do: hooke why scene.json --report why.html")
 
     def across(picture):

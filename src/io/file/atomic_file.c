@@ -64,13 +64,12 @@ int hk_file_open(const char *path) {
   return -1;
 }
 
-int32_t hk_file_refuse(int error, const char *kind) {
+int32_t hk_file_refuse(int32_t status, int error, const char *kind) {
   if (error == ENOMEM) return hk_fail(HOOKE_NO_MEMORY, NULL, "no memory to open the file");
   if (error == EINVAL)
-    return hk_fail(HOOKE_BAD_VALUE, NULL, "is not a regular file; allowed: a %s, no pipe and no device",
-                   kind);
+    return hk_fail(status, NULL, "is not a regular file; allowed: a %s, no pipe and no device", kind);
   char reason[HOOKE_ERROR_SIZE];
-  return hk_fail(HOOKE_BAD_VALUE, NULL, "%s: %s; allowed: a %s that can be read",
+  return hk_fail(status, NULL, "%s: %s; allowed: a %s that can be read",
                  error == EISDIR ? "is a directory" : "cannot be opened", hk_print_error(error, reason),
                  kind);
 }

@@ -30,7 +30,7 @@ int32_t hk_dataset_file(struct hk_h5_guard *guard, const char *path, hid_t *file
   *file = -1;
   /* HDF5 would wait for a writer of a pipe */
   if (descriptor < 0 && (errno == EINVAL || errno == EISDIR))
-    return hk_fail_before(hk_file_refuse(errno, "file of HDF5"), "%s: ", path);
+    return hk_fail_before(hk_file_refuse(HOOKE_IO_FAILED, errno, "file of HDF5"), "%s: ", path);
   if (descriptor >= 0) close(descriptor);
   hid_t list = H5Pcreate(H5P_FILE_ACCESS);
   if (list >= 0 && H5Pset_metadata_read_attempts(list, 1) >= 0 &&

@@ -57,7 +57,7 @@ int32_t hk_scene_read_file(const char *path, struct hk_json_guard *guard, char *
   if (file == NULL) {
     const int number = errno;
     if (descriptor >= 0) close(descriptor);
-    return hk_file_refuse(number, guard ? "scene file" : "file");
+    return hk_file_refuse(HOOKE_BAD_VALUE, number, guard ? "scene file" : "file");
   }
   int32_t status = read_all(file, guard, text, length);
   fclose(file);

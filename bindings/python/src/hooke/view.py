@@ -33,8 +33,8 @@ def view(
     `trajectory` is a file that ``hooke.run(..., output=...)`` or ``hooke run -o`` wrote, or the `Result` of such a
     run; `output` the page, by default the file's name with ``.html``; `title` is its heading (by default the
     scene's). Several trajectories play on one page, `output`, side by side or over one another, at the same time and
-    seen from the same angle. Keywords: the maximum number of `frames` and `springs`, and the maximum `size` of the
-    page [MB]; the page states what is omitted.
+    seen from the same angle. Keywords: the maximum number of `frames`, of those `beyond` divergence and of `springs`,
+    and the maximum `size` of the page [MB]; the page states what is omitted.
     """
     if isinstance(trajectory, Sequence) and not isinstance(trajectory, str):
         sources = [_file_of(one) for one in trajectory]

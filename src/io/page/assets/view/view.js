@@ -34,7 +34,7 @@ const where = (data) => `${data.status === "running" ? "up to" : ALERTS[data.sta
 /* What happened, by what, what is shown of it, and where to see more. */
 function alertOf() {
   const words = [`${ALERTS[data.status]} ${where(data)}${data.duration ? ` of ${number(data.duration, 6)} s` : ""}, by ${data.method}${accuracyOf(data)}.`];
-  if (shownAfter > 0) words.push(`${counted(shownAfter, "frame")} after that ${shownAfter === 1 ? "shows" : "show"} how it blows up, and ${shownAfter === 1 ? "is" : "are"} no physics.`);
+  if (shownAfter > 0) words.push(`Frames after that, ${shownAfter} here, show how it blows up, and are no physics.`);
   if (["diverged", "step-limit", "solver-failed"].includes(data.status)) words.push(`Why, and what to do: ${data.why || `hooke why ${data.file}`}`);
   return words.join(" ");
 }
@@ -57,8 +57,6 @@ function writeShown() {
   words.push(data.spring_stride > 1
     ? `drawn: ${every(data.spring_stride)} spring of ${whole(data.springs_there)} (${whole(data.springs)})` : "all springs");
   if (data.loose_stride > 1) words.push(`${every(data.loose_stride)} of ${whole(data.loose_there)} particles without springs`);
-  const cut = data.frames_there - data.good_frames - shownAfter;
-  if (data.frame_stride === 1 && cut > 0) words.push(`${counted(cut, "frame")} after it diverged left out`);
   if (data.damaged > 0) words.push(`${counted(data.damaged, "damaged frame")} skipped`);
   words.push(`positions to 1/131,070 of the extent of their frame (at most ${number(farthest(run) / 131070)} m)`);
   if (data.by_first_frame) words.push("strain against the first frame, since the file holds no rest lengths");
