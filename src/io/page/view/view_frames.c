@@ -10,8 +10,8 @@
 #include <string.h>
 
 /* Sample sizes and fractions for the colour scale: so many springs of each frame; so many of these, and of
- * the frames so many, have a strain within the scale. For a run that blew up only frames that are not much
- * wider than the first count, since later ones leave no colours for the others. */
+ * the frames so many, have a strain within the scale. For a run that blew up only frames before that count
+ * which are not much wider than the first, since later ones leave no colours for the others. */
 enum { LOOKED_AT = 4096, WIDEST = 65535 };
 static const double SPRING_SHARE = 0.98, FRAME_SHARE = 0.9, WIDENED = 8.0;
 
@@ -104,10 +104,10 @@ struct strains {
   int64_t count;
 };
 
-static void take_frame(struct hk_view *view, const double *q, int64_t k, struct strains *s) {
+static void take_frame(struct hk_view *view, const double *q, int64_t k, int64_t frame, struct strains *s) {
   const double most = largest_of_most(view, q, s->sizes), extent = extent_of(view, q);
   if (k == 0 && extent > 0.0 && blew_up(view)) s->widest = WIDENED * extent;
-  if (extent <= s->widest) s->largest[s->count++] = most;
+  if (k == 0 || (extent <= s->widest && frame < view->good_frames)) s->largest[s->count++] = most;
 }
 
 static int32_t look_at_frames(struct hk_view *view, struct strains *s) {
@@ -117,7 +117,7 @@ static int32_t look_at_frames(struct hk_view *view, struct strains *s) {
     double *q = NULL;
     status = hk_view_read(view, position, view->frame[k], view->particles_there, 3, &q);
     if (status == HOOKE_OK) {
-      take_frame(view, q, whole, s);
+      take_frame(view, q, whole, view->frame[k], s);
       view->frame[whole++] = view->frame[k];
     } else if (status == HOOKE_BAD_VALUE &&
                hooke_record_check(view->record, view->frame[k]) == HOOKE_BAD_VALUE) {

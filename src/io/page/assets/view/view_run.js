@@ -128,11 +128,11 @@ function makePoints(marks, uniforms, inBody) {
 
 const widthOf = (box) => Math.max(box[3] - box[0], box[4] - box[1], box[5] - box[2]);
 
-/* Numbers of the frames; for a run that blew up, of those that are not much wider than the first. */
-function keptFrames({ box, status }) {
+/* Numbers of the frames; for a run that blew up, of those before that which are not much wider than the first. */
+function keptFrames({ box, status, frame = [], good_frames: good }) {
   const extents = box.map(widthOf);
   const most = ["finished", "stopped", "running"].includes(status) || extents[0] === 0 ? Infinity : 8 * extents[0];
-  return [...box.keys()].filter((k) => extents[k] <= most);
+  return [...box.keys()].filter((k) => k === 0 || (extents[k] <= most && !(frame[k] >= good)));
 }
 
 function boxAround(kept) {
