@@ -154,7 +154,7 @@ def test_a_view_leaves_nothing(start, write, tmp_path, number):
 def test_a_view_leaves_nothing_whenever_it_is_interrupted(start, write, tmp_path):
     """Also before it listens: it is then killed."""
     scene = write(CLOTH, duration=0.02, every=0.002, step=1e-5)
-    for number in 4 * ALL:
+    for number in 2 * ALL:
         process = start("view", scene)
         time.sleep(random.Random(process.pid).uniform(0, 0.08))
         process.send_signal(number)
@@ -164,21 +164,19 @@ def test_a_view_leaves_nothing_whenever_it_is_interrupted(start, write, tmp_path
         (tmp_path / "scene.html").unlink(missing_ok=True)
 
 
-@pytest.mark.parametrize("number", ALL)
-def test_making_a_scene_ends_too(start, tmp_path, number):
+def test_making_a_scene_ends_too(start, tmp_path):
     words = ["make", "cloth", "--size", "1000x1000", "--edges", "1,0,0;0,0,1", "--mass", "1", "--structural.stiffness", "100"]
     process = start(*words, "-o", "cloth.json")
-    _, err, seconds = end_by(process, [number] * 20, 0)
+    _, err, seconds = end_by(process, 7 * ALL, 0)
     assert process.returncode == 130 and "hooke make: interrupted; nothing is written" in err
     assert names(tmp_path) == [] and seconds < 10
 
 
-@pytest.mark.parametrize("number", ALL)
-def test_the_page_of_a_file_is_whole_or_not_there(hooke, start, write, tmp_path, number):
-    assert hooke("run", write(CLOTH, step=1e-5, duration=2e-3, every=1e-5), "-o", "out.h5", "-q").code == 0
+def test_the_page_of_a_file_is_whole_or_not_there(hooke, start, write, tmp_path):
+    assert hooke("run", write(CLOTH, step=1e-5, duration=1e-3, every=1e-5), "-o", "out.h5", "-q", "--no-estimate").code == 0
     there = names(tmp_path)
     process = start("view", "out.h5", "-o", "page.html")
-    _, err, _ = end_by(process, [number] * 20, 0)
+    _, err, _ = end_by(process, 7 * ALL, 0)
     if process.returncode == 130:
         assert "interrupted; nothing is written" in err and names(tmp_path) == there
     elif process.returncode == 0:
