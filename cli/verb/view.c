@@ -124,14 +124,12 @@ static int open_trajectory(const struct cli_arguments *arguments, struct shown *
 
 /* What was run for the page is called by its scene, as its trajectory is removed. */
 static int label(const struct cli_run *run, hooke_measurement *view) {
-  const char *title = hooke_scene_text(run->setup.scene, "title");
   size_t size;
   char *why = NULL;
   FILE *stream = cli_os_open_text(&why, &size);
   if (stream) cli_blow_up_print_why(stream, run);
   int32_t status = cli_print_end(stream, &why);
-  if (status == HOOKE_OK)
-    status = hooke_measurement_label(view, "title", title && title[0] ? title : run->arguments->scene);
+  if (status == HOOKE_OK) status = hooke_measurement_label(view, "scene", run->arguments->scene);
   if (status == HOOKE_OK) status = hooke_measurement_label(view, "command", why);
   free(why);
   return status == HOOKE_OK ? HOOKE_EXIT_DONE : cli_report_status(run->arguments, status);

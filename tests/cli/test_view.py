@@ -203,7 +203,7 @@ def test_so_many_frames_after_divergence(hooke, write, tmp_path):
         assert told[2] == "see: hooke why scene.json --report why.html"
         kept = f", and {after} after it diverged, which are no physics" if after else ""
         assert re.fullmatch(rf"kept: {good} frames up to t = \S+ s in page.html{kept}", told[3]) and len(told) == 4
-        assert (data["title"], data["file"], data["why"]) == ("scene.json", None, told[2][5:])
+        assert (data["title"], data["file"], data["why"]) == ("scene.json", "scene.json", told[2][5:])
     assert sorted(path.name for path in tmp_path.iterdir()) == ["out.h5", "out.xdmf", "page.html", "scene.json"]
 
 

@@ -23,9 +23,11 @@
 /* ---- words ---- */
 
 /* Title and upward direction of the scene; none if the scene can no longer be read. */
-static void add_scene(struct hk_text *data, const struct hk_view *view, const char *title, const char *why) {
+static void add_scene(struct hk_text *data, const struct hk_view *view, char *const *label) {
   hooke_scene *scene = NULL;
-  const char *path = hk_record_path(view->record), *slash = hk_os_last_slash(path);
+  const char *path = hk_record_path(view->record), *title = label[HOOKE_LABEL_TITLE];
+  const char *name = label[HOOKE_LABEL_SCENE] ? label[HOOKE_LABEL_SCENE] : path,
+             *slash = hk_os_last_slash(name);
   const double *gravity = NULL;
   int32_t status =
       hooke_record_text(view->record, "scene")[0] ? hooke_scene_load(path, NULL, &scene) : HOOKE_BAD_VALUE;
@@ -36,9 +38,10 @@ static void add_scene(struct hk_text *data, const struct hk_view *view, const ch
     hk_view_bodies_add(data, view, hooke_scene_system(scene));
     if (title == NULL && hooke_scene_text(scene, "title")[0]) title = hooke_scene_text(scene, "title");
   }
-  hk_text_word(data, "title", title ? title : slash ? slash + 1 : path);
-  hk_text_word(data, "file", why ? NULL : slash ? slash + 1 : path); /* that of a scene is removed */
-  hk_text_word(data, "why", why);
+  if (slash) name = slash + 1;
+  hk_text_word(data, "title", title ? title : name);
+  hk_text_word(data, "file", name);
+  hk_text_word(data, "why", label[HOOKE_LABEL_COMMAND]);
   hk_text_open(data, "gravity", '[');
   for (int k = 0; k < 3; k++)
     hk_text_number(data, NULL, gravity ? gravity[k] : 0.0);
@@ -106,7 +109,7 @@ static void add_boxes(struct hk_text *data, const struct hk_view *view, const st
 
 struct page {
   const struct hk_view *view;
-  const char *title, *why;
+  char *const *label;      /* of the measurement */
   struct hk_view_box *box; /* of each frame; known once the frames are added */
 };
 
@@ -114,7 +117,7 @@ static int32_t add_data(const struct page *page, struct hk_text *text) {
   struct hk_text all = {.bytes = NULL}, *data = &all;
   const struct hk_view *view = page->view;
   hk_text_open(data, NULL, '{');
-  add_scene(data, view, page->title, page->why);
+  add_scene(data, view, page->label);
   add_run(data, view);
   add_counts(data, view);
   hk_view_add_floats(data, "rest_length", view, view->rest_length);
@@ -171,8 +174,7 @@ static int32_t add_part(const char *name, struct hk_text *text, void *ctx) {
 
 int32_t hk_view_add_page(const hooke_measurement *m, struct hk_text *text) {
   struct hk_view *view = m->object;
-  struct page page = {
-      .view = view, .title = m->label[HOOKE_LABEL_TITLE], .why = m->label[HOOKE_LABEL_COMMAND]};
+  struct page page = {.view = view, .label = m->label};
   const int64_t before = text->length;
   page.box = hk_new(view->frames, sizeof *page.box);
   const int32_t status = page.box ? hk_form_fill("view.html", add_part, &page, text) : HOOKE_NO_MEMORY;
