@@ -16,7 +16,6 @@
 #   make wheel-test  installs that wheel into an empty environment and uses it
 #   make dist   makes the sources of a release, their checksums and a bill of materials, in build/dist
 
-PACKAGES = $(shell awk 'NR > 1 { print $$2 }' cmake/packages.txt)
 PYTHON ?= python3
 PRESETS = release minimal asan
 VENV = build/venv/bin/python
@@ -155,8 +154,8 @@ build/release/build.ninja: CMakePresets.json | build/packages
 	cmake --preset release
 
 # Whatever the tests need has to be there.
-$(PRESETS:%=tests-%): tests-%: build/venv/done
-	cmake --preset $* -DHOOKE_EVERYTHING=ON
+$(PRESETS:%=tests-%): tests-%: build/venv/done build/test/packages
+	cmake --preset $* -DHOOKE_EVERYTHING=ON $(if $(CI),-DHOOKE_WERROR=ON)
 	cmake --build --preset $* --target tests
 
 build/venv/done: tests/requirements.txt docs/requirements.txt | build/packages
@@ -164,35 +163,30 @@ build/venv/done: tests/requirements.txt docs/requirements.txt | build/packages
 	$(VENV) -m pip install --quiet --disable-pip-version-check -r tests/requirements.txt -r docs/requirements.txt
 	touch $@
 
-# What is missing is installed as root or through sudo; without either, the line to type is printed. Where there is no
-# apt-get, the tools have to be there, and CMake names each library that it does without.
-TOOLS = cc cmake ninja $(PYTHON)
+# What is missing is installed as root or through sudo; without either, the line to type is printed (cmake/packages.py).
+# Without the packages called `small` and `use`, hooke is built and lacks what packages.txt names; SMALL=1 leaves out the
+# large ones, `use`.
+build/packages: cmake/packages.py cmake/packages.txt
+	@mkdir -p $(@D)
+	@$(PYTHON) cmake/packages.py build small $(if $(SMALL),,use)
+	@touch $@
+build/test/packages: cmake/packages.py cmake/packages.txt | build/packages
+	@mkdir -p $(@D)
+	@$(PYTHON) cmake/packages.py --all build small use test
+	@touch $@
+
 build/tidy/packages: private PACKAGES = clang-tidy-14
-build/fuzz/packages: private PACKAGES = clang libclang-rt-14-dev
+build/fuzz/packages: private PACKAGES = clang libclang-rt-dev
 build/playground/packages: private PACKAGES = emscripten f2c
 build/wheel/packages: private PACKAGES = f2c libjs-chart.js libjs-three
 build/windows/packages: private PACKAGES = gcc-mingw-w64-x86-64-posix libz-mingw-w64-dev wine64 f2c
 build/long/%.packages: private PACKAGES = $(shell $(PYTHON) tests/long/run.py --packages $*)
-build/long/arm64.packages: private FOREIGN = arm64
+build/long/arm64.packages: private FOREIGN = --foreign arm64
 $(LONG_PARTS:%=build/long/%.packages): build/long/%.packages: tests/long/%.py
 OTHER_PACKAGES = $(patsubst %,build/%/packages,tidy fuzz playground wheel windows) $(LONG_PARTS:%=build/long/%.packages)
-$(OTHER_PACKAGES): | build/packages
-build/packages $(OTHER_PACKAGES): Makefile cmake/packages.txt
+$(OTHER_PACKAGES): Makefile | build/packages
 	@mkdir -p $(@D)
-	@command -v apt-get >/dev/null || for tool in $(TOOLS); do command -v $$tool >/dev/null || { \
-	  printf '%s is missing, and there is no apt-get to install it. These packages have what hooke is built with\n' $$tool; \
-	  printf '(build), what it can do without (use) and what its tests need besides (test):\n\n'; \
-	  cat cmake/packages.txt; exit 1; }; done
-	@command -v apt-get >/dev/null || exit 0; \
-	missing=$$(for package in $(PACKAGES); do \
-	  dpkg-query -W -f='$${Status}' $$package 2>&1 | grep -q ' installed' || printf '%s ' $$package; done); \
-	if [ -n "$$missing" ]; then \
-	  if [ $$(id -u) = 0 ]; then as_root=env; else as_root='sudo env'; fi; \
-	  command -v $${as_root%% *} >/dev/null && \
-	    { [ -z "$(FOREIGN)" ] || $$as_root dpkg --add-architecture $(FOREIGN); } && $$as_root apt-get update && $$as_root \
-	    DEBIAN_FRONTEND=noninteractive apt-get install --yes --no-install-recommends $$missing || \
-	  { printf 'Debian packages are missing. As root:\n\n  $(if $(FOREIGN),dpkg --add-architecture $(FOREIGN); apt-get update; )apt-get install %s\n\n' "$$missing"; exit 1; }; \
-	fi
+	@[ -z "$(PACKAGES)" ] || $(PYTHON) cmake/packages.py --names $(FOREIGN) $(PACKAGES)
 	@touch $@
 
 .PHONY: all venv demo playground windows test test-long calibration tidy wheel wheel-test wheel-windows dist $(PRESETS:%=tests-%)
