@@ -16,6 +16,7 @@
 #   make wheel-test  installs that wheel into an empty environment and uses it
 #   make dist   makes the sources of a release, their checksums and a bill of materials, in build/dist
 
+PACKAGES = build/packages$(if $(SMALL),.small)
 PYTHON ?= python3
 PRESETS = release minimal asan
 VENV = build/venv/bin/python
@@ -133,7 +134,7 @@ wheel-windows: build/wheel/tools/done windows
 dist: all build/dist/tools/done
 	PYTHONPATH=build/release/python build/dist/tools/bin/python packaging/dist.py
 
-build/dist/tools/done: | build/packages
+build/dist/tools/done: | $(PACKAGES)
 	$(PYTHON) -m venv build/dist/tools
 	build/dist/tools/bin/python -m pip install --quiet --disable-pip-version-check cyclonedx-python-lib numpy
 	touch $@
@@ -150,7 +151,7 @@ build/wheel/%/done: $(wildcard bindings/python/wheel/* bindings/browser/lapack/*
 	cmake --build build/wheel/$*
 	touch $@
 
-build/release/build.ninja: CMakePresets.json | build/packages
+build/release/build.ninja: CMakePresets.json | $(PACKAGES)
 	cmake --preset release
 
 # Whatever the tests need has to be there.
@@ -158,7 +159,7 @@ $(PRESETS:%=tests-%): tests-%: build/venv/done build/test/packages
 	cmake --preset $* -DHOOKE_EVERYTHING=ON $(if $(CI),-DHOOKE_WERROR=ON)
 	cmake --build --preset $* --target tests
 
-build/venv/done: tests/requirements.txt docs/requirements.txt | build/packages
+build/venv/done: tests/requirements.txt docs/requirements.txt | $(PACKAGES)
 	$(PYTHON) -m venv build/venv
 	$(VENV) -m pip install --quiet --disable-pip-version-check -r tests/requirements.txt -r docs/requirements.txt
 	touch $@
@@ -166,27 +167,27 @@ build/venv/done: tests/requirements.txt docs/requirements.txt | build/packages
 # What is missing is installed as root or through sudo; without either, the line to type is printed (cmake/packages.py).
 # Without the packages called `small` and `use`, hooke is built and lacks what packages.txt names; SMALL=1 leaves out the
 # large ones, `use`.
-build/packages: cmake/packages.py cmake/packages.txt
+$(PACKAGES): cmake/packages.py cmake/packages.txt
 	@mkdir -p $(@D)
 	@$(PYTHON) cmake/packages.py build small $(if $(SMALL),,use)
 	@touch $@
-build/test/packages: cmake/packages.py cmake/packages.txt | build/packages
+build/test/packages: cmake/packages.py cmake/packages.txt | $(PACKAGES)
 	@mkdir -p $(@D)
 	@$(PYTHON) cmake/packages.py --all build small use test
 	@touch $@
 
-build/tidy/packages: private PACKAGES = clang-tidy-14
-build/fuzz/packages: private PACKAGES = clang libclang-rt-dev
-build/playground/packages: private PACKAGES = emscripten f2c
-build/wheel/packages: private PACKAGES = f2c libjs-chart.js libjs-three
-build/windows/packages: private PACKAGES = gcc-mingw-w64-x86-64-posix libz-mingw-w64-dev wine64 f2c
-build/long/%.packages: private PACKAGES = $(shell $(PYTHON) tests/long/run.py --packages $*)
+build/tidy/packages: private NAMES = clang-tidy-14
+build/fuzz/packages: private NAMES = clang libclang-rt-dev
+build/playground/packages: private NAMES = emscripten f2c
+build/wheel/packages: private NAMES = f2c libjs-chart.js libjs-three
+build/windows/packages: private NAMES = gcc-mingw-w64-x86-64-posix libz-mingw-w64-dev wine64 f2c
+build/long/%.packages: private NAMES = $(shell $(PYTHON) tests/long/run.py --packages $*)
 build/long/arm64.packages: private FOREIGN = --foreign arm64
 $(LONG_PARTS:%=build/long/%.packages): build/long/%.packages: tests/long/%.py
 OTHER_PACKAGES = $(patsubst %,build/%/packages,tidy fuzz playground wheel windows) $(LONG_PARTS:%=build/long/%.packages)
-$(OTHER_PACKAGES): Makefile | build/packages
+$(OTHER_PACKAGES): Makefile | $(PACKAGES)
 	@mkdir -p $(@D)
-	@[ -z "$(PACKAGES)" ] || $(PYTHON) cmake/packages.py --names $(FOREIGN) $(PACKAGES)
+	@[ -z "$(NAMES)" ] || $(PYTHON) cmake/packages.py --names $(FOREIGN) $(NAMES)
 	@touch $@
 
 .PHONY: all venv demo playground windows test test-long calibration tidy wheel wheel-test wheel-windows dist $(PRESETS:%=tests-%)
