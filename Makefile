@@ -151,7 +151,7 @@ build/wheel/%/done: $(wildcard bindings/python/wheel/* bindings/browser/lapack/*
 	cmake --build build/wheel/$*
 	touch $@
 
-build/release/build.ninja: CMakePresets.json | $(PACKAGES)
+build/release/build.ninja: CMakePresets.json $(PACKAGES)
 	cmake --preset release
 
 # Whatever the tests need has to be there.
