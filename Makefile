@@ -6,8 +6,8 @@
 #   make playground  makes the library for the browser, as one page: build/playground/live.html
 #   make test   sets up, builds, and runs every test
 #   make windows  compiles the library and the program for Windows, build/windows, whose tests run under wine
-#   make test-long  runs what takes hours, in nine parts that go on where they were: soak, fuzz, fuzz_hdf5,
-#                   sanitizers, arm64, windows, want, calibration, wheels; make test-long PART=soak runs one of them
+#   make test-long  runs what takes hours, in ten parts that go on where they were: soak, fuzz, fuzz_hdf5,
+#                   sanitizers, arm64, windows, want, calibration, wheels, systems; make test-long PART=soak runs one of them
 #   make calibration  holds the error that hooke run prints against the truth, on 1000 random runs; make calibration
 #                   RUNS=100 on fewer, without writing the figures into the pages
 #   make tidy   runs clang-tidy over the sources in C
@@ -70,7 +70,7 @@ test: $(PRESETS:%=tests-%) build/fuzz/packages playground-if-possible
 	if [ -n "$$failed" ]; then echo; echo "failed:$${failed#;}"; exit 1; fi
 
 # Each part keeps what is done in build/long and writes its figures into docs/notes/reliability.md.
-LONG_PARTS = soak fuzz fuzz_hdf5 sanitizers arm64 windows want calibration wheels
+LONG_PARTS = soak fuzz fuzz_hdf5 sanitizers arm64 windows want calibration wheels systems
 PART = $(LONG_PARTS)
 ifneq ($(filter-out $(LONG_PARTS),$(PART)),)
 $(error no part is called $(filter-out $(LONG_PARTS),$(PART)); there are $(LONG_PARTS))
