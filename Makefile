@@ -6,8 +6,8 @@
 #   make playground  makes the library for the browser, as one page: build/playground/live.html
 #   make test   sets up, builds, and runs every test
 #   make windows  compiles the library and the program for Windows, build/windows, whose tests run under wine
-#   make test-long  runs what takes hours, in nine parts that go on where they were: soak, fuzz, fuzz_hdf5,
-#                   sanitizers, arm64, windows, want, calibration, wheels; make test-long PART=soak runs one of them
+#   make test-long  runs what takes hours, in ten parts that go on where they were: soak, fuzz, fuzz_hdf5,
+#                   sanitizers, arm64, windows, want, calibration, wheels, systems; make test-long PART=soak runs one of them
 #   make calibration  holds the error that hooke run prints against the truth, on 1000 random runs; make calibration
 #                   RUNS=100 on fewer, without writing the figures into the pages
 #   make tidy   runs clang-tidy over the sources in C
@@ -16,7 +16,7 @@
 #   make wheel-test  installs that wheel into an empty environment and uses it
 #   make dist   makes the sources of a release, their checksums and a bill of materials, in build/dist
 
-PACKAGES = $(shell awk 'NR > 1 { print $$2 }' cmake/packages.txt)
+PACKAGES = build/packages$(if $(SMALL),.small)
 PYTHON ?= python3
 PRESETS = release minimal asan
 VENV = build/venv/bin/python
@@ -70,7 +70,7 @@ test: $(PRESETS:%=tests-%) build/fuzz/packages playground-if-possible
 	if [ -n "$$failed" ]; then echo; echo "failed:$${failed#;}"; exit 1; fi
 
 # Each part keeps what is done in build/long and writes its figures into docs/notes/reliability.md.
-LONG_PARTS = soak fuzz fuzz_hdf5 sanitizers arm64 windows want calibration wheels
+LONG_PARTS = soak fuzz fuzz_hdf5 sanitizers arm64 windows want calibration wheels systems
 PART = $(LONG_PARTS)
 ifneq ($(filter-out $(LONG_PARTS),$(PART)),)
 $(error no part is called $(filter-out $(LONG_PARTS),$(PART)); there are $(LONG_PARTS))
@@ -134,7 +134,7 @@ wheel-windows: build/wheel/tools/done windows
 dist: all build/dist/tools/done
 	PYTHONPATH=build/release/python build/dist/tools/bin/python packaging/dist.py
 
-build/dist/tools/done: | build/packages
+build/dist/tools/done: | $(PACKAGES)
 	$(PYTHON) -m venv build/dist/tools
 	build/dist/tools/bin/python -m pip install --quiet --disable-pip-version-check cyclonedx-python-lib numpy
 	touch $@
@@ -151,48 +151,43 @@ build/wheel/%/done: $(wildcard bindings/python/wheel/* bindings/browser/lapack/*
 	cmake --build build/wheel/$*
 	touch $@
 
-build/release/build.ninja: CMakePresets.json | build/packages
+build/release/build.ninja: CMakePresets.json $(PACKAGES)
 	cmake --preset release
 
 # Whatever the tests need has to be there.
-$(PRESETS:%=tests-%): tests-%: build/venv/done
-	cmake --preset $* -DHOOKE_EVERYTHING=ON
+$(PRESETS:%=tests-%): tests-%: build/venv/done build/test/packages
+	cmake --preset $* -DHOOKE_EVERYTHING=ON $(if $(CI),-DHOOKE_WERROR=ON)
 	cmake --build --preset $* --target tests
 
-build/venv/done: tests/requirements.txt docs/requirements.txt | build/packages
+build/venv/done: tests/requirements.txt docs/requirements.txt | $(PACKAGES)
 	$(PYTHON) -m venv build/venv
 	$(VENV) -m pip install --quiet --disable-pip-version-check -r tests/requirements.txt -r docs/requirements.txt
 	touch $@
 
-# What is missing is installed as root or through sudo; without either, the line to type is printed. Where there is no
-# apt-get, the tools have to be there, and CMake names each library that it does without.
-TOOLS = cc cmake ninja $(PYTHON)
-build/tidy/packages: private PACKAGES = clang-tidy-14
-build/fuzz/packages: private PACKAGES = clang libclang-rt-14-dev
-build/playground/packages: private PACKAGES = emscripten f2c
-build/wheel/packages: private PACKAGES = f2c libjs-chart.js libjs-three
-build/windows/packages: private PACKAGES = gcc-mingw-w64-x86-64-posix libz-mingw-w64-dev wine64 f2c
-build/long/%.packages: private PACKAGES = $(shell $(PYTHON) tests/long/run.py --packages $*)
-build/long/arm64.packages: private FOREIGN = arm64
+# What is missing is installed as root or through sudo; without either, the line to type is printed (cmake/packages.py).
+# Without the packages called `small` and `use`, hooke is built and lacks what packages.txt names; SMALL=1 leaves out the
+# large ones, `use`.
+$(PACKAGES): cmake/packages.py cmake/packages.txt
+	@mkdir -p $(@D)
+	@$(PYTHON) cmake/packages.py build small $(if $(SMALL),,use)
+	@touch $@
+build/test/packages: cmake/packages.py cmake/packages.txt | $(PACKAGES)
+	@mkdir -p $(@D)
+	@$(PYTHON) cmake/packages.py --all build small use test
+	@touch $@
+
+build/tidy/packages: private NAMES = clang-tidy-14
+build/fuzz/packages: private NAMES = clang libclang-rt-dev
+build/playground/packages: private NAMES = emscripten f2c
+build/wheel/packages: private NAMES = f2c libjs-chart.js libjs-three
+build/windows/packages: private NAMES = gcc-mingw-w64-x86-64-posix libz-mingw-w64-dev wine64 f2c
+build/long/%.packages: private NAMES = $(shell $(PYTHON) tests/long/run.py --packages $*)
+build/long/arm64.packages: private FOREIGN = --foreign arm64
 $(LONG_PARTS:%=build/long/%.packages): build/long/%.packages: tests/long/%.py
 OTHER_PACKAGES = $(patsubst %,build/%/packages,tidy fuzz playground wheel windows) $(LONG_PARTS:%=build/long/%.packages)
-$(OTHER_PACKAGES): | build/packages
-build/packages $(OTHER_PACKAGES): Makefile cmake/packages.txt
+$(OTHER_PACKAGES): Makefile | $(PACKAGES)
 	@mkdir -p $(@D)
-	@command -v apt-get >/dev/null || for tool in $(TOOLS); do command -v $$tool >/dev/null || { \
-	  printf '%s is missing, and there is no apt-get to install it. These packages have what hooke is built with\n' $$tool; \
-	  printf '(build), what it can do without (use) and what its tests need besides (test):\n\n'; \
-	  cat cmake/packages.txt; exit 1; }; done
-	@command -v apt-get >/dev/null || exit 0; \
-	missing=$$(for package in $(PACKAGES); do \
-	  dpkg-query -W -f='$${Status}' $$package 2>&1 | grep -q ' installed' || printf '%s ' $$package; done); \
-	if [ -n "$$missing" ]; then \
-	  if [ $$(id -u) = 0 ]; then as_root=env; else as_root='sudo env'; fi; \
-	  command -v $${as_root%% *} >/dev/null && \
-	    { [ -z "$(FOREIGN)" ] || $$as_root dpkg --add-architecture $(FOREIGN); } && $$as_root apt-get update && $$as_root \
-	    DEBIAN_FRONTEND=noninteractive apt-get install --yes --no-install-recommends $$missing || \
-	  { printf 'Debian packages are missing. As root:\n\n  $(if $(FOREIGN),dpkg --add-architecture $(FOREIGN); apt-get update; )apt-get install %s\n\n' "$$missing"; exit 1; }; \
-	fi
+	@[ -z "$(NAMES)" ] || $(PYTHON) cmake/packages.py --names $(FOREIGN) $(NAMES)
 	@touch $@
 
 .PHONY: all venv demo playground windows test test-long calibration tidy wheel wheel-test wheel-windows dist $(PRESETS:%=tests-%)

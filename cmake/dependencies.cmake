@@ -121,6 +121,23 @@ function(hooke_read_cholmod_version)
   endif()
 endfunction()
 
+# Versions from 6.4 on; the headers of 7 include mpi.h where SUNDIALS was built with MPI.
+function(hooke_complete_sundials)
+  if(NOT HOOKE_SUNDIALS_FOUND)
+    return()
+  endif()
+  if(HOOKE_SUNDIALS_VERSION VERSION_LESS 6.4)
+    message(STATUS "sundials ${HOOKE_SUNDIALS_VERSION}: too old, 6.4 or later is needed")
+    set(HOOKE_SUNDIALS_FOUND FALSE PARENT_SCOPE)
+  elseif(NOT HOOKE_SUNDIALS_VERSION VERSION_LESS 7)
+    file(STRINGS "${HOOKE_SUNDIALS_INCLUDE_DIR}/sundials/sundials_config.h" mpi REGEX "^#define SUNDIALS_MPI_ENABLED 1")
+    if(mpi)
+      find_package(MPI QUIET COMPONENTS C)
+      target_link_libraries(hooke_dep::sundials INTERFACE MPI::MPI_C)
+    endif()
+  endif()
+endfunction()
+
 # The packages of SUNDIALS and HDF5 in distributions come with MPI, PETSc and more in their CMake files, so these are
 # looked up by name. One of them ("sundials", "cholmod", "lapack", "gsl", "arpack", "hdf5", "jansson") per call.
 macro(hooke_find name)
@@ -131,6 +148,7 @@ macro(hooke_find name)
                 sundials_sunnonlinsolnewton sundials_sunnonlinsolfixedpoint
       OPTIONAL sundials_core # SUNDIALS 7
       VERSION sundials/sundials_config.h "SUNDIALS_VERSION \"([^\"]+)\"")
+    hooke_complete_sundials()
   elseif("${name}" STREQUAL "cholmod")
     hooke_find_library(cholmod
       HEADER cholmod.h

@@ -8,12 +8,13 @@ function(hooke_missing_words words)
   message(STATUS "${words}")
 endfunction()
 
-# Names are those of packages.txt.
+# Names are those of packages.txt, which says what is lost.
 function(hooke_missing name consequence)
   file(STRINGS ${PROJECT_SOURCE_DIR}/cmake/packages.txt row REGEX "^${name} ")
+  string(REGEX REPLACE "^([^ ]+ +)+(build|small|use|test) +" "" lost "${row}")
   string(REGEX MATCHALL "[^ ]+" row "${row}")
   set(ways)
-  foreach(command IN ITEMS "apt-get install" "dnf install" "brew install")
+  foreach(command IN ITEMS "apt-get install" "dnf install" "pacman -S" "brew install" "conda install -c conda-forge")
     list(POP_FRONT row _)
     list(GET row 0 package)
     if(NOT package STREQUAL "-")
@@ -25,5 +26,5 @@ function(hooke_missing name consequence)
   if(HOOKE_EVERYTHING)
     set(space "\n  ") # a line that CMake leaves as it is
   endif()
-  hooke_missing_words("${name}: not found, ${consequence}:${space}${ways}")
+  hooke_missing_words("${name}: not found, so there are no ${lost}${consequence}:${space}${ways}")
 endfunction()

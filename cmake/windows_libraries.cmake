@@ -24,8 +24,8 @@ function(hooke_install name folder)
 endfunction()
 
 if(NOT "${HOOKE_SUNDIALS}" STREQUAL "OFF")
-  hooke_source(s/sundials sundials_6.4.1+dfsg1.orig.tar.xz c61157f1d4be06c704bea40cb131eb63ba2dada161989071604d0a0959cdf04a)
-  hooke_install(sundials sundials-6.4.1 -DEXAMPLES_ENABLE_C=OFF -DEXAMPLES_INSTALL=OFF -DBUILD_CVODES=OFF -DBUILD_IDA=OFF
+  hooke_source(s/sundials sundials_7.1.1+dfsg1.orig.tar.xz 8ed409272af77e958d0ac02fd72199d8643063faf2aa61811e5c615d7db5cf8e)
+  hooke_install(sundials sundials-7.1.1 -DEXAMPLES_ENABLE_C=OFF -DEXAMPLES_INSTALL=OFF -DBUILD_CVODES=OFF -DBUILD_IDA=OFF
     -DBUILD_IDAS=OFF -DBUILD_KINSOL=OFF)
 endif()
 

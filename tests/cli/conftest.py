@@ -3,6 +3,7 @@
 import copy
 import json
 import os
+import pty
 import re
 import signal
 import subprocess
@@ -91,6 +92,13 @@ class Answer:
         value = json.loads(self.out, parse_constant=refuse)
         assert isinstance(value, dict)
         return value
+
+
+def open_terminal():
+    try:
+        return pty.openpty()
+    except OSError as error:
+        pytest.skip(f"no terminal to be had here: {error}")
 
 
 def default_signals():

@@ -4,12 +4,11 @@ import contextlib
 import copy
 import json
 import os
-import pty
 import re
 import subprocess
 
 import pytest
-from conftest import CLI, SIX_PARTICLES, STIFF_PAIR
+from conftest import CLI, SIX_PARTICLES, STIFF_PAIR, open_terminal
 
 pytestmark = pytest.mark.everything
 
@@ -132,7 +131,7 @@ def test_an_advised_command_is_one_line_for_the_shell(call, scene, tmp_path):
 def shown_on_terminal(folder, looked_for, *words):
     """Output of a call on standard error, on a terminal, where everything after the first second is shown; the call
     is ended once the wanted output appears."""
-    terminal, end = pty.openpty()
+    terminal, end = open_terminal()
     plain = {**os.environ, "NO_COLOR": "1"}  # or the program itself changes colours
     process = subprocess.Popen([CLI, *words], cwd=folder, env=plain, stderr=end, stdout=subprocess.DEVNULL)
     os.close(end)

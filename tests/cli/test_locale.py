@@ -22,6 +22,8 @@ def comma(tmp_path_factory):
     folder = tmp_path_factory.mktemp("locale")
     (folder / "comma").write_text(COMMA)
     subprocess.run(["localedef", "-c", "-i", folder / "comma", "-f", "UTF-8", folder / "comma.UTF-8"], capture_output=True)
+    if not (folder / "comma.UTF-8").exists():
+        pytest.skip("localedef has no charmap UTF-8 (Debian: package locales)")
     environment = {k: v for k, v in os.environ.items() if not k.startswith(("LC_", "LANG"))}
     # glibc leaks a few bytes in newlocale() if LOCPATH is set, and a library of HDF5 calls it when loaded
     return environment | {"LOCPATH": str(folder), "LC_NUMERIC": "comma.UTF-8", "ASAN_OPTIONS": "detect_leaks=0"}

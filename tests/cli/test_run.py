@@ -4,7 +4,6 @@ import copy
 import json
 import math
 import os
-import pty
 import re
 import shlex
 import shutil
@@ -17,7 +16,7 @@ from pathlib import Path
 import h5py
 import numpy as np
 import pytest
-from conftest import CLI, ENDLESS, SIX_PARTICLES, STIFF_PAIR
+from conftest import CLI, ENDLESS, SIX_PARTICLES, STIFF_PAIR, open_terminal
 
 pytestmark = pytest.mark.everything
 
@@ -370,13 +369,6 @@ def read_terminal(master, wanted, seconds):
         except BlockingIOError:
             time.sleep(0.05)
     return seen
-
-
-def open_terminal():
-    try:
-        return pty.openpty()
-    except OSError as error:
-        pytest.skip(f"no terminal to be had here: {error}")
 
 
 @pytest.mark.parametrize("verb, quiet", [("run", False), ("run", True), ("compare", False)])

@@ -2,6 +2,7 @@
  * counts, as an uninterrupted run; for every method, including those for references. */
 #include "check.h"
 #include "hash.h"
+#include "memory_folder.h"
 #include "moving_scene.h"
 #include "random.h"
 #include "run.h"
@@ -164,9 +165,8 @@ static void check_stops(const hooke_system *system, struct run run, const struct
                         struct random_source *random, const char *what) {
   struct trace trace = trace_create(system);
   struct course course = {.trace = &trace, .at_points = (int32_t)random_whole(random, 0, 1)};
-  /* in memory if possible: the cost of a checkpoint is fsync */
-  snprintf(course.path, sizeof course.path, "%s/hooke-resume-%ld.checkpoint",
-           access("/dev/shm", W_OK) == 0 ? "/dev/shm" : ".", (long)getpid());
+  snprintf(course.path, sizeof course.path, "%s/hooke-resume-%ld.checkpoint", memory_folder(),
+           (long)getpid());
   int stopped = 1;
   for (int stop = 0; stopped; stop++) {
     course.stop_at = stop < MOST_STOPS ? random_whole(random, 1, stop == 0 ? calls : 1 + calls / 3) : 0;
@@ -288,8 +288,7 @@ static void the_last_short_interval_goes_on(void **state) {
     check_same_bits(whole.size, whole.row + 9 * whole.size, whole.row + 10 * whole.size);
     for (int k = 0; k < 5; k++) {
       struct course course = {.trace = &trace, .stop_at = stops[k]};
-      snprintf(course.path, sizeof course.path, "%s/hooke-end-%ld",
-               access("/dev/shm", W_OK) == 0 ? "/dev/shm" : ".", (long)getpid());
+      snprintf(course.path, sizeof course.path, "%s/hooke-end-%ld", memory_folder(), (long)getpid());
       trace.frames = 0;
       assert_true(run_stopped(system, run, &course, 0));
       course.stop_at = 0;
@@ -307,8 +306,7 @@ static void the_last_short_interval_goes_on(void **state) {
 static void single_steps_go_on_from_a_checkpoint(void **state) {
   (void)state;
   char path[64];
-  snprintf(path, sizeof path, "%s/hooke-steps-%ld", access("/dev/shm", W_OK) == 0 ? "/dev/shm" : ".",
-           (long)getpid());
+  snprintf(path, sizeof path, "%s/hooke-steps-%ld", memory_folder(), (long)getpid());
   for (int64_t m = 0; m < hooke_method_count(); m++) {
     const char *method = hooke_method_name(m);
     if (!is_fixed_step(method)) continue;
@@ -357,8 +355,7 @@ static void first_order_problems_go_on(void **state) {
   static const char *const methods[] = {"forward-euler", "rk4",   "cvode-bdf",
                                         "cvode-adams",   "rk8pd", "arkode-esdirk"};
   char path[64];
-  snprintf(path, sizeof path, "%s/hooke-first-%ld", access("/dev/shm", W_OK) == 0 ? "/dev/shm" : ".",
-           (long)getpid());
+  snprintf(path, sizeof path, "%s/hooke-first-%ld", memory_folder(), (long)getpid());
   for (int m = 0; m < 6; m++) {
     if (!hooke_method_is_built(methods[m])) continue;
     const struct run run = {

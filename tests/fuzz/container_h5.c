@@ -10,6 +10,7 @@
 
 #include "core/crc32.h"
 #include "io/trajectory/trajectory_writer_h5.h"
+#include "memory_folder.h"
 
 #include <hdf5.h>
 
@@ -187,8 +188,7 @@ static void keep_memory(void) {
 void container_begin(struct container *container) {
   char path[96];
   keep_memory();
-  snprintf(container->folder, sizeof container->folder, "%s/hooke-fuzz-XXXXXX",
-           access("/dev/shm", W_OK) == 0 ? "/dev/shm" : P_tmpdir);
+  snprintf(container->folder, sizeof container->folder, "%s/hooke-fuzz-XXXXXX", memory_folder());
   if (mkdtemp(container->folder) == NULL) give_up(container->folder);
   memcpy(folder_to_remove, container->folder, sizeof folder_to_remove);
   atexit(remove_folder);

@@ -12,6 +12,7 @@
 #include "core/crc32.h"
 #include "io/checkpoint/checkpoint_file.h"
 #include "io/checkpoint/checkpoint_form.h"
+#include "memory_folder.h"
 
 #include <fcntl.h>
 #include <math.h>
@@ -98,8 +99,7 @@ static int open_file(const char *path) {
 }
 
 static void begin(void) {
-  snprintf(own.folder, sizeof own.folder, "%s/hooke-fuzz-XXXXXX",
-           access("/dev/shm", W_OK) == 0 ? "/dev/shm" : P_tmpdir);
+  snprintf(own.folder, sizeof own.folder, "%s/hooke-fuzz-XXXXXX", memory_folder());
   hooke_fuzz_require(mkdtemp(own.folder) != NULL, "a folder");
   atexit(remove_folder);
   snprintf(own.path, sizeof own.path, "%s/run.checkpoint", own.folder);

@@ -60,7 +60,7 @@ SANITIZERS = {
 def build(folder):
     """The programs of a preset's folder; prints the compiler's errors."""
     if shutil.which("clang") is None:
-        sys.exit("fuzzing is left out: there is no clang. On Debian:\n  apt-get install clang libclang-rt-14-dev")
+        sys.exit("fuzzing is left out: there is no clang. On Debian:\n  apt-get install clang libclang-rt-dev")
     configure = ["cmake", "--preset", "fuzz", "-B", ROOT / "build" / folder]
     if FLAGS[folder]:
         # the loops as in a release, in one of the builds: sanitizers prevent vectorisation

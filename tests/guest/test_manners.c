@@ -221,7 +221,6 @@ static void tour_files(hooke_system *system, const hooke_options *run) {
   hooke_state *state = NULL;
   hooke_trajectory *trajectory = NULL;
   hooke_record *record = NULL;
-  hooke_measurement *view = NULL;
   int64_t rows, columns;
   OK(hooke_integrator_create(system, run, &integrator));
   OK(hooke_state_create(system, &state));
@@ -238,13 +237,14 @@ static void tour_files(hooke_system *system, const hooke_options *run) {
   OK(hooke_record_read(record, 1, state));
   OK(hooke_record_size(record, "time", &rows, &columns));
   REFUSED(hooke_record_size(record, "tine", &rows, &columns), HOOKE_BAD_VALUE);
+#if HOOKE_HAVE_CHARTJS && HOOKE_HAVE_THREEJS
+  hooke_measurement *view = NULL;
   OK(hooke_view_create(record, NULL, &view));
   OK(hooke_measurement_label(view, "title", "title"));
   REFUSED(hooke_measurement_write(view, nowhere), HOOKE_IO_FAILED);
-#if HOOKE_HAVE_CHARTJS && HOOKE_HAVE_THREEJS
   OK(hooke_measurement_write(view, report_path));
-#endif
   ASK(hooke_measurement_destroy(view));
+#endif
   REFUSED(hooke_record_write_xdmf(record, nowhere), HOOKE_IO_FAILED);
   ASK(hooke_record_close(record));
   OK(hooke_integrator_step(integrator, state, 2));

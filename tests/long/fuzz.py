@@ -52,7 +52,7 @@ def step(target: str, seconds: float) -> Step:
 
 def part(name: str, targets: dict[str, float]) -> Part:
     """Of targets and the seconds that each takes."""
-    return Part(name, ["clang", "libclang-rt-14-dev"], [step(*target) for target in targets.items()], rows, so_far)
+    return Part(name, ["clang", "libclang-rt-dev"], [step(*target) for target in targets.items()], rows, so_far)
 
 
 PART = part("fuzz", {"scene": 3300, "differential": 1300, "options": 300, "obj": 300, "checkpoint": 300})

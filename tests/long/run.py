@@ -14,12 +14,13 @@ import fuzz
 import fuzz_hdf5
 import sanitizers
 import soak
+import systems
 import want
 import wheels
 import windows
 from steps import load, main, write_figures
 
-PARTS = {part.PART.name: part.PART for part in (soak, fuzz, fuzz_hdf5, sanitizers, arm64, windows, want, calibration, wheels)}
+PARTS = {part.PART.name: part.PART for part in (soak, fuzz, fuzz_hdf5, sanitizers, arm64, windows, want, calibration, wheels, systems)}
 
 if __name__ == "__main__":
     option, *names = sys.argv[1:] or [""]

@@ -96,7 +96,7 @@ def rows(step: str, figures: dict[str, Any]) -> list[tuple[str, str]]:
 
 PART = Part(
     "sanitizers",
-    ["clang", "libclang-rt-14-dev", "valgrind"],
+    ["clang", "libclang-rt-dev", "valgrind"],
     [
         Step("minimal", f"{configured('minimal')} && {ctest('build/minimal')}", 120, tests_passed),
         *(level(compiler, optimised) for compiler in COMPILERS for optimised in LEVELS),

@@ -105,7 +105,7 @@ static void the_shortest_is_the_least_width(void **unused) {
     }
     check_ok(hooke_system_force(system, 0.0, q, still, force));
     /* a repulsion of 5 (1/1.25 - 1), which adds up to 1 on either side, within the tetrahedron */
-    double out[3], push = 0.0, most = 0.0;
+    double out[3] = {0}, push = 0.0, most = 0.0;
     for (int p = 0; p < 4; p++) {
       if (dot(force + 3 * p, force + 3 * p) > most) {
         most = dot(force + 3 * p, force + 3 * p);

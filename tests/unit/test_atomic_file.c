@@ -1,6 +1,7 @@
 /* Creation of files: several writers at once, the longest names, links, and replacement of files with a mode
  * and an owner of their own. */
 #include "check.h"
+#include "memory_folder.h"
 #include "small.h"
 
 #include <pthread.h>
@@ -18,7 +19,7 @@ static hooke_system *cloth;
 
 static int set_up(void **state) {
   (void)state;
-  snprintf(folder, sizeof folder, "%s/hooke-place-XXXXXX", access("/dev/shm", W_OK) == 0 ? "/dev/shm" : ".");
+  snprintf(folder, sizeof folder, "%s/hooke-place-XXXXXX", memory_folder());
   assert_non_null(mkdtemp(folder));
   snprintf(path, sizeof path, "%s/scene.json", folder);
   cloth = small_crumpling_cloth(10);

@@ -1,6 +1,7 @@
 /* Damaged checkpoint files: every byte changed, every truncated length, impossible numbers, files of other
  * runs, and the previous file instead of the newest. What is read is what was written, or nothing. */
 #include "check.h"
+#include "memory_folder.h"
 #include "random.h"
 #include "run.h"
 #include "small.h"
@@ -29,8 +30,7 @@ static char folder[64], path[80], previous[96];
 
 static int set_up(void **state) {
   (void)state;
-  snprintf(folder, sizeof folder, "%s/hooke-checkpoint-XXXXXX",
-           access("/dev/shm", W_OK) == 0 ? "/dev/shm" : ".");
+  snprintf(folder, sizeof folder, "%s/hooke-checkpoint-XXXXXX", memory_folder());
   assert_non_null(mkdtemp(folder));
   snprintf(path, sizeof path, "%s/checkpoint", folder);
   snprintf(previous, sizeof previous, "%s.previous", path);

@@ -3,6 +3,7 @@
 #include "check.h"
 #include "core/memory.h"
 #include "io/hdf5/array_h5.h"
+#include "memory_folder.h"
 #include "run.h"
 #include "small.h"
 
@@ -42,7 +43,7 @@ static int set_up(void **state) {
   cloth = small_crumpling_cloth(SIDE); /* large enough for a thread to write */
   integrator = start_run(cloth, fixed);
   at = start_state(cloth);
-  snprintf(folder, sizeof folder, "%s/hooke-output-XXXXXX", access("/dev/shm", W_OK) == 0 ? "/dev/shm" : ".");
+  snprintf(folder, sizeof folder, "%s/hooke-output-XXXXXX", memory_folder());
   assert_non_null(mkdtemp(folder));
   snprintf(path, sizeof path, "%s/out.h5", folder);
   return 0;

@@ -137,7 +137,7 @@ static void blocks(void **unused) {
   (void)unused;
   struct random_source source = {13};
   enum { LONG = 3 * MOST_PARTICLES };
-  double block[2 * LONG], factor[2 * LONG], first[2 * LONG], x[LONG], y[LONG], d[MOST_PARTICLES];
+  double block[2 * LONG] = {0}, factor[2 * LONG], first[2 * LONG], x[LONG], y[LONG], d[MOST_PARTICLES];
   double found[4][LONG], expected[4][LONG];
   for (int64_t n = 0; n <= MOST_PARTICLES; n++) {
     const int64_t size = 3 * n;

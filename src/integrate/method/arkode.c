@@ -19,42 +19,42 @@ static const ARKODE_DIRKTableID tables[] = {ARKODE_ESDIRK325L2SA_5_2_3, ARKODE_E
 
 static void destroy(hooke_integrator *it) {
   struct hk_sundials *own = it->own;
-  if (own->memory) ARKStepFree(&own->memory);
+  if (own->memory) ARKodeFree(&own->memory);
   hk_sundials_release(it);
 }
 
-static int where(void *memory, realtype *t, realtype *gamma, N_Vector *y) {
+static int where(void *memory, sunrealtype *t, sunrealtype *gamma, N_Vector *y) {
   N_Vector predicted, slope, start;
   void *ctx;
-  return ARKStepGetNonlinearSystemData(memory, t, &predicted, y, &slope, gamma, &start, &ctx);
+  return ARKodeGetNonlinearSystemData(memory, t, &predicted, y, &slope, gamma, &start, &ctx);
 }
 
 static int attach_solver(hooke_integrator *it, struct hk_sundials *own) {
   own->where = where;
-  int flag = ARKStepSetLinearSolver(own->memory, own->linear, NULL);
-  if (flag == ARK_SUCCESS) flag = ARKStepSetEpsLin(own->memory, hk_sundials_linear_share(it));
+  int flag = ARKodeSetLinearSolver(own->memory, own->linear, NULL);
+  if (flag == ARK_SUCCESS) flag = ARKodeSetEpsLin(own->memory, hk_sundials_linear_share(it));
   if (flag != ARK_SUCCESS || !hk_unknowns_have_products(it, &own->unknowns) || hk_sundials_linear_is_own(it))
     return flag;
-  return ARKStepSetJacTimes(own->memory, hk_sundials_product_setup, hk_sundials_product);
+  return ARKodeSetJacTimes(own->memory, hk_sundials_product_setup, hk_sundials_product);
 }
 
 static int set_up(hooke_integrator *it, struct hk_sundials *own, int order) {
   own->memory = ARKStepCreate(NULL, hk_sundials_slope, 0.0, own->y, own->context);
   if (own->memory == NULL) return ARK_MEM_FAIL;
-  int flag = ARKStepSetErrHandlerFn(own->memory, hk_sundials_message, own);
-  if (flag == ARK_SUCCESS) flag = ARKStepSetUserData(own->memory, it);
+  int flag = HOOKE_ARKODE_LISTEN(own->memory, own);
+  if (flag == ARK_SUCCESS) flag = ARKodeSetUserData(own->memory, it);
   if (flag == ARK_SUCCESS) {
-    flag = ARKStepSVtolerances(own->memory, hooke_options_number(it->options, "rtol"), own->tolerance);
+    flag = ARKodeSVtolerances(own->memory, hooke_options_number(it->options, "rtol"), own->tolerance);
   }
   if (flag == ARK_SUCCESS) {
     flag = ARKStepSetTableNum(own->memory, tables[order - LOWEST_ORDER], ARKODE_ERK_NONE);
   }
   /* stages predicted from earlier steps: less than half the linear iterations */
-  if (flag == ARK_SUCCESS) flag = ARKStepSetInterpolantType(own->memory, ARK_INTERP_LAGRANGE);
-  if (flag == ARK_SUCCESS) flag = ARKStepSetPredictorMethod(own->memory, HIGHEST_ORDER_PREDICTOR);
+  if (flag == ARK_SUCCESS) flag = ARKodeSetInterpolantType(own->memory, ARK_INTERP_LAGRANGE);
+  if (flag == ARK_SUCCESS) flag = ARKodeSetPredictorMethod(own->memory, HIGHEST_ORDER_PREDICTOR);
   /* where a force jumps, such as where a damped spring that only pulls becomes slack, a step may have to
    * shrink far */
-  if (flag == ARK_SUCCESS) flag = ARKStepSetMaxErrTestFails(own->memory, MOST_FAILURES);
+  if (flag == ARK_SUCCESS) flag = ARKodeSetMaxErrTestFails(own->memory, MOST_FAILURES);
   return flag == ARK_SUCCESS ? attach_solver(it, own) : flag;
 }
 
@@ -81,10 +81,10 @@ static int32_t begin(hooke_integrator *it, const hooke_state *state) {
 static void read_counts(hooke_integrator *it) {
   struct hk_sundials *own = it->own;
   long steps = 0, failures = 0, iterations = 0, convergence = 0, linear = 0;
-  ARKStepGetNumSteps(own->memory, &steps);
-  ARKStepGetNumErrTestFails(own->memory, &failures);
-  ARKStepGetNonlinSolvStats(own->memory, &iterations, &convergence);
-  ARKStepGetNumLinIters(own->memory, &linear);
+  ARKodeGetNumSteps(own->memory, &steps);
+  ARKodeGetNumErrTestFails(own->memory, &failures);
+  ARKodeGetNonlinSolvStats(own->memory, &iterations, &convergence);
+  ARKodeGetNumLinIters(own->memory, &linear);
   hk_sundials_count(it, (struct hk_counts){.steps = steps,
                                            .error_test_failures = failures,
                                            .nonlinear_iterations = iterations,
@@ -96,10 +96,10 @@ static void read_counts(hooke_integrator *it) {
  * than its steps. */
 static int32_t step(hooke_integrator *it) {
   struct hk_sundials *own = it->own;
-  realtype reached = it->t;
-  int flag = ARKStepSetStopTime(own->memory, fmin(it->goal, DBL_MAX));
+  sunrealtype reached = it->t;
+  int flag = ARKodeSetStopTime(own->memory, fmin(it->goal, DBL_MAX));
   if (flag == ARK_SUCCESS)
-    flag = ARKStepEvolve(own->memory, hk_sundials_towards(it), own->y, &reached, ARK_ONE_STEP);
+    flag = ARKodeEvolve(own->memory, hk_sundials_towards(it), own->y, &reached, ARK_ONE_STEP);
   read_counts(it);
   return hk_sundials_advance(it, "ARKODE", flag, reached);
 }

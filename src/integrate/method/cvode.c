@@ -24,9 +24,9 @@ static void destroy(hooke_integrator *it) {
   hk_sundials_release(it);
 }
 
-static int where(void *memory, realtype *t, realtype *gamma, N_Vector *y) {
+static int where(void *memory, sunrealtype *t, sunrealtype *gamma, N_Vector *y) {
   N_Vector predicted, slope, first;
-  realtype scale;
+  sunrealtype scale;
   void *ctx;
   return CVodeGetNonlinearSystemData(memory, t, &predicted, y, &slope, gamma, &scale, &first, &ctx);
 }
@@ -47,7 +47,7 @@ static int attach_solver(hooke_integrator *it, struct hk_sundials *own) {
 static int set_up(hooke_integrator *it, struct hk_sundials *own, int order) {
   own->memory = CVodeCreate(is_bdf(it) ? CV_BDF : CV_ADAMS, own->context);
   if (own->memory == NULL) return CV_MEM_FAIL;
-  int flag = CVodeSetErrHandlerFn(own->memory, hk_sundials_message, own);
+  int flag = HOOKE_CVODE_LISTEN(own->memory, own);
   if (flag == CV_SUCCESS) flag = CVodeInit(own->memory, hk_sundials_slope, 0.0, own->y);
   if (flag == CV_SUCCESS) flag = CVodeSetUserData(own->memory, it);
   if (flag == CV_SUCCESS) {
@@ -103,7 +103,7 @@ static void read_counts(hooke_integrator *it) {
   struct hk_sundials *own = it->own;
   long steps = 0, evaluations, setups, failures = 0, iterations = 0, convergence = 0, linear = 0;
   int order, next_order;
-  realtype first, last, next, now;
+  sunrealtype first, last, next, now;
   CVodeGetIntegratorStats(own->memory, &steps, &evaluations, &setups, &failures, &order, &next_order, &first,
                           &last, &next, &now);
   CVodeGetNonlinSolvStats(own->memory, &iterations, &convergence);
@@ -121,7 +121,7 @@ static int32_t step(hooke_integrator *it) {
     const int32_t status = choose_order(it);
     if (status != HOOKE_OK) return status;
   }
-  realtype reached = it->t;
+  sunrealtype reached = it->t;
   const int flag = CVode(own->memory, hk_sundials_towards(it), own->y, &reached, CV_ONE_STEP);
   read_counts(it);
   return hk_sundials_advance(it, "CVODE", flag, reached);

@@ -185,15 +185,15 @@ static int failed(struct hk_sundials *own, int32_t status) {
   return SUNLS_ATIMES_FAIL_UNREC;
 }
 
-static int solve(SUNLinearSolver linear, SUNMatrix matrix, N_Vector x, N_Vector b, realtype tolerance) {
+static int solve(SUNLinearSolver linear, SUNMatrix matrix, N_Vector x, N_Vector b, sunrealtype tolerance) {
   (void)matrix;
   struct solver *s = solver_of(linear);
   hooke_integrator *it = s->integrator;
   struct hk_sundials *own = it->own;
-  realtype t, gamma;
+  sunrealtype t, gamma;
   N_Vector y;
   s->iterations = 0;
-  if (own->where(own->memory, &t, &gamma, &y) != 0) return SUNLS_MEM_NULL;
+  if (own->where(own->memory, &t, &gamma, &y) != 0) return SUNLS_ATIMES_FAIL_UNREC;
   int32_t status = hk_unknowns_place(it, &own->unknowns, t, N_VGetArrayPointer(y));
   if (status != HOOKE_OK) return failed(own, status);
   const int32_t has_v = own->unknowns.has_v;
@@ -211,7 +211,7 @@ static int solve(SUNLinearSolver linear, SUNMatrix matrix, N_Vector x, N_Vector 
     give(s, gamma, x);
   else
     give_positions(s, x);
-  return solution.converged ? SUNLS_SUCCESS : SUNLS_CONV_FAIL;
+  return solution.converged ? SUN_SUCCESS : SUNLS_CONV_FAIL;
 }
 
 /* ---- the object ---- */
@@ -224,7 +224,7 @@ static SUNLinearSolver_Type type_of(SUNLinearSolver linear) {
 static int take_weights(SUNLinearSolver linear, N_Vector left, N_Vector right) {
   (void)right;
   solver_of(linear)->weight = left;
-  return SUNLS_SUCCESS;
+  return SUN_SUCCESS;
 }
 
 static int iterations_of(SUNLinearSolver linear) {
@@ -240,7 +240,7 @@ static int release(SUNLinearSolver linear) {
   }
   linear->content = NULL;
   SUNLinSolFreeEmpty(linear);
-  return SUNLS_SUCCESS;
+  return SUN_SUCCESS;
 }
 
 static int32_t fill(hooke_integrator *it, const char *word, struct solver *s) {

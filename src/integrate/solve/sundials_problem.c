@@ -24,7 +24,7 @@ int32_t hk_sundials_create(hooke_integrator *it, int32_t implicit, int64_t vecto
   if (status != HOOKE_OK) return status;
   const int64_t size = own->unknowns.size;
   it->own_memory += vectors * size * (int64_t)sizeof(double);
-  if (SUNContext_Create(NULL, &own->context) != 0) return no_memory(it, size);
+  if (hk_sundials_context(&own->context, own) != 0) return no_memory(it, size);
   own->y = hk_sundials_vector(size, it->pool, own->context);
   own->tolerance = hk_sundials_vector(size, it->pool, own->context);
   if (own->y == NULL || own->tolerance == NULL || !hk_sundials_spare_create(own->y, &own->spare))
@@ -141,21 +141,21 @@ int32_t hk_sundials_advance(hooke_integrator *it, const char *solver, int flag, 
 
 /* ---- callbacks ---- */
 
-int hk_sundials_slope(realtype t, N_Vector y, N_Vector slope, void *ctx) {
+int hk_sundials_slope(sunrealtype t, N_Vector y, N_Vector slope, void *ctx) {
   hooke_integrator *it = ctx;
   const struct hk_sundials *own = it->own;
   return hk_unknowns_slope(it, &own->unknowns, t, N_VGetArrayPointer(y), N_VGetArrayPointer(slope));
 }
 
 /* Called once per linear solve. */
-int hk_sundials_product_setup(realtype t, N_Vector y, N_Vector slope, void *ctx) {
+int hk_sundials_product_setup(sunrealtype t, N_Vector y, N_Vector slope, void *ctx) {
   (void)slope;
   hooke_integrator *it = ctx;
   const struct hk_sundials *own = it->own;
   return hk_unknowns_linearise(it, &own->unknowns, t, N_VGetArrayPointer(y));
 }
 
-int hk_sundials_product(N_Vector direction, N_Vector product, realtype t, N_Vector y, N_Vector slope,
+int hk_sundials_product(N_Vector direction, N_Vector product, sunrealtype t, N_Vector y, N_Vector slope,
                         void *ctx, N_Vector scratch) {
   (void)y, (void)slope, (void)scratch;
   hooke_integrator *it = ctx;
@@ -164,8 +164,7 @@ int hk_sundials_product(N_Vector direction, N_Vector product, realtype t, N_Vect
                              N_VGetArrayPointer(product));
 }
 
-void hk_sundials_message(int code, const char *module, const char *function, char *message, void *ctx) {
-  (void)code, (void)module, (void)function;
+void hk_sundials_complain(void *ctx, const char *message) {
   struct hk_sundials *own = ctx;
   snprintf(own->message, sizeof own->message, "%s", message);
 }

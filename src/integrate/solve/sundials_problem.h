@@ -2,6 +2,7 @@
 #ifndef HOOKE_INTEGRATE_SOLVE_SUNDIALS_PROBLEM_H
 #define HOOKE_INTEGRATE_SOLVE_SUNDIALS_PROBLEM_H
 
+#include "integrate/solve/sundials_names.h"
 #include "integrate/solve/sundials_vector.h"
 #include "integrate/solve/unknowns.h"
 
@@ -19,7 +20,7 @@ struct hk_sundials {
   SUNContext context;
   void *memory; /* the solver's own; its method frees it */
   /* point of a Newton iteration: time, gamma and unknowns; a flag */
-  int (*where)(void *memory, realtype *t, realtype *gamma, N_Vector *y);
+  int (*where)(void *memory, sunrealtype *t, sunrealtype *gamma, N_Vector *y);
   N_Vector y, tolerance;
   struct hk_sundials_spare spare;
   SUNLinearSolver linear;
@@ -56,11 +57,10 @@ int32_t hk_sundials_advance(hooke_integrator *integrator, const char *solver, in
 /* A time ahead. Only the first step of a solver uses it, for its direction and size. */
 double hk_sundials_towards(const hooke_integrator *integrator);
 
-/* Callbacks; the context is the integrator, that of the message its `own`. */
-int hk_sundials_slope(realtype t, N_Vector y, N_Vector slope, void *ctx);
-int hk_sundials_product_setup(realtype t, N_Vector y, N_Vector slope, void *ctx);
-int hk_sundials_product(N_Vector direction, N_Vector product, realtype t, N_Vector y, N_Vector slope,
+/* Callbacks; the context is the integrator. */
+int hk_sundials_slope(sunrealtype t, N_Vector y, N_Vector slope, void *ctx);
+int hk_sundials_product_setup(sunrealtype t, N_Vector y, N_Vector slope, void *ctx);
+int hk_sundials_product(N_Vector direction, N_Vector product, sunrealtype t, N_Vector y, N_Vector slope,
                         void *ctx, N_Vector scratch);
-void hk_sundials_message(int code, const char *module, const char *function, char *message, void *ctx);
 
 #endif

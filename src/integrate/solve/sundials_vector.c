@@ -78,7 +78,7 @@ static void some_linear_sum(const struct job *j, int64_t at, int64_t count, doub
   hk_linear_sum(count, j->a, j->x + at, j->b, j->y + at, j->z + at);
 }
 
-static void linear_sum(realtype a, N_Vector x, realtype b, N_Vector y, N_Vector z) {
+static void linear_sum(sunrealtype a, N_Vector x, sunrealtype b, N_Vector y, N_Vector z) {
   run(z, &(struct job){
              .some = some_linear_sum, .a = a, .x = numbers(x), .b = b, .y = numbers(y), .z = numbers(z)});
 }
@@ -89,7 +89,7 @@ static void some_set(const struct job *j, int64_t at, int64_t count, double *sum
     j->z[k] = j->a;
 }
 
-static void set(realtype a, N_Vector z) {
+static void set(sunrealtype a, N_Vector z) {
   run(z, &(struct job){.some = some_set, .a = a, .z = numbers(z)});
 }
 
@@ -116,7 +116,7 @@ static void some_scale(const struct job *j, int64_t at, int64_t count, double *s
   hk_scale(count, j->a, j->x + at, j->z + at);
 }
 
-static void scale(realtype a, N_Vector x, N_Vector z) {
+static void scale(sunrealtype a, N_Vector x, N_Vector z) {
   run(z, &(struct job){.some = some_scale, .a = a, .x = numbers(x), .z = numbers(z)});
 }
 
@@ -143,7 +143,7 @@ static void some_add_number(const struct job *j, int64_t at, int64_t count, doub
   hk_add_number(count, j->a, j->x + at, j->z + at);
 }
 
-static void add_number(N_Vector x, realtype a, N_Vector z) {
+static void add_number(N_Vector x, sunrealtype a, N_Vector z) {
   run(z, &(struct job){.some = some_add_number, .a = a, .x = numbers(x), .z = numbers(z)});
 }
 
@@ -153,7 +153,7 @@ static void some_dot(const struct job *j, int64_t at, int64_t count, double *sum
   *sum = hk_long_dot(count, j->x + at, j->y + at);
 }
 
-static realtype dot(N_Vector x, N_Vector y) {
+static sunrealtype dot(N_Vector x, N_Vector y) {
   return run_and_add(x, &(struct job){.some = some_dot, .x = numbers(x), .y = numbers(y)});
 }
 
@@ -161,7 +161,7 @@ static void some_largest(const struct job *j, int64_t at, int64_t count, double 
   *sum = hk_largest(count, j->x + at);
 }
 
-static realtype largest(N_Vector x) {
+static sunrealtype largest(N_Vector x) {
   struct job job = {.some = some_largest, .x = numbers(x)};
   double most = 0.0;
   run(x, &job);
@@ -174,15 +174,15 @@ static void some_squares(const struct job *j, int64_t at, int64_t count, double 
   *sum = hk_sum_of_squares(count, j->x + at, j->y + at);
 }
 
-static realtype sum_of_squares(N_Vector x, N_Vector weight) {
+static sunrealtype sum_of_squares(N_Vector x, N_Vector weight) {
   return run_and_add(x, &(struct job){.some = some_squares, .x = numbers(x), .y = numbers(weight)});
 }
 
-static realtype mean_square(N_Vector x, N_Vector weight) {
+static sunrealtype mean_square(N_Vector x, N_Vector weight) {
   return sqrt(sum_of_squares(x, weight) / (double)size_of(x));
 }
 
-static realtype norm(N_Vector x, N_Vector weight) {
+static sunrealtype norm(N_Vector x, N_Vector weight) {
   return sqrt(sum_of_squares(x, weight));
 }
 
@@ -196,7 +196,7 @@ static void some_combination(const struct job *j, int64_t at, int64_t count, dou
 }
 
 /* Z may be the first of x. */
-static int combination(int count, realtype *c, N_Vector *x, N_Vector z) {
+static int combination(int count, sunrealtype *c, N_Vector *x, N_Vector z) {
   run(z, &(struct job){.some = some_combination, .vectors = count, .factor = c, .from = x, .z = numbers(z)});
   return 0;
 }
@@ -207,19 +207,19 @@ static void some_add_to_each(const struct job *j, int64_t at, int64_t count, dou
     hk_linear_sum(count, j->factor[k], j->x + at, 1.0, numbers(j->from[k]) + at, numbers(j->to[k]) + at);
 }
 
-static int add_to_each(int count, realtype *a, N_Vector x, N_Vector *y, N_Vector *z) {
+static int add_to_each(int count, sunrealtype *a, N_Vector x, N_Vector *y, N_Vector *z) {
   run(x, &(struct job){
              .some = some_add_to_each, .vectors = count, .factor = a, .x = numbers(x), .from = y, .to = z});
   return 0;
 }
 
-static int dot_each(int count, N_Vector x, N_Vector *y, realtype *products) {
+static int dot_each(int count, N_Vector x, N_Vector *y, sunrealtype *products) {
   for (int k = 0; k < count; k++)
     products[k] = dot(x, y[k]);
   return 0;
 }
 
-static int scale_each(int count, realtype *c, N_Vector *x, N_Vector *z) {
+static int scale_each(int count, sunrealtype *c, N_Vector *x, N_Vector *z) {
   for (int k = 0; k < count; k++)
     scale(c[k], x[k], z[k]);
   return 0;
@@ -277,7 +277,8 @@ void hk_sundials_spare_release(struct hk_sundials_spare *spare) {
 }
 
 N_Vector hk_sundials_vector(int64_t size, struct hk_pool *pool, SUNContext context) {
-  N_Vector v = wrap(N_VNew_Serial(size, context), pool);
+  const sunindextype length = (sunindextype)size; /* of 32 bits in some builds of SUNDIALS */
+  N_Vector v = length == size ? wrap(N_VNew_Serial(length, context), pool) : NULL;
   if (v == NULL) return NULL;
   v->ops->nvclone = clone;
   v->ops->nvcloneempty = NULL;
