@@ -1,6 +1,6 @@
 """Writes the tables of the guard for every public function: python bindings/generate/guard.py FOLDER
 
-FOLDER/guard/calls.inc, the functions, their texts and their handles, for src/guard/guard.c; FOLDER/guard/names.h,
+FOLDER/guard/calls.inc, the functions, their texts, arrays and handles, for src/guard/guard.c; FOLDER/guard/names.h,
 other names for the functions that they call, included by every file of the library; FOLDER/handle_calls.inc, a bad
 call for each handle of each function, for the tests."""
 
@@ -17,12 +17,25 @@ OPTIONAL_TEXTS = {"command", "folder", "run", "scene", "scene_text", "title"}
 MAY_BE_NO_TEXT = {("hooke_estimate_pick", "method"), ("hooke_record_write_xdmf", "path"),
                   ("hooke_measurement_label", "text"), ("hooke_measurement_table", "kind"),
                   ("hooke_step_bound", "method")}
+# Arrays, callbacks and places for results that may be NULL, by the names of their parameters, or all of a function.
+MAY_BE_MISSING = {"ctx", "observer", "product", "progress", "velocity", "warning"}
+MAY_LACK_ALL = {"hooke_integrator_get": ("q", "v"), "hooke_integrator_put": ("q", "v"), "hooke_system_energy": ("q", "v"),
+                "hooke_system_derivative_blocks": ("dfdq", "dfdv"), "hooke_system_body_particles": ("particles",),
+                "hooke_system_members": ("particles", "stiffness", "damping", "rest_length"),
+                "hooke_system_add_particles": ("first",), "hooke_system_add_part": ("first", "count"),
+                "hooke_measurement_series": ("count",)}
+# Arrays whose length is no count of the function's.
+OF_FIXED_LENGTH = {("hooke_system_drive_harmonic", "amplitude")}
+# Handles that a callback takes for its `ctx`, by the names of their parameters.
+BY_CONTEXT = {"estimate": "hooke_measurement"}
 REFUSED = {"double": "NAN", "int32_t": "HOOKE_BAD_CALL", "int64_t": "-1"}
 MADE_BY = "/* made from the headers in include/hooke by bindings/generate/guard.py */\n"
 
 
-def handle(kind, types):
+def handle(kind, what, types):
     """Type of the handle that a parameter is; None for other parameters."""
+    if kind == "void *" and what != "ctx":
+        return BY_CONTEXT[what]
     match = re.fullmatch(r"(?:const )?(hooke_\w+) \*", kind)
     return match.group(1) if match and match.group(1) in types else None
 
@@ -51,17 +64,32 @@ def check_of_text(result, name, what):
     return f"TEXT({what})" if result == "int32_t" and "_is_" not in name else f"WORD({what})"
 
 
+def missing(function, types):
+    """(parameter, count) of what is not to be NULL unless the count, a parameter or 1, is 0."""
+    _, name, parameters = function
+    count = "1"
+    for kind, what in parameters:
+        if kind == "int64_t" and re.search(r"(^|_)count$|^size$|^samples$", what):
+            count = what
+        elif (kind.endswith("*") and kind != "const char *" and not handle(kind, what, types)
+              and what not in MAY_BE_MISSING and what not in MAY_LACK_ALL.get(name, ())):
+            is_array = re.sub(r"const | \*$", "", kind) in headers.NUMBERS
+            yield what, count if is_array and (name, what) not in OF_FIXED_LENGTH else "1"
+
+
 def call(function, types):
     result, name, parameters = function
     value = refused(result, name)
+    no_array = "HOOKE_BAD_VALUE" if value == "HOOKE_BAD_CALL" else value or ""
     declared = ", ".join(f"{kind}{'' if kind.endswith('*') else ' '}{what}" for kind, what in parameters) or "void"
-    kinds = [(handle(kind, types), what) for kind, what in parameters]
+    kinds = [(handle(kind, what, types), what) for kind, what in parameters]
     checks = [f"{'MAY_BE' if may_be_null(name, kind) else 'IS'}({what}, {kind}, {value or ''})"
               for kind, what in kinds if kind]
     checks += [check_of_text(result, name, what) for kind, what in parameters
                if kind == "const char *" and not may_be_no_text(name, what)]
     if any(check.startswith("TEXT") for check in checks):
-        checks = [f"MADE({what})" for kind, what in parameters if kind.endswith("**") and handle(kind[:-1], types)] + checks
+        checks = [f"MADE({what})" for kind, what in parameters if kind.endswith("**")] + checks
+    checks += [f"GIVEN({what}, {count}, {no_array})" for what, count in missing(function, types)]
     arguments = ", ".join(what for _, what in parameters)
     head = f"CALL({result}, " if value else "CALL_VOID("
     return f"{head}{name[len('hooke_'):]}, ({declared}), ({arguments}), {' '.join(checks)})"
@@ -70,7 +98,7 @@ def call(function, types):
 def bad_calls(function, types):
     """A line for each handle: the others are valid, and the other arguments do not matter."""
     result, name, parameters = function
-    kinds = [handle(kind, types) for kind, _ in parameters]
+    kinds = [handle(kind, what, types) for kind, what in parameters]
     value = refused(result, name)
     how = {None: "NOTHING", "NULL": "NULL_POINTER", "NAN": "NOT_A_NUMBER"}.get(value, "NUMBER")
     for place, (_, what) in enumerate(parameters):
