@@ -31,7 +31,7 @@ static int32_t product(int64_t n, double t, const double *q, const double *v, co
 /* ---- making ---- */
 
 static int32_t check(int64_t size, int64_t mass_count, const double *inverse_mass) {
-  const int32_t status = hk_size_check(size, 1);
+  const int32_t status = hk_size_check(size, 13); /* its mass, and a third of what a particle needs */
   if (status != HOOKE_OK) return status;
   if (mass_count != 1 && mass_count != size) {
     return hk_fail(HOOKE_BAD_VALUE, "inverse_mass",

@@ -137,10 +137,15 @@ static void walk(const struct function *f) {
   }
 }
 
-/* A size that a machine with much memory can hold is refused here. */
+/* A size that a machine with much memory can hold is refused here, by the system or by the sanitizer. */
 static void limit_memory(void) {
   const struct rlimit limit = {INT64_C(1) << 32, INT64_C(1) << 32};
   if (!HOOKE_SANITIZED) setrlimit(RLIMIT_AS, &limit);
+}
+
+const char *__asan_default_options(void);
+const char *__asan_default_options(void) {
+  return "allocator_may_return_null=1:max_allocation_size_mb=2000";
 }
 
 static int64_t walk_apart(const struct function *f) {
