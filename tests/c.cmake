@@ -31,16 +31,10 @@ endfunction()
 
 file(GLOB support_sources CONFIGURE_DEPENDS support/*.c)
 hooke_drop_foreign(support_sources)
-# A table of the public functions, from the headers.
-set(public_calls ${PROJECT_BINARY_DIR}/generated/public_calls.inc)
-set(generate ${PROJECT_SOURCE_DIR}/bindings/generate)
-add_custom_command(OUTPUT ${public_calls}
-  COMMAND ${CMAKE_COMMAND} -E env PYTHONPATH=${generate} ${Python3_EXECUTABLE} -B ${CMAKE_CURRENT_SOURCE_DIR}/support/public_calls.py ${public_calls}
-  DEPENDS support/public_calls.py ${generate}/guard.py ${generate}/headers.py ${HOOKE_PUBLIC_HEADERS} VERBATIM)
+include(public_calls.cmake)
 if(support_sources)
   add_library(hooke_test_support STATIC ${support_sources} ${public_calls})
   target_link_libraries(hooke_test_support PRIVATE hooke_test_flags)
-  target_include_directories(hooke_test_support PRIVATE ${PROJECT_BINARY_DIR}/generated)
   set_target_properties(hooke_test_support PROPERTIES C_EXTENSIONS ${HOOKE_EXTENSIONS})
 endif()
 

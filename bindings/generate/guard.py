@@ -12,20 +12,14 @@ import headers
 
 # Options may be NULL, which means the defaults, except in these functions.
 NEED_OPTIONS = {"hooke_options_copy", "hooke_options_row_count", "hooke_options_row", "hooke_options_row_number"}
-# Texts that may be NULL, by the names of their parameters; and those that need the function's name as well.
-OPTIONAL_TEXTS = {"command", "folder", "run", "scene", "scene_text", "title"}
-MAY_BE_NO_TEXT = {("hooke_estimate_pick", "method"), ("hooke_record_write_xdmf", "path"),
-                  ("hooke_measurement_label", "text"), ("hooke_measurement_table", "kind"),
-                  ("hooke_step_bound", "method")}
-# Arrays, callbacks and places for results that may be NULL, by the names of their parameters, or all of a function.
-MAY_BE_MISSING = {"ctx", "observer", "product", "progress", "velocity", "warning"}
-MAY_LACK_ALL = {"hooke_integrator_get": ("q", "v"), "hooke_integrator_put": ("q", "v"), "hooke_system_energy": ("q", "v"),
-                "hooke_system_derivative_blocks": ("dfdq", "dfdv"), "hooke_system_body_particles": ("particles",),
-                "hooke_system_members": ("particles", "stiffness", "damping", "rest_length"),
-                "hooke_system_add_particles": ("first",), "hooke_system_add_part": ("first", "count"),
-                "hooke_measurement_series": ("count",)}
-# Arrays whose length is no count of the function's.
-OF_FIXED_LENGTH = {("hooke_system_drive_harmonic", "amplitude")}
+# Texts, arrays, callbacks and places for results that may be NULL, by the names of their parameters; and those that need
+# the function's name as well.
+OPTIONAL = {"command", "folder", "run", "scene", "scene_text", "title", "count", "ctx", "damping", "dfdq", "dfdv", "first",
+            "observer", "product", "progress", "rest_length", "stiffness", "velocity", "warning"}
+OPTIONAL_IN = {("hooke_estimate_pick", "method"), ("hooke_record_write_xdmf", "path"), ("hooke_measurement_label", "text"),
+               ("hooke_measurement_table", "kind"), ("hooke_step_bound", "method"), ("hooke_system_members", "particles"),
+               ("hooke_system_body_particles", "particles"), *((f"hooke_{name}", what) for what in "qv"
+                                                               for name in ("integrator_get", "integrator_put", "system_energy"))}
 # Handles that a callback takes for its `ctx`, by the names of their parameters.
 BY_CONTEXT = {"estimate": "hooke_measurement"}
 REFUSED = {"double": "NAN", "int32_t": "HOOKE_BAD_CALL", "int64_t": "-1"}
@@ -54,9 +48,9 @@ def may_be_null(name, kind):
     return name.endswith(("_destroy", "_close")) or (kind == "hooke_options" and name not in NEED_OPTIONS)
 
 
-def may_be_no_text(name, what):
+def is_optional(name, what):
     named = what == "name" and name.startswith(("hooke_system_add_", "hooke_scene_"))
-    return named or what in OPTIONAL_TEXTS or (name, what) in MAY_BE_NO_TEXT
+    return named or what in OPTIONAL or (name, what) in OPTIONAL_IN
 
 
 def check_of_text(result, name, what):
@@ -64,17 +58,16 @@ def check_of_text(result, name, what):
     return f"TEXT({what})" if result == "int32_t" and "_is_" not in name else f"WORD({what})"
 
 
-def missing(function, types):
-    """(parameter, count) of what is not to be NULL unless the count, a parameter or 1, is 0."""
+def required(function, types):
+    """(parameter, count) of arrays, callbacks and places that have to be there unless the count, a parameter or 1, is 0."""
     _, name, parameters = function
     count = "1"
     for kind, what in parameters:
-        if kind == "int64_t" and re.search(r"(^|_)count$|^size$|^samples$", what):
+        if kind == "int64_t" and re.search(r"count$|^size$|^samples$", what):
             count = what
-        elif (kind.endswith("*") and kind != "const char *" and not handle(kind, what, types)
-              and what not in MAY_BE_MISSING and what not in MAY_LACK_ALL.get(name, ())):
-            is_array = re.sub(r"const | \*$", "", kind) in headers.NUMBERS
-            yield what, count if is_array and (name, what) not in OF_FIXED_LENGTH else "1"
+        elif kind.endswith("**") or not (kind[-1] != "*" or kind == "const char *" or handle(kind, what, types)
+                                         or is_optional(name, what)):
+            yield what, "1" if what in ("amplitude", "drive") else count  # which are no arrays of so many
 
 
 def call(function, types):
@@ -86,10 +79,10 @@ def call(function, types):
     checks = [f"{'MAY_BE' if may_be_null(name, kind) else 'IS'}({what}, {kind}, {value or ''})"
               for kind, what in kinds if kind]
     checks += [check_of_text(result, name, what) for kind, what in parameters
-               if kind == "const char *" and not may_be_no_text(name, what)]
+               if kind == "const char *" and not is_optional(name, what)]
     if any(check.startswith("TEXT") for check in checks):
         checks = [f"MADE({what})" for kind, what in parameters if kind.endswith("**")] + checks
-    checks += [f"GIVEN({what}, {count}, {no_array})" for what, count in missing(function, types)]
+    checks += [f"GIVEN({what}, {count}, {no_array})" for what, count in required(function, types)]
     arguments = ", ".join(what for _, what in parameters)
     head = f"CALL({result}, " if value else "CALL_VOID("
     return f"{head}{name[len('hooke_'):]}, ({declared}), ({arguments}), {' '.join(checks)})"

@@ -23,9 +23,6 @@ static int32_t unknown_method(const char *name) {
   return hk_fail(HOOKE_BAD_VALUE, "method", "there is no method \"%s\"; allowed: %s", name, names);
 }
 
-/* Of a number of a first-order problem: itself, its slope, a copy, and four stages. */
-enum { HOOKE_FIRST_ORDER_DOUBLES = 7 };
-
 /* An integrator with method, options and schedule, but no problem yet. */
 static int32_t create(const hooke_options *options, hooke_integrator **out) {
   int32_t status = hk_run_options_require(options, "options");
@@ -130,7 +127,7 @@ int32_t hooke_integrator_create_second_order(int64_t size, hooke_force *force, h
 int32_t hooke_integrator_create_first_order(int64_t size, hooke_rate *rate, void *ctx,
                                             const hooke_options *options, hooke_integrator **out) {
   hooke_integrator *it = NULL;
-  int32_t status = hk_size_check(size, HOOKE_FIRST_ORDER_DOUBLES);
+  int32_t status = hk_size_check(size, 7); /* with its slope, a copy, and four stages */
   if (status == HOOKE_OK) status = create(options, &it);
   if (it == NULL) return status;
   it->rate = rate;

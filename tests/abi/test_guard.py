@@ -33,8 +33,8 @@ def test_every_pointer_is_checked_or_may_be_null():
         line = re.search(rf"^CALL\w*\(.*\b{name.removeprefix('hooke_')}, .*$", CALLS, re.MULTILINE).group()
         checked = re.findall(r"(?:IS|MAY_BE|TEXT|WORD|GIVEN)\((\w+)", line)
         for kind, what in parameters:
-            may = what in guard.MAY_BE_MISSING or what in guard.MAY_LACK_ALL.get(name, ())
-            may = guard.may_be_no_text(name, what) if kind == "const char *" else may
+            is_handle = what in re.findall(r"(?:IS|MAY_BE)\((\w+)", line)
+            may = guard.is_optional(name, what) and not is_handle and not kind.endswith("**")
             assert checked.count(what) == (kind.endswith("*") and not may), (name, what)
 
 

@@ -88,9 +88,12 @@ static const struct {
 static const double places[] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
 static const int64_t numbers[] = {0, 1, 2, 3};
 
-void pool_add(struct pool *pool, const char *type, const char *suits, void *address) {
-  if (address && pool->count < MOST_OBJECTS)
-    pool->object[pool->count++] = (struct object){type, suits, address};
+int32_t pool_add(struct pool *pool, const char *type, const char *suits, void *address) {
+  if (address == NULL || pool->count == MOST_OBJECTS) return 0;
+  if (strcmp(type, "hooke_integrator") == 0) hooke_integrator_on_progress(address, 0.0, stop_soon, NULL);
+  if (strcmp(type, "hooke_measurement") == 0) hooke_measurement_on_progress(address, stop_soon, NULL);
+  pool->object[pool->count++] = (struct object){type, suits, address};
+  return 1;
 }
 
 static int suits(const struct object *object, const char *function, const char *parameter) {
@@ -177,11 +180,6 @@ static void add_states(struct pool *pool, const hooke_system *system) {
   pool_add(pool, "hooke_state", "misfit", first);
 }
 
-static void add_integrator(struct pool *pool, const char *suits, hooke_integrator *integrator) {
-  check_ok(hooke_integrator_on_progress(integrator, 0.0, stop_soon, NULL));
-  pool_add(pool, "hooke_integrator", suits, integrator);
-}
-
 static void add_integrators(struct pool *pool, const hooke_system *system, hooke_state *state) {
   hooke_integrator *integrator =
                        start_run(system, (struct run){.method = "rk4", .step = 0.1, .duration = 0.5}),
@@ -189,28 +187,20 @@ static void add_integrators(struct pool *pool, const hooke_system *system, hooke
   hooke_options *run = run_options((struct run){.method = "rk4", .step = 0.1, .duration = 0.5});
   hooke_state *start = start_state(system);
   check_ok(hooke_integrator_run(integrator, state));
-  add_integrator(pool, NULL, integrator);
-  add_integrator(pool, NULL, start_run(system, (struct run){.method = "verlet", .step = 0.1}));
-  add_integrator(
-      pool, NULL,
-      start_first_order(12, rate, NULL, (struct run){.method = "rk4", .step = 0.1, .duration = 0.5}));
+  pool_add(pool, "hooke_integrator", NULL, integrator);
+  pool_add(pool, "hooke_integrator", NULL, start_run(system, (struct run){.method = "verlet", .step = 0.1}));
+  pool_add(pool, "hooke_integrator", NULL,
+           start_first_order(12, rate, NULL, (struct run){.method = "rk4", .step = 0.1, .duration = 0.5}));
   check_ok(hooke_integrator_create_second_order(11, force, NULL, NULL, 1, &(double){1.0}, run, &other));
-  add_integrator(pool, NULL, other);
+  pool_add(pool, "hooke_integrator", NULL, other);
   other = start_run(system, (struct run){.method = "forward-euler", .step = 10.0, .duration = 5000.0});
   check_status(hooke_integrator_run(other, start), HOOKE_DIVERGED);
-  add_integrator(pool, "why", other);
+  pool_add(pool, "hooke_integrator", "why", other);
   if (hooke_method_is_built("cvode-bdf"))
-    add_integrator(
-        pool, NULL,
-        start_run(system, (struct run){.method = "cvode-bdf", .duration = 0.5, .checkpoint = 0.1}));
+    pool_add(pool, "hooke_integrator", NULL,
+             start_run(system, (struct run){.method = "cvode-bdf", .duration = 0.5, .checkpoint = 0.1}));
   hooke_state_destroy(start);
   hooke_options_destroy(run);
-}
-
-static void add_measurement(struct pool *pool, const char *kind, hooke_measurement *measurement) {
-  if (measurement == NULL) return;
-  hooke_measurement_on_progress(measurement, stop_soon, NULL);
-  pool_add(pool, "hooke_measurement", kind, measurement);
 }
 
 static void add_measurements(struct pool *pool, const hooke_system *system,
@@ -221,11 +211,11 @@ static void add_measurements(struct pool *pool, const hooke_system *system,
   hooke_measurement *made = NULL;
   for (size_t k = 0; k < sizeof kinds / sizeof kinds[0]; k++, made = NULL) {
     hooke_measurement_create(kinds[k], system, run, strcmp(kinds[k], "needs") == 0 ? wanted : NULL, &made);
-    add_measurement(pool, kinds[k], made);
+    pool_add(pool, "hooke_measurement", kinds[k], made);
   }
   check_ok(estimate_of(system, NAN, &made));
   check_ok(hooke_estimate_begin(made, integrator, state));
-  add_measurement(pool, "estimate", made);
+  pool_add(pool, "hooke_measurement", "estimate", made);
   hooke_options_destroy(wanted);
   hooke_options_destroy(run);
 }
@@ -243,7 +233,7 @@ static void add_files(struct pool *pool, const hooke_system *system, const hooke
   check_ok(hooke_record_open("record.h5", &record));
   hooke_view_create(record, NULL, &view);
   pool_add(pool, "hooke_record", NULL, record);
-  add_measurement(pool, "view", view);
+  pool_add(pool, "hooke_measurement", "view", view);
 }
 #endif
 

@@ -67,7 +67,8 @@ struct pool {
 void pool_begin(struct pool *pool);
 /* A trajectory, which belongs to the process that makes it. */
 void pool_add_trajectory(struct pool *pool);
-void pool_add(struct pool *pool, const char *type, const char *suits, void *address);
+/* With a progress callback that stops what takes long. 0 if it has no place, and stays the caller's. */
+int32_t pool_add(struct pool *pool, const char *type, const char *suits, void *address);
 /* Destroys all objects, those first that depend on others. */
 void pool_end(struct pool *pool);
 /* By the function of its type. */

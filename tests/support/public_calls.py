@@ -35,13 +35,13 @@ def argument(declared, place, kind):
 
 def row(function, types, callbacks):
     result, name, parameters = function
-    required = {what for what, _ in guard.missing(function, types)}
+    required = {what for what, _ in guard.required(function, types)}
     kinds = [kind(declared, what, types, callbacks) for declared, what in parameters]
 
     def may_be_null(kind, of, what):
         if kind == "HANDLE":
             return guard.may_be_null(name, of)
-        return guard.may_be_no_text(name, what) if kind == "TEXT" else what not in required
+        return guard.is_optional(name, what) if kind == "TEXT" else what not in required
 
     inside = ", ".join(argument(declared, place, kinds[place][0]) for place, (declared, _) in enumerate(parameters))
     into = RESULTS.get(result, "constant")
