@@ -1,6 +1,6 @@
 """Writes the tables of the guard for every public function: python bindings/generate/guard.py FOLDER
 
-FOLDER/guard/calls.inc, the functions, their texts and their handles, for src/guard/guard.c; FOLDER/guard/names.h,
+FOLDER/guard/calls.inc, the functions, their texts, arrays and handles, for src/guard/guard.c; FOLDER/guard/names.h,
 other names for the functions that they call, included by every file of the library; FOLDER/handle_calls.inc, a bad
 call for each handle of each function, for the tests."""
 
@@ -12,17 +12,24 @@ import headers
 
 # Options may be NULL, which means the defaults, except in these functions.
 NEED_OPTIONS = {"hooke_options_copy", "hooke_options_row_count", "hooke_options_row", "hooke_options_row_number"}
-# Texts that may be NULL, by the names of their parameters; and those that need the function's name as well.
-OPTIONAL_TEXTS = {"command", "folder", "run", "scene", "scene_text", "title"}
-MAY_BE_NO_TEXT = {("hooke_estimate_pick", "method"), ("hooke_record_write_xdmf", "path"),
-                  ("hooke_measurement_label", "text"), ("hooke_measurement_table", "kind"),
-                  ("hooke_step_bound", "method")}
+# Texts, arrays, callbacks and places for results that may be NULL, by the names of their parameters; and those that need
+# the function's name as well.
+OPTIONAL = {"command", "folder", "run", "scene", "scene_text", "title", "count", "ctx", "damping", "dfdq", "dfdv", "first",
+            "observer", "product", "progress", "rest_length", "stiffness", "velocity", "warning"}
+OPTIONAL_IN = {("hooke_estimate_pick", "method"), ("hooke_record_write_xdmf", "path"), ("hooke_measurement_label", "text"),
+               ("hooke_measurement_table", "kind"), ("hooke_step_bound", "method"), ("hooke_system_members", "particles"),
+               ("hooke_system_body_particles", "particles"), *((f"hooke_{name}", what) for what in "qv"
+                                                               for name in ("integrator_get", "integrator_put", "system_energy"))}
+# Handles that a callback takes for its `ctx`, by the names of their parameters.
+BY_CONTEXT = {"estimate": "hooke_measurement"}
 REFUSED = {"double": "NAN", "int32_t": "HOOKE_BAD_CALL", "int64_t": "-1"}
 MADE_BY = "/* made from the headers in include/hooke by bindings/generate/guard.py */\n"
 
 
-def handle(kind, types):
+def handle(kind, what, types):
     """Type of the handle that a parameter is; None for other parameters."""
+    if kind == "void *" and what != "ctx":
+        return BY_CONTEXT[what]
     match = re.fullmatch(r"(?:const )?(hooke_\w+) \*", kind)
     return match.group(1) if match and match.group(1) in types else None
 
@@ -41,9 +48,9 @@ def may_be_null(name, kind):
     return name.endswith(("_destroy", "_close")) or (kind == "hooke_options" and name not in NEED_OPTIONS)
 
 
-def may_be_no_text(name, what):
+def is_optional(name, what):
     named = what == "name" and name.startswith(("hooke_system_add_", "hooke_scene_"))
-    return named or what in OPTIONAL_TEXTS or (name, what) in MAY_BE_NO_TEXT
+    return named or what in OPTIONAL or (name, what) in OPTIONAL_IN
 
 
 def check_of_text(result, name, what):
@@ -51,17 +58,31 @@ def check_of_text(result, name, what):
     return f"TEXT({what})" if result == "int32_t" and "_is_" not in name else f"WORD({what})"
 
 
+def required(function, types):
+    """(parameter, count) of arrays, callbacks and places that have to be there unless the count, a parameter or 1, is 0."""
+    _, name, parameters = function
+    count = "1"
+    for kind, what in parameters:
+        if kind == "int64_t" and re.search(r"count$|^size$|^samples$", what):
+            count = what
+        elif kind.endswith("**") or not (kind[-1] != "*" or kind == "const char *" or handle(kind, what, types)
+                                         or is_optional(name, what)):
+            yield what, "1" if what in ("amplitude", "drive") else count  # which are no arrays of so many
+
+
 def call(function, types):
     result, name, parameters = function
     value = refused(result, name)
+    no_array = "HOOKE_BAD_VALUE" if value == "HOOKE_BAD_CALL" else value or ""
     declared = ", ".join(f"{kind}{'' if kind.endswith('*') else ' '}{what}" for kind, what in parameters) or "void"
-    kinds = [(handle(kind, types), what) for kind, what in parameters]
+    kinds = [(handle(kind, what, types), what) for kind, what in parameters]
     checks = [f"{'MAY_BE' if may_be_null(name, kind) else 'IS'}({what}, {kind}, {value or ''})"
               for kind, what in kinds if kind]
     checks += [check_of_text(result, name, what) for kind, what in parameters
-               if kind == "const char *" and not may_be_no_text(name, what)]
+               if kind == "const char *" and not is_optional(name, what)]
     if any(check.startswith("TEXT") for check in checks):
-        checks = [f"MADE({what})" for kind, what in parameters if kind.endswith("**") and handle(kind[:-1], types)] + checks
+        checks = [f"MADE({what})" for kind, what in parameters if kind.endswith("**")] + checks
+    checks += [f"GIVEN({what}, {count}, {no_array})" for what, count in required(function, types)]
     arguments = ", ".join(what for _, what in parameters)
     head = f"CALL({result}, " if value else "CALL_VOID("
     return f"{head}{name[len('hooke_'):]}, ({declared}), ({arguments}), {' '.join(checks)})"
@@ -70,7 +91,7 @@ def call(function, types):
 def bad_calls(function, types):
     """A line for each handle: the others are valid, and the other arguments do not matter."""
     result, name, parameters = function
-    kinds = [handle(kind, types) for kind, _ in parameters]
+    kinds = [handle(kind, what, types) for kind, what in parameters]
     value = refused(result, name)
     how = {None: "NOTHING", "NULL": "NULL_POINTER", "NAN": "NOT_A_NUMBER"}.get(value, "NUMBER")
     for place, (_, what) in enumerate(parameters):

@@ -34,7 +34,7 @@ def argument(name, kind, what):
     """(declaration, argument passed to C, statements before the call) of one parameter."""
     if kind == "double":
         return f"real(c_double), intent(in) :: {what}", what, []
-    if kind == "const char *" and guard.may_be_no_text(name, what):
+    if kind == "const char *" and guard.is_optional(name, what):
         return (f"character(*), intent(in), optional :: {what}", f"c_{what}",
                 [f"character(:), allocatable :: c_{what}", f"call to_c_if({what}, c_{what})"])
     if kind == "const char *":

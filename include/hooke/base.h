@@ -16,11 +16,13 @@
  * Callbacks may leave by longjmp(): the integrator, state and system can then be destroyed or run again from
  * a state of its own, with the same results. Scratch memory of the interrupted call leaks; a run or a step
  * allocates some only where difference quotients replace a missing product. A C++ exception has to be caught
- * inside the callback. Text arguments must not be NULL unless the function says so: NULL gives
- * HOOKE_BAD_VALUE, or, from functions without a status, the value for an unknown word.
- * Handles. A Debug build (HOOKE_CHECK_HANDLES) refuses an object that was destroyed, never made, or is of
- * another type: HOOKE_BAD_CALL, or -1, NaN, NULL, 0 (no) by functions that return no status. For this it
- * keeps a list of all objects. */
+ * inside the callback.
+ * NULL. Texts, arrays, callbacks and places for results must not be NULL unless the function says so, or the
+ * count of an array is 0: NULL gives HOOKE_BAD_VALUE, or, from functions without a status, the value for an
+ * unknown word. Objects must not be NULL either: HOOKE_BAD_CALL, or -1, NaN, NULL, 0 (no).
+ * Handles. A Debug build (HOOKE_CHECK_HANDLES) refuses in the same way an object that was destroyed, never
+ * made, or is of another type. For this it keeps a list of all objects. An array that is too short is
+ * undefined behaviour. */
 #ifndef HOOKE_BASE_H
 #define HOOKE_BASE_H
 

@@ -42,11 +42,12 @@ extern "C" {
 HOOKE_API int32_t hooke_estimate_pick(hooke_measurement *estimate, const char *method, hooke_options *run);
 
 /* Call before a run of `integrator` from `state`. The integrator has to stay until the run is over. The
- * estimate keeps some states of the run. HOOKE_BAD_VALUE for another system, HOOKE_NO_MEMORY. */
+ * estimate keeps some states of the run. HOOKE_BAD_VALUE for another system, for a state that does not fit it
+ * and without a duration; HOOKE_NO_MEMORY. */
 HOOKE_API int32_t hooke_estimate_begin(hooke_measurement *estimate, const hooke_integrator *integrator,
                                        const hooke_state *state);
 /* A hooke_observer with the estimate as its `ctx`: receives the frames of the run, and optionally states
- * between them. */
+ * between them. HOOKE_BAD_VALUE for a state of another size, HOOKE_BAD_CALL for none, which stop the run. */
 HOOKE_API int32_t hooke_estimate_see(int64_t step, const hooke_state *state, void *estimate);
 
 /* Sets a finer step or tolerance in `run`, chosen from the measured error. HOOKE_UNSUITED if that cannot

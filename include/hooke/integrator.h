@@ -61,7 +61,8 @@ HOOKE_API int32_t hooke_integrator_create(const hooke_system *system, const hook
                                           hooke_integrator **integrator);
 
 /* Creates an integrator for x' = phi(t, x) of `size` numbers. HOOKE_UNSUITED for a method that needs
- * positions and velocities or their derivatives, such as symplectic-euler or backward-euler. */
+ * positions and velocities or their derivatives, such as symplectic-euler or backward-euler. HOOKE_BAD_VALUE,
+ * HOOKE_NOT_BUILT, HOOKE_NO_MEMORY. */
 HOOKE_API int32_t hooke_integrator_create_first_order(int64_t size, hooke_rate *rate, void *ctx,
                                                       const hooke_options *options,
                                                       hooke_integrator **integrator);

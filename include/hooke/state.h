@@ -20,16 +20,17 @@ typedef struct hooke_state hooke_state;
 HOOKE_API int32_t hooke_state_create(const hooke_system *system, hooke_state **state);
 
 /* A state of `size` >= 1 zeros for a first-order problem x' = phi(t, x): hooke_state_position() is x; there
- * is no velocity. */
+ * is no velocity. HOOKE_BAD_VALUE for a size below 1 or above 6442450941, HOOKE_NO_MEMORY. */
 HOOKE_API int32_t hooke_state_create_first_order(int64_t size, hooke_state **state);
 
-/* A state of `size` >= 1 zeros for a second-order problem q'' = W f(t, q, v): q and v have `size` numbers. */
+/* A state of `size` >= 1 zeros for a second-order problem q'' = W f(t, q, v): q and v have `size` numbers. The
+ * same failures. */
 HOOKE_API int32_t hooke_state_create_second_order(int64_t size, hooke_state **state);
 
 /* Releases a state; NULL is allowed. */
 HOOKE_API void hooke_state_destroy(hooke_state *state);
 
-/* Copies t, q and v. HOOKE_BAD_VALUE if the two differ in size. */
+/* Copies t, q and v. HOOKE_BAD_VALUE if the two differ in size, or one alone has velocities. */
 HOOKE_API int32_t hooke_state_copy(const hooke_state *from, hooke_state *to);
 
 HOOKE_API double hooke_state_time(const hooke_state *state);

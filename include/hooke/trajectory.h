@@ -29,7 +29,8 @@ HOOKE_API int32_t hooke_trajectory_create(const char *path, const hooke_system *
                                           const hooke_integrator *integrator, const char *scene_text,
                                           hooke_trajectory **trajectory);
 
-/* Writes the next frame. After a failed write the file is marked bad and takes no more. HOOKE_IO_FAILED. */
+/* Writes the next frame. After a failed write the file is marked bad and takes no more: HOOKE_IO_FAILED. The file
+ * stays as it is with HOOKE_BAD_VALUE for a state that does not fit and HOOKE_BAD_CALL for a frame too many. */
 HOOKE_API int32_t hooke_trajectory_write(hooke_trajectory *trajectory, int64_t step,
                                          const hooke_state *state);
 
@@ -82,7 +83,7 @@ HOOKE_API const hooke_options *hooke_record_options(const hooke_record *record);
  * none were added by the option `past_divergence`. -1 for another word. */
 HOOKE_API int64_t hooke_record_count(const hooke_record *record, const char *what);
 /* Reads a frame into a state of the scene's system, negative ones from the end: -1 is the last.
- * HOOKE_BAD_VALUE if there is none, if it is damaged, or if the state is of another size; HOOKE_IO_FAILED,
+ * HOOKE_BAD_VALUE if there is none, if it is damaged, or if the state does not fit; HOOKE_IO_FAILED,
  * HOOKE_NO_MEMORY. The state is then as it was. */
 HOOKE_API int32_t hooke_record_read(const hooke_record *record, int64_t frame, hooke_state *state);
 

@@ -1,10 +1,11 @@
-/* Wrappers of all public functions: each checks its text arguments, in a build with HOOKE_CHECK_HANDLES the
- * handles, too, and calls the function of the library, which names.h renames to hooke_unchecked_<name>.
- * calls.inc lists them all; both files are generated in the build tree.
+/* Wrappers of all public functions: each checks that its arguments are there, in a build with
+ * HOOKE_CHECK_HANDLES that handles are live, too, and calls the function of the library, which names.h renames
+ * to hooke_unchecked_<name>. calls.inc lists them all; both files are generated in the build tree.
  *
- * A NULL text is refused with HOOKE_BAD_VALUE; a function without a status treats it as an unknown word. A
- * handle that was destroyed, never made, or is of another type is refused with HOOKE_BAD_CALL; a function
- * without a status returns -1, NaN or NULL, and 0 if it answers yes or no. */
+ * A NULL text, array, callback or place for a result is refused with HOOKE_BAD_VALUE; a function without a
+ * status treats a text as an unknown word. A handle that is NULL, was destroyed, never made, or is of another
+ * type is refused with HOOKE_BAD_CALL. A function without a status returns -1, NaN or NULL, and 0 if it
+ * answers yes or no. */
 #include "core/handle.h"
 #include "core/status.h"
 
@@ -19,13 +20,24 @@
 #define WORD(text)                                                                                           \
   if ((text) == NULL) (text) = "";
 
+/* `count`: 0 where nothing is to be there. */
+#define GIVEN(array, count, refused)                                                                         \
+  if ((array) == NULL && (count) != 0) {                                                                     \
+    hk_fail(HOOKE_BAD_VALUE, #array, "is missing; %s() needs it", __func__);                                 \
+    return refused;                                                                                          \
+  }
+
 #if HOOKE_CHECK_HANDLES
 #define IS(object, type, refused)                                                                            \
   if (!hk_handle_is((object), #type, __func__, #object)) return refused;
 #define MAY_BE(object, type, refused)                                                                        \
   if ((object) && !hk_handle_is((object), #type, __func__, #object)) return refused;
 #else
-#define IS(object, type, refused)
+#define IS(object, type, refused)                                                                            \
+  if ((object) == NULL) {                                                                                    \
+    hk_fail(HOOKE_BAD_CALL, #object, "is NULL; %s() needs a %s", __func__, #type);                           \
+    return refused;                                                                                          \
+  }
 #define MAY_BE(object, type, refused)
 #endif
 

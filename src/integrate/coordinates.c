@@ -2,6 +2,7 @@
 
 #include "core/memory.h"
 #include "core/status.h"
+#include "model/system.h"
 
 #include <math.h>
 #include <stddef.h>
@@ -29,9 +30,9 @@ static int32_t product(int64_t n, double t, const double *q, const double *v, co
 
 /* ---- making ---- */
 
-static int32_t check(int64_t size, hooke_force *given, int64_t mass_count, const double *inverse_mass) {
-  if (size < 1) return hk_fail(HOOKE_BAD_VALUE, "size", "%lld is not allowed; 1 or more is", (long long)size);
-  if (given == NULL) return hk_fail(HOOKE_BAD_VALUE, "force", "is missing; a callback is needed");
+static int32_t check(int64_t size, int64_t mass_count, const double *inverse_mass) {
+  const int32_t status = hk_size_check(size, 13); /* its mass, and a third of what a particle needs */
+  if (status != HOOKE_OK) return status;
   if (mass_count != 1 && mass_count != size) {
     return hk_fail(HOOKE_BAD_VALUE, "inverse_mass",
                    "%lld for %lld coordinates; allowed: one, or one for each", (long long)mass_count,
@@ -60,7 +61,7 @@ static int32_t make_system(struct hk_coordinates *c) {
 
 int32_t hk_coordinates_create(int64_t size, hooke_force *given, hooke_force_product *derivative, void *ctx,
                               int64_t mass_count, const double *inverse_mass, struct hk_coordinates **out) {
-  int32_t status = check(size, given, mass_count, inverse_mass);
+  int32_t status = check(size, mass_count, inverse_mass);
   if (status != HOOKE_OK) return status;
   struct hk_coordinates *c = hk_new(1, sizeof *c);
   if (c == NULL) return HOOKE_NO_MEMORY;

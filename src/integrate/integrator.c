@@ -97,7 +97,7 @@ static int32_t take_system(hooke_integrator *it, const hooke_system *system, hoo
   if (status == HOOKE_OK && it->method->choose) status = it->method->choose(it);
   if (status == HOOKE_OK) status = gather_crew(it);
   if (status == HOOKE_OK) status = hk_motion_create(system, it->by_tiles, it->pool, &it->motion);
-  if (status == HOOKE_OK) status = hk_recent_create(it->size, 1, !it->by_tiles, &it->recent);
+  if (status == HOOKE_OK) status = hk_recent_create(hk_integrator_numbers(it), 1, !it->by_tiles, &it->recent);
   return finish(it, status, out);
 }
 
@@ -127,7 +127,8 @@ int32_t hooke_integrator_create_second_order(int64_t size, hooke_force *force, h
 int32_t hooke_integrator_create_first_order(int64_t size, hooke_rate *rate, void *ctx,
                                             const hooke_options *options, hooke_integrator **out) {
   hooke_integrator *it = NULL;
-  int32_t status = create(options, &it);
+  int32_t status = hk_size_check(size, 7); /* with its slope, a copy, and four stages */
+  if (status == HOOKE_OK) status = create(options, &it);
   if (it == NULL) return status;
   it->rate = rate;
   it->rate_ctx = ctx;
@@ -164,6 +165,10 @@ void hooke_integrator_destroy(hooke_integrator *it) {
 
 int64_t hk_integrator_numbers(const hooke_integrator *it) {
   return it->coordinates ? it->coordinates->size : it->size;
+}
+
+int32_t hk_integrator_check_state(const hooke_integrator *it, const hooke_state *state) {
+  return hk_state_check(state, hk_integrator_numbers(it), it->system != NULL);
 }
 
 int32_t hk_integrator_require_particles(const hooke_integrator *it, const char *place, const char *instead) {
@@ -221,8 +226,10 @@ static int64_t recent_count(const hooke_integrator *it) {
 int32_t hooke_integrator_recent(const hooke_integrator *it, int64_t place, hooke_state *state) {
   const int64_t count = recent_count(it);
   const hooke_state *kept = place < count ? hk_recent_state(&it->recent, place - it->unkept, NULL) : NULL;
+  const int32_t status = hk_integrator_check_state(it, state);
+  if (status != HOOKE_OK) return status;
   if (kept) return hooke_state_copy(kept, state);
-  if (place == 0 && count > 0 && state->size == it->size && state->has_v == (it->system != NULL)) {
+  if (place == 0 && count > 0) {
     hk_store_good(it, state);
     return HOOKE_OK;
   }

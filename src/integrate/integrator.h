@@ -168,6 +168,8 @@ int32_t hk_integrator_rate(hooke_integrator *integrator, double t, const double 
 
 /* Numbers in q that the caller knows of. */
 int64_t hk_integrator_numbers(const hooke_integrator *integrator);
+/* HOOKE_BAD_VALUE unless the state fits the problem. */
+int32_t hk_integrator_check_state(const hooke_integrator *integrator, const hooke_state *state);
 /* HOOKE_UNSUITED, with what to take instead, unless the problem is a system of particles. */
 int32_t hk_integrator_require_particles(const hooke_integrator *integrator, const char *place,
                                         const char *instead);

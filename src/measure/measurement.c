@@ -102,7 +102,7 @@ int32_t hk_measurement_tell(const hooke_measurement *m, double done, const char 
 static int32_t run_at(hooke_measurement *m, hooke_state *state) {
   hooke_state *start = NULL;
   int32_t outcome = state ? HOOKE_OK : hooke_state_create(m->system, &start);
-  if (outcome == HOOKE_OK && state) outcome = hk_state_check(state, m->system);
+  if (outcome == HOOKE_OK && state) outcome = hk_state_check_system(state, m->system);
   if (outcome == HOOKE_OK) outcome = m->kind->run(m, state ? state : start);
   hooke_state_destroy(start);
   return outcome;

@@ -52,6 +52,14 @@ int32_t hk_system_check_size(const hooke_system *system, struct hk_more more, co
                  hk_show_bytes(bytes, shown), list);
 }
 
+int32_t hk_size_check(int64_t size, int32_t doubles) {
+  const int64_t most = 3 * (int64_t)INT32_MAX; /* as many as systems have */
+  if (size >= 1 && size <= most)
+    return hk_memory_require(0.0, 8.0 * doubles * (double)size, "a problem of this size");
+  return hk_fail(HOOKE_BAD_VALUE, "size", "%lld is not allowed; 1 to %lld are", (long long)size,
+                 (long long)most);
+}
+
 int32_t hk_system_check_more(const hooke_system *system, const struct hk_force_row *force, int64_t count) {
   return hk_system_check_size(system, (struct hk_more){.of = {{force, (double)count}}}, NULL);
 }

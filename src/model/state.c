@@ -7,7 +7,8 @@
 
 #include <string.h>
 
-int32_t hk_state_create_sized(int64_t size, int32_t has_v, hooke_state **out) {
+int32_t hk_state_create_sized(int64_t numbers, int32_t has_v, hooke_state **out) {
+  const int64_t padding = has_v ? (3 - numbers % 3) % 3 : 0, size = numbers + padding;
   hooke_state *state = hk_handle_new("hooke_state", sizeof *state);
   double *block = hk_new(1 + (has_v ? 2 : 1) * size, sizeof(double));
   if (state == NULL || block == NULL) {
@@ -15,17 +16,24 @@ int32_t hk_state_create_sized(int64_t size, int32_t has_v, hooke_state **out) {
     hk_free(block);
     return HOOKE_NO_MEMORY;
   }
-  *state = (hooke_state){.size = size, .has_v = has_v, .t = block, .q = block + 1};
+  *state = (hooke_state){.size = size, .padding = padding, .has_v = has_v, .t = block, .q = block + 1};
   state->v = has_v ? block + 1 + size : NULL;
   *out = state;
   return HOOKE_OK;
 }
 
-int32_t hk_state_check(const hooke_state *state, const hooke_system *system) {
-  const int64_t size = 3 * system->particle_count;
-  if (state->has_v && state->size == size) return HOOKE_OK;
-  return hk_fail(HOOKE_BAD_VALUE, "state", "is of another system: it has %lld numbers, the system has %lld",
-                 (long long)state->size, (long long)size);
+int32_t hk_state_check(const hooke_state *state, int64_t numbers, int32_t has_v) {
+  const int64_t has = hooke_state_size(state);
+  if (has == numbers && state->has_v == has_v) return HOOKE_OK;
+  return hk_fail(HOOKE_BAD_VALUE, "state", "a state of %lld numbers does not fit a problem of %lld%s",
+                 (long long)has, (long long)numbers,
+                 state->has_v == has_v ? ""
+                 : has_v               ? " with velocities"
+                                       : " without velocities");
+}
+
+int32_t hk_state_check_system(const hooke_state *state, const hooke_system *system) {
+  return hk_state_check(state, 3 * system->particle_count, 1);
 }
 
 /* Moves driven particles to their prescribed positions at t = 0. */
@@ -65,16 +73,13 @@ int32_t hooke_state_create(const hooke_system *system, hooke_state **out) {
 }
 
 int32_t hooke_state_create_first_order(int64_t size, hooke_state **state) {
-  if (size < 1) return hk_fail(HOOKE_BAD_VALUE, "size", "%lld is not allowed; 1 or more is", (long long)size);
-  return hk_state_create_sized(size, 0, state);
+  const int32_t status = hk_size_check(size, 1);
+  return status == HOOKE_OK ? hk_state_create_sized(size, 0, state) : status;
 }
 
 int32_t hooke_state_create_second_order(int64_t size, hooke_state **state) {
-  if (size < 1) return hk_fail(HOOKE_BAD_VALUE, "size", "%lld is not allowed; 1 or more is", (long long)size);
-  const int64_t padding = (3 - size % 3) % 3;
-  const int32_t status = hk_state_create_sized(size + padding, 1, state);
-  if (status == HOOKE_OK) (*state)->padding = padding;
-  return status;
+  const int32_t status = hk_size_check(size, 2);
+  return status == HOOKE_OK ? hk_state_create_sized(size, 1, state) : status;
 }
 
 void hooke_state_destroy(hooke_state *state) {
@@ -84,10 +89,8 @@ void hooke_state_destroy(hooke_state *state) {
 }
 
 int32_t hooke_state_copy(const hooke_state *from, hooke_state *to) {
-  if (from->size != to->size || from->has_v != to->has_v) {
-    return hk_fail(HOOKE_BAD_VALUE, NULL, "a state of %lld numbers does not fit one of %lld",
-                   (long long)hooke_state_size(from), (long long)hooke_state_size(to));
-  }
+  const int32_t status = hk_state_check(to, hooke_state_size(from), from->has_v);
+  if (status != HOOKE_OK) return status;
   memcpy(to->t, from->t, (size_t)(1 + (from->has_v ? 2 : 1) * from->size) * sizeof(double));
   return HOOKE_OK;
 }

@@ -126,6 +126,8 @@ struct hk_more {
 };
 double hk_system_needed_bytes(const hooke_system *system, struct hk_more more);
 int32_t hk_system_check_size(const hooke_system *system, struct hk_more more, const char *what);
+/* The same for a problem of `size` numbers without particles, with so many doubles for each of them. */
+int32_t hk_size_check(int64_t size, int32_t doubles);
 int32_t hk_system_check_more(const hooke_system *system, const struct hk_force_row *force, int64_t count);
 
 /* Sets touched[p] to 1 for every particle of a spring, a triple or a tetrahedron. */

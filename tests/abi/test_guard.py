@@ -4,23 +4,44 @@ import os
 import re
 from pathlib import Path
 
+import guard
 import headers
 
 MADE = Path(os.environ["HOOKE_BUILD_DIR"]) / "generated"
+PUBLIC = "".join(headers.public().values())
+HANDLES, CALLBACKS = headers.opaque_types(PUBLIC), headers.callback_types(PUBLIC)
+CALLS, BAD = ((MADE / name).read_text() for name in ("guard/calls.inc", "handle_calls.inc"))
 
 
 def test_every_function_and_every_handle_is_there():
-    calls = (MADE / "guard/calls.inc").read_text()
-    bad = (MADE / "handle_calls.inc").read_text()
     handles = 0
-    for text in headers.public().values():
-        for name in headers.functions(text):
-            line = re.search(rf"^CALL\w*\(.*\b{name.removeprefix('hooke_')}, .*$", calls, re.MULTILINE)
-            assert line, f"{name} is not guarded"
-            count = len(re.findall(r"hooke_\w+ \*(?!\*)\w+", re.search(r", \((.*?)\), ", line.group()).group(1)))
-            callbacks = len(re.findall(r"hooke_(?:force|force_product|drive|rate|observer|progress|warning|comparison_frame) \*",
-                                       line.group()))
-            assert len(re.findall(r"(?:IS|MAY_BE)\(", line.group())) == count - callbacks, line.group()
-            assert len(re.findall(rf"\b{name}, \(", bad)) == count - callbacks, name
-            handles += count - callbacks
+    for _, name, parameters in headers.declared(PUBLIC):
+        line = re.search(rf"^CALL\w*\(.*\b{name.removeprefix('hooke_')}, .*$", CALLS, re.MULTILINE)
+        assert line, f"{name} is not guarded"
+        # a void * that is no context of the caller's is a handle, too
+        taken = [what for kind, what in parameters
+                 if re.sub(r"const | \*$", "", kind) in HANDLES or (kind == "void *" and what != "ctx")]
+        assert re.findall(r"(?:IS|MAY_BE)\((\w+)", line.group()) == taken, line.group()
+        assert re.findall(rf", (\w+), {name}, \(", BAD) == taken, name
+        handles += len(taken)
     assert handles > 150
+
+
+def test_every_pointer_is_checked_or_may_be_null():
+    """Whatever else is a pointer: an array, a callback, a place for a result."""
+    for _, name, parameters in headers.declared(PUBLIC):
+        line = re.search(rf"^CALL\w*\(.*\b{name.removeprefix('hooke_')}, .*$", CALLS, re.MULTILINE).group()
+        checked = re.findall(r"(?:IS|MAY_BE|TEXT|WORD|GIVEN)\((\w+)", line)
+        for kind, what in parameters:
+            is_handle = what in re.findall(r"(?:IS|MAY_BE)\((\w+)", line)
+            may = guard.is_optional(name, what) and not is_handle and not kind.endswith("**")
+            assert checked.count(what) == (kind.endswith("*") and not may), (name, what)
+
+
+def test_every_type_of_handle_is_registered():
+    """Each is made as a handle and refused as one, and no other is."""
+    sources = "".join(path.read_text() for path in (Path(os.environ["HOOKE_SOURCE_DIR"]) / "src").glob("**/*.c"))
+    assert set(re.findall(r'hk_handle_new\("(\w+)"', sources)) == HANDLES
+    assert set(re.findall(r"\b(?:IS|MAY_BE)\(\w+, (\w+)", CALLS)) == HANDLES
+    assert set(guard.BY_CONTEXT.values()) <= HANDLES
+    assert len(HANDLES) >= 9 and len(CALLBACKS) >= 8

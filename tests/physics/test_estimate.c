@@ -435,6 +435,37 @@ static void test_what_cannot_be_asked_for(void **unused) {
   hooke_system_destroy(system);
 }
 
+/* Nothing of a state that does not fit is read, and the run stops where it would be seen. */
+static void test_states_that_do_not_fit_are_refused(void **unused) {
+  (void)unused;
+  hooke_system *system = small_oscillator(OMEGA);
+  const struct run run = {.method = "rk4", .step = 0.01, .duration = 0.1};
+  hooke_integrator *integrator = start_run(system, run),
+                   *endless = start_run(system, (struct run){.method = "rk4", .step = 0.01});
+  hooke_measurement *estimate = NULL;
+  hooke_state *state = start_state(system), *wrong[3];
+  check_ok(hooke_state_create_first_order(6, &wrong[0]));
+  check_ok(hooke_state_create_second_order(5, &wrong[1]));
+  check_ok(hooke_state_create_second_order(600, &wrong[2]));
+  check_ok(estimate_of(system, NAN, &estimate));
+  check_status(hooke_estimate_begin(estimate, endless, state), HOOKE_BAD_VALUE);
+  check_message("duration");
+  for (int k = 0; k < 3; k++) {
+    check_ok(hooke_estimate_begin(estimate, integrator, state));
+    check_status(hooke_estimate_begin(estimate, integrator, wrong[k]), HOOKE_BAD_VALUE);
+    assert_int_equal(hooke_estimate_see(0, wrong[k], estimate), HOOKE_BAD_VALUE);
+    check_message("does not fit a problem of 6");
+    assert_int_equal(hooke_estimate_see(0, state, estimate), 0);
+    check_status(hooke_integrator_recent(integrator, 0, wrong[k]), HOOKE_BAD_VALUE);
+    hooke_state_destroy(wrong[k]);
+  }
+  hooke_measurement_destroy(estimate);
+  hooke_state_destroy(state);
+  hooke_integrator_destroy(endless);
+  hooke_integrator_destroy(integrator);
+  hooke_system_destroy(system);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(test_errors_are_at_most_what_is_said_and_not_much_less),
@@ -448,6 +479,7 @@ int main(void) {
       cmocka_unit_test(test_what_is_picked_keeps_to_the_wanted_error),
       cmocka_unit_test(test_a_picked_step_may_pass_the_bound_but_not_the_limit),
       cmocka_unit_test(test_what_cannot_be_asked_for),
+      cmocka_unit_test(test_states_that_do_not_fit_are_refused),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

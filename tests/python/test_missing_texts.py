@@ -89,7 +89,7 @@ def test_no_text(name, place, alive, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     result, *kinds = p.PROTOTYPES[name]
     what = PARAMETERS[name][place]
-    if guard.may_be_no_text(name, what):
+    if guard.is_optional(name, what):
         return
     if any(kind in alive and alive[kind] is None for kind in kinds):
         pytest.skip("this build cannot make one")
@@ -109,5 +109,5 @@ def test_no_text(name, place, alive, tmp_path, monkeypatch):
 
 
 def test_there_are_many():
-    optional = [place for name, place in TEXTS if guard.may_be_no_text(name, PARAMETERS[name][place])]
+    optional = [place for name, place in TEXTS if guard.is_optional(name, PARAMETERS[name][place])]
     assert len(TEXTS) > 60 and len(optional) < 30

@@ -141,6 +141,50 @@ static void hidden_mode_is_found(void **unused) {
 
 /* ---- the linear twin ---- */
 
+/* Springs between the same ends, in any order and among others, are one spring in the twin, of the same force. */
+static void parallel_springs_are_one(void **unused) {
+  (void)unused;
+  enum { MANY = 6 };
+  const double place[9] = {0, 0, 0, 1, 0.25, 0, 0.5, 1, 0}, still[9] = {0.0},
+               dq[9] = {0, 0, 0, 0.3, -0.2, 0.5, 0.1, 0.4, -0.3};
+  const int64_t ends[2 * MANY] = {0, 1, 1, 2, 1, 0, 0, 1, 2, 1, 0, 1}, none = 0;
+  const double stiffness[MANY] = {20, 3, 0.5, 7, 11, 0}, damping[MANY] = {0, 0.1, 0.3, 0, 0, 0.2},
+               rest[MANY] = {0.7, 0.5, 0.2, 1.5, 0.4, 1};
+  hooke_system *system = small_system(3, place, NULL, 0.5, 0);
+  hooke_options *options;
+  struct hk_twin twin;
+  double product[9], of_twin[9], energy = 0.0, there[9];
+  check_ok(hooke_system_pin(system, 1, &none));
+  check_ok(hooke_options_create("springs", &options));
+  check_ok(hooke_options_set_text(options, "law", "length"));
+  check_ok(hooke_options_set_numbers(options, "stiffness", MANY, stiffness));
+  check_ok(hooke_options_set_numbers(options, "damping", MANY, damping));
+  check_ok(hooke_options_set_numbers(options, "rest_length", MANY, rest));
+  check_ok(hooke_system_add_springs(system, NULL, MANY, ends, options));
+  hooke_options_destroy(options);
+  check_ok(hooke_system_commit(system));
+  check_ok(hk_twin_create(system, place, &twin));
+  assert_int_equal(twin.spring_count, 2);
+  assert_int_equal(hooke_system_count(twin.system, "springs"), 2);
+  /* one of them is compressed, so that it has no stiffness across: its share is left out */
+  check_ok(hooke_system_derivative_product(twin.system, 0.0, twin.place, still, dq, dq, of_twin));
+  check_ok(hooke_system_derivative_product(system, 0.0, place, still, dq, dq, product));
+  const double r = hypot(1.0, 0.25), u[3] = {1.0 / r, 0.25 / r, 0.0}, across = 7.0 * (1.0 - 1.5 / r);
+  const double along = u[0] * dq[3] + u[1] * dq[4];
+  for (int a = 0; a < 3; a++) {
+    check_close(of_twin[3 + a], product[3 + a] + across * (dq[3 + a] - along * u[a]), 1e-7);
+    check_close(of_twin[6 + a], product[6 + a], 1e-7);
+  }
+  check_ok(hooke_system_derivative_product(twin.system, 0.0, twin.place, still, dq, still, of_twin));
+  for (int k = 0; k < 9; k++) {
+    energy -= dq[k] * of_twin[k];
+    there[k] = twin.place[k] + dq[k];
+  }
+  check_close(hk_twin_energy(&twin, there, still), energy, 1e-6 * energy);
+  hk_twin_release(&twin);
+  hooke_system_destroy(system);
+}
+
 static void frozen_system_rests(void **unused) {
   (void)unused;
   /* a triangle under tension and compression, hung at its first corner, with a driven and a coincident
@@ -514,6 +558,7 @@ int main(void) {
       cmocka_unit_test(far_from_the_origin),
       cmocka_unit_test(hidden_mode_is_found),
       cmocka_unit_test(frozen_system_rests),
+      cmocka_unit_test(parallel_springs_are_one),
       cmocka_unit_test(drag_alone),
       cmocka_unit_test(what_is_refused),
       cmocka_unit_test(damping_of_a_spring_of_no_length),

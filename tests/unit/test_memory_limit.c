@@ -4,10 +4,12 @@
 #include "check.h"
 #include "sanitized.h"
 
+#include "core/memory.h"
 #include "core/memory_limit.h"
 #include "io/scene/json_scan.h"
 #include "model/force/force.h"
 
+#include <errno.h>
 #include <fcntl.h>
 #include <math.h>
 #include <stdio.h>
@@ -452,11 +454,58 @@ static void files_stay_in_the_folder_unless_allowed(void **unused) {
 
 #endif
 
+static int32_t no_rate(int64_t n, double time, const double *x, double *rate, void *ctx) {
+  (void)n, (void)time, (void)x, (void)rate, (void)ctx;
+  return 0;
+}
+
+static int32_t no_force(int64_t n, double time, const double *q, const double *v, double *force, void *ctx) {
+  (void)n, (void)time, (void)q, (void)v, (void)force, (void)ctx;
+  return 0;
+}
+
+/* Problems without particles have as many numbers as systems may have, and sizes that overflow are refused. */
+static void problems_stop_where_systems_do(void **unused) {
+  (void)unused;
+  const int64_t most = 3 * (int64_t)INT32_MAX,
+                bad[] = {INT64_MIN, -1, 0, most + 1, INT64_C(1) << 62, INT64_MAX};
+  const double mass = 1.0;
+  hooke_options *run;
+  check_ok(hooke_options_create("run", &run));
+  check_ok(hooke_options_set_text(run, "method", "rk4"));
+  check_ok(hooke_options_set_number(run, "step", 0.1));
+  for (size_t k = 0; k < sizeof bad / sizeof bad[0]; k++) {
+    hooke_state *state = NULL;
+    hooke_integrator *made = NULL;
+    check_status(hooke_state_create_first_order(bad[k], &state), HOOKE_BAD_VALUE);
+    check_message("1 to 6442450941 are");
+    check_status(hooke_state_create_second_order(bad[k], &state), HOOKE_BAD_VALUE);
+    check_status(hooke_integrator_create_first_order(bad[k], no_rate, NULL, run, &made), HOOKE_BAD_VALUE);
+    check_message("1 to 6442450941 are");
+    check_status(hooke_integrator_create_second_order(bad[k], no_force, NULL, NULL, 1, &mass, run, &made),
+                 HOOKE_BAD_VALUE);
+    assert_true(state == NULL && made == NULL);
+  }
+  hooke_options_destroy(run);
+  check_status(hk_size_check(most, 1 << 24), HOOKE_NO_MEMORY);
+  check_ok(hk_size_check(1, 7));
+}
+
+/* No allocator has that much, and that of a sanitizer is not asked. */
+static void a_failed_allocation_keeps_errno(void **unused) {
+  (void)unused;
+  errno = EDOM;
+  assert_null(hk_new(HOOKE_SANITIZED ? INT64_MAX / 4 : INT64_MAX / 64, sizeof(double)));
+  assert_int_equal(errno, EDOM);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(parts_stop_at_the_edge_of_32_bits),
     cmocka_unit_test(a_mesh_stops_at_the_edge_of_32_bits),
     cmocka_unit_test(systems_stop_at_the_edge_of_32_bits),
+    cmocka_unit_test(problems_stop_where_systems_do),
+    cmocka_unit_test(a_failed_allocation_keeps_errno),
     cmocka_unit_test(what_is_taken_back_does_not_count),
     cmocka_unit_test(a_scene_takes_what_it_is_said_to_need),
     cmocka_unit_test(bytes_are_shown_in_three_digits),

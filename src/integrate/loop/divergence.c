@@ -103,7 +103,8 @@ void hk_store_good(const hooke_integrator *it, hooke_state *state) {
 int32_t hk_divergence_keep(hooke_integrator *it) {
   struct hk_recent *recent = &it->recent;
   const int had_no_room = recent->room == 0;
-  const int32_t status = recent->room == 0 ? hk_recent_make_room(it->size, 1, recent) : HOOKE_OK;
+  const int32_t status =
+      recent->room == 0 ? hk_recent_make_room(hk_integrator_numbers(it), 1, recent) : HOOKE_OK;
   if (status != HOOKE_OK) return status;
   if (had_no_room && recent->count > 0) hk_store_good(it, recent->state[0]);
   if (it->unkept) hk_store_good(it, hk_recent_next(recent, it->good_step));

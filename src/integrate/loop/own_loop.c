@@ -60,9 +60,7 @@ static int32_t require_motion(const hooke_integrator *it) {
 /* A state of the integrator's own. */
 static int32_t make_shown(hooke_integrator *it) {
   if (it->shown) return HOOKE_OK;
-  const int32_t status = hk_state_create_sized(it->size, it->system != NULL, &it->shown);
-  if (status == HOOKE_OK) it->shown->padding = it->size - hk_integrator_numbers(it);
-  return status;
+  return hk_state_create_sized(hk_integrator_numbers(it), it->system != NULL, &it->shown);
 }
 
 /* A copy of the last good state, since the caller's is left alone. */

@@ -83,7 +83,7 @@ int32_t hk_integrator_run_on(hooke_integrator *it, const hooke_state *first, hoo
   if (status == HOOKE_OK) status = hk_run_check_duration(it);
   if (status != HOOKE_OK) return status;
   hooke_state *start = NULL;
-  status = hk_state_create_sized(first->size, first->has_v, &start);
+  status = hk_state_create_sized(hooke_state_size(first), first->has_v, &start);
   if (status == HOOKE_OK) status = hooke_state_copy(first, start);
   if (status == HOOKE_OK) status = hk_run_begin(it, start);
   if (status == HOOKE_OK) {

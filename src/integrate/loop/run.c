@@ -12,11 +12,8 @@ static const double LOOK = 1e-3; /* [s] between two clock readings */
 static const int64_t MOST_STRIDE = 1 << 20;
 
 int32_t hk_run_check_state(const hooke_integrator *it, const hooke_state *state) {
-  const int64_t has = hooke_state_size(state), needed = hk_integrator_numbers(it);
-  if (has == needed && state->size == it->size && state->has_v == (it->system != NULL))
-    return hk_pool_renew(it->pool);
-  return hk_fail(HOOKE_BAD_VALUE, "state", "a state of %lld numbers does not fit a problem of %lld",
-                 (long long)has, (long long)needed);
+  const int32_t status = hk_integrator_check_state(it, state);
+  return status == HOOKE_OK ? hk_pool_renew(it->pool) : status;
 }
 
 int32_t hk_run_place_driven(hooke_integrator *it, hooke_state *state) {
@@ -219,7 +216,7 @@ int32_t hk_run_end(hooke_integrator *it, hooke_state *state, int32_t status) {
   if (reached && hk_all_finite((state->has_v ? 2 : 1) * state->size, state->q))
     hk_recent_keep(&it->recent, state, it->k);
   if (status == HOOKE_DIVERGED && it->recent.room == 0 &&
-      hk_recent_make_room(it->size, 1, &it->recent) == HOOKE_OK)
+      hk_recent_make_room(hk_integrator_numbers(it), 1, &it->recent) == HOOKE_OK)
     hooke_state_copy(state, it->recent.state[0]);
   return status;
 }

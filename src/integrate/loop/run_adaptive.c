@@ -38,7 +38,7 @@ int32_t hk_run_keep_restart(hooke_integrator *it, const hooke_state *state) {
   struct hk_restart *restart = &it->restart;
   if (!starts_anew(it)) return HOOKE_OK;
   if (restart->state == NULL) {
-    const int32_t status = hk_state_create_sized(state->size, state->has_v, &restart->state);
+    const int32_t status = hk_state_create_sized(hooke_state_size(state), state->has_v, &restart->state);
     if (status != HOOKE_OK) return status;
   }
   restart->standing = hk_integrator_standing(it);

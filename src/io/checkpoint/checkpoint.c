@@ -32,8 +32,9 @@ static int32_t find_place(const hooke_integrator *it, const hooke_state *state, 
   *standing = it->method->adaptive ? it->restart.standing : hk_integrator_standing(it);
   *from = it->method->adaptive ? it->restart.state : state;
   const double t = standing->t;
-  if ((*from)->size != it->size || (*from)->has_v != (it->system != NULL) ||
-      memcmp(&t, (*from)->t, sizeof t) != 0) {
+  const int32_t status = hk_integrator_check_state(it, *from);
+  if (status != HOOKE_OK) return status;
+  if (memcmp(&t, (*from)->t, sizeof t) != 0) {
     return hk_fail(HOOKE_BAD_VALUE, "state", "is not the one after the last step, at t = %.6g s", t);
   }
   if (hk_all_finite(((*from)->has_v ? 2 : 1) * (*from)->size, (*from)->q)) return HOOKE_OK;
@@ -153,7 +154,7 @@ static int32_t read_open(const char *path, FILE *file, const hooke_integrator *i
     found->finding = HOOKE_CHECKPOINT_OTHER;
     return damaged(path, "is of another scene");
   }
-  int32_t status = hk_state_create_sized(size, it->system != NULL, &found->state);
+  int32_t status = hk_state_create_sized(hk_integrator_numbers(it), it->system != NULL, &found->state);
   if (status != HOOKE_OK) return status;
   if (!read_numbers(file, &check, (found->state->has_v ? 2 : 1) * size, found->state->q))
     return damaged(path, "is cut off");
@@ -215,12 +216,10 @@ int32_t hk_checkpoint_take(const char *path, const char *run, hooke_integrator *
                            enum hk_checkpoint_finding *finding) {
   HOOKE_KEEP_ERRNO;
   *finding = HOOKE_CHECKPOINT_OTHER;
-  const int64_t numbers = hooke_state_size(state), needed = hk_integrator_numbers(it);
-  if (numbers != needed || state->size != it->size || state->has_v != (it->system != NULL))
-    return hk_fail(HOOKE_BAD_VALUE, "state", "a state of %lld numbers does not fit a problem of %lld",
-                   (long long)numbers, (long long)needed);
   struct found found = {.state = NULL};
-  int32_t status = find(path, run, it, &found);
+  int32_t status = hk_integrator_check_state(it, state);
+  if (status != HOOKE_OK) return status;
+  status = find(path, run, it, &found);
   *finding = found.finding;
   if (status == HOOKE_OK) {
     hk_recent_set_first(&it->recent, NULL);

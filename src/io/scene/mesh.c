@@ -81,7 +81,7 @@ int32_t hk_mesh_read_as(const char *path, const char *name, double memory_limit,
 }
 
 int32_t hooke_mesh_read(const char *path, hooke_options *options) {
-  if (path == NULL || options == NULL) return hk_fail(HOOKE_BAD_VALUE, NULL, "no path or no options given");
+  if (options == NULL) return hk_fail(HOOKE_BAD_VALUE, "options", "are missing; those of a mesh are needed");
   if (hk_options_find(hk_options_table(options), "triangles") == NULL)
     return hk_fail(HOOKE_BAD_VALUE, NULL,
                    "the options are not those of a mesh; make them with hooke_options_create(\"mesh\", ...)");

@@ -112,8 +112,7 @@ static int32_t load_record(const char *path, const hooke_options *limits, hooke_
 
 int32_t hooke_scene_load(const char *path, const hooke_options *limits, hooke_scene **scene) {
   HOOKE_KEEP_ERRNO;
-  if (scene) *scene = NULL;
-  if (path == NULL || scene == NULL) return hk_fail(HOOKE_BAD_VALUE, NULL, "no path or no scene given");
+  *scene = NULL;
   if (require_jansson()) return HOOKE_NOT_BUILT;
   if (hk_record_is_one(path)) return load_record(path, limits, scene);
   hooke_scene *made = new_scene(path, limits);

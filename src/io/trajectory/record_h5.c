@@ -14,6 +14,7 @@
 #include "io/trajectory/frame_check_h5.h"
 #include "io/hdf5/object_h5.h"
 #include "io/trajectory/record_h5.h"
+#include "model/state.h"
 
 #include <math.h>
 #include <string.h>
@@ -325,7 +326,7 @@ static int32_t read_rows(const struct hooke_record *record, struct hk_h5_guard *
 static void take_frame(hooke_state *state, double time, const double *q, const double *v) {
   const size_t bytes = (size_t)hooke_state_size(state) * sizeof *q;
   memcpy(hooke_state_position(state), q, bytes);
-  if (v) memcpy(hooke_state_velocity(state), v, bytes);
+  memcpy(hooke_state_velocity(state), v, bytes);
   hooke_state_set_time(state, time);
 }
 
@@ -334,13 +335,13 @@ int32_t hooke_record_read(const hooke_record *record, int64_t frame, hooke_state
   const int64_t size = hooke_state_size(state);
   double *q = NULL, *v = NULL;
   int32_t status = find_frame(record, frame, &at);
+  if (status == HOOKE_OK) status = hk_state_check(state, size, 1); /* of a system */
   if (status != HOOKE_OK) return status;
   struct hk_h5_guard guard;
   hid_t file;
   status = open_file(record, &guard, &file);
   if (status == HOOKE_OK) status = read_rows(record, &guard, file, position, at, size, &q);
-  if (status == HOOKE_OK && hooke_state_velocity(state))
-    status = read_rows(record, &guard, file, velocity, at, size, &v);
+  if (status == HOOKE_OK) status = read_rows(record, &guard, file, velocity, at, size, &v);
   close_file(&guard, file);
   if (status == HOOKE_OK) take_frame(state, record->time[at], q, v);
   hk_free(v);

@@ -12,6 +12,7 @@
 #include "io/scene/scene.h"
 #include "io/trajectory/trajectory.h"
 #include "io/trajectory/trajectory_h5.h"
+#include "model/state.h"
 
 #include <errno.h>
 #include <stdio.h>
@@ -127,10 +128,8 @@ int32_t hooke_trajectory_write(hooke_trajectory *trajectory, int64_t step, const
   const int32_t own = hk_atomic_file_require_own(&trajectory->file.atomic);
   if (own != HOOKE_OK) return own;
   if (trajectory->failure[0]) return refuse_bad(trajectory);
-  if (hooke_state_size(state) != 3 * writer->file.particle_count) {
-    return hk_fail(HOOKE_BAD_VALUE, NULL, "the state has %lld numbers in q; this trajectory takes %lld",
-                   (long long)hooke_state_size(state), (long long)(3 * writer->file.particle_count));
-  }
+  const int32_t fits = hk_state_check(state, 3 * writer->file.particle_count, 1);
+  if (fits != HOOKE_OK) return fits;
   if (trajectory->taken == writer->frame_count) {
     return hk_fail(HOOKE_BAD_CALL, NULL, "all %lld frames that this trajectory was made for are written",
                    (long long)writer->frame_count);

@@ -5,6 +5,7 @@
 #include "core/print.h"
 #include "core/status.h"
 #include "integrate/integrator.h"
+#include "integrate/loop/run_loop.h"
 #include "measure/estimate/heat.h"
 #include "measure/trial/step_unit.h"
 #include "measure/counted_work/work.h"
@@ -142,6 +143,9 @@ int32_t hooke_estimate_begin(hooke_measurement *m, const hooke_integrator *it, c
   if (status != HOOKE_OK) return status;
   if (it->system != e->system)
     return hk_fail(HOOKE_BAD_VALUE, "integrator", "is not one of the system that the estimate is for");
+  status = hk_state_check_system(state, e->system);
+  if (status == HOOKE_OK) status = hk_run_check_duration(it);
+  if (status != HOOKE_OK) return status;
   forget_run(e);
   status = hooke_options_copy(it->options, &e->options);
   if (status != HOOKE_OK) return status;
@@ -180,6 +184,8 @@ int32_t hooke_estimate_see(int64_t step, const hooke_state *state, void *estimat
   struct hk_estimate *e = m->object;
   (void)step;
   if (m->kind != &hk_estimate_kind || e->options == NULL) return 0;
+  const int32_t status = hk_state_check_system(state, e->system);
+  if (status != HOOKE_OK) return status;
   e->work = hk_work_of(e->integrator);
   e->steps = (double)e->integrator->count.steps;
   keep(e, state);
@@ -285,7 +291,7 @@ static int32_t run(hooke_measurement *m, hooke_state *state) {
   struct hk_estimate *e = m->object;
   if (state == NULL)
     return hk_fail(HOOKE_BAD_VALUE, "state", "is missing; an estimate needs the last one of the run");
-  const int32_t status = hk_state_check(state, m->system);
+  const int32_t status = hk_state_check_system(state, m->system);
   if (status != HOOKE_OK) return status;
   if (e->options == NULL)
     return hk_fail(HOOKE_BAD_CALL, NULL, "the estimate was not there when the run began");

@@ -19,7 +19,7 @@ struct making {
   const hooke_system *system;
   const double *q;
   double middle[3], extent, shortest, factor;
-  int64_t *ends;
+  int64_t *ends, *last; /* last: of each particle, 1 + the last spring whose lower end it is; 0: none */
   double *kappa, *gamma, *rest_length;
   struct hk_rigid rigid; /* of the system */
 };
@@ -107,18 +107,39 @@ static struct hk_twin_spring spring_of(const struct hk_element *e) {
       e->particle[0], e->particle[1], {e->u[0], e->u[1], e->u[2]}, e->k_along - e->k_across, e->k_across};
 }
 
+/* Adds a spring to the last one from its lower end, if that has the same ends: a step of the twin takes as long
+ * as it has springs. 0 if it has not, or the strength overflows. */
+static int join_spring(struct making *making, struct hk_twin *twin, const struct hk_spring *spring,
+                       const struct hk_element *e, double rest_length) {
+  const int64_t k = making->last[spring->head < spring->tail ? spring->head : spring->tail] - 1;
+  if (k < 0 || making->ends[2 * k] + making->ends[2 * k + 1] != (int64_t)spring->head + spring->tail)
+    return 0;
+  const double kappa = making->kappa[k] + spring->kappa, gamma = making->gamma[k] + spring->gamma;
+  if (!isfinite(kappa) || !isfinite(gamma)) return 0;
+  if (kappa > 0.0) making->rest_length[k] += (rest_length - making->rest_length[k]) * (spring->kappa / kappa);
+  making->kappa[k] = kappa;
+  making->gamma[k] = gamma;
+  twin->element[k].k_along += e->k_along;
+  twin->element[k].k_across += hk_element_across(e);
+  twin->element[k].c_along += e->c_along;
+  twin->spring[k] = spring_of(&twin->element[k]);
+  return 1;
+}
+
 static void keep_spring(struct making *making, struct hk_twin *twin, const struct hk_spring *spring,
                         const struct hk_element *e) {
   const double before = length_at(spring, making->q), after = length_at(spring, twin->place);
   twin->clamped += e->k_across < -HOOKE_STRETCH_ROUNDING * e->k_along;
   if (after == 0.0) return;
+  const double rest_length = hk_element_across(e) > 0.0 ? after * (spring->rest_length / before) : after;
+  if (join_spring(making, twin, spring, e, rest_length)) return;
   const int64_t k = twin->spring_count++;
-  const int stretched = hk_element_across(e) > 0.0;
+  making->last[spring->head < spring->tail ? spring->head : spring->tail] = k + 1;
   making->ends[2 * k] = spring->head;
   making->ends[2 * k + 1] = spring->tail;
   making->kappa[k] = spring->kappa;
   making->gamma[k] = spring->gamma;
-  making->rest_length[k] = stretched ? after * (spring->rest_length / before) : after;
+  making->rest_length[k] = rest_length;
   keep_element(twin, e);
   twin->spring[k] = spring_of(&twin->element[k]);
 }
@@ -151,11 +172,12 @@ static int32_t new_thaw(struct making *making, struct hk_twin *twin) {
   twin->moved = hk_new(3 * n, sizeof(double));
   twin->element = hk_new(count, sizeof *twin->element);
   twin->spring = hk_new(springs, sizeof *twin->spring);
-  making->ends = hk_new(2 * springs, sizeof(int64_t));
+  making->ends = hk_new(2 * springs + n, sizeof(int64_t));
   making->kappa = hk_new(3 * springs, sizeof(double));
   if (!twin->place || !twin->balance || !twin->moved || !twin->element || !twin->spring || !making->ends ||
       !making->kappa)
     return HOOKE_NO_MEMORY;
+  making->last = making->ends + 2 * springs;
   making->gamma = making->kappa + springs;
   making->rest_length = making->gamma + springs;
   return HOOKE_OK;

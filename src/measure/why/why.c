@@ -112,7 +112,7 @@ static int32_t replay(struct hk_inquiry *inquiry) {
                        NUMBERS * (double)inquiry->run->size * sizeof(double);
   if (!hk_inquiry_has_room(inquiry, bytes, "the last steps again")) return HOOKE_OK;
   hk_patience_lend(&inquiry->patience, 0.4);
-  int32_t status = hk_state_create_sized(inquiry->run->size, 1, &inquiry->last);
+  int32_t status = hk_state_create_sized(hk_integrator_numbers(inquiry->run), 1, &inquiry->last);
   if (status == HOOKE_OK) status = hk_inquiry_replay(inquiry);
   hk_inquiry_end_part(inquiry, "the last steps again");
   return status;
@@ -226,7 +226,7 @@ int32_t hooke_why_create(const hooke_integrator *run, const hooke_options *optio
 
 static int32_t copy_state(const hooke_integrator *run, const hooke_state *from, hooke_state **copy) {
   int32_t status = hk_run_check_state(run, from);
-  if (status == HOOKE_OK) status = hk_state_create_sized(run->size, 1, copy);
+  if (status == HOOKE_OK) status = hk_state_create_sized(hk_integrator_numbers(run), 1, copy);
   return status == HOOKE_OK ? hooke_state_copy(from, *copy) : status;
 }
 

@@ -135,7 +135,7 @@ static int32_t run_trial(struct hk_trials *trials, hooke_integrator *integrator,
   hooke_state *state = NULL;
   struct effort effort = {.integrator = integrator, .inquiry = trials->inquiry, .size = trials->size};
   const int64_t stride = integrator->method->adaptive ? 1 : 1 + (int64_t)(1e5 / trials->size);
-  int32_t status = hk_state_create_sized(trials->first->size, 1, &state);
+  int32_t status = hk_state_create_sized(hooke_state_size(trials->first), 1, &state);
   if (status != HOOKE_OK) return status;
   hooke_state_copy(trials->first, state);
   hooke_integrator_on_step(integrator, stride, watch_work, &effort);

@@ -27,7 +27,7 @@ int32_t hk_why_start_keep(const hooke_integrator *run, struct hk_why_start *star
   hk_why_start_release(start);
   if (run->method->adaptive || run->size > MOST_NUMBERS) return HOOKE_OK;
   const hooke_state *from = choose(run, &step);
-  int32_t status = hk_state_create_sized(run->size, 1, &start->state);
+  int32_t status = hk_state_create_sized(hk_integrator_numbers(run), 1, &start->state);
   if (status == HOOKE_OK) status = hooke_state_copy(from, start->state);
   start->standing = hk_integrator_standing(run);
   start->standing.k = step;
@@ -77,7 +77,7 @@ int32_t hk_why_walk(const hooke_system *system, const struct hk_why_start *start
   hooke_integrator *it = NULL;
   hooke_state *state = NULL;
   int32_t status = make(system, run, &it), seen = 0;
-  if (status == HOOKE_OK) status = hk_state_create_sized(it->size, 1, &state);
+  if (status == HOOKE_OK) status = hk_state_create_sized(hk_integrator_numbers(it), 1, &state);
   if (status == HOOKE_OK) status = begin(it, start, state);
   for (int64_t k = 0; k < count && status == HOOKE_OK && seen == 0; k++) {
     if (!reach(it, time[k], &status)) break;

@@ -204,7 +204,6 @@ int32_t hooke_system_drive_callback(hooke_system *system, int64_t count, const i
                                     hooke_drive *callback, void *ctx) {
   int32_t status = check_driven(system, count, particles);
   if (status != HOOKE_OK) return status;
-  if (callback == NULL) return hk_fail(HOOKE_BAD_VALUE, "drive", "no callback given; a function is needed");
   struct hk_drive_group drive = {
       .kind = HOOKE_DRIVE_CALLBACK, .count = count, .callback = callback, .ctx = ctx};
   return append_drive(system, drive, particles);

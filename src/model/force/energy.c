@@ -53,10 +53,11 @@ struct hk_energies hk_state_energies(const hooke_state *state, const hooke_syste
 }
 
 double hooke_system_energy(const hooke_system *system, const char *what, const double *q, const double *v) {
-  if (!system->committed) return NAN;
-  if (strcmp(what, "kinetic") == 0) return kinetic_energy(system, v);
+  const int kinetic = strcmp(what, "kinetic") == 0, total = strcmp(what, "total") == 0;
+  if (!system->committed || (kinetic ? v == NULL : q == NULL) || (total && v == NULL)) return NAN;
+  if (kinetic) return kinetic_energy(system, v);
   if (strcmp(what, "potential") == 0) return potential_energy(system, q);
-  if (strcmp(what, "total") == 0) return kinetic_energy(system, v) + potential_energy(system, q);
+  if (total) return kinetic_energy(system, v) + potential_energy(system, q);
   const struct hk_force_row *row = hk_force_find(what);
   if (row == NULL || row->energy == NULL) return NAN;
   return row->present(system) ? row->energy(system, q) : 0.0;
