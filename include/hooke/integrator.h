@@ -163,7 +163,7 @@ HOOKE_API int32_t hooke_integrator_put(hooke_integrator *integrator, int64_t cou
  * springs at the predicted velocity, 0 where it solves for it and of anything else), "coincident_springs"
  * (springs without direction in the last force evaluation), "zero_passages" (times that a spring or an anchor with
  * a rest length passed through length zero, where its ends go through each other; -1: not known, as a part of the
- * run was before a checkpoint or a frame that it goes on from), "memory_bytes"; "frames" that
+ * run was before a checkpoint or a frame that it goes on from, or without memory), "memory_bytes"; "frames" that
  * hooke_integrator_run() reports, the initial one included; "recent": states that hooke_integrator_recent()
  * has; "stop_value": what the callback that stopped the run returned, 0 if none did; "factor_bytes": what
  * a factor of its equations takes, which an implicit method makes where that pays; they are analysed for

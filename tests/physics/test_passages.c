@@ -266,7 +266,7 @@ static void test_checkpoint(void **unused) {
   assert_int_equal(passages_of(integrator), -1);
   check_ok(hooke_integrator_step(integrator, state, 200));
   assert_int_equal(passages_of(integrator), -1);
-  assert_non_null(strstr(hooke_integrator_text(integrator, "zero_passages"), "since the run went on"));
+  assert_non_null(strstr(hooke_integrator_text(integrator, "zero_passages"), "length zero at least "));
   hooke_integrator_destroy(integrator);
   hooke_state_destroy(state);
   hooke_system_destroy(system);

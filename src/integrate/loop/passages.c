@@ -35,14 +35,13 @@ static void tell(hooke_integrator *it, int64_t passed, const int64_t ends[2], do
              (long long)ends[1], t);
   p->seen += passed;
   if (it->count.zero_passages >= 0) it->count.zero_passages += passed;
+  const char *least = it->count.zero_passages < 0 ? "at least " : "", *plural = p->seen == 1 ? "" : "s";
   snprintf(
       p->told, sizeof p->told,
-      "springs passed through length zero %lld time%s%s, first that %s: beyond it the force of such a spring "
-      "turns round with it, while that of a textbook, k (x - rest length) along a line, does not; for that "
-      "one "
-      "put the wall farther away by some length and make the rest length longer by the same",
-      (long long)p->seen, p->seen == 1 ? "" : "s",
-      it->count.zero_passages < 0 ? " since the run went on" : "", p->first);
+      "springs passed through length zero %s%lld time%s, first that %s: beyond it the force of such a "
+      "spring turns round with it, while that of a textbook, k (x - rest length) along a line, does not; "
+      "for that one put the wall farther away by some length and make the rest length longer by the same",
+      least, (long long)p->seen, plural, p->first);
 }
 
 static void count(hooke_integrator *it, const double *before, const double *now, double t) {
@@ -71,8 +70,11 @@ static void look_back(hooke_integrator *it, double from, double to) {
 int32_t hk_passages_count(hooke_integrator *it, double from, double to) {
   struct hk_passages *p = &it->passages;
   if (it->motion == NULL || !(it->motion->near_zero || p->follows)) return HOOKE_OK;
-  int32_t status = make_room(it);
-  if (status == HOOKE_OK) status = it->method->store(it, to, p->now);
+  if (make_room(it) != HOOKE_OK) { /* the run goes on without the count */
+    it->count.zero_passages = -1;
+    return HOOKE_OK;
+  }
+  const int32_t status = it->method->store(it, to, p->now);
   if (status != HOOKE_OK) return status;
   if (!p->follows) look_back(it, from, to);
   count(it, p->before->q, p->now->q, to);

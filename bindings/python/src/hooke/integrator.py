@@ -287,7 +287,7 @@ class Integrator(Closing):
 
     def _warn_of_passages(self, outcome: str) -> str:
         sentence = text(lib.hooke_integrator_text(self._handle, b"zero_passages"))
-        if sentence:
+        if sentence and outcome not in ("diverged", "step-limit"):
             warnings.warn(sentence, PassageWarning, _callback.outside() - 1)
         return outcome
 
@@ -298,8 +298,10 @@ class Integrator(Closing):
 
     @property
     def counts(self) -> dict[str, int]:
-        """Counts since the integrator was made: steps, force evaluations, solver iterations, ..."""
-        return {what: lib.hooke_integrator_count(self._handle, what.encode()) for what in COUNTS}
+        """Counts since the integrator was made: steps, force evaluations, solver iterations, ...; without those that
+        are not known, as "zero_passages" of a run that went on from a file."""
+        counts = {what: lib.hooke_integrator_count(self._handle, what.encode()) for what in COUNTS}
+        return {what: count for what, count in counts.items() if count >= 0}
 
     @property
     def wall_seconds(self) -> float:
