@@ -1,8 +1,9 @@
-/* Springs that pass through length zero: those that turn by more than a right angle within a step, as their ends
- * went through each other. A motion that turns a spring in several steps goes by.
+/* Springs that pass through length zero: those that turn by more than a right angle within a step, as
+ * their ends went through each other. A motion that turns a spring in several steps goes by.
  *
- * Springs are looked at while one of them is shorter than half its rest length, which the loops of forces notice
- * in passing. That may be in the step after the one in which it passed, so the first look goes two steps back. */
+ * Springs are looked at while one of them is shorter than half its rest length, which the loops of forces
+ * notice in passing. That may be in the step after the one in which it passed, so the first look goes two
+ * steps back. */
 #include "integrate/loop/run_loop.h"
 
 #include "core/print.h"

@@ -37,8 +37,8 @@ int32_t hk_run_beyond(hooke_integrator *integrator, hooke_state *state, int32_t 
 /* `count` steps of a fixed-step method, with progress told in between. */
 int32_t hk_run_take_fixed_steps(hooke_integrator *integrator, int64_t count);
 
-/* Springs that pass through length zero: begins to count them at time t, and counts those of a step between two
- * times. */
+/* Springs that pass through length zero: begins to count them at time t, and counts those of a step
+ * between two times. */
 void hk_passages_begin(hooke_integrator *integrator, double t);
 int32_t hk_passages_count(hooke_integrator *integrator, double from, double to);
 

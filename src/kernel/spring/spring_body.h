@@ -11,7 +11,8 @@
 #define HOOKE_INLINE static inline __attribute__((always_inline))
 #endif
 
-/* Loops return 1 for each spring shorter than half its rest length, and HOOKE_LOST more if its ends coincide. */
+/* Loops return 1 for each spring shorter than half its rest length, and HOOKE_LOST more if its ends
+ * coincide. */
 #define HOOKE_LOST (INT64_C(1) << 32)
 
 HOOKE_INLINE int64_t hk_spring_shortness(double r, double rest_length) {

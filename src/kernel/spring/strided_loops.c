@@ -145,9 +145,10 @@ HOOKE_INLINE vec tension_of(const struct batch *batch, const double *const *own,
   return tension * ir;
 }
 
-/* Forces of the springs of 1 or TOGETHER batches of one shape into their rings, and sums behind; `shortest`
- * receives the minimum of twice their length less their rest length. Stores may alias anything for the compiler, so they come last. The empty
- * instruction keeps it from storing sums of addresses outside the loop, whose loads cost more than adding. */
+/* Forces of the springs of 1 or TOGETHER batches of one shape into their rings, and sums behind;
+ * `shortest` receives the minimum of twice their length less their rest length. Stores may alias anything
+ * for the compiler, so they come last. The empty instruction keeps it from storing sums of addresses
+ * outside the loop, whose loads cost more than adding. */
 HOOKE_INLINE void fill(const struct batch *batch, const struct item *item, const int together,
                        const struct place *at, const int shape, vec *shortest, vec sum[VECTORS][3]) {
   const char *q = at->q, *v = at->v;
