@@ -98,6 +98,8 @@ static void print_reference(const hooke_measurement *study) {
              hooke_measurement_text(study, "reference", 0, "method"),
              hooke_measurement_text(study, "reference", 0, "check"));
   print_trust(study, agreement);
+  const char *passages = hooke_measurement_text(study, "reference", 0, "zero_passages");
+  if (passages[0]) print_fact("WARNING", "%s", passages);
 }
 
 /* ---- orders ---- */

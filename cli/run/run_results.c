@@ -44,12 +44,15 @@ static const char *const counts[HOOKE_RUN_COUNTS][2] = {
     {"nonlinear_failures", "nonlinear failures"},
     {"linear_iterations", "linear iterations"},
     {"error_test_failures", "error test failures"},
+    {"zero_passages", NULL},
     {"coincident_springs", NULL},
 };
 
 void cli_run_take_counts(struct cli_run *run) {
   for (int k = 0; k < HOOKE_RUN_COUNTS; k++)
     run->count[k] = hooke_integrator_count(run->integrator, counts[k][0]);
+  snprintf(run->passages, sizeof run->passages, "%s",
+           hooke_integrator_text(run->integrator, "zero_passages"));
   run->wall_seconds = hooke_integrator_number(run->integrator, "wall_seconds");
 }
 
@@ -108,6 +111,7 @@ static void print_json(const struct cli_run *run, int32_t with_final) {
   cli_json_number(&json, "wall_seconds", run->was_finished ? NAN : run->wall_seconds);
   cli_json_count(&json, "particles", hooke_system_particle_count(system));
   cli_json_count(&json, "springs", hooke_system_count(system, "springs"));
+  print_json_count(&json, run, HOOKE_RUN_COUNTS - 2);
   print_json_motion(&json, run);
   if (cli_run_goes_beyond(run)) cli_json_count(&json, "frames_beyond", run->frames_beyond);
   cli_json_text(&json, "output", run->output);

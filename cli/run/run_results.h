@@ -6,8 +6,8 @@
 #include "setup.h"
 #include "watch.h"
 
-/* The printed counts: those of work, and last the coincident springs. */
-enum { HOOKE_RUN_COUNTS = 8 };
+/* The printed counts: those of work, and last those of springs through zero, and at zero at the end. */
+enum { HOOKE_RUN_COUNTS = 9 };
 
 /* A run and the data kept from it. */
 struct cli_run {
@@ -29,6 +29,7 @@ struct cli_run {
   int64_t frames;        /* reported so far */
   int64_t frames_beyond; /* those of them after it diverged */
   double last_frame;     /* time of the last one before that [s]; NaN: none was reported */
+  char passages[640];    /* of springs through length zero, in a sentence */
   char warning[2048];    /* a line each, held back for the first second of work */
   int32_t is_long;       /* 1: that is over */
   int32_t write_status;  /* HOOKE_OK, or why a frame or a checkpoint could not be written */

@@ -308,6 +308,8 @@ static int run_and_tell(struct cli_run *run) {
   if (!run->arguments->json) cli_run_print(run);
   if (!blew_up) tell_warnings(run);
   if (!blew_up && !run->arguments->quiet) tell_coincident(run);
+  if (!blew_up && !run->arguments->quiet && run->passages[0])
+    cli_report_words(run->arguments, "warning: %s", run->passages);
   if (run->outcome == HOOKE_STOPPED) tell_interrupted(run);
   estimate(run);
   if (!run->arguments->json) cli_want_print(run);

@@ -159,19 +159,24 @@ HOOKE_API int32_t hooke_integrator_put(hooke_integrator *integrator, int64_t cou
 /* ---- counts and times since the integrator was made; after hooke_checkpoint_read(), since the run began
  * ---- */
 
-/* A count: "steps", "force_evaluations", "derivative_products", "nonlinear_iterations", "nonlinear_failures",
- * "linear_iterations", "error_test_failures", "explicit_damping" (1 of verlet that takes the damping of
- * springs at the predicted velocity, 0 where it solves for it and of anything else), "coincident_springs"
- * (springs without direction in the last force evaluation), "memory_bytes"; "frames" that
- * hooke_integrator_run() reports, the initial one included; "recent": states that hooke_integrator_recent()
- * has; "stop_value": what the callback that stopped the run returned, 0 if none did; "factor_bytes": what
- * a factor of its equations takes, which an implicit method makes where that pays; they are analysed for
- * it. 0 if it makes none, or is told to; -1 without memory, with hooke_last_error(). -1 for any other
- * word. */
+/* A count: "steps", "force_evaluations", "derivative_products", "nonlinear_iterations",
+ * "nonlinear_failures", "linear_iterations", "error_test_failures", "explicit_damping" (1 of verlet that
+ * takes the damping of springs at the predicted velocity, 0 where it solves for it and of anything else),
+ * "coincident_springs" (springs without direction in the last force evaluation), "zero_passages" (times
+ * that a spring or an anchor with a rest length passed through length zero, where its ends go through
+ * each other; -1: not known, as a part of the run was before a checkpoint or a frame that it goes on
+ * from, or without memory), "memory_bytes"; "frames" that hooke_integrator_run() reports, the initial one
+ * included; "recent": states that hooke_integrator_recent() has; "stop_value": what the callback that
+ * stopped the run returned, 0 if none did; "factor_bytes": what a factor of its equations takes, which an
+ * implicit method makes where that pays; they are analysed for it. 0 if it makes none, or is told to; -1
+ * without memory, with hooke_last_error(). -1 for any other word. */
 HOOKE_API int64_t hooke_integrator_count(const hooke_integrator *integrator, const char *what);
 /* "wall_seconds": time spent stepping [s], observers and output left out; "diverged_at": time at which
  * divergence was noticed [s], NaN if it was not. NaN for another word. */
 HOOKE_API double hooke_integrator_number(const hooke_integrator *integrator, const char *what);
+/* "zero_passages": that, which of them was the first, and what to do, in a sentence; "" if there was
+ * none. It is valid until the integrator takes a step. NULL for another word. */
+HOOKE_API const char *hooke_integrator_text(const hooke_integrator *integrator, const char *what);
 /* Copies into `state` one of the states of this run that passed the check (see hooke_integrator_run()), to
  * see how the run went wrong. `place` 0 is the last one, which is always kept, 1 the one before it, and so
  * on: eight at most, as far as 16 MB hold them. HOOKE_BAD_VALUE if there is none, or if the state is of

@@ -156,6 +156,8 @@ void hooke_integrator_destroy(hooke_integrator *it) {
   hk_recent_release(&it->recent);
   hooke_state_destroy(it->restart.state);
   hooke_state_destroy(it->shown);
+  hooke_state_destroy(it->passages.before);
+  hooke_state_destroy(it->passages.now);
   if (it->checker.release) it->checker.release(it->checker.own);
   hooke_options_destroy(it->options);
   hk_coordinates_destroy(it->coordinates);
@@ -239,7 +241,8 @@ int32_t hooke_integrator_recent(const hooke_integrator *it, int64_t place, hooke
 
 static int64_t memory_of(const hooke_integrator *it) {
   const int64_t own = it->system ? 0 : 2 * it->size; /* x and its rate */
-  const int64_t copies = (it->restart.state != NULL) + (it->shown != NULL);
+  const int64_t copies = (it->restart.state != NULL) + (it->shown != NULL) + (it->passages.before != NULL) +
+                         (it->passages.now != NULL);
   const int64_t copied = copies * (1 + (it->system ? 2 : 1) * it->size);
   return (int64_t)sizeof *it + it->own_memory + it->checker.memory + (it->motion ? it->motion->memory : 0) +
          (own + copied) * (int64_t)sizeof(double) + hk_recent_memory(&it->recent);
@@ -266,6 +269,7 @@ int64_t hooke_integrator_count(const hooke_integrator *it, const char *what) {
       {"linear_iterations", c->linear_iterations},
       {"error_test_failures", c->error_test_failures},
       {"explicit_damping", it->explicit_damping},
+      {"zero_passages", c->zero_passages},
       {"coincident_springs", it->motion ? it->motion->coincident : 0},
       {"memory_bytes", memory_of(it)},
       {"frames", it->schedule.frames},
@@ -282,4 +286,8 @@ double hooke_integrator_number(const hooke_integrator *it, const char *what) {
   const struct hk_named_number numbers[] = {{"wall_seconds", it->wall_seconds},
                                             {"diverged_at", it->diverged_at}};
   return HOOKE_NAMED_NUMBER(numbers, what);
+}
+
+const char *hooke_integrator_text(const hooke_integrator *it, const char *what) {
+  return strcmp(what, "zero_passages") == 0 ? it->passages.told : NULL;
 }

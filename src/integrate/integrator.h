@@ -12,6 +12,7 @@
 struct hk_counts {
   int64_t steps, force_evaluations, derivative_products, nonlinear_iterations, nonlinear_failures,
       linear_iterations, error_test_failures;
+  int64_t zero_passages; /* not in checkpoints; -1: not known */
   /* matrices of linear equations, multiplications to factorise them, numbers of factors in solutions, and
    * vectors that GMRES has made others orthogonal to: for measure/counted_work alone, and not in checkpoints */
   int64_t matrices, factor_products, factor_numbers, space;
@@ -67,6 +68,15 @@ struct hk_checker {
   int64_t memory; /* memory [bytes] */
 };
 
+/* Springs that pass through length zero (passages.c). */
+struct hk_passages {
+  hooke_state *before, *now; /* NULL until a spring is short */
+  int32_t follows;           /* 1: `before` has the positions where the last step ended */
+  double until;              /* time up to which they are counted [s] */
+  int64_t seen;              /* here; the count of the run may not be known */
+  char first[96], told[640]; /* the first of them; all in a sentence */
+};
+
 struct hooke_integrator {
   const struct hk_method *method;
   hooke_options *options;
@@ -113,6 +123,7 @@ struct hooke_integrator {
   struct hk_teller teller;
   struct hk_checker checker;
   int32_t thorough; /* 1: every check includes the energy */
+  struct hk_passages passages;
   struct hk_counts count;
   double wall_seconds;
   int32_t stop_value;

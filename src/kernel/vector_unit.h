@@ -36,7 +36,7 @@ HOOKE_INLINE hk_vector hk_all(double x) {
 }
 
 /* ---- square root, the lesser of two (b if one is NaN), x where a bit is set and 0 elsewhere, 1 if some
- * number is 0 ---- */
+ * number is 0 or less ---- */
 
 #if HOOKE_WIDTH == 8
 
@@ -52,8 +52,8 @@ HOOKE_INLINE hk_vector hk_keep(uint32_t bits, hk_vector x) {
   return (hk_vector)_mm512_maskz_mov_pd((__mmask8)bits, (__m512d)x);
 }
 
-HOOKE_INLINE int hk_has_zero(hk_vector x) {
-  return _mm512_cmp_pd_mask((__m512d)x, _mm512_setzero_pd(), _CMP_EQ_OQ) != 0;
+HOOKE_INLINE int hk_has_none_left(hk_vector x) {
+  return _mm512_cmp_pd_mask((__m512d)x, _mm512_setzero_pd(), _CMP_LE_OQ) != 0;
 }
 
 #elif HOOKE_WIDTH == 4
@@ -80,8 +80,8 @@ HOOKE_INLINE hk_vector hk_keep(uint32_t bits, hk_vector x) {
   return (hk_vector)((hk_vector_mask)x & *(const hk_vector_mask *)hk_masks[bits]);
 }
 
-HOOKE_INLINE int hk_has_zero(hk_vector x) {
-  return _mm256_movemask_pd(_mm256_cmp_pd((__m256d)x, _mm256_setzero_pd(), _CMP_EQ_OQ)) != 0;
+HOOKE_INLINE int hk_has_none_left(hk_vector x) {
+  return _mm256_movemask_pd(_mm256_cmp_pd((__m256d)x, _mm256_setzero_pd(), _CMP_LE_OQ)) != 0;
 }
 
 #else
@@ -99,8 +99,8 @@ HOOKE_INLINE hk_vector hk_keep(uint32_t bits, hk_vector x) {
   return (hk_vector)((hk_vector_mask)x & mask);
 }
 
-HOOKE_INLINE int hk_has_zero(hk_vector x) {
-  return (x[0] == 0.0) | (x[1] == 0.0);
+HOOKE_INLINE int hk_has_none_left(hk_vector x) {
+  return (x[0] <= 0.0) | (x[1] <= 0.0);
 }
 
 #endif

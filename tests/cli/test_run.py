@@ -21,7 +21,7 @@ from conftest import CLI, ENDLESS, SIX_PARTICLES, STIFF_PAIR, open_terminal
 pytestmark = pytest.mark.everything
 
 KEYS = ["status", "method", "step", "time", "steps", "force_evaluations", "wall_seconds", "particles", "springs",
-        "energy", "momentum", "output", "diagnosis"]
+        "zero_passages", "energy", "momentum", "output", "diagnosis"]
 ADAPTIVE_KEYS = KEYS[:2] + ["rtol", "atol"] + KEYS[3:]
 ERROR_KEYS = ["estimate", "rms", "known_until", "by", "energy_rise", "heat_excess", "reason"]
 
@@ -54,6 +54,35 @@ def test_json_has_exactly_the_keys_and_types(hooke, write, method, keys):
     else:
         assert (value["rtol"], value["atol"]) == (1e-6, 1e-9)
         assert value["force_evaluations"] >= value["steps"] > 10
+
+
+WALL = {
+    "hooke": 1,
+    "particles": {"position": [[0, 0, 0], [1.5, 0, 0]], "mass": 1, "pinned": [0]},
+    "springs": [{"between": [[0, 1]], "law": "length", "stiffness": 10, "damping": 0.1, "rest_length": 0.5}],
+    "run": {"method": "rk4", "step": 0.002, "duration": 10, "every": 10},
+}
+
+
+def test_springs_through_zero_are_told_and_a_far_wall_has_none(hooke, write):
+    """Seen between the two frames of a run, in words, as JSON and by a study."""
+    through = hooke("run", write(WALL), "--json")
+    assert through.json["zero_passages"] == 7
+    assert "warning: springs passed through length zero 7 times, first that of particles 0 and 1 at t = 0.67" in through.err
+    assert "put the wall farther away" in through.err and through.err.count("passed through") == 1
+    assert "passed through" not in hooke("run", write(WALL), "--quiet").err
+    study = hooke("study", write(WALL), "--duration", "1", "--every", "0.5", "--methods", "rk4")
+    assert "WARNING         springs passed through length zero 1 time," in study.out
+    far = copy.deepcopy(WALL)
+    far["particles"]["position"][0][0] = -10
+    far["springs"][0]["rest_length"] = 10.5
+    signed = hooke("run", write(far), "--json", "--final")
+    assert signed.json["zero_passages"] == 0 and "passed through" not in signed.err
+    w = math.sqrt(10 - 0.05**2)
+    right = 0.5 + math.exp(-0.5) * (math.cos(10 * w) + 0.05 / w * math.sin(10 * w))
+    assert abs(signed.json["final"]["position"][1][0] - right) < 1e-9
+    study = hooke("study", write(far), "--duration", "1", "--every", "0.5", "--methods", "rk4", "--json")
+    assert study.json["reference"]["zero_passages"] == ""
 
 
 def test_more_heat_than_there_is_comes_with_a_warning(hooke, write):

@@ -1,6 +1,7 @@
 """Runs: the same bits from every interface, files, frames, first-order problems."""
 
 import json
+import warnings
 
 import h5py
 import numpy as np
@@ -56,6 +57,17 @@ def test_a_result_tells_what_was_done(system):
     assert result.counts["force_evaluations"] in (500, 501) and result.counts["memory_bytes"] > 0
     assert 0 < result.wall_seconds < 10 and result.system is system
     assert result.options["method"] == "symplectic-euler" and "finished" in repr(result)
+
+
+def test_springs_through_zero_are_counted_with_a_warning():
+    scene = hooke.Scene().particles([[0, 0, 0], [1.5, 0, 0]], mass=1, pinned=0)
+    scene.springs(between=[[0, 1]], law="length", stiffness=10, damping=0.1, rest_length=0.5)
+    with pytest.warns(hooke.PassageWarning, match=r"length zero 7 times, first that of particles 0 and 1 at") as told:
+        result = hooke.run(scene, method="rk4", step=0.002, duration=10, every=10)
+    assert result.counts["zero_passages"] == 7 and len(told) == 1 and told[0].filename == __file__
+    with warnings.catch_warnings():
+        warnings.simplefilter("error", hooke.PassageWarning)
+        assert hooke.run(scene, method="rk4", step=0.002, duration=0.5).counts["zero_passages"] == 0
 
 
 def test_frames_in_memory(system):

@@ -3,6 +3,7 @@
 #include "random.h"
 
 #include "core/memory.h"
+#include "kernel/spring/spring_body.h"
 #include "kernel/spring/tiled_loops.h"
 #include "kernel/spring/spring_loops.h"
 
@@ -76,7 +77,7 @@ static int64_t plain(const struct trial *trial, double f[3][PARTICLES]) {
       f[a][i] += -s * d[a];
       f[a][j] -= -s * d[a];
     }
-    lost += r == 0.0 && l0 != 0.0;
+    lost += (r < l0 / 2.0) + (r == 0.0 && l0 != 0.0 ? HOOKE_LOST : 0);
   }
   return lost;
 }

@@ -165,6 +165,7 @@ int32_t hooke_integrator_put(hooke_integrator *it, int64_t count, const int64_t 
   if (status != HOOKE_OK) return status;
   for (int64_t k = 0; k < count; k++)
     put_rows(it, particles[k], q ? q + 3 * k : NULL, v ? v + 3 * k : NULL);
+  hk_passages_begin(it, it->t);
   it->scale0 = INFINITY; /* energy comes from outside: a rise of it proves nothing */
   if (it->method->forget) it->method->forget(it);
   if (it->method->adaptive) return it->method->begin(it, it->shown);

@@ -56,6 +56,7 @@ int32_t hk_integrator_stand_at_frame(hooke_integrator *it, int64_t frame, const 
   standing.t = *state->t;
   standing.k = standing.count.steps = k;
   standing.frames = frame + 1;
+  if (frame > 0) standing.count.zero_passages = -1;
   const double t = standing.t0 + (double)k * s->step;
   if (frame > 0 && memcmp(&t, &standing.t, sizeof t) != 0)
     return hk_fail(HOOKE_BAD_VALUE, NULL, "frame %lld is not at the time of this run's, %.17g s",

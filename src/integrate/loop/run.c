@@ -52,6 +52,7 @@ int32_t hk_run_begin(hooke_integrator *it, hooke_state *state) {
   if (status == HOOKE_OK) status = hk_divergence_begin(it, state);
   if (status == HOOKE_OK) status = it->method->begin(it, state);
   if (status == HOOKE_OK) status = hk_run_keep_restart(it, state);
+  hk_passages_begin(it, it->t0);
   it->begun = status == HOOKE_OK;
   return status;
 }
@@ -125,9 +126,11 @@ static int32_t take_untold_steps(hooke_integrator *it, int64_t count) {
     if (status == HOOKE_OK) status = it->method->step(it);
     if (status != HOOKE_OK) break;
     if (it->system && it->system->constrained_count > 0) hk_motion_hold(it->system, it->motion);
+    const double from = it->t;
     it->t = next;
     it->k++;
     it->count.steps++;
+    status = hk_passages_count(it, from, next);
   }
   it->wall_seconds += hk_clock_seconds() - begun;
   return status;

@@ -92,10 +92,11 @@ static int32_t tell_step(hooke_integrator *it, hooke_state *state) {
 int32_t hk_run_internal_steps(hooke_integrator *it, hooke_state *state, int64_t steps, int32_t shows) {
   int32_t status = HOOKE_OK;
   for (int64_t s = 0; s < steps && status == HOOKE_OK; s++) {
-    const double point = it->goal = next_point(it);
+    const double point = it->goal = next_point(it), from = it->t;
     status = take_step(it, state);
     const int anew = status == HOOKE_OK && it->t >= point;
     if (anew) status = start_anew(it, point, state);
+    if (status == HOOKE_OK) status = hk_passages_count(it, from, it->t);
     if (status == HOOKE_OK) status = report_step(it, state);
     if (status == HOOKE_OK && anew) status = hk_run_observe(it, &it->on_checkpoint, state);
     if (status == HOOKE_OK) status = tell_step(it, state);
@@ -156,12 +157,13 @@ static int64_t step_limit(const hooke_integrator *it) {
 
 /* One internal step with everything that follows it; frames at the time of a checkpoint come first. */
 static int32_t go_on(hooke_integrator *it, hooke_state *state, double end) {
-  const double next = next_point(it), point = next < end ? next : INFINITY;
+  const double next = next_point(it), point = next < end ? next : INFINITY, from = it->t;
   it->goal = fmin(frame_time(it, it->frames, end), point);
   int32_t status = take_step(it, state);
   if (status == HOOKE_OK) status = report_frames(it, state, fmin(it->t, point), end);
   const int anew = status == HOOKE_OK && it->t >= point;
   if (anew) status = start_anew(it, point, state);
+  if (status == HOOKE_OK) status = hk_passages_count(it, from, fmin(it->t, end));
   if (status == HOOKE_OK && it->t < end) status = report_step(it, state);
   return status == HOOKE_OK && anew ? hk_run_observe(it, &it->on_checkpoint, state) : status;
 }

@@ -37,6 +37,11 @@ int32_t hk_run_beyond(hooke_integrator *integrator, hooke_state *state, int32_t 
 /* `count` steps of a fixed-step method, with progress told in between. */
 int32_t hk_run_take_fixed_steps(hooke_integrator *integrator, int64_t count);
 
+/* Springs that pass through length zero: begins to count them at time t, and counts those of a step
+ * between two times. */
+void hk_passages_begin(hooke_integrator *integrator, double t);
+int32_t hk_passages_count(hooke_integrator *integrator, double from, double to);
+
 /* Shows the state to an observer, if there is one; the second as the next frame. */
 int32_t hk_run_observe(hooke_integrator *integrator, const struct hk_watch *watch, const hooke_state *state);
 int32_t hk_run_report(hooke_integrator *integrator, hooke_state *state);

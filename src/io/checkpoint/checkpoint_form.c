@@ -99,6 +99,7 @@ void hk_checkpoint_unpack(const unsigned char bytes[HOOKE_CHECKPOINT_HEADER],
   unsigned char copy[HOOKE_CHECKPOINT_HEADER];
   memcpy(copy, bytes, sizeof copy);
   move_header(&(struct tape){copy, 0}, header);
+  header->standing.count.zero_passages = -1;
 }
 
 void hk_checkpoint_pack_numbers(int64_t count, const double *value, unsigned char *bytes) {

@@ -21,8 +21,7 @@ struct springs {
   ptrdiff_t offset;
 };
 
-/* b = s d for every spring of a block, with F = -s d; returns the number of springs with a rest length but no
- * direction. */
+/* b = s d for every spring of a block, with F = -s d; returns how short they are (spring_body.h). */
 HOOKE_INLINE int64_t fill_block(double *restrict bx, double *restrict by, double *restrict bz,
                                 const double *restrict qx, const double *restrict qy,
                                 const double *restrict qz, const double *restrict vx,
@@ -46,7 +45,7 @@ HOOKE_INLINE int64_t fill_block(double *restrict bx, double *restrict by, double
     bx[k] = s * dx;
     by[k] = s * dy;
     bz[k] = s * dz;
-    lost += (r == 0.0) & (rest_length != 0.0);
+    lost += hk_spring_shortness(r, rest_length);
   }
   return lost;
 }

@@ -39,7 +39,7 @@ struct hk_triangle_set;
 struct hk_tangent_set;
 struct hk_vector_set;
 
-/* Adds the forces of a run; returns the number of its springs with a rest length but no direction. */
+/* Adds the forces of a run; returns how short its springs are (spring_body.h). */
 typedef int64_t hk_spring_loop(const struct hk_run *run, const struct hk_fields *fields);
 
 struct hk_run {

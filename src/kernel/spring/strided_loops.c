@@ -133,10 +133,11 @@ HOOKE_INLINE void find_along(const struct batch *batch, const int together, cons
 
 /* Tension over length of springs of length r. */
 HOOKE_INLINE vec tension_of(const struct batch *batch, const double *const *own, int j, const int shape,
-                            vec r, vec ir, vec along) {
+                            vec r, vec ir, vec along, vec *shortest) {
   const int mixed = (shape & HOOKE_RUN_MIXED) != 0;
   const vec rest = number_of(batch, own, HOOKE_STRIDED_REST, j, mixed);
   vec tension = number_of(batch, own, HOOKE_STRIDED_KAPPA, j, mixed) * (r - rest);
+  *shortest = hk_lesser(r + (r - rest), *shortest);
   if (shape & HOOKE_RUN_DAMPED)
     tension = tension + number_of(batch, own, HOOKE_STRIDED_GAMMA, j, mixed) * (along * ir);
   if (shape & HOOKE_RUN_PULL_ONLY)
@@ -144,9 +145,10 @@ HOOKE_INLINE vec tension_of(const struct batch *batch, const double *const *own,
   return tension * ir;
 }
 
-/* Forces of the springs of 1 or TOGETHER batches of one shape into their rings, and sums behind; `shortest`
- * receives the minimum length. Stores may alias anything for the compiler, so they come last. The empty
- * instruction keeps it from storing sums of addresses outside the loop, whose loads cost more than adding. */
+/* Forces of the springs of 1 or TOGETHER batches of one shape into their rings, and sums behind;
+ * `shortest` receives the minimum of twice their length less their rest length. Stores may alias anything
+ * for the compiler, so they come last. The empty instruction keeps it from storing sums of addresses
+ * outside the loop, whose loads cost more than adding. */
 HOOKE_INLINE void fill(const struct batch *batch, const struct item *item, const int together,
                        const struct place *at, const int shape, vec *shortest, vec sum[VECTORS][3]) {
   const char *q = at->q, *v = at->v;
@@ -172,9 +174,8 @@ HOOKE_INLINE void fill(const struct batch *batch, const struct item *item, const
     }
   }
   EACH ir[i] = 1.0 / r[i];
-  EACH *shortest = hk_lesser(r[i], *shortest);
   EACH {
-    const vec s = tension_of(BATCH, own[i / VECTORS], VECTOR, shape, r[i], ir[i], along[i]);
+    const vec s = tension_of(BATCH, own[i / VECTORS], VECTOR, shape, r[i], ir[i], along[i], shortest);
     for (int a = 0; a < 3; a++)
       d[i][a] = s * d[i][a];
   }
@@ -188,8 +189,9 @@ HOOKE_INLINE int present_at(const struct hk_strided_view *batch, ptrdiff_t p) {
   return batch->present[p / HOOKE_STRIDED_UNIT] >> p % HOOKE_STRIDED_UNIT & 1;
 }
 
-/* The force of the spring of a batch at p into its ring. Returns 1 if it has a rest length but no direction. */
-static int fill_one(const struct hk_strided_pass *pass, const struct hk_strided_view *batch, ptrdiff_t p) {
+/* The force of the spring of a batch at p into its ring. Returns how short it is. */
+static int64_t fill_one(const struct hk_strided_pass *pass, const struct hk_strided_view *batch,
+                        ptrdiff_t p) {
   const struct hk_strided_material *material = &batch->material;
   const double *q = pass->q + p, *v = pass->v + p, *qj = q + batch->offset, *vj = v + batch->offset;
   const ptrdiff_t y = pass->stride, z = 2 * y, at = p & batch->mask;
@@ -210,10 +212,10 @@ static int fill_one(const struct hk_strided_pass *pass, const struct hk_strided_
     *to = s * d[a];
     if (at < HOOKE_STRIDED_UNIT) to[batch->mask + 1] = *to;
   }
-  return (r == 0.0) & (rest != 0.0);
+  return hk_spring_shortness(r, rest);
 }
 
-/* Repeats the springs of a step at p one by one, since some ends coincide. Counts those with a rest length. */
+/* Repeats the springs of a step at p one by one, since some are short or have no direction. */
 static __attribute__((noinline)) int64_t fill_with_care(const struct hk_strided_pass *pass, ptrdiff_t p) {
   int64_t lost = 0;
   for (int32_t k = 0; k < pass->count; k++) {
@@ -337,7 +339,7 @@ HOOKE_INLINE int64_t advance(const struct hk_strided_pass *pass, const int shape
     vec sum[VECTORS][3] = {{{0}}}, shortest = hk_all(INFINITY);
     if (pass->ahead > 0) fetch(&at, pass->ahead);
     fill_all(batch, item, count, shape, &at, &shortest, sum);
-    if (__builtin_expect(hk_has_zero(shortest), 0)) lost += fill_with_care(pass, p);
+    if (__builtin_expect(hk_has_none_left(shortest), 0)) lost += fill_with_care(pass, p);
     if (p - BEHIND >= from) move_on(pass, &how, p - BEHIND, sum);
   }
   for (ptrdiff_t p = to - BEHIND > from ? to - BEHIND : from; p < to; p += STEP) {

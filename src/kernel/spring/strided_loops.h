@@ -70,8 +70,8 @@ struct hk_strided_pass {
   struct hk_move move;
 };
 
-/* Processes particles `from` .. `to` - 1; returns the number of springs that begin there and have a rest
- * length but no direction. */
+/* Processes particles `from` .. `to` - 1; returns how short the springs are that begin there
+ * (spring_body.h). */
 typedef int64_t hk_strided_loop(const struct hk_strided_pass *pass, ptrdiff_t from, ptrdiff_t to);
 
 #endif

@@ -192,7 +192,8 @@ HOOKE_INLINE void find_strengths(const struct hk_tiled_springs *springs, ptrdiff
     }
     if (pull) tension = (vec)((hk_vector_mask)tension & ~((r <= rest) | (tension < 0.0)));
     hk_store(batch->s + k, tension * ir);
-    batch->lost[n / HOOKE_WIDTH] -= together & (hk_vector_mask)(rest != 0.0);
+    const hk_vector_mask shorter = (hk_vector_mask)(r + r < rest);
+    batch->lost[n / HOOKE_WIDTH] += shorter & ((together & HOOKE_LOST) + 1);
   }
 }
 
@@ -211,7 +212,7 @@ HOOKE_INLINE int64_t find_strength(const struct hk_tiled_springs *springs, ptrdi
     brake = gamma * (((group->vx[0] * dx + group->vy[0] * dy) + group->vz[0] * dz) * ir);
   }
   batch->s[k] = hk_spring_tension(r, rest_length, kappa, brake, damped, pull) * ir;
-  return (r == 0.0) & (rest_length != 0.0);
+  return hk_spring_shortness(r, rest_length);
 }
 
 HOOKE_INLINE void write_forces(const struct ends *ends, ptrdiff_t from, ptrdiff_t to, const double *s) {

@@ -31,8 +31,8 @@ struct hk_tiled_springs {
   const double *kappas, *gammas, *rest_lengths;
 };
 
-/* Forces of `count` springs on their lower and upper ends; returns the number of springs with a rest length
- * but no direction. */
+/* Forces of `count` springs on their lower and upper ends; returns how short they are
+ * (spring_body.h). */
 typedef int64_t hk_tiled_fill(const struct hk_tiled_springs *springs, ptrdiff_t count, const double *lower,
                               const double *upper, double *on_lower, double *on_upper);
 

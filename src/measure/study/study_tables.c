@@ -42,7 +42,7 @@ static const struct hk_table study_table = {
 /* ---- the reference ---- */
 
 struct reference_line {
-  const char *method, *check, *ended;
+  const char *method, *check, *ended, *zero_passages;
   double agreement, energy_agreement, trusted_until, checked_until;
   double growth, growth_probability, growth_seen, displacements;
   struct hk_series time;
@@ -59,13 +59,14 @@ static void read_reference(const void *object, int64_t row, void *line) {
   (void)row;
   if (!is_made(study)) {
     *(struct reference_line *)line =
-        (struct reference_line){NULL, NULL, NULL, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, {NULL, 0}};
+        (struct reference_line){NULL, NULL, NULL, NULL, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, {NULL, 0}};
     return;
   }
   *(struct reference_line *)line = (struct reference_line){
       .method = r->method,
       .check = r->check,
       .ended = how_it_ended(r),
+      .zero_passages = r->frames.zero_passages,
       .agreement = r->agreement,
       .energy_agreement = r->energy_agreement,
       .trusted_until = hk_reference_time(r, r->trusted, study->duration),
@@ -105,6 +106,8 @@ static const struct hk_column reference_columns[] = {
                  "integrator that checked it; they share only the forces"),
     HOOKE_COLUMN(struct reference_line, checked_until, NUMBER, "s",
                  "time up to which the two were compared; before the end where the budget was spent"),
+    HOOKE_COLUMN(struct reference_line, zero_passages, TEXT, "",
+                 "of springs that passed through length zero in it; empty where none did"),
     HOOKE_COLUMN(struct reference_line, time, SERIES, "s", "times of the frames that are judged"),
 };
 

@@ -16,6 +16,7 @@ struct hk_frames {
   double *rounding;    /* count: by how much rounding may have displaced a particle until then [m] */
   int64_t *free_particle, free_count; /* errors are measured over these */
   struct hk_watched_series watched;   /* empty unless created */
+  char zero_passages[640];            /* of their run: see hooke_integrator_text() */
 };
 
 /* Allocates `count` frames of a committed system. HOOKE_NO_MEMORY. */

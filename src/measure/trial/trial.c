@@ -7,6 +7,7 @@
 
 #include <math.h>
 #include <stddef.h>
+#include <stdio.h>
 #include <string.h>
 
 int32_t hk_trial_create(const struct hk_frames *reference, struct hk_trial *trial) {
@@ -209,6 +210,9 @@ int32_t hk_frames_run(struct hk_frames *frames, const hooke_options *options,
     *cost = (struct hk_run_cost){hooke_integrator_number(integrator, "wall_seconds"),
                                  (double)hooke_integrator_count(integrator, "force_evaluations"),
                                  hk_work_of(integrator), works_too_long(&run)};
+  if (integrator)
+    snprintf(frames->zero_passages, sizeof frames->zero_passages, "%s",
+             hooke_integrator_text(integrator, "zero_passages"));
   hooke_integrator_destroy(integrator);
   return status;
 }

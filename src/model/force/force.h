@@ -46,6 +46,9 @@ struct hk_force_row {
   int32_t (*present)(const hooke_system *system);
   /* f += force, on the working copy; HOOKE_STOPPED if a callback asked for it */
   int32_t (*add)(const hooke_system *system, struct hk_motion *motion, double t);
+  /* for forces with a rest length: members that passed through length zero between two positions; the ends of
+   * the first of them, -1 for a point */
+  int64_t (*passed)(const hooke_system *system, const double *before, const double *now, int64_t ends[2]);
   /* potential energy [J], and power dissipated as heat [W] */
   double (*energy)(const hooke_system *system, const double *q);
   double (*heat)(const hooke_system *system, const double *q, const double *v);

@@ -207,6 +207,7 @@ static int32_t add(const hooke_system *system, struct hk_motion *motion, double 
     double *const *q = motion->q, *const *v = motion->v;
     const double d[3] = {q[0][p] - a->point[0], q[1][p] - a->point[1], q[2][p] - a->point[2]};
     const double r = hk_spring_length(d[0], d[1], d[2]), ir = hk_spring_inverse_length(r);
+    motion->near_zero |= r + r < a->rest_length;
     const double rate = ((v[0][p] * d[0] + v[1][p] * d[1]) + v[2][p] * d[2]) * ir;
     const int is_damped = a->gamma != 0.0 && motion->zero == NULL;
     const double s = hk_spring_tension(r, a->rest_length, a->kappa, a->gamma * rate, is_damped, 0) * ir;
@@ -214,6 +215,19 @@ static int32_t add(const hooke_system *system, struct hk_motion *motion, double 
       motion->f[c][p] -= s * d[c];
   }
   return HOOKE_OK;
+}
+
+static int64_t passed(const hooke_system *system, const double *before, const double *now, int64_t ends[2]) {
+  const struct anchors *all = anchors_of(system);
+  int64_t count = 0;
+  for (const struct anchor *a = all->anchor; a < all->anchor + all->count; a++) {
+    const int64_t i = 3 * a->particle;
+    if (!(a->rest_length > 0.0) || !hk_spring_turned(before + i, a->point, now + i, a->point)) continue;
+    if (count++ > 0) continue;
+    ends[0] = a->particle;
+    ends[1] = -1;
+  }
+  return count;
 }
 
 /* The anchor as a spring from end 0 to end 1, with the point at rest: x and u hold both. */
@@ -330,6 +344,7 @@ const struct hk_force_row hk_force_anchor = {.name = "anchors",
                                              .keep = keep,
                                              .present = present,
                                              .add = add,
+                                             .passed = passed,
                                              .energy = energy,
                                              .heat = heat,
                                              .add_product = add_product,

@@ -29,13 +29,29 @@ static int32_t add(const hooke_system *system, struct hk_motion *motion, double 
     fields.v[a] = motion->v[a];
     fields.f[a] = motion->f[a];
   }
-  int64_t coincident = 0;
+  int64_t shortness = 0;
   for (int64_t k = 0; k < system->springs.run_count; k++) {
     const struct hk_run *run = &system->springs.run[k];
-    coincident += motion->zero ? run->undamped_loop(run, &fields) : run->loop(run, &fields);
+    shortness += motion->zero ? run->undamped_loop(run, &fields) : run->loop(run, &fields);
   }
-  motion->coincident = coincident;
+  hk_motion_keep_short(motion, shortness);
   return 0;
+}
+
+static int64_t passed(const hooke_system *system, const double *before, const double *now, int64_t ends[2]) {
+  struct hk_spring_batch batch;
+  int64_t count = 0;
+  for (hk_begin_batches(&batch); hk_next_batch(system, &batch);) {
+    for (int64_t k = 0; k < batch.count; k++) {
+      const int64_t i = 3 * (int64_t)batch.head[k], j = 3 * (int64_t)batch.tail[k];
+      if (!(batch.rest_length[k] > 0.0) || !hk_spring_turned(before + i, before + j, now + i, now + j))
+        continue;
+      if (count++ > 0) continue;
+      ends[0] = batch.head[k];
+      ends[1] = batch.tail[k];
+    }
+  }
+  return count;
 }
 
 static double energy(const hooke_system *system, const double *q) {
@@ -266,6 +282,7 @@ const struct hk_force_row hk_force_springs = {.name = "springs",
                                               .bytes = 50.0,
                                               .present = present,
                                               .add = add,
+                                              .passed = passed,
                                               .energy = energy,
                                               .heat = heat,
                                               .add_product = add_product,

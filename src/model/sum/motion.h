@@ -5,6 +5,7 @@
 #define HOOKE_MODEL_SUM_MOTION_H
 
 #include "core/thread_pool.h"
+#include "kernel/spring/spring_body.h"
 #include "model/system.h"
 
 struct hk_force_row;
@@ -28,6 +29,7 @@ struct hk_motion {
   struct hk_tiled_scratch *tiled; /* of the pass over a tiled batch; NULL without one */
   int64_t memory;                 /* bytes */
   int64_t coincident;             /* coincident springs in the last force evaluation */
+  int32_t near_zero;              /* 1: a spring was shorter than half its rest length, as far as was asked */
   int32_t stop_value;             /* value of a force or drive callback, 0 while all go on */
 };
 
@@ -70,6 +72,12 @@ void hk_motion_save(const struct hk_motion *motion, double *place);
 void hk_motion_restore(struct hk_motion *motion, double *place);
 void hk_rows_from_components(int64_t n, double *const component[3], double *rows);
 void hk_components_from_rows(int64_t n, const double *rows, double *const component[3]);
+
+/* Keeps how short the springs of a force evaluation are (kernel/spring/spring_body.h). */
+static inline void hk_motion_keep_short(struct hk_motion *motion, int64_t shortness) {
+  motion->coincident = shortness / HOOKE_LOST;
+  motion->near_zero |= shortness != 0;
+}
 
 /* f = the sum of all forces at time t, without gravity: a = w f + g. HOOKE_STOPPED if a callback asked for
  * it. */

@@ -34,9 +34,9 @@ struct hk_moved hk_motion_moved(const struct hk_motion *motion) {
 
 void hk_motion_pass(const hooke_system *system, struct hk_motion *motion, const struct hk_move *move) {
   struct tile_move to = {system, motion, move};
-  if (system->strided.count > 0)
-    motion->coincident = hk_strided_batches_pass(system, motion, move);
-  else
-    motion->coincident =
-        hk_tiled_pass(&system->tiled, motion, move->kind == HOOKE_MOVE_KEEP ? keep_tile : move_tile, &to);
+  const int64_t shortness =
+      system->strided.count > 0
+          ? hk_strided_batches_pass(system, motion, move)
+          : hk_tiled_pass(&system->tiled, motion, move->kind == HOOKE_MOVE_KEEP ? keep_tile : move_tile, &to);
+  hk_motion_keep_short(motion, shortness);
 }

@@ -28,7 +28,7 @@ from .comparison import Comparison, compare
 from .cost import Cost, cost
 from .estimate import RunError
 from .first_order import FirstOrder
-from .integrator import Integrator, Method, StepWarning, methods
+from .integrator import Integrator, Method, PassageWarning, StepWarning, methods
 from .limit import Limit, limit
 from .needs import Needs, needs
 from .options import Options, Row, describe, options_of, part_kind_summary, part_kinds
@@ -67,6 +67,7 @@ __all__ = [
     "NoMemory",
     "NotBuilt",
     "Options",
+    "PassageWarning",
     "Result",
     "Row",
     "RunError",

@@ -39,6 +39,7 @@ COUNTS = (
     "linear_iterations",
     "error_test_failures",
     "explicit_damping",
+    "zero_passages",
     "coincident_springs",
     "memory_bytes",
 )
@@ -75,6 +76,10 @@ def methods() -> list[Method]:
 
 class StepWarning(RuntimeWarning):
     """The step of a run is no longer certain to be stable; the text says where, when, and by how much."""
+
+
+class PassageWarning(RuntimeWarning):
+    """A spring passed through length zero, where its force turns round; the text says which, when, and what to do."""
 
 
 class Integrator(Closing):
@@ -114,10 +119,12 @@ class Integrator(Closing):
         `stride` steps, and ``on_checkpoint(step, state)`` at each checkpoint of the option `checkpoint`, where
         `write_checkpoint` can save the run. Returns "finished", "stopped" (a callback asked for it), "diverged" or
         "step-limit"; `message` then has the details. An exception of a callback ends the run and is raised again; so
-        does Ctrl-C. A step that is not certain to be stable gives a `StepWarning`.
+        does Ctrl-C. A step that is not certain to be stable gives a `StepWarning`, springs that passed through
+        length zero a `PassageWarning`.
         """
         with self._watched(state, on_frame, on_step, on_checkpoint), self._warned():
-            return self._outcome(lib.hooke_integrator_run(self._handle, state._handle))
+            outcome = self._outcome(lib.hooke_integrator_run(self._handle, state._handle))
+        return self._warn_of_passages(outcome)
 
     def resume(
         self,
@@ -131,7 +138,8 @@ class Integrator(Closing):
         callback stopped a run with a fixed step. Bits and counts are those of an uninterrupted run. Frames that were
         reported are not reported again. The rest is as in `run`."""
         with self._watched(state, on_frame, on_step, on_checkpoint), self._warned():
-            return self._outcome(lib.hooke_integrator_resume(self._handle, state._handle))
+            outcome = self._outcome(lib.hooke_integrator_resume(self._handle, state._handle))
+        return self._warn_of_passages(outcome)
 
     def write_checkpoint(self, path: str | os.PathLike[str], state: State, run: str = "") -> None:
         """Writes a checkpoint of the run, with `state` as observers receive it, or as a stopped `run` left it. An
@@ -277,6 +285,12 @@ class Integrator(Closing):
             with contextlib.suppress(NotBuilt, Unsuited):
                 lib.hooke_integrator_on_warning(self._handle, WARNING(), None)
 
+    def _warn_of_passages(self, outcome: str) -> str:
+        sentence = text(lib.hooke_integrator_text(self._handle, b"zero_passages"))
+        if sentence and outcome not in ("diverged", "step-limit"):
+            warnings.warn(sentence, PassageWarning, _callback.outside() - 1)
+        return outcome
+
     @property
     def frame_count(self) -> int:
         """Number of frames of a whole run, including the initial one."""
@@ -284,8 +298,10 @@ class Integrator(Closing):
 
     @property
     def counts(self) -> dict[str, int]:
-        """Counts since the integrator was made: steps, force evaluations, solver iterations, ..."""
-        return {what: lib.hooke_integrator_count(self._handle, what.encode()) for what in COUNTS}
+        """Counts since the integrator was made: steps, force evaluations, solver iterations, ...; without those that
+        are not known, as "zero_passages" of a run that went on from a file."""
+        counts = {what: lib.hooke_integrator_count(self._handle, what.encode()) for what in COUNTS}
+        return {what: count for what, count in counts.items() if count >= 0}
 
     @property
     def wall_seconds(self) -> float:
