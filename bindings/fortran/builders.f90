@@ -31,6 +31,7 @@ module hooke_builders
     procedure :: add_part
     procedure :: set_gravity
     procedure :: set_force
+    procedure :: with_force
     procedure :: drive_harmonic
     procedure :: drive_table
     procedure :: drive_callback
@@ -254,6 +255,20 @@ contains
     type(c_funptr) :: product
     integer(c_int32_t) :: code
     if (self%is_missing(status)) return
+    call find_holder(force, holder, product)
+    code = c_system_set_force(self%address(), c_funloc(call_force), product, c_loc(holder))
+    if (code == 0) then
+      call self%keep(holder, place_of_force)
+    else
+      deallocate (holder)
+    end if
+    call accept(code, status)
+  end subroutine
+
+  subroutine find_holder(force, holder, product)
+    class(hooke_force), target, intent(inout) :: force
+    type(force_holder), pointer, intent(out) :: holder
+    type(c_funptr), intent(out) :: product
     allocate (holder)
     holder%force => force
     product = c_null_funptr
@@ -262,9 +277,25 @@ contains
       holder%derivative => force
       product = c_funloc(call_product)
     end select
-    code = c_system_set_force(self%address(), c_funloc(call_force), product, c_loc(holder))
+  end subroutine
+
+  ! `forced` becomes this committed system with a callback force, which must exist as long as it is used; they share
+  ! the rest.
+  subroutine with_force(self, force, forced, status)
+    class(hooke_builder), intent(in) :: self
+    class(hooke_force), target, intent(inout) :: force
+    class(hooke_builder), intent(inout) :: forced
+    integer, intent(out), optional :: status
+    type(force_holder), pointer :: holder
+    type(c_funptr) :: product
+    type(c_ptr) :: made
+    integer(c_int32_t) :: code
+    if (self%is_missing(status)) return
+    call find_holder(force, holder, product)
+    code = c_system_with_force(self%address(), c_funloc(call_force), product, c_loc(holder), made)
     if (code == 0) then
-      call self%keep(holder, place_of_force)
+      call forced%take(made, c_system_destroy, self)
+      call forced%keep(holder, place_of_force)
     else
       deallocate (holder)
     end if

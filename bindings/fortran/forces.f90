@@ -4,9 +4,10 @@
 ! stop_value().
 module hooke_forces
   use, intrinsic :: iso_c_binding, only: c_double, c_f_pointer, c_int32_t, c_int64_t, c_ptr
+  use hooke_c_system, only: c_rows_hold
   implicit none
   private
-  public :: hooke_force, hooke_force_with_product, hooke_drive
+  public :: hooke_force, hooke_force_with_product, hooke_drive, rows_hold
   public :: force_holder, drive_holder, call_force, call_product, call_drive
 
   ! A force on all particles. Called with every q and v that a method tries, never concurrently for one integrator.
@@ -69,6 +70,13 @@ module hooke_forces
   end type
 
 contains
+
+  ! Holds the arrays of a force by its `q` beyond the call (`more` 1), or releases them (-1); how often they are held.
+  integer function rows_hold(q, more)
+    real(c_double), intent(in), contiguous :: q(:, :)
+    integer, intent(in) :: more
+    rows_hold = int(c_rows_hold(q, int(more, c_int32_t)))
+  end function
 
   integer(c_int32_t) function call_force(n, t, q, v, force, ctx) bind(c, name="")
     integer(c_int64_t), value :: n

@@ -56,7 +56,7 @@ HOOKE_API int32_t hooke_method_is_built(const char *name);
 
 /* Creates an integrator for a committed system, which must outlive it; `options` is copied. HOOKE_BAD_VALUE
  * (an option), HOOKE_BAD_CALL (not committed), HOOKE_UNSUITED (a method that an overdamped system does not
- * have, such as verlet), HOOKE_NOT_BUILT, HOOKE_NO_MEMORY. */
+ * have, such as verlet, or a scene that lacks the callbacks of its run), HOOKE_NOT_BUILT, HOOKE_NO_MEMORY. */
 HOOKE_API int32_t hooke_integrator_create(const hooke_system *system, const hooke_options *options,
                                           hooke_integrator **integrator);
 

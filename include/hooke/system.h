@@ -54,6 +54,10 @@ typedef struct hooke_system hooke_system;
  * method tries. */
 typedef int32_t hooke_force(int64_t n, double t, const double *q, const double *v, double *force, void *ctx);
 
+/* The arrays of a force are valid during the call. Holding them by its `q` (`more` 1) keeps all three, with
+ * their numbers, until they are released as often (-1). Returns how often they are held, once by the library. */
+HOOKE_API int64_t hooke_rows_hold(const double *q, int32_t more);
+
 /* Adds (df/dq) dq + (df/dv) dv of that force to `out` (3n). Return 0 to go on. */
 typedef int32_t hooke_force_product(int64_t n, double t, const double *q, const double *v, const double *dq,
                                     const double *dv, double *out, void *ctx);
@@ -142,6 +146,11 @@ HOOKE_API const char *hooke_system_dynamics(const hooke_system *system);
  * replace it. Both receive `ctx`, which must outlive the system. */
 HOOKE_API int32_t hooke_system_set_force(hooke_system *system, hooke_force *force,
                                          hooke_force_product *product, void *ctx);
+
+/* A committed system with another such force, or with none (NULL), to run as often as it exists: it shares the
+ * rest with `system`, which must outlive it and stays as it is. HOOKE_BAD_CALL before commit, HOOKE_NO_MEMORY. */
+HOOKE_API int32_t hooke_system_with_force(const hooke_system *system, hooke_force *force,
+                                          hooke_force_product *product, void *ctx, hooke_system **with);
 
 /* Prescribe the motion of particles (inverse mass 0) about their initial positions:
  *   harmonic  q = q0 + amplitude sin(2 pi frequency t + phase), amplitude 3 numbers [m], frequency [Hz],

@@ -8,6 +8,7 @@
 #include "core/status.h"
 #include "integrate/method/bodies.h"
 #include "integrate/solve/reduced.h"
+#include "model/callbacks.h"
 
 #include <math.h>
 #include <stddef.h>
@@ -105,6 +106,7 @@ int32_t hooke_integrator_create(const hooke_system *system, const hooke_options 
                                 hooke_integrator **out) {
   hooke_integrator *it = NULL;
   int32_t status = hk_system_require_committed(system);
+  if (status == HOOKE_OK) status = hk_callbacks_require(system);
   if (status == HOOKE_OK) status = create(options, &it);
   return it == NULL ? status : take_system(it, system, out);
 }

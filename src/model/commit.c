@@ -2,6 +2,7 @@
  * the present forces, frees memory that only building needed. */
 #include "model/force/force.h"
 
+#include "core/handle.h"
 #include "core/memory.h"
 #include "core/status.h"
 #include "model/sum/spring_batch.h"
@@ -157,6 +158,15 @@ static int32_t choose_forces(hooke_system *system) {
   return HOOKE_OK;
 }
 
+/* Of what depends on the callback force, which two systems with one model do not share. */
+static void forget_own(hooke_system *system) {
+  system->force_row = NULL;
+  system->span = NULL;
+  system->anchor = NULL;
+  system->idle_count = system->span_count = system->anchor_count = 0;
+  system->force_row_count = 0;
+}
+
 /* Reopens the system after a failure midway. */
 static void undo(hooke_system *system) {
   hk_overdamped_undo(system);
@@ -168,17 +178,13 @@ static void undo(hooke_system *system) {
   hk_forces_release(system);
   hk_free(system->inverse_mass);
   hk_free(system->constrained_particle);
-  hk_free(system->force_row);
   system->inverse_mass = NULL;
   system->constrained_particle = NULL;
-  system->force_row = NULL;
   system->constrained_count = 0;
+  hk_free(system->force_row);
   hk_free(system->span);
   hk_free(system->anchor);
-  system->span = NULL;
-  system->anchor = NULL;
-  system->idle_count = system->span_count = system->anchor_count = 0;
-  system->force_row_count = 0;
+  forget_own(system);
 }
 
 int32_t hooke_system_commit(hooke_system *system) {
@@ -208,4 +214,26 @@ int32_t hooke_system_commit(hooke_system *system) {
   trim_particles(system);
   system->committed = 1;
   return HOOKE_OK;
+}
+
+int32_t hooke_system_with_force(const hooke_system *system, hooke_force *force, hooke_force_product *product,
+                                void *ctx, hooke_system **with) {
+  *with = NULL;
+  int32_t status = hk_system_require_committed(system);
+  if (status != HOOKE_OK) return status;
+  hooke_system *made = hk_handle_new("hooke_system", sizeof *made);
+  if (made == NULL) return HOOKE_NO_MEMORY;
+  *made = *system;
+  made->borrows = 1;
+  made->force = force;
+  made->force_product = product;
+  made->force_ctx = ctx;
+  forget_own(made);
+  status = choose_forces(made);
+  if (status == HOOKE_OK) status = find_stepped(made);
+  if (status == HOOKE_OK)
+    *with = made;
+  else
+    hooke_system_destroy(made);
+  return status;
 }

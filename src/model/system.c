@@ -14,8 +14,7 @@ int32_t hooke_system_create(hooke_system **system) {
   return *system ? HOOKE_OK : HOOKE_NO_MEMORY;
 }
 
-void hooke_system_destroy(hooke_system *system) {
-  if (system == NULL) return;
+static void release_model(hooke_system *system) {
   for (int64_t k = 0; k < system->group_count; k++)
     hk_group_release(&system->group[k]);
   for (int64_t k = 0; k < system->part_count; k++)
@@ -33,13 +32,18 @@ void hooke_system_destroy(hooke_system *system) {
   hk_free(system->constrained);
   hk_free(system->inverse_mass);
   hk_free(system->constrained_particle);
-  hk_free(system->span);
-  hk_free(system->anchor);
   hk_free(system->group);
   hk_free(system->part);
   hk_system_drop_derived(system, 0);
   hk_free(system->derived);
   hk_free(system->drive);
+}
+
+void hooke_system_destroy(hooke_system *system) {
+  if (system == NULL) return;
+  if (!system->borrows) release_model(system);
+  hk_free(system->span);
+  hk_free(system->anchor);
   hk_free(system->force_row);
   hk_handle_free(system);
 }

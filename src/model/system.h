@@ -36,6 +36,8 @@ struct hk_linear {
 
 struct hooke_system {
   int32_t committed;
+  int32_t
+      borrows; /* 1: all but what depends on the callback force is another's (hooke_system_with_force()) */
 
   /* particles, 3 or 1 doubles each */
   int64_t particle_count, particle_capacity;
@@ -82,6 +84,7 @@ struct hooke_system {
   hooke_force *force;
   hooke_force_product *force_product;
   void *force_ctx;
+  int32_t called; /* callbacks of the run whose file the system is from (model/callbacks.h) */
 
   struct hk_bodies bodies;
 

@@ -232,3 +232,33 @@ def test_ctrl_c(hooke, start, write):
     assert process.returncode in (130, 0)
     if process.returncode == 130:
         assert not out or json.loads(out)["verdict"] == "stopped"
+
+
+VERBS = {
+    "run --resume": ("run", "--resume", "out.h5"),
+    "run": ("run", "out.h5"),
+    "run --want": ("run", "out.h5", "--want", "1mm"),
+    "verify": ("verify", "out.h5"),
+    "why": ("why", "out.h5", "--step", "0.05", "--every", "0.05"),
+    "study": ("study", "out.h5", "--methods", "rk4"),
+    "compare": ("compare", "out.h5"),
+    "limit": ("limit", "out.h5", "--predict"),
+    "needs": ("needs", "out.h5", "--want", "1mm"),
+    "check --cost": ("check", "--cost", "out.h5"),
+}
+
+
+def test_the_run_of_a_callback_is_not_repeated(hooke, made):
+    """The file says that a program gave it one, which no file holds; it can still be looked at."""
+    path = made()
+    for words in ("none", "force and drive", "force"):
+        with h5py.File(path, "r+") as file:
+            assert file["hooke"].attrs["callbacks"] == "none" or words != "none"
+            file["hooke"].attrs["callbacks"] = words
+        for name, verb in VERBS.items() if words == "force" else [("verify", VERBS["verify"])]:
+            answer = hooke(*verb)
+            assert answer.code == (0 if words == "none" else 3), f"{name}: {answer.err}"
+            if words == "none":
+                continue
+            assert f"the run had a {words} in a callback, which the file cannot hold" in answer.err and not answer.out, name
+    assert hooke("view", "out.h5", "-o", "out.html").code == 0

@@ -7,7 +7,7 @@ module parts
   type, extends(hooke_force) :: weight
     real(hooke_real) :: g(3) = 0
     real(hooke_real), allocatable :: mass(:)
-    integer :: calls = 0, stop_after = -1
+    integer :: calls = 0, stop_after = -1, held = 0
   contains
     procedure :: add => add_weight
   end type
@@ -83,6 +83,8 @@ contains
       force(:, k) = force(:, k) + self%mass(k)*self%g
     end do
     self%calls = self%calls + 1
+    self%held = hooke_rows_hold(q, 1)
+    if (hooke_rows_hold(q, -1) /= 1) self%held = -1
     if (self%calls == self%stop_after) stop_value = 7
     if (t < 0 .or. any(isnan_of(q)) .or. any(isnan_of(v))) stop_value = 8
   end subroutine

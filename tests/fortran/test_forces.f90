@@ -68,6 +68,7 @@ contains
     call expect(maxval(abs(found%q - wanted%q)) < 1e-14_hooke_real, "weight is gravity")
     call expect(maxval(abs(wanted%q(:, 4) - [0, 1, 1])) > 0.01_hooke_real, "which moves the particles")
     call expect(own%force_name(2) == "callback", "it is called a callback")
+    call expect(force%held == 2, "its arrays can be held, beside the library")
   end subroutine
 
   subroutine as_drag()
@@ -84,6 +85,43 @@ contains
     call own%set_gravity(down)
     call go(own, "symplectic-euler", found)
     call expect(same_count([found%q, found%v], [wanted%q, wanted%v]) == 24, "no wind is drag, to the bit")
+    call as_drag_of_a_run(wanted)
+  end subroutine
+
+  subroutine as_drag_of_a_run(wanted)
+    type(hooke_state), intent(in) :: wanted
+    type(hooke_system) :: plain, forced
+    type(hooke_state) :: before, found, after
+    type(wind), target :: force
+    integer :: status
+    call make(plain)
+    call plain%set_gravity(down)
+    force%coefficient = 0.25_hooke_real
+    call plain%with_force(force, forced, status)
+    call expect(status == hooke_bad_call .and. .not. forced%exists(), "a force of some runs is for a committed system")
+    call go(plain, "symplectic-euler", before)
+    call plain%with_force(force, forced)
+    call step_on(forced, found)
+    call step_on(plain, after)
+    call expect(same_count([found%q, found%v], [wanted%q, wanted%v]) == 24, "a force of some runs is one of the system")
+    call expect(same_count([after%q, after%v], [before%q, before%v]) == 24, "which has none in others")
+    call plain%destroy()
+    call step_on(forced, found)
+    call expect(same_count([found%q, found%v], [wanted%q, wanted%v]) == 24, "and lives as long as both")
+  end subroutine
+
+  ! What go() does, for a committed system.
+  subroutine step_on(system, state)
+    type(hooke_system), intent(in) :: system
+    type(hooke_state), intent(inout) :: state
+    type(hooke_options) :: run
+    type(hooke_integrator) :: integrator
+    call run%create("run")
+    call run%set("method", "symplectic-euler")
+    call run%set("step", 1e-3_hooke_real)
+    call integrator%create(system, run)
+    call state%create(system)
+    call integrator%step(state, 100)
   end subroutine
 
   subroutine products()

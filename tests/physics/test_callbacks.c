@@ -133,6 +133,117 @@ static void test_what_a_callback_sees(void **unused) {
   hooke_system_destroy(system);
 }
 
+/* ---- a force for some runs, and what it holds ---- */
+
+enum { FAR = 600, HELD = 3 };
+
+struct holder {
+  int64_t calls;
+  const double *q[HELD];
+  double copy[HELD][9 * FAR];
+};
+
+/* Pulls at the last particle; holds its first arrays, and keeps a copy of them. */
+static int32_t pull_and_hold(int64_t n, double t, const double *q, const double *v, double *force,
+                             void *ctx) {
+  struct holder *holder = ctx;
+  force[3 * n - 1] -= 0.5 + t + q[0] + 0.1 * v[3 * n - 1];
+  if (holder->calls < HELD) {
+    assert_int_equal(hooke_rows_hold(q, 1), 2);
+    holder->q[holder->calls] = q;
+    memcpy(holder->copy[holder->calls], q, (size_t)(9 * n) * sizeof *q);
+  }
+  holder->calls++;
+  return 0;
+}
+
+/* A spring beside so many pinned particles that steps leave some out, unless a callback reads them. */
+static hooke_system *spring_and_pins(hooke_force *force, void *ctx) {
+  static double q[3 * FAR];
+  const int64_t ends[] = {FAR - 2, FAR - 1};
+  for (int64_t p = 0; p < FAR; p++)
+    q[3 * p] = (double)p;
+  int64_t pinned[FAR - 1];
+  for (int64_t p = 0; p < FAR - 1; p++)
+    pinned[p] = p;
+  hooke_system *system = small_system(FAR, q, NULL, 1.0, 0);
+  check_ok(hooke_system_pin(system, FAR - 1, pinned));
+  small_springs(system, 1, ends, (struct springs){.stiffness = 30, .rest_length = 0.8});
+  if (force) check_ok(hooke_system_set_force(system, force, NULL, ctx));
+  check_ok(hooke_system_commit(system));
+  return system;
+}
+
+/* Ends a run of some method, and gives its memory back. */
+static void go(const hooke_system *system, const char *method, double end[6]) {
+  hooke_integrator *integrator =
+      start_run(system, (struct run){.method = method, .step = 0.01, .duration = 0.2});
+  hooke_state *state = start_state(system);
+  check_ok(hooke_integrator_run(integrator, state));
+  memcpy(end, hooke_state_position(state) + 3 * (FAR - 1), 3 * sizeof *end);
+  memcpy(end + 3, hooke_state_velocity(state) + 3 * (FAR - 1), 3 * sizeof *end);
+  hooke_state_destroy(state);
+  hooke_integrator_destroy(integrator);
+}
+
+static void test_a_force_for_some_runs(void **unused) {
+  (void)unused;
+  static const char *const methods[] = {"rk4", "verlet", "backward-euler", "cvode-adams"};
+  static struct holder own, lent;
+  hooke_system *plain = spring_and_pins(NULL, NULL), *forced = spring_and_pins(pull_and_hold, &own), *with;
+  own.calls = lent.calls = HELD;
+  check_ok(hooke_system_with_force(plain, pull_and_hold, NULL, &lent, &with));
+  assert_int_equal(hooke_system_count(with, "idle"), 0);
+  assert_true(hooke_system_count(plain, "idle") > 256);
+  for (size_t k = 0; k < sizeof methods / sizeof methods[0]; k++) {
+    double expected[6], found[6], before[6], after[6];
+    if (!hooke_method_is_built(methods[k])) continue;
+    go(plain, methods[k], before);
+    go(forced, methods[k], expected);
+    go(with, methods[k], found);
+    go(plain, methods[k], after);
+    check_same_bits(6, found, expected);
+    check_same_bits(6, after, before);
+    assert_true(fabs(found[2]) > 1e-3 && before[2] == 0.0);
+  }
+  assert_int_equal(own.calls, lent.calls);
+  hooke_system_destroy(with);
+  hooke_system_destroy(forced);
+  check_ok(hooke_system_with_force(plain, NULL, NULL, NULL, &with));
+  assert_int_equal(hooke_system_count(with, "idle"), hooke_system_count(plain, "idle"));
+  hooke_system_destroy(with);
+  hooke_system_destroy(plain);
+  check_ok(hooke_system_create(&plain));
+  check_status(hooke_system_with_force(plain, NULL, NULL, NULL, &with), HOOKE_BAD_CALL);
+  hooke_system_destroy(plain);
+}
+
+/* The arrays of a call outlast the run, with the numbers of the call; implicit methods take difference quotients. */
+static void test_what_a_callback_holds(void **unused) {
+  (void)unused;
+  static const char *const methods[] = {"rk4", "backward-euler"};
+  for (int k = 0; k < 2; k++) {
+    static struct holder holder, other;
+    double end[6], expected[6];
+    holder.calls = 0;
+    other.calls = HELD;
+    hooke_system *system = spring_and_pins(pull_and_hold, &holder),
+                 *same = spring_and_pins(pull_and_hold, &other);
+    go(system, methods[k], end);
+    go(same, methods[k], expected);
+    check_same_bits(6, end, expected);
+    hooke_system_destroy(system);
+    hooke_system_destroy(same);
+    for (int c = 0; c < HELD; c++) {
+      check_same_bits(9 * FAR, holder.q[c], holder.copy[c]);
+      for (int other_call = 0; other_call < c; other_call++)
+        assert_true(holder.q[c] != holder.q[other_call]);
+    }
+    for (int c = 0; c < HELD; c++)
+      assert_int_equal(hooke_rows_hold(holder.q[c], -1), 0);
+  }
+}
+
 /* ---- a callback that stops ---- */
 
 static int32_t stop_after(int64_t n, double t, const double *q, const double *v, double *force, void *ctx) {
@@ -236,9 +347,10 @@ static void test_every_call_may_stop(void **unused) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_every_call_may_stop),  cmocka_unit_test(test_same_solution_with_product),
-      cmocka_unit_test(test_difference_quotients), cmocka_unit_test(test_what_a_callback_sees),
-      cmocka_unit_test(test_force_stops),
+      cmocka_unit_test(test_every_call_may_stop),   cmocka_unit_test(test_same_solution_with_product),
+      cmocka_unit_test(test_difference_quotients),  cmocka_unit_test(test_what_a_callback_sees),
+      cmocka_unit_test(test_force_stops),           cmocka_unit_test(test_a_force_for_some_runs),
+      cmocka_unit_test(test_what_a_callback_holds),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -3,11 +3,13 @@
 import gc
 import os
 import signal
+import subprocess
+import sys
 import threading
 
 import numpy as np
 import pytest
-from conftest import build_oscillator, build_six_particles
+from conftest import PACKAGES, build_oscillator, build_six_particles
 
 import hooke
 from hooke._status import pending
@@ -112,6 +114,122 @@ def test_callbacks_stay_alive():
     gc.collect()
     churn = [hooke.System() for _ in range(100)]
     assert integrator.run(state) == "finished" and len(churn) == 100
+
+
+# arrays beyond their call
+
+KEEPING = """
+import gc, sys
+sys.path[:0] = [{package!r}, {tests!r}]
+import numpy as np
+from conftest import build_oscillator, build_six_particles
+import hooke
+
+kept = []
+
+def keep(writes):
+    def callback(t, *arrays):
+        if writes == 2:
+            arrays[0][:], arrays[1][:] = [[1 + t, 0, 0]], [[1, 0, 0]]
+        else:
+            arrays[-1].flat[0] += 0.25 - arrays[0].flat[0]
+        if len(kept) < most:
+            views = arrays[0], arrays[-1][:1], arrays[-1].reshape(-1), arrays[0].T
+            kept.extend((view, view.copy(), view is not arrays[0] and view.base is not None) for view in views)
+        return 0
+    return callback
+
+def motion(method, *callbacks, drive=None):
+    system = build_six_particles()
+    if callbacks:
+        system.set_force(*callbacks)
+    if drive:
+        system.drive_callback(4, drive)
+    hooke.run(system, method=method, step=1e-3, duration=0.01)
+
+def rates(dtype):
+    start = np.ones(3, dtype)
+    hooke.FirstOrder(keep(1), start).run(method="rk4", step=1e-3, duration=0.01)
+    hooke.FirstOrder(keep(1), start).run(method="cvode-adams", duration=0.01)
+
+def coordinates(method, *product):
+    hooke.SecondOrder(keep(1), [1.0, 2.0], None, 0.5, *product).run(method=method, step=1e-3, duration=0.01)
+
+work = {{
+    "force": lambda: motion("rk4", keep(1)),
+    "study": lambda: hooke.study(build_oscillator(), ["rk4"], force=keep(1), steps=[1e-3], duration=2e-3, every=1e-3),
+    "difference": lambda: motion("backward-euler", keep(1)),
+    "product": lambda: motion("backward-euler", lambda *_: None, keep(1)),
+    "drive": lambda: motion("verlet", drive=keep(2)),
+    "rate": lambda: rates(float),
+    "complex": lambda: rates(complex),
+    "coordinates": lambda: coordinates("verlet"),
+    "coordinates' product": lambda: coordinates("backward-euler", keep(1)),
+}}
+for name, run in work.items():
+    most = len(kept) + 16
+    run()
+    assert len(kept) >= most, name
+    gc.collect()
+    churn = [np.full(9 * n, 7.0) for n in range(300)]
+    for array, copy, _ in kept:
+        np.testing.assert_array_equal(array, copy, name)
+for array, _, _ in kept:
+    if array.flags.writeable:
+        array[...] = -1.0
+states = [build_six_particles().state() for _ in range(100)]
+assert all(np.isfinite(state.q).all() for state in states)
+print(len(kept), "kept")
+"""
+
+
+def test_what_is_kept_outlives_everything():
+    """In a process of its own, since memory that was freed ends it."""
+    script = KEEPING.format(package=str(PACKAGES), tests=os.path.dirname(__file__))
+    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, timeout=60)
+    assert (done.returncode, done.stderr, done.stdout) == (0, "", "144 kept\n")
+
+
+def test_an_exception_may_keep_arrays():
+    def force(t, q, v, force):
+        raise Oops(q, force)
+
+    system = build_six_particles()
+    system.set_force(force)
+    expected = system.state().q.copy()
+    with pytest.raises(Oops) as caught:
+        hooke.run(system, **RUN)
+    del system
+    gc.collect()
+    q, out = caught.value.args
+    churn = [np.full(54, np.nan) for _ in range(100)]
+    np.testing.assert_array_equal(q, expected)
+    assert np.isfinite(out).all() and len(churn) == 100
+
+
+def reshaped(arrays, seen):
+    for array in arrays:
+        seen.add(array.shape)
+        array.shape = (array.size,)
+        array.flags.writeable = False
+
+
+@pytest.mark.filterwarnings("ignore::DeprecationWarning")
+def test_every_call_has_arrays_of_its_own_shape():
+    seen = {name: set() for name in ("force", "product", "drive", "rate", "observer")}
+
+    def shaping(name):
+        return lambda t, *arrays: reshaped(arrays, seen[name])
+
+    system = build_six_particles()
+    system.set_force(shaping("force"), shaping("product"))
+    system.drive_callback(4, shaping("drive"))
+    state, options = system.state(), {"method": "backward-euler", "step": 1e-3, "duration": 3e-3}
+    hooke.run(system, on_step=(1, lambda step, state: reshaped((state.q, state.v), seen["observer"])), state=state, **options)
+    hooke.FirstOrder(shaping("rate"), [1.0, 2.0]).run(method="rk4", step=0.1, duration=0.3)
+    assert seen["rate"] == {(2,)} and seen["drive"] == {(1, 3)}
+    assert seen["force"] == seen["product"] == seen["observer"] == {(6, 3)}
+    assert state.q.shape == (6, 3) and state.q.flags.writeable and state.x.shape == (18,)
 
 
 def raising(exception):

@@ -1,6 +1,7 @@
 """Stopped runs continue: from files, from checkpoints, with callbacks, after exceptions."""
 
 import copy
+import json
 
 import h5py
 import numpy as np
@@ -16,6 +17,9 @@ METHODS = {
 }
 
 
+STANDING = {*hooke.integrator.COUNTS} - {"memory_bytes"}
+
+
 def stop_after(calls, value=1):
     left = [calls]
 
@@ -28,11 +32,12 @@ def stop_after(calls, value=1):
     return observer
 
 
-def check_equal(found, whole):
+def check_equal(found, whole, *, from_frame=False):
+    """Counts begin anew at a frame."""
     assert found.status == whole.status == "finished"
     assert np.array_equal(found.state.q, whole.state.q) and np.array_equal(found.state.v, whole.state.v)
-    counts = {key: value for key, value in whole.counts.items() if key not in ("memory_bytes", "zero_passages")}
     assert found.counts.get("zero_passages", 0) == 0
+    counts = {key: value for key, value in whole.counts.items() if key in (("steps",) if from_frame else STANDING)}
     assert {key: found.counts[key] for key in counts} == counts
     with hooke.open(found.output) as a, hooke.open(whole.output) as b:
         assert np.array_equal(a.t, b.t) and np.array_equal(a.steps, b.steps)
@@ -105,9 +110,97 @@ def test_callbacks_come_with_the_system(tmp_path):
     hooke.run(built(), output=tmp_path / "out.h5", on_frame=stop_after(4), **options)
     with pytest.raises(hooke.BadValue, match="scene"):
         hooke.resume(tmp_path / "out.h5")
-    with pytest.raises(hooke.BadValue, match="another scene"):
+    with pytest.raises(hooke.Unsuited, match="out.h5: the run had a force in a callback, which the file cannot hold"):
         hooke.resume(tmp_path / "out.h5", build_six_particles())
     check_equal(hooke.resume(tmp_path / "out.h5", built()), whole)
+
+
+def same(t, q, v, dq, dv, out):
+    out -= 0.1 * dv
+
+
+def lead(t, q, v):
+    q[:], v[:] = [[0.7, 1.2 + t, 0]], [[0, 1, 0]]
+
+
+@pytest.mark.parametrize(
+    "words, with_checkpoint",
+    [("force", True), ("drive", False), ("force with derivative and drive", True)],
+)
+def test_a_file_says_which_callbacks_its_run_had(tmp_path, words, with_checkpoint):
+    output = tmp_path / "out.h5"
+
+    def scene(words):
+        made = hooke.Scene.parse(SIX_PARTICLES) if not output.exists() else hooke.Scene.load(output)
+        if "force" in words:
+            made.system.set_force(push, same if "derivative" in words else None)
+        if "drive" in words:
+            made.system.drive_callback(4, lead)
+        return made
+
+    options = {"method": "backward-euler", "step": 2e-3, "duration": 0.05, "every": 0.01}
+    whole = hooke.run(scene(words), output=tmp_path / "whole.h5", **options)
+    hooke.run(scene(words), output=output, on_frame=stop_after(4), **options)
+    if not with_checkpoint:
+        (tmp_path / "out.h5.checkpoint").unlink()
+    with hooke.open(output) as out:
+        assert out.callbacks == words and out.scene is not None and len(out.state().q) == 6
+    for others in {"none", "force", "force with derivative", "drive", "force with derivative and drive"} - {words}:
+        with pytest.raises(hooke.Unsuited, match="callback"):
+            hooke.resume(output, scene(others))
+    for work in (hooke.resume, hooke.run, hooke.verify, hooke.needs, hooke.cost, hooke.limit):
+        with pytest.raises(hooke.Unsuited, match=f"the run had a {words} in a callback, which the file cannot hold"):
+            work(output, **({"want": 1e-3} if work is hooke.needs else {}))
+    check_equal(hooke.resume(output, scene(words)), whole, from_frame=not with_checkpoint)
+
+
+def test_a_run_without_callbacks_says_so_and_an_older_file_does_not(tmp_path):
+    scene, output = hooke.Scene.parse(SIX_PARTICLES), tmp_path / "out.h5"
+    whole = hooke.run(scene, output=tmp_path / "whole.h5")
+    hooke.run(scene, output=output, on_frame=stop_after(4))
+    with hooke.open(output) as out:
+        assert out.callbacks == "none"
+    (tmp_path / "out.h5.checkpoint").unlink()
+    with pytest.raises(hooke.Unsuited, match="callbacks: the run had none, and this system has force"):
+        hooke.resume(output, force=push)
+    with h5py.File(output, "r+") as file:
+        del file["hooke"].attrs["callbacks"]
+    with hooke.open(output) as out:
+        assert out.callbacks == ""
+    assert hooke.verify(output)
+    check_equal(hooke.resume(output), whole, from_frame=True)
+
+
+def test_a_checkpoint_says_which_callbacks_its_run_had(tmp_path):
+    path = tmp_path / "six.checkpoint"
+    systems = {"force with derivative": build_six_particles(), "force": build_six_particles(), "none": build_six_particles()}
+    systems["force with derivative"].set_force(push, same)
+    systems["force"].set_force(push)
+    options = {"method": "backward-euler", "step": 1e-3, "duration": 0.02}
+    for had, system in systems.items():
+        integrator, state = hooke.Integrator(system, **options), system.state()
+        assert integrator.run(state, on_step=(1, stop_after(5))) == "stopped"
+        integrator.write_checkpoint(path, state)
+        for own, other in systems.items():
+            integrator = hooke.Integrator(other, **options)
+            if own == had:
+                integrator.read_checkpoint(path, other.state())
+                continue
+            match = {"none": "another scene"}.get(had, "the run had a force|callbacks: the run had force, and this")
+            with pytest.raises((hooke.Unsuited, hooke.BadValue), match=match):
+                integrator.read_checkpoint(path, other.state())
+
+
+def test_results_say_which_callbacks_took_part(tmp_path):
+    study = hooke.study(build_six_particles(), ["rk4"], force=push, steps=[0.01], duration=0.1, every=0.1)
+    study.write(tmp_path / "study.json")
+    study.write(tmp_path / "study.h5")
+    assert json.loads((tmp_path / "study.json").read_text())["callbacks"] == "force"
+    with h5py.File(tmp_path / "study.h5") as file:
+        assert file["hooke"].attrs["callbacks"] == "force"
+    plain = hooke.study(build_six_particles(), ["rk4"], steps=[0.01], duration=0.1, every=0.1)
+    plain.write(tmp_path / "plain.json")
+    assert "callbacks" not in json.loads((tmp_path / "plain.json").read_text())
 
 
 def test_an_integrator_writes_and_reads_checkpoints(tmp_path):

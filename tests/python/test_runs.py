@@ -1,5 +1,6 @@
 """Runs: the same bits from every interface, files, frames, first-order problems."""
 
+import gc
 import json
 import warnings
 
@@ -230,6 +231,37 @@ def test_a_force_given_to_run(scene):
     weightless = hooke.run(hooke.Scene.parse({**SIX_PARTICLES, "gravity": [0, 0, 0]})).state
     np.testing.assert_allclose(lifted.q, weightless.q, rtol=1e-11, atol=1e-11)
     assert abs(plain.q - lifted.q).max() > 0.1
+
+
+def test_a_force_belongs_to_its_run(scene, system):
+    """The next run has none, and a problem that ran already takes one."""
+
+    def lift(t, q, v, force):
+        force[:5, 1] += 30
+
+    for problem in (scene, system):
+        options = dict(RUN, state=None)
+        plain = hooke.run(problem, **options).state.q
+        for push in (lift, lambda t, q, v, force: None, lift):
+            found = hooke.run(problem, force=push, **options)
+            assert ("callback" in found.system.forces) and found.counts["steps"] > 0
+            assert np.array_equal(found.state.q, plain) == (push is not lift)
+        assert np.array_equal(hooke.run(problem, **options).state.q, plain)
+    forced = build_six_particles()
+    forced.set_force(lift)
+    own = hooke.run(forced, **RUN).state.q
+    assert np.array_equal(own, hooke.run(system, force=lift, **RUN).state.q), "one of the system gives the same bits"
+    assert not np.array_equal(own, hooke.run(forced, force=lambda *_: None, **RUN).state.q), "it stands in for that"
+    assert np.array_equal(own, hooke.run(forced, **RUN).state.q) and not np.array_equal(own, plain)
+
+
+def test_a_force_of_a_run_lives_as_long_as_its_result():
+    result = hooke.run(build_oscillator(), force=lambda t, q, v, force: force.__iadd__(1) is None, **RUN)
+    gc.collect()
+    system = result.system
+    del result
+    gc.collect()
+    assert system.force([[0, 0, 0], [1, 0, 0]], np.zeros((2, 3))).tolist()[1] == [1, 1, 1]
 
 
 def test_a_system_may_be_shared_by_integrators(system):

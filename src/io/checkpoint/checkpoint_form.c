@@ -3,6 +3,7 @@
 #include "core/crc32.h"
 #include "core/table/option.h"
 #include "core/status.h"
+#include "model/callbacks.h"
 #include "model/check_value.h"
 
 #include <math.h>
@@ -64,7 +65,10 @@ static void move_header(struct tape *tape, struct hk_checkpoint_header *h) {
   struct hk_counts *c = &s->count;
   move_text(tape, h->magic, sizeof h->magic);
   move_u32(tape, &h->version);
-  move_u32(tape, &h->has_v);
+  uint32_t kind = h->has_v | h->calls << 1;
+  move_u32(tape, &kind);
+  h->has_v = kind & 1;
+  h->calls = kind >> 1;
   move_whole(tape, &h->length);
   move_whole(tape, &h->size);
   move_u32(tape, &h->system);
@@ -147,6 +151,7 @@ void hk_checkpoint_describe(const hooke_integrator *it, const struct hk_standing
   h->has_v = it->system != NULL;
   h->size = it->size;
   h->length = length_of(h->size, h->has_v);
+  h->calls = it->system ? (uint32_t)hk_system_calls_back(it->system) : 0;
   h->system = it->system ? hk_system_check_value(it->system) : 0;
   if (it->coordinates)
     h->system = hk_crc32(h->system, it->coordinates->inverse_mass, it->coordinates->size * 8);
@@ -160,8 +165,9 @@ const char *hk_checkpoint_damage(const struct hk_checkpoint_header *h, int64_t l
   if (memcmp(h->magic, MAGIC, sizeof MAGIC) != 0) return "is no checkpoint of hooke";
   if (h->version != VERSION) return "is of a version that this library does not read";
   if (h->length != length) return "is not as long as it was written";
-  if (h->has_v > 1 || h->size < 0 || h->size > length || length_of(h->size, h->has_v) != length ||
-      h->method[HOOKE_CHECKPOINT_METHOD - 1] != '\0' || h->run[HOOKE_CHECKPOINT_RUN - 1] != '\0')
+  if (h->calls > HOOKE_CALLS_ALL || h->size < 0 || h->size > length ||
+      length_of(h->size, h->has_v) != length || h->method[HOOKE_CHECKPOINT_METHOD - 1] != '\0' ||
+      h->run[HOOKE_CHECKPOINT_RUN - 1] != '\0')
     return "is damaged";
   return NULL;
 }
@@ -207,6 +213,8 @@ int32_t hk_checkpoint_check(const char *path, const struct hk_checkpoint_header 
                             const hooke_integrator *it) {
   struct hk_checkpoint_header own;
   hk_checkpoint_describe(it, &h->standing, NULL, &own);
+  const int32_t status = h->calls ? hk_callbacks_check((int32_t)h->calls, (int32_t)own.calls) : HOOKE_OK;
+  if (status != HOOKE_OK) return hk_fail_before(status, "%s: ", path);
   if (h->size != own.size || h->has_v != own.has_v || h->system != own.system)
     return hk_fail(HOOKE_BAD_VALUE, NULL, "%s: is of another scene", path);
   if (strcmp(h->method, own.method) != 0) {

@@ -1,6 +1,6 @@
 /* A checkpoint file. Numbers are little-endian:
  *
- *   0    "hookeCKP", version u32, 1 if there are velocities u32
+ *   0    "hookeCKP", version u32, 1 if there are velocities and 2 times the callbacks (model/callbacks.h) u32
  *   16   bytes of the file i64, numbers in q i64
  *   32   check values of the system and of the options u32 each
  *   40   method, 32 bytes; run, 64 bytes; both end in zeros
@@ -22,7 +22,7 @@ enum {
 
 struct hk_checkpoint_header {
   char magic[8];
-  uint32_t version, has_v;
+  uint32_t version, has_v, calls; /* calls: 0 also where an older version wrote it */
   int64_t length, size;
   uint32_t system, options;
   char method[HOOKE_CHECKPOINT_METHOD], run[HOOKE_CHECKPOINT_RUN];

@@ -134,7 +134,7 @@ static int32_t fill(struct hk_h5_guard *guard, const char *path, const char *sce
   const double bytes = text + table + runs * hk_trajectory_writer_bytes(c->system, c->frame_count);
   int32_t status = hk_h5_file_create_locked(guard, path, bytes, 0, &file->file);
   if (status != HOOKE_OK) return status;
-  herr_t result = hk_h5md_describe(file->file.id, NULL, c->run, scene_text);
+  herr_t result = hk_h5md_describe(file->file.id, c->system, NULL, c->run, scene_text);
   if (result >= 0) result = make_recordings(file);
   if (result >= 0) result = hk_h5md_connect(file->file.id, c->system, "all");
   if (result >= 0) result = make_table(file);

@@ -1,6 +1,7 @@
 /* Measurements as JSON. */
 #include "io/file/atomic_file.h"
 #include "io/measurement/measurement_file.h"
+#include "model/callbacks.h"
 
 #include <math.h>
 #include <stddef.h>
@@ -49,7 +50,9 @@ void hk_measurement_add_tables(struct hk_text *text, const hooke_measurement *m)
 
 int32_t hk_measurement_write_json(const hooke_measurement *m, const char *path) {
   struct hk_text text = {.bytes = NULL}, laid = {.bytes = NULL};
+  const int32_t calls = m->system ? hk_system_calls_back(m->system) : 0;
   hk_text_open(&text, NULL, '{');
+  if (calls) hk_text_word(&text, "callbacks", hk_callbacks_text(calls));
   hk_measurement_add_tables(&text, m);
   hk_text_close(&text, '}');
   if (text.status == HOOKE_OK) hk_text_lay_out(&text, &laid);

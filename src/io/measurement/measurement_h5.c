@@ -228,7 +228,7 @@ static int32_t write_file(const hooke_measurement *m, const char *path, const ch
   hk_h5_guard_begin(&guard);
   int32_t status = hk_h5_file_create(&guard, path, bytes_of(m), &file);
   if (status == HOOKE_OK) {
-    herr_t result = hk_h5md_describe(file.id, NULL, m->run, scene_text);
+    herr_t result = hk_h5md_describe(file.id, m->system, NULL, m->run, scene_text);
     if (result >= 0) result = write_all(file.id, m);
     if (result >= 0) result = hk_h5md_set_status(file.id, m->outcome);
     status = result < 0 ? hk_h5_fail(&guard, path, "write the results") : hk_h5_file_finish(&guard, &file);

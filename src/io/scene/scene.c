@@ -9,6 +9,8 @@
 #include "io/scene/json_place.h"
 #include "io/trajectory/record.h"
 #include "io/scene/scene_file.h"
+#include "model/system.h"
+#include "model/callbacks.h"
 
 #include <string.h>
 
@@ -100,6 +102,8 @@ static int32_t load_record(const char *path, const hooke_options *limits, hooke_
     if (status == HOOKE_OK) {
       hooke_options_destroy((*scene)->run);
       (*scene)->run = run;
+      const int32_t called = hk_callbacks_find(hooke_record_text(record, "callbacks"));
+      (*scene)->system->called = called > 0 ? called : 0;
     } else {
       hooke_scene_destroy(*scene);
       *scene = NULL;

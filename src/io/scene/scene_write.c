@@ -7,6 +7,7 @@
 #include "io/scene/scene.h"
 #include "io/scene/scene_words.h"
 #include "io/file/text.h"
+#include "model/callbacks.h"
 #include "model/force/force.h"
 
 #include <math.h>
@@ -309,7 +310,6 @@ static void add_drive(struct hk_text *text, const struct hk_drive_group *drive,
 
 /* Reports features that a scene cannot express. */
 static int32_t check_words(const hooke_system *system) {
-  int32_t callbacks = system->force != NULL;
   for (int64_t g = 0; g < system->group_count; g++) {
     const struct hk_group *group = &system->group[g];
     if (group->from_part || group->count == 0 || group->force == &hk_force_springs ||
@@ -319,9 +319,7 @@ static int32_t check_words(const hooke_system *system) {
                    "a scene file has the force \"%s\" in its parts alone, and this system has %s of its own",
                    group->force->name, group->force->members);
   }
-  for (int64_t k = 0; k < system->drive_count; k++)
-    callbacks |= system->drive[k].kind == HOOKE_DRIVE_CALLBACK;
-  if (!callbacks) return HOOKE_OK;
+  if (!hk_system_calls_back(system)) return HOOKE_OK;
   return hk_fail(HOOKE_UNSUITED, NULL, "a scene file cannot hold callbacks, and this system has one");
 }
 

@@ -11,6 +11,7 @@
 #include "io/trajectory/h5md_h5.h"
 #include "io/hdf5/object_h5.h"
 #include "io/file/atomic_file.h"
+#include "model/callbacks.h"
 
 #include <errno.h>
 #include <math.h>
@@ -81,8 +82,8 @@ static herr_t write_facts(hid_t group) {
   return result;
 }
 
-herr_t hk_h5md_describe(hid_t file, const char *method, const hooke_options *options,
-                        const char *scene_text) {
+herr_t hk_h5md_describe(hid_t file, const hooke_system *system, const char *method,
+                        const hooke_options *options, const char *scene_text) {
   const int32_t abi = hooke_abi();
   herr_t result = write_h5md(file);
   hid_t group = result < 0 ? -1 : new_group(file, "hooke");
@@ -91,6 +92,8 @@ herr_t hk_h5md_describe(hid_t file, const char *method, const hooke_options *opt
   if (result >= 0) result = hk_h5_integer_attribute(group, "abi", 1, &abi);
   if (result >= 0) result = hk_h5_text_attribute(group, "units", units);
   if (result >= 0) result = write_facts(group);
+  if (result >= 0 && system)
+    result = hk_h5_text_attribute(group, "callbacks", hk_callbacks_text(hk_system_calls_back(system)));
   if (result >= 0 && method) result = hk_h5_text_attribute(group, "method", method);
   if (result >= 0 && options) result = hk_h5md_write_options(group, options);
   if (result >= 0 && scene_text) result = write_text(group, "scene", (int64_t)strlen(scene_text), scene_text);

@@ -2,7 +2,7 @@
  *
  *   /h5md                    version [1, 1]; author, creator
  *   /hooke                   attributes version, abi, sundials, cholmod, instructions, machine, units,
- *                            method, of a single run `run`, which no other run has; `scene`: the text of the
+ *                            method, `callbacks` (model/callbacks.h), of a single run `run`, which no other run has; `scene`: the text of the
  *                            scene; `options`: an attribute for each option of the run; `status`: "running"
  *                            until the file is closed
  *   /hooke/rest_length       [springs]
@@ -23,9 +23,10 @@
 
 #include <hdf5.h>
 
-/* Writes everything but particles and observables. `method`, `options` and `scene_text` may be NULL. Negative
+/* Writes everything but particles and observables. `system`, `method`, `options` and `scene_text` may be NULL. Negative
  * on failure. */
-herr_t hk_h5md_describe(hid_t file, const char *method, const hooke_options *options, const char *scene_text);
+herr_t hk_h5md_describe(hid_t file, const hooke_system *system, const char *method,
+                        const hooke_options *options, const char *scene_text);
 
 /* Writes a group `options` with an attribute for each option that has a value. Negative on failure. */
 herr_t hk_h5md_write_options(hid_t where, const hooke_options *options);

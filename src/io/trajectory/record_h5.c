@@ -142,8 +142,8 @@ static int32_t read_options(hid_t group, hooke_options *options) {
 
 /* ---- a record ---- */
 
-static const char *const facts[HOOKE_RECORD_FACTS] = {"version", "sundials", "cholmod", "instructions",
-                                                      "machine"};
+static const char *const facts[HOOKE_RECORD_FACTS] = {"version",      "sundials", "cholmod",
+                                                      "instructions", "machine",  "callbacks"};
 
 /* The contents of the group of hooke. */
 static int32_t read_own(struct hooke_record *record, hid_t file) {

@@ -8,10 +8,10 @@
 
 enum hooke_record_place { HOOKE_PLACE_POSITION, HOOKE_PLACE_VELOCITY, HOOKE_PLACE_COUNT };
 
-enum { HOOKE_RECORD_FACTS = 5 };
+enum { HOOKE_RECORD_FACTS = 6 };
 
 struct hooke_record {
-  char *fact[HOOKE_RECORD_FACTS]; /* versions of the writer: "" where the file does not say */
+  char *fact[HOOKE_RECORD_FACTS]; /* versions of the writer, and callbacks: "" where the file does not say */
   char *path, *scene, *status, *run, *error_by, *error_reason;
   hooke_options *options; /* of a run, as stored */
   int32_t is_run;

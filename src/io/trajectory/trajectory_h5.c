@@ -60,7 +60,8 @@ static int32_t fill(struct hk_h5_guard *guard, const char *path, const hooke_sys
     status = hk_h5_file_create_locked(guard, path, text + hk_trajectory_writer_bytes(system, frames), 0,
                                       &made->file);
   if (status != HOOKE_OK) return status;
-  herr_t result = hk_h5md_describe(made->file.id, hooke_options_text(options, "method"), options, scene_text);
+  herr_t result =
+      hk_h5md_describe(made->file.id, system, hooke_options_text(options, "method"), options, scene_text);
   if (result >= 0) result = hk_h5md_write_run(made->file.id, made->run);
   if (result >= 0) result = hk_h5md_write_beyond_room(made->file.id);
   if (result >= 0) result = hk_h5md_write_error_room(made->file.id);

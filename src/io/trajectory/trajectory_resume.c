@@ -11,6 +11,7 @@
 #include "io/file/bytes.h"
 #include "io/trajectory/record.h"
 #include "io/trajectory/trajectory.h"
+#include "model/callbacks.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -85,8 +86,10 @@ static int32_t check_fit(const struct going *going) {
   if (hk_checkpoint_options(hooke_record_options(going->record)) !=
       hk_checkpoint_options(hooke_integrator_options(going->integrator)))
     return refuse(going, "options; only threads may be changed");
-  const int32_t status =
-      check_array(going, "mass", going->system->particle_count, hooke_system_mass(going->system));
+  int32_t status = hk_callbacks_check(hk_callbacks_find(hooke_record_text(going->record, "callbacks")),
+                                      hk_system_calls_back(going->system));
+  if (status != HOOKE_OK) return hk_fail_before(status, "%s: ", going->path);
+  status = check_array(going, "mass", going->system->particle_count, hooke_system_mass(going->system));
   return status == HOOKE_OK ? check_springs(going) : status;
 }
 

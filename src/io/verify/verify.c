@@ -8,6 +8,7 @@
 #include "integrate/method.h"
 #include "io/trajectory/record.h"
 #include "measure/limit/limit_predict.h"
+#include "model/callbacks.h"
 #include "model/system.h"
 
 #include <math.h>
@@ -99,6 +100,8 @@ static int32_t open(struct hk_verify *verify) {
   const char *method = hooke_options_text(hooke_record_options(verify->record), "method");
   const char *text = hooke_record_text(verify->record, "scene");
   verify->system = hooke_scene_system(verify->scene);
+  status = hk_callbacks_require(verify->system);
+  if (status != HOOKE_OK) return hk_fail_before(status, "%s: ", verify->path);
   verify->fixed = hooke_method_is_adaptive(method) == 0;
   verify->check_scene = (double)hk_crc32(0, text, (int64_t)strlen(text));
   verify->may_differ = find_makers(verify);

@@ -9,6 +9,7 @@
 #include "measure/estimate/heat.h"
 #include "measure/trial/step_unit.h"
 #include "measure/counted_work/work.h"
+#include "model/callbacks.h"
 #include "model/state.h"
 #include "model/system.h"
 

@@ -4,6 +4,7 @@
 #include "core/print.h"
 
 #include "integrate/method.h"
+#include "model/callbacks.h"
 #include "model/force/force.h"
 
 #include <math.h>
@@ -51,12 +52,6 @@ static int has_table(const hooke_system *system) {
   return 0;
 }
 
-static int has_drive_callback(const hooke_system *system) {
-  for (int64_t d = 0; d < system->drive_count; d++)
-    if (system->drive[d].kind == HOOKE_DRIVE_CALLBACK) return 1;
-  return 0;
-}
-
 /* 1 if the coarsest row of the fit takes half the safe step or more, and so is near the limit. */
 static int near_limit(const struct hk_study *study, int32_t method, double coarsest) {
   return coarsest >= 0.5 * study->safe_step[method] && study->safe_step[method] < study->unit;
@@ -79,7 +74,8 @@ static void list_causes(const struct hk_study *study, int32_t method, double coa
             "altitude springs jump between altitudes");
   add_cause(list, size, &count, system->force != NULL, "the force callback may not be smooth enough");
   add_cause(list, size, &count, has_table(system), "a drive by a table bends at its samples");
-  add_cause(list, size, &count, has_drive_callback(system), "the drive callback may not be smooth enough");
+  add_cause(list, size, &count, hk_system_calls_back(system) & HOOKE_CALLS_DRIVE,
+            "the drive callback may not be smooth enough");
   add_cause(list, size, &count, near_limit(study, method, coarsest), "steps are near the limit of stability");
   add_cause(list, size, &count, 1, "steps do not resolve the motion yet");
 }

@@ -9,6 +9,7 @@
 #include "integrate/loop/run_loop.h"
 #include "measure/counted_work/work.h"
 #include "measure/spectrum/linearised.h"
+#include "model/callbacks.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -208,10 +208,3 @@ int32_t hooke_system_drive_callback(hooke_system *system, int64_t count, const i
       .kind = HOOKE_DRIVE_CALLBACK, .count = count, .callback = callback, .ctx = ctx};
   return append_drive(system, drive, particles);
 }
-
-int32_t hk_system_calls_back(const hooke_system *system) {
-  int32_t calls = system->force != NULL;
-  for (int64_t g = 0; g < system->drive_count; g++)
-    calls |= system->drive[g].kind == HOOKE_DRIVE_CALLBACK;
-  return calls;
-}

@@ -24,7 +24,4 @@ int32_t hk_drive_evaluate(const struct hk_drive_group *drive, double t, double *
 
 void hk_drive_release(struct hk_drive_group *drive);
 
-/* 1 if callbacks of the caller act on the system: a force, or a drive. */
-int32_t hk_system_calls_back(const hooke_system *system);
-
 #endif

@@ -77,6 +77,9 @@ struct hk_force_row {
 extern const struct hk_force_row hk_force_springs, hk_force_bending, hk_force_altitude, hk_force_anchor,
     hk_force_linear, hk_force_drag, hk_force_callback, hk_force_weight, hk_force_gravity;
 
+/* Rows for a callback, held once; hooke_rows_hold(rows, -1) releases them. NULL without memory. */
+double *hk_rows_new(int64_t numbers);
+
 /* out = (df/dq) dq + (df/dv) dv of the forces of a committed system except those with `left_out` (NULL:
  * none). HOOKE_STOPPED, with the point's stop value, if a callback asked for it. */
 int32_t hk_forces_product(const hooke_system *system, const struct hk_point *point,

@@ -11,12 +11,47 @@ static int32_t present(const hooke_system *system) {
   return system->force != NULL;
 }
 
+/* ---- rows ---- */
+
+/* In front of the numbers. */
+struct holders {
+  _Alignas(64) _Atomic int64_t count;
+};
+
+double *hk_rows_new(int64_t numbers) {
+  struct holders *rows = hk_new(numbers + (int64_t)(sizeof *rows / sizeof(double)), sizeof(double));
+  if (rows == NULL) return NULL;
+  rows->count = 1;
+  return (double *)(rows + 1);
+}
+
+int64_t hooke_rows_hold(const double *q, int32_t more) {
+  if (q == NULL) return 0;
+  struct holders *rows = (struct holders *)(uintptr_t)q - 1;
+  const int64_t left = rows->count += more;
+  if (left == 0) hk_free(rows);
+  return left;
+}
+
+/* Rows that the callback holds are left to it. */
+static int32_t renew_rows(int64_t numbers, double **rows) {
+  if (hooke_rows_hold(*rows, 0) == 1) return HOOKE_OK;
+  double *made = hk_rows_new(numbers);
+  if (made == NULL) return HOOKE_NO_MEMORY;
+  hooke_rows_hold(*rows, -1);
+  *rows = made;
+  return HOOKE_OK;
+}
+
+/* ---- the force ---- */
+
 static int32_t stopped(int32_t value, double t) {
   return hk_fail(HOOKE_STOPPED, NULL, "the force callback returned %d at t = %.6g s", (int)value, t);
 }
 
 static int32_t add(const hooke_system *system, struct hk_motion *motion, double t) {
   const int64_t n = motion->n;
+  if (renew_rows(9 * n, &motion->rows) != HOOKE_OK) return HOOKE_NO_MEMORY;
   double *q = motion->rows, *v = q + 3 * n, *f = v + 3 * n;
   hk_rows_from_components(n, motion->q, q);
   hk_rows_from_components(n, motion->v, v);
@@ -54,20 +89,23 @@ static int32_t add_difference(const hooke_system *system, const struct hk_point 
   const double share = fmax(largest(size, point->dq) / length, largest(size, point->dv) / speed);
   if (!(share > 0.0)) return 0;
   const double step = 6e-6 / share;
-  double *q = hk_new(4 * size, sizeof(double));
-  if (q == NULL) return HOOKE_NO_MEMORY;
-  double *v = q + size, *ahead = v + size, *behind = ahead + size;
+  double *rows[2] = {hk_rows_new(3 * size), hk_rows_new(3 * size)}; /* ahead and behind */
   int32_t value = 0;
-  for (int side = 1; side >= -1 && value == 0; side -= 2) {
+  for (int side = 0; side < 2 && rows[0] && rows[1] && value == 0; side++) {
+    double *q = rows[side], *v = q + size;
+    const double from = side == 0 ? step : -step;
     for (int64_t k = 0; k < size; k++) {
-      q[k] = point->q[k] + side * step * point->dq[k];
-      v[k] = system->friction > 0.0 ? 0.0 : point->v[k] + side * step * point->dv[k];
+      q[k] = point->q[k] + from * point->dq[k];
+      v[k] = system->friction > 0.0 ? 0.0 : point->v[k] + from * point->dv[k];
     }
-    value = system->force(n, point->t, q, v, side > 0 ? ahead : behind, system->force_ctx);
+    value = system->force(n, point->t, q, v, v + size, system->force_ctx);
   }
-  for (int64_t k = 0; k < size && value == 0; k++)
-    out[k] += (ahead[k] - behind[k]) / (2.0 * step);
-  hk_free(q);
+  const int32_t missing = rows[0] == NULL || rows[1] == NULL;
+  for (int64_t k = 0; k < size && value == 0 && !missing; k++)
+    out[k] += (rows[0][2 * size + k] - rows[1][2 * size + k]) / (2.0 * step);
+  hooke_rows_hold(rows[0], -1);
+  hooke_rows_hold(rows[1], -1);
+  if (missing) return HOOKE_NO_MEMORY;
   *point->stop_value = value;
   return value == 0 ? HOOKE_OK : stopped(value, point->t);
 }

@@ -61,24 +61,24 @@ static int32_t new_arrays(const hooke_system *system, int32_t how, struct hk_mot
    * sets. Loops over strided batches read past the last particle. */
   const int64_t beyond = system->strided.count > 0 ? system->strided.reach + HOOKE_STRIDED_UNIT : 0;
   const int64_t stride = (n + beyond + 7) / 8 * 8 + 24, arrays = how == HOOKE_MOTION_BY_TILES ? 6 : 9;
-  const int64_t components = arrays * stride, rows = system->force ? 9 * n : 0;
+  const int64_t components = arrays * stride, rows = system->force ? 9 * n : 0; /* in their own block */
   const int64_t still = 3 * system->anchor_count, driven = 6 * driven_count(system);
-  const int64_t numbers = components + rows + still + driven;
+  const int64_t numbers = components + still + driven;
   double *block = hk_reserve(numbers, sizeof(double));
   if (block == NULL) return HOOKE_NO_MEMORY;
   struct arrays cleared = {block, n, arrays, stride, numbers - components};
   hk_pool_run(motion->pool, clear, &cleared);
   motion->n = n;
-  motion->memory += numbers * (int64_t)sizeof(double);
+  motion->memory += (numbers + rows) * (int64_t)sizeof(double);
   for (int a = 0; a < 3; a++) {
     motion->q[a] = block + a * stride;
     motion->v[a] = block + (3 + a) * stride;
     if (arrays == 9) motion->f[a] = block + (6 + a) * stride;
   }
-  motion->rows = rows ? block + components : NULL;
-  motion->still = block + components + rows;
+  motion->rows = system->force ? hk_rows_new(rows) : NULL;
+  motion->still = block + components;
   motion->driven = motion->still + still;
-  return HOOKE_OK;
+  return system->force && motion->rows == NULL ? HOOKE_NO_MEMORY : HOOKE_OK;
 }
 
 /* Working numbers of anchored and driven particles. `place` (NULL: the caller's numbers) is indexed by the
@@ -155,6 +155,7 @@ void hk_motion_destroy(struct hk_motion *motion) {
   hk_tiled_scratch_destroy(motion->tiled);
   hk_free(motion->anchor);
   hk_free(motion->number);
+  hooke_rows_hold(motion->rows, -1);
   hk_free(motion->q[0]);
   hk_free(motion);
 }

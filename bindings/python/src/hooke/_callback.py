@@ -7,18 +7,20 @@ the same exception again (see `_status.checker`).
 from __future__ import annotations
 
 import contextlib
+import ctypes
 import operator
 import os
 import signal
 import sys
 import threading
 from collections.abc import Iterator
+from sys import getrefcount
 from typing import Any, Callable
 
 import numpy as np
 
 from ._library import lib
-from ._memory import text, view
+from ._memory import Handle, text, view
 from ._progress import Shown, shown
 from ._prototypes import DRIVE, FORCE, FORCE_PRODUCT, PROGRESS, RATE
 from ._status import pending
@@ -65,77 +67,123 @@ def outside() -> int:
 _FOLDER = os.path.dirname(__file__)
 
 
-class _Views:
-    """Arrays over the addresses passed to callbacks. An integrator uses few, so they are cached."""
+# The library frees the arrays of a call or uses them again. So each call gets new views, which all count as references
+# to one array over the memory. If that has more of them after a call, something was kept, and the memory is left to it.
 
-    LIMIT = 64
-
-    def __init__(self, dtype: Any = float):
-        self._dtype = dtype
-        self._views: dict[tuple[int, Shape, bool], Table] = {}
-
-    def __call__(self, address: int, shape: Shape, writeable: bool) -> Table:
-        key = (address, shape, writeable)
-        array = self._views.get(key)
-        if array is None:
-            if len(self._views) >= self.LIMIT:
-                self._views.clear()
-            array = self._views[key] = view(address, shape, None, writeable, self._dtype)
-        return array
+_again = np.ndarray.view
+_MOST = 64  # places in the library's memory that are known; an integrator has few
+_Key = tuple[int, ...]
+_Moves = list[tuple[Any, Table]]
 
 
-def force_callback(function: Callable[..., Any], row: Shape = (3,)) -> Any:
-    """The callback that adds forces, for `function` of `System.set_force`; `row` () for one of coordinates."""
-    views = _Views()
+def _answered(answer: Any) -> int:
+    return 0 if answer is None and pending.exception is None else guarded(lambda: answer)
+
+
+def force_callback(function: Callable[..., Any]) -> Any:
+    """The callback that adds forces, for `function` of `System.set_force`. Its arrays are the library's own."""
+    known: dict[_Key, tuple[Table, list[Table]]] = {}
+
+    def look(key: _Key) -> tuple[Table, list[Table]]:
+        memory = view(key[1], (3, key[0], 3))
+        rows = list(memory)
+        for array in rows[:2]:
+            array.flags.writeable = False
+        if len(known) >= _MOST:
+            known.clear()
+        known[key] = memory, rows
+        return known[key]
+
+    def leave(key: _Key, memory: Any) -> None:
+        known.pop(key, None)
+        if memory.size:
+            place = ctypes.c_double.from_address(key[1])
+            lib.hooke_rows_hold(place, 1)
+            memory.base.owner = Handle(place, lambda rows: lib.hooke_rows_hold(rows, -1))
 
     def force(n: int, t: float, q: int, v: int, out: int, _: Any) -> int:
-        return guarded(call, n, t, q, v, out)
-
-    def call(n: int, t: float, q: int, v: int, out: int) -> Any:
-        shape = (n, *row)
-        return function(t, views(q, shape, False), views(v, shape, False), views(out, shape, True))
+        key = (n, q)
+        try:
+            memory, rows = known.get(key) or look(key)
+            users = getrefcount(memory)
+            try:
+                return _answered(function(t, *map(_again, rows)))
+            finally:
+                if getrefcount(memory) != users:
+                    leave(key, memory)
+        except BaseException as exception:
+            pending.exception = exception
+            return _STOP
 
     return FORCE(force)
 
 
+def _copied(
+    function: Callable[..., Any], inputs: int, shape: Callable[[int], Shape], dtype: Any = float, adds: bool = True
+) -> Any:
+    """The callback for ``function(t, *arrays)``, whose first `inputs` arrays are read-only; it `adds` to the others or
+    writes them. They have the `shape` for the count that the library gives, and are in memory of this package."""
+    free: list[tuple[Table, list[Table]]] = []  # not in use; several for calls within calls, and from threads
+    known: dict[_Key, tuple[_Moves, _Moves]] = {}
+
+    def own(key: _Key) -> tuple[Table, list[Table]]:
+        memory: Table = np.zeros((len(key) - 1, *shape(key[0])), dtype)
+        rows = list(memory)
+        for array in rows[:inputs]:
+            array.flags.writeable = False
+        return memory, rows
+
+    def look(key: _Key) -> tuple[_Moves, _Moves]:
+        """What is copied before and after a call."""
+        if len(known) >= _MOST:
+            known.clear()
+        rows = [(k, view(place, shape(key[0]), dtype=dtype)) for k, place in enumerate(key[1:])]
+        known[key] = rows if adds else rows[:inputs], rows[inputs:]
+        return known[key]
+
+    def called(count: int, t: float, *places: Any) -> int:
+        key = (count, *places[:-1])
+        try:
+            taken, given = known.get(key) or look(key)
+            try:
+                mine = free.pop()
+            except IndexError:
+                mine = own(key)
+            memory, rows = mine
+            for place, numbers in taken:
+                memory[place] = numbers
+            users = getrefcount(memory)
+            answer = function(t, *map(_again, rows))
+            for place, numbers in given:
+                numbers[...] = rows[place]
+            if getrefcount(memory) == users:
+                free.append(mine)
+            return _answered(answer)
+        except BaseException as exception:
+            pending.exception = exception
+            return _STOP
+
+    return called
+
+
+def coordinate_callback(function: Callable[..., Any]) -> Any:
+    """The callback for the force of coordinates."""
+    return FORCE(_copied(function, 2, lambda n: (n,)))
+
+
 def product_callback(function: Callable[..., Any], row: Shape = (3,)) -> Any:
     """The callback for the product with the derivative of a force."""
-    views = _Views()
-
-    def product(n: int, t: float, q: int, v: int, dq: int, dv: int, out: int, _: Any) -> int:
-        return guarded(call, n, t, (q, v, dq, dv), out)
-
-    def call(n: int, t: float, inputs: tuple[int, ...], out: int) -> Any:
-        shape = (n, *row)
-        return function(t, *(views(address, shape, False) for address in inputs), views(out, shape, True))
-
-    return FORCE_PRODUCT(product)
+    return FORCE_PRODUCT(_copied(function, 4, lambda n: (n, *row)))
 
 
 def drive_callback(function: Callable[..., Any]) -> Any:
     """The callback that moves driven particles."""
-    views = _Views()
-
-    def drive(count: int, t: float, q: int, v: int, _: Any) -> int:
-        return guarded(call, count, t, q, v)
-
-    def call(count: int, t: float, q: int, v: int) -> Any:
-        return function(t, views(q, (count, 3), True), views(v, (count, 3), True))
-
-    return DRIVE(drive)
+    return DRIVE(_copied(function, 0, lambda n: (n, 3), adds=False))
 
 
 def rate_callback(function: Callable[..., Any], shape: Shape, dtype: Any) -> Any:
     """The callback for the rate of a first-order problem."""
-    views = _Views(dtype)
-
-    def rate(_n: int, t: float, x: int, out: int, _: Any) -> int:
-        return guarded(call, t, x, out)
-
-    def call(t: float, x: int, out: int) -> Any:
-        return function(t, views(x, shape, False), views(out, shape, True))
-
-    return RATE(rate)
+    return RATE(_copied(function, 1, lambda _: shape, dtype, adds=False))
 
 
 @contextlib.contextmanager

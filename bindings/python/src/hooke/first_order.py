@@ -31,7 +31,7 @@ class FirstOrder(Owner):
 
         hooke.FirstOrder(decay, [1.0]).run(method="forward-euler", step=0.1, duration=1.0)
 
-    The arrays are valid during the call only. phi returns None or 0 to go on, any other integer to stop.
+    Arrays that are kept stay as they are at the end of their call. phi returns None or 0 to go on, any other integer to stop.
     """
 
     def __init__(self, phi: Rate, x0: Any):

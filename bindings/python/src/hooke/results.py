@@ -130,7 +130,7 @@ def run(
     checkpoint [s], rtol, atol [m], atol_velocity [m/s], ...; they override the scene's own. `state` is the start (it
     is changed; by default the initial state), `output` the HDF5 file to write (with its ``.xdmf`` companion for
     ParaView; with `checkpoint` also ``<output>.checkpoint``, until the run has finished, for `hooke.resume`),
-    ``frames=True`` keeps all frames in memory, `force` adds a force callback (see `System.set_force`),
+    ``frames=True`` keeps all frames in memory, `force` is the callback force of this run (see `System.set_force`),
     ``progress(fraction, state)`` is called at each frame, ``progress=True`` shows a bar (with tqdm); for `on_frame`
     and `on_step` see `Integrator.run`.
 
@@ -218,9 +218,9 @@ def resume(
     count in the file, "steps", and NaN for the time of the run.
 
     The options are those of the run, except `threads`. The scene is that of the run, too, unless `problem` is given,
-    which is required if the run was not made from a scene, or used callbacks; `force` is its force callback. The run
-    continues from the checkpoint beside the file; without one, from the last frame, and with error control from the
-    beginning. The rest is as in `run`.
+    which is required if the run was not made from a scene, or used callbacks other than its `force`. Unsuited if
+    callbacks of the run are missing. The run continues from the checkpoint beside the file; without one, from the last
+    frame, and with error control from the beginning. The rest is as in `run`.
     """
     scene, options = Scene.load(output) if problem is None else None, _options_of(output)
     _, system, _ = resolve(scene if scene is not None else problem, force)  # type: ignore[arg-type]
@@ -300,7 +300,7 @@ def resolve(
     if force is not None:
         if not isinstance(problem, System):
             raise BadValue("force: only a system takes one")
-        problem.set_force(force)
+        problem = problem._with_force(force)
     return scene, problem, options
 
 

@@ -36,8 +36,8 @@ class SecondOrder(Owner):
         hooke.SecondOrder(pendulum, [1.0]).run(method="verlet", step=1e-3, duration=10)
 
     Where masses depend on q, `f` gives the accelerations and `inverse_mass` is 1. ``derivative(t, q, v, dq, dv, out)``
-    writes (df/dq) dq + (df/dv) dv into its last argument; without it difference quotients of `f` replace it. All
-    arrays are valid during the call only. Callbacks return None or 0 to go on, any other integer to stop.
+    writes (df/dq) dq + (df/dv) dv into its last argument; without it difference quotients of `f` replace it. Arrays
+    that are kept stay as they are at the end of their call. Callbacks return None or 0 to go on, any other integer to stop.
     """
 
     def __init__(
@@ -56,7 +56,7 @@ class SecondOrder(Owner):
         masses = np.atleast_1d(plain(inverse_mass, "inverse_mass"))
         self._inverse_mass = doubles(masses, "inverse_mass", (1,), shape)
         self._size = self._q.size
-        self._force = _callback.force_callback(f, ())
+        self._force = _callback.coordinate_callback(f)
         self._derivative = _callback.product_callback(derivative, ()) if derivative else FORCE_PRODUCT()
         self._callbacks = [self._force, self._derivative]
 

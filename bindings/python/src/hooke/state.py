@@ -80,7 +80,7 @@ class State:
     @property
     def q(self) -> FloatArray:
         """Positions (n, 3) [m], or the coordinates of a second-order problem (size,); a view."""
-        return self._q if self._q is not None else self._no_particles("q")
+        return self._q.view() if self._q is not None else self._no_particles("q")
 
     @q.setter
     def q(self, value: Any) -> None:
@@ -89,7 +89,7 @@ class State:
     @property
     def v(self) -> FloatArray:
         """Velocities (n, 3) [m/s], or those of coordinates (size,); a view."""
-        return self._v if self._v is not None else self._no_particles("v")
+        return self._v.view() if self._v is not None else self._no_particles("v")
 
     @v.setter
     def v(self, value: Any) -> None:
@@ -98,7 +98,7 @@ class State:
     @property
     def x(self) -> Table:
         """All positions in one row (3n,) [m], or the unknowns of a first- or second-order problem (size,); a view."""
-        return self._x
+        return self._x.view()
 
     @x.setter
     def x(self, value: Any) -> None:

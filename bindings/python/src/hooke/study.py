@@ -270,9 +270,10 @@ def study(
     "57.y" (a particle), "part:0.y", "group:3.length", ".strain" or ".tension" (a spring), "energy", "kinetic",
     "potential", "period:57.y". `ensemble` is the number of starts displaced by noise from `seed`; their means and
     spreads are reported if the motion is too chaotic to be judged. `output` is a file to write (see `Study.write`),
-    `force` adds a force callback, ``progress(fraction, what)`` receives progress (``progress=True`` shows a bar, with
-    tqdm) and stops the study by returning a non-zero number. The keywords `options` are those of a run: duration [s],
-    every [s], threads, ... ``hooke study --report FILE.html`` makes a page with diagrams of the same study.
+    `force` is the callback force of these runs, ``progress(fraction, what)`` receives progress (``progress=True`` shows
+    a bar, with tqdm) and stops the study by returning a non-zero number. The keywords `options` are those of a run:
+    duration [s], every [s], threads, ... ``hooke study --report FILE.html`` makes a page with diagrams of the same
+    study.
     """
     scene, system, run = prepare("study", problem, force, options)
     if methods is not None and not isinstance(methods, str):

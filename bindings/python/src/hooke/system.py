@@ -35,8 +35,8 @@ class System(Queries):
     at a moment of your choice. Units are SI. Particles and springs are numbered from 0 in the order in which they are
     added, springs of parts after all others.
 
-    Callbacks receive arrays that are valid during the call only: copy data that you want to keep. They return None or
-    0 to go on; any other integer stops the run. An exception stops it too, and is raised again by the call that ran.
+    Callbacks receive new arrays in each call; those that you keep stay as they are at its end. They return None or 0 to
+    go on; any other integer stops the run. An exception stops it too, and is raised again by the call that ran.
     """
 
     def __init__(self) -> None:
@@ -58,6 +58,13 @@ class System(Queries):
         system._adopt(handle, lambda: None)
         system._callbacks = callbacks
         return system
+
+    def _with_force(self, force: Force) -> System:
+        """The same system with this callback force, as long as the result is in use."""
+        pointer, callback = SYSTEM(), _callback.force_callback(force)
+        lib.hooke_system_with_force(self._committed(), callback, FORCE_PRODUCT(), None, ctypes.byref(pointer))
+        handle = Handle(pointer, lib.hooke_system_destroy, self._handle)
+        return System._committed_by(handle, [*self._callbacks, callback])
 
     def _adopt(self, handle: Handle, commit: Callable[[], Any]) -> None:
         self._handle = handle
@@ -223,9 +230,9 @@ class System(Queries):
         lib.hooke_system_set_drag(self._handle, coefficient)
 
     def set_force(self, force: Force, product: ForceProduct | None = None) -> None:
-        """Adds a force of your own, ``force(t, q, v, force)``, which adds newtons to its last argument. ``product(t,
-        q, v, dq, dv, out)`` adds the product with its derivative to `out`; without it difference quotients replace
-        it."""
+        """Gives the system a force of your own in all its runs: ``force(t, q, v, force)`` adds newtons to its last
+        argument, ``product(t, q, v, dq, dv, out)`` the product with its derivative to `out`; without it difference
+        quotients replace it."""
         callbacks = (
             _callback.force_callback(force),
             _callback.product_callback(product) if product else FORCE_PRODUCT(),

@@ -173,6 +173,13 @@ class Trajectory(Closing):
         """Identifier of the run: 32 hexadecimal digits, unique to the run."""
         return text(lib.hooke_record_text(self._handle, b"run"))
 
+    @property
+    def callbacks(self) -> str:
+        """The callbacks of the run: "none", "force", "force with derivative", "drive", "force and drive", "force with
+        derivative and drive"; "" in files of earlier versions. The file cannot hold them: who gives them again can
+        `resume`."""
+        return text(lib.hooke_record_text(self._handle, b"callbacks"))
+
     def check(self, frame: int | None = None) -> None:
         """Compares the numbers of a frame, or of all frames, with their check values. BadValue names a damaged frame.
         `state` makes this check itself; data that are mapped or read as a whole column, such as `q` and `energy`, are
