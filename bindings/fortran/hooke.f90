@@ -14,7 +14,7 @@
 module hooke
   use hooke_base, only: hooke_real, hooke_long, &
     hooke_ok, hooke_stopped, hooke_diverged, hooke_step_limit, hooke_no_memory, hooke_bad_value, hooke_bad_call, &
-    hooke_io_failed, hooke_not_built, hooke_unsuited, hooke_solver_failed, &
+    hooke_io_failed, hooke_not_built, hooke_unsuited, hooke_solver_failed, hooke_internal, &
     hooke_message => message, hooke_status_name => status_name, hooke_version => version, hooke_abi => abi, &
     hooke_build_fact => build_fact
   use hooke_builders, only: hooke_part_kind => part_kind

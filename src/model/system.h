@@ -36,6 +36,7 @@ struct hk_linear {
 
 struct hooke_system {
   int32_t committed;
+  _Atomic int32_t is_copied_whole; /* 1: a variant that leaves out nothing was found to equal it */
 
   /* particles, 3 or 1 doubles each */
   int64_t particle_count, particle_capacity;
