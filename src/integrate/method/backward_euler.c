@@ -23,6 +23,8 @@ const struct hk_method hk_backward_euler = {
     .order = 1,
     .judge = "implicit-midpoint",
     .second_order = 1,
+    .bodies = &hk_backward_euler,
+    .overdamped = 1,
     .implicit = 1,
     .stability = {.kind = HOOKE_STABLE_ALWAYS,
                   .damps_implicitly = 1,
