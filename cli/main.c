@@ -43,7 +43,7 @@ static int print_methods(const struct cli_program *program, const char *value) {
   for (int64_t i = 0; i < hooke_method_count(); i++) {
     printf("%-17s", hooke_method_name(i));
     for (int k = 0; k < 3; k++)
-      printf(" %11s", hooke_method_takes(hooke_method_name(i), problems[k]) == 1 ? "yes" : "no");
+      printf(" %11s", hooke_method_is_suited(hooke_method_name(i), problems[k]) == 1 ? "yes" : "no");
     printf("\n");
   }
   return HOOKE_EXIT_DONE;
@@ -52,8 +52,8 @@ static int print_methods(const struct cli_program *program, const char *value) {
 static const struct cli_program_row rows[] = {
     {"help", 'h', NULL, NULL, "verbs and methods; after a verb, its options with units and defaults",
      print_help},
-    {"methods", 0, NULL, NULL, "methods, and which of them take rigid bodies, overdamped scenes and x' = phi(t, x)",
-     print_methods},
+    {"methods", 0, NULL, NULL,
+     "methods, and which of them take rigid bodies, overdamped scenes and x' = phi(t, x)", print_methods},
     {"version", 0, NULL, NULL, "the version, and what it was built with", print_version},
     {"completion", 0, "SHELL", "bash zsh fish",
      "a script that completes commands in bash, zsh or fish; it is installed with the program",

@@ -123,7 +123,7 @@ int32_t hk_method_require(const struct hk_method *method, const hooke_system *sy
                  why ? why : problems[problem].refusal, list);
 }
 
-int32_t hooke_method_takes(const char *name, const char *problem) {
+int32_t hooke_method_is_suited(const char *name, const char *problem) {
   const struct hk_method *method = hk_method_find(name);
   for (int k = 0; k < PROBLEMS && method; k++)
     if (strcmp(problems[k].word, problem) == 0) return takes(method, k);

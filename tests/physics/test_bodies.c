@@ -135,7 +135,7 @@ static void free_body_has_the_order_of_its_method(void **unused) {
   for (int64_t m = 0; m < hooke_method_count(); m++) {
     const char *name = hooke_method_name(m);
     if (!hooke_method_is_built(name)) continue;
-    if (hooke_method_takes(name, "bodies") != 1) {
+    if (hooke_method_is_suited(name, "bodies") != 1) {
       check_refuses_a_body(name);
       continue;
     }

@@ -77,7 +77,7 @@ static void check_list(const char *method, const char *problem) {
   for (int64_t m = 0, count = 0; m < hooke_method_count(); m++) {
     const size_t used = strlen(list);
     const char *name = hooke_method_name(m);
-    if (hooke_method_is_built(name) && hooke_method_takes(name, problem) == 1)
+    if (hooke_method_is_built(name) && hooke_method_is_suited(name, problem) == 1)
       snprintf(list + used, sizeof list - used, "%s%s", count++ ? ", " : "", name);
   }
   check_message(method);
@@ -96,7 +96,7 @@ static void test_methods_take_what_they_say(void **unused) {
       static const char *const others[] = {"rk8pd", "arkode-esdirk"};
       const int64_t other = m - hooke_method_count();
       const char *method = other < 0 ? hooke_method_name(m) : others[other];
-      const int32_t takes = hooke_method_takes(method, problems[k]);
+      const int32_t takes = hooke_method_is_suited(method, problems[k]);
       assert_in_range(takes, 0, 1);
       taken[k] += other < 0 && takes;
       if (hooke_method_is_built(method) != 1) continue;
@@ -107,8 +107,8 @@ static void test_methods_take_what_they_say(void **unused) {
   assert_int_equal(taken[0], hooke_method_count());
   for (int k = 1; k < 4; k++)
     check_between(taken[k], 5.0, (double)hooke_method_count() - 1.0);
-  assert_int_equal(hooke_method_takes("no-such-method", "bodies"), -1);
-  assert_int_equal(hooke_method_takes("verlet", "no such problem"), -1);
+  assert_int_equal(hooke_method_is_suited("no-such-method", "bodies"), -1);
+  assert_int_equal(hooke_method_is_suited("verlet", "no such problem"), -1);
 }
 
 /* The largest position error at the first reference time, over the largest position. */

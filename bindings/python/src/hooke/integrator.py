@@ -72,7 +72,7 @@ def methods() -> list[Method]:
             text(lib.hooke_method_summary(name)),
             lib.hooke_method_is_adaptive(name) == 1,
             lib.hooke_method_is_built(name) == 1,
-            *(lib.hooke_method_takes(name, problem) == 1 for problem in (b"bodies", b"overdamped", b"first-order")),
+            *(lib.hooke_method_is_suited(name, problem) == 1 for problem in (b"bodies", b"overdamped", b"first-order")),
         )
         for name in names
     ]
