@@ -111,7 +111,7 @@ int32_t hk_method_suits(const char *name, const hooke_system *system) {
 
 int32_t hk_method_require(const struct hk_method *method, const hooke_system *system) {
   const int problem = problem_of(system);
-  const char *why = problem == FIRST_ORDER ? method->no_first_order : NULL;
+  const int32_t solves = problem == FIRST_ORDER && method->implicit;
   char list[512] = "";
   if (takes(method, problem)) return HOOKE_OK;
   for (int64_t k = 0; k < ROWS; k++) {
@@ -120,7 +120,9 @@ int32_t hk_method_require(const struct hk_method *method, const hooke_system *sy
       snprintf(list + used, sizeof list - used, "%s%s", used ? ", " : "", table[k]->name);
   }
   return hk_fail(HOOKE_UNSUITED, "method", "%s %s; allowed: %s", method->name,
-                 why ? why : problems[problem].refusal, list);
+                 solves ? "solves its step with the derivative of the forces, and x' = phi(t, x) brings none"
+                        : problems[problem].refusal,
+                 list);
 }
 
 int32_t hooke_method_is_suited(const char *name, const char *problem) {

@@ -42,7 +42,6 @@ struct hk_method {
   int32_t implicit; /* 1: takes a step by the solution of nonlinear equations, with the option `newton` */
   int32_t by_tiles; /* 1: steps by hk_integrator_move() alone, if `choose` says nothing else */
   struct hk_stability stability;
-  const char *no_first_order; /* why it takes none, if not for stepping positions and velocities apart */
   /* the largest step [s] at which it solves nothing, where larger ones do: 0 if all do, infinite if none does.
    * NULL: steps of all sizes cost the same */
   int32_t (*explicit_step)(const hooke_system *system, double *step);

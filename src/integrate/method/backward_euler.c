@@ -30,7 +30,6 @@ const struct hk_method hk_backward_euler = {
                   .damps_implicitly = 1,
                   .note = "stable at every step; accuracy limits it, and in large steps whether the "
                           "equations can be solved"},
-    .no_first_order = "solves its step with the derivative of the forces, and x' = phi(t, x) brings none",
     .create = create,
     .destroy = hk_stage_destroy,
     .begin = hk_fixed_begin,

@@ -54,7 +54,6 @@ const struct hk_method hk_implicit_midpoint = {
                   .note =
                       "stable at every step where forces are linear; accuracy limits it, and in large steps "
                       "whether the equations can be solved"},
-    .no_first_order = "solves its step with the derivative of the forces, and x' = phi(t, x) brings none",
     .create = create,
     .destroy = hk_stage_destroy,
     .begin = hk_fixed_begin,

@@ -309,7 +309,7 @@ static void add_drive(struct hk_text *text, const struct hk_drive_group *drive,
 
 /* Reports features that a scene cannot express. */
 static int32_t check_words(const hooke_system *system) {
-  int32_t callbacks = system->force != NULL;
+  int32_t callbacks = 0;
   for (int64_t g = 0; g < system->group_count; g++) {
     const struct hk_group *group = &system->group[g];
     if (group->from_part || group->count == 0 || group->force == &hk_force_springs ||
@@ -318,6 +318,11 @@ static int32_t check_words(const hooke_system *system) {
     return hk_fail(HOOKE_UNSUITED, NULL,
                    "a scene file has the force \"%s\" in its parts alone, and this system has %s of its own",
                    group->force->name, group->force->members);
+  }
+  for (int32_t k = 0; k < system->force_row_count; k++) {
+    const struct hk_force_row *row = system->force_row[k];
+    if (!row->members && row != &hk_force_drag && row != &hk_force_weight && row != &hk_force_gravity)
+      return hk_fail(HOOKE_UNSUITED, NULL, "a scene file cannot hold the force \"%s\"", row->name);
   }
   for (int64_t k = 0; k < system->drive_count; k++)
     callbacks |= system->drive[k].kind == HOOKE_DRIVE_CALLBACK;
