@@ -36,9 +36,24 @@ static int print_help(const struct cli_program *program, const char *value) {
   return HOOKE_EXIT_DONE;
 }
 
+static int print_methods(const struct cli_program *program, const char *value) {
+  static const char *const problems[] = {"bodies", "overdamped", "first-order"};
+  (void)program, (void)value;
+  printf("%-17s %11s %11s %11s\n", "method", problems[0], problems[1], problems[2]);
+  for (int64_t i = 0; i < hooke_method_count(); i++) {
+    printf("%-17s", hooke_method_name(i));
+    for (int k = 0; k < 3; k++)
+      printf(" %11s", hooke_method_is_suited(hooke_method_name(i), problems[k]) == 1 ? "yes" : "no");
+    printf("\n");
+  }
+  return HOOKE_EXIT_DONE;
+}
+
 static const struct cli_program_row rows[] = {
     {"help", 'h', NULL, NULL, "verbs and methods; after a verb, its options with units and defaults",
      print_help},
+    {"methods", 0, NULL, NULL,
+     "methods, and which of them take rigid bodies, overdamped scenes and x' = phi(t, x)", print_methods},
     {"version", 0, NULL, NULL, "the version, and what it was built with", print_version},
     {"completion", 0, "SHELL", "bash zsh fish",
      "a script that completes commands in bash, zsh or fish; it is installed with the program",
@@ -96,7 +111,7 @@ static int do_verb(const struct cli_verb *verb, int argc, char **argv) {
 static const struct cli_program_row *find_row(const char *word) {
   for (const struct cli_program_row *row = rows; row->name; row++) {
     const char letter[3] = {'-', row->letter, '\0'};
-    if (strncmp(word, "--", 2) == 0 && strcmp(word + 2, row->name) == 0) return row;
+    if (strcmp(strncmp(word, "--", 2) == 0 ? word + 2 : word, row->name) == 0) return row;
     if (row->letter && strcmp(word, letter) == 0) return row;
   }
   return NULL;
@@ -124,9 +139,9 @@ static int do_words(int argc, char **argv) {
     cli_usage_print_all(stderr, &program);
     return HOOKE_EXIT_USAGE;
   }
+  if (strcmp(argv[1], "help") == 0) return do_help(argc - 2, argv + 2);
   const struct cli_program_row *row = find_row(argv[1]);
   if (row) return do_row(row, argc > 2 ? argv[2] : NULL);
-  if (strcmp(argv[1], "help") == 0) return do_help(argc - 2, argv + 2);
   const struct cli_verb *verb = find_verb(argv[1]);
   return verb ? do_verb(verb, argc - 1, argv + 1) : unknown_verb(argv[1]);
 }

@@ -21,6 +21,8 @@ int cli_exit_code(int32_t status) {
     return HOOKE_EXIT_IO;
   case HOOKE_NOT_BUILT:
     return HOOKE_EXIT_NOT_BUILT;
+  case HOOKE_INTERNAL:
+    return HOOKE_EXIT_INTERNAL;
   default:
     return HOOKE_EXIT_BAD_INPUT; /* a value, or a scene too large for the memory */
   }

@@ -13,6 +13,7 @@ enum cli_exit {
   HOOKE_EXIT_IO = 5,
   HOOKE_EXIT_NOT_BUILT = 6,
   HOOKE_EXIT_NOT_MET = 7, /* the wanted error was not met, or cannot be judged */
+  HOOKE_EXIT_INTERNAL = 8,
   HOOKE_EXIT_INTERRUPTED = 130
 };
 

@@ -23,6 +23,7 @@ module hooke_base
   integer, parameter, public :: hooke_not_built = -5     ! this build of the library lacks it
   integer, parameter, public :: hooke_unsuited = -6      ! the method does not support this problem
   integer, parameter, public :: hooke_solver_failed = -7 ! a solver gave up
+  integer, parameter, public :: hooke_internal = -8      ! hooke found a defect of its own
 
   ! The last message of this module itself, in this thread; of length 0 if the library's is newer.
   character(400), save :: refusal = ""

@@ -14,7 +14,7 @@ module hooke_integrators
   implicit none
   private
   public :: hooke_integrator
-  public :: method_count, method_name, method_meant, method_summary, method_is_adaptive, method_is_built
+  public :: method_count, method_name, method_meant, method_summary, method_is_adaptive, method_is_built, method_is_suited
 
   integer, parameter :: of_rate = 1, of_frames = 2, of_steps = 3, of_warnings = 4, of_checkpoints = 5, &
     of_progress = 6, of_coordinates = 7
@@ -85,6 +85,12 @@ contains
   logical function method_is_built(name)
     character(*), intent(in) :: name
     method_is_built = c_method_is_built(to_c(name)) == 1
+  end function
+
+  ! Whether it takes a kind of problem: "second-order", with "bodies", "overdamped", or "first-order".
+  logical function method_is_suited(name, problem)
+    character(*), intent(in) :: name, problem
+    method_is_suited = c_method_is_suited(to_c(name), to_c(problem)) == 1
   end function
 
   ! ---- making ----

@@ -19,6 +19,7 @@ static const struct {
     {HOOKE_EXIT_IO, "could not read or write"},
     {HOOKE_EXIT_NOT_BUILT, "not in this build"},
     {HOOKE_EXIT_NOT_MET, "the wanted error was not reached, or nobody can know"},
+    {HOOKE_EXIT_INTERNAL, "a defect of hooke"},
     {HOOKE_EXIT_INTERRUPTED, "interrupted"},
 };
 enum { EXIT_COUNT = sizeof exits / sizeof exits[0] };

@@ -55,6 +55,7 @@ extern "C" {
 #define HOOKE_NOT_BUILT     (-5) /* this build of the library lacks the requested part */
 #define HOOKE_UNSUITED      (-6) /* the method does not support this kind of problem */
 #define HOOKE_SOLVER_FAILED (-7) /* a nonlinear or error-controlled solver gave up */
+#define HOOKE_INTERNAL      (-8) /* hooke found a defect of its own; nothing was measured */
 
 /* Message of the last failure or outcome in this thread, with a line for each fault of a scene; "" if there was
  * none. Valid until the next call into the library from this thread. */

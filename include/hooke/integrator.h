@@ -51,18 +51,22 @@ HOOKE_API const char *hooke_method_summary(const char *name);
 HOOKE_API int32_t hooke_method_is_adaptive(const char *name);
 /* 1 if this build has the method. */
 HOOKE_API int32_t hooke_method_is_built(const char *name);
+/* 1 if the method takes a kind of problem: "second-order" (particles, q'' = W f(t, q, v)), with "bodies" that move,
+ * "overdamped" systems, or "first-order" (x' = phi(t, x)). 0 if not: integrators of it are HOOKE_UNSUITED, with the
+ * methods that do; -1 if there is no such name or kind. */
+HOOKE_API int32_t hooke_method_is_suited(const char *name, const char *problem);
 
 /* ---- making ---- */
 
 /* Creates an integrator for a committed system, which must outlive it; `options` is copied. HOOKE_BAD_VALUE
- * (an option), HOOKE_BAD_CALL (not committed), HOOKE_UNSUITED (a method that an overdamped system does not
- * have, such as verlet, or a scene that lacks the callbacks of its run), HOOKE_NOT_BUILT, HOOKE_NO_MEMORY. */
+ * (an option), HOOKE_BAD_CALL (not committed), HOOKE_UNSUITED (by hooke_method_is_suited(), or a scene that
+ * lacks the callbacks of its run), HOOKE_NOT_BUILT, HOOKE_NO_MEMORY. */
 HOOKE_API int32_t hooke_integrator_create(const hooke_system *system, const hooke_options *options,
                                           hooke_integrator **integrator);
 
 /* Creates an integrator for x' = phi(t, x) of `size` numbers. HOOKE_UNSUITED for a method that needs
- * positions and velocities or their derivatives, such as symplectic-euler or backward-euler. HOOKE_BAD_VALUE,
- * HOOKE_NOT_BUILT, HOOKE_NO_MEMORY. */
+ * positions and velocities or their derivatives (hooke_method_is_suited()). HOOKE_BAD_VALUE, HOOKE_NOT_BUILT,
+ * HOOKE_NO_MEMORY. */
 HOOKE_API int32_t hooke_integrator_create_first_order(int64_t size, hooke_rate *rate, void *ctx,
                                                       const hooke_options *options,
                                                       hooke_integrator **integrator);

@@ -121,9 +121,8 @@ HOOKE_API int32_t hooke_system_add_anchors(hooke_system *system, const char *nam
  * which it swings, two an axis, and three not in a line hold it still. If its particles are driven, all of
  * them are. Initial velocities have to be those of a rigid motion, or with `project` 1 become those of the
  * nearest one: with the same momentum and angular momentum. `name` may be NULL. Commit refuses a particle in
- * two bodies, and particles that all coincide. Methods: forward-euler, symplectic-euler, verlet (damping and
- * drag at the predicted velocity), heun, rk4 and the error-controlled ones; others are HOOKE_UNSUITED.
- * HOOKE_BAD_VALUE, HOOKE_BAD_CALL, HOOKE_NO_MEMORY. */
+ * two bodies, and particles that all coincide. hooke_method_is_suited(name, "bodies") says which methods step them;
+ * verlet takes damping and drag at the predicted velocity. HOOKE_BAD_VALUE, HOOKE_BAD_CALL, HOOKE_NO_MEMORY. */
 HOOKE_API int32_t hooke_system_add_body(hooke_system *system, const char *name, int64_t count,
                                         const int64_t *particles, int32_t project);
 

@@ -136,6 +136,8 @@ const char *hooke_status_name(int32_t status) {
     return "method does not take this problem";
   case HOOKE_SOLVER_FAILED:
     return "solver failed";
+  case HOOKE_INTERNAL:
+    return "defect of hooke";
   default:
     return "unknown status";
   }

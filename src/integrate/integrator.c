@@ -6,7 +6,6 @@
 #include "core/memory.h"
 #include "core/named_number.h"
 #include "core/status.h"
-#include "integrate/method/bodies.h"
 #include "integrate/solve/reduced.h"
 #include "model/callbacks.h"
 
@@ -68,31 +67,12 @@ static int32_t gather_crew(hooke_integrator *it) {
   return workers > 1 && it->pool == NULL ? HOOKE_NO_MEMORY : HOOKE_OK;
 }
 
-static int32_t take_bodies(hooke_integrator *it) {
-  const struct hk_method *method = hk_method_with_bodies(it->method);
-  if (method == NULL)
-    return hk_fail(HOOKE_UNSUITED, "method",
-                   "%s does not know rigid bodies yet; allowed in a scene with bodies: forward-euler, "
-                   "symplectic-euler, verlet, heun, rk4, backward-euler, tr-bdf2, implicit-midpoint and the "
-                   "error-controlled methods",
-                   it->method->name);
-  it->method = method;
-  return HOOKE_OK;
-}
-
 /* `it` is the integrator from here on, with its problem still missing. */
 static int32_t take_system(hooke_integrator *it, const hooke_system *system, hooke_integrator **out) {
-  int32_t status = HOOKE_OK;
+  int32_t status = hk_method_require(it->method, system);
   it->system = system;
   it->size = 3 * system->particle_count;
-  if (system->bodies.moving == 0 && !hk_method_suits(it->method->name, system)) {
-    status = hk_fail(HOOKE_UNSUITED, "method", "%s %s", it->method->name,
-                     system->friction > 0.0
-                         ? "steps positions and velocities apart, and an overdamped scene has no such parts; "
-                           "take one of the methods that do not, such as rk4"
-                         : "takes first-order problems only");
-  }
-  if (status == HOOKE_OK && system->bodies.moving > 0) status = take_bodies(it);
+  if (status == HOOKE_OK && system->bodies.moving > 0) it->method = it->method->bodies;
   if (it->method->by_tiles && system->friction == 0.0 && hk_goes_by_tiles(system))
     it->by_tiles = HOOKE_MOTION_BY_TILES;
   if (status == HOOKE_OK && it->method->choose) status = it->method->choose(it);
@@ -135,12 +115,7 @@ int32_t hooke_integrator_create_first_order(int64_t size, hooke_rate *rate, void
   it->rate = rate;
   it->rate_ctx = ctx;
   it->size = size;
-  if (!it->method->first_order) {
-    const char *why = it->method->no_first_order;
-    status = hk_fail(
-        HOOKE_UNSUITED, "method", "%s %s; take one of the methods that do not, such as rk4", it->method->name,
-        why ? why : "steps positions and velocities apart, and x' = phi(t, x) has no such parts");
-  }
+  status = hk_method_require(it->method, NULL);
   if (status == HOOKE_OK) status = hk_recent_create(size, 0, 1, &it->recent);
   if (status == HOOKE_OK) {
     it->x = hk_new(2 * size, sizeof(double));

@@ -1,10 +1,10 @@
 #include "integrate/method.h"
 
 #include "core/status.h"
-#include "integrate/method/bodies.h"
 #include "model/system.h"
 
 #include <stddef.h>
+#include <stdio.h>
 #include <string.h>
 
 static const struct hk_method *const table[] = {
@@ -76,21 +76,60 @@ const struct hk_stability *hk_method_stability(const char *name) {
 
 const struct hk_stability *hk_method_stability_in(const char *name, const hooke_system *system) {
   const struct hk_method *method = system->bodies.moving > 0 ? hk_method_find(name) : NULL,
-                         *row = method ? hk_method_with_bodies(method) : NULL;
+                         *row = method ? method->bodies : NULL;
   return row && row->stability.kind != HOOKE_STABILITY_UNKNOWN ? &row->stability : hk_method_stability(name);
 }
 
-int32_t hk_method_suits(const char *name, const hooke_system *system) {
-  const struct hk_method *method = hk_method_find(name);
-  if (system->bodies.moving > 0 && hk_method_with_bodies(method) == NULL) return 0;
-  if (system->friction > 0.0) return method->first_order || method->implicit;
-  return method->second_order;
+/* ---- what methods take ---- */
+
+enum { SECOND_ORDER, BODIES, OVERDAMPED, FIRST_ORDER, PROBLEMS };
+
+static const struct {
+  const char *word, *refusal;
+} problems[PROBLEMS] = {
+    [SECOND_ORDER] = {"second-order", "takes first-order problems only"},
+    [BODIES] = {"bodies", "does not know rigid bodies yet"},
+    [OVERDAMPED] = {"overdamped",
+                    "steps positions and velocities apart, and an overdamped scene has no such parts"},
+    [FIRST_ORDER] = {"first-order",
+                     "steps positions and velocities apart, and x' = phi(t, x) has no such parts"},
+};
+
+static int32_t takes(const struct hk_method *method, int problem) {
+  return (const int32_t[]){method->second_order, method->bodies != NULL, method->overdamped,
+                           method->first_order}[problem];
 }
 
-int32_t hk_method_require_bodies(const char *name, const hooke_system *system) {
-  if (system->bodies.moving == 0 || hk_method_suits(name, system)) return HOOKE_OK;
-  return hk_fail(HOOKE_UNSUITED, "bodies", "%s does not know rigid bodies yet; the scene has %lld that move",
-                 name, (long long)system->bodies.moving);
+static int problem_of(const hooke_system *system) {
+  if (system == NULL) return FIRST_ORDER;
+  return system->bodies.moving > 0 ? BODIES : system->friction > 0.0 ? OVERDAMPED : SECOND_ORDER;
+}
+
+int32_t hk_method_suits(const char *name, const hooke_system *system) {
+  return takes(hk_method_find(name), problem_of(system));
+}
+
+int32_t hk_method_require(const struct hk_method *method, const hooke_system *system) {
+  const int problem = problem_of(system);
+  const int32_t solves = problem == FIRST_ORDER && method->implicit;
+  char list[512] = "";
+  if (takes(method, problem)) return HOOKE_OK;
+  for (int64_t k = 0; k < ROWS; k++) {
+    const size_t used = strlen(list);
+    if (table[k]->built && !table[k]->reference && takes(table[k], problem))
+      snprintf(list + used, sizeof list - used, "%s%s", used ? ", " : "", table[k]->name);
+  }
+  return hk_fail(HOOKE_UNSUITED, "method", "%s %s; allowed: %s", method->name,
+                 solves ? "solves its step with the derivative of the forces, and x' = phi(t, x) brings none"
+                        : problems[problem].refusal,
+                 list);
+}
+
+int32_t hooke_method_is_suited(const char *name, const char *problem) {
+  const struct hk_method *method = hk_method_find(name);
+  for (int k = 0; k < PROBLEMS && method; k++)
+    if (strcmp(problems[k].word, problem) == 0) return takes(method, k);
+  return -1;
 }
 
 const char *hk_method_of_euler(const hooke_system *system) {

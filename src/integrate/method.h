@@ -35,11 +35,13 @@ struct hk_method {
   int32_t order;     /* of a fixed-step method, on smooth forces */
   const char *judge; /* of its runs: a method of higher order, or of another kind; NULL: none of its cost */
   const char *checked_by; /* the method that the beginning of its runs is held against; NULL: rk4 */
-  int32_t first_order, second_order; /* problems it takes: x' = phi(t, x); q' = v, v' = W f */
+  int32_t first_order, second_order; /* problems it takes: x' = phi(t, x); q' = v, v' = W f; */
+  int32_t overdamped;                /* overdamped systems; */
+  const struct hk_method
+      *bodies;      /* systems in which bodies move: the row that steps them, itself or another */
   int32_t implicit; /* 1: takes a step by the solution of nonlinear equations, with the option `newton` */
   int32_t by_tiles; /* 1: steps by hk_integrator_move() alone, if `choose` says nothing else */
   struct hk_stability stability;
-  const char *no_first_order; /* why it takes none, if not for stepping positions and velocities apart */
   /* the largest step [s] at which it solves nothing, where larger ones do: 0 if all do, infinite if none does.
    * NULL: steps of all sizes cost the same */
   int32_t (*explicit_step)(const hooke_system *system, double *step);
@@ -60,7 +62,8 @@ struct hk_method {
 
 extern const struct hk_method hk_forward_euler, hk_symplectic_euler, hk_verlet, hk_shardlow, hk_heun, hk_rk4,
     hk_backward_euler, hk_tr_bdf2, hk_implicit_midpoint, hk_cvode_bdf, hk_cvode_adams, hk_rk8pd,
-    hk_arkode_esdirk;
+    hk_arkode_esdirk, hk_forward_euler_bodies, hk_symplectic_euler_bodies, hk_verlet_bodies, hk_heun_bodies,
+    hk_rk4_bodies;
 
 /* Row of this name, or NULL; its stability, of unknown kind if there is no such method. */
 const struct hk_method *hk_method_find(const char *name);
@@ -68,11 +71,10 @@ const struct hk_stability *hk_method_stability(const char *name);
 /* The same for steps of this committed system, in which bodies may move. */
 const struct hk_stability *hk_method_stability_in(const char *name, const hooke_system *system);
 
-/* 1 if the method takes this committed system; of an overdamped one, by the methods of first-order problems
- * and the implicit ones. */
+/* 1 if the method takes this committed system. */
 int32_t hk_method_suits(const char *name, const hooke_system *system);
-/* HOOKE_UNSUITED if the system has bodies that move, and the method does not take it. */
-int32_t hk_method_require_bodies(const char *name, const hooke_system *system);
+/* HOOKE_UNSUITED if it does not, with those that do; NULL: a problem x' = phi(t, x). */
+int32_t hk_method_require(const struct hk_method *method, const hooke_system *system);
 
 /* The explicit method of Euler that this committed system takes. */
 const char *hk_method_of_euler(const hooke_system *system);

@@ -13,17 +13,18 @@ void hk_check_whole(uint32_t *value, int64_t number) {
   hk_check_add(value, &number, 1, sizeof number);
 }
 
-static void add_particles(uint32_t *value, const hooke_system *system) {
+static void add_particles(const hooke_system *system, uint32_t *value) {
   const int64_t n = system->particle_count;
   hk_check_whole(value, n);
   hk_check_add(value, system->position, 3 * n, sizeof(double));
   hk_check_whole(value, system->velocity != NULL);
   if (system->velocity) hk_check_add(value, system->velocity, 3 * n, sizeof(double));
   hk_check_add(value, system->mass, n, sizeof(double));
+  if (system->friction > 0.0) hk_check_add(value, system->weight, n, sizeof(double));
   hk_check_add(value, system->constrained, n, 1);
 }
 
-static void add_drives(uint32_t *value, const hooke_system *system) {
+static void add_drives(const hooke_system *system, uint32_t *value) {
   hk_check_whole(value, system->drive_count);
   for (int64_t k = 0; k < system->drive_count; k++) {
     const struct hk_drive_group *drive = &system->drive[k];
@@ -40,28 +41,55 @@ static void add_drives(uint32_t *value, const hooke_system *system) {
   }
 }
 
-static void add_bodies(uint32_t *value, const hooke_system *system) {
-  for (int64_t k = 0; k < system->bodies.count; k++) {
-    const struct hk_body *body = &system->bodies.body[k];
+/* By their first particles: the order in which they were added moves nothing. */
+static void add_bodies(const hooke_system *system, uint32_t *value) {
+  for (int64_t p = 0; p < system->particle_count && system->bodies.of; p++) {
+    if (system->bodies.of[p] < 0) continue;
+    const struct hk_body *body = &system->bodies.body[system->bodies.of[p]];
+    if (body->particle[0] != p) continue;
     hk_check_whole(value, body->count);
     hk_check_add(value, body->particle, body->count, sizeof *body->particle);
   }
 }
 
+static const struct {
+  const char *name;
+  void (*add)(const hooke_system *system, uint32_t *value);
+} pieces[] = {{"particles", add_particles}, {"driven", add_drives}, {"bodies", add_bodies}};
+
+enum { PIECES = sizeof pieces / sizeof pieces[0] };
+
+/* Adds one of these, or a force; returns its name, NULL past the last. A force that does not say what it depends on
+ * equals no other. */
+static const char *add_piece(const hooke_system *system, int32_t k, uint32_t *value) {
+  if (k < PIECES) {
+    pieces[k].add(system, value);
+    return pieces[k].name;
+  }
+  const struct hk_force_row *row = hk_force_table(k - PIECES);
+  if (row == NULL) return NULL;
+  const int32_t present = row->present(system);
+  hk_check_whole(value, present);
+  if (present && row->check)
+    row->check(system, value);
+  else if (present)
+    hk_check_add(value, &system, 1, sizeof system);
+  return row->name;
+}
+
 uint32_t hk_system_check_value(const hooke_system *system) {
   uint32_t value = 0;
-  add_particles(&value, system);
-  for (int32_t k = 0; hk_force_table(k); k++) {
-    if (hk_force_table(k)->check) hk_force_table(k)->check(system, &value);
-  }
-  hk_check_add(&value, system->gravity, 3, sizeof(double));
-  hk_check_add(&value, &system->drag, 1, sizeof(double));
-  if (system->friction > 0.0) {
-    hk_check_add(&value, system->weight, system->particle_count, sizeof(double));
-    hk_check_add(&value, system->pull, 3, sizeof(double));
-  }
-  hk_check_whole(&value, system->force != NULL);
-  add_drives(&value, system);
-  add_bodies(&value, system);
+  for (int32_t k = 0; add_piece(system, k, &value); k++)
+    continue;
   return value;
+}
+
+const char *hk_system_difference(const hooke_system *one, const hooke_system *other) {
+  const char *name;
+  uint32_t value = 0, expected = 0;
+  for (int32_t k = 0; (name = add_piece(one, k, &value)) != NULL; k++) {
+    add_piece(other, k, &expected);
+    if (value != expected) return name;
+  }
+  return NULL;
 }

@@ -36,8 +36,8 @@ struct hk_linear {
 
 struct hooke_system {
   int32_t committed;
-  int32_t
-      borrows; /* 1: all but what depends on the callback force is another's (hooke_system_with_force()) */
+  int32_t borrows; /* 1: by hooke_system_with_force(), all but what depends on its force is another's */
+  _Atomic int32_t is_copied_whole; /* 1: a variant that leaves out nothing was found to equal it */
 
   /* particles, 3 or 1 doubles each */
   int64_t particle_count, particle_capacity;

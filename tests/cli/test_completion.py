@@ -81,7 +81,7 @@ def test_the_script_is_clean_bash(folder):
 
 def test_the_first_word(complete):
     options = re.findall(r"--\w+", help_of().split("\nin place of a verb:\n")[1].split("\n\n")[0])
-    assert complete([""]) == {*VERBS, *options} and len(options) == 4
+    assert complete([""]) == {*VERBS, *options} and len(options) == 5
     assert complete(["li"]) == {"limit"}
     assert complete(["--completion", ""]) == {"bash", "zsh", "fish"}
     assert complete(["make", ""]) == {*KINDS, "--help"}

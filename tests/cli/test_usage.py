@@ -36,6 +36,16 @@ def test_help_lists_verbs_and_methods(hooke):
         assert re.search(rf"^  {word} ", answer.out, re.MULTILINE), word
 
 
+def test_methods_say_what_they_take(hooke):
+    answer = hooke("methods")
+    assert (answer.code, answer.err, answer.out) == (0, "", hooke("--methods").out)
+    rows = {words[0]: words[1:] for words in map(str.split, answer.out.splitlines())}
+    assert rows.pop("method") == ["bodies", "overdamped", "first-order"]
+    listed = hooke("--help").out.split("\nmethods:\n")[1].split("\n\n")[0]
+    assert list(rows) == re.findall(r"^  ([\w-]+) ", listed, re.MULTILINE)
+    assert (rows["shardlow"], rows["tr-bdf2"], rows["rk4"]) == (["no"] * 3, ["yes", "yes", "no"], ["yes"] * 3)
+
+
 @pytest.mark.parametrize("verb", VERBS)
 def test_help_of_a_verb_has_units_and_defaults(hooke, verb):
     answer = hooke(verb, "--help")

@@ -68,7 +68,9 @@ contains
       call expect(integrator%count("steps") > 0, method // " counts its steps")
       call expect(hooke_method_meant(method) == method, method // " means itself")
       call expect(len(hooke_method_summary(method)) > 10, method // " has a summary")
+      call expect(hooke_method_is_suited(method, "second-order"), method // " takes particles")
     end do
+    call expect(.not. hooke_method_is_suited("shardlow", "bodies"), "and not all take bodies")
     call expect(fixed == 9, "the nine methods of fixed step ran")
     call expect(hooke_method_name(hooke_method_count() + 1) == "", "no name past the last method")
   end subroutine

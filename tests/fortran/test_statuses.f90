@@ -4,8 +4,8 @@ program test_statuses
   use hooke
   use scenes
   implicit none
-  integer, parameter :: all(11) = [hooke_ok, hooke_stopped, hooke_diverged, hooke_step_limit, hooke_no_memory, &
-    hooke_bad_value, hooke_bad_call, hooke_io_failed, hooke_not_built, hooke_unsuited, hooke_solver_failed]
+  integer, parameter :: all(12) = [hooke_ok, hooke_stopped, hooke_diverged, hooke_step_limit, hooke_no_memory, &
+    hooke_bad_value, hooke_bad_call, hooke_io_failed, hooke_not_built, hooke_unsuited, hooke_solver_failed, hooke_internal]
   character(10) :: argument
   integer :: k
 

@@ -58,9 +58,9 @@ int32_t twin_rope(const char *method, double *q, double *v) {
 }
 
 int32_t twin_status(int32_t place) {
-  const int32_t all[] = {HOOKE_OK,        HOOKE_STOPPED,   HOOKE_DIVERGED,     HOOKE_STEP_LIMIT,
-                         HOOKE_NO_MEMORY, HOOKE_BAD_VALUE, HOOKE_BAD_CALL,     HOOKE_IO_FAILED,
-                         HOOKE_NOT_BUILT, HOOKE_UNSUITED,  HOOKE_SOLVER_FAILED};
+  const int32_t all[] = {HOOKE_OK,        HOOKE_STOPPED,   HOOKE_DIVERGED,      HOOKE_STEP_LIMIT,
+                         HOOKE_NO_MEMORY, HOOKE_BAD_VALUE, HOOKE_BAD_CALL,      HOOKE_IO_FAILED,
+                         HOOKE_NOT_BUILT, HOOKE_UNSUITED,  HOOKE_SOLVER_FAILED, HOOKE_INTERNAL};
   return place >= 1 && place <= (int32_t)(sizeof all / sizeof *all) ? all[place - 1] : 99;
 }
 

@@ -37,6 +37,80 @@ static void test_table(void **unused) {
     assert_int_equal(hooke_method_is_built(expected[k]), 1);
 }
 
+/* ---- what a method takes ---- */
+
+static int32_t no_rate(int64_t n, double t, const double *x, double *rate, void *ctx) {
+  (void)n, (void)t, (void)x, (void)ctx;
+  rate[0] = 0.0;
+  return 0;
+}
+
+static hooke_system *system_of(const char *problem) {
+  static const double position[] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
+  static const int64_t all[] = {0, 1, 2};
+  hooke_system *system = small_system(3, position, NULL, 1.0, 0);
+  if (strcmp(problem, "overdamped") == 0) {
+    check_ok(hooke_system_set_dynamics(system, problem));
+    check_ok(hooke_system_set_drag(system, 1.0));
+  }
+  if (strcmp(problem, "bodies") == 0) check_ok(hooke_system_add_body(system, "plate", 3, all, 0));
+  check_ok(hooke_system_commit(system));
+  return system;
+}
+
+static int32_t create(const char *method, const char *problem) {
+  hooke_options *options = run_options((struct run){.method = method, .step = 0.1, .duration = 1.0});
+  hooke_system *system = system_of(problem);
+  hooke_integrator *integrator = NULL;
+  const int32_t status = strcmp(problem, "first-order") == 0
+                             ? hooke_integrator_create_first_order(1, no_rate, NULL, options, &integrator)
+                             : hooke_integrator_create(system, options, &integrator);
+  hooke_integrator_destroy(integrator);
+  hooke_system_destroy(system);
+  hooke_options_destroy(options);
+  return status;
+}
+
+/* The message of a refusal lists those that take the problem, and no other. */
+static void check_list(const char *method, const char *problem) {
+  char list[512] = "; allowed: ";
+  for (int64_t m = 0, count = 0; m < hooke_method_count(); m++) {
+    const size_t used = strlen(list);
+    const char *name = hooke_method_name(m);
+    if (hooke_method_is_built(name) && hooke_method_is_suited(name, problem) == 1)
+      snprintf(list + used, sizeof list - used, "%s%s", count++ ? ", " : "", name);
+  }
+  check_message(method);
+  check_message(list);
+  const char *end = strstr(hooke_last_error(), "; allowed: ");
+  assert_string_equal(end, list);
+}
+
+/* Integrators are made of what a method says that it takes, and of nothing else. */
+static void test_methods_take_what_they_say(void **unused) {
+  (void)unused;
+  static const char *const problems[] = {"second-order", "bodies", "overdamped", "first-order"};
+  int32_t taken[4] = {0};
+  for (int k = 0; k < 4; k++) {
+    for (int64_t m = 0; m < hooke_method_count() + 2; m++) {
+      static const char *const others[] = {"rk8pd", "arkode-esdirk"};
+      const int64_t other = m - hooke_method_count();
+      const char *method = other < 0 ? hooke_method_name(m) : others[other];
+      const int32_t takes = hooke_method_is_suited(method, problems[k]);
+      assert_in_range(takes, 0, 1);
+      taken[k] += other < 0 && takes;
+      if (hooke_method_is_built(method) != 1) continue;
+      check_status(create(method, problems[k]), takes ? HOOKE_OK : HOOKE_UNSUITED);
+      if (!takes) check_list(method, problems[k]);
+    }
+  }
+  assert_int_equal(taken[0], hooke_method_count());
+  for (int k = 1; k < 4; k++)
+    check_between(taken[k], 5.0, (double)hooke_method_count() - 1.0);
+  assert_int_equal(hooke_method_is_suited("no-such-method", "bodies"), -1);
+  assert_int_equal(hooke_method_is_suited("verlet", "no such problem"), -1);
+}
+
 /* The largest position error at the first reference time, over the largest position. */
 static double error_of(const struct reference *reference, const hooke_system *system, struct run run) {
   const int64_t size = 3 * reference->particle_count;
@@ -138,6 +212,7 @@ static void test_bdf_strides_over_damped_modes(void **unused) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(test_table),
+                                     cmocka_unit_test(test_methods_take_what_they_say),
                                      cmocka_unit_test(test_every_method_on_every_scene),
                                      cmocka_unit_test(test_bdf_strides_over_damped_modes)};
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -19,6 +19,7 @@ def test_the_kinds_of_exceptions():
         -5: (hooke.NotBuilt, NotImplementedError, "not in this build"),
         -6: (hooke.Unsuited, ValueError, "unsuited"),
         -7: (hooke.SolverFailed, ArithmeticError, "solver failed"),
+        -8: (hooke.Internal, RuntimeError, "defect of hooke"),
     }
     for status, (kind, base, _) in expected.items():
         assert issubclass(kind, hooke.Error) and issubclass(kind, base) and kind.status == status

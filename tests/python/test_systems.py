@@ -294,6 +294,9 @@ def test_a_scene_gives_its_title_text_and_options(scene):
     assert scene.system is scene.system
 
 
+APART = ("symplectic-euler", "verlet", "shardlow")  # step positions and velocities apart
+
+
 def test_facts():
     facts = hooke.build_facts()
     assert facts["version"] and facts["licence"] and facts["instructions"]
@@ -302,6 +305,8 @@ def test_facts():
     for method in hooke.methods():
         assert method.summary and method.adaptive == method.name.startswith("cvode")
         assert method.built or not facts["sundials"]
+        assert (method.bodies, method.overdamped) == (method.name != "shardlow", method.name not in APART)
+        assert method.first_order == (method.name in ("forward-euler", "heun", "rk4") or method.adaptive)
 
 
 def test_an_empty_system_runs():

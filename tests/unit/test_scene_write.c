@@ -322,16 +322,30 @@ static void keys_of_a_scene_are_applied(void **state) {
   hooke_system_destroy(system);
 }
 
-static void callbacks_cannot_be_written(void **state) {
+static void check_not_written(const hooke_system *system, const char *force) {
+  check_status(hooke_scene_write("/tmp/hooke-never-written.json", system, NULL, NULL), HOOKE_UNSUITED);
+  check_message(force);
+  assert_int_not_equal(access("/tmp/hooke-never-written.json", F_OK), 0);
+}
+
+/* Forces that have no key: a callback, and one that only the inside knows. */
+static void forces_without_a_key_are_not_lost(void **state) {
   (void)state;
+  static const struct hk_element element = {.count = 1, .weight = {1.0}, .k_along = 2.0, .over = 1.0};
+  static const double place[3] = {0.0, 0.0, 0.0}, one = 1.0;
   struct random_scene scene;
   random_scene_create(
       (struct random_scene_request){.seed = 5, .particles = 10, .springs = 9, .features = SCENE_CALLBACK},
       &scene);
-  check_status(hooke_scene_write("/tmp/hooke-never-written.json", scene.system, NULL, NULL), HOOKE_UNSUITED);
-  check_message("callback");
-  assert_int_not_equal(access("/tmp/hooke-never-written.json", F_OK), 0);
+  check_not_written(scene.system, "\"callback\"");
   random_scene_destroy(&scene);
+  hooke_system *system;
+  check_ok(hooke_system_create(&system));
+  check_ok(hooke_system_add_particles(system, 1, place, NULL, 1, &one, NULL));
+  hk_system_set_linear(system, 1, &element, place);
+  check_ok(hooke_system_commit(system));
+  check_not_written(system, "\"linear\"");
+  hooke_system_destroy(system);
 }
 
 int main(void) {
@@ -345,11 +359,11 @@ int main(void) {
       cmocka_unit_test(zeros_keep_their_sign),
       cmocka_unit_test(whole_numbers_have_one_zero),
       cmocka_unit_test(keys_of_a_scene_are_applied),
-      cmocka_unit_test(callbacks_cannot_be_written),
+      cmocka_unit_test(forces_without_a_key_are_not_lost),
   };
 #else
   const struct CMUnitTest tests[] = {cmocka_unit_test(keys_of_a_scene_are_applied),
-                                     cmocka_unit_test(callbacks_cannot_be_written)};
+                                     cmocka_unit_test(forces_without_a_key_are_not_lost)};
 #endif
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -3,7 +3,9 @@
 #include "check.h"
 #include "random_scene.h"
 #include "run.h"
+#include "small.h"
 
+#include "model/check_value.h"
 #include "model/variant/variant.h"
 
 #include <stdlib.h>
@@ -132,8 +134,114 @@ static void one_is_left_out(void **unused) {
   random_scene_destroy(&scene);
 }
 
+/* ---- every force of the table ---- */
+
+static hooke_options *options_of(const char *table) {
+  hooke_options *options;
+  check_ok(hooke_options_create(table, &options));
+  check_ok(hooke_options_set_number(options, "stiffness", 3.0));
+  return options;
+}
+
+/* Six particles with every force that a system with inertia, or an overdamped one, can have. */
+static hooke_system *with_every_force(int32_t overdamped) {
+  static const double at[18] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 1, 1, 0.5, 2, 0, 1}, one = 1.0;
+  static const int64_t ends[4] = {0, 1, 4, 5}, triple[3] = {1, 0, 2}, corners[4] = {0, 1, 2, 3}, tied = 5;
+  static const struct hk_element element = {
+      .count = 1, .particle = {4}, .weight = {1.0}, .k_along = 2.0, .k_across = 2.0, .over = 1.0};
+  hooke_system *system;
+  hooke_options *spring = options_of("springs"), *altitude = options_of("altitude"),
+                *anchor = options_of("anchors");
+  check_ok(hooke_system_create(&system));
+  check_ok(hooke_system_set_dynamics(system, overdamped ? "overdamped" : "inertial"));
+  check_ok(hooke_system_add_particles(system, 6, at, NULL, 1, &one, NULL));
+  check_ok(hooke_system_add_springs(system, "pair", 2, ends, spring));
+  check_ok(hooke_system_add_bending(system, "fold", 1, triple, 1, &one));
+  check_ok(hooke_system_add_altitude(system, "solid", 1, corners, altitude));
+  check_ok(hooke_system_add_anchors(system, "tie", 1, &tied, anchor));
+  hk_system_set_linear(system, 1, &element, at);
+  check_ok(hooke_system_set_gravity(system, (const double[]){1.0, -9.81, 0.5}));
+  check_ok(hooke_system_set_drag(system, 0.3));
+  check_ok(hooke_system_set_force(system, random_scene_force, NULL, NULL));
+  check_ok(hooke_system_commit(system));
+  hooke_options_destroy(spring);
+  hooke_options_destroy(altitude);
+  hooke_options_destroy(anchor);
+  return system;
+}
+
+/* Without this force, left out as a variant leaves it out, or where none can by hand. */
+static hooke_system *without_force(const hooke_system *system, const struct hk_force_row *row) {
+  struct what what = {.drag = row == &hk_force_drag, .force = row == &hk_force_callback, .group = -1};
+  what.gravity = row == &hk_force_gravity || row == &hk_force_weight;
+  if (row->members) what.group = hk_system_first_group(system, row);
+  hooke_system *made = without(system, what);
+  if (row == &hk_force_linear) made->linear.count = 0;
+  return made;
+}
+
+static void every_force_survives_a_copy_and_is_missed(void **unused) {
+  (void)unused;
+  uint8_t seen[HOOKE_FORCES] = {0};
+  for (int32_t overdamped = 0; overdamped < 2; overdamped++) {
+    hooke_system *system = with_every_force(overdamped), *made = without(system, (struct what){.group = -1});
+    assert_null(hk_system_difference(made, system));
+    assert_true(hk_system_check_value(made) == hk_system_check_value(system));
+    check_same_loops(made, system);
+    check_same_run(made, system, "rk4");
+    hooke_system_destroy(made);
+    for (int32_t k = 0; hk_force_table(k); k++) {
+      const struct hk_force_row *row = hk_force_table(k);
+      if (!row->present(system) || (overdamped && row != &hk_force_weight)) continue;
+      seen[k] = 1;
+      made = without_force(system, row);
+      assert_string_equal(hk_system_difference(made, system), row->name);
+      assert_true(hk_system_check_value(made) != hk_system_check_value(system));
+      hooke_system_destroy(made);
+    }
+    hooke_system_destroy(system);
+  }
+  for (int32_t k = 0; hk_force_table(k); k++) {
+    const struct hk_force_row *row = hk_force_table(k);
+    if (!seen[k] || !row->check || !(row->members ? row->keep != NULL : row->copy != NULL))
+      check_failed("%s is not in the scenes of this test, or has no check value or no copy", row->name);
+  }
+}
+
+/* ---- a copy that is none ---- */
+
+static void check_refused(const hooke_system *system, const char *what) {
+  struct hk_variant variant;
+  struct hk_variant_map map;
+  hooke_system *made;
+  check_ok(hk_variant_create(system, &variant));
+  variant.drag = 1; /* also of a variant that leaves out something else */
+  check_status(hk_variant_make(system, &variant, &made, &map), HOOKE_INTERNAL);
+  assert_null(made);
+  check_message(what);
+  hk_variant_release(&variant);
+}
+
+/* A copy makes springs from the options of their group, and particles of a part from those of the part. */
+static void what_a_copy_changes_is_named(void **unused) {
+  (void)unused;
+  hooke_system *system = with_every_force(0);
+  hooke_options *options = system->group[0].options;
+  check_ok(hooke_options_set_number(options, "stiffness", 4.0));
+  check_refused(system, "changes its springs");
+  check_ok(hooke_options_set_number(options, "stiffness", 3.0));
+  hooke_system_destroy(without(system, (struct what){.drag = 1, .group = -1}));
+  hooke_system_destroy(system);
+  system = small_cloth(3, 10.0, 0.1);
+  system->position[4] += 1e-9;
+  check_refused(system, "changes its particles");
+  hooke_system_destroy(system);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(nothing_left_out_is_the_same),
-                                     cmocka_unit_test(one_is_left_out)};
+                                     cmocka_unit_test(one_is_left_out),
+                                     cmocka_unit_test(every_force_survives_a_copy_and_is_missed),
+                                     cmocka_unit_test(what_a_copy_changes_is_named)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -5,8 +5,6 @@
  * Euler and verlet kick velocities and angular momenta, and in between let particles and bodies move freely;
  * verlet takes the forces of its second kick at velocities and momenta predicted by twice the first kick, of
  * which forces that depend on positions alone see nothing. */
-#include "integrate/method/bodies.h"
-
 #include "core/memory.h"
 #include "core/status.h"
 #include "integrate/method/stages.h"
@@ -189,24 +187,16 @@ static int32_t choose_verlet(hooke_integrator *it) {
 #define HOOKE_BODY_METHOD                                                                                    \
   .built = 1, .second_order = 1, .create = create, .destroy = destroy, .begin = begin, .store = hk_fixed_store
 
-static const struct hk_method rows[] = {
-    {.name = "forward-euler", .order = 1, .step = step_stages, HOOKE_BODY_METHOD},
-    {.name = "symplectic-euler", .order = 1, .step = step_symplectic_euler, HOOKE_BODY_METHOD},
-    {.name = "verlet",
-     .order = 2,
-     .stability = {.kind = HOOKE_STABLE_BY_PREDICTION},
-     .choose = choose_verlet,
-     .forget = forget,
-     .step = step_verlet,
-     HOOKE_BODY_METHOD},
-    {.name = "heun", .order = 2, .step = step_stages, HOOKE_BODY_METHOD},
-    {.name = "rk4", .order = 4, .step = step_stages, HOOKE_BODY_METHOD},
-};
-
-const struct hk_method *hk_method_with_bodies(const struct hk_method *method) {
-  if (method->adaptive || method->implicit) return method; /* it steps or solves for any unknowns */
-  for (size_t k = 0; k < sizeof rows / sizeof rows[0]; k++) {
-    if (strcmp(rows[k].name, method->name) == 0) return &rows[k];
-  }
-  return NULL;
-}
+const struct hk_method hk_forward_euler_bodies = {
+    .name = "forward-euler", .order = 1, .step = step_stages, HOOKE_BODY_METHOD};
+const struct hk_method hk_symplectic_euler_bodies = {
+    .name = "symplectic-euler", .order = 1, .step = step_symplectic_euler, HOOKE_BODY_METHOD};
+const struct hk_method hk_verlet_bodies = {.name = "verlet",
+                                           .order = 2,
+                                           .stability = {.kind = HOOKE_STABLE_BY_PREDICTION},
+                                           .choose = choose_verlet,
+                                           .forget = forget,
+                                           .step = step_verlet,
+                                           HOOKE_BODY_METHOD};
+const struct hk_method hk_heun_bodies = {.name = "heun", .order = 2, .step = step_stages, HOOKE_BODY_METHOD};
+const struct hk_method hk_rk4_bodies = {.name = "rk4", .order = 4, .step = step_stages, HOOKE_BODY_METHOD};

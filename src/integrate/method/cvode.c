@@ -138,15 +138,18 @@ static int32_t store(hooke_integrator *it, double t, hooke_state *state) {
   return hk_unknowns_store(it, &own->unknowns, t, N_VGetArrayPointer(own->y), state);
 }
 
-#define ROW_OF_CVODE                                                                                         \
-  .built = 1, .needs = "SUNDIALS", .adaptive = 1, .first_order = 1, .second_order = 1, .create = create,     \
-  .destroy = destroy, .begin = begin, .step = step, .store = store
+#define BUILT_CVODE                                                                                          \
+  .built = 1, .create = create, .destroy = destroy, .begin = begin, .step = step, .store = store
 
 #else
 
-#define ROW_OF_CVODE .built = 0, .needs = "SUNDIALS", .adaptive = 1, .first_order = 1, .second_order = 1
+#define BUILT_CVODE .built = 0
 
 #endif
+
+#define ROW_OF_CVODE(row)                                                                                    \
+  BUILT_CVODE, .needs = "SUNDIALS", .adaptive = 1, .first_order = 1, .second_order = 1, .bodies = &(row),    \
+               .overdamped = 1
 
 const struct hk_method hk_cvode_bdf = {
     .name = "cvode-bdf",
@@ -154,7 +157,7 @@ const struct hk_method hk_cvode_bdf = {
     .stability = {.kind = HOOKE_STABLE_ALWAYS,
                   .damps_implicitly = 1,
                   .note = "chooses its steps; error control limits them"},
-    ROW_OF_CVODE};
+    ROW_OF_CVODE(hk_cvode_bdf)};
 
 const struct hk_method hk_cvode_adams = {
     .name = "cvode-adams",
@@ -162,4 +165,4 @@ const struct hk_method hk_cvode_adams = {
     .stability = {.kind = HOOKE_STABLE_ALWAYS,
                   .note = "chooses its steps; error control limits them, and for fast "
                           "motion also stability, which it sees as error"},
-    ROW_OF_CVODE};
+    ROW_OF_CVODE(hk_cvode_adams)};

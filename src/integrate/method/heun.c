@@ -16,6 +16,8 @@ const struct hk_method hk_heun = {
     .judge = "rk4",
     .first_order = 1,
     .second_order = 1,
+    .bodies = &hk_heun_bodies,
+    .overdamped = 1,
     .stability = {.kind = HOOKE_STABLE_BY_POLYNOMIAL, .degree = 2},
     .by_tiles = 1,
     .create = create,

@@ -46,13 +46,14 @@ const struct hk_method hk_implicit_midpoint = {
     .order = 2,
     .checked_by = "tr-bdf2",
     .second_order = 1,
+    .bodies = &hk_implicit_midpoint,
+    .overdamped = 1,
     .implicit = 1,
     .stability = {.kind = HOOKE_STABLE_ALWAYS,
                   .damps_implicitly = 1,
                   .note =
                       "stable at every step where forces are linear; accuracy limits it, and in large steps "
                       "whether the equations can be solved"},
-    .no_first_order = "solves its step with the derivative of the forces, and x' = phi(t, x) brings none",
     .create = create,
     .destroy = hk_stage_destroy,
     .begin = hk_fixed_begin,

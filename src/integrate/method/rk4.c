@@ -16,6 +16,8 @@ const struct hk_method hk_rk4 = {
     .checked_by = "cvode-adams",
     .first_order = 1,
     .second_order = 1,
+    .bodies = &hk_rk4_bodies,
+    .overdamped = 1,
     .stability = {.kind = HOOKE_STABLE_BY_POLYNOMIAL, .degree = 4, .axis = 8.0, .half_disc = 2.6156},
     .by_tiles = 1,
     .create = create,

@@ -176,4 +176,6 @@ const struct hk_method hk_rk8pd = {
     .adaptive = 1,
     .first_order = 1,
     .second_order = 1,
+    .bodies = &hk_rk8pd,
+    .overdamped = 1,
     ROW_OF_RK8PD};

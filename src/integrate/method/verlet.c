@@ -188,6 +188,7 @@ const struct hk_method hk_verlet = {
     .order = 2,
     .judge = "rk4",
     .second_order = 1,
+    .bodies = &hk_verlet_bodies,
     .stability = {.kind = HOOKE_STABLE_BY_K, .damps_implicitly = 1},
     .by_tiles = 1,
     .explicit_step = hk_verlet_explicit_step,

@@ -319,8 +319,14 @@ static int32_t check_words(const hooke_system *system) {
                    "a scene file has the force \"%s\" in its parts alone, and this system has %s of its own",
                    group->force->name, group->force->members);
   }
-  if (!hk_system_calls_back(system)) return HOOKE_OK;
-  return hk_fail(HOOKE_UNSUITED, NULL, "a scene file cannot hold callbacks, and this system has one");
+  if (hk_system_calls_back(system))
+    return hk_fail(HOOKE_UNSUITED, NULL, "a scene file cannot hold callbacks, and this system has one");
+  for (int32_t k = 0; k < system->force_row_count; k++) {
+    const struct hk_force_row *row = system->force_row[k];
+    if (!row->members && row != &hk_force_drag && row != &hk_force_weight && row != &hk_force_gravity)
+      return hk_fail(HOOKE_UNSUITED, NULL, "a scene file cannot hold the force \"%s\"", row->name);
+  }
+  return HOOKE_OK;
 }
 
 /* ---- the scene ---- */

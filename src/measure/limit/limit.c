@@ -52,7 +52,7 @@ static const struct hk_option_table limit_table = {"limit", HOOKE_OPTION_ROWS(li
 
 static int32_t add_row(const char *method, void *ctx) {
   struct hk_limit *limit = ctx;
-  const int32_t status = hk_method_require_bodies(method, limit->system);
+  const int32_t status = hk_method_require(hk_method_find(method), limit->system);
   if (status != HOOKE_OK) return status;
   if (limit->row_count == HOOKE_LIMIT_METHODS)
     return hk_fail(HOOKE_BAD_VALUE, "methods", "more than %d methods", HOOKE_LIMIT_METHODS);

@@ -92,7 +92,7 @@ static int32_t add_method(const char *method, void *ctx) {
   if (!hooke_method_is_built(method)) {
     return hk_fail(HOOKE_NOT_BUILT, "methods", "this build is without %s", method);
   }
-  const int32_t status = hk_method_require_bodies(method, study->system);
+  const int32_t status = hk_method_require(hk_method_find(method), study->system);
   if (status != HOOKE_OK) return status;
   if (study->method_count == HOOKE_STUDY_METHODS) {
     return hk_fail(HOOKE_BAD_VALUE, "methods", "more than %d methods", HOOKE_STUDY_METHODS);

@@ -214,7 +214,8 @@ static int32_t offer_others(struct hk_trials *trials) {
       status = offer_fixed(trials, fixed[k]);
   }
   for (int k = 0; k < 2 && status == HOOKE_OK; k++) {
-    if (strcmp(mine, adaptive[k]) != 0) status = offer_adaptive(trials, adaptive[k], 1.0);
+    if (strcmp(mine, adaptive[k]) != 0 && hk_method_suits(adaptive[k], system))
+      status = offer_adaptive(trials, adaptive[k], 1.0);
   }
   return status;
 }

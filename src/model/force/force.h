@@ -22,8 +22,8 @@ struct hk_members {
   double *stiffness, *damping, *rest_length;
 };
 
-/* Everything but `name` and `present` may be NULL, if the force has no such part. A force with elements and
- * without `add_product` and `add_blocks` has its derivative from them. */
+/* Everything but `name`, `present`, `check` and `keep` or `copy` may be NULL, if the force has no such part. A force with
+ * elements and without `add_product` and `add_blocks` has its derivative from them. */
 struct hk_force_row {
   const char *name;
   /* for forces with groups: the name of its members, and the maximum bytes of one (see room.c) */
@@ -33,16 +33,17 @@ struct hk_force_row {
   const struct hk_option_table *options; /* of a group, by the name of the force */
   const char *title;                     /* for forces with elements: "the <title> of particle 3" */
   /* for forces with groups: takes over the groups at commit (HOOKE_NO_MEMORY leaves nothing); releases them;
-   * their bytes; adds all that the forces depend on to a check value; 1 if some member resists compression;
-   * lists the members */
+   * their bytes; 1 if some member resists compression; lists the members */
   int32_t (*commit)(hooke_system *system, const struct hk_group *group, int64_t count);
   void (*release)(hooke_system *system);
   int64_t (*memory)(const hooke_system *system);
-  void (*check)(const hooke_system *system, uint32_t *value);
   int32_t (*resists)(const hooke_system *system);
   void (*list)(const hooke_system *system, const struct hk_members *out);
-  /* adds a group to a variant whose parts do not add it: see variant.h */
+  /* adds all that the force depends on, where it is present, to a check value */
+  void (*check)(const hooke_system *system, uint32_t *value);
+  /* adds a group to a variant whose parts do not add it (see variant.h), or a force without groups */
   int32_t (*keep)(struct hk_variant_maker *maker, const struct hk_group *group, int64_t first);
+  int32_t (*copy)(const struct hk_variant_maker *maker);
   int32_t (*present)(const hooke_system *system);
   /* f += force, on the working copy; HOOKE_STOPPED if a callback asked for it */
   int32_t (*add)(const hooke_system *system, struct hk_motion *motion, double t);

@@ -170,7 +170,7 @@ static int64_t memory(const hooke_system *system) {
 }
 
 static void check(const hooke_system *system, uint32_t *value) {
-  if (present(system)) hk_check_add(value, anchors_of(system)->anchor, count(system), sizeof(struct anchor));
+  hk_check_add(value, anchors_of(system)->anchor, count(system), sizeof(struct anchor));
 }
 
 static void copy_group(const struct hk_variant_maker *maker, const struct hk_group *group,

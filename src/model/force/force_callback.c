@@ -3,6 +3,8 @@
 
 #include "core/memory.h"
 #include "core/status.h"
+#include "model/check_value.h"
+#include "model/variant/variant.h"
 
 #include <math.h>
 #include <string.h>
@@ -44,6 +46,19 @@ static int32_t renew_rows(int64_t numbers, double **rows) {
 }
 
 /* ---- the force ---- */
+
+static void check(const hooke_system *system, uint32_t *value) {
+  hk_check_whole(value, system->force_product != NULL);
+}
+
+static int32_t copy(const struct hk_variant_maker *maker) {
+  const hooke_system *from = maker->from;
+  if (!present(from) || maker->variant->force) return HOOKE_OK;
+  const int32_t status = hk_variant_require_numbers(maker, "a force callback");
+  return status == HOOKE_OK
+             ? hooke_system_set_force(maker->made, from->force, from->force_product, from->force_ctx)
+             : status;
+}
 
 static int32_t stopped(int32_t value, double t) {
   return hk_fail(HOOKE_STOPPED, NULL, "the force callback returned %d at t = %.6g s", (int)value, t);
@@ -122,5 +137,9 @@ static int32_t add_product(const hooke_system *system, const struct hk_point *po
   return value == 0 ? HOOKE_OK : stopped(value, point->t);
 }
 
-const struct hk_force_row hk_force_callback = {
-    .name = "callback", .present = present, .add = add, .add_product = add_product};
+const struct hk_force_row hk_force_callback = {.name = "callback",
+                                               .check = check,
+                                               .copy = copy,
+                                               .present = present,
+                                               .add = add,
+                                               .add_product = add_product};

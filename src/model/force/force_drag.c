@@ -2,9 +2,19 @@
 #include "model/force/force.h"
 
 #include "core/sum.h"
+#include "model/check_value.h"
+#include "model/variant/variant.h"
 
 static int32_t present(const hooke_system *system) {
   return system->drag > 0.0;
+}
+
+static void check(const hooke_system *system, uint32_t *value) {
+  hk_check_add(value, &system->drag, 1, sizeof(double));
+}
+
+static int32_t copy(const struct hk_variant_maker *maker) {
+  return maker->variant->drag ? HOOKE_OK : hooke_system_set_drag(maker->made, hk_system_drag(maker->from));
 }
 
 static void brake(const hooke_system *system, struct hk_motion *motion, int64_t from, int64_t to) {
@@ -69,6 +79,8 @@ static void multiply(const hooke_system *system, double a, double b, const doubl
 
 const struct hk_force_row hk_force_drag = {.name = "drag",
                                            .title = "drag",
+                                           .check = check,
+                                           .copy = copy,
                                            .present = present,
                                            .add = add,
                                            .heat = heat,

@@ -2,6 +2,8 @@
 #include "model/force/force.h"
 
 #include "core/sum.h"
+#include "model/check_value.h"
+#include "model/variant/variant.h"
 
 static int32_t present(const hooke_system *system) {
   return hk_system_has_gravity(system);
@@ -15,6 +17,15 @@ static double energy(const hooke_system *system, const double *q) {
     hk_sum_add(&sum, -mass[p] * ((g[0] * q[3 * p] + g[1] * q[3 * p + 1]) + g[2] * q[3 * p + 2]));
   }
   return hk_sum_value(&sum);
+}
+
+static void check(const hooke_system *system, uint32_t *value) {
+  hk_check_add(value, hk_system_gravity(system), 3, sizeof(double));
+}
+
+static int32_t copy(const struct hk_variant_maker *maker) {
+  return maker->variant->gravity ? HOOKE_OK
+                                 : hooke_system_set_gravity(maker->made, hk_system_gravity(maker->from));
 }
 
 /* ---- in an overdamped system it is a force ---- */
@@ -32,6 +43,8 @@ static int32_t add_weight(const hooke_system *system, struct hk_motion *motion, 
   return HOOKE_OK;
 }
 
-const struct hk_force_row hk_force_weight = {.name = "weight", .present = weighs, .add = add_weight};
+const struct hk_force_row hk_force_weight = {
+    .name = "weight", .check = check, .copy = copy, .present = weighs, .add = add_weight};
 
-const struct hk_force_row hk_force_gravity = {.name = "gravity", .present = present, .energy = energy};
+const struct hk_force_row hk_force_gravity = {
+    .name = "gravity", .check = check, .copy = copy, .present = present, .energy = energy};

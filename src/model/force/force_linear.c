@@ -3,6 +3,8 @@
 #include "model/force/force.h"
 
 #include "core/sum.h"
+#include "model/check_value.h"
+#include "model/variant/variant.h"
 
 #include <math.h>
 #include <string.h>
@@ -14,6 +16,16 @@ void hk_system_set_linear(hooke_system *system, int64_t count, const struct hk_e
 
 static int32_t present(const hooke_system *system) {
   return system->linear.count > 0;
+}
+
+/* A twin and its elements stay within one process, where they are known by their addresses. */
+static void check(const hooke_system *system, uint32_t *value) {
+  hk_check_add(value, &system->linear, 1, sizeof system->linear);
+}
+
+static int32_t copy(const struct hk_variant_maker *maker) {
+  maker->made->linear = maker->from->linear;
+  return present(maker->from) ? hk_variant_require_numbers(maker, "a linear force") : HOOKE_OK;
 }
 
 static double dot(const double a[3], const double b[3]) {
@@ -107,6 +119,8 @@ static int32_t damped(const hooke_system *system) {
 
 const struct hk_force_row hk_force_linear = {.name = "linear",
                                              .title = "linear force",
+                                             .check = check,
+                                             .copy = copy,
                                              .present = present,
                                              .add = add,
                                              .energy = energy,

@@ -2,6 +2,7 @@
 
 #include "core/memory.h"
 #include "core/status.h"
+#include "model/check_value.h"
 
 #include <string.h>
 
@@ -106,29 +107,12 @@ int64_t hk_variant_next_split(const hooke_system *system, const struct hk_varian
   return -1;
 }
 
-/* A callback identifies particles by their numbers. */
-static int32_t check_callbacks(const hooke_system *from, const struct hk_variant *variant) {
-  int32_t renumbered = 0;
-  for (int64_t k = 0; k < from->particle_count; k++)
-    renumbered |= variant->particle[k];
-  for (int64_t k = 0; k < from->part_count; k++)
-    renumbered |= variant->part[k] || variant->scale[k] != 1.0;
-  if (!renumbered || !from->force || variant->force) return HOOKE_OK;
-  return hk_fail(HOOKE_UNSUITED, NULL,
-                 "a force callback knows particles by their numbers, which would change");
-}
-
-static int32_t add_forces(const struct hk_variant_maker *maker) {
-  const hooke_system *from = maker->from;
-  const struct hk_variant *variant = maker->variant;
-  int32_t status = HOOKE_OK;
-  if (hk_system_has_gravity(from) && !variant->gravity)
-    status = hooke_system_set_gravity(maker->made, hk_system_gravity(from));
-  if (status == HOOKE_OK && !variant->drag) status = hooke_system_set_drag(maker->made, hk_system_drag(from));
-  if (status == HOOKE_OK && from->force && !variant->force) {
-    status = hooke_system_set_force(maker->made, from->force, from->force_product, from->force_ctx);
+int32_t hk_variant_require_numbers(const struct hk_variant_maker *maker, const char *what) {
+  for (int64_t p = 0; p < maker->from->particle_count; p++) {
+    if (maker->map->to[p] != p)
+      return hk_fail(HOOKE_UNSUITED, NULL, "%s knows particles by their numbers, which would change", what);
   }
-  return status;
+  return HOOKE_OK;
 }
 
 /* Groups that no part adds: explicit ones, and the remainder of those of parts. */
@@ -143,8 +127,15 @@ static int32_t keep_groups(struct hk_variant_maker *maker) {
     force = group->force;
     if (maker->variant->group[g] || (group->from_part && !hk_variant_breaks_up(maker, group, first)))
       continue;
-    status = force->keep(maker, group, first);
+    if (force->keep) status = force->keep(maker, group, first);
   }
+  return status;
+}
+
+static int32_t copy_others(const struct hk_variant_maker *maker) {
+  int32_t status = HOOKE_OK;
+  for (int32_t k = 0; hk_force_table(k) && status == HOOKE_OK; k++)
+    if (hk_force_table(k)->copy) status = hk_force_table(k)->copy(maker);
   return status;
 }
 
@@ -195,21 +186,19 @@ static void add_velocity(hooke_system *made, const double velocity[3]) {
     made->bodies.body[k].project = 1;
 }
 
-int32_t hk_variant_make(const hooke_system *from, const struct hk_variant *variant, hooke_system **made,
-                        struct hk_variant_map *map) {
+static int32_t make(const hooke_system *from, const struct hk_variant *variant, hooke_system **made,
+                    struct hk_variant_map *map) {
   struct hk_variant_maker maker = {from, variant, NULL, map};
   *map = (struct hk_variant_map){.from = from};
   *made = NULL;
-  int32_t status = hk_system_require_committed(from);
-  if (status == HOOKE_OK) status = check_callbacks(from, variant);
-  if (status == HOOKE_OK) status = hooke_system_create(&maker.made);
+  int32_t status = hooke_system_create(&maker.made);
   if (status == HOOKE_OK) maker.made->memory_limit = from->memory_limit;
   if (status == HOOKE_OK) maker.made->overdamped = from->overdamped;
   if (status == HOOKE_OK) status = hk_variant_add_particles(&maker);
   if (status == HOOKE_OK) status = hk_variant_constrain(&maker);
   if (status == HOOKE_OK) status = keep_groups(&maker);
   if (status == HOOKE_OK) status = keep_bodies(&maker);
-  if (status == HOOKE_OK) status = add_forces(&maker);
+  if (status == HOOKE_OK) status = copy_others(&maker);
   if (status == HOOKE_OK) {
     if (variant->stiffness != 1.0) scale_stiffness(maker.made, variant->stiffness);
     add_velocity(maker.made, variant->velocity);
@@ -222,4 +211,35 @@ int32_t hk_variant_make(const hooke_system *from, const struct hk_variant *varia
     hk_variant_map_release(map);
   }
   return status;
+}
+
+/* What is measured on variants would be wrong if they lost something unasked. */
+static int32_t require_whole(const hooke_system *from) {
+  struct hk_variant nothing;
+  struct hk_variant_map map;
+  hooke_system *copy = NULL;
+  int32_t status = hk_variant_create(from, &nothing);
+  if (status == HOOKE_OK) status = make(from, &nothing, &copy, &map);
+  hk_variant_release(&nothing);
+  if (status != HOOKE_OK) return status;
+  const char *different = hk_system_difference(from, copy);
+  hk_variant_map_release(&map);
+  hooke_system_destroy(copy);
+  if (different)
+    return hk_fail(
+        HOOKE_INTERNAL, NULL,
+        "a copy of the scene loses or changes its %s, so nothing is known of variants of it; this is "
+        "a defect of hooke",
+        different);
+  ((hooke_system *)from)->is_copied_whole = 1;
+  return HOOKE_OK;
+}
+
+int32_t hk_variant_make(const hooke_system *from, const struct hk_variant *variant, hooke_system **made,
+                        struct hk_variant_map *map) {
+  *map = (struct hk_variant_map){.from = from};
+  *made = NULL;
+  int32_t status = hk_system_require_committed(from);
+  if (status == HOOKE_OK && !from->is_copied_whole) status = require_whole(from);
+  return status == HOOKE_OK ? make(from, variant, made, map) : status;
 }

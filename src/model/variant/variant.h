@@ -58,12 +58,13 @@ void hk_variant_place(const struct hk_variant_map *map, int64_t particle, const 
 
 /* Creates and commits the variant of a committed system, and the map into it; the caller owns both. Objects
  * made from options (parts, groups of one material) are made from options again, so that an unchanged variant
- * has the same bits. HOOKE_UNSUITED where a callback would see particles renumbered, and a rigid body would
- * lose some; HOOKE_BAD_VALUE, HOOKE_NO_MEMORY. */
+ * has the same bits. The first variant of a system finds out whether one that leaves out nothing equals it:
+ * HOOKE_INTERNAL, with what differs, if not. HOOKE_UNSUITED where a callback would see particles renumbered, and
+ * a rigid body would lose some; HOOKE_BAD_VALUE, HOOKE_NO_MEMORY. */
 int32_t hk_variant_make(const hooke_system *from, const struct hk_variant *variant, hooke_system **made,
                         struct hk_variant_map *map);
 
-/* ---- steps of hk_variant_build(), for its files alone ---- */
+/* ---- steps of hk_variant_make(), for its files and those of forces alone ---- */
 
 /* A variant under construction: source, changes, result. */
 struct hk_variant_maker {
@@ -97,5 +98,7 @@ int32_t hk_variant_breaks_up(const struct hk_variant_maker *maker, const struct 
 int32_t hk_variant_keep_springs(struct hk_variant_maker *maker, const struct hk_group *group, int64_t first);
 int32_t hk_variant_keep_bending(struct hk_variant_maker *maker, const struct hk_group *group, int64_t first);
 int32_t hk_variant_keep_altitude(struct hk_variant_maker *maker, const struct hk_group *group, int64_t first);
+/* HOOKE_UNSUITED if particles are renumbered, for a force (`what`) that knows them by their numbers. */
+int32_t hk_variant_require_numbers(const struct hk_variant_maker *maker, const char *what);
 
 #endif

@@ -66,19 +66,18 @@ static int32_t add_drive(hooke_system *made, const struct hk_drive_group *drive,
   return hooke_system_drive_callback(made, count, particle, drive->callback, drive->ctx);
 }
 
-/* In the order of the drive if the particles are the same: its callback depends on that order. */
-static int64_t list_driven(const struct hk_variant_maker *maker, int64_t d, const int64_t *how,
-                           int64_t *list) {
+/* In the order of the drive, on which its callback depends, and then those between them, which no callback knows;
+ * takes them out of `how`. */
+static int64_t list_driven(const struct hk_variant_maker *maker, int64_t d, int64_t *how, int64_t *list) {
   const struct hk_drive_group *drive = &maker->from->drive[d];
   int64_t count = 0;
-  if (drive->kind == HOOKE_DRIVE_CALLBACK) {
-    for (int64_t k = 0; k < drive->count; k++) {
-      const int64_t to = maker->map->to[drive->particle[k]];
-      if (to >= 0) list[count++] = to;
-    }
-    return count;
+  for (int64_t k = 0; k < drive->count; k++) {
+    const int64_t to = maker->map->to[drive->particle[k]];
+    if (to < 0 || how[to] != DRIVEN + d) continue;
+    list[count++] = to;
+    how[to] = FREE;
   }
-  for (int64_t p = 0; p < maker->made->particle_count; p++) {
+  for (int64_t p = 0; p < maker->made->particle_count && drive->kind != HOOKE_DRIVE_CALLBACK; p++) {
     if (how[p] == DRIVEN + d) list[count++] = p;
   }
   return count;

@@ -22,7 +22,7 @@ import importlib
 from typing import Any
 
 from ._queries import Blocks, BodyMotion, Derived, Material, build_facts
-from ._status import BadCall, BadValue, Error, IOFailed, NoMemory, NotBuilt, SolverFailed, Stopped, Unsuited
+from ._status import BadCall, BadValue, Error, Internal, IOFailed, NoMemory, NotBuilt, SolverFailed, Stopped, Unsuited
 from ._types import Springs, Transform
 from .comparison import Comparison, compare
 from .cost import Cost, cost
@@ -60,6 +60,7 @@ __all__ = [
     "Frames",
     "IOFailed",
     "Integrator",
+    "Internal",
     "Limit",
     "Material",
     "Method",

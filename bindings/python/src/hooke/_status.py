@@ -75,13 +75,19 @@ class SolverFailed(Error, ArithmeticError):
         return str(self) if self.integrator is None else self.integrator.diagnosis
 
 
+class Internal(Error, RuntimeError):
+    """The library found a defect of its own; nothing was measured."""
+
+    status = -8
+
+
 class Stopped(Error):
     """A callback asked to stop outside of a run, so that there is no result to return."""
 
     status = 1
 
 
-_KINDS = (NoMemory, BadValue, BadCall, IOFailed, NotBuilt, Unsuited, SolverFailed, Stopped)
+_KINDS = (NoMemory, BadValue, BadCall, IOFailed, NotBuilt, Unsuited, SolverFailed, Internal, Stopped)
 FAILURES = {kind.status: kind for kind in _KINDS}
 
 

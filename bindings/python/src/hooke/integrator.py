@@ -52,12 +52,16 @@ _RUNNING = "this integrator is running; a callback or another thread needs one o
 
 
 class Method(NamedTuple):
-    """A method: its name, a one-line description, whether it chooses its steps itself, whether this build has it."""
+    """A method: its name, a one-line description, whether it chooses its steps itself, whether this build has it, and
+    whether it takes systems with rigid bodies, overdamped ones, and `FirstOrder` problems."""
 
     name: str
     summary: str
     adaptive: bool
     built: bool
+    bodies: bool
+    overdamped: bool
+    first_order: bool
 
 
 def methods() -> list[Method]:
@@ -69,6 +73,7 @@ def methods() -> list[Method]:
             text(lib.hooke_method_summary(name)),
             lib.hooke_method_is_adaptive(name) == 1,
             lib.hooke_method_is_built(name) == 1,
+            *(lib.hooke_method_is_suited(name, problem) == 1 for problem in (b"bodies", b"overdamped", b"first-order")),
         )
         for name in names
     ]
