@@ -143,7 +143,8 @@ hid_t hk_h5_texts(hid_t where, const char *name, int64_t count, int64_t length) 
   herr_t result = type < 0 ? -1 : H5Tset_size(type, (size_t)(length > 0 ? length : 1));
   if (result >= 0) result = H5Tset_strpad(type, H5T_STR_NULLPAD);
   if (result >= 0) result = H5Tset_cset(type, H5T_CSET_UTF8);
-  if (result >= 0) dataset = hk_h5_array(where, name, type, count < 0 ? 0 : 1, &size, NULL);
+  /* HDF5 fills a text of more than 1 MiB from beyond the buffer of that size */
+  if (result >= 0) dataset = hk_h5_room(where, name, type, count < 0 ? 0 : 1, &size);
   hk_h5_drop(type);
   return dataset;
 }
