@@ -55,6 +55,7 @@ int32_t cli_run_goes_beyond(const struct cli_run *run);
 
 /* Runs the scene into a trajectory that is there to be shown, with --want or its own method (run.c);
  * `outcome` as hooke_integrator_run() has it. A failure is reported and gives the exit code. */
-int cli_run_to_show(const struct cli_arguments *arguments, const char *output, int32_t *outcome);
+int cli_run_to_show(const struct cli_arguments *arguments, const char *page, const char *output,
+                    int32_t *outcome);
 
 #endif

@@ -335,9 +335,11 @@ static void release(struct cli_run *run) {
   cli_setup_destroy(&run->setup);
 }
 
-int cli_run_to_show(const struct cli_arguments *arguments, const char *output, int32_t *outcome) {
+int cli_run_to_show(const struct cli_arguments *arguments, const char *page, const char *output,
+                    int32_t *outcome) {
   struct cli_run run = {.arguments = arguments, .output = output, .shown = 1};
   int code = make_ready(&run);
+  if (code == HOOKE_EXIT_DONE) code = cli_setup_check_read(arguments, &run.setup, page);
   if (code == HOOKE_EXIT_DONE) code = integrate_to_want(&run);
   tell_warnings(&run);
   if (code == HOOKE_EXIT_DONE && run.outcome != HOOKE_OK && !arguments->quiet)

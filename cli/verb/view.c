@@ -138,7 +138,7 @@ static int run_and_show(const struct cli_arguments *arguments, const char *outpu
   int32_t outcome = HOOKE_OK;
   if (!path) return cli_report(arguments, HOOKE_EXIT_BAD_INPUT, "out of memory");
   snprintf(path, size, "%s.%ld.h5", output, (long)getpid());
-  int code = cli_run_to_show(arguments, path, &outcome);
+  int code = cli_run_to_show(arguments, output, path, &outcome);
   struct shown shown = {.count = 1, .path = {path}};
   if (code == HOOKE_EXIT_DONE) code = show_trajectories(arguments, &shown, output);
   unlink(path);

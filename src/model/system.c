@@ -41,6 +41,7 @@ void hooke_system_destroy(hooke_system *system) {
   hk_free(system->derived);
   hk_free(system->drive);
   hk_free(system->force_row);
+  hk_free(system->input);
   hk_handle_free(system);
 }
 

@@ -4,6 +4,7 @@
 #include "integrate/integrator.h"
 #include "hooke/scene.h"
 #include "io/file/atomic_file.h"
+#include "io/file/inputs.h"
 #include "io/scene/scene.h"
 #include "io/scene/scene_words.h"
 #include "io/file/text.h"
@@ -415,7 +416,8 @@ static int32_t compose(const hooke_system *system, const char *title, const hook
 int32_t hooke_scene_write(const char *path, const hooke_system *system, const char *title,
                           const hooke_options *run) {
   struct hk_text laid = {.bytes = NULL};
-  int32_t status = compose(system, title, run, &laid);
+  int32_t status = hk_inputs_refuse_save(system, path);
+  if (status == HOOKE_OK) status = compose(system, title, run, &laid);
   if (status == HOOKE_OK) status = hk_file_write(path, laid.bytes, laid.length);
   hk_text_release(&laid);
   return status;

@@ -10,6 +10,7 @@
 
 #include "io/file/atomic_file.h"
 #include "io/trajectory/file_check_h5.h"
+#include "io/file/inputs.h"
 #include "io/scene/scene.h"
 #include "io/trajectory/trajectory.h"
 #include "io/trajectory/trajectory_h5.h"
@@ -101,7 +102,9 @@ int32_t hooke_trajectory_create(const char *path, const hooke_system *system,
                    "is missing: a trajectory needs to know how many frames come");
   }
   char *whole = NULL;
-  int32_t status = hk_scene_make_whole(scene_text, system, hooke_integrator_options(integrator), &whole);
+  int32_t status = hk_inputs_refuse(system, path);
+  if (status == HOOKE_OK)
+    status = hk_scene_make_whole(scene_text, system, hooke_integrator_options(integrator), &whole);
   if (status == HOOKE_OK) status = create(path, system, integrator, whole ? whole : scene_text, trajectory);
   hk_free(whole);
   return status;
