@@ -180,7 +180,7 @@ def test_what_is_not_known_is_said_in_words(hooke, made, method):
         ("velocity", (7, 0, 2), False),
     ]:
         changed(path, f"particles/all/{name}/value", index, lambda x: x + 1e-3, sealed)
-        answer = hooke("verify", "out.h5")
+        answer = hooke("verify", "out.h5", "--all")
         assert answer.code == 3 and "nan" not in answer.out and "inf" not in answer.out.split("verdict")[0]
         again = next(line for line in answer.out.splitlines() if line.startswith("run again"))
         assert ("nothing: the file does not hold" in again) == (not sealed or index[0] == 0), again
