@@ -1,4 +1,5 @@
 #include "rows.h"
+#include "print.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -51,7 +52,7 @@ static void print_head(const struct cli_rows *rows, int32_t method_width, int32_
 }
 
 static void print_row(const struct cli_rows *rows, int64_t row, int32_t method_width) {
-  printf("%-*s", method_width, method_of(rows, row));
+  cli_print_padded(stdout, method_width, method_of(rows, row));
   for (int i = 0; i < COLUMN_COUNT; i++) {
     double value = rows->number(rows->source, row, columns[i].what);
     if (columns[i].counts) {
@@ -61,7 +62,9 @@ static void print_row(const struct cli_rows *rows, int64_t row, int32_t method_w
     }
     if (rows->mark && columns[i].marked) printf("%c", rows->mark(rows->source, row, columns[i].what));
   }
-  printf("  %s\n", rows->text(rows->source, row, "status"));
+  printf("  ");
+  cli_print_text(stdout, rows->text(rows->source, row, "status"));
+  printf("\n");
 }
 
 void cli_rows_print(const struct cli_rows *rows, int32_t method_width) {

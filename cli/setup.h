@@ -13,10 +13,14 @@ struct cli_setup {
   hooke_state *state;
 };
 
-/* Loads, applies options, commits; failures are reported and returned as exit code. The caller destroys the
+/* Loads, applies options, commits, and refuses to write over a file that it has read; failures are reported and returned as exit code. The caller destroys the
  * set-up in either case. */
 int cli_setup_load(const struct cli_arguments *arguments, struct cli_setup *setup);
 void cli_setup_destroy(struct cli_setup *setup);
+
+/* Refuses `output` (NULL: none) if it is a file that the scene was read from. */
+int cli_setup_check_read(const struct cli_arguments *arguments, const struct cli_setup *setup,
+                         const char *output);
 
 /* Whether a run by `method` (NULL: by one of variable step) lacks a duration or a step, and which, in words. */
 int32_t cli_setup_missing(const struct cli_setup *setup, const char *method, char text[HOOKE_DOC_SIZE]);

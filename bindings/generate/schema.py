@@ -120,12 +120,13 @@ def schema():
     tables.family = tables.table(members(rows["rope"], "stretch"), definitions["family"])
     parts = {kind: tables.part(kind, rows[kind]) for kind in kinds}
     springs = tables.table(hooke.Options.for_springs().rows, definitions["springs"])
+    bending = tables.table(hooke.Options.for_scene("bending").rows, definitions["bending"])
     anchors = tables.table(hooke.Options.for_anchors().rows, definitions["anchors"])
     run = tables.table(hooke.Options.for_run().rows, definitions["run"])
     template["properties"]["parts"]["items"] = {
         "type": "object", "required": ["kind"], "properties": {"kind": {"enum": kinds}},
         "allOf": [{"if": {"properties": {"kind": {"const": kind}}}, "then": named(kind)} for kind in kinds]}
-    template["$defs"] = {**definitions, "springs": springs, "anchors": anchors,
+    template["$defs"] = {**definitions, "springs": springs, "bending": bending, "anchors": anchors,
                          "family": tables.family, **parts, "run": run}
     return template
 

@@ -204,7 +204,9 @@ void cli_needs_results_print(const struct cli_needs_results *results) {
   const hooke_measurement *needs = results->needs;
   const char *title = hooke_scene_text(results->setup.scene, "title");
   cli_print_text(stdout, title && title[0] ? title : results->arguments->scene);
-  printf("\n%s%s, %g m wanted", hooke_measurement_text(needs, "needs", 0, "method"),
+  printf("\n");
+  cli_print_text(stdout, hooke_measurement_text(needs, "needs", 0, "method"));
+  printf("%s, %g m wanted",
          hooke_measurement_number(needs, "needs", 0, "method_picked") == 1.0 ? " (picked)" : "",
          hooke_measurement_number(needs, "needs", 0, "want"));
   const double step_error = hooke_measurement_number(needs, "full", 0, "step_error");

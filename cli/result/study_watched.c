@@ -91,7 +91,7 @@ void cli_study_watched_print(const struct cli_study_results *results, int32_t me
   printf("\n%-*s %*s", method_width, "agreement", SETTING, "");
   print_cells(study, -1, width);
   for (int64_t row = 0; row < hooke_measurement_row_count(study, "rows"); row++) {
-    printf("%-*s", method_width, hooke_measurement_text(study, "rows", row, "method"));
+    cli_print_padded(stdout, method_width, hooke_measurement_text(study, "rows", row, "method"));
     printf(" ");
     print_setting(SETTING, hooke_measurement_number(study, "rows", row, "step"),
                   hooke_measurement_number(study, "rows", row, "rtol"));
@@ -124,7 +124,8 @@ static void print_bias(const hooke_measurement *study, int64_t row) {
 }
 
 static void print_source(const hooke_measurement *study, int32_t method_width, int64_t row) {
-  printf("  %-*s ", method_width, hooke_measurement_text(study, "statistics", row, "method"));
+  printf("  ");
+  cli_print_padded(stdout, method_width + 1, hooke_measurement_text(study, "statistics", row, "method"));
   print_setting(SETTING, statistic(study, row, "step"), statistic(study, row, "rtol"));
   printf(" %5.0f", statistic(study, row, "members"));
   cli_rows_print_cell(CELL, statistic(study, row, "mean"));

@@ -47,8 +47,10 @@ static void print_derived(const hooke_system *system) {
     const char *family = text_of(system, i, "family"), *unit = text_of(system, i, "unit");
     printf("  ");
     cli_print_text(stdout, text_of(system, i, "part"));
-    printf("%s%s: %s %s%s%s\n", family ? "." : "", family ? family : "", text_of(system, i, "name"),
-           cli_format_rounded(hooke_system_derived_value(system, i), number), unit[0] ? " " : "", unit);
+    printf("%s%s: ", family ? "." : "", family ? family : "");
+    cli_print_text(stdout, text_of(system, i, "name"));
+    printf(" %s%s%s\n", cli_format_rounded(hooke_system_derived_value(system, i), number), unit[0] ? " " : "",
+           unit);
   }
 }
 

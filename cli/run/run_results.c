@@ -162,7 +162,8 @@ static void print_work(const struct cli_run *run) {
 static void print_method(const struct cli_run *run) {
   char text[HOOKE_NUMBER_SIZE];
   print_row("method");
-  printf("%s, ", cli_run_method(run));
+  cli_print_text(stdout, cli_run_method(run));
+  printf(", ");
   if (is_adaptive(run)) {
     printf("rtol %s, atol ", cli_format_rounded(option_of(run, "rtol"), text));
     print_quantity(option_of(run, "atol"), "m\n");

@@ -1,5 +1,6 @@
 #include "want.h"
 
+#include "print.h"
 #include "report.h"
 #include "setup.h"
 
@@ -152,7 +153,11 @@ static void print_verdict(const struct cli_run *run) {
   printf(", %s", met == 1.0 ? "within the wanted " : met == 0.0 ? "above the wanted " : "wanted is ");
   printf("%.6g m", number_of(run, "wanted"));
   if (isnan(met)) printf(", and nobody knows for all of the run");
-  if (met != 1.0 && reason[0] && text_of(run, "by")) printf(" (%s)", reason);
+  if (met != 1.0 && reason[0] && text_of(run, "by")) {
+    printf(" (");
+    cli_print_text(stdout, reason);
+    printf(")");
+  }
   printf("; picking and measuring took %.3g s", number_of(run, "seconds"));
 }
 
@@ -172,7 +177,8 @@ void cli_want_print(const struct cli_run *run) {
     printf("%.3g m at most until t = %.6g s, of any particle (root mean square %.2g m), %s",
            number_of(run, "estimate"), number_of(run, "known_until"), number_of(run, "rms"), source_of(by));
   else
-    printf("not known: %s", text_of(run, "reason"));
+    printf("not known: ");
+  if (!by) cli_print_text(stdout, text_of(run, "reason"));
   print_verdict(run);
   printf("\n");
   print_last_piece(run);

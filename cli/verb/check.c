@@ -159,8 +159,8 @@ static void print_memory(const struct check *check) {
   printf("memory       %" PRId64 " bytes at the peak of a run, %" PRId64 " with -o", check->memory.most,
          check->memory.written);
   if (check->memory.factor > 0)
-    printf("; %" PRId64 " more where %s finds that a factor of its equations pays",
-           check->memory.factor - check->memory.most, hooke_options_text(check->setup.options, "method"));
+    printf("; %" PRId64 " more where its method finds that a factor of its equations pays",
+           check->memory.factor - check->memory.most);
   if (hooke_system_particle_count(check->setup.system) > 0)
     printf("; the model takes %.1f a particle", bytes_per_particle(check));
   if (hooke_system_count(check->setup.system, "springs") > 0)

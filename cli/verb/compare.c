@@ -139,7 +139,7 @@ static void print_errors(const hooke_measurement *comparison, int32_t width) {
   printf("\n");
   for (int64_t row = 0; row < rows_done(comparison); row++) {
     const double *error = hooke_measurement_series(comparison, "rows", row, "error_at", NULL);
-    printf("%-*s", width, text_of(comparison, row, "method"));
+    cli_print_padded(stdout, width, text_of(comparison, row, "method"));
     for (int64_t i = 1; i <= frames; i++)
       cli_rows_print_cell(10, error ? error[last * i / frames] : (double)NAN);
     printf("\n");
@@ -155,8 +155,11 @@ static void print_reference(const struct compare *compare) {
     printf("reference: not finished, so there is nothing to measure against\n\n");
     return;
   }
-  printf("reference: %s at tight tolerance, checked by %s\n", reference_of(compare, "method"),
-         reference_of(compare, "check"));
+  printf("reference: ");
+  cli_print_text(stdout, reference_of(compare, "method"));
+  printf(" at tight tolerance, checked by ");
+  cli_print_text(stdout, reference_of(compare, "check"));
+  printf("\n");
   cli_format_rounded(until, time);
   if (isnan(agreement))
     printf("WARNING: the two part before the first frame after the start, so no error is known\n");

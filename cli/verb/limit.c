@@ -147,7 +147,7 @@ static void print_table(const struct limit *l, int32_t width) {
     printf("\n");
   }
   for (int64_t row = 0; row < hooke_measurement_row_count(l->limit, "rows"); row++) {
-    printf("%-*s", width, row_text(l, row, "method"));
+    cli_print_padded(stdout, width, row_text(l, row, "method"));
     for (int k = 0; k < COLUMN_COUNT; k++) {
       if (is_shown(l, k)) print_cell(l, row, &columns[k]);
     }
@@ -162,7 +162,7 @@ static void print_notes(const struct limit *l, int32_t width) {
     if (!note[0]) continue;
     if (!any) printf("\n");
     any = 1;
-    printf("%-*s  ", width, row_text(l, row, "method"));
+    cli_print_padded(stdout, width + 2, row_text(l, row, "method"));
     cli_print_wrapped(stdout, width + 2, width + 2, WIDTH, note);
   }
 }

@@ -4,6 +4,7 @@
 #include "output_file.h"
 #include "print.h"
 #include "report.h"
+#include "setup.h"
 #include "value.h"
 #include "watch.h"
 
@@ -89,7 +90,10 @@ static int report_option(const struct make *make, const hooke_options *table, in
 static int read_file(const struct make *make) {
   hooke_options *part = make->arguments->of_kind;
   if (!hooke_options_is_set(part, "file")) return HOOKE_EXIT_DONE;
-  const int32_t status = hooke_mesh_read(hooke_options_text(part, "file"), part);
+  const char *file = hooke_options_text(part, "file");
+  const int code = cli_setup_check_apart(make->arguments, file, "the mesh", make->output);
+  if (code != HOOKE_EXIT_DONE) return code;
+  const int32_t status = hooke_mesh_read(file, part);
   if (status == HOOKE_OK) return HOOKE_EXIT_DONE;
   if (row_of_message(part, hooke_last_error()) >= 0) return report_option(make, part, status);
   return cli_report(make->arguments, cli_exit_code(status), "--file %s", hooke_last_error());

@@ -359,6 +359,7 @@ int cli_run_to_show(const struct cli_arguments *arguments, char *path, const cha
                     cli_show *show) {
   struct cli_run run = {.arguments = arguments, .output = path, .page = page};
   int code = make_ready(&run);
+  if (code == HOOKE_EXIT_DONE) code = cli_setup_check_read(arguments, &run.setup, page);
   if (code == HOOKE_EXIT_DONE) {
     cli_watch_start(&run.watch, arguments);
     (void)hooke_options_set_number(run.setup.options, "frames_after", beyond); /* in bounds */

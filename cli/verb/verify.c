@@ -8,6 +8,8 @@
 #include <stdio.h>
 #include <string.h>
 
+enum { KNOWN = 48 };
+
 static double number(const hooke_measurement *verify, const char *what) {
   return hooke_measurement_number(verify, "verify", 0, what);
 }
@@ -38,8 +40,18 @@ static void print_makers(const hooke_measurement *verify, const char *head, cons
   printf("\n");
 }
 
+/* "0.0015 J", or that nobody knows. */
+static const char *known(const hooke_measurement *verify, const char *what, const char *unit, int digits,
+                         char text[KNOWN]) {
+  const double value = number(verify, what);
+  snprintf(text, KNOWN, "%.*g %s", digits, value, unit);
+  if (isnan(value)) snprintf(text, KNOWN, "an unknown amount");
+  return text;
+}
+
 static void print_step(const hooke_measurement *verify) {
-  printf("%-13s %s", "method", text(verify, "method"));
+  printf("%-13s ", "method");
+  cli_print_text(stdout, text(verify, "method"));
   if (isnan(number(verify, "step"))) {
     printf(", rtol %g, atol %g m\n", number(verify, "rtol"), number(verify, "atol"));
     return;
@@ -54,13 +66,41 @@ static void print_step(const hooke_measurement *verify) {
 }
 
 static void print_balance(const hooke_measurement *verify) {
+  char one[KNOWN], two[KNOWN], three[KNOWN];
   if (strcmp(text(verify, "balance"), "not-checked") == 0) return;
-  printf("%-13s %s: work in %.6g J = change %.6g J + heat %.6g J\n", "energy", text(verify, "balance"),
-         number(verify, "work"), number(verify, "energy_change"), number(verify, "heat"));
-  printf("%-13s up to %.3g J are left over, %.3g J at the end with half the step%s; bound %.3g J\n", "",
-         number(verify, "residual"), number(verify, "residual_refined"),
-         isnan(number(verify, "step")) ? " (tolerances a hundredth)" : "", number(verify, "residual_bound"));
-  printf("%-13s about %.2g m in a coordinate, over the slice\n", "error", number(verify, "error_estimate"));
+  printf("%-13s ", "energy");
+  cli_print_text(stdout, text(verify, "balance"));
+  printf(": work in %s = change %s + heat %s\n", known(verify, "work", "J", 6, one),
+         known(verify, "energy_change", "J", 6, two), known(verify, "heat", "J", 6, three));
+  printf("%-13s up to %s are left over, %s at the end with half the step%s; bound %s\n", "",
+         known(verify, "residual", "J", 3, one), known(verify, "residual_refined", "J", 3, two),
+         isnan(number(verify, "step")) ? " (tolerances a hundredth)" : "",
+         known(verify, "residual_bound", "J", 3, three));
+  printf("%-13s about %s in a coordinate, over the slice\n", "error",
+         known(verify, "error_estimate", "m", 2, one));
+}
+
+/* What of the run was taken again, which ends at the first fault. */
+static void print_slice(const hooke_measurement *verify) {
+  char one[KNOWN], two[KNOWN];
+  if (isnan(number(verify, "steps"))) {
+    printf("%-13s nothing: the file does not hold as it is\n", "run again");
+    return;
+  }
+  printf("%-13s frames 0 and %.0f to %.0f, %s to %s, %.0f steps\n", "run again",
+         number(verify, "frame_first"), number(verify, "frame_last"),
+         known(verify, "time_first", "s", 6, one), known(verify, "time_last", "s", 6, two),
+         number(verify, "steps"));
+}
+
+static void print_parts(const hooke_measurement *verify) {
+  static const char *const words[][2] = {
+      {"checked", "scene, options, masses, springs, outcome and error by their check values"},
+      {"damaged", "the error of the run is not the one that was written"},
+      {"not-covered",
+       "not covered: the file is older than check values of scene, options, masses and springs"}};
+  for (size_t k = 0; k < sizeof words / sizeof words[0]; k++)
+    if (strcmp(text(verify, "parts"), words[k][0]) == 0) printf("%-13s %s\n", "the rest", words[k][1]);
 }
 
 static void print_words(const struct cli_arguments *arguments, const hooke_measurement *verify) {
@@ -75,12 +115,12 @@ static void print_words(const struct cli_arguments *arguments, const hooke_measu
   printf("%-13s %.0f of %.0f by their check values; %08lx is that of the scene\n", "frames",
          number(verify, "frames_checked"), number(verify, "frames"),
          (unsigned long)number(verify, "check_scene"));
-  printf("%-13s frames 0 and %.0f to %.0f, %g to %g s, %.0f steps\n", "run again",
-         number(verify, "frame_first"), number(verify, "frame_last"), number(verify, "time_first"),
-         number(verify, "time_last"), number(verify, "steps"));
+  print_parts(verify);
+  print_slice(verify);
   print_balance(verify);
-  printf("%-13s %s%s\n", "verdict", text(verify, "verdict"),
-         strcmp(text(verify, "verdict"), "agrees") == 0 ? " to the bit" : "");
+  printf("%-13s ", "verdict");
+  cli_print_text(stdout, text(verify, "verdict"));
+  printf("%s\n", strcmp(text(verify, "verdict"), "agrees") == 0 ? " to the bit" : "");
 }
 
 static void print_json(const struct cli_arguments *arguments, const hooke_measurement *verify) {

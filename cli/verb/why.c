@@ -215,9 +215,13 @@ static int32_t print_words(const struct why *why) {
     printf("' at t = %s s\n", cli_format_rounded(why->time, text));
     return HOOKE_OK;
   }
-  printf("%-12s%s\n", "cause", text_of(found, "cause"));
+  printf("%-12s", "cause");
+  cli_print_text(stdout, text_of(found, "cause"));
+  printf("\n");
   print_wrapped("what", text_of(found, "sentence"));
-  printf("%-12s%s\n", "method", text_of(found, "method"));
+  printf("%-12s", "method");
+  cli_print_text(stdout, text_of(found, "method"));
+  printf("\n");
   print_number("step", number_of(found, "step"), "s");
   print_number("limit", number_of(found, "limit"), "s");
   print_number("well until", number_of(found, "time"), "s");

@@ -64,7 +64,7 @@ def allowed(schema: dict[str, Any], definitions: dict[str, Any]) -> str:
         kind, "") + bound
 
 
-BELOW = ("particles", "springs", "anchors", "parts", "bodies", "driven", "run")
+BELOW = ("particles", "springs", "bending", "anchors", "parts", "bodies", "driven", "run")
 
 
 def schema_rows(schema: dict[str, Any], definitions: dict[str, Any], names: list[str] | None = None,
@@ -122,6 +122,9 @@ def page(root: Path) -> str:
         table(schema_rows(definitions["particles"], definitions)),
         "## springs",
         table(springs + option_rows(hooke.Options.for_springs().rows, definitions["springs"]["required"])),
+        "## bending",
+        table(schema_rows(definitions["bending"], definitions, ["name", "triples"])
+              + option_rows(hooke.Options.for_scene("bending").rows, definitions["bending"]["required"])),
         "## anchors",
         table(schema_rows(definitions["anchors"], definitions, ["name", "particles"])
               + option_rows(hooke.Options.for_anchors().rows, definitions["anchors"]["required"])),

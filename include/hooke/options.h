@@ -19,7 +19,7 @@ typedef struct hooke_options hooke_options;
 
 /* Creates options of the table `name`, which the caller sets and destroys: "run", "springs", "altitude" and
  * "anchors" (of a group), a kind of part ("cloth", ...), a kind of measurement ("study", ...), "limits" on
- * loading, or "scene", "particles" and "driven", the remaining keys of a scene. The message of
+ * loading, or "scene", "particles", "driven" and "bending", the remaining keys of a scene. The message of
  * HOOKE_BAD_VALUE lists them all; HOOKE_NO_MEMORY. */
 HOOKE_API int32_t hooke_options_create(const char *name, hooke_options **options);
 

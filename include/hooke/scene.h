@@ -43,6 +43,7 @@ HOOKE_API int32_t hooke_scene_options_apply(const hooke_options *options, hooke_
 /* Writes a committed system as a scene file: parts and spring groups by their options, the rest number by
  * number. Loading it gives the same system to the bit. Particles of parts come after the others in it.
  * `title` and `run` (options of a run) may be NULL. An older file is replaced when the new one is complete.
+ * HOOKE_BAD_VALUE for a file that its scene names.
  * HOOKE_UNSUITED for a system with callbacks, HOOKE_BAD_CALL before commit, HOOKE_IO_FAILED, HOOKE_NO_MEMORY.
  */
 HOOKE_API int32_t hooke_scene_write(const char *path, const hooke_system *system, const char *title,
@@ -54,6 +55,10 @@ HOOKE_API int32_t hooke_scene_write(const char *path, const hooke_system *system
 HOOKE_API int32_t hooke_scene_of_system(const hooke_system *system, const char *title,
                                         const hooke_options *run, const char *name, const char *folder,
                                         hooke_scene **scene);
+
+/* HOOKE_BAD_VALUE if `path` is, by any name, one of the files that the scene was read from: its own, meshes,
+ * arrays. What writes results of its system refuses such a file, too. HOOKE_NO_MEMORY. */
+HOOKE_API int32_t hooke_scene_check_output(const hooke_scene *scene, const char *path);
 
 /* Releases the scene, its system and its options. NULL is allowed. */
 HOOKE_API void hooke_scene_destroy(hooke_scene *scene);

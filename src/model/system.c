@@ -45,6 +45,7 @@ void hooke_system_destroy(hooke_system *system) {
   hk_free(system->span);
   hk_free(system->anchor);
   hk_free(system->force_row);
+  hk_free(system->input);
   hk_handle_free(system);
 }
 

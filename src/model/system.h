@@ -16,6 +16,7 @@
 #include "model/force/spring.h"
 
 struct hk_force_row;
+struct hk_os_file;
 
 /* Maximum number of rows of the table of forces. */
 enum { HOOKE_FORCES = 9 };
@@ -71,6 +72,9 @@ struct hooke_system {
   int64_t derived_count, derived_capacity;
   struct hk_derived *derived;
 
+  struct hk_os_file *input; /* files that it was read from */
+  int64_t input_count;
+  int32_t has_scene;   /* 1: the last of them is its scene */
   double memory_limit; /* [bytes] maximum memory; 0: the machine's */
 
   double gravity[3];

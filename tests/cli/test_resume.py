@@ -106,6 +106,8 @@ def test_interrupted_anywhere(hooke, start, write, tmp_path, name):
         found, whole_found = contents(tmp_path / "out name.h5"), contents(tmp_path / "whole.h5")
         assert whole_found.pop("hooke/error_reason") == b""
         assert (b"went on from" in found.pop("hooke/error_reason")) == ("--resume" in words)
+        for each in (found, whole_found):
+            each["hooke/file_check"] = each["hooke/file_check"][4:8]  # the others are of threads, too, and of the error
         assert found == whole_found
         left = {path.name for path in tmp_path.iterdir()}
         assert left == {scene, "whole.h5", "whole.xdmf", "out name.h5", "out name.xdmf"}

@@ -332,3 +332,12 @@ def test_cut_off_file(hooke, write, tmp_path, length):
     (tmp_path / "state.h5").write_bytes(whole[:length])
     answer = hooke("check", write(taking(SIX_PARTICLES, "plain")))
     assert answer.code in (3, 5) and "state.h5" in answer.err
+
+
+@pytest.mark.parametrize("verb", ["run", "compare"])
+def test_long_scenes_are_stored(hooke, write, tmp_path, verb):
+    scene = {**STIFF_PAIR, "title": "long " * 700_000, "run": {"method": "rk4", "step": 0.01, "duration": 0.1}}
+    words = ["--no-estimate"] if verb == "run" else ["--methods", "rk4"]
+    assert hooke(verb, write(scene), "-o", "out.h5", "--quiet", *words).code == 0
+    with h5py.File(tmp_path / "out.h5") as file:
+        assert file["hooke/scene"].asstr()[()] == (tmp_path / "scene.json").read_text()

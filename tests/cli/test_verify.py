@@ -151,6 +151,43 @@ def test_one_changed_bit_is_found(hooke, made, name, index, words, sealed):
     assert answer.code == 3 and answer.json["verdict"] == "disagrees" and answer.json["difference"]
 
 
+def test_a_false_mass_is_found(hooke, made):
+    path = made()
+    changed(path, "particles/all/mass", 2, lambda x: np.nextafter(x, 10.0))
+    answer = hooke("verify", "out.h5")
+    assert answer.code == 3 and "masses or springs are not those that were written" in answer.err and not answer.out
+
+
+def test_a_frame_without_a_time_is_found(hooke, made):
+    changed(made(), "particles/all/position/time", 9, lambda t: np.nan, sealed=False)
+    for verb in ("verify", "run"):
+        words = ["verify", "out.h5"] if verb == "verify" else ["run", "--resume", "out.h5"]
+        assert hooke(*words).code == (3 if verb == "verify" else 0)
+    answer = hooke("verify", "out.h5")
+    assert "frame 9 of out.h5 is damaged" in answer.err and "9 of 11 by their check values" in answer.out
+    answer = hooke("view", "out.h5", "-o", "out.html")
+    assert answer.code == 0 and "1 damaged frame is skipped" in answer.err
+
+
+@pytest.mark.parametrize("method", ["verlet", "cvode-bdf"])
+def test_what_is_not_known_is_said_in_words(hooke, made, method):
+    """Before a slice was taken again, or where it ends at a fault, and where no run with half the step ends."""
+    path = made(method)
+    whole = path.read_bytes()
+    for name, index, sealed in [
+        ("position", (0, 3, 0), True),
+        ("velocity", (7, 0, 2), True),
+        ("velocity", (7, 0, 2), False),
+    ]:
+        changed(path, f"particles/all/{name}/value", index, lambda x: x + 1e-3, sealed)
+        answer = hooke("verify", "out.h5", "--all")
+        assert answer.code == 3 and "nan" not in answer.out and "inf" not in answer.out.split("verdict")[0]
+        again = next(line for line in answer.out.splitlines() if line.startswith("run again"))
+        assert ("nothing: the file does not hold" in again) == (not sealed or index[0] == 0), again
+        path.write_bytes(whole)
+    assert "nan" not in hooke("verify", "out.h5", "--bits").out
+
+
 def test_a_changed_beginning_is_found(hooke, made):
     """The first frame of a slice is taken from the file: the frames computed from it differ."""
     path = made()
@@ -173,7 +210,7 @@ def test_a_changed_scene_is_found(hooke, made, key):
         text = bytes(np.array(file["hooke/scene"][()]).tobytes()).rstrip(b"\0").decode()
         scene = json.loads(text)
         scene["springs"][0][key] *= 1.001
-        del file["hooke/scene"]
+        del file["hooke/scene"], file["hooke/file_check"]
         written = json.dumps(scene).encode()
         file["hooke"].create_dataset("scene", data=np.array(written, dtype=f"S{len(written)}"))
     answer = hooke("verify", "out.h5")
@@ -183,6 +220,7 @@ def test_a_changed_scene_is_found(hooke, made, key):
 def test_other_versions_may_differ_within_the_error(hooke, made):
     path = made("cvode-bdf")
     with h5py.File(path, "r+") as file:
+        del file["hooke/file_check"]
         file["hooke"].attrs["sundials"] = "5.0.0"
     assert hooke("verify", "out.h5", "--json").json["verdict"] == "agrees"
     changed(path, "particles/all/position/value", (7, 2, 1), lambda x: x + 1e-9)
@@ -197,9 +235,11 @@ def test_other_versions_may_differ_within_the_error(hooke, made):
 def test_other_versions_make_no_difference_to_a_fixed_step(hooke, made):
     path = made("verlet")
     with h5py.File(path, "r+") as file:
+        del file["hooke/file_check"]
         file["hooke"].attrs["sundials"] = "5.0.0"
     changed(path, "particles/all/position/value", (7, 2, 1), lambda x: np.nextafter(x, 9.0))
-    assert hooke("verify", "out.h5").code == 3
+    answer = hooke("verify", "out.h5")
+    assert answer.code == 3 and "frame 7, particle 2, position y" in answer.err
 
 
 def test_runs_that_ended_early(hooke, write):
@@ -217,7 +257,7 @@ def test_files_that_are_none(hooke, made, tmp_path):
     path = made()
     shutil.copy(path, tmp_path / "bare.h5")
     with h5py.File(tmp_path / "bare.h5", "r+") as file:
-        del file["hooke/scene"]
+        del file["hooke/scene"], file["hooke/file_check"]
     answer = hooke("verify", "bare.h5")
     assert answer.code == 3 and "no scene" in answer.err
     assert hooke("verify").code == 2

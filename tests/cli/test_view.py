@@ -254,7 +254,7 @@ def test_runs_that_ended_early(hooke, write, start, tmp_path):
 @needs_view
 def test_files_without_rest_lengths(hooke, cloth, tmp_path):
     with h5py.File(tmp_path / "out.h5", "a") as file:
-        del file["hooke/rest_length"]
+        del file["hooke/rest_length"], file["hooke/file_check"]
     view, _ = look(hooke, tmp_path)
     assert view.data["by_first_frame"] and set(view.elongations(0)) == {0} and len(set(view.elongations(10))) > 5
 
@@ -276,6 +276,10 @@ def test_what_is_refused(hooke, write, tmp_path):
     assert hooke("view", "out.h5", "-o", "page.html", "--frames", "1").code == 2
     with h5py.File(tmp_path / "out.h5", "a") as file:
         file["connectivity/springs"][3] = [2, 77]
+    answer = hooke("view", "out.h5", "-o", "page.html")
+    assert answer.code == 3 and "masses or springs are not those that were written" in answer.err
+    with h5py.File(tmp_path / "out.h5", "a") as file:
+        del file["hooke/file_check"]
     answer = hooke("view", "out.h5", "-o", "page.html")
     assert answer.code == 3 and "/connectivity/springs" in answer.err
     assert not (tmp_path / "page.html").exists()

@@ -78,6 +78,28 @@ def test_anchors_are_those_of_the_scene(tmp_path):
         assert np.array_equal(one, other)
 
 
+def test_bending_is_that_of_the_scene(tmp_path):
+    """A scene with bending of its own, beside that of a part, is saved, read, run and verified."""
+    built = hooke.Scene().particles([[0, 0, 0], [1, 0, 0], [2, 0.5, 0], [3, 0, 0]], mass=1)
+    built.springs(between=[[0, 1], [1, 2], [2, 3]], stiffness=10)
+    built.rope("line", from_=(0, 1, 0), to=(1, 1, 0), segments=4, mass=1, stretch={"stiffness": 10}, bending=0.1)
+    built.bending("rib", triples=[[0, 1, 2], [1, 2, 3]], coefficient=[2, 3.5])
+    built.bending(triples=np.array([[3, 2, 1]]), coefficient=1)
+    built.bending("joint", triples=[[3, ("line", 0), ("line", 1)]], coefficient=7)
+    with pytest.raises(hooke.BadValue, match=r"bending\[3\].*triples\[0\]"):
+        built.bending(triples=[[0, 1, 1]], coefficient=1)
+    parsed = hooke.Scene.parse(built.text)
+    built.save(tmp_path / "scene.json")
+    read = hooke.Scene.load(tmp_path / "scene.json")
+    for other in (parsed.system, read.system):
+        assert built.system.bending_count == other.bending_count == 7
+        assert built.system.bending_groups == other.bending_groups
+        assert np.array_equal(built.system.bending_ends, other.bending_ends)
+        assert np.array_equal(built.system.bending_coefficient, other.bending_coefficient)
+    hooke.run(built, method="rk4", step=1e-3, duration=0.1, output=tmp_path / "out.h5")
+    assert hooke.verify(tmp_path / "out.h5", bits=True)
+
+
 def test_keywords_are_those_of_the_schema():
     """Keywords that are not in the tables: the keys of a scene itself, of particles and of drives."""
     schema = json.loads((ROOT / "examples/scene.schema.json").read_text())
@@ -86,7 +108,7 @@ def test_keywords_are_those_of_the_schema():
         return set(inspect.signature(method).parameters) - {"self"}
 
     properties = schema["properties"]
-    pieces = set(properties) - {"$schema", "hooke", "particles", "springs", "anchors", "parts", "bodies", "driven"}
+    pieces = set(properties) - {"$schema", "hooke", "particles", "springs", "bending", "anchors", "parts", "bodies", "driven"}
     assert keywords(hooke.Scene.__init__) == pieces
     assert keywords(hooke.Scene.bodies) == set(_keys(schema, properties["bodies"]["items"]))
     assert keywords(hooke.Scene.particles) == set(_keys(schema, properties["particles"]))

@@ -143,7 +143,7 @@ def test_readers_refuse_a_damaged_frame(path, tmp_path):
 
 def test_files_without_check_values_are_read(path):
     with h5py.File(path, "a") as file:
-        del file["hooke/frame_check"]
+        del file["hooke/frame_check"], file["hooke/file_check"]
         del file["hooke"].attrs["run"]
     with hooke.open(path) as out:
         out.check()

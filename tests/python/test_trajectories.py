@@ -137,6 +137,8 @@ def test_frames_that_were_not_written_are_left_out(path):
 def test_no_frame_yet(path):
     with h5py.File(path, "r+") as file:
         file["particles/all/position/time"][:] = np.nan
+        del file["hooke/status"]
+        file["hooke/status"] = np.bytes_("running")
     out = hooke.open(path)
     assert len(out) == 0 and out.q.shape == (0, 6, 3) and out.energy.total.shape == (0,)
     with pytest.raises(hooke.BadValue, match="has no frames to show"):

@@ -44,6 +44,7 @@ static void check_same_system(const hooke_system *found, const hooke_system *exp
   check_same_bits(3, found->gravity, expected->gravity);
   check_same_bits(1, &found->drag, &expected->drag);
   assert_int_equal(found->drive_count, expected->drive_count);
+  assert_true(hk_system_check_value(found) == hk_system_check_value(expected));
 }
 
 /* A scene that is made in memory has the text that is written. */
@@ -88,6 +89,7 @@ static void random_systems_come_back(void **state) {
                                                       .particles = 20,
                                                       .springs = 40,
                                                       .features = features,
+                                                      .triples = (int64_t)(seed % 3 * 4),
                                                       .cloth = {5, 4},
                                                       .lattice = {3, 4, 2},
                                                       .rope = 7},
@@ -191,6 +193,27 @@ static void strands_come_back(void **state) {
   check_status(hooke_scene_write("/tmp/hooke-never-written.json", system, NULL, NULL), HOOKE_UNSUITED);
   check_message("tetrahedra of its own");
   hooke_options_destroy(options);
+  hooke_system_destroy(system);
+}
+
+/* Triples are equal to the bit, beside those of parts; an empty group keeps its place. */
+static void bending_comes_back(void **state) {
+  (void)state;
+  const double coefficient[2] = {0.1 + 0.2, 1.0 / 3.0}, zero = 0.0;
+  const int64_t triples[6] = {3, 1, 0, 2, 4, 5};
+  hooke_system *system;
+  hooke_scene *read;
+  check_ok(hooke_system_create(&system));
+  add_strand(system, 1);
+  check_ok(hooke_system_add_bending(system, "two", 2, triples, 2, coefficient));
+  check_ok(hooke_system_add_bending(system, "none", 2, triples, 1, &zero));
+  check_ok(hooke_system_add_bending(system, NULL, 1, triples, 1, coefficient));
+  check_ok(hooke_system_commit(system));
+  write_and_read(system, &read);
+  check_same_system(hooke_scene_system(read), system);
+  assert_int_equal(hooke_system_count(hooke_scene_system(read), "bending"), 3);
+  assert_int_equal(hk_system_groups_of(hooke_scene_system(read), &hk_force_bending), 3);
+  hooke_scene_destroy(read);
   hooke_system_destroy(system);
 }
 
@@ -355,6 +378,7 @@ int main(void) {
       cmocka_unit_test(lattice_and_mesh_come_back),
       cmocka_unit_test(drives_come_back),
       cmocka_unit_test(strands_come_back),
+      cmocka_unit_test(bending_comes_back),
       cmocka_unit_test(anchors_come_back),
       cmocka_unit_test(zeros_keep_their_sign),
       cmocka_unit_test(whole_numbers_have_one_zero),

@@ -10,6 +10,7 @@
 #include "io/hdf5/array_open_h5.h"
 #include "io/hdf5/dataset_h5.h"
 #include "io/trajectory/frame_check_h5.h"
+#include "io/trajectory/h5md_h5.h"
 #include "io/hdf5/object_h5.h"
 
 #include <math.h>
@@ -57,7 +58,7 @@ static int32_t count_timed(const struct source *source, const struct hk_dataset 
   return status;
 }
 
-/* All frames if the sibling `time` does not have one for each of them. */
+/* All frames if the sibling `time` does not have one for each of them, or the run is over. */
 static int32_t count_frames(const struct source *source, int64_t *frames) {
   *frames = (int64_t)source->data.size[0];
   const char *slash = strrchr(source->dataset, '/');
@@ -69,7 +70,8 @@ static int32_t count_frames(const struct source *source, int64_t *frames) {
   struct hk_dataset time;
   int32_t status = hk_dataset_find(source->guard, source->file, source->path, name, &time);
   hk_free(name);
-  const int each = time.rank == 1 && *frames > 0 && time.size[0] == source->data.size[0];
+  const int each =
+      time.rank == 1 && *frames > 0 && time.size[0] == source->data.size[0] && !hk_h5md_is_over(source->file);
   if (status == HOOKE_OK && each) status = count_timed(source, &time, frames);
   hk_h5_drop(time.id);
   return status == HOOKE_BAD_VALUE && !each ? HOOKE_OK : status;

@@ -143,7 +143,8 @@ hid_t hk_h5_texts(hid_t where, const char *name, int64_t count, int64_t length) 
   herr_t result = type < 0 ? -1 : H5Tset_size(type, (size_t)(length > 0 ? length : 1));
   if (result >= 0) result = H5Tset_strpad(type, H5T_STR_NULLPAD);
   if (result >= 0) result = H5Tset_cset(type, H5T_CSET_UTF8);
-  if (result >= 0) dataset = hk_h5_array(where, name, type, count < 0 ? 0 : 1, &size, NULL);
+  /* HDF5 fills a text of more than 1 MiB from beyond the buffer of that size */
+  if (result >= 0) dataset = hk_h5_room(where, name, type, count < 0 ? 0 : 1, &size);
   hk_h5_drop(type);
   return dataset;
 }
@@ -167,6 +168,63 @@ herr_t hk_h5_write_text(hid_t dataset, int64_t k, const char *text) {
   hk_h5_drop(space);
   hk_h5_drop(type);
   return result;
+}
+
+/* ---- reading texts ---- */
+
+static const hsize_t LONGEST_TEXT = (hsize_t)1 << 31;
+
+/* 1 for one text of fixed length, stored in this very file. */
+static int is_text_here(hid_t data) {
+  if (H5Iget_type(data) != H5I_DATASET || hk_h5_foreign(data)) return 0;
+  hid_t type = H5Dget_type(data), space = H5Dget_space(data), list = H5Dget_create_plist(data);
+  const H5D_layout_t layout = list < 0 ? H5D_LAYOUT_ERROR : H5Pget_layout(list);
+  const int fits = type >= 0 && space >= 0 && H5Tget_class(type) == H5T_STRING &&
+                   H5Tis_variable_str(type) == 0 && H5Sget_simple_extent_npoints(space) == 1 &&
+                   (layout == H5D_CONTIGUOUS || layout == H5D_COMPACT);
+  hk_h5_drop(list);
+  hk_h5_drop(space);
+  hk_h5_drop(type);
+  return fits;
+}
+
+int32_t hk_h5_read_text(hid_t group, const char *name, char **out) {
+  int32_t status = HOOKE_OK;
+  hid_t data = hk_h5_open_own(group, name);
+  hid_t type = data < 0 || !is_text_here(data) ? -1 : H5Dget_type(data);
+  const hsize_t length = type < 0 ? 0 : H5Tget_size(type), stored = type < 0 ? 0 : H5Dget_storage_size(data);
+  char *text = NULL;
+  if (type >= 0 && length == stored && length < LONGEST_TEXT) {
+    text = hk_new((int64_t)length + 1, 1);
+    if (text == NULL) status = HOOKE_NO_MEMORY;
+  }
+  if (text && H5Dread(data, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, text) < 0) {
+    hk_free(text);
+    text = NULL;
+  }
+  hk_h5_drop(type);
+  hk_h5_drop(data);
+  *out = text;
+  return status;
+}
+
+static int is_text(hid_t attribute) {
+  hid_t type = H5Aget_type(attribute), space = H5Aget_space(attribute);
+  const int fits = type >= 0 && space >= 0 && H5Sget_simple_extent_npoints(space) == 1 &&
+                   H5Tget_class(type) == H5T_STRING && H5Tis_variable_str(type) > 0;
+  hk_h5_drop(space);
+  hk_h5_drop(type);
+  return fits;
+}
+
+char *hk_h5_attribute_text(hid_t attribute) {
+  char *word = NULL;
+  hid_t memory = is_text(attribute) ? H5Tcopy(H5T_C_S1) : -1;
+  if (memory >= 0 && H5Tset_size(memory, H5T_VARIABLE) >= 0 && H5Tset_cset(memory, H5T_CSET_UTF8) >= 0 &&
+      H5Aread(attribute, memory, &word) < 0)
+    word = NULL;
+  hk_h5_drop(memory);
+  return word;
 }
 
 #endif

@@ -40,10 +40,18 @@ hid_t hk_h5_room(hid_t where, const char *name, hid_t type, int rank, const hsiz
 herr_t hk_h5_array_of(hid_t where, const char *name, hid_t type, hid_t memory, int rank, const hsize_t *size,
                       const void *data);
 
-/* Fixed-length texts of `length` bytes, padded with zeros: `count` < 0 for a single one. Returns the dataset.
- */
+/* Room for fixed-length texts of `length` bytes, undefined until they are written: `count` < 0 for a single
+ * one. Returns the dataset. */
 hid_t hk_h5_texts(hid_t where, const char *name, int64_t count, int64_t length);
-/* Writes text number `k` of such a dataset in place; longer texts are truncated. */
+/* Writes text number `k` of such a dataset in place, padded with zeros; longer texts are truncated. */
 herr_t hk_h5_write_text(hid_t dataset, int64_t k, const char *text);
+
+/* A dataset that is one text of fixed length, stored in this very file, for hk_free(); NULL if it is something
+ * else or there is none. HOOKE_NO_MEMORY. */
+int32_t hk_h5_read_text(hid_t group, const char *name, char **text);
+
+/* An attribute that is one text of variable length, for H5free_memory(); NULL if it is something else or cannot
+ * be read. */
+char *hk_h5_attribute_text(hid_t attribute);
 
 #endif

@@ -16,6 +16,7 @@
 #if HOOKE_HAVE_HDF5
 
 #include "io/file/bytes.h"
+#include "io/file/inputs.h"
 #include "io/file/atomic_file.h"
 #include "io/hdf5/file_h5.h"
 #include "io/hdf5/object_h5.h"
@@ -210,6 +211,7 @@ static int32_t create(const char *path, hooke_measurement *m, const char *scene_
 int32_t hooke_comparison_file_create(const char *path, hooke_measurement *m, hooke_comparison_file **file) {
   *file = NULL;
   int32_t status = hk_measurement_require(m, &hk_comparison_kind, "hooke_comparison_file_create");
+  if (status == HOOKE_OK) status = hk_inputs_refuse(m->system, path);
   if (status == HOOKE_OK) status = hk_comparison_prepare(m->object);
   const char *scene = m->label[HOOKE_LABEL_SCENE];
   char *whole = NULL;

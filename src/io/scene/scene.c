@@ -6,6 +6,7 @@
 #include "core/memory.h"
 #include "core/memory_limit.h"
 #include "core/status.h"
+#include "io/file/inputs.h"
 #include "io/scene/json_place.h"
 #include "io/trajectory/record.h"
 #include "io/scene/scene_file.h"
@@ -99,6 +100,7 @@ static int32_t load_record(const char *path, const hooke_options *limits, hooke_
   if (status == HOOKE_OK) {
     hooke_options *run = NULL;
     status = hooke_options_copy(hooke_record_options(record), &run);
+    if (status == HOOKE_OK) status = hk_inputs_note((*scene)->system, path, 1);
     if (status == HOOKE_OK) {
       hooke_options_destroy((*scene)->run);
       (*scene)->run = run;
@@ -132,6 +134,7 @@ int32_t hooke_scene_load(const char *path, const hooke_options *limits, hooke_sc
     status = folder ? read_text(made, folder) : HOOKE_NO_MEMORY;
     hk_free(folder);
   }
+  if (status == HOOKE_OK) status = hk_inputs_note(made->system, path, 1);
   return finish(status, made, scene);
 }
 
@@ -160,6 +163,10 @@ int32_t hooke_scene_parse(const char *text, int64_t length, const char *name, co
 int32_t hooke_scene_commit(hooke_scene *scene) {
   int32_t status = hooke_system_commit(scene->system);
   return status == HOOKE_BAD_VALUE ? hk_scene_place(status, scene, 0) : status;
+}
+
+int32_t hooke_scene_check_output(const hooke_scene *scene, const char *path) {
+  return hk_inputs_refuse(scene->system, path);
 }
 
 void hooke_scene_destroy(hooke_scene *scene) {

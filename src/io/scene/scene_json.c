@@ -14,7 +14,7 @@
 
 enum { METHODS_SIZE = 512 };
 
-static const char other_keys[] = "hooke particles springs anchors parts bodies driven run";
+static const char other_keys[] = "hooke particles springs bending anchors parts bodies driven run";
 
 /* ---- syntax ---- */
 
@@ -161,6 +161,7 @@ static int32_t add_pieces(struct hk_scene_reader *reader, const json_t *root) {
   if (hooke_system_particle_count(reader->scene->system) == 0)
     return hk_fail(HOOKE_BAD_VALUE, NULL, "a scene without particles; allowed: particles, parts or both");
   status = add(reader, root, "springs", hk_scene_add_springs);
+  if (status == HOOKE_OK) status = add(reader, root, "bending", hk_scene_add_bending);
   if (status == HOOKE_OK) status = add(reader, root, "anchors", hk_scene_add_anchors);
   if (status == HOOKE_OK) status = add(reader, root, "bodies", hk_scene_add_bodies);
   return status == HOOKE_OK ? add(reader, root, "driven", hk_scene_add_driven) : status;

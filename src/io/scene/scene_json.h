@@ -76,6 +76,7 @@ int32_t hk_scene_read_particles(struct hk_scene_reader *reader, const struct jso
 int32_t hk_scene_add_particles(struct hk_scene_reader *reader, const struct json_t *particles);
 int32_t hk_scene_add_parts(struct hk_scene_reader *reader, const struct json_t *parts);
 int32_t hk_scene_add_springs(struct hk_scene_reader *reader, const struct json_t *springs);
+int32_t hk_scene_add_bending(struct hk_scene_reader *reader, const struct json_t *bending);
 int32_t hk_scene_add_anchors(struct hk_scene_reader *reader, const struct json_t *anchors);
 int32_t hk_scene_add_bodies(struct hk_scene_reader *reader, const struct json_t *bodies);
 int32_t hk_scene_add_driven(struct hk_scene_reader *reader, const struct json_t *driven);

@@ -7,6 +7,7 @@
 #include "core/status.h"
 #include "core/table/option_value.h"
 #include "core/table/unit.h"
+#include "io/file/inputs.h"
 #include "io/hdf5/array_h5.h"
 #include "io/scene/scene_file.h"
 
@@ -27,7 +28,9 @@ static const struct hk_option_row source_rows[] = {
 static const struct hk_option_table source_table = {"data set", HOOKE_OPTION_ROWS(source_rows)};
 
 int32_t hk_scene_reader_file(const struct hk_scene_reader *reader, const char *file, char **path) {
-  return (reader->scene->outside ? hk_scene_find_any : hk_scene_find_file)(reader->folder, file, path);
+  const int32_t status =
+      (reader->scene->outside ? hk_scene_find_any : hk_scene_find_file)(reader->folder, file, path);
+  return status == HOOKE_OK ? hk_inputs_note(reader->scene->system, *path, 0) : status;
 }
 
 /* ---- data sets ---- */

@@ -180,6 +180,13 @@ int32_t hk_scene_add_parts(struct hk_scene_reader *reader, const json_t *parts) 
 
 /* ---- springs and anchors ---- */
 
+static int32_t add_triples(hooke_system *system, const char *name, int64_t count, const int64_t *particles,
+                           const hooke_options *options) {
+  return hooke_system_add_bending(system, name, count, particles,
+                                  hooke_options_number_count(options, "coefficient"),
+                                  hooke_options_numbers(options, "coefficient"));
+}
+
 /* Forces whose groups a scene lists, with each member given by its particles. */
 static const struct group_kind {
   const char *key, *particles;
@@ -188,6 +195,7 @@ static const struct group_kind {
   int32_t (*add)(hooke_system *system, const char *name, int64_t count, const int64_t *particles,
                  const hooke_options *options);
 } springs_kind = {"springs", "between", 2, "an array of pairs of particles", hooke_system_add_springs},
+  bending_kind = {"bending", "triples", 3, "an array of triples of particles", add_triples},
   anchors_kind = {"anchors", "particles", 0, "an array of particles", hooke_system_add_anchors};
 
 static int32_t read_group(struct hk_scene_reader *reader, const json_t *object, const struct group_kind *kind,
@@ -216,6 +224,12 @@ static int32_t add_springs(struct hk_scene_reader *reader, const json_t *object,
   return read_group(reader, object, &springs_kind, options);
 }
 
+static int32_t add_bending(struct hk_scene_reader *reader, const json_t *object, int64_t index,
+                           hooke_options *options) {
+  (void)index;
+  return read_group(reader, object, &bending_kind, options);
+}
+
 static int32_t add_anchors(struct hk_scene_reader *reader, const json_t *object, int64_t index,
                            hooke_options *options) {
   (void)index;
@@ -224,6 +238,10 @@ static int32_t add_anchors(struct hk_scene_reader *reader, const json_t *object,
 
 int32_t hk_scene_add_springs(struct hk_scene_reader *reader, const json_t *springs) {
   return for_each(reader, springs, springs_kind.key, springs_kind.key, add_springs);
+}
+
+int32_t hk_scene_add_bending(struct hk_scene_reader *reader, const json_t *bending) {
+  return for_each(reader, bending, bending_kind.key, bending_kind.key, add_bending);
 }
 
 int32_t hk_scene_add_anchors(struct hk_scene_reader *reader, const json_t *anchors) {

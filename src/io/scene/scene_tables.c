@@ -101,6 +101,19 @@ static const struct hk_option_row body_rows[] = {
 
 static const struct hk_option_table body_table = {"bodies", HOOKE_OPTION_ROWS(body_rows)};
 
+static const struct hk_option_row bending_rows[] = {
+    {.name = "coefficient",
+     .type = HOOKE_OPTION_NUMBERS,
+     .unit = "N/m",
+     .low = 0.0,
+     .high = 1e300,
+     .min_count = 1,
+     .required = 1,
+     .doc = "c of the energy c/2 |q_a - 2 q_b + q_c|^2, one number or one for each triple"},
+};
+
+static const struct hk_option_table bending_table = {"bending", HOOKE_OPTION_ROWS(bending_rows)};
+
 static const struct hk_option_row limit_rows[] = {
     {.name = "memory",
      .type = HOOKE_OPTION_NUMBER,
@@ -118,8 +131,8 @@ static const struct hk_option_row limit_rows[] = {
 static const struct hk_option_table limit_table = {"limits", HOOKE_OPTION_ROWS(limit_rows)};
 
 const struct hk_option_table *hk_scene_table(int64_t k) {
-  static const struct hk_option_table *const tables[] = {&scene_table, &particle_table, &drive_table,
-                                                         &body_table,  &limit_table,    NULL};
+  static const struct hk_option_table *const tables[] = {
+      &scene_table, &particle_table, &drive_table, &body_table, &bending_table, &limit_table, NULL};
   return tables[k];
 }
 

@@ -4,6 +4,7 @@
 #include "integrate/integrator.h"
 #include "hooke/scene.h"
 #include "io/file/atomic_file.h"
+#include "io/file/inputs.h"
 #include "io/scene/scene.h"
 #include "io/scene/scene_words.h"
 #include "io/file/text.h"
@@ -196,14 +197,14 @@ static void add_springs(struct hk_text *text, const hooke_system *system, const 
   }
 }
 
-static int32_t has_groups(const hooke_system *system) {
+static int32_t has_groups(const hooke_system *system, const struct hk_force_row *force) {
   int32_t groups = 0;
-  for (int64_t g = 0; g < hk_system_groups_of(system, &hk_force_springs); g++)
-    groups |= !system->group[g].from_part;
+  for (int64_t g = 0; g < hk_system_groups_of(system, force); g++)
+    groups |= !hk_system_group(system, force, g)->from_part;
   return groups;
 }
 
-/* ---- anchors ---- */
+/* ---- bending and anchors ---- */
 
 /* One number if all are equal to the bit. */
 static void add_shared(struct hk_text *text, const char *key, int64_t count, const double *value) {
@@ -214,6 +215,43 @@ static void add_shared(struct hk_text *text, const char *key, int64_t count, con
     hk_text_number(text, key, value[0]);
   else
     hk_scene_add_numbers(text, key, count, 0, value);
+}
+
+static void add_triples(struct hk_text *text, const struct hk_group *group, const struct numbering *numbering,
+                        const int64_t *particle, const double *coefficient) {
+  hk_text_open(text, NULL, '{');
+  if (group->name[0]) hk_text_word(text, "name", group->name);
+  hk_text_open(text, "triples", '[');
+  for (int64_t k = 0; k < group->count; k++) {
+    double triple[3];
+    for (int e = 0; e < 3; e++)
+      triple[e] = (double)numbering->number[particle[3 * k + e]];
+    hk_scene_add_numbers(text, NULL, 3, 0, triple);
+  }
+  hk_text_close(text, ']');
+  if (group->count == 0) /* all its members were dropped */
+    hk_text_number(text, "coefficient", 0.0);
+  else
+    add_shared(text, "coefficient", group->count, coefficient);
+  hk_text_close(text, '}');
+}
+
+static void add_bending(struct hk_text *text, const hooke_system *system, const struct numbering *numbering) {
+  const int64_t count = hooke_system_count(system, "bending");
+  int64_t *particle = hk_new(3 * count, sizeof *particle), first = 0;
+  double *coefficient = hk_new(count, sizeof *coefficient);
+  if (!particle || !coefficient ||
+      hooke_system_members(system, "bending", particle, coefficient, NULL, NULL) != HOOKE_OK)
+    text->status = HOOKE_NO_MEMORY;
+  hk_text_open(text, "bending", '[');
+  for (int64_t g = 0; text->status == HOOKE_OK && g < hk_system_groups_of(system, &hk_force_bending); g++) {
+    const struct hk_group *group = hk_system_group(system, &hk_force_bending, g);
+    if (!group->from_part) add_triples(text, group, numbering, particle + 3 * first, coefficient + first);
+    first += group->count;
+  }
+  hk_text_close(text, ']');
+  hk_free(coefficient);
+  hk_free(particle);
 }
 
 /* All members of a system, and the first of a group among them. */
@@ -313,7 +351,7 @@ static int32_t check_words(const hooke_system *system) {
   for (int64_t g = 0; g < system->group_count; g++) {
     const struct hk_group *group = &system->group[g];
     if (group->from_part || group->count == 0 || group->force == &hk_force_springs ||
-        group->force == &hk_force_anchor)
+        group->force == &hk_force_bending || group->force == &hk_force_anchor)
       continue;
     return hk_fail(HOOKE_UNSUITED, NULL,
                    "a scene file has the force \"%s\" in its parts alone, and this system has %s of its own",
@@ -340,11 +378,12 @@ static void add_scene(struct hk_text *text, const hooke_system *system, const ch
   if (hk_system_has_gravity(system)) hk_scene_add_numbers(text, "gravity", 3, 0, hk_system_gravity(system));
   if (hk_system_drag(system) != 0.0) hk_text_number(text, "drag", hk_system_drag(system));
   if (numbering->alone > 0) add_particles(text, system, numbering);
-  if (has_groups(system)) {
+  if (has_groups(system, &hk_force_springs)) {
     hk_text_open(text, "springs", '[');
     add_springs(text, system, numbering);
     hk_text_close(text, ']');
   }
+  if (has_groups(system, &hk_force_bending)) add_bending(text, system, numbering);
   if (system->part_count > 0) add_parts(text, system);
   if (hk_system_groups_of(system, &hk_force_anchor) > 0) add_anchors(text, system, numbering);
   add_bodies(text, system, numbering);
@@ -381,7 +420,8 @@ static int32_t compose(const hooke_system *system, const char *title, const hook
 int32_t hooke_scene_write(const char *path, const hooke_system *system, const char *title,
                           const hooke_options *run) {
   struct hk_text laid = {.bytes = NULL};
-  int32_t status = compose(system, title, run, &laid);
+  int32_t status = hk_inputs_refuse_save(system, path);
+  if (status == HOOKE_OK) status = compose(system, title, run, &laid);
   if (status == HOOKE_OK) status = hk_file_write(path, laid.bytes, laid.length);
   hk_text_release(&laid);
   return status;

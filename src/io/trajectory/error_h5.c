@@ -10,6 +10,7 @@
 
 #include "io/file/bytes.h"
 #include "io/trajectory/error_h5.h"
+#include "io/trajectory/file_check_h5.h"
 #include "io/hdf5/file_h5.h"
 #include "io/trajectory/h5md_h5.h"
 #include "io/file/atomic_file.h"
@@ -18,7 +19,7 @@
 #include <stdio.h>
 
 struct places {
-  int64_t numbers, by, reason;
+  int64_t numbers, by, reason, check;
 };
 
 static int32_t find_places(struct hk_h5_guard *guard, const struct hk_h5_file *file, struct places *at) {
@@ -28,6 +29,7 @@ static int32_t find_places(struct hk_h5_guard *guard, const struct hk_h5_file *f
   at->numbers = hk_h5md_place(id, "hooke/error", HOOKE_ERROR_COUNT * sizeof(double));
   at->by = hk_h5md_place(id, "hooke/error_by", HOOKE_ERROR_BY);
   at->reason = hk_h5md_place(id, "hooke/error_reason", HOOKE_ERROR_REASON);
+  at->check = hk_h5md_find_check(id);
   H5Fclose(id);
   if (guard->no_memory) return hk_h5_fail(guard, file->atomic.path, "find the room for the error");
   if (at->numbers >= 0 && at->by >= 0 && at->reason >= 0) return HOOKE_OK;
@@ -45,7 +47,9 @@ static int write_at(int descriptor, const struct places *at, const hooke_measure
   snprintf(reason, sizeof reason, "%s", hooke_measurement_text(estimate, "estimate", 0, "reason"));
   int error = hk_bytes_write(descriptor, at->reason, sizeof reason, reason);
   if (error == 0) error = hk_bytes_write(descriptor, at->numbers, sizeof number, number);
-  return error ? error : hk_bytes_write(descriptor, at->by, sizeof by, by);
+  if (error == 0) error = hk_bytes_write(descriptor, at->by, sizeof by, by);
+  const uint32_t check = hk_file_check_error(number, by, reason);
+  return error ? error : hk_file_check_write(descriptor, at->check, HOOKE_CHECK_ERROR, check);
 }
 
 static int32_t write_to(struct hk_h5_guard *guard, struct hk_h5_file *file,

@@ -1,4 +1,5 @@
 /* The constant parts of an H5MD file. */
+#include "core/crc32.h"
 #include "core/memory.h"
 #include "core/status.h"
 
@@ -8,6 +9,7 @@
 #include "core/os/os_file.h"
 #include "core/print.h"
 #include "io/trajectory/error_h5.h"
+#include "io/trajectory/file_check_h5.h"
 #include "io/trajectory/h5md_h5.h"
 #include "io/hdf5/object_h5.h"
 #include "io/file/atomic_file.h"
@@ -21,8 +23,6 @@
 const char *const hk_error_number[HOOKE_ERROR_COUNT] = {"estimate",    "rms",        "known_until",
                                                         "energy_rise", "wanted",     "met",
                                                         "heat_excess", "last_piece", "last_from"};
-
-enum { STATUS_LENGTH = 16 }; /* smaller than a page, and aligned to a multiple of it: never torn */
 
 static const char units[] =
     "SI: position m, velocity m/s, time s, mass kg, energy J, power W, momentum kg m/s, "
@@ -97,19 +97,21 @@ herr_t hk_h5md_describe(hid_t file, const hooke_system *system, const char *meth
   if (result >= 0 && method) result = hk_h5_text_attribute(group, "method", method);
   if (result >= 0 && options) result = hk_h5md_write_options(group, options);
   if (result >= 0 && scene_text) result = write_text(group, "scene", (int64_t)strlen(scene_text), scene_text);
-  if (result >= 0) result = write_text(group, "status", STATUS_LENGTH, "running");
+  if (result >= 0) result = write_text(group, "status", HOOKE_H5MD_STATUS, "running");
   hk_h5_drop(group);
   return result;
 }
 
 int32_t hk_h5md_new_run(char run[HOOKE_RUN_SIZE]) {
-  unsigned char random[(HOOKE_RUN_SIZE - 1) / 2];
+  unsigned char random[HOOKE_RUN_RANDOM / 2];
   char reason[HOOKE_ERROR_SIZE];
   if (hk_os_random(random, sizeof random) != 0)
     return hk_fail(HOOKE_IO_FAILED, NULL, "could not take a random number for the run: %s",
                    hk_print_error(errno, reason));
   for (size_t k = 0; k < sizeof random; k++)
     snprintf(run + 2 * k, 3, "%02x", random[k]);
+  snprintf(run + HOOKE_RUN_RANDOM, HOOKE_RUN_SIZE - HOOKE_RUN_RANDOM, "%08x",
+           (unsigned)hk_crc32(0, run, HOOKE_RUN_RANDOM));
   return HOOKE_OK;
 }
 
@@ -231,14 +233,35 @@ int64_t hk_h5md_place(hid_t file, const char *name, hsize_t bytes) {
 }
 
 herr_t hk_h5md_find_status(hid_t file, int64_t *at) {
-  *at = hk_h5md_place(file, "hooke/status", STATUS_LENGTH);
+  *at = hk_h5md_place(file, "hooke/status", HOOKE_H5MD_STATUS);
   return *at < 0 ? -1 : 0;
 }
 
+int hk_h5md_seal(int descriptor, int64_t check, int64_t beyond, int32_t outcome) {
+  int64_t frame = -1;
+  const int error = beyond < 0 ? 0 : hk_bytes_read(descriptor, beyond, sizeof frame, &frame);
+  const uint32_t value = hk_file_check_outcome(outcome_word(outcome), frame);
+  return error ? error : hk_file_check_write(descriptor, check, HOOKE_CHECK_OUTCOME, value);
+}
+
 int hk_h5md_write_status(int descriptor, int64_t at, int32_t outcome) {
-  char word[STATUS_LENGTH] = {0};
+  char word[HOOKE_H5MD_STATUS] = {0};
   snprintf(word, sizeof word, "%s", outcome_word(outcome));
   return hk_bytes_write(descriptor, at, sizeof word, word);
+}
+
+int64_t hk_h5md_find_check(hid_t file) {
+  return hk_h5md_place(file, "hooke/file_check", HOOKE_FILE_CHECKS * sizeof(uint32_t));
+}
+
+int32_t hk_h5md_is_over(hid_t file) {
+  char *word = NULL;
+  hid_t group = hk_h5_open_own(file, "hooke");
+  hk_h5_read_text(group, "status", &word);
+  const int32_t is_over = word && strcmp(word, "running") != 0 && strcmp(word, "failed") != 0;
+  hk_free(word);
+  hk_h5_drop(group);
+  return is_over;
 }
 
 int64_t hk_h5md_find_beyond(hid_t file) {

@@ -6,6 +6,7 @@
  *                            scene; `options`: an attribute for each option of the run; `status`: "running"
  *                            until the file is closed
  *   /hooke/rest_length       [springs]
+ *   /hooke/file_check        [3] check values of everything but the frames (file_check_h5.h)
  *   /hooke/beyond            of a single run: the first frame after it diverged; -1: there is none
  *   /hooke/error             of a single run: HOOKE_ERROR_COUNT numbers, NaN until they are known; texts
  *                            `error_by`, `error_reason`
@@ -34,8 +35,8 @@ herr_t hk_h5md_write_options(hid_t where, const hooke_options *options);
 /* Writes /connectivity/springs and /hooke/rest_length; the particles group must exist. */
 herr_t hk_h5md_connect(hid_t file, const hooke_system *system, const char *group);
 
-/* The attribute `run` of /hooke: 32 random hexadecimal digits and a NUL. */
-enum { HOOKE_RUN_SIZE = 33 };
+/* The attribute `run` of /hooke: 24 random hexadecimal digits, their CRC-32 and a NUL. */
+enum { HOOKE_RUN_RANDOM = 24, HOOKE_RUN_SIZE = 33 };
 int32_t hk_h5md_new_run(char run[HOOKE_RUN_SIZE]);
 herr_t hk_h5md_write_run(hid_t file, const char *run);
 
@@ -57,10 +58,19 @@ herr_t hk_h5md_write_error_room(hid_t file);
 int64_t hk_h5md_place(hid_t file, const char *name, hsize_t bytes);
 
 /* The status as bytes in a file that HDF5 has closed: its offset, negative on failure; and writing it, a word
- * for a status of hooke_integrator_run() or HOOKE_H5MD_RUNNING: returns 0 or an errno. */
-enum { HOOKE_H5MD_RUNNING = 1000 };
+ * for a status of hooke_integrator_run() or HOOKE_H5MD_RUNNING: returns 0 or an errno. The bytes are fewer than
+ * a page, and aligned to a multiple of them: never torn. */
+enum { HOOKE_H5MD_RUNNING = 1000, HOOKE_H5MD_STATUS = 16 };
 herr_t hk_h5md_find_status(hid_t file, int64_t *at);
 int hk_h5md_write_status(int descriptor, int64_t at, int32_t outcome);
+
+/* Where the check values are (file_check_h5.h), -1 in older files; and writing that of an outcome, which has to
+ * be on the disk before the status: 0 or an errno. */
+int64_t hk_h5md_find_check(hid_t file);
+int hk_h5md_seal(int descriptor, int64_t check, int64_t beyond, int32_t outcome);
+
+/* 1 if the run came to an end: its file has just the frames that were written. */
+int32_t hk_h5md_is_over(hid_t file);
 
 /* The same while the file is open in HDF5. */
 herr_t hk_h5md_set_status(hid_t file, int32_t outcome);

@@ -13,6 +13,10 @@ const char *hk_record_path(const hooke_record *record);
 /* Time [s] of an existing frame, without checking the frame. */
 double hk_record_time(const hooke_record *record, int64_t frame);
 
+/* What its check values say of everything but the frames: "checked", "damaged" if the error of the run is not
+ * what was written (a file of which more is damaged is not opened), "not-covered" in older files. */
+const char *hk_record_parts(const hooke_record *record);
+
 /* 0 for a file of several runs, such as a comparison or a study. */
 int32_t hk_record_is_run(const hooke_record *record);
 

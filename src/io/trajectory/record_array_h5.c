@@ -11,6 +11,7 @@
 #include "io/hdf5/object_h5.h"
 #include "io/trajectory/record_h5.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -51,8 +52,12 @@ static int32_t keep(hooke_record *record, const char *what) {
   if (record->kept.value && strcmp(record->kept.dataset, dataset) == 0) return HOOKE_OK;
   drop_kept(record);
   snprintf(record->kept.dataset, sizeof record->kept.dataset, "%s", dataset);
-  return hk_array_read(record->path, dataset, 0, 0, &record->kept.value, &record->kept.rows,
-                       &record->kept.columns);
+  const int32_t read = hk_array_read(record->path, dataset, 0, 0, &record->kept.value, &record->kept.rows,
+                                     &record->kept.columns);
+  const int unknown = record->is_error_damaged && strcmp(what, "error") == 0;
+  for (int64_t k = 0; read == HOOKE_OK && unknown && k < record->kept.rows * record->kept.columns; k++)
+    record->kept.value[k] = NAN;
+  return read;
 }
 
 int32_t hooke_record_size(hooke_record *record, const char *what, int64_t *rows, int64_t *columns) {

@@ -11,63 +11,20 @@
 
 #include "io/hdf5/array_open_h5.h"
 #include "io/hdf5/dataset_h5.h"
-#include "io/trajectory/frame_check_h5.h"
 #include "io/hdf5/object_h5.h"
+#include "io/trajectory/error_h5.h"
+#include "io/trajectory/file_check_h5.h"
+#include "io/trajectory/frame_check_h5.h"
+#include "io/trajectory/h5md_h5.h"
 #include "io/trajectory/record_h5.h"
+#include "integrate/method.h"
+#include "integrate/integrator.h"
 #include "model/state.h"
 
 #include <math.h>
 #include <string.h>
 
-static const hsize_t LONGEST_TEXT = (hsize_t)1 << 31;
-
 /* ---- texts and options ---- */
-
-/* 1 for one text of fixed length, stored in this very file. */
-static int is_text_here(hid_t data) {
-  if (H5Iget_type(data) != H5I_DATASET || hk_h5_foreign(data)) return 0;
-  hid_t type = H5Dget_type(data), space = H5Dget_space(data), list = H5Dget_create_plist(data);
-  const H5D_layout_t layout = list < 0 ? H5D_LAYOUT_ERROR : H5Pget_layout(list);
-  const int fits = type >= 0 && space >= 0 && H5Tget_class(type) == H5T_STRING &&
-                   H5Tis_variable_str(type) == 0 && H5Sget_simple_extent_npoints(space) == 1 &&
-                   (layout == H5D_CONTIGUOUS || layout == H5D_COMPACT);
-  hk_h5_drop(list);
-  hk_h5_drop(space);
-  hk_h5_drop(type);
-  return fits;
-}
-
-/* A text of fixed length, stored in this very file; NULL if there is none. HOOKE_NO_MEMORY. */
-static int32_t read_text(hid_t group, const char *name, char **out) {
-  int32_t status = HOOKE_OK;
-  hid_t data = hk_h5_open_own(group, name);
-  hid_t type = data < 0 || !is_text_here(data) ? -1 : H5Dget_type(data);
-  const hsize_t length = type < 0 ? 0 : H5Tget_size(type), stored = type < 0 ? 0 : H5Dget_storage_size(data);
-  char *text = NULL;
-  if (type >= 0 && length == stored && length < LONGEST_TEXT) {
-    text = hk_new((int64_t)length + 1, 1);
-    if (text == NULL) status = HOOKE_NO_MEMORY;
-  }
-  if (text && H5Dread(data, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, text) < 0) {
-    hk_free(text);
-    text = NULL;
-  }
-  hk_h5_drop(type);
-  hk_h5_drop(data);
-  *out = text;
-  return status;
-}
-
-/* A text of variable length, to be released by H5free_memory(); NULL if it cannot be read. */
-static char *attribute_text(hid_t attribute) {
-  char *word = NULL;
-  hid_t memory = H5Tcopy(H5T_C_S1);
-  if (memory >= 0 && H5Tset_size(memory, H5T_VARIABLE) >= 0 && H5Tset_cset(memory, H5T_CSET_UTF8) >= 0 &&
-      H5Aread(attribute, memory, &word) < 0)
-    word = NULL;
-  hk_h5_drop(memory);
-  return word;
-}
 
 /* Leaving it out would describe another run. */
 static int32_t refuse_option(const char *name) {
@@ -79,19 +36,10 @@ static int32_t unreadable(const char *name) {
 }
 
 static int32_t read_word(hid_t attribute, hooke_options *options, const char *name) {
-  char *word = attribute_text(attribute);
+  char *word = hk_h5_attribute_text(attribute);
   const int32_t status = word ? hooke_options_set_text(options, name, word) : unreadable(name);
   if (word) H5free_memory(word);
   return status;
-}
-
-static int is_text(hid_t attribute) {
-  hid_t type = H5Aget_type(attribute), space = H5Aget_space(attribute);
-  const int fits = type >= 0 && space >= 0 && H5Sget_simple_extent_npoints(space) == 1 &&
-                   H5Tget_class(type) == H5T_STRING && H5Tis_variable_str(type) > 0;
-  hk_h5_drop(space);
-  hk_h5_drop(type);
-  return fits;
 }
 
 static int has_attribute(hid_t group, const char *name) {
@@ -101,7 +49,7 @@ static int has_attribute(hid_t group, const char *name) {
 /* "" if there is none. NULL without memory. */
 static char *read_attribute(hid_t group, const char *name) {
   hid_t attribute = has_attribute(group, name) ? H5Aopen(group, name, H5P_DEFAULT) : -1;
-  char *word = attribute >= 0 && is_text(attribute) ? attribute_text(attribute) : NULL;
+  char *word = attribute >= 0 ? hk_h5_attribute_text(attribute) : NULL;
   char *text = hk_copy_text(word ? word : "");
   if (word) H5free_memory(word);
   hk_h5_drop(attribute);
@@ -148,10 +96,10 @@ static const char *const facts[HOOKE_RECORD_FACTS] = {"version",      "sundials"
 /* The contents of the group of hooke. */
 static int32_t read_own(struct hooke_record *record, hid_t file) {
   hid_t group = hk_h5_open_own(file, "hooke"), options = hk_h5_open_own(group, "options");
-  int32_t status = read_text(group, "scene", &record->scene);
-  if (status == HOOKE_OK) status = read_text(group, "status", &record->status);
-  if (status == HOOKE_OK) status = read_text(group, "error_by", &record->error_by);
-  if (status == HOOKE_OK) status = read_text(group, "error_reason", &record->error_reason);
+  int32_t status = hk_h5_read_text(group, "scene", &record->scene);
+  if (status == HOOKE_OK) status = hk_h5_read_text(group, "status", &record->status);
+  if (status == HOOKE_OK) status = hk_h5_read_text(group, "error_by", &record->error_by);
+  if (status == HOOKE_OK) status = hk_h5_read_text(group, "error_reason", &record->error_reason);
   record->run = read_attribute(group, "run");
   if (status == HOOKE_OK && record->run == NULL) status = HOOKE_NO_MEMORY;
   for (int k = 0; status == HOOKE_OK && k < HOOKE_RECORD_FACTS; k++) {
@@ -165,13 +113,16 @@ static int32_t read_own(struct hooke_record *record, hid_t file) {
   return status;
 }
 
+/* A run that came to an end left a file of just its frames, so that one without a time is damaged. */
 static int32_t read_times(struct hooke_record *record, struct hk_h5_guard *guard, hid_t file) {
   static const char times[] = "/particles/all/position/time";
   int64_t rows = 0, columns = 0;
   const int32_t status =
       hk_array_read_open(guard, file, record->path, times, 0, 0, 0, &record->time, &rows, &columns);
   if (status == HOOKE_OK && columns != 1) return hk_dataset_refuse(record->path, times, "is no column");
-  while (status == HOOKE_OK && record->frame_count < rows && !isnan(record->time[record->frame_count]))
+  const int is_over = hk_h5md_is_over(file);
+  while (status == HOOKE_OK && record->frame_count < rows &&
+         (is_over || !isnan(record->time[record->frame_count])))
     record->frame_count++;
   return status;
 }
@@ -189,7 +140,7 @@ static int is_number_here(hid_t data) {
 }
 
 /* Older files do not tell, and have none. */
-static void read_beyond(struct hooke_record *record, hid_t file) {
+static int64_t read_beyond(struct hooke_record *record, hid_t file) {
   hid_t group = hk_h5_open_own(file, "hooke"), data = hk_h5_open_own(group, "beyond");
   int64_t first = -1;
   if (data >= 0 && is_number_here(data) &&
@@ -198,6 +149,58 @@ static void read_beyond(struct hooke_record *record, hid_t file) {
   record->good_count = first > 0 && first < record->frame_count ? first : record->frame_count;
   hk_h5_drop(data);
   hk_h5_drop(group);
+  return first;
+}
+
+/* ---- whole or not ---- */
+
+static int32_t damaged(const struct hooke_record *record, const char *what) {
+  return hk_fail(HOOKE_BAD_VALUE, NULL, "%s is damaged: %s", record->path, what);
+}
+
+/* Not known is better than wrong. */
+static int32_t check_error(struct hooke_record *record, struct hk_h5_guard *guard, hid_t file,
+                           uint32_t stored) {
+  double *number = NULL;
+  int64_t rows = 0, columns = 0;
+  const int32_t status =
+      hk_array_read_open(guard, file, record->path, "/hooke/error", 0, 0, 0, &number, &rows, &columns);
+  if (status != HOOKE_OK) return status;
+  record->is_error_damaged = rows * columns != HOOKE_ERROR_COUNT || !record->error_by ||
+                             !record->error_reason ||
+                             hk_file_check_error(number, record->error_by, record->error_reason) != stored;
+  hk_free(number);
+  return HOOKE_OK;
+}
+
+static int32_t check_parts(struct hooke_record *record, struct hk_h5_guard *guard, hid_t file,
+                           int64_t beyond) {
+  uint32_t stored[HOOKE_FILE_CHECKS], value = 0;
+  int32_t status = hk_file_check_read(guard, file, record->path, stored, &record->is_covered);
+  if (status != HOOKE_OK || !record->is_covered || !record->status) return status;
+  status = hk_file_check_description(guard, file, record->path, record->scene, &value);
+  if (status == HOOKE_OK && !hk_file_check_run(record->run))
+    status = damaged(record, "the name of its run is not the one that was written, by the digits at its end");
+  if (status == HOOKE_OK && value != stored[HOOKE_CHECK_DESCRIPTION])
+    status =
+        damaged(record, "its scene, options, masses or springs are not those that were written, by their "
+                        "check value");
+  if (status == HOOKE_OK && hk_h5md_is_over(file) &&
+      hk_file_check_outcome(record->status, beyond) != stored[HOOKE_CHECK_OUTCOME])
+    status = damaged(record, "the outcome of its run is not the one that was written, by its check value");
+  return status == HOOKE_OK ? check_error(record, guard, file, stored[HOOKE_CHECK_ERROR]) : status;
+}
+
+/* A finished run has the frames that its options ask for. */
+static int32_t check_count(const struct hooke_record *record) {
+  const struct hk_method *method = hk_method_find(hooke_options_text(record->options, "method"));
+  struct hk_schedule planned;
+  if (!record->is_run || !method || !record->status || strcmp(record->status, "finished") != 0)
+    return HOOKE_OK;
+  const int32_t status = hk_schedule_read(method, record->options, &planned);
+  if (status != HOOKE_OK || planned.frames == record->frame_count) return status;
+  return hk_fail(HOOKE_BAD_VALUE, NULL, "%s is damaged: it has %lld frames, and its finished run has %lld",
+                 record->path, (long long)record->frame_count, (long long)planned.frames);
 }
 
 /* close_file() has to follow in any case. */
@@ -220,7 +223,8 @@ static int32_t read_file(struct hooke_record *record) {
   /* an unreadable object is not a missing one */
   if (status == HOOKE_OK && guard.reason[0]) status = hk_h5_fail(&guard, record->path, "read the file");
   if (status == HOOKE_OK) status = read_times(record, &guard, file);
-  if (status == HOOKE_OK) read_beyond(record, file);
+  if (status == HOOKE_OK) status = check_parts(record, &guard, file, read_beyond(record, file));
+  if (status == HOOKE_OK) status = check_count(record);
   if (status == HOOKE_OK) hk_record_find_places(record, file);
   close_file(&guard, file);
   return status;
@@ -262,8 +266,10 @@ void hooke_record_close(hooke_record *record) {
 const char *hooke_record_text(const hooke_record *record, const char *what) {
   if (strcmp(what, "scene") == 0) return record->scene ? record->scene : "";
   if (strcmp(what, "run") == 0) return record->run;
-  if (strcmp(what, "error_by") == 0) return record->error_by ? record->error_by : "";
-  if (strcmp(what, "error_reason") == 0) return record->error_reason ? record->error_reason : "";
+  const char *error_by = record->error_by, *reason = record->error_reason;
+  if (record->is_error_damaged) error_by = NULL, reason = "the file is damaged: it is not what was written";
+  if (strcmp(what, "error_by") == 0) return error_by ? error_by : "";
+  if (strcmp(what, "error_reason") == 0) return reason ? reason : "";
   for (int k = 0; k < HOOKE_RECORD_FACTS; k++)
     if (strcmp(what, facts[k]) == 0) return record->fact[k] ? record->fact[k] : "";
   return strcmp(what, "status") == 0 ? record->status : NULL;
@@ -281,6 +287,11 @@ int32_t hk_record_is_run(const hooke_record *record) {
   return record->is_run;
 }
 
+const char *hk_record_parts(const hooke_record *record) {
+  if (!record->is_covered) return "not-covered";
+  return record->is_error_damaged ? "damaged" : "checked";
+}
+
 const hooke_options *hooke_record_options(const hooke_record *record) {
   return record->options;
 }
@@ -294,7 +305,11 @@ static const char position[] = "/particles/all/position/value", velocity[] = "/p
 
 static int32_t find_frame(const hooke_record *record, int64_t frame, int64_t *at) {
   *at = frame < 0 ? record->frame_count + frame : frame;
-  if (*at >= 0 && *at < record->frame_count) return HOOKE_OK;
+  if (*at >= 0 && *at < record->frame_count) {
+    if (!isnan(record->time[*at])) return HOOKE_OK;
+    return hk_fail(HOOKE_BAD_VALUE, NULL, "frame %lld of %s is damaged: it has no time", (long long)*at,
+                   record->path);
+  }
   return hk_fail(HOOKE_BAD_VALUE, "frame", "there is no frame %lld; %s has %lld", (long long)frame,
                  record->path, (long long)record->frame_count);
 }
@@ -376,6 +391,11 @@ const char *hk_record_path(const hooke_record *record) {
 double hk_record_time(const hooke_record *record, int64_t frame) {
   (void)record, (void)frame;
   return 0.0;
+}
+
+const char *hk_record_parts(const hooke_record *record) {
+  (void)record;
+  return "";
 }
 
 int32_t hk_record_is_run(const hooke_record *record) {

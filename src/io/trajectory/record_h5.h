@@ -15,7 +15,8 @@ struct hooke_record {
   char *path, *scene, *status, *run, *error_by, *error_reason;
   hooke_options *options; /* of a run, as stored */
   int32_t is_run;
-  int64_t frame_count, good_count; /* frames, and those before divergence */
+  int32_t is_covered, is_error_damaged; /* by check values: everything but the frames; and the error is not */
+  int64_t frame_count, good_count;      /* frames, and those before divergence */
   double *time;
   int64_t place[HOOKE_PLACE_COUNT]; /* offsets of frames in the file [bytes]; -1: not contiguous */
   struct {

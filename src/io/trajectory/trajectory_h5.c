@@ -9,6 +9,8 @@
 #if HOOKE_HAVE_HDF5
 
 #include "io/file/atomic_file.h"
+#include "io/trajectory/file_check_h5.h"
+#include "io/file/inputs.h"
 #include "io/scene/scene.h"
 #include "io/trajectory/trajectory.h"
 #include "io/trajectory/trajectory_h5.h"
@@ -45,6 +47,7 @@ static int32_t settle(struct hk_h5_guard *guard, hooke_trajectory *made) {
   if (hk_h5md_find_status(made->file.id, &made->status_at) < 0)
     return hk_h5_fail(guard, made->file.atomic.path, "make room for all frames");
   made->beyond_at = hk_h5md_find_beyond(made->file.id);
+  made->check_at = hk_h5md_find_check(made->file.id);
   const int32_t status = hk_h5_file_settle(guard, &made->file);
   made->writer.file.descriptor = made->file.atomic.descriptor;
   return status;
@@ -68,7 +71,8 @@ static int32_t fill(struct hk_h5_guard *guard, const char *path, const hooke_sys
   if (result >= 0) result = hk_trajectory_writer_create(made->file.id, system, "all", frames, &made->writer);
   if (result >= 0) result = hk_h5md_connect(made->file.id, system, "all");
   if (result < 0) return hk_h5_fail(guard, path, "make room for all frames");
-  status = settle(guard, made);
+  status = hk_file_check_create(guard, made->file.id, path, scene_text);
+  if (status == HOOKE_OK) status = settle(guard, made);
   return status == HOOKE_OK ? hk_h5_file_publish(&made->file) : status;
 }
 
@@ -100,7 +104,9 @@ int32_t hooke_trajectory_create(const char *path, const hooke_system *system,
                    "is missing: a trajectory needs to know how many frames come");
   }
   char *whole = NULL;
-  int32_t status = hk_scene_make_whole(scene_text, system, hooke_integrator_options(integrator), &whole);
+  int32_t status = hk_inputs_refuse(system, path);
+  if (status == HOOKE_OK)
+    status = hk_scene_make_whole(scene_text, system, hooke_integrator_options(integrator), &whole);
   if (status == HOOKE_OK) status = create(path, system, integrator, whole ? whole : scene_text, trajectory);
   hk_free(whole);
   return status;
@@ -208,6 +214,8 @@ static int copy_all(const hooke_trajectory *trajectory, const struct hk_h5_copy 
                     int32_t outcome, const hooke_trajectory *made) {
   int error = hk_h5_copy_bytes(copy, trajectory->file.atomic.descriptor, made->file.atomic.descriptor);
   if (error == 0) error = hk_frame_copy(&trajectory->writer.file, &made->writer.file, frames);
+  if (error == 0)
+    error = hk_h5md_seal(made->file.atomic.descriptor, made->check_at, made->beyond_at, outcome);
   return error ? error : hk_h5md_write_status(made->file.atomic.descriptor, made->status_at, outcome);
 }
 
@@ -257,8 +265,10 @@ static int32_t finish(hooke_trajectory *trajectory, int32_t outcome) {
   }
   /* a run that was gone on with marks its own */
   const int marks = trajectory->beyond || !trajectory->origin[0];
-  const int unmarked =
-      marks ? 0 : hk_h5md_write_beyond(trajectory->file.atomic.descriptor, trajectory->beyond_at, -1);
+  const int descriptor = trajectory->file.atomic.descriptor;
+  int unmarked = marks ? 0 : hk_h5md_write_beyond(descriptor, trajectory->beyond_at, -1);
+  if (unmarked == 0)
+    unmarked = hk_h5md_seal(descriptor, trajectory->check_at, trajectory->beyond_at, outcome);
   if (unmarked) return fail(trajectory, "mark the frames after divergence", unmarked);
   if (frames < writer->frame_count) return shorten(trajectory, frames, outcome);
   /* the outcome is written after all that it refers to is on the disk */

@@ -88,6 +88,7 @@ static int32_t find_all(struct hk_h5_guard *guard, hid_t file, hooke_trajectory 
   if (status == HOOKE_OK && hk_h5md_find_status(file, &old->status_at) < 0)
     status = refuse_seen(guard, old, "it is no trajectory of hooke");
   if (status == HOOKE_OK) old->beyond_at = hk_h5md_find_beyond(file);
+  if (status == HOOKE_OK) old->check_at = hk_h5md_find_check(file);
   return status;
 }
 

@@ -9,6 +9,7 @@
 #include "hooke/trajectory.h"
 #include "io/hdf5/array_h5.h"
 #include "io/file/atomic_file.h"
+#include "io/file/inputs.h"
 #include "io/trajectory/record.h"
 #include "io/file/text.h"
 
@@ -228,7 +229,7 @@ int32_t hooke_record_write_xdmf(const hooke_record *record, const char *path) {
   char *beside = NULL;
   int32_t status = path ? HOOKE_OK : name_beside(there, &beside);
   const char *name = path ? path : beside;
-  if (status == HOOKE_OK && !path) status = check_replaced(name);
+  if (status == HOOKE_OK) status = path ? hk_input_refuse(there, name) : check_replaced(name);
   if (status == HOOKE_OK) status = find_name(&c, name);
   if (status == HOOKE_OK) status = read_sizes(&c);
   if (status == HOOKE_OK) {

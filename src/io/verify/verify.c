@@ -112,6 +112,7 @@ static int32_t open(struct hk_verify *verify) {
 /* As before it runs. */
 static void forget(struct hk_verify *verify) {
   verify->verdict = NULL;
+  verify->parts = hk_record_parts(verify->record);
   verify->balance = "not-checked";
   verify->difference[0] = '\0';
   verify->checked = 0;
@@ -127,8 +128,8 @@ static int32_t create(hooke_measurement *m) {
   struct hk_verify *verify = m->object;
   verify->measurement = m;
   verify->options = m->options;
-  forget(verify);
   int32_t status = open(verify);
+  if (status == HOOKE_OK) forget(verify);
   verify->limits = NULL;
   if (status == HOOKE_OK) status = hooke_options_copy(hooke_record_options(verify->record), &m->run);
   m->system = verify->system;
@@ -161,6 +162,10 @@ int32_t hooke_verify_create(const char *path, const hooke_options *options, cons
 
 static int32_t check_frames(struct hk_verify *verify) {
   const int64_t count = hooke_record_count(verify->record, "frames");
+  if (strcmp(verify->parts, "damaged") == 0)
+    return hk_fail(HOOKE_BAD_VALUE, NULL,
+                   "%s is damaged: the error of its run is not the one that was written, by its check value",
+                   verify->path);
   int32_t status = HOOKE_OK;
   for (verify->checked = 0; verify->checked < count && status == HOOKE_OK; verify->checked++) {
     status = hooke_record_check(verify->record, verify->checked);
@@ -174,7 +179,6 @@ static int32_t check_frames(struct hk_verify *verify) {
 
 static void keep(struct hk_verify *verify, const struct hk_verify_pass *pass) {
   const struct hk_balance *balance = &pass->balance;
-  verify->steps = pass->steps;
   verify->work = balance->work;
   verify->heat = balance->heat;
   verify->residual = pass->count > 0 ? pass->residual[pass->count - 1] : NAN;
@@ -252,6 +256,7 @@ static int32_t compare_slice(struct hk_verify *verify) {
   double *own = pass.own;
   int32_t status = hk_verify_pass(verify, &pass);
   const double apart[2] = {pass.apart[0], pass.apart[1]};
+  verify->steps = pass.steps;
   const char *method = hooke_options_text(hooke_record_options(verify->record), "method");
   if (status == HOOKE_OK) {
     verify->verdict = "agrees";

@@ -20,7 +20,7 @@ struct hk_verify {
   int32_t by_budget, fixed; /* fixed: a fixed step */
   int32_t may_differ;       /* 1: another version or machine wrote the file */
 
-  const char *verdict, *balance;
+  const char *verdict, *balance, *parts;
   char difference[512];
   int64_t checked;
   double time_from, time_to; /* of the frames `from` and `to` */

@@ -186,6 +186,7 @@ int32_t hk_verify_pass(struct hk_verify *verify, struct hk_verify_pass *pass) {
   hooke_integrator *integrator = NULL;
   hooke_state *state = NULL;
   pass->count = 0;
+  pass->steps = NAN;
   pass->apart[0] = pass->apart[1] = pass->error[0] = pass->error[1] = 0.0;
   pass->balance = (struct hk_balance){.system = NULL};
   if (verify->by_budget && !pass->refined)

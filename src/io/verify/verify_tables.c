@@ -5,7 +5,7 @@
 #include <stddef.h>
 
 struct verify_line {
-  const char *verdict, *difference, *run, *method, *balance;
+  const char *verdict, *difference, *run, *method, *balance, *parts;
   const char *version, *sundials, *cholmod, *instructions, *machine;
   const char *version_here, *sundials_here, *cholmod_here, *instructions_here, *machine_here;
   double frames, frames_checked, frame_first, frame_last, time_first, time_last, steps;
@@ -40,6 +40,7 @@ static void read_verify(const void *object, int64_t row, void *line) {
       .run = hooke_record_text(v->record, "run"),
       .method = hooke_options_text(run, "method"),
       .balance = v->balance,
+      .parts = v->parts,
       .frames = (double)hooke_record_count(v->record, "frames"),
       .frames_checked = (double)v->checked,
       .frame_first = (double)v->from,
@@ -73,6 +74,10 @@ static const struct hk_column columns[] = {
     HOOKE_COLUMN(struct verify_line, method, TEXT, "", "method of the run"),
     HOOKE_COLUMN(struct verify_line, balance, TEXT, "",
                  "holds, does-not-hold, unresolved (the step is too long to tell) or not-checked"),
+    HOOKE_COLUMN(
+        struct verify_line, parts, TEXT, "",
+        "scene, options, masses, springs, outcome and error by their check values: checked, damaged or "
+        "not-covered (an older file)"),
     HOOKE_COLUMN(struct verify_line, version, TEXT, "", "version of hooke that made the file"),
     HOOKE_COLUMN(struct verify_line, sundials, TEXT, "", "its SUNDIALS"),
     HOOKE_COLUMN(struct verify_line, cholmod, TEXT, "", "its CHOLMOD"),

@@ -188,6 +188,22 @@ class Scene(Parts):
         self._note("springs", {**({"name": name} if name else {}), "between": ends, **keys})
         return self
 
+    def bending(
+        self,
+        name: str | None = None,
+        *,
+        triples: Sequence[Sequence[Particle]] | IntArray,
+        coefficient: Numbers,
+    ) -> Scene:
+        """Adds bending on `triples` a, b, c (m, 3) of existing particles: the energy c/2 |q_a - 2 q_b + q_c|^2 with the
+        `coefficient` c [N/m], one number or (m,). Returns the scene."""
+        with placed(f"bending[{self._count('bending')}]"):
+            numbers = self._numbers(triples, "triples")
+            self._system.add_bending(name, numbers, coefficient)
+        keys = {"triples": numbers.reshape(-1, 3), "coefficient": _kept(coefficient)}
+        self._note("bending", {**({"name": name} if name else {}), **keys})
+        return self
+
     def anchors(
         self,
         name: str | None = None,

@@ -1,0 +1,147 @@
+#include "core/memory.h"
+#include "core/status.h"
+
+#if HOOKE_HAVE_HDF5
+
+#include "core/crc32.h"
+#include "io/file/bytes.h"
+#include "io/hdf5/array_open_h5.h"
+#include "io/hdf5/dataset_h5.h"
+#include "io/hdf5/object_h5.h"
+#include "io/trajectory/error_h5.h"
+#include "io/trajectory/file_check_h5.h"
+#include "io/trajectory/h5md_h5.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+static const char array[] = "/hooke/file_check";
+
+/* ---- values ---- */
+
+/* A text in a room of `bytes`, filled with zeros. */
+static uint32_t add_padded(uint32_t value, const char *text, size_t bytes) {
+  char room[HOOKE_ERROR_REASON] = {0};
+  memcpy(room, text, strnlen(text, bytes));
+  return hk_crc32(value, room, (int64_t)bytes);
+}
+
+int32_t hk_file_check_run(const char *run) {
+  char digits[HOOKE_RUN_SIZE - HOOKE_RUN_RANDOM];
+  if (strlen(run) != HOOKE_RUN_SIZE - 1) return 0;
+  snprintf(digits, sizeof digits, "%08x", (unsigned)hk_crc32(0, run, HOOKE_RUN_RANDOM));
+  return strcmp(run + HOOKE_RUN_RANDOM, digits) == 0;
+}
+
+uint32_t hk_file_check_outcome(const char *status, int64_t beyond) {
+  return hk_crc32(add_padded(0, status, HOOKE_H5MD_STATUS), &beyond, sizeof beyond);
+}
+
+uint32_t hk_file_check_error(const double *numbers, const char *by, const char *reason) {
+  const uint32_t value = hk_crc32(0, numbers, HOOKE_ERROR_COUNT * sizeof *numbers);
+  return add_padded(add_padded(value, by, HOOKE_ERROR_BY), reason, HOOKE_ERROR_REASON);
+}
+
+static void add_text(uint32_t *value, const char *text) {
+  *value = hk_crc32(*value, text, (int64_t)strlen(text) + 1);
+}
+
+static herr_t add_numbers(uint32_t *value, hid_t attribute) {
+  hid_t type = H5Aget_type(attribute), space = H5Aget_space(attribute);
+  const H5T_class_t class = type < 0 ? H5T_NO_CLASS : H5Tget_class(type);
+  const hssize_t count = space < 0 ? -1 : H5Sget_simple_extent_npoints(space);
+  herr_t result = count < 0 ? -1 : 0;
+  if (result >= 0 && (class == H5T_FLOAT || class == H5T_INTEGER)) {
+    double *number = hk_new(count, sizeof *number);
+    result = number == NULL ? -1 : H5Aread(attribute, H5T_NATIVE_DOUBLE, number);
+    if (result >= 0) *value = hk_crc32(*value, number, count * (int64_t)sizeof *number);
+    hk_free(number);
+  }
+  hk_h5_drop(space);
+  hk_h5_drop(type);
+  return result;
+}
+
+static herr_t add_attribute(hid_t group, const char *name, const H5A_info_t *info, void *value) {
+  (void)info;
+  if (strcmp(name, "run") == 0) return 0; /* alike for equal runs */
+  hid_t attribute = H5Aopen(group, name, H5P_DEFAULT);
+  herr_t result = attribute < 0 ? -1 : 0;
+  char *text = result < 0 ? NULL : hk_h5_attribute_text(attribute);
+  add_text(value, name);
+  if (text)
+    add_text(value, text);
+  else if (result >= 0)
+    result = add_numbers(value, attribute);
+  if (text) H5free_memory(text);
+  hk_h5_drop(attribute);
+  return result;
+}
+
+static herr_t add_attributes(uint32_t *value, hid_t group) {
+  return group < 0 ? 0 : H5Aiterate2(group, H5_INDEX_NAME, H5_ITER_INC, NULL, add_attribute, value);
+}
+
+static int32_t add_array(struct hk_h5_guard *guard, hid_t file, const char *path, const char *name,
+                         uint32_t *value) {
+  double *numbers = NULL;
+  int64_t rows, columns;
+  const int32_t status = hk_array_read_open(guard, file, path, name, 0, 0, 0, &numbers, &rows, &columns);
+  if (status == HOOKE_OK) *value = hk_crc32(*value, numbers, rows * columns * (int64_t)sizeof *numbers);
+  hk_free(numbers);
+  return status;
+}
+
+int32_t hk_file_check_description(struct hk_h5_guard *guard, hid_t file, const char *path, const char *scene,
+                                  uint32_t *value) {
+  static const char *const arrays[] = {"/particles/all/mass", "/particles/all/species",
+                                       "/connectivity/springs", "/hooke/rest_length"};
+  hid_t group = hk_h5_open_own(file, "hooke"), options = hk_h5_open_own(group, "options");
+  *value = 0;
+  herr_t result = add_attributes(value, group);
+  if (result >= 0) result = add_attributes(value, options);
+  hk_h5_drop(options);
+  hk_h5_drop(group);
+  int32_t status =
+      result < 0 || guard->reason[0] ? hk_h5_fail(guard, path, "read what it says of its run") : HOOKE_OK;
+  for (size_t k = 0; k < sizeof arrays / sizeof arrays[0] && status == HOOKE_OK; k++)
+    status = add_array(guard, file, path, arrays[k], value);
+  if (scene) *value = hk_crc32(*value, scene, (int64_t)strlen(scene));
+  return status;
+}
+
+/* ---- the array ---- */
+
+int32_t hk_file_check_create(struct hk_h5_guard *guard, hid_t file, const char *path, const char *scene) {
+  const hsize_t size = HOOKE_FILE_CHECKS;
+  double unknown[HOOKE_ERROR_COUNT];
+  uint32_t value[HOOKE_FILE_CHECKS] = {0};
+  for (int k = 0; k < HOOKE_ERROR_COUNT; k++)
+    unknown[k] = NAN;
+  value[HOOKE_CHECK_ERROR] = hk_file_check_error(unknown, "", "");
+  const int32_t status = hk_file_check_description(guard, file, path, scene, &value[HOOKE_CHECK_DESCRIPTION]);
+  if (status != HOOKE_OK) return status;
+  const herr_t result = hk_h5_array_of(file, array, H5T_NATIVE_UINT32, H5T_NATIVE_UINT32, 1, &size, value);
+  return result < 0 ? hk_h5_fail(guard, path, "write its check values") : HOOKE_OK;
+}
+
+int32_t hk_file_check_read(struct hk_h5_guard *guard, hid_t file, const char *path, uint32_t value[],
+                           int32_t *there) {
+  struct hk_dataset data;
+  int32_t status = hk_dataset_find(guard, file, path, array, &data);
+  *there = status == HOOKE_OK && data.id >= 0;
+  if (*there && (data.rank != 1 || data.size[0] != HOOKE_FILE_CHECKS))
+    status = hk_dataset_refuse(path, array, "is not one of 3 check values");
+  else if (*there && H5Dread(data.id, H5T_NATIVE_UINT32, H5S_ALL, H5S_ALL, H5P_DEFAULT, value) < 0)
+    status = hk_h5_fail(guard, path, "read its check values");
+  hk_h5_drop(data.id);
+  return status;
+}
+
+int hk_file_check_write(int descriptor, int64_t at, int which, uint32_t value) {
+  const int64_t size = (int64_t)sizeof value;
+  return at < 0 ? 0 : hk_bytes_write(descriptor, at + which * size, size, &value);
+}
+
+#endif
