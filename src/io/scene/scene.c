@@ -103,6 +103,7 @@ static int32_t load_record(const char *path, const hooke_options *limits, hooke_
       hooke_options_destroy((*scene)->run);
       (*scene)->run = run;
     } else {
+      hooke_options_destroy(run);
       hooke_scene_destroy(*scene);
       *scene = NULL;
     }
