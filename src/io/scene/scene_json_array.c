@@ -28,9 +28,13 @@ static const struct hk_option_row source_rows[] = {
 static const struct hk_option_table source_table = {"data set", HOOKE_OPTION_ROWS(source_rows)};
 
 int32_t hk_scene_reader_file(const struct hk_scene_reader *reader, const char *file, char **path) {
-  const int32_t status =
+  int32_t status =
       (reader->scene->outside ? hk_scene_find_any : hk_scene_find_file)(reader->folder, file, path);
-  return status == HOOKE_OK ? hk_inputs_note(reader->scene->system, *path, 0) : status;
+  if (status == HOOKE_OK) status = hk_inputs_note(reader->scene->system, *path, 0);
+  if (status == HOOKE_OK) return status;
+  hk_free(*path);
+  *path = NULL;
+  return status;
 }
 
 /* ---- data sets ---- */
