@@ -459,7 +459,8 @@ static int32_t descend(struct hk_stage *stage, double height, double slack) {
                                         : rises(stage->reduced.integrator, "potential of its equations");
 }
 
-int32_t hk_stage_solve(struct hk_stage *stage, const struct hk_equations *equations) {
+int32_t hk_stage_solve_by(struct hk_stage *stage, const struct hk_equations *equations,
+                          hk_first_solution *first) {
   hooke_integrator *it = stage->reduced.integrator;
   const int guarded = stage->descent.rows != NULL;
   double height = NAN, slack = 0.0;
@@ -470,10 +471,14 @@ int32_t hk_stage_solve(struct hk_stage *stage, const struct hk_equations *equati
     begin_at_rest(stage);
     height = potential(stage, &slack);
   }
-  const int32_t status = solve_from_beginning(stage);
+  const int32_t status = first(stage);
   if (!guarded || (status != HOOKE_OK && status != HOOKE_SOLVER_FAILED)) return status;
   if (status == HOOKE_OK && is_right(stage, height, slack)) return HOOKE_OK;
   return descend(stage, height, slack);
+}
+
+int32_t hk_stage_solve(struct hk_stage *stage, const struct hk_equations *equations) {
+  return hk_stage_solve_by(stage, equations, solve_from_beginning);
 }
 
 /* ---- steps and their parts ---- */

@@ -67,6 +67,11 @@ void hk_stage_restore(struct hk_stage *stage, double *state);
  * callback. */
 int32_t hk_stage_solve(struct hk_stage *stage, const struct hk_equations *equations);
 
+/* The same with another first solution, in `v` and the motion. A wrong one is not accepted (descent.h). */
+typedef int32_t hk_first_solution(struct hk_stage *stage);
+int32_t hk_stage_solve_by(struct hk_stage *stage, const struct hk_equations *equations,
+                          hk_first_solution *first);
+
 /* A step or a part of one, from the motion at time t, which is in the stage's `start`, to `end`. */
 struct hk_span_of_time {
   double t, h, end;
