@@ -6,7 +6,9 @@
 #include "integrate/solve/stage.h"
 
 static int32_t create(hooke_integrator *it) {
-  return hk_stage_create(it, 0);
+  const int32_t status = hk_stage_create(it, 0);
+  if (status == HOOKE_OK) ((struct hk_stage *)it->own)->swings = 1;
+  return status;
 }
 
 /* From the middle on as far again; constrained particles come from the drives. */

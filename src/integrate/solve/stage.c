@@ -16,10 +16,18 @@ static const double LEAST_RESIDUAL = 1e-12, LARGEST_RESIDUAL = 1e-2, FAR_ENOUGH 
 /* Corrections that do not fall below this share of the ones before are slow. No error falls faster than by
  * the other, as far as the tolerance is concerned. */
 static const double SLOW = 0.5, FASTEST = 0.1;
-static const double LEAST_SHARE = 1e-4, ROUNDINGS = 1.0, ALL_ROUNDINGS = 100.0;
+static const double LEAST_SHARE = 1e-4, LEAST_OF_DESCENT = 1e-12, ROUNDINGS = 1.0, ALL_ROUNDINGS = 100.0;
 /* One iteration is taken where it leaves no more than this of the residual of the linearised equations. */
 static const double ONE_LEAVES = 1.0;
-enum { MANY_SLOW = 4, LEAST_TRIES = 20, MOST_ITERATIONS = 100, LONGEST_PAUSE = 16, FINEST_SPLIT = 1024 };
+static const double ARMIJO = 1e-4;
+enum {
+  MANY_SLOW = 4,
+  LEAST_TRIES = 20,
+  MOST_ITERATIONS = 100,
+  LONGEST_PAUSE = 16,
+  FINEST_SPLIT = 1024,
+  QUARTER = FINEST_SPLIT / 4
+};
 
 static int32_t allocate(struct hk_stage *stage, int64_t states) {
   hooke_integrator *it = stage->reduced.integrator;
@@ -51,6 +59,7 @@ int32_t hk_stage_create(hooke_integrator *it, int64_t states) {
   stage->order = it->method->order;
   stage->overdamped = it->system->friction > 0.0;
   int32_t status = hk_body_stage_create(it, &stage->body);
+  if (status == HOOKE_OK) status = hk_descent_create(it, &stage->descent);
   if (status == HOOKE_OK) status = hk_reduced_create(it, HOOKE_REDUCED_GENERAL, &stage->reduced);
   stage->size = it->size + HOOKE_BODY_VELOCITIES * stage->body.count;
   stage->state_size = 2 * it->size + HOOKE_BODY_NUMBERS * stage->body.count;
@@ -60,6 +69,7 @@ int32_t hk_stage_create(hooke_integrator *it, int64_t states) {
 void hk_stage_destroy(hooke_integrator *it) {
   struct hk_stage *stage = it->own;
   hk_body_stage_release(&stage->body);
+  hk_descent_release(&stage->descent);
   hk_reduced_release(&stage->reduced);
   hk_free(stage->whole);
   hk_free(stage);
@@ -230,6 +240,7 @@ struct iteration {
   double share;          /* of the last correction that was taken */
   int slow, pause, wait; /* slow ones in a row; whole ones that are left out after a failure, and still are */
   int64_t linear;        /* iterations of the last safe correction */
+  double height;         /* the potential at the guess, where that descends */
 };
 
 static int32_t give_up(const struct hk_stage *stage, int iterations, const struct iteration *now,
@@ -279,18 +290,30 @@ static int32_t safe_correction(struct hk_stage *stage, struct iteration *now, in
   return status;
 }
 
-/* Moves the guess along the correction until F.dv, which would be 0 at the least of a potential, has turned
- * by no more than half of what it was. */
+/* 1 if the guess may move by this share of the correction: where F.dv, which would be 0 at the least of a
+ * potential, has turned by no more than half of what it was; or the potential is lower by a part of what its
+ * slope promises (Armijo 1966). */
+static int may_move(struct hk_stage *stage, struct iteration *now, double share, double left) {
+  const double slope = now->size * now->size, a = stage->at.a;
+  double slack;
+  if (!stage->descends) return left >= -0.5 * slope && left < INFINITY;
+  const double height =
+      hk_descent_potential(&stage->descent, stage->reduced.integrator, a, stage->moved, &slack);
+  if (!(height <= now->height - ARMIJO * share * a * slope + slack)) return 0;
+  now->height = height;
+  return 1;
+}
+
 static int32_t search(struct hk_stage *stage, struct iteration *now, int *found) {
-  const double slope = now->size * now->size;
+  const double slope = now->size * now->size, least = stage->descends ? LEAST_OF_DESCENT : LEAST_SHARE;
   *found = 0;
-  for (double share = 1.0; share >= LEAST_SHARE && !*found;) {
+  for (double share = 1.0; share >= least && !*found;) {
     for (int64_t j = 0; j < stage->size; j++)
       stage->moved[j] = stage->v[j] + share * stage->change[j];
     const int32_t status = find_residual(stage, stage->moved);
     if (status != HOOKE_OK) return status;
     const double left = dot(stage, stage->right, stage->change), lowest = share * slope / (slope - left);
-    *found = left >= -0.5 * slope && left < INFINITY;
+    *found = may_move(stage, now, share, left);
     now->share = share;
     share = lowest > 0.1 * share ? fmin(lowest, 0.5 * share) : 0.1 * share;
   }
@@ -327,9 +350,9 @@ static int32_t iterate(struct hk_stage *stage, struct iteration *now, int *found
 }
 
 /* Corrections until what is left is allowed. The last one is taken without asking. */
-static int32_t converge(struct hk_stage *stage) {
+static int32_t converge(struct hk_stage *stage, double height) {
   hooke_integrator *it = stage->reduced.integrator;
-  struct iteration now = {.share = 1.0};
+  struct iteration now = {.share = 1.0, .height = height};
   int32_t status = find_residual(stage, stage->v);
   for (int k = 1; k <= MOST_ITERATIONS && status == HOOKE_OK; k++) {
     int found;
@@ -383,10 +406,8 @@ static int one_is_enough(struct hk_stage *stage, double open) {
   return left <= ONE_LEAVES * ONE_LEAVES * open || left <= floor * floor;
 }
 
-int32_t hk_stage_solve(struct hk_stage *stage, const struct hk_equations *equations) {
+static int32_t solve_from_beginning(struct hk_stage *stage) {
   double open;
-  stage->at = *equations;
-  hk_stage_save(stage, stage->begin);
   if (stage->body.count > 0) hk_body_stage_begin(stage);
   int32_t status = first_correction(stage, &open);
   if (status == HOOKE_OK && stage->one_iteration) {
@@ -396,9 +417,68 @@ int32_t hk_stage_solve(struct hk_stage *stage, const struct hk_equations *equati
   /* numbers that are none are no guess, nor is one iteration that went astray */
   if (stage->one_iteration || !(distance(stage, stage->old) < INFINITY))
     memcpy(stage->v, stage->old, (size_t)stage->size * sizeof(double));
-  if (status == HOOKE_OK) status = converge(stage);
+  if (status == HOOKE_OK) status = converge(stage, NAN);
   if (status == HOOKE_OK) place(stage, stage->v);
   return status;
+}
+
+/* ---- the potential ---- */
+
+/* The guess that leaves free particles where they are. */
+static void begin_at_rest(struct hk_stage *stage) {
+  for (int64_t k = 0; k < stage->reduced.integrator->size; k++)
+    stage->v[k] = (stage->begin[k] - stage->at.place[k]) / stage->at.a;
+}
+
+static double potential(struct hk_stage *stage, double *slack) {
+  return hk_descent_potential(&stage->descent, stage->reduced.integrator, stage->at.a, stage->v, slack);
+}
+
+static int is_right(struct hk_stage *stage, double height, double slack) {
+  double own;
+  const double reached = potential(stage, &own);
+  return reached <= height + (slack + own);
+}
+
+static int32_t rises(const hooke_integrator *it, const char *what) {
+  return hk_fail(HOOKE_SOLVER_FAILED, NULL,
+                 "%s found no solution for the step from t = %.6g s, nor for parts of it, that does not "
+                 "raise the %s; take a smaller step",
+                 it->method->name, it->t, what);
+}
+
+/* Downhill all the way from where the stage begins. */
+static int32_t descend(struct hk_stage *stage, double height, double slack) {
+  begin_at_rest(stage);
+  stage->descends = 1;
+  const int32_t status = converge(stage, height);
+  stage->descends = 0;
+  if (status != HOOKE_OK) return status;
+  place(stage, stage->v);
+  return is_right(stage, height, slack) ? HOOKE_OK
+                                        : rises(stage->reduced.integrator, "potential of its equations");
+}
+
+int32_t hk_stage_solve_by(struct hk_stage *stage, const struct hk_equations *equations,
+                          hk_first_solution *first) {
+  hooke_integrator *it = stage->reduced.integrator;
+  const int guarded = stage->descent.rows != NULL;
+  double height = NAN, slack = 0.0;
+  stage->at = *equations;
+  hk_stage_save(stage, stage->begin);
+  if (guarded) {
+    if (it->system->constrained_count > 0) hk_motion_hold(it->system, it->motion);
+    begin_at_rest(stage);
+    height = potential(stage, &slack);
+  }
+  const int32_t status = first(stage);
+  if (!guarded || (status != HOOKE_OK && status != HOOKE_SOLVER_FAILED)) return status;
+  if (status == HOOKE_OK && is_right(stage, height, slack)) return HOOKE_OK;
+  return descend(stage, height, slack);
+}
+
+int32_t hk_stage_solve(struct hk_stage *stage, const struct hk_equations *equations) {
+  return hk_stage_solve_by(stage, equations, solve_from_beginning);
 }
 
 /* ---- steps and their parts ---- */
@@ -412,6 +492,8 @@ static double time_of(const hooke_integrator *it, int64_t part) {
 static int32_t take_part(struct hk_stage *stage, int64_t done, int64_t parts, hk_stages_of_step *stages) {
   hooke_integrator *it = stage->reduced.integrator;
   const double end = time_of(it, done + parts);
+  const int guarded = stage->descent.rows != NULL && it->system->drive_count == 0;
+  const double energy = guarded ? hk_descent_energy(&stage->descent, it) : 0.0, slack = stage->descent.slack;
   hk_stage_save(stage, stage->start);
   int32_t status = parts == FINEST_SPLIT ? HOOKE_OK : hk_integrator_drive(it, end);
   if (status == HOOKE_OK)
@@ -419,6 +501,9 @@ static int32_t take_part(struct hk_stage *stage, int64_t done, int64_t parts, hk
                                                  (double)parts / FINEST_SPLIT * it->schedule.step, end});
   if (status == HOOKE_OK && it->system->constrained_count > 0) hk_motion_hold(it->system, it->motion);
   if (status == HOOKE_OK && stage->body.count > 0) hk_body_stage_end(stage);
+  stage->raised = status == HOOKE_OK && guarded &&
+                  !(hk_descent_energy(&stage->descent, it) <= energy + (slack + stage->descent.slack));
+  if (stage->raised) status = rises(it, "energy");
   if (status != HOOKE_OK || !stage->overdamped) return status;
   it->count.force_evaluations++;
   return hk_integrator_flow(it, end);
@@ -439,7 +524,7 @@ int32_t hk_stage_step(struct hk_stage *stage, hk_stages_of_step *stages) {
     }
     if (status != HOOKE_SOLVER_FAILED) break;
     it->count.nonlinear_failures++;
-    if (parts == 1) break;
+    if (parts == (stage->raised && stage->swings ? QUARTER : 1)) break;
     hk_stage_restore(stage, stage->start);
     parts /= 2;
   }

@@ -23,6 +23,7 @@
 #define HOOKE_INTEGRATE_SOLVE_STAGE_H
 
 #include "integrate/solve/body_stage.h"
+#include "integrate/solve/descent.h"
 #include "integrate/solve/reduced.h"
 
 struct hk_equations {
@@ -37,6 +38,10 @@ struct hk_stage {
   struct hk_reduced reduced;
   struct hk_equations at;
   struct hk_body_stage body; /* what bodies add */
+  struct hk_descent descent; /* of an overdamped system */
+  int32_t descends;          /* 1: every correction must lower the potential */
+  int32_t swings;            /* 1: a step that raises energy is taken in quarters at least: more swing on */
+  int32_t raised;            /* 1: the last part would have raised it */
   int64_t state_size;        /* numbers of a state: q and v, 6 components of n, and those of bodies */
   int64_t size;              /* numbers of velocities, 3n and those of bodies */
   double *whole;             /* the state at the start of the whole step; begins the block of all */
@@ -61,6 +66,11 @@ void hk_stage_restore(struct hk_stage *stage, double *state);
  * held particles to `t`. After a failure the motion is anywhere: HOOKE_SOLVER_FAILED, or HOOKE_STOPPED by a
  * callback. */
 int32_t hk_stage_solve(struct hk_stage *stage, const struct hk_equations *equations);
+
+/* The same with another first solution, in `v` and the motion. A wrong one is not accepted (descent.h). */
+typedef int32_t hk_first_solution(struct hk_stage *stage);
+int32_t hk_stage_solve_by(struct hk_stage *stage, const struct hk_equations *equations,
+                          hk_first_solution *first);
 
 /* A step or a part of one, from the motion at time t, which is in the stage's `start`, to `end`. */
 struct hk_span_of_time {
