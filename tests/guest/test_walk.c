@@ -85,6 +85,8 @@ static int is_left_out(const struct function *f, int32_t place, int32_t choice) 
   const char *end = strrchr(f->name, '_');
   const int destroys = strcmp(end, "_destroy") == 0 || strcmp(end, "_close") == 0;
   if (destroys && p->kind == HANDLE && choice != 1) return 1;
+  /* no array but those of a call of a force may be held */
+  if (strcmp(f->name, "hooke_rows_hold") == 0 && p->kind == NUMBERS && choice != 1) return 1;
   for (size_t k = 0; k < sizeof left_out_here / sizeof left_out_here[0]; k++)
     if (strcmp(f->name, left_out_here[k].function) == 0 && strcmp(p->name, left_out_here[k].parameter) == 0)
       return choice > 1;

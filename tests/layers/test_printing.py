@@ -10,7 +10,8 @@ SOURCES = [path for path in sorted((ROOT / "cli").rglob("*.c")) if path.name != 
 CALL = re.compile(r"\b(?:printf|fprintf|fputs|puts|fwrite)\((?:[^;\"]|\"(?:[^\"\\]|\\.)*\")*;")
 TEXT = re.compile(r"\b(?:\w*text(?:_of)?|hooke_\w*_name|\w*method_of|cli_run_method|reference_of|hooke_last_error)\(|->scene\b")
 FINE = re.compile(r"strcmp\((?:[^()]|\([^()]*\))*\)|hooke_(?:part_kind|method|system_force|status)_\w*name\([^()]*\)"
-                  r"|hooke_scene_text\(make->scene, \"text\"\)")  # names of hooke's own, and JSON
+                  r"|hooke_scene_text\(make->scene, \"text\"\)"
+                  r"|hooke_record_text\(record, \"scene\"\), file")  # names of hooke's own, JSON, a file to read from
 
 
 def raw(source):

@@ -34,8 +34,9 @@ int32_t hk_file_check_run(const char *run) {
   return strcmp(run + HOOKE_RUN_RANDOM, digits) == 0;
 }
 
-uint32_t hk_file_check_outcome(const char *status, int64_t beyond) {
-  return hk_crc32(add_padded(0, status, HOOKE_H5MD_STATUS), &beyond, sizeof beyond);
+uint32_t hk_file_check_outcome(const char *status, int64_t beyond, int64_t frames) {
+  const uint32_t value = hk_crc32(add_padded(0, status, HOOKE_H5MD_STATUS), &beyond, sizeof beyond);
+  return hk_crc32(value, &frames, sizeof frames);
 }
 
 uint32_t hk_file_check_error(const double *numbers, const char *by, const char *reason) {

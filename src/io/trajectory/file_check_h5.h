@@ -18,7 +18,7 @@ enum { HOOKE_CHECK_DESCRIPTION, HOOKE_CHECK_OUTCOME, HOOKE_CHECK_ERROR, HOOKE_FI
 int32_t hk_file_check_description(struct hk_h5_guard *guard, hid_t file, const char *path, const char *scene,
                                   uint32_t *value);
 int32_t hk_file_check_run(const char *run);
-uint32_t hk_file_check_outcome(const char *status, int64_t beyond);
+uint32_t hk_file_check_outcome(const char *status, int64_t beyond, int64_t frames);
 uint32_t hk_file_check_error(const double *numbers, const char *by, const char *reason);
 
 /* Creates the array in a new file that has everything else. */

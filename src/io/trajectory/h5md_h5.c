@@ -237,10 +237,10 @@ herr_t hk_h5md_find_status(hid_t file, int64_t *at) {
   return *at < 0 ? -1 : 0;
 }
 
-int hk_h5md_seal(int descriptor, int64_t check, int64_t beyond, int32_t outcome) {
+int hk_h5md_seal(int descriptor, int64_t check, int64_t beyond, int32_t outcome, int64_t frames) {
   int64_t frame = -1;
   const int error = beyond < 0 ? 0 : hk_bytes_read(descriptor, beyond, sizeof frame, &frame);
-  const uint32_t value = hk_file_check_outcome(outcome_word(outcome), frame);
+  const uint32_t value = hk_file_check_outcome(outcome_word(outcome), frame, frames);
   return error ? error : hk_file_check_write(descriptor, check, HOOKE_CHECK_OUTCOME, value);
 }
 

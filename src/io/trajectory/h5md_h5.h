@@ -64,10 +64,10 @@ enum { HOOKE_H5MD_RUNNING = 1000, HOOKE_H5MD_STATUS = 16 };
 herr_t hk_h5md_find_status(hid_t file, int64_t *at);
 int hk_h5md_write_status(int descriptor, int64_t at, int32_t outcome);
 
-/* Where the check values are (file_check_h5.h), -1 in older files; and writing that of an outcome, which has to
+/* Where the check values are (file_check_h5.h), -1 in older files; and writing that of an outcome and of the number of frames, which has to
  * be on the disk before the status: 0 or an errno. */
 int64_t hk_h5md_find_check(hid_t file);
-int hk_h5md_seal(int descriptor, int64_t check, int64_t beyond, int32_t outcome);
+int hk_h5md_seal(int descriptor, int64_t check, int64_t beyond, int32_t outcome, int64_t frames);
 
 /* 1 if the run came to an end: its file has just the frames that were written. */
 int32_t hk_h5md_is_over(hid_t file);

@@ -13,6 +13,8 @@ const char *hk_record_path(const hooke_record *record);
 /* Time [s] of an existing frame, without checking the frame. */
 double hk_record_time(const hooke_record *record, int64_t frame);
 
+/* HOOKE_BAD_VALUE unless a finished run has the frames that its options ask for. */
+int32_t hk_record_check_count(const hooke_record *record);
 /* What its check values say of everything but the frames: "checked", "damaged" if the error of the run is not
  * what was written (a file of which more is damaged is not opened), "not-covered" in older files. */
 const char *hk_record_parts(const hooke_record *record);

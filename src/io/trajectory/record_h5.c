@@ -186,13 +186,14 @@ static int32_t check_parts(struct hooke_record *record, struct hk_h5_guard *guar
         damaged(record, "its scene, options, masses or springs are not those that were written, by their "
                         "check value");
   if (status == HOOKE_OK && hk_h5md_is_over(file) &&
-      hk_file_check_outcome(record->status, beyond) != stored[HOOKE_CHECK_OUTCOME])
-    status = damaged(record, "the outcome of its run is not the one that was written, by its check value");
+      hk_file_check_outcome(record->status, beyond, record->frame_count) != stored[HOOKE_CHECK_OUTCOME])
+    status = damaged(
+        record, "the outcome of its run and its number of frames are not those that were written, by their "
+                "check value");
   return status == HOOKE_OK ? check_error(record, guard, file, stored[HOOKE_CHECK_ERROR]) : status;
 }
 
-/* A finished run has the frames that its options ask for. */
-static int32_t check_count(const struct hooke_record *record) {
+int32_t hk_record_check_count(const hooke_record *record) {
   const struct hk_method *method = hk_method_find(hooke_options_text(record->options, "method"));
   struct hk_schedule planned;
   if (!record->is_run || !method || !record->status || strcmp(record->status, "finished") != 0)
@@ -224,7 +225,6 @@ static int32_t read_file(struct hooke_record *record) {
   if (status == HOOKE_OK && guard.reason[0]) status = hk_h5_fail(&guard, record->path, "read the file");
   if (status == HOOKE_OK) status = read_times(record, &guard, file);
   if (status == HOOKE_OK) status = check_parts(record, &guard, file, read_beyond(record, file));
-  if (status == HOOKE_OK) status = check_count(record);
   if (status == HOOKE_OK) hk_record_find_places(record, file);
   close_file(&guard, file);
   return status;

@@ -215,7 +215,7 @@ static int copy_all(const hooke_trajectory *trajectory, const struct hk_h5_copy 
   int error = hk_h5_copy_bytes(copy, trajectory->file.atomic.descriptor, made->file.atomic.descriptor);
   if (error == 0) error = hk_frame_copy(&trajectory->writer.file, &made->writer.file, frames);
   if (error == 0)
-    error = hk_h5md_seal(made->file.atomic.descriptor, made->check_at, made->beyond_at, outcome);
+    error = hk_h5md_seal(made->file.atomic.descriptor, made->check_at, made->beyond_at, outcome, frames);
   return error ? error : hk_h5md_write_status(made->file.atomic.descriptor, made->status_at, outcome);
 }
 
@@ -268,7 +268,7 @@ static int32_t finish(hooke_trajectory *trajectory, int32_t outcome) {
   const int descriptor = trajectory->file.atomic.descriptor;
   int unmarked = marks ? 0 : hk_h5md_write_beyond(descriptor, trajectory->beyond_at, -1);
   if (unmarked == 0)
-    unmarked = hk_h5md_seal(descriptor, trajectory->check_at, trajectory->beyond_at, outcome);
+    unmarked = hk_h5md_seal(descriptor, trajectory->check_at, trajectory->beyond_at, outcome, frames);
   if (unmarked) return fail(trajectory, "mark the frames after divergence", unmarked);
   if (frames < writer->frame_count) return shorten(trajectory, frames, outcome);
   /* the outcome is written after all that it refers to is on the disk */

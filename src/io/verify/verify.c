@@ -166,7 +166,7 @@ static int32_t check_frames(struct hk_verify *verify) {
     return hk_fail(HOOKE_BAD_VALUE, NULL,
                    "%s is damaged: the error of its run is not the one that was written, by its check value",
                    verify->path);
-  int32_t status = HOOKE_OK;
+  int32_t status = hk_record_check_count(verify->record);
   for (verify->checked = 0; verify->checked < count && status == HOOKE_OK; verify->checked++) {
     status = hooke_record_check(verify->record, verify->checked);
     if (status == HOOKE_OK)
