@@ -54,7 +54,8 @@ struct hk_energies hk_state_energies(const hooke_state *state, const hooke_syste
 
 double hooke_system_energy(const hooke_system *system, const char *what, const double *q, const double *v) {
   const int kinetic = strcmp(what, "kinetic") == 0, total = strcmp(what, "total") == 0;
-  if (!system->committed || (kinetic ? v == NULL : q == NULL) || (total && v == NULL)) return NAN;
+  const int lacks = (kinetic ? v == NULL : q == NULL) || (total && v == NULL);
+  if (!system->committed || (lacks && system->particle_count > 0)) return NAN;
   if (kinetic) return kinetic_energy(system, v);
   if (strcmp(what, "potential") == 0) return potential_energy(system, q);
   if (total) return kinetic_energy(system, v) + potential_energy(system, q);

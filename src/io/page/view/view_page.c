@@ -33,7 +33,7 @@ static void add_scene(struct hk_text *data, const struct hk_view *view, char *co
   int32_t status =
       hooke_record_text(view->record, "scene")[0] ? hooke_scene_load(path, NULL, &scene) : HOOKE_BAD_VALUE;
   if (status == HOOKE_OK) status = hooke_scene_commit(scene);
-  if (status == HOOKE_NO_MEMORY) data->status = status;
+  if (status == HOOKE_NO_MEMORY || status == HOOKE_IO_FAILED) data->status = status;
   if (status == HOOKE_OK) {
     gravity = hooke_scene_system(scene)->gravity;
     hk_view_bodies_add(data, view, hooke_scene_system(scene));
