@@ -88,6 +88,21 @@ def test_what_is_drawn(chain, tmp_path):
 
 
 @needs_page
+def test_whole_groups_of_a_large_scene_are_drawn(tmp_path):
+    """A net of which every k-th spring is drawn is a maze: groups are drawn as they fit, else particles alone."""
+    cloth = {"kind": "cloth", "name": "cloth", "origin": [0, 0, 0], "edges": [[1, 0, 0], [0, 0, 1]], "mass": 0.2, "pinned": "top",
+             "structural": {"stiffness": 60}, "shear": {"stiffness": 10}, "bend": {"stiffness": 1}}
+    for side, drawn in ((32, 2 * 32 * 31 + 2 * 31 * 31 + 2 * 32 * 30), (34, 2 * 34 * 33 + 2 * 33 * 33), (56, 0)):
+        scene = {"hooke": 1, "gravity": [0, -9.81, 0], "parts": [cloth | {"size": [side, side]}],
+                 "run": {"method": "symplectic-euler", "step": 2e-3, "duration": 0.1, "every": 0.02}}
+        (tmp_path / "scene.json").write_text(json.dumps(scene))
+        data = data_of(make(tmp_path)[0])
+        springs = {one["number"] for one in data["blame"] if one["force"] is None}
+        assert set(data["picture"]["spring"]) == set(range(drawn)) | springs
+        assert side * side >= len(data["picture"]["particle"]) > (1000 if drawn else 700)
+
+
+@needs_page
 @needs_browser
 def test_one_mode_and_one_factor(tmp_path):
     """Words and lines have the growth of the mode that is drawn, also where that of other times is another."""
