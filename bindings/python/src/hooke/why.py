@@ -86,8 +86,8 @@ class Why:
 
     def write(self, path: Path, title: str | None = None) -> None:
         """Writes what was found by the ending of `path`: .html, the page of ``hooke why --report`` with `title` over it
-        (that of the scene, if None), for which the steps around the trouble are taken again, so that callbacks are called again; .json or .h5, the
-        tables."""
+        (that of the scene, if None), for which the steps around the trouble are taken again, so that callbacks are
+        called again; .json or .h5, the tables."""
         self._found.write(path, title=title or self._title or "a run that blew up")
 
     def report(self, path: Path) -> Path:
