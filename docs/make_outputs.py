@@ -66,7 +66,8 @@ def main(build: Path, word: str = "") -> None:
     for document in [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]:
         if word in document.name:
             with tempfile.TemporaryDirectory() as folder:
-                shutil.copytree(ROOT / "examples/scenes", Path(folder, "examples/scenes"))
+                for scenes in ("examples/scenes", "tests/cli/scenes/needs"):
+                    shutil.copytree(ROOT / scenes, Path(folder, scenes))
                 renew(document, Path(folder))
 
 

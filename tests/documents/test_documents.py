@@ -18,7 +18,8 @@ def name_of(document):
 
 @pytest.fixture
 def folder(tmp_path):
-    shutil.copytree(ROOT / "examples/scenes", tmp_path / "examples/scenes")
+    for scenes in ("examples/scenes", "tests/cli/scenes/needs"):
+        shutil.copytree(ROOT / scenes, tmp_path / scenes)
     return tmp_path
 
 
