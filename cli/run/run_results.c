@@ -183,7 +183,9 @@ static void print_motion(const struct cli_run *run) {
   print_known(run->energy_before, "J");
   printf(" before, ");
   print_known(run->energy_after, "J");
-  printf(isfinite(change) ? " after (change %+.6g J)\n" : " after\n", change);
+  printf(" after");
+  if (isfinite(change)) printf(" (change %+.6g J)", change);
+  printf("\n");
   hooke_system_momentum(run->setup.system, velocity_of(run), momentum);
   print_row("momentum");
   for (int i = 0; i < 3; i++) {

@@ -1,5 +1,6 @@
 """The code in README.md and docs/ compiles and runs, block after block in one folder that has the example scenes."""
 
+import json
 import os
 import shutil
 
@@ -7,6 +8,7 @@ import blocks
 import outputs
 import pytest
 from pages import ROOT, SITE, script
+from PIL import Image
 
 PAGES = sorted(SITE.rglob("*.md"))
 DOCUMENTS = [ROOT / "README.md", ROOT / "bindings/python/README.md", *PAGES]
@@ -133,3 +135,21 @@ def test_packages_are_those_that_are_installed():
     packages = script("make_packages")
     text = packages.PAGE.read_text(encoding="utf-8")
     assert packages.written(text) == text and "libjansson-dev" in text
+
+
+def test_every_example_scene_is_in_the_gallery():
+    page = (ROOT / "docs/gallery.md").read_text(encoding="utf-8")
+    for scene in (ROOT / "examples/scenes").glob("*.json"):
+        assert f"\n## {scene.stem}\n" in page and f"](images/gallery-{scene.stem}.png)" in page, scene.stem
+
+
+def test_the_film_is_of_a_step_above_the_limit_and_one_below(monkeypatch):
+    monkeypatch.syspath_prepend(ROOT / "docs")
+    film = script("make_film")
+    done = blocks.execute([os.environ["HOOKE_CLI"], "limit", film.SCENE, "--predict", "--methods", "symplectic-euler", "--json"], ROOT)
+    limit = json.loads(done.stdout)["rows"][0]["predicted"]
+    text = " ".join(DOCUMENTS[0].read_text(encoding="utf-8").split())
+    for side, (words, step) in zip((1, -1), film.RUNS.items(), strict=True):
+        assert side * (step - limit) > 0 and words in text and f"{1e3 * step:g} ms" in words
+    with Image.open(film.FILM) as picture:
+        assert picture.n_frames == len(film.SHOWN) and picture.width == len(film.RUNS) * film.SIZE[0]
