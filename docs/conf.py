@@ -70,6 +70,9 @@ def adapt(app, name, source) -> None:
             source[0] = f"{title}\n\n{FRONT}\n{rest}"
         source[0] += "\n\n" + navigation(source[0]) + "\n"
     if not name.startswith("reference/"):
+        if name == "gallery" and LIVE.exists():
+            live = r'`\1.json`, <a href="live.html#open=\1">in the playground</a>'
+            source[0] = re.sub(r"\[`([\w-]+)\.json`\]\(\.\./[^)]*\)", live, source[0])
         source[0] = re.sub(r"\[([^\]]*)\]\(\.\./[^)]*\)", r"\1", source[0])
     if name == "playground" and LIVE.exists():
         source[0] = source[0].replace("`build/playground/live.html`", '<a href="live.html">live.html</a>')

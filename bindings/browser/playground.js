@@ -88,7 +88,7 @@ const HEARD = {
     at("method").append(...list.map(({ name, summary }) => Object.assign(document.createElement("option"), { value: name, textContent: name, title: summary })));
     at("about").textContent = `hooke ${version} as WebAssembly, with jansson${lapack ? " and LAPACK" : ""}; drawn with three.js and Chart.js (MIT licence). ` +
       "Methods with a fixed step give the same bits here as natively. Nothing is sent anywhere.";
-    readLink(location.hash).then((linked) => openScene(linked || { text: scenes[FIRST] }));
+    readLink(location.hash).then((linked) => openScene(linked || { text: scenes[at("scenes").value] }));
   },
   opened(reply) {
     showTrouble(null);
@@ -185,6 +185,7 @@ function togglePlay() {
 }
 
 function listen() {
+  const [, asked] = location.hash.match(/^#open=([\w-]+)$/) || [], first = Object.keys(scenes).includes(asked) ? asked : FIRST;
   at("play").onclick = togglePlay;
   at("again").onclick = restart;
   at("fit").onclick = () => picture && (picture.fit(scene.live), picture.draw());
@@ -202,7 +203,7 @@ function listen() {
     };
   }
   at("scenes").append(...Object.keys(scenes).map((name) => Object.assign(document.createElement("option"), { value: name, textContent: name,
-    title: JSON.parse(scenes[name]).title || name, selected: name === FIRST })));
+    title: JSON.parse(scenes[name]).title || name, selected: name === first })));
   at("scenes").onchange = () => {
     gravityMoved = false;
     openScene({ text: scenes[at("scenes").value] });

@@ -173,17 +173,30 @@ static void print_method(const struct cli_run *run) {
   }
 }
 
+/* A sum that has overflowed, or a difference of two of those, is not known. */
+static void print_known(double value, const char *unit) {
+  if (isfinite(value))
+    print_quantity(value, unit);
+  else
+    printf("not known");
+}
+
 static void print_motion(const struct cli_run *run) {
   double momentum[3];
-  char text[HOOKE_NUMBER_SIZE];
+  const double change = run->energy_after - run->energy_before;
   print_row("energy");
-  print_quantity(run->energy_before, "J before, ");
-  print_quantity(run->energy_after, "J after");
-  printf(" (change %+.6g J)\n", run->energy_after - run->energy_before);
+  print_known(run->energy_before, "J");
+  printf(" before, ");
+  print_known(run->energy_after, "J");
+  printf(" after");
+  if (isfinite(change)) printf(" (change %+.6g J)", change);
+  printf("\n");
   hooke_system_momentum(run->setup.system, velocity_of(run), momentum);
   print_row("momentum");
-  for (int i = 0; i < 3; i++)
-    printf("%s ", cli_format_rounded(momentum[i], text));
+  for (int i = 0; i < 3; i++) {
+    print_known(momentum[i], "");
+    printf("%s", isfinite(momentum[i]) ? "" : " ");
+  }
   printf("kg m/s\n");
 }
 

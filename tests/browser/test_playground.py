@@ -83,6 +83,19 @@ def test_another_scene_is_drawn(browser):
         assert browser.run(drawn) > 2000
 
 
+def test_an_address_opens_an_example(browser):
+    begin(browser, "#open=rope")
+    assert browser.run("[at('scenes').value, JSON.parse(at('text').value).title]") == ["rope", "a rope let go from horizontal"]
+
+
+def test_the_step_is_on_the_first_screen_of_a_phone(browser):
+    """The site has 230 of 844 pixels above the frame."""
+    browser.size(358, 800, mobile=True)
+    begin(browser, "#front")
+    assert browser.run("at('step').getBoundingClientRect().bottom") < 844 - 230
+    browser.size(1200, 900)
+
+
 def test_a_link_holds_the_scene(browser):
     begin(browser)
     browser.run("at('stiffness').value = 5; at('stiffness').oninput(); at('method').value = 'rk4'; at('method').onchange()")

@@ -28,7 +28,7 @@ def test_demo_prints_the_table_and_draws_the_picture(tmp_path):
     order = re.search(r"^off by at most: (.*) mm$", done.stdout, re.M)[1].split(" mm, ")
     errors = {word.split()[0]: float(word.split()[1]) for word in order}
     assert set(errors) == set(METHODS) and list(errors.values()) == sorted(errors.values())
-    assert errors["rk4"] < 0.01 and errors["cvode-bdf"] < 0.01 and errors["verlet"] < 0.65  # as README.md says
+    assert errors["rk4"] < 0.01 and errors["cvode-bdf"] < 0.01 and errors["verlet"] < 0.65
     assert all(5 < errors[method] < 35 for method in errors if method.endswith("euler"))
     assert (tmp_path / "cloth-16.h5").stat().st_size > 1e6
     picture = (tmp_path / "cloth-16.png").read_bytes()

@@ -108,6 +108,19 @@ def test_options_come_before_the_scene(hooke, write):
     assert (value["step"], value["time"], value["steps"]) == (2.5e-3, 0.25, 100)
 
 
+def test_what_is_beyond_numbers_is_not_known(hooke, write):
+    """The square of 1e200 is; "inf" and "nan" are no words for people."""
+    scene = write({"hooke": 1, "particles": {"position": [[0, 0, 0]], "mass": [1], "velocity": [[1e200, 0, 0]]},
+                   "run": {"method": "symplectic-euler", "step": 1e-3, "duration": 0.01}})
+    answer, value = hooke("run", scene), hooke("run", scene, "--json").json
+    assert re.search(r"^energy +not known before, not known after$", answer.out, re.MULTILINE)
+    assert re.search(r"^momentum +1e\+200 0 0 kg m/s$", answer.out, re.MULTILINE)
+    assert re.search(r"^error +not known: distances are beyond the range of numbers$", answer.out, re.MULTILINE)
+    assert not re.search(r"\b(inf|nan)\b", answer.out)
+    assert value["energy"] == {"initial": None, "final": None}
+    assert value["error"]["estimate"] is None and value["error"]["reason"] == "distances are beyond the range of numbers"
+
+
 def test_energy_and_momentum_are_those_of_the_last_state(hooke, write):
     """Computed from --final: m v, 1/2 m v^2, springs and weight."""
     value = hooke("run", write(SIX_PARTICLES), "--json", "--final").json

@@ -88,6 +88,24 @@ def test_what_is_drawn(chain, tmp_path):
 
 
 @needs_page
+def test_whole_groups_of_a_large_scene_are_drawn(tmp_path):
+    """A net of which every k-th spring is drawn is a maze: groups are drawn as they fit, else particles alone."""
+    cloth = {"kind": "cloth", "name": "cloth", "origin": [0, 0, 0], "edges": [[1, 0, 0], [0, 0, 1]], "size": [34, 34], "mass": 0.2,
+             "pinned": "top", "structural": {"stiffness": 60}, "shear": {"stiffness": 10}, "bend": {"stiffness": 1}}
+    grid = [[0.1 * x, 0.1 * y, 0.1 * z] for x in range(5) for y in range(5) for z in range(5)]
+    pairs = [[a, b] for b in range(len(grid)) for a in range(b)]
+    joined = {"particles": {"position": grid, "mass": [0.01] * len(grid), "pinned": [0]},
+              "springs": [{"name": "all", "between": pairs, "stiffness": 10}]}
+    for scene, drawn, seen in (({"parts": [cloth]}, 2 * 34 * 33 + 2 * 33 * 33, 34 * 34), (joined, 0, len(grid))):
+        run = {"method": "symplectic-euler", "step": 5e-3, "duration": 0.5, "every": 0.05}
+        (tmp_path / "scene.json").write_text(json.dumps({"hooke": 1, "gravity": [0, -9.81, 0], "run": run} | scene))
+        data = data_of(make(tmp_path)[0])
+        springs = {one["number"] for one in data["blame"] if one["force"] is None}
+        assert set(data["picture"]["spring"]) == set(range(drawn)) | springs and len(springs) < 1000
+        assert len(data["picture"]["particle"]) == seen
+
+
+@needs_page
 @needs_browser
 def test_one_mode_and_one_factor(tmp_path):
     """Words and lines have the growth of the mode that is drawn, also where that of other times is another."""

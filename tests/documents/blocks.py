@@ -9,13 +9,14 @@ import sys
 import traceback
 from pathlib import Path
 
+import outputs
+
 NOT_RUN = {"text", "json"}
 KINDS = {"c", "fortran", "python", "console", "sh"} | NOT_RUN
 
 
 class Block:
-    """`word` is the word after the kind in the fence: for a console "exact", the output must equal the shown one; for
-    C and Python "prototypes", declarations that are not run."""
+    """`word` is the word after the kind in the fence: for C and Python "prototypes", declarations that are not run."""
 
     def __init__(self, document, line, kind, text, word=""):
         self.document, self.line, self.kind, self.text, self.word = document, line, kind, text, word
@@ -41,15 +42,19 @@ def blocks(document, text):
     return found
 
 
-def commands(text):
-    """(command, exit code) of each line that calls hooke; a trailing "# exit 4" states a code other than 0. If some
-    lines have a prompt, those without are output."""
-    lines = re.sub(r"\\\n\s*", " ", text).splitlines()
-    prompt = r"\$ " if any(line.startswith("$ ") for line in lines) else ""
-    for line in lines:
-        match = re.fullmatch(rf"{prompt}(hooke .*?)(?:\s+#\s*(?:exit (\d+)|.*))?", line.strip())
+COMMAND = re.compile(r"(hooke .*?)(?:\s+#\s*(?:exit (\d+)|.*))?")
+
+
+def conversations(text):
+    """(command, exit code, shown output) of each line that calls hooke; a trailing "# exit 4" states a code other than
+    0. If some lines have a prompt, those without are output."""
+    text = re.sub(r"\\\n\s*", " ", text)
+    prompts = re.search(r"^\$ ", text, re.MULTILINE)
+    for piece in re.split(r"^\$ ", text, flags=re.MULTILINE)[1:] if prompts else text.splitlines():
+        line, _, shown = piece.partition("\n")
+        match = COMMAND.fullmatch(line.strip())
         if match:
-            yield match.group(1), int(match.group(2) or 0)
+            yield match[1], int(match[2] or 0), shown
 
 
 def execute(command, folder, **more):
@@ -130,34 +135,16 @@ def run_command(command, folder):
     return execute([os.environ["HOOKE_CLI"], *words[1:]], folder)
 
 
-def same(shown, printed):
-    """Whether two texts agree; "..." on a line of its own matches any lines, in a line any text."""
-    pattern = "\n".join(r"[\s\S]*?" if line.strip() == "..." else re.escape(line).replace(r"\.\.\.", ".*?")
-                        for line in shown.strip().splitlines())
-    return re.fullmatch(pattern, printed.strip()) is not None
-
-
 def run_console(block, folder):
-    for command, code in commands(block.text):
+    """Runs the commands; where output is shown it is compared, that of standard error included."""
+    for command, code, shown in conversations(block.text):
         result = run_command(command, folder)
-        if result.returncode != code:
-            return report(f"{block}: {command}", result)
+        if result.returncode != code or (shown.strip() and not outputs.same(shown, result.stdout + result.stderr)):
+            return report(f"{block}: {command}\nshown:\n{shown}", result)
     return None
 
 
 RUN = {"c": run_c, "fortran": run_fortran, "python": run_python, "console": run_console, "sh": run_console}
-
-
-def run_exact(block, folder):
-    """A console whose output is compared, including standard error."""
-    text = re.sub(r"\\\n\s*", " ", block.text)
-    for piece in re.split(r"^\$ ", text, flags=re.MULTILINE)[1:]:
-        line, _, shown = piece.partition("\n")
-        for command, code in commands(line):
-            result = run_command(command, folder)
-            if result.returncode != code or not same(shown, result.stdout + result.stderr):
-                return report(f"{block}: {command}\nshown:\n{shown}", result)
-    return None
 
 
 def runs(block):
@@ -165,7 +152,7 @@ def runs(block):
     if block.word == "prototypes":
         return False
     if block.kind in ("console", "sh"):
-        return any(True for _ in commands(block.text))
+        return any(True for _ in conversations(block.text))
     return block.kind in RUN
 
 
@@ -173,8 +160,6 @@ def complaint(block, folder):
     """The fault of a block when it runs in `folder`; None if there is none."""
     if block.kind not in KINDS:
         return f"{block}: mark it as one of {', '.join(sorted(KINDS))}"
-    if block.word not in ("", "exact", "prototypes"):
+    if block.word not in ("", "prototypes"):
         return f"{block}: there is no word {block.word!r} for a fence"
-    if block.word == "exact":
-        return run_exact(block, folder)
     return RUN[block.kind](block, folder) if runs(block) else None

@@ -1,6 +1,7 @@
 """`make docs`: the site is built without a warning, has every page, plays and typesets, and loads nothing from elsewhere."""
 
 import html.parser
+import json
 import re
 import shutil
 import subprocess
@@ -54,6 +55,17 @@ def test_every_page_is_there_and_found(site):
         name = page.relative_to(SITE).with_suffix("")
         assert (site / f"{name}.html").exists(), name
         assert f'"{name}"' in index, f"{name} is not in the search"
+
+
+@pytest.mark.parametrize("word, page", [("explod", "why"), ("explod", "stability"), ("instal", "install"), ("jupyt", "python"), ("contact", "questions"),
+                                        ("cite", "questions"), ("wind", "c")])
+def test_the_search_leads_to_the_answer(site, word, page):
+    """By the words of the index, which are stems."""
+    text = (site / "searchindex.js").read_text(encoding="utf-8")
+    index = json.loads(text[len("Search.setIndex("):-1])
+    found = [index[kind].get(word, []) for kind in ("terms", "titleterms")]
+    pages = {index["docnames"][k] for one in found for k in ([one] if isinstance(one, int) else one)}
+    assert {page, "questions"} <= pages
 
 
 def test_nothing_is_loaded_from_elsewhere(site):

@@ -45,6 +45,17 @@ def test_a_trajectory_is_shown_by_the_viewer(scene, tmp_path):
     assert scene.run()._repr_html_() is None
 
 
+@needs_pages
+def test_a_diverged_run_says_why(scene, tmp_path):
+    with pytest.warns(hooke.StepWarning):
+        result = scene.run(step=1.0, every=1.0, duration=100.0, output=tmp_path / "out.h5")
+    assert result.status == "diverged"
+    shown = result._repr_html_()
+    assert shown.startswith(f"<p>{html.escape(result.diagnosis)}</p><iframe") and 'id="data"' in page_in(shown.partition("</p>")[2])
+    title = '"scene":"' + scene.title + '"'
+    assert title in hooke.why(result).report(tmp_path / "why.html").read_text("utf-8").replace('": "', '":"')
+
+
 def test_others_show_their_rows(scene, tmp_path):
     cost = hooke.cost(scene, predict=True)
     shown = cost._repr_html_()

@@ -5,14 +5,13 @@
 
 static const double MOVE_SCALE = 1e4; /* digits of displacements relative to the largest */
 
-/* Samples the remaining springs evenly by number; `moves`, by particle: it moves in the mode. */
-static void choose(struct hk_picture *p, const struct hk_limit *limit, const char *moves) {
+static void choose(struct hk_picture *p, const struct hk_limit *limit) {
   for (int64_t k = 0; k < limit->participation.spring_count; k++)
     hk_picture_take(p, limit->participation.spring[k].spring);
-  for (int64_t k = 0; k < p->spring_count && p->drawn_count < HOOKE_PICTURE_SPRINGS / 2; k++) {
-    if (moves[p->ends[2 * k]] || moves[p->ends[2 * k + 1]]) hk_picture_take(p, k);
-  }
-  hk_picture_take_evenly(p, 0, p->spring_count, HOOKE_PICTURE_SPRINGS - p->drawn_count);
+  if (hk_picture_take_families(p, HOOKE_PICTURE_SPRINGS)) return;
+  for (int64_t k = 0; k < limit->participation.particle_count; k++)
+    hk_picture_show(p, limit->participation.particle[k].particle);
+  hk_picture_show_evenly(p);
 }
 
 static void add(struct hk_text *data, struct hk_picture *p, const struct hk_limit *limit) {
@@ -36,16 +35,11 @@ static void add(struct hk_text *data, struct hk_picture *p, const struct hk_limi
 
 void hk_limit_picture_add(struct hk_text *data, const struct hk_limit *limit) {
   struct hk_picture p;
-  int32_t status = hk_picture_create(limit->system, &p);
-  char *moves = hk_new(hooke_system_particle_count(limit->system), 1);
-  if (status == HOOKE_OK && moves == NULL) status = HOOKE_NO_MEMORY;
-  for (int64_t k = 0; k < limit->participation.particle_count && status == HOOKE_OK; k++)
-    moves[limit->participation.particle[k].particle] = 1;
+  const int32_t status = hk_picture_create(limit->system, &p);
   if (status == HOOKE_OK) {
-    choose(&p, limit, moves);
+    choose(&p, limit);
     add(data, &p, limit);
   }
   if (status != HOOKE_OK && data->status == HOOKE_OK) data->status = status;
   hk_picture_release(&p);
-  hk_free(moves);
 }

@@ -5,11 +5,7 @@
 #include "io/file/text.h"
 #include "measure/limit/limit.h"
 
-/* Maximum number of springs drawn: the limiting ones, those at particles that move in the mode, and as many
- * of the others as fit. */
-enum { HOOKE_PICTURE_SPRINGS = 3000 };
-
-/* Adds "picture": the springs drawn and their ends, at the analysed positions. Failures go to the text's
+/* Adds "picture": the springs drawn, first the limiting ones, and their ends, at the analysed positions. Failures go to the text's
  * status. */
 void hk_limit_picture_add(struct hk_text *data, const struct hk_limit *limit);
 

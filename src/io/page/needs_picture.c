@@ -16,20 +16,13 @@ static char *find_watched(const struct hk_needs *needs) {
 
 /* Returns the number of springs between watched particles. */
 static int64_t choose(struct hk_picture *p, const char *watched) {
-  int64_t first = 0, all = 0;
-  for (int64_t g = 0; g < hooke_system_group_count(p->system, "springs"); g++) {
-    const int64_t end = first + hooke_system_group_size(p->system, "springs", g);
-    int64_t open = 0;
-    for (int64_t k = first; k < end; k++) {
-      p->shut[k] = !watched[p->ends[2 * k]] || !watched[p->ends[2 * k + 1]];
-      open += !p->shut[k];
-    }
-    const int64_t room = HOOKE_NEEDS_PICTURE_SPRINGS - p->drawn_count;
-    if (open <= room || all == 0) hk_picture_take_evenly(p, first, end, room);
-    all += open;
-    first = end;
+  int64_t open = 0;
+  for (int64_t k = 0; k < p->spring_count; k++) {
+    p->shut[k] = !watched[p->ends[2 * k]] || !watched[p->ends[2 * k + 1]];
+    open += !p->shut[k];
   }
-  return all;
+  hk_picture_take_families(p, HOOKE_PICTURE_SPRINGS);
+  return open;
 }
 
 /* ---- positions ---- */

@@ -6,10 +6,6 @@
 
 struct hk_needs;
 
-/* Maximum number of springs drawn: the first groups that fit whole; an even sample of the first group if none
- * does. */
-enum { HOOKE_NEEDS_PICTURE_SPRINGS = 9000 };
-
 /* Adds "picture": the watched particles in both systems, and the springs between them; nothing without a lean
  * system. Failures go to the text's status. */
 void hk_needs_picture_add(struct hk_text *data, const struct hk_needs *needs);

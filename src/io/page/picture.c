@@ -29,15 +29,34 @@ void hk_picture_take(struct hk_picture *picture, int64_t spring) {
   picture->drawn[spring] = 1;
 }
 
-void hk_picture_take_evenly(struct hk_picture *picture, int64_t first, int64_t end, int64_t room) {
-  int64_t left = 0, seen = 0;
+/* Draws the open springs from `first` up to `end` if all of them fit; returns whether they do. */
+static int32_t take_family(struct hk_picture *picture, int64_t first, int64_t end, int64_t most) {
+  int64_t open = 0;
   for (int64_t k = first; k < end; k++)
-    left += !picture->drawn[k] && !picture->shut[k];
+    open += !picture->drawn[k] && !picture->shut[k];
+  if (picture->drawn_count + open > most) return 0;
   for (int64_t k = first; k < end; k++) {
-    if (picture->drawn[k] || picture->shut[k]) continue;
-    if (left <= room || seen * room / left != (seen + 1) * room / left) hk_picture_take(picture, k);
-    seen++;
+    if (!picture->shut[k]) hk_picture_take(picture, k);
   }
+  return open > 0;
+}
+
+int32_t hk_picture_take_families(struct hk_picture *picture, int64_t most) {
+  const int64_t groups = hooke_system_group_count(picture->system, "springs");
+  int64_t first = 0;
+  int32_t taken = 0;
+  for (int64_t g = 0; g < groups; g++) {
+    const int64_t end = first + hooke_system_group_size(picture->system, "springs", g);
+    taken |= take_family(picture, first, end, most);
+    first = end;
+  }
+  return take_family(picture, first, picture->spring_count, most) || taken;
+}
+
+void hk_picture_show_evenly(struct hk_picture *picture) {
+  const int64_t count = hooke_system_particle_count(picture->system);
+  for (int64_t k = 0; k < count; k += 1 + count / HOOKE_PICTURE_DOTS)
+    hk_picture_show(picture, k);
 }
 
 void hk_picture_show(struct hk_picture *picture, int64_t particle) {

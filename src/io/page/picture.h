@@ -5,12 +5,15 @@
 #include "hooke/system.h"
 #include "io/file/text.h"
 
+/* Springs of a picture, and of a film, at most; particles where no group of springs fits. */
+enum { HOOKE_PICTURE_SPRINGS = 9000, HOOKE_FILM_SPRINGS = 6000, HOOKE_PICTURE_DOTS = 1500 };
+
 struct hk_picture {
   const hooke_system *system;
   int64_t spring_count, drawn_count;
   int64_t *ends;       /* 2 spring_count */
   char *drawn;         /* of each spring */
-  char *shut;          /* by spring, 1: excluded from even sampling; the caller's to mark */
+  char *shut;          /* by spring, 1: excluded; the caller's to mark */
   int64_t shown_count; /* listed particles */
   int64_t *place;      /* by particle: its index among them, from 1; 0: none */
 };
@@ -21,9 +24,11 @@ void hk_picture_release(struct hk_picture *picture);
 
 /* Draws a spring. */
 void hk_picture_take(struct hk_picture *picture, int64_t spring);
-/* Draws an even sample, as large as fits, of the remaining springs from `first` up to `end` that are not
- * excluded. */
-void hk_picture_take_evenly(struct hk_picture *picture, int64_t first, int64_t end, int64_t room);
+/* Draws the groups of springs, without those that are excluded, of which each fits whole: every k-th spring
+ * of a net is no net. Returns whether any is drawn. */
+int32_t hk_picture_take_families(struct hk_picture *picture, int64_t most);
+/* Lists every so many-th particle. */
+void hk_picture_show_evenly(struct hk_picture *picture);
 /* Lists a particle, whether any of its springs are drawn or not. */
 void hk_picture_show(struct hk_picture *picture, int64_t particle);
 

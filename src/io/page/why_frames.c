@@ -9,16 +9,8 @@
 #include <math.h>
 #include <string.h>
 
-/* Steps before and after the trouble whose energy is told, and frames to play; springs in them. */
-enum {
-  ENERGY_BEFORE = 1000,
-  ENERGY_AFTER = 60,
-  BEFORE = 48,
-  AFTER = 40,
-  LEAST_AFTER = 10,
-  SPRINGS = 1500,
-  LOOKS = 24
-};
+/* Steps before and after the trouble whose energy is told, and frames to play. */
+enum { ENERGY_BEFORE = 1000, ENERGY_AFTER = 60, BEFORE = 48, AFTER = 40, LEAST_AFTER = 10, LOOKS = 24 };
 /* Particles and springs times steps that the energies, and the advised run, may take. */
 static const double ENERGY_WORK = 3e8, ADVISED_WORK = 2e9;
 /* Frames end when the scene is so much wider than at first; the mode grows about so much before the trouble.
@@ -205,11 +197,12 @@ static int32_t choose_springs(struct frames *f) {
     if (f->why->limiting[k].spring >= 0) hk_picture_take(&f->picture, f->why->limiting[k].spring);
   }
   if (status != HOOKE_OK) return status;
-  hk_picture_take_evenly(&f->picture, 0, f->picture.spring_count, SPRINGS - f->picture.drawn_count);
+  const int32_t any = hk_picture_take_families(&f->picture, HOOKE_FILM_SPRINGS);
   hk_text_open(f->data, "picture", '{');
   hk_text_number(f->data, "springs", (double)f->picture.spring_count);
   hk_text_number(f->data, "particles", (double)hooke_system_particle_count(f->system));
   hk_picture_add_springs(f->data, &f->picture);
+  if (!any) hk_picture_show_evenly(&f->picture);
   f->list = hk_picture_list(&f->picture);
   return f->list ? HOOKE_OK : HOOKE_NO_MEMORY;
 }

@@ -259,6 +259,12 @@ static void explain_want(struct hk_estimate *e) {
     hk_print(e->reason, sizeof e->reason, "the stable step of its rigid bodies is not known at all times");
 }
 
+static void forget_overflow(struct hk_estimate *e) {
+  if (!isinf(e->error) && !isinf(e->rms)) return;
+  clear(e);
+  hk_print(e->reason, sizeof e->reason, "distances are beyond the range of numbers");
+}
+
 static void give_up(struct hk_estimate *e, int32_t status) {
   clear(e);
   hk_print(e->reason, sizeof e->reason,
@@ -279,6 +285,7 @@ static int32_t measure(struct hk_estimate *e, const hooke_state *state) {
   }
   const double begun = hk_clock_seconds();
   status = measure_again(e, state);
+  forget_overflow(e);
   if (status == HOOKE_OK)
     status = hk_estimate_heat(e);
   else

@@ -40,7 +40,8 @@ def table(rows: Table) -> str:
     names = rows.dtype.names or ()
     lines = ["".join(f"<td>{cell(row[name])}</td>" for name in names) for row in rows]
     head = "".join(f"<th>{html.escape(name)}</th>" for name in names)
-    return f"<table><tr>{head}</tr>" + "".join(f"<tr>{line}</tr>" for line in lines) + "</table>"
+    body = "".join(f"<tr>{line}</tr>" for line in lines)
+    return f'<div style="overflow-x:auto"><table><tr>{head}</tr>{body}</table></div>'
 
 
 class Tabled:

@@ -103,6 +103,7 @@ class Integrator(Closing):
         self._numbers = 3 * problem.particle_count if isinstance(problem, System) else problem._size
         self._running = False
         self.outcome = 0  # the last outcome as the library's number
+        self._title = ""  # of the scene that it runs
         self.message = ""  # the library's message about the last outcome that was not "finished"
 
     @property

@@ -15,6 +15,7 @@ from __future__ import annotations
 
 import contextlib
 import ctypes
+import html
 import math
 import os
 from dataclasses import dataclass, field, replace
@@ -107,7 +108,8 @@ class Result:
     def _repr_html_(self) -> str | None:
         from .view import view
 
-        return None if self.output is None else embed(lambda page: view(self, page), 560)
+        words = f"<p>{html.escape(self.diagnosis)}</p>" if self.diagnosis else ""
+        return (words + (embed(lambda page: view(self, page), 720) if self.output is not None else "")) or None
 
 
 def run(
@@ -162,6 +164,7 @@ class _Once:
 
     def run(self, options: Options, state: State, estimate: Estimate | None = None) -> Result:
         integrator = Integrator(self.problem, options)
+        integrator._title = self.scene.title if self.scene is not None else ""
         watchers: list[Observer] = [] if self.on_frame is None else [self.on_frame]
         recorder = _Recorder(integrator.frame_count, state) if self.frames else None
         if recorder is not None:

@@ -249,7 +249,7 @@ class Trajectory(Closing):
     def _repr_html_(self) -> str:
         from .view import view
 
-        return embed(lambda page: view(self.path, page), 560)
+        return embed(lambda page: view(self.path, page), 720)
 
     def close(self) -> None:
         """Closes the file; arrays obtained from it stay valid. A second call does nothing."""

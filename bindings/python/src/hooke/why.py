@@ -68,6 +68,7 @@ class Why:
         pointer, chosen = MEASUREMENT(), Options.for_why().set(budget=budget)
         lib.hooke_why_create(integrator._handle, chosen._handle, ctypes.byref(pointer))
         self._problem = integrator._problem
+        self._title = integrator._title
         self._found = found = Measurement(Handle(pointer, lib.hooke_measurement_destroy, integrator._handle))
         if found.run(progress):
             raise Stopped(text(lib.hooke_last_error()))
@@ -83,11 +84,11 @@ class Why:
         self.blame = Blame.read(found)
         self.advice = [_advice(found, row) for row in range(found.count("advice"))]
 
-    def write(self, path: Path, title: str = "a run that blew up") -> None:
-        """Writes what was found by the ending of `path`: .html, the page of ``hooke why --report`` with `title` over it,
-        for which the steps around the trouble are taken again, so that callbacks are called again; .json or .h5, the
-        tables."""
-        self._found.write(path, title=title)
+    def write(self, path: Path, title: str | None = None) -> None:
+        """Writes what was found by the ending of `path`: .html, the page of ``hooke why --report`` with `title` over it
+        (that of the scene, if None), for which the steps around the trouble are taken again, so that callbacks are
+        called again; .json or .h5, the tables."""
+        self._found.write(path, title=title or self._title or "a run that blew up")
 
     def report(self, path: Path) -> Path:
         """Writes the page to look at, offline, to a path that ends in ``.html``, and returns the path."""
@@ -135,8 +136,9 @@ def why(
     """
     if isinstance(what, (Result, SolverFailed)):
         return what.integrator.why(budget, progress) if what.integrator is not None else None
-    _, problem, given = resolve(what, None)
+    scene, problem, given = resolve(what, None)
     integrator = Integrator(problem, given, **options)
+    integrator._title = scene.title if scene is not None else ""
     try:
         status = integrator.run(problem.state())
     except SolverFailed:

@@ -52,7 +52,7 @@ function writePictured() {
   const say = [];
   if (moving) say.push(`The mode that limits ${data.blamed}: arrows show how particles move in it, to one side and back.`);
   say.push(left > 0
-    ? `${whole(listed.length)} of ${whole(picture.springs)} springs are drawn, with all that are to blame; ` +
+    ? `${whole(listed.length)} of ${whole(picture.springs)} springs are drawn, whole groups with all that are to blame; ` +
       `${whole(left)} are left out.`
     : picture.springs === 1 ? "There is one spring." : `All ${whole(picture.springs)} springs are drawn.`);
   if (movers.length > MOST_ARROWS)

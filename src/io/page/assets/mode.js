@@ -114,7 +114,7 @@ function drawPicture() {
     dots("particles that move", shown, { borderColor: "#0057b8", backgroundColor: "#0057b8",
       pointStyle: "circle",
       pointRadius: shown.length > 100 ? 2 : 3.5 }),
-    dots("", particles.length > MOST_DOTS ? [] : particles.filter((k) => !picture.held[k] && sizes[k] <= 0.02),
+    dots("", particles.length > MOST_DOTS && particles.length <= listed.length ? [] : particles.filter((k) => !picture.held[k] && sizes[k] <= 0.02),
       { borderColor: "#5b6770", backgroundColor: "#5b6770", pointStyle: "circle", pointRadius: 2 }),
     dots("held particles", held, { borderColor: POINT, backgroundColor: POINT, pointStyle: "rect", pointRadius: 4 }),
   ].filter((line) => line.data.length > 0);

@@ -19,18 +19,15 @@ const sizeOf = (box) => Math.max(...box.map(([low, high]) => high - low));
 const homeSize = sizeOf(home) || longestBlamed() || 1;
 const middle = home.map(([low, high]) => (low + high) / 2);
 
-/* How far from the middle anything has been so far, against half of the scene: the picture never zooms in again. */
-function zooms(frames) {
-  let most = 1;
+/* How far from the middle anything has been so far, along each axis: the picture never zooms in again. */
+function reaches(frames) {
+  let most = [0, 0, 0];
   return frames.map((frame) => {
-    for (const k of particles) {
-      const far = Math.max(...[0, 1, 2].map((axis) => Math.abs(placeOf(frame, k, axis) - middle[axis])));
-      most = Math.max(most, (2 * far) / homeSize);
-    }
+    most = most.map((far, axis) => particles.reduce((so, k) => Math.max(so, Math.abs(placeOf(frame, k, axis) - middle[axis])), far));
     return most;
   });
 }
-const zoom = { bad: zooms(ran), good: zooms(cured) };
+const zoom = { bad: reaches(ran), good: reaches(cured) };
 
 /* ---- a frame ---- */
 
@@ -45,7 +42,8 @@ function firstAxes() {
 
 let shown = 0, playing = true, axes = "xy", before = 0;
 
-function paint(id, frame, factor, beyond) {
+/* Returns how many times it has zoomed out. */
+function paint(id, frame, reach, beyond) {
   const canvas = document.getElementById(id), ctx = canvas.getContext("2d"), ratio = devicePixelRatio || 1;
   const wide = canvas.clientWidth, tall = canvas.clientHeight;
   if (canvas.width !== Math.round(wide * ratio) || canvas.height !== Math.round(tall * ratio))
@@ -53,10 +51,11 @@ function paint(id, frame, factor, beyond) {
   ctx.setTransform(ratio, 0, 0, ratio, 0, 0);
   ctx.clearRect(0, 0, wide, tall);
   canvas.classList.toggle("beyond", beyond);
-  if (!frame) return;
+  if (!frame) return 1;
   const [across, up] = VIEWS[axes];
   const spans = [across, up].map((axis) => Math.max(home[axis][1] - home[axis][0], 0.25 * homeSize));
-  const unit = Math.min((0.84 * wide) / spans[0], (0.84 * tall) / spans[1]) / factor;
+  const near = Math.min((0.84 * wide) / spans[0], (0.84 * tall) / spans[1]);
+  const unit = Math.min(near, (0.47 * wide) / reach[across], (0.47 * tall) / reach[up]);
   const at = (k) => [wide / 2 + unit * (placeOf(frame, k, across) - middle[across]),
     tall / 2 - unit * (placeOf(frame, k, up) - middle[up])];
   ctx.lineCap = "round";
@@ -76,13 +75,14 @@ function paint(id, frame, factor, beyond) {
   for (const k of particles) {
     const [x, y] = at(k);
     if (picture.held[k]) ctx.fillRect(x - dot, y - dot, 2 * dot, 2 * dot);
-    else if (particles.length <= 800) {
+    else if (particles.length <= 800 || particles.length > listed.length) {
       ctx.beginPath();
       ctx.arc(x, y, dot, 0, 7);
       ctx.fill();
     }
   }
   ruler(ctx, wide, tall, unit);
+  return near / unit;
 }
 
 /* A length of 1, 2 or 5 times a power of ten. */
@@ -104,12 +104,11 @@ const scaleWords = (factor) => (factor < 1.005 ? "scale 1 : 1" : `zoomed out 1 :
 function show(k) {
   shown = Math.max(0, Math.min(ran.length - 1, k));
   const frame = ran[shown], step = stepOf(frame), beyond = shown > last;
-  paint("bad", frame, zoom.bad[shown], beyond);
-  document.getElementById("bad-scale").textContent = `${scaleWords(zoom.bad[shown])}${beyond ? "; no physics any more" : ""}`;
+  const factor = paint("bad", frame, zoom.bad[shown], beyond);
+  document.getElementById("bad-scale").textContent = `${scaleWords(factor)}${beyond ? "; no physics any more" : ""}`;
   if (cured.length) {
     const near = Math.min(shown, cured.length - 1);
-    paint("good", cured[near], zoom.good[near], false);
-    document.getElementById("good-scale").textContent = scaleWords(zoom.good[near]);
+    document.getElementById("good-scale").textContent = scaleWords(paint("good", cured[near], zoom.good[near], false));
   }
   document.getElementById("frame").value = shown;
   document.getElementById("now").textContent = `t = ${words(frame.time, 5)} s, ` + (step === 0 ? "the last step within bounds"

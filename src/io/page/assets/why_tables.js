@@ -21,7 +21,7 @@ function writeFilm() {
   const left = picture.springs - listed.length;
   at("filmed").textContent = `${data.stride === 1 ? "Every step" : `Every ${whole(data.stride)} steps`} around the trouble, slowly. ` +
     `The picture zooms out as far as it has to, and says so. Springs to blame are red.` +
-    (left > 0 ? ` ${whole(listed.length)} of ${whole(picture.springs)} springs are drawn.` : "");
+    (left > 0 ? ` ${whole(listed.length)} of ${whole(picture.springs)} springs are drawn, whole groups of them.` : "");
   at("ran").textContent = `As it ran: ${data.method}, step ${words(data.step, 5)} s`;
   at("cure").hidden = cured.length === 0;
   if (cured.length) at("would").textContent = `As advised, at the same times: ${advised.method}, step ${words(advised.step, 5)} s`;

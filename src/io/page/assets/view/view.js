@@ -295,7 +295,10 @@ function listen() {
     event.preventDefault();
     KEYS[event.key](event);
   });
-  addEventListener("resize", draw);
+  addEventListener("resize", () => {
+    if (picture && document.body.classList.contains("bare")) picture.fitAll(); // nobody has turned it
+    draw();
+  });
   matchMedia("(prefers-color-scheme: dark)").addEventListener("change", dress);
 }
 
