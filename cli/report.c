@@ -1,6 +1,7 @@
 #include "report.h"
 #include "excerpt.h"
 #include "print.h"
+#include "words.h"
 
 #include <stdarg.h>
 #include <string.h>
@@ -64,8 +65,11 @@ int cli_report(const struct cli_arguments *arguments, int code, const char *form
 
 /* The library's message has a line for each fault of a scene; in other ones a line end is foreign text. */
 int cli_report_status(const struct cli_arguments *arguments, int32_t status) {
-  const char *message = hooke_last_error()[0] ? hooke_last_error() : hooke_status_name(status);
-  char line[MESSAGE_SIZE];
+  const char *near = arguments->scene && !arguments->of_kind ? cli_suggest_file(arguments->scene) : NULL;
+  char line[MESSAGE_SIZE], message[MESSAGE_SIZE];
+  snprintf(message, sizeof message, "%s%s%s%s",
+           hooke_last_error()[0] ? hooke_last_error() : hooke_status_name(status), near ? "; " : "",
+           near ? near : "", near ? " is there" : "");
   for (const char *at = message; *at; at += strspn(at, "\n")) {
     const size_t length = strcspn(at, "\n");
     snprintf(line, sizeof line, "%.*s", (int)length, at);
@@ -132,41 +136,6 @@ void cli_report_command(FILE *file, const struct cli_arguments *arguments, const
     fputc(' ', file);
     cli_print_quoted(file, settings->text);
   }
-}
-
-/* Edit distance: letters to change, insert or drop between two words. */
-static size_t distance(const char *a, const char *b) {
-  size_t row[WORD_SIZE + 1];
-  size_t width = strlen(b);
-  for (size_t j = 0; j <= width; j++)
-    row[j] = j;
-  for (size_t i = 0; a[i]; i++) {
-    size_t diagonal = row[0];
-    row[0] = i + 1;
-    for (size_t j = 0; j < width; j++) {
-      size_t change = diagonal + (a[i] != b[j]);
-      size_t shorter = (row[j] < row[j + 1] ? row[j] : row[j + 1]) + 1;
-      diagonal = row[j + 1];
-      row[j + 1] = change < shorter ? change : shorter;
-    }
-  }
-  return row[width];
-}
-
-const char *cli_suggest(const char *word, const char *(*next)(int64_t i, const void *ctx), const void *ctx) {
-  const char *best = NULL;
-  const char *candidate;
-  size_t least = strlen(word) / 3 + 2; /* more changes make it another word */
-  if (strlen(word) > WORD_SIZE) return NULL;
-  for (int64_t i = 0; (candidate = next(i, ctx)) != NULL; i++) {
-    if (strlen(candidate) > WORD_SIZE) continue;
-    size_t changes = distance(word, candidate);
-    if (changes < least) {
-      least = changes;
-      best = candidate;
-    }
-  }
-  return best;
 }
 
 static const char *next_method(int64_t i, const void *ctx) {

@@ -34,6 +34,15 @@ static int32_t load(const struct cli_arguments *arguments, hooke_scene **loaded)
                                             : hooke_scene_load(arguments->scene, arguments->limits, loaded);
 }
 
+int32_t cli_setup_is_scene(const char *path) {
+  char first = '\0';
+  if (strcmp(path, "-") == 0) return 1;
+  FILE *file = fopen(path, "rb");
+  const int32_t is = file && fscanf(file, " %c", &first) == 1 && first == '{';
+  if (file) fclose(file);
+  return is;
+}
+
 int cli_setup_load(const struct cli_arguments *arguments, struct cli_setup *setup) {
   memset(setup, 0, sizeof *setup);
   int32_t status = load(arguments, &setup->scene);

@@ -146,16 +146,6 @@ static int run_and_show(const struct cli_arguments *arguments, const char *outpu
   return code == HOOKE_EXIT_DONE ? cli_exit_code(outcome) : code;
 }
 
-/* Anything but a scene: its own message tells what is wrong with it. */
-static int is_scene(const char *path) {
-  char first = '\0';
-  FILE *file = strcmp(path, "-") == 0 ? stdin : fopen(path, "rb");
-  if (file == stdin) return 1;
-  const int same = file && fscanf(file, " %c", &first) == 1 && first == '{';
-  if (file) fclose(file);
-  return same;
-}
-
 /* Several trajectories have a page of another name than theirs, and none is run anew. */
 static int check_several(const struct cli_arguments *arguments) {
   if (arguments->more_count == 0) return HOOKE_EXIT_DONE;
@@ -175,7 +165,7 @@ static int write_view(const struct cli_arguments *arguments, const char *output)
   struct shown shown = {.count = 1 + arguments->more_count, .path = {arguments->scene}};
   for (int32_t k = 1; k < shown.count; k++)
     shown.path[k] = arguments->more_scenes[k - 1];
-  const int runs = shown.count == 1 && (is_scene(arguments->scene) || is_to_run(arguments));
+  const int runs = shown.count == 1 && (cli_setup_is_scene(arguments->scene) || is_to_run(arguments));
   return runs ? run_and_show(arguments, output) : show_trajectories(arguments, &shown, output);
 }
 

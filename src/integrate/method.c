@@ -40,23 +40,53 @@ const char *hooke_method_name(int64_t method) {
   return NULL;
 }
 
-/* Other common names; several methods where texts do not agree. */
+/* Other common names, after plain(); several methods where texts do not agree, or where only relatives are there. */
 static const struct {
   const char *word, *methods;
 } common_names[] = {
     {"explicit-euler", "forward-euler"},
     {"semi-implicit-euler", "symplectic-euler"},
+    {"euler-cromer", "symplectic-euler"},
     {"implicit-euler", "backward-euler"},
     {"velocity-verlet", "verlet"},
+    {"leapfrog", "verlet"},
+    {"leap-frog", "verlet"},
+    {"stormer-verlet", "verlet"},
+    {"runge-kutta-4", "rk4"},
+    {"trbdf2", "tr-bdf2"},
     {"euler", "forward-euler symplectic-euler backward-euler"},
     {"midpoint", "implicit-midpoint heun"}, /* the nearest to the explicit rule */
+    {"trapezoidal", "implicit-midpoint tr-bdf2"},
+    {"trapezoid", "implicit-midpoint tr-bdf2"},
+    {"crank-nicolson", "implicit-midpoint tr-bdf2"},
+    {"newmark", "implicit-midpoint verlet"},
+    {"runge-kutta", "rk4 heun"},
+    {"rk2", "heun rk4"},
+    {"rk45", "cvode-adams rk4"},
+    {"bdf", "cvode-bdf tr-bdf2"},
+    {"adams", "cvode-adams"},
+    {"cvode", "cvode-bdf cvode-adams"},
 };
 
+enum { WORD_SIZE = 32 };
+
+/* Small letters, with a hyphen for a blank or an underscore; "" if it is too long to be a name. */
+static const char *plain(const char *word, char text[WORD_SIZE]) {
+  size_t length = 0;
+  for (; word[length] && length + 1 < WORD_SIZE; length++) {
+    const char c = word[length];
+    text[length] = (char)(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c == ' ' || c == '_' ? '-' : c);
+  }
+  text[word[length] ? 0 : length] = '\0';
+  return text;
+}
+
 const char *hooke_method_meant(const char *word) {
-  const struct hk_method *method = hk_method_find(word);
+  char text[WORD_SIZE];
+  const struct hk_method *method = hk_method_find(plain(word, text));
   if (method) return method->name;
   for (size_t k = 0; k < sizeof common_names / sizeof common_names[0]; k++) {
-    if (strcmp(common_names[k].word, word) == 0) return common_names[k].methods;
+    if (strcmp(common_names[k].word, text) == 0) return common_names[k].methods;
   }
   return "";
 }

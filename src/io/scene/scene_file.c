@@ -20,12 +20,13 @@ static const int64_t largest_file = (int64_t)1 << 31;
 
 static int32_t refuse_open(int number, const struct hk_json_guard *guard) {
   if (number == ENOMEM) return hk_fail(HOOKE_NO_MEMORY, NULL, "no memory to open the file");
-  const char *advice = number == EISDIR ? "is a directory" : "cannot be opened";
+  if (number == EISDIR)
+    return hk_fail(HOOKE_BAD_VALUE, NULL, "is a directory; allowed: a %sfile", guard ? "scene " : "");
   if (number == EINVAL)
     return hk_fail(HOOKE_BAD_VALUE, NULL, "is not a regular file; allowed: a %sfile, no pipe and no device",
                    guard ? "scene " : "");
   char reason[HOOKE_ERROR_SIZE];
-  return hk_fail(HOOKE_BAD_VALUE, NULL, "%s: %s; allowed: a %sfile that can be read", advice,
+  return hk_fail(HOOKE_BAD_VALUE, NULL, "cannot be opened: %s; allowed: a %sfile that can be read",
                  hk_print_error(number, reason), guard ? "scene " : "");
 }
 
