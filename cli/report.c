@@ -156,9 +156,12 @@ int cli_report_unknown_method(const struct cli_arguments *arguments, const char 
   char name[HOOKE_FLAG_SIZE], list[LIST_SIZE] = "";
   snprintf(name, sizeof name, "%.*s", (int)(length < sizeof name ? length : sizeof name - 1), word);
   cli_report_methods(list, sizeof list);
-  const char *near = hooke_method_meant(name);
-  const int several = strchr(near, ' ') != NULL;
-  if (!several) near = cli_suggest(name, next_method, NULL);
+  const char *meant = hooke_method_meant(name), *near = cli_suggest(name, next_method, NULL);
+  const int several = strchr(meant, ' ') != NULL;
+  char among[LIST_SIZE] = "";
+  for (size_t used = 0; several && *meant && used + 3 < sizeof among; meant++)
+    used += (size_t)snprintf(among + used, 3, *meant == ' ' ? ", " : "%c", *meant);
+  if (several) near = among;
   return cli_report(arguments, cli_refusal(arguments), "--%s: there is no method '%s'%s%s%s%s; methods: %s",
                     flag, name, near ? ", did you mean " : "", several ? "one of " : "", near ? near : "",
                     near ? "?" : "", list);

@@ -78,8 +78,10 @@ static void print_table(FILE *file, const struct cli_arguments *arguments, const
 
 static void print_kinds(FILE *file, const struct cli_verb *verb) {
   fputs("\nkinds:\n", file);
-  for (int64_t i = 0; hooke_part_kind(i, "name"); i++)
-    fprintf(file, "  %-10s %s\n", hooke_part_kind(i, "name"), hooke_part_kind(i, "summary"));
+  for (int64_t i = 0; hooke_part_kind(i, "name"); i++) {
+    fprintf(file, "  %-10s ", hooke_part_kind(i, "name"));
+    cli_print_wrapped(file, 13, 13, WIDTH, hooke_part_kind(i, "summary"));
+  }
   fprintf(file, "\nhooke %s KIND --help   the options of a kind, with units and defaults\n", verb->name);
 }
 

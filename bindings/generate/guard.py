@@ -60,8 +60,7 @@ def call(function, types):
               for kind, what in kinds if kind]
     checks += [check_of_text(result, name, what) for kind, what in parameters
                if kind == "const char *" and not may_be_no_text(name, what)]
-    if any(check.startswith("TEXT") for check in checks):
-        checks = [f"MADE({what})" for kind, what in parameters if kind.endswith("**") and handle(kind[:-1], types)] + checks
+    checks = [f"MADE({what})" for kind, what in parameters if kind.endswith("**") and handle(kind[:-1], types)] + checks
     arguments = ", ".join(what for _, what in parameters)
     head = f"CALL({result}, " if value else "CALL_VOID("
     return f"{head}{name[len('hooke_'):]}, ({declared}), ({arguments}), {' '.join(checks)})"

@@ -224,7 +224,8 @@ static void print_stiffness(const double *stiffness, const double *length, int64
     if (stiffness[k] > stiffness[most]) most = k;
   }
   if (count == 0) return;
-  printf(", %.6g N/m at %.6g m (law strain: %.6g N)", stiffness[least], length[least], stiffness[least] * length[least]);
+  printf(", %.6g N/m at %.6g m (law strain: %.6g N)", stiffness[least], length[least],
+         stiffness[least] * length[least]);
   if (stiffness[most] > stiffness[least])
     printf(" to %.6g N/m at %.6g m (%.6g N)", stiffness[most], length[most], stiffness[most] * length[most]);
 }
@@ -232,8 +233,10 @@ static void print_stiffness(const double *stiffness, const double *length, int64
 /* HOOKE_NO_MEMORY if the stiffnesses are missing. */
 static int32_t print_groups(const hooke_system *system) {
   const int64_t count = hooke_system_count(system, "springs");
-  double *stiffness = malloc((size_t)(2 * count + 1) * sizeof *stiffness), *length = stiffness + count, *at = stiffness;
-  int32_t status = stiffness ? hooke_system_members(system, "springs", NULL, stiffness, NULL, length) : HOOKE_NO_MEMORY;
+  double *stiffness = malloc((size_t)(2 * count + 1) * sizeof *stiffness), *length = stiffness + count,
+         *at = stiffness;
+  int32_t status =
+      stiffness ? hooke_system_members(system, "springs", NULL, stiffness, NULL, length) : HOOKE_NO_MEMORY;
   printf("springs      %" PRId64 "\n", count);
   for (int64_t i = 0; i < hooke_system_group_count(system, "springs"); i++) {
     const char *name = hooke_system_group_name(system, "springs", i);

@@ -332,7 +332,8 @@ static int make_ready(struct cli_run *run) {
   if (code == HOOKE_EXIT_DONE) code = cli_want_pick(run);
   if (code == HOOKE_EXIT_DONE && !run->resumed) code = cli_fit_run(run->arguments, &run->setup, NULL);
   if (code != HOOKE_EXIT_DONE) return code;
-  const int told = !run->arguments->quiet && cli_arguments_text(run->arguments, "want"); /* else by the integrator */
+  const int told =
+      !run->arguments->quiet && cli_arguments_text(run->arguments, "want"); /* else by the integrator */
   const int32_t status = told ? hooke_system_warnings(run->setup.system, see_warning, run) : HOOKE_OK;
   if (status != HOOKE_OK) return cli_report_status(run->arguments, status);
   return cli_setup_require(run->arguments, &run->setup, hooke_options_text(run->setup.options, "method"));

@@ -121,7 +121,7 @@ def test_usage(hooke, write):
     assert hooke("limit", scene, "--predict=perhaps").code == 2
     assert hooke("limit", scene, "--accuracy", "2").code == 2
     assert hooke("limit", "missing.json").code == 3
-    shown = hooke("limit", "--help").out
+    shown = hooke("limit", "--help", "all").out
     for flag in ("--predict", "--nonlinear", "--at FILE:FRAME", "--along", "--budget NUMBER", "--accuracy NUMBER"):
         assert flag in shown
     bare = copy.deepcopy(SIX_PARTICLES)

@@ -433,7 +433,7 @@ def test_ctrl_c_before_the_first_row(start, write, tmp_path):
 
 
 def test_help_has_both_tables_and_the_units(hooke):
-    answer = hooke("study", "--help")
+    answer = hooke("study", "--help", "all")
     assert (answer.code, answer.err) == (0, "")
     for flag in ["methods", "points", "steps", "tolerances", "want", "budget", "duration", "every", "output"]:
         assert f" --{flag} " in answer.out, flag

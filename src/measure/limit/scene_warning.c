@@ -85,8 +85,8 @@ static void look_at_parts(struct looking *l) {
     const struct hk_part_record *part = &l->system->part[k];
     if (l->held[k] || hooke_options_number(part->options, "rigid") == 1.0) continue;
     hk_option_show(part->name, (int64_t)strlen(part->name), shown);
-    tell(l, "no-stiffness", -1, part->first, "part \"%s\" has no stiffness: nothing holds these particles together",
-         shown);
+    tell(l, "no-stiffness", -1, part->first,
+         "part \"%s\" has no stiffness: nothing holds these particles together", shown);
   }
 }
 
@@ -118,7 +118,8 @@ static int32_t look_at_motion(struct looking *l) {
   for (int64_t k = 0; k < n; k++)
     largest = fmax(largest, fabs(a[k]));
   if (status == HOOKE_OK && largest <= largest_rounding(system, v))
-    tell(l, "nothing-moves", -1, -1, "nothing moves: no particle has a velocity, and the forces are in balance");
+    tell(l, "nothing-moves", -1, -1,
+         "nothing moves: no particle has a velocity, and the forces are in balance");
   return status;
 }
 
