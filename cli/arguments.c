@@ -114,7 +114,7 @@ static int name_method(const struct cli_arguments *arguments, struct cli_argumen
 
 static int take(struct cli_arguments *arguments, struct cli_argument *argument, const char *text) {
   argument->text = text ? text : cli_argument_is_flag(argument) ? "true" : "";
-  if (argument->own) return cli_words_check_ending(arguments, argument);
+  if (argument->own) return HOOKE_EXIT_DONE;
   int answer = strcmp(argument->name, "method") == 0 ? name_method(arguments, argument) : HOOKE_EXIT_DONE;
   if (answer == HOOKE_EXIT_DONE) answer = cli_value_read(arguments, argument);
   if (answer != HOOKE_EXIT_DONE || cli_value_adds_up(argument)) return answer;

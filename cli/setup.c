@@ -1,6 +1,7 @@
 #include "setup.h"
 #include "os.h"
 #include "report.h"
+#include "words.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -114,6 +115,7 @@ int cli_setup_check_other_file(const struct cli_arguments *arguments, const char
   int code = cli_setup_check_apart(arguments, arguments->scene, "the scene", output);
   for (int32_t k = 0; k < arguments->more_count && code == HOOKE_EXIT_DONE; k++)
     code = cli_setup_check_apart(arguments, arguments->more_scenes[k], "one of the inputs", output);
+  if (code == HOOKE_EXIT_DONE && output) code = cli_words_check_ending(arguments, output);
   if (code != HOOKE_EXIT_DONE || !output || !cli_os_is_written(output)) return code;
   return cli_report(arguments, HOOKE_EXIT_IO,
                     "%s: another run is writing this file; wait for it to end, or name another file", output);

@@ -4,6 +4,7 @@
 #include "os.h"
 #include "report.h"
 
+#include <errno.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
@@ -72,9 +73,10 @@ const char *cli_suggest_file(const char *path) {
   static char found[HOOKE_DOC_SIZE];
   const char *slash = cli_os_last_slash(path), *name = slash ? slash + 1 : path;
   const int length = (int)(name - path);
+  errno = 0;
   FILE *file = fopen(path, "rb");
   if (file) fclose(file);
-  if (file || length >= HOOKE_DOC_SIZE - WORD_SIZE) return NULL;
+  if (file || errno != ENOENT || length >= HOOKE_DOC_SIZE - WORD_SIZE) return NULL;
   snprintf(found, sizeof found, "%.*s", length, path);
   const char *near = cli_suggest(name, next_file, length ? found : ".");
   snprintf(found + length, sizeof found - (size_t)length, "%s", near ? near : "");
@@ -83,26 +85,29 @@ const char *cli_suggest_file(const char *path) {
 
 /* ---- endings ---- */
 
-int cli_words_check_ending(const struct cli_arguments *arguments, const struct cli_argument *argument) {
+int cli_words_check_ending(const struct cli_arguments *arguments, const char *file) {
   static const char page[] = "the page of 'hooke view' saves the picture",
                     film[] = "the page of 'hooke view' saves the film";
-  static const struct {
-    const char *ending, *from;
-  } others[] = {{"json", "'hooke make -o' writes a scene"},
-                {"html", "'hooke view -o' writes a page"},
-                {"h5", "'hooke run -o' writes a trajectory"},
-                {"csv", "'hooke study -o' writes a table"},
-                {"png", page},
-                {"jpg", page},
-                {"svg", page},
-                {"mp4", film},
-                {"webm", film},
-                {"gif", film}};
-  const char *own = cli_describe_file(argument), *dot = strrchr(argument->text, '.');
-  for (size_t k = 0; own && own[0] && dot && k < sizeof others / sizeof others[0]; k++) {
-    if (strcmp(dot + 1, others[k].ending) != 0 || strcmp(own, others[k].ending) == 0) continue;
-    return cli_report(arguments, HOOKE_EXIT_USAGE, "--%s %s: a file of this option ends in .%s; %s",
-                      argument->flag, argument->text, own, others[k].from);
+  static const char *const others[][2] = {{"json", "'hooke make -o' writes a scene"},
+                                          {"html", "'hooke view -o' writes a page"},
+                                          {"h5", "'hooke run -o' writes a trajectory"},
+                                          {"csv", "'hooke study -o' writes a table"},
+                                          {"png", page},
+                                          {"jpg", page},
+                                          {"svg", page},
+                                          {"mp4", film},
+                                          {"webm", film},
+                                          {"gif", film}};
+  const char *dot = strrchr(file, '.');
+  for (int32_t i = 0; dot && i < arguments->count; i++) {
+    const struct cli_argument *argument = &arguments->all[i];
+    const char *own =
+        argument->text && strcmp(argument->text, file) == 0 ? cli_describe_file(argument) : NULL;
+    for (size_t k = 0; own && own[0] && k < sizeof others / sizeof others[0]; k++) {
+      if (strcmp(dot + 1, others[k][0]) != 0 || strcmp(own, dot + 1) == 0) continue;
+      return cli_report(arguments, HOOKE_EXIT_USAGE, "--%s %s: its name has to end in .%s; %s",
+                        argument->flag, file, own, others[k][1]);
+    }
   }
   return HOOKE_EXIT_DONE;
 }

@@ -14,8 +14,8 @@ const char *cli_suggest(const char *word, const char *(*next)(int64_t i, const v
 /* The file beside the missing `path` whose name is nearest; NULL if `path` is there, or none is near. */
 const char *cli_suggest_file(const char *path);
 
-/* Refuses a file that ends like another kind than the option's own, and says what writes that kind. */
-int cli_words_check_ending(const struct cli_arguments *arguments, const struct cli_argument *argument);
+/* Refuses an output that ends like another kind than its option writes, and says what writes that kind. */
+int cli_words_check_ending(const struct cli_arguments *arguments, const char *file);
 
 /* Reports that the verb has no option `word` ("--stpe=1", "-x"), which `value` followed (NULL: nothing did). */
 int cli_report_unknown_option(const struct cli_arguments *arguments, const char *word, const char *value);

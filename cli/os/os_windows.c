@@ -1,5 +1,6 @@
 #include "os.h"
 
+#include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
 #include <io.h>
@@ -56,6 +57,16 @@ void cli_os_give_back_memory(void) {
 }
 
 /* ---- files ---- */
+
+const char *cli_os_next_file(const char *folder) {
+  static DIR *open;
+  if (folder) open = opendir(folder);
+  const struct dirent *entry = open ? readdir(open) : NULL;
+  if (entry) return entry->d_name;
+  if (open) closedir(open);
+  open = NULL;
+  return NULL;
+}
 
 const char *cli_os_last_slash(const char *path) {
   const char *forward = strrchr(path, '/'), *back = strrchr(path, '\\');

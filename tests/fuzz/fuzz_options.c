@@ -231,11 +231,6 @@ int cli_report_unknown_option(const struct cli_arguments *arguments, const char 
   return cli_report(arguments, HOOKE_EXIT_USAGE, "%s%s", word, value ? value : "");
 }
 
-int cli_words_check_ending(const struct cli_arguments *arguments, const struct cli_argument *argument) {
-  return argument->text[0] == '.' ? cli_report(arguments, HOOKE_EXIT_USAGE, "%s", argument->text)
-                                  : HOOKE_EXIT_DONE;
-}
-
 const char *cli_describe_operand(const struct cli_verb *verb) {
   return verb->input ? verb->input : "SCENE";
 }
