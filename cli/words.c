@@ -14,11 +14,9 @@ enum { WORD_SIZE = 48 };
 static const struct {
   const char *typed, *meant;
 } words[] = {
-    {"dt", "step"},        {"s", "step"},         {"timestep", "step"},
-    {"time-step", "step"}, {"time", "duration"},  {"integrator", "method"},
-    {"solver", "method"},  {"V", "--version"},    {"version", "--version"},
-    {"list", "--help"},    {"methods", "--help"}, {"plot", "view"},
-    {"show", "view"},      {"simulate", "run"},   {"info", "check"},
+    {"dt", "step"},           {"s", "step"},      {"timestep", "step"},     {"time", "duration"},
+    {"integrator", "method"}, {"V", "--version"}, {"version", "--version"}, {"list", "--help"},
+    {"methods", "--help"},    {"plot", "view"},   {"simulate", "run"},
 };
 
 const char *cli_words_meant(const char *word) {
@@ -151,27 +149,16 @@ static int list_longer(const struct cli_arguments *arguments, const char *flag, 
   return count;
 }
 
-static int has_option(const struct cli_verb *verb, const char *flag) {
-  struct cli_arguments other = {.verb = verb};
-  int has = 0;
-  if (cli_arguments_collect(verb, NULL, &other) == HOOKE_EXIT_DONE) {
-    for (int32_t i = 0; i < other.count && !has; i++)
-      has = strcmp(other.all[i].flag, flag) == 0;
-  }
-  cli_arguments_destroy(&other);
-  return has;
-}
-
-/* "study, limit, why and needs" have it; "" if none has. */
+/* The verbs that have the option: "study, limit, why, needs"; "" if none has. */
 static void list_verbs(const char *flag, char list[HOOKE_DOC_SIZE]) {
-  const char *waiting = NULL;
   list[0] = '\0';
-  for (int32_t i = 0; cli_verbs[i]; i++) {
-    if (!has_option(cli_verbs[i], flag)) continue;
-    if (waiting) add(list, "%s%s", list[0] ? ", " : "", waiting);
-    waiting = cli_verbs[i]->name;
+  for (int32_t k = 0; cli_verbs[k]; k++) {
+    struct cli_arguments other = {.verb = cli_verbs[k]};
+    const int code = cli_arguments_collect(cli_verbs[k], NULL, &other);
+    for (int32_t i = 0; code == HOOKE_EXIT_DONE && i < other.count; i++)
+      if (strcmp(other.all[i].flag, flag) == 0) add(list, "%s%s", list[0] ? ", " : "", cli_verbs[k]->name);
+    cli_arguments_destroy(&other);
   }
-  if (waiting) add(list, "%s%s", list[0] ? " and " : "", waiting);
 }
 
 int cli_report_unknown_option(const struct cli_arguments *arguments, const char *word, const char *value) {

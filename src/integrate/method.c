@@ -46,26 +46,16 @@ static const struct {
 } common_names[] = {
     {"explicit-euler", "forward-euler"},
     {"semi-implicit-euler", "symplectic-euler"},
-    {"euler-cromer", "symplectic-euler"},
     {"implicit-euler", "backward-euler"},
     {"velocity-verlet", "verlet"},
     {"leapfrog", "verlet"},
-    {"leap-frog", "verlet"},
-    {"stormer-verlet", "verlet"},
     {"runge-kutta-4", "rk4"},
-    {"trbdf2", "tr-bdf2"},
     {"euler", "forward-euler symplectic-euler backward-euler"},
     {"midpoint", "implicit-midpoint heun"}, /* the nearest to the explicit rule */
     {"trapezoidal", "implicit-midpoint tr-bdf2"},
-    {"trapezoid", "implicit-midpoint tr-bdf2"},
     {"crank-nicolson", "implicit-midpoint tr-bdf2"},
-    {"newmark", "implicit-midpoint verlet"},
-    {"runge-kutta", "rk4 heun"},
     {"rk2", "heun rk4"},
-    {"rk45", "cvode-adams rk4"},
     {"bdf", "cvode-bdf tr-bdf2"},
-    {"adams", "cvode-adams"},
-    {"cvode", "cvode-bdf cvode-adams"},
 };
 
 enum { WORD_SIZE = 32 };

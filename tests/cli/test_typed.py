@@ -39,6 +39,9 @@ def folder(tmp_path_factory):
     put("loose.json", parts=[part], gravity=[0, -9.81, 0])
     put("soft.json", springs=[{"name": "soft", "between": [[0, 1]], "stiffness": 0, "damping": 1}])
     put("unit.json", springs=[{"between": [[0, 1]], "stiffness": "2 kN/m"}])
+    put("drag.json", dynamics="overdamped", drag=2, particles={"position": [[0, 0, 0], [1.5, 0, 0]]},
+        springs=[{"between": [[0, 1]], "law": "length", "stiffness": 30, "rest_length": 1}],
+        run={"method": "forward-euler", "step": 0.06, "duration": 1.2})
     del rope["run"]["step"]
     (path / "nostep.json").write_text(json.dumps(rope))
     subprocess.run([CLI, "run", "rope.json", "-o", "out.h5", "--quiet", "--no-estimate"], cwd=path, check=True,

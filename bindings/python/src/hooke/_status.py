@@ -91,7 +91,7 @@ class Stopped(Error):
 
 _KINDS = (NoMemory, BadValue, BadCall, IOFailed, NotBuilt, Unsuited, SolverFailed, Stopped)
 FAILURES = {kind.status: kind for kind in _KINDS}
-_MISSING = {-2: MissingInput, -4: MissingFile}  # where the message of the library says so
+_MISSING: dict[int, type[Error]] = {-2: MissingInput, -4: MissingFile}  # where the message of the library says so
 
 
 class _Pending(threading.local):
@@ -116,7 +116,7 @@ def checker(words: Sequence[Callable[..., Any]], outcomes: bool) -> Callable[[in
         if code < 0 or (code > 0 and not outcomes):
             message = last_error().decode("utf-8", "replace") or status_name(code).decode()
             kinds = _MISSING if "No such file or directory" in message else FAILURES
-            failure = kinds.get(code, FAILURES.get(code, Error))(message)
+            failure: Error = kinds.get(code, FAILURES.get(code, Error))(message)
             failure.status = code
             failure.lines = message.count("\n") + 1
             raise failure
