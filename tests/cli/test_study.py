@@ -383,7 +383,7 @@ def test_ctrl_c_while_the_reference_is_checked(start, write):
         (["--methods", "rk5"], 2, "did you mean rk4?"),
         (["--methods", "rk4,rk4"], 2, "named twice"),
         (["--methods", "verlet,velocity-verlet"], 2, "verlet is named twice"),
-        (["--methods", "euler"], 2, "did you mean one of forward-euler symplectic-euler backward-euler?"),
+        (["--methods", "euler"], 2, "did you mean one of forward-euler, symplectic-euler, backward-euler?"),
         (["--methods", "rk8pd"], 2, "no method 'rk8pd'; methods: "),
         (["--tolerances", "1e-3;1e-4"], 2, "--tolerances"),
         (["--steps", "1ms,2ms"], 3, "steps[1]"),
