@@ -2,6 +2,7 @@
 #include "describe.h"
 #include "report.h"
 #include "value.h"
+#include "words.h"
 
 #include <getopt.h>
 #include <stdio.h>
@@ -13,7 +14,7 @@ enum { FIRST_LONG = 1000 }; /* values of getopt_long() that are not letters */
 static const struct cli_verb_row shared_rows[] = {
     {"json", 0, NULL, "prints one JSON object, with every digit, and nothing else"},
     {"quiet", 'q', NULL, "prints no progress and no notes; results and failures stay"},
-    {"help", 'h', NULL, "prints this text"},
+    {"help", 'h', NULL, "prints the names of the options; --help all: all of this text"},
 };
 enum { SHARED_COUNT = sizeof shared_rows / sizeof shared_rows[0] };
 
@@ -98,21 +99,6 @@ int cli_arguments_collect(const struct cli_verb *verb, const char *kind, struct 
 
 /* ---- parsing ---- */
 
-static const char *next_flag(int64_t i, const void *ctx) {
-  const struct cli_arguments *arguments = ctx;
-  return i < arguments->count ? arguments->all[i].flag : NULL;
-}
-
-static int unknown_flag(const struct cli_arguments *arguments, const char *word) {
-  char flag[HOOKE_FLAG_SIZE];
-  snprintf(flag, sizeof flag, "%s", word + strspn(word, "-"));
-  flag[strcspn(flag, "=")] = '\0';
-  const char *near = cli_suggest(flag, next_flag, arguments);
-  return cli_report(arguments, HOOKE_EXIT_USAGE, "there is no option %s%s%s%s; 'hooke %s --help' lists them",
-                    word, near ? ", did you mean --" : "", near ? near : "", near ? "?" : "",
-                    arguments->verb->name);
-}
-
 int32_t cli_argument_is_flag(const struct cli_argument *argument) {
   return argument->own == NULL &&
          strcmp(hooke_options_row(argument->table, argument->row, "type"), "flag") == 0;
@@ -167,8 +153,9 @@ static int take_operand(struct cli_arguments *arguments, int argc, char **argv) 
                       instead, argv[optind]);
   }
   if (optind >= argc) {
-    return cli_report(arguments, HOOKE_EXIT_USAGE, "no %s given; usage: hooke %s %s [options]",
-                      input ? input : "scene", arguments->verb->name, cli_describe_operand(arguments->verb));
+    return cli_report(arguments, HOOKE_EXIT_USAGE, "no %s given; usage: hooke %s %s [options]%s",
+                      input ? input : "scene", arguments->verb->name, cli_describe_operand(arguments->verb),
+                      input ? "" : "; - reads a scene from standard input");
   }
   arguments->more_scenes = argv + optind + 1;
   arguments->more_count = argc - optind - 1;
@@ -187,9 +174,12 @@ static int parse_words(struct cli_arguments *arguments, int argc, char **argv, c
   optind = 0; /* restarts, whatever was parsed before */
   while ((code = getopt_long(argc, argv, letters, longs, NULL)) != -1) {
     struct cli_argument *argument = argument_of(arguments, code == '?' || code == ':' ? optopt : code);
-    if (!argument) {
+    const char *word = argv[optind - 1 - (optarg == argv[optind - 1])];
+    const int one =
+        code >= FIRST_LONG && word[2] && (!word[3] || word[3] == '='); /* letter of a long option */
+    if (!argument || one) {
       char letter[3] = {'-', (char)optopt, '\0'}; /* 0: it was a long option */
-      return unknown_flag(arguments, optopt ? letter : argv[optind - 1]);
+      return cli_report_unknown_option(arguments, argument || !optopt ? word : letter, argv[optind]);
     }
     if (code == ':')
       return cli_report(arguments, HOOKE_EXIT_USAGE, "--%s wants a value after it", argument->flag);
@@ -198,6 +188,8 @@ static int parse_words(struct cli_arguments *arguments, int argc, char **argv, c
     if (answer != HOOKE_EXIT_DONE) return answer;
   }
   arguments->help = cli_arguments_text(arguments, "help") != NULL;
+  for (int i = optind; arguments->help && i < argc; i++)
+    arguments->help += strcmp(argv[i], "all") == 0;
   if (arguments->help) return HOOKE_EXIT_DONE;
   int answer = set_what_added_up(arguments);
   if (answer != HOOKE_EXIT_DONE) return answer;
@@ -215,7 +207,7 @@ static const char *next_kind(int64_t i, const void *ctx) {
 }
 
 static int32_t is_for_help(int argc, char **argv) {
-  return argc == 2 && (strcmp(argv[1], "--help") == 0 || strcmp(argv[1], "-h") == 0);
+  return argc >= 2 && (strcmp(argv[1], "--help") == 0 || strcmp(argv[1], "-h") == 0);
 }
 
 /* The kind comes first, since it determines the other options; NULL if there is none. */

@@ -23,11 +23,11 @@ struct cli_arguments {
   const char *scene;        /* or the kind, for a verb that takes one */
   char *const *more_scenes; /* beside it, for a verb that takes several */
   int32_t more_count;
-  int32_t help, json, quiet;
-  hooke_options *run;     /* the option table of a run, with the given values */
-  hooke_options *more;    /* that of the verb, likewise; NULL: none */
-  hooke_options *limits;  /* that of loading a scene, likewise; NULL: the verb loads none */
-  hooke_options *of_kind; /* that of the kind, likewise; NULL: none */
+  int32_t help, json, quiet; /* help 2: with every option described */
+  hooke_options *run;        /* the option table of a run, with the given values */
+  hooke_options *more;       /* that of the verb, likewise; NULL: none */
+  hooke_options *limits;     /* that of loading a scene, likewise; NULL: the verb loads none */
+  hooke_options *of_kind;    /* that of the kind, likewise; NULL: none */
   struct cli_argument *all;
   int32_t count;
 };

@@ -6,22 +6,23 @@
 #include "print.h"
 #include "report.h"
 #include "usage.h"
+#include "words.h"
 
 #include <stdio.h>
 #include <string.h>
 
 /* A new verb is one file and one row here. */
-static const struct cli_verb *const verbs[] = {&cli_verb_make,
-                                               &cli_verb_run,
-                                               &cli_verb_compare,
-                                               &cli_verb_study,
-                                               &cli_verb_limit,
-                                               &cli_verb_why,
-                                               &cli_verb_needs,
-                                               &cli_verb_check,
-                                               &cli_verb_view,
-                                               &cli_verb_verify,
-                                               NULL};
+const struct cli_verb *const cli_verbs[] = {&cli_verb_make,
+                                            &cli_verb_run,
+                                            &cli_verb_compare,
+                                            &cli_verb_study,
+                                            &cli_verb_limit,
+                                            &cli_verb_why,
+                                            &cli_verb_needs,
+                                            &cli_verb_check,
+                                            &cli_verb_view,
+                                            &cli_verb_verify,
+                                            NULL};
 
 static int print_version(const struct cli_program *program, const char *value) {
   (void)program;
@@ -63,7 +64,7 @@ static const struct cli_program_row rows[] = {
 };
 
 static const struct cli_program program = {
-    .verbs = verbs,
+    .verbs = cli_verbs,
     .rows = rows,
     .summary = "integrates mass-spring systems and says how accurate each method is for what it costs",
     .text = "Particles joined by springs, such as ropes and cloths, with gravity, damping and driven "
@@ -74,24 +75,41 @@ static const struct cli_program program = {
 
 static const char *next_verb(int64_t i, const void *ctx) {
   (void)ctx;
-  return verbs[i] ? verbs[i]->name : NULL;
+  return cli_verbs[i] ? cli_verbs[i]->name : NULL;
 }
 
 static const struct cli_verb *find_verb(const char *name) {
-  for (int64_t i = 0; verbs[i]; i++) {
-    if (strcmp(verbs[i]->name, name) == 0) return verbs[i];
+  for (int64_t i = 0; cli_verbs[i]; i++) {
+    if (strcmp(cli_verbs[i]->name, name) == 0) return cli_verbs[i];
   }
   return NULL;
 }
 
-static int unknown_verb(const char *word) {
-  const char *near = cli_suggest(word, next_verb, NULL);
+/* The verb of words in the wrong order: one that follows, or that of a file in its place; NULL: none. */
+static const char *misplaced_verb(char **words) {
+  for (char **word = words; *word; word++) {
+    if (find_verb(*word)) return *word;
+  }
+  const char *ending = strrchr(words[0], '.');
+  if (ending && strcmp(ending, ".json") == 0) return cli_verb_run.name;
+  return ending && strcmp(ending, ".h5") == 0 ? cli_verb_view.name : NULL;
+}
+
+/* `words` end with NULL; the first is no verb. */
+static int unknown_verb(char **words) {
+  const char *verb = misplaced_verb(words), *near = verb ? NULL : cli_suggest(words[0], next_verb, NULL);
   fputs("hooke: there is no ", stderr);
-  fputs(word[0] == '-' ? "option '" : "verb '", stderr);
-  cli_print_text(stderr, word);
+  fputs(words[0][0] == '-' ? "option '" : "verb '", stderr);
+  cli_print_text(stderr, words[0]);
   fputs("'", stderr);
   if (near) fprintf(stderr, ", did you mean '%s'?", near);
-  fputs("; 'hooke --help' lists the verbs\n", stderr);
+  if (verb) fprintf(stderr, ", did you mean: hooke %s", verb);
+  for (; verb && *words; words++) {
+    if (strcmp(*words, verb) == 0) continue;
+    fputc(' ', stderr);
+    cli_print_quoted(stderr, *words);
+  }
+  fputs(verb ? "\n" : "; 'hooke --help' lists the verbs\n", stderr);
   return HOOKE_EXIT_USAGE;
 }
 
@@ -124,14 +142,14 @@ static int do_row(const struct cli_program_row *row, const char *value) {
   return code;
 }
 
-/* hooke help [VERB [KIND]] */
+/* hooke help [VERB [KIND] [all]] */
 static int do_help(int argc, char **argv) {
   static char flag[] = "--help";
   const struct cli_verb *verb = argc > 0 ? find_verb(argv[0]) : NULL;
   if (argc == 0) return print_help(&program, NULL);
-  if (!verb) return unknown_verb(argv[0]);
-  char *words[] = {argv[0], argc > 1 ? argv[1] : flag, flag, NULL};
-  return do_verb(verb, argc > 1 ? 3 : 2, words);
+  if (!verb) return unknown_verb(argv);
+  char *words[] = {argv[0], argc > 1 ? argv[1] : flag, argc > 2 ? argv[2] : flag, flag, NULL};
+  return do_verb(verb, argc > 2 ? 4 : argc > 1 ? 3 : 2, words);
 }
 
 static int do_words(int argc, char **argv) {
@@ -141,9 +159,10 @@ static int do_words(int argc, char **argv) {
   }
   if (strcmp(argv[1], "help") == 0) return do_help(argc - 2, argv + 2);
   const struct cli_program_row *row = find_row(argv[1]);
+  if (!row) row = find_row(cli_words_meant(argv[1]));
   if (row) return do_row(row, argc > 2 ? argv[2] : NULL);
   const struct cli_verb *verb = find_verb(argv[1]);
-  return verb ? do_verb(verb, argc - 1, argv + 1) : unknown_verb(argv[1]);
+  return verb ? do_verb(verb, argc - 1, argv + 1) : unknown_verb(argv + 1);
 }
 
 static int end_output(int answer) {

@@ -1,6 +1,7 @@
 #include "report.h"
 #include "excerpt.h"
 #include "print.h"
+#include "words.h"
 
 #include <stdarg.h>
 #include <string.h>
@@ -66,9 +67,11 @@ int cli_report(const struct cli_arguments *arguments, int code, const char *form
 
 /* The library's message has a line for each fault of a scene; in other ones a line end is foreign text. */
 int cli_report_status(const struct cli_arguments *arguments, int32_t status) {
+  const char *near = arguments->scene && !arguments->of_kind ? cli_suggest_file(arguments->scene) : NULL;
   char message[MESSAGE_SIZE], line[MESSAGE_SIZE]; /* an excerpt may change the last error */
-  snprintf(message, sizeof message, "%s",
-           hooke_last_error()[0] ? hooke_last_error() : hooke_status_name(status));
+  snprintf(message, sizeof message, "%s%s%s%s",
+           hooke_last_error()[0] ? hooke_last_error() : hooke_status_name(status), near ? "; " : "",
+           near ? near : "", near ? " is there" : "");
   for (const char *at = message; *at; at += strspn(at, "\n")) {
     const size_t length = strcspn(at, "\n");
     snprintf(line, sizeof line, "%.*s", (int)length, at);
@@ -137,41 +140,6 @@ void cli_report_command(FILE *file, const struct cli_arguments *arguments, const
   }
 }
 
-/* Edit distance: letters to change, insert or drop between two words. */
-static size_t distance(const char *a, const char *b) {
-  size_t row[WORD_SIZE + 1];
-  size_t width = strlen(b);
-  for (size_t j = 0; j <= width; j++)
-    row[j] = j;
-  for (size_t i = 0; a[i]; i++) {
-    size_t diagonal = row[0];
-    row[0] = i + 1;
-    for (size_t j = 0; j < width; j++) {
-      size_t change = diagonal + (a[i] != b[j]);
-      size_t shorter = (row[j] < row[j + 1] ? row[j] : row[j + 1]) + 1;
-      diagonal = row[j + 1];
-      row[j + 1] = change < shorter ? change : shorter;
-    }
-  }
-  return row[width];
-}
-
-const char *cli_suggest(const char *word, const char *(*next)(int64_t i, const void *ctx), const void *ctx) {
-  const char *best = NULL;
-  const char *candidate;
-  size_t least = strlen(word) / 3 + 2; /* more changes make it another word */
-  if (strlen(word) > WORD_SIZE) return NULL;
-  for (int64_t i = 0; (candidate = next(i, ctx)) != NULL; i++) {
-    if (strlen(candidate) > WORD_SIZE) continue;
-    size_t changes = distance(word, candidate);
-    if (changes < least) {
-      least = changes;
-      best = candidate;
-    }
-  }
-  return best;
-}
-
 static const char *next_method(int64_t i, const void *ctx) {
   (void)ctx;
   return hooke_method_name(i);
@@ -190,9 +158,12 @@ int cli_report_unknown_method(const struct cli_arguments *arguments, const char 
   char name[HOOKE_FLAG_SIZE], list[LIST_SIZE] = "";
   snprintf(name, sizeof name, "%.*s", (int)(length < sizeof name ? length : sizeof name - 1), word);
   cli_report_methods(list, sizeof list);
-  const char *near = hooke_method_meant(name);
-  const int several = strchr(near, ' ') != NULL;
-  if (!several) near = cli_suggest(name, next_method, NULL);
+  const char *meant = hooke_method_meant(name), *near = cli_suggest(name, next_method, NULL);
+  const int several = strchr(meant, ' ') != NULL;
+  char among[LIST_SIZE] = "";
+  for (size_t used = 0; several && *meant && used + 3 < sizeof among; meant++)
+    used += (size_t)snprintf(among + used, 3, *meant == ' ' ? ", " : "%c", *meant);
+  if (several) near = among;
   return cli_report(arguments, cli_refusal(arguments), "--%s: there is no method '%s'%s%s%s%s; methods: %s",
                     flag, name, near ? ", did you mean " : "", several ? "one of " : "", near ? near : "",
                     near ? "?" : "", list);

@@ -45,8 +45,4 @@ void cli_report_methods(char *list, size_t size);
 int cli_report_unknown_method(const struct cli_arguments *arguments, const char *flag, const char *word,
                               size_t length);
 
-/* The candidate nearest to a mistyped word; NULL if none is near. `next` gives candidate i, NULL past the
- * last. */
-const char *cli_suggest(const char *word, const char *(*next)(int64_t i, const void *ctx), const void *ctx);
-
 #endif

@@ -1,6 +1,7 @@
 #include "setup.h"
 #include "os.h"
 #include "report.h"
+#include "words.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -40,6 +41,15 @@ int cli_setup_check_read(const struct cli_arguments *arguments, const struct cli
   if (status == HOOKE_OK) return HOOKE_EXIT_DONE;
   if (status == HOOKE_NO_MEMORY) return cli_report_status(arguments, status);
   return cli_report(arguments, HOOKE_EXIT_USAGE, "%s", hooke_last_error());
+}
+
+int32_t cli_setup_is_scene(const char *path) {
+  char first = '\0';
+  if (strcmp(path, "-") == 0) return 1;
+  FILE *file = fopen(path, "rb");
+  const int32_t is = file && fscanf(file, " %c", &first) == 1 && first == '{';
+  if (file) fclose(file);
+  return is;
 }
 
 int cli_setup_load(const struct cli_arguments *arguments, struct cli_setup *setup) {
@@ -118,6 +128,7 @@ int cli_setup_check_other_file(const struct cli_arguments *arguments, const char
   int code = cli_setup_check_apart(arguments, arguments->scene, "the scene", output);
   for (int32_t k = 0; k < arguments->more_count && code == HOOKE_EXIT_DONE; k++)
     code = cli_setup_check_apart(arguments, arguments->more_scenes[k], "one of the inputs", output);
+  if (code == HOOKE_EXIT_DONE && output) code = cli_words_check_ending(arguments, output);
   if (code != HOOKE_EXIT_DONE || !output || !cli_os_is_written(output)) return code;
   return cli_report(arguments, HOOKE_EXIT_IO,
                     "%s: another run is writing this file; wait for it to end, or name another file", output);

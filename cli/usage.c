@@ -78,8 +78,10 @@ static void print_table(FILE *file, const struct cli_arguments *arguments, const
 
 static void print_kinds(FILE *file, const struct cli_verb *verb) {
   fputs("\nkinds:\n", file);
-  for (int64_t i = 0; hooke_part_kind(i, "name"); i++)
-    fprintf(file, "  %-10s %s\n", hooke_part_kind(i, "name"), hooke_part_kind(i, "summary"));
+  for (int64_t i = 0; hooke_part_kind(i, "name"); i++) {
+    fprintf(file, "  %-10s ", hooke_part_kind(i, "name"));
+    cli_print_wrapped(file, 13, 13, WIDTH, hooke_part_kind(i, "summary"));
+  }
   fprintf(file, "\nhooke %s KIND --help   the options of a kind, with units and defaults\n", verb->name);
 }
 
@@ -115,12 +117,29 @@ static int32_t print_options(FILE *file, const struct cli_arguments *arguments) 
   return print_units(file, arguments);
 }
 
-int cli_usage_print_verb(FILE *file, const struct cli_arguments *arguments) {
+/* The options of a table (NULL: the verb's own) by their names alone; of a family in one word. */
+static void print_names(FILE *file, const struct cli_arguments *arguments, const hooke_options *table,
+                        const char *title) {
+  char text[4 * HOOKE_DOC_SIZE] = "";
+  for (int32_t i = 0; i < arguments->count; i++) {
+    const struct cli_argument *argument = &arguments->all[i];
+    const char *doc, *family = cli_describe_family(argument, &doc);
+    const size_t used = strlen(text);
+    if (argument->table != table) continue;
+    if (!family || strstr(text, family) == NULL)
+      snprintf(text + used, sizeof text - used, " --%s", argument->flag);
+    else
+      snprintf(text + used, sizeof text - used, " .%s", argument->flag + strlen(family) + 1);
+  }
+  fprintf(file, "%s: ", title);
+  cli_print_wrapped(file, (int32_t)strlen(title) + 2, 2, WIDTH, text);
+}
+
+/* `hooke VERB --help all` */
+static int32_t print_complete(FILE *file, const struct cli_arguments *arguments, const char *kind) {
   const struct cli_verb *verb = arguments->verb;
-  const char *kind = verb->takes_kind ? arguments->scene : NULL;
   char example[HOOKE_DOC_SIZE];
   int32_t status = HOOKE_OK;
-  fprintf(file, "usage: hooke %s %s [options]\n\n", verb->name, kind ? kind : cli_describe_operand(verb));
   cli_print_wrapped(file, 0, 0, WIDTH, verb->text);
   if (verb->takes_kind && !kind) {
     print_kinds(file, verb);
@@ -129,6 +148,37 @@ int cli_usage_print_verb(FILE *file, const struct cli_arguments *arguments) {
   }
   if (kind) fprintf(file, "\nexample:\n  %s\n", cli_describe_example(arguments, example));
   print_exits(file);
+  return status;
+}
+
+static void print_short(FILE *file, const struct cli_arguments *arguments, const char *kind) {
+  const struct cli_verb *verb = arguments->verb;
+  char example[HOOKE_DOC_SIZE];
+  fprintf(file, "%c%s.\n", toupper((unsigned char)verb->summary[0]), verb->summary + 1);
+  if (verb->takes_kind && !kind) {
+    print_kinds(file, verb);
+    return;
+  }
+  fputc('\n', file);
+  print_names(file, arguments, NULL, "options");
+  if (arguments->of_kind) print_names(file, arguments, arguments->of_kind, kind);
+  if (arguments->more) print_names(file, arguments, arguments->more, verb->options);
+  if (!verb->input) print_names(file, arguments, arguments->run, "run");
+  if (arguments->limits) print_names(file, arguments, arguments->limits, "limits");
+  fprintf(file, "\nexample: %s\n", kind ? cli_describe_example(arguments, example) : verb->example);
+  fprintf(file, "hooke %s%s%s --help all   what they mean, with units and defaults\n", verb->name,
+          kind ? " " : "", kind ? kind : "");
+}
+
+int cli_usage_print_verb(FILE *file, const struct cli_arguments *arguments) {
+  const struct cli_verb *verb = arguments->verb;
+  const char *kind = verb->takes_kind ? arguments->scene : NULL;
+  int32_t status = HOOKE_OK;
+  fprintf(file, "usage: hooke %s %s [options]\n\n", verb->name, kind ? kind : cli_describe_operand(verb));
+  if (arguments->help > 1)
+    status = print_complete(file, arguments, kind);
+  else
+    print_short(file, arguments, kind);
   return status == HOOKE_OK ? HOOKE_EXIT_DONE : cli_report(arguments, cli_exit_code(status), "out of memory");
 }
 

@@ -100,8 +100,11 @@ int cli_value_set(const struct cli_arguments *arguments, const struct cli_argume
   const int32_t status = hooke_options_set_text(argument->table, argument->name, argument->value);
   if (status == HOOKE_OK) return HOOKE_EXIT_DONE;
   const int code = status == HOOKE_NO_MEMORY ? HOOKE_EXIT_BAD_INPUT : cli_refusal(arguments);
-  return cli_report(arguments, code, "--%s %s: %s", argument->flag, argument->text,
-                    without_name(hooke_last_error(), argument->name));
+  char example[HOOKE_EXAMPLE_SIZE];
+  cli_value_example(argument->table, argument->row, example);
+  return cli_report(arguments, code, "--%s %s: %s%s%s", argument->flag, argument->text,
+                    without_name(hooke_last_error(), argument->name), example[0] ? ", such as " : "",
+                    example);
 }
 
 /* ---- examples ---- */

@@ -21,7 +21,8 @@ module hooke
   use hooke_coordinates, only: hooke_coordinate_force, hooke_coordinate_force_with_product
   use hooke_estimates, only: hooke_estimate
   use hooke_forces, only: hooke_force, hooke_force_with_product, hooke_drive, hooke_rows_hold => rows_hold
-  use hooke_integrators, only: hooke_integrator, hooke_method_count => method_count, hooke_method_name => method_name, &
+  use hooke_integrators, only: hooke_integrator, hooke_system_warnings, &
+    hooke_method_count => method_count, hooke_method_name => method_name, &
     hooke_method_meant => method_meant, hooke_method_summary => method_summary, hooke_method_is_adaptive => method_is_adaptive, &
     hooke_method_is_built => method_is_built, hooke_method_is_suited => method_is_suited
   use hooke_measurements, only: hooke_measurement, hooke_measurement_table => measurement_table, &

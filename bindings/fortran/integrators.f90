@@ -14,7 +14,8 @@ module hooke_integrators
   implicit none
   private
   public :: hooke_integrator
-  public :: method_count, method_name, method_meant, method_summary, method_is_adaptive, method_is_built, method_is_suited
+  public :: hooke_system_warnings, method_count, method_name, method_meant, method_summary, method_is_adaptive, method_is_built
+  public :: method_is_suited
 
   integer, parameter :: of_rate = 1, of_frames = 2, of_steps = 3, of_warnings = 4, of_checkpoints = 5, &
     of_progress = 6, of_coordinates = 7
@@ -292,6 +293,17 @@ contains
       deallocate (holder)
     end if
     call accept(code, status)
+  end subroutine
+
+  ! Warns of what a scene may be, but is seldom meant to be.
+  subroutine hooke_system_warnings(system, warning, status)
+    class(hooke_system), intent(in) :: system
+    class(hooke_warning), target, intent(inout) :: warning
+    integer, intent(out), optional :: status
+    type(warning_holder), target :: holder
+    if (system%is_missing(status)) return
+    holder%warning => warning
+    call accept(c_system_warnings(system%address(), c_funloc(call_warning), c_loc(holder)), status)
   end subroutine
 
   ! ---- running ----

@@ -28,6 +28,9 @@ void cli_os_give_back_memory(void);
 /* The last slash of a path; NULL if it has none. */
 const char *cli_os_last_slash(const char *path);
 
+/* Names in a folder one by one, NULL after the last; a folder that is not NULL begins again. */
+const char *cli_os_next_file(const char *folder);
+
 /* 1 if both paths are of one file. */
 int32_t cli_os_is_same_file(const char *one, const char *other);
 

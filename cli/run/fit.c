@@ -4,7 +4,8 @@
 #include "report.h"
 
 #include <math.h>
-#include <stddef.h>
+#include <stdio.h>
+#include <string.h>
 
 enum { MOST_PARTS = 10000 };
 static const double SHARE_OF_SAFE = 0.5, SHARE_OF_DURATION = 1e-3; /* of the safe step, of the duration */
@@ -16,6 +17,7 @@ struct fit {
   const struct cli_arguments *arguments;
   hooke_options *options;
   double step, every, duration; /* NaN: not given */
+  char *doubt;
 };
 
 static int is_whole(double quotient) {
@@ -51,16 +53,20 @@ static int set(struct fit *fit, const char *name, double *number, double value, 
 /* ---- without a given step ---- */
 
 static int refuse(const struct fit *fit, const char *method, double safe) {
+  char doubt[HOOKE_DOC_SIZE];
   if (safe == 0.0)
-    return cli_report(fit->arguments, HOOKE_EXIT_USAGE,
-                      "no step: %s is certain to be stable here at no step; give one with --step, or take "
-                      "another method",
-                      method);
-  return cli_report(
-      fit->arguments, HOOKE_EXIT_USAGE,
-      "no step: %s is certain to be stable up to %.6g s alone, which would mean over 1e8 steps; "
-      "give one with --step, or take another method",
-      method, safe);
+    snprintf(doubt, sizeof doubt,
+             "no step: %s is certain to be stable here at no step; give one with --step, or take "
+             "another method",
+             method);
+  else
+    snprintf(doubt, sizeof doubt,
+             "no step: %s is certain to be stable up to %.6g s alone, which would mean over 1e8 steps; "
+             "give one with --step, or take another method",
+             method, safe);
+  if (!fit->doubt) return cli_report(fit->arguments, HOOKE_EXIT_USAGE, "%s", doubt);
+  strcpy(fit->doubt, doubt);
+  return HOOKE_EXIT_DONE;
 }
 
 static int choose_step(struct fit *fit, const hooke_system *system, const double *q, const char *method) {
@@ -91,18 +97,19 @@ static int move_times(struct fit *fit) {
   return code;
 }
 
-int cli_fit_run(const struct cli_arguments *arguments, struct cli_setup *setup) {
+int cli_fit_run(const struct cli_arguments *arguments, struct cli_setup *setup, char *doubt) {
   const char *method = hooke_options_text(setup->options, "method");
   struct fit fit = {.arguments = arguments,
                     .options = setup->options,
                     .step = hooke_options_number(setup->options, "step"),
                     .every = hooke_options_number(setup->options, "every"),
-                    .duration = hooke_options_number(setup->options, "duration")};
+                    .duration = hooke_options_number(setup->options, "duration"),
+                    .doubt = doubt};
   if (cli_arguments_text(arguments, "strict") || isnan(fit.duration)) return HOOKE_EXIT_DONE;
   if (hooke_method_is_adaptive(method) != 0) return HOOKE_EXIT_DONE;
   if (isnan(fit.step)) {
     const int code = choose_step(&fit, setup->system, hooke_state_position(setup->state), method);
-    return code == HOOKE_EXIT_DONE ? move_times(&fit) : code;
+    return code == HOOKE_EXIT_DONE && !isnan(fit.step) ? move_times(&fit) : code;
   }
   /* times that no whole number of steps can make up are refused */
   const int countable = fit.duration / fit.step < MOST_COUNTED;

@@ -8,6 +8,8 @@
 #include <stdio.h>
 #include <string.h>
 
+static const double ROUNDING = 1e-12;
+
 static const double *position_of(const struct cli_run *run) {
   return hooke_state_position(run->setup.state);
 }
@@ -181,15 +183,21 @@ static void print_known(double value, const char *unit) {
     printf("not known");
 }
 
+/* 0 for what is rounding alone, beside the energies that the scene has. */
+static double energy_shown(const struct cli_run *run, double energy) {
+  return fabs(energy) < ROUNDING * run->energy_scale ? 0.0 : energy;
+}
+
 static void print_motion(const struct cli_run *run) {
+  const double before = energy_shown(run, run->energy_before), after = energy_shown(run, run->energy_after);
   double momentum[3];
   const double change = run->energy_after - run->energy_before;
   print_row("energy");
-  print_known(run->energy_before, "J");
+  print_known(before, "J");
   printf(" before, ");
-  print_known(run->energy_after, "J");
+  print_known(after, "J");
   printf(" after");
-  if (isfinite(change)) printf(" (change %+.6g J)", change);
+  if (isfinite(change)) printf(" (change %+.6g J)", energy_shown(run, change));
   printf("\n");
   hooke_system_momentum(run->setup.system, velocity_of(run), momentum);
   print_row("momentum");
@@ -215,7 +223,11 @@ static void print_words(const struct cli_run *run) {
   print_method(run);
   print_row("time reached");
   print_quantity(hooke_state_time(run->setup.state), "s of ");
-  print_quantity(run->duration, "s\n");
+  print_quantity(run->duration, "s");
+  const double diverged =
+      run->outcome == HOOKE_DIVERGED ? hooke_integrator_number(run->integrator, "diverged_at") : NAN;
+  if (!isnan(diverged)) printf("; diverged at %.6g s, what follows is of the last good state", diverged);
+  printf("\n");
   print_work(run);
   print_motion(run);
   if (run->output) {
@@ -232,9 +244,9 @@ static void print_final(const struct cli_run *run) {
   for (int64_t i = 0; i < hooke_system_particle_count(run->setup.system); i++) {
     printf("%" PRId64, i);
     for (int64_t k = 0; k < 3; k++)
-      printf(" %s", cli_format_rounded(q[3 * i + k], text));
+      printf(" %s", cli_format_number(q[3 * i + k], text));
     for (int64_t k = 0; k < 3; k++)
-      printf(" %s", cli_format_rounded(v[3 * i + k], text));
+      printf(" %s", cli_format_number(v[3 * i + k], text));
     printf("\n");
   }
 }

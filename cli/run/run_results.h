@@ -37,7 +37,7 @@ struct cli_run {
   hooke_measurement *why;      /* diagnosis of the outcome; NULL: there is none, or it could not be made */
   hooke_measurement *estimate; /* of its error; NULL: none was requested */
   char message[2048];          /* about the outcome, or the failed write */
-  double energy_before, energy_after;
+  double energy_before, energy_after, energy_scale;
   int64_t coincident_before; /* coincident springs at the start */
 };
 

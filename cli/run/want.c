@@ -33,7 +33,8 @@ static void tell_choice(const struct cli_run *run, const char *done, const char 
   const int adaptive = hooke_method_is_adaptive(method);
   char number[HOOKE_NUMBER_SIZE];
   if (run->arguments->quiet) return;
-  cli_report_words(run->arguments, "%s %s: %s, %s %s%s", done, want, method, adaptive ? "rtol" : "step",
+  cli_report_words(run->arguments, "%s %s%s: %s, %s %s%s", done, want,
+                   want[strspn(want, "+-.0123456789eE")] ? "" : " m", method, adaptive ? "rtol" : "step",
                    cli_format_rounded(hooke_options_number(options, adaptive ? "rtol" : "step"), number),
                    adaptive ? "" : " s");
 }

@@ -1,6 +1,7 @@
 /* hooke check: validates a scene and reports its size, memory and step limits, without running it. */
 #include "cost_sheet.h"
 #include "derived.h"
+#include "fit.h"
 #include "peak.h"
 #include "print.h"
 #include "report.h"
@@ -71,14 +72,11 @@ static void warn_of_method(struct check *check) {
   }
 }
 
-/* A scene may leave all of it to the command line. */
-static void warn_of_missing_times(struct check *check) {
-  const hooke_options *run = check->setup.options;
-  char text[HOOKE_DOC_SIZE];
-  const int some = hooke_options_is_set(run, "method") || hooke_options_is_set(run, "step") ||
-                   hooke_options_is_set(run, "duration");
-  if (some && cli_setup_missing(&check->setup, hooke_options_text(run, "method"), text))
-    warn(check, "%s", text);
+static int32_t see_warning(const char *kind, const char *sentence, double t, double limit, int64_t spring,
+                           int64_t particle, void *check) {
+  (void)kind, (void)t, (void)limit, (void)spring, (void)particle;
+  warn(check, "%s", sentence);
+  return 0;
 }
 
 static void warn_of_coincident_springs(struct check *check) {
@@ -156,13 +154,14 @@ static double bytes_per_particle(const struct check *check) {
 }
 
 static void print_memory(const struct check *check) {
-  printf("memory       %" PRId64 " bytes at the peak of a run, %" PRId64 " with -o", check->memory.most,
-         check->memory.written);
+  const double most = 1e-6 * (double)check->memory.most;
+  printf("memory       %.3g MB at the peak of a run, %.3g MB with -o", most,
+         1e-6 * (double)check->memory.written);
   if (check->memory.factor > 0)
-    printf("; %" PRId64 " more where its method finds that a factor of its equations pays",
-           check->memory.factor - check->memory.most);
+    printf("; %.3g MB more where its method finds that a factor of its equations pays",
+           1e-6 * (double)check->memory.factor - most);
   if (hooke_system_particle_count(check->setup.system) > 0)
-    printf("; the model takes %.1f a particle", bytes_per_particle(check));
+    printf("; the model takes %.1f bytes a particle", bytes_per_particle(check));
   if (hooke_system_count(check->setup.system, "springs") > 0)
     printf(" and %.1f a spring", bytes_per_spring(check));
   printf("\n");
@@ -217,14 +216,39 @@ static void print_json(const struct check *check) {
   cli_json_end(&json);
 }
 
-static void print_groups(const hooke_system *system) {
-  printf("springs      %" PRId64 "\n", hooke_system_count(system, "springs"));
+/* Stiffness and rest length of the softest and the stiffest of `count` springs. */
+static void print_stiffness(const double *stiffness, const double *length, int64_t count) {
+  int64_t least = 0, most = 0;
+  for (int64_t k = 1; k < count; k++) {
+    if (stiffness[k] < stiffness[least]) least = k;
+    if (stiffness[k] > stiffness[most]) most = k;
+  }
+  if (count == 0) return;
+  printf(", %.6g N/m at %.6g m (law strain: %.6g N)", stiffness[least], length[least],
+         stiffness[least] * length[least]);
+  if (stiffness[most] > stiffness[least])
+    printf(" to %.6g N/m at %.6g m (%.6g N)", stiffness[most], length[most], stiffness[most] * length[most]);
+}
+
+/* HOOKE_NO_MEMORY if the stiffnesses are missing. */
+static int32_t print_groups(const hooke_system *system) {
+  const int64_t count = hooke_system_count(system, "springs");
+  double *stiffness = malloc((size_t)(2 * count + 1) * sizeof *stiffness), *length = stiffness + count,
+         *at = stiffness;
+  int32_t status =
+      stiffness ? hooke_system_members(system, "springs", NULL, stiffness, NULL, length) : HOOKE_NO_MEMORY;
+  printf("springs      %" PRId64 "\n", count);
   for (int64_t i = 0; i < hooke_system_group_count(system, "springs"); i++) {
     const char *name = hooke_system_group_name(system, "springs", i);
-    printf("  %10" PRId64 " ", hooke_system_group_size(system, "springs", i));
+    const int64_t size = hooke_system_group_size(system, "springs", i);
+    printf("  %10" PRId64 " ", size);
     cli_print_text(stdout, name[0] ? name : "(no name)");
+    if (status == HOOKE_OK) print_stiffness(at, at + count, size);
     printf("\n");
+    at += status == HOOKE_OK ? size : 0;
   }
+  free(stiffness);
+  return status;
 }
 
 static void print_bodies(const hooke_system *system) {
@@ -274,7 +298,8 @@ static void print_cost(const struct check *check) {
          steps * (double)hooke_system_count(check->setup.system, "springs"));
 }
 
-static void print_words(const struct check *check) {
+/* HOOKE_NO_MEMORY if something is missing. */
+static int32_t print_words(const struct check *check) {
   const hooke_system *system = check->setup.system;
   const char *title = hooke_scene_text(check->setup.scene, "title");
   int64_t particles = hooke_system_particle_count(system);
@@ -286,7 +311,7 @@ static void print_words(const struct check *check) {
   printf("particles    %" PRId64 " (%" PRId64 " pinned or driven)\n", particles,
          particles - hooke_system_count(system, "free"));
   print_bodies(system);
-  print_groups(system);
+  const int32_t status = print_groups(system);
   cli_derived_words(system);
   printf("forces       ");
   for (int64_t i = 0; i < hooke_system_count(system, "forces"); i++) {
@@ -302,6 +327,7 @@ static void print_words(const struct check *check) {
   for (int64_t i = 0; i < check->warning_count; i++) {
     cli_report_words(check->arguments, "warning: %s", check->warning[i]);
   }
+  return status;
 }
 
 static int check_and_tell(struct check *check, struct cli_peak loaded) {
@@ -309,24 +335,36 @@ static int check_and_tell(struct check *check, struct cli_peak loaded) {
   if (code != HOOKE_EXIT_DONE) return code;
   int32_t status = find_bounds(check);
   if (status == HOOKE_OK) warn_of_method(check);
-  warn_of_missing_times(check);
   warn_of_coincident_springs(check);
   if (status == HOOKE_OK) status = warn_of_loose_particles(check);
+  if (status == HOOKE_OK) status = hooke_system_warnings(check->setup.system, see_warning, check);
   if (status != HOOKE_OK) return cli_report(check->arguments, cli_exit_code(status), "out of memory");
   if (cli_arguments_text(check->arguments, "cost"))
     code = cli_cost_sheet_find(check->arguments, &check->setup, &check->cost);
   if (code != HOOKE_EXIT_DONE && code != HOOKE_EXIT_INTERRUPTED) return code;
-  if (check->arguments->json) {
+  if (check->arguments->json)
     print_json(check);
-  } else {
-    print_words(check);
-  }
+  else
+    status = print_words(check);
+  return status == HOOKE_OK ? code : cli_report(check->arguments, cli_exit_code(status), "out of memory");
+}
+
+/* As `run` does; a scene may leave all of it to the command line. */
+static int choose_times(struct check *check) {
+  const hooke_options *run = check->setup.options;
+  char doubt[HOOKE_DOC_SIZE] = "";
+  const int code = cli_fit_run(check->arguments, &check->setup, doubt);
+  const int some = hooke_options_is_set(run, "method") || hooke_options_is_set(run, "step");
+  const int refused = doubt[0] != '\0';
+  if (refused || (some && cli_setup_missing(&check->setup, hooke_options_text(run, "method"), doubt)))
+    warn(check, "%s", doubt);
   return code;
 }
 
 static int do_check(const struct cli_arguments *arguments) {
   struct check check = {.arguments = arguments};
   int code = cli_setup_load(arguments, &check.setup);
+  if (code == HOOKE_EXIT_DONE) code = choose_times(&check);
   if (code == HOOKE_EXIT_DONE) code = check_and_tell(&check, cli_peak_look());
   hooke_measurement_destroy(check.cost);
   free(check.bound);

@@ -231,8 +231,8 @@ static int do_compare(const struct cli_arguments *arguments) {
 
 static const struct cli_verb_row own_rows[] = {
     {"methods", 'm', "A,B,...", "the methods to compare; default: all that this build has"},
-    {"output", 'o', "FILE",
-     "writes every run, the table and the error over time to FILE (HDF5), replacing it"},
+    {"output", 'o', "FILE.h5",
+     "writes every run, the table and the error over time to FILE.h5 (HDF5), replacing it"},
 };
 
 const struct cli_verb cli_verb_compare = {

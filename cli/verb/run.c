@@ -15,9 +15,17 @@
 #include <string.h>
 #include <unistd.h>
 
-static double state_energy(const struct cli_run *run) {
-  return hooke_system_energy(run->setup.system, "total", hooke_state_position(run->setup.state),
-                             hooke_state_velocity(run->setup.state));
+/* Of the state; the scale becomes the largest sum of its kinds without their signs. */
+static double state_energy(struct cli_run *run) {
+  const hooke_system *system = run->setup.system;
+  const double *q = hooke_state_position(run->setup.state), *v = hooke_state_velocity(run->setup.state);
+  double scale = hooke_system_energy(system, "kinetic", q, v);
+  for (int64_t k = 0; hooke_system_force_name(system, k); k++) {
+    const double energy = hooke_system_energy(system, hooke_system_force_name(system, k), q, v);
+    if (!isnan(energy)) scale += fabs(energy); /* drag and callbacks have none */
+  }
+  run->energy_scale = fmax(run->energy_scale, scale);
+  return hooke_system_energy(system, "total", q, v);
 }
 
 /* ---- running ---- */
@@ -327,8 +335,12 @@ static int run_and_tell(struct cli_run *run) {
 static int make_ready(struct cli_run *run) {
   int code = cli_setup_load(run->arguments, &run->setup);
   if (code == HOOKE_EXIT_DONE) code = cli_want_pick(run);
-  if (code == HOOKE_EXIT_DONE && !run->resumed) code = cli_fit_run(run->arguments, &run->setup);
+  if (code == HOOKE_EXIT_DONE && !run->resumed) code = cli_fit_run(run->arguments, &run->setup, NULL);
   if (code != HOOKE_EXIT_DONE) return code;
+  const int told =
+      !run->arguments->quiet && cli_arguments_text(run->arguments, "want"); /* else by the integrator */
+  const int32_t status = told ? hooke_system_warnings(run->setup.system, see_warning, run) : HOOKE_OK;
+  if (status != HOOKE_OK) return cli_report_status(run->arguments, status);
   return cli_setup_require(run->arguments, &run->setup, hooke_options_text(run->setup.options, "method"));
 }
 
@@ -389,8 +401,8 @@ static int do_run(const struct cli_arguments *arguments) {
 }
 
 static const struct cli_verb_row rows[] = {
-    {"output", 'o', "FILE",
-     "writes the trajectory to FILE (HDF5 in the H5MD layout), and beside it the .xdmf by which ParaView "
+    {"output", 'o', "FILE.h5",
+     "writes the trajectory to FILE.h5 (HDF5 in the H5MD layout), and beside it the .xdmf by which ParaView "
      "reads it, replacing them"},
     {"resume", 0, "OUT.h5",
      "goes on with the run of OUT.h5 where it stopped or was killed, with its own scene and options, as if "

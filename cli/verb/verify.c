@@ -1,6 +1,7 @@
 /* hooke verify: checks that a slice of a result reproduces from its scene. */
 #include "print.h"
 #include "report.h"
+#include "setup.h"
 #include "table.h"
 #include "watch.h"
 
@@ -136,6 +137,9 @@ static void print_json(const struct cli_arguments *arguments, const hooke_measur
 static int do_verify(const struct cli_arguments *arguments) {
   hooke_measurement *verify = NULL;
   struct cli_watch watch;
+  if (cli_setup_is_scene(arguments->scene))
+    return cli_report(arguments, HOOKE_EXIT_BAD_INPUT,
+                      "%s is a scene; verify takes the output of 'hooke run -o'", arguments->scene);
   int32_t status = hooke_verify_create(arguments->scene, arguments->more, NULL, &verify);
   if (status != HOOKE_OK) return cli_report_status(arguments, status);
   cli_watch_start(&watch, arguments);

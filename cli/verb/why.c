@@ -24,6 +24,7 @@ struct why {
   hooke_measurement *why; /* NULL: the run did not blow up */
   const char *status;     /* of the run, if any */
   double time;            /* reached, if any */
+  double bound;           /* the safe step there [s]; NaN: not known */
   int code;               /* failures are reported already */
 };
 
@@ -45,6 +46,11 @@ static int32_t explain(const struct why *why) {
   return status;
 }
 
+static int32_t find_bound(struct why *why, const hooke_state *state) {
+  return hooke_step_bound(why->setup.system, hooke_options_text(why->setup.options, "method"),
+                          hooke_state_position(state), &why->bound);
+}
+
 /* Runs the scene and finds why it ended early. */
 static int32_t run_again(struct why *why) {
   hooke_integrator *integrator = NULL;
@@ -57,6 +63,7 @@ static int32_t run_again(struct why *why) {
   cli_watch_end(&watch);
   why->time = hooke_state_time(why->setup.state);
   why->status = "finished";
+  if (status == HOOKE_OK) status = find_bound(why, why->setup.state);
   if (cli_exit_code(status) == HOOKE_EXIT_DIVERGED) {
     status = hooke_why_create(integrator, why->options, &why->why);
     if (status == HOOKE_OK) status = explain(why);
@@ -78,6 +85,7 @@ static int32_t read_output(struct why *why) {
   if (status == HOOKE_OK) status = hooke_record_read(why->record, 0, first);
   if (status == HOOKE_OK)
     status = hooke_record_read(why->record, hooke_record_count(why->record, "good_frames") - 1, last);
+  if (status == HOOKE_OK) status = find_bound(why, last);
   if (status == HOOKE_OK) {
     why->time = hooke_state_time(last);
     if (blew_up(why->status))
@@ -213,6 +221,11 @@ static int32_t print_words(const struct why *why) {
     printf("the run did not blow up: it is '");
     cli_print_text(stdout, why->status);
     printf("' at t = %s s\n", cli_format_rounded(why->time, text));
+    const double step = hooke_options_number(why->setup.options, "step");
+    if (step > 0.0 && isfinite(why->bound) && why->bound > 0.0)
+      printf("its step of %.6g s is %.3g %% of the limit, %.6g s, up to which it was certain to be stable "
+             "there\n",
+             step, 100.0 * step / why->bound, why->bound);
     return HOOKE_OK;
   }
   printf("%-12s", "cause");
@@ -268,7 +281,7 @@ static int find_out(struct why *why) {
   if (why->record && !is_another_run(arguments)) {
     status = read_output(why);
   } else {
-    int code = cli_fit_run(arguments, &why->setup);
+    int code = cli_fit_run(arguments, &why->setup, NULL);
     if (code == HOOKE_EXIT_DONE)
       code = cli_setup_require(arguments, &why->setup, hooke_options_text(why->setup.options, "method"));
     if (code != HOOKE_EXIT_DONE) return code;
@@ -292,7 +305,7 @@ static int read_options(struct why *why) {
 }
 
 static int do_why(const struct cli_arguments *arguments) {
-  struct why why = {.arguments = arguments, .time = NAN};
+  struct why why = {.arguments = arguments, .time = NAN, .bound = NAN};
   int code = cli_output_file_check_report(arguments, cli_arguments_text(arguments, "report"));
   if (code == HOOKE_EXIT_DONE) code = read_options(&why);
   if (code == HOOKE_EXIT_DONE) code = cli_setup_load(arguments, &why.setup);

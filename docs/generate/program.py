@@ -7,7 +7,7 @@ import subprocess
 
 INTRO = """# Command-line reference
 
-What `hooke --help` and `hooke VERB --help` print. [The command line](../command-line.md) explains results, exit codes and
+What `hooke --help` and `hooke VERB --help all` print. [The command line](../command-line.md) explains results, exit codes and
 JSON.
 
 ```console
@@ -24,5 +24,5 @@ def page(program: str) -> str:
     verbs = re.findall(r"^  ([\w-]+) ", general.split("verbs:\n")[1].split("\n\n")[0], re.MULTILINE)
     pieces = [INTRO, f"```text\n{general}\n```"]
     for verb in verbs:
-        pieces += [f"## hooke {verb}", f"```text\n{printed(program, verb, '--help')}\n```"]
+        pieces += [f"## hooke {verb}", f"```text\n{printed(program, verb, '--help', 'all')}\n```"]
     return "\n\n".join(pieces) + "\n"

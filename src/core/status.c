@@ -46,6 +46,8 @@ int32_t hk_fail(int32_t status, const char *place, const char *format, ...) {
 }
 
 int32_t hk_fail_index(const char *place, const char *none, double number, int64_t count) {
+  if (count == 0)
+    return hk_fail(HOOKE_BAD_VALUE, place, "%s %.17g; there are no particles yet", none, number);
   return hk_fail(HOOKE_BAD_VALUE, place, "%s %.17g; allowed: 0 to %lld, as numbers begin at 0", none, number,
                  (long long)count - 1);
 }

@@ -14,7 +14,7 @@
 #define TEXT(text)                                                                                           \
   if ((text) == NULL)                                                                                        \
     return hk_fail(HOOKE_BAD_VALUE, NULL, "no %s given; %s() needs a text there", #text, __func__);
-/* Clears the outputs of a function that refuses a text. */
+/* Clears the outputs, so that they are NULL after a failure. */
 #define MADE(object)                                                                                         \
   if (object) *(object) = NULL;
 #define WORD(text)                                                                                           \

@@ -40,7 +40,7 @@ const char *hooke_method_name(int64_t method) {
   return NULL;
 }
 
-/* Other common names; several methods where texts do not agree. */
+/* Other common names, after plain(); several methods where texts do not agree, or where only relatives are there. */
 static const struct {
   const char *word, *methods;
 } common_names[] = {
@@ -48,15 +48,35 @@ static const struct {
     {"semi-implicit-euler", "symplectic-euler"},
     {"implicit-euler", "backward-euler"},
     {"velocity-verlet", "verlet"},
+    {"leapfrog", "verlet"},
+    {"runge-kutta-4", "rk4"},
     {"euler", "forward-euler symplectic-euler backward-euler"},
     {"midpoint", "implicit-midpoint heun"}, /* the nearest to the explicit rule */
+    {"trapezoidal", "implicit-midpoint tr-bdf2"},
+    {"crank-nicolson", "implicit-midpoint tr-bdf2"},
+    {"rk2", "heun rk4"},
+    {"bdf", "cvode-bdf tr-bdf2"},
 };
 
+enum { WORD_SIZE = 32 };
+
+/* Small letters, with a hyphen for a blank or an underscore; "" if it is too long to be a name. */
+static const char *plain(const char *word, char text[WORD_SIZE]) {
+  size_t length = 0;
+  for (; word[length] && length + 1 < WORD_SIZE; length++) {
+    const char c = word[length];
+    text[length] = (char)(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c == ' ' || c == '_' ? '-' : c);
+  }
+  text[word[length] ? 0 : length] = '\0';
+  return text;
+}
+
 const char *hooke_method_meant(const char *word) {
-  const struct hk_method *method = hk_method_find(word);
+  char text[WORD_SIZE];
+  const struct hk_method *method = hk_method_find(plain(word, text));
   if (method) return method->name;
   for (size_t k = 0; k < sizeof common_names / sizeof common_names[0]; k++) {
-    if (strcmp(common_names[k].word, word) == 0) return common_names[k].methods;
+    if (strcmp(common_names[k].word, text) == 0) return common_names[k].methods;
   }
   return "";
 }

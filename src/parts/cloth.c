@@ -123,8 +123,10 @@ static int32_t build(struct hk_part *part) {
   const int64_t nu = (int64_t)size[0], nv = (int64_t)size[1];
 
   double *position;
-  int32_t status = hk_part_new_positions(part, size_of(part, size[0], size[1]), &position,
-                                         "a cloth of %lld x %lld particles", (long long)nu, (long long)nv);
+  int32_t status = hk_part_check_edges(edges, 2);
+  if (status != HOOKE_OK) return status;
+  status = hk_part_new_positions(part, size_of(part, size[0], size[1]), &position,
+                                 "a cloth of %lld x %lld particles", (long long)nu, (long long)nv);
   if (status != HOOKE_OK) return hk_fail_within(status, "size");
   const struct cell cell = find_cell(edges, nu, nv);
   place_particles(hooke_options_numbers(part->options, "origin"), edges, nu, nv, position);

@@ -228,9 +228,10 @@ static int32_t build(struct hk_part *part) {
   const struct lattice lattice = lattice_of(part->options);
   const int64_t *size = lattice.size;
   double *position;
-  int32_t status =
-      hk_part_new_positions(part, size_of(part, &lattice), &position, "a lattice of %lld x %lld x %lld",
-                            (long long)size[0], (long long)size[1], (long long)size[2]);
+  int32_t status = hk_part_check_edges(hooke_options_numbers(part->options, "edges"), 3);
+  if (status != HOOKE_OK) return status;
+  status = hk_part_new_positions(part, size_of(part, &lattice), &position, "a lattice of %lld x %lld x %lld",
+                                 (long long)size[0], (long long)size[1], (long long)size[2]);
   if (status != HOOKE_OK) return hk_fail_within(status, "size");
   place_particles(part->options, &lattice, position);
   status = add_particles(part, &lattice, position);

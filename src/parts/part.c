@@ -13,6 +13,7 @@
 
 static const struct hooke_part_kind *const kinds[] = {&hk_part_rope, &hk_part_cloth, &hk_part_lattice,
                                                       &hk_part_mesh, &hk_part_strand};
+static const double FLAT = 1e-12; /* of unit edges: area, volume */
 enum { KIND_COUNT = sizeof kinds / sizeof kinds[0] };
 
 static const struct hk_option_row family_rows[] = {
@@ -77,6 +78,23 @@ const struct hk_option_table *hk_part_table(int64_t k) {
 
 double hk_part_length(const double *vector) {
   return sqrt((vector[0] * vector[0] + vector[1] * vector[1]) + vector[2] * vector[2]);
+}
+
+int32_t hk_part_check_edges(const double *edges, int32_t count) {
+  double unit[3][3] = {{0.0}}, normal[3], out = 0.0;
+  for (int e = 0; e < count; e++) {
+    const double length = hk_part_length(edges + 3 * e);
+    if (!(length > 0.0 && isfinite(length))) return HOOKE_OK; /* left to the rest lengths */
+    for (int i = 0; i < 3; i++)
+      unit[e][i] = edges[3 * e + i] / length;
+  }
+  for (int i = 0; i < 3; i++) {
+    normal[i] = unit[0][(i + 1) % 3] * unit[1][(i + 2) % 3] - unit[0][(i + 2) % 3] * unit[1][(i + 1) % 3];
+    out += normal[i] * unit[2][i];
+  }
+  if ((count == 3 ? fabs(out) : hk_part_length(normal)) > FLAT) return HOOKE_OK;
+  return hk_fail(HOOKE_BAD_VALUE, "edges", "the edges span no %s; allowed: vectors in different directions",
+                 count == 3 ? "volume" : "area");
 }
 
 double hk_part_if_family(const struct hk_part *part, const char *family, double count) {

@@ -133,5 +133,7 @@ int32_t hk_part_add_bending(struct hk_part *part, int64_t stride, int32_t count,
 char *hk_part_group_name(const struct hk_part *part, const char *family);
 
 double hk_part_length(const double *vector);
+/* HOOKE_BAD_VALUE for two edges in one line, or three in one plane. */
+int32_t hk_part_check_edges(const double *edges, int32_t count);
 
 #endif

@@ -121,7 +121,7 @@ EXPECTED = {
     "lattice-size": ("5:106", "parts[0].size[2]", "1 is not", "3 whole numbers >= 2"),
     "lattice-edges": ("5:56", "parts[0].edges", "2 rows", "3 rows of 3 numbers"),
     "lattice-huge": ("5:99", "parts[0].size", "8000000000 particles, 2.3988e+10 springs", "2147483647 of each"),
-    "lattice-flat": ("5:121", "parts[0].density", "0 m^3", "> 0, so let the edges of the part span a volume"),
+    "lattice-flat": ("5:56", "parts[0].edges", "span no volume", "vectors in different directions"),
     "lattice-of-no-length": ("7:21", "parts[0].structural", "0 m", "> 0"),
     "lattice-pinned": ("6:28", "parts[0].pinned[1]", '"left"', '"bottom" or "top"'),
     "lattice-pinned-range": ("6:22", "parts[0].pinned[1]", "27", "0 to 26"),

@@ -77,7 +77,8 @@ def test_what_bends_is_not_loose(hooke, write):
     scene = copy.deepcopy(BEAM)
     del scene["parts"][0]["stretch"]
     answer = hooke("check", write(scene, step=1e-4, duration=1), "--json")
-    assert (answer.code, answer.json["springs"], answer.json["warnings"]) == (0, 0, [])
+    rest = ["nothing moves: no particle has a velocity, and the forces are in balance"]
+    assert (answer.code, answer.json["springs"], answer.json["warnings"]) == (0, 0, rest)
 
 
 def peak_of_run(folder, *words):
@@ -232,8 +233,8 @@ def test_words_have_the_same_numbers(hooke, write):
     value = hooke("check", scene, "--json").json
     answer = hooke("check", scene)
     assert answer.code == 0
-    memory = re.search(r"^memory +(\d+) bytes at the peak", answer.out, re.M)  # of another process
-    assert int(memory.group(1)) == pytest.approx(value["memory_bytes"], rel=0.1)
+    memory = re.search(r"^memory +([\d.]+) MB at the peak", answer.out, re.M)  # of another process
+    assert 1e6 * float(memory.group(1)) == pytest.approx(value["memory_bytes"], rel=0.1)
     assert f"{value['step_limit']['symplectic-euler']:.6g} s" in answer.out
     assert "warning: " + value["warnings"][0] in answer.err
     assert "warning" not in answer.out
@@ -329,11 +330,20 @@ def test_what_does_nothing_is_dropped_and_counted(hooke, write):
     assert "dropped      2 springs that have neither" in words and "idle         1 pinned particle that" in words
 
 
-def test_a_run_that_does_not_fit_is_3(hooke, write):
-    answer = hooke("check", write(SIX_PARTICLES, step=3e-3), "--json")
-    assert answer.code == 3
-    assert "multiple" in answer.err
-    assert answer.json["error"]["exit"] == 3
+def test_a_step_that_does_not_fit_is_changed_as_by_run(hooke, write):
+    scene = write(SIX_PARTICLES, step=3e-3)
+    check, run = hooke("check", scene, "--json"), hooke("run", scene, "--json", "--no-estimate")
+    words = "step is 0.00294118 s: a little less, so that every and duration are whole multiples of it"
+    assert (check.code, check.err, check.json["warnings"]) == (0, f"hooke check: {words}\n", [])
+    assert words in run.err and run.json["step"] == 0.05 / 17
+
+
+def test_why_no_step_can_be_chosen_is_a_warning_of_check(hooke, write):
+    scene = write(STIFF_PAIR, step=None, method="forward-euler")
+    check, run = hooke("check", scene, "--json"), hooke("run", scene)
+    sentence = check.json["warnings"][0]
+    assert check.code == 0 and sentence.startswith("no step: forward-euler is certain to be stable here at no step")
+    assert (run.code, run.err) == (2, f"hooke run: {sentence}\n")
 
 
 def test_an_invalid_scene_is_3_and_names_the_place(hooke, tmp_path):

@@ -55,7 +55,7 @@ def complete(folder):
 
 @functools.cache
 def help_of(*words):
-    return subprocess.run([CLI, *words, "--help"], capture_output=True, text=True, check=True).stdout
+    return subprocess.run([CLI, *words, "--help", *(["all"] if words else [])], capture_output=True, text=True, check=True).stdout
 
 
 def listed(title):

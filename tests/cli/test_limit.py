@@ -70,7 +70,7 @@ def test_the_scene_itself(hooke, write):
     assert 0.8 < row["ratio"] < 1.2
 
 
-def test_at_a_frame(hooke, write):
+def test_at_a_frame(hooke, write, tmp_path):
     scene = write(SIX_PARTICLES)
     assert hooke("run", scene, "-o", "out.h5").code == 0
     start = rows_of(hooke("limit", scene, "--predict", "--json"))
@@ -82,8 +82,9 @@ def test_at_a_frame(hooke, write):
     assert hooke("limit", scene, "--predict", "--at", "out.h5:99").code == 3
     assert hooke("limit", scene, "--predict", "--at", "out.h5:x").code == 2
     assert hooke("limit", scene, "--predict", "--at", "missing.h5").code in (3, 5)
-    refused = hooke("limit", scene, "--predict", "--at", "out.h5:0", "--report", "out.h5")
-    assert refused.code == 2 and "out.h5 is the trajectory of --at itself" in refused.err
+    (tmp_path / "out.html").write_bytes((tmp_path / "out.h5").read_bytes())
+    refused = hooke("limit", scene, "--predict", "--at", "out.html:0", "--report", "out.html")
+    assert refused.code == 2 and "out.html is the trajectory of --at itself" in refused.err
     assert hooke("limit", scene, "--predict", "--at", "out.h5:0").code == 0
 
 
@@ -121,7 +122,7 @@ def test_usage(hooke, write):
     assert hooke("limit", scene, "--predict=perhaps").code == 2
     assert hooke("limit", scene, "--accuracy", "2").code == 2
     assert hooke("limit", "missing.json").code == 3
-    shown = hooke("limit", "--help").out
+    shown = hooke("limit", "--help", "all").out
     for flag in ("--predict", "--nonlinear", "--at FILE:FRAME", "--along", "--budget NUMBER", "--accuracy NUMBER"):
         assert flag in shown
     bare = copy.deepcopy(SIX_PARTICLES)

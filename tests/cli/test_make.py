@@ -13,7 +13,7 @@ pytestmark = pytest.mark.everything
 
 @functools.cache
 def run_help(*words):
-    return subprocess.run([CLI, "make", *words, "--help"], capture_output=True, text=True, check=True).stdout
+    return subprocess.run([CLI, "make", *words, "--help", "all"], capture_output=True, text=True, check=True).stdout
 
 
 def kinds():

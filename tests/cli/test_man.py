@@ -71,10 +71,10 @@ def test_every_verb_has_what_its_help_has(hooke, sections):
         assert f"hooke {verb} " in sections["SYNOPSIS"]
     for name, text in headed.items():
         words = name.split()[:1] if name in used else name.split()
-        answer = hooke(*words, "--help").out
+        answer = hooke(*words, "--help", "all").out
         own = items(text)
         if words == ["make"]:  # the options of the scene, which all kinds have
-            answer = hooke("make", KINDS[0], "--help").out
+            answer = hooke("make", KINDS[0], "--help", "all").out
             answer = answer.replace(answer.split("\noptions of a ")[1].split("\n\n")[0], "")
         for head, doc in help_rows(answer).items():
             if head in own:

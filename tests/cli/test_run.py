@@ -139,7 +139,7 @@ def test_energy_and_momentum_are_those_of_the_last_state(hooke, write):
     assert value["energy"]["final"] == pytest.approx(energy, rel=1e-12)
 
 
-def test_json_has_every_digit_and_words_have_six(hooke, write, tmp_path):
+def test_json_and_the_final_table_have_every_digit_and_other_words_six(hooke, write, tmp_path):
     """The same state as JSON, as words, and as the last frame of the file."""
     scene = write(SIX_PARTICLES)
     value = hooke("run", scene, "--json", "--final", "-o", "out.h5").json
@@ -149,7 +149,7 @@ def test_json_has_every_digit_and_words_have_six(hooke, write, tmp_path):
         for what, first in [("position", 1), ("velocity", 4)]:
             stored = file[f"/particles/all/{what}/value"][-1].tolist()
             assert value["final"][what] == stored
-            assert [row[first : first + 3] for row in rows] == [[f"{x:.6g}" for x in row] for row in stored]
+            assert [list(map(float, row[first : first + 3])) for row in rows] == stored
     assert f"{value['energy']['final']:.6g} J after" in words
     assert any(len(repr(x)) > 17 for row in value["final"]["position"] for x in row), "no number tests the digits"
 
@@ -265,7 +265,7 @@ def test_a_run_that_diverges_is_4_and_the_advice_works(hooke, write, tmp_path, m
 def test_divergence_is_explained_in_words(hooke, write):
     answer = hooke("run", write(STIFF_PAIR))
     assert answer.code == 4
-    assert "time reached" in answer.out and "diverged" not in answer.out
+    assert re.search(r"^time reached +0 s of 100 s; diverged at 1 s, what follows is of the last good state$", answer.out, re.M)
 
 
 EXPLODING = sorted(path.stem for path in (Path(os.environ["HOOKE_SOURCE_DIR"]) / "tests/cli/scenes/exploding").glob("*.json"))

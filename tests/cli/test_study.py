@@ -383,7 +383,7 @@ def test_ctrl_c_while_the_reference_is_checked(start, write):
         (["--methods", "rk5"], 2, "did you mean rk4?"),
         (["--methods", "rk4,rk4"], 2, "named twice"),
         (["--methods", "verlet,velocity-verlet"], 2, "verlet is named twice"),
-        (["--methods", "euler"], 2, "did you mean one of forward-euler symplectic-euler backward-euler?"),
+        (["--methods", "euler"], 2, "did you mean one of forward-euler, symplectic-euler, backward-euler?"),
         (["--methods", "rk8pd"], 2, "no method 'rk8pd'; methods: "),
         (["--tolerances", "1e-3;1e-4"], 2, "--tolerances"),
         (["--steps", "1ms,2ms"], 3, "steps[1]"),
@@ -433,7 +433,7 @@ def test_ctrl_c_before_the_first_row(start, write, tmp_path):
 
 
 def test_help_has_both_tables_and_the_units(hooke):
-    answer = hooke("study", "--help")
+    answer = hooke("study", "--help", "all")
     assert (answer.code, answer.err) == (0, "")
     for flag in ["methods", "points", "steps", "tolerances", "want", "budget", "duration", "every", "output"]:
         assert f" --{flag} " in answer.out, flag

@@ -48,7 +48,7 @@ def test_methods_say_what_they_take(hooke):
 
 @pytest.mark.parametrize("verb", VERBS)
 def test_help_of_a_verb_has_units_and_defaults(hooke, verb):
-    answer = hooke(verb, "--help")
+    answer = hooke(verb, "--help", "all")
     assert (answer.code, answer.err) == (0, "")
     options = paragraphs(answer.out)
     for flag, (unit, default) in RUN_OPTIONS.items():

@@ -305,7 +305,7 @@ def test_several_are_refused_before_anything_is_written(hooke, cloth, tmp_path):
 
 
 def test_help(hooke):
-    answer = hooke("view", "--help")
+    answer = hooke("view", "--help", "all")
     assert answer.code == 0 and "usage: hooke view SCENE [options]" in answer.out
     assert "--frames" in answer.out and "[MB]" in answer.out and "--step" in answer.out
     answer = hooke("view")

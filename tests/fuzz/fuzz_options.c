@@ -15,6 +15,7 @@
 #include "describe.h"
 #include "hooke.h"
 #include "report.h"
+#include "words.h"
 
 #include <math.h>
 #include <stdarg.h>
@@ -224,6 +225,10 @@ const char *cli_suggest(const char *word, const char *(*next)(int64_t i, const v
   for (int64_t i = 0; (candidate = next(i, ctx)); i++)
     if (candidate[0] == word[0]) break;
   return candidate;
+}
+
+int cli_report_unknown_option(const struct cli_arguments *arguments, const char *word, const char *value) {
+  return cli_report(arguments, HOOKE_EXIT_USAGE, "%s%s", word, value ? value : "");
 }
 
 const char *cli_describe_operand(const struct cli_verb *verb) {

@@ -126,3 +126,9 @@ def test_a_sheet_of_cells_is_cheaper_by_a_stiff_method():
         assert runs[0].status == "finished" and error < 0.01 * motion, name
         seconds[name] = min(result.wall_seconds for result in runs)
     assert seconds["forward-euler"] > 5 * seconds["cvode-bdf"], seconds
+
+
+def test_velocities_follow_forces_and_have_no_heat_in_excess():
+    """At h lambda = 1.8 velocities change their signs in each step, which in a scene with inertia would be warned of."""
+    error = pair().run(method="forward-euler", step=0.06, duration=1.2, estimate=True).error
+    assert error.estimate > 0 and np.isnan(error.heat_excess)

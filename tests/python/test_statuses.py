@@ -1,5 +1,8 @@
 """Failures of the library as exceptions with its message; outcomes as results."""
 
+import os
+import subprocess
+import sys
 import threading
 
 import numpy as np
@@ -149,3 +152,43 @@ def test_messages_belong_to_threads():
     thread.start()
     thread.join()
     assert seen == [b""] and lib.hooke_last_error() == mine != b""
+
+
+@pytest.mark.parametrize(
+    "kind, opening",
+    [
+        (hooke.BadValue, lambda: hooke.run("none.json")),
+        (hooke.BadValue, lambda: hooke.Scene.load("none.json")),
+        (hooke.BadValue, lambda: hooke.Scene().mesh(file="none.obj", mass=1, structural={"stiffness": 1})),
+        (hooke.IOFailed, lambda: hooke.open("none.h5")),
+        (hooke.IOFailed, lambda: hooke.verify("none.h5")),
+    ],
+)
+def test_a_missing_file_is_not_found(kind, opening):
+    with pytest.raises(FileNotFoundError, match="No such file") as caught:
+        opening()
+    assert isinstance(caught.value, kind) and caught.value.status == kind.status
+
+
+def test_other_failures_of_files_are_found(tmp_path):
+    with pytest.raises(hooke.BadValue, match="is a directory; allowed: a scene file$") as caught:
+        hooke.Scene.load(tmp_path)
+    assert not isinstance(caught.value, FileNotFoundError)
+
+
+def test_no_particles_yet():
+    with pytest.raises(hooke.BadValue, match="there is no particle 0; there are no particles yet$"):
+        hooke.System().pin(0)
+
+
+def test_numpy_that_is_missing_is_named():
+    code = "import sys; sys.modules['numpy'] = None; import hooke"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, env=os.environ)
+    assert done.returncode == 1
+    assert done.stderr.splitlines()[-1].startswith("ModuleNotFoundError: hooke needs NumPy, which this Python has not: pip")
+
+
+def test_a_scene_that_misleads_warns():
+    scene = hooke.Scene(gravity=(0, -9.81, 0)).cloth(size=(4, 4), edges=((1, 0, 0), (0, 0, 1)), mass=1)
+    with pytest.warns(hooke.StepWarning, match='^part "cloth0" has no stiffness: nothing holds these particles together$'):
+        hooke.run(scene, method="rk4", step=1e-3, duration=1e-2)

@@ -68,10 +68,10 @@ int32_t hk_file_refuse(int32_t status, int error, const char *kind) {
   if (error == ENOMEM) return hk_fail(HOOKE_NO_MEMORY, NULL, "no memory to open the file");
   if (error == EINVAL)
     return hk_fail(status, NULL, "is not a regular file; allowed: a %s, no pipe and no device", kind);
+  if (error == EISDIR) return hk_fail(status, NULL, "is a directory; allowed: a %s", kind);
   char reason[HOOKE_ERROR_SIZE];
-  return hk_fail(status, NULL, "%s: %s; allowed: a %s that can be read",
-                 error == EISDIR ? "is a directory" : "cannot be opened", hk_print_error(error, reason),
-                 kind);
+  return hk_fail(status, NULL, "cannot be opened: %s; allowed: a %s that can be read",
+                 hk_print_error(error, reason), kind);
 }
 
 static int32_t compare(const char *path, const struct hk_os_file *there, int descriptor) {

@@ -83,6 +83,8 @@ int32_t hooke_integrator_on_warning(hooke_integrator *it, hooke_warning *warning
   hk_integrator_set_checker(it, (struct hk_checker){.look = NULL});
   int32_t status = hk_integrator_require_particles(it, NULL, "has no springs to bound its step by");
   if (status != HOOKE_OK) return status;
+  if (warning) status = hooke_system_warnings(it->system, warning, ctx);
+  if (status != HOOKE_OK) return status;
   if (warning == NULL || !hk_step_is_bounded(it->method->name) || it->system->bodies.moving > 0)
     return HOOKE_OK;
   struct warner *warner = hk_new(1, sizeof *warner);

@@ -150,10 +150,11 @@ static double initial_length(const struct hk_group *group, const double *positio
 
 /* A number with a unit must be of the law: 2kN is not a stiffness of the length law. */
 static int32_t check_unit(const hooke_options *options, const char *name, const char *unit) {
-  const char *given = hk_options_unit_given(options, name);
+  const char *given = hk_options_unit_given(options, name), *law = hooke_options_text(options, "law");
   if (given == NULL || strcmp(given, unit) == 0) return HOOKE_OK;
-  return hk_fail(HOOKE_BAD_VALUE, name, "is given in units of %s; the %s law needs one of %s", given,
-                 hooke_options_text(options, "law"), unit);
+  return hk_fail(HOOKE_BAD_VALUE, name,
+                 "is given in units of %s; the %s law needs one of %s, or say \"law\": \"%s\"", given, law,
+                 unit, strcmp(law, "strain") == 0 ? "length" : "strain");
 }
 
 static int32_t check_units(const hooke_options *options) {

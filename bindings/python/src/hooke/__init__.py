@@ -21,6 +21,13 @@ from __future__ import annotations
 import importlib
 from typing import Any
 
+try:
+    import numpy as _numpy  # noqa: F401
+except ModuleNotFoundError as missing:
+    raise ModuleNotFoundError(
+        "hooke needs NumPy, which this Python has not: pip install numpy (Debian: python3-numpy)", name=missing.name
+    ) from None
+
 from ._queries import Blocks, BodyMotion, Derived, Material, build_facts
 from ._status import BadCall, BadValue, Error, Internal, IOFailed, NoMemory, NotBuilt, SolverFailed, Stopped, Unsuited
 from ._types import Springs, Transform

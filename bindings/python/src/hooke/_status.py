@@ -50,6 +50,14 @@ class IOFailed(Error, OSError):
     status = -4
 
 
+class MissingInput(BadValue, FileNotFoundError):
+    """A scene, or a file that one is made of, is not there."""
+
+
+class MissingFile(IOFailed, FileNotFoundError):
+    """A file, or the folder that it should go into, is not there."""
+
+
 class NotBuilt(Error, NotImplementedError):
     """This build of the library lacks the requested part."""
 
@@ -89,6 +97,7 @@ class Stopped(Error):
 
 _KINDS = (NoMemory, BadValue, BadCall, IOFailed, NotBuilt, Unsuited, SolverFailed, Internal, Stopped)
 FAILURES = {kind.status: kind for kind in _KINDS}
+_MISSING: dict[int, type[Error]] = {-2: MissingInput, -4: MissingFile}  # where the message of the library says so
 
 
 class _Pending(threading.local):
@@ -112,7 +121,8 @@ def checker(words: Sequence[Callable[..., Any]], outcomes: bool) -> Callable[[in
             raise exception
         if code < 0 or (code > 0 and not outcomes):
             message = last_error().decode("utf-8", "replace") or status_name(code).decode()
-            failure = FAILURES.get(code, Error)(message)
+            kinds = _MISSING if "No such file or directory" in message else FAILURES
+            failure: Error = kinds.get(code, FAILURES.get(code, Error))(message)
             failure.status = code
             failure.lines = message.count("\n") + 1
             raise failure

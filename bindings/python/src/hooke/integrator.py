@@ -125,8 +125,8 @@ class Integrator(Closing):
         `stride` steps, and ``on_checkpoint(step, state)`` at each checkpoint of the option `checkpoint`, where
         `write_checkpoint` can save the run. Returns "finished", "stopped" (a callback asked for it), "diverged" or
         "step-limit"; `message` then has the details. An exception of a callback ends the run and is raised again; so
-        does Ctrl-C. A step that is not certain to be stable gives a `StepWarning`, springs that passed through
-        length zero a `PassageWarning`.
+        does Ctrl-C. A step that is not certain to be stable, and a scene that may mislead, give a `StepWarning`, springs
+        that passed through length zero a `PassageWarning`.
         """
         with self._watched(state, on_frame, on_step, on_checkpoint), self._warned():
             outcome = self._outcome(lib.hooke_integrator_run(self._handle, state._handle))

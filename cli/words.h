@@ -1,0 +1,23 @@
+/* What people type in place of a name: other common words, mistyped ones and their beginnings. */
+#ifndef HOOKE_CLI_WORDS_H
+#define HOOKE_CLI_WORDS_H
+
+#include "arguments.h"
+
+/* The option, the verb or the option in its place that a common word means; the word itself if none. */
+const char *cli_words_meant(const char *word);
+
+/* The candidate that a word means or is nearest to, up to the next call; NULL if none is near. `next` gives
+ * candidate i, NULL past the last. */
+const char *cli_suggest(const char *word, const char *(*next)(int64_t i, const void *ctx), const void *ctx);
+
+/* The file beside the missing `path` whose name is nearest; NULL if `path` is there, or none is near. */
+const char *cli_suggest_file(const char *path);
+
+/* Refuses an output that ends like another kind than its option writes, and says what writes that kind. */
+int cli_words_check_ending(const struct cli_arguments *arguments, const char *file);
+
+/* Reports that the verb has no option `word` ("--stpe=1", "-x"), which `value` followed (NULL: nothing did). */
+int cli_report_unknown_option(const struct cli_arguments *arguments, const char *word, const char *value);
+
+#endif
