@@ -17,7 +17,7 @@ METHODS = {
 }
 
 
-STANDING = {*hooke.integrator.COUNTS} - {"memory_bytes"}
+STANDING = {*hooke.integrator.COUNTS} - {"memory_bytes", "zero_passages"}
 
 
 def stop_after(calls, value=1):
