@@ -18,8 +18,9 @@ OPTIONAL = {"command", "folder", "run", "scene", "scene_text", "title", "count",
             "observer", "product", "progress", "rest_length", "stiffness", "velocity", "warning"}
 OPTIONAL_IN = {("hooke_estimate_pick", "method"), ("hooke_record_write_xdmf", "path"), ("hooke_measurement_label", "text"),
                ("hooke_measurement_table", "kind"), ("hooke_step_bound", "method"), ("hooke_system_members", "particles"),
-               ("hooke_system_body_particles", "particles"), ("hooke_system_with_force", "force"), *((f"hooke_{name}", what) for what in "qv"
-                                                               for name in ("integrator_get", "integrator_put", "system_energy"))}
+               ("hooke_system_body_particles", "particles"), ("hooke_system_with_force", "force"),
+               *((f"hooke_{name}", what) for what in "qv"
+                 for name in ("integrator_get", "integrator_put", "system_energy"))}
 # Handles that a callback takes for its `ctx`, by the names of their parameters.
 BY_CONTEXT = {"estimate": "hooke_measurement"}
 REFUSED = {"double": "NAN", "int32_t": "HOOKE_BAD_CALL", "int64_t": "-1"}

@@ -41,11 +41,13 @@ static void release_model(hooke_system *system) {
 
 void hooke_system_destroy(hooke_system *system) {
   if (system == NULL) return;
-  if (!system->borrows) release_model(system);
+  if (!system->borrows) {
+    release_model(system);
+    hk_free(system->input);
+  }
   hk_free(system->span);
   hk_free(system->anchor);
   hk_free(system->force_row);
-  hk_free(system->input);
   hk_handle_free(system);
 }
 

@@ -29,7 +29,7 @@ static int is_left_out(const struct function *f) {
   const int alone =
       strcmp(f->name, "hooke_state_destroy") == 0 || strcmp(f->name, "hooke_options_destroy") == 0;
   return (frees && !alone) || ends_in(f->name, "_on_progress") || ends_in(f->name, "_own_process") ||
-         ends_in(f->name, "scene_parse");
+         ends_in(f->name, "scene_parse") || ends_in(f->name, "_rows_hold");
 }
 
 static void forget(struct pool *pool, const void *address) {

@@ -152,6 +152,7 @@ static void tour_building(void) {
   OK(hooke_options_create("rope", &rope));
   REFUSED(hooke_options_create("robe", &none), HOOKE_BAD_VALUE);
   REFUSED(hooke_system_add_part(system, "rope", NULL, rope, NULL, NULL), HOOKE_BAD_VALUE);
+  REFUSED(hooke_mesh_set(rope, INT64_MAX / 64, q, 1, triple), HOOKE_BAD_VALUE);
   OK(hooke_system_commit(system));
   REFUSED(hooke_system_commit(system), HOOKE_BAD_CALL);
   ASK(hooke_system_energy(system, "total", far, far));
@@ -160,7 +161,6 @@ static void tour_building(void) {
   ASK(hooke_options_destroy(rope));
   ASK(hooke_system_destroy(system));
   REFUSED(hooke_state_create_first_order(INT64_MAX, &none_such), HOOKE_BAD_VALUE);
-  REFUSED(hooke_mesh_set(rope, INT64_MAX / 64, q, 1, triple), HOOKE_BAD_VALUE);
   ASK(hooke_build_fact("instructions"));
   ASK(hooke_build_fact("licence"));
 }

@@ -86,5 +86,5 @@ def test_options_and_wrong_problems():
     assert "budget" in hooke.describe("cost") and "predict" in hooke.describe("cost")
     with pytest.raises(hooke.BadValue, match="budget"):
         hooke.cost(build_oscillator(), budget=0)
-    with pytest.raises(hooke.BadValue, match="another system"):
+    with pytest.raises(hooke.BadValue, match="does not fit"):
         hooke.cost(build_oscillator(), build_six_particles().state())

@@ -114,7 +114,7 @@ def test_where(tmp_path):
     assert first.time == 0 and (first.rows["predicted"] == start.rows["predicted"]).all()
     with pytest.raises(hooke.BadValue, match="99"):
         hooke.limit(scene, (tmp_path / "out.h5", 99), predict=True)
-    with pytest.raises(hooke.BadValue, match="18 numbers"):
+    with pytest.raises(hooke.BadValue, match="does not fit"):
         hooke.limit(build_oscillator(), result.state, predict=True)
 
 

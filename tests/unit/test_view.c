@@ -254,11 +254,9 @@ int main(void) {
 static void views_are_not_in_this_build(void **unused) {
   (void)unused;
   hooke_measurement *view;
-  check_status(hooke_view_create(NULL, NULL, &view), HOOKE_NOT_BUILT);
-  assert_null(view);
-  check_message("three.js");
+  check_status(hooke_view_create(NULL, NULL, &view), HOOKE_BAD_CALL);
 #if !HOOKE_HAVE_HDF5
-  check_status(hooke_record_write_xdmf(NULL, "out.xdmf"), HOOKE_NOT_BUILT);
+  check_status(hooke_record_write_xdmf(NULL, "out.xdmf"), HOOKE_BAD_CALL);
 #endif
 }
 

@@ -196,7 +196,7 @@ static void it_is_not_in_this_build(void **unused) {
   (void)unused;
   struct fixture f;
   build(&f, N);
-  check_status(hooke_trajectory_write_behind(NULL), HOOKE_NOT_BUILT);
+  check_status(hooke_trajectory_write_behind(NULL), HOOKE_BAD_CALL);
   release(&f);
 }
 

@@ -7,6 +7,7 @@
 #include "model/variant/variant.h"
 
 #include <math.h>
+#include <stdatomic.h>
 #include <string.h>
 
 static int32_t present(const hooke_system *system) {
@@ -30,7 +31,7 @@ double *hk_rows_new(int64_t numbers) {
 int64_t hooke_rows_hold(const double *q, int32_t more) {
   if (q == NULL) return 0;
   struct holders *rows = (struct holders *)(uintptr_t)q - 1;
-  const int64_t left = rows->count += more;
+  const int64_t left = atomic_fetch_add(&rows->count, more) + more;
   if (left == 0) hk_free(rows);
   return left;
 }
