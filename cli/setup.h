@@ -13,8 +13,8 @@ struct cli_setup {
   hooke_state *state;
 };
 
-/* Loads, applies options, commits, and refuses to write over a file that it has read; failures are reported and returned as exit code. The caller destroys the
- * set-up in either case. */
+/* Loads, applies options, commits, and refuses to write over a file that it has read; failures are reported
+ * and returned as exit code. The caller destroys the set-up in either case. */
 int cli_setup_load(const struct cli_arguments *arguments, struct cli_setup *setup);
 void cli_setup_destroy(struct cli_setup *setup);
 
