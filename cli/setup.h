@@ -16,8 +16,8 @@ struct cli_setup {
 /* 1 for a text that begins like a scene, and for standard input; the message of another file tells of itself. */
 int32_t cli_setup_is_scene(const char *path);
 
-/* Loads, applies options, commits, and refuses to write over a file that it has read; failures are reported and returned as exit code. The caller destroys the
- * set-up in either case. */
+/* Loads, applies options, commits, and refuses to write over a file that it has read; failures are reported
+ * and returned as exit code. The caller destroys the set-up in either case. */
 int cli_setup_load(const struct cli_arguments *arguments, struct cli_setup *setup);
 void cli_setup_destroy(struct cli_setup *setup);
 

@@ -14,7 +14,7 @@ import sys
 from pathlib import Path
 
 TABLE = Path(__file__).with_name("packages.txt")
-TOOLS = {"cc": "cc", "cmake": "cmake", "ninja": "ninja"}
+TOOLS = ("cc", "cmake", "ninja")
 
 
 def rows():

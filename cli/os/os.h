@@ -37,8 +37,8 @@ int32_t cli_os_is_same_file(const char *one, const char *other);
 /* 1 if there is something under this path that is no regular file. */
 int32_t cli_os_is_other_than_file(const char *path);
 
-/* These return 0, or -1 with errno. The second creates an empty file for this user alone, under a name that nobody
- * had and nobody guesses: the six X at the end of `path` become other letters. */
+/* These return 0, or -1 with errno. The second creates an empty file for this user alone, under a name that
+ * nobody had and nobody guesses: the six X at the end of `path` become other letters. */
 int cli_os_may_write(const char *folder);
 int cli_os_make_file(char *path);
 

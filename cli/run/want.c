@@ -174,12 +174,13 @@ void cli_want_print(const struct cli_run *run) {
   if (!run->estimate || run->outcome != HOOKE_OK || run->was_finished) return;
   const char *by = text_of(run, "by");
   printf("%-22s", "error");
-  if (by)
+  if (by) {
     printf("%.3g m at most until t = %.6g s, of any particle (root mean square %.2g m), %s",
            number_of(run, "estimate"), number_of(run, "known_until"), number_of(run, "rms"), source_of(by));
-  else
+  } else {
     printf("not known: ");
-  if (!by) cli_print_text(stdout, text_of(run, "reason"));
+    cli_print_text(stdout, text_of(run, "reason"));
+  }
   print_verdict(run);
   printf("\n");
   print_last_piece(run);

@@ -26,8 +26,8 @@ HOOKE_API int32_t hooke_checkpoint_write(const char *path, const hooke_integrato
 /* Sets `integrator` and `state` to the point that the file holds, for hooke_integrator_resume() or, in a time
  * loop of the caller's own, hooke_integrator_step(). If the file is missing or damaged, the previous one is
  * read. HOOKE_BAD_VALUE for files that are damaged, or of another system, other options (but for `threads`),
- * or another `run` (NULL: any); HOOKE_UNSUITED if the run had other callbacks; HOOKE_IO_FAILED for files that cannot be read, HOOKE_NO_MEMORY, and the
- * failures of starting a run. The state is then unchanged. */
+ * or another `run` (NULL: any); HOOKE_UNSUITED if the run had other callbacks; HOOKE_IO_FAILED for files that
+ * cannot be read, HOOKE_NO_MEMORY, and the failures of starting a run. The state is then unchanged. */
 HOOKE_API int32_t hooke_checkpoint_read(const char *path, const char *run, hooke_integrator *integrator,
                                         hooke_state *state);
 
@@ -46,10 +46,9 @@ HOOKE_API int32_t hooke_trajectory_checkpoint(hooke_trajectory *trajectory,
  * hooke_trajectory_write() for each frame. The run continues from the checkpoint beside the file. Without one
  * of this run, it continues from the last whole frame with a fixed step (all counts but "steps" then begin
  * there) and from the first frame with error control. `trajectory` is NULL if the run has finished.
- * HOOKE_UNSUITED if the run had other callbacks; HOOKE_BAD_VALUE for another system, other options, or a file that
- * is no trajectory of one run;
- * HOOKE_IO_FAILED, also if another run is writing the file; HOOKE_NOT_BUILT, HOOKE_NO_MEMORY; the state is
- * then unchanged. */
+ * HOOKE_UNSUITED if the run had other callbacks; HOOKE_BAD_VALUE for another system, other options, or a file
+ * that is no trajectory of one run; HOOKE_IO_FAILED, also if another run is writing the file;
+ * HOOKE_NOT_BUILT, HOOKE_NO_MEMORY; the state is then unchanged. */
 HOOKE_API int32_t hooke_trajectory_resume(const char *path, const hooke_system *system,
                                           hooke_integrator *integrator, hooke_state *state,
                                           hooke_trajectory **trajectory);

@@ -52,9 +52,9 @@ HOOKE_API const char *hooke_method_summary(const char *name);
 HOOKE_API int32_t hooke_method_is_adaptive(const char *name);
 /* 1 if this build has the method. */
 HOOKE_API int32_t hooke_method_is_built(const char *name);
-/* 1 if the method takes a kind of problem: "second-order" (particles, q'' = W f(t, q, v)), with "bodies" that move,
- * "overdamped" systems, or "first-order" (x' = phi(t, x)). 0 if not: integrators of it are HOOKE_UNSUITED, with the
- * methods that do; -1 if there is no such name or kind. */
+/* 1 if the method takes a kind of problem: "second-order" (particles, q'' = W f(t, q, v)), with "bodies" that
+ * move, "overdamped" systems, or "first-order" (x' = phi(t, x)). 0 if not: integrators of it are
+ * HOOKE_UNSUITED, with the methods that do; -1 if there is no such name or kind. */
 HOOKE_API int32_t hooke_method_is_suited(const char *name, const char *problem);
 
 /* ---- making ---- */

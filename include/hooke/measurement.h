@@ -243,8 +243,8 @@ HOOKE_API int32_t hooke_why_advice_apply(const hooke_measurement *measurement, i
 
 /* Opens a trajectory and makes its scene again, with `limits` as in hooke_scene_load(); both kinds of options
  * may be NULL, and are copied or read here. HOOKE_BAD_VALUE for a file that holds no scene or no frames, a
- * scene that is wrong, or a slice without two frames; HOOKE_UNSUITED for a run with callbacks; HOOKE_IO_FAILED,
- * HOOKE_NOT_BUILT, HOOKE_NO_MEMORY. */
+ * scene that is wrong, or a slice without two frames; HOOKE_UNSUITED for a run with callbacks;
+ * HOOKE_IO_FAILED, HOOKE_NOT_BUILT, HOOKE_NO_MEMORY. */
 HOOKE_API int32_t hooke_verify_create(const char *path, const hooke_options *options,
                                       const hooke_options *limits, hooke_measurement **verify);
 

@@ -18,8 +18,8 @@ typedef struct hooke_scene hooke_scene;
  * wrong, what is allowed", also if the scene file or a file that it names cannot be opened; HOOKE_IO_FAILED
  * if reading fails midway; HOOKE_NO_MEMORY; HOOKE_NOT_BUILT.
  * A trajectory file loads the scene that it was made from, with the options of its run; files that the scene
- * names are then looked up beside the trajectory. HOOKE_BAD_VALUE if it holds no scene. Callbacks of the run are
- * missing in it, and nothing runs (HOOKE_UNSUITED) until they are given again.
+ * names are then looked up beside the trajectory. HOOKE_BAD_VALUE if it holds no scene. Callbacks of the run
+ * are missing in it, and nothing runs (HOOKE_UNSUITED) until they are given again.
  *
  * `limits` are options "limits": "memory" is the maximum memory [GB] that the scene may need, by default the
  * machine's memory or its limit on the address space; "outside" 1 lets the scene name files anywhere. NULL:

@@ -23,8 +23,8 @@ HOOKE_API int32_t hooke_state_create(const hooke_system *system, hooke_state **s
  * is no velocity. HOOKE_BAD_VALUE for a size below 1 or above 6442450941, HOOKE_NO_MEMORY. */
 HOOKE_API int32_t hooke_state_create_first_order(int64_t size, hooke_state **state);
 
-/* A state of `size` >= 1 zeros for a second-order problem q'' = W f(t, q, v): q and v have `size` numbers. The
- * same failures. */
+/* A state of `size` >= 1 zeros for a second-order problem q'' = W f(t, q, v): q and v have `size` numbers.
+ * The same failures. */
 HOOKE_API int32_t hooke_state_create_second_order(int64_t size, hooke_state **state);
 
 /* Releases a state; NULL is allowed. */

@@ -55,7 +55,8 @@ typedef struct hooke_system hooke_system;
 typedef int32_t hooke_force(int64_t n, double t, const double *q, const double *v, double *force, void *ctx);
 
 /* The arrays of a force are valid during the call. Holding them by its `q` (`more` 1) keeps all three, with
- * their numbers, until they are released as often (-1). Returns how often they are held, once by the library. */
+ * their numbers, until they are released as often (-1). Returns how often they are held,
+ * once by the library. */
 HOOKE_API int64_t hooke_rows_hold(const double *q, int32_t more);
 
 /* Adds (df/dq) dq + (df/dv) dv of that force to `out` (3n). Return 0 to go on. */
@@ -121,8 +122,9 @@ HOOKE_API int32_t hooke_system_add_anchors(hooke_system *system, const char *nam
  * which it swings, two an axis, and three not in a line hold it still. If its particles are driven, all of
  * them are. Initial velocities have to be those of a rigid motion, or with `project` 1 become those of the
  * nearest one: with the same momentum and angular momentum. `name` may be NULL. Commit refuses a particle in
- * two bodies, and particles that all coincide. hooke_method_is_suited(name, "bodies") says which methods step them;
- * verlet takes damping and drag at the predicted velocity. HOOKE_BAD_VALUE, HOOKE_BAD_CALL, HOOKE_NO_MEMORY. */
+ * two bodies, and particles that all coincide. hooke_method_is_suited(name, "bodies") says which methods step
+ * them; verlet takes damping and drag at the predicted velocity. HOOKE_BAD_VALUE, HOOKE_BAD_CALL,
+ * HOOKE_NO_MEMORY. */
 HOOKE_API int32_t hooke_system_add_body(hooke_system *system, const char *name, int64_t count,
                                         const int64_t *particles, int32_t project);
 
@@ -146,8 +148,9 @@ HOOKE_API const char *hooke_system_dynamics(const hooke_system *system);
 HOOKE_API int32_t hooke_system_set_force(hooke_system *system, hooke_force *force,
                                          hooke_force_product *product, void *ctx);
 
-/* A committed system with another such force, or with none (NULL), to run as often as it exists: it shares the
- * rest with `system`, which must outlive it and stays as it is. HOOKE_BAD_CALL before commit, HOOKE_NO_MEMORY. */
+/* A committed system with another such force, or with none (NULL), to run as often as it exists: it shares
+ * the rest with `system`, which must outlive it and stays as it is. HOOKE_BAD_CALL before commit,
+ * HOOKE_NO_MEMORY. */
 HOOKE_API int32_t hooke_system_with_force(const hooke_system *system, hooke_force *force,
                                           hooke_force_product *product, void *ctx, hooke_system **with);
 

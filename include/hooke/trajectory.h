@@ -29,8 +29,9 @@ HOOKE_API int32_t hooke_trajectory_create(const char *path, const hooke_system *
                                           const hooke_integrator *integrator, const char *scene_text,
                                           hooke_trajectory **trajectory);
 
-/* Writes the next frame. After a failed write the file is marked bad and takes no more: HOOKE_IO_FAILED. The file
- * stays as it is with HOOKE_BAD_VALUE for a state that does not fit and HOOKE_BAD_CALL for a frame too many. */
+/* Writes the next frame. After a failed write the file is marked bad and takes no more: HOOKE_IO_FAILED. The
+ * file stays as it is with HOOKE_BAD_VALUE for a state that does not fit and HOOKE_BAD_CALL for a frame too
+ * many. */
 HOOKE_API int32_t hooke_trajectory_write(hooke_trajectory *trajectory, int64_t step,
                                          const hooke_state *state);
 
@@ -71,11 +72,11 @@ HOOKE_API void hooke_record_close(hooke_record *record);
 
 /* "scene": the text of the scene, "" if there was none; "status": "running", "finished", "stopped",
  * "diverged", "step-limit", "solver-failed" or "failed"; "run": the identifier of the run, see
- * hooke_trajectory_text(), "" if an earlier version wrote it; "error_by" and "error_reason": "by" and "reason" of
- * an estimate, "" where nothing is known of the error; "version", "sundials", "cholmod",
- * "instructions", "machine": the build that made the file, see hooke_build_fact(); "callbacks" of the run, which
- * no file holds: "none", "force", "force with derivative", "drive", "force and drive", ...; "" where the file does
- * not say. NULL for another word. */
+ * hooke_trajectory_text(), "" if an earlier version wrote it; "error_by" and "error_reason": "by" and
+ * "reason" of an estimate, "" where nothing is known of the error; "version", "sundials", "cholmod",
+ * "instructions", "machine": the build that made the file, see hooke_build_fact(); "callbacks" of the run,
+ * which no file holds: "none", "force", "force with derivative", "drive", "force and drive", ...; "" where
+ * the file does not say. NULL for another word. */
 HOOKE_API const char *hooke_record_text(const hooke_record *record, const char *what);
 /* Options of the run, with all defaults filled in; valid as long as the record. */
 HOOKE_API const hooke_options *hooke_record_options(const hooke_record *record);

@@ -1,6 +1,6 @@
 /* Wrappers of all public functions: each checks that its arguments are there, in a build with
- * HOOKE_CHECK_HANDLES that handles are live, too, and calls the function of the library, which names.h renames
- * to hooke_unchecked_<name>. calls.inc lists them all; both files are generated in the build tree.
+ * HOOKE_CHECK_HANDLES that handles are live, too, and calls the function of the library, which names.h
+ * renames to hooke_unchecked_<name>. calls.inc lists them all; both files are generated in the build tree.
  *
  * A NULL text, array, callback or place for a result is refused with HOOKE_BAD_VALUE; a function without a
  * status treats a text as an unknown word. A handle that is NULL, was destroyed, never made, or is of another

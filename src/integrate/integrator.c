@@ -15,11 +15,8 @@
 #include <string.h>
 
 static int32_t unknown_method(const char *name) {
-  char names[256] = "";
-  for (int64_t k = 0; k < hooke_method_count(); k++) {
-    const size_t used = strlen(names);
-    snprintf(names + used, sizeof names - used, "%s%s", k ? ", " : "", hooke_method_name(k));
-  }
+  char names[256];
+  hk_method_list(names, sizeof names);
   return hk_fail(HOOKE_BAD_VALUE, "method", "there is no method \"%s\"; allowed: %s", name, names);
 }
 

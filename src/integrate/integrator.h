@@ -68,13 +68,14 @@ struct hk_checker {
   int64_t memory; /* memory [bytes] */
 };
 
-/* Springs that pass through length zero (passages.c). */
+/* Springs that pass through length zero (passages.c), and the longest sentence about them. */
+enum { HOOKE_PASSAGES_TOLD = 640 };
 struct hk_passages {
-  hooke_state *before, *now; /* NULL until a spring is short */
-  int32_t follows;           /* 1: `before` has the positions where the last step ended */
-  double until;              /* time up to which they are counted [s] */
-  int64_t seen;              /* here; the count of the run may not be known */
-  char first[96], told[640]; /* the first of them; all in a sentence */
+  hooke_state *before, *now;                 /* NULL until a spring is short */
+  int32_t follows;                           /* 1: `before` has the positions where the last step ended */
+  double until;                              /* time up to which they are counted [s] */
+  int64_t seen;                              /* here; the count of the run may not be known */
+  char first[96], told[HOOKE_PASSAGES_TOLD]; /* the first of them; all in a sentence */
 };
 
 struct hooke_integrator {

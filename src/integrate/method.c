@@ -129,16 +129,26 @@ int32_t hk_method_suits(const char *name, const hooke_system *system) {
   return takes(hk_method_find(name), problem_of(system));
 }
 
+/* All of them, or those of this build that take a problem. */
+static void list_methods(int problem, char *list, size_t size) {
+  list[0] = '\0';
+  for (int64_t k = 0; k < ROWS; k++) {
+    const size_t used = strlen(list);
+    if (!table[k]->reference && (problem == PROBLEMS || (table[k]->built && takes(table[k], problem))))
+      snprintf(list + used, size - used, "%s%s", used ? ", " : "", table[k]->name);
+  }
+}
+
+void hk_method_list(char *list, size_t size) {
+  list_methods(PROBLEMS, list, size);
+}
+
 int32_t hk_method_require(const struct hk_method *method, const hooke_system *system) {
   const int problem = problem_of(system);
   const int32_t solves = problem == FIRST_ORDER && method->implicit;
-  char list[512] = "";
+  char list[512];
   if (takes(method, problem)) return HOOKE_OK;
-  for (int64_t k = 0; k < ROWS; k++) {
-    const size_t used = strlen(list);
-    if (table[k]->built && !table[k]->reference && takes(table[k], problem))
-      snprintf(list + used, sizeof list - used, "%s%s", used ? ", " : "", table[k]->name);
-  }
+  list_methods(problem, list, sizeof list);
   return hk_fail(HOOKE_UNSUITED, "method", "%s %s; allowed: %s", method->name,
                  solves ? "solves its step with the derivative of the forces, and x' = phi(t, x) brings none"
                         : problems[problem].refusal,

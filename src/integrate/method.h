@@ -4,6 +4,8 @@
 
 #include "hooke/integrator.h"
 
+#include <stddef.h>
+
 /* The kinds of stability of a step h, which determine bounds, limits and regions (measure/spectrum). K and C
  * are stiffness and damping over mass; lambda are the eigenvalues of the motion. */
 enum {
@@ -73,6 +75,8 @@ const struct hk_stability *hk_method_stability_in(const char *name, const hooke_
 
 /* 1 if the method takes this committed system. */
 int32_t hk_method_suits(const char *name, const hooke_system *system);
+/* The names of all methods with commas between them, for messages. */
+void hk_method_list(char *list, size_t size);
 /* HOOKE_UNSUITED if it does not, with those that do; NULL: a problem x' = phi(t, x). */
 int32_t hk_method_require(const struct hk_method *method, const hooke_system *system);
 

@@ -12,7 +12,8 @@ int32_t hk_system_calls_back(const hooke_system *system);
 const char *hk_callbacks_text(int32_t calls);
 int32_t hk_callbacks_find(const char *text);
 
-/* HOOKE_UNSUITED unless a run with the callbacks `had` (-1: unknown) goes on in a system with those of `own`. */
+/* HOOKE_UNSUITED unless a run with the callbacks `had` (-1: unknown) goes on in a system with those of
+ * `own`. */
 int32_t hk_callbacks_check(int32_t had, int32_t own);
 /* HOOKE_UNSUITED if the system is from the file of a run with callbacks that it lacks. */
 int32_t hk_callbacks_require(const hooke_system *system);

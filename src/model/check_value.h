@@ -4,12 +4,12 @@
 
 #include "model/system.h"
 
-/* CRC-32 over everything that determines the motion of a committed system: particles, all forces of the table,
- * drives, bodies. Callbacks enter only by their presence. */
+/* CRC-32 over everything that determines the motion of a committed system: particles, all forces of the
+ * table, drives, bodies. Callbacks enter only by their presence. */
 uint32_t hk_system_check_value(const hooke_system *system);
 
-/* What of it differs between two committed systems: "particles", "driven", "bodies", or a force, by its name. NULL:
- * nothing. */
+/* What of it differs between two committed systems: "particles", "driven", "bodies", or a force, by its name.
+ * NULL: nothing. */
 const char *hk_system_difference(const hooke_system *one, const hooke_system *other);
 
 /* Continue a value with `count` items of `size` bytes, or with one whole number. */

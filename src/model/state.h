@@ -18,12 +18,12 @@ struct hooke_state {
   const struct hk_energies *known; /* its energies, while a run shows it as a frame; otherwise NULL */
 };
 
-/* Creates a state of zeros with `numbers` in q, and as many in v if `has_v`: then in whole rows of three, with
- * padding. HOOKE_NO_MEMORY. */
+/* Creates a state of zeros with `numbers` in q, and as many in v if `has_v`: then in whole rows of three,
+ * with padding. HOOKE_NO_MEMORY. */
 int32_t hk_state_create_sized(int64_t numbers, int32_t has_v, hooke_state **state);
 
-/* HOOKE_BAD_VALUE unless the state fits a problem of so many numbers, with velocities or without; and unless it
- * fits this system. */
+/* HOOKE_BAD_VALUE unless the state fits a problem of so many numbers, with velocities or without; and unless
+ * it fits this system. */
 int32_t hk_state_check(const hooke_state *state, int64_t numbers, int32_t has_v);
 int32_t hk_state_check_system(const hooke_state *state, const hooke_system *system);
 

@@ -1,5 +1,5 @@
-/* Replaces the system's monotonic clock by one that jumps 1000 s ahead at every reading; to be loaded before all
- * libraries (LD_PRELOAD). What depends on a clock then has another result. */
+/* Replaces the system's monotonic clock by one that jumps 1000 s ahead at every reading; to be loaded before
+ * all libraries (LD_PRELOAD). What depends on a clock then has another result. */
 #define _GNU_SOURCE /* RTLD_NEXT */
 #include <dlfcn.h>
 #include <stdatomic.h>

@@ -1,11 +1,13 @@
-/* Calls of the public functions in any order: with objects that earlier calls made, changed and destroyed, and with
- * arguments of every kind, good ones mostly. Each comes back with a status and a message, whatever was called before.
+/* Calls of the public functions in any order: with objects that earlier calls made, changed and destroyed,
+ * and with arguments of every kind, good ones mostly. Each comes back with a status and a message, whatever
+ * was called before.
  *
  * Two bytes select a function, one byte each argument.
  *
  * Lines of: include/hooke/base.h
  * Longest input: 2000 */
 #include "fuzz.h"
+#include "memory_folder.h"
 #include "public_calls.h"
 
 #include "hooke.h"
@@ -22,8 +24,8 @@ static int ends_in(const char *name, const char *end) {
   return length > tail && strcmp(name + length - tail, end) == 0;
 }
 
-/* What others refer to lives as long as they do: by the headers that is the caller's affair. And no call takes
- * long, since all can be stopped. A text is as long as the caller says. */
+/* What others refer to lives as long as they do: by the headers that is the caller's affair. And no call
+ * takes long, since all can be stopped. A text is as long as the caller says. */
 static int is_left_out(const struct function *f) {
   const int frees = ends_in(f->name, "_destroy") || ends_in(f->name, "_close");
   const int alone =
@@ -85,8 +87,7 @@ static void remove_folder(void) {
 
 static void enter_folder(void) {
   if (folder[0]) return;
-  snprintf(folder, sizeof folder, "%s/hooke-fuzz-XXXXXX",
-           access("/dev/shm", W_OK) == 0 ? "/dev/shm" : P_tmpdir);
+  snprintf(folder, sizeof folder, "%s/hooke-fuzz-XXXXXX", memory_folder());
   hooke_fuzz_require(mkdtemp(folder) != NULL && chdir(folder) == 0, "a folder");
   atexit(remove_folder);
 }

@@ -1,6 +1,7 @@
-/* Every public function with odd arguments of every kind: NULL, sizes that are no sizes or overflow, numbers that are
- * none, states of another size and kind, and in builds that check handles, objects of another type. Each call answers
- * what its header says, reads nothing beyond an array, and comes back. The functions are those of the headers. */
+/* Every public function with odd arguments of every kind: NULL, sizes that are no sizes or overflow, numbers
+ * that are none, states of another size and kind, and in builds that check handles, objects of another type.
+ * Each call answers what its header says, reads nothing beyond an array, and comes back. The functions are
+ * those of the headers. */
 #include "check.h"
 #include "public_calls.h"
 #include "random.h"

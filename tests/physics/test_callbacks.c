@@ -218,7 +218,8 @@ static void test_a_force_for_some_runs(void **unused) {
   hooke_system_destroy(plain);
 }
 
-/* The arrays of a call outlast the run, with the numbers of the call; implicit methods take difference quotients. */
+/* The arrays of a call outlast the run, with the numbers of the call; implicit methods take difference
+ * quotients. */
 static void test_what_a_callback_holds(void **unused) {
   (void)unused;
   static const char *const methods[] = {"rk4", "backward-euler"};

@@ -56,8 +56,8 @@ static hooke_system *sagging_rope(void) {
 
 enum { SIDE = 5, CELLS = SIDE * SIDE, MOST_SPRINGS = 4 * CELLS };
 
-/* Cells at random places of a sheet, joined to their neighbours by springs that press, pull or hang loose, with
- * up to three of them pinned. */
+/* Cells at random places of a sheet, joined to their neighbours by springs that press, pull or hang loose,
+ * with up to three of them pinned. */
 static hooke_system *random_sheet(uint64_t seed) {
   struct random_source random = {seed};
   double q[3 * CELLS];
@@ -153,8 +153,8 @@ static void test_rest(void **unused) {
   }
 }
 
-/* The sag of the rope from statics: the horizontal pull H is the same everywhere, and the vertical one grows by
- * a weight at each particle from the middle on. */
+/* The sag of the rope from statics: the horizontal pull H is the same everywhere, and the vertical one grows
+ * by a weight at each particle from the middle on. */
 static double exact_sag(void) {
   double low = 0.0, high = 1e6, sag = 0.0;
   for (int k = 0; k < 200; k++) {

@@ -357,8 +357,8 @@ int32_t is_misfit(const struct pool *pool, const struct parameter *p, int32_t ch
   return choice >= FIRST_OBJECT && object && object->suits && strcmp(object->suits, "misfit") == 0;
 }
 
-/* Arrays have blocks of their own, so that a sanitizer sees their ends. The last number of an array that is read is one
- * that no function accepts: a count beyond the array ends there. */
+/* Arrays have blocks of their own, so that a sanitizer sees their ends. The last number of an array that is
+ * read is one that no function accepts: a count beyond the array ends there. */
 static double *array(int32_t odd) {
   static double *good, *bad;
   if (good == NULL) {

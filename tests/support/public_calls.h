@@ -1,5 +1,5 @@
-/* Calls of every public function with arguments of every kind, made from the headers: public_calls.inc has the table of
- * functions, and a pool the objects that arguments refer to. */
+/* Calls of every public function with arguments of every kind, made from the headers: public_calls.inc has
+ * the table of functions, and a pool the objects that arguments refer to. */
 #ifndef TESTS_SUPPORT_PUBLIC_CALLS_H
 #define TESTS_SUPPORT_PUBLIC_CALLS_H
 
@@ -62,8 +62,8 @@ struct pool {
   struct object object[MOST_OBJECTS];
 };
 
-/* Fills the pool: systems, options, states, integrators and measurements of each kind, with files in the working
- * folder. */
+/* Fills the pool: systems, options, states, integrators and measurements of each kind, with files in the
+ * working folder. */
 void pool_begin(struct pool *pool);
 /* A trajectory, which belongs to the process that makes it. */
 void pool_add_trajectory(struct pool *pool);
@@ -76,8 +76,8 @@ void destroy_object(const char *type, void *address);
 
 /* ---- arguments ---- */
 
-/* Number of choices for a parameter; choice 0 is good, if anything is, and 1 is NULL where that is possible. The objects
- * of a pool come after what is bad in any build. */
+/* Number of choices for a parameter; choice 0 is good, if anything is, and 1 is NULL where that is possible.
+ * The objects of a pool come after what is bad in any build. */
 int32_t choices_of(const struct pool *pool, const struct parameter *parameter);
 /* The argument. `made` receives what a function makes. */
 void choose(const struct pool *pool, const struct function *function, int32_t parameter, int32_t choice,

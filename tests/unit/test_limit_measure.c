@@ -141,7 +141,8 @@ static void hidden_mode_is_found(void **unused) {
 
 /* ---- the linear twin ---- */
 
-/* Springs between the same ends, in any order and among others, are one spring in the twin, of the same force. */
+/* Springs between the same ends, in any order and among others, are one spring in the twin, of the same
+ * force. */
 static void parallel_springs_are_one(void **unused) {
   (void)unused;
   enum { MANY = 6 };

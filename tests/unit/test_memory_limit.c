@@ -464,7 +464,8 @@ static int32_t no_force(int64_t n, double time, const double *q, const double *v
   return 0;
 }
 
-/* Problems without particles have as many numbers as systems may have, and sizes that overflow are refused. */
+/* Problems without particles have as many numbers as systems may have, and sizes that overflow are
+ * refused. */
 static void problems_stop_where_systems_do(void **unused) {
   (void)unused;
   const int64_t most = 3 * (int64_t)INT32_MAX,

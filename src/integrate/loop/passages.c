@@ -21,8 +21,9 @@ void hk_passages_begin(hooke_integrator *it, double t) {
 
 static int32_t make_room(hooke_integrator *it) {
   struct hk_passages *p = &it->passages;
-  int32_t status = p->before ? HOOKE_OK : hk_state_create_sized(it->size, 1, &p->before);
-  if (status == HOOKE_OK && p->now == NULL) status = hk_state_create_sized(it->size, 1, &p->now);
+  const int64_t numbers = hk_integrator_numbers(it);
+  int32_t status = p->before ? HOOKE_OK : hk_state_create_sized(numbers, 1, &p->before);
+  if (status == HOOKE_OK && p->now == NULL) status = hk_state_create_sized(numbers, 1, &p->now);
   return status;
 }
 

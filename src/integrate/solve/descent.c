@@ -48,7 +48,8 @@ static int take_rows(const struct hk_motion *m, double *rows) {
   return same;
 }
 
-/* What displacements that rounding makes change, at this energy of springs: at most, by Cauchy and Schwarz. */
+/* What displacements that rounding makes change, at this energy of springs: at most, by
+ * Cauchy and Schwarz. */
 static double slack_of(const struct hk_descent *descent, const struct hk_motion *m, double stiffness,
                        double energy) {
   double extent = 0.0;

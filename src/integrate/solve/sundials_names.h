@@ -1,5 +1,5 @@
-/* Names of SUNDIALS 7 for the older versions that hooke takes, and a context that prints nothing: what differs
- * between the versions stands here alone. */
+/* Names of SUNDIALS 7 for the older versions that hooke takes, and a context that prints nothing: what
+ * differs between the versions stands here alone. */
 #ifndef HOOKE_INTEGRATE_SOLVE_SUNDIALS_NAMES_H
 #define HOOKE_INTEGRATE_SOLVE_SUNDIALS_NAMES_H
 

@@ -64,8 +64,8 @@ int32_t hk_file_beside(const char *path, const char *ending, char **beside);
  * it is a folder. */
 int hk_file_open(const char *path);
 
-/* Fails with `status`, or HOOKE_NO_MEMORY, with its reason and what is allowed: a `kind`, such as "scene file". The
- * message does not name the file. */
+/* Fails with `status`, or HOOKE_NO_MEMORY, with its reason and what is allowed: a `kind`, such as "scene
+ * file". The message does not name the file. */
 int32_t hk_file_refuse(int32_t status, int error, const char *kind);
 
 /* Writes a whole file atomically. HOOKE_IO_FAILED, HOOKE_NO_MEMORY. */

@@ -1,5 +1,5 @@
-/* The files that a system was read from, which no output may replace. They are told apart by what they are, and
- * not by their names. */
+/* The files that a system was read from, which no output may replace. They are told apart by what they are,
+ * and not by their names. */
 #ifndef HOOKE_IO_FILE_INPUTS_H
 #define HOOKE_IO_FILE_INPUTS_H
 
@@ -8,8 +8,8 @@
 /* Notes a file; the scene itself last. HOOKE_NO_MEMORY. */
 int32_t hk_inputs_note(hooke_system *system, const char *path, int32_t is_scene);
 
-/* HOOKE_BAD_VALUE if `output`, or a checkpoint beside it, is one of them; HOOKE_NO_MEMORY. Saved again, a scene may
- * replace itself: hk_inputs_refuse_save(). */
+/* HOOKE_BAD_VALUE if `output`, or a checkpoint beside it, is one of them; HOOKE_NO_MEMORY. Saved again, a
+ * scene may replace itself: hk_inputs_refuse_save(). */
 int32_t hk_inputs_refuse(const hooke_system *system, const char *output);
 int32_t hk_inputs_refuse_save(const hooke_system *system, const char *output);
 

@@ -46,12 +46,12 @@ hid_t hk_h5_texts(hid_t where, const char *name, int64_t count, int64_t length);
 /* Writes text number `k` of such a dataset in place, padded with zeros; longer texts are truncated. */
 herr_t hk_h5_write_text(hid_t dataset, int64_t k, const char *text);
 
-/* A dataset that is one text of fixed length, stored in this very file, for hk_free(); NULL if it is something
- * else or there is none. HOOKE_NO_MEMORY. */
+/* A dataset that is one text of fixed length, stored in this very file, for hk_free(); NULL if it is
+ * something else or there is none. HOOKE_NO_MEMORY. */
 int32_t hk_h5_read_text(hid_t group, const char *name, char **text);
 
-/* An attribute that is one text of variable length, for H5free_memory(); NULL if it is something else or cannot
- * be read. */
+/* An attribute that is one text of variable length, for H5free_memory(); NULL if it is something else or
+ * cannot be read. */
 char *hk_h5_attribute_text(hid_t attribute);
 
 #endif

@@ -4,6 +4,7 @@
 #include "core/keep_errno.h"
 #include "core/memory.h"
 #include "core/status.h"
+#include "integrate/method.h"
 
 #if HOOKE_HAVE_JANSSON
 
@@ -123,11 +124,8 @@ static int32_t read_top(struct hk_scene_reader *reader, const json_t *root) {
 static int32_t check_method(const hooke_options *run) {
   const char *method = hooke_options_text(run, "method");
   if (!hooke_options_is_set(run, "method") || hooke_method_is_adaptive(method) >= 0) return HOOKE_OK;
-  char methods[METHODS_SIZE] = "", shown[HOOKE_OPTION_SHOWN];
-  for (int64_t k = 0; k < hooke_method_count(); k++) {
-    size_t used = strlen(methods);
-    snprintf(methods + used, sizeof methods - used, "%s%s", k ? ", " : "", hooke_method_name(k));
-  }
+  char methods[METHODS_SIZE], shown[HOOKE_OPTION_SHOWN];
+  hk_method_list(methods, sizeof methods);
   hk_option_show(method, (int64_t)strlen(method), shown);
   return hk_fail(HOOKE_BAD_VALUE, "method", "\"%s\" is not a method; allowed: %s", shown, methods);
 }

@@ -1,12 +1,14 @@
 /* Check values of what the file of a run has beside its frames, which have their own: the array
  * /hooke/file_check, 3 CRC-32:
  *
- *   description   the attributes of /hooke, but for `run`, and /hooke/options by name (name, NUL, then a text with
- *                 its NUL, or doubles), mass, species, springs, rest lengths as doubles, and the text of the scene
- *   outcome       the bytes of `status` and `beyond`; it counts once the run is over
+ *   description   the attributes of /hooke, but for `run`, and /hooke/options by name (name, NUL, then a text
+ *                 with its NUL, or doubles), mass, species, springs, rest lengths as doubles, and the text of
+ *                 the scene
+ *   outcome       the bytes of `status` and `beyond`, and the number of frames, once the run is over
  *   error         the bytes of `error`, `error_by` and `error_reason`
  *
- * The name of the run ends in its own. Nothing of hooke reads what they leave out: /h5md, the box, references, names of the numbers of an error. */
+ * The name of the run ends in its own. Nothing of hooke reads what they leave out: /h5md, the box,
+ * references, names of the numbers of an error. */
 #ifndef HOOKE_IO_TRAJECTORY_FILE_CHECK_H5_H
 #define HOOKE_IO_TRAJECTORY_FILE_CHECK_H5_H
 

@@ -254,11 +254,15 @@ int64_t hk_h5md_find_check(hid_t file) {
   return hk_h5md_place(file, "hooke/file_check", HOOKE_FILE_CHECKS * sizeof(uint32_t));
 }
 
+int32_t hk_h5md_is_end(const char *status) {
+  return status && strcmp(status, "running") != 0 && strcmp(status, "failed") != 0;
+}
+
 int32_t hk_h5md_is_over(hid_t file) {
   char *word = NULL;
   hid_t group = hk_h5_open_own(file, "hooke");
   hk_h5_read_text(group, "status", &word);
-  const int32_t is_over = word && strcmp(word, "running") != 0 && strcmp(word, "failed") != 0;
+  const int32_t is_over = hk_h5md_is_end(word);
   hk_free(word);
   hk_h5_drop(group);
   return is_over;

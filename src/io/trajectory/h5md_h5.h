@@ -2,9 +2,9 @@
  *
  *   /h5md                    version [1, 1]; author, creator
  *   /hooke                   attributes version, abi, sundials, cholmod, instructions, machine, units,
- *                            method, `callbacks` (model/callbacks.h), of a single run `run`, which no other run has; `scene`: the text of the
- *                            scene; `options`: an attribute for each option of the run; `status`: "running"
- *                            until the file is closed
+ *                            method, `callbacks` (model/callbacks.h), of a single run `run`, which no other
+ *                            run has; `scene`: the text of the scene; `options`: an attribute for each
+ *                            option of the run; `status`: "running" until the file is closed
  *   /hooke/rest_length       [springs]
  *   /hooke/file_check        [3] check values of everything but the frames (file_check_h5.h)
  *   /hooke/beyond            of a single run: the first frame after it diverged; -1: there is none
@@ -24,8 +24,8 @@
 
 #include <hdf5.h>
 
-/* Writes everything but particles and observables. `system`, `method`, `options` and `scene_text` may be NULL. Negative
- * on failure. */
+/* Writes everything but particles and observables. `system`, `method`, `options` and `scene_text` may be
+ * NULL. Negative on failure. */
 herr_t hk_h5md_describe(hid_t file, const hooke_system *system, const char *method,
                         const hooke_options *options, const char *scene_text);
 
@@ -58,18 +58,20 @@ herr_t hk_h5md_write_error_room(hid_t file);
 int64_t hk_h5md_place(hid_t file, const char *name, hsize_t bytes);
 
 /* The status as bytes in a file that HDF5 has closed: its offset, negative on failure; and writing it, a word
- * for a status of hooke_integrator_run() or HOOKE_H5MD_RUNNING: returns 0 or an errno. The bytes are fewer than
- * a page, and aligned to a multiple of them: never torn. */
+ * for a status of hooke_integrator_run() or HOOKE_H5MD_RUNNING: returns 0 or an errno. The bytes are fewer
+ * than a page, and aligned to a multiple of them: never torn. */
 enum { HOOKE_H5MD_RUNNING = 1000, HOOKE_H5MD_STATUS = 16 };
 herr_t hk_h5md_find_status(hid_t file, int64_t *at);
 int hk_h5md_write_status(int descriptor, int64_t at, int32_t outcome);
 
-/* Where the check values are (file_check_h5.h), -1 in older files; and writing that of an outcome and of the number of frames, which has to
- * be on the disk before the status: 0 or an errno. */
+/* Where the check values are (file_check_h5.h), -1 in older files; and writing that of an outcome and of the
+ * number of frames, which has to be on the disk before the status: 0 or an errno. */
 int64_t hk_h5md_find_check(hid_t file);
 int hk_h5md_seal(int descriptor, int64_t check, int64_t beyond, int32_t outcome, int64_t frames);
 
-/* 1 if the run came to an end: its file has just the frames that were written. */
+/* 1 if the run came to an end, by its status (NULL: unknown) or by its file: that has just the frames that
+ * were written. */
+int32_t hk_h5md_is_end(const char *status);
 int32_t hk_h5md_is_over(hid_t file);
 
 /* The same while the file is open in HDF5. */

@@ -17,7 +17,6 @@
 #include "io/trajectory/frame_check_h5.h"
 #include "io/trajectory/h5md_h5.h"
 #include "io/trajectory/record_h5.h"
-#include "integrate/method.h"
 #include "integrate/integrator.h"
 #include "model/state.h"
 
@@ -120,7 +119,7 @@ static int32_t read_times(struct hooke_record *record, struct hk_h5_guard *guard
   const int32_t status =
       hk_array_read_open(guard, file, record->path, times, 0, 0, 0, &record->time, &rows, &columns);
   if (status == HOOKE_OK && columns != 1) return hk_dataset_refuse(record->path, times, "is no column");
-  const int is_over = hk_h5md_is_over(file);
+  const int is_over = hk_h5md_is_end(record->status);
   while (status == HOOKE_OK && record->frame_count < rows &&
          (is_over || !isnan(record->time[record->frame_count])))
     record->frame_count++;
@@ -185,7 +184,7 @@ static int32_t check_parts(struct hooke_record *record, struct hk_h5_guard *guar
     status =
         damaged(record, "its scene, options, masses or springs are not those that were written, by their "
                         "check value");
-  if (status == HOOKE_OK && hk_h5md_is_over(file) &&
+  if (status == HOOKE_OK && hk_h5md_is_end(record->status) &&
       hk_file_check_outcome(record->status, beyond, record->frame_count) != stored[HOOKE_CHECK_OUTCOME])
     status = damaged(
         record, "the outcome of its run and its number of frames are not those that were written, by their "

@@ -107,11 +107,15 @@ static struct hk_twin_spring spring_of(const struct hk_element *e) {
       e->particle[0], e->particle[1], {e->u[0], e->u[1], e->u[2]}, e->k_along - e->k_across, e->k_across};
 }
 
-/* Adds a spring to the last one from its lower end, if that has the same ends: a step of the twin takes as long
- * as it has springs. 0 if it has not, or the strength overflows. */
+static int64_t lower_end(const struct hk_spring *spring) {
+  return spring->head < spring->tail ? spring->head : spring->tail;
+}
+
+/* Adds a spring to the last one from its lower end, if that has the same ends: a step of the twin takes as
+ * long as it has springs. 0 if it has not, or the strength overflows. */
 static int join_spring(struct making *making, struct hk_twin *twin, const struct hk_spring *spring,
                        const struct hk_element *e, double rest_length) {
-  const int64_t k = making->last[spring->head < spring->tail ? spring->head : spring->tail] - 1;
+  const int64_t k = making->last[lower_end(spring)] - 1;
   if (k < 0 || making->ends[2 * k] + making->ends[2 * k + 1] != (int64_t)spring->head + spring->tail)
     return 0;
   const double kappa = making->kappa[k] + spring->kappa, gamma = making->gamma[k] + spring->gamma;
@@ -134,7 +138,7 @@ static void keep_spring(struct making *making, struct hk_twin *twin, const struc
   const double rest_length = hk_element_across(e) > 0.0 ? after * (spring->rest_length / before) : after;
   if (join_spring(making, twin, spring, e, rest_length)) return;
   const int64_t k = twin->spring_count++;
-  making->last[spring->head < spring->tail ? spring->head : spring->tail] = k + 1;
+  making->last[lower_end(spring)] = k + 1;
   making->ends[2 * k] = spring->head;
   making->ends[2 * k + 1] = spring->tail;
   making->kappa[k] = spring->kappa;

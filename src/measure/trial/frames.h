@@ -3,7 +3,7 @@
 #ifndef HOOKE_MEASURE_TRIAL_FRAMES_H
 #define HOOKE_MEASURE_TRIAL_FRAMES_H
 
-#include "hooke/integrator.h"
+#include "integrate/integrator.h"
 #include "measure/quantity/watched_series.h"
 
 struct hk_frames {
@@ -14,9 +14,9 @@ struct hk_frames {
   double *energy;      /* count [J] */
   double *position;    /* count x size [m] */
   double *rounding;    /* count: by how much rounding may have displaced a particle until then [m] */
-  int64_t *free_particle, free_count; /* errors are measured over these */
-  struct hk_watched_series watched;   /* empty unless created */
-  char zero_passages[640];            /* of their run: see hooke_integrator_text() */
+  int64_t *free_particle, free_count;      /* errors are measured over these */
+  struct hk_watched_series watched;        /* empty unless created */
+  char zero_passages[HOOKE_PASSAGES_TOLD]; /* of their run: see hooke_integrator_text() */
 };
 
 /* Allocates `count` frames of a committed system. HOOKE_NO_MEMORY. */

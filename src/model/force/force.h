@@ -22,8 +22,8 @@ struct hk_members {
   double *stiffness, *damping, *rest_length;
 };
 
-/* Everything but `name`, `present`, `check` and `keep` or `copy` may be NULL, if the force has no such part. A force with
- * elements and without `add_product` and `add_blocks` has its derivative from them. */
+/* Everything but `name`, `present`, `check` and `keep` or `copy` may be NULL, if the force has no such part.
+ * A force with elements and without `add_product` and `add_blocks` has its derivative from them. */
 struct hk_force_row {
   const char *name;
   /* for forces with groups: the name of its members, and the maximum bytes of one (see room.c) */

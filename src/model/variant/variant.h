@@ -59,8 +59,8 @@ void hk_variant_place(const struct hk_variant_map *map, int64_t particle, const 
 /* Creates and commits the variant of a committed system, and the map into it; the caller owns both. Objects
  * made from options (parts, groups of one material) are made from options again, so that an unchanged variant
  * has the same bits. The first variant of a system finds out whether one that leaves out nothing equals it:
- * HOOKE_INTERNAL, with what differs, if not. HOOKE_UNSUITED where a callback would see particles renumbered, and
- * a rigid body would lose some; HOOKE_BAD_VALUE, HOOKE_NO_MEMORY. */
+ * HOOKE_INTERNAL, with what differs, if not. HOOKE_UNSUITED where a callback would see particles renumbered,
+ * and a rigid body would lose some; HOOKE_BAD_VALUE, HOOKE_NO_MEMORY. */
 int32_t hk_variant_make(const hooke_system *from, const struct hk_variant *variant, hooke_system **made,
                         struct hk_variant_map *map);
 

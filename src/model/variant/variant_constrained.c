@@ -66,8 +66,8 @@ static int32_t add_drive(hooke_system *made, const struct hk_drive_group *drive,
   return hooke_system_drive_callback(made, count, particle, drive->callback, drive->ctx);
 }
 
-/* In the order of the drive, on which its callback depends, and then those between them, which no callback knows;
- * takes them out of `how`. */
+/* In the order of the drive, on which its callback depends, and then those between them, which no callback
+ * knows; takes them out of `how`. */
 static int64_t list_driven(const struct hk_variant_maker *maker, int64_t d, int64_t *how, int64_t *list) {
   const struct hk_drive_group *drive = &maker->from->drive[d];
   int64_t count = 0;

@@ -47,8 +47,8 @@ int32_t hk_variant_breaks_up(const struct hk_variant_maker *maker, const struct 
   return 0;
 }
 
-/* Options as given find the rest lengths of springs to a part at another resolution. A group whose springs all have
- * neither stiffness nor damping keeps its place. */
+/* Options as given find the rest lengths of springs to a part at another resolution. A group whose springs
+ * all have neither stiffness nor damping keeps its place. */
 int32_t hk_variant_keep_springs(struct hk_variant_maker *maker, const struct hk_group *group, int64_t first) {
   struct hk_group kept = {.force = &hk_force_springs,
                           .count = group->count,

@@ -196,7 +196,7 @@ static int32_t choose_frames(struct hk_view *view) {
   if (status != HOOKE_OK) return status;
   const double size = 1e6 * hooke_options_number(view->options, "size");
   const double each = (double)hk_base64_length(hk_view_frame_bytes(view)) + NUMBERS_OF_FRAME;
-  const int64_t least = frames_open(view) < 2 ? 1 : 2;
+  const int64_t open = frames_open(view), gaps = open - 1, least = open < 2 ? 1 : 2;
   double room = floor((size - fixed) / each);
   if (room < (double)least) {
     return hk_fail(
@@ -207,7 +207,6 @@ static int32_t choose_frames(struct hk_view *view) {
   }
   if (hooke_options_is_set(view->options, "frames"))
     room = fmin(room, hooke_options_number(view->options, "frames"));
-  const int64_t gaps = frames_open(view) - 1;
   view->frame_stride = room > (double)gaps ? 1 : stride_for(gaps, (int64_t)room - 1);
   view->frames = 1 + (gaps + view->frame_stride - 1) / view->frame_stride;
   view->frame = hk_new(view->frames, sizeof *view->frame);
