@@ -81,7 +81,7 @@ def call(function, types):
               for kind, what in kinds if kind]
     checks += [check_of_text(result, name, what) for kind, what in parameters
                if kind == "const char *" and not is_optional(name, what)]
-    checks = [f"MADE({what})" for kind, what in parameters if kind.endswith("**") and handle(kind[:-1], types)] + checks
+    checks = [f"MADE({what})" for kind, what in parameters if kind.endswith("**") and handle(kind[:-1], what, types)] + checks
     checks += [f"GIVEN({what}, {count}, {no_array})" for what, count in required(function, types)]
     arguments = ", ".join(what for _, what in parameters)
     head = f"CALL({result}, " if value else "CALL_VOID("
