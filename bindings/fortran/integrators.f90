@@ -1,11 +1,12 @@
 ! Methods, and the loop that runs them.
 module hooke_integrators
-  use, intrinsic :: iso_c_binding, only: c_double, c_funloc, c_funptr, c_int32_t, c_int64_t, c_loc, &
-    c_null_funptr, c_null_ptr, c_ptr
+  use, intrinsic :: iso_c_binding, only: c_double, c_funloc, c_funptr, c_int32_t, c_int64_t, c_loc, c_null_funptr, &
+    c_ptr
   use hooke_base, only: accept, hooke_bad_value, hooke_long, refuse, to_c, to_c_if, to_integer, to_text, zero_based
   use hooke_c_checkpoint, only: c_checkpoint_read, c_checkpoint_write
   use hooke_c_integrator
   use hooke_coordinates
+  use hooke_handles, only: called_object, callback_to, hooke_callback
   use hooke_queries_of_integrator
   use hooke_observers
   use hooke_option_tables, only: hooke_options
@@ -117,21 +118,15 @@ contains
     class(hooke_rate), target, intent(inout) :: rate
     type(hooke_options), intent(in) :: options
     integer, intent(out), optional :: status
-    type(rate_holder), pointer :: holder
+    type(hooke_callback) :: callback
     type(c_ptr) :: integrator
     integer(c_int32_t) :: code
     if (options%is_missing(status)) return
-    allocate (holder)
-    holder%rate => rate
-    code = c_integrator_create_first_order(int(size, c_int64_t), c_funloc(call_rate), c_loc(holder), &
-      options%address(), integrator)
-    if (code == 0) then
-      call take_new(self, integrator)
-      call self%keep(holder, of_rate)
-    else
-      deallocate (holder)
-    end if
-    call accept(code, status)
+    callback = callback_to(c_funloc(call_rate), rate)
+    code = c_integrator_create_first_order(int(size, c_int64_t), callback%function, callback%data, options%address(), &
+      integrator)
+    if (code == 0) call take_new(self, integrator)
+    call self%keep(callback, of_rate, code, status)
   end subroutine
 
   ! For q'' = W f(t, q, v) of `size` coordinates, with one inverse mass or one for each; the force must exist
@@ -143,28 +138,21 @@ contains
     real(c_double), intent(in), contiguous :: inverse_mass(:)
     type(hooke_options), intent(in) :: options
     integer, intent(out), optional :: status
-    type(coordinate_holder), pointer :: holder
+    type(hooke_callback) :: callback
     type(c_funptr) :: product
     type(c_ptr) :: integrator
     integer(c_int32_t) :: code
     if (options%is_missing(status)) return
-    allocate (holder)
-    holder%force => force
+    callback = callback_to(c_funloc(call_coordinate_force), force)
     product = c_null_funptr
     select type (force)
     class is (hooke_coordinate_force_with_product)
-      holder%derivative => force
       product = c_funloc(call_coordinate_product)
     end select
-    code = c_integrator_create_second_order(int(size, c_int64_t), c_funloc(call_coordinate_force), product, &
-      c_loc(holder), ubound(inverse_mass, 1, c_int64_t), inverse_mass, options%address(), integrator)
-    if (code == 0) then
-      call take_new(self, integrator)
-      call self%keep(holder, of_coordinates)
-    else
-      deallocate (holder)
-    end if
-    call accept(code, status)
+    code = c_integrator_create_second_order(int(size, c_int64_t), callback%function, product, callback%data, &
+      ubound(inverse_mass, 1, c_int64_t), inverse_mass, options%address(), integrator)
+    if (code == 0) call take_new(self, integrator)
+    call self%keep(callback, of_coordinates, code, status)
   end subroutine
 
   subroutine take_new(self, integrator, system)
@@ -182,22 +170,10 @@ contains
     class(hooke_integrator), intent(inout) :: self
     class(hooke_observer), target, intent(inout), optional :: observer
     integer, intent(out), optional :: status
-    type(observer_holder), pointer :: holder
-    integer(c_int32_t) :: code
+    type(hooke_callback) :: callback
     if (self%is_missing(status)) return
-    if (.not. present(observer)) then
-      call accept(c_integrator_on_frame(self%address(), c_null_funptr, c_null_ptr), status)
-      return
-    end if
-    allocate (holder)
-    holder%observer => observer
-    code = c_integrator_on_frame(self%address(), c_funloc(call_observer), c_loc(holder))
-    if (code == 0) then
-      call self%keep(holder, of_frames)
-    else
-      deallocate (holder)
-    end if
-    call accept(code, status)
+    callback = callback_to(c_funloc(call_observer), observer)
+    call self%keep(callback, of_frames, c_integrator_on_frame(self%address(), callback%function, callback%data), status)
   end subroutine
 
   ! Called every `stride` steps.
@@ -206,23 +182,11 @@ contains
     integer, intent(in) :: stride
     class(hooke_observer), target, intent(inout), optional :: observer
     integer, intent(out), optional :: status
-    type(observer_holder), pointer :: holder
-    integer(c_int32_t) :: code
+    type(hooke_callback) :: callback
     if (self%is_missing(status)) return
-    if (.not. present(observer)) then
-      code = c_integrator_on_step(self%address(), int(stride, c_int64_t), c_null_funptr, c_null_ptr)
-      call accept(code, status)
-      return
-    end if
-    allocate (holder)
-    holder%observer => observer
-    code = c_integrator_on_step(self%address(), int(stride, c_int64_t), c_funloc(call_observer), c_loc(holder))
-    if (code == 0) then
-      call self%keep(holder, of_steps)
-    else
-      deallocate (holder)
-    end if
-    call accept(code, status)
+    callback = callback_to(c_funloc(call_observer), observer)
+    call self%keep(callback, of_steps, &
+      c_integrator_on_step(self%address(), int(stride, c_int64_t), callback%function, callback%data), status)
   end subroutine
 
   ! Called between two steps, after every `seconds` of work [s].
@@ -231,22 +195,11 @@ contains
     real(c_double), intent(in) :: seconds
     class(hooke_progress), target, intent(inout), optional :: progress
     integer, intent(out), optional :: status
-    type(progress_holder), pointer :: holder
-    integer(c_int32_t) :: code
+    type(hooke_callback) :: callback
     if (self%is_missing(status)) return
-    if (.not. present(progress)) then
-      call accept(c_integrator_on_progress(self%address(), seconds, c_null_funptr, c_null_ptr), status)
-      return
-    end if
-    allocate (holder)
-    holder%progress => progress
-    code = c_integrator_on_progress(self%address(), seconds, c_funloc(call_progress), c_loc(holder))
-    if (code == 0) then
-      call self%keep(holder, of_progress)
-    else
-      deallocate (holder)
-    end if
-    call accept(code, status)
+    callback = callback_to(c_funloc(call_progress), progress)
+    call self%keep(callback, of_progress, &
+      c_integrator_on_progress(self%address(), seconds, callback%function, callback%data), status)
   end subroutine
 
   ! Called at each checkpoint of the option `checkpoint`.
@@ -254,22 +207,11 @@ contains
     class(hooke_integrator), intent(inout) :: self
     class(hooke_observer), target, intent(inout), optional :: observer
     integer, intent(out), optional :: status
-    type(observer_holder), pointer :: holder
-    integer(c_int32_t) :: code
+    type(hooke_callback) :: callback
     if (self%is_missing(status)) return
-    if (.not. present(observer)) then
-      call accept(c_integrator_on_checkpoint(self%address(), c_null_funptr, c_null_ptr), status)
-      return
-    end if
-    allocate (holder)
-    holder%observer => observer
-    code = c_integrator_on_checkpoint(self%address(), c_funloc(call_observer), c_loc(holder))
-    if (code == 0) then
-      call self%keep(holder, of_checkpoints)
-    else
-      deallocate (holder)
-    end if
-    call accept(code, status)
+    callback = callback_to(c_funloc(call_observer), observer)
+    call self%keep(callback, of_checkpoints, &
+      c_integrator_on_checkpoint(self%address(), callback%function, callback%data), status)
   end subroutine
 
   ! Called once a run when the step comes near the safe one, and when it exceeds it.
@@ -277,22 +219,11 @@ contains
     class(hooke_integrator), intent(inout) :: self
     class(hooke_warning), target, intent(inout), optional :: warning
     integer, intent(out), optional :: status
-    type(warning_holder), pointer :: holder
-    integer(c_int32_t) :: code
+    type(hooke_callback) :: callback
     if (self%is_missing(status)) return
-    if (.not. present(warning)) then
-      call accept(c_integrator_on_warning(self%address(), c_null_funptr, c_null_ptr), status)
-      return
-    end if
-    allocate (holder)
-    holder%warning => warning
-    code = c_integrator_on_warning(self%address(), c_funloc(call_warning), c_loc(holder))
-    if (code == 0) then
-      call self%keep(holder, of_warnings)
-    else
-      deallocate (holder)
-    end if
-    call accept(code, status)
+    callback = callback_to(c_funloc(call_warning), warning)
+    call self%keep(callback, of_warnings, &
+      c_integrator_on_warning(self%address(), callback%function, callback%data), status)
   end subroutine
 
   ! Warns of what a scene may be, but is seldom meant to be.
@@ -300,10 +231,10 @@ contains
     class(hooke_system), intent(in) :: system
     class(hooke_warning), target, intent(inout) :: warning
     integer, intent(out), optional :: status
-    type(warning_holder), target :: holder
+    type(called_object), target :: called
     if (system%is_missing(status)) return
-    holder%warning => warning
-    call accept(c_system_warnings(system%address(), c_funloc(call_warning), c_loc(holder)), status)
+    called%it => warning
+    call accept(c_system_warnings(system%address(), c_funloc(call_warning), c_loc(called)), status)
   end subroutine
 
   ! ---- running ----
