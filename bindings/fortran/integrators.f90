@@ -33,18 +33,14 @@ module hooke_integrators
     procedure :: on_checkpoint
     procedure :: on_progress
     procedure :: on_warning
-    procedure :: run
-    procedure :: resume
     procedure :: write_checkpoint
     procedure :: read_checkpoint
     procedure, private :: step_some, step_many
     generic :: step => step_some, step_many
     procedure, private :: advance_some, advance_many
     generic :: advance => advance_some, advance_many
-    procedure :: sync
     procedure :: get
     procedure :: put
-    procedure :: recent
     procedure :: destroy
     procedure, private :: assign
     generic :: assignment(=) => assign
@@ -239,27 +235,6 @@ contains
 
   ! ---- running ----
 
-  ! Runs `duration` from the state's time on; `state` is the final state on return.
-  subroutine run(self, state, status)
-    class(hooke_integrator), intent(inout) :: self
-    class(hooke_state), intent(inout) :: state
-    integer, intent(out), optional :: status
-    if (self%is_missing(status)) return
-    if (state%is_missing(status)) return
-    call accept(c_integrator_run(self%address(), state%address()), status)
-  end subroutine
-
-  ! Continues a run from where read_checkpoint() placed integrator and state, or where a run with a fixed step
-  ! was stopped.
-  subroutine resume(self, state, status)
-    class(hooke_integrator), intent(inout) :: self
-    class(hooke_state), intent(inout) :: state
-    integer, intent(out), optional :: status
-    if (self%is_missing(status)) return
-    if (state%is_missing(status)) return
-    call accept(c_integrator_resume(self%address(), state%address()), status)
-  end subroutine
-
   ! Writes a checkpoint of the run; `name` identifies the run.
   subroutine write_checkpoint(self, path, state, name, status)
     class(hooke_integrator), intent(in) :: self
@@ -325,16 +300,6 @@ contains
     call accept(c_integrator_advance(self%address(), steps), status)
   end subroutine
 
-  ! Writes the motion into `state`.
-  subroutine sync(self, state, status)
-    class(hooke_integrator), intent(inout) :: self
-    class(hooke_state), intent(inout) :: state
-    integer, intent(out), optional :: status
-    if (self%is_missing(status)) return
-    if (state%is_missing(status)) return
-    call accept(c_integrator_sync(self%address(), state%address()), status)
-  end subroutine
-
   ! Positions and velocities (3, k) of k particles of the motion.
   subroutine get(self, particles, position, velocity, status)
     class(hooke_integrator), intent(inout) :: self
@@ -370,16 +335,6 @@ contains
   end function
 
   ! ---- counts since it was made ----
-
-  subroutine recent(self, place, state, status)
-    class(hooke_integrator), intent(in) :: self
-    integer, intent(in) :: place
-    class(hooke_state), intent(inout) :: state
-    integer, intent(out), optional :: status
-    if (self%is_missing(status)) return
-    if (state%is_missing(status)) return
-    call accept(c_integrator_recent(self%address(), zero_based(place), state%address()), status)
-  end subroutine
 
   impure elemental subroutine assign(self, other)
     class(hooke_integrator), intent(inout) :: self

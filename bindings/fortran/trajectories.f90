@@ -3,7 +3,7 @@ module hooke_trajectories
   use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_int32_t, c_int64_t, c_ptr
   use hooke_base, only: accept, hooke_bad_value, hooke_long, hooke_ok, hooke_stopped, refuse, to_c, to_c_if, &
     to_integer, to_text
-  use hooke_c_checkpoint, only: c_trajectory_checkpoint, c_trajectory_resume
+  use hooke_c_checkpoint, only: c_trajectory_resume
   use hooke_c_trajectory
   use hooke_c_measurement, only: c_comparison_file_close, c_comparison_file_create
   use hooke_measurements, only: hooke_measurement
@@ -23,7 +23,6 @@ module hooke_trajectories
   contains
     procedure :: create => create_trajectory
     procedure :: resume => resume_trajectory
-    procedure :: checkpoint
     procedure :: write => write_frame
     procedure :: close => close_trajectory
     procedure, private :: assign_trajectory
@@ -91,18 +90,6 @@ contains
     if (present(finished)) finished = code == 0 .and. .not. c_associated(trajectory)
     if (code == 0 .and. c_associated(trajectory)) call self%take(trajectory, abandon_trajectory, system)
     call accept(code, status)
-  end subroutine
-
-  ! Writes a checkpoint beside the file, for resume().
-  subroutine checkpoint(self, integrator, state, status)
-    class(hooke_trajectory), intent(inout) :: self
-    class(hooke_integrator), intent(in) :: integrator
-    class(hooke_state), intent(in) :: state
-    integer, intent(out), optional :: status
-    if (self%is_missing(status)) return
-    if (integrator%is_missing(status)) return
-    if (state%is_missing(status)) return
-    call accept(c_trajectory_checkpoint(self%address(), integrator%address(), state%address()), status)
   end subroutine
 
   ! Writes the next frame.
