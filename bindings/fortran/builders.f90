@@ -128,8 +128,7 @@ contains
     character(*), intent(in), optional :: name
     integer, intent(out), optional :: status
     character(:), allocatable :: c_name
-    if (self%is_missing(status)) return
-    if (options%is_missing(status)) return
+    if (self%is_missing(status, options)) return
     if (size(ends, 1) /= 2) then
       call refuse(hooke_bad_value, "the ends of springs have the shape (2, n)", status)
       return
@@ -174,8 +173,7 @@ contains
     character(*), intent(in), optional :: name
     integer, intent(out), optional :: status
     character(:), allocatable :: c_name
-    if (self%is_missing(status)) return
-    if (options%is_missing(status)) return
+    if (self%is_missing(status, options)) return
     if (size(tetrahedra, 1) /= 4) then
       call refuse(hooke_bad_value, "tetrahedra have the shape (4, n)", status)
       return
@@ -193,8 +191,7 @@ contains
     character(*), intent(in), optional :: name
     integer, intent(out), optional :: status
     character(:), allocatable :: c_name
-    if (self%is_missing(status)) return
-    if (options%is_missing(status)) return
+    if (self%is_missing(status, options)) return
     call to_c_if(name, c_name)
     call accept(c_system_add_anchors(self%address(), c_name, size(particles, kind=c_int64_t), zero_based(particles), &
       options%address()), status)
@@ -228,8 +225,7 @@ contains
     integer(c_int64_t) :: number(1), particles(1)
     if (present(first)) first = 0
     if (present(count)) count = 0
-    if (self%is_missing(status)) return
-    if (options%is_missing(status)) return
+    if (self%is_missing(status, options)) return
     number = -1
     particles = 0
     call to_c_if(name, c_name)
@@ -334,8 +330,7 @@ contains
     class(hooke_builder), intent(inout) :: self
     type(hooke_options), intent(in) :: options
     integer, intent(out), optional :: status
-    if (self%is_missing(status)) return
-    if (options%is_missing(status)) return
+    if (self%is_missing(status, options)) return
     call accept(c_scene_options_apply(options%address(), self%address()), status)
   end subroutine
 

@@ -107,9 +107,7 @@ contains
     class(hooke_integrator), intent(in) :: integrator
     class(hooke_state), intent(in) :: state
     integer, intent(out), optional :: status
-    if (self%is_missing(status)) return
-    if (integrator%is_missing(status)) return
-    if (state%is_missing(status)) return
+    if (self%is_missing(status, integrator, state)) return
     call accept(c_measurement_run(self%address(), state%address()), status)
   end subroutine
 

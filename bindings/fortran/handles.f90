@@ -72,11 +72,15 @@ contains
     address = self%object%address
   end function
 
-  ! True, with a status, if there is no object.
-  logical function is_missing(self, status)
+  ! True, with a status, if there is no object here or in one of the others.
+  logical function is_missing(self, status, second, third, fourth)
     class(hooke_handle), intent(in) :: self
+    class(hooke_handle), intent(in), optional :: second, third, fourth
     integer, intent(out), optional :: status
     is_missing = .not. self%exists()
+    if (present(second)) is_missing = is_missing .or. .not. second%exists()
+    if (present(third)) is_missing = is_missing .or. .not. third%exists()
+    if (present(fourth)) is_missing = is_missing .or. .not. fourth%exists()
     if (is_missing) call refuse(hooke_bad_call, "an object is used that was not created, or was destroyed", status)
   end function
 

@@ -100,8 +100,7 @@ contains
     integer, intent(out), optional :: status
     type(c_ptr) :: integrator
     integer(c_int32_t) :: code
-    if (system%is_missing(status)) return
-    if (options%is_missing(status)) return
+    if (system%is_missing(status, options)) return
     code = c_integrator_create(system%address(), options%address(), integrator)
     if (code == 0) call take_new(self, integrator, system)
     call accept(code, status)
@@ -243,8 +242,7 @@ contains
     character(*), intent(in), optional :: name
     integer, intent(out), optional :: status
     character(:), allocatable :: c_name
-    if (self%is_missing(status)) return
-    if (state%is_missing(status)) return
+    if (self%is_missing(status, state)) return
     call to_c_if(name, c_name)
     call accept(c_checkpoint_write(to_c(path), self%address(), state%address(), c_name), status)
   end subroutine
@@ -258,8 +256,7 @@ contains
     character(*), intent(in), optional :: name
     integer, intent(out), optional :: status
     character(:), allocatable :: c_name
-    if (self%is_missing(status)) return
-    if (state%is_missing(status)) return
+    if (self%is_missing(status, state)) return
     call to_c_if(name, c_name)
     call accept(c_checkpoint_read(to_c(path), c_name, self%address(), state%address()), status)
   end subroutine
@@ -278,8 +275,7 @@ contains
     class(hooke_state), intent(inout) :: state
     integer(hooke_long), intent(in) :: steps
     integer, intent(out), optional :: status
-    if (self%is_missing(status)) return
-    if (state%is_missing(status)) return
+    if (self%is_missing(status, state)) return
     call accept(c_integrator_step(self%address(), state%address(), steps), status)
   end subroutine
 

@@ -94,10 +94,8 @@ contains
     integer, intent(out), optional :: status
     type(c_ptr) :: made
     integer(c_int32_t) :: code
-    if (system%is_missing(status)) return
-    if (run%is_missing(status)) return
-    if (first%is_missing(status)) return
-    if (last%is_missing(status)) return
+    if (system%is_missing(status, run)) return
+    if (first%is_missing(status, last)) return
     code = c_why_create_kept(system%address(), run%address(), first%address(), last%address(), &
       options_or_null(options), made)
     if (code == 0) call self%take(made, c_measurement_destroy, system)
@@ -271,8 +269,7 @@ contains
     integer, intent(in) :: row
     type(hooke_options), intent(inout) :: run
     integer, intent(out), optional :: status
-    if (self%is_missing(status)) return
-    if (run%is_missing(status)) return
+    if (self%is_missing(status, run)) return
     call accept(c_why_advice_apply(self%address(), zero_based(row), run%address()), status)
   end subroutine
 

@@ -80,8 +80,7 @@ contains
     class(hooke_state), intent(in) :: self
     class(hooke_state), intent(inout) :: other
     integer, intent(out), optional :: status
-    if (self%is_missing(status)) return
-    if (other%is_missing(status)) return
+    if (self%is_missing(status, other)) return
     call accept(c_state_copy(self%address(), other%address()), status)
   end subroutine
 

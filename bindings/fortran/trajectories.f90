@@ -63,8 +63,7 @@ contains
     character(:), allocatable :: c_text
     type(c_ptr) :: trajectory
     integer(c_int32_t) :: code
-    if (system%is_missing(status)) return
-    if (integrator%is_missing(status)) return
+    if (system%is_missing(status, integrator)) return
     call to_c_if(scene_text, c_text)
     code = c_trajectory_create(to_c(path), system%address(), integrator%address(), c_text, trajectory)
     if (code == 0) call self%take(trajectory, abandon_trajectory, system)
@@ -83,9 +82,7 @@ contains
     integer, intent(out), optional :: status
     type(c_ptr) :: trajectory
     integer(c_int32_t) :: code
-    if (system%is_missing(status)) return
-    if (integrator%is_missing(status)) return
-    if (state%is_missing(status)) return
+    if (system%is_missing(status, integrator, state)) return
     code = c_trajectory_resume(to_c(path), system%address(), integrator%address(), state%address(), trajectory)
     if (present(finished)) finished = code == 0 .and. .not. c_associated(trajectory)
     if (code == 0 .and. c_associated(trajectory)) call self%take(trajectory, abandon_trajectory, system)
@@ -98,8 +95,7 @@ contains
     integer(hooke_long), intent(in) :: step
     class(hooke_state), intent(in) :: state
     integer, intent(out), optional :: status
-    if (self%is_missing(status)) return
-    if (state%is_missing(status)) return
+    if (self%is_missing(status, state)) return
     call accept(c_trajectory_write(self%address(), step, state%address()), status)
   end subroutine
 
@@ -163,8 +159,7 @@ contains
     integer, intent(in) :: frame
     class(hooke_state), intent(inout) :: state
     integer, intent(out), optional :: status
-    if (self%is_missing(status)) return
-    if (state%is_missing(status)) return
+    if (self%is_missing(status, state)) return
     if (is_no_frame(frame, status)) return
     call accept(c_record_read(self%address(), from_zero(frame), state%address()), status)
   end subroutine

@@ -71,8 +71,8 @@ def procedure(function):
     if headers.is_status(result, name):
         kind, whats = "subroutine", [*whats, "status"]
         head.append("integer, intent(out), optional :: status")
-        objects = ["self", *(passed.split("%")[0] for _, passed, _ in arguments if passed.endswith("%address()"))]
-        body = [*(f"if ({what}%is_missing(status)) return" for what in objects), *then, f"call accept({call}, status)"]
+        objects = [passed.split("%")[0] for _, passed, _ in arguments if passed.endswith("%address()")]
+        body = [f"if (self%is_missing({', '.join(['status', *objects])})) return", *then, f"call accept({call}, status)"]
     elif result == "void":
         kind, body = "subroutine", [*then, f"call {call}"]
     else:
