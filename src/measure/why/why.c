@@ -25,11 +25,7 @@ static const double LEAST_SECONDS = 2.0, LEAST_BYTES = 16e6, SHARE_OF_MEMORY = 0
 
 static const struct hk_option_row why_rows[] = {
     {.name = "budget",
-     .type = HOOKE_OPTION_NUMBER,
-     .unit = "s",
-     .low = 0.0,
-     .above_low = 1,
-     .high = 1e300,
+     HOOKE_OPTION_POSITIVE("s"),
      .doc = "wall time that the explanation may take; if not given, as much counted work as the run took, "
             "or 2 s if that is more, which is the same however busy the machine is"},
 };
