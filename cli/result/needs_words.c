@@ -202,8 +202,7 @@ static void print_warnings(const hooke_measurement *needs) {
 
 void cli_needs_results_print(const struct cli_needs_results *results) {
   const hooke_measurement *needs = results->needs;
-  const char *title = hooke_scene_text(results->setup.scene, "title");
-  cli_print_text(stdout, title && title[0] ? title : results->arguments->scene);
+  cli_print_text(stdout, cli_setup_title(results->arguments, &results->setup));
   printf("\n");
   cli_print_text(stdout, hooke_measurement_text(needs, "needs", 0, "method"));
   printf("%s, %g m wanted",

@@ -151,13 +151,8 @@ static int32_t write_companion(struct cli_run *run) {
 }
 
 static int32_t ask_why(struct cli_run *run) {
-  int32_t status = hooke_why_create(run->integrator, NULL, &run->why);
-  if (status != HOOKE_OK) return status;
-  cli_watch_start(&run->watch, run->arguments);
-  hooke_measurement_on_progress(run->why, cli_watch_progress, &run->watch);
-  status = hooke_measurement_run(run->why, NULL);
-  cli_watch_end(&run->watch);
-  return status;
+  const int32_t status = hooke_why_create(run->integrator, NULL, &run->why);
+  return status == HOOKE_OK ? cli_watch_run(run->arguments, run->why, NULL) : status;
 }
 
 /* The outcome is the same without an explanation. */
