@@ -84,25 +84,20 @@ const char *cli_suggest_file(const char *path) {
 /* ---- endings ---- */
 
 int cli_words_check_ending(const struct cli_arguments *arguments, const char *file) {
-  static const char page[] = "the page of 'hooke view' saves the picture",
-                    film[] = "the page of 'hooke view' saves the film";
-  static const char *const others[][2] = {{"json", "'hooke make -o' writes a scene"},
-                                          {"html", "'hooke view -o' writes a page"},
-                                          {"h5", "'hooke run -o' writes a trajectory"},
-                                          {"csv", "'hooke study -o' writes a table"},
-                                          {"png", page},
-                                          {"jpg", page},
-                                          {"svg", page},
-                                          {"mp4", film},
-                                          {"webm", film},
-                                          {"gif", film}};
+  static const char *const others[][2] = {{".json", "'hooke make -o' writes a scene"},
+                                          {".html", "'hooke view -o' writes a page"},
+                                          {".h5", "'hooke run -o' writes a trajectory"},
+                                          {".csv", "'hooke study -o' writes a table"},
+                                          {".png.jpg.svg", "the page of 'hooke view' saves the picture"},
+                                          {".mp4.webm.gif", "the page of 'hooke view' saves the film"}};
   const char *dot = strrchr(file, '.');
   for (int32_t i = 0; dot && i < arguments->count; i++) {
     const struct cli_argument *argument = &arguments->all[i];
     const char *own =
         argument->text && strcmp(argument->text, file) == 0 ? cli_describe_file(argument) : NULL;
     for (size_t k = 0; own && own[0] && k < sizeof others / sizeof others[0]; k++) {
-      if (strcmp(dot + 1, others[k][0]) != 0 || strcmp(own, dot + 1) == 0) continue;
+      const char *found = strstr(others[k][0], dot), after = found ? found[strlen(dot)] : 'x';
+      if ((after != '\0' && after != '.') || strcmp(own, dot + 1) == 0) continue;
       return cli_report(arguments, HOOKE_EXIT_USAGE, "--%s %s: its name has to end in .%s; %s",
                         argument->flag, file, own, others[k][1]);
     }
