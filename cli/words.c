@@ -2,10 +2,10 @@
 
 #include "describe.h"
 #include "os.h"
+#include "print.h"
 #include "report.h"
 
 #include <errno.h>
-#include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -107,16 +107,6 @@ int cli_words_check_ending(const struct cli_arguments *arguments, const char *fi
 
 /* ---- options ---- */
 
-static void add(char text[HOOKE_DOC_SIZE], const char *format, ...) __attribute__((format(printf, 2, 3)));
-
-static void add(char text[HOOKE_DOC_SIZE], const char *format, ...) {
-  const size_t used = strlen(text);
-  va_list args;
-  va_start(args, format);
-  vsnprintf(text + used, HOOKE_DOC_SIZE - used, format, args);
-  va_end(args);
-}
-
 static const char *next_flag(int64_t i, const void *ctx) {
   const struct cli_arguments *arguments = ctx;
   return i < arguments->count ? arguments->all[i].flag : NULL;
@@ -138,8 +128,8 @@ static int list_longer(const struct cli_arguments *arguments, const char *flag, 
     family = dot ? (size_t)(dot - name) + 1 : 0;
     last = name;
     if (count == 0) *first = name;
-    add(list, "%s--%.*s%s", count++ ? ", " : "", (int)(dot ? dot - name : HOOKE_FLAG_SIZE), name,
-        dot ? "..." : "");
+    cli_append(list, HOOKE_DOC_SIZE, "%s--%.*s%s", count++ ? ", " : "",
+               (int)(dot ? dot - name : HOOKE_FLAG_SIZE), name, dot ? "..." : "");
   }
   return count;
 }
@@ -151,7 +141,8 @@ static void list_verbs(const char *flag, char list[HOOKE_DOC_SIZE]) {
     struct cli_arguments other = {.verb = cli_verbs[k]};
     const int code = cli_arguments_collect(cli_verbs[k], NULL, &other);
     for (int32_t i = 0; code == HOOKE_EXIT_DONE && i < other.count; i++)
-      if (strcmp(other.all[i].flag, flag) == 0) add(list, "%s%s", list[0] ? ", " : "", cli_verbs[k]->name);
+      if (strcmp(other.all[i].flag, flag) == 0)
+        cli_append(list, HOOKE_DOC_SIZE, "%s%s", list[0] ? ", " : "", cli_verbs[k]->name);
     cli_arguments_destroy(&other);
   }
 }

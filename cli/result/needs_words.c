@@ -144,8 +144,7 @@ static void print_cells(const hooke_measurement *needs, int64_t part, const char
   char text[64] = "";
   for (int a = 0; a < 3; a++) {
     const double cells = hooke_measurement_number(needs, "parts", part, numbers[a]);
-    const size_t used = strlen(text);
-    if (!isnan(cells)) snprintf(text + used, sizeof text - used, "%s%.0f", used ? " x " : "", cells);
+    if (!isnan(cells)) cli_append(text, sizeof text, "%s%.0f", text[0] ? " x " : "", cells);
   }
   printf(" %14s", text[0] ? text : "-");
 }

@@ -9,7 +9,6 @@
 
 #include <math.h>
 #include <stdio.h>
-#include <string.h>
 
 enum { COLUMNS = 5, MESSAGE_SIZE = 2048 };
 
@@ -28,7 +27,7 @@ struct compare {
 static int32_t make_options(const struct cli_methods *methods, hooke_options **options) {
   char names[HOOKE_MOST_METHODS * 32] = "";
   for (int32_t k = 0; k < methods->count; k++)
-    snprintf(names + strlen(names), sizeof names - strlen(names), "%s%s", k ? "," : "", methods->name[k]);
+    cli_append(names, sizeof names, "%s%s", k ? "," : "", methods->name[k]);
   const int32_t status = hooke_options_create("comparison", options);
   return status == HOOKE_OK ? hooke_options_set_text(*options, "methods", names) : status;
 }

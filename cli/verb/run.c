@@ -76,9 +76,8 @@ static void tell_warnings(struct cli_run *run) {
 static int32_t see_warning(const char *kind, const char *sentence, double t, double limit, int64_t spring,
                            int64_t particle, void *ctx) {
   struct cli_run *run = ctx;
-  const size_t used = strlen(run->warning);
   (void)kind, (void)t, (void)limit, (void)spring, (void)particle;
-  snprintf(run->warning + used, sizeof run->warning - used, "%s\n", sentence);
+  cli_append(run->warning, sizeof run->warning, "%s\n", sentence);
   if (run->is_long) tell_warnings(run);
   return 0;
 }

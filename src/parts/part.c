@@ -46,10 +46,8 @@ static const struct hooke_part_kind *find_kind(const char *name) {
     if (name && strcmp(kinds[k]->table->name, name) == 0) return kinds[k];
   }
   char known[128] = "";
-  for (int k = 0; k < KIND_COUNT; k++) {
-    const size_t used = strlen(known);
-    snprintf(known + used, sizeof known - used, "%s%s", k ? ", " : "", kinds[k]->table->name);
-  }
+  for (int k = 0; k < KIND_COUNT; k++)
+    hk_append(known, sizeof known, "%s%s", k ? ", " : "", kinds[k]->table->name);
   hk_fail(HOOKE_BAD_VALUE, "kind", "there is no kind of part called \"%s\"; allowed: %s", name ? name : "",
           known);
   return NULL;

@@ -3,6 +3,7 @@
 
 #include "core/clock.h"
 #include "core/memory.h"
+#include "core/print.h"
 #include "core/table/option.h"
 #include "core/status.h"
 #include "integrate/integrator.h"
@@ -185,8 +186,7 @@ static int32_t find_participation(struct hk_limit *limit) {
 }
 
 static void add_note(struct hk_limit_row *row, const char *note) {
-  const size_t used = strlen(row->note);
-  if (note && note[0]) snprintf(row->note + used, sizeof row->note - used, "%s%s", used ? "; " : "", note);
+  if (note && note[0]) hk_append(row->note, sizeof row->note, "%s%s", row->note[0] ? "; " : "", note);
 }
 
 static int32_t measure_row(struct hk_limit *limit, struct hk_limit_row *row, const hooke_state *state,
