@@ -2,12 +2,17 @@
 #ifndef HOOKE_CLI_OUTPUT_FILE_H
 #define HOOKE_CLI_OUTPUT_FILE_H
 
-#include "arguments.h"
+#include "setup.h"
 
 /* Checks that `file`, given to `flag`, can be written and is not the scene. Returns the exit code. */
 int cli_output_file_check(const struct cli_arguments *arguments, const char *flag, const char *file);
 
 /* The same for --report, which also needs the drawing library in this build; NULL is allowed. */
 int cli_output_file_check_report(const struct cli_arguments *arguments, const char *report);
+
+/* Writes the page of --report, if it was given, with the title of the scene and a command (NULL: none).
+ * Returns `code`, or that of a page that could not be written. */
+int cli_output_file_write_report(const struct cli_arguments *arguments, const struct cli_setup *setup,
+                                 hooke_measurement *measurement, const char *command, int code);
 
 #endif

@@ -7,6 +7,7 @@
 #include <float.h>
 #include <inttypes.h>
 #include <math.h>
+#include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -25,6 +26,14 @@ const char *cli_format_number(double value, char text[HOOKE_NUMBER_SIZE]) {
     if (strtod(text, NULL) == value) break;
   }
   return text;
+}
+
+void cli_append(char *text, size_t size, const char *format, ...) {
+  const size_t used = strlen(text);
+  va_list args;
+  va_start(args, format);
+  if (used < size) vsnprintf(text + used, size - used, format, args);
+  va_end(args);
 }
 
 /* ---- foreign text ---- */

@@ -14,6 +14,9 @@ const char *cli_format_rounded(double value, char text[HOOKE_NUMBER_SIZE]);
 /* For programs and for commands: as above, with the fewest digits that read back to the same double. */
 const char *cli_format_number(double value, char text[HOOKE_NUMBER_SIZE]);
 
+/* Adds to a text of `size` characters, as far as there is space. */
+void cli_append(char *text, size_t size, const char *format, ...) __attribute__((format(printf, 3, 4)));
+
 /* Prints foreign text (a title, a name or a file name) on one line: '?' for each character that could control
  * a terminal, end a line or change the direction of writing, and for bytes that are not UTF-8. All such text
  * is printed by this function, by the ones below or as JSON. Returns the number of characters printed. */

@@ -147,10 +147,8 @@ static const char *next_method(int64_t i, const void *ctx) {
 
 void cli_report_methods(char *list, size_t size) {
   list[0] = '\0';
-  for (int64_t i = 0; i < hooke_method_count(); i++) {
-    size_t used = strlen(list);
-    snprintf(list + used, size - used, "%s%s", i ? ", " : "", hooke_method_name(i));
-  }
+  for (int64_t i = 0; i < hooke_method_count(); i++)
+    cli_append(list, size, "%s%s", i ? ", " : "", hooke_method_name(i));
 }
 
 int cli_report_unknown_method(const struct cli_arguments *arguments, const char *flag, const char *word,

@@ -24,7 +24,7 @@ static const struct column {
 enum { COLUMN_COUNT = sizeof columns / sizeof columns[0] };
 
 static const char *method_of(const struct cli_rows *rows, int64_t row) {
-  return rows->text(rows->source, row, "method");
+  return hooke_measurement_text(rows->source, "rows", row, "method");
 }
 
 int32_t cli_rows_method_width(const struct cli_rows *rows) {
@@ -54,7 +54,7 @@ static void print_head(const struct cli_rows *rows, int32_t method_width, int32_
 static void print_row(const struct cli_rows *rows, int64_t row, int32_t method_width) {
   cli_print_padded(stdout, method_width, method_of(rows, row));
   for (int i = 0; i < COLUMN_COUNT; i++) {
-    double value = rows->number(rows->source, row, columns[i].what);
+    double value = hooke_measurement_number(rows->source, "rows", row, columns[i].what);
     if (columns[i].counts) {
       printf(" %*.0f", columns[i].width, value);
     } else {
@@ -63,7 +63,7 @@ static void print_row(const struct cli_rows *rows, int64_t row, int32_t method_w
     if (rows->mark && columns[i].marked) printf("%c", rows->mark(rows->source, row, columns[i].what));
   }
   printf("  ");
-  cli_print_text(stdout, rows->text(rows->source, row, "status"));
+  cli_print_text(stdout, hooke_measurement_text(rows->source, "rows", row, "status"));
   printf("\n");
 }
 

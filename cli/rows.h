@@ -2,18 +2,17 @@
 #ifndef HOOKE_CLI_ROWS_H
 #define HOOKE_CLI_ROWS_H
 
+#include "hooke.h"
 #include "print.h"
 
 #include <stdint.h>
 
 struct cli_rows {
-  const void *source;
+  const hooke_measurement *source; /* with a table "rows" */
   int64_t count;
-  const char *(*text)(const void *source, int64_t row, const char *what); /* "method", "status" */
-  double (*number)(const void *source, int64_t row, const char *what);
   int32_t grouped; /* 1: an empty line before each method but the first */
   /* marks after "error" and "wall_seconds" of a row; NULL: no space for marks */
-  char (*mark)(const void *source, int64_t row, const char *what);
+  char (*mark)(const hooke_measurement *source, int64_t row, const char *what);
 };
 
 /* Width of the column of methods. */

@@ -78,6 +78,11 @@ void cli_setup_destroy(struct cli_setup *setup) {
   hooke_scene_destroy(setup->scene);
 }
 
+const char *cli_setup_title(const struct cli_arguments *arguments, const struct cli_setup *setup) {
+  const char *title = hooke_scene_text(setup->scene, "title");
+  return title && title[0] ? title : arguments->scene;
+}
+
 int32_t cli_setup_missing(const struct cli_setup *setup, const char *method, char text[HOOKE_DOC_SIZE]) {
   const int duration = hooke_options_number_count(setup->options, "duration") == 0;
   const int step = method && hooke_method_is_adaptive(method) == 0 &&

@@ -21,6 +21,9 @@ int32_t cli_setup_is_scene(const char *path);
 int cli_setup_load(const struct cli_arguments *arguments, struct cli_setup *setup);
 void cli_setup_destroy(struct cli_setup *setup);
 
+/* The title of the scene, or the name of its file. */
+const char *cli_setup_title(const struct cli_arguments *arguments, const struct cli_setup *setup);
+
 /* Refuses `output` (NULL: none) if it is a file that the scene was read from. */
 int cli_setup_check_read(const struct cli_arguments *arguments, const struct cli_setup *setup,
                          const char *output);

@@ -13,10 +13,8 @@ static void print_exits(FILE *file) {
   char text[HOOKE_DOC_SIZE] = "exit codes:";
   const char *meaning;
   int32_t code;
-  for (int32_t i = 0; (meaning = cli_describe_exit(i, &code)); i++) {
-    const size_t used = strlen(text);
-    snprintf(text + used, sizeof text - used, "%s %d %s", i ? "," : "", (int)code, meaning);
-  }
+  for (int32_t i = 0; (meaning = cli_describe_exit(i, &code)); i++)
+    cli_append(text, sizeof text, "%s %d %s", i ? "," : "", (int)code, meaning);
   fputc('\n', file);
   cli_print_wrapped(file, 0, 12, WIDTH, text);
 }
@@ -124,12 +122,11 @@ static void print_names(FILE *file, const struct cli_arguments *arguments, const
   for (int32_t i = 0; i < arguments->count; i++) {
     const struct cli_argument *argument = &arguments->all[i];
     const char *doc, *family = cli_describe_family(argument, &doc);
-    const size_t used = strlen(text);
     if (argument->table != table) continue;
     if (!family || strstr(text, family) == NULL)
-      snprintf(text + used, sizeof text - used, " --%s", argument->flag);
+      cli_append(text, sizeof text, " --%s", argument->flag);
     else
-      snprintf(text + used, sizeof text - used, " .%s", argument->flag + strlen(family) + 1);
+      cli_append(text, sizeof text, " .%s", argument->flag + strlen(family) + 1);
   }
   fprintf(file, "%s: ", title);
   cli_print_wrapped(file, (int32_t)strlen(title) + 2, 2, WIDTH, text);

@@ -77,6 +77,17 @@ void cli_watch_end(struct cli_watch *watch) {
   watch->shown = 0;
 }
 
+int32_t cli_watch_run(const struct cli_arguments *arguments, hooke_measurement *measurement,
+                      hooke_state *state) {
+  struct cli_watch watch;
+  cli_watch_start(&watch, arguments);
+  hooke_measurement_on_progress(measurement, cli_watch_progress, &watch);
+  const int32_t status = hooke_measurement_run(measurement, state);
+  hooke_measurement_on_progress(measurement, NULL, NULL);
+  cli_watch_end(&watch);
+  return status;
+}
+
 int32_t cli_watch_interrupted(void) {
   return interrupted != 0;
 }

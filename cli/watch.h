@@ -23,6 +23,10 @@ int32_t cli_watch_tell(struct cli_watch *watch, double done, const char *what);
 /* The same as a hooke_progress of the library, with the watch as its context. */
 int32_t cli_watch_progress(double done, const char *what, void *watch);
 
+/* Runs a measurement (state NULL: from the start) and shows its progress. */
+int32_t cli_watch_run(const struct cli_arguments *arguments, hooke_measurement *measurement,
+                      hooke_state *state);
+
 /* Clears the line of progress. Signals stay caught, so that results can still be saved. */
 void cli_watch_end(struct cli_watch *watch);
 

@@ -2,10 +2,10 @@
 
 #include "describe.h"
 #include "os.h"
+#include "print.h"
 #include "report.h"
 
 #include <errno.h>
-#include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -85,25 +85,20 @@ const char *cli_suggest_file(const char *path) {
 /* ---- endings ---- */
 
 int cli_words_check_ending(const struct cli_arguments *arguments, const char *file) {
-  static const char page[] = "the page of 'hooke view' saves the picture",
-                    film[] = "the page of 'hooke view' saves the film";
-  static const char *const others[][2] = {{"json", "'hooke make -o' writes a scene"},
-                                          {"html", "'hooke view -o' writes a page"},
-                                          {"h5", "'hooke run -o' writes a trajectory"},
-                                          {"csv", "'hooke study -o' writes a table"},
-                                          {"png", page},
-                                          {"jpg", page},
-                                          {"svg", page},
-                                          {"mp4", film},
-                                          {"webm", film},
-                                          {"gif", film}};
+  static const char *const others[][2] = {{".json", "'hooke make -o' writes a scene"},
+                                          {".html", "'hooke view -o' writes a page"},
+                                          {".h5", "'hooke run -o' writes a trajectory"},
+                                          {".csv", "'hooke study -o' writes a table"},
+                                          {".png.jpg.svg", "the page of 'hooke view' saves the picture"},
+                                          {".mp4.webm.gif", "the page of 'hooke view' saves the film"}};
   const char *dot = strrchr(file, '.');
   for (int32_t i = 0; dot && i < arguments->count; i++) {
     const struct cli_argument *argument = &arguments->all[i];
     const char *own =
         argument->text && strcmp(argument->text, file) == 0 ? cli_describe_file(argument) : NULL;
     for (size_t k = 0; own && own[0] && k < sizeof others / sizeof others[0]; k++) {
-      if (strcmp(dot + 1, others[k][0]) != 0 || strcmp(own, dot + 1) == 0) continue;
+      const char *found = strstr(others[k][0], dot), after = found ? found[strlen(dot)] : 'x';
+      if ((after != '\0' && after != '.') || strcmp(own, dot + 1) == 0) continue;
       return cli_report(arguments, HOOKE_EXIT_USAGE, "--%s %s: its name has to end in .%s; %s",
                         argument->flag, file, own, others[k][1]);
     }
@@ -112,16 +107,6 @@ int cli_words_check_ending(const struct cli_arguments *arguments, const char *fi
 }
 
 /* ---- options ---- */
-
-static void add(char text[HOOKE_DOC_SIZE], const char *format, ...) __attribute__((format(printf, 2, 3)));
-
-static void add(char text[HOOKE_DOC_SIZE], const char *format, ...) {
-  const size_t used = strlen(text);
-  va_list args;
-  va_start(args, format);
-  vsnprintf(text + used, HOOKE_DOC_SIZE - used, format, args);
-  va_end(args);
-}
 
 static const char *next_flag(int64_t i, const void *ctx) {
   const struct cli_arguments *arguments = ctx;
@@ -144,8 +129,8 @@ static int list_longer(const struct cli_arguments *arguments, const char *flag, 
     family = dot ? (size_t)(dot - name) + 1 : 0;
     last = name;
     if (count == 0) *first = name;
-    add(list, "%s--%.*s%s", count++ ? ", " : "", (int)(dot ? dot - name : HOOKE_FLAG_SIZE), name,
-        dot ? "..." : "");
+    cli_append(list, HOOKE_DOC_SIZE, "%s--%.*s%s", count++ ? ", " : "",
+               (int)(dot ? dot - name : HOOKE_FLAG_SIZE), name, dot ? "..." : "");
   }
   return count;
 }
@@ -157,7 +142,8 @@ static void list_verbs(const char *flag, char list[HOOKE_DOC_SIZE]) {
     struct cli_arguments other = {.verb = cli_verbs[k]};
     const int code = cli_arguments_collect(cli_verbs[k], NULL, &other);
     for (int32_t i = 0; code == HOOKE_EXIT_DONE && i < other.count; i++)
-      if (strcmp(other.all[i].flag, flag) == 0) add(list, "%s%s", list[0] ? ", " : "", cli_verbs[k]->name);
+      if (strcmp(other.all[i].flag, flag) == 0)
+        cli_append(list, HOOKE_DOC_SIZE, "%s%s", list[0] ? ", " : "", cli_verbs[k]->name);
     cli_arguments_destroy(&other);
   }
 }

@@ -1,11 +1,12 @@
 ! Building a system: particles, springs, bending, parts, forces, motions; the last call is commit().
 module hooke_builders
-  use, intrinsic :: iso_c_binding, only: c_double, c_funloc, c_funptr, c_int32_t, c_int64_t, c_loc, c_null_funptr, c_ptr
+  use, intrinsic :: iso_c_binding, only: c_double, c_funloc, c_funptr, c_int32_t, c_int64_t, c_null_funptr, c_ptr
   use hooke_base, only: accept, hooke_bad_value, refuse, to_c, to_c_if, to_text, zero_based
   use hooke_c_parts
   use hooke_c_scene, only: c_scene_options_apply
   use hooke_c_system
   use hooke_forces
+  use hooke_handles, only: callback_to, hooke_callback
   use hooke_option_tables, only: hooke_options
   use hooke_queries_of_system
   implicit none
@@ -127,8 +128,7 @@ contains
     character(*), intent(in), optional :: name
     integer, intent(out), optional :: status
     character(:), allocatable :: c_name
-    if (self%is_missing(status)) return
-    if (options%is_missing(status)) return
+    if (self%is_missing(status, options)) return
     if (size(ends, 1) /= 2) then
       call refuse(hooke_bad_value, "the ends of springs have the shape (2, n)", status)
       return
@@ -173,8 +173,7 @@ contains
     character(*), intent(in), optional :: name
     integer, intent(out), optional :: status
     character(:), allocatable :: c_name
-    if (self%is_missing(status)) return
-    if (options%is_missing(status)) return
+    if (self%is_missing(status, options)) return
     if (size(tetrahedra, 1) /= 4) then
       call refuse(hooke_bad_value, "tetrahedra have the shape (4, n)", status)
       return
@@ -192,8 +191,7 @@ contains
     character(*), intent(in), optional :: name
     integer, intent(out), optional :: status
     character(:), allocatable :: c_name
-    if (self%is_missing(status)) return
-    if (options%is_missing(status)) return
+    if (self%is_missing(status, options)) return
     call to_c_if(name, c_name)
     call accept(c_system_add_anchors(self%address(), c_name, size(particles, kind=c_int64_t), zero_based(particles), &
       options%address()), status)
@@ -227,8 +225,7 @@ contains
     integer(c_int64_t) :: number(1), particles(1)
     if (present(first)) first = 0
     if (present(count)) count = 0
-    if (self%is_missing(status)) return
-    if (options%is_missing(status)) return
+    if (self%is_missing(status, options)) return
     number = -1
     particles = 0
     call to_c_if(name, c_name)
@@ -251,33 +248,21 @@ contains
     class(hooke_builder), intent(inout) :: self
     class(hooke_force), target, intent(inout) :: force
     integer, intent(out), optional :: status
-    type(force_holder), pointer :: holder
-    type(c_funptr) :: product
-    integer(c_int32_t) :: code
+    type(hooke_callback) :: callback
     if (self%is_missing(status)) return
-    call find_holder(force, holder, product)
-    code = c_system_set_force(self%address(), c_funloc(call_force), product, c_loc(holder))
-    if (code == 0) then
-      call self%keep(holder, place_of_force)
-    else
-      deallocate (holder)
-    end if
-    call accept(code, status)
+    callback = callback_to(c_funloc(call_force), force)
+    call self%keep(callback, place_of_force, &
+      c_system_set_force(self%address(), callback%function, product_of(force), callback%data), status)
   end subroutine
 
-  subroutine find_holder(force, holder, product)
-    class(hooke_force), target, intent(inout) :: force
-    type(force_holder), pointer, intent(out) :: holder
-    type(c_funptr), intent(out) :: product
-    allocate (holder)
-    holder%force => force
-    product = c_null_funptr
+  type(c_funptr) function product_of(force)
+    class(hooke_force), intent(in) :: force
+    product_of = c_null_funptr
     select type (force)
     class is (hooke_force_with_product)
-      holder%derivative => force
-      product = c_funloc(call_product)
+      product_of = c_funloc(call_product)
     end select
-  end subroutine
+  end function
 
   ! `forced` becomes this committed system with a callback force, which must exist as long as it is used; they share
   ! the rest.
@@ -286,20 +271,14 @@ contains
     class(hooke_force), target, intent(inout) :: force
     class(hooke_builder), intent(inout) :: forced
     integer, intent(out), optional :: status
-    type(force_holder), pointer :: holder
-    type(c_funptr) :: product
+    type(hooke_callback) :: callback
     type(c_ptr) :: made
     integer(c_int32_t) :: code
     if (self%is_missing(status)) return
-    call find_holder(force, holder, product)
-    code = c_system_with_force(self%address(), c_funloc(call_force), product, c_loc(holder), made)
-    if (code == 0) then
-      call forced%take(made, c_system_destroy, self)
-      call forced%keep(holder, place_of_force)
-    else
-      deallocate (holder)
-    end if
-    call accept(code, status)
+    callback = callback_to(c_funloc(call_force), force)
+    code = c_system_with_force(self%address(), callback%function, product_of(force), callback%data, made)
+    if (code == 0) call forced%take(made, c_system_destroy, self)
+    call forced%keep(callback, place_of_force, code, status)
   end subroutine
 
   ! Particles driven about their initial positions: by amplitude(3) sin(2 pi frequency t + phase), in m, Hz
@@ -339,19 +318,11 @@ contains
     integer, intent(in) :: particles(:)
     class(hooke_drive), target, intent(inout) :: drive
     integer, intent(out), optional :: status
-    type(drive_holder), pointer :: holder
-    integer(c_int32_t) :: code
+    type(hooke_callback) :: callback
     if (self%is_missing(status)) return
-    allocate (holder)
-    holder%drive => drive
-    code = c_system_drive_callback(self%address(), size(particles, kind=c_int64_t), zero_based(particles), &
-      c_funloc(call_drive), c_loc(holder))
-    if (code == 0) then
-      call self%keep(holder, 0)
-    else
-      deallocate (holder)
-    end if
-    call accept(code, status)
+    callback = callback_to(c_funloc(call_drive), drive)
+    call self%keep(callback, 0, c_system_drive_callback(self%address(), size(particles, kind=c_int64_t), &
+      zero_based(particles), callback%function, callback%data), status)
   end subroutine
 
   ! Applies options of a "scene", all but the title.
@@ -359,8 +330,7 @@ contains
     class(hooke_builder), intent(inout) :: self
     type(hooke_options), intent(in) :: options
     integer, intent(out), optional :: status
-    if (self%is_missing(status)) return
-    if (options%is_missing(status)) return
+    if (self%is_missing(status, options)) return
     call accept(c_scene_options_apply(options%address(), self%address()), status)
   end subroutine
 

@@ -4,10 +4,11 @@
 ! stop_value().
 module hooke_coordinates
   use, intrinsic :: iso_c_binding, only: c_double, c_f_pointer, c_int32_t, c_int64_t, c_ptr
+  use hooke_handles, only: called_object
   implicit none
   private
   public :: hooke_coordinate_force, hooke_coordinate_force_with_product
-  public :: coordinate_holder, call_coordinate_force, call_coordinate_product
+  public :: call_coordinate_force, call_coordinate_product
 
   ! Called with every q and v that a method tries, never concurrently for one integrator.
   type, abstract :: hooke_coordinate_force
@@ -43,11 +44,6 @@ module hooke_coordinates
     end subroutine
   end interface
 
-  type :: coordinate_holder
-    class(hooke_coordinate_force), pointer :: force => null()
-    class(hooke_coordinate_force_with_product), pointer :: derivative => null()
-  end type
-
 contains
 
   integer(c_int32_t) function call_coordinate_force(n, t, q, v, force, ctx) bind(c, name="")
@@ -56,11 +52,14 @@ contains
     real(c_double), intent(in) :: q(n), v(n)
     real(c_double), intent(inout) :: force(n)
     type(c_ptr), value :: ctx
-    type(coordinate_holder), pointer :: holder
+    type(called_object), pointer :: called
     integer :: stop_value
-    call c_f_pointer(ctx, holder)
+    call c_f_pointer(ctx, called)
     stop_value = 0
-    call holder%force%add(int(n), t, q, v, force, stop_value)
+    select type (it => called%it)
+    class is (hooke_coordinate_force)
+      call it%add(int(n), t, q, v, force, stop_value)
+    end select
     call_coordinate_force = int(stop_value, c_int32_t)
   end function
 
@@ -70,11 +69,14 @@ contains
     real(c_double), intent(in) :: q(n), v(n), dq(n), dv(n)
     real(c_double), intent(inout) :: out(n)
     type(c_ptr), value :: ctx
-    type(coordinate_holder), pointer :: holder
+    type(called_object), pointer :: called
     integer :: stop_value
-    call c_f_pointer(ctx, holder)
+    call c_f_pointer(ctx, called)
     stop_value = 0
-    call holder%derivative%add_product(int(n), t, q, v, dq, dv, out, stop_value)
+    select type (it => called%it)
+    class is (hooke_coordinate_force_with_product)
+      call it%add_product(int(n), t, q, v, dq, dv, out, stop_value)
+    end select
     call_coordinate_product = int(stop_value, c_int32_t)
   end function
 end module

@@ -1,15 +1,14 @@
 ! The error of a run, and a method and a step or tolerance for a wanted error.
 module hooke_estimates
-  use, intrinsic :: iso_c_binding, only: c_double, c_funloc, c_int32_t, c_int64_t, c_loc, c_null_funptr, c_null_ptr, &
-    c_ptr
+  use, intrinsic :: iso_c_binding, only: c_double, c_funloc, c_int32_t, c_int64_t, c_null_ptr, c_ptr
   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
   use hooke_base, only: accept, to_c, to_c_if, to_text
   use hooke_c_estimate
   use hooke_c_measurement, only: c_measurement_create, c_measurement_destroy, c_measurement_number, &
     c_measurement_on_progress, c_measurement_run, c_measurement_text
-  use hooke_handles, only: hooke_handle
+  use hooke_handles, only: callback_to, hooke_callback, hooke_handle
   use hooke_integrators, only: hooke_integrator
-  use hooke_observers, only: call_progress, hooke_progress, progress_holder
+  use hooke_observers, only: call_progress, hooke_progress
   use hooke_option_tables, only: hooke_options
   use hooke_states, only: hooke_state
   use hooke_systems, only: hooke_system
@@ -65,15 +64,10 @@ contains
   subroutine on_progress(self, progress)
     class(hooke_estimate), intent(inout) :: self
     class(hooke_progress), target, intent(inout), optional :: progress
-    type(progress_holder), pointer :: holder
-    if (.not. present(progress)) then
-      call c_measurement_on_progress(self%address(), c_null_funptr, c_null_ptr)
-      return
-    end if
-    allocate (holder)
-    holder%progress => progress
-    call c_measurement_on_progress(self%address(), c_funloc(call_progress), c_loc(holder))
-    call self%keep(holder, of_progress)
+    type(hooke_callback) :: callback
+    callback = callback_to(c_funloc(call_progress), progress)
+    call c_measurement_on_progress(self%address(), callback%function, callback%data)
+    call self%keep(callback, of_progress, 0_c_int32_t)
   end subroutine
 
   ! Sets a method (`method`, or any) and its step or tolerance in `run`.
@@ -113,9 +107,7 @@ contains
     class(hooke_integrator), intent(in) :: integrator
     class(hooke_state), intent(in) :: state
     integer, intent(out), optional :: status
-    if (self%is_missing(status)) return
-    if (integrator%is_missing(status)) return
-    if (state%is_missing(status)) return
+    if (self%is_missing(status, integrator, state)) return
     call accept(c_measurement_run(self%address(), state%address()), status)
   end subroutine
 

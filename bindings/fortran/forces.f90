@@ -5,10 +5,11 @@
 module hooke_forces
   use, intrinsic :: iso_c_binding, only: c_double, c_f_pointer, c_int32_t, c_int64_t, c_ptr
   use hooke_c_system, only: c_rows_hold
+  use hooke_handles, only: called_object
   implicit none
   private
   public :: hooke_force, hooke_force_with_product, hooke_drive, rows_hold
-  public :: force_holder, drive_holder, call_force, call_product, call_drive
+  public :: call_force, call_product, call_drive
 
   ! A force on all particles. Called with every q and v that a method tries, never concurrently for one integrator.
   type, abstract :: hooke_force
@@ -60,15 +61,6 @@ module hooke_forces
     end subroutine
   end interface
 
-  type :: force_holder
-    class(hooke_force), pointer :: force => null()
-    class(hooke_force_with_product), pointer :: derivative => null()
-  end type
-
-  type :: drive_holder
-    class(hooke_drive), pointer :: drive => null()
-  end type
-
 contains
 
   ! Holds the arrays of a force by its `q` beyond the call (`more` 1), or releases them (-1); how often they are held.
@@ -84,11 +76,14 @@ contains
     real(c_double), intent(in) :: q(3, n), v(3, n)
     real(c_double), intent(inout) :: force(3, n)
     type(c_ptr), value :: ctx
-    type(force_holder), pointer :: holder
+    type(called_object), pointer :: called
     integer :: stop_value
-    call c_f_pointer(ctx, holder)
+    call c_f_pointer(ctx, called)
     stop_value = 0
-    call holder%force%add(int(n), t, q, v, force, stop_value)
+    select type (it => called%it)
+    class is (hooke_force)
+      call it%add(int(n), t, q, v, force, stop_value)
+    end select
     call_force = int(stop_value, c_int32_t)
   end function
 
@@ -98,11 +93,14 @@ contains
     real(c_double), intent(in) :: q(3, n), v(3, n), dq(3, n), dv(3, n)
     real(c_double), intent(inout) :: out(3, n)
     type(c_ptr), value :: ctx
-    type(force_holder), pointer :: holder
+    type(called_object), pointer :: called
     integer :: stop_value
-    call c_f_pointer(ctx, holder)
+    call c_f_pointer(ctx, called)
     stop_value = 0
-    call holder%derivative%add_product(int(n), t, q, v, dq, dv, out, stop_value)
+    select type (it => called%it)
+    class is (hooke_force_with_product)
+      call it%add_product(int(n), t, q, v, dq, dv, out, stop_value)
+    end select
     call_product = int(stop_value, c_int32_t)
   end function
 
@@ -111,11 +109,14 @@ contains
     real(c_double), value :: t
     real(c_double), intent(out) :: q(3, n), v(3, n)
     type(c_ptr), value :: ctx
-    type(drive_holder), pointer :: holder
+    type(called_object), pointer :: called
     integer :: stop_value
-    call c_f_pointer(ctx, holder)
+    call c_f_pointer(ctx, called)
     stop_value = 0
-    call holder%drive%move(int(n), t, q, v, stop_value)
+    select type (it => called%it)
+    class is (hooke_drive)
+      call it%move(int(n), t, q, v, stop_value)
+    end select
     call_drive = int(stop_value, c_int32_t)
   end function
 end module

@@ -1,11 +1,11 @@
 ! Base type of objects of the library: reference counted, so that an object is released once, when its last
 ! variable is gone, and after everything that was made from it.
 module hooke_handles
-  use, intrinsic :: iso_c_binding, only: c_associated, c_intptr_t, c_loc, c_null_ptr, c_ptr
-  use hooke_base, only: hooke_bad_call, refuse, stop_with
+  use, intrinsic :: iso_c_binding, only: c_associated, c_funptr, c_int32_t, c_intptr_t, c_loc, c_null_funptr, c_null_ptr, c_ptr
+  use hooke_base, only: accept, hooke_bad_call, refuse, stop_with
   implicit none
   private
-  public :: hooke_handle
+  public :: hooke_handle, hooke_callback, called_object, callback_to
 
   abstract interface
     subroutine destroyer(object) bind(c)
@@ -14,18 +14,25 @@ module hooke_handles
     end subroutine
   end interface
 
-  ! Data of a callback, released with the object that calls it.
-  type :: kept_thing
-    class(*), pointer :: thing => null()
-    integer :: place = 0
-    type(kept_thing), pointer :: next => null()
+  ! The data of a callback, released with the object that calls it.
+  type :: called_object
+    class(*), pointer :: it => null()
+    integer, private :: place = 0
+    type(called_object), pointer, private :: next => null()
+  end type
+
+  ! What C calls, and its data; nothing at first.
+  type :: hooke_callback
+    type(c_funptr) :: function = c_null_funptr
+    type(c_ptr) :: data = c_null_ptr
+    type(called_object), pointer, private :: called => null()
   end type
 
   type :: counted_object
     type(c_ptr) :: address = c_null_ptr
     integer :: references = 1
     procedure(destroyer), pointer, nopass :: destroy => null()
-    type(kept_thing), pointer :: kept => null()
+    type(called_object), pointer :: kept => null()
     type(counted_object), pointer :: owner => null()
   end type
 
@@ -65,11 +72,15 @@ contains
     address = self%object%address
   end function
 
-  ! True, with a status, if there is no object.
-  logical function is_missing(self, status)
+  ! True, with a status, if there is no object here or in one of the others.
+  logical function is_missing(self, status, second, third, fourth)
     class(hooke_handle), intent(in) :: self
+    class(hooke_handle), intent(in), optional :: second, third, fourth
     integer, intent(out), optional :: status
     is_missing = .not. self%exists()
+    if (present(second)) is_missing = is_missing .or. .not. second%exists()
+    if (present(third)) is_missing = is_missing .or. .not. third%exists()
+    if (present(fourth)) is_missing = is_missing .or. .not. fourth%exists()
     if (is_missing) call refuse(hooke_bad_call, "an object is used that was not created, or was destroyed", status)
   end function
 
@@ -108,26 +119,48 @@ contains
     self%object%address = address
   end subroutine
 
-  ! Keeps data of a callback; data kept before at the same `place` > 0 are released.
-  subroutine keep(self, thing, place)
+  ! A callback of `function`, or nothing without an object that it is to call.
+  type(hooke_callback) function callback_to(function, object) result(made)
+    type(c_funptr), intent(in) :: function
+    class(*), target, intent(inout), optional :: object
+    if (.not. present(object)) return
+    allocate (made%called)
+    made%called%it => object
+    made%function = function
+    made%data = c_loc(made%called)
+  end function
+
+  ! After C was given a callback: keeps its data, in the place of those kept before at the same `place` > 0, or
+  ! releases them where C refused it.
+  subroutine keep(self, callback, place, code, status)
     class(hooke_handle), intent(inout) :: self
-    class(*), target, intent(inout) :: thing
+    type(hooke_callback), intent(inout) :: callback
     integer, intent(in) :: place
-    type(kept_thing), pointer :: entry
-    entry => self%object%kept
-    do while (associated(entry))
-      if (place > 0 .and. entry%place == place) exit
-      entry => entry%next
-    end do
-    if (associated(entry)) then
-      deallocate (entry%thing)
-    else
-      allocate (entry)
-      entry%place = place
-      entry%next => self%object%kept
-      self%object%kept => entry
+    integer(c_int32_t), intent(in) :: code
+    integer, intent(out), optional :: status
+    type(called_object), pointer :: entry
+    if (associated(callback%called) .and. code == 0) then
+      callback%called%place = place
+      callback%called%next => self%object%kept
+      self%object%kept => callback%called
+      entry => callback%called
+      do while (place > 0 .and. associated(entry%next))
+        if (entry%next%place == place) exit
+        entry => entry%next
+      end do
+      if (associated(entry%next) .and. place > 0) call drop(entry%next)
+    else if (associated(callback%called)) then
+      deallocate (callback%called)
     end if
-    entry%thing => thing
+    call accept(code, status)
+  end subroutine
+
+  subroutine drop(entry)
+    type(called_object), pointer, intent(inout) :: entry
+    type(called_object), pointer :: next
+    next => entry%next
+    deallocate (entry)
+    entry => next
   end subroutine
 
   ! Makes `self` another reference to the object of `other`.
@@ -182,7 +215,6 @@ contains
   recursive subroutine release_object(object)
     type(counted_object), pointer, intent(in) :: object
     type(counted_object), pointer :: gone
-    type(kept_thing), pointer :: entry, next
     integer :: left
     if (.not. associated(object)) return
     !$omp atomic capture
@@ -191,12 +223,8 @@ contains
     !$omp end atomic
     if (left > 0) return
     if (associated(object%destroy) .and. c_associated(object%address)) call object%destroy(object%address)
-    entry => object%kept
-    do while (associated(entry))
-      next => entry%next
-      deallocate (entry%thing)
-      deallocate (entry)
-      entry => next
+    do while (associated(object%kept))
+      call drop(object%kept)
     end do
     if (associated(object%owner)) call release_object(object%owner)
     gone => object

@@ -1,11 +1,12 @@
 ! Methods, and the loop that runs them.
 module hooke_integrators
-  use, intrinsic :: iso_c_binding, only: c_double, c_funloc, c_funptr, c_int32_t, c_int64_t, c_loc, &
-    c_null_funptr, c_null_ptr, c_ptr
+  use, intrinsic :: iso_c_binding, only: c_double, c_funloc, c_funptr, c_int32_t, c_int64_t, c_loc, c_null_funptr, &
+    c_ptr
   use hooke_base, only: accept, hooke_bad_value, hooke_long, refuse, to_c, to_c_if, to_integer, to_text, zero_based
   use hooke_c_checkpoint, only: c_checkpoint_read, c_checkpoint_write
   use hooke_c_integrator
   use hooke_coordinates
+  use hooke_handles, only: called_object, callback_to, hooke_callback
   use hooke_queries_of_integrator
   use hooke_observers
   use hooke_option_tables, only: hooke_options
@@ -32,18 +33,14 @@ module hooke_integrators
     procedure :: on_checkpoint
     procedure :: on_progress
     procedure :: on_warning
-    procedure :: run
-    procedure :: resume
     procedure :: write_checkpoint
     procedure :: read_checkpoint
     procedure, private :: step_some, step_many
     generic :: step => step_some, step_many
     procedure, private :: advance_some, advance_many
     generic :: advance => advance_some, advance_many
-    procedure :: sync
     procedure :: get
     procedure :: put
-    procedure :: recent
     procedure :: destroy
     procedure, private :: assign
     generic :: assignment(=) => assign
@@ -103,8 +100,7 @@ contains
     integer, intent(out), optional :: status
     type(c_ptr) :: integrator
     integer(c_int32_t) :: code
-    if (system%is_missing(status)) return
-    if (options%is_missing(status)) return
+    if (system%is_missing(status, options)) return
     code = c_integrator_create(system%address(), options%address(), integrator)
     if (code == 0) call take_new(self, integrator, system)
     call accept(code, status)
@@ -117,21 +113,15 @@ contains
     class(hooke_rate), target, intent(inout) :: rate
     type(hooke_options), intent(in) :: options
     integer, intent(out), optional :: status
-    type(rate_holder), pointer :: holder
+    type(hooke_callback) :: callback
     type(c_ptr) :: integrator
     integer(c_int32_t) :: code
     if (options%is_missing(status)) return
-    allocate (holder)
-    holder%rate => rate
-    code = c_integrator_create_first_order(int(size, c_int64_t), c_funloc(call_rate), c_loc(holder), &
-      options%address(), integrator)
-    if (code == 0) then
-      call take_new(self, integrator)
-      call self%keep(holder, of_rate)
-    else
-      deallocate (holder)
-    end if
-    call accept(code, status)
+    callback = callback_to(c_funloc(call_rate), rate)
+    code = c_integrator_create_first_order(int(size, c_int64_t), callback%function, callback%data, options%address(), &
+      integrator)
+    if (code == 0) call take_new(self, integrator)
+    call self%keep(callback, of_rate, code, status)
   end subroutine
 
   ! For q'' = W f(t, q, v) of `size` coordinates, with one inverse mass or one for each; the force must exist
@@ -143,28 +133,21 @@ contains
     real(c_double), intent(in), contiguous :: inverse_mass(:)
     type(hooke_options), intent(in) :: options
     integer, intent(out), optional :: status
-    type(coordinate_holder), pointer :: holder
+    type(hooke_callback) :: callback
     type(c_funptr) :: product
     type(c_ptr) :: integrator
     integer(c_int32_t) :: code
     if (options%is_missing(status)) return
-    allocate (holder)
-    holder%force => force
+    callback = callback_to(c_funloc(call_coordinate_force), force)
     product = c_null_funptr
     select type (force)
     class is (hooke_coordinate_force_with_product)
-      holder%derivative => force
       product = c_funloc(call_coordinate_product)
     end select
-    code = c_integrator_create_second_order(int(size, c_int64_t), c_funloc(call_coordinate_force), product, &
-      c_loc(holder), ubound(inverse_mass, 1, c_int64_t), inverse_mass, options%address(), integrator)
-    if (code == 0) then
-      call take_new(self, integrator)
-      call self%keep(holder, of_coordinates)
-    else
-      deallocate (holder)
-    end if
-    call accept(code, status)
+    code = c_integrator_create_second_order(int(size, c_int64_t), callback%function, product, callback%data, &
+      ubound(inverse_mass, 1, c_int64_t), inverse_mass, options%address(), integrator)
+    if (code == 0) call take_new(self, integrator)
+    call self%keep(callback, of_coordinates, code, status)
   end subroutine
 
   subroutine take_new(self, integrator, system)
@@ -182,22 +165,10 @@ contains
     class(hooke_integrator), intent(inout) :: self
     class(hooke_observer), target, intent(inout), optional :: observer
     integer, intent(out), optional :: status
-    type(observer_holder), pointer :: holder
-    integer(c_int32_t) :: code
+    type(hooke_callback) :: callback
     if (self%is_missing(status)) return
-    if (.not. present(observer)) then
-      call accept(c_integrator_on_frame(self%address(), c_null_funptr, c_null_ptr), status)
-      return
-    end if
-    allocate (holder)
-    holder%observer => observer
-    code = c_integrator_on_frame(self%address(), c_funloc(call_observer), c_loc(holder))
-    if (code == 0) then
-      call self%keep(holder, of_frames)
-    else
-      deallocate (holder)
-    end if
-    call accept(code, status)
+    callback = callback_to(c_funloc(call_observer), observer)
+    call self%keep(callback, of_frames, c_integrator_on_frame(self%address(), callback%function, callback%data), status)
   end subroutine
 
   ! Called every `stride` steps.
@@ -206,23 +177,11 @@ contains
     integer, intent(in) :: stride
     class(hooke_observer), target, intent(inout), optional :: observer
     integer, intent(out), optional :: status
-    type(observer_holder), pointer :: holder
-    integer(c_int32_t) :: code
+    type(hooke_callback) :: callback
     if (self%is_missing(status)) return
-    if (.not. present(observer)) then
-      code = c_integrator_on_step(self%address(), int(stride, c_int64_t), c_null_funptr, c_null_ptr)
-      call accept(code, status)
-      return
-    end if
-    allocate (holder)
-    holder%observer => observer
-    code = c_integrator_on_step(self%address(), int(stride, c_int64_t), c_funloc(call_observer), c_loc(holder))
-    if (code == 0) then
-      call self%keep(holder, of_steps)
-    else
-      deallocate (holder)
-    end if
-    call accept(code, status)
+    callback = callback_to(c_funloc(call_observer), observer)
+    call self%keep(callback, of_steps, &
+      c_integrator_on_step(self%address(), int(stride, c_int64_t), callback%function, callback%data), status)
   end subroutine
 
   ! Called between two steps, after every `seconds` of work [s].
@@ -231,22 +190,11 @@ contains
     real(c_double), intent(in) :: seconds
     class(hooke_progress), target, intent(inout), optional :: progress
     integer, intent(out), optional :: status
-    type(progress_holder), pointer :: holder
-    integer(c_int32_t) :: code
+    type(hooke_callback) :: callback
     if (self%is_missing(status)) return
-    if (.not. present(progress)) then
-      call accept(c_integrator_on_progress(self%address(), seconds, c_null_funptr, c_null_ptr), status)
-      return
-    end if
-    allocate (holder)
-    holder%progress => progress
-    code = c_integrator_on_progress(self%address(), seconds, c_funloc(call_progress), c_loc(holder))
-    if (code == 0) then
-      call self%keep(holder, of_progress)
-    else
-      deallocate (holder)
-    end if
-    call accept(code, status)
+    callback = callback_to(c_funloc(call_progress), progress)
+    call self%keep(callback, of_progress, &
+      c_integrator_on_progress(self%address(), seconds, callback%function, callback%data), status)
   end subroutine
 
   ! Called at each checkpoint of the option `checkpoint`.
@@ -254,22 +202,11 @@ contains
     class(hooke_integrator), intent(inout) :: self
     class(hooke_observer), target, intent(inout), optional :: observer
     integer, intent(out), optional :: status
-    type(observer_holder), pointer :: holder
-    integer(c_int32_t) :: code
+    type(hooke_callback) :: callback
     if (self%is_missing(status)) return
-    if (.not. present(observer)) then
-      call accept(c_integrator_on_checkpoint(self%address(), c_null_funptr, c_null_ptr), status)
-      return
-    end if
-    allocate (holder)
-    holder%observer => observer
-    code = c_integrator_on_checkpoint(self%address(), c_funloc(call_observer), c_loc(holder))
-    if (code == 0) then
-      call self%keep(holder, of_checkpoints)
-    else
-      deallocate (holder)
-    end if
-    call accept(code, status)
+    callback = callback_to(c_funloc(call_observer), observer)
+    call self%keep(callback, of_checkpoints, &
+      c_integrator_on_checkpoint(self%address(), callback%function, callback%data), status)
   end subroutine
 
   ! Called once a run when the step comes near the safe one, and when it exceeds it.
@@ -277,22 +214,11 @@ contains
     class(hooke_integrator), intent(inout) :: self
     class(hooke_warning), target, intent(inout), optional :: warning
     integer, intent(out), optional :: status
-    type(warning_holder), pointer :: holder
-    integer(c_int32_t) :: code
+    type(hooke_callback) :: callback
     if (self%is_missing(status)) return
-    if (.not. present(warning)) then
-      call accept(c_integrator_on_warning(self%address(), c_null_funptr, c_null_ptr), status)
-      return
-    end if
-    allocate (holder)
-    holder%warning => warning
-    code = c_integrator_on_warning(self%address(), c_funloc(call_warning), c_loc(holder))
-    if (code == 0) then
-      call self%keep(holder, of_warnings)
-    else
-      deallocate (holder)
-    end if
-    call accept(code, status)
+    callback = callback_to(c_funloc(call_warning), warning)
+    call self%keep(callback, of_warnings, &
+      c_integrator_on_warning(self%address(), callback%function, callback%data), status)
   end subroutine
 
   ! Warns of what a scene may be, but is seldom meant to be.
@@ -300,34 +226,13 @@ contains
     class(hooke_system), intent(in) :: system
     class(hooke_warning), target, intent(inout) :: warning
     integer, intent(out), optional :: status
-    type(warning_holder), target :: holder
+    type(called_object), target :: called
     if (system%is_missing(status)) return
-    holder%warning => warning
-    call accept(c_system_warnings(system%address(), c_funloc(call_warning), c_loc(holder)), status)
+    called%it => warning
+    call accept(c_system_warnings(system%address(), c_funloc(call_warning), c_loc(called)), status)
   end subroutine
 
   ! ---- running ----
-
-  ! Runs `duration` from the state's time on; `state` is the final state on return.
-  subroutine run(self, state, status)
-    class(hooke_integrator), intent(inout) :: self
-    class(hooke_state), intent(inout) :: state
-    integer, intent(out), optional :: status
-    if (self%is_missing(status)) return
-    if (state%is_missing(status)) return
-    call accept(c_integrator_run(self%address(), state%address()), status)
-  end subroutine
-
-  ! Continues a run from where read_checkpoint() placed integrator and state, or where a run with a fixed step
-  ! was stopped.
-  subroutine resume(self, state, status)
-    class(hooke_integrator), intent(inout) :: self
-    class(hooke_state), intent(inout) :: state
-    integer, intent(out), optional :: status
-    if (self%is_missing(status)) return
-    if (state%is_missing(status)) return
-    call accept(c_integrator_resume(self%address(), state%address()), status)
-  end subroutine
 
   ! Writes a checkpoint of the run; `name` identifies the run.
   subroutine write_checkpoint(self, path, state, name, status)
@@ -337,8 +242,7 @@ contains
     character(*), intent(in), optional :: name
     integer, intent(out), optional :: status
     character(:), allocatable :: c_name
-    if (self%is_missing(status)) return
-    if (state%is_missing(status)) return
+    if (self%is_missing(status, state)) return
     call to_c_if(name, c_name)
     call accept(c_checkpoint_write(to_c(path), self%address(), state%address(), c_name), status)
   end subroutine
@@ -352,8 +256,7 @@ contains
     character(*), intent(in), optional :: name
     integer, intent(out), optional :: status
     character(:), allocatable :: c_name
-    if (self%is_missing(status)) return
-    if (state%is_missing(status)) return
+    if (self%is_missing(status, state)) return
     call to_c_if(name, c_name)
     call accept(c_checkpoint_read(to_c(path), c_name, self%address(), state%address()), status)
   end subroutine
@@ -372,8 +275,7 @@ contains
     class(hooke_state), intent(inout) :: state
     integer(hooke_long), intent(in) :: steps
     integer, intent(out), optional :: status
-    if (self%is_missing(status)) return
-    if (state%is_missing(status)) return
+    if (self%is_missing(status, state)) return
     call accept(c_integrator_step(self%address(), state%address(), steps), status)
   end subroutine
 
@@ -392,16 +294,6 @@ contains
     integer, intent(out), optional :: status
     if (self%is_missing(status)) return
     call accept(c_integrator_advance(self%address(), steps), status)
-  end subroutine
-
-  ! Writes the motion into `state`.
-  subroutine sync(self, state, status)
-    class(hooke_integrator), intent(inout) :: self
-    class(hooke_state), intent(inout) :: state
-    integer, intent(out), optional :: status
-    if (self%is_missing(status)) return
-    if (state%is_missing(status)) return
-    call accept(c_integrator_sync(self%address(), state%address()), status)
   end subroutine
 
   ! Positions and velocities (3, k) of k particles of the motion.
@@ -439,16 +331,6 @@ contains
   end function
 
   ! ---- counts since it was made ----
-
-  subroutine recent(self, place, state, status)
-    class(hooke_integrator), intent(in) :: self
-    integer, intent(in) :: place
-    class(hooke_state), intent(inout) :: state
-    integer, intent(out), optional :: status
-    if (self%is_missing(status)) return
-    if (state%is_missing(status)) return
-    call accept(c_integrator_recent(self%address(), zero_based(place), state%address()), status)
-  end subroutine
 
   impure elemental subroutine assign(self, other)
     class(hooke_integrator), intent(inout) :: self

@@ -1,14 +1,12 @@
 ! Measurements of a scene: one type with options, progress, a run, and tables of results.
 module hooke_measurements
-  use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_funloc, c_int32_t, c_int64_t, c_loc, c_null_funptr, &
-    c_null_ptr, c_ptr
+  use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_funloc, c_int32_t, c_int64_t, c_null_ptr, c_ptr
   use hooke_base, only: accept, hooke_bad_call, hooke_bad_value, is_3_by, refuse, to_c, to_c_if, to_integer, to_series, &
     to_text, zero_based
   use hooke_c_measurement
-  use hooke_handles, only: hooke_handle
+  use hooke_handles, only: callback_to, hooke_callback, hooke_handle
   use hooke_integrators, only: hooke_integrator
-  use hooke_observers, only: call_comparison_observer, call_progress, comparison_holder, hooke_comparison_observer, &
-    hooke_progress, progress_holder
+  use hooke_observers, only: call_comparison_observer, call_progress, hooke_comparison_observer, hooke_progress
   use hooke_option_tables, only: hooke_options, options_or_null
   use hooke_queries_of_measurement, only: hooke_measurement_queries
   use hooke_states, only: hooke_state
@@ -96,10 +94,8 @@ contains
     integer, intent(out), optional :: status
     type(c_ptr) :: made
     integer(c_int32_t) :: code
-    if (system%is_missing(status)) return
-    if (run%is_missing(status)) return
-    if (first%is_missing(status)) return
-    if (last%is_missing(status)) return
+    if (system%is_missing(status, run)) return
+    if (first%is_missing(status, last)) return
     code = c_why_create_kept(system%address(), run%address(), first%address(), last%address(), &
       options_or_null(options), made)
     if (code == 0) call self%take(made, c_measurement_destroy, system)
@@ -110,15 +106,10 @@ contains
   subroutine on_progress(self, progress)
     class(hooke_measurement), intent(inout) :: self
     class(hooke_progress), target, intent(inout), optional :: progress
-    type(progress_holder), pointer :: holder
-    if (.not. present(progress)) then
-      call c_measurement_on_progress(self%address(), c_null_funptr, c_null_ptr)
-      return
-    end if
-    allocate (holder)
-    holder%progress => progress
-    call c_measurement_on_progress(self%address(), c_funloc(call_progress), c_loc(holder))
-    call self%keep(holder, of_progress)
+    type(hooke_callback) :: callback
+    callback = callback_to(c_funloc(call_progress), progress)
+    call c_measurement_on_progress(self%address(), callback%function, callback%data)
+    call self%keep(callback, of_progress, 0_c_int32_t)
   end subroutine
 
   ! Measures. A limit and a cost are those at `state`, by default the initial one; other kinds take no state.
@@ -198,22 +189,10 @@ contains
     class(hooke_measurement), intent(inout) :: self
     class(hooke_comparison_observer), target, intent(inout), optional :: observer
     integer, intent(out), optional :: status
-    type(comparison_holder), pointer :: holder
-    integer(c_int32_t) :: code
+    type(hooke_callback) :: callback
     if (self%is_missing(status)) return
-    if (.not. present(observer)) then
-      call accept(c_comparison_on_frame(self%address(), c_null_funptr, c_null_ptr), status)
-      return
-    end if
-    allocate (holder)
-    holder%observer => observer
-    code = c_comparison_on_frame(self%address(), c_funloc(call_comparison_observer), c_loc(holder))
-    if (code == 0) then
-      call self%keep(holder, of_frames)
-    else
-      deallocate (holder)
-    end if
-    call accept(code, status)
+    callback = callback_to(c_funloc(call_comparison_observer), observer)
+    call self%keep(callback, of_frames, c_comparison_on_frame(self%address(), callback%function, callback%data), status)
   end subroutine
 
   ! ---- needs ----
@@ -290,8 +269,7 @@ contains
     integer, intent(in) :: row
     type(hooke_options), intent(inout) :: run
     integer, intent(out), optional :: status
-    if (self%is_missing(status)) return
-    if (run%is_missing(status)) return
+    if (self%is_missing(status, run)) return
     call accept(c_why_advice_apply(self%address(), zero_based(row), run%address()), status)
   end subroutine
 

@@ -5,11 +5,11 @@
 module hooke_observers
   use, intrinsic :: iso_c_binding, only: c_double, c_f_pointer, c_int32_t, c_int64_t, c_null_ptr, c_ptr
   use hooke_base, only: hooke_long, to_text
+  use hooke_handles, only: called_object
   use hooke_states, only: hooke_state
   implicit none
   private
   public :: hooke_rate, hooke_observer, hooke_progress, hooke_warning, hooke_comparison_observer
-  public :: rate_holder, observer_holder, progress_holder, warning_holder, comparison_holder
   public :: call_rate, call_observer, call_progress, call_warning, call_comparison_observer
 
   ! The right-hand side of x' = phi(t, x).
@@ -89,28 +89,6 @@ module hooke_observers
     end subroutine
   end interface
 
-  type :: rate_holder
-    class(hooke_rate), pointer :: rate => null()
-  end type
-
-  type :: observer_holder
-    class(hooke_observer), pointer :: observer => null()
-    type(hooke_state) :: state
-  end type
-
-  type :: progress_holder
-    class(hooke_progress), pointer :: progress => null()
-  end type
-
-  type :: warning_holder
-    class(hooke_warning), pointer :: warning => null()
-  end type
-
-  type :: comparison_holder
-    class(hooke_comparison_observer), pointer :: observer => null()
-    type(hooke_state) :: state
-  end type
-
 contains
 
   integer(c_int32_t) function call_rate(n, t, x, rate, ctx) bind(c, name="")
@@ -119,35 +97,45 @@ contains
     real(c_double), intent(in) :: x(n)
     real(c_double), intent(out) :: rate(n)
     type(c_ptr), value :: ctx
-    type(rate_holder), pointer :: holder
+    type(called_object), pointer :: called
     integer :: stop_value
-    call c_f_pointer(ctx, holder)
+    call c_f_pointer(ctx, called)
     stop_value = 0
-    call holder%rate%evaluate(int(n), t, x, rate, stop_value)
+    select type (it => called%it)
+    class is (hooke_rate)
+      call it%evaluate(int(n), t, x, rate, stop_value)
+    end select
     call_rate = int(stop_value, c_int32_t)
   end function
 
   integer(c_int32_t) function call_observer(step, state, ctx) bind(c, name="")
     integer(c_int64_t), value :: step
     type(c_ptr), value :: state, ctx
-    type(observer_holder), pointer :: holder
+    type(called_object), pointer :: called
+    type(hooke_state) :: seen
     integer :: stop_value
-    call c_f_pointer(ctx, holder)
+    call c_f_pointer(ctx, called)
     stop_value = 0
-    call holder%state%look_at(state)
-    call holder%observer%see(step, holder%state, stop_value)
-    call holder%state%look_at(c_null_ptr)
+    call seen%look_at(state)
+    select type (it => called%it)
+    class is (hooke_observer)
+      call it%see(step, seen, stop_value)
+    end select
+    call seen%look_at(c_null_ptr)
     call_observer = int(stop_value, c_int32_t)
   end function
 
   integer(c_int32_t) function call_progress(done, what, ctx) bind(c, name="")
     real(c_double), value :: done
     type(c_ptr), value :: what, ctx
-    type(progress_holder), pointer :: holder
+    type(called_object), pointer :: called
     integer :: stop_value
-    call c_f_pointer(ctx, holder)
+    call c_f_pointer(ctx, called)
     stop_value = 0
-    call holder%progress%tell(done, to_text(what), stop_value)
+    select type (it => called%it)
+    class is (hooke_progress)
+      call it%tell(done, to_text(what), stop_value)
+    end select
     call_progress = int(stop_value, c_int32_t)
   end function
 
@@ -155,24 +143,31 @@ contains
     type(c_ptr), value :: kind, sentence, ctx
     real(c_double), value :: t, limit
     integer(c_int64_t), value :: spring, particle
-    type(warning_holder), pointer :: holder
+    type(called_object), pointer :: called
     integer :: stop_value
-    call c_f_pointer(ctx, holder)
+    call c_f_pointer(ctx, called)
     stop_value = 0
-    call holder%warning%warn(to_text(kind), to_text(sentence), t, limit, int(spring) + 1, int(particle) + 1, stop_value)
+    select type (it => called%it)
+    class is (hooke_warning)
+      call it%warn(to_text(kind), to_text(sentence), t, limit, int(spring) + 1, int(particle) + 1, stop_value)
+    end select
     call_warning = int(stop_value, c_int32_t)
   end function
 
   integer(c_int32_t) function call_comparison_observer(run, frame, step, state, ctx) bind(c, name="")
     type(c_ptr), value :: run, state, ctx
     integer(c_int64_t), value :: frame, step
-    type(comparison_holder), pointer :: holder
+    type(called_object), pointer :: called
+    type(hooke_state) :: seen
     integer :: stop_value
-    call c_f_pointer(ctx, holder)
+    call c_f_pointer(ctx, called)
     stop_value = 0
-    call holder%state%look_at(state)
-    call holder%observer%see(to_text(run), int(frame) + 1, step, holder%state, stop_value)
-    call holder%state%look_at(c_null_ptr)
+    call seen%look_at(state)
+    select type (it => called%it)
+    class is (hooke_comparison_observer)
+      call it%see(to_text(run), int(frame) + 1, step, seen, stop_value)
+    end select
+    call seen%look_at(c_null_ptr)
     call_comparison_observer = int(stop_value, c_int32_t)
   end function
 end module

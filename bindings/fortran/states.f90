@@ -3,7 +3,7 @@ module hooke_states
   use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_f_pointer, c_int32_t, c_int64_t, c_null_ptr, c_ptr
   use hooke_base, only: accept, to_integer
   use hooke_c_state
-  use hooke_handles, only: hooke_handle
+  use hooke_queries_of_state
   use hooke_systems, only: hooke_system
   implicit none
   private
@@ -12,15 +12,13 @@ module hooke_states
   ! q(3, n) [m] and v(3, n) [m/s], for reading and, except in an observer, for writing. x and dx are q and v
   ! as lists; a first-order problem has x alone; of a second-order problem take x and dx. The pointers are valid as
   ! long as the state exists.
-  type, extends(hooke_handle) :: hooke_state
+  type, extends(hooke_state_queries) :: hooke_state
     real(c_double), pointer, contiguous :: q(:, :) => null(), v(:, :) => null(), x(:) => null(), dx(:) => null()
   contains
     procedure :: create
     procedure :: create_first_order
     procedure :: create_second_order
     procedure :: copy_to
-    procedure :: time => time_of
-    procedure :: set_time
     procedure :: size => size_of
     procedure :: look_at
     procedure :: destroy
@@ -82,20 +80,8 @@ contains
     class(hooke_state), intent(in) :: self
     class(hooke_state), intent(inout) :: other
     integer, intent(out), optional :: status
-    if (self%is_missing(status)) return
-    if (other%is_missing(status)) return
+    if (self%is_missing(status, other)) return
     call accept(c_state_copy(self%address(), other%address()), status)
-  end subroutine
-
-  real(c_double) function time_of(self)
-    class(hooke_state), intent(in) :: self
-    time_of = c_state_time(self%address())
-  end function
-
-  subroutine set_time(self, t)
-    class(hooke_state), intent(inout) :: self
-    real(c_double), intent(in) :: t
-    call c_state_set_time(self%address(), t)
   end subroutine
 
   ! Number of numbers in q: 3n, or the size of a first- or second-order problem.

@@ -3,7 +3,7 @@ module hooke_trajectories
   use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_int32_t, c_int64_t, c_ptr
   use hooke_base, only: accept, hooke_bad_value, hooke_long, hooke_ok, hooke_stopped, refuse, to_c, to_c_if, &
     to_integer, to_text
-  use hooke_c_checkpoint, only: c_trajectory_checkpoint, c_trajectory_resume
+  use hooke_c_checkpoint, only: c_trajectory_resume
   use hooke_c_trajectory
   use hooke_c_measurement, only: c_comparison_file_close, c_comparison_file_create
   use hooke_measurements, only: hooke_measurement
@@ -23,7 +23,6 @@ module hooke_trajectories
   contains
     procedure :: create => create_trajectory
     procedure :: resume => resume_trajectory
-    procedure :: checkpoint
     procedure :: write => write_frame
     procedure :: close => close_trajectory
     procedure, private :: assign_trajectory
@@ -64,8 +63,7 @@ contains
     character(:), allocatable :: c_text
     type(c_ptr) :: trajectory
     integer(c_int32_t) :: code
-    if (system%is_missing(status)) return
-    if (integrator%is_missing(status)) return
+    if (system%is_missing(status, integrator)) return
     call to_c_if(scene_text, c_text)
     code = c_trajectory_create(to_c(path), system%address(), integrator%address(), c_text, trajectory)
     if (code == 0) call self%take(trajectory, abandon_trajectory, system)
@@ -84,25 +82,11 @@ contains
     integer, intent(out), optional :: status
     type(c_ptr) :: trajectory
     integer(c_int32_t) :: code
-    if (system%is_missing(status)) return
-    if (integrator%is_missing(status)) return
-    if (state%is_missing(status)) return
+    if (system%is_missing(status, integrator, state)) return
     code = c_trajectory_resume(to_c(path), system%address(), integrator%address(), state%address(), trajectory)
     if (present(finished)) finished = code == 0 .and. .not. c_associated(trajectory)
     if (code == 0 .and. c_associated(trajectory)) call self%take(trajectory, abandon_trajectory, system)
     call accept(code, status)
-  end subroutine
-
-  ! Writes a checkpoint beside the file, for resume().
-  subroutine checkpoint(self, integrator, state, status)
-    class(hooke_trajectory), intent(inout) :: self
-    class(hooke_integrator), intent(in) :: integrator
-    class(hooke_state), intent(in) :: state
-    integer, intent(out), optional :: status
-    if (self%is_missing(status)) return
-    if (integrator%is_missing(status)) return
-    if (state%is_missing(status)) return
-    call accept(c_trajectory_checkpoint(self%address(), integrator%address(), state%address()), status)
   end subroutine
 
   ! Writes the next frame.
@@ -111,8 +95,7 @@ contains
     integer(hooke_long), intent(in) :: step
     class(hooke_state), intent(in) :: state
     integer, intent(out), optional :: status
-    if (self%is_missing(status)) return
-    if (state%is_missing(status)) return
+    if (self%is_missing(status, state)) return
     call accept(c_trajectory_write(self%address(), step, state%address()), status)
   end subroutine
 
@@ -176,8 +159,7 @@ contains
     integer, intent(in) :: frame
     class(hooke_state), intent(inout) :: state
     integer, intent(out), optional :: status
-    if (self%is_missing(status)) return
-    if (state%is_missing(status)) return
+    if (self%is_missing(status, state)) return
     if (is_no_frame(frame, status)) return
     call accept(c_record_read(self%address(), from_zero(frame), state%address()), status)
   end subroutine

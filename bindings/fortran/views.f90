@@ -42,8 +42,7 @@ contains
     class(hooke_view), intent(inout) :: self
     class(hooke_view), intent(in) :: other
     integer, intent(out), optional :: status
-    if (self%is_missing(status)) return
-    if (other%is_missing(status)) return
+    if (self%is_missing(status, other)) return
     call accept(c_view_add(self%address(), other%address()), status)
   end subroutine
 

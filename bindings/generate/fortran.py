@@ -72,6 +72,7 @@ def interfaces(public):
 
 if __name__ == "__main__":
     public = headers.public()
-    by_hand = [path.read_text(encoding="utf-8") for path in sorted(HAND.glob("*.f90"))]
+    sources = [HAND / name for name in (HAND / "sources.txt").read_text(encoding="utf-8").split()]
+    by_hand = [path.read_text(encoding="utf-8") for path in sources if path.exists()]
     headers.write(Path(sys.argv[1]) / "c.f90", interfaces(public))
     headers.write(Path(sys.argv[1]) / "queries.f90", queries.modules(public, by_hand))

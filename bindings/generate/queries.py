@@ -1,5 +1,6 @@
-"""Fortran procedures that only pass numbers and texts. A type that extends hooke_system_queries has one for every C
-function hooke_system_<name>() with such arguments and results that no hand-written procedure calls."""
+"""Fortran procedures that only pass numbers, texts and objects that have such procedures. A type that extends
+hooke_system_queries has one for every C function hooke_system_<name>() with such arguments and results that no
+hand-written procedure calls."""
 
 import re
 
@@ -32,6 +33,9 @@ def called(texts):
 
 def argument(name, kind, what):
     """(declaration, argument passed to C, statements before the call) of one parameter."""
+    if kind.endswith("*") and kind != "const char *":
+        intent = "in" if kind.startswith("const") else "inout"
+        return f"class({kind.split()[-2]}_queries), intent({intent}) :: {what}", f"{what}%address()", []
     if kind == "double":
         return f"real(c_double), intent(in) :: {what}", what, []
     if kind == "const char *" and guard.is_optional(name, what):
@@ -67,7 +71,8 @@ def procedure(function):
     if headers.is_status(result, name):
         kind, whats = "subroutine", [*whats, "status"]
         head.append("integer, intent(out), optional :: status")
-        body = ["if (self%is_missing(status)) return", *then, f"call accept({call}, status)"]
+        objects = [passed.split("%")[0] for _, passed, _ in arguments if passed.endswith("%address()")]
+        body = [f"if (self%is_missing({', '.join(['status', *objects])})) return", *then, f"call accept({call}, status)"]
     elif result == "void":
         kind, body = "subroutine", [*then, f"call {call}"]
     else:
@@ -88,19 +93,27 @@ def of_word(name):
             f"    {kind} :: found", f"    found = {made.format(call)}", "  end function", ""]
 
 
-def is_query(function, type_, by_hand):
+def objects_of(function, types):
+    """The types of those parameters, but the first, that are objects with procedures here."""
+    return [kind.split()[-2] for kind, _ in function[2][1:] if re.fullmatch(rf"(const )?({'|'.join(types)}) \*", kind)]
+
+
+def is_query(function, type_, types, by_hand):
     result, name, parameters = function
     mine = name.startswith(type_ + "_") and parameters and parameters[0][0] in (f"{type_} *", f"const {type_} *")
-    return (mine and result in RESULTS and all(kind in SIMPLE for kind, _ in parameters[1:])
+    return (mine and result in RESULTS
+            and sum(kind in SIMPLE for kind, _ in parameters[1:]) + len(objects_of(function, types)) == len(parameters) - 1
             and name not in WORDS and not name.endswith(("_destroy", "_close"))
             and "c_" + name[len("hooke_"):] not in by_hand)
 
 
-def module(type_, public, by_hand):
-    found = {header: [f for f in headers.declared(text) if is_query(f, type_, by_hand)] for header, text in public.items()}
+def module(type_, types, public, by_hand):
+    found = {header: [f for f in headers.declared(text) if is_query(f, type_, types, by_hand)] for header, text in public.items()}
     words = [name for name in WORDS if name.startswith(type_ + "_")]
     names = [name for functions in found.values() for _, name, _ in functions] + words
     uses = [f"  use hooke_c_{header[:-2]}" for header, functions in found.items() if functions]
+    others = {other for functions in found.values() for f in functions for other in objects_of(f, types)} - {type_}
+    uses += [f"  use hooke_queries_of_{other[len('hooke_'):]}, only: {other}_queries" for other in sorted(others)]
     bound = [f"    procedure :: {name[len(type_) + 1:]} => {name[len('hooke_'):]}" for name in names]
     return ["", f"! What {type_} does as the functions of C of the same names; numbers of things count from 1 here.",
             f"module hooke_queries_of_{type_[len('hooke_'):]}",
@@ -113,10 +126,10 @@ def module(type_, public, by_hand):
 
 
 def modules(public, texts):
-    """The text of queries.f90, from {header: text} and the hand-written modules."""
+    """The text of queries.f90, from {header: text} and the hand-written modules in their order."""
     types = re.findall(r"extends\((hooke_\w+)_queries\)", "\n".join(texts))
     # what estimates and views call of a measurement, hooke_measurement still needs
     by_hand = {type_: called([text for text in texts if type_ != "hooke_measurement" or "hooke_measurement_queries" in text])
                for type_ in types}
     return "\n".join(["! Made from the headers in include/hooke by bindings/generate/queries.py.",
-                      *(line for type_ in types for line in module(type_, public, by_hand[type_]))])
+                      *(line for type_ in types for line in module(type_, types, public, by_hand[type_]))])

@@ -12,13 +12,9 @@ enum { LEAST_WIDTH = 16 };
 
 int cli_cost_sheet_find(const struct cli_arguments *arguments, const struct cli_setup *setup,
                         hooke_measurement **cost) {
-  struct cli_watch watch;
   int32_t status = hooke_measurement_create("cost", setup->system, setup->options, arguments->more, cost);
   if (status != HOOKE_OK) return cli_report_status(arguments, status);
-  cli_watch_start(&watch, arguments);
-  hooke_measurement_on_progress(*cost, cli_watch_progress, &watch);
-  status = hooke_measurement_run(*cost, setup->state);
-  cli_watch_end(&watch);
+  status = cli_watch_run(arguments, *cost, setup->state);
   if (status == HOOKE_STOPPED) {
     cli_report_words(arguments, "interrupted; kept: what was found so far");
     return HOOKE_EXIT_INTERRUPTED;

@@ -1,10 +1,10 @@
 #include "describe.h"
+#include "print.h"
 
 #include "report.h"
 #include "value.h"
 
 #include <ctype.h>
-#include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -30,16 +30,6 @@ const char *cli_describe_exit(int32_t i, int32_t *code) {
   return exits[i].meaning;
 }
 
-static void add(char *text, const char *format, ...) __attribute__((format(printf, 2, 3)));
-
-static void add(char *text, const char *format, ...) {
-  const size_t used = strlen(text);
-  va_list args;
-  va_start(args, format);
-  vsnprintf(text + used, HOOKE_DOC_SIZE - used, format, args);
-  va_end(args);
-}
-
 static int32_t takes_methods(const struct cli_argument *argument) {
   return strcmp(argument->name, "method") == 0 || strcmp(argument->name, "methods") == 0;
 }
@@ -56,11 +46,11 @@ static void add_default(char *doc, const struct cli_argument *argument) {
   char example[HOOKE_EXAMPLE_SIZE];
   cli_value_example(argument->table, argument->row, example);
   if (hooke_options_row_number(argument->table, argument->row, "required") == 0.0 || fallback[0]) {
-    add(doc, "; default: %s", fallback[0] ? fallback : "none");
+    cli_append(doc, HOOKE_DOC_SIZE, "; default: %s", fallback[0] ? fallback : "none");
     return;
   }
-  add(doc, family[0] ? "; needed for any %s" : "; required", family);
-  if (example[0]) add(doc, ", such as %s", example);
+  cli_append(doc, HOOKE_DOC_SIZE, family[0] ? "; needed for any %s" : "; required", family);
+  if (example[0]) cli_append(doc, HOOKE_DOC_SIZE, ", such as %s", example);
 }
 
 static void describe_row(const struct cli_argument *argument, struct cli_description *description) {
@@ -71,8 +61,8 @@ static void describe_row(const struct cli_argument *argument, struct cli_descrip
       description->value[i] = (char)toupper((unsigned char)type[i]);
   }
   if (takes_methods(argument)) cli_report_methods(methods, sizeof methods);
-  add(description->doc, "%s%s%s%s; %s", unit[0] ? "[" : "", unit, unit[0] ? "] " : "",
-      property(argument, "doc"), takes_methods(argument) ? methods : property(argument, "allowed"));
+  cli_append(description->doc, HOOKE_DOC_SIZE, "%s%s%s%s; %s", unit[0] ? "[" : "", unit, unit[0] ? "] " : "",
+             property(argument, "doc"), takes_methods(argument) ? methods : property(argument, "allowed"));
   add_default(description->doc, argument);
 }
 
@@ -85,7 +75,7 @@ void cli_describe(const struct cli_argument *argument, struct cli_description *d
   }
   description->letter = argument->own->letter;
   if (argument->own->value) snprintf(description->value, HOOKE_FLAG_SIZE, "%s", argument->own->value);
-  add(description->doc, "%s", argument->own->doc);
+  cli_append(description->doc, HOOKE_DOC_SIZE, "%s", argument->own->doc);
 }
 
 const char *cli_describe_family(const struct cli_argument *argument, const char **doc) {
@@ -103,10 +93,10 @@ const char *cli_describe_words(const struct cli_argument *argument, char words[H
   words[0] = '\0';
   *many = strcmp(argument->name, "methods") == 0 || (argument->table && cli_value_adds_up(argument));
   for (int64_t i = 0; takes_methods(argument) && i < hooke_method_count(); i++)
-    add(words, "%s%s", i ? " " : "", hooke_method_name(i));
+    cli_append(words, HOOKE_DOC_SIZE, "%s%s", i ? " " : "", hooke_method_name(i));
   if (words[0] || !argument->table) return words;
-  add(words, "%s",
-      strcmp(property(argument, "type"), "flag") == 0 ? "true false" : property(argument, "words"));
+  cli_append(words, HOOKE_DOC_SIZE, "%s",
+             strcmp(property(argument, "type"), "flag") == 0 ? "true false" : property(argument, "words"));
   return words;
 }
 
@@ -133,15 +123,15 @@ const char *cli_describe_table(const struct cli_arguments *arguments, const hook
   const int32_t makes = arguments->verb->takes_kind;
   title[0] = '\0';
   if (table == arguments->of_kind) {
-    add(title, "options of a %s", arguments->scene);
+    cli_append(title, HOOKE_DOC_SIZE, "options of a %s", arguments->scene);
   } else if (table == arguments->more) {
-    add(title, "options of the %s", makes ? "scene" : arguments->verb->name);
+    cli_append(title, HOOKE_DOC_SIZE, "options of the %s", makes ? "scene" : arguments->verb->name);
   } else if (table == arguments->limits) {
-    add(title, "what a scene may do");
+    cli_append(title, HOOKE_DOC_SIZE, "what a scene may do");
   } else {
-    add(title, "options of the run, %s",
-        makes ? "for the scene to hold (defaults: where it does not)"
-              : "instead of what the scene's \"run\" says (defaults: where neither says anything)");
+    cli_append(title, HOOKE_DOC_SIZE, "options of the run, %s",
+               makes ? "for the scene to hold (defaults: where it does not)"
+                     : "instead of what the scene's \"run\" says (defaults: where neither says anything)");
   }
   return title;
 }
@@ -150,7 +140,7 @@ const char *cli_describe_table(const struct cli_arguments *arguments, const hook
 const char *cli_describe_example(const struct cli_arguments *arguments, char command[HOOKE_DOC_SIZE]) {
   const char *first = "";
   command[0] = '\0';
-  add(command, "hooke %s %s", arguments->verb->name, arguments->scene);
+  cli_append(command, HOOKE_DOC_SIZE, "hooke %s %s", arguments->verb->name, arguments->scene);
   for (int32_t i = 0; i < arguments->count; i++) {
     const struct cli_argument *argument = &arguments->all[i];
     char example[HOOKE_EXAMPLE_SIZE];
@@ -159,7 +149,8 @@ const char *cli_describe_example(const struct cli_arguments *arguments, char com
     if (!cli_value_example(argument->table, argument->row, example)[0]) continue;
     if (!first[0]) first = family;
     if (family[0] == '\0' || strcmp(family, first) == 0)
-      add(command, strchr(example, ';') ? " --%s '%s'" : " --%s %s", argument->flag, example);
+      cli_append(command, HOOKE_DOC_SIZE, strchr(example, ';') ? " --%s '%s'" : " --%s %s", argument->flag,
+                 example);
   }
   return command;
 }

@@ -144,8 +144,7 @@ static void print_cells(const hooke_measurement *needs, int64_t part, const char
   char text[64] = "";
   for (int a = 0; a < 3; a++) {
     const double cells = hooke_measurement_number(needs, "parts", part, numbers[a]);
-    const size_t used = strlen(text);
-    if (!isnan(cells)) snprintf(text + used, sizeof text - used, "%s%.0f", used ? " x " : "", cells);
+    if (!isnan(cells)) cli_append(text, sizeof text, "%s%.0f", text[0] ? " x " : "", cells);
   }
   printf(" %14s", text[0] ? text : "-");
 }
@@ -202,8 +201,7 @@ static void print_warnings(const hooke_measurement *needs) {
 
 void cli_needs_results_print(const struct cli_needs_results *results) {
   const hooke_measurement *needs = results->needs;
-  const char *title = hooke_scene_text(results->setup.scene, "title");
-  cli_print_text(stdout, title && title[0] ? title : results->arguments->scene);
+  cli_print_text(stdout, cli_setup_title(results->arguments, &results->setup));
   printf("\n");
   cli_print_text(stdout, hooke_measurement_text(needs, "needs", 0, "method"));
   printf("%s, %g m wanted",

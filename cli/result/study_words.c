@@ -230,10 +230,9 @@ static void print_legend(const struct cli_rows *rows, const hooke_measurement *s
 void cli_study_results_print(const struct cli_study_results *results) {
   const struct cli_arguments *arguments = results->arguments;
   const struct cli_rows rows = cli_study_results_rows(results);
-  const char *title = hooke_scene_text(results->setup.scene, "title");
   int32_t width = cli_rows_method_width(&rows);
   char text[HOOKE_NUMBER_SIZE];
-  cli_print_text(stdout, title && title[0] ? title : arguments->scene);
+  cli_print_text(stdout, cli_setup_title(arguments, &results->setup));
   printf(", %s s\n",
          cli_format_rounded(hooke_measurement_number(results->study, "study", 0, "duration"), text));
   print_reference(results->study);

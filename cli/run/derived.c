@@ -7,25 +7,26 @@ static const char *text_of(const hooke_system *system, int64_t number, const cha
   return hooke_system_derived_text(system, number, what);
 }
 
+/* Forces, what their members are called, and the key of the list of their groups. */
+static const struct {
+  const char *force, *members, *groups;
+} kinds[] = {{"springs", "springs", "groups"},
+             {"bending", "triples", "bending_groups"},
+             {"altitude", "tetrahedra", "altitude_groups"}};
+enum { KIND_COUNT = sizeof kinds / sizeof kinds[0] };
+
 void cli_derived_json(struct cli_json *json, const hooke_system *system) {
-  cli_json_count(json, "triples", hooke_system_count(system, "bending"));
-  cli_json_open(json, "bending_groups", '[');
-  for (int64_t i = 0; i < hooke_system_group_count(system, "bending"); i++) {
-    cli_json_open(json, NULL, '{');
-    cli_json_text(json, "name", hooke_system_group_name(system, "bending", i));
-    cli_json_count(json, "triples", hooke_system_group_size(system, "bending", i));
+  for (int k = 0; k < KIND_COUNT; k++) {
+    cli_json_count(json, kinds[k].members, hooke_system_count(system, kinds[k].force));
+    cli_json_open(json, kinds[k].groups, '[');
+    for (int64_t i = 0; i < hooke_system_group_count(system, kinds[k].force); i++) {
+      cli_json_open(json, NULL, '{');
+      cli_json_text(json, "name", hooke_system_group_name(system, kinds[k].force, i));
+      cli_json_count(json, kinds[k].members, hooke_system_group_size(system, kinds[k].force, i));
+      cli_json_close(json);
+    }
     cli_json_close(json);
   }
-  cli_json_close(json);
-  cli_json_count(json, "tetrahedra", hooke_system_count(system, "altitude"));
-  cli_json_open(json, "altitude_groups", '[');
-  for (int64_t i = 0; i < hooke_system_group_count(system, "altitude"); i++) {
-    cli_json_open(json, NULL, '{');
-    cli_json_text(json, "name", hooke_system_group_name(system, "altitude", i));
-    cli_json_count(json, "tetrahedra", hooke_system_group_size(system, "altitude", i));
-    cli_json_close(json);
-  }
-  cli_json_close(json);
   cli_json_open(json, "derived", '[');
   for (int64_t i = 0; i < hooke_system_count(system, "derived"); i++) {
     cli_json_open(json, NULL, '{');
@@ -54,21 +55,17 @@ static void print_derived(const hooke_system *system) {
   }
 }
 
-static void print_group(int64_t size, const char *name) {
-  printf("  %10" PRId64 " ", size);
-  cli_print_text(stdout, name[0] ? name : "(no name)");
-  printf("\n");
-}
-
 void cli_derived_words(const hooke_system *system) {
-  if (hooke_system_group_count(system, "bending") > 0)
-    printf("triples      %" PRId64 "\n", hooke_system_count(system, "bending"));
-  for (int64_t i = 0; i < hooke_system_group_count(system, "bending"); i++)
-    print_group(hooke_system_group_size(system, "bending", i), hooke_system_group_name(system, "bending", i));
-  if (hooke_system_group_count(system, "altitude") > 0)
-    printf("tetrahedra   %" PRId64 "\n", hooke_system_count(system, "altitude"));
-  for (int64_t i = 0; i < hooke_system_group_count(system, "altitude"); i++)
-    print_group(hooke_system_group_size(system, "altitude", i),
-                hooke_system_group_name(system, "altitude", i));
+  for (int k = 1; k < KIND_COUNT; k++) {
+    const char *force = kinds[k].force;
+    if (hooke_system_group_count(system, force) > 0)
+      printf("%-12s %" PRId64 "\n", kinds[k].members, hooke_system_count(system, force));
+    for (int64_t i = 0; i < hooke_system_group_count(system, force); i++) {
+      const char *name = hooke_system_group_name(system, force, i);
+      printf("  %10" PRId64 " ", hooke_system_group_size(system, force, i));
+      cli_print_text(stdout, name[0] ? name : "(no name)");
+      printf("\n");
+    }
+  }
   print_derived(system);
 }

@@ -1,4 +1,4 @@
-/* Output of `hooke check` on bending, altitude springs, and the numbers that parts derived from their
+/* Output of `hooke check` on the groups of every force, and the numbers that parts derived from their
  * materials. */
 #ifndef HOOKE_CLI_DERIVED_H
 #define HOOKE_CLI_DERIVED_H
@@ -7,10 +7,11 @@
 
 #include "hooke.h"
 
-/* The keys "triples", "bending_groups", "tetrahedra", "altitude_groups" and "derived". */
+/* The keys "springs", "groups", "triples", "bending_groups", "tetrahedra", "altitude_groups" and "derived".
+ */
 void cli_derived_json(struct cli_json *json, const hooke_system *system);
 
-/* The same in lines; nothing if there are none. */
+/* The same in lines, but for springs; nothing if there are none. */
 void cli_derived_words(const hooke_system *system);
 
 #endif

@@ -53,17 +53,11 @@ static int set(struct fit *fit, const char *name, double *number, double value, 
 /* ---- without a given step ---- */
 
 static int refuse(const struct fit *fit, const char *method, double safe) {
-  char doubt[HOOKE_DOC_SIZE];
-  if (safe == 0.0)
-    snprintf(doubt, sizeof doubt,
-             "no step: %s is certain to be stable here at no step; give one with --step, or take "
-             "another method",
-             method);
-  else
-    snprintf(doubt, sizeof doubt,
-             "no step: %s is certain to be stable up to %.6g s alone, which would mean over 1e8 steps; "
-             "give one with --step, or take another method",
-             method, safe);
+  char doubt[HOOKE_DOC_SIZE], where[80] = "here at no step";
+  if (safe > 0.0) snprintf(where, sizeof where, "up to %.6g s alone, which would mean over 1e8 steps", safe);
+  snprintf(doubt, sizeof doubt,
+           "no step: %s is certain to be stable %s; give one with --step, or take another method", method,
+           where);
   if (!fit->doubt) return cli_report(fit->arguments, HOOKE_EXIT_USAGE, "%s", doubt);
   strcpy(fit->doubt, doubt);
   return HOOKE_EXIT_DONE;

@@ -90,28 +90,18 @@ static void warn_of_coincident_springs(struct check *check) {
        count, count == 1 ? "spring starts" : "springs start");
 }
 
-/* Marks the particles of all members of a force. */
-static int32_t mark(const hooke_system *system, const char *force, char *held) {
-  const int64_t count = hooke_member_particles(force) * hooke_system_count(system, force);
+/* Marks the particles of all members of a force, or (NULL) of a rigid body, which may be free as a whole. */
+static int32_t mark(const hooke_system *system, const char *force, int64_t body, char *held) {
+  const int64_t count = force ? hooke_member_particles(force) * hooke_system_count(system, force)
+                              : hooke_system_body_particles(system, body, NULL);
   int64_t *named = malloc((size_t)(count + 1) * sizeof *named);
-  const int32_t status =
-      named ? hooke_system_members(system, force, named, NULL, NULL, NULL) : HOOKE_NO_MEMORY;
+  int32_t status = named ? HOOKE_OK : HOOKE_NO_MEMORY;
+  if (named && force) status = hooke_system_members(system, force, named, NULL, NULL, NULL);
+  if (named && !force) hooke_system_body_particles(system, body, named);
   for (int64_t i = 0; status == HOOKE_OK && i < count; i++)
     held[named[i]] = 1;
   free(named);
   return status;
-}
-
-/* Marks the particles of a rigid body, which may be free as a whole. */
-static int32_t mark_body(const hooke_system *system, int64_t body, char *held) {
-  const int64_t count = hooke_system_body_particles(system, body, NULL);
-  int64_t *named = malloc((size_t)(count + 1) * sizeof *named);
-  if (named == NULL) return HOOKE_NO_MEMORY;
-  hooke_system_body_particles(system, body, named);
-  for (int64_t i = 0; i < count; i++)
-    held[named[i]] = 1;
-  free(named);
-  return HOOKE_OK;
 }
 
 /* Counts particles that no spring of any kind, no bending and no body holds. */
@@ -123,10 +113,10 @@ static int32_t warn_of_loose_particles(struct check *check) {
   int32_t status = held ? HOOKE_OK : HOOKE_NO_MEMORY;
   for (int64_t k = 0; status == HOOKE_OK && hooke_system_force_name(system, k); k++) {
     const char *force = hooke_system_force_name(system, k);
-    if (hooke_member_particles(force) > 0) status = mark(system, force, held);
+    if (hooke_member_particles(force) > 0) status = mark(system, force, -1, held);
   }
   for (int64_t k = 0; status == HOOKE_OK && k < hooke_system_count(system, "bodies"); k++)
-    status = mark_body(system, k, held);
+    status = mark(system, NULL, k, held);
   for (int64_t i = particles - 1; status == HOOKE_OK && i >= 0; i--) {
     if (held[i]) continue;
     count++;
@@ -181,15 +171,6 @@ static void print_json(const struct check *check) {
   struct cli_json json;
   cli_json_begin(&json, stdout);
   cli_json_count(&json, "particles", hooke_system_particle_count(system));
-  cli_json_count(&json, "springs", hooke_system_count(system, "springs"));
-  cli_json_open(&json, "groups", '[');
-  for (int64_t i = 0; i < hooke_system_group_count(system, "springs"); i++) {
-    cli_json_open(&json, NULL, '{');
-    cli_json_text(&json, "name", hooke_system_group_name(system, "springs", i));
-    cli_json_count(&json, "springs", hooke_system_group_size(system, "springs", i));
-    cli_json_close(&json);
-  }
-  cli_json_close(&json);
   cli_derived_json(&json, system);
   cli_json_open(&json, "forces", '[');
   for (int64_t i = 0; i < hooke_system_count(system, "forces"); i++) {

@@ -9,7 +9,6 @@
 
 #include <math.h>
 #include <stdio.h>
-#include <string.h>
 
 enum { COLUMNS = 5, MESSAGE_SIZE = 2048 };
 
@@ -20,7 +19,6 @@ struct compare {
   hooke_measurement *comparison;
   hooke_comparison_file *file; /* NULL without -o */
   const char *output;
-  struct cli_watch watch;
 };
 
 /* ---- running ---- */
@@ -29,7 +27,7 @@ struct compare {
 static int32_t make_options(const struct cli_methods *methods, hooke_options **options) {
   char names[HOOKE_MOST_METHODS * 32] = "";
   for (int32_t k = 0; k < methods->count; k++)
-    snprintf(names + strlen(names), sizeof names - strlen(names), "%s%s", k ? "," : "", methods->name[k]);
+    cli_append(names, sizeof names, "%s%s", k ? "," : "", methods->name[k]);
   const int32_t status = hooke_options_create("comparison", options);
   return status == HOOKE_OK ? hooke_options_set_text(*options, "methods", names) : status;
 }
@@ -43,7 +41,6 @@ static int32_t prepare(struct compare *compare) {
         hooke_measurement_create("comparison", setup->system, setup->options, options, &compare->comparison);
   hooke_options_destroy(options);
   if (status != HOOKE_OK) return status;
-  hooke_measurement_on_progress(compare->comparison, cli_watch_progress, &compare->watch);
   if (!compare->output) return HOOKE_OK;
   status = hooke_measurement_label(compare->comparison, "scene", hooke_scene_text(setup->scene, "text"));
   if (status != HOOKE_OK) return status;
@@ -54,11 +51,11 @@ static int32_t prepare(struct compare *compare) {
  * not reported yet. */
 static int run_all(struct compare *compare) {
   char message[MESSAGE_SIZE];
-  cli_watch_start(&compare->watch, compare->arguments);
+  struct cli_watch watch;
+  cli_watch_start(&watch, compare->arguments); /* before there is a file */
   int32_t status = prepare(compare);
   if (status != HOOKE_OK) return cli_report_status(compare->arguments, status);
-  int32_t outcome = hooke_measurement_run(compare->comparison, NULL);
-  cli_watch_end(&compare->watch);
+  int32_t outcome = cli_watch_run(compare->arguments, compare->comparison, NULL);
   snprintf(message, sizeof message, "%s", hooke_last_error());
   status = hooke_comparison_file_close(compare->file);
   compare->file = NULL;
@@ -77,21 +74,6 @@ static int64_t rows_done(const hooke_measurement *comparison) {
   while (!isnan(hooke_measurement_number(comparison, "rows", rows, "wall_seconds")))
     rows++;
   return rows;
-}
-
-static const char *text_of(const void *comparison, int64_t row, const char *what) {
-  return hooke_measurement_text(comparison, "rows", row, what);
-}
-
-static double number_of(const void *comparison, int64_t row, const char *what) {
-  return hooke_measurement_number(comparison, "rows", row, what);
-}
-
-static struct cli_rows rows_of(const struct compare *compare) {
-  return (struct cli_rows){.source = compare->comparison,
-                           .count = rows_done(compare->comparison),
-                           .text = text_of,
-                           .number = number_of};
 }
 
 static const char *reference_of(const struct compare *compare, const char *what) {
@@ -139,7 +121,7 @@ static void print_errors(const hooke_measurement *comparison, int32_t width) {
   printf("\n");
   for (int64_t row = 0; row < rows_done(comparison); row++) {
     const double *error = hooke_measurement_series(comparison, "rows", row, "error_at", NULL);
-    cli_print_padded(stdout, width, text_of(comparison, row, "method"));
+    cli_print_padded(stdout, width, hooke_measurement_text(comparison, "rows", row, "method"));
     for (int64_t i = 1; i <= frames; i++)
       cli_rows_print_cell(10, error ? error[last * i / frames] : (double)NAN);
     printf("\n");
@@ -172,11 +154,10 @@ static void print_reference(const struct compare *compare) {
 }
 
 static void print_words(const struct compare *compare) {
-  const char *title = hooke_scene_text(compare->setup.scene, "title");
-  const struct cli_rows rows = rows_of(compare);
+  const struct cli_rows rows = {.source = compare->comparison, .count = rows_done(compare->comparison)};
   int32_t width = cli_rows_method_width(&rows);
   char text[HOOKE_NUMBER_SIZE];
-  cli_print_text(stdout, title && title[0] ? title : compare->arguments->scene);
+  cli_print_text(stdout, cli_setup_title(compare->arguments, &compare->setup));
   printf(", %s s\n", cli_format_rounded(hooke_options_number(compare->setup.options, "duration"), text));
   print_reference(compare);
   if (rows.count > 0) {

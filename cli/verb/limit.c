@@ -71,22 +71,13 @@ static int check_needs(const struct limit *l) {
 }
 
 static int find(struct limit *l) {
-  struct cli_watch watch;
   int32_t status =
       hooke_measurement_create("limit", l->setup.system, l->setup.options, l->arguments->more, &l->limit);
   if (status != HOOKE_OK) return cli_report_status(l->arguments, status);
-  cli_watch_start(&watch, l->arguments);
-  hooke_measurement_on_progress(l->limit, cli_watch_progress, &watch);
-  status = hooke_measurement_run(l->limit, l->setup.state);
-  cli_watch_end(&watch);
+  status = cli_watch_run(l->arguments, l->limit, l->setup.state);
   l->interrupted = status == HOOKE_STOPPED;
   l->diverged = status > 0 && !l->interrupted;
   return status >= 0 ? HOOKE_EXIT_DONE : cli_report_status(l->arguments, status);
-}
-
-static const char *title_of(const struct limit *l) {
-  const char *title = hooke_scene_text(l->setup.scene, "title");
-  return title && title[0] ? title : l->arguments->scene;
 }
 
 /* ---- JSON ---- */
@@ -206,7 +197,7 @@ static void print_words(const struct limit *l) {
     const int32_t length = (int32_t)strlen(row_text(l, row, "method"));
     if (length > width) width = length;
   }
-  cli_print_text(stdout, title_of(l));
+  cli_print_text(stdout, cli_setup_title(l->arguments, &l->setup));
   printf(", at t = %s s\n", cli_format_rounded(number_of(l, "time"), text));
   printf("fastest motion %.6g rad/s, fastest damping %.6g 1/s\n", number_of(l, "frequency_max"),
          number_of(l, "rate_max"));
@@ -241,16 +232,6 @@ static int tell(const struct limit *l) {
   return HOOKE_EXIT_DIVERGED;
 }
 
-/* Exit code of the limit, or of a report that could not be written. */
-static int write_report(const struct limit *l, const char *report, int code) {
-  if (!report || isnan(number_of(l, "frequency_max"))) return code;
-  int32_t status = hooke_measurement_label(l->limit, "title", title_of(l));
-  if (status == HOOKE_OK) status = hooke_measurement_write(l->limit, report);
-  if (status == HOOKE_OK) return code;
-  cli_report_words(l->arguments, "%s", hooke_last_error());
-  return cli_exit_code(status);
-}
-
 static int do_limit(const struct cli_arguments *arguments) {
   struct limit l = {.arguments = arguments, .along = hooke_options_number(arguments->more, "along") != 0.0};
   const char *at = cli_arguments_text(arguments, "at");
@@ -262,7 +243,11 @@ static int do_limit(const struct cli_arguments *arguments) {
   if (code == HOOKE_EXIT_DONE && at) code = read_state(&l, at);
   if (code == HOOKE_EXIT_DONE) code = check_needs(&l);
   if (code == HOOKE_EXIT_DONE) code = find(&l);
-  if (code == HOOKE_EXIT_DONE) code = write_report(&l, report, tell(&l));
+  if (code == HOOKE_EXIT_DONE) {
+    code = tell(&l);
+    if (!isnan(number_of(&l, "frequency_max")))
+      code = cli_output_file_write_report(arguments, &l.setup, l.limit, NULL, code);
+  }
   hooke_measurement_destroy(l.limit);
   cli_setup_destroy(&l.setup);
   return code;

@@ -39,16 +39,13 @@ static int check_required(const struct make *make) {
     char example[HOOKE_EXAMPLE_SIZE];
     if (argument->table != make->arguments->of_kind || !is_missing(argument->table, argument->row)) continue;
     const char *unit = hooke_options_row(argument->table, argument->row, "unit");
-    const size_t used = strlen(list);
     cli_value_example(argument->table, argument->row, example);
     const char *quote = strchr(example, ';') ? "'" : "";
-    snprintf(list + used, sizeof list - used, "%s--%s (%s%s%s%s)", used ? "; " : "", argument->flag,
-             hooke_options_row(argument->table, argument->row, "doc"), unit[0] ? " [" : "", unit,
-             unit[0] ? "]" : "");
-    const size_t more = strlen(list);
+    cli_append(list, sizeof list, "%s--%s (%s%s%s%s)", list[0] ? "; " : "", argument->flag,
+               hooke_options_row(argument->table, argument->row, "doc"), unit[0] ? " [" : "", unit,
+               unit[0] ? "]" : "");
     if (example[0])
-      snprintf(list + more, sizeof list - more, ", such as --%s %s%s%s", argument->flag, quote, example,
-               quote);
+      cli_append(list, sizeof list, ", such as --%s %s%s%s", argument->flag, quote, example, quote);
   }
   if (!list[0]) return HOOKE_EXIT_DONE;
   return cli_report(make->arguments, HOOKE_EXIT_USAGE, "missing: %s", list);

@@ -61,8 +61,7 @@ static void print_command(const char *command) {
 static void print_typed(const char *bold, const char *italic) {
   char text[TEXT_SIZE] = "\\fB";
   escape(text, bold);
-  const size_t used = strlen(text);
-  snprintf(text + used, sizeof text - used, "%s", italic[0] ? "\\fR \\fI" : "");
+  cli_append(text, sizeof text, "%s", italic[0] ? "\\fR \\fI" : "");
   escape(text, italic);
   printf("%s\\fR\n", text);
 }

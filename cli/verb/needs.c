@@ -31,14 +31,10 @@ static int check_files(const struct cli_needs_results *results) {
 
 static int find(struct cli_needs_results *results, int32_t *stopped) {
   const struct cli_arguments *arguments = results->arguments;
-  struct cli_watch watch;
   int32_t status = hooke_measurement_create("needs", results->setup.system, results->setup.options,
                                             arguments->more, &results->needs);
   if (status != HOOKE_OK) return cli_report_status(arguments, status);
-  cli_watch_start(&watch, arguments);
-  hooke_measurement_on_progress(results->needs, cli_watch_progress, &watch);
-  status = hooke_measurement_run(results->needs, NULL);
-  cli_watch_end(&watch);
+  status = cli_watch_run(arguments, results->needs, NULL);
   *stopped = status == HOOKE_STOPPED;
   return status == HOOKE_OK || *stopped ? HOOKE_EXIT_DONE : cli_report_status(arguments, status);
 }
@@ -71,19 +67,6 @@ static int write_lean(struct cli_needs_results *results) {
   return cli_report_missing_words(results->arguments);
 }
 
-static int write_report(const struct cli_needs_results *results, int code) {
-  const char *report = cli_arguments_text(results->arguments, "report");
-  const char *title = hooke_scene_text(results->setup.scene, "title");
-  if (!report) return code;
-  int32_t status =
-      hooke_measurement_label(results->needs, "title", title && title[0] ? title : results->arguments->scene);
-  if (status == HOOKE_OK) status = hooke_measurement_label(results->needs, "command", results->command);
-  if (status == HOOKE_OK) status = hooke_measurement_write(results->needs, report);
-  if (status == HOOKE_OK) return code;
-  cli_report_words(results->arguments, "%s", hooke_last_error());
-  return cli_exit_code(status);
-}
-
 /* Results are printed also when a file fails. */
 static int tell(struct cli_needs_results *results, int32_t stopped) {
   int code = write_lean(results);
@@ -92,7 +75,8 @@ static int tell(struct cli_needs_results *results, int32_t stopped) {
   else
     cli_needs_results_print(results);
   cli_print_flush();
-  code = write_report(results, code);
+  code = cli_output_file_write_report(results->arguments, &results->setup, results->needs, results->command,
+                                      code);
   if (!stopped) return code;
   cli_report_words(results->arguments, "interrupted; kept: what is known so far");
   return code == HOOKE_EXIT_DONE ? HOOKE_EXIT_INTERRUPTED : code;

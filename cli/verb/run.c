@@ -76,9 +76,8 @@ static void tell_warnings(struct cli_run *run) {
 static int32_t see_warning(const char *kind, const char *sentence, double t, double limit, int64_t spring,
                            int64_t particle, void *ctx) {
   struct cli_run *run = ctx;
-  const size_t used = strlen(run->warning);
   (void)kind, (void)t, (void)limit, (void)spring, (void)particle;
-  snprintf(run->warning + used, sizeof run->warning - used, "%s\n", sentence);
+  cli_append(run->warning, sizeof run->warning, "%s\n", sentence);
   if (run->is_long) tell_warnings(run);
   return 0;
 }
@@ -151,13 +150,8 @@ static int32_t write_companion(struct cli_run *run) {
 }
 
 static int32_t ask_why(struct cli_run *run) {
-  int32_t status = hooke_why_create(run->integrator, NULL, &run->why);
-  if (status != HOOKE_OK) return status;
-  cli_watch_start(&run->watch, run->arguments);
-  hooke_measurement_on_progress(run->why, cli_watch_progress, &run->watch);
-  status = hooke_measurement_run(run->why, NULL);
-  cli_watch_end(&run->watch);
-  return status;
+  const int32_t status = hooke_why_create(run->integrator, NULL, &run->why);
+  return status == HOOKE_OK ? cli_watch_run(run->arguments, run->why, NULL) : status;
 }
 
 /* The outcome is the same without an explanation. */

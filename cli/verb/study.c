@@ -32,34 +32,14 @@ static int check_output(const struct cli_arguments *arguments, const char *outpu
   return code == HOOKE_EXIT_DONE ? cli_output_file_check(arguments, "-o", output) : code;
 }
 
-/* ---- the file of --report ---- */
-
-/* Exit code of the study, or of a report that could not be written. */
-static int write_report(const struct cli_study_results *results, const char *report, int code) {
-  if (!report || hooke_measurement_row_count(results->study, "rows") == 0) return code;
-  const char *title = hooke_scene_text(results->setup.scene, "title");
-  const char *const command = cli_study_results_recommend(results) ? results->command : NULL;
-  int32_t status =
-      hooke_measurement_label(results->study, "title", title && title[0] ? title : results->arguments->scene);
-  if (status == HOOKE_OK) status = hooke_measurement_label(results->study, "command", command);
-  if (status == HOOKE_OK) status = hooke_measurement_write(results->study, report);
-  if (status == HOOKE_OK) return code;
-  cli_report_words(results->arguments, "%s", hooke_last_error());
-  return cli_exit_code(status);
-}
-
 /* ---- running ---- */
 
 static int run_study(struct cli_study_results *results) {
   const struct cli_arguments *arguments = results->arguments;
-  struct cli_watch watch;
-  cli_watch_start(&watch, arguments);
   int32_t status = hooke_measurement_create("study", results->setup.system, results->setup.options,
                                             arguments->more, &results->study);
   if (status != HOOKE_OK) return cli_report_status(arguments, status);
-  hooke_measurement_on_progress(results->study, cli_watch_progress, &watch);
-  status = hooke_measurement_run(results->study, NULL);
-  cli_watch_end(&watch);
+  status = cli_watch_run(arguments, results->study, NULL);
   results->interrupted = status == HOOKE_STOPPED;
   return status == HOOKE_OK || results->interrupted ? HOOKE_EXIT_DONE : cli_report_status(arguments, status);
 }
@@ -108,15 +88,7 @@ static int32_t find_command(struct cli_study_results *results) {
 
 /* ---- results ---- */
 
-static const char *text_of(const void *study, int64_t row, const char *what) {
-  return hooke_measurement_text(study, "rows", row, what);
-}
-
-static double number_of(const void *study, int64_t row, const char *what) {
-  return hooke_measurement_number(study, "rows", row, what);
-}
-
-static char mark_of(const void *study, int64_t row, const char *what) {
+static char mark_of(const hooke_measurement *study, int64_t row, const char *what) {
   if (strcmp(what, "error") == 0)
     return hooke_measurement_number(study, "rows", row, "near_floor") == 1.0 ? '*' : ' ';
   if (strcmp(what, "energy_drift") == 0)
@@ -127,8 +99,6 @@ static char mark_of(const void *study, int64_t row, const char *what) {
 struct cli_rows cli_study_results_rows(const struct cli_study_results *results) {
   return (struct cli_rows){.source = results->study,
                            .count = hooke_measurement_row_count(results->study, "rows"),
-                           .text = text_of,
-                           .number = number_of,
                            .grouped = 1,
                            .mark = mark_of};
 }
@@ -186,7 +156,8 @@ static int do_study(const struct cli_arguments *arguments) {
   if (code == HOOKE_EXIT_DONE) code = run_study(&results);
   if (code == HOOKE_EXIT_DONE) {
     code = tell(&results, output);
-    code = write_report(&results, report, code);
+    if (hooke_measurement_row_count(results.study, "rows") > 0)
+      code = cli_output_file_write_report(arguments, &results.setup, results.study, results.command, code);
   }
   free(results.command);
   hooke_measurement_destroy(results.study);

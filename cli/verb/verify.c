@@ -136,16 +136,12 @@ static void print_json(const struct cli_arguments *arguments, const hooke_measur
 
 static int do_verify(const struct cli_arguments *arguments) {
   hooke_measurement *verify = NULL;
-  struct cli_watch watch;
   if (cli_setup_is_scene(arguments->scene))
     return cli_report(arguments, HOOKE_EXIT_BAD_INPUT,
                       "%s is a scene; verify takes the output of 'hooke run -o'", arguments->scene);
   int32_t status = hooke_verify_create(arguments->scene, arguments->more, NULL, &verify);
   if (status != HOOKE_OK) return cli_report_status(arguments, status);
-  cli_watch_start(&watch, arguments);
-  hooke_measurement_on_progress(verify, cli_watch_progress, &watch);
-  status = hooke_measurement_run(verify, NULL);
-  cli_watch_end(&watch);
+  status = cli_watch_run(arguments, verify, NULL);
   const char *verdict = hooke_measurement_text(verify, "verify", 0, "verdict");
   int code = cli_exit_code(status);
   if (verdict && arguments->json) { /* with the message */

@@ -37,15 +37,6 @@ static int32_t see_run(double done, const char *method, void *watch) {
   return cli_watch_tell(watch, done, "running it");
 }
 
-static int32_t explain(const struct why *why) {
-  struct cli_watch watch;
-  cli_watch_start(&watch, why->arguments);
-  hooke_measurement_on_progress(why->why, cli_watch_progress, &watch);
-  const int32_t status = hooke_measurement_run(why->why, NULL);
-  cli_watch_end(&watch);
-  return status;
-}
-
 static int32_t find_bound(struct why *why, const hooke_state *state) {
   return hooke_step_bound(why->setup.system, hooke_options_text(why->setup.options, "method"),
                           hooke_state_position(state), &why->bound);
@@ -66,7 +57,7 @@ static int32_t run_again(struct why *why) {
   if (status == HOOKE_OK) status = find_bound(why, why->setup.state);
   if (cli_exit_code(status) == HOOKE_EXIT_DIVERGED) {
     status = hooke_why_create(integrator, why->options, &why->why);
-    if (status == HOOKE_OK) status = explain(why);
+    if (status == HOOKE_OK) status = cli_watch_run(why->arguments, why->why, NULL);
   }
   hooke_integrator_destroy(integrator);
   return status;
@@ -94,7 +85,7 @@ static int32_t read_output(struct why *why) {
   }
   hooke_state_destroy(first);
   hooke_state_destroy(last);
-  if (status == HOOKE_OK && why->why) status = explain(why);
+  if (status == HOOKE_OK && why->why) status = cli_watch_run(why->arguments, why->why, NULL);
   if (status != HOOKE_BAD_CALL) return status;
   why->code = cli_report(
       why->arguments, HOOKE_EXIT_BAD_INPUT,
@@ -263,9 +254,7 @@ static int write_report(const struct why *why, int code) {
     cli_report_words(why->arguments, "no page is written, since the run did not blow up");
     return code;
   }
-  const char *title = hooke_scene_text(why->setup.scene, "title");
-  int32_t status =
-      hooke_measurement_label(why->why, "title", title && title[0] ? title : why->arguments->scene);
+  int32_t status = hooke_measurement_label(why->why, "title", cli_setup_title(why->arguments, &why->setup));
   if (status == HOOKE_OK) status = cli_advice_command(why->arguments, why->why, 0, &command);
   if (status == HOOKE_OK) status = hooke_measurement_label(why->why, "command", command);
   if (status == HOOKE_OK) status = hooke_measurement_write(why->why, report);

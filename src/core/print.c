@@ -4,6 +4,7 @@
 #include "core/os/os_text.h"
 
 #include <stdio.h>
+#include <string.h>
 
 int hk_print_list(char *text, size_t size, const char *format, va_list args) {
   HOOKE_KEEP_ERRNO;
@@ -19,6 +20,14 @@ int hk_print(char *text, size_t size, const char *format, ...) {
   const int length = hk_print_list(text, size, format, args);
   va_end(args);
   return length;
+}
+
+void hk_append(char *text, size_t size, const char *format, ...) {
+  const size_t used = strlen(text);
+  va_list args;
+  va_start(args, format);
+  if (used < size) hk_print_list(text + used, size - used, format, args);
+  va_end(args);
 }
 
 const char *hk_print_error(int error, char *text) {

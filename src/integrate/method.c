@@ -1,10 +1,10 @@
 #include "integrate/method.h"
 
+#include "core/print.h"
 #include "core/status.h"
 #include "model/system.h"
 
 #include <stddef.h>
-#include <stdio.h>
 #include <string.h>
 
 static const struct hk_method *const table[] = {
@@ -133,9 +133,8 @@ int32_t hk_method_suits(const char *name, const hooke_system *system) {
 static void list_methods(int problem, char *list, size_t size) {
   list[0] = '\0';
   for (int64_t k = 0; k < ROWS; k++) {
-    const size_t used = strlen(list);
     if (!table[k]->reference && (problem == PROBLEMS || (table[k]->built && takes(table[k], problem))))
-      snprintf(list + used, size - used, "%s%s", used ? ", " : "", table[k]->name);
+      hk_append(list, size, "%s%s", list[0] ? ", " : "", table[k]->name);
   }
 }
 

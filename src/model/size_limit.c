@@ -6,9 +6,6 @@
 #include "core/memory_limit.h"
 #include "core/status.h"
 
-#include <stdio.h>
-#include <string.h>
-
 /* Maximum bytes a particle, a group and a part while a scene is built, committed and given to an explicit
  * method; those of members of groups are in the table of forces. Tests compare them with the memory used. */
 static const double PER_PARTICLE = 280.0, PER_GROUP = 6000.0, PER_PART = 14000.0, PER_BODY = 2000.0,
@@ -33,9 +30,8 @@ double hk_system_needed_bytes(const hooke_system *system, struct hk_more more) {
 }
 
 static void add_count(char *list, size_t size, double count, const char *name, int *fits) {
-  const size_t used = strlen(list);
   *fits = *fits && count <= INT32_MAX;
-  if (count > 0.0) hk_print(list + used, size - used, "%s%.10g %s", used ? ", " : "", count, name);
+  if (count > 0.0) hk_append(list, size, "%s%.10g %s", list[0] ? ", " : "", count, name);
 }
 
 int32_t hk_system_check_size(const hooke_system *system, struct hk_more more, const char *what) {

@@ -10,20 +10,8 @@
 #include <stdio.h>
 
 static const struct hk_option_row transform_rows[] = {
-    {.name = "scale",
-     .type = HOOKE_OPTION_NUMBER,
-     .fallback = "1",
-     .low = 0,
-     .above_low = 1,
-     .high = 1e300,
-     .doc = "factor on the coordinates"},
-    {.name = "translate",
-     .type = HOOKE_OPTION_NUMBERS,
-     .unit = "m",
-     .fallback = "0,0,0",
-     .min_count = 3,
-     .max_count = 3,
-     .doc = "vector that is added then"},
+    {.name = "scale", HOOKE_OPTION_POSITIVE(NULL), .fallback = "1", .doc = "factor on the coordinates"},
+    {.name = "translate", HOOKE_OPTION_VECTOR("m"), .fallback = "0,0,0", .doc = "vector that is added then"},
 };
 
 static const struct hk_option_table transform = {"transform", HOOKE_OPTION_ROWS(transform_rows)};
@@ -52,18 +40,11 @@ static const struct hk_option_row rows[] = {
      .family = &transform,
      .doc = "from the coordinates of the vertices to metres"},
     {.name = "weld",
-     .type = HOOKE_OPTION_NUMBER,
-     .unit = "m",
+     HOOKE_OPTION_NOT_NEGATIVE("m"),
      .fallback = "0",
-     .low = 0,
-     .high = 1e300,
      .doc = "distance up to which vertices are one particle; 0: those at the same place"},
     {.name = "mass",
-     .type = HOOKE_OPTION_NUMBER,
-     .unit = "kg",
-     .low = 0,
-     .above_low = 1,
-     .high = 1e300,
+     HOOKE_OPTION_POSITIVE("kg"),
      .example = "1",
      .doc = "total mass, shared by area; or density"},
     HOOKE_PART_DENSITY("kg/m^2", "mass over area, instead of mass"),

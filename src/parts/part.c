@@ -18,32 +18,15 @@ enum { KIND_COUNT = sizeof kinds / sizeof kinds[0] };
 
 static const struct hk_option_row family_rows[] = {
     {.name = "stiffness",
-     .type = HOOKE_OPTION_NUMBER,
-     .unit = "N",
-     .low = 0,
-     .high = 1e300,
+     HOOKE_OPTION_NOT_NEGATIVE("N"),
      .required = 1,
      .example = "50",
      .doc = "force at double length, of the strain law"},
-    {.name = "damping",
-     .type = HOOKE_OPTION_NUMBER,
-     .unit = "N s",
-     .fallback = "0",
-     .low = 0,
-     .high = 1e300,
-     .doc = "damping along the spring"},
+    {.name = "damping", HOOKE_OPTION_NOT_NEGATIVE("N s"), .fallback = "0", .doc = "damping along the spring"},
     {.name = "damping_ratio",
-     .type = HOOKE_OPTION_NUMBER,
-     .low = 0,
-     .high = 1e300,
+     HOOKE_OPTION_NOT_NEGATIVE(NULL),
      .doc = "damping over the critical one of two inner particles on the spring, instead of damping"},
-    {.name = "rest_scale",
-     .type = HOOKE_OPTION_NUMBER,
-     .fallback = "1",
-     .low = 0,
-     .above_low = 1,
-     .high = 1e300,
-     .doc = "factor on the rest length"},
+    {.name = "rest_scale", HOOKE_OPTION_POSITIVE(NULL), .fallback = "1", .doc = "factor on the rest length"},
     {.name = "compression",
      .type = HOOKE_OPTION_FLAG,
      .fallback = "true",
@@ -63,10 +46,8 @@ static const struct hooke_part_kind *find_kind(const char *name) {
     if (name && strcmp(kinds[k]->table->name, name) == 0) return kinds[k];
   }
   char known[128] = "";
-  for (int k = 0; k < KIND_COUNT; k++) {
-    const size_t used = strlen(known);
-    snprintf(known + used, sizeof known - used, "%s%s", k ? ", " : "", kinds[k]->table->name);
-  }
+  for (int k = 0; k < KIND_COUNT; k++)
+    hk_append(known, sizeof known, "%s%s", k ? ", " : "", kinds[k]->table->name);
   hk_fail(HOOKE_BAD_VALUE, "kind", "there is no kind of part called \"%s\"; allowed: %s", name ? name : "",
           known);
   return NULL;

@@ -37,30 +37,18 @@ const struct hk_option_table *hk_part_table(int64_t k);
 /* Rows shared by kinds: a point [m], the corner where a grid begins [m], the total mass or the density,
  * bending stiffness, constrained particles, whether it is one rigid body, a family of springs. */
 #define HOOKE_PART_POINT(key, such_as, text)                                                                 \
-  {                                                                                                          \
-    .name = (key), .type = HOOKE_OPTION_NUMBERS, .unit = "m", .min_count = 3, .max_count = 3, .required = 1, \
-    .example = (such_as), .doc = (text)                                                                      \
-  }
+  { .name = (key), HOOKE_OPTION_VECTOR("m"), .required = 1, .example = (such_as), .doc = (text) }
 #define HOOKE_PART_ORIGIN                                                                                    \
-  {                                                                                                          \
-    .name = "origin", .type = HOOKE_OPTION_NUMBERS, .unit = "m", .min_count = 3, .max_count = 3,             \
-    .fallback = "0,0,0", .doc = "corner where it begins"                                                     \
-  }
+  { .name = "origin", HOOKE_OPTION_VECTOR("m"), .fallback = "0,0,0", .doc = "corner where it begins" }
 #define HOOKE_PART_MASS                                                                                      \
   {                                                                                                          \
-    .name = "mass", .type = HOOKE_OPTION_NUMBER, .unit = "kg", .low = 0, .above_low = 1, .high = 1e300,      \
-    .example = "1", .doc = "total mass, shared equally; or density"                                          \
+    .name = "mass", HOOKE_OPTION_POSITIVE("kg"), .example = "1",                                             \
+    .doc = "total mass, shared equally; or density"                                                          \
   }
 #define HOOKE_PART_DENSITY(of, text)                                                                         \
-  {                                                                                                          \
-    .name = "density", .type = HOOKE_OPTION_NUMBER, .unit = (of), .low = 0, .above_low = 1, .high = 1e300,   \
-    .doc = (text)                                                                                            \
-  }
+  { .name = "density", HOOKE_OPTION_POSITIVE(of), .doc = (text) }
 #define HOOKE_PART_BENDING(of, text)                                                                         \
-  {                                                                                                          \
-    .name = "bending", .type = HOOKE_OPTION_NUMBER, .unit = (of), .fallback = "0", .low = 0, .high = 1e300,  \
-    .doc = (text)                                                                                            \
-  }
+  { .name = "bending", HOOKE_OPTION_NOT_NEGATIVE(of), .fallback = "0", .doc = (text) }
 #define HOOKE_PART_PINNED(names, text)                                                                       \
   {                                                                                                          \
     .name = "pinned", .type = HOOKE_OPTION_NUMBERS, .low = 0, .high = INT32_MAX, .whole = 1,                 \
@@ -68,7 +56,7 @@ const struct hk_option_table *hk_part_table(int64_t k);
   }
 #define HOOKE_PART_RIGID                                                                                     \
   {                                                                                                          \
-    .name = "rigid", .type = HOOKE_OPTION_FLAG, .fallback = "false",                                         \
+    .name = "rigid", HOOKE_OPTION_UNSET,                                                                     \
     .doc = "true: it moves as one rigid body, and springs inside it are dropped"                             \
   }
 #define HOOKE_PART_FAMILY(key, text)                                                                         \

@@ -46,15 +46,18 @@ def test_statuses():
 
 
 def order_complaints(sources, text_of):
-    """Files of sources.txt that use a module before the file that has it."""
+    """Files of sources.txt that use a module before it was written, in a file before or above in their own."""
     found, known = [], set()
     for source in sources:
-        lines = interfaces.statements(text_of(source))
-        for line in lines:
+        module = None
+        for line in interfaces.statements(text_of(source)):
             match = re.match(r"use (hooke_\w+)", line)
             if match and match.group(1) not in known:
                 found.append(f"{source}: {match.group(1)} comes later or never")
-        known |= {m.group(1) for line in lines if (m := re.fullmatch(r"module (\w+)", line))}
+            if match := re.fullmatch(r"module (\w+)", line):
+                module = match.group(1)
+            if line == "end module":
+                known.add(module)
     return found
 
 
@@ -69,6 +72,9 @@ def test_planted_order():
     texts = {"a.f90": "module hooke_a\nuse hooke_b\nend module\n", "b.f90": "module hooke_b\nend module\n"}
     assert order_complaints(["b.f90", "a.f90"], texts.get) == []
     assert order_complaints(["a.f90", "b.f90"], texts.get)
+    assert order_complaints(["c.f90"], lambda _: texts["b.f90"] + texts["a.f90"]) == []
+    assert order_complaints(["c.f90"], lambda _: texts["a.f90"] + texts["b.f90"])
+    assert order_complaints(["c.f90"], lambda _: "module hooke_c\nuse hooke_c\nend module\n")
 
 
 HEADER = """

@@ -11,7 +11,10 @@ const struct hk_column *hk_table_find(const struct hk_table *table, const char *
 }
 
 int64_t hk_table_count(const struct hk_table *table, const void *object) {
-  return table->count ? table->count(object) : 1;
+  const char *member = (const char *)object + table->member;
+  if (table->count) return table->count(object);
+  if (table->member_size == sizeof(int64_t)) return *(const int64_t *)(const void *)member;
+  return table->member_size ? *(const int32_t *)(const void *)member : 1;
 }
 
 static const void *member(const struct hk_column *column, const struct hk_line *line) {

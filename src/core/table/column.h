@@ -40,8 +40,9 @@ struct hk_table {
   int32_t record;    /* 1: one row at most, with numbers of the whole */
   const struct hk_column *columns;
   int32_t column_count;
-  size_t size; /* of the struct; at most sizeof(struct hk_line) */
-  int64_t (*count)(const void *object);
+  size_t size;                          /* of the struct; at most sizeof(struct hk_line) */
+  int64_t (*count)(const void *object); /* of rows; NULL: the member below, or 1 */
+  size_t member, member_size;           /* of the object: int32_t or int64_t; of size 0: none */
   /* number of inner indices; NULL: the table is no matrix */
   int64_t (*inner)(const void *object);
   void (*read)(const void *object, int64_t row, void *line);
@@ -66,6 +67,10 @@ struct hk_line {
 #define HOOKE_TABLE_COLUMNS(list, line)                                                                      \
   .columns = (list), .column_count = (int32_t)(sizeof(list) / sizeof((list)[0])),                            \
   .size = sizeof(char[sizeof(line) <= sizeof(struct hk_line) ? sizeof(line) : 0])
+
+/* The number of rows as a member of the object. */
+#define HOOKE_TABLE_COUNT(object, name)                                                                      \
+  .member = offsetof(object, name), .member_size = sizeof((const object *)0)->name
 
 /* Column of that name; NULL if there is none. */
 const struct hk_column *hk_table_find(const struct hk_table *table, const char *name);

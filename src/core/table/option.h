@@ -41,6 +41,16 @@ struct hk_option_table {
   int32_t row_count;
 };
 
+/* What rows often are: a number >= 0 or > 0, a whole number, a vector, a flag that is not set at first. */
+#define HOOKE_OPTION_NOT_NEGATIVE(units)                                                                     \
+  .type = HOOKE_OPTION_NUMBER, .unit = (units), .low = 0.0, .high = 1e300
+#define HOOKE_OPTION_POSITIVE(units) HOOKE_OPTION_NOT_NEGATIVE(units), .above_low = 1
+#define HOOKE_OPTION_WHOLE(least, most)                                                                      \
+  .type = HOOKE_OPTION_NUMBER, .low = (least), .high = (most), .whole = 1
+#define HOOKE_OPTION_VECTOR(units)                                                                           \
+  .type = HOOKE_OPTION_NUMBERS, .unit = (units), .min_count = 3, .max_count = 3
+#define HOOKE_OPTION_UNSET .type = HOOKE_OPTION_FLAG, .fallback = "false"
+
 #define HOOKE_OPTION_ROWS(rows) (rows), (int32_t)(sizeof(rows) / sizeof((rows)[0]))
 
 int32_t hk_options_create(const struct hk_option_table *table, hooke_options **options);

@@ -6,21 +6,10 @@
 #include "core/status.h"
 #include "core/utf8.h"
 
-#include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 
 enum { NAME_SIZE = 48, LIST_SIZE = 640 };
-
-static void add(char *text, int64_t size, const char *format, ...) __attribute__((format(printf, 3, 4)));
-
-static void add(char *text, int64_t size, const char *format, ...) {
-  size_t used = strlen(text);
-  va_list args;
-  va_start(args, format);
-  if ((int64_t)used < size) hk_print_list(text + used, (size_t)size - used, format, args);
-  va_end(args);
-}
 
 /* Next word of a list separated by blanks; NULL at the end. */
 static const char *next_word(const char **rest, int64_t *length) {
@@ -49,7 +38,7 @@ static void add_words(const char *words, const char *quote, char *text, int64_t 
   for (int first = 1; word; first = 0) {
     const char *next = next_word(&rest, &following);
     const char *joint = first ? "" : next ? ", " : " or ";
-    add(text, size, "%s%s%.*s%s", joint, quote, (int)length, word, quote);
+    hk_append(text, (size_t)size, "%s%s%.*s%s", joint, quote, (int)length, word, quote);
     word = next;
     length = following;
   }
@@ -79,8 +68,8 @@ static void add_bounds(const struct hk_option_row *row, char *text, int64_t size
   hk_number_print(row->high, high);
   /* bounds that only keep arithmetic finite are not shown */
   int has_low = row->low > -1e300, has_high = row->high < 1e300;
-  if (has_low) add(text, size, " %s %s", row->above_low ? ">" : ">=", low);
-  if (has_high) add(text, size, "%s<= %s", has_low ? " and " : " ", high);
+  if (has_low) hk_append(text, (size_t)size, " %s %s", row->above_low ? ">" : ">=", low);
+  if (has_high) hk_append(text, (size_t)size, "%s<= %s", has_low ? " and " : " ", high);
 }
 
 static void add_count(const struct hk_option_row *row, char *text, int64_t size) {
@@ -89,47 +78,47 @@ static void add_count(const struct hk_option_row *row, char *text, int64_t size)
   const char *what = columns > 1 ? "row" : row->whole ? "whole number" : "number";
   int plural = 1;
   if (most == 0 && least == 0)
-    add(text, size, "any number of %ss", what);
+    hk_append(text, (size_t)size, "any number of %ss", what);
   else if (most == 0 && least == 1)
-    add(text, size, "one or more %ss", what);
+    hk_append(text, (size_t)size, "one or more %ss", what);
   else if (most == 0)
-    add(text, size, "%lld or more %ss", least, what);
+    hk_append(text, (size_t)size, "%lld or more %ss", least, what);
   else if (least == most) {
     plural = most != 1;
-    add(text, size, plural ? "%lld %ss" : "%lld %s", most, what);
+    hk_append(text, (size_t)size, plural ? "%lld %ss" : "%lld %s", most, what);
   } else
-    add(text, size, "%lld to %lld %ss", least, most, what);
+    hk_append(text, (size_t)size, "%lld to %lld %ss", least, most, what);
   if (columns > 1)
-    add(text, size, " of %lld %s%s", columns, row->whole ? "whole numbers" : "numbers",
-        plural ? " each" : "");
+    hk_append(text, (size_t)size, " of %lld %s%s", columns, row->whole ? "whole numbers" : "numbers",
+              plural ? " each" : "");
 }
 
 void hk_option_describe(const struct hk_option_row *row, char *text, int64_t size) {
   text[0] = '\0';
   switch (row->type) {
   case HOOKE_OPTION_NUMBER:
-    add(text, size, row->whole ? "a whole number" : "a number");
+    hk_append(text, (size_t)size, row->whole ? "a whole number" : "a number");
     add_bounds(row, text, size);
     break;
   case HOOKE_OPTION_NUMBERS:
     add_count(row, text, size);
     add_bounds(row, text, size);
-    if (row->words) add(text, size, row->word_lists ? ", or any of " : " or ");
+    if (row->words) hk_append(text, (size_t)size, row->word_lists ? ", or any of " : " or ");
     add_words(row->words, "\"", text, size);
     break;
   case HOOKE_OPTION_FLAG:
-    add(text, size, "true or false");
+    hk_append(text, (size_t)size, "true or false");
     break;
   case HOOKE_OPTION_CHOICE:
     add_words(row->words, "\"", text, size);
     break;
   case HOOKE_OPTION_TEXT:
-    add(text, size, "a text");
+    hk_append(text, (size_t)size, "a text");
     break;
   case HOOKE_OPTION_FAMILY:
-    add(text, size, "an object of ");
+    hk_append(text, (size_t)size, "an object of ");
     for (int32_t k = 0; k < row->family->row_count; k++)
-      add(text, size, "%s%s", k ? ", " : "", row->family->rows[k].name);
+      hk_append(text, (size_t)size, "%s%s", k ? ", " : "", row->family->rows[k].name);
     break;
   }
 }
@@ -176,11 +165,11 @@ int32_t hk_option_unknown(const struct hk_option_table *table, const char *other
   int64_t length = 0;
   const char *joint = "";
   for (const char *rest = others, *word; (word = next_word(&rest, &length)); joint = ", ") {
-    add(list, sizeof list, "%s%.*s", joint, (int)length, word);
+    hk_append(list, sizeof list, "%s%.*s", joint, (int)length, word);
     consider(&nearest, name, word, length);
   }
   for (int32_t k = 0; table && k < table->row_count; k++, joint = ", ") {
-    add(list, sizeof list, "%s%s", joint, table->rows[k].name);
+    hk_append(list, sizeof list, "%s%s", joint, table->rows[k].name);
     consider(&nearest, name, table->rows[k].name, (int64_t)strlen(table->rows[k].name));
   }
   hk_option_show(name, (int64_t)strlen(name), shown);

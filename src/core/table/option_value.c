@@ -2,6 +2,7 @@
 
 #include "core/memory.h"
 #include "core/number.h"
+#include "core/print.h"
 #include "core/status.h"
 #include "core/table/unit.h"
 
@@ -42,8 +43,7 @@ const double *hk_option_value_numbers(const struct hk_option_value *value) {
 /* "one number >= 0 [N]" */
 static const char *allowed(const struct hk_option_row *row, char *text) {
   hk_option_describe(row, text, ALLOWED_SIZE);
-  size_t used = strlen(text);
-  if (row->unit && row->unit[0]) snprintf(text + used, ALLOWED_SIZE - used, " [%s]", row->unit);
+  if (row->unit && row->unit[0]) hk_append(text, ALLOWED_SIZE, " [%s]", row->unit);
   return text;
 }
 

@@ -1,6 +1,7 @@
 #include "core/table/unit.h"
 
 #include "core/memory.h"
+#include "core/print.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -113,9 +114,8 @@ const struct hk_unit *hk_unit_find(const char *bases, const char *name, int64_t 
 void hk_unit_list(const char *bases, char *list, int64_t size) {
   list[0] = '\0';
   for (int k = 0; k < UNIT_COUNT; k++) {
-    const size_t used = strlen(list);
     if (is_one_of(bases, units[k].base))
-      snprintf(list + used, (size_t)size - used, "%s%s", used ? ", " : "", units[k].name);
+      hk_append(list, (size_t)size, "%s%s", list[0] ? ", " : "", units[k].name);
   }
 }
 

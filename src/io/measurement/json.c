@@ -16,8 +16,8 @@ static void add_value(struct hk_text *text, const struct hk_column *column, cons
     hk_text_number(text, column->name, number);
 }
 
-void hk_measurement_add_row(struct hk_text *text, const hooke_measurement *m, const struct hk_table *table,
-                            int64_t row) {
+static void add_row(struct hk_text *text, const hooke_measurement *m, const struct hk_table *table,
+                    int64_t row) {
   struct hk_line line;
   table->read(m->object, row, &line);
   for (int32_t k = 0; k < table->column_count; k++)
@@ -33,10 +33,15 @@ static void add_table(struct hk_text *text, const hooke_measurement *m, const st
   hk_text_open(text, table->name, table->record ? '{' : '[');
   for (int64_t row = 0; row < count; row++) {
     if (!table->record) hk_text_open(text, NULL, '{');
-    hk_measurement_add_row(text, m, table, row);
+    add_row(text, m, table, row);
     if (!table->record) hk_text_close(text, '}');
   }
   hk_text_close(text, table->record ? '}' : ']');
+}
+
+void hk_measurement_add_row(struct hk_text *text, const hooke_measurement *m, const char *table,
+                            int64_t row) {
+  add_row(text, m, hk_measurement_table(m->kind, table), row);
 }
 
 void hk_measurement_add_table(struct hk_text *text, const hooke_measurement *m, const char *table) {

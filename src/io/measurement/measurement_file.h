@@ -19,7 +19,7 @@ int32_t hk_measurement_write_page(const hooke_measurement *measurement, const ch
 void hk_measurement_add_tables(struct hk_text *text, const hooke_measurement *measurement);
 void hk_measurement_add_table(struct hk_text *text, const hooke_measurement *measurement, const char *table);
 /* The members of one row only. */
-void hk_measurement_add_row(struct hk_text *text, const hooke_measurement *measurement,
-                            const struct hk_table *table, int64_t row);
+void hk_measurement_add_row(struct hk_text *text, const hooke_measurement *measurement, const char *table,
+                            int64_t row);
 
 #endif

@@ -4,17 +4,13 @@
 #include "io/page/needs_picture.h"
 #include "measure/needs/needs.h"
 
-static void add_row(struct hk_text *data, const hooke_measurement *m, const char *table) {
-  hk_measurement_add_row(data, m, hk_measurement_table(m->kind, table), 0);
-}
-
 static void add_lean(struct hk_text *data, const hooke_measurement *m) {
   if (hooke_measurement_row_count(m, "lean") == 0) {
     hk_text_word(data, "lean", NULL);
     return;
   }
   hk_text_open(data, "lean", '{');
-  add_row(data, m, "lean");
+  hk_measurement_add_row(data, m, "lean", 0);
   hk_measurement_add_table(data, m, "cheapest");
   hk_text_word(data, "command", m->label[HOOKE_LABEL_COMMAND]);
   hk_text_close(data, '}');
@@ -30,7 +26,7 @@ static void add_waiting(struct hk_text *data, const struct hk_needs *needs) {
 
 void hk_needs_page_add(struct hk_text *data, const void *measurement) {
   const hooke_measurement *m = measurement;
-  add_row(data, m, "needs");
+  hk_measurement_add_row(data, m, "needs", 0);
   hk_text_number(data, "particles", (double)hooke_system_particle_count(m->system));
   hk_measurement_add_table(data, m, "full");
   hk_measurement_add_table(data, m, "rows");

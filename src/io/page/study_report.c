@@ -44,15 +44,11 @@ static void add_curve(struct hk_text *text, const hooke_measurement *m, int64_t 
 
 /* ---- tables ---- */
 
-static void add_row(struct hk_text *text, const hooke_measurement *m, const char *table, int64_t row) {
-  hk_measurement_add_row(text, m, hk_measurement_table(m->kind, table), row);
-}
-
 static void add_rows(struct hk_text *text, const hooke_measurement *m) {
   hk_text_open(text, "rows", '[');
   for (int64_t row = 0; row < hooke_measurement_row_count(m, "rows"); row++) {
     hk_text_open(text, NULL, '{');
-    add_row(text, m, "rows", row);
+    hk_measurement_add_row(text, m, "rows", row);
     add_curve(text, m, row, "error_max_at");
     add_curve(text, m, row, "energy_drift_at");
     hk_text_close(text, '}');
@@ -66,15 +62,15 @@ static void add_recommendation(struct hk_text *text, const hooke_measurement *m)
     return;
   }
   hk_text_open(text, "recommendation", '{');
-  add_row(text, m, "recommendation", 0);
-  add_row(text, m, "margin", 0);
+  hk_measurement_add_row(text, m, "recommendation", 0);
+  hk_measurement_add_row(text, m, "margin", 0);
   hk_text_word(text, "command", m->label[HOOKE_LABEL_COMMAND]);
   hk_text_close(text, '}');
 }
 
 void hk_study_page_add(struct hk_text *data, const void *measurement) {
   const hooke_measurement *m = measurement;
-  add_row(data, m, "study", 0);
+  hk_measurement_add_row(data, m, "study", 0);
   hk_measurement_add_table(data, m, "reference");
   add_times(data, m);
   add_rows(data, m);

@@ -13,7 +13,7 @@ void hk_why_page_add(struct hk_text *data, const void *measurement) {
     data->status = hk_fail(HOOKE_BAD_CALL, NULL, "there is nothing to report: no explanation was found");
     return;
   }
-  hk_measurement_add_row(data, m, hk_measurement_table(m->kind, "why"), 0);
+  hk_measurement_add_row(data, m, "why", 0);
   hk_measurement_add_table(data, m, "blame");
   hk_measurement_add_table(data, m, "advice");
   hk_text_word(data, "command", m->label[HOOKE_LABEL_COMMAND]);

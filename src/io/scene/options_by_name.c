@@ -1,4 +1,5 @@
 /* Options by the name of their table. */
+#include "core/print.h"
 #include "core/status.h"
 #include "hooke/measurement.h"
 #include "integrate/integrator.h"
@@ -7,7 +8,6 @@
 #include "model/force/force.h"
 #include "parts/part.h"
 
-#include <stdio.h>
 #include <string.h>
 
 /* A table and its name; NULL past the last of its source. */
@@ -51,10 +51,8 @@ enum { SOURCES = sizeof sources / sizeof sources[0] };
 static int32_t refuse(const char *name) {
   char names[512] = "";
   for (int s = 0; s < SOURCES; s++) {
-    for (int64_t k = 0; sources[s](k).name; k++) {
-      const size_t used = strlen(names);
-      snprintf(names + used, sizeof names - used, "%s%s", used ? ", " : "", sources[s](k).name);
-    }
+    for (int64_t k = 0; sources[s](k).name; k++)
+      hk_append(names, sizeof names, "%s%s", names[0] ? ", " : "", sources[s](k).name);
   }
   return hk_fail(HOOKE_BAD_VALUE, "name", "there are no options for \"%.64s\"; there are those for %s", name,
                  names);

@@ -4,6 +4,7 @@
 #if HOOKE_HAVE_JANSSON
 
 #include "core/memory.h"
+#include "core/print.h"
 #include "core/status.h"
 #include "io/scene/mesh.h"
 #include "model/system.h"
@@ -98,10 +99,8 @@ int32_t hk_scene_add_particles(struct hk_scene_reader *reader, const json_t *par
 
 static int32_t read_kind(const json_t *object, const char **kind) {
   char kinds[LIST_SIZE] = "";
-  for (int64_t k = 0; hooke_part_kind(k, "name"); k++) {
-    size_t used = strlen(kinds);
-    snprintf(kinds + used, sizeof kinds - used, "%s%s", k ? ", " : "", hooke_part_kind(k, "name"));
-  }
+  for (int64_t k = 0; hooke_part_kind(k, "name"); k++)
+    hk_append(kinds, sizeof kinds, "%s%s", k ? ", " : "", hooke_part_kind(k, "name"));
   int32_t status = read_text(object, "kind", kind);
   if (status) return status;
   if (*kind == NULL) return hk_fail(HOOKE_BAD_VALUE, "kind", "is required but missing; allowed: %s", kinds);

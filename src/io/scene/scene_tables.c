@@ -8,17 +8,8 @@
 
 static const struct hk_option_row scene_rows[] = {
     {.name = "title", .type = HOOKE_OPTION_TEXT, .doc = "free text"},
-    {.name = "gravity",
-     .type = HOOKE_OPTION_NUMBERS,
-     .unit = "m/s^2",
-     .min_count = 3,
-     .max_count = 3,
-     .doc = "acceleration of every free particle"},
-    {.name = "drag",
-     .type = HOOKE_OPTION_NUMBER,
-     .unit = "N s/m",
-     .high = 1e300,
-     .doc = "ether drag f = -c v on every free particle"},
+    {.name = "gravity", HOOKE_OPTION_VECTOR("m/s^2"), .doc = "acceleration of every free particle"},
+    {.name = "drag", HOOKE_OPTION_NOT_NEGATIVE("N s/m"), .doc = "ether drag f = -c v on every free particle"},
     {.name = "dynamics",
      .type = HOOKE_OPTION_CHOICE,
      .words = "inertial overdamped",
@@ -65,17 +56,8 @@ static const struct hk_option_row drive_rows[] = {
      .words = "harmonic table",
      .required = 1,
      .doc = "kind of motion"},
-    {.name = "amplitude",
-     .type = HOOKE_OPTION_NUMBERS,
-     .unit = "m",
-     .min_count = 3,
-     .max_count = 3,
-     .doc = "harmonic: largest displacement"},
-    {.name = "frequency",
-     .type = HOOKE_OPTION_NUMBER,
-     .unit = "Hz",
-     .high = 1e300,
-     .doc = "harmonic: oscillations a second"},
+    {.name = "amplitude", HOOKE_OPTION_VECTOR("m"), .doc = "harmonic: largest displacement"},
+    {.name = "frequency", HOOKE_OPTION_NOT_NEGATIVE("Hz"), .doc = "harmonic: oscillations a second"},
     {.name = "phase", .type = HOOKE_OPTION_NUMBER, .unit = "rad", .doc = "harmonic: angle at time 0"},
     {.name = "time",
      .type = HOOKE_OPTION_NUMBERS,
@@ -94,8 +76,7 @@ static const struct hk_option_table drive_table = {"driven", HOOKE_OPTION_ROWS(d
 
 static const struct hk_option_row body_rows[] = {
     {.name = "project",
-     .type = HOOKE_OPTION_FLAG,
-     .fallback = "false",
+     HOOKE_OPTION_UNSET,
      .doc = "true: velocities become those of the nearest rigid motion"},
 };
 
@@ -116,15 +97,10 @@ static const struct hk_option_table bending_table = {"bending", HOOKE_OPTION_ROW
 
 static const struct hk_option_row limit_rows[] = {
     {.name = "memory",
-     .type = HOOKE_OPTION_NUMBER,
-     .unit = "GB",
-     .low = 0,
-     .above_low = 1,
-     .high = 1e300,
+     HOOKE_OPTION_POSITIVE("GB"),
      .doc = "memory that the scene may need; what the machine has if not given"},
     {.name = "outside",
-     .type = HOOKE_OPTION_FLAG,
-     .fallback = "false",
+     HOOKE_OPTION_UNSET,
      .doc = "the scene may name files anywhere, and not in its folder alone"},
 };
 

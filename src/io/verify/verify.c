@@ -28,7 +28,7 @@ static const struct hk_option_row rows[] = {
      .max_count = 2,
      .example = "0.1,0.2",
      .doc = "what to run again, from and to; error-controlled methods are run from the start"},
-    {.name = "all", .type = HOOKE_OPTION_FLAG, .fallback = "false", .doc = "run all of it again"},
+    {.name = "all", HOOKE_OPTION_UNSET, .doc = "run all of it again"},
     {.name = "budget",
      .type = HOOKE_OPTION_NUMBER,
      .unit = "s",
@@ -38,8 +38,7 @@ static const struct hk_option_row rows[] = {
      .fallback = "1",
      .doc = "time to spend where neither is given: on a slice from the middle"},
     {.name = "bits",
-     .type = HOOKE_OPTION_FLAG,
-     .fallback = "false",
+     HOOKE_OPTION_UNSET,
      .doc = "compare the bits alone, without balance of energy and estimate of the error"},
 };
 

@@ -18,21 +18,14 @@ static const double TIMING_SHARE = 0.5; /* of the budget; the rest is for scenes
 static const double SOME_STEP = 1e-3;   /* [s], by default */
 
 static const struct hk_option_row cost_rows[] = {
-    {.name = "predict", .type = HOOKE_OPTION_FLAG, .fallback = "false", .doc = "leave out the timing"},
+    {.name = "predict", HOOKE_OPTION_UNSET, .doc = "leave out the timing"},
     {.name = "budget",
-     .type = HOOKE_OPTION_NUMBER,
-     .unit = "s",
-     .low = 0.0,
-     .above_low = 1,
-     .high = 1e300,
+     HOOKE_OPTION_POSITIVE("s"),
      .fallback = "2",
      .doc = "time after which no further ingredient is looked at; half of it is for the timing, at most 0.2 "
             "s an ingredient"},
     {.name = "groups",
-     .type = HOOKE_OPTION_NUMBER,
-     .low = 0.0,
-     .high = 2147483647.0,
-     .whole = 1,
+     HOOKE_OPTION_WHOLE(0.0, 2147483647.0),
      .fallback = "64",
      .doc = "how many groups are looked at at most, the largest; each takes as long as the whole scene"},
 };

@@ -57,10 +57,6 @@ struct row_line {
   double group, springs, nanoseconds, resolution, memory_bytes, step_limit_without;
 };
 
-static int64_t count_rows(const void *object) {
-  return ((const struct hk_cost *)object)->row_count;
-}
-
 static void read_row(const void *object, int64_t row, void *line) {
   const struct hk_cost *cost = object;
   const struct hk_cost_row *r = &cost->row[row];
@@ -93,7 +89,7 @@ static const struct hk_table row_table = {
     .name = "rows",
     .doc = "the ingredients that are there; numbers are NaN of those that were not looked at",
     HOOKE_TABLE_COLUMNS(row_columns, struct row_line),
-    .count = count_rows,
+    HOOKE_TABLE_COUNT(struct hk_cost, row_count),
     .read = read_row,
 };
 

@@ -28,15 +28,10 @@ static const double SHORT = 2.0, MOST_RUNS = 10.0; /* most work of a refined run
 
 static const struct hk_option_row rows[] = {
     {.name = "want",
-     .type = HOOKE_OPTION_NUMBER,
-     .unit = "m",
-     .low = 0.0,
-     .above_low = 1,
-     .high = 1e300,
+     HOOKE_OPTION_POSITIVE("m"),
      .doc = "error that no free particle may exceed at any frame; only estimates if not given"},
     {.name = "callbacks",
-     .type = HOOKE_OPTION_FLAG,
-     .fallback = "false",
+     HOOKE_OPTION_UNSET,
      .doc = "repeats runs for the estimate even if they call callbacks of forces or drives"},
 };
 

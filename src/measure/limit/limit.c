@@ -3,6 +3,7 @@
 
 #include "core/clock.h"
 #include "core/memory.h"
+#include "core/print.h"
 #include "core/table/option.h"
 #include "core/status.h"
 #include "integrate/integrator.h"
@@ -21,14 +22,12 @@ static const struct hk_option_row limit_rows[] = {
     {.name = "methods",
      .type = HOOKE_OPTION_TEXT,
      .doc = "methods, separated by commas; every fixed-step one if not given"},
-    {.name = "predict", .type = HOOKE_OPTION_FLAG, .fallback = "false", .doc = "leave out the measuring"},
+    {.name = "predict", HOOKE_OPTION_UNSET, .doc = "leave out the measuring"},
     {.name = "nonlinear",
-     .type = HOOKE_OPTION_FLAG,
-     .fallback = "false",
+     HOOKE_OPTION_UNSET,
      .doc = "measure on the scene itself over the duration of the run, instead of on the linearised scene"},
     {.name = "along",
-     .type = HOOKE_OPTION_FLAG,
-     .fallback = "false",
+     HOOKE_OPTION_UNSET,
      .doc = "at every frame of the run: the smallest limit met and when, predicted alone"},
     {.name = "accuracy",
      .type = HOOKE_OPTION_NUMBER,
@@ -37,11 +36,7 @@ static const struct hk_option_row limit_rows[] = {
      .fallback = "1e-3",
      .doc = "relative accuracy of predictions and measurements"},
     {.name = "budget",
-     .type = HOOKE_OPTION_NUMBER,
-     .unit = "s",
-     .low = 0.0,
-     .above_low = 1,
-     .high = 1e300,
+     HOOKE_OPTION_POSITIVE("s"),
      .fallback = "60",
      .doc = "time that the measuring may take"},
 };
@@ -191,8 +186,7 @@ static int32_t find_participation(struct hk_limit *limit) {
 }
 
 static void add_note(struct hk_limit_row *row, const char *note) {
-  const size_t used = strlen(row->note);
-  if (note && note[0]) snprintf(row->note + used, sizeof row->note - used, "%s%s", used ? "; " : "", note);
+  if (note && note[0]) hk_append(row->note, sizeof row->note, "%s%s", row->note[0] ? "; " : "", note);
 }
 
 static int32_t measure_row(struct hk_limit *limit, struct hk_limit_row *row, const hooke_state *state,

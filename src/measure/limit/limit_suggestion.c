@@ -8,9 +8,6 @@
 #include "model/force/force.h"
 
 #include <math.h>
-#include <stdarg.h>
-#include <stdio.h>
-#include <string.h>
 
 /* A set needs that share of the mode, and must be at most that share of the scene. */
 static const double MOST_OF_THE_MODE = 0.9, SMALL = 0.1;
@@ -129,15 +126,6 @@ static double fitting_factor(const struct hk_participation *participation, const
 
 /* ---- in words ---- */
 
-static void add(char *text, size_t size, const char *format, ...) __attribute__((format(printf, 3, 4)));
-static void add(char *text, size_t size, const char *format, ...) {
-  const size_t used = strlen(text);
-  va_list arguments;
-  va_start(arguments, format);
-  hk_print_list(text + used, size - used, format, arguments);
-  va_end(arguments);
-}
-
 /* Two digits, without exponent up to a million: "3.5", "72", "5100". */
 static const char *figure(double value, char text[24]) {
   const double unit = value >= 10.0 && value < 1e6 ? pow(10.0, floor(log10(value)) - 1.0) : 0.0;
@@ -152,17 +140,18 @@ static const char *figure(double value, char text[24]) {
 static void add_place(const hooke_system *system, const struct hk_participation *participation,
                       const struct set *set, char *text, size_t size) {
   if (!set->springs) {
-    if (set->count == 1) add(text, size, ", number %lld,", (long long)participation->particle[0].particle);
+    if (set->count == 1)
+      hk_append(text, size, ", number %lld,", (long long)participation->particle[0].particle);
     return;
   }
   const int64_t group = participation->spring[0].group;
   int one = hk_participation_group_name(system, group)[0] != '\0';
   for (int64_t k = 0; k < set->count; k++)
     one &= participation->spring[k].group == group;
-  if (set->count == 1) add(text, size, ", number %lld,", (long long)participation->spring[0].spring);
+  if (set->count == 1) hk_append(text, size, ", number %lld,", (long long)participation->spring[0].spring);
   if (one)
-    add(text, size, "%s group `%.60s`,", set->count == 1 ? "" : ",",
-        hk_participation_group_name(system, group));
+    hk_append(text, size, "%s group `%.60s`,", set->count == 1 ? "" : ",",
+              hk_participation_group_name(system, group));
 }
 
 static void tell(const hooke_system *system, const struct hk_participation *participation,
@@ -174,23 +163,23 @@ static void tell(const hooke_system *system, const struct hk_participation *part
   figure(suggestion->cost, cost);
   figure(suggestion->factor, factor);
   figure(suggestion->gain, gain);
-  add(text, size, "%lld of %lld %s", (long long)set->count, (long long)set->of,
-      set->springs ? "springs" : "free particles");
+  hk_append(text, size, "%lld of %lld %s", (long long)set->count, (long long)set->of,
+            set->springs ? "springs" : "free particles");
   add_place(system, participation, set, text, size);
-  add(text, size, " %s a factor %s in step; ", one ? "costs" : "cost", cost);
+  hk_append(text, size, " %s a factor %s in step; ", one ? "costs" : "cost", cost);
   if (set->springs)
-    add(text, size, "softening %s by %s", one ? "it" : "them", factor);
+    hk_append(text, size, "softening %s by %s", one ? "it" : "them", factor);
   else
-    add(text, size, "making %s %s times heavier", one ? "it" : "them", factor);
-  add(text, size, " allows a step %s times larger", gain);
+    hk_append(text, size, "making %s %s times heavier", one ? "it" : "them", factor);
+  hk_append(text, size, " allows a step %s times larger", gain);
 }
 
 /* "group 2", or "group 0 of triples" */
 static void add_number(const hooke_system *system, int64_t group, char *text, size_t size) {
   const struct hk_force_row *force = system->group[group].force;
   const int springs = force == &hk_force_springs;
-  add(text, size, "group %lld%s%s", (long long)(group - hk_system_first_group(system, force)),
-      springs ? "" : " of ", springs ? "" : force->members);
+  hk_append(text, size, "group %lld%s%s", (long long)(group - hk_system_first_group(system, force)),
+            springs ? "" : " of ", springs ? "" : force->members);
 }
 
 /* No small set: shares by group, the largest first. */
@@ -199,10 +188,11 @@ static void tell_groups(const hooke_system *system, const struct hk_participatio
   char *text = suggestion->sentence;
   const size_t size = sizeof suggestion->sentence;
   if (!(participation->stiffness_share > 0.0) && participation->spring_count == 0) {
-    add(text, size, "no spring limits the step");
+    hk_append(text, size, "no spring limits the step");
     return;
   }
-  add(text, size, "no few springs or particles limit the step: the limiting mode is spread over the scene");
+  hk_append(text, size,
+            "no few springs or particles limit the step: the limiting mode is spread over the scene");
   double before = INFINITY;
   for (int k = 0; k < 3; k++) {
     int64_t best = -1;
@@ -213,14 +203,14 @@ static void tell_groups(const hooke_system *system, const struct hk_participatio
     }
     if (best < 0 || participation->group_share[best] < 0.01) break;
     before = participation->group_share[best];
-    add(text, size, k == 0 ? " (" : ", ");
+    hk_append(text, size, k == 0 ? " (" : ", ");
     if (hk_participation_group_name(system, best)[0] != '\0')
-      add(text, size, "group `%.60s`", hk_participation_group_name(system, best));
+      hk_append(text, size, "group `%.60s`", hk_participation_group_name(system, best));
     else
       add_number(system, best, text, size);
-    add(text, size, " has %.0f %% of it", 100.0 * before);
+    hk_append(text, size, " has %.0f %% of it", 100.0 * before);
   }
-  if (isfinite(before)) add(text, size, ")");
+  if (isfinite(before)) hk_append(text, size, ")");
 }
 
 /* ---- drag and damping ---- */
@@ -249,18 +239,18 @@ static int32_t tell_force(const hooke_system *system, const double *q, const cha
   /* no method has no limit by the damping of bodies */
   if (drag || !bodies) status = limit_without(system, q, method, participation, drag, &without);
   if (status != HOOKE_OK) return status;
-  add(suggestion->sentence, sizeof suggestion->sentence, "%s%s limits the step", suggestion->kind ? "; " : "",
-      drag ? "drag" : "damping");
+  hk_append(suggestion->sentence, sizeof suggestion->sentence, "%s%s limits the step",
+            suggestion->kind ? "; " : "", drag ? "drag" : "damping");
   if (without > LEAST_COST * limit && isfinite(without)) {
-    add(suggestion->sentence, sizeof suggestion->sentence, ": without it %s would be stable up to %.6g s",
-        method, without);
+    hk_append(suggestion->sentence, sizeof suggestion->sentence,
+              ": without it %s would be stable up to %.6g s", method, without);
   } else if (isinf(without)) {
-    add(suggestion->sentence, sizeof suggestion->sentence, ": without it nothing would limit that of %s",
-        method);
+    hk_append(suggestion->sentence, sizeof suggestion->sentence,
+              ": without it nothing would limit that of %s", method);
   }
   if (!bodies)
-    add(suggestion->sentence, sizeof suggestion->sentence,
-        "; verlet takes %s implicitly, and has no limit by it", drag ? "drag" : "damping");
+    hk_append(suggestion->sentence, sizeof suggestion->sentence,
+              "; verlet takes %s implicitly, and has no limit by it", drag ? "drag" : "damping");
   suggestion->force = 1;
   return HOOKE_OK;
 }

@@ -80,10 +80,6 @@ struct row_line {
   double exact, never_stable, by_eigenvalue;
 };
 
-static int64_t count_rows(const void *object) {
-  return ((const struct hk_limit *)object)->row_count;
-}
-
 static void read_row(const void *object, int64_t row, void *line) {
   const struct hk_limit *limit = object;
   const struct hk_limit_row *r = &limit->row[row];
@@ -127,7 +123,7 @@ static const struct hk_table row_table = {
     .name = "rows",
     .doc = "the largest stable step of each method",
     HOOKE_TABLE_COLUMNS(row_columns, struct row_line),
-    .count = count_rows,
+    HOOKE_TABLE_COUNT(struct hk_limit, row_count),
     .read = read_row,
 };
 
@@ -193,10 +189,6 @@ struct particle_line {
   double particle, share, mass;
 };
 
-static int64_t count_particles(const void *object) {
-  return ((const struct hk_limit *)object)->participation.particle_count;
-}
-
 static void read_particle(const void *object, int64_t row, void *line) {
   const struct hk_limiting_particle *p = &((const struct hk_limit *)object)->participation.particle[row];
   *(struct particle_line *)line =
@@ -213,7 +205,7 @@ static const struct hk_table particle_table = {
     .name = "movers",
     .doc = "participation of particles in the limiting mode, at most 100, the largest share first",
     HOOKE_TABLE_COLUMNS(particle_columns, struct particle_line),
-    .count = count_particles,
+    HOOKE_TABLE_COUNT(struct hk_limit, participation.particle_count),
     .read = read_particle,
 };
 
@@ -269,10 +261,6 @@ static const struct hk_table suggestion_table = {
 
 /* ---- modes ---- */
 
-static int64_t count_modes(const void *object) {
-  return ((const struct hk_limit *)object)->mode_count;
-}
-
 static void read_mode(const void *object, int64_t row, void *line) {
   *(struct hk_limit_mode *)line = ((const struct hk_limit *)object)->mode[row];
 }
@@ -292,7 +280,7 @@ static const struct hk_table mode_table = {
     .doc = "eigenvalues lambda of lambda^2 M + lambda C + K that are known, the largest first; one of a "
            "conjugate pair, none that is 0",
     HOOKE_TABLE_COLUMNS(mode_columns, struct hk_limit_mode),
-    .count = count_modes,
+    HOOKE_TABLE_COUNT(struct hk_limit, mode_count),
     .read = read_mode,
 };
 

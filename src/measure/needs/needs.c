@@ -18,11 +18,7 @@ static const double RESTS = 1e-3;        /* of the wanted error: a smaller motio
 
 static const struct hk_option_row needs_rows[] = {
     {.name = "want",
-     .type = HOOKE_OPTION_NUMBER,
-     .unit = "m",
-     .low = 0.0,
-     .above_low = 1,
-     .high = 1e300,
+     HOOKE_OPTION_POSITIVE("m"),
      .required = 1,
      .doc = "error that one can live with, the largest distance of any watched particle"},
     {.name = "watch",
@@ -31,8 +27,7 @@ static const struct hk_option_row needs_rows[] = {
          "what is looked at: a part, a group, or particle numbers such as 0,7-9; all free particles if not "
          "given"},
     {.name = "refine",
-     .type = HOOKE_OPTION_FLAG,
-     .fallback = "false",
+     HOOKE_OPTION_UNSET,
      .doc = "the reverse question: each part at once, twice and four times its resolution, and what the want "
             "asks for"},
 };

@@ -172,8 +172,7 @@ static void say_why_it_stays(const struct hk_needs *needs, struct hk_needs_row *
 
 /* One name more of a list. */
 static void append(char names[HOOKE_NEEDS_NAME], const char *name) {
-  const size_t used = strlen(names);
-  snprintf(names + used, HOOKE_NEEDS_NAME - used, "%s%s", used ? ", " : "", name);
+  hk_append(names, HOOKE_NEEDS_NAME, "%s%s", names[0] ? ", " : "", name);
 }
 
 /* "100 steps of 0.02 s", or "100 steps" with error control. */
@@ -207,10 +206,9 @@ static void note_splits(struct hk_needs *needs) {
     append(names, system->group[g].name);
   }
   if (count == 0) return;
-  const size_t used = strlen(needs->lean_note);
-  snprintf(needs->lean_note + used, sizeof needs->lean_note - used,
-           "%s%s: written spring by spring, not as a part has it, since single springs of %s are left out",
-           used ? "; " : "", names, count == 1 ? "it" : "them");
+  hk_append(needs->lean_note, sizeof needs->lean_note,
+            "%s%s: written spring by spring, not as a part has it, since single springs of %s are left out",
+            needs->lean_note[0] ? "; " : "", names, count == 1 ? "it" : "them");
   hk_utf8_make_plain(needs->lean_note);
 }
 

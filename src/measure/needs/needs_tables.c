@@ -244,10 +244,6 @@ struct part_line {
   double wanted, wanted_second, wanted_third;
 };
 
-static int64_t count_parts(const void *object) {
-  return ((const struct hk_needs *)object)->part_count;
-}
-
 static double cells_at(const struct hk_needs_part *part, int32_t axis, double factor) {
   if (axis >= part->axes || !isfinite(factor)) return NAN;
   return fmax(1.0, ceil((double)part->cells[axis] * factor * (1.0 - 1e-12)));
@@ -292,7 +288,7 @@ static const struct hk_table part_table = {
     .name = "parts",
     .doc = "the resolution of every part, with the option `refine`",
     HOOKE_TABLE_COLUMNS(part_columns, struct part_line),
-    .count = count_parts,
+    HOOKE_TABLE_COUNT(struct hk_needs, part_count),
     .read = read_part,
 };
 

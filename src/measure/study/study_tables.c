@@ -126,10 +126,6 @@ struct row_line {
   double wall_median, repeats, near_floor, near_energy_floor, timed_alone;
 };
 
-static int64_t count_rows(const void *object) {
-  return ((const struct hk_study *)object)->row_count;
-}
-
 static double is_near(double value, double floor) {
   return value <= NEAR * floor ? 1.0 : 0.0;
 }
@@ -178,7 +174,7 @@ static const struct hk_table row_table = {
     .name = "rows",
     .doc = "a method with one step or tolerance each, the coarsest first",
     HOOKE_TABLE_COLUMNS(row_columns, struct row_line),
-    .count = count_rows,
+    HOOKE_TABLE_COUNT(struct hk_study, row_count),
     .read = read_row,
 };
 
@@ -235,10 +231,6 @@ struct recommendation_line {
   double met, want, step, rtol, atol, error, until, wall_seconds, wall_median, force_evaluations;
 };
 
-static int64_t count_recommendations(const void *object) {
-  return ((const struct hk_study *)object)->recommendation.made;
-}
-
 static void read_recommendation(const void *object, int64_t row, void *line) {
   const struct hk_study *study = object;
   const struct hk_study_recommendation *r = &study->recommendation;
@@ -288,7 +280,7 @@ static const struct hk_table recommendation_table = {
     .doc = "which run to make for the wanted error",
     .record = 1,
     HOOKE_TABLE_COLUMNS(recommendation_columns, struct recommendation_line),
-    .count = count_recommendations,
+    HOOKE_TABLE_COUNT(struct hk_study, recommendation.made),
     .read = read_recommendation,
 };
 
@@ -335,7 +327,7 @@ static const struct hk_table margin_table = {
     .group = "recommendation",
     .record = 1,
     HOOKE_TABLE_COLUMNS(margin_columns, struct margin_line),
-    .count = count_recommendations,
+    HOOKE_TABLE_COUNT(struct hk_study, recommendation.made),
     .read = read_margin,
 };
 

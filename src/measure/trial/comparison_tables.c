@@ -79,10 +79,6 @@ static const struct hk_table reference_table = {
 
 /* ---- rows ---- */
 
-static int64_t count_rows(const void *object) {
-  return ((const struct hk_comparison *)object)->row_count;
-}
-
 static void read_row(const void *object, int64_t row, void *line) {
   const struct hk_comparison *c = object;
   const struct hk_comparison_row *r = &c->row[row];
@@ -108,7 +104,7 @@ static const struct hk_table row_table = {
     .name = "rows",
     .doc = "the methods, each run once",
     HOOKE_TABLE_COLUMNS(row_columns, struct hk_trial_line),
-    .count = count_rows,
+    HOOKE_TABLE_COUNT(struct hk_comparison, row_count),
     .read = read_row,
 };
 

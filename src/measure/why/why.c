@@ -25,11 +25,7 @@ static const double LEAST_SECONDS = 2.0, LEAST_BYTES = 16e6, SHARE_OF_MEMORY = 0
 
 static const struct hk_option_row why_rows[] = {
     {.name = "budget",
-     .type = HOOKE_OPTION_NUMBER,
-     .unit = "s",
-     .low = 0.0,
-     .above_low = 1,
-     .high = 1e300,
+     HOOKE_OPTION_POSITIVE("s"),
      .doc = "wall time that the explanation may take; if not given, as much counted work as the run took, "
             "or 2 s if that is more, which is the same however busy the machine is"},
 };
@@ -49,8 +45,7 @@ const hooke_state *hk_inquiry_last(const struct hk_inquiry *inquiry) {
 
 /* Appends to a list of skipped work. */
 static void leave_out(char *list, size_t size, const char *what) {
-  const size_t used = strlen(list);
-  if (strstr(list, what) == NULL) snprintf(list + used, size - used, "%s%s", used ? ", " : "", what);
+  if (strstr(list, what) == NULL) hk_append(list, size, "%s%s", list[0] ? ", " : "", what);
 }
 
 int32_t hk_inquiry_has_room(struct hk_inquiry *inquiry, double bytes, const char *what) {
@@ -81,10 +76,9 @@ static void tell_left_out(struct hk_inquiry *inquiry) {
     hk_print(text, size, "not known, since time was short (%.3g s%s): %s",
              (inquiry->patience.end - inquiry->patience.begun) / PUNCTUAL,
              inquiry->patience.counted ? " of counted work" : "", inquiry->no_time);
-  const size_t used = strlen(text);
   if (inquiry->no_room[0])
-    hk_print(text + used, size - used, "%snot known, since memory was short (%.3g MB): %s", used ? "; " : "",
-             1e-6 * inquiry->memory_limit, inquiry->no_room);
+    hk_append(text, size, "%snot known, since memory was short (%.3g MB): %s", text[0] ? "; " : "",
+              1e-6 * inquiry->memory_limit, inquiry->no_room);
 }
 
 /* Nearly half of the memory of the run, as memory has gaps: its current memory, or that of building the

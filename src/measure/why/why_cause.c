@@ -10,7 +10,6 @@
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
-#include <string.h>
 
 static const double COLLAPSED = 1e-3; /* of the rest length */
 
@@ -385,14 +384,13 @@ static int32_t judge_divergence(struct hk_inquiry *inquiry) {
 static void tell_coincident(struct hk_inquiry *inquiry) {
   const hooke_integrator *run = inquiry->run;
   char *text = inquiry->why->sentence;
-  const size_t used = strlen(text);
   const double *q = run->recent.first ? run->recent.first->q
                     : run->t0 == 0.0  ? inquiry->system->position
                                       : NULL;
   const int64_t count = q ? hooke_system_coincident_springs(inquiry->system, q) : 0;
   if (count > 0)
-    hk_print(text + used, sizeof inquiry->why->sentence - used,
-             "; %lld springs began with both ends at one place, without a direction", (long long)count);
+    hk_append(text, sizeof inquiry->why->sentence,
+              "; %lld springs began with both ends at one place, without a direction", (long long)count);
 }
 
 int32_t hk_inquiry_judge(struct hk_inquiry *inquiry) {

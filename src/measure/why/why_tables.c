@@ -59,10 +59,6 @@ static const struct hk_table why_table = {
 
 /* ---- limiting springs ---- */
 
-static int64_t count_limiting(const void *object) {
-  return ((const struct hk_why *)object)->limiting_count;
-}
-
 static double if_spring(const struct hk_why_limiting *limiting, int64_t number) {
   return limiting->spring < 0 ? NAN : (double)number;
 }
@@ -80,7 +76,7 @@ static void read_limiting(const void *object, int64_t row, void *line) {
 static const struct hk_table limiting_table = {
     .name = "blame",
     HOOKE_LIMITING_TABLE,
-    .count = count_limiting,
+    HOOKE_TABLE_COUNT(struct hk_why, limiting_count),
     .read = read_limiting,
 };
 
@@ -89,10 +85,6 @@ static const struct hk_table limiting_table = {
 struct advice_line {
   const char *change, *option, *value;
 };
-
-static int64_t count_advice(const void *object) {
-  return ((const struct hk_why *)object)->advice_count;
-}
 
 static void read_advice(const void *object, int64_t row, void *line) {
   const struct hk_why_advice *advice = &((const struct hk_why *)object)->advice[row];
@@ -111,7 +103,7 @@ static const struct hk_table advice_table = {
     .name = "advice",
     .doc = "what to do, the best first; hooke_why_advice_apply() makes the change",
     HOOKE_TABLE_COLUMNS(advice_columns, struct advice_line),
-    .count = count_advice,
+    HOOKE_TABLE_COUNT(struct hk_why, advice_count),
     .read = read_advice,
 };
 
