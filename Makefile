@@ -1,4 +1,4 @@
-# All real work is done by CMake (CMakePresets.json). On a fresh Debian 12 with git, make and Python 3.11:
+# All real work is done by CMake (CMakePresets.json). On a fresh Debian 12 or 13 or Ubuntu 24.04 with git, make and Python:
 #   make        sets up, and builds the library, the program and the Python package
 #   make venv   makes a Python environment in build/venv that has what the package, its tests and the pages need
 #   make demo   sets up, builds, and compares all methods on a cloth
