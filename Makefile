@@ -1,4 +1,4 @@
-# All real work is done by CMake (CMakePresets.json). On a fresh Debian 12 with git, make and Python 3.11:
+# All real work is done by CMake (CMakePresets.json). On a fresh Debian 12 or 13 or Ubuntu 24.04 with git, make and Python:
 #   make        sets up, and builds the library, the program and the Python package
 #   make venv   makes a Python environment in build/venv that has what the package, its tests and the pages need
 #   make demo   sets up, builds, and compares all methods on a cloth
@@ -159,7 +159,7 @@ $(PRESETS:%=tests-%): tests-%: build/venv/done build/test/packages
 	cmake --preset $* -DHOOKE_EVERYTHING=ON $(if $(CI),-DHOOKE_WERROR=ON)
 	cmake --build --preset $* --target tests
 
-build/venv/done: tests/requirements.txt docs/requirements.txt | $(PACKAGES)
+build/venv/done: tests/requirements.txt docs/requirements.txt | build/packages.small
 	$(PYTHON) -m venv build/venv
 	$(VENV) -m pip install --quiet --disable-pip-version-check -r tests/requirements.txt -r docs/requirements.txt
 	touch $@
@@ -167,9 +167,9 @@ build/venv/done: tests/requirements.txt docs/requirements.txt | $(PACKAGES)
 # What is missing is installed as root or through sudo; without either, the line to type is printed (cmake/packages.py).
 # Without the packages called `small` and `use`, hooke is built and lacks what packages.txt names; SMALL=1 leaves out the
 # large ones, `use`.
-$(PACKAGES): cmake/packages.py cmake/packages.txt
+build/packages build/packages.small: cmake/packages.py cmake/packages.txt
 	@mkdir -p $(@D)
-	@$(PYTHON) cmake/packages.py build small $(if $(SMALL),,use)
+	@$(PYTHON) cmake/packages.py build small $(if $(filter %.small,$@),,use)
 	@touch $@
 build/test/packages: cmake/packages.py cmake/packages.txt | $(PACKAGES)
 	@mkdir -p $(@D)
@@ -192,4 +192,3 @@ $(OTHER_PACKAGES): Makefile | $(PACKAGES)
 
 .PHONY: all venv demo playground windows test test-long calibration tidy wheel wheel-test wheel-windows dist $(PRESETS:%=tests-%)
 .DELETE_ON_ERROR:
-.SECONDARY:

@@ -4,7 +4,8 @@ python3 cmake/packages.py build small use   # the rows with these words in the c
 python3 cmake/packages.py --names clang f2c # packages by their names in Debian; --foreign arm64 adds an architecture
 
 Without the rows `build` this ends with 1. Without others hooke is built and lacks what the last column names, so that
-is said and this ends with 0; with --all it ends with 1, too. Where there is no apt-get, only the tools are looked for."""
+is said and this ends with 0; with --all it ends with 1, too, where apt has them: CMake says whether the tests can do
+without the rest. Where there is no apt-get, only the tools are looked for."""
 
 import argparse
 import os
@@ -27,7 +28,9 @@ def is_installed(package):
 
 
 def is_offered(package):
-    """Whether apt has a version of it to install."""
+    """Whether apt has a version of it to install, as far as it knows: a new system has no lists yet."""
+    if not any(Path("/var/lib/apt/lists").glob("*Packages*")):
+        return True
     policy = subprocess.run(["apt-cache", "policy", package], capture_output=True, text=True, env={**os.environ, "LC_ALL": "C"})
     return "Candidate:" in policy.stdout and "Candidate: (none)" not in policy.stdout
 
@@ -49,8 +52,9 @@ def install(packages, foreign):
 
 
 def say_lacking(packages, foreign):
-    first = f"dpkg --add-architecture {foreign}; apt-get update; " if foreign else ""
-    print(f"Debian packages are missing. As root:\n\n  {first}apt-get install {' '.join(packages)}\n")
+    first = f"dpkg --add-architecture {foreign}; apt-get update" if foreign else "apt-get update"
+    offered = " ".join(filter(is_offered, packages))
+    print("Debian packages are missing." + (f" As root:\n\n  {first}; apt-get install {offered}\n" if offered else ""))
     for package in packages:
         lost = next((row[7] for row in rows() if row[1] == package), "-")
         print(f"{package}: {'apt does not have it; ' if not is_offered(package) else ''}"
@@ -80,8 +84,8 @@ def main():
         missing = [package for package in missing if not is_installed(package)]
     if missing:
         say_lacking(missing, arguments.foreign)
-    needed = {row[1] for row in rows() if row[6] == "build"}
-    return 1 if missing and (arguments.all or arguments.names or needed & set(missing)) else 0
+    needed = wanted if arguments.names else [row[1] for row in rows() if row[6] == "build"]
+    return 1 if any(package in needed or (arguments.all and is_offered(package)) for package in missing) else 0
 
 
 if __name__ == "__main__":

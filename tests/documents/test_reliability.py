@@ -13,7 +13,7 @@ import pytest
 
 ROOT = Path(os.environ["HOOKE_SOURCE_DIR"])
 PAGE = (ROOT / "docs/notes/reliability.md").read_text(encoding="utf-8")
-ERRORS = (ROOT / "docs/notes/errors.md").read_text(encoding="utf-8")  # the page of a part of its own
+OTHERS = [(ROOT / "docs" / name).read_text(encoding="utf-8") for name in ("notes/errors.md", "compatibility.md")]  # of one part each
 LONG = ROOT / "tests/long"
 
 
@@ -55,7 +55,7 @@ def test_planted(planted):
 @pytest.fixture
 def steps(monkeypatch, tmp_path):
     monkeypatch.syspath_prepend(str(LONG))
-    for name in ("steps", "soak", "fuzz", "fuzz_hdf5", "sanitizers", "arm64", "windows", "bits", "calibration", "wheels"):
+    for name in ("steps", "soak", "fuzz", "fuzz_hdf5", "sanitizers", "arm64", "windows", "bits", "calibration", "wheels", "systems"):
         monkeypatch.delitem(sys.modules, name, raising=False)
     spec = importlib.util.spec_from_file_location("steps", LONG / "steps.py")
     module = importlib.util.module_from_spec(spec)
@@ -70,7 +70,7 @@ def steps(monkeypatch, tmp_path):
 
 
 def test_parts_have_their_place(steps):
-    for name in ("soak", "fuzz", "fuzz_hdf5", "sanitizers", "arm64", "windows", "want", "calibration", "wheels"):
+    for name in ("soak", "fuzz", "fuzz_hdf5", "sanitizers", "arm64", "windows", "want", "calibration", "wheels", "systems"):
         part = importlib.import_module(name).PART
         page = part.page.read_text(encoding="utf-8") if part.page else PAGE
         assert re.search(rf"<!-- figures of {name} -->\n(?:(?!<!--).)*\n<!-- end -->", page, re.DOTALL)
@@ -79,7 +79,7 @@ def test_parts_have_their_place(steps):
 
 
 def test_parts_took_no_longer_than_they_have(steps):
-    minutes = [int(found) for found in re.findall(r"^\d+ of \d+ steps, (\d+) minutes", PAGE + ERRORS, re.MULTILINE)]
+    minutes = [int(found) for found in re.findall(r"^\d+ of \d+ steps, (\d+) minutes", PAGE + "".join(OTHERS), re.MULTILINE)]
     ran = [part for part in json.loads((ROOT / "docs/notes/reliability.json").read_text(encoding="utf-8")).values() if part]
     assert len(minutes) == len(ran) >= 5 and 60 * max(minutes) < steps.LIMIT
 

@@ -1,5 +1,5 @@
-"""From nothing to tested: `make` and `make test` in bare roots of Debian and Ubuntu with git, make and Python alone, as
-root, and then as a user who may install nothing."""
+"""From nothing to tested: `make` and the tests in bare roots of Debian and Ubuntu with git, make and Python alone, as root,
+and then as a user who may install nothing."""
 
 from __future__ import annotations
 
@@ -8,73 +8,78 @@ from typing import Any
 
 from steps import ROOT, Part, Step
 
-DEBIAN, UBUNTU = "http://deb.debian.org/debian", "http://archive.ubuntu.com/ubuntu"
-# Scripts of debootstrap: those of all versions of Ubuntu are one.
-ROOTS = {"Debian 12": ("bookworm", DEBIAN, "sid"), "Debian 13": ("trixie", DEBIAN, "sid"),
-         "Ubuntu 24.04": ("noble", UBUNTU, "gutsy")}  # fmt: skip
+DEBIAN = "http://deb.debian.org/debian sid"
+UBUNTU = "http://archive.ubuntu.com/ubuntu gutsy --no-check-gpg --components=main,universe"
+# The suite, the mirror, the script of debootstrap (those of all versions of Ubuntu are one) and its options.
+ROOTS = {"Debian 13": f"trixie {DEBIAN}", "Ubuntu 24.04": f"noble {UBUNTU}", "Debian 12": f"bookworm {DEBIAN}"}
 
-# Networks with certificates of their own: those of this machine are taken along. A mirror that cannot be reached is no
-# failure.
+# Networks with certificates of their own: those of this machine are taken along, and nothing else of its environment. A
+# mirror that cannot be reached is no failure.
 BEGIN = """
-root=$WORK/{suite}
+set -- {words}
+suite=$1 mirror=$2 script=$3
+shift 3
+root=$WORK/$suite
 certificates=/etc/ssl/certs/ca-certificates.crt
-python3 -c 'import urllib.request as u; u.urlopen("{mirror}/dists/{suite}/Release", timeout=30)' || {{ echo not tried; exit; }}
+python3 -c 'import sys, urllib.request as u; u.urlopen(sys.argv[1], timeout=30)' $mirror/dists/$suite/Release \\
+  || {{ echo not tried; exit; }}
 """
-MAKE = BEGIN + """
+NEW = """
 rm -rf $root
-debootstrap --variant=minbase --include=git,make,python3{more} {suite} $root {mirror} \\
-  /usr/share/debootstrap/scripts/{script}
+debootstrap --variant=minbase --include=git,make,python3 "$@" $suite $root $mirror /usr/share/debootstrap/scripts/$script
 [ ! -e $certificates ] || cp $certificates $root/certificates
-mount -t proc proc $root/proc
-trap "umount $root/proc" EXIT
 git clone --quiet . $root/hooke
-inside() {{ chroot $root env PIP_CERT=/certificates bash -e -c "$1"; }}
-SECONDS=0
-inside "cd /hooke && make"
-echo took make $SECONDS s
-SECONDS=0
-inside "cd /hooke && make test"
-echo took test $SECONDS s
+folder=/hooke someone=root
 """
-USER = BEGIN + """
+USER = """
+someone=someone folder=/home/someone/hooke
+[ -d $root/home/someone ] || chroot $root useradd --create-home someone
+rm -rf $root$folder
+git clone --quiet . $root$folder
+chroot $root chown -R someone /home/someone
+"""
+SAME = "folder=/hooke someone=root\n"
+INSIDE = """
 mount -t proc proc $root/proc
 trap "umount $root/proc" EXIT
-chroot $root useradd --create-home someone
-git clone --quiet . $root/home/someone/hooke
-chroot $root chown -R someone /home/someone
-inside() {{ chroot $root su someone -c "cd && cd hooke && env PIP_CERT=/certificates $1"; }}
-SECONDS=0
-inside "make"
-echo took make $SECONDS s
-SECONDS=0
-inside "make test"
-echo took test $SECONDS s
+timed() {
+  SECONDS=0
+  chroot $root env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin PIP_CERT=/certificates su $someone -c "cd $folder && $2"
+  echo took $1 $SECONDS s
+}
 """
+TESTED = """
+timed make make
+timed tests "make tests-release && ctest --preset release"
+chroot $root sh -c "gcc --version; cmake --version; python3 --version"
+"""
+REST = "timed rest \"make test PRESETS='minimal asan'\""
+VERSIONS = {"SUNDIALS": r"-- sundials ([0-9.]+): used", "gcc": r"gcc \(.*\) ([0-9.]+)", "CMake": "cmake version ([0-9.]+)",
+            "Python": "Python ([0-9.]+)"}  # fmt: skip
 
 
 def took(text: str) -> dict[str, Any]:
+    """Seconds of what was timed, and the versions of what it was timed with."""
     if text.rstrip().endswith("not tried"):
         return {}
-    times = {what: int(seconds) for what, seconds in re.findall(r"^took (make|test) (\d+) s$", text, re.MULTILINE)}
-    if times.keys() != {"make", "test"}:
-        raise ValueError("not all of it was done")
-    sundials = re.findall(r"^-- sundials ([0-9.]+): used$", text, re.MULTILINE)
-    return times | {"sundials": sundials[0] if sundials else "none"}
+    found = {name: re.findall(f"^{version}$", text, re.MULTILINE) for name, version in VERSIONS.items()}
+    return {what: int(seconds) for what, seconds in re.findall(r"^took (\w+) (\d+) s$", text, re.MULTILINE)} | {
+        "with": {name: versions[-1] for name, versions in found.items() if versions}}  # fmt: skip
 
 
 def rows(step: str, figures: dict[str, Any]) -> list[tuple[str, str]]:
     if not figures:
         return [(step, "not tried: its mirror was not reached")]
-    return [(step, f"`make` {figures['make'] / 60:.0f} min, `make test` {figures['test'] / 60:.0f} min, "
-                   f"SUNDIALS {figures['sundials']}")]  # fmt: skip
+    names = {"make": "`make`", "tests": "tests of `release`, built and run", "rest": "`make test` of the other presets"}
+    times = [f"{name} {figures[key] / 60:.0f} min" for key, name in names.items() if key in figures]
+    return [(step, ", ".join(times + [f"{name} {version}" for name, version in figures["with"].items()]))]
 
 
 def steps(name: str) -> list[Step]:
-    suite, mirror, script = ROOTS[name]
-    words = {"suite": suite, "mirror": mirror, "script": script,
-             "more": " --no-check-gpg --components=main,universe" if mirror == UBUNTU else ""}  # fmt: skip
-    return [Step(name, MAKE.format(**words), 1400, took),
-            Step(f"{name}, as a user", USER.format(**words), 1200, took)]  # fmt: skip
+    begin = BEGIN.format(words=ROOTS[name])
+    return [Step(name, begin + NEW + INSIDE + TESTED, 1100, took),
+            Step(f"{name}, as a user", begin + USER + INSIDE + TESTED, 900, took),
+            Step(f"{name}, other presets", begin + SAME + INSIDE + REST, 900, took)]  # fmt: skip
 
 
 PART = Part("systems", ["debootstrap"], [step for name in ROOTS for step in steps(name)], rows,

@@ -1,6 +1,8 @@
 #define _GNU_SOURCE /* dladdr(), sched_getaffinity() */
 #include "core/os/os.h"
 
+#include "core/keep_errno.h"
+
 #include <dlfcn.h>
 #include <errno.h>
 #include <math.h>
@@ -31,6 +33,7 @@ int hk_os_start_thread(pthread_t *thread, void *(*work)(void *), void *ctx) {
 }
 
 int32_t hk_os_processors(void) {
+  HOOKE_KEEP_ERRNO;
 #if defined(__linux__)
   cpu_set_t set;
   if (sched_getaffinity(0, sizeof set, &set) == 0) return (int32_t)CPU_COUNT(&set);
@@ -74,6 +77,7 @@ static int find_processor(char *name, size_t size) {
 }
 
 int hk_os_describe_machine(struct hk_os_machine *machine) {
+  HOOKE_KEEP_ERRNO; /* sysconf() sets it where /sys is not mounted */
   struct utsname name;
   const int named = uname(&name) == 0;
   snprintf(machine->system, sizeof machine->system, "%.64s%s%.64s", named ? name.sysname : "",
