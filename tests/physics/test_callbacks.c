@@ -247,110 +247,188 @@ static void test_what_a_callback_holds(void **unused) {
 
 /* ---- a callback that stops ---- */
 
-static int32_t stop_after(int64_t n, double t, const double *q, const double *v, double *force, void *ctx) {
-  (void)n;
-  (void)q;
+enum { POINTS = 6, WHOLE = 3, MOST_NUMBERS = 6 * POINTS };
+
+/* Calls of force, drive and rate alike; the one numbered `stop` stops. */
+struct stopper {
+  int64_t calls, stop, steps, size;
+  double whole[WHOLE + 1][MOST_NUMBERS]; /* states by step */
+};
+
+static int32_t count_call(void *ctx) {
+  struct stopper *stopper = ctx;
+  return ++stopper->calls == stopper->stop ? 77 : 0;
+}
+
+static int32_t pull_back(int64_t n, double t, const double *q, const double *v, double *force, void *ctx) {
   (void)v;
-  force[0] += 1.0;
-  return t > *(const double *)ctx ? 1234 : 0;
+  for (int64_t k = 0; k < (n == 1 ? 1 : 3 * n); k++) /* one coordinate, or particles */
+    force[k] -= 10.0 * q[k] + t;
+  return count_call(ctx);
 }
 
-/* The same force without a stop, up to the time of `state`. */
-static void compare_with_whole_steps(const char *method, const hooke_state *state) {
-  const double q[] = {0, 0, 0};
-  double never = INFINITY, whole_q[3], whole_v[3];
-  hooke_state *seen = (hooke_state *)(uintptr_t)state; /* read only */
-  hooke_system *system = small_system(1, q, NULL, 1.0, 0);
-  check_ok(hooke_system_set_force(system, stop_after, NULL, &never));
-  check_ok(hooke_system_commit(system));
-  run_to_end(system, (struct run){.method = method, .step = 0.125, .duration = hooke_state_time(state)},
-             whole_q, whole_v);
-  check_same_bits(3, hooke_state_position(seen), whole_q);
-  check_same_bits(3, hooke_state_velocity(seen), whole_v);
-  hooke_system_destroy(system);
-}
-
-static void test_force_stops(void **unused) {
-  (void)unused;
-  const double q[] = {0, 0, 0};
-  double limit = 0.45;
-  for (int64_t m = 0; m < hooke_method_count(); m++) {
-    const char *method = hooke_method_name(m);
-    if (hooke_method_is_built(method) != 1) continue;
-    hooke_system *system = small_system(1, q, NULL, 1.0, 0);
-    check_ok(hooke_system_set_force(system, stop_after, NULL, &limit));
-    check_ok(hooke_system_commit(system));
-    hooke_integrator *integrator =
-        start_run(system, (struct run){.method = method, .step = 0.125, .duration = 2.0, .every = 0.25});
-    hooke_state *state = start_state(system);
-    check_status(hooke_integrator_run(integrator, state), HOOKE_STOPPED);
-    check_message("1234");
-    assert_int_equal(hooke_integrator_count(integrator, "stop_value"), 1234);
-    /* the last whole step, to the bit: the first force beyond 0.45 s is that of a step from 0.5 s or, for
-     * methods that look to the end of a step, to 0.5 s */
-    const int looks_back = strcmp(method, "forward-euler") == 0 || strcmp(method, "symplectic-euler") == 0 ||
-                           strcmp(method, "implicit-midpoint") == 0;
-    if (is_fixed_step(method)) {
-      check_close(hooke_state_time(state), looks_back ? 0.5 : 0.375, 0.0);
-      compare_with_whole_steps(method, state);
-    } else {
-      check_between(hooke_state_time(state), 0.0, 0.45);
-    }
-    /* x = t^2/2 under a unit force, by any method */
-    const double t = hooke_state_time(state);
-    check_close(hooke_state_position(state)[0], t * t / 2.0, is_fixed_step(method) ? 0.125 * t : 1e-4);
-    hooke_state_destroy(state);
-    hooke_integrator_destroy(integrator);
-    hooke_system_destroy(system);
+static int32_t wander(int64_t count, double t, double *q, double *v, void *ctx) {
+  assert_int_equal(count, 1);
+  for (int a = 0; a < 3; a++) {
+    q[a] = a + t * t;
+    v[a] = 2.0 * t;
   }
-  limit = -1.0;
-  double force[3];
-  hooke_system *system = small_system(1, q, NULL, 1.0, 0);
-  check_ok(hooke_system_set_force(system, stop_after, NULL, &limit));
+  return count_call(ctx);
+}
+
+static int32_t decay(int64_t n, double t, const double *x, double *rate, void *ctx) {
+  for (int64_t k = 0; k < n; k++)
+    rate[k] = t - 3.0 * x[k];
+  return count_call(ctx);
+}
+
+/* A driven particle, two on springs, and three that may be one body. */
+static hooke_system *pulled_system(const char *problem, struct stopper *stopper) {
+  const double q[3 * POINTS] = {0, 1, 2, 1, 0, 0, 2, 0.5, 0, 3, 0, 0, 3, 1, 0, 4, 0, 1},
+                     gravity[] = {0, -1, 0};
+  const int64_t ends[] = {0, 1, 1, 2, 2, 3}, driven = 0, body[] = {3, 4, 5};
+  const int overdamped = strcmp(problem, "overdamped") == 0;
+  hooke_system *system = small_system(POINTS, q, NULL, 1.0, 0);
+  small_springs(system, 3, ends,
+                (struct springs){.stiffness = 4, .damping = overdamped ? 0.0 : 0.3, .rest_length = 1});
+  if (overdamped) check_ok(hooke_system_set_dynamics(system, problem));
+  if (overdamped) check_ok(hooke_system_set_drag(system, 5.0));
+  if (strcmp(problem, "bodies") == 0) check_ok(hooke_system_add_body(system, "plate", 3, body, 0));
+  check_ok(hooke_system_set_gravity(system, gravity));
+  check_ok(hooke_system_drive_callback(system, 1, &driven, wander, stopper));
+  check_ok(hooke_system_set_force(system, pull_back, NULL, stopper));
   check_ok(hooke_system_commit(system));
-  check_status(hooke_system_force(system, 0.0, q, q, force), HOOKE_STOPPED);
-  check_message("1234");
+  return system;
+}
+
+/* At the start of a problem; the system is NULL for coordinates and x' = phi(t, x). */
+static void start_pulled(const char *problem, const char *method, hooke_system **system,
+                         hooke_integrator **it, hooke_state **state, struct stopper *stopper) {
+  const struct run run = {.method = method, .step = 0.0625, .duration = 20.0};
+  hooke_options *options = run_options(run);
+  const double one = 1.0, weight = 0.5;
+  *system = NULL;
+  stopper->calls = -1000; /* beginning calls, too */
+  if (strcmp(problem, "coordinates") == 0) {
+    check_ok(hooke_integrator_create_second_order(1, pull_back, NULL, stopper, 1, &weight, options, it));
+    check_ok(hooke_state_create_second_order(1, state));
+  } else if (strcmp(problem, "first-order") == 0) {
+    *it = start_first_order(1, decay, stopper, run);
+    check_ok(hooke_state_create_first_order(1, state));
+  } else {
+    *system = pulled_system(problem, stopper);
+    *it = start_run(*system, run);
+    *state = start_state(*system);
+  }
+  if (*system == NULL) hooke_state_position(*state)[0] = one;
+  if (is_fixed_step(method)) check_ok(hooke_integrator_step(*it, *state, 0));
+  hooke_options_destroy(options);
+  stopper->calls = stopper->steps = 0;
+}
+
+static void state_numbers(const hooke_state *state, double numbers[MOST_NUMBERS]) {
+  const int64_t size = hooke_state_size(state);
+  const double *v = hooke_state_velocity(state);
+  memset(numbers, 0, MOST_NUMBERS * sizeof *numbers);
+  memcpy(numbers, hooke_state_position(state), (size_t)size * sizeof *numbers);
+  if (v != NULL) memcpy(numbers + size, v, (size_t)size * sizeof *numbers);
+}
+
+static int32_t note_state(int64_t step, const hooke_state *state, void *ctx) {
+  struct stopper *stopper = ctx;
+  stopper->steps = step;
+  if (stopper->stop < 0) state_numbers(state, stopper->whole[step]);
+  return 0;
+}
+
+/* A call stops steps on their way: the state is that of the last whole one, to the bit, and so is the end of those
+ * that go on from there. */
+static void check_stop(const char *problem, const char *method, struct stopper *stopper) {
+  double found[MOST_NUMBERS];
+  hooke_system *system;
+  hooke_integrator *it;
+  hooke_state *state;
+  start_pulled(problem, method, &system, &it, &state, stopper);
+  check_ok(hooke_integrator_on_step(it, 1, note_state, stopper));
+  check_status(hooke_integrator_step(it, state, WHOLE), stopper->stop < 0 ? HOOKE_OK : HOOKE_STOPPED);
+  if (stopper->stop > 0) {
+    check_message("77");
+    assert_int_equal(hooke_integrator_count(it, "stop_value"), 77);
+    check_close(hooke_state_time(state), 0.0625 * (double)stopper->steps, 0.0);
+    state_numbers(state, found);
+    check_same_bits(MOST_NUMBERS, found, stopper->whole[stopper->steps]);
+    check_ok(hooke_integrator_step(it, state, WHOLE - stopper->steps));
+    state_numbers(state, found);
+    check_same_bits(MOST_NUMBERS, found, stopper->whole[WHOLE]);
+  }
+  hooke_integrator_destroy(it);
+  hooke_state_destroy(state);
   hooke_system_destroy(system);
 }
 
-/* A pull to the origin that stops at one call, of any purpose. */
-static int32_t stop_at_call(int64_t n, double t, const double *q, const double *v, double *force, void *ctx) {
-  (void)t, (void)v;
-  int64_t *calls = ctx;
-  for (int64_t k = 0; k < 3 * n; k++)
-    force[k] -= 10.0 * q[k];
-  return --*calls == 0 ? 77 : 0;
+/* The same of an error-controlled method: the driven particle is where it is at that time. */
+static void check_adaptive_stop(const char *problem, const char *method, struct stopper *stopper) {
+  double q[3], v[3];
+  hooke_system *system;
+  hooke_integrator *it;
+  hooke_state *state;
+  start_pulled(problem, method, &system, &it, &state, stopper);
+  check_status(hooke_integrator_run(it, state), HOOKE_STOPPED);
+  check_message("77");
+  assert_int_equal(hooke_integrator_count(it, "stop_value"), 77);
+  wander(1, hooke_state_time(state), q, v, stopper);
+  if (system) check_same_bits(3, hooke_state_position(state), q);
+  hooke_integrator_destroy(it);
+  hooke_state_destroy(state);
+  hooke_system_destroy(system);
 }
 
-/* The run stops in a step, a residual or a difference quotient, and returns the value. */
+/* In a step, a residual or a difference quotient, of every method and every kind of unknowns. */
 static void test_every_call_may_stop(void **unused) {
   (void)unused;
-  const double q[] = {1, 0, 0};
-  for (int64_t m = 0; m < hooke_method_count(); m++) {
-    const char *method = hooke_method_name(m);
-    if (!hooke_method_is_built(method)) continue;
-    for (int64_t call = 1; call <= 40; call++) {
-      int64_t calls = call;
-      hooke_system *system = small_system(1, q, NULL, 1.0, 0);
-      check_ok(hooke_system_set_force(system, stop_at_call, NULL, &calls));
-      check_ok(hooke_system_commit(system));
-      hooke_integrator *integrator =
-          start_run(system, (struct run){.method = method, .step = 0.125, .duration = 20.0});
-      hooke_state *state = start_state(system);
-      check_status(hooke_integrator_run(integrator, state), HOOKE_STOPPED);
-      assert_int_equal(hooke_integrator_count(integrator, "stop_value"), 77);
+  static const char *const problems[] = {"second-order", "bodies", "overdamped", "first-order",
+                                         "coordinates"};
+  for (size_t k = 0; k < sizeof problems / sizeof problems[0]; k++) {
+    const char *kind = strcmp(problems[k], "coordinates") == 0 ? "second-order" : problems[k];
+    for (int64_t m = 0; m < hooke_method_count(); m++) {
+      const char *method = hooke_method_name(m);
+      struct stopper stopper = {.stop = -1};
+      if (!hooke_method_is_built(method) || hooke_method_is_suited(method, kind) != 1) continue;
+      hooke_system *system;
+      hooke_integrator *it;
+      hooke_state *state;
+      start_pulled(problems[k], method, &system, &it, &state, &stopper);
+      state_numbers(state, stopper.whole[0]);
+      hooke_integrator_destroy(it);
       hooke_state_destroy(state);
-      hooke_integrator_destroy(integrator);
       hooke_system_destroy(system);
+      if (is_fixed_step(method)) check_stop(problems[k], method, &stopper);
+      const int64_t calls = is_fixed_step(method) ? stopper.calls : 40;
+      assert_true(calls >= WHOLE);
+      for (stopper.stop = 1; stopper.stop <= calls; stopper.stop++)
+        (is_fixed_step(method) ? check_stop : check_adaptive_stop)(problems[k], method, &stopper);
     }
   }
+}
+
+static void test_a_force_alone_stops(void **unused) {
+  (void)unused;
+  const double q[] = {0, 0, 0};
+  struct stopper stopper = {.stop = 1};
+  double force[3];
+  hooke_system *system = small_system(1, q, NULL, 1.0, 0);
+  check_ok(hooke_system_set_force(system, pull_back, NULL, &stopper));
+  check_ok(hooke_system_commit(system));
+  check_status(hooke_system_force(system, 0.0, q, q, force), HOOKE_STOPPED);
+  check_message("77");
+  hooke_system_destroy(system);
 }
 
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(test_every_call_may_stop),   cmocka_unit_test(test_same_solution_with_product),
       cmocka_unit_test(test_difference_quotients),  cmocka_unit_test(test_what_a_callback_sees),
-      cmocka_unit_test(test_force_stops),           cmocka_unit_test(test_a_force_for_some_runs),
+      cmocka_unit_test(test_a_force_alone_stops),   cmocka_unit_test(test_a_force_for_some_runs),
       cmocka_unit_test(test_what_a_callback_holds),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
