@@ -240,7 +240,7 @@ static void the_seed_decides(void **unused) {
 
 /* ---- the noise of starts ---- */
 
-enum { CHAIN = 9, PLATE = 4, ALL = CHAIN + PLATE, MEMBERS = 5, SOURCES = 2, STARTS = SOURCES * MEMBERS };
+enum { CHAIN = 9, PLATE = 4, ALL = CHAIN + PLATE, MEMBERS = 4, SOURCES = 2, STARTS = SOURCES * MEMBERS };
 
 /* What a force sees: the last displaced starts, which are those of the ensemble. */
 struct starts {
