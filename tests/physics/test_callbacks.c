@@ -1,6 +1,5 @@
 /* Force callbacks: their derivative, their stop value, and their place in the sum. */
 #include "check.h"
-#include "random_scene.h"
 #include "run.h"
 #include "small.h"
 
@@ -8,57 +7,20 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* ---- cvode-bdf with the callback's derivative and without ---- */
-
-static void solve(int32_t with_product, double **q, int64_t *size, int64_t *calls) {
-  struct random_scene scene;
-  random_scene_create((struct random_scene_request){.seed = 99,
-                                                    .particles = 60,
-                                                    .springs = 150,
-                                                    .features = SCENE_EVERYTHING & ~SCENE_COINCIDENT,
-                                                    .with_product = with_product},
-                      &scene);
-  *size = 3 * scene.canonical.particle_count;
-  *q = new_doubles(*size);
-  hooke_integrator *integrator = start_run(
-      scene.system, (struct run){.method = "cvode-bdf", .rtol = 1e-9, .atol = 1e-11, .duration = 0.5});
-  hooke_state *state = start_state(scene.system);
-  check_ok(hooke_integrator_run(integrator, state));
-  memcpy(*q, hooke_state_position(state), (size_t)*size * sizeof(double));
-  *calls = hooke_integrator_count(integrator, "force_evaluations");
-  assert_true(hooke_integrator_count(integrator, "derivative_products") > 0);
-  hooke_state_destroy(state);
-  hooke_integrator_destroy(integrator);
-  random_scene_destroy(&scene);
-}
-
-static void test_same_solution_with_product(void **unused) {
-  (void)unused;
-  if (hooke_method_is_built("cvode-bdf") != 1) skip();
-  double *with, *without, *start;
-  int64_t size, calls;
-  solve(1, &with, &size, &calls);
-  solve(0, &without, &size, &calls);
-  check_between(largest_difference(size, with, without) / largest(size, with), 0.0, 1e-6);
-  start = new_doubles(size);
-  assert_true(largest_difference(size, with, start) > 0.1);
-  free(with);
-  free(without);
-  free(start);
-}
-
 /* ---- a linear force, whose derivative is known: difference quotients must match it ---- */
 
 struct linear {
   int64_t force_calls, product_calls;
+  int32_t coordinates; /* 1: numbers come one by one, not as particles */
 };
 
 static int32_t linear_force(int64_t n, double t, const double *q, const double *v, double *force, void *ctx) {
   struct linear *linear = ctx;
   (void)t;
+  const int64_t numbers = linear->coordinates ? n : 3 * n;
   linear->force_calls++;
-  for (int64_t k = 0; k < 3 * n; k++)
-    force[k] += -7.0 * q[(k + 1) % (3 * n)] - 0.3 * v[k];
+  for (int64_t k = 0; k < numbers; k++)
+    force[k] += -7.0 * q[(k + 1) % numbers] - 0.3 * v[k];
   return 0;
 }
 
@@ -76,7 +38,7 @@ static void test_difference_quotients(void **unused) {
   const double q[] = {1, -2, 3, 100, 0.5, -40}, v[] = {0, 1, 0, -3, 0, 5}, dq[] = {1, 2, -1, 0.5, 0, 3},
                dv[] = {0.25, 0, -4, 1, 1, 1};
   for (int with = 0; with < 2; with++) {
-    struct linear linear = {0, 0};
+    struct linear linear = {0, 0, 0};
     double out[6], expected[6] = {0};
     hooke_system *system = small_system(2, q, v, 1.0, 0);
     check_ok(hooke_system_set_force(system, linear_force, with ? linear_product : NULL, &linear));
@@ -87,6 +49,93 @@ static void test_difference_quotients(void **unused) {
     linear_force(2, 0.0, dq, dv, expected, &linear);
     check_between(largest_difference(6, out, expected) / largest(6, expected), 0.0, with ? 1e-15 : 1e-7);
     hooke_system_destroy(system);
+  }
+}
+
+/* ---- the derivative in steps, of every kind of unknowns, with unequal masses ---- */
+
+enum { LINEAR = 6, STATE = 6 * LINEAR };
+
+static hooke_system *linear_system(const char *kind, hooke_force_product *product, struct linear *linear) {
+  const double q[3 * LINEAR] = {1, -2, 3, 1, 0.5, -4, 0, 0, 2, 1, 0, 0, 0, 1, 0, 0, 0, 1},
+                     mass[] = {0.5, 2.0, 1.0, 0.7, 1.3, 0.4};
+  const int64_t pinned = 0, body[] = {3, 4, 5};
+  hooke_system *system;
+  check_ok(hooke_system_create(&system));
+  check_ok(hooke_system_add_particles(system, LINEAR, q, NULL, LINEAR, mass, NULL));
+  check_ok(hooke_system_pin(system, 1, &pinned));
+  if (strcmp(kind, "overdamped") == 0) check_ok(hooke_system_set_dynamics(system, kind));
+  if (strcmp(kind, "overdamped") == 0) check_ok(hooke_system_set_drag(system, 5.0));
+  if (strcmp(kind, "bodies") == 0) check_ok(hooke_system_add_body(system, NULL, 3, body, 0));
+  check_ok(hooke_system_set_force(system, linear_force, product, linear));
+  check_ok(hooke_system_commit(system));
+  return system;
+}
+
+/* The state after a few steps; the number of products is returned. */
+static int64_t solve(const char *kind, int with, struct run run, double end[STATE]) {
+  const double place[] = {1, -2, 0.5, 3, 2, -1, 0}, weight[] = {0.3, 2.0, 0.7, 1.1, 0.2, 5.0, 1.0};
+  struct linear linear = {.coordinates = strcmp(kind, "coordinates") == 0};
+  hooke_force_product *product = with ? linear_product : NULL;
+  hooke_system *system = linear.coordinates ? NULL : linear_system(kind, product, &linear);
+  hooke_integrator *it;
+  hooke_state *state;
+  hooke_options *options = run_options(run);
+  if (system) {
+    check_ok(hooke_integrator_create(system, options, &it));
+    state = start_state(system);
+  } else {
+    check_ok(
+        hooke_integrator_create_second_order(7, linear_force, product, &linear, 7, weight, options, &it));
+    check_ok(hooke_state_create_second_order(7, &state));
+    memcpy(hooke_state_position(state), place, sizeof place);
+  }
+  const size_t size = (size_t)hooke_state_size(state);
+  check_ok(hooke_integrator_run(it, state));
+  memset(end, 0, STATE * sizeof *end);
+  memcpy(end, hooke_state_position(state), size * sizeof *end);
+  memcpy(end + size, hooke_state_velocity(state), size * sizeof *end);
+  hooke_options_destroy(options);
+  hooke_integrator_destroy(it);
+  hooke_state_destroy(state);
+  hooke_system_destroy(system);
+  return linear.product_calls;
+}
+
+/* The force is linear, so but for turning bodies one iteration solves a step, with the derivative that is given and
+ * with difference quotients. */
+static void test_derivative_in_steps(void **unused) {
+  (void)unused;
+  static const char *const kinds[] = {"second-order", "bodies", "overdamped", "coordinates"};
+  for (size_t k = 0; k < sizeof kinds / sizeof kinds[0]; k++) {
+    int64_t products = 0;
+    for (int64_t m = 0; m < hooke_method_count(); m++) {
+      const char *method = hooke_method_name(m);
+      if (!hooke_method_is_built(method) || hooke_method_is_suited(method, k == 3 ? kinds[0] : kinds[k]) != 1)
+        continue;
+      for (int once = 0; once <= is_implicit(method); once++) {
+        const struct run run = {.method = method,
+                                .step = is_fixed_step(method) ? 0.05 : 0.0,
+                                .duration = 0.25,
+                                .rtol = is_fixed_step(method) ? 0.0 : 1e-10,
+                                .atol = is_fixed_step(method) ? 0.0 : 1e-11,
+                                .newton = once ? "one-iteration" : NULL};
+        double with[STATE], without[STATE], converged[STATE];
+        products += solve(kinds[k], 1, run, with);
+        solve(kinds[k], 0, run, without);
+        solve(kinds[k], 1,
+              (struct run){
+                  .method = method, .step = run.step, .duration = 0.25, .rtol = run.rtol, .atol = run.atol},
+              converged);
+        const double *other[] = {without, strcmp(kinds[k], "bodies") == 0 ? with : converged};
+        for (int o = 0; o < 2; o++)
+          if (!(largest_difference(STATE, with, other[o]) <= (is_fixed_step(method) ? 1e-7 : 1e-5)))
+            check_failed("%s, %s, %s: %g apart %s", kinds[k], method, once ? "one iteration" : "converged",
+                         largest_difference(STATE, with, other[o]),
+                         o ? "once solved" : "without a derivative");
+      }
+    }
+    assert_true(products > 10);
   }
 }
 
@@ -426,7 +475,7 @@ static void test_a_force_alone_stops(void **unused) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_every_call_may_stop),   cmocka_unit_test(test_same_solution_with_product),
+      cmocka_unit_test(test_every_call_may_stop),   cmocka_unit_test(test_derivative_in_steps),
       cmocka_unit_test(test_difference_quotients),  cmocka_unit_test(test_what_a_callback_sees),
       cmocka_unit_test(test_a_force_alone_stops),   cmocka_unit_test(test_a_force_for_some_runs),
       cmocka_unit_test(test_what_a_callback_holds),
