@@ -7,6 +7,7 @@ import subprocess
 import pytest
 from conftest import CLI, STIFF_PAIR
 from pages import (
+    ABOUT,
     DRAWS,
     TITLE,
     VERSION,
@@ -14,7 +15,9 @@ from pages import (
     check_not_built,
     check_places,
     check_planted_faults,
+    check_same,
     count_pixels,
+    data_of,
     fetches,
     needs_browser,
     needs_page,
@@ -37,7 +40,7 @@ def study(tmp_path_factory):
     scene["run"].update(duration=2, every=0.1)
     (folder / "scene.json").write_text(json.dumps(scene))
     command = [CLI, "study", "scene.json", "--methods", ",".join(METHODS), "--steps", STEPS, "--want", "0.01",
-               "--report", "page.html", "--json"]
+               "--watch", "1.x,energy", "--report", "page.html", "--json"]
     done = subprocess.run(command, cwd=folder, capture_output=True, text=True, timeout=240)
     assert (done.returncode, done.stderr) == (0, "")
     return (folder / "page.html").read_text(encoding="utf-8"), json.loads(done.stdout)
@@ -45,6 +48,22 @@ def study(tmp_path_factory):
 
 def rows_with(value, **wanted):
     return [row for row in value["rows"] if all(row[key] == want for key, want in wanted.items())]
+
+
+@needs_page
+def test_numbers_are_those_of_the_answer(study):
+    data, value = data_of(study[0]), copy.deepcopy(study[1])
+    value["recommendation"].update(value["recommendation"].pop("margin"))
+    value["watched"] = value["reference"].pop("watched")
+    value["watched_errors"] = [watched for row in value["rows"] for watched in row.pop("watched")]
+    value["statistics"] = value["statistics"] or []
+    value["scene"] = data["scene"]  # a title there, the file here
+    curves = {"error_max_at": "error_max", "energy_drift_at": "energy_drift"}
+    assert check_same(data, value) == ABOUT - {"scene"} | {"time", "ensemble"} | set(curves)
+    for row in data["rows"]:
+        for curve, largest in curves.items():
+            assert len(row[curve]) == len(data["time"]) == value["frames"]
+            assert row[largest] is None or max(row[curve]) == row[largest]
 
 
 @needs_page
