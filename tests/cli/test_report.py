@@ -28,6 +28,13 @@ METHODS = ["forward-euler", "symplectic-euler", "rk4", "cvode-adams"]
 STEPS = "0.1,0.05,0.02,0.01,0.005,1e-5"
 
 DIAGRAMS = ["work-precision", "convergence", "error-over-time", "energy-over-time"]
+# What is drawn for a row, at its place.
+PLACES = """
+for (const id of ["work-precision", "convergence"]) {
+  const points = Chart.getChart(id).data.datasets.flatMap((set) => set.data.filter((point) => point && point.row && point.row.error !== null));
+  document.getElementById(id).dataset.places = JSON.stringify(points.map(({ x, y, row }) => [row.method, row.step, row.rtol, x, y]));
+}
+"""
 PRESS = """document.querySelector('[data-key="force_evaluations"]').click();"""
 
 
@@ -70,7 +77,7 @@ def test_numbers_are_those_of_the_answer(study):
 @needs_browser
 def test_what_is_drawn(study, tmp_path):
     page, value = study
-    seen = browse(tmp_path, page, count_pixels(DIAGRAMS))
+    seen = browse(tmp_path, page, PLACES + count_pixels(DIAGRAMS))
     assert seen.console == []
     diverged = rows_with(value, status="diverged")
     near = [row for row in value["rows"] if row["error"] is not None and
@@ -88,6 +95,12 @@ def test_what_is_drawn(study, tmp_path):
     assert (steps["lines"], steps["points"], steps["outside"]) == (3, len(fixed), 0)
     assert steps["crosses"] == len([row for row in diverged if row["step"] is not None])
     assert steps["slopes"] == len(orders) > 0
+
+    for name, across in {"work-precision": "wall_seconds", "convergence": "step"}.items():
+        places = {tuple(place) for place in json.loads(seen.drawn(name)["places"])}
+        rows = [row for row in value["rows"] if row["error"] is not None and row[across] is not None]
+        rows += [value["recommendation"]] * (name == "work-precision")
+        assert places == {(row["method"], row["step"], row["rtol"], row[across], row["error"]) for row in rows}
 
     for name in ("error-over-time", "energy-over-time"):
         times = seen.drawn(name)

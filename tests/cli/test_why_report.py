@@ -45,6 +45,8 @@ for (const k of [0, last, ran.length - 1]) {
   });
 }
 document.getElementById("now").dataset.seen = JSON.stringify(seen);
+for (const [id, set] of [["reach", 1], ["along", 0]])
+  document.getElementById(id).dataset.places = JSON.stringify(Chart.getChart(id).data.datasets[set].data.map(({ x, y }) => [x, y]));
 """
 
 
@@ -139,6 +141,10 @@ def test_what_is_drawn(chain, tmp_path):
     assert after[0][1].startswith("zoomed out 1 : ") and after[0][2] and after[1][1:] == ["scale 1 : 1", False]
     assert all(seen.drawn(name)["lines"] >= 0 for name in ("energy", "reach", "along", "picture"))
     assert seen.drawn("picture")["arrows"] == 2
+    data = data_of(chain[0])
+    looks, places = data["limits"], {name: json.loads(seen.drawn(name)["places"]) for name in ("reach", "along")}
+    assert places["reach"] == [[data["step"] * look["frequency"], data["step"] * look["decay"]] for look in looks]
+    assert places["along"] == [[look["time"], look["limit"]] for look in looks]
     assert "predicts" in seen.text["rates"] and "it is outside" in seen.text["left"]
     check_planted_faults(tmp_path, chain[0])
 
