@@ -102,8 +102,8 @@ static int64_t solve(const char *kind, int with, struct run run, double end[STAT
   return linear.product_calls;
 }
 
-/* The force is linear, so but for turning bodies one iteration solves a step, with the derivative that is given and
- * with difference quotients. */
+/* The force is linear, so but for turning bodies one iteration solves a step, with the derivative that is
+ * given and with difference quotients. */
 static void test_derivative_in_steps(void **unused) {
   (void)unused;
   static const char *const kinds[] = {"second-order", "bodies", "overdamped", "coordinates"};
@@ -298,9 +298,10 @@ static void test_what_a_callback_holds(void **unused) {
 
 enum { POINTS = 6, WHOLE = 3, MOST_NUMBERS = 6 * POINTS };
 
-/* Calls of force, drive and rate alike; the one numbered `stop` stops. */
+/* Calls of force, derivative, drive and rate alike; the one numbered `stop` stops. */
 struct stopper {
-  int64_t calls, stop, steps, size;
+  int64_t calls, stop, steps;
+  hooke_force_product *product;          /* NULL: difference quotients */
   double whole[WHOLE + 1][MOST_NUMBERS]; /* states by step */
 };
 
@@ -313,6 +314,14 @@ static int32_t pull_back(int64_t n, double t, const double *q, const double *v, 
   (void)v;
   for (int64_t k = 0; k < (n == 1 ? 1 : 3 * n); k++) /* one coordinate, or particles */
     force[k] -= 10.0 * q[k] + t;
+  return count_call(ctx);
+}
+
+static int32_t pull_back_product(int64_t n, double t, const double *q, const double *v, const double *dq,
+                                 const double *dv, double *out, void *ctx) {
+  (void)t, (void)q, (void)v, (void)dv;
+  for (int64_t k = 0; k < (n == 1 ? 1 : 3 * n); k++)
+    out[k] -= 10.0 * dq[k];
   return count_call(ctx);
 }
 
@@ -345,7 +354,7 @@ static hooke_system *pulled_system(const char *problem, struct stopper *stopper)
   if (strcmp(problem, "bodies") == 0) check_ok(hooke_system_add_body(system, "plate", 3, body, 0));
   check_ok(hooke_system_set_gravity(system, gravity));
   check_ok(hooke_system_drive_callback(system, 1, &driven, wander, stopper));
-  check_ok(hooke_system_set_force(system, pull_back, NULL, stopper));
+  check_ok(hooke_system_set_force(system, pull_back, stopper->product, stopper));
   check_ok(hooke_system_commit(system));
   return system;
 }
@@ -359,7 +368,8 @@ static void start_pulled(const char *problem, const char *method, hooke_system *
   *system = NULL;
   stopper->calls = -1000; /* beginning calls, too */
   if (strcmp(problem, "coordinates") == 0) {
-    check_ok(hooke_integrator_create_second_order(1, pull_back, NULL, stopper, 1, &weight, options, it));
+    check_ok(hooke_integrator_create_second_order(1, pull_back, stopper->product, stopper, 1, &weight,
+                                                  options, it));
     check_ok(hooke_state_create_second_order(1, state));
   } else if (strcmp(problem, "first-order") == 0) {
     *it = start_first_order(1, decay, stopper, run);
@@ -390,8 +400,8 @@ static int32_t note_state(int64_t step, const hooke_state *state, void *ctx) {
   return 0;
 }
 
-/* A call stops steps on their way: the state is that of the last whole one, to the bit, and so is the end of those
- * that go on from there. */
+/* A call stops steps on their way: the state is that of the last whole one, to the bit, and so is the end
+ * of those that go on from there. */
 static void check_stop(const char *problem, const char *method, struct stopper *stopper) {
   double found[MOST_NUMBERS];
   hooke_system *system;
@@ -432,7 +442,24 @@ static void check_adaptive_stop(const char *problem, const char *method, struct 
   hooke_system_destroy(system);
 }
 
-/* In a step, a residual or a difference quotient, of every method and every kind of unknowns. */
+static void check_stops(const char *problem, const char *method, hooke_force_product *product) {
+  struct stopper stopper = {.stop = -1, .product = product};
+  hooke_system *system;
+  hooke_integrator *it;
+  hooke_state *state;
+  start_pulled(problem, method, &system, &it, &state, &stopper);
+  state_numbers(state, stopper.whole[0]);
+  hooke_integrator_destroy(it);
+  hooke_state_destroy(state);
+  hooke_system_destroy(system);
+  if (is_fixed_step(method)) check_stop(problem, method, &stopper);
+  const int64_t calls = is_fixed_step(method) ? stopper.calls : 40;
+  assert_true(calls >= WHOLE);
+  for (stopper.stop = 1; stopper.stop <= calls; stopper.stop++)
+    (is_fixed_step(method) ? check_stop : check_adaptive_stop)(problem, method, &stopper);
+}
+
+/* In a step, a residual or a derivative, of every method and every kind of unknowns. */
 static void test_every_call_may_stop(void **unused) {
   (void)unused;
   static const char *const problems[] = {"second-order", "bodies", "overdamped", "first-order",
@@ -441,21 +468,9 @@ static void test_every_call_may_stop(void **unused) {
     const char *kind = strcmp(problems[k], "coordinates") == 0 ? "second-order" : problems[k];
     for (int64_t m = 0; m < hooke_method_count(); m++) {
       const char *method = hooke_method_name(m);
-      struct stopper stopper = {.stop = -1};
       if (!hooke_method_is_built(method) || hooke_method_is_suited(method, kind) != 1) continue;
-      hooke_system *system;
-      hooke_integrator *it;
-      hooke_state *state;
-      start_pulled(problems[k], method, &system, &it, &state, &stopper);
-      state_numbers(state, stopper.whole[0]);
-      hooke_integrator_destroy(it);
-      hooke_state_destroy(state);
-      hooke_system_destroy(system);
-      if (is_fixed_step(method)) check_stop(problems[k], method, &stopper);
-      const int64_t calls = is_fixed_step(method) ? stopper.calls : 40;
-      assert_true(calls >= WHOLE);
-      for (stopper.stop = 1; stopper.stop <= calls; stopper.stop++)
-        (is_fixed_step(method) ? check_stop : check_adaptive_stop)(problems[k], method, &stopper);
+      check_stops(problems[k], method, NULL);
+      if (is_implicit(method)) check_stops(problems[k], method, pull_back_product);
     }
   }
 }

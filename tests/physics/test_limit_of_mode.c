@@ -139,7 +139,8 @@ static void check_limit(const hooke_system *system, const char *method, double l
                  above);
 }
 
-/* Of every method, without damping and with it up to far above the critical one, of a particle and of a body. */
+/* Of every method, without damping and with it up to far above the critical one, of a particle and of a
+ * body. */
 static void test_limits_are_those_of_the_steps(void **ctx) {
   (void)ctx;
   const double w = sqrt(40.0), ratios[] = {0.0, 0.02, 0.3, 0.9, 1.7, 6.0};

@@ -1,5 +1,5 @@
-/* The steps of systems with rigid bodies as plain loops, which the library reproduces: kicks to the bit, Runge-Kutta
- * methods, explicit and implicit, to rounding. */
+/* The steps of systems with rigid bodies as plain loops, which the library reproduces: kicks to the bit,
+ * Runge-Kutta methods, explicit and implicit, to rounding. */
 #ifndef TESTS_SUPPORT_CANONICAL_BODY_H
 #define TESTS_SUPPORT_CANONICAL_BODY_H
 

@@ -1,5 +1,5 @@
-/* Steps of every method that takes rigid bodies are the plain loops of tests/support/canonical_body.c, for bodies of
- * every kind among other particles, which are driven in every way. */
+/* Steps of every method that takes rigid bodies are the plain loops of tests/support/canonical_body.c, for
+ * bodies of every kind among other particles, which are driven in every way. */
 #include "canonical_body.h"
 #include "check.h"
 #include "random.h"

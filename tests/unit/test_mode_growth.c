@@ -6,8 +6,8 @@
 
 #include <math.h>
 
-/* Of x'' + 2 d x' + w^2 x = 0, of a particle or of a body of one: the spectral radius of a step, from where it takes
- * two unit states. */
+/* Of x'' + 2 d x' + w^2 x = 0, of a particle or of a body of one: the spectral radius of a step, from where
+ * it takes two unit states. */
 static double measure(const char *method, double h, double w, double d, int rigid, double *expected) {
   const double q[] = {0.7, 0, 0}, point[] = {0, 0, 0};
   const int64_t particle = 0;
