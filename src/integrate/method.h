@@ -19,7 +19,8 @@ enum {
 
 struct hk_stability {
   int32_t kind;
-  int32_t damps_implicitly; /* 1: the method treats damping implicitly */
+  int32_t damps_implicitly; /* 1: the method treats damping implicitly, */
+  int32_t damps_apart;      /* and 1: for half a step before and after one without it */
   int32_t degree;           /* 1, 2 or 4 */
   double axis;      /* square of |h lambda| up to which all of the imaginary axis is stable; 0: none */
   double half_disc; /* |h lambda| up to which all of the left half plane is stable; 0: none */

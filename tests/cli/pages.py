@@ -102,6 +102,29 @@ def fetches(page):
             + re.findall(r"\{\{", re.sub(r"<script>.*?</script>", "", page, flags=re.DOTALL)))
 
 
+def data_of(page):
+    start = page.index('id="data">') + len('id="data">')
+    return json.loads(page[start : page.index("</script>", start)])
+
+
+def check_same(page, value, path=""):
+    """What a page tells under the names of an answer in JSON is the same; returns the names that the page alone has."""
+    if isinstance(page, list) and isinstance(value, dict):  # by method there
+        value = [{"method": row["method"], **value.get(row["method"], row)} for row in page]
+    if isinstance(page, dict) and isinstance(value, dict):
+        alone = {key for key in page if key not in value}
+        return alone.union(*(check_same(page[key], value[key], f"{path}.{key}") for key in page if key in value))
+    if isinstance(page, list) and isinstance(value, list):
+        assert len(page) == len(value), path
+        return set().union(*(check_same(*pair, f"{path}[]") for pair in zip(page, value)))
+    assert page == value, path
+    return set()
+
+
+# What every page has beside the answer.
+ABOUT = {"scene", "date", "machine", "versions"}
+
+
 def check_planted_faults(folder, page):
     """A fault in a script is detected, and the page refuses to fetch anything."""
     seen = browse(folder, page, "throw new Error('planted');", '<img src="http://127.0.0.1:9/planted.png">')

@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 from conftest import CLI, MINIMAL, SIX_PARTICLES
 from pages import (
+    ABOUT,
     DRAWS,
     TITLE,
     VERSION,
@@ -16,7 +17,9 @@ from pages import (
     check_not_built,
     check_places,
     check_planted_faults,
+    check_same,
     count_pixels,
+    data_of,
     fetches,
     needs_browser,
     needs_page,
@@ -57,11 +60,6 @@ def make(folder, scene, *arguments):
     return (folder / "page.html").read_text(encoding="utf-8"), json.loads(done.stdout)
 
 
-def data_of(page):
-    start = page.index('id="data">') + len('id="data">')
-    return json.loads(page[start : page.index("</script>", start)])
-
-
 def places(seen, name):
     inside, crosses = json.loads(seen.drawn(name)["places"])
     return [complex(*point) for point in inside], crosses
@@ -74,6 +72,11 @@ def pairs(flat):
 @pytest.fixture(scope="module")
 def chain(tmp_path_factory):
     return make(tmp_path_factory.mktemp("limit"), {**SCENE, "title": TITLE})
+
+
+@needs_page
+def test_numbers_are_those_of_the_answer(chain):
+    assert check_same(data_of(chain[0]), chain[1]) == ABOUT | {"unlimited", "reach", "region", "picture"}
 
 
 @needs_page

@@ -7,7 +7,20 @@ import subprocess
 
 import pytest
 from conftest import CLI, MINIMAL, SIX_PARTICLES, interrupt
-from pages import DRAWS, TITLE, VERSION, browse, check_not_built, check_places, fetches, needs_browser, needs_page
+from pages import (
+    ABOUT,
+    DRAWS,
+    TITLE,
+    VERSION,
+    browse,
+    check_not_built,
+    check_places,
+    check_same,
+    data_of,
+    fetches,
+    needs_browser,
+    needs_page,
+)
 
 pytestmark = pytest.mark.everything
 
@@ -52,11 +65,6 @@ bars.canvas.dataset.ends = JSON.stringify(bars.data.labels.map((label, i) => [la
 """.replace("COLOURS", json.dumps({"picture": [BLUE, RED], "changes": [GREEN, ORANGE], "costs": [GREEN, ORANGE]}))
 
 
-def data_of(page):
-    start = page.index('id="data">') + len('id="data">')
-    return json.loads(page[start:page.index("</script>", start)])
-
-
 @pytest.fixture(scope="module")
 def found(tmp_path_factory):
     """The folder of one search, and its output."""
@@ -96,6 +104,14 @@ def test_keys(found):
     assert row_of(answer, "gravity")["needed"] and row_of(answer, "cloth.structural")["needed"]
     assert row_of(answer, "rope")["error"] == 0 and not row_of(answer, "drag")["needed"]
     assert "rope" in answer["lean"]["without"] and set(answer["lean"]["without"]) <= set(names)
+
+
+@needs_page
+def test_numbers_are_those_of_the_answer(found):
+    folder, answer = found
+    lean = answer["lean"] | {"cheapest": answer["lean"]["full"]}
+    alone = check_same(data_of((folder / "out.html").read_text(encoding="utf-8")), answer | {"lean": lean})
+    assert alone == ABOUT | {"parts", "particles", "picture", "waiting"}
 
 
 def test_the_lean_scene_is_as_far_off_as_it_says(found):

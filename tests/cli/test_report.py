@@ -7,6 +7,7 @@ import subprocess
 import pytest
 from conftest import CLI, STIFF_PAIR
 from pages import (
+    ABOUT,
     DRAWS,
     TITLE,
     VERSION,
@@ -14,7 +15,9 @@ from pages import (
     check_not_built,
     check_places,
     check_planted_faults,
+    check_same,
     count_pixels,
+    data_of,
     fetches,
     needs_browser,
     needs_page,
@@ -25,6 +28,13 @@ METHODS = ["forward-euler", "symplectic-euler", "rk4", "cvode-adams"]
 STEPS = "0.1,0.05,0.02,0.01,0.005,1e-5"
 
 DIAGRAMS = ["work-precision", "convergence", "error-over-time", "energy-over-time"]
+# What is drawn for a row, at its place.
+PLACES = """
+for (const id of ["work-precision", "convergence"]) {
+  const points = Chart.getChart(id).data.datasets.flatMap((set) => set.data.filter((point) => point && point.row && point.row.error !== null));
+  document.getElementById(id).dataset.places = JSON.stringify(points.map(({ x, y, row }) => [row.method, row.step, row.rtol, x, y]));
+}
+"""
 PRESS = """document.querySelector('[data-key="force_evaluations"]').click();"""
 
 
@@ -37,7 +47,7 @@ def study(tmp_path_factory):
     scene["run"].update(duration=2, every=0.1)
     (folder / "scene.json").write_text(json.dumps(scene))
     command = [CLI, "study", "scene.json", "--methods", ",".join(METHODS), "--steps", STEPS, "--want", "0.01",
-               "--report", "page.html", "--json"]
+               "--watch", "1.x,energy", "--report", "page.html", "--json"]
     done = subprocess.run(command, cwd=folder, capture_output=True, text=True, timeout=240)
     assert (done.returncode, done.stderr) == (0, "")
     return (folder / "page.html").read_text(encoding="utf-8"), json.loads(done.stdout)
@@ -48,10 +58,26 @@ def rows_with(value, **wanted):
 
 
 @needs_page
+def test_numbers_are_those_of_the_answer(study):
+    data, value = data_of(study[0]), copy.deepcopy(study[1])
+    value["recommendation"].update(value["recommendation"].pop("margin"))
+    value["watched"] = value["reference"].pop("watched")
+    value["watched_errors"] = [watched for row in value["rows"] for watched in row.pop("watched")]
+    value["statistics"] = value["statistics"] or []
+    value["scene"] = data["scene"]  # a title there, the file here
+    curves = {"error_max_at": "error_max", "energy_drift_at": "energy_drift"}
+    assert check_same(data, value) == ABOUT - {"scene"} | {"time", "ensemble"} | set(curves)
+    for row in data["rows"]:
+        for curve, largest in curves.items():
+            assert len(row[curve]) == len(data["time"]) == value["frames"]
+            assert row[largest] is None or max(row[curve]) == row[largest]
+
+
+@needs_page
 @needs_browser
 def test_what_is_drawn(study, tmp_path):
     page, value = study
-    seen = browse(tmp_path, page, count_pixels(DIAGRAMS))
+    seen = browse(tmp_path, page, PLACES + count_pixels(DIAGRAMS))
     assert seen.console == []
     diverged = rows_with(value, status="diverged")
     near = [row for row in value["rows"] if row["error"] is not None and
@@ -69,6 +95,12 @@ def test_what_is_drawn(study, tmp_path):
     assert (steps["lines"], steps["points"], steps["outside"]) == (3, len(fixed), 0)
     assert steps["crosses"] == len([row for row in diverged if row["step"] is not None])
     assert steps["slopes"] == len(orders) > 0
+
+    for name, across in {"work-precision": "wall_seconds", "convergence": "step"}.items():
+        places = {tuple(place) for place in json.loads(seen.drawn(name)["places"])}
+        rows = [row for row in value["rows"] if row["error"] is not None and row[across] is not None]
+        rows += [value["recommendation"]] * (name == "work-precision")
+        assert places == {(row["method"], row["step"], row["rtol"], row[across], row["error"]) for row in rows}
 
     for name in ("error-over-time", "energy-over-time"):
         times = seen.drawn(name)

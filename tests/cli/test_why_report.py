@@ -1,13 +1,28 @@
 """hooke why --report: the steps around a blow-up, what it grows by, and the advised run, in a headless browser."""
 
+import cmath
 import json
+import math
 import shutil
 import subprocess
 from pathlib import Path
 
 import pytest
 from conftest import CLI, SIX_PARTICLES
-from pages import DRAWS, TITLE, browse, check_not_built, check_places, check_planted_faults, fetches, needs_browser, needs_page
+from pages import (
+    ABOUT,
+    DRAWS,
+    TITLE,
+    browse,
+    check_not_built,
+    check_places,
+    check_planted_faults,
+    check_same,
+    data_of,
+    fetches,
+    needs_browser,
+    needs_page,
+)
 
 ROOT = Path(__file__).resolve().parents[2]
 EXPLODING = ROOT / "tests/cli/scenes/exploding"
@@ -30,6 +45,8 @@ for (const k of [0, last, ran.length - 1]) {
   });
 }
 document.getElementById("now").dataset.seen = JSON.stringify(seen);
+for (const [id, set] of [["reach", 1], ["along", 0]])
+  document.getElementById(id).dataset.places = JSON.stringify(Chart.getChart(id).data.datasets[set].data.map(({ x, y }) => [x, y]));
 """
 
 
@@ -38,11 +55,6 @@ def make(folder, *arguments):
     done = subprocess.run(command, cwd=folder, capture_output=True, text=True, timeout=240)
     assert (done.returncode, done.stderr) == (0, "")
     return (folder / "page.html").read_text(encoding="utf-8"), json.loads(done.stdout)
-
-
-def data_of(page):
-    start = page.index('id="data">') + len('id="data">')
-    return json.loads(page[start:page.index("</script>", start)])
 
 
 @pytest.fixture(scope="module")
@@ -55,7 +67,7 @@ def chain(tmp_path_factory):
 @needs_page
 def test_the_steps_and_their_growth(chain):
     data = data_of(chain[0])
-    assert data["sentence"] == chain[1]["sentence"] and data["command"] == chain[1]["advice"][0]["command"]
+    assert data["command"] == chain[1]["advice"][0]["command"]
     times = [frame["time"] for frame in data["frames"]]
     assert times == pytest.approx([2.5e-3 * k for k in range(len(times))], abs=1e-15) and times[data["last"]] == data["time"]
     assert data["advised"]["step"] == 1e-3
@@ -68,6 +80,52 @@ def test_the_steps_and_their_growth(chain):
     moves = [max(abs(x) for x in data["mode"]["move"][3 * k:3 * k + 3]) for k in range(8)]
     by_number = dict(zip(data["picture"]["particle"], moves))
     assert by_number[3] == 1 and by_number[4] == 1 and by_number[1] < 0.1
+
+
+def step_of(method, h, k, c, x, v):
+    """One step of x'' = -k x - c v."""
+    if method == "symplectic-euler":
+        v -= h * (k * x + c * v)
+        return x + h * v, v
+    if method in ("verlet", "shardlow"):
+        brake = 1 if method == "verlet" else 1 / (1 + h * c / 2 + (h * c / 2) ** 2 / 2)
+        v = brake * v - h / 2 * (k * x + (c * v if method == "verlet" else 0))
+        x += h * v
+        v -= h / 2 * k * x
+        return x, v / (1 + h * c / 2) if method == "verlet" else brake * v
+    order, y, sum_x, sum_v = {"heun": 2, "rk4": 4}[method], (x, v), x, v
+    for j in range(1, order + 1):  # the exponential, cut off
+        y = h / j * y[1], -h / j * (k * y[0] + c * y[1])
+        sum_x, sum_v = sum_x + y[0], sum_v + y[1]
+    return sum_x, sum_v
+
+
+def growth_of(method, h, frequency, decay):
+    (a, b), (c, d) = (step_of(method, h, frequency**2, 2 * decay, *unit) for unit in ((1.0, 0.0), (0.0, 1.0)))
+    root = cmath.sqrt((a + d) ** 2 / 4 - (a * d - b * c))
+    return max(abs((a + d) / 2 + root), abs((a + d) / 2 - root))
+
+
+@needs_page
+@pytest.mark.parametrize("method", ["symplectic-euler", "verlet", "shardlow", "heun", "rk4"])
+def test_numbers_are_true(tmp_path, method):
+    """Those of the answer; and what the page alone has: limits and growth are those of a mode of this frequency and decay."""
+    (tmp_path / "scene.json").write_text(json.dumps(SCENE))
+    page, value = make(tmp_path, "--step", "2.5e-3", "--method", method)
+    data = data_of(page)
+    assert check_same(data, value) == ABOUT | {"command", "rows", "energy", "stride", "last", "picture", "frames", "advised",
+                                               "limits", "mode"}
+    for look in filter(lambda look: look["limit"], data["limits"]):
+        mode = look["frequency"], look["decay"]
+        assert growth_of(method, 0.999 * look["limit"], *mode) <= 1 + 1e-9 < growth_of(method, 1.001 * look["limit"], *mode)
+        assert growth_of(method, data["step"], *mode) == pytest.approx(look["growth"], rel=1e-6)
+    # two masses of 1 kg against each other: between them 10 N s/m, and on each the half of a soft spring of 0.9 m
+    look = data["limits"][0]
+    assert method == "heun" or look["decay"] == pytest.approx(10 + 0.5 / 0.9 / 2, rel=1e-4)
+    assert method == "heun" or look["frequency"] == pytest.approx(math.sqrt(2e6), rel=1e-3)
+    assert data["mode"]["growth"] in [look["growth"] for look in data["limits"] if look["time"] == data["mode"]["time"]]
+    energy = data["energy"]["value"][data["energy"]["last"] - data["last"] * data["stride"]::data["stride"]]
+    assert [frame["energy"] for frame in data["frames"]] == energy[:len(data["frames"])]
 
 
 @needs_page
@@ -83,6 +141,10 @@ def test_what_is_drawn(chain, tmp_path):
     assert after[0][1].startswith("zoomed out 1 : ") and after[0][2] and after[1][1:] == ["scale 1 : 1", False]
     assert all(seen.drawn(name)["lines"] >= 0 for name in ("energy", "reach", "along", "picture"))
     assert seen.drawn("picture")["arrows"] == 2
+    data = data_of(chain[0])
+    looks, places = data["limits"], {name: json.loads(seen.drawn(name)["places"]) for name in ("reach", "along")}
+    assert places["reach"] == [[data["step"] * look["frequency"], data["step"] * look["decay"]] for look in looks]
+    assert places["along"] == [[look["time"], look["limit"]] for look in looks]
     assert "predicts" in seen.text["rates"] and "it is outside" in seen.text["left"]
     check_planted_faults(tmp_path, chain[0])
 

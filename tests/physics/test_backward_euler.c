@@ -255,46 +255,6 @@ static void a_step_without_solution(void **unused) {
   hooke_system_destroy(system);
 }
 
-/* A derivative that stops: its value is returned, and the state is that of the last whole step. */
-static int32_t stopping_product(int64_t n, double t, const double *q, const double *v, const double *dq,
-                                const double *dv, double *out, void *ctx) {
-  pull_product(n, t, q, v, dq, dv, out, ctx);
-  return t > 0.45 ? 77 : 0;
-}
-
-static void a_derivative_that_stops(void **unused) {
-  (void)unused;
-  const double q[] = {1, 0.5, 0};
-  for (int form = 0; form < 2; form++) {
-    hooke_system *system = small_system(1, q, NULL, 1.0, 0);
-    check_ok(hooke_system_set_force(system, pull, stopping_product, NULL));
-    check_ok(hooke_system_commit(system));
-    hooke_integrator *integrator = start_run(
-        system,
-        (struct run){.method = "backward-euler", .newton = forms[form], .step = 0.125, .duration = 1.0});
-    hooke_state *state = start_state(system);
-    check_status(hooke_integrator_run(integrator, state), HOOKE_STOPPED);
-    assert_int_equal(hooke_integrator_count(integrator, "stop_value"), 77);
-    check_close(hooke_state_time(state), 0.375, 0.0);
-    double whole[3];
-    hooke_system *same = small_system(1, q, NULL, 1.0, 0);
-    check_ok(hooke_system_set_force(same, pull, pull_product, NULL));
-    check_ok(hooke_system_commit(same));
-    run_to_end(same,
-               (struct run){.method = "backward-euler",
-                            .newton = forms[form],
-                            .step = 0.125,
-                            .duration = 0.375,
-                            .every = 0.125},
-               whole, NULL);
-    check_same_bits(3, hooke_state_position(state), whole);
-    hooke_system_destroy(same);
-    hooke_state_destroy(state);
-    hooke_integrator_destroy(integrator);
-    hooke_system_destroy(system);
-  }
-}
-
 /* ---- refused problems ---- */
 
 static int32_t decay(int64_t n, double t, const double *x, double *rate, void *ctx) {
@@ -318,11 +278,15 @@ static void refusals(void **unused) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(one_step_is_the_formula),  cmocka_unit_test(forms_agree_where_all_is_linear),
-      cmocka_unit_test(order_with_a_drive),       cmocka_unit_test(strides_over_a_stiff_rod),
-      cmocka_unit_test(gets_through_compression), cmocka_unit_test(work_is_counted),
-      cmocka_unit_test(a_step_is_split),          cmocka_unit_test(a_step_without_solution),
-      cmocka_unit_test(a_derivative_that_stops),  cmocka_unit_test(refusals),
+      cmocka_unit_test(one_step_is_the_formula),
+      cmocka_unit_test(forms_agree_where_all_is_linear),
+      cmocka_unit_test(order_with_a_drive),
+      cmocka_unit_test(strides_over_a_stiff_rod),
+      cmocka_unit_test(gets_through_compression),
+      cmocka_unit_test(work_is_counted),
+      cmocka_unit_test(a_step_is_split),
+      cmocka_unit_test(a_step_without_solution),
+      cmocka_unit_test(refusals),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -241,6 +241,102 @@ static void test_spring_numbers(void **unused) {
   hooke_system_destroy(system);
 }
 
+/* ---- numbers one by one ---- */
+
+enum { CORNERS = 8, MEMBERS = 3, MOST = 3 * MEMBERS };
+static const int64_t of_members[] = {0, 1, 2, 3, 4, 5, 6, 7, 1, 4, 0, 2};
+
+typedef int32_t add_members(hooke_system *system, int64_t count, const int64_t *particles,
+                            const hooke_options *options);
+
+static int32_t add_springs(hooke_system *system, int64_t count, const int64_t *p, const hooke_options *o) {
+  return hooke_system_add_springs(system, NULL, count, p, o);
+}
+
+static int32_t add_altitude(hooke_system *system, int64_t count, const int64_t *p, const hooke_options *o) {
+  return hooke_system_add_altitude(system, NULL, count, p, o);
+}
+
+static int32_t add_anchors(hooke_system *system, int64_t count, const int64_t *p, const hooke_options *o) {
+  return hooke_system_add_anchors(system, NULL, count, p, o);
+}
+
+static int32_t add_bending(hooke_system *system, int64_t count, const int64_t *p, const hooke_options *o) {
+  return hooke_system_add_bending(system, NULL, count, p, hooke_options_number_count(o, "coefficient"),
+                                  hooke_options_numbers(o, "coefficient"));
+}
+
+static const struct kind {
+  const char *force;
+  add_members *add;
+} kinds[] = {
+    {"springs", add_springs}, {"altitude", add_altitude}, {"anchors", add_anchors}, {"bending", add_bending}};
+
+/* Every number that each member may have, of members `first` to `first` + `count`. */
+static hooke_options *numbers_of(const char *force, int64_t first, int64_t count) {
+  hooke_options *options;
+  int64_t set = 0;
+  check_ok(hooke_options_create(force, &options));
+  for (int64_t row = 0; row < hooke_options_row_count(options); row++) {
+    double value[MOST];
+    const char *name = hooke_options_row(options, row, "name");
+    const double columns = hooke_options_row_number(options, row, "columns");
+    const int64_t each = columns > 0.0 ? (int64_t)columns : 1;
+    if (strcmp(hooke_options_row(options, row, "type"), "numbers") != 0) continue;
+    if (hooke_options_row_number(options, row, "whole") == 1.0) continue; /* particles */
+    for (int64_t k = 0; k < each * MEMBERS; k++)
+      value[k] = 0.3 + 0.2 * (double)row + 0.7 * (double)(k * k + k);
+    check_ok(hooke_options_set_numbers(options, name, each * count, value + each * first));
+    set++;
+  }
+  assert_in_range(set, 1, 4);
+  return options;
+}
+
+/* Masses and members all at once, or one after the other. */
+static hooke_system *built_of(const struct kind *kind, int one_by_one, const double *q, const double *mass) {
+  const int64_t size = hooke_member_particles(kind->force), count = one_by_one ? 1 : MEMBERS,
+                particles = one_by_one ? 1 : CORNERS;
+  hooke_system *system;
+  check_ok(hooke_system_create(&system));
+  for (int64_t p = 0; p < CORNERS; p += particles)
+    check_ok(hooke_system_add_particles(system, particles, q + 3 * p, NULL, particles, mass + p, NULL));
+  for (int64_t k = 0; k < MEMBERS; k += count) {
+    hooke_options *options = numbers_of(kind->force, k, count);
+    check_ok(kind->add(system, count, of_members + size * k, options));
+    hooke_options_destroy(options);
+  }
+  check_ok(hooke_system_commit(system));
+  return system;
+}
+
+/* Unequal numbers in arrays act as when they are given one by one. */
+static void test_each_has_its_numbers(void **unused) {
+  (void)unused;
+  double q[3 * CORNERS], moved[3 * CORNERS], v[3 * CORNERS], mass[CORNERS], a[2][3 * CORNERS];
+  for (int k = 0; k < 3 * CORNERS; k++) {
+    q[k] = sin(1.0 + k * k);
+    moved[k] = q[k] + 0.1 * cos(5.0 * k);
+    v[k] = cos(7.0 * k);
+    mass[k / 3] = 0.5 + 0.3 * (k / 3);
+  }
+  for (size_t k = 0; k < sizeof kinds / sizeof kinds[0]; k++) {
+    double stiffness[2][MEMBERS], damping[2][MEMBERS], rest[2][7 * MEMBERS] = {{0}};
+    for (int one_by_one = 0; one_by_one < 2; one_by_one++) {
+      hooke_system *system = built_of(&kinds[k], one_by_one, q, mass);
+      check_ok(hooke_system_acceleration(system, 0.0, moved, v, a[one_by_one]));
+      check_ok(hooke_system_members(system, kinds[k].force, NULL, stiffness[one_by_one], damping[one_by_one],
+                                    rest[one_by_one]));
+      hooke_system_destroy(system);
+    }
+    assert_true(largest_difference(3 * CORNERS, a[0], q) > 0.0 && stiffness[0][0] != stiffness[0][1]);
+    check_same_bits(3 * CORNERS, a[0], a[1]);
+    check_same_bits(MEMBERS, stiffness[0], stiffness[1]);
+    check_same_bits(MEMBERS, damping[0], damping[1]);
+    check_same_bits(7 * MEMBERS, rest[0], rest[1]);
+  }
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(test_particles),
@@ -252,6 +348,7 @@ int main(void) {
       cmocka_unit_test(test_moving_pin),
       cmocka_unit_test(test_calls_out_of_order),
       cmocka_unit_test(test_spring_numbers),
+      cmocka_unit_test(test_each_has_its_numbers),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -108,76 +108,6 @@ static void test_callback(void **unused) {
   assert_true(calls > 2000);
 }
 
-/* A drive that stops the run: its value is returned, and the state is that of one time. */
-static int32_t stopping_drive(int64_t count, double t, double *q, double *v, void *ctx) {
-  (void)count;
-  (void)ctx;
-  callback_motion(t, q, v);
-  return t > 0.05 ? -9 : 0;
-}
-
-static void test_callback_stops(void **unused) {
-  (void)unused;
-  const int64_t driven = 0;
-  for (int64_t m = 0; m < hooke_method_count(); m++) {
-    const char *method = hooke_method_name(m);
-    if (!is_fixed_step(method)) continue;
-    double q[6], v[6], whole_q[6], whole_v[6];
-    int64_t calls = 0;
-    hooke_system *system = driven_pair(), *free_of_stop = driven_pair();
-    check_ok(hooke_system_drive_callback(system, 1, &driven, stopping_drive, NULL));
-    check_ok(hooke_system_drive_callback(free_of_stop, 1, &driven, callback_drive, &calls));
-    check_ok(hooke_system_commit(system));
-    check_ok(hooke_system_commit(free_of_stop));
-    hooke_integrator *integrator =
-        start_run(system, (struct run){.method = method, .step = 0.01, .duration = 1.0});
-    hooke_state *state = start_state(system);
-    check_status(hooke_integrator_run(integrator, state), HOOKE_STOPPED);
-    assert_int_equal(hooke_integrator_count(integrator, "stop_value"), -9);
-    /* the last whole step, to the bit */
-    const double t = hooke_state_time(state);
-    check_close(t, 0.05, 1e-15);
-    run_to_end(free_of_stop, (struct run){.method = method, .step = 0.01, .duration = 0.05}, whole_q,
-               whole_v);
-    memcpy(q, hooke_state_position(state), sizeof q);
-    memcpy(v, hooke_state_velocity(state), sizeof v);
-    check_same_bits(6, q, whole_q);
-    check_same_bits(6, v, whole_v);
-    hooke_state_destroy(state);
-    hooke_integrator_destroy(integrator);
-    hooke_system_destroy(system);
-    hooke_system_destroy(free_of_stop);
-  }
-}
-
-/* The same by an error-controlled method: wherever it stopped, the driven particle is at its position of that
- * time. */
-static void test_callback_stops_adaptive_methods(void **unused) {
-  (void)unused;
-  const int64_t driven = 0;
-  for (int64_t m = 0; m < hooke_method_count(); m++) {
-    const char *method = hooke_method_name(m);
-    if (hooke_method_is_built(method) != 1 || hooke_method_is_adaptive(method) != 1) continue;
-    double q[3], v[3];
-    hooke_system *system = driven_pair();
-    check_ok(hooke_system_drive_callback(system, 1, &driven, stopping_drive, NULL));
-    check_ok(hooke_system_commit(system));
-    hooke_integrator *integrator = start_run(system, (struct run){.method = method, .duration = 1.0});
-    hooke_state *state = start_state(system);
-    check_status(hooke_integrator_run(integrator, state), HOOKE_STOPPED);
-    check_message("-9");
-    assert_int_equal(hooke_integrator_count(integrator, "stop_value"), -9);
-    const double t = hooke_state_time(state);
-    check_between(t, 0.0, 0.05);
-    callback_motion(t, q, v);
-    check_same_bits(3, hooke_state_position(state), q);
-    check_same_bits(3, hooke_state_velocity(state), v);
-    hooke_state_destroy(state);
-    hooke_integrator_destroy(integrator);
-    hooke_system_destroy(system);
-  }
-}
-
 /* ---- table ---- */
 
 enum { SAMPLES = 5 };
@@ -287,8 +217,6 @@ int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(test_harmonic),
       cmocka_unit_test(test_callback),
-      cmocka_unit_test(test_callback_stops),
-      cmocka_unit_test(test_callback_stops_adaptive_methods),
       cmocka_unit_test(test_table),
       cmocka_unit_test(test_table_is_smooth),
       cmocka_unit_test(test_velocity_is_derivative),

@@ -45,7 +45,7 @@ static void test_what_has_none(void **ctx) {
 }
 
 /* One mass on a spring that is damped along its length; drag brakes it in all directions. */
-static hooke_system *build(double damping) {
+static hooke_system *build_one(double damping, int as_body) {
   const double q[6] = {0.0, 0.0, 0.0, 1.0, 0.0, 0.0}, mass = 0.5;
   const int64_t ends[2] = {0, 1}, pinned = 0;
   hooke_system *system;
@@ -59,8 +59,13 @@ static hooke_system *build(double damping) {
   check_ok(hooke_options_set_number(options, "rest_length", 1.0));
   check_ok(hooke_system_add_springs(system, "spring", 1, ends, options));
   hooke_options_destroy(options);
+  if (as_body) check_ok(hooke_system_add_body(system, NULL, 1, ends + 1, 0));
   check_ok(hooke_system_commit(system));
   return system;
+}
+
+static hooke_system *build(double damping) {
+  return build_one(damping, 0);
 }
 
 static hooke_measurement *make(hooke_system *system) {
@@ -91,6 +96,67 @@ static void test_an_oscillator(void **ctx) {
     for (int64_t k = 0; k < hooke_measurement_row_count(limit, "modes"); k++) {
       check_close(hooke_measurement_number(limit, "modes", k, "frequency"), w, 1e-12 * w);
       check_close(hooke_measurement_number(limit, "modes", k, "decay"), d, 1e-12 * d);
+    }
+    hooke_measurement_destroy(limit);
+    hooke_system_destroy(system);
+  }
+}
+
+/* ---- limits and the steps themselves ---- */
+
+/* Spectral radius of a step along the spring, from where it takes two unit states. */
+static double radius(const hooke_system *system, const char *method, double h) {
+  double m[2][2];
+  for (int k = 0; k < 2; k++) {
+    const double by = 1e-3;
+    hooke_integrator *it = start_run(system, (struct run){.method = method, .step = h});
+    hooke_state *state = start_state(system);
+    double *x = hooke_state_position(state) + 3, *v = hooke_state_velocity(state) + 3;
+    *(k == 0 ? x : v) += by;
+    check_ok(hooke_integrator_step(it, state, 1));
+    m[0][k] = (*x - 1.0) / by;
+    m[1][k] = *v / by;
+    hooke_state_destroy(state);
+    hooke_integrator_destroy(it);
+  }
+  const double half = 0.5 * (m[0][0] + m[1][1]), product = m[0][0] * m[1][1] - m[0][1] * m[1][0];
+  const double root = half * half - product;
+  return root < 0.0 ? sqrt(product) : fabs(half) + sqrt(root);
+}
+
+/* Stable up to the limit, and not a millionth above it. */
+static void check_limit(const hooke_system *system, const char *method, double limit, double w) {
+  const double rounding = 1e-10, longest = fmin(limit, 100.0 / w);
+  for (int k = 1; k < 8 && limit > 0.0; k++) {
+    const double found = radius(system, method, k * longest / 8.0);
+    if (!(found <= 1.0 + rounding)) check_failed("%s grows by %.9g at %d/8 of its limit", method, found, k);
+  }
+  if (isinf(limit)) return;
+  const double below = limit > 0.0 ? radius(system, method, limit * (1.0 - 1e-6)) : 1.0,
+               above = radius(system, method, limit > 0.0 ? limit * (1.0 + 1e-6) : 0.1 / w);
+  if (!(below <= 1.0 + rounding && above > 1.0 + 3.0 * rounding))
+    check_failed("%s: below its limit %.17g a step grows by %.12g, above it by %.12g", method, limit, below,
+                 above);
+}
+
+/* Of every method, without damping and with it up to far above the critical one, of a particle and of a
+ * body. */
+static void test_limits_are_those_of_the_steps(void **ctx) {
+  (void)ctx;
+  const double w = sqrt(40.0), ratios[] = {0.0, 0.02, 0.3, 0.9, 1.7, 6.0};
+  for (int k = 0; k < 12; k++) {
+    const double decay = ratios[k % 6] * w;
+    const int as_body = k >= 6;
+    hooke_system *system = build_one(decay, as_body);
+    hooke_measurement *limit = as_body ? make(system) : NULL;
+    if (limit) check_ok(hooke_measurement_run(limit, NULL));
+    for (int64_t m = 0; m < hooke_method_count(); m++) {
+      const char *method = hooke_method_name(m);
+      if (!is_fixed_step(method) || (as_body && !hooke_method_is_suited(method, "bodies"))) continue;
+      const int64_t row = limit ? hooke_measurement_find(limit, "rows", "method", method) : 0;
+      check_limit(system, method,
+                  limit ? hooke_measurement_number(limit, "rows", row, "predicted") : of(method, w, decay),
+                  w);
     }
     hooke_measurement_destroy(limit);
     hooke_system_destroy(system);
@@ -131,6 +197,7 @@ int main(void) {
       cmocka_unit_test(test_without_stiffness),
       cmocka_unit_test(test_what_has_none),
       cmocka_unit_test(test_an_oscillator),
+      cmocka_unit_test(test_limits_are_those_of_the_steps),
       cmocka_unit_test(test_reports_that_are_refused),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -238,6 +238,86 @@ static void the_seed_decides(void **unused) {
   hooke_system_destroy(system);
 }
 
+/* ---- the noise of starts ---- */
+
+enum { CHAIN = 9, PLATE = 4, ALL = CHAIN + PLATE, MEMBERS = 4, SOURCES = 2, STARTS = SOURCES * MEMBERS };
+
+/* What a force sees: the last displaced starts, which are those of the ensemble. */
+struct starts {
+  double place[3 * ALL], displaced[STARTS][3 * ALL], last;
+  int64_t count;
+};
+
+static int32_t look(int64_t n, double t, const double *q, const double *v, double *force, void *ctx) {
+  struct starts *starts = ctx;
+  (void)v, (void)force;
+  assert_int_equal(n, ALL);
+  if (t == 0.0 && starts->last != 0.0 && q[3] != starts->place[3])
+    memcpy(starts->displaced[starts->count++ % STARTS], q, sizeof starts->place);
+  starts->last = t;
+  return 0;
+}
+
+/* A chain, whose motion is chaotic, with a body at its end. */
+static hooke_system *chain_and_plate(struct starts *starts) {
+  static const double corner[] = {3.5, 0, 0, 4, 0, 0, 3.5, 0.5, 0, 3.5, 0, 0.5}, down[] = {0, -9.81, 0};
+  static const int64_t plate[] = {CHAIN, CHAIN + 1, CHAIN + 2, CHAIN + 3};
+  int64_t ends[2 * CHAIN];
+  for (int k = 0; k < 3 * ALL; k++)
+    starts->place[k] = k < 3 * CHAIN ? 0.4 * (k / 3) * (k % 3 == 0) + 0.1 * sin(k) : corner[k - 3 * CHAIN];
+  for (int k = 0; k < 2 * CHAIN; k++)
+    ends[k] = (k + 1) / 2;
+  hooke_system *system = small_system(ALL, starts->place, NULL, 1.0, 1);
+  check_ok(hooke_system_set_gravity(system, down));
+  small_springs(system, CHAIN, ends, (struct springs){.stiffness = 300.0, .rest_length = -1.0});
+  check_ok(hooke_system_add_body(system, "plate", PLATE, plate, 0));
+  check_ok(hooke_system_set_force(system, look, NULL, starts));
+  check_ok(hooke_system_commit(system));
+  return system;
+}
+
+static double apart(const double *q, int i, int j) {
+  const double *a = q + 3 * i, *b = q + 3 * j;
+  return hypot(hypot(a[0] - b[0], a[1] - b[1]), a[2] - b[2]);
+}
+
+/* As large as it says and about the start, by four standard errors; and bodies move, but stay rigid. */
+static void check_noise(const struct starts *starts, double noise) {
+  const double count = STARTS * (CHAIN - 1);
+  double squares = 0.0, sum[3] = {0.0}, moved = 0.0, torn = 0.0;
+  for (int s = 0; s < STARTS; s++) {
+    const double *q = starts->displaced[s];
+    for (int k = 3; k < 3 * CHAIN; k++) {
+      squares += pow(q[k] - starts->place[k], 2.0);
+      sum[k % 3] += q[k] - starts->place[k];
+    }
+    moved = fmax(moved, largest_difference(3 * PLATE, q + 3 * CHAIN, starts->place + 3 * CHAIN));
+    for (int k = 0; k < PLATE * PLATE; k++)
+      torn = fmax(torn, fabs(apart(q, CHAIN + k / PLATE, CHAIN + k % PLATE) -
+                             apart(starts->place, CHAIN + k / PLATE, CHAIN + k % PLATE)));
+  }
+  check_close(sqrt(squares / count) / noise, 1.0, 4.0 / sqrt(6.0 * count));
+  for (int a = 0; a < 3; a++)
+    check_close(sum[a] / count, 0.0, 4.0 * noise / sqrt(3.0 * count));
+  check_between(moved, 0.5 * noise, 5.0 * noise);
+  check_between(torn, 0.0, 1e-3 * noise);
+}
+
+static void the_noise_is_what_it_is_said_to_be(void **unused) {
+  (void)unused;
+  struct starts starts = {.last = 0.0};
+  hooke_system *system = chain_and_plate(&starts);
+  hooke_measurement *study = start(
+      system,
+      (struct study){
+          .duration = 12.0, .every = 1.0, .members = MEMBERS, .methods = "symplectic-euler", .step = 0.01});
+
+  assert_true(starts.count >= STARTS);
+  check_noise(&starts, hooke_measurement_number(study, "ensemble", 0, "noise"));
+  hooke_measurement_destroy(study);
+  hooke_system_destroy(system);
+}
+
 static void one_start_is_refused(void **unused) {
   (void)unused;
   hooke_system *system = double_pendulum();
@@ -262,7 +342,7 @@ static void one_start_is_refused(void **unused) {
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(errors_of_what_is_watched_are_true), cmocka_unit_test(a_pendulum_has_statistics),
-      cmocka_unit_test(a_crumpling_cloth_has_statistics), cmocka_unit_test(the_seed_decides),
-      cmocka_unit_test(one_start_is_refused)};
+      cmocka_unit_test(a_crumpling_cloth_has_statistics),   cmocka_unit_test(the_seed_decides),
+      cmocka_unit_test(the_noise_is_what_it_is_said_to_be), cmocka_unit_test(one_start_is_refused)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,6 +1,7 @@
 /* Compile without contraction of products and sums (-ffp-contract=off), like the library. */
 #include "canonical_body.h"
 
+#include "canonical_step.h"
 #include "check.h"
 
 #include <math.h>
@@ -169,15 +170,21 @@ static void read(const struct canonical_body *body, const double *q, const doubl
 
 /* ---- and back ---- */
 
-static void write(const struct canonical *canonical, const struct canonical_body *body, struct own *own,
-                  double *q, double *v) {
-  double m[3][3], turning[3], rotation[3], arm[3], swing[3];
-  normalise(own->turn);
-  matrix_of(own->turn, m);
+static void rotation_by(const struct canonical_body *body, const struct own *own, double m[3][3],
+                        double *rotation) {
+  double turning[3];
   to_body(m, own->l, turning);
   for (int k = 0; k < 3; k++)
     turning[k] = body->inertia[k] > 0.0 ? turning[k] / body->inertia[k] : 0.0;
   to_space(m, turning, rotation);
+}
+
+static void write(const struct canonical *canonical, const struct canonical_body *body, struct own *own,
+                  double *q, double *v) {
+  double m[3][3], rotation[3], arm[3], swing[3];
+  normalise(own->turn);
+  matrix_of(own->turn, m);
+  rotation_by(body, own, m, rotation);
   for (int64_t k = 0; k < body->count; k++) {
     const int64_t p = body->particle[k];
     if (!(canonical->inverse_mass[p] > 0.0)) continue;
@@ -341,6 +348,7 @@ static void verlet(const struct stepped *s, double t, double end, double h, doub
   memcpy(s->half, s->own, (size_t)s->count * sizeof *s->half);
   kick_all(s, 0.5 * h, v, s->own);
   write_all(s, s->own, q, v);
+  canonical_place(s->canonical, end, q, v);
   find_forces(s, end, q, v);
   for (int64_t k = 0; k < 3 * s->canonical->particle_count; k++)
     if (is_loose(s, k)) v[k] = half[k];
@@ -349,8 +357,92 @@ static void verlet(const struct stepped *s, double t, double end, double h, doub
   free(half);
 }
 
+/* ---- Runge-Kutta methods, of everything as one array: loose q and v, and own coordinates ---- */
+
+#define ROOT 1.41421356237309504880
+
+static const struct tableau {
+  const char *method;
+  int stages;
+  double a[4][4], b[4], at[4];
+} tableaus[] = {
+    {"forward-euler", 1, {{0}}, {1}, {0}},
+    {"heun", 2, {{0}, {1}}, {0.5, 0.5}, {0, 1}},
+    {"rk4", 4, {{0}, {0.5}, {0, 0.5}, {0, 0, 1}}, {1. / 6, 1. / 3, 1. / 3, 1. / 6}, {0, 0.5, 0.5, 1}},
+    {"backward-euler", 1, {{1}}, {1}, {1}},
+    {"implicit-midpoint", 1, {{0.5}}, {1}, {0.5}},
+    {"tr-bdf2",
+     3,
+     {{0}, {1 - ROOT / 2, 1 - ROOT / 2}, {ROOT / 4, ROOT / 4, 1 - ROOT / 2}},
+     {ROOT / 4, ROOT / 4, 1 - ROOT / 2},
+     {0, 2 - ROOT, 1}},
+};
+
+/* Leaves the rows of y in q and v. */
+static void put(const struct stepped *s, double t, const double *y, double *q, double *v) {
+  const int64_t size = 3 * s->canonical->particle_count;
+  for (int64_t k = 0; k < size; k++) {
+    if (is_loose(s, k)) q[k] = y[k];
+    if (is_loose(s, k)) v[k] = y[size + k];
+  }
+  memcpy(s->own, y + 2 * size, (size_t)s->count * sizeof *s->own);
+  write_all(s, s->own, q, v);
+  canonical_place(s->canonical, t, q, v);
+}
+
+static void find_slope(const struct stepped *s, double t, const double *y, double *q, double *v,
+                       double *rate) {
+  const struct canonical *canonical = s->canonical;
+  const int64_t size = 3 * canonical->particle_count;
+  put(s, t, y, q, v);
+  find_forces(s, t, q, v);
+  for (int64_t k = 0; k < size; k++) {
+    rate[k] = is_loose(s, k) ? v[k] : 0.0;
+    rate[size + k] = canonical->inverse_mass[k / 3] * s->f[k];
+    if (canonical->gravity != NULL) rate[size + k] += canonical->gravity[k % 3];
+  }
+  for (int64_t b = 0; b < s->count; b++) {
+    const struct own *at = (const struct own *)(const void *)(y + 2 * size) + b;
+    struct own *to = (struct own *)(void *)(rate + 2 * size) + b;
+    double m[3][3], around[4] = {0.0, 0.0, 0.0, 0.0};
+    matrix_of(at->turn, m);
+    rotation_by(&s->body[b], at, m, around + 1);
+    multiply(around, at->turn, to->turn);
+    for (int k = 0; k < 4; k++)
+      to->turn[k] *= 0.5;
+    memcpy(to->x, at->v, sizeof to->x);
+    memcpy(to->v, s->push + 6 * b, sizeof to->v);
+    memcpy(to->l, s->push + 6 * b + 3, sizeof to->l);
+  }
+}
+
+/* Stages that need each other come from sweep after sweep, by which the rest shrinks to rounding. */
+static void runge_kutta(const struct stepped *s, const struct tableau *with, double t, double h, double *q,
+                        double *v) {
+  enum { SWEEPS = 30 };
+  const int64_t size = 3 * s->canonical->particle_count, all = 2 * size + 13 * s->count;
+  double *y = new_doubles(all), *stage = new_doubles(all), *rate = new_doubles(4 * all);
+  memcpy(y, q, (size_t)size * sizeof *y);
+  memcpy(y + size, v, (size_t)size * sizeof *y);
+  memcpy(y + 2 * size, s->own, (size_t)s->count * sizeof *s->own);
+  for (int i = 0; i < SWEEPS * with->stages; i++) {
+    const int now = i % with->stages;
+    memcpy(stage, y, (size_t)all * sizeof *y);
+    for (int64_t k = 0; k < 4 * all; k++)
+      stage[k % all] += h * with->a[now][k / all] * rate[k];
+    find_slope(s, t + with->at[now] * h, stage, q, v, rate + now * all);
+  }
+  for (int64_t k = 0; k < with->stages * all; k++)
+    y[k % all] += h * with->b[k / all] * rate[k];
+  put(s, t + h, y, q, v);
+  free(y);
+  free(stage);
+  free(rate);
+}
+
 void canonical_body_step(const struct canonical *canonical, int64_t count, const struct canonical_body *body,
                          const char *method, double t, double end, double h, double *q, double *v) {
+  const struct tableau *tableau = NULL;
   struct stepped s = {.canonical = canonical, .count = count, .body = body};
   s.inside = new_block(canonical->particle_count, 1);
   s.own = new_block(count, sizeof *s.own);
@@ -362,15 +454,20 @@ void canonical_body_step(const struct canonical *canonical, int64_t count, const
       s.inside[body[b].particle[k]] = 1;
     read(&body[b], q, v, &s.own[b]);
   }
-  if (strcmp(method, "verlet") == 0) {
+  for (size_t k = 0; k < sizeof tableaus / sizeof tableaus[0]; k++)
+    if (strcmp(method, tableaus[k].method) == 0) tableau = &tableaus[k];
+  if (tableau) {
+    runge_kutta(&s, tableau, t, h, q, v);
+  } else if (strcmp(method, "verlet") == 0) {
     verlet(&s, t, end, h, q, v);
   } else {
-    assert_string_equal(method, "symplectic-euler");
+    assert_string_equal(method, "symplectic-euler"); /* a new method needs its own loop here */
     find_forces(&s, t, q, v);
     kick_all(&s, h, v, s.own);
     drift_all(&s, h, q, v);
     write_all(&s, s.own, q, v);
   }
+  canonical_place(canonical, end, q, v);
   free(s.inside);
   free(s.own);
   free(s.half);

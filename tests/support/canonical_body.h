@@ -1,4 +1,5 @@
-/* The steps of systems with rigid bodies as plain loops, which the library reproduces to the bit. */
+/* The steps of systems with rigid bodies as plain loops, which the library reproduces: kicks to the bit,
+ * Runge-Kutta methods, explicit and implicit, to rounding. */
 #ifndef TESTS_SUPPORT_CANONICAL_BODY_H
 #define TESTS_SUPPORT_CANONICAL_BODY_H
 
@@ -17,7 +18,7 @@ struct canonical_body {
   const double (*triad)[3];                /* e1, e2, e3 of these in the body's axes */
 };
 
-/* One step of symplectic-euler or verlet. Nothing is driven. */
+/* One step of any fixed-step method; one without a loop here fails the test. */
 void canonical_body_step(const struct canonical *canonical, int64_t count, const struct canonical_body *body,
                          const char *method, double t, double end, double h, double *q, double *v);
 

@@ -104,6 +104,9 @@ static int32_t step_stages(hooke_integrator *it) {
     hk_stage_move(stages, stage, it->schedule.step, own->unknowns.size, own->slope, own->start, own->sum,
                   own->y);
   }
+  const int32_t status =
+      hk_integrator_drive(it, hk_integrator_next_time(it)); /* the last stage may be earlier */
+  if (status != HOOKE_OK) return undo_step(it, status);
   give(it, own->y);
   return HOOKE_OK;
 }

@@ -76,7 +76,7 @@ const struct hk_method hk_shardlow = {
     .built = 1,
     .order = 2,
     .second_order = 1,
-    .stability = {.kind = HOOKE_STABLE_BY_K, .damps_implicitly = 1},
+    .stability = {.kind = HOOKE_STABLE_BY_K, .damps_implicitly = 1, .damps_apart = 1},
     .create = create,
     .destroy = destroy,
     .forget = forget,

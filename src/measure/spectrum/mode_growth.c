@@ -24,10 +24,17 @@ static double by_prediction(double k, double c) {
   return larger_root(1.0, 2.0 - k - c + 0.25 * k * c + 0.5 * c * c, 1.0 - c + 0.5 * c * c - 0.25 * k * c);
 }
 
+/* Damping multiplies volume in (x, v), and the trace of the step without it in the mean with 1. */
+static double by_stiffness(double k, double c, int32_t apart) {
+  const double brake = 1.0 / (1.0 + c * (1.0 + 0.5 * c)),
+               volume = apart ? brake * brake : (1.0 - c) / (1.0 + c);
+  return larger_root(1.0, (1.0 - 0.5 * k) * (1.0 + volume), volume);
+}
+
 double hk_mode_growth(const struct hk_stability *stability, double h, double frequency, double decay) {
   const double k = h * h * frequency * frequency, c = h * decay;
   if (stability->kind == HOOKE_STABLE_BY_K_AND_C) return larger_root(1.0, 2.0 - k - 2.0 * c, 1.0 - 2.0 * c);
-  if (stability->kind == HOOKE_STABLE_BY_K) return larger_root(1.0 + c, 2.0 - k, 1.0 - c);
+  if (stability->kind == HOOKE_STABLE_BY_K) return by_stiffness(k, c, stability->damps_apart);
   if (stability->kind == HOOKE_STABLE_BY_PREDICTION) return by_prediction(k, 2.0 * c);
   if (stability->kind != HOOKE_STABLE_BY_POLYNOMIAL) return NAN;
   const double complex root = csqrt(decay * decay - frequency * frequency);
