@@ -51,7 +51,7 @@ def test_every_unit_of_every_table_is_what_it_is_elsewhere():
         for row in options.rows:
             bases = [base.split(" (")[0] for base in row.unit.split(", ") if base]
             assert row.units == [unit for base in bases for unit in known[base]], (table, row.name)
-            for base, unit in ((base, unit) for base in bases for unit in known[base]):
+            for base, unit in ((b, unit) for b in bases for unit in known[b]):
                 options[row.name] = ", ".join([f"0.25 {unit}"] * (row.min_count or 1))
                 found = np.ravel(options[row.name])
                 assert found == pytest.approx(np.full(len(found), 0.25 * known[base][unit]), rel=1e-14, abs=0), (table, row.name, unit)
