@@ -203,7 +203,7 @@ def calls_of(folder, words):
     log = folder.parent / "calls"
     log.unlink(missing_ok=True)
     loaded = ["env", f"LD_PRELOAD={os.environ['HOOKE_CRASH']}", f"HOOKE_CRASH_CALLS={log}"]
-    answer = start(folder, words, before=["timeout", "20", *loaded])
+    answer = start(folder, words, before=["timeout", "-s", "KILL", "20", *loaded])
     assert answer.returncode in (0, 4), answer.stderr
     rows = [line.split("\t") for line in log.read_text().splitlines()]
     return [(call, int(flags), int(mode), *map(os.path.basename, names)) for call, flags, mode, *names in rows]
@@ -221,7 +221,7 @@ def check_calls(folder, calls, older):
         assert calls[begun][1] & (os.O_EXCL | os.O_NOFOLLOW) == os.O_EXCL | os.O_NOFOLLOW, name
         own = [(call, k) for k, (call, _, _, path, _) in enumerate(calls[:at]) if path == part and call in ("write", "fsync")]
         assert own and own[-1][0] == "fsync", (name, own)
-        assert any(call == "fsync" and path == folder.name for call, _, _, path, _ in calls[at:]), name
+        assert calls[at + 1][::3] == ("fsync", folder.name), name
         modes = [mode for call, _, mode, path, _ in calls[:at] if path == part and call in ("open", "fchmod")]
         assert name not in older or all(mode & ~older[name] == 0 for mode in modes), (name, modes)
     return set(taken)
