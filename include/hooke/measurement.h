@@ -51,7 +51,7 @@ HOOKE_API int32_t hooke_measurement_run(hooke_measurement *measurement, hooke_st
 /* ---- tables ---- */
 
 /* Property of table `table` of a kind: "name", "doc" or "shape" ("record" or "rows"); NULL past the last
- * table, and for another word. hooke_measurement_table(NULL, k, "name") is the name of kind `k`. */
+ * table, and for another word. With `kind` NULL, table k is kind k: its "name" is that of the kind. */
 HOOKE_API const char *hooke_measurement_table(const char *kind, int64_t table, const char *what);
 /* Property of column `column` of a table: "name", "unit" ("" if it has none), "doc" or "type": "number",
  * "count" (a whole number), "flag" (0, 1, or NaN: unknown), "text" or "series". NULL past the last column,
@@ -80,8 +80,8 @@ HOOKE_API const double *hooke_measurement_series(const hooke_measurement *measur
 /* ---- files ---- */
 
 /* Sets a text that files show, copied: "title" is the heading of a page, "command" the command line of the
- * recommendation on it, "scene" the text of the scene in HDF5. NULL removes it. HOOKE_BAD_VALUE for another
- * word, HOOKE_NO_MEMORY. */
+ * recommendation on it, "scene" the text of the scene in HDF5. `text` NULL removes it. HOOKE_BAD_VALUE for
+ * another word, HOOKE_NO_MEMORY. */
 HOOKE_API int32_t hooke_measurement_label(hooke_measurement *measurement, const char *what, const char *text);
 
 /* Writes the results so far in the format given by the ending of `path`: .csv (the table "rows"), .json and

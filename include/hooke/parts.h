@@ -32,8 +32,8 @@ extern "C" {
  * NULL past the last kind and for another word. */
 HOOKE_API const char *hooke_part_kind(int64_t kind, const char *what);
 
-/* Adds a part's particles, springs, triples and tetrahedra. Groups are named "<name>.<family>"; an unnamed
- * part (NULL or "") gets its kind and its number among the parts as its name. `first` and `count`, if not
+/* Adds a part's particles, springs, triples and tetrahedra. Groups are named "<name>.<family>"; with `name`
+ * NULL or "" a part gets its kind and its number among the parts as its name. `first` and `count`, if not
  * NULL, receive its particles. HOOKE_BAD_VALUE, HOOKE_BAD_CALL after commit, HOOKE_NO_MEMORY. */
 HOOKE_API int32_t hooke_system_add_part(hooke_system *system, const char *kind, const char *name,
                                         const hooke_options *options, int64_t *first, int64_t *count);

@@ -50,8 +50,8 @@ HOOKE_API int32_t hooke_scene_write(const char *path, const hooke_system *system
                                     const hooke_options *run);
 
 /* The same as a scene object: its text is the text that would be written, and its system is made from that
- * text and not committed. `name` and `folder` are as in hooke_scene_parse(); the caller owns the scene.
- * Failures are those of both functions, except those of files. */
+ * text and not committed. `title` may be NULL; `name` and `folder`, or NULL, are as in hooke_scene_parse().
+ * The caller owns the scene. Failures are those of both functions, except those of files. */
 HOOKE_API int32_t hooke_scene_of_system(const hooke_system *system, const char *title,
                                         const hooke_options *run, const char *name, const char *folder,
                                         hooke_scene **scene);

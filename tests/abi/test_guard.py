@@ -38,6 +38,24 @@ def test_every_pointer_is_checked_or_may_be_null():
             assert checked.count(what) == (kind.endswith("*") and not may), (name, what)
 
 
+def test_only_texts_may_be_null_of_which_the_headers_say_so():
+    """A comment says so in a sentence with the name of the parameter; "NULL for" and "NULL past" are of results."""
+    texts, said, function_of = [], {}, re.compile(r"/\*(.*?)\*/|HOOKE_API [^;()]*?\b(hooke_\w+)\(", re.DOTALL)
+    for header in headers.public().values():
+        comment = ""
+        for words, name in function_of.findall(header):
+            said[name] = comment = comment if name else " ".join(words.replace("\n *", " ").split())
+        texts += [(name, what) for _, name, parameters in headers.declared(header)
+                  for kind, what in parameters if kind == "const char *"]
+
+    def allows(name, what):
+        sentences = re.split(r"(?<=\.) ", said[name])
+        return any(f"`{what}`" in sentence and re.search(r"NULL(?! for| past)", sentence) for sentence in sentences)
+
+    assert len(texts) > 60
+    assert {text for text in texts if guard.is_optional(*text)} == {text for text in texts if allows(*text)}
+
+
 def test_every_type_of_handle_is_registered():
     """Each is made as a handle and refused as one, and no other is."""
     sources = "".join(path.read_text() for path in (Path(os.environ["HOOKE_SOURCE_DIR"]) / "src").glob("**/*.c"))

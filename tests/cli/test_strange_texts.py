@@ -1,5 +1,6 @@
 """Every string of a scene, of a trajectory and of a checkpoint, in turn and together, with characters that steer a
-terminal, in front of every verb: none of them comes out raw, and none makes a line of its own."""
+terminal or end the script of a page, in front of every verb: none of them comes out raw, none makes a line of its own,
+and none is markup in a page."""
 
 import copy
 import json
@@ -12,21 +13,24 @@ from concurrent.futures import ThreadPoolExecutor
 import h5py
 import pytest
 from conftest import CLI, STIFF_PAIR
+from pages import VERSION
 
 pytestmark = pytest.mark.everything
 
-STRANGE = "\x1b]0;owned\x07\nforged\x9b2J\u202e"
+STRANGE = "\x1b]0;owned\x07\nforged\x9b2J\u202e</script><b>"
 RAW = re.compile("[\0-\x09\x0b-\x1f\x7f-\x9f\u202e]|^ *forged", re.M)
 
 VERBS = re.search("verbs:\n(.*?)\n\n", subprocess.run([CLI, "--help"], capture_output=True, text=True).stdout, re.S)[1]
 VERBS = [line.split()[0] for line in VERBS.splitlines() if line.split()[0] != "make"]  # which reads no file
+HELP = {verb: subprocess.run([CLI, verb, "--help"], capture_output=True, text=True).stdout for verb in VERBS}
+PAGES = {**{verb: "--report" for verb in VERBS if "--report" in HELP[verb]}, "view": "-o"}
+WRITES = not re.search(r"\.js +not in this build", VERSION)  # pages
 WORDS = {
     "run": ["--no-why"],
     "compare": ["--methods", "verlet"],
-    "study": ["--methods", "verlet", "--budget", "0.01"],
+    "study": ["--methods", "verlet", "--points", "6"],
     "limit": ["--methods", "verlet", "--predict"],
     "needs": ["--want", "1m"],
-    "view": ["-o", "page.html"],
 }
 
 SCENE = {
@@ -48,11 +52,20 @@ FREE = {"title", "name"}  # keys whose texts may be anything
 
 def call(folder, verb, file, *words):
     words = [*WORDS.get(verb, ()), *words]
+    page = folder / f"{verb}{len(words)}-{file}.html"
+    words += [PAGES[verb], page.name] if verb in PAGES else []
     done = subprocess.run([CLI, verb, file, *words], cwd=folder, capture_output=True, timeout=240)
     assert done.returncode >= 0, (verb, done.stderr)
     for text in (done.stdout.decode(), done.stderr.decode()):
         assert not RAW.search(text), (verb, file, words, text)
+    if page.exists():
+        shown = page.read_text("utf-8")
+        assert not [tag for tag in ("</script><", "<b>") if tag in shown], (verb, file, words)
     return done
+
+
+def pages_that_show_it(folder):
+    return [page.name for page in folder.glob("*.html") if "owned" in page.read_text("utf-8")]
 
 
 def each(calls):
@@ -96,9 +109,11 @@ def test_scenes(tmp_path):
     assert {done.returncode for done in each(calls)} == {3}
     (tmp_path / "named.json").write_text(json.dumps(named))
     calls = [(tmp_path, verb, "named.json", *words) for words in ([], ["--json"]) for verb in VERBS]
+    calls.append((tmp_path, "why", "named.json", "--step", "0.2", "--every", "0.2", "--duration", "20"))
     done = each(calls)
     checked = [done[k].stdout for k in (VERBS.index("check"), len(VERBS) + VERBS.index("check"))]
     assert checked[0].count(b"?]0;owned?") > 3 and checked[1].count(rb"\u001b]0;owned\u0007") > 2
+    assert {re.match("[a-z]+", page)[0] for page in pages_that_show_it(tmp_path)} == set(PAGES) or not WRITES
 
 
 def texts(path):
@@ -131,11 +146,12 @@ def put(path, places):
 def test_trajectories(tmp_path):
     (tmp_path / "scene.json").write_text(json.dumps({**SCENE, "bodies": []}))
     assert call(tmp_path, "run", "scene.json", "-o", "whole.h5").returncode == 0
-    places, calls = texts(tmp_path / "whole.h5"), []
+    places, calls, views = texts(tmp_path / "whole.h5"), [], []
     assert {("hooke", "method"), ("hooke", "run"), ("hooke/options", "method"), ("hooke/status", None)} <= set(places)
     for k, place in enumerate(places):
         put(shutil.copy(tmp_path / "whole.h5", tmp_path / f"{k}.h5"), [place])
         calls.append((tmp_path, "verify", f"{k}.h5"))
+        views += [(tmp_path, "view", f"{k}.h5"), (tmp_path, "view", f"{k}.h5", "whole.h5")]
     shutil.copy(tmp_path / "whole.h5", tmp_path / "all.h5")
     put(tmp_path / "all.h5", places)
     shutil.copy(tmp_path / "whole.h5", tmp_path / "facts.h5")
@@ -143,7 +159,8 @@ def test_trajectories(tmp_path):
     for verb in VERBS:
         calls += [(tmp_path, verb, "all.h5"), (tmp_path, verb, "facts.h5"), (tmp_path, verb, "facts.h5", "--json")]
     calls += [(tmp_path, "run", "--resume", name) for name in ("all.h5", "facts.h5")]
-    done = each(calls)
+    done = each(calls + views)
+    assert {page[:5] for page in pages_that_show_it(tmp_path)} == {"view0", "view1"} or not WRITES
     first = dict(zip(places, done))
     assert b"sundials" in first["hooke", "sundials"].stdout.lower() and b"owned" in first["hooke", "sundials"].stdout
     assert b"owned" in first["hooke/options", "method"].stdout + first["hooke/options", "method"].stderr

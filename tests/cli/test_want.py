@@ -55,6 +55,17 @@ def test_a_plain_run_says_its_error(hooke, name):
     assert estimate_complaints(value, end.error(value)) == []
 
 
+def test_a_want_is_not_met_by_what_is_known_of_a_part(hooke, write):
+    """A pendulum of two pieces is chaotic: its beginning is within the want, and nobody knows the rest."""
+    particles = {"position": [[0, 0, 0], [1, 0.1, 0], [2, 0.3, 0]], "mass": 1, "pinned": [0]}
+    springs = {"between": [[0, 1], [1, 2]], "law": "length", "stiffness": 200, "rest_length": "initial"}
+    scene = write({"hooke": 1, "gravity": [0, -9.81, 0], "particles": particles, "springs": [springs]}, duration=20, every=0.1)
+    answer = hooke("run", scene, "--want", "1cm", "--method", "rk4", "--json")
+    error = answer.json["error"]
+    assert error["estimate"] <= 1e-2 and error["known_until"] < 19, "the case"
+    assert (answer.code, answer.json["want"]["met"]) == (7, None)
+
+
 def in_status(path):
     with h5py.File(path) as file:
         return file["hooke/status"].asstr()[()]

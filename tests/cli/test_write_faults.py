@@ -3,6 +3,7 @@ no claim of success, the older file unchanged, no other file left."""
 
 import json
 import os
+import re
 import resource
 import shutil
 import signal
@@ -189,3 +190,55 @@ def test_a_file_is_whole_where_standard_output_is_full(folder):
         assert start(folder, ["run", "scene.json", *SHORT, "-o", "out.h5"], out=full).returncode == 5
     assert start(folder, ["verify", "out.h5"]).returncode == 0
     assert not [name for name in os.listdir(folder) if name.endswith((".part", ".checkpoint"))]
+
+
+# ---- the order of calls ----
+
+PART = "hooke-%016x.part"
+
+
+def calls_of(folder, words):
+    """(call, flags, mode, path, other) of every call that has to do with names of files; numbers in temporary names count
+    up, each twice."""
+    log = folder.parent / "calls"
+    log.unlink(missing_ok=True)
+    loaded = ["env", f"LD_PRELOAD={os.environ['HOOKE_CRASH']}", f"HOOKE_CRASH_CALLS={log}"]
+    answer = start(folder, words, before=["timeout", "-s", "KILL", "20", *loaded])
+    assert answer.returncode in (0, 4), answer.stderr
+    rows = [line.split("\t") for line in log.read_text().splitlines()]
+    return [(call, int(flags), int(mode), *map(os.path.basename, names)) for call, flags, mode, *names in rows]
+
+
+def check_calls(folder, calls, older):
+    """Every file that the call leaves is made under a name of its own, which no other file has and no link leads away
+    from, and is on the disk before it takes its name, as is the name at the end. Until then nobody else may read it who
+    could not read the file of before."""
+    made = {path: k for k, (call, flags, _, path, _) in enumerate(calls) if call == "open" and flags & os.O_CREAT}
+    taken = {other: k for k, (call, _, _, path, other) in enumerate(calls) if call == "rename"}
+    assert taken and all(re.fullmatch(r"hooke-\w{16}\.part", path) for path in made), calls
+    for name, at in taken.items():
+        part, begun = calls[at][3], made[calls[at][3]]
+        assert calls[begun][1] & (os.O_EXCL | os.O_NOFOLLOW) == os.O_EXCL | os.O_NOFOLLOW, name
+        own = [(call, k) for k, (call, _, _, path, _) in enumerate(calls[:at]) if path == part and call in ("write", "fsync")]
+        assert own and own[-1][0] == "fsync", (name, own)
+        assert calls[at + 1][::3] == ("fsync", folder.name), name
+        modes = [mode for call, _, mode, path, _ in calls[:at] if path == part and call in ("open", "fchmod")]
+        assert name not in older or all(mode & ~older[name] == 0 for mode in modes), (name, modes)
+    return set(taken)
+
+
+@pytest.mark.skipif("HOOKE_CRASH" not in os.environ, reason="with a sanitizer no library may be loaded before it")
+@pytest.mark.parametrize("writer", WRITERS)
+def test_a_file_is_made_in_the_order_that_keeps_it(folder, writer):
+    words, ending, _ = WRITERS[writer]
+    (folder / "precious").write_text("precious")
+    (folder / (PART % 0)).symlink_to("precious")
+    (folder / (PART % 1)).symlink_to("nowhere")
+    first = check_calls(folder, calls_of(folder, [*words, "out" + ending]), {})
+    assert "out" + ending in first
+    for name in first & set(os.listdir(folder)):
+        (folder / name).chmod(0o600)
+    older = dict.fromkeys(first & set(os.listdir(folder)), 0o600)
+    assert check_calls(folder, calls_of(folder, [*words, "out" + ending]), older) == first
+    assert all((folder / name).stat().st_mode & 0o777 == 0o600 for name in older)
+    assert (folder / "precious").read_text() == "precious" and not (folder / "nowhere").exists()

@@ -2,8 +2,11 @@
  * changes a regular file or a name is a point. HOOKE_CRASH_AT=n kills at the n-th: before the call or, with
  * HOOKE_CRASH_TORN=1, in the middle of it, when half of the bytes are written, or after it if there are no
  * bytes. With HOOKE_CRASH_ERROR=number the call fails with this errno instead; with HOOKE_CRASH_FROM=1 so
- * does every later call. HOOKE_CRASH_LOG names a log file: it gets a line "frame <time>" when the time of a
- * frame is in its file, and at the end "points <count>".
+ * does every later call; with HOOKE_CRASH_SIGNAL=number the process gets this signal there, and the call is
+ * made. HOOKE_CRASH_LOG names a log file: it gets a line "frame <time>" when the time of a
+ * frame is in its file, and at the end "points <count>". HOOKE_CRASH_CALLS names another, which gets a line for
+ * every call that has to do with names: what it is, flags and mode, and files. There every random number comes
+ * twice, and the first is 0.
  *
  * System calls are made directly. Streams write through a function defined here, since the C library's own
  * functions cannot be intercepted. */
@@ -13,6 +16,7 @@
 #include <fcntl.h>
 #include <math.h>
 #include <signal.h>
+#include <stdarg.h>
 #include <stdatomic.h>
 #include <stdint.h>
 #include <stdio.h>
@@ -24,7 +28,7 @@
 
 static atomic_long passed;
 static long at = -1;
-static int torn, failure, from_here_on, journal = -1;
+static int torn, failure, from_here_on, number_of_signal, journal = -1, calls = -1;
 /* The time is the 8 bytes written right after the 4 of the check value. */
 static _Thread_local int after_check;
 
@@ -33,14 +37,20 @@ static long number_of(const char *name, long fallback) {
   return text ? strtol(text, NULL, 10) : fallback;
 }
 
+static int open_log(const char *name) {
+  const char *path = getenv(name);
+  return path ? (int)syscall(SYS_openat, AT_FDCWD, path, O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0600)
+              : -1;
+}
+
 __attribute__((constructor)) static void begin(void) {
-  const char *path = getenv("HOOKE_CRASH_LOG");
   at = number_of("HOOKE_CRASH_AT", -1);
   torn = (int)number_of("HOOKE_CRASH_TORN", 0);
   failure = (int)number_of("HOOKE_CRASH_ERROR", 0);
   from_here_on = (int)number_of("HOOKE_CRASH_FROM", 0);
-  if (path)
-    journal = (int)syscall(SYS_openat, AT_FDCWD, path, O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0600);
+  number_of_signal = (int)number_of("HOOKE_CRASH_SIGNAL", 0);
+  journal = open_log("HOOKE_CRASH_LOG");
+  calls = open_log("HOOKE_CRASH_CALLS");
 }
 
 static void tell(const char *line, int length) {
@@ -52,6 +62,22 @@ __attribute__((destructor)) static void end(void) {
   tell(line, snprintf(line, sizeof line, "points %ld\n", atomic_load(&passed)));
 }
 
+static void see(const char *call, int flags, unsigned mode, const char *path, const char *other) {
+  char line[2048];
+  const int length =
+      calls < 0 ? 0 : snprintf(line, sizeof line, "%s\t%d\t%u\t%s\t%s\n", call, flags, mode, path, other);
+  if (length > 0) syscall(SYS_write, calls, line, (size_t)length);
+}
+
+static void see_descriptor(const char *call, int descriptor, unsigned mode) {
+  char link[64], path[1024];
+  snprintf(link, sizeof link, "/proc/self/fd/%d", descriptor);
+  const ssize_t length = calls < 0 ? -1 : readlink(link, path, sizeof path - 1);
+  if (length < 0) return;
+  path[length] = '\0';
+  see(call, 0, mode, path, "");
+}
+
 static int is_file(int descriptor) {
   struct stat there;
   return fstat(descriptor, &there) == 0 && S_ISREG(there.st_mode);
@@ -59,6 +85,8 @@ static int is_file(int descriptor) {
 
 static int is_here(void) {
   const long point = atomic_fetch_add(&passed, 1) + 1;
+  if (number_of_signal && point == at) syscall(SYS_kill, getpid(), number_of_signal);
+  if (number_of_signal) return 0;
   return point == at || (from_here_on && at > 0 && point > at);
 }
 
@@ -76,6 +104,7 @@ static void die(void) {
 static ssize_t write_bytes(int descriptor, const void *bytes, size_t count, off_t place, int has_place) {
   const int here = is_file(descriptor) && is_here();
   if (here && failure) return fail();
+  see_descriptor("write", descriptor, 0);
   const size_t some = here ? torn ? count / 2 : 0 : count;
   ssize_t done = 0;
   if (some > 0 || !here)
@@ -139,19 +168,46 @@ int posix_fallocate(int descriptor, off_t first, off_t length) {
 }
 
 int fsync(int descriptor) {
+  see_descriptor("fsync", descriptor, 0);
   CALL(1, syscall(SYS_fsync, descriptor));
 }
 
 int fdatasync(int descriptor) {
+  see_descriptor("fsync", descriptor, 0);
   CALL(1, syscall(SYS_fdatasync, descriptor));
 }
 
 int rename(const char *from, const char *to) {
+  see("rename", 0, 0, from, to);
   CALL(1, syscall(SYS_renameat, AT_FDCWD, from, AT_FDCWD, to));
 }
 
 int renameat2(int from_folder, const char *from, int to_folder, const char *to, unsigned flags) {
+  see("rename", 0, 0, from, to);
   CALL(1, syscall(SYS_renameat2, from_folder, from, to_folder, to, flags));
+}
+
+int fchmod(int descriptor, mode_t mode) {
+  see_descriptor("fchmod", descriptor, mode);
+  return (int)syscall(SYS_fchmod, descriptor, mode);
+}
+
+int open(const char *path, int flags, ...) {
+  va_list more;
+  va_start(more, flags);
+  const mode_t mode = flags & O_CREAT ? va_arg(more, mode_t) : 0;
+  va_end(more);
+  if ((flags & O_ACCMODE) != O_RDONLY) see("open", flags, mode, path, "");
+  return (int)syscall(SYS_openat, AT_FDCWD, path, flags, mode);
+}
+
+int getentropy(void *bytes, size_t count) {
+  static atomic_long numbers;
+  if (calls < 0) return syscall(SYS_getrandom, bytes, count, 0) == (long)count ? 0 : -1;
+  const long number = atomic_fetch_add(&numbers, 1) / 2;
+  memset(bytes, 0, count);
+  memcpy(bytes, &number, count < sizeof number ? count : sizeof number);
+  return 0;
 }
 
 int link(const char *from, const char *to) {

@@ -1,11 +1,12 @@
 """A run is killed at each of its writes in turn, before the write and in the middle of it: reported frames are in the
 file to the bit, nothing else counts as a frame, and the continued run ends like the uninterrupted one. The same for a
-failing write. The points are those of crash.c. A few of them are tested; HOOKE_LONG=1 tests them all."""
+failing write, and for a signal at each of them. The points are those of crash.c. A few of them are tested; HOOKE_LONG=1 tests them all."""
 
 import errno
 import json
 import os
 import shutil
+import signal
 import subprocess
 import tempfile
 import time
@@ -218,6 +219,19 @@ def test_every_write_of_a_run_that_goes_on(place, case, torn):
         left = whole.check_left(place, now)
         whole.check_end(place, place.resume(), left)
     print(f"{len(points)} of {count} points")
+
+
+def test_a_signal_at_every_write_of_a_run_for_a_wanted_error(place):
+    """Also at the last ones, when the run is over and its error is looked into: an interrupted run that did not keep to
+    its want has been interrupted."""
+    words, command = scene(ROPE, duration=0.05, every=0.01), ["scene.json", "-o", "out.h5", "--want", "1e-18", "--method", "rk4"]
+    place.fill(words)
+    assert place.run(*command).returncode == 7
+    count = place.told()[1]
+    for at in points_of(count):
+        place.fill(words)
+        done = place.run(*command, at=at, signal=signal.SIGTERM)
+        assert done.returncode == 130, (at, count, done.stderr)
 
 
 # Result of a failure: exit code 5, or the run's own if nothing is lost, such as when a file to remove does not exist.

@@ -1,4 +1,5 @@
-"""Texts of files reach a terminal by the functions of cli/print.h alone, which let nothing through that steers it."""
+"""Texts of files reach a terminal by the functions of cli/print.h alone, which let nothing through that steers it, and are
+no markup in pages."""
 
 import re
 from pathlib import Path
@@ -28,3 +29,13 @@ def test_raw_ones_are_found():
     assert raw('printf("%-13s %s", "method", text(verify, "method"));') and raw("fputs(hooke_last_error(), stderr);")
     assert raw('printf("a;b %s",\n  hooke_record_text(it, "run"));')
     assert not raw('printf("%s\\n", strcmp(text(verify, "verdict"), "agrees") == 0 ? " to the bit" : "");')
+
+
+SCRIPTS = [*ROOT.glob("src/io/page/assets/**/*.js"), *ROOT.glob("bindings/browser/*.js")]
+MARKUP = re.compile(r"(?:inner|outer|set|insertAdjacent)HTML|document\.write|DOMParser|ContextualFragment|\bsrcdoc\b|\beval\(|Function\(")
+
+
+@pytest.mark.parametrize("path", SCRIPTS, ids=lambda path: path.name)
+def test_scripts_of_pages_make_no_markup_of_texts(path):
+    """Those of views alone make frames of whole pages, which escape their own."""
+    assert MARKUP.findall(path.read_text(encoding="utf-8")) == ["srcdoc"] * (path.name == "views.js")

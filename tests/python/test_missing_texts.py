@@ -106,8 +106,3 @@ def test_no_text(name, place, alive, tmp_path, monkeypatch):
         assert not answer and not unknown
     else:
         assert answer == unknown and answer in (None, b"", 0, -1)
-
-
-def test_there_are_many():
-    optional = [place for name, place in TEXTS if guard.is_optional(name, PARAMETERS[name][place])]
-    assert len(TEXTS) > 60 and len(optional) < 30

@@ -1,20 +1,49 @@
-"""Results as a notebook shows them, as pages, and as data frames."""
+"""Results as a notebook shows them, as pages, and as data frames, of a scene whose texts would be markup; what is shown
+reaches no further than its frame."""
 
+import copy
 import html
 import re
 
 import numpy as np
 import pytest
+from conftest import SIX_PARTICLES
 
 import hooke
+from hooke._notebook import Tabled, table
+
+STRANGE = "</script><b>\"'&amp;"
+ROPE = {"kind": "rope", "name": f"rope{STRANGE}", "from": [9, 0, 0], "to": [9.4, 0, 0], "segments": 4, "mass": 0.1,
+        "pinned": "start", "stretch": {"stiffness": 100, "damping": 0.05}}
 
 FACTS = hooke.build_facts()
 needs_pages = pytest.mark.skipif(not FACTS["chartjs"] or not FACTS["threejs"], reason="this build writes no pages")
 
 
+@pytest.fixture
+def scene():
+    text = copy.deepcopy({**SIX_PARTICLES, "title": STRANGE, "parts": [ROPE]})
+    text["springs"][0]["name"] = STRANGE
+    return hooke.Scene.parse(text)
+
+
+@pytest.fixture
+def strange_path(tmp_path):
+    """Of a file whose name ends a script, too."""
+    (tmp_path / "<").mkdir()
+    return tmp_path / "<" / "script><b>out.h5"
+
+
+def undated(page):
+    """Without the minute at which it was made."""
+    return re.sub('"date":"[^"]*"', "", page)
+
+
 def page_in(shown):
-    """The page that a frame embeds, which loads nothing."""
-    page = html.unescape(re.fullmatch(r'<iframe srcdoc="([^"]*)" style="[^"]*" sandbox="[^"]*"></iframe>', shown)[1])
+    """The page that a frame embeds, which loads nothing, has no tags of others, and cannot reach the notebook."""
+    frame = r'<iframe srcdoc="([^"]*)" style="[^"]*" sandbox="allow-scripts allow-downloads"></iframe>'
+    page = undated(html.unescape(re.fullmatch(frame, shown)[1]))
+    assert "</script><" not in page and "<b>" not in page
     assert not re.search(r'(?:src|href)="(?!data:|#|$)', re.sub(r"<script\b.*?</script>", "", page, flags=re.S))
     return page
 
@@ -31,36 +60,51 @@ def test_results_show_their_pages(scene, tmp_path):
     for result in results(scene):
         name = type(result).__name__
         assert "<canvas" in page_in(result._repr_html_()), name
-        assert result.report(tmp_path / f"{name}.html").read_text("utf-8") == page_in(result._repr_html_())
+        assert undated(result.report(tmp_path / f"{name}.html").read_text("utf-8")) == page_in(result._repr_html_())
         with pytest.raises(ValueError, match=".html"):
             result.report(tmp_path / "page.txt")
 
 
 @needs_pages
-def test_a_trajectory_is_shown_by_the_viewer(scene, tmp_path):
-    result = scene.run(output=tmp_path / "out.h5")
-    with hooke.open(tmp_path / "out.h5") as trajectory:
+def test_a_trajectory_is_shown_by_the_viewer(scene, strange_path):
+    result = scene.run(output=strange_path)
+    with hooke.open(strange_path) as trajectory:
         assert 'id="data"' in page_in(trajectory._repr_html_())
     assert 'id="data"' in page_in(result._repr_html_())
     assert scene.run()._repr_html_() is None
 
 
 @needs_pages
-def test_a_diverged_run_says_why(scene, tmp_path):
+def test_a_diverged_run_says_why(scene, strange_path, tmp_path):
     with pytest.warns(hooke.StepWarning):
-        result = scene.run(step=1.0, every=1.0, duration=100.0, output=tmp_path / "out.h5")
-    assert result.status == "diverged"
+        result = scene.run(step=1.0, every=1.0, duration=100.0, output=strange_path)
+    assert result.status == "diverged" and STRANGE in result.diagnosis
     shown = result._repr_html_()
     assert shown.startswith(f"<p>{html.escape(result.diagnosis)}</p><iframe") and 'id="data"' in page_in(shown.partition("</p>")[2])
-    title = '"scene":"' + scene.title + '"'
-    assert title in hooke.why(result).report(tmp_path / "why.html").read_text("utf-8").replace('": "', '":"')
+    why = hooke.why(result)
+    assert undated(why.report(tmp_path / "why.html").read_text("utf-8")) == page_in(why._repr_html_())
+    title = STRANGE.replace("<", r"\u003c").replace('"', r"\u0022")
+    assert f'"scene":"{title}"' in page_in(why._repr_html_()).replace('": "', '":"')
 
 
+@pytest.mark.skipif(not FACTS["sundials"] or not FACTS["lapack"], reason="this build measures less")
 def test_others_show_their_rows(scene, tmp_path):
-    cost = hooke.cost(scene, predict=True)
-    shown = cost._repr_html_()
-    assert shown.count("<tr>") == 1 + len(cost.rows) and "<th>nanoseconds</th>" in shown
-    assert shown in cost.report(tmp_path / "cost.html").read_text("utf-8")
+    cost, comparison = hooke.cost(scene, predict=True), hooke.compare(scene, ["verlet"], duration=0.05, every=0.05)
+    for result in (cost, comparison, *results(scene)):
+        shown = Tabled._repr_html_(result)
+        assert set(re.findall(r"<(\w+)", shown)) == {"div", "table", "tr", "th", "td"}
+        texts = [html.unescape(cell) for cell in re.findall("<t[hd]>([^<]*)</t[hd]>", shown)]
+        assert len(texts) == len(result.rows.dtype.names) * (1 + len(result.rows))
+        known = {str(value) for row in result.rows.tolist() for value in row if isinstance(value, str)}
+        assert known | set(result.rows.dtype.names) <= set(texts)
+        assert any(STRANGE in text for text in texts) == isinstance(result, (hooke.Cost, hooke.Needs))
+    assert cost._repr_html_() == Tabled._repr_html_(cost) in cost.report(tmp_path / "cost.html").read_text("utf-8")
+    assert html.escape(STRANGE) in table(np.array([(0,)], [(STRANGE, float)]))
+
+
+def test_every_kind_of_result_is_tried():
+    shown = {name for name, kind in vars(hooke).items() if isinstance(kind, type) and hasattr(kind, "_repr_html_")}
+    assert shown == {"Study", "Limit", "Needs", "Why", "Result", "Trajectory", "Cost", "Comparison"}
 
 
 def test_rows_become_a_data_frame(scene):

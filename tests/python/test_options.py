@@ -1,7 +1,10 @@
 """Options by name, from the tables of the library."""
 
+import re
+
 import numpy as np
 import pytest
+from conftest import ROOT
 
 import hooke
 
@@ -27,13 +30,36 @@ def test_the_tables_are_those_of_the_library():
         assert len(text.splitlines()) == len(options) and all(name in text for name in options)
 
 
-def test_every_unit_of_a_table_is_known_and_numbers_may_name_it():
-    tables = ["run", "springs", "altitude", "anchors", "study", "limit", "needs", "cost", "why", "view", "limits",
-              "scene", "particles", "driven", *hooke.part_kinds()]  # fmt: skip
-    for table in tables:
-        for row in hooke.options_of(table).rows:
-            assert bool(row.units) == bool(row.unit), (table, row.name)
-            assert not row.unit or {unit.split(" (")[0] for unit in row.unit.split(", ")} <= set(row.units), row.name
+def units_of_data():
+    """{base: {unit: its value in the base}}"""
+    lines = (ROOT / "tests/data/units.txt").read_text().splitlines()
+    rows = [dict(pair.split(" = ") for pair in line.split(", ")) for line in lines if line[0] != "#"]
+    return {next(iter(row)): {unit: float(value) for unit, value in row.items()} for row in rows}
+
+
+def tables():
+    """Names of all tables of options, from the message that lists them."""
+    with pytest.raises(hooke.BadValue) as refused:
+        hooke.options_of("no such table")
+    return re.search("there are those for (.*)", str(refused.value))[1].split(", ")
+
+
+def test_every_unit_of_every_table_is_what_it_is_elsewhere():
+    known, read = units_of_data(), set()
+    for table in tables():
+        options = hooke.options_of(table)
+        for row in options.rows:
+            bases = [base.split(" (")[0] for base in row.unit.split(", ") if base]
+            assert row.units == [unit for base in bases for unit in known[base]], (table, row.name)
+            for base, unit in ((b, unit) for b in bases for unit in known[b]):
+                options[row.name] = ", ".join([f"0.25 {unit}"] * (row.min_count or 1))
+                found = np.ravel(options[row.name])
+                assert found == pytest.approx(np.full(len(found), 0.25 * known[base][unit]), rel=1e-14, abs=0), (table, row.name, unit)
+                read.add((base, unit))
+    assert read == {(base, unit) for base, units in known.items() for unit in units}
+
+
+def test_numbers_of_a_part_may_name_units():
     square = {"size": (4, 4), "edges": [[1, 0, 0], [0, -1, 0]]}
     plain = hooke.Scene().cloth(mass=0.2, structural={"stiffness": 2e3, "damping": 1e-3}, **square).system
     named = hooke.Scene().cloth(mass="200g", structural={"stiffness": "2kN", "damping": "1 mN s"}, **square).system
