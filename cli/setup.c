@@ -46,6 +46,7 @@ int cli_setup_check_read(const struct cli_arguments *arguments, const struct cli
 int32_t cli_setup_is_scene(const char *path) {
   char first = '\0';
   if (strcmp(path, "-") == 0) return 1;
+  if (cli_os_is_other_than_file(path)) return 0; /* a pipe would wait for a writer */
   FILE *file = fopen(path, "rb");
   const int32_t is = file && fscanf(file, " %c", &first) == 1 && first == '{';
   if (file) fclose(file);

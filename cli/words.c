@@ -71,6 +71,7 @@ const char *cli_suggest_file(const char *path) {
   static char found[HOOKE_DOC_SIZE];
   const char *slash = cli_os_last_slash(path), *name = slash ? slash + 1 : path;
   const int length = (int)(name - path);
+  if (cli_os_is_other_than_file(path)) return NULL; /* a pipe would wait for a writer */
   errno = 0;
   FILE *file = fopen(path, "rb");
   if (file) fclose(file);

@@ -14,7 +14,7 @@ NO_PIPE = "is not a regular file; allowed: a scene file, no pipe and no device"
 KINDS = {
     "pipe": (NO_PIPE, os.mkfifo),
     "/dev/zero": (NO_PIPE, lambda _: None),
-    "folder": ("is a directory: Is a directory; allowed: a scene file that can be read", os.mkdir),
+    "folder": ("is a directory; allowed: a scene file", os.mkdir),
     "socket": ("cannot be opened: No such device or address; allowed: a scene file that can be read",
                lambda path: socket.socket(socket.AF_UNIX).bind(str(path))),
 }

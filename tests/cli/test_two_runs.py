@@ -23,7 +23,8 @@ def begin(start, folder, *words):
 
 def test_an_output_in_use_is_refused(hooke, start, write, tmp_path):
     process = begin(start, tmp_path, write(ENDLESS, checkpoint=1e5), "-o", "out.h5")
-    os.symlink("out.h5", tmp_path / "link.h5")
+    for link in ("link.h5", "link.json"):
+        os.symlink("out.h5", tmp_path / link)
     scene = write(SIX_PARTICLES, "short.json")
     for words in (
         ["run", scene, "-o", "out.h5"],
@@ -31,7 +32,7 @@ def test_an_output_in_use_is_refused(hooke, start, write, tmp_path):
         ["run", "--resume", "out.h5"],
         ["compare", scene, *SHORT, "-o", "out.h5"],
         ["study", scene, *SHORT, "--points", "6", "-o", "out.h5"],
-        ["needs", scene, "--want", "1cm", "-o", "out.h5"],
+        ["needs", scene, "--want", "1cm", "-o", "link.json"],
     ):
         answer = hooke(*words, "--quiet")
         assert answer.code == 5 and f"{words[-1]}: {WORDS}" in answer.err, answer.err

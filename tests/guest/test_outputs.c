@@ -39,6 +39,7 @@ struct objects {
 static void check_models(const struct objects *o) {
   FAILS(hooke_options, hooke_options_create, "no such table");
   FAILS(hooke_options, hooke_options_create, NULL);
+  FAILS(hooke_system, hooke_system_with_force, o->open, fall, NULL, NULL);
   FAILS(hooke_state, hooke_state_create, o->open);
   FAILS(hooke_state, hooke_state_create_first_order, -1);
   FAILS(hooke_state, hooke_state_create_second_order, -1);
