@@ -7,10 +7,11 @@
 #   make test   sets up, builds, and runs the quick tests
 #   make check  runs the others: slow ones, sanitizers, without libraries, fuzzing, packages, the browser
 #   make windows  compiles the library and the program for Windows, build/windows, whose tests run under wine
-#   make test-long  runs what takes hours, in ten parts that go on where they were: soak, fuzz, fuzz_hdf5,
-#                   sanitizers, arm64, windows, want, calibration, wheels, systems; make test-long PART=soak runs one of them
+#   make test-long  runs what takes hours, in eleven parts that go on where they were: soak, fuzz, fuzz_hdf5,
+#                   sanitizers, arm64, windows, want, calibration, wheels, systems, mutants; make test-long PART=soak runs one of them
 #   make calibration  holds the error that hooke run prints against the truth, on 1000 random runs; make calibration
 #                   RUNS=100 on fewer, without writing the figures into the pages
+#   make mutants  plants small faults one at a time, and tells which ones the quick tests notice; N=20 PATHS=src/measure
 #   make tidy   runs clang-tidy over the sources in C
 #   make wheel  makes the Python package to hand on, in build/wheel: a wheel that needs nothing else, and the sources
 #   make wheel-windows  makes the wheel for Windows
@@ -62,7 +63,7 @@ check: $(PRESETS:%=tests-%) build/fuzz/packages playground-if-possible
 	@$(PYTHON) tests/tier.py check
 
 # Each part keeps what is done in build/long and writes its figures into docs/notes/reliability.md.
-LONG_PARTS = soak fuzz fuzz_hdf5 sanitizers arm64 windows want calibration wheels systems
+LONG_PARTS = soak fuzz fuzz_hdf5 sanitizers arm64 windows want calibration wheels systems mutants
 PART = $(LONG_PARTS)
 ifneq ($(filter-out $(LONG_PARTS),$(PART)),)
 $(error no part is called $(filter-out $(LONG_PARTS),$(PART)); there are $(LONG_PARTS))
@@ -79,6 +80,15 @@ ifdef RUNS
 else
 	$(PYTHON) tests/long/run.py calibration
 endif
+
+# Plants faults and tells which ones the tests notice: make mutants N=20 PATHS=src/measure SEED=1
+mutants: build/venv/done build/test/packages build/mutants/tools/done
+	$(VENV) tests/long/mutants.py $(if $(N),--count $(N)) $(if $(SEED),--seed $(SEED)) $(PATHS)
+
+build/mutants/tools/done: | $(PACKAGES)
+	$(PYTHON) -m venv build/mutants/tools
+	build/mutants/tools/bin/python -m pip install --quiet --disable-pip-version-check universalmutator==1.14.1
+	touch $@
 
 # Nothing is compiled; bench needs the header that says what commit it is of.
 tidy: build/tidy/packages
@@ -182,6 +192,6 @@ $(OTHER_PACKAGES): Makefile | $(PACKAGES)
 	@[ -z "$(NAMES)" ] || $(PYTHON) cmake/packages.py --names $(FOREIGN) $(NAMES)
 	@touch $@
 
-.PHONY: all venv demo playground windows test check test-long calibration tidy wheel wheel-test wheel-windows dist $(PRESETS:%=tests-%)
+.PHONY: all venv demo playground windows test check test-long calibration mutants tidy wheel wheel-test wheel-windows dist $(PRESETS:%=tests-%)
 .DELETE_ON_ERROR:
 .SECONDARY:
