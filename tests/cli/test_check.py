@@ -115,6 +115,7 @@ def loose_springs(n):
     return {"hooke": 1, "particles": particles, "springs": springs, "run": {"step": 1e-6, "duration": 1e-5}}
 
 
+@pytest.mark.check
 @pytest.mark.skipif(not sys.platform.startswith("linux"), reason="the peak of a process is read from /proc")
 @pytest.mark.skipif(os.environ.get("HOOKE_PRESET") == "asan", reason="the address sanitizer keeps what was given back")
 @pytest.mark.parametrize("method", ["symplectic-euler", "verlet", "rk4", "backward-euler"])
@@ -158,6 +159,7 @@ def test_memory_of_a_run_that_analyses_a_factor(hooke, write, tmp_path, solver, 
     assert (said["memory_bytes_factor"] is None) == (solver == "direct") and alone["memory_bytes_factor"] is None
 
 
+@pytest.mark.check
 @pytest.mark.skipif(not sys.platform.startswith("linux"), reason="the peak of a process is read from /proc")
 @pytest.mark.skipif(os.environ.get("HOOKE_PRESET") == "asan", reason="the address sanitizer keeps what was given back")
 @pytest.mark.parametrize(
