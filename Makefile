@@ -4,12 +4,14 @@
 #   make demo   sets up, builds, and compares all methods on a cloth
 #   make docs   makes the documentation as a site, build/docs/index.html
 #   make playground  makes the library for the browser, as one page: build/playground/live.html
-#   make test   sets up, builds, and runs every test
+#   make test   sets up, builds, and runs the quick tests
+#   make check  runs the others: slow ones, sanitizers, without libraries, fuzzing, packages, the browser
 #   make windows  compiles the library and the program for Windows, build/windows, whose tests run under wine
-#   make test-long  runs what takes hours, in ten parts that go on where they were: soak, fuzz, fuzz_hdf5,
-#                   sanitizers, arm64, windows, want, calibration, wheels, systems; make test-long PART=soak runs one of them
+#   make test-long  runs what takes hours, in eleven parts that go on where they were: soak, fuzz, fuzz_hdf5,
+#                   sanitizers, arm64, windows, want, calibration, wheels, systems, mutants; make test-long PART=soak runs one of them
 #   make calibration  holds the error that hooke run prints against the truth, on 1000 random runs; make calibration
 #                   RUNS=100 on fewer, without writing the figures into the pages
+#   make mutants  plants small faults one at a time, and tells which ones the quick tests notice; N=20 PATHS=src/measure
 #   make tidy   runs clang-tidy over the sources in C
 #   make wheel  makes the Python package to hand on, in build/wheel: a wheel that needs nothing else, and the sources
 #   make wheel-windows  makes the wheel for Windows
@@ -53,24 +55,15 @@ windows: build/windows/packages
 playground-if-possible:
 	@if command -v emcc >/dev/null || command -v apt-get >/dev/null; then $(MAKE) playground; fi
 
-# The last line names everything that failed.
-test: $(PRESETS:%=tests-%) build/fuzz/packages playground-if-possible
-	@failed=; \
-	{ $(PYTHON) tests/fuzz/run.py --seconds 3 || echo "== fuzz: failed"; } | tee build/fuzz/tests.log; \
-	if grep -q '^== fuzz: failed' build/fuzz/tests.log; then \
-	  failed="; fuzz:$$(sed -n 's,^== fuzz/\(.*\): a finding.*, \1,p' build/fuzz/tests.log | tr -d '\n')"; \
-	fi; \
-	for preset in $(PRESETS); do \
-	  ctest --preset $$preset --output-log build/$$preset/tests.log || failed="$$failed; $$preset:$$( \
-	    sed -n '/tests FAILED/,$$s/^\t *[0-9]* - \(.*\) (.*)$$/ \1/p' build/$$preset/tests.log | tr -d '\n')"; \
-	done; \
-	for preset in $(PRESETS); do \
-	  echo; echo "== $$preset"; sed -n '/ERROR_MESSAGE/d; / tests passed/,$$p' build/$$preset/tests.log; \
-	done; \
-	if [ -n "$$failed" ]; then echo; echo "failed:$${failed#;}"; exit 1; fi
+# The quick tests; and those that take longer, or see what the quick ones see with sanitizers or without libraries.
+test: tests-release
+	@$(PYTHON) tests/tier.py test
+
+check: $(PRESETS:%=tests-%) build/fuzz/packages playground-if-possible
+	@$(PYTHON) tests/tier.py check
 
 # Each part keeps what is done in build/long and writes its figures into docs/notes/reliability.md.
-LONG_PARTS = soak fuzz fuzz_hdf5 sanitizers arm64 windows want calibration wheels systems
+LONG_PARTS = soak fuzz fuzz_hdf5 sanitizers arm64 windows want calibration wheels systems mutants
 PART = $(LONG_PARTS)
 ifneq ($(filter-out $(LONG_PARTS),$(PART)),)
 $(error no part is called $(filter-out $(LONG_PARTS),$(PART)); there are $(LONG_PARTS))
@@ -87,6 +80,15 @@ ifdef RUNS
 else
 	$(PYTHON) tests/long/run.py calibration
 endif
+
+# Plants faults and tells which ones the tests notice: make mutants N=20 PATHS=src/measure SEED=1
+mutants: build/venv/done build/test/packages build/mutants/tools/done
+	$(VENV) tests/long/mutants.py $(if $(N),--count $(N)) $(if $(SEED),--seed $(SEED)) $(PATHS)
+
+build/mutants/tools/done: | $(PACKAGES)
+	$(PYTHON) -m venv build/mutants/tools
+	build/mutants/tools/bin/python -m pip install --quiet --disable-pip-version-check universalmutator==1.14.1
+	touch $@
 
 # Nothing is compiled; bench needs the header that says what commit it is of.
 tidy: build/tidy/packages
@@ -190,5 +192,5 @@ $(OTHER_PACKAGES): Makefile | $(PACKAGES)
 	@[ -z "$(NAMES)" ] || $(PYTHON) cmake/packages.py --names $(FOREIGN) $(NAMES)
 	@touch $@
 
-.PHONY: all venv demo playground windows test test-long calibration tidy wheel wheel-test wheel-windows dist $(PRESETS:%=tests-%)
+.PHONY: all venv demo playground windows test check test-long calibration mutants tidy wheel wheel-test wheel-windows dist $(PRESETS:%=tests-%)
 .DELETE_ON_ERROR:

@@ -65,10 +65,6 @@ ENDLESS = copy.deepcopy(SIX_PARTICLES)
 ENDLESS["run"].update(duration=1e6, every=100)
 
 
-def pytest_configure(config):
-    config.addinivalue_line("markers", "everything: needs a build with every library")
-
-
 def pytest_collection_modifyitems(items):
     for item in items:
         if MINIMAL and item.get_closest_marker("everything"):

@@ -206,6 +206,7 @@ def test_every_file_is_expected():
     assert len(EXPECTED) >= 50
 
 
+@pytest.mark.check
 @pytest.mark.parametrize("verb", ["check", "run"])
 @pytest.mark.parametrize("name", EXPECTED)
 def test_message(hooke, verb, name):
@@ -271,6 +272,7 @@ LONG_TEXTS = {
 }
 
 
+@pytest.mark.check
 @pytest.mark.parametrize("kind", LONG_TEXTS)
 def test_200_megabytes_of_brackets(tmp_path, kind):
     """Refused at once: in seconds, and with little memory."""

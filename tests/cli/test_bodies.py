@@ -79,6 +79,7 @@ def distance(one, other):
     return np.sqrt(((one - other) ** 2).sum(axis=2)).max()
 
 
+@pytest.mark.check
 @LONG
 @pytest.mark.parametrize("method", [None, "verlet", "symplectic-euler", "cvode-bdf"])
 def test_a_wanted_error_is_kept(hooke, scene, tmp_path, method):
@@ -118,6 +119,7 @@ def test_cost_takes_bodies(hooke, scene):
     assert told["step_limit"] == pytest.approx(limit, rel=1e-3)
 
 
+@pytest.mark.check
 @LONG
 def test_an_ensemble_starts_bodies_elsewhere(hooke, tmp_path):
     """A bar that hangs from a bar, of which nobody can tell for long where they are, keeps its energy."""

@@ -59,6 +59,7 @@ def test_frequencies(hooke, case):
     assert len(right) == 1 or found == pytest.approx(right, rel=case["known"])
 
 
+@pytest.mark.check
 @LONG
 @pytest.mark.parametrize("name", EXAMPLES)
 def test_example(hooke, name):

@@ -115,6 +115,7 @@ def loose_springs(n):
     return {"hooke": 1, "particles": particles, "springs": springs, "run": {"step": 1e-6, "duration": 1e-5}}
 
 
+@pytest.mark.check
 @pytest.mark.skipif(not sys.platform.startswith("linux"), reason="the peak of a process is read from /proc")
 @pytest.mark.skipif(os.environ.get("HOOKE_PRESET") == "asan", reason="the address sanitizer keeps what was given back")
 @pytest.mark.parametrize("method", ["symplectic-euler", "verlet", "rk4", "backward-euler"])
@@ -122,6 +123,7 @@ def loose_springs(n):
     "scene", [cloth(32), cloth(128, damping=0.01), cloth(256), lattice(24), loose_springs(20000)],
     ids=["small", "cloth", "large", "lattice", "loose"],
 )  # fmt: skip
+@pytest.mark.check
 def test_memory_is_the_peak_of_a_run(hooke, write, tmp_path, scene, method):
     file = write(scene)
     said = hooke("check", file, "--json", "--method", method).json
@@ -133,6 +135,7 @@ def test_memory_is_the_peak_of_a_run(hooke, write, tmp_path, scene, method):
     assert 0.8 < said["memory_bytes_output"] / peak < 1.2
 
 
+@pytest.mark.check
 @pytest.mark.skipif(not sys.platform.startswith("linux"), reason="the peak of a process is read from /proc")
 @pytest.mark.skipif(os.environ.get("HOOKE_PRESET") == "asan", reason="the address sanitizer keeps what was given back")
 def test_memory_of_a_run_whose_order_stays_low(hooke, write, tmp_path):
@@ -157,6 +160,7 @@ def test_memory_of_a_run_that_analyses_a_factor(hooke, write, tmp_path, solver, 
     assert (said["memory_bytes_factor"] is None) == (solver == "direct") and alone["memory_bytes_factor"] is None
 
 
+@pytest.mark.check
 @pytest.mark.skipif(not sys.platform.startswith("linux"), reason="the peak of a process is read from /proc")
 @pytest.mark.skipif(os.environ.get("HOOKE_PRESET") == "asan", reason="the address sanitizer keeps what was given back")
 @pytest.mark.parametrize(
@@ -169,6 +173,7 @@ def test_memory_of_a_run_that_analyses_a_factor(hooke, write, tmp_path, solver, 
         ("rk8pd", 128, 1e-4, "memory_bytes"),
     ],
 )
+@pytest.mark.check
 def test_memory_of_a_run_of_few_steps(hooke, write, tmp_path, method, n, duration, of):
     """For any duration: the rerun that estimates the error comes after it. With a factor if it computes one."""
     scene = write({**cloth(n, damping=0.01), "gravity": [0, -9.81, 0]}, duration=duration, every=duration)

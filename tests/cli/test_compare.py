@@ -123,6 +123,7 @@ def test_output_that_cannot_be_written(hooke, write, output, code):
     assert output in answer.err and answer.out == ""
 
 
+@pytest.mark.check
 def test_ctrl_c_is_130_and_keeps_the_rows(start, write, tmp_path):
     process = start("compare", write(ENDLESS, every=1e4), "--json", "-o", "out.h5")
     interrupt(process, 2)

@@ -97,6 +97,7 @@ def test_methods_exit_codes_and_options_in_place_of_a_verb(hooke, sections):
     assert place == help_rows(general) and {"-h, --help", "--man"} <= set(place)
 
 
+@pytest.mark.check
 @pytest.mark.everything
 def test_the_examples_run(sections, tmp_path):
     commands = re.findall(r"^\.EX\n(hooke (?:.*\\\n)*.*)\n\.EE", sections["EXAMPLES"], re.MULTILINE)

@@ -48,6 +48,7 @@ def find(hooke, name, *options):
     return answer.json
 
 
+@pytest.mark.check
 @pytest.mark.parametrize("name", sorted(PLANTED))
 def test_what_does_nothing_is_found_and_what_counts_is_kept(hooke, name):
     want, _, unneeded, needed = PLANTED[name]
@@ -84,6 +85,7 @@ def test_the_lean_scene_is_within_the_want_of_a_full_run_made_apart(hooke, tmp_p
     assert error == pytest.approx(found["lean"]["error"], rel=0.5, abs=0.2 * PLANTED[name][0])
 
 
+@pytest.mark.check
 def test_a_lean_scene_keeps_its_parts(hooke, tmp_path):
     """The 76 springs that do nothing save less than writing the part spring by spring costs the reader."""
     found = find(hooke, "flat-cloth", "-o", tmp_path / "lean.json")

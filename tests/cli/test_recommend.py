@@ -187,6 +187,7 @@ def moved_by_rounding(scene):
     return scene
 
 
+@pytest.mark.check
 @pytest.mark.parametrize("seed", range(3))
 def test_recommended_runs_end_from_a_displaced_start(hooke, write, tmp_path, seed):
     scene = random_scene(seed)
@@ -231,6 +232,7 @@ NEEDS = ("needs", "--want", "1cm")
 @pytest.mark.parametrize(
     "scene, words", [(DAMPED, ("run",)), *((scene, words) for scene in (WALLS, random_scene(1)) for words in (RUN, STUDY, NEEDS))]
 )
+@pytest.mark.check
 def test_no_answer_depends_on_a_clock(hooke, write, scene, words):
     """On one that jumps 1000 s ahead at every reading. The margin of a study has a limited time."""
     verb, *rest = words

@@ -271,6 +271,7 @@ def test_divergence_is_explained_in_words(hooke, write):
 EXPLODING = sorted(path.stem for path in (Path(os.environ["HOOKE_SOURCE_DIR"]) / "tests/cli/scenes/exploding").glob("*.json"))
 
 
+@pytest.mark.check
 @pytest.mark.parametrize("kind", EXPLODING)
 def test_a_blow_up_is_told_in_four_lines(hooke, tmp_path, kind):
     """What happened and when, what to try, where to see more, and what is kept; and with --quiet the first of them."""
@@ -413,6 +414,7 @@ def read_terminal(master, wanted, seconds):
     return seen
 
 
+@pytest.mark.check
 @pytest.mark.parametrize("verb, quiet", [("run", False), ("run", True), ("compare", False)])
 def test_progress_on_a_terminal_after_a_second(start, write, verb, quiet):
     master, terminal = open_terminal()

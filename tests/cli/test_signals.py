@@ -61,6 +61,7 @@ def end_by(process, numbers, after=0.3):
 @pytest.mark.parametrize(
     "method, number", [*(("symplectic-euler", number) for number in ALL), ("backward-euler", signal.SIGTERM)]
 )
+@pytest.mark.check
 def test_a_run_between_frames_ends_and_can_go_on(hooke, start, write, tmp_path, number, method):
     step = 1e-6 if method == "symplectic-euler" else 1e-4
     scene = write(CLOTH, method=method, step=step, duration=1000, every=1000)
@@ -92,6 +93,7 @@ def test_a_run_between_frames_ends_and_can_go_on(hooke, start, write, tmp_path, 
     ],
     ids=lambda words: words[0],
 )
+@pytest.mark.check
 def test_other_work_ends_too(start, write, words):
     process = start(words[0], write(CLOTH), *words[1:])
     _, err, seconds = end_by(process, [signal.SIGHUP, *ALL, signal.SIGHUP], 0.5)

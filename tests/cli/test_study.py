@@ -77,6 +77,7 @@ def test_json_has_the_keys(hooke, write):
 SCENES = [("six_particles", 1), ("oscillator", 1), ("elastic_pendulum", 1), ("rope_12", 0.25), ("chain_16", 1)]
 
 
+@pytest.mark.check
 @everything
 @pytest.mark.parametrize("name, duration", SCENES)
 def test_errors_are_those_against_the_solution(hooke, write, tmp_path, name, duration):
@@ -279,6 +280,7 @@ CHAIN = {
 }
 
 
+@pytest.mark.check
 @everything
 def test_chaos_is_called_so_and_what_is_known_for_a_part_of_the_run_is_not_met(hooke, write):
     words = ["study", write(CHAIN), "--methods", "cvode-adams", "--tolerances", "1e-6,1e-8", "--want", "1mm"]
@@ -331,6 +333,7 @@ DAMPED_CLOTH = {
 }
 
 
+@pytest.mark.check
 @everything
 def test_reference_keeps_to_its_share_of_the_budget(hooke, write):
     """Its result is used, and reported as a part."""
@@ -359,6 +362,7 @@ def test_a_budget_too_small_for_any_reference(hooke, write):
     assert hooke(*words).out == ""
 
 
+@pytest.mark.check
 @everything
 def test_ctrl_c_while_the_reference_is_checked(start, write):
     """The first integrator takes a second or two, the second many times as long."""
@@ -546,6 +550,7 @@ def test_statistics_of_which_no_run_came_to_its_end(hooke, write):
     assert "none came to its end" in out and "nan" not in out
 
 
+@pytest.mark.check
 @everything
 def test_statistics_of_chaos(hooke, write, tmp_path):
     words = ["--duration", 40, "--every", 0.1, "--methods", "rk4,backward-euler", "--steps", "2ms", "--watch", "2.y"]

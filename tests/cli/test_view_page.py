@@ -468,6 +468,7 @@ def test_trajectories_beside_one_another_have_the_same_axes(browser, tmp_path):
     assert browser.console == []
 
 
+@pytest.mark.check
 def test_trajectories_over_one_another(browser, tmp_path):
     """Each in its colour where it is alone; a picked spring has a line for each of them."""
     paths = []

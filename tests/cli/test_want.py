@@ -20,6 +20,7 @@ STUDIED = [("six-particles", "1mm"), ("rope", "1cm"),
 DEARER = 4.0  # maximum cost of a pick over the cheapest of a fine ladder of all methods, in evaluations and solves
 
 
+@pytest.mark.check
 @pytest.mark.parametrize("asked", ASKED)
 @pytest.mark.parametrize("name", SCENES)
 def test_a_run_keeps_its_want(hooke, name, asked):
@@ -32,6 +33,7 @@ def test_a_run_keeps_its_want(hooke, name, asked):
     assert cost(value["method"], value["force_evaluations"]) <= DEARER * end.best(asked), value["method"]
 
 
+@pytest.mark.check
 @pytest.mark.parametrize("name, asked", STUDIED)
 def test_a_study_keeps_its_want(hooke, name, asked):
     end = ENDS[name]
@@ -43,6 +45,7 @@ def test_a_study_keeps_its_want(hooke, name, asked):
     assert study_complaints(answer.code, value, again.code, error, WANTS[asked]) == []
 
 
+@pytest.mark.check
 @pytest.mark.parametrize("name", [name for name, end in ENDS.items() if end.data["scene"].startswith("examples/")])
 def test_a_plain_run_says_its_error(hooke, name):
     end = ENDS[name]

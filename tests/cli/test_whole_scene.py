@@ -78,6 +78,7 @@ def test_the_output_is_run_again_and_gone_on_with_anywhere(hooke, start, scene, 
         assert title_of(file) == TITLE
 
 
+@pytest.mark.check
 def test_of_a_run_that_was_stopped_the_end_is_that_of_one_that_was_not(hooke, start, scene):
     path, out = scene
     step = "1e-5" if os.environ.get("HOOKE_PRESET") == "asan" else "1e-6"  # some tenths of a second of work

@@ -86,6 +86,7 @@ def check_step_below_limit(why, run):
             assert count == pytest.approx(round(count), rel=1e-9) and count > 0.5
 
 
+@pytest.mark.check
 @pytest.mark.parametrize("kind", [pytest.param(k, marks=[LONG] * k.startswith("gaining")) for k in KINDS])
 def test_the_cause_named_is_the_one_planted_and_the_first_advice_works(hooke, tmp_path, kind):
     cause, first = KINDS[kind]
@@ -190,6 +191,7 @@ def test_what_cannot_be_run_cannot_be_explained(hooke, write):
     assert hooke("why").code == 2
 
 
+@pytest.mark.check
 def test_a_step_that_is_not_tried_to_its_end(hooke):
     """A limit gives a step also where its run is too long to be tried, and no limit is said to be unknown beside it."""
     scene = SCENES.parents[3] / "examples/scenes/cloth-64.json"

@@ -167,6 +167,7 @@ def test_whole_groups_of_a_large_scene_are_drawn(tmp_path):
         assert len(data["picture"]["particle"]) == seen
 
 
+@pytest.mark.check
 @needs_page
 @needs_browser
 def test_one_mode_and_one_factor(tmp_path):
@@ -185,6 +186,7 @@ def test_one_mode_and_one_factor(tmp_path):
         assert f"at t = {time:.5g} s".lower() in seen.text[name].lower()
 
 
+@pytest.mark.check
 @needs_page
 @needs_browser
 @pytest.mark.parametrize("kind", ["collapsing", "forward-euler-string", "gaining-strand", "cvode-cable",

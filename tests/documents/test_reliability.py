@@ -55,7 +55,7 @@ def test_planted(planted):
 @pytest.fixture
 def steps(monkeypatch, tmp_path):
     monkeypatch.syspath_prepend(str(LONG))
-    for name in ("steps", "soak", "fuzz", "fuzz_hdf5", "sanitizers", "arm64", "windows", "bits", "calibration", "wheels", "systems"):
+    for name in ("steps", "soak", "fuzz", "fuzz_hdf5", "sanitizers", "arm64", "windows", "bits", "calibration", "wheels", "systems", "mutants"):
         monkeypatch.delitem(sys.modules, name, raising=False)
     spec = importlib.util.spec_from_file_location("steps", LONG / "steps.py")
     module = importlib.util.module_from_spec(spec)
@@ -70,7 +70,7 @@ def steps(monkeypatch, tmp_path):
 
 
 def test_parts_have_their_place(steps):
-    for name in ("soak", "fuzz", "fuzz_hdf5", "sanitizers", "arm64", "windows", "want", "calibration", "wheels", "systems"):
+    for name in ("soak", "fuzz", "fuzz_hdf5", "sanitizers", "arm64", "windows", "want", "calibration", "wheels", "systems", "mutants"):
         part = importlib.import_module(name).PART
         page = part.page.read_text(encoding="utf-8") if part.page else PAGE
         assert re.search(rf"<!-- figures of {name} -->\n(?:(?!<!--).)*\n<!-- end -->", page, re.DOTALL)

@@ -1,6 +1,6 @@
 """Fuzzing, driven.
 
-    run.py --seconds 5 [TARGET...]         each target for so long, two side by side: the part of `make test`
+    run.py --seconds 5 [TARGET...]         each target for so long, two side by side: the part of `make check`
     run.py --executions 1e7 [TARGET...]    a counted campaign; interrupted, it goes on where it was. With --quiet 60 it
                                            goes on after that until no new edge came for so many minutes of processor
     run.py --coverage [TARGET...]          lines of each target's own files that its inputs reach

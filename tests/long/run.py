@@ -12,6 +12,7 @@ import arm64
 import calibration
 import fuzz
 import fuzz_hdf5
+import mutants
 import sanitizers
 import soak
 import systems
@@ -20,7 +21,7 @@ import wheels
 import windows
 from steps import load, main, write_figures
 
-PARTS = {part.PART.name: part.PART for part in (soak, fuzz, fuzz_hdf5, sanitizers, arm64, windows, want, calibration, wheels, systems)}
+PARTS = {part.PART.name: part.PART for part in (soak, fuzz, fuzz_hdf5, sanitizers, arm64, windows, want, calibration, wheels, systems, mutants)}
 
 if __name__ == "__main__":
     option, *names = sys.argv[1:] or [""]

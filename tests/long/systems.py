@@ -50,10 +50,10 @@ timed() {
 """
 TESTED = """
 timed make make
-timed tests "make tests-release && ctest --preset release"
+timed tests "make test"
 chroot $root sh -c "gcc --version; cmake --version; python3 --version"
 """
-REST = "timed rest \"make test PRESETS='minimal asan'\""
+REST = "timed rest \"make check\""
 VERSIONS = {"SUNDIALS": r"-- sundials ([0-9.]+): used", "gcc": r"gcc \(.*\) ([0-9.]+)", "CMake": "cmake version ([0-9.]+)",
             "Python": "Python ([0-9.]+)"}  # fmt: skip
 
@@ -70,7 +70,7 @@ def took(text: str) -> dict[str, Any]:
 def rows(step: str, figures: dict[str, Any]) -> list[tuple[str, str]]:
     if not figures:
         return [(step, "not tried: its mirror was not reached")]
-    names = {"make": "`make`", "tests": "tests of `release`, built and run", "rest": "`make test` of the other presets"}
+    names = {"make": "`make`", "tests": "`make test`", "rest": "`make check`"}
     times = [f"{name} {figures[key] / 60:.0f} min" for key, name in names.items() if key in figures]
     return [(step, ", ".join(times + [f"{name} {version}" for name, version in figures["with"].items()]))]
 

@@ -188,6 +188,7 @@ def poll(path, stop, seen, held):
     return
 
 
+@pytest.mark.check
 @pytest.mark.skipif("HOOKE_CLI" not in os.environ, reason="needs the program")
 @pytest.mark.parametrize("early", [False, True])
 @pytest.mark.parametrize("hold", [False, True])

@@ -66,6 +66,7 @@ except KeyboardInterrupt:
 """
 
 
+@pytest.mark.check
 @pytest.mark.parametrize("work", ["run", "step", "implicit", "cvode", "limit", "along", "why", "study", "needs", "want"])
 def test_ctrl_c_is_heard(work):
     environment = {**os.environ, "PYTHONPATH": str(PACKAGES), "PYTHONWARNINGS": "ignore"}

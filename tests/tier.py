@@ -1,0 +1,78 @@
+"""Runs the tests of a tier and adds up what they take of the processors: python tests/tier.py test | check
+
+With CI set, more than the budget is a failure. The last lines are the summaries, then a line that names everything that
+failed."""
+
+from __future__ import annotations
+
+import os
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[1]
+# Presets of CTest; the budget of the tier and of one test [s of processor].
+TIERS = {"test": (("release",), 300, 3), "check": (("check", "minimal", "asan"), 900, 100)}
+
+
+def seconds(times: Path) -> float:
+    """User and system time of the children, the second line that `times` of the shell prints."""
+    parts = re.findall(r"(\d+)m([\d.]+)s", times.read_text().splitlines()[1])
+    return sum(60 * int(minutes) + float(rest) for minutes, rest in parts)
+
+
+def run(preset: str) -> tuple[list[str], list[str], dict[str, float]]:
+    """What failed, the lines of the summary, and what each test took."""
+    folder = ROOT / "build" / ("release" if preset == "check" else preset)
+    taken, log = folder / "tests/taken", folder / f"{preset}.log"
+    for path in taken.glob("*"):
+        path.unlink()
+    done = subprocess.run(["ctest", "--preset", preset, "--output-log", str(log)], cwd=ROOT)
+    text = log.read_text(errors="replace")
+    failed = re.findall(r"^\t *\d+ - (\S+) \(", text, re.MULTILINE)
+    if done.returncode and not failed:
+        failed = ["no summary"]
+    summary = re.search(r"^.*tests passed.*", text, re.MULTILINE | re.DOTALL)
+    lines = summary[0].splitlines() if summary else []
+    return failed, lines, {path.name.replace(".", "/"): seconds(path) for path in taken.iterdir()}
+
+
+def fuzzed() -> tuple[list[str], list[str]]:
+    print("== fuzz", flush=True)
+    done = subprocess.run([sys.executable, "tests/fuzz/run.py", "--seconds", "3"], cwd=ROOT, capture_output=True, text=True)
+    print(done.stdout + done.stderr, flush=True)
+    findings = re.findall(r"^== fuzz/(.*): a finding", done.stdout, re.MULTILINE)
+    return (findings or ["failed"]) if done.returncode else [], done.stdout.splitlines()[-1:]
+
+
+def over(taken: dict[str, float], total: float, each: float) -> tuple[list[str], str]:
+    longest = sorted(taken, key=taken.__getitem__)[:-4:-1]
+    line = (f"{sum(taken.values()):.0f} s of processor, of at most {total}; a test at most {each}; the longest: "
+            + ", ".join(f"{name} {taken[name]:.1f}" for name in longest))  # fmt: skip
+    many = ["more time than the tier may take"] if sum(taken.values()) > total else []
+    return many + [f"{name} (time)" for name in taken if taken[name] > each], line
+
+
+def main(tier: str) -> int:
+    presets, total, each = TIERS[tier]
+    failures, told, taken = [], [], {}
+    for preset in presets:
+        failed, lines, times = run(preset)
+        failures += [f"{preset}: {name}" for name in failed]
+        told += ["", f"== {preset}", *lines]
+        taken |= {name if preset == "release" else f"{preset} {name}": spent for name, spent in times.items()}
+    if tier == "check":
+        failed, lines = fuzzed()
+        failures += [f"fuzz: {name}" for name in failed]
+        told += ["", "== fuzz", *lines]
+    slow, line = over(taken, total, each)
+    failures += slow if "CI" in os.environ else []
+    print(*told, "", f"== make {tier}: {line}", sep="\n")
+    if failures:
+        print("\nfailed:", "; ".join(failures))
+    return bool(failures)
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1]))
