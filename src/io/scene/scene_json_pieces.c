@@ -6,7 +6,7 @@
 #include "core/memory.h"
 #include "core/status.h"
 #include "io/scene/mesh.h"
-#include "model/system.h"
+#include "model/particles.h"
 
 #include <jansson.h>
 #include <stdio.h>
