@@ -2,7 +2,7 @@
 
 #include "core/memory.h"
 #include "core/status.h"
-#include "model/system.h"
+#include "model/size_limit.h"
 
 #include <math.h>
 #include <stddef.h>

@@ -8,6 +8,7 @@
 #include "core/status.h"
 #include "integrate/solve/reduced.h"
 #include "model/callbacks.h"
+#include "model/system.h"
 
 #include <math.h>
 #include <stddef.h>
@@ -69,7 +70,7 @@ static int32_t take_system(hooke_integrator *it, const hooke_system *system, hoo
   int32_t status = hk_method_require(it->method, system);
   it->system = system;
   it->size = 3 * system->particle_count;
-  if (status == HOOKE_OK && system->bodies.moving > 0) it->method = it->method->bodies;
+  if (status == HOOKE_OK && system->moving_bodies > 0) it->method = it->method->bodies;
   if (it->method->by_tiles && system->friction == 0.0 && hk_goes_by_tiles(system))
     it->by_tiles = HOOKE_MOTION_BY_TILES;
   if (status == HOOKE_OK && it->method->choose) status = it->method->choose(it);

@@ -2,7 +2,7 @@
 
 #include "core/print.h"
 #include "core/status.h"
-#include "model/system.h"
+#include "model/particles.h"
 
 #include <stddef.h>
 #include <string.h>
@@ -95,7 +95,7 @@ const struct hk_stability *hk_method_stability(const char *name) {
 }
 
 const struct hk_stability *hk_method_stability_in(const char *name, const hooke_system *system) {
-  const struct hk_method *method = system->bodies.moving > 0 ? hk_method_find(name) : NULL,
+  const struct hk_method *method = system->moving_bodies > 0 ? hk_method_find(name) : NULL,
                          *row = method ? method->bodies : NULL;
   return row && row->stability.kind != HOOKE_STABILITY_UNKNOWN ? &row->stability : hk_method_stability(name);
 }
@@ -122,7 +122,7 @@ static int32_t takes(const struct hk_method *method, int problem) {
 
 static int problem_of(const hooke_system *system) {
   if (system == NULL) return FIRST_ORDER;
-  return system->bodies.moving > 0 ? BODIES : system->friction > 0.0 ? OVERDAMPED : SECOND_ORDER;
+  return system->moving_bodies > 0 ? BODIES : system->friction > 0.0 ? OVERDAMPED : SECOND_ORDER;
 }
 
 int32_t hk_method_suits(const char *name, const hooke_system *system) {

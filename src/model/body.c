@@ -6,7 +6,7 @@
 #include "model/body_frame.h"
 #include "model/part_record.h"
 #include "model/state.h"
-#include "model/sum/motion.h"
+#include "model/system.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -25,25 +25,25 @@ static void release(struct hk_body *body) {
 }
 
 void hk_bodies_undo(hooke_system *system) {
-  struct hk_bodies *bodies = &system->bodies;
+  struct hk_bodies *bodies = system->bodies;
   for (int64_t k = 0; k < bodies->count; k++)
     release_frame(&bodies->body[k]);
   hk_free(bodies->of);
   hk_free(bodies->mover);
   bodies->of = NULL;
   bodies->mover = NULL;
-  bodies->moving = 0;
+  system->moving_bodies = 0;
 }
 
 void hk_bodies_release(hooke_system *system) {
   hk_bodies_undo(system);
-  for (int64_t k = 0; k < system->bodies.count; k++)
-    release(&system->bodies.body[k]);
-  hk_free(system->bodies.body);
+  for (int64_t k = 0; k < system->bodies->count; k++)
+    release(&system->bodies->body[k]);
+  hk_free(system->bodies->body);
 }
 
 void hk_system_remove_bodies(hooke_system *system, int64_t part) {
-  struct hk_bodies *bodies = &system->bodies;
+  struct hk_bodies *bodies = system->bodies;
   int64_t kept = 0;
   for (int64_t k = 0; k < bodies->count; k++) {
     if (bodies->body[k].part >= part)
@@ -70,7 +70,7 @@ static int ascending(const void *a, const void *b) {
 
 int32_t hk_system_add_body(hooke_system *system, const char *name, int64_t count, const int64_t *particles,
                            int32_t project, int64_t part) {
-  struct hk_bodies *bodies = &system->bodies;
+  struct hk_bodies *bodies = system->bodies;
   if (bodies->count == bodies->capacity) {
     const int64_t capacity = 2 * bodies->capacity + 4;
     const int32_t status = hk_grow((void **)&bodies->body, bodies->count, capacity, sizeof *bodies->body);
@@ -122,7 +122,7 @@ static int32_t at_body(int32_t status, const struct hk_bodies *bodies, int64_t k
 }
 
 static int32_t find_owners(hooke_system *system) {
-  struct hk_bodies *bodies = &system->bodies;
+  struct hk_bodies *bodies = system->bodies;
   bodies->of = hk_new(system->particle_count, sizeof *bodies->of);
   bodies->mover = hk_new(bodies->count, sizeof(struct hk_body *));
   if (bodies->of == NULL || bodies->mover == NULL) return HOOKE_NO_MEMORY;
@@ -202,7 +202,7 @@ static int32_t check_velocities(hooke_system *system, const struct hk_body *body
 }
 
 static int32_t check_all_velocities(hooke_system *system) {
-  const struct hk_bodies *bodies = &system->bodies;
+  const struct hk_bodies *bodies = system->bodies;
   double *room = hk_new(6 * system->particle_count, sizeof(double));
   int32_t status = room ? HOOKE_OK : HOOKE_NO_MEMORY;
   for (int64_t k = 0; k < bodies->count && status == HOOKE_OK; k++) {
@@ -219,14 +219,14 @@ static int32_t check_all_velocities(hooke_system *system) {
 static void pin_still(hooke_system *system) {
   for (int64_t k = 0; k < system->part_count; k++)
     system->part[k].pinned -= hk_part_record_pinned(system, &system->part[k]);
-  for (int64_t k = 0; k < system->bodies.count; k++)
-    hk_body_pin_if_still(system, &system->bodies.body[k]);
+  for (int64_t k = 0; k < system->bodies->count; k++)
+    hk_body_pin_if_still(system, &system->bodies->body[k]);
   for (int64_t k = 0; k < system->part_count; k++)
     system->part[k].pinned += hk_part_record_pinned(system, &system->part[k]);
 }
 
 int32_t hk_bodies_commit(hooke_system *system) {
-  struct hk_bodies *bodies = &system->bodies;
+  struct hk_bodies *bodies = system->bodies;
   if (bodies->count == 0) return HOOKE_OK;
   int32_t status = find_owners(system);
   for (int64_t k = 0; k < bodies->count && status == HOOKE_OK; k++) {
@@ -235,7 +235,7 @@ int32_t hk_bodies_commit(hooke_system *system) {
     if (status != HOOKE_OK)
       at_body(status, bodies, k);
     else if (body->moves)
-      bodies->mover[bodies->moving++] = body;
+      bodies->mover[system->moving_bodies++] = body;
   }
   if (status == HOOKE_OK) status = check_all_velocities(system);
   if (status == HOOKE_OK) pin_still(system);
@@ -267,25 +267,25 @@ static int32_t check_rows(const struct hk_body *body, const char *name, const ch
 
 void hk_bodies_make_rigid(const hooke_system *system, double *q, double *v) {
   const struct hk_body_rows rows = hk_body_rows_of(q, v);
-  for (int64_t k = 0; k < system->bodies.moving; k++) {
+  for (int64_t k = 0; k < system->moving_bodies; k++) {
     double own[HOOKE_BODY_NUMBERS];
-    hk_body_read(system->bodies.mover[k], &rows, own);
-    hk_body_write(system, system->bodies.mover[k], own, &rows);
+    hk_body_read(system->bodies->mover[k], &rows, own);
+    hk_body_write(system, system->bodies->mover[k], own, &rows);
   }
 }
 
 int32_t hk_bodies_check(const hooke_system *system, const hooke_state *state) {
   const int64_t size = 3 * system->particle_count;
-  if (system->bodies.moving == 0) return HOOKE_OK;
+  if (system->moving_bodies == 0) return HOOKE_OK;
   double *q = hk_new(2 * size, sizeof(double));
   if (q == NULL) return HOOKE_NO_MEMORY;
   memcpy(q, state->q, (size_t)(2 * size) * sizeof(double)); /* v follows */
   hk_bodies_make_rigid(system, q, q + size);
   int32_t status = HOOKE_OK;
-  for (int64_t k = 0; k < system->bodies.moving && status == HOOKE_OK; k++) {
-    status = check_rows(system->bodies.mover[k], "position", "m", state->q, q);
+  for (int64_t k = 0; k < system->moving_bodies && status == HOOKE_OK; k++) {
+    status = check_rows(system->bodies->mover[k], "position", "m", state->q, q);
     if (status == HOOKE_OK)
-      status = check_rows(system->bodies.mover[k], "velocity", "m/s", state->v, q + size);
+      status = check_rows(system->bodies->mover[k], "velocity", "m/s", state->v, q + size);
   }
   hk_free(q);
   return status;
@@ -294,12 +294,12 @@ int32_t hk_bodies_check(const hooke_system *system, const hooke_state *state) {
 /* ---- queries ---- */
 
 const char *hooke_system_body_name(const hooke_system *system, int64_t body) {
-  return body >= 0 && body < system->bodies.count ? system->bodies.body[body].name : NULL;
+  return body >= 0 && body < system->bodies->count ? system->bodies->body[body].name : NULL;
 }
 
 int64_t hooke_system_body_particles(const hooke_system *system, int64_t body, int64_t *particles) {
-  if (body < 0 || body >= system->bodies.count) return 0;
-  const struct hk_body *found = &system->bodies.body[body];
+  if (body < 0 || body >= system->bodies->count) return 0;
+  const struct hk_body *found = &system->bodies->body[body];
   for (int64_t k = 0; k < found->count && particles; k++)
     particles[k] = found->particle[k];
   return found->count;
@@ -308,10 +308,10 @@ int64_t hooke_system_body_particles(const hooke_system *system, int64_t body, in
 static int32_t find_mover(const hooke_system *system, int64_t body, const struct hk_body **found) {
   const int32_t status = hk_system_require_committed(system);
   if (status != HOOKE_OK) return status;
-  if (body < 0 || body >= system->bodies.count)
+  if (body < 0 || body >= system->bodies->count)
     return hk_fail(HOOKE_BAD_VALUE, "body", "there is no body %lld; the system has %lld", (long long)body,
-                   (long long)system->bodies.count);
-  *found = &system->bodies.body[body];
+                   (long long)system->bodies->count);
+  *found = &system->bodies->body[body];
   if ((*found)->moves) return HOOKE_OK;
   return hk_fail(HOOKE_BAD_VALUE, "body", "body %lld is held still or driven: it has no motion of its own",
                  (long long)body);

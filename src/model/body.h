@@ -45,8 +45,7 @@ struct hk_bodies {
   struct hk_body *body;
   /* from commit on */
   int32_t *of;            /* by particle: its body, or -1; NULL without bodies */
-  int64_t moving;         /* bodies that move */
-  struct hk_body **mover; /* these */
+  struct hk_body **mover; /* those that move (`moving_bodies` of the system) */
 };
 
 void hk_bodies_release(struct hooke_system *system);
@@ -127,7 +126,7 @@ void hk_body_set_turn(const double m[3][3], double *own);
 
 /* 1 if a particle moves with a body. */
 static inline int32_t hk_bodies_move(const struct hk_bodies *bodies, int64_t particle) {
-  return bodies->moving > 0 && bodies->of[particle] >= 0 && bodies->body[bodies->of[particle]].moves;
+  return bodies->of && bodies->of[particle] >= 0 && bodies->body[bodies->of[particle]].moves;
 }
 
 /* Writes the rows of all bodies anew from the three particles of each. */

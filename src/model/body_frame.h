@@ -3,7 +3,7 @@
 #define HOOKE_MODEL_BODY_FRAME_H
 
 #include "model/body.h"
-#include "model/system.h"
+#include "model/particles.h"
 #include "model/vector3.h"
 
 /* Finds mass, inertia, axes and the three particles of the rule; leaves `moves` 0 if it is held or driven.

@@ -366,28 +366,28 @@ struct hk_body_rows hk_body_rows(const struct hk_motion *motion) {
 
 void hk_bodies_read(const struct hooke_system *system, const struct hk_motion *motion, double *own) {
   const struct hk_body_rows rows = hk_body_rows(motion);
-  for (int64_t k = 0; k < system->bodies.moving; k++)
-    hk_body_read(system->bodies.mover[k], &rows, own + HOOKE_BODY_NUMBERS * k);
+  for (int64_t k = 0; k < system->moving_bodies; k++)
+    hk_body_read(system->bodies->mover[k], &rows, own + HOOKE_BODY_NUMBERS * k);
 }
 
 void hk_bodies_write(const struct hooke_system *system, struct hk_motion *motion, const double *own) {
   const struct hk_body_rows rows = hk_body_rows(motion);
-  for (int64_t k = 0; k < system->bodies.moving; k++)
-    hk_body_write(system, system->bodies.mover[k], own + HOOKE_BODY_NUMBERS * k, &rows);
+  for (int64_t k = 0; k < system->moving_bodies; k++)
+    hk_body_write(system, system->bodies->mover[k], own + HOOKE_BODY_NUMBERS * k, &rows);
 }
 
 void hk_bodies_push(const struct hooke_system *system, const struct hk_motion *motion, const double *own,
                     double *push) {
   const struct hk_body_rows rows = hk_body_rows(motion);
-  for (int64_t k = 0; k < system->bodies.moving; k++)
-    hk_body_push(system, system->bodies.mover[k], own + HOOKE_BODY_NUMBERS * k, &rows, motion->f,
+  for (int64_t k = 0; k < system->moving_bodies; k++)
+    hk_body_push(system, system->bodies->mover[k], own + HOOKE_BODY_NUMBERS * k, &rows, motion->f,
                  push + 6 * k, push + 6 * k + 3);
 }
 
 void hk_bodies_accelerate(const struct hooke_system *system, const struct hk_motion *motion, double *out) {
   const struct hk_body_rows rows = hk_body_rows(motion);
-  for (int64_t k = 0; k < system->bodies.moving; k++) {
-    const struct hk_body *body = system->bodies.mover[k];
+  for (int64_t k = 0; k < system->moving_bodies; k++) {
+    const struct hk_body *body = system->bodies->mover[k];
     double own[HOOKE_BODY_NUMBERS], push[6];
     hk_body_read(body, &rows, own);
     hk_body_push(system, body, own, &rows, motion->f, push, push + 3);

@@ -1,16 +1,17 @@
 #include "model/body_tangent.h"
 
 #include "core/memory.h"
+#include "model/body.h"
 #include "model/vector3.h"
 
 #include <string.h>
 
 int32_t hk_body_tangents_create(const hooke_system *system, const double *q,
                                 struct hk_body_tangents *tangents) {
-  const int64_t count = system->bodies.moving;
+  const int64_t count = system->moving_bodies;
   int64_t particles = 0;
   for (int64_t k = 0; k < count; k++)
-    particles += system->bodies.mover[k]->count;
+    particles += system->bodies->mover[k]->count;
   *tangents = (struct hk_body_tangents){.system = system, .count = count};
   tangents->body = hk_new(count, sizeof *tangents->body);
   tangents->arms = hk_new(3 * particles, sizeof(double));
@@ -20,7 +21,7 @@ int32_t hk_body_tangents_create(const hooke_system *system, const double *q,
   }
   double *arm = tangents->arms;
   for (int64_t k = 0; k < count; k++) {
-    tangents->body[k] = (struct hk_body_tangent){.body = system->bodies.mover[k], .arm = arm};
+    tangents->body[k] = (struct hk_body_tangent){.body = system->bodies->mover[k], .arm = arm};
     arm += 3 * tangents->body[k].body->count;
   }
   hk_body_tangents_set(tangents, q);

@@ -6,7 +6,7 @@
 #ifndef HOOKE_MODEL_BODY_TANGENT_H
 #define HOOKE_MODEL_BODY_TANGENT_H
 
-#include "model/system.h"
+#include "model/particles.h"
 
 struct hk_body_tangent {
   const struct hk_body *body;

@@ -1,6 +1,7 @@
 #include "model/callbacks.h"
 
 #include "core/status.h"
+#include "model/force/drive.h"
 #include "model/system.h"
 
 #include <stddef.h>
@@ -44,6 +45,6 @@ int32_t hk_callbacks_check(int32_t had, int32_t own) {
 }
 
 int32_t hk_callbacks_require(const hooke_system *system) {
-  const int32_t lacks = system->called & ~hk_system_calls_back(system) & ~HOOKE_CALLS_DERIVATIVE;
-  return lacks ? missing(system->called) : HOOKE_OK;
+  const int32_t lacks = system->rest->called & ~hk_system_calls_back(system) & ~HOOKE_CALLS_DERIVATIVE;
+  return lacks ? missing(system->rest->called) : HOOKE_OK;
 }

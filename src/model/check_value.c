@@ -1,6 +1,8 @@
 #include "model/check_value.h"
 
 #include "core/crc32.h"
+#include "model/body.h"
+#include "model/force/drive.h"
 #include "model/force/force.h"
 
 #include <stddef.h>
@@ -43,9 +45,9 @@ static void add_drives(const hooke_system *system, uint32_t *value) {
 
 /* By their first particles: the order in which they were added moves nothing. */
 static void add_bodies(const hooke_system *system, uint32_t *value) {
-  for (int64_t p = 0; p < system->particle_count && system->bodies.of; p++) {
-    if (system->bodies.of[p] < 0) continue;
-    const struct hk_body *body = &system->bodies.body[system->bodies.of[p]];
+  for (int64_t p = 0; p < system->particle_count && system->bodies->of; p++) {
+    if (system->bodies->of[p] < 0) continue;
+    const struct hk_body *body = &system->bodies->body[system->bodies->of[p]];
     if (body->particle[0] != p) continue;
     hk_check_whole(value, body->count);
     hk_check_add(value, body->particle, body->count, sizeof *body->particle);

@@ -2,7 +2,9 @@
 #ifndef HOOKE_MODEL_CHECK_VALUE_H
 #define HOOKE_MODEL_CHECK_VALUE_H
 
-#include "model/system.h"
+#include "hooke/system.h"
+
+#include <stddef.h>
 
 /* CRC-32 over everything that determines the motion of a committed system: particles, all forces of the
  * table, drives, bodies. Callbacks enter only by their presence. */

@@ -1,11 +1,11 @@
 /* Commit: checks the system as a whole, drops springs that do nothing, sorts the others into runs, selects
  * the present forces, frees memory that only building needed. */
-#include "model/force/force.h"
 
 #include "core/handle.h"
 #include "core/memory.h"
 #include "core/status.h"
 #include "model/sum/spring_batch.h"
+#include "model/system.h"
 
 #include <stddef.h>
 #include <string.h>
@@ -28,7 +28,7 @@ static int32_t check_pinned_at_rest(const hooke_system *system) {
 static int32_t take_groups_over(hooke_system *system) {
   int32_t status = HOOKE_OK;
   for (int64_t g = 0; g < system->group_count; g++)
-    hk_group_drop(&system->group[g], &system->bodies);
+    hk_group_drop(&system->group[g], system->bodies);
   for (int32_t k = 0; hk_force_table(k) && status == HOOKE_OK; k++) {
     const struct hk_force_row *force = hk_force_table(k);
     const int64_t count = hk_system_groups_of(system, force); /* without any there may be no array */
@@ -54,14 +54,14 @@ static void trim_particles(hooke_system *system) {
     hk_free(system->velocity);
     system->velocity = NULL;
   }
-  if (system->particle_capacity == n) return;
+  if (system->rest->particle_capacity == n) return;
   int32_t status = hk_grow((void **)&system->position, 3 * n, 3 * n, sizeof(double));
   if (status == HOOKE_OK && system->velocity)
     status = hk_grow((void **)&system->velocity, 3 * n, 3 * n, sizeof(double));
   if (status == HOOKE_OK && system->friction == 0.0)
     status = hk_grow((void **)&system->mass, n, n, sizeof(double));
   if (status == HOOKE_OK) status = hk_grow((void **)&system->constrained, n, n, sizeof(uint8_t));
-  if (status == HOOKE_OK) system->particle_capacity = n;
+  if (status == HOOKE_OK) system->rest->particle_capacity = n;
 }
 
 static int32_t fill_particles(hooke_system *system) {
@@ -97,7 +97,7 @@ void hk_system_mark_touched(const hooke_system *system, uint8_t *touched) {
 
 /* A tiled batch renumbers particles and iterates over all of them. */
 static int32_t is_stepped(const hooke_system *system, const uint8_t *idle, int64_t from, int64_t end) {
-  return system->tiled.particles > 0 || memchr(idle + from, 0, (size_t)(end - from)) != NULL;
+  return system->tiled->particles > 0 || memchr(idle + from, 0, (size_t)(end - from)) != NULL;
 }
 
 /* Spans, and the pinned particles in them, counted before the list exists. */
@@ -173,8 +173,8 @@ static void undo(hooke_system *system) {
   for (int64_t k = 0; k < system->group_count; k++)
     hk_group_take_back(&system->group[k]);
   hk_bodies_undo(system);
-  hk_strided_batches_release(&system->strided);
-  hk_tiled_release(&system->tiled);
+  hk_strided_batches_release(system->strided);
+  hk_tiled_release(system->tiled);
   hk_forces_release(system);
   hk_free(system->inverse_mass);
   hk_free(system->constrained_particle);
@@ -198,10 +198,10 @@ int32_t hooke_system_commit(hooke_system *system) {
   if (status == HOOKE_OK) status = take_groups_over(system);
   if (status == HOOKE_OK) status = hk_overdamped_check_forces(system);
   if (status == HOOKE_OK) {
-    status = hk_strided_batches_create(&system->springs, system->particle_count, &system->strided);
+    status = hk_strided_batches_create(system->springs, system->particle_count, system->strided);
   }
-  if (status == HOOKE_OK && system->strided.count == 0) {
-    status = hk_tiled_create(&system->springs, system->particle_count, system->inverse_mass, &system->tiled);
+  if (status == HOOKE_OK && system->strided->count == 0) {
+    status = hk_tiled_create(system->springs, system->particle_count, system->inverse_mass, system->tiled);
   }
   if (status == HOOKE_OK) status = choose_forces(system);
   if (status == HOOKE_OK) status = find_stepped(system);
@@ -212,7 +212,7 @@ int32_t hooke_system_commit(hooke_system *system) {
   for (int64_t g = 0; g < system->group_count; g++)
     hk_group_release_columns(&system->group[g]);
   trim_particles(system);
-  system->committed = 1;
+  system->rest->committed = 1;
   return HOOKE_OK;
 }
 

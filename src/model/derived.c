@@ -9,25 +9,25 @@
 
 int32_t hk_system_add_derived(hooke_system *system, const char *part, const char *family, const char *name,
                               const char *unit, double value) {
-  const int64_t count = system->derived_count, capacity = 2 * system->derived_capacity + 8;
+  const int64_t count = system->rest->derived_count, capacity = 2 * system->rest->derived_capacity + 8;
   int32_t status = hk_system_require_open(system);
-  if (status == HOOKE_OK && count == system->derived_capacity) {
-    status = hk_grow((void **)&system->derived, count, capacity, sizeof *system->derived);
-    if (status == HOOKE_OK) system->derived_capacity = capacity;
+  if (status == HOOKE_OK && count == system->rest->derived_capacity) {
+    status = hk_grow((void **)&system->rest->derived, count, capacity, sizeof *system->rest->derived);
+    if (status == HOOKE_OK) system->rest->derived_capacity = capacity;
   }
   char *copy = status == HOOKE_OK ? hk_copy_text(part) : NULL;
   if (copy == NULL) return status == HOOKE_OK ? HOOKE_NO_MEMORY : status;
-  system->derived[system->derived_count++] = (struct hk_derived){copy, family, name, unit, value};
+  system->rest->derived[system->rest->derived_count++] = (struct hk_derived){copy, family, name, unit, value};
   return HOOKE_OK;
 }
 
 void hk_system_drop_derived(hooke_system *system, int64_t kept) {
-  while (system->derived_count > kept)
-    hk_free(system->derived[--system->derived_count].part);
+  while (system->rest->derived_count > kept)
+    hk_free(system->rest->derived[--system->rest->derived_count].part);
 }
 
 static const struct hk_derived *find(const hooke_system *system, int64_t number) {
-  return number >= 0 && number < system->derived_count ? &system->derived[number] : NULL;
+  return number >= 0 && number < system->rest->derived_count ? &system->rest->derived[number] : NULL;
 }
 
 const char *hooke_system_derived_text(const hooke_system *system, int64_t number, const char *what) {

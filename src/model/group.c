@@ -2,7 +2,7 @@
 
 #include "core/memory.h"
 #include "core/status.h"
-#include "model/force/force.h"
+#include "model/system.h"
 
 #include <string.h>
 
@@ -99,14 +99,14 @@ static int comes_before(const struct hk_group *a, const struct hk_group *b) {
 }
 
 int32_t hk_system_add_group(hooke_system *system, struct hk_group *group) {
-  const int64_t count = system->group_count, capacity = 2 * system->group_capacity + 4;
-  if (count == system->group_capacity) {
+  const int64_t count = system->group_count, capacity = 2 * system->rest->group_capacity + 4;
+  if (count == system->rest->group_capacity) {
     const int32_t status = hk_grow((void **)&system->group, count, capacity, sizeof *system->group);
     if (status != HOOKE_OK) {
       hk_group_release(group);
       return status;
     }
-    system->group_capacity = capacity;
+    system->rest->group_capacity = capacity;
   }
   int64_t place = count;
   while (place > 0 && comes_before(group, &system->group[place - 1]))
@@ -114,7 +114,7 @@ int32_t hk_system_add_group(hooke_system *system, struct hk_group *group) {
   memmove(system->group + place + 1, system->group + place, (size_t)(count - place) * sizeof *system->group);
   system->group[place] = *group;
   system->group_count++;
-  system->member_total[hk_force_number(group->force)] += group->count;
+  system->rest->member_total[hk_force_number(group->force)] += group->count;
   return HOOKE_OK;
 }
 
@@ -123,7 +123,7 @@ void hk_system_remove_groups(hooke_system *system, int64_t part) {
   for (int64_t g = 0; g < system->group_count; g++) {
     struct hk_group *group = &system->group[g];
     if (group->from_part && group->part >= part) {
-      system->member_total[hk_force_number(group->force)] -= group->count;
+      system->rest->member_total[hk_force_number(group->force)] -= group->count;
       hk_group_release(group);
     } else {
       system->group[kept++] = *group;

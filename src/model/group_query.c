@@ -1,6 +1,6 @@
 /* Queries of the groups of each force, and of their members. */
 #include "core/status.h"
-#include "model/force/force.h"
+#include "model/system.h"
 
 #include <string.h>
 

@@ -1,5 +1,5 @@
 /* Overdamped systems, gamma x' = f: what they may have, and their numbers. */
-#include "model/force/force.h"
+#include "model/system.h"
 
 #include "core/memory.h"
 #include "core/status.h"
@@ -67,7 +67,7 @@ static int32_t check_velocities(const hooke_system *system) {
 int32_t hk_overdamped_check(const hooke_system *system) {
   int32_t status = check_masses(system);
   if (status != HOOKE_OK || !system->overdamped) return status;
-  if (system->bodies.count > 0)
+  if (system->bodies->count > 0)
     return hk_fail(HOOKE_BAD_VALUE, "bodies", "rigid bodies have inertia; an overdamped scene takes none");
   status = check_velocities(system);
   if (status == HOOKE_OK && !(system->drag > 0.0 && 1.0 / system->drag < INFINITY))

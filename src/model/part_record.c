@@ -2,7 +2,7 @@
 
 #include "core/memory.h"
 #include "core/table/option.h"
-#include "model/system.h"
+#include "model/particles.h"
 
 #include <string.h>
 

@@ -1,6 +1,6 @@
 /* Limits on the size of a system: its numbers have 32 bits, and memory is finite. Checked before anything is
  * allocated. */
-#include "model/force/force.h"
+#include "model/system.h"
 
 #include "core/print.h"
 #include "core/memory_limit.h"
@@ -13,7 +13,7 @@ static const double PER_PARTICLE = 280.0, PER_GROUP = 6000.0, PER_PART = 14000.0
 
 /* Number of members of a force, including those to come. */
 static double members_of(const hooke_system *system, const struct hk_more *more, int32_t force) {
-  double count = (double)system->member_total[force];
+  double count = (double)system->rest->member_total[force];
   for (size_t k = 0; k < sizeof more->of / sizeof more->of[0]; k++)
     count += more->of[k].force == hk_force_table(force) ? more->of[k].count : 0.0;
   return count;
@@ -23,9 +23,9 @@ double hk_system_needed_bytes(const hooke_system *system, struct hk_more more) {
   double bytes = PER_PARTICLE * ((double)system->particle_count + more.particles);
   for (int32_t k = 0; hk_force_table(k); k++)
     bytes += hk_force_table(k)->bytes * members_of(system, &more, k);
-  bytes += PER_BODY * (double)system->bodies.count;
-  for (int64_t k = 0; k < system->bodies.count; k++)
-    bytes += PER_PARTICLE_OF_BODIES * (double)system->bodies.body[k].count;
+  bytes += PER_BODY * (double)system->bodies->count;
+  for (int64_t k = 0; k < system->bodies->count; k++)
+    bytes += PER_PARTICLE_OF_BODIES * (double)system->bodies->body[k].count;
   return bytes + PER_GROUP * (double)system->group_count + PER_PART * (double)system->part_count;
 }
 
@@ -42,7 +42,7 @@ int32_t hk_system_check_size(const hooke_system *system, struct hk_more more, co
   for (int32_t k = 0; hk_force_table(k); k++)
     add_count(list, sizeof list, members_of(system, &more, k), hk_force_table(k)->members, &fits);
   if (what == NULL) what = "this scene";
-  if (fits) return hk_memory_require(system->memory_limit, bytes, what);
+  if (fits) return hk_memory_require(system->rest->memory_limit, bytes, what);
   return hk_fail(HOOKE_BAD_VALUE, NULL,
                  "%s needs %s of memory for %s; allowed: up to 2147483647 of each in a system", what,
                  hk_show_bytes(bytes, shown), list);
@@ -63,6 +63,6 @@ int32_t hk_system_check_more(const hooke_system *system, const struct hk_force_r
 int32_t hooke_system_limit_memory(hooke_system *system, double bytes) {
   if (!(bytes >= 0.0))
     return hk_fail(HOOKE_BAD_VALUE, "memory", "%g is not allowed; a number of bytes >= 0 is", bytes);
-  system->memory_limit = bytes;
+  system->rest->memory_limit = bytes;
   return HOOKE_OK;
 }

@@ -3,6 +3,7 @@
 #include "core/handle.h"
 #include "core/memory.h"
 #include "core/status.h"
+#include "model/force/drive.h"
 #include "model/system.h"
 
 #include <string.h>

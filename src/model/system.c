@@ -4,14 +4,29 @@
 #include "core/handle.h"
 #include "core/memory.h"
 #include "core/status.h"
-#include "model/force/force.h"
+#include "model/derived.h"
+#include "model/force/drive.h"
+#include "model/part_record.h"
 
 #include <math.h>
 #include <string.h>
 
+struct whole {
+  hooke_system system;
+  struct hk_system_rest rest;
+};
+
 int32_t hooke_system_create(hooke_system **system) {
-  *system = hk_handle_new("hooke_system", sizeof **system);
-  return *system ? HOOKE_OK : HOOKE_NO_MEMORY;
+  struct whole *made = hk_handle_new("hooke_system", sizeof *made);
+  *system = made ? &made->system : NULL;
+  if (made == NULL) return HOOKE_NO_MEMORY;
+  made->system = (hooke_system){.springs = &made->rest.springs,
+                                .strided = &made->rest.strided,
+                                .tiled = &made->rest.tiled,
+                                .altitudes = &made->rest.altitudes,
+                                .bodies = &made->rest.bodies,
+                                .rest = &made->rest};
+  return HOOKE_OK;
 }
 
 static void release_model(hooke_system *system) {
@@ -22,9 +37,9 @@ static void release_model(hooke_system *system) {
   for (int64_t k = 0; k < system->drive_count; k++)
     hk_drive_release(&system->drive[k]);
   hk_bodies_release(system);
-  hk_strided_batches_release(&system->strided);
+  hk_strided_batches_release(system->strided);
   hk_forces_release(system);
-  hk_tiled_release(&system->tiled);
+  hk_tiled_release(system->tiled);
   hk_free(system->position);
   hk_free(system->velocity);
   hk_free(system->mass);
@@ -35,7 +50,7 @@ static void release_model(hooke_system *system) {
   hk_free(system->group);
   hk_free(system->part);
   hk_system_drop_derived(system, 0);
-  hk_free(system->derived);
+  hk_free(system->rest->derived);
   hk_free(system->drive);
 }
 
@@ -43,7 +58,7 @@ void hooke_system_destroy(hooke_system *system) {
   if (system == NULL) return;
   if (!system->borrows) {
     release_model(system);
-    hk_free(system->input);
+    hk_free(system->rest->input);
   }
   hk_free(system->span);
   hk_free(system->anchor);
@@ -52,27 +67,27 @@ void hooke_system_destroy(hooke_system *system) {
 }
 
 int32_t hk_system_require_open(const hooke_system *system) {
-  if (!system->committed) return HOOKE_OK;
+  if (!system->rest->committed) return HOOKE_OK;
   return hk_fail(HOOKE_BAD_CALL, NULL,
                  "the system is committed and can no longer be changed; build a new one");
 }
 
 int32_t hk_system_require_committed(const hooke_system *system) {
-  if (system->committed) return HOOKE_OK;
+  if (system->rest->committed) return HOOKE_OK;
   return hk_fail(HOOKE_BAD_CALL, NULL, "the system is not committed yet; call hooke_system_commit() first");
 }
 
 /* Ensures capacity for `count` more particles in every particle array. */
 static int32_t reserve_particles(hooke_system *system, int64_t count) {
   int64_t used = system->particle_count, needed = used + count;
-  if (needed <= system->particle_capacity) return HOOKE_OK;
+  if (needed <= system->rest->particle_capacity) return HOOKE_OK;
   int64_t capacity = used == 0 ? needed : needed + needed / 2;
   int32_t status = hk_grow((void **)&system->position, 3 * used, 3 * capacity, sizeof(double));
   if (status == HOOKE_OK)
     status = hk_grow((void **)&system->velocity, 3 * used, 3 * capacity, sizeof(double));
   if (status == HOOKE_OK) status = hk_grow((void **)&system->mass, used, capacity, sizeof(double));
   if (status == HOOKE_OK) status = hk_grow((void **)&system->constrained, used, capacity, sizeof(uint8_t));
-  if (status == HOOKE_OK) system->particle_capacity = capacity;
+  if (status == HOOKE_OK) system->rest->particle_capacity = capacity;
   return status;
 }
 
@@ -198,12 +213,8 @@ int32_t hooke_system_set_force(hooke_system *system, hooke_force *force, hooke_f
   return HOOKE_OK;
 }
 
-int64_t hk_system_next_part(hooke_system *system) {
-  return system->part_count++;
-}
-
 struct hk_system_mark hk_system_mark(const hooke_system *system) {
-  return (struct hk_system_mark){system->particle_count, system->derived_count, system->part_count};
+  return (struct hk_system_mark){system->particle_count, system->rest->derived_count, system->part_count};
 }
 
 void hk_system_roll_back(hooke_system *system, struct hk_system_mark mark) {

@@ -1,6 +1,8 @@
 /* Queries of a system. */
-#include "model/force/force.h"
+#include "model/derived.h"
+#include "model/force/drive.h"
 #include "model/sum/spring_batch.h"
+#include "model/system.h"
 
 #include "core/status.h"
 
@@ -8,7 +10,7 @@
 #include <string.h>
 
 int32_t hooke_system_is_committed(const hooke_system *system) {
-  return system->committed;
+  return system->rest->committed;
 }
 
 int64_t hooke_system_particle_count(const hooke_system *system) {
@@ -16,7 +18,7 @@ int64_t hooke_system_particle_count(const hooke_system *system) {
 }
 
 const double *hooke_system_mass(const hooke_system *system) {
-  return system->committed ? hk_system_masses(system) : NULL;
+  return system->rest->committed ? hk_system_masses(system) : NULL;
 }
 
 const double *hooke_system_inverse_mass(const hooke_system *system) {
@@ -64,7 +66,7 @@ static int64_t inside_bodies(const hooke_system *system) {
 }
 
 static int64_t body_count(const hooke_system *system) {
-  return system->bodies.count;
+  return system->bodies->count;
 }
 
 static int64_t idle_count(const hooke_system *system) {
@@ -76,23 +78,24 @@ static int64_t force_count(const hooke_system *system) {
 }
 
 static int64_t derived_count(const hooke_system *system) {
-  return system->derived_count;
+  return system->rest->derived_count;
 }
 
 static int64_t spring_memory(const hooke_system *system) {
-  return hk_springs_memory(&system->springs) + hk_tiled_spring_memory(&system->tiled);
+  return hk_springs_memory(system->springs) + hk_tiled_spring_memory(system->tiled);
 }
 
 static int64_t memory(const hooke_system *system) {
-  int64_t bytes = (int64_t)sizeof *system + system->strided.memory + hk_tiled_memory(&system->tiled);
+  int64_t bytes = (int64_t)(sizeof *system + sizeof *system->rest) + system->strided->memory +
+                  hk_tiled_memory(system->tiled);
   for (int32_t k = 0; hk_force_table(k); k++)
     bytes += hk_force_table(k)->memory ? hk_force_table(k)->memory(system) : 0;
-  bytes += system->particle_capacity * (int64_t)((system->velocity ? 7 : 4) * sizeof(double) + 1) +
+  bytes += system->rest->particle_capacity * (int64_t)((system->velocity ? 7 : 4) * sizeof(double) + 1) +
            (system->weight ? 2 : 1) * system->particle_count * (int64_t)sizeof(double) +
            (system->constrained_count + system->anchor_count) * (int64_t)sizeof(int32_t);
-  bytes += hk_bodies_memory(&system->bodies) + (system->bodies.of ? system->particle_count * 4 : 0);
+  bytes += hk_bodies_memory(system->bodies) + (system->bodies->of ? system->particle_count * 4 : 0);
   bytes += system->group_count * (int64_t)sizeof *system->group +
-           system->derived_capacity * (int64_t)sizeof *system->derived +
+           system->rest->derived_capacity * (int64_t)sizeof *system->rest->derived +
            system->drive_count * (int64_t)sizeof *system->drive;
   for (int64_t k = 0; k < system->drive_count; k++) {
     bytes += system->drive[k].count * 28 + system->drive[k].samples * 56;

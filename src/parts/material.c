@@ -2,6 +2,7 @@
 
 #include "core/memory.h"
 #include "core/status.h"
+#include "model/force/bending.h"
 
 #include <float.h>
 #include <math.h>

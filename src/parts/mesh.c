@@ -5,6 +5,7 @@
 #include "parts/surface.h"
 #include "core/memory.h"
 #include "core/status.h"
+#include "model/group.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -5,6 +5,7 @@
 #include "core/memory.h"
 #include "core/print.h"
 #include "core/status.h"
+#include "model/system.h"
 
 #include <math.h>
 #include <stdarg.h>
@@ -303,7 +304,7 @@ int32_t hooke_system_add_part(hooke_system *system, const char *kind, const char
   if (status != HOOKE_OK) return status;
 
   const struct hk_system_mark mark = hk_system_mark(system);
-  const int64_t number = hk_system_next_part(system);
+  const int64_t number = system->part_count++;
   char unnamed[64];
   snprintf(unnamed, sizeof unnamed, "%s%lld", kind, (long long)number);
   struct hk_part part = {.system = system, .name = name && name[0] ? name : unnamed, .options = options};

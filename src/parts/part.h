@@ -4,8 +4,10 @@
 
 #include "core/table/option.h"
 #include "hooke/parts.h"
+#include "model/derived.h"
 #include "model/part_record.h"
 #include "model/force/force.h"
+#include "model/size_limit.h"
 
 /* A part under construction. */
 struct hk_part {

@@ -13,6 +13,7 @@
 #include "core/memory.h"
 #include "core/sine.h"
 #include "core/status.h"
+#include "model/force/altitude.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -14,6 +14,7 @@
 
 #include "kernel/spring/spring_loops.h"
 #include "model/sum/motion.h"
+#include "model/sum/tiled.h"
 
 #include <float.h>
 #include <math.h>
@@ -129,7 +130,7 @@ static void check_acceleration(const struct small_scene *scene, int first, struc
 static void check_members(const struct small_scene *scene) {
   static struct hk_pool *pool;
   const hooke_system *system = scene->system;
-  if (system->strided.count == 0 && system->tiled.particles == 0) return;
+  if (system->strided->count == 0 && system->tiled->particles == 0) return;
   if (pool == NULL) pool = hk_pool_create(3);
   hooke_fuzz_require(pool != NULL, "a thread pool");
   double found[2][3 * MOST_PARTICLES];

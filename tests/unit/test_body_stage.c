@@ -4,6 +4,7 @@
 
 #include "check.h"
 #include "run.h"
+#include "model/body.h"
 
 #include <math.h>
 #include <stdlib.h>

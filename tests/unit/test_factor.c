@@ -5,6 +5,7 @@
 #include "random.h"
 #include "random_scene.h"
 #include "run.h"
+#include "model/system.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -42,8 +43,8 @@ static void multiply_altitude(const struct bench *bench, const double *x, double
   const int64_t n = bench->n;
   double *q = new_doubles(6 * n), *v = q + 3 * n;
   hk_motion_store(bench->integrator->motion, q, v);
-  for (int64_t k = 0; k < system->altitudes.count; k++) {
-    const struct hk_tetrahedron *t = &system->altitudes.tetrahedron[k];
+  for (int64_t k = 0; k < system->altitudes->count; k++) {
+    const struct hk_tetrahedron *t = &system->altitudes->tetrahedron[k];
     struct hk_tautness s;
     double along = 0.0;
     if (!hk_tautness_find(t, q, v, &s) || s.slack) continue;
@@ -95,8 +96,8 @@ static void multiply(const struct bench *bench, const double *x, double *out) {
   const int64_t n = bench->n;
   for (int64_t k = 0; k < 3 * n; k++)
     out[k] = (system->mass[k % n] + beta * system->drag) * x[k];
-  for (int64_t r = 0; r < system->springs.run_count; r++) {
-    const struct hk_run *run = &system->springs.run[r];
+  for (int64_t r = 0; r < system->springs->run_count; r++) {
+    const struct hk_run *run = &system->springs->run[r];
     for (int64_t k = 0; k < run->count; k++) {
       const struct hk_spring s = hk_run_spring(run, k);
       double u[3], d[3], length = 0.0, rate = 0.0, along = 0.0;
@@ -124,7 +125,7 @@ static void multiply(const struct bench *bench, const double *x, double *out) {
     }
   }
   struct hk_triple t;
-  for (struct hk_triples at = {&system->bending, 0, 0}; hk_next_triple(&at, &t);) {
+  for (struct hk_triples at = {&system->rest->bending, 0, 0}; hk_next_triple(&at, &t);) {
     for (int a = 0; a < 3; a++) {
       const double *c = x + a * n;
       const double bend = c[t.particle[0]] - 2.0 * c[t.particle[1]] + c[t.particle[2]];

@@ -7,7 +7,7 @@
 #include "core/memory.h"
 #include "core/memory_limit.h"
 #include "io/scene/json_scan.h"
-#include "model/force/force.h"
+#include "model/system.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -146,7 +146,7 @@ static void systems_stop_at_the_edge_of_32_bits(void **unused) {
   /* existing members count, in numbers and in memory */
   check_ok(hooke_system_limit_memory(system, INFINITY));
   for (int k = 0; k < HOOKE_FORCES; k++)
-    system->member_total[k] = INT32_MAX - 1;
+    system->rest->member_total[k] = INT32_MAX - 1;
   check_ok(hooke_system_add_springs(system, "", 1, ends, spring));
   check_ok(hooke_system_add_bending(system, "", 1, ends, 1, &one));
   check_ok(hooke_system_add_altitude(system, "", 1, ends, altitude));
@@ -173,8 +173,8 @@ static void what_is_taken_back_does_not_count(void **unused) {
   check_ok(hooke_options_set_number(options, "bending", 1.0));
   check_ok(hooke_system_add_part(system, "cloth", "", options, NULL, NULL));
   const double before = hk_system_needed_bytes(system, (struct hk_more){0});
-  assert_int_equal(system->member_total[hk_force_number(&hk_force_springs)], 180);
-  assert_int_equal(system->member_total[hk_force_number(&hk_force_bending)], 160);
+  assert_int_equal(system->rest->member_total[hk_force_number(&hk_force_springs)], 180);
+  assert_int_equal(system->rest->member_total[hk_force_number(&hk_force_bending)], 160);
   check_ok(hooke_options_set_number(options, "pinned", 100.0));
   check_status(hooke_system_add_part(system, "cloth", "", options, NULL, NULL), HOOKE_BAD_VALUE);
   check_close(hk_system_needed_bytes(system, (struct hk_more){0}), before, 0.0);

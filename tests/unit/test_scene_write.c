@@ -1,5 +1,6 @@
 /* A system written as a scene and read again is the same system, to the bit. */
 #include "model/check_value.h"
+#include "model/force/drive.h"
 #include "model/variant/variant.h"
 #include "check.h"
 #include "random_scene.h"
@@ -175,10 +176,10 @@ static void strands_come_back(void **state) {
   write_and_read(system, &read);
   const hooke_system *found = hooke_scene_system(read);
   check_same_system(found, system);
-  assert_int_equal(system->altitudes.count, 24 + 11);
-  assert_int_equal(found->altitudes.count, system->altitudes.count);
-  assert_memory_equal(found->altitudes.tetrahedron, system->altitudes.tetrahedron,
-                      (size_t)system->altitudes.count * sizeof *system->altitudes.tetrahedron);
+  assert_int_equal(system->altitudes->count, 24 + 11);
+  assert_int_equal(found->altitudes->count, system->altitudes->count);
+  assert_memory_equal(found->altitudes->tetrahedron, system->altitudes->tetrahedron,
+                      (size_t)system->altitudes->count * sizeof *system->altitudes->tetrahedron);
   hooke_scene_destroy(read);
   hooke_system_destroy(system);
 

@@ -2,6 +2,7 @@
  * sums over them equal those over single springs. */
 #include "check.h"
 #include "model/sum/spring_batch.h"
+#include "model/sum/tiled.h"
 #include "random.h"
 
 #include <stdlib.h>
@@ -32,9 +33,9 @@ static void check_batches(const hooke_system *system) {
   struct one *wanted = new_block(count, (int64_t)sizeof *wanted),
              *found = new_block(count, (int64_t)sizeof *found);
   int64_t at = 0, damped = 0;
-  for (int64_t r = 0; r < system->springs.run_count; r++) {
-    for (int64_t k = 0; k < system->springs.run[r].count; k++) {
-      const struct hk_spring spring = hk_run_spring(&system->springs.run[r], k);
+  for (int64_t r = 0; r < system->springs->run_count; r++) {
+    for (int64_t k = 0; k < system->springs->run[r].count; k++) {
+      const struct hk_spring spring = hk_run_spring(&system->springs->run[r], k);
       wanted[at++] = one_of(&spring);
       damped += spring.gamma != 0.0;
     }
@@ -63,9 +64,9 @@ static void check_batches(const hooke_system *system) {
 /* Energy and heat, spring by spring. */
 static void check_sums(const hooke_system *system, const double *q, const double *v) {
   long double energy = 0.0L, heat = 0.0L;
-  for (int64_t r = 0; r < system->springs.run_count; r++) {
-    for (int64_t k = 0; k < system->springs.run[r].count; k++) {
-      const struct hk_spring spring = hk_run_spring(&system->springs.run[r], k);
+  for (int64_t r = 0; r < system->springs->run_count; r++) {
+    for (int64_t k = 0; k < system->springs->run[r].count; k++) {
+      const struct hk_spring spring = hk_run_spring(&system->springs->run[r], k);
       struct hk_stretch s;
       hk_spring_stretch(&spring, q, v, &s);
       energy += 0.5L * s.elastic * (s.length - spring.rest_length);
@@ -136,7 +137,7 @@ static void test_sheet(int64_t side, int shuffled, int lawful) {
   for (int group = 0; group < 3; group++)
     add_group(&sheet, group, lawful, system);
   check_ok(hooke_system_commit(system));
-  assert_int_equal(system->tiled.particles > 0, shuffled);
+  assert_int_equal(system->tiled->particles > 0, shuffled);
   check_batches(system);
   for (int64_t k = 0; k < 3 * sheet.particles; k++)
     sheet.q[k] *= 1.01;

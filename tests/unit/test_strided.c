@@ -89,14 +89,14 @@ static void compare(uint64_t seed, int *in_strided, int *most) {
   double *q = new_doubles(3 * particles), *v = new_doubles(3 * particles), gravity[3] = {0.0, 0.0, 0.0}, drag;
   hooke_system *system =
       build(&source, particles, (int)random_whole(&source, 1, 9), seed % 5 == 0, q, v, gravity, &drag);
-  *in_strided += system->strided.count > 0;
-  if (system->strided.count > *most) *most = system->strided.count;
+  *in_strided += system->strided->count > 0;
+  if (system->strided->count > *most) *most = system->strided->count;
   struct canonical c;
   canonical_create(system, &c);
   c.gravity = gravity[1] != 0.0 ? gravity : NULL;
   c.drag = drag;
   check_agrees(system, &c, q, v);
-  if (system->strided.count > 0 && seed % 4 == 0) check_members(system, q, v);
+  if (system->strided->count > 0 && seed % 4 == 0) check_members(system, q, v);
   canonical_destroy(&c);
   hooke_system_destroy(system);
   free(q);
@@ -115,7 +115,7 @@ static void test_same_bits(void **unused) {
 static int64_t spring_count(const hooke_system *system, int32_t k) {
   int64_t count = 0;
   for (int64_t p = 0; p < system->particle_count; p++)
-    count += system->strided.batch[k].present[p / HOOKE_STRIDED_UNIT] >> p % HOOKE_STRIDED_UNIT & 1;
+    count += system->strided->batch[k].present[p / HOOKE_STRIDED_UNIT] >> p % HOOKE_STRIDED_UNIT & 1;
   return count;
 }
 
@@ -142,7 +142,7 @@ static void test_lanes_of_ropes(void **unused) {
   }
   hooke_options_destroy(options);
   check_ok(hooke_system_commit(system));
-  assert_int_equal(system->strided.count, 3);
+  assert_int_equal(system->strided->count, 3);
   assert_int_equal(spring_count(system, 0), 3 * 29);
   assert_int_equal(spring_count(system, 1), 3 * 28);
   assert_int_equal(spring_count(system, 2), 29);
@@ -170,8 +170,8 @@ static void check_materials(int ropes, int materials, int32_t shape) {
   }
   hooke_options_destroy(options);
   check_ok(hooke_system_commit(system));
-  assert_int_equal(system->strided.count, 1);
-  assert_int_equal(system->strided.batch[0].shape, shape);
+  assert_int_equal(system->strided->count, 1);
+  assert_int_equal(system->strided->batch[0].shape, shape);
   struct canonical c;
   double *v = new_doubles(3 * 30 * ropes);
   canonical_create(system, &c);
@@ -273,7 +273,7 @@ static void check_listing(uint64_t seed, struct listing listing) {
   struct random_source source = {seed};
   double *q = new_doubles(3 * MOST_LISTED), *v = new_doubles(3 * MOST_LISTED);
   hooke_system *system = build_listed(&source, &listing, q, v);
-  const int32_t strided = system->strided.count;
+  const int32_t strided = system->strided->count;
   if (listing.order == SAME) assert_int_equal(strided, STEPS);
   if (listing.order == ONE_OPPOSITE) assert_in_range(strided, STEPS + 1, 2 * STEPS);
   if (listing.order == RANDOM) assert_int_equal(strided, 0);
@@ -330,7 +330,7 @@ static void test_every_second_first(void **unused) {
   check_ok(hooke_system_add_springs(system, NULL, count, ends, options));
   hooke_options_destroy(options);
   check_ok(hooke_system_commit(system));
-  assert_int_equal(system->strided.count, 3);
+  assert_int_equal(system->strided->count, 3);
   struct canonical c;
   canonical_create(system, &c);
   check_agrees(system, &c, q, v);
@@ -363,9 +363,9 @@ static void test_rounded_lengths(void **unused) {
   check_ok(hooke_system_add_springs(system, NULL, count, ends, options));
   hooke_options_destroy(options);
   check_ok(hooke_system_commit(system));
-  assert_int_equal(system->strided.count, 3);
-  assert_true(system->strided.batch[0].shape & HOOKE_RUN_MIXED);
-  assert_in_range(system->strided.memory, 1, 4 * count);
+  assert_int_equal(system->strided->count, 3);
+  assert_true(system->strided->batch[0].shape & HOOKE_RUN_MIXED);
+  assert_in_range(system->strided->memory, 1, 4 * count);
   check_ok(hooke_system_members(system, "springs", NULL, NULL, NULL, length));
   for (int64_t s = 0; s < count; s++) {
     const double *a = q + 3 * ends[2 * s], *b = q + 3 * ends[2 * s + 1];

@@ -7,6 +7,7 @@
 
 #include "model/sum/motion.h"
 #include "model/sum/spring_batch.h"
+#include "model/sum/tiled.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -120,13 +121,13 @@ static hooke_system *build(struct random_source *source, struct sheet *sheet, in
 /* The system returns the given springs, and stores no more than the law needs. */
 static void check_material(const hooke_system *system, const struct canonical *c, int groups, int material,
                            int64_t side) {
-  const struct hk_tiled *tiled = &system->tiled;
+  const struct hk_tiled *tiled = system->tiled;
   const int of_its_own =
       material == OF_ITS_OWN || groups > HOOKE_TILED_KINDS || (material == STRAIN && side == SMALL);
   assert_int_equal(tiled->kappa != NULL, of_its_own);
   assert_int_equal(tiled->rest_length != NULL, of_its_own || material != ONE_LENGTH);
   assert_in_range(tiled->kinds, 1, of_its_own ? 2 : groups);
-  assert_int_equal(system->springs.mixed_count, 0);
+  assert_int_equal(system->springs->mixed_count, 0);
   for (int64_t s = 0; s < c->spring_count; s++)
     assert_true(c->kappa[s] > 0.0 && c->rest_length[s] >= 0.05);
 }
@@ -158,15 +159,15 @@ static void compare(uint64_t seed, int64_t side, int order, int groups, int mate
   struct canonical c;
   double drag;
   hooke_system *system = build(&source, sheet, groups, material, &drag);
-  const int listed = system->strided.count > 0;
-  assert_int_equal(system->tiled.particles, listed ? 0 : sheet->particles);
+  const int listed = system->strided->count > 0;
+  assert_int_equal(system->tiled->particles, listed ? 0 : sheet->particles);
   if (order != AS_BUILT || groups <= 3) assert_int_equal(listed, order == AS_BUILT);
   canonical_create(system, &c);
   c.gravity = sheet->gravity[1] != 0.0 ? sheet->gravity : NULL;
   c.drag = drag;
   if (!listed) {
     check_material(system, &c, groups, material, sheet->side);
-    check_numbering(&system->tiled, order);
+    check_numbering(system->tiled, order);
   }
   check_agrees(system, &c, sheet->q, sheet->v);
   check_members(system, sheet->q, sheet->v);
@@ -224,8 +225,8 @@ static void test_wide(void **unused) {
   check_ok(hooke_system_add_springs(system, "net", COUNT, ends, options));
   hooke_options_destroy(options);
   check_ok(hooke_system_commit(system));
-  assert_int_equal(system->tiled.particles, CHAIN);
-  assert_true(system->tiled.wide);
+  assert_int_equal(system->tiled->particles, CHAIN);
+  assert_true(system->tiled->wide);
   struct canonical c;
   canonical_create(system, &c);
   check_agrees(system, &c, q, v);
@@ -270,7 +271,7 @@ static void test_small(void **unused) {
     v[k] = random_between(&source, -1.0, 1.0);
   }
   hooke_system *system = join_all(q, v, ends);
-  assert_int_equal(system->tiled.particles, FEW);
+  assert_int_equal(system->tiled->particles, FEW);
   struct canonical c;
   canonical_create(system, &c);
   check_agrees(system, &c, q, v);

@@ -4,6 +4,7 @@
 #include "random_scene.h"
 #include "run.h"
 
+#include "model/group.h"
 #include "model/variant/variant.h"
 
 #include <math.h>

@@ -5,6 +5,7 @@
 
 #include "measure/counted_work/work.h"
 #include "model/force/force.h"
+#include "model/sum/tiled.h"
 
 #include <math.h>
 
@@ -119,8 +120,8 @@ static void test_every_member_counts(void **unused) {
     assert_true(members > 2500);
     sum += 1e-9 * hk_costs[HOOKE_WORKS_OF_FORCE * k] * (double)members;
   }
-  const double scattered = scene.system->tiled.order
-                               ? 1e-9 * hk_costs[HOOKE_WORK_SCATTERED] * (double)scene.system->springs.count
+  const double scattered = scene.system->tiled->order
+                               ? 1e-9 * hk_costs[HOOKE_WORK_SCATTERED] * (double)scene.system->springs->count
                                : 0.0;
   const double work = hk_work_of_evaluation(scene.system);
   assert_true(work > sum && work < 1.02 * (sum + scattered));

@@ -6,7 +6,7 @@
 #include "run.h"
 #include "small.h"
 
-#include "model/force/force.h"
+#include "model/system.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -194,9 +194,9 @@ static void check_same_runs(const struct hk_springs *found, const struct hk_spri
 }
 
 static void check_same_lanes(const hooke_system *found, const hooke_system *expected) {
-  assert_int_equal(found->strided.count, expected->strided.count);
-  for (int32_t k = 0; k < expected->strided.count; k++) {
-    const struct hk_strided_batch *a = &found->strided.batch[k], *b = &expected->strided.batch[k];
+  assert_int_equal(found->strided->count, expected->strided->count);
+  for (int32_t k = 0; k < expected->strided->count; k++) {
+    const struct hk_strided_batch *a = &found->strided->batch[k], *b = &expected->strided->batch[k];
     assert_true(a->offset == b->offset && a->first == b->first && a->last == b->last);
     assert_int_equal(a->shape, b->shape);
     const int64_t units = expected->particle_count / HOOKE_STRIDED_UNIT + 1;
@@ -206,9 +206,9 @@ static void check_same_lanes(const hooke_system *found, const hooke_system *expe
 
 static void check_same_choice(const hooke_system *found, const hooke_system *expected) {
   check_same_forces(found, expected);
-  check_same_runs(&found->springs, &expected->springs);
-  assert_int_equal(found->bending.count, expected->bending.count);
-  assert_int_equal(found->bending.run_count, expected->bending.run_count);
+  check_same_runs(found->springs, expected->springs);
+  assert_int_equal(found->rest->bending.count, expected->rest->bending.count);
+  assert_int_equal(found->rest->bending.run_count, expected->rest->bending.run_count);
   check_same_lanes(found, expected);
   assert_int_equal(hooke_system_count(found, "springs"), hooke_system_count(expected, "springs"));
   assert_int_equal(hooke_system_count(found, "idle"), hooke_system_count(expected, "idle"));
@@ -282,15 +282,15 @@ static void strength_is_seen(void **unused) {
     if (what == SOME_SPRINGS) continue;
     hooke_system *without = build((struct scene){CLOTH, what, 1, 0});
     int differs =
-        full->springs.count != without->springs.count || full->force_row_count != without->force_row_count;
-    for (int64_t r = 0; r < full->springs.run_count && r < without->springs.run_count; r++)
-      differs |= full->springs.run[r].loop != without->springs.run[r].loop;
+        full->springs->count != without->springs->count || full->force_row_count != without->force_row_count;
+    for (int64_t r = 0; r < full->springs->run_count && r < without->springs->run_count; r++)
+      differs |= full->springs->run[r].loop != without->springs->run[r].loop;
     assert_true(differs);
     hooke_system_destroy(without);
   }
   hooke_system_destroy(full);
   hooke_system *cloth = build((struct scene){CLOTH, GROUPS, 0, 1});
-  assert_in_range(cloth->strided.count, 1, HOOKE_MOST_STRIDED);
+  assert_in_range(cloth->strided->count, 1, HOOKE_MOST_STRIDED);
   hooke_system_destroy(cloth);
 }
 

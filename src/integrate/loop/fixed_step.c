@@ -4,6 +4,7 @@
 
 #include "core/status.h"
 #include "model/force/force.h"
+#include "model/sum/strided.h"
 
 #include <stddef.h>
 #include <string.h>

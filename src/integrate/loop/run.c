@@ -4,6 +4,7 @@
 #include "core/clock.h"
 #include "core/thread_pool.h"
 #include "core/status.h"
+#include "model/body.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -10,6 +10,7 @@
 #include "integrate/method/stages.h"
 #include "integrate/solve/unknowns.h"
 #include "kernel/step_loops.h"
+#include "model/body.h"
 #include "model/force/force.h"
 
 #include <string.h>
@@ -131,7 +132,7 @@ static void kick(const hooke_integrator *it, double h, double *y) {
   const struct hk_unknowns *u = &own->unknowns;
   hk_advance(3 * u->free_count, h, own->slope + 3 * u->free_count, y + 3 * u->free_count);
   for (int64_t k = 0; k < u->body_count; k++)
-    hk_body_kick(it->system->bodies.mover[k], h, u->push + 6 * k, u->push + 6 * k + 3,
+    hk_body_kick(it->system->bodies->mover[k], h, u->push + 6 * k, u->push + 6 * k + 3,
                  own_coordinates(own, y, k));
 }
 
@@ -140,7 +141,7 @@ static void drift(const hooke_integrator *it, double h, double *y) {
   const struct hk_unknowns *u = &own->unknowns;
   hk_advance(3 * u->free_count, h, y + 3 * u->free_count, y);
   for (int64_t k = 0; k < u->body_count; k++)
-    hk_body_drift(it->system->bodies.mover[k], h, own_coordinates(own, y, k));
+    hk_body_drift(it->system->bodies->mover[k], h, own_coordinates(own, y, k));
 }
 
 static int32_t step_symplectic_euler(hooke_integrator *it) {

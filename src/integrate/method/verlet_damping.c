@@ -8,7 +8,9 @@
 #include "core/memory.h"
 #include "core/number.h"
 #include "core/status.h"
+#include "model/force/altitude.h"
 #include "model/force/force.h"
+#include "model/force/spring.h"
 
 #include <math.h>
 #include <string.h>
@@ -52,10 +54,10 @@ static int32_t find_bound(const hooke_system *system, double *bound) {
 /* 1 if no bound holds wherever the particles are, and however fast: with dampers of springs that only pull,
  * and with altitude springs, of which one of seven altitudes acts, with weights of its own. */
 static int32_t depends_on_state(const hooke_system *system) {
-  int32_t depends = system->altitudes.count > 0;
-  for (int64_t r = 0; r < system->springs.run_count; r++) {
+  int32_t depends = system->altitudes->count > 0;
+  for (int64_t r = 0; r < system->springs->run_count; r++) {
     const int32_t both = HOOKE_RUN_DAMPED | HOOKE_RUN_PULL_ONLY;
-    depends |= (system->springs.run[r].shape & both) == both;
+    depends |= (system->springs->run[r].shape & both) == both;
   }
   return depends;
 }

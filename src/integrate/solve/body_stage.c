@@ -3,6 +3,7 @@
 #include "core/memory.h"
 #include "core/status.h"
 #include "integrate/solve/stage.h"
+#include "model/body.h"
 #include "model/vector3.h"
 
 #include <math.h>
@@ -24,7 +25,7 @@ static int32_t allocate(hooke_integrator *it, struct hk_body_stage *body) {
   body->rotation = hk_new(count, sizeof *body->rotation);
   if (block == NULL || body->rotation == NULL) return HOOKE_NO_MEMORY;
   for (int64_t k = 0; k < count; k++)
-    arms += 3 * it->system->bodies.mover[k]->count;
+    arms += 3 * it->system->bodies->mover[k]->count;
   it->own_memory += (numbers + arms) * (int64_t)sizeof(double) + count * (int64_t)sizeof *body->rotation;
   block += HOOKE_BODY_NUMBERS * count;
   body->push = hk_part(&block, 6 * count);
@@ -41,11 +42,11 @@ static int32_t allocate(hooke_integrator *it, struct hk_body_stage *body) {
 
 int32_t hk_body_stage_create(hooke_integrator *it, struct hk_body_stage *body) {
   const hooke_system *system = it->system;
-  if (system->bodies.moving == 0) return HOOKE_OK;
+  if (system->moving_bodies == 0) return HOOKE_OK;
   if (strcmp(hooke_options_text(it->options, "linear_solver"), "direct") == 0)
     return hk_fail(HOOKE_UNSUITED, "linear_solver",
                    "direct does not know rigid bodies yet; allowed with %s: auto, blocks", it->method->name);
-  body->count = system->bodies.moving;
+  body->count = system->moving_bodies;
   const int32_t status = hk_body_tangents_create(system, system->position, &body->tangents);
   return status == HOOKE_OK ? allocate(it, body) : status;
 }
@@ -84,7 +85,7 @@ static const hooke_system *system_of(const struct hk_stage *stage) {
 }
 
 static const struct hk_body *body_of(const struct hk_stage *stage, int64_t k) {
-  return system_of(stage)->bodies.mover[k];
+  return system_of(stage)->bodies->mover[k];
 }
 
 static double *own_of(const struct hk_stage *stage, int64_t k) {

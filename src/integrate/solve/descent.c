@@ -3,6 +3,7 @@
 #include "core/memory.h"
 #include "core/sum.h"
 #include "kernel/vector_loops.h"
+#include "model/force/altitude.h"
 #include "model/force/force.h"
 
 #include <float.h>
@@ -15,7 +16,7 @@ static const double ROUNDINGS = 4.0 * DBL_EPSILON;
 int32_t hk_descent_create(hooke_integrator *it, struct hk_descent *descent) {
   const hooke_system *system = it->system;
   const double *g = system->pull;
-  if (system->friction == 0.0 || system->force || system->altitudes.count > 0) return HOOKE_OK;
+  if (system->friction == 0.0 || system->force || system->altitudes->count > 0) return HOOKE_OK;
   descent->rows = hk_new(it->size, sizeof(double));
   if (descent->rows == NULL) return HOOKE_NO_MEMORY;
   it->own_memory += it->size * (int64_t)sizeof(double);

@@ -4,7 +4,7 @@
 #include "core/status.h"
 #include "integrate/solve/factor_cholmod.h"
 #include "kernel/triangle_loops.h"
-#include "model/sum/pattern.h"
+#include "model/force/spring.h"
 
 #include <math.h>
 #include <string.h>
@@ -143,7 +143,7 @@ static void locate_others(const struct hk_factor *x, struct place *place) {
 }
 
 static int locate_blocks(struct hk_factor *x) {
-  const struct hk_springs *springs = &x->system->springs;
+  const struct hk_springs *springs = x->system->springs;
   x->spring = take(x, springs->count, sizeof *x->spring);
   x->pair = take(x, other_pairs(x->system), sizeof *x->pair);
   if (x->spring == NULL || x->pair == NULL) return 0;
@@ -309,7 +309,7 @@ static void add_diagonal(const struct hk_factor *x, const double *diagonal) {
 }
 
 static void add_springs(const struct hk_factor *x, const struct hk_tangent *t) {
-  for (int64_t s = 0; s < x->system->springs.count; s++) {
+  for (int64_t s = 0; s < x->system->springs->count; s++) {
     if (x->spring[s].column < 0) continue;
     const double u[3] = {t->u[0][s], t->u[1][s], t->u[2][s]};
     const double across = t->b[s] > 0.0 ? t->b[s] : 0.0;

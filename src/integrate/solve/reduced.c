@@ -3,7 +3,7 @@
 #include "core/memory.h"
 #include "core/status.h"
 #include "kernel/vector_loops.h"
-#include "model/force/force.h"
+#include "model/force/spring.h"
 
 #include <math.h>
 #include <string.h>
@@ -48,7 +48,7 @@ int32_t hk_reduced_create(hooke_integrator *it, int32_t kind, struct hk_reduced 
   static const int64_t vectors_of[] = {HOOKE_GENERAL_VECTORS, HOOKE_SYMMETRIC_VECTORS, HOOKE_MINIMAL_VECTORS};
   const hooke_system *system = it->system;
   const int32_t symmetric = kind == HOOKE_REDUCED_SYMMETRIC;
-  const int64_t n = system->particle_count, m = system->springs.count, vectors = vectors_of[kind];
+  const int64_t n = system->particle_count, m = system->springs->count, vectors = vectors_of[kind];
   const int64_t rows = !symmetric ? 15 * n : hk_elements_of(system, hk_force_is_kept) > 0 ? 6 * n : 0;
   const int64_t numbers = (symmetric ? 3 : 7) * m + 25 * n + 3 * n * vectors + rows;
   double *block = hk_new(numbers, sizeof(double));
@@ -129,8 +129,8 @@ static void fill_diagonal(struct hk_reduced *reduced) {
   for (int c = 0; c < 3; c++)
     memcpy(block[c], reduced->diagonal, (size_t)n * sizeof(double));
   memset(block[3], 0, (size_t)(3 * n) * sizeof(double));
-  for (int64_t k = 0; k < system->springs.run_count; k++) {
-    const struct hk_run *run = &system->springs.run[k];
+  for (int64_t k = 0; k < system->springs->run_count; k++) {
+    const struct hk_run *run = &system->springs->run[k];
     if (!reduced->symmetric || run->shape & HOOKE_RUN_DAMPED)
       hk_tangent_diagonal(run, &reduced->tangent, block);
   }
@@ -169,8 +169,8 @@ void hk_reduced_set(struct hk_reduced *reduced, double t, double alpha, double b
     fields.q[a] = motion->q[a];
     fields.v[a] = motion->v[a];
   }
-  for (int64_t k = 0; k < system->springs.run_count; k++) {
-    const struct hk_run *run = &system->springs.run[k];
+  for (int64_t k = 0; k < system->springs->run_count; k++) {
+    const struct hk_run *run = &system->springs->run[k];
     if (!reduced->symmetric || run->shape & HOOKE_RUN_DAMPED)
       hk_tangent_fill(run, &fields, alpha, beta, &reduced->tangent);
   }
@@ -237,8 +237,8 @@ static int32_t add_product(struct hk_reduced *reduced, const double *x, double *
   reduced->integrator->count.derivative_products++;
   const double *const from[3] = {x, x + n, x + 2 * n};
   double *const to[3] = {out, out + n, out + 2 * n};
-  for (int64_t k = 0; k < system->springs.run_count; k++) {
-    const struct hk_run *run = &system->springs.run[k];
+  for (int64_t k = 0; k < system->springs->run_count; k++) {
+    const struct hk_run *run = &system->springs->run[k];
     if (!reduced->symmetric || run->shape & HOOKE_RUN_DAMPED)
       hk_tangent_product(run, &reduced->tangent, from, to);
   }
@@ -376,7 +376,7 @@ int32_t hk_reduced_solve(struct hk_reduced *reduced, const double *b, double tol
 
 /* Of every spring what its diagonal blocks have. */
 void hk_reduced_project(struct hk_reduced *reduced) {
-  hk_tangent_project(reduced->integrator->system->springs.count, &reduced->tangent);
+  hk_tangent_project(reduced->integrator->system->springs->count, &reduced->tangent);
   reduced->projected = 1;
 }
 
@@ -455,7 +455,7 @@ void hk_reduced_drop_factor(struct hk_reduced *reduced) {
 double hk_reduced_cost_by_blocks(const struct hk_reduced *reduced, double products, double vectors) {
   const hooke_integrator *it = reduced->integrator;
   return products *
-             (OF_SPRING * (double)it->system->springs.count + OF_ELEMENT * (double)reduced->element_count) +
+             (OF_SPRING * (double)it->system->springs->count + OF_ELEMENT * (double)reduced->element_count) +
          vectors * OF_UNKNOWN * (double)it->size;
 }
 
@@ -479,8 +479,8 @@ int32_t hk_reduced_right(struct hk_reduced *reduced, const double *bq, const dou
   }
   const double *const from[3] = {bq, bq + n, bq + 2 * n};
   double *const to[3] = {out, out + n, out + 2 * n};
-  for (int64_t k = 0; k < system->springs.run_count; k++) {
-    const struct hk_run *run = &system->springs.run[k];
+  for (int64_t k = 0; k < system->springs->run_count; k++) {
+    const struct hk_run *run = &system->springs->run[k];
     if (run->shape & HOOKE_RUN_DAMPED) hk_tangent_damping(run, &reduced->tangent, from, to);
   }
   for (int32_t k = 0; k < system->force_row_count; k++) {

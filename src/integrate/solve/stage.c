@@ -3,6 +3,7 @@
 #include "core/memory.h"
 #include "core/status.h"
 #include "kernel/vector_loops.h"
+#include "model/body.h"
 
 #include <float.h>
 #include <math.h>
@@ -155,7 +156,7 @@ static void find_moved(const struct hk_stage *stage, double *dq, double *dv) {
   const int64_t n = system->particle_count;
   for (int64_t a = 0, k = 0; a < 3; a++) {
     for (int64_t p = 0; p < n; p++, k++) {
-      const int held = system->constrained[p] != 0 || hk_bodies_move(&system->bodies, p);
+      const int held = system->constrained[p] != 0 || hk_bodies_move(system->bodies, p);
       const double q = stage->begin[k], v = stage->begin[3 * n + k];
       dq[k] = held ? it->motion->q[a][p] - q : (stage->at.place[k] - q) + stage->at.a * v;
       dv[k] = held ? it->motion->v[a][p] - v : 0.0;

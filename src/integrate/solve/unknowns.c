@@ -2,12 +2,13 @@
 #include "integrate/solve/unknowns.h"
 
 #include "core/memory.h"
+#include "model/body.h"
 #include "model/force/force.h"
 
 #include <string.h>
 
 static int is_alone(const hooke_system *system, int64_t particle) {
-  return !system->constrained[particle] && !hk_bodies_move(&system->bodies, particle);
+  return !system->constrained[particle] && !hk_bodies_move(system->bodies, particle);
 }
 
 /* Finds the stretches, or counts them before there is a list. */
@@ -33,7 +34,7 @@ int32_t hk_unknowns_create(hooke_integrator *it, int32_t products, struct hk_unk
   if (u->stretch == NULL) return HOOKE_NO_MEMORY;
   find_stretches(it->system, u);
   u->has_v = it->system->friction == 0.0;
-  u->body_count = it->system->bodies.moving;
+  u->body_count = it->system->moving_bodies;
   u->size = (u->has_v ? 6 : 3) * u->free_count + HOOKE_BODY_NUMBERS * u->body_count;
   if (u->size == 0) u->size = 1;
   if (u->body_count > 0 && (u->push = hk_new(6 * u->body_count, sizeof(double))) == NULL)
@@ -57,7 +58,7 @@ void hk_unknowns_tolerance(const hooke_integrator *it, const struct hk_unknowns 
   for (int64_t k = 0; k < u->size; k++)
     tolerance[k] = it->rate || k < 3 * u->free_count ? position : velocity;
   for (int64_t k = 0; k < u->body_count; k++)
-    hk_body_tolerance(it->system->bodies.mover[k], position, velocity,
+    hk_body_tolerance(it->system->bodies->mover[k], position, velocity,
                       tolerance + 6 * u->free_count + HOOKE_BODY_NUMBERS * k);
 }
 
@@ -173,7 +174,7 @@ static double body_slopes(const hooke_integrator *it, const struct hk_unknowns *
   for (int64_t k = 0; k < u->body_count; k++) {
     const int64_t at = 6 * u->free_count + HOOKE_BODY_NUMBERS * k;
     const double *push = u->push + 6 * k;
-    hk_body_slope(it->system->bodies.mover[k], y + at, push, push + 3, slope + at);
+    hk_body_slope(it->system->bodies->mover[k], y + at, push, push + 3, slope + at);
     for (int j = 0; j < HOOKE_BODY_NUMBERS; j++)
       sum += 0.0 * slope[at + j];
   }

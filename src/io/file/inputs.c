@@ -11,12 +11,13 @@ int32_t hk_inputs_note(hooke_system *system, const char *path, int32_t is_scene)
   HOOKE_KEEP_ERRNO;
   struct hk_os_file there;
   if (hk_os_look(path, &there) != 0) return HOOKE_OK; /* whoever reads it tells */
-  void *grown = system->input;
-  const int32_t status = hk_grow(&grown, system->input_count, system->input_count + 1, sizeof there);
+  void *grown = system->rest->input;
+  const int32_t status =
+      hk_grow(&grown, system->rest->input_count, system->rest->input_count + 1, sizeof there);
   if (status != HOOKE_OK) return status;
-  system->input = grown;
-  system->input[system->input_count++] = there;
-  system->has_scene = is_scene;
+  system->rest->input = grown;
+  system->rest->input[system->rest->input_count++] = there;
+  system->rest->has_scene = is_scene;
   return HOOKE_OK;
 }
 
@@ -38,7 +39,7 @@ int32_t hk_inputs_refuse(const hooke_system *system, const char *output) {
   for (int k = 0; status == HOOKE_OK && k < 3; k++) {
     char *beside = NULL;
     status = hk_file_beside(output, endings[k], &beside);
-    if (status == HOOKE_OK) status = refuse(system->input_count, system->input, beside);
+    if (status == HOOKE_OK) status = refuse(system->rest->input_count, system->rest->input, beside);
     hk_free(beside);
   }
   return status;
@@ -46,7 +47,7 @@ int32_t hk_inputs_refuse(const hooke_system *system, const char *output) {
 
 int32_t hk_inputs_refuse_save(const hooke_system *system, const char *output) {
   HOOKE_KEEP_ERRNO;
-  return refuse(system->input_count - system->has_scene, system->input, output);
+  return refuse(system->rest->input_count - system->rest->has_scene, system->rest->input, output);
 }
 
 int32_t hk_input_refuse(const char *input, const char *output) {

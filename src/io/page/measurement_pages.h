@@ -2,6 +2,7 @@
 #ifndef HOOKE_IO_PAGE_MEASUREMENT_PAGES_H
 #define HOOKE_IO_PAGE_MEASUREMENT_PAGES_H
 
+#include "hooke/system.h"
 #include "io/file/text.h"
 
 void hk_needs_page_add(struct hk_text *data, const void *measurement);

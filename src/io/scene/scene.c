@@ -105,7 +105,7 @@ static int32_t load_record(const char *path, const hooke_options *limits, hooke_
       hooke_options_destroy((*scene)->run);
       (*scene)->run = run;
       const int32_t called = hk_callbacks_find(hooke_record_text(record, "callbacks"));
-      (*scene)->system->called = called > 0 ? called : 0;
+      (*scene)->system->rest->called = called > 0 ? called : 0;
     } else {
       hooke_options_destroy(run);
       hooke_scene_destroy(*scene);

@@ -7,7 +7,7 @@
 #include "core/print.h"
 #include "core/status.h"
 #include "io/scene/mesh.h"
-#include "model/system.h"
+#include "model/particles.h"
 
 #include <jansson.h>
 #include <stdio.h>

@@ -9,7 +9,9 @@
 #include "io/scene/scene_words.h"
 #include "io/file/text.h"
 #include "model/callbacks.h"
-#include "model/force/force.h"
+#include "model/force/drive.h"
+#include "model/part_record.h"
+#include "model/system.h"
 
 #include <math.h>
 #include <string.h>
@@ -173,7 +175,7 @@ static void add_pairs(struct hk_text *text, const struct hk_springs *springs,
 }
 
 static void add_springs(struct hk_text *text, const hooke_system *system, const struct numbering *numbering) {
-  const struct hk_springs *springs = &system->springs;
+  const struct hk_springs *springs = system->springs;
   int64_t first = 0;
   for (int64_t g = 0; g < hk_system_groups_of(system, &hk_force_springs); first += system->group[g++].count) {
     const struct hk_group *group = &system->group[g];
@@ -310,8 +312,8 @@ static void add_anchors(struct hk_text *text, const hooke_system *system, const 
 
 static void add_bodies(struct hk_text *text, const hooke_system *system, const struct numbering *numbering) {
   int32_t open = 0;
-  for (int64_t k = 0; k < system->bodies.count; k++) {
-    const struct hk_body *body = &system->bodies.body[k];
+  for (int64_t k = 0; k < system->bodies->count; k++) {
+    const struct hk_body *body = &system->bodies->body[k];
     if (body->part >= 0) continue; /* its part says so */
     if (!open++) hk_text_open(text, "bodies", '[');
     hk_text_open(text, NULL, '{');

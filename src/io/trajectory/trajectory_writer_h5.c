@@ -5,7 +5,7 @@
 
 #include "io/hdf5/object_h5.h"
 #include "io/trajectory/trajectory_writer_h5.h"
-#include "model/system.h"
+#include "model/particles.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -3,13 +3,12 @@
 
 #include "core/crc32.h"
 #include "core/memory.h"
-#include "core/table/option.h"
 #include "core/status.h"
 #include "integrate/method.h"
 #include "io/trajectory/record.h"
 #include "measure/limit/limit_predict.h"
 #include "model/callbacks.h"
-#include "model/system.h"
+#include "model/particles.h"
 
 #include <math.h>
 #include <stdio.h>

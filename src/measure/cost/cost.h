@@ -5,7 +5,7 @@
 #include "measure/cost/cost_time.h"
 #include "measure/measurement.h"
 #include "measure/trial/patience.h"
-#include "model/system.h"
+#include "model/particles.h"
 
 struct hk_cost_row {
   const char *kind;

@@ -2,9 +2,9 @@
 #include "measure/cost/cost.h"
 
 #include "core/memory.h"
-#include "core/table/option.h"
 #include "core/status.h"
 #include "model/force/force.h"
+#include "model/group.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,6 +1,7 @@
 #include "measure/counted_work/work.h"
 
-#include "model/force/force.h"
+#include "model/body.h"
+#include "model/sum/tiled.h"
 
 #include <math.h>
 #include <string.h>
@@ -16,8 +17,8 @@ static const double SWEEPS = 2.0;
 
 static double damped_springs(const hooke_system *system) {
   int64_t sum = 0;
-  for (int64_t r = 0; r < system->springs.run_count; r++)
-    sum += system->springs.run[r].shape & HOOKE_RUN_DAMPED ? system->springs.run[r].count : 0;
+  for (int64_t r = 0; r < system->springs->run_count; r++)
+    sum += system->springs->run[r].shape & HOOKE_RUN_DAMPED ? system->springs->run[r].count : 0;
   return (double)sum;
 }
 
@@ -42,17 +43,17 @@ static void add_forces(const hooke_system *system, const struct hk_method *metho
     else
       of[0] += SWEEPS * (double)count->steps * members; /* a damper finds its element anew */
   }
-  if (system->tiled.order)
-    amount[HOOKE_WORK_SCATTERED] = (times[0] + times[1] + times[2]) * (double)system->springs.count;
+  if (system->tiled->order)
+    amount[HOOKE_WORK_SCATTERED] = (times[0] + times[1] + times[2]) * (double)system->springs->count;
   if (method->adaptive)
     amount[HOOKE_WORK_ROWS] = (times[1] + times[2]) * (double)hk_elements_of(system, hk_force_is_kept);
 }
 
-static void add_bodies(const struct hk_bodies *bodies, const struct hk_counts *count, double *amount) {
+static void add_bodies(const hooke_system *system, const struct hk_counts *count, double *amount) {
   int64_t particles = 0;
-  for (int64_t k = 0; k < bodies->moving; k++)
-    particles += bodies->mover[k]->count;
-  amount[HOOKE_WORK_BODY] = (double)count->force_evaluations * (double)bodies->moving;
+  for (int64_t k = 0; k < system->moving_bodies; k++)
+    particles += system->bodies->mover[k]->count;
+  amount[HOOKE_WORK_BODY] = (double)count->force_evaluations * (double)system->moving_bodies;
   amount[HOOKE_WORK_BODY_PARTICLE] =
       (double)(count->force_evaluations + count->derivative_products) * (double)particles;
 }
@@ -66,7 +67,7 @@ static void find_amounts(const hooke_system *system, const struct hk_method *met
                adapted = method->adaptive ? whole * particles : 0.0;
   memset(amount, 0, HOOKE_WORKS * sizeof *amount);
   if (system) add_forces(system, method, count, amount);
-  if (system) add_bodies(&system->bodies, count, amount);
+  if (system) add_bodies(system, count, amount);
   amount[HOOKE_WORK_STEP] = steps;
   amount[HOOKE_WORK_ADAPTIVE_STEP] = method->adaptive ? steps : 0.0;
   amount[HOOKE_WORK_ADAPTIVE_PARTICLE] = steps * adapted;
@@ -125,7 +126,7 @@ double hk_work_of_steps(const hooke_system *system, const char *name, int64_t st
   if (method == NULL || method->adaptive || method->implicit || !hk_method_suits(name, system)) return NAN;
   const struct hk_stability *stability = &method->stability;
   const int64_t stages = stability->kind == HOOKE_STABLE_BY_POLYNOMIAL ? stability->degree : 1;
-  if (method->explicit_step && system->bodies.moving == 0 && hk_elements_are_damped(system)) return NAN;
+  if (method->explicit_step && system->moving_bodies == 0 && hk_elements_are_damped(system)) return NAN;
   return work_of_counts(system, method,
                         (struct hk_counts){.steps = steps, .force_evaluations = stages * steps});
 }

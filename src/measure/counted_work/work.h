@@ -6,6 +6,7 @@
 #define HOOKE_MEASURE_WORK_WORK_H
 
 #include "integrate/integrator.h"
+#include "model/force/force.h"
 
 /* What is counted. The first ones are of each force, by its number in the table of forces: members evaluated,
  * multiplied by their derivative, and put into a matrix. */

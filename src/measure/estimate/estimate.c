@@ -4,14 +4,11 @@
 #include "core/memory.h"
 #include "core/print.h"
 #include "core/status.h"
-#include "integrate/integrator.h"
 #include "integrate/loop/run_loop.h"
 #include "measure/estimate/heat.h"
 #include "measure/trial/step_unit.h"
 #include "measure/counted_work/work.h"
 #include "model/callbacks.h"
-#include "model/state.h"
-#include "model/system.h"
 
 #include <math.h>
 #include <stddef.h>

@@ -2,11 +2,8 @@
 #include "measure/estimate/estimate.h"
 
 #include "core/print.h"
-#include "integrate/method.h"
 #include "measure/counted_work/work.h"
 #include "measure/spectrum/step_bound.h"
-#include "model/state.h"
-#include "model/system.h"
 
 #include <math.h>
 

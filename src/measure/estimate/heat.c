@@ -3,7 +3,6 @@
 #include "core/memory.h"
 #include "measure/counted_work/work.h"
 #include "measure/trial/balance.h"
-#include "model/system.h"
 
 #include <math.h>
 #include <string.h>

@@ -3,7 +3,7 @@
 #include "core/memory.h"
 #include "core/status.h"
 #include "measure/spectrum/rigid.h"
-#include "model/force/force.h"
+#include "model/group.h"
 
 #include <math.h>
 #include <stddef.h>

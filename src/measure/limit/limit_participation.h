@@ -4,7 +4,7 @@
 #define HOOKE_MEASURE_LIMIT_LIMIT_PARTICIPATION_H
 
 #include "measure/trial/patience.h"
-#include "model/system.h"
+#include "model/force/force.h"
 
 enum { HOOKE_MOST_LIMITING = 100 };
 

@@ -5,7 +5,8 @@
 #include "integrate/method.h"
 #include "measure/limit/limit_participation.h"
 #include "measure/limit/limit_predict.h"
-#include "model/force/force.h"
+#include "model/body.h"
+#include "model/force/spring.h"
 
 #include <math.h>
 
@@ -30,7 +31,7 @@ static int is_small(int64_t count, int64_t of) {
 }
 
 static struct set spring_set(const hooke_system *system, const struct hk_participation *participation) {
-  struct set set = {.springs = 1, .of = system->springs.count};
+  struct set set = {.springs = 1, .of = system->springs->count};
   while (set.share < MOST_OF_THE_MODE && set.count < participation->spring_count) {
     set.share += participation->spring[set.count].share;
     set.stiffness_share += participation->spring[set.count++].stiffness_share;
@@ -44,7 +45,7 @@ static struct set particle_set(const hooke_system *system, const struct hk_parti
   struct set set = {.of = system->particle_count - system->constrained_count};
   int32_t in_body = 0;
   while (set.share < MOST_OF_THE_MODE && set.count < participation->particle_count) {
-    in_body |= hk_bodies_move(&system->bodies, participation->particle[set.count].particle);
+    in_body |= hk_bodies_move(system->bodies, participation->particle[set.count].particle);
     set.share += participation->particle[set.count++].share;
   }
   if (set.share < MOST_OF_THE_MODE || in_body) set.count = 0;
@@ -56,8 +57,8 @@ static struct set particle_set(const hooke_system *system, const struct hk_parti
 static double find_kappa(const hooke_system *system, int64_t number, double *mean_log) {
   double found = 0.0, sum = 0.0;
   int64_t count = 0;
-  for (int64_t r = 0; r < system->springs.run_count; r++) {
-    const struct hk_run *run = &system->springs.run[r];
+  for (int64_t r = 0; r < system->springs->run_count; r++) {
+    const struct hk_run *run = &system->springs->run[r];
     for (int64_t k = 0; k < run->count; k++) {
       const double kappa = hk_run_spring(run, k).kappa;
       if (run->first + k == number) found = kappa;
@@ -86,7 +87,7 @@ static void find_oddness(const hooke_system *system, const struct hk_participati
 static int32_t limit_with(const hooke_system *system, const double *q, const char *method,
                           const struct hk_participation *participation, const struct set *set, double factor,
                           double *limit) {
-  const int64_t size = set->springs ? system->springs.count : system->particle_count;
+  const int64_t size = set->springs ? system->springs->count : system->particle_count;
   double *scale = hk_new(size, sizeof(double));
   if (scale == NULL) return HOOKE_NO_MEMORY;
   for (int64_t k = 0; k < size; k++)
@@ -234,7 +235,7 @@ static int32_t tell_force(const hooke_system *system, const double *q, const cha
                           const struct hk_participation *participation, int32_t force,
                           struct hk_suggestion *suggestion) {
   double without = 0.0;
-  const int32_t drag = hk_participation_is_drag(force), bodies = system->bodies.moving > 0;
+  const int32_t drag = hk_participation_is_drag(force), bodies = system->moving_bodies > 0;
   int32_t status = HOOKE_OK;
   /* no method has no limit by the damping of bodies */
   if (drag || !bodies) status = limit_without(system, q, method, participation, drag, &without);

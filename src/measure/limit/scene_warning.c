@@ -3,7 +3,8 @@
 #include "core/print.h"
 #include "core/status.h"
 #include "integrate/integrator.h"
-#include "model/force/force.h"
+#include "model/part_record.h"
+#include "model/system.h"
 
 #include <math.h>
 #include <stdarg.h>

@@ -2,10 +2,8 @@
 #include "measure/needs/needs.h"
 
 #include "core/memory.h"
-#include "core/table/option.h"
 #include "core/print.h"
 #include "core/status.h"
-#include "integrate/integrator.h"
 #include "measure/recommend/pick.h"
 #include "measure/trial/step_unit.h"
 
@@ -64,7 +62,7 @@ static int32_t prepare(struct hk_needs *needs) {
   if (status == HOOKE_OK) status = read_method(needs);
   if (status == HOOKE_OK) status = hk_needs_read_watch(needs);
   if (status != HOOKE_OK) return status;
-  needs->largest_force = hk_new(needs->system->springs.count, sizeof *needs->largest_force);
+  needs->largest_force = hk_new(needs->system->springs->count, sizeof *needs->largest_force);
   return needs->largest_force ? HOOKE_OK : HOOKE_NO_MEMORY;
 }
 

@@ -5,6 +5,8 @@
 #include "core/print.h"
 #include "core/status.h"
 #include "measure/spectrum/naming.h"
+#include "model/body.h"
+#include "model/force/spring.h"
 
 #include <stdarg.h>
 #include <stdio.h>
@@ -103,8 +105,8 @@ static int32_t list_loose(struct hk_needs *needs, const uint8_t *watched) {
   /* particles of parts go with these, and those of bodies have mass in them */
   for (int64_t k = 0; k < system->part_count; k++)
     memset(touched + system->part[k].first, 1, (size_t)system->part[k].count);
-  for (int64_t p = 0; p < system->particle_count && system->bodies.of; p++)
-    touched[p] |= system->bodies.of[p] >= 0;
+  for (int64_t p = 0; p < system->particle_count && system->bodies->of; p++)
+    touched[p] |= system->bodies->of[p] >= 0;
   int64_t loose = 0;
   for (int64_t p = 0; p < system->particle_count; p++)
     loose += !touched[p] && !watched[p];
@@ -159,7 +161,7 @@ static int32_t may_be_rigid(const hooke_system *system, int64_t part) {
   }
   for (int64_t p = record->first; p < record->first + record->count && inside > 0; p++) {
     const int32_t driven = system->constrained[p] == HOOKE_IS_DRIVEN;
-    if (driven || (system->bodies.of && system->bodies.of[p] >= 0)) inside = 0;
+    if (driven || (system->bodies->of && system->bodies->of[p] >= 0)) inside = 0;
   }
   return inside > 0 && !system->overdamped;
 }
@@ -184,7 +186,7 @@ int32_t hk_needs_list(struct hk_needs *needs) {
   int32_t status = list_groups(needs);
   if (status == HOOKE_OK) status = list_whole_forces(needs);
   struct hk_needs_row *row;
-  if (status == HOOKE_OK && needs->system->springs.count > 0) {
+  if (status == HOOKE_OK && needs->system->springs->count > 0) {
     status = add_row(needs, "idle", &row, "springs whose force stays small");
   }
   if (status == HOOKE_OK) status = list_loose(needs, watched);
@@ -197,7 +199,7 @@ int32_t hk_needs_list(struct hk_needs *needs) {
 
 int64_t hk_needs_mark_idle(const struct hk_needs *needs, double force, struct hk_needs_row *row) {
   int64_t count = 0;
-  for (int64_t s = 0; s < needs->system->springs.count; s++) {
+  for (int64_t s = 0; s < needs->system->springs->count; s++) {
     row->variant.spring[s] = needs->largest_force[s] <= force;
     count += row->variant.spring[s];
   }

@@ -3,6 +3,7 @@
 
 #include "core/print.h"
 #include "core/status.h"
+#include "model/force/spring.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -76,7 +77,7 @@ static int32_t is_known(const struct hk_needs *needs, const struct hk_needs_row 
       return 1;
     }
   }
-  return count == system->springs.count;
+  return count == system->springs->count;
 }
 
 static void name_idle(struct hk_needs_row *row, double force, int64_t count) {
@@ -88,7 +89,7 @@ static void name_idle(struct hk_needs_row *row, double force, int64_t count) {
 static int32_t run_idle(struct hk_needs *needs, struct hk_needs_row *row) {
   double most = 0.0;
   int64_t tried = 0;
-  for (int64_t s = 0; s < needs->system->springs.count; s++)
+  for (int64_t s = 0; s < needs->system->springs->count; s++)
     most = fmax(most, needs->largest_force[s]);
   for (int k = 0; k < IDLE_SHARES; k++) {
     const int64_t count = hk_needs_mark_idle(needs, idle_shares[k] * most, row);

@@ -5,6 +5,7 @@
 #include "core/random.h"
 #include "core/status.h"
 #include "measure/trial/trial.h"
+#include "model/body.h"
 
 #include <math.h>
 #include <string.h>
@@ -78,7 +79,7 @@ int64_t hk_needs_agreed(const struct hk_needs *needs, const struct hk_needs_path
 /* ---- one run ---- */
 
 static void note_forces(struct hk_needs *needs, int64_t frame, const hooke_state *state) {
-  const struct hk_springs *springs = &needs->system->springs;
+  const struct hk_springs *springs = needs->system->springs;
   if (frame == 0) memset(needs->largest_force, 0, (size_t)springs->count * sizeof(double));
   for (int64_t r = 0; r < springs->run_count; r++) {
     const struct hk_run *run = &springs->run[r];

@@ -6,6 +6,7 @@
 #include "integrate/method.h"
 #include "measure/limit/limit_predict.h"
 #include "measure/spectrum/step_bound.h"
+#include "model/force/spring.h"
 
 #include <math.h>
 
@@ -267,7 +268,7 @@ static void fill_cost(const struct search *search, double limit, struct hk_needs
   cost->step_error = NAN;
   cost->step_limit = limit;
   cost->springs = (double)hooke_system_count(system, "springs");
-  cost->indexed = system->springs.indexed_count;
+  cost->indexed = system->springs->indexed_count;
   cost->particles = (double)hooke_system_particle_count(system);
 }
 

@@ -2,9 +2,9 @@
 #include "measure/quantity/watched.h"
 
 #include "core/memory.h"
-#include "core/table/option.h"
 #include "core/status.h"
 #include "measure/spectrum/naming.h"
+#include "model/part_record.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -150,8 +150,7 @@ static int32_t read_spring(const struct reading *reading, char *text, struct hk_
     if (group->dropped > 0 && group->count > 0) return refuse_gaps(reading, group);
     known = 1;
     count += group->count;
-    if (index >= 0 && index < group->count)
-      watched->spring = hk_springs_find(&system->springs, first + index);
+    if (index >= 0 && index < group->count) watched->spring = hk_springs_find(system->springs, first + index);
     index -= group->count;
   }
   if (!known) return refuse_name(reading, "group of springs", group_name);
@@ -288,7 +287,7 @@ static int mark_group(const hooke_system *system, const char *text, uint8_t *mar
     if (strcmp(group_name(system, g), text) != 0) continue;
     found = 0;
     for (int64_t k = 0; k < system->group[g].count; k++) {
-      const struct hk_spring spring = hk_springs_find(&system->springs, first + k);
+      const struct hk_spring spring = hk_springs_find(system->springs, first + k);
       mark[spring.head] = mark[spring.tail] = 1;
     }
   }

@@ -11,7 +11,7 @@
 #ifndef HOOKE_MEASURE_QUANTITY_WATCHED_H
 #define HOOKE_MEASURE_QUANTITY_WATCHED_H
 
-#include "model/system.h"
+#include "model/force/spring.h"
 
 enum hk_watched_kind {
   HOOKE_WATCHED_COORDINATE,

@@ -2,7 +2,7 @@
 
 #include "core/memory.h"
 #include "core/status.h"
-#include "model/force/force.h"
+#include "model/system.h"
 #include "model/vector3.h"
 
 #include <math.h>
@@ -33,9 +33,9 @@ static void each_spring(struct making *making, struct hk_twin *twin,
   hk_begin_elements(system, making->q, NULL, &at);
   at.by_number = 1;
   at.only = &hk_force_springs;
-  for (int64_t r = 0; r < system->springs.run_count; r++) {
-    for (int64_t k = 0; k < system->springs.run[r].count; k++) {
-      const struct hk_spring spring = hk_run_spring(&system->springs.run[r], k);
+  for (int64_t r = 0; r < system->springs->run_count; r++) {
+    for (int64_t k = 0; k < system->springs->run[r].count; k++) {
+      const struct hk_spring spring = hk_run_spring(&system->springs->run[r], k);
       const struct hk_element *e = hk_next_element(&at);
       if (hk_element_moves(system->constrained, e)) see(making, twin, &spring, e);
     }
@@ -58,8 +58,8 @@ static void see_length(struct making *making, struct hk_twin *twin, const struct
 
 /* Bodies turn as springs do. */
 static void see_bodies(struct making *making) {
-  const struct hk_bodies *bodies = &making->system->bodies;
-  for (int64_t k = 0; k < bodies->moving; k++) {
+  const struct hk_bodies *bodies = making->system->bodies;
+  for (int64_t k = 0; k < making->system->moving_bodies; k++) {
     const struct hk_body *body = bodies->mover[k];
     const double *first = body->place + 3 * (int64_t)body->base[0],
                  *second = body->place + 3 * (int64_t)body->base[1];
@@ -169,7 +169,7 @@ static void keep_others(const struct making *making, struct hk_twin *twin) {
 }
 
 static int32_t new_thaw(struct making *making, struct hk_twin *twin) {
-  const int64_t n = making->system->particle_count, springs = making->system->springs.count;
+  const int64_t n = making->system->particle_count, springs = making->system->springs->count;
   const int64_t count = springs + hk_elements_of(making->system, hk_force_is_other);
   twin->place = hk_new(3 * n, sizeof(double));
   twin->balance = hk_new(3 * n, sizeof(double));
@@ -241,7 +241,7 @@ static int32_t build(const struct making *making, struct hk_twin *twin, int held
   const int64_t springs = twin->spring_count;
   hooke_system *system = NULL;
   int32_t status = hooke_system_create(&system);
-  if (status == HOOKE_OK) system->memory_limit = old->memory_limit;
+  if (status == HOOKE_OK) system->rest->memory_limit = old->rest->memory_limit;
   if (status == HOOKE_OK) status = hooke_system_set_dynamics(system, hooke_system_dynamics(old));
   if (status == HOOKE_OK)
     status = hooke_system_add_particles(system, old->particle_count, twin->place, NULL, old->particle_count,
@@ -250,8 +250,8 @@ static int32_t build(const struct making *making, struct hk_twin *twin, int held
     if (old->constrained[p]) status = hooke_system_pin(system, 1, &p);
   }
   if (status == HOOKE_OK && springs > 0) status = add_springs(making, springs, system);
-  for (int64_t k = 0; k < old->bodies.moving && status == HOOKE_OK; k++)
-    status = add_body(old->bodies.mover[k], system);
+  for (int64_t k = 0; k < old->moving_bodies && status == HOOKE_OK; k++)
+    status = add_body(old->bodies->mover[k], system);
   if (status == HOOKE_OK)
     hk_system_set_linear(system, twin->element_count - springs, twin->element + springs, twin->place);
   if (status == HOOKE_OK) status = hooke_system_set_drag(system, hk_system_drag(old));
@@ -308,7 +308,7 @@ static int32_t find_slow_step(struct hk_twin *twin) {
     }
   }
   for (int64_t p = 0; p < system->particle_count; p++) {
-    if (hk_bodies_move(&system->bodies, p)) continue;
+    if (hk_bodies_move(system->bodies, p)) continue;
     stiff = fmax(stiff, sum[2 * p] * system->inverse_mass[p]);
     damp = fmax(damp, (sum[2 * p + 1] + system->drag) * system->inverse_mass[p]);
   }

@@ -4,8 +4,9 @@
 #include "core/status.h"
 #include "kernel/vector_loops.h"
 #include "measure/counted_work/work.h"
-#include "model/force/force.h"
+#include "model/body.h"
 #include "model/sum/spring_batch.h"
+#include "model/sum/tiled.h"
 
 #include <math.h>
 #include <string.h>
@@ -62,8 +63,8 @@ static void see_batches(struct hk_linearised *lin, const double *q) {
 
 /* Unordered springs are many times faster in the order of their batches. */
 static int32_t see_springs(struct hk_linearised *lin, const double *q, const double *spring_scale) {
-  const struct hk_springs *springs = &lin->system->springs;
-  if (spring_scale || !lin->system->tiled.stored) {
+  const struct hk_springs *springs = lin->system->springs;
+  if (spring_scale || !lin->system->tiled->stored) {
     lin->run = springs->run;
     lin->run_count = springs->run_count;
     see_runs(lin, q, spring_scale);
@@ -160,7 +161,7 @@ static int32_t choose_rate(struct hk_linearised *lin, const double *q, double *s
         "1e308, and where the second is below 1e150 times the root of the first",
         stiffest, quickest);
   }
-  for (int64_t s = 0; s < lin->system->springs.count; s++) {
+  for (int64_t s = 0; s < lin->system->springs->count; s++) {
     lin->kappa[s] *= k;
     lin->across[s] *= k;
     lin->gamma[s] *= c;
@@ -188,9 +189,9 @@ double hk_linearised_bytes(const hooke_system *system) {
     OF_PARTICLES_WITH_BODIES = OF_PARTICLES + 18,
     OF_ELEMENTS = 2 + sizeof(struct hk_element) / sizeof(double)
   };
-  const int of_particles = system->bodies.moving > 0 ? OF_PARTICLES_WITH_BODIES : OF_PARTICLES;
+  const int of_particles = system->moving_bodies > 0 ? OF_PARTICLES_WITH_BODIES : OF_PARTICLES;
   return sizeof(double) *
-         (OF_SPRINGS * (double)system->springs.count + of_particles * (double)system->particle_count +
+         (OF_SPRINGS * (double)system->springs->count + of_particles * (double)system->particle_count +
           OF_ELEMENTS * (double)hk_elements_of(system, hk_force_is_kept));
 }
 
@@ -199,7 +200,7 @@ static const double FARTHEST = 1e153;
 
 /* Three of every free particle that moves by itself. */
 static int is_alone(const hooke_system *system, int64_t particle) {
-  return !system->constrained[particle] && !hk_bodies_move(&system->bodies, particle);
+  return !system->constrained[particle] && !hk_bodies_move(system->bodies, particle);
 }
 
 static int32_t see_bodies(struct hk_linearised *lin, const double *q, const double *v,
@@ -229,7 +230,7 @@ static int32_t check_places(int64_t n, const double *q) {
 int32_t hk_linearised_create(const hooke_system *system, const double *q, const double *v,
                              const double *spring_scale, const double *mass_scale,
                              struct hk_linearised *lin) {
-  const int64_t n = system->particle_count, m = system->springs.count;
+  const int64_t n = system->particle_count, m = system->springs->count;
   *lin = (struct hk_linearised){.system = system, .size = 3 * n, .drag = system->drag};
   int32_t status = check_places(n, q);
   if (status != HOOKE_OK) return status;
@@ -279,7 +280,7 @@ static double beside(const struct hk_linearised *lin, int64_t s, double a, doubl
 /* A spring is g g^T + b I with g = sqrt(along - across) u: tension over length is below kappa, so nothing is
  * negative. */
 void hk_linearised_combine(struct hk_linearised *lin, double a, double b) {
-  const int64_t m = lin->system->springs.count;
+  const int64_t m = lin->system->springs->count;
   for (int64_t s = 0; s < m; s++) {
     const double along = a * (lin->kappa[s] - lin->across[s]) + b * lin->gamma[s];
     const double size = sqrt(fmax(0.0, along));

@@ -1,6 +1,7 @@
 #include "measure/spectrum/naming.h"
 
 #include "core/print.h"
+#include "model/group.h"
 
 #include <string.h>
 

@@ -8,7 +8,7 @@
 #define HOOKE_MEASURE_SPECTRUM_NODE_BLOCKS_H
 
 #include "measure/trial/patience.h"
-#include "model/system.h"
+#include "model/particles.h"
 
 struct hk_node_blocks {
   const hooke_system *system;

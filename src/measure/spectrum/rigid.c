@@ -4,7 +4,7 @@
 #include "core/status.h"
 #include "model/body_frame.h"
 #include "model/force/force.h"
-#include "model/vector3.h"
+#include "model/force/spring.h"
 
 #include <math.h>
 #include <string.h>
@@ -40,7 +40,7 @@ static void find_strengths(const hooke_system *system, const double *q, double *
   hk_begin_elements(system, q, NULL, &at);
   for (const struct hk_element *e; (e = hk_next_element(&at)) != NULL;) {
     for (int j = 0; j < e->count; j++) {
-      const int32_t body = system->bodies.of[e->particle[j]];
+      const int32_t body = system->bodies->of[e->particle[j]];
       if (body >= 0) strength[body] += fabs(e->weight[j]) * e->k_along;
     }
   }
@@ -90,8 +90,8 @@ static void make_positive(struct hk_rigid *rigid, struct hk_body_tangent *t, dou
 /* Forces of springs become those of springs that are stiffer by their factors. */
 static void scale_springs(const hooke_system *system, const double *q, const double *spring_scale,
                           double *const f[3]) {
-  for (int64_t r = 0; r < system->springs.run_count; r++) {
-    const struct hk_run *run = &system->springs.run[r];
+  for (int64_t r = 0; r < system->springs->run_count; r++) {
+    const struct hk_run *run = &system->springs->run[r];
     for (int64_t k = 0; k < run->count; k++) {
       const double more = spring_scale[run->first + k] - 1.0;
       if (more == 0.0) continue;
@@ -128,16 +128,16 @@ static int32_t stiffen(struct hk_rigid *rigid, const double *q, const double *st
 int32_t hk_rigid_create(const hooke_system *system, const double *q, const double *spring_scale,
                         struct hk_rigid *rigid) {
   memset(rigid, 0, sizeof *rigid);
-  if (system->bodies.moving == 0) return HOOKE_OK;
+  if (system->moving_bodies == 0) return HOOKE_OK;
   int32_t status = hk_body_tangents_create(system, q, &rigid->tangents);
   if (status != HOOKE_OK) return status;
-  double *still = hk_new(3 * system->particle_count + system->bodies.count, sizeof(double));
+  double *still = hk_new(3 * system->particle_count + system->bodies->count, sizeof(double));
   double *strength = still ? still + 3 * system->particle_count : NULL;
   status = still ? stiffen(rigid, q, still, spring_scale) : HOOKE_NO_MEMORY;
   if (status == HOOKE_OK) find_strengths(system, q, strength);
   for (int64_t k = 0; k < rigid->tangents.count && status == HOOKE_OK; k++) {
     struct hk_body_tangent *t = &rigid->tangents.body[k];
-    make_positive(rigid, t, rounding_of(system, q, t, strength[t->body - system->bodies.body]));
+    make_positive(rigid, t, rounding_of(system, q, t, strength[t->body - system->bodies->body]));
   }
   hk_free(still);
   if (status != HOOKE_OK) hk_rigid_release(rigid);

@@ -4,6 +4,7 @@
 #include "core/status.h"
 #include "measure/spectrum/eigen/dense.h"
 #include "measure/spectrum/eigen/dominant_mode.h"
+#include "model/force/spring.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -74,13 +75,13 @@ static int32_t find_proportion(struct hk_spectrum *s) {
   const struct hk_linearised *lin = s->linearised;
   const hooke_system *system = lin->system;
   double mass = 0.0;
-  for (int64_t k = 0; k < system->springs.count && s->beta == 0.0; k++) {
+  for (int64_t k = 0; k < system->springs->count && s->beta == 0.0; k++) {
     if (lin->kappa[k] > 0.0) s->beta = lin->gamma[k] / lin->kappa[k];
   }
   for (int64_t k = 0; k < lin->element_count && s->beta == 0.0; k++) {
     if (lin->element[k].k_along > 0.0) s->beta = lin->element[k].c_along / lin->element[k].k_along;
   }
-  for (int64_t k = 0; k < system->springs.count; k++) {
+  for (int64_t k = 0; k < system->springs->count; k++) {
     if (fabs(lin->gamma[k] - s->beta * lin->kappa[k]) > OUT_OF_PROPORTION * lin->gamma[k]) return 0;
   }
   for (const struct hk_element *e = lin->element; e < lin->element + lin->element_count; e++) {

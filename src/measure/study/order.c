@@ -3,8 +3,8 @@
 
 #include "core/print.h"
 
-#include "integrate/method.h"
 #include "model/callbacks.h"
+#include "model/force/drive.h"
 #include "model/force/force.h"
 
 #include <math.h>

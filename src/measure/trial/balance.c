@@ -1,7 +1,7 @@
 #include "measure/trial/balance.h"
 
 #include "core/memory.h"
-#include "model/system.h"
+#include "model/particles.h"
 
 #include <float.h>
 #include <math.h>

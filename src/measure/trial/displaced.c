@@ -1,6 +1,7 @@
 #include "measure/trial/displaced.h"
 
 #include "core/random.h"
+#include "model/body.h"
 
 void hk_displace(hooke_state *state, const hooke_system *system, double length, uint64_t *random) {
   double *q = hooke_state_position(state);

@@ -3,7 +3,7 @@
 #define HOOKE_MEASURE_TRIAL_DISPLACED_H
 
 #include "hooke/state.h"
-#include "model/system.h"
+#include "model/particles.h"
 
 /* Adds to every coordinate of a free particle a normal number times `length` [m]; a rigid body goes where the
  * three particles go that say where it is. */

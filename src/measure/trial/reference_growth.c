@@ -8,7 +8,7 @@
 
 #include "core/memory.h"
 #include "core/random.h"
-#include "model/system.h"
+#include "model/body.h"
 
 #include <math.h>
 #include <stddef.h>

@@ -6,7 +6,7 @@
 #define HOOKE_MEASURE_WHY_GROWING_H
 
 #include "measure/trial/patience.h"
-#include "model/system.h"
+#include "model/particles.h"
 
 struct hk_growing {
   const hooke_system *system;

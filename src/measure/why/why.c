@@ -2,14 +2,13 @@
 #include "measure/why/why.h"
 
 #include "core/memory.h"
-#include "core/table/option.h"
 #include "core/print.h"
 #include "core/status.h"
-#include "integrate/integrator.h"
 #include "integrate/loop/run_loop.h"
 #include "measure/counted_work/work.h"
 #include "measure/spectrum/linearised.h"
 #include "model/callbacks.h"
+#include "model/size_limit.h"
 
 #include <math.h>
 #include <stdio.h>

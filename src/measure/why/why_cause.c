@@ -6,6 +6,8 @@
 #include "core/status.h"
 #include "core/utf8.h"
 #include "measure/spectrum/naming.h"
+#include "model/force/altitude.h"
+#include "model/force/spring.h"
 
 #include <math.h>
 #include <stdarg.h>
@@ -244,7 +246,7 @@ static int32_t judge_start(struct hk_inquiry *inquiry) {
 static int64_t shortest_spring(const struct hk_inquiry *inquiry, double *ratio) {
   const hooke_state *state = hk_inquiry_last(inquiry);
   const double ahead = inquiry->run->method->adaptive ? 0.0 : inquiry->run->schedule.step;
-  const struct hk_springs *springs = &inquiry->system->springs;
+  const struct hk_springs *springs = inquiry->system->springs;
   int64_t found = -1;
   *ratio = INFINITY;
   for (int64_t r = 0; r < springs->run_count; r++) {
@@ -304,10 +306,10 @@ static int32_t judge_solver(struct hk_inquiry *inquiry) {
 
 /* Failures that no step or tolerance cures. */
 static const char *altitude_words(const struct hk_inquiry *inquiry) {
-  return inquiry->system->altitudes.count == 0 ? ""
-                                               : ", or altitude springs gave it energy, which they do far "
-                                                 "from rest wherever another altitude comes "
-                                                 "to be the shortest";
+  return inquiry->system->altitudes->count == 0 ? ""
+                                                : ", or altitude springs gave it energy, which they do far "
+                                                  "from rest wherever another altitude comes "
+                                                  "to be the shortest";
 }
 
 /* 1 if the step exceeded the limit for longer than a sudden failure: forces that rise faster than in

@@ -6,6 +6,7 @@
 #include "core/memory.h"
 #include "core/print.h"
 #include "core/status.h"
+#include "model/force/altitude.h"
 
 #include <math.h>
 #include <string.h>
@@ -19,7 +20,7 @@ enum { FINER_TRIES = 2, DAMPING_TRIES = 4 };
 
 static int32_t may_gain(const struct hk_inquiry *inquiry) {
   const hooke_system *system = inquiry->system;
-  return system->altitudes.count > 0 && system->force == NULL && system->drive_count == 0;
+  return system->altitudes->count > 0 && system->force == NULL && system->drive_count == 0;
 }
 
 /* ---- at smaller steps ---- */
@@ -72,13 +73,13 @@ int32_t hk_inquiry_gains(struct hk_inquiry *inquiry, int32_t *gains) {
 static int32_t try_damped(struct hk_trials *trials, double times, const struct hk_change *change,
                           struct hk_trial *trial) {
   hooke_system damped = *trials->inquiry->system;
-  struct hk_tetrahedron *own = hk_new(damped.altitudes.count, sizeof *own);
+  struct hk_tetrahedron *own = hk_new(damped.altitudes->count, sizeof *own);
   if (own == NULL) return HOOKE_NO_MEMORY;
-  memcpy(own, damped.altitudes.tetrahedron, (size_t)damped.altitudes.count * sizeof *own);
-  for (int64_t k = 0; k < damped.altitudes.count; k++)
+  memcpy(own, damped.altitudes->tetrahedron, (size_t)damped.altitudes->count * sizeof *own);
+  for (int64_t k = 0; k < damped.altitudes->count; k++)
     own[k].damping = fmax(own[k].damping, times * own[k].stiffness);
-  damped.altitudes.tetrahedron = own;
-  damped.altitudes.damped = 1;
+  struct hk_altitudes altitudes = {damped.altitudes->count, 1, own};
+  damped.altitudes = &altitudes;
   const int32_t status = hk_trials_try(trials, &damped, change, trial);
   hk_free(own);
   return status;

@@ -3,6 +3,7 @@
 
 #include "measure/limit/limit.h"
 #include "measure/spectrum/naming.h"
+#include "model/force/spring.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -11,7 +12,7 @@
 void hk_inquiry_add_limiting(struct hk_inquiry *inquiry, int64_t spring, double share) {
   struct hk_why *why = inquiry->why;
   if (spring < 0 || why->limiting_count == HOOKE_WHY_MOST_LIMITING) return;
-  const struct hk_spring found = hk_springs_find(&inquiry->system->springs, spring);
+  const struct hk_spring found = hk_springs_find(inquiry->system->springs, spring);
   struct hk_why_limiting *limiting = &why->limiting[why->limiting_count++];
   *limiting = (struct hk_why_limiting){
       .spring = spring, .first = found.head, .second = found.tail, .share = share, .force = ""};

@@ -3,6 +3,8 @@
 
 #include "core/memory.h"
 #include "core/status.h"
+#include "model/force/drive.h"
+#include "model/force/spring.h"
 
 #include <math.h>
 #include <string.h>
@@ -102,7 +104,7 @@ static void probe_release(struct probe *probe) {
 
 /* Springs that have reversed: in between, their length passed through zero. */
 static void watch_turns(struct hk_inquiry *inquiry, const double *before, const hooke_state *state) {
-  const struct hk_springs *springs = &inquiry->system->springs;
+  const struct hk_springs *springs = inquiry->system->springs;
   for (int64_t r = 0; r < springs->run_count; r++) {
     for (int64_t k = 0; k < springs->run[r].count; k++) {
       const struct hk_spring s = hk_run_spring(&springs->run[r], k);
@@ -172,7 +174,7 @@ static void note_size(struct replay *replay, const hooke_state *state) {
 
 static int32_t walk(struct replay *replay, hooke_state *state, int64_t steps) {
   struct hk_inquiry *inquiry = replay->inquiry;
-  const double springs = (double)inquiry->system->springs.count;
+  const double springs = (double)inquiry->system->springs->count;
   int32_t status = HOOKE_OK;
   for (int k = 0; k <= BEFORE; k++)
     replay->size[k] = largest_of(state);

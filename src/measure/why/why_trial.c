@@ -1,10 +1,10 @@
-#include "integrate/integrator.h"
 #include "measure/why/why_trial.h"
 
 #include "core/number.h"
 #include "core/print.h"
 #include "core/status.h"
 #include "integrate/loop/run_loop.h"
+#include "model/group.h"
 
 #include <math.h>
 #include <stdarg.h>

@@ -1,7 +1,7 @@
 #include "measure/why/why_walk.h"
 
 #include "integrate/loop/run_loop.h"
-#include "model/system.h"
+#include "model/group.h"
 
 #include <math.h>
 #include <string.h>

@@ -3,7 +3,7 @@
 
 #include "core/memory.h"
 #include "core/status.h"
-#include "model/force/force.h"
+#include "model/system.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -2,10 +2,9 @@
 #ifndef HOOKE_MODEL_FORCE_BENDING_H
 #define HOOKE_MODEL_FORCE_BENDING_H
 
+#include "hooke/system.h"
 #include "kernel/bending_loops.h"
 #include "model/group.h"
-
-struct hooke_system;
 
 /* All triples of a committed system, in their order. */
 struct hk_bending {
@@ -63,6 +62,11 @@ static inline void hk_triple_bend(const struct hk_triple *triple, const double *
 /* f += factor times the forces at x; x, y and z apart. */
 void hk_bending_add(const struct hk_bending *bending, double factor, const double *const x[3],
                     double *const f[3]);
+
+/* For builders, as hk_system_add_part_springs(). */
+int32_t hk_system_add_part_bending(hooke_system *system, const char *name, int64_t count,
+                                   const int64_t *triples, int64_t coefficient_count,
+                                   const double *coefficient);
 
 /* Sorts groups into runs. HOOKE_NO_MEMORY leaves `bending` empty. */
 int32_t hk_bending_create(const struct hk_group *group, int64_t group_count, struct hk_bending *bending);

@@ -96,10 +96,10 @@ static void find_slopes(struct hk_drive_group *drive) {
 /* Appends a drive and marks its particles; on failure the system is unchanged. */
 static int32_t append_drive(hooke_system *system, struct hk_drive_group drive, const int64_t *particles) {
   int32_t status = HOOKE_OK;
-  if (system->drive_count == system->drive_capacity) {
-    int64_t capacity = 2 * system->drive_capacity + 4;
+  if (system->drive_count == system->rest->drive_capacity) {
+    int64_t capacity = 2 * system->rest->drive_capacity + 4;
     status = hk_grow((void **)&system->drive, system->drive_count, capacity, sizeof *system->drive);
-    if (status == HOOKE_OK) system->drive_capacity = capacity;
+    if (status == HOOKE_OK) system->rest->drive_capacity = capacity;
   }
   drive.particle = hk_new(drive.count, sizeof *drive.particle);
   drive.origin = hk_new(3 * drive.count, sizeof(double));

@@ -1,8 +1,8 @@
 /* Energies, momentum and heat of a state: sums over the force table. */
-#include "model/force/force.h"
 
 #include "core/sum.h"
 #include "model/state.h"
+#include "model/system.h"
 
 #include <math.h>
 #include <string.h>
@@ -20,7 +20,7 @@ static double kinetic_energy(const hooke_system *system, const double *v) {
 }
 
 static int has_inertia(const hooke_system *system) {
-  return system->committed && system->friction == 0.0;
+  return system->rest->committed && system->friction == 0.0;
 }
 
 /* Of gamma v. */
@@ -55,7 +55,7 @@ struct hk_energies hk_state_energies(const hooke_state *state, const hooke_syste
 double hooke_system_energy(const hooke_system *system, const char *what, const double *q, const double *v) {
   const int kinetic = strcmp(what, "kinetic") == 0, total = strcmp(what, "total") == 0;
   const int lacks = (kinetic ? v == NULL : q == NULL) || (total && v == NULL);
-  if (!system->committed || (lacks && system->particle_count > 0)) return NAN;
+  if (!system->rest->committed || (lacks && system->particle_count > 0)) return NAN;
   if (kinetic) return kinetic_energy(system, v);
   if (strcmp(what, "potential") == 0) return potential_energy(system, q);
   if (total) return kinetic_energy(system, v) + potential_energy(system, q);
@@ -65,7 +65,7 @@ double hooke_system_energy(const hooke_system *system, const char *what, const d
 }
 
 double hooke_system_dissipated_power(const hooke_system *system, const double *q, const double *v) {
-  if (!system->committed) return NAN;
+  if (!system->rest->committed) return NAN;
   double sum = friction_heat(system, v);
   for (int32_t k = 0; k < system->force_row_count; k++) {
     if (system->force_row[k]->heat) sum += system->force_row[k]->heat(system, q, v);

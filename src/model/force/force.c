@@ -1,4 +1,4 @@
-#include "model/force/force.h"
+#include "model/system.h"
 
 #include "core/memory.h"
 #include "core/status.h"

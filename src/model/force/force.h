@@ -7,6 +7,10 @@
 #include "model/sum/motion.h"
 #include "model/sum/pattern.h"
 
+/* Maximum number of rows of the table of forces. */
+enum { HOOKE_FORCES = 9 };
+
+struct hk_group;
 struct hk_variant_maker;
 
 /* A state in rows of x y z, with a displacement of it for derivatives. */
@@ -98,6 +102,8 @@ int32_t hk_elements_are_damped(const hooke_system *system);
 int hk_force_is_other(const struct hk_force_row *row);
 int hk_force_is_constant(const struct hk_force_row *row);
 int hk_force_is_kept(const struct hk_force_row *row);
+/* Sets touched[p] to 1 for every particle of a spring, a triple or a tetrahedron. */
+void hk_system_mark_touched(const hooke_system *system, uint8_t *touched);
 /* Number of elements of the forces of a filter. */
 int64_t hk_elements_of(const hooke_system *system, int (*wanted)(const struct hk_force_row *row));
 

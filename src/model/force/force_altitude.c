@@ -2,11 +2,11 @@
  * a tetrahedron, l its rest length. Where another altitude becomes the shortest the energy jumps, since their
  * rest lengths differ. Between such changes f_j = -T g_j u is its exact derivative: dh = u.(sum of g_j
  * dq_j). */
-#include "model/force/force.h"
 
 #include "core/sum.h"
 #include "kernel/spring/spring_loops.h"
 #include "model/check_value.h"
+#include "model/force/altitude.h"
 #include "model/variant/variant.h"
 
 #include <math.h>
@@ -14,7 +14,7 @@
 #include <string.h>
 
 static int32_t present(const hooke_system *system) {
-  return system->altitudes.count > 0;
+  return system->altitudes->count > 0;
 }
 
 static int32_t add(const hooke_system *system, struct hk_motion *motion, double t) {
@@ -23,14 +23,14 @@ static int32_t add(const hooke_system *system, struct hk_motion *motion, double 
   const double *const still = motion->zero;
   const double *const v[3] = {still ? still : motion->v[0], still ? still : motion->v[1],
                               still ? still : motion->v[2]};
-  hk_spring_set(0)->tetrahedra(system->altitudes.count, system->altitudes.tetrahedron, q, v, motion->f);
+  hk_spring_set(0)->tetrahedra(system->altitudes->count, system->altitudes->tetrahedron, q, v, motion->f);
   return HOOKE_OK;
 }
 
 static double energy(const hooke_system *system, const double *q) {
   struct hk_sum sum = {0.0, 0.0};
-  for (int64_t k = 0; k < system->altitudes.count; k++) {
-    const struct hk_tetrahedron *t = &system->altitudes.tetrahedron[k];
+  for (int64_t k = 0; k < system->altitudes->count; k++) {
+    const struct hk_tetrahedron *t = &system->altitudes->tetrahedron[k];
     struct hk_tautness s;
     if (!hk_tautness_find(t, q, NULL, &s)) continue;
     hk_sum_add(&sum, 0.5 * s.elastic * (s.altitude.length - t->rest[s.altitude.choice]));
@@ -40,8 +40,8 @@ static double energy(const hooke_system *system, const double *q) {
 
 static double heat(const hooke_system *system, const double *q, const double *v) {
   struct hk_sum sum = {0.0, 0.0};
-  for (int64_t k = 0; k < system->altitudes.count; k++) {
-    const struct hk_tetrahedron *t = &system->altitudes.tetrahedron[k];
+  for (int64_t k = 0; k < system->altitudes->count; k++) {
+    const struct hk_tetrahedron *t = &system->altitudes->tetrahedron[k];
     struct hk_tautness s;
     if (t->damping == 0.0 || !hk_tautness_find(t, q, v, &s)) continue;
     if (t->pull_only) /* damping does not exceed the tension */
@@ -65,8 +65,8 @@ static void find_change(const struct hk_tautness *s, const struct hk_tautness_ch
 }
 
 static int32_t add_product(const hooke_system *system, const struct hk_point *point, double *out) {
-  for (int64_t k = 0; k < system->altitudes.count; k++) {
-    const struct hk_tetrahedron *t = &system->altitudes.tetrahedron[k];
+  for (int64_t k = 0; k < system->altitudes->count; k++) {
+    const struct hk_tetrahedron *t = &system->altitudes->tetrahedron[k];
     struct hk_tautness s;
     struct hk_tautness_change d;
     double change[4][3];
@@ -116,8 +116,8 @@ static void add_columns(const struct hk_pattern *pattern, const struct hk_tetrah
 
 static void add_blocks(const hooke_system *system, const double *q, const double *v,
                        const struct hk_pattern *pattern, double *dfdq, double *dfdv) {
-  for (int64_t k = 0; k < system->altitudes.count; k++) {
-    const struct hk_tetrahedron *t = &system->altitudes.tetrahedron[k];
+  for (int64_t k = 0; k < system->altitudes->count; k++) {
+    const struct hk_tetrahedron *t = &system->altitudes->tetrahedron[k];
     double x[12], u[12];
     for (int64_t j = 0; j < 4; j++) {
       memcpy(x + 3 * j, q + 3 * (int64_t)t->particle[j], 3 * sizeof(double));
@@ -128,13 +128,13 @@ static void add_blocks(const hooke_system *system, const double *q, const double
 }
 
 static int64_t count(const hooke_system *system) {
-  return system->altitudes.count;
+  return system->altitudes->count;
 }
 
 static void elements(const hooke_system *system, const double *q, const double *v, int64_t first,
                      int64_t wanted, struct hk_element *out) {
   for (int64_t k = 0; k < wanted; k++) {
-    struct hk_tetrahedron t = system->altitudes.tetrahedron[first + k];
+    struct hk_tetrahedron t = system->altitudes->tetrahedron[first + k];
     struct hk_tautness s;
     if (v == NULL) t.pull_only = 0;
     out[k] = (struct hk_element){.count = 4, .over = 1.0};
@@ -146,13 +146,13 @@ static void elements(const hooke_system *system, const double *q, const double *
     out[k].over = v ? rest : 1.0;
     out[k].k_along = v ? t.stiffness : t.stiffness / rest;
     out[k].c_along = v ? t.damping : t.damping / rest;
-    out[k].pull_only = system->altitudes.tetrahedron[first + k].pull_only;
+    out[k].pull_only = system->altitudes->tetrahedron[first + k].pull_only;
     out[k].elastic = s.elastic;
   }
 }
 
 static int32_t damped(const hooke_system *system) {
-  return system->altitudes.damped;
+  return system->altitudes->damped;
 }
 
 static double shortest_rest(const struct hk_tetrahedron *t) {
@@ -163,8 +163,8 @@ static double shortest_rest(const struct hk_tetrahedron *t) {
 }
 
 static void add_stiffness(const hooke_system *system, double *sum) {
-  for (int64_t k = 0; k < system->altitudes.count; k++) {
-    const struct hk_tetrahedron *t = &system->altitudes.tetrahedron[k];
+  for (int64_t k = 0; k < system->altitudes->count; k++) {
+    const struct hk_tetrahedron *t = &system->altitudes->tetrahedron[k];
     *sum += 4.0 * (t->stiffness / shortest_rest(t));
   }
 }
@@ -172,28 +172,28 @@ static void add_stiffness(const hooke_system *system, double *sum) {
 /* ---- from groups ---- */
 
 static int32_t commit(hooke_system *system, const struct hk_group *group, int64_t count) {
-  return hk_altitudes_create(group, count, &system->altitudes);
+  return hk_altitudes_create(group, count, system->altitudes);
 }
 
 static void release(hooke_system *system) {
-  hk_altitudes_release(&system->altitudes);
+  hk_altitudes_release(system->altitudes);
 }
 
 static int64_t memory(const hooke_system *system) {
-  return hk_altitudes_memory(&system->altitudes);
+  return hk_altitudes_memory(system->altitudes);
 }
 
 static int32_t resists(const hooke_system *system) {
   int32_t some = 0;
-  for (int64_t k = 0; k < system->altitudes.count; k++)
-    some |= !system->altitudes.tetrahedron[k].pull_only;
+  for (int64_t k = 0; k < system->altitudes->count; k++)
+    some |= !system->altitudes->tetrahedron[k].pull_only;
   return some;
 }
 
 static void check(const hooke_system *system, uint32_t *value) {
-  hk_check_whole(value, system->altitudes.count);
-  for (int64_t k = 0; k < system->altitudes.count; k++) {
-    const struct hk_tetrahedron *t = &system->altitudes.tetrahedron[k];
+  hk_check_whole(value, system->altitudes->count);
+  for (int64_t k = 0; k < system->altitudes->count; k++) {
+    const struct hk_tetrahedron *t = &system->altitudes->tetrahedron[k];
     hk_check_add(value, t->particle, 4, sizeof *t->particle);
     hk_check_whole(value, t->choice);
     hk_check_whole(value, t->pull_only);
@@ -205,8 +205,8 @@ static void check(const hooke_system *system, uint32_t *value) {
 }
 
 static void list(const hooke_system *system, const struct hk_members *out) {
-  for (int64_t k = 0; k < system->altitudes.count; k++) {
-    const struct hk_tetrahedron *t = &system->altitudes.tetrahedron[k];
+  for (int64_t k = 0; k < system->altitudes->count; k++) {
+    const struct hk_tetrahedron *t = &system->altitudes->tetrahedron[k];
     for (int p = 0; p < 4 && out->particles; p++)
       out->particles[4 * k + p] = t->particle[p];
     if (out->stiffness) out->stiffness[k] = t->stiffness;

@@ -1,13 +1,11 @@
 /* Anchors: springs of the length law from a particle to a fixed point of space, f = -(kappa (r - l0) +
  * gamma (v.u)) u with x = q - point, r = |x|, u = x/r. */
-#include "model/force/force.h"
 
 #include "core/memory.h"
-#include "core/table/option.h"
 #include "core/status.h"
 #include "core/sum.h"
-#include "kernel/spring/spring_body.h"
 #include "model/check_value.h"
+#include "model/system.h"
 #include "model/variant/variant.h"
 
 #include <stdio.h>
@@ -121,7 +119,7 @@ struct anchors {
 
 static const struct anchors *anchors_of(const hooke_system *system) {
   static const struct anchors none = {0};
-  const struct anchors *own = system->own[hk_force_number(&hk_force_anchor)];
+  const struct anchors *own = system->rest->own[hk_force_number(&hk_force_anchor)];
   return own ? own : &none;
 }
 
@@ -143,12 +141,12 @@ static int32_t commit(hooke_system *system, const struct hk_group *group, int64_
       made->damped |= a->gamma != 0.0;
     }
   }
-  system->own[hk_force_number(&hk_force_anchor)] = made;
+  system->rest->own[hk_force_number(&hk_force_anchor)] = made;
   return HOOKE_OK;
 }
 
 static void release(hooke_system *system) {
-  void **own = &system->own[hk_force_number(&hk_force_anchor)];
+  void **own = &system->rest->own[hk_force_number(&hk_force_anchor)];
   hk_free(*own);
   *own = NULL;
 }

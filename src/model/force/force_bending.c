@@ -1,8 +1,8 @@
 /* Bending: U = c/2 |d|^2 with d = x_a - 2 x_b + x_c for every triple; forces are linear in the positions. */
-#include "model/force/force.h"
 
 #include "core/sum.h"
 #include "model/check_value.h"
+#include "model/system.h"
 #include "model/variant/variant.h"
 
 #include <stddef.h>
@@ -10,20 +10,20 @@
 #include <string.h>
 
 static int32_t present(const hooke_system *system) {
-  return system->bending.count > 0;
+  return system->rest->bending.count > 0;
 }
 
 static int32_t add(const hooke_system *system, struct hk_motion *motion, double t) {
   (void)t;
   const double *const q[3] = {motion->q[0], motion->q[1], motion->q[2]};
-  hk_bending_add(&system->bending, 1.0, q, motion->f);
+  hk_bending_add(&system->rest->bending, 1.0, q, motion->f);
   return HOOKE_OK;
 }
 
 static double energy(const hooke_system *system, const double *q) {
   struct hk_sum sum = {0.0, 0.0};
   struct hk_triple triple;
-  for (struct hk_triples at = {&system->bending, 0, 0}; hk_next_triple(&at, &triple);) {
+  for (struct hk_triples at = {&system->rest->bending, 0, 0}; hk_next_triple(&at, &triple);) {
     double d[3];
     hk_triple_bend(&triple, q, d);
     hk_sum_add(&sum, 0.5 * triple.coefficient * ((d[0] * d[0] + d[1] * d[1]) + d[2] * d[2]));
@@ -32,13 +32,13 @@ static double energy(const hooke_system *system, const double *q) {
 }
 
 static int64_t count(const hooke_system *system) {
-  return system->bending.count;
+  return system->rest->bending.count;
 }
 
 static void elements(const hooke_system *system, const double *q, const double *v, int64_t first,
                      int64_t wanted, struct hk_element *out) {
   (void)q, (void)v;
-  struct hk_triples at = hk_triples_from(&system->bending, first);
+  struct hk_triples at = hk_triples_from(&system->rest->bending, first);
   struct hk_triple triple;
   for (int64_t k = 0; k < wanted && hk_next_triple(&at, &triple); k++) {
     const double c = triple.coefficient;
@@ -52,33 +52,33 @@ static void elements(const hooke_system *system, const double *q, const double *
 static void multiply(const hooke_system *system, double a, double b, const double *const x[3],
                      double *const out[3]) {
   (void)b;
-  if (a != 0.0) hk_bending_add(&system->bending, -a, x, out);
+  if (a != 0.0) hk_bending_add(&system->rest->bending, -a, x, out);
 }
 
 static void add_stiffness(const hooke_system *system, double *sum) {
   struct hk_triple triple;
-  for (struct hk_triples at = {&system->bending, 0, 0}; hk_next_triple(&at, &triple);)
+  for (struct hk_triples at = {&system->rest->bending, 0, 0}; hk_next_triple(&at, &triple);)
     *sum += 16.0 * triple.coefficient;
 }
 
 /* ---- from groups ---- */
 
 static int32_t commit(hooke_system *system, const struct hk_group *group, int64_t count) {
-  return hk_bending_create(group, count, &system->bending);
+  return hk_bending_create(group, count, &system->rest->bending);
 }
 
 static void release(hooke_system *system) {
-  hk_bending_release(&system->bending);
+  hk_bending_release(&system->rest->bending);
 }
 
 static int64_t memory(const hooke_system *system) {
-  return hk_bending_memory(&system->bending);
+  return hk_bending_memory(&system->rest->bending);
 }
 
 static void check(const hooke_system *system, uint32_t *value) {
   struct hk_triple triple;
-  hk_check_whole(value, system->bending.count);
-  for (struct hk_triples at = {&system->bending, 0, 0}; hk_next_triple(&at, &triple);) {
+  hk_check_whole(value, system->rest->bending.count);
+  for (struct hk_triples at = {&system->rest->bending, 0, 0}; hk_next_triple(&at, &triple);) {
     hk_check_add(value, triple.particle, 3, sizeof *triple.particle);
     hk_check_add(value, &triple.coefficient, 1, sizeof(double));
   }
@@ -87,7 +87,7 @@ static void check(const hooke_system *system, uint32_t *value) {
 static void list(const hooke_system *system, const struct hk_members *out) {
   struct hk_triple triple;
   int64_t k = 0;
-  for (struct hk_triples at = {&system->bending, 0, 0}; hk_next_triple(&at, &triple); k++) {
+  for (struct hk_triples at = {&system->rest->bending, 0, 0}; hk_next_triple(&at, &triple); k++) {
     if (out->particles) memcpy(out->particles + 3 * k, triple.particle, sizeof triple.particle);
     if (out->stiffness) out->stiffness[k] = triple.coefficient;
     if (out->damping) out->damping[k] = 0.0;

@@ -1,9 +1,9 @@
 /* Linear forces about a place, f = -K (q - place) - C v, from constant elements. Used by systems that are the
  * linear twin of another one. */
-#include "model/force/force.h"
 
 #include "core/sum.h"
 #include "model/check_value.h"
+#include "model/system.h"
 #include "model/variant/variant.h"
 
 #include <math.h>
@@ -11,20 +11,20 @@
 
 void hk_system_set_linear(hooke_system *system, int64_t count, const struct hk_element *element,
                           const double *place) {
-  system->linear = (struct hk_linear){count, element, place};
+  system->rest->linear = (struct hk_linear){count, element, place};
 }
 
 static int32_t present(const hooke_system *system) {
-  return system->linear.count > 0;
+  return system->rest->linear.count > 0;
 }
 
 /* A twin and its elements stay within one process, where they are known by their addresses. */
 static void check(const hooke_system *system, uint32_t *value) {
-  hk_check_add(value, &system->linear, 1, sizeof system->linear);
+  hk_check_add(value, &system->rest->linear, 1, sizeof system->rest->linear);
 }
 
 static int32_t copy(const struct hk_variant_maker *maker) {
-  maker->made->linear = maker->from->linear;
+  maker->made->rest->linear = maker->from->rest->linear;
   return present(maker->from) ? hk_variant_require_numbers(maker, "a linear force") : HOOKE_OK;
 }
 
@@ -34,7 +34,7 @@ static double dot(const double a[3], const double b[3]) {
 
 static int32_t add(const hooke_system *system, struct hk_motion *motion, double t) {
   (void)t;
-  const struct hk_linear *linear = &system->linear;
+  const struct hk_linear *linear = &system->rest->linear;
   for (const struct hk_element *e = linear->element; e < linear->element + linear->count; e++) {
     double x[3] = {0.0}, v[3] = {0.0};
     for (int j = 0; j < e->count; j++) {
@@ -56,7 +56,7 @@ static int32_t add(const hooke_system *system, struct hk_motion *motion, double 
 }
 
 static double energy(const hooke_system *system, const double *q) {
-  const struct hk_linear *linear = &system->linear;
+  const struct hk_linear *linear = &system->rest->linear;
   struct hk_sum sum = {0.0, 0.0};
   for (const struct hk_element *e = linear->element; e < linear->element + linear->count; e++) {
     double x[3] = {0.0};
@@ -74,36 +74,36 @@ static double heat(const hooke_system *system, const double *q, const double *v)
   (void)q;
   const double *const x[3] = {v, v + 1, v + 2};
   struct hk_sum sum = {0.0, 0.0};
-  for (int64_t k = 0; k < system->linear.count; k++) {
-    const struct hk_element *e = &system->linear.element[k];
+  for (int64_t k = 0; k < system->rest->linear.count; k++) {
+    const struct hk_element *e = &system->rest->linear.element[k];
     hk_sum_add(&sum, hk_element_energy(e, e->c_along, e->c_across, 3, x));
   }
   return hk_sum_value(&sum);
 }
 
 static int64_t count(const hooke_system *system) {
-  return system->linear.count;
+  return system->rest->linear.count;
 }
 
 static void elements(const hooke_system *system, const double *q, const double *v, int64_t first,
                      int64_t wanted, struct hk_element *out) {
   (void)q, (void)v;
-  memcpy(out, system->linear.element + first, (size_t)wanted * sizeof *out);
+  memcpy(out, system->rest->linear.element + first, (size_t)wanted * sizeof *out);
   for (int64_t k = 0; k < wanted; k++)
     out[k].pull_only = 0;
 }
 
 static void multiply(const hooke_system *system, double a, double b, const double *const x[3],
                      double *const out[3]) {
-  for (int64_t k = 0; k < system->linear.count; k++) {
-    const struct hk_element *e = &system->linear.element[k];
+  for (int64_t k = 0; k < system->rest->linear.count; k++) {
+    const struct hk_element *e = &system->rest->linear.element[k];
     hk_element_multiply(e, a * e->k_along + b * e->c_along, a * e->k_across + b * e->c_across, 1, x, out);
   }
 }
 
 static void add_stiffness(const hooke_system *system, double *sum) {
-  for (int64_t k = 0; k < system->linear.count; k++) {
-    const struct hk_element *e = &system->linear.element[k];
+  for (int64_t k = 0; k < system->rest->linear.count; k++) {
+    const struct hk_element *e = &system->rest->linear.element[k];
     const double weight =
         ((fabs(e->weight[0]) + fabs(e->weight[1])) + fabs(e->weight[2])) + fabs(e->weight[3]);
     *sum += weight * weight * fmax(e->k_along, e->k_across);
@@ -112,8 +112,8 @@ static void add_stiffness(const hooke_system *system, double *sum) {
 
 static int32_t damped(const hooke_system *system) {
   int32_t some = 0;
-  for (int64_t k = 0; k < system->linear.count; k++)
-    some |= system->linear.element[k].c_along > 0.0 || system->linear.element[k].c_across > 0.0;
+  for (int64_t k = 0; k < system->rest->linear.count; k++)
+    some |= system->rest->linear.element[k].c_along > 0.0 || system->rest->linear.element[k].c_across > 0.0;
   return some;
 }
 

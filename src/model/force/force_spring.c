@@ -1,23 +1,22 @@
 /* Springs. Derivative of f = -T u with T = kappa (r - l0) + gamma v.u, u = x/r, P = I - u u^T:
  *   df/dx = -(u (kappa u + gamma P v / r)^T + (T/r) P)     df/dv = -gamma u u^T */
-#include "model/force/force.h"
 
 #include "core/sum.h"
-#include "kernel/spring/spring_body.h"
 #include "model/sum/spring_batch.h"
 #include "model/check_value.h"
+#include "model/sum/tiled.h"
 #include "model/variant/variant.h"
 
 #include <stddef.h>
 #include <string.h>
 
 static int32_t present(const hooke_system *system) {
-  return system->springs.count > 0;
+  return system->springs->count > 0;
 }
 
 static int32_t add(const hooke_system *system, struct hk_motion *motion, double t) {
   (void)t;
-  if (system->strided.count > 0 || system->tiled.particles > 0) {
+  if (system->strided->count > 0 || system->tiled->particles > 0) {
     const struct hk_move keep = {
         .kind = HOOKE_MOVE_KEEP, .stride = hk_motion_stride(motion), .f = motion->f[0]};
     hk_motion_pass(system, motion, &keep);
@@ -30,8 +29,8 @@ static int32_t add(const hooke_system *system, struct hk_motion *motion, double 
     fields.f[a] = motion->f[a];
   }
   int64_t shortness = 0;
-  for (int64_t k = 0; k < system->springs.run_count; k++) {
-    const struct hk_run *run = &system->springs.run[k];
+  for (int64_t k = 0; k < system->springs->run_count; k++) {
+    const struct hk_run *run = &system->springs->run[k];
     shortness += motion->zero ? run->undamped_loop(run, &fields) : run->loop(run, &fields);
   }
   hk_motion_keep_short(motion, shortness);
@@ -108,8 +107,8 @@ void hk_spring_slope_blocks(const struct hk_spring_slope *s, double stiff[9], do
 
 static int32_t add_product(const hooke_system *system, const struct hk_point *point, double *out) {
   const struct hk_derivative_rows rows = {point->q, point->v, point->dq, point->dv, out};
-  for (int64_t r = 0; r < system->springs.run_count; r++)
-    hk_spring_set(0)->derivative(&system->springs.run[r], &rows);
+  for (int64_t r = 0; r < system->springs->run_count; r++)
+    hk_spring_set(0)->derivative(&system->springs->run[r], &rows);
   return 0;
 }
 
@@ -130,8 +129,8 @@ static void add_pair(const struct hk_pattern *pattern, int64_t i, int64_t j, con
 
 static void add_blocks(const hooke_system *system, const double *q, const double *v,
                        const struct hk_pattern *pattern, double *dfdq, double *dfdv) {
-  for (int64_t r = 0; r < system->springs.run_count; r++) {
-    const struct hk_run *run = &system->springs.run[r];
+  for (int64_t r = 0; r < system->springs->run_count; r++) {
+    const struct hk_run *run = &system->springs->run[r];
     for (int64_t k = 0; k < run->count; k++) {
       const struct hk_spring spring = hk_run_spring(run, k);
       struct hk_spring_slope s;
@@ -147,7 +146,7 @@ static void add_blocks(const hooke_system *system, const double *q, const double
 /* ---- elements ---- */
 
 static int64_t count(const hooke_system *system) {
-  return system->springs.count;
+  return system->springs->count;
 }
 
 void hk_spring_element(const struct hk_spring *spring, const double *q, const double *v,
@@ -174,7 +173,7 @@ void hk_spring_element(const struct hk_spring *spring, const double *q, const do
 
 static void elements(const hooke_system *system, const double *q, const double *v, int64_t first,
                      int64_t wanted, struct hk_element *out) {
-  const struct hk_run *run = &system->springs.run[hk_springs_run(&system->springs, first)];
+  const struct hk_run *run = &system->springs->run[hk_springs_run(system->springs, first)];
   for (int64_t k = 0; k < wanted; k++) {
     while (first + k >= run->first + run->count)
       run++;
@@ -185,8 +184,8 @@ static void elements(const hooke_system *system, const double *q, const double *
 
 /* For a tiled batch in the order of its tiles, otherwise in that of numbers. */
 static int64_t stored_elements(struct hk_elements *at) {
-  if (!at->system->tiled.stored) {
-    const int64_t left = at->system->springs.count - at->done;
+  if (!at->system->tiled->stored) {
+    const int64_t left = at->system->springs->count - at->done;
     const int64_t next = left < HOOKE_ELEMENTS ? left : HOOKE_ELEMENTS;
     if (next > 0) elements(at->system, at->q, at->v, at->done, next, at->element);
     return next;
@@ -208,7 +207,7 @@ static int64_t stored_elements(struct hk_elements *at) {
 }
 
 static int32_t damped(const hooke_system *system) {
-  return hk_springs_are_damped(&system->springs);
+  return hk_springs_are_damped(system->springs);
 }
 
 static void add_stiffness(const hooke_system *system, double *sum) {
@@ -222,27 +221,27 @@ static void add_stiffness(const hooke_system *system, double *sum) {
 /* ---- from groups ---- */
 
 static int32_t commit(hooke_system *system, const struct hk_group *group, int64_t count) {
-  return hk_springs_create(group, count, &system->springs);
+  return hk_springs_create(group, count, system->springs);
 }
 
 static void release(hooke_system *system) {
-  hk_springs_release(&system->springs);
+  hk_springs_release(system->springs);
 }
 
 static int64_t memory(const hooke_system *system) {
-  return hk_springs_memory(&system->springs);
+  return hk_springs_memory(system->springs);
 }
 
 static int32_t resists(const hooke_system *system) {
   int32_t some = 0;
-  for (int64_t r = 0; r < system->springs.run_count; r++)
-    some |= (system->springs.run[r].shape & HOOKE_RUN_PULL_ONLY) == 0;
+  for (int64_t r = 0; r < system->springs->run_count; r++)
+    some |= (system->springs->run[r].shape & HOOKE_RUN_PULL_ONLY) == 0;
   return some;
 }
 
 static void check(const hooke_system *system, uint32_t *value) {
   struct hk_spring_batch batch;
-  hk_check_whole(value, system->springs.count);
+  hk_check_whole(value, system->springs->count);
   for (hk_begin_batches(&batch); hk_next_batch(system, &batch);) {
     hk_check_add(value, batch.head, batch.count, sizeof *batch.head);
     hk_check_add(value, batch.tail, batch.count, sizeof *batch.tail);
@@ -254,8 +253,8 @@ static void check(const hooke_system *system, uint32_t *value) {
 }
 
 static void list(const hooke_system *system, const struct hk_members *out) {
-  for (int64_t r = 0; r < system->springs.run_count; r++) {
-    const struct hk_run *run = &system->springs.run[r];
+  for (int64_t r = 0; r < system->springs->run_count; r++) {
+    const struct hk_run *run = &system->springs->run[r];
     for (int64_t k = 0; k < run->count; k++) {
       const struct hk_spring spring = hk_run_spring(run, k);
       const int64_t number = run->first + k;

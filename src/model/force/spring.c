@@ -3,8 +3,7 @@
 
 #include "core/memory.h"
 #include "core/status.h"
-#include "kernel/spring/spring_body.h"
-#include "model/force/force.h"
+#include "model/system.h"
 
 #include <stdio.h>
 #include <string.h>

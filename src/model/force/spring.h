@@ -2,6 +2,7 @@
 #ifndef HOOKE_MODEL_FORCE_SPRING_H
 #define HOOKE_MODEL_FORCE_SPRING_H
 
+#include "hooke/system.h"
 #include "kernel/spring/spring_body.h"
 #include "kernel/spring/spring_loops.h"
 #include "model/force/element.h"
@@ -113,6 +114,11 @@ void hk_spring_slope_blocks(const struct hk_spring_slope *slope, double stiff[9]
 /* A spring as an element. */
 void hk_spring_element(const struct hk_spring *spring, const double *q, const double *v,
                        struct hk_element *out);
+
+/* For builders. A part's springs follow those of all explicit groups, whenever they are added; otherwise the
+ * same as hooke_system_add_springs(). */
+int32_t hk_system_add_part_springs(hooke_system *system, const char *name, int64_t count, const int64_t *ends,
+                                   const hooke_options *options);
 
 /* Finds the run of a spring, and the spring. */
 int64_t hk_springs_run(const struct hk_springs *springs, int64_t number);

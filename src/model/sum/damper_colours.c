@@ -1,3 +1,4 @@
+#include "model/force/spring.h"
 #include "model/sum/damper_colours.h"
 
 #include "core/memory.h"
@@ -24,8 +25,8 @@ struct walk {
 };
 
 static int next_damped(const hooke_system *system, struct walk *at) {
-  for (; at->run < system->springs.run_count; at->run++, at->k = 0) {
-    const struct hk_run *run = &system->springs.run[at->run];
+  for (; at->run < system->springs->run_count; at->run++, at->k = 0) {
+    const struct hk_run *run = &system->springs->run[at->run];
     while ((run->shape & HOOKE_RUN_DAMPED) && at->k < run->count) {
       at->number = run->first + at->k;
       at->spring = hk_run_spring(run, at->k++);
@@ -95,7 +96,7 @@ static int32_t create_palette(const hooke_system *system, int64_t damped, struct
 /* The class of each damped spring into `place`, -1 of the others; returns how many classes there are. */
 static int64_t classify(const hooke_system *system, struct palette *palette, int64_t *place) {
   int64_t classes = 0;
-  memset(place, -1, (size_t)system->springs.count * sizeof *place);
+  memset(place, -1, (size_t)system->springs->count * sizeof *place);
   for (struct walk at = {0}; next_damped(system, &at);) {
     const int32_t colour = find_colour(palette, &at.spring);
     take(palette, at.spring.head, colour);
@@ -139,7 +140,7 @@ int32_t hk_damper_colours_create(const hooke_system *system, struct hk_damper_co
   }
   struct palette palette;
   int32_t status = create_palette(system, colours->springs, &palette);
-  colours->place = status == HOOKE_OK ? hk_new(system->springs.count, sizeof *colours->place) : NULL;
+  colours->place = status == HOOKE_OK ? hk_new(system->springs->count, sizeof *colours->place) : NULL;
   if (colours->place == NULL) status = HOOKE_NO_MEMORY;
   if (status == HOOKE_OK) colours->classes = classify(system, &palette, colours->place);
   release_palette(&palette);

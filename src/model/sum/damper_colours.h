@@ -3,7 +3,7 @@
 #ifndef HOOKE_MODEL_SUM_DAMPER_COLOURS_H
 #define HOOKE_MODEL_SUM_DAMPER_COLOURS_H
 
-#include "model/system.h"
+#include "model/particles.h"
 
 /* Class 2 c has the springs of colour c that push too, and 2 c + 1 those that only pull: `first` .. of the
  * next one, in ascending number. */

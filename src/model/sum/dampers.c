@@ -2,8 +2,8 @@
 
 #include "core/memory.h"
 #include "core/status.h"
-#include "kernel/spring/damper_loops.h"
 #include "model/force/force.h"
+#include "model/force/spring.h"
 #include "model/sum/damper_colours.h"
 
 #include <string.h>
@@ -50,8 +50,8 @@ static int32_t take_springs(const hooke_system *system, struct hk_dampers *d) {
     d->kappa = new_numbers(d, colours->springs, &status);
     d->rest_length = new_numbers(d, colours->springs, &status);
   }
-  for (int64_t r = 0; r < system->springs.run_count && status == HOOKE_OK; r++) {
-    const struct hk_run *run = &system->springs.run[r];
+  for (int64_t r = 0; r < system->springs->run_count && status == HOOKE_OK; r++) {
+    const struct hk_run *run = &system->springs->run[r];
     for (int64_t k = 0; k < run->count; k++) {
       const int64_t at = colours->place[run->first + k];
       if (at < 0) continue;

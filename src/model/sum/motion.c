@@ -3,7 +3,9 @@
 #include "core/memory.h"
 #include "core/status.h"
 #include "kernel/vector_loops.h"
+#include "model/force/drive.h"
 #include "model/force/force.h"
+#include "model/sum/tiled.h"
 
 #include <string.h>
 
@@ -13,10 +15,10 @@ enum { SPRINGS_A_MEMBER = 8192, BORDERS_A_MEMBER = 8 };
 
 int32_t hk_motion_members(const hooke_system *system, int32_t most) {
   const int64_t border =
-      system->tiled.particles > 0 ? system->tiled.ring : system->strided.count * system->strided.reach;
+      system->tiled->particles > 0 ? system->tiled->ring : system->strided->count * system->strided->reach;
   int64_t workers = 1;
-  if (system->tiled.particles > 0 || system->strided.count > 0)
-    workers = system->springs.count / (SPRINGS_A_MEMBER + BORDERS_A_MEMBER * border);
+  if (system->tiled->particles > 0 || system->strided->count > 0)
+    workers = system->springs->count / (SPRINGS_A_MEMBER + BORDERS_A_MEMBER * border);
   if (workers > most) workers = most;
   if (workers > hk_pool_processors()) workers = hk_pool_processors();
   return workers > 1 ? (int32_t)workers : 1;
@@ -30,7 +32,7 @@ static int64_t driven_count(const hooke_system *system) {
 }
 
 int32_t hk_goes_by_tiles(const hooke_system *system) {
-  int by_tiles = system->strided.count > 0 || system->tiled.particles > 0;
+  int by_tiles = system->strided->count > 0 || system->tiled->particles > 0;
   for (int32_t k = 0; k < system->force_row_count; k++) {
     const struct hk_force_row *row = system->force_row[k];
     by_tiles &= row->add == NULL || row == &hk_force_springs || row == &hk_force_drag;
@@ -59,7 +61,7 @@ static int32_t new_arrays(const hooke_system *system, int32_t how, struct hk_mot
   const int64_t n = system->particle_count;
   /* rounded up to a cache line, and not a power of two apart: equal low address bits would conflict in cache
    * sets. Loops over strided batches read past the last particle. */
-  const int64_t beyond = system->strided.count > 0 ? system->strided.reach + HOOKE_STRIDED_UNIT : 0;
+  const int64_t beyond = system->strided->count > 0 ? system->strided->reach + HOOKE_STRIDED_UNIT : 0;
   const int64_t stride = (n + beyond + 7) / 8 * 8 + 24, arrays = how == HOOKE_MOTION_BY_TILES ? 6 : 9;
   const int64_t components = arrays * stride, rows = system->force ? 9 * n : 0; /* in their own block */
   const int64_t still = 3 * system->anchor_count, driven = 6 * driven_count(system);
@@ -120,12 +122,12 @@ static int32_t new_numbers(const hooke_system *system, struct hk_motion *motion)
 }
 
 static int32_t new_scratch(const hooke_system *system, struct hk_motion *motion) {
-  if (system->strided.count > 0) {
-    motion->rings = hk_rings_create(&system->strided, hk_pool_members(motion->pool));
+  if (system->strided->count > 0) {
+    motion->rings = hk_rings_create(system->strided, hk_pool_members(motion->pool));
     if (motion->rings == NULL) return HOOKE_NO_MEMORY;
   }
-  if (system->tiled.particles > 0) {
-    motion->tiled = hk_tiled_scratch_create(&system->tiled, hk_pool_members(motion->pool));
+  if (system->tiled->particles > 0) {
+    motion->tiled = hk_tiled_scratch_create(system->tiled, hk_pool_members(motion->pool));
     if (motion->tiled == NULL) return HOOKE_NO_MEMORY;
   }
   motion->memory += hk_rings_memory(motion->rings) + hk_tiled_scratch_memory(motion->tiled);
@@ -137,8 +139,8 @@ int32_t hk_motion_create(const hooke_system *system, int32_t how, struct hk_pool
   struct hk_motion *motion = hk_new(1, sizeof *motion);
   if (motion == NULL) return HOOKE_NO_MEMORY;
   motion->pool = pool;
-  motion->order = how & HOOKE_MOTION_BY_TILES ? system->tiled.order : NULL;
-  motion->w = motion->order ? system->tiled.inverse_mass : system->inverse_mass;
+  motion->order = how & HOOKE_MOTION_BY_TILES ? system->tiled->order : NULL;
+  motion->w = motion->order ? system->tiled->inverse_mass : system->inverse_mass;
   int32_t status = new_arrays(system, how, motion);
   if (status == HOOKE_OK) status = new_numbers(system, motion);
   if (status == HOOKE_OK) status = new_scratch(system, motion);

@@ -5,8 +5,9 @@
 #define HOOKE_MODEL_SUM_MOTION_H
 
 #include "core/thread_pool.h"
+#include "kernel/move_loops.h"
 #include "kernel/spring/spring_body.h"
-#include "model/system.h"
+#include "model/particles.h"
 
 struct hk_force_row;
 struct hk_rings;

@@ -1,5 +1,6 @@
 /* One pass over memory: sums of springs, and their use. */
 #include "model/sum/motion.h"
+#include "model/sum/tiled.h"
 
 #include <string.h>
 
@@ -12,7 +13,7 @@ struct tile_move {
 /* Forces are zero before springs are added, so sums are the forces. */
 static void keep_tile(int64_t from, int64_t count, double *const f[3], void *ctx) {
   const struct tile_move *to = ctx;
-  const int32_t *order = to->motion->order ? NULL : to->system->tiled.order;
+  const int32_t *order = to->motion->order ? NULL : to->system->tiled->order;
   for (int a = 0; a < 3; a++) {
     double *kept = to->motion->f[a];
     if (order == NULL) memcpy(kept + from, f[a], (size_t)count * sizeof(double));
@@ -35,8 +36,8 @@ struct hk_moved hk_motion_moved(const struct hk_motion *motion) {
 void hk_motion_pass(const hooke_system *system, struct hk_motion *motion, const struct hk_move *move) {
   struct tile_move to = {system, motion, move};
   const int64_t shortness =
-      system->strided.count > 0
+      system->strided->count > 0
           ? hk_strided_batches_pass(system, motion, move)
-          : hk_tiled_pass(&system->tiled, motion, move->kind == HOOKE_MOVE_KEEP ? keep_tile : move_tile, &to);
+          : hk_tiled_pass(system->tiled, motion, move->kind == HOOKE_MOVE_KEEP ? keep_tile : move_tile, &to);
   hk_motion_keep_short(motion, shortness);
 }

@@ -2,7 +2,7 @@
 
 #include "core/memory.h"
 #include "core/status.h"
-#include "model/force/force.h"
+#include "model/system.h"
 
 #include <stdlib.h>
 #include <string.h>

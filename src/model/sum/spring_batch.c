@@ -1,4 +1,5 @@
 #include "model/sum/spring_batch.h"
+#include "model/sum/tiled.h"
 
 static int64_t at_most(int64_t count) {
   return count < HOOKE_SPRING_BATCH ? count : HOOKE_SPRING_BATCH;
@@ -106,6 +107,6 @@ static int32_t next_of_tiled(const struct hk_tiled *tiled, struct hk_spring_batc
 }
 
 int32_t hk_next_batch(const hooke_system *system, struct hk_spring_batch *batch) {
-  if (system->tiled.stored) return next_of_tiled(&system->tiled, batch);
-  return next_of_runs(&system->springs, batch);
+  if (system->tiled->stored) return next_of_tiled(system->tiled, batch);
+  return next_of_runs(system->springs, batch);
 }

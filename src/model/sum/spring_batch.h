@@ -5,8 +5,8 @@
 #define HOOKE_MODEL_SUM_SPRING_BATCH_H
 
 #include "kernel/energy_loops.h"
-#include "model/force/element.h"
-#include "model/system.h"
+#include "model/force/spring.h"
+#include "model/particles.h"
 
 enum { HOOKE_SPRING_BATCH = HOOKE_ELEMENTS };
 

@@ -3,6 +3,7 @@
  * range and end in it, and the particles above its range where its own springs end. */
 #include "core/memory.h"
 #include "model/sum/motion.h"
+#include "model/sum/strided.h"
 
 #include <string.h>
 
@@ -156,7 +157,7 @@ static void advance(const struct task *task, struct partition *partition, int32_
   partition->pass.move.kind = kind;
   for (int64_t from = partition->at; from < to; from = partition->at) {
     const int32_t left_out = task->motion->zero ? HOOKE_RUN_DAMPED : 0;
-    partition->at = set_strided(&task->system->strided, left_out, partition, from, to);
+    partition->at = set_strided(task->system->strided, left_out, partition, from, to);
     partition->lost += hk_spring_set(0)->strided(&partition->pass, from, partition->at);
   }
 }

@@ -3,6 +3,7 @@
 #include "core/memory.h"
 #include "core/status.h"
 #include "model/check_value.h"
+#include "model/system.h"
 
 #include <string.h>
 
@@ -19,7 +20,7 @@ void hk_variant_release(struct hk_variant *variant) {
 int32_t hk_variant_create(const hooke_system *system, struct hk_variant *variant) {
   memset(variant, 0, sizeof *variant);
   variant->group = hk_new(system->group_count, 1);
-  variant->spring = hk_new(system->springs.count, 1);
+  variant->spring = hk_new(system->springs->count, 1);
   variant->particle = hk_new(system->particle_count, 1);
   variant->part = hk_new(system->part_count, 1);
   variant->rigid = hk_new(system->part_count, 1);
@@ -47,7 +48,7 @@ void hk_variant_join(const hooke_system *system, struct hk_variant *variant, con
   variant->damping |= other->damping;
   variant->compression |= other->compression;
   join(system->group_count, variant->group, other->group);
-  join(system->springs.count, variant->spring, other->spring);
+  join(system->springs->count, variant->spring, other->spring);
   join(system->particle_count, variant->particle, other->particle);
   join(system->part_count, variant->part, other->part);
   join(system->part_count, variant->rigid, other->rigid);
@@ -160,7 +161,7 @@ static int32_t keep_body(const struct hk_variant_maker *maker, const struct hk_b
 
 /* Bodies that are no parts. */
 static int32_t keep_bodies(const struct hk_variant_maker *maker) {
-  const struct hk_bodies *bodies = &maker->from->bodies;
+  const struct hk_bodies *bodies = maker->from->bodies;
   int32_t status = HOOKE_OK;
   for (int64_t k = 0; k < bodies->count && status == HOOKE_OK; k++)
     if (bodies->body[k].part < 0) status = keep_body(maker, &bodies->body[k]);
@@ -182,8 +183,8 @@ static void add_velocity(hooke_system *made, const double velocity[3]) {
   if (velocity[0] == 0.0 && velocity[1] == 0.0 && velocity[2] == 0.0) return;
   for (int64_t i = 0; i < 3 * made->particle_count; i++)
     if (!made->constrained[i / 3]) made->velocity[i] += velocity[i % 3];
-  for (int64_t k = 0; k < made->bodies.count; k++)
-    made->bodies.body[k].project = 1;
+  for (int64_t k = 0; k < made->bodies->count; k++)
+    made->bodies->body[k].project = 1;
 }
 
 static int32_t make(const hooke_system *from, const struct hk_variant *variant, hooke_system **made,
@@ -192,7 +193,7 @@ static int32_t make(const hooke_system *from, const struct hk_variant *variant, 
   *map = (struct hk_variant_map){.from = from};
   *made = NULL;
   int32_t status = hooke_system_create(&maker.made);
-  if (status == HOOKE_OK) maker.made->memory_limit = from->memory_limit;
+  if (status == HOOKE_OK) maker.made->rest->memory_limit = from->rest->memory_limit;
   if (status == HOOKE_OK) maker.made->overdamped = from->overdamped;
   if (status == HOOKE_OK) status = hk_variant_add_particles(&maker);
   if (status == HOOKE_OK) status = hk_variant_constrain(&maker);
@@ -231,7 +232,7 @@ static int32_t require_whole(const hooke_system *from) {
         "a copy of the scene loses or changes its %s, so nothing is known of variants of it; this is "
         "a defect of hooke",
         different);
-  ((hooke_system *)from)->is_copied_whole = 1;
+  from->rest->is_copied_whole = 1;
   return HOOKE_OK;
 }
 
@@ -240,6 +241,6 @@ int32_t hk_variant_make(const hooke_system *from, const struct hk_variant *varia
   *map = (struct hk_variant_map){.from = from};
   *made = NULL;
   int32_t status = hk_system_require_committed(from);
-  if (status == HOOKE_OK && !from->is_copied_whole) status = require_whole(from);
+  if (status == HOOKE_OK && !from->rest->is_copied_whole) status = require_whole(from);
   return status == HOOKE_OK ? make(from, variant, made, map) : status;
 }

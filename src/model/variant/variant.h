@@ -3,6 +3,7 @@
 #define HOOKE_MODEL_VARIANT_VARIANT_H
 
 #include "model/force/force.h"
+#include "model/part_record.h"
 
 /* The changes; hk_variant_create() gives zeros with arrays. 1: left out. */
 struct hk_variant {

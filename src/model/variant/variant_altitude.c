@@ -1,4 +1,5 @@
 /* A group of tetrahedra of a variant that its parts do not add. */
+#include "model/force/altitude.h"
 #include "model/variant/variant.h"
 
 #include "core/memory.h"
@@ -21,7 +22,7 @@ static int32_t take_over(const struct hk_variant_maker *maker, struct hk_tetrahe
 
 int32_t hk_variant_keep_altitude(struct hk_variant_maker *maker, const struct hk_group *group,
                                  int64_t first) {
-  const struct hk_tetrahedron *from = maker->from->altitudes.tetrahedron + first;
+  const struct hk_tetrahedron *from = maker->from->altitudes->tetrahedron + first;
   struct hk_tetrahedron *tetrahedron = hk_new(group->count, sizeof *tetrahedron);
   if (tetrahedron == NULL) return HOOKE_NO_MEMORY;
   int64_t count = 0;

@@ -1,4 +1,5 @@
 /* A group of triples of a variant that its parts do not add. */
+#include "model/system.h"
 #include "model/variant/variant.h"
 
 #include "core/memory.h"
@@ -7,7 +8,7 @@
  */
 static int64_t collect(const struct hk_variant_maker *maker, int64_t first, int64_t end, int64_t *ends,
                        double *coefficient) {
-  struct hk_triples at = {.bending = &maker->from->bending};
+  struct hk_triples at = {.bending = &maker->from->rest->bending};
   struct hk_triple triple;
   int64_t count = 0;
   for (int64_t k = 0; k < end && hk_next_triple(&at, &triple); k++) {

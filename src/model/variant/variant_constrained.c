@@ -1,4 +1,5 @@
 /* Pinned and driven particles of a variant. */
+#include "model/force/drive.h"
 #include "model/variant/variant.h"
 
 #include "core/memory.h"

@@ -1,8 +1,8 @@
 /* Particles of a variant: parts from their options, with changes, and the others one by one. */
+#include "model/group.h"
 #include "model/variant/variant.h"
 
 #include "core/memory.h"
-#include "core/table/option.h"
 #include "core/status.h"
 
 #include <stdio.h>

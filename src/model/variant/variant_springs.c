@@ -1,4 +1,5 @@
 /* A group of springs of a variant that its parts do not add. */
+#include "model/force/spring.h"
 #include "model/variant/variant.h"
 
 #include "core/memory.h"
@@ -6,7 +7,7 @@
 /* The springs from `first` on that remain, of as many as `kept` counts, in the numbering of the variant. */
 static void collect(const struct hk_variant_maker *maker, int64_t first, struct hk_group *kept,
                     int64_t *ends) {
-  const struct hk_springs *springs = &maker->from->springs;
+  const struct hk_springs *springs = maker->from->springs;
   const int64_t end = first + kept->count;
   kept->count = 0;
   for (int64_t r = 0; r < springs->run_count; r++) {

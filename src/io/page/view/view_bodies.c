@@ -3,7 +3,8 @@
 #include "core/memory.h"
 #include "io/page/base64.h"
 #include "model/force/force.h"
-#include "model/system.h"
+#include "model/group.h"
+#include "model/part_record.h"
 #include "parts/surface.h"
 
 #include <string.h>

@@ -13,7 +13,7 @@
 #include "io/trajectory/record.h"
 #include "io/page/report.h"
 #include "io/file/data_folder.h"
-#include "model/system.h"
+#include "model/particles.h"
 
 #include <math.h>
 #include <stdio.h>

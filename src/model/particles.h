@@ -1,0 +1,69 @@
+/* The system as most of the library reads it: its particles, what acts on all of them, and where the rest is.
+ * Whoever reads the rest includes its header. */
+#ifndef HOOKE_MODEL_PARTICLES_H
+#define HOOKE_MODEL_PARTICLES_H
+
+#include "hooke/system.h"
+
+enum { HOOKE_IS_PINNED = 1, HOOKE_IS_DRIVEN = 2 };
+
+/* A span of whole tiles of particles (HOOKE_TILE); the last tile is cut at the end. */
+struct hk_span {
+  int64_t from, count;
+};
+
+struct hooke_system {
+  /* particles, 3 or 1 doubles each */
+  int64_t particle_count;
+  double *position, *velocity, *mass; /* velocity NULL from commit on if all are zero */
+  uint8_t *constrained;               /* HOOKE_IS_* */
+  double *inverse_mass;               /* from commit on */
+
+  int64_t constrained_count; /* from commit on: pinned and driven particles, ascending */
+  int32_t *constrained_particle;
+  int64_t idle_count; /* from commit on: pinned particles that nothing acts on */
+  int64_t span_count; /* from commit on: spans that are stepped, ascending */
+  struct hk_span *span;
+  /* from commit on: pinned particles in these spans, restored after a step; ascending */
+  int64_t anchor_count;
+  int32_t *anchor;
+
+  double gravity[3];
+  int32_t has_gravity;
+  double drag; /* 0: none */
+  /* An overdamped system, gamma x' = f. From commit on `mass` is gamma for every particle and drag and
+   * gravity are 0, so that everything that divides a force or a stiffness by `mass` has a rate; gamma, the
+   * masses and the gravity as given are here. */
+  int32_t overdamped;
+  double friction, *weight, pull[3]; /* friction is 0 before, and in any other system */
+  hooke_force *force;
+  hooke_force_product *force_product;
+  void *force_ctx;
+
+  int64_t group_count;
+  struct hk_group *group;
+  int64_t part_count;
+  struct hk_part_record *part; /* part_count, in the order of adding */
+  int64_t drive_count;
+  struct hk_drive_group *drive;
+  int32_t force_row_count; /* from commit on: the present forces */
+  const struct hk_force_row **force_row;
+
+  struct hk_springs *springs;         /* from commit on */
+  struct hk_strided_batches *strided; /* from commit on, for all springs or none */
+  struct hk_tiled *tiled;             /* the same, without strided batches */
+  struct hk_altitudes *altitudes;     /* from commit on */
+  int64_t moving_bodies;              /* from commit on: rigid bodies that move by themselves */
+  struct hk_bodies *bodies;
+
+  struct hk_system_rest *rest; /* what few read (model/system.h) */
+  int32_t borrows; /* 1: by hooke_system_with_force(), all but what depends on its force is another's */
+};
+
+/* Masses (0: not given), drag and gravity as they were given. */
+const double *hk_system_masses(const hooke_system *system);
+double hk_system_drag(const hooke_system *system);
+const double *hk_system_gravity(const hooke_system *system);
+int32_t hk_system_has_gravity(const hooke_system *system);
+
+#endif
