@@ -88,7 +88,8 @@ struct hooke_system {
   hooke_force *force;
   hooke_force_product *force_product;
   void *force_ctx;
-  int32_t called; /* callbacks of the run whose file the system is from (model/callbacks.h) */
+  const double *force_scale; /* factors of the callback's force, 3 a particle; NULL: 1 */
+  int32_t called;            /* callbacks of the run whose file the system is from (model/callbacks.h) */
 
   struct hk_bodies bodies;
 

@@ -4,8 +4,8 @@
  *   description   the attributes of /hooke, but for `run`, and /hooke/options by name (name, NUL, then a text
  *                 with its NUL, or doubles), mass, species, springs, rest lengths as doubles, and the text of
  *                 the scene; then the random digits of the name of the run, which ends in this value
- *   outcome       instead of the name, once the run is over: the bytes of `status` and `beyond`, and the number of
- *                 frames; this value is in the array /hooke/file_check
+ *   outcome       after the description, once the run is over: the bytes of `status` and `beyond`, and the
+ *                 number of frames; this value is in the array /hooke/file_check
  *   error         then the bytes of `error`, `error_by` and `error_reason`, once they are known; likewise
  *
  * Nothing of hooke reads what they leave out: /h5md, the box, references, names of the numbers of an error. */

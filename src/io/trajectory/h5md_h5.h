@@ -38,7 +38,8 @@ herr_t hk_h5md_connect(hid_t file, const hooke_system *system, const char *group
 /* Room for what is known later of a single run. Negative on failure. */
 herr_t hk_h5md_make_room(hid_t file);
 
-/* The attribute `run` of /hooke: 24 random hexadecimal digits, their check value (file_check_h5.h) and a NUL. */
+/* The attribute `run` of /hooke: 24 random hexadecimal digits, 8 of their check value (file_check_h5.h) and a
+ * NUL. */
 enum { HOOKE_RUN_RANDOM = 24, HOOKE_RUN_SIZE = 33 };
 int32_t hk_h5md_new_run(uint32_t description, char run[HOOKE_RUN_SIZE]);
 herr_t hk_h5md_write_run(hid_t file, const char *run);
@@ -48,7 +49,8 @@ herr_t hk_h5md_write_run(hid_t file, const char *run);
 herr_t hk_h5md_copy(hid_t from, hid_t to, struct hk_h5_copy *copy);
 herr_t hk_h5md_refer(hid_t file, const char *group);
 
-/* Offsets of what is written as bytes, once HDF5 has closed the file; -1 for what an older one does not have. */
+/* Offsets of what is written as bytes, once HDF5 has closed the file; -1 for what an older one does not
+ * have. */
 struct hk_h5md_places {
   int64_t status, beyond, check, error, error_by, error_reason;
 };
