@@ -121,7 +121,7 @@ contains
 
   ! A callback of `function`, or nothing without an object that it is to call.
   type(hooke_callback) function callback_to(function, object) result(made)
-    type(c_funptr), intent(in) :: function
+    type(c_funptr), value :: function
     class(*), target, intent(inout), optional :: object
     if (.not. present(object)) return
     allocate (made%called)

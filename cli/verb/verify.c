@@ -97,7 +97,6 @@ static void print_slice(const hooke_measurement *verify) {
 static void print_parts(const hooke_measurement *verify) {
   static const char *const words[][2] = {
       {"checked", "scene, options, masses, springs, outcome and error by their check values"},
-      {"damaged", "the error of the run is not the one that was written"},
       {"not-covered",
        "not covered: the file is older than check values of scene, options, masses and springs"}};
   for (size_t k = 0; k < sizeof words / sizeof words[0]; k++)

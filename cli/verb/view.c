@@ -174,7 +174,7 @@ static int is_trajectory(const char *path) {
   hooke_record *record = NULL;
   const int32_t status = strcmp(path, "-") == 0 ? HOOKE_BAD_VALUE : hooke_record_open(path, &record);
   hooke_record_close(record);
-  return status == HOOKE_OK;
+  return status == HOOKE_OK || status == HOOKE_NO_MEMORY;
 }
 
 /* Several trajectories have a page of another name than theirs, and none is run anew. */

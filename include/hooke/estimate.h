@@ -56,8 +56,8 @@ HOOKE_API int32_t hooke_estimate_refine(hooke_measurement *estimate, hooke_optio
 
 /* Adds the estimated error of a run to the trajectory file that it wrote, which is closed already:
  * /hooke/error and its texts, see docs/trajectory.md. The file is valid before, and stays so if the call is
- * interrupted. HOOKE_BAD_VALUE for a file without space reserved for it, HOOKE_IO_FAILED, HOOKE_NO_MEMORY,
- * HOOKE_NOT_BUILT. */
+ * interrupted. HOOKE_BAD_VALUE for a file without space reserved for it, that is damaged, or whose run is not
+ * over; HOOKE_IO_FAILED, HOOKE_NO_MEMORY, HOOKE_NOT_BUILT. */
 HOOKE_API int32_t hooke_estimate_write_h5(const hooke_measurement *estimate, const char *path);
 
 #ifdef __cplusplus

@@ -54,9 +54,9 @@ typedef struct hooke_system hooke_system;
  * method tries. */
 typedef int32_t hooke_force(int64_t n, double t, const double *q, const double *v, double *force, void *ctx);
 
-/* The arrays of a force are valid during the call. Holding them by its `q` (`more` 1) keeps all three, with
- * their numbers, until they are released as often (-1). Returns how often they are held,
- * once by the library. */
+/* The arrays of a callback for a force, its product, a drive or a rate are valid during the call. Holding
+ * them by the first (`more` 1) keeps all of them, with their numbers, until they are released as often (-1).
+ * Returns how often they are held, once by the library. */
 HOOKE_API int64_t hooke_rows_hold(const double *q, int32_t more);
 
 /* Adds (df/dq) dq + (df/dv) dv of that force to `out` (3n). Return 0 to go on. */

@@ -7,25 +7,19 @@
 #include <math.h>
 #include <stddef.h>
 
-/* ---- the callbacks of the system: those of the caller, times the inverse masses ---- */
+/* ---- the callbacks of the system: those of the caller ---- */
 
 static int32_t force(int64_t n, double t, const double *q, const double *v, double *out, void *ctx) {
   (void)n;
   const struct hk_coordinates *c = ctx;
-  const int32_t value = c->force(c->size, t, q, v, out, c->ctx);
-  for (int64_t k = 0; k < c->size; k++)
-    out[k] *= c->inverse_mass[k];
-  return value;
+  return c->force(c->size, t, q, v, out, c->ctx);
 }
 
 static int32_t product(int64_t n, double t, const double *q, const double *v, const double *dq,
                        const double *dv, double *out, void *ctx) {
   (void)n;
   const struct hk_coordinates *c = ctx;
-  const int32_t value = c->product(c->size, t, q, v, dq, dv, out, c->ctx);
-  for (int64_t k = 0; k < c->size; k++)
-    out[k] *= c->inverse_mass[k];
-  return value;
+  return c->product(c->size, t, q, v, dq, dv, out, c->ctx);
 }
 
 /* ---- making ---- */
@@ -54,6 +48,7 @@ static int32_t make_system(struct hk_coordinates *c) {
   if (status == HOOKE_OK)
     status = hooke_system_add_particles(c->system, particles, zeros, NULL, 1, &mass, NULL);
   if (status == HOOKE_OK) status = hooke_system_set_force(c->system, force, c->product ? product : NULL, c);
+  if (status == HOOKE_OK) c->system->force_scale = c->inverse_mass;
   if (status == HOOKE_OK) status = hooke_system_commit(c->system);
   hk_free(zeros);
   return status;
@@ -66,7 +61,7 @@ int32_t hk_coordinates_create(int64_t size, hooke_force *given, hooke_force_prod
   struct hk_coordinates *c = hk_new(1, sizeof *c);
   if (c == NULL) return HOOKE_NO_MEMORY;
   *c = (struct hk_coordinates){.size = size, .force = given, .product = derivative, .ctx = ctx};
-  c->inverse_mass = hk_new(size, sizeof(double));
+  c->inverse_mass = hk_new((size + 2) / 3 * 3, sizeof(double));
   for (int64_t k = 0; k < size && c->inverse_mass; k++)
     c->inverse_mass[k] = inverse_mass[mass_count == 1 ? 0 : k];
   status = c->inverse_mass ? make_system(c) : HOOKE_NO_MEMORY;

@@ -1,6 +1,6 @@
 /* Any q'' = W f(t, q, v) of generalized coordinates, as a system of particles of mass 1: each row of x y z
- * holds three coordinates, the last row is filled up with zeros, and its callback force is W f. So all that
- * takes a system takes these. */
+ * holds three coordinates, the last row is filled up with zeros, and its callback force is f, which the system
+ * scales by W. So all that takes a system takes these. */
 #ifndef HOOKE_INTEGRATE_COORDINATES_H
 #define HOOKE_INTEGRATE_COORDINATES_H
 
@@ -11,7 +11,7 @@ struct hk_coordinates {
   hooke_force *force;
   hooke_force_product *product; /* may be NULL */
   void *ctx;
-  double *inverse_mass; /* size */
+  double *inverse_mass; /* those of all rows */
   hooke_system *system; /* committed */
 };
 

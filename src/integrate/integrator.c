@@ -8,6 +8,7 @@
 #include "core/status.h"
 #include "integrate/solve/reduced.h"
 #include "model/callbacks.h"
+#include "model/force/force.h"
 #include "model/system.h"
 
 #include <math.h>
@@ -107,7 +108,7 @@ int32_t hooke_integrator_create_second_order(int64_t size, hooke_force *force, h
 int32_t hooke_integrator_create_first_order(int64_t size, hooke_rate *rate, void *ctx,
                                             const hooke_options *options, hooke_integrator **out) {
   hooke_integrator *it = NULL;
-  int32_t status = hk_size_check(size, 7); /* with its slope, a copy, and four stages */
+  int32_t status = hk_size_check(size, 9); /* with its slope, copies of both, a copy, and four stages */
   if (status == HOOKE_OK) status = create(options, &it);
   if (it == NULL) return status;
   it->rate = rate;
@@ -118,7 +119,8 @@ int32_t hooke_integrator_create_first_order(int64_t size, hooke_rate *rate, void
   if (status == HOOKE_OK) {
     it->x = hk_new(2 * size, sizeof(double));
     it->slope = it->x ? it->x + size : NULL;
-    if (it->x == NULL) status = HOOKE_NO_MEMORY;
+    it->rows = hk_rows_new(2 * size);
+    if (it->x == NULL || it->rows == NULL) status = HOOKE_NO_MEMORY;
   }
   return finish(it, status, out);
 }
@@ -137,6 +139,7 @@ void hooke_integrator_destroy(hooke_integrator *it) {
   hooke_options_destroy(it->options);
   hk_coordinates_destroy(it->coordinates);
   hk_free(it->x);
+  hooke_rows_hold(it->rows, -1);
   hk_handle_free(it);
 }
 

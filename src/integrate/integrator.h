@@ -92,6 +92,7 @@ struct hooke_integrator {
   hooke_rate *rate;
   void *rate_ctx;
   double *x, *slope; /* size each */
+  double *rows;      /* x and its rate, for the callback */
 
   int64_t size; /* numbers in q */
   void *own;    /* the method's own data */

@@ -39,6 +39,7 @@ struct hooke_system {
   hooke_force *force;
   hooke_force_product *force_product;
   void *force_ctx;
+  const double *force_scale; /* factors of the callback's force, 3 a particle; NULL: 1 */
 
   int64_t group_count;
   struct hk_group *group;

@@ -4,6 +4,7 @@
 #include "core/memory.h"
 #include "core/status.h"
 #include "model/force/drive.h"
+#include "model/force/force.h"
 #include "model/system.h"
 
 #include <string.h>
@@ -41,7 +42,7 @@ int32_t hk_state_check_system(const hooke_state *state, const hooke_system *syst
 static int32_t place_driven(const hooke_system *system, hooke_state *state) {
   for (int64_t g = 0; g < system->drive_count; g++) {
     const struct hk_drive_group *drive = &system->drive[g];
-    double *q = hk_new(6 * drive->count, sizeof(double));
+    double *q = hk_rows_new(6 * drive->count);
     if (q == NULL) return HOOKE_NO_MEMORY;
     double *v = q + 3 * drive->count;
     const int32_t value = hk_drive_evaluate(drive, 0.0, q, v);
@@ -49,7 +50,7 @@ static int32_t place_driven(const hooke_system *system, hooke_state *state) {
       memcpy(state->q + 3 * (int64_t)drive->particle[k], q + 3 * k, 3 * sizeof(double));
       memcpy(state->v + 3 * (int64_t)drive->particle[k], v + 3 * k, 3 * sizeof(double));
     }
-    hk_free(q);
+    hooke_rows_hold(q, -1);
     if (value != 0) return hk_fail(HOOKE_STOPPED, NULL, "a drive callback returned %d at t = 0", (int)value);
   }
   return HOOKE_OK;

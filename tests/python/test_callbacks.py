@@ -190,6 +190,25 @@ def test_what_is_kept_outlives_everything():
     assert (done.returncode, done.stderr, done.stdout) == (0, "", "144 kept\n")
 
 
+def test_a_product_that_is_asked_for_may_be_kept():
+    kept = []
+
+    def product(t, q, v, dq, dv, out):
+        out -= dq
+        kept.append((q, v, dq, dv, out))
+
+    system = build_six_particles()
+    system.set_force(lambda *_: None, product)
+    given = np.random.default_rng(2).normal(size=(4, 6, 3))
+    found = system.derivative_product(*given)
+    del system
+    gc.collect()
+    churn = [np.full(90, np.nan) for _ in range(100)]
+    np.testing.assert_array_equal(kept[0][:4], given)
+    np.testing.assert_array_equal(kept[0][4], found)
+    assert len(churn) == 100
+
+
 def test_an_exception_may_keep_arrays():
     def force(t, q, v, force):
         raise Oops(q, force)

@@ -2,6 +2,7 @@
 or nothing of hooke reads it. (unit/checkpoint does so with every byte of a checkpoint.)"""
 
 import shutil
+import zlib
 
 import h5py
 import numpy as np
@@ -139,11 +140,63 @@ def test_an_older_file_says_what_is_not_covered(path):
     assert found and found.texts["parts"] == "not-covered"
 
 
-def test_a_false_error_is_unknown(path):
+@pytest.mark.parametrize("name", ["error", "error_by", "error_reason"])
+def test_a_false_error_is_refused(path, name):
     known = hooke.open(path).error
     assert known is not None and known.estimate > 0
+    change(path, f"hooke/{name}", None, bit=True)
+    assert fault(path).endswith("is damaged: the outcome of its run, its number of frames or its error are not those "
+                                "that were written, by their check value")
+
+
+def test_an_error_is_of_the_run_as_it_ended(path):
+    """Numbers that are not yet there as a whole, or are of an earlier end of the run, count for nothing."""
     with h5py.File(path, "r+") as file:
-        file["hooke/error"][0] /= 2
-    error = hooke.open(path).error
-    assert error.by is None and "damaged" in error.reason and np.isnan(error.estimate) and np.isnan(error.rms)
-    assert "the error of its run is not the one that was written" in fault(path)
+        file["hooke/file_check"][0] = end(file)
+        file["hooke/error"][1] *= 2
+    out = hooke.open(path)
+    assert out.error is None and np.isnan(out._numbers("error")).all()
+    assert fault(path) == ""
+
+
+def description(file):
+    """The check value of what is known before the run, as documented."""
+    value = b""
+    for group in file["hooke"], file["hooke/options"]:
+        for name in sorted(set(group.attrs) - {"run"}):
+            thing = group.attrs[name]
+            value += name.encode() + b"\0"
+            value += thing.encode() + b"\0" if isinstance(thing, str) else np.asarray(thing, float).tobytes()
+    for name in "particles/all/mass", "particles/all/species", "connectivity/springs", "hooke/rest_length":
+        value += np.asarray(file[name], float).tobytes()
+    return zlib.crc32(value + file["hooke/scene"][()])
+
+
+def end(file):
+    """The check value of a run that is over before its error is known."""
+    outcome = file["hooke/status"][()].ljust(16, b"\0") + file["hooke/beyond"][:].tobytes()
+    return zlib.crc32(outcome + np.int64(len(file["particles/all/position/time"])).tobytes(), description(file))
+
+
+def test_the_check_value_is_continued(path, tmp_path):
+    """From the name of the run to its outcome to its error."""
+    hooke.run(hooke.open(path).scene, output=tmp_path / "bare.h5", estimate=False)
+    with h5py.File(path) as file, h5py.File(tmp_path / "bare.h5") as bare:
+        for each in file, bare:
+            run = each["hooke"].attrs["run"]
+            assert int(run[24:], 16) == zlib.crc32(run[:24].encode(), description(each))
+        error = file["hooke/error"][:].tobytes() + file["hooke/error_by"][()].ljust(16, b"\0")
+        error += file["hooke/error_reason"][()].ljust(256, b"\0")
+        assert file["hooke/file_check"][:] == zlib.crc32(error, end(file))
+        assert bare["hooke/file_check"][:] == end(bare)
+    assert hooke.open(tmp_path / "bare.h5").error is None and fault(tmp_path / "bare.h5") == ""
+
+
+@pytest.mark.parametrize("name", ["hooke/scene", "hooke/rest_length", "hooke/options method", "hooke run"])
+def test_an_unfinished_run_of_another_description_is_refused(path, name):
+    with h5py.File(path, "r+") as file:
+        file["hooke/status"][...] = b"running"
+    hooke.open(path)
+    change(path, *(name.split() + [None])[:2], bit=False)
+    with pytest.raises(hooke.BadValue, match="damaged: the name of its run, its scene, options, masses or springs"):
+        hooke.open(path)

@@ -123,7 +123,11 @@ int32_t hk_integrator_hold(hooke_integrator *it, double t) {
 
 int32_t hk_integrator_rate(hooke_integrator *it, double t, const double *x, double *slope) {
   it->count.force_evaluations++;
-  const int32_t value = it->rate(it->size, t, x, slope, it->rate_ctx);
+  const size_t bytes = (size_t)it->size * sizeof *x;
+  if (hk_rows_renew(2 * it->size, &it->rows) != HOOKE_OK) return HOOKE_NO_MEMORY;
+  memcpy(it->rows, x, bytes);
+  const int32_t value = it->rate(it->size, t, it->rows, it->rows + it->size, it->rate_ctx);
+  memcpy(slope, it->rows + it->size, bytes);
   if (value == 0) return HOOKE_OK;
   it->stop_value = value;
   return hk_fail(HOOKE_STOPPED, NULL, "the rate callback returned %d at t = %.6g s", (int)value, t);

@@ -73,7 +73,7 @@ static double product_of(const hooke_integrator *it, const struct hk_unknowns *u
  * damping of the result. A few are enough: the mean over the fastest modes is needed. Frequency 0 if nothing
  * is stiff. */
 static int32_t find_fastest_modes(hooke_integrator *it, struct hk_order_choice *c, const double *y) {
-  const struct hk_unknowns *u = &((const struct hk_sundials *)it->own)->unknowns;
+  struct hk_unknowns *u = &((struct hk_sundials *)it->own)->unknowns;
   const int64_t half = u->size / 2;
   c->frequency = c->damping = 0.0;
   double *x = c->scratch, *p = x + u->size, squared = 0.0;

@@ -50,24 +50,22 @@ int32_t hk_reduced_create(hooke_integrator *it, int32_t kind, struct hk_reduced 
   const int32_t symmetric = kind == HOOKE_REDUCED_SYMMETRIC;
   const int64_t n = system->particle_count, m = system->springs->count, vectors = vectors_of[kind];
   const int64_t rows = !symmetric ? 15 * n : hk_elements_of(system, hk_force_is_kept) > 0 ? 6 * n : 0;
-  const int64_t numbers = (symmetric ? 3 : 7) * m + 25 * n + 3 * n * vectors + rows;
+  const int64_t numbers = (symmetric ? 3 : 7) * m + 25 * n + 3 * n * vectors;
   double *block = hk_new(numbers, sizeof(double));
   if (block == NULL) return HOOKE_NO_MEMORY;
   *reduced = (struct hk_reduced){.integrator = it, .symmetric = symmetric};
   reduced->element_count = hk_elements_of(system, hk_force_is_kept);
   reduced->element = hk_new(reduced->element_count, sizeof *reduced->element);
-  if (reduced->element == NULL) {
-    hk_free(block);
-    return HOOKE_NO_MEMORY;
-  }
+  if (rows > 0) reduced->rows = hk_rows_new(rows);
+  reduced->diagonal = hk_part(&block, n);
+  if (reduced->element == NULL || (rows > 0 && reduced->rows == NULL)) return HOOKE_NO_MEMORY;
   it->own_memory +=
-      numbers * (int64_t)sizeof(double) + reduced->element_count * (int64_t)sizeof *reduced->element;
+      (numbers + rows) * (int64_t)sizeof(double) + reduced->element_count * (int64_t)sizeof *reduced->element;
   it->may_factor = kind == HOOKE_REDUCED_MINIMAL;
   for (int32_t k = 0; k < system->force_row_count && !symmetric; k++) {
     const struct hk_force_row *row = system->force_row[k];
     reduced->rows_needed |= !is_own(row) && (row->add_product || row->elements);
   }
-  reduced->diagonal = hk_part(&block, n);
   for (int a = 0; a < 3; a++)
     reduced->tangent.u[a] = reduced->tangent.e[a] = hk_part(&block, m);
   for (int a = 0; a < 3 && !symmetric; a++)
@@ -80,13 +78,13 @@ int32_t hk_reduced_create(hooke_integrator *it, int32_t kind, struct hk_reduced 
   reduced->place = hk_part(&block, 3 * n);
   reduced->moved = hk_part(&block, 3 * n);
   reduced->krylov = hk_part(&block, 3 * n * vectors);
-  if (!symmetric || rows > 0) reduced->rows = hk_part(&block, rows);
   if (kind != HOOKE_REDUCED_GENERAL) return HOOKE_OK;
   const int32_t status = read_linear_solver(reduced);
   return status == HOOKE_OK ? prepare_direct(reduced) : status;
 }
 
 void hk_reduced_release(struct hk_reduced *reduced) {
+  hooke_rows_hold(reduced->rows, -1);
   hk_free(reduced->diagonal);
   hk_free(reduced->element);
   hk_factor_destroy(reduced->whole);
@@ -185,12 +183,9 @@ void hk_reduced_set(struct hk_reduced *reduced, double t, double alpha, double b
  */
 static int32_t multiply_rows(struct hk_reduced *reduced, int all) {
   hooke_integrator *it = reduced->integrator;
-  const int64_t size = it->size;
-  double *rows = reduced->rows, *out = rows + 4 * size;
   int32_t stop_value = 0;
-  const struct hk_point point = {reduced->t,      rows,       rows + size, rows + 2 * size,
-                                 rows + 3 * size, &stop_value};
-  const int32_t status = hk_forces_product(it->system, &point, all ? NULL : is_own, out);
+  const int32_t status =
+      hk_forces_product_in_rows(it->system, reduced->t, all ? NULL : is_own, &reduced->rows, &stop_value);
   if (status == HOOKE_STOPPED) it->stop_value = stop_value;
   return status;
 }

@@ -159,7 +159,7 @@ int hk_sundials_product(N_Vector direction, N_Vector product, sunrealtype t, N_V
                         void *ctx, N_Vector scratch) {
   (void)y, (void)slope, (void)scratch;
   hooke_integrator *it = ctx;
-  const struct hk_sundials *own = it->own;
+  struct hk_sundials *own = it->own;
   return hk_unknowns_product(it, &own->unknowns, t, N_VGetArrayPointer(direction),
                              N_VGetArrayPointer(product));
 }

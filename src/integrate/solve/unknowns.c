@@ -40,14 +40,14 @@ int32_t hk_unknowns_create(hooke_integrator *it, int32_t products, struct hk_unk
   if (u->body_count > 0 && (u->push = hk_new(6 * u->body_count, sizeof(double))) == NULL)
     return HOOKE_NO_MEMORY;
   if (!products || !hk_unknowns_have_products(it, u)) return HOOKE_OK;
-  u->rows = hk_new(5 * it->size, sizeof(double));
+  u->rows = hk_rows_new(5 * it->size);
   it->own_memory += 5 * it->size * (int64_t)sizeof(double);
   return u->rows ? HOOKE_OK : HOOKE_NO_MEMORY;
 }
 
 void hk_unknowns_release(struct hk_unknowns *u) {
   hk_free(u->stretch);
-  hk_free(u->rows);
+  hooke_rows_hold(u->rows, -1);
   hk_free(u->push);
   *u = (struct hk_unknowns){0};
 }
@@ -215,23 +215,23 @@ int hk_unknowns_linearise(hooke_integrator *it, const struct hk_unknowns *u, dou
   return HOOKE_SLOPE_FINE;
 }
 
-int hk_unknowns_product(hooke_integrator *it, const struct hk_unknowns *u, double t, const double *direction,
+int hk_unknowns_product(hooke_integrator *it, struct hk_unknowns *u, double t, const double *direction,
                         double *product) {
   if (u->free_count == 0) {
     product[0] = 0.0;
     return HOOKE_SLOPE_FINE;
   }
-  double *q = u->rows, *v = q + it->size, *dq = v + it->size, *dv = dq + it->size, *out = dv + it->size;
+  double *dq = u->rows + 2 * it->size;
   const int64_t m = u->free_count;
   spread_to_rows(u, direction, dq); /* constrained particles: zero from the start */
-  if (u->has_v) spread_to_rows(u, direction + 3 * m, dv);
+  if (u->has_v) spread_to_rows(u, direction + 3 * m, dq + it->size);
   it->count.derivative_products++;
   int32_t stop_value = 0;
-  const struct hk_point point = {t, q, v, dq, dv, &stop_value};
-  if (hk_forces_product(it->system, &point, NULL, out) != HOOKE_OK) {
+  if (hk_forces_product_in_rows(it->system, t, NULL, &u->rows, &stop_value) != HOOKE_OK) {
     it->stop_value = stop_value;
     return HOOKE_SLOPE_STOPPED;
   }
+  const double *out = u->rows + 4 * it->size;
   const int first = u->has_v ? 3 : 0;
   memcpy(product, direction + first * m, (size_t)(first * m) * sizeof(double));
   for (int64_t k = 0; k < u->stretch_count; k++) {

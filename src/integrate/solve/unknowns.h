@@ -67,7 +67,7 @@ int hk_unknowns_slope(hooke_integrator *integrator, const struct hk_unknowns *un
 /* Sets the point for products of a second-order problem; then product = (d phi/d y) direction there. */
 int hk_unknowns_linearise(hooke_integrator *integrator, const struct hk_unknowns *unknowns, double t,
                           const double *y);
-int hk_unknowns_product(hooke_integrator *integrator, const struct hk_unknowns *unknowns, double t,
+int hk_unknowns_product(hooke_integrator *integrator, struct hk_unknowns *unknowns, double t,
                         const double *direction, double *product);
 
 #endif

@@ -38,7 +38,7 @@ struct table {
 struct hooke_comparison_file {
   struct hk_h5_file file;
   struct table at;
-  int64_t status_at;
+  struct hk_h5md_places place;
   hooke_measurement *measurement;
   const struct hk_comparison *comparison; /* its object */
   const struct hk_table *rows;
@@ -139,8 +139,8 @@ static int32_t fill(struct hk_h5_guard *guard, const char *path, const char *sce
   if (result >= 0) result = make_recordings(file);
   if (result >= 0) result = hk_h5md_connect(file->file.id, c->system, "all");
   if (result >= 0) result = make_table(file);
-  if (result >= 0) result = hk_h5md_find_status(file->file.id, &file->status_at);
-  if (result < 0) return hk_h5_fail(guard, path, "make room for all frames");
+  if (result >= 0) hk_h5md_find(file->file.id, &file->place);
+  if (result < 0 || file->place.status < 0) return hk_h5_fail(guard, path, "make room for all frames");
   status = hk_h5_file_settle(guard, &file->file);
   for (int64_t k = 0; k <= c->row_count; k++)
     file->writer[k].file.descriptor = file->file.atomic.descriptor;
@@ -330,12 +330,12 @@ static int32_t finish(hooke_comparison_file *file) {
   const int32_t own = hk_atomic_file_require_own(&file->file.atomic);
   if (own != HOOKE_OK) return own;
   if (file->failure[0]) {
-    hk_h5md_write_status(file->file.atomic.descriptor, file->status_at, HOOKE_IO_FAILED);
+    hk_h5md_write_status(file->file.atomic.descriptor, file->place.status, HOOKE_IO_FAILED);
     return hk_fail(HOOKE_IO_FAILED, NULL, "%s", file->failure);
   }
   int error = write_table(file);
   if (error == 0)
-    error = hk_h5md_write_status(file->file.atomic.descriptor, file->status_at, outcome_of(file));
+    error = hk_h5md_write_status(file->file.atomic.descriptor, file->place.status, outcome_of(file));
   if (error) return hk_file_fail(file->file.atomic.path, "write the table of the comparison", error);
   return is_short(file) ? shorten(file) : hk_h5_file_close(&file->file);
 }

@@ -8,36 +8,16 @@
 
 #if HOOKE_HAVE_HDF5
 
-#include "io/file/bytes.h"
 #include "io/trajectory/error_h5.h"
 #include "io/trajectory/file_check_h5.h"
-#include "io/hdf5/file_h5.h"
-#include "io/trajectory/h5md_h5.h"
-#include "io/file/atomic_file.h"
+#include "io/trajectory/record_h5.h"
 #include "measure/estimate/estimate.h"
 
 #include <stdio.h>
 
-struct places {
-  int64_t numbers, by, reason, check;
-};
-
-static int32_t find_places(struct hk_h5_guard *guard, const struct hk_h5_file *file, struct places *at) {
-  hid_t id;
-  const int32_t status = hk_h5_file_open(guard, file, &id);
-  if (status != HOOKE_OK) return status;
-  at->numbers = hk_h5md_place(id, "hooke/error", HOOKE_ERROR_COUNT * sizeof(double));
-  at->by = hk_h5md_place(id, "hooke/error_by", HOOKE_ERROR_BY);
-  at->reason = hk_h5md_place(id, "hooke/error_reason", HOOKE_ERROR_REASON);
-  at->check = hk_h5md_find_check(id);
-  H5Fclose(id);
-  if (guard->no_memory) return hk_h5_fail(guard, file->atomic.path, "find the room for the error");
-  if (at->numbers >= 0 && at->by >= 0 && at->reason >= 0) return HOOKE_OK;
-  return hk_fail(HOOKE_BAD_VALUE, NULL, "%s: is no trajectory that has room for the error of its run",
-                 file->atomic.path);
-}
-
-static int write_at(int descriptor, const struct places *at, const hooke_measurement *estimate) {
+/* An error that is not yet there as a whole counts as unknown. */
+static int write_at(int descriptor, const struct hooke_record *record, const hooke_measurement *estimate) {
+  const struct hk_h5md_places *at = &record->at;
   double number[HOOKE_ERROR_COUNT];
   char by[HOOKE_ERROR_BY] = {0}, reason[HOOKE_ERROR_REASON] = {0};
   const char *source = hooke_measurement_text(estimate, "estimate", 0, "by");
@@ -45,34 +25,37 @@ static int write_at(int descriptor, const struct places *at, const hooke_measure
     number[k] = hooke_measurement_number(estimate, "estimate", 0, hk_error_number[k]);
   snprintf(by, sizeof by, "%s", source ? source : "");
   snprintf(reason, sizeof reason, "%s", hooke_measurement_text(estimate, "estimate", 0, "reason"));
-  int error = hk_bytes_write(descriptor, at->reason, sizeof reason, reason);
-  if (error == 0) error = hk_bytes_write(descriptor, at->numbers, sizeof number, number);
-  if (error == 0) error = hk_bytes_write(descriptor, at->by, sizeof by, by);
-  const uint32_t check = hk_file_check_error(number, by, reason);
-  return error ? error : hk_file_check_write(descriptor, at->check, HOOKE_CHECK_ERROR, check);
+  int error = hk_h5md_write(descriptor, at->check, sizeof record->outcome, &record->outcome);
+  if (error == 0) error = hk_h5md_write(descriptor, at->error_reason, sizeof reason, reason);
+  if (error == 0) error = hk_h5md_write(descriptor, at->error, sizeof number, number);
+  if (error == 0) error = hk_h5md_write(descriptor, at->error_by, sizeof by, by);
+  const uint32_t check = hk_file_check_error(record->outcome, number, by, reason);
+  return error ? error : hk_h5md_write(descriptor, at->check, sizeof check, &check);
 }
 
-static int32_t write_to(struct hk_h5_guard *guard, struct hk_h5_file *file,
+static int32_t write_to(struct hk_h5_file *file, const struct hooke_record *record,
                         const hooke_measurement *estimate) {
-  struct places at;
-  const int32_t status = find_places(guard, file, &at);
-  if (status != HOOKE_OK) return status;
-  const int error = write_at(file->atomic.descriptor, &at, estimate);
-  return error ? hk_file_fail(file->atomic.path, "write the error of the run", error)
-               : hk_h5_file_close(file);
+  const struct hk_h5md_places *at = &record->at;
+  const char *path = file->atomic.path;
+  if (at->error < 0 || at->error_by < 0 || at->error_reason < 0)
+    return hk_fail(HOOKE_BAD_VALUE, NULL, "%s: is no trajectory that has room for the error of its run",
+                   path);
+  if (record->is_covered && !hk_h5md_is_end(record->status))
+    return hk_fail(HOOKE_BAD_VALUE, NULL, "%s: is of a run that is not over, which has no error yet", path);
+  const int error = write_at(file->atomic.descriptor, record, estimate);
+  return error ? hk_file_fail(path, "write the error of the run", error) : hk_h5_file_close(file);
 }
 
 int32_t hooke_estimate_write_h5(const hooke_measurement *estimate, const char *path) {
   HOOKE_KEEP_ERRNO;
   struct hk_h5_file file = HOOKE_NO_H5_FILE;
-  struct hk_h5_guard guard;
+  hooke_record *record = NULL;
   int32_t status = hk_measurement_require(estimate, &hk_estimate_kind, "hooke_estimate_write_h5");
-  if (status != HOOKE_OK) return status;
-  hk_h5_guard_begin(&guard);
-  status = hk_atomic_file_lock(path, &file.atomic);
-  if (status == HOOKE_OK) status = write_to(&guard, &file, estimate);
+  if (status == HOOKE_OK) status = hk_atomic_file_lock(path, &file.atomic);
+  if (status == HOOKE_OK) status = hooke_record_open(file.atomic.path, &record);
+  if (status == HOOKE_OK) status = write_to(&file, record, estimate);
+  hooke_record_close(record);
   hk_h5_file_release(&file);
-  hk_h5_guard_end(&guard);
   return status;
 }
 

@@ -4,7 +4,6 @@
 #if HOOKE_HAVE_HDF5
 
 #include "core/crc32.h"
-#include "io/file/bytes.h"
 #include "io/hdf5/array_open_h5.h"
 #include "io/hdf5/dataset_h5.h"
 #include "io/hdf5/object_h5.h"
@@ -12,13 +11,8 @@
 #include "io/trajectory/file_check_h5.h"
 #include "io/trajectory/h5md_h5.h"
 
-#include <math.h>
 #include <stdio.h>
 #include <string.h>
-
-static const char array[] = "/hooke/file_check";
-
-/* ---- values ---- */
 
 /* A text in a room of `bytes`, filled with zeros. */
 static uint32_t add_padded(uint32_t value, const char *text, size_t bytes) {
@@ -27,20 +21,20 @@ static uint32_t add_padded(uint32_t value, const char *text, size_t bytes) {
   return hk_crc32(value, room, (int64_t)bytes);
 }
 
-int32_t hk_file_check_run(const char *run) {
+int32_t hk_file_check_run(uint32_t description, const char *run) {
   char digits[HOOKE_RUN_SIZE - HOOKE_RUN_RANDOM];
   if (strlen(run) != HOOKE_RUN_SIZE - 1) return 0;
-  snprintf(digits, sizeof digits, "%08x", (unsigned)hk_crc32(0, run, HOOKE_RUN_RANDOM));
+  snprintf(digits, sizeof digits, "%08x", (unsigned)hk_crc32(description, run, HOOKE_RUN_RANDOM));
   return strcmp(run + HOOKE_RUN_RANDOM, digits) == 0;
 }
 
-uint32_t hk_file_check_outcome(const char *status, int64_t beyond, int64_t frames) {
-  const uint32_t value = hk_crc32(add_padded(0, status, HOOKE_H5MD_STATUS), &beyond, sizeof beyond);
-  return hk_crc32(value, &frames, sizeof frames);
+uint32_t hk_file_check_outcome(uint32_t description, const char *status, int64_t beyond, int64_t frames) {
+  const uint32_t value = add_padded(description, status, HOOKE_H5MD_STATUS);
+  return hk_crc32(hk_crc32(value, &beyond, sizeof beyond), &frames, sizeof frames);
 }
 
-uint32_t hk_file_check_error(const double *numbers, const char *by, const char *reason) {
-  const uint32_t value = hk_crc32(0, numbers, HOOKE_ERROR_COUNT * sizeof *numbers);
+uint32_t hk_file_check_error(uint32_t outcome, const double *numbers, const char *by, const char *reason) {
+  const uint32_t value = hk_crc32(outcome, numbers, HOOKE_ERROR_COUNT * sizeof *numbers);
   return add_padded(add_padded(value, by, HOOKE_ERROR_BY), reason, HOOKE_ERROR_REASON);
 }
 
@@ -112,37 +106,18 @@ int32_t hk_file_check_description(struct hk_h5_guard *guard, hid_t file, const c
   return status;
 }
 
-/* ---- the array ---- */
-
-int32_t hk_file_check_create(struct hk_h5_guard *guard, hid_t file, const char *path, const char *scene) {
-  const hsize_t size = HOOKE_FILE_CHECKS;
-  double unknown[HOOKE_ERROR_COUNT];
-  uint32_t value[HOOKE_FILE_CHECKS] = {0};
-  for (int k = 0; k < HOOKE_ERROR_COUNT; k++)
-    unknown[k] = NAN;
-  value[HOOKE_CHECK_ERROR] = hk_file_check_error(unknown, "", "");
-  const int32_t status = hk_file_check_description(guard, file, path, scene, &value[HOOKE_CHECK_DESCRIPTION]);
-  if (status != HOOKE_OK) return status;
-  const herr_t result = hk_h5_array_of(file, array, H5T_NATIVE_UINT32, H5T_NATIVE_UINT32, 1, &size, value);
-  return result < 0 ? hk_h5_fail(guard, path, "write its check values") : HOOKE_OK;
-}
-
-int32_t hk_file_check_read(struct hk_h5_guard *guard, hid_t file, const char *path, uint32_t value[],
+int32_t hk_file_check_read(struct hk_h5_guard *guard, hid_t file, const char *path, uint32_t *value,
                            int32_t *there) {
+  static const char name[] = "/hooke/file_check";
   struct hk_dataset data;
-  int32_t status = hk_dataset_find(guard, file, path, array, &data);
+  int32_t status = hk_dataset_find(guard, file, path, name, &data);
   *there = status == HOOKE_OK && data.id >= 0;
-  if (*there && (data.rank != 1 || data.size[0] != HOOKE_FILE_CHECKS))
-    status = hk_dataset_refuse(path, array, "is not one of 3 check values");
+  if (*there && (data.rank != 1 || data.size[0] != 1))
+    status = hk_dataset_refuse(path, name, "is not one check value");
   else if (*there && H5Dread(data.id, H5T_NATIVE_UINT32, H5S_ALL, H5S_ALL, H5P_DEFAULT, value) < 0)
-    status = hk_h5_fail(guard, path, "read its check values");
+    status = hk_h5_fail(guard, path, "read its check value");
   hk_h5_drop(data.id);
   return status;
-}
-
-int hk_file_check_write(int descriptor, int64_t at, int which, uint32_t value) {
-  const int64_t size = (int64_t)sizeof value;
-  return at < 0 ? 0 : hk_bytes_write(descriptor, at + which * size, size, &value);
 }
 
 #endif

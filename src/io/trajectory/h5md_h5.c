@@ -102,7 +102,7 @@ herr_t hk_h5md_describe(hid_t file, const hooke_system *system, const char *meth
   return result;
 }
 
-int32_t hk_h5md_new_run(char run[HOOKE_RUN_SIZE]) {
+int32_t hk_h5md_new_run(uint32_t description, char run[HOOKE_RUN_SIZE]) {
   unsigned char random[HOOKE_RUN_RANDOM / 2];
   char reason[HOOKE_ERROR_SIZE];
   if (hk_os_random(random, sizeof random) != 0)
@@ -111,7 +111,7 @@ int32_t hk_h5md_new_run(char run[HOOKE_RUN_SIZE]) {
   for (size_t k = 0; k < sizeof random; k++)
     snprintf(run + 2 * k, 3, "%02x", random[k]);
   snprintf(run + HOOKE_RUN_RANDOM, HOOKE_RUN_SIZE - HOOKE_RUN_RANDOM, "%08x",
-           (unsigned)hk_crc32(0, run, HOOKE_RUN_RANDOM));
+           (unsigned)hk_crc32(description, run, HOOKE_RUN_RANDOM));
   return HOOKE_OK;
 }
 
@@ -122,27 +122,21 @@ herr_t hk_h5md_write_run(hid_t file, const char *run) {
   return result;
 }
 
-herr_t hk_h5md_write_beyond_room(hid_t file) {
-  const hsize_t count = 1;
+herr_t hk_h5md_make_room(hid_t file) {
+  const hsize_t one = 1, count = HOOKE_ERROR_COUNT;
   const int64_t none = -1;
-  hid_t group = H5Gopen2(file, "hooke", H5P_DEFAULT);
-  hid_t beyond = group < 0 ? -1 : hk_h5_array(group, "beyond", H5T_NATIVE_INT64, 1, &count, &none);
-  const herr_t result = beyond < 0 ? -1 : 0;
-  hk_h5_drop(beyond);
-  hk_h5_drop(group);
-  return result;
-}
-
-herr_t hk_h5md_write_error_room(hid_t file) {
-  const hsize_t count = HOOKE_ERROR_COUNT;
   const double unknown = NAN;
   hid_t group = H5Gopen2(file, "hooke", H5P_DEFAULT);
-  hid_t numbers = group < 0 ? -1 : hk_h5_array(group, "error", H5T_IEEE_F64LE, 1, &count, &unknown);
+  hid_t beyond = group < 0 ? -1 : hk_h5_array(group, "beyond", H5T_NATIVE_INT64, 1, &one, &none);
+  hid_t check = beyond < 0 ? -1 : hk_h5_array(group, "file_check", H5T_NATIVE_UINT32, 1, &one, NULL);
+  hid_t error = check < 0 ? -1 : hk_h5_array(group, "error", H5T_IEEE_F64LE, 1, &count, &unknown);
   herr_t result =
-      numbers < 0 ? -1 : hk_h5_text_attributes(numbers, "numbers", HOOKE_ERROR_COUNT, hk_error_number);
+      error < 0 ? -1 : hk_h5_text_attributes(error, "numbers", HOOKE_ERROR_COUNT, hk_error_number);
   if (result >= 0) result = write_text(group, "error_by", HOOKE_ERROR_BY, "");
   if (result >= 0) result = write_text(group, "error_reason", HOOKE_ERROR_REASON, "");
-  hk_h5_drop(numbers);
+  hk_h5_drop(error);
+  hk_h5_drop(check);
+  hk_h5_drop(beyond);
   hk_h5_drop(group);
   return result;
 }
@@ -205,7 +199,7 @@ herr_t hk_h5md_copy(hid_t from, hid_t to, struct hk_h5_copy *copy) {
   return result;
 }
 
-static const char *outcome_word(int32_t outcome) {
+const char *hk_h5md_word(int32_t outcome) {
   switch (outcome) {
   case HOOKE_OK:
     return "finished";
@@ -224,34 +218,31 @@ static const char *outcome_word(int32_t outcome) {
   }
 }
 
-int64_t hk_h5md_place(hid_t file, const char *name, hsize_t bytes) {
-  hid_t dataset = H5Dopen2(file, name, H5P_DEFAULT);
-  const haddr_t first = dataset < 0 ? HADDR_UNDEF : H5Dget_offset(dataset);
-  const int fits = first != HADDR_UNDEF && H5Dget_storage_size(dataset) == bytes;
-  hk_h5_drop(dataset);
+/* Offset of an array of so many bytes in the file; -1 if there is none. */
+static int64_t place(hid_t group, const char *name, hsize_t bytes) {
+  hid_t data = hk_h5_open_own(group, name);
+  const int is_own = data >= 0 && H5Iget_type(data) == H5I_DATASET && !hk_h5_foreign(data);
+  const haddr_t first = is_own ? H5Dget_offset(data) : HADDR_UNDEF;
+  const int fits = first != HADDR_UNDEF && H5Dget_storage_size(data) == bytes;
+  hk_h5_drop(data);
   return fits ? (int64_t)first : -1;
 }
 
-herr_t hk_h5md_find_status(hid_t file, int64_t *at) {
-  *at = hk_h5md_place(file, "hooke/status", HOOKE_H5MD_STATUS);
-  return *at < 0 ? -1 : 0;
-}
-
-int hk_h5md_seal(int descriptor, int64_t check, int64_t beyond, int32_t outcome, int64_t frames) {
-  int64_t frame = -1;
-  const int error = beyond < 0 ? 0 : hk_bytes_read(descriptor, beyond, sizeof frame, &frame);
-  const uint32_t value = hk_file_check_outcome(outcome_word(outcome), frame, frames);
-  return error ? error : hk_file_check_write(descriptor, check, HOOKE_CHECK_OUTCOME, value);
+void hk_h5md_find(hid_t file, struct hk_h5md_places *at) {
+  hid_t group = hk_h5_open_own(file, "hooke");
+  at->status = place(group, "status", HOOKE_H5MD_STATUS);
+  at->beyond = place(group, "beyond", sizeof(int64_t));
+  at->check = place(group, "file_check", sizeof(uint32_t));
+  at->error = place(group, "error", HOOKE_ERROR_COUNT * sizeof(double));
+  at->error_by = place(group, "error_by", HOOKE_ERROR_BY);
+  at->error_reason = place(group, "error_reason", HOOKE_ERROR_REASON);
+  hk_h5_drop(group);
 }
 
 int hk_h5md_write_status(int descriptor, int64_t at, int32_t outcome) {
   char word[HOOKE_H5MD_STATUS] = {0};
-  snprintf(word, sizeof word, "%s", outcome_word(outcome));
+  snprintf(word, sizeof word, "%s", hk_h5md_word(outcome));
   return hk_bytes_write(descriptor, at, sizeof word, word);
-}
-
-int64_t hk_h5md_find_check(hid_t file) {
-  return hk_h5md_place(file, "hooke/file_check", HOOKE_FILE_CHECKS * sizeof(uint32_t));
 }
 
 int32_t hk_h5md_is_end(const char *status) {
@@ -268,17 +259,13 @@ int32_t hk_h5md_is_over(hid_t file) {
   return is_over;
 }
 
-int64_t hk_h5md_find_beyond(hid_t file) {
-  return hk_h5md_place(file, "hooke/beyond", sizeof(int64_t));
-}
-
-int hk_h5md_write_beyond(int descriptor, int64_t at, int64_t frame) {
-  return at < 0 ? 0 : hk_bytes_write(descriptor, at, sizeof frame, &frame);
+int hk_h5md_write(int descriptor, int64_t at, int64_t bytes, const void *data) {
+  return at < 0 ? 0 : hk_bytes_write(descriptor, at, bytes, data);
 }
 
 herr_t hk_h5md_set_status(hid_t file, int32_t outcome) {
   hid_t dataset = H5Dopen2(file, "hooke/status", H5P_DEFAULT);
-  herr_t result = dataset < 0 ? -1 : hk_h5_write_text(dataset, 0, outcome_word(outcome));
+  herr_t result = dataset < 0 ? -1 : hk_h5_write_text(dataset, 0, hk_h5md_word(outcome));
   hk_h5_drop(dataset);
   return result;
 }

@@ -6,7 +6,7 @@
  *                            run has; `scene`: the text of the scene; `options`: an attribute for each
  *                            option of the run; `status`: "running" until the file is closed
  *   /hooke/rest_length       [springs]
- *   /hooke/file_check        [3] check values of everything but the frames (file_check_h5.h)
+ *   /hooke/file_check        [1] check value of everything but the frames (file_check_h5.h)
  *   /hooke/beyond            of a single run: the first frame after it diverged; -1: there is none
  *   /hooke/error             of a single run: HOOKE_ERROR_COUNT numbers, NaN until they are known; texts
  *                            `error_by`, `error_reason`
@@ -35,9 +35,13 @@ herr_t hk_h5md_write_options(hid_t where, const hooke_options *options);
 /* Writes /connectivity/springs and /hooke/rest_length; the particles group must exist. */
 herr_t hk_h5md_connect(hid_t file, const hooke_system *system, const char *group);
 
-/* The attribute `run` of /hooke: 24 random hexadecimal digits, their CRC-32 and a NUL. */
+/* Room for what is known later of a single run. Negative on failure. */
+herr_t hk_h5md_make_room(hid_t file);
+
+/* The attribute `run` of /hooke: 24 random hexadecimal digits, 8 of their check value (file_check_h5.h) and a
+ * NUL. */
 enum { HOOKE_RUN_RANDOM = 24, HOOKE_RUN_SIZE = 33 };
-int32_t hk_h5md_new_run(char run[HOOKE_RUN_SIZE]);
+int32_t hk_h5md_new_run(uint32_t description, char run[HOOKE_RUN_SIZE]);
 herr_t hk_h5md_write_run(hid_t file, const char *run);
 
 /* Recreates everything but particles, observables and check values in another file; hk_h5md_refer() has to
@@ -45,29 +49,21 @@ herr_t hk_h5md_write_run(hid_t file, const char *run);
 herr_t hk_h5md_copy(hid_t from, hid_t to, struct hk_h5_copy *copy);
 herr_t hk_h5md_refer(hid_t file, const char *group);
 
-/* Room for the first frame after divergence; where it is, -1 in older files; and writing it, 0 or the number
- * of the system's error. Negative on failure. */
-herr_t hk_h5md_write_beyond_room(hid_t file);
-int64_t hk_h5md_find_beyond(hid_t file);
-int hk_h5md_write_beyond(int descriptor, int64_t at, int64_t frame);
+/* Offsets of what is written as bytes, once HDF5 has closed the file; -1 for what an older one does not
+ * have. */
+struct hk_h5md_places {
+  int64_t status, beyond, check, error, error_by, error_reason;
+};
+void hk_h5md_find(hid_t file, struct hk_h5md_places *at);
 
-/* Room for the error of a run. Negative on failure. */
-herr_t hk_h5md_write_error_room(hid_t file);
+/* Writes bytes to one of them, nothing if it is not there: 0 or an errno. */
+int hk_h5md_write(int descriptor, int64_t at, int64_t bytes, const void *data);
 
-/* Offset of an array of so many bytes in the file; -1 if there is none. */
-int64_t hk_h5md_place(hid_t file, const char *name, hsize_t bytes);
-
-/* The status as bytes in a file that HDF5 has closed: its offset, negative on failure; and writing it, a word
- * for a status of hooke_integrator_run() or HOOKE_H5MD_RUNNING: returns 0 or an errno. The bytes are fewer
- * than a page, and aligned to a multiple of them: never torn. */
+/* The word for a status of hooke_integrator_run() or HOOKE_H5MD_RUNNING; and writing it: 0 or an errno. The
+ * bytes are fewer than a page, and aligned to a multiple of them: never torn. */
 enum { HOOKE_H5MD_RUNNING = 1000, HOOKE_H5MD_STATUS = 16 };
-herr_t hk_h5md_find_status(hid_t file, int64_t *at);
+const char *hk_h5md_word(int32_t outcome);
 int hk_h5md_write_status(int descriptor, int64_t at, int32_t outcome);
-
-/* Where the check values are (file_check_h5.h), -1 in older files; and writing that of an outcome and of the
- * number of frames, which has to be on the disk before the status: 0 or an errno. */
-int64_t hk_h5md_find_check(hid_t file);
-int hk_h5md_seal(int descriptor, int64_t check, int64_t beyond, int32_t outcome, int64_t frames);
 
 /* 1 if the run came to an end, by its status (NULL: unknown) or by its file: that has just the frames that
  * were written. */

@@ -15,8 +15,8 @@ double hk_record_time(const hooke_record *record, int64_t frame);
 
 /* HOOKE_BAD_VALUE unless a finished run has the frames that its options ask for. */
 int32_t hk_record_check_count(const hooke_record *record);
-/* What its check values say of everything but the frames: "checked", "damaged" if the error of the run is not
- * what was written (a file of which more is damaged is not opened), "not-covered" in older files. */
+/* What its check values say of everything but the frames: "checked", or "not-covered" in older files. A
+ * damaged file is not opened. */
 const char *hk_record_parts(const hooke_record *record);
 
 /* 0 for a file of several runs, such as a comparison or a study. */

@@ -54,7 +54,8 @@ static int32_t keep(hooke_record *record, const char *what) {
   snprintf(record->kept.dataset, sizeof record->kept.dataset, "%s", dataset);
   const int32_t read = hk_array_read(record->path, dataset, 0, 0, &record->kept.value, &record->kept.rows,
                                      &record->kept.columns);
-  const int unknown = record->is_error_damaged && strcmp(what, "error") == 0;
+  const int unknown = strcmp(what, "error") == 0 && !hooke_record_text(record, "error_by")[0] &&
+                      !hooke_record_text(record, "error_reason")[0];
   for (int64_t k = 0; read == HOOKE_OK && unknown && k < record->kept.rows * record->kept.columns; k++)
     record->kept.value[k] = NAN;
   return read;

@@ -106,6 +106,7 @@ static int32_t read_own(struct hooke_record *record, hid_t file) {
     if (record->fact[k] == NULL) status = HOOKE_NO_MEMORY;
   }
   record->is_run = has_attribute(group, "method");
+  hk_h5md_find(file, &record->at);
   if (status == HOOKE_OK) status = read_options(options, record->options);
   hk_h5_drop(options);
   hk_h5_drop(group);
@@ -126,70 +127,58 @@ static int32_t read_times(struct hooke_record *record, struct hk_h5_guard *guard
   return status;
 }
 
-/* 1 for one whole number, whose bytes are in this very file. */
-static int is_number_here(hid_t data) {
-  if (H5Iget_type(data) != H5I_DATASET || hk_h5_foreign(data)) return 0;
-  hid_t type = H5Dget_type(data), space = H5Dget_space(data), list = H5Dget_create_plist(data);
-  const int fits = type >= 0 && space >= 0 && list >= 0 && H5Tget_class(type) == H5T_INTEGER &&
-                   H5Sget_simple_extent_npoints(space) == 1 && H5Pget_layout(list) == H5D_CONTIGUOUS;
-  hk_h5_drop(list);
-  hk_h5_drop(space);
-  hk_h5_drop(type);
-  return fits;
-}
-
 /* Older files do not tell, and have none. */
 static int64_t read_beyond(struct hooke_record *record, hid_t file) {
-  hid_t group = hk_h5_open_own(file, "hooke"), data = hk_h5_open_own(group, "beyond");
   int64_t first = -1;
-  if (data >= 0 && is_number_here(data) &&
+  hid_t data = record->at.beyond < 0 ? -1 : H5Dopen2(file, "hooke/beyond", H5P_DEFAULT);
+  hid_t space = data < 0 ? -1 : H5Dget_space(data);
+  if (space >= 0 && H5Sget_simple_extent_npoints(space) == 1 &&
       H5Dread(data, H5T_NATIVE_INT64, H5S_ALL, H5S_ALL, H5P_DEFAULT, &first) < 0)
     first = -1;
   record->good_count = first > 0 && first < record->frame_count ? first : record->frame_count;
+  hk_h5_drop(space);
   hk_h5_drop(data);
-  hk_h5_drop(group);
   return first;
 }
 
 /* ---- whole or not ---- */
 
 static int32_t damaged(const struct hooke_record *record, const char *what) {
-  return hk_fail(HOOKE_BAD_VALUE, NULL, "%s is damaged: %s", record->path, what);
+  return hk_fail(HOOKE_BAD_VALUE, NULL,
+                 "%s is damaged: %s are not those that were written, by their check value", record->path,
+                 what);
 }
 
-/* Not known is better than wrong. */
 static int32_t check_error(struct hooke_record *record, struct hk_h5_guard *guard, hid_t file,
                            uint32_t stored) {
   double *number = NULL;
   int64_t rows = 0, columns = 0;
-  const int32_t status =
+  int32_t status =
       hk_array_read_open(guard, file, record->path, "/hooke/error", 0, 0, 0, &number, &rows, &columns);
-  if (status != HOOKE_OK) return status;
-  record->is_error_damaged = rows * columns != HOOKE_ERROR_COUNT || !record->error_by ||
-                             !record->error_reason ||
-                             hk_file_check_error(number, record->error_by, record->error_reason) != stored;
+  if (status == HOOKE_OK &&
+      (rows * columns != HOOKE_ERROR_COUNT || !record->error_by || !record->error_reason ||
+       hk_file_check_error(record->outcome, number, record->error_by, record->error_reason) != stored))
+    status = damaged(record, "the outcome of its run, its number of frames or its error");
   hk_free(number);
-  return HOOKE_OK;
+  return status;
 }
 
+/* An error is of the run as it ended. */
 static int32_t check_parts(struct hooke_record *record, struct hk_h5_guard *guard, hid_t file,
                            int64_t beyond) {
-  uint32_t stored[HOOKE_FILE_CHECKS], value = 0;
-  int32_t status = hk_file_check_read(guard, file, record->path, stored, &record->is_covered);
+  uint32_t stored = 0;
+  int32_t status = hk_file_check_read(guard, file, record->path, &stored, &record->is_covered);
   if (status != HOOKE_OK || !record->is_covered || !record->status) return status;
-  status = hk_file_check_description(guard, file, record->path, record->scene, &value);
-  if (status == HOOKE_OK && !hk_file_check_run(record->run))
-    status = damaged(record, "the name of its run is not the one that was written, by the digits at its end");
-  if (status == HOOKE_OK && value != stored[HOOKE_CHECK_DESCRIPTION])
-    status =
-        damaged(record, "its scene, options, masses or springs are not those that were written, by their "
-                        "check value");
-  if (status == HOOKE_OK && hk_h5md_is_end(record->status) &&
-      hk_file_check_outcome(record->status, beyond, record->frame_count) != stored[HOOKE_CHECK_OUTCOME])
-    status = damaged(
-        record, "the outcome of its run and its number of frames are not those that were written, by their "
-                "check value");
-  return status == HOOKE_OK ? check_error(record, guard, file, stored[HOOKE_CHECK_ERROR]) : status;
+  status = hk_file_check_description(guard, file, record->path, record->scene, &record->description);
+  if (status == HOOKE_OK && !hk_file_check_run(record->description, record->run))
+    status = damaged(record, "the name of its run, its scene, options, masses or springs");
+  if (status != HOOKE_OK) return status;
+  record->outcome = hk_file_check_outcome(record->description, record->status, beyond, record->frame_count);
+  if (hk_h5md_is_end(record->status) && record->outcome != stored)
+    return check_error(record, guard, file, stored);
+  if (record->error_by) record->error_by[0] = '\0';
+  if (record->error_reason) record->error_reason[0] = '\0';
+  return HOOKE_OK;
 }
 
 int32_t hk_record_check_count(const hooke_record *record) {
@@ -265,10 +254,8 @@ void hooke_record_close(hooke_record *record) {
 const char *hooke_record_text(const hooke_record *record, const char *what) {
   if (strcmp(what, "scene") == 0) return record->scene ? record->scene : "";
   if (strcmp(what, "run") == 0) return record->run;
-  const char *error_by = record->error_by, *reason = record->error_reason;
-  if (record->is_error_damaged) error_by = NULL, reason = "the file is damaged: it is not what was written";
-  if (strcmp(what, "error_by") == 0) return error_by ? error_by : "";
-  if (strcmp(what, "error_reason") == 0) return reason ? reason : "";
+  if (strcmp(what, "error_by") == 0) return record->error_by ? record->error_by : "";
+  if (strcmp(what, "error_reason") == 0) return record->error_reason ? record->error_reason : "";
   for (int k = 0; k < HOOKE_RECORD_FACTS; k++)
     if (strcmp(what, facts[k]) == 0) return record->fact[k] ? record->fact[k] : "";
   return strcmp(what, "status") == 0 ? record->status : NULL;
@@ -287,8 +274,7 @@ int32_t hk_record_is_run(const hooke_record *record) {
 }
 
 const char *hk_record_parts(const hooke_record *record) {
-  if (!record->is_covered) return "not-covered";
-  return record->is_error_damaged ? "damaged" : "checked";
+  return record->is_covered ? "checked" : "not-covered";
 }
 
 const hooke_options *hooke_record_options(const hooke_record *record) {

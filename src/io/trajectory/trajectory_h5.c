@@ -34,6 +34,7 @@ hooke_trajectory *hk_trajectory_new(void) {
   if (trajectory == NULL) return NULL;
   trajectory->file = HOOKE_NO_H5_FILE;
   trajectory->writer.file.descriptor = -1;
+  trajectory->beyond = -1;
   return trajectory;
 }
 
@@ -44,10 +45,8 @@ void hk_trajectory_release(hooke_trajectory *trajectory) {
 
 /* Closes the file for HDF5; from here on it is written as bytes. */
 static int32_t settle(struct hk_h5_guard *guard, hooke_trajectory *made) {
-  if (hk_h5md_find_status(made->file.id, &made->status_at) < 0)
-    return hk_h5_fail(guard, made->file.atomic.path, "make room for all frames");
-  made->beyond_at = hk_h5md_find_beyond(made->file.id);
-  made->check_at = hk_h5md_find_check(made->file.id);
+  hk_h5md_find(made->file.id, &made->at);
+  if (made->at.status < 0) return hk_h5_fail(guard, made->file.atomic.path, "make room for all frames");
   const int32_t status = hk_h5_file_settle(guard, &made->file);
   made->writer.file.descriptor = made->file.atomic.descriptor;
   return status;
@@ -58,20 +57,19 @@ static int32_t fill(struct hk_h5_guard *guard, const char *path, const hooke_sys
   const hooke_options *options = hooke_integrator_options(integrator);
   const int64_t frames = hooke_integrator_count(integrator, "frames");
   const double text = scene_text ? (double)strlen(scene_text) : 0.0;
-  int32_t status = hk_h5md_new_run(made->run);
-  if (status == HOOKE_OK)
-    status = hk_h5_file_create_locked(guard, path, text + hk_trajectory_writer_bytes(system, frames), 0,
-                                      &made->file);
+  int32_t status = hk_h5_file_create_locked(guard, path, text + hk_trajectory_writer_bytes(system, frames), 0,
+                                            &made->file);
   if (status != HOOKE_OK) return status;
   herr_t result =
       hk_h5md_describe(made->file.id, system, hooke_options_text(options, "method"), options, scene_text);
-  if (result >= 0) result = hk_h5md_write_run(made->file.id, made->run);
-  if (result >= 0) result = hk_h5md_write_beyond_room(made->file.id);
-  if (result >= 0) result = hk_h5md_write_error_room(made->file.id);
+  if (result >= 0) result = hk_h5md_make_room(made->file.id);
   if (result >= 0) result = hk_trajectory_writer_create(made->file.id, system, "all", frames, &made->writer);
   if (result >= 0) result = hk_h5md_connect(made->file.id, system, "all");
   if (result < 0) return hk_h5_fail(guard, path, "make room for all frames");
-  status = hk_file_check_create(guard, made->file.id, path, scene_text);
+  status = hk_file_check_description(guard, made->file.id, path, scene_text, &made->description);
+  if (status == HOOKE_OK) status = hk_h5md_new_run(made->description, made->run);
+  if (status == HOOKE_OK && hk_h5md_write_run(made->file.id, made->run) < 0)
+    status = hk_h5_fail(guard, path, "write the name of the run");
   if (status == HOOKE_OK) status = settle(guard, made);
   return status == HOOKE_OK ? hk_h5_file_publish(&made->file) : status;
 }
@@ -188,14 +186,14 @@ int32_t hooke_trajectory_sync(hooke_trajectory *trajectory) {
 
 int32_t hooke_trajectory_mark_diverged(hooke_trajectory *trajectory) {
   HOOKE_KEEP_ERRNO;
-  if (trajectory->beyond > 0) return HOOKE_OK;
+  if (trajectory->beyond >= 0) return HOOKE_OK;
   const int32_t own = hk_atomic_file_require_own(&trajectory->file.atomic);
   if (own != HOOKE_OK) return own;
   if (trajectory->failure[0]) return refuse_bad(trajectory);
-  const int error =
-      hk_h5md_write_beyond(trajectory->file.atomic.descriptor, trajectory->beyond_at, trajectory->taken);
+  const int error = hk_h5md_write(trajectory->file.atomic.descriptor, trajectory->at.beyond,
+                                  sizeof trajectory->taken, &trajectory->taken);
   if (error) return fail(trajectory, "mark the frames after divergence", error);
-  trajectory->beyond = 1;
+  trajectory->beyond = trajectory->taken;
   return HOOKE_OK;
 }
 
@@ -214,9 +212,7 @@ static int copy_all(const hooke_trajectory *trajectory, const struct hk_h5_copy 
                     int32_t outcome, const hooke_trajectory *made) {
   int error = hk_h5_copy_bytes(copy, trajectory->file.atomic.descriptor, made->file.atomic.descriptor);
   if (error == 0) error = hk_frame_copy(&trajectory->writer.file, &made->writer.file, frames);
-  if (error == 0)
-    error = hk_h5md_seal(made->file.atomic.descriptor, made->check_at, made->beyond_at, outcome, frames);
-  return error ? error : hk_h5md_write_status(made->file.atomic.descriptor, made->status_at, outcome);
+  return error ? error : hk_h5md_write_status(made->file.atomic.descriptor, made->at.status, outcome);
 }
 
 int32_t hk_trajectory_remake(struct hk_h5_guard *guard, hooke_trajectory *trajectory, int64_t frame_count,
@@ -237,6 +233,7 @@ int32_t hk_trajectory_remake(struct hk_h5_guard *guard, hooke_trajectory *trajec
   hk_h5_copy_release(&copy);
   if (error) return hk_file_fail(path, what, error);
   if (status != HOOKE_OK) return status;
+  made->description = trajectory->description;
   made->file.atomic.older = trajectory->file.atomic.descriptor;
   trajectory->file.atomic.descriptor = -1;
   return hk_h5_file_publish(&made->file);
@@ -260,20 +257,21 @@ static int32_t finish(hooke_trajectory *trajectory, int32_t outcome) {
   const int64_t frames = writer->written > trajectory->there ? writer->written : trajectory->there;
   if (trajectory->failure[0]) {
     /* the message goes to anybody who can open the file, as well */
-    hk_h5md_write_status(trajectory->file.atomic.descriptor, trajectory->status_at, HOOKE_IO_FAILED);
+    hk_h5md_write_status(trajectory->file.atomic.descriptor, trajectory->at.status, HOOKE_IO_FAILED);
     return refuse_bad(trajectory);
   }
-  /* a run that was gone on with marks its own */
-  const int marks = trajectory->beyond || !trajectory->origin[0];
+  /* a run that was gone on with marks its own, and has another error */
   const int descriptor = trajectory->file.atomic.descriptor;
-  int unmarked = marks ? 0 : hk_h5md_write_beyond(descriptor, trajectory->beyond_at, -1);
-  if (unmarked == 0)
-    unmarked = hk_h5md_seal(descriptor, trajectory->check_at, trajectory->beyond_at, outcome, frames);
+  const uint32_t check =
+      hk_file_check_outcome(trajectory->description, hk_h5md_word(outcome), trajectory->beyond, frames);
+  int unmarked =
+      hk_h5md_write(descriptor, trajectory->at.beyond, sizeof trajectory->beyond, &trajectory->beyond);
+  if (unmarked == 0) unmarked = hk_h5md_write(descriptor, trajectory->at.check, sizeof check, &check);
   if (unmarked) return fail(trajectory, "mark the frames after divergence", unmarked);
   if (frames < writer->frame_count) return shorten(trajectory, frames, outcome);
   /* the outcome is written after all that it refers to is on the disk */
   const int32_t synced = hooke_trajectory_sync(trajectory);
-  const int error = hk_h5md_write_status(trajectory->file.atomic.descriptor, trajectory->status_at,
+  const int error = hk_h5md_write_status(trajectory->file.atomic.descriptor, trajectory->at.status,
                                          synced == HOOKE_OK ? outcome : HOOKE_IO_FAILED);
   if (synced != HOOKE_OK) return refuse_bad(trajectory);
   return error ? hk_file_fail(trajectory->file.atomic.path, "write the outcome", error)

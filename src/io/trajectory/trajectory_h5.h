@@ -15,10 +15,9 @@ struct hooke_trajectory {
   int64_t taken;                  /* frames, the one on its way included */
   int64_t there;                  /* whole frames that the file had when it was opened again */
   int64_t good;                   /* frames before divergence that it had then */
-  int64_t status_at;              /* in the file */
-  int64_t beyond_at; /* in the file, where the first frame after divergence is told; -1: nowhere */
-  int32_t beyond;    /* 1: it was told */
-  int64_t check_at;  /* in the file, of the check values; -1: nowhere */
+  int64_t beyond;                 /* the first frame after divergence; -1: there is none */
+  struct hk_h5md_places at;
+  uint32_t description; /* its check value */
   char run[HOOKE_RUN_SIZE];
   char origin[512];  /* from where the run continued; "" if it did not */
   char failure[512]; /* message of the write that made the file bad; "" while it is good */

@@ -9,6 +9,7 @@
 #include "io/hdf5/dataset_h5.h"
 #include "io/hdf5/object_h5.h"
 #include "io/file/atomic_file.h"
+#include "io/trajectory/record_h5.h"
 #include "io/trajectory/trajectory_h5.h"
 
 #include <stdio.h>
@@ -85,11 +86,7 @@ static int32_t find_all(struct hk_h5_guard *guard, hid_t file, hooke_trajectory 
   for (int k = 0; status == HOOKE_OK && k < HOOKE_FRAME_ARRAY_COUNT; k++)
     status = find_array(guard, file, old, k);
   if (status == HOOKE_OK) status = find_springs(guard, file, old);
-  if (status == HOOKE_OK && hk_h5md_find_status(file, &old->status_at) < 0)
-    status = refuse_seen(guard, old, "it is no trajectory of hooke");
-  if (status == HOOKE_OK) old->beyond_at = hk_h5md_find_beyond(file);
-  if (status == HOOKE_OK) old->check_at = hk_h5md_find_check(file);
-  return status;
+  return status == HOOKE_OK && old->at.status < 0 ? refuse(old, "it is no trajectory of hooke") : status;
 }
 
 /* Frames up to which a run goes on from it. */
@@ -103,8 +100,12 @@ static int32_t read_description(struct hk_h5_guard *guard, hooke_trajectory *old
   hooke_record *record;
   hid_t file;
   int32_t status = hooke_record_open(old->file.atomic.path, &record);
-  if (status == HOOKE_OK) old->good = good_frames(record);
-  if (status == HOOKE_OK) snprintf(old->run, sizeof old->run, "%s", hooke_record_text(record, "run"));
+  if (status == HOOKE_OK) {
+    old->good = good_frames(record);
+    old->at = record->at;
+    old->description = record->description;
+    snprintf(old->run, sizeof old->run, "%s", record->run);
+  }
   if (status == HOOKE_OK && strcmp(hooke_record_text(record, "status"), "finished") == 0)
     status = refuse(old, "another run has just finished it");
   hooke_record_close(record);
@@ -147,7 +148,7 @@ static int32_t begin(const char *path, const hooke_system *system, hooke_traject
 }
 
 static int32_t set_running(hooke_trajectory *old) {
-  const int error = hk_h5md_write_status(old->file.atomic.descriptor, old->status_at, HOOKE_H5MD_RUNNING);
+  const int error = hk_h5md_write_status(old->file.atomic.descriptor, old->at.status, HOOKE_H5MD_RUNNING);
   return error ? hk_file_fail(old->file.atomic.path, "write that it is running again", error) : HOOKE_OK;
 }
 

@@ -74,10 +74,9 @@ static const struct hk_column columns[] = {
     HOOKE_COLUMN(struct verify_line, method, TEXT, "", "method of the run"),
     HOOKE_COLUMN(struct verify_line, balance, TEXT, "",
                  "holds, does-not-hold, unresolved (the step is too long to tell) or not-checked"),
-    HOOKE_COLUMN(
-        struct verify_line, parts, TEXT, "",
-        "scene, options, masses, springs, outcome and error by their check values: checked, damaged or "
-        "not-covered (an older file)"),
+    HOOKE_COLUMN(struct verify_line, parts, TEXT, "",
+                 "scene, options, masses, springs, outcome and error by their check values: checked or "
+                 "not-covered (an older file)"),
     HOOKE_COLUMN(struct verify_line, version, TEXT, "", "version of hooke that made the file"),
     HOOKE_COLUMN(struct verify_line, sundials, TEXT, "", "its SUNDIALS"),
     HOOKE_COLUMN(struct verify_line, cholmod, TEXT, "", "its CHOLMOD"),

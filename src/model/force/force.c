@@ -165,10 +165,23 @@ int32_t hk_forces_product(const hooke_system *system, const struct hk_point *poi
   return HOOKE_OK;
 }
 
+int32_t hk_forces_product_in_rows(const hooke_system *system, double t,
+                                  int (*left_out)(const struct hk_force_row *row), double **rows,
+                                  int32_t *stop_value) {
+  const int64_t size = 3 * system->particle_count;
+  double *q = *rows, *dq = q + 2 * size;
+  const struct hk_point point = {t, q, q + size, dq, dq + size, stop_value, 1};
+  const int32_t status = hk_forces_product(system, &point, left_out, q + 4 * size);
+  const int32_t renewed = hk_rows_renew(5 * size, rows);
+  for (int64_t k = 0; k < size && system->force_scale; k++)
+    (*rows)[4 * size + k] *= system->force_scale[k];
+  return status == HOOKE_OK ? renewed : status;
+}
+
 int32_t hooke_system_derivative_product(const hooke_system *system, double t, const double *q,
                                         const double *v, const double *dq, const double *dv, double *out) {
   int32_t stop_value;
-  const struct hk_point point = {t, q, v, dq, dv, &stop_value};
+  const struct hk_point point = {t, q, v, dq, dv, &stop_value, 0};
   const int32_t status = hk_system_require_committed(system);
   return status == HOOKE_OK ? hk_forces_product(system, &point, NULL, out) : status;
 }

@@ -18,6 +18,7 @@ struct hk_point {
   double t;
   const double *q, *v, *dq, *dv;
   int32_t *stop_value; /* receives the value of a callback that stopped */
+  int32_t in_rows;     /* 1: q begins rows for a callback that have v, dq, dv and the product after it */
 };
 
 /* Arrays that receive the properties of all members of a force, in their order; each may be NULL. */
@@ -84,11 +85,18 @@ extern const struct hk_force_row hk_force_springs, hk_force_bending, hk_force_al
 
 /* Rows for a callback, held once; hooke_rows_hold(rows, -1) releases them. NULL without memory. */
 double *hk_rows_new(int64_t numbers);
+/* Leaves rows that a callback holds to it; a copy takes their place. HOOKE_NO_MEMORY. */
+int32_t hk_rows_renew(int64_t numbers, double **rows);
 
 /* out = (df/dq) dq + (df/dv) dv of the forces of a committed system except those with `left_out` (NULL:
  * none). HOOKE_STOPPED, with the point's stop value, if a callback asked for it. */
 int32_t hk_forces_product(const hooke_system *system, const struct hk_point *point,
                           int (*left_out)(const struct hk_force_row *row), double *out);
+
+/* The same in rows for a callback: q, v, dq, dv and the product. */
+int32_t hk_forces_product_in_rows(const hooke_system *system, double t,
+                                  int (*left_out)(const struct hk_force_row *row), double **rows,
+                                  int32_t *stop_value);
 
 /* Releases everything that commit took over from groups. */
 void hk_forces_release(hooke_system *system);

@@ -36,11 +36,11 @@ int64_t hooke_rows_hold(const double *q, int32_t more) {
   return left;
 }
 
-/* Rows that the callback holds are left to it. */
-static int32_t renew_rows(int64_t numbers, double **rows) {
+int32_t hk_rows_renew(int64_t numbers, double **rows) {
   if (hooke_rows_hold(*rows, 0) == 1) return HOOKE_OK;
   double *made = hk_rows_new(numbers);
   if (made == NULL) return HOOKE_NO_MEMORY;
+  memcpy(made, *rows, (size_t)numbers * sizeof *made);
   hooke_rows_hold(*rows, -1);
   *rows = made;
   return HOOKE_OK;
@@ -56,6 +56,7 @@ static int32_t copy(const struct hk_variant_maker *maker) {
   const hooke_system *from = maker->from;
   if (!present(from) || maker->variant->force) return HOOKE_OK;
   const int32_t status = hk_variant_require_numbers(maker, "a force callback");
+  maker->made->force_scale = from->force_scale;
   return status == HOOKE_OK
              ? hooke_system_set_force(maker->made, from->force, from->force_product, from->force_ctx)
              : status;
@@ -67,7 +68,7 @@ static int32_t stopped(int32_t value, double t) {
 
 static int32_t add(const hooke_system *system, struct hk_motion *motion, double t) {
   const int64_t n = motion->n;
-  if (renew_rows(9 * n, &motion->rows) != HOOKE_OK) return HOOKE_NO_MEMORY;
+  if (hk_rows_renew(9 * n, &motion->rows) != HOOKE_OK) return HOOKE_NO_MEMORY;
   double *q = motion->rows, *v = q + 3 * n, *f = v + 3 * n;
   hk_rows_from_components(n, motion->q, q);
   hk_rows_from_components(n, motion->v, v);
@@ -79,6 +80,8 @@ static int32_t add(const hooke_system *system, struct hk_motion *motion, double 
     return stopped(value, t);
   }
   hk_components_from_rows(n, f, motion->f);
+  for (int64_t k = 0; k < 3 * n && system->force_scale; k++)
+    motion->f[k % 3][k / 3] *= system->force_scale[k];
   return 0;
 }
 
@@ -128,12 +131,18 @@ static int32_t add_difference(const hooke_system *system, const struct hk_point 
 
 static int32_t add_product(const hooke_system *system, const struct hk_point *point, double *out) {
   if (system->force_product == NULL) return add_difference(system, point, out);
-  double *still = system->friction > 0.0 ? hk_new(3 * system->particle_count, sizeof(double)) : NULL;
-  if (system->friction > 0.0 && still == NULL) return HOOKE_NO_MEMORY;
+  const int64_t n = system->particle_count, size = 3 * n;
+  const int32_t still = system->friction > 0.0, own = still || !point->in_rows;
+  double *rows = own ? hk_rows_new(5 * size) : NULL;
+  if (own && rows == NULL) return HOOKE_NO_MEMORY;
+  const double *const from[5] = {point->q, still ? NULL : point->v, point->dq, still ? NULL : point->dv, out};
+  for (int k = 0; k < 5 && own; k++)
+    if (from[k]) memcpy(rows + k * size, from[k], (size_t)size * sizeof *rows);
+  double *q = own ? rows : (double *)(uintptr_t)point->q, *dq = q + 2 * size;
   const int32_t value =
-      system->force_product(system->particle_count, point->t, point->q, still ? still : point->v, point->dq,
-                            still ? still : point->dv, out, system->force_ctx);
-  hk_free(still);
+      system->force_product(n, point->t, q, q + size, dq, dq + size, dq + 2 * size, system->force_ctx);
+  if (own) memcpy(out, rows + 4 * size, (size_t)size * sizeof *out);
+  hooke_rows_hold(rows, -1);
   *point->stop_value = value;
   return value == 0 ? HOOKE_OK : stopped(value, point->t);
 }

@@ -64,14 +64,13 @@ static int32_t new_arrays(const hooke_system *system, int32_t how, struct hk_mot
   const int64_t beyond = system->strided->count > 0 ? system->strided->reach + HOOKE_STRIDED_UNIT : 0;
   const int64_t stride = (n + beyond + 7) / 8 * 8 + 24, arrays = how == HOOKE_MOTION_BY_TILES ? 6 : 9;
   const int64_t components = arrays * stride, rows = system->force ? 9 * n : 0; /* in their own block */
-  const int64_t still = 3 * system->anchor_count, driven = 6 * driven_count(system);
-  const int64_t numbers = components + still + driven;
+  const int64_t numbers = components + 3 * system->anchor_count;
   double *block = hk_reserve(numbers, sizeof(double));
   if (block == NULL) return HOOKE_NO_MEMORY;
   struct arrays cleared = {block, n, arrays, stride, numbers - components};
   hk_pool_run(motion->pool, clear, &cleared);
   motion->n = n;
-  motion->memory += (numbers + rows) * (int64_t)sizeof(double);
+  motion->memory += (numbers + rows + 6 * driven_count(system)) * (int64_t)sizeof(double);
   for (int a = 0; a < 3; a++) {
     motion->q[a] = block + a * stride;
     motion->v[a] = block + (3 + a) * stride;
@@ -79,7 +78,13 @@ static int32_t new_arrays(const hooke_system *system, int32_t how, struct hk_mot
   }
   motion->rows = system->force ? hk_rows_new(rows) : NULL;
   motion->still = block + components;
-  motion->driven = motion->still + still;
+  motion->driven = hk_new(system->drive_count, sizeof *motion->driven);
+  if (motion->driven == NULL) return HOOKE_NO_MEMORY;
+  for (; motion->drive_count < system->drive_count; motion->drive_count++) {
+    double **driven = &motion->driven[motion->drive_count];
+    *driven = hk_rows_new(6 * system->drive[motion->drive_count].count);
+    if (*driven == NULL) return HOOKE_NO_MEMORY;
+  }
   return system->force && motion->rows == NULL ? HOOKE_NO_MEMORY : HOOKE_OK;
 }
 
@@ -158,6 +163,9 @@ void hk_motion_destroy(struct hk_motion *motion) {
   hk_free(motion->anchor);
   hk_free(motion->number);
   hooke_rows_hold(motion->rows, -1);
+  for (int64_t k = 0; k < motion->drive_count; k++)
+    hooke_rows_hold(motion->driven[k], -1);
+  hk_free(motion->driven);
   hk_free(motion->q[0]);
   hk_free(motion);
 }
@@ -335,15 +343,15 @@ int32_t hk_motion_forces_without(const hooke_system *system, struct hk_motion *m
 }
 
 int32_t hk_motion_drive(const hooke_system *system, struct hk_motion *motion, double t) {
-  double *q = motion->driven;
   for (int64_t k = 0; k < system->drive_count; k++) {
     const struct hk_drive_group *drive = &system->drive[k];
+    if (hk_rows_renew(6 * drive->count, &motion->driven[k]) != HOOKE_OK) return HOOKE_NO_MEMORY;
+    double *q = motion->driven[k];
     const int32_t value = hk_drive_evaluate(drive, t, q, q + 3 * drive->count);
     if (value != 0) {
       motion->stop_value = value;
       return hk_fail(HOOKE_STOPPED, NULL, "a drive callback returned %d at t = %.6g s", (int)value, t);
     }
-    q += 6 * drive->count;
   }
   return HOOKE_OK;
 }
@@ -368,12 +376,10 @@ void hk_motion_hold(const hooke_system *system, struct hk_motion *motion) {
       motion->v[a][p] = 0.0;
     }
   }
-  const double *driven = motion->driven;
   const int32_t *moved = motion->moved;
   for (int64_t k = 0; k < system->drive_count; k++) {
     const int64_t count = system->drive[k].count;
-    hold_driven(count, moved, driven, motion);
-    driven += 6 * count;
+    hold_driven(count, moved, motion->driven[k], motion);
     moved += count;
   }
 }

@@ -23,7 +23,8 @@ struct hk_motion {
   const double *zero;         /* n zeros: forces are without damping, drag included; NULL: with it */
   double *rows;               /* 9n: q, v and force in rows, for a callback; NULL without one */
   double *still;              /* positions of anchored particles, 3 each */
-  double *driven;             /* q and v of each drive in turn, 3 a particle each */
+  int64_t drive_count;
+  double **driven; /* rows of each drive: q and v, 3 a particle each */
   int32_t *anchor,
       *moved; /* numbers here of the anchored particles of the system, and of those of its drives in turn */
   struct hk_rings *rings;         /* of the pass over strided batches; NULL without strided batches */

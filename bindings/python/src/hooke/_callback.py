@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import contextlib
 import ctypes
+import math
 import operator
 import os
 import signal
@@ -67,44 +68,47 @@ def outside() -> int:
 _FOLDER = os.path.dirname(__file__)
 
 
-# The library frees the arrays of a call or uses them again. So each call gets new views, which all count as references
-# to one array over the memory. If that has more of them after a call, something was kept, and the memory is left to it.
+# The arrays of a call are one block of the library, and those of the next call are there again. So each call gets new
+# views, which all count as references to one array over the block. If that has more of them after a call, something
+# was kept, and the block is left to it.
 
 _again = np.ndarray.view
-_MOST = 64  # places in the library's memory that are known; an integrator has few
-_Key = tuple[int, ...]
-_Moves = list[tuple[Any, Table]]
+_MOST = 64  # blocks that are known; an integrator has few
 
 
 def _answered(answer: Any) -> int:
     return 0 if answer is None and pending.exception is None else guarded(lambda: answer)
 
 
-def force_callback(function: Callable[..., Any]) -> Any:
-    """The callback that adds forces, for `function` of `System.set_force`. Its arrays are the library's own."""
-    known: dict[_Key, tuple[Table, list[Table]]] = {}
+def _callback(function: Callable[..., Any], inputs: int, shape: Callable[[int], Shape], dtype: Any = float) -> Any:
+    """The callback for ``function(t, *arrays)``, whose first `inputs` arrays are read-only. They have the `shape` for
+    the count that the library gives, and are the library's own."""
+    known: dict[tuple[int, int], tuple[Table, list[Table]]] = {}
 
-    def look(key: _Key) -> tuple[Table, list[Table]]:
-        memory = view(key[1], (3, key[0], 3))
-        rows = list(memory)
-        for array in rows[:2]:
+    def look(key: tuple[int, int], others: tuple[int, ...]) -> tuple[Table, list[Table]]:
+        count, first = key
+        size = math.prod(shape(count))
+        starts = [(place - first) // np.dtype(dtype).itemsize for place in (first, *others)]
+        memory = view(first, (starts[-1] + size,), dtype=dtype)
+        rows = [memory[start : start + size].reshape(shape(count)) for start in starts]
+        for array in rows[:inputs]:
             array.flags.writeable = False
         if len(known) >= _MOST:
             known.clear()
         known[key] = memory, rows
         return known[key]
 
-    def leave(key: _Key, memory: Any) -> None:
+    def leave(key: tuple[int, int], memory: Any) -> None:
         known.pop(key, None)
         if memory.size:
             place = ctypes.c_double.from_address(key[1])
             lib.hooke_rows_hold(place, 1)
             memory.base.owner = Handle(place, lambda rows: lib.hooke_rows_hold(rows, -1))
 
-    def force(n: int, t: float, q: int, v: int, out: int, _: Any) -> int:
-        key = (n, q)
+    def called(count: int, t: float, first: int, *others: Any) -> int:
+        key = count, first
         try:
-            memory, rows = known.get(key) or look(key)
+            memory, rows = known.get(key) or look(key, others[:-1])
             users = getrefcount(memory)
             try:
                 return _answered(function(t, *map(_again, rows)))
@@ -115,75 +119,27 @@ def force_callback(function: Callable[..., Any]) -> Any:
             pending.exception = exception
             return _STOP
 
-    return FORCE(force)
-
-
-def _copied(
-    function: Callable[..., Any], inputs: int, shape: Callable[[int], Shape], dtype: Any = float, adds: bool = True
-) -> Any:
-    """The callback for ``function(t, *arrays)``, whose first `inputs` arrays are read-only; it `adds` to the others or
-    writes them. They have the `shape` for the count that the library gives, and are in memory of this package."""
-    free: list[tuple[Table, list[Table]]] = []  # not in use; several for calls within calls, and from threads
-    known: dict[_Key, tuple[_Moves, _Moves]] = {}
-
-    def own(key: _Key) -> tuple[Table, list[Table]]:
-        memory: Table = np.zeros((len(key) - 1, *shape(key[0])), dtype)
-        rows = list(memory)
-        for array in rows[:inputs]:
-            array.flags.writeable = False
-        return memory, rows
-
-    def look(key: _Key) -> tuple[_Moves, _Moves]:
-        """What is copied before and after a call."""
-        if len(known) >= _MOST:
-            known.clear()
-        rows = [(k, view(place, shape(key[0]), dtype=dtype)) for k, place in enumerate(key[1:])]
-        known[key] = rows if adds else rows[:inputs], rows[inputs:]
-        return known[key]
-
-    def called(count: int, t: float, *places: Any) -> int:
-        key = (count, *places[:-1])
-        try:
-            taken, given = known.get(key) or look(key)
-            try:
-                mine = free.pop()
-            except IndexError:
-                mine = own(key)
-            memory, rows = mine
-            for place, numbers in taken:
-                memory[place] = numbers
-            users = getrefcount(memory)
-            answer = function(t, *map(_again, rows))
-            for place, numbers in given:
-                numbers[...] = rows[place]
-            if getrefcount(memory) == users:
-                free.append(mine)
-            return _answered(answer)
-        except BaseException as exception:
-            pending.exception = exception
-            return _STOP
-
     return called
 
 
-def coordinate_callback(function: Callable[..., Any]) -> Any:
-    """The callback for the force of coordinates."""
-    return FORCE(_copied(function, 2, lambda n: (n,)))
+def force_callback(function: Callable[..., Any], row: Shape = (3,)) -> Any:
+    """The callback that adds forces, for `function` of `System.set_force`; `row` () for one of coordinates."""
+    return FORCE(_callback(function, 2, lambda n: (n, *row)))
 
 
 def product_callback(function: Callable[..., Any], row: Shape = (3,)) -> Any:
     """The callback for the product with the derivative of a force."""
-    return FORCE_PRODUCT(_copied(function, 4, lambda n: (n, *row)))
+    return FORCE_PRODUCT(_callback(function, 4, lambda n: (n, *row)))
 
 
 def drive_callback(function: Callable[..., Any]) -> Any:
     """The callback that moves driven particles."""
-    return DRIVE(_copied(function, 0, lambda n: (n, 3), adds=False))
+    return DRIVE(_callback(function, 0, lambda n: (n, 3)))
 
 
 def rate_callback(function: Callable[..., Any], shape: Shape, dtype: Any) -> Any:
     """The callback for the rate of a first-order problem."""
-    return RATE(_copied(function, 1, lambda _: shape, dtype, adds=False))
+    return RATE(_callback(function, 1, lambda _: shape, dtype))
 
 
 @contextlib.contextmanager

@@ -56,7 +56,7 @@ class SecondOrder(Owner):
         masses = np.atleast_1d(plain(inverse_mass, "inverse_mass"))
         self._inverse_mass = doubles(masses, "inverse_mass", (1,), shape)
         self._size = self._q.size
-        self._force = _callback.coordinate_callback(f)
+        self._force = _callback.force_callback(f, ())
         self._derivative = _callback.product_callback(derivative, ()) if derivative else FORCE_PRODUCT()
         self._callbacks = [self._force, self._derivative]
 
