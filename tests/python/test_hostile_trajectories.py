@@ -126,7 +126,8 @@ def test_an_array_in_one_piece_is_not_read_beyond_it(tmp_path, layout):
         data[:] = 1.0
         grown(data, 1000)
     scene = {"hooke": 1, "particles": {"position": {"file": "state.h5", "dataset": "position"}, "mass": 1}}
-    with pytest.raises(hooke.Error, match="dataset position claims 4000 numbers, but only 928 bytes are stored"):
+    by_hdf5 = "could not find the dataset position: (bad value from dataset header|invalid dataset size)"  # since 1.14
+    with pytest.raises(hooke.Error, match=f"dataset position claims 4000 numbers, but only 928 bytes are stored|{by_hdf5}"):
         hooke.Scene.parse(scene, folder=tmp_path)
 
 
