@@ -3,10 +3,10 @@
  * HOOKE_CRASH_TORN=1, in the middle of it, when half of the bytes are written, or after it if there are no
  * bytes. With HOOKE_CRASH_ERROR=number the call fails with this errno instead; with HOOKE_CRASH_FROM=1 so
  * does every later call; with HOOKE_CRASH_SIGNAL=number the process gets this signal there, and the call is
- * made. HOOKE_CRASH_LOG names a log file: it gets a line "frame <time>" when the time of a
- * frame is in its file, and at the end "points <count>". HOOKE_CRASH_CALLS names another, which gets a line for
- * every call that has to do with names: what it is, flags and mode, and files. There every random number comes
- * twice, and the first is 0.
+ * made. HOOKE_CRASH_LOG names a log file: it gets a line "frame <time>" when the time of a frame is in its
+ * file, and at the end "points <count>". HOOKE_CRASH_CALLS names another, which gets a line for every call
+ * that has to do with names of files: call, flags, mode and names. Random numbers then come twice each, and
+ * the first is 0.
  *
  * System calls are made directly. Streams write through a function defined here, since the C library's own
  * functions cannot be intercepted. */
