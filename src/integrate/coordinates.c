@@ -2,6 +2,7 @@
 
 #include "core/memory.h"
 #include "core/status.h"
+#include "model/particles.h"
 #include "model/size_limit.h"
 
 #include <math.h>
