@@ -174,6 +174,7 @@ static void find_why(struct cli_run *run) {
 static int take_finished(struct cli_run *run) {
   const int32_t status =
       cli_resume_read_finished(run->output, run->setup.state, &run->frames, &run->finished_steps);
+  if (status == HOOKE_NO_MEMORY) return cli_report(run->arguments, HOOKE_EXIT_BAD_INPUT, "out of memory");
   if (status != HOOKE_OK) return cli_report_status(run->arguments, status);
   run->energy_after = state_energy(run);
   if (!run->arguments->quiet)
