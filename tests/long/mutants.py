@@ -26,8 +26,8 @@ from pathlib import Path
 from typing import Any
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
-from steps import ROOT, Part, Step  # noqa: E402
-from tier import seconds  # noqa: E402
+from steps import ROOT, Part, Step
+from tier import seconds
 
 KEPT = ROOT / "build/mutants"
 TREE, REACHED, RESULTS = KEPT / "tree", KEPT / "reached", KEPT / "results.json"
