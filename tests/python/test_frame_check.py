@@ -205,7 +205,7 @@ def test_reading_during_a_run(tmp_path, early, hold):
         except BaseException as failure:
             failures.append(failure)
 
-    reader = threading.Thread(target=look)
+    reader = threading.Thread(target=look, daemon=True)  # a failure below ends the test
     reader.start()
     command = [os.environ["HOOKE_CLI"], "run", "scene.json", "-o", "out.h5", "--quiet"]
     run = subprocess.Popen(command, cwd=tmp_path, env=environment, stdout=subprocess.DEVNULL)
