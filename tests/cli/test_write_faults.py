@@ -213,16 +213,17 @@ def check_calls(folder, calls, older):
     """Every file that the call leaves is made under a name of its own, which no other file has and no link leads away
     from, and is on the disk before it takes its name, as is the name at the end. Until then nobody else may read it who
     could not read the file of before."""
-    made = {path: k for k, (call, flags, _, path, _) in enumerate(calls) if call == "open" and flags & os.O_CREAT}
+    made = [(k, path) for k, (call, flags, _, path, _) in enumerate(calls) if call == "open" and flags & os.O_CREAT]
     taken = {other: k for k, (call, _, _, path, other) in enumerate(calls) if call == "rename"}
-    assert taken and all(re.fullmatch(r"hooke-\w{16}\.part", path) for path in made), calls
+    assert taken and all(re.fullmatch(r"hooke-\w{16}\.part", path) for _, path in made), calls
     for name, at in taken.items():
-        part, begun = calls[at][3], made[calls[at][3]]
+        part = calls[at][3]
+        begun = max(k for k, path in made if path == part and k < at)  # a name is free again after its file took another
         assert calls[begun][1] & (os.O_EXCL | os.O_NOFOLLOW) == os.O_EXCL | os.O_NOFOLLOW, name
-        own = [(call, k) for k, (call, _, _, path, _) in enumerate(calls[:at]) if path == part and call in ("write", "fsync")]
+        own = [(call, k) for k, (call, _, _, path, _) in enumerate(calls[begun:at]) if path == part and call in ("write", "fsync")]
         assert own and own[-1][0] == "fsync", (name, own)
         assert calls[at + 1][::3] == ("fsync", folder.name), name
-        modes = [mode for call, _, mode, path, _ in calls[:at] if path == part and call in ("open", "fchmod")]
+        modes = [mode for call, _, mode, path, _ in calls[begun:at] if path == part and call in ("open", "fchmod")]
         assert name not in older or all(mode & ~older[name] == 0 for mode in modes), (name, modes)
     return set(taken)
 
