@@ -169,6 +169,7 @@ int32_t hk_forces_product_in_rows(const hooke_system *system, double t,
                                   int (*left_out)(const struct hk_force_row *row), double **rows,
                                   int32_t *stop_value) {
   const int64_t size = 3 * system->particle_count;
+  if (size == 0) return HOOKE_OK;
   double *q = *rows, *dq = q + 2 * size;
   const struct hk_point point = {t, q, q + size, dq, dq + size, stop_value, 1};
   const int32_t status = hk_forces_product(system, &point, left_out, q + 4 * size);
