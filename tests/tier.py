@@ -13,7 +13,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[1]
 # Presets of CTest, and the budget [s of processor].
-TIERS = {"test": (("release",), 300), "check": (("check", "minimal", "asan"), 1800)}
+TIERS = {"test": (("release",), 300), "check": (("check", "minimal", "asan"), 1500)}
 
 
 def seconds(times: Path) -> float:
