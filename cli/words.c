@@ -5,7 +5,6 @@
 #include "print.h"
 #include "report.h"
 
-#include <errno.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -71,11 +70,8 @@ const char *cli_suggest_file(const char *path) {
   static char found[HOOKE_DOC_SIZE];
   const char *slash = cli_os_last_slash(path), *name = slash ? slash + 1 : path;
   const int length = (int)(name - path);
-  if (cli_os_is_other_than_file(path)) return NULL; /* a pipe would wait for a writer */
-  errno = 0;
-  FILE *file = fopen(path, "rb");
-  if (file) fclose(file);
-  if (file || errno != ENOENT || length >= HOOKE_DOC_SIZE - WORD_SIZE) return NULL;
+  const int32_t is_there = cli_os_is_same_file(path, path);
+  if (is_there || length >= HOOKE_DOC_SIZE - WORD_SIZE) return NULL;
   snprintf(found, sizeof found, "%.*s", length, path);
   const char *near = cli_suggest(name, next_file, length ? found : ".");
   snprintf(found + length, sizeof found - (size_t)length, "%s", near ? near : "");
