@@ -170,6 +170,24 @@ def test_whole_groups_of_a_large_scene_are_drawn(tmp_path):
 @pytest.mark.check
 @needs_page
 @needs_browser
+def test_parts_are_surfaces(tmp_path):
+    """The middle of a cell, between its springs, has the colour of the cloth."""
+    scene = json.loads((ROOT / "examples/scenes/cloth-16.json").read_text())
+    (tmp_path / "scene.json").write_text(json.dumps(scene))
+    look = """{ play(false); show(0); axes = "xz"; show(0);
+      const { width, height } = document.getElementById("bad"), ctx = document.getElementById("bad").getContext("2d");
+      const middle = ctx.getImageData(width / 2 + 0.014 * height, height / 2, 1, 1).data;
+      const outside = ctx.getImageData(5, 5, 1, 1).data;
+      document.getElementById("now").dataset.seen = JSON.stringify([triangles.length, [...middle], [...outside]]); }"""
+    seen = browse(tmp_path, make(tmp_path, "--step", "2ms")[0], look)
+    count, (red, _, blue, cover), outside = json.loads(seen.attributes["now"]["data-seen"])
+    assert count == 3 * 2 * 15 * 15 and outside[3] == 0
+    assert cover > 0 and blue > red + 20
+
+
+@pytest.mark.check
+@needs_page
+@needs_browser
 def test_one_mode_and_one_factor(tmp_path):
     """Words and lines have the growth of the mode that is drawn, also where that of other times is another."""
     (tmp_path / "scene.json").write_text((ROOT / "examples/scenes/cloth-16.json").read_text())

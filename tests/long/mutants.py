@@ -92,7 +92,8 @@ def prepare() -> dict[str, float]:
     with ThreadPoolExecutor(os.cpu_count()) as pool:
         list(pool.map(see_reached, tests))
     failed = {line.split(":", 1)[1].strip() for line in last_failed()}
-    return {test: seconds(BUILD / "tests/taken" / file_of(test)) for test in tests if test not in failed}
+    times = {test: BUILD / "tests/taken" / file_of(test) for test in tests if test not in failed}
+    return {test: seconds(path) if path.exists() else 0.0 for test, path in times.items()}
 
 
 # ---- a fault ----

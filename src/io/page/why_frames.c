@@ -3,6 +3,7 @@
 #include "core/memory.h"
 #include "core/table/option.h"
 #include "io/page/picture.h"
+#include "io/page/view/view_bodies.h"
 #include "measure/limit/limit.h"
 #include "measure/spectrum/mode_growth.h"
 
@@ -202,6 +203,7 @@ static int32_t choose_springs(struct frames *f) {
   hk_text_number(f->data, "springs", (double)f->picture.spring_count);
   hk_text_number(f->data, "particles", (double)hooke_system_particle_count(f->system));
   hk_picture_add_springs(f->data, &f->picture);
+  hk_view_add_bodies(f->data, f->system);
   if (!any) hk_picture_show_evenly(&f->picture);
   f->list = hk_picture_list(&f->picture);
   return f->list ? HOOKE_OK : HOOKE_NO_MEMORY;

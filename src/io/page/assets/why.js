@@ -3,7 +3,7 @@
 
 const ran = data.frames || [], advised = data.advised || {}, cured = advised.frames || [];
 const last = data.last || 0; // frame that is within all bounds still
-const RED = "#c8102e", stepOf = (frame) => Math.round((frame.time - ran[last].time) / data.step);
+const RED = "#c8102e", SURFACE = "#7fb2e544", stepOf = (frame) => Math.round((frame.time - ran[last].time) / data.step);
 const counted = (count, word) => `${whole(count)} ${word}${count === 1 ? "" : "s"}`;
 
 /* ---- where things are ---- */
@@ -40,6 +40,23 @@ function firstAxes() {
   return viewWith(one, other);
 }
 
+/* Parts as surfaces, behind their springs. Their triangles turn one way, so that folds leave no holes. */
+const { triangles } = findBodies(picture, particles.length);
+
+function fillSurfaces(ctx, at) {
+  ctx.fillStyle = SURFACE;
+  ctx.beginPath();
+  for (let k = 0; k < triangles.length; k += 3) {
+    const [a, b, c] = [0, 1, 2].map((corner) => at(triangles[k + corner]));
+    const turned = (b[0] - a[0]) * (c[1] - a[1]) < (b[1] - a[1]) * (c[0] - a[0]);
+    ctx.moveTo(...a);
+    ctx.lineTo(...(turned ? c : b));
+    ctx.lineTo(...(turned ? b : c));
+    ctx.closePath();
+  }
+  ctx.fill();
+}
+
 let shown = 0, playing = true, axes = "xy", before = 0;
 
 /* Returns how many times it has zoomed out. */
@@ -58,6 +75,7 @@ function paint(id, frame, reach, beyond) {
   const unit = Math.min(near, (0.47 * wide) / reach[across], (0.47 * tall) / reach[up]);
   const at = (k) => [wide / 2 + unit * (placeOf(frame, k, across) - middle[across]),
     tall / 2 - unit * (placeOf(frame, k, up) - middle[up])];
+  fillSurfaces(ctx, at);
   ctx.lineCap = "round";
   for (const [list, colour, width] of [[listed.filter((one) => !isBlamed(one)), EDGE, listed.length > 300 ? 0.8 : 1.6],
     [listed.filter(isBlamed), RED, listed.length > 300 ? 1.6 : 3]]) {

@@ -160,10 +160,10 @@ static int32_t choose_springs(struct hk_view *view) {
 
 /* Size of the page without its frames, including words. */
 static int32_t measure_page(const struct hk_view *view, double *bytes) {
-  static const char *const parts[] = {"view.html",      "view.css",      "view.js",         "view_data.js",
-                                      "view_run.js",    "view_scene.js", "view_chart.js",   "view_over.js",
-                                      "view_pick.js",   "view_save.js",  "view_surface.js", "three.js",
-                                      "three_orbit.js", "chart.js"};
+  static const char *const parts[] = {"view.html",    "view.css",       "view.js",       "view_data.js",
+                                      "view_run.js",  "view_scene.js",  "view_chart.js", "view_over.js",
+                                      "view_pick.js", "view_save.js",   "surface.js",    "view_surface.js",
+                                      "three.js",     "three_orbit.js", "chart.js"};
   struct hk_text text = {.bytes = NULL};
   int32_t status = HOOKE_OK;
   for (size_t k = 0; k < sizeof parts / sizeof parts[0] && status == HOOKE_OK; k++)

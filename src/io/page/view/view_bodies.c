@@ -32,7 +32,7 @@ static void add_triangles(struct hk_text *data, const struct hk_part_record *par
   hk_surface_release(&surface);
 }
 
-static void add_bodies(struct hk_text *data, const hooke_system *system) {
+void hk_view_add_bodies(struct hk_text *data, const hooke_system *system) {
   hk_text_open(data, "bodies", '[');
   for (int64_t k = 0; k < system->part_count; k++) {
     const struct hk_part_record *part = &system->part[k];
@@ -88,7 +88,7 @@ static int32_t add_stiffness(struct hk_text *data, const struct hk_view *view, c
 }
 
 void hk_view_bodies_add(struct hk_text *data, const struct hk_view *view, const hooke_system *system) {
-  add_bodies(data, system);
+  hk_view_add_bodies(data, system);
   add_groups(data, system);
   if (hooke_system_count(system, "springs") != view->springs_there) return;
   const int32_t status = add_stiffness(data, view, system);
