@@ -72,10 +72,11 @@ def reached(text: str) -> dict[str, Any]:
     found = re.search(r"^lines (\d+) of (\d+), (\S+) %\nbranches (\d+) of (\d+), (\S+) %$", text, re.MULTILINE)
     files = re.findall(r"^ +(\d+) +\d+ +(\d+) +\d+  src/(\S+)$", text, re.MULTILINE)
     kinds = re.search(r"^branches left where failures are looked for: (\d+); elsewhere: (\d+)$", text, re.MULTILINE)
+    rooms = re.findall(r"^branches of (src/\S+): (\d+) of (\d+); left where failures are looked for: (\d+)$", text, re.MULTILINE)
     if not found or not kinds:
         raise ValueError("no totals")
     return {"lines": found[3], "of_lines": int(found[2]), "branches": found[6], "of_branches": int(found[5]),
-            "kinds": list(kinds.groups()),
+            "kinds": list(kinds.groups()), "rooms": rooms,
             "left": [f"{file} {lines} lines, {branches} branches" for lines, branches, file in files[:12]]}  # fmt: skip
 
 
@@ -89,6 +90,8 @@ def rows(step: str, figures: dict[str, Any]) -> list[tuple[str, str]]:
         where = "{} where a failure of memory, of a file or of a library is looked for, {} elsewhere".format(*figures["kinds"])
         return [("lines of `src/` reached", f"{figures['lines']} % of {figures['of_lines']}"),
                 ("branches of `src/` reached", f"{figures['branches']} % of {figures['of_branches']}"),
+                *((f"branches of `{room}` reached", f"{taken} of {of_taken}; of those left {failures} look for a failure")
+                  for room, taken, of_taken, failures in figures.get("rooms", [])),
                 ("branches left", where),
                 ("most left", "; ".join(figures["left"]))]  # fmt: skip
     return [(step, f"{figures['tests']} test programs passed")]

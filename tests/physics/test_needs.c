@@ -648,6 +648,30 @@ static void every_ingredient_has_a_name_of_its_own(void **unused) {
   hooke_system_destroy(system);
 }
 
+/* Springs that only pull have no resistance to compression that could be left out. */
+static void what_is_not_there_is_no_ingredient(void **unused) {
+  (void)unused;
+  const double place[] = {0, 0, 0, 0.3, 0, 0};
+  const int64_t ends[] = {0, 1};
+  hooke_options *springs;
+  check_ok(hooke_options_create("springs", &springs));
+  check_ok(hooke_options_set_number(springs, "stiffness", 5.0));
+  for (int32_t pushes = 0; pushes < 2; pushes++) {
+    hooke_system *system = small_system(2, place, NULL, 0.1, 1);
+    check_ok(hooke_options_set_number(springs, "compression", (double)pushes));
+    check_ok(hooke_system_add_springs(system, "line", 1, ends, springs));
+    check_ok(hooke_system_commit(system));
+    hooke_measurement *needs = start(system, half_a_second, 1.0, NULL);
+    check_ok(hooke_measurement_run(needs, NULL));
+    row_of(needs, "line");
+    if (pushes) row_of(needs, "resistance to compression");
+    assert_int_equal(hooke_measurement_row_count(needs, "rows"), 1 + pushes);
+    hooke_measurement_destroy(needs);
+    hooke_system_destroy(system);
+  }
+  hooke_options_destroy(springs);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(groups_without_parts_are_ingredients),
@@ -663,6 +687,7 @@ int main(void) {
       cmocka_unit_test(what_cannot_be_is_refused),
       cmocka_unit_test(kinds_keep_to_what_is_theirs),
       cmocka_unit_test(every_ingredient_has_a_name_of_its_own),
+      cmocka_unit_test(what_is_not_there_is_no_ingredient),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
