@@ -164,8 +164,12 @@ static void learn(struct search *s, const struct result *result) {
   const int32_t meets =
       sound && !result->unknown && s->pick->reference.trusted > 1 && result->error <= s->most;
   if (sound && beats(s, result, meets)) {
-    s->best = (struct hk_pick_row){s->method,   result->value, result->error,
-                                   result->rms, result->work,  result->wall_seconds};
+    s->best = (struct hk_pick_row){.method = s->method,
+                                   .value = result->value,
+                                   .error = result->error,
+                                   .rms = result->rms,
+                                   .work = result->work,
+                                   .wall_seconds = result->wall_seconds};
     s->met = meets;
   }
   if (meets && !(result->value <= s->meets)) {
