@@ -283,3 +283,12 @@ def test_places_that_cannot_be_written(hooke, write):
 @pytest.mark.skipif(DRAWS, reason="this build writes reports")
 def test_not_in_this_build(hooke, write):
     check_not_built(hooke, write(SIX_PARTICLES), "needs", "--want", "0.5", "--duration", "0.1")
+
+
+def test_the_method_is_named_with_who_chose_it(hooke, write):
+    scene = json.loads(RESTING.read_text())
+    for left_out, words in (((), "rk4, 0.01 m wanted"), (("method", "step"), " (picked), 0.01 m wanted")):
+        scene["run"] = {key: value for key, value in scene["run"].items() if key not in left_out}
+        told, found = (hooke("needs", write(scene), "--want", "1cm", *more) for more in ((), ("--json",)))
+        assert told.out.splitlines()[1].startswith(found.json["method"] + words.removeprefix(found.json["method"]))
+        assert found.json["method_picked"] == bool(left_out)
