@@ -235,7 +235,7 @@ def table(part: Part, known: dict[str, dict[str, Any]]) -> list[str]:
     missing = [step.name for step in part.steps if step.name not in known]
     lines = [f"{len(known)} of {len(part.steps)} steps, {spent / 60:.0f} minutes, {used / 60:.0f} of a processor."]
     if missing:
-        lines.append("Not run yet, or failed: " + ", ".join(missing) + ".")
+        lines.append("Not run yet, or failed: " + "; ".join(missing) + ".")
     lines += ["", "| what | figure | measured |", "| --- | --- | --- |"]
     for name, step in known.items():
         lines += [f"| {what} | {figure} | {step['date']}, {step['commit']} |" for what, figure in part.rows(name, step["figures"])]

@@ -53,15 +53,6 @@ static herr_t close_file(H5FD_t *file) {
   return 0;
 }
 
-static int compare_files(const H5FD_t *a, const H5FD_t *b) {
-  struct hk_os_file one, other;
-  if (hk_os_look_open(((const struct driven *)a)->descriptor, &one) != 0 ||
-      hk_os_look_open(((const struct driven *)b)->descriptor, &other) != 0)
-    return a < b ? -1 : a > b;
-  if (one.device != other.device) return one.device < other.device ? -1 : 1;
-  return one.number < other.number ? -1 : one.number > other.number;
-}
-
 /* Like HDF5's own driver of plain files, so that the layout of files is the same. */
 static herr_t tell_features(const H5FD_t *file, unsigned long *flags) {
   (void)file;
@@ -135,7 +126,6 @@ static const H5FD_class_t driver = {
     .fapl_size = sizeof(struct setting),
     .open = open_file,
     .close = close_file,
-    .cmp = compare_files,
     .query = tell_features,
     .get_eoa = end_of_taken,
     .set_eoa = take_until,
