@@ -103,11 +103,19 @@ def code(text: str) -> str:
     return NO_CODE.sub(lambda found: '""' if found[0].startswith('"') else " ", text)
 
 
+def python_code(text: str) -> str:
+    tree = ast.parse(text)
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Constant) and isinstance(node.value, str):
+            node.value = ""
+    return ast.dump(tree)
+
+
 def is_other_code(path: Path, before: str, after: str) -> bool:
     if path.suffix != ".py":
         return code(before) != code(after)
     try:
-        return ast.dump(ast.parse(before)) != ast.dump(ast.parse(after))
+        return python_code(before) != python_code(after)
     except SyntaxError:
         return False
 
