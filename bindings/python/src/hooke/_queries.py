@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import ctypes
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
 from ._library import lib
-from ._memory import Handle, Owner, address_of, double_pointer, index_pointer, rows, text, view
+from ._memory import Handle, address_of, double_pointer, index_pointer, rows, text, view
+from ._problem import Problem
 from ._types import FloatArray, IntArray
 
 _DOUBLE = np.dtype(np.float64)
@@ -53,7 +54,24 @@ class Blocks(NamedTuple):
     dfdv: FloatArray
 
 
-class Queries(Owner):
+class Count(property):
+    """A property that is a count of the library; one that is known only of a committed system commits it."""
+
+    def __init__(self, what: str, doc: str):
+        late = what in ("free", "dropped_springs", "idle", "inside_bodies", "memory", "spring_memory")
+
+        def count(system: Queries) -> int:
+            return int(lib.hooke_system_count(system._committed() if late else system._handle, what.encode()))
+
+        count.__doc__ = doc
+        super().__init__(count)
+
+    if TYPE_CHECKING:
+
+        def __get__(self, system: Any, kind: type | None = None) -> int: ...  # type: ignore[override]
+
+
+class Queries(Problem):
     """Counts, tables, forces and energies. Positions and velocities are (n, 3) arrays [m], [m/s]."""
 
     _handle: Handle
@@ -72,26 +90,20 @@ class Queries(Owner):
         """Number of particles, including those of parts."""
         return int(lib.hooke_system_particle_count(self._handle))
 
-    @property
-    def free_count(self) -> int:
-        """Number of particles that are neither pinned nor driven; commits."""
-        return int(lib.hooke_system_count(self._committed(), b"free"))
+    free_count = Count("free", "Number of particles that are neither pinned nor driven; commits.")
 
-    @property
-    def spring_count(self) -> int:
-        """Number of springs: all that were added; once committed, those with stiffness or damping."""
-        return int(lib.hooke_system_count(self._handle, b"springs"))
+    spring_count = Count(
+        "springs", "Number of springs: all that were added; once committed, those with stiffness or damping."
+    )
 
-    @property
-    def dropped_spring_count(self) -> int:
-        """Number of springs dropped because they have neither stiffness nor damping; commits."""
-        return int(lib.hooke_system_count(self._committed(), b"dropped_springs"))
+    dropped_spring_count = Count(
+        "dropped_springs", "Number of springs dropped because they have neither stiffness nor damping; commits."
+    )
 
-    @property
-    def idle_count(self) -> int:
-        """Number of pinned particles that no spring, no bending, no altitude spring and no force callback acts on;
-        commits."""
-        return int(lib.hooke_system_count(self._committed(), b"idle"))
+    idle_count = Count(
+        "idle",
+        "Number of pinned particles that no spring, no bending, no altitude spring and no force callback acts on; commits.",
+    )
 
     @property
     def groups(self) -> list[tuple[str, int]]:
@@ -105,30 +117,23 @@ class Queries(Owner):
             for k in range(lib.hooke_system_group_count(handle, force))
         ]
 
-    @property
-    def bending_count(self) -> int:
-        """Number of triples of bending; commit drops those of coefficient 0."""
-        return int(lib.hooke_system_count(self._handle, b"bending"))
+    bending_count = Count("bending", "Number of triples of bending; commit drops those of coefficient 0.")
 
     @property
     def bending_groups(self) -> list[tuple[str, int]]:
         """Name ("" if it has none) and number of triples of every group."""
         return self._groups(b"bending")
 
-    @property
-    def altitude_count(self) -> int:
-        """Number of tetrahedra with altitude springs; commit drops those without stiffness and damping."""
-        return int(lib.hooke_system_count(self._handle, b"altitude"))
+    altitude_count = Count(
+        "altitude", "Number of tetrahedra with altitude springs; commit drops those without stiffness and damping."
+    )
 
     @property
     def altitude_groups(self) -> list[tuple[str, int]]:
         """Name ("" if it has none) and number of tetrahedra of every group."""
         return self._groups(b"altitude")
 
-    @property
-    def anchor_count(self) -> int:
-        """Number of anchors; commit drops those without stiffness and damping."""
-        return int(lib.hooke_system_count(self._handle, b"anchors"))
+    anchor_count = Count("anchors", "Number of anchors; commit drops those without stiffness and damping.")
 
     @property
     def anchors(self) -> tuple[IntArray, FloatArray, FloatArray, FloatArray, FloatArray]:
@@ -225,15 +230,12 @@ class Queries(Owner):
         lib.hooke_system_altitude_lengths(handle, double_pointer(q), double_pointer(length))
         return length
 
-    @property
-    def body_count(self) -> int:
-        """Number of rigid bodies."""
-        return int(lib.hooke_system_count(self._handle, b"bodies"))
+    body_count = Count("bodies", "Number of rigid bodies.")
 
-    @property
-    def inside_body_count(self) -> int:
-        """Number of springs and other members of forces dropped because they are inside a rigid body; commits."""
-        return int(lib.hooke_system_count(self._committed(), b"inside_bodies"))
+    inside_body_count = Count(
+        "inside_bodies",
+        "Number of springs and other members of forces dropped because they are inside a rigid body; commits.",
+    )
 
     @property
     def body_names(self) -> list[str]:
@@ -270,15 +272,9 @@ class Queries(Owner):
             text(lib.hooke_system_force_name(handle, k)) for k in range(lib.hooke_system_count(handle, b"forces"))
         ]
 
-    @property
-    def memory(self) -> int:
-        """Memory that the system holds [bytes]."""
-        return int(lib.hooke_system_count(self._committed(), b"memory"))
+    memory = Count("memory", "Memory that the system holds [bytes].")
 
-    @property
-    def spring_memory(self) -> int:
-        """The part of it that grows with the number of springs [bytes]."""
-        return int(lib.hooke_system_count(self._committed(), b"spring_memory"))
+    spring_memory = Count("spring_memory", "The part of it that grows with the number of springs [bytes].")
 
     # forces
 

@@ -94,9 +94,8 @@ class Estimate:
     def measure(self, state: State) -> RunError:
         """The result, after the run that ended with `state`."""
         self._measurement.run(self._progress, state)
-        found: dict[str, Any] = self._measurement.record("estimate") or {}
-        found["by"] = found["by"] or None
-        return RunError(*(found[name] for name in RunError._fields))
+        found: RunError = self._measurement.one(RunError, "estimate")
+        return found
 
     def write(self, path: Path) -> None:
         """Adds it to the output file of the run."""
