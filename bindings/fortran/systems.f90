@@ -5,17 +5,14 @@
 module hooke_systems
   use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
   use, intrinsic :: iso_c_binding, only: c_double, c_int32_t, c_int64_t, c_ptr
-  use hooke_base, only: accept, hooke_bad_value, hooke_long, is_3_by, refuse, to_c, to_c_if, to_integer, &
-    to_series, to_text, zero_based
+  use hooke_base, only: accept, hooke_bad_value, is_3_by, refuse, to_c, to_integer, to_series, zero_based
   use hooke_builders, only: hooke_builder
-  use hooke_c_scene, only: c_scene_write
   use hooke_c_integrator, only: c_method_count
   use hooke_c_measurement, only: c_step_bound
   use hooke_c_system
-  use hooke_option_tables, only: hooke_options, options_or_null
   implicit none
   private
-  public :: hooke_system
+  public :: hooke_system, rows_hold
 
   type, extends(hooke_builder) :: hooke_system
   contains
@@ -39,18 +36,16 @@ module hooke_systems
     procedure :: angular_momentum
     procedure :: step_bound
     procedure :: step_bounds
-    procedure :: write_scene
-    procedure, private :: assign
-    generic :: assignment(=) => assign
   end type
 
 contains
 
-  impure elemental subroutine assign(self, other)
-    class(hooke_system), intent(inout) :: self
-    type(hooke_system), intent(in) :: other
-    call self%share(other)
-  end subroutine
+  ! Holds the arrays of a force by their `q` beyond the call (`more` 1), or releases them (-1); how often they are held.
+  integer function rows_hold(q, more)
+    real(c_double), intent(in), contiguous :: q(:, :)
+    integer, intent(in) :: more
+    rows_hold = int(c_rows_hold(q, int(more, c_int32_t)))
+  end function
 
   ! Masses [kg] and inverse masses [1/kg], 0 where pinned or driven; not associated before commit.
 
@@ -324,16 +319,4 @@ contains
     call accept(c_step_bound(self%address(), every, q, bounds), status)
   end subroutine
 
-  ! Writes the committed system as a scene file, with the options of a run.
-  subroutine write_scene(self, path, title, run, status)
-    class(hooke_system), intent(in) :: self
-    character(*), intent(in) :: path
-    character(*), intent(in), optional :: title
-    type(hooke_options), intent(in), optional :: run
-    integer, intent(out), optional :: status
-    character(:), allocatable :: c_title
-    if (self%is_missing(status)) return
-    call to_c_if(title, c_title)
-    call accept(c_scene_write(to_c(path), self%address(), c_title, options_or_null(run)), status)
-  end subroutine
 end module

@@ -1,8 +1,7 @@
 ! Trajectory files (HDF5): writing, reading, and one file for a whole comparison.
 module hooke_trajectories
   use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_int32_t, c_int64_t, c_ptr
-  use hooke_base, only: accept, hooke_bad_value, hooke_long, hooke_ok, hooke_stopped, refuse, to_c, to_c_if, &
-    to_integer, to_text
+  use hooke_base, only: accept, hooke_bad_value, hooke_long, hooke_ok, hooke_stopped, refuse, to_c, to_c_if
   use hooke_c_checkpoint, only: c_trajectory_resume
   use hooke_c_trajectory
   use hooke_c_measurement, only: c_comparison_file_close, c_comparison_file_create
@@ -25,21 +24,16 @@ module hooke_trajectories
     procedure :: resume => resume_trajectory
     procedure :: write => write_frame
     procedure :: close => close_trajectory
-    procedure, private :: assign_trajectory
-    generic :: assignment(=) => assign_trajectory
   end type
 
   ! A file being read.
   type, extends(hooke_record_queries) :: hooke_record
     type(hooke_options) :: options ! of the run, with defaults filled in
   contains
-    procedure :: open => open_record
     procedure :: check => check_frame
     procedure :: read => read_frame
     procedure :: numbers
-    procedure :: destroy => close_record
-    procedure, private :: assign_record
-    generic :: assignment(=) => assign_record
+    procedure :: refresh
   end type
 
   type, extends(hooke_handle) :: hooke_comparison_file
@@ -120,28 +114,7 @@ contains
     if (code /= 0) return ! no status can be returned
   end subroutine
 
-  impure elemental subroutine assign_trajectory(self, other)
-    class(hooke_trajectory), intent(inout) :: self
-    type(hooke_trajectory), intent(in) :: other
-    call self%share(other)
-  end subroutine
-
   ! ---- reading ----
-
-  ! Opens a trajectory file, finished or not.
-  subroutine open_record(self, path, status)
-    class(hooke_record), intent(inout) :: self
-    character(*), intent(in) :: path
-    integer, intent(out), optional :: status
-    type(c_ptr) :: record
-    integer(c_int32_t) :: code
-    code = c_record_open(to_c(path), record)
-    if (code == 0) then
-      call self%take(record, c_record_close)
-      call self%options%take(c_record_options(record), owner=self)
-    end if
-    call accept(code, status)
-  end subroutine
 
   ! Refuses a damaged frame, whose numbers are not those that were written: 1 is the first, -1 the last.
   subroutine check_frame(self, frame, status)
@@ -196,18 +169,10 @@ contains
     call accept(code, status)
   end subroutine
 
-  subroutine close_record(self)
+  subroutine refresh(self)
     class(hooke_record), intent(inout) :: self
     call self%options%destroy()
-    call self%hooke_handle%destroy()
-  end subroutine
-
-  impure elemental subroutine assign_record(self, other)
-    class(hooke_record), intent(inout) :: self
-    type(hooke_record), intent(in) :: other
-    if (self%has_that_of(other)) return
-    call self%share(other)
-    self%options = other%options
+    if (self%exists()) call self%options%take(c_record_options(self%address()), owner=self)
   end subroutine
 
   ! ---- comparisons ----
