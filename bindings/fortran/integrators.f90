@@ -2,8 +2,7 @@
 module hooke_integrators
   use, intrinsic :: iso_c_binding, only: c_double, c_funloc, c_funptr, c_int32_t, c_int64_t, c_loc, c_null_funptr, &
     c_ptr
-  use hooke_base, only: accept, hooke_bad_value, hooke_long, refuse, to_c, to_c_if, zero_based
-  use hooke_c_checkpoint, only: c_checkpoint_read, c_checkpoint_write
+  use hooke_base, only: accept, hooke_bad_value, hooke_long, refuse, zero_based
   use hooke_c_integrator
   use hooke_forces
   use hooke_handles, only: called_object, callback_to, hooke_callback
@@ -23,8 +22,6 @@ module hooke_integrators
     type(hooke_options) :: options
   contains
     procedure :: create_second_order
-    procedure :: write_checkpoint
-    procedure :: read_checkpoint
     procedure, private :: step_some, step_many
     generic :: step => step_some, step_many
     procedure, private :: advance_some, advance_many
@@ -76,33 +73,6 @@ contains
   end subroutine
 
   ! ---- running ----
-
-  ! Writes a checkpoint of the run; `name` identifies the run.
-  subroutine write_checkpoint(self, path, state, name, status)
-    class(hooke_integrator), intent(in) :: self
-    character(*), intent(in) :: path
-    class(hooke_state), intent(in) :: state
-    character(*), intent(in), optional :: name
-    integer, intent(out), optional :: status
-    character(:), allocatable :: c_name
-    if (self%is_missing(status, state)) return
-    call to_c_if(name, c_name)
-    call accept(c_checkpoint_write(to_c(path), self%address(), state%address(), c_name), status)
-  end subroutine
-
-  ! Sets integrator and state to the point that the file holds, for resume() or step(); of any run if `name`
-  ! is absent.
-  subroutine read_checkpoint(self, path, state, name, status)
-    class(hooke_integrator), intent(inout) :: self
-    character(*), intent(in) :: path
-    class(hooke_state), intent(inout) :: state
-    character(*), intent(in), optional :: name
-    integer, intent(out), optional :: status
-    character(:), allocatable :: c_name
-    if (self%is_missing(status, state)) return
-    call to_c_if(name, c_name)
-    call accept(c_checkpoint_read(to_c(path), c_name, self%address(), state%address()), status)
-  end subroutine
 
   ! Takes some steps, without frames.
   subroutine step_some(self, state, steps, status)

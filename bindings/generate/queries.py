@@ -15,6 +15,8 @@ RESULTS = {"int32_t", "int64_t", "double", "const char *", "void"}
 IN_C = {"hooke_estimate": "hooke_measurement", "hooke_view": "hooke_measurement"}
 # Functions of C that belong to a type by another name than theirs, and their names there.
 BELONG = {
+    "hooke_checkpoint_read": ("hooke_integrator", "read_checkpoint"),
+    "hooke_checkpoint_write": ("hooke_integrator", "write_checkpoint"),
     "hooke_comparison_on_frame": ("hooke_measurement", "on_frame"),
     "hooke_mesh_read": ("hooke_options", "read_mesh"),
     "hooke_scene_options_apply": ("hooke_system", "apply"),
@@ -26,7 +28,8 @@ BELONG = {
     "hooke_why_create_kept": ("hooke_measurement", "create_why_kept"),
 }
 # Parameters that have another name in Fortran.
-RENAMED = {("hooke_method_name", "method"): "number", ("hooke_part_kind", "kind"): "number"}
+RENAMED = {("hooke_checkpoint_read", "run"): "name", ("hooke_checkpoint_write", "run"): "name",
+           ("hooke_method_name", "method"): "number", ("hooke_part_kind", "kind"): "number"}
 # Procedures of Fortran that ask a query of C for one word, by the names that they would have in C, with their results.
 WORDS = {
     "hooke_system_spring_count": ("int64_t", "hooke_system_count", "springs"),
@@ -67,25 +70,25 @@ class Parameter:
 
     def __init__(self, function, kind, what, own, places):
         name = function[1]
-        what = RENAMED.get((name, what), what)
+        optional, what = guard.is_optional(name, what), RENAMED.get((name, what), what)
+        self.last = optional and kind == "const char *"
         self.what, self.locals, self.before, self.object = what, [], [], object_of(kind)
         self.callback = callbacks.of_callback(self.object) if self.object else None
         if self.callback:
             self.object, self.passed = None, "callback%function, callback%data"
-            optional = ", optional" if guard.is_optional(name, what) else ""
-            self.declared = f"class({self.callback}), target, intent(inout){optional} :: {what}"
+            self.declared = f"class({self.callback}), target, intent(inout){', optional' if optional else ''} :: {what}"
             self.locals = ["type(hooke_callback) :: callback"]
             self.before = [f"callback = callback_to(c_funloc(call_{self.callback[len('hooke_'):]}), {what})"]
             places.append(what)
         elif self.object:
             type_ = own if self.object == IN_C.get(own) else self.object
-            absent = guard.may_be_null(name, self.object) and not name.endswith("_destroy")
+            absent = guard.may_be_null(name, self.object) and (kind.startswith("const") or self.object != "hooke_options")
             intent, self.object = "in" if kind.startswith("const") else "inout", type_
             self.declared = f"class({type_}_queries), intent({intent}){', optional' if absent else ''} :: {what}"
             self.passed = f"address_or_null({what})" if absent else f"{what}%address()"
         elif kind == "double":
             self.declared, self.passed = f"real(c_double), intent(in) :: {what}", what
-        elif kind == "const char *" and guard.is_optional(name, what):
+        elif self.last:
             self.declared, self.passed = f"character(*), intent(in), optional :: {what}", f"c_{what}"
             self.locals, self.before = [f"character(:), allocatable :: c_{what}"], [f"call to_c_if({what}, c_{what})"]
         elif kind == "const char *":
@@ -120,6 +123,8 @@ def procedure(function, own, every):
         elif not kind.endswith("**") and what != "ctx":
             given.append(Parameter(function, kind, what, own, places))
             passed.append(given[-1].passed)
+    if any(p.object and "optional" not in p.declared for p in given):
+        given.sort(key=lambda p: p.last)
     call = f"c_{short}({', '.join([*passed, *(['made'] if makes else [])])})"
     first, then = [line for p in given for line in p.locals], [line for p in given for line in p.before]
     whats, objects = [p.what for p in given], [p.what for p in given if p.object]
