@@ -206,9 +206,6 @@ def _run_to_want(
             return result
 
 
-_problem.Problem._run_by = run
-
-
 def resume(
     output: Path,
     problem: Runnable | None = None,
@@ -405,3 +402,6 @@ class _Recorder:
 
 def _arrays(state: State) -> tuple[Table, Table | None]:
     return (state.x, None) if state._v is None else (state.q, state.v)
+
+
+_problem.Problem._run_by = run

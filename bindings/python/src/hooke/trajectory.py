@@ -6,7 +6,7 @@ from __future__ import annotations
 import math
 import os
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, Any, NamedTuple, overload
+from typing import TYPE_CHECKING, Any, Callable, NamedTuple, TypeVar, overload
 
 import numpy as np
 
@@ -27,6 +27,9 @@ from .view import view
 
 if TYPE_CHECKING:
     from .animation import Animation
+
+
+K = TypeVar("K")
 
 
 class Frame(NamedTuple):
@@ -133,10 +136,7 @@ class Trajectory(Closing):
         """The scene of the run, with its options; None if the run was not made from one."""
         if not text(lib.hooke_record_text(self._handle, b"scene")):
             return None
-        if "scene" not in self._kept:
-            self._kept["scene"] = Scene.load(self.path)
-        scene: Scene = self._kept["scene"]
-        return scene
+        return self._keep("scene", lambda: Scene.load(self.path))
 
     @property
     def system(self) -> System:
@@ -250,25 +250,23 @@ class Trajectory(Closing):
 
     # reading
 
-    def _numbers(self, what: str) -> FloatArray:
+    def _keep(self, what: Any, read: Callable[[], K]) -> K:
+        """What was read before, or is now."""
         if what not in self._kept:
-            self._kept[what] = numbers(self._handle, what)
-            self._kept[what].flags.writeable = False
-        kept: FloatArray = self._kept[what]
+            self._kept[what] = read()
+            if isinstance(self._kept[what], np.ndarray):
+                self._kept[what].flags.writeable = False
+        kept: K = self._kept[what]
         return kept
+
+    def _numbers(self, what: str) -> FloatArray:
+        return self._keep(what, lambda: numbers(self._handle, what))
 
     def _integers(self, what: str) -> IntArray:
-        if (what, int) not in self._kept:
-            self._kept[what, int] = self._numbers(what).astype(np.int64)
-            self._kept[what, int].flags.writeable = False
-        kept: IntArray = self._kept[what, int]
-        return kept
+        return self._keep((what, int), lambda: self._numbers(what).astype(np.int64))
 
     def _rows(self, what: str) -> FloatArray:
-        if what not in self._kept:
-            self._kept[what] = self._mapped(what)
-        kept: FloatArray = self._kept[what]
-        return kept
+        return self._keep(what, lambda: self._mapped(what))
 
     def _mapped(self, what: str) -> FloatArray:
         shape = (self._count, len(self.mass), 3)
@@ -288,7 +286,6 @@ class Trajectory(Closing):
         for frame in range(self._count):
             lib.hooke_record_read(self._handle, frame, state._handle)
             frames[frame] = state.q if what == "position" else state.v
-        frames.flags.writeable = False
         return frames
 
 
