@@ -1,15 +1,13 @@
 ! The error of a run, and a method and a step or tolerance for a wanted error.
 module hooke_estimates
-  use, intrinsic :: iso_c_binding, only: c_double, c_funloc, c_int32_t, c_int64_t, c_null_ptr, c_ptr
+  use, intrinsic :: iso_c_binding, only: c_double, c_int32_t, c_int64_t, c_null_ptr, c_ptr
   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
   use hooke_base, only: accept, to_c, to_text
   use hooke_c_estimate
   use hooke_queries_of_estimate
   use hooke_c_measurement, only: c_measurement_create, c_measurement_destroy, c_measurement_number, &
-    c_measurement_on_progress, c_measurement_run, c_measurement_text
-  use hooke_handles, only: callback_to, hooke_callback
+    c_measurement_run, c_measurement_text
   use hooke_integrators, only: hooke_integrator
-  use hooke_observers, only: call_progress, hooke_progress
   use hooke_option_tables, only: hooke_options
   use hooke_states, only: hooke_state
   use hooke_systems, only: hooke_system
@@ -17,12 +15,9 @@ module hooke_estimates
   private
   public :: hooke_estimate
 
-  integer, parameter :: of_progress = 1
-
   type, extends(hooke_estimate_queries) :: hooke_estimate
   contains
     procedure :: create
-    procedure :: on_progress
     procedure :: see
     procedure :: measure
     procedure :: number
@@ -53,16 +48,6 @@ contains
     code = c_measurement_create(to_c("estimate"), system%address(), c_null_ptr, options%address(), estimate)
     if (code == 0) call self%take(estimate, c_measurement_destroy, system)
     call accept(code, status)
-  end subroutine
-
-  ! Sets the progress callback, which must exist as long as it is set; without an argument it is removed.
-  subroutine on_progress(self, progress)
-    class(hooke_estimate), intent(inout) :: self
-    class(hooke_progress), target, intent(inout), optional :: progress
-    type(hooke_callback) :: callback
-    callback = callback_to(c_funloc(call_progress), progress)
-    call c_measurement_on_progress(self%address(), callback%function, callback%data)
-    call self%keep(callback, of_progress, 0_c_int32_t)
   end subroutine
 
   ! Adds a state of the run, for observers to call.

@@ -1,7 +1,6 @@
 ! State of a motion: time, positions and velocities, in the library's memory.
 module hooke_states
-  use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_f_pointer, c_int32_t, c_int64_t, c_null_ptr, &
-    c_ptr
+  use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_f_pointer, c_int64_t, c_ptr
   use hooke_base, only: accept, to_integer
   use hooke_c_state
   use hooke_queries_of_state

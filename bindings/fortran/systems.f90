@@ -4,7 +4,7 @@
 ! Arrays of positions, velocities and forces are (3, n). Pointers are to the library's memory, for reading.
 module hooke_systems
   use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
-  use, intrinsic :: iso_c_binding, only: c_double, c_int32_t, c_int64_t, c_ptr
+  use, intrinsic :: iso_c_binding, only: c_double, c_int32_t, c_int64_t
   use hooke_base, only: accept, hooke_bad_value, is_3_by, refuse, to_c, to_integer, to_series, zero_based
   use hooke_builders, only: hooke_builder
   use hooke_c_integrator, only: c_method_count

@@ -1,6 +1,6 @@
 ! A trajectory as one HTML page that plays it.
 module hooke_views
-  use, intrinsic :: iso_c_binding, only: c_double, c_int32_t, c_int64_t, c_ptr
+  use, intrinsic :: iso_c_binding, only: c_double, c_int32_t, c_int64_t
   use hooke_base, only: accept, to_c, to_c_if
   use hooke_c_measurement, only: c_measurement_label, c_measurement_number, c_measurement_write
   use hooke_queries_of_view

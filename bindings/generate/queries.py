@@ -27,6 +27,7 @@ BELONG = {
     "hooke_why_create": ("hooke_measurement", "create_why"),
     "hooke_why_create_kept": ("hooke_measurement", "create_why_kept"),
 }
+ALSO = {("hooke_estimate", "hooke_measurement_on_progress")}  # and those that a type has of the other one
 # Parameters that have another name in Fortran.
 RENAMED = {("hooke_checkpoint_read", "run"): "name", ("hooke_checkpoint_write", "run"): "name",
            ("hooke_method_name", "method"): "number", ("hooke_part_kind", "kind"): "number"}
@@ -139,9 +140,8 @@ def procedure(function, own, every):
         checked = [f"if (missing({', '.join(needed)})) return"] if len(needed) > 1 else []
         if makes:
             owner = next((f", {p.what}" for p in given if p.object and p.object != "hooke_options"), "")
-            destroy = next(n for _, n, _ in every if n in (f"{IN_C.get(own, own)}_destroy", f"{own}_close"))
             first += ["type(c_ptr) :: made", "integer(c_int32_t) :: code"]
-            then += [f"code = {call}", f"if (code == 0) call self%take(made, c_{destroy[len('hooke_'):]}{owner})"]
+            then += [f"code = {call}", f"if (code == 0) call self%take(made, {ender(own, every)[0]}{owner})"]
             call = "code"
         then.append(f"{keep}{call}, status)" if places else f"call accept({call}, status)")
         body = [*checked, *then]
@@ -153,6 +153,20 @@ def procedure(function, own, every):
         body = [*then, f"found = {made.format(call)}"]
     title = f"{kind} {short}({', '.join([*(['self'] if own else []), *whats])}){' result(found)' if kind == 'function' else ''}"
     return [f"  {title}", *(f"    {line}" for line in wrapped([*head, *first, *body])), f"  end {kind}", ""]
+
+
+def ender(own, every):
+    """The procedure that releases objects of a type, and its lines if it is made here: where closing one may fail."""
+    of_type = (f"{IN_C.get(own, own)}_destroy", f"{own}_close")
+    result, name, parameters = next(f for f in every if f[1] in of_type)
+    short = name[len("hooke_"):]
+    if result == "void":
+        return f"c_{short}", []
+    outcome = ", int(hooke_stopped, c_int32_t)" if len(parameters) > 1 else ""
+    return f"abandon_{own[len('hooke_'):]}", [
+        f"  subroutine abandon_{own[len('hooke_'):]}(object) bind(c, name=\"\")", "    type(c_ptr), value :: object",
+        "    integer(c_int32_t) :: code", f"    code = c_{short}(object{outcome})",
+        "    if (code /= 0) return ! no status can be returned", "  end subroutine", ""]
 
 
 def wrapped(lines):
@@ -180,7 +194,7 @@ def is_query(function, type_, types, by_hand):
     made = makes and object_of(kinds.pop()[:-1]) == IN_C.get(type_, type_)
     known = {*types, *IN_C.values()}
     plain = all(kind in SIMPLE or object_of(kind) in known or callbacks.of_callback(object_of(kind) or "") for kind in kinds)
-    mine = belongs(name, types)[0] == type_
+    mine = belongs(name, types)[0] == type_ or (type_, name) in ALSO
     if type_ is None:
         mine = not any(object_of(kind) for kind in kinds)
     elif not makes:
@@ -199,14 +213,17 @@ def module(type_, types, public, by_hand):
     headers_used = [*(header for header, fs in found.items() if fs)]
     lines = [line for f in functions for line in procedure(f, type_, every)] + [line for name in words for line in of_word(name)]
     text = "\n".join(lines)
-    home = [header for header, t in public.items() if re.search(rf"HOOKE_API void {IN_C.get(type_, type_)}_(destroy|close)\(", t)]
+    home = [header for header, t in public.items() if re.search(rf" {IN_C.get(type_, type_)}_(destroy|close)\(", t)]
+    lines += ender(type_, every)[1] if type_ else []
     uses = [f"  use hooke_c_{header[:-2]}" for header in dict.fromkeys([*headers_used, *(home if type_ else [])])]
     others = sorted(set(re.findall(r"class\((hooke_\w+)_queries\)", text)) - {type_})
     uses += [f"  use hooke_queries_of_{other[len('hooke_'):]}, only: {other}_queries" for other in others]
     uses += [f"  use hooke_{which}" for which, row in callbacks.TYPES.items() if any(f"class({name})" in text for name in row)]
     named = (type_ or "hooke_library")[len("hooke_"):]
     bound = [f"    procedure :: {short} => {name[len('hooke_'):]}" for name, short in names]
-    own = [f"  public :: {type_}_queries", "", f"  type, extends(hooke_handle) :: {type_}_queries", "  contains", *bound,
+    ended = re.findall(r"^  subroutine (abandon_\w+)", "\n".join(lines), re.MULTILINE)
+    own = [f"  public :: {', '.join([f'{type_}_queries', *ended])}", "",
+           f"  type, extends(hooke_handle) :: {type_}_queries", "  contains", *bound,
            f"    procedure, private :: assign => assign_{named}", "    generic :: assignment(=) => assign", "  end type", "",
            "contains", "", f"  impure elemental subroutine assign_{named}(self, other)",
            f"    class({type_}_queries), intent(inout) :: self", f"    class({type_}_queries), intent(in) :: other",
@@ -216,7 +233,7 @@ def module(type_, types, public, by_hand):
     return ["", f"! What {who} does as the functions of C of the same names; numbers of things count from 1 here.",
             f"module hooke_queries_of_{named}",
             "  use, intrinsic :: iso_c_binding, only: c_double, c_funloc, c_int32_t, c_int64_t, c_ptr",
-            "  use hooke_base, only: accept, to_c, to_c_if, to_integer, to_number, to_text, zero_based", *uses,
+            "  use hooke_base, only: accept, hooke_stopped, to_c, to_c_if, to_integer, to_number, to_text, zero_based", *uses,
             "  use hooke_handles, only: address_or_null, callback_to, hooke_callback, hooke_handle, missing", "  implicit none",
             "  private", *(own if type_ else free), *lines, "end module"]
 
