@@ -1,6 +1,6 @@
 ! Measurements of a scene: one type with options, progress, a run, and tables of results.
 module hooke_measurements
-  use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_int64_t, c_ptr
+  use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_int32_t, c_int64_t, c_ptr
   use hooke_base, only: accept, hooke_bad_call, hooke_bad_value, is_3_by, refuse, to_c, to_integer, to_series, &
     zero_based
   use hooke_c_measurement

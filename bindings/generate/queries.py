@@ -69,7 +69,7 @@ def object_of(kind):
 class Parameter:
     """One of a function of C: its declaration in Fortran, what C is given for it, and what comes before the call."""
 
-    def __init__(self, function, kind, what, own, places):
+    def __init__(self, function, kind, what, own):
         name = function[1]
         optional, what = guard.is_optional(name, what), RENAMED.get((name, what), what)
         self.last = optional and kind == "const char *"
@@ -80,7 +80,6 @@ class Parameter:
             self.declared = f"class({self.callback}), target, intent(inout){', optional' if optional else ''} :: {what}"
             self.locals = ["type(hooke_callback) :: callback"]
             self.before = [f"callback = callback_to(c_funloc(call_{self.callback[len('hooke_'):]}), {what})"]
-            places.append(what)
         elif self.object:
             type_ = own if self.object == IN_C.get(own) else self.object
             absent = guard.may_be_null(name, self.object) and (kind.startswith("const") or self.object != "hooke_options")
@@ -111,48 +110,63 @@ def answer(result, name, whats):
     return ("logical", "{} == 1") if "_is_" in name else ("integer", "int({})")
 
 
-def procedure(function, own, every):
-    """One procedure as lines; `own` is None for a function without an object."""
-    result, name, parameters = function
-    short = name[len("hooke_"):]
-    makes = parameters and parameters[-1][0].endswith("**")
-    place = next((k for k, (kind, _) in enumerate(parameters) if own and object_of(kind) == IN_C.get(own, own)), None)
-    given, passed, places = [], [], []
-    for number, (kind, what) in enumerate(parameters):
-        if number == place and not makes:
-            passed.append("self%address()")
-        elif not kind.endswith("**") and what != "ctx":
-            given.append(Parameter(function, kind, what, own, places))
-            passed.append(given[-1].passed)
-    if any(p.object and "optional" not in p.declared for p in given):
-        given.sort(key=lambda p: p.last)
-    call = f"c_{short}({', '.join([*passed, *(['made'] if makes else [])])})"
-    first, then = [line for p in given for line in p.locals], [line for p in given for line in p.before]
-    whats, objects = [p.what for p in given], [p.what for p in given if p.object]
-    changes = makes or (place is not None and not parameters[place][0].startswith("const"))
-    head = [f"class({own}_queries), intent({'inout' if changes else 'in'}) :: self"] if own else []
-    head += [p.declared for p in given]
-    keep = f"call self%keep(callback, {10 + every.index(function)}, "
-    if headers.is_status(result, name):
-        kind, whats = "subroutine", [*whats, "status"]
-        head.append("integer, intent(out), optional :: status")
-        needed = ["status", *objects] if makes or not own else ["status", "self", *objects]
-        checked = [f"if (missing({', '.join(needed)})) return"] if len(needed) > 1 else []
-        if makes:
-            owner = next((f", {p.what}" for p in given if p.object and p.object != "hooke_options"), "")
-            first += ["type(c_ptr) :: made", "integer(c_int32_t) :: code"]
-            then += [f"code = {call}", f"if (code == 0) call self%take(made, {ender(own, every)[0]}{owner})"]
-            call = "code"
-        then.append(f"{keep}{call}, status)" if places else f"call accept({call}, status)")
-        body = [*checked, *then]
-    elif result == "void":
-        kind, body = "subroutine", [*then, f"call {call}", *([f"{keep}0_c_int32_t)"] if places else [])]
-    else:
-        kind, (of_result, made) = "function", answer(result, name, whats)
-        first = [f"{of_result} :: found", *first]
-        body = [*then, f"found = {made.format(call)}"]
-    title = f"{kind} {short}({', '.join([*(['self'] if own else []), *whats])}){' result(found)' if kind == 'function' else ''}"
-    return [f"  {title}", *(f"    {line}" for line in wrapped([*head, *first, *body])), f"  end {kind}", ""]
+class Procedure:
+    """A function of C as a procedure of the type `own`, or of none."""
+
+    def __init__(self, function, own, every):
+        self.result, self.name, parameters = function
+        self.own, self.every, self.short = own, every, self.name[len("hooke_"):]
+        self.makes = bool(parameters) and parameters[-1][0].endswith("**")
+        takes_self = own and not self.makes
+        self.self_ = next((kind for kind, _ in parameters if takes_self and object_of(kind) == IN_C.get(own, own)), None)
+        self.given, passed = [], []
+        for kind, what in parameters:
+            if kind == self.self_ and "self%address()" not in passed:
+                passed.append("self%address()")
+            elif not kind.endswith("**") and what != "ctx":
+                self.given.append(Parameter(function, kind, what, own))
+                passed.append(self.given[-1].passed)
+        self.call = f"c_{self.short}({', '.join([*passed, *(['made'] if self.makes else [])])})"
+        self.objects = [p.what for p in self.given if p.object]
+        if any(p.object and "optional" not in p.declared for p in self.given):
+            self.given.sort(key=lambda p: p.last)
+        kept = any(p.callback for p in self.given)
+        self.keep = f"call self%keep(callback, {10 + every.index(function)}, " if kept else None
+
+    def taking(self):
+        """Lines that take the object that is made."""
+        owner = next((f", {p.what}" for p in self.given if p.object and p.object != "hooke_options"), "")
+        return [f"code = {self.call}", f"if (code == 0) call self%take(made, {ender(self.own, self.every)[0]}{owner})"]
+
+    def body(self):
+        """(locals, statements) of a procedure that returns a status."""
+        needed = [*(["self"] if self.own and not self.makes else []), *self.objects]
+        body = [f"if (missing(status, {', '.join(needed)})) return"] if needed else []
+        body += [line for p in self.given for line in p.before]
+        call, locals_ = self.call, []
+        if self.makes:
+            body += self.taking()
+            call, locals_ = "code", ["type(c_ptr) :: made", "integer(c_int32_t) :: code"]
+        return locals_, [*body, f"{self.keep}{call}, status)" if self.keep else f"call accept({call}, status)"]
+
+    def lines(self):
+        """The whole procedure."""
+        whats, before = [p.what for p in self.given], [line for p in self.given for line in p.before]
+        intent = "inout" if self.makes or not (self.self_ or "const").startswith("const") else "in"
+        head = [f"class({self.own}_queries), intent({intent}) :: self"] if self.own else []
+        head += [p.declared for p in self.given]
+        first, kind, found = [line for p in self.given for line in p.locals], "subroutine", ""
+        if headers.is_status(self.result, self.name):
+            locals_, body = self.body()
+            whats, head, first = [*whats, "status"], [*head, "integer, intent(out), optional :: status"], [*first, *locals_]
+        elif self.result == "void":
+            body = [*before, f"call {self.call}", *([f"{self.keep}0_c_int32_t)"] if self.keep else [])]
+        else:
+            of_result, made = answer(self.result, self.name, whats)
+            kind, found, first = "function", " result(found)", [f"{of_result} :: found", *first]
+            body = [*before, f"found = {made.format(self.call)}"]
+        title = f"  {kind} {self.short}({', '.join([*(['self'] if self.own else []), *whats])}){found}"
+        return [title, *(f"    {line}" for line in wrapped([*head, *first, *body])), f"  end {kind}", ""]
 
 
 def ender(own, every):
@@ -203,6 +217,17 @@ def is_query(function, type_, types, by_hand):
             and not name.endswith(("_destroy", "_close")) and "c_" + name[len("hooke_"):] not in by_hand)
 
 
+def of_type(type_, named, names, ended):
+    """A type with its procedures, and the assignment that makes another reference to the same object."""
+    bound = [f"    procedure :: {short} => {name[len('hooke_'):]}" for name, short in names]
+    return [f"  public :: {', '.join([f'{type_}_queries', *ended])}", "",
+            f"  type, extends(hooke_handle) :: {type_}_queries", "  contains", *bound,
+            f"    procedure, private :: assign => assign_{named}", "    generic :: assignment(=) => assign", "  end type", "",
+            "contains", "", f"  impure elemental subroutine assign_{named}(self, other)",
+            f"    class({type_}_queries), intent(inout) :: self", f"    class({type_}_queries), intent(in) :: other",
+            "    call self%share(other)", "  end subroutine", ""]
+
+
 def module(type_, types, public, by_hand):
     """The module of one type, or of the functions without an object."""
     every = [f for text in public.values() for f in headers.declared(text)]
@@ -211,7 +236,8 @@ def module(type_, types, public, by_hand):
     words = [name for name in WORDS if type_ and name.startswith(type_ + "_")]
     names = [(name, belongs(name, types)[1]) for _, name, _ in functions] + [(name, name[len(type_) + 1:]) for name in words]
     headers_used = [*(header for header, fs in found.items() if fs)]
-    lines = [line for f in functions for line in procedure(f, type_, every)] + [line for name in words for line in of_word(name)]
+    lines = [line for f in functions for line in Procedure(f, type_, every).lines()]
+    lines += [line for name in words for line in of_word(name)]
     text = "\n".join(lines)
     home = [header for header, t in public.items() if re.search(rf" {IN_C.get(type_, type_)}_(destroy|close)\(", t)]
     lines += ender(type_, every)[1] if type_ else []
@@ -220,14 +246,8 @@ def module(type_, types, public, by_hand):
     uses += [f"  use hooke_queries_of_{other[len('hooke_'):]}, only: {other}_queries" for other in others]
     uses += [f"  use hooke_{which}" for which, row in callbacks.TYPES.items() if any(f"class({name})" in text for name in row)]
     named = (type_ or "hooke_library")[len("hooke_"):]
-    bound = [f"    procedure :: {short} => {name[len('hooke_'):]}" for name, short in names]
     ended = re.findall(r"^  subroutine (abandon_\w+)", "\n".join(lines), re.MULTILINE)
-    own = [f"  public :: {', '.join([f'{type_}_queries', *ended])}", "",
-           f"  type, extends(hooke_handle) :: {type_}_queries", "  contains", *bound,
-           f"    procedure, private :: assign => assign_{named}", "    generic :: assignment(=) => assign", "  end type", "",
-           "contains", "", f"  impure elemental subroutine assign_{named}(self, other)",
-           f"    class({type_}_queries), intent(inout) :: self", f"    class({type_}_queries), intent(in) :: other",
-           "    call self%share(other)", "  end subroutine", ""]
+    own = of_type(type_, named, names, ended)
     free = [*(f"  public :: {name[len('hooke_'):]}" for name, _ in names), "", "contains", ""]
     who = type_ or "the library"
     return ["", f"! What {who} does as the functions of C of the same names; numbers of things count from 1 here.",
