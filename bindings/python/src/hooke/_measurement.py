@@ -49,10 +49,6 @@ class Measurement:
 
     # ---- tables ----
 
-    def columns(self, table: str) -> dict[str, str]:
-        """The types of the columns of a table, by name."""
-        return columns(self.kind, table)
-
     def count(self, table: str) -> int:
         return int(lib.hooke_measurement_row_count(self.handle, table.encode()))
 
@@ -73,7 +69,7 @@ class Measurement:
 
     def value(self, table: str, row: int, column: str) -> Any:
         """A number, a text, or a flag: True, False, or None if unknown."""
-        kind = self.columns(table)[column]
+        kind = columns(self.kind, table)[column]
         if kind == "text":
             return self.text(table, row, column)
         number = self.number(table, row, column)
@@ -85,7 +81,7 @@ class Measurement:
         """The one row of a record; None if there is none."""
         if self.count(table) < 1:
             return None
-        return {name: self.value(table, 0, name) for name, kind in self.columns(table).items() if kind != "series"}
+        return {name: self.value(table, 0, name) for name, kind in columns(self.kind, table).items() if kind != "series"}
 
     def one(self, kind: Any, table: str, **others: Any) -> Any:
         """A record as a named tuple, whose fields are columns or `others`; None if there is none."""
@@ -101,7 +97,7 @@ class Measurement:
         """A structured array with a field for each column but series; flags are bool if all are known."""
         count = self.count(table)
         fields = []
-        for name, kind in self.columns(table).items():
+        for name, kind in columns(self.kind, table).items():
             if kind == "series":
                 continue
             read = self.text if kind == "text" else self.number

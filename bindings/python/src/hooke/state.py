@@ -97,12 +97,7 @@ class State:
 
     def copy(self) -> State:
         """A copy with the same values."""
-        if self._v is None:
-            other = State._of_size(lib.hooke_state_size(self._handle), self._x.dtype)
-        elif self._v.ndim == 1:
-            other = State._of_coordinates(self._v.size)
-        else:
-            other = State._of_system(self._handle.parent)
+        other = _alike(self._x, self._v, self._handle.parent)
         other.assign(self)
         return other
 
@@ -128,12 +123,18 @@ class State:
         return f"State(t={self.t!r}, {len(self._v)} {'particles' if self._v.ndim == 2 else 'coordinates'})"
 
 
+def _alike(x: Table, v: FloatArray | None, system: Handle | None = None) -> State:
+    """A state for such arrays, of a system or of none."""
+    if v is None:
+        return State._of_size(x.view(float).size, x.dtype)
+    if v.ndim == 1:
+        return State._of_coordinates(v.size)
+    return State._of_particles(len(v)) if system is None else State._of_system(system)
+
+
 def _restored(t: float, x: Table, v: FloatArray | None) -> State:
     """A state that was pickled."""
-    if v is None:
-        state = State._of_size(x.size * x.itemsize // 8, x.dtype)
-    else:
-        state = State._of_particles(len(v)) if v.ndim == 2 else State._of_coordinates(len(v))
+    state = _alike(x, v)
     state.t, state.x = t, x
     if v is not None:
         state.v = v
