@@ -7,7 +7,7 @@ module hooke_base
   private
   public :: hooke_real, hooke_long
   public :: message, status_name ! hooke_message() and so on for users
-  public :: accept, refuse, stop_with, to_text, to_c, to_c_if, to_integer, to_number, to_series, zero_based, is_3_by
+  public :: accept, refuse, stop_with, to_text, to_c, to_c_if, to_integer, to_number, to_series, zero_based, are_3_by, is_3_by
 
   ! Kinds of all real numbers, and of counts that may not fit a default integer (steps, bytes).
   integer, parameter :: hooke_real = c_double, hooke_long = c_int64_t
@@ -149,6 +149,20 @@ contains
     real(c_double), pointer, contiguous :: series(:)
     series => null()
     if (c_associated(address)) call c_f_pointer(address, series, [count])
+  end function
+
+  ! Whether arrays have the shape (3, count); without an argument `status` they must have it.
+  logical function are_3_by(count, status, first, second, third, fourth, fifth)
+    integer(c_int64_t), intent(in) :: count
+    integer, intent(out), optional :: status
+    real(c_double), intent(in) :: first(:, :)
+    real(c_double), intent(in), optional :: second(:, :), third(:, :), fourth(:, :), fifth(:, :)
+    are_3_by = is_3_by(first, count)
+    if (present(second)) are_3_by = are_3_by .and. is_3_by(second, count)
+    if (present(third)) are_3_by = are_3_by .and. is_3_by(third, count)
+    if (present(fourth)) are_3_by = are_3_by .and. is_3_by(fourth, count)
+    if (present(fifth)) are_3_by = are_3_by .and. is_3_by(fifth, count)
+    if (.not. are_3_by) call refuse(hooke_bad_value, "an array has not the shape (3, particle_count())", status)
   end function
 
   ! Whether an array has 3 numbers for each of `count` particles.

@@ -5,7 +5,7 @@
 module hooke_systems
   use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
   use, intrinsic :: iso_c_binding, only: c_double, c_int32_t, c_int64_t
-  use hooke_base, only: accept, hooke_bad_value, is_3_by, refuse, to_c, to_integer, to_series, zero_based
+  use hooke_base, only: accept, are_3_by, to_c, to_series, zero_based
   use hooke_builders, only: hooke_builder
   use hooke_c_integrator, only: c_method_count
   use hooke_c_measurement, only: c_step_bound
@@ -24,14 +24,9 @@ module hooke_systems
     procedure :: body_inertia
     procedure :: body_motion
     procedure :: altitude_lengths
-    procedure :: force
-    procedure :: acceleration
-    procedure :: coincident_springs
-    procedure :: derivative_product
     procedure :: derivative_pattern
     procedure :: derivative_blocks
     procedure :: energy
-    procedure :: dissipated_power
     procedure :: momentum
     procedure :: angular_momentum
     procedure :: step_bound
@@ -155,13 +150,8 @@ contains
     integer, intent(out), optional :: status
     real(c_double), intent(in) :: first(:, :)
     real(c_double), intent(in), optional :: second(:, :)
-    integer(c_int64_t) :: n
     suits = .not. self%is_missing(status)
-    if (.not. suits) return
-    n = int(self%particle_count(), c_int64_t)
-    suits = is_3_by(first, n)
-    if (suits .and. present(second)) suits = is_3_by(second, n)
-    if (.not. suits) call refuse(hooke_bad_value, "an array has not the shape (3, particle_count())", status)
+    if (suits) suits = are_3_by(int(self%particle_count(), c_int64_t), status, first, second)
   end function
 
   subroutine must_suit(self, first, second)
@@ -169,51 +159,6 @@ contains
     real(c_double), intent(in) :: first(:, :)
     real(c_double), intent(in), optional :: second(:, :)
     if (.not. suits(self, first=first, second=second)) return ! the program has ended
-  end subroutine
-
-  ! Force on every particle [N].
-  subroutine force(self, t, q, v, forces, status)
-    class(hooke_system), intent(in) :: self
-    real(c_double), intent(in) :: t
-    real(c_double), intent(in), contiguous :: q(:, :), v(:, :)
-    real(c_double), intent(inout), contiguous :: forces(:, :)
-    integer, intent(out), optional :: status
-    if (.not. suits(self, status, q, v)) return
-    if (.not. suits(self, status, forces)) return
-    call accept(c_system_force(self%address(), t, q, v, forces), status)
-  end subroutine
-
-  ! Acceleration of every particle [m/s^2].
-  subroutine acceleration(self, t, q, v, accelerations, status)
-    class(hooke_system), intent(in) :: self
-    real(c_double), intent(in) :: t
-    real(c_double), intent(in), contiguous :: q(:, :), v(:, :)
-    real(c_double), intent(inout), contiguous :: accelerations(:, :)
-    integer, intent(out), optional :: status
-    if (.not. suits(self, status, q, v)) return
-    if (.not. suits(self, status, accelerations)) return
-    call accept(c_system_acceleration(self%address(), t, q, v, accelerations), status)
-  end subroutine
-
-  ! Number of springs whose ends coincide although their rest length is not zero.
-  integer function coincident_springs(self, q)
-    class(hooke_system), intent(in) :: self
-    real(c_double), intent(in), contiguous :: q(:, :)
-    call must_suit(self, q)
-    coincident_springs = to_integer(c_system_coincident_springs(self%address(), q))
-  end function
-
-  ! product = (df/dq) dq + (df/dv) dv
-  subroutine derivative_product(self, t, q, v, dq, dv, product, status)
-    class(hooke_system), intent(in) :: self
-    real(c_double), intent(in) :: t
-    real(c_double), intent(in), contiguous :: q(:, :), v(:, :), dq(:, :), dv(:, :)
-    real(c_double), intent(inout), contiguous :: product(:, :)
-    integer, intent(out), optional :: status
-    if (.not. suits(self, status, q, v)) return
-    if (.not. suits(self, status, dq, dv)) return
-    if (.not. suits(self, status, product)) return
-    call accept(c_system_derivative_product(self%address(), t, q, v, dq, dv, product), status)
   end subroutine
 
   ! Blocks of row i are those from row_start(i) to row_start(i + 1) - 1, in these columns.
@@ -264,14 +209,6 @@ contains
     else
       energy = ieee_value(energy, ieee_quiet_nan)
     end if
-  end function
-
-  ! Power that damping and drag dissipate as heat [W].
-  real(c_double) function dissipated_power(self, q, v)
-    class(hooke_system), intent(in) :: self
-    real(c_double), intent(in), contiguous :: q(:, :), v(:, :)
-    call must_suit(self, q, v)
-    dissipated_power = c_system_dissipated_power(self%address(), q, v)
   end function
 
   ! Momentum [kg m/s] of the free particles,

@@ -28,9 +28,14 @@ BELONG = {
     "hooke_why_create_kept": ("hooke_measurement", "create_why_kept"),
 }
 ALSO = {("hooke_estimate", "hooke_measurement_on_progress")}  # and those that a type has of the other one
+NTH = ("first", "second", "third", "fourth", "fifth")
+# Arrays of a row for every particle of a system, by the names of their parameters.
+ROWS = {"q", "v", "dq", "dv", "force", "acceleration", "out"}
 # Parameters that have another name in Fortran.
 RENAMED = {("hooke_checkpoint_read", "run"): "name", ("hooke_checkpoint_write", "run"): "name",
-           ("hooke_method_name", "method"): "number", ("hooke_part_kind", "kind"): "number"}
+           ("hooke_method_name", "method"): "number", ("hooke_part_kind", "kind"): "number",
+           ("hooke_system_acceleration", "acceleration"): "accelerations", ("hooke_system_force", "force"): "forces",
+           ("hooke_system_derivative_product", "out"): "product"}
 # Procedures of Fortran that ask a query of C for one word, by the names that they would have in C, with their results.
 WORDS = {
     "hooke_system_spring_count": ("int64_t", "hooke_system_count", "springs"),
@@ -74,6 +79,7 @@ class Parameter:
         optional, what = guard.is_optional(name, what), RENAMED.get((name, what), what)
         self.last = optional and kind == "const char *"
         self.what, self.locals, self.before, self.object = what, [], [], object_of(kind)
+        self.rows = kind.endswith("double *")
         self.callback = callbacks.of_callback(self.object) if self.object else None
         if self.callback:
             self.object, self.passed = None, "callback%function, callback%data"
@@ -86,6 +92,9 @@ class Parameter:
             intent, self.object = "in" if kind.startswith("const") else "inout", type_
             self.declared = f"class({type_}_queries), intent({intent}){', optional' if absent else ''} :: {what}"
             self.passed = f"address_or_null({what})" if absent else f"{what}%address()"
+        elif self.rows:
+            intent = "in" if kind.startswith("const") else "inout"
+            self.declared, self.passed = f"real(c_double), intent({intent}), contiguous :: {what}(:, :)", what
         elif kind == "double":
             self.declared, self.passed = f"real(c_double), intent(in) :: {what}", what
         elif self.last:
@@ -106,7 +115,7 @@ def answer(result, name, whats):
         named = [what for what in whats if what in ("what", "column")]
         return "real(c_double)", f"to_number({{}}, {named[0]})" if named else "{}"
     if result == "int64_t":
-        return ("integer", "to_integer({})") if name.endswith(("_count", "_size")) else ("integer(c_int64_t)", "{}")
+        return ("integer", "to_integer({})") if name.endswith(("_count", "_size", "_springs")) else ("integer(c_int64_t)", "{}")
     return ("logical", "{} == 1") if "_is_" in name else ("integer", "int({})")
 
 
@@ -127,6 +136,9 @@ class Procedure:
                 self.given.append(Parameter(function, kind, what, own))
                 passed.append(self.given[-1].passed)
         self.call = f"c_{self.short}({', '.join([*passed, *(['made'] if self.makes else [])])})"
+        rows = ", ".join(f"{nth}={p.what}" for nth, p in zip(NTH, (p for p in self.given if p.rows)))
+        status = ", status" if headers.is_status(self.result, self.name) else ""
+        self.fit = [f"if (.not. are_3_by(int(self%particle_count(), c_int64_t){status}, {rows})) return"] if rows else []
         self.objects = [p.what for p in self.given if p.object]
         if any(p.object and "optional" not in p.declared for p in self.given):
             self.given.sort(key=lambda p: p.last)
@@ -142,7 +154,7 @@ class Procedure:
         """(locals, statements) of a procedure that returns a status."""
         needed = [*(["self"] if self.own and not self.makes else []), *self.objects]
         body = [f"if (missing(status, {', '.join(needed)})) return"] if needed else []
-        body += [line for p in self.given for line in p.before]
+        body += [*self.fit, *(line for p in self.given for line in p.before)]
         call, locals_ = self.call, []
         if self.makes:
             body += self.taking()
@@ -164,7 +176,7 @@ class Procedure:
         else:
             of_result, made = answer(self.result, self.name, whats)
             kind, found, first = "function", " result(found)", [f"{of_result} :: found", *first]
-            body = [*before, f"found = {made.format(self.call)}"]
+            body = [*(["found = 0", *self.fit] if self.fit else []), *before, f"found = {made.format(self.call)}"]
         title = f"  {kind} {self.short}({', '.join([*(['self'] if self.own else []), *whats])}){found}"
         return [title, *(f"    {line}" for line in wrapped([*head, *first, *body])), f"  end {kind}", ""]
 
@@ -203,7 +215,8 @@ def of_word(name):
 def is_query(function, type_, types, by_hand):
     """Whether a function of C is made a procedure of `type_`, or of no type."""
     result, name, parameters = function
-    kinds = [kind for kind, what in parameters if what != "ctx"]
+    kinds = [kind for kind, what in parameters
+             if what != "ctx" and not (type_ == "hooke_system" and kind.endswith("double *") and what in ROWS)]
     makes = bool(kinds) and kinds[-1].endswith("**")
     made = makes and object_of(kinds.pop()[:-1]) == IN_C.get(type_, type_)
     known = {*types, *IN_C.values()}
@@ -253,7 +266,8 @@ def module(type_, types, public, by_hand):
     return ["", f"! What {who} does as the functions of C of the same names; numbers of things count from 1 here.",
             f"module hooke_queries_of_{named}",
             "  use, intrinsic :: iso_c_binding, only: c_double, c_funloc, c_int32_t, c_int64_t, c_ptr",
-            "  use hooke_base, only: accept, hooke_stopped, to_c, to_c_if, to_integer, to_number, to_text, zero_based", *uses,
+            "  use hooke_base, only: accept, are_3_by, hooke_stopped, to_c, to_c_if, to_integer, to_number, to_text, &",
+            "    zero_based", *uses,
             "  use hooke_handles, only: address_or_null, callback_to, hooke_callback, hooke_handle, missing", "  implicit none",
             "  private", *(own if type_ else free), *lines, "end module"]
 
