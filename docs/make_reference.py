@@ -30,7 +30,7 @@ def pages(build: Path) -> dict[str, str]:
         "scene": scenes.page(ROOT),
         "command-line": program.page(str(build / "hooke")),
         "c": headers.page(ROOT),
-        "fortran": modules.page(ROOT, build / "fortran/queries.f90"),
+        "fortran": modules.page(ROOT, build / "fortran"),
         "python": package.page(),
         "measurements": measurements.page(),
     }

@@ -2,12 +2,12 @@
 module hooke_base
   use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_double, c_f_pointer, c_int32_t, c_int64_t, &
     c_null_char, c_ptr, c_size_t
-  use hooke_c_base, only: c_abi, c_build_fact, c_last_error, c_status_name, c_version
+  use hooke_c_base, only: c_last_error, c_status_name
   implicit none
   private
   public :: hooke_real, hooke_long
-  public :: message, status_name, version, abi, build_fact ! hooke_message() and so on for users
-  public :: accept, refuse, stop_with, to_text, to_c, to_c_if, to_integer, to_number, to_series, zero_based, is_3_by
+  public :: message, status_name ! hooke_message() and so on for users
+  public :: accept, refuse, stop_with, to_text, to_c, to_c_if, to_integer, to_number, to_series, zero_based, are_3_by, is_3_by
 
   ! Kinds of all real numbers, and of counts that may not fit a default integer (steps, bytes).
   integer, parameter :: hooke_real = c_double, hooke_long = c_int64_t
@@ -56,24 +56,6 @@ contains
     type(c_ptr) :: name
     name = c_status_name(int(status, c_int32_t))
     text = to_text(name)
-  end function
-
-  ! Version of the running library.
-  function version() result(text)
-    character(:), allocatable :: text
-    text = to_text(c_version())
-  end function
-
-  ! ABI number of the running library.
-  integer function abi()
-    abi = int(c_abi())
-  end function
-
-  ! A fact about this build: "sundials", "hdf5", "instructions", "licence" and more; "" for an absent library.
-  function build_fact(what) result(text)
-    character(*), intent(in) :: what
-    character(:), allocatable :: text
-    text = to_text(c_build_fact(to_c(what)))
   end function
 
   ! ---- for the other modules ----
@@ -167,6 +149,20 @@ contains
     real(c_double), pointer, contiguous :: series(:)
     series => null()
     if (c_associated(address)) call c_f_pointer(address, series, [count])
+  end function
+
+  ! Whether arrays have the shape (3, count); without an argument `status` they must have it.
+  logical function are_3_by(count, status, first, second, third, fourth, fifth)
+    integer(c_int64_t), intent(in) :: count
+    integer, intent(out), optional :: status
+    real(c_double), intent(in) :: first(:, :)
+    real(c_double), intent(in), optional :: second(:, :), third(:, :), fourth(:, :), fifth(:, :)
+    are_3_by = is_3_by(first, count)
+    if (present(second)) are_3_by = are_3_by .and. is_3_by(second, count)
+    if (present(third)) are_3_by = are_3_by .and. is_3_by(third, count)
+    if (present(fourth)) are_3_by = are_3_by .and. is_3_by(fourth, count)
+    if (present(fifth)) are_3_by = are_3_by .and. is_3_by(fifth, count)
+    if (.not. are_3_by) call refuse(hooke_bad_value, "an array has not the shape (3, particle_count())", status)
   end function
 
   ! Whether an array has 3 numbers for each of `count` particles.

@@ -1,9 +1,8 @@
 ! Building a system: particles, springs, bending, parts, forces, motions; the last call is commit().
 module hooke_builders
   use, intrinsic :: iso_c_binding, only: c_double, c_funloc, c_funptr, c_int32_t, c_int64_t, c_null_funptr, c_ptr
-  use hooke_base, only: accept, hooke_bad_value, refuse, to_c, to_c_if, to_text, zero_based
+  use hooke_base, only: accept, hooke_bad_value, refuse, to_c, to_c_if, zero_based
   use hooke_c_parts
-  use hooke_c_scene, only: c_scene_options_apply
   use hooke_c_system
   use hooke_forces
   use hooke_handles, only: callback_to, hooke_callback
@@ -11,14 +10,13 @@ module hooke_builders
   use hooke_queries_of_system
   implicit none
   private
-  public :: hooke_builder, part_kind
+  public :: hooke_builder
 
   integer, parameter :: place_of_force = 1
 
   ! The procedures of hooke_system that are allowed until it is committed.
   type, extends(hooke_system_queries) :: hooke_builder
   contains
-    procedure :: create
     procedure, private :: add_particles_alike, add_particles_each
     generic :: add_particles => add_particles_alike, add_particles_each
     procedure, private :: pin_one, pin_some
@@ -36,29 +34,9 @@ module hooke_builders
     procedure :: drive_harmonic
     procedure :: drive_table
     procedure :: drive_callback
-    procedure :: apply
   end type
 
 contains
-
-  ! ---- kinds of parts: "rope", "cloth" and so on; "" past the last ----
-
-  function part_kind(number, what) result(text)
-    integer, intent(in) :: number
-    character(*), intent(in) :: what
-    character(:), allocatable :: text
-    text = to_text(c_part_kind(zero_based(number), to_c(what)))
-  end function
-
-  subroutine create(self, status)
-    class(hooke_builder), intent(inout) :: self
-    integer, intent(out), optional :: status
-    type(c_ptr) :: system
-    integer(c_int32_t) :: code
-    code = c_system_create(system)
-    if (code == 0) call self%take(system, c_system_destroy)
-    call accept(code, status)
-  end subroutine
 
   ! Adds particles at position(3, n) [m], all of one mass [kg], at rest or with velocity(3, n) [m/s]; `first` is the
   ! number of the first of them.
@@ -260,7 +238,7 @@ contains
     product_of = c_null_funptr
     select type (force)
     class is (hooke_force_with_product)
-      product_of = c_funloc(call_product)
+      product_of = c_funloc(call_force_with_product)
     end select
   end function
 
@@ -323,15 +301,6 @@ contains
     callback = callback_to(c_funloc(call_drive), drive)
     call self%keep(callback, 0, c_system_drive_callback(self%address(), size(particles, kind=c_int64_t), &
       zero_based(particles), callback%function, callback%data), status)
-  end subroutine
-
-  ! Applies options of a "scene", all but the title.
-  subroutine apply(self, options, status)
-    class(hooke_builder), intent(inout) :: self
-    type(hooke_options), intent(in) :: options
-    integer, intent(out), optional :: status
-    if (self%is_missing(status, options)) return
-    call accept(c_scene_options_apply(options%address(), self%address()), status)
   end subroutine
 
 end module

@@ -1,14 +1,13 @@
 ! The error of a run, and a method and a step or tolerance for a wanted error.
 module hooke_estimates
-  use, intrinsic :: iso_c_binding, only: c_double, c_funloc, c_int32_t, c_int64_t, c_null_ptr, c_ptr
+  use, intrinsic :: iso_c_binding, only: c_double, c_int32_t, c_int64_t, c_null_ptr, c_ptr
   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
-  use hooke_base, only: accept, to_c, to_c_if, to_text
+  use hooke_base, only: accept, to_c, to_text
   use hooke_c_estimate
+  use hooke_queries_of_estimate
   use hooke_c_measurement, only: c_measurement_create, c_measurement_destroy, c_measurement_number, &
-    c_measurement_on_progress, c_measurement_run, c_measurement_text
-  use hooke_handles, only: callback_to, hooke_callback, hooke_handle
+    c_measurement_run, c_measurement_text
   use hooke_integrators, only: hooke_integrator
-  use hooke_observers, only: call_progress, hooke_progress
   use hooke_option_tables, only: hooke_options
   use hooke_states, only: hooke_state
   use hooke_systems, only: hooke_system
@@ -16,22 +15,13 @@ module hooke_estimates
   private
   public :: hooke_estimate
 
-  integer, parameter :: of_progress = 1
-
-  type, extends(hooke_handle) :: hooke_estimate
+  type, extends(hooke_estimate_queries) :: hooke_estimate
   contains
     procedure :: create
-    procedure :: on_progress
-    procedure :: pick
-    procedure :: begin
     procedure :: see
     procedure :: measure
-    procedure :: refine
     procedure :: number
     procedure :: text
-    procedure :: write_h5
-    procedure, private :: assign
-    generic :: assignment(=) => assign
   end type
 
 contains
@@ -60,38 +50,6 @@ contains
     call accept(code, status)
   end subroutine
 
-  ! Sets the progress callback, which must exist as long as it is set; without an argument it is removed.
-  subroutine on_progress(self, progress)
-    class(hooke_estimate), intent(inout) :: self
-    class(hooke_progress), target, intent(inout), optional :: progress
-    type(hooke_callback) :: callback
-    callback = callback_to(c_funloc(call_progress), progress)
-    call c_measurement_on_progress(self%address(), callback%function, callback%data)
-    call self%keep(callback, of_progress, 0_c_int32_t)
-  end subroutine
-
-  ! Sets a method (`method`, or any) and its step or tolerance in `run`.
-  subroutine pick(self, run, method, status)
-    class(hooke_estimate), intent(inout) :: self
-    class(hooke_options), intent(inout) :: run
-    character(*), intent(in), optional :: method
-    integer, intent(out), optional :: status
-    character(:), allocatable :: c_method
-    if (self%is_missing(status)) return
-    call to_c_if(method, c_method)
-    call accept(c_estimate_pick(self%address(), c_method, run%address()), status)
-  end subroutine
-
-  ! Call before a run of `integrator` from `state`.
-  subroutine begin(self, integrator, state, status)
-    class(hooke_estimate), intent(inout) :: self
-    class(hooke_integrator), intent(in) :: integrator
-    class(hooke_state), intent(in) :: state
-    integer, intent(out), optional :: status
-    if (self%is_missing(status)) return
-    call accept(c_estimate_begin(self%address(), integrator%address(), state%address()), status)
-  end subroutine
-
   ! Adds a state of the run, for observers to call.
   subroutine see(self, step, state)
     class(hooke_estimate), intent(in) :: self
@@ -111,15 +69,6 @@ contains
     call accept(c_measurement_run(self%address(), state%address()), status)
   end subroutine
 
-  ! Sets something finer in `run`.
-  subroutine refine(self, run, status)
-    class(hooke_estimate), intent(inout) :: self
-    class(hooke_options), intent(inout) :: run
-    integer, intent(out), optional :: status
-    if (self%is_missing(status)) return
-    call accept(c_estimate_refine(self%address(), run%address()), status)
-  end subroutine
-
   ! "estimate", "rms" and the other numbers of the table of an estimate.
   real(c_double) function number(self, what)
     class(hooke_estimate), intent(in) :: self
@@ -135,18 +84,4 @@ contains
     text = to_text(c_measurement_text(self%address(), to_c("estimate"), 0_c_int64_t, to_c(what)))
   end function
 
-  ! Adds it to the trajectory file that the run wrote, which is closed already.
-  subroutine write_h5(self, path, status)
-    class(hooke_estimate), intent(in) :: self
-    character(*), intent(in) :: path
-    integer, intent(out), optional :: status
-    if (self%is_missing(status)) return
-    call accept(c_estimate_write_h5(self%address(), to_c(path)), status)
-  end subroutine
-
-  impure elemental subroutine assign(self, other)
-    class(hooke_estimate), intent(inout) :: self
-    type(hooke_estimate), intent(in) :: other
-    call self%share(other)
-  end subroutine
 end module

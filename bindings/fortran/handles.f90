@@ -1,11 +1,12 @@
 ! Base type of objects of the library: reference counted, so that an object is released once, when its last
 ! variable is gone, and after everything that was made from it.
 module hooke_handles
-  use, intrinsic :: iso_c_binding, only: c_associated, c_funptr, c_int32_t, c_intptr_t, c_loc, c_null_funptr, c_null_ptr, c_ptr
+  use, intrinsic :: iso_c_binding, only: c_associated, c_funptr, c_int32_t, c_intptr_t, c_loc, c_null_funptr, &
+    c_null_ptr, c_ptr
   use hooke_base, only: accept, hooke_bad_call, refuse, stop_with
   implicit none
   private
-  public :: hooke_handle, hooke_callback, called_object, callback_to
+  public :: hooke_handle, hooke_callback, called_object, callback_to, address_or_null, missing
 
   abstract interface
     subroutine destroyer(object) bind(c)
@@ -52,7 +53,7 @@ module hooke_handles
     procedure :: lend
     procedure :: keep
     procedure :: share
-    procedure :: has_that_of
+    procedure :: refresh ! sets what a type has besides the object, once it has another one or none
     final :: finish
   end type
 
@@ -77,16 +78,32 @@ contains
     class(hooke_handle), intent(in) :: self
     class(hooke_handle), intent(in), optional :: second, third, fourth
     integer, intent(out), optional :: status
-    is_missing = .not. self%exists()
-    if (present(second)) is_missing = is_missing .or. .not. second%exists()
-    if (present(third)) is_missing = is_missing .or. .not. third%exists()
-    if (present(fourth)) is_missing = is_missing .or. .not. fourth%exists()
-    if (is_missing) call refuse(hooke_bad_call, "an object is used that was not created, or was destroyed", status)
+    is_missing = missing(status, self, second, third, fourth)
+  end function
+
+  ! The same of objects that are all optional.
+  logical function missing(status, first, second, third, fourth, fifth)
+    class(hooke_handle), intent(in), optional :: first, second, third, fourth, fifth
+    integer, intent(out), optional :: status
+    missing = .false.
+    if (present(first)) missing = .not. first%exists()
+    if (present(second)) missing = missing .or. .not. second%exists()
+    if (present(third)) missing = missing .or. .not. third%exists()
+    if (present(fourth)) missing = missing .or. .not. fourth%exists()
+    if (present(fifth)) missing = missing .or. .not. fifth%exists()
+    if (missing) call refuse(hooke_bad_call, "an object is used that was not created, or was destroyed", status)
+  end function
+
+  ! Values passed to C for absent options or states.
+  type(c_ptr) function address_or_null(object)
+    class(hooke_handle), intent(in), optional :: object
+    address_or_null = c_null_ptr
+    if (present(object)) address_or_null = object%address()
   end function
 
   ! Takes ownership of an object created in C. `owner` is kept until it is gone; a borrowed object has no
   ! `destroy`.
-  subroutine take(self, address, destroy, owner)
+  recursive subroutine take(self, address, destroy, owner)
     class(hooke_handle), intent(inout) :: self
     type(c_ptr), intent(in) :: address
     procedure(destroyer), optional :: destroy
@@ -117,6 +134,7 @@ contains
     type(c_ptr), intent(in) :: address
     if (.not. associated(self%object)) call self%take(c_null_ptr)
     self%object%address = address
+    call self%refresh()
   end subroutine
 
   ! A callback of `function`, or nothing without an object that it is to call.
@@ -168,18 +186,17 @@ contains
     class(hooke_handle), intent(inout) :: self
     class(hooke_handle), intent(in) :: other
     type(counted_object), pointer :: object
-    if (self%has_that_of(other)) return
+    if (associated(self%object, other%object) .and. self%home == place_of(self)) return
     object => other%object
     if (associated(object)) call count_one(object)
     call self%destroy()
     if (associated(object)) call settle(self, object)
   end subroutine
 
-  ! Whether both refer to one object.
-  logical function has_that_of(self, other)
-    class(hooke_handle), intent(in) :: self, other
-    has_that_of = associated(self%object, other%object) .and. self%home == place_of(self)
-  end function
+  subroutine refresh(self)
+    class(hooke_handle), intent(inout) :: self
+    if (.not. associated(self%object)) return ! most types have nothing else
+  end subroutine
 
   ! Releases the object before the variable is gone.
   recursive subroutine release(self)
@@ -187,6 +204,7 @@ contains
     if (self%home == place_of(self)) call release_object(self%object)
     self%object => null()
     self%home = 0
+    call self%refresh()
   end subroutine
 
   impure recursive elemental subroutine finish(self)
@@ -194,11 +212,12 @@ contains
     call self%destroy()
   end subroutine
 
-  subroutine settle(self, object)
+  recursive subroutine settle(self, object)
     class(hooke_handle), intent(inout) :: self
     type(counted_object), pointer, intent(in) :: object
     self%object => object
     self%home = place_of(self)
+    call self%refresh()
   end subroutine
 
   integer(c_intptr_t) function place_of(self)

@@ -1,62 +1,24 @@
 ! Named options, with their types, units, bounds and defaults.
 module hooke_option_tables
   use, intrinsic :: iso_c_binding, only: c_double, c_int32_t, c_int64_t, c_ptr
-  use hooke_base, only: accept, hooke_bad_value, refuse, to_c, to_integer, to_series, to_text, zero_based
+  use hooke_base, only: accept, hooke_bad_value, refuse, to_c, to_series, zero_based
   use hooke_c_parts, only: c_mesh_set
-  use hooke_c_scene, only: c_mesh_read
   use hooke_c_options
   use hooke_queries_of_options
   implicit none
   private
-  public :: hooke_options, options_or_null
+  public :: hooke_options
 
   type, extends(hooke_options_queries) :: hooke_options
   contains
-    procedure :: create          ! of a table by its name: "run", "springs", "cloth", "study", ...
     procedure :: copy_to         ! another object with the same values
     procedure, private :: set_real, set_reals, set_whole, set_wholes, set_logical, set_text
     generic :: set => set_real, set_reals, set_whole, set_wholes, set_logical, set_text
-    procedure :: set_mesh        ! the surface of a part of the kind "mesh", from arrays
-    procedure :: read_mesh       ! or from an OBJ file
+    procedure :: set_mesh        ! the surface of a part of the kind "mesh", from arrays; read_mesh() from an OBJ file
     procedure :: numbers         ! all of them
-    procedure, private :: assign
-    generic :: assignment(=) => assign
   end type
 
 contains
-
-  impure elemental subroutine assign(self, other)
-    class(hooke_options), intent(inout) :: self
-    type(hooke_options), intent(in) :: other
-    call self%share(other)
-  end subroutine
-
-  ! Values passed to C for absent options.
-  type(c_ptr) function options_or_null(options)
-    use, intrinsic :: iso_c_binding, only: c_null_ptr
-    type(hooke_options), intent(in), optional :: options
-    options_or_null = c_null_ptr
-    if (present(options)) options_or_null = options%address()
-  end function
-
-  subroutine take_new(self, code, options, status)
-    class(hooke_options), intent(inout) :: self
-    integer(c_int32_t), intent(in) :: code
-    type(c_ptr), intent(in) :: options
-    integer, intent(out), optional :: status
-    if (code == 0) call self%take(options, c_options_destroy)
-    call accept(code, status)
-  end subroutine
-
-  subroutine create(self, name, status)
-    class(hooke_options), intent(inout) :: self
-    character(*), intent(in) :: name
-    integer, intent(out), optional :: status
-    type(c_ptr) :: options
-    integer(c_int32_t) :: code
-    code = c_options_create(to_c(name), options)
-    call take_new(self, code, options, status)
-  end subroutine
 
   subroutine copy_to(self, copy, status)
     class(hooke_options), intent(in) :: self
@@ -66,7 +28,8 @@ contains
     integer(c_int32_t) :: code
     if (self%is_missing(status)) return
     code = c_options_copy(self%address(), options)
-    call take_new(copy, code, options, status)
+    if (code == 0) call copy%take(options, c_options_destroy)
+    call accept(code, status)
   end subroutine
 
   subroutine set_real(self, name, value, status)
@@ -132,14 +95,6 @@ contains
     end if
     call accept(c_mesh_set(self%address(), size(vertices, 2, c_int64_t), vertices, size(triangles, 2, c_int64_t), &
       zero_based(triangles)), status)
-  end subroutine
-
-  subroutine read_mesh(self, path, status)
-    class(hooke_options), intent(inout) :: self
-    character(*), intent(in) :: path
-    integer, intent(out), optional :: status
-    if (self%is_missing(status)) return
-    call accept(c_mesh_read(to_c(path), self%address()), status)
   end subroutine
 
   function numbers(self, name) result(values)

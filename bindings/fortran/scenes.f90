@@ -1,15 +1,15 @@
 ! Scene files (JSON): a system and the options of a run.
 module hooke_scenes
   use, intrinsic :: iso_c_binding, only: c_char, c_int32_t, c_int64_t, c_ptr
-  use hooke_base, only: accept, to_c, to_c_if, to_text
+  use hooke_base, only: accept, to_c, to_c_if
   use hooke_c_scene
-  use hooke_c_trajectory, only: c_io_own_process
-  use hooke_option_tables, only: hooke_options, options_or_null
+  use hooke_handles, only: address_or_null
+  use hooke_option_tables, only: hooke_options
   use hooke_queries_of_scene
   use hooke_systems, only: hooke_system
   implicit none
   private
-  public :: hooke_scene, own_process
+  public :: hooke_scene
 
   type, extends(hooke_scene_queries) :: hooke_scene
     type(hooke_system) :: system ! built, not yet committed
@@ -18,19 +18,10 @@ module hooke_scenes
     procedure :: load
     procedure :: parse
     procedure :: of_system
-    procedure :: destroy
-    procedure, private :: assign
-    generic :: assignment(=) => assign
+    procedure :: refresh
   end type
 
 contains
-
-  ! For a program that owns its whole process: keeps HDF5 from running code at exit. Call it before anything
-  ! else.
-  subroutine own_process(status)
-    integer, intent(out), optional :: status
-    call accept(c_io_own_process(), status)
-  end subroutine
 
   ! Reads a scene file, or the scene that a trajectory file was made from. `limits` are options of
   ! create("limits"): the maximum memory of the scene, and whether its files may be anywhere.
@@ -41,8 +32,8 @@ contains
     integer, intent(out), optional :: status
     type(c_ptr) :: scene
     integer(c_int32_t) :: code
-    code = c_scene_load(to_c(path), options_or_null(limits), scene)
-    if (code == 0) call take_new(self, scene)
+    code = c_scene_load(to_c(path), address_or_null(limits), scene)
+    if (code == 0) call self%take(scene, c_scene_destroy)
     call accept(code, status)
   end subroutine
 
@@ -60,8 +51,8 @@ contains
     c_name = to_c("scene")
     if (present(name)) c_name = to_c(name)
     call to_c_if(folder, c_folder)
-    code = c_scene_parse(text, len(text, c_int64_t), c_name, c_folder, options_or_null(limits), scene)
-    if (code == 0) call take_new(self, scene)
+    code = c_scene_parse(text, len(text, c_int64_t), c_name, c_folder, address_or_null(limits), scene)
+    if (code == 0) call self%take(scene, c_scene_destroy)
     call accept(code, status)
   end subroutine
 
@@ -80,32 +71,17 @@ contains
     if (present(name)) c_name = to_c(name)
     call to_c_if(title, c_title)
     call to_c_if(folder, c_folder)
-    code = c_scene_of_system(system%address(), c_title, options_or_null(run), c_name, c_folder, scene)
-    if (code == 0) call take_new(self, scene)
+    code = c_scene_of_system(system%address(), c_title, address_or_null(run), c_name, c_folder, scene)
+    if (code == 0) call self%take(scene, c_scene_destroy)
     call accept(code, status)
   end subroutine
 
-  subroutine take_new(self, scene)
-    class(hooke_scene), intent(inout) :: self
-    type(c_ptr), intent(in) :: scene
-    call self%take(scene, c_scene_destroy)
-    call self%system%take(c_scene_system(scene), owner=self)
-    call self%run%take(c_scene_run_options(scene), owner=self)
-  end subroutine
-
-  impure elemental subroutine assign(self, other)
-    class(hooke_scene), intent(inout) :: self
-    type(hooke_scene), intent(in) :: other
-    if (self%has_that_of(other)) return
-    call self%share(other)
-    self%system = other%system
-    self%run = other%run
-  end subroutine
-
-  subroutine destroy(self)
+  subroutine refresh(self)
     class(hooke_scene), intent(inout) :: self
     call self%system%destroy()
     call self%run%destroy()
-    call self%hooke_handle%destroy()
+    if (.not. self%exists()) return
+    call self%system%take(c_scene_system(self%address()), owner=self)
+    call self%run%take(c_scene_run_options(self%address()), owner=self)
   end subroutine
 end module

@@ -4,18 +4,15 @@
 ! Arrays of positions, velocities and forces are (3, n). Pointers are to the library's memory, for reading.
 module hooke_systems
   use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
-  use, intrinsic :: iso_c_binding, only: c_double, c_int32_t, c_int64_t, c_ptr
-  use hooke_base, only: accept, hooke_bad_value, hooke_long, is_3_by, refuse, to_c, to_c_if, to_integer, &
-    to_series, to_text, zero_based
+  use, intrinsic :: iso_c_binding, only: c_double, c_int32_t, c_int64_t
+  use hooke_base, only: accept, are_3_by, to_c, to_series, zero_based
   use hooke_builders, only: hooke_builder
-  use hooke_c_scene, only: c_scene_write
   use hooke_c_integrator, only: c_method_count
   use hooke_c_measurement, only: c_step_bound
   use hooke_c_system
-  use hooke_option_tables, only: hooke_options, options_or_null
   implicit none
   private
-  public :: hooke_system
+  public :: hooke_system, rows_hold
 
   type, extends(hooke_builder) :: hooke_system
   contains
@@ -27,30 +24,23 @@ module hooke_systems
     procedure :: body_inertia
     procedure :: body_motion
     procedure :: altitude_lengths
-    procedure :: force
-    procedure :: acceleration
-    procedure :: coincident_springs
-    procedure :: derivative_product
     procedure :: derivative_pattern
     procedure :: derivative_blocks
     procedure :: energy
-    procedure :: dissipated_power
     procedure :: momentum
     procedure :: angular_momentum
     procedure :: step_bound
     procedure :: step_bounds
-    procedure :: write_scene
-    procedure, private :: assign
-    generic :: assignment(=) => assign
   end type
 
 contains
 
-  impure elemental subroutine assign(self, other)
-    class(hooke_system), intent(inout) :: self
-    type(hooke_system), intent(in) :: other
-    call self%share(other)
-  end subroutine
+  ! Holds the arrays of a force by their `q` beyond the call (`more` 1), or releases them (-1); how often they are held.
+  integer function rows_hold(q, more)
+    real(c_double), intent(in), contiguous :: q(:, :)
+    integer, intent(in) :: more
+    rows_hold = int(c_rows_hold(q, int(more, c_int32_t)))
+  end function
 
   ! Masses [kg] and inverse masses [1/kg], 0 where pinned or driven; not associated before commit.
 
@@ -160,13 +150,8 @@ contains
     integer, intent(out), optional :: status
     real(c_double), intent(in) :: first(:, :)
     real(c_double), intent(in), optional :: second(:, :)
-    integer(c_int64_t) :: n
     suits = .not. self%is_missing(status)
-    if (.not. suits) return
-    n = int(self%particle_count(), c_int64_t)
-    suits = is_3_by(first, n)
-    if (suits .and. present(second)) suits = is_3_by(second, n)
-    if (.not. suits) call refuse(hooke_bad_value, "an array has not the shape (3, particle_count())", status)
+    if (suits) suits = are_3_by(int(self%particle_count(), c_int64_t), status, first, second)
   end function
 
   subroutine must_suit(self, first, second)
@@ -174,51 +159,6 @@ contains
     real(c_double), intent(in) :: first(:, :)
     real(c_double), intent(in), optional :: second(:, :)
     if (.not. suits(self, first=first, second=second)) return ! the program has ended
-  end subroutine
-
-  ! Force on every particle [N].
-  subroutine force(self, t, q, v, forces, status)
-    class(hooke_system), intent(in) :: self
-    real(c_double), intent(in) :: t
-    real(c_double), intent(in), contiguous :: q(:, :), v(:, :)
-    real(c_double), intent(inout), contiguous :: forces(:, :)
-    integer, intent(out), optional :: status
-    if (.not. suits(self, status, q, v)) return
-    if (.not. suits(self, status, forces)) return
-    call accept(c_system_force(self%address(), t, q, v, forces), status)
-  end subroutine
-
-  ! Acceleration of every particle [m/s^2].
-  subroutine acceleration(self, t, q, v, accelerations, status)
-    class(hooke_system), intent(in) :: self
-    real(c_double), intent(in) :: t
-    real(c_double), intent(in), contiguous :: q(:, :), v(:, :)
-    real(c_double), intent(inout), contiguous :: accelerations(:, :)
-    integer, intent(out), optional :: status
-    if (.not. suits(self, status, q, v)) return
-    if (.not. suits(self, status, accelerations)) return
-    call accept(c_system_acceleration(self%address(), t, q, v, accelerations), status)
-  end subroutine
-
-  ! Number of springs whose ends coincide although their rest length is not zero.
-  integer function coincident_springs(self, q)
-    class(hooke_system), intent(in) :: self
-    real(c_double), intent(in), contiguous :: q(:, :)
-    call must_suit(self, q)
-    coincident_springs = to_integer(c_system_coincident_springs(self%address(), q))
-  end function
-
-  ! product = (df/dq) dq + (df/dv) dv
-  subroutine derivative_product(self, t, q, v, dq, dv, product, status)
-    class(hooke_system), intent(in) :: self
-    real(c_double), intent(in) :: t
-    real(c_double), intent(in), contiguous :: q(:, :), v(:, :), dq(:, :), dv(:, :)
-    real(c_double), intent(inout), contiguous :: product(:, :)
-    integer, intent(out), optional :: status
-    if (.not. suits(self, status, q, v)) return
-    if (.not. suits(self, status, dq, dv)) return
-    if (.not. suits(self, status, product)) return
-    call accept(c_system_derivative_product(self%address(), t, q, v, dq, dv, product), status)
   end subroutine
 
   ! Blocks of row i are those from row_start(i) to row_start(i + 1) - 1, in these columns.
@@ -271,14 +211,6 @@ contains
     end if
   end function
 
-  ! Power that damping and drag dissipate as heat [W].
-  real(c_double) function dissipated_power(self, q, v)
-    class(hooke_system), intent(in) :: self
-    real(c_double), intent(in), contiguous :: q(:, :), v(:, :)
-    call must_suit(self, q, v)
-    dissipated_power = c_system_dissipated_power(self%address(), q, v)
-  end function
-
   ! Momentum [kg m/s] of the free particles,
   function momentum(self, v) result(total)
     class(hooke_system), intent(in) :: self
@@ -324,16 +256,4 @@ contains
     call accept(c_step_bound(self%address(), every, q, bounds), status)
   end subroutine
 
-  ! Writes the committed system as a scene file, with the options of a run.
-  subroutine write_scene(self, path, title, run, status)
-    class(hooke_system), intent(in) :: self
-    character(*), intent(in) :: path
-    character(*), intent(in), optional :: title
-    type(hooke_options), intent(in), optional :: run
-    integer, intent(out), optional :: status
-    character(:), allocatable :: c_title
-    if (self%is_missing(status)) return
-    call to_c_if(title, c_title)
-    call accept(c_scene_write(to_c(path), self%address(), c_title, options_or_null(run)), status)
-  end subroutine
 end module

@@ -1,15 +1,13 @@
 ! Trajectory files (HDF5): writing, reading, and one file for a whole comparison.
 module hooke_trajectories
   use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_int32_t, c_int64_t, c_ptr
-  use hooke_base, only: accept, hooke_bad_value, hooke_long, hooke_ok, hooke_stopped, refuse, to_c, to_c_if, &
-    to_integer, to_text
+  use hooke_base, only: accept, hooke_bad_value, hooke_long, hooke_ok, refuse, to_c
   use hooke_c_checkpoint, only: c_trajectory_resume
   use hooke_c_trajectory
-  use hooke_c_measurement, only: c_comparison_file_close, c_comparison_file_create
-  use hooke_measurements, only: hooke_measurement
-  use hooke_handles, only: hooke_handle
+  use hooke_c_measurement, only: c_comparison_file_close
   use hooke_integrators, only: hooke_integrator
   use hooke_option_tables, only: hooke_options
+  use hooke_queries_of_comparison_file
   use hooke_queries_of_record
   use hooke_states, only: hooke_state
   use hooke_systems, only: hooke_system
@@ -21,54 +19,27 @@ module hooke_trajectories
   ! A file being written. One that goes out of scope is closed as "stopped".
   type, extends(hooke_trajectory_queries) :: hooke_trajectory
   contains
-    procedure :: create => create_trajectory
     procedure :: resume => resume_trajectory
     procedure :: write => write_frame
     procedure :: close => close_trajectory
-    procedure, private :: assign_trajectory
-    generic :: assignment(=) => assign_trajectory
   end type
 
   ! A file being read.
   type, extends(hooke_record_queries) :: hooke_record
     type(hooke_options) :: options ! of the run, with defaults filled in
   contains
-    procedure :: open => open_record
     procedure :: check => check_frame
     procedure :: read => read_frame
     procedure :: numbers
-    procedure :: destroy => close_record
-    procedure, private :: assign_record
-    generic :: assignment(=) => assign_record
+    procedure :: refresh
   end type
 
-  type, extends(hooke_handle) :: hooke_comparison_file
+  type, extends(hooke_comparison_file_queries) :: hooke_comparison_file
   contains
-    procedure :: create => create_comparison_file
     procedure :: close => close_comparison_file
-    procedure, private :: assign_comparison_file
-    generic :: assignment(=) => assign_comparison_file
   end type
 
 contains
-
-  ! Creates a file for all frames that `integrator` is going to report.
-  subroutine create_trajectory(self, path, system, integrator, scene_text, status)
-    class(hooke_trajectory), intent(inout) :: self
-    character(*), intent(in) :: path
-    class(hooke_system), intent(in) :: system
-    class(hooke_integrator), intent(in) :: integrator
-    character(*), intent(in), optional :: scene_text
-    integer, intent(out), optional :: status
-    character(:), allocatable :: c_text
-    type(c_ptr) :: trajectory
-    integer(c_int32_t) :: code
-    if (system%is_missing(status, integrator)) return
-    call to_c_if(scene_text, c_text)
-    code = c_trajectory_create(to_c(path), system%address(), integrator%address(), c_text, trajectory)
-    if (code == 0) call self%take(trajectory, abandon_trajectory, system)
-    call accept(code, status)
-  end subroutine
 
   ! Opens the file of a run that was stopped or killed, and sets a new integrator and its state to where it
   ! continues, for resume(). `finished`: there is nothing to continue, and the trajectory stays empty.
@@ -113,35 +84,7 @@ contains
     call accept(c_trajectory_close(trajectory, ended), status)
   end subroutine
 
-  subroutine abandon_trajectory(trajectory) bind(c, name="")
-    type(c_ptr), value :: trajectory
-    integer(c_int32_t) :: code
-    code = c_trajectory_close(trajectory, int(hooke_stopped, c_int32_t))
-    if (code /= 0) return ! no status can be returned
-  end subroutine
-
-  impure elemental subroutine assign_trajectory(self, other)
-    class(hooke_trajectory), intent(inout) :: self
-    type(hooke_trajectory), intent(in) :: other
-    call self%share(other)
-  end subroutine
-
   ! ---- reading ----
-
-  ! Opens a trajectory file, finished or not.
-  subroutine open_record(self, path, status)
-    class(hooke_record), intent(inout) :: self
-    character(*), intent(in) :: path
-    integer, intent(out), optional :: status
-    type(c_ptr) :: record
-    integer(c_int32_t) :: code
-    code = c_record_open(to_c(path), record)
-    if (code == 0) then
-      call self%take(record, c_record_close)
-      call self%options%take(c_record_options(record), owner=self)
-    end if
-    call accept(code, status)
-  end subroutine
 
   ! Refuses a damaged frame, whose numbers are not those that were written: 1 is the first, -1 the last.
   subroutine check_frame(self, frame, status)
@@ -196,36 +139,13 @@ contains
     call accept(code, status)
   end subroutine
 
-  subroutine close_record(self)
+  subroutine refresh(self)
     class(hooke_record), intent(inout) :: self
     call self%options%destroy()
-    call self%hooke_handle%destroy()
-  end subroutine
-
-  impure elemental subroutine assign_record(self, other)
-    class(hooke_record), intent(inout) :: self
-    type(hooke_record), intent(in) :: other
-    if (self%has_that_of(other)) return
-    call self%share(other)
-    self%options = other%options
+    if (self%exists()) call self%options%take(c_record_options(self%address()), owner=self)
   end subroutine
 
   ! ---- comparisons ----
-
-  ! Creates one file for a comparison before it runs; it replaces the observer of frames. Its label "scene" is
-  ! the text of the scene.
-  subroutine create_comparison_file(self, path, comparison, status)
-    class(hooke_comparison_file), intent(inout) :: self
-    character(*), intent(in) :: path
-    class(hooke_measurement), intent(inout) :: comparison
-    integer, intent(out), optional :: status
-    type(c_ptr) :: file
-    integer(c_int32_t) :: code
-    if (comparison%is_missing(status)) return
-    code = c_comparison_file_create(to_c(path), comparison%address(), file)
-    if (code == 0) call self%take(file, abandon_comparison_file, comparison)
-    call accept(code, status)
-  end subroutine
 
   ! Writes the table and the error over time, and closes the file.
   subroutine close_comparison_file(self, status)
@@ -237,16 +157,4 @@ contains
     call accept(c_comparison_file_close(file), status)
   end subroutine
 
-  subroutine abandon_comparison_file(file) bind(c, name="")
-    type(c_ptr), value :: file
-    integer(c_int32_t) :: code
-    code = c_comparison_file_close(file)
-    if (code /= 0) return ! no status can be returned
-  end subroutine
-
-  impure elemental subroutine assign_comparison_file(self, other)
-    class(hooke_comparison_file), intent(inout) :: self
-    type(hooke_comparison_file), intent(in) :: other
-    call self%share(other)
-  end subroutine
 end module

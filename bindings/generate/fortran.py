@@ -1,14 +1,16 @@
 """Writes the generated part of the Fortran module: python bindings/generate/fortran.py FOLDER
 
-FOLDER/queries.f90 has the procedures that only convert arguments and results (queries.py). FOLDER/c.f90 has the
-interfaces of C: a module hooke_c_<header> for each header, and in it hooke_state_create() as c_state_create().
-Pointers to numbers and text are optional arguments: an absent one is passed as NULL."""
+FOLDER/queries.f90 and queries_of_runs.f90 have the procedures that only convert arguments and results (queries.py),
+FOLDER/forces.f90 and observers.f90 the types of callbacks (callbacks.py). FOLDER/c.f90 has the interfaces of C: a module
+hooke_c_<header> for each header, and in it hooke_state_create() as c_state_create(). Pointers to numbers and text are
+optional arguments: an absent one is passed as NULL."""
 
 import re
 import sys
 import textwrap
 from pathlib import Path
 
+import callbacks
 import headers
 import queries
 
@@ -71,8 +73,10 @@ def interfaces(public):
 
 
 if __name__ == "__main__":
-    public = headers.public()
+    public, folder = headers.public(), Path(sys.argv[1])
     sources = [HAND / name for name in (HAND / "sources.txt").read_text(encoding="utf-8").split()]
-    by_hand = [path.read_text(encoding="utf-8") for path in sources if path.exists()]
-    headers.write(Path(sys.argv[1]) / "c.f90", interfaces(public))
-    headers.write(Path(sys.argv[1]) / "queries.f90", queries.modules(public, by_hand))
+    by_hand = {path.name: path.read_text(encoding="utf-8") for path in sources if path.exists()}
+    made = {"c.f90": interfaces(public), **queries.modules(public, by_hand)}
+    made.update((f"{which}.f90", callbacks.module(which, public)) for which in callbacks.TYPES)
+    for name, text in made.items():
+        headers.write(folder / name, text)

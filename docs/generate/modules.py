@@ -120,11 +120,13 @@ def with_comments_of_headers(queries: str, root: Path) -> str:
 
 
 def page(root: Path, made: Path) -> str:
-    """`made` are the generated modules, one for each type."""
+    """`made` is the folder of the generated modules."""
     folder = root / "bindings/fortran"
-    queries = with_comments_of_headers(made.read_text("utf-8"), root)
+    queries = "\n".join(path.read_text("utf-8") for path in sorted(made.glob("queries*.f90")))
+    queries = with_comments_of_headers(queries, root)
     front = logical_lines((folder / "hooke.f90").read_text("utf-8"))
-    others = [logical_lines(path.read_text("utf-8")) for path in sorted(folder.glob("*.f90")) if path.stem != "hooke"]
+    files = sorted([*set(folder.glob("*.f90")) - {folder / "hooke.f90"}, made / "forces.f90", made / "observers.f90"])
+    others = [logical_lines(path.read_text("utf-8")) for path in files]
     others += map(logical_lines, re.findall(r"^! What [^\n]*\nmodule .*?^end module", queries, re.DOTALL | re.MULTILINE))
     pieces = ["# Fortran reference", "The types and procedures that `use hooke` brings, with their comments. [The Fortran "
               "interface](../fortran.md) is the way in.", EXAMPLE, intro(front)]

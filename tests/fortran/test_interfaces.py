@@ -11,7 +11,7 @@ ROOT = Path(os.environ["HOOKE_SOURCE_DIR"])
 FOLDER = ROOT / "bindings/fortran"
 MADE = Path(os.environ["HOOKE_BUILD_DIR"]) / "fortran"
 HEADERS = sorted((ROOT / "include/hooke").glob("*.h"))
-MODULES = [*sorted(FOLDER.glob("*.f90")), MADE / "queries.f90"]
+MODULES = [*sorted(FOLDER.glob("*.f90")), *sorted(set(MADE.glob("*.f90")) - {MADE / "c.f90"})]
 
 
 def read(files):

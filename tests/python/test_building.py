@@ -282,7 +282,7 @@ def test_an_error_comes_at_once_names_its_keyword_and_changes_nothing(call, mess
     [
         (lambda: hooke.Scene(gravity=(1, 2)), "gravity: its shape is (2,), allowed is (3,)"),
         (lambda: hooke.Scene(drag=-1), "drag: -1 is not allowed"),
-        (lambda: hooke.Scene(drag="much"), "drag: a number is needed, this is 'much'"),
+        (lambda: hooke.Scene(drag="much"), 'drag: "much" is not allowed; allowed: a number >= 0 [N s/m]'),
         (lambda: hooke.Scene().particles([[0, 0, 0]], mass=-1), "particles.mass: -1 is not allowed"),
         (lambda: hooke.Scene().particles([[0, 0]], mass=1), "particles.position: its shape is (1, 2)"),
         (lambda: hooke.Scene().particles([[0, 0, 0]], mass=1, pinned=[1]), "particles.pinned[0]: there is no particle 1"),

@@ -1,5 +1,6 @@
 """The sources of the package: types, style, and a docstring on every public object."""
 
+import ast
 import importlib
 import inspect
 import os
@@ -82,6 +83,51 @@ def test_style_sees_a_planted_fault(tmp_path):
     (tmp_path / "unused.py").write_text("import os\n")
     checked = run("ruff", "check", "--no-cache", "--config", CONFIGURATION, tmp_path)
     assert checked.returncode == 1 and "F401" in checked.stdout, checked.stdout + checked.stderr
+
+
+def imports(module, known):
+    """The modules of the package that one imports when it runs, and those inside functions; what is for type checkers
+    only does not run."""
+    found, inside = set(), set()
+
+    def look(node, function):
+        if isinstance(node, ast.If) and getattr(node.test, "id", "") == "TYPE_CHECKING":
+            return
+        if isinstance(node, ast.ImportFrom) and node.level == 1:
+            names = {node.module} if node.module else {name.name for name in node.names}
+            (inside if function else found).update(names & known)
+        for child in ast.iter_child_nodes(node):
+            look(child, function or isinstance(node, ast.FunctionDef))
+
+    look(ast.parse(module), False)
+    return found, inside
+
+
+def circle(modules):
+    """Modules of {name: source} left when those that import none of the others are taken away again and again."""
+    left = {name: set.union(*imports(source, set(modules))) for name, source in modules.items()}
+    while free := [name for name, used in left.items() if not used & left.keys()]:
+        for name in free:
+            del left[name]
+    return set(left)
+
+
+def test_modules_have_a_direction():
+    modules = {path.stem: path.read_text() for path in (PACKAGES / "hooke").glob("*.py") if path.stem != "__init__"}
+    assert len(modules) > 20 and circle(modules) == set()
+    inside = {name: imports(source, set(modules))[1] for name, source in modules.items()}
+    assert not any(inside.values()), inside
+
+
+def test_a_planted_circle_is_seen():
+    late = "def f():\n    from .a import x\n"
+    assert circle({"a": "from .b import f", "b": late, "c": "from .a import f"}) == {"a", "b", "c"}
+    assert circle({"a": "from . import b", "b": "if TYPE_CHECKING:\n    from .a import x\n"}) == set()
+    assert imports(late, {"a"}) == (set(), {"a"})
+
+
+def test_dir_shows_public_names_only():
+    assert dir(hooke) == sorted(hooke.__all__)
 
 
 # docstrings

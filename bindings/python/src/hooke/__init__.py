@@ -39,7 +39,7 @@ from .integrator import Integrator, Method, PassageWarning, StepWarning, methods
 from .limit import Limit, limit
 from .needs import Needs, needs
 from .options import Options, Row, describe, options_of, part_kind_summary, part_kinds
-from .results import Frames, Result, resume, run
+from .results import Frames, Result, resume, run, why
 from .scene import Scene
 from .second_order import SecondOrder
 from .state import State
@@ -48,7 +48,7 @@ from .system import System
 from .trajectory import Energy, Frame, Trajectory, open
 from .verify import Verification, verify
 from .view import view, write_xdmf
-from .why import Why, why
+from .why import Why
 
 __version__: str = build_facts()["version"]
 
@@ -114,6 +114,10 @@ __all__ = [
     "why",
     "write_xdmf",
 ]
+
+
+def __dir__() -> list[str]:
+    return __all__
 
 
 def __getattr__(name: str) -> Any:

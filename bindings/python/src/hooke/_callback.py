@@ -143,19 +143,12 @@ def rate_callback(function: Callable[..., Any], shape: Shape, dtype: Any) -> Any
 
 
 @contextlib.contextmanager
-def watching(progress: Shown) -> Iterator[Any]:
-    """The progress callback of the library during its work; handles Ctrl-C."""
-    with shown(progress) as told:
-        tell = told or (lambda done, what: None)
-        with interruptible():
-            yield PROGRESS(lambda done, what, _: guarded(tell, done, text(what)))
-
-
-@contextlib.contextmanager
 def listening(attach: Callable[..., Any], handle: Any, progress: Shown) -> Iterator[None]:
     """Reports progress of the object during the library's work, and handles Ctrl-C; ``attach(handle, watcher, None)``
     is the library function that sets the callback."""
-    with watching(progress) as watcher:
+    with shown(progress) as told, interruptible():
+        tell = told or (lambda done, what: None)
+        watcher = PROGRESS(lambda done, what, _: guarded(tell, done, text(what)))
         attach(handle, watcher, None)
         try:
             yield

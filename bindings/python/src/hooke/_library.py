@@ -116,10 +116,8 @@ def _require_abi(path: str, library: ctypes.CDLL) -> None:
 
 
 def _candidates() -> Iterator[str]:
-    import hooke
-
     name = _FILE_NAMES.get(sys.platform, "libhooke.so")
-    for folder in hooke.__path__:  # two, where the sources are installed to be edited
+    for folder in sys.modules[__package__].__path__:  # two, where the sources are installed to be edited
         bundled = Path(folder) / name
         if bundled.exists():
             yield str(bundled)

@@ -5,15 +5,20 @@ from __future__ import annotations
 import ctypes
 import functools
 import os
-from typing import Any
+from collections.abc import Mapping
+from typing import Any, Callable, TypeVar
 
 import numpy as np
 
 from ._callback import listening
 from ._library import lib
 from ._memory import Handle, address_of, text, view
+from ._notebook import Tabled
 from ._prototypes import MEASUREMENT
+from ._status import OUTCOMES
 from ._types import FloatArray, Path, Table
+
+R = TypeVar("R")
 
 
 class Measurement:
@@ -25,11 +30,13 @@ class Measurement:
 
     @classmethod
     def create(cls, kind: str, system: Any, run: Any, options: Any) -> Measurement:
-        pointer = MEASUREMENT()
-        lib.hooke_measurement_create(
-            kind.encode(), system._committed(), run and run._handle, options and options._handle, ctypes.byref(pointer)
-        )
-        return cls(Handle(pointer, lib.hooke_measurement_destroy, system._handle))
+        given = kind.encode(), system._committed(), run and run._handle, options._handle
+        return cls.made(system._handle, lib.hooke_measurement_create, *given)
+
+    @classmethod
+    def made(cls, parent: Handle | None, create: Any, *arguments: Any) -> Measurement:
+        """What a function of the library makes."""
+        return cls(Handle.made(MEASUREMENT, lib.hooke_measurement_destroy, parent, create, *arguments))
 
     def run(self, progress: Any, state: Any = None) -> int:
         """Runs it and returns the status."""
@@ -42,10 +49,6 @@ class Measurement:
 
     # ---- tables ----
 
-    def columns(self, table: str) -> dict[str, str]:
-        """The types of the columns of a table, by name."""
-        return columns(self.kind, table)
-
     def count(self, table: str) -> int:
         return int(lib.hooke_measurement_row_count(self.handle, table.encode()))
 
@@ -53,11 +56,11 @@ class Measurement:
         return float(lib.hooke_measurement_number(self.handle, table.encode(), row, column.encode()))
 
     def text(self, table: str, row: int, column: str) -> str:
-        """A series as an array; empty if there is none."""
+        """A text; empty if there is none."""
         return text(lib.hooke_measurement_text(self.handle, table.encode(), row, column.encode()))
 
     def series(self, table: str, row: int, column: str) -> FloatArray | None:
-        """A copy; None if there is none."""
+        """A series as an array of its own; None if there is none."""
         count = ctypes.c_int64()
         pointer = lib.hooke_measurement_series(
             self.handle, table.encode(), row, column.encode(), ctypes.byref(count)
@@ -66,7 +69,7 @@ class Measurement:
 
     def value(self, table: str, row: int, column: str) -> Any:
         """A number, a text, or a flag: True, False, or None if unknown."""
-        kind = self.columns(table)[column]
+        kind = columns(self.kind, table)[column]
         if kind == "text":
             return self.text(table, row, column)
         number = self.number(table, row, column)
@@ -78,13 +81,23 @@ class Measurement:
         """The one row of a record; None if there is none."""
         if self.count(table) < 1:
             return None
-        return {name: self.value(table, 0, name) for name, kind in self.columns(table).items() if kind != "series"}
+        return {name: self.value(table, 0, name) for name, kind in columns(self.kind, table).items() if kind != "series"}
+
+    def one(self, kind: Any, table: str, **others: Any) -> Any:
+        """A record as a named tuple, whose fields are columns or `others`; None if there is none."""
+        found = self.record(table)
+        return None if found is None else kind(**typed(kind, {**found, **others}))
+
+    def each(self, kind: Callable[..., R], table: str) -> list[R]:
+        """Its rows as named tuples, whose fields are columns."""
+        rows = self.rows(table)
+        return [kind(**typed(kind, dict(zip(rows.dtype.names or (), row)))) for row in rows.tolist()]
 
     def rows(self, table: str) -> Table:
         """A structured array with a field for each column but series; flags are bool if all are known."""
         count = self.count(table)
         fields = []
-        for name, kind in self.columns(table).items():
+        for name, kind in columns(self.kind, table).items():
             if kind == "series":
                 continue
             read = self.text if kind == "text" else self.number
@@ -102,12 +115,42 @@ class Measurement:
 
     # ---- files ----
 
-    def write(self, path: Path, **labels: str | bytes | None) -> None:
-        """Writes the results in the format given by the ending of `path`: .csv, .json, .h5 or .html."""
+    def label(self, **labels: str | bytes | None) -> None:
+        """Sets labels, such as the title of a page."""
         for what, label in labels.items():
             encoded = label.encode() if isinstance(label, str) else label
             lib.hooke_measurement_label(self.handle, what.encode(), encoded)
+
+    def write(self, path: Path, **labels: str | bytes | None) -> None:
+        """Writes the results in the format given by the ending of `path`: .csv, .json, .h5 or .html."""
+        self.label(**labels)
         lib.hooke_measurement_write(self.handle, os.fsencode(path))
+
+
+class Found(Tabled):
+    """A finished measurement with rows."""
+
+    outcome: str
+
+    def _take(self, found: Measurement, status: int) -> None:
+        """Sets `outcome`, `rows`, and the attributes that the record of the kind's own name has columns for."""
+        self.outcome = OUTCOMES.get(status, "stopped")
+        self.rows = found.rows("rows")
+        vars(self).update(typed(type(self), found.record(found.kind) or {}))
+
+
+#: How a column is read for an attribute of these types; others are taken as they are.
+_TYPES: dict[str, Callable[[Any], Any]] = {
+    "int": lambda number: int(np.nan_to_num(number)),
+    "int | None": lambda number: None if np.isnan(number) else int(number),
+    "str | None": lambda word: word or None,
+}
+
+
+def typed(kind: Any, values: Mapping[str, Any]) -> dict[str, Any]:
+    """Those of some values that a class has attributes for, by their names, as the types that it declares for them."""
+    types = {name: getattr(type_, "__forward_arg__", type_) for name, type_ in kind.__annotations__.items()}
+    return {name: _TYPES.get(types[name], lambda value: value)(values[name]) for name in types if name in values}
 
 
 @functools.lru_cache

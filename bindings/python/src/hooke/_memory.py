@@ -44,6 +44,13 @@ class Handle(Owner):
         if parent is not None:
             parent._users += 1
 
+    @classmethod
+    def made(cls, kind: Any, destroy: Any, parent: Handle | None, create: Any, *arguments: Any) -> Handle:
+        """Owns what a function of the library makes, whose last argument is the place for it."""
+        pointer = kind()
+        create(*arguments, ctypes.byref(pointer))
+        return cls(pointer, destroy, parent)
+
     @property
     def pointer(self) -> Any:
         return self._as_parameter_

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import html
+import importlib
 import os
 import tempfile
 from collections.abc import Callable
@@ -42,6 +43,30 @@ def table(rows: Table) -> str:
     head = "".join(f"<th>{html.escape(name)}</th>" for name in names)
     body = "".join(f"<tr>{line}</tr>" for line in lines)
     return f'<div style="overflow-x:auto"><table><tr>{head}</tr>{body}</table></div>'
+
+
+def draw(what: str, *arguments: Any, **options: Any) -> Any:
+    """Calls a function of `hooke.plot` or `hooke.animation`; matplotlib is an extra, and slow to import."""
+    module, name = what.split(".")
+    return getattr(importlib.import_module(f"{__package__}.{module}"), name)(*arguments, **options)
+
+
+def named(rows: Table, column: str, name: str) -> np.void:
+    """The first row that has a name in a column."""
+    names = rows[column].tolist()
+    if name not in names:
+        raise KeyError(f"{name!r}; there are {', '.join(names)}")
+    row: np.void = rows[names.index(name)]
+    return row
+
+
+def of_methods(rows: Table, *columns: str) -> str:
+    """Rows of methods as text, with these columns of numbers."""
+    lines = [f"{'method':18}{'status':>10}" + "".join(f"{name:>19}" for name in columns)]
+    for row in rows:
+        numbers = "".join(f"{row[name]:>19.4g}" for name in columns)
+        lines.append(f"{row['method']:18}{row['status']:>10}{numbers}")
+    return "\n".join(lines)
 
 
 class Tabled:

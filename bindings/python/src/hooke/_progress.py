@@ -5,10 +5,12 @@ from __future__ import annotations
 import contextlib
 import importlib
 from collections.abc import Iterator
-from typing import Any, Callable, Union
+from typing import Any, Callable, Optional, Union
 
 from ._status import plain
 
+#: progress(fraction, what): the fraction done, 0 to 1, and the name of the running task.
+WorkProgress = Callable[[float, str], Optional[int]]
 #: A function that receives progress, True for a bar, or None.
 Shown = Union[None, bool, Callable[..., Any]]
 

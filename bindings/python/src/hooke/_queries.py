@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import ctypes
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
 from ._library import lib
-from ._memory import Handle, Owner, address_of, double_pointer, index_pointer, rows, text, view
+from ._memory import Handle, address_of, double_pointer, index_pointer, rows, text, view
+from ._problem import Problem
 from ._types import FloatArray, IntArray
 
 _DOUBLE = np.dtype(np.float64)
@@ -53,7 +54,24 @@ class Blocks(NamedTuple):
     dfdv: FloatArray
 
 
-class Queries(Owner):
+class Count(property):
+    """A property that is a count of the library; one that is known only of a committed system commits it."""
+
+    def __init__(self, what: str, doc: str):
+        late = what in ("free", "dropped_springs", "idle", "inside_bodies", "memory", "spring_memory")
+
+        def count(system: Queries) -> int:
+            return int(lib.hooke_system_count(system._committed() if late else system._handle, what.encode()))
+
+        count.__doc__ = doc
+        super().__init__(count)
+
+    if TYPE_CHECKING:
+
+        def __get__(self, system: Any, kind: type | None = None) -> int: ...  # type: ignore[override]
+
+
+class Queries(Problem):
     """Counts, tables, forces and energies. Positions and velocities are (n, 3) arrays [m], [m/s]."""
 
     _handle: Handle
@@ -72,26 +90,20 @@ class Queries(Owner):
         """Number of particles, including those of parts."""
         return int(lib.hooke_system_particle_count(self._handle))
 
-    @property
-    def free_count(self) -> int:
-        """Number of particles that are neither pinned nor driven; commits."""
-        return int(lib.hooke_system_count(self._committed(), b"free"))
+    free_count = Count("free", "Number of particles that are neither pinned nor driven; commits.")
 
-    @property
-    def spring_count(self) -> int:
-        """Number of springs: all that were added; once committed, those with stiffness or damping."""
-        return int(lib.hooke_system_count(self._handle, b"springs"))
+    spring_count = Count(
+        "springs", "Number of springs: all that were added; once committed, those with stiffness or damping."
+    )
 
-    @property
-    def dropped_spring_count(self) -> int:
-        """Number of springs dropped because they have neither stiffness nor damping; commits."""
-        return int(lib.hooke_system_count(self._committed(), b"dropped_springs"))
+    dropped_spring_count = Count(
+        "dropped_springs", "Number of springs dropped because they have neither stiffness nor damping; commits."
+    )
 
-    @property
-    def idle_count(self) -> int:
-        """Number of pinned particles that no spring, no bending, no altitude spring and no force callback acts on;
-        commits."""
-        return int(lib.hooke_system_count(self._committed(), b"idle"))
+    idle_count = Count(
+        "idle",
+        "Number of pinned particles that no spring, no bending, no altitude spring and no force callback acts on; commits.",
+    )
 
     @property
     def groups(self) -> list[tuple[str, int]]:
@@ -105,30 +117,23 @@ class Queries(Owner):
             for k in range(lib.hooke_system_group_count(handle, force))
         ]
 
-    @property
-    def bending_count(self) -> int:
-        """Number of triples of bending; commit drops those of coefficient 0."""
-        return int(lib.hooke_system_count(self._handle, b"bending"))
+    bending_count = Count("bending", "Number of triples of bending; commit drops those of coefficient 0.")
 
     @property
     def bending_groups(self) -> list[tuple[str, int]]:
         """Name ("" if it has none) and number of triples of every group."""
         return self._groups(b"bending")
 
-    @property
-    def altitude_count(self) -> int:
-        """Number of tetrahedra with altitude springs; commit drops those without stiffness and damping."""
-        return int(lib.hooke_system_count(self._handle, b"altitude"))
+    altitude_count = Count(
+        "altitude", "Number of tetrahedra with altitude springs; commit drops those without stiffness and damping."
+    )
 
     @property
     def altitude_groups(self) -> list[tuple[str, int]]:
         """Name ("" if it has none) and number of tetrahedra of every group."""
         return self._groups(b"altitude")
 
-    @property
-    def anchor_count(self) -> int:
-        """Number of anchors; commit drops those without stiffness and damping."""
-        return int(lib.hooke_system_count(self._handle, b"anchors"))
+    anchor_count = Count("anchors", "Number of anchors; commit drops those without stiffness and damping.")
 
     @property
     def anchors(self) -> tuple[IntArray, FloatArray, FloatArray, FloatArray, FloatArray]:
@@ -219,21 +224,15 @@ class Queries(Owner):
     def altitude_lengths(self, q: Any) -> np.ndarray:
         """The altitude of every tetrahedron that acts at q (m,) [m]: negative where it is inverted, 0 where none
         acts."""
-        handle = self._committed()
-        length = np.empty(self.altitude_count)
-        (q,) = self._rows(q=q)
-        lib.hooke_system_altitude_lengths(handle, double_pointer(q), double_pointer(length))
-        return length
+        count = lib.hooke_system_count(self._committed(), b"altitude")
+        return self._filled(lib.hooke_system_altitude_lengths, count, q=q)
 
-    @property
-    def body_count(self) -> int:
-        """Number of rigid bodies."""
-        return int(lib.hooke_system_count(self._handle, b"bodies"))
+    body_count = Count("bodies", "Number of rigid bodies.")
 
-    @property
-    def inside_body_count(self) -> int:
-        """Number of springs and other members of forces dropped because they are inside a rigid body; commits."""
-        return int(lib.hooke_system_count(self._committed(), b"inside_bodies"))
+    inside_body_count = Count(
+        "inside_bodies",
+        "Number of springs and other members of forces dropped because they are inside a rigid body; commits.",
+    )
 
     @property
     def body_names(self) -> list[str]:
@@ -249,16 +248,12 @@ class Queries(Owner):
     def body_inertia(self, body: int) -> tuple[float, FloatArray]:
         """Mass [kg] of a rigid body and its moments of inertia (3,) [kg m^2] about the axes through its point, ascending;
         with two pinned points one, before two zeros."""
-        inertia = np.empty(4)
-        lib.hooke_system_body_inertia(self._committed(), body, double_pointer(inertia))
+        inertia = self._filled(lib.hooke_system_body_inertia, 4, body)
         return float(inertia[0]), inertia[1:]
 
     def body_motion(self, body: int, q: Any, v: Any) -> BodyMotion:
         """The motion of a rigid body at q and v."""
-        handle = self._committed()
-        q, v = self._rows(q=q, v=v)
-        motion = np.empty(13)
-        lib.hooke_system_body_motion(handle, body, double_pointer(q), double_pointer(v), double_pointer(motion))
+        motion = self._filled(lib.hooke_system_body_motion, 13, body, q=q, v=v)
         return BodyMotion(motion[:3], motion[3:7], motion[7:10], motion[10:])
 
     @property
@@ -270,34 +265,27 @@ class Queries(Owner):
             text(lib.hooke_system_force_name(handle, k)) for k in range(lib.hooke_system_count(handle, b"forces"))
         ]
 
-    @property
-    def memory(self) -> int:
-        """Memory that the system holds [bytes]."""
-        return int(lib.hooke_system_count(self._committed(), b"memory"))
+    memory = Count("memory", "Memory that the system holds [bytes].")
 
-    @property
-    def spring_memory(self) -> int:
-        """The part of it that grows with the number of springs [bytes]."""
-        return int(lib.hooke_system_count(self._committed(), b"spring_memory"))
+    spring_memory = Count("spring_memory", "The part of it that grows with the number of springs [bytes].")
 
     # forces
 
     def force(self, q: Any, v: Any, t: float = 0.0) -> FloatArray:
         """Force on every particle (n, 3) [N]."""
-        return self._vectors(lib.hooke_system_force, t, q=q, v=v)
+        return self._filled(lib.hooke_system_force, None, t, q=q, v=v)
 
     def acceleration(self, q: Any, v: Any, t: float = 0.0) -> FloatArray:
         """Acceleration of every particle (n, 3) [m/s^2], zero where pinned or driven."""
-        return self._vectors(lib.hooke_system_acceleration, t, q=q, v=v)
+        return self._filled(lib.hooke_system_acceleration, None, t, q=q, v=v)
 
     def derivative_product(self, q: Any, v: Any, dq: Any, dv: Any, t: float = 0.0) -> FloatArray:
         """(df/dq) dq + (df/dv) dv of the force, (n, 3)."""
-        return self._vectors(lib.hooke_system_derivative_product, t, q=q, v=v, dq=dq, dv=dv)
+        return self._filled(lib.hooke_system_derivative_product, None, t, q=q, v=v, dq=dq, dv=dv)
 
     def derivative_blocks(self, q: Any, v: Any) -> Blocks:
         """df/dq [N/m] and df/dv [N s/m] as sparse 3x3 blocks, callbacks left out."""
         handle = self._committed()
-        q, v = self._rows(q=q, v=v)
         count = lib.hooke_system_count(handle, b"blocks")
         blocks = Blocks(
             np.empty(self.particle_count + 1, np.int64),
@@ -305,16 +293,9 @@ class Queries(Owner):
             np.empty((count, 3, 3)),
             np.empty((count, 3, 3)),
         )
-        lib.hooke_system_derivative_pattern(
-            handle, index_pointer(blocks.row_start), index_pointer(blocks.column)
-        )
-        lib.hooke_system_derivative_blocks(
-            handle,
-            double_pointer(q),
-            double_pointer(v),
-            double_pointer(blocks.dfdq),
-            double_pointer(blocks.dfdv),
-        )
+        lib.hooke_system_derivative_pattern(handle, index_pointer(blocks.row_start), index_pointer(blocks.column))
+        at, found = (self._argument(q, "q"), self._argument(v, "v")), map(double_pointer, blocks[2:])
+        lib.hooke_system_derivative_blocks(handle, *at, *found)
         return blocks
 
     def coincident_springs(self, q: Any) -> int:
@@ -358,23 +339,16 @@ class Queries(Owner):
 
     def momentum(self, v: Any) -> FloatArray:
         """Momentum of the free particles (3,) [kg m/s]."""
-        return self._sum(lib.hooke_system_momentum, v=v)
+        return self._filled(lib.hooke_system_momentum, 3, v=v)
 
     def angular_momentum(self, q: Any, v: Any) -> FloatArray:
         """Angular momentum of the free particles about the origin (3,) [kg m^2/s]."""
-        return self._sum(lib.hooke_system_angular_momentum, q=q, v=v)
+        return self._filled(lib.hooke_system_angular_momentum, 3, q=q, v=v)
 
     def step_bound(self, method: str, q: Any) -> float:
         """A step [s] below which `method` is certain to be stable for the system linearised at q: 0 if no step is
         stable, infinity if nothing limits it, NaN if no bound is known."""
-        handle = self._committed()
-        bound = np.empty(1)
-        (q,) = self._rows(q=q)
-        lib.hooke_step_bound(handle, method.encode(), double_pointer(q), double_pointer(bound))
-        return float(bound[0])
-
-    def _rows(self, **arrays: Any) -> list[FloatArray]:
-        return [rows(values, name, self.particle_count) for name, values in arrays.items()]
+        return float(self._filled(lib.hooke_step_bound, 1, method.encode(), q=q)[0])
 
     def _argument(self, values: Any, name: str) -> Any:
         """Positions or velocities as an argument; those of a state are passed unchanged."""
@@ -386,18 +360,11 @@ class Queries(Owner):
                 pass
         return double_pointer(rows(values, name, self.particle_count))
 
-    def _vectors(self, function: Any, t: float, **arrays: Any) -> FloatArray:
+    def _filled(self, function: Any, shape: Any, *before: Any, **arrays: Any) -> FloatArray:
+        """What a function writes at positions and velocities; of every particle without a `shape`."""
         handle = self._committed()
-        out = np.empty((self.particle_count, 3))
-        inputs = self._rows(**arrays)
-        function(handle, t, *(double_pointer(array) for array in inputs), double_pointer(out))
-        return out
-
-    def _sum(self, function: Any, **arrays: Any) -> FloatArray:
-        handle = self._committed()
-        out = np.empty(3)
-        inputs = self._rows(**arrays)
-        function(handle, *(double_pointer(array) for array in inputs), double_pointer(out))
+        out = np.empty(self._shape if shape is None else shape)
+        function(handle, *before, *(self._argument(values, name) for name, values in arrays.items()), double_pointer(out))
         return out
 
 

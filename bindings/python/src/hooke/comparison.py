@@ -14,18 +14,17 @@ from . import _callback
 from ._library import lib
 from ._measurement import Measurement
 from ._memory import text
-from ._notebook import Tabled
+from ._notebook import Tabled, of_methods
+from ._progress import WorkProgress
 from ._prototypes import COMPARISON_FILE, COMPARISON_FRAME
 from ._status import BadValue
 from ._types import FloatArray, Path, Table
-from .options import Options
+from .options import Options, joined
 from .results import Runnable, resolve
 from .scene import scene_text
 from .state import State
-from .system import Force, System
+from .system import Force, system_of
 
-#: progress(fraction, what): the fraction done, 0 to 1, and the name of the running task.
-ComparisonProgress = Callable[[float, str], Optional[int]]
 #: observer(run, frame, step, state): `run` is "reference" or a method's name.
 ComparisonObserver = Callable[[str, int, int, State], Optional[int]]
 
@@ -57,11 +56,7 @@ class Comparison(Tabled):
 
     def __str__(self) -> str:
         columns = ("error", "error_final", "energy_drift", "force_evaluations", "wall_seconds")
-        lines = [f"{'method':18}{'status':>10}" + "".join(f"{name:>19}" for name in columns)]
-        for row in self.rows:
-            numbers = "".join(f"{row[name]:>19.4g}" for name in columns)
-            lines.append(f"{row['method']:18}{row['status']:>10}{numbers}")
-        return "\n".join(lines)
+        return of_methods(self.rows, *columns)
 
 
 def compare(
@@ -70,7 +65,7 @@ def compare(
     *,
     output: Path | None = None,
     force: Force | None = None,
-    progress: ComparisonProgress | bool | None = None,
+    progress: WorkProgress | bool | None = None,
     on_frame: ComparisonObserver | None = None,
     **options: Any,
 ) -> Comparison:
@@ -84,12 +79,10 @@ def compare(
     """
     if output is not None and on_frame is not None:
         raise BadValue("on_frame: not together with output, which takes the frames")
-    scene, system, given = resolve(problem, force)
-    if not isinstance(system, System):
-        raise BadValue("compare: a system is needed, this is a first-order problem")
-    chosen = (given.copy() if given is not None else Options.for_run()).set(**options)
-    names = () if methods is None else methods
-    measurement = Measurement.create("comparison", system, chosen, Options.for_comparison().set(methods=",".join(names)))
+    scene, found, chosen = resolve(problem, force, options)
+    system = system_of(found, "compare")
+    wanted = Options.for_comparison().set(methods=joined(methods or ""))
+    measurement = Measurement.create("comparison", system, chosen, wanted)
     watcher = None if on_frame is None else _watch_frames(on_frame, system.state())
     if watcher is not None:
         lib.hooke_comparison_on_frame(measurement.handle, watcher, None)

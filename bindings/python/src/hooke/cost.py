@@ -4,16 +4,16 @@ from __future__ import annotations
 
 import numpy as np
 
-from ._measurement import Measurement
-from ._notebook import Tabled
-from ._status import OUTCOMES, plain
-from ._types import Table
+from ._measurement import Found, Measurement
+from ._notebook import named
+from ._progress import WorkProgress
+from ._status import plain
 from .options import Options
-from .results import Runnable, WorkProgress, prepare
+from .results import Runnable, prepare
 from .state import State
 
 
-class Cost(Tabled):
+class Cost(Found):
     """The cost of a scene, as a whole and by ingredients.
 
     `rows` is a structured array with one row an ingredient: name (of the group, else the kind), kind ("springs",
@@ -29,7 +29,6 @@ class Cost(Tabled):
     "stopped".
     """
 
-    outcome: str
     method: str
     step: float
     nanoseconds: float
@@ -38,22 +37,14 @@ class Cost(Tabled):
     step_limit: float
     dropped_springs: int
     idle_particles: int
-    rows: Table
 
     def __init__(self, found: Measurement, status: int):
-        self.outcome = OUTCOMES.get(status, "stopped")
-        for name, value in (found.record("cost") or {}).items():
-            setattr(self, name, int(value) if name in ("dropped_springs", "idle_particles") else value)
-        self.rows = found.rows("rows")
+        self._take(found, status)
         self.rows.dtype.names = tuple("name" if name == "ingredient" else name for name in self.rows.dtype.names or ())
 
     def __getitem__(self, name: str) -> np.void:
         """The first row of that name."""
-        names = self.rows["name"].tolist()
-        if name not in names:
-            raise KeyError(f"{name!r}; there are {', '.join(names)}")
-        row: np.void = self.rows[names.index(name)]
-        return row
+        return named(self.rows, "name", name)
 
     def __str__(self) -> str:
         lines = [f"{self.method + ', without':28}{'ns a step':>12}{'bytes':>12}{'stable to [s]':>16}"]

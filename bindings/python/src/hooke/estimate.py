@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-from decimal import Decimal, InvalidOperation
 from typing import TYPE_CHECKING, Any, NamedTuple, Union
 
 from ._library import lib
@@ -20,7 +19,6 @@ if TYPE_CHECKING:
 #: A length: a number [m], or text with a unit, such as "1mm".
 Length = Union[float, str]
 
-_METRES = {"": 0, "m": 0, "km": 3, "cm": -2, "mm": -3, "um": -6, "nm": -9}
 _CHOSEN = ("step", "rtol", "atol", "atol_velocity")
 
 
@@ -50,25 +48,12 @@ class RunError(NamedTuple):
     reason: str
 
 
-def metres(length: Length, name: str) -> float:
-    """A length in metres; BadValue for an unknown unit."""
-    if not isinstance(length, str):
-        return float(length)
-    word = length.strip()
-    number = word.rstrip("abcdfghijklmnopqrstuvwxyz").strip()
-    unit = word[len(number) :].strip()
-    try:
-        return float(Decimal(number).scaleb(_METRES[unit]))
-    except (KeyError, InvalidOperation):
-        units = ", ".join(unit for unit in _METRES if unit)
-        raise BadValue(f"{name}: {length!r} is not a length; a number [m] is, or one with a unit: {units}") from None
-
-
 class Estimate:
     """A measurement of kind "estimate": picks, observes and measures runs of one system."""
 
     def __init__(self, system: System, want: Length | None, progress: Any = None):
-        options = Options._of("estimate").set(want=None if want is None else metres(want, "want"), callbacks=True)
+        wanted = want.strip() if isinstance(want, str) else want
+        options = Options._of("estimate").set(want=wanted, callbacks=True)
         self._measurement = Measurement.create("estimate", system, None, options)
         self._handle = self._measurement.handle
         self._progress = progress
@@ -94,9 +79,8 @@ class Estimate:
     def measure(self, state: State) -> RunError:
         """The result, after the run that ended with `state`."""
         self._measurement.run(self._progress, state)
-        found: dict[str, Any] = self._measurement.record("estimate") or {}
-        found["by"] = found["by"] or None
-        return RunError(*(found[name] for name in RunError._fields))
+        found: RunError = self._measurement.one(RunError, "estimate")
+        return found
 
     def write(self, path: Path) -> None:
         """Adds it to the output file of the run."""

@@ -2,28 +2,25 @@
 
 from __future__ import annotations
 
-import ctypes
-from typing import TYPE_CHECKING, Any, Callable, Optional
+from typing import Any, Callable, Optional
 
 import numpy as np
 
 from . import _callback
 from ._library import lib
-from ._memory import Handle, Owner, plain
+from ._memory import Handle, plain
+from ._problem import Problem
 from ._prototypes import INTEGRATOR
 from ._status import BadValue
 from ._types import Table
 from .options import Options
 from .state import State
 
-if TYPE_CHECKING:
-    from .results import Result
-
 #: rate(t, x, rate): writes x' into its last argument, arrays (size,).
 Rate = Callable[[float, Table, Table], Optional[int]]
 
 
-class FirstOrder(Owner):
+class FirstOrder(Problem):
     """x' = phi(t, x) from `x0` (size,), real or complex; ``phi(t, x, rate)`` writes the rate into its last argument::
 
         def decay(t, x, rate):
@@ -33,6 +30,8 @@ class FirstOrder(Owner):
 
     Arrays that are kept stay as they are at the end of their call. phi returns None or 0 to go on, any other integer to stop.
     """
+
+    _what = "a first-order problem"
 
     def __init__(self, phi: Rate, x0: Any):
         x0 = np.atleast_1d(plain(x0, "x0"))
@@ -49,18 +48,10 @@ class FirstOrder(Owner):
         state.x = self._x0
         return state
 
-    def run(self, **options: Any) -> Result:
-        """Runs the problem; see `hooke.run`."""
-        from .results import run
-
-        return run(self, **options)
-
     def _integrator(self, options: Options) -> Handle:
-        pointer = INTEGRATOR()
-        lib.hooke_integrator_create_first_order(
-            self._size, self._rate, None, options._handle, ctypes.byref(pointer)
-        )
-        return Handle(pointer, lib.hooke_integrator_destroy)
+        given = self._size, self._rate, None, options._handle
+        create = lib.hooke_integrator_create_first_order
+        return Handle.made(INTEGRATOR, lib.hooke_integrator_destroy, None, create, *given)
 
     def __repr__(self) -> str:
         return f"FirstOrder({self._x0.size} unknowns)"

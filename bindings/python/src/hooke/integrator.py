@@ -6,7 +6,7 @@ import contextlib
 import os
 import warnings
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, Any, Callable, NamedTuple, Optional
+from typing import Any, Callable, NamedTuple, Optional
 
 import numpy as np
 
@@ -14,6 +14,7 @@ from . import _callback
 from ._closing import Closing
 from ._library import lib
 from ._memory import Handle, double_pointer, doubles, index_pointer, indices, text
+from ._progress import WorkProgress
 from ._prototypes import OBSERVER, WARNING
 from ._status import OUTCOMES, BadCall, NotBuilt, SolverFailed, Unsuited
 from ._types import FloatArray
@@ -22,10 +23,7 @@ from .options import Options
 from .second_order import SecondOrder
 from .state import State
 from .system import System
-
-if TYPE_CHECKING:
-    from .results import WorkProgress
-    from .why import Why
+from .why import Why
 
 #: observer(step, state): receives the state after `step` steps and must not change it; returns None or 0 to go on.
 Observer = Callable[[int, State], Optional[int]]
@@ -128,9 +126,7 @@ class Integrator(Closing):
         does Ctrl-C. A step that is not certain to be stable, and a scene that may mislead, give a `StepWarning`, springs
         that passed through length zero a `PassageWarning`.
         """
-        with self._watched(state, on_frame, on_step, on_checkpoint), self._warned():
-            outcome = self._outcome(lib.hooke_integrator_run(self._handle, state._handle))
-        return self._warn_of_passages(outcome)
+        return self._whole(lib.hooke_integrator_run, state, on_frame, on_step, on_checkpoint)
 
     def resume(
         self,
@@ -143,9 +139,7 @@ class Integrator(Closing):
         """Continues a run to its end from where `read_checkpoint` placed the integrator and the state, or where a
         callback stopped a run with a fixed step. Bits and counts are those of an uninterrupted run. Frames that were
         reported are not reported again. The rest is as in `run`."""
-        with self._watched(state, on_frame, on_step, on_checkpoint), self._warned():
-            outcome = self._outcome(lib.hooke_integrator_resume(self._handle, state._handle))
-        return self._warn_of_passages(outcome)
+        return self._whole(lib.hooke_integrator_resume, state, on_frame, on_step, on_checkpoint)
 
     def write_checkpoint(self, path: str | os.PathLike[str], state: State, run: str = "") -> None:
         """Writes a checkpoint of the run, with `state` as observers receive it, or as a stopped `run` left it. An
@@ -227,8 +221,6 @@ class Integrator(Closing):
     def why(self, budget: float | None = None, progress: WorkProgress | bool | None = None) -> Why:
         """Explains the last run, which has to have ended early: "diverged", "step-limit" or `SolverFailed`; with
         `budget` and `progress` as for `hooke.why`."""
-        from .why import Why
-
         return Why(self, budget, progress)
 
     @property
@@ -246,6 +238,14 @@ class Integrator(Closing):
         self.outcome, self.message = _SOLVER_FAILED, str(failure)
         failure.integrator = self
 
+    def _whole(self, function: Any, state: State, *watchers: Any) -> str:
+        with self._watched(state, *watchers), self._warned():
+            outcome = self._outcome(function(self._handle, state._handle))
+        sentence = text(lib.hooke_integrator_text(self._handle, b"zero_passages"))
+        if sentence and outcome not in ("diverged", "step-limit"):
+            warnings.warn(sentence, PassageWarning, _callback.outside() - 1)
+        return outcome
+
     def _outcome(self, code: int) -> str:
         self.outcome = code
         self.message = text(lib.hooke_last_error()) if code else ""
@@ -258,21 +258,22 @@ class Integrator(Closing):
         if self._running:
             raise BadCall(_RUNNING)
         stride, step_observer = on_step or (1, None)
-        frames = _observer(on_frame, state) if on_frame else OBSERVER()
-        steps = _observer(step_observer, state) if step_observer else OBSERVER()
-        checkpoints = _observer(on_checkpoint, state) if on_checkpoint else OBSERVER()
+        watched: list[tuple[Any, list[int], Observer | None]] = [
+            (lib.hooke_integrator_on_frame, [], on_frame),
+            (lib.hooke_integrator_on_step, [stride], step_observer),
+            (lib.hooke_integrator_on_checkpoint, [], on_checkpoint),
+        ]
+        callbacks = [_observer(observer, state) for _, _, observer in watched]  # live until the run is over
         self._running = True
         try:
-            lib.hooke_integrator_on_frame(self._handle, frames, None)
-            lib.hooke_integrator_on_step(self._handle, stride, steps, None)
-            lib.hooke_integrator_on_checkpoint(self._handle, checkpoints, None)
+            for (attach, how, _), callback in zip(watched, callbacks):
+                attach(self._handle, *how, callback, None)
             with _callback.interruptible(self._handle):
                 yield
         finally:
             self._running = False
-            lib.hooke_integrator_on_frame(self._handle, OBSERVER(), None)
-            lib.hooke_integrator_on_step(self._handle, 1, OBSERVER(), None)
-            lib.hooke_integrator_on_checkpoint(self._handle, OBSERVER(), None)
+            for attach, how, _ in watched:
+                attach(self._handle, *(1 for _ in how), OBSERVER(), None)
 
     @contextlib.contextmanager
     def _warned(self) -> Iterator[None]:
@@ -290,12 +291,6 @@ class Integrator(Closing):
         finally:
             with contextlib.suppress(NotBuilt, Unsuited):
                 lib.hooke_integrator_on_warning(self._handle, WARNING(), None)
-
-    def _warn_of_passages(self, outcome: str) -> str:
-        sentence = text(lib.hooke_integrator_text(self._handle, b"zero_passages"))
-        if sentence and outcome not in ("diverged", "step-limit"):
-            warnings.warn(sentence, PassageWarning, _callback.outside() - 1)
-        return outcome
 
     @property
     def frame_count(self) -> int:
@@ -328,7 +323,10 @@ class Integrator(Closing):
         return f"Integrator({self._problem!r}, {self.options!r})"
 
 
-def _observer(function: Observer, state: State) -> Any:
+def _observer(function: Observer | None, state: State) -> Any:
+    if not function:
+        return OBSERVER()
+
     def observer(step: int, _state: int, _: Any) -> int:
         return _callback.guarded(function, step, state)
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import ctypes
 import os
 from collections.abc import Iterable
 from typing import Any, NamedTuple, Union
@@ -10,14 +9,13 @@ from typing import Any, NamedTuple, Union
 import numpy as np
 
 from ._library import lib
-from ._measurement import Measurement
-from ._memory import Handle
-from ._notebook import Paged
-from ._prototypes import RECORD
-from ._status import OUTCOMES
-from ._types import ComplexArray, FloatArray, Path, Table
-from .options import Options
-from .results import Runnable, WorkProgress, prepare
+from ._measurement import Found, Measurement
+from ._notebook import Paged, draw, named
+from ._progress import WorkProgress
+from ._record import opened
+from ._types import ComplexArray, FloatArray, Path
+from .options import Options, joined
+from .results import Runnable, prepare
 from .scene import Scene, scene_text
 from .state import State
 from .system import System
@@ -61,7 +59,7 @@ class Remedy(NamedTuple):
     gain_predicted: float
 
 
-class Limit(Paged):
+class Limit(Found, Paged):
     """The largest stable steps of a scene, linearised at its positions and at rest.
 
     `rows` is a structured array with one row a method: method; bound (safe) [s], predicted [s], measured [s], ratio
@@ -82,10 +80,8 @@ class Limit(Paged):
     scene (NaN if it names none), `outcome` "finished", or the outcome of the run along which limits were found.
     """
 
-    outcome: str
     time: float
     step: float
-    rows: Table
     modes: ComplexArray
     frequency: FloatArray
     decay: FloatArray
@@ -100,22 +96,15 @@ class Limit(Paged):
 
     def __init__(self, found: Measurement, scene: Scene | None, status: int):
         self._found, self._scene = found, scene
-        self.outcome = OUTCOMES.get(status, "stopped")
-        record = found.record("limit") or {}
-        self.time, self.step = record["time"], record["step"]
-        self.frequency_max, self.rate_max = record["frequency_max"], record["rate_max"]
-        self.clamped = 0 if np.isnan(record["clamped"]) else int(record["clamped"])
-        self.tipping = 0 if np.isnan(record["tipping"]) else int(record["tipping"])
-        self.rows = found.rows("rows")
+        self._take(found, status)
         modes = found.rows("modes")
         self.modes = modes["real"] + 1j * modes["imaginary"]
         self.frequency, self.decay = modes["frequency"], modes["decay"]
         shape = found.series("limit", 0, "shape")
         self.shape = None if shape is None else shape.reshape(-1, 3)
         self.blame = Blame.read(found)
-        self.movers = [Mover(int(particle), *rest) for particle, *rest in found.rows("movers").tolist()]
-        remedy = found.record("remedy")
-        self.remedy = None if remedy is None else Remedy(**remedy)
+        self.movers = found.each(Mover, "movers")
+        self.remedy = found.one(Remedy, "remedy")
 
     @property
     def methods(self) -> list[str]:
@@ -124,10 +113,7 @@ class Limit(Paged):
 
     def __getitem__(self, method: str) -> np.void:
         """The row of a method."""
-        if method not in self.methods:
-            raise KeyError(f"{method!r}; there are {', '.join(self.methods)}")
-        row: np.void = self.rows[self.methods.index(method)]
-        return row
+        return named(self.rows, "method", method)
 
     def write(self, path: Path, title: str | None = None) -> None:
         """Writes the results in the format given by the ending of `path`: .html, the page of ``hooke limit --report``
@@ -137,9 +123,7 @@ class Limit(Paged):
 
     def plot(self, axes: Any = None, **options: Any) -> Any:
         """Draws the modes on the regions of stability; see `hooke.plot.limit`."""
-        from .plot import limit as draw
-
-        return draw(self, axes, **options)
+        return draw("plot.limit", self, axes, **options)
 
     def __str__(self) -> str:
         shown = [(name, head) for name, head in _COLUMNS if not np.isnan(self.rows[name]).all()]
@@ -180,10 +164,8 @@ def limit(
     work by returning a non-zero number. The keywords `options` are those of a run.
     """
     scene, system, run = prepare("limit", problem, None, options)
-    if methods is not None and not isinstance(methods, str):
-        methods = ",".join(methods)
     chosen = Options.for_limit().set(
-        methods=methods, predict=predict, nonlinear=nonlinear, along=along, accuracy=accuracy, budget=budget
+        methods=joined(methods), predict=predict, nonlinear=nonlinear, along=along, accuracy=accuracy, budget=budget
     )
     found = Measurement.create("limit", system, run, chosen)
     return Limit(found, scene, found.run(progress, _state_at(system, at)))
@@ -196,9 +178,7 @@ def _state_at(system: System, at: Place | None) -> State:
         lib.hooke_state_copy(at._handle, state._handle)
     elif isinstance(at, (tuple, str, os.PathLike)):
         path, frame = at if isinstance(at, tuple) else (at, -1)
-        pointer = RECORD()
-        lib.hooke_record_open(os.fsencode(path), ctypes.byref(pointer))
-        lib.hooke_record_read(Handle(pointer, lib.hooke_record_close), frame, state._handle)
+        lib.hooke_record_read(opened(path), frame, state._handle)
     elif at is not None:
         state.q = at
     return state

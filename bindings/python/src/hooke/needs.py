@@ -8,13 +8,14 @@ import numpy as np
 
 from ._closing import Closing
 from ._library import lib
-from ._measurement import Measurement
+from ._measurement import Found, Measurement, typed
 from ._memory import Handle, double_pointer, rows
-from ._notebook import Paged
-from ._status import OUTCOMES, BadCall, plain
+from ._notebook import Paged, draw, named
+from ._progress import WorkProgress
+from ._status import BadCall, plain
 from ._types import FloatArray, Path, Table
 from .options import Options
-from .results import Runnable, WorkProgress, prepare
+from .results import Runnable, prepare
 from .scene import Scene, scene_text
 from .system import System, write_scene
 
@@ -36,7 +37,7 @@ class RunCost(NamedTuple):
     step_error: float
 
 
-class Needs(Paged, Closing):
+class Needs(Found, Paged, Closing):
     """The needs of a scene for watched positions within `want` [m].
 
     `rows` is a structured array with one row for everything that was left out in turn: without, kind, error (the
@@ -65,52 +66,43 @@ class Needs(Paged, Closing):
     small. `outcome` is "finished", or "stopped" if the progress function asked for it.
     """
 
-    outcome: str
     want: float
     method: str
     duration: float
     judged_until: float
     runs: int
-    rows: Table
     parts: Table
     full: RunCost
     own_error: float
     moved: float
     note: str
     lean_cost: RunCost | None
-    lean_error: float
-    lean_note: str
+    lean_error: float = np.nan
+    lean_note: str = ""
     cheapest: RunCost | None
-    cheapest_error: float
-    times_less: float
-    other_method: str | None
-    other_seconds: float
+    cheapest_error: float = np.nan
+    times_less: float = np.nan
+    other_method: str | None = None
+    other_seconds: float = np.nan
 
     def __init__(self, measurement: Measurement, scene: Scene | None, system: System, status: int):
         self._handle = measurement
         self._scene = scene
         self._system = system  # its callbacks have to live as long as the lean one
-        self.outcome = OUTCOMES.get(status, "stopped")
-        whole = measurement.record("needs") or {}
+        self._take(measurement, status)
+        self.rows, self.parts = _plain_needed(self.rows), measurement.rows("parts")
         full, lean, cheapest = (measurement.record(table) or {} for table in ("full", "lean", "cheapest"))
-        for name in ("want", "method", "duration", "judged_until", "note"):
-            setattr(self, name, whole[name])
-        self.runs = int(whole["runs"])
-        self.full, self.own_error, self.moved = _cost(full), full["own_error"], full["moved"]
-        self.rows = _plain_needed(measurement.rows("rows"))
-        self.parts = measurement.rows("parts")
-        self.lean_cost, self.cheapest = (_cost(found) if found else None for found in (lean, cheapest))
-        self.lean_error, self.cheapest_error = lean.get("error", np.nan), cheapest.get("error", np.nan)
-        self.lean_note, self.times_less = lean.get("note", ""), lean.get("times_less", np.nan)
-        self.other_method, self.other_seconds = lean.get("other_method") or None, lean.get("other_seconds", np.nan)
+        own = {name: full[name] for name in ("own_error", "moved")}
+        less = {name: lean[name] for name in ("times_less", "other_method", "other_seconds") if lean}
+        errors = {f"{name}_error": run["error"] for name, run in (("lean", lean), ("cheapest", cheapest)) if run}
+        vars(self).update(typed(Needs, {**own, **less, **errors, "lean_note": lean.get("note", "")}))
+        self.full, self.lean_cost, self.cheapest = (
+            measurement.one(RunCost, table) for table in ("full", "lean", "cheapest")
+        )
 
     def __getitem__(self, without: str) -> np.void:
         """The row of the ingredient left out."""
-        names = [str(name) for name in self.rows["without"]]
-        if without not in names:
-            raise KeyError(f"{without!r}; there are {', '.join(names)}")
-        row: np.void = self.rows[names.index(without)]
-        return row
+        return named(self.rows, "without", without)
 
     @property
     def left_out(self) -> list[str]:
@@ -161,9 +153,7 @@ class Needs(Paged, Closing):
 
     def plot(self, ax: Any = None, **options: Any) -> Any:
         """Draws the change of the scene by each ingredient; see `hooke.plot.needs`."""
-        from .plot import needs as draw
-
-        return draw(self, ax, **options)
+        return draw("plot.needs", self, ax, **options)
 
     def __str__(self) -> str:
         if self.parts.size:
@@ -217,10 +207,6 @@ def needs(
     chosen = Options.for_needs().set(want=want, watch=watch, refine=refine)
     measurement = Measurement.create("needs", system, run, chosen)
     return Needs(measurement, scene, system, measurement.run(progress))
-
-
-def _cost(record: dict[str, Any]) -> RunCost:
-    return RunCost(*(record[name] for name in RunCost._fields))
 
 
 def _plain_needed(table: Table) -> Table:

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-import ctypes
 import itertools
 import math
-from collections.abc import Iterator, Mapping, MutableMapping
+from collections.abc import Iterable, Iterator, Mapping, MutableMapping
 from typing import Any, NamedTuple, Union
 
 import numpy as np
@@ -52,6 +51,16 @@ class Row(NamedTuple):
     word_lists: bool
 
 
+def _of_table(what: str, doc: str) -> classmethod[Options, [], Options]:
+    """A method of `Options` that makes those of one table."""
+
+    def make(cls: type[Options]) -> Options:
+        return cls._of(what)
+
+    make.__doc__, make.__name__, make.__qualname__ = doc, f"for_{what}", f"Options.for_{what}"
+    return classmethod(make)
+
+
 class Options(Owner, MutableMapping[str, Any]):
     """The options of one thing by name: ``options["step"] = 1e-3``.
 
@@ -70,59 +79,22 @@ class Options(Owner, MutableMapping[str, Any]):
 
     @classmethod
     def _of(cls, table: str) -> Options:
-        pointer = OPTIONS()
-        lib.hooke_options_create(table.encode(), ctypes.byref(pointer))
-        return cls(Handle(pointer, lib.hooke_options_destroy))
+        return cls(Handle.made(OPTIONS, lib.hooke_options_destroy, None, lib.hooke_options_create, table.encode()))
 
-    @classmethod
-    def for_run(cls) -> Options:
-        """Options of a run: method, step [s], duration [s], every [s], rtol, atol [m], ..."""
-        return cls._of("run")
-
-    @classmethod
-    def for_study(cls) -> Options:
-        """Options of a study: methods, points, steps [s], tolerances, want [m], budget [s]."""
-        return cls._of("study")
-
-    @classmethod
-    def for_limit(cls) -> Options:
-        """Options of a limit: methods, predict, nonlinear, along, accuracy, budget [s]."""
-        return cls._of("limit")
-
-    @classmethod
-    def for_cost(cls) -> Options:
-        """Options of a cost: predict, budget [s], groups."""
-        return cls._of("cost")
-
-    @classmethod
-    def for_why(cls) -> Options:
-        """Options of an explanation: budget [s]."""
-        return cls._of("why")
-
-    @classmethod
-    def for_comparison(cls) -> Options:
-        """Options of a comparison: methods."""
-        return cls._of("comparison")
-
-    @classmethod
-    def for_needs(cls) -> Options:
-        """Options of needs: want [m], watch, refine."""
-        return cls._of("needs")
-
-    @classmethod
-    def for_springs(cls) -> Options:
-        """Options of a group of springs: law, stiffness, damping, rest_length [m], ..."""
-        return cls._of("springs")
-
-    @classmethod
-    def for_altitude(cls) -> Options:
-        """Options of a group of altitude springs: stiffness [N], damping [N s], rest_scale, compression."""
-        return cls._of("altitude")
-
-    @classmethod
-    def for_anchors(cls) -> Options:
-        """Options of a group of anchors: points [m], stiffness [N/m], damping [N s/m], rest_length [m]."""
-        return cls._of("anchors")
+    for_run = _of_table("run", "Options of a run: method, step [s], duration [s], every [s], rtol, atol [m], ...")
+    for_study = _of_table("study", "Options of a study: methods, points, steps [s], tolerances, want [m], budget [s].")
+    for_limit = _of_table("limit", "Options of a limit: methods, predict, nonlinear, along, accuracy, budget [s].")
+    for_cost = _of_table("cost", "Options of a cost: predict, budget [s], groups.")
+    for_why = _of_table("why", "Options of an explanation: budget [s].")
+    for_comparison = _of_table("comparison", "Options of a comparison: methods.")
+    for_needs = _of_table("needs", "Options of needs: want [m], watch, refine.")
+    for_springs = _of_table("springs", "Options of a group of springs: law, stiffness, damping, rest_length [m], ...")
+    for_altitude = _of_table(
+        "altitude", "Options of a group of altitude springs: stiffness [N], damping [N s], rest_scale, compression."
+    )
+    for_anchors = _of_table(
+        "anchors", "Options of a group of anchors: points [m], stiffness [N/m], damping [N s/m], rest_length [m]."
+    )
 
     @classmethod
     def for_scene(cls, what: str = "scene") -> Options:
@@ -137,9 +109,7 @@ class Options(Owner, MutableMapping[str, Any]):
 
     def copy(self) -> Options:
         """A copy with the same values."""
-        pointer = OPTIONS()
-        lib.hooke_options_copy(self._handle, ctypes.byref(pointer))
-        return Options(Handle(pointer, lib.hooke_options_destroy))
+        return Options(Handle.made(OPTIONS, lib.hooke_options_destroy, None, lib.hooke_options_copy, self._handle))
 
     @property
     def rows(self) -> list[Row]:
@@ -250,19 +220,7 @@ def part_kind_summary(kind: str) -> str:
 def options_of(what: str) -> Options:
     """The options of a "run", a "study", a "limit", a "cost", a "why", of "needs", of "springs", of "anchors", of a
     "scene" itself, of its "particles", of "driven" particles, or of a kind of part. Their `rows` are the table."""
-    makers = {
-        "run": Options.for_run,
-        "study": Options.for_study,
-        "limit": Options.for_limit,
-        "cost": Options.for_cost,
-        "why": Options.for_why,
-        "needs": Options.for_needs,
-        "springs": Options.for_springs,
-        "anchors": Options.for_anchors,
-    }
-    if what in makers:
-        return makers[what]()
-    return Options.for_scene(what) if what in ("scene", "particles", "driven") else Options.for_part(what)
+    return Options._of(what)
 
 
 def describe(what: str) -> str:
@@ -273,6 +231,11 @@ def describe(what: str) -> str:
 def option_name(keyword: str) -> str:
     """The option of a keyword: ``from_`` means ``from``, which Python reserves."""
     return keyword[:-1] if keyword.endswith("_") else keyword
+
+
+def joined(words: str | Iterable[str] | None) -> str | None:
+    """Words as one text, as options take them."""
+    return words if words is None or isinstance(words, str) else ",".join(words)
 
 
 def as_number(name: str, value: Any) -> float:

@@ -71,8 +71,7 @@ def error(path: Path, ax: Axes | None = None, *, series: str = "error") -> Axes:
         methods = [_text(name) for name in table["method"][:]]
         reference = _text(table["reference"][()])
         time, values = table["series/time"][:], np.abs(table[f"series/{series}"][:])
-    if ax is None:
-        ax = _new_axes()
+    ax = _new_axes() if ax is None else ax
     for method, row in zip(methods, values):
         shown = row > 0  # a logarithm has no zero, and NaN is past the end
         ax.plot(time[shown], row[shown], label=method)
@@ -95,10 +94,7 @@ def study(
     a line.
     """
     table = _Table(source)
-    if axes is None:
-        import matplotlib.pyplot as plt
-
-        _, axes = plt.subplots(1, 2, figsize=(10, 4.5), sharey=True, layout="constrained")
+    axes = _two_axes(sharey=True) if axes is None else axes
     costs, steps = axes
     for number, method in enumerate(dict.fromkeys(table["method"])):
         rows = np.flatnonzero(table["method"] == method)
@@ -135,10 +131,7 @@ def limit(found: Limit, axes: Any = None, *, step: float | None = None) -> Any:
     limits = predicted[(predicted > 0) & np.isfinite(predicted)]
     if step is None:
         step = found.step if np.isfinite(found.step) else limits.min() if limits.size else 1.0
-    if axes is None:
-        import matplotlib.pyplot as plt
-
-        _, axes = plt.subplots(1, 2, figsize=(10, 4.5), layout="constrained")
+    axes = _two_axes() if axes is None else axes
     plane, reach = axes
     angle = np.linspace(0, np.pi / 2, 181)
     for number, row in enumerate(found.rows):
@@ -170,8 +163,7 @@ def needs(found: Needs, ax: Axes | None = None) -> Axes:
     """Draws the change of the watched positions [m] without each ingredient, the largest on top, with the wanted
     error as a line: needed ones in one colour, others in another, those that the lean scene lacks darker."""
     rows = found.rows[np.argsort(np.where(np.isnan(found.rows["error"]), np.inf, found.rows["error"]), kind="stable")]
-    if ax is None:
-        ax = _new_axes()
+    ax = _new_axes() if ax is None else ax
     seen = np.append(rows["error"][rows["error"] > 1e-9 * found.want], found.want)
     low, high = seen.min() / 3, seen.max() * 3
     length = np.clip(np.where(np.isnan(rows["error"]), high, rows["error"]), low, high)
@@ -255,6 +247,12 @@ def _frame(source: Source, run: str, frame: int) -> tuple[Table, Table, float | 
             raise IndexError(f"frame {frame}: {plain(str(source))} has {written.size} frames of {run!r}")
         number = written[frame]
         return position["value"][number], file["connectivity/springs"][:], float(position["time"][number])
+
+
+def _two_axes(**options: Any) -> Any:
+    import matplotlib.pyplot as plt
+
+    return plt.subplots(1, 2, figsize=(10, 4.5), layout="constrained", **options)[1]
 
 
 def _new_axes(**options: Any) -> Any:

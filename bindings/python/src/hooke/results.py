@@ -16,20 +16,23 @@ from __future__ import annotations
 import contextlib
 import ctypes
 import html
+import itertools
 import math
 import os
+from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from typing import Any, Callable, NamedTuple, Optional, Union
 
 import numpy as np
 
+from . import _problem
 from ._callback import stop_value
 from ._library import lib
-from ._memory import Handle
 from ._notebook import embed
-from ._progress import shown
-from ._prototypes import RECORD, TRAJECTORY
-from ._status import BadCall, BadValue, Error, Unsuited
+from ._progress import WorkProgress, shown
+from ._prototypes import TRAJECTORY
+from ._record import numbers, opened, run_options
+from ._status import BadCall, BadValue, Error, SolverFailed, Unsuited
 from ._types import FloatArray, Path, Table
 from .estimate import Estimate, Length, RunError
 from .first_order import FirstOrder
@@ -38,8 +41,9 @@ from .options import Options
 from .scene import Scene, scene_text
 from .second_order import SecondOrder
 from .state import State
-from .system import Force, System
-from .view import write_companion
+from .system import Force, System, system_of
+from .view import view, write_companion
+from .why import Why
 
 #: Problems that are no scene: a system, or a first- or second-order problem.
 Problem = Union[System, FirstOrder, SecondOrder]
@@ -47,9 +51,6 @@ Problem = Union[System, FirstOrder, SecondOrder]
 Runnable = Union[Path, Scene, Problem]
 #: progress(fraction, state): called at each frame; `fraction` goes from 0 to 1.
 Progress = Callable[[float, State], Optional[int]]
-#: progress(fraction, what): the fraction done, 0 to 1, and the name of the running task.
-WorkProgress = Callable[[float, str], Optional[int]]
-
 _STOPPED = 1
 
 
@@ -95,9 +96,10 @@ class Result:
     @property
     def system(self) -> System:
         """The system that was run."""
-        if not isinstance(self.problem, System):
-            raise AttributeError("this was a first-order problem, which has no system")
-        return self.problem
+        try:
+            return system_of(self.problem, "system")
+        except BadValue as missing:
+            raise AttributeError(str(missing)) from None
 
     def __repr__(self) -> str:
         return (
@@ -106,8 +108,6 @@ class Result:
         )
 
     def _repr_html_(self) -> str | None:
-        from .view import view
-
         words = f"<p>{html.escape(self.diagnosis)}</p>" if self.diagnosis else ""
         return (words + (embed(lambda page: view(self, page), 720) if self.output is not None else "")) or None
 
@@ -140,14 +140,13 @@ def run(
     runs, measures the error, and refines if the wanted error is not met; a given `method` restricts the choice.
     ``estimate=True`` estimates the error of the run after it. The result's `error` holds it.
     """
-    scene, problem, given = resolve(problem, force)
-    wanted = (given.copy() if given is not None else Options.for_run()).set(**options)
+    scene, problem, wanted = resolve(problem, force, options)
     once = _Once(problem, scene, output, frames, progress, on_frame, on_step)
     if want is None and not estimate:
         return once.run(wanted, problem.state() if state is None else state)
-    if not isinstance(problem, System) or state is not None:
+    if state is not None:
         raise BadValue("state: want and estimate are for a system from its own initial state; leave it out")
-    return _run_to_want(once, problem, wanted, options, want)
+    return _run_to_want(once, system_of(problem, "want"), wanted, options, want)
 
 
 @dataclass(frozen=True)
@@ -174,7 +173,8 @@ class _Once:
             watchers.append(estimate.see)
         with shown(self.progress, fills=False) as tell:  # a run may end early
             if tell is not None:
-                watchers.append(_Progress(tell, integrator.frame_count))
+                last, numbers = max(integrator.frame_count - 1, 1), itertools.count()
+                watchers.append(lambda step, state: tell(next(numbers) / last, state))
             status = self._integrate(integrator, state, watchers)
         result = _result(status, integrator, state, self.output, recorder.frames() if recorder else None)
         if estimate is None:
@@ -225,29 +225,53 @@ def resume(
     callbacks of the run are missing. The run continues from the checkpoint beside the file; without one, from the last
     frame, and with error control from the beginning. The rest is as in `run`.
     """
-    scene, options = Scene.load(output) if problem is None else None, _options_of(output)
-    _, system, _ = resolve(scene if scene is not None else problem, force)  # type: ignore[arg-type]
-    if not isinstance(system, System):
-        raise BadValue("problem: a first-order problem has no trajectory")
-    if threads is not None:
-        options.set(threads=threads)
+    scene, record = Scene.load(output) if problem is None else None, opened(output)
+    _, problem, _ = resolve(scene if problem is None else problem, force, {})  # type: ignore[arg-type]
+    system, options = system_of(problem, "problem"), run_options(record).copy().set(threads=threads)
+    del record  # the file is opened for writing
     integrator, state, file = Integrator(system, options), system.state(), TRAJECTORY()
-    first = state.t
+    first, duration = state.t, float(integrator.options["duration"])  # type: ignore[arg-type]
     lib.hooke_trajectory_resume(
         os.fsencode(output), system._handle, integrator._handle, state._handle, ctypes.byref(file)
     )
     if not file:
         integrator.message = f"the run of {os.fsdecode(output)} had finished"
-        steps = _read_last(output, state)
-        return replace(
-            _result("finished", integrator, state, output, None), counts={"steps": steps}, wall_seconds=np.nan
-        )
+        record = opened(output)
+        lib.hooke_record_read(record, -1, state._handle)
+        counts = {"steps": int(numbers(record, "step")[lib.hooke_record_count(record, b"frames") - 1])}
+        return replace(_result("finished", integrator, state, output, None), counts=counts, wall_seconds=np.nan)
     watchers: list[Observer] = [] if on_frame is None else [on_frame]
     with shown(progress, fills=False) as tell:
         if tell is not None:
-            watchers.append(_TimeProgress(tell, first, integrator.options["duration"]))
+            watchers.append(lambda step, state: tell((state.t - first) / duration, state))
         status = _run_to_file(os.fsencode(output), file, integrator.resume, integrator, state, watchers, on_step)
     return _result(status, integrator, state, output, None)
+
+
+def why(
+    what: Runnable | Result | SolverFailed,
+    budget: float | None = None,
+    progress: WorkProgress | bool | None = None,
+    **options: Any,
+) -> Why | None:
+    """Explains a run that blew up: the `Result` of one, the `SolverFailed` that it raised, or anything that
+    `hooke.run` takes, which is then run with `options`. None if the run did not blow up.
+
+    The last steps are repeated and suggestions are tried, so callbacks are called again; within `budget` [s] of wall
+    time, or as much counted work as the run took (2 s if that is less), however busy the machine is.
+    ``progress(fraction, what)`` receives progress (``progress=True``
+    shows a bar, with tqdm) and ends it by returning a non-zero number.
+    """
+    if isinstance(what, (Result, SolverFailed)):
+        return what.integrator.why(budget, progress) if what.integrator is not None else None
+    scene, problem, wanted = resolve(what, None, options)
+    integrator = Integrator(problem, wanted)
+    integrator._title = scene.title if scene is not None else ""
+    try:
+        status = integrator.run(problem.state())
+    except SolverFailed:
+        return integrator.why(budget, progress)
+    return integrator.why(budget, progress) if status in ("diverged", "step-limit") else None
 
 
 def _result(
@@ -269,53 +293,27 @@ def _result(
     )
 
 
-def _record(path: Path) -> Handle:
-    pointer = RECORD()
-    lib.hooke_record_open(os.fsencode(path), ctypes.byref(pointer))
-    return Handle(pointer, lib.hooke_record_close)
-
-
-def _options_of(path: Path) -> Options:
-    """Options of the run of a file."""
-    record = _record(path)
-    return Options(Handle(lib.hooke_record_options(record), None, record), read_only=True).copy()
-
-
-def _read_last(path: Path, state: State) -> int:
-    """The number of its step."""
-    from .trajectory import Trajectory  # which needs this module
-
-    with Trajectory(path) as trajectory:
-        lib.hooke_record_read(trajectory._handle, -1, state._handle)
-        return int(trajectory.steps[-1])
-
-
 def resolve(
-    problem: Runnable, force: Force | None
-) -> tuple[Scene | None, Problem, Options | None]:
-    """The scene (if there is one), the problem and the run options of the scene."""
-    scene, options = None, None
+    problem: Runnable, force: Force | None, options: Mapping[str, Any]
+) -> tuple[Scene | None, Problem, Options]:
+    """The scene (if there is one), the problem, and the options of a run of it."""
+    scene, given = None, Options.for_run()
     if isinstance(problem, (str, os.PathLike)):
         problem = Scene.load(problem)
     if isinstance(problem, Scene):
-        scene, options = problem, problem.run_options
+        scene, given = problem, problem.run_options.copy()
         problem = scene.system
     if force is not None:
-        if not isinstance(problem, System):
-            raise BadValue("force: only a system takes one")
-        problem = problem._with_force(force)
-    return scene, problem, options
+        problem = system_of(problem, "force")._with_force(force)
+    return scene, problem, given.set(**options)
 
 
 def prepare(
-    what: str, problem: Runnable, force: Force | None, options: dict[str, Any]
+    what: str, problem: Runnable, force: Force | None, options: Mapping[str, Any]
 ) -> tuple[Scene | None, System, Options]:
     """The scene, the system and the options of its run for `what`, which calls it from several threads."""
-    scene, system, given = resolve(problem, force)
-    if not isinstance(system, System):
-        raise BadValue(f"{what}: a system is needed, this is a first-order problem")
-    run = (given.copy() if given is not None else Options.for_run()).set(**options)
-    threads = run["threads"]
+    scene, found, run = resolve(problem, force, options)
+    system, threads = system_of(found, what), run["threads"]
     if system._callbacks and isinstance(threads, int) and threads > 1:
         raise BadValue(f"threads: {threads} is not allowed with callbacks in Python; leave it at 1")
     return scene, system, run
@@ -333,12 +331,8 @@ def _all(watchers: list[Observer]) -> Observer:
 
 
 def _create_file(path: bytes, scene: Scene | None, integrator: Integrator) -> Any:
-    if not isinstance(integrator._problem, System):
-        raise BadValue("output: a first-order problem has no particles to write")
-    pointer = TRAJECTORY()
-    lib.hooke_trajectory_create(
-        path, integrator._problem._handle, integrator._handle, scene_text(scene), ctypes.byref(pointer)
-    )
+    system, pointer = system_of(integrator._problem, "output"), TRAJECTORY()
+    lib.hooke_trajectory_create(path, system._handle, integrator._handle, scene_text(scene), ctypes.byref(pointer))
     return pointer
 
 
@@ -385,23 +379,6 @@ def _keep_place(keep: Callable[[int, State], None], state: State) -> None:
         keep(0, state)
 
 
-class _Progress:
-    def __init__(self, progress: Progress, frame_count: int):
-        self._progress, self._last, self._frame = progress, max(frame_count - 1, 1), 0
-
-    def __call__(self, step: int, state: State) -> int | None:
-        fraction, self._frame = self._frame / self._last, self._frame + 1
-        return self._progress(fraction, state)
-
-
-class _TimeProgress:
-    def __init__(self, progress: Progress, first: float, duration: Any):
-        self._progress, self._first, self._duration = progress, first, float(duration)
-
-    def __call__(self, step: int, state: State) -> int | None:
-        return self._progress((state.t - self._first) / self._duration, state)
-
-
 class _Recorder:
     def __init__(self, frame_count: int, state: State):
         self._count = 0
@@ -425,3 +402,6 @@ class _Recorder:
 
 def _arrays(state: State) -> tuple[Table, Table | None]:
     return (state.x, None) if state._v is None else (state.q, state.v)
+
+
+_problem.Problem._run_by = run

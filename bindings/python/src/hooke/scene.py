@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
-import ctypes
 import json
 import os
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import Any, Callable
 
 import numpy as np
 
 from ._library import lib
 from ._memory import Handle, doubles, indices, rows, text
 from ._place import placed
+from ._problem import Problem
 from ._prototypes import SCENE
 from ._status import BadCall, BadValue
 from ._types import FloatArray, IntArray, Numbers, Particle, Path
@@ -20,11 +20,8 @@ from .options import Options, as_number, option_name
 from .parts import Parts
 from .system import System, read_mesh, write_scene
 
-if TYPE_CHECKING:
-    from .results import Result
 
-
-class Scene(Parts):
+class Scene(Parts, Problem):
     """A scene: its `system` and its `run_options`.
 
     Built by calls that can be chained, with the keywords of the scene format; arrays may be NumPy's::
@@ -58,29 +55,24 @@ class Scene(Parts):
         self._title = title
         self._parts: dict[str, range] = {}  # of the known ones
         self._text: str | None = None  # None: to be made from the document
-        self._document: dict[str, Any] | None = {"hooke": 1}
-        if title:
-            self._document["title"] = title
-        if dynamics is not None:
-            self._system.dynamics = dynamics
-            self._document["dynamics"] = dynamics
+        self._document: dict[str, Any] = {"hooke": 1}
+        own = Options.for_scene().set(title=title or None, dynamics=dynamics, drag=drag)
         if gravity is not None:
-            self._system.set_gravity(gravity)
-            self._document["gravity"] = doubles(gravity, "gravity")
-        if drag is not None:
-            self._document["drag"] = as_number("drag", drag)
-            self._system.set_drag(self._document["drag"])
+            own["gravity"] = doubles(gravity, "gravity", (3,))
+        lib.hooke_scene_options_apply(own._handle, self._system._handle)
+        self._document.update((name, own[name]) for name in own if own.is_set(name))
         if run:
             self.run_defaults(**run)
 
     @classmethod
-    def _of_handle(cls, handle: Handle) -> Scene:
+    def _made(cls, function: Callable[..., Any], *arguments: Any) -> Scene:
+        """The scene that a function of the library makes."""
+        handle = Handle.made(SCENE, lib.hooke_scene_destroy, None, function, *arguments)
         scene = cls.__new__(cls)
         scene._system = System._of_scene(handle)
         scene._run = Options(Handle(lib.hooke_scene_run_options(handle), None, handle))
         scene._title = text(lib.hooke_scene_text(handle, b"title"))
         scene._text = text(lib.hooke_scene_text(handle, b"text"))
-        scene._document = None  # read from the text when it is needed
         scene._parts = {}
         return scene
 
@@ -89,10 +81,7 @@ class Scene(Parts):
         """Reads a scene file, or the scene of a trajectory file with the options of its run. `memory` [GB] is the
         maximum memory of the scene, None: the machine's; with `outside` it may name files outside its folder.
         BadValue describes a fault and its place; IOFailed if the file cannot be read."""
-        pointer = SCENE()
-        limits = limits_of(memory, outside)
-        lib.hooke_scene_load(os.fsencode(path), limits._handle, ctypes.byref(pointer))
-        return cls._of_handle(Handle(pointer, lib.hooke_scene_destroy))
+        return cls._made(lib.hooke_scene_load, os.fsencode(path), limits_of(memory, outside))
 
     @classmethod
     def parse(
@@ -113,12 +102,7 @@ class Scene(Parts):
             scene = _dump(scene)
         data = scene.encode() if isinstance(scene, str) else bytes(scene)
         where = None if folder is None else os.fsencode(folder)
-        pointer = SCENE()
-        limits = limits_of(memory, outside)
-        lib.hooke_scene_parse(
-            data, len(data), name.encode(), where, limits._handle, ctypes.byref(pointer)
-        )
-        return cls._of_handle(Handle(pointer, lib.hooke_scene_destroy))
+        return cls._made(lib.hooke_scene_parse, data, len(data), name.encode(), where, limits_of(memory, outside))
 
     # building
 
@@ -179,14 +163,7 @@ class Scene(Parts):
             "rest_scale": rest_scale,
             "compression": compression,
         }
-        keys = {key: _kept(value) for key, value in given.items() if value is not None}
-        with placed(f"springs[{self._count('springs')}]"):
-            ends = self._numbers(between, "between")
-            if ends.size == 0:
-                ends = ends.reshape(0, 2)
-            self._system.add_springs(name, ends, **keys)
-        self._note("springs", {**({"name": name} if name else {}), "between": ends, **keys})
-        return self
+        return self._group("springs", self._system.add_springs, name, "between", between, given)
 
     def bending(
         self,
@@ -197,12 +174,9 @@ class Scene(Parts):
     ) -> Scene:
         """Adds bending on `triples` a, b, c (m, 3) of existing particles: the energy c/2 |q_a - 2 q_b + q_c|^2 with the
         `coefficient` c [N/m], one number or (m,). Returns the scene."""
-        with placed(f"bending[{self._count('bending')}]"):
-            numbers = self._numbers(triples, "triples")
-            self._system.add_bending(name, numbers, coefficient)
-        keys = {"triples": numbers.reshape(-1, 3), "coefficient": _kept(coefficient)}
-        self._note("bending", {**({"name": name} if name else {}), **keys})
-        return self
+        return self._group(
+            "bending", self._system.add_bending, name, "triples", triples, {"coefficient": coefficient}
+        )
 
     def anchors(
         self,
@@ -218,12 +192,7 @@ class Scene(Parts):
         (default), the initial positions of the particles; `stiffness` [N/m], `damping` [N s/m] and `rest_length` [m],
         0 if None: each one number or (m,). Returns the scene."""
         given = {"points": points, "stiffness": stiffness, "damping": damping, "rest_length": rest_length}
-        keys = {key: _kept(value) for key, value in given.items() if value is not None}
-        with placed(f"anchors[{self._count('anchors')}]"):
-            numbers = self._numbers(particles, "particles").reshape(-1)
-            self._system.add_anchors(name, numbers, **keys)
-        self._note("anchors", {**({"name": name} if name else {}), "particles": numbers, **keys})
-        return self
+        return self._group("anchors", self._system.add_anchors, name, "particles", particles, given)
 
     def bodies(
         self,
@@ -239,11 +208,7 @@ class Scene(Parts):
             if (particles is None) == (part is None):
                 raise BadValue("particles: allowed: particles, or the name of a part")
             which = particles if part is None else list(self._in_part(part, "part"))
-            numbers = self._numbers(which, "particles").reshape(-1)
-            self._system.add_body(name, numbers, project=project)
-        kept = {"project": True} if project else {}
-        self._note("bodies", {**({"name": name} if name else {}), "particles": numbers, **kept})
-        return self
+        return self._group("bodies", self._system.add_body, name, "particles", which, {"project": project or None})
 
     def driven(
         self,
@@ -263,17 +228,16 @@ class Scene(Parts):
         at ascending `time` (k,) [s]. Returns the scene.
         """
         given = {"amplitude": amplitude, "frequency": frequency, "phase": phase, "time": time, "position": position}
-        keys = {key: _kept(value) for key, value in given.items() if value is not None}
-        with placed(f"driven[{self._count('driven')}]"):
+
+        def drive(_: None, numbers: IntArray, motion: str, **keys: Any) -> None:
             _check_motion(motion, keys)
-            numbers = self._numbers(particles, "particles").reshape(-1)
             if motion == "table":
                 self._system.drive_table(numbers, keys["time"], keys["position"])
             else:
                 turns, angle = (as_number(key, keys.get(key, 0.0)) for key in ("frequency", "phase"))
                 self._system.drive_harmonic(numbers, keys["amplitude"], turns, angle)
-        self._note("driven", {"particles": numbers, "motion": motion, **keys})
-        return self
+
+        return self._group("driven", drive, None, "particles", particles, {"motion": motion, **given})
 
     def run_defaults(self, **options: Any) -> Scene:
         """Sets default options of runs of the scene: method, step [s], duration [s], every [s], ..., as
@@ -284,29 +248,37 @@ class Scene(Parts):
         self._changed()
         return self
 
+    def _group(
+        self, kind: str, add: Callable[..., Any], name: str | None, what: str, members: Any, given: dict[str, Any]
+    ) -> Scene:
+        """Adds a group to the system, and to the document as it was given; `members` are its key `what`."""
+        keys = {key: _kept(value) for key, value in given.items() if value is not None}
+        with placed(f"{kind}[{self._count(kind)}]"):
+            numbers = self._numbers(members, what)
+            numbers = numbers.reshape(-1) if what == "particles" else numbers
+            add(name, numbers, **keys)
+        return self._note(kind, {**({"name": name} if name else {}), what: numbers, **keys})
+
     def _part(self, kind: str, given: dict[str, Any]) -> Scene:
         keys = {
             option_name(key): _kept(value)
             for key, value in given.items()
             if key not in ("self", "name", "file") and value is not None
         }
-        name, names = given["name"], self._part_names()
-        options = Options.for_part(kind)
+        name, file, names = given["name"], given.get("file"), self._part_names()
         with placed(kind):
             called = name or f"{kind}{len(names)}"
             if called in names:
                 raise BadValue(f'name: "{called}" is the name of another part; allowed: a name of its own')
-            for key, value in keys.items():
-                options[key] = value
-            if given.get("file") is not None:
+            options = Options.for_part(kind).set(**keys)
+            if file is not None:
                 if "vertices" in keys or "triangles" in keys:
                     raise BadValue("file: is not allowed together with vertices and triangles")
-                read_mesh(given["file"], options)
+                read_mesh(file, options)
                 read: dict[str, Any] = {key: options[key] for key in ("vertices", "triangles")}
                 keys.update((key, numbers.reshape(-1, 3)) for key, numbers in read.items())
             self._parts[called] = self._system._add_part(kind, called, options)
-        self._note("parts", {"kind": kind, **({"name": name} if name else {}), **keys})
-        return self
+        return self._note("parts", {"kind": kind, **({"name": name} if name else {}), **keys})
 
     # using
 
@@ -333,12 +305,6 @@ class Scene(Parts):
         run = {name: self._run[name] for name in self._run if self._run.is_set(name)}
         return _dump({**self._opened(), **({"run": run} if run else {})})
 
-    def run(self, **options: Any) -> Result:
-        """Runs the scene; see `hooke.run`."""
-        from .results import run
-
-        return run(self, **options)
-
     def save(self, path: Path) -> None:
         """Writes the current scene, its system and `run_options`, as a scene file; see `System.save`."""
         write_scene(path, self._system, self.title, self.run_options)
@@ -349,7 +315,7 @@ class Scene(Parts):
     # the document
 
     def _opened(self) -> dict[str, Any]:
-        if self._document is None:
+        if not hasattr(self, "_document"):
             self._document = json.loads(self._text or "{}")
         return self._document
 
@@ -358,8 +324,9 @@ class Scene(Parts):
         self._text = None
         return document
 
-    def _note(self, key: str, piece: dict[str, Any]) -> None:
+    def _note(self, key: str, piece: dict[str, Any]) -> Scene:
         self._changed().setdefault(key, []).append(piece)
+        return self
 
     def _count(self, key: str) -> int:
         return len(self._opened().get(key, ()))
@@ -416,12 +383,9 @@ class Scene(Parts):
         self._parts = ranges
 
 
-def limits_of(memory: float | None, outside: bool) -> Options:
+def limits_of(memory: float | None, outside: bool) -> Handle:
     """Options of hooke_scene_load()."""
-    limits = Options.for_scene("limits")
-    limits["memory"] = memory
-    limits["outside"] = outside
-    return limits
+    return Options.for_scene("limits").set(memory=memory, outside=outside)._handle
 
 
 def scene_text(scene: Scene | None) -> bytes | None:

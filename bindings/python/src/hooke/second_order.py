@@ -2,22 +2,19 @@
 
 from __future__ import annotations
 
-import ctypes
-from typing import TYPE_CHECKING, Any, Callable, Optional
+from typing import Any, Callable, Optional
 
 import numpy as np
 
 from . import _callback
 from ._library import lib
-from ._memory import Handle, Owner, double_pointer, doubles, plain
+from ._memory import Handle, double_pointer, doubles, plain
+from ._problem import Problem
 from ._prototypes import FORCE_PRODUCT, INTEGRATOR
 from ._status import BadValue
 from ._types import FloatArray
 from .options import Options
 from .state import State
-
-if TYPE_CHECKING:
-    from .results import Result
 
 #: f(t, q, v, force): adds to its last argument, which is zero; arrays (size,).
 CoordinateForce = Callable[[float, FloatArray, FloatArray, FloatArray], Optional[int]]
@@ -25,7 +22,7 @@ CoordinateForce = Callable[[float, FloatArray, FloatArray, FloatArray], Optional
 CoordinateProduct = Callable[[float, FloatArray, FloatArray, FloatArray, FloatArray, FloatArray], Optional[int]]
 
 
-class SecondOrder(Owner):
+class SecondOrder(Problem):
     """q'' = W f(t, q, v) from the coordinates `q` (size,) and velocities `v` (size,; zero by default), with the
     constant inverse masses W > 0 in `inverse_mass`, one or (size,). ``f(t, q, v, force)`` writes f into its last
     argument::
@@ -39,6 +36,8 @@ class SecondOrder(Owner):
     writes (df/dq) dq + (df/dv) dv into its last argument; without it difference quotients of `f` replace it. Arrays
     that are kept stay as they are at the end of their call. Callbacks return None or 0 to go on, any other integer to stop.
     """
+
+    _what = "a second-order problem"
 
     def __init__(
         self,
@@ -66,25 +65,11 @@ class SecondOrder(Owner):
         state.q, state.v = self._q, self._v
         return state
 
-    def run(self, **options: Any) -> Result:
-        """Runs the problem; see `hooke.run`."""
-        from .results import run
-
-        return run(self, **options)
-
     def _integrator(self, options: Options) -> Handle:
-        pointer = INTEGRATOR()
-        lib.hooke_integrator_create_second_order(
-            self._size,
-            self._force,
-            self._derivative,
-            None,
-            self._inverse_mass.size,
-            double_pointer(self._inverse_mass),
-            options._handle,
-            ctypes.byref(pointer),
-        )
-        return Handle(pointer, lib.hooke_integrator_destroy)
+        masses = self._inverse_mass.size, double_pointer(self._inverse_mass)
+        given = self._size, self._force, self._derivative, None, *masses, options._handle
+        create = lib.hooke_integrator_create_second_order
+        return Handle.made(INTEGRATOR, lib.hooke_integrator_destroy, None, create, *given)
 
     def __repr__(self) -> str:
         return f"SecondOrder({self._size} coordinates)"

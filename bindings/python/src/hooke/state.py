@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import ctypes
 from typing import Any
 
 import numpy as np
@@ -39,32 +38,24 @@ class State:
 
     @classmethod
     def _of_system(cls, system: Handle) -> State:
-        pointer = STATE()
-        lib.hooke_state_create(system, ctypes.byref(pointer))
-        return cls(Handle(pointer, lib.hooke_state_destroy, system))
+        return cls(Handle.made(STATE, lib.hooke_state_destroy, system, lib.hooke_state_create, system))
 
     @classmethod
     def _of_size(cls, size: int, dtype: Any = float) -> State:
-        pointer = STATE()
-        lib.hooke_state_create_first_order(size, ctypes.byref(pointer))
-        return cls(Handle(pointer, lib.hooke_state_destroy), dtype)
+        create = lib.hooke_state_create_first_order
+        return cls(Handle.made(STATE, lib.hooke_state_destroy, None, create, size), dtype)
 
     @classmethod
     def _of_coordinates(cls, size: int) -> State:
-        pointer = STATE()
-        lib.hooke_state_create_second_order(size, ctypes.byref(pointer))
-        return cls(Handle(pointer, lib.hooke_state_destroy), in_rows=False)
+        create = lib.hooke_state_create_second_order
+        return cls(Handle.made(STATE, lib.hooke_state_destroy, None, create, size), in_rows=False)
 
     @classmethod
     def _of_particles(cls, count: int) -> State:
         """A state of a system with that many particles and nothing else."""
-        pointer = SYSTEM()
-        lib.hooke_system_create(ctypes.byref(pointer))
-        system = Handle(pointer, lib.hooke_system_destroy)
-        place, mass = np.zeros((count, 3)), np.ones(1)
-        lib.hooke_system_add_particles(
-            system, count, double_pointer(place), None, 1, double_pointer(mass), None
-        )
+        system = Handle.made(SYSTEM, lib.hooke_system_destroy, None, lib.hooke_system_create)
+        place, mass = double_pointer(np.zeros((count, 3))), double_pointer(np.ones(1))
+        lib.hooke_system_add_particles(system, count, place, None, 1, mass, None)
         lib.hooke_system_commit(system)
         return cls._of_system(system)
 
@@ -106,12 +97,7 @@ class State:
 
     def copy(self) -> State:
         """A copy with the same values."""
-        if self._v is None:
-            other = State._of_size(lib.hooke_state_size(self._handle), self._x.dtype)
-        elif self._v.ndim == 1:
-            other = State._of_coordinates(self._v.size)
-        else:
-            other = State._of_system(self._handle.parent)
+        other = _alike(self._x, self._v, self._handle.parent)
         other.assign(self)
         return other
 
@@ -137,12 +123,18 @@ class State:
         return f"State(t={self.t!r}, {len(self._v)} {'particles' if self._v.ndim == 2 else 'coordinates'})"
 
 
+def _alike(x: Table, v: FloatArray | None, system: Handle | None = None) -> State:
+    """A state for such arrays, of a system or of none."""
+    if v is None:
+        return State._of_size(x.view(float).size, x.dtype)
+    if v.ndim == 1:
+        return State._of_coordinates(v.size)
+    return State._of_particles(len(v)) if system is None else State._of_system(system)
+
+
 def _restored(t: float, x: Table, v: FloatArray | None) -> State:
     """A state that was pickled."""
-    if v is None:
-        state = State._of_size(x.size * x.itemsize // 8, x.dtype)
-    else:
-        state = State._of_particles(len(v)) if v.ndim == 2 else State._of_coordinates(len(v))
+    state = _alike(x, v)
     state.t, state.x = t, x
     if v is not None:
         state.v = v

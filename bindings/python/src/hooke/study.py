@@ -9,12 +9,12 @@ import numpy as np
 
 from ._closing import Closing
 from ._library import lib
-from ._measurement import Measurement
-from ._notebook import Paged
-from ._status import OUTCOMES
-from ._types import BoolArray, FloatArray, Path, StrArray, Table
-from .options import Options
-from .results import Runnable, WorkProgress, prepare
+from ._measurement import Found, Measurement
+from ._notebook import Paged, draw, of_methods
+from ._progress import WorkProgress
+from ._types import BoolArray, FloatArray, Path, StrArray
+from .options import Options, joined
+from .results import Runnable, prepare
 from .scene import Scene, scene_text
 from .system import Force, System
 
@@ -116,7 +116,7 @@ class Recommendation(NamedTuple):
         return options
 
 
-class Study(Paged, Closing):
+class Study(Found, Paged, Closing):
     """A finished study: one row a method and step or tolerance, the coarsest first.
 
     Each column is an array with one entry a row: method, status ("finished", "diverged", "stopped", "failed"), step
@@ -135,11 +135,9 @@ class Study(Paged, Closing):
     for "reference" and for each method.
     """
 
-    outcome: str
     budget_spent: bool
     duration: float
     reference: Reference
-    rows: Table
     orders: dict[str, Order]
     watched: dict[str, FloatArray]
     agreement: dict[str, float]
@@ -169,29 +167,22 @@ class Study(Paged, Closing):
         self._scene = scene
         self._system = system  # its callbacks have to live as long as the study
         self._progress = progress
-        self.outcome = OUTCOMES.get(status, "stopped")
-        self.rows = measurement.rows("rows")
-        for name in self.rows.dtype.names or ():
-            setattr(self, name, self.rows[name])
-        found = measurement.record("reference") or {}
-        found["displacements"] = int(np.nan_to_num(found["displacements"]))
-        self.reference = Reference(
-            methods=(found["method"], found["check"]), **{name: found[name] for name in Reference._fields[1:]}
-        )
-        whole = measurement.record("study") or {}
-        self.duration, self.budget_spent = whole["duration"], whole["budget_spent"]
+        self._take(measurement, status)
+        vars(self).update((name, self.rows[name]) for name in self.rows.dtype.names or ())
+        both = tuple(measurement.text("reference", 0, name) for name in ("method", "check"))
+        self.reference = measurement.one(Reference, "reference", methods=both)
         self.orders = {
-            str(row["method"]): Order(*(row[name].item() for name in Order._fields))
-            for row in measurement.rows("orders")
-            if row["method"] in self.method and not lib.hooke_method_is_adaptive(str(row["method"]).encode())
+            method: order
+            for method, order in zip(measurement.rows("orders")["method"].tolist(), measurement.each(Order, "orders"))
+            if method in self.method and not lib.hooke_method_is_adaptive(method.encode())
         }
         watched, errors = measurement.rows("watched"), measurement.rows("watched_errors")
         self.watched = {str(name): errors["error"][errors["quantity"] == name] for name in watched["quantity"]}
-        self.agreement = {str(row["quantity"]): float(row["agreement"]) for row in watched}
+        self.agreement = dict(watched[["quantity", "agreement"]].tolist())
         self.statistics = {}
-        for row in measurement.rows("statistics"):
-            of_quantity = self.statistics.setdefault(str(row["quantity"]), {})
-            of_quantity[str(row["method"])] = Statistic(*(float(row[name]) for name in Statistic._fields))
+        found = measurement.rows("statistics")[["quantity", "method"]].tolist()
+        for (quantity, method), statistic in zip(found, measurement.each(Statistic, "statistics")):
+            self.statistics.setdefault(quantity, {})[method] = statistic
 
     @property
     def methods(self) -> list[str]:
@@ -201,8 +192,9 @@ class Study(Paged, Closing):
     @property
     def recommendation(self) -> Recommendation | None:
         """The latest recommendation; None if there was no `want`."""
-        found, margin = self._handle.record("recommendation"), self._handle.record("margin")
-        return None if found is None or margin is None else Recommendation(margin=Margin(**margin), **found)
+        margin = self._handle.one(Margin, "margin")
+        found: Recommendation | None = self._handle.one(Recommendation, "recommendation", margin=margin)
+        return found
 
     def recommend(self, want: float) -> Recommendation:
         """Recommends the cheapest run found whose error_max is at most `want` [m], as ``hooke.run(want=...)`` picks
@@ -229,17 +221,10 @@ class Study(Paged, Closing):
 
     def plot(self, axes: Any = None, **options: Any) -> Any:
         """Draws error against cost and error against step; see `hooke.plot.study`."""
-        from .plot import study as draw
-
-        return draw(self, axes, **options)
+        return draw("plot.study", self, axes, **options)
 
     def __str__(self) -> str:
-        columns = ("step", "rtol", "error", "force_evaluations", "wall_seconds")
-        lines = [f"{'method':18}{'status':>10}" + "".join(f"{name:>19}" for name in columns)]
-        for row in self.rows:
-            numbers = "".join(f"{row[name]:>19.4g}" for name in columns)
-            lines.append(f"{row['method']:18}{row['status']:>10}{numbers}")
-        return "\n".join(lines)
+        return of_methods(self.rows, "step", "rtol", "error", "force_evaluations", "wall_seconds")
 
     def __repr__(self) -> str:
         return f"Study({self.outcome}, {len(self.rows)} rows of {len(self.methods)} methods)"
@@ -276,18 +261,14 @@ def study(
     study.
     """
     scene, system, run = prepare("study", problem, force, options)
-    if methods is not None and not isinstance(methods, str):
-        methods = ",".join(methods)
-    if watch is not None and not isinstance(watch, str):
-        watch = ",".join(watch)
     chosen = Options.for_study().set(
-        methods=methods,
+        methods=joined(methods),
         want=want,
         budget=budget,
         points=points,
         steps=steps,
         tolerances=tolerances,
-        watch=watch,
+        watch=joined(watch),
         ensemble=ensemble,
         seed=seed,
     )

@@ -4,21 +4,20 @@ from __future__ import annotations
 
 import ctypes
 import os
-from typing import TYPE_CHECKING, Any, Callable, Optional
+from typing import Any, Callable, Optional
 
 import numpy as np
 
 from . import _callback
 from ._library import lib
 from ._memory import Handle, double_pointer, doubles, index_pointer, indices, text
+from ._problem import Problem
 from ._prototypes import FORCE_PRODUCT, INTEGRATOR, SYSTEM
 from ._queries import Queries
+from ._status import BadValue
 from ._types import FloatArray
 from .options import Options
 from .state import State
-
-if TYPE_CHECKING:
-    from .results import Result
 
 #: force(t, q, v, force): adds forces [N] to `force`; all arrays (n, 3), `q` and `v` read-only.
 Force = Callable[[float, FloatArray, FloatArray, FloatArray], Optional[int]]
@@ -40,9 +39,8 @@ class System(Queries):
     """
 
     def __init__(self) -> None:
-        pointer = SYSTEM()
-        lib.hooke_system_create(ctypes.byref(pointer))
-        self._adopt(Handle(pointer, lib.hooke_system_destroy), lambda: lib.hooke_system_commit(pointer))
+        handle = Handle.made(SYSTEM, lib.hooke_system_destroy, None, lib.hooke_system_create)
+        self._adopt(handle, lambda: lib.hooke_system_commit(handle))
 
     @classmethod
     def _of_scene(cls, scene: Handle) -> System:
@@ -61,9 +59,9 @@ class System(Queries):
 
     def _with_force(self, force: Force) -> System:
         """The same system with this callback force, as long as the result is in use."""
-        pointer, callback = SYSTEM(), _callback.force_callback(force)
-        lib.hooke_system_with_force(self._committed(), callback, FORCE_PRODUCT(), None, ctypes.byref(pointer))
-        handle = Handle(pointer, lib.hooke_system_destroy, self._handle)
+        callback, create = _callback.force_callback(force), lib.hooke_system_with_force
+        given = self._committed(), callback, FORCE_PRODUCT(), None
+        handle = Handle.made(SYSTEM, lib.hooke_system_destroy, self._handle, create, *given)
         return System._committed_by(handle, [*self._callbacks, callback])
 
     def _adopt(self, handle: Handle, commit: Callable[[], Any]) -> None:
@@ -100,87 +98,42 @@ class System(Queries):
 
     def pin(self, particles: Any) -> None:
         """Pins particles (a number or several)."""
-        particles = indices(particles, "particles").reshape(-1)
-        lib.hooke_system_pin(self._handle, particles.size, index_pointer(particles))
+        lib.hooke_system_pin(self._handle, *_numbered(particles))
 
     def add_springs(self, name: str | None, between: Any, **options: Any) -> None:
         """Adds a group of springs `between` pairs of particles (m, 2), with the options that
         ``hooke.describe("springs")`` lists: ``law`` "strain" or "length"; ``stiffness`` [N] or, in the
         length law, [N/m]; ``damping`` [N s] or [N s/m]; ``rest_length`` "initial" or [m]; ``rest_scale``;
         ``compression``. Where several numbers are allowed it is one for all or (m,)."""
-        ends = indices(between, "between")
-        if ends.size == 0:
-            ends = ends.reshape(0, 2)
-        elif ends.ndim != 2 or ends.shape[1] != 2:
-            doubles(ends, "between", (ends.size // 2, 2))
-        lib.hooke_system_add_springs(
-            self._handle,
-            None if name is None else name.encode(),
-            len(ends),
-            index_pointer(ends),
-            Options.for_springs().set(**options)._handle,
-        )
+        chosen = Options.for_springs().set(**options)
+        lib.hooke_system_add_springs(self._handle, *_group(name, between, "between", 2), chosen._handle)
 
     def add_bending(self, name: str | None, triples: Any, coefficient: Any) -> None:
         """Adds bending on `triples` a, b, c of particles (m, 3): the energy c/2 |q_a - 2 q_b + q_c|^2 with the
         `coefficient` c [N/m], one number for all or (m,). A beam of stiffness B [N m^2] in pieces of length l
         has c = B/l^3."""
-        triples = indices(triples, "triples")
-        if triples.size == 0:
-            triples = triples.reshape(0, 3)
-        elif triples.ndim != 2 or triples.shape[1] != 3:
-            doubles(triples, "triples", (triples.size // 3, 3))
+        triples = _group(name, triples, "triples", 3)
         coefficient = doubles(coefficient, "coefficient").reshape(-1)
-        lib.hooke_system_add_bending(
-            self._handle,
-            None if name is None else name.encode(),
-            len(triples),
-            index_pointer(triples),
-            coefficient.size,
-            double_pointer(coefficient),
-        )
+        lib.hooke_system_add_bending(self._handle, *triples, coefficient.size, double_pointer(coefficient))
 
     def add_altitude(self, name: str | None, tetrahedra: Any, **options: Any) -> None:
         """Adds altitude springs on `tetrahedra` of particles (m, 4): the currently shortest altitude of each is a
         spring whose rest length is that altitude as added. Options are ``stiffness`` [N] and ``damping`` [N s], one
         for all or (m,), ``rest_scale`` and ``compression``."""
-        corners = indices(tetrahedra, "tetrahedra")
-        if corners.size == 0:
-            corners = corners.reshape(0, 4)
-        elif corners.ndim != 2 or corners.shape[1] != 4:
-            doubles(corners, "tetrahedra", (corners.size // 4, 4))
-        lib.hooke_system_add_altitude(
-            self._handle,
-            None if name is None else name.encode(),
-            len(corners),
-            index_pointer(corners),
-            Options.for_altitude().set(**options)._handle,
-        )
+        chosen = Options.for_altitude().set(**options)
+        lib.hooke_system_add_altitude(self._handle, *_group(name, tetrahedra, "tetrahedra", 4), chosen._handle)
 
     def add_anchors(self, name: str | None, particles: Any, **options: Any) -> None:
         """Adds anchors, springs from `particles` (m,) to fixed points, with the options that
         ``hooke.describe("anchors")`` lists: ``points`` (m, 3) [m], or "initial" for the initial positions of the
         particles; ``stiffness`` [N/m], ``damping`` [N s/m] and ``rest_length`` [m], one for all or (m,)."""
-        numbers = indices(particles, "particles").reshape(-1)
-        lib.hooke_system_add_anchors(
-            self._handle,
-            None if name is None else name.encode(),
-            len(numbers),
-            index_pointer(numbers),
-            Options.for_anchors().set(**options)._handle,
-        )
+        chosen = Options.for_anchors().set(**options)
+        lib.hooke_system_add_anchors(self._handle, _encoded(name), *_numbered(particles), chosen._handle)
 
     def add_body(self, name: str | None, particles: Any, *, project: bool = False) -> None:
         """Makes `particles` (m,) one rigid body; members of forces inside it are dropped at commit. Initial velocities
         have to be those of a rigid motion, or with `project` become those of the nearest one."""
-        numbers = indices(particles, "particles").reshape(-1)
-        lib.hooke_system_add_body(
-            self._handle,
-            None if name is None else name.encode(),
-            len(numbers),
-            index_pointer(numbers),
-            int(project),
-        )
+        lib.hooke_system_add_body(self._handle, _encoded(name), *_numbered(particles), int(project))
 
     def add_part(self, kind: str, name: str | None = None, **options: Any) -> range:
         """Adds a part, such as a "rope", a "cloth", a "lattice" or a "mesh", with the options that
@@ -195,14 +148,8 @@ class System(Queries):
 
     def _add_part(self, kind: str, name: str | None, options: Options) -> range:
         first, count = ctypes.c_int64(), ctypes.c_int64()
-        lib.hooke_system_add_part(
-            self._handle,
-            kind.encode(),
-            None if name is None else name.encode(),
-            options._handle,
-            ctypes.byref(first),
-            ctypes.byref(count),
-        )
+        places = ctypes.byref(first), ctypes.byref(count)
+        lib.hooke_system_add_part(self._handle, kind.encode(), _encoded(name), options._handle, *places)
         return range(first.value, first.value + count.value)
 
     def set_gravity(self, gravity: Any) -> None:
@@ -233,44 +180,29 @@ class System(Queries):
         """Gives the system a force of your own in all its runs: ``force(t, q, v, force)`` adds newtons to its last
         argument, ``product(t, q, v, dq, dv, out)`` the product with its derivative to `out`; without it difference
         quotients replace it."""
-        callbacks = (
-            _callback.force_callback(force),
-            _callback.product_callback(product) if product else FORCE_PRODUCT(),
-        )
+        derivative = _callback.product_callback(product) if product else FORCE_PRODUCT()
+        callbacks = _callback.force_callback(force), derivative
         lib.hooke_system_set_force(self._handle, *callbacks, None)
         self._callbacks.extend(callbacks)
 
     def drive_harmonic(self, particles: Any, amplitude: Any, frequency: float, phase: float = 0.0) -> None:
         """Moves particles as q0 + amplitude sin(2 pi frequency t + phase): `amplitude` (3,) [m],
         `frequency` [Hz]."""
-        particles = indices(particles, "particles").reshape(-1)
         amplitude = double_pointer(doubles(amplitude, "amplitude", (3,)))
-        lib.hooke_system_drive_harmonic(
-            self._handle, particles.size, index_pointer(particles), amplitude, frequency, phase
-        )
+        lib.hooke_system_drive_harmonic(self._handle, *_numbered(particles), amplitude, frequency, phase)
 
     def drive_table(self, particles: Any, time: Any, displacement: Any) -> None:
         """Moves particles along a smooth curve through `displacement` (samples, 3) [m] at ascending `time`
         (samples,) [s]."""
-        particles = indices(particles, "particles").reshape(-1)
         time = doubles(time, "time").reshape(-1)
         displacement = doubles(displacement, "displacement", (time.size, 3))
-        lib.hooke_system_drive_table(
-            self._handle,
-            particles.size,
-            index_pointer(particles),
-            time.size,
-            double_pointer(time),
-            double_pointer(displacement),
-        )
+        samples = time.size, double_pointer(time), double_pointer(displacement)
+        lib.hooke_system_drive_table(self._handle, *_numbered(particles), *samples)
 
     def drive_callback(self, particles: Any, drive: Drive) -> None:
         """Moves particles as ``drive(t, q, v)`` writes, which must depend on t alone."""
-        particles = indices(particles, "particles").reshape(-1)
         callback = _callback.drive_callback(drive)
-        lib.hooke_system_drive_callback(
-            self._handle, particles.size, index_pointer(particles), callback, None
-        )
+        lib.hooke_system_drive_callback(self._handle, *_numbered(particles), callback, None)
         self._callbacks.append(callback)
 
     def commit(self) -> System:
@@ -286,12 +218,6 @@ class System(Queries):
         """The initial state: t = 0, positions and velocities as added."""
         return State._of_system(self._committed())
 
-    def run(self, **options: Any) -> Result:
-        """Runs the system; see `hooke.run`."""
-        from .results import run
-
-        return run(self, **options)
-
     def save(self, path: str | os.PathLike[str], title: str = "", **options: Any) -> None:
         """Writes the system as a scene file, with `options` of a run: parts and groups of springs by their options,
         the rest number by number. `Scene.load` then gives the same system to the bit, with the particles of parts
@@ -299,9 +225,8 @@ class System(Queries):
         write_scene(path, self, title, Options.for_run().set(**options))
 
     def _integrator(self, options: Options) -> Handle:
-        pointer = INTEGRATOR()
-        lib.hooke_integrator_create(self._committed(), options._handle, ctypes.byref(pointer))
-        return Handle(pointer, lib.hooke_integrator_destroy, self._handle)
+        given = self._committed(), options._handle
+        return Handle.made(INTEGRATOR, lib.hooke_integrator_destroy, self._handle, lib.hooke_integrator_create, *given)
 
     def _committed(self) -> Handle:
         if not self._final:
@@ -323,3 +248,28 @@ def read_mesh(file: str | os.PathLike[str], options: Options) -> None:
 def write_scene(path: str | os.PathLike[str], system: System, title: str, run: Options) -> None:
     """Writes a system as a scene file, with the options of a run."""
     lib.hooke_scene_write(os.fsencode(path), system._committed(), title.encode(), run._handle)
+
+
+def system_of(problem: Problem, what: str) -> System:
+    """The problem for `what`, which is for systems only."""
+    if not isinstance(problem, System):
+        raise BadValue(f"{what}: a system is needed, this is {problem._what}")
+    return problem
+
+
+def _encoded(name: str | None) -> bytes | None:
+    return name.encode() if name else None
+
+
+def _numbered(particles: Any) -> tuple[int, Any]:
+    """The count and the numbers of particles (one or several) as arguments."""
+    numbers = indices(particles, "particles").reshape(-1)
+    return numbers.size, index_pointer(numbers)
+
+
+def _group(name: str | None, members: Any, what: str, width: int) -> tuple[bytes | None, int, Any]:
+    """Name, count and particles of a group, whose members have `width` particles each, as arguments."""
+    numbers = indices(members, what)
+    if numbers.size and (numbers.ndim != 2 or numbers.shape[1] != width):
+        doubles(numbers, what, (numbers.size // width, width))  # says what is allowed
+    return _encoded(name), numbers.size // width, index_pointer(numbers)

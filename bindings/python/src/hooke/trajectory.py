@@ -3,19 +3,18 @@ and other programs read them, too."""
 
 from __future__ import annotations
 
-import ctypes
 import math
 import os
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, Any, NamedTuple, overload
+from typing import TYPE_CHECKING, Any, Callable, NamedTuple, TypeVar, overload
 
 import numpy as np
 
 from ._closing import Closing
 from ._library import lib
-from ._memory import Handle, double_pointer, text
-from ._notebook import embed
-from ._prototypes import RECORD
+from ._memory import text
+from ._notebook import draw, embed
+from ._record import numbers, opened, run_options
 from ._status import BadValue, plain
 from ._types import FloatArray, IntArray, Path
 from .estimate import RunError
@@ -24,9 +23,13 @@ from .results import Frames
 from .scene import Scene
 from .state import State
 from .system import System
+from .view import view
 
 if TYPE_CHECKING:
     from .animation import Animation
+
+
+K = TypeVar("K")
 
 
 class Frame(NamedTuple):
@@ -56,10 +59,8 @@ class Trajectory(Closing):
     """
 
     def __init__(self, path: Path):
-        pointer = RECORD()
         self.path: str = os.fsdecode(path)  #: the file
-        lib.hooke_record_open(os.fsencode(path), ctypes.byref(pointer))
-        self._handle = Handle(pointer, lib.hooke_record_close)
+        self._handle = opened(path)
         self._kept: dict[Any, Any] = {}
         self._count: int = lib.hooke_record_count(self._handle, b"frames")
 
@@ -121,25 +122,21 @@ class Trajectory(Closing):
         by, reason = (text(lib.hooke_record_text(self._handle, what)) for what in (b"error_by", b"error_reason"))
         if not (by or reason) or len(self._numbers("error")) != len(RunError._fields) - 2:
             return None  # not estimated, or by an earlier version, which knew parts alone
-        numbers = [float(number) for number in self._numbers("error")]
-        estimate, rms, known_until, rise, wanted, met, excess, piece, piece_from = numbers
+        estimate, rms, known_until, rise, wanted, met, excess, piece, piece_from = self._numbers("error").tolist()
         reached = None if math.isnan(met) else met == 1.0
         return RunError(estimate, rms, known_until, by or None, wanted, reached, rise, excess, piece, piece_from, reason)
 
     @property
     def options(self) -> Options:
         """The options of the run, with defaults filled in."""
-        return Options(Handle(lib.hooke_record_options(self._handle), None, self._handle), read_only=True)
+        return run_options(self._handle)
 
     @property
     def scene(self) -> Scene | None:
         """The scene of the run, with its options; None if the run was not made from one."""
         if not text(lib.hooke_record_text(self._handle, b"scene")):
             return None
-        if "scene" not in self._kept:
-            self._kept["scene"] = Scene.load(self.path)
-        scene: Scene = self._kept["scene"]
-        return scene
+        return self._keep("scene", lambda: Scene.load(self.path))
 
     @property
     def system(self) -> System:
@@ -208,16 +205,13 @@ class Trajectory(Closing):
 
     def plot(self, ax: Any = None, *, frame: int = -1, **options: Any) -> Any:
         """Draws the springs at a frame in space and returns the axes; see `hooke.plot.cloth`."""
-        from .plot import cloth
-
-        return cloth(self, ax, frame=frame, **options)
+        return draw("plot.cloth", self, ax, frame=frame, **options)
 
     def animate(self, **options: Any) -> Animation:
         """A film of the frames, for a notebook, for `save`, or for ``matplotlib.pyplot.show``; see
         `hooke.animation.animate`."""
-        from .animation import animate
-
-        return animate(self, **options)
+        film: Animation = draw("animation.animate", self, **options)
+        return film
 
     # as a sequence
 
@@ -247,8 +241,6 @@ class Trajectory(Closing):
         return f"Trajectory({self.path!r}, {self._count} frames)"
 
     def _repr_html_(self) -> str:
-        from .view import view
-
         return embed(lambda page: view(self.path, page), 720)
 
     def close(self) -> None:
@@ -258,30 +250,23 @@ class Trajectory(Closing):
 
     # reading
 
-    def _numbers(self, what: str) -> FloatArray:
+    def _keep(self, what: Any, read: Callable[[], K]) -> K:
+        """What was read before, or is now."""
         if what not in self._kept:
-            size = (ctypes.c_int64(), ctypes.c_int64())
-            name = what.encode()
-            lib.hooke_record_size(self._handle, name, ctypes.byref(size[0]), ctypes.byref(size[1]))
-            numbers = np.empty((size[0].value, size[1].value))
-            lib.hooke_record_numbers(self._handle, name, double_pointer(numbers))
-            numbers.flags.writeable = False
-            self._kept[what] = numbers[:, 0] if size[1].value == 1 else numbers
-        kept: FloatArray = self._kept[what]
+            self._kept[what] = read()
+            if isinstance(self._kept[what], np.ndarray):
+                self._kept[what].flags.writeable = False
+        kept: K = self._kept[what]
         return kept
+
+    def _numbers(self, what: str) -> FloatArray:
+        return self._keep(what, lambda: numbers(self._handle, what))
 
     def _integers(self, what: str) -> IntArray:
-        if (what, int) not in self._kept:
-            self._kept[what, int] = self._numbers(what).astype(np.int64)
-            self._kept[what, int].flags.writeable = False
-        kept: IntArray = self._kept[what, int]
-        return kept
+        return self._keep((what, int), lambda: self._numbers(what).astype(np.int64))
 
     def _rows(self, what: str) -> FloatArray:
-        if what not in self._kept:
-            self._kept[what] = self._mapped(what)
-        kept: FloatArray = self._kept[what]
-        return kept
+        return self._keep(what, lambda: self._mapped(what))
 
     def _mapped(self, what: str) -> FloatArray:
         shape = (self._count, len(self.mass), 3)
@@ -301,7 +286,6 @@ class Trajectory(Closing):
         for frame in range(self._count):
             lib.hooke_record_read(self._handle, frame, state._handle)
             frames[frame] = state.q if what == "position" else state.v
-        frames.flags.writeable = False
         return frames
 
 

@@ -2,17 +2,14 @@
 
 from __future__ import annotations
 
-import ctypes
 import os
 from typing import Any
 
 from ._library import lib
 from ._measurement import Measurement
-from ._memory import Handle
-from ._prototypes import MEASUREMENT
+from ._progress import WorkProgress
 from ._status import BadValue
 from .options import Options
-from .results import WorkProgress
 from .scene import limits_of
 
 
@@ -52,11 +49,8 @@ def verify(
     `memory` and `outside` as in `Scene.load`; ``progress(share, what)`` receives progress, True for a bar. A file
     that does not reproduce is a result, not an error.
     """
-    given = Options._of("verify").set(**options)
-    limits = limits_of(memory, outside)
-    made = MEASUREMENT()
-    lib.hooke_verify_create(os.fsencode(path), given._handle, limits._handle, ctypes.byref(made))
-    measurement = Measurement(Handle(made, lib.hooke_measurement_destroy))
+    given, limits = Options._of("verify").set(**options), limits_of(memory, outside)
+    measurement = Measurement.made(None, lib.hooke_verify_create, os.fsencode(path), given._handle, limits)
     try:
         measurement.run(progress)
     except BadValue:

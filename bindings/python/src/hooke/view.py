@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-import ctypes
 import os
 import warnings
-from collections.abc import Iterator, Sequence
-from contextlib import ExitStack, contextmanager
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Union
 
 from ._library import lib
-from ._prototypes import MEASUREMENT, RECORD
+from ._measurement import Measurement
+from ._record import opened
 from ._status import BadValue
 from .options import Options
 
@@ -43,11 +42,10 @@ def view(
     if output is None and len(sources) != 1:
         raise BadValue("output: is required for several trajectories")
     page = Path(os.fspath(output)) if output is not None else sources[0].with_suffix(".html")
-    with ExitStack() as stack:
-        views = [stack.enter_context(_view(source, title, options)) for source in sources]
-        for other in views[1:]:
-            lib.hooke_view_add(views[0], other)
-        lib.hooke_measurement_write(views[0], os.fsencode(page))
+    views = [_view(source, title, options) for source in sources]
+    for other in views[1:]:
+        lib.hooke_view_add(views[0].handle, other.handle)
+    lib.hooke_measurement_write(views[0].handle, os.fsencode(page))
     return page
 
 
@@ -56,8 +54,7 @@ def write_xdmf(trajectory: _PathLike | Result, output: _PathLike | None = None) 
     with ``.xdmf`` in place of its ``.h5``. Runs with ``output=`` write it at their end; after a killed run this
     writes it for the existing frames."""
     source = _file_of(trajectory)
-    with _record(source) as record:
-        lib.hooke_record_write_xdmf(record, None if output is None else os.fsencode(output))
+    lib.hooke_record_write_xdmf(opened(source), None if output is None else os.fsencode(output))
     if output is not None:
         return Path(os.fspath(output))
     known = source.suffix in (".h5", ".hdf5", ".h5md")
@@ -81,23 +78,8 @@ def _file_of(trajectory: _PathLike | Result) -> Path:
     return Path(os.fspath(output))
 
 
-@contextmanager
-def _view(source: Path, title: str | None, options: dict[str, Any]) -> Iterator[Any]:
-    made = MEASUREMENT()
-    with _record(source) as record:
-        try:
-            lib.hooke_view_create(record, Options._of("view").set(**options)._handle, ctypes.byref(made))
-            lib.hooke_measurement_label(made, b"title", None if title is None else title.encode())
-            yield made
-        finally:
-            lib.hooke_measurement_destroy(made)
-
-
-@contextmanager
-def _record(path: Path) -> Iterator[Any]:
-    record = RECORD()
-    lib.hooke_record_open(os.fsencode(path), ctypes.byref(record))
-    try:
-        yield record
-    finally:
-        lib.hooke_record_close(record)
+def _view(source: Path, title: str | None, options: dict[str, Any]) -> Measurement:
+    record, chosen = opened(source), Options._of("view").set(**options)
+    made = Measurement.made(record, lib.hooke_view_create, record, chosen._handle)
+    made.label(title=title)
+    return made

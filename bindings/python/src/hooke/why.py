@@ -2,20 +2,20 @@
 
 from __future__ import annotations
 
-import ctypes
 import math
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ._library import lib
-from ._measurement import Measurement
-from ._memory import Handle, text
+from ._measurement import Measurement, typed
+from ._memory import text
 from ._notebook import embed
-from ._prototypes import MEASUREMENT
-from ._status import NotBuilt, SolverFailed, Stopped, plain
+from ._progress import WorkProgress
+from ._status import NotBuilt, Stopped, plain
 from ._types import Path
-from .integrator import Integrator
 from .options import Options
-from .results import Result, Runnable, WorkProgress, resolve
+
+if TYPE_CHECKING:
+    from .integrator import Integrator
 
 
 class Blame(NamedTuple):
@@ -62,25 +62,26 @@ class Why:
     lists the checks that did not fit the time or memory.
     """
 
+    cause: str
+    sentence: str
+    method: str
+    left_out: str
+    time: float
+    noticed: float
+    step: float
+    limit: float
+    particle: int | None
+
     def __init__(
         self, integrator: Integrator, budget: float | None = None, progress: WorkProgress | bool | None = None
     ):
-        pointer, chosen = MEASUREMENT(), Options.for_why().set(budget=budget)
-        lib.hooke_why_create(integrator._handle, chosen._handle, ctypes.byref(pointer))
+        run, chosen = integrator._handle, Options.for_why().set(budget=budget)
         self._problem = integrator._problem
         self._title = integrator._title
-        self._found = found = Measurement(Handle(pointer, lib.hooke_measurement_destroy, integrator._handle))
+        self._found = found = Measurement.made(run, lib.hooke_why_create, run, chosen._handle)
         if found.run(progress):
             raise Stopped(text(lib.hooke_last_error()))
-        record = found.record("why") or {}
-        self.cause: str = record["cause"]
-        self.sentence: str = record["sentence"]
-        self.method: str = record["method"]
-        self.left_out: str = record["left_out"]
-        self.time, self.noticed, self.step, self.limit = (
-            record[name] for name in ("time", "noticed", "step", "limit")
-        )
-        self.particle = None if math.isnan(record["particle"]) else int(record["particle"])
+        vars(self).update(typed(Why, found.record("why") or {}))
         self.blame = Blame.read(found)
         self.advice = [_advice(found, row) for row in range(found.count("advice"))]
 
@@ -118,29 +119,3 @@ def _advice(found: Measurement, row: int) -> Advice:
     lib.hooke_why_advice_apply(found.handle, row, changes._handle)
     options = {name: changes[name] for name in changes if changes.is_set(name)}
     return Advice(found.text("advice", row, "change"), options)
-
-
-def why(
-    what: Runnable | Result | SolverFailed,
-    budget: float | None = None,
-    progress: WorkProgress | bool | None = None,
-    **options: Any,
-) -> Why | None:
-    """Explains a run that blew up: the `Result` of one, the `SolverFailed` that it raised, or anything that
-    `hooke.run` takes, which is then run with `options`. None if the run did not blow up.
-
-    The last steps are repeated and suggestions are tried, so callbacks are called again; within `budget` [s] of wall
-    time, or as much counted work as the run took (2 s if that is less), however busy the machine is.
-    ``progress(fraction, what)`` receives progress (``progress=True``
-    shows a bar, with tqdm) and ends it by returning a non-zero number.
-    """
-    if isinstance(what, (Result, SolverFailed)):
-        return what.integrator.why(budget, progress) if what.integrator is not None else None
-    scene, problem, given = resolve(what, None)
-    integrator = Integrator(problem, given, **options)
-    integrator._title = scene.title if scene is not None else ""
-    try:
-        status = integrator.run(problem.state())
-    except SolverFailed:
-        return integrator.why(budget, progress)
-    return integrator.why(budget, progress) if status in ("diverged", "step-limit") else None
