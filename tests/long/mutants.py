@@ -145,12 +145,12 @@ def fingerprint() -> bytes:
 
 
 def objects_of(path: str) -> list[str]:
-    """Objects with code of this file, which may be a header."""
+    """Objects with code of this file, which may be a header, and those for each instruction set."""
     told, found, name = call("ninja", "-C", COVERED, "-t", "deps").stdout, [], ""
     for line in told.splitlines():
         if not line.startswith(" "):
             name = line.split(":")[0]
-        elif (COVERED / line.strip()).resolve() == TREE / path and "hooke_objects" in name:
+        elif (COVERED / line.strip()).resolve() == TREE / path and name.startswith("CMakeFiles/"):
             found.append(name)
     return found
 
