@@ -1,12 +1,11 @@
-/* Internal interface of the files that read a scene from parsed JSON. */
+/* Internal interface of the files that read a scene from its JSON. */
 #ifndef HOOKE_IO_SCENE_SCENE_JSON_H
 #define HOOKE_IO_SCENE_SCENE_JSON_H
 
 #include "core/table/option.h"
+#include "io/scene/json.h"
 #include "io/scene/part_names.h"
 #include "io/scene/scene.h"
-
-struct json_t; /* of jansson */
 
 enum { HOOKE_SCENE_MOST_FAULTS = 20 };
 
@@ -31,23 +30,21 @@ int32_t hk_scene_note(struct hk_scene_reader *reader, int32_t status);
 
 /* Sets `options` from the keys of an object, row by row of their table; keys in `others` (words separated by
  * blanks) are left to the caller. Then checks that nothing required is missing. */
-int32_t hk_scene_read_options(struct hk_scene_reader *reader, const struct json_t *object, const char *others,
+int32_t hk_scene_read_options(struct hk_scene_reader *reader, const char *object, const char *others,
                               hooke_options *options);
 /* The same without the last check. */
-int32_t hk_scene_read_some_options(struct hk_scene_reader *reader, const struct json_t *object,
-                                   const char *others, hooke_options *options);
+int32_t hk_scene_read_some_options(struct hk_scene_reader *reader, const char *object, const char *others,
+                                   hooke_options *options);
 
-/* Fails unless `value` is an object, an array, or a text; `place` may be NULL. */
-int32_t hk_scene_require_object(const struct json_t *value, const char *place);
-int32_t hk_scene_require_array(const struct json_t *value, const char *place, const char *allowed);
-int32_t hk_scene_require_text(const struct json_t *value, const char *place);
+/* Fails unless `value` begins with `first`, one of { [ and "; `place` may be NULL. */
+int32_t hk_scene_require(const char *value, char first, const char *place, const char *allowed);
 
 /* "is a number, 3; allowed: ..." */
-int32_t hk_scene_refuse(const struct json_t *value, const char *place, const char *allowed);
+int32_t hk_scene_refuse(const char *value, const char *place, const char *allowed);
 
 /* After a failure about number k of a list `name`: changes its place to the k-th element of the array that is
  * not a word. Returns `status`. */
-int32_t hk_scene_place_number(int32_t status, const struct json_t *array, const char *name);
+int32_t hk_scene_place_number(int32_t status, const char *array, const char *name);
 
 /* ---- scene_json_array.c ---- */
 
@@ -55,30 +52,26 @@ int32_t hk_scene_place_number(int32_t status, const struct json_t *array, const 
 int32_t hk_scene_reader_file(const struct hk_scene_reader *reader, const char *file, char **path);
 
 /* 1 for a text that is a number with one unit: "5 mm". Whether the unit fits is for the parser to say. */
-int32_t hk_scene_is_quantity(const struct json_t *value, const struct hk_option_row *row);
+int32_t hk_scene_is_quantity(const char *value, const struct hk_option_row *row);
 
 /* Numbers for a row of type NUMBERS, from a number, an array, or an object that names a data set; the caller
  * frees `numbers`. `unit` is set to the base of their units if any has one. */
-int32_t hk_scene_read_numbers(struct hk_scene_reader *reader, const struct json_t *value,
+int32_t hk_scene_read_numbers(struct hk_scene_reader *reader, const char *value,
                               const struct hk_option_row *row, double **numbers, int64_t *count,
                               const char **unit);
 
-/* Empties an array whose values have been read, and nothing else: they take ten times the memory of their
- * numbers. */
-void hk_scene_forget_values(const struct json_t *array);
-
 /* Particle numbers: `columns` in each row (0: a flat list), each a number or ["part", index]. */
-int32_t hk_scene_read_particles(struct hk_scene_reader *reader, const struct json_t *value, int32_t columns,
+int32_t hk_scene_read_particles(struct hk_scene_reader *reader, const char *value, int32_t columns,
                                 int64_t **particles, int64_t *count);
 
 /* ---- scene_json_pieces.c: add the contents of the key of the same name to the system ---- */
 
-int32_t hk_scene_add_particles(struct hk_scene_reader *reader, const struct json_t *particles);
-int32_t hk_scene_add_parts(struct hk_scene_reader *reader, const struct json_t *parts);
-int32_t hk_scene_add_springs(struct hk_scene_reader *reader, const struct json_t *springs);
-int32_t hk_scene_add_bending(struct hk_scene_reader *reader, const struct json_t *bending);
-int32_t hk_scene_add_anchors(struct hk_scene_reader *reader, const struct json_t *anchors);
-int32_t hk_scene_add_bodies(struct hk_scene_reader *reader, const struct json_t *bodies);
-int32_t hk_scene_add_driven(struct hk_scene_reader *reader, const struct json_t *driven);
+int32_t hk_scene_add_particles(struct hk_scene_reader *reader, const char *particles);
+int32_t hk_scene_add_parts(struct hk_scene_reader *reader, const char *parts);
+int32_t hk_scene_add_springs(struct hk_scene_reader *reader, const char *springs);
+int32_t hk_scene_add_bending(struct hk_scene_reader *reader, const char *bending);
+int32_t hk_scene_add_anchors(struct hk_scene_reader *reader, const char *anchors);
+int32_t hk_scene_add_bodies(struct hk_scene_reader *reader, const char *bodies);
+int32_t hk_scene_add_driven(struct hk_scene_reader *reader, const char *driven);
 
 #endif

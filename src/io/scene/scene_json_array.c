@@ -1,8 +1,6 @@
 /* Arrays of numbers and of particles in a scene. */
 #include "io/scene/scene_json.h"
 
-#if HOOKE_HAVE_JANSSON
-
 #include "core/memory.h"
 #include "core/status.h"
 #include "core/table/option_value.h"
@@ -11,7 +9,6 @@
 #include "io/hdf5/array_h5.h"
 #include "io/scene/scene_file.h"
 
-#include <jansson.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -69,7 +66,7 @@ static int32_t check_dataset(const double *numbers, int64_t rows, int64_t column
   return HOOKE_OK;
 }
 
-static int32_t numbers_from_file(struct hk_scene_reader *reader, const json_t *value, int32_t wanted,
+static int32_t numbers_from_file(struct hk_scene_reader *reader, const char *value, int32_t wanted,
                                  int32_t whole, double **numbers, int64_t *count) {
   int64_t rows = 0, columns = 0;
   hooke_options *source = NULL;
@@ -84,77 +81,70 @@ static int32_t numbers_from_file(struct hk_scene_reader *reader, const json_t *v
   return status;
 }
 
-void hk_scene_forget_values(const json_t *array) {
-  json_array_clear((json_t *)array);
-}
-
 /* ---- numbers ---- */
 
-int32_t hk_scene_is_quantity(const json_t *value, const struct hk_option_row *row) {
-  if (!json_is_string(value) || row->unit == NULL) return 0;
-  const int64_t length = (int64_t)json_string_length(value);
-  const struct hk_quantity found = hk_unit_scan(row->unit, json_string_value(value), length);
+int32_t hk_scene_is_quantity(const char *value, const struct hk_option_row *row) {
+  const char *text = hk_json_text(value);
+  if (text == NULL || row->unit == NULL) return 0;
+  const int64_t length = (int64_t)strlen(text);
+  const struct hk_quantity found = hk_unit_scan(row->unit, text, length);
   return found.whole > found.number && found.whole == length;
 }
 
 /* `unit` is the base of the units so far. */
-static int32_t read_number(const json_t *value, const struct hk_option_row *row, double *number,
+static int32_t read_number(const char *value, const struct hk_option_row *row, double *number,
                            const char **unit) {
   const int32_t whole = row->whole;
+  const char *text = hk_json_text(value);
   if (hk_scene_is_quantity(value, row))
-    return hk_option_parse_number(row, NULL, json_string_value(value), (int64_t)json_string_length(value),
-                                  number, unit);
-  if (whole ? !json_is_integer(value) : !json_is_number(value))
+    return hk_option_parse_number(row, NULL, text, (int64_t)strlen(text), number, unit);
+  if (whole ? !hk_json_is_integer(value) : !hk_json_is_number(value))
     return hk_scene_refuse(value, NULL, whole ? "a whole number, without a point" : "a number");
-  *number = json_number_value(value);
-  return HOOKE_OK;
+  return hk_json_number(value, number);
 }
 
-static int32_t require_row(const json_t *value, int64_t columns, const char *what) {
-  if (json_is_array(value) && (int64_t)json_array_size(value) == columns) return HOOKE_OK;
+static int32_t require_row(const char *value, int64_t columns, const char *what) {
+  if (hk_json_is(value, '[') && hk_json_count(value) == columns) return HOOKE_OK;
   char allowed[64];
   snprintf(allowed, sizeof allowed, "a row of %lld %s", (long long)columns, what);
   return hk_scene_refuse(value, NULL, allowed);
 }
 
-static int32_t read_rows(const json_t *value, const struct hk_option_row *row, double *numbers,
+static int32_t read_list(const char *value, const struct hk_option_row *row, double *numbers,
                          const char **unit) {
-  int64_t columns = row->columns;
-  for (size_t r = 0; r < json_array_size(value); r++) {
-    const json_t *item = json_array_get(value, r);
-    int32_t status = require_row(item, columns, row->whole ? "whole numbers" : "numbers");
-    if (status) return hk_fail_within(status, "[%zu]", r);
-    for (int64_t c = 0; c < columns; c++) {
-      status = read_number(json_array_get(item, (size_t)c), row, numbers++, unit);
-      if (status) return hk_fail_within(status, "[%zu][%lld]", r, (long long)c);
-    }
+  int64_t k = 0;
+  for (const char *item = hk_json_first(value); item; item = hk_json_next(item), k++) {
+    int32_t status = read_number(item, row, &numbers[k], unit);
+    if (status) return hk_fail_within(status, "[%lld]", (long long)k);
   }
   return HOOKE_OK;
 }
 
-static int32_t read_list(const json_t *value, const struct hk_option_row *row, double *numbers,
+static int32_t read_rows(const char *value, const struct hk_option_row *row, double *numbers,
                          const char **unit) {
-  for (size_t k = 0; k < json_array_size(value); k++) {
-    int32_t status = read_number(json_array_get(value, k), row, &numbers[k], unit);
-    if (status) return hk_fail_within(status, "[%zu]", k);
+  int64_t r = 0;
+  for (const char *line = hk_json_first(value); line; line = hk_json_next(line), r++) {
+    int32_t status = require_row(line, row->columns, row->whole ? "whole numbers" : "numbers");
+    if (status == HOOKE_OK) status = read_list(line, row, numbers + r * row->columns, unit);
+    if (status) return hk_fail_within(status, "[%lld]", (long long)r);
   }
   return HOOKE_OK;
 }
 
-int32_t hk_scene_read_numbers(struct hk_scene_reader *reader, const json_t *value,
+int32_t hk_scene_read_numbers(struct hk_scene_reader *reader, const char *value,
                               const struct hk_option_row *row, double **numbers, int64_t *count,
                               const char **unit) {
   int32_t status;
   *numbers = NULL;
   *count = 1;
-  if (json_is_object(value)) {
+  if (hk_json_is(value, '{')) {
     status = numbers_from_file(reader, value, row->columns, row->whole, numbers, count);
   } else {
     int64_t columns = row->columns > 1 ? row->columns : 1;
-    if (json_is_array(value)) *count = columns * (int64_t)json_array_size(value);
+    if (hk_json_is(value, '[')) *count = columns * hk_json_count(value);
     *numbers = hk_new(*count, sizeof(double));
     if (*numbers == NULL) return HOOKE_NO_MEMORY;
-    if (!json_is_array(value))
+    if (!hk_json_is(value, '['))
       status = read_number(value, row, *numbers, unit);
     else if (row->columns > 1)
       status = read_rows(value, row, *numbers, unit);
@@ -203,22 +193,22 @@ static int32_t find_in_part(const struct hk_scene_reader *reader, const char *na
                  names[0] ? names : "none, as this scene has no parts");
 }
 
-static int32_t read_particle(const struct hk_scene_reader *reader, const json_t *value, int64_t *particle) {
-  if (json_is_array(value)) {
-    const json_t *name = json_array_get(value, 0), *index = json_array_get(value, 1);
-    if (json_array_size(value) == 2 && json_is_string(name) && json_is_integer(index))
-      return find_in_part(reader, json_string_value(name), json_integer_value(index), particle);
+static int32_t read_particle(const struct hk_scene_reader *reader, const char *value, int64_t *particle) {
+  if (hk_json_is(value, '[')) {
+    const char *name = hk_json_first(value), *index = name ? hk_json_next(name) : NULL;
+    if (hk_json_count(value) == 2 && hk_json_is(name, '"') && hk_json_is_integer(index))
+      return find_in_part(reader, hk_json_text(name), hk_json_integer(index), particle);
     return hk_scene_refuse(value, NULL, particle_allowed);
   }
-  if (!json_is_integer(value)) return hk_scene_refuse(value, NULL, particle_allowed);
+  if (!hk_json_is_integer(value)) return hk_scene_refuse(value, NULL, particle_allowed);
   int64_t count = hooke_system_particle_count(reader->scene->system);
-  *particle = json_integer_value(value);
+  *particle = hk_json_integer(value);
   if (*particle >= 0 && *particle < count) return HOOKE_OK;
   return hk_fail_index(NULL, "there is no particle", (double)*particle, count);
 }
 
 /* Converts numbers to particles in place: large scenes have no memory for both. */
-static int32_t particles_from_file(struct hk_scene_reader *reader, const json_t *value, int32_t columns,
+static int32_t particles_from_file(struct hk_scene_reader *reader, const char *value, int32_t columns,
                                    int64_t **particles, int64_t *count) {
   _Static_assert(sizeof(int64_t) == sizeof(double), "one takes the place of the other");
   double *numbers = NULL;
@@ -239,39 +229,36 @@ static int32_t particles_from_file(struct hk_scene_reader *reader, const json_t 
   return status;
 }
 
-static int32_t particles_from_array(const struct hk_scene_reader *reader, const json_t *value,
-                                    int32_t columns, int64_t *particles) {
-  for (size_t r = 0; r < json_array_size(value); r++) {
-    const json_t *item = json_array_get(value, r);
-    if (columns == 0) {
-      int32_t status = read_particle(reader, item, &particles[r]);
-      if (status) return hk_fail_within(status, "[%zu]", r);
-      continue;
-    }
-    int32_t status = require_row(item, columns, "particles, numbers or [\"part\", index]");
-    if (status) return hk_fail_within(status, "[%zu]", r);
-    for (int32_t c = 0; c < columns; c++) {
-      status = read_particle(reader, json_array_get(item, (size_t)c), particles++);
-      if (status) return hk_fail_within(status, "[%zu][%d]", r, (int)c);
-    }
+/* A flat list, or rows of `columns`. */
+static int32_t particles_from_array(const struct hk_scene_reader *reader, const char *value, int32_t columns,
+                                    int64_t *particles) {
+  int64_t k = 0;
+  for (const char *item = hk_json_first(value); item; item = hk_json_next(item), k++) {
+    int32_t status;
+    if (columns == 0)
+      status = read_particle(reader, item, &particles[k]);
+    else
+      status = require_row(item, columns, "particles, numbers or [\"part\", index]");
+    if (status == HOOKE_OK && columns > 0)
+      status = particles_from_array(reader, item, 0, &particles[k * columns]);
+    if (status) return hk_fail_within(status, "[%lld]", (long long)k);
   }
   return HOOKE_OK;
 }
 
-int32_t hk_scene_read_particles(struct hk_scene_reader *reader, const json_t *value, int32_t columns,
+int32_t hk_scene_read_particles(struct hk_scene_reader *reader, const char *value, int32_t columns,
                                 int64_t **particles, int64_t *count) {
   int32_t status;
   *particles = NULL;
   *count = 0;
-  if (json_is_object(value)) {
+  if (hk_json_is(value, '{')) {
     status = particles_from_file(reader, value, columns, particles, count);
   } else {
-    status = hk_scene_require_array(value, NULL, columns ? "an array of pairs" : "an array of particles");
+    status = hk_scene_require(value, '[', NULL, columns ? "an array of pairs" : "an array of particles");
     if (status) return status;
-    *count = (int64_t)json_array_size(value) * (columns ? columns : 1);
+    *count = hk_json_count(value) * (columns ? columns : 1);
     *particles = hk_new(*count, sizeof(int64_t));
     status = *particles ? particles_from_array(reader, value, columns, *particles) : HOOKE_NO_MEMORY;
-    if (status == HOOKE_OK) hk_scene_forget_values(value);
   }
   if (status) {
     hk_free(*particles);
@@ -279,7 +266,3 @@ int32_t hk_scene_read_particles(struct hk_scene_reader *reader, const json_t *va
   }
   return status;
 }
-
-#else
-typedef int hk_scene_json_array_without_jansson;
-#endif

@@ -1,45 +1,42 @@
 /* Particles, parts, springs and drives of a scene. */
 #include "io/scene/scene_json.h"
 
-#if HOOKE_HAVE_JANSSON
-
 #include "core/memory.h"
 #include "core/print.h"
 #include "core/status.h"
 #include "io/scene/mesh.h"
 #include "model/particles.h"
 
-#include <jansson.h>
 #include <stdio.h>
 #include <string.h>
 
 enum { LIST_SIZE = 256 };
 
 /* Reads the text of an optional key; `text` is unchanged without it. */
-static int32_t read_text(const json_t *object, const char *key, const char **text) {
-  const json_t *value = json_object_get(object, key);
+static int32_t read_text(const char *object, const char *key, const char **text) {
+  const char *value = hk_json_get(object, key);
   if (value == NULL) return HOOKE_OK;
-  int32_t status = hk_scene_require_text(value, key);
-  if (status == HOOKE_OK) *text = json_string_value(value);
+  int32_t status = hk_scene_require(value, '"', key, "a text");
+  if (status == HOOKE_OK) *text = hk_json_text(value);
   return status;
 }
 
-typedef int32_t add_one(struct hk_scene_reader *reader, const json_t *object, int64_t index,
+typedef int32_t add_one(struct hk_scene_reader *reader, const char *object, int64_t index,
                         hooke_options *options);
 
 /* Calls `add` for every object of an array, with new options of `table` (NULL: none). */
-static int32_t for_each(struct hk_scene_reader *reader, const json_t *array, const char *name,
+static int32_t for_each(struct hk_scene_reader *reader, const char *array, const char *name,
                         const char *table, add_one *add) {
   reader->within[0] = '\0';
-  int32_t status = hk_scene_require_array(array, name, "an array of objects [{ ... }, ...]");
+  int32_t status = hk_scene_require(array, '[', name, "an array of objects [{ ... }, ...]");
   if (status) return status;
-  for (size_t k = 0; k < json_array_size(array); k++) {
-    const json_t *object = json_array_get(array, k);
+  int64_t k = 0;
+  for (const char *object = hk_json_first(array); object; object = hk_json_next(object), k++) {
     hooke_options *options = NULL;
-    snprintf(reader->within, sizeof reader->within, "%s[%zu]", name, k);
-    status = hk_scene_require_object(object, NULL);
+    snprintf(reader->within, sizeof reader->within, "%s[%lld]", name, (long long)k);
+    status = hk_scene_require(object, '{', NULL, "an object { ... }");
     if (status == HOOKE_OK && table) status = hooke_options_create(table, &options);
-    if (status == HOOKE_OK) status = add(reader, object, (int64_t)k, options);
+    if (status == HOOKE_OK) status = add(reader, object, k, options);
     hooke_options_destroy(options);
     status = hk_scene_note(reader, status);
     if (status) return status;
@@ -61,11 +58,10 @@ static int32_t pin(hooke_system *system, const hooke_options *options) {
   return status;
 }
 
-static int32_t add_particles(struct hk_scene_reader *reader, const json_t *particles,
-                             hooke_options *options) {
+static int32_t add_particles(struct hk_scene_reader *reader, const char *particles, hooke_options *options) {
   const hooke_system *system = reader->scene->system;
   const double none = 1.0; /* where masses do nothing, and none are given */
-  const int32_t given = json_object_get(particles, "mass") != NULL,
+  const int32_t given = hk_json_get(particles, "mass") != NULL,
                 idle = system->overdamped && !system->has_gravity;
   int32_t status = idle && !given ? hooke_options_set_numbers(options, "mass", 1, &none) : HOOKE_OK;
   if (status == HOOKE_OK) status = hk_scene_read_options(reader, particles, NULL, options);
@@ -85,10 +81,10 @@ static int32_t add_particles(struct hk_scene_reader *reader, const json_t *parti
   return status ? status : pin(reader->scene->system, options);
 }
 
-int32_t hk_scene_add_particles(struct hk_scene_reader *reader, const json_t *particles) {
+int32_t hk_scene_add_particles(struct hk_scene_reader *reader, const char *particles) {
   hooke_options *options = NULL;
   strcpy(reader->within, "particles");
-  int32_t status = hk_scene_require_object(particles, NULL);
+  int32_t status = hk_scene_require(particles, '{', NULL, "an object { ... }");
   if (status == HOOKE_OK) status = hooke_options_create("particles", &options);
   if (status == HOOKE_OK) status = add_particles(reader, particles, options);
   hooke_options_destroy(options);
@@ -97,7 +93,7 @@ int32_t hk_scene_add_particles(struct hk_scene_reader *reader, const json_t *par
 
 /* ---- parts ---- */
 
-static int32_t read_kind(const json_t *object, const char **kind) {
+static int32_t read_kind(const char *object, const char **kind) {
   char kinds[LIST_SIZE] = "";
   for (int64_t k = 0; hooke_part_kind(k, "name"); k++)
     hk_append(kinds, sizeof kinds, "%s%s", k ? ", " : "", hooke_part_kind(k, "name"));
@@ -113,15 +109,16 @@ static int32_t read_kind(const json_t *object, const char **kind) {
 
 /* Collects the names of all parts before the first is built; an unnamed part gets its kind and number. Errors
  * in a part are reported when it is built. */
-static int32_t note_names(struct hk_scene_reader *reader, const json_t *parts) {
-  int32_t status = hk_part_names_create((int64_t)json_array_size(parts), &reader->parts);
-  for (int64_t k = 0; k < reader->parts.count && status == HOOKE_OK; k++) {
-    const json_t *object = json_array_get(parts, (size_t)k);
-    const char *name = json_string_value(json_object_get(object, "name"));
-    const char *kind = json_string_value(json_object_get(object, "kind"));
+static int32_t note_names(struct hk_scene_reader *reader, const char *parts) {
+  int64_t k = 0;
+  int32_t status = hk_part_names_create(hk_json_count(parts), &reader->parts);
+  for (const char *object = hk_json_first(parts); object && status == HOOKE_OK;
+       object = hk_json_next(object)) {
+    const char *name = hk_json_text(hk_json_get(object, "name"));
+    const char *kind = hk_json_text(hk_json_get(object, "kind"));
     char made[LIST_SIZE];
     snprintf(made, sizeof made, "%s%lld", kind ? kind : "", (long long)k);
-    status = hk_part_names_set(&reader->parts, k, name && name[0] ? name : made);
+    status = hk_part_names_set(&reader->parts, k++, name && name[0] ? name : made);
   }
   if (status == HOOKE_OK) hk_part_names_sort(&reader->parts);
   return status;
@@ -154,7 +151,7 @@ static int32_t read_file(const struct hk_scene_reader *reader, hooke_options *op
   return hk_fail(HOOKE_BAD_VALUE, "file", "%s", hooke_last_error());
 }
 
-static int32_t add_part(struct hk_scene_reader *reader, const json_t *object, int64_t index,
+static int32_t add_part(struct hk_scene_reader *reader, const char *object, int64_t index,
                         hooke_options *options) {
   const char *kind = NULL, *name = "";
   int32_t status = read_kind(object, &kind);
@@ -166,13 +163,13 @@ static int32_t add_part(struct hk_scene_reader *reader, const json_t *object, in
   if (status == HOOKE_OK) {
     struct hk_named_part *part = &reader->parts.part[index];
     status = hooke_system_add_part(reader->scene->system, kind, name, options, &part->first, &part->count);
-    if (status) hk_scene_place_number(status, json_object_get(object, "pinned"), "pinned");
+    if (status) hk_scene_place_number(status, hk_json_get(object, "pinned"), "pinned");
   }
   hooke_options_destroy(options);
   return status;
 }
 
-int32_t hk_scene_add_parts(struct hk_scene_reader *reader, const json_t *parts) {
+int32_t hk_scene_add_parts(struct hk_scene_reader *reader, const char *parts) {
   const int32_t status = note_names(reader, parts);
   return status == HOOKE_OK ? for_each(reader, parts, "parts", NULL, add_part) : status;
 }
@@ -197,7 +194,7 @@ static const struct group_kind {
   bending_kind = {"bending", "triples", 3, "an array of triples of particles", add_triples},
   anchors_kind = {"anchors", "particles", 0, "an array of particles", hooke_system_add_anchors};
 
-static int32_t read_group(struct hk_scene_reader *reader, const json_t *object, const struct group_kind *kind,
+static int32_t read_group(struct hk_scene_reader *reader, const char *object, const struct group_kind *kind,
                           hooke_options *options) {
   const char *name = "";
   int64_t *particles = NULL, count = 0;
@@ -206,7 +203,7 @@ static int32_t read_group(struct hk_scene_reader *reader, const json_t *object, 
   int32_t status = hk_scene_read_options(reader, object, others, options);
   if (status == HOOKE_OK) status = read_text(object, "name", &name);
   if (status) return status;
-  const json_t *list = json_object_get(object, kind->particles);
+  const char *list = hk_json_get(object, kind->particles);
   if (list == NULL)
     return hk_fail(HOOKE_BAD_VALUE, kind->particles, "is required but missing; allowed: %s", kind->allowed);
   status = hk_scene_read_particles(reader, list, kind->columns, &particles, &count);
@@ -217,46 +214,46 @@ static int32_t read_group(struct hk_scene_reader *reader, const json_t *object, 
   return status;
 }
 
-static int32_t add_springs(struct hk_scene_reader *reader, const json_t *object, int64_t index,
+static int32_t add_springs(struct hk_scene_reader *reader, const char *object, int64_t index,
                            hooke_options *options) {
   (void)index;
   return read_group(reader, object, &springs_kind, options);
 }
 
-static int32_t add_bending(struct hk_scene_reader *reader, const json_t *object, int64_t index,
+static int32_t add_bending(struct hk_scene_reader *reader, const char *object, int64_t index,
                            hooke_options *options) {
   (void)index;
   return read_group(reader, object, &bending_kind, options);
 }
 
-static int32_t add_anchors(struct hk_scene_reader *reader, const json_t *object, int64_t index,
+static int32_t add_anchors(struct hk_scene_reader *reader, const char *object, int64_t index,
                            hooke_options *options) {
   (void)index;
   return read_group(reader, object, &anchors_kind, options);
 }
 
-int32_t hk_scene_add_springs(struct hk_scene_reader *reader, const json_t *springs) {
+int32_t hk_scene_add_springs(struct hk_scene_reader *reader, const char *springs) {
   return for_each(reader, springs, springs_kind.key, springs_kind.key, add_springs);
 }
 
-int32_t hk_scene_add_bending(struct hk_scene_reader *reader, const json_t *bending) {
+int32_t hk_scene_add_bending(struct hk_scene_reader *reader, const char *bending) {
   return for_each(reader, bending, bending_kind.key, bending_kind.key, add_bending);
 }
 
-int32_t hk_scene_add_anchors(struct hk_scene_reader *reader, const json_t *anchors) {
+int32_t hk_scene_add_anchors(struct hk_scene_reader *reader, const char *anchors) {
   return for_each(reader, anchors, anchors_kind.key, anchors_kind.key, add_anchors);
 }
 
 /* ---- bodies ---- */
 
-static int32_t list_part(const struct hk_scene_reader *reader, const json_t *value, int64_t **particles,
+static int32_t list_part(const struct hk_scene_reader *reader, const char *value, int64_t **particles,
                          int64_t *count) {
-  int32_t status = hk_scene_require_text(value, "part");
+  int32_t status = hk_scene_require(value, '"', "part", "a text");
   if (status != HOOKE_OK) return status;
-  const struct hk_named_part *part = hk_part_names_find(&reader->parts, json_string_value(value));
+  const struct hk_named_part *part = hk_part_names_find(&reader->parts, hk_json_text(value));
   if (part == NULL) {
     char shown[HOOKE_OPTION_SHOWN];
-    hk_option_show(json_string_value(value), (int64_t)json_string_length(value), shown);
+    hk_option_show(hk_json_text(value), (int64_t)strlen(hk_json_text(value)), shown);
     return hk_fail(HOOKE_BAD_VALUE, "part", "there is no part \"%s\"; allowed: the name of a part", shown);
   }
   *particles = hk_new(part->count, sizeof **particles);
@@ -267,10 +264,10 @@ static int32_t list_part(const struct hk_scene_reader *reader, const json_t *val
   return HOOKE_OK;
 }
 
-static int32_t add_body(struct hk_scene_reader *reader, const json_t *object, int64_t index,
+static int32_t add_body(struct hk_scene_reader *reader, const char *object, int64_t index,
                         hooke_options *options) {
   (void)index;
-  const json_t *list = json_object_get(object, "particles"), *part = json_object_get(object, "part");
+  const char *list = hk_json_get(object, "particles"), *part = hk_json_get(object, "part");
   const char *name = "";
   int64_t *particles = NULL, count = 0;
   int32_t status = hk_scene_read_options(reader, object, "name particles part", options);
@@ -293,7 +290,7 @@ static int32_t add_body(struct hk_scene_reader *reader, const json_t *object, in
   return status;
 }
 
-int32_t hk_scene_add_bodies(struct hk_scene_reader *reader, const json_t *bodies) {
+int32_t hk_scene_add_bodies(struct hk_scene_reader *reader, const char *bodies) {
   return for_each(reader, bodies, "bodies", "bodies", add_body);
 }
 
@@ -339,14 +336,14 @@ static int32_t drive(hooke_system *system, const hooke_options *options, int64_t
                                   hooke_options_numbers(options, "position"));
 }
 
-static int32_t add_driven(struct hk_scene_reader *reader, const json_t *object, int64_t index,
+static int32_t add_driven(struct hk_scene_reader *reader, const char *object, int64_t index,
                           hooke_options *options) {
   (void)index;
   int64_t *particles = NULL, count = 0;
   int32_t status = hk_scene_read_options(reader, object, "particles", options);
   if (status == HOOKE_OK) status = check_drive(options);
   if (status) return status;
-  const json_t *list = json_object_get(object, "particles");
+  const char *list = hk_json_get(object, "particles");
   if (list == NULL)
     return hk_fail(HOOKE_BAD_VALUE, "particles", "is required but missing; allowed: an array of particles");
   status = hk_scene_read_particles(reader, list, 0, &particles, &count);
@@ -356,10 +353,6 @@ static int32_t add_driven(struct hk_scene_reader *reader, const json_t *object, 
   return status;
 }
 
-int32_t hk_scene_add_driven(struct hk_scene_reader *reader, const json_t *driven) {
+int32_t hk_scene_add_driven(struct hk_scene_reader *reader, const char *driven) {
   return for_each(reader, driven, "driven", "driven", add_driven);
 }
-
-#else
-typedef int hk_scene_json_pieces_without_jansson;
-#endif
