@@ -57,29 +57,18 @@ static int32_t read_run(struct hk_scene_reader *reader, const char *run) {
   return status;
 }
 
-typedef int32_t add_piece(struct hk_scene_reader *reader, const char *value);
-
-static int32_t add(struct hk_scene_reader *reader, const char *root, const char *key, add_piece *piece) {
-  const char *value = hk_json_get(root, key);
-  return value ? hk_scene_note(reader, piece(reader, value)) : HOOKE_OK;
-}
-
 /* Particles first, then parts, so that the others can refer to them, which are read only if both are right. */
 static int32_t add_pieces(struct hk_scene_reader *reader, const char *root) {
   const char *particles = hk_json_get(root, "particles");
   if (reader->faults > 0 && particles && !hk_json_get(particles, "mass"))
     return HOOKE_OK; /* a right `dynamics` may do without */
-  int32_t status = add(reader, root, "particles", hk_scene_add_particles);
-  if (status == HOOKE_OK) status = add(reader, root, "parts", hk_scene_add_parts);
+  int32_t status = particles ? hk_scene_note(reader, hk_scene_add_particles(reader, particles)) : HOOKE_OK;
+  if (status == HOOKE_OK) status = hk_scene_add_parts(reader, root);
   reader->within[0] = '\0';
   if (status != HOOKE_OK || reader->faults > 0) return status;
   if (hooke_system_particle_count(reader->scene->system) == 0)
     return hk_fail(HOOKE_BAD_VALUE, NULL, "a scene without particles; allowed: particles, parts or both");
-  status = add(reader, root, "springs", hk_scene_add_springs);
-  if (status == HOOKE_OK) status = add(reader, root, "bending", hk_scene_add_bending);
-  if (status == HOOKE_OK) status = add(reader, root, "anchors", hk_scene_add_anchors);
-  if (status == HOOKE_OK) status = add(reader, root, "bodies", hk_scene_add_bodies);
-  return status == HOOKE_OK ? add(reader, root, "driven", hk_scene_add_driven) : status;
+  return hk_scene_add_lists(reader, root);
 }
 
 static int32_t read_scene(struct hk_scene_reader *reader, const char *root) {
@@ -122,7 +111,7 @@ int32_t hk_scene_build(hooke_scene *scene, const char *folder) {
   status = tell(status, &reader);
   for (int64_t k = 0; k < reader.faults; k++)
     hk_free(reader.fault[k]);
-  hk_part_names_release(&reader.parts);
+  hk_free(reader.part);
   return status;
 }
 

@@ -4,17 +4,17 @@
 
 #include "core/table/option.h"
 #include "io/scene/json.h"
-#include "io/scene/part_names.h"
 #include "io/scene/scene.h"
+#include "model/part_record.h"
 
 enum { HOOKE_SCENE_MOST_FAULTS = 20 };
 
 struct hk_scene_reader {
   hooke_scene *scene;
-  const char *folder; /* NULL: no files */
-  int32_t at_key;     /* 1 if the last failure concerns a key rather than its value */
-  struct hk_part_names parts;
-  char within[64]; /* path of the object that is read */
+  const char *folder;                 /* NULL: no files */
+  int32_t at_key;                     /* 1 if the last failure concerns a key rather than its value */
+  const struct hk_part_record **part; /* by their names; NULL before they are all added */
+  char within[64];                    /* path of the object that is read */
   int32_t
       in_value; /* 1: an object that is a value of it is read, whose failure is noted as that of the value */
   char *fault[HOOKE_SCENE_MOST_FAULTS];
@@ -60,18 +60,18 @@ int32_t hk_scene_read_numbers(struct hk_scene_reader *reader, const char *value,
                               const struct hk_option_row *row, double **numbers, int64_t *count,
                               const char **unit);
 
+/* The part of a name; NULL if there is none. */
+const struct hk_part_record *hk_scene_find_part(const struct hk_scene_reader *reader, const char *name);
+
 /* Particle numbers: `columns` in each row (0: a flat list), each a number or ["part", index]. */
 int32_t hk_scene_read_particles(struct hk_scene_reader *reader, const char *value, int32_t columns,
                                 int64_t **particles, int64_t *count);
 
-/* ---- scene_json_pieces.c: add the contents of the key of the same name to the system ---- */
+/* ---- scene_json_pieces.c: add to the system what is under keys of the scene ---- */
 
 int32_t hk_scene_add_particles(struct hk_scene_reader *reader, const char *particles);
-int32_t hk_scene_add_parts(struct hk_scene_reader *reader, const char *parts);
-int32_t hk_scene_add_springs(struct hk_scene_reader *reader, const char *springs);
-int32_t hk_scene_add_bending(struct hk_scene_reader *reader, const char *bending);
-int32_t hk_scene_add_anchors(struct hk_scene_reader *reader, const char *anchors);
-int32_t hk_scene_add_bodies(struct hk_scene_reader *reader, const char *bodies);
-int32_t hk_scene_add_driven(struct hk_scene_reader *reader, const char *driven);
+int32_t hk_scene_add_parts(struct hk_scene_reader *reader, const char *root);
+/* All of hk_scene_lists. */
+int32_t hk_scene_add_lists(struct hk_scene_reader *reader, const char *root);
 
 #endif

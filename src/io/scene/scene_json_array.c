@@ -8,9 +8,11 @@
 #include "io/file/inputs.h"
 #include "io/hdf5/array_h5.h"
 #include "io/scene/scene_file.h"
+#include "model/system.h"
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 static const struct hk_option_row source_rows[] = {
@@ -163,23 +165,33 @@ int32_t hk_scene_read_numbers(struct hk_scene_reader *reader, const char *value,
 static const char particle_allowed[] = "the number of a particle, or [\"part\", index]";
 
 /* Lists "rope0, cloth1", as far as there is space. */
-static void list_parts(const struct hk_part_names *parts, char *names, size_t size) {
+static void list_parts(const hooke_system *system, char *names, size_t size) {
   names[0] = '\0';
-  for (int64_t k = 0; k < parts->count; k++) {
+  for (int64_t k = 0; k < system->part_count; k++) {
     char shown[HOOKE_OPTION_SHOWN];
     const size_t used = strlen(names);
-    hk_option_show(parts->part[k].name, (int64_t)strlen(parts->part[k].name), shown);
+    hk_option_show(system->part[k].name, (int64_t)strlen(system->part[k].name), shown);
     const int fits = used + strlen(shown) + strlen(", , ...") < size;
     snprintf(names + used, size - used, "%s%s", k ? ", " : "", fits ? shown : "...");
     if (!fits) return;
   }
 }
 
+static int compare_name(const void *name, const void *part) {
+  return strcmp(name, (*(const struct hk_part_record *const *)part)->name);
+}
+
+const struct hk_part_record *hk_scene_find_part(const struct hk_scene_reader *reader, const char *name) {
+  const struct hk_part_record *const *found = bsearch(
+      name, reader->part, (size_t)reader->scene->system->part_count, sizeof *reader->part, compare_name);
+  return found ? *found : NULL;
+}
+
 static int32_t find_in_part(const struct hk_scene_reader *reader, const char *name, int64_t index,
                             int64_t *particle) {
   char names[256], shown[HOOKE_OPTION_SHOWN];
   hk_option_show(name, (int64_t)strlen(name), shown);
-  const struct hk_named_part *part = hk_part_names_find(&reader->parts, name);
+  const struct hk_part_record *part = hk_scene_find_part(reader, name);
   if (part && index >= 0 && index < part->count) {
     *particle = part->first + index;
     return HOOKE_OK;
@@ -188,7 +200,7 @@ static int32_t find_in_part(const struct hk_scene_reader *reader, const char *na
     snprintf(names, sizeof names, "part \"%s\" has no particle", shown);
     return hk_fail_index("[1]", names, (double)index, part->count);
   }
-  list_parts(&reader->parts, names, sizeof names);
+  list_parts(reader->scene->system, names, sizeof names);
   return hk_fail(HOOKE_BAD_VALUE, "[0]", "there is no part \"%s\"; allowed: %s", shown,
                  names[0] ? names : "none, as this scene has no parts");
 }

@@ -6,6 +6,7 @@
 #include "io/file/atomic_file.h"
 #include "io/file/inputs.h"
 #include "io/scene/scene.h"
+#include "io/scene/scene_file.h"
 #include "io/scene/scene_words.h"
 #include "io/file/text.h"
 #include "model/callbacks.h"
@@ -124,89 +125,20 @@ static void add_parts(struct hk_text *text, const hooke_system *system) {
   hk_text_close(text, ']');
 }
 
-/* ---- springs ---- */
+/* ---- lists ---- */
 
-enum material { KAPPA, GAMMA, REST_LENGTH };
-
-static double material_of(const struct hk_spring *spring, enum material what) {
-  return what == KAPPA ? spring->kappa : what == GAMMA ? spring->gamma : spring->rest_length;
-}
-
-/* One number if all springs of the group have the same. */
-static void add_material(struct hk_text *text, const char *key, const struct hk_springs *springs,
-                         int64_t first, int64_t count, enum material what) {
-  double one = NAN;
-  for (int32_t pass = 0; pass < 2; pass++) {
-    int32_t same = 1;
-    if (pass == 1) hk_text_open(text, key, '[');
-    for (int64_t r = 0; r < springs->run_count; r++) {
-      const struct hk_run *run = &springs->run[r];
-      if (run->first < first || run->first >= first + count) continue;
-      for (int64_t k = 0; k < run->count; k++) {
-        const struct hk_spring spring = hk_run_spring(run, k);
-        const double value = material_of(&spring, what);
-        if (run->first == first && k == 0) one = value;
-        same &= memcmp(&value, &one, sizeof value) == 0;
-        if (pass == 1) hk_text_number(text, NULL, value);
-      }
-    }
-    if (pass == 0 && same) {
-      hk_text_number(text, key, one);
-      return;
-    }
+/* Particles by their numbers in the scene; those of a member are a row. */
+static void add_numbered(struct hk_text *text, const struct hk_scene_list *list, int64_t count,
+                         const int64_t *wide, const int32_t *narrow, const struct numbering *numbering) {
+  const int64_t columns = list->columns;
+  hk_text_open(text, list->particles, '[');
+  for (int64_t k = 0; k < count; k++) {
+    if (columns && k % columns == 0) hk_text_open(text, NULL, '[');
+    hk_text_number(text, NULL, (double)numbering->number[wide ? wide[k] : narrow[k]]);
+    if (columns && k % columns == columns - 1) hk_text_close(text, ']');
   }
   hk_text_close(text, ']');
 }
-
-static void add_pairs(struct hk_text *text, const struct hk_springs *springs,
-                      const struct numbering *numbering, int64_t first, int64_t count, int32_t *pull_only) {
-  hk_text_open(text, "between", '[');
-  for (int64_t r = 0; r < springs->run_count; r++) {
-    const struct hk_run *run = &springs->run[r];
-    if (run->first < first || run->first >= first + count) continue;
-    for (int64_t k = 0; k < run->count; k++) {
-      const struct hk_spring spring = hk_run_spring(run, k);
-      const double pair[2] = {(double)numbering->number[spring.head], (double)numbering->number[spring.tail]};
-      hk_scene_add_numbers(text, NULL, 2, 0, pair);
-      *pull_only = spring.pull_only;
-    }
-  }
-  hk_text_close(text, ']');
-}
-
-static void add_springs(struct hk_text *text, const hooke_system *system, const struct numbering *numbering) {
-  const struct hk_springs *springs = system->springs;
-  int64_t first = 0;
-  for (int64_t g = 0; g < hk_system_groups_of(system, &hk_force_springs); first += system->group[g++].count) {
-    const struct hk_group *group = &system->group[g];
-    int32_t pull_only = 0;
-    if (group->from_part) continue;
-    hk_text_open(text, NULL, '{');
-    if (group->name[0]) hk_text_word(text, "name", group->name);
-    add_pairs(text, springs, numbering, first, group->count, &pull_only);
-    if (group->count == 0) { /* all its springs were dropped */
-      hk_text_number(text, "stiffness", 0.0);
-    } else if (group->options) {
-      hk_scene_add_options(text, group->options, NULL);
-    } else {
-      hk_text_word(text, "law", "length");
-      add_material(text, "stiffness", springs, first, group->count, KAPPA);
-      add_material(text, "damping", springs, first, group->count, GAMMA);
-      add_material(text, "rest_length", springs, first, group->count, REST_LENGTH);
-      if (pull_only) hk_text_flag(text, "compression", 0);
-    }
-    hk_text_close(text, '}');
-  }
-}
-
-static int32_t has_groups(const hooke_system *system, const struct hk_force_row *force) {
-  int32_t groups = 0;
-  for (int64_t g = 0; g < hk_system_groups_of(system, force); g++)
-    groups |= !hk_system_group(system, force, g)->from_part;
-  return groups;
-}
-
-/* ---- bending and anchors ---- */
 
 /* One number if all are equal to the bit. */
 static void add_shared(struct hk_text *text, const char *key, int64_t count, const double *value) {
@@ -219,133 +151,116 @@ static void add_shared(struct hk_text *text, const char *key, int64_t count, con
     hk_scene_add_numbers(text, key, count, 0, value);
 }
 
-static void add_triples(struct hk_text *text, const struct hk_group *group, const struct numbering *numbering,
-                        const int64_t *particle, const double *coefficient) {
-  hk_text_open(text, NULL, '{');
-  if (group->name[0]) hk_text_word(text, "name", group->name);
-  hk_text_open(text, "triples", '[');
-  for (int64_t k = 0; k < group->count; k++) {
-    double triple[3];
-    for (int e = 0; e < 3; e++)
-      triple[e] = (double)numbering->number[particle[3 * k + e]];
-    hk_scene_add_numbers(text, NULL, 3, 0, triple);
-  }
-  hk_text_close(text, ']');
-  if (group->count == 0) /* all its members were dropped */
-    hk_text_number(text, "coefficient", 0.0);
-  else
-    add_shared(text, "coefficient", group->count, coefficient);
-  hk_text_close(text, '}');
-}
-
-static void add_bending(struct hk_text *text, const hooke_system *system, const struct numbering *numbering) {
-  const int64_t count = hooke_system_count(system, "bending");
-  int64_t *particle = hk_new(3 * count, sizeof *particle), first = 0;
-  double *coefficient = hk_new(count, sizeof *coefficient);
-  if (!particle || !coefficient ||
-      hooke_system_members(system, "bending", particle, coefficient, NULL, NULL) != HOOKE_OK)
-    text->status = HOOKE_NO_MEMORY;
-  hk_text_open(text, "bending", '[');
-  for (int64_t g = 0; text->status == HOOKE_OK && g < hk_system_groups_of(system, &hk_force_bending); g++) {
-    const struct hk_group *group = hk_system_group(system, &hk_force_bending, g);
-    if (!group->from_part) add_triples(text, group, numbering, particle + 3 * first, coefficient + first);
-    first += group->count;
-  }
-  hk_text_close(text, ']');
-  hk_free(coefficient);
-  hk_free(particle);
-}
-
-/* All members of a system, and the first of a group among them. */
-struct anchors {
-  int64_t first, *particle;
-  double *point, *stiffness, *damping, *rest_length;
+/* All members of a force; `first` is the first one of a group. */
+struct members {
+  int64_t first, count, *particle;
+  double *value[3], *point; /* points of anchors */
 };
 
-static void add_anchor_group(struct hk_text *text, const struct hk_group *group,
-                             const struct numbering *numbering, const struct anchors *all) {
-  const int64_t first = all->first, count = group->count;
+static int32_t find_members(const hooke_system *system, const struct hk_scene_list *list,
+                            struct members *all) {
+  const int64_t count = all->count = hooke_system_count(system, list->key);
+  all->particle = hk_new((list->columns > 0 ? list->columns : 1) * count, sizeof *all->particle);
+  double *numbers = all->point = hk_new(6 * count, sizeof *numbers);
+  if (!all->particle || !numbers) return HOOKE_NO_MEMORY;
+  for (int k = 0; k < 3; k++)
+    all->value[k] = numbers + (3 + k) * count;
+  if (hk_force_find(list->key) == &hk_force_anchor) hooke_system_anchor_points(system, all->point);
+  return hooke_system_members(system, list->key, all->particle, all->value[0], all->value[1], all->value[2]);
+}
+
+static void add_group(struct hk_text *text, const struct hk_scene_list *list, const struct hk_group *group,
+                      const struct numbering *numbering, const struct members *all) {
+  const int64_t first = all->first, width = list->columns > 0 ? list->columns : 1;
   hk_text_open(text, NULL, '{');
   if (group->name[0]) hk_text_word(text, "name", group->name);
-  hk_text_open(text, "particles", '[');
-  for (int64_t k = first; k < first + count; k++)
-    hk_text_number(text, NULL, (double)numbering->number[all->particle[k]]);
-  hk_text_close(text, ']');
-  if (count == 0) { /* all its members were dropped */
-    hk_text_number(text, "stiffness", 0.0);
+  add_numbered(text, list, group->count * width, all->particle + first * width, NULL, numbering);
+  if (group->count == 0) { /* all its members were dropped */
+    hk_text_number(text, list->values[0], 0.0);
+  } else if (group->options) {
+    hk_scene_add_options(text, group->options, NULL);
   } else {
-    hk_scene_add_numbers(text, "points", 3 * count, 3, all->point + 3 * first);
-    add_shared(text, "stiffness", count, all->stiffness + first);
-    add_shared(text, "damping", count, all->damping + first);
-    add_shared(text, "rest_length", count, all->rest_length + first);
+    if (group->force == &hk_force_springs) hk_text_word(text, "law", "length");
+    if (group->force == &hk_force_anchor)
+      hk_scene_add_numbers(text, "points", 3 * group->count, 3, all->point + 3 * first);
+    for (int k = 0; k < 3 && list->values[k]; k++)
+      add_shared(text, list->values[k], group->count, all->value[k] + first);
+    if (group->pull_only) hk_text_flag(text, "compression", 0);
   }
   hk_text_close(text, '}');
 }
 
-static void add_anchors(struct hk_text *text, const hooke_system *system, const struct numbering *numbering) {
-  const int64_t count = hooke_system_count(system, "anchors");
-  double *number = hk_new(6 * count, sizeof *number);
-  struct anchors all = {0,
-                        hk_new(count, sizeof *all.particle),
-                        number,
-                        number + 3 * count,
-                        number + 4 * count,
-                        number + 5 * count};
-  if (number && all.particle) {
-    hooke_system_members(system, "anchors", all.particle, all.stiffness, all.damping, all.rest_length);
-    hooke_system_anchor_points(system, all.point);
-    hk_text_open(text, "anchors", '[');
-    for (int64_t g = 0; g < hk_system_groups_of(system, &hk_force_anchor); g++) {
-      const struct hk_group *group = hk_system_group(system, &hk_force_anchor, g);
-      add_anchor_group(text, group, numbering, &all);
-      all.first += group->count;
-    }
-    hk_text_close(text, ']');
-  } else {
-    text->status = HOOKE_NO_MEMORY;
-  }
-  hk_free(number);
-  hk_free(all.particle);
+static int32_t has_groups(const hooke_system *system, const struct hk_force_row *force) {
+  int32_t groups = 0;
+  for (int64_t g = 0; g < hk_system_groups_of(system, force); g++)
+    groups |= !hk_system_group(system, force, g)->from_part;
+  return groups;
 }
 
-/* ---- bodies ---- */
+static void add_groups(struct hk_text *text, const hooke_system *system, const struct hk_scene_list *list,
+                       const struct numbering *numbering) {
+  const struct hk_force_row *force = hk_force_find(list->key);
+  struct members all = {0};
+  if (!has_groups(system, force)) return;
+  const int32_t status = find_members(system, list, &all);
+  if (status != HOOKE_OK) text->status = status;
+  hk_text_open(text, list->key, '[');
+  for (int64_t g = 0; status == HOOKE_OK && g < hk_system_groups_of(system, force); g++) {
+    const struct hk_group *group = hk_system_group(system, force, g);
+    if (!group->from_part) add_group(text, list, group, numbering, &all);
+    all.first += group->count;
+  }
+  hk_text_close(text, ']');
+  hk_free(all.particle);
+  hk_free(all.point);
+}
 
-static void add_bodies(struct hk_text *text, const hooke_system *system, const struct numbering *numbering) {
+static void add_bodies(struct hk_text *text, const hooke_system *system, const struct hk_scene_list *list,
+                       const struct numbering *numbering) {
   int32_t open = 0;
   for (int64_t k = 0; k < system->bodies->count; k++) {
     const struct hk_body *body = &system->bodies->body[k];
     if (body->part >= 0) continue; /* its part says so */
-    if (!open++) hk_text_open(text, "bodies", '[');
+    if (!open++) hk_text_open(text, list->key, '[');
     hk_text_open(text, NULL, '{');
     if (body->name[0]) hk_text_word(text, "name", body->name);
-    hk_text_open(text, "particles", '[');
-    for (int64_t i = 0; i < body->count; i++)
-      hk_text_number(text, NULL, (double)numbering->number[body->particle[i]]);
-    hk_text_close(text, ']');
+    add_numbered(text, list, body->count, NULL, body->particle, numbering);
     hk_text_close(text, '}');
   }
   if (open) hk_text_close(text, ']');
 }
 
-/* ---- drives ---- */
-
-static void add_drive(struct hk_text *text, const struct hk_drive_group *drive,
-                      const struct numbering *numbering) {
-  hk_text_open(text, NULL, '{');
-  hk_text_open(text, "particles", '[');
-  for (int64_t k = 0; k < drive->count; k++)
-    hk_text_number(text, NULL, (double)numbering->number[drive->particle[k]]);
-  hk_text_close(text, ']');
-  hk_text_word(text, "motion", drive->kind == HOOKE_DRIVE_TABLE ? "table" : "harmonic");
-  if (drive->kind == HOOKE_DRIVE_TABLE) {
-    hk_scene_add_numbers(text, "time", drive->samples, 0, drive->time);
-    hk_scene_add_numbers(text, "position", 3 * drive->samples, 3, drive->displacement);
-  } else {
-    hk_scene_add_numbers(text, "amplitude", 3, 0, drive->amplitude);
-    hk_text_number(text, "frequency", drive->frequency);
-    hk_text_number(text, "phase", drive->phase);
+static void add_drives(struct hk_text *text, const hooke_system *system, const struct hk_scene_list *list,
+                       const struct numbering *numbering) {
+  if (system->drive_count == 0) return;
+  hk_text_open(text, list->key, '[');
+  for (int64_t k = 0; k < system->drive_count; k++) {
+    const struct hk_drive_group *drive = &system->drive[k];
+    hk_text_open(text, NULL, '{');
+    add_numbered(text, list, drive->count, NULL, drive->particle, numbering);
+    hk_text_word(text, "motion", drive->kind == HOOKE_DRIVE_TABLE ? "table" : "harmonic");
+    if (drive->kind == HOOKE_DRIVE_TABLE) {
+      hk_scene_add_numbers(text, "time", drive->samples, 0, drive->time);
+      hk_scene_add_numbers(text, "position", 3 * drive->samples, 3, drive->displacement);
+    } else {
+      hk_scene_add_numbers(text, "amplitude", 3, 0, drive->amplitude);
+      hk_text_number(text, "frequency", drive->frequency);
+      hk_text_number(text, "phase", drive->phase);
+    }
+    hk_text_close(text, '}');
   }
-  hk_text_close(text, '}');
+  hk_text_close(text, ']');
+}
+
+static void add_lists(struct hk_text *text, const hooke_system *system, const struct numbering *numbering) {
+  for (const struct hk_scene_list *list = hk_scene_lists; list->key; list++) {
+    if (list->values[0])
+      add_groups(text, system, list, numbering);
+    else if (strcmp(list->key, "bodies") == 0)
+      add_bodies(text, system, list, numbering);
+    else
+      add_drives(text, system, list, numbering);
+  }
 }
 
 /* Reports features that a scene cannot express. */
@@ -380,19 +295,8 @@ static void add_scene(struct hk_text *text, const hooke_system *system, const ch
   if (hk_system_has_gravity(system)) hk_scene_add_numbers(text, "gravity", 3, 0, hk_system_gravity(system));
   if (hk_system_drag(system) != 0.0) hk_text_number(text, "drag", hk_system_drag(system));
   if (numbering->alone > 0) add_particles(text, system, numbering);
-  if (has_groups(system, &hk_force_springs)) {
-    hk_text_open(text, "springs", '[');
-    add_springs(text, system, numbering);
-    hk_text_close(text, ']');
-  }
-  if (has_groups(system, &hk_force_bending)) add_bending(text, system, numbering);
   if (system->part_count > 0) add_parts(text, system);
-  if (hk_system_groups_of(system, &hk_force_anchor) > 0) add_anchors(text, system, numbering);
-  add_bodies(text, system, numbering);
-  if (system->drive_count > 0) hk_text_open(text, "driven", '[');
-  for (int64_t k = 0; k < system->drive_count; k++)
-    add_drive(text, &system->drive[k], numbering);
-  if (system->drive_count > 0) hk_text_close(text, ']');
+  add_lists(text, system, numbering);
   if (run) {
     hk_text_open(text, "run", '{');
     hk_scene_add_options(text, run, NULL);
