@@ -12,7 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { DEEPEST = 32, LONGEST_ESCAPE = 12, SAFE_LENGTH = 300 };
+enum { DEEPEST = 32, SHORT_ESCAPE = 6, LONGEST_ESCAPE = 12, SAFE_LENGTH = 300 };
 
 struct scan {
   const char *at, *end;
@@ -24,19 +24,20 @@ static const char bare[] = "0123456789+-._abcdefghijklmnopqrstuvwxyzABCDEFGHIJKL
 
 /* ---- faults ---- */
 
-/* Shows a word as it is, and of a text its beginning. */
+/* Shows a word or an escape, or the beginning of a text. */
 static void show(const struct scan *scan, char *shown) {
-  int64_t length = (int64_t)strspn(scan->at, bare);
-  if (*scan->at == '"') {
-    length = 1 + (int64_t)strcspn(scan->at + 1, "\"\n");
-    length += scan->at[length] == '"';
-  }
+  const int32_t quoted = *scan->at == '"', escape = *scan->at == '\\';
+  const char *after = scan->at + (quoted || escape);
+  int64_t length = after - scan->at + (int64_t)(quoted ? strcspn(after, "\"\n") : strspn(after, bare));
+  if (quoted && scan->at[length] == '"') length++;
+  if (escape && length > SHORT_ESCAPE) length = SHORT_ESCAPE;
   if (length == 0) length = hk_utf8_character(scan->at, scan->end - scan->at);
   hk_option_show(scan->at, length, shown);
 }
 
 /* Fails with what is at the place, which is not `allowed` there. */
 static int32_t refuse(const struct scan *scan, const char *allowed) {
+  static const char byte_order_mark[] = "\xEF\xBB\xBF";
   char shown[HOOKE_OPTION_SHOWN] = "a comment";
   if (scan->at == scan->end)
     return hk_fail(HOOKE_BAD_VALUE, NULL, "the text ends too early; allowed: one whole JSON object");
@@ -44,20 +45,11 @@ static int32_t refuse(const struct scan *scan, const char *allowed) {
   if (hk_utf8_character(scan->at, scan->end - scan->at) == 0)
     return hk_fail(HOOKE_BAD_VALUE, NULL, "byte 0x%02x is not UTF-8; allowed: JSON in UTF-8",
                    (unsigned char)*scan->at);
-  if (*scan->at != '/') show(scan, shown);
+  if (strncmp(scan->at, byte_order_mark, strlen(byte_order_mark)) == 0)
+    strcpy(shown, "a byte order mark");
+  else if (*scan->at != '/')
+    show(scan, shown);
   return hk_fail(HOOKE_BAD_VALUE, NULL, "%s is not JSON here; allowed: %s", shown, allowed);
-}
-
-static int32_t refuse_start(const struct scan *scan) {
-  static const char mark[] = "\xEF\xBB\xBF";
-  char shown[HOOKE_OPTION_SHOWN];
-  if (scan->at == scan->end)
-    return hk_fail(HOOKE_BAD_VALUE, NULL, "is empty; allowed: one JSON object, starting with {");
-  if (*scan->at == '\0' || hk_utf8_character(scan->at, scan->end - scan->at) == 0) return refuse(scan, "");
-  const int32_t marked = strncmp(scan->at, mark, strlen(mark)) == 0;
-  hk_option_show(scan->at, hk_utf8_character(scan->at, scan->end - scan->at), shown);
-  return hk_fail(HOOKE_BAD_VALUE, NULL, "starts with %s%s%s; allowed: one JSON object, starting with {",
-                 marked ? "" : "\"", marked ? "a byte order mark" : shown, marked ? "" : "\"");
 }
 
 /* ---- texts ---- */
@@ -81,24 +73,11 @@ static uint32_t read_escape(const char *at, int64_t *length) {
   *length = 2;
   if (name) return (unsigned char)meant[name - names];
   const uint32_t first = read_hexadecimal(at);
-  *length = 6;
+  *length = SHORT_ESCAPE;
   if (first < 0xD800 || first > 0xDFFF) return first;
   const uint32_t second = first < 0xDC00 ? read_hexadecimal(at + 6) : 0;
-  *length = 12;
+  *length = LONGEST_ESCAPE;
   return second >= 0xDC00 && second <= 0xDFFF ? 0x10000 + ((first - 0xD800) << 10) + (second - 0xDC00) : 0;
-}
-
-static int32_t refuse_escape(const struct scan *scan) {
-  char shown[HOOKE_OPTION_SHOWN];
-  int64_t length = 1;
-  while (length < 6 && (unsigned char)scan->at[length] > ' ')
-    length++;
-  if (strncmp(scan->at, "\\u0000", 6) == 0)
-    return hk_fail(HOOKE_BAD_VALUE, NULL,
-                   "the character \\u0000 in a text; allowed: texts without the character \\u0000");
-  hk_option_show(scan->at, length, shown);
-  return hk_fail(HOOKE_BAD_VALUE, NULL,
-                 "%s is not JSON; allowed: \\n, \\u00e9 or \\ud83d\\ude00 and their like", shown);
 }
 
 static int32_t scan_text(struct scan *scan) {
@@ -108,7 +87,8 @@ static int32_t scan_text(struct scan *scan) {
     if (c == '\0' || length == 0) return refuse(scan, "");
     if (c < ' ')
       return hk_fail(HOOKE_BAD_VALUE, NULL, "control character 0x%02x in a text; allowed: \\u%04x", c, c);
-    if (c == '\\' && read_escape(scan->at, &length) == 0) return refuse_escape(scan);
+    if (c == '\\' && read_escape(scan->at, &length) == 0)
+      return refuse(scan, "an escape of a character, which is neither U+0000 nor half of a pair");
     scan->at += length;
   }
   scan->at++;
@@ -264,9 +244,12 @@ static int32_t scan_value(struct scan *scan, char within) {
 }
 
 static int32_t check(const char *text, int64_t length, const char **at) {
-  struct scan scan = {text, text + length, 0};
-  scan.at = hk_json_skip_blanks(scan.at);
-  int32_t status = *scan.at == '{' ? scan_value(&scan, '\0') : refuse_start(&scan);
+  struct scan scan = {hk_json_skip_blanks(text), text + length, 0};
+  *at = scan.at;
+  if (scan.at == scan.end)
+    return hk_fail(HOOKE_BAD_VALUE, NULL, "is empty; allowed: one JSON object, starting with {");
+  int32_t status =
+      *scan.at == '{' ? scan_value(&scan, '\0') : refuse(&scan, "one JSON object, starting with {");
   if (status == HOOKE_OK) scan.at = hk_json_skip_blanks(scan.at);
   if (status == HOOKE_OK && scan.at < scan.end)
     status =

@@ -24,11 +24,8 @@ int32_t hk_scene_build(hooke_scene *scene, const char *folder);
  * fault is a key and not its value. Returns `status`. */
 int32_t hk_scene_place(int32_t status, const hooke_scene *scene, int32_t at_key);
 
-/* True if a text is a scene that names files; the caller then frees its title. HOOKE_NO_MEMORY. */
-int32_t hk_scene_names_files(const char *text, int32_t *names, char **title);
-
 /* The scene to store with a run of `system` by the options `run`. `whole` is NULL if `text`, which may be
- * NULL, suffices. If it names files, `whole` is a text with their numbers, which the caller frees, so that
+ * NULL, suffices. If `system` was read from files that it names, `whole` is a text with their numbers, which the caller frees, so that
  * the run can be continued and verified without the files. A system that no scene can hold, such as one with
  * callbacks, keeps its text. HOOKE_NO_MEMORY. */
 int32_t hk_scene_make_whole(const char *text, const hooke_system *system, const hooke_options *run,

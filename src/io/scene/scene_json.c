@@ -114,28 +114,3 @@ int32_t hk_scene_build(hooke_scene *scene, const char *folder) {
   hk_free(reader.part);
   return status;
 }
-
-/* ---- files ---- */
-
-static int32_t names_file(const char *value) {
-  if (hk_json_text(hk_json_get(value, "file"))) return 1;
-  for (const char *item = hk_json_first(value); item; item = hk_json_next(item))
-    if (names_file(*value == '{' ? hk_json_member(item) : item)) return 1;
-  return 0;
-}
-
-int32_t hk_scene_names_files(const char *text, int32_t *names, char **title) {
-  char *json = NULL;
-  const char *at;
-  *names = 0;
-  *title = NULL;
-  if (strstr(text, "\"file\"") == NULL) return HOOKE_OK; /* covers most scenes without parsing */
-  int32_t status = hk_json_open(text, (int64_t)strlen(text), &json, &at);
-  if (status != HOOKE_OK) return status == HOOKE_NO_MEMORY ? status : HOOKE_OK;
-  const char *root = hk_json_find(json, "", 0);
-  *names = names_file(root);
-  if (*names && (*title = hk_copy_text(hk_json_text(hk_json_get(root, "title")))) == NULL)
-    status = HOOKE_NO_MEMORY;
-  hk_free(json);
-  return status;
-}

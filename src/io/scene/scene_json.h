@@ -5,6 +5,7 @@
 #include "core/table/option.h"
 #include "io/scene/json.h"
 #include "io/scene/scene.h"
+#include "io/scene/scene_file.h"
 #include "model/part_record.h"
 
 enum { HOOKE_SCENE_MOST_FAULTS = 20 };
@@ -63,9 +64,9 @@ int32_t hk_scene_read_numbers(struct hk_scene_reader *reader, const char *value,
 /* The part of a name; NULL if there is none. */
 const struct hk_part_record *hk_scene_find_part(const struct hk_scene_reader *reader, const char *name);
 
-/* Particle numbers: `columns` in each row (0: a flat list), each a number or ["part", index]. */
-int32_t hk_scene_read_particles(struct hk_scene_reader *reader, const char *value, int32_t columns,
-                                int64_t **particles, int64_t *count);
+/* The particles of a list, each a number or ["part", index], which the caller frees. */
+int32_t hk_scene_read_particles(struct hk_scene_reader *reader, const char *value,
+                                const struct hk_scene_list *list, int64_t **particles, int64_t *count);
 
 /* ---- scene_json_pieces.c: add to the system what is under keys of the scene ---- */
 

@@ -93,7 +93,6 @@ int32_t hk_scene_is_quantity(const char *value, const struct hk_option_row *row)
   return found.whole > found.number && found.whole == length;
 }
 
-/* `unit` is the base of the units so far. */
 static int32_t read_number(const char *value, const struct hk_option_row *row, double *number,
                            const char **unit) {
   const int32_t whole = row->whole;
@@ -103,61 +102,6 @@ static int32_t read_number(const char *value, const struct hk_option_row *row, d
   if (whole ? !hk_json_is_integer(value) : !hk_json_is_number(value))
     return hk_scene_refuse(value, NULL, whole ? "a whole number, without a point" : "a number");
   return hk_json_number(value, number);
-}
-
-static int32_t require_row(const char *value, int64_t columns, const char *what) {
-  if (hk_json_is(value, '[') && hk_json_count(value) == columns) return HOOKE_OK;
-  char allowed[64];
-  snprintf(allowed, sizeof allowed, "a row of %lld %s", (long long)columns, what);
-  return hk_scene_refuse(value, NULL, allowed);
-}
-
-static int32_t read_list(const char *value, const struct hk_option_row *row, double *numbers,
-                         const char **unit) {
-  int64_t k = 0;
-  for (const char *item = hk_json_first(value); item; item = hk_json_next(item), k++) {
-    int32_t status = read_number(item, row, &numbers[k], unit);
-    if (status) return hk_fail_within(status, "[%lld]", (long long)k);
-  }
-  return HOOKE_OK;
-}
-
-static int32_t read_rows(const char *value, const struct hk_option_row *row, double *numbers,
-                         const char **unit) {
-  int64_t r = 0;
-  for (const char *line = hk_json_first(value); line; line = hk_json_next(line), r++) {
-    int32_t status = require_row(line, row->columns, row->whole ? "whole numbers" : "numbers");
-    if (status == HOOKE_OK) status = read_list(line, row, numbers + r * row->columns, unit);
-    if (status) return hk_fail_within(status, "[%lld]", (long long)r);
-  }
-  return HOOKE_OK;
-}
-
-int32_t hk_scene_read_numbers(struct hk_scene_reader *reader, const char *value,
-                              const struct hk_option_row *row, double **numbers, int64_t *count,
-                              const char **unit) {
-  int32_t status;
-  *numbers = NULL;
-  *count = 1;
-  if (hk_json_is(value, '{')) {
-    status = numbers_from_file(reader, value, row->columns, row->whole, numbers, count);
-  } else {
-    int64_t columns = row->columns > 1 ? row->columns : 1;
-    if (hk_json_is(value, '[')) *count = columns * hk_json_count(value);
-    *numbers = hk_new(*count, sizeof(double));
-    if (*numbers == NULL) return HOOKE_NO_MEMORY;
-    if (!hk_json_is(value, '['))
-      status = read_number(value, row, *numbers, unit);
-    else if (row->columns > 1)
-      status = read_rows(value, row, *numbers, unit);
-    else
-      status = read_list(value, row, *numbers, unit);
-  }
-  if (status) {
-    hk_free(*numbers);
-    *numbers = NULL;
-  }
-  return status;
 }
 
 /* ---- particles ---- */
@@ -188,12 +132,12 @@ const struct hk_part_record *hk_scene_find_part(const struct hk_scene_reader *re
 }
 
 static int32_t find_in_part(const struct hk_scene_reader *reader, const char *name, int64_t index,
-                            int64_t *particle) {
+                            double *particle) {
   char names[256], shown[HOOKE_OPTION_SHOWN];
   hk_option_show(name, (int64_t)strlen(name), shown);
   const struct hk_part_record *part = hk_scene_find_part(reader, name);
   if (part && index >= 0 && index < part->count) {
-    *particle = part->first + index;
+    *particle = (double)(part->first + index);
     return HOOKE_OK;
   }
   if (part) {
@@ -205,7 +149,7 @@ static int32_t find_in_part(const struct hk_scene_reader *reader, const char *na
                  names[0] ? names : "none, as this scene has no parts");
 }
 
-static int32_t read_particle(const struct hk_scene_reader *reader, const char *value, int64_t *particle) {
+static int32_t read_particle(const struct hk_scene_reader *reader, const char *value, double *particle) {
   if (hk_json_is(value, '[')) {
     const char *name = hk_json_first(value), *index = name ? hk_json_next(name) : NULL;
     if (hk_json_count(value) == 2 && hk_json_is(name, '"') && hk_json_is_integer(index))
@@ -213,68 +157,94 @@ static int32_t read_particle(const struct hk_scene_reader *reader, const char *v
     return hk_scene_refuse(value, NULL, particle_allowed);
   }
   if (!hk_json_is_integer(value)) return hk_scene_refuse(value, NULL, particle_allowed);
-  int64_t count = hooke_system_particle_count(reader->scene->system);
-  *particle = hk_json_integer(value);
-  if (*particle >= 0 && *particle < count) return HOOKE_OK;
-  return hk_fail_index(NULL, "there is no particle", (double)*particle, count);
+  const int64_t count = hooke_system_particle_count(reader->scene->system), number = hk_json_integer(value);
+  *particle = (double)number;
+  if (number >= 0 && number < count) return HOOKE_OK;
+  return hk_fail_index(NULL, "there is no particle", *particle, count);
 }
 
-/* Converts numbers to particles in place: large scenes have no memory for both. */
-static int32_t particles_from_file(struct hk_scene_reader *reader, const char *value, int32_t columns,
-                                   int64_t **particles, int64_t *count) {
-  _Static_assert(sizeof(int64_t) == sizeof(double), "one takes the place of the other");
-  double *numbers = NULL;
-  int32_t status = numbers_from_file(reader, value, columns, 1, &numbers, count);
-  const int64_t particle_count = hooke_system_particle_count(reader->scene->system);
-  char *place = (char *)numbers;
-  for (int64_t k = 0; status == HOOKE_OK && k < *count; k++, place += sizeof(double)) {
-    double number;
-    memcpy(&number, place, sizeof number);
-    if (number < 0 || number >= (double)particle_count) {
-      status = hk_fail_index("dataset", "there is no particle", number, particle_count);
-    } else {
-      const int64_t particle = (int64_t)number;
-      memcpy(place, &particle, sizeof particle);
-    }
-  }
-  *particles = (void *)numbers; /* released by the caller if this failed */
-  return status;
+/* ---- arrays ---- */
+
+/* What an array is made of: numbers of a row, or particles. */
+struct items {
+  struct hk_scene_reader *reader;
+  const struct hk_option_row *row;
+  const char **unit; /* the base of the units so far */
+  int32_t particles;
+};
+
+static int32_t refuse_row(const struct items *items, const char *value) {
+  char allowed[80];
+  snprintf(allowed, sizeof allowed, "a row of %d %s", (int)items->row->columns,
+           items->particles    ? "particles, numbers or [\"part\", index]"
+           : items->row->whole ? "whole numbers"
+                               : "numbers");
+  return hk_scene_refuse(value, NULL, allowed);
 }
 
-/* A flat list, or rows of `columns`. */
-static int32_t particles_from_array(const struct hk_scene_reader *reader, const char *value, int32_t columns,
-                                    int64_t *particles) {
+/* Fills an array, flat or in rows of `columns`. */
+static int32_t read_items(const struct items *items, const char *value, int64_t columns, double *numbers) {
   int64_t k = 0;
   for (const char *item = hk_json_first(value); item; item = hk_json_next(item), k++) {
-    int32_t status;
-    if (columns == 0)
-      status = read_particle(reader, item, &particles[k]);
+    int32_t status = HOOKE_OK;
+    if (columns <= 1)
+      status = items->particles ? read_particle(items->reader, item, &numbers[k])
+                                : read_number(item, items->row, &numbers[k], items->unit);
+    else if (!hk_json_is(item, '[') || hk_json_count(item) != columns)
+      status = refuse_row(items, item);
     else
-      status = require_row(item, columns, "particles, numbers or [\"part\", index]");
-    if (status == HOOKE_OK && columns > 0)
-      status = particles_from_array(reader, item, 0, &particles[k * columns]);
+      status = read_items(items, item, 1, &numbers[k * columns]);
     if (status) return hk_fail_within(status, "[%lld]", (long long)k);
   }
   return HOOKE_OK;
 }
 
-int32_t hk_scene_read_particles(struct hk_scene_reader *reader, const char *value, int32_t columns,
-                                int64_t **particles, int64_t *count) {
+static int32_t read_values(const struct items *items, const char *value, double **numbers, int64_t *count) {
+  const int64_t columns = items->row->columns > 1 ? items->row->columns : 1;
   int32_t status;
-  *particles = NULL;
-  *count = 0;
+  *numbers = NULL;
   if (hk_json_is(value, '{')) {
-    status = particles_from_file(reader, value, columns, particles, count);
+    status = numbers_from_file(items->reader, value, items->row->columns, items->row->whole, numbers, count);
   } else {
-    status = hk_scene_require(value, '[', NULL, columns ? "an array of pairs" : "an array of particles");
-    if (status) return status;
-    *count = hk_json_count(value) * (columns ? columns : 1);
-    *particles = hk_new(*count, sizeof(int64_t));
-    status = *particles ? particles_from_array(reader, value, columns, *particles) : HOOKE_NO_MEMORY;
+    *count = hk_json_is(value, '[') ? columns * hk_json_count(value) : 1;
+    *numbers = hk_new(*count, sizeof(double));
+    if (*numbers == NULL) return HOOKE_NO_MEMORY;
+    status = hk_json_is(value, '[') ? read_items(items, value, columns, *numbers)
+                                    : read_number(value, items->row, *numbers, items->unit);
   }
   if (status) {
-    hk_free(*particles);
-    *particles = NULL;
+    hk_free(*numbers);
+    *numbers = NULL;
   }
+  return status;
+}
+
+int32_t hk_scene_read_numbers(struct hk_scene_reader *reader, const char *value,
+                              const struct hk_option_row *row, double **numbers, int64_t *count,
+                              const char **unit) {
+  const struct items items = {reader, row, unit, 0};
+  return read_values(&items, value, numbers, count);
+}
+
+/* Numbers become particles in place: large scenes have no memory for both. */
+int32_t hk_scene_read_particles(struct hk_scene_reader *reader, const char *value,
+                                const struct hk_scene_list *list, int64_t **particles, int64_t *count) {
+  _Static_assert(sizeof(int64_t) == sizeof(double), "one takes the place of the other");
+  const struct hk_option_row row = {.columns = list->columns, .whole = 1};
+  const struct items items = {reader, &row, NULL, 1};
+  const int64_t particle_count = hooke_system_particle_count(reader->scene->system);
+  double *numbers = NULL, number;
+  if (!hk_json_is(value, '[') && !hk_json_is(value, '{')) return hk_scene_refuse(value, NULL, list->allowed);
+  int32_t status = read_values(&items, value, &numbers, count);
+  char *place = (char *)numbers;
+  for (int64_t k = 0; status == HOOKE_OK && k < *count; k++, place += sizeof(double)) {
+    memcpy(&number, place, sizeof number);
+    if (number < 0 || number >= (double)particle_count)
+      status = hk_fail_index("dataset", "there is no particle", number, particle_count);
+    const int64_t particle = status == HOOKE_OK ? (int64_t)number : 0;
+    memcpy(place, &particle, sizeof particle);
+  }
+  if (status) hk_free(numbers);
+  *particles = status ? NULL : (void *)numbers;
   return status;
 }

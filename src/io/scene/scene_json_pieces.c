@@ -204,7 +204,7 @@ static int32_t read_particles(struct hk_scene_reader *reader, const char *object
   if (part) return list_part(reader, part, particles, count);
   if (value == NULL)
     return hk_fail(HOOKE_BAD_VALUE, list->particles, "is required but missing; allowed: %s", list->allowed);
-  const int32_t status = hk_scene_read_particles(reader, value, list->columns, particles, count);
+  const int32_t status = hk_scene_read_particles(reader, value, list, particles, count);
   return status == HOOKE_OK ? status : hk_fail_within(status, "%s", list->particles);
 }
 

@@ -5,6 +5,7 @@
 #include "hooke/scene.h"
 #include "io/file/atomic_file.h"
 #include "io/file/inputs.h"
+#include "io/scene/json.h"
 #include "io/scene/scene.h"
 #include "io/scene/scene_file.h"
 #include "io/scene/scene_words.h"
@@ -46,57 +47,64 @@ static int32_t find_numbers(const hooke_system *system, struct numbering *number
   return HOOKE_OK;
 }
 
-/* ---- particles ---- */
-
-static void add_rows(struct hk_text *text, const char *key, const hooke_system *system,
-                     const struct numbering *numbering, const double *value) {
-  hk_text_open(text, key, '[');
-  for (int64_t p = 0; p < system->particle_count; p++) {
-    if (!numbering->in_part[p]) hk_scene_add_numbers(text, NULL, 3, 0, value + 3 * p);
-  }
-  hk_text_close(text, ']');
+/* One number if all are equal to the bit. */
+static void add_shared(struct hk_text *text, const char *key, int64_t count, const double *value) {
+  int64_t same = 1;
+  while (same < count && memcmp(&value[same], &value[0], sizeof *value) == 0)
+    same++;
+  if (same == count)
+    hk_text_number(text, key, value[0]);
+  else
+    hk_scene_add_numbers(text, key, count, 0, value);
 }
 
-static void add_masses(struct hk_text *text, const hooke_system *system, const struct numbering *numbering) {
-  int64_t first = 0;
-  int32_t same = 1;
-  while (numbering->in_part[first])
-    first++;
-  for (int64_t p = first; p < system->particle_count; p++)
-    same &= numbering->in_part[p] ||
-            memcmp(&hk_system_masses(system)[p], &hk_system_masses(system)[first], sizeof(double)) == 0;
-  if (hk_system_masses(system)[first] == 0.0) return; /* not given */
-  if (same) {
-    hk_text_number(text, "mass", hk_system_masses(system)[first]);
-    return;
+/* ---- particles ---- */
+
+/* The rows of particles of no part, each of `columns` numbers. */
+static void take_alone(const hooke_system *system, const struct numbering *numbering, int32_t columns,
+                       const double *value, double *rows) {
+  for (int64_t p = 0; p < system->particle_count; p++) {
+    if (numbering->in_part[p]) continue;
+    memcpy(rows, value + columns * p, (size_t)columns * sizeof *rows);
+    rows += columns;
   }
-  hk_text_open(text, "mass", '[');
-  for (int64_t p = first; p < system->particle_count; p++) {
-    if (!numbering->in_part[p]) hk_text_number(text, NULL, hk_system_masses(system)[p]);
+}
+
+static int32_t is_moving(int64_t count, const double *velocity) {
+  for (int64_t k = 0; k < count; k++)
+    if (velocity[k] != 0.0 || signbit(velocity[k])) return 1;
+  return 0;
+}
+
+static void add_pinned(struct hk_text *text, const hooke_system *system, const struct numbering *numbering) {
+  int32_t open = 0;
+  for (int64_t p = 0; p < system->particle_count; p++) {
+    if (numbering->in_part[p] || system->constrained[p] != HOOKE_IS_PINNED) continue;
+    if (!open++) hk_text_open(text, "pinned", '[');
+    hk_text_number(text, NULL, (double)numbering->number[p]);
   }
-  hk_text_close(text, ']');
+  if (open) hk_text_close(text, ']');
 }
 
 static void add_particles(struct hk_text *text, const hooke_system *system,
                           const struct numbering *numbering) {
-  int64_t moving = 0, pinned = 0;
-  for (int64_t p = 0; p < system->particle_count; p++) {
-    if (numbering->in_part[p]) continue;
-    for (int a = 0; a < 3 && system->velocity; a++)
-      moving += system->velocity[3 * p + a] != 0.0 || signbit(system->velocity[3 * p + a]);
-    pinned += system->constrained[p] == HOOKE_IS_PINNED;
+  const int64_t count = numbering->alone;
+  double *rows = hk_new(3 * count, sizeof *rows);
+  if (rows == NULL) {
+    text->status = HOOKE_NO_MEMORY;
+    return;
   }
   hk_text_open(text, "particles", '{');
-  add_rows(text, "position", system, numbering, system->position);
-  if (moving) add_rows(text, "velocity", system, numbering, system->velocity);
-  add_masses(text, system, numbering);
-  if (pinned) hk_text_open(text, "pinned", '[');
-  for (int64_t p = 0; p < system->particle_count && pinned; p++) {
-    if (!numbering->in_part[p] && system->constrained[p] == HOOKE_IS_PINNED)
-      hk_text_number(text, NULL, (double)numbering->number[p]);
-  }
-  if (pinned) hk_text_close(text, ']');
+  take_alone(system, numbering, 3, system->position, rows);
+  hk_scene_add_numbers(text, "position", 3 * count, 3, rows);
+  if (system->velocity) take_alone(system, numbering, 3, system->velocity, rows);
+  if (system->velocity && is_moving(3 * count, rows))
+    hk_scene_add_numbers(text, "velocity", 3 * count, 3, rows);
+  take_alone(system, numbering, 1, hk_system_masses(system), rows);
+  if (rows[0] != 0.0) add_shared(text, "mass", count, rows); /* 0: not given */
+  add_pinned(text, system, numbering);
   hk_text_close(text, '}');
+  hk_free(rows);
 }
 
 /* ---- parts ---- */
@@ -138,17 +146,6 @@ static void add_numbered(struct hk_text *text, const struct hk_scene_list *list,
     if (columns && k % columns == columns - 1) hk_text_close(text, ']');
   }
   hk_text_close(text, ']');
-}
-
-/* One number if all are equal to the bit. */
-static void add_shared(struct hk_text *text, const char *key, int64_t count, const double *value) {
-  int64_t same = 1;
-  while (same < count && memcmp(&value[same], &value[0], sizeof *value) == 0)
-    same++;
-  if (same == count)
-    hk_text_number(text, key, value[0]);
-  else
-    hk_scene_add_numbers(text, key, count, 0, value);
 }
 
 /* All members of a force; `first` is the first one of a group. */
@@ -346,20 +343,19 @@ int32_t hooke_scene_of_system(const hooke_system *system, const char *title, con
 int32_t hk_scene_make_whole(const char *text, const hooke_system *system, const hooke_options *run,
                             char **whole) {
   struct hk_text laid = {.bytes = NULL};
-  char *title = NULL;
-  int32_t names = 0;
+  char *json = NULL;
+  const char *at;
   *whole = NULL;
-  int32_t status = text ? hk_scene_names_files(text, &names, &title) : HOOKE_OK;
-  if (status == HOOKE_OK && names) {
-    status = compose(system, title, run, &laid);
-    hk_text_add(&laid, "", 1);
-    if (status == HOOKE_OK) status = laid.status;
-  }
-  hk_free(title);
-  if (status == HOOKE_OK) {
+  if (text == NULL || system->rest->input_count == system->rest->has_scene) return HOOKE_OK;
+  int32_t status = hk_json_open(text, (int64_t)strlen(text), &json, &at);
+  if (status == HOOKE_OK)
+    status = compose(system, hk_json_text(hk_json_get(hk_json_find(json, "", 0), "title")), run, &laid);
+  hk_free(json);
+  hk_text_add(&laid, "", 1);
+  if (status == HOOKE_OK) status = laid.status;
+  if (status == HOOKE_OK)
     *whole = laid.bytes;
-    return HOOKE_OK;
-  }
-  hk_text_release(&laid);
-  return status == HOOKE_UNSUITED ? HOOKE_OK : status;
+  else
+    hk_text_release(&laid);
+  return status == HOOKE_UNSUITED || status == HOOKE_BAD_VALUE ? HOOKE_OK : status;
 }
