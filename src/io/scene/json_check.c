@@ -121,70 +121,51 @@ static void decode(char *text) {
 
 /* ---- numbers and words ---- */
 
-static int64_t skip_digits(const char **at) {
-  const int64_t count = (int64_t)strspn(*at, digits);
-  *at += count;
-  return count;
-}
-
-/* RFC 8259; `whole` is set if there is neither a point nor an exponent. */
-static int32_t is_number(const char *at, const char *end, int32_t *whole) {
-  const char *first = at += *at == '-';
-  const int64_t count = skip_digits(&at);
-  if (count == 0 || (*first == '0' && count > 1)) return 0;
-  *whole = at == end;
-  if (*at == '.') {
-    at++;
-    if (skip_digits(&at) == 0) return 0;
-  }
-  if (*at != 'e' && *at != 'E') return at == end;
-  at++;
-  at += *at == '+' || *at == '-';
-  return skip_digits(&at) > 0 && at == end;
-}
-
 static int32_t refuse_number(const char *token, int64_t length, const char *what, const char *allowed) {
   char shown[HOOKE_OPTION_SHOWN];
   hk_option_show(token, length, shown);
   return hk_fail(HOOKE_BAD_VALUE, NULL, "%s %s; allowed: %s", shown, what, allowed);
 }
 
-static int32_t check_number(const char *token, int64_t length, int32_t whole) {
+/* JSON (RFC 8259) has fewer numbers than hk_number_parse(): digits stand before a point and after it, and no zero
+ * before them. `junk` is set if this is none. */
+static int32_t check_number(const char *token, int64_t length, int32_t *junk) {
+  const char *first = token + (*token == '-'), *after = first + strspn(first, digits);
   double value;
-  if (whole) {
+  *junk =
+      after == first || (*first == '0' && after > first + 1) || (*after == '.' && !strspn(after + 1, digits));
+  if (*junk) return HOOKE_OK;
+  if (after == token + length) {
     errno = 0;
     strtoll(token, NULL, 10);
     if (errno != ERANGE) return HOOKE_OK;
     return refuse_number(token, length, "is too large",
                          "whole numbers of 64 bits, or with a point or exponent");
   }
-  if (length < SAFE_LENGTH && !memchr(token, 'e', (size_t)length) && !memchr(token, 'E', (size_t)length))
-    return HOOKE_OK;
-  switch (hk_number_parse(token, length, &value)) {
-  case HOOKE_NUMBER_TOO_LARGE:
+  if (*after == '.') after += 1 + strspn(after + 1, digits);
+  if (after == token + length && length < SAFE_LENGTH) return HOOKE_OK; /* most are not parsed twice */
+  const enum hk_number_result result = hk_number_parse(token, length, &value);
+  if (result == HOOKE_NUMBER_TOO_LARGE)
     return refuse_number(token, length, "is beyond the largest number", "up to 1.797e308");
-  case HOOKE_NUMBER_TOO_SMALL:
+  if (result == HOOKE_NUMBER_TOO_SMALL)
     return refuse_number(token, length, "would become 0", "0, or numbers from 4.94e-324 up");
-  case HOOKE_NUMBER_NO_MEMORY:
-    return HOOKE_NO_MEMORY;
-  case HOOKE_NUMBER_FINE:
-  case HOOKE_NUMBER_JUNK:
-    break;
-  }
-  return HOOKE_OK;
+  *junk = result == HOOKE_NUMBER_JUNK;
+  return result == HOOKE_NUMBER_NO_MEMORY ? HOOKE_NO_MEMORY : HOOKE_OK;
 }
 
 /* A word that reaches the end may go on there. */
 static int32_t scan_word(struct scan *scan) {
   HOOKE_KEEP_ERRNO;
-  const char *word = scan->at, *end = word + strspn(word, bare);
-  int32_t whole = 0, status = HOOKE_OK;
-  if (end == scan->end) scan->at = end;
-  if (is_number(word, end, &whole) && end < scan->end)
-    status = check_number(word, end - word, whole);
-  else if (end == word || end == scan->end || !hk_option_has_word("true false null", word, end - word))
-    status = refuse(scan, "a finite decimal number, \"text\", true, false, null, [ or {");
-  if (status == HOOKE_OK) scan->at = end;
+  const int64_t length = (int64_t)strspn(scan->at, bare);
+  int32_t junk = 1, status = HOOKE_OK;
+  if (scan->at + length == scan->end)
+    scan->at = scan->end;
+  else if (hk_option_has_word("true false null", scan->at, length))
+    junk = 0;
+  else
+    status = check_number(scan->at, length, &junk);
+  if (junk) return refuse(scan, "a finite decimal number, \"text\", true, false, null, [ or {");
+  if (status == HOOKE_OK) scan->at += length;
   return status;
 }
 

@@ -16,21 +16,12 @@
 
 enum { NAME_SHOWN = 200 };
 
-/* Long paths lose their beginning, so that line and column remain. */
-static const char *short_name(const char *name, const char **dots) {
-  size_t length = strlen(name);
-  *dots = length > NAME_SHOWN ? "..." : "";
-  return length > NAME_SHOWN ? name + length - NAME_SHOWN : name;
-}
-
-static int32_t in_file(int32_t status, const char *name) {
-  const char *dots, *shown = short_name(name, &dots);
-  return hk_fail_before(status, "%s%s: ", dots, shown);
-}
-
+/* Prefixes the name, and line and column of `at` (NULL: none). Long paths lose their beginning. */
 static int32_t in_text(int32_t status, const hooke_scene *scene, const char *at) {
-  const char *dots, *shown = short_name(scene->name, &dots);
+  const size_t length = strlen(scene->name), left = length > NAME_SHOWN ? length - NAME_SHOWN : 0;
+  const char *dots = left > 0 ? "..." : "", *shown = scene->name + left;
   int64_t line, column;
+  if (at == NULL) return hk_fail_before(status, "%s%s: ", dots, shown);
   hk_json_line(scene->text, at, &line, &column);
   return hk_fail_before(status, "%s%s:%lld:%lld: ", dots, shown, (long long)line, (long long)column);
 }
@@ -108,13 +99,11 @@ int32_t hooke_scene_load(const char *path, const hooke_options *limits, hooke_sc
   if (hk_record_is_one(path)) return load_record(path, limits, scene);
   hooke_scene *made = new_scene(path, limits);
   if (made == NULL) return HOOKE_NO_MEMORY;
-  int32_t status = hk_scene_read_file(path, &made->memory_limit, &made->text, &made->length);
-  if (status) in_file(status, path);
-  if (status == HOOKE_OK) {
-    char *folder = hk_scene_folder(path);
-    status = folder ? read_text(made, folder) : HOOKE_NO_MEMORY;
-    hk_free(folder);
-  }
+  char *folder = hk_scene_folder(path);
+  int32_t status = HOOKE_NO_MEMORY;
+  if (folder) status = hk_scene_read_file(path, &made->memory_limit, &made->text, &made->length);
+  status = status == HOOKE_OK ? read_text(made, folder) : in_text(status, made, NULL);
+  hk_free(folder);
   if (status == HOOKE_OK) status = hk_inputs_note(made->system, path, 1);
   return finish(status, made, scene);
 }
@@ -128,7 +117,7 @@ int32_t hooke_scene_parse(const char *text, int64_t length, const char *name, co
   hooke_scene *made = new_scene(name, limits);
   if (made == NULL) return HOOKE_NO_MEMORY;
   int32_t status = hk_scene_require_memory(made->memory_limit, length);
-  if (status) return finish(in_file(status, name), made, scene);
+  if (status) return finish(in_text(status, made, NULL), made, scene);
   made->text = hk_new(length + 1, 1);
   made->length = length;
   if (made->text == NULL) return finish(HOOKE_NO_MEMORY, made, scene);

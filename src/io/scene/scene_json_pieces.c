@@ -114,8 +114,7 @@ static int32_t read_file(const struct hk_scene_reader *reader, hooke_options *op
   const char *file = hooke_options_text(options, "file");
   char *path = NULL;
   int32_t status = hk_mesh_check_alone(options);
-  if (status != HOOKE_OK) return status;
-  status = hk_scene_reader_file(reader, file, &path);
+  if (status == HOOKE_OK) status = hk_scene_reader_file(reader, file, &path);
   if (status == HOOKE_OK) status = hk_mesh_read_as(path, file, reader->scene->memory_limit, options);
   hk_free(path);
   if (status != HOOKE_BAD_VALUE && status != HOOKE_IO_FAILED) return status;
@@ -247,26 +246,19 @@ static int32_t add_body(hooke_system *system, const char *name, int64_t count, c
 
 /* ---- drives ---- */
 
-/* Refuses the keys of another motion, and requires those of this one. */
+/* Refuses the keys of another motion, and requires those of this one but the phase. */
 static int32_t check_drive(const hooke_options *options) {
-  static const struct {
-    const char *motion, *key;
-    int32_t required;
-  } keys[] = {{"harmonic", "amplitude", 1},
-              {"harmonic", "frequency", 1},
-              {"harmonic", "phase", 0},
-              {"table", "time", 1},
-              {"table", "position", 1}};
+  static const char *const keys[] = {"amplitude", "frequency", "phase", "time", "position"};
   const char *motion = hooke_options_text(options, "motion");
-  for (size_t k = 0; k < sizeof keys / sizeof keys[0]; k++) {
-    int32_t set = hooke_options_is_set(options, keys[k].key);
-    int32_t belongs = strcmp(motion, keys[k].motion) == 0;
+  const int32_t table = strcmp(motion, "table") == 0;
+  for (int32_t k = 0; k < 5; k++) {
+    const int32_t set = hooke_options_is_set(options, keys[k]), belongs = (k >= 3) == table;
     if (set && !belongs)
-      return hk_fail(HOOKE_BAD_VALUE, keys[k].key, "belongs to motion \"%s\"; allowed with \"%s\": %s",
-                     keys[k].motion, motion,
-                     strcmp(motion, "table") == 0 ? "time, position" : "amplitude, frequency, phase");
-    if (!set && belongs && keys[k].required)
-      return hk_fail(HOOKE_BAD_VALUE, keys[k].key, "is required with motion \"%s\" but missing", motion);
+      return hk_fail(HOOKE_BAD_VALUE, keys[k], "belongs to motion \"%s\"; allowed with \"%s\": %s",
+                     table ? "harmonic" : "table", motion,
+                     table ? "time, position" : "amplitude, frequency, phase");
+    if (!set && belongs && strcmp(keys[k], "phase") != 0)
+      return hk_fail(HOOKE_BAD_VALUE, keys[k], "is required with motion \"%s\" but missing", motion);
   }
   return HOOKE_OK;
 }
