@@ -40,8 +40,9 @@ int32_t hk_scene_read_some_options(struct hk_scene_reader *reader, const char *o
 /* Fails unless `value` begins with `first`, one of { [ and "; `place` may be NULL. */
 int32_t hk_scene_require(const char *value, char first, const char *place, const char *allowed);
 
-/* "is a number, 3; allowed: ..." */
+/* "3 is not allowed; allowed: ..." */
 int32_t hk_scene_refuse(const char *value, const char *place, const char *allowed);
+int32_t hk_scene_refuse_for_row(const char *value, const char *place, const struct hk_option_row *row);
 
 /* After a failure about number k of a list `name`: changes its place to the k-th element of the array that is
  * not a word. Returns `status`. */
@@ -52,11 +53,14 @@ int32_t hk_scene_place_number(int32_t status, const char *array, const char *nam
 /* Path of a file that the scene names, which the caller frees. HOOKE_BAD_VALUE, HOOKE_NO_MEMORY. */
 int32_t hk_scene_reader_file(const struct hk_scene_reader *reader, const char *file, char **path);
 
+/* 1 for a text that is a word of the row. */
+int32_t hk_scene_is_word(const char *value, const struct hk_option_row *row);
+
 /* 1 for a text that is a number with one unit: "5 mm". Whether the unit fits is for the parser to say. */
 int32_t hk_scene_is_quantity(const char *value, const struct hk_option_row *row);
 
 /* Numbers for a row of type NUMBERS, from a number, an array, or an object that names a data set; the caller
- * frees `numbers`. `unit` is set to the base of their units if any has one. */
+ * frees `numbers`; words among them are left out. `unit` is set to the base of their units if any has one. */
 int32_t hk_scene_read_numbers(struct hk_scene_reader *reader, const char *value,
                               const struct hk_option_row *row, double **numbers, int64_t *count,
                               const char **unit);

@@ -85,6 +85,11 @@ static int32_t numbers_from_file(struct hk_scene_reader *reader, const char *val
 
 /* ---- numbers ---- */
 
+int32_t hk_scene_is_word(const char *value, const struct hk_option_row *row) {
+  const char *word = hk_json_text(value);
+  return word && hk_option_has_word(row->words, word, (int64_t)strlen(word));
+}
+
 int32_t hk_scene_is_quantity(const char *value, const struct hk_option_row *row) {
   const char *text = hk_json_text(value);
   if (text == NULL || row->unit == NULL) return 0;
@@ -99,9 +104,9 @@ static int32_t read_number(const char *value, const struct hk_option_row *row, d
   const char *text = hk_json_text(value);
   if (hk_scene_is_quantity(value, row))
     return hk_option_parse_number(row, NULL, text, (int64_t)strlen(text), number, unit);
-  if (whole ? !hk_json_is_integer(value) : !hk_json_is_number(value))
-    return hk_scene_refuse(value, NULL, whole ? "a whole number, without a point" : "a number");
-  return hk_json_number(value, number);
+  if (whole ? hk_json_is_integer(value) : hk_json_is_number(value)) return hk_json_number(value, number);
+  if (row->word_lists) return hk_scene_refuse_for_row(value, NULL, row);
+  return hk_scene_refuse(value, NULL, whole ? "a whole number, without a point" : "a number");
 }
 
 /* ---- particles ---- */
@@ -182,18 +187,20 @@ static int32_t refuse_row(const struct items *items, const char *value) {
   return hk_scene_refuse(value, NULL, allowed);
 }
 
-/* Fills an array, flat or in rows of `columns`. */
-static int32_t read_items(const struct items *items, const char *value, int64_t columns, double *numbers) {
+/* Adds the numbers of an array, flat or in rows of `columns`, to `count` ones; words among them are left out. */
+static int32_t read_items(const struct items *items, const char *value, int64_t columns, double *numbers,
+                          int64_t *count) {
   int64_t k = 0;
   for (const char *item = hk_json_first(value); item; item = hk_json_next(item), k++) {
     int32_t status = HOOKE_OK;
-    if (columns <= 1)
-      status = items->particles ? read_particle(items->reader, item, &numbers[k])
-                                : read_number(item, items->row, &numbers[k], items->unit);
-    else if (!hk_json_is(item, '[') || hk_json_count(item) != columns)
+    if (items->row->word_lists && hk_scene_is_word(item, items->row)) continue;
+    if (columns > 1 && hk_json_is(item, '[') && hk_json_count(item) == columns)
+      status = read_items(items, item, 1, numbers, count);
+    else if (columns > 1)
       status = refuse_row(items, item);
     else
-      status = read_items(items, item, 1, &numbers[k * columns]);
+      status = items->particles ? read_particle(items->reader, item, &numbers[(*count)++])
+                                : read_number(item, items->row, &numbers[(*count)++], items->unit);
     if (status) return hk_fail_within(status, "[%lld]", (long long)k);
   }
   return HOOKE_OK;
@@ -206,11 +213,11 @@ static int32_t read_values(const struct items *items, const char *value, double 
   if (hk_json_is(value, '{')) {
     status = numbers_from_file(items->reader, value, items->row->columns, items->row->whole, numbers, count);
   } else {
-    *count = hk_json_is(value, '[') ? columns * hk_json_count(value) : 1;
-    *numbers = hk_new(*count, sizeof(double));
+    *count = hk_json_is(value, '[') ? 0 : 1;
+    *numbers = hk_new(*count ? 1 : columns * hk_json_count(value), sizeof(double));
     if (*numbers == NULL) return HOOKE_NO_MEMORY;
-    status = hk_json_is(value, '[') ? read_items(items, value, columns, *numbers)
-                                    : read_number(value, items->row, *numbers, items->unit);
+    status = *count ? read_number(value, items->row, *numbers, items->unit)
+                    : read_items(items, value, columns, *numbers, count);
   }
   if (status) {
     hk_free(*numbers);

@@ -31,7 +31,7 @@ int32_t hk_scene_refuse(const char *value, const char *place, const char *allowe
   return hk_fail(HOOKE_BAD_VALUE, place, "%s is not allowed; allowed: %s", given, allowed);
 }
 
-static int32_t refuse_for_row(const char *value, const char *place, const struct hk_option_row *row) {
+int32_t hk_scene_refuse_for_row(const char *value, const char *place, const struct hk_option_row *row) {
   char allowed[TEXT_SIZE], with_unit[TEXT_SIZE + NAME_SIZE];
   hk_option_describe(row, allowed, sizeof allowed);
   const char *unit = row->unit ? row->unit : "";
@@ -60,11 +60,6 @@ static int32_t refuse_key(struct hk_scene_reader *reader, const struct hk_option
 
 /* ---- one value ---- */
 
-static int is_word_of(const char *value, const struct hk_option_row *row) {
-  const char *word = hk_json_text(value);
-  return word && hk_option_has_word(row->words, word, (int64_t)strlen(word));
-}
-
 int32_t hk_scene_place_number(int32_t status, const char *array, const char *name) {
   const char *place = hk_fail_place();
   size_t length = strlen(name);
@@ -81,6 +76,7 @@ int32_t hk_scene_place_number(int32_t status, const char *array, const char *nam
   return status;
 }
 
+/* The numbers first, then the words among them one by one. */
 static int32_t set_numbers(struct hk_scene_reader *reader, const char *value, const struct hk_option_row *row,
                            const char *name, hooke_options *options) {
   double *numbers = NULL;
@@ -91,50 +87,23 @@ static int32_t set_numbers(struct hk_scene_reader *reader, const char *value, co
   status = hk_options_set_in_unit(options, name, count, numbers, unit);
   hk_free(numbers);
   /* one number in brackets is still an element */
-  return count == 1 && row->min_count <= 1 ? hk_scene_place_number(status, value, name) : status;
-}
-
-/* The numbers among mixed words and numbers; `numbers` has room for all. */
-static int32_t read_mixed(const char *value, const struct hk_option_row *row, double *numbers,
-                          int64_t *count) {
-  int64_t k = 0;
-  for (const char *item = hk_json_first(value); item; item = hk_json_next(item), k++) {
-    if (is_word_of(item, row)) continue;
-    if (!hk_json_is_integer(item)) {
-      refuse_for_row(item, NULL, row);
-      return hk_fail_within(HOOKE_BAD_VALUE, "[%lld]", (long long)k);
-    }
-    numbers[(*count)++] = (double)hk_json_integer(item);
-  }
-  return HOOKE_OK;
-}
-
-/* Mixed words and numbers: the numbers first, then the words one by one. */
-static int32_t set_mixed(const char *value, const struct hk_option_row *row, const char *name,
-                         hooke_options *options) {
-  int64_t count = 0;
-  double *numbers = hk_new(hk_json_count(value), sizeof *numbers);
-  if (numbers == NULL) return HOOKE_NO_MEMORY;
-  int32_t status = read_mixed(value, row, numbers, &count);
-  if (status != HOOKE_OK)
-    hk_fail_within(status, "%s", name);
-  else
-    status = hk_scene_place_number(hooke_options_set_numbers(options, name, count, numbers), value, name);
-  hk_free(numbers);
-  for (const char *item = hk_json_first(value); item && status == HOOKE_OK; item = hk_json_next(item))
-    if (is_word_of(item, row)) status = hk_options_add_word(options, name, hk_json_text(item));
+  if (row->word_lists || (count == 1 && row->min_count <= 1)) hk_scene_place_number(status, value, name);
+  const char *item = row->word_lists ? hk_json_first(value) : NULL;
+  for (; item && status == HOOKE_OK; item = hk_json_next(item))
+    if (hk_scene_is_word(item, row)) status = hk_options_add_word(options, name, hk_json_text(item));
   return status;
 }
 
-static int32_t read_numbers_row(struct hk_scene_reader *reader, const char *value,
-                                const struct hk_option_row *row, const char *name, hooke_options *options) {
-  if (is_word_of(value, row)) return hooke_options_set_text(options, name, hk_json_text(value));
-  if (row->word_lists && hk_json_is(value, '[')) return set_mixed(value, row, name, options);
-  int is_one = hk_json_is_number(value) || hk_scene_is_quantity(value, row);
-  int may_be_one = is_one && row->columns <= 1 && row->min_count == 1;
-  if (hk_json_is(value, '[') || hk_json_is(value, '{') || may_be_one)
-    return set_numbers(reader, value, row, name, options);
-  return refuse_for_row(value, name, row);
+static int32_t read_numbers(struct hk_scene_reader *reader, const char *value,
+                            const struct hk_option_row *row, const char *name, hooke_options *options) {
+  if (hk_scene_is_word(value, row)) return hooke_options_set_text(options, name, hk_json_text(value));
+  const int32_t single = row->type == HOOKE_OPTION_NUMBER,
+                list = hk_json_is(value, '[') || hk_json_is(value, '{');
+  const int32_t one =
+      hk_scene_is_quantity(value, row) || (row->whole ? hk_json_is_integer(value) : hk_json_is_number(value));
+  const int32_t may_be_one = single || (row->columns <= 1 && row->min_count == 1);
+  if (one ? may_be_one : list && !single) return set_numbers(reader, value, row, name, options);
+  return hk_scene_refuse_for_row(value, name, row);
 }
 
 static int32_t read_object(struct hk_scene_reader *reader, const char *object,
@@ -143,28 +112,19 @@ static int32_t read_object(struct hk_scene_reader *reader, const char *object,
 
 static int32_t read_family(struct hk_scene_reader *reader, const char *value, const struct hk_option_row *row,
                            const char *name, hooke_options *options) {
-  if (!hk_json_is(value, '{')) return refuse_for_row(value, name, row);
+  if (!hk_json_is(value, '{')) return hk_scene_refuse_for_row(value, name, row);
   char prefix[NAME_SIZE + 2];
   snprintf(prefix, sizeof prefix, "%s.", name);
   int32_t status = hooke_options_set_text(options, name, "");
   return status ? status : read_object(reader, value, row->family, prefix, NULL, options);
 }
 
-static int32_t set_number(const char *value, const char *name, hooke_options *options) {
-  double number;
-  const int32_t status = hk_json_number(value, &number);
-  return status == HOOKE_OK ? hooke_options_set_number(options, name, number) : status;
-}
-
 static int32_t read_row(struct hk_scene_reader *reader, const char *value, const struct hk_option_row *row,
                         const char *name, hooke_options *options) {
   switch (row->type) {
   case HOOKE_OPTION_NUMBER:
-    if (hk_scene_is_quantity(value, row)) return hooke_options_set_text(options, name, hk_json_text(value));
-    if (row->whole ? !hk_json_is_integer(value) : !hk_json_is_number(value)) break;
-    return set_number(value, name, options);
   case HOOKE_OPTION_NUMBERS:
-    return read_numbers_row(reader, value, row, name, options);
+    return read_numbers(reader, value, row, name, options);
   case HOOKE_OPTION_FLAG:
     if (*value != 't' && *value != 'f') break;
     return hooke_options_set_number(options, name, *value == 't');
@@ -175,7 +135,7 @@ static int32_t read_row(struct hk_scene_reader *reader, const char *value, const
   case HOOKE_OPTION_FAMILY:
     return read_family(reader, value, row, name, options);
   }
-  return refuse_for_row(value, name, row);
+  return hk_scene_refuse_for_row(value, name, row);
 }
 
 /* ---- whole objects ---- */
