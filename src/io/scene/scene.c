@@ -73,20 +73,16 @@ static int32_t load_record(const char *path, const hooke_options *limits, hooke_
     status = hk_fail(HOOKE_BAD_VALUE, NULL, "%s: holds no scene: the run was not made from one", path);
   if (status == HOOKE_OK)
     status = hooke_scene_parse(text, (int64_t)strlen(text), path, folder, limits, scene);
+  if (status == HOOKE_OK) status = hk_inputs_note((*scene)->system, path, 1);
   if (status == HOOKE_OK) {
-    hooke_options *run = NULL;
-    status = hooke_options_copy(hooke_record_options(record), &run);
-    if (status == HOOKE_OK) status = hk_inputs_note((*scene)->system, path, 1);
-    if (status == HOOKE_OK) {
-      hooke_options_destroy((*scene)->run);
-      (*scene)->run = run;
-      const int32_t called = hk_callbacks_find(hooke_record_text(record, "callbacks"));
-      (*scene)->system->rest->called = called > 0 ? called : 0;
-    } else {
-      hooke_options_destroy(run);
-      hooke_scene_destroy(*scene);
-      *scene = NULL;
-    }
+    const int32_t called = hk_callbacks_find(hooke_record_text(record, "callbacks"));
+    (*scene)->system->rest->called = called > 0 ? called : 0;
+    hooke_options_destroy((*scene)->run);
+    status = hooke_options_copy(hooke_record_options(record), &(*scene)->run);
+  }
+  if (status != HOOKE_OK) {
+    hooke_scene_destroy(*scene);
+    *scene = NULL;
   }
   hk_free(folder);
   hooke_record_close(record);

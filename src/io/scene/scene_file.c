@@ -117,13 +117,11 @@ int32_t hk_scene_find_file(const char *folder, const char *file, char **path) {
     return hk_fail(
         HOOKE_BAD_VALUE, NULL,
         "\"%s\" is not allowed; allowed: a path inside the scene's folder, relative and without ..", shown);
-  size_t room = strlen(folder) + strlen(file) + 2;
-  char *joined = hk_new((int64_t)room, 1);
-  if (joined == NULL) return HOOKE_NO_MEMORY;
-  snprintf(joined, room, "%s/%s", folder, file);
+  char *joined;
+  int32_t status = hk_scene_find_any(folder, file, &joined);
+  if (status != HOOKE_OK) return status;
   char *real_folder = hk_os_real_path(folder);
   char *real_file = real_folder ? hk_os_real_path(joined) : NULL;
-  int32_t status = HOOKE_OK;
   if (real_file == NULL && errno == ENOMEM)
     status = hk_fail(HOOKE_NO_MEMORY, NULL, "no memory to find the file");
   else if (real_file == NULL)

@@ -2,12 +2,12 @@
 #include "io/scene/scene_json.h"
 
 #include "core/memory.h"
-#include "core/print.h"
 #include "core/status.h"
 #include "io/scene/mesh.h"
 #include "io/scene/scene_file.h"
 #include "model/particles.h"
 #include "model/system.h"
+#include "parts/part.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -94,20 +94,6 @@ int32_t hk_scene_add_particles(struct hk_scene_reader *reader, const char *parti
 
 /* ---- parts ---- */
 
-static int32_t read_kind(const char *object, const char **kind) {
-  char kinds[LIST_SIZE] = "";
-  for (int64_t k = 0; hooke_part_kind(k, "name"); k++)
-    hk_append(kinds, sizeof kinds, "%s%s", k ? ", " : "", hooke_part_kind(k, "name"));
-  int32_t status = read_text(object, "kind", kind);
-  if (status) return status;
-  if (*kind == NULL) return hk_fail(HOOKE_BAD_VALUE, "kind", "is required but missing; allowed: %s", kinds);
-  for (int64_t k = 0; hooke_part_kind(k, "name"); k++)
-    if (strcmp(hooke_part_kind(k, "name"), *kind) == 0) return HOOKE_OK;
-  char shown[HOOKE_OPTION_SHOWN];
-  hk_option_show(*kind, (int64_t)strlen(*kind), shown);
-  return hk_fail(HOOKE_BAD_VALUE, "kind", "\"%s\" is not a kind of part; allowed: %s", shown, kinds);
-}
-
 /* Reads the file of a mesh into its vertices and triangles, so that a system does not depend on files. */
 static int32_t read_file(const struct hk_scene_reader *reader, hooke_options *options) {
   if (!hooke_options_is_set(options, "file")) return HOOKE_OK;
@@ -128,9 +114,11 @@ static int32_t add_part(struct hk_scene_reader *reader, const char *object,
   (void)list;
   const char *kind = NULL, *name = "";
   hooke_options *options = NULL;
-  int32_t status = read_kind(object, &kind);
-  if (status == HOOKE_OK) status = read_text(object, "name", &name);
-  if (status == HOOKE_OK) status = hooke_options_create(kind, &options);
+  int32_t status = read_text(object, "kind", &kind);
+  const struct hk_option_table *table = status == HOOKE_OK ? hk_part_find(kind) : NULL;
+  if (table == NULL) return HOOKE_BAD_VALUE;
+  status = read_text(object, "name", &name);
+  if (status == HOOKE_OK) status = hk_options_create(table, &options);
   if (status == HOOKE_OK) status = hk_scene_read_options(reader, object, "kind name", options);
   if (status == HOOKE_OK) status = read_file(reader, options);
   if (status == HOOKE_OK) {
