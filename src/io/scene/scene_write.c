@@ -20,29 +20,22 @@
 
 /* A scene numbers the particles of parts after the others. */
 struct numbering {
-  int64_t alone;   /* particles of no part */
+  int64_t alone;   /* particles of no part, whose numbers are below this */
   int64_t *number; /* by particle */
-  uint8_t *in_part;
 };
 
-static void release(struct numbering *numbering) {
-  hk_free(numbering->number);
-  hk_free(numbering->in_part);
-}
-
 static int32_t find_numbers(const hooke_system *system, struct numbering *numbering) {
-  numbering->number = hk_new(system->particle_count, sizeof *numbering->number);
-  numbering->in_part = hk_new(system->particle_count, 1);
-  if (!numbering->number || !numbering->in_part) return HOOKE_NO_MEMORY;
+  int64_t *number = numbering->number = hk_new(system->particle_count, sizeof *number);
+  if (number == NULL) return HOOKE_NO_MEMORY;
   for (int64_t k = 0; k < system->part_count; k++)
-    memset(numbering->in_part + system->part[k].first, 1, (size_t)system->part[k].count);
+    memset(number + system->part[k].first, 0xFF, (size_t)system->part[k].count * sizeof *number); /* -1 */
   for (int64_t p = 0; p < system->particle_count; p++) {
-    if (!numbering->in_part[p]) numbering->number[p] = numbering->alone++;
+    if (number[p] == 0) number[p] = numbering->alone++;
   }
   int64_t next = numbering->alone;
   for (int64_t k = 0; k < system->part_count; k++) {
     for (int64_t p = 0; p < system->part[k].count; p++)
-      numbering->number[system->part[k].first + p] = next++;
+      number[system->part[k].first + p] = next++;
   }
   return HOOKE_OK;
 }
@@ -64,7 +57,7 @@ static void add_shared(struct hk_text *text, const char *key, int64_t count, con
 static void take_alone(const hooke_system *system, const struct numbering *numbering, int32_t columns,
                        const double *value, double *rows) {
   for (int64_t p = 0; p < system->particle_count; p++) {
-    if (numbering->in_part[p]) continue;
+    if (numbering->number[p] >= numbering->alone) continue;
     memcpy(rows, value + columns * p, (size_t)columns * sizeof *rows);
     rows += columns;
   }
@@ -76,12 +69,15 @@ static int32_t is_moving(int64_t count, const double *velocity) {
   return 0;
 }
 
-static void add_pinned(struct hk_text *text, const hooke_system *system, const struct numbering *numbering) {
+/* The pinned ones of `count` particles from `first` on that have one of `numbers` numbers from `from` on. */
+static void add_pinned(struct hk_text *text, const hooke_system *system, const struct numbering *numbering,
+                       int64_t first, int64_t count, int64_t from, int64_t numbers) {
   int32_t open = 0;
-  for (int64_t p = 0; p < system->particle_count; p++) {
-    if (numbering->in_part[p] || system->constrained[p] != HOOKE_IS_PINNED) continue;
+  for (int64_t p = first; p < first + count; p++) {
+    const int64_t number = numbering->number[p] - from;
+    if (number < 0 || number >= numbers || system->constrained[p] != HOOKE_IS_PINNED) continue;
     if (!open++) hk_text_open(text, "pinned", '[');
-    hk_text_number(text, NULL, (double)numbering->number[p]);
+    hk_text_number(text, NULL, (double)number);
   }
   if (open) hk_text_close(text, ']');
 }
@@ -102,23 +98,15 @@ static void add_particles(struct hk_text *text, const hooke_system *system,
     hk_scene_add_numbers(text, "velocity", 3 * count, 3, rows);
   take_alone(system, numbering, 1, hk_system_masses(system), rows);
   if (rows[0] != 0.0) add_shared(text, "mass", count, rows); /* 0: not given */
-  add_pinned(text, system, numbering);
+  add_pinned(text, system, numbering, 0, system->particle_count, 0, count);
   hk_text_close(text, '}');
   hk_free(rows);
 }
 
 /* ---- parts ---- */
 
-/* Pins beyond those of the part's options are added to them, by number. */
-static void add_pins(struct hk_text *text, const hooke_system *system, const struct hk_part_record *part) {
-  hk_text_open(text, "pinned", '[');
-  for (int64_t p = 0; p < part->count; p++) {
-    if (system->constrained[part->first + p] == HOOKE_IS_PINNED) hk_text_number(text, NULL, (double)p);
-  }
-  hk_text_close(text, ']');
-}
-
-static void add_parts(struct hk_text *text, const hooke_system *system) {
+/* Pins beyond those of a part's options are added to them, by number. */
+static void add_parts(struct hk_text *text, const hooke_system *system, const struct numbering *numbering) {
   hk_text_open(text, "parts", '[');
   for (int64_t k = 0; k < system->part_count; k++) {
     const struct hk_part_record *part = &system->part[k];
@@ -127,7 +115,9 @@ static void add_parts(struct hk_text *text, const hooke_system *system) {
     hk_text_word(text, "kind", part->kind);
     hk_text_word(text, "name", part->name);
     hk_scene_add_options(text, part->options, as_given ? NULL : "pinned");
-    if (!as_given) add_pins(text, system, part);
+    if (!as_given)
+      add_pinned(text, system, numbering, part->first, part->count, numbering->number[part->first],
+                 part->count);
     hk_text_close(text, '}');
   }
   hk_text_close(text, ']');
@@ -292,7 +282,7 @@ static void add_scene(struct hk_text *text, const hooke_system *system, const ch
   if (hk_system_has_gravity(system)) hk_scene_add_numbers(text, "gravity", 3, 0, hk_system_gravity(system));
   if (hk_system_drag(system) != 0.0) hk_text_number(text, "drag", hk_system_drag(system));
   if (numbering->alone > 0) add_particles(text, system, numbering);
-  if (system->part_count > 0) add_parts(text, system);
+  if (system->part_count > 0) add_parts(text, system, numbering);
   add_lists(text, system, numbering);
   if (run) {
     hk_text_open(text, "run", '{');
@@ -315,7 +305,7 @@ static int32_t compose(const hooke_system *system, const char *title, const hook
     hk_text_lay_out(&json, laid);
     status = laid->status;
   }
-  release(&numbering);
+  hk_free(numbering.number);
   hk_text_release(&json);
   return status;
 }
