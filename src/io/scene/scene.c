@@ -106,6 +106,7 @@ int32_t hooke_scene_load(const char *path, const hooke_options *limits, hooke_sc
 
 int32_t hooke_scene_parse(const char *text, int64_t length, const char *name, const char *folder,
                           const hooke_options *limits, hooke_scene **scene) {
+  HOOKE_KEEP_ERRNO;
   if (scene) *scene = NULL;
   if (text == NULL || length < 0 || scene == NULL)
     return hk_fail(HOOKE_BAD_VALUE, NULL, "no text or no scene given (length %lld)", (long long)length);
