@@ -338,8 +338,8 @@ int32_t hk_scene_make_whole(const char *text, const hooke_system *system, const 
   *whole = NULL;
   if (text == NULL || system->rest->input_count == system->rest->has_scene) return HOOKE_OK;
   int32_t status = hk_json_open(text, (int64_t)strlen(text), &json, &at);
-  if (status == HOOKE_OK)
-    status = compose(system, hk_json_text(hk_json_get(hk_json_find(json, "", 0), "title")), run, &laid);
+  if (status != HOOKE_OK) return status == HOOKE_BAD_VALUE ? HOOKE_OK : status; /* what is no scene is kept */
+  status = compose(system, hk_json_text(hk_json_get(hk_json_find(json, "", 0), "title")), run, &laid);
   hk_free(json);
   hk_text_add(&laid, "", 1);
   if (status == HOOKE_OK) status = laid.status;
@@ -347,5 +347,5 @@ int32_t hk_scene_make_whole(const char *text, const hooke_system *system, const 
     *whole = laid.bytes;
   else
     hk_text_release(&laid);
-  return status == HOOKE_UNSUITED || status == HOOKE_BAD_VALUE ? HOOKE_OK : status;
+  return status == HOOKE_UNSUITED ? HOOKE_OK : status;
 }
