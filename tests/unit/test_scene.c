@@ -482,7 +482,8 @@ static void parts_are_named_and_counted(void **state) {
   refuse(text,
          "t.json:3:1: parts[1].name: 'rope1' is the name of part 0 already; allowed: a name of its own");
   refuse("{'hooke': 1,\n'parts': [{'kind': 'trellis'}]}",
-         "t.json:2:20: parts[0].kind: there is no kind of part called 'trellis'; allowed: rope, cloth, lattice, mesh, "
+         "t.json:2:20: parts[0].kind: there is no kind of part called 'trellis'; allowed: rope, cloth, "
+         "lattice, mesh, "
          "strand");
 }
 
