@@ -194,7 +194,6 @@ void cli_usage_print_version(FILE *file) {
   print_part(file, "GSL", "gsl");
   print_part(file, "ARPACK-NG", "arpack");
   print_part(file, "HDF5", "hdf5");
-  print_part(file, "jansson", "jansson");
   print_part(file, "Chart.js", "chartjs");
   print_part(file, "three.js", "threejs");
   print_part(file, "instructions", "instructions");

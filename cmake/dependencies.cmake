@@ -140,7 +140,7 @@ function(hooke_complete_sundials)
 endfunction()
 
 # The packages of SUNDIALS and HDF5 in distributions come with MPI, PETSc and more in their CMake files, so these are
-# looked up by name. One of them ("sundials", "cholmod", "lapack", "gsl", "arpack", "hdf5", "jansson") per call.
+# looked up by name. One of them ("sundials", "cholmod", "lapack", "gsl", "arpack", "hdf5") per call.
 macro(hooke_find name)
   if("${name}" STREQUAL "sundials")
     hooke_find_library(sundials
@@ -186,11 +186,6 @@ macro(hooke_find name)
       ARCHIVES z
       SUFFIXES hdf5/serial
       VERSION H5public.h "H5_VERS_INFO +\"HDF5 library version:? ([^\"]+)\"")
-  elseif("${name}" STREQUAL "jansson")
-    hooke_find_library(jansson
-      HEADER jansson.h
-      LIBRARIES jansson
-      VERSION jansson.h "JANSSON_VERSION +\"([^\"]+)\"")
   elseif("${name}" STREQUAL "chartjs")
     hooke_find_chartjs()
   elseif("${name}" STREQUAL "threejs")

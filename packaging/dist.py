@@ -25,7 +25,6 @@ LICENCES = {
     "gsl": "GPL-3.0-or-later",
     "arpack": "BSD-3-Clause",
     "hdf5": "BSD-3-Clause",
-    "jansson": "MIT",
     "chartjs": "MIT",
     "threejs": "MIT",
 }

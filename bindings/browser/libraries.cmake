@@ -10,19 +10,6 @@ function(hooke_source folder archive sum)
   file(ARCHIVE_EXTRACT INPUT ${file} DESTINATION ${PROJECT_BINARY_DIR}/sources)
 endfunction()
 
-# Its settings for Android are right for any system with the headers of POSIX.
-hooke_source(j/jansson jansson_2.14.orig.tar.gz c739578bf6b764aa0752db9a2fdadcfe921c78f1228c7ec0bb47fa804c55d17b)
-set(jansson ${PROJECT_BINARY_DIR}/sources/jansson-2.14)
-file(COPY ${jansson}/android/jansson_config.h DESTINATION ${jansson}/src)
-file(CONFIGURE OUTPUT ${jansson}/src/jansson_private_config.h CONTENT "")
-file(GLOB sources ${jansson}/src/*.c)
-add_library(hooke_jansson STATIC ${sources})
-target_include_directories(hooke_jansson PRIVATE ${jansson}/src)
-target_compile_definitions(hooke_jansson PRIVATE HAVE_STDINT_H HAVE_SYS_TYPES_H)
-set(HOOKE_JANSSON_INCLUDE_DIR ${jansson}/src CACHE PATH "")
-set(HOOKE_LIBRARY_jansson hooke_jansson CACHE STRING "" FORCE)
-mark_as_advanced(HOOKE_JANSSON_INCLUDE_DIR HOOKE_LIBRARY_jansson)
-
 # Without f2c predictions are not built.
 include(${CMAKE_CURRENT_LIST_DIR}/lapack/library.cmake)
 if(HOOKE_F2C AND HOOKE_F2C_HEADER)

@@ -86,7 +86,7 @@ const HEARD = {
     methods = list;
     predicts = lapack !== "";
     at("method").append(...list.map(({ name, summary }) => Object.assign(document.createElement("option"), { value: name, textContent: name, title: summary })));
-    at("about").textContent = `hooke ${version} as WebAssembly, with jansson${lapack ? " and LAPACK" : ""}; drawn with three.js and Chart.js (MIT licence). ` +
+    at("about").textContent = `hooke ${version} as WebAssembly${lapack ? ", with LAPACK" : ""}; drawn with three.js and Chart.js (MIT licence). ` +
       "Methods with a fixed step give the same bits here as natively. Nothing is sent anywhere.";
     readLink(location.hash).then((linked) => openScene(linked || { text: scenes[at("scenes").value] }));
   },

@@ -1,6 +1,4 @@
-/* hooke/scene.h - scene files (JSON) and meshes: reads them, and writes a system as a scene.
- *
- * They need a build with jansson; without it these functions return HOOKE_NOT_BUILT. */
+/* hooke/scene.h - scene files (JSON) and meshes: reads them, and writes a system as a scene. */
 #ifndef HOOKE_SCENE_H
 #define HOOKE_SCENE_H
 

@@ -7,7 +7,6 @@ class Hooke < Formula
 
   depends_on "cmake" => :build
   depends_on "hdf5"
-  depends_on "jansson"
   depends_on "sundials"
   uses_from_macos "python" => :build
 

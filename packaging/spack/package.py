@@ -19,10 +19,9 @@ class Hooke(CMakePackage):
         "gsl": "gsl",
         "arpack": "arpack-ng",
         "hdf5": "hdf5~mpi",
-        "jansson": "jansson",
     }
     for part, package in parts.items():
-        variant(part, default=part in ("sundials", "lapack", "hdf5", "jansson"), description=f"Use {package}")
+        variant(part, default=part in ("sundials", "lapack", "hdf5"), description=f"Use {package}")
         depends_on(package, when=f"+{part}")
 
     depends_on("c", type="build")

@@ -4,7 +4,7 @@ vcpkg_from_github(
   REF "v${VERSION}"
   SHA512 0
 )
-vcpkg_check_features(OUT_FEATURE_OPTIONS features FEATURES hdf5 HOOKE_HDF5 jansson HOOKE_JANSSON)
+vcpkg_check_features(OUT_FEATURE_OPTIONS features FEATURES hdf5 HOOKE_HDF5)
 foreach(part SUNDIALS CHOLMOD LAPACK GSL ARPACK CHARTJS THREEJS)
   list(APPEND features -DHOOKE_${part}=OFF)
 endforeach()

@@ -63,21 +63,18 @@ enum hk_number_result hk_number_parse(const char *text, int64_t length, double *
   int64_t point = -1;
   int nonzero = 0;
   if (!is_number(text, length, &point, &nonzero)) return HOOKE_NUMBER_JUNK;
-  char local_point[POINT_SIZE], buffer[SHORT_NUMBER + POINT_SIZE];
-  size_t point_bytes = point < 0 ? 0 : decimal_point(local_point);
-  char *copy = buffer;
+  char buffer[SHORT_NUMBER + POINT_SIZE], *copy = buffer, *after;
   if (length >= SHORT_NUMBER) copy = hk_new(length + POINT_SIZE, 1);
   if (copy == NULL) return HOOKE_NUMBER_NO_MEMORY;
-  size_t before = point < 0 ? (size_t)length : (size_t)point;
-  memcpy(copy, text, before);
-  copy[before] = '\0';
-  if (point >= 0) {
-    size_t after = (size_t)length - before - 1;
-    memcpy(copy + before, local_point, point_bytes);
-    memcpy(copy + before + point_bytes, text + before + 1, after);
-    copy[before + point_bytes + after] = '\0';
+  memcpy(copy, text, (size_t)length);
+  copy[length] = '\0';
+  double number = strtod(copy, &after);
+  if (point >= 0 && after != copy + length) { /* the locale has another point */
+    const size_t bytes = decimal_point(copy + point);
+    memcpy(copy + point + bytes, text + point + 1, (size_t)(length - point - 1));
+    copy[length - 1 + (int64_t)bytes] = '\0';
+    number = strtod(copy, NULL);
   }
-  double number = strtod(copy, NULL);
   if (copy != buffer) hk_free(copy);
   if (!isfinite(number)) return HOOKE_NUMBER_TOO_LARGE;
   if (nonzero && number == 0) return HOOKE_NUMBER_TOO_SMALL;

@@ -40,7 +40,7 @@ const char *hooke_build_fact(const char *what) {
   if (!strcmp(what, "gsl")) return HOOKE_GSL_VERSION;
   if (!strcmp(what, "arpack")) return HOOKE_ARPACK_VERSION;
   if (!strcmp(what, "hdf5")) return HOOKE_HDF5_VERSION;
-  if (!strcmp(what, "jansson")) return HOOKE_JANSSON_VERSION;
+  if (!strcmp(what, "jansson")) return ""; /* scenes needed it once */
   if (!strcmp(what, "chartjs")) return HOOKE_CHARTJS_VERSION;
   if (!strcmp(what, "threejs")) return HOOKE_THREEJS_VERSION;
   if (!strcmp(what, "instructions")) return hk_kernel_instructions();

@@ -46,12 +46,20 @@ static const struct hooke_part_kind *find_kind(const char *name) {
   for (int k = 0; k < KIND_COUNT; k++) {
     if (name && strcmp(kinds[k]->table->name, name) == 0) return kinds[k];
   }
-  char known[128] = "";
+  char known[128] = "", shown[HOOKE_OPTION_SHOWN];
   for (int k = 0; k < KIND_COUNT; k++)
     hk_append(known, sizeof known, "%s%s", k ? ", " : "", kinds[k]->table->name);
-  hk_fail(HOOKE_BAD_VALUE, "kind", "there is no kind of part called \"%s\"; allowed: %s", name ? name : "",
-          known);
+  if (name) hk_option_show(name, (int64_t)strlen(name), shown);
+  if (name)
+    hk_fail(HOOKE_BAD_VALUE, "kind", "there is no kind of part called \"%s\"; allowed: %s", shown, known);
+  else
+    hk_fail(HOOKE_BAD_VALUE, "kind", "is required but missing; allowed: %s", known);
   return NULL;
+}
+
+const struct hk_option_table *hk_part_find(const char *name) {
+  const struct hooke_part_kind *found = find_kind(name);
+  return found ? found->table : NULL;
 }
 
 const struct hk_option_table *hk_part_table(int64_t k) {

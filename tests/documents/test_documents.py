@@ -134,7 +134,7 @@ def test_outputs_agree_but_for_times(shown, printed, agrees):
 def test_packages_are_those_that_are_installed():
     packages = script("make_packages")
     text = packages.PAGE.read_text(encoding="utf-8")
-    assert packages.written(text) == text and "libjansson-dev" in text
+    assert packages.written(text) == text and "libhdf5-dev" in text
 
 
 def test_every_example_scene_is_in_the_gallery():

@@ -8,10 +8,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#if HOOKE_HAVE_JANSSON
-#include <jansson.h>
-#endif
-
 void *__real_malloc(size_t size);
 void *__real_calloc(size_t count, size_t size);
 void *__real_realloc(void *block, size_t size);
@@ -120,17 +116,3 @@ int __wrap_pthread_create(pthread_t *thread, const pthread_attr_t *attributes, v
                           void *ctx) {
   return fault_strikes() ? EAGAIN : __real_pthread_create(thread, attributes, work, ctx);
 }
-
-#if HOOKE_HAVE_JANSSON
-static void *new_json(size_t size) {
-  return __wrap_malloc(size);
-}
-
-static void free_json(void *block) {
-  __wrap_free(block);
-}
-
-__attribute__((constructor)) static void take_over_jansson(void) {
-  json_set_alloc_funcs(new_json, free_json);
-}
-#endif

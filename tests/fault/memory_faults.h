@@ -1,5 +1,5 @@
-/* Allocations of hooke and of its JSON parser that fail by plan. The linker replaces the functions of the
- * system by these in statically linked code (--wrap); jansson gets its functions from its caller. */
+/* Allocations of hooke that fail by plan. The linker replaces the functions of the
+ * system by these in statically linked code (--wrap). */
 #ifndef FAULT_MEMORY_FAULTS_H
 #define FAULT_MEMORY_FAULTS_H
 
@@ -8,7 +8,7 @@
 /* 1: allocations are points of the plan; otherwise they are only counted, and others make the points. */
 void memory_faults_are_points(int32_t are);
 
-/* Number of blocks that hooke and jansson hold. */
+/* Number of blocks that hooke holds. */
 int64_t memory_blocks(void);
 
 #endif

@@ -1,4 +1,4 @@
-/* Fails every allocation of hooke and of jansson in turn, alone and with all after it: the call reports it,
+/* Fails every allocation of hooke in turn, alone and with all after it: the call reports it,
  * its objects work afterwards as before, and every block is released. */
 #include "check.h"
 #include "memory_faults.h"

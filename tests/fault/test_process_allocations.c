@@ -102,8 +102,7 @@ static void try_point(const struct scenario *scenario, int64_t k, enum fault_rea
     look_at_end(status, owner, a);
   else if (a->wrong[0])
     excuse_what_is_broken(owner, a);
-  else if (a->refused && a->status != HOOKE_NO_MEMORY &&
-           (strcmp(owner, "hooke") == 0 || strncmp(owner, "libjansson", 10) == 0))
+  else if (a->refused && a->status != HOOKE_NO_MEMORY && strcmp(owner, "hooke") == 0)
     attempt_wrong(a, "an allocation of %s failed, and the message is: %s", owner, a->message);
 }
 

@@ -28,24 +28,13 @@ program test_files
   use writers
   implicit none
 
-  if (hooke_build_fact("jansson") /= "") then
-    call loading()
-    call writing()
-    if (hooke_build_fact("hdf5") /= "") call trajectories()
-    if (hooke_build_fact("hdf5") /= "" .and. hooke_build_fact("sundials") /= "") call comparisons()
-  else
-    call without_libraries()
-  end if
+  call loading()
+  call writing()
+  if (hooke_build_fact("hdf5") /= "") call trajectories()
+  if (hooke_build_fact("hdf5") /= "" .and. hooke_build_fact("sundials") /= "") call comparisons()
   call finish()
 
 contains
-
-  subroutine without_libraries()
-    type(hooke_scene) :: scene
-    integer :: status
-    call scene%load("examples/scenes/rope.json", status)
-    call expect(status == hooke_not_built .and. .not. scene%system%exists(), "no scenes without jansson")
-  end subroutine
 
   subroutine loading()
     type(hooke_scene) :: scene, other

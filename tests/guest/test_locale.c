@@ -133,7 +133,7 @@ static void divergence(struct output *out) {
   hooke_system_destroy(system);
 }
 
-#if HOOKE_HAVE_JANSSON && HOOKE_HAVE_LAPACK && HOOKE_HAVE_SUNDIALS && HOOKE_HAVE_HDF5
+#if HOOKE_HAVE_LAPACK && HOOKE_HAVE_SUNDIALS && HOOKE_HAVE_HDF5
 
 static const char scene_text[] =
     "{\"hooke\": 1, \"gravity\": [0, -9.81, 0], \"drag\": 1.5e-3, \"particles\": {\"position\": [[0.1, "

@@ -213,7 +213,7 @@ static void tour_divergence(void) {
   hooke_system_destroy(system);
 }
 
-#if HOOKE_HAVE_JANSSON && HOOKE_HAVE_HDF5 && HOOKE_HAVE_LAPACK && HOOKE_HAVE_SUNDIALS
+#if HOOKE_HAVE_HDF5 && HOOKE_HAVE_LAPACK && HOOKE_HAVE_SUNDIALS
 
 static void tour_files(hooke_system *system, const hooke_options *run) {
   hooke_integrator *integrator = NULL;

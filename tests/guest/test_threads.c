@@ -159,8 +159,6 @@ static uint64_t explanations(int thread) {
 
 #endif
 
-#if HOOKE_HAVE_JANSSON
-
 static const char scene_text[] =
     "{\"hooke\": 1, \"gravity\": [0, -9.81, 0], \"parts\": [{\"kind\": \"cloth\", \"size\": [6, 6], "
     "\"edges\":"
@@ -181,8 +179,6 @@ static uint64_t scenes(int thread) {
   hooke_scene_destroy(scene);
   return hash;
 }
-
-#endif
 
 #if HOOKE_HAVE_HDF5
 
@@ -259,9 +255,7 @@ static job *const jobs[] = {
 #if HOOKE_HAVE_LAPACK
     limits,  top_modes, explanations,
 #endif
-#if HOOKE_HAVE_JANSSON
     scenes,
-#endif
 #if HOOKE_HAVE_HDF5
     files,
 #endif

@@ -21,7 +21,7 @@ def rows(step: str, figures: dict[str, Any]) -> list[tuple[str, str]]:
 
 PART = Part(
     "arm64",
-    ["qemu-user-static", "gcc-aarch64-linux-gnu", "libcmocka-dev:arm64", "libjansson-dev:arm64"],
+    ["qemu-user-static", "gcc-aarch64-linux-gnu", "libcmocka-dev:arm64"],
     [
         Step("build", f"cmake --preset arm64 && cmake --build {BUILD} --target hooke_long_bits hooke_unit_tests", 300),
         Step("build here", f"cmake --preset minimal -B {HERE} -DHOOKE_LONG_TESTS=ON && "

@@ -11,8 +11,6 @@
 #include <string.h>
 #include <unistd.h>
 
-#if HOOKE_HAVE_JANSSON
-
 static void check_springs(const hooke_system *found, const hooke_system *expected) {
   const int64_t count = hooke_system_count(expected, "springs");
   assert_int_equal(hooke_system_count(found, "springs"), count);
@@ -315,8 +313,6 @@ static void whole_numbers_have_one_zero(void **state) {
   hooke_options_destroy(options);
 }
 
-#endif
-
 static void keys_of_a_scene_are_applied(void **state) {
   (void)state;
   hooke_system *system;
@@ -373,7 +369,6 @@ static void forces_without_a_key_are_not_lost(void **state) {
 }
 
 int main(void) {
-#if HOOKE_HAVE_JANSSON
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(random_systems_come_back),
       cmocka_unit_test(lattice_and_mesh_come_back),
@@ -386,9 +381,5 @@ int main(void) {
       cmocka_unit_test(keys_of_a_scene_are_applied),
       cmocka_unit_test(forces_without_a_key_are_not_lost),
   };
-#else
-  const struct CMUnitTest tests[] = {cmocka_unit_test(keys_of_a_scene_are_applied),
-                                     cmocka_unit_test(forces_without_a_key_are_not_lost)};
-#endif
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

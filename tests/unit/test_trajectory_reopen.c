@@ -479,7 +479,6 @@ static void files_say_how_the_run_ended(void **state) {
   }
 }
 
-#if HOOKE_HAVE_JANSSON
 static void nothing_to_verify(void **state) {
   const struct fixture *f = *state;
   hooke_measurement *verify = NULL;
@@ -490,27 +489,24 @@ static void nothing_to_verify(void **state) {
   check_status(hooke_verify_create(NULL, NULL, NULL, &verify), HOOKE_BAD_VALUE);
   check_message("no path given");
 }
-#endif
 
 #define TEST(function) cmocka_unit_test_setup_teardown(function, set_up, tear_down)
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-    TEST(a_killed_run_ends_as_if_it_never_was),
-    TEST(a_run_that_ended_early_goes_on),
-    TEST(no_frame_is_lost),
-    TEST(a_damaged_frame_is_refused_by_name),
-    TEST(frames_that_were_never_there_are_missed),
-    TEST(other_files_are_refused),
-    TEST(without_room_the_short_file_stays),
-    TEST(sync_brings_frames_to_the_disk),
-    TEST(another_file_of_the_name_is_left_alone),
-    TEST(a_run_goes_on_where_its_file_ends),
-    TEST(other_runs_do_not_go_on),
-    TEST(files_say_how_the_run_ended),
-#if HOOKE_HAVE_JANSSON
-    TEST(nothing_to_verify),
-#endif
+      TEST(a_killed_run_ends_as_if_it_never_was),
+      TEST(a_run_that_ended_early_goes_on),
+      TEST(no_frame_is_lost),
+      TEST(a_damaged_frame_is_refused_by_name),
+      TEST(frames_that_were_never_there_are_missed),
+      TEST(other_files_are_refused),
+      TEST(without_room_the_short_file_stays),
+      TEST(sync_brings_frames_to_the_disk),
+      TEST(another_file_of_the_name_is_left_alone),
+      TEST(a_run_goes_on_where_its_file_ends),
+      TEST(other_runs_do_not_go_on),
+      TEST(files_say_how_the_run_ended),
+      TEST(nothing_to_verify),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

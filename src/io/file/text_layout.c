@@ -9,25 +9,16 @@ static void add(struct hk_text *text, const char *words) {
   hk_text_add(text, words, (int64_t)strlen(words));
 }
 
-/* Skips the string, object, array or bare word that begins at `at`. */
+/* The comma after the value, or the key and its value, that begins at `at`, or the end. */
 static const char *past_value(const char *at, const char *end) {
   int64_t depth = 0;
-  while (at < end) {
-    if (*at == '"') {
-      for (at++; at < end && *at != '"'; at++)
-        at += *at == '\\';
-    } else if (*at == '{' || *at == '[') {
-      depth++;
-    } else if (*at == '}' || *at == ']') {
-      if (depth == 0) return at;
-      depth--;
-    } else if (*at == ',' && depth == 0) {
-      return at;
-    }
-    at++;
-    if (depth == 0 && (at == end || *at == ',' || *at == '}' || *at == ']')) return at;
+  for (; at < end && (*at != ',' || depth > 0); at++) {
+    depth += (*at == '{' || *at == '[') - (*at == '}' || *at == ']');
+    if (*at != '"') continue;
+    for (at++; *at != '"'; at++)
+      at += *at == '\\';
   }
-  return end;
+  return at;
 }
 
 static void new_line(struct hk_text *laid, int32_t depth) {

@@ -26,42 +26,32 @@ struct word {
 
 /* ---- words ---- */
 
-static int is_end_of_line(char c) {
-  return c == '\n' || c == '\r';
+/* Characters of the end of a line at a place: LF, CR LF or CR; 0 if none is there. */
+static int64_t line_end(const char *at, const char *end) {
+  if (at >= end || (*at != '\n' && *at != '\r')) return 0;
+  return *at == '\r' && at + 1 < end && at[1] == '\n' ? 2 : 1;
 }
 
-/* Skips one end of line: LF, CR LF or CR. */
-static void end_line(struct reader *reader) {
-  if (reader->at == reader->end) return;
-  const char first = *reader->at++;
-  if (first == '\r' && reader->at < reader->end && *reader->at == '\n') reader->at++;
-  reader->line++;
+/* The same of a blank, which a backslash at the end of a line is, too, as it continues the line. */
+static int64_t blank(const struct reader *reader) {
+  if (reader->at == reader->end) return 0;
+  if (*reader->at == ' ' || *reader->at == '\t') return 1;
+  const int64_t after = *reader->at == '\\' ? line_end(reader->at + 1, reader->end) : 0;
+  return after > 0 ? 1 + after : 0;
 }
 
-/* A backslash at the end of a line continues it. */
-static int goes_on(const struct reader *reader) {
-  return *reader->at == '\\' && reader->at + 1 < reader->end && is_end_of_line(reader->at[1]);
-}
-
-static void skip_blanks(struct reader *reader) {
-  while (reader->at < reader->end) {
-    if (*reader->at == ' ' || *reader->at == '\t') {
-      reader->at++;
-    } else if (goes_on(reader)) {
-      reader->at++;
-      end_line(reader);
-    } else {
-      break;
-    }
-  }
+static void skip(struct reader *reader, int64_t count) {
+  reader->line += count > 1;
+  reader->at += count;
 }
 
 /* The next word of the line; 0 at its end, or at a comment. */
 static int next_word(struct reader *reader, struct word *word) {
-  skip_blanks(reader);
+  while (blank(reader))
+    skip(reader, blank(reader));
   word->text = reader->at;
-  while (reader->at < reader->end && !is_end_of_line(*reader->at) && *reader->at != ' ' &&
-         *reader->at != '\t' && !goes_on(reader) && *word->text != '#')
+  while (reader->at < reader->end && !line_end(reader->at, reader->end) && !blank(reader) &&
+         *word->text != '#')
     reader->at++;
   word->length = reader->at - word->text;
   return word->length > 0;
@@ -70,18 +60,12 @@ static int next_word(struct reader *reader, struct word *word) {
 /* A comment ends with its line, even after a backslash. */
 static void skip_line(struct reader *reader) {
   const int comment = reader->at < reader->end && *reader->at == '#';
-  while (reader->at < reader->end && !is_end_of_line(*reader->at)) {
-    if (!comment && goes_on(reader)) {
-      reader->at++;
-      end_line(reader);
-    } else {
-      reader->at++;
-    }
-  }
+  while (reader->at < reader->end && !line_end(reader->at, reader->end))
+    skip(reader, !comment && blank(reader) ? blank(reader) : 1);
 }
 
-static int is(const struct word *word, const char *text) {
-  return word->length == (int64_t)strlen(text) && memcmp(word->text, text, (size_t)word->length) == 0;
+static int is(const struct word *word, const char *words) {
+  return hk_option_has_word(words, word->text, word->length);
 }
 
 static int32_t refuse(const struct word *word, const char *what) {
@@ -92,39 +76,32 @@ static int32_t refuse(const struct word *word, const char *what) {
 
 /* ---- growing lists ---- */
 
-static int32_t grow(void **block, int64_t used, int64_t *capacity, size_t size, void **lines) {
-  const int64_t wanted = *capacity > 0 ? 2 * *capacity : 1024;
-  int32_t status = hk_grow(block, used, wanted, size);
-  if (status == HOOKE_OK) status = hk_grow(lines, used, wanted, sizeof(int32_t));
-  if (status == HOOKE_OK) *capacity = wanted;
-  return status;
+/* Adds a row of `size` bytes and its line; `what` there are too many of beyond `most`. */
+static int32_t add_row(void **rows, int32_t **lines, int64_t *count, int64_t *capacity, const void *row,
+                       size_t size, int64_t line, int64_t most, const char *what) {
+  if (*count == most)
+    return hk_fail(HOOKE_BAD_VALUE, NULL, "one %s too many; allowed: up to %lld", what, (long long)most);
+  if (*count == *capacity) {
+    const int64_t wanted = *capacity > 0 ? 2 * *capacity : 1024;
+    int32_t status = hk_grow(rows, *count, wanted, size);
+    if (status == HOOKE_OK) status = hk_grow((void **)lines, *count, wanted, sizeof **lines);
+    if (status != HOOKE_OK) return status;
+    *capacity = wanted;
+  }
+  memcpy((char *)*rows + (size_t)*count * size, row, size);
+  (*lines)[(*count)++] = (int32_t)line;
+  return HOOKE_OK;
 }
 
 static int32_t add_vertex(struct hk_obj *obj, const double *place, int64_t line) {
-  if (obj->vertex_count == INT32_MAX)
-    return hk_fail(HOOKE_BAD_VALUE, NULL, "one vertex too many; allowed: up to 2147483647");
-  if (obj->vertex_count == obj->vertex_capacity) {
-    const int32_t status = grow((void **)&obj->vertex, obj->vertex_count, &obj->vertex_capacity,
-                                3 * sizeof(double), (void **)&obj->vertex_line);
-    if (status != HOOKE_OK) return status;
-  }
-  memcpy(obj->vertex + 3 * obj->vertex_count, place, 3 * sizeof(double));
-  obj->vertex_line[obj->vertex_count++] = (int32_t)line;
-  return HOOKE_OK;
+  return add_row((void **)&obj->vertex, &obj->vertex_line, &obj->vertex_count, &obj->vertex_capacity, place,
+                 3 * sizeof *place, line, INT32_MAX, "vertex");
 }
 
 static int32_t add_triangle(struct hk_obj *obj, int64_t a, int64_t b, int64_t c, int64_t line) {
-  if (obj->triangle_count == INT32_MAX / 3)
-    return hk_fail(HOOKE_BAD_VALUE, NULL, "one triangle too many; allowed: up to 715827882");
-  if (obj->triangle_count == obj->triangle_capacity) {
-    const int32_t status = grow((void **)&obj->triangle, obj->triangle_count, &obj->triangle_capacity,
-                                3 * sizeof(int64_t), (void **)&obj->triangle_line);
-    if (status != HOOKE_OK) return status;
-  }
   const int64_t corner[3] = {a, b, c};
-  memcpy(obj->triangle + 3 * obj->triangle_count, corner, sizeof corner);
-  obj->triangle_line[obj->triangle_count++] = (int32_t)line;
-  return HOOKE_OK;
+  return add_row((void **)&obj->triangle, &obj->triangle_line, &obj->triangle_count, &obj->triangle_capacity,
+                 corner, sizeof corner, line, INT32_MAX / 3, "triangle");
 }
 
 /* ---- elements ---- */
@@ -184,13 +161,6 @@ static int32_t read_face(struct reader *reader, int64_t line) {
   return status;
 }
 
-static int is_passed_over(const struct word *word) {
-  static const char *const names[] = {"vt", "vn", "vp", "g", "o", "s", "mg", "usemtl", "mtllib"};
-  for (size_t k = 0; k < sizeof names / sizeof names[0]; k++)
-    if (is(word, names[k])) return 1;
-  return 0;
-}
-
 static int32_t read_line(struct reader *reader) {
   struct word word;
   int32_t status = HOOKE_OK;
@@ -200,7 +170,7 @@ static int32_t read_line(struct reader *reader) {
     status = read_vertex(reader, line);
   else if (found && is(&word, "f"))
     status = read_face(reader, line);
-  else if (found && !is_passed_over(&word))
+  else if (found && !is(&word, "vt vn vp g o s mg usemtl mtllib"))
     status = refuse(&word, allowed);
   if (status != HOOKE_OK) reader->line = line;
   skip_line(reader);
@@ -213,7 +183,10 @@ int32_t hk_obj_parse(const char *text, int64_t length, struct hk_obj *obj, int64
   int32_t status = HOOKE_OK;
   while (status == HOOKE_OK && reader.at < reader.end) {
     status = read_line(&reader);
-    if (status == HOOKE_OK) end_line(&reader);
+    if (status == HOOKE_OK && reader.at < reader.end) {
+      reader.at += line_end(reader.at, reader.end);
+      reader.line++;
+    }
   }
   *line = reader.line;
   if (status != HOOKE_OK || obj->triangle_count > 0) return status;
@@ -228,7 +201,7 @@ double hk_obj_bytes(const char *text, int64_t length) {
   double vertices = 0.0, triangles = 0.0;
   int in_face = 0;
   for (int64_t k = 0; k < length; k++) {
-    const int starts = k == 0 || is_end_of_line(text[k - 1]);
+    const int starts = k == 0 || line_end(text + k - 1, text + length) > 0;
     const int blank = text[k] == ' ' || text[k] == '\t' || text[k] == '\\';
     if (starts && !(k > 1 && memchr(text + (k > 2 ? k - 3 : 0), '\\', (size_t)(k > 2 ? 3 : k))) && !blank)
       in_face = text[k] == 'f';

@@ -4,10 +4,9 @@
 #include "core/handle.h"
 #include "core/keep_errno.h"
 #include "core/memory.h"
-#include "core/memory_limit.h"
 #include "core/status.h"
 #include "io/file/inputs.h"
-#include "io/scene/json_place.h"
+#include "io/scene/json.h"
 #include "io/trajectory/record.h"
 #include "io/scene/scene_file.h"
 #include "model/system.h"
@@ -17,49 +16,26 @@
 
 enum { NAME_SHOWN = 200 };
 
-/* Long paths lose their beginning, so that line and column remain. */
-static const char *short_name(const char *name, const char **dots) {
-  size_t length = strlen(name);
-  *dots = length > NAME_SHOWN ? "..." : "";
-  return length > NAME_SHOWN ? name + length - NAME_SHOWN : name;
-}
-
-static int32_t in_file(int32_t status, const char *name) {
-  const char *dots, *shown = short_name(name, &dots);
-  return hk_fail_before(status, "%s%s: ", dots, shown);
-}
-
-int32_t hk_scene_place_line(int32_t status, const char *name, int64_t line, int64_t column) {
-  const char *dots, *shown = short_name(name, &dots);
-  if (column < 1) column = 1; /* at the end of a line, before its first character */
+/* Prefixes the name, and line and column of `at` (NULL: none). Long paths lose their beginning. */
+static int32_t in_text(int32_t status, const hooke_scene *scene, const char *at) {
+  const size_t length = strlen(scene->name), left = length > NAME_SHOWN ? length - NAME_SHOWN : 0;
+  const char *dots = left > 0 ? "..." : "", *shown = scene->name + left;
+  int64_t line, column;
+  if (at == NULL) return hk_fail_before(status, "%s%s: ", dots, shown);
+  hk_json_line(scene->text, at, &line, &column);
   return hk_fail_before(status, "%s%s:%lld:%lld: ", dots, shown, (long long)line, (long long)column);
 }
 
-static int32_t in_text(int32_t status, const hooke_scene *scene, const char *at) {
-  int64_t line, column;
-  hk_json_line(scene->text, at, &line, &column);
-  return hk_scene_place_line(status, scene->name, line, column);
-}
-
 int32_t hk_scene_place(int32_t status, const hooke_scene *scene, int32_t at_key) {
-  return in_text(status, scene, hk_json_find(scene->text, scene->length, hk_fail_place(), at_key));
+  const char *found = hk_json_find(scene->json, hk_fail_place(), at_key);
+  return in_text(status, scene, scene->text + (found - scene->json));
 }
 
-/* The text is in `scene` and was scanned. */
 static int32_t read_text(hooke_scene *scene, const char *folder) {
-  const char *at = NULL;
-  int32_t status = hk_json_check_tokens(scene->text, scene->length, &at);
+  const char *at;
+  const int32_t status = hk_json_open(scene->text, scene->length, &scene->json, &at);
   if (status == HOOKE_BAD_VALUE) return in_text(status, scene, at);
-  if (status) return status;
-  return hk_scene_build(scene, folder);
-}
-
-static int32_t require_jansson(void) {
-#if HOOKE_HAVE_JANSSON
-  return HOOKE_OK;
-#else
-  return hk_fail(HOOKE_NOT_BUILT, NULL, "scenes need a build with jansson, which this one is not");
-#endif
+  return status == HOOKE_OK ? hk_scene_build(scene, folder) : status;
 }
 
 static hooke_scene *new_scene(const char *name, const hooke_options *limits) {
@@ -97,20 +73,16 @@ static int32_t load_record(const char *path, const hooke_options *limits, hooke_
     status = hk_fail(HOOKE_BAD_VALUE, NULL, "%s: holds no scene: the run was not made from one", path);
   if (status == HOOKE_OK)
     status = hooke_scene_parse(text, (int64_t)strlen(text), path, folder, limits, scene);
+  if (status == HOOKE_OK) status = hk_inputs_note((*scene)->system, path, 1);
   if (status == HOOKE_OK) {
-    hooke_options *run = NULL;
-    status = hooke_options_copy(hooke_record_options(record), &run);
-    if (status == HOOKE_OK) status = hk_inputs_note((*scene)->system, path, 1);
-    if (status == HOOKE_OK) {
-      hooke_options_destroy((*scene)->run);
-      (*scene)->run = run;
-      const int32_t called = hk_callbacks_find(hooke_record_text(record, "callbacks"));
-      (*scene)->system->rest->called = called > 0 ? called : 0;
-    } else {
-      hooke_options_destroy(run);
-      hooke_scene_destroy(*scene);
-      *scene = NULL;
-    }
+    const int32_t called = hk_callbacks_find(hooke_record_text(record, "callbacks"));
+    (*scene)->system->rest->called = called > 0 ? called : 0;
+    hooke_options_destroy((*scene)->run);
+    status = hooke_options_copy(hooke_record_options(record), &(*scene)->run);
+  }
+  if (status != HOOKE_OK) {
+    hooke_scene_destroy(*scene);
+    *scene = NULL;
   }
   hk_free(folder);
   hooke_record_close(record);
@@ -120,40 +92,29 @@ static int32_t load_record(const char *path, const hooke_options *limits, hooke_
 int32_t hooke_scene_load(const char *path, const hooke_options *limits, hooke_scene **scene) {
   HOOKE_KEEP_ERRNO;
   *scene = NULL;
-  if (require_jansson()) return HOOKE_NOT_BUILT;
   if (hk_record_is_one(path)) return load_record(path, limits, scene);
   hooke_scene *made = new_scene(path, limits);
   if (made == NULL) return HOOKE_NO_MEMORY;
-  struct hk_json_guard guard = {.memory_limit = made->memory_limit};
-  int32_t status = hk_scene_read_file(path, &guard, &made->text, &made->length);
-  if (status == HOOKE_BAD_VALUE && guard.line)
-    hk_scene_place_line(status, path, guard.line, guard.column);
-  else if (status)
-    in_file(status, path);
-  if (status == HOOKE_OK) {
-    char *folder = hk_scene_folder(path);
-    status = folder ? read_text(made, folder) : HOOKE_NO_MEMORY;
-    hk_free(folder);
-  }
+  char *folder = hk_scene_folder(path);
+  int32_t status = HOOKE_NO_MEMORY;
+  if (folder) status = hk_scene_read_file(path, &made->memory_limit, &made->text, &made->length);
+  status = status == HOOKE_OK ? read_text(made, folder) : in_text(status, made, NULL);
+  hk_free(folder);
   if (status == HOOKE_OK) status = hk_inputs_note(made->system, path, 1);
   return finish(status, made, scene);
 }
 
 int32_t hooke_scene_parse(const char *text, int64_t length, const char *name, const char *folder,
                           const hooke_options *limits, hooke_scene **scene) {
+  HOOKE_KEEP_ERRNO;
   if (scene) *scene = NULL;
   if (text == NULL || length < 0 || scene == NULL)
     return hk_fail(HOOKE_BAD_VALUE, NULL, "no text or no scene given (length %lld)", (long long)length);
-  if (require_jansson()) return HOOKE_NOT_BUILT;
   if (name == NULL) name = "scene";
-  struct hk_json_guard guard = {0};
-  int32_t status = hk_json_guard_feed(&guard, text, length);
-  if (status == HOOKE_OK) status = hk_json_guard_end(&guard);
-  if (status) return hk_scene_place_line(status, name, guard.line, guard.column);
   hooke_scene *made = new_scene(name, limits);
   if (made == NULL) return HOOKE_NO_MEMORY;
-  status = hk_memory_require(made->memory_limit, hk_json_guard_bytes(&guard, length), "this scene");
-  if (status) return finish(in_file(status, name), made, scene);
+  int32_t status = hk_scene_require_memory(made->memory_limit, length);
+  if (status) return finish(in_text(status, made, NULL), made, scene);
   made->text = hk_new(length + 1, 1);
   made->length = length;
   if (made->text == NULL) return finish(HOOKE_NO_MEMORY, made, scene);
@@ -163,7 +124,11 @@ int32_t hooke_scene_parse(const char *text, int64_t length, const char *name, co
 
 int32_t hooke_scene_commit(hooke_scene *scene) {
   int32_t status = hooke_system_commit(scene->system);
-  return status == HOOKE_BAD_VALUE ? hk_scene_place(status, scene, 0) : status;
+  if (status == HOOKE_BAD_VALUE) return hk_scene_place(status, scene, 0);
+  if (status != HOOKE_OK) return status;
+  hk_free(scene->json); /* no fault remains whose line it finds */
+  scene->json = NULL;
+  return HOOKE_OK;
 }
 
 int32_t hooke_scene_check_output(const hooke_scene *scene, const char *path) {
@@ -176,6 +141,7 @@ void hooke_scene_destroy(hooke_scene *scene) {
   hooke_options_destroy(scene->run);
   hk_free(scene->title);
   hk_free(scene->text);
+  hk_free(scene->json);
   hk_free(scene->name);
   hk_handle_free(scene);
 }

@@ -7,6 +7,7 @@
 struct hooke_scene {
   char *name; /* of the file, for messages */
   char *text; /* ends with a NUL that `length` does not count */
+  char *json; /* the text as hk_json_open() gives it; NULL once committed */
   int64_t length;
   hooke_system *system;
   hooke_options *run;
@@ -15,20 +16,16 @@ struct hooke_scene {
   int32_t outside;     /* files that it names may be anywhere */
 };
 
-/* Fills system, run and title from the text, which was scanned and whose tokens were checked. `folder` may be
+/* Fills system, run and title from `json`. `folder` may be
  * NULL. The message of a failure has its place in the text; that of HOOKE_BAD_VALUE has a line for each fault. */
 int32_t hk_scene_build(hooke_scene *scene, const char *folder);
 
 /* Prefixes name, line and column to the last failure, whose place is a path in the text; `at_key` is 1 if the
  * fault is a key and not its value. Returns `status`. */
 int32_t hk_scene_place(int32_t status, const hooke_scene *scene, int32_t at_key);
-int32_t hk_scene_place_line(int32_t status, const char *name, int64_t line, int64_t column);
-
-/* True if a text is a scene that names files; the caller then frees its title. HOOKE_NO_MEMORY. */
-int32_t hk_scene_names_files(const char *text, int32_t *names, char **title);
 
 /* The scene to store with a run of `system` by the options `run`. `whole` is NULL if `text`, which may be
- * NULL, suffices. If it names files, `whole` is a text with their numbers, which the caller frees, so that
+ * NULL, suffices. If `system` was read from files that it names, `whole` is a text with their numbers, which the caller frees, so that
  * the run can be continued and verified without the files. A system that no scene can hold, such as one with
  * callbacks, keeps its text. HOOKE_NO_MEMORY. */
 int32_t hk_scene_make_whole(const char *text, const hooke_system *system, const hooke_options *run,

@@ -9,6 +9,7 @@
 #include "core/memory_limit.h"
 #include "core/status.h"
 #include "io/file/atomic_file.h"
+#include "io/scene/json.h"
 
 #include <errno.h>
 #include <stdio.h>
@@ -18,8 +19,13 @@
 static const int64_t first_piece = 1 << 16;
 static const int64_t largest_file = (int64_t)1 << 31;
 
+/* The text twice, and once more while it grows, and its numbers, of two characters at least. */
+int32_t hk_scene_require_memory(double limit, int64_t length) {
+  return hk_memory_require(limit, 8.0 * (double)length, "this scene");
+}
+
 /* Reads to the end; `text` has `capacity` bytes, the last reserved for the NUL. */
-static int32_t read_all(FILE *file, struct hk_json_guard *guard, char **text, int64_t *length) {
+static int32_t read_all(FILE *file, const double *memory_limit, char **text, int64_t *length) {
   int64_t capacity = first_piece;
   char reason[HOOKE_ERROR_SIZE];
   *length = 0;
@@ -33,23 +39,23 @@ static int32_t read_all(FILE *file, struct hk_json_guard *guard, char **text, in
                      hk_print_error(errno, reason));
     }
     if (got == 0) break;
-    if (guard && hk_json_guard_feed(guard, *text + *length, got)) return HOOKE_BAD_VALUE;
     *length += got;
-    if (guard && hk_memory_require(guard->memory_limit, hk_json_guard_bytes(guard, *length), "this scene"))
-      return HOOKE_NO_MEMORY;
+    (*text)[*length] = '\0';
+    if (memory_limit && hk_scene_require_memory(*memory_limit, *length)) return HOOKE_NO_MEMORY;
     if (*length > largest_file)
       return hk_fail(HOOKE_BAD_VALUE, NULL, "is larger than 2 GiB; %s",
-                     guard ? "keep long arrays in HDF5 files" : "allowed: up to that");
+                     memory_limit ? "keep long arrays in HDF5 files" : "allowed: up to that");
     if (*length < capacity - 1) continue;
+    if (memory_limit && hk_json_is_hopeless(*text, *length)) break;
     int32_t status = hk_grow((void **)text, *length, 2 * capacity, 1);
     if (status) return status;
     capacity *= 2;
   }
   (*text)[*length] = '\0';
-  return guard ? hk_json_guard_end(guard) : HOOKE_OK;
+  return HOOKE_OK;
 }
 
-int32_t hk_scene_read_file(const char *path, struct hk_json_guard *guard, char **text, int64_t *length) {
+int32_t hk_scene_read_file(const char *path, const double *memory_limit, char **text, int64_t *length) {
   HOOKE_KEEP_ERRNO;
   *text = NULL;
   const int descriptor = hk_file_open(path);
@@ -57,9 +63,9 @@ int32_t hk_scene_read_file(const char *path, struct hk_json_guard *guard, char *
   if (file == NULL) {
     const int number = errno;
     if (descriptor >= 0) close(descriptor);
-    return hk_file_refuse(HOOKE_BAD_VALUE, number, guard ? "scene file" : "file");
+    return hk_file_refuse(HOOKE_BAD_VALUE, number, memory_limit ? "scene file" : "file");
   }
-  int32_t status = read_all(file, guard, text, length);
+  int32_t status = read_all(file, memory_limit, text, length);
   fclose(file);
   if (status) {
     hk_free(*text);
@@ -111,13 +117,11 @@ int32_t hk_scene_find_file(const char *folder, const char *file, char **path) {
     return hk_fail(
         HOOKE_BAD_VALUE, NULL,
         "\"%s\" is not allowed; allowed: a path inside the scene's folder, relative and without ..", shown);
-  size_t room = strlen(folder) + strlen(file) + 2;
-  char *joined = hk_new((int64_t)room, 1);
-  if (joined == NULL) return HOOKE_NO_MEMORY;
-  snprintf(joined, room, "%s/%s", folder, file);
+  char *joined;
+  int32_t status = hk_scene_find_any(folder, file, &joined);
+  if (status != HOOKE_OK) return status;
   char *real_folder = hk_os_real_path(folder);
   char *real_file = real_folder ? hk_os_real_path(joined) : NULL;
-  int32_t status = HOOKE_OK;
   if (real_file == NULL && errno == ENOMEM)
     status = hk_fail(HOOKE_NO_MEMORY, NULL, "no memory to find the file");
   else if (real_file == NULL)

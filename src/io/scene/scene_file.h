@@ -3,16 +3,30 @@
 #define HOOKE_IO_SCENE_SCENE_FILE_H
 
 #include "core/table/option.h"
-#include "io/scene/json_scan.h"
+#include "hooke/system.h"
 
 /* The tables "scene", "particles", "driven" and "limits": number `k`, NULL past the last. */
 const struct hk_option_table *hk_scene_table(int64_t k);
 
-/* Reads a whole file and scans it on the way, so that a bad one is refused early (a NULL scanner accepts any
- * bytes). `text` ends with a NUL; the caller frees it. HOOKE_BAD_VALUE if there is no such file or the scan
- * refuses it, HOOKE_IO_FAILED if reading fails midway, HOOKE_NO_MEMORY. The message does not name the file.
- */
-int32_t hk_scene_read_file(const char *path, struct hk_json_guard *guard, char **text, int64_t *length);
+/* The arrays of a scene whose objects have particles, in the order of reading; the last has no key. */
+extern const struct hk_scene_list {
+  const char *key;    /* also the name of their options */
+  const char *others; /* keys beside those of the options, each between blanks */
+  const char *particles;
+  int32_t columns; /* of a row of particles; 0: one */
+  const char *allowed;
+  int32_t (*add)(hooke_system *system, const char *name, int64_t count, const int64_t *particles,
+                 const hooke_options *options);
+  const char *values[3]; /* keys of the numbers of hooke_system_members(), if they are groups of a force */
+} hk_scene_lists[];
+
+/* HOOKE_NO_MEMORY if a scene of `length` bytes of text may need more than `limit` (0: the machine's memory). */
+int32_t hk_scene_require_memory(double limit, int64_t length);
+
+/* Reads a whole file, or of a scene, which has a memory limit, the beginning that shows that it is not JSON. `text`
+ * ends with a NUL; the caller frees it. HOOKE_BAD_VALUE if there is no such file, HOOKE_IO_FAILED if reading fails
+ * midway, HOOKE_NO_MEMORY. The message does not name the file. */
+int32_t hk_scene_read_file(const char *path, const double *memory_limit, char **text, int64_t *length);
 
 /* The folder of a path; NULL without memory. */
 char *hk_scene_folder(const char *path);

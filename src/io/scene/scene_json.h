@@ -1,21 +1,21 @@
-/* Internal interface of the files that read a scene from parsed JSON. */
+/* Internal interface of the files that read a scene from its JSON. */
 #ifndef HOOKE_IO_SCENE_SCENE_JSON_H
 #define HOOKE_IO_SCENE_SCENE_JSON_H
 
 #include "core/table/option.h"
-#include "io/scene/part_names.h"
+#include "io/scene/json.h"
 #include "io/scene/scene.h"
-
-struct json_t; /* of jansson */
+#include "io/scene/scene_file.h"
+#include "model/part_record.h"
 
 enum { HOOKE_SCENE_MOST_FAULTS = 20 };
 
 struct hk_scene_reader {
   hooke_scene *scene;
-  const char *folder; /* NULL: no files */
-  int32_t at_key;     /* 1 if the last failure concerns a key rather than its value */
-  struct hk_part_names parts;
-  char within[64]; /* path of the object that is read */
+  const char *folder;                 /* NULL: no files */
+  int32_t at_key;                     /* 1 if the last failure concerns a key rather than its value */
+  const struct hk_part_record **part; /* by their names; NULL before they are all added */
+  char within[64];                    /* path of the object that is read */
   int32_t
       in_value; /* 1: an object that is a value of it is read, whose failure is noted as that of the value */
   char *fault[HOOKE_SCENE_MOST_FAULTS];
@@ -31,54 +31,52 @@ int32_t hk_scene_note(struct hk_scene_reader *reader, int32_t status);
 
 /* Sets `options` from the keys of an object, row by row of their table; keys in `others` (words separated by
  * blanks) are left to the caller. Then checks that nothing required is missing. */
-int32_t hk_scene_read_options(struct hk_scene_reader *reader, const struct json_t *object, const char *others,
+int32_t hk_scene_read_options(struct hk_scene_reader *reader, const char *object, const char *others,
                               hooke_options *options);
 /* The same without the last check. */
-int32_t hk_scene_read_some_options(struct hk_scene_reader *reader, const struct json_t *object,
-                                   const char *others, hooke_options *options);
+int32_t hk_scene_read_some_options(struct hk_scene_reader *reader, const char *object, const char *others,
+                                   hooke_options *options);
 
-/* Fails unless `value` is an object, an array, or a text; `place` may be NULL. */
-int32_t hk_scene_require_object(const struct json_t *value, const char *place);
-int32_t hk_scene_require_array(const struct json_t *value, const char *place, const char *allowed);
-int32_t hk_scene_require_text(const struct json_t *value, const char *place);
+/* Fails unless `value` begins with `first`, one of { [ and "; `place` may be NULL. */
+int32_t hk_scene_require(const char *value, char first, const char *place, const char *allowed);
 
-/* "is a number, 3; allowed: ..." */
-int32_t hk_scene_refuse(const struct json_t *value, const char *place, const char *allowed);
+/* "3 is not allowed; allowed: ..." */
+int32_t hk_scene_refuse(const char *value, const char *place, const char *allowed);
+int32_t hk_scene_refuse_for_row(const char *value, const char *place, const struct hk_option_row *row);
 
 /* After a failure about number k of a list `name`: changes its place to the k-th element of the array that is
  * not a word. Returns `status`. */
-int32_t hk_scene_place_number(int32_t status, const struct json_t *array, const char *name);
+int32_t hk_scene_place_number(int32_t status, const char *array, const char *name);
 
 /* ---- scene_json_array.c ---- */
 
 /* Path of a file that the scene names, which the caller frees. HOOKE_BAD_VALUE, HOOKE_NO_MEMORY. */
 int32_t hk_scene_reader_file(const struct hk_scene_reader *reader, const char *file, char **path);
 
+/* 1 for a text that is a word of the row. */
+int32_t hk_scene_is_word(const char *value, const struct hk_option_row *row);
+
 /* 1 for a text that is a number with one unit: "5 mm". Whether the unit fits is for the parser to say. */
-int32_t hk_scene_is_quantity(const struct json_t *value, const struct hk_option_row *row);
+int32_t hk_scene_is_quantity(const char *value, const struct hk_option_row *row);
 
 /* Numbers for a row of type NUMBERS, from a number, an array, or an object that names a data set; the caller
- * frees `numbers`. `unit` is set to the base of their units if any has one. */
-int32_t hk_scene_read_numbers(struct hk_scene_reader *reader, const struct json_t *value,
+ * frees `numbers`; words among them are left out. `unit` is set to the base of their units if any has one. */
+int32_t hk_scene_read_numbers(struct hk_scene_reader *reader, const char *value,
                               const struct hk_option_row *row, double **numbers, int64_t *count,
                               const char **unit);
 
-/* Empties an array whose values have been read, and nothing else: they take ten times the memory of their
- * numbers. */
-void hk_scene_forget_values(const struct json_t *array);
+/* The part of a name; NULL if there is none. */
+const struct hk_part_record *hk_scene_find_part(const struct hk_scene_reader *reader, const char *name);
 
-/* Particle numbers: `columns` in each row (0: a flat list), each a number or ["part", index]. */
-int32_t hk_scene_read_particles(struct hk_scene_reader *reader, const struct json_t *value, int32_t columns,
-                                int64_t **particles, int64_t *count);
+/* The particles of a list, each a number or ["part", index], which the caller frees. */
+int32_t hk_scene_read_particles(struct hk_scene_reader *reader, const char *value,
+                                const struct hk_scene_list *list, int64_t **particles, int64_t *count);
 
-/* ---- scene_json_pieces.c: add the contents of the key of the same name to the system ---- */
+/* ---- scene_json_pieces.c: add to the system what is under keys of the scene ---- */
 
-int32_t hk_scene_add_particles(struct hk_scene_reader *reader, const struct json_t *particles);
-int32_t hk_scene_add_parts(struct hk_scene_reader *reader, const struct json_t *parts);
-int32_t hk_scene_add_springs(struct hk_scene_reader *reader, const struct json_t *springs);
-int32_t hk_scene_add_bending(struct hk_scene_reader *reader, const struct json_t *bending);
-int32_t hk_scene_add_anchors(struct hk_scene_reader *reader, const struct json_t *anchors);
-int32_t hk_scene_add_bodies(struct hk_scene_reader *reader, const struct json_t *bodies);
-int32_t hk_scene_add_driven(struct hk_scene_reader *reader, const struct json_t *driven);
+int32_t hk_scene_add_particles(struct hk_scene_reader *reader, const char *particles);
+int32_t hk_scene_add_parts(struct hk_scene_reader *reader, const char *root);
+/* All of hk_scene_lists. */
+int32_t hk_scene_add_lists(struct hk_scene_reader *reader, const char *root);
 
 #endif

@@ -1,8 +1,6 @@
 /* Arrays of numbers and of particles in a scene. */
 #include "io/scene/scene_json.h"
 
-#if HOOKE_HAVE_JANSSON
-
 #include "core/memory.h"
 #include "core/status.h"
 #include "core/table/option_value.h"
@@ -10,10 +8,11 @@
 #include "io/file/inputs.h"
 #include "io/hdf5/array_h5.h"
 #include "io/scene/scene_file.h"
+#include "model/system.h"
 
-#include <jansson.h>
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 static const struct hk_option_row source_rows[] = {
@@ -69,7 +68,7 @@ static int32_t check_dataset(const double *numbers, int64_t rows, int64_t column
   return HOOKE_OK;
 }
 
-static int32_t numbers_from_file(struct hk_scene_reader *reader, const json_t *value, int32_t wanted,
+static int32_t numbers_from_file(struct hk_scene_reader *reader, const char *value, int32_t wanted,
                                  int32_t whole, double **numbers, int64_t *count) {
   int64_t rows = 0, columns = 0;
   hooke_options *source = NULL;
@@ -84,82 +83,141 @@ static int32_t numbers_from_file(struct hk_scene_reader *reader, const json_t *v
   return status;
 }
 
-void hk_scene_forget_values(const json_t *array) {
-  json_array_clear((json_t *)array);
-}
-
 /* ---- numbers ---- */
 
-int32_t hk_scene_is_quantity(const json_t *value, const struct hk_option_row *row) {
-  if (!json_is_string(value) || row->unit == NULL) return 0;
-  const int64_t length = (int64_t)json_string_length(value);
-  const struct hk_quantity found = hk_unit_scan(row->unit, json_string_value(value), length);
+int32_t hk_scene_is_word(const char *value, const struct hk_option_row *row) {
+  const char *word = hk_json_text(value);
+  return word && hk_option_has_word(row->words, word, (int64_t)strlen(word));
+}
+
+int32_t hk_scene_is_quantity(const char *value, const struct hk_option_row *row) {
+  const char *text = hk_json_text(value);
+  if (text == NULL || row->unit == NULL) return 0;
+  const int64_t length = (int64_t)strlen(text);
+  const struct hk_quantity found = hk_unit_scan(row->unit, text, length);
   return found.whole > found.number && found.whole == length;
 }
 
-/* `unit` is the base of the units so far. */
-static int32_t read_number(const json_t *value, const struct hk_option_row *row, double *number,
+static int32_t read_number(const char *value, const struct hk_option_row *row, double *number,
                            const char **unit) {
   const int32_t whole = row->whole;
+  const char *text = hk_json_text(value);
   if (hk_scene_is_quantity(value, row))
-    return hk_option_parse_number(row, NULL, json_string_value(value), (int64_t)json_string_length(value),
-                                  number, unit);
-  if (whole ? !json_is_integer(value) : !json_is_number(value))
-    return hk_scene_refuse(value, NULL, whole ? "a whole number, without a point" : "a number");
-  *number = json_number_value(value);
-  return HOOKE_OK;
+    return hk_option_parse_number(row, NULL, text, (int64_t)strlen(text), number, unit);
+  if (whole ? hk_json_is_integer(value) : hk_json_is_number(value)) return hk_json_number(value, number);
+  if (row->word_lists) return hk_scene_refuse_for_row(value, NULL, row);
+  return hk_scene_refuse(value, NULL, whole ? "a whole number, without a point" : "a number");
 }
 
-static int32_t require_row(const json_t *value, int64_t columns, const char *what) {
-  if (json_is_array(value) && (int64_t)json_array_size(value) == columns) return HOOKE_OK;
-  char allowed[64];
-  snprintf(allowed, sizeof allowed, "a row of %lld %s", (long long)columns, what);
+/* ---- particles ---- */
+
+static const char particle_allowed[] = "the number of a particle, or [\"part\", index]";
+
+/* Lists "rope0, cloth1", as far as there is space. */
+static void list_parts(const hooke_system *system, char *names, size_t size) {
+  names[0] = '\0';
+  for (int64_t k = 0; k < system->part_count; k++) {
+    char shown[HOOKE_OPTION_SHOWN];
+    const size_t used = strlen(names);
+    hk_option_show(system->part[k].name, (int64_t)strlen(system->part[k].name), shown);
+    const int fits = used + strlen(shown) + strlen(", , ...") < size;
+    snprintf(names + used, size - used, "%s%s", k ? ", " : "", fits ? shown : "...");
+    if (!fits) return;
+  }
+}
+
+static int compare_name(const void *name, const void *part) {
+  return strcmp(name, (*(const struct hk_part_record *const *)part)->name);
+}
+
+const struct hk_part_record *hk_scene_find_part(const struct hk_scene_reader *reader, const char *name) {
+  const struct hk_part_record *const *found = bsearch(
+      name, reader->part, (size_t)reader->scene->system->part_count, sizeof *reader->part, compare_name);
+  return found ? *found : NULL;
+}
+
+static int32_t find_in_part(const struct hk_scene_reader *reader, const char *name, int64_t index,
+                            double *particle) {
+  char names[256], shown[HOOKE_OPTION_SHOWN];
+  hk_option_show(name, (int64_t)strlen(name), shown);
+  const struct hk_part_record *part = hk_scene_find_part(reader, name);
+  if (part && index >= 0 && index < part->count) {
+    *particle = (double)(part->first + index);
+    return HOOKE_OK;
+  }
+  if (part) {
+    snprintf(names, sizeof names, "part \"%s\" has no particle", shown);
+    return hk_fail_index("[1]", names, (double)index, part->count);
+  }
+  list_parts(reader->scene->system, names, sizeof names);
+  return hk_fail(HOOKE_BAD_VALUE, "[0]", "there is no part \"%s\"; allowed: %s", shown,
+                 names[0] ? names : "none, as this scene has no parts");
+}
+
+static int32_t read_particle(const struct hk_scene_reader *reader, const char *value, double *particle) {
+  if (hk_json_is(value, '[')) {
+    const char *name = hk_json_first(value), *index = name ? hk_json_next(name) : NULL;
+    if (hk_json_count(value) == 2 && hk_json_is(name, '"') && hk_json_is_integer(index))
+      return find_in_part(reader, hk_json_text(name), hk_json_integer(index), particle);
+    return hk_scene_refuse(value, NULL, particle_allowed);
+  }
+  if (!hk_json_is_integer(value)) return hk_scene_refuse(value, NULL, particle_allowed);
+  const int64_t count = hooke_system_particle_count(reader->scene->system), number = hk_json_integer(value);
+  *particle = (double)number;
+  if (number >= 0 && number < count) return HOOKE_OK;
+  return hk_fail_index(NULL, "there is no particle", *particle, count);
+}
+
+/* ---- arrays ---- */
+
+/* What an array is made of: numbers of a row, or particles. */
+struct items {
+  struct hk_scene_reader *reader;
+  const struct hk_option_row *row;
+  const char **unit; /* the base of the units so far */
+  int32_t particles;
+};
+
+static int32_t refuse_row(const struct items *items, const char *value) {
+  char allowed[80];
+  snprintf(allowed, sizeof allowed, "a row of %d %s", (int)items->row->columns,
+           items->particles    ? "particles, numbers or [\"part\", index]"
+           : items->row->whole ? "whole numbers"
+                               : "numbers");
   return hk_scene_refuse(value, NULL, allowed);
 }
 
-static int32_t read_rows(const json_t *value, const struct hk_option_row *row, double *numbers,
-                         const char **unit) {
-  int64_t columns = row->columns;
-  for (size_t r = 0; r < json_array_size(value); r++) {
-    const json_t *item = json_array_get(value, r);
-    int32_t status = require_row(item, columns, row->whole ? "whole numbers" : "numbers");
-    if (status) return hk_fail_within(status, "[%zu]", r);
-    for (int64_t c = 0; c < columns; c++) {
-      status = read_number(json_array_get(item, (size_t)c), row, numbers++, unit);
-      if (status) return hk_fail_within(status, "[%zu][%lld]", r, (long long)c);
-    }
+/* Adds the numbers of an array, flat or in rows of `columns`, to `count` ones; words among them are left out. */
+static int32_t read_items(const struct items *items, const char *value, int64_t columns, double *numbers,
+                          int64_t *count) {
+  int64_t k = 0;
+  for (const char *item = hk_json_first(value); item; item = hk_json_next(item), k++) {
+    int32_t status = HOOKE_OK;
+    if (items->row->word_lists && hk_scene_is_word(item, items->row)) continue;
+    if (columns > 1 && hk_json_is(item, '[') && hk_json_count(item) == columns)
+      status = read_items(items, item, 1, numbers, count);
+    else if (columns > 1)
+      status = refuse_row(items, item);
+    else
+      status = items->particles ? read_particle(items->reader, item, &numbers[(*count)++])
+                                : read_number(item, items->row, &numbers[(*count)++], items->unit);
+    if (status) return hk_fail_within(status, "[%lld]", (long long)k);
   }
   return HOOKE_OK;
 }
 
-static int32_t read_list(const json_t *value, const struct hk_option_row *row, double *numbers,
-                         const char **unit) {
-  for (size_t k = 0; k < json_array_size(value); k++) {
-    int32_t status = read_number(json_array_get(value, k), row, &numbers[k], unit);
-    if (status) return hk_fail_within(status, "[%zu]", k);
-  }
-  return HOOKE_OK;
-}
-
-int32_t hk_scene_read_numbers(struct hk_scene_reader *reader, const json_t *value,
-                              const struct hk_option_row *row, double **numbers, int64_t *count,
-                              const char **unit) {
+static int32_t read_values(const struct items *items, const char *value, double **numbers, int64_t *count) {
+  const int64_t columns = items->row->columns > 1 ? items->row->columns : 1;
   int32_t status;
   *numbers = NULL;
-  *count = 1;
-  if (json_is_object(value)) {
-    status = numbers_from_file(reader, value, row->columns, row->whole, numbers, count);
+  if (hk_json_is(value, '{')) {
+    status = numbers_from_file(items->reader, value, items->row->columns, items->row->whole, numbers, count);
   } else {
-    int64_t columns = row->columns > 1 ? row->columns : 1;
-    if (json_is_array(value)) *count = columns * (int64_t)json_array_size(value);
-    *numbers = hk_new(*count, sizeof(double));
+    *count = hk_json_is(value, '[') ? 0 : 1;
+    *numbers = hk_new(*count ? 1 : columns * hk_json_count(value), sizeof(double));
     if (*numbers == NULL) return HOOKE_NO_MEMORY;
-    if (!json_is_array(value))
-      status = read_number(value, row, *numbers, unit);
-    else if (row->columns > 1)
-      status = read_rows(value, row, *numbers, unit);
-    else
-      status = read_list(value, row, *numbers, unit);
+    status = *count ? read_number(value, items->row, *numbers, items->unit)
+                    : read_items(items, value, columns, *numbers, count);
   }
   if (status) {
     hk_free(*numbers);
@@ -168,118 +226,32 @@ int32_t hk_scene_read_numbers(struct hk_scene_reader *reader, const json_t *valu
   return status;
 }
 
-/* ---- particles ---- */
-
-static const char particle_allowed[] = "the number of a particle, or [\"part\", index]";
-
-/* Lists "rope0, cloth1", as far as there is space. */
-static void list_parts(const struct hk_part_names *parts, char *names, size_t size) {
-  names[0] = '\0';
-  for (int64_t k = 0; k < parts->count; k++) {
-    char shown[HOOKE_OPTION_SHOWN];
-    const size_t used = strlen(names);
-    hk_option_show(parts->part[k].name, (int64_t)strlen(parts->part[k].name), shown);
-    const int fits = used + strlen(shown) + strlen(", , ...") < size;
-    snprintf(names + used, size - used, "%s%s", k ? ", " : "", fits ? shown : "...");
-    if (!fits) return;
-  }
+int32_t hk_scene_read_numbers(struct hk_scene_reader *reader, const char *value,
+                              const struct hk_option_row *row, double **numbers, int64_t *count,
+                              const char **unit) {
+  const struct items items = {reader, row, unit, 0};
+  return read_values(&items, value, numbers, count);
 }
 
-static int32_t find_in_part(const struct hk_scene_reader *reader, const char *name, int64_t index,
-                            int64_t *particle) {
-  char names[256], shown[HOOKE_OPTION_SHOWN];
-  hk_option_show(name, (int64_t)strlen(name), shown);
-  const struct hk_named_part *part = hk_part_names_find(&reader->parts, name);
-  if (part && index >= 0 && index < part->count) {
-    *particle = part->first + index;
-    return HOOKE_OK;
-  }
-  if (part) {
-    snprintf(names, sizeof names, "part \"%s\" has no particle", shown);
-    return hk_fail_index("[1]", names, (double)index, part->count);
-  }
-  list_parts(&reader->parts, names, sizeof names);
-  return hk_fail(HOOKE_BAD_VALUE, "[0]", "there is no part \"%s\"; allowed: %s", shown,
-                 names[0] ? names : "none, as this scene has no parts");
-}
-
-static int32_t read_particle(const struct hk_scene_reader *reader, const json_t *value, int64_t *particle) {
-  if (json_is_array(value)) {
-    const json_t *name = json_array_get(value, 0), *index = json_array_get(value, 1);
-    if (json_array_size(value) == 2 && json_is_string(name) && json_is_integer(index))
-      return find_in_part(reader, json_string_value(name), json_integer_value(index), particle);
-    return hk_scene_refuse(value, NULL, particle_allowed);
-  }
-  if (!json_is_integer(value)) return hk_scene_refuse(value, NULL, particle_allowed);
-  int64_t count = hooke_system_particle_count(reader->scene->system);
-  *particle = json_integer_value(value);
-  if (*particle >= 0 && *particle < count) return HOOKE_OK;
-  return hk_fail_index(NULL, "there is no particle", (double)*particle, count);
-}
-
-/* Converts numbers to particles in place: large scenes have no memory for both. */
-static int32_t particles_from_file(struct hk_scene_reader *reader, const json_t *value, int32_t columns,
-                                   int64_t **particles, int64_t *count) {
+/* Numbers become particles in place: large scenes have no memory for both. */
+int32_t hk_scene_read_particles(struct hk_scene_reader *reader, const char *value,
+                                const struct hk_scene_list *list, int64_t **particles, int64_t *count) {
   _Static_assert(sizeof(int64_t) == sizeof(double), "one takes the place of the other");
-  double *numbers = NULL;
-  int32_t status = numbers_from_file(reader, value, columns, 1, &numbers, count);
+  const struct hk_option_row row = {.columns = list->columns, .whole = 1};
+  const struct items items = {reader, &row, NULL, 1};
   const int64_t particle_count = hooke_system_particle_count(reader->scene->system);
+  double *numbers = NULL, number;
+  if (!hk_json_is(value, '[') && !hk_json_is(value, '{')) return hk_scene_refuse(value, NULL, list->allowed);
+  int32_t status = read_values(&items, value, &numbers, count);
   char *place = (char *)numbers;
   for (int64_t k = 0; status == HOOKE_OK && k < *count; k++, place += sizeof(double)) {
-    double number;
     memcpy(&number, place, sizeof number);
-    if (number < 0 || number >= (double)particle_count) {
+    if (number < 0 || number >= (double)particle_count)
       status = hk_fail_index("dataset", "there is no particle", number, particle_count);
-    } else {
-      const int64_t particle = (int64_t)number;
-      memcpy(place, &particle, sizeof particle);
-    }
+    const int64_t particle = status == HOOKE_OK ? (int64_t)number : 0;
+    memcpy(place, &particle, sizeof particle);
   }
-  *particles = (void *)numbers; /* released by the caller if this failed */
+  if (status) hk_free(numbers);
+  *particles = status ? NULL : (void *)numbers;
   return status;
 }
-
-static int32_t particles_from_array(const struct hk_scene_reader *reader, const json_t *value,
-                                    int32_t columns, int64_t *particles) {
-  for (size_t r = 0; r < json_array_size(value); r++) {
-    const json_t *item = json_array_get(value, r);
-    if (columns == 0) {
-      int32_t status = read_particle(reader, item, &particles[r]);
-      if (status) return hk_fail_within(status, "[%zu]", r);
-      continue;
-    }
-    int32_t status = require_row(item, columns, "particles, numbers or [\"part\", index]");
-    if (status) return hk_fail_within(status, "[%zu]", r);
-    for (int32_t c = 0; c < columns; c++) {
-      status = read_particle(reader, json_array_get(item, (size_t)c), particles++);
-      if (status) return hk_fail_within(status, "[%zu][%d]", r, (int)c);
-    }
-  }
-  return HOOKE_OK;
-}
-
-int32_t hk_scene_read_particles(struct hk_scene_reader *reader, const json_t *value, int32_t columns,
-                                int64_t **particles, int64_t *count) {
-  int32_t status;
-  *particles = NULL;
-  *count = 0;
-  if (json_is_object(value)) {
-    status = particles_from_file(reader, value, columns, particles, count);
-  } else {
-    status = hk_scene_require_array(value, NULL, columns ? "an array of pairs" : "an array of particles");
-    if (status) return status;
-    *count = (int64_t)json_array_size(value) * (columns ? columns : 1);
-    *particles = hk_new(*count, sizeof(int64_t));
-    status = *particles ? particles_from_array(reader, value, columns, *particles) : HOOKE_NO_MEMORY;
-    if (status == HOOKE_OK) hk_scene_forget_values(value);
-  }
-  if (status) {
-    hk_free(*particles);
-    *particles = NULL;
-  }
-  return status;
-}
-
-#else
-typedef int hk_scene_json_array_without_jansson;
-#endif

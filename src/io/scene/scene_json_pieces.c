@@ -1,49 +1,47 @@
 /* Particles, parts, springs and drives of a scene. */
 #include "io/scene/scene_json.h"
 
-#if HOOKE_HAVE_JANSSON
-
 #include "core/memory.h"
-#include "core/print.h"
 #include "core/status.h"
 #include "io/scene/mesh.h"
+#include "io/scene/scene_file.h"
 #include "model/particles.h"
+#include "model/system.h"
+#include "parts/part.h"
 
-#include <jansson.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 enum { LIST_SIZE = 256 };
 
 /* Reads the text of an optional key; `text` is unchanged without it. */
-static int32_t read_text(const json_t *object, const char *key, const char **text) {
-  const json_t *value = json_object_get(object, key);
+static int32_t read_text(const char *object, const char *key, const char **text) {
+  const char *value = hk_json_get(object, key);
   if (value == NULL) return HOOKE_OK;
-  int32_t status = hk_scene_require_text(value, key);
-  if (status == HOOKE_OK) *text = json_string_value(value);
+  int32_t status = hk_scene_require(value, '"', key, "a text");
+  if (status == HOOKE_OK) *text = hk_json_text(value);
   return status;
 }
 
-typedef int32_t add_one(struct hk_scene_reader *reader, const json_t *object, int64_t index,
-                        hooke_options *options);
+typedef int32_t add_one(struct hk_scene_reader *reader, const char *object, const struct hk_scene_list *list);
 
-/* Calls `add` for every object of an array, with new options of `table` (NULL: none). */
-static int32_t for_each(struct hk_scene_reader *reader, const json_t *array, const char *name,
-                        const char *table, add_one *add) {
+/* Calls `add` for every object of an optional array. */
+static int32_t for_each(struct hk_scene_reader *reader, const char *root, const char *key,
+                        const struct hk_scene_list *list, add_one *add) {
+  const char *array = hk_json_get(root, key);
+  int64_t k = 0;
   reader->within[0] = '\0';
-  int32_t status = hk_scene_require_array(array, name, "an array of objects [{ ... }, ...]");
-  if (status) return status;
-  for (size_t k = 0; k < json_array_size(array); k++) {
-    const json_t *object = json_array_get(array, k);
-    hooke_options *options = NULL;
-    snprintf(reader->within, sizeof reader->within, "%s[%zu]", name, k);
-    status = hk_scene_require_object(object, NULL);
-    if (status == HOOKE_OK && table) status = hooke_options_create(table, &options);
-    if (status == HOOKE_OK) status = add(reader, object, (int64_t)k, options);
-    hooke_options_destroy(options);
+  int32_t status = array ? hk_scene_require(array, '[', key, "an array of objects [{ ... }, ...]") : HOOKE_OK;
+  if (status != HOOKE_OK) return hk_scene_note(reader, status);
+  for (const char *at = array ? hk_json_first(array) : NULL; at; at = hk_json_next(at), k++) {
+    snprintf(reader->within, sizeof reader->within, "%s[%lld]", key, (long long)k);
+    status = hk_scene_require(at, '{', NULL, "an object { ... }");
+    if (status == HOOKE_OK) status = add(reader, at, list);
     status = hk_scene_note(reader, status);
-    if (status) return status;
+    if (status != HOOKE_OK) return status;
   }
+  reader->within[0] = '\0';
   return HOOKE_OK;
 }
 
@@ -61,11 +59,10 @@ static int32_t pin(hooke_system *system, const hooke_options *options) {
   return status;
 }
 
-static int32_t add_particles(struct hk_scene_reader *reader, const json_t *particles,
-                             hooke_options *options) {
+static int32_t add_particles(struct hk_scene_reader *reader, const char *particles, hooke_options *options) {
   const hooke_system *system = reader->scene->system;
   const double none = 1.0; /* where masses do nothing, and none are given */
-  const int32_t given = json_object_get(particles, "mass") != NULL,
+  const int32_t given = hk_json_get(particles, "mass") != NULL,
                 idle = system->overdamped && !system->has_gravity;
   int32_t status = idle && !given ? hooke_options_set_numbers(options, "mass", 1, &none) : HOOKE_OK;
   if (status == HOOKE_OK) status = hk_scene_read_options(reader, particles, NULL, options);
@@ -85,10 +82,10 @@ static int32_t add_particles(struct hk_scene_reader *reader, const json_t *parti
   return status ? status : pin(reader->scene->system, options);
 }
 
-int32_t hk_scene_add_particles(struct hk_scene_reader *reader, const json_t *particles) {
+int32_t hk_scene_add_particles(struct hk_scene_reader *reader, const char *particles) {
   hooke_options *options = NULL;
   strcpy(reader->within, "particles");
-  int32_t status = hk_scene_require_object(particles, NULL);
+  int32_t status = hk_scene_require(particles, '{', NULL, "an object { ... }");
   if (status == HOOKE_OK) status = hooke_options_create("particles", &options);
   if (status == HOOKE_OK) status = add_particles(reader, particles, options);
   hooke_options_destroy(options);
@@ -97,55 +94,13 @@ int32_t hk_scene_add_particles(struct hk_scene_reader *reader, const json_t *par
 
 /* ---- parts ---- */
 
-static int32_t read_kind(const json_t *object, const char **kind) {
-  char kinds[LIST_SIZE] = "";
-  for (int64_t k = 0; hooke_part_kind(k, "name"); k++)
-    hk_append(kinds, sizeof kinds, "%s%s", k ? ", " : "", hooke_part_kind(k, "name"));
-  int32_t status = read_text(object, "kind", kind);
-  if (status) return status;
-  if (*kind == NULL) return hk_fail(HOOKE_BAD_VALUE, "kind", "is required but missing; allowed: %s", kinds);
-  for (int64_t k = 0; hooke_part_kind(k, "name"); k++)
-    if (strcmp(hooke_part_kind(k, "name"), *kind) == 0) return HOOKE_OK;
-  char shown[HOOKE_OPTION_SHOWN];
-  hk_option_show(*kind, (int64_t)strlen(*kind), shown);
-  return hk_fail(HOOKE_BAD_VALUE, "kind", "\"%s\" is not a kind of part; allowed: %s", shown, kinds);
-}
-
-/* Collects the names of all parts before the first is built; an unnamed part gets its kind and number. Errors
- * in a part are reported when it is built. */
-static int32_t note_names(struct hk_scene_reader *reader, const json_t *parts) {
-  int32_t status = hk_part_names_create((int64_t)json_array_size(parts), &reader->parts);
-  for (int64_t k = 0; k < reader->parts.count && status == HOOKE_OK; k++) {
-    const json_t *object = json_array_get(parts, (size_t)k);
-    const char *name = json_string_value(json_object_get(object, "name"));
-    const char *kind = json_string_value(json_object_get(object, "kind"));
-    char made[LIST_SIZE];
-    snprintf(made, sizeof made, "%s%lld", kind ? kind : "", (long long)k);
-    status = hk_part_names_set(&reader->parts, k, name && name[0] ? name : made);
-  }
-  if (status == HOOKE_OK) hk_part_names_sort(&reader->parts);
-  return status;
-}
-
-static int32_t check_name(const struct hk_scene_reader *reader, int64_t index) {
-  const char *name = reader->parts.part[index].name;
-  const struct hk_named_part *first = hk_part_names_find(&reader->parts, name);
-  if (first->number == index) return HOOKE_OK;
-  char shown[HOOKE_OPTION_SHOWN];
-  hk_option_show(name, (int64_t)strlen(name), shown);
-  return hk_fail(HOOKE_BAD_VALUE, "name",
-                 "\"%s\" is the name of part %lld already; allowed: a name of its own", shown,
-                 (long long)first->number);
-}
-
 /* Reads the file of a mesh into its vertices and triangles, so that a system does not depend on files. */
 static int32_t read_file(const struct hk_scene_reader *reader, hooke_options *options) {
   if (!hooke_options_is_set(options, "file")) return HOOKE_OK;
   const char *file = hooke_options_text(options, "file");
   char *path = NULL;
   int32_t status = hk_mesh_check_alone(options);
-  if (status != HOOKE_OK) return status;
-  status = hk_scene_reader_file(reader, file, &path);
+  if (status == HOOKE_OK) status = hk_scene_reader_file(reader, file, &path);
   if (status == HOOKE_OK) status = hk_mesh_read_as(path, file, reader->scene->memory_limit, options);
   hk_free(path);
   if (status != HOOKE_BAD_VALUE && status != HOOKE_IO_FAILED) return status;
@@ -154,109 +109,69 @@ static int32_t read_file(const struct hk_scene_reader *reader, hooke_options *op
   return hk_fail(HOOKE_BAD_VALUE, "file", "%s", hooke_last_error());
 }
 
-static int32_t add_part(struct hk_scene_reader *reader, const json_t *object, int64_t index,
-                        hooke_options *options) {
+static int32_t add_part(struct hk_scene_reader *reader, const char *object,
+                        const struct hk_scene_list *list) {
+  (void)list;
   const char *kind = NULL, *name = "";
-  int32_t status = read_kind(object, &kind);
-  if (status == HOOKE_OK) status = read_text(object, "name", &name);
-  if (status == HOOKE_OK) status = check_name(reader, index);
-  if (status == HOOKE_OK) status = hooke_options_create(kind, &options);
+  hooke_options *options = NULL;
+  int32_t status = read_text(object, "kind", &kind);
+  const struct hk_option_table *table = status == HOOKE_OK ? hk_part_find(kind) : NULL;
+  if (table == NULL) return HOOKE_BAD_VALUE;
+  status = read_text(object, "name", &name);
+  if (status == HOOKE_OK) status = hk_options_create(table, &options);
   if (status == HOOKE_OK) status = hk_scene_read_options(reader, object, "kind name", options);
   if (status == HOOKE_OK) status = read_file(reader, options);
   if (status == HOOKE_OK) {
-    struct hk_named_part *part = &reader->parts.part[index];
-    status = hooke_system_add_part(reader->scene->system, kind, name, options, &part->first, &part->count);
-    if (status) hk_scene_place_number(status, json_object_get(object, "pinned"), "pinned");
+    status = hooke_system_add_part(reader->scene->system, kind, name, options, NULL, NULL);
+    if (status) hk_scene_place_number(status, hk_json_get(object, "pinned"), "pinned");
   }
   hooke_options_destroy(options);
   return status;
 }
 
-int32_t hk_scene_add_parts(struct hk_scene_reader *reader, const json_t *parts) {
-  const int32_t status = note_names(reader, parts);
-  return status == HOOKE_OK ? for_each(reader, parts, "parts", NULL, add_part) : status;
+static int compare_parts(const void *a, const void *b) {
+  const struct hk_part_record *one = *(const struct hk_part_record *const *)a,
+                              *other = *(const struct hk_part_record *const *)b;
+  const int order = strcmp(one->name, other->name);
+  return order ? order : (one > other) - (one < other);
 }
 
-/* ---- springs and anchors ---- */
-
-static int32_t add_triples(hooke_system *system, const char *name, int64_t count, const int64_t *particles,
-                           const hooke_options *options) {
-  return hooke_system_add_bending(system, name, count, particles,
-                                  hooke_options_number_count(options, "coefficient"),
-                                  hooke_options_numbers(options, "coefficient"));
+/* Sorts the parts by their names, each of which is its own. */
+static int32_t sort_parts(struct hk_scene_reader *reader) {
+  const hooke_system *system = reader->scene->system;
+  char place[LIST_SIZE], shown[HOOKE_OPTION_SHOWN];
+  reader->part = hk_new(system->part_count, sizeof *reader->part);
+  if (reader->part == NULL) return HOOKE_NO_MEMORY;
+  for (int64_t k = 0; k < system->part_count; k++)
+    reader->part[k] = &system->part[k];
+  qsort(reader->part, (size_t)system->part_count, sizeof *reader->part, compare_parts);
+  for (int64_t k = 1; k < system->part_count; k++) {
+    const struct hk_part_record *first = reader->part[k - 1], *second = reader->part[k];
+    if (strcmp(first->name, second->name) != 0) continue;
+    snprintf(place, sizeof place, "parts[%lld].name", (long long)(second - system->part));
+    hk_option_show(first->name, (int64_t)strlen(first->name), shown);
+    return hk_fail(HOOKE_BAD_VALUE, place,
+                   "\"%s\" is the name of part %lld already; allowed: a name of its own", shown,
+                   (long long)(first - system->part));
+  }
+  return HOOKE_OK;
 }
 
-/* Forces whose groups a scene lists, with each member given by its particles. */
-static const struct group_kind {
-  const char *key, *particles;
-  int32_t columns; /* for a row of particles; 0: one */
-  const char *allowed;
-  int32_t (*add)(hooke_system *system, const char *name, int64_t count, const int64_t *particles,
-                 const hooke_options *options);
-} springs_kind = {"springs", "between", 2, "an array of pairs of particles", hooke_system_add_springs},
-  bending_kind = {"bending", "triples", 3, "an array of triples of particles", add_triples},
-  anchors_kind = {"anchors", "particles", 0, "an array of particles", hooke_system_add_anchors};
-
-static int32_t read_group(struct hk_scene_reader *reader, const json_t *object, const struct group_kind *kind,
-                          hooke_options *options) {
-  const char *name = "";
-  int64_t *particles = NULL, count = 0;
-  char others[32];
-  snprintf(others, sizeof others, "name %s", kind->particles);
-  int32_t status = hk_scene_read_options(reader, object, others, options);
-  if (status == HOOKE_OK) status = read_text(object, "name", &name);
-  if (status) return status;
-  const json_t *list = json_object_get(object, kind->particles);
-  if (list == NULL)
-    return hk_fail(HOOKE_BAD_VALUE, kind->particles, "is required but missing; allowed: %s", kind->allowed);
-  status = hk_scene_read_particles(reader, list, kind->columns, &particles, &count);
-  if (status) return hk_fail_within(status, "%s", kind->particles);
-  status = kind->add(reader->scene->system, name, kind->columns > 0 ? count / kind->columns : count,
-                     particles, options);
-  hk_free(particles);
-  return status;
+int32_t hk_scene_add_parts(struct hk_scene_reader *reader, const char *root) {
+  const int32_t status = for_each(reader, root, "parts", NULL, add_part);
+  return status == HOOKE_OK && reader->faults == 0 ? hk_scene_note(reader, sort_parts(reader)) : status;
 }
 
-static int32_t add_springs(struct hk_scene_reader *reader, const json_t *object, int64_t index,
-                           hooke_options *options) {
-  (void)index;
-  return read_group(reader, object, &springs_kind, options);
-}
+/* ---- groups, bodies and drives ---- */
 
-static int32_t add_bending(struct hk_scene_reader *reader, const json_t *object, int64_t index,
-                           hooke_options *options) {
-  (void)index;
-  return read_group(reader, object, &bending_kind, options);
-}
-
-static int32_t add_anchors(struct hk_scene_reader *reader, const json_t *object, int64_t index,
-                           hooke_options *options) {
-  (void)index;
-  return read_group(reader, object, &anchors_kind, options);
-}
-
-int32_t hk_scene_add_springs(struct hk_scene_reader *reader, const json_t *springs) {
-  return for_each(reader, springs, springs_kind.key, springs_kind.key, add_springs);
-}
-
-int32_t hk_scene_add_bending(struct hk_scene_reader *reader, const json_t *bending) {
-  return for_each(reader, bending, bending_kind.key, bending_kind.key, add_bending);
-}
-
-int32_t hk_scene_add_anchors(struct hk_scene_reader *reader, const json_t *anchors) {
-  return for_each(reader, anchors, anchors_kind.key, anchors_kind.key, add_anchors);
-}
-
-/* ---- bodies ---- */
-
-static int32_t list_part(const struct hk_scene_reader *reader, const json_t *value, int64_t **particles,
+static int32_t list_part(const struct hk_scene_reader *reader, const char *value, int64_t **particles,
                          int64_t *count) {
-  int32_t status = hk_scene_require_text(value, "part");
+  int32_t status = hk_scene_require(value, '"', "part", "a text");
   if (status != HOOKE_OK) return status;
-  const struct hk_named_part *part = hk_part_names_find(&reader->parts, json_string_value(value));
+  const struct hk_part_record *part = hk_scene_find_part(reader, hk_json_text(value));
   if (part == NULL) {
     char shown[HOOKE_OPTION_SHOWN];
-    hk_option_show(json_string_value(value), (int64_t)json_string_length(value), shown);
+    hk_option_show(hk_json_text(value), (int64_t)strlen(hk_json_text(value)), shown);
     return hk_fail(HOOKE_BAD_VALUE, "part", "there is no part \"%s\"; allowed: the name of a part", shown);
   }
   *particles = hk_new(part->count, sizeof **particles);
@@ -267,66 +182,82 @@ static int32_t list_part(const struct hk_scene_reader *reader, const json_t *val
   return HOOKE_OK;
 }
 
-static int32_t add_body(struct hk_scene_reader *reader, const json_t *object, int64_t index,
-                        hooke_options *options) {
-  (void)index;
-  const json_t *list = json_object_get(object, "particles"), *part = json_object_get(object, "part");
+static int32_t read_particles(struct hk_scene_reader *reader, const char *object,
+                              const struct hk_scene_list *list, int64_t **particles, int64_t *count) {
+  const char *value = hk_json_get(object, list->particles);
+  const char *part = strstr(list->others, " part ") ? hk_json_get(object, "part") : NULL;
+  if (value && part)
+    return hk_fail(HOOKE_BAD_VALUE, "part", "is given beside particles; allowed: %s", list->allowed);
+  if (part) return list_part(reader, part, particles, count);
+  if (value == NULL)
+    return hk_fail(HOOKE_BAD_VALUE, list->particles, "is required but missing; allowed: %s", list->allowed);
+  const int32_t status = hk_scene_read_particles(reader, value, list, particles, count);
+  return status == HOOKE_OK ? status : hk_fail_within(status, "%s", list->particles);
+}
+
+static int32_t add_member(struct hk_scene_reader *reader, const char *object,
+                          const struct hk_scene_list *list) {
   const char *name = "";
   int64_t *particles = NULL, count = 0;
-  int32_t status = hk_scene_read_options(reader, object, "name particles part", options);
-  if (status == HOOKE_OK) status = read_text(object, "name", &name);
-  if (status == HOOKE_OK && (list == NULL) == (part == NULL))
-    status =
-        hk_fail(HOOKE_BAD_VALUE, part ? "part" : "particles", "%s; allowed: particles, or the name of a part",
-                part ? "is given beside particles" : "is required but missing");
-  if (status != HOOKE_OK) return status;
-  if (part) {
-    status = list_part(reader, part, &particles, &count);
-  } else {
-    status = hk_scene_read_particles(reader, list, 0, &particles, &count);
-    if (status != HOOKE_OK) hk_fail_within(status, "particles");
-  }
+  hooke_options *options = NULL;
+  int32_t status = hooke_options_create(list->key, &options);
+  if (status == HOOKE_OK) status = hk_scene_read_options(reader, object, list->others, options);
+  if (status == HOOKE_OK && strstr(list->others, " name ")) status = read_text(object, "name", &name);
+  if (status == HOOKE_OK) status = read_particles(reader, object, list, &particles, &count);
   if (status == HOOKE_OK)
-    status = hooke_system_add_body(reader->scene->system, name, count, particles,
-                                   hooke_options_number(options, "project") != 0.0);
+    status = list->add(reader->scene->system, name, list->columns > 0 ? count / list->columns : count,
+                       particles, options);
   hk_free(particles);
+  hooke_options_destroy(options);
   return status;
 }
 
-int32_t hk_scene_add_bodies(struct hk_scene_reader *reader, const json_t *bodies) {
-  return for_each(reader, bodies, "bodies", "bodies", add_body);
+int32_t hk_scene_add_lists(struct hk_scene_reader *reader, const char *root) {
+  int32_t status = HOOKE_OK;
+  for (const struct hk_scene_list *list = hk_scene_lists; list->key && status == HOOKE_OK; list++)
+    status = for_each(reader, root, list->key, list, add_member);
+  return status;
+}
+
+static int32_t add_bending(hooke_system *system, const char *name, int64_t count, const int64_t *particles,
+                           const hooke_options *options) {
+  return hooke_system_add_bending(system, name, count, particles,
+                                  hooke_options_number_count(options, "coefficient"),
+                                  hooke_options_numbers(options, "coefficient"));
+}
+
+static int32_t add_body(hooke_system *system, const char *name, int64_t count, const int64_t *particles,
+                        const hooke_options *options) {
+  return hooke_system_add_body(system, name, count, particles,
+                               hooke_options_number(options, "project") != 0.0);
 }
 
 /* ---- drives ---- */
 
-/* Refuses the keys of another motion, and requires those of this one. */
+/* Refuses the keys of another motion, and requires those of this one but the phase. */
 static int32_t check_drive(const hooke_options *options) {
-  static const struct {
-    const char *motion, *key;
-    int32_t required;
-  } keys[] = {{"harmonic", "amplitude", 1},
-              {"harmonic", "frequency", 1},
-              {"harmonic", "phase", 0},
-              {"table", "time", 1},
-              {"table", "position", 1}};
+  static const char *const keys[] = {"amplitude", "frequency", "phase", "time", "position"};
   const char *motion = hooke_options_text(options, "motion");
-  for (size_t k = 0; k < sizeof keys / sizeof keys[0]; k++) {
-    int32_t set = hooke_options_is_set(options, keys[k].key);
-    int32_t belongs = strcmp(motion, keys[k].motion) == 0;
+  const int32_t table = strcmp(motion, "table") == 0;
+  for (int32_t k = 0; k < 5; k++) {
+    const int32_t set = hooke_options_is_set(options, keys[k]), belongs = (k >= 3) == table;
     if (set && !belongs)
-      return hk_fail(HOOKE_BAD_VALUE, keys[k].key, "belongs to motion \"%s\"; allowed with \"%s\": %s",
-                     keys[k].motion, motion,
-                     strcmp(motion, "table") == 0 ? "time, position" : "amplitude, frequency, phase");
-    if (!set && belongs && keys[k].required)
-      return hk_fail(HOOKE_BAD_VALUE, keys[k].key, "is required with motion \"%s\" but missing", motion);
+      return hk_fail(HOOKE_BAD_VALUE, keys[k], "belongs to motion \"%s\"; allowed with \"%s\": %s",
+                     table ? "harmonic" : "table", motion,
+                     table ? "time, position" : "amplitude, frequency, phase");
+    if (!set && belongs && strcmp(keys[k], "phase") != 0)
+      return hk_fail(HOOKE_BAD_VALUE, keys[k], "is required with motion \"%s\" but missing", motion);
   }
   return HOOKE_OK;
 }
 
-static int32_t drive(hooke_system *system, const hooke_options *options, int64_t count,
-                     const int64_t *particles) {
+static int32_t add_drive(hooke_system *system, const char *name, int64_t count, const int64_t *particles,
+                         const hooke_options *options) {
+  (void)name;
+  const int32_t status = check_drive(options);
+  if (status != HOOKE_OK) return status;
   if (strcmp(hooke_options_text(options, "motion"), "harmonic") == 0) {
-    double phase = hooke_options_is_set(options, "phase") ? hooke_options_number(options, "phase") : 0;
+    const double phase = hooke_options_is_set(options, "phase") ? hooke_options_number(options, "phase") : 0;
     return hooke_system_drive_harmonic(system, count, particles, hooke_options_numbers(options, "amplitude"),
                                        hooke_options_number(options, "frequency"), phase);
   }
@@ -339,27 +270,30 @@ static int32_t drive(hooke_system *system, const hooke_options *options, int64_t
                                   hooke_options_numbers(options, "position"));
 }
 
-static int32_t add_driven(struct hk_scene_reader *reader, const json_t *object, int64_t index,
-                          hooke_options *options) {
-  (void)index;
-  int64_t *particles = NULL, count = 0;
-  int32_t status = hk_scene_read_options(reader, object, "particles", options);
-  if (status == HOOKE_OK) status = check_drive(options);
-  if (status) return status;
-  const json_t *list = json_object_get(object, "particles");
-  if (list == NULL)
-    return hk_fail(HOOKE_BAD_VALUE, "particles", "is required but missing; allowed: an array of particles");
-  status = hk_scene_read_particles(reader, list, 0, &particles, &count);
-  if (status) return hk_fail_within(status, "particles");
-  status = drive(reader->scene->system, options, count, particles);
-  hk_free(particles);
-  return status;
-}
-
-int32_t hk_scene_add_driven(struct hk_scene_reader *reader, const json_t *driven) {
-  return for_each(reader, driven, "driven", "driven", add_driven);
-}
-
-#else
-typedef int hk_scene_json_pieces_without_jansson;
-#endif
+/* The keys of a member are those of its options and `others`, between blanks. */
+const struct hk_scene_list hk_scene_lists[] = {
+    {"springs",
+     " name between ",
+     "between",
+     2,
+     "an array of pairs of particles",
+     hooke_system_add_springs,
+     {"stiffness", "damping", "rest_length"}},
+    {"bending",
+     " name triples ",
+     "triples",
+     3,
+     "an array of triples of particles",
+     add_bending,
+     {"coefficient"}},
+    {"anchors",
+     " name particles ",
+     "particles",
+     0,
+     "an array of particles",
+     hooke_system_add_anchors,
+     {"stiffness", "damping", "rest_length"}},
+    {"bodies", " name particles part ", "particles", 0, "particles, or the name of a part", add_body, {NULL}},
+    {"driven", " particles ", "particles", 0, "an array of particles", add_drive, {NULL}},
+    {NULL, NULL, NULL, 0, NULL, NULL, {NULL}},
+};

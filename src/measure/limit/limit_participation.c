@@ -131,9 +131,9 @@ static void divide(struct hk_participation *participation, const struct whole *w
 int32_t hk_participation_find(const hooke_system *system, const double *q, const double *mode, double h2,
                               double h, struct hk_participation *participation) {
   struct whole whole = {0.0, 0.0, 0.0};
-  *participation = (struct hk_participation){.group_count = system->group_count};
-  participation->group_share = hk_new(participation->group_count, sizeof(double));
+  *participation = (struct hk_participation){.group_share = hk_new(system->group_count, sizeof(double))};
   if (participation->group_share == NULL) return HOOKE_NO_MEMORY;
+  participation->group_count = system->group_count;
   if (mode == NULL) return HOOKE_OK;
   double *moves = hk_new(3 * system->particle_count, sizeof(double));
   if (moves == NULL) {

@@ -375,5 +375,5 @@ def build_facts() -> dict[str, str]:
 
 
 _FACTS = (
-    "sundials", "cholmod", "lapack", "gsl", "arpack", "hdf5", "jansson", "chartjs", "threejs", "instructions", "licence",
+    "sundials", "cholmod", "lapack", "gsl", "arpack", "hdf5", "chartjs", "threejs", "instructions", "licence",
 )

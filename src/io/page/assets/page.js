@@ -194,7 +194,7 @@ function writeMachine() {
   fact("machine", "instructions", versions.instructions);
   fact("machine", "hooke", versions.hooke);
   const names = { sundials: "SUNDIALS", cholmod: "CHOLMOD", lapack: "LAPACK", gsl: "GSL", arpack: "ARPACK-NG", hdf5: "HDF5",
-    jansson: "jansson", chartjs: "Chart.js" };
+    chartjs: "Chart.js" };
   for (const [key, name] of Object.entries(names)) fact("machine", name, versions[key]);
   fact("machine", "licence", versions.licence);
 }
