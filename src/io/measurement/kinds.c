@@ -49,7 +49,10 @@ const char *hooke_measurement_table(const char *kind, int64_t table, const char 
   if (kind == NULL)
     return table >= 0 && table < KINDS && strcmp(what, "name") == 0 ? kinds[table]->name : NULL;
   const struct hk_measurement_kind *k = find(kind);
-  if (k == NULL || table < 0 || table >= k->table_count) return NULL;
+  int64_t count = 0;
+  while (k && k->tables[count])
+    count++;
+  if (table < 0 || table >= count) return NULL;
   const struct hk_table *t = k->tables[table];
   if (strcmp(what, "name") == 0) return t->name;
   if (strcmp(what, "doc") == 0) return t->doc;
