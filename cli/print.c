@@ -179,6 +179,11 @@ void cli_print_wrapped(FILE *file, int32_t column, int32_t indent, int32_t width
   fputc('\n', file);
 }
 
+void cli_print_fact(int32_t indent, int32_t width, const char *label, const char *text) {
+  printf("%-*s", indent, label);
+  cli_print_wrapped(stdout, indent, indent, width, text);
+}
+
 /* ---- JSON ---- */
 
 static void write_string(FILE *file, const char *text) {

@@ -20,18 +20,11 @@ static void print_head(int32_t width) {
   printf("%-*s %10s %12s %10s %10s %10s\n", width, "", "[m]", "of forces", "step", "[s]", "step [s]");
 }
 
-static void print_limit(double limit) {
-  if (isinf(limit))
-    printf(" %10s", "none");
-  else
-    cli_rows_print_cell(10, limit);
-}
-
 static void print_costs(double evaluations, double per_step, double wall, double limit) {
   printf(" %12.0f", evaluations);
   cli_rows_print_cell(10, per_step);
   cli_rows_print_cell(10, wall);
-  print_limit(limit);
+  cli_rows_print_as(10, limit, "%.4g", "none", NULL);
 }
 
 static void print_row(const hooke_measurement *needs, int64_t row, int32_t width) {
@@ -100,8 +93,7 @@ static void print_saving(const hooke_measurement *needs) {
            hooke_measurement_number(needs, "lean", 0, "wall_seconds"),
            hooke_measurement_text(needs, "needs", 0, "method"),
            hooke_measurement_number(needs, "cheapest", 0, "wall_seconds"), ratio, cheaper);
-  printf("%-*s", LABEL, "");
-  cli_print_wrapped(stdout, LABEL, LABEL, WIDTH, text);
+  cli_print_fact(LABEL, WIDTH, "", text);
 }
 
 static void print_lean(const struct cli_needs_results *results) {
@@ -117,18 +109,17 @@ static void print_lean(const struct cli_needs_results *results) {
   }
   if (!left_out) {
     const char *note = hooke_measurement_text(needs, "lean", 0, "note");
-    printf("\n%-*s", LABEL, "lean");
-    cli_print_wrapped(stdout, LABEL, LABEL, WIDTH,
-                      note[0] ? note
-                      : has_unknown(needs)
-                          ? "nothing is left out: it cannot be told what is not needed"
-                          : "all that would save something is needed: there is nothing to leave out");
+    printf("\n");
+    cli_print_fact(LABEL, WIDTH, "lean",
+                   note[0] ? note
+                   : has_unknown(needs)
+                       ? "nothing is left out: it cannot be told what is not needed"
+                       : "all that would save something is needed: there is nothing to leave out");
     return;
   }
   print_saving(needs);
   if (hooke_measurement_text(needs, "lean", 0, "note")[0]) {
-    printf("%-*s", LABEL, "");
-    cli_print_wrapped(stdout, LABEL, LABEL, WIDTH, hooke_measurement_text(needs, "lean", 0, "note"));
+    cli_print_fact(LABEL, WIDTH, "", hooke_measurement_text(needs, "lean", 0, "note"));
   }
   printf("%-*s", LABEL, "");
   if (results->command)
@@ -187,8 +178,7 @@ int32_t cli_needs_results_trust(const hooke_measurement *needs, char text[HOOKE_
 }
 
 static void print_warning(const char *text) {
-  printf("%-*s", LABEL, "WARNING");
-  cli_print_wrapped(stdout, LABEL, LABEL, WIDTH, text);
+  cli_print_fact(LABEL, WIDTH, "WARNING", text);
   printf("\n");
 }
 

@@ -21,8 +21,7 @@ static void print_fact(const char *label, const char *format, ...) {
   va_start(args, format);
   vsnprintf(text, sizeof text, format, args);
   va_end(args);
-  printf("%-*s", LABEL, label);
-  cli_print_wrapped(stdout, LABEL, LABEL, WIDTH, text);
+  cli_print_fact(LABEL, WIDTH, label, text);
 }
 
 /* ---- the reference ---- */

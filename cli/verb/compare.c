@@ -154,7 +154,10 @@ static void print_reference(const struct compare *compare) {
 }
 
 static void print_words(const struct compare *compare) {
-  const struct cli_rows rows = {.source = compare->comparison, .count = rows_done(compare->comparison)};
+  const struct cli_rows rows = {.source = compare->comparison,
+                                .count = rows_done(compare->comparison),
+                                .columns = cli_rows_of_runs,
+                                .status = 1};
   int32_t width = cli_rows_method_width(&rows);
   char text[HOOKE_NUMBER_SIZE];
   cli_print_text(stdout, cli_setup_title(compare->arguments, &compare->setup));

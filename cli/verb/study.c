@@ -99,7 +99,9 @@ static char mark_of(const hooke_measurement *study, int64_t row, const char *wha
 struct cli_rows cli_study_results_rows(const struct cli_study_results *results) {
   return (struct cli_rows){.source = results->study,
                            .count = hooke_measurement_row_count(results->study, "rows"),
+                           .columns = cli_rows_of_runs,
                            .grouped = 1,
+                           .status = 1,
                            .mark = mark_of};
 }
 

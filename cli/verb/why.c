@@ -14,7 +14,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MOST_SPRINGS_SHOWN = 8 };
+enum { LABEL = 12, WIDTH = 100 };
 
 struct why {
   const struct cli_arguments *arguments;
@@ -27,8 +27,6 @@ struct why {
   double bound;           /* the safe step there [s]; NaN: not known */
   int code;               /* failures are reported already */
 };
-
-static const double SMALLEST_SHARE = 1e-3; /* storage of words */
 
 /* ---- diagnosing ---- */
 
@@ -158,44 +156,6 @@ static void print_number(const char *label, double value, const char *unit) {
     printf("%-12s%s %s\n", label, cli_format_rounded(value, text), unit);
 }
 
-static void print_spring(const hooke_measurement *found, int64_t row, const char *label) {
-  const char *group = hooke_measurement_text(found, "blame", row, "group");
-  const double share = hooke_measurement_number(found, "blame", row, "share");
-  printf("%-12s%.0f, between particles %.0f and %.0f", label,
-         hooke_measurement_number(found, "blame", row, "number"),
-         hooke_measurement_number(found, "blame", row, "first"),
-         hooke_measurement_number(found, "blame", row, "second"));
-  if (group[0]) {
-    printf(", group ");
-    cli_print_text(stdout, group);
-  }
-  if (!isnan(share)) printf(", share %.3g", share);
-  printf("\n");
-}
-
-static void print_springs(const hooke_measurement *found) {
-  const int64_t count = hooke_measurement_row_count(found, "blame");
-  int64_t forces = 0;
-  for (int64_t k = 0; k < count && k < MOST_SPRINGS_SHOWN; k++) {
-    const char *force = hooke_measurement_text(found, "blame", k, "force");
-    const double share = hooke_measurement_number(found, "blame", k, "share");
-    if (k > 0 && share < SMALLEST_SHARE) return;
-    if (force) {
-      printf("%-12s%s, share %.3g\n", "force", force, share);
-      forces++;
-    } else {
-      print_spring(found, k, k == forces ? "springs" : "");
-    }
-  }
-  if (count > MOST_SPRINGS_SHOWN) printf("%-12sand %" PRId64 " more\n", "", count - MOST_SPRINGS_SHOWN);
-}
-
-static void print_wrapped(const char *label, const char *words) {
-  printf("%-12s", label);
-  cli_print_wrapped(stdout, 12, 12, 100, words);
-  printf("\n");
-}
-
 static double number_of(const hooke_measurement *found, const char *what) {
   return hooke_measurement_number(found, "why", 0, what);
 }
@@ -222,7 +182,7 @@ static int32_t print_words(const struct why *why) {
   printf("%-12s", "cause");
   cli_print_text(stdout, text_of(found, "cause"));
   printf("\n");
-  print_wrapped("what", text_of(found, "sentence"));
+  cli_print_fact(LABEL, WIDTH, "what", text_of(found, "sentence"));
   printf("%-12s", "method");
   cli_print_text(stdout, text_of(found, "method"));
   printf("\n");
@@ -231,8 +191,8 @@ static int32_t print_words(const struct why *why) {
   print_number("well until", number_of(found, "time"), "s");
   print_number("noticed", number_of(found, "noticed"), "s");
   if (!isnan(number_of(found, "particle"))) printf("%-12s%.0f\n", "particle", number_of(found, "particle"));
-  print_springs(found);
-  if (text_of(found, "left_out")) print_wrapped("left out", text_of(found, "left_out"));
+  cli_limiting_print(found);
+  if (text_of(found, "left_out")) cli_print_fact(LABEL, WIDTH, "left out", text_of(found, "left_out"));
   printf("\n");
   return cli_advice_print(why->arguments, found);
 }
