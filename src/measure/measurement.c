@@ -121,10 +121,10 @@ int32_t hooke_measurement_run(hooke_measurement *m, hooke_state *state) {
 /* ---- tables ---- */
 
 const struct hk_table *hk_measurement_table(const struct hk_measurement_kind *kind, const char *name) {
-  const struct hk_table *const *table = kind->tables;
-  while (*table && strcmp((*table)->name, name) != 0)
+  const struct hk_table *table = kind->tables;
+  while (table->name && strcmp(table->name, name) != 0)
     table++;
-  return *table;
+  return table->name ? table : NULL;
 }
 
 int64_t hooke_measurement_row_count(const hooke_measurement *m, const char *table) {

@@ -76,8 +76,7 @@ static void add_line(struct hk_text *text, const struct sheet *sheet, int64_t ro
 /* A matrix whose outer index is the row number. */
 static void find_matrix(struct sheet *sheet) {
   const struct hk_measurement_kind *kind = sheet->m->kind;
-  for (int32_t k = 0; kind->tables[k]; k++) {
-    const struct hk_table *table = kind->tables[k];
+  for (const struct hk_table *table = kind->tables; table->name; table++) {
     if (table->inner == NULL || hk_table_find(table, "row") == NULL) continue;
     if (hk_table_count(table, sheet->m->object) > 0) sheet->matrix = table;
     for (int32_t c = 0; c < table->column_count; c++) {

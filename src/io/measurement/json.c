@@ -45,8 +45,8 @@ void hk_measurement_add_table(struct hk_text *text, const hooke_measurement *m, 
 }
 
 void hk_measurement_add_tables(struct hk_text *text, const hooke_measurement *m) {
-  for (int32_t k = 0; m->kind->tables[k]; k++)
-    add_table(text, m, m->kind->tables[k]);
+  for (const struct hk_table *table = m->kind->tables; table->name; table++)
+    add_table(text, m, table);
 }
 
 int32_t hk_measurement_write_json(const hooke_measurement *m, const char *path) {

@@ -188,8 +188,8 @@ static herr_t write_table(hid_t kind, const hooke_measurement *m, const struct h
 static herr_t write_all(hid_t file, const hooke_measurement *m) {
   hid_t kind = open_group(file, m->kind->name);
   herr_t result = kind < 0 ? -1 : hk_h5md_write_options(kind, m->options);
-  for (int32_t k = 0; result >= 0 && m->kind->tables[k]; k++)
-    result = write_table(kind, m, m->kind->tables[k]);
+  for (const struct hk_table *table = m->kind->tables; result >= 0 && table->name; table++)
+    result = write_table(kind, m, table);
   hk_h5_drop(kind);
   return result;
 }
@@ -197,8 +197,7 @@ static herr_t write_all(hid_t file, const hooke_measurement *m) {
 /* An approximate, generous size. */
 static double bytes_of(const hooke_measurement *m) {
   double bytes = 65536.0 + (m->label[HOOKE_LABEL_SCENE] ? (double)strlen(m->label[HOOKE_LABEL_SCENE]) : 0.0);
-  for (int32_t k = 0; m->kind->tables[k]; k++) {
-    const struct hk_table *table = m->kind->tables[k];
+  for (const struct hk_table *table = m->kind->tables; table->name; table++) {
     const double rows = (double)hk_table_count(table, m->object);
     for (int32_t c = 0; rows > 0.0 && c < table->column_count; c++) {
       const struct hk_column *column = &table->columns[c];

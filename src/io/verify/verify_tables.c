@@ -69,11 +69,11 @@ static const struct hk_column columns[] = {
                     "estimate of the error of any coordinate over the slice"),
 };
 
-static const struct hk_table table = {
-    .name = "verify",
-    .doc = "whether the trajectory reproduces from its scene, and what was compared",
-    .record = 1,
-    HOOKE_TABLE_COLUMNS(columns),
-};
+/* ---- the tables ---- */
 
-const struct hk_table *const hk_verify_tables[] = {&table, NULL};
+const struct hk_table hk_verify_tables[] = {
+    {.name = "verify",
+     .doc = "whether the trajectory reproduces from its scene, and what was compared",
+     .record = 1,
+     HOOKE_TABLE_COLUMNS(columns)},
+    {.name = NULL}};

@@ -36,7 +36,7 @@ int32_t hk_cost_row_is(const struct hk_cost_row *row, const char *kind);
 /* Name of its group, otherwise its kind. */
 const char *hk_cost_row_name(const struct hk_cost *cost, const struct hk_cost_row *row);
 
-extern const struct hk_table *const hk_cost_tables[];
+extern const struct hk_table hk_cost_tables[];
 extern const struct hk_measurement_kind hk_cost_kind;
 
 #endif

@@ -30,13 +30,6 @@ static const struct hk_column cost_columns[] = {
     HOOKE_COLUMN_BY(idle_particles, idle_particles, COUNT, "", "pinned particles that nothing touches"),
 };
 
-static const struct hk_table cost_table = {
-    .name = "cost",
-    .doc = "the whole scene",
-    .record = 1,
-    HOOKE_TABLE_COLUMNS(cost_columns),
-};
-
 /* ---- ingredients ---- */
 
 /* Number among the groups of its force. */
@@ -66,14 +59,13 @@ static const struct hk_column row_columns[] = {
                     "largest stable step of the scene without it; infinity where nothing limits it"),
 };
 
-static const struct hk_table row_table = {
-    .name = "rows",
-    .doc = "the ingredients that are there; numbers are NaN of those that were not looked at",
-    HOOKE_TABLE_COLUMNS(row_columns),
-    HOOKE_TABLE_COUNT(struct hk_cost, row_count),
-    .row = find_row,
-};
+/* ---- the tables ---- */
 
-/* ---- the list ---- */
-
-const struct hk_table *const hk_cost_tables[] = {&cost_table, &row_table, NULL};
+const struct hk_table hk_cost_tables[] = {
+    {.name = "cost", .doc = "the whole scene", .record = 1, HOOKE_TABLE_COLUMNS(cost_columns)},
+    {.name = "rows",
+     .doc = "the ingredients that are there; numbers are NaN of those that were not looked at",
+     HOOKE_TABLE_COLUMNS(row_columns),
+     HOOKE_TABLE_COUNT(struct hk_cost, row_count),
+     .row = find_row},
+    {.name = NULL}};

@@ -54,11 +54,8 @@ static const struct hk_column columns[] = {
         "than 2"),
 };
 
-static const struct hk_table table = {
-    .name = "estimate",
-    .doc = "the error of the run",
-    .record = 1,
-    HOOKE_TABLE_COLUMNS(columns),
-};
+/* ---- the tables ---- */
 
-const struct hk_table *const hk_estimate_tables[] = {&table, NULL};
+const struct hk_table hk_estimate_tables[] = {
+    {.name = "estimate", .doc = "the error of the run", .record = 1, HOOKE_TABLE_COLUMNS(columns)},
+    {.name = NULL}};

@@ -75,7 +75,7 @@ extern const struct hk_column hk_limiting_columns[HOOKE_LIMITING_COLUMNS];
       "whole or more, if it is not the stiffness of springs",                                                \
   HOOKE_TABLE_COLUMNS(hk_limiting_columns)
 
-extern const struct hk_table *const hk_limit_tables[];
+extern const struct hk_table hk_limit_tables[];
 extern const struct hk_measurement_kind hk_limit_kind;
 
 #endif

@@ -52,14 +52,6 @@ static const struct hk_column limit_columns[] = {
                     "that mode: 3n displacements, particle by particle, of largest length 1"),
 };
 
-static const struct hk_table limit_table = {
-    .name = "limit",
-    .doc = "the scene linearised at one state",
-    .record = 1,
-    HOOKE_TABLE_COLUMNS(limit_columns),
-    .length = length,
-};
-
 /* ---- rows ---- */
 
 static double ratio_of(const struct hk_limit_row *row) {
@@ -94,14 +86,6 @@ static const struct hk_column row_columns[] = {
                  "measurement differ; empty if nothing"),
 };
 
-static const struct hk_table row_table = {
-    .name = "rows",
-    .doc = "the largest stable step of each method",
-    HOOKE_TABLE_COLUMNS(row_columns),
-    HOOKE_TABLE_COUNT(struct hk_limit, row_count),
-    .row = find_row,
-};
-
 /* ---- limiting springs ---- */
 
 HOOKE_READER(const void *, find_limiting, struct hk_limit, &it->limiting.row[row])
@@ -120,13 +104,6 @@ const struct hk_column hk_limiting_columns[HOOKE_LIMITING_COLUMNS] = {
                  "gravity and tensions, which turn rigid bodies"),
 };
 
-static const struct hk_table limiting_table = {
-    .name = "blame",
-    HOOKE_LIMITING_TABLE,
-    HOOKE_TABLE_COUNT(struct hk_limit, limiting.count),
-    .row = find_limiting,
-};
-
 /* ---- participation ---- */
 
 HOOKE_READER(const void *, find_particle, struct hk_limit, &it->participation.particle[row])
@@ -136,14 +113,6 @@ static const struct hk_column particle_columns[] = {
     HOOKE_COLUMN(struct hk_limiting_particle, share, NUMBER, "",
                  "share of the kinetic energy of the mode, 0 to 1"),
     HOOKE_COLUMN(struct hk_limiting_particle, mass, NUMBER, "kg", "its mass"),
-};
-
-static const struct hk_table particle_table = {
-    .name = "movers",
-    .doc = "participation of particles in the limiting mode, at most 100, the largest share first",
-    HOOKE_TABLE_COLUMNS(particle_columns),
-    HOOKE_TABLE_COUNT(struct hk_limit, participation.particle_count),
-    .row = find_particle,
 };
 
 /* ---- the suggestion ---- */
@@ -171,14 +140,6 @@ static const struct hk_column suggestion_columns[] = {
     HOOKE_COLUMN_AS(struct hk_limit, suggestion.sentence, sentence, TEXT, "", "the suggestion in words"),
 };
 
-static const struct hk_table suggestion_table = {
-    .name = "remedy",
-    .doc = "suggestion: what changing the limiting springs, or the particles, would gain",
-    .record = 1,
-    HOOKE_TABLE_COLUMNS(suggestion_columns),
-    .count = count_suggestions,
-};
-
 /* ---- modes ---- */
 
 HOOKE_READER(const void *, find_mode, struct hk_limit, &it->mode[row])
@@ -193,16 +154,37 @@ static const struct hk_column mode_columns[] = {
     HOOKE_COLUMN(struct hk_limit_mode, decay, NUMBER, "1/s", "decay of that equation"),
 };
 
-static const struct hk_table mode_table = {
-    .name = "modes",
-    .doc = "eigenvalues lambda of lambda^2 M + lambda C + K that are known, the largest first; one of a "
-           "conjugate pair, none that is 0",
-    HOOKE_TABLE_COLUMNS(mode_columns),
-    HOOKE_TABLE_COUNT(struct hk_limit, mode_count),
-    .row = find_mode,
-};
+/* ---- the tables ---- */
 
-/* ---- the list ---- */
-
-const struct hk_table *const hk_limit_tables[] = {
-    &limit_table, &row_table, &limiting_table, &particle_table, &suggestion_table, &mode_table, NULL};
+const struct hk_table hk_limit_tables[] = {
+    {.name = "limit",
+     .doc = "the scene linearised at one state",
+     .record = 1,
+     HOOKE_TABLE_COLUMNS(limit_columns),
+     .length = length},
+    {.name = "rows",
+     .doc = "the largest stable step of each method",
+     HOOKE_TABLE_COLUMNS(row_columns),
+     HOOKE_TABLE_COUNT(struct hk_limit, row_count),
+     .row = find_row},
+    {.name = "blame",
+     HOOKE_LIMITING_TABLE,
+     HOOKE_TABLE_COUNT(struct hk_limit, limiting.count),
+     .row = find_limiting},
+    {.name = "movers",
+     .doc = "participation of particles in the limiting mode, at most 100, the largest share first",
+     HOOKE_TABLE_COLUMNS(particle_columns),
+     HOOKE_TABLE_COUNT(struct hk_limit, participation.particle_count),
+     .row = find_particle},
+    {.name = "remedy",
+     .doc = "suggestion: what changing the limiting springs, or the particles, would gain",
+     .record = 1,
+     HOOKE_TABLE_COLUMNS(suggestion_columns),
+     .count = count_suggestions},
+    {.name = "modes",
+     .doc = "eigenvalues lambda of lambda^2 M + lambda C + K that are known, the largest first; one of a "
+            "conjugate pair, none that is 0",
+     HOOKE_TABLE_COLUMNS(mode_columns),
+     HOOKE_TABLE_COUNT(struct hk_limit, mode_count),
+     .row = find_mode},
+    {.name = NULL}};

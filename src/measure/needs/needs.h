@@ -163,7 +163,7 @@ int32_t hk_needs_tell_pick(double done, const char *what, void *needs);
 
 /* ---- needs_tables.c ---- */
 
-extern const struct hk_table *const hk_needs_tables[];
+extern const struct hk_table hk_needs_tables[];
 
 extern const struct hk_measurement_kind hk_needs_kind;
 

@@ -45,13 +45,6 @@ static const struct hk_column needs_columns[] = {
     HOOKE_COLUMN(struct hk_needs, note, TEXT, "", "says that nothing moves, or less than the wanted error"),
 };
 
-static const struct hk_table needs_table = {
-    .name = "needs",
-    .doc = "what was asked and how it was judged",
-    .record = 1,
-    HOOKE_TABLE_COLUMNS(needs_columns),
-};
-
 /* ---- the full system ---- */
 
 HOOKE_READER(const void *, find_full, struct hk_needs, it->path.position ? it : NULL)
@@ -63,14 +56,6 @@ static const struct hk_column full_columns[] = {
         "how far the finer of its last two runs may be off; all variants are compared with that one"),
     HOOKE_COLUMN(struct hk_needs, moved, NUMBER, "m",
                  "by how much the watched particles move from where they begin, measured like a change"),
-};
-
-static const struct hk_table full_table = {
-    .name = "full",
-    .doc = "the full system, run with errors of the step a tenth of the wanted error",
-    .record = 1,
-    HOOKE_TABLE_COLUMNS(full_columns),
-    .row = find_full,
 };
 
 /* ---- the lean system, and the full one at its cheapest ---- */
@@ -96,25 +81,9 @@ static const struct hk_column lean_columns[] = {
         "spring, since it has some of their springs only"),
 };
 
-static const struct hk_table lean_table = {
-    .name = "lean",
-    .doc = "the run of the lean system that is recommended, with the largest step within the wanted error",
-    .record = 1,
-    HOOKE_TABLE_COLUMNS(lean_columns),
-    .count = count_lean,
-};
-
 static const struct hk_column cheapest_columns[] = {
     HOOKE_COLUMN_AS(struct hk_needs, cheapest_error, error, NUMBER, "m", "likewise, of this run"),
     COST_COLUMNS(struct hk_needs, cheapest),
-};
-
-static const struct hk_table cheapest_table = {
-    .name = "cheapest",
-    .doc = "the full system by the same method, likewise with the largest step within the wanted error",
-    .record = 1,
-    HOOKE_TABLE_COLUMNS(cheapest_columns),
-    .count = count_lean,
 };
 
 /* ---- rows ---- */
@@ -143,14 +112,6 @@ static const struct hk_column row_columns[] = {
     HOOKE_COLUMN(struct hk_needs_row, left_out, FLAG, "", "the lean system is without it, too"),
     COST_COLUMNS(struct hk_needs_row, cost),
     HOOKE_COLUMN(struct hk_needs_row, note, TEXT, "", "why there is no change, or why it is not left out"),
-};
-
-static const struct hk_table row_table = {
-    .name = "rows",
-    .doc = "the ingredients, left out one at a time",
-    HOOKE_TABLE_COLUMNS(row_columns),
-    .count = count_rows,
-    .row = find_row,
 };
 
 /* ---- resolution ---- */
@@ -184,16 +145,39 @@ static const struct hk_column part_columns[] = {
     HOOKE_COLUMN(struct hk_needs_part, note, TEXT, "", "why there is no order or factor"),
 };
 
-static const struct hk_table part_table = {
-    .name = "parts",
-    .doc = "the resolution of every part, with the option `refine`",
-    HOOKE_TABLE_COLUMNS(part_columns),
-    HOOKE_TABLE_COUNT(struct hk_needs, part_count),
-    .row = find_part,
-};
+/* ---- the tables ---- */
 
-const struct hk_table *const hk_needs_tables[] = {&needs_table, &full_table, &lean_table, &cheapest_table,
-                                                  &row_table,   &part_table, NULL};
+const struct hk_table hk_needs_tables[] = {
+    {.name = "needs",
+     .doc = "what was asked and how it was judged",
+     .record = 1,
+     HOOKE_TABLE_COLUMNS(needs_columns)},
+    {.name = "full",
+     .doc = "the full system, run with errors of the step a tenth of the wanted error",
+     .record = 1,
+     HOOKE_TABLE_COLUMNS(full_columns),
+     .row = find_full},
+    {.name = "lean",
+     .doc = "the run of the lean system that is recommended, with the largest step within the wanted error",
+     .record = 1,
+     HOOKE_TABLE_COLUMNS(lean_columns),
+     .count = count_lean},
+    {.name = "cheapest",
+     .doc = "the full system by the same method, likewise with the largest step within the wanted error",
+     .record = 1,
+     HOOKE_TABLE_COLUMNS(cheapest_columns),
+     .count = count_lean},
+    {.name = "rows",
+     .doc = "the ingredients, left out one at a time",
+     HOOKE_TABLE_COLUMNS(row_columns),
+     .count = count_rows,
+     .row = find_row},
+    {.name = "parts",
+     .doc = "the resolution of every part, with the option `refine`",
+     HOOKE_TABLE_COLUMNS(part_columns),
+     HOOKE_TABLE_COUNT(struct hk_needs, part_count),
+     .row = find_part},
+    {.name = NULL}};
 
 /* ---- the lean system ---- */
 

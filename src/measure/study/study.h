@@ -136,9 +136,7 @@ void hk_study_fit_order(struct hk_study *study, int32_t method);
  * method -1 does. */
 double hk_study_setting(const struct hk_study *study, int32_t method, double value, int32_t adaptive);
 
-extern const struct hk_table *const hk_study_tables[];
-extern const struct hk_table hk_study_watched_table, hk_study_error_table, hk_study_ensemble_table,
-    hk_study_statistic_table;
+extern const struct hk_table hk_study_tables[];
 
 extern const struct hk_measurement_kind hk_study_kind;
 

@@ -20,13 +20,6 @@ static const struct hk_column study_columns[] = {
     HOOKE_COLUMN(struct hk_study, budget_spent, FLAG, "", "rows are missing for lack of time"),
 };
 
-static const struct hk_table study_table = {
-    .name = "study",
-    .doc = "the study itself",
-    .record = 1,
-    HOOKE_TABLE_COLUMNS(study_columns),
-};
-
 /* ---- the reference ---- */
 
 static const char *how_it_ended(const struct hk_reference *r) {
@@ -75,15 +68,6 @@ static const struct hk_column reference_columns[] = {
                     "times of the frames that are judged"),
 };
 
-static const struct hk_table reference_table = {
-    .name = "reference",
-    .doc = "the solution that errors are measured against, made by two integrators that check each other",
-    .record = 1,
-    HOOKE_TABLE_COLUMNS(reference_columns),
-    .row = find_reference,
-    .length = trusted,
-};
-
 /* ---- rows ---- */
 
 int32_t hk_study_is_near_floor(const struct hk_study *study, const struct hk_study_row *row) {
@@ -125,15 +109,6 @@ static const struct hk_column row_columns[] = {
                     "energy less that of the reference at every frame"),
 };
 
-static const struct hk_table row_table = {
-    .name = "rows",
-    .doc = "a method with one step or tolerance each, the coarsest first",
-    HOOKE_TABLE_COLUMNS(row_columns),
-    HOOKE_TABLE_COUNT(struct hk_study, row_count),
-    .row = find_row,
-    .length = trusted,
-};
-
 /* ---- orders ---- */
 
 HOOKE_READER(const void *, find_order, struct hk_study, &it->order[row])
@@ -153,14 +128,6 @@ static const struct hk_column order_columns[] = {
     HOOKE_COLUMN(struct hk_study_order, high, NUMBER, "", "upper end of that interval"),
     HOOKE_COLUMN(struct hk_study_order, theory, NUMBER, "", "the method's order"),
     HOOKE_COLUMN(struct hk_study_order, note, TEXT, "", "why they may differ"),
-};
-
-static const struct hk_table order_table = {
-    .name = "orders",
-    .doc = "the order that each method showed",
-    HOOKE_TABLE_COLUMNS(order_columns),
-    .count = count_orders,
-    .row = find_order,
 };
 
 /* ---- the recommendation ---- */
@@ -202,14 +169,6 @@ static const struct hk_column recommendation_columns[] = {
                     "its evaluations of the forces"),
 };
 
-static const struct hk_table recommendation_table = {
-    .name = "recommendation",
-    .doc = "which run to make for the wanted error",
-    .record = 1,
-    HOOKE_TABLE_COLUMNS(recommendation_columns),
-    HOOKE_TABLE_COUNT(struct hk_study, recommendation.made),
-};
-
 /* ---- its margin ---- */
 
 /* fmax() would take an unknown number for 0. */
@@ -238,25 +197,208 @@ static const struct hk_column margin_columns[] = {
                     "the larger error of those two"),
 };
 
-static const struct hk_table margin_table = {
-    .name = "margin",
-    .doc = "what the recommendation has to spare",
-    .group = "recommendation",
-    .record = 1,
-    HOOKE_TABLE_COLUMNS(margin_columns),
-    HOOKE_TABLE_COUNT(struct hk_study, recommendation.made),
+/* ---- watched quantities ---- */
+
+HOOKE_COUNTER(count_watched, struct hk_study, it->reference.frames.watched.list ? it->watched.count : 0)
+HOOKE_READER(const void *, find_watched, struct hk_study, &it->watched.item[row])
+HOOKE_READER(const char *, watched_unit, struct hk_study, hk_watched_unit(&it->watched.item[row]))
+HOOKE_READER(double, agreement, struct hk_study, it->reference.frames.watched.figure[row])
+HOOKE_READER(const double *, watched_value, struct hk_study,
+             hk_watched_series_of(&it->reference.frames.watched, row))
+
+static const struct hk_column watched_columns[] = {
+    HOOKE_COLUMN_AS(struct hk_watched, text, quantity, TEXT, "", "quantity, as it was written"),
+    HOOKE_COLUMN_BY(watched_unit, unit, TEXT, "", "its unit"),
+    HOOKE_COLUMN_BY(
+        agreement, agreement, NUMBER, "of the quantity",
+        "twice the largest difference in it between the two integrators of the reference, the floor "
+        "of its errors"),
+    HOOKE_COLUMN_BY(watched_value, value, SERIES, "of the quantity",
+                    "the reference's values at every frame; of a period those of the quantity that it is of"),
 };
 
-/* ---- the list ---- */
+/* ---- their errors ---- */
 
-const struct hk_table *const hk_study_tables[] = {&study_table,
-                                                  &reference_table,
-                                                  &row_table,
-                                                  &order_table,
-                                                  &recommendation_table,
-                                                  &margin_table,
-                                                  &hk_study_watched_table,
-                                                  &hk_study_error_table,
-                                                  &hk_study_ensemble_table,
-                                                  &hk_study_statistic_table,
-                                                  NULL};
+static const struct hk_watched_series *series_of(const struct hk_study *study, int64_t row) {
+  return &study->row[row / count_watched(study)].trial.watched;
+}
+
+HOOKE_COUNTER(count_errors, struct hk_study, it->row_count *count_watched(it))
+HOOKE_READER(double, row_number, struct hk_study, (double)(row / count_watched(it)))
+HOOKE_READER(const char *, error_quantity, struct hk_study, it->watched.item[row % count_watched(it)].text)
+HOOKE_READER(double, error, struct hk_study, series_of(it, row)->figure[row % count_watched(it)])
+HOOKE_READER(const double *, error_value, struct hk_study,
+             hk_watched_series_of(series_of(it, row), row % count_watched(it)))
+
+static const struct hk_column error_columns[] = {
+    HOOKE_COLUMN_ALONG(OUTER, row_number, row, COUNT, "", "row of the table \"rows\""),
+    HOOKE_COLUMN_ALONG(INNER, error_quantity, quantity, TEXT, "", "watched quantity"),
+    HOOKE_COLUMN_BY(error, error, NUMBER, "of the quantity",
+                    "the largest difference from the reference over the frames that are trusted; of a period "
+                    "that of the two periods over these, NaN with fewer than two passages or four frames a "
+                    "period"),
+    HOOKE_COLUMN_BY(error_value, value, SERIES, "of the quantity", "its values at every frame"),
+};
+
+/* ---- the ensemble ---- */
+
+HOOKE_READER(const void *, find_ensemble, struct hk_study, it->ensemble)
+HOOKE_READER(double, seed, struct hk_study, hooke_options_number(it->options, "seed"))
+HOOKE_COUNTER(count_ensembles, struct hk_study, it->ensemble != NULL)
+
+static const struct hk_column ensemble_columns[] = {
+    HOOKE_COLUMN(struct hk_ensemble, members, COUNT, "", "displaced runs of each method"),
+    HOOKE_COLUMN(struct hk_ensemble, from, NUMBER, "s", "begin of the means over time"),
+    HOOKE_COLUMN(struct hk_ensemble, until, NUMBER, "s", "end of the means over time"),
+    HOOKE_COLUMN(struct hk_ensemble, noise, NUMBER, "m",
+                 "root mean square displacement of a free particle at the start"),
+    HOOKE_COLUMN_BY(seed, seed, COUNT, "", "seed of the noise"),
+};
+
+/* ---- statistics ---- */
+
+HOOKE_COUNTER(count_quantities, struct hk_study, it->ensemble ? it->ensemble->quantities.count : 0)
+HOOKE_COUNTER(count_statistics, struct hk_study,
+              it->ensemble ? it->ensemble->source_count * it->ensemble->quantities.count : 0)
+
+static const struct hk_ensemble_source *source_of(const struct hk_study *study, int64_t row) {
+  return &study->ensemble->source[row / count_quantities(study)];
+}
+
+static const struct hk_watched *quantity_of(const struct hk_study *study, int64_t row) {
+  return &study->ensemble->quantities.item[row % count_quantities(study)];
+}
+
+/* Number of members that have a quantity, their mean, and their spread (standard deviation) about it. */
+struct sample {
+  int64_t members;
+  double mean, spread;
+};
+
+static struct sample sample_of(const struct hk_study *study, int64_t row) {
+  const int64_t inner = count_quantities(study);
+  const struct hk_ensemble_source *s = source_of(study, row);
+  struct sample sample = {.members = 0, .mean = NAN, .spread = NAN};
+  double mean = 0.0, square = 0.0; /* running mean and variance (Welford 1962) */
+  for (int64_t k = 0; k < s->finished; k++) {
+    const double value = s->sample[k * inner + row % inner];
+    if (isnan(value)) continue;
+    const double from_mean = value - mean;
+    mean += from_mean / (double)++sample.members;
+    square += from_mean * (value - mean);
+  }
+  if (s->failed) return sample;
+  if (sample.members > 0) sample.mean = mean;
+  if (sample.members > 1) sample.spread = sqrt(square / (double)(sample.members - 1));
+  return sample;
+}
+
+/* Difference of the mean from the reference's, in standard errors of that difference. */
+static double bias_of(const struct hk_study *study, int64_t row) {
+  const int64_t inner = count_quantities(study);
+  const struct sample own = sample_of(study, row), other = sample_of(study, row % inner);
+  const double variance =
+      own.spread * own.spread / (double)own.members + other.spread * other.spread / (double)other.members;
+  const double difference = own.mean - other.mean;
+  if (row < inner) return NAN;
+  return difference == 0.0 && variance == 0.0 ? 0.0 : difference / sqrt(variance);
+}
+
+static double setting_of(const struct hk_study *study, int64_t row, int32_t adaptive) {
+  const struct hk_ensemble_source *source = source_of(study, row);
+  return hk_study_setting(study, source->method, source->value, adaptive);
+}
+
+static const char *method_of(const struct hk_study *study, int64_t row) {
+  const int32_t method = source_of(study, row)->method;
+  return method < 0 ? "reference" : study->method[method];
+}
+
+HOOKE_READER(const void *, find_source, struct hk_study, source_of(it, row))
+HOOKE_READER(const char *, statistic_method, struct hk_study, method_of(it, row))
+HOOKE_READER(const char *, statistic_quantity, struct hk_study, quantity_of(it, row)->text)
+HOOKE_READER(const char *, statistic_unit, struct hk_study, hk_watched_unit(quantity_of(it, row)))
+HOOKE_READER(double, statistic_step, struct hk_study, setting_of(it, row, 0))
+HOOKE_READER(double, statistic_rtol, struct hk_study, setting_of(it, row, 1))
+HOOKE_READER(double, statistic_members, struct hk_study, (double)sample_of(it, row).members)
+HOOKE_READER(double, mean, struct hk_study, sample_of(it, row).mean)
+HOOKE_READER(double, spread, struct hk_study, sample_of(it, row).spread)
+HOOKE_READER(double, bias, struct hk_study, bias_of(it, row))
+
+static const struct hk_column statistic_columns[] = {
+    HOOKE_COLUMN_ALONG(OUTER, statistic_method, method, TEXT, "", "method, the reference first"),
+    HOOKE_COLUMN_ALONG(INNER, statistic_quantity, quantity, TEXT, "",
+                       "kinetic, potential, energy, and what is watched"),
+    HOOKE_COLUMN_ALONG(INNER, statistic_unit, unit, TEXT, "", "unit of the quantity"),
+    HOOKE_COLUMN_BY(statistic_step, step, NUMBER, "s", "step of the runs"),
+    HOOKE_COLUMN_BY(statistic_rtol, rtol, NUMBER, "", "relative tolerance of the runs"),
+    HOOKE_COLUMN_BY(statistic_members, members, COUNT, "", "runs that have the quantity"),
+    HOOKE_COLUMN(struct hk_ensemble_source, failed, COUNT, "",
+                 "runs that did not come to their end; a method that has one has no statistics"),
+    HOOKE_COLUMN_BY(mean, mean, NUMBER, "of the quantity", "mean over the runs of each run's mean over time"),
+    HOOKE_COLUMN_BY(spread, spread, NUMBER, "of the quantity", "standard deviation of the runs"),
+    HOOKE_COLUMN_BY(
+        bias, bias, NUMBER, "",
+        "the mean less the reference's, in standard errors of that difference; below 2 in size none "
+        "is seen"),
+};
+
+/* ---- the tables ---- */
+
+const struct hk_table hk_study_tables[] = {
+    {.name = "study", .doc = "the study itself", .record = 1, HOOKE_TABLE_COLUMNS(study_columns)},
+    {.name = "reference",
+     .doc = "the solution that errors are measured against, made by two integrators that check each other",
+     .record = 1,
+     HOOKE_TABLE_COLUMNS(reference_columns),
+     .row = find_reference,
+     .length = trusted},
+    {.name = "rows",
+     .doc = "a method with one step or tolerance each, the coarsest first",
+     HOOKE_TABLE_COLUMNS(row_columns),
+     HOOKE_TABLE_COUNT(struct hk_study, row_count),
+     .row = find_row,
+     .length = trusted},
+    {.name = "orders",
+     .doc = "the order that each method showed",
+     HOOKE_TABLE_COLUMNS(order_columns),
+     .count = count_orders,
+     .row = find_order},
+    {.name = "recommendation",
+     .doc = "which run to make for the wanted error",
+     .record = 1,
+     HOOKE_TABLE_COLUMNS(recommendation_columns),
+     HOOKE_TABLE_COUNT(struct hk_study, recommendation.made)},
+    {.name = "margin",
+     .doc = "what the recommendation has to spare",
+     .group = "recommendation",
+     .record = 1,
+     HOOKE_TABLE_COLUMNS(margin_columns),
+     HOOKE_TABLE_COUNT(struct hk_study, recommendation.made)},
+    {.name = "watched",
+     .doc = "the watched quantities",
+     HOOKE_TABLE_COLUMNS(watched_columns),
+     .count = count_watched,
+     .row = find_watched,
+     .length = trusted},
+    {.name = "watched_errors",
+     .group = "watched",
+     .doc = "the error of every row in every watched quantity",
+     HOOKE_TABLE_COLUMNS(error_columns),
+     .count = count_errors,
+     .inner = count_watched,
+     .length = trusted},
+    {.name = "ensemble",
+     .group = "statistics",
+     .doc = "the displaced runs that statistics are of, for motion that cannot be judged to the end",
+     .record = 1,
+     HOOKE_TABLE_COLUMNS(ensemble_columns),
+     .count = count_ensembles,
+     .row = find_ensemble},
+    {.name = "statistics",
+     .doc = "means and spreads of an ensemble, by quantity and method",
+     HOOKE_TABLE_COLUMNS(statistic_columns),
+     .count = count_statistics,
+     .inner = count_quantities,
+     .row = find_source},
+    {.name = NULL}};

@@ -29,7 +29,7 @@ struct hk_comparison {
 /* Finds the number of frames; once, before the first run. */
 int32_t hk_comparison_prepare(struct hk_comparison *comparison);
 
-extern const struct hk_table *const hk_comparison_tables[];
+extern const struct hk_table hk_comparison_tables[];
 
 extern const struct hk_measurement_kind hk_comparison_kind;
 

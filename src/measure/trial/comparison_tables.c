@@ -14,13 +14,6 @@ static const struct hk_column comparison_columns[] = {
                     "frames of every run; 0 until it is run or written"),
 };
 
-static const struct hk_table comparison_table = {
-    .name = "comparison",
-    .doc = "the comparison itself",
-    .record = 1,
-    HOOKE_TABLE_COLUMNS(comparison_columns),
-};
-
 /* ---- the reference ---- */
 
 HOOKE_READER(double, agreement, struct hk_comparison, it->reference.method ? it->reference.agreement : NAN)
@@ -42,15 +35,6 @@ static const struct hk_column reference_columns[] = {
                     "time up to which the two agree to a millionth of the extent of the motion; errors are "
                     "judged up to there"),
     HOOKE_COLUMN_AS(struct hk_comparison, reference.frames.time, time, SERIES, "s", "times of the frames"),
-};
-
-static const struct hk_table reference_table = {
-    .name = "reference",
-    .doc = "the solution that errors are measured against",
-    .record = 1,
-    HOOKE_TABLE_COLUMNS(reference_columns),
-    .count = count_references,
-    .length = frames,
 };
 
 /* ---- rows ---- */
@@ -78,13 +62,22 @@ static const struct hk_column row_columns[] = {
                     "energy less that of the reference at every frame"),
 };
 
-static const struct hk_table row_table = {
-    .name = "rows",
-    .doc = "the methods, each run once",
-    HOOKE_TABLE_COLUMNS(row_columns),
-    HOOKE_TABLE_COUNT(struct hk_comparison, row_count),
-    .row = find_row,
-    .length = frames,
-};
+/* ---- the tables ---- */
 
-const struct hk_table *const hk_comparison_tables[] = {&comparison_table, &reference_table, &row_table, NULL};
+const struct hk_table hk_comparison_tables[] = {{.name = "comparison",
+                                                 .doc = "the comparison itself",
+                                                 .record = 1,
+                                                 HOOKE_TABLE_COLUMNS(comparison_columns)},
+                                                {.name = "reference",
+                                                 .doc = "the solution that errors are measured against",
+                                                 .record = 1,
+                                                 HOOKE_TABLE_COLUMNS(reference_columns),
+                                                 .count = count_references,
+                                                 .length = frames},
+                                                {.name = "rows",
+                                                 .doc = "the methods, each run once",
+                                                 HOOKE_TABLE_COLUMNS(row_columns),
+                                                 HOOKE_TABLE_COUNT(struct hk_comparison, row_count),
+                                                 .row = find_row,
+                                                 .length = frames},
+                                                {.name = NULL}};

@@ -127,7 +127,7 @@ int32_t hk_inquiry_judge(struct hk_inquiry *inquiry);
 /* Finds changes of the run and tries them. */
 int32_t hk_inquiry_advise(struct hk_inquiry *inquiry);
 
-extern const struct hk_table *const hk_why_tables[];
+extern const struct hk_table hk_why_tables[];
 extern const struct hk_measurement_kind hk_why_kind;
 
 /* Sets every option that is set in `changes`. */

@@ -26,24 +26,9 @@ static const struct hk_column why_columns[] = {
                     "what was not looked into for want of time or memory; none if nothing was"),
 };
 
-static const struct hk_table why_table = {
-    .name = "why",
-    .doc = "why the run ended early",
-    .record = 1,
-    HOOKE_TABLE_COLUMNS(why_columns),
-    .count = count_causes,
-};
-
 /* ---- limiting springs ---- */
 
 HOOKE_READER(const void *, find_limiting, struct hk_why, &it->limiting.row[row])
-
-static const struct hk_table limiting_table = {
-    .name = "blame",
-    HOOKE_LIMITING_TABLE,
-    HOOKE_TABLE_COUNT(struct hk_why, limiting.count),
-    .row = find_limiting,
-};
 
 /* ---- advice ---- */
 
@@ -56,14 +41,21 @@ static const struct hk_column advice_columns[] = {
     HOOKE_COLUMN(struct hk_why_advice, value, TEXT, "", "its new value"),
 };
 
-static const struct hk_table advice_table = {
-    .name = "advice",
-    .doc = "what to do, the best first; hooke_why_advice_apply() makes the change",
-    HOOKE_TABLE_COLUMNS(advice_columns),
-    HOOKE_TABLE_COUNT(struct hk_why, advice_count),
-    .row = find_advice,
-};
+/* ---- the tables ---- */
 
-/* ---- the list ---- */
-
-const struct hk_table *const hk_why_tables[] = {&why_table, &limiting_table, &advice_table, NULL};
+const struct hk_table hk_why_tables[] = {
+    {.name = "why",
+     .doc = "why the run ended early",
+     .record = 1,
+     HOOKE_TABLE_COLUMNS(why_columns),
+     .count = count_causes},
+    {.name = "blame",
+     HOOKE_LIMITING_TABLE,
+     HOOKE_TABLE_COUNT(struct hk_why, limiting.count),
+     .row = find_limiting},
+    {.name = "advice",
+     .doc = "what to do, the best first; hooke_why_advice_apply() makes the change",
+     HOOKE_TABLE_COLUMNS(advice_columns),
+     HOOKE_TABLE_COUNT(struct hk_why, advice_count),
+     .row = find_advice},
+    {.name = NULL}};

@@ -28,9 +28,8 @@ static const struct hk_column columns[] = {
     HOOKE_COLUMN(struct hk_view, strain_high, NUMBER, "", "highest strain"),
 };
 
-const struct hk_table hk_view_table = {
-    .name = "view",
-    .doc = "what the page shows of the trajectory",
-    .record = 1,
-    HOOKE_TABLE_COLUMNS(columns),
-};
+const struct hk_table hk_view_tables[] = {{.name = "view",
+                                           .doc = "what the page shows of the trajectory",
+                                           .record = 1,
+                                           HOOKE_TABLE_COLUMNS(columns)},
+                                          {.name = NULL}};
