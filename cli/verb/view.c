@@ -108,10 +108,7 @@ static void open_page(const struct cli_arguments *arguments, const char *page) {
 
 /* 1 if an option of a run, or --want, was given: then the scene of a trajectory is run anew. */
 static int is_to_run(const struct cli_arguments *arguments) {
-  for (int32_t k = 0; k < arguments->count; k++) {
-    if (arguments->all[k].table == arguments->run && arguments->all[k].text) return 1;
-  }
-  return cli_arguments_text(arguments, "want") != NULL;
+  return cli_arguments_has_run(arguments) || cli_arguments_text(arguments, "want") != NULL;
 }
 
 static int open_trajectory(const struct cli_arguments *arguments, struct shown *shown, int32_t k) {

@@ -197,14 +197,6 @@ static int32_t print_words(const struct why *why) {
   return cli_advice_print(why->arguments, found);
 }
 
-/* 1 if an option of a run was given: the run then differs from that of the output. */
-static int32_t is_another_run(const struct cli_arguments *arguments) {
-  for (int32_t k = 0; k < arguments->count; k++) {
-    if (arguments->all[k].table == arguments->run && arguments->all[k].text) return 1;
-  }
-  return 0;
-}
-
 /* The exit code so far, or that of a page that could not be written. */
 static int write_report(const struct why *why, int code) {
   const char *report = cli_arguments_text(why->arguments, "report");
@@ -227,7 +219,7 @@ static int find_out(struct why *why) {
   int32_t status = hooke_record_open(arguments->scene, &why->record);
   if (status == HOOKE_NO_MEMORY) return cli_report_status(arguments, status);
   if (status == HOOKE_OK) why->status = hooke_record_text(why->record, "status");
-  if (why->record && !is_another_run(arguments)) {
+  if (why->record && !cli_arguments_has_run(arguments)) {
     status = read_output(why);
   } else {
     int code = cli_fit_run(arguments, &why->setup, NULL);
