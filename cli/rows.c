@@ -60,8 +60,7 @@ static void print_row(const struct cli_rows *rows, int64_t row, int32_t method_w
                       column->format, column->infinite, column->zero);
     if (rows->mark && column->marked) printf("%c", rows->mark(rows->source, row, column->what));
   }
-  if (rows->status) printf("  ");
-  if (rows->status) cli_print_text(stdout, hooke_measurement_text(rows->source, "rows", row, "status"));
+  if (rows->status) cli_say("  %s", hooke_measurement_text(rows->source, "rows", row, "status"));
   printf("\n");
 }
 

@@ -99,10 +99,8 @@ void cli_cost_sheet_print(const hooke_measurement *cost, const hooke_system *sys
     const int length = (int)strlen(name_of(cost, row));
     if (is_known(cost, row) && length > width) width = length;
   }
-  printf("cost of a step of ");
-  cli_print_text(stdout, hooke_measurement_text(cost, "cost", 0, "method"));
-  printf(", %s s, on this machine:\n",
-         cli_format_rounded(hooke_measurement_number(cost, "cost", 0, "step"), step));
+  cli_say("cost of a step of %s, %s s, on this machine:\n", hooke_measurement_text(cost, "cost", 0, "method"),
+          cli_format_rounded(hooke_measurement_number(cost, "cost", 0, "step"), step));
   printf("  %-*s %10s %12s %12s %14s\n", width, "", "springs", "time [ns]", "memory [B]", "stable to [s]");
   print_whole(cost, system, width);
   if (hooke_measurement_row_count(cost, "rows") > 0)

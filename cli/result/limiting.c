@@ -23,9 +23,7 @@ static void print_row(const hooke_measurement *m, int64_t row) {
   else
     printf("  spring %.0f, between particles %.0f and %.0f", number(m, row, "number"),
            number(m, row, "first"), number(m, row, "second"));
-  if (group[0]) printf(", group ");
-  cli_print_text(stdout, group);
-  printf("\n");
+  cli_say("%s%s\n", group[0] ? ", group " : "", group);
 }
 
 void cli_limiting_print(const hooke_measurement *m) {

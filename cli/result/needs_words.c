@@ -42,9 +42,7 @@ static void print_row(const hooke_measurement *needs, int64_t row, int32_t width
               hooke_measurement_number(needs, "rows", row, "step_limit"));
   const double needed = hooke_measurement_number(needs, "rows", row, "needed");
   const char *verdict = isnan(needed) ? "not known" : needed == 1.0 ? "needed" : "-";
-  printf("  %s%s", verdict, note[0] ? "; " : "");
-  cli_print_text(stdout, note);
-  printf("\n");
+  cli_say("  %s%s%s\n", verdict, note[0] ? "; " : "", note);
 }
 
 static void print_table(const hooke_measurement *needs) {
@@ -102,9 +100,8 @@ static void print_lean(const struct cli_needs_results *results) {
   int32_t left_out = 0;
   for (int64_t row = 0; row < hooke_measurement_row_count(needs, "rows"); row++) {
     if (hooke_measurement_number(needs, "rows", row, "left_out") != 1.0) continue;
-    printf("%s%-*s", left_out ? "" : "\n", LABEL, left_out ? "" : "lean");
-    cli_print_text(stdout, hooke_measurement_text(needs, "rows", row, "without"));
-    printf("\n");
+    if (!left_out) printf("\n");
+    cli_say("%-*s%s\n", LABEL, left_out ? "" : "lean", hooke_measurement_text(needs, "rows", row, "without"));
     left_out++;
   }
   if (!left_out) {
@@ -121,12 +118,8 @@ static void print_lean(const struct cli_needs_results *results) {
   if (hooke_measurement_text(needs, "lean", 0, "note")[0]) {
     cli_print_fact(LABEL, WIDTH, "", hooke_measurement_text(needs, "lean", 0, "note"));
   }
-  printf("%-*s", LABEL, "");
-  if (results->command)
-    cli_print_text(stdout, results->command);
-  else
-    printf("add -o LEAN.json to have it as a scene");
-  printf("\n");
+  cli_say("%-*s%s\n", LABEL, "",
+          results->command ? results->command : "add -o LEAN.json to have it as a scene");
 }
 
 /* ---- resolutions ---- */
@@ -191,12 +184,10 @@ static void print_warnings(const hooke_measurement *needs) {
 
 void cli_needs_results_print(const struct cli_needs_results *results) {
   const hooke_measurement *needs = results->needs;
-  cli_print_text(stdout, cli_setup_title(results->arguments, &results->setup));
-  printf("\n");
-  cli_print_text(stdout, hooke_measurement_text(needs, "needs", 0, "method"));
-  printf("%s, %g m wanted",
-         hooke_measurement_number(needs, "needs", 0, "method_picked") == 1.0 ? " (picked)" : "",
-         hooke_measurement_number(needs, "needs", 0, "want"));
+  cli_say("%s\n", cli_setup_title(results->arguments, &results->setup));
+  cli_say("%s%s, %g m wanted", hooke_measurement_text(needs, "needs", 0, "method"),
+          hooke_measurement_number(needs, "needs", 0, "method_picked") == 1.0 ? " (picked)" : "",
+          hooke_measurement_number(needs, "needs", 0, "want"));
   const double step_error = hooke_measurement_number(needs, "full", 0, "step_error");
   if (isnan(step_error)) {
     printf("; the full scene was not run to its end\n");

@@ -133,8 +133,7 @@ static void print_quantity(const hooke_measurement *study, int32_t method_width,
                            int64_t count) {
   const int64_t rows = hooke_measurement_row_count(study, "statistics");
   char head[HEAD_SIZE];
-  cli_print_text(stdout, head_of(study, "statistics", quantity, head));
-  printf("\n");
+  cli_say("%s\n", head_of(study, "statistics", quantity, head));
   for (int64_t row = quantity; row < rows; row += count)
     print_source(study, method_width, row);
 }

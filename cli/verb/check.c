@@ -208,8 +208,7 @@ static int32_t print_groups(const hooke_system *system) {
   for (int64_t i = 0; i < hooke_system_group_count(system, "springs"); i++) {
     const char *name = hooke_system_group_name(system, "springs", i);
     const int64_t size = hooke_system_group_size(system, "springs", i);
-    printf("  %10" PRId64 " ", size);
-    cli_print_text(stdout, name[0] ? name : "(no name)");
+    cli_say("  %10" PRId64 " %s", size, name[0] ? name : "(no name)");
     if (status == HOOKE_OK) print_stiffness(at, at + count, size);
     printf("\n");
     at += status == HOOKE_OK ? size : 0;
@@ -226,9 +225,8 @@ static void print_bodies(const hooke_system *system) {
          inside == 1 ? "spring or other member of a force" : "springs and other members of forces");
   for (int64_t k = 0; k < bodies; k++) {
     const char *name = hooke_system_body_name(system, k);
-    printf("  %10" PRId64 " ", hooke_system_body_particles(system, k, NULL));
-    cli_print_text(stdout, name[0] ? name : "(no name)");
-    printf("\n");
+    cli_say("  %10" PRId64 " %s\n", hooke_system_body_particles(system, k, NULL),
+            name[0] ? name : "(no name)");
   }
 }
 
@@ -270,11 +268,7 @@ static int32_t print_words(struct check *check) {
   const hooke_system *system = check->setup.system;
   const char *title = hooke_scene_text(check->setup.scene, "title");
   int64_t particles = hooke_system_particle_count(system);
-  if (title && title[0]) {
-    printf("scene        ");
-    cli_print_text(stdout, title);
-    printf("\n");
-  }
+  if (title && title[0]) cli_say("scene        %s\n", title);
   printf("particles    %" PRId64 " (%" PRId64 " pinned or driven)\n", particles,
          particles - hooke_system_count(system, "free"));
   print_bodies(system);

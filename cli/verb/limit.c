@@ -155,8 +155,8 @@ static void print_limiting(const hooke_measurement *limit) {
 
 static void print_words(const struct limit *l) {
   char text[HOOKE_NUMBER_SIZE];
-  cli_print_text(stdout, cli_setup_title(l->arguments, &l->setup));
-  printf(", at t = %s s\n", cli_format_rounded(number_of(l, "time"), text));
+  cli_say("%s, at t = %s s\n", cli_setup_title(l->arguments, &l->setup),
+          cli_format_rounded(number_of(l, "time"), text));
   printf("fastest motion %.6g rad/s, fastest damping %.6g 1/s\n", number_of(l, "frequency_max"),
          number_of(l, "rate_max"));
   const double clamped = number_of(l, "clamped");

@@ -124,11 +124,7 @@ static int tell(struct cli_study_results *results, const char *output) {
     cli_study_results_print(results);
   }
   if (output) written = write_output(results, output);
-  if (output && written == HOOKE_OK && !arguments->json) {
-    printf("\noutput: ");
-    cli_print_text(stdout, output);
-    printf("\n");
-  }
+  if (output && written == HOOKE_OK && !arguments->json) cli_say("\noutput: %s\n", output);
   cli_print_flush();
   if (written != HOOKE_OK) cli_report_words(arguments, "%s", hooke_last_error());
   if (results->interrupted) {

@@ -169,9 +169,8 @@ static int32_t print_words(const struct why *why) {
   const hooke_measurement *found = why->why;
   char text[HOOKE_NUMBER_SIZE];
   if (!found) {
-    printf("the run did not blow up: it is '");
-    cli_print_text(stdout, why->status);
-    printf("' at t = %s s\n", cli_format_rounded(why->time, text));
+    cli_say("the run did not blow up: it is '%s' at t = %s s\n", why->status,
+            cli_format_rounded(why->time, text));
     const double step = hooke_options_number(why->setup.options, "step");
     if (step > 0.0 && isfinite(why->bound) && why->bound > 0.0)
       printf("its step of %.6g s is %.3g %% of the limit, %.6g s, up to which it was certain to be stable "
@@ -179,13 +178,9 @@ static int32_t print_words(const struct why *why) {
              step, 100.0 * step / why->bound, why->bound);
     return HOOKE_OK;
   }
-  printf("%-12s", "cause");
-  cli_print_text(stdout, text_of(found, "cause"));
-  printf("\n");
+  cli_say("%-12s%s\n", "cause", text_of(found, "cause"));
   cli_print_fact(LABEL, WIDTH, "what", text_of(found, "sentence"));
-  printf("%-12s", "method");
-  cli_print_text(stdout, text_of(found, "method"));
-  printf("\n");
+  cli_say("%-12s%s\n", "method", text_of(found, "method"));
   print_number("step", number_of(found, "step"), "s");
   print_number("limit", number_of(found, "limit"), "s");
   print_number("well until", number_of(found, "time"), "s");
