@@ -83,8 +83,7 @@ static void print_saving(const hooke_measurement *needs) {
              hooke_measurement_number(needs, "lean", 0, "other_seconds"));
   snprintf(text, sizeof text,
            "left out together: error at most %.3g m, %.0f springs instead of %.0f; wall time %.3g s by %s, "
-           "where the "
-           "full scene takes %.3g s to be within the want (%s)%s",
+           "where the full scene takes %.3g s to be within the want (%s)%s",
            hooke_measurement_number(needs, "lean", 0, "error"),
            hooke_measurement_number(needs, "lean", 0, "springs"),
            hooke_measurement_number(needs, "full", 0, "springs"),

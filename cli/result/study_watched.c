@@ -153,8 +153,7 @@ static void print_ensemble(const struct cli_study_results *results, int32_t meth
   }
   snprintf(text, sizeof text,
            "of means over %.6g s to %.6g s, where positions cannot be computed; of %.0f runs of each method, "
-           "whose "
-           "starts differ by noise of %.3g m",
+           "whose starts differ by noise of %.3g m",
            hooke_measurement_number(study, "ensemble", 0, "from"),
            hooke_measurement_number(study, "ensemble", 0, "until"),
            hooke_measurement_number(study, "ensemble", 0, "members"),

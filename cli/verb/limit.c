@@ -215,19 +215,16 @@ static const struct cli_verb_row own_rows[] = {
      "at a frame of a trajectory, the last one if FRAME is left out; else at the start"},
     {"report", 0, "FILE.html",
      "writes regions of stability, limiting mode, table and suggestion as one page to read offline, "
-     "replacing "
-     "it"},
+     "replacing it"},
 };
 
 const struct cli_verb cli_verb_limit = {
     .name = "limit",
     .summary = "the largest stable step of each method, predicted and measured, and what determines it",
-    .text =
-        "Predicts the largest stable step of each fixed-step method from the eigenvalues of the scene, "
-        "frozen at its positions and at rest, then measures it by running the method. Says which springs "
-        "carry "
-        "the motion that limits --method, and what it would buy to change them. Safe bound: a step that is "
-        "certain to be stable, from one pass over the springs.",
+    .text = "Predicts the largest stable step of each fixed-step method from the eigenvalues of the scene, "
+            "frozen at its positions and at rest, then measures it by running the method. Says which springs "
+            "carry the motion that limits --method, and what it would buy to change them. Safe bound: a step "
+            "that is certain to be stable, from one pass over the springs.",
     .example = "hooke limit cloth.json --predict",
     HOOKE_VERB_ROWS(own_rows),
     .options = "limit",

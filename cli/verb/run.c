@@ -386,16 +386,14 @@ static const struct cli_verb_row rows[] = {
      "reads it, replacing them"},
     {"resume", 0, "OUT.h5",
      "goes on with the run of OUT.h5 where it stopped or was killed, with its own scene and options, as if "
-     "it had never "
-     "stopped; only --threads, --final, --no-why, --json and --quiet may be given with it"},
+     "it had never stopped; only --threads, --final, --no-why, --json and --quiet may be given with it"},
     {"want", 0, "LENGTH",
      "picks a method and its step or tolerance so that no frame is off by more than this (1mm, 1e-4), runs, "
      "measures the error, and takes a finer one if that is not met; --method restricts the choice"},
     {"final", 0, NULL, "prints the position [m] and velocity [m/s] of every particle at the end, too"},
     {"strict", 0, NULL,
      "refuses a run without a step, or whose every or duration is no whole multiple of it, rather than "
-     "choosing "
-     "or moving them"},
+     "choosing or moving them"},
     {"no-estimate", 0, NULL, "leaves out estimating how wrong the run is"},
     {"no-why", 0, NULL, "leaves out looking into why a run blew up"},
 };
@@ -404,10 +402,9 @@ const struct cli_verb cli_verb_run = {
     .name = "run",
     .summary = "integrates a scene",
     .text = "Integrates the scene by one method and prints what came out: time reached, work, energy, "
-            "momentum. A run "
-            "that diverges keeps everything up to then and says what to do. Ctrl-C ends a run cleanly, and "
-            "with -o says how to go "
-            "on with it; --checkpoint keeps places to go on from that outlast a crash, too.",
+            "momentum. A run that diverges keeps everything up to then and says what to do. Ctrl-C ends a "
+            "run cleanly, and with -o says how to go on with it; --checkpoint keeps places to go on from "
+            "that outlast a crash, too.",
     .example = "hooke run cloth.json -o cloth.h5",
     HOOKE_VERB_ROWS(rows),
     .for_scene = "resume",

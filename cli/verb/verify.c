@@ -152,13 +152,10 @@ const struct cli_verb cli_verb_verify = {
     .summary = "runs a slice of a result again and compares bits",
     .text =
         "Holds a trajectory of 'hooke run -o' against the scene that it holds: every frame has to have its "
-        "check "
-        "value, the first one has to be the scene's, and a slice, run again from the frame before it, has to "
-        "come to the "
-        "same bits. Takes the balance of energy along the slice, runs it once more with half the step for "
-        "an estimate of the error, and prints a certificate. An error-controlled method is run from the "
-        "start. Exit code 3 says "
-        "that the file is not what its scene gives.",
+        "check value, the first one has to be the scene's, and a slice, run again from the frame before it, "
+        "has to come to the same bits. Takes the balance of energy along the slice, runs it once more with "
+        "half the step for an estimate of the error, and prints a certificate. An error-controlled method is "
+        "run from the start. Exit code 3 says that the file is not what its scene gives.",
     .example = "hooke verify cloth.h5",
     .options = "verify",
     .function = do_verify,

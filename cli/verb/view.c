@@ -223,14 +223,11 @@ const struct cli_verb cli_verb_view = {
     .name = "view",
     .summary = "writes one self-contained HTML page that plays a trajectory",
     .text = "Writes a trajectory of 'hooke run -o' as one page to open in a browser, offline: cloth, meshes "
-            "and lattices as "
-            "surfaces, ropes and strands as tubes, other springs as lines, strain as colour, what is pinned "
-            "and what is driven "
-            "marked, energies below. A scene is run first; its trajectory is not kept. What is left out, to "
-            "keep the page small "
-            "and quick, is said on it and here. A run that was killed shows the frames it has. Several "
-            "trajectories play on one page, side by side or over one another, at the same time and seen from "
-            "the same angle.",
+            "and lattices as surfaces, ropes and strands as tubes, other springs as lines, strain as colour, "
+            "what is pinned and what is driven marked, energies below. A scene is run first; its trajectory "
+            "is not kept. What is left out, to keep the page small and quick, is said on it and here. A run "
+            "that was killed shows the frames it has. Several trajectories play on one page, side by side or "
+            "over one another, at the same time and seen from the same angle.",
     .several = 1,
     .example = "hooke view cloth.h5 -o cloth.html",
     HOOKE_VERB_ROWS(rows),

@@ -256,23 +256,18 @@ static int do_why(const struct cli_arguments *arguments) {
 static const struct cli_verb_row rows[] = {
     {"budget", 0, "SECONDS",
      "wall time that the explanation may take after the run, such as 5s or 2min; if not given, as much "
-     "counted work "
-     "as the run took, or 2 s if that is more, which is the same however busy the machine is"},
+     "counted work as the run took, or 2 s if that is more, which is the same however busy the machine is"},
     {"report", 0, "FILE.html",
      "writes the explanation as one page to read offline, replacing it: the steps around the trouble, played "
-     "slowly, "
-     "beside the advised run"},
+     "slowly, beside the advised run"},
 };
 
 const struct cli_verb cli_verb_why = {
     .name = "why",
     .summary = "explains a run that blew up",
     .text = "Runs the scene, or reads an output of 'hooke run -o', and says why the run blew up: the cause, "
-            "where and when, "
-            "the springs that determine it, and what to do, as commands that have been tried. The exit code "
-            "is 0 also "
-            "if the run did "
-            "not blow up.",
+            "where and when, the springs that determine it, and what to do, as commands that have been "
+            "tried. The exit code is 0 also if the run did not blow up.",
     HOOKE_VERB_ROWS(rows),
     .example = "hooke why cloth.json --step 50ms --every 50ms",
     .function = do_why,
