@@ -22,8 +22,8 @@ void cli_append(char *text, size_t size, const char *format, ...) __attribute__(
  * is printed by this function, by the ones below or as JSON. Returns the number of characters printed. */
 int32_t cli_print_text(FILE *file, const char *text);
 
-/* Words of which some are foreign, like printf() on standard output; line ends stay where the format begins or
- * ends with them. */
+/* Words of which some are foreign, like printf() on standard output; line ends stay where the format begins
+ * or ends with them. */
 void cli_say(const char *format, ...) __attribute__((format(printf, 1, 2)));
 
 /* The same, padded with blanks to `width` characters. */
