@@ -289,6 +289,13 @@ const char *cli_arguments_text(const struct cli_arguments *arguments, const char
   return NULL;
 }
 
+int32_t cli_arguments_has_run(const struct cli_arguments *arguments) {
+  int32_t has = 0;
+  for (int32_t i = 0; i < arguments->count; i++)
+    has |= arguments->all[i].table == arguments->run && arguments->all[i].text != NULL;
+  return has;
+}
+
 int32_t cli_arguments_apply(const struct cli_arguments *arguments, hooke_options *options) {
   for (int32_t i = 0; i < arguments->count; i++) {
     const struct cli_argument *argument = &arguments->all[i];

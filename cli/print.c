@@ -12,7 +12,7 @@
 #include <string.h>
 #include <unistd.h>
 
-enum { ROUNDED_DIGITS = 6 };
+enum { ROUNDED_DIGITS = 6, SAID_SIZE = 16384 };
 
 const char *cli_format_rounded(double value, char text[HOOKE_NUMBER_SIZE]) {
   snprintf(text, HOOKE_NUMBER_SIZE, "%.*g", ROUNDED_DIGITS, value);
@@ -91,6 +91,20 @@ int32_t cli_print_text(FILE *file, const char *text) {
   for (; *text; count++)
     text += print_character(file, text);
   return count;
+}
+
+void cli_say(const char *format, ...) {
+  char text[SAID_SIZE];
+  const size_t lines = strspn(format, "\n"), length = strlen(format);
+  va_list args;
+  va_start(args, format);
+  vsnprintf(text, sizeof text, format, args);
+  va_end(args);
+  const int ends = length > lines && format[length - 1] == '\n';
+  if (ends && text[strlen(text) - 1] == '\n') text[strlen(text) - 1] = '\0';
+  fprintf(stdout, "%.*s", (int)lines, text);
+  cli_print_text(stdout, text + lines);
+  if (ends) fputc('\n', stdout);
 }
 
 void cli_print_padded(FILE *file, int32_t width, const char *text) {
@@ -177,6 +191,11 @@ void cli_print_wrapped(FILE *file, int32_t column, int32_t indent, int32_t width
     text += length;
   }
   fputc('\n', file);
+}
+
+void cli_print_fact(int32_t indent, int32_t width, const char *label, const char *text) {
+  printf("%-*s", indent, label);
+  cli_print_wrapped(stdout, indent, indent, width, text);
 }
 
 /* ---- JSON ---- */

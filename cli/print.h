@@ -22,6 +22,10 @@ void cli_append(char *text, size_t size, const char *format, ...) __attribute__(
  * is printed by this function, by the ones below or as JSON. Returns the number of characters printed. */
 int32_t cli_print_text(FILE *file, const char *text);
 
+/* Words of which some are foreign, like printf() on standard output; line ends stay where the format begins
+ * or ends with them. */
+void cli_say(const char *format, ...) __attribute__((format(printf, 1, 2)));
+
 /* The same, padded with blanks to `width` characters. */
 void cli_print_padded(FILE *file, int32_t width, const char *text);
 
@@ -45,6 +49,9 @@ void cli_print_quoted(FILE *file, const char *text);
 
 /* Text broken at blanks before column `width`; lines after the first start at column `indent`. */
 void cli_print_wrapped(FILE *file, int32_t column, int32_t indent, int32_t width, const char *text);
+
+/* A label, with wrapped text beside it, from column `indent` on. */
+void cli_print_fact(int32_t indent, int32_t width, const char *label, const char *text);
 
 /* A JSON value being written, on one line. `key` is NULL inside arrays. */
 struct cli_json {

@@ -90,6 +90,19 @@ void cli_report_words(const struct cli_arguments *arguments, const char *format,
   say(arguments, HOOKE_BOLD, message);
 }
 
+int32_t cli_warnings_hear(const char *kind, const char *sentence, double t, double limit, int64_t spring,
+                          int64_t particle, void *warnings) {
+  (void)kind, (void)t, (void)limit, (void)spring, (void)particle;
+  cli_append(warnings, HOOKE_WARNINGS_SIZE, "%s\n", sentence);
+  return 0;
+}
+
+void cli_warnings_tell(const struct cli_arguments *arguments, char *warnings) {
+  for (char *line = warnings, *end; (end = strchr(line, '\n')) != NULL; line = end + 1)
+    cli_report_words(arguments, "warning: %.*s", (int)(end - line), line);
+  warnings[0] = '\0';
+}
+
 int cli_report_missing_words(const struct cli_arguments *arguments) {
   cli_report_words(arguments, "out of memory: a command to type is left out");
   return cli_exit_code(HOOKE_NO_MEMORY);

@@ -24,6 +24,14 @@ int cli_report_status(const struct cli_arguments *arguments, int32_t status);
 void cli_report_words(const struct cli_arguments *arguments, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
 
+/* Warnings, a line each, until they are told. */
+enum { HOOKE_WARNINGS_SIZE = 4096 };
+/* Adds one of the library to such a text, as a hooke_warning. */
+int32_t cli_warnings_hear(const char *kind, const char *sentence, double t, double limit, int64_t spring,
+                          int64_t particle, void *warnings);
+/* Tells them as "warning: ...", and empties the text. */
+void cli_warnings_tell(const struct cli_arguments *arguments, char *warnings);
+
 /* Reports that memory was missing for a part of the output; the rest is printed. */
 int cli_report_missing_words(const struct cli_arguments *arguments);
 

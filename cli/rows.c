@@ -7,21 +7,17 @@
 
 enum { CELL_SIZE = 24, LEAST_WIDTH = 10 };
 
-static const struct column {
-  const char *what, *head, *unit;
-  int width;
-  int32_t counts; /* an integer, printed in full */
-  int32_t marked; /* a mark may follow */
-} columns[] = {{"step", "step", "[s]", 9, 0, 0},
-               {"rtol", "rtol", "", 9, 0, 0},
-               {"error", "error", "max [m]", 10, 0, 1},
-               {"error_final", "error", "end [m]", 10, 0, 0},
-               {"error_max", "farthest", "particle [m]", 12, 0, 0},
-               {"energy_drift", "energy", "drift [J]", 10, 0, 1},
-               {"steps", "steps", "", 9, 1, 0},
-               {"force_evaluations", "force", "evaluations", 11, 1, 0},
-               {"wall_seconds", "wall time", "[s]", 10, 0, 1}};
-enum { COLUMN_COUNT = sizeof columns / sizeof columns[0] };
+const struct cli_column cli_rows_of_runs[] = {
+    {"step", "step", "[s]", 9, "%.4g", NULL, NULL, 0},
+    {"rtol", "rtol", "", 9, "%.4g", NULL, NULL, 0},
+    {"error", "error", "max [m]", 10, "%.4g", NULL, NULL, 1},
+    {"error_final", "error", "end [m]", 10, "%.4g", NULL, NULL, 0},
+    {"error_max", "farthest", "particle [m]", 12, "%.4g", NULL, NULL, 0},
+    {"energy_drift", "energy", "drift [J]", 10, "%.4g", NULL, NULL, 1},
+    {"steps", "steps", "", 9, "%.0f", NULL, NULL, 0},
+    {"force_evaluations", "force", "evaluations", 11, "%.0f", NULL, NULL, 0},
+    {"wall_seconds", "wall time", "[s]", 10, "%.4g", NULL, NULL, 1},
+    {.what = NULL}};
 
 static const char *method_of(const struct cli_rows *rows, int64_t row) {
   return hooke_measurement_text(rows->source, "rows", row, "method");
@@ -36,34 +32,35 @@ int32_t cli_rows_method_width(const struct cli_rows *rows) {
   return (int32_t)width;
 }
 
+void cli_rows_print_as(int32_t width, double value, const char *format, const char *infinite,
+                       const char *zero) {
+  const char *word = isnan(value) ? "-" : isinf(value) ? infinite : value == 0.0 ? zero : NULL;
+  char cell[CELL_SIZE];
+  snprintf(cell, sizeof cell, format, value);
+  printf(" %*s", width, word ? word : cell);
+}
+
 void cli_rows_print_cell(int32_t width, double value) {
-  char cell[CELL_SIZE] = "-";
-  if (!isnan(value)) snprintf(cell, sizeof cell, "%.4g", value);
-  printf(" %*s", width, cell);
+  cli_rows_print_as(width, value, "%.4g", NULL, NULL);
 }
 
 static void print_head(const struct cli_rows *rows, int32_t method_width, int32_t second) {
   printf("%-*s", method_width, second ? "" : "method");
-  for (int i = 0; i < COLUMN_COUNT; i++) {
-    printf(" %*s", columns[i].width, second ? columns[i].unit : columns[i].head);
-    if (rows->mark && columns[i].marked && i + 1 < COLUMN_COUNT) printf(" ");
+  for (const struct cli_column *column = rows->columns; column->what; column++) {
+    printf(" %*s", column->width, second ? column->unit : column->head);
+    if (rows->mark && column->marked && column[1].what) printf(" ");
   }
   printf("\n");
 }
 
 static void print_row(const struct cli_rows *rows, int64_t row, int32_t method_width) {
   cli_print_padded(stdout, method_width, method_of(rows, row));
-  for (int i = 0; i < COLUMN_COUNT; i++) {
-    double value = hooke_measurement_number(rows->source, "rows", row, columns[i].what);
-    if (columns[i].counts) {
-      printf(" %*.0f", columns[i].width, value);
-    } else {
-      cli_rows_print_cell(columns[i].width, value);
-    }
-    if (rows->mark && columns[i].marked) printf("%c", rows->mark(rows->source, row, columns[i].what));
+  for (const struct cli_column *column = rows->columns; column->what; column++) {
+    cli_rows_print_as(column->width, hooke_measurement_number(rows->source, "rows", row, column->what),
+                      column->format, column->infinite, column->zero);
+    if (rows->mark && column->marked) printf("%c", rows->mark(rows->source, row, column->what));
   }
-  printf("  ");
-  cli_print_text(stdout, hooke_measurement_text(rows->source, "rows", row, "status"));
+  if (rows->status) cli_say("  %s", hooke_measurement_text(rows->source, "rows", row, "status"));
   printf("\n");
 }
 

@@ -1,4 +1,4 @@
-/* The rows of a comparison or a study: a method with a step or tolerance, its errors and its cost. */
+/* Tables "rows" in words: a line a method, with columns of numbers. */
 #ifndef HOOKE_CLI_ROWS_H
 #define HOOKE_CLI_ROWS_H
 
@@ -7,19 +7,35 @@
 
 #include <stdint.h>
 
+struct cli_column {
+  const char *what, *head, *unit; /* the column of the table, and two lines above it */
+  int width;
+  const char *format;          /* of a number, such as "%.4g" */
+  const char *infinite, *zero; /* words in place of them; NULL: as a number */
+  int32_t marked;              /* a mark may follow */
+};
+
+/* Of a comparison or a study: step or tolerance, errors and cost. */
+extern const struct cli_column cli_rows_of_runs[];
+
 struct cli_rows {
   const hooke_measurement *source; /* with a table "rows" */
   int64_t count;
-  int32_t grouped; /* 1: an empty line before each method but the first */
-  /* marks after "error" and "wall_seconds" of a row; NULL: no space for marks */
+  const struct cli_column *columns; /* ends with a `what` of NULL */
+  int32_t grouped;                  /* 1: an empty line before each method but the first */
+  int32_t status;                   /* 1: the column of that name ends the line */
+  /* marks after a column of a row; NULL: no space for marks */
   char (*mark)(const hooke_measurement *source, int64_t row, const char *what);
 };
 
 /* Width of the column of methods. */
 int32_t cli_rows_method_width(const struct cli_rows *rows);
 
-/* A number in `width` columns to 4 digits, "-" if there is none. */
+/* A number in `width` columns to 4 digits, "-" if there is none; the second in another format, with other
+ * words in place of infinity and 0 (NULL: as numbers). */
 void cli_rows_print_cell(int32_t width, double value);
+void cli_rows_print_as(int32_t width, double value, const char *format, const char *infinite,
+                       const char *zero);
 
 /* A table of all rows. */
 void cli_rows_print(const struct cli_rows *rows, int32_t method_width);

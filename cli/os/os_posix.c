@@ -1,7 +1,6 @@
 #define _GNU_SOURCE /* F_OFD_GETLK */
 #include "os.h"
 
-#include <dirent.h>
 #include <fcntl.h>
 #include <inttypes.h>
 #include <signal.h>
@@ -61,16 +60,6 @@ void cli_os_give_back_memory(void) {
 }
 
 /* ---- files ---- */
-
-const char *cli_os_next_file(const char *folder) {
-  static DIR *open;
-  if (folder) open = opendir(folder);
-  const struct dirent *entry = open ? readdir(open) : NULL;
-  if (entry) return entry->d_name;
-  if (open) closedir(open);
-  open = NULL;
-  return NULL;
-}
 
 const char *cli_os_last_slash(const char *path) {
   return strrchr(path, '/');

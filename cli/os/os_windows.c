@@ -1,7 +1,6 @@
 #define _CRT_RAND_S /* rand_s() */
 #include "os.h"
 
-#include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
 #include <io.h>
@@ -58,16 +57,6 @@ void cli_os_give_back_memory(void) {
 }
 
 /* ---- files ---- */
-
-const char *cli_os_next_file(const char *folder) {
-  static DIR *open;
-  if (folder) open = opendir(folder);
-  const struct dirent *entry = open ? readdir(open) : NULL;
-  if (entry) return entry->d_name;
-  if (open) closedir(open);
-  open = NULL;
-  return NULL;
-}
 
 const char *cli_os_last_slash(const char *path) {
   const char *forward = strrchr(path, '/'), *back = strrchr(path, '\\');

@@ -68,9 +68,7 @@ int32_t cli_advice_print(const struct cli_arguments *arguments, const hooke_meas
   for (int64_t k = 0; k < hooke_measurement_row_count(why, "advice"); k++) {
     char *command;
     if (cli_advice_command(arguments, why, k, &command) != HOOKE_OK) status = HOOKE_NO_MEMORY;
-    printf("%s ", k == 0 ? "what to do:" : "or:");
-    cli_print_text(stdout, hooke_measurement_text(why, "advice", k, "change"));
-    printf("\n");
+    cli_say("%s %s\n", k == 0 ? "what to do:" : "or:", hooke_measurement_text(why, "advice", k, "change"));
     if (command) printf("  %s\n", command);
     free(command);
   }

@@ -1,6 +1,7 @@
 #include "cost_sheet.h"
 
 #include "report.h"
+#include "rows.h"
 #include "table.h"
 #include "watch.h"
 
@@ -29,13 +30,6 @@ static const char *name_of(const hooke_measurement *cost, int64_t row) {
   return name[0] ? name : "(no name)";
 }
 
-static void print_cell(int width, double value, const char *format) {
-  char cell[HOOKE_NUMBER_SIZE] = "-";
-  if (isinf(value)) snprintf(cell, sizeof cell, "any");
-  if (isfinite(value)) snprintf(cell, sizeof cell, format, value);
-  printf(" %*s", width, cell);
-}
-
 static const char *time_format(double nanoseconds) {
   return nanoseconds < 100.0 ? "%.2g" : "%.0f";
 }
@@ -45,17 +39,14 @@ static void print_time(double nanoseconds, double resolution) {
   if (nanoseconds < resolution) {
     char format[8];
     snprintf(format, sizeof format, "<%s", time_format(resolution));
-    print_cell(12, resolution, format);
+    cli_rows_print_as(12, resolution, format, NULL, NULL);
   } else {
-    print_cell(12, nanoseconds, time_format(nanoseconds));
+    cli_rows_print_as(12, nanoseconds, time_format(nanoseconds), NULL, NULL);
   }
 }
 
 static void print_limit(double limit) {
-  if (limit == 0.0)
-    printf(" %14s", "no step");
-  else
-    print_cell(14, limit, "%.6g");
+  cli_rows_print_as(14, limit, "%.6g", "any", "no step");
   printf("\n");
 }
 
@@ -71,18 +62,18 @@ static int is_known(const hooke_measurement *cost, int64_t row) {
 
 static void print_row(const hooke_measurement *cost, int64_t row, int width) {
   print_name(width, name_of(cost, row));
-  print_cell(10, hooke_measurement_number(cost, "rows", row, "springs"), "%.0f");
+  cli_rows_print_as(10, hooke_measurement_number(cost, "rows", row, "springs"), "%.0f", NULL, NULL);
   print_time(hooke_measurement_number(cost, "rows", row, "nanoseconds"),
              hooke_measurement_number(cost, "cost", 0, "resolution"));
-  print_cell(12, hooke_measurement_number(cost, "rows", row, "memory_bytes"), "%.0f");
+  cli_rows_print_as(12, hooke_measurement_number(cost, "rows", row, "memory_bytes"), "%.0f", NULL, NULL);
   print_limit(hooke_measurement_number(cost, "rows", row, "step_limit_without"));
 }
 
 static void print_whole(const hooke_measurement *cost, const hooke_system *system, int width) {
   print_name(width, "the whole scene");
-  print_cell(10, (double)hooke_system_count(system, "springs"), "%.0f");
+  cli_rows_print_as(10, (double)hooke_system_count(system, "springs"), "%.0f", NULL, NULL);
   print_time(hooke_measurement_number(cost, "cost", 0, "nanoseconds"), 0.0);
-  print_cell(12, hooke_measurement_number(cost, "cost", 0, "memory_bytes"), "%.0f");
+  cli_rows_print_as(12, hooke_measurement_number(cost, "cost", 0, "memory_bytes"), "%.0f", NULL, NULL);
   print_limit(hooke_measurement_number(cost, "cost", 0, "step_limit"));
 }
 
@@ -108,10 +99,8 @@ void cli_cost_sheet_print(const hooke_measurement *cost, const hooke_system *sys
     const int length = (int)strlen(name_of(cost, row));
     if (is_known(cost, row) && length > width) width = length;
   }
-  printf("cost of a step of ");
-  cli_print_text(stdout, hooke_measurement_text(cost, "cost", 0, "method"));
-  printf(", %s s, on this machine:\n",
-         cli_format_rounded(hooke_measurement_number(cost, "cost", 0, "step"), step));
+  cli_say("cost of a step of %s, %s s, on this machine:\n", hooke_measurement_text(cost, "cost", 0, "method"),
+          cli_format_rounded(hooke_measurement_number(cost, "cost", 0, "step"), step));
   printf("  %-*s %10s %12s %12s %14s\n", width, "", "springs", "time [ns]", "memory [B]", "stable to [s]");
   print_whole(cost, system, width);
   if (hooke_measurement_row_count(cost, "rows") > 0)

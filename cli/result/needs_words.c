@@ -20,18 +20,11 @@ static void print_head(int32_t width) {
   printf("%-*s %10s %12s %10s %10s %10s\n", width, "", "[m]", "of forces", "step", "[s]", "step [s]");
 }
 
-static void print_limit(double limit) {
-  if (isinf(limit))
-    printf(" %10s", "none");
-  else
-    cli_rows_print_cell(10, limit);
-}
-
 static void print_costs(double evaluations, double per_step, double wall, double limit) {
   printf(" %12.0f", evaluations);
   cli_rows_print_cell(10, per_step);
   cli_rows_print_cell(10, wall);
-  print_limit(limit);
+  cli_rows_print_as(10, limit, "%.4g", "none", NULL);
 }
 
 static void print_row(const hooke_measurement *needs, int64_t row, int32_t width) {
@@ -49,9 +42,7 @@ static void print_row(const hooke_measurement *needs, int64_t row, int32_t width
               hooke_measurement_number(needs, "rows", row, "step_limit"));
   const double needed = hooke_measurement_number(needs, "rows", row, "needed");
   const char *verdict = isnan(needed) ? "not known" : needed == 1.0 ? "needed" : "-";
-  printf("  %s%s", verdict, note[0] ? "; " : "");
-  cli_print_text(stdout, note);
-  printf("\n");
+  cli_say("  %s%s%s\n", verdict, note[0] ? "; " : "", note);
 }
 
 static void print_table(const hooke_measurement *needs) {
@@ -92,16 +83,14 @@ static void print_saving(const hooke_measurement *needs) {
              hooke_measurement_number(needs, "lean", 0, "other_seconds"));
   snprintf(text, sizeof text,
            "left out together: error at most %.3g m, %.0f springs instead of %.0f; wall time %.3g s by %s, "
-           "where the "
-           "full scene takes %.3g s to be within the want (%s)%s",
+           "where the full scene takes %.3g s to be within the want (%s)%s",
            hooke_measurement_number(needs, "lean", 0, "error"),
            hooke_measurement_number(needs, "lean", 0, "springs"),
            hooke_measurement_number(needs, "full", 0, "springs"),
            hooke_measurement_number(needs, "lean", 0, "wall_seconds"),
            hooke_measurement_text(needs, "needs", 0, "method"),
            hooke_measurement_number(needs, "cheapest", 0, "wall_seconds"), ratio, cheaper);
-  printf("%-*s", LABEL, "");
-  cli_print_wrapped(stdout, LABEL, LABEL, WIDTH, text);
+  cli_print_fact(LABEL, WIDTH, "", text);
 }
 
 static void print_lean(const struct cli_needs_results *results) {
@@ -110,32 +99,26 @@ static void print_lean(const struct cli_needs_results *results) {
   int32_t left_out = 0;
   for (int64_t row = 0; row < hooke_measurement_row_count(needs, "rows"); row++) {
     if (hooke_measurement_number(needs, "rows", row, "left_out") != 1.0) continue;
-    printf("%s%-*s", left_out ? "" : "\n", LABEL, left_out ? "" : "lean");
-    cli_print_text(stdout, hooke_measurement_text(needs, "rows", row, "without"));
-    printf("\n");
+    if (!left_out) printf("\n");
+    cli_say("%-*s%s\n", LABEL, left_out ? "" : "lean", hooke_measurement_text(needs, "rows", row, "without"));
     left_out++;
   }
   if (!left_out) {
     const char *note = hooke_measurement_text(needs, "lean", 0, "note");
-    printf("\n%-*s", LABEL, "lean");
-    cli_print_wrapped(stdout, LABEL, LABEL, WIDTH,
-                      note[0] ? note
-                      : has_unknown(needs)
-                          ? "nothing is left out: it cannot be told what is not needed"
-                          : "all that would save something is needed: there is nothing to leave out");
+    printf("\n");
+    cli_print_fact(LABEL, WIDTH, "lean",
+                   note[0] ? note
+                   : has_unknown(needs)
+                       ? "nothing is left out: it cannot be told what is not needed"
+                       : "all that would save something is needed: there is nothing to leave out");
     return;
   }
   print_saving(needs);
   if (hooke_measurement_text(needs, "lean", 0, "note")[0]) {
-    printf("%-*s", LABEL, "");
-    cli_print_wrapped(stdout, LABEL, LABEL, WIDTH, hooke_measurement_text(needs, "lean", 0, "note"));
+    cli_print_fact(LABEL, WIDTH, "", hooke_measurement_text(needs, "lean", 0, "note"));
   }
-  printf("%-*s", LABEL, "");
-  if (results->command)
-    cli_print_text(stdout, results->command);
-  else
-    printf("add -o LEAN.json to have it as a scene");
-  printf("\n");
+  cli_say("%-*s%s\n", LABEL, "",
+          results->command ? results->command : "add -o LEAN.json to have it as a scene");
 }
 
 /* ---- resolutions ---- */
@@ -187,8 +170,7 @@ int32_t cli_needs_results_trust(const hooke_measurement *needs, char text[HOOKE_
 }
 
 static void print_warning(const char *text) {
-  printf("%-*s", LABEL, "WARNING");
-  cli_print_wrapped(stdout, LABEL, LABEL, WIDTH, text);
+  cli_print_fact(LABEL, WIDTH, "WARNING", text);
   printf("\n");
 }
 
@@ -201,12 +183,10 @@ static void print_warnings(const hooke_measurement *needs) {
 
 void cli_needs_results_print(const struct cli_needs_results *results) {
   const hooke_measurement *needs = results->needs;
-  cli_print_text(stdout, cli_setup_title(results->arguments, &results->setup));
-  printf("\n");
-  cli_print_text(stdout, hooke_measurement_text(needs, "needs", 0, "method"));
-  printf("%s, %g m wanted",
-         hooke_measurement_number(needs, "needs", 0, "method_picked") == 1.0 ? " (picked)" : "",
-         hooke_measurement_number(needs, "needs", 0, "want"));
+  cli_say("%s\n", cli_setup_title(results->arguments, &results->setup));
+  cli_say("%s%s, %g m wanted", hooke_measurement_text(needs, "needs", 0, "method"),
+          hooke_measurement_number(needs, "needs", 0, "method_picked") == 1.0 ? " (picked)" : "",
+          hooke_measurement_number(needs, "needs", 0, "want"));
   const double step_error = hooke_measurement_number(needs, "full", 0, "step_error");
   if (isnan(step_error)) {
     printf("; the full scene was not run to its end\n");

@@ -30,11 +30,6 @@ static const char *head_of(const hooke_measurement *study, const char *table, in
   return head;
 }
 
-static void print_words(const char *label, const char *text) {
-  printf("%-*s", LABEL, label);
-  cli_print_wrapped(stdout, LABEL, LABEL, WIDTH, text);
-}
-
 /* Right-aligned text in a column. */
 static void print_right(int width, const char *text) {
   for (int k = (int)strlen(text); k < width; k++)
@@ -138,8 +133,7 @@ static void print_quantity(const hooke_measurement *study, int32_t method_width,
                            int64_t count) {
   const int64_t rows = hooke_measurement_row_count(study, "statistics");
   char head[HEAD_SIZE];
-  cli_print_text(stdout, head_of(study, "statistics", quantity, head));
-  printf("\n");
+  cli_say("%s\n", head_of(study, "statistics", quantity, head));
   for (int64_t row = quantity; row < rows; row += count)
     print_source(study, method_width, row);
 }
@@ -154,19 +148,18 @@ static void print_ensemble(const struct cli_study_results *results, int32_t meth
                  ? "; a larger --budget leaves time for them"
                  : "");
     printf("\n");
-    print_words("statistics", text);
+    cli_print_fact(LABEL, WIDTH, "statistics", text);
     return;
   }
   snprintf(text, sizeof text,
            "of means over %.6g s to %.6g s, where positions cannot be computed; of %.0f runs of each method, "
-           "whose "
-           "starts differ by noise of %.3g m",
+           "whose starts differ by noise of %.3g m",
            hooke_measurement_number(study, "ensemble", 0, "from"),
            hooke_measurement_number(study, "ensemble", 0, "until"),
            hooke_measurement_number(study, "ensemble", 0, "members"),
            hooke_measurement_number(study, "ensemble", 0, "noise"));
   printf("\n");
-  print_words("statistics", text);
+  cli_print_fact(LABEL, WIDTH, "statistics", text);
   printf("  %-*s %*s %5s %*s %*s  %s\n", method_width, "method", SETTING, "step [s]", "runs", CELL, "mean",
          CELL, "spread", "bias");
   const int64_t count = cli_study_quantity_count(study);
@@ -188,12 +181,12 @@ void cli_study_statistics_print(const struct cli_study_results *results, int32_t
     print_ensemble(results, method_width);
   } else if (asked && whole) {
     printf("\n");
-    print_words("statistics", "none are needed: errors are known over the whole run");
+    cli_print_fact(LABEL, WIDTH, "statistics", "none are needed: errors are known over the whole run");
   } else if (!whole && !asked && hooke_measurement_row_count(study, "rows") > 0 &&
              !results->arguments->quiet) {
     snprintf(text, sizeof text, "--ensemble %d tells means and spreads beyond %.6g s", MEMBERS_ADVISED,
              until);
     printf("\n");
-    print_words("statistics", text);
+    cli_print_fact(LABEL, WIDTH, "statistics", text);
   }
 }

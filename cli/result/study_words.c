@@ -21,8 +21,7 @@ static void print_fact(const char *label, const char *format, ...) {
   va_start(args, format);
   vsnprintf(text, sizeof text, format, args);
   va_end(args);
-  printf("%-*s", LABEL, label);
-  cli_print_wrapped(stdout, LABEL, LABEL, WIDTH, text);
+  cli_print_fact(LABEL, WIDTH, label, text);
 }
 
 /* ---- the reference ---- */
@@ -195,9 +194,7 @@ static void print_recommendation(const struct cli_study_results *results) {
   }
   if (!results->command) return;
   if (met) {
-    printf("%*s", LABEL, "");
-    cli_print_text(stdout, results->command);
-    printf("\n");
+    cli_say("%*s%s\n", LABEL, "", results->command);
   } else {
     print_closest(study);
   }
@@ -232,9 +229,8 @@ void cli_study_results_print(const struct cli_study_results *results) {
   const struct cli_rows rows = cli_study_results_rows(results);
   int32_t width = cli_rows_method_width(&rows);
   char text[HOOKE_NUMBER_SIZE];
-  cli_print_text(stdout, cli_setup_title(arguments, &results->setup));
-  printf(", %s s\n",
-         cli_format_rounded(hooke_measurement_number(results->study, "study", 0, "duration"), text));
+  cli_say("%s, %s s\n", cli_setup_title(arguments, &results->setup),
+          cli_format_rounded(hooke_measurement_number(results->study, "study", 0, "duration"), text));
   print_reference(results->study);
   if (rows.count > 0) {
     printf("\n");

@@ -46,12 +46,9 @@ static void print_derived(const hooke_system *system) {
   printf("derived from the options of parts:\n");
   for (int64_t i = 0; i < hooke_system_count(system, "derived"); i++) {
     const char *family = text_of(system, i, "family"), *unit = text_of(system, i, "unit");
-    printf("  ");
-    cli_print_text(stdout, text_of(system, i, "part"));
-    printf("%s%s: ", family ? "." : "", family ? family : "");
-    cli_print_text(stdout, text_of(system, i, "name"));
-    printf(" %s%s%s\n", cli_format_rounded(hooke_system_derived_value(system, i), number), unit[0] ? " " : "",
-           unit);
+    cli_say("  %s%s%s: %s %s%s%s\n", text_of(system, i, "part"), family ? "." : "", family ? family : "",
+            text_of(system, i, "name"), cli_format_rounded(hooke_system_derived_value(system, i), number),
+            unit[0] ? " " : "", unit);
   }
 }
 
@@ -62,9 +59,8 @@ void cli_derived_words(const hooke_system *system) {
       printf("%-12s %" PRId64 "\n", kinds[k].members, hooke_system_count(system, force));
     for (int64_t i = 0; i < hooke_system_group_count(system, force); i++) {
       const char *name = hooke_system_group_name(system, force, i);
-      printf("  %10" PRId64 " ", hooke_system_group_size(system, force, i));
-      cli_print_text(stdout, name[0] ? name : "(no name)");
-      printf("\n");
+      cli_say("  %10" PRId64 " %s\n", hooke_system_group_size(system, force, i),
+              name[0] ? name : "(no name)");
     }
   }
   print_derived(system);

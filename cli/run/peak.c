@@ -9,12 +9,6 @@ struct cli_peak cli_peak_look(void) {
   return peak;
 }
 
-static int32_t hear_nothing(const char *kind, const char *sentence, double t, double limit, int64_t spring,
-                            int64_t particle, void *ctx) {
-  (void)kind, (void)sentence, (void)t, (void)limit, (void)spring, (void)particle, (void)ctx;
-  return 0;
-}
-
 /* Memory of the estimate of the error, whose other runs take that of the method after this one. */
 static int32_t count_estimate(const struct cli_setup *setup, const hooke_integrator *integrator,
                               int64_t *bytes) {
@@ -35,9 +29,10 @@ static int64_t count_output(const struct cli_setup *setup) {
 static int32_t count_method(const struct cli_arguments *arguments, const struct cli_setup *setup,
                             int64_t *bytes, int64_t *kept, int64_t *factor) {
   hooke_integrator *integrator = NULL;
+  char warnings[HOOKE_WARNINGS_SIZE] = ""; /* which check tells by itself */
   int32_t status = hooke_integrator_create(setup->system, setup->options, &integrator);
   if (status == HOOKE_OK && !arguments->quiet)
-    status = hooke_integrator_on_warning(integrator, hear_nothing, NULL);
+    status = hooke_integrator_on_warning(integrator, cli_warnings_hear, warnings);
   if (status == HOOKE_OK) *bytes = hooke_integrator_count(integrator, "memory_bytes");
   if (status == HOOKE_OK) *factor = hooke_integrator_count(integrator, "factor_bytes");
   if (*factor < 0) status = HOOKE_NO_MEMORY;

@@ -163,9 +163,7 @@ static void print_work(const struct cli_run *run) {
 
 static void print_method(const struct cli_run *run) {
   char text[HOOKE_NUMBER_SIZE];
-  print_row("method");
-  cli_print_text(stdout, cli_run_method(run));
-  printf(", ");
+  cli_say("%-22s%s, ", "method", cli_run_method(run));
   if (is_adaptive(run)) {
     printf("rtol %s, atol ", cli_format_rounded(option_of(run, "rtol"), text));
     print_quantity(option_of(run, "atol"), "m\n");
@@ -212,11 +210,7 @@ static void print_words(const struct cli_run *run) {
   const hooke_system *system = run->setup.system;
   const char *title = hooke_scene_text(run->setup.scene, "title");
   const int64_t particles = hooke_system_particle_count(system);
-  if (title && title[0]) {
-    print_row("scene");
-    cli_print_text(stdout, title);
-    printf("\n");
-  }
+  if (title && title[0]) cli_say("%-22s%s\n", "scene", title);
   print_row("particles");
   printf("%" PRId64 " (%" PRId64 " pinned or driven), springs %" PRId64 "\n", particles,
          particles - hooke_system_count(system, "free"), hooke_system_count(system, "springs"));
@@ -230,11 +224,9 @@ static void print_words(const struct cli_run *run) {
   printf("\n");
   print_work(run);
   print_motion(run);
-  if (run->output) {
-    print_row("output");
-    cli_print_text(stdout, run->output);
-    printf(" (%" PRId64 " frame%s)\n", run->frames, run->frames == 1 ? "" : "s");
-  }
+  if (run->output)
+    cli_say("%-22s%s (%" PRId64 " frame%s)\n", "output", run->output, run->frames,
+            run->frames == 1 ? "" : "s");
 }
 
 static void print_final(const struct cli_run *run) {

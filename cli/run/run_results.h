@@ -3,6 +3,7 @@
 #define HOOKE_CLI_RUN_RESULTS_H
 
 #include "print.h"
+#include "report.h"
 #include "setup.h"
 #include "watch.h"
 
@@ -25,14 +26,13 @@ struct cli_run {
   int32_t kept_place;     /* 1: an interrupted run has a checkpoint or a frame to continue from */
   struct cli_watch watch;
   double duration;
-  const char *page;      /* where the output is shown before it is removed; NULL: it stays */
-  int64_t frames;        /* reported so far */
-  int64_t frames_beyond; /* those of them after it diverged */
-  double last_frame;     /* time of the last one before that [s]; NaN: none was reported */
-  char passages[640];    /* of springs through length zero, in a sentence */
-  char warning[2048];    /* a line each, held back for the first second of work */
-  int32_t is_long;       /* 1: that is over */
-  int32_t write_status;  /* HOOKE_OK, or why a frame or a checkpoint could not be written */
+  const char *page;                   /* where the output is shown before it is removed; NULL: it stays */
+  int64_t frames;                     /* reported so far */
+  int64_t frames_beyond;              /* those of them after it diverged */
+  double last_frame;                  /* time of the last one before that [s]; NaN: none was reported */
+  char passages[640];                 /* of springs through length zero, in a sentence */
+  char warnings[HOOKE_WARNINGS_SIZE]; /* held back for a second of work */
+  int32_t write_status;               /* HOOKE_OK, or why a frame or a checkpoint could not be written */
   int32_t outcome;
   hooke_measurement *why;      /* diagnosis of the outcome; NULL: there is none, or it could not be made */
   hooke_measurement *estimate; /* of its error; NULL: none was requested */

@@ -154,11 +154,7 @@ static void print_verdict(const struct cli_run *run) {
   printf(", %s", met == 1.0 ? "within the wanted " : met == 0.0 ? "above the wanted " : "wanted is ");
   printf("%.6g m", number_of(run, "wanted"));
   if (isnan(met)) printf(", and nobody knows for all of the run");
-  if (met != 1.0 && reason[0] && text_of(run, "by")) {
-    printf(" (");
-    cli_print_text(stdout, reason);
-    printf(")");
-  }
+  if (met != 1.0 && reason[0] && text_of(run, "by")) cli_say(" (%s)", reason);
   printf("; picking and measuring took %.3g s", number_of(run, "seconds"));
 }
 
@@ -178,8 +174,7 @@ void cli_want_print(const struct cli_run *run) {
     printf("%.3g m at most until t = %.6g s, of any particle (root mean square %.2g m), %s",
            number_of(run, "estimate"), number_of(run, "known_until"), number_of(run, "rms"), source_of(by));
   } else {
-    printf("not known: ");
-    cli_print_text(stdout, text_of(run, "reason"));
+    cli_say("not known: %s", text_of(run, "reason"));
   }
   print_verdict(run);
   printf("\n");

@@ -9,12 +9,9 @@
 
 #include <inttypes.h>
 #include <math.h>
-#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-enum { MOST_WARNINGS = 8, WARNING_SIZE = 512 };
 
 struct check {
   const struct cli_arguments *arguments;
@@ -22,19 +19,8 @@ struct check {
   hooke_measurement *cost; /* NULL: not requested */
   double *bound;           /* bound on the step of each method at the initial state [s]; NaN if unknown */
   struct cli_foretold memory;
-  int64_t warning_count;
-  char warning[MOST_WARNINGS][WARNING_SIZE];
+  char warnings[HOOKE_WARNINGS_SIZE];
 };
-
-static void warn(struct check *check, const char *format, ...) __attribute__((format(printf, 2, 3)));
-
-static void warn(struct check *check, const char *format, ...) {
-  va_list args;
-  if (check->warning_count == MOST_WARNINGS) return;
-  va_start(args, format);
-  vsnprintf(check->warning[check->warning_count++], WARNING_SIZE, format, args);
-  va_end(args);
-}
 
 static double bound_of(const struct check *check, const char *method) {
   for (int64_t k = 0; k < hooke_method_count(); k++)
@@ -55,39 +41,36 @@ static void warn_of_method(struct check *check) {
   const char *method = hooke_options_text(check->setup.options, "method");
   char limit[HOOKE_NUMBER_SIZE], taken[HOOKE_NUMBER_SIZE];
   if (!hooke_method_is_built(method)) {
-    warn(check, "%s, the method of the run, is not in this build of hooke", method);
+    cli_append(check->warnings, HOOKE_WARNINGS_SIZE,
+               "%s, the method of the run, is not in this build of hooke\n", method);
     return;
   }
   double bound = bound_of(check, method);
   double step = hooke_options_number(check->setup.options, "step");
   if (bound == 0.0) {
-    warn(check,
-         "%s, the method of the run, is stable at no step: the scene has motion without damping, which it "
-         "makes "
-         "grow at any step",
-         method);
+    cli_append(
+        check->warnings, HOOKE_WARNINGS_SIZE,
+        "%s, the method of the run, is stable at no step: the scene has motion without damping, which it "
+        "makes "
+        "grow at any step\n",
+        method);
   } else if (step > bound) {
-    warn(check, "the step of the run, %s s, is above %s s, up to which %s is certain to be stable",
-         cli_format_rounded(step, taken), cli_format_rounded(bound, limit), method);
+    cli_append(check->warnings, HOOKE_WARNINGS_SIZE,
+               "the step of the run, %s s, is above %s s, up to which %s is certain to be stable\n",
+               cli_format_rounded(step, taken), cli_format_rounded(bound, limit), method);
   }
-}
-
-static int32_t see_warning(const char *kind, const char *sentence, double t, double limit, int64_t spring,
-                           int64_t particle, void *check) {
-  (void)kind, (void)t, (void)limit, (void)spring, (void)particle;
-  warn(check, "%s", sentence);
-  return 0;
 }
 
 static void warn_of_coincident_springs(struct check *check) {
   int64_t count =
       hooke_system_coincident_springs(check->setup.system, hooke_state_position(check->setup.state));
   if (count == 0) return;
-  warn(check,
-       "%" PRId64
-       " %s with both ends at the same place although the rest length is not zero: without a direction, "
-       "and so without a force",
-       count, count == 1 ? "spring starts" : "springs start");
+  cli_append(
+      check->warnings, HOOKE_WARNINGS_SIZE,
+      "%" PRId64
+      " %s with both ends at the same place although the rest length is not zero: without a direction, "
+      "and so without a force\n",
+      count, count == 1 ? "spring starts" : "springs start");
 }
 
 /* Marks the particles of all members of a force, or (NULL) of a rigid body, which may be free as a whole. */
@@ -122,9 +105,12 @@ static int32_t warn_of_loose_particles(struct check *check) {
     count++;
     first = i;
   }
-  if (count == 1) warn(check, "particle %" PRId64 " has no spring", first);
+  if (count == 1)
+    cli_append(check->warnings, HOOKE_WARNINGS_SIZE, "particle %" PRId64 " has no spring\n", first);
   if (count > 1) {
-    warn(check, "%" PRId64 " particles have no spring, the first of them particle %" PRId64, count, first);
+    cli_append(check->warnings, HOOKE_WARNINGS_SIZE,
+               "%" PRId64 " particles have no spring, the first of them particle %" PRId64 "\n", count,
+               first);
   }
   free(held);
   return status;
@@ -166,7 +152,7 @@ static void print_json_memory(struct cli_json *json, const struct cli_foretold *
     cli_json_number(json, "memory_bytes_factor", NAN);
 }
 
-static void print_json(const struct check *check) {
+static void print_json(struct check *check) {
   const hooke_system *system = check->setup.system;
   struct cli_json json;
   cli_json_begin(&json, stdout);
@@ -186,8 +172,8 @@ static void print_json(const struct check *check) {
   }
   cli_json_close(&json);
   cli_json_open(&json, "warnings", '[');
-  for (int64_t i = 0; i < check->warning_count; i++)
-    cli_json_text(&json, NULL, check->warning[i]);
+  for (const char *line = strtok(check->warnings, "\n"); line; line = strtok(NULL, "\n"))
+    cli_json_text(&json, NULL, line);
   cli_json_close(&json);
   cli_json_count(&json, "bodies", hooke_system_count(system, "bodies"));
   cli_json_count(&json, "inside_bodies", hooke_system_count(system, "inside_bodies"));
@@ -222,8 +208,7 @@ static int32_t print_groups(const hooke_system *system) {
   for (int64_t i = 0; i < hooke_system_group_count(system, "springs"); i++) {
     const char *name = hooke_system_group_name(system, "springs", i);
     const int64_t size = hooke_system_group_size(system, "springs", i);
-    printf("  %10" PRId64 " ", size);
-    cli_print_text(stdout, name[0] ? name : "(no name)");
+    cli_say("  %10" PRId64 " %s", size, name[0] ? name : "(no name)");
     if (status == HOOKE_OK) print_stiffness(at, at + count, size);
     printf("\n");
     at += status == HOOKE_OK ? size : 0;
@@ -240,9 +225,8 @@ static void print_bodies(const hooke_system *system) {
          inside == 1 ? "spring or other member of a force" : "springs and other members of forces");
   for (int64_t k = 0; k < bodies; k++) {
     const char *name = hooke_system_body_name(system, k);
-    printf("  %10" PRId64 " ", hooke_system_body_particles(system, k, NULL));
-    cli_print_text(stdout, name[0] ? name : "(no name)");
-    printf("\n");
+    cli_say("  %10" PRId64 " %s\n", hooke_system_body_particles(system, k, NULL),
+            name[0] ? name : "(no name)");
   }
 }
 
@@ -280,15 +264,11 @@ static void print_cost(const struct check *check) {
 }
 
 /* HOOKE_NO_MEMORY if something is missing. */
-static int32_t print_words(const struct check *check) {
+static int32_t print_words(struct check *check) {
   const hooke_system *system = check->setup.system;
   const char *title = hooke_scene_text(check->setup.scene, "title");
   int64_t particles = hooke_system_particle_count(system);
-  if (title && title[0]) {
-    printf("scene        ");
-    cli_print_text(stdout, title);
-    printf("\n");
-  }
+  if (title && title[0]) cli_say("scene        %s\n", title);
   printf("particles    %" PRId64 " (%" PRId64 " pinned or driven)\n", particles,
          particles - hooke_system_count(system, "free"));
   print_bodies(system);
@@ -305,9 +285,7 @@ static int32_t print_words(const struct check *check) {
   cli_cost_sheet_print_left_out(system);
   if (check->cost) cli_cost_sheet_print(check->cost, system);
   cli_print_flush();
-  for (int64_t i = 0; i < check->warning_count; i++) {
-    cli_report_words(check->arguments, "warning: %s", check->warning[i]);
-  }
+  cli_warnings_tell(check->arguments, check->warnings);
   return status;
 }
 
@@ -318,7 +296,8 @@ static int check_and_tell(struct check *check, struct cli_peak loaded) {
   if (status == HOOKE_OK) warn_of_method(check);
   warn_of_coincident_springs(check);
   if (status == HOOKE_OK) status = warn_of_loose_particles(check);
-  if (status == HOOKE_OK) status = hooke_system_warnings(check->setup.system, see_warning, check);
+  if (status == HOOKE_OK)
+    status = hooke_system_warnings(check->setup.system, cli_warnings_hear, check->warnings);
   if (status != HOOKE_OK) return cli_report(check->arguments, cli_exit_code(status), "out of memory");
   if (cli_arguments_text(check->arguments, "cost"))
     code = cli_cost_sheet_find(check->arguments, &check->setup, &check->cost);
@@ -338,7 +317,7 @@ static int choose_times(struct check *check) {
   const int some = hooke_options_is_set(run, "method") || hooke_options_is_set(run, "step");
   const int refused = doubt[0] != '\0';
   if (refused || (some && cli_setup_missing(&check->setup, hooke_options_text(run, "method"), doubt)))
-    warn(check, "%s", doubt);
+    cli_append(check->warnings, HOOKE_WARNINGS_SIZE, "%s\n", doubt);
   return code;
 }
 

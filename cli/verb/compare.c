@@ -137,11 +137,8 @@ static void print_reference(const struct compare *compare) {
     printf("reference: not finished, so there is nothing to measure against\n\n");
     return;
   }
-  printf("reference: ");
-  cli_print_text(stdout, reference_of(compare, "method"));
-  printf(" at tight tolerance, checked by ");
-  cli_print_text(stdout, reference_of(compare, "check"));
-  printf("\n");
+  cli_say("reference: %s at tight tolerance, checked by %s\n", reference_of(compare, "method"),
+          reference_of(compare, "check"));
   cli_format_rounded(until, time);
   if (isnan(agreement))
     printf("WARNING: the two part before the first frame after the start, so no error is known\n");
@@ -154,22 +151,21 @@ static void print_reference(const struct compare *compare) {
 }
 
 static void print_words(const struct compare *compare) {
-  const struct cli_rows rows = {.source = compare->comparison, .count = rows_done(compare->comparison)};
+  const struct cli_rows rows = {.source = compare->comparison,
+                                .count = rows_done(compare->comparison),
+                                .columns = cli_rows_of_runs,
+                                .status = 1};
   int32_t width = cli_rows_method_width(&rows);
   char text[HOOKE_NUMBER_SIZE];
-  cli_print_text(stdout, cli_setup_title(compare->arguments, &compare->setup));
-  printf(", %s s\n", cli_format_rounded(hooke_options_number(compare->setup.options, "duration"), text));
+  cli_say("%s, %s s\n", cli_setup_title(compare->arguments, &compare->setup),
+          cli_format_rounded(hooke_options_number(compare->setup.options, "duration"), text));
   print_reference(compare);
   if (rows.count > 0) {
     print_errors(compare->comparison, width);
     printf("\n");
     cli_rows_print(&rows, width);
   }
-  if (compare->output) {
-    printf("\noutput: ");
-    cli_print_text(stdout, compare->output);
-    printf("\n");
-  }
+  if (compare->output) cli_say("\noutput: %s\n", compare->output);
 }
 
 static int compare_and_tell(struct compare *compare) {

@@ -16,7 +16,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MOST_SPRINGS = 5, WIDTH = 110, INDENT = 12 };
+enum { WIDTH = 110, INDENT = 12 };
 
 struct limit {
   const struct cli_arguments *arguments;
@@ -105,12 +105,15 @@ static const char *row_text(const struct limit *l, int64_t row, const char *what
 }
 
 static const struct column {
-  const char *what, *head, *unit;
-  int32_t width, along; /* 1: along a run only; -1: at one state only */
-} columns[] = {{"bound", "safe bound", "[s]", 12, 0},     {"predicted", "predicted", "[s]", 12, 0},
-               {"measured", "measured", "[s]", 12, -1},   {"ratio", "measured /", "predicted", 10, -1},
-               {"steps_run", "steps", "run", 10, -1},     {"smallest", "smallest", "met [s]", 12, 1},
-               {"smallest_time", "at time", "[s]", 10, 1}};
+  struct cli_column is;
+  int32_t along; /* 1: along a run only; -1: at one state only */
+} columns[] = {{{"bound", "safe bound", "[s]", 12, "%.6g", "none", "no step", 0}, 0},
+               {{"predicted", "predicted", "[s]", 12, "%.6g", "none", "no step", 0}, 0},
+               {{"measured", "measured", "[s]", 12, "%.6g", "none", "no step", 0}, -1},
+               {{"ratio", "measured /", "predicted", 10, "%.6g", "none", "no step", 0}, -1},
+               {{"steps_run", "steps", "run", 10, "%.0f", "none", NULL, 0}, -1},
+               {{"smallest", "smallest", "met [s]", 12, "%.6g", "none", "no step", 0}, 1},
+               {{"smallest_time", "at time", "[s]", 10, "%.6g", "none", NULL, 0}, 1}};
 enum { COLUMN_COUNT = sizeof columns / sizeof columns[0] };
 
 static int32_t is_shown(const struct limit *l, int k) {
@@ -118,32 +121,17 @@ static int32_t is_shown(const struct limit *l, int k) {
   return columns[k].along == 0 || (columns[k].along > 0 ? l->along : !l->along && measured);
 }
 
-static void print_cell(const struct limit *l, int64_t row, const struct column *column) {
-  const double value = hooke_measurement_number(l->limit, "rows", row, column->what);
-  const int32_t counts = strcmp(column->what, "steps_run") == 0;
-  char cell[HOOKE_NUMBER_SIZE] = "-";
-  if (isinf(value)) snprintf(cell, sizeof cell, "none");
-  if (isfinite(value)) snprintf(cell, sizeof cell, counts ? "%.0f" : "%.6g", value);
-  if (value == 0.0 && !counts && strcmp(column->what, "smallest_time") != 0)
-    snprintf(cell, sizeof cell, "no step");
-  printf(" %*s", column->width, cell);
-}
-
-static void print_table(const struct limit *l, int32_t width) {
-  for (int line = 0; line < 2; line++) {
-    printf("%-*s", width, line ? "" : "method");
-    for (int k = 0; k < COLUMN_COUNT; k++) {
-      if (is_shown(l, k)) printf(" %*s", columns[k].width, line ? columns[k].unit : columns[k].head);
-    }
-    printf("\n");
+static int32_t print_table(const struct limit *l) {
+  struct cli_column shown[COLUMN_COUNT + 1] = {{.what = NULL}};
+  const struct cli_rows rows = {
+      .source = l->limit, .count = hooke_measurement_row_count(l->limit, "rows"), .columns = shown};
+  const int32_t width = cli_rows_method_width(&rows);
+  int32_t count = 0;
+  for (int k = 0; k < COLUMN_COUNT; k++) {
+    if (is_shown(l, k)) shown[count++] = columns[k].is;
   }
-  for (int64_t row = 0; row < hooke_measurement_row_count(l->limit, "rows"); row++) {
-    cli_print_padded(stdout, width, row_text(l, row, "method"));
-    for (int k = 0; k < COLUMN_COUNT; k++) {
-      if (is_shown(l, k)) print_cell(l, row, &columns[k]);
-    }
-    printf("\n");
-  }
+  cli_rows_print(&rows, width);
+  return width;
 }
 
 static void print_notes(const struct limit *l, int32_t width) {
@@ -158,47 +146,17 @@ static void print_notes(const struct limit *l, int32_t width) {
   }
 }
 
-static double limiting_number(const hooke_measurement *limit, int64_t row, const char *what) {
-  return hooke_measurement_number(limit, "blame", row, what);
-}
-
-static void print_spring(const hooke_measurement *limit, int64_t row, const char *label) {
-  const char *group = hooke_measurement_text(limit, "blame", row, "group");
-  printf("%s%-*s%5.1f %%  spring %.0f, between particles %.0f and %.0f", label[0] ? "\n" : "", INDENT, label,
-         100.0 * limiting_number(limit, row, "share"), limiting_number(limit, row, "number"),
-         limiting_number(limit, row, "first"), limiting_number(limit, row, "second"));
-  if (group && group[0]) {
-    printf(", group ");
-    cli_print_text(stdout, group);
-  }
-  printf("\n");
-}
-
 static void print_limiting(const hooke_measurement *limit) {
-  const int64_t count = hooke_measurement_row_count(limit, "blame");
   const char *sentence = hooke_measurement_text(limit, "remedy", 0, "sentence");
-  for (int64_t k = 0; k < count && k < MOST_SPRINGS; k++) {
-    const char *force = hooke_measurement_text(limit, "blame", k, "force");
-    if (force)
-      printf("\n%-*s%5.1f %%  %s\n", INDENT, "blame", 100.0 * limiting_number(limit, k, "share"), force);
-    else
-      print_spring(limit, k, k ? "" : "blame");
-  }
-  if (count > MOST_SPRINGS) printf("%-*sand others with less\n", INDENT, "");
-  if (!sentence) return;
-  printf("%-*s", INDENT, "remedy");
-  cli_print_wrapped(stdout, INDENT, INDENT, WIDTH, sentence);
+  if (hooke_measurement_row_count(limit, "blame") > 0) printf("\n");
+  cli_limiting_print(limit);
+  if (sentence) cli_print_fact(INDENT, WIDTH, "remedy", sentence);
 }
 
 static void print_words(const struct limit *l) {
   char text[HOOKE_NUMBER_SIZE];
-  int32_t width = 0;
-  for (int64_t row = 0; row < hooke_measurement_row_count(l->limit, "rows"); row++) {
-    const int32_t length = (int32_t)strlen(row_text(l, row, "method"));
-    if (length > width) width = length;
-  }
-  cli_print_text(stdout, cli_setup_title(l->arguments, &l->setup));
-  printf(", at t = %s s\n", cli_format_rounded(number_of(l, "time"), text));
+  cli_say("%s, at t = %s s\n", cli_setup_title(l->arguments, &l->setup),
+          cli_format_rounded(number_of(l, "time"), text));
   printf("fastest motion %.6g rad/s, fastest damping %.6g 1/s\n", number_of(l, "frequency_max"),
          number_of(l, "rate_max"));
   const double clamped = number_of(l, "clamped");
@@ -211,8 +169,7 @@ static void print_words(const struct limit *l) {
     printf("%.0f rigid %s tipped over by gravity or tensions: that is growth by physics, and left out\n",
            tipping, tipping == 1.0 ? "body is" : "bodies are");
   printf("\n");
-  print_table(l, width);
-  print_notes(l, width);
+  print_notes(l, print_table(l));
   print_limiting(l->limit);
 }
 
@@ -258,19 +215,16 @@ static const struct cli_verb_row own_rows[] = {
      "at a frame of a trajectory, the last one if FRAME is left out; else at the start"},
     {"report", 0, "FILE.html",
      "writes regions of stability, limiting mode, table and suggestion as one page to read offline, "
-     "replacing "
-     "it"},
+     "replacing it"},
 };
 
 const struct cli_verb cli_verb_limit = {
     .name = "limit",
     .summary = "the largest stable step of each method, predicted and measured, and what determines it",
-    .text =
-        "Predicts the largest stable step of each fixed-step method from the eigenvalues of the scene, "
-        "frozen at its positions and at rest, then measures it by running the method. Says which springs "
-        "carry "
-        "the motion that limits --method, and what it would buy to change them. Safe bound: a step that is "
-        "certain to be stable, from one pass over the springs.",
+    .text = "Predicts the largest stable step of each fixed-step method from the eigenvalues of the scene, "
+            "frozen at its positions and at rest, then measures it by running the method. Says which springs "
+            "carry the motion that limits --method, and what it would buy to change them. Safe bound: a step "
+            "that is certain to be stable, from one pass over the springs.",
     .example = "hooke limit cloth.json --predict",
     HOOKE_VERB_ROWS(own_rows),
     .options = "limit",

@@ -158,23 +158,18 @@ static void print_json(const struct make *make) {
   cli_json_end(&json);
 }
 
-static int32_t see_warning(const char *kind, const char *sentence, double t, double limit, int64_t spring,
-                           int64_t particle, void *make) {
-  (void)kind, (void)t, (void)limit, (void)spring, (void)particle;
-  cli_report_words(((struct make *)make)->arguments, "warning: %s", sentence);
-  return 0;
-}
-
 /* Describes the scene; and for a step that was not given, names the commands that find one. */
 static void tell(struct make *make) {
   const int64_t particles = hooke_system_particle_count(make->system);
+  char warnings[HOOKE_WARNINGS_SIZE] = "";
   if (make->arguments->quiet) return;
   cli_report_words(
       make->arguments, "%s: a %s of %" PRId64 " particles (%" PRId64 " pinned), %" PRId64 " springs",
       make->output ? make->output : "standard output", make->arguments->scene, particles,
       particles - hooke_system_count(make->system, "free"), hooke_system_count(make->system, "springs"));
-  if (hooke_system_warnings(make->system, see_warning, make) == HOOKE_NO_MEMORY)
-    cli_report_words(make->arguments, "out of memory: warnings are left out");
+  const int32_t status = hooke_system_warnings(make->system, cli_warnings_hear, warnings);
+  cli_warnings_tell(make->arguments, warnings);
+  if (status == HOOKE_NO_MEMORY) cli_report_words(make->arguments, "out of memory: warnings are left out");
   if (!make->output || (make->run && hooke_options_is_set(make->run, "step"))) return;
   fputs("the largest stable steps: hooke limit ", stderr);
   cli_print_quoted(stderr, make->output);

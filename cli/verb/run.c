@@ -66,27 +66,11 @@ static int32_t see_checkpoint(int64_t step, const hooke_state *state, void *ctx)
   return 1;
 }
 
-static void tell_warnings(struct cli_run *run) {
-  for (char *line = run->warning, *end; (end = strchr(line, '\n')) != NULL; line = end + 1)
-    cli_report_words(run->arguments, "warning: %.*s", (int)(end - line), line);
-  run->warning[0] = '\0';
-}
-
-/* The library reports each kind once a run. A run that soon blows up is told of by that alone. */
-static int32_t see_warning(const char *kind, const char *sentence, double t, double limit, int64_t spring,
-                           int64_t particle, void *ctx) {
-  struct cli_run *run = ctx;
-  (void)kind, (void)t, (void)limit, (void)spring, (void)particle;
-  cli_append(run->warning, sizeof run->warning, "%s\n", sentence);
-  if (run->is_long) tell_warnings(run);
-  return 0;
-}
-
+/* A run that soon blows up is told of by that alone. */
 static int32_t see_long(int64_t step, const hooke_state *state, void *ctx) {
   struct cli_run *run = ctx;
   (void)step, (void)state;
-  run->is_long = 1;
-  tell_warnings(run);
+  cli_warnings_tell(run->arguments, run->warnings);
   return 0;
 }
 
@@ -97,7 +81,7 @@ static int64_t steps_of_a_second(const hooke_system *system) {
 }
 
 static int32_t watch_warnings(struct cli_run *run) {
-  const int32_t status = hooke_integrator_on_warning(run->integrator, see_warning, run);
+  const int32_t status = hooke_integrator_on_warning(run->integrator, cli_warnings_hear, run->warnings);
   if (status != HOOKE_OK) return status;
   return hooke_integrator_on_step(run->integrator, steps_of_a_second(run->setup.system), see_long, run);
 }
@@ -309,7 +293,7 @@ static int run_and_tell(struct cli_run *run) {
   const int blew_up = cli_exit_code(run->outcome) == HOOKE_EXIT_DIVERGED;
   /* everything is on the disk and printed before the diagnosis; with --json both are one object */
   if (!run->arguments->json) cli_run_print(run);
-  if (!blew_up) tell_warnings(run);
+  if (!blew_up) cli_warnings_tell(run->arguments, run->warnings);
   if (!blew_up && !run->arguments->quiet) tell_coincident(run);
   if (!blew_up && !run->arguments->quiet && run->passages[0])
     cli_report_words(run->arguments, "warning: %s", run->passages);
@@ -321,7 +305,7 @@ static int run_and_tell(struct cli_run *run) {
   cli_run_print_final(run);
   if (blew_up) find_why(run);
   if (run->arguments->json) cli_run_print(run);
-  if (blew_up && !run->why) tell_warnings(run);
+  if (blew_up && !run->why) cli_warnings_tell(run->arguments, run->warnings);
   if (blew_up) cli_blow_up_tell(run);
   return run->outcome == HOOKE_OK ? cli_want_exit_code(run) : cli_exit_code(run->outcome);
 }
@@ -334,7 +318,8 @@ static int make_ready(struct cli_run *run) {
   if (code != HOOKE_EXIT_DONE) return code;
   const int told =
       !run->arguments->quiet && cli_arguments_text(run->arguments, "want"); /* else by the integrator */
-  const int32_t status = told ? hooke_system_warnings(run->setup.system, see_warning, run) : HOOKE_OK;
+  const int32_t status =
+      told ? hooke_system_warnings(run->setup.system, cli_warnings_hear, run->warnings) : HOOKE_OK;
   if (status != HOOKE_OK) return cli_report_status(run->arguments, status);
   return cli_setup_require(run->arguments, &run->setup, hooke_options_text(run->setup.options, "method"));
 }
@@ -351,12 +336,12 @@ static void release(struct cli_run *run) {
 static int run_and_show(struct cli_run *run, cli_show *show) {
   int code = integrate_to_want(run);
   const int blew_up = cli_exit_code(run->outcome) == HOOKE_EXIT_DIVERGED;
-  if (!blew_up) tell_warnings(run);
+  if (!blew_up) cli_warnings_tell(run->arguments, run->warnings);
   code = cli_watch_check(run->arguments, code);
   if (code == HOOKE_EXIT_DONE) code = show(run);
   if (code != HOOKE_EXIT_DONE || !blew_up) return code;
   find_why(run);
-  if (!run->why) tell_warnings(run);
+  if (!run->why) cli_warnings_tell(run->arguments, run->warnings);
   cli_blow_up_tell(run);
   return cli_exit_code(run->outcome);
 }
@@ -401,16 +386,14 @@ static const struct cli_verb_row rows[] = {
      "reads it, replacing them"},
     {"resume", 0, "OUT.h5",
      "goes on with the run of OUT.h5 where it stopped or was killed, with its own scene and options, as if "
-     "it had never "
-     "stopped; only --threads, --final, --no-why, --json and --quiet may be given with it"},
+     "it had never stopped; only --threads, --final, --no-why, --json and --quiet may be given with it"},
     {"want", 0, "LENGTH",
      "picks a method and its step or tolerance so that no frame is off by more than this (1mm, 1e-4), runs, "
      "measures the error, and takes a finer one if that is not met; --method restricts the choice"},
     {"final", 0, NULL, "prints the position [m] and velocity [m/s] of every particle at the end, too"},
     {"strict", 0, NULL,
      "refuses a run without a step, or whose every or duration is no whole multiple of it, rather than "
-     "choosing "
-     "or moving them"},
+     "choosing or moving them"},
     {"no-estimate", 0, NULL, "leaves out estimating how wrong the run is"},
     {"no-why", 0, NULL, "leaves out looking into why a run blew up"},
 };
@@ -419,10 +402,9 @@ const struct cli_verb cli_verb_run = {
     .name = "run",
     .summary = "integrates a scene",
     .text = "Integrates the scene by one method and prints what came out: time reached, work, energy, "
-            "momentum. A run "
-            "that diverges keeps everything up to then and says what to do. Ctrl-C ends a run cleanly, and "
-            "with -o says how to go "
-            "on with it; --checkpoint keeps places to go on from that outlast a crash, too.",
+            "momentum. A run that diverges keeps everything up to then and says what to do. Ctrl-C ends a "
+            "run cleanly, and with -o says how to go on with it; --checkpoint keeps places to go on from "
+            "that outlast a crash, too.",
     .example = "hooke run cloth.json -o cloth.h5",
     HOOKE_VERB_ROWS(rows),
     .for_scene = "resume",

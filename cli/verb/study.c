@@ -99,7 +99,9 @@ static char mark_of(const hooke_measurement *study, int64_t row, const char *wha
 struct cli_rows cli_study_results_rows(const struct cli_study_results *results) {
   return (struct cli_rows){.source = results->study,
                            .count = hooke_measurement_row_count(results->study, "rows"),
+                           .columns = cli_rows_of_runs,
                            .grouped = 1,
+                           .status = 1,
                            .mark = mark_of};
 }
 
@@ -122,11 +124,7 @@ static int tell(struct cli_study_results *results, const char *output) {
     cli_study_results_print(results);
   }
   if (output) written = write_output(results, output);
-  if (output && written == HOOKE_OK && !arguments->json) {
-    printf("\noutput: ");
-    cli_print_text(stdout, output);
-    printf("\n");
-  }
+  if (output && written == HOOKE_OK && !arguments->json) cli_say("\noutput: %s\n", output);
   cli_print_flush();
   if (written != HOOKE_OK) cli_report_words(arguments, "%s", hooke_last_error());
   if (results->interrupted) {

@@ -34,8 +34,7 @@ static void print_makers(const hooke_measurement *verify, const char *head, cons
     char what[32];
     snprintf(what, sizeof what, "%s%s", facts[k][0], suffix);
     if (text(verify, what)[0] == '\0') continue;
-    printf("%s%s%s", joint, facts[k][1], facts[k][1][0] ? " " : "");
-    cli_print_text(stdout, text(verify, what));
+    cli_say("%s%s%s%s", joint, facts[k][1], facts[k][1][0] ? " " : "", text(verify, what));
     joint = ", ";
   }
   printf("\n");
@@ -51,8 +50,7 @@ static const char *known(const hooke_measurement *verify, const char *what, cons
 }
 
 static void print_step(const hooke_measurement *verify) {
-  printf("%-13s ", "method");
-  cli_print_text(stdout, text(verify, "method"));
+  cli_say("%-13s %s", "method", text(verify, "method"));
   if (isnan(number(verify, "step"))) {
     printf(", rtol %g, atol %g m\n", number(verify, "rtol"), number(verify, "atol"));
     return;
@@ -69,10 +67,9 @@ static void print_step(const hooke_measurement *verify) {
 static void print_balance(const hooke_measurement *verify) {
   char one[KNOWN], two[KNOWN], three[KNOWN];
   if (strcmp(text(verify, "balance"), "not-checked") == 0) return;
-  printf("%-13s ", "energy");
-  cli_print_text(stdout, text(verify, "balance"));
-  printf(": work in %s = change %s + heat %s\n", known(verify, "work", "J", 6, one),
-         known(verify, "energy_change", "J", 6, two), known(verify, "heat", "J", 6, three));
+  cli_say("%-13s %s: work in %s = change %s + heat %s\n", "energy", text(verify, "balance"),
+          known(verify, "work", "J", 6, one), known(verify, "energy_change", "J", 6, two),
+          known(verify, "heat", "J", 6, three));
   printf("%-13s up to %s are left over, %s at the end with half the step%s; bound %s\n", "",
          known(verify, "residual", "J", 3, one), known(verify, "residual_refined", "J", 3, two),
          isnan(number(verify, "step")) ? " (tolerances a hundredth)" : "",
@@ -104,11 +101,8 @@ static void print_parts(const hooke_measurement *verify) {
 }
 
 static void print_words(const struct cli_arguments *arguments, const hooke_measurement *verify) {
-  printf("%-13s ", "file");
-  cli_print_text(stdout, arguments->scene);
-  printf("\n%-13s ", "run");
-  cli_print_text(stdout, text(verify, "run"));
-  printf("\n");
+  cli_say("%-13s %s\n", "file", arguments->scene);
+  cli_say("%-13s %s\n", "run", text(verify, "run"));
   print_makers(verify, "made by", "");
   print_makers(verify, "verified by", "_here");
   print_step(verify);
@@ -118,9 +112,8 @@ static void print_words(const struct cli_arguments *arguments, const hooke_measu
   print_parts(verify);
   print_slice(verify);
   print_balance(verify);
-  printf("%-13s ", "verdict");
-  cli_print_text(stdout, text(verify, "verdict"));
-  printf("%s\n", strcmp(text(verify, "verdict"), "agrees") == 0 ? " to the bit" : "");
+  cli_say("%-13s %s%s\n", "verdict", text(verify, "verdict"),
+          strcmp(text(verify, "verdict"), "agrees") == 0 ? " to the bit" : "");
 }
 
 static void print_json(const struct cli_arguments *arguments, const hooke_measurement *verify) {
@@ -159,13 +152,10 @@ const struct cli_verb cli_verb_verify = {
     .summary = "runs a slice of a result again and compares bits",
     .text =
         "Holds a trajectory of 'hooke run -o' against the scene that it holds: every frame has to have its "
-        "check "
-        "value, the first one has to be the scene's, and a slice, run again from the frame before it, has to "
-        "come to the "
-        "same bits. Takes the balance of energy along the slice, runs it once more with half the step for "
-        "an estimate of the error, and prints a certificate. An error-controlled method is run from the "
-        "start. Exit code 3 says "
-        "that the file is not what its scene gives.",
+        "check value, the first one has to be the scene's, and a slice, run again from the frame before it, "
+        "has to come to the same bits. Takes the balance of energy along the slice, runs it once more with "
+        "half the step for an estimate of the error, and prints a certificate. An error-controlled method is "
+        "run from the start. Exit code 3 says that the file is not what its scene gives.",
     .example = "hooke verify cloth.h5",
     .options = "verify",
     .function = do_verify,

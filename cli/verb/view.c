@@ -108,10 +108,7 @@ static void open_page(const struct cli_arguments *arguments, const char *page) {
 
 /* 1 if an option of a run, or --want, was given: then the scene of a trajectory is run anew. */
 static int is_to_run(const struct cli_arguments *arguments) {
-  for (int32_t k = 0; k < arguments->count; k++) {
-    if (arguments->all[k].table == arguments->run && arguments->all[k].text) return 1;
-  }
-  return cli_arguments_text(arguments, "want") != NULL;
+  return cli_arguments_has_run(arguments) || cli_arguments_text(arguments, "want") != NULL;
 }
 
 static int open_trajectory(const struct cli_arguments *arguments, struct shown *shown, int32_t k) {
@@ -226,14 +223,11 @@ const struct cli_verb cli_verb_view = {
     .name = "view",
     .summary = "writes one self-contained HTML page that plays a trajectory",
     .text = "Writes a trajectory of 'hooke run -o' as one page to open in a browser, offline: cloth, meshes "
-            "and lattices as "
-            "surfaces, ropes and strands as tubes, other springs as lines, strain as colour, what is pinned "
-            "and what is driven "
-            "marked, energies below. A scene is run first; its trajectory is not kept. What is left out, to "
-            "keep the page small "
-            "and quick, is said on it and here. A run that was killed shows the frames it has. Several "
-            "trajectories play on one page, side by side or over one another, at the same time and seen from "
-            "the same angle.",
+            "and lattices as surfaces, ropes and strands as tubes, other springs as lines, strain as colour, "
+            "what is pinned and what is driven marked, energies below. A scene is run first; its trajectory "
+            "is not kept. What is left out, to keep the page small and quick, is said on it and here. A run "
+            "that was killed shows the frames it has. Several trajectories play on one page, side by side or "
+            "over one another, at the same time and seen from the same angle.",
     .several = 1,
     .example = "hooke view cloth.h5 -o cloth.html",
     HOOKE_VERB_ROWS(rows),

@@ -14,7 +14,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MOST_SPRINGS_SHOWN = 8 };
+enum { LABEL = 12, WIDTH = 100 };
 
 struct why {
   const struct cli_arguments *arguments;
@@ -27,8 +27,6 @@ struct why {
   double bound;           /* the safe step there [s]; NaN: not known */
   int code;               /* failures are reported already */
 };
-
-static const double SMALLEST_SHARE = 1e-3; /* storage of words */
 
 /* ---- diagnosing ---- */
 
@@ -158,44 +156,6 @@ static void print_number(const char *label, double value, const char *unit) {
     printf("%-12s%s %s\n", label, cli_format_rounded(value, text), unit);
 }
 
-static void print_spring(const hooke_measurement *found, int64_t row, const char *label) {
-  const char *group = hooke_measurement_text(found, "blame", row, "group");
-  const double share = hooke_measurement_number(found, "blame", row, "share");
-  printf("%-12s%.0f, between particles %.0f and %.0f", label,
-         hooke_measurement_number(found, "blame", row, "number"),
-         hooke_measurement_number(found, "blame", row, "first"),
-         hooke_measurement_number(found, "blame", row, "second"));
-  if (group[0]) {
-    printf(", group ");
-    cli_print_text(stdout, group);
-  }
-  if (!isnan(share)) printf(", share %.3g", share);
-  printf("\n");
-}
-
-static void print_springs(const hooke_measurement *found) {
-  const int64_t count = hooke_measurement_row_count(found, "blame");
-  int64_t forces = 0;
-  for (int64_t k = 0; k < count && k < MOST_SPRINGS_SHOWN; k++) {
-    const char *force = hooke_measurement_text(found, "blame", k, "force");
-    const double share = hooke_measurement_number(found, "blame", k, "share");
-    if (k > 0 && share < SMALLEST_SHARE) return;
-    if (force) {
-      printf("%-12s%s, share %.3g\n", "force", force, share);
-      forces++;
-    } else {
-      print_spring(found, k, k == forces ? "springs" : "");
-    }
-  }
-  if (count > MOST_SPRINGS_SHOWN) printf("%-12sand %" PRId64 " more\n", "", count - MOST_SPRINGS_SHOWN);
-}
-
-static void print_wrapped(const char *label, const char *words) {
-  printf("%-12s", label);
-  cli_print_wrapped(stdout, 12, 12, 100, words);
-  printf("\n");
-}
-
 static double number_of(const hooke_measurement *found, const char *what) {
   return hooke_measurement_number(found, "why", 0, what);
 }
@@ -209,9 +169,8 @@ static int32_t print_words(const struct why *why) {
   const hooke_measurement *found = why->why;
   char text[HOOKE_NUMBER_SIZE];
   if (!found) {
-    printf("the run did not blow up: it is '");
-    cli_print_text(stdout, why->status);
-    printf("' at t = %s s\n", cli_format_rounded(why->time, text));
+    cli_say("the run did not blow up: it is '%s' at t = %s s\n", why->status,
+            cli_format_rounded(why->time, text));
     const double step = hooke_options_number(why->setup.options, "step");
     if (step > 0.0 && isfinite(why->bound) && why->bound > 0.0)
       printf("its step of %.6g s is %.3g %% of the limit, %.6g s, up to which it was certain to be stable "
@@ -219,30 +178,18 @@ static int32_t print_words(const struct why *why) {
              step, 100.0 * step / why->bound, why->bound);
     return HOOKE_OK;
   }
-  printf("%-12s", "cause");
-  cli_print_text(stdout, text_of(found, "cause"));
-  printf("\n");
-  print_wrapped("what", text_of(found, "sentence"));
-  printf("%-12s", "method");
-  cli_print_text(stdout, text_of(found, "method"));
-  printf("\n");
+  cli_say("%-12s%s\n", "cause", text_of(found, "cause"));
+  cli_print_fact(LABEL, WIDTH, "what", text_of(found, "sentence"));
+  cli_say("%-12s%s\n", "method", text_of(found, "method"));
   print_number("step", number_of(found, "step"), "s");
   print_number("limit", number_of(found, "limit"), "s");
   print_number("well until", number_of(found, "time"), "s");
   print_number("noticed", number_of(found, "noticed"), "s");
   if (!isnan(number_of(found, "particle"))) printf("%-12s%.0f\n", "particle", number_of(found, "particle"));
-  print_springs(found);
-  if (text_of(found, "left_out")) print_wrapped("left out", text_of(found, "left_out"));
+  cli_limiting_print(found);
+  if (text_of(found, "left_out")) cli_print_fact(LABEL, WIDTH, "left out", text_of(found, "left_out"));
   printf("\n");
   return cli_advice_print(why->arguments, found);
-}
-
-/* 1 if an option of a run was given: the run then differs from that of the output. */
-static int32_t is_another_run(const struct cli_arguments *arguments) {
-  for (int32_t k = 0; k < arguments->count; k++) {
-    if (arguments->all[k].table == arguments->run && arguments->all[k].text) return 1;
-  }
-  return 0;
 }
 
 /* The exit code so far, or that of a page that could not be written. */
@@ -267,7 +214,7 @@ static int find_out(struct why *why) {
   int32_t status = hooke_record_open(arguments->scene, &why->record);
   if (status == HOOKE_NO_MEMORY) return cli_report_status(arguments, status);
   if (status == HOOKE_OK) why->status = hooke_record_text(why->record, "status");
-  if (why->record && !is_another_run(arguments)) {
+  if (why->record && !cli_arguments_has_run(arguments)) {
     status = read_output(why);
   } else {
     int code = cli_fit_run(arguments, &why->setup, NULL);
@@ -309,23 +256,18 @@ static int do_why(const struct cli_arguments *arguments) {
 static const struct cli_verb_row rows[] = {
     {"budget", 0, "SECONDS",
      "wall time that the explanation may take after the run, such as 5s or 2min; if not given, as much "
-     "counted work "
-     "as the run took, or 2 s if that is more, which is the same however busy the machine is"},
+     "counted work as the run took, or 2 s if that is more, which is the same however busy the machine is"},
     {"report", 0, "FILE.html",
      "writes the explanation as one page to read offline, replacing it: the steps around the trouble, played "
-     "slowly, "
-     "beside the advised run"},
+     "slowly, beside the advised run"},
 };
 
 const struct cli_verb cli_verb_why = {
     .name = "why",
     .summary = "explains a run that blew up",
     .text = "Runs the scene, or reads an output of 'hooke run -o', and says why the run blew up: the cause, "
-            "where and when, "
-            "the springs that determine it, and what to do, as commands that have been tried. The exit code "
-            "is 0 also "
-            "if the run did "
-            "not blow up.",
+            "where and when, the springs that determine it, and what to do, as commands that have been "
+            "tried. The exit code is 0 also if the run did not blow up.",
     HOOKE_VERB_ROWS(rows),
     .example = "hooke why cloth.json --step 50ms --every 50ms",
     .function = do_why,

@@ -121,10 +121,10 @@ int32_t hooke_measurement_run(hooke_measurement *m, hooke_state *state) {
 /* ---- tables ---- */
 
 const struct hk_table *hk_measurement_table(const struct hk_measurement_kind *kind, const char *name) {
-  for (int32_t k = 0; k < kind->table_count; k++) {
-    if (strcmp(kind->tables[k]->name, name) == 0) return kind->tables[k];
-  }
-  return NULL;
+  const struct hk_table *table = kind->tables;
+  while (table->name && strcmp(table->name, name) != 0)
+    table++;
+  return table->name ? table : NULL;
 }
 
 int64_t hooke_measurement_row_count(const hooke_measurement *m, const char *table) {
@@ -142,35 +142,32 @@ int64_t hooke_measurement_find(const hooke_measurement *m, const char *table, co
   return -1;
 }
 
-/* The column, with the line of its row; NULL if there is no such value. */
-static const struct hk_column *find(const hooke_measurement *m, const char *table, int64_t row,
-                                    const char *column, struct hk_line *line) {
-  const struct hk_table *t = hk_measurement_table(m->kind, table);
-  const struct hk_column *c = t ? hk_table_find(t, column) : NULL;
-  if (c == NULL || row < 0 || row >= hk_table_count(t, m->object)) return NULL;
-  t->read(m->object, row, line);
-  return c;
+/* The table and the column of that name; NULL unless both are there, with the row. */
+static const struct hk_column *find(const hooke_measurement *m, const char *name, int64_t row,
+                                    const char *column, const struct hk_table **table) {
+  *table = hk_measurement_table(m->kind, name);
+  return *table && row >= 0 && row < hk_table_count(*table, m->object) ? hk_table_find(*table, column) : NULL;
 }
 
 double hooke_measurement_number(const hooke_measurement *m, const char *table, int64_t row,
                                 const char *column) {
-  struct hk_line line;
-  const struct hk_column *c = find(m, table, row, column, &line);
-  return c ? hk_column_number(c, &line) : NAN;
+  const struct hk_table *t;
+  const struct hk_column *c = find(m, table, row, column, &t);
+  return c ? hk_table_number(t, c, m->object, row) : NAN;
 }
 
 const char *hooke_measurement_text(const hooke_measurement *m, const char *table, int64_t row,
                                    const char *column) {
-  struct hk_line line;
-  const struct hk_column *c = find(m, table, row, column, &line);
-  return c ? hk_column_text(c, &line) : NULL;
+  const struct hk_table *t;
+  const struct hk_column *c = find(m, table, row, column, &t);
+  return c ? hk_table_text(t, c, m->object, row) : NULL;
 }
 
 const double *hooke_measurement_series(const hooke_measurement *m, const char *table, int64_t row,
                                        const char *column, int64_t *count) {
-  struct hk_line line;
-  const struct hk_column *c = find(m, table, row, column, &line);
-  const struct hk_series series = c ? hk_column_series(c, &line) : (struct hk_series){NULL, 0};
+  const struct hk_table *t;
+  const struct hk_column *c = find(m, table, row, column, &t);
+  const struct hk_series series = c ? hk_table_series(t, c, m->object, row) : (struct hk_series){NULL, 0};
   if (count) *count = series.value ? series.count : 0;
   return series.value;
 }

@@ -15,8 +15,7 @@ struct hk_measurement_kind {
   const char *made_by; /* function that creates it, "hooke_why_create()"; NULL: hooke_measurement_create() */
   int32_t needs_run;   /* 1: options of a run are required */
   int32_t takes_state; /* 1: it is taken at a state, by default the initial one, and may be repeated */
-  const struct hk_table *const *tables;
-  int32_t table_count;
+  const struct hk_table *tables; /* ends without a name */
   /* Creates measurement->object; destroy() follows in any case. */
   int32_t (*create)(hooke_measurement *measurement);
   int32_t (*run)(hooke_measurement *measurement, hooke_state *state);

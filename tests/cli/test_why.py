@@ -161,7 +161,7 @@ def test_run_gives_the_best_advice_and_why_all(hooke, write):
 
 def test_words_have_cause_place_time_and_commands(hooke, write):
     out = hooke("why", write(STIFF_PAIR)).out
-    for word in ["cause       step-above-limit", "limit       0.0632", "springs     0, between particles 0 and 1",
+    for word in ["cause       step-above-limit", "limit       0.0632", "blame       100.0 %  spring 0, between particles 0 and 1",
                  "what to do: ", "  hooke run scene.json --step 0.05"]:
         assert word in out, word
 

@@ -44,7 +44,7 @@ FENCES = [
     (r"malloc\.h", r"cli/os/os_posix\.c|src/core/os/os_windows\.c|tests/physics/test_scale\.c|tests/long/\w+\.c"),
     (r"(io|psapi|shellapi|windows)\.h", r"(src/core|cli)/os/os_\w*windows\.c"),
     (r"(dirent|dlfcn|fcntl|langinfo|spawn|sys/\w+|termios)\.h",
-     r"(src/core|cli)/os/os_\w*(posix|windows)\.c|(?!src/|cli/).*"),
+     r"(src/core|cli)/os/os_\w*(posix|windows|folder)\.c|(?!src/|cli/).*"),
     (r"cmocka\.h", r"tests/(support|unit|physics|determinism|guest|fault)/\w+\.[ch]"),
 ]
 
@@ -178,7 +178,7 @@ SYSTEM = re.compile(r"\b(_GNU_SOURCE|_WIN32|WIN32|__MINGW\w+|_MSC_VER|__APPLE__|
 
 def system_complaints(path, text):
     """Files of the library and the program that differ between systems, past the fence around those."""
-    if not path.startswith(("src/", "cli/")) or re.fullmatch(r"(src/core|cli)/os/os_\w*(posix|windows)\.c", path):
+    if not path.startswith(("src/", "cli/")) or re.fullmatch(r"(src/core|cli)/os/os_\w*(posix|windows|folder)\.c", path):
         return []
     clean = without_comments(text)
     return [f"{path}:{clean.count(chr(10), 0, word.start()) + 1}: {word.group()} belongs into src/core/os or cli/os"

@@ -17,22 +17,43 @@ int64_t hk_table_count(const struct hk_table *table, const void *object) {
   return table->member_size ? *(const int32_t *)(const void *)member : 1;
 }
 
-static const void *member(const struct hk_column *column, const struct hk_line *line) {
-  return (const char *)line + column->offset;
+/* The member of a column, or what its row begins with; NULL: the row has no value. */
+static const void *place(const struct hk_table *table, const struct hk_column *column, const void *object,
+                         int64_t row) {
+  const char *holder = table->row ? table->row(object, row) : object;
+  return holder ? holder + column->offset : NULL;
 }
 
-double hk_column_number(const struct hk_column *column, const struct hk_line *line) {
+static double number_at(const struct hk_column *column, const void *at) {
+  if (column->storage == HOOKE_STORED_DOUBLE) return *(const double *)at;
+  const int64_t whole = column->storage == HOOKE_STORED_INT32 ? *(const int32_t *)at : *(const int64_t *)at;
+  return whole < 0 ? NAN : (double)whole;
+}
+
+double hk_table_number(const struct hk_table *table, const struct hk_column *column, const void *object,
+                       int64_t row) {
   if (column->type == HOOKE_COLUMN_TEXT || column->type == HOOKE_COLUMN_SERIES) return NAN;
-  return *(const double *)member(column, line);
+  const void *at = place(table, column, object, row);
+  if (at == NULL) return NAN;
+  return column->number ? column->number(object, row) : number_at(column, at);
 }
 
-const char *hk_column_text(const struct hk_column *column, const struct hk_line *line) {
-  return column->type == HOOKE_COLUMN_TEXT ? *(const char *const *)member(column, line) : NULL;
+const char *hk_table_text(const struct hk_table *table, const struct hk_column *column, const void *object,
+                          int64_t row) {
+  if (column->type != HOOKE_COLUMN_TEXT) return NULL;
+  const void *at = place(table, column, object, row);
+  if (at == NULL) return NULL;
+  if (column->text) return column->text(object, row);
+  return column->storage == HOOKE_STORED_CHARS ? at : *(const char *const *)at;
 }
 
-struct hk_series hk_column_series(const struct hk_column *column, const struct hk_line *line) {
+struct hk_series hk_table_series(const struct hk_table *table, const struct hk_column *column,
+                                 const void *object, int64_t row) {
   if (column->type != HOOKE_COLUMN_SERIES) return (struct hk_series){NULL, 0};
-  return *(const struct hk_series *)member(column, line);
+  const void *at = place(table, column, object, row);
+  if (at == NULL) return (struct hk_series){NULL, 0};
+  return (struct hk_series){column->series ? column->series(object, row) : *(double *const *)at,
+                            table->length(object)};
 }
 
 const char *hk_column_type_name(enum hk_column_type type) {

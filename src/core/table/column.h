@@ -1,6 +1,6 @@
 /* Result tables, the counterpart of option tables: a column is described once, by its name, type, unit and
- * documentation. All output of results (C, JSON, CSV, HDF5, pages, Python, Fortran, the reference) is made
- * from the same tables. */
+ * documentation, and by the member of an object that holds its values. All output of results (C, JSON, CSV,
+ * HDF5, pages, Python, Fortran, the reference) is made from the same tables. */
 #ifndef HOOKE_CORE_TABLE_COLUMN_H
 #define HOOKE_CORE_TABLE_COLUMN_H
 
@@ -8,16 +8,26 @@
 #include <stdint.h>
 
 enum hk_column_type {
-  HOOKE_COLUMN_NUMBER, /* a double; NaN: not applicable or unknown */
-  HOOKE_COLUMN_COUNT,  /* a double with a whole value */
-  HOOKE_COLUMN_FLAG,   /* a double, 0 or 1; NaN: unknown */
-  HOOKE_COLUMN_TEXT,   /* const char *; NULL: none */
-  HOOKE_COLUMN_SERIES  /* struct hk_series */
+  HOOKE_COLUMN_NUMBER, /* NaN: not applicable or unknown */
+  HOOKE_COLUMN_COUNT,  /* a whole number; NaN likewise */
+  HOOKE_COLUMN_FLAG,   /* 0 or 1; NaN: unknown */
+  HOOKE_COLUMN_TEXT,   /* NULL: none */
+  HOOKE_COLUMN_SERIES  /* numbers over time */
 };
 
 /* A table may be a matrix: its rows are the pairs of an outer and an inner index. A column then varies along
  * one of them or both. */
 enum hk_column_axis { HOOKE_AXIS_BOTH, HOOKE_AXIS_OUTER, HOOKE_AXIS_INNER };
+
+/* How the member holds a value. An integer below 0 is unknown. */
+enum hk_storage {
+  HOOKE_STORED_DOUBLE,
+  HOOKE_STORED_INT32,
+  HOOKE_STORED_INT64,
+  HOOKE_STORED_TEXT,  /* char * */
+  HOOKE_STORED_CHARS, /* an array of char */
+  HOOKE_STORED_SERIES /* double * */
+};
 
 /* Numbers over time, owned by the object that the table belongs to. */
 struct hk_series {
@@ -25,13 +35,17 @@ struct hk_series {
   int64_t count;
 };
 
-/* A value is a member of the struct `line`, which the table fills for one row. */
 struct hk_column {
   const char *name;
   enum hk_column_type type;
   const char *unit, *doc;
-  size_t offset; /* in the struct */
   enum hk_column_axis axis;
+  enum hk_storage storage;
+  size_t offset; /* of the member in the row */
+  /* what no member holds; NULL: the member does */
+  double (*number)(const void *object, int64_t row);
+  const char *(*text)(const void *object, int64_t row);
+  const double *(*series)(const void *object, int64_t row);
 };
 
 struct hk_table {
@@ -40,33 +54,60 @@ struct hk_table {
   int32_t record;    /* 1: one row at most, with numbers of the whole */
   const struct hk_column *columns;
   int32_t column_count;
-  size_t size;                          /* of the struct; at most sizeof(struct hk_line) */
   int64_t (*count)(const void *object); /* of rows; NULL: the member below, or 1 */
   size_t member, member_size;           /* of the object: int32_t or int64_t; of size 0: none */
   /* number of inner indices; NULL: the table is no matrix */
   int64_t (*inner)(const void *object);
-  void (*read)(const void *object, int64_t row, void *line);
+  /* struct with the members of one row; NULL: the object. A row that is NULL has no value. */
+  const void *(*row)(const void *object, int64_t row);
+  int64_t (*length)(const void *object); /* of every series */
 };
 
-/* Storage for the struct of any table. */
-struct hk_line {
-  double words[48];
-};
+/* A column for a member of the struct of a row, by the name of the member or by another. */
+#define HOOKE_COLUMN(holder, member, kind, units, text)                                                      \
+  HOOKE_COLUMN_AS(holder, member, member, kind, units, text)
+#define HOOKE_COLUMN_AS(holder, member, title, kind, units, text)                                            \
+  {                                                                                                          \
+    .name = #title, .type = HOOKE_COLUMN_##kind, .unit = (units), .doc = (text),                             \
+    .offset = offsetof(holder, member), .storage = HOOKE_STORAGE(((holder *)0)->member)                      \
+  }
+/* clang-format off */
+#define HOOKE_STORAGE(member)                                                                                \
+  _Generic((member),                                                                                         \
+           double: HOOKE_STORED_DOUBLE, int32_t: HOOKE_STORED_INT32, int64_t: HOOKE_STORED_INT64,            \
+           const char *: HOOKE_STORED_TEXT, double *: HOOKE_STORED_SERIES,                                   \
+           char *: _Generic(&(member), char **: HOOKE_STORED_TEXT, default: HOOKE_STORED_CHARS))
+/* clang-format on */
 
-/* A column for a member of the struct `line`, and the columns of a table. */
-#define HOOKE_COLUMN(line, member, kind, units, text)                                                        \
+/* A column of what a reader finds; in a matrix, along one index. */
+#define HOOKE_COLUMN_BY(reader, title, kind, units, text)                                                    \
+  HOOKE_COLUMN_ALONG(BOTH, reader, title, kind, units, text)
+#define HOOKE_COLUMN_ALONG(index, reader, title, kind, units, text)                                          \
   {                                                                                                          \
-    .name = #member, .type = HOOKE_COLUMN_##kind, .unit = (units), .doc = (text),                            \
-    .offset = offsetof(line, member)                                                                         \
+    .name = #title, .type = HOOKE_COLUMN_##kind, .unit = (units), .doc = (text), .axis = HOOKE_AXIS_##index, \
+    .HOOKE_READS_##kind = (reader)                                                                           \
   }
-#define HOOKE_COLUMN_ALONG(index, line, member, kind, units, text)                                           \
-  {                                                                                                          \
-    .name = #member, .type = HOOKE_COLUMN_##kind, .unit = (units), .doc = (text),                            \
-    .offset = offsetof(line, member), .axis = HOOKE_AXIS_##index                                             \
+#define HOOKE_READS_NUMBER number
+#define HOOKE_READS_COUNT  number
+#define HOOKE_READS_FLAG   number
+#define HOOKE_READS_TEXT   text
+#define HOOKE_READS_SERIES series
+
+/* A reader of a column, a row or a count: `value` of row `row` of the object `it`. */
+#define HOOKE_READER(result, name, object, value)                                                            \
+  static result name(const void *any, int64_t row) {                                                         \
+    const object *it = any;                                                                                  \
+    (void)row;                                                                                               \
+    return (value);                                                                                          \
   }
-#define HOOKE_TABLE_COLUMNS(list, line)                                                                      \
-  .columns = (list), .column_count = (int32_t)(sizeof(list) / sizeof((list)[0])),                            \
-  .size = sizeof(char[sizeof(line) <= sizeof(struct hk_line) ? sizeof(line) : 0])
+#define HOOKE_COUNTER(name, object, value)                                                                   \
+  static int64_t name(const void *any) {                                                                     \
+    const object *it = any;                                                                                  \
+    return (value);                                                                                          \
+  }
+
+#define HOOKE_TABLE_COLUMNS(list)                                                                            \
+  .columns = (list), .column_count = (int32_t)(sizeof(list) / sizeof((list)[0]))
 
 /* The number of rows as a member of the object. */
 #define HOOKE_TABLE_COUNT(object, name)                                                                      \
@@ -76,10 +117,13 @@ struct hk_line {
 const struct hk_column *hk_table_find(const struct hk_table *table, const char *name);
 int64_t hk_table_count(const struct hk_table *table, const void *object);
 
-/* Value of a column: NaN or NULL for a column of another type. */
-double hk_column_number(const struct hk_column *column, const struct hk_line *line);
-const char *hk_column_text(const struct hk_column *column, const struct hk_line *line);
-struct hk_series hk_column_series(const struct hk_column *column, const struct hk_line *line);
+/* Value of a column in a row: NaN or NULL for a column of another type. */
+double hk_table_number(const struct hk_table *table, const struct hk_column *column, const void *object,
+                       int64_t row);
+const char *hk_table_text(const struct hk_table *table, const struct hk_column *column, const void *object,
+                          int64_t row);
+struct hk_series hk_table_series(const struct hk_table *table, const struct hk_column *column,
+                                 const void *object, int64_t row);
 
 /* "number", "count", "flag", "text" or "series". */
 const char *hk_column_type_name(enum hk_column_type type);

@@ -310,24 +310,6 @@ int64_t hooke_options_row_count(const hooke_options *options) {
   return options->slot_count;
 }
 
-static const char *type_name(enum hk_option_type type) {
-  switch (type) {
-  case HOOKE_OPTION_NUMBER:
-    return "number";
-  case HOOKE_OPTION_NUMBERS:
-    return "numbers";
-  case HOOKE_OPTION_FLAG:
-    return "flag";
-  case HOOKE_OPTION_CHOICE:
-    return "choice";
-  case HOOKE_OPTION_TEXT:
-    return "text";
-  case HOOKE_OPTION_FAMILY:
-    return "family";
-  }
-  return "";
-}
-
 /* Allowed values of a slot, in words. They are rarely needed, so the text is made on first use. */
 static const char *allowed_of(struct slot *slot) {
   char allowed[TEXT_SIZE];
@@ -346,26 +328,25 @@ static const char *units_of(struct slot *slot) {
 const char *hooke_options_row(const hooke_options *options, int64_t row, const char *property) {
   if (row < 0 || row >= options->slot_count || property == NULL) return NULL;
   struct slot *slot = &options->slot[row];
-  const char *text = NULL;
-  if (strcmp(property, "name") == 0) return slot->name;
-  if (strcmp(property, "type") == 0) return type_name(slot->row->type);
+  const struct hk_option_row *of = slot->row;
+  static const char *const type[] = {"number", "numbers", "flag", "choice", "text", "family"};
   if (strcmp(property, "allowed") == 0) return allowed_of(slot);
   if (strcmp(property, "units") == 0) return units_of(slot);
-  if (strcmp(property, "unit") == 0)
-    text = slot->row->unit;
-  else if (strcmp(property, "default") == 0)
-    text = slot->row->fallback;
-  else if (strcmp(property, "doc") == 0)
-    text = slot->row->doc;
-  else if (strcmp(property, "words") == 0)
-    text = slot->row->words;
-  else if (strcmp(property, "family") == 0)
-    text = slot->family >= 0 ? options->slot[slot->family].name : "";
-  else if (strcmp(property, "example") == 0)
-    text = slot->row->example;
-  else
-    return NULL;
-  return text ? text : "";
+  const struct {
+    const char *name, *text;
+  } known[] = {
+      {"name", slot->name},
+      {"type", type[of->type]},
+      {"unit", of->unit},
+      {"default", of->fallback},
+      {"doc", of->doc},
+      {"words", of->words},
+      {"family", slot->family >= 0 ? options->slot[slot->family].name : NULL},
+      {"example", of->example},
+  };
+  for (size_t k = 0; k < sizeof known / sizeof known[0]; k++)
+    if (strcmp(known[k].name, property) == 0) return known[k].text ? known[k].text : "";
+  return NULL;
 }
 
 double hooke_options_row_number(const hooke_options *options, int64_t row, const char *property) {

@@ -226,12 +226,12 @@ int32_t hooke_comparison_file_create(const char *path, hooke_measurement *m, hoo
 static int write_column(const hooke_comparison_file *file, int64_t row, int32_t k) {
   const struct hk_column *column = &file->rows->columns[k];
   const int64_t at = file->at.column[k];
-  struct hk_line line;
-  file->rows->read(file->comparison, row, &line);
-  if (column->type == HOOKE_COLUMN_TEXT) return write_text(file, at, row, hk_column_text(column, &line));
-  const double number = hk_column_number(column, &line);
+  const void *object = file->comparison;
+  if (column->type == HOOKE_COLUMN_TEXT)
+    return write_text(file, at, row, hk_table_text(file->rows, column, object, row));
+  const double number = hk_table_number(file->rows, column, object, row);
   if (column->type != HOOKE_COLUMN_SERIES) return write_numbers(file, at, row, 1, &number);
-  const struct hk_series series = hk_column_series(column, &line);
+  const struct hk_series series = hk_table_series(file->rows, column, object, row);
   if (series.value == NULL || file->writer[row + 1].written == 0) return 0; /* it has not run */
   return write_numbers(file, at, row * series.count, series.count, series.value);
 }

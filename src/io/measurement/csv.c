@@ -35,12 +35,13 @@ static void add_text(struct hk_text *text, const char *words) {
     add(text, words);
 }
 
-static void add_value(struct hk_text *text, const struct hk_column *column, const struct hk_line *line) {
+static void add_value(struct hk_text *text, const struct hk_table *table, const struct hk_column *column,
+                      const void *object, int64_t row) {
   char number[HOOKE_NUMBER_SIZE] = "";
-  const double value = hk_column_number(column, line);
+  const double value = hk_table_number(table, column, object, row);
   if (isfinite(value)) hk_number_print(value, number);
   add(text, number);
-  if (column->type == HOOKE_COLUMN_TEXT) add_text(text, hk_column_text(column, line));
+  if (column->type == HOOKE_COLUMN_TEXT) add_text(text, hk_table_text(table, column, object, row));
 }
 
 static int64_t matrix_columns(const struct sheet *sheet) {
@@ -49,9 +50,8 @@ static int64_t matrix_columns(const struct sheet *sheet) {
 
 /* Line `row`; -1: the line of names. */
 static void add_line(struct hk_text *text, const struct sheet *sheet, int64_t row) {
-  struct hk_line line;
+  const void *object = sheet->m->object;
   int32_t first = 1;
-  if (row >= 0) sheet->rows->read(sheet->m->object, row, &line);
   for (int32_t k = 0; k < sheet->rows->column_count; k++) {
     const struct hk_column *column = &sheet->rows->columns[k];
     if (column->type == HOOKE_COLUMN_SERIES) continue;
@@ -60,16 +60,15 @@ static void add_line(struct hk_text *text, const struct sheet *sheet, int64_t ro
     if (row < 0)
       add(text, column->name);
     else
-      add_value(text, column, &line);
+      add_value(text, sheet->rows, column, object, row);
   }
   const int64_t columns = matrix_columns(sheet);
   for (int64_t k = 0; k < columns; k++) {
     add(text, ",");
-    sheet->matrix->read(sheet->m->object, row < 0 ? k : row * columns + k, &line);
     if (row < 0)
-      add_quoted(text, hk_column_text(sheet->label, &line));
+      add_quoted(text, hk_table_text(sheet->matrix, sheet->label, object, k));
     else
-      add_value(text, sheet->number, &line);
+      add_value(text, sheet->matrix, sheet->number, object, row * columns + k);
   }
   add(text, "\n");
 }
@@ -77,8 +76,7 @@ static void add_line(struct hk_text *text, const struct sheet *sheet, int64_t ro
 /* A matrix whose outer index is the row number. */
 static void find_matrix(struct sheet *sheet) {
   const struct hk_measurement_kind *kind = sheet->m->kind;
-  for (int32_t k = 0; k < kind->table_count; k++) {
-    const struct hk_table *table = kind->tables[k];
+  for (const struct hk_table *table = kind->tables; table->name; table++) {
     if (table->inner == NULL || hk_table_find(table, "row") == NULL) continue;
     if (hk_table_count(table, sheet->m->object) > 0) sheet->matrix = table;
     for (int32_t c = 0; c < table->column_count; c++) {

@@ -6,22 +6,18 @@
 #include <math.h>
 #include <stddef.h>
 
-static void add_value(struct hk_text *text, const struct hk_column *column, const struct hk_line *line) {
-  const double number = hk_column_number(column, line);
-  if (column->type == HOOKE_COLUMN_TEXT)
-    hk_text_word(text, column->name, hk_column_text(column, line));
-  else if (column->type == HOOKE_COLUMN_FLAG && !isnan(number))
-    hk_text_flag(text, column->name, number != 0.0);
-  else if (column->type != HOOKE_COLUMN_SERIES)
-    hk_text_number(text, column->name, number);
-}
-
 static void add_row(struct hk_text *text, const hooke_measurement *m, const struct hk_table *table,
                     int64_t row) {
-  struct hk_line line;
-  table->read(m->object, row, &line);
-  for (int32_t k = 0; k < table->column_count; k++)
-    add_value(text, &table->columns[k], &line);
+  for (int32_t k = 0; k < table->column_count; k++) {
+    const struct hk_column *column = &table->columns[k];
+    const double number = hk_table_number(table, column, m->object, row);
+    if (column->type == HOOKE_COLUMN_TEXT)
+      hk_text_word(text, column->name, hk_table_text(table, column, m->object, row));
+    else if (column->type == HOOKE_COLUMN_FLAG && !isnan(number))
+      hk_text_flag(text, column->name, number != 0.0);
+    else if (column->type != HOOKE_COLUMN_SERIES)
+      hk_text_number(text, column->name, number);
+  }
 }
 
 static void add_table(struct hk_text *text, const hooke_measurement *m, const struct hk_table *table) {
@@ -49,8 +45,8 @@ void hk_measurement_add_table(struct hk_text *text, const hooke_measurement *m, 
 }
 
 void hk_measurement_add_tables(struct hk_text *text, const hooke_measurement *m) {
-  for (int32_t k = 0; k < m->kind->table_count; k++)
-    add_table(text, m, m->kind->tables[k]);
+  for (const struct hk_table *table = m->kind->tables; table->name; table++)
+    add_table(text, m, table);
 }
 
 int32_t hk_measurement_write_json(const hooke_measurement *m, const char *path) {

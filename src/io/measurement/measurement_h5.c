@@ -55,13 +55,10 @@ static struct extent extent_of(const struct hk_table *table, const struct hk_col
 
 static herr_t write_numbers(hid_t group, const hooke_measurement *m, const struct hk_table *table,
                             const struct hk_column *column, struct extent extent) {
-  struct hk_line line;
   double *value = hk_new(extent.count, sizeof *value);
   if (value == NULL) return -1;
-  for (int64_t k = 0; k < extent.count; k++) {
-    table->read(m->object, k * extent.stride, &line);
-    value[k] = hk_column_number(column, &line);
-  }
+  for (int64_t k = 0; k < extent.count; k++)
+    value[k] = hk_table_number(table, column, m->object, k * extent.stride);
   const herr_t result =
       hk_h5_array_of(group, column->name, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, extent.rank, extent.size, value);
   hk_free(value);
@@ -72,9 +69,7 @@ static int64_t longest_text(const hooke_measurement *m, const struct hk_table *t
                             const struct hk_column *column) {
   size_t length = LEAST_LENGTH;
   for (int64_t row = 0; row < hk_table_count(table, m->object); row++) {
-    struct hk_line line;
-    table->read(m->object, row, &line);
-    const char *text = hk_column_text(column, &line);
+    const char *text = hk_table_text(table, column, m->object, row);
     const size_t own = text ? strlen(text) + 1 : 0;
     length = own > length ? own : length;
   }
@@ -86,9 +81,7 @@ static herr_t write_texts(hid_t group, const hooke_measurement *m, const struct 
   hid_t data = hk_h5_texts(group, column->name, extent.count, longest_text(m, table, column));
   herr_t result = data < 0 ? -1 : 0;
   for (int64_t k = 0; result >= 0 && k < extent.count; k++) {
-    struct hk_line line;
-    table->read(m->object, k * extent.stride, &line);
-    const char *text = hk_column_text(column, &line);
+    const char *text = hk_table_text(table, column, m->object, k * extent.stride);
     result = hk_h5_write_text(data, k, text ? text : "");
   }
   hk_h5_drop(data);
@@ -111,10 +104,8 @@ static herr_t write_series_row(hid_t data, int64_t row, const struct hk_series *
 
 static struct hk_series series_at(const hooke_measurement *m, const struct hk_table *table,
                                   const struct hk_column *column, int64_t row) {
-  struct hk_line line;
   if (row >= hk_table_count(table, m->object)) return (struct hk_series){NULL, 0};
-  table->read(m->object, row, &line);
-  return hk_column_series(column, &line);
+  return hk_table_series(table, column, m->object, row);
 }
 
 static herr_t write_series(hid_t group, const hooke_measurement *m, const struct hk_table *table,
@@ -143,13 +134,11 @@ static herr_t write_series(hid_t group, const hooke_measurement *m, const struct
 /* ---- tables ---- */
 
 static herr_t write_record(hid_t group, const hooke_measurement *m, const struct hk_table *table) {
-  struct hk_line line;
   herr_t result = 0;
-  table->read(m->object, 0, &line);
   for (int32_t k = 0; result >= 0 && k < table->column_count; k++) {
     const struct hk_column *column = &table->columns[k];
-    const double number = hk_column_number(column, &line);
-    const char *text = hk_column_text(column, &line);
+    const double number = hk_table_number(table, column, m->object, 0);
+    const char *text = hk_table_text(table, column, m->object, 0);
     if (column->type == HOOKE_COLUMN_TEXT)
       result = hk_h5_text_attribute(group, column->name, text ? text : "");
     else if (column->type != HOOKE_COLUMN_SERIES)
@@ -199,8 +188,8 @@ static herr_t write_table(hid_t kind, const hooke_measurement *m, const struct h
 static herr_t write_all(hid_t file, const hooke_measurement *m) {
   hid_t kind = open_group(file, m->kind->name);
   herr_t result = kind < 0 ? -1 : hk_h5md_write_options(kind, m->options);
-  for (int32_t k = 0; result >= 0 && k < m->kind->table_count; k++)
-    result = write_table(kind, m, m->kind->tables[k]);
+  for (const struct hk_table *table = m->kind->tables; result >= 0 && table->name; table++)
+    result = write_table(kind, m, table);
   hk_h5_drop(kind);
   return result;
 }
@@ -208,8 +197,7 @@ static herr_t write_all(hid_t file, const hooke_measurement *m) {
 /* An approximate, generous size. */
 static double bytes_of(const hooke_measurement *m) {
   double bytes = 65536.0 + (m->label[HOOKE_LABEL_SCENE] ? (double)strlen(m->label[HOOKE_LABEL_SCENE]) : 0.0);
-  for (int32_t k = 0; k < m->kind->table_count; k++) {
-    const struct hk_table *table = m->kind->tables[k];
+  for (const struct hk_table *table = m->kind->tables; table->name; table++) {
     const double rows = (double)hk_table_count(table, m->object);
     for (int32_t c = 0; rows > 0.0 && c < table->column_count; c++) {
       const struct hk_column *column = &table->columns[c];

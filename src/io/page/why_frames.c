@@ -194,8 +194,8 @@ static void add_limits(const struct frames *f) {
 
 static int32_t choose_springs(struct frames *f) {
   int32_t status = hk_picture_create(f->system, &f->picture);
-  for (int64_t k = 0; k < f->why->limiting_count && status == HOOKE_OK; k++) {
-    if (f->why->limiting[k].spring >= 0) hk_picture_take(&f->picture, f->why->limiting[k].spring);
+  for (int64_t k = 0; k < f->why->limiting.count && status == HOOKE_OK; k++) {
+    if (f->why->limiting.row[k].spring >= 0) hk_picture_take(&f->picture, f->why->limiting.row[k].spring);
   }
   if (status != HOOKE_OK) return status;
   const int32_t any = hk_picture_take_families(&f->picture, HOOKE_FILM_SPRINGS);

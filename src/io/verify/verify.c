@@ -74,14 +74,19 @@ static int32_t find_slice(struct hk_verify *verify) {
 }
 
 /* The bits of these methods depend on libraries, and through them on the processor. */
-static int32_t find_makers(const struct hk_verify *verify) {
-  static const char *const facts[] = {"sundials", "cholmod", "instructions", "machine"};
+static int32_t find_makers(struct hk_verify *verify) {
+  static const char *const facts[HOOKE_VERIFY_FACTS] = {"version", "sundials", "cholmod", "instructions",
+                                                        "machine"};
+  for (int k = 0; k < HOOKE_VERIFY_FACTS; k++) {
+    verify->made_by[k] = hooke_record_text(verify->record, facts[k]);
+    verify->here[k] = k == 0 ? hooke_version() : hooke_build_fact(facts[k]);
+  }
   const hooke_options *options = hooke_record_options(verify->record);
   const struct hk_method *method = hk_method_find(hooke_options_text(options, "method"));
   const int32_t factor = strcmp(hooke_options_text(options, "linear_solver"), "direct") == 0;
   if (verify->fixed && !(method->implicit && factor)) return 0;
-  for (size_t k = 0; k < sizeof facts / sizeof facts[0]; k++) {
-    if (strcmp(hooke_record_text(verify->record, facts[k]), hooke_build_fact(facts[k])) != 0) return 1;
+  for (int k = 1; k < HOOKE_VERIFY_FACTS; k++) {
+    if (strcmp(verify->made_by[k], verify->here[k]) != 0) return 1;
   }
   return 0;
 }
@@ -307,7 +312,6 @@ const struct hk_measurement_kind hk_verify_kind = {.name = "verify",
                                                    .options = &table,
                                                    .made_by = "hooke_verify_create()",
                                                    .tables = hk_verify_tables,
-                                                   .table_count = HOOKE_VERIFY_TABLES,
                                                    .create = create,
                                                    .run = run,
                                                    .destroy = destroy};

@@ -7,6 +7,8 @@
 #include "measure/measurement.h"
 #include "measure/trial/balance.h"
 
+enum { HOOKE_VERIFY_FACTS = 5 };
+
 struct hk_verify {
   const hooke_measurement *measurement;
   char *path;
@@ -26,6 +28,8 @@ struct hk_verify {
   double time_from, time_to; /* of the frames `from` and `to` */
   double steps, limit, energy_change, work, heat, residual, residual_refined, bound, error, error_velocity;
   double check_scene, check_last;
+  /* version of hooke, SUNDIALS, CHOLMOD, instruction set and machine that made the file, and those here */
+  const char *made_by[HOOKE_VERIFY_FACTS], *here[HOOKE_VERIFY_FACTS];
 };
 
 /* Results of a pass over the slice. */
@@ -49,8 +53,7 @@ void hk_verify_pass_release(struct hk_verify_pass *pass);
 /* Compares frame 0 with the initial state of the scene. */
 int32_t hk_verify_first(struct hk_verify *verify);
 
-enum { HOOKE_VERIFY_TABLES = 1 };
-extern const struct hk_table *const hk_verify_tables[HOOKE_VERIFY_TABLES];
+extern const struct hk_table hk_verify_tables[];
 
 extern const struct hk_measurement_kind hk_verify_kind;
 

@@ -224,7 +224,6 @@ const struct hk_measurement_kind hk_cost_kind = {
     .options = &cost_table,
     .takes_state = 1,
     .tables = hk_cost_tables,
-    .table_count = HOOKE_COST_TABLES,
     .create = create,
     .run = run,
     .destroy = destroy,

@@ -35,11 +35,8 @@ int32_t hk_cost_list_rows(struct hk_cost *cost);
 int32_t hk_cost_row_is(const struct hk_cost_row *row, const char *kind);
 /* Name of its group, otherwise its kind. */
 const char *hk_cost_row_name(const struct hk_cost *cost, const struct hk_cost_row *row);
-/* Number among the groups of its force; -1: not a group. */
-int64_t hk_cost_row_group(const struct hk_cost *cost, const struct hk_cost_row *row);
 
-enum { HOOKE_COST_TABLES = 2 };
-extern const struct hk_table *const hk_cost_tables[HOOKE_COST_TABLES];
+extern const struct hk_table hk_cost_tables[];
 extern const struct hk_measurement_kind hk_cost_kind;
 
 #endif

@@ -77,8 +77,3 @@ int32_t hk_cost_list_rows(struct hk_cost *cost) {
 const char *hk_cost_row_name(const struct hk_cost *cost, const struct hk_cost_row *row) {
   return row->group < 0 ? row->kind : cost->system->group[row->group].name;
 }
-
-int64_t hk_cost_row_group(const struct hk_cost *cost, const struct hk_cost_row *row) {
-  if (row->group < 0) return -1;
-  return row->group - hk_system_first_group(cost->system, cost->system->group[row->group].force);
-}

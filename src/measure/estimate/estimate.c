@@ -350,7 +350,6 @@ int32_t hooke_estimate_refine(hooke_measurement *m, hooke_options *run) {
 const struct hk_measurement_kind hk_estimate_kind = {.name = "estimate",
                                                      .options = &options,
                                                      .tables = hk_estimate_tables,
-                                                     .table_count = 1,
                                                      .create = create,
                                                      .run = run,
                                                      .destroy = destroy};

@@ -44,7 +44,7 @@ struct hk_estimate {
 };
 
 extern const struct hk_measurement_kind hk_estimate_kind;
-extern const struct hk_table *const hk_estimate_tables[1];
+extern const struct hk_table hk_estimate_tables[];
 
 /* 1 if the run meets the wanted error, 0 if not, NaN if that is unknown or none is wanted. */
 double hk_estimate_met(const struct hk_estimate *estimate);

@@ -8,7 +8,6 @@
 #include "core/status.h"
 #include "integrate/loop/run_loop.h"
 #include "measure/limit/limit_measure.h"
-#include "measure/trial/method_list.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -44,16 +43,6 @@ static const struct hk_option_table limit_table = {"limit", HOOKE_OPTION_ROWS(li
 
 /* ---- creating ---- */
 
-static int32_t add_row(const char *method, void *ctx) {
-  struct hk_limit *limit = ctx;
-  const int32_t status = hk_method_require(hk_method_find(method), limit->system);
-  if (status != HOOKE_OK) return status;
-  if (limit->row_count == HOOKE_LIMIT_METHODS)
-    return hk_fail(HOOKE_BAD_VALUE, "methods", "more than %d methods", HOOKE_LIMIT_METHODS);
-  limit->row[limit->row_count++].method = method;
-  return HOOKE_OK;
-}
-
 static int32_t has_fixed_step(const char *method) {
   return !hooke_method_is_adaptive(method);
 }
@@ -62,7 +51,7 @@ static void forget(struct hk_limit *limit) {
   limit->endless = hk_patience_of(INFINITY, hk_limit_tell, limit);
   limit->found = 0;
   limit->frequency = limit->decay = limit->time = NAN;
-  limit->mode_count = limit->products = limit->clamped = limit->tipping = 0;
+  limit->mode_count = limit->products = limit->clamped = limit->tipping = limit->limiting.count = 0;
   hk_free(limit->mode);
   limit->mode = NULL;
   hk_participation_release(&limit->participation);
@@ -104,8 +93,11 @@ static int32_t create(hooke_measurement *m) {
   limit->run = m->run;
   limit->options = m->options;
   limit->patience = &limit->endless;
+  const char *method[HOOKE_LISTED_METHODS];
   int32_t status = hk_method_list_read(limit->system, hooke_options_text(limit->options, "methods"),
-                                       has_fixed_step, add_row, limit);
+                                       has_fixed_step, method, &limit->row_count);
+  for (int32_t k = 0; k < limit->row_count; k++)
+    limit->row[k].method = method[k];
   if (status == HOOKE_OK) status = make_room(limit);
   forget(limit);
   forget_smallest(limit);
@@ -175,6 +167,7 @@ static int32_t find_participation(struct hk_limit *limit) {
   const double h = stiffness_alone ? 0.0 : row->predicted;
   int32_t status = hk_participation_find(limit->system, limit->q, limit->shape, stiffness_alone ? 1.0 : h * h,
                                          h, &limit->participation);
+  if (status == HOOKE_OK) hk_limiting_take(limit->system, &limit->participation, &limit->limiting);
   limit->participation.undamped = 2.0 / limit->frequency;
   limit->participation.patience = limit->patience;
   limit->participation.room = limit->room;
@@ -317,7 +310,6 @@ const struct hk_measurement_kind hk_limit_kind = {
     .options = &limit_table,
     .takes_state = 1,
     .tables = hk_limit_tables,
-    .table_count = HOOKE_LIMIT_TABLES,
     .create = create,
     .run = run,
     .destroy = destroy,

@@ -5,8 +5,9 @@
 #include "measure/limit/limit_participation.h"
 #include "measure/measurement.h"
 #include "measure/spectrum/limit_rules.h"
+#include "measure/trial/method_list.h"
 
-enum { HOOKE_LIMIT_METHODS = 32, HOOKE_LIMIT_NOTE = 640 };
+enum { HOOKE_LIMIT_NOTE = 640 };
 
 struct hk_limit_row {
   const char *method;
@@ -28,7 +29,7 @@ struct hk_limit {
   const hooke_system *system;
   const hooke_options *run, *options; /* of the measurement; `run` may be NULL */
   int32_t row_count;
-  struct hk_limit_row row[HOOKE_LIMIT_METHODS];
+  struct hk_limit_row row[HOOKE_LISTED_METHODS];
 
   /* of the last state */
   double *q; /* 3n */
@@ -42,6 +43,7 @@ struct hk_limit {
   int32_t has_stiffest;
   struct hk_participation participation;
   struct hk_suggestion suggestion;
+  struct hk_limiting_list limiting;
 
   struct hk_patience endless;   /* which only the caller ends */
   struct hk_patience *patience; /* that, or that of a diagnosis, with the bytes that a basis may take */
@@ -64,21 +66,16 @@ const struct hk_limit_row *hk_limit_limiting_row(const struct hk_limit *limit);
 /* Reports the fraction done of the current part; HOOKE_STOPPED if it is to end. `limit` is the context. */
 int32_t hk_limit_tell(double done, const char *what, void *limit);
 
-/* A row of the table "blame" of a limit or a diagnosis. */
-struct hk_limiting_line {
-  const char *group, *force;
-  double number, first, second, share;
-};
+/* The table "blame" of a limit or a diagnosis. */
 enum { HOOKE_LIMITING_COLUMNS = 6 };
 extern const struct hk_column hk_limiting_columns[HOOKE_LIMITING_COLUMNS];
 #define HOOKE_LIMITING_TABLE                                                                                 \
   .doc =                                                                                                     \
       "limiting springs, at most 100, the largest share first; before them the force that has half of the "  \
       "whole or more, if it is not the stiffness of springs",                                                \
-  HOOKE_TABLE_COLUMNS(hk_limiting_columns, struct hk_limiting_line)
+  HOOKE_TABLE_COLUMNS(hk_limiting_columns)
 
-enum { HOOKE_LIMIT_TABLES = 6 };
-extern const struct hk_table *const hk_limit_tables[HOOKE_LIMIT_TABLES];
+extern const struct hk_table hk_limit_tables[];
 extern const struct hk_measurement_kind hk_limit_kind;
 
 #endif

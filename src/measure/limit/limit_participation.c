@@ -2,11 +2,14 @@
 
 #include "core/memory.h"
 #include "core/status.h"
+#include "measure/spectrum/naming.h"
 #include "measure/spectrum/rigid.h"
+#include "model/force/spring.h"
 #include "model/group.h"
 
 #include <math.h>
 #include <stddef.h>
+#include <stdio.h>
 #include <string.h>
 
 /* Inserts an element into a list of at most HOOKE_MOST_LIMITING, the largest share first and equal ones in
@@ -178,6 +181,29 @@ int32_t hk_participation_is_drag(int32_t force) {
 const char *hk_participation_force_name(int32_t force) {
   if (force == HOOKE_PARTICIPATION_GEOMETRIC) return "geometric";
   return force < 0 ? "" : force == HOOKE_PARTICIPATION_DAMPING ? "damping" : hk_force_table(force)->name;
+}
+
+void hk_limiting_add(const hooke_system *system, int64_t spring, double share,
+                     struct hk_limiting_list *list) {
+  if (spring < 0 || list->count > HOOKE_MOST_LIMITING) return;
+  const struct hk_spring found = hk_springs_find(system->springs, spring);
+  struct hk_limiting *made = &list->row[list->count++];
+  *made = (struct hk_limiting){.spring = spring, .first = found.head, .second = found.tail, .share = share};
+  snprintf(made->group, sizeof made->group, "%s", hk_naming_group(system, &hk_force_springs, spring));
+}
+
+void hk_limiting_take(const hooke_system *system, const struct hk_participation *participation,
+                      struct hk_limiting_list *list) {
+  const int32_t force = hk_participation_force(participation);
+  list->count = force >= 0;
+  if (force >= 0)
+    list->row[0] = (struct hk_limiting){.spring = -1,
+                                        .first = -1,
+                                        .second = -1,
+                                        .share = participation->force_share[force],
+                                        .force = hk_participation_force_name(force)};
+  for (int64_t k = 0; k < participation->spring_count; k++)
+    hk_limiting_add(system, participation->spring[k].spring, participation->spring[k].share, list);
 }
 
 void hk_participation_release(struct hk_participation *participation) {

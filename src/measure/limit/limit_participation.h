@@ -68,6 +68,24 @@ int64_t hk_participation_group(const struct hk_participation *participation);
 /* Name of a group by its index in `group_share`; "" if it has none. */
 const char *hk_participation_group_name(const hooke_system *system, int64_t group);
 
+/* What limits a step: a spring, or a force. */
+struct hk_limiting {
+  int64_t spring, first, second; /* -1: of a force */
+  double share;                  /* NaN: unknown */
+  char group[256];               /* "" for none */
+  const char *force;             /* NULL: a spring */
+};
+struct hk_limiting_list {
+  int64_t count;
+  struct hk_limiting row[HOOKE_MOST_LIMITING + 1];
+};
+
+/* Fills the list: hk_participation_force(), if there is one, then the springs. */
+void hk_limiting_take(const hooke_system *system, const struct hk_participation *participation,
+                      struct hk_limiting_list *list);
+/* Adds a spring; -1, or one more than there is room for, is left out. */
+void hk_limiting_add(const hooke_system *system, int64_t spring, double share, struct hk_limiting_list *list);
+
 struct hk_suggestion {
   const char *kind;      /* "soften" springs or make particles "heavier"; NULL: no small set is limiting */
   int64_t count;         /* springs or particles to change, the first of the participation */

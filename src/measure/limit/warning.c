@@ -52,8 +52,7 @@ static int32_t tell(struct warner *warner, const hooke_integrator *it, const hoo
   } else {
     hk_print(sentence, sizeof sentence,
              "at t = %.6g s the step %.6g s is %s %.6g s, up to which %s is certain to be stable; it is "
-             "determined by "
-             "particle %lld%s%s",
+             "determined by particle %lld%s%s",
              *state->t, h, kind == ABOVE_LIMIT ? "above" : "within 5 % of", limit, method,
              (long long)particle, where[0] ? " and " : "", where);
   }

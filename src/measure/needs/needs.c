@@ -32,6 +32,8 @@ static const struct hk_option_row needs_rows[] = {
 
 static const struct hk_option_table needs_table = {"needs", HOOKE_OPTION_ROWS(needs_rows)};
 
+const struct hk_needs_cost hk_needs_no_cost = {NAN, NAN, NAN, NAN, 0, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN};
+
 /* ---- creating ---- */
 
 static int32_t read_times(struct hk_needs *needs) {
@@ -111,7 +113,6 @@ const struct hk_measurement_kind hk_needs_kind = {.name = "needs",
                                                   .options = &needs_table,
                                                   .needs_run = 1,
                                                   .tables = hk_needs_tables,
-                                                  .table_count = HOOKE_NEEDS_TABLES,
                                                   .create = create,
                                                   .run = run,
                                                   .destroy = destroy};

@@ -11,10 +11,13 @@ enum { HOOKE_NEEDS_NOTE = 320, HOOKE_NEEDS_NAME = 192 };
 /* Cost of a run of one variant. NaN where it does not apply. */
 struct hk_needs_cost {
   double particles, springs, step_limit;
-  int64_t indexed; /* springs whose ends are looked up individually */
+  double unlimited; /* 1: nothing limits the step */
+  int64_t indexed;  /* springs whose ends are looked up individually */
   double step, rtol, atol, steps, force_evaluations, wall_seconds, work; /* counted [s] */
   double step_error;                                                     /* error due to the step [m] */
 };
+
+extern const struct hk_needs_cost hk_needs_no_cost; /* all of it unknown */
 
 /* Watched positions at every frame: count numbers a frame. */
 struct hk_needs_path {
@@ -35,8 +38,7 @@ struct hk_needs_row {
 
 struct hk_needs_part {
   const char *name;
-  int32_t axes;
-  int64_t cells[3];
+  int64_t cells[3]; /* -1: no such axis */
   double change, change_fine, order, error, factor;
   char note[HOOKE_NEEDS_NOTE];
 };
@@ -161,8 +163,7 @@ int32_t hk_needs_tell_pick(double done, const char *what, void *needs);
 
 /* ---- needs_tables.c ---- */
 
-enum { HOOKE_NEEDS_TABLES = 6 };
-extern const struct hk_table *const hk_needs_tables[HOOKE_NEEDS_TABLES];
+extern const struct hk_table hk_needs_tables[];
 
 extern const struct hk_measurement_kind hk_needs_kind;
 

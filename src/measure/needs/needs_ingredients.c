@@ -24,7 +24,7 @@ static int32_t add_row(struct hk_needs *needs, const char *kind, struct hk_needs
     needs->row_capacity = capacity;
   }
   struct hk_needs_row *made = &needs->row[needs->row_count];
-  *made = (struct hk_needs_row){.kind = kind, .needed = 1};
+  *made = (struct hk_needs_row){.kind = kind, .needed = 1, .cost = hk_needs_no_cost};
   va_list args;
   va_start(args, format);
   hk_print_list(made->without, sizeof made->without, format, args);

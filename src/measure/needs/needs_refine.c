@@ -101,8 +101,10 @@ int32_t hk_needs_refine(struct hk_needs *needs) {
                                    .error = NAN,
                                    .factor = NAN};
     int64_t made[3];
-    part->axes = hk_variant_cells(&system->part[k], 1.0, part->cells, made);
-    if (part->axes > 0)
+    const int32_t axes = hk_variant_cells(&system->part[k], 1.0, part->cells, made);
+    for (int32_t a = axes; a < 3; a++)
+      part->cells[a] = -1;
+    if (axes > 0)
       status = refine_part(needs, k, part);
     else
       snprintf(part->note, sizeof part->note, "a %s has no resolution to change", system->part[k].kind);

@@ -64,6 +64,7 @@ int32_t hk_needs_run_row(struct hk_needs *needs, struct hk_needs_row *row) {
   hk_variant_map_release(&map);
   hooke_system_destroy(made);
   row->measured = status == HOOKE_OK;
+  if (!row->measured) row->cost = hk_needs_no_cost;
   return status == HOOKE_UNSUITED ? note_failure(row, status) : status; /* the method may not know bodies */
 }
 

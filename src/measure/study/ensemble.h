@@ -26,19 +26,6 @@ struct hk_ensemble {
   struct hk_ensemble_source *source; /* the reference first */
 };
 
-/* Statistics of a quantity for a source: number of members, their mean, and the spread (standard deviation)
- * of the members about it. */
-struct hk_ensemble_sample {
-  int64_t members;
-  double mean, spread;
-};
-struct hk_ensemble_sample hk_ensemble_sample(const struct hk_ensemble *ensemble, int64_t source,
-                                             int64_t quantity);
-
-/* Difference of a source's mean from the reference's, in standard errors of that difference; NaN if unknown.
- */
-double hk_ensemble_bias(const struct hk_ensemble *ensemble, int64_t source, int64_t quantity);
-
 /* Runs the members of a study whose rows are complete, of all sources in turn, until all are done or the
  * deadline is reached. Does nothing if no ensemble is requested, or if the reference is trusted to the end.
  */

@@ -7,7 +7,6 @@
 #include "core/table/option.h"
 #include "core/status.h"
 #include "integrate/integrator.h"
-#include "measure/trial/method_list.h"
 #include "measure/trial/step_unit.h"
 
 #include <math.h>
@@ -70,20 +69,6 @@ static const struct hk_option_table study_table = {"study", HOOKE_OPTION_ROWS(st
 
 /* ---- creating ---- */
 
-static int32_t add_method(const char *method, void *ctx) {
-  struct hk_study *study = ctx;
-  if (!hooke_method_is_built(method)) {
-    return hk_fail(HOOKE_NOT_BUILT, "methods", "this build is without %s", method);
-  }
-  const int32_t status = hk_method_require(hk_method_find(method), study->system);
-  if (status != HOOKE_OK) return status;
-  if (study->method_count == HOOKE_STUDY_METHODS) {
-    return hk_fail(HOOKE_BAD_VALUE, "methods", "more than %d methods", HOOKE_STUDY_METHODS);
-  }
-  study->method[study->method_count++] = method;
-  return HOOKE_OK;
-}
-
 static int32_t read_times(struct hk_study *study) {
   study->budget = hooke_options_number(study->options, "budget");
   if (isnan(study->budget)) study->budget = INFINITY;
@@ -110,7 +95,7 @@ static int32_t create(hooke_measurement *m) {
   study->run = m->run;
   study->options = m->options;
   int32_t status = hk_method_list_read(study->system, hooke_options_text(study->options, "methods"),
-                                       hooke_method_is_built, add_method, study);
+                                       hooke_method_is_built, study->method, &study->method_count);
   if (status == HOOKE_OK) status = read_times(study);
   if (status == HOOKE_OK) status = hk_study_check_ladder(study);
   return status == HOOKE_OK ? read_watch(study) : status;
@@ -198,7 +183,6 @@ const struct hk_measurement_kind hk_study_kind = {
     .options = &study_table,
     .needs_run = 1,
     .tables = hk_study_tables,
-    .table_count = HOOKE_STUDY_TABLES,
     .create = create,
     .run = run,
     .destroy = destroy,

@@ -4,9 +4,10 @@
 
 #include "measure/measurement.h"
 #include "measure/study/ensemble.h"
+#include "measure/trial/method_list.h"
 #include "measure/trial/reference.h"
 
-enum { HOOKE_STUDY_METHODS = 32 };
+enum { HOOKE_STUDY_METHODS = HOOKE_LISTED_METHODS };
 
 /* A method with one step or tolerance. */
 struct hk_study_row {
@@ -131,10 +132,11 @@ void hk_study_fit_order(struct hk_study *study, int32_t method);
 
 /* ---- tables ---- */
 
-enum { HOOKE_STUDY_TABLES = 10 };
-extern const struct hk_table *const hk_study_tables[HOOKE_STUDY_TABLES];
-extern const struct hk_table hk_study_watched_table, hk_study_error_table, hk_study_ensemble_table,
-    hk_study_statistic_table;
+/* The value of a row, if its method takes its steps from a tolerance (`adaptive` 1) or not (0); else NaN. The
+ * method -1 does. */
+double hk_study_setting(const struct hk_study *study, int32_t method, double value, int32_t adaptive);
+
+extern const struct hk_table hk_study_tables[];
 
 extern const struct hk_measurement_kind hk_study_kind;
 

@@ -12,334 +12,393 @@ static int is_made(const struct hk_study *study) {
 
 /* ---- the study ---- */
 
-struct study_line {
-  double duration, frames, budget_spent;
-};
-
-static void read_study(const void *object, int64_t row, void *line) {
-  const struct hk_study *study = object;
-  (void)row;
-  *(struct study_line *)line =
-      (struct study_line){.duration = study->duration,
-                          .frames = is_made(study) ? (double)study->reference.trusted : NAN,
-                          .budget_spent = (double)study->budget_spent};
-}
+HOOKE_READER(double, frames, struct hk_study, is_made(it) ? (double)it->reference.trusted : NAN)
 
 static const struct hk_column study_columns[] = {
-    HOOKE_COLUMN(struct study_line, duration, NUMBER, "s", "duration of the run"),
-    HOOKE_COLUMN(struct study_line, frames, COUNT, "", "frames over which errors are judged"),
-    HOOKE_COLUMN(struct study_line, budget_spent, FLAG, "", "rows are missing for lack of time"),
-};
-
-static const struct hk_table study_table = {
-    .name = "study",
-    .doc = "the study itself",
-    .record = 1,
-    HOOKE_TABLE_COLUMNS(study_columns, struct study_line),
-    .read = read_study,
+    HOOKE_COLUMN(struct hk_study, duration, NUMBER, "s", "duration of the run"),
+    HOOKE_COLUMN_BY(frames, frames, COUNT, "", "frames over which errors are judged"),
+    HOOKE_COLUMN(struct hk_study, budget_spent, FLAG, "", "rows are missing for lack of time"),
 };
 
 /* ---- the reference ---- */
-
-struct reference_line {
-  const char *method, *check, *ended, *zero_passages;
-  double agreement, energy_agreement, trusted_until, checked_until;
-  double growth, growth_probability, growth_seen, displacements;
-  struct hk_series time;
-};
 
 static const char *how_it_ended(const struct hk_reference *r) {
   if (r->trusted == r->frames.count && !r->coarse) return "agreed";
   return r->hurried ? "time" : "rounding";
 }
 
-static void read_reference(const void *object, int64_t row, void *line) {
-  const struct hk_study *study = object;
-  const struct hk_reference *r = &study->reference;
-  (void)row;
-  if (!is_made(study)) {
-    *(struct reference_line *)line =
-        (struct reference_line){NULL, NULL, NULL, NULL, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, {NULL, 0}};
-    return;
-  }
-  *(struct reference_line *)line = (struct reference_line){
-      .method = r->method,
-      .check = r->check,
-      .ended = how_it_ended(r),
-      .zero_passages = r->frames.zero_passages,
-      .agreement = r->agreement,
-      .energy_agreement = r->energy_agreement,
-      .trusted_until = hk_reference_time(r, r->trusted, study->duration),
-      .checked_until = hk_reference_time(r, r->checked, study->duration),
-      .growth = r->growth,
-      .growth_probability = r->growth_probability,
-      .growth_seen = r->growth_seen,
-      .displacements = (double)r->displacements,
-      .time = {r->frames.time, r->trusted},
-  };
-}
+HOOKE_READER(const void *, find_reference, struct hk_study, is_made(it) ? &it->reference : NULL)
+HOOKE_READER(const char *, ended, struct hk_study, how_it_ended(&it->reference))
+HOOKE_READER(double, trusted_until, struct hk_study,
+             hk_reference_time(&it->reference, it->reference.trusted, it->duration))
+HOOKE_READER(double, checked_until, struct hk_study,
+             hk_reference_time(&it->reference, it->reference.checked, it->duration))
+HOOKE_COUNTER(trusted, struct hk_study, it->reference.trusted)
 
 static const struct hk_column reference_columns[] = {
     HOOKE_COLUMN(
-        struct reference_line, agreement, NUMBER, "m",
+        struct hk_reference, agreement, NUMBER, "m",
         "twice the largest distance of a particle between the two over the frames that are trusted, and of "
         "what rounding may do to one; no error below it means anything, and none within ten times of it "
         "much; NaN if no frame after the start is trusted"),
-    HOOKE_COLUMN(struct reference_line, trusted_until, NUMBER, "s",
-                 "time up to which the two agree to the wanted digits; errors are judged up to there"),
+    HOOKE_COLUMN_BY(trusted_until, trusted_until, NUMBER, "s",
+                    "time up to which the two agree to the wanted digits; errors are judged up to there"),
     HOOKE_COLUMN(
-        struct reference_line, growth, NUMBER, "",
+        struct hk_reference, growth, NUMBER, "",
         "factor by which a small displacement of the start grows at most, with growth_probability; NaN "
         "where that is not known"),
-    HOOKE_COLUMN(struct reference_line, growth_probability, NUMBER, "", "probability that growth holds"),
-    HOOKE_COLUMN(struct reference_line, growth_seen, NUMBER, "",
+    HOOKE_COLUMN(struct hk_reference, growth_probability, NUMBER, "", "probability that growth holds"),
+    HOOKE_COLUMN(struct hk_reference, growth_seen, NUMBER, "",
                  "the largest growth of the displacements tried"),
-    HOOKE_COLUMN(struct reference_line, displacements, COUNT, "", "displacements tried"),
-    HOOKE_COLUMN(struct reference_line, energy_agreement, NUMBER, "J",
+    HOOKE_COLUMN(struct hk_reference, displacements, COUNT, "", "displacements tried"),
+    HOOKE_COLUMN(struct hk_reference, energy_agreement, NUMBER, "J",
                  "twice the largest difference of their energies there"),
-    HOOKE_COLUMN(
-        struct reference_line, ended, TEXT, "",
+    HOOKE_COLUMN_BY(
+        ended, ended, TEXT, "",
         "why they were tightened no further: agreed, time (the budget was short), or rounding (it keeps "
         "them apart at the tightest tolerances)"),
-    HOOKE_COLUMN(struct reference_line, method, TEXT, "", "integrator that made the reference"),
-    HOOKE_COLUMN(struct reference_line, check, TEXT, "",
+    HOOKE_COLUMN(struct hk_reference, method, TEXT, "", "integrator that made the reference"),
+    HOOKE_COLUMN(struct hk_reference, check, TEXT, "",
                  "integrator that checked it; they share only the forces"),
-    HOOKE_COLUMN(struct reference_line, checked_until, NUMBER, "s",
-                 "time up to which the two were compared; before the end where the budget was spent"),
-    HOOKE_COLUMN(struct reference_line, zero_passages, TEXT, "",
-                 "of springs that passed through length zero in it; empty where none did"),
-    HOOKE_COLUMN(struct reference_line, time, SERIES, "s", "times of the frames that are judged"),
-};
-
-static const struct hk_table reference_table = {
-    .name = "reference",
-    .doc = "the solution that errors are measured against, made by two integrators that check each other",
-    .record = 1,
-    HOOKE_TABLE_COLUMNS(reference_columns, struct reference_line),
-    .read = read_reference,
+    HOOKE_COLUMN_BY(checked_until, checked_until, NUMBER, "s",
+                    "time up to which the two were compared; before the end where the budget was spent"),
+    HOOKE_COLUMN_AS(struct hk_reference, frames.zero_passages, zero_passages, TEXT, "",
+                    "of springs that passed through length zero in it; empty where none did"),
+    HOOKE_COLUMN_AS(struct hk_reference, frames.time, time, SERIES, "s",
+                    "times of the frames that are judged"),
 };
 
 /* ---- rows ---- */
-
-struct row_line {
-  struct hk_trial_line trial; /* first: its columns are those of the line */
-  double wall_median, repeats, near_floor, near_energy_floor, timed_alone;
-};
-
-static double is_near(double value, double floor) {
-  return value <= NEAR * floor ? 1.0 : 0.0;
-}
 
 int32_t hk_study_is_near_floor(const struct hk_study *study, const struct hk_study_row *row) {
   return row->trial.error <= NEAR * fmax(study->reference.agreement, row->trial.rounding);
 }
 
-static void read_row(const void *object, int64_t row, void *line) {
-  const struct hk_study *study = object;
-  const struct hk_study_row *r = &study->row[row];
-  const struct hk_trial *t = &r->trial;
-  *(struct row_line *)line = (struct row_line){
-      .trial = hk_trial_line(t, study->method[r->method], study->reference.trusted),
-      .wall_median = r->wall_median,
-      .repeats = (double)r->repeats,
-      .near_floor = (double)hk_study_is_near_floor(study, r),
-      .near_energy_floor = is_near(t->energy_drift, study->reference.energy_agreement),
-      .timed_alone = (double)r->timed_alone,
-  };
-}
+HOOKE_READER(const void *, find_row, struct hk_study, &it->row[row])
+HOOKE_READER(const char *, row_method, struct hk_study, it->method[it->row[row].method])
+HOOKE_READER(double, near_floor, struct hk_study, hk_study_is_near_floor(it, &it->row[row]))
+HOOKE_READER(double, near_energy_floor, struct hk_study,
+             it->row[row].trial.energy_drift <= NEAR * it->reference.energy_agreement)
 
 static const struct hk_column row_columns[] = {
-    HOOKE_TRIAL_COLUMN(method, TEXT, "", "method"),
-    HOOKE_TRIAL_COLUMN(step, NUMBER, "s", "step of a fixed-step method"),
-    HOOKE_TRIAL_COLUMN(rtol, NUMBER, "", "relative tolerance of an error-controlled method"),
-    HOOKE_TRIAL_COLUMNS,
-    HOOKE_TRIAL_COLUMN(wall_seconds, NUMBER, "s", "wall time, the least of the repeated runs"),
-    HOOKE_TRIAL_COLUMN(status, TEXT, "", "finished, diverged, stopped or failed"),
-    HOOKE_TRIAL_COLUMN(atol, NUMBER, "m", "absolute tolerance of positions"),
-    HOOKE_TRIAL_COLUMN(linear_iterations, COUNT, "", "iterations of linear solvers"),
-    HOOKE_COLUMN(struct row_line, wall_median, NUMBER, "s", "median of the repeated runs"),
-    HOOKE_COLUMN(struct row_line, repeats, COUNT, "", "runs that were timed"),
-    HOOKE_COLUMN(struct row_line, near_floor, FLAG, "",
-                 "the error is within ten times of the agreement, or of what rounding may do"),
-    HOOKE_COLUMN(struct row_line, near_energy_floor, FLAG, "",
-                 "the energy drift is within ten times of the agreement of energies"),
-    HOOKE_COLUMN(struct row_line, timed_alone, FLAG, "",
+    HOOKE_COLUMN_BY(row_method, method, TEXT, "", "method"),
+    HOOKE_COLUMN_AS(struct hk_study_row, trial.step, step, NUMBER, "s", "step of a fixed-step method"),
+    HOOKE_COLUMN_AS(struct hk_study_row, trial.rtol, rtol, NUMBER, "",
+                    "relative tolerance of an error-controlled method"),
+    HOOKE_TRIAL_COLUMNS(struct hk_study_row),
+    HOOKE_COLUMN_AS(struct hk_study_row, trial.wall_seconds, wall_seconds, NUMBER, "s",
+                    "wall time, the least of the repeated runs"),
+    HOOKE_COLUMN_AS(struct hk_study_row, trial.status, status, TEXT, "",
+                    "finished, diverged, stopped or failed"),
+    HOOKE_COLUMN_AS(struct hk_study_row, trial.atol, atol, NUMBER, "m", "absolute tolerance of positions"),
+    HOOKE_COLUMN_AS(struct hk_study_row, trial.linear_iterations, linear_iterations, COUNT, "",
+                    "iterations of linear solvers"),
+    HOOKE_COLUMN(struct hk_study_row, wall_median, NUMBER, "s", "median of the repeated runs"),
+    HOOKE_COLUMN(struct hk_study_row, repeats, COUNT, "", "runs that were timed"),
+    HOOKE_COLUMN_BY(near_floor, near_floor, FLAG, "",
+                    "the error is within ten times of the agreement, or of what rounding may do"),
+    HOOKE_COLUMN_BY(near_energy_floor, near_energy_floor, FLAG, "",
+                    "the energy drift is within ten times of the agreement of energies"),
+    HOOKE_COLUMN(struct hk_study_row, timed_alone, FLAG, "",
                  "0: timed while other rows were running, so its time may be too long"),
-    HOOKE_TRIAL_COLUMN(error_at, SERIES, "m", "root mean square distance at every frame"),
-    HOOKE_TRIAL_COLUMN(error_max_at, SERIES, "m", "largest distance of any free particle at every frame"),
-    HOOKE_TRIAL_COLUMN(energy_drift_at, SERIES, "J", "energy less that of the reference at every frame"),
-};
-
-static const struct hk_table row_table = {
-    .name = "rows",
-    .doc = "a method with one step or tolerance each, the coarsest first",
-    HOOKE_TABLE_COLUMNS(row_columns, struct row_line),
-    HOOKE_TABLE_COUNT(struct hk_study, row_count),
-    .read = read_row,
+    HOOKE_COLUMN_AS(struct hk_study_row, trial.error_at, error_at, SERIES, "m",
+                    "root mean square distance at every frame"),
+    HOOKE_COLUMN_AS(struct hk_study_row, trial.error_max_at, error_max_at, SERIES, "m",
+                    "largest distance of any free particle at every frame"),
+    HOOKE_COLUMN_AS(struct hk_study_row, trial.drift_at, energy_drift_at, SERIES, "J",
+                    "energy less that of the reference at every frame"),
 };
 
 /* ---- orders ---- */
 
-struct order_line {
-  const char *method, *note;
-  double order, low, high, theory;
-};
-
-static int64_t count_orders(const void *object) {
-  const struct hk_study *study = object;
-  return is_made(study) ? study->method_count : 0;
-}
-
-static void read_order(const void *object, int64_t row, void *line) {
-  const struct hk_study *study = object;
-  const struct hk_study_order *o = &study->order[row];
-  *(struct order_line *)line = (struct order_line){.method = study->method[row],
-                                                   .note = o->note,
-                                                   .order = o->order,
-                                                   .low = o->low,
-                                                   .high = o->high,
-                                                   .theory = o->theory};
-}
+HOOKE_READER(const void *, find_order, struct hk_study, &it->order[row])
+HOOKE_READER(const char *, order_method, struct hk_study, it->method[row])
+HOOKE_COUNTER(count_orders, struct hk_study, is_made(it) ? it->method_count : 0)
 
 static const struct hk_column order_columns[] = {
-    HOOKE_COLUMN(struct order_line, method, TEXT, "", "method"),
+    HOOKE_COLUMN_BY(order_method, method, TEXT, "", "method"),
     HOOKE_COLUMN(
-        struct order_line, order, NUMBER, "",
+        struct hk_study_order, order, NUMBER, "",
         "slope of log error over log step by least squares, over the finest rows clear of the floor; NaN "
         "with fewer than three of them, and for an error-controlled method"),
     HOOKE_COLUMN(
-        struct order_line, low, NUMBER, "",
+        struct hk_study_order, low, NUMBER, "",
         "lower end of the 95 % confidence interval of that slope, as if errors scattered about a line by "
         "chance"),
-    HOOKE_COLUMN(struct order_line, high, NUMBER, "", "upper end of that interval"),
-    HOOKE_COLUMN(struct order_line, theory, NUMBER, "", "the method's order"),
-    HOOKE_COLUMN(struct order_line, note, TEXT, "", "why they may differ"),
-};
-
-static const struct hk_table order_table = {
-    .name = "orders",
-    .doc = "the order that each method showed",
-    HOOKE_TABLE_COLUMNS(order_columns, struct order_line),
-    .count = count_orders,
-    .read = read_order,
+    HOOKE_COLUMN(struct hk_study_order, high, NUMBER, "", "upper end of that interval"),
+    HOOKE_COLUMN(struct hk_study_order, theory, NUMBER, "", "the method's order"),
+    HOOKE_COLUMN(struct hk_study_order, note, TEXT, "", "why they may differ"),
 };
 
 /* ---- the recommendation ---- */
 
-struct recommendation_line {
-  const char *method, *note;
-  double met, want, step, rtol, atol, error, until, wall_seconds, wall_median, force_evaluations;
-};
-
-static void read_recommendation(const void *object, int64_t row, void *line) {
-  const struct hk_study *study = object;
-  const struct hk_study_recommendation *r = &study->recommendation;
-  const int adaptive = r->method >= 0 && hk_study_is_adaptive(study, r->method);
-  (void)row;
-  *(struct recommendation_line *)line = (struct recommendation_line){
-      .method = r->method >= 0 ? study->method[r->method] : NULL,
-      .note = r->note,
-      .met = (double)r->met,
-      .want = r->want,
-      .step = adaptive ? NAN : r->value,
-      .rtol = adaptive ? r->value : NAN,
-      .atol = adaptive ? r->atol : NAN,
-      .error = r->error,
-      .until = r->until,
-      .wall_seconds = r->wall_seconds,
-      .wall_median = r->wall_median,
-      .force_evaluations = r->force_evaluations,
-  };
+double hk_study_setting(const struct hk_study *study, int32_t method, double value, int32_t adaptive) {
+  return adaptive == (method < 0 || hk_study_is_adaptive(study, method)) ? value : NAN;
 }
 
+HOOKE_READER(const char *, recommended_method, struct hk_study,
+             it->recommendation.method < 0 ? NULL : it->method[it->recommendation.method])
+HOOKE_READER(double, recommended_step, struct hk_study,
+             hk_study_setting(it, it->recommendation.method, it->recommendation.value, 0))
+HOOKE_READER(double, recommended_rtol, struct hk_study,
+             hk_study_setting(it, it->recommendation.method, it->recommendation.value, 1))
+
 static const struct hk_column recommendation_columns[] = {
-    HOOKE_COLUMN(struct recommendation_line, want, NUMBER, "m",
-                 "the wanted error, a distance that no free particle exceeds"),
-    HOOKE_COLUMN(struct recommendation_line, method, TEXT, "",
-                 "method of the cheapest run that meets the wanted error, else of the closest run"),
-    HOOKE_COLUMN(struct recommendation_line, step, NUMBER, "s", "its step"),
-    HOOKE_COLUMN(struct recommendation_line, rtol, NUMBER, "", "its relative tolerance"),
-    HOOKE_COLUMN(struct recommendation_line, error, NUMBER, "m",
-                 "its error: the largest distance of any free particle"),
-    HOOKE_COLUMN(struct recommendation_line, until, NUMBER, "s",
-                 "time up to which that holds; before the end where nobody knows the motion that long"),
-    HOOKE_COLUMN(struct recommendation_line, wall_seconds, NUMBER, "s",
-                 "its wall time, the least of several"),
-    HOOKE_COLUMN(struct recommendation_line, wall_median, NUMBER, "s", "their median"),
-    HOOKE_COLUMN(struct recommendation_line, met, FLAG, "", "a run was seen to have at most that error"),
-    HOOKE_COLUMN(
-        struct recommendation_line, note, TEXT, "",
+    HOOKE_COLUMN_AS(struct hk_study, recommendation.want, want, NUMBER, "m",
+                    "the wanted error, a distance that no free particle exceeds"),
+    HOOKE_COLUMN_BY(recommended_method, method, TEXT, "",
+                    "method of the cheapest run that meets the wanted error, else of the closest run"),
+    HOOKE_COLUMN_BY(recommended_step, step, NUMBER, "s", "its step"),
+    HOOKE_COLUMN_BY(recommended_rtol, rtol, NUMBER, "", "its relative tolerance"),
+    HOOKE_COLUMN_AS(struct hk_study, recommendation.error, error, NUMBER, "m",
+                    "its error: the largest distance of any free particle"),
+    HOOKE_COLUMN_AS(struct hk_study, recommendation.until, until, NUMBER, "s",
+                    "time up to which that holds; before the end where nobody knows the motion that long"),
+    HOOKE_COLUMN_AS(struct hk_study, recommendation.wall_seconds, wall_seconds, NUMBER, "s",
+                    "its wall time, the least of several"),
+    HOOKE_COLUMN_AS(struct hk_study, recommendation.wall_median, wall_median, NUMBER, "s", "their median"),
+    HOOKE_COLUMN_AS(struct hk_study, recommendation.met, met, FLAG, "",
+                    "a run was seen to have at most that error"),
+    HOOKE_COLUMN_AS(
+        struct hk_study, recommendation.note, note, TEXT, "",
         "what is in the way where nothing meets it; else empty, or that this machine's times would reverse "
         "the choice, which is by counted work"),
-    HOOKE_COLUMN(struct recommendation_line, atol, NUMBER, "m", "its absolute tolerance of positions"),
-    HOOKE_COLUMN(struct recommendation_line, force_evaluations, COUNT, "", "its evaluations of the forces"),
-};
-
-static const struct hk_table recommendation_table = {
-    .name = "recommendation",
-    .doc = "which run to make for the wanted error",
-    .record = 1,
-    HOOKE_TABLE_COLUMNS(recommendation_columns, struct recommendation_line),
-    HOOKE_TABLE_COUNT(struct hk_study, recommendation.made),
-    .read = read_recommendation,
+    HOOKE_COLUMN_AS(struct hk_study, recommendation.atol, atol, NUMBER, "m",
+                    "its absolute tolerance of positions"),
+    HOOKE_COLUMN_AS(struct hk_study, recommendation.force_evaluations, force_evaluations, COUNT, "",
+                    "its evaluations of the forces"),
 };
 
 /* ---- its margin ---- */
 
-struct margin_line {
-  double error_low, error_high, limit_share, holds_stiffness, error_stiffness, holds_start, error_start;
-};
-
-static void read_margin(const void *object, int64_t row, void *line) {
-  const struct hk_study *study = object;
-  const struct hk_study_recommendation *r = &study->recommendation;
-  const double agreement = study->reference.agreement;
-  (void)row;
-  *(struct margin_line *)line = (struct margin_line){
-      .error_low = isnan(r->error) ? NAN : fmax(0.0, r->error - agreement),
-      .error_high = r->error + agreement,
-      .limit_share = r->margin.limit_share,
-      .holds_stiffness = r->margin.holds[HOOKE_STUDY_STIFFNESS],
-      .error_stiffness = r->margin.error[HOOKE_STUDY_STIFFNESS],
-      .holds_start = r->margin.holds[HOOKE_STUDY_START],
-      .error_start = r->margin.error[HOOKE_STUDY_START],
-  };
+/* fmax() would take an unknown number for 0. */
+static double least_error(const struct hk_study *study) {
+  const double least = study->recommendation.error - study->reference.agreement;
+  return isnan(study->recommendation.error) ? NAN : fmax(0.0, least);
 }
 
+HOOKE_READER(double, error_low, struct hk_study, least_error(it))
+HOOKE_READER(double, error_high, struct hk_study, it->recommendation.error + it->reference.agreement)
+
 static const struct hk_column margin_columns[] = {
-    HOOKE_COLUMN(struct margin_line, error_low, NUMBER, "m", "error less the agreement of the reference"),
-    HOOKE_COLUMN(struct margin_line, error_high, NUMBER, "m", "error plus the agreement of the reference"),
-    HOOKE_COLUMN(struct margin_line, limit_share, NUMBER, "",
-                 "its step over the largest stable one at the start"),
-    HOOKE_COLUMN(struct margin_line, holds_stiffness, FLAG, "",
-                 "the wanted error is met with 10 % more stiffness, and with 10 % less"),
-    HOOKE_COLUMN(struct margin_line, error_stiffness, NUMBER, "m", "the larger error of those two"),
-    HOOKE_COLUMN(
-        struct margin_line, holds_start, FLAG, "",
+    HOOKE_COLUMN_BY(error_low, error_low, NUMBER, "m", "error less the agreement of the reference"),
+    HOOKE_COLUMN_BY(error_high, error_high, NUMBER, "m", "error plus the agreement of the reference"),
+    HOOKE_COLUMN_AS(struct hk_study, recommendation.margin.limit_share, limit_share, NUMBER, "",
+                    "its step over the largest stable one at the start"),
+    HOOKE_COLUMN_AS(struct hk_study, recommendation.margin.holds[HOOKE_STUDY_STIFFNESS], holds_stiffness,
+                    FLAG, "", "the wanted error is met with 10 % more stiffness, and with 10 % less"),
+    HOOKE_COLUMN_AS(struct hk_study, recommendation.margin.error[HOOKE_STUDY_STIFFNESS], error_stiffness,
+                    NUMBER, "m", "the larger error of those two"),
+    HOOKE_COLUMN_AS(
+        struct hk_study, recommendation.margin.holds[HOOKE_STUDY_START], holds_start, FLAG, "",
         "the wanted error is met with 10 % of the largest speed added along (1, 1, 1) at the start, and "
         "against it"),
-    HOOKE_COLUMN(struct margin_line, error_start, NUMBER, "m", "the larger error of those two"),
+    HOOKE_COLUMN_AS(struct hk_study, recommendation.margin.error[HOOKE_STUDY_START], error_start, NUMBER, "m",
+                    "the larger error of those two"),
 };
 
-static const struct hk_table margin_table = {
-    .name = "margin",
-    .doc = "what the recommendation has to spare",
-    .group = "recommendation",
-    .record = 1,
-    HOOKE_TABLE_COLUMNS(margin_columns, struct margin_line),
-    HOOKE_TABLE_COUNT(struct hk_study, recommendation.made),
-    .read = read_margin,
+/* ---- watched quantities ---- */
+
+HOOKE_COUNTER(count_watched, struct hk_study, it->reference.frames.watched.list ? it->watched.count : 0)
+HOOKE_READER(const void *, find_watched, struct hk_study, &it->watched.item[row])
+HOOKE_READER(const char *, watched_unit, struct hk_study, hk_watched_unit(&it->watched.item[row]))
+HOOKE_READER(double, agreement, struct hk_study, it->reference.frames.watched.figure[row])
+HOOKE_READER(const double *, watched_value, struct hk_study,
+             hk_watched_series_of(&it->reference.frames.watched, row))
+
+static const struct hk_column watched_columns[] = {
+    HOOKE_COLUMN_AS(struct hk_watched, text, quantity, TEXT, "", "quantity, as it was written"),
+    HOOKE_COLUMN_BY(watched_unit, unit, TEXT, "", "its unit"),
+    HOOKE_COLUMN_BY(
+        agreement, agreement, NUMBER, "of the quantity",
+        "twice the largest difference in it between the two integrators of the reference, the floor "
+        "of its errors"),
+    HOOKE_COLUMN_BY(watched_value, value, SERIES, "of the quantity",
+                    "the reference's values at every frame; of a period those of the quantity that it is of"),
 };
 
-/* ---- the list ---- */
+/* ---- their errors ---- */
 
-const struct hk_table *const hk_study_tables[HOOKE_STUDY_TABLES] = {&study_table,
-                                                                    &reference_table,
-                                                                    &row_table,
-                                                                    &order_table,
-                                                                    &recommendation_table,
-                                                                    &margin_table,
-                                                                    &hk_study_watched_table,
-                                                                    &hk_study_error_table,
-                                                                    &hk_study_ensemble_table,
-                                                                    &hk_study_statistic_table};
+static const struct hk_watched_series *series_of(const struct hk_study *study, int64_t row) {
+  return &study->row[row / count_watched(study)].trial.watched;
+}
+
+HOOKE_COUNTER(count_errors, struct hk_study, it->row_count *count_watched(it))
+HOOKE_READER(double, row_number, struct hk_study, (double)(row / count_watched(it)))
+HOOKE_READER(const char *, error_quantity, struct hk_study, it->watched.item[row % count_watched(it)].text)
+HOOKE_READER(double, error, struct hk_study, series_of(it, row)->figure[row % count_watched(it)])
+HOOKE_READER(const double *, error_value, struct hk_study,
+             hk_watched_series_of(series_of(it, row), row % count_watched(it)))
+
+static const struct hk_column error_columns[] = {
+    HOOKE_COLUMN_ALONG(OUTER, row_number, row, COUNT, "", "row of the table \"rows\""),
+    HOOKE_COLUMN_ALONG(INNER, error_quantity, quantity, TEXT, "", "watched quantity"),
+    HOOKE_COLUMN_BY(error, error, NUMBER, "of the quantity",
+                    "the largest difference from the reference over the frames that are trusted; of a period "
+                    "that of the two periods over these, NaN with fewer than two passages or four frames a "
+                    "period"),
+    HOOKE_COLUMN_BY(error_value, value, SERIES, "of the quantity", "its values at every frame"),
+};
+
+/* ---- the ensemble ---- */
+
+HOOKE_READER(const void *, find_ensemble, struct hk_study, it->ensemble)
+HOOKE_READER(double, seed, struct hk_study, hooke_options_number(it->options, "seed"))
+HOOKE_COUNTER(count_ensembles, struct hk_study, it->ensemble != NULL)
+
+static const struct hk_column ensemble_columns[] = {
+    HOOKE_COLUMN(struct hk_ensemble, members, COUNT, "", "displaced runs of each method"),
+    HOOKE_COLUMN(struct hk_ensemble, from, NUMBER, "s", "begin of the means over time"),
+    HOOKE_COLUMN(struct hk_ensemble, until, NUMBER, "s", "end of the means over time"),
+    HOOKE_COLUMN(struct hk_ensemble, noise, NUMBER, "m",
+                 "root mean square displacement of a free particle at the start"),
+    HOOKE_COLUMN_BY(seed, seed, COUNT, "", "seed of the noise"),
+};
+
+/* ---- statistics ---- */
+
+HOOKE_COUNTER(count_quantities, struct hk_study, it->ensemble ? it->ensemble->quantities.count : 0)
+HOOKE_COUNTER(count_statistics, struct hk_study,
+              it->ensemble ? it->ensemble->source_count * it->ensemble->quantities.count : 0)
+
+static const struct hk_ensemble_source *source_of(const struct hk_study *study, int64_t row) {
+  return &study->ensemble->source[row / count_quantities(study)];
+}
+
+static const struct hk_watched *quantity_of(const struct hk_study *study, int64_t row) {
+  return &study->ensemble->quantities.item[row % count_quantities(study)];
+}
+
+/* Number of members that have a quantity, their mean, and their spread (standard deviation) about it. */
+struct sample {
+  int64_t members;
+  double mean, spread;
+};
+
+static struct sample sample_of(const struct hk_study *study, int64_t row) {
+  const int64_t inner = count_quantities(study);
+  const struct hk_ensemble_source *s = source_of(study, row);
+  struct sample sample = {.members = 0, .mean = NAN, .spread = NAN};
+  double mean = 0.0, square = 0.0; /* running mean and variance (Welford 1962) */
+  for (int64_t k = 0; k < s->finished; k++) {
+    const double value = s->sample[k * inner + row % inner];
+    if (isnan(value)) continue;
+    const double from_mean = value - mean;
+    mean += from_mean / (double)++sample.members;
+    square += from_mean * (value - mean);
+  }
+  if (s->failed) return sample;
+  if (sample.members > 0) sample.mean = mean;
+  if (sample.members > 1) sample.spread = sqrt(square / (double)(sample.members - 1));
+  return sample;
+}
+
+/* Difference of the mean from the reference's, in standard errors of that difference. */
+static double bias_of(const struct hk_study *study, int64_t row) {
+  const int64_t inner = count_quantities(study);
+  const struct sample own = sample_of(study, row), other = sample_of(study, row % inner);
+  const double variance =
+      own.spread * own.spread / (double)own.members + other.spread * other.spread / (double)other.members;
+  const double difference = own.mean - other.mean;
+  if (row < inner) return NAN;
+  return difference == 0.0 && variance == 0.0 ? 0.0 : difference / sqrt(variance);
+}
+
+static double setting_of(const struct hk_study *study, int64_t row, int32_t adaptive) {
+  const struct hk_ensemble_source *source = source_of(study, row);
+  return hk_study_setting(study, source->method, source->value, adaptive);
+}
+
+static const char *method_of(const struct hk_study *study, int64_t row) {
+  const int32_t method = source_of(study, row)->method;
+  return method < 0 ? "reference" : study->method[method];
+}
+
+HOOKE_READER(const void *, find_source, struct hk_study, source_of(it, row))
+HOOKE_READER(const char *, statistic_method, struct hk_study, method_of(it, row))
+HOOKE_READER(const char *, statistic_quantity, struct hk_study, quantity_of(it, row)->text)
+HOOKE_READER(const char *, statistic_unit, struct hk_study, hk_watched_unit(quantity_of(it, row)))
+HOOKE_READER(double, statistic_step, struct hk_study, setting_of(it, row, 0))
+HOOKE_READER(double, statistic_rtol, struct hk_study, setting_of(it, row, 1))
+HOOKE_READER(double, statistic_members, struct hk_study, (double)sample_of(it, row).members)
+HOOKE_READER(double, mean, struct hk_study, sample_of(it, row).mean)
+HOOKE_READER(double, spread, struct hk_study, sample_of(it, row).spread)
+HOOKE_READER(double, bias, struct hk_study, bias_of(it, row))
+
+static const struct hk_column statistic_columns[] = {
+    HOOKE_COLUMN_ALONG(OUTER, statistic_method, method, TEXT, "", "method, the reference first"),
+    HOOKE_COLUMN_ALONG(INNER, statistic_quantity, quantity, TEXT, "",
+                       "kinetic, potential, energy, and what is watched"),
+    HOOKE_COLUMN_ALONG(INNER, statistic_unit, unit, TEXT, "", "unit of the quantity"),
+    HOOKE_COLUMN_BY(statistic_step, step, NUMBER, "s", "step of the runs"),
+    HOOKE_COLUMN_BY(statistic_rtol, rtol, NUMBER, "", "relative tolerance of the runs"),
+    HOOKE_COLUMN_BY(statistic_members, members, COUNT, "", "runs that have the quantity"),
+    HOOKE_COLUMN(struct hk_ensemble_source, failed, COUNT, "",
+                 "runs that did not come to their end; a method that has one has no statistics"),
+    HOOKE_COLUMN_BY(mean, mean, NUMBER, "of the quantity", "mean over the runs of each run's mean over time"),
+    HOOKE_COLUMN_BY(spread, spread, NUMBER, "of the quantity", "standard deviation of the runs"),
+    HOOKE_COLUMN_BY(
+        bias, bias, NUMBER, "",
+        "the mean less the reference's, in standard errors of that difference; below 2 in size none "
+        "is seen"),
+};
+
+/* ---- the tables ---- */
+
+const struct hk_table hk_study_tables[] = {
+    {.name = "study", .doc = "the study itself", .record = 1, HOOKE_TABLE_COLUMNS(study_columns)},
+    {.name = "reference",
+     .doc = "the solution that errors are measured against, made by two integrators that check each other",
+     .record = 1,
+     HOOKE_TABLE_COLUMNS(reference_columns),
+     .row = find_reference,
+     .length = trusted},
+    {.name = "rows",
+     .doc = "a method with one step or tolerance each, the coarsest first",
+     HOOKE_TABLE_COLUMNS(row_columns),
+     HOOKE_TABLE_COUNT(struct hk_study, row_count),
+     .row = find_row,
+     .length = trusted},
+    {.name = "orders",
+     .doc = "the order that each method showed",
+     HOOKE_TABLE_COLUMNS(order_columns),
+     .count = count_orders,
+     .row = find_order},
+    {.name = "recommendation",
+     .doc = "which run to make for the wanted error",
+     .record = 1,
+     HOOKE_TABLE_COLUMNS(recommendation_columns),
+     HOOKE_TABLE_COUNT(struct hk_study, recommendation.made)},
+    {.name = "margin",
+     .doc = "what the recommendation has to spare",
+     .group = "recommendation",
+     .record = 1,
+     HOOKE_TABLE_COLUMNS(margin_columns),
+     HOOKE_TABLE_COUNT(struct hk_study, recommendation.made)},
+    {.name = "watched",
+     .doc = "the watched quantities",
+     HOOKE_TABLE_COLUMNS(watched_columns),
+     .count = count_watched,
+     .row = find_watched,
+     .length = trusted},
+    {.name = "watched_errors",
+     .group = "watched",
+     .doc = "the error of every row in every watched quantity",
+     HOOKE_TABLE_COLUMNS(error_columns),
+     .count = count_errors,
+     .inner = count_watched,
+     .length = trusted},
+    {.name = "ensemble",
+     .group = "statistics",
+     .doc = "the displaced runs that statistics are of, for motion that cannot be judged to the end",
+     .record = 1,
+     HOOKE_TABLE_COLUMNS(ensemble_columns),
+     .count = count_ensembles,
+     .row = find_ensemble},
+    {.name = "statistics",
+     .doc = "means and spreads of an ensemble, by quantity and method",
+     HOOKE_TABLE_COLUMNS(statistic_columns),
+     .count = count_statistics,
+     .inner = count_quantities,
+     .row = find_source},
+    {.name = NULL}};

@@ -17,20 +17,6 @@ static const struct hk_option_table comparison_table = {"comparison", HOOKE_OPTI
 
 /* ---- creating ---- */
 
-static int32_t add_method(const char *method, void *ctx) {
-  struct hk_comparison *c = ctx;
-  if (!hooke_method_is_built(method))
-    return hk_fail(HOOKE_NOT_BUILT, "methods", "this build is without %s", method);
-  if (c->row_count == c->row_capacity) {
-    const int64_t capacity = 2 * c->row_capacity + 4;
-    const int32_t status = hk_grow((void **)&c->row, c->row_count, capacity, sizeof *c->row);
-    if (status != HOOKE_OK) return status;
-    c->row_capacity = capacity;
-  }
-  c->row[c->row_count++] = (struct hk_comparison_row){.method = method};
-  return HOOKE_OK;
-}
-
 static int32_t create(hooke_measurement *m) {
   if (!hooke_method_is_built("cvode-adams")) {
     return hk_fail(HOOKE_NOT_BUILT, NULL,
@@ -41,8 +27,14 @@ static int32_t create(hooke_measurement *m) {
   c->measurement = m;
   c->system = m->system;
   c->run = m->run;
-  return hk_method_list_read(c->system, hooke_options_text(m->options, "methods"), hooke_method_is_built,
-                             add_method, c);
+  const char *method[HOOKE_LISTED_METHODS];
+  int32_t count;
+  const int32_t status = hk_method_list_read(c->system, hooke_options_text(m->options, "methods"),
+                                             hooke_method_is_built, method, &count);
+  c->row = status == HOOKE_OK ? hk_new(count, sizeof *c->row) : NULL;
+  for (; c->row && c->row_count < count; c->row_count++)
+    c->row[c->row_count] = (struct hk_comparison_row){.method = method[c->row_count], .trial = hk_no_trial};
+  return status == HOOKE_OK && c->row == NULL ? HOOKE_NO_MEMORY : status;
 }
 
 static void release_results(struct hk_comparison *c) {
@@ -171,7 +163,6 @@ const struct hk_measurement_kind hk_comparison_kind = {.name = "comparison",
                                                        .options = &comparison_table,
                                                        .needs_run = 1,
                                                        .tables = hk_comparison_tables,
-                                                       .table_count = HOOKE_COMPARISON_TABLES,
                                                        .create = create,
                                                        .run = run,
                                                        .destroy = destroy};

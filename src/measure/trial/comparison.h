@@ -16,7 +16,7 @@ struct hk_comparison {
   hooke_options *run;            /* of the measurement */
   struct hk_reference reference; /* its method is NULL until it is there */
   int64_t frame_count;           /* 0 until prepared */
-  int64_t row_count, row_capacity;
+  int64_t row_count;
   struct hk_comparison_row *row;
 
   hooke_comparison_frame *on_frame;
@@ -29,8 +29,7 @@ struct hk_comparison {
 /* Finds the number of frames; once, before the first run. */
 int32_t hk_comparison_prepare(struct hk_comparison *comparison);
 
-enum { HOOKE_COMPARISON_TABLES = 3 };
-extern const struct hk_table *const hk_comparison_tables[HOOKE_COMPARISON_TABLES];
+extern const struct hk_table hk_comparison_tables[];
 
 extern const struct hk_measurement_kind hk_comparison_kind;
 

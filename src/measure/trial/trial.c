@@ -10,8 +10,20 @@
 #include <stdio.h>
 #include <string.h>
 
+const struct hk_trial hk_no_trial = {.step = NAN,
+                                     .rtol = NAN,
+                                     .atol = NAN,
+                                     .error = NAN,
+                                     .error_max = NAN,
+                                     .error_final = NAN,
+                                     .energy_drift = NAN,
+                                     .force_evaluations = NAN,
+                                     .steps = NAN,
+                                     .linear_iterations = NAN,
+                                     .wall_seconds = NAN};
+
 int32_t hk_trial_create(const struct hk_frames *reference, struct hk_trial *trial) {
-  *trial = (struct hk_trial){.status = NULL};
+  *trial = hk_no_trial;
   trial->error_at = hk_new(reference->count, sizeof(double));
   trial->error_max_at = hk_new(reference->count, sizeof(double));
   trial->drift_at = hk_new(reference->count, sizeof(double));
@@ -26,41 +38,7 @@ void hk_trial_release(struct hk_trial *trial) {
   hk_free(trial->error_max_at);
   hk_free(trial->drift_at);
   hk_watched_series_release(&trial->watched);
-  memset(trial, 0, sizeof *trial);
-}
-
-struct hk_trial_line hk_trial_line(const struct hk_trial *trial, const char *method, int64_t frames) {
-  static const struct hk_trial none = {.status = "not run",
-                                       .step = NAN,
-                                       .rtol = NAN,
-                                       .atol = NAN,
-                                       .error = NAN,
-                                       .error_max = NAN,
-                                       .error_final = NAN,
-                                       .energy_drift = NAN,
-                                       .force_evaluations = NAN,
-                                       .steps = NAN,
-                                       .linear_iterations = NAN,
-                                       .wall_seconds = NAN};
-  const struct hk_trial *t = trial->status ? trial : &none;
-  return (struct hk_trial_line){
-      .method = method,
-      .status = t->status,
-      .step = t->step,
-      .rtol = t->rtol,
-      .atol = t->atol,
-      .error = t->error,
-      .error_max = t->error_max,
-      .error_final = t->error_final,
-      .energy_drift = t->energy_drift,
-      .force_evaluations = t->force_evaluations,
-      .steps = t->steps,
-      .linear_iterations = t->linear_iterations,
-      .wall_seconds = t->wall_seconds,
-      .error_at = {t->error_at, frames},
-      .error_max_at = {t->error_max_at, frames},
-      .energy_drift_at = {t->drift_at, frames},
-  };
+  *trial = hk_no_trial;
 }
 
 /* ---- running ---- */
@@ -182,10 +160,12 @@ int32_t hk_trial_run(struct hk_trial *trial, const struct hk_frames *reference, 
     trial->error_at[f] = trial->error_max_at[f] = trial->drift_at[f] = NAN;
   hk_watched_series_clear(&trial->watched);
   int32_t status = run_once(&run, reference->system, options, &integrator);
-  if (integrator == NULL) return status;
-  keep_counts(trial, integrator);
   const int32_t too_long = (status == HOOKE_OK || status == HOOKE_STOPPED) && works_too_long(&run);
   if (too_long) status = HOOKE_STOPPED;
+  if (status != HOOKE_OK || frames < 2)
+    trial->error = trial->error_max = trial->error_final = trial->energy_drift = NAN;
+  if (integrator == NULL) return status;
+  keep_counts(trial, integrator);
   hooke_integrator_destroy(integrator);
   trial->status = status == HOOKE_OK         ? "finished"
                   : status == HOOKE_DIVERGED ? "diverged"
@@ -193,8 +173,6 @@ int32_t hk_trial_run(struct hk_trial *trial, const struct hk_frames *reference, 
                                              : "failed";
   if (status == HOOKE_OK)
     hk_watched_series_compare(&trial->watched, &reference->watched, frames, reference->time, 1.0);
-  if (status != HOOKE_OK || frames < 2)
-    trial->error = trial->error_max = trial->error_final = trial->energy_drift = NAN;
   const int is_result =
       too_long || status == HOOKE_DIVERGED || status == HOOKE_SOLVER_FAILED || status == HOOKE_STEP_LIMIT;
   return is_result ? HOOKE_OK : status;

@@ -29,6 +29,9 @@ struct hk_trial {
   struct hk_watched_series watched;           /* quantities watched by the reference, with their errors */
 };
 
+/* A trial that was not run: numbers are NaN. */
+extern const struct hk_trial hk_no_trial;
+
 int32_t hk_trial_create(const struct hk_frames *reference, struct hk_trial *trial);
 void hk_trial_release(struct hk_trial *trial);
 
@@ -54,28 +57,21 @@ int32_t hk_frames_run(struct hk_frames *frames, const hooke_options *options,
  * follows it. */
 int32_t hk_trial_set_value(hooke_options *run, const char *method, double value);
 
-/* A trial as a row of a table. Before its run: "not run" and NaN. */
-struct hk_trial_line {
-  const char *method, *status;
-  double step, rtol, atol, error, error_max, error_final, energy_drift;
-  double force_evaluations, steps, linear_iterations, wall_seconds;
-  struct hk_series error_at, error_max_at, energy_drift_at; /* of `frames` */
-};
-struct hk_trial_line hk_trial_line(const struct hk_trial *trial, const char *method, int64_t frames);
-
-#define HOOKE_TRIAL_COLUMN(member, type, unit, doc)                                                          \
-  HOOKE_COLUMN(struct hk_trial_line, member, type, unit, doc)
-/* Columns for the errors and the work of a trial. */
-#define HOOKE_TRIAL_COLUMNS                                                                                  \
-  HOOKE_TRIAL_COLUMN(error, NUMBER, "m",                                                                     \
+/* A column of a struct `holder` that has a trial; the columns for its errors and its work. */
+#define HOOKE_TRIAL_COLUMN(holder, member, type, unit, doc)                                                  \
+  HOOKE_COLUMN_AS(holder, trial.member, member, type, unit, doc)
+#define HOOKE_TRIAL_COLUMNS(holder)                                                                          \
+  HOOKE_TRIAL_COLUMN(holder, error, NUMBER, "m",                                                             \
                      "largest root mean square over the free particles of the distance to the reference; "   \
                      "no error is below what rounding may do to a position in the steps taken, half a unit " \
                      "in its last place in each; NaN where nothing after the start is judged"),              \
-      HOOKE_TRIAL_COLUMN(error_max, NUMBER, "m",                                                             \
+      HOOKE_TRIAL_COLUMN(holder, error_max, NUMBER, "m",                                                     \
                          "largest distance of any free particle, which a wanted error is held against"),     \
-      HOOKE_TRIAL_COLUMN(error_final, NUMBER, "m", "root mean square distance at the last judged frame"),    \
-      HOOKE_TRIAL_COLUMN(energy_drift, NUMBER, "J", "largest difference of energy from the reference"),      \
-      HOOKE_TRIAL_COLUMN(force_evaluations, COUNT, "", "evaluations of the forces"),                         \
-      HOOKE_TRIAL_COLUMN(steps, COUNT, "", "steps taken")
+      HOOKE_TRIAL_COLUMN(holder, error_final, NUMBER, "m",                                                   \
+                         "root mean square distance at the last judged frame"),                              \
+      HOOKE_TRIAL_COLUMN(holder, energy_drift, NUMBER, "J",                                                  \
+                         "largest difference of energy from the reference"),                                 \
+      HOOKE_TRIAL_COLUMN(holder, force_evaluations, COUNT, "", "evaluations of the forces"),                 \
+      HOOKE_TRIAL_COLUMN(holder, steps, COUNT, "", "steps taken")
 
 #endif

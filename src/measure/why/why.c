@@ -185,7 +185,7 @@ static int32_t create(hooke_measurement *m) {
 static void forget(struct hk_why *why) {
   for (int64_t k = 0; k < why->advice_count; k++)
     hooke_options_destroy(why->advice[k].run);
-  why->limiting_count = why->advice_count = 0;
+  why->limiting.count = why->advice_count = 0;
   why->cause = NULL;
   why->sentence[0] = why->left_out[0] = why->method[0] = '\0';
   why->time = why->noticed = why->limit = why->particle = why->step = NAN;
@@ -296,7 +296,6 @@ const struct hk_measurement_kind hk_why_kind = {
     .options = &why_table,
     .made_by = "hooke_why_create()",
     .tables = hk_why_tables,
-    .table_count = HOOKE_WHY_TABLES,
     .create = create,
     .run = run,
     .destroy = destroy,

@@ -10,14 +10,7 @@
 #include "measure/why/growing.h"
 #include "measure/why/why_walk.h"
 
-enum { HOOKE_WHY_MOST_LIMITING = 100, HOOKE_WHY_MOST_ADVICE = 4 };
-
-struct hk_why_limiting {
-  int64_t spring, first, second;
-  double share;
-  char group[96];
-  const char *force; /* "" for a spring; otherwise `spring` is -1 */
-};
+enum { HOOKE_WHY_MOST_ADVICE = 4 };
 
 struct hk_why_advice {
   char change[720], option[32], value[48];
@@ -33,8 +26,8 @@ struct hk_why {
   const char *cause;                  /* NULL: not found yet */
   char sentence[1024], method[32], left_out[640];
   double time, noticed, step, limit, particle;
-  int64_t limiting_count, advice_count;
-  struct hk_why_limiting limiting[HOOKE_WHY_MOST_LIMITING];
+  struct hk_limiting_list limiting;
+  int64_t advice_count;
   struct hk_why_advice advice[HOOKE_WHY_MOST_ADVICE];
 };
 
@@ -113,7 +106,6 @@ int32_t hk_inquiry_gains(struct hk_inquiry *inquiry, int32_t *gains);
 
 /* Finds the limiting springs and force of a violation, and a suggestion. */
 int32_t hk_inquiry_find_limiting(struct hk_inquiry *inquiry);
-void hk_inquiry_add_limiting(struct hk_inquiry *inquiry, int64_t spring, double share);
 
 /* The last state within all bounds. */
 const hooke_state *hk_inquiry_last(const struct hk_inquiry *inquiry);
@@ -135,8 +127,7 @@ int32_t hk_inquiry_judge(struct hk_inquiry *inquiry);
 /* Finds changes of the run and tries them. */
 int32_t hk_inquiry_advise(struct hk_inquiry *inquiry);
 
-enum { HOOKE_WHY_TABLES = 3 };
-extern const struct hk_table *const hk_why_tables[HOOKE_WHY_TABLES];
+extern const struct hk_table hk_why_tables[];
 extern const struct hk_measurement_kind hk_why_kind;
 
 /* Sets every option that is set in `changes`. */

@@ -323,7 +323,7 @@ static void advise_scene(struct hk_inquiry *inquiry) {
   } else if (inquiry->suggestion[0]) {
     snprintf(advice->change, sizeof advice->change, "change the scene: %s", inquiry->suggestion);
   } else if (strcmp(why->cause, "overflow") == 0 && inquiry->run->outcome == HOOKE_DIVERGED &&
-             !isnan(why->particle) && why->limiting_count == 0) {
+             !isnan(why->particle) && why->limiting.count == 0) {
     snprintf(
         advice->change, sizeof advice->change,
         "look at the units of the scene: positions in m, velocities in m/s; no square of them may be beyond "

@@ -97,8 +97,8 @@ static void name_limiting(const struct hk_inquiry *inquiry, char text[2 * HOOKE_
   const struct hk_force_row *force = hk_force_table(inquiry->force);
   char spring[HOOKE_NAMING_SIZE] = "no spring";
   const int64_t first = inquiry->force >= 0;
-  if (first < why->limiting_count)
-    hk_naming_words(inquiry->system, &hk_force_springs, why->limiting[first].spring, spring);
+  if (first < why->limiting.count)
+    hk_naming_words(inquiry->system, &hk_force_springs, why->limiting.row[first].spring, spring);
   if (inquiry->force == HOOKE_PARTICIPATION_GEOMETRIC)
     snprintf(text, 2 * HOOKE_NAMING_SIZE, "the turning of particle %lld's body by gravity and tensions",
              (long long)particle);
@@ -171,7 +171,8 @@ static void judge_overflow(struct hk_inquiry *inquiry) {
   const hooke_system *system = inquiry->system;
   const struct steepest steepest = find_steepest(system);
   char where[HOOKE_NAMING_SIZE], what[HOOKE_NAMING_SIZE + 80] = "", step[64] = "";
-  if (steepest.force == &hk_force_springs) hk_inquiry_add_limiting(inquiry, steepest.number, NAN);
+  if (steepest.force == &hk_force_springs)
+    hk_limiting_add(inquiry->system, steepest.number, NAN, &inquiry->why->limiting);
   if (inquiry->violation.found) inquiry->why->limit = inquiry->violation.limit;
   if (inquiry->bad_particle >= 0) inquiry->why->particle = (double)inquiry->bad_particle;
   if (!isnan(inquiry->why->step)) hk_print(step, sizeof step, ", with a step of %.6g s", inquiry->why->step);
@@ -186,7 +187,7 @@ static void judge_overflow(struct hk_inquiry *inquiry) {
 
 static void judge_collapse(struct hk_inquiry *inquiry, int64_t spring, const char *what) {
   char where[HOOKE_NAMING_SIZE], end[160];
-  hk_inquiry_add_limiting(inquiry, spring, 1.0);
+  hk_limiting_add(inquiry->system, spring, 1.0, &inquiry->why->limiting);
   hk_naming_words(inquiry->system, &hk_force_springs, spring, where);
   say(inquiry, "collapsed-spring",
       "%s %s, where a spring loses its direction and its force turns round from one step to the next; %s",

@@ -9,37 +9,14 @@
 #include <stdio.h>
 #include <string.h>
 
-void hk_inquiry_add_limiting(struct hk_inquiry *inquiry, int64_t spring, double share) {
-  struct hk_why *why = inquiry->why;
-  if (spring < 0 || why->limiting_count == HOOKE_WHY_MOST_LIMITING) return;
-  const struct hk_spring found = hk_springs_find(inquiry->system->springs, spring);
-  struct hk_why_limiting *limiting = &why->limiting[why->limiting_count++];
-  *limiting = (struct hk_why_limiting){
-      .spring = spring, .first = found.head, .second = found.tail, .share = share, .force = ""};
-  snprintf(limiting->group, sizeof limiting->group, "%s",
-           hk_naming_group(inquiry->system, &hk_force_springs, spring));
-}
-
-/* A force first, then springs. */
 static void take_participation(struct hk_inquiry *inquiry, const struct hk_participation *participation) {
-  struct hk_why *why = inquiry->why;
-  why->limiting_count = 0;
+  hk_limiting_take(inquiry->system, participation, &inquiry->why->limiting);
   inquiry->force = hk_participation_force(participation);
   inquiry->heaviest = participation->heaviest;
   inquiry->group = hk_participation_group(participation);
   inquiry->group_share = inquiry->group < 0 ? 0.0 : participation->group_share[inquiry->group];
   if (inquiry->violation.particle < 0 && participation->particle_count > 0)
     inquiry->violation.particle = participation->particle[0].particle;
-  if (inquiry->force >= 0) {
-    why->limiting[why->limiting_count++] =
-        (struct hk_why_limiting){.spring = -1,
-                                 .first = -1,
-                                 .second = -1,
-                                 .share = participation->force_share[inquiry->force],
-                                 .force = hk_participation_force_name(inquiry->force)};
-  }
-  for (int64_t k = 0; k < participation->spring_count; k++)
-    hk_inquiry_add_limiting(inquiry, participation->spring[k].spring, participation->spring[k].share);
 }
 
 static int32_t look(struct hk_inquiry *inquiry, struct hk_limit *limit) {
@@ -79,12 +56,12 @@ int32_t hk_inquiry_find_limiting(struct hk_inquiry *inquiry) {
   }
   if (status == HOOKE_NO_MEMORY) return status;
   /* without a mode, the particle at which the bound showed it */
-  if (inquiry->why->limiting_count == 0) {
+  if (inquiry->why->limiting.count == 0) {
     const struct hk_force_row *force;
-    hk_inquiry_add_limiting(inquiry,
-                            hk_naming_heaviest(inquiry->system, &hk_force_springs, violation->particle,
-                                               inquiry->run->schedule.step, &force),
-                            NAN);
+    hk_limiting_add(inquiry->system,
+                    hk_naming_heaviest(inquiry->system, &hk_force_springs, violation->particle,
+                                       inquiry->run->schedule.step, &force),
+                    NAN, &inquiry->why->limiting);
   }
   return HOOKE_OK;
 }

@@ -279,12 +279,10 @@ int32_t hooke_view_create(const hooke_record *record, const hooke_options *optio
   return hk_measurement_create(&hk_view_kind, view, NULL, NULL, options, out);
 }
 
-static const struct hk_table *const tables[] = {&hk_view_table};
 const struct hk_measurement_kind hk_view_kind = {.name = "view",
                                                  .options = &view_options,
                                                  .made_by = "hooke_view_create()",
-                                                 .tables = tables,
-                                                 .table_count = 1,
+                                                 .tables = hk_view_tables,
                                                  .create = create,
                                                  .run = run,
                                                  .write = hk_view_write,

@@ -19,7 +19,7 @@ extern const char *const hk_view_energy[HOOKE_VIEW_ENERGIES]; /* "kinetic", ... 
 enum { HOOKE_VIEW_FREE, HOOKE_VIEW_PINNED, HOOKE_VIEW_DRIVEN, HOOKE_VIEW_LOOSE };
 
 extern const struct hk_measurement_kind hk_view_kind;
-extern const struct hk_table hk_view_table; /* of one row: the numbers of a view */
+extern const struct hk_table hk_view_tables[]; /* one, of one row: the numbers of a view */
 
 /* The object of a measurement of kind "view". */
 struct hk_view {

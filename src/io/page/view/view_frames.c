@@ -137,8 +137,7 @@ int32_t hk_view_find_strain(struct hk_view *view) {
   s.sizes = hk_new(LOOKED_AT + 1, sizeof *s.sizes);
   s.largest = hk_new(view->frames, sizeof *s.largest);
   int32_t status = s.sizes && s.largest ? HOOKE_OK : HOOKE_NO_MEMORY;
-  view->strain_low = INFINITY;
-  view->strain_high = -INFINITY;
+  view->strain_low = view->strain_high = NAN; /* which fmin() and fmax() pass over */
   if (status == HOOKE_OK) status = look_at_frames(view, &s);
   if (status == HOOKE_OK) {
     const double most = quantile(s.largest, s.count, FRAME_SHARE);
