@@ -81,14 +81,10 @@ static int32_t fill_particles(hooke_system *system) {
   return HOOKE_OK;
 }
 
-static int has_members(const struct hk_force_row *force) {
-  return force->members != NULL;
-}
-
 void hk_system_mark_touched(const hooke_system *system, uint8_t *touched) {
   struct hk_elements at;
   hk_begin_elements(system, NULL, NULL, &at);
-  at.wanted = has_members;
+  at.kinds = ~HOOKE_UNIFORM;
   for (const struct hk_element *e; (e = hk_next_element(&at)) != NULL;) {
     for (int j = 0; j < e->count; j++)
       touched[e->particle[j]] = 1;

@@ -171,7 +171,8 @@ static void judge_overflow(struct hk_inquiry *inquiry) {
   const hooke_system *system = inquiry->system;
   const struct steepest steepest = find_steepest(system);
   char where[HOOKE_NAMING_SIZE], what[HOOKE_NAMING_SIZE + 80] = "", step[64] = "";
-  if (steepest.force == &hk_force_springs) hk_inquiry_add_limiting(inquiry, steepest.number, NAN);
+  if (steepest.force && steepest.force->kind & HOOKE_LOOPED)
+    hk_inquiry_add_limiting(inquiry, steepest.number, NAN);
   if (inquiry->violation.found) inquiry->why->limit = inquiry->violation.limit;
   if (inquiry->bad_particle >= 0) inquiry->why->particle = (double)inquiry->bad_particle;
   if (!isnan(inquiry->why->step)) hk_print(step, sizeof step, ", with a step of %.6g s", inquiry->why->step);

@@ -9,16 +9,15 @@ void hk_begin_elements(const hooke_system *system, const double *q, const double
   at->system = system;
   at->q = q;
   at->v = v;
-  at->wanted = NULL;
   at->only = NULL;
   at->force = NULL;
-  at->by_number = at->next = 0;
+  at->kinds = at->by_number = at->next = 0;
   at->batches = at->done = at->first = at->count = at->k = 0;
 }
 
 static int is_wanted(const struct hk_elements *at, const struct hk_force_row *force) {
   if (force->elements == NULL || !force->present(at->system)) return 0;
-  return (at->only == NULL || at->only == force) && (at->wanted == NULL || at->wanted(force));
+  return (at->only == NULL || at->only == force) && (at->kinds == 0 || force->kind & at->kinds);
 }
 
 /* Fetches the next elements of the current force; 0 if there are none. */

@@ -46,8 +46,7 @@ struct hk_energies hk_state_energies(const hooke_state *state, const hooke_syste
     const struct hk_force_row *row = system->force_row[k];
     const double energy = row->energy ? row->energy(system, state->q) : 0.0;
     if (row->energy) sum.potential += energy;
-    if (row->energy && row->elements) sum.elastic += energy;
-    if (row == &hk_force_gravity) sum.gravity = energy;
+    if (row->energy) *(row->elements ? &sum.elastic : &sum.gravity) += energy;
   }
   return sum;
 }

@@ -25,15 +25,11 @@ int32_t hk_force_number(const struct hk_force_row *row) {
   return k;
 }
 
-int32_t hk_elements_are_damped(const hooke_system *system) {
+int32_t hk_system_is_damped(const hooke_system *system, int32_t kinds) {
   int32_t damped = 0;
   for (int32_t k = 0; hk_force_table(k); k++)
-    damped |= table[k]->damped && table[k]->damped(system);
+    damped |= (kinds == 0 || table[k]->kind & kinds) && table[k]->damped && table[k]->damped(system);
   return damped;
-}
-
-int32_t hk_system_is_damped(const hooke_system *system) {
-  return system->drag > 0.0 || hk_elements_are_damped(system);
 }
 
 void hk_forces_release(hooke_system *system) {
@@ -42,22 +38,10 @@ void hk_forces_release(hooke_system *system) {
   }
 }
 
-int hk_force_is_other(const struct hk_force_row *row) {
-  return row->elements && row != &hk_force_springs && row != &hk_force_drag;
-}
-
-int hk_force_is_constant(const struct hk_force_row *row) {
-  return hk_force_is_other(row) && row->multiply;
-}
-
-int hk_force_is_kept(const struct hk_force_row *row) {
-  return hk_force_is_other(row) && !row->multiply;
-}
-
-int64_t hk_elements_of(const hooke_system *system, int (*wanted)(const struct hk_force_row *row)) {
+int64_t hk_elements_of(const hooke_system *system, int32_t kinds) {
   int64_t count = 0;
   for (int32_t k = 0; hk_force_table(k); k++)
-    count += wanted(table[k]) && table[k]->present(system) ? table[k]->count(system) : 0;
+    count += table[k]->kind & kinds && table[k]->present(system) ? table[k]->count(system) : 0;
   return count;
 }
 
@@ -153,20 +137,19 @@ static void add_blocks(const hooke_system *system, const struct hk_force_row *ro
   }
 }
 
-int32_t hk_forces_product(const hooke_system *system, const struct hk_point *point,
-                          int (*left_out)(const struct hk_force_row *row), double *out) {
+int32_t hk_forces_product(const hooke_system *system, const struct hk_point *point, int32_t left_out,
+                          double *out) {
   memset(out, 0, (size_t)(3 * system->particle_count) * sizeof(double));
   for (int32_t k = 0; k < system->force_row_count; k++) {
     const struct hk_force_row *row = system->force_row[k];
-    if (left_out && left_out(row)) continue;
+    if (row->kind & left_out) continue;
     const int32_t status = add_product(system, row, point, out);
     if (status != HOOKE_OK) return status;
   }
   return HOOKE_OK;
 }
 
-int32_t hk_forces_product_in_rows(const hooke_system *system, double t,
-                                  int (*left_out)(const struct hk_force_row *row), double **rows,
+int32_t hk_forces_product_in_rows(const hooke_system *system, double t, int32_t left_out, double **rows,
                                   int32_t *stop_value) {
   const int64_t size = 3 * system->particle_count;
   if (size == 0) return HOOKE_OK;
@@ -184,7 +167,7 @@ int32_t hooke_system_derivative_product(const hooke_system *system, double t, co
   int32_t stop_value;
   const struct hk_point point = {t, q, v, dq, dv, &stop_value, 0};
   const int32_t status = hk_system_require_committed(system);
-  return status == HOOKE_OK ? hk_forces_product(system, &point, NULL, out) : status;
+  return status == HOOKE_OK ? hk_forces_product(system, &point, 0, out) : status;
 }
 
 int32_t hooke_system_derivative_blocks(const hooke_system *system, const double *q, const double *v,

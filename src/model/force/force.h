@@ -27,10 +27,24 @@ struct hk_members {
   double *stiffness, *damping, *rest_length;
 };
 
+/* How a force is linearised and summed, to be combined in sets: by loops of its own, as springs are; by its
+ * constant K and C (`multiply`); element by element; by one number at every particle, as drag is, which is
+ * part of moves; by asking the caller. */
+enum {
+  HOOKE_LOOPED = 1,
+  HOOKE_CONSTANT = 2,
+  HOOKE_KEPT = 4,
+  HOOKE_OTHERS = HOOKE_CONSTANT | HOOKE_KEPT,
+  HOOKE_UNIFORM = 8,
+  HOOKE_CALLED = 16
+};
+
 /* Everything but `name`, `present`, `check` and `keep` or `copy` may be NULL, if the force has no such part.
  * A force with elements and without `add_product` and `add_blocks` has its derivative from them. */
 struct hk_force_row {
   const char *name;
+  int32_t kind;      /* one of these; 0 without elements */
+  int32_t in_scenes; /* 1: scenes have a key for it */
   /* for forces with groups: the name of its members, and the maximum bytes of one (see room.c) */
   const char *members;
   int32_t member_particles; /* of each member */
@@ -46,7 +60,8 @@ struct hk_force_row {
   void (*list)(const hooke_system *system, const struct hk_members *out);
   /* adds all that the force depends on, where it is present, to a check value */
   void (*check)(const hooke_system *system, uint32_t *value);
-  /* adds a group to a variant whose parts do not add it (see variant.h), or a force without groups */
+  /* adds a group to a variant whose parts do not add it (see variant.h); or, unless the variant leaves it out,
+   * a force without groups */
   int32_t (*keep)(struct hk_variant_maker *maker, const struct hk_group *group, int64_t first);
   int32_t (*copy)(const struct hk_variant_maker *maker);
   int32_t (*present)(const hooke_system *system);
@@ -76,7 +91,7 @@ struct hk_force_row {
   /* sum += the stiffness of every member along the direction in which it stores most, at its shortest [N/m]:
    * displacements of size d store half of it times d^2 (see integrate/loop/divergence.c) */
   void (*add_stiffness)(const hooke_system *system, double *sum);
-  /* 1 if some member is damped; NULL for drag, which callers read as a number */
+  /* 1 if some element is damped */
   int32_t (*damped)(const hooke_system *system);
 };
 
@@ -88,32 +103,24 @@ double *hk_rows_new(int64_t numbers);
 /* Leaves rows that a callback holds to it; a copy takes their place. HOOKE_NO_MEMORY. */
 int32_t hk_rows_renew(int64_t numbers, double **rows);
 
-/* out = (df/dq) dq + (df/dv) dv of the forces of a committed system except those with `left_out` (NULL:
+/* out = (df/dq) dq + (df/dv) dv of the forces of a committed system except those of the kinds `left_out` (0:
  * none). HOOKE_STOPPED, with the point's stop value, if a callback asked for it. */
-int32_t hk_forces_product(const hooke_system *system, const struct hk_point *point,
-                          int (*left_out)(const struct hk_force_row *row), double *out);
+int32_t hk_forces_product(const hooke_system *system, const struct hk_point *point, int32_t left_out,
+                          double *out);
 
 /* The same in rows for a callback: q, v, dq, dv and the product. */
-int32_t hk_forces_product_in_rows(const hooke_system *system, double t,
-                                  int (*left_out)(const struct hk_force_row *row), double **rows,
+int32_t hk_forces_product_in_rows(const hooke_system *system, double t, int32_t left_out, double **rows,
                                   int32_t *stop_value);
 
 /* Releases everything that commit took over from groups. */
 void hk_forces_release(hooke_system *system);
 
-/* 1 if some force other than a callback damps motion; the second ignores drag. */
-int32_t hk_system_is_damped(const hooke_system *system);
-int32_t hk_elements_are_damped(const hooke_system *system);
-
-/* Filters of walks: all forces but springs, which have loops of their own where speed counts, and drag, which
- * is a number; of these, those with constant K and C, and those whose elements are stored. */
-int hk_force_is_other(const struct hk_force_row *row);
-int hk_force_is_constant(const struct hk_force_row *row);
-int hk_force_is_kept(const struct hk_force_row *row);
+/* 1 if some force of these kinds damps motion: 0 asks for all but a callback, of which nothing is known. */
+int32_t hk_system_is_damped(const hooke_system *system, int32_t kinds);
 /* Sets touched[p] to 1 for every particle of a spring, a triple or a tetrahedron. */
 void hk_system_mark_touched(const hooke_system *system, uint8_t *touched);
-/* Number of elements of the forces of a filter. */
-int64_t hk_elements_of(const hooke_system *system, int (*wanted)(const struct hk_force_row *row));
+/* Number of elements of the forces of these kinds. */
+int64_t hk_elements_of(const hooke_system *system, int32_t kinds);
 
 /* Row `k` of the table, NULL past the last; and the number of a row. */
 const struct hk_force_row *hk_force_table(int32_t k);

@@ -217,6 +217,7 @@ static void list(const hooke_system *system, const struct hk_members *out) {
 }
 
 const struct hk_force_row hk_force_altitude = {.name = "altitude",
+                                               .kind = HOOKE_KEPT,
                                                .title = "altitude springs",
                                                .members = "tetrahedra",
                                                .options = &hk_altitude_options,

@@ -329,6 +329,8 @@ static void list(const hooke_system *system, const struct hk_members *out) {
 }
 
 const struct hk_force_row hk_force_anchor = {.name = "anchors",
+                                             .kind = HOOKE_KEPT,
+                                             .in_scenes = 1,
                                              .members = "anchors",
                                              .title = "anchor",
                                              .bytes = 130.0,

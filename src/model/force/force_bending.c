@@ -96,6 +96,8 @@ static void list(const hooke_system *system, const struct hk_members *out) {
 }
 
 const struct hk_force_row hk_force_bending = {.name = "bending",
+                                              .kind = HOOKE_CONSTANT,
+                                              .in_scenes = 1,
                                               .title = "bending",
                                               .members = "triples",
                                               .member_particles = 3,

@@ -14,7 +14,7 @@ static void check(const hooke_system *system, uint32_t *value) {
 }
 
 static int32_t copy(const struct hk_variant_maker *maker) {
-  return maker->variant->drag ? HOOKE_OK : hooke_system_set_drag(maker->made, hk_system_drag(maker->from));
+  return hooke_system_set_drag(maker->made, hk_system_drag(maker->from));
 }
 
 static void brake(const hooke_system *system, struct hk_motion *motion, int64_t from, int64_t to) {
@@ -78,6 +78,8 @@ static void multiply(const hooke_system *system, double a, double b, const doubl
 }
 
 const struct hk_force_row hk_force_drag = {.name = "drag",
+                                           .kind = HOOKE_UNIFORM,
+                                           .in_scenes = 1,
                                            .title = "drag",
                                            .check = check,
                                            .copy = copy,
@@ -86,4 +88,5 @@ const struct hk_force_row hk_force_drag = {.name = "drag",
                                            .heat = heat,
                                            .count = count,
                                            .elements = elements,
-                                           .multiply = multiply};
+                                           .multiply = multiply,
+                                           .damped = present};

@@ -118,6 +118,7 @@ static int32_t damped(const hooke_system *system) {
 }
 
 const struct hk_force_row hk_force_linear = {.name = "linear",
+                                             .kind = HOOKE_CONSTANT,
                                              .title = "linear force",
                                              .check = check,
                                              .copy = copy,

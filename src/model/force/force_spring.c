@@ -268,6 +268,8 @@ static void list(const hooke_system *system, const struct hk_members *out) {
 }
 
 const struct hk_force_row hk_force_springs = {.name = "springs",
+                                              .kind = HOOKE_LOOPED,
+                                              .in_scenes = 1,
                                               .members = "springs",
                                               .options = &hk_spring_options,
                                               .member_particles = 2,

@@ -42,9 +42,7 @@ static void join(int64_t count, uint8_t *flag, const uint8_t *other) {
 }
 
 void hk_variant_join(const hooke_system *system, struct hk_variant *variant, const struct hk_variant *other) {
-  variant->gravity |= other->gravity;
-  variant->drag |= other->drag;
-  variant->force |= other->force;
+  join(HOOKE_FORCES, variant->without, other->without);
   variant->damping |= other->damping;
   variant->compression |= other->compression;
   join(system->group_count, variant->group, other->group);
@@ -68,7 +66,7 @@ static int32_t covers_groups(const hooke_system *system, const struct hk_variant
     const struct hk_group *group = &system->group[g];
     if (variant->group[g] || goes_with_part(variant, group)) continue;
     if (other->group[g]) return 0;
-    for (int64_t s = first; s < first + group->count && group->force == &hk_force_springs; s++) {
+    for (int64_t s = first; s < first + group->count && group->force->kind & HOOKE_LOOPED; s++) {
       if (other->spring[s] && !variant->spring[s]) return 0;
     }
   }
@@ -77,9 +75,9 @@ static int32_t covers_groups(const hooke_system *system, const struct hk_variant
 
 int32_t hk_variant_covers(const hooke_system *system, const struct hk_variant *variant,
                           const struct hk_variant *other) {
-  int32_t covered = other->gravity <= variant->gravity && other->drag <= variant->drag &&
-                    other->force <= variant->force && other->damping <= variant->damping &&
-                    other->compression <= variant->compression;
+  int32_t covered = other->damping <= variant->damping && other->compression <= variant->compression;
+  for (int32_t k = 0; k < HOOKE_FORCES && covered; k++)
+    covered = other->without[k] <= variant->without[k];
   for (int64_t k = 0; k < system->part_count && covered; k++)
     covered = variant->part[k] ||
               (!other->part[k] && other->scale[k] == 1.0 && other->rigid[k] <= variant->rigid[k]);
@@ -92,7 +90,7 @@ int32_t hk_variant_covers(const hooke_system *system, const struct hk_variant *v
 static int32_t is_split(const hooke_system *system, const struct hk_variant *variant, int64_t g,
                         int64_t first) {
   const struct hk_group *group = &system->group[g];
-  if (!group->from_part || group->force != &hk_force_springs || variant->group[g] ||
+  if (!group->from_part || !(group->force->kind & HOOKE_LOOPED) || variant->group[g] ||
       goes_with_part(variant, group))
     return 0;
   if (variant->scale[group->part] != 1.0 || group->count == 0) return 0;
@@ -136,7 +134,7 @@ static int32_t keep_groups(struct hk_variant_maker *maker) {
 static int32_t copy_others(const struct hk_variant_maker *maker) {
   int32_t status = HOOKE_OK;
   for (int32_t k = 0; hk_force_table(k) && status == HOOKE_OK; k++)
-    if (hk_force_table(k)->copy) status = hk_force_table(k)->copy(maker);
+    if (hk_force_table(k)->copy && !maker->variant->without[k]) status = hk_force_table(k)->copy(maker);
   return status;
 }
 

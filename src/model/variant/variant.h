@@ -7,7 +7,8 @@
 
 /* The changes; hk_variant_create() gives zeros with arrays. 1: left out. */
 struct hk_variant {
-  int32_t gravity, drag, force, damping;
+  uint8_t without[HOOKE_FORCES]; /* by row of the table of forces: one without groups */
+  int32_t damping;
   int32_t compression; /* 1: springs only pull */
   uint8_t *group;      /* by group of the table */
   uint8_t *spring;     /* by spring */

@@ -39,7 +39,7 @@ static int32_t given(const struct hk_variant *variant, const hooke_options *from
 
 int32_t hk_variant_breaks_up(const struct hk_variant_maker *maker, const struct hk_group *group,
                              int64_t first) {
-  if (group->force != &hk_force_springs || maker->map->part[group->part].axes > 0 ||
+  if (!(group->force->kind & HOOKE_LOOPED) || maker->map->part[group->part].axes > 0 ||
       maker->variant->rigid[group->part])
     return 0;
   for (int64_t k = 0; k < group->count; k++) {
