@@ -6,29 +6,27 @@
 
 #include <string.h>
 
-enum { PARTICLES = 3 };
+static size_t size_of(const struct hk_group *group, int number) {
+  return (size_t)group->force->width[number] * sizeof(double);
+}
 
-int32_t hk_group_allocate(struct hk_group *group, const char *name, int32_t particles, int32_t numbers,
-                          size_t own_size) {
+int32_t hk_group_allocate(struct hk_group *group, const char *name) {
   int there = (group->name = hk_copy_text(name)) != NULL;
-  for (int32_t k = 0; k < particles; k++)
+  for (int32_t k = 0; k < group->force->member_particles; k++)
     there &= (group->particle[k] = hk_new(group->count, sizeof(int32_t))) != NULL;
-  for (int32_t k = 0; k < numbers; k++)
-    there &= (group->number[k] = hk_new(group->count, sizeof(double))) != NULL;
-  group->own_size = own_size;
-  if (own_size > 0) there &= (group->own = hk_new(group->count, own_size)) != NULL;
+  for (int32_t k = 0; k < HOOKE_GROUP_NUMBERS; k++)
+    if (group->force->width[k] > 0)
+      there &= (group->number[k] = hk_new(group->count, size_of(group, k))) != NULL;
   return there ? HOOKE_OK : HOOKE_NO_MEMORY;
 }
 
 void hk_group_release_columns(struct hk_group *group) {
-  for (int k = 0; k < PARTICLES; k++)
+  for (int k = 0; k < HOOKE_MEMBER_PARTICLES; k++)
     hk_free(group->particle[k]);
   for (int k = 0; k < HOOKE_GROUP_NUMBERS; k++)
     hk_free(group->number[k]);
-  hk_free(group->own);
   memset(group->particle, 0, sizeof group->particle);
   memset(group->number, 0, sizeof group->number);
-  group->own = NULL;
 }
 
 void hk_group_release(struct hk_group *group) {
@@ -41,19 +39,24 @@ void hk_group_release(struct hk_group *group) {
 /* ---- dropping ---- */
 
 static void swap(void *column, size_t size, int64_t a, int64_t b) {
-  unsigned char *const one = column, kept[256];
-  if (column == NULL) return;
-  memcpy(kept, one + (size_t)a * size, size);
-  memcpy(one + (size_t)a * size, one + (size_t)b * size, size);
-  memcpy(one + (size_t)b * size, kept, size);
+  unsigned char *const bytes = column;
+  for (size_t k = 0; k < size && column; k++) {
+    const unsigned char kept = bytes[(size_t)a * size + k];
+    bytes[(size_t)a * size + k] = bytes[(size_t)b * size + k];
+    bytes[(size_t)b * size + k] = kept;
+  }
 }
 
-static void swap_members(struct hk_group *group, int64_t a, int64_t b) {
-  for (int k = 0; k < PARTICLES; k++)
+void hk_group_swap(struct hk_group *group, int64_t a, int64_t b) {
+  for (int k = 0; k < HOOKE_MEMBER_PARTICLES && a != b; k++)
     swap(group->particle[k], sizeof(int32_t), a, b);
-  for (int k = 0; k < HOOKE_GROUP_NUMBERS; k++)
-    swap(group->number[k], sizeof(double), a, b);
-  swap(group->own, group->own_size, a, b);
+  for (int k = 0; k < HOOKE_GROUP_NUMBERS && a != b; k++)
+    swap(group->number[k], size_of(group, k), a, b);
+}
+
+int32_t hk_group_resists(const struct hk_group *group) {
+  const struct hk_option_table *options = group->force->options;
+  return !group->pull_only && options && hk_options_find(options, "compression") != NULL;
 }
 
 static int acts(const struct hk_group *group, int64_t k) {
@@ -64,23 +67,23 @@ static int acts(const struct hk_group *group, int64_t k) {
 /* 1 if all particles of a member are in one body. */
 static int is_inside(const struct hk_group *group, int64_t k, const struct hk_bodies *bodies) {
   const int32_t count = group->force->member_particles;
-  int32_t particle[4];
+  int32_t particle[HOOKE_MEMBER_PARTICLES];
   if (bodies->of == NULL || count < 2) return 0;
-  if (group->force == &hk_force_altitude)
-    return hk_bodies_hold(bodies, count, ((const struct hk_tetrahedron *)group->own)[k].particle);
   for (int32_t j = 0; j < count; j++)
     particle[j] = group->particle[j][k];
   return hk_bodies_hold(bodies, count, particle);
 }
 
 void hk_group_drop(struct hk_group *group, const struct hk_bodies *bodies) {
+  const double *gamma = group->number[HOOKE_GAMMA];
   int64_t acting = 0;
+  group->damped = 0;
   for (int64_t k = 0; k < group->count; k++) {
     const int inside = is_inside(group, k, bodies);
     group->inside += inside;
     if (inside || !acts(group, k)) continue;
-    if (k != acting) swap_members(group, k, acting);
-    acting++;
+    group->damped |= gamma && gamma[k] != 0.0;
+    hk_group_swap(group, k, acting++);
   }
   group->dropped = group->count - acting;
   group->count = acting;

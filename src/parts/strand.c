@@ -280,7 +280,7 @@ static int32_t add_altitude(struct hk_part *part, const struct strand *strand) {
   char *name = hk_part_group_name(part, "altitude");
   int32_t status = tetrahedron && name ? HOOKE_OK : HOOKE_NO_MEMORY;
   if (status == HOOKE_OK) status = fill_tetrahedra(part, strand, count, tetrahedron);
-  if (status == HOOKE_OK) status = hk_system_add_tetrahedra(part->system, name, 1, count, tetrahedron);
+  if (status == HOOKE_OK) status = hk_system_add_tetrahedra(part->system, name, count, tetrahedron);
   hk_free(tetrahedron);
   hk_free(name);
   return status == HOOKE_OK ? status : hk_fail_within(status, "altitude");

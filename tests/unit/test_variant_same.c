@@ -121,8 +121,8 @@ static void one_is_left_out(void **unused) {
     hooke_system_destroy(made);
   }
   hooke_system *undamped = without(scene.system, (struct what){.damping = 1, .group = -1});
-  assert_true(hk_springs_are_damped(scene.system->springs));
-  assert_false(hk_springs_are_damped(undamped->springs));
+  assert_true(hk_force_is_damped(scene.system, &hk_force_springs));
+  assert_false(hk_force_is_damped(undamped, &hk_force_springs));
   hooke_system_destroy(undamped);
   assert_in_range(scene.system->group_count, 2, 16);
   for (int64_t g = 0; g < scene.system->group_count; g++) {
@@ -198,7 +198,7 @@ static void every_force_survives_a_copy_and_is_missed(void **unused) {
   }
   for (int32_t k = 0; hk_force_table(k); k++) {
     const struct hk_force_row *row = hk_force_table(k);
-    if (!seen[k] || !row->check || !(row->keep || row->copy || row == &hk_force_weight))
+    if (!seen[k] || !row->check || !(row->recall || row->copy || row == &hk_force_weight))
       check_failed("%s is not in the scenes of this test, or has no check value or no copy", row->name);
   }
 }

@@ -37,7 +37,7 @@ static void add_forces(const hooke_system *system, const struct hk_method *metho
     of[0] = times[0] * members;
     for (int what = 1; what < HOOKE_WORKS_OF_FORCE; what++)
       of[what] = times[what] * (method == &hk_verlet ? OF_DAMPING * damped : members);
-    if (method != &hk_shardlow || row->kind & HOOKE_UNIFORM || !row->damped || !row->damped(system)) continue;
+    if (method != &hk_shardlow || row->kind & HOOKE_UNIFORM || !hk_force_is_damped(system, row)) continue;
     if (row->kind & HOOKE_LOOPED)
       amount[HOOKE_WORK_DAMPER] = (double)count->steps * damped;
     else

@@ -62,8 +62,8 @@ static int32_t list_groups(struct hk_needs *needs) {
 
 static int32_t resists_compression(const hooke_system *system) {
   int32_t resists = 0;
-  for (int32_t k = 0; hk_force_table(k); k++)
-    resists |= hk_force_table(k)->resists && hk_force_table(k)->resists(system);
+  for (int64_t g = 0; g < system->group_count; g++)
+    resists |= system->group[g].count > 0 && hk_group_resists(&system->group[g]);
   return resists;
 }
 

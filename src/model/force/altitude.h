@@ -39,10 +39,9 @@ void hk_tautness_differentiate(const struct hk_tetrahedron *tetrahedron, const s
  * with the particles, if it is flat. */
 int32_t hk_tetrahedron_rest(const double x[4][3], double scale, struct hk_tetrahedron *tetrahedron);
 
-/* Adds tetrahedra with given particles and rest lengths. `name` may be NULL. HOOKE_BAD_VALUE for particles
- * that do not exist or are repeated. */
-int32_t hk_system_add_tetrahedra(struct hooke_system *system, const char *name, int32_t from_part,
-                                 int64_t count, const struct hk_tetrahedron *tetrahedron);
+/* For builders: adds tetrahedra of a part, which all only pull or all do not, with their rest lengths. */
+int32_t hk_system_add_tetrahedra(struct hooke_system *system, const char *name, int64_t count,
+                                 const struct hk_tetrahedron *tetrahedron);
 
 /* Takes over the acting members of the groups. HOOKE_NO_MEMORY leaves `altitudes` empty. */
 int32_t hk_altitudes_create(const struct hk_group *group, int64_t group_count,

@@ -25,10 +25,17 @@ int32_t hk_force_number(const struct hk_force_row *row) {
   return k;
 }
 
+int32_t hk_force_is_damped(const hooke_system *system, const struct hk_force_row *row) {
+  int32_t damped = row->damped && row->damped(system);
+  for (int64_t g = 0; g < system->group_count; g++)
+    damped |= system->group[g].force == row && system->group[g].damped;
+  return damped;
+}
+
 int32_t hk_system_is_damped(const hooke_system *system, int32_t kinds) {
   int32_t damped = 0;
   for (int32_t k = 0; hk_force_table(k); k++)
-    damped |= (kinds == 0 || table[k]->kind & kinds) && table[k]->damped && table[k]->damped(system);
+    damped |= (kinds == 0 || table[k]->kind & kinds) && hk_force_is_damped(system, table[k]);
   return damped;
 }
 

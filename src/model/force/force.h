@@ -4,13 +4,13 @@
 #define HOOKE_MODEL_FORCE_FORCE_H
 
 #include "model/force/element.h"
+#include "model/group.h"
 #include "model/sum/motion.h"
 #include "model/sum/pattern.h"
 
 /* Maximum number of rows of the table of forces. */
 enum { HOOKE_FORCES = 9 };
 
-struct hk_group;
 struct hk_variant_maker;
 
 /* A state in rows of x y z, with a displacement of it for derivatives. */
@@ -19,12 +19,6 @@ struct hk_point {
   const double *q, *v, *dq, *dv;
   int32_t *stop_value; /* receives the value of a callback that stopped */
   int32_t in_rows;     /* 1: q begins rows for a callback that have v, dq, dv and the product after it */
-};
-
-/* Arrays that receive the properties of all members of a force, in their order; each may be NULL. */
-struct hk_members {
-  int64_t *particles;
-  double *stiffness, *damping, *rest_length;
 };
 
 /* How a force is linearised and summed, to be combined in sets: by loops of its own, as springs are; by its
@@ -39,30 +33,28 @@ enum {
   HOOKE_CALLED = 16
 };
 
-/* Everything but `name`, `present`, `check` and `keep` or `copy` may be NULL, if the force has no such part.
+/* Everything but `name`, `present`, `check` and `recall` or `copy` may be NULL, if the force has no such part.
  * A force with elements and without `add_product` and `add_blocks` has its derivative from them. */
 struct hk_force_row {
   const char *name;
   int32_t kind;      /* one of these; 0 without elements */
   int32_t in_scenes; /* 1: scenes have a key for it */
-  /* for forces with groups: the name of its members, and the maximum bytes of one (see room.c) */
-  const char *members;
-  int32_t member_particles; /* of each member */
+  /* for forces with groups: the name of its members, of one, and of the argument that lists them; particles
+   * and numbers of each, by HOOKE_KAPPA and so on; the maximum bytes of one (see size_limit.c) */
+  const char *members, *member, *place;
+  int32_t member_particles, width[HOOKE_GROUP_NUMBERS];
   double bytes;
   const struct hk_option_table *options; /* of a group, by the name of the force */
   const char *title;                     /* for forces with elements: "the <title> of particle 3" */
   /* for forces with groups: takes over the groups at commit (HOOKE_NO_MEMORY leaves nothing); releases them;
-   * their bytes; 1 if some member resists compression; lists the members */
+   * their bytes; fills the columns of as many members as they have, from number `first` on, as they were */
   int32_t (*commit)(hooke_system *system, const struct hk_group *group, int64_t count);
   void (*release)(hooke_system *system);
   int64_t (*memory)(const hooke_system *system);
-  int32_t (*resists)(const hooke_system *system);
-  void (*list)(const hooke_system *system, const struct hk_members *out);
+  void (*recall)(const hooke_system *system, int64_t first, struct hk_group *columns);
   /* adds all that the force depends on, where it is present, to a check value */
   void (*check)(const hooke_system *system, uint32_t *value);
-  /* adds a group to a variant whose parts do not add it (see variant.h); or, unless the variant leaves it out,
-   * a force without groups */
-  int32_t (*keep)(struct hk_variant_maker *maker, const struct hk_group *group, int64_t first);
+  /* adds a force without groups to a variant that does not leave it out */
   int32_t (*copy)(const struct hk_variant_maker *maker);
   int32_t (*present)(const hooke_system *system);
   /* f += force, on the working copy; HOOKE_STOPPED if a callback asked for it */
@@ -91,7 +83,7 @@ struct hk_force_row {
   /* sum += the stiffness of every member along the direction in which it stores most, at its shortest [N/m]:
    * displacements of size d store half of it times d^2 (see integrate/loop/divergence.c) */
   void (*add_stiffness)(const hooke_system *system, double *sum);
-  /* 1 if some element is damped */
+  /* 1 if some element is damped; NULL: its groups know */
   int32_t (*damped)(const hooke_system *system);
 };
 
@@ -115,7 +107,8 @@ int32_t hk_forces_product_in_rows(const hooke_system *system, double t, int32_t 
 /* Releases everything that commit took over from groups. */
 void hk_forces_release(hooke_system *system);
 
-/* 1 if some force of these kinds damps motion: 0 asks for all but a callback, of which nothing is known. */
+/* 1 if a force damps motion; and if some force of these kinds does: 0 asks for all but a callback, of which nothing is known. */
+int32_t hk_force_is_damped(const hooke_system *system, const struct hk_force_row *row);
 int32_t hk_system_is_damped(const hooke_system *system, int32_t kinds);
 /* Sets touched[p] to 1 for every particle of a spring, a triple or a tetrahedron. */
 void hk_system_mark_touched(const hooke_system *system, uint8_t *touched);

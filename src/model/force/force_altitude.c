@@ -7,7 +7,7 @@
 #include "kernel/spring/spring_loops.h"
 #include "model/check_value.h"
 #include "model/force/altitude.h"
-#include "model/variant/variant.h"
+#include "model/system.h"
 
 #include <math.h>
 #include <stddef.h>
@@ -183,13 +183,6 @@ static int64_t memory(const hooke_system *system) {
   return hk_altitudes_memory(system->altitudes);
 }
 
-static int32_t resists(const hooke_system *system) {
-  int32_t some = 0;
-  for (int64_t k = 0; k < system->altitudes->count; k++)
-    some |= !system->altitudes->tetrahedron[k].pull_only;
-  return some;
-}
-
 static void check(const hooke_system *system, uint32_t *value) {
   hk_check_whole(value, system->altitudes->count);
   for (int64_t k = 0; k < system->altitudes->count; k++) {
@@ -204,15 +197,15 @@ static void check(const hooke_system *system, uint32_t *value) {
   }
 }
 
-static void list(const hooke_system *system, const struct hk_members *out) {
-  for (int64_t k = 0; k < system->altitudes->count; k++) {
-    const struct hk_tetrahedron *t = &system->altitudes->tetrahedron[k];
-    for (int p = 0; p < 4 && out->particles; p++)
-      out->particles[4 * k + p] = t->particle[p];
-    if (out->stiffness) out->stiffness[k] = t->stiffness;
-    if (out->damping) out->damping[k] = t->damping;
-    for (int a = 0; a < HOOKE_ALTITUDES && out->rest_length; a++)
-      out->rest_length[HOOKE_ALTITUDES * k + a] = t->side * t->rest[a];
+static void recall(const hooke_system *system, int64_t first, struct hk_group *to) {
+  for (int64_t k = 0; k < to->count; k++) {
+    const struct hk_tetrahedron *t = &system->altitudes->tetrahedron[first + k];
+    for (int e = 0; e < 4; e++)
+      to->particle[e][k] = t->particle[e];
+    to->number[HOOKE_KAPPA][k] = t->stiffness;
+    to->number[HOOKE_GAMMA][k] = t->damping;
+    for (int a = 0; a < HOOKE_ALTITUDES; a++)
+      to->number[HOOKE_REST_LENGTH][HOOKE_ALTITUDES * k + a] = t->side * t->rest[a];
   }
 }
 
@@ -221,14 +214,15 @@ const struct hk_force_row hk_force_altitude = {.name = "altitude",
                                                .title = "altitude springs",
                                                .members = "tetrahedra",
                                                .options = &hk_altitude_options,
+                                               .member = "tetrahedron",
+                                               .place = "tetrahedra",
+                                               .width = {1, 1, HOOKE_ALTITUDES},
                                                .member_particles = 4,
-                                               .list = list,
+                                               .recall = recall,
                                                .commit = commit,
                                                .release = release,
                                                .memory = memory,
                                                .check = check,
-                                               .resists = resists,
-                                               .keep = hk_variant_keep_altitude,
                                                .bytes = 170.0,
                                                .present = present,
                                                .add = add,

@@ -6,7 +6,6 @@
 #include "core/sum.h"
 #include "model/check_value.h"
 #include "model/system.h"
-#include "model/variant/variant.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -21,27 +20,15 @@ static const struct hk_option_row rows[] = {
      .fallback = "initial",
      .doc = "the point that each particle is tied to, three numbers for each; initial: where it was added"},
     {.name = "stiffness",
-     .type = HOOKE_OPTION_NUMBERS,
-     .unit = "N/m",
-     .low = 0.0,
-     .high = 1e300,
-     .min_count = 1,
+     HOOKE_OPTION_EACH("N/m"),
      .required = 1,
      .doc = "stiffness, one number or one for each anchor"},
     {.name = "damping",
-     .type = HOOKE_OPTION_NUMBERS,
-     .unit = "N s/m",
-     .low = 0.0,
-     .high = 1e300,
-     .min_count = 1,
+     HOOKE_OPTION_EACH("N s/m"),
      .fallback = "0",
      .doc = "damping along the line to the point, one number or one for each"},
     {.name = "rest_length",
-     .type = HOOKE_OPTION_NUMBERS,
-     .unit = "m",
-     .low = 0.0,
-     .high = 1e300,
-     .min_count = 1,
+     HOOKE_OPTION_EACH("m"),
      .fallback = "0",
      .doc = "rest length, one number or one for each"},
 };
@@ -50,58 +37,19 @@ static const struct hk_option_table options_table = {"anchors", HOOKE_OPTION_ROW
 
 /* ---- adding a group ---- */
 
-static int32_t check_counts(const hooke_options *options, int64_t count) {
-  for (size_t k = 0; k < sizeof rows / sizeof rows[0]; k++) {
-    const int64_t given = hooke_options_number_count(options, rows[k].name);
-    const int64_t each = rows[k].columns > 0 ? rows[k].columns : 1;
-    if (given == 0 || given == each * count || (given == 1 && each == 1)) continue;
-    return hk_fail(HOOKE_BAD_VALUE, rows[k].name, "%lld values for %lld anchors; allowed: %s",
-                   (long long)given, (long long)count, each > 1 ? "three for each" : "one, or one for each");
-  }
-  return HOOKE_OK;
-}
-
-static int32_t check_call(const hooke_system *system, int64_t count, const int64_t *particles,
-                          const hooke_options *options) {
-  int32_t status = hk_system_require_open(system);
-  if (status == HOOKE_OK)
-    status = hk_options_require(options, &options_table, "options", "hooke_options_create(\"anchors\", ...)");
-  if (status == HOOKE_OK) status = hk_options_check_required(options);
-  if (status == HOOKE_OK && count < 0)
-    status = hk_fail(HOOKE_BAD_VALUE, "particles", "%lld anchors; 0 or more are allowed", (long long)count);
-  if (status == HOOKE_OK) {
-    status = hk_system_check_more(system, &hk_force_anchor, count);
-    if (status != HOOKE_OK) hk_fail_within(status, "particles");
-  }
-  if (status == HOOKE_OK) status = hk_system_check_particles(system, "particles", count, particles, 0);
-  return status == HOOKE_OK ? check_counts(options, count) : status;
-}
-
-static double value_of(const hooke_options *options, const char *name, int64_t k) {
-  return hooke_options_numbers(options, name)[hooke_options_number_count(options, name) > 1 ? k : 0];
-}
-
 int32_t hooke_system_add_anchors(hooke_system *system, const char *name, int64_t count,
                                  const int64_t *particles, const hooke_options *options) {
-  int32_t status = check_call(system, count, particles, options);
-  if (status != HOOKE_OK) return status;
-  struct hk_group group = {.force = &hk_force_anchor, .count = count};
-  status = hk_group_allocate(&group, name, 1, 3, 3 * sizeof(double));
-  if (status != HOOKE_OK) {
-    hk_group_release(&group);
-    return status;
-  }
-  const int given = hooke_options_number_count(options, "points") > 0;
-  for (int64_t k = 0; k < count; k++) {
-    const double *point =
-        given ? hooke_options_numbers(options, "points") + 3 * k : system->position + 3 * particles[k];
-    memcpy((double *)group.own + 3 * k, point, 3 * sizeof(double));
-    group.particle[0][k] = (int32_t)particles[k];
-    group.number[HOOKE_KAPPA][k] = value_of(options, "stiffness", k);
-    group.number[HOOKE_GAMMA][k] = value_of(options, "damping", k);
-    group.number[HOOKE_REST_LENGTH][k] = value_of(options, "rest_length", k);
-  }
-  return hk_system_add_group(system, &group);
+  const struct hk_addition added = {&hk_force_anchor, name, count, particles, options, 0};
+  struct hk_group group;
+  int32_t status = hk_group_begin(system, &added, &group);
+  if (status == HOOKE_OK) hk_group_fill(&group, options);
+  const double *points = status == HOOKE_OK && hooke_options_number_count(options, "points") > 0
+                             ? hooke_options_numbers(options, "points")
+                             : NULL;
+  for (int64_t k = 0; k < count && status == HOOKE_OK; k++)
+    memcpy(group.number[HOOKE_POINT] + 3 * k, points ? points + 3 * k : system->position + 3 * particles[k],
+           3 * sizeof(double));
+  return hk_group_end(system, status, &group);
 }
 
 /* ---- from groups ---- */
@@ -113,7 +61,6 @@ struct anchor {
 
 struct anchors {
   int64_t count;
-  int32_t damped;
   struct anchor anchor[];
 };
 
@@ -133,12 +80,11 @@ static int32_t commit(hooke_system *system, const struct hk_group *group, int64_
   for (; count > 0; group++, count--) {
     for (int64_t k = 0; k < group->count; k++) {
       struct anchor *a = &made->anchor[made->count++];
-      memcpy(a->point, (const double *)group->own + 3 * k, sizeof a->point);
+      memcpy(a->point, group->number[HOOKE_POINT] + 3 * k, sizeof a->point);
       a->particle = group->particle[0][k];
       a->kappa = group->number[HOOKE_KAPPA][k];
       a->gamma = group->number[HOOKE_GAMMA][k];
       a->rest_length = group->number[HOOKE_REST_LENGTH][k];
-      made->damped |= a->gamma != 0.0;
     }
   }
   system->rest->own[hk_force_number(&hk_force_anchor)] = made;
@@ -159,40 +105,12 @@ static int32_t present(const hooke_system *system) {
   return count(system) > 0;
 }
 
-static int32_t damped(const hooke_system *system) {
-  return anchors_of(system)->damped;
-}
-
 static int64_t memory(const hooke_system *system) {
   return count(system) * (int64_t)sizeof(struct anchor);
 }
 
 static void check(const hooke_system *system, uint32_t *value) {
   hk_check_add(value, anchors_of(system)->anchor, count(system), sizeof(struct anchor));
-}
-
-static void copy_group(const struct hk_variant_maker *maker, const struct hk_group *group,
-                       const struct anchor *from, struct hk_group *to) {
-  to->count = 0;
-  for (int64_t k = 0; k < group->count; k++) {
-    const int64_t particle = maker->map->to[from[k].particle], at = to->count;
-    if (particle < 0) continue;
-    to->particle[0][at] = (int32_t)particle;
-    to->number[HOOKE_KAPPA][at] = from[k].kappa;
-    to->number[HOOKE_GAMMA][at] = maker->variant->damping ? 0.0 : from[k].gamma;
-    to->number[HOOKE_REST_LENGTH][at] = from[k].rest_length;
-    memcpy((double *)to->own + 3 * at, from[k].point, sizeof from[k].point);
-    to->count++;
-  }
-}
-
-static int32_t keep(struct hk_variant_maker *maker, const struct hk_group *group, int64_t first) {
-  struct hk_group kept = {.force = &hk_force_anchor, .count = group->count};
-  const int32_t status = hk_group_allocate(&kept, group->name, 1, 3, 3 * sizeof(double));
-  if (status == HOOKE_OK) copy_group(maker, group, anchors_of(maker->from)->anchor + first, &kept);
-  if (status == HOOKE_OK) return hk_system_add_group(maker->made, &kept);
-  hk_group_release(&kept);
-  return status;
 }
 
 /* ---- the force ---- */
@@ -317,14 +235,14 @@ static void add_stiffness(const hooke_system *system, double *sum) {
     *sum += all->anchor[k].kappa;
 }
 
-static void list(const hooke_system *system, const struct hk_members *out) {
-  const struct anchors *all = anchors_of(system);
-  for (int64_t k = 0; k < all->count; k++) {
-    const struct anchor *a = &all->anchor[k];
-    if (out->particles) out->particles[k] = a->particle;
-    if (out->stiffness) out->stiffness[k] = a->kappa;
-    if (out->damping) out->damping[k] = a->gamma;
-    if (out->rest_length) out->rest_length[k] = a->rest_length;
+static void recall(const hooke_system *system, int64_t first, struct hk_group *to) {
+  const struct anchor *a = anchors_of(system)->anchor + first;
+  for (int64_t k = 0; k < to->count; k++, a++) {
+    to->particle[0][k] = (int32_t)a->particle;
+    to->number[HOOKE_KAPPA][k] = a->kappa;
+    to->number[HOOKE_GAMMA][k] = a->gamma;
+    to->number[HOOKE_REST_LENGTH][k] = a->rest_length;
+    memcpy(to->number[HOOKE_POINT] + 3 * k, a->point, sizeof a->point);
   }
 }
 
@@ -335,13 +253,15 @@ const struct hk_force_row hk_force_anchor = {.name = "anchors",
                                              .title = "anchor",
                                              .bytes = 130.0,
                                              .options = &options_table,
+                                             .member = "anchor",
+                                             .place = "particles",
+                                             .width = {1, 1, 1, 3},
                                              .member_particles = 1,
-                                             .list = list,
+                                             .recall = recall,
                                              .commit = commit,
                                              .release = release,
                                              .memory = memory,
                                              .check = check,
-                                             .keep = keep,
                                              .present = present,
                                              .add = add,
                                              .passed = passed,
@@ -351,8 +271,7 @@ const struct hk_force_row hk_force_anchor = {.name = "anchors",
                                              .add_blocks = add_blocks,
                                              .count = count,
                                              .elements = elements,
-                                             .add_stiffness = add_stiffness,
-                                             .damped = damped};
+                                             .add_stiffness = add_stiffness};
 
 /* ---- queries ---- */
 

@@ -3,11 +3,8 @@
 #include "core/sum.h"
 #include "model/check_value.h"
 #include "model/system.h"
-#include "model/variant/variant.h"
 
 #include <stddef.h>
-
-#include <string.h>
 
 static int32_t present(const hooke_system *system) {
   return system->rest->bending.count > 0;
@@ -84,14 +81,13 @@ static void check(const hooke_system *system, uint32_t *value) {
   }
 }
 
-static void list(const hooke_system *system, const struct hk_members *out) {
+static void recall(const hooke_system *system, int64_t first, struct hk_group *to) {
+  struct hk_triples at = hk_triples_from(&system->rest->bending, first);
   struct hk_triple triple;
-  int64_t k = 0;
-  for (struct hk_triples at = {&system->rest->bending, 0, 0}; hk_next_triple(&at, &triple); k++) {
-    if (out->particles) memcpy(out->particles + 3 * k, triple.particle, sizeof triple.particle);
-    if (out->stiffness) out->stiffness[k] = triple.coefficient;
-    if (out->damping) out->damping[k] = 0.0;
-    if (out->rest_length) out->rest_length[k] = 0.0;
+  for (int64_t k = 0; k < to->count && hk_next_triple(&at, &triple); k++) {
+    for (int e = 0; e < 3; e++)
+      to->particle[e][k] = (int32_t)triple.particle[e];
+    to->number[HOOKE_KAPPA][k] = triple.coefficient;
   }
 }
 
@@ -100,13 +96,15 @@ const struct hk_force_row hk_force_bending = {.name = "bending",
                                               .in_scenes = 1,
                                               .title = "bending",
                                               .members = "triples",
+                                              .member = "triple",
+                                              .place = "triples",
+                                              .width = {1},
                                               .member_particles = 3,
-                                              .list = list,
+                                              .recall = recall,
                                               .commit = commit,
                                               .release = release,
                                               .memory = memory,
                                               .check = check,
-                                              .keep = hk_variant_keep_bending,
                                               .bytes = 60.0,
                                               .present = present,
                                               .add = add,

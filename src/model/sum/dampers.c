@@ -25,7 +25,7 @@ struct hk_dampers {
 /* ---- making ---- */
 
 static int is_other_damper(const hooke_system *system, const struct hk_force_row *row) {
-  return row->kind & HOOKE_OTHERS && row->present(system) && row->damped && row->damped(system);
+  return row->kind & HOOKE_OTHERS && row->present(system) && hk_force_is_damped(system, row);
 }
 
 static int has_other_dampers(const hooke_system *system) {

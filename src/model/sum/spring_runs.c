@@ -150,13 +150,6 @@ void hk_springs_release(struct hk_springs *springs) {
   memset(springs, 0, sizeof *springs);
 }
 
-int32_t hk_springs_are_damped(const struct hk_springs *springs) {
-  for (int64_t k = 0; k < springs->run_count; k++) {
-    if (springs->run[k].shape & HOOKE_RUN_DAMPED) return 1;
-  }
-  return 0;
-}
-
 int64_t hk_springs_memory(const struct hk_springs *springs) {
   return springs->run_count * (int64_t)sizeof *springs->run +
          springs->indexed_count * (int64_t)(2 * sizeof(int32_t)) +

@@ -126,7 +126,7 @@ static int32_t keep_groups(struct hk_variant_maker *maker) {
     force = group->force;
     if (maker->variant->group[g] || (group->from_part && !hk_variant_breaks_up(maker, group, first)))
       continue;
-    if (force->keep) status = force->keep(maker, group, first);
+    status = hk_variant_keep_group(maker, group, first);
   }
   return status;
 }
