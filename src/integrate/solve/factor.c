@@ -351,7 +351,7 @@ static void add_others(const struct hk_factor *x, const struct hk_factor_parts *
     const struct hk_force_row *force = x->system->force_row[k];
     if (!(force->kind & HOOKE_OTHERS)) continue;
     if (force->kind & HOOKE_KEPT) {
-      for (int64_t left = force->count(x->system); left > 0; left--)
+      for (int64_t left = hk_force_count(x->system, force); left > 0; left--)
         place = add_element(x, kept++, parts, place);
       continue;
     }

@@ -31,7 +31,7 @@ static void add_others(struct hk_cost *cost) {
   add_row(cost, "damping", -1, hk_system_is_damped(system, ~HOOKE_UNIFORM));
   for (int32_t k = 0; hk_force_table(k); k++)
     if (hk_force_table(k)->copy)
-      add_row(cost, hk_force_table(k)->name, -1, hk_force_table(k)->present(system));
+      add_row(cost, hk_force_table(k)->name, -1, hk_force_is_present(system, hk_force_table(k)));
 }
 
 /* The largest first; those of one size in the order of the rows. */

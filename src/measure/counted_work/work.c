@@ -31,7 +31,7 @@ static void add_forces(const hooke_system *system, const struct hk_method *metho
   for (int32_t k = 0; k < system->force_row_count; k++) {
     const struct hk_force_row *row = system->force_row[k];
     if (row->add == NULL) continue; /* gravity is in the moves */
-    const double members = (double)(row->count ? row->count(system) : system->particle_count),
+    const double members = (double)(row->elements ? hk_force_count(system, row) : system->particle_count),
                  damped = row->kind & HOOKE_LOOPED ? damped_springs(system) : members;
     double *of = amount + HOOKE_WORKS_OF_FORCE * hk_force_number(row);
     of[0] = times[0] * members;

@@ -77,7 +77,7 @@ static int32_t list_whole_forces(struct hk_needs *needs) {
   }
   for (int32_t k = 0; hk_force_table(k) && status == HOOKE_OK; k++) {
     const struct hk_force_row *force = hk_force_table(k);
-    if (!force->copy || !force->present(system)) continue;
+    if (!force->copy || !hk_force_is_present(system, force)) continue;
     status = add_row(needs, force->name, &row, "%s", force->name);
     if (status == HOOKE_OK) row->variant.without[k] = 1;
   }

@@ -16,7 +16,7 @@ void hk_begin_elements(const hooke_system *system, const double *q, const double
 }
 
 static int is_wanted(const struct hk_elements *at, const struct hk_force_row *force) {
-  if (force->elements == NULL || !force->present(at->system)) return 0;
+  if (force->elements == NULL || !hk_force_is_present(at->system, force)) return 0;
   return (at->only == NULL || at->only == force) && (at->kinds == 0 || force->kind & at->kinds);
 }
 
@@ -28,7 +28,7 @@ static int32_t fill(struct hk_elements *at) {
   if (!at->by_number && force->stored_elements) {
     at->count = force->stored_elements(at);
   } else {
-    const int64_t left = force->count(at->system) - at->done;
+    const int64_t left = hk_force_count(at->system, force) - at->done;
     at->first = at->done;
     at->count = left < HOOKE_ELEMENTS ? left : HOOKE_ELEMENTS;
     if (at->count > 0) force->elements(at->system, at->q, at->v, at->first, at->count, at->element);

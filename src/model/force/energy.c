@@ -60,15 +60,28 @@ double hooke_system_energy(const hooke_system *system, const char *what, const d
   if (total) return kinetic_energy(system, v) + potential_energy(system, q);
   const struct hk_force_row *row = hk_force_find(what);
   if (row == NULL || row->energy == NULL) return NAN;
-  return row->present(system) ? row->energy(system, q) : 0.0;
+  return hk_force_is_present(system, row) ? row->energy(system, q) : 0.0;
+}
+
+static double heat_of(const hooke_system *system, const struct hk_force_row *row, const double *q,
+                      const double *v) {
+  if (row->heat) return row->heat(system, q, v);
+  if (row->elements == NULL || !hk_force_is_damped(system, row)) return 0.0;
+  const double *const x[3] = {v, v + 1, v + 2};
+  struct hk_sum sum = {0.0, 0.0};
+  struct hk_elements at;
+  hk_begin_elements(system, q, v, &at);
+  at.only = row;
+  for (const struct hk_element *e; (e = hk_next_element(&at)) != NULL;)
+    hk_sum_add(&sum, hk_element_energy(e, e->c_along / e->over, e->c_across / e->over, 3, x));
+  return hk_sum_value(&sum);
 }
 
 double hooke_system_dissipated_power(const hooke_system *system, const double *q, const double *v) {
   if (!system->rest->committed) return NAN;
   double sum = friction_heat(system, v);
-  for (int32_t k = 0; k < system->force_row_count; k++) {
-    if (system->force_row[k]->heat) sum += system->force_row[k]->heat(system, q, v);
-  }
+  for (int32_t k = 0; k < system->force_row_count; k++)
+    sum += heat_of(system, system->force_row[k], q, v);
   return sum;
 }
 

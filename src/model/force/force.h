@@ -33,8 +33,14 @@ enum {
   HOOKE_CALLED = 16
 };
 
-/* Everything but `name`, `present`, `check` and `recall` or `copy` may be NULL, if the force has no such part.
- * A force with elements and without `add_product` and `add_blocks` has its derivative from them. */
+/* Of the forces on the particles of a member. */
+struct hk_member_change {
+  int32_t count, particle[HOOKE_MEMBER_PARTICLES];
+  double force[HOOKE_MEMBER_PARTICLES][3];
+};
+
+/* Everything but `name`, `check` and `recall` or `copy` may be NULL, if the force has no such part.
+ * A force with elements has its heat and its derivative from them, unless a function says better. */
 struct hk_force_row {
   const char *name;
   int32_t kind;      /* one of these; 0 without elements */
@@ -56,7 +62,7 @@ struct hk_force_row {
   void (*check)(const hooke_system *system, uint32_t *value);
   /* adds a force without groups to a variant that does not leave it out */
   int32_t (*copy)(const struct hk_variant_maker *maker);
-  int32_t (*present)(const hooke_system *system);
+  int32_t (*present)(const hooke_system *system); /* NULL: where it has elements */
   /* f += force, on the working copy; HOOKE_STOPPED if a callback asked for it */
   int32_t (*add)(const hooke_system *system, struct hk_motion *motion, double t);
   /* for forces with a rest length: members that passed through length zero between two positions; the ends of
@@ -65,13 +71,16 @@ struct hk_force_row {
   /* potential energy [J], and power dissipated as heat [W] */
   double (*energy)(const hooke_system *system, const double *q);
   double (*heat)(const hooke_system *system, const double *q, const double *v);
+  /* change of the forces of member `number` along dq and dv; 0 if there is none, which the particles still say */
+  int32_t (*change)(const hooke_system *system, int64_t number, const struct hk_point *point,
+                    struct hk_member_change *out);
   /* out += (df/dq) dq + (df/dv) dv */
   int32_t (*add_product)(const hooke_system *system, const struct hk_point *point, double *out);
   /* adds df/dq and df/dv to 3x3 blocks; either may be NULL */
   void (*add_blocks)(const hooke_system *system, const double *q, const double *v,
                      const struct hk_pattern *pattern, double *dfdq, double *dfdv);
-  /* number of elements, and those from number `first` on: see element.h. In a force with groups an element is
-   * a member. */
+  /* number of elements (NULL: in a force with groups an element is a member), and those from number `first` on:
+   * see element.h */
   int64_t (*count)(const hooke_system *system);
   void (*elements)(const hooke_system *system, const double *q, const double *v, int64_t first, int64_t count,
                    struct hk_element *out);
@@ -114,6 +123,10 @@ int32_t hk_system_is_damped(const hooke_system *system, int32_t kinds);
 void hk_system_mark_touched(const hooke_system *system, uint8_t *touched);
 /* Number of elements of the forces of these kinds. */
 int64_t hk_elements_of(const hooke_system *system, int32_t kinds);
+
+/* 1 if a committed system has the force; its elements. */
+int32_t hk_force_is_present(const hooke_system *system, const struct hk_force_row *row);
+int64_t hk_force_count(const hooke_system *system, const struct hk_force_row *row);
 
 /* Row `k` of the table, NULL past the last; and the number of a row. */
 const struct hk_force_row *hk_force_table(int32_t k);

@@ -13,10 +13,6 @@
 #include <stddef.h>
 #include <string.h>
 
-static int32_t present(const hooke_system *system) {
-  return system->altitudes->count > 0;
-}
-
 static int32_t add(const hooke_system *system, struct hk_motion *motion, double t) {
   (void)t;
   const double *const q[3] = {motion->q[0], motion->q[1], motion->q[2]};
@@ -52,83 +48,22 @@ static double heat(const hooke_system *system, const double *q, const double *v)
   return hk_sum_value(&sum);
 }
 
-/* change[j] += change of the force on particle j. */
-static void find_change(const struct hk_tautness *s, const struct hk_tautness_change *d,
-                        double change[4][3]) {
-  for (int j = 0; j < 4; j++) {
-    const double g = s->altitude.weight[j];
-    for (int a = 0; a < 3; a++) {
-      change[j][a] =
-          -((d->tension * g + s->tension * d->weight[j]) * s->altitude.u[a] + s->tension * g * d->u[a]);
-    }
-  }
-}
-
-static int32_t add_product(const hooke_system *system, const struct hk_point *point, double *out) {
-  for (int64_t k = 0; k < system->altitudes->count; k++) {
-    const struct hk_tetrahedron *t = &system->altitudes->tetrahedron[k];
-    struct hk_tautness s;
-    struct hk_tautness_change d;
-    double change[4][3];
-    if (!hk_tautness_find(t, point->q, point->v, &s) || s.slack) continue;
-    hk_tautness_differentiate(t, &s, point->q, point->v, point->dq, point->dv, &d);
-    find_change(&s, &d, change);
-    for (int j = 0; j < 4; j++) {
-      for (int a = 0; a < 3; a++)
-        out[3 * (int64_t)t->particle[j] + a] += change[j][a];
-    }
-  }
-  return HOOKE_OK;
-}
-
-/* Column `a` of the blocks of particle j: rows 0 to 2 of every corner. */
-static void add_column(const struct hk_pattern *pattern, const struct hk_tetrahedron *t, int j, int a,
-                       double change[4][3], double *blocks) {
-  for (int row = 0; row < 4; row++) {
-    double *block = blocks + 9 * hk_pattern_block(pattern, t->particle[row], t->particle[j]);
-    for (int b = 0; b < 3; b++)
-      block[3 * b + a] += change[row][b];
-  }
-}
-
-/* The tetrahedron alone, with corners 0 to 3: displaces one component of one corner after the other. */
-static void add_columns(const struct hk_pattern *pattern, const struct hk_tetrahedron *t, const double q[12],
-                        const double v[12], double *dfdq, double *dfdv) {
-  struct hk_tetrahedron own = *t;
-  for (int j = 0; j < 4; j++)
-    own.particle[j] = j;
+static int32_t change(const hooke_system *system, int64_t number, const struct hk_point *point,
+                      struct hk_member_change *out) {
+  const struct hk_tetrahedron *t = &system->altitudes->tetrahedron[number];
   struct hk_tautness s;
   struct hk_tautness_change d;
-  double one[12] = {0.0}, change[4][3];
-  const double none[12] = {0.0};
-  if (!hk_tautness_find(&own, q, v, &s) || s.slack) return;
-  for (int k = 0; k < 12; k++) {
-    one[k] = 1.0;
-    hk_tautness_differentiate(&own, &s, q, v, one, none, &d);
-    find_change(&s, &d, change);
-    if (dfdq) add_column(pattern, t, k / 3, k % 3, change, dfdq);
-    hk_tautness_differentiate(&own, &s, q, v, none, one, &d);
-    find_change(&s, &d, change);
-    if (dfdv) add_column(pattern, t, k / 3, k % 3, change, dfdv);
-    one[k] = 0.0;
+  out->count = 4;
+  memcpy(out->particle, t->particle, sizeof t->particle);
+  if (!hk_tautness_find(t, point->q, point->v, &s) || s.slack) return 0;
+  hk_tautness_differentiate(t, &s, point->q, point->v, point->dq, point->dv, &d);
+  for (int j = 0; j < 4; j++) {
+    const double g = s.altitude.weight[j];
+    for (int a = 0; a < 3; a++)
+      out->force[j][a] =
+          -((d.tension * g + s.tension * d.weight[j]) * s.altitude.u[a] + s.tension * g * d.u[a]);
   }
-}
-
-static void add_blocks(const hooke_system *system, const double *q, const double *v,
-                       const struct hk_pattern *pattern, double *dfdq, double *dfdv) {
-  for (int64_t k = 0; k < system->altitudes->count; k++) {
-    const struct hk_tetrahedron *t = &system->altitudes->tetrahedron[k];
-    double x[12], u[12];
-    for (int64_t j = 0; j < 4; j++) {
-      memcpy(x + 3 * j, q + 3 * (int64_t)t->particle[j], 3 * sizeof(double));
-      memcpy(u + 3 * j, v + 3 * (int64_t)t->particle[j], 3 * sizeof(double));
-    }
-    add_columns(pattern, t, x, u, dfdq, dfdv);
-  }
-}
-
-static int64_t count(const hooke_system *system) {
-  return system->altitudes->count;
+  return 1;
 }
 
 static void elements(const hooke_system *system, const double *q, const double *v, int64_t first,
@@ -224,13 +159,10 @@ const struct hk_force_row hk_force_altitude = {.name = "altitude",
                                                .memory = memory,
                                                .check = check,
                                                .bytes = 170.0,
-                                               .present = present,
                                                .add = add,
                                                .energy = energy,
                                                .heat = heat,
-                                               .add_product = add_product,
-                                               .add_blocks = add_blocks,
-                                               .count = count,
+                                               .change = change,
                                                .elements = elements,
                                                .add_stiffness = add_stiffness,
                                                .damped = damped};

@@ -59,35 +59,27 @@ struct anchor {
   double point[3], kappa, gamma, rest_length;
 };
 
-struct anchors {
-  int64_t count;
-  struct anchor anchor[];
-};
+static const struct anchor *anchors_of(const hooke_system *system) {
+  return system->rest->own[hk_force_number(&hk_force_anchor)];
+}
 
-static const struct anchors *anchors_of(const hooke_system *system) {
-  static const struct anchors none = {0};
-  const struct anchors *own = system->rest->own[hk_force_number(&hk_force_anchor)];
-  return own ? own : &none;
+static int64_t count_of(const hooke_system *system) {
+  return hk_force_count(system, &hk_force_anchor);
 }
 
 static int32_t commit(hooke_system *system, const struct hk_group *group, int64_t count) {
-  int64_t all = 0;
-  for (int64_t g = 0; g < count; g++)
-    all += group[g].count;
-  if (all == 0) return HOOKE_OK;
-  struct anchors *made = hk_new(1, sizeof *made + (size_t)all * sizeof made->anchor[0]);
-  if (made == NULL) return HOOKE_NO_MEMORY;
+  struct anchor *next = count > 0 ? hk_new(count_of(system), sizeof *next) : NULL;
+  if (count > 0 && next == NULL) return HOOKE_NO_MEMORY;
+  system->rest->own[hk_force_number(&hk_force_anchor)] = next;
   for (; count > 0; group++, count--) {
-    for (int64_t k = 0; k < group->count; k++) {
-      struct anchor *a = &made->anchor[made->count++];
-      memcpy(a->point, group->number[HOOKE_POINT] + 3 * k, sizeof a->point);
-      a->particle = group->particle[0][k];
-      a->kappa = group->number[HOOKE_KAPPA][k];
-      a->gamma = group->number[HOOKE_GAMMA][k];
-      a->rest_length = group->number[HOOKE_REST_LENGTH][k];
+    for (int64_t k = 0; k < group->count; k++, next++) {
+      memcpy(next->point, group->number[HOOKE_POINT] + 3 * k, sizeof next->point);
+      next->particle = group->particle[0][k];
+      next->kappa = group->number[HOOKE_KAPPA][k];
+      next->gamma = group->number[HOOKE_GAMMA][k];
+      next->rest_length = group->number[HOOKE_REST_LENGTH][k];
     }
   }
-  system->rest->own[hk_force_number(&hk_force_anchor)] = made;
   return HOOKE_OK;
 }
 
@@ -97,28 +89,20 @@ static void release(hooke_system *system) {
   *own = NULL;
 }
 
-static int64_t count(const hooke_system *system) {
-  return anchors_of(system)->count;
-}
-
-static int32_t present(const hooke_system *system) {
-  return count(system) > 0;
-}
-
 static int64_t memory(const hooke_system *system) {
-  return count(system) * (int64_t)sizeof(struct anchor);
+  return count_of(system) * (int64_t)sizeof(struct anchor);
 }
 
 static void check(const hooke_system *system, uint32_t *value) {
-  hk_check_add(value, anchors_of(system)->anchor, count(system), sizeof(struct anchor));
+  hk_check_add(value, anchors_of(system), count_of(system), sizeof(struct anchor));
 }
 
 /* ---- the force ---- */
 
 static int32_t add(const hooke_system *system, struct hk_motion *motion, double t) {
   (void)t;
-  const struct anchors *all = anchors_of(system);
-  for (const struct anchor *a = all->anchor; a < all->anchor + all->count; a++) {
+  const struct anchor *all = anchors_of(system), *end = all + count_of(system);
+  for (const struct anchor *a = all; a < end; a++) {
     const int64_t p = a->particle;
     double *const *q = motion->q, *const *v = motion->v;
     const double d[3] = {q[0][p] - a->point[0], q[1][p] - a->point[1], q[2][p] - a->point[2]};
@@ -134,9 +118,9 @@ static int32_t add(const hooke_system *system, struct hk_motion *motion, double 
 }
 
 static int64_t passed(const hooke_system *system, const double *before, const double *now, int64_t ends[2]) {
-  const struct anchors *all = anchors_of(system);
+  const struct anchor *all = anchors_of(system), *end = all + count_of(system);
   int64_t count = 0;
-  for (const struct anchor *a = all->anchor; a < all->anchor + all->count; a++) {
+  for (const struct anchor *a = all; a < end; a++) {
     const int64_t i = 3 * a->particle;
     if (!(a->rest_length > 0.0) || !hk_spring_turned(before + i, a->point, now + i, a->point)) continue;
     if (count++ > 0) continue;
@@ -158,8 +142,8 @@ static struct hk_spring spring_of(const struct anchor *a, const double *q, const
 
 static double energy(const hooke_system *system, const double *q) {
   struct hk_sum sum = {0.0, 0.0};
-  const struct anchors *all = anchors_of(system);
-  for (const struct anchor *a = all->anchor; a < all->anchor + all->count; a++) {
+  const struct anchor *all = anchors_of(system), *end = all + count_of(system);
+  for (const struct anchor *a = all; a < end; a++) {
     double x[6], u[6];
     struct hk_stretch s;
     const struct hk_spring spring = spring_of(a, q, NULL, x, u);
@@ -169,56 +153,26 @@ static double energy(const hooke_system *system, const double *q) {
   return hk_sum_value(&sum);
 }
 
-static double heat(const hooke_system *system, const double *q, const double *v) {
-  struct hk_sum sum = {0.0, 0.0};
-  const struct anchors *all = anchors_of(system);
-  for (const struct anchor *a = all->anchor; a < all->anchor + all->count; a++) {
-    double x[6], u[6];
-    struct hk_stretch s;
-    const struct hk_spring spring = spring_of(a, q, v, x, u);
-    hk_spring_stretch(&spring, x, u, &s);
-    hk_sum_add(&sum, (spring.gamma * s.rate) * s.rate);
-  }
-  return hk_sum_value(&sum);
-}
-
-static int32_t add_product(const hooke_system *system, const struct hk_point *point, double *out) {
-  const struct anchors *all = anchors_of(system);
-  for (const struct anchor *a = all->anchor; a < all->anchor + all->count; a++) {
-    double x[6], u[6], change[3];
-    struct hk_spring_slope s;
-    const struct hk_spring spring = spring_of(a, point->q, point->v, x, u);
-    if (!hk_spring_slope_find(&spring, x, u, &s)) continue;
-    hk_spring_slope_change(&s, point->dq + 3 * a->particle, point->dv + 3 * a->particle, change);
-    for (int c = 0; c < 3; c++)
-      out[3 * a->particle + c] -= change[c];
-  }
-  return HOOKE_OK;
-}
-
-static void add_blocks(const hooke_system *system, const double *q, const double *v,
-                       const struct hk_pattern *pattern, double *dfdq, double *dfdv) {
-  const struct anchors *all = anchors_of(system);
-  for (const struct anchor *a = all->anchor; a < all->anchor + all->count; a++) {
-    double x[6], u[6], stiff[9], damp[9];
-    struct hk_spring_slope s;
-    const struct hk_spring spring = spring_of(a, q, v, x, u);
-    if (!hk_spring_slope_find(&spring, x, u, &s)) continue;
-    hk_spring_slope_blocks(&s, stiff, damp);
-    const int64_t block = 9 * hk_pattern_block(pattern, a->particle, a->particle);
-    for (int64_t c = 0; c < 9; c++) {
-      if (dfdq) dfdq[block + c] -= stiff[c];
-      if (dfdv) dfdv[block + c] -= damp[c];
-    }
-  }
+static int32_t change(const hooke_system *system, int64_t number, const struct hk_point *point,
+                      struct hk_member_change *out) {
+  const struct anchor *a = &anchors_of(system)[number];
+  double x[6], u[6];
+  struct hk_spring_slope s;
+  const struct hk_spring spring = spring_of(a, point->q, point->v, x, u);
+  out->count = 1;
+  out->particle[0] = (int32_t)a->particle;
+  if (!hk_spring_slope_find(&spring, x, u, &s)) return 0;
+  hk_spring_slope_change(&s, point->dq + 3 * a->particle, point->dv + 3 * a->particle, out->force[0]);
+  for (int c = 0; c < 3; c++)
+    out->force[0][c] = -out->force[0][c];
+  return 1;
 }
 
 static void elements(const hooke_system *system, const double *q, const double *v, int64_t first,
                      int64_t wanted, struct hk_element *out) {
-  const struct anchors *all = anchors_of(system);
   for (int64_t k = 0; k < wanted; k++) {
     double x[6], u[6];
-    const struct anchor *a = &all->anchor[first + k];
+    const struct anchor *a = anchors_of(system) + first + k;
     out[k].count = 1;
     out[k].particle[0] = (int32_t)a->particle;
     if (q == NULL) continue;
@@ -230,13 +184,13 @@ static void elements(const hooke_system *system, const double *q, const double *
 }
 
 static void add_stiffness(const hooke_system *system, double *sum) {
-  const struct anchors *all = anchors_of(system);
-  for (int64_t k = 0; k < all->count; k++)
-    *sum += all->anchor[k].kappa;
+  const struct anchor *all = anchors_of(system), *end = all + count_of(system);
+  for (const struct anchor *a = all; a < end; a++)
+    *sum += a->kappa;
 }
 
 static void recall(const hooke_system *system, int64_t first, struct hk_group *to) {
-  const struct anchor *a = anchors_of(system)->anchor + first;
+  const struct anchor *a = anchors_of(system) + first;
   for (int64_t k = 0; k < to->count; k++, a++) {
     to->particle[0][k] = (int32_t)a->particle;
     to->number[HOOKE_KAPPA][k] = a->kappa;
@@ -262,14 +216,10 @@ const struct hk_force_row hk_force_anchor = {.name = "anchors",
                                              .release = release,
                                              .memory = memory,
                                              .check = check,
-                                             .present = present,
                                              .add = add,
                                              .passed = passed,
                                              .energy = energy,
-                                             .heat = heat,
-                                             .add_product = add_product,
-                                             .add_blocks = add_blocks,
-                                             .count = count,
+                                             .change = change,
                                              .elements = elements,
                                              .add_stiffness = add_stiffness};
 
@@ -277,8 +227,8 @@ const struct hk_force_row hk_force_anchor = {.name = "anchors",
 
 int32_t hooke_system_anchor_points(const hooke_system *system, double *points) {
   const int32_t status = hk_system_require_committed(system);
-  const struct anchors *all = anchors_of(system);
-  for (int64_t k = 0; status == HOOKE_OK && k < all->count; k++)
-    memcpy(points + 3 * k, all->anchor[k].point, sizeof all->anchor[k].point);
+  const struct anchor *all = anchors_of(system), *end = all + count_of(system);
+  for (const struct anchor *a = all; status == HOOKE_OK && a < end; a++, points += 3)
+    memcpy(points, a->point, sizeof a->point);
   return status;
 }

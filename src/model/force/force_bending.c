@@ -6,10 +6,6 @@
 
 #include <stddef.h>
 
-static int32_t present(const hooke_system *system) {
-  return system->rest->bending.count > 0;
-}
-
 static int32_t add(const hooke_system *system, struct hk_motion *motion, double t) {
   (void)t;
   const double *const q[3] = {motion->q[0], motion->q[1], motion->q[2]};
@@ -26,10 +22,6 @@ static double energy(const hooke_system *system, const double *q) {
     hk_sum_add(&sum, 0.5 * triple.coefficient * ((d[0] * d[0] + d[1] * d[1]) + d[2] * d[2]));
   }
   return hk_sum_value(&sum);
-}
-
-static int64_t count(const hooke_system *system) {
-  return system->rest->bending.count;
 }
 
 static void elements(const hooke_system *system, const double *q, const double *v, int64_t first,
@@ -106,10 +98,8 @@ const struct hk_force_row hk_force_bending = {.name = "bending",
                                               .memory = memory,
                                               .check = check,
                                               .bytes = 60.0,
-                                              .present = present,
                                               .add = add,
                                               .energy = energy,
-                                              .count = count,
                                               .elements = elements,
                                               .multiply = multiply,
                                               .add_stiffness = add_stiffness};

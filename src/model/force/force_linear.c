@@ -14,8 +14,8 @@ void hk_system_set_linear(hooke_system *system, int64_t count, const struct hk_e
   system->rest->linear = (struct hk_linear){count, element, place};
 }
 
-static int32_t present(const hooke_system *system) {
-  return system->rest->linear.count > 0;
+static int64_t count(const hooke_system *system) {
+  return system->rest->linear.count;
 }
 
 /* A twin and its elements stay within one process, where they are known by their addresses. */
@@ -25,7 +25,7 @@ static void check(const hooke_system *system, uint32_t *value) {
 
 static int32_t copy(const struct hk_variant_maker *maker) {
   maker->made->rest->linear = maker->from->rest->linear;
-  return present(maker->from) ? hk_variant_require_numbers(maker, "a linear force") : HOOKE_OK;
+  return count(maker->from) > 0 ? hk_variant_require_numbers(maker, "a linear force") : HOOKE_OK;
 }
 
 static double dot(const double a[3], const double b[3]) {
@@ -70,21 +70,6 @@ static double energy(const hooke_system *system, const double *q) {
   return hk_sum_value(&sum);
 }
 
-static double heat(const hooke_system *system, const double *q, const double *v) {
-  (void)q;
-  const double *const x[3] = {v, v + 1, v + 2};
-  struct hk_sum sum = {0.0, 0.0};
-  for (int64_t k = 0; k < system->rest->linear.count; k++) {
-    const struct hk_element *e = &system->rest->linear.element[k];
-    hk_sum_add(&sum, hk_element_energy(e, e->c_along, e->c_across, 3, x));
-  }
-  return hk_sum_value(&sum);
-}
-
-static int64_t count(const hooke_system *system) {
-  return system->rest->linear.count;
-}
-
 static void elements(const hooke_system *system, const double *q, const double *v, int64_t first,
                      int64_t wanted, struct hk_element *out) {
   (void)q, (void)v;
@@ -122,10 +107,8 @@ const struct hk_force_row hk_force_linear = {.name = "linear",
                                              .title = "linear force",
                                              .check = check,
                                              .copy = copy,
-                                             .present = present,
                                              .add = add,
                                              .energy = energy,
-                                             .heat = heat,
                                              .count = count,
                                              .elements = elements,
                                              .multiply = multiply,

@@ -10,10 +10,6 @@
 #include <stddef.h>
 #include <string.h>
 
-static int32_t present(const hooke_system *system) {
-  return system->springs->count > 0;
-}
-
 static int32_t add(const hooke_system *system, struct hk_motion *motion, double t) {
   (void)t;
   if (system->strided->count > 0 || system->tiled->particles > 0) {
@@ -145,10 +141,6 @@ static void add_blocks(const hooke_system *system, const double *q, const double
 
 /* ---- elements ---- */
 
-static int64_t count(const hooke_system *system) {
-  return system->springs->count;
-}
-
 void hk_spring_element(const struct hk_spring *spring, const double *q, const double *v,
                        struct hk_element *out) {
   struct hk_stretch s;
@@ -270,14 +262,12 @@ const struct hk_force_row hk_force_springs = {.name = "springs",
                                               .memory = memory,
                                               .check = check,
                                               .bytes = 50.0,
-                                              .present = present,
                                               .add = add,
                                               .passed = passed,
                                               .energy = energy,
                                               .heat = heat,
                                               .add_product = add_product,
                                               .add_blocks = add_blocks,
-                                              .count = count,
                                               .elements = elements,
                                               .stored_elements = stored_elements,
                                               .add_stiffness = add_stiffness};
