@@ -16,20 +16,23 @@ static const struct hk_force_row *force_with_groups(const char *name) {
   return force && force->member_particles > 0 ? force : NULL;
 }
 
+static const struct hk_group *find(const hooke_system *system, const char *force, int64_t group) {
+  const struct hk_force_row *found = force_with_groups(force);
+  return found ? hk_system_group(system, found, group) : NULL;
+}
+
 int64_t hooke_system_group_count(const hooke_system *system, const char *force) {
   const struct hk_force_row *found = force_with_groups(force);
   return found ? hk_system_groups_of(system, found) : -1;
 }
 
 const char *hooke_system_group_name(const hooke_system *system, const char *force, int64_t group) {
-  const struct hk_force_row *found = force_with_groups(force);
-  const struct hk_group *there = found ? hk_system_group(system, found, group) : NULL;
+  const struct hk_group *there = find(system, force, group);
   return there ? there->name : NULL;
 }
 
 int64_t hooke_system_group_size(const hooke_system *system, const char *force, int64_t group) {
-  const struct hk_force_row *found = force_with_groups(force);
-  const struct hk_group *there = found ? hk_system_group(system, found, group) : NULL;
+  const struct hk_group *there = find(system, force, group);
   return there ? there->count : 0;
 }
 

@@ -30,44 +30,6 @@ static const struct hk_option_row rows[] = {
 
 const struct hk_option_table hk_altitude_options = {"altitude springs", HOOKE_OPTION_ROWS(rows)};
 
-int32_t hk_altitudes_create(const struct hk_group *group, int64_t group_count,
-                            struct hk_altitudes *altitudes) {
-  memset(altitudes, 0, sizeof *altitudes);
-  for (int64_t g = 0; g < group_count; g++)
-    altitudes->count += group[g].count;
-  altitudes->tetrahedron = hk_new(altitudes->count, sizeof *altitudes->tetrahedron);
-  if (altitudes->tetrahedron == NULL) {
-    memset(altitudes, 0, sizeof *altitudes);
-    return HOOKE_NO_MEMORY;
-  }
-  struct hk_tetrahedron *next = altitudes->tetrahedron;
-  for (int64_t g = 0; g < group_count; g++) {
-    for (int64_t k = 0; k < group[g].count; k++) {
-      const double *rest = group[g].number[HOOKE_REST_LENGTH] + HOOKE_ALTITUDES * k;
-      for (int e = 0; e < 4; e++)
-        next->particle[e] = group[g].particle[e][k];
-      for (int a = 0; a < HOOKE_ALTITUDES; a++)
-        next->rest[a] = fabs(rest[a]);
-      next->side = signbit(rest[0]) ? -1.0 : 1.0;
-      next->choice = HOOKE_ALTITUDE_SHORTEST;
-      next->pull_only = group[g].pull_only;
-      next->stiffness = group[g].number[HOOKE_KAPPA][k];
-      next->damping = group[g].number[HOOKE_GAMMA][k];
-      altitudes->damped |= next++->damping != 0.0;
-    }
-  }
-  return HOOKE_OK;
-}
-
-void hk_altitudes_release(struct hk_altitudes *altitudes) {
-  hk_free(altitudes->tetrahedron);
-  memset(altitudes, 0, sizeof *altitudes);
-}
-
-int64_t hk_altitudes_memory(const struct hk_altitudes *altitudes) {
-  return altitudes->count * (int64_t)sizeof *altitudes->tetrahedron;
-}
-
 /* ---- adding a group ---- */
 
 /* An altitude below this fraction of the longest edge is rounding of positions. */

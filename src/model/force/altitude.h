@@ -43,10 +43,4 @@ int32_t hk_tetrahedron_rest(const double x[4][3], double scale, struct hk_tetrah
 int32_t hk_system_add_tetrahedra(struct hooke_system *system, const char *name, int64_t count,
                                  const struct hk_tetrahedron *tetrahedron);
 
-/* Takes over the acting members of the groups. HOOKE_NO_MEMORY leaves `altitudes` empty. */
-int32_t hk_altitudes_create(const struct hk_group *group, int64_t group_count,
-                            struct hk_altitudes *altitudes);
-void hk_altitudes_release(struct hk_altitudes *altitudes);
-int64_t hk_altitudes_memory(const struct hk_altitudes *altitudes);
-
 #endif

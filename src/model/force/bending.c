@@ -44,8 +44,8 @@ static int32_t check_coefficients(int64_t count, int64_t coefficient_count, cons
   return HOOKE_OK;
 }
 
-static int32_t add_group(hooke_system *system, const struct hk_addition *added, int64_t coefficient_count,
-                         const double *coefficient) {
+int32_t hk_system_add_bending(hooke_system *system, const struct hk_addition *added,
+                              int64_t coefficient_count, const double *coefficient) {
   struct hk_group group;
   int32_t status = hk_group_begin(system, added, &group);
   if (status == HOOKE_OK) status = check_coefficients(added->count, coefficient_count, coefficient);
@@ -58,12 +58,5 @@ int32_t hooke_system_add_bending(hooke_system *system, const char *name, int64_t
                                  const int64_t *triples, int64_t coefficient_count,
                                  const double *coefficient) {
   const struct hk_addition added = {&hk_force_bending, name, count, triples, NULL, 0};
-  return add_group(system, &added, coefficient_count, coefficient);
-}
-
-int32_t hk_system_add_part_bending(hooke_system *system, const char *name, int64_t count,
-                                   const int64_t *triples, int64_t coefficient_count,
-                                   const double *coefficient) {
-  const struct hk_addition added = {&hk_force_bending, name, count, triples, NULL, 1};
-  return add_group(system, &added, coefficient_count, coefficient);
+  return hk_system_add_bending(system, &added, coefficient_count, coefficient);
 }

@@ -31,23 +31,19 @@ static double friction_heat(const hooke_system *system, const double *v) {
   return system->friction * hk_sum_value(&sum);
 }
 
-static double potential_energy(const hooke_system *system, const double *q) {
-  double sum = 0.0;
+static void add_potentials(const hooke_system *system, const double *q, struct hk_energies *sum) {
   for (int32_t k = 0; k < system->force_row_count; k++) {
-    if (system->force_row[k]->energy) sum += system->force_row[k]->energy(system, q);
+    const struct hk_force_row *row = system->force_row[k];
+    const double energy = row->energy ? row->energy(system, q) : 0.0;
+    if (row->energy) sum->potential += energy;
+    if (row->energy) *(row->elements ? &sum->elastic : &sum->gravity) += energy;
   }
-  return sum;
 }
 
 struct hk_energies hk_state_energies(const hooke_state *state, const hooke_system *system) {
   if (state->known && state->known->system == system) return *state->known;
   struct hk_energies sum = {.system = system, .kinetic = kinetic_energy(system, state->v)};
-  for (int32_t k = 0; k < system->force_row_count; k++) {
-    const struct hk_force_row *row = system->force_row[k];
-    const double energy = row->energy ? row->energy(system, state->q) : 0.0;
-    if (row->energy) sum.potential += energy;
-    if (row->energy) *(row->elements ? &sum.elastic : &sum.gravity) += energy;
-  }
+  add_potentials(system, state->q, &sum);
   return sum;
 }
 
@@ -56,8 +52,11 @@ double hooke_system_energy(const hooke_system *system, const char *what, const d
   const int lacks = (kinetic ? v == NULL : q == NULL) || (total && v == NULL);
   if (!system->rest->committed || (lacks && system->particle_count > 0)) return NAN;
   if (kinetic) return kinetic_energy(system, v);
-  if (strcmp(what, "potential") == 0) return potential_energy(system, q);
-  if (total) return kinetic_energy(system, v) + potential_energy(system, q);
+  if (total || strcmp(what, "potential") == 0) {
+    struct hk_energies sum = {0};
+    add_potentials(system, q, &sum);
+    return total ? kinetic_energy(system, v) + sum.potential : sum.potential;
+  }
   const struct hk_force_row *row = hk_force_find(what);
   if (row == NULL || row->energy == NULL) return NAN;
   return hk_force_is_present(system, row) ? row->energy(system, q) : 0.0;

@@ -3,6 +3,7 @@
  * rest lengths differ. Between such changes f_j = -T g_j u is its exact derivative: dh = u.(sum of g_j
  * dq_j). */
 
+#include "core/memory.h"
 #include "core/sum.h"
 #include "kernel/spring/spring_loops.h"
 #include "model/check_value.h"
@@ -107,15 +108,36 @@ static void add_stiffness(const hooke_system *system, double *sum) {
 /* ---- from groups ---- */
 
 static int32_t commit(hooke_system *system, const struct hk_group *group, int64_t count) {
-  return hk_altitudes_create(group, count, system->altitudes);
+  struct hk_altitudes *altitudes = system->altitudes;
+  *altitudes = (struct hk_altitudes){
+      .tetrahedron = hk_new(hk_force_count(system, &hk_force_altitude), sizeof *altitudes->tetrahedron)};
+  if (altitudes->tetrahedron == NULL) return HOOKE_NO_MEMORY;
+  for (; count > 0; group++, count--) {
+    altitudes->damped |= group->damped;
+    for (int64_t k = 0; k < group->count; k++) {
+      struct hk_tetrahedron *t = &altitudes->tetrahedron[altitudes->count++];
+      const double *rest = group->number[HOOKE_REST_LENGTH] + HOOKE_ALTITUDES * k;
+      *t = (struct hk_tetrahedron){.choice = HOOKE_ALTITUDE_SHORTEST,
+                                   .pull_only = group->pull_only,
+                                   .side = signbit(rest[0]) ? -1.0 : 1.0,
+                                   .stiffness = group->number[HOOKE_KAPPA][k],
+                                   .damping = group->number[HOOKE_GAMMA][k]};
+      for (int e = 0; e < 4; e++)
+        t->particle[e] = group->particle[e][k];
+      for (int a = 0; a < HOOKE_ALTITUDES; a++)
+        t->rest[a] = fabs(rest[a]);
+    }
+  }
+  return HOOKE_OK;
 }
 
 static void release(hooke_system *system) {
-  hk_altitudes_release(system->altitudes);
+  hk_free(system->altitudes->tetrahedron);
+  *system->altitudes = (struct hk_altitudes){0};
 }
 
 static int64_t memory(const hooke_system *system) {
-  return hk_altitudes_memory(system->altitudes);
+  return system->altitudes->count * (int64_t)sizeof(struct hk_tetrahedron);
 }
 
 static void check(const hooke_system *system, uint32_t *value) {

@@ -173,11 +173,10 @@ static void elements(const hooke_system *system, const double *q, const double *
   for (int64_t k = 0; k < wanted; k++) {
     double x[6], u[6];
     const struct anchor *a = anchors_of(system) + first + k;
-    out[k].count = 1;
-    out[k].particle[0] = (int32_t)a->particle;
-    if (q == NULL) continue;
-    const struct hk_spring spring = spring_of(a, q, v, x, u);
-    hk_spring_element(&spring, x, v ? u : NULL, &out[k]);
+    if (q) {
+      const struct hk_spring spring = spring_of(a, q, v, x, u);
+      hk_spring_element(&spring, x, v ? u : NULL, &out[k]);
+    }
     out[k].count = 1;
     out[k].particle[0] = (int32_t)a->particle;
   }
@@ -227,8 +226,7 @@ const struct hk_force_row hk_force_anchor = {.name = "anchors",
 
 int32_t hooke_system_anchor_points(const hooke_system *system, double *points) {
   const int32_t status = hk_system_require_committed(system);
-  const struct anchor *all = anchors_of(system), *end = all + count_of(system);
-  for (const struct anchor *a = all; status == HOOKE_OK && a < end; a++, points += 3)
-    memcpy(points, a->point, sizeof a->point);
+  for (int64_t k = 0; status == HOOKE_OK && k < count_of(system); k++)
+    memcpy(points + 3 * k, anchors_of(system)[k].point, 3 * sizeof(double));
   return status;
 }

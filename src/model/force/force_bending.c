@@ -52,18 +52,6 @@ static void add_stiffness(const hooke_system *system, double *sum) {
 
 /* ---- from groups ---- */
 
-static int32_t commit(hooke_system *system, const struct hk_group *group, int64_t count) {
-  return hk_bending_create(group, count, &system->rest->bending);
-}
-
-static void release(hooke_system *system) {
-  hk_bending_release(&system->rest->bending);
-}
-
-static int64_t memory(const hooke_system *system) {
-  return hk_bending_memory(&system->rest->bending);
-}
-
 static void check(const hooke_system *system, uint32_t *value) {
   struct hk_triple triple;
   hk_check_whole(value, system->rest->bending.count);
@@ -93,9 +81,9 @@ const struct hk_force_row hk_force_bending = {.name = "bending",
                                               .width = {1},
                                               .member_particles = 3,
                                               .recall = recall,
-                                              .commit = commit,
-                                              .release = release,
-                                              .memory = memory,
+                                              .commit = hk_bending_commit,
+                                              .release = hk_bending_release,
+                                              .memory = hk_bending_memory,
                                               .check = check,
                                               .bytes = 60.0,
                                               .add = add,

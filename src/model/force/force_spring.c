@@ -208,18 +208,6 @@ static void add_stiffness(const hooke_system *system, double *sum) {
 
 /* ---- from groups ---- */
 
-static int32_t commit(hooke_system *system, const struct hk_group *group, int64_t count) {
-  return hk_springs_create(group, count, system->springs);
-}
-
-static void release(hooke_system *system) {
-  hk_springs_release(system->springs);
-}
-
-static int64_t memory(const hooke_system *system) {
-  return hk_springs_memory(system->springs);
-}
-
 static void check(const hooke_system *system, uint32_t *value) {
   struct hk_spring_batch batch;
   hk_check_whole(value, system->springs->count);
@@ -257,9 +245,9 @@ const struct hk_force_row hk_force_springs = {.name = "springs",
                                               .width = {1, 1, 1},
                                               .member_particles = 2,
                                               .recall = recall,
-                                              .commit = commit,
-                                              .release = release,
-                                              .memory = memory,
+                                              .commit = hk_springs_commit,
+                                              .release = hk_springs_release,
+                                              .memory = hk_springs_memory,
                                               .check = check,
                                               .bytes = 50.0,
                                               .add = add,

@@ -135,7 +135,7 @@ static int32_t keep_options(const hooke_options *options, struct hk_group *group
   return hooke_options_copy(options, &group->options);
 }
 
-static int32_t add_group(hooke_system *system, const struct hk_addition *added) {
+int32_t hk_system_add_springs(hooke_system *system, const struct hk_addition *added) {
   struct hk_group group;
   int32_t status = hk_group_begin(system, added, &group);
   if (status == HOOKE_OK) status = check_units(added->options);
@@ -147,10 +147,6 @@ static int32_t add_group(hooke_system *system, const struct hk_addition *added) 
 
 int32_t hooke_system_add_springs(hooke_system *system, const char *name, int64_t count, const int64_t *ends,
                                  const hooke_options *options) {
-  return add_group(system, &(struct hk_addition){&hk_force_springs, name, count, ends, options, 0});
-}
-
-int32_t hk_system_add_part_springs(hooke_system *system, const char *name, int64_t count, const int64_t *ends,
-                                   const hooke_options *options) {
-  return add_group(system, &(struct hk_addition){&hk_force_springs, name, count, ends, options, 1});
+  return hk_system_add_springs(system,
+                               &(struct hk_addition){&hk_force_springs, name, count, ends, options, 0});
 }

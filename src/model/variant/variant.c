@@ -8,31 +8,26 @@
 #include <string.h>
 
 void hk_variant_release(struct hk_variant *variant) {
-  hk_free(variant->group);
-  hk_free(variant->spring);
-  hk_free(variant->particle);
-  hk_free(variant->part);
-  hk_free(variant->rigid);
   hk_free(variant->scale);
   memset(variant, 0, sizeof *variant);
 }
 
+static int64_t flags_of(const hooke_system *system) {
+  return system->group_count + system->springs->count + system->particle_count + 2 * system->part_count;
+}
+
+/* One block: numbers, then flags. */
 int32_t hk_variant_create(const hooke_system *system, struct hk_variant *variant) {
-  memset(variant, 0, sizeof *variant);
-  variant->group = hk_new(system->group_count, 1);
-  variant->spring = hk_new(system->springs->count, 1);
-  variant->particle = hk_new(system->particle_count, 1);
-  variant->part = hk_new(system->part_count, 1);
-  variant->rigid = hk_new(system->part_count, 1);
-  variant->scale = hk_new(system->part_count, sizeof(double));
-  if (!variant->group || !variant->spring || !variant->particle || !variant->part || !variant->rigid ||
-      !variant->scale) {
-    hk_variant_release(variant);
-    return HOOKE_NO_MEMORY;
-  }
+  *variant = (struct hk_variant){
+      .stiffness = 1.0, .scale = hk_new(system->part_count + flags_of(system) / 8 + 1, sizeof(double))};
+  if (variant->scale == NULL) return HOOKE_NO_MEMORY;
+  variant->group = (uint8_t *)(variant->scale + system->part_count);
+  variant->spring = variant->group + system->group_count;
+  variant->particle = variant->spring + system->springs->count;
+  variant->part = variant->particle + system->particle_count;
+  variant->rigid = variant->part + system->part_count;
   for (int64_t k = 0; k < system->part_count; k++)
     variant->scale[k] = 1.0;
-  variant->stiffness = 1.0;
   return HOOKE_OK;
 }
 
@@ -45,11 +40,7 @@ void hk_variant_join(const hooke_system *system, struct hk_variant *variant, con
   join(HOOKE_FORCES, variant->without, other->without);
   variant->damping |= other->damping;
   variant->compression |= other->compression;
-  join(system->group_count, variant->group, other->group);
-  join(system->springs->count, variant->spring, other->spring);
-  join(system->particle_count, variant->particle, other->particle);
-  join(system->part_count, variant->part, other->part);
-  join(system->part_count, variant->rigid, other->rigid);
+  join(flags_of(system), variant->group, other->group);
   for (int64_t k = 0; k < system->part_count; k++)
     variant->scale[k] *= other->scale[k];
 }
