@@ -38,20 +38,20 @@ void hk_group_release(struct hk_group *group) {
 
 /* ---- dropping ---- */
 
-static void swap(void *column, size_t size, int64_t a, int64_t b) {
-  unsigned char *const bytes = column;
-  for (size_t k = 0; k < size && column; k++) {
-    const unsigned char kept = bytes[(size_t)a * size + k];
-    bytes[(size_t)a * size + k] = bytes[(size_t)b * size + k];
-    bytes[(size_t)b * size + k] = kept;
-  }
-}
-
 void hk_group_swap(struct hk_group *group, int64_t a, int64_t b) {
-  for (int k = 0; k < HOOKE_MEMBER_PARTICLES && a != b; k++)
-    swap(group->particle[k], sizeof(int32_t), a, b);
-  for (int k = 0; k < HOOKE_GROUP_NUMBERS && a != b; k++)
-    swap(group->number[k], size_of(group, k), a, b);
+  for (int e = 0; e < group->force->member_particles; e++) {
+    const int32_t kept = group->particle[e][a];
+    group->particle[e][a] = group->particle[e][b];
+    group->particle[e][b] = kept;
+  }
+  for (int k = 0; k < HOOKE_GROUP_NUMBERS; k++) {
+    const int32_t width = group->force->width[k];
+    for (int64_t w = 0; w < width; w++) {
+      const double kept = group->number[k][width * a + w];
+      group->number[k][width * a + w] = group->number[k][width * b + w];
+      group->number[k][width * b + w] = kept;
+    }
+  }
 }
 
 int32_t hk_group_resists(const struct hk_group *group) {
@@ -83,7 +83,8 @@ void hk_group_drop(struct hk_group *group, const struct hk_bodies *bodies) {
     group->inside += inside;
     if (inside || !acts(group, k)) continue;
     group->damped |= gamma && gamma[k] != 0.0;
-    hk_group_swap(group, k, acting++);
+    if (k != acting) hk_group_swap(group, k, acting);
+    acting++;
   }
   group->dropped = group->count - acting;
   group->count = acting;

@@ -198,7 +198,9 @@ static void every_force_survives_a_copy_and_is_missed(void **unused) {
   }
   for (int32_t k = 0; hk_force_table(k); k++) {
     const struct hk_force_row *row = hk_force_table(k);
-    if (!seen[k] || !row->check || !(row->recall || row->copy || row == &hk_force_weight))
+    if (!seen[k] || !row->check ||
+        !(row->members ? row->recall && row->place && row->member && row->width[HOOKE_KAPPA] == 1
+                       : row->copy || row == &hk_force_weight))
       check_failed("%s is not in the scenes of this test, or has no check value or no copy", row->name);
   }
 }

@@ -6,16 +6,11 @@
 #include <stddef.h>
 #include <string.h>
 
-/* The order of the rows is the order of summation at a particle. Gravity is last: a = w f + g. */
-static const struct hk_force_row *const table[] = {
-    &hk_force_springs, &hk_force_bending,  &hk_force_altitude, &hk_force_anchor,  &hk_force_linear,
-    &hk_force_drag,    &hk_force_callback, &hk_force_weight,   &hk_force_gravity,
-};
-
-_Static_assert(sizeof table / sizeof table[0] <= HOOKE_FORCES, "a system has numbers for so many forces");
+#define HOOKE_ADDRESS(name) &hk_force_##name,
+static const struct hk_force_row *const table[HOOKE_FORCES] = {HOOKE_FORCE_ROWS(HOOKE_ADDRESS)};
 
 const struct hk_force_row *hk_force_table(int32_t k) {
-  return k >= 0 && k < (int32_t)(sizeof table / sizeof table[0]) ? table[k] : NULL;
+  return k >= 0 && k < HOOKE_FORCES ? table[k] : NULL;
 }
 
 int32_t hk_force_number(const struct hk_force_row *row) {

@@ -1,5 +1,4 @@
-/* The table of forces: one row each, in the order of summation at a particle. A new force is one file
- * (force_*.c) and one row in force.c. */
+/* The table of forces: one row each. A new force is one file (force_*.c) and a name below. */
 #ifndef HOOKE_MODEL_FORCE_FORCE_H
 #define HOOKE_MODEL_FORCE_FORCE_H
 
@@ -8,8 +7,12 @@
 #include "model/sum/motion.h"
 #include "model/sum/pattern.h"
 
-/* Maximum number of rows of the table of forces. */
-enum { HOOKE_FORCES = 9 };
+/* The rows, in the order of summation at a particle. Gravity is last: a = w f + g. */
+#define HOOKE_FORCE_ROWS(each)                                                                               \
+  each(springs) each(bending) each(altitude) each(anchor) each(linear) each(drag) each(callback)             \
+      each(weight) each(gravity)
+#define HOOKE_COUNT_ROW(name) +1
+enum { HOOKE_FORCES = 0 HOOKE_FORCE_ROWS(HOOKE_COUNT_ROW) };
 
 struct hk_variant_maker;
 
@@ -96,8 +99,8 @@ struct hk_force_row {
   int32_t (*damped)(const hooke_system *system);
 };
 
-extern const struct hk_force_row hk_force_springs, hk_force_bending, hk_force_altitude, hk_force_anchor,
-    hk_force_linear, hk_force_drag, hk_force_callback, hk_force_weight, hk_force_gravity;
+#define HOOKE_DECLARE_ROW(name) extern const struct hk_force_row hk_force_##name;
+HOOKE_FORCE_ROWS(HOOKE_DECLARE_ROW)
 
 /* Rows for a callback, held once; hooke_rows_hold(rows, -1) releases them. NULL without memory. */
 double *hk_rows_new(int64_t numbers);

@@ -5,6 +5,7 @@
 #include "model/check_value.h"
 #include "model/system.h"
 #include "model/variant/variant.h"
+#include "model/vector3.h"
 
 #include <math.h>
 #include <string.h>
@@ -28,10 +29,6 @@ static int32_t copy(const struct hk_variant_maker *maker) {
   return count(maker->from) > 0 ? hk_variant_require_numbers(maker, "a linear force") : HOOKE_OK;
 }
 
-static double dot(const double a[3], const double b[3]) {
-  return (a[0] * b[0] + a[1] * b[1]) + a[2] * b[2];
-}
-
 static int32_t add(const hooke_system *system, struct hk_motion *motion, double t) {
   (void)t;
   const struct hk_linear *linear = &system->rest->linear;
@@ -45,7 +42,7 @@ static int32_t add(const hooke_system *system, struct hk_motion *motion, double 
       }
     }
     const double along =
-        (e->k_along - e->k_across) * dot(e->u, x) + (e->c_along - e->c_across) * dot(e->u, v);
+        (e->k_along - e->k_across) * hk_dot3(e->u, x) + (e->c_along - e->c_across) * hk_dot3(e->u, v);
     for (int a = 0; a < 3; a++) {
       const double force = along * e->u[a] + (e->k_across * x[a] + e->c_across * v[a]);
       for (int j = 0; j < e->count; j++)
@@ -64,8 +61,8 @@ static double energy(const hooke_system *system, const double *q) {
       const int64_t at = 3 * (int64_t)e->particle[k / 3] + k % 3;
       x[k % 3] += e->weight[k / 3] * (q[at] - linear->place[at]);
     }
-    const double along = dot(e->u, x);
-    hk_sum_add(&sum, 0.5 * ((e->k_along - e->k_across) * along * along + e->k_across * dot(x, x)));
+    const double along = hk_dot3(e->u, x);
+    hk_sum_add(&sum, 0.5 * ((e->k_along - e->k_across) * along * along + e->k_across * hk_dot3(x, x)));
   }
   return hk_sum_value(&sum);
 }

@@ -34,7 +34,8 @@ static void collect(const struct hk_variant_maker *maker, int64_t first, struct 
   kept->count = 0;
   for (int64_t k = 0; k < count; k++) {
     if ((spring && spring[k]) || !renumber(maker, kept, k)) continue;
-    hk_group_swap(kept, k, kept->count++);
+    if (k != kept->count) hk_group_swap(kept, k, kept->count);
+    kept->count++;
   }
   if (maker->variant->damping && kept->number[HOOKE_GAMMA] && kept->count > 0)
     memset(kept->number[HOOKE_GAMMA], 0, (size_t)kept->count * sizeof(double));
