@@ -68,19 +68,21 @@ static void put_rest(const struct hk_tetrahedron *t, double *rest) {
     rest[a] = t->side * t->rest[a];
 }
 
-int32_t hk_system_add_tetrahedra(hooke_system *system, const char *name, int64_t count,
-                                 const struct hk_tetrahedron *tetrahedron) {
-  struct hk_group group = {
-      .force = &hk_force_altitude, .count = count, .from_part = 1, .part = (int32_t)system->part_count - 1};
+int32_t hk_system_add_tetrahedra(hooke_system *system, const char *name, int64_t count, int64_t first,
+                                 const struct hk_tetrahedron kind[2]) {
+  struct hk_group group = {.force = &hk_force_altitude,
+                           .count = count,
+                           .from_part = 1,
+                           .pull_only = kind->pull_only,
+                           .part = (int32_t)system->part_count - 1};
   int32_t status = hk_system_check_more(system, &hk_force_altitude, count);
   if (status == HOOKE_OK) status = hk_group_allocate(&group, name);
   for (int64_t k = 0; k < count && status == HOOKE_OK; k++) {
     for (int e = 0; e < 4; e++)
-      group.particle[e][k] = tetrahedron[k].particle[e];
-    group.number[HOOKE_KAPPA][k] = tetrahedron[k].stiffness;
-    group.number[HOOKE_GAMMA][k] = tetrahedron[k].damping;
-    put_rest(&tetrahedron[k], group.number[HOOKE_REST_LENGTH] + HOOKE_ALTITUDES * k);
-    group.pull_only = tetrahedron[k].pull_only;
+      group.particle[e][k] = (int32_t)(first + k + e);
+    group.number[HOOKE_KAPPA][k] = kind[k % 2].stiffness;
+    group.number[HOOKE_GAMMA][k] = kind[k % 2].damping;
+    put_rest(&kind[k % 2], group.number[HOOKE_REST_LENGTH] + HOOKE_ALTITUDES * k);
   }
   return hk_group_end(system, status, &group);
 }

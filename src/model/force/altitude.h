@@ -39,8 +39,9 @@ void hk_tautness_differentiate(const struct hk_tetrahedron *tetrahedron, const s
  * with the particles, if it is flat. */
 int32_t hk_tetrahedron_rest(const double x[4][3], double scale, struct hk_tetrahedron *tetrahedron);
 
-/* For builders: adds tetrahedra of a part, which all only pull or all do not, with their rest lengths. */
-int32_t hk_system_add_tetrahedra(struct hooke_system *system, const char *name, int64_t count,
-                                 const struct hk_tetrahedron *tetrahedron);
+/* For builders: adds `count` tetrahedra of a part, number k of the particles first + k to first + k + 3, and
+ * else as kind[k % 2]. */
+int32_t hk_system_add_tetrahedra(struct hooke_system *system, const char *name, int64_t count, int64_t first,
+                                 const struct hk_tetrahedron kind[2]);
 
 #endif

@@ -24,10 +24,9 @@ static int is_wanted(const struct hk_elements *at, const struct hk_force_row *fo
 static int32_t fill(struct hk_elements *at) {
   const struct hk_force_row *force = at->force;
   at->done += at->count;
-  at->k = at->count = 0;
-  if (!at->by_number && force->stored_elements) {
-    at->count = force->stored_elements(at);
-  } else {
+  at->k = 0;
+  at->count = !at->by_number && force->stored_elements ? force->stored_elements(at) : -1;
+  if (at->count < 0) {
     const int64_t left = hk_force_count(at->system, force) - at->done;
     at->first = at->done;
     at->count = left < HOOKE_ELEMENTS ? left : HOOKE_ELEMENTS;

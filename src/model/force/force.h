@@ -87,7 +87,7 @@ struct hk_force_row {
   int64_t (*count)(const hooke_system *system);
   void (*elements)(const hooke_system *system, const double *q, const double *v, int64_t first, int64_t count,
                    struct hk_element *out);
-  /* the next ones in a faster memory order, and their number; NULL: that is the order of their numbers */
+  /* the next ones in a faster memory order, and their number; NULL or -1: that is the order of their numbers */
   int64_t (*stored_elements)(struct hk_elements *at);
   /* for a force with constant K and C: out += (a K + b C) x, with x, y and z apart */
   void (*multiply)(const hooke_system *system, double a, double b, const double *const x[3],

@@ -174,14 +174,9 @@ static void elements(const hooke_system *system, const double *q, const double *
   }
 }
 
-/* For a tiled batch in the order of its tiles, otherwise in that of numbers. */
+/* For a tiled batch in the order of its tiles. */
 static int64_t stored_elements(struct hk_elements *at) {
-  if (!at->system->tiled->stored) {
-    const int64_t left = at->system->springs->count - at->done;
-    const int64_t next = left < HOOKE_ELEMENTS ? left : HOOKE_ELEMENTS;
-    if (next > 0) elements(at->system, at->q, at->v, at->done, next, at->element);
-    return next;
-  }
+  if (!at->system->tiled->stored) return -1;
   struct hk_spring_batch batch;
   hk_begin_batches(&batch);
   batch.row = at->place[0];

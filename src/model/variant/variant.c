@@ -157,14 +157,10 @@ static int32_t keep_bodies(const struct hk_variant_maker *maker) {
   return status;
 }
 
-static void scale(int64_t count, double *value, double factor) {
-  for (int64_t k = 0; k < count; k++)
-    value[k] *= factor;
-}
-
 static void scale_stiffness(hooke_system *made, double factor) {
   for (int64_t g = 0; g < made->group_count; g++)
-    scale(made->group[g].count, made->group[g].number[HOOKE_KAPPA], factor);
+    for (int64_t k = 0; k < made->group[g].count; k++)
+      made->group[g].number[HOOKE_KAPPA][k] *= factor;
 }
 
 /* Rigid bodies take it as far as their pins let them. */
