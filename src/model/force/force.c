@@ -114,8 +114,11 @@ static void add_changes(const hooke_system *system, const struct hk_force_row *r
   const int64_t count = hk_force_count(system, row);
   for (int64_t k = 0; k < count; k++) {
     if (!row->change(system, k, point, &change)) continue;
-    for (int i = 0; i < 3 * change.count; i++)
-      out[3 * (int64_t)change.particle[i / 3] + i % 3] += change.force[i / 3][i % 3];
+    for (int j = 0; j < change.count; j++) {
+      double *to = out + 3 * (int64_t)change.particle[j];
+      for (int a = 0; a < 3; a++)
+        to[a] += change.force[j][a];
+    }
   }
 }
 
