@@ -153,8 +153,7 @@ int64_t hk_schedule_frames_before(const struct hk_schedule *schedule, int64_t k)
 /* Forces at the motion's position and time t, counted; HOOKE_STOPPED with the stop value kept. */
 int32_t hk_integrator_forces(hooke_integrator *integrator, double t);
 /* The same without one force of the table. */
-int32_t hk_integrator_forces_without(hooke_integrator *integrator, double t,
-                                     const struct hk_force_row *left_out);
+int32_t hk_integrator_forces_without(hooke_integrator *integrator, double t, int32_t left_out);
 /* A move of this motion (kernel/move_loops.h), without arrays of its method's own. */
 void hk_integrator_move_of(const hooke_integrator *integrator, int32_t kind, double kick, double drift,
                            struct hk_move *move);

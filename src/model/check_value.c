@@ -70,7 +70,7 @@ static const char *add_piece(const hooke_system *system, int32_t k, uint32_t *va
   }
   const struct hk_force_row *row = hk_force_table(k - PIECES);
   if (row == NULL) return NULL;
-  const int32_t present = row->present(system);
+  const int32_t present = hk_force_is_present(system, row);
   hk_check_whole(value, present);
   if (present && row->check)
     row->check(system, value);

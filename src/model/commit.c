@@ -32,6 +32,7 @@ static int32_t take_groups_over(hooke_system *system) {
   for (int32_t k = 0; hk_force_table(k) && status == HOOKE_OK; k++) {
     const struct hk_force_row *force = hk_force_table(k);
     const int64_t count = hk_system_groups_of(system, force); /* without any there may be no array */
+    system->rest->member_count[k] = hk_system_members_of(system, force);
     const struct hk_group *first = count > 0 ? system->group + hk_system_first_group(system, force) : NULL;
     if (force->commit) status = force->commit(system, first, count);
   }
@@ -81,14 +82,10 @@ static int32_t fill_particles(hooke_system *system) {
   return HOOKE_OK;
 }
 
-static int has_members(const struct hk_force_row *force) {
-  return force->members != NULL;
-}
-
 void hk_system_mark_touched(const hooke_system *system, uint8_t *touched) {
   struct hk_elements at;
   hk_begin_elements(system, NULL, NULL, &at);
-  at.wanted = has_members;
+  at.kinds = ~HOOKE_UNIFORM;
   for (const struct hk_element *e; (e = hk_next_element(&at)) != NULL;) {
     for (int j = 0; j < e->count; j++)
       touched[e->particle[j]] = 1;
@@ -153,7 +150,7 @@ static int32_t choose_forces(hooke_system *system) {
   if (system->force_row == NULL) return HOOKE_NO_MEMORY;
   for (int32_t k = 0; k < rows; k++) {
     const struct hk_force_row *row = hk_force_table(k);
-    if (row->present(system)) system->force_row[system->force_row_count++] = row;
+    if (hk_force_is_present(system, row)) system->force_row[system->force_row_count++] = row;
   }
   return HOOKE_OK;
 }

@@ -6,29 +6,27 @@
 
 #include <string.h>
 
-enum { PARTICLES = 3 };
+static size_t size_of(const struct hk_group *group, int number) {
+  return (size_t)group->force->width[number] * sizeof(double);
+}
 
-int32_t hk_group_allocate(struct hk_group *group, const char *name, int32_t particles, int32_t numbers,
-                          size_t own_size) {
+int32_t hk_group_allocate(struct hk_group *group, const char *name) {
   int there = (group->name = hk_copy_text(name)) != NULL;
-  for (int32_t k = 0; k < particles; k++)
+  for (int32_t k = 0; k < group->force->member_particles; k++)
     there &= (group->particle[k] = hk_new(group->count, sizeof(int32_t))) != NULL;
-  for (int32_t k = 0; k < numbers; k++)
-    there &= (group->number[k] = hk_new(group->count, sizeof(double))) != NULL;
-  group->own_size = own_size;
-  if (own_size > 0) there &= (group->own = hk_new(group->count, own_size)) != NULL;
+  for (int32_t k = 0; k < HOOKE_GROUP_NUMBERS; k++)
+    if (group->force->width[k] > 0)
+      there &= (group->number[k] = hk_new(group->count, size_of(group, k))) != NULL;
   return there ? HOOKE_OK : HOOKE_NO_MEMORY;
 }
 
 void hk_group_release_columns(struct hk_group *group) {
-  for (int k = 0; k < PARTICLES; k++)
+  for (int k = 0; k < HOOKE_MEMBER_PARTICLES; k++)
     hk_free(group->particle[k]);
   for (int k = 0; k < HOOKE_GROUP_NUMBERS; k++)
     hk_free(group->number[k]);
-  hk_free(group->own);
   memset(group->particle, 0, sizeof group->particle);
   memset(group->number, 0, sizeof group->number);
-  group->own = NULL;
 }
 
 void hk_group_release(struct hk_group *group) {
@@ -40,20 +38,25 @@ void hk_group_release(struct hk_group *group) {
 
 /* ---- dropping ---- */
 
-static void swap(void *column, size_t size, int64_t a, int64_t b) {
-  unsigned char *const one = column, kept[256];
-  if (column == NULL) return;
-  memcpy(kept, one + (size_t)a * size, size);
-  memcpy(one + (size_t)a * size, one + (size_t)b * size, size);
-  memcpy(one + (size_t)b * size, kept, size);
+void hk_group_swap(struct hk_group *group, int64_t a, int64_t b) {
+  for (int e = 0; e < group->force->member_particles; e++) {
+    const int32_t kept = group->particle[e][a];
+    group->particle[e][a] = group->particle[e][b];
+    group->particle[e][b] = kept;
+  }
+  for (int k = 0; k < HOOKE_GROUP_NUMBERS; k++) {
+    const int32_t width = group->force->width[k];
+    for (int64_t w = 0; w < width; w++) {
+      const double kept = group->number[k][width * a + w];
+      group->number[k][width * a + w] = group->number[k][width * b + w];
+      group->number[k][width * b + w] = kept;
+    }
+  }
 }
 
-static void swap_members(struct hk_group *group, int64_t a, int64_t b) {
-  for (int k = 0; k < PARTICLES; k++)
-    swap(group->particle[k], sizeof(int32_t), a, b);
-  for (int k = 0; k < HOOKE_GROUP_NUMBERS; k++)
-    swap(group->number[k], sizeof(double), a, b);
-  swap(group->own, group->own_size, a, b);
+int32_t hk_group_resists(const struct hk_group *group) {
+  const struct hk_option_table *options = group->force->options;
+  return !group->pull_only && options && hk_options_find(options, "compression") != NULL;
 }
 
 static int acts(const struct hk_group *group, int64_t k) {
@@ -64,22 +67,23 @@ static int acts(const struct hk_group *group, int64_t k) {
 /* 1 if all particles of a member are in one body. */
 static int is_inside(const struct hk_group *group, int64_t k, const struct hk_bodies *bodies) {
   const int32_t count = group->force->member_particles;
-  int32_t particle[4];
+  int32_t particle[HOOKE_MEMBER_PARTICLES];
   if (bodies->of == NULL || count < 2) return 0;
-  if (group->force == &hk_force_altitude)
-    return hk_bodies_hold(bodies, count, ((const struct hk_tetrahedron *)group->own)[k].particle);
   for (int32_t j = 0; j < count; j++)
     particle[j] = group->particle[j][k];
   return hk_bodies_hold(bodies, count, particle);
 }
 
 void hk_group_drop(struct hk_group *group, const struct hk_bodies *bodies) {
+  const double *gamma = group->number[HOOKE_GAMMA];
   int64_t acting = 0;
+  group->damped = 0;
   for (int64_t k = 0; k < group->count; k++) {
     const int inside = is_inside(group, k, bodies);
     group->inside += inside;
     if (inside || !acts(group, k)) continue;
-    if (k != acting) swap_members(group, k, acting);
+    group->damped |= gamma && gamma[k] != 0.0;
+    if (k != acting) hk_group_swap(group, k, acting);
     acting++;
   }
   group->dropped = group->count - acting;
@@ -89,6 +93,45 @@ void hk_group_drop(struct hk_group *group, const struct hk_bodies *bodies) {
 void hk_group_take_back(struct hk_group *group) {
   group->count += group->dropped;
   group->dropped = group->inside = 0;
+}
+
+/* ---- runs ---- */
+
+/* A shorter stretch is not worth a loop of its own. */
+enum { SHORTEST_RUN = 8 };
+
+/* 1 if the particles of member k are so far apart as a run has them: any two, or three at equal distances. */
+static int is_even(const struct hk_group *g, int64_t k) {
+  int even = 1;
+  for (int e = 2; e < g->force->member_particles; e++) {
+    const int32_t offset = g->particle[e][k] - g->particle[e - 1][k];
+    even &= offset > 0 && offset == g->particle[1][k] - g->particle[0][k];
+  }
+  return even;
+}
+
+/* Number of members from k on whose particles advance by one. */
+static int64_t stretch_at(const struct hk_group *g, int64_t k) {
+  int64_t end = k + 1;
+  for (int advances = is_even(g, k); advances && end < g->count; end += advances) {
+    for (int e = 0; e < g->force->member_particles; e++)
+      advances &= g->particle[e][end] == g->particle[e][end - 1] + 1;
+  }
+  return end - k;
+}
+
+void hk_group_cut(const struct hk_group *g,
+                  void (*add)(void *ctx, const struct hk_group *g, int64_t from, int64_t count, int indexed),
+                  void *ctx) {
+  int64_t pending = 0; /* first member not yet in a run */
+  for (int64_t k = 0, length; k < g->count; k += length) {
+    length = stretch_at(g, k);
+    if (length < SHORTEST_RUN) continue;
+    if (k > pending) add(ctx, g, pending, k - pending, 1);
+    add(ctx, g, k, length, 0);
+    pending = k + length;
+  }
+  if (g->count > pending) add(ctx, g, pending, g->count - pending, 1);
 }
 
 /* ---- the table ---- */

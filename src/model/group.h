@@ -11,37 +11,66 @@ struct hk_bodies;
 struct hk_force_row;
 struct hooke_system;
 
-/* Numbers of a member while a system is built. Bending has a coefficient, which is its kappa. */
-enum { HOOKE_KAPPA, HOOKE_GAMMA, HOOKE_REST_LENGTH, HOOKE_GROUP_NUMBERS };
+/* Numbers of a member while a system is built; a force says in its row how many it has of each. Bending has a
+ * coefficient, which is its kappa. */
+enum { HOOKE_KAPPA, HOOKE_GAMMA, HOOKE_REST_LENGTH, HOOKE_POINT, HOOKE_GROUP_NUMBERS };
+enum { HOOKE_MEMBER_PARTICLES = 4 };
 
 struct hk_group {
   const struct hk_force_row *force;
   char *name;
   int32_t from_part; /* 1: added by a part */
   int32_t pull_only;
+  int32_t damped;         /* from commit on: 1: some member is */
+  int32_t part;           /* for groups of parts: number of the part */
   int64_t count;          /* from commit on excludes members that have neither stiffness nor damping, */
   int64_t dropped;        /* which are counted here, with those inside a rigid body, */
   int64_t inside;         /* which are counted here as well */
-  int64_t part;           /* for groups of parts: number of the part */
   hooke_options *options; /* as given, if they hold for all springs; else NULL */
-  /* until commit, `count` each; NULL if the force has no such number */
-  int32_t *particle[3];
+  /* until commit, of each member; NULL if the force has no such number */
+  int32_t *particle[HOOKE_MEMBER_PARTICLES];
   double *number[HOOKE_GROUP_NUMBERS];
-  void *own; /* of `own_size` bytes */
-  size_t own_size;
 };
 
-/* Allocates the columns given by their counts, and copies the name. HOOKE_NO_MEMORY. */
-int32_t hk_group_allocate(struct hk_group *group, const char *name, int32_t particles, int32_t numbers,
-                          size_t own_size);
+/* Allocates the columns of its force and count, and copies the name. HOOKE_NO_MEMORY. */
+int32_t hk_group_allocate(struct hk_group *group, const char *name);
 void hk_group_release(struct hk_group *group);
 /* Releases the columns alone. */
 void hk_group_release_columns(struct hk_group *group);
+
+void hk_group_swap(struct hk_group *group, int64_t a, int64_t b);
+/* 1 if its members may pull only, and do not. */
+int32_t hk_group_resists(const struct hk_group *group);
 
 /* Moves members that have neither stiffness nor damping, and those inside a body, behind the others, in stable
  * order, and excludes them from the count; and the reverse. */
 void hk_group_drop(struct hk_group *group, const struct hk_bodies *bodies);
 void hk_group_take_back(struct hk_group *group);
+
+/* Cuts the members, in their order, into runs: long stretches along which all particles advance by one, and
+ * what is between them, whose particles are looked up (`indexed`). */
+void hk_group_cut(const struct hk_group *group,
+                  void (*add)(void *ctx, const struct hk_group *group, int64_t from, int64_t count,
+                              int indexed),
+                  void *ctx);
+
+/* What a call adds (group_add.c): `particles` of every member, and options unless the force has none. */
+struct hk_addition {
+  const struct hk_force_row *force;
+  const char *name;
+  int64_t count;
+  const int64_t *particles;
+  const hooke_options *options;
+  int32_t from_part;
+};
+/* Checks what is to be added, and makes the group with its particles. HOOKE_BAD_VALUE, HOOKE_BAD_CALL. After
+ * a failure, too, hk_group_end() releases it. */
+int32_t hk_group_begin(const struct hooke_system *system, const struct hk_addition *added,
+                       struct hk_group *group);
+/* Stiffness, damping and rest length of every member, as far as the options have them. */
+void hk_group_fill(struct hk_group *group, const hooke_options *options);
+/* Adds the group, or releases it after a failure; returns that. */
+int32_t hk_group_end(struct hooke_system *system, int32_t status, struct hk_group *group);
 
 /* Takes ownership of the group and adds it to the table, or releases it: HOOKE_NO_MEMORY. */
 int32_t hk_system_add_group(struct hooke_system *system, struct hk_group *group);

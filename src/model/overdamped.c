@@ -77,15 +77,11 @@ int32_t hk_overdamped_check(const hooke_system *system) {
   return status;
 }
 
-static int is_member(const struct hk_force_row *row) {
-  return row->members != NULL;
-}
-
 int32_t hk_overdamped_check_forces(const hooke_system *system) {
-  if (!system->overdamped || !hk_elements_are_damped(system)) return HOOKE_OK;
+  if (!system->overdamped || !hk_system_is_damped(system, ~HOOKE_UNIFORM)) return HOOKE_OK;
   struct hk_elements at;
   hk_begin_elements(system, system->position, NULL, &at);
-  at.wanted = is_member;
+  at.kinds = ~HOOKE_UNIFORM;
   for (const struct hk_element *e; (e = hk_next_element(&at)) != NULL;) {
     if (e->c_along == 0.0 && e->c_across == 0.0) continue;
     return hk_fail(HOOKE_BAD_VALUE, "damping",

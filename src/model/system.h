@@ -25,6 +25,7 @@ struct hk_system_rest {
   _Atomic int32_t is_copied_whole; /* 1: a variant that leaves out nothing was found to equal it */
   int64_t particle_capacity, group_capacity, drive_capacity;
   int64_t member_total[HOOKE_FORCES]; /* of the groups of each force, as added */
+  int64_t member_count[HOOKE_FORCES]; /* the same, from commit on: those that act */
 
   /* the system points to these */
   struct hk_springs springs;

@@ -199,7 +199,9 @@ static int32_t add_triples(const struct hk_part *part, int64_t stride, int32_t c
   char *name = hk_part_group_name(part, "bending");
   if (name == NULL) return HOOKE_NO_MEMORY;
   if (status == HOOKE_OK)
-    status = hk_system_add_part_bending(part->system, name, done, triple, done, coefficient);
+    status = hk_system_add_bending(part->system,
+                                   &(struct hk_addition){&hk_force_bending, name, done, triple, NULL, 1},
+                                   done, coefficient);
   hk_free(name);
   return status;
 }

@@ -189,7 +189,9 @@ static int32_t add_group(struct hk_part *part, const char *family, int by_ratio,
   if (name == NULL) return HOOKE_NO_MEMORY;
   hooke_options *options = NULL;
   int32_t status = material(part, family, by_ratio, given, ends, rest_length, &options);
-  if (status == HOOKE_OK) status = hk_system_add_part_springs(part->system, name, count, ends, options);
+  if (status == HOOKE_OK)
+    status = hk_system_add_springs(part->system,
+                                   &(struct hk_addition){&hk_force_springs, name, count, ends, options, 1});
   hooke_options_destroy(options);
   hk_free(name);
   return status;

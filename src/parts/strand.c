@@ -255,33 +255,19 @@ static int32_t find_damping(const struct hk_part *part, struct hk_tetrahedron *t
   return hk_system_add_derived(part->system, part->name, "altitude", "kd", "N s", t->damping);
 }
 
-static int32_t fill_tetrahedra(const struct hk_part *part, const struct strand *strand, int64_t count,
-                               struct hk_tetrahedron *tetrahedron) {
+static int32_t add_altitude(struct hk_part *part, const struct strand *strand) {
+  const int64_t count = part->count - 3;
+  if (!hk_options_has_family(part->options, "altitude") || count <= 0) return HOOKE_OK;
   const double scale = hooke_options_number(part->options, "altitude.rest_scale");
   struct hk_tetrahedron kind[2] = {
       {.stiffness = hooke_options_number(part->options, "altitude.stiffness"),
        .pull_only = hooke_options_number(part->options, "altitude.compression") == 0.0}};
-  int32_t status = find_rest(part, strand, 0, scale, &kind[0]);
+  char *name = hk_part_group_name(part, "altitude");
+  int32_t status = name ? find_rest(part, strand, 0, scale, &kind[0]) : HOOKE_NO_MEMORY;
   if (status == HOOKE_OK) status = find_damping(part, &kind[0]);
   kind[1] = kind[0];
   if (status == HOOKE_OK && !is_curl(strand)) status = find_rest(part, strand, 1, scale, &kind[1]);
-  for (int64_t k = 0; k < count && status == HOOKE_OK; k++) {
-    tetrahedron[k] = kind[k % 2];
-    for (int j = 0; j < 4; j++)
-      tetrahedron[k].particle[j] = (int32_t)(part->first + k + j);
-  }
-  return status;
-}
-
-static int32_t add_altitude(struct hk_part *part, const struct strand *strand) {
-  const int64_t count = part->count - 3;
-  if (!hk_options_has_family(part->options, "altitude") || count <= 0) return HOOKE_OK;
-  struct hk_tetrahedron *tetrahedron = hk_new(count, sizeof *tetrahedron);
-  char *name = hk_part_group_name(part, "altitude");
-  int32_t status = tetrahedron && name ? HOOKE_OK : HOOKE_NO_MEMORY;
-  if (status == HOOKE_OK) status = fill_tetrahedra(part, strand, count, tetrahedron);
-  if (status == HOOKE_OK) status = hk_system_add_tetrahedra(part->system, name, 1, count, tetrahedron);
-  hk_free(tetrahedron);
+  if (status == HOOKE_OK) status = hk_system_add_tetrahedra(part->system, name, count, part->first, kind);
   hk_free(name);
   return status == HOOKE_OK ? status : hk_fail_within(status, "altitude");
 }

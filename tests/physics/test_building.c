@@ -65,7 +65,7 @@ static void test_springs(void **unused) {
   hooke_options *options = spring_options(NULL, 0.0);
   refuse_springs(2, outside, options, "between[1][1]", "7");
   refuse_springs(1, below, options, "between[0][0]", "-1");
-  refuse_springs(2, same, options, "between[1]", "particle 2");
+  refuse_springs(2, same, options, "between[1]", "particles 2 and 2; a spring has two different ones");
   check_ok(hooke_options_set_numbers(options, "stiffness", 3, three_values));
   refuse_springs(2, good, options, "stiffness", "3 values");
   hooke_options_destroy(options);

@@ -25,6 +25,10 @@ static struct hk_variant nothing_of(const hooke_system *system) {
   return variant;
 }
 
+static void leave_out(struct hk_variant *variant, const struct hk_force_row *force) {
+  variant->without[hk_force_number(force)] = 1;
+}
+
 static void release(struct hk_variant *variant, struct hk_variant_map *map, hooke_system *made) {
   hk_variant_release(variant);
   hk_variant_map_release(map);
@@ -151,7 +155,9 @@ static void what_is_left_out_is_out(void **state) {
   assert_int_equal(hooke_system_count(system, "forces"), 3);
 
   variant.group[BEND] = variant.group[TIES] = 1;
-  variant.gravity = variant.drag = variant.damping = 1;
+  leave_out(&variant, &hk_force_gravity);
+  leave_out(&variant, &hk_force_drag);
+  variant.damping = 1;
   made = make(system, &variant, &map);
   check_sizes(made, (const int64_t[]){0, 8, 0, 58, 48});
   assert_int_equal(hooke_system_count(made, "forces"), 1);
@@ -290,7 +296,7 @@ static void a_callback_keeps_its_particles(void **state) {
   fewer.particle[0] = 1;
   check_status(hk_variant_make(open, &fewer, &made, &map), HOOKE_UNSUITED);
   assert_null(made);
-  fewer.force = 1; /* allowed without the callback */
+  leave_out(&fewer, &hk_force_callback); /* allowed without the callback */
   made = make(open, &fewer, &map);
   assert_int_equal(hooke_system_particle_count(made), 1);
   release(&fewer, &map, made);
@@ -360,9 +366,9 @@ static hooke_system *everything(void) {
 static int list_singles(const hooke_system *system, struct single *all) {
   int count = 0;
   int64_t first = 0;
-  next_single(system, all, &count)->variant.gravity = 1;
-  next_single(system, all, &count)->variant.drag = 1;
-  next_single(system, all, &count)->variant.force = 1;
+  leave_out(&next_single(system, all, &count)->variant, &hk_force_gravity);
+  leave_out(&next_single(system, all, &count)->variant, &hk_force_drag);
+  leave_out(&next_single(system, all, &count)->variant, &hk_force_callback);
   next_single(system, all, &count)->variant.damping = 1;
   next_single(system, all, &count)->variant.compression = 1;
   next_single(system, all, &count)->variant.particle[2] = 1;

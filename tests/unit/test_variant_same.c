@@ -14,7 +14,8 @@
 
 /* One of these is left out, or the group `group` (-1: none). */
 struct what {
-  int32_t gravity, drag, force, damping;
+  const struct hk_force_row *force;
+  int32_t damping;
   int64_t group;
 };
 
@@ -23,9 +24,7 @@ static hooke_system *without(const hooke_system *system, struct what what) {
   struct hk_variant_map map;
   hooke_system *made;
   check_ok(hk_variant_create(system, &variant));
-  variant.gravity = what.gravity;
-  variant.drag = what.drag;
-  variant.force = what.force;
+  if (what.force) variant.without[hk_force_number(what.force)] = 1;
   variant.damping = what.damping;
   if (what.group >= 0) variant.group[what.group] = 1;
   check_ok(hk_variant_make(system, &variant, &made, &map));
@@ -113,18 +112,17 @@ static void one_is_left_out(void **unused) {
           .seed = 8, .particles = 50, .springs = 70, .features = SCENE_EVERYTHING, .cloth = {12, 9}},
       &scene);
   static const char *const forces[] = {"springs", "drag", "callback", "gravity"};
-  const struct what what[] = {
-      {.group = -1}, {.drag = 1, .group = -1}, {.force = 1, .group = -1}, {.gravity = 1, .group = -1}};
   for (int k = 0; k < 4; k++) {
-    hooke_system *made = without(scene.system, what[k]);
+    const struct hk_force_row *force = k > 0 ? hk_force_find(forces[k]) : NULL;
+    hooke_system *made = without(scene.system, (struct what){.force = force, .group = -1});
     for (int f = 0; f < 4; f++)
       assert_int_equal(has_force(made, forces[f]), f != k || k == 0);
     assert_int_equal(made->springs->count, scene.system->springs->count);
     hooke_system_destroy(made);
   }
   hooke_system *undamped = without(scene.system, (struct what){.damping = 1, .group = -1});
-  assert_true(hk_springs_are_damped(scene.system->springs));
-  assert_false(hk_springs_are_damped(undamped->springs));
+  assert_true(hk_force_is_damped(scene.system, &hk_force_springs));
+  assert_false(hk_force_is_damped(undamped, &hk_force_springs));
   hooke_system_destroy(undamped);
   assert_in_range(scene.system->group_count, 2, 16);
   for (int64_t g = 0; g < scene.system->group_count; g++) {
@@ -171,14 +169,10 @@ static hooke_system *with_every_force(int32_t overdamped) {
   return system;
 }
 
-/* Without this force, left out as a variant leaves it out, or where none can by hand. */
+/* Without this force; weight is left out and copied with gravity. */
 static hooke_system *without_force(const hooke_system *system, const struct hk_force_row *row) {
-  struct what what = {.drag = row == &hk_force_drag, .force = row == &hk_force_callback, .group = -1};
-  what.gravity = row == &hk_force_gravity || row == &hk_force_weight;
-  if (row->members) what.group = hk_system_first_group(system, row);
-  hooke_system *made = without(system, what);
-  if (row == &hk_force_linear) made->rest->linear.count = 0;
-  return made;
+  if (row->members) return without(system, (struct what){.group = hk_system_first_group(system, row)});
+  return without(system, (struct what){row == &hk_force_weight ? &hk_force_gravity : row, .group = -1});
 }
 
 static void every_force_survives_a_copy_and_is_missed(void **unused) {
@@ -193,7 +187,7 @@ static void every_force_survives_a_copy_and_is_missed(void **unused) {
     hooke_system_destroy(made);
     for (int32_t k = 0; hk_force_table(k); k++) {
       const struct hk_force_row *row = hk_force_table(k);
-      if (!row->present(system) || (overdamped && row != &hk_force_weight)) continue;
+      if (!hk_force_is_present(system, row) || (overdamped && row != &hk_force_weight)) continue;
       seen[k] = 1;
       made = without_force(system, row);
       assert_string_equal(hk_system_difference(made, system), row->name);
@@ -204,7 +198,9 @@ static void every_force_survives_a_copy_and_is_missed(void **unused) {
   }
   for (int32_t k = 0; hk_force_table(k); k++) {
     const struct hk_force_row *row = hk_force_table(k);
-    if (!seen[k] || !row->check || !(row->members ? row->keep != NULL : row->copy != NULL))
+    if (!seen[k] || !row->check ||
+        !(row->members ? row->recall && row->place && row->member && row->width[HOOKE_KAPPA] == 1
+                       : row->copy || row == &hk_force_weight))
       check_failed("%s is not in the scenes of this test, or has no check value or no copy", row->name);
   }
 }
@@ -216,7 +212,7 @@ static void check_refused(const hooke_system *system, const char *what) {
   struct hk_variant_map map;
   hooke_system *made;
   check_ok(hk_variant_create(system, &variant));
-  variant.drag = 1; /* also of a variant that leaves out something else */
+  variant.without[hk_force_number(&hk_force_drag)] = 1; /* also of a variant that leaves out something else */
   check_status(hk_variant_make(system, &variant, &made, &map), HOOKE_INTERNAL);
   assert_null(made);
   check_message(what);
@@ -231,7 +227,7 @@ static void what_a_copy_changes_is_named(void **unused) {
   check_ok(hooke_options_set_number(options, "stiffness", 4.0));
   check_refused(system, "changes its springs");
   check_ok(hooke_options_set_number(options, "stiffness", 3.0));
-  hooke_system_destroy(without(system, (struct what){.drag = 1, .group = -1}));
+  hooke_system_destroy(without(system, (struct what){.force = &hk_force_drag, .group = -1}));
   hooke_system_destroy(system);
   system = small_cloth(3, 10.0, 0.1);
   system->position[4] += 1e-9;

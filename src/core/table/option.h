@@ -41,7 +41,8 @@ struct hk_option_table {
   int32_t row_count;
 };
 
-/* What rows often are: a number >= 0 or > 0, a whole number, a vector, a flag that is not set at first. */
+/* What rows often are: a number >= 0 or > 0, a whole number, a vector, numbers >= 0
+ * that are one or one for each, a flag that is not set at first. */
 #define HOOKE_OPTION_NOT_NEGATIVE(units)                                                                     \
   .type = HOOKE_OPTION_NUMBER, .unit = (units), .low = 0.0, .high = 1e300
 #define HOOKE_OPTION_POSITIVE(units) HOOKE_OPTION_NOT_NEGATIVE(units), .above_low = 1
@@ -49,6 +50,8 @@ struct hk_option_table {
   .type = HOOKE_OPTION_NUMBER, .low = (least), .high = (most), .whole = 1
 #define HOOKE_OPTION_VECTOR(units)                                                                           \
   .type = HOOKE_OPTION_NUMBERS, .unit = (units), .min_count = 3, .max_count = 3
+#define HOOKE_OPTION_EACH(units)                                                                             \
+  .type = HOOKE_OPTION_NUMBERS, .unit = (units), .low = 0.0, .high = 1e300, .min_count = 1
 #define HOOKE_OPTION_UNSET .type = HOOKE_OPTION_FLAG, .fallback = "false"
 
 #define HOOKE_OPTION_ROWS(rows) (rows), (int32_t)(sizeof(rows) / sizeof((rows)[0]))

@@ -15,10 +15,10 @@ static int32_t keep_stop_value(hooke_integrator *it, int32_t status) {
 }
 
 int32_t hk_integrator_forces(hooke_integrator *it, double t) {
-  return hk_integrator_forces_without(it, t, NULL);
+  return hk_integrator_forces_without(it, t, 0);
 }
 
-int32_t hk_integrator_forces_without(hooke_integrator *it, double t, const struct hk_force_row *left_out) {
+int32_t hk_integrator_forces_without(hooke_integrator *it, double t, int32_t left_out) {
   it->count.force_evaluations++;
   return keep_stop_value(it, hk_motion_forces_without(it->system, it->motion, t, left_out));
 }
@@ -82,7 +82,7 @@ int32_t hk_integrator_move(hooke_integrator *it, double t, struct hk_move *move)
     return HOOKE_OK;
   }
   const int summed = it->system->force != NULL && !hk_move_brakes(move->kind);
-  const int32_t status = hk_integrator_forces_without(it, t, summed ? NULL : &hk_force_drag);
+  const int32_t status = hk_integrator_forces_without(it, t, summed ? 0 : HOOKE_UNIFORM);
   if (summed) move->drag = 0.0;
   if (status == HOOKE_OK) hk_integrator_move_on(it, move);
   return status;

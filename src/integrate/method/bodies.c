@@ -38,7 +38,7 @@ static int32_t create(hooke_integrator *it) {
   own->slope = own->start + size;
   own->sum = own->slope + size;
   own->rows = own->sum + size;
-  own->keeps = !hk_system_is_damped(it->system) && it->system->force == NULL;
+  own->keeps = !hk_system_is_damped(it->system, 0) && it->system->force == NULL;
   return HOOKE_OK;
 }
 
@@ -182,7 +182,7 @@ static int32_t choose_verlet(hooke_integrator *it) {
   if (strcmp(hooke_options_text(it->options, "verlet_damping"), "implicit") == 0)
     return hk_fail(HOOKE_UNSUITED, "verlet_damping",
                    "implicit does not know rigid bodies yet; allowed: auto, explicit");
-  it->explicit_damping = hk_elements_are_damped(it->system);
+  it->explicit_damping = hk_system_is_damped(it->system, ~HOOKE_UNIFORM);
   return HOOKE_OK;
 }
 

@@ -38,7 +38,8 @@ static int32_t create(hooke_integrator *it) {
   it->own = own;
   const int callback = it->system->force != NULL;
   const int64_t stride = hk_motion_stride(it->motion);
-  own->implicit = hk_elements_are_damped(it->system) && !it->explicit_damping && !it->motion->zero;
+  own->implicit =
+      hk_system_is_damped(it->system, ~HOOKE_UNIFORM) && !it->explicit_damping && !it->motion->zero;
   own->predicts = own->implicit || it->explicit_damping || callback;
   if (!own->predicts) return HOOKE_OK;
   const int64_t saved = own->implicit || callback ? 2 * it->size : 0,

@@ -25,8 +25,8 @@ static double larger(double along, double across, double over) {
 static void add_rows(const hooke_system *system, double *stiffness, double *damping) {
   struct hk_elements at;
   hk_begin_elements(system, system->position, NULL, &at);
+  at.kinds = ~HOOKE_UNIFORM;
   for (const struct hk_element *e; (e = hk_next_element(&at)) != NULL;) {
-    if (at.force == &hk_force_drag) continue;
     const double k = larger(e->k_along, e->k_across, e->over), c = larger(e->c_along, e->c_across, e->over);
     for (int j = 0; j < e->count; j++) {
       const double row = hk_element_row(system->constrained, e, j);
@@ -63,7 +63,7 @@ static int32_t depends_on_state(const hooke_system *system) {
 }
 
 int32_t hk_verlet_explicit_step(const hooke_system *system, double *step) {
-  *step = hk_elements_are_damped(system) ? 0.0 : INFINITY;
+  *step = hk_system_is_damped(system, ~HOOKE_UNIFORM) ? 0.0 : INFINITY;
   if (isinf(*step) || depends_on_state(system)) return HOOKE_OK;
   const int32_t status = find_bound(system, step);
   *step *= MARGIN;
@@ -84,7 +84,7 @@ int32_t hk_verlet_choose(hooke_integrator *it) {
   const char *asked = hooke_options_text(it->options, "verlet_damping");
   const int required = strcmp(asked, "explicit") == 0;
   double most;
-  if (!hk_elements_are_damped(it->system)) {
+  if (!hk_system_is_damped(it->system, ~HOOKE_UNIFORM)) {
     if (it->by_tiles) it->by_tiles |= HOOKE_MOTION_KEEPS;
     return HOOKE_OK;
   }

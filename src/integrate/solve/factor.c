@@ -124,7 +124,7 @@ static int64_t other_pairs(const hooke_system *system) {
   int64_t count = 0;
   struct hk_elements at;
   hk_begin_elements(system, system->position, NULL, &at);
-  at.wanted = hk_force_is_other;
+  at.kinds = HOOKE_OTHERS;
   for (const struct hk_element *e; (e = hk_next_element(&at)) != NULL;)
     count += e->count * (e->count - 1) / 2;
   return count;
@@ -133,7 +133,7 @@ static int64_t other_pairs(const hooke_system *system) {
 static void locate_others(const struct hk_factor *x, struct place *place) {
   struct hk_elements at;
   hk_begin_elements(x->system, NULL, NULL, &at);
-  at.wanted = hk_force_is_other;
+  at.kinds = HOOKE_OTHERS;
   for (const struct hk_element *e; (e = hk_next_element(&at)) != NULL;) {
     for (int j = 1; j < e->count; j++) {
       for (int k = 0; k < j; k++)
@@ -349,9 +349,9 @@ static void add_others(const struct hk_factor *x, const struct hk_factor_parts *
   struct hk_elements at;
   for (int32_t k = 0; k < x->system->force_row_count; k++) {
     const struct hk_force_row *force = x->system->force_row[k];
-    if (!hk_force_is_other(force)) continue;
-    if (hk_force_is_kept(force)) {
-      for (int64_t left = force->count(x->system); left > 0; left--)
+    if (!(force->kind & HOOKE_OTHERS)) continue;
+    if (force->kind & HOOKE_KEPT) {
+      for (int64_t left = hk_force_count(x->system, force); left > 0; left--)
         place = add_element(x, kept++, parts, place);
       continue;
     }

@@ -18,9 +18,7 @@ static const double DIRECT_RESIDUAL = 1e-10;
 enum { SPARE_ITERATIONS = 1000, SIZE_SHARE = 4, MOST_ITERATIONS = 20000 };
 
 /* Springs have loops of their own, drag is on the diagonal, and constant forces multiply by themselves. */
-static int is_own(const struct hk_force_row *row) {
-  return row == &hk_force_springs || row->multiply;
-}
+enum { OWN = HOOKE_LOOPED | HOOKE_CONSTANT | HOOKE_UNIFORM };
 
 static int32_t read_linear_solver(struct hk_reduced *reduced) {
   const hooke_integrator *it = reduced->integrator;
@@ -49,12 +47,12 @@ int32_t hk_reduced_create(hooke_integrator *it, int32_t kind, struct hk_reduced 
   const hooke_system *system = it->system;
   const int32_t symmetric = kind == HOOKE_REDUCED_SYMMETRIC;
   const int64_t n = system->particle_count, m = system->springs->count, vectors = vectors_of[kind];
-  const int64_t rows = !symmetric ? 15 * n : hk_elements_of(system, hk_force_is_kept) > 0 ? 6 * n : 0;
+  const int64_t rows = !symmetric ? 15 * n : hk_elements_of(system, HOOKE_KEPT) > 0 ? 6 * n : 0;
   const int64_t numbers = (symmetric ? 3 : 7) * m + 25 * n + 3 * n * vectors;
   double *block = hk_new(numbers, sizeof(double));
   if (block == NULL) return HOOKE_NO_MEMORY;
   *reduced = (struct hk_reduced){.integrator = it, .symmetric = symmetric};
-  reduced->element_count = hk_elements_of(system, hk_force_is_kept);
+  reduced->element_count = hk_elements_of(system, HOOKE_KEPT);
   reduced->element = hk_new(reduced->element_count, sizeof *reduced->element);
   if (rows > 0) reduced->rows = hk_rows_new(rows);
   reduced->diagonal = hk_part(&block, n);
@@ -64,7 +62,7 @@ int32_t hk_reduced_create(hooke_integrator *it, int32_t kind, struct hk_reduced 
   it->may_factor = kind == HOOKE_REDUCED_MINIMAL;
   for (int32_t k = 0; k < system->force_row_count && !symmetric; k++) {
     const struct hk_force_row *row = system->force_row[k];
-    reduced->rows_needed |= !is_own(row) && (row->add_product || row->elements);
+    reduced->rows_needed |= !(row->kind & OWN) && (row->add_product || row->elements);
   }
   for (int a = 0; a < 3; a++)
     reduced->tangent.u[a] = reduced->tangent.e[a] = hk_part(&block, m);
@@ -109,7 +107,7 @@ static void add_others(const struct hk_reduced *reduced, double *const block[6])
   const hooke_system *system = reduced->integrator->system;
   struct hk_elements at;
   hk_begin_elements(system, system->position, NULL, &at);
-  at.wanted = hk_force_is_constant;
+  at.kinds = HOOKE_CONSTANT;
   for (const struct hk_element *e; (e = hk_next_element(&at)) != NULL;)
     add_element(e, reduced->alpha, reduced->beta, block);
   for (int64_t k = 0; k < reduced->element_count; k++)
@@ -147,7 +145,7 @@ static void see_elements(struct hk_reduced *reduced) {
   struct hk_elements at;
   if (reduced->element_count == 0) return;
   hk_begin_elements(system, reduced->rows, reduced->rows + 3 * system->particle_count, &at);
-  at.wanted = hk_force_is_kept;
+  at.kinds = HOOKE_KEPT;
   for (const struct hk_element *e; (e = hk_next_element(&at)) != NULL;) {
     *kept = *e;
     kept++->k_across = fmax(0.0, e->k_across);
@@ -185,7 +183,7 @@ static int32_t multiply_rows(struct hk_reduced *reduced, int all) {
   hooke_integrator *it = reduced->integrator;
   int32_t stop_value = 0;
   const int32_t status =
-      hk_forces_product_in_rows(it->system, reduced->t, all ? NULL : is_own, &reduced->rows, &stop_value);
+      hk_forces_product_in_rows(it->system, reduced->t, all ? 0 : OWN, &reduced->rows, &stop_value);
   if (status == HOOKE_STOPPED) it->stop_value = stop_value;
   return status;
 }
@@ -239,7 +237,7 @@ static int32_t add_product(struct hk_reduced *reduced, const double *x, double *
   }
   for (int32_t k = 0; k < system->force_row_count; k++) {
     const struct hk_force_row *row = system->force_row[k];
-    if (hk_force_is_constant(row)) row->multiply(system, reduced->alpha, reduced->beta, from, to);
+    if (row->kind & HOOKE_CONSTANT) row->multiply(system, reduced->alpha, reduced->beta, from, to);
   }
   const int by_element = reduced->symmetric || reduced->projected;
   for (int64_t k = 0; k < reduced->element_count && by_element; k++) {
@@ -480,7 +478,7 @@ int32_t hk_reduced_right(struct hk_reduced *reduced, const double *bq, const dou
   }
   for (int32_t k = 0; k < system->force_row_count; k++) {
     const struct hk_force_row *row = system->force_row[k];
-    if (hk_force_is_constant(row)) row->multiply(system, 0.0, 1.0, from, to);
+    if (row->kind & HOOKE_CONSTANT) row->multiply(system, 0.0, 1.0, from, to);
   }
   if (!reduced->rows_needed) return HOOKE_OK;
   return subtract_others(reduced, 0.0, 1.0, bq, out);

@@ -227,7 +227,7 @@ int hk_unknowns_product(hooke_integrator *it, struct hk_unknowns *u, double t, c
   if (u->has_v) spread_to_rows(u, direction + 3 * m, dq + it->size);
   it->count.derivative_products++;
   int32_t stop_value = 0;
-  if (hk_forces_product_in_rows(it->system, t, NULL, &u->rows, &stop_value) != HOOKE_OK) {
+  if (hk_forces_product_in_rows(it->system, t, 0, &u->rows, &stop_value) != HOOKE_OK) {
     it->stop_value = stop_value;
     return HOOKE_SLOPE_STOPPED;
   }

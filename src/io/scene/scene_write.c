@@ -254,9 +254,7 @@ static void add_lists(struct hk_text *text, const hooke_system *system, const st
 static int32_t check_words(const hooke_system *system) {
   for (int64_t g = 0; g < system->group_count; g++) {
     const struct hk_group *group = &system->group[g];
-    if (group->from_part || group->count == 0 || group->force == &hk_force_springs ||
-        group->force == &hk_force_bending || group->force == &hk_force_anchor)
-      continue;
+    if (group->from_part || group->count == 0 || group->force->in_scenes) continue;
     return hk_fail(HOOKE_UNSUITED, NULL,
                    "a scene file has the force \"%s\" in its parts alone, and this system has %s of its own",
                    group->force->name, group->force->members);
@@ -265,7 +263,7 @@ static int32_t check_words(const hooke_system *system) {
     return hk_fail(HOOKE_UNSUITED, NULL, "a scene file cannot hold callbacks, and this system has one");
   for (int32_t k = 0; k < system->force_row_count; k++) {
     const struct hk_force_row *row = system->force_row[k];
-    if (!row->members && row != &hk_force_drag && row != &hk_force_weight && row != &hk_force_gravity)
+    if (!row->members && !row->in_scenes)
       return hk_fail(HOOKE_UNSUITED, NULL, "a scene file cannot hold the force \"%s\"", row->name);
   }
   return HOOKE_OK;

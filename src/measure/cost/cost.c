@@ -147,15 +147,14 @@ static int32_t time_row(struct hk_cost *cost, struct hk_timed *full, struct hk_t
 
 /* The system without the ingredient of a row; NULL: the full one. */
 static int32_t make_without(const struct hk_cost *cost, const struct hk_cost_row *row, hooke_system **made) {
+  const struct hk_force_row *force = row ? hk_force_find(row->kind) : NULL; /* NULL: damping of all */
   struct hk_variant variant;
   struct hk_variant_map map;
   int32_t status = hk_variant_create(cost->system, &variant);
   if (status != HOOKE_OK) return status;
   if (row && row->group >= 0) variant.group[row->group] = 1;
-  variant.damping = row && hk_cost_row_is(row, "damping");
-  variant.drag = row && hk_cost_row_is(row, "drag");
-  variant.force = row && hk_cost_row_is(row, "callback");
-  variant.gravity = row && hk_cost_row_is(row, "gravity");
+  if (row && force && row->group < 0) variant.without[hk_force_number(force)] = 1;
+  variant.damping = row && !force;
   status = hk_variant_make(cost->system, &variant, made, &map);
   if (status == HOOKE_OK) hk_variant_map_release(&map);
   hk_variant_release(&variant);
@@ -164,7 +163,8 @@ static int32_t make_without(const struct hk_cost *cost, const struct hk_cost_row
 
 static int32_t measure_row(struct hk_cost *cost, struct hk_timed *full, const hooke_system *system,
                            const hooke_state *state, struct hk_cost_row *row) {
-  const int32_t limits = !hk_cost_row_is(row, "gravity") && !hk_cost_row_is(row, "callback");
+  const struct hk_force_row *force = hk_force_find(row->kind);
+  const int32_t limits = force == NULL || force->elements;
   struct hk_timed lean;
   int32_t status = hk_timed_create(system, cost->run, &lean);
   if (status == HOOKE_OK) row->memory = fmax(0.0, cost->memory - memory_of(system, &lean));

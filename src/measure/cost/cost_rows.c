@@ -10,10 +10,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-int32_t hk_cost_row_is(const struct hk_cost_row *row, const char *kind) {
-  return strcmp(row->kind, kind) == 0;
-}
-
 /* ---- listing ---- */
 
 static void add_row(struct hk_cost *cost, const char *kind, int64_t group, int64_t size) {
@@ -32,10 +28,10 @@ static void add_groups(struct hk_cost *cost) {
 
 static void add_others(struct hk_cost *cost) {
   const hooke_system *system = cost->system;
-  add_row(cost, "damping", -1, hk_elements_are_damped(system));
-  add_row(cost, "drag", -1, system->drag > 0.0);
-  add_row(cost, "callback", -1, system->force != NULL);
-  add_row(cost, "gravity", -1, hk_system_has_gravity(system));
+  add_row(cost, "damping", -1, hk_system_is_damped(system, ~HOOKE_UNIFORM));
+  for (int32_t k = 0; hk_force_table(k); k++)
+    if (hk_force_table(k)->copy)
+      add_row(cost, hk_force_table(k)->name, -1, hk_force_is_present(system, hk_force_table(k)));
 }
 
 /* The largest first; those of one size in the order of the rows. */
@@ -62,9 +58,8 @@ static int32_t leave_small_groups_out(struct hk_cost *cost) {
 }
 
 int32_t hk_cost_list_rows(struct hk_cost *cost) {
-  enum { OTHERS = 4 };
   const hooke_system *system = cost->system;
-  cost->row = hk_new(system->group_count + OTHERS, sizeof *cost->row);
+  cost->row = hk_new(system->group_count + 1 + HOOKE_FORCES, sizeof *cost->row);
   if (cost->row == NULL) return HOOKE_NO_MEMORY;
   add_groups(cost);
   const int32_t status = leave_small_groups_out(cost);

@@ -4,6 +4,7 @@
 
 #include <math.h>
 #include <stddef.h>
+#include <string.h>
 
 /* ---- the whole scene ---- */
 
@@ -43,7 +44,7 @@ HOOKE_READER(const void *, find_row, struct hk_cost, &it->row[row])
 HOOKE_READER(const char *, ingredient, struct hk_cost, hk_cost_row_name(it, &it->row[row]))
 HOOKE_READER(double, group, struct hk_cost, group_of(it, &it->row[row]))
 HOOKE_READER(double, springs, struct hk_cost,
-             hk_cost_row_is(&it->row[row], "springs") ? (double)it->row[row].size : NAN)
+             strcmp(it->row[row].kind, "springs") == 0 ? (double)it->row[row].size : NAN)
 
 static const struct hk_column row_columns[] = {
     HOOKE_COLUMN_BY(ingredient, ingredient, TEXT, "", "name of the group, else the kind"),

@@ -31,14 +31,14 @@ static void add_forces(const hooke_system *system, const struct hk_method *metho
   for (int32_t k = 0; k < system->force_row_count; k++) {
     const struct hk_force_row *row = system->force_row[k];
     if (row->add == NULL) continue; /* gravity is in the moves */
-    const double members = (double)(row->count ? row->count(system) : system->particle_count),
-                 damped = row == &hk_force_springs ? damped_springs(system) : members;
+    const double members = (double)(row->elements ? hk_force_count(system, row) : system->particle_count),
+                 damped = row->kind & HOOKE_LOOPED ? damped_springs(system) : members;
     double *of = amount + HOOKE_WORKS_OF_FORCE * hk_force_number(row);
     of[0] = times[0] * members;
     for (int what = 1; what < HOOKE_WORKS_OF_FORCE; what++)
       of[what] = times[what] * (method == &hk_verlet ? OF_DAMPING * damped : members);
-    if (method != &hk_shardlow || !row->damped || !row->damped(system)) continue;
-    if (row == &hk_force_springs)
+    if (method != &hk_shardlow || row->kind & HOOKE_UNIFORM || !hk_force_is_damped(system, row)) continue;
+    if (row->kind & HOOKE_LOOPED)
       amount[HOOKE_WORK_DAMPER] = (double)count->steps * damped;
     else
       of[0] += SWEEPS * (double)count->steps * members; /* a damper finds its element anew */
@@ -46,7 +46,7 @@ static void add_forces(const hooke_system *system, const struct hk_method *metho
   if (system->tiled->order)
     amount[HOOKE_WORK_SCATTERED] = (times[0] + times[1] + times[2]) * (double)system->springs->count;
   if (method->adaptive)
-    amount[HOOKE_WORK_ROWS] = (times[1] + times[2]) * (double)hk_elements_of(system, hk_force_is_kept);
+    amount[HOOKE_WORK_ROWS] = (times[1] + times[2]) * (double)hk_elements_of(system, HOOKE_KEPT);
 }
 
 static void add_bodies(const hooke_system *system, const struct hk_counts *count, double *amount) {
@@ -126,7 +126,8 @@ double hk_work_of_steps(const hooke_system *system, const char *name, int64_t st
   if (method == NULL || method->adaptive || method->implicit || !hk_method_suits(name, system)) return NAN;
   const struct hk_stability *stability = &method->stability;
   const int64_t stages = stability->kind == HOOKE_STABLE_BY_POLYNOMIAL ? stability->degree : 1;
-  if (method->explicit_step && system->moving_bodies == 0 && hk_elements_are_damped(system)) return NAN;
+  if (method->explicit_step && system->moving_bodies == 0 && hk_system_is_damped(system, ~HOOKE_UNIFORM))
+    return NAN;
   return work_of_counts(system, method,
                         (struct hk_counts){.steps = steps, .force_evaluations = stages * steps});
 }

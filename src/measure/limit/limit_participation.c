@@ -66,7 +66,7 @@ static void add_element(const struct hk_elements *at, const struct hk_element *e
   if (group >= 0) participation->group_share[group] += stiffness + damping;
   if (group >= 0 && stiffness + damping > participation->heaviest.share)
     participation->heaviest = (struct hk_limiting_element){force, hk_element_number(at), stiffness + damping};
-  if (at->force == &hk_force_springs)
+  if (at->force->kind & HOOKE_LOOPED)
     add_spring(e, hk_element_number(at), group, stiffness, damping, participation);
 }
 
@@ -167,15 +167,20 @@ const char *hk_participation_group_name(const hooke_system *system, int64_t grou
   return system->group[group].name ? system->group[group].name : "";
 }
 
+static int32_t is_of(int32_t force, int32_t kinds) {
+  const struct hk_force_row *row = hk_force_table(force);
+  return row && row->kind & kinds;
+}
+
 int32_t hk_participation_force(const struct hk_participation *participation) {
   for (int32_t k = 0; k < HOOKE_PARTICIPATION_SHARES; k++) {
-    if (participation->force_share[k] >= 0.5 && hk_force_table(k) != &hk_force_springs) return k;
+    if (participation->force_share[k] >= 0.5 && !is_of(k, HOOKE_LOOPED)) return k;
   }
   return -1;
 }
 
 int32_t hk_participation_is_drag(int32_t force) {
-  return hk_force_table(force) == &hk_force_drag;
+  return is_of(force, HOOKE_UNIFORM);
 }
 
 const char *hk_participation_force_name(int32_t force) {

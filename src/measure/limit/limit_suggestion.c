@@ -178,7 +178,7 @@ static void tell(const hooke_system *system, const struct hk_participation *part
 /* "group 2", or "group 0 of triples" */
 static void add_number(const hooke_system *system, int64_t group, char *text, size_t size) {
   const struct hk_force_row *force = system->group[group].force;
-  const int springs = force == &hk_force_springs;
+  const int springs = force->kind & HOOKE_LOOPED;
   hk_append(text, size, "group %lld%s%s", (long long)(group - hk_system_first_group(system, force)),
             springs ? "" : " of ", springs ? "" : force->members);
 }

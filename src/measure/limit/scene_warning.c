@@ -64,8 +64,9 @@ static void look_at_groups(struct looking *l) {
   char shown[HOOKE_OPTION_SHOWN];
   for (int64_t k = 0; k < l->system->group_count; k++) {
     const struct hk_group *group = &l->system->group[k];
-    int stiff = group->force != &hk_force_springs ? group->count > 0 : group->inside > 0;
-    const int64_t count = group->force == &hk_force_springs ? group->count : 0;
+    const int springs = group->force->kind & HOOKE_LOOPED;
+    int stiff = springs ? group->inside > 0 : group->count > 0;
+    const int64_t count = springs ? group->count : 0;
     for (int64_t i = first; i < first + count; i++)
       stiff |= l->stiffness[i] > 0.0;
     if (group->from_part) {

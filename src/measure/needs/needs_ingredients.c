@@ -38,11 +38,8 @@ static int32_t add_row(struct hk_needs *needs, const char *kind, struct hk_needs
 
 /* A group may have the name of another ingredient. */
 static int32_t is_taken(const char *name) {
-  static const char *const taken[] = {"damping", "drag", "gravity", "callback"};
-  for (size_t k = 0; k < sizeof taken / sizeof taken[0]; k++) {
-    if (strcmp(name, taken[k]) == 0) return 1;
-  }
-  return 0;
+  const struct hk_force_row *force = hk_force_find(name);
+  return strcmp(name, "damping") == 0 || (force && force->copy);
 }
 
 static int32_t list_groups(struct hk_needs *needs) {
@@ -65,8 +62,8 @@ static int32_t list_groups(struct hk_needs *needs) {
 
 static int32_t resists_compression(const hooke_system *system) {
   int32_t resists = 0;
-  for (int32_t k = 0; hk_force_table(k); k++)
-    resists |= hk_force_table(k)->resists && hk_force_table(k)->resists(system);
+  for (int64_t g = 0; g < system->group_count; g++)
+    resists |= system->group[g].count > 0 && hk_group_resists(&system->group[g]);
   return resists;
 }
 
@@ -74,21 +71,15 @@ static int32_t list_whole_forces(struct hk_needs *needs) {
   const hooke_system *system = needs->system;
   struct hk_needs_row *row;
   int32_t status = HOOKE_OK;
-  if (hk_elements_are_damped(system)) {
+  if (hk_system_is_damped(system, ~HOOKE_UNIFORM)) {
     status = add_row(needs, "damping", &row, "damping");
     if (status == HOOKE_OK) row->variant.damping = 1;
   }
-  if (status == HOOKE_OK && system->drag != 0.0) {
-    status = add_row(needs, "drag", &row, "drag");
-    if (status == HOOKE_OK) row->variant.drag = 1;
-  }
-  if (status == HOOKE_OK && hk_system_has_gravity(system)) {
-    status = add_row(needs, "gravity", &row, "gravity");
-    if (status == HOOKE_OK) row->variant.gravity = 1;
-  }
-  if (status == HOOKE_OK && system->force) {
-    status = add_row(needs, "callback", &row, "callback");
-    if (status == HOOKE_OK) row->variant.force = 1;
+  for (int32_t k = 0; hk_force_table(k) && status == HOOKE_OK; k++) {
+    const struct hk_force_row *force = hk_force_table(k);
+    if (!force->copy || !hk_force_is_present(system, force)) continue;
+    status = add_row(needs, force->name, &row, "%s", force->name);
+    if (status == HOOKE_OK) row->variant.without[k] = 1;
   }
   if (status == HOOKE_OK && resists_compression(system)) {
     status = add_row(needs, "compression", &row, "resistance to compression");

@@ -159,7 +159,7 @@ static void keep_point(struct making *making, struct hk_twin *twin, const struct
 static void keep_others(const struct making *making, struct hk_twin *twin) {
   struct hk_elements at;
   hk_begin_elements(making->system, making->q, NULL, &at);
-  at.wanted = hk_force_is_other;
+  at.kinds = HOOKE_OTHERS;
   for (const struct hk_element *e; (e = hk_next_element(&at)) != NULL;) {
     if (!hk_element_moves(making->system->constrained, e)) continue;
     twin->clamped += e->k_across < -HOOKE_STRETCH_ROUNDING * e->k_along;
@@ -170,7 +170,7 @@ static void keep_others(const struct making *making, struct hk_twin *twin) {
 
 static int32_t new_thaw(struct making *making, struct hk_twin *twin) {
   const int64_t n = making->system->particle_count, springs = making->system->springs->count;
-  const int64_t count = springs + hk_elements_of(making->system, hk_force_is_other);
+  const int64_t count = springs + hk_elements_of(making->system, HOOKE_OTHERS);
   twin->place = hk_new(3 * n, sizeof(double));
   twin->balance = hk_new(3 * n, sizeof(double));
   twin->moved = hk_new(3 * n, sizeof(double));

@@ -95,17 +95,17 @@ static void keep_element(struct hk_linearised *lin, const struct hk_element *e) 
 }
 
 static int32_t see_others(struct hk_linearised *lin, const double *q) {
-  const int64_t most = hk_elements_of(lin->system, hk_force_is_kept);
+  const int64_t most = hk_elements_of(lin->system, HOOKE_KEPT);
   lin->element = hk_new(most, sizeof *lin->element);
   lin->along = hk_new(2 * most, sizeof(double));
   if (lin->element == NULL || lin->along == NULL) return HOOKE_NO_MEMORY;
   lin->beside = lin->along + most;
   struct hk_elements at;
   hk_begin_elements(lin->system, q, NULL, &at);
-  at.wanted = hk_force_is_other;
+  at.kinds = HOOKE_OTHERS;
   for (const struct hk_element *e; (e = hk_next_element(&at)) != NULL;) {
     if (!hk_element_moves(lin->system->constrained, e)) continue;
-    if (at.force->multiply)
+    if (at.force->kind & HOOKE_CONSTANT)
       lin->bends = 1;
     else
       keep_element(lin, e);
@@ -119,7 +119,7 @@ static int32_t see_others(struct hk_linearised *lin, const double *q) {
 static void add_rows(const struct hk_linearised *lin, const double *q, int damping, double *sum) {
   struct hk_elements at;
   hk_begin_elements(lin->system, q, NULL, &at);
-  at.wanted = hk_force_is_other;
+  at.kinds = HOOKE_OTHERS;
   for (const struct hk_element *e; (e = hk_next_element(&at)) != NULL;) {
     const double most = damping ? fmax(e->c_along, e->c_across) : fmax(e->k_along, e->k_across);
     for (int j = 0; j < e->count; j++)
@@ -192,7 +192,7 @@ double hk_linearised_bytes(const hooke_system *system) {
   const int of_particles = system->moving_bodies > 0 ? OF_PARTICLES_WITH_BODIES : OF_PARTICLES;
   return sizeof(double) *
          (OF_SPRINGS * (double)system->springs->count + of_particles * (double)system->particle_count +
-          OF_ELEMENTS * (double)hk_elements_of(system, hk_force_is_kept));
+          OF_ELEMENTS * (double)hk_elements_of(system, HOOKE_KEPT));
 }
 
 /* Squares of distances within it are finite [m]. */
@@ -313,7 +313,8 @@ void hk_linearised_add_product(struct hk_linearised *lin, const double *x, doubl
     hk_tangent_product(&lin->run[k], &lin->tangent, from, to);
   for (int32_t k = 0; k < lin->system->force_row_count; k++) {
     const struct hk_force_row *force = lin->system->force_row[k];
-    if (hk_force_is_constant(force)) force->multiply(lin->system, lin->constant_k, lin->constant_c, from, to);
+    if (force->kind & HOOKE_CONSTANT)
+      force->multiply(lin->system, lin->constant_k, lin->constant_c, from, to);
   }
   for (int64_t t = 0; t < lin->element_count; t++)
     hk_element_multiply(&lin->element[t], lin->along[t], lin->beside[t], 1, from, to);
@@ -337,7 +338,7 @@ static double others_energy(const struct hk_linearised *lin, const double *x) {
   double sum = a > 0.0 ? a * hk_rigid_energy(&lin->rigid, from, 1) : 0.0;
   struct hk_elements at;
   hk_begin_elements(lin->system, lin->system->position, NULL, &at);
-  at.wanted = hk_force_is_constant;
+  at.kinds = HOOKE_CONSTANT;
   for (const struct hk_element *e; (e = hk_next_element(&at)) != NULL;)
     sum += hk_element_energy(e, a * e->k_along + b * e->c_along, a * e->k_across + b * e->c_across, 1, from);
   for (int64_t t = 0; t < lin->element_count; t++)

@@ -37,7 +37,7 @@ const char *hk_naming_words(const hooke_system *system, const struct hk_force_ro
   const char *group = hk_naming_group(system, force, number);
   force->elements(system, system->position, NULL, number, 1, &e);
   list_particles(&e, particles, sizeof particles);
-  if (force == &hk_force_springs)
+  if (force->title == NULL)
     hk_print(text, HOOKE_NAMING_SIZE, "spring %lld (%s%s%.80s)", (long long)number, particles,
              group[0] ? ", group " : "", group);
   else
@@ -81,5 +81,5 @@ int64_t hk_naming_heaviest_words(const hooke_system *system, int64_t particle, d
   text[0] = '\0';
   if (number < 0) return -1;
   hk_naming_words(system, force, number, text);
-  return force == &hk_force_springs ? number : -1;
+  return force->kind & HOOKE_LOOPED ? number : -1;
 }

@@ -114,7 +114,7 @@ static int32_t stiffen(struct hk_rigid *rigid, const double *q, const double *st
   int32_t status = hk_motion_create(system, 0, NULL, &motion);
   if (status != HOOKE_OK) return status;
   hk_motion_load(system, motion, q, still);
-  status = hk_motion_forces_without(system, motion, 0.0, &hk_force_callback);
+  status = hk_motion_forces_without(system, motion, 0.0, HOOKE_CALLED);
   for (int a = 0; a < 3 && system->has_gravity; a++) {
     for (int64_t p = 0; p < system->particle_count; p++)
       motion->f[a][p] += system->mass[p] * system->gravity[a];

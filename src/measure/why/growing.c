@@ -125,5 +125,5 @@ int32_t hk_growing_rule(const hooke_system *system, const char *method, double h
   *most = 4.0;
   if (stability->kind == HOOKE_STABLE_BY_K_AND_C || stability->kind == HOOKE_STABLE_BY_K) return 1;
   *most = stability->axis; /* with damping the limit is not given by a quotient */
-  return stability->axis > 0.0 && !hk_system_is_damped(system);
+  return stability->axis > 0.0 && !hk_system_is_damped(system, 0);
 }

@@ -171,7 +171,7 @@ static void judge_overflow(struct hk_inquiry *inquiry) {
   const hooke_system *system = inquiry->system;
   const struct steepest steepest = find_steepest(system);
   char where[HOOKE_NAMING_SIZE], what[HOOKE_NAMING_SIZE + 80] = "", step[64] = "";
-  if (steepest.force == &hk_force_springs)
+  if (steepest.force && steepest.force->kind & HOOKE_LOOPED)
     hk_limiting_add(inquiry->system, steepest.number, NAN, &inquiry->why->limiting);
   if (inquiry->violation.found) inquiry->why->limit = inquiry->violation.limit;
   if (inquiry->bad_particle >= 0) inquiry->why->particle = (double)inquiry->bad_particle;

@@ -71,7 +71,7 @@ static int32_t take_growth(struct hk_inquiry *inquiry, const double *q, double t
 static int32_t by_growth(struct hk_inquiry *inquiry, const double *q, double t, int64_t particle) {
   struct hk_growing *growing = &inquiry->growing;
   double a = 1.0, b = 0.0, most;
-  const int never = hk_method_needs_damping(method_of(inquiry)) && !hk_system_is_damped(inquiry->system);
+  const int never = hk_method_needs_damping(method_of(inquiry)) && !hk_system_is_damped(inquiry->system, 0);
   if (!hk_growing_rule(inquiry->system, method_of(inquiry), inquiry->run->schedule.step, &a, &b, &most) &&
       !never)
     return HOOKE_OK;

@@ -39,15 +39,9 @@ void hk_tautness_differentiate(const struct hk_tetrahedron *tetrahedron, const s
  * with the particles, if it is flat. */
 int32_t hk_tetrahedron_rest(const double x[4][3], double scale, struct hk_tetrahedron *tetrahedron);
 
-/* Adds tetrahedra with given particles and rest lengths. `name` may be NULL. HOOKE_BAD_VALUE for particles
- * that do not exist or are repeated. */
-int32_t hk_system_add_tetrahedra(struct hooke_system *system, const char *name, int32_t from_part,
-                                 int64_t count, const struct hk_tetrahedron *tetrahedron);
-
-/* Takes over the acting members of the groups. HOOKE_NO_MEMORY leaves `altitudes` empty. */
-int32_t hk_altitudes_create(const struct hk_group *group, int64_t group_count,
-                            struct hk_altitudes *altitudes);
-void hk_altitudes_release(struct hk_altitudes *altitudes);
-int64_t hk_altitudes_memory(const struct hk_altitudes *altitudes);
+/* For builders: adds `count` tetrahedra of a part, number k of the particles first + k to first + k + 3, and
+ * else as kind[k % 2]. */
+int32_t hk_system_add_tetrahedra(struct hooke_system *system, const char *name, int64_t count, int64_t first,
+                                 const struct hk_tetrahedron kind[2]);
 
 #endif

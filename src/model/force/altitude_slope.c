@@ -1,18 +1,9 @@
 /* One altitude spring at given positions and velocities, and its derivatives. */
 #include "model/force/altitude.h"
+#include "model/vector3.h"
 
 #include <math.h>
 #include <string.h>
-
-static double dot(const double a[3], const double b[3]) {
-  return (a[0] * b[0] + a[1] * b[1]) + a[2] * b[2];
-}
-
-static void cross(const double a[3], const double b[3], double n[3]) {
-  n[0] = a[1] * b[2] - a[2] * b[1];
-  n[1] = a[2] * b[0] - a[0] * b[2];
-  n[2] = a[0] * b[1] - a[1] * b[0];
-}
 
 static void gather(const struct hk_tetrahedron *t, const double *rows, double x[4][3]) {
   for (int j = 0; j < 4; j++)
@@ -28,7 +19,7 @@ int32_t hk_tautness_find(const struct hk_tetrahedron *t, const double *q, const 
   if (v) {
     gather(t, v, x);
     hk_altitude_weigh(&s->altitude, (const double(*)[3])x, w);
-    s->rate = dot(s->altitude.u, w);
+    s->rate = hk_dot3(s->altitude.u, w);
   }
   const double rest = t->rest[s->altitude.choice];
   s->tension = hk_altitude_tension(t, &s->altitude, s->rate, &s->slack);
@@ -52,8 +43,8 @@ static void span(int32_t choice, const double x[4][3], double e[3], double f[3],
 static void cross_change(const double a[3], const double b[3], const double da[3], const double db[3],
                          double dn[3]) {
   double other[3];
-  cross(da, b, dn);
-  cross(a, db, other);
+  hk_cross3(da, b, dn);
+  hk_cross3(a, db, other);
   for (int k = 0; k < 3; k++)
     dn[k] += other[k];
 }
@@ -72,16 +63,16 @@ void hk_tautness_differentiate(const struct hk_tetrahedron *t, const struct hk_t
   gather(t, dv, du);
   span(choice, (const double(*)[3])x, e, f, r);
   span(choice, (const double(*)[3])dx, de, df, dr);
-  cross(e, f, n);
+  hk_cross3(e, f, n);
   cross_change(e, f, de, df, dn);
-  cross(r, f, rf);
+  hk_cross3(r, f, rf);
   cross_change(r, f, dr, df, drf);
-  cross(r, e, re);
+  hk_cross3(r, e, re);
   cross_change(r, e, dr, de, dre);
-  const double square = dot(n, n), growth = 2.0 * dot(n, dn) / square, c = t->side / sqrt(square);
-  const double a = dot(rf, n) / square, b = dot(re, n) / square;
-  const double da = (dot(drf, n) + dot(rf, dn)) / square - a * growth;
-  const double db = (dot(dre, n) + dot(re, dn)) / square - b * growth;
+  const double square = hk_dot3(n, n), growth = 2.0 * hk_dot3(n, dn) / square, c = t->side / sqrt(square);
+  const double a = hk_dot3(rf, n) / square, b = hk_dot3(re, n) / square;
+  const double da = (hk_dot3(drf, n) + hk_dot3(rf, dn)) / square - a * growth;
+  const double db = (hk_dot3(dre, n) + hk_dot3(re, dn)) / square - b * growth;
   for (int k = 0; k < 3; k++)
     change->u[k] = c * dn[k] - 0.5 * growth * altitude->u[k];
   change->weight[role[0]] = choice < 4 ? da - db : da;
@@ -97,6 +88,6 @@ void hk_tautness_differentiate(const struct hk_tetrahedron *t, const struct hk_t
     for (int k = 0; k < 3; k++)
       dw[k] += change->weight[j] * u[j][k];
   }
-  const double rate = dot(change->u, w) + dot(altitude->u, dw);
-  change->tension = (t->stiffness * dot(altitude->u, moved) + t->damping * rate) / t->rest[choice];
+  const double rate = hk_dot3(change->u, w) + hk_dot3(altitude->u, dw);
+  change->tension = (t->stiffness * hk_dot3(altitude->u, moved) + t->damping * rate) / t->rest[choice];
 }

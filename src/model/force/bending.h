@@ -63,14 +63,13 @@ static inline void hk_triple_bend(const struct hk_triple *triple, const double *
 void hk_bending_add(const struct hk_bending *bending, double factor, const double *const x[3],
                     double *const f[3]);
 
-/* For builders, as hk_system_add_part_springs(). */
-int32_t hk_system_add_part_bending(hooke_system *system, const char *name, int64_t count,
-                                   const int64_t *triples, int64_t coefficient_count,
-                                   const double *coefficient);
+/* For builders, as hk_system_add_springs(). */
+int32_t hk_system_add_bending(hooke_system *system, const struct hk_addition *added,
+                              int64_t coefficient_count, const double *coefficient);
 
-/* Sorts groups into runs. HOOKE_NO_MEMORY leaves `bending` empty. */
-int32_t hk_bending_create(const struct hk_group *group, int64_t group_count, struct hk_bending *bending);
-void hk_bending_release(struct hk_bending *bending);
-int64_t hk_bending_memory(const struct hk_bending *bending);
+/* Sorts groups into runs. HOOKE_NO_MEMORY leaves none. */
+int32_t hk_bending_commit(hooke_system *system, const struct hk_group *group, int64_t group_count);
+void hk_bending_release(hooke_system *system);
+int64_t hk_bending_memory(const hooke_system *system);
 
 #endif

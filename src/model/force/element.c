@@ -9,27 +9,25 @@ void hk_begin_elements(const hooke_system *system, const double *q, const double
   at->system = system;
   at->q = q;
   at->v = v;
-  at->wanted = NULL;
   at->only = NULL;
   at->force = NULL;
-  at->by_number = at->next = 0;
+  at->kinds = at->by_number = at->next = 0;
   at->batches = at->done = at->first = at->count = at->k = 0;
 }
 
 static int is_wanted(const struct hk_elements *at, const struct hk_force_row *force) {
-  if (force->elements == NULL || !force->present(at->system)) return 0;
-  return (at->only == NULL || at->only == force) && (at->wanted == NULL || at->wanted(force));
+  if (force->elements == NULL || !hk_force_is_present(at->system, force)) return 0;
+  return (at->only == NULL || at->only == force) && (at->kinds == 0 || force->kind & at->kinds);
 }
 
 /* Fetches the next elements of the current force; 0 if there are none. */
 static int32_t fill(struct hk_elements *at) {
   const struct hk_force_row *force = at->force;
   at->done += at->count;
-  at->k = at->count = 0;
-  if (!at->by_number && force->stored_elements) {
-    at->count = force->stored_elements(at);
-  } else {
-    const int64_t left = force->count(at->system) - at->done;
+  at->k = 0;
+  at->count = !at->by_number && force->stored_elements ? force->stored_elements(at) : -1;
+  if (at->count < 0) {
+    const int64_t left = hk_force_count(at->system, force) - at->done;
     at->first = at->done;
     at->count = left < HOOKE_ELEMENTS ? left : HOOKE_ELEMENTS;
     if (at->count > 0) force->elements(at->system, at->q, at->v, at->first, at->count, at->element);

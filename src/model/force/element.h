@@ -36,10 +36,10 @@ enum { HOOKE_ELEMENTS = 64 };
 struct hk_elements {
   const struct hooke_system *system;
   const double *q, *v;
-  int (*wanted)(const struct hk_force_row *force); /* NULL: all forces */
-  const struct hk_force_row *only;                 /* NULL: the same; otherwise this force alone */
-  int32_t by_number; /* 1: in the order of their numbers; 0: in memory order, without `first` */
-  int32_t next;      /* row of the table of forces */
+  int32_t kinds;                   /* of forces (see force.h); 0: all */
+  const struct hk_force_row *only; /* NULL: the same; otherwise this force alone */
+  int32_t by_number;               /* 1: in the order of their numbers; 0: in memory order, without `first` */
+  int32_t next;                    /* row of the table of forces */
   const struct hk_force_row *force; /* of the current ones */
   int64_t batches;                  /* so far */
   int64_t done;                     /* elements of the force before the current ones */

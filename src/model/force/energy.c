@@ -31,24 +31,19 @@ static double friction_heat(const hooke_system *system, const double *v) {
   return system->friction * hk_sum_value(&sum);
 }
 
-static double potential_energy(const hooke_system *system, const double *q) {
-  double sum = 0.0;
+static void add_potentials(const hooke_system *system, const double *q, struct hk_energies *sum) {
   for (int32_t k = 0; k < system->force_row_count; k++) {
-    if (system->force_row[k]->energy) sum += system->force_row[k]->energy(system, q);
+    const struct hk_force_row *row = system->force_row[k];
+    const double energy = row->energy ? row->energy(system, q) : 0.0;
+    if (row->energy) sum->potential += energy;
+    if (row->energy) *(row->elements ? &sum->elastic : &sum->gravity) += energy;
   }
-  return sum;
 }
 
 struct hk_energies hk_state_energies(const hooke_state *state, const hooke_system *system) {
   if (state->known && state->known->system == system) return *state->known;
   struct hk_energies sum = {.system = system, .kinetic = kinetic_energy(system, state->v)};
-  for (int32_t k = 0; k < system->force_row_count; k++) {
-    const struct hk_force_row *row = system->force_row[k];
-    const double energy = row->energy ? row->energy(system, state->q) : 0.0;
-    if (row->energy) sum.potential += energy;
-    if (row->energy && row->elements) sum.elastic += energy;
-    if (row == &hk_force_gravity) sum.gravity = energy;
-  }
+  add_potentials(system, state->q, &sum);
   return sum;
 }
 
@@ -57,19 +52,35 @@ double hooke_system_energy(const hooke_system *system, const char *what, const d
   const int lacks = (kinetic ? v == NULL : q == NULL) || (total && v == NULL);
   if (!system->rest->committed || (lacks && system->particle_count > 0)) return NAN;
   if (kinetic) return kinetic_energy(system, v);
-  if (strcmp(what, "potential") == 0) return potential_energy(system, q);
-  if (total) return kinetic_energy(system, v) + potential_energy(system, q);
+  if (total || strcmp(what, "potential") == 0) {
+    struct hk_energies sum = {0};
+    add_potentials(system, q, &sum);
+    return total ? kinetic_energy(system, v) + sum.potential : sum.potential;
+  }
   const struct hk_force_row *row = hk_force_find(what);
   if (row == NULL || row->energy == NULL) return NAN;
-  return row->present(system) ? row->energy(system, q) : 0.0;
+  return hk_force_is_present(system, row) ? row->energy(system, q) : 0.0;
+}
+
+static double heat_of(const hooke_system *system, const struct hk_force_row *row, const double *q,
+                      const double *v) {
+  if (row->heat) return row->heat(system, q, v);
+  if (row->elements == NULL || !hk_force_is_damped(system, row)) return 0.0;
+  const double *const x[3] = {v, v + 1, v + 2};
+  struct hk_sum sum = {0.0, 0.0};
+  struct hk_elements at;
+  hk_begin_elements(system, q, v, &at);
+  at.only = row;
+  for (const struct hk_element *e; (e = hk_next_element(&at)) != NULL;)
+    hk_sum_add(&sum, hk_element_energy(e, e->c_along / e->over, e->c_across / e->over, 3, x));
+  return hk_sum_value(&sum);
 }
 
 double hooke_system_dissipated_power(const hooke_system *system, const double *q, const double *v) {
   if (!system->rest->committed) return NAN;
   double sum = friction_heat(system, v);
-  for (int32_t k = 0; k < system->force_row_count; k++) {
-    if (system->force_row[k]->heat) sum += system->force_row[k]->heat(system, q, v);
-  }
+  for (int32_t k = 0; k < system->force_row_count; k++)
+    sum += heat_of(system, system->force_row[k], q, v);
   return sum;
 }
 

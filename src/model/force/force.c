@@ -6,16 +6,11 @@
 #include <stddef.h>
 #include <string.h>
 
-/* The order of the rows is the order of summation at a particle. Gravity is last: a = w f + g. */
-static const struct hk_force_row *const table[] = {
-    &hk_force_springs, &hk_force_bending,  &hk_force_altitude, &hk_force_anchor,  &hk_force_linear,
-    &hk_force_drag,    &hk_force_callback, &hk_force_weight,   &hk_force_gravity,
-};
-
-_Static_assert(sizeof table / sizeof table[0] <= HOOKE_FORCES, "a system has numbers for so many forces");
+#define HOOKE_ADDRESS(name) &hk_force_##name,
+static const struct hk_force_row *const table[HOOKE_FORCES] = {HOOKE_FORCE_ROWS(HOOKE_ADDRESS)};
 
 const struct hk_force_row *hk_force_table(int32_t k) {
-  return k >= 0 && k < (int32_t)(sizeof table / sizeof table[0]) ? table[k] : NULL;
+  return k >= 0 && k < HOOKE_FORCES ? table[k] : NULL;
 }
 
 int32_t hk_force_number(const struct hk_force_row *row) {
@@ -25,39 +20,41 @@ int32_t hk_force_number(const struct hk_force_row *row) {
   return k;
 }
 
-int32_t hk_elements_are_damped(const hooke_system *system) {
-  int32_t damped = 0;
-  for (int32_t k = 0; hk_force_table(k); k++)
-    damped |= table[k]->damped && table[k]->damped(system);
+int64_t hk_force_count(const hooke_system *system, const struct hk_force_row *row) {
+  return row->count ? row->count(system) : system->rest->member_count[hk_force_number(row)];
+}
+
+int32_t hk_force_is_present(const hooke_system *system, const struct hk_force_row *row) {
+  return row->present ? row->present(system) : hk_force_count(system, row) > 0;
+}
+
+int32_t hk_force_is_damped(const hooke_system *system, const struct hk_force_row *row) {
+  int32_t damped = row->damped && row->damped(system);
+  for (int64_t g = 0; g < system->group_count; g++)
+    damped |= system->group[g].force == row && system->group[g].damped;
   return damped;
 }
 
-int32_t hk_system_is_damped(const hooke_system *system) {
-  return system->drag > 0.0 || hk_elements_are_damped(system);
+int32_t hk_system_is_damped(const hooke_system *system, int32_t kinds) {
+  int32_t damped = 0;
+  for (int32_t k = 0; hk_force_table(k); k++)
+    damped |= (kinds == 0 || table[k]->kind & kinds) && hk_force_is_damped(system, table[k]);
+  return damped;
 }
 
 void hk_forces_release(hooke_system *system) {
+  memset(system->rest->member_count, 0, sizeof system->rest->member_count);
   for (int32_t k = 0; hk_force_table(k); k++) {
     if (table[k]->release) table[k]->release(system);
   }
 }
 
-int hk_force_is_other(const struct hk_force_row *row) {
-  return row->elements && row != &hk_force_springs && row != &hk_force_drag;
-}
-
-int hk_force_is_constant(const struct hk_force_row *row) {
-  return hk_force_is_other(row) && row->multiply;
-}
-
-int hk_force_is_kept(const struct hk_force_row *row) {
-  return hk_force_is_other(row) && !row->multiply;
-}
-
-int64_t hk_elements_of(const hooke_system *system, int (*wanted)(const struct hk_force_row *row)) {
+int64_t hk_elements_of(const hooke_system *system, int32_t kinds) {
   int64_t count = 0;
   for (int32_t k = 0; hk_force_table(k); k++)
-    count += wanted(table[k]) && table[k]->present(system) ? table[k]->count(system) : 0;
+    count += table[k]->kind & kinds && hk_force_is_present(system, table[k])
+                 ? hk_force_count(system, table[k])
+                 : 0;
   return count;
 }
 
@@ -111,9 +108,27 @@ int32_t hooke_system_acceleration(const hooke_system *system, double t, const do
 
 /* ---- derivatives: a force without a function of its own has them from its elements ---- */
 
+static void add_changes(const hooke_system *system, const struct hk_force_row *row,
+                        const struct hk_point *point, double *out) {
+  struct hk_member_change change;
+  const int64_t count = hk_force_count(system, row);
+  for (int64_t k = 0; k < count; k++) {
+    if (!row->change(system, k, point, &change)) continue;
+    for (int j = 0; j < change.count; j++) {
+      double *to = out + 3 * (int64_t)change.particle[j];
+      for (int a = 0; a < 3; a++)
+        to[a] += change.force[j][a];
+    }
+  }
+}
+
 static int32_t add_product(const hooke_system *system, const struct hk_force_row *row,
                            const struct hk_point *point, double *out) {
   if (row->add_product) return row->add_product(system, point, out);
+  if (row->change) {
+    add_changes(system, row, point, out);
+    return HOOKE_OK;
+  }
   const double *const dq[3] = {point->dq, point->dq + 1, point->dq + 2}, *const dv[3] = {point->dv,
                                                                                          point->dv + 1,
                                                                                          point->dv + 2};
@@ -138,12 +153,44 @@ static void add_block(const struct hk_pattern *pattern, const struct hk_element 
   }
 }
 
-static void add_blocks(const hooke_system *system, const struct hk_force_row *row, const double *q,
-                       const double *v, const struct hk_pattern *pattern, double *dfdq, double *dfdv) {
-  if (row->add_blocks) {
-    row->add_blocks(system, q, v, pattern, dfdq, dfdv);
-    return;
+/* Column `a` of the blocks of particle `j`: what displacing or pushing it along that axis changes. */
+static void add_column(const hooke_system *system, const struct hk_force_row *row, int64_t number,
+                       const struct hk_point *point, int64_t j, int a, const struct hk_pattern *pattern,
+                       double *blocks) {
+  struct hk_member_change change;
+  if (blocks == NULL || !row->change(system, number, point, &change)) return;
+  for (int i = 0; i < 3 * change.count; i++)
+    blocks[9 * hk_pattern_block(pattern, change.particle[i / 3], j) + 3 * (i % 3) + a] +=
+        change.force[i / 3][i % 3];
+}
+
+/* `unit` has 6n zeros. */
+static void add_columns(const hooke_system *system, const struct hk_force_row *row, const double *q,
+                        const double *v, double *unit, const struct hk_pattern *pattern, double *dfdq,
+                        double *dfdv) {
+  const double *none = unit + 3 * system->particle_count;
+  const struct hk_point displaced = {.q = q, .v = v, .dq = unit, .dv = none},
+                        pushed = {.q = q, .v = v, .dq = none, .dv = unit};
+  struct hk_member_change member;
+  const int64_t count = hk_force_count(system, row);
+  for (int64_t k = 0; k < count; k++) {
+    row->change(system, k, &displaced, &member);
+    for (int i = 0; i < 3 * member.count; i++) {
+      const int64_t j = member.particle[i / 3];
+      unit[3 * j + i % 3] = 1.0;
+      add_column(system, row, k, &displaced, j, i % 3, pattern, dfdq);
+      add_column(system, row, k, &pushed, j, i % 3, pattern, dfdv);
+      unit[3 * j + i % 3] = 0.0;
+    }
   }
+}
+
+static void add_blocks(const hooke_system *system, const struct hk_force_row *row, const double *q,
+                       const double *v, double *unit, const struct hk_pattern *pattern, double *dfdq,
+                       double *dfdv) {
+  if (row->add_blocks) row->add_blocks(system, q, v, pattern, dfdq, dfdv);
+  if (row->change) add_columns(system, row, q, v, unit, pattern, dfdq, dfdv);
+  if (row->add_blocks || row->change) return;
   struct hk_elements at;
   hk_begin_elements(system, q, v, &at);
   at.only = row;
@@ -153,20 +200,19 @@ static void add_blocks(const hooke_system *system, const struct hk_force_row *ro
   }
 }
 
-int32_t hk_forces_product(const hooke_system *system, const struct hk_point *point,
-                          int (*left_out)(const struct hk_force_row *row), double *out) {
+int32_t hk_forces_product(const hooke_system *system, const struct hk_point *point, int32_t left_out,
+                          double *out) {
   memset(out, 0, (size_t)(3 * system->particle_count) * sizeof(double));
   for (int32_t k = 0; k < system->force_row_count; k++) {
     const struct hk_force_row *row = system->force_row[k];
-    if (left_out && left_out(row)) continue;
+    if (row->kind & left_out) continue;
     const int32_t status = add_product(system, row, point, out);
     if (status != HOOKE_OK) return status;
   }
   return HOOKE_OK;
 }
 
-int32_t hk_forces_product_in_rows(const hooke_system *system, double t,
-                                  int (*left_out)(const struct hk_force_row *row), double **rows,
+int32_t hk_forces_product_in_rows(const hooke_system *system, double t, int32_t left_out, double **rows,
                                   int32_t *stop_value) {
   const int64_t size = 3 * system->particle_count;
   if (size == 0) return HOOKE_OK;
@@ -184,7 +230,7 @@ int32_t hooke_system_derivative_product(const hooke_system *system, double t, co
   int32_t stop_value;
   const struct hk_point point = {t, q, v, dq, dv, &stop_value, 0};
   const int32_t status = hk_system_require_committed(system);
-  return status == HOOKE_OK ? hk_forces_product(system, &point, NULL, out) : status;
+  return status == HOOKE_OK ? hk_forces_product(system, &point, 0, out) : status;
 }
 
 int32_t hooke_system_derivative_blocks(const hooke_system *system, const double *q, const double *v,
@@ -193,12 +239,13 @@ int32_t hooke_system_derivative_blocks(const hooke_system *system, const double 
   int32_t status = hk_system_require_committed(system);
   if (status == HOOKE_OK) status = hk_pattern_create(system, &pattern);
   if (status != HOOKE_OK) return status;
+  double *unit = hk_new(6 * system->particle_count, sizeof *unit);
   const size_t bytes = (size_t)(9 * pattern.count) * sizeof(double);
   if (dfdq) memset(dfdq, 0, bytes);
   if (dfdv) memset(dfdv, 0, bytes);
-  for (int32_t k = 0; k < system->force_row_count; k++) {
-    add_blocks(system, system->force_row[k], q, v, &pattern, dfdq, dfdv);
-  }
+  for (int32_t k = 0; k < system->force_row_count && unit; k++)
+    add_blocks(system, system->force_row[k], q, v, unit, &pattern, dfdq, dfdv);
   hk_pattern_release(&pattern);
-  return HOOKE_OK;
+  hk_free(unit);
+  return unit ? HOOKE_OK : HOOKE_NO_MEMORY;
 }

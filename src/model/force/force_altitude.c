@@ -3,19 +3,16 @@
  * rest lengths differ. Between such changes f_j = -T g_j u is its exact derivative: dh = u.(sum of g_j
  * dq_j). */
 
+#include "core/memory.h"
 #include "core/sum.h"
 #include "kernel/spring/spring_loops.h"
 #include "model/check_value.h"
 #include "model/force/altitude.h"
-#include "model/variant/variant.h"
+#include "model/system.h"
 
 #include <math.h>
 #include <stddef.h>
 #include <string.h>
-
-static int32_t present(const hooke_system *system) {
-  return system->altitudes->count > 0;
-}
 
 static int32_t add(const hooke_system *system, struct hk_motion *motion, double t) {
   (void)t;
@@ -52,83 +49,22 @@ static double heat(const hooke_system *system, const double *q, const double *v)
   return hk_sum_value(&sum);
 }
 
-/* change[j] += change of the force on particle j. */
-static void find_change(const struct hk_tautness *s, const struct hk_tautness_change *d,
-                        double change[4][3]) {
-  for (int j = 0; j < 4; j++) {
-    const double g = s->altitude.weight[j];
-    for (int a = 0; a < 3; a++) {
-      change[j][a] =
-          -((d->tension * g + s->tension * d->weight[j]) * s->altitude.u[a] + s->tension * g * d->u[a]);
-    }
-  }
-}
-
-static int32_t add_product(const hooke_system *system, const struct hk_point *point, double *out) {
-  for (int64_t k = 0; k < system->altitudes->count; k++) {
-    const struct hk_tetrahedron *t = &system->altitudes->tetrahedron[k];
-    struct hk_tautness s;
-    struct hk_tautness_change d;
-    double change[4][3];
-    if (!hk_tautness_find(t, point->q, point->v, &s) || s.slack) continue;
-    hk_tautness_differentiate(t, &s, point->q, point->v, point->dq, point->dv, &d);
-    find_change(&s, &d, change);
-    for (int j = 0; j < 4; j++) {
-      for (int a = 0; a < 3; a++)
-        out[3 * (int64_t)t->particle[j] + a] += change[j][a];
-    }
-  }
-  return HOOKE_OK;
-}
-
-/* Column `a` of the blocks of particle j: rows 0 to 2 of every corner. */
-static void add_column(const struct hk_pattern *pattern, const struct hk_tetrahedron *t, int j, int a,
-                       double change[4][3], double *blocks) {
-  for (int row = 0; row < 4; row++) {
-    double *block = blocks + 9 * hk_pattern_block(pattern, t->particle[row], t->particle[j]);
-    for (int b = 0; b < 3; b++)
-      block[3 * b + a] += change[row][b];
-  }
-}
-
-/* The tetrahedron alone, with corners 0 to 3: displaces one component of one corner after the other. */
-static void add_columns(const struct hk_pattern *pattern, const struct hk_tetrahedron *t, const double q[12],
-                        const double v[12], double *dfdq, double *dfdv) {
-  struct hk_tetrahedron own = *t;
-  for (int j = 0; j < 4; j++)
-    own.particle[j] = j;
+static int32_t change(const hooke_system *system, int64_t number, const struct hk_point *point,
+                      struct hk_member_change *out) {
+  const struct hk_tetrahedron *t = &system->altitudes->tetrahedron[number];
   struct hk_tautness s;
   struct hk_tautness_change d;
-  double one[12] = {0.0}, change[4][3];
-  const double none[12] = {0.0};
-  if (!hk_tautness_find(&own, q, v, &s) || s.slack) return;
-  for (int k = 0; k < 12; k++) {
-    one[k] = 1.0;
-    hk_tautness_differentiate(&own, &s, q, v, one, none, &d);
-    find_change(&s, &d, change);
-    if (dfdq) add_column(pattern, t, k / 3, k % 3, change, dfdq);
-    hk_tautness_differentiate(&own, &s, q, v, none, one, &d);
-    find_change(&s, &d, change);
-    if (dfdv) add_column(pattern, t, k / 3, k % 3, change, dfdv);
-    one[k] = 0.0;
+  out->count = 4;
+  memcpy(out->particle, t->particle, sizeof t->particle);
+  if (!hk_tautness_find(t, point->q, point->v, &s) || s.slack) return 0;
+  hk_tautness_differentiate(t, &s, point->q, point->v, point->dq, point->dv, &d);
+  for (int j = 0; j < 4; j++) {
+    const double g = s.altitude.weight[j];
+    for (int a = 0; a < 3; a++)
+      out->force[j][a] =
+          -((d.tension * g + s.tension * d.weight[j]) * s.altitude.u[a] + s.tension * g * d.u[a]);
   }
-}
-
-static void add_blocks(const hooke_system *system, const double *q, const double *v,
-                       const struct hk_pattern *pattern, double *dfdq, double *dfdv) {
-  for (int64_t k = 0; k < system->altitudes->count; k++) {
-    const struct hk_tetrahedron *t = &system->altitudes->tetrahedron[k];
-    double x[12], u[12];
-    for (int64_t j = 0; j < 4; j++) {
-      memcpy(x + 3 * j, q + 3 * (int64_t)t->particle[j], 3 * sizeof(double));
-      memcpy(u + 3 * j, v + 3 * (int64_t)t->particle[j], 3 * sizeof(double));
-    }
-    add_columns(pattern, t, x, u, dfdq, dfdv);
-  }
-}
-
-static int64_t count(const hooke_system *system) {
-  return system->altitudes->count;
+  return 1;
 }
 
 static void elements(const hooke_system *system, const double *q, const double *v, int64_t first,
@@ -172,22 +108,36 @@ static void add_stiffness(const hooke_system *system, double *sum) {
 /* ---- from groups ---- */
 
 static int32_t commit(hooke_system *system, const struct hk_group *group, int64_t count) {
-  return hk_altitudes_create(group, count, system->altitudes);
+  struct hk_altitudes *altitudes = system->altitudes;
+  *altitudes = (struct hk_altitudes){
+      .tetrahedron = hk_new(hk_force_count(system, &hk_force_altitude), sizeof *altitudes->tetrahedron)};
+  if (altitudes->tetrahedron == NULL) return HOOKE_NO_MEMORY;
+  for (; count > 0; group++, count--) {
+    altitudes->damped |= group->damped;
+    for (int64_t k = 0; k < group->count; k++) {
+      struct hk_tetrahedron *t = &altitudes->tetrahedron[altitudes->count++];
+      const double *rest = group->number[HOOKE_REST_LENGTH] + HOOKE_ALTITUDES * k;
+      *t = (struct hk_tetrahedron){.choice = HOOKE_ALTITUDE_SHORTEST,
+                                   .pull_only = group->pull_only,
+                                   .side = signbit(rest[0]) ? -1.0 : 1.0,
+                                   .stiffness = group->number[HOOKE_KAPPA][k],
+                                   .damping = group->number[HOOKE_GAMMA][k]};
+      for (int e = 0; e < 4; e++)
+        t->particle[e] = group->particle[e][k];
+      for (int a = 0; a < HOOKE_ALTITUDES; a++)
+        t->rest[a] = fabs(rest[a]);
+    }
+  }
+  return HOOKE_OK;
 }
 
 static void release(hooke_system *system) {
-  hk_altitudes_release(system->altitudes);
+  hk_free(system->altitudes->tetrahedron);
+  *system->altitudes = (struct hk_altitudes){0};
 }
 
 static int64_t memory(const hooke_system *system) {
-  return hk_altitudes_memory(system->altitudes);
-}
-
-static int32_t resists(const hooke_system *system) {
-  int32_t some = 0;
-  for (int64_t k = 0; k < system->altitudes->count; k++)
-    some |= !system->altitudes->tetrahedron[k].pull_only;
-  return some;
+  return system->altitudes->count * (int64_t)sizeof(struct hk_tetrahedron);
 }
 
 static void check(const hooke_system *system, uint32_t *value) {
@@ -204,38 +154,37 @@ static void check(const hooke_system *system, uint32_t *value) {
   }
 }
 
-static void list(const hooke_system *system, const struct hk_members *out) {
-  for (int64_t k = 0; k < system->altitudes->count; k++) {
-    const struct hk_tetrahedron *t = &system->altitudes->tetrahedron[k];
-    for (int p = 0; p < 4 && out->particles; p++)
-      out->particles[4 * k + p] = t->particle[p];
-    if (out->stiffness) out->stiffness[k] = t->stiffness;
-    if (out->damping) out->damping[k] = t->damping;
-    for (int a = 0; a < HOOKE_ALTITUDES && out->rest_length; a++)
-      out->rest_length[HOOKE_ALTITUDES * k + a] = t->side * t->rest[a];
+static void recall(const hooke_system *system, int64_t first, struct hk_group *to) {
+  for (int64_t k = 0; k < to->count; k++) {
+    const struct hk_tetrahedron *t = &system->altitudes->tetrahedron[first + k];
+    for (int e = 0; e < 4; e++)
+      to->particle[e][k] = t->particle[e];
+    to->number[HOOKE_KAPPA][k] = t->stiffness;
+    to->number[HOOKE_GAMMA][k] = t->damping;
+    for (int a = 0; a < HOOKE_ALTITUDES; a++)
+      to->number[HOOKE_REST_LENGTH][HOOKE_ALTITUDES * k + a] = t->side * t->rest[a];
   }
 }
 
 const struct hk_force_row hk_force_altitude = {.name = "altitude",
+                                               .kind = HOOKE_KEPT,
                                                .title = "altitude springs",
                                                .members = "tetrahedra",
                                                .options = &hk_altitude_options,
+                                               .member = "tetrahedron",
+                                               .place = "tetrahedra",
+                                               .width = {1, 1, HOOKE_ALTITUDES},
                                                .member_particles = 4,
-                                               .list = list,
+                                               .recall = recall,
                                                .commit = commit,
                                                .release = release,
                                                .memory = memory,
                                                .check = check,
-                                               .resists = resists,
-                                               .keep = hk_variant_keep_altitude,
                                                .bytes = 170.0,
-                                               .present = present,
                                                .add = add,
                                                .energy = energy,
                                                .heat = heat,
-                                               .add_product = add_product,
-                                               .add_blocks = add_blocks,
-                                               .count = count,
+                                               .change = change,
                                                .elements = elements,
                                                .add_stiffness = add_stiffness,
                                                .damped = damped};

@@ -6,7 +6,6 @@
 #include "core/sum.h"
 #include "model/check_value.h"
 #include "model/system.h"
-#include "model/variant/variant.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -21,27 +20,15 @@ static const struct hk_option_row rows[] = {
      .fallback = "initial",
      .doc = "the point that each particle is tied to, three numbers for each; initial: where it was added"},
     {.name = "stiffness",
-     .type = HOOKE_OPTION_NUMBERS,
-     .unit = "N/m",
-     .low = 0.0,
-     .high = 1e300,
-     .min_count = 1,
+     HOOKE_OPTION_EACH("N/m"),
      .required = 1,
      .doc = "stiffness, one number or one for each anchor"},
     {.name = "damping",
-     .type = HOOKE_OPTION_NUMBERS,
-     .unit = "N s/m",
-     .low = 0.0,
-     .high = 1e300,
-     .min_count = 1,
+     HOOKE_OPTION_EACH("N s/m"),
      .fallback = "0",
      .doc = "damping along the line to the point, one number or one for each"},
     {.name = "rest_length",
-     .type = HOOKE_OPTION_NUMBERS,
-     .unit = "m",
-     .low = 0.0,
-     .high = 1e300,
-     .min_count = 1,
+     HOOKE_OPTION_EACH("m"),
      .fallback = "0",
      .doc = "rest length, one number or one for each"},
 };
@@ -50,58 +37,19 @@ static const struct hk_option_table options_table = {"anchors", HOOKE_OPTION_ROW
 
 /* ---- adding a group ---- */
 
-static int32_t check_counts(const hooke_options *options, int64_t count) {
-  for (size_t k = 0; k < sizeof rows / sizeof rows[0]; k++) {
-    const int64_t given = hooke_options_number_count(options, rows[k].name);
-    const int64_t each = rows[k].columns > 0 ? rows[k].columns : 1;
-    if (given == 0 || given == each * count || (given == 1 && each == 1)) continue;
-    return hk_fail(HOOKE_BAD_VALUE, rows[k].name, "%lld values for %lld anchors; allowed: %s",
-                   (long long)given, (long long)count, each > 1 ? "three for each" : "one, or one for each");
-  }
-  return HOOKE_OK;
-}
-
-static int32_t check_call(const hooke_system *system, int64_t count, const int64_t *particles,
-                          const hooke_options *options) {
-  int32_t status = hk_system_require_open(system);
-  if (status == HOOKE_OK)
-    status = hk_options_require(options, &options_table, "options", "hooke_options_create(\"anchors\", ...)");
-  if (status == HOOKE_OK) status = hk_options_check_required(options);
-  if (status == HOOKE_OK && count < 0)
-    status = hk_fail(HOOKE_BAD_VALUE, "particles", "%lld anchors; 0 or more are allowed", (long long)count);
-  if (status == HOOKE_OK) {
-    status = hk_system_check_more(system, &hk_force_anchor, count);
-    if (status != HOOKE_OK) hk_fail_within(status, "particles");
-  }
-  if (status == HOOKE_OK) status = hk_system_check_particles(system, "particles", count, particles, 0);
-  return status == HOOKE_OK ? check_counts(options, count) : status;
-}
-
-static double value_of(const hooke_options *options, const char *name, int64_t k) {
-  return hooke_options_numbers(options, name)[hooke_options_number_count(options, name) > 1 ? k : 0];
-}
-
 int32_t hooke_system_add_anchors(hooke_system *system, const char *name, int64_t count,
                                  const int64_t *particles, const hooke_options *options) {
-  int32_t status = check_call(system, count, particles, options);
-  if (status != HOOKE_OK) return status;
-  struct hk_group group = {.force = &hk_force_anchor, .count = count};
-  status = hk_group_allocate(&group, name, 1, 3, 3 * sizeof(double));
-  if (status != HOOKE_OK) {
-    hk_group_release(&group);
-    return status;
-  }
-  const int given = hooke_options_number_count(options, "points") > 0;
-  for (int64_t k = 0; k < count; k++) {
-    const double *point =
-        given ? hooke_options_numbers(options, "points") + 3 * k : system->position + 3 * particles[k];
-    memcpy((double *)group.own + 3 * k, point, 3 * sizeof(double));
-    group.particle[0][k] = (int32_t)particles[k];
-    group.number[HOOKE_KAPPA][k] = value_of(options, "stiffness", k);
-    group.number[HOOKE_GAMMA][k] = value_of(options, "damping", k);
-    group.number[HOOKE_REST_LENGTH][k] = value_of(options, "rest_length", k);
-  }
-  return hk_system_add_group(system, &group);
+  const struct hk_addition added = {&hk_force_anchor, name, count, particles, options, 0};
+  struct hk_group group;
+  int32_t status = hk_group_begin(system, &added, &group);
+  if (status == HOOKE_OK) hk_group_fill(&group, options);
+  const double *points = status == HOOKE_OK && hooke_options_number_count(options, "points") > 0
+                             ? hooke_options_numbers(options, "points")
+                             : NULL;
+  for (int64_t k = 0; k < count && status == HOOKE_OK; k++)
+    memcpy(group.number[HOOKE_POINT] + 3 * k, points ? points + 3 * k : system->position + 3 * particles[k],
+           3 * sizeof(double));
+  return hk_group_end(system, status, &group);
 }
 
 /* ---- from groups ---- */
@@ -111,37 +59,27 @@ struct anchor {
   double point[3], kappa, gamma, rest_length;
 };
 
-struct anchors {
-  int64_t count;
-  int32_t damped;
-  struct anchor anchor[];
-};
+static const struct anchor *anchors_of(const hooke_system *system) {
+  return system->rest->own[hk_force_number(&hk_force_anchor)];
+}
 
-static const struct anchors *anchors_of(const hooke_system *system) {
-  static const struct anchors none = {0};
-  const struct anchors *own = system->rest->own[hk_force_number(&hk_force_anchor)];
-  return own ? own : &none;
+static int64_t count_of(const hooke_system *system) {
+  return hk_force_count(system, &hk_force_anchor);
 }
 
 static int32_t commit(hooke_system *system, const struct hk_group *group, int64_t count) {
-  int64_t all = 0;
-  for (int64_t g = 0; g < count; g++)
-    all += group[g].count;
-  if (all == 0) return HOOKE_OK;
-  struct anchors *made = hk_new(1, sizeof *made + (size_t)all * sizeof made->anchor[0]);
-  if (made == NULL) return HOOKE_NO_MEMORY;
+  struct anchor *next = count > 0 ? hk_new(count_of(system), sizeof *next) : NULL;
+  if (count > 0 && next == NULL) return HOOKE_NO_MEMORY;
+  system->rest->own[hk_force_number(&hk_force_anchor)] = next;
   for (; count > 0; group++, count--) {
-    for (int64_t k = 0; k < group->count; k++) {
-      struct anchor *a = &made->anchor[made->count++];
-      memcpy(a->point, (const double *)group->own + 3 * k, sizeof a->point);
-      a->particle = group->particle[0][k];
-      a->kappa = group->number[HOOKE_KAPPA][k];
-      a->gamma = group->number[HOOKE_GAMMA][k];
-      a->rest_length = group->number[HOOKE_REST_LENGTH][k];
-      made->damped |= a->gamma != 0.0;
+    for (int64_t k = 0; k < group->count; k++, next++) {
+      memcpy(next->point, group->number[HOOKE_POINT] + 3 * k, sizeof next->point);
+      next->particle = group->particle[0][k];
+      next->kappa = group->number[HOOKE_KAPPA][k];
+      next->gamma = group->number[HOOKE_GAMMA][k];
+      next->rest_length = group->number[HOOKE_REST_LENGTH][k];
     }
   }
-  system->rest->own[hk_force_number(&hk_force_anchor)] = made;
   return HOOKE_OK;
 }
 
@@ -151,56 +89,20 @@ static void release(hooke_system *system) {
   *own = NULL;
 }
 
-static int64_t count(const hooke_system *system) {
-  return anchors_of(system)->count;
-}
-
-static int32_t present(const hooke_system *system) {
-  return count(system) > 0;
-}
-
-static int32_t damped(const hooke_system *system) {
-  return anchors_of(system)->damped;
-}
-
 static int64_t memory(const hooke_system *system) {
-  return count(system) * (int64_t)sizeof(struct anchor);
+  return count_of(system) * (int64_t)sizeof(struct anchor);
 }
 
 static void check(const hooke_system *system, uint32_t *value) {
-  hk_check_add(value, anchors_of(system)->anchor, count(system), sizeof(struct anchor));
-}
-
-static void copy_group(const struct hk_variant_maker *maker, const struct hk_group *group,
-                       const struct anchor *from, struct hk_group *to) {
-  to->count = 0;
-  for (int64_t k = 0; k < group->count; k++) {
-    const int64_t particle = maker->map->to[from[k].particle], at = to->count;
-    if (particle < 0) continue;
-    to->particle[0][at] = (int32_t)particle;
-    to->number[HOOKE_KAPPA][at] = from[k].kappa;
-    to->number[HOOKE_GAMMA][at] = maker->variant->damping ? 0.0 : from[k].gamma;
-    to->number[HOOKE_REST_LENGTH][at] = from[k].rest_length;
-    memcpy((double *)to->own + 3 * at, from[k].point, sizeof from[k].point);
-    to->count++;
-  }
-}
-
-static int32_t keep(struct hk_variant_maker *maker, const struct hk_group *group, int64_t first) {
-  struct hk_group kept = {.force = &hk_force_anchor, .count = group->count};
-  const int32_t status = hk_group_allocate(&kept, group->name, 1, 3, 3 * sizeof(double));
-  if (status == HOOKE_OK) copy_group(maker, group, anchors_of(maker->from)->anchor + first, &kept);
-  if (status == HOOKE_OK) return hk_system_add_group(maker->made, &kept);
-  hk_group_release(&kept);
-  return status;
+  hk_check_add(value, anchors_of(system), count_of(system), sizeof(struct anchor));
 }
 
 /* ---- the force ---- */
 
 static int32_t add(const hooke_system *system, struct hk_motion *motion, double t) {
   (void)t;
-  const struct anchors *all = anchors_of(system);
-  for (const struct anchor *a = all->anchor; a < all->anchor + all->count; a++) {
+  const struct anchor *all = anchors_of(system), *end = all + count_of(system);
+  for (const struct anchor *a = all; a < end; a++) {
     const int64_t p = a->particle;
     double *const *q = motion->q, *const *v = motion->v;
     const double d[3] = {q[0][p] - a->point[0], q[1][p] - a->point[1], q[2][p] - a->point[2]};
@@ -216,9 +118,9 @@ static int32_t add(const hooke_system *system, struct hk_motion *motion, double 
 }
 
 static int64_t passed(const hooke_system *system, const double *before, const double *now, int64_t ends[2]) {
-  const struct anchors *all = anchors_of(system);
+  const struct anchor *all = anchors_of(system), *end = all + count_of(system);
   int64_t count = 0;
-  for (const struct anchor *a = all->anchor; a < all->anchor + all->count; a++) {
+  for (const struct anchor *a = all; a < end; a++) {
     const int64_t i = 3 * a->particle;
     if (!(a->rest_length > 0.0) || !hk_spring_turned(before + i, a->point, now + i, a->point)) continue;
     if (count++ > 0) continue;
@@ -240,8 +142,8 @@ static struct hk_spring spring_of(const struct anchor *a, const double *q, const
 
 static double energy(const hooke_system *system, const double *q) {
   struct hk_sum sum = {0.0, 0.0};
-  const struct anchors *all = anchors_of(system);
-  for (const struct anchor *a = all->anchor; a < all->anchor + all->count; a++) {
+  const struct anchor *all = anchors_of(system), *end = all + count_of(system);
+  for (const struct anchor *a = all; a < end; a++) {
     double x[6], u[6];
     struct hk_stretch s;
     const struct hk_spring spring = spring_of(a, q, NULL, x, u);
@@ -251,113 +153,80 @@ static double energy(const hooke_system *system, const double *q) {
   return hk_sum_value(&sum);
 }
 
-static double heat(const hooke_system *system, const double *q, const double *v) {
-  struct hk_sum sum = {0.0, 0.0};
-  const struct anchors *all = anchors_of(system);
-  for (const struct anchor *a = all->anchor; a < all->anchor + all->count; a++) {
-    double x[6], u[6];
-    struct hk_stretch s;
-    const struct hk_spring spring = spring_of(a, q, v, x, u);
-    hk_spring_stretch(&spring, x, u, &s);
-    hk_sum_add(&sum, (spring.gamma * s.rate) * s.rate);
-  }
-  return hk_sum_value(&sum);
-}
-
-static int32_t add_product(const hooke_system *system, const struct hk_point *point, double *out) {
-  const struct anchors *all = anchors_of(system);
-  for (const struct anchor *a = all->anchor; a < all->anchor + all->count; a++) {
-    double x[6], u[6], change[3];
-    struct hk_spring_slope s;
-    const struct hk_spring spring = spring_of(a, point->q, point->v, x, u);
-    if (!hk_spring_slope_find(&spring, x, u, &s)) continue;
-    hk_spring_slope_change(&s, point->dq + 3 * a->particle, point->dv + 3 * a->particle, change);
-    for (int c = 0; c < 3; c++)
-      out[3 * a->particle + c] -= change[c];
-  }
-  return HOOKE_OK;
-}
-
-static void add_blocks(const hooke_system *system, const double *q, const double *v,
-                       const struct hk_pattern *pattern, double *dfdq, double *dfdv) {
-  const struct anchors *all = anchors_of(system);
-  for (const struct anchor *a = all->anchor; a < all->anchor + all->count; a++) {
-    double x[6], u[6], stiff[9], damp[9];
-    struct hk_spring_slope s;
-    const struct hk_spring spring = spring_of(a, q, v, x, u);
-    if (!hk_spring_slope_find(&spring, x, u, &s)) continue;
-    hk_spring_slope_blocks(&s, stiff, damp);
-    const int64_t block = 9 * hk_pattern_block(pattern, a->particle, a->particle);
-    for (int64_t c = 0; c < 9; c++) {
-      if (dfdq) dfdq[block + c] -= stiff[c];
-      if (dfdv) dfdv[block + c] -= damp[c];
-    }
-  }
+static int32_t change(const hooke_system *system, int64_t number, const struct hk_point *point,
+                      struct hk_member_change *out) {
+  const struct anchor *a = &anchors_of(system)[number];
+  double x[6], u[6];
+  struct hk_spring_slope s;
+  const struct hk_spring spring = spring_of(a, point->q, point->v, x, u);
+  out->count = 1;
+  out->particle[0] = (int32_t)a->particle;
+  if (!hk_spring_slope_find(&spring, x, u, &s)) return 0;
+  hk_spring_slope_change(&s, point->dq + 3 * a->particle, point->dv + 3 * a->particle, out->force[0]);
+  for (int c = 0; c < 3; c++)
+    out->force[0][c] = -out->force[0][c];
+  return 1;
 }
 
 static void elements(const hooke_system *system, const double *q, const double *v, int64_t first,
                      int64_t wanted, struct hk_element *out) {
-  const struct anchors *all = anchors_of(system);
   for (int64_t k = 0; k < wanted; k++) {
     double x[6], u[6];
-    const struct anchor *a = &all->anchor[first + k];
-    out[k].count = 1;
-    out[k].particle[0] = (int32_t)a->particle;
-    if (q == NULL) continue;
-    const struct hk_spring spring = spring_of(a, q, v, x, u);
-    hk_spring_element(&spring, x, v ? u : NULL, &out[k]);
+    const struct anchor *a = anchors_of(system) + first + k;
+    if (q) {
+      const struct hk_spring spring = spring_of(a, q, v, x, u);
+      hk_spring_element(&spring, x, v ? u : NULL, &out[k]);
+    }
     out[k].count = 1;
     out[k].particle[0] = (int32_t)a->particle;
   }
 }
 
 static void add_stiffness(const hooke_system *system, double *sum) {
-  const struct anchors *all = anchors_of(system);
-  for (int64_t k = 0; k < all->count; k++)
-    *sum += all->anchor[k].kappa;
+  const struct anchor *all = anchors_of(system), *end = all + count_of(system);
+  for (const struct anchor *a = all; a < end; a++)
+    *sum += a->kappa;
 }
 
-static void list(const hooke_system *system, const struct hk_members *out) {
-  const struct anchors *all = anchors_of(system);
-  for (int64_t k = 0; k < all->count; k++) {
-    const struct anchor *a = &all->anchor[k];
-    if (out->particles) out->particles[k] = a->particle;
-    if (out->stiffness) out->stiffness[k] = a->kappa;
-    if (out->damping) out->damping[k] = a->gamma;
-    if (out->rest_length) out->rest_length[k] = a->rest_length;
+static void recall(const hooke_system *system, int64_t first, struct hk_group *to) {
+  const struct anchor *a = anchors_of(system) + first;
+  for (int64_t k = 0; k < to->count; k++, a++) {
+    to->particle[0][k] = (int32_t)a->particle;
+    to->number[HOOKE_KAPPA][k] = a->kappa;
+    to->number[HOOKE_GAMMA][k] = a->gamma;
+    to->number[HOOKE_REST_LENGTH][k] = a->rest_length;
+    memcpy(to->number[HOOKE_POINT] + 3 * k, a->point, sizeof a->point);
   }
 }
 
 const struct hk_force_row hk_force_anchor = {.name = "anchors",
+                                             .kind = HOOKE_KEPT,
+                                             .in_scenes = 1,
                                              .members = "anchors",
                                              .title = "anchor",
                                              .bytes = 130.0,
                                              .options = &options_table,
+                                             .member = "anchor",
+                                             .place = "particles",
+                                             .width = {1, 1, 1, 3},
                                              .member_particles = 1,
-                                             .list = list,
+                                             .recall = recall,
                                              .commit = commit,
                                              .release = release,
                                              .memory = memory,
                                              .check = check,
-                                             .keep = keep,
-                                             .present = present,
                                              .add = add,
                                              .passed = passed,
                                              .energy = energy,
-                                             .heat = heat,
-                                             .add_product = add_product,
-                                             .add_blocks = add_blocks,
-                                             .count = count,
+                                             .change = change,
                                              .elements = elements,
-                                             .add_stiffness = add_stiffness,
-                                             .damped = damped};
+                                             .add_stiffness = add_stiffness};
 
 /* ---- queries ---- */
 
 int32_t hooke_system_anchor_points(const hooke_system *system, double *points) {
   const int32_t status = hk_system_require_committed(system);
-  const struct anchors *all = anchors_of(system);
-  for (int64_t k = 0; status == HOOKE_OK && k < all->count; k++)
-    memcpy(points + 3 * k, all->anchor[k].point, sizeof all->anchor[k].point);
+  for (int64_t k = 0; status == HOOKE_OK && k < count_of(system); k++)
+    memcpy(points + 3 * k, anchors_of(system)[k].point, 3 * sizeof(double));
   return status;
 }

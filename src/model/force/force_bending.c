@@ -3,15 +3,8 @@
 #include "core/sum.h"
 #include "model/check_value.h"
 #include "model/system.h"
-#include "model/variant/variant.h"
 
 #include <stddef.h>
-
-#include <string.h>
-
-static int32_t present(const hooke_system *system) {
-  return system->rest->bending.count > 0;
-}
 
 static int32_t add(const hooke_system *system, struct hk_motion *motion, double t) {
   (void)t;
@@ -29,10 +22,6 @@ static double energy(const hooke_system *system, const double *q) {
     hk_sum_add(&sum, 0.5 * triple.coefficient * ((d[0] * d[0] + d[1] * d[1]) + d[2] * d[2]));
   }
   return hk_sum_value(&sum);
-}
-
-static int64_t count(const hooke_system *system) {
-  return system->rest->bending.count;
 }
 
 static void elements(const hooke_system *system, const double *q, const double *v, int64_t first,
@@ -63,18 +52,6 @@ static void add_stiffness(const hooke_system *system, double *sum) {
 
 /* ---- from groups ---- */
 
-static int32_t commit(hooke_system *system, const struct hk_group *group, int64_t count) {
-  return hk_bending_create(group, count, &system->rest->bending);
-}
-
-static void release(hooke_system *system) {
-  hk_bending_release(&system->rest->bending);
-}
-
-static int64_t memory(const hooke_system *system) {
-  return hk_bending_memory(&system->rest->bending);
-}
-
 static void check(const hooke_system *system, uint32_t *value) {
   struct hk_triple triple;
   hk_check_whole(value, system->rest->bending.count);
@@ -84,32 +61,33 @@ static void check(const hooke_system *system, uint32_t *value) {
   }
 }
 
-static void list(const hooke_system *system, const struct hk_members *out) {
+static void recall(const hooke_system *system, int64_t first, struct hk_group *to) {
+  struct hk_triples at = hk_triples_from(&system->rest->bending, first);
   struct hk_triple triple;
-  int64_t k = 0;
-  for (struct hk_triples at = {&system->rest->bending, 0, 0}; hk_next_triple(&at, &triple); k++) {
-    if (out->particles) memcpy(out->particles + 3 * k, triple.particle, sizeof triple.particle);
-    if (out->stiffness) out->stiffness[k] = triple.coefficient;
-    if (out->damping) out->damping[k] = 0.0;
-    if (out->rest_length) out->rest_length[k] = 0.0;
+  for (int64_t k = 0; k < to->count && hk_next_triple(&at, &triple); k++) {
+    for (int e = 0; e < 3; e++)
+      to->particle[e][k] = (int32_t)triple.particle[e];
+    to->number[HOOKE_KAPPA][k] = triple.coefficient;
   }
 }
 
 const struct hk_force_row hk_force_bending = {.name = "bending",
+                                              .kind = HOOKE_CONSTANT,
+                                              .in_scenes = 1,
                                               .title = "bending",
                                               .members = "triples",
+                                              .member = "triple",
+                                              .place = "triples",
+                                              .width = {1},
                                               .member_particles = 3,
-                                              .list = list,
-                                              .commit = commit,
-                                              .release = release,
-                                              .memory = memory,
+                                              .recall = recall,
+                                              .commit = hk_bending_commit,
+                                              .release = hk_bending_release,
+                                              .memory = hk_bending_memory,
                                               .check = check,
-                                              .keep = hk_variant_keep_bending,
                                               .bytes = 60.0,
-                                              .present = present,
                                               .add = add,
                                               .energy = energy,
-                                              .count = count,
                                               .elements = elements,
                                               .multiply = multiply,
                                               .add_stiffness = add_stiffness};

@@ -54,7 +54,7 @@ static void check(const hooke_system *system, uint32_t *value) {
 
 static int32_t copy(const struct hk_variant_maker *maker) {
   const hooke_system *from = maker->from;
-  if (!present(from) || maker->variant->force) return HOOKE_OK;
+  if (!present(from)) return HOOKE_OK;
   const int32_t status = hk_variant_require_numbers(maker, "a force callback");
   maker->made->force_scale = from->force_scale;
   return status == HOOKE_OK
@@ -148,6 +148,7 @@ static int32_t add_product(const hooke_system *system, const struct hk_point *po
 }
 
 const struct hk_force_row hk_force_callback = {.name = "callback",
+                                               .kind = HOOKE_CALLED,
                                                .check = check,
                                                .copy = copy,
                                                .present = present,

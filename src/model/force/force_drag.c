@@ -1,7 +1,6 @@
 /* Ether drag f = -c v on every free particle. It brakes free fall too; spring damping does not. */
 #include "model/force/force.h"
 
-#include "core/sum.h"
 #include "model/check_value.h"
 #include "model/variant/variant.h"
 
@@ -14,7 +13,7 @@ static void check(const hooke_system *system, uint32_t *value) {
 }
 
 static int32_t copy(const struct hk_variant_maker *maker) {
-  return maker->variant->drag ? HOOKE_OK : hooke_system_set_drag(maker->made, hk_system_drag(maker->from));
+  return hooke_system_set_drag(maker->made, hk_system_drag(maker->from));
 }
 
 static void brake(const hooke_system *system, struct hk_motion *motion, int64_t from, int64_t to) {
@@ -37,16 +36,6 @@ static int32_t add(const hooke_system *system, struct hk_motion *motion, double 
   }
   brake(system, motion, from, motion->n);
   return HOOKE_OK;
-}
-
-static double heat(const hooke_system *system, const double *q, const double *v) {
-  (void)q;
-  struct hk_sum sum = {0.0, 0.0};
-  for (int64_t p = 0; p < system->particle_count; p++) {
-    if (system->constrained[p]) continue;
-    hk_sum_add(&sum, (v[3 * p] * v[3 * p] + v[3 * p + 1] * v[3 * p + 1]) + v[3 * p + 2] * v[3 * p + 2]);
-  }
-  return system->drag * hk_sum_value(&sum);
 }
 
 /* One element for each particle; zero if it is constrained. */
@@ -78,12 +67,14 @@ static void multiply(const hooke_system *system, double a, double b, const doubl
 }
 
 const struct hk_force_row hk_force_drag = {.name = "drag",
+                                           .kind = HOOKE_UNIFORM,
+                                           .in_scenes = 1,
                                            .title = "drag",
                                            .check = check,
                                            .copy = copy,
                                            .present = present,
                                            .add = add,
-                                           .heat = heat,
                                            .count = count,
                                            .elements = elements,
-                                           .multiply = multiply};
+                                           .multiply = multiply,
+                                           .damped = present};

@@ -24,11 +24,10 @@ static void check(const hooke_system *system, uint32_t *value) {
 }
 
 static int32_t copy(const struct hk_variant_maker *maker) {
-  return maker->variant->gravity ? HOOKE_OK
-                                 : hooke_system_set_gravity(maker->made, hk_system_gravity(maker->from));
+  return hooke_system_set_gravity(maker->made, hk_system_gravity(maker->from));
 }
 
-/* ---- in an overdamped system it is a force ---- */
+/* ---- in an overdamped system it is a force, and copied with gravity ---- */
 
 static int32_t weighs(const hooke_system *system) {
   return system->friction > 0.0 && hk_system_has_gravity(system);
@@ -44,7 +43,7 @@ static int32_t add_weight(const hooke_system *system, struct hk_motion *motion, 
 }
 
 const struct hk_force_row hk_force_weight = {
-    .name = "weight", .check = check, .copy = copy, .present = weighs, .add = add_weight};
+    .name = "weight", .in_scenes = 1, .check = check, .present = weighs, .add = add_weight};
 
 const struct hk_force_row hk_force_gravity = {
-    .name = "gravity", .check = check, .copy = copy, .present = present, .energy = energy};
+    .name = "gravity", .in_scenes = 1, .check = check, .copy = copy, .present = present, .energy = energy};

@@ -5,6 +5,7 @@
 #include "model/check_value.h"
 #include "model/system.h"
 #include "model/variant/variant.h"
+#include "model/vector3.h"
 
 #include <math.h>
 #include <string.h>
@@ -14,8 +15,8 @@ void hk_system_set_linear(hooke_system *system, int64_t count, const struct hk_e
   system->rest->linear = (struct hk_linear){count, element, place};
 }
 
-static int32_t present(const hooke_system *system) {
-  return system->rest->linear.count > 0;
+static int64_t count(const hooke_system *system) {
+  return system->rest->linear.count;
 }
 
 /* A twin and its elements stay within one process, where they are known by their addresses. */
@@ -25,11 +26,7 @@ static void check(const hooke_system *system, uint32_t *value) {
 
 static int32_t copy(const struct hk_variant_maker *maker) {
   maker->made->rest->linear = maker->from->rest->linear;
-  return present(maker->from) ? hk_variant_require_numbers(maker, "a linear force") : HOOKE_OK;
-}
-
-static double dot(const double a[3], const double b[3]) {
-  return (a[0] * b[0] + a[1] * b[1]) + a[2] * b[2];
+  return count(maker->from) > 0 ? hk_variant_require_numbers(maker, "a linear force") : HOOKE_OK;
 }
 
 static int32_t add(const hooke_system *system, struct hk_motion *motion, double t) {
@@ -45,7 +42,7 @@ static int32_t add(const hooke_system *system, struct hk_motion *motion, double 
       }
     }
     const double along =
-        (e->k_along - e->k_across) * dot(e->u, x) + (e->c_along - e->c_across) * dot(e->u, v);
+        (e->k_along - e->k_across) * hk_dot3(e->u, x) + (e->c_along - e->c_across) * hk_dot3(e->u, v);
     for (int a = 0; a < 3; a++) {
       const double force = along * e->u[a] + (e->k_across * x[a] + e->c_across * v[a]);
       for (int j = 0; j < e->count; j++)
@@ -64,25 +61,10 @@ static double energy(const hooke_system *system, const double *q) {
       const int64_t at = 3 * (int64_t)e->particle[k / 3] + k % 3;
       x[k % 3] += e->weight[k / 3] * (q[at] - linear->place[at]);
     }
-    const double along = dot(e->u, x);
-    hk_sum_add(&sum, 0.5 * ((e->k_along - e->k_across) * along * along + e->k_across * dot(x, x)));
+    const double along = hk_dot3(e->u, x);
+    hk_sum_add(&sum, 0.5 * ((e->k_along - e->k_across) * along * along + e->k_across * hk_dot3(x, x)));
   }
   return hk_sum_value(&sum);
-}
-
-static double heat(const hooke_system *system, const double *q, const double *v) {
-  (void)q;
-  const double *const x[3] = {v, v + 1, v + 2};
-  struct hk_sum sum = {0.0, 0.0};
-  for (int64_t k = 0; k < system->rest->linear.count; k++) {
-    const struct hk_element *e = &system->rest->linear.element[k];
-    hk_sum_add(&sum, hk_element_energy(e, e->c_along, e->c_across, 3, x));
-  }
-  return hk_sum_value(&sum);
-}
-
-static int64_t count(const hooke_system *system) {
-  return system->rest->linear.count;
 }
 
 static void elements(const hooke_system *system, const double *q, const double *v, int64_t first,
@@ -118,13 +100,12 @@ static int32_t damped(const hooke_system *system) {
 }
 
 const struct hk_force_row hk_force_linear = {.name = "linear",
+                                             .kind = HOOKE_CONSTANT,
                                              .title = "linear force",
                                              .check = check,
                                              .copy = copy,
-                                             .present = present,
                                              .add = add,
                                              .energy = energy,
-                                             .heat = heat,
                                              .count = count,
                                              .elements = elements,
                                              .multiply = multiply,

@@ -4,15 +4,11 @@
 #include "core/sum.h"
 #include "model/sum/spring_batch.h"
 #include "model/check_value.h"
+#include "model/force/force.h"
 #include "model/sum/tiled.h"
-#include "model/variant/variant.h"
 
 #include <stddef.h>
 #include <string.h>
-
-static int32_t present(const hooke_system *system) {
-  return system->springs->count > 0;
-}
 
 static int32_t add(const hooke_system *system, struct hk_motion *motion, double t) {
   (void)t;
@@ -145,10 +141,6 @@ static void add_blocks(const hooke_system *system, const double *q, const double
 
 /* ---- elements ---- */
 
-static int64_t count(const hooke_system *system) {
-  return system->springs->count;
-}
-
 void hk_spring_element(const struct hk_spring *spring, const double *q, const double *v,
                        struct hk_element *out) {
   struct hk_stretch s;
@@ -182,14 +174,9 @@ static void elements(const hooke_system *system, const double *q, const double *
   }
 }
 
-/* For a tiled batch in the order of its tiles, otherwise in that of numbers. */
+/* For a tiled batch in the order of its tiles. */
 static int64_t stored_elements(struct hk_elements *at) {
-  if (!at->system->tiled->stored) {
-    const int64_t left = at->system->springs->count - at->done;
-    const int64_t next = left < HOOKE_ELEMENTS ? left : HOOKE_ELEMENTS;
-    if (next > 0) elements(at->system, at->q, at->v, at->done, next, at->element);
-    return next;
-  }
+  if (!at->system->tiled->stored) return -1;
   struct hk_spring_batch batch;
   hk_begin_batches(&batch);
   batch.row = at->place[0];
@@ -206,10 +193,6 @@ static int64_t stored_elements(struct hk_elements *at) {
   return batch.count;
 }
 
-static int32_t damped(const hooke_system *system) {
-  return hk_springs_are_damped(system->springs);
-}
-
 static void add_stiffness(const hooke_system *system, double *sum) {
   struct hk_spring_batch batch;
   for (hk_begin_batches(&batch); hk_next_batch(system, &batch);) {
@@ -219,25 +202,6 @@ static void add_stiffness(const hooke_system *system, double *sum) {
 }
 
 /* ---- from groups ---- */
-
-static int32_t commit(hooke_system *system, const struct hk_group *group, int64_t count) {
-  return hk_springs_create(group, count, system->springs);
-}
-
-static void release(hooke_system *system) {
-  hk_springs_release(system->springs);
-}
-
-static int64_t memory(const hooke_system *system) {
-  return hk_springs_memory(system->springs);
-}
-
-static int32_t resists(const hooke_system *system) {
-  int32_t some = 0;
-  for (int64_t r = 0; r < system->springs->run_count; r++)
-    some |= (system->springs->run[r].shape & HOOKE_RUN_PULL_ONLY) == 0;
-  return some;
-}
 
 static void check(const hooke_system *system, uint32_t *value) {
   struct hk_spring_batch batch;
@@ -252,42 +216,41 @@ static void check(const hooke_system *system, uint32_t *value) {
   }
 }
 
-static void list(const hooke_system *system, const struct hk_members *out) {
-  for (int64_t r = 0; r < system->springs->run_count; r++) {
-    const struct hk_run *run = &system->springs->run[r];
-    for (int64_t k = 0; k < run->count; k++) {
-      const struct hk_spring spring = hk_run_spring(run, k);
-      const int64_t number = run->first + k;
-      if (out->particles) out->particles[2 * number] = spring.head;
-      if (out->particles) out->particles[2 * number + 1] = spring.tail;
-      if (out->stiffness) out->stiffness[number] = spring.kappa;
-      if (out->damping) out->damping[number] = spring.gamma;
-      if (out->rest_length) out->rest_length[number] = spring.rest_length;
-    }
+static void recall(const hooke_system *system, int64_t first, struct hk_group *to) {
+  const struct hk_run *run = &system->springs->run[hk_springs_run(system->springs, first)];
+  for (int64_t k = 0; k < to->count; k++) {
+    while (first + k >= run->first + run->count)
+      run++;
+    const struct hk_spring spring = hk_run_spring(run, first + k - run->first);
+    to->particle[0][k] = (int32_t)spring.head;
+    to->particle[1][k] = (int32_t)spring.tail;
+    to->number[HOOKE_KAPPA][k] = spring.kappa;
+    to->number[HOOKE_GAMMA][k] = spring.gamma;
+    to->number[HOOKE_REST_LENGTH][k] = spring.rest_length;
   }
 }
 
 const struct hk_force_row hk_force_springs = {.name = "springs",
+                                              .kind = HOOKE_LOOPED,
+                                              .in_scenes = 1,
                                               .members = "springs",
                                               .options = &hk_spring_options,
+                                              .member = "spring",
+                                              .place = "between",
+                                              .width = {1, 1, 1},
                                               .member_particles = 2,
-                                              .list = list,
-                                              .commit = commit,
-                                              .release = release,
-                                              .memory = memory,
+                                              .recall = recall,
+                                              .commit = hk_springs_commit,
+                                              .release = hk_springs_release,
+                                              .memory = hk_springs_memory,
                                               .check = check,
-                                              .resists = resists,
-                                              .keep = hk_variant_keep_springs,
                                               .bytes = 50.0,
-                                              .present = present,
                                               .add = add,
                                               .passed = passed,
                                               .energy = energy,
                                               .heat = heat,
                                               .add_product = add_product,
                                               .add_blocks = add_blocks,
-                                              .count = count,
                                               .elements = elements,
                                               .stored_elements = stored_elements,
-                                              .add_stiffness = add_stiffness,
-                                              .damped = damped};
+                                              .add_stiffness = add_stiffness};

@@ -117,20 +117,21 @@ void hk_spring_element(const struct hk_spring *spring, const double *q, const do
 
 /* For builders. A part's springs follow those of all explicit groups, whenever they are added; otherwise the
  * same as hooke_system_add_springs(). */
-int32_t hk_system_add_part_springs(hooke_system *system, const char *name, int64_t count, const int64_t *ends,
-                                   const hooke_options *options);
+int32_t hk_system_add_springs(hooke_system *system, const struct hk_addition *added);
+
+/* Kappa, gamma and rest length of every spring of a group, whose ends are known. HOOKE_BAD_VALUE. */
+int32_t hk_springs_find_material(const hooke_system *system, const hooke_options *options,
+                                 struct hk_group *group);
 
 /* Finds the run of a spring, and the spring. */
 int64_t hk_springs_run(const struct hk_springs *springs, int64_t number);
 struct hk_spring hk_springs_find(const struct hk_springs *springs, int64_t number);
 
 /* Sorts the groups of a system into runs. HOOKE_NO_MEMORY leaves `springs` empty. */
-int32_t hk_springs_create(const struct hk_group *group, int64_t group_count, struct hk_springs *springs);
-void hk_springs_release(struct hk_springs *springs);
-/* 1 if some spring is damped. */
-int32_t hk_springs_are_damped(const struct hk_springs *springs);
+int32_t hk_springs_commit(hooke_system *system, const struct hk_group *group, int64_t group_count);
+void hk_springs_release(hooke_system *system);
 /* Replaces the material of runs by a lookup elsewhere. */
 void hk_springs_drop_material(struct hk_springs *springs);
-int64_t hk_springs_memory(const struct hk_springs *springs);
+int64_t hk_springs_memory(const hooke_system *system);
 
 #endif

@@ -4,11 +4,9 @@
 #include "core/memory.h"
 #include "core/status.h"
 #include "kernel/spring/spring_loops.h"
+#include "model/system.h"
 
 #include <string.h>
-
-/* A shorter stretch of constant offset is not worth a loop of its own. */
-enum { SHORTEST_RUN = 8 };
 
 /* Counters of the first pass, filled in the second. */
 struct sorter {
@@ -16,17 +14,6 @@ struct sorter {
   int64_t runs, indexed, mixed;
   int32_t fill;
 };
-
-/* Number of consecutive triples from k on with one offset. */
-static int64_t stretch_at(const struct hk_group *g, int64_t k) {
-  const int32_t *a = g->particle[0], *b = g->particle[1], *c = g->particle[2];
-  const int32_t offset = b[k] - a[k];
-  int64_t end = k;
-  while (end < g->count && a[end] == a[k] + (end - k) && b[end] - a[end] == offset &&
-         c[end] - b[end] == offset && offset > 0)
-    end++;
-  return end - k;
-}
 
 static int is_mixed(const struct hk_group *g, int64_t from, int64_t count) {
   for (int64_t k = from + 1; k < from + count; k++) {
@@ -37,8 +24,8 @@ static int is_mixed(const struct hk_group *g, int64_t from, int64_t count) {
   return 0;
 }
 
-static void add_run(struct sorter *sorter, const struct hk_group *g, int64_t from, int64_t count,
-                    int indexed) {
+static void add_run(void *ctx, const struct hk_group *g, int64_t from, int64_t count, int indexed) {
+  struct sorter *sorter = ctx;
   const int mixed = is_mixed(g, from, count);
   struct hk_bending *bending = sorter->bending;
   if (sorter->fill) {
@@ -65,27 +52,14 @@ static void add_run(struct sorter *sorter, const struct hk_group *g, int64_t fro
   if (mixed) sorter->mixed += count;
 }
 
-static void sort_group(struct sorter *sorter, const struct hk_group *g) {
-  int64_t pending = 0; /* first triple not yet in a run */
-  for (int64_t k = 0; k < g->count;) {
-    const int64_t length = stretch_at(g, k);
-    if (length >= SHORTEST_RUN) {
-      if (k > pending) add_run(sorter, g, pending, k - pending, 1);
-      add_run(sorter, g, k, length, 0);
-      pending = k + length;
-    }
-    k += length > 0 ? length : 1;
-  }
-  if (g->count > pending) add_run(sorter, g, pending, g->count - pending, 1);
-}
-
 static void sort_groups(struct sorter *sorter, const struct hk_group *group, int64_t group_count) {
   sorter->runs = sorter->indexed = sorter->mixed = 0;
   for (int64_t k = 0; k < group_count; k++)
-    sort_group(sorter, &group[k]);
+    hk_group_cut(&group[k], add_run, sorter);
 }
 
-int32_t hk_bending_create(const struct hk_group *group, int64_t group_count, struct hk_bending *bending) {
+int32_t hk_bending_commit(hooke_system *system, const struct hk_group *group, int64_t group_count) {
+  struct hk_bending *bending = &system->rest->bending;
   memset(bending, 0, sizeof *bending);
   struct sorter sorter = {.bending = bending};
   sort_groups(&sorter, group, group_count);
@@ -97,7 +71,7 @@ int32_t hk_bending_create(const struct hk_group *group, int64_t group_count, str
     there &= (bending->particle[e] = hk_new(sorter.indexed, sizeof(int32_t))) != NULL;
   there &= (bending->coefficient = hk_new(sorter.mixed, sizeof(double))) != NULL;
   if (!there) {
-    hk_bending_release(bending);
+    hk_bending_release(system);
     return HOOKE_NO_MEMORY;
   }
   sorter.fill = 1;
@@ -105,7 +79,8 @@ int32_t hk_bending_create(const struct hk_group *group, int64_t group_count, str
   return HOOKE_OK;
 }
 
-void hk_bending_release(struct hk_bending *bending) {
+void hk_bending_release(hooke_system *system) {
+  struct hk_bending *bending = &system->rest->bending;
   hk_free(bending->run);
   for (int e = 0; e < 3; e++)
     hk_free(bending->particle[e]);
@@ -113,7 +88,8 @@ void hk_bending_release(struct hk_bending *bending) {
   memset(bending, 0, sizeof *bending);
 }
 
-int64_t hk_bending_memory(const struct hk_bending *bending) {
+int64_t hk_bending_memory(const hooke_system *system) {
+  const struct hk_bending *bending = &system->rest->bending;
   return bending->run_count * (int64_t)sizeof *bending->run +
          bending->indexed_count * (int64_t)(3 * sizeof(int32_t)) +
          bending->mixed_count * (int64_t)sizeof(double);

@@ -25,7 +25,7 @@ struct hk_dampers {
 /* ---- making ---- */
 
 static int is_other_damper(const hooke_system *system, const struct hk_force_row *row) {
-  return hk_force_is_other(row) && row->present(system) && row->damped && row->damped(system);
+  return row->kind & HOOKE_OTHERS && hk_force_is_present(system, row) && hk_force_is_damped(system, row);
 }
 
 static int has_other_dampers(const hooke_system *system) {
@@ -185,7 +185,7 @@ static void damp_element(const struct hk_dampers *d, const struct hk_element *e,
 static void damp_force(const struct hk_dampers *d, const struct hk_force_row *row, int32_t backwards,
                        double *const v[3]) {
   struct hk_element element[HOOKE_ELEMENTS];
-  const int64_t count = row->count(d->system);
+  const int64_t count = hk_force_count(d->system, row);
   for (int64_t done = 0; done < count;) {
     const int64_t left = count - done, some = left < HOOKE_ELEMENTS ? left : HOOKE_ELEMENTS;
     const int64_t first = backwards ? left - some : done;

@@ -35,7 +35,7 @@ int32_t hk_goes_by_tiles(const hooke_system *system) {
   int by_tiles = system->strided->count > 0 || system->tiled->particles > 0;
   for (int32_t k = 0; k < system->force_row_count; k++) {
     const struct hk_force_row *row = system->force_row[k];
-    by_tiles &= row->add == NULL || row == &hk_force_springs || row == &hk_force_drag;
+    by_tiles &= row->add == NULL || row->kind & (HOOKE_LOOPED | HOOKE_UNIFORM);
   }
   return by_tiles;
 }
@@ -327,15 +327,15 @@ static void clear_forces(int32_t worker, int32_t workers, void *ctx) {
 }
 
 int32_t hk_motion_forces(const hooke_system *system, struct hk_motion *motion, double t) {
-  return hk_motion_forces_without(system, motion, t, NULL);
+  return hk_motion_forces_without(system, motion, t, 0);
 }
 
 int32_t hk_motion_forces_without(const hooke_system *system, struct hk_motion *motion, double t,
-                                 const struct hk_force_row *left_out) {
+                                 int32_t left_out) {
   hk_pool_run(motion->pool, clear_forces, motion);
   for (int32_t k = 0; k < system->force_row_count; k++) {
     const struct hk_force_row *row = system->force_row[k];
-    if (row->add == NULL || row == left_out) continue;
+    if (row->add == NULL || row->kind & left_out) continue;
     const int32_t status = row->add(system, motion, t);
     if (status != HOOKE_OK) return status;
   }

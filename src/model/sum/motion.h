@@ -9,7 +9,6 @@
 #include "kernel/spring/spring_body.h"
 #include "model/particles.h"
 
-struct hk_force_row;
 struct hk_rings;
 struct hk_tiled_scratch;
 
@@ -84,9 +83,9 @@ static inline void hk_motion_keep_short(struct hk_motion *motion, int64_t shortn
 /* f = the sum of all forces at time t, without gravity: a = w f + g. HOOKE_STOPPED if a callback asked for
  * it. */
 int32_t hk_motion_forces(const hooke_system *system, struct hk_motion *motion, double t);
-/* The same without one force of the table. */
+/* The same without the forces of these kinds. */
 int32_t hk_motion_forces_without(const hooke_system *system, struct hk_motion *motion, double t,
-                                 const struct hk_force_row *left_out);
+                                 int32_t left_out);
 
 /* Sums the springs at all particles in one pass over memory, and uses the sums as `move` says; only for
  * systems with strided batches or a tiled batch, and moving particles only for motions that go by tiles. */

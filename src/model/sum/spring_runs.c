@@ -4,11 +4,9 @@
 
 #include "core/memory.h"
 #include "core/status.h"
+#include "model/system.h"
 
 #include <string.h>
-
-/* A shorter stretch of constant offset is not worth a loop of its own. */
-enum { SHORTEST_RUN = 8 };
 
 /* Counters of the first pass, filled in the second. */
 struct sorter {
@@ -19,15 +17,6 @@ struct sorter {
 
 static int same_bits(double a, double b) {
   return memcmp(&a, &b, sizeof a) == 0;
-}
-
-/* Length of the stretch of constant offset that begins at spring k. */
-static int64_t stretch_at(const struct hk_group *g, int64_t k) {
-  int64_t end = k + 1;
-  while (end < g->count && g->particle[0][end] == g->particle[0][end - 1] + 1 &&
-         g->particle[1][end] == g->particle[1][end - 1] + 1)
-    end++;
-  return end - k;
 }
 
 static int is_mixed(const struct hk_group *g, int64_t from, int64_t count) {
@@ -65,8 +54,8 @@ static void copy_material(struct sorter *sorter, struct hk_run *run, const struc
   run->rest_lengths = memcpy(springs->rest_length + at, g->number[HOOKE_REST_LENGTH] + from, bytes);
 }
 
-static void add_run(struct sorter *sorter, const struct hk_group *g, int64_t from, int64_t count,
-                    int indexed) {
+static void add_run(void *ctx, const struct hk_group *g, int64_t from, int64_t count, int indexed) {
+  struct sorter *sorter = ctx;
   const int mixed = is_mixed(g, from, count);
   if (sorter->fill) {
     struct hk_run *run = &sorter->springs->run[sorter->runs];
@@ -91,27 +80,14 @@ static void add_run(struct sorter *sorter, const struct hk_group *g, int64_t fro
   if (mixed) sorter->mixed += count;
 }
 
-static void sort_group(struct sorter *sorter, const struct hk_group *g) {
-  int64_t pending = 0; /* first spring not yet in a run */
-  for (int64_t k = 0; k < g->count;) {
-    const int64_t length = stretch_at(g, k);
-    if (length >= SHORTEST_RUN) {
-      if (k > pending) add_run(sorter, g, pending, k - pending, 1);
-      add_run(sorter, g, k, length, 0);
-      pending = k + length;
-    }
-    k += length;
-  }
-  if (g->count > pending) add_run(sorter, g, pending, g->count - pending, 1);
-}
-
 static void sort_groups(struct sorter *sorter, const struct hk_group *group, int64_t group_count) {
   sorter->runs = sorter->indexed = sorter->mixed = 0;
   for (int64_t k = 0; k < group_count; k++)
-    sort_group(sorter, &group[k]);
+    hk_group_cut(&group[k], add_run, sorter);
 }
 
-int32_t hk_springs_create(const struct hk_group *group, int64_t group_count, struct hk_springs *springs) {
+int32_t hk_springs_commit(hooke_system *system, const struct hk_group *group, int64_t group_count) {
+  struct hk_springs *springs = system->springs;
   memset(springs, 0, sizeof *springs);
   struct sorter sorter = {.springs = springs};
   sort_groups(&sorter, group, group_count);
@@ -126,7 +102,7 @@ int32_t hk_springs_create(const struct hk_group *group, int64_t group_count, str
   springs->rest_length = hk_new(sorter.mixed, sizeof(double));
   if (!springs->run || !springs->head || !springs->tail || !springs->kappa || !springs->gamma ||
       !springs->rest_length) {
-    hk_springs_release(springs);
+    hk_springs_release(system);
     return HOOKE_NO_MEMORY;
   }
   sorter.fill = 1;
@@ -142,7 +118,8 @@ void hk_springs_drop_material(struct hk_springs *springs) {
   springs->mixed_count = 0;
 }
 
-void hk_springs_release(struct hk_springs *springs) {
+void hk_springs_release(hooke_system *system) {
+  struct hk_springs *springs = system->springs;
   hk_springs_drop_material(springs);
   hk_free(springs->run);
   hk_free(springs->head);
@@ -150,14 +127,8 @@ void hk_springs_release(struct hk_springs *springs) {
   memset(springs, 0, sizeof *springs);
 }
 
-int32_t hk_springs_are_damped(const struct hk_springs *springs) {
-  for (int64_t k = 0; k < springs->run_count; k++) {
-    if (springs->run[k].shape & HOOKE_RUN_DAMPED) return 1;
-  }
-  return 0;
-}
-
-int64_t hk_springs_memory(const struct hk_springs *springs) {
+int64_t hk_springs_memory(const hooke_system *system) {
+  const struct hk_springs *springs = system->springs;
   return springs->run_count * (int64_t)sizeof *springs->run +
          springs->indexed_count * (int64_t)(2 * sizeof(int32_t)) +
          springs->mixed_count * (int64_t)(3 * sizeof(double));

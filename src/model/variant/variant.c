@@ -8,31 +8,26 @@
 #include <string.h>
 
 void hk_variant_release(struct hk_variant *variant) {
-  hk_free(variant->group);
-  hk_free(variant->spring);
-  hk_free(variant->particle);
-  hk_free(variant->part);
-  hk_free(variant->rigid);
   hk_free(variant->scale);
   memset(variant, 0, sizeof *variant);
 }
 
+static int64_t flags_of(const hooke_system *system) {
+  return system->group_count + system->springs->count + system->particle_count + 2 * system->part_count;
+}
+
+/* One block: numbers, then flags. */
 int32_t hk_variant_create(const hooke_system *system, struct hk_variant *variant) {
-  memset(variant, 0, sizeof *variant);
-  variant->group = hk_new(system->group_count, 1);
-  variant->spring = hk_new(system->springs->count, 1);
-  variant->particle = hk_new(system->particle_count, 1);
-  variant->part = hk_new(system->part_count, 1);
-  variant->rigid = hk_new(system->part_count, 1);
-  variant->scale = hk_new(system->part_count, sizeof(double));
-  if (!variant->group || !variant->spring || !variant->particle || !variant->part || !variant->rigid ||
-      !variant->scale) {
-    hk_variant_release(variant);
-    return HOOKE_NO_MEMORY;
-  }
+  *variant = (struct hk_variant){
+      .stiffness = 1.0, .scale = hk_new(system->part_count + flags_of(system) / 8 + 1, sizeof(double))};
+  if (variant->scale == NULL) return HOOKE_NO_MEMORY;
+  variant->group = (uint8_t *)(variant->scale + system->part_count);
+  variant->spring = variant->group + system->group_count;
+  variant->particle = variant->spring + system->springs->count;
+  variant->part = variant->particle + system->particle_count;
+  variant->rigid = variant->part + system->part_count;
   for (int64_t k = 0; k < system->part_count; k++)
     variant->scale[k] = 1.0;
-  variant->stiffness = 1.0;
   return HOOKE_OK;
 }
 
@@ -42,16 +37,10 @@ static void join(int64_t count, uint8_t *flag, const uint8_t *other) {
 }
 
 void hk_variant_join(const hooke_system *system, struct hk_variant *variant, const struct hk_variant *other) {
-  variant->gravity |= other->gravity;
-  variant->drag |= other->drag;
-  variant->force |= other->force;
+  join(HOOKE_FORCES, variant->without, other->without);
   variant->damping |= other->damping;
   variant->compression |= other->compression;
-  join(system->group_count, variant->group, other->group);
-  join(system->springs->count, variant->spring, other->spring);
-  join(system->particle_count, variant->particle, other->particle);
-  join(system->part_count, variant->part, other->part);
-  join(system->part_count, variant->rigid, other->rigid);
+  join(flags_of(system), variant->group, other->group);
   for (int64_t k = 0; k < system->part_count; k++)
     variant->scale[k] *= other->scale[k];
 }
@@ -68,7 +57,7 @@ static int32_t covers_groups(const hooke_system *system, const struct hk_variant
     const struct hk_group *group = &system->group[g];
     if (variant->group[g] || goes_with_part(variant, group)) continue;
     if (other->group[g]) return 0;
-    for (int64_t s = first; s < first + group->count && group->force == &hk_force_springs; s++) {
+    for (int64_t s = first; s < first + group->count && group->force->kind & HOOKE_LOOPED; s++) {
       if (other->spring[s] && !variant->spring[s]) return 0;
     }
   }
@@ -77,9 +66,9 @@ static int32_t covers_groups(const hooke_system *system, const struct hk_variant
 
 int32_t hk_variant_covers(const hooke_system *system, const struct hk_variant *variant,
                           const struct hk_variant *other) {
-  int32_t covered = other->gravity <= variant->gravity && other->drag <= variant->drag &&
-                    other->force <= variant->force && other->damping <= variant->damping &&
-                    other->compression <= variant->compression;
+  int32_t covered = other->damping <= variant->damping && other->compression <= variant->compression;
+  for (int32_t k = 0; k < HOOKE_FORCES && covered; k++)
+    covered = other->without[k] <= variant->without[k];
   for (int64_t k = 0; k < system->part_count && covered; k++)
     covered = variant->part[k] ||
               (!other->part[k] && other->scale[k] == 1.0 && other->rigid[k] <= variant->rigid[k]);
@@ -92,7 +81,7 @@ int32_t hk_variant_covers(const hooke_system *system, const struct hk_variant *v
 static int32_t is_split(const hooke_system *system, const struct hk_variant *variant, int64_t g,
                         int64_t first) {
   const struct hk_group *group = &system->group[g];
-  if (!group->from_part || group->force != &hk_force_springs || variant->group[g] ||
+  if (!group->from_part || !(group->force->kind & HOOKE_LOOPED) || variant->group[g] ||
       goes_with_part(variant, group))
     return 0;
   if (variant->scale[group->part] != 1.0 || group->count == 0) return 0;
@@ -128,7 +117,7 @@ static int32_t keep_groups(struct hk_variant_maker *maker) {
     force = group->force;
     if (maker->variant->group[g] || (group->from_part && !hk_variant_breaks_up(maker, group, first)))
       continue;
-    if (force->keep) status = force->keep(maker, group, first);
+    status = hk_variant_keep_group(maker, group, first);
   }
   return status;
 }
@@ -136,7 +125,7 @@ static int32_t keep_groups(struct hk_variant_maker *maker) {
 static int32_t copy_others(const struct hk_variant_maker *maker) {
   int32_t status = HOOKE_OK;
   for (int32_t k = 0; hk_force_table(k) && status == HOOKE_OK; k++)
-    if (hk_force_table(k)->copy) status = hk_force_table(k)->copy(maker);
+    if (hk_force_table(k)->copy && !maker->variant->without[k]) status = hk_force_table(k)->copy(maker);
   return status;
 }
 
@@ -168,14 +157,10 @@ static int32_t keep_bodies(const struct hk_variant_maker *maker) {
   return status;
 }
 
-static void scale(int64_t count, double *value, double factor) {
-  for (int64_t k = 0; k < count; k++)
-    value[k] *= factor;
-}
-
 static void scale_stiffness(hooke_system *made, double factor) {
   for (int64_t g = 0; g < made->group_count; g++)
-    scale(made->group[g].count, made->group[g].number[HOOKE_KAPPA], factor);
+    for (int64_t k = 0; k < made->group[g].count; k++)
+      made->group[g].number[HOOKE_KAPPA][k] *= factor;
 }
 
 /* Rigid bodies take it as far as their pins let them. */

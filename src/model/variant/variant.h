@@ -7,7 +7,8 @@
 
 /* The changes; hk_variant_create() gives zeros with arrays. 1: left out. */
 struct hk_variant {
-  int32_t gravity, drag, force, damping;
+  uint8_t without[HOOKE_FORCES]; /* by row of the table of forces: one without groups */
+  int32_t damping;
   int32_t compression; /* 1: springs only pull */
   uint8_t *group;      /* by group of the table */
   uint8_t *spring;     /* by spring */
@@ -94,11 +95,10 @@ int32_t hk_variant_constrain(struct hk_variant_maker *maker);
  * whose springs differ. */
 int32_t hk_variant_breaks_up(const struct hk_variant_maker *maker, const struct hk_group *group,
                              int64_t first);
-/* Each adds a group that no part adds; `first` is the number of its first member (`keep` of the table of
- * forces). Tetrahedra keep their rest lengths. */
-int32_t hk_variant_keep_springs(struct hk_variant_maker *maker, const struct hk_group *group, int64_t first);
-int32_t hk_variant_keep_bending(struct hk_variant_maker *maker, const struct hk_group *group, int64_t first);
-int32_t hk_variant_keep_altitude(struct hk_variant_maker *maker, const struct hk_group *group, int64_t first);
+/* Adds a group that no part adds; `first` is the number of its first member. Members keep their numbers, but
+ * for springs whose options are known. */
+int32_t hk_variant_keep_group(const struct hk_variant_maker *maker, const struct hk_group *group,
+                              int64_t first);
 /* HOOKE_UNSUITED if particles are renumbered, for a force (`what`) that knows them by their numbers. */
 int32_t hk_variant_require_numbers(const struct hk_variant_maker *maker, const char *what);
 
