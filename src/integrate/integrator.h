@@ -91,12 +91,13 @@ struct hooke_integrator {
   /* first-order problem */
   hooke_rate *rate;
   void *rate_ctx;
-  double *x, *slope; /* size each */
-  double *rows;      /* x and its rate, for the callback */
+  double *x;    /* of a fixed-step method, in `array` */
+  double *rows; /* x and its rate, for the callback */
 
-  int64_t size; /* numbers in q */
-  void *own;    /* the method's own data */
-  void *around; /* scratch of a method whose step contains that of another, which has `own` */
+  struct hk_one_array *array; /* of explicit steps that particles in rows are not enough for; else NULL */
+  int64_t size;               /* numbers in q */
+  void *own;                  /* the method's own data */
+  void *around;               /* scratch of a method whose step contains that of another, which has `own` */
   int64_t own_memory;
   int32_t may_factor;       /* 1: it factorises its equations where that pays */
   int32_t by_tiles;         /* HOOKE_MOTION_*: the motion is moved by the two functions of moves alone */

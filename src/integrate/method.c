@@ -95,9 +95,9 @@ const struct hk_stability *hk_method_stability(const char *name) {
 }
 
 const struct hk_stability *hk_method_stability_in(const char *name, const hooke_system *system) {
-  const struct hk_method *method = system->moving_bodies > 0 ? hk_method_find(name) : NULL,
-                         *row = method ? method->bodies : NULL;
-  return row && row->stability.kind != HOOKE_STABILITY_UNKNOWN ? &row->stability : hk_method_stability(name);
+  const struct hk_method *method = system->moving_bodies > 0 ? hk_method_find(name) : NULL;
+  const int own = method && method->with_bodies.kind != HOOKE_STABILITY_UNKNOWN;
+  return own ? &method->with_bodies : hk_method_stability(name);
 }
 
 /* ---- what methods take ---- */
@@ -116,7 +116,7 @@ static const struct {
 };
 
 static int32_t takes(const struct hk_method *method, int problem) {
-  return (const int32_t[]){method->second_order, method->bodies != NULL, method->overdamped,
+  return (const int32_t[]){method->second_order, method->bodies, method->overdamped,
                            method->first_order}[problem];
 }
 

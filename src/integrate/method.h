@@ -27,6 +27,14 @@ struct hk_stability {
   const char *note; /* NULL: nothing */
 };
 
+/* An explicit Runge-Kutta method in which each stage starts at the beginning of the step. Stage k is `ahead` steps
+ * after the start, at 0, 0.5 or 1, and leads from there to the next one, or to the end of the step, by the part
+ * of its rate that lasts a step over `over`; see the moves of stages in kernel/move_loops.h. */
+struct hk_stages {
+  int32_t count;
+  double ahead[4], over[4];
+};
+
 /* What a row says of itself, and how it is run. `choose`, `create` and `destroy` may be NULL. All return a
  * status. */
 struct hk_method {
@@ -39,12 +47,11 @@ struct hk_method {
   const char *judge; /* of its runs: a method of higher order, or of another kind; NULL: none of its cost */
   const char *checked_by; /* the method that the beginning of its runs is held against; NULL: rk4 */
   int32_t first_order, second_order; /* problems it takes: x' = phi(t, x); q' = v, v' = W f; */
-  int32_t overdamped;                /* overdamped systems; */
-  const struct hk_method
-      *bodies;      /* systems in which bodies move: the row that steps them, itself or another */
+  int32_t overdamped, bodies;        /* overdamped systems; systems in which bodies move */
   int32_t implicit; /* 1: takes a step by the solution of nonlinear equations, with the option `newton` */
   int32_t by_tiles; /* 1: steps by hk_integrator_move() alone, if `choose` says nothing else */
-  struct hk_stability stability;
+  struct hk_stages stages;
+  struct hk_stability stability, with_bodies; /* the second where bodies move, unless it is of unknown kind */
   /* the largest step [s] at which it solves nothing, where larger ones do: 0 if all do, infinite if none does.
    * NULL: steps of all sizes cost the same */
   int32_t (*explicit_step)(const hooke_system *system, double *step);
@@ -65,8 +72,7 @@ struct hk_method {
 
 extern const struct hk_method hk_forward_euler, hk_symplectic_euler, hk_verlet, hk_shardlow, hk_heun, hk_rk4,
     hk_backward_euler, hk_tr_bdf2, hk_implicit_midpoint, hk_cvode_bdf, hk_cvode_adams, hk_rk8pd,
-    hk_arkode_esdirk, hk_forward_euler_bodies, hk_symplectic_euler_bodies, hk_verlet_bodies, hk_heun_bodies,
-    hk_rk4_bodies;
+    hk_arkode_esdirk;
 
 /* Row of this name, or NULL; its stability, of unknown kind if there is no such method. */
 const struct hk_method *hk_method_find(const char *name);

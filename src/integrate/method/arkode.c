@@ -126,6 +126,6 @@ const struct hk_method hk_arkode_esdirk = {
     .adaptive = 1,
     .first_order = 1,
     .second_order = 1,
-    .bodies = &hk_arkode_esdirk,
+    .bodies = 1,
     .overdamped = 1,
     ROW_OF_ARKODE};

@@ -23,7 +23,7 @@ const struct hk_method hk_backward_euler = {
     .order = 1,
     .judge = "implicit-midpoint",
     .second_order = 1,
-    .bodies = &hk_backward_euler,
+    .bodies = 1,
     .overdamped = 1,
     .implicit = 1,
     .stability = {.kind = HOOKE_STABLE_ALWAYS,

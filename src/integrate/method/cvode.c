@@ -147,8 +147,8 @@ static int32_t store(hooke_integrator *it, double t, hooke_state *state) {
 
 #endif
 
-#define ROW_OF_CVODE(row)                                                                                    \
-  BUILT_CVODE, .needs = "SUNDIALS", .adaptive = 1, .first_order = 1, .second_order = 1, .bodies = &(row),    \
+#define ROW_OF_CVODE                                                                                         \
+  BUILT_CVODE, .needs = "SUNDIALS", .adaptive = 1, .first_order = 1, .second_order = 1, .bodies = 1,         \
                .overdamped = 1
 
 const struct hk_method hk_cvode_bdf = {
@@ -157,7 +157,7 @@ const struct hk_method hk_cvode_bdf = {
     .stability = {.kind = HOOKE_STABLE_ALWAYS,
                   .damps_implicitly = 1,
                   .note = "chooses its steps; error control limits them"},
-    ROW_OF_CVODE(hk_cvode_bdf)};
+    ROW_OF_CVODE};
 
 const struct hk_method hk_cvode_adams = {
     .name = "cvode-adams",
@@ -165,4 +165,4 @@ const struct hk_method hk_cvode_adams = {
     .stability = {.kind = HOOKE_STABLE_ALWAYS,
                   .note = "chooses its steps; error control limits them, and for fast "
                           "motion also stability, which it sees as error"},
-    ROW_OF_CVODE(hk_cvode_adams)};
+    ROW_OF_CVODE};

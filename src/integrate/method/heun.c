@@ -2,12 +2,6 @@
  * oscillations grow by (omega h)^4/8 a step. */
 #include "integrate/method/stages.h"
 
-const struct hk_stages hk_heun_stages = {2, {0.0, 1.0}, {1.0, 2.0}};
-
-static int32_t create(hooke_integrator *it) {
-  return hk_stages_create(it, &hk_heun_stages);
-}
-
 const struct hk_method hk_heun = {
     .name = "heun",
     .summary = "fixed step, order 2, two force evaluations a step; unstable without damping",
@@ -16,11 +10,12 @@ const struct hk_method hk_heun = {
     .judge = "rk4",
     .first_order = 1,
     .second_order = 1,
-    .bodies = &hk_heun_bodies,
+    .bodies = 1,
     .overdamped = 1,
+    .stages = {2, {0.0, 1.0}, {1.0, 2.0}},
     .stability = {.kind = HOOKE_STABLE_BY_POLYNOMIAL, .degree = 2},
     .by_tiles = 1,
-    .create = create,
+    .create = hk_stages_create,
     .destroy = hk_stages_destroy,
     .begin = hk_fixed_begin,
     .step = hk_stages_step,

@@ -48,7 +48,7 @@ const struct hk_method hk_implicit_midpoint = {
     .order = 2,
     .checked_by = "tr-bdf2",
     .second_order = 1,
-    .bodies = &hk_implicit_midpoint,
+    .bodies = 1,
     .overdamped = 1,
     .implicit = 1,
     .stability = {.kind = HOOKE_STABLE_ALWAYS,

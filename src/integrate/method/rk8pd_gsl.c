@@ -176,6 +176,6 @@ const struct hk_method hk_rk8pd = {
     .adaptive = 1,
     .first_order = 1,
     .second_order = 1,
-    .bodies = &hk_rk8pd,
+    .bodies = 1,
     .overdamped = 1,
     ROW_OF_RK8PD};

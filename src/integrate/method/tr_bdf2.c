@@ -69,7 +69,7 @@ const struct hk_method hk_tr_bdf2 = {
     .order = 2,
     .judge = "implicit-midpoint",
     .second_order = 1,
-    .bodies = &hk_tr_bdf2,
+    .bodies = 1,
     .overdamped = 1,
     .implicit = 1,
     .stability = {.kind = HOOKE_STABLE_ALWAYS,

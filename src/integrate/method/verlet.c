@@ -10,12 +10,14 @@
  * */
 #include "core/memory.h"
 #include "core/status.h"
+#include "integrate/method/one_array.h"
 #include "integrate/method/verlet_damping.h"
 #include "integrate/solve/reduced.h"
 #include "model/force/force.h"
 
 #include <math.h>
 #include <stddef.h>
+#include <string.h>
 
 /* The residual, over that of the predicted velocity: what the solve leaves is a part of what the step does, or,
  * where damping is so strong that the prediction is beside the point, of the velocity before it. */
@@ -36,6 +38,7 @@ static int32_t create(hooke_integrator *it) {
   struct verlet *own = hk_new(1, sizeof *own);
   if (own == NULL) return HOOKE_NO_MEMORY;
   it->own = own;
+  if (it->array) return HOOKE_OK;
   const int callback = it->system->force != NULL;
   const int64_t stride = hk_motion_stride(it->motion);
   own->implicit = hk_elements_are_damped(it->system) && !it->explicit_damping && !it->motion->zero;
@@ -168,9 +171,37 @@ static int32_t second_kick(hooke_integrator *it) {
   return status == HOOKE_OK ? solve(it) : status;
 }
 
+/* With bodies forces of the second kick are those at velocities and momenta predicted by twice the first, of
+ * which forces that depend on positions alone see nothing. The second kick begins at the half-way velocities and
+ * momenta, in `start`. */
+static int32_t step_array(hooke_integrator *it) {
+  struct verlet *own = it->own;
+  struct hk_one_array *array = it->array;
+  const double h = it->schedule.step;
+  const int keeps = !hk_system_is_damped(it->system) && it->system->force == NULL;
+  hk_one_array_begin(it);
+  if (it->k > 0 && keeps && !own->kept) it->count.force_evaluations--; /* as counted by the run before */
+  int32_t status = hk_one_array_push(it, it->t, own->kept);
+  own->kept = 0;
+  if (status != HOOKE_OK) return hk_one_array_undo(it, status);
+  hk_one_array_kick(it, 0.5 * h, array->y);
+  hk_one_array_drift(it, h);
+  memcpy(array->start, array->y, (size_t)array->unknowns.size * sizeof(double));
+  hk_one_array_kick(it, 0.5 * h, array->y);
+  hk_one_array_give(it, array->y);
+  if (it->system->constrained_count > 0) hk_motion_hold(it->system, it->motion);
+  status = hk_one_array_push(it, hk_integrator_next_time(it), 0);
+  if (status != HOOKE_OK) return hk_one_array_undo(it, status);
+  hk_one_array_kick(it, 0.5 * h, array->start);
+  hk_one_array_give(it, array->start);
+  own->kept = keeps;
+  return HOOKE_OK;
+}
+
 static int32_t step(hooke_integrator *it) {
   const struct verlet *own = it->own;
   struct hk_motion *m = it->motion;
+  if (it->array) return step_array(it);
   if (!own->predicts) return step_undamped(it);
   if (own->start) hk_motion_save(m, own->start);
   int32_t status = move_half(it, it->t, HOOKE_PREDICT);
@@ -188,8 +219,9 @@ const struct hk_method hk_verlet = {
     .order = 2,
     .judge = "rk4",
     .second_order = 1,
-    .bodies = &hk_verlet_bodies,
+    .bodies = 1,
     .stability = {.kind = HOOKE_STABLE_BY_K, .damps_implicitly = 1},
+    .with_bodies = {.kind = HOOKE_STABLE_BY_PREDICTION},
     .by_tiles = 1,
     .explicit_step = hk_verlet_explicit_step,
     .choose = hk_verlet_choose,
