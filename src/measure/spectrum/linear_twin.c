@@ -200,16 +200,22 @@ static int32_t add_springs(const struct making *making, int64_t count, hooke_sys
   return status;
 }
 
+/* Forces on bodies become those that move them alike, less geometric stiffness. */
+static void turn(const struct hk_twin *twin, const double *x, double *f) {
+  hk_rigid_reduce(&twin->rigid, -1.0, (const double *const[3]){x, x + 1, x + 2},
+                  (double *const[3]){f, f + 1, f + 2}, 3);
+}
+
 static int32_t hold(int64_t n, double t, const double *q, const double *v, double *force, void *ctx) {
   (void)t;
   (void)v;
   const struct hk_twin *twin = ctx;
   for (int64_t k = 0; k < 3 * n; k++)
     force[k] += twin->balance[k];
-  if (!hk_rigid_is_any(&twin->rigid)) return 0;
+  if (!(twin->rigid.stiffest > 0.0)) return 0;
   for (int64_t k = 0; k < 3 * n; k++)
     twin->moved[k] = q[k] - twin->place[k];
-  hk_rigid_add_forces(&twin->rigid, twin->moved, force);
+  turn(twin, twin->moved, force);
   return 0;
 }
 
@@ -220,8 +226,7 @@ static int32_t hold_product(int64_t n, double t, const double *q, const double *
   (void)q;
   (void)v;
   (void)dv;
-  const struct hk_twin *twin = ctx;
-  hk_rigid_add_forces(&twin->rigid, dq, out);
+  turn(ctx, dq, out);
   return 0;
 }
 
@@ -342,8 +347,7 @@ static int32_t freeze(struct making *making, struct hk_twin *twin) {
     twin->system = NULL;
     status = build(making, twin, 1, &twin->system);
   }
-  if (status == HOOKE_OK)
-    status = hk_rigid_enlarge(&making->rigid, twin->system, twin->place, making->factor, &twin->rigid);
+  if (status == HOOKE_OK) status = hk_rigid_enlarge(&making->rigid, twin->system, twin->place, &twin->rigid);
   return status == HOOKE_OK ? find_slow_step(twin) : status;
 }
 
