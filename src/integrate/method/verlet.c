@@ -56,7 +56,7 @@ static int32_t create(hooke_integrator *it) {
   if (!own->implicit) return HOOKE_OK;
   own->right = own->start + saved;
   own->change = own->right + it->size;
-  return hk_reduced_create(it, HOOKE_REDUCED_SYMMETRIC, &own->reduced);
+  return hk_reduced_create(it, HOOKE_REDUCED_SYMMETRIC, NULL, &own->reduced);
 }
 
 static void destroy(hooke_integrator *it) {

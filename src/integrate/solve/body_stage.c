@@ -17,9 +17,7 @@ enum { MOST_ROTATIONS = 50 };
 
 static int32_t allocate(hooke_integrator *it, struct hk_body_stage *body) {
   int64_t count = body->count, arms = 0;
-  const int64_t size = it->size + HOOKE_BODY_VELOCITIES * count,
-                numbers =
-                    (HOOKE_BODY_NUMBERS + 6 + 36) * count + 3 * it->size + (3 + HOOKE_GENERAL_VECTORS) * size;
+  const int64_t numbers = (HOOKE_BODY_NUMBERS + 6 + 36) * count + 3 * it->size;
   double *block = hk_new(numbers, sizeof(double));
   body->own = block;
   body->rotation = hk_new(count, sizeof *body->rotation);
@@ -32,11 +30,7 @@ static int32_t allocate(hooke_integrator *it, struct hk_body_stage *body) {
   body->factor = hk_part(&block, 36 * count);
   body->dq = hk_part(&block, it->size);
   body->dv = hk_part(&block, it->size);
-  body->df = hk_part(&block, it->size);
-  body->scaled = hk_part(&block, size);
-  body->unknown = hk_part(&block, size);
-  body->velocity = hk_part(&block, size);
-  body->krylov = block;
+  body->df = block;
   return HOOKE_OK;
 }
 
@@ -292,18 +286,6 @@ double hk_body_stage_distance(const struct hk_stage *stage, const double *from) 
     double spin[3];
     hk_body_momentum(stage, k, turn, spin);
     sum += body_of(stage, k)->mass * hk_dot3(move, move) + hk_dot3(turn, spin);
-  }
-  return sum;
-}
-
-double hk_body_stage_square(const struct hk_stage *stage) {
-  double sum = 0.0;
-  for (int64_t k = 0; k < stage->body.count; k++) {
-    double right[6];
-    memcpy(right, stage->right + at_velocity(stage, k), sizeof right);
-    hk_body_stage_divide(&stage->body, k, right);
-    for (int j = 0; j < 6; j++)
-      sum += right[j] * right[j];
   }
   return sum;
 }

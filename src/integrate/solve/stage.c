@@ -61,8 +61,9 @@ int32_t hk_stage_create(hooke_integrator *it, int64_t states) {
   stage->overdamped = it->system->friction > 0.0;
   int32_t status = hk_body_stage_create(it, &stage->body);
   if (status == HOOKE_OK) status = hk_descent_create(it, &stage->descent);
-  if (status == HOOKE_OK) status = hk_reduced_create(it, HOOKE_REDUCED_GENERAL, &stage->reduced);
-  stage->size = it->size + HOOKE_BODY_VELOCITIES * stage->body.count;
+  const struct hk_more_unknowns more = hk_body_stage_unknowns(stage);
+  if (status == HOOKE_OK) status = hk_reduced_create(it, HOOKE_REDUCED_GENERAL, &more, &stage->reduced);
+  stage->size = it->size + more.count;
   stage->state_size = 2 * it->size + HOOKE_BODY_NUMBERS * stage->body.count;
   return status == HOOKE_OK ? allocate(stage, states) : status;
 }
@@ -256,25 +257,13 @@ static int32_t give_up(const struct hk_stage *stage, int iterations, const struc
       it->method->name, it->t, (int)FINEST_SPLIT, iterations, why, now->size, now->allowed);
 }
 
-/* change = the solution for `right` with the whole matrix, and with S. */
-static int32_t solve(struct hk_stage *stage, double tolerance, int64_t limit, struct hk_solution *solution) {
-  if (stage->body.count > 0) return hk_body_stage_solve(stage, tolerance, limit, solution);
-  return hk_reduced_try(&stage->reduced, stage->right, tolerance, limit, stage->change, solution);
-}
-
-static int32_t correct(struct hk_stage *stage, double relative, double absolute,
-                       struct hk_solution *solution) {
-  hk_reduced_project(&stage->reduced);
-  if (stage->body.count > 0) return hk_body_stage_correct(stage, relative, absolute, solution);
-  return hk_reduced_correct(&stage->reduced, stage->right, relative, absolute, stage->change, solution);
-}
-
 /* The whole matrix at the guess. `found` is 0 where its correction leads nowhere. */
 static int32_t whole_correction(struct hk_stage *stage, struct iteration *now, int *found) {
   const double wanted = LINEAR_OF_TOLERANCE * now->allowed / now->before;
   const double residual = fmin(LARGEST_RESIDUAL, fmax(LEAST_RESIDUAL, wanted));
   struct hk_solution solution;
-  const int32_t status = solve(stage, residual, LEAST_TRIES + now->linear, &solution);
+  const int32_t status = hk_reduced_try(&stage->reduced, stage->right, residual, LEAST_TRIES + now->linear,
+                                        stage->change, &solution);
   const double slope = dot(stage, stage->right, stage->change);
   *found = solution.residual <= fmax(residual, FAR_ENOUGH) && slope > 0.0 && slope < INFINITY;
   if (*found) now->size = sqrt(slope);
@@ -283,7 +272,9 @@ static int32_t whole_correction(struct hk_stage *stage, struct iteration *now, i
 
 static int32_t safe_correction(struct hk_stage *stage, struct iteration *now, int *found) {
   struct hk_solution solution;
-  const int32_t status = correct(stage, LINEAR_SHARE, LINEAR_OF_TOLERANCE * now->allowed, &solution);
+  hk_reduced_project(&stage->reduced);
+  const int32_t status = hk_reduced_correct(&stage->reduced, stage->right, LINEAR_SHARE,
+                                            LINEAR_OF_TOLERANCE * now->allowed, stage->change, &solution);
   const double slope = dot(stage, stage->right, stage->change);
   *found = slope >= 0.0 && slope < INFINITY;
   now->linear = solution.iterations;
@@ -373,26 +364,21 @@ static int32_t converge(struct hk_stage *stage, double height) {
   return status == HOOKE_OK ? give_up(stage, MOST_ITERATIONS, &now, "it still changes") : status;
 }
 
-/* right.B^-1 right with B the diagonal blocks of S where it was last set. */
-static double square_of(struct hk_stage *stage) {
-  const double square = hk_reduced_square(&stage->reduced, stage->right);
-  return stage->body.count > 0 ? square + hk_body_stage_square(stage) : square;
-}
-
 /* From the state at the beginning: exact in its derivatives for one iteration, else a guess. */
 static int32_t first_correction(struct hk_stage *stage, double *open) {
   hooke_integrator *it = stage->reduced.integrator;
   struct hk_solution solution = {0};
   it->count.nonlinear_iterations++;
   int32_t status = linearise(stage);
-  *open = square_of(stage);
+  *open = hk_reduced_square(&stage->reduced, stage->right);
   if (status != HOOKE_OK) return status;
   if (stage->one_iteration) {
     const double residual = fmax(LEAST_RESIDUAL, LINEAR_OF_TOLERANCE * stage->tolerance);
-    status = solve(stage, residual, hk_reduced_limit(&stage->reduced), &solution);
+    status = hk_reduced_solve(&stage->reduced, stage->right, residual, stage->change, &solution);
     if (solution.residual > fmax(residual, FAR_ENOUGH)) *open = 0.0;
   } else {
-    status = correct(stage, LINEAR_SHARE, 0.0, &solution);
+    hk_reduced_project(&stage->reduced);
+    status = hk_reduced_correct(&stage->reduced, stage->right, LINEAR_SHARE, 0.0, stage->change, &solution);
   }
   for (int64_t k = 0; k < stage->size; k++)
     stage->v[k] = stage->old[k] + stage->change[k];
@@ -403,7 +389,7 @@ static int32_t first_correction(struct hk_stage *stage, double *open) {
 static int one_is_enough(struct hk_stage *stage, double open) {
   double rounding;
   const double floor = allowed_error(stage, &rounding);
-  const double left = square_of(stage);
+  const double left = hk_reduced_square(&stage->reduced, stage->right);
   return left <= ONE_LEAVES * ONE_LEAVES * open || left <= floor * floor;
 }
 
