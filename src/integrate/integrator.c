@@ -30,7 +30,7 @@ static int32_t create(const hooke_options *options, hooke_integrator **out) {
   const char *name = hooke_options_text(options, "method");
   const struct hk_method *method = hk_method_find(name);
   if (method == NULL) return unknown_method(name);
-  if (!method->built) {
+  if (method->steps == NULL) {
     return hk_fail(HOOKE_NOT_BUILT, "method", "%s needs %s, which this build is without", name,
                    method->needs);
   }
@@ -52,10 +52,10 @@ static int32_t create(const hooke_options *options, hooke_integrator **out) {
 }
 
 static int32_t finish(hooke_integrator *it, int32_t status, hooke_integrator **out) {
-  const int32_t solves = it->method->adaptive || it->method->implicit;
+  const int32_t solves = it->method->adaptive || it->method->solved;
   if (status == HOOKE_OK && !solves && (it->rate || it->system->moving_bodies > 0))
     status = hk_one_array_create(it);
-  if (status == HOOKE_OK && it->method->create) status = it->method->create(it);
+  if (status == HOOKE_OK && it->method->steps->create) status = it->method->steps->create(it);
   if (status == HOOKE_OK)
     *out = it;
   else
@@ -126,7 +126,7 @@ int32_t hooke_integrator_create_first_order(int64_t size, hooke_rate *rate, void
 
 void hooke_integrator_destroy(hooke_integrator *it) {
   if (it == NULL) return;
-  if ((it->own || it->around) && it->method->destroy) it->method->destroy(it);
+  if ((it->own || it->around) && it->method->steps->destroy) it->method->steps->destroy(it);
   hk_motion_destroy(it->motion);
   hk_pool_destroy(it->pool);
   hk_recent_release(&it->recent);

@@ -107,7 +107,7 @@ enum { SECOND_ORDER, BODIES, OVERDAMPED, FIRST_ORDER, PROBLEMS };
 static const struct {
   const char *word, *refusal;
 } problems[PROBLEMS] = {
-    [SECOND_ORDER] = {"second-order", "takes first-order problems only"},
+    [SECOND_ORDER] = {"second-order", ""},
     [BODIES] = {"bodies", "does not know rigid bodies yet"},
     [OVERDAMPED] = {"overdamped",
                     "steps positions and velocities apart, and an overdamped scene has no such parts"},
@@ -116,8 +116,7 @@ static const struct {
 };
 
 static int32_t takes(const struct hk_method *method, int problem) {
-  return (const int32_t[]){method->second_order, method->bodies, method->overdamped,
-                           method->first_order}[problem];
+  return (const int32_t[]){1, method->bodies, method->overdamped, method->first_order}[problem];
 }
 
 static int problem_of(const hooke_system *system) {
@@ -133,7 +132,7 @@ int32_t hk_method_suits(const char *name, const hooke_system *system) {
 static void list_methods(int problem, char *list, size_t size) {
   list[0] = '\0';
   for (int64_t k = 0; k < ROWS; k++) {
-    if (!table[k]->reference && (problem == PROBLEMS || (table[k]->built && takes(table[k], problem))))
+    if (!table[k]->reference && (problem == PROBLEMS || (table[k]->steps && takes(table[k], problem))))
       hk_append(list, size, "%s%s", list[0] ? ", " : "", table[k]->name);
   }
 }
@@ -144,7 +143,7 @@ void hk_method_list(char *list, size_t size) {
 
 int32_t hk_method_require(const struct hk_method *method, const hooke_system *system) {
   const int problem = problem_of(system);
-  const int32_t solves = problem == FIRST_ORDER && method->implicit;
+  const int32_t solves = problem == FIRST_ORDER && method->solved;
   char list[512];
   if (takes(method, problem)) return HOOKE_OK;
   list_methods(problem, list, sizeof list);
@@ -182,5 +181,5 @@ int32_t hooke_method_is_adaptive(const char *name) {
 
 int32_t hooke_method_is_built(const char *name) {
   const struct hk_method *method = hk_method_find(name);
-  return method ? method->built : 0;
+  return method && method->steps;
 }

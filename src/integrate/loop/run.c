@@ -51,7 +51,7 @@ int32_t hk_run_begin(hooke_integrator *it, hooke_state *state) {
   if (status == HOOKE_OK) status = check_numbers(it, state);
   if (status == HOOKE_OK && it->system) status = hk_bodies_check(it->system, state);
   if (status == HOOKE_OK) status = hk_divergence_begin(it, state);
-  if (status == HOOKE_OK) status = it->method->begin(it, state);
+  if (status == HOOKE_OK) status = it->method->steps->begin(it, state);
   if (status == HOOKE_OK) status = hk_run_keep_restart(it, state);
   hk_passages_begin(it, it->t0);
   it->begun = status == HOOKE_OK;
@@ -78,7 +78,7 @@ int32_t hk_run_store(hooke_integrator *it, double t, hooke_state *state, int32_t
   it->energies.system = NULL;
   if (it->unkept) hk_recent_keep(&it->recent, state, it->good_step); /* so far `state` is that one */
   it->unkept = 0;
-  const int32_t status = checked ? hk_divergence_store(it, t, state) : it->method->store(it, t, state);
+  const int32_t status = checked ? hk_divergence_store(it, t, state) : it->method->steps->store(it, t, state);
   if (!checked && it->recent.room == 0) it->recent.count = 0; /* the last good state is lost */
   *state->t = t;
   return status;
@@ -124,7 +124,7 @@ static int32_t take_untold_steps(hooke_integrator *it, int64_t count) {
     const double next = hk_integrator_next_time(it);
     status = hk_integrator_drive(it, next);
     it->goes_on = s + 1 < count;
-    if (status == HOOKE_OK) status = it->method->step(it);
+    if (status == HOOKE_OK) status = it->method->steps->step(it);
     if (status != HOOKE_OK) break;
     if (it->system && it->system->constrained_count > 0) hk_motion_hold(it->system, it->motion);
     const double from = it->t;

@@ -138,18 +138,17 @@ static int32_t store(hooke_integrator *it, double t, hooke_state *state) {
   return hk_unknowns_store(it, &own->unknowns, t, N_VGetArrayPointer(own->y), state);
 }
 
-#define BUILT_CVODE                                                                                          \
-  .built = 1, .create = create, .destroy = destroy, .begin = begin, .step = step, .store = store
+static const struct hk_steps steps = {create, destroy, NULL, begin, step, store};
+#define STEPS &steps
 
 #else
 
-#define BUILT_CVODE .built = 0
+#define STEPS NULL
 
 #endif
 
 #define ROW_OF_CVODE                                                                                         \
-  BUILT_CVODE, .needs = "SUNDIALS", .adaptive = 1, .first_order = 1, .second_order = 1, .bodies = 1,         \
-               .overdamped = 1
+  .needs = "SUNDIALS", .adaptive = 1, .first_order = 1, .bodies = 1, .overdamped = 1, .steps = STEPS
 
 const struct hk_method hk_cvode_bdf = {
     .name = "cvode-bdf",

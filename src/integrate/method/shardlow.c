@@ -33,12 +33,12 @@ static int32_t create(hooke_integrator *it) {
   if (own == NULL) return HOOKE_NO_MEMORY;
   it->around = own;
   const int32_t status = make(it, own);
-  return status == HOOKE_OK ? hk_verlet.create(it) : status;
+  return status == HOOKE_OK ? hk_verlet.steps->create(it) : status;
 }
 
 static void destroy(hooke_integrator *it) {
   struct shardlow *own = it->around;
-  if (it->own) hk_verlet.destroy(it);
+  if (it->own) hk_verlet.steps->destroy(it);
   if (own == NULL) return;
   hk_dampers_destroy(own->dampers);
   hk_free(own->zero);
@@ -48,11 +48,11 @@ static void destroy(hooke_integrator *it) {
 }
 
 static int32_t begin(hooke_integrator *it, const hooke_state *state) {
-  return hk_verlet.begin(it, state);
+  return hk_verlet.steps->begin(it, state);
 }
 
 static void forget(hooke_integrator *it) {
-  hk_verlet.forget(it);
+  hk_verlet.steps->forget(it);
 }
 
 static int32_t step(hooke_integrator *it) {
@@ -60,7 +60,7 @@ static int32_t step(hooke_integrator *it) {
   if (own->start) hk_motion_save(it->motion, own->start);
   hk_dampers_sweep(own->dampers, it->motion, 0);
   it->goes_on = 0; /* dampers come in between */
-  const int32_t status = hk_verlet.step(it);
+  const int32_t status = hk_verlet.steps->step(it);
   if (status != HOOKE_OK) {
     if (own->start) hk_motion_restore(it->motion, own->start);
     return status;
@@ -70,16 +70,11 @@ static int32_t step(hooke_integrator *it) {
   return HOOKE_OK;
 }
 
+static const struct hk_steps steps = {create, destroy, forget, begin, step, hk_fixed_store};
+
 const struct hk_method hk_shardlow = {
     .name = "shardlow",
     .summary = "fixed step, order 2; Verlet, and each damper on its pair alone, stable at any damping",
-    .built = 1,
     .order = 2,
-    .second_order = 1,
     .stability = {.kind = HOOKE_STABLE_BY_K, .damps_implicitly = 1, .damps_apart = 1},
-    .create = create,
-    .destroy = destroy,
-    .forget = forget,
-    .begin = begin,
-    .step = step,
-    .store = hk_fixed_store};
+    .steps = &steps};

@@ -1,6 +1,4 @@
-/* Pinned and driven particles are constrained in every stage. */
-#include "integrate/method/stages.h"
-
+/* Steps of explicit Runge-Kutta methods. Pinned and driven particles are constrained in every stage. */
 #include "core/memory.h"
 #include "core/status.h"
 #include "integrate/method/one_array.h"
@@ -14,7 +12,7 @@ struct own {
   double *start, *sum;
 };
 
-int32_t hk_stages_create(hooke_integrator *it) {
+static int32_t create(hooke_integrator *it) {
   if (it->array || (it->method->stages.count == 1 && it->system->friction == 0.0)) return HOOKE_OK;
   struct own *own = hk_new(1, sizeof *own);
   if (own == NULL) return HOOKE_NO_MEMORY;
@@ -27,7 +25,7 @@ int32_t hk_stages_create(hooke_integrator *it) {
   return HOOKE_OK;
 }
 
-void hk_stages_destroy(hooke_integrator *it) {
+static void destroy(hooke_integrator *it) {
   struct own *own = it->own;
   hk_free(own->start);
   hk_free(own);
@@ -155,7 +153,7 @@ static int32_t step_overdamped(hooke_integrator *it) {
   return HOOKE_OK;
 }
 
-int32_t hk_stages_step(hooke_integrator *it) {
+static int32_t step(hooke_integrator *it) {
   if (it->array) return step_array(it);
   if (it->system->friction > 0.0) return step_overdamped(it);
   struct own *own = it->own;
@@ -169,3 +167,5 @@ int32_t hk_stages_step(hooke_integrator *it) {
   }
   return HOOKE_OK;
 }
+
+const struct hk_steps hk_explicit_steps = {create, destroy, NULL, hk_fixed_begin, step, hk_fixed_store};

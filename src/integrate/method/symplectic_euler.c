@@ -22,15 +22,13 @@ static int32_t step(hooke_integrator *it) {
   return hk_integrator_move(it, it->t, &move);
 }
 
+static const struct hk_steps steps = {NULL, NULL, NULL, hk_fixed_begin, step, hk_fixed_store};
+
 const struct hk_method hk_symplectic_euler = {.name = "symplectic-euler",
                                               .summary = "fixed step, order 1; keeps undamped motion bounded",
-                                              .built = 1,
                                               .order = 1,
                                               .judge = "verlet",
-                                              .second_order = 1,
                                               .bodies = 1,
                                               .stability = {.kind = HOOKE_STABLE_BY_K_AND_C},
                                               .by_tiles = 1,
-                                              .begin = hk_fixed_begin,
-                                              .step = step,
-                                              .store = hk_fixed_store};
+                                              .steps = &steps};

@@ -212,22 +212,17 @@ static int32_t step(hooke_integrator *it) {
   return status;
 }
 
+static const struct hk_steps steps = {create, destroy, forget, begin, step, hk_fixed_store};
+
 const struct hk_method hk_verlet = {
     .name = "verlet",
     .summary = "fixed step, order 2; keeps undamped motion bounded, and damping leaves its limit",
-    .built = 1,
     .order = 2,
     .judge = "rk4",
-    .second_order = 1,
     .bodies = 1,
     .stability = {.kind = HOOKE_STABLE_BY_K, .damps_implicitly = 1},
     .with_bodies = {.kind = HOOKE_STABLE_BY_PREDICTION},
     .by_tiles = 1,
     .explicit_step = hk_verlet_explicit_step,
     .choose = hk_verlet_choose,
-    .create = create,
-    .destroy = destroy,
-    .forget = forget,
-    .begin = begin,
-    .step = step,
-    .store = hk_fixed_store};
+    .steps = &steps};

@@ -51,7 +51,8 @@ static int32_t allocate(struct hk_stage *stage, int64_t states) {
   return HOOKE_OK;
 }
 
-int32_t hk_stage_create(hooke_integrator *it, int64_t states) {
+/* Reads the options `newton`, `newton_tolerance` and `linear_solver`. */
+static int32_t create(hooke_integrator *it) {
   struct hk_stage *stage = hk_new(1, sizeof *stage);
   if (stage == NULL) return HOOKE_NO_MEMORY;
   it->own = stage;
@@ -65,10 +66,10 @@ int32_t hk_stage_create(hooke_integrator *it, int64_t states) {
   if (status == HOOKE_OK) status = hk_reduced_create(it, HOOKE_REDUCED_GENERAL, &more, &stage->reduced);
   stage->size = it->size + more.count;
   stage->state_size = 2 * it->size + HOOKE_BODY_NUMBERS * stage->body.count;
-  return status == HOOKE_OK ? allocate(stage, states) : status;
+  return status == HOOKE_OK ? allocate(stage, it->method->states) : status;
 }
 
-void hk_stage_destroy(hooke_integrator *it) {
+static void destroy(hooke_integrator *it) {
   struct hk_stage *stage = it->own;
   hk_body_stage_release(&stage->body);
   hk_descent_release(&stage->descent);
@@ -476,7 +477,7 @@ static double time_of(const hooke_integrator *it, int64_t part) {
 }
 
 /* One part of the step, from where the motion is. */
-static int32_t take_part(struct hk_stage *stage, int64_t done, int64_t parts, hk_stages_of_step *stages) {
+static int32_t take_part(struct hk_stage *stage, int64_t done, int64_t parts) {
   hooke_integrator *it = stage->reduced.integrator;
   const double end = time_of(it, done + parts);
   const int guarded = stage->descent.rows != NULL && it->system->drive_count == 0;
@@ -484,8 +485,9 @@ static int32_t take_part(struct hk_stage *stage, int64_t done, int64_t parts, hk
   hk_stage_save(stage, stage->start);
   int32_t status = parts == FINEST_SPLIT ? HOOKE_OK : hk_integrator_drive(it, end);
   if (status == HOOKE_OK)
-    status = stages(it, (struct hk_span_of_time){time_of(it, done),
-                                                 (double)parts / FINEST_SPLIT * it->schedule.step, end});
+    status = it->method->solved(
+        it,
+        (struct hk_span_of_time){time_of(it, done), (double)parts / FINEST_SPLIT * it->schedule.step, end});
   if (status == HOOKE_OK && it->system->constrained_count > 0) hk_motion_hold(it->system, it->motion);
   if (status == HOOKE_OK && stage->body.count > 0) hk_body_stage_end(stage);
   stage->raised = status == HOOKE_OK && guarded &&
@@ -496,14 +498,17 @@ static int32_t take_part(struct hk_stage *stage, int64_t done, int64_t parts, hk
   return hk_integrator_flow(it, end);
 }
 
-int32_t hk_stage_step(struct hk_stage *stage, hk_stages_of_step *stages) {
-  hooke_integrator *it = stage->reduced.integrator;
+/* Where stages find no solution a step is taken in two halves, and these likewise, down to a thousandth; every
+ * such failure is counted. After a failure that remains, the motion is back at the start. A step that a callback
+ * stopped is taken again by whoever goes on, so it counts nothing. */
+static int32_t step(hooke_integrator *it) {
+  struct hk_stage *stage = it->own;
   const struct hk_counts before = it->count;
   int32_t status = HOOKE_OK;
   if (stage->body.count > 0) hk_bodies_read(it->system, it->motion, stage->body.own);
   hk_stage_save(stage, stage->whole);
   for (int64_t done = 0, parts = FINEST_SPLIT; done < FINEST_SPLIT;) {
-    status = take_part(stage, done, parts, stages);
+    status = take_part(stage, done, parts);
     if (status == HOOKE_OK) {
       done += parts;
       if (done % (2 * parts) == 0) parts *= 2;
@@ -511,7 +516,7 @@ int32_t hk_stage_step(struct hk_stage *stage, hk_stages_of_step *stages) {
     }
     if (status != HOOKE_SOLVER_FAILED) break;
     it->count.nonlinear_failures++;
-    if (parts == (stage->raised && stage->swings ? QUARTER : 1)) break;
+    if (parts == (stage->raised && it->method->swings ? QUARTER : 1)) break;
     hk_stage_restore(stage, stage->start);
     parts /= 2;
   }
@@ -520,3 +525,5 @@ int32_t hk_stage_step(struct hk_stage *stage, hk_stages_of_step *stages) {
   hk_stage_restore(stage, stage->whole);
   return status;
 }
+
+const struct hk_steps hk_implicit_steps = {create, destroy, NULL, hk_fixed_begin, step, hk_fixed_store};

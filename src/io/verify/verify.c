@@ -79,7 +79,7 @@ static int32_t find_makers(const struct hk_verify *verify) {
   const hooke_options *options = hooke_record_options(verify->record);
   const struct hk_method *method = hk_method_find(hooke_options_text(options, "method"));
   const int32_t factor = strcmp(hooke_options_text(options, "linear_solver"), "direct") == 0;
-  if (verify->fixed && !(method->implicit && factor)) return 0;
+  if (verify->fixed && !(method->solved && factor)) return 0;
   for (size_t k = 0; k < sizeof facts / sizeof facts[0]; k++) {
     if (strcmp(hooke_record_text(verify->record, facts[k]), hooke_build_fact(facts[k])) != 0) return 1;
   }

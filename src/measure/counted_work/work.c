@@ -123,7 +123,7 @@ double hk_work_of_pass(const hooke_system *system) {
 
 double hk_work_of_steps(const hooke_system *system, const char *name, int64_t steps) {
   const struct hk_method *method = hk_method_find(name);
-  if (method == NULL || method->adaptive || method->implicit || !hk_method_suits(name, system)) return NAN;
+  if (method == NULL || method->adaptive || method->solved || !hk_method_suits(name, system)) return NAN;
   const struct hk_stability *stability = &method->stability;
   const int64_t stages = stability->kind == HOOKE_STABLE_BY_POLYNOMIAL ? stability->degree : 1;
   if (method->explicit_step && system->moving_bodies == 0 && hk_elements_are_damped(system)) return NAN;
