@@ -75,8 +75,7 @@ static int32_t take_system(hooke_integrator *it, const hooke_system *system, hoo
   int32_t status = hk_method_require(it->method, system);
   it->system = system;
   it->size = 3 * system->particle_count;
-  if (it->method->by_tiles && system->moving_bodies == 0 && system->friction == 0.0 &&
-      hk_goes_by_tiles(system))
+  if (it->method->by_tiles && system->moving_bodies == 0 && !system->overdamped && hk_goes_by_tiles(system))
     it->by_tiles = HOOKE_MOTION_BY_TILES;
   if (status == HOOKE_OK && it->method->choose) status = it->method->choose(it);
   if (status == HOOKE_OK) status = gather_crew(it);

@@ -121,7 +121,7 @@ static int32_t takes(const struct hk_method *method, int problem) {
 
 static int problem_of(const hooke_system *system) {
   if (system == NULL) return FIRST_ORDER;
-  return system->moving_bodies > 0 ? BODIES : system->friction > 0.0 ? OVERDAMPED : SECOND_ORDER;
+  return system->moving_bodies > 0 ? BODIES : system->overdamped ? OVERDAMPED : SECOND_ORDER;
 }
 
 int32_t hk_method_suits(const char *name, const hooke_system *system) {
@@ -161,7 +161,7 @@ int32_t hooke_method_is_suited(const char *name, const char *problem) {
 }
 
 const char *hk_method_of_euler(const hooke_system *system) {
-  return system->friction > 0.0 ? hk_forward_euler.name : hk_symplectic_euler.name;
+  return system->overdamped ? hk_forward_euler.name : hk_symplectic_euler.name;
 }
 
 int32_t hk_method_needs_damping(const char *name) {

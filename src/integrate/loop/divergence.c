@@ -45,7 +45,7 @@ static double least_energy(const hooke_integrator *it, const hooke_state *state)
   const double *g = system->gravity;
   double mass = 0.0, stiffness = 0.0, extent = 0.0;
   for (int64_t p = 0; p < system->particle_count; p++)
-    mass += system->constrained[p] || system->friction > 0.0 ? 0.0 : system->mass[p];
+    mass += system->constrained[p] || system->overdamped ? 0.0 : system->mass[p];
   for (int32_t k = 0; k < system->force_row_count; k++) {
     if (system->force_row[k]->add_stiffness) system->force_row[k]->add_stiffness(system, &stiffness);
   }

@@ -52,12 +52,12 @@ void hk_integrator_move_of(const hooke_integrator *it, int32_t kind, double kick
   const hooke_system *system = it->system;
   const struct hk_motion *m = it->motion;
   move->kind = kind;
-  move->heavy = system->has_gravity;
+  move->heavy = system->falls;
   move->kick = kick;
   move->drift = drift;
-  move->drag = m->zero ? 0.0 : system->drag;
+  move->drag = m->zero ? 0.0 : system->brake;
   for (int a = 0; a < 3; a++)
-    move->gravity[a] = system->gravity[a];
+    move->gravity[a] = system->fall[a];
   move->stride = hk_motion_stride(m);
   move->f = m->f[0];
   move->half = move->start = move->sum = NULL;

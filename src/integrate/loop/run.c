@@ -18,10 +18,10 @@ int32_t hk_run_check_state(const hooke_integrator *it, const hooke_state *state)
 }
 
 int32_t hk_run_place_driven(hooke_integrator *it, hooke_state *state) {
-  if (it->system == NULL || (it->system->drive_count == 0 && it->system->friction == 0.0)) return HOOKE_OK;
+  if (it->system == NULL || (it->system->drive_count == 0 && !it->system->overdamped)) return HOOKE_OK;
   hk_motion_load(it->system, it->motion, state->q, state->v);
   int32_t status = hk_integrator_hold(it, *state->t);
-  if (status == HOOKE_OK && it->system->friction > 0.0) status = hk_integrator_flow(it, *state->t);
+  if (status == HOOKE_OK && it->system->overdamped) status = hk_integrator_flow(it, *state->t);
   if (status == HOOKE_OK) hk_motion_store(it->motion, state->q, state->v);
   return status;
 }

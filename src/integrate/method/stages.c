@@ -13,7 +13,7 @@ struct own {
 };
 
 static int32_t create(hooke_integrator *it) {
-  if (it->array || (it->method->stages.count == 1 && it->system->friction == 0.0)) return HOOKE_OK;
+  if (it->array || (it->method->stages.count == 1 && !it->system->overdamped)) return HOOKE_OK;
   struct own *own = hk_new(1, sizeof *own);
   if (own == NULL) return HOOKE_NO_MEMORY;
   it->own = own;
@@ -155,7 +155,7 @@ static int32_t step_overdamped(hooke_integrator *it) {
 
 static int32_t step(hooke_integrator *it) {
   if (it->array) return step_array(it);
-  if (it->system->friction > 0.0) return step_overdamped(it);
+  if (it->system->overdamped) return step_overdamped(it);
   struct own *own = it->own;
   for (int stage = 0; stage < it->method->stages.count; stage++) {
     int32_t status = hold(it, stage);

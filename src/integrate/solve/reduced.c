@@ -122,11 +122,11 @@ static void add_others(const struct hk_reduced *reduced, double *const block[6])
 static void fill_diagonal(struct hk_reduced *reduced) {
   const hooke_system *system = reduced->integrator->system;
   const int64_t n = system->particle_count;
-  const double brake = reduced->beta * system->drag;
+  const double brake = reduced->beta * system->brake;
   double *const block[6] = {reduced->block,         reduced->block + n,     reduced->block + 2 * n,
                             reduced->block + 3 * n, reduced->block + 4 * n, reduced->block + 5 * n};
   for (int64_t p = 0; p < n; p++)
-    reduced->diagonal[p] = system->mass[p] + brake;
+    reduced->diagonal[p] = system->inertia[p] + brake;
   for (int c = 0; c < 3; c++)
     memcpy(block[c], reduced->diagonal, (size_t)n * sizeof(double));
   memset(block[3], 0, (size_t)(3 * n) * sizeof(double));
@@ -490,7 +490,7 @@ int32_t hk_reduced_right(struct hk_reduced *reduced, const double *bq, const dou
   const double inverse = 1.0 / reduced->beta;
   for (int64_t k = 0; k < size; k++) {
     const int64_t p = k % n;
-    out[k] = system->mass[p] * (bv[k] + inverse * bq[k]) + system->drag * bq[k];
+    out[k] = system->inertia[p] * (bv[k] + inverse * bq[k]) + system->brake * bq[k];
   }
   const double *const from[3] = {bq, bq + n, bq + 2 * n};
   double *const to[3] = {out, out + n, out + 2 * n};

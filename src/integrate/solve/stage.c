@@ -59,7 +59,7 @@ static int32_t create(hooke_integrator *it) {
   stage->one_iteration = strcmp(hooke_options_text(it->options, "newton"), "one-iteration") == 0;
   stage->tolerance = hooke_options_number(it->options, "newton_tolerance");
   stage->order = it->method->order;
-  stage->overdamped = it->system->friction > 0.0;
+  stage->overdamped = it->system->overdamped;
   int32_t status = hk_body_stage_create(it, &stage->body);
   if (status == HOOKE_OK) status = hk_descent_create(it, &stage->descent);
   const struct hk_more_unknowns more = hk_body_stage_unknowns(stage);
@@ -130,12 +130,12 @@ static int32_t find_residual(struct hk_stage *stage, const double *v) {
   place(stage, v);
   const int32_t status = hk_integrator_forces(it, stage->at.t);
   for (int a = 0; a < 3; a++) {
-    const double g = h * system->gravity[a];
+    const double g = h * system->fall[a];
     for (int64_t p = 0; p < m->n; p++) {
       const double w = system->inverse_mass[p];
       stage->right[a * m->n + p] =
           w == 0.0 ? 0.0
-                   : h * m->f[a][p] - system->mass[p] * ((m->v[a][p] - speed_of(stage, a * m->n + p)) - g);
+                   : h * m->f[a][p] - system->inertia[p] * ((m->v[a][p] - speed_of(stage, a * m->n + p)) - g);
     }
   }
   if (stage->body.count > 0) hk_body_stage_residual(stage, v);
@@ -182,13 +182,13 @@ static int32_t linearise(struct hk_stage *stage) {
   set_matrix(stage);
   status = hk_reduced_change(&stage->reduced, stage->v, stage->change, stage->moved);
   for (int64_t a = 0, k = 0; a < 3; a++) {
-    const double g = system->has_gravity ? system->gravity[a] : 0.0;
+    const double g = system->falls ? system->fall[a] : 0.0;
     for (int64_t p = 0; p < n; p++, k++) {
       const double force = m->f[a][p], turn = stage->overdamped ? stage->moved[k] : force;
       const double w = system->inverse_mass[p];
       stage->straight[k] = old[k] + (stage->overdamped ? 1.0 : stage->at.length) * (w * turn + g);
-      stage->right[k] = gain(stage) * ((force + stage->moved[k]) + system->mass[p] * g);
-      if (system->constrained[p] == 0) stage->right[k] -= system->mass[p] * (old[k] - speed_of(stage, k));
+      stage->right[k] = gain(stage) * ((force + stage->moved[k]) + system->inertia[p] * g);
+      if (system->constrained[p] == 0) stage->right[k] -= system->inertia[p] * (old[k] - speed_of(stage, k));
     }
   }
   if (stage->body.count > 0) hk_body_stage_linearise(stage);
@@ -209,7 +209,7 @@ static double distance(const struct hk_stage *stage, const double *from) {
   for (int a = 0; a < 3; a++) {
     const double *to = stage->v + a * n, *of = from + a * n;
     for (int64_t p = 0; p < n; p++)
-      sum += system->constrained[p] ? 0.0 : system->mass[p] * ((to[p] - of[p]) * (to[p] - of[p]));
+      sum += system->constrained[p] ? 0.0 : system->inertia[p] * ((to[p] - of[p]) * (to[p] - of[p]));
   }
   if (stage->body.count > 0) sum += hk_body_stage_distance(stage, from);
   return sqrt(sum);

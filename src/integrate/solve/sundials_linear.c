@@ -126,7 +126,7 @@ static void take_positions(struct solver *s, N_Vector b) {
   hk_unknowns_spread(u, N_VGetArrayPointer(b), right);
   hk_unknowns_spread(u, N_VGetArrayPointer(s->weight), weight);
   for (int64_t k = 0; k < 3 * n; k++)
-    s->right[k] *= system->constrained[k % n] ? 0.0 : system->mass[k % n];
+    s->right[k] *= system->constrained[k % n] ? 0.0 : system->inertia[k % n];
 }
 
 static void give_positions(struct solver *s, N_Vector x) {

@@ -62,16 +62,15 @@ static void add_masses(struct hk_text *text, const hooke_system *system, const s
   while (numbering->in_part[first])
     first++;
   for (int64_t p = first; p < system->particle_count; p++)
-    same &= numbering->in_part[p] ||
-            memcmp(&hk_system_masses(system)[p], &hk_system_masses(system)[first], sizeof(double)) == 0;
-  if (hk_system_masses(system)[first] == 0.0) return; /* not given */
+    same &= numbering->in_part[p] || memcmp(&system->mass[p], &system->mass[first], sizeof(double)) == 0;
+  if (system->mass[first] == 0.0) return; /* not given */
   if (same) {
-    hk_text_number(text, "mass", hk_system_masses(system)[first]);
+    hk_text_number(text, "mass", system->mass[first]);
     return;
   }
   hk_text_open(text, "mass", '[');
   for (int64_t p = first; p < system->particle_count; p++) {
-    if (!numbering->in_part[p]) hk_text_number(text, NULL, hk_system_masses(system)[p]);
+    if (!numbering->in_part[p]) hk_text_number(text, NULL, system->mass[p]);
   }
   hk_text_close(text, ']');
 }
@@ -377,8 +376,8 @@ static void add_scene(struct hk_text *text, const hooke_system *system, const ch
   hk_text_number(text, "hooke", 1.0);
   if (title && title[0]) hk_text_word(text, "title", title);
   if (system->overdamped) hk_text_word(text, "dynamics", hooke_system_dynamics(system));
-  if (hk_system_has_gravity(system)) hk_scene_add_numbers(text, "gravity", 3, 0, hk_system_gravity(system));
-  if (hk_system_drag(system) != 0.0) hk_text_number(text, "drag", hk_system_drag(system));
+  if (system->has_gravity) hk_scene_add_numbers(text, "gravity", 3, 0, system->gravity);
+  if (system->drag != 0.0) hk_text_number(text, "drag", system->drag);
   if (numbering->alone > 0) add_particles(text, system, numbering);
   if (has_groups(system, &hk_force_springs)) {
     hk_text_open(text, "springs", '[');

@@ -33,9 +33,9 @@ static void add_groups(struct hk_cost *cost) {
 static void add_others(struct hk_cost *cost) {
   const hooke_system *system = cost->system;
   add_row(cost, "damping", -1, hk_elements_are_damped(system));
-  add_row(cost, "drag", -1, system->drag > 0.0);
+  add_row(cost, "drag", -1, system->brake > 0.0);
   add_row(cost, "callback", -1, system->force != NULL);
-  add_row(cost, "gravity", -1, hk_system_has_gravity(system));
+  add_row(cost, "gravity", -1, system->has_gravity);
 }
 
 /* The largest first; those of one size in the order of the rows. */

@@ -63,7 +63,7 @@ static void find_amounts(const hooke_system *system, const struct hk_method *met
   const double steps = (double)count->steps, evaluations = (double)count->force_evaluations,
                products = (double)count->derivative_products, matrices = (double)count->matrices;
   /* with error control: particles with positions and velocities, or halves of them */
-  const double whole = system && system->friction == 0.0 ? 1.0 : 0.5,
+  const double whole = system && !system->overdamped ? 1.0 : 0.5,
                adapted = method->adaptive ? whole * particles : 0.0;
   memset(amount, 0, HOOKE_WORKS * sizeof *amount);
   if (system) add_forces(system, method, count, amount);

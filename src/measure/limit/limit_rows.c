@@ -63,7 +63,7 @@ static int32_t keep_modes(struct hk_limit *limit, const struct hk_spectrum *s) {
   }
   limit->frequency = rate * sqrt(s->stiffest);
   limit->decay = rate * s->fastest_decay;
-  if (limit->system->friction > 0.0) find_overdamped_modes(limit, s);
+  if (limit->system->overdamped) find_overdamped_modes(limit, s);
   limit->clamped = s->linearised->clamped;
   limit->tipping = s->linearised->rigid.tipping;
   memcpy(limit->stiffest, s->stiffest_mode, (size_t)s->linearised->size * sizeof(double));
@@ -75,7 +75,7 @@ static int32_t keep_modes(struct hk_limit *limit, const struct hk_spectrum *s) {
 static int32_t note_buckling(struct hk_limit *limit, const double *q) {
   double rate = 0.0;
   int32_t status = HOOKE_OK;
-  if (limit->system->friction > 0.0 && limit->clamped > 0)
+  if (limit->system->overdamped && limit->clamped > 0)
     status = hk_buckling_rate(limit->system, limit->time, q, &rate);
   for (int32_t k = 0; k < limit->row_count && rate > 0.0; k++) {
     if (!limit->row[k].note[0])

@@ -78,11 +78,11 @@ static int32_t list_whole_forces(struct hk_needs *needs) {
     status = add_row(needs, "damping", &row, "damping");
     if (status == HOOKE_OK) row->variant.damping = 1;
   }
-  if (status == HOOKE_OK && system->drag != 0.0) {
+  if (status == HOOKE_OK && system->brake != 0.0) {
     status = add_row(needs, "drag", &row, "drag");
     if (status == HOOKE_OK) row->variant.drag = 1;
   }
-  if (status == HOOKE_OK && hk_system_has_gravity(system)) {
+  if (status == HOOKE_OK && system->has_gravity) {
     status = add_row(needs, "gravity", &row, "gravity");
     if (status == HOOKE_OK) row->variant.gravity = 1;
   }

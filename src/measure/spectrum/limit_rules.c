@@ -199,7 +199,7 @@ static void overdamped(struct hk_spectrum *s, const struct hk_stability *stabili
 
 static int32_t find_limit(struct hk_spectrum *s, const struct hk_stability *stability,
                           struct hk_prediction *out) {
-  if (s->linearised->system->friction > 0.0) {
+  if (s->linearised->system->overdamped) {
     overdamped(s, stability, out);
     return HOOKE_OK;
   }
