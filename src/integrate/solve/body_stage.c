@@ -53,7 +53,8 @@ void hk_body_stage_release(struct hk_body_stage *body) {
 
 /* ---- axes ---- */
 
-void hk_body_moments(const struct hk_body *body, double moment[3]) {
+/* Those of axes that the body does not turn about are replaced. */
+static void find_moments(const struct hk_body *body, double moment[3]) {
   const double largest = body->inertia[2] > 0.0 ? body->inertia[2] : 1.0; /* they ascend */
   for (int k = 0; k < 3; k++)
     moment[k] = body->inertia[k] > 0.0 ? body->inertia[k] : largest;
@@ -108,7 +109,7 @@ void hk_body_stage_clear(const struct hk_stage *stage, double *x) {
 
 void hk_body_momentum(const struct hk_stage *stage, int64_t k, const double z[3], double p[3]) {
   double moment[3];
-  hk_body_moments(body_of(stage, k), moment);
+  find_moments(body_of(stage, k), moment);
   hk_body_weigh(stage->body.rotation[k].begin, moment, z, p);
 }
 
@@ -117,7 +118,7 @@ static void find_slope(const struct hk_stage *stage, int64_t k, const double axe
                        const double spin[3]) {
   struct hk_body_rotation *r = &stage->body.rotation[k];
   double moment[3], column[3][3];
-  hk_body_moments(body_of(stage, k), moment);
+  find_moments(body_of(stage, k), moment);
   for (int j = 0; j < 3; j++) {
     double change[3] = {j == 0, j == 1, j == 2}, turn[3], other[3];
     hk_body_turn_by(r->w, stage->at.a, change, turn);
@@ -139,7 +140,7 @@ static void find_slope(const struct hk_stage *stage, int64_t k, const double axe
 static void find_rotation(struct hk_stage *stage, int64_t k, const double z[3]) {
   struct hk_body_rotation *r = &stage->body.rotation[k];
   double *own = own_of(stage, k), moment[3], axes[3][3], p[3], spin[3], left[3], before = INFINITY;
-  hk_body_moments(body_of(stage, k), moment);
+  find_moments(body_of(stage, k), moment);
   hk_body_momentum(stage, k, z, p);
   memcpy(r->w, z, sizeof r->w);
   for (int i = 0; i < MOST_ROTATIONS; i++) {

@@ -363,7 +363,7 @@ static int32_t solve_by_blocks(struct hk_reduced *reduced, int symmetric, const 
   return status;
 }
 
-int64_t hk_reduced_limit(const struct hk_reduced *reduced) {
+static int64_t limit_of(const struct hk_reduced *reduced) {
   const int64_t share = reduced->integrator->size / SIZE_SHARE + SPARE_ITERATIONS;
   return share < MOST_ITERATIONS ? share : MOST_ITERATIONS;
 }
@@ -388,7 +388,7 @@ int32_t hk_reduced_try(struct hk_reduced *reduced, const double *b, double toler
 
 int32_t hk_reduced_solve(struct hk_reduced *reduced, const double *b, double tolerance, double *x,
                          struct hk_solution *solution) {
-  return hk_reduced_try(reduced, b, tolerance, hk_reduced_limit(reduced), x, solution);
+  return hk_reduced_try(reduced, b, tolerance, limit_of(reduced), x, solution);
 }
 
 /* Of every spring what its diagonal blocks have. */
@@ -401,7 +401,7 @@ int32_t hk_reduced_correct(struct hk_reduced *reduced, const double *b, double r
                            double *x, struct hk_solution *solution) {
   const int64_t size = reduced->size;
   if (reduced->direct && reduced->whole) {
-    const int32_t status = solve_direct(reduced, b, DIRECT_RESIDUAL, hk_reduced_limit(reduced), x, solution);
+    const int32_t status = solve_direct(reduced, b, DIRECT_RESIDUAL, limit_of(reduced), x, solution);
     solution->converged |= status == HOOKE_OK && solution->residual <= fmax(relative, DIRECT_RESIDUAL);
     return status;
   }
@@ -410,9 +410,8 @@ int32_t hk_reduced_correct(struct hk_reduced *reduced, const double *b, double r
   divide_blocks(reduced, reduced->right);
   const double scale = scale_of(size, reduced->right);
   multiply(size, scale, reduced->right);
-  const int32_t status =
-      hk_solve_positive(&a, reduced->right, relative, scale * absolute, hk_reduced_limit(reduced),
-                        reduced->krylov, reduced->unknown, solution);
+  const int32_t status = hk_solve_positive(&a, reduced->right, relative, scale * absolute, limit_of(reduced),
+                                           reduced->krylov, reduced->unknown, solution);
   reduced->integrator->count.linear_iterations += solution->iterations;
   divide_blocks_transposed(reduced, reduced->unknown, x);
   multiply(size, 1.0 / scale, x);

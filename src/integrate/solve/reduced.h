@@ -69,8 +69,6 @@ void hk_reduced_set(struct hk_reduced *reduced, double t, double alpha, double b
 int32_t hk_reduced_solve(struct hk_reduced *reduced, const double *b, double tolerance, double *x,
                          struct hk_solution *solution);
 
-/* Iterations that it is allowed. */
-int64_t hk_reduced_limit(const struct hk_reduced *reduced);
 /* The same for so many iterations at most. */
 int32_t hk_reduced_try(struct hk_reduced *reduced, const double *b, double tolerance, int64_t limit,
                        double *x, struct hk_solution *solution);

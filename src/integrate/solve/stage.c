@@ -87,7 +87,7 @@ void hk_stage_save(const struct hk_stage *stage, double *state) {
            (size_t)(HOOKE_BODY_NUMBERS * stage->body.count) * sizeof(double));
 }
 
-void hk_stage_restore(struct hk_stage *stage, double *state) {
+static void restore(struct hk_stage *stage, double *state) {
   const hooke_integrator *it = stage->reduced.integrator;
   hk_motion_restore(it->motion, state);
   if (stage->body.count > 0)
@@ -517,12 +517,12 @@ static int32_t step(hooke_integrator *it) {
     if (status != HOOKE_SOLVER_FAILED) break;
     it->count.nonlinear_failures++;
     if (parts == (stage->raised && it->method->swings ? QUARTER : 1)) break;
-    hk_stage_restore(stage, stage->start);
+    restore(stage, stage->start);
     parts /= 2;
   }
   if (status == HOOKE_OK) return HOOKE_OK;
   if (status == HOOKE_STOPPED) it->count = before;
-  hk_stage_restore(stage, stage->whole);
+  restore(stage, stage->whole);
   return status;
 }
 

@@ -53,9 +53,8 @@ struct hk_stage {
   double *others;                     /* states of the method's own */
 };
 
-/* The state to and from the motion. */
+/* The state of the motion. */
 void hk_stage_save(const struct hk_stage *stage, double *state);
-void hk_stage_restore(struct hk_stage *stage, double *state);
 
 /* Solves the stage from where the motion is, and leaves the motion at its solution. The caller has driven
  * held particles to `t`. After a failure the motion is anywhere: HOOKE_SOLVER_FAILED, or HOOKE_STOPPED by a

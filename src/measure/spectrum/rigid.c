@@ -134,7 +134,7 @@ int32_t hk_rigid_create(const hooke_system *system, const double *q, const doubl
 int32_t hk_rigid_enlarge(const struct hk_rigid *from, const hooke_system *system, const double *q,
                          struct hk_rigid *rigid) {
   memset(rigid, 0, sizeof *rigid);
-  if (!hk_rigid_is_any(from)) return HOOKE_OK;
+  if (from->tangents.count == 0) return HOOKE_OK;
   const int32_t status = hk_body_tangents_create(system, q, &rigid->tangents);
   rigid->stiffest = from->stiffest;
   for (int64_t k = 0; k < rigid->tangents.count; k++)

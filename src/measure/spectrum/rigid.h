@@ -25,10 +25,6 @@ int32_t hk_rigid_enlarge(const struct hk_rigid *from, const hooke_system *system
                          struct hk_rigid *rigid);
 void hk_rigid_release(struct hk_rigid *rigid);
 
-static inline int32_t hk_rigid_is_any(const struct hk_rigid *rigid) {
-  return rigid->tangents.count > 0;
-}
-
 /* x becomes the nearest motion in which all bodies are rigid. */
 void hk_rigid_project(const struct hk_rigid *rigid, double *const x[3], int64_t stride);
 /* f, forces (K x + C v, say) on all particles, becomes masses times the accelerations that they make, after
