@@ -5,7 +5,7 @@
  * momentum. What strong damping does to the order is in docs/notes/methods.md. */
 #include "core/memory.h"
 #include "core/status.h"
-#include "integrate/integrator.h"
+#include "integrate/method/verlet_damping.h"
 #include "model/sum/dampers.h"
 
 #include <stddef.h>
@@ -47,14 +47,6 @@ static void destroy(hooke_integrator *it) {
   it->around = NULL;
 }
 
-static int32_t begin(hooke_integrator *it, const hooke_state *state) {
-  return hk_verlet.steps->begin(it, state);
-}
-
-static void forget(hooke_integrator *it) {
-  hk_verlet.steps->forget(it);
-}
-
 static int32_t step(hooke_integrator *it) {
   struct shardlow *own = it->around;
   if (own->start) hk_motion_save(it->motion, own->start);
@@ -70,7 +62,8 @@ static int32_t step(hooke_integrator *it) {
   return HOOKE_OK;
 }
 
-static const struct hk_steps steps = {create, destroy, forget, begin, step, hk_fixed_store};
+static const struct hk_steps steps = {create,          destroy, hk_verlet_forget,
+                                      hk_verlet_begin, step,    hk_fixed_store};
 
 const struct hk_method hk_shardlow = {
     .name = "shardlow",

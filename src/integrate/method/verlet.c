@@ -67,13 +67,13 @@ static void destroy(hooke_integrator *it) {
   it->own = NULL;
 }
 
-static int32_t begin(hooke_integrator *it, const hooke_state *state) {
+int32_t hk_verlet_begin(hooke_integrator *it, const hooke_state *state) {
   struct verlet *own = it->own;
   own->kept = own->drifted = 0;
   return hk_fixed_begin(it, state);
 }
 
-static void forget(hooke_integrator *it) {
+void hk_verlet_forget(hooke_integrator *it) {
   struct verlet *own = it->own;
   it->count.force_evaluations += own->kept; /* counts to be added by first_forces() again */
   own->kept = 0;
@@ -212,7 +212,8 @@ static int32_t step(hooke_integrator *it) {
   return status;
 }
 
-static const struct hk_steps steps = {create, destroy, forget, begin, step, hk_fixed_store};
+static const struct hk_steps steps = {create,          destroy, hk_verlet_forget,
+                                      hk_verlet_begin, step,    hk_fixed_store};
 
 const struct hk_method hk_verlet = {
     .name = "verlet",

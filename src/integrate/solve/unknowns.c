@@ -124,18 +124,9 @@ int32_t hk_unknowns_store(hooke_integrator *it, const struct hk_unknowns *u, dou
     memcpy(state->q, y, (size_t)it->size * sizeof(double));
     return HOOKE_OK;
   }
-  int32_t status = HOOKE_OK;
-  if (!u->has_v) {
-    status = hk_unknowns_place(it, u, t, y);
-    if (status == HOOKE_OK) status = hk_integrator_flow(it, t);
-    if (status == HOOKE_OK) hk_motion_store(it->motion, state->q, state->v);
-    return status;
-  }
-  status = hk_integrator_hold(it, t);
-  hk_bodies_write(it->system, it->motion, y + 6 * u->free_count);
-  hk_motion_store(it->motion, state->q, state->v);
-  spread_to_rows(u, y, state->q);
-  spread_to_rows(u, y + 3 * u->free_count, state->v);
+  int32_t status = hk_unknowns_place(it, u, t, y);
+  if (status == HOOKE_OK && !u->has_v) status = hk_integrator_flow(it, t);
+  if (status == HOOKE_OK || u->has_v) hk_motion_store(it->motion, state->q, state->v);
   return status;
 }
 
