@@ -17,7 +17,7 @@ static int32_t go_on(hooke_integrator *it, struct hk_span_of_time span) {
       m->v[a][p] = 2.0 * m->v[a][p] - v[p];
     }
   }
-  if (stage->body.count > 0) hk_body_stage_go_on(stage);
+  hk_body_stage_go_on(stage);
   if (it->system->constrained_count == 0) return HOOKE_OK;
   return hk_integrator_hold(it, span.end);
 }

@@ -25,7 +25,7 @@ static int32_t begin_trapezoid(hooke_integrator *it, double t, double a) {
       speed[p] = v[p] + a * (w * m->f[c][p] + (w == 0.0 ? 0.0 : system->fall[c]));
     }
   }
-  if (stage->body.count > 0) hk_body_stage_explicit(stage, a, stage->others + 2 * it->size);
+  hk_body_stage_explicit(stage, a, stage->others + 2 * it->size);
   return status;
 }
 

@@ -129,6 +129,7 @@ void hk_body_stage_gather(const struct hk_stage *stage, int64_t k, const double 
 
 void hk_body_stage_aim(struct hk_stage *stage) {
   struct hk_body_stage *bodies = &stage->body;
+  if (bodies->count == 0) return;
   hk_motion_store(stage->reduced.integrator->motion, bodies->dq, bodies->dv); /* in rows */
   hk_body_tangents_set(&bodies->tangents, bodies->dq);
 }
@@ -148,6 +149,7 @@ static void find_forces(struct hk_stage *stage) {
 void hk_body_stage_set(struct hk_stage *stage) {
   struct hk_body_stage *bodies = &stage->body;
   const hooke_integrator *it = stage->reduced.integrator;
+  if (bodies->count == 0) return;
   find_forces(stage);
   hk_body_stage_clear(stage, stage->reduced.factor);
   hk_body_stage_clear(stage, stage->reduced.factor + it->size);

@@ -194,6 +194,7 @@ void hk_body_stage_end(struct hk_stage *stage) {
 
 void hk_body_stage_begin(struct hk_stage *stage) {
   const int64_t size = stage->reduced.integrator->size;
+  if (stage->body.count == 0) return; /* they are in `begin` */
   memcpy(stage->old, stage->begin + size, (size_t)size * sizeof(double));
   hk_body_stage_clear(stage, stage->old);
   for (int64_t k = 0; k < stage->body.count; k++) {

@@ -82,17 +82,15 @@ static void destroy(hooke_integrator *it) {
 void hk_stage_save(const struct hk_stage *stage, double *state) {
   const hooke_integrator *it = stage->reduced.integrator;
   hk_motion_save(it->motion, state);
-  if (stage->body.count > 0)
-    memcpy(state + 2 * it->size, stage->body.own,
-           (size_t)(HOOKE_BODY_NUMBERS * stage->body.count) * sizeof(double));
+  for (int64_t k = 0; k < HOOKE_BODY_NUMBERS * stage->body.count; k++)
+    state[2 * it->size + k] = stage->body.own[k];
 }
 
 static void restore(struct hk_stage *stage, double *state) {
   const hooke_integrator *it = stage->reduced.integrator;
   hk_motion_restore(it->motion, state);
-  if (stage->body.count > 0)
-    memcpy(stage->body.own, state + 2 * it->size,
-           (size_t)(HOOKE_BODY_NUMBERS * stage->body.count) * sizeof(double));
+  for (int64_t k = 0; k < HOOKE_BODY_NUMBERS * stage->body.count; k++)
+    stage->body.own[k] = state[2 * it->size + k];
 }
 
 /* ---- the equations ---- */
@@ -108,7 +106,7 @@ static void place(struct hk_stage *stage, const double *v) {
       m->q[a][p] = old[p] + stage->at.a * m->v[a][p];
     }
   }
-  if (stage->body.count > 0) hk_body_stage_place(stage, v);
+  hk_body_stage_place(stage, v);
   if (it->system->constrained_count > 0) hk_motion_hold(it->system, m);
 }
 
@@ -138,7 +136,7 @@ static int32_t find_residual(struct hk_stage *stage, const double *v) {
                    : h * m->f[a][p] - system->inertia[p] * ((m->v[a][p] - speed_of(stage, a * m->n + p)) - g);
     }
   }
-  if (stage->body.count > 0) hk_body_stage_residual(stage, v);
+  hk_body_stage_residual(stage, v);
   return status;
 }
 
@@ -147,7 +145,7 @@ static void set_matrix(struct hk_stage *stage) {
   const double a = stage->at.a;
   hk_reduced_drop_factor(&stage->reduced); /* a stage depends on its numbers alone */
   hk_reduced_set(&stage->reduced, stage->at.t, a * gain(stage), stage->overdamped ? 0.0 : a);
-  if (stage->body.count > 0) hk_body_stage_set(stage);
+  hk_body_stage_set(stage);
 }
 
 /* How far the state at the beginning moves with dv = 0: to place + a v, and particles that are constrained or
@@ -175,7 +173,7 @@ static int32_t linearise(struct hk_stage *stage) {
   const double *old = stage->old;
   place(stage, old);
   find_moved(stage, stage->v, stage->change);
-  if (stage->body.count > 0) hk_body_stage_aim(stage);
+  hk_body_stage_aim(stage);
   hk_motion_restore(m, stage->begin);
   int32_t status = hk_integrator_forces(it, stage->at.t);
   if (status != HOOKE_OK) return status;
@@ -191,7 +189,7 @@ static int32_t linearise(struct hk_stage *stage) {
       if (system->constrained[p] == 0) stage->right[k] -= system->inertia[p] * (old[k] - speed_of(stage, k));
     }
   }
-  if (stage->body.count > 0) hk_body_stage_linearise(stage);
+  hk_body_stage_linearise(stage);
   return status;
 }
 
@@ -211,8 +209,7 @@ static double distance(const struct hk_stage *stage, const double *from) {
     for (int64_t p = 0; p < n; p++)
       sum += system->constrained[p] ? 0.0 : system->inertia[p] * ((to[p] - of[p]) * (to[p] - of[p]));
   }
-  if (stage->body.count > 0) sum += hk_body_stage_distance(stage, from);
-  return sqrt(sum);
+  return sqrt(sum + hk_body_stage_distance(stage, from));
 }
 
 /* The error of the guess that is allowed. A step of order 1 is off by h/2 of the change of velocity. One of
@@ -328,7 +325,7 @@ static int32_t iterate(struct hk_stage *stage, struct iteration *now, int *found
   const int whole = now->slow >= (soon ? 1 : MANY_SLOW) && now->wait == 0;
   int32_t status = HOOKE_OK;
   *found = 0;
-  if (stage->body.count > 0) hk_body_stage_aim(stage);
+  hk_body_stage_aim(stage);
   set_matrix(stage);
   now->allowed = allowed_error(stage, &now->rounding);
   if (whole) status = whole_correction(stage, now, found);
@@ -396,7 +393,7 @@ static int one_is_enough(struct hk_stage *stage, double open) {
 
 static int32_t solve_from_beginning(struct hk_stage *stage) {
   double open;
-  if (stage->body.count > 0) hk_body_stage_begin(stage);
+  hk_body_stage_begin(stage);
   int32_t status = first_correction(stage, &open);
   if (status == HOOKE_OK && stage->one_iteration) {
     status = find_residual(stage, stage->v);
@@ -489,7 +486,7 @@ static int32_t take_part(struct hk_stage *stage, int64_t done, int64_t parts) {
         it,
         (struct hk_span_of_time){time_of(it, done), (double)parts / FINEST_SPLIT * it->schedule.step, end});
   if (status == HOOKE_OK && it->system->constrained_count > 0) hk_motion_hold(it->system, it->motion);
-  if (status == HOOKE_OK && stage->body.count > 0) hk_body_stage_end(stage);
+  if (status == HOOKE_OK) hk_body_stage_end(stage);
   stage->raised = status == HOOKE_OK && guarded &&
                   !(hk_descent_energy(&stage->descent, it) <= energy + (slack + stage->descent.slack));
   if (stage->raised) status = rises(it, "energy");
@@ -505,7 +502,7 @@ static int32_t step(hooke_integrator *it) {
   struct hk_stage *stage = it->own;
   const struct hk_counts before = it->count;
   int32_t status = HOOKE_OK;
-  if (stage->body.count > 0) hk_bodies_read(it->system, it->motion, stage->body.own);
+  hk_bodies_read(it->system, it->motion, stage->body.own);
   hk_stage_save(stage, stage->whole);
   for (int64_t done = 0, parts = FINEST_SPLIT; done < FINEST_SPLIT;) {
     status = take_part(stage, done, parts);
