@@ -27,12 +27,11 @@ struct hk_stability {
   const char *note; /* NULL: nothing */
 };
 
-/* An explicit Runge-Kutta method in which each stage starts at the beginning of the step. Stage k is `ahead` steps
- * after the start, at 0, 0.5 or 1, and leads from there to the next one, or to the end of the step, by the part
- * of its rate that lasts a step over `over`; see the moves of stages in kernel/move_loops.h. */
+/* The tableau of an explicit Runge-Kutta method in whole numbers (Butcher 1964): stage k + 1 is 1/over[k] of a step
+ * ahead, where the rate of stage k alone leads to from the start. The last number divides the sum of all rates, of
+ * which those between the first and the last count twice (kernel/move_loops.h). */
 struct hk_stages {
-  int32_t count;
-  double ahead[4], over[4];
+  int32_t count, over[4];
 };
 
 /* One step of an implicit method, or a part of it, from the motion at time t to `end`, by stages

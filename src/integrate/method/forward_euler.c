@@ -10,6 +10,6 @@ const struct hk_method hk_forward_euler = {.name = "forward-euler",
                                            .bodies = 1,
                                            .overdamped = 1,
                                            .steps = &hk_explicit_steps,
-                                           .stages = {1, {0.0}, {1.0}},
+                                           .stages = {1, {1}},
                                            .stability = {.kind = HOOKE_STABLE_BY_POLYNOMIAL, .degree = 1},
                                            .by_tiles = 1};

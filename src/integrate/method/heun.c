@@ -11,6 +11,6 @@ const struct hk_method hk_heun = {
     .bodies = 1,
     .overdamped = 1,
     .steps = &hk_explicit_steps,
-    .stages = {2, {0.0, 1.0}, {1.0, 2.0}},
+    .stages = {2, {1, 2}},
     .stability = {.kind = HOOKE_STABLE_BY_POLYNOMIAL, .degree = 2},
     .by_tiles = 1};

@@ -11,6 +11,6 @@ const struct hk_method hk_rk4 = {
     .bodies = 1,
     .overdamped = 1,
     .steps = &hk_explicit_steps,
-    .stages = {4, {0.0, 0.5, 0.5, 1.0}, {2.0, 2.0, 1.0, 6.0}},
+    .stages = {4, {2, 2, 1, 6}},
     .stability = {.kind = HOOKE_STABLE_BY_POLYNOMIAL, .degree = 4, .axis = 8.0, .half_disc = 2.6156},
     .by_tiles = 1};

@@ -32,9 +32,14 @@ static void destroy(hooke_integrator *it) {
   it->own = NULL;
 }
 
+/* A stage is a step over this ahead; 0: at the start. */
+static int32_t ahead_over(const hooke_integrator *it, int stage) {
+  return stage > 0 ? it->method->stages.over[stage - 1] : 0;
+}
+
 static double stage_time(const hooke_integrator *it, int stage) {
-  const double ahead = it->method->stages.ahead[stage];
-  return ahead == 1.0 ? hk_integrator_next_time(it) : it->t + ahead * it->schedule.step;
+  const int32_t over = ahead_over(it, stage);
+  return over == 1 ? hk_integrator_next_time(it) : over == 0 ? it->t : it->t + it->schedule.step / over;
 }
 
 /* How long the rate of a stage lasts. */
@@ -95,8 +100,8 @@ static int32_t step_array(hooke_integrator *it) {
  * called again. */
 static int32_t hold(hooke_integrator *it, int stage) {
   if (it->system->constrained_count == 0 || stage == 0) return HOOKE_OK;
-  const double *ahead = it->method->stages.ahead;
-  if (ahead[stage] != ahead[stage - 1]) return hk_integrator_hold(it, stage_time(it, stage));
+  if (ahead_over(it, stage) != ahead_over(it, stage - 1))
+    return hk_integrator_hold(it, stage_time(it, stage));
   hk_motion_hold(it->system, it->motion);
   return HOOKE_OK;
 }
