@@ -137,6 +137,7 @@ void hooke_integrator_destroy(hooke_integrator *it) {
   hooke_options_destroy(it->options);
   hk_coordinates_destroy(it->coordinates);
   hk_one_array_destroy(it->array);
+  hk_free(it->start);
   hooke_rows_hold(it->rows, -1);
   hk_handle_free(it);
 }

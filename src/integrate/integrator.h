@@ -94,6 +94,7 @@ struct hooke_integrator {
   double *x;    /* of a fixed-step method, in `array` */
   double *rows; /* x and its rate, for the callback */
 
+  double *start;              /* q and v at the start of a step that may fail midway, for the loop; or NULL */
   struct hk_one_array *array; /* of explicit steps that particles in rows are not enough for; else NULL */
   int64_t size;               /* numbers in q */
   void *own;                  /* the method's own data */
@@ -156,6 +157,8 @@ int32_t hk_integrator_forces(hooke_integrator *integrator, double t);
 /* The same without one force of the table. */
 int32_t hk_integrator_forces_without(hooke_integrator *integrator, double t,
                                      const struct hk_force_row *left_out);
+/* For a method whose step may fail after it has moved: the loop puts the motion back. HOOKE_NO_MEMORY. */
+int32_t hk_integrator_keep_start(hooke_integrator *integrator);
 /* A move of this motion (kernel/move_loops.h), without arrays of its method's own. */
 void hk_integrator_move_of(const hooke_integrator *integrator, int32_t kind, double kick, double drift,
                            struct hk_move *move);

@@ -2,6 +2,7 @@
 #include "integrate/integrator.h"
 #include "kernel/step_loops.h"
 
+#include "core/memory.h"
 #include "core/status.h"
 #include "model/force/force.h"
 #include "model/sum/strided.h"
@@ -21,6 +22,12 @@ int32_t hk_integrator_forces(hooke_integrator *it, double t) {
 int32_t hk_integrator_forces_without(hooke_integrator *it, double t, const struct hk_force_row *left_out) {
   it->count.force_evaluations++;
   return keep_stop_value(it, hk_motion_forces_without(it->system, it->motion, t, left_out));
+}
+
+int32_t hk_integrator_keep_start(hooke_integrator *it) {
+  it->start = hk_new(2 * it->size, sizeof(double));
+  it->own_memory += 2 * it->size * (int64_t)sizeof(double);
+  return it->start ? HOOKE_OK : HOOKE_NO_MEMORY;
 }
 
 struct sharing {

@@ -124,7 +124,10 @@ static int32_t take_untold_steps(hooke_integrator *it, int64_t count) {
     const double next = hk_integrator_next_time(it);
     status = hk_integrator_drive(it, next);
     it->goes_on = s + 1 < count;
-    if (status == HOOKE_OK) status = it->method->steps->step(it);
+    if (status != HOOKE_OK) break;
+    if (it->start) hk_motion_save(it->motion, it->start);
+    status = it->method->steps->step(it);
+    if (status != HOOKE_OK && it->start) hk_motion_restore(it->motion, it->start);
     if (status != HOOKE_OK) break;
     if (it->system && it->system->constrained_count > 0) hk_motion_hold(it->system, it->motion);
     const double from = it->t;

@@ -8,7 +8,8 @@ int32_t hk_one_array_create(hooke_integrator *it) {
   struct hk_one_array *array = hk_new(1, sizeof *array);
   it->array = array;
   if (array == NULL || hk_unknowns_create(it, 0, &array->unknowns) != HOOKE_OK) return HOOKE_NO_MEMORY;
-  const int64_t size = array->unknowns.size, numbers = 4 * size + (it->rate ? 0 : 2 * it->size);
+  if (it->motion && hk_integrator_keep_start(it) != HOOKE_OK) return HOOKE_NO_MEMORY;
+  const int64_t size = array->unknowns.size, numbers = 4 * size;
   double *block = hk_new(numbers, sizeof(double));
   if (block == NULL) return HOOKE_NO_MEMORY;
   it->own_memory += numbers * (int64_t)sizeof(double);
@@ -16,8 +17,7 @@ int32_t hk_one_array_create(hooke_integrator *it) {
   if (it->rate) it->x = array->y;
   array->start = hk_part(&block, size);
   array->slope = hk_part(&block, size);
-  array->sum = hk_part(&block, size);
-  array->rows = block;
+  array->sum = block;
   return HOOKE_OK;
 }
 
@@ -29,14 +29,7 @@ void hk_one_array_destroy(struct hk_one_array *array) {
 }
 
 void hk_one_array_begin(hooke_integrator *it) {
-  if (it->rate) return;
-  hk_motion_save(it->motion, it->array->rows);
-  hk_unknowns_take(it, &it->array->unknowns, it->array->y);
-}
-
-int32_t hk_one_array_undo(hooke_integrator *it, int32_t status) {
-  hk_motion_restore(it->motion, it->array->rows);
-  return status;
+  if (it->motion) hk_unknowns_take(it, &it->array->unknowns, it->array->y);
 }
 
 static double *body_of(const struct hk_unknowns *u, double *y, int64_t k) {

@@ -9,17 +9,14 @@
 struct hk_one_array {
   struct hk_unknowns unknowns;
   double *y, *start, *slope, *sum; /* of its size; y begins the block of all */
-  double *rows;                    /* q and v at the start of the step */
 };
 
 /* As the integrator's `array`. HOOKE_NO_MEMORY, after which the second has to follow. */
 int32_t hk_one_array_create(hooke_integrator *integrator);
 void hk_one_array_destroy(struct hk_one_array *array); /* NULL is allowed */
 
-/* Takes y from the rows, which are kept for a step that a callback stops: the second puts them back, and returns
- * `status`. */
+/* Takes y from the rows. */
 void hk_one_array_begin(hooke_integrator *integrator);
-int32_t hk_one_array_undo(hooke_integrator *integrator, int32_t status);
 /* Writes y, which may have quaternions of other lengths, into the rows. */
 void hk_one_array_give(hooke_integrator *integrator, double *y);
 

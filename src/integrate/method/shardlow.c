@@ -12,19 +12,17 @@
 
 struct shardlow {
   struct hk_dampers *dampers;
-  double *zero;  /* n */
-  double *start; /* with a callback: q and v at the start of the step */
+  double *zero; /* n */
 };
 
 static int32_t make(hooke_integrator *it, struct shardlow *own) {
-  const int64_t n = it->system->particle_count, saved = it->system->force ? 2 * it->size : 0;
+  const int64_t n = it->system->particle_count;
   own->zero = hk_new(n, sizeof(double));
-  if (saved) own->start = hk_new(saved, sizeof(double));
-  if (own->zero == NULL || (saved && own->start == NULL)) return HOOKE_NO_MEMORY;
+  if (own->zero == NULL) return HOOKE_NO_MEMORY;
   it->motion->zero = own->zero;
   const int32_t status = hk_dampers_create(it->system, it->schedule.step / 2.0, &own->dampers);
   if (status != HOOKE_OK) return status;
-  it->own_memory += (n + saved) * (int64_t)sizeof(double) + hk_dampers_memory(own->dampers);
+  it->own_memory += n * (int64_t)sizeof(double) + hk_dampers_memory(own->dampers);
   return HOOKE_OK;
 }
 
@@ -42,21 +40,16 @@ static void destroy(hooke_integrator *it) {
   if (own == NULL) return;
   hk_dampers_destroy(own->dampers);
   hk_free(own->zero);
-  hk_free(own->start);
   hk_free(own);
   it->around = NULL;
 }
 
 static int32_t step(hooke_integrator *it) {
   struct shardlow *own = it->around;
-  if (own->start) hk_motion_save(it->motion, own->start);
   hk_dampers_sweep(own->dampers, it->motion, 0);
   it->goes_on = 0; /* dampers come in between */
   const int32_t status = hk_verlet.steps->step(it);
-  if (status != HOOKE_OK) {
-    if (own->start) hk_motion_restore(it->motion, own->start);
-    return status;
-  }
+  if (status != HOOKE_OK) return status;
   if (it->system->constrained_count > 0) hk_motion_hold(it->system, it->motion); /* kicks move them, too */
   hk_dampers_sweep(own->dampers, it->motion, 1);
   return HOOKE_OK;

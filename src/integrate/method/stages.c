@@ -64,13 +64,6 @@ static void move_numbers(const hooke_integrator *it, int stage, int64_t count, c
 
 /* ---- one array ---- */
 
-static int32_t undo(hooke_integrator *it, int stage, int32_t status) {
-  struct hk_one_array *array = it->array;
-  if (it->system) return hk_one_array_undo(it, status);
-  if (stage > 0) memcpy(array->y, array->start, (size_t)it->size * sizeof(double));
-  return status;
-}
-
 static int32_t find_rate(hooke_integrator *it, double t) {
   struct hk_one_array *array = it->array;
   if (it->rate) return hk_integrator_rate(it, t, array->y, array->slope);
@@ -83,15 +76,15 @@ static int32_t step_array(hooke_integrator *it) {
   hk_one_array_begin(it);
   for (int stage = 0; stage < it->method->stages.count; stage++) {
     const int32_t status = find_rate(it, stage_time(it, stage));
-    if (status != HOOKE_OK) return undo(it, stage, status);
+    if (status != HOOKE_OK) {
+      if (it->rate && stage > 0) memcpy(array->y, array->start, (size_t)it->size * sizeof(double));
+      return status;
+    }
     move_numbers(it, stage, array->unknowns.size, array->slope, array->start, array->sum, array->y);
   }
   if (it->rate) return HOOKE_OK;
-  const int32_t status =
-      hk_integrator_drive(it, hk_integrator_next_time(it)); /* the last stage may be earlier */
-  if (status != HOOKE_OK) return hk_one_array_undo(it, status);
   hk_one_array_give(it, array->y);
-  return HOOKE_OK;
+  return hk_integrator_drive(it, hk_integrator_next_time(it)); /* the last stage may be earlier */
 }
 
 /* ---- particles ---- */

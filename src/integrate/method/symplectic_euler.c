@@ -7,7 +7,7 @@ static int32_t step_array(hooke_integrator *it) {
   const double h = it->schedule.step;
   hk_one_array_begin(it);
   const int32_t status = hk_one_array_push(it, it->t, 0);
-  if (status != HOOKE_OK) return hk_one_array_undo(it, status);
+  if (status != HOOKE_OK) return status;
   hk_one_array_kick(it, h, it->array->y);
   hk_one_array_drift(it, h);
   hk_one_array_give(it, it->array->y);

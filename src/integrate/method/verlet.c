@@ -30,7 +30,6 @@ struct verlet {
   struct hk_reduced reduced; /* implicit */
   double *numbers;           /* all arrays below */
   double *half[3];           /* predicts: velocities half-way, with room as in the motion */
-  double *start;             /* implicit or callback: q and v at the start of the step */
   double *right, *change;    /* implicit: 3n each */
 };
 
@@ -44,17 +43,15 @@ static int32_t create(hooke_integrator *it) {
   own->implicit = hk_elements_are_damped(it->system) && !it->explicit_damping && !it->motion->zero;
   own->predicts = own->implicit || it->explicit_damping || callback;
   if (!own->predicts) return HOOKE_OK;
-  const int64_t saved = own->implicit || callback ? 2 * it->size : 0,
-                solved = own->implicit ? 2 * it->size : 0;
-  const int64_t numbers = 3 * stride + saved + solved;
+  if ((own->implicit || callback) && hk_integrator_keep_start(it) != HOOKE_OK) return HOOKE_NO_MEMORY;
+  const int64_t numbers = 3 * stride + (own->implicit ? 2 * it->size : 0);
   own->numbers = hk_new(numbers, sizeof(double));
   if (own->numbers == NULL) return HOOKE_NO_MEMORY;
   it->own_memory += numbers * (int64_t)sizeof(double);
   for (int a = 0; a < 3; a++)
     own->half[a] = own->numbers + a * stride;
-  if (saved) own->start = own->numbers + 3 * stride;
   if (!own->implicit) return HOOKE_OK;
-  own->right = own->start + saved;
+  own->right = own->numbers + 3 * stride;
   own->change = own->right + it->size;
   return hk_reduced_create(it, HOOKE_REDUCED_SYMMETRIC, NULL, &own->reduced);
 }
@@ -183,7 +180,7 @@ static int32_t step_array(hooke_integrator *it) {
   if (it->k > 0 && keeps && !own->kept) it->count.force_evaluations--; /* as counted by the run before */
   int32_t status = hk_one_array_push(it, it->t, own->kept);
   own->kept = 0;
-  if (status != HOOKE_OK) return hk_one_array_undo(it, status);
+  if (status != HOOKE_OK) return status;
   hk_one_array_kick(it, 0.5 * h, array->y);
   hk_one_array_drift(it, h);
   memcpy(array->start, array->y, (size_t)array->unknowns.size * sizeof(double));
@@ -191,7 +188,7 @@ static int32_t step_array(hooke_integrator *it) {
   hk_one_array_give(it, array->y);
   if (it->system->constrained_count > 0) hk_motion_hold(it->system, it->motion);
   status = hk_one_array_push(it, hk_integrator_next_time(it), 0);
-  if (status != HOOKE_OK) return hk_one_array_undo(it, status);
+  if (status != HOOKE_OK) return status;
   hk_one_array_kick(it, 0.5 * h, array->start);
   hk_one_array_give(it, array->start);
   own->kept = keeps;
@@ -200,16 +197,12 @@ static int32_t step_array(hooke_integrator *it) {
 
 static int32_t step(hooke_integrator *it) {
   const struct verlet *own = it->own;
-  struct hk_motion *m = it->motion;
   if (it->array) return step_array(it);
   if (!own->predicts) return step_undamped(it);
-  if (own->start) hk_motion_save(m, own->start);
-  int32_t status = move_half(it, it->t, HOOKE_PREDICT);
+  const int32_t status = move_half(it, it->t, HOOKE_PREDICT);
   if (status != HOOKE_OK) return status;
-  if (it->system->constrained_count > 0) hk_motion_hold(it->system, m);
-  status = second_kick(it);
-  if (status != HOOKE_OK && own->start) hk_motion_restore(m, own->start);
-  return status;
+  if (it->system->constrained_count > 0) hk_motion_hold(it->system, it->motion);
+  return second_kick(it);
 }
 
 static const struct hk_steps steps = {create,          destroy, hk_verlet_forget,

@@ -33,13 +33,12 @@ enum {
 static int32_t allocate(struct hk_stage *stage, int64_t states) {
   hooke_integrator *it = stage->reduced.integrator;
   const int64_t own = stage->body.count > 0,
-                numbers = (3 + states) * stage->state_size + (5 + own) * stage->size;
+                numbers = (2 + states) * stage->state_size + (5 + own) * stage->size;
   double *block = hk_new(numbers, sizeof(double));
-  stage->whole = block;
+  stage->start = block;
   if (block == NULL) return HOOKE_NO_MEMORY;
   it->own_memory += numbers * (int64_t)sizeof(double);
   block += stage->state_size;
-  stage->start = hk_part(&block, stage->state_size);
   stage->begin = hk_part(&block, stage->state_size);
   stage->old = own ? hk_part(&block, stage->size) : stage->begin + it->size;
   stage->v = hk_part(&block, stage->size);
@@ -60,7 +59,8 @@ static int32_t create(hooke_integrator *it) {
   stage->tolerance = hooke_options_number(it->options, "newton_tolerance");
   stage->order = it->method->order;
   stage->overdamped = it->system->overdamped;
-  int32_t status = hk_body_stage_create(it, &stage->body);
+  int32_t status = hk_integrator_keep_start(it);
+  if (status == HOOKE_OK) status = hk_body_stage_create(it, &stage->body);
   if (status == HOOKE_OK) status = hk_descent_create(it, &stage->descent);
   const struct hk_more_unknowns more = hk_body_stage_unknowns(stage);
   if (status == HOOKE_OK) status = hk_reduced_create(it, HOOKE_REDUCED_GENERAL, &more, &stage->reduced);
@@ -74,7 +74,7 @@ static void destroy(hooke_integrator *it) {
   hk_body_stage_release(&stage->body);
   hk_descent_release(&stage->descent);
   hk_reduced_release(&stage->reduced);
-  hk_free(stage->whole);
+  hk_free(stage->start);
   hk_free(stage);
   it->own = NULL;
 }
@@ -503,7 +503,6 @@ static int32_t step(hooke_integrator *it) {
   const struct hk_counts before = it->count;
   int32_t status = HOOKE_OK;
   hk_bodies_read(it->system, it->motion, stage->body.own);
-  hk_stage_save(stage, stage->whole);
   for (int64_t done = 0, parts = FINEST_SPLIT; done < FINEST_SPLIT;) {
     status = take_part(stage, done, parts);
     if (status == HOOKE_OK) {
@@ -519,7 +518,6 @@ static int32_t step(hooke_integrator *it) {
   }
   if (status == HOOKE_OK) return HOOKE_OK;
   if (status == HOOKE_STOPPED) it->count = before;
-  restore(stage, stage->whole);
   return status;
 }
 

@@ -44,10 +44,9 @@ struct hk_stage {
   int32_t raised;            /* 1: the last part would have raised it */
   int64_t state_size;        /* numbers of a state: q and v, 6 components of n, and those of bodies */
   int64_t size;              /* numbers of velocities, 3n and those of bodies */
-  double *whole;             /* the state at the start of the whole step; begins the block of all */
-  double *start;             /* likewise at the start of the part of it that is taken */
-  double *begin;             /* of the motion where the stage begins */
-  double *old;               /* velocities there */
+  double *start; /* the state at the start of the part of a step that is taken; begins all blocks */
+  double *begin; /* of the motion where the stage begins */
+  double *old;   /* velocities there */
   double *v, *change, *right, *moved; /* the guess, the correction, -F or a right-hand side, scratch */
   double *straight;                   /* velocities without any change of acceleration since the beginning */
   double *others;                     /* states of the method's own */
