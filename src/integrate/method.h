@@ -27,9 +27,9 @@ struct hk_stability {
   const char *note; /* NULL: nothing */
 };
 
-/* The tableau of an explicit Runge-Kutta method in whole numbers (Butcher 1964): stage k + 1 is 1/over[k] of a step
- * ahead, where the rate of stage k alone leads to from the start. The last number divides the sum of all rates, of
- * which those between the first and the last count twice (kernel/move_loops.h). */
+/* The tableau of an explicit Runge-Kutta method in whole numbers (Butcher 1964): stage k + 1 is 1/over[k] of
+ * a step ahead, where the rate of stage k alone leads to from the start. The last number divides the sum of
+ * all rates, of which those between the first and the last count twice (kernel/move_loops.h). */
 struct hk_stages {
   int32_t count, over[4];
 };
@@ -55,7 +55,7 @@ struct hk_steps {
   int32_t (*store)(hooke_integrator *integrator, double t, hooke_state *state);
 };
 
-/* Those of explicit Runge-Kutta methods, by their `stages`, and of implicit ones, by what they have `solved`. */
+/* Those of explicit Runge-Kutta methods, by their `stages`, and of implicit ones, by what is `solved`. */
 extern const struct hk_steps hk_explicit_steps, hk_implicit_steps;
 
 /* What a row says of itself. */
@@ -67,15 +67,14 @@ struct hk_method {
   int32_t order;     /* of a fixed-step method, on smooth forces */
   const char *judge; /* of its runs: a method of higher order, or of another kind; NULL: none of its cost */
   const char *checked_by; /* the method that the beginning of its runs is held against; NULL: rk4 */
-  /* problems it takes beside q' = v, v' = W f: x' = phi(t, x); overdamped systems; those in which bodies move */
+  /* problems beside q' = v, v' = W f: x' = phi(t, x), overdamped systems, and those in which bodies move */
   int32_t first_order, overdamped, bodies;
   const struct hk_steps *steps; /* NULL: this build lacks the library */
   struct hk_stages stages;
-  hk_stages_of_step
-      *solved;      /* takes a step by the solution of nonlinear equations, with the option `newton` */
-  int32_t states;   /* that it keeps beside the stage; */
-  int32_t swings;   /* 1: a step that raises energy is taken in quarters at least: more swing on */
-  int32_t by_tiles; /* 1: steps by hk_integrator_move() alone, if `choose` says nothing else */
+  hk_stages_of_step *solved; /* takes a step by solving nonlinear equations, with the option `newton` */
+  int32_t states;            /* that it keeps beside the stage; */
+  int32_t swings;            /* 1: a step that raises energy is taken in quarters at least: more swing on */
+  int32_t by_tiles;          /* 1: steps by hk_integrator_move() alone, if `choose` says nothing else */
   struct hk_stability stability, with_bodies; /* the second where bodies move, unless it is of unknown kind */
   /* the largest step [s] at which it solves nothing, where larger ones do: 0 if all do, infinite if none does.
    * NULL: steps of all sizes cost the same */

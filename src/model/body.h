@@ -65,7 +65,7 @@ int64_t hk_bodies_memory(const struct hk_bodies *bodies);
 
 /* ---- motion: components of x, y and z, each `stride` apart ---- */
 
-/* A body's own coordinates from its rows, and the rows of its free particles from them; and with rows of x y z. */
+/* Own coordinates of a body from its rows, and its free particles' rows from them; also in rows of x y z. */
 void hk_body_read(const struct hk_body *body, const double *const q[3], const double *const v[3],
                   int64_t stride, double *own);
 void hk_body_write(const struct hooke_system *system, const struct hk_body *body, const double *own,
@@ -91,8 +91,9 @@ void hk_body_normalise(double *own);
 /* Tolerance of each own coordinate that allows its particles these errors of position and velocity. */
 void hk_body_tolerance(const struct hk_body *body, double position, double velocity, double *tolerance);
 
-/* The same for all bodies that move, `own` having 13 numbers for each in turn, on the working copy. `push` has 6:
- * the acceleration of the point, gravity included, and the torque about it, of the forces on free particles. */
+/* The same for all bodies that move, `own` having 13 numbers for each in turn, on the working copy. `push`
+ * has 6: the acceleration of the point, gravity included, and the torque about it, of the forces on free
+ * particles. */
 void hk_bodies_read(const struct hooke_system *system, const struct hk_motion *motion, double *own);
 void hk_bodies_write(const struct hooke_system *system, struct hk_motion *motion, const double *own);
 void hk_bodies_push(const struct hooke_system *system, const struct hk_motion *motion, const double *own,

@@ -32,8 +32,9 @@ struct hooke_system {
   int32_t has_gravity;
   double drag;        /* 0: none */
   int32_t overdamped; /* 1: gamma x' = f, with drag for gamma */
-  /* From commit on: what forces and stiffnesses are divided by for a rate, the masses or gamma of every particle;
-   * and drag and the acceleration by gravity, 0 in an overdamped system, where they are gamma and a force. */
+  /* From commit on: what forces and stiffnesses are divided by for a rate, the masses or gamma of every
+   * particle; and drag and the acceleration by gravity, 0 in an overdamped system, where they are gamma and
+   * a force. */
   double *inertia, brake, fall[3];
   int32_t falls;
   hooke_force *force;

@@ -169,8 +169,8 @@ static int32_t second_kick(hooke_integrator *it) {
 }
 
 /* With bodies forces of the second kick are those at velocities and momenta predicted by twice the first, of
- * which forces that depend on positions alone see nothing. The second kick begins at the half-way velocities and
- * momenta, in `start`. */
+ * which forces that depend on positions alone see nothing. The second kick begins at the half-way velocities
+ * and momenta, in `start`. */
 static int32_t step_array(hooke_integrator *it) {
   struct verlet *own = it->own;
   struct hk_one_array *array = it->array;

@@ -20,8 +20,8 @@ enum { HOOKE_REDUCED_GENERAL, HOOKE_REDUCED_SYMMETRIC, HOOKE_REDUCED_MINIMAL };
 
 enum { HOOKE_WHOLE_UNKNOWN, HOOKE_WHOLE_READY, HOOKE_WHOLE_IN_USE, HOOKE_WHOLE_NONE };
 
-/* Unknowns beyond those of particles, behind them in all vectors, with their own part of the factor and with the
- * matrix of all, of which `projected` says which. */
+/* Unknowns beyond those of particles, behind them in all vectors, with their own part of the factor and with
+ * the matrix of all, of which `projected` says which. */
 struct hk_more_unknowns {
   int64_t count;
   int32_t (*multiply)(void *ctx, const double *x, double *out);

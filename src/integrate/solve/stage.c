@@ -495,9 +495,9 @@ static int32_t take_part(struct hk_stage *stage, int64_t done, int64_t parts) {
   return hk_integrator_flow(it, end);
 }
 
-/* Where stages find no solution a step is taken in two halves, and these likewise, down to a thousandth; every
- * such failure is counted. After a failure that remains, the motion is back at the start. A step that a callback
- * stopped is taken again by whoever goes on, so it counts nothing. */
+/* Where stages find no solution a step is taken in two halves, and these likewise, down to a thousandth;
+ * every such failure is counted. After a failure that remains, the motion is back at the start. A step that
+ * a callback stopped is taken again by whoever goes on, so it counts nothing. */
 static int32_t step(hooke_integrator *it) {
   struct hk_stage *stage = it->own;
   const struct hk_counts before = it->count;

@@ -14,7 +14,7 @@ static const double POSITION_ROUNDING = 1e-14;
 
 /* ---- creating ---- */
 
-/* The rows of `axis` are the body's axes in space over the roots of their inertia; 0 about which it does not turn. */
+/* The rows of `axis` are the body's axes in space over the roots of their inertia, 0 where that is 0. */
 static void scale_axes(const struct hk_body_tangent *t, double axis[3][3]) {
   for (int k = 0; k < 3; k++) {
     for (int a = 0; a < 3; a++)

@@ -1,10 +1,10 @@
 /* Rigid bodies in a linearised system. Displacements are those of all particles still, restricted to rigid
- * motions x = J y of each body, where y are the motions of its point and about its axes, times the roots of mass
- * and inertia, so that J^T M J = I: K, C and M of particles give those of bodies by the restriction. What it leaves out
- * is that forces at rest turn with the arms of a body, the geometric stiffness (model/body_tangent.h): of
- * gravity and tensions, callbacks left out. It is made symmetric, which it is by itself in equilibrium, and
- * what would tip a body over, like the transverse stiffness of compressed springs, counts as 0. Components
- * are `stride` apart. */
+ * motions x = J y of each body, where y are the motions of its point and about its axes, times the roots of
+ * mass and inertia, so that J^T M J = I: K, C and M of particles give those of bodies by the restriction.
+ * What it leaves out is that forces at rest turn with the arms of a body, the geometric stiffness
+ * (model/body_tangent.h): of gravity and tensions, callbacks left out. It is made symmetric, which it is by
+ * itself in equilibrium, and what would tip a body over, like the transverse stiffness of compressed
+ * springs, counts as 0. Components are `stride` apart. */
 #ifndef HOOKE_MEASURE_SPECTRUM_RIGID_H
 #define HOOKE_MEASURE_SPECTRUM_RIGID_H
 
@@ -20,7 +20,7 @@ struct hk_rigid {
  * zeros without bodies. HOOKE_NO_MEMORY. */
 int32_t hk_rigid_create(const hooke_system *system, const double *q, const double *spring_scale,
                         struct hk_rigid *rigid);
-/* For the same bodies in a system whose positions are those times a factor: y and its stiffness are the same. */
+/* For the same bodies in a system of positions that are a factor larger: y and its stiffness stay. */
 int32_t hk_rigid_enlarge(const struct hk_rigid *from, const hooke_system *system, const double *q,
                          struct hk_rigid *rigid);
 void hk_rigid_release(struct hk_rigid *rigid);
