@@ -112,7 +112,7 @@ static int32_t run_options(const hooke_system *system, int m, hooke_options **op
   int32_t status = hooke_state_create(system, &state);
   if (status == HOOKE_OK)
     hooke_step_bound(system, hk_method_of_euler(system), hooke_state_position(state), &bound);
-  if (hk_method_find(name)->implicit) bound *= LONG_STEP;
+  if (hk_method_find(name)->solved) bound *= LONG_STEP;
   if (status == HOOKE_OK) status = hooke_options_create("run", options);
   if (status == HOOKE_OK) status = hooke_options_set_text(*options, "method", name);
   if (status == HOOKE_OK && !hk_method_find(name)->adaptive)

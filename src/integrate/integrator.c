@@ -6,6 +6,7 @@
 #include "core/memory.h"
 #include "core/named_number.h"
 #include "core/status.h"
+#include "integrate/method/one_array.h"
 #include "integrate/solve/reduced.h"
 #include "model/callbacks.h"
 #include "model/force/force.h"
@@ -29,7 +30,7 @@ static int32_t create(const hooke_options *options, hooke_integrator **out) {
   const char *name = hooke_options_text(options, "method");
   const struct hk_method *method = hk_method_find(name);
   if (method == NULL) return unknown_method(name);
-  if (!method->built) {
+  if (method->steps == NULL) {
     return hk_fail(HOOKE_NOT_BUILT, "method", "%s needs %s, which this build is without", name,
                    method->needs);
   }
@@ -51,7 +52,10 @@ static int32_t create(const hooke_options *options, hooke_integrator **out) {
 }
 
 static int32_t finish(hooke_integrator *it, int32_t status, hooke_integrator **out) {
-  if (status == HOOKE_OK && it->method->create) status = it->method->create(it);
+  const int32_t solves = it->method->adaptive || it->method->solved;
+  if (status == HOOKE_OK && !solves && (it->rate || it->system->moving_bodies > 0))
+    status = hk_one_array_create(it);
+  if (status == HOOKE_OK && it->method->steps->create) status = it->method->steps->create(it);
   if (status == HOOKE_OK)
     *out = it;
   else
@@ -71,8 +75,7 @@ static int32_t take_system(hooke_integrator *it, const hooke_system *system, hoo
   int32_t status = hk_method_require(it->method, system);
   it->system = system;
   it->size = 3 * system->particle_count;
-  if (status == HOOKE_OK && system->moving_bodies > 0) it->method = it->method->bodies;
-  if (it->method->by_tiles && system->friction == 0.0 && hk_goes_by_tiles(system))
+  if (it->method->by_tiles && system->moving_bodies == 0 && !system->overdamped && hk_goes_by_tiles(system))
     it->by_tiles = HOOKE_MOTION_BY_TILES;
   if (status == HOOKE_OK && it->method->choose) status = it->method->choose(it);
   if (status == HOOKE_OK) status = gather_crew(it);
@@ -116,18 +119,13 @@ int32_t hooke_integrator_create_first_order(int64_t size, hooke_rate *rate, void
   it->size = size;
   status = hk_method_require(it->method, NULL);
   if (status == HOOKE_OK) status = hk_recent_create(size, 0, 1, &it->recent);
-  if (status == HOOKE_OK) {
-    it->x = hk_new(2 * size, sizeof(double));
-    it->slope = it->x ? it->x + size : NULL;
-    it->rows = hk_rows_new(2 * size);
-    if (it->x == NULL || it->rows == NULL) status = HOOKE_NO_MEMORY;
-  }
+  if (status == HOOKE_OK && (it->rows = hk_rows_new(2 * size)) == NULL) status = HOOKE_NO_MEMORY;
   return finish(it, status, out);
 }
 
 void hooke_integrator_destroy(hooke_integrator *it) {
   if (it == NULL) return;
-  if ((it->own || it->around) && it->method->destroy) it->method->destroy(it);
+  if ((it->own || it->around) && it->method->steps->destroy) it->method->steps->destroy(it);
   hk_motion_destroy(it->motion);
   hk_pool_destroy(it->pool);
   hk_recent_release(&it->recent);
@@ -138,7 +136,8 @@ void hooke_integrator_destroy(hooke_integrator *it) {
   if (it->checker.release) it->checker.release(it->checker.own);
   hooke_options_destroy(it->options);
   hk_coordinates_destroy(it->coordinates);
-  hk_free(it->x);
+  hk_one_array_destroy(it->array);
+  hk_free(it->start);
   hooke_rows_hold(it->rows, -1);
   hk_handle_free(it);
 }
@@ -218,7 +217,7 @@ int32_t hooke_integrator_recent(const hooke_integrator *it, int64_t place, hooke
 }
 
 static int64_t memory_of(const hooke_integrator *it) {
-  const int64_t own = it->system ? 0 : 2 * it->size; /* x and its rate */
+  const int64_t own = it->system ? 0 : 2 * it->size; /* x and its rate, for the callback */
   const int64_t copies = (it->restart.state != NULL) + (it->shown != NULL) + (it->passages.before != NULL) +
                          (it->passages.now != NULL);
   const int64_t copied = copies * (1 + (it->system ? 2 : 1) * it->size);

@@ -91,12 +91,14 @@ struct hooke_integrator {
   /* first-order problem */
   hooke_rate *rate;
   void *rate_ctx;
-  double *x, *slope; /* size each */
-  double *rows;      /* x and its rate, for the callback */
+  double *x;    /* of a fixed-step method, in `array` */
+  double *rows; /* x and its rate, for the callback */
 
-  int64_t size; /* numbers in q */
-  void *own;    /* the method's own data */
-  void *around; /* scratch of a method whose step contains that of another, which has `own` */
+  double *start;              /* q and v at the start of a step that may fail midway, for the loop; or NULL */
+  struct hk_one_array *array; /* of explicit steps that particles in rows are not enough for; else NULL */
+  int64_t size;               /* numbers in q */
+  void *own;                  /* the method's own data */
+  void *around;               /* scratch of a method whose step contains that of another, which has `own` */
   int64_t own_memory;
   int32_t may_factor;       /* 1: it factorises its equations where that pays */
   int32_t by_tiles;         /* HOOKE_MOTION_*: the motion is moved by the two functions of moves alone */
@@ -154,6 +156,8 @@ int64_t hk_schedule_frames_before(const struct hk_schedule *schedule, int64_t k)
 int32_t hk_integrator_forces(hooke_integrator *integrator, double t);
 /* The same without one force of the table. */
 int32_t hk_integrator_forces_without(hooke_integrator *integrator, double t, int32_t left_out);
+/* For a method whose step may fail after it has moved: the loop puts the motion back. HOOKE_NO_MEMORY. */
+int32_t hk_integrator_keep_start(hooke_integrator *integrator);
 /* A move of this motion (kernel/move_loops.h), without arrays of its method's own. */
 void hk_integrator_move_of(const hooke_integrator *integrator, int32_t kind, double kick, double drift,
                            struct hk_move *move);

@@ -95,9 +95,9 @@ const struct hk_stability *hk_method_stability(const char *name) {
 }
 
 const struct hk_stability *hk_method_stability_in(const char *name, const hooke_system *system) {
-  const struct hk_method *method = system->moving_bodies > 0 ? hk_method_find(name) : NULL,
-                         *row = method ? method->bodies : NULL;
-  return row && row->stability.kind != HOOKE_STABILITY_UNKNOWN ? &row->stability : hk_method_stability(name);
+  const struct hk_method *method = system->moving_bodies > 0 ? hk_method_find(name) : NULL;
+  const int own = method && method->with_bodies.kind != HOOKE_STABILITY_UNKNOWN;
+  return own ? &method->with_bodies : hk_method_stability(name);
 }
 
 /* ---- what methods take ---- */
@@ -107,7 +107,7 @@ enum { SECOND_ORDER, BODIES, OVERDAMPED, FIRST_ORDER, PROBLEMS };
 static const struct {
   const char *word, *refusal;
 } problems[PROBLEMS] = {
-    [SECOND_ORDER] = {"second-order", "takes first-order problems only"},
+    [SECOND_ORDER] = {"second-order", ""},
     [BODIES] = {"bodies", "does not know rigid bodies yet"},
     [OVERDAMPED] = {"overdamped",
                     "steps positions and velocities apart, and an overdamped scene has no such parts"},
@@ -116,13 +116,12 @@ static const struct {
 };
 
 static int32_t takes(const struct hk_method *method, int problem) {
-  return (const int32_t[]){method->second_order, method->bodies != NULL, method->overdamped,
-                           method->first_order}[problem];
+  return (const int32_t[]){1, method->bodies, method->overdamped, method->first_order}[problem];
 }
 
 static int problem_of(const hooke_system *system) {
   if (system == NULL) return FIRST_ORDER;
-  return system->moving_bodies > 0 ? BODIES : system->friction > 0.0 ? OVERDAMPED : SECOND_ORDER;
+  return system->moving_bodies > 0 ? BODIES : system->overdamped ? OVERDAMPED : SECOND_ORDER;
 }
 
 int32_t hk_method_suits(const char *name, const hooke_system *system) {
@@ -133,7 +132,7 @@ int32_t hk_method_suits(const char *name, const hooke_system *system) {
 static void list_methods(int problem, char *list, size_t size) {
   list[0] = '\0';
   for (int64_t k = 0; k < ROWS; k++) {
-    if (!table[k]->reference && (problem == PROBLEMS || (table[k]->built && takes(table[k], problem))))
+    if (!table[k]->reference && (problem == PROBLEMS || (table[k]->steps && takes(table[k], problem))))
       hk_append(list, size, "%s%s", list[0] ? ", " : "", table[k]->name);
   }
 }
@@ -144,7 +143,7 @@ void hk_method_list(char *list, size_t size) {
 
 int32_t hk_method_require(const struct hk_method *method, const hooke_system *system) {
   const int problem = problem_of(system);
-  const int32_t solves = problem == FIRST_ORDER && method->implicit;
+  const int32_t solves = problem == FIRST_ORDER && method->solved;
   char list[512];
   if (takes(method, problem)) return HOOKE_OK;
   list_methods(problem, list, sizeof list);
@@ -162,7 +161,7 @@ int32_t hooke_method_is_suited(const char *name, const char *problem) {
 }
 
 const char *hk_method_of_euler(const hooke_system *system) {
-  return system->friction > 0.0 ? hk_forward_euler.name : hk_symplectic_euler.name;
+  return system->overdamped ? hk_forward_euler.name : hk_symplectic_euler.name;
 }
 
 int32_t hk_method_needs_damping(const char *name) {
@@ -182,5 +181,5 @@ int32_t hooke_method_is_adaptive(const char *name) {
 
 int32_t hooke_method_is_built(const char *name) {
   const struct hk_method *method = hk_method_find(name);
-  return method ? method->built : 0;
+  return method && method->steps;
 }

@@ -27,33 +27,25 @@ struct hk_stability {
   const char *note; /* NULL: nothing */
 };
 
-/* What a row says of itself, and how it is run. `choose`, `create` and `destroy` may be NULL. All return a
- * status. */
-struct hk_method {
-  const char *name, *summary;
-  const char *needs; /* required library, NULL: none */
-  int32_t built;     /* 0: this build lacks that library */
-  int32_t reference; /* 1: for checking references only, not listed; found by name */
-  int32_t adaptive;  /* 1: chooses its steps from tolerances; 0: takes `step` */
-  int32_t order;     /* of a fixed-step method, on smooth forces */
-  const char *judge; /* of its runs: a method of higher order, or of another kind; NULL: none of its cost */
-  const char *checked_by; /* the method that the beginning of its runs is held against; NULL: rk4 */
-  int32_t first_order, second_order; /* problems it takes: x' = phi(t, x); q' = v, v' = W f; */
-  int32_t overdamped;                /* overdamped systems; */
-  const struct hk_method
-      *bodies;      /* systems in which bodies move: the row that steps them, itself or another */
-  int32_t implicit; /* 1: takes a step by the solution of nonlinear equations, with the option `newton` */
-  int32_t by_tiles; /* 1: steps by hk_integrator_move() alone, if `choose` says nothing else */
-  struct hk_stability stability;
-  /* the largest step [s] at which it solves nothing, where larger ones do: 0 if all do, infinite if none does.
-   * NULL: steps of all sizes cost the same */
-  int32_t (*explicit_step)(const hooke_system *system, double *step);
-  /* before there is a motion: what depends on the system and the options, `by_tiles` among it */
-  int32_t (*choose)(hooke_integrator *integrator);
+/* The tableau of an explicit Runge-Kutta method in whole numbers (Butcher 1964): stage k + 1 is 1/over[k] of
+ * a step ahead, where the rate of stage k alone leads to from the start. The last number divides the sum of
+ * all rates, of which those between the first and the last count twice (kernel/move_loops.h). */
+struct hk_stages {
+  int32_t count, over[4];
+};
+
+/* One step of an implicit method, or a part of it, from the motion at time t to `end`, by stages
+ * (integrate/solve/stage.h). */
+struct hk_span_of_time {
+  double t, h, end;
+};
+typedef int32_t hk_stages_of_step(hooke_integrator *integrator, struct hk_span_of_time span);
+
+/* How a method is run. `create`, `destroy` and `forget` may be NULL. All return a status. */
+struct hk_steps {
   int32_t (*create)(hooke_integrator *integrator);
   void (*destroy)(hooke_integrator *integrator);
-  /* discards its memory of a motion that was changed by hand; NULL if it has none. An adaptive method
-   * restarts instead. */
+  /* discards its memory of a motion that was changed by hand; an adaptive method restarts instead. */
   void (*forget)(hooke_integrator *integrator);
   /* loads t, q and v */
   int32_t (*begin)(hooke_integrator *integrator, const hooke_state *state);
@@ -63,10 +55,37 @@ struct hk_method {
   int32_t (*store)(hooke_integrator *integrator, double t, hooke_state *state);
 };
 
+/* Those of explicit Runge-Kutta methods, by their `stages`, and of implicit ones, by what is `solved`. */
+extern const struct hk_steps hk_explicit_steps, hk_implicit_steps;
+
+/* What a row says of itself. */
+struct hk_method {
+  const char *name, *summary;
+  const char *needs; /* required library, NULL: none */
+  int32_t reference; /* 1: for checking references only, not listed; found by name */
+  int32_t adaptive;  /* 1: chooses its steps from tolerances; 0: takes `step` */
+  int32_t order;     /* of a fixed-step method, on smooth forces */
+  const char *judge; /* of its runs: a method of higher order, or of another kind; NULL: none of its cost */
+  const char *checked_by; /* the method that the beginning of its runs is held against; NULL: rk4 */
+  /* problems beside q' = v, v' = W f: x' = phi(t, x), overdamped systems, and those in which bodies move */
+  int32_t first_order, overdamped, bodies;
+  const struct hk_steps *steps; /* NULL: this build lacks the library */
+  struct hk_stages stages;
+  hk_stages_of_step *solved; /* takes a step by solving nonlinear equations, with the option `newton` */
+  int32_t states;            /* that it keeps beside the stage; */
+  int32_t swings;            /* 1: a step that raises energy is taken in quarters at least: more swing on */
+  int32_t by_tiles;          /* 1: steps by hk_integrator_move() alone, if `choose` says nothing else */
+  struct hk_stability stability, with_bodies; /* the second where bodies move, unless it is of unknown kind */
+  /* the largest step [s] at which it solves nothing, where larger ones do: 0 if all do, infinite if none does.
+   * NULL: steps of all sizes cost the same */
+  int32_t (*explicit_step)(const hooke_system *system, double *step);
+  /* before there is a motion: what depends on the system and the options, `by_tiles` among it; or NULL */
+  int32_t (*choose)(hooke_integrator *integrator);
+};
+
 extern const struct hk_method hk_forward_euler, hk_symplectic_euler, hk_verlet, hk_shardlow, hk_heun, hk_rk4,
     hk_backward_euler, hk_tr_bdf2, hk_implicit_midpoint, hk_cvode_bdf, hk_cvode_adams, hk_rk8pd,
-    hk_arkode_esdirk, hk_forward_euler_bodies, hk_symplectic_euler_bodies, hk_verlet_bodies, hk_heun_bodies,
-    hk_rk4_bodies;
+    hk_arkode_esdirk;
 
 /* Row of this name, or NULL; its stability, of unknown kind if there is no such method. */
 const struct hk_method *hk_method_find(const char *name);

@@ -153,15 +153,13 @@ static const double VELOCITY_ROUNDING = 1e-9;
  * particle; pinned ones are at rest. */
 static void find_nearest(const hooke_system *system, const struct hk_body *body, double *q, double *v) {
   double own[HOOKE_BODY_NUMBERS];
-  const struct hk_body_rows initial = hk_body_rows_of(system->position, system->velocity),
-                            rows = hk_body_rows_of(q, v);
   if (body->moves) {
-    hk_body_read(body, &initial, own);
+    hk_body_read_rows(body, system->position, system->velocity, own);
     hk_body_fit(system, body, own);
   }
   for (int64_t k = 0; k < body->count; k++)
     memset(v + 3 * (int64_t)body->particle[k], 0, 3 * sizeof(double));
-  if (body->moves) hk_body_write(system, body, own, &rows);
+  if (body->moves) hk_body_write_rows(system, body, own, q, v);
 }
 
 /* The particle whose velocity differs most from v, by `distance`; and the largest speed. */
@@ -266,11 +264,10 @@ static int32_t check_rows(const struct hk_body *body, const char *name, const ch
 }
 
 void hk_bodies_make_rigid(const hooke_system *system, double *q, double *v) {
-  const struct hk_body_rows rows = hk_body_rows_of(q, v);
   for (int64_t k = 0; k < system->moving_bodies; k++) {
     double own[HOOKE_BODY_NUMBERS];
-    hk_body_read(system->bodies->mover[k], &rows, own);
-    hk_body_write(system, system->bodies->mover[k], own, &rows);
+    hk_body_read_rows(system->bodies->mover[k], q, v, own);
+    hk_body_write_rows(system, system->bodies->mover[k], own, q, v);
   }
 }
 

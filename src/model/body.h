@@ -65,28 +65,14 @@ int64_t hk_bodies_memory(const struct hk_bodies *bodies);
 
 /* ---- motion: components of x, y and z, each `stride` apart ---- */
 
-struct hk_body_rows {
-  double *q[3], *v[3];
-  int64_t stride;
-};
-
-/* Rows of x y z. */
-struct hk_body_rows hk_body_rows_of(double *q, double *v);
-
-/* A body's own coordinates from rows of x y z. */
-void hk_body_read_rows(const struct hk_body *body, const double *q, const double *v, double *own);
-/* A body's own coordinates from its rows, and the rows of its free particles from them. */
-void hk_body_read(const struct hk_body *body, const struct hk_body_rows *rows, double *own);
+/* Own coordinates of a body from its rows, and its free particles' rows from them; also in rows of x y z. */
+void hk_body_read(const struct hk_body *body, const double *const q[3], const double *const v[3],
+                  int64_t stride, double *own);
 void hk_body_write(const struct hooke_system *system, const struct hk_body *body, const double *own,
-                   const struct hk_body_rows *rows);
-/* Acceleration of the point, gravity included, and torque about it, of the forces f (components) on free
- * particles at their rows. */
-void hk_body_push(const struct hooke_system *system, const struct hk_body *body, const double *own,
-                  const struct hk_body_rows *rows, double *const f[3], double acceleration[3],
-                  double torque[3]);
-/* Accelerations of its free particles under them, 3 each of all particles. */
-void hk_body_accelerate(const struct hooke_system *system, const struct hk_body *body, const double *own,
-                        const double acceleration[3], const double torque[3], double *out);
+                   double *const q[3], double *const v[3], int64_t stride);
+void hk_body_read_rows(const struct hk_body *body, const double *q, const double *v, double *own);
+void hk_body_write_rows(const struct hooke_system *system, const struct hk_body *body, const double *own,
+                        double *q, double *v);
 /* own += h (acceleration, torque). */
 void hk_body_kick(const struct hk_body *body, double h, const double acceleration[3], const double torque[3],
                   double *own);
@@ -105,9 +91,9 @@ void hk_body_normalise(double *own);
 /* Tolerance of each own coordinate that allows its particles these errors of position and velocity. */
 void hk_body_tolerance(const struct hk_body *body, double position, double velocity, double *tolerance);
 
-/* The same for all bodies that move, `own` having 13 numbers for each in turn and `push` 6 (acceleration,
- * torque), on the working copy. */
-struct hk_body_rows hk_body_rows(const struct hk_motion *motion);
+/* The same for all bodies that move, `own` having 13 numbers for each in turn, on the working copy. `push`
+ * has 6: the acceleration of the point, gravity included, and the torque about it, of the forces on free
+ * particles. */
 void hk_bodies_read(const struct hooke_system *system, const struct hk_motion *motion, double *own);
 void hk_bodies_write(const struct hooke_system *system, struct hk_motion *motion, const double *own);
 void hk_bodies_push(const struct hooke_system *system, const struct hk_motion *motion, const double *own,
@@ -121,9 +107,6 @@ void hk_bodies_accelerate(const struct hooke_system *system, const struct hk_mot
  * product. Of points in a line (rank 1) the second is perpendicular in some way, and rank 0 has the axes of
  * space. */
 void hk_body_triad(int32_t rank, const double ab[3], const double ac[3], double e[3][3]);
-/* The quaternion of a rotation matrix. */
-void hk_body_set_turn(const double m[3][3], double *own);
-
 /* 1 if a particle moves with a body. */
 static inline int32_t hk_bodies_move(const struct hk_bodies *bodies, int64_t particle) {
   return bodies->of && bodies->of[particle] >= 0 && bodies->body[bodies->of[particle]].moves;

@@ -53,7 +53,7 @@ void hk_body_normalise(double *own) {
 }
 
 /* The component of largest absolute value is found first, and has no cancellation. */
-void hk_body_set_turn(const double m[3][3], double *own) {
+static void set_turn(const double m[3][3], double *own) {
   const double diagonal[4] = {(m[0][0] + m[1][1]) + m[2][2], m[0][0], m[1][1], m[2][2]};
   int largest = 0;
   for (int k = 1; k < 4; k++)
@@ -96,19 +96,13 @@ void hk_body_triad(int32_t rank, const double ab[3], const double ac[3], double 
   hk_cross3(e[0], e[1], e[2]);
 }
 
-static void get_row(const struct hk_body *body, int k, double *const component[3], int64_t stride,
-                    double row[3]) {
-  const int64_t at = stride * body->particle[body->base[k]];
-  for (int a = 0; a < 3; a++)
-    row[a] = component[a][at];
-}
-
 /* Rows of the three particles: the first, and the others from there. */
-static void get_base(const struct hk_body *body, double *const component[3], int64_t stride,
+static void get_base(const struct hk_body *body, const double *const component[3], int64_t stride,
                      double row[3][3]) {
   memset(row, 0, 9 * sizeof(double));
   for (int k = 0; k <= body->rank; k++) {
-    get_row(body, k, component, stride, row[k]);
+    for (int a = 0; a < 3; a++)
+      row[k][a] = component[a][stride * body->particle[body->base[k]]];
     if (k > 0) hk_add3(-1.0, row[0], row[k]);
   }
 }
@@ -139,16 +133,17 @@ static void combine(const double e[3][3], const double x[3], double out[3]) {
     out[a] = (x[0] * e[0][a] + x[1] * e[1][a]) + x[2] * e[2][a];
 }
 
-void hk_body_read(const struct hk_body *body, const struct hk_body_rows *rows, double *own) {
+void hk_body_read(const struct hk_body *body, const double *const all_q[3], const double *const all_v[3],
+                  int64_t stride, double *own) {
   double q[3][3], v[3][3], e[3][3], m[3][3], rotation[3], momentum[3], arm[3], swing[3];
-  get_base(body, rows->q, rows->stride, q);
-  get_base(body, rows->v, rows->stride, v);
+  get_base(body, all_q, stride, q);
+  get_base(body, all_v, stride, v);
   hk_body_triad(body->rank, q[1], q[2], e);
   for (int i = 0; i < 3; i++) {
     const double column[3] = {e[0][i], e[1][i], e[2][i]};
     combine(body->triad, column, m[i]);
   }
-  hk_body_set_turn(m, own);
+  set_turn(m, own);
   hk_body_axes(own + HOOKE_BODY_TURN, m);
   find_rotation(body, q, v, rotation);
   to_body(m, rotation, momentum);
@@ -163,24 +158,9 @@ void hk_body_read(const struct hk_body *body, const struct hk_body_rows *rows, d
   }
 }
 
-struct hk_body_rows hk_body_rows_of(double *q, double *v) {
-  return (struct hk_body_rows){{q, q + 1, q + 2}, {v, v + 1, v + 2}, 3};
-}
-
-/* The rule reads three particles alone. */
 void hk_body_read_rows(const struct hk_body *body, const double *q, const double *v, double *own) {
-  double base_q[9], base_v[9];
-  const struct hk_body_rows rows = hk_body_rows_of(base_q, base_v);
-  struct hk_body three = *body;
-  int32_t particle[3] = {0, 1, 2};
-  for (int k = 0; k < 3; k++) {
-    memcpy(base_q + 3 * k, q + 3 * (int64_t)body->particle[body->base[k]], 3 * sizeof(double));
-    memcpy(base_v + 3 * k, v + 3 * (int64_t)body->particle[body->base[k]], 3 * sizeof(double));
-    three.base[k] = k;
-  }
-  three.particle = particle;
-  three.place = body->place + 3 * (int64_t)body->base[0];
-  hk_body_read(&three, &rows, own);
+  hk_body_read(body, (const double *const[3]){q, q + 1, q + 2}, (const double *const[3]){v, v + 1, v + 2}, 3,
+               own);
 }
 
 static void find_angular_velocity(const struct hk_body *body, const double m[3][3], const double *own,
@@ -193,20 +173,26 @@ static void find_angular_velocity(const struct hk_body *body, const double m[3][
 }
 
 void hk_body_write(const struct hooke_system *system, const struct hk_body *body, const double *own,
-                   const struct hk_body_rows *rows) {
+                   double *const q[3], double *const v[3], int64_t stride) {
   double m[3][3], w[3], arm[3], swing[3];
   hk_body_axes(own + HOOKE_BODY_TURN, m);
   find_angular_velocity(body, m, own, w);
   for (int64_t k = 0; k < body->count; k++) {
-    const int64_t p = body->particle[k], at = rows->stride * p;
+    const int64_t p = body->particle[k], at = stride * p;
     if (system->constrained[p]) continue;
     to_space(m, body->place + 3 * k, arm);
     hk_cross3(w, arm, swing);
     for (int a = 0; a < 3; a++) {
-      rows->q[a][at] = own[HOOKE_BODY_POINT + a] + arm[a];
-      rows->v[a][at] = own[HOOKE_BODY_VELOCITY + a] + swing[a];
+      q[a][at] = own[HOOKE_BODY_POINT + a] + arm[a];
+      v[a][at] = own[HOOKE_BODY_VELOCITY + a] + swing[a];
     }
   }
+}
+
+void hk_body_write_rows(const struct hooke_system *system, const struct hk_body *body, const double *own,
+                        double *q, double *v) {
+  hk_body_write(system, body, own, (double *const[3]){q, q + 1, q + 2}, (double *const[3]){v, v + 1, v + 2},
+                3);
 }
 
 /* ---- forces ---- */
@@ -237,18 +223,17 @@ static void add_gravity(const struct hooke_system *system, const struct hk_body 
   hk_add3(body->mass, turning, torque);
 }
 
-void hk_body_push(const struct hooke_system *system, const struct hk_body *body, const double *own,
-                  const struct hk_body_rows *rows, double *const f[3], double acceleration[3],
-                  double torque[3]) {
+static void find_push(const struct hooke_system *system, const struct hk_body *body, const double *own,
+                      const struct hk_motion *motion, double acceleration[3], double torque[3]) {
   double sum[3] = {0.0, 0.0, 0.0};
   memset(torque, 0, 3 * sizeof(double));
   for (int64_t k = 0; k < body->count; k++) {
-    const int64_t p = body->particle[k], at = rows->stride * p;
+    const int64_t p = body->particle[k];
     if (system->constrained[p]) continue;
-    const double force[3] = {f[0][at], f[1][at], f[2][at]};
+    const double force[3] = {motion->f[0][p], motion->f[1][p], motion->f[2][p]};
     double arm[3], turning[3];
     for (int a = 0; a < 3; a++)
-      arm[a] = rows->q[a][at] - own[HOOKE_BODY_POINT + a];
+      arm[a] = motion->q[a][p] - own[HOOKE_BODY_POINT + a];
     hk_cross3(arm, force, turning);
     hk_add3(1.0, force, sum);
     hk_add3(1.0, turning, torque);
@@ -265,8 +250,9 @@ void hk_body_kick(const struct hk_body *body, double h, const double acceleratio
   keep_axes(body, own, own + HOOKE_BODY_SPIN);
 }
 
-void hk_body_accelerate(const struct hooke_system *system, const struct hk_body *body, const double *own,
-                        const double acceleration[3], const double torque[3], double *out) {
+/* Accelerations of its free particles under them, 3 each of all particles. */
+static void accelerate(const struct hooke_system *system, const struct hk_body *body, const double *own,
+                       const double acceleration[3], const double torque[3], double *out) {
   double m[3][3], w[3], gyration[3], turning[3], arm[3], swing[3], inward[3], change[3];
   hk_body_axes(own + HOOKE_BODY_TURN, m);
   find_angular_velocity(body, m, own, w);
@@ -357,40 +343,33 @@ void hk_body_tolerance(const struct hk_body *body, double position, double veloc
 
 /* ---- all bodies ---- */
 
-struct hk_body_rows hk_body_rows(const struct hk_motion *motion) {
-  struct hk_body_rows rows = {.stride = 1};
-  memcpy(rows.q, motion->q, sizeof rows.q);
-  memcpy(rows.v, motion->v, sizeof rows.v);
-  return rows;
+static void read(const struct hk_body *body, const struct hk_motion *motion, double *own) {
+  hk_body_read(body, (const double *const *)motion->q, (const double *const *)motion->v, 1, own);
 }
 
 void hk_bodies_read(const struct hooke_system *system, const struct hk_motion *motion, double *own) {
-  const struct hk_body_rows rows = hk_body_rows(motion);
   for (int64_t k = 0; k < system->moving_bodies; k++)
-    hk_body_read(system->bodies->mover[k], &rows, own + HOOKE_BODY_NUMBERS * k);
+    read(system->bodies->mover[k], motion, own + HOOKE_BODY_NUMBERS * k);
 }
 
 void hk_bodies_write(const struct hooke_system *system, struct hk_motion *motion, const double *own) {
-  const struct hk_body_rows rows = hk_body_rows(motion);
   for (int64_t k = 0; k < system->moving_bodies; k++)
-    hk_body_write(system, system->bodies->mover[k], own + HOOKE_BODY_NUMBERS * k, &rows);
+    hk_body_write(system, system->bodies->mover[k], own + HOOKE_BODY_NUMBERS * k, motion->q, motion->v, 1);
 }
 
 void hk_bodies_push(const struct hooke_system *system, const struct hk_motion *motion, const double *own,
                     double *push) {
-  const struct hk_body_rows rows = hk_body_rows(motion);
   for (int64_t k = 0; k < system->moving_bodies; k++)
-    hk_body_push(system, system->bodies->mover[k], own + HOOKE_BODY_NUMBERS * k, &rows, motion->f,
-                 push + 6 * k, push + 6 * k + 3);
+    find_push(system, system->bodies->mover[k], own + HOOKE_BODY_NUMBERS * k, motion, push + 6 * k,
+              push + 6 * k + 3);
 }
 
 void hk_bodies_accelerate(const struct hooke_system *system, const struct hk_motion *motion, double *out) {
-  const struct hk_body_rows rows = hk_body_rows(motion);
   for (int64_t k = 0; k < system->moving_bodies; k++) {
     const struct hk_body *body = system->bodies->mover[k];
     double own[HOOKE_BODY_NUMBERS], push[6];
-    hk_body_read(body, &rows, own);
-    hk_body_push(system, body, own, &rows, motion->f, push, push + 3);
-    hk_body_accelerate(system, body, own, push, push + 3, out);
+    read(body, motion, own);
+    find_push(system, body, own, motion, push, push + 3);
+    accelerate(system, body, own, push, push + 3, out);
   }
 }

@@ -101,20 +101,3 @@ void hk_body_turn_forces(const struct hk_body_tangent *t, double scale, const do
   for (int a = 0; a < 3; a++)
     torque[a] -= scale * hk_dot3(t->geometric[a], turn);
 }
-
-void hk_body_respond(const struct hk_body_tangent *t, const double force[3], const double torque[3],
-                     double move[3], double turn[3]) {
-  hk_scale3(t->body->inverse_mass, force, move);
-  memset(turn, 0, 3 * sizeof(double));
-  for (int k = 0; k < 3; k++) {
-    const double axis[3] = {t->axes[0][k], t->axes[1][k], t->axes[2][k]};
-    hk_add3(t->body->inverse_inertia[k] * hk_dot3(axis, torque), axis, turn);
-  }
-}
-
-void hk_body_find_motion(const hooke_system *system, const struct hk_body_tangent *t,
-                         const double *const x[3], int64_t stride, double move[3], double turn[3]) {
-  double momentum[3], angular[3];
-  hk_body_gather(system, t, system->mass, x, stride, momentum, angular);
-  hk_body_respond(t, momentum, angular, move, turn);
-}

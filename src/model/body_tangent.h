@@ -44,12 +44,4 @@ void hk_body_gather(const struct hooke_system *system, const struct hk_body_tang
 /* torque -= scale geometric turn */
 void hk_body_turn_forces(const struct hk_body_tangent *tangent, double scale, const double turn[3],
                          double torque[3]);
-/* The accelerations by a force and a torque, or the motion of a momentum and an angular momentum; 0 where a
- * body does not move. */
-void hk_body_respond(const struct hk_body_tangent *tangent, const double force[3], const double torque[3],
-                     double move[3], double turn[3]);
-/* The nearest motion, by masses, to displacements of particles: that of rigid ones exactly. */
-void hk_body_find_motion(const struct hooke_system *system, const struct hk_body_tangent *tangent,
-                         const double *const x[3], int64_t stride, double move[3], double turn[3]);
-
 #endif

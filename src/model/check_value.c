@@ -21,8 +21,8 @@ static void add_particles(const hooke_system *system, uint32_t *value) {
   hk_check_add(value, system->position, 3 * n, sizeof(double));
   hk_check_whole(value, system->velocity != NULL);
   if (system->velocity) hk_check_add(value, system->velocity, 3 * n, sizeof(double));
-  hk_check_add(value, system->mass, n, sizeof(double));
-  if (system->friction > 0.0) hk_check_add(value, system->weight, n, sizeof(double));
+  hk_check_add(value, system->inertia, n, sizeof(double));
+  if (system->overdamped) hk_check_add(value, system->mass, n, sizeof(double));
   hk_check_add(value, system->constrained, n, 1);
 }
 

@@ -59,8 +59,8 @@ static void trim_particles(hooke_system *system) {
   int32_t status = hk_grow((void **)&system->position, 3 * n, 3 * n, sizeof(double));
   if (status == HOOKE_OK && system->velocity)
     status = hk_grow((void **)&system->velocity, 3 * n, 3 * n, sizeof(double));
-  if (status == HOOKE_OK && system->friction == 0.0)
-    status = hk_grow((void **)&system->mass, n, n, sizeof(double));
+  if (status == HOOKE_OK) status = hk_grow((void **)&system->mass, n, n, sizeof(double));
+  if (!system->overdamped) system->inertia = system->mass;
   if (status == HOOKE_OK) status = hk_grow((void **)&system->constrained, n, n, sizeof(uint8_t));
   if (status == HOOKE_OK) system->rest->particle_capacity = n;
 }
@@ -77,7 +77,7 @@ static int32_t fill_particles(hooke_system *system) {
     if (system->constrained[p])
       system->constrained_particle[system->constrained_count++] = (int32_t)p;
     else
-      system->inverse_mass[p] = 1.0 / system->mass[p];
+      system->inverse_mass[p] = 1.0 / system->inertia[p];
   }
   return HOOKE_OK;
 }

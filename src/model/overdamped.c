@@ -23,23 +23,6 @@ const char *hooke_system_dynamics(const hooke_system *system) {
   return system->overdamped ? "overdamped" : "inertial";
 }
 
-const double *hk_system_masses(const hooke_system *system) {
-  return system->friction > 0.0 ? system->weight : system->mass;
-}
-
-double hk_system_drag(const hooke_system *system) {
-  return system->friction > 0.0 ? system->friction : system->drag;
-}
-
-const double *hk_system_gravity(const hooke_system *system) {
-  return system->friction > 0.0 ? system->pull : system->gravity;
-}
-
-int32_t hk_system_has_gravity(const hooke_system *system) {
-  const double *g = hk_system_gravity(system);
-  return g[0] != 0.0 || g[1] != 0.0 || g[2] != 0.0;
-}
-
 /* ---- checks ---- */
 
 static int32_t check_masses(const hooke_system *system) {
@@ -96,28 +79,20 @@ int32_t hk_overdamped_check_forces(const hooke_system *system) {
 /* ---- numbers ---- */
 
 int32_t hk_overdamped_begin(hooke_system *system) {
+  system->inertia = system->mass;
+  system->brake = system->overdamped ? 0.0 : system->drag;
+  system->falls = !system->overdamped && system->has_gravity;
+  for (int a = 0; a < 3; a++)
+    system->fall[a] = system->falls ? system->gravity[a] : 0.0;
   if (!system->overdamped) return HOOKE_OK;
   double *gamma = hk_new(system->particle_count, sizeof(double));
-  if (gamma == NULL) return HOOKE_NO_MEMORY;
-  for (int64_t p = 0; p < system->particle_count; p++)
+  system->inertia = gamma;
+  for (int64_t p = 0; p < system->particle_count && gamma; p++)
     gamma[p] = system->drag;
-  system->weight = system->mass;
-  system->mass = gamma;
-  system->friction = system->drag;
-  system->drag = 0.0;
-  memcpy(system->pull, system->gravity, sizeof system->pull);
-  memset(system->gravity, 0, sizeof system->gravity);
-  system->has_gravity = 0;
-  return HOOKE_OK;
+  return gamma ? HOOKE_OK : HOOKE_NO_MEMORY;
 }
 
 void hk_overdamped_undo(hooke_system *system) {
-  if (system->friction == 0.0) return;
-  memcpy(system->gravity, system->pull, sizeof system->pull);
-  system->has_gravity = hk_system_has_gravity(system);
-  system->drag = system->friction;
-  hk_free(system->mass);
-  system->mass = system->weight;
-  system->weight = NULL;
-  system->friction = 0.0;
+  if (system->inertia != system->mass) hk_free(system->inertia);
+  system->inertia = NULL;
 }

@@ -17,7 +17,7 @@ struct hooke_system {
   int64_t particle_count;
   double *position, *velocity, *mass; /* velocity NULL from commit on if all are zero */
   uint8_t *constrained;               /* HOOKE_IS_* */
-  double *inverse_mass;               /* from commit on */
+  double *inverse_mass;               /* from commit on: the inverse of `inertia`, 0 where constrained */
 
   int64_t constrained_count; /* from commit on: pinned and driven particles, ascending */
   int32_t *constrained_particle;
@@ -30,12 +30,13 @@ struct hooke_system {
 
   double gravity[3];
   int32_t has_gravity;
-  double drag; /* 0: none */
-  /* An overdamped system, gamma x' = f. From commit on `mass` is gamma for every particle and drag and
-   * gravity are 0, so that everything that divides a force or a stiffness by `mass` has a rate; gamma, the
-   * masses and the gravity as given are here. */
-  int32_t overdamped;
-  double friction, *weight, pull[3]; /* friction is 0 before, and in any other system */
+  double drag;        /* 0: none */
+  int32_t overdamped; /* 1: gamma x' = f, with drag for gamma */
+  /* From commit on: what forces and stiffnesses are divided by for a rate, the masses or gamma of every
+   * particle; and drag and the acceleration by gravity, 0 in an overdamped system, where they are gamma and
+   * a force. */
+  double *inertia, brake, fall[3];
+  int32_t falls;
   hooke_force *force;
   hooke_force_product *force_product;
   void *force_ctx;
@@ -60,11 +61,5 @@ struct hooke_system {
   struct hk_system_rest *rest; /* what few read (model/system.h) */
   int32_t borrows; /* 1: by hooke_system_with_force(), all but what depends on its force is another's */
 };
-
-/* Masses (0: not given), drag and gravity as they were given. */
-const double *hk_system_masses(const hooke_system *system);
-double hk_system_drag(const hooke_system *system);
-const double *hk_system_gravity(const hooke_system *system);
-int32_t hk_system_has_gravity(const hooke_system *system);
 
 #endif

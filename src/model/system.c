@@ -42,8 +42,8 @@ static void release_model(hooke_system *system) {
   hk_tiled_release(system->tiled);
   hk_free(system->position);
   hk_free(system->velocity);
+  hk_overdamped_undo(system);
   hk_free(system->mass);
-  hk_free(system->weight);
   hk_free(system->constrained);
   hk_free(system->inverse_mass);
   hk_free(system->constrained_particle);

@@ -48,8 +48,8 @@ struct hk_system_rest {
   int32_t called;      /* callbacks of the run whose file the system is from (model/callbacks.h) */
 };
 
-/* For commit: checks what an overdamped system may have, and what another one must; makes `mass` gamma
- * (HOOKE_NO_MEMORY), and takes that back. */
+/* For commit: checks what an overdamped system may have, and what another one must; sets what motions divide
+ * by and fall with (HOOKE_NO_MEMORY), and takes that back. */
 int32_t hk_overdamped_check(const hooke_system *system);
 int32_t hk_overdamped_check_forces(const hooke_system *system);
 int32_t hk_overdamped_begin(hooke_system *system);

@@ -18,7 +18,7 @@ int64_t hooke_system_particle_count(const hooke_system *system) {
 }
 
 const double *hooke_system_mass(const hooke_system *system) {
-  return system->rest->committed ? hk_system_masses(system) : NULL;
+  return system->rest->committed ? system->mass : NULL;
 }
 
 const double *hooke_system_inverse_mass(const hooke_system *system) {
@@ -91,7 +91,7 @@ static int64_t memory(const hooke_system *system) {
   for (int32_t k = 0; hk_force_table(k); k++)
     bytes += hk_force_table(k)->memory ? hk_force_table(k)->memory(system) : 0;
   bytes += system->rest->particle_capacity * (int64_t)((system->velocity ? 7 : 4) * sizeof(double) + 1) +
-           (system->weight ? 2 : 1) * system->particle_count * (int64_t)sizeof(double) +
+           (system->overdamped ? 2 : 1) * system->particle_count * (int64_t)sizeof(double) +
            (system->constrained_count + system->anchor_count) * (int64_t)sizeof(int32_t);
   bytes += hk_bodies_memory(system->bodies) + (system->bodies->of ? system->particle_count * 4 : 0);
   bytes += system->group_count * (int64_t)sizeof *system->group +

@@ -26,7 +26,7 @@ static void set_up(struct random_scene_request request, double alpha, double bet
   random_scene_shake(&bench->scene, 7, q, v);
   bench->integrator = start_run(system, (struct run){.method = "verlet", .step = 1.0});
   hk_motion_load(system, bench->integrator->motion, q, v);
-  check_ok(hk_reduced_create(bench->integrator, HOOKE_REDUCED_MINIMAL, &bench->reduced));
+  check_ok(hk_reduced_create(bench->integrator, HOOKE_REDUCED_MINIMAL, NULL, &bench->reduced));
   hk_reduced_set(&bench->reduced, 0.25, alpha, beta);
   free(q);
 }

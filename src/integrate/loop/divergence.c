@@ -45,7 +45,7 @@ static double least_energy(const hooke_integrator *it, const hooke_state *state)
   const double *g = system->gravity;
   double mass = 0.0, stiffness = 0.0, extent = 0.0;
   for (int64_t p = 0; p < system->particle_count; p++)
-    mass += system->constrained[p] || system->friction > 0.0 ? 0.0 : system->mass[p];
+    mass += system->constrained[p] || system->overdamped ? 0.0 : system->mass[p];
   for (int32_t k = 0; k < system->force_row_count; k++) {
     if (system->force_row[k]->add_stiffness) system->force_row[k]->add_stiffness(system, &stiffness);
   }
@@ -117,7 +117,7 @@ static const char *advice(const hooke_integrator *it) {
 }
 
 int32_t hk_divergence_store(hooke_integrator *it, double t, hooke_state *state) {
-  if (it->recent.room > 0) return it->method->store(it, t, state);
+  if (it->recent.room > 0) return it->method->steps->store(it, t, state);
   hk_motion_exchange(it->motion, state->q, state->v);
   return HOOKE_OK;
 }
@@ -165,7 +165,7 @@ int32_t hk_divergence_glance(hooke_integrator *it, hooke_state *state) {
     it->good_step = it->k;
     it->unkept = it->recent.room > 0;
     if (!it->unkept) hk_recent_next(&it->recent, it->k);
-    return it->method->store(it, it->t, state);
+    return it->method->steps->store(it, it->t, state);
   }
   it->diverged_at = it->t;
   if (it->unkept) hk_recent_keep(&it->recent, state, it->good_step);

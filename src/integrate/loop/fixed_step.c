@@ -2,6 +2,7 @@
 #include "integrate/integrator.h"
 #include "kernel/step_loops.h"
 
+#include "core/memory.h"
 #include "core/status.h"
 #include "model/force/force.h"
 #include "model/sum/strided.h"
@@ -21,6 +22,12 @@ int32_t hk_integrator_forces(hooke_integrator *it, double t) {
 int32_t hk_integrator_forces_without(hooke_integrator *it, double t, int32_t left_out) {
   it->count.force_evaluations++;
   return keep_stop_value(it, hk_motion_forces_without(it->system, it->motion, t, left_out));
+}
+
+int32_t hk_integrator_keep_start(hooke_integrator *it) {
+  it->start = hk_new(2 * it->size, sizeof(double));
+  it->own_memory += 2 * it->size * (int64_t)sizeof(double);
+  return it->start ? HOOKE_OK : HOOKE_NO_MEMORY;
 }
 
 struct sharing {
@@ -52,12 +59,12 @@ void hk_integrator_move_of(const hooke_integrator *it, int32_t kind, double kick
   const hooke_system *system = it->system;
   const struct hk_motion *m = it->motion;
   move->kind = kind;
-  move->heavy = system->has_gravity;
+  move->heavy = system->falls;
   move->kick = kick;
   move->drift = drift;
-  move->drag = m->zero ? 0.0 : system->drag;
+  move->drag = m->zero ? 0.0 : system->brake;
   for (int a = 0; a < 3; a++)
-    move->gravity[a] = system->gravity[a];
+    move->gravity[a] = system->fall[a];
   move->stride = hk_motion_stride(m);
   move->f = m->f[0];
   move->half = move->start = move->sum = NULL;

@@ -91,7 +91,7 @@ int32_t hooke_integrator_sync(hooke_integrator *it, hooke_state *state) {
   if (status != HOOKE_OK) return status;
   if (!it->begun) return require_motion(it);
   if (it->outcome == HOOKE_DIVERGED && !it->placed) return hooke_integrator_recent(it, 0, state);
-  status = it->method->store(it, it->t, state);
+  status = it->method->steps->store(it, it->t, state);
   *state->t = it->t;
   if (status != HOOKE_OK || !goes_on(it)) return status;
   it->unkept = 0; /* the state is that one */
@@ -111,7 +111,7 @@ static int32_t prepare_particles(hooke_integrator *it, int64_t count, const int6
   if (status != HOOKE_OK) return status;
   if (!it->method->adaptive) return hk_motion_know_numbers(it->motion);
   status = make_shown(it);
-  return status == HOOKE_OK ? it->method->store(it, it->t, it->shown) : status;
+  return status == HOOKE_OK ? it->method->steps->store(it, it->t, it->shown) : status;
 }
 
 static void get_row(const hooke_integrator *it, int64_t particle, double *const component[3],
@@ -168,7 +168,7 @@ int32_t hooke_integrator_put(hooke_integrator *it, int64_t count, const int64_t 
     put_rows(it, particles[k], q ? q + 3 * k : NULL, v ? v + 3 * k : NULL);
   hk_passages_begin(it, it->t);
   it->scale0 = INFINITY; /* energy comes from outside: a rise of it proves nothing */
-  if (it->method->forget) it->method->forget(it);
-  if (it->method->adaptive) return it->method->begin(it, it->shown);
-  return it->system->friction > 0.0 ? hk_integrator_flow(it, it->t) : HOOKE_OK;
+  if (it->method->steps->forget) it->method->steps->forget(it);
+  if (it->method->adaptive) return it->method->steps->begin(it, it->shown);
+  return it->system->overdamped ? hk_integrator_flow(it, it->t) : HOOKE_OK;
 }

@@ -76,7 +76,7 @@ int32_t hk_passages_count(hooke_integrator *it, double from, double to) {
     it->count.zero_passages = -1;
     return HOOKE_OK;
   }
-  const int32_t status = it->method->store(it, to, p->now);
+  const int32_t status = it->method->steps->store(it, to, p->now);
   if (status != HOOKE_OK) return status;
   if (!p->follows) look_back(it, from, to);
   count(it, p->before->q, p->now->q, to);

@@ -18,10 +18,10 @@ int32_t hk_run_check_state(const hooke_integrator *it, const hooke_state *state)
 }
 
 int32_t hk_run_place_driven(hooke_integrator *it, hooke_state *state) {
-  if (it->system == NULL || (it->system->drive_count == 0 && it->system->friction == 0.0)) return HOOKE_OK;
+  if (it->system == NULL || (it->system->drive_count == 0 && !it->system->overdamped)) return HOOKE_OK;
   hk_motion_load(it->system, it->motion, state->q, state->v);
   int32_t status = hk_integrator_hold(it, *state->t);
-  if (status == HOOKE_OK && it->system->friction > 0.0) status = hk_integrator_flow(it, *state->t);
+  if (status == HOOKE_OK && it->system->overdamped) status = hk_integrator_flow(it, *state->t);
   if (status == HOOKE_OK) hk_motion_store(it->motion, state->q, state->v);
   return status;
 }
@@ -51,7 +51,7 @@ int32_t hk_run_begin(hooke_integrator *it, hooke_state *state) {
   if (status == HOOKE_OK) status = check_numbers(it, state);
   if (status == HOOKE_OK && it->system) status = hk_bodies_check(it->system, state);
   if (status == HOOKE_OK) status = hk_divergence_begin(it, state);
-  if (status == HOOKE_OK) status = it->method->begin(it, state);
+  if (status == HOOKE_OK) status = it->method->steps->begin(it, state);
   if (status == HOOKE_OK) status = hk_run_keep_restart(it, state);
   hk_passages_begin(it, it->t0);
   it->begun = status == HOOKE_OK;
@@ -78,7 +78,7 @@ int32_t hk_run_store(hooke_integrator *it, double t, hooke_state *state, int32_t
   it->energies.system = NULL;
   if (it->unkept) hk_recent_keep(&it->recent, state, it->good_step); /* so far `state` is that one */
   it->unkept = 0;
-  const int32_t status = checked ? hk_divergence_store(it, t, state) : it->method->store(it, t, state);
+  const int32_t status = checked ? hk_divergence_store(it, t, state) : it->method->steps->store(it, t, state);
   if (!checked && it->recent.room == 0) it->recent.count = 0; /* the last good state is lost */
   *state->t = t;
   return status;
@@ -124,7 +124,10 @@ static int32_t take_untold_steps(hooke_integrator *it, int64_t count) {
     const double next = hk_integrator_next_time(it);
     status = hk_integrator_drive(it, next);
     it->goes_on = s + 1 < count;
-    if (status == HOOKE_OK) status = it->method->step(it);
+    if (status != HOOKE_OK) break;
+    if (it->start) hk_motion_save(it->motion, it->start);
+    status = it->method->steps->step(it);
+    if (status != HOOKE_OK && it->start) hk_motion_restore(it->motion, it->start);
     if (status != HOOKE_OK) break;
     if (it->system && it->system->constrained_count > 0) hk_motion_hold(it->system, it->motion);
     const double from = it->t;

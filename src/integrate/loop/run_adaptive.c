@@ -53,7 +53,7 @@ static int32_t start_anew(hooke_integrator *it, double t, hooke_state *state) {
   if (status != HOOKE_OK) return status;
   it->t = t;
   it->point = hk_run_first_after(it->t0, it->schedule.checkpoint, t);
-  status = it->method->begin(it, state);
+  status = it->method->steps->begin(it, state);
   return status == HOOKE_OK ? hk_run_keep_restart(it, state) : status;
 }
 
@@ -62,12 +62,12 @@ static int32_t start_anew(hooke_integrator *it, double t, hooke_state *state) {
 /* One internal step; if it fails, the state is the one before it. */
 static int32_t take_step(hooke_integrator *it, hooke_state *state) {
   const double begun = hk_clock_seconds();
-  const int32_t status = it->method->step(it);
+  const int32_t status = it->method->steps->step(it);
   it->wall_seconds += hk_clock_seconds() - begun;
   if (status == HOOKE_OK)
     it->k++;
   else if (it->k > 0)
-    it->method->store(it, it->t, state);
+    it->method->steps->store(it, it->t, state);
   return status;
 }
 

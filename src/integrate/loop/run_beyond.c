@@ -17,7 +17,7 @@ static int64_t frames_wanted(const hooke_integrator *it) {
 /* The state now, as a frame. */
 static int32_t show(hooke_integrator *it, hooke_state *state) {
   const double t = it->t0 + (double)it->k * it->schedule.step;
-  const int32_t status = it->method->store(it, t, state);
+  const int32_t status = it->method->steps->store(it, t, state);
   *state->t = t;
   return status == HOOKE_OK ? hk_run_observe(it, &it->on_frame, state) : status;
 }

@@ -109,12 +109,12 @@ static int32_t store(hooke_integrator *it, double t, hooke_state *state) {
   return hk_unknowns_store(it, &own->unknowns, t, N_VGetArrayPointer(own->y), state);
 }
 
-#define ROW_OF_ARKODE                                                                                        \
-  .built = 1, .create = create, .destroy = destroy, .begin = begin, .step = step, .store = store
+static const struct hk_steps steps = {create, destroy, NULL, begin, step, store};
+#define STEPS &steps
 
 #else
 
-#define ROW_OF_ARKODE .built = 0
+#define STEPS NULL
 
 #endif
 
@@ -125,7 +125,6 @@ const struct hk_method hk_arkode_esdirk = {
     .reference = 1,
     .adaptive = 1,
     .first_order = 1,
-    .second_order = 1,
-    .bodies = &hk_arkode_esdirk,
+    .bodies = 1,
     .overdamped = 1,
-    ROW_OF_ARKODE};
+    .steps = STEPS};

@@ -2,36 +2,22 @@
  * (integrate/solve/stage.h) from q and v. Its one iteration is that of Baraff and Witkin (1998). */
 #include "integrate/solve/stage.h"
 
-static int32_t create(hooke_integrator *it) {
-  return hk_stage_create(it, 0);
-}
-
 static int32_t stages(hooke_integrator *it, struct hk_span_of_time span) {
   struct hk_stage *stage = it->own;
   const struct hk_equations equations = {span.end, span.h, stage->start, stage->start + it->size, span.h};
   return hk_stage_solve(stage, &equations);
 }
 
-static int32_t step(hooke_integrator *it) {
-  return hk_stage_step(it->own, stages);
-}
-
 const struct hk_method hk_backward_euler = {
     .name = "backward-euler",
     .summary = "fixed step, order 1, implicit; stable at every step, damps everything",
-    .built = 1,
     .order = 1,
     .judge = "implicit-midpoint",
-    .second_order = 1,
-    .bodies = &hk_backward_euler,
+    .bodies = 1,
     .overdamped = 1,
-    .implicit = 1,
+    .steps = &hk_implicit_steps,
+    .solved = stages,
     .stability = {.kind = HOOKE_STABLE_ALWAYS,
                   .damps_implicitly = 1,
                   .note = "stable at every step; accuracy limits it, and in large steps whether the "
-                          "equations can be solved"},
-    .create = create,
-    .destroy = hk_stage_destroy,
-    .begin = hk_fixed_begin,
-    .step = step,
-    .store = hk_fixed_store};
+                          "equations can be solved"}};

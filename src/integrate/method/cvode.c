@@ -138,18 +138,17 @@ static int32_t store(hooke_integrator *it, double t, hooke_state *state) {
   return hk_unknowns_store(it, &own->unknowns, t, N_VGetArrayPointer(own->y), state);
 }
 
-#define BUILT_CVODE                                                                                          \
-  .built = 1, .create = create, .destroy = destroy, .begin = begin, .step = step, .store = store
+static const struct hk_steps steps = {create, destroy, NULL, begin, step, store};
+#define STEPS &steps
 
 #else
 
-#define BUILT_CVODE .built = 0
+#define STEPS NULL
 
 #endif
 
-#define ROW_OF_CVODE(row)                                                                                    \
-  BUILT_CVODE, .needs = "SUNDIALS", .adaptive = 1, .first_order = 1, .second_order = 1, .bodies = &(row),    \
-               .overdamped = 1
+#define ROW_OF_CVODE                                                                                         \
+  .needs = "SUNDIALS", .adaptive = 1, .first_order = 1, .bodies = 1, .overdamped = 1, .steps = STEPS
 
 const struct hk_method hk_cvode_bdf = {
     .name = "cvode-bdf",
@@ -157,7 +156,7 @@ const struct hk_method hk_cvode_bdf = {
     .stability = {.kind = HOOKE_STABLE_ALWAYS,
                   .damps_implicitly = 1,
                   .note = "chooses its steps; error control limits them"},
-    ROW_OF_CVODE(hk_cvode_bdf)};
+    ROW_OF_CVODE};
 
 const struct hk_method hk_cvode_adams = {
     .name = "cvode-adams",
@@ -165,4 +164,4 @@ const struct hk_method hk_cvode_adams = {
     .stability = {.kind = HOOKE_STABLE_ALWAYS,
                   .note = "chooses its steps; error control limits them, and for fast "
                           "motion also stability, which it sees as error"},
-    ROW_OF_CVODE(hk_cvode_adams)};
+    ROW_OF_CVODE};

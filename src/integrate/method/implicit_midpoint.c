@@ -5,12 +5,6 @@
 #include "core/status.h"
 #include "integrate/solve/stage.h"
 
-static int32_t create(hooke_integrator *it) {
-  const int32_t status = hk_stage_create(it, 0);
-  if (status == HOOKE_OK) ((struct hk_stage *)it->own)->swings = 1;
-  return status;
-}
-
 /* From the middle on as far again; constrained particles come from the drives. */
 static int32_t go_on(hooke_integrator *it, struct hk_span_of_time span) {
   struct hk_stage *stage = it->own;
@@ -23,7 +17,7 @@ static int32_t go_on(hooke_integrator *it, struct hk_span_of_time span) {
       m->v[a][p] = 2.0 * m->v[a][p] - v[p];
     }
   }
-  if (stage->body.count > 0) hk_body_stage_go_on(stage);
+  hk_body_stage_go_on(stage);
   if (it->system->constrained_count == 0) return HOOKE_OK;
   return hk_integrator_hold(it, span.end);
 }
@@ -37,27 +31,18 @@ static int32_t stages(hooke_integrator *it, struct hk_span_of_time span) {
   return status == HOOKE_OK ? go_on(it, span) : status;
 }
 
-static int32_t step(hooke_integrator *it) {
-  return hk_stage_step(it->own, stages);
-}
-
 const struct hk_method hk_implicit_midpoint = {
     .name = "implicit-midpoint",
     .summary = "fixed step, order 2, implicit; stable at every step, damps nothing that the scene does not",
-    .built = 1,
     .order = 2,
     .checked_by = "tr-bdf2",
-    .second_order = 1,
-    .bodies = &hk_implicit_midpoint,
+    .bodies = 1,
     .overdamped = 1,
-    .implicit = 1,
+    .steps = &hk_implicit_steps,
+    .solved = stages,
+    .swings = 1,
     .stability = {.kind = HOOKE_STABLE_ALWAYS,
                   .damps_implicitly = 1,
                   .note =
                       "stable at every step where forces are linear; accuracy limits it, and in large steps "
-                      "whether the equations can be solved"},
-    .create = create,
-    .destroy = hk_stage_destroy,
-    .begin = hk_fixed_begin,
-    .step = step,
-    .store = hk_fixed_store};
+                      "whether the equations can be solved"}};

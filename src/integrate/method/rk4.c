@@ -1,27 +1,16 @@
 /* The classical Runge-Kutta method (Kutta 1901), order 4: four rates a step, at t, twice at t + h/2, and at t
  * + h. */
-#include "integrate/method/stages.h"
-
-const struct hk_stages hk_rk4_stages = {4, {0.0, 0.5, 0.5, 1.0}, {2.0, 2.0, 1.0, 6.0}};
-
-static int32_t create(hooke_integrator *it) {
-  return hk_stages_create(it, &hk_rk4_stages);
-}
+#include "integrate/method.h"
 
 const struct hk_method hk_rk4 = {
     .name = "rk4",
     .summary = "fixed step, order 4, four force evaluations a step",
-    .built = 1,
     .order = 4,
     .checked_by = "cvode-adams",
     .first_order = 1,
-    .second_order = 1,
-    .bodies = &hk_rk4_bodies,
+    .bodies = 1,
     .overdamped = 1,
+    .steps = &hk_explicit_steps,
+    .stages = {4, {2, 2, 1, 6}},
     .stability = {.kind = HOOKE_STABLE_BY_POLYNOMIAL, .degree = 4, .axis = 8.0, .half_disc = 2.6156},
-    .by_tiles = 1,
-    .create = create,
-    .destroy = hk_stages_destroy,
-    .begin = hk_fixed_begin,
-    .step = hk_stages_step,
-    .store = hk_fixed_store};
+    .by_tiles = 1};

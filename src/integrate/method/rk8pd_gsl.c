@@ -159,12 +159,12 @@ static int32_t store(hooke_integrator *it, double t, hooke_state *state) {
   return hk_unknowns_store(it, &own->unknowns, t, own->y, state);
 }
 
-#define ROW_OF_RK8PD                                                                                         \
-  .built = 1, .create = create, .destroy = destroy, .begin = begin, .step = step, .store = store
+static const struct hk_steps steps = {create, destroy, NULL, begin, step, store};
+#define STEPS &steps
 
 #else
 
-#define ROW_OF_RK8PD .built = 0
+#define STEPS NULL
 
 #endif
 
@@ -175,7 +175,6 @@ const struct hk_method hk_rk8pd = {
     .reference = 1,
     .adaptive = 1,
     .first_order = 1,
-    .second_order = 1,
-    .bodies = &hk_rk8pd,
+    .bodies = 1,
     .overdamped = 1,
-    ROW_OF_RK8PD};
+    .steps = STEPS};

@@ -5,26 +5,24 @@
  * momentum. What strong damping does to the order is in docs/notes/methods.md. */
 #include "core/memory.h"
 #include "core/status.h"
-#include "integrate/integrator.h"
+#include "integrate/method/verlet_damping.h"
 #include "model/sum/dampers.h"
 
 #include <stddef.h>
 
 struct shardlow {
   struct hk_dampers *dampers;
-  double *zero;  /* n */
-  double *start; /* with a callback: q and v at the start of the step */
+  double *zero; /* n */
 };
 
 static int32_t make(hooke_integrator *it, struct shardlow *own) {
-  const int64_t n = it->system->particle_count, saved = it->system->force ? 2 * it->size : 0;
+  const int64_t n = it->system->particle_count;
   own->zero = hk_new(n, sizeof(double));
-  if (saved) own->start = hk_new(saved, sizeof(double));
-  if (own->zero == NULL || (saved && own->start == NULL)) return HOOKE_NO_MEMORY;
+  if (own->zero == NULL) return HOOKE_NO_MEMORY;
   it->motion->zero = own->zero;
   const int32_t status = hk_dampers_create(it->system, it->schedule.step / 2.0, &own->dampers);
   if (status != HOOKE_OK) return status;
-  it->own_memory += (n + saved) * (int64_t)sizeof(double) + hk_dampers_memory(own->dampers);
+  it->own_memory += n * (int64_t)sizeof(double) + hk_dampers_memory(own->dampers);
   return HOOKE_OK;
 }
 
@@ -33,53 +31,36 @@ static int32_t create(hooke_integrator *it) {
   if (own == NULL) return HOOKE_NO_MEMORY;
   it->around = own;
   const int32_t status = make(it, own);
-  return status == HOOKE_OK ? hk_verlet.create(it) : status;
+  return status == HOOKE_OK ? hk_verlet.steps->create(it) : status;
 }
 
 static void destroy(hooke_integrator *it) {
   struct shardlow *own = it->around;
-  if (it->own) hk_verlet.destroy(it);
+  if (it->own) hk_verlet.steps->destroy(it);
   if (own == NULL) return;
   hk_dampers_destroy(own->dampers);
   hk_free(own->zero);
-  hk_free(own->start);
   hk_free(own);
   it->around = NULL;
 }
 
-static int32_t begin(hooke_integrator *it, const hooke_state *state) {
-  return hk_verlet.begin(it, state);
-}
-
-static void forget(hooke_integrator *it) {
-  hk_verlet.forget(it);
-}
-
 static int32_t step(hooke_integrator *it) {
   struct shardlow *own = it->around;
-  if (own->start) hk_motion_save(it->motion, own->start);
   hk_dampers_sweep(own->dampers, it->motion, 0);
   it->goes_on = 0; /* dampers come in between */
-  const int32_t status = hk_verlet.step(it);
-  if (status != HOOKE_OK) {
-    if (own->start) hk_motion_restore(it->motion, own->start);
-    return status;
-  }
+  const int32_t status = hk_verlet.steps->step(it);
+  if (status != HOOKE_OK) return status;
   if (it->system->constrained_count > 0) hk_motion_hold(it->system, it->motion); /* kicks move them, too */
   hk_dampers_sweep(own->dampers, it->motion, 1);
   return HOOKE_OK;
 }
 
+static const struct hk_steps steps = {create,          destroy, hk_verlet_forget,
+                                      hk_verlet_begin, step,    hk_fixed_store};
+
 const struct hk_method hk_shardlow = {
     .name = "shardlow",
     .summary = "fixed step, order 2; Verlet, and each damper on its pair alone, stable at any damping",
-    .built = 1,
     .order = 2,
-    .second_order = 1,
     .stability = {.kind = HOOKE_STABLE_BY_K, .damps_implicitly = 1, .damps_apart = 1},
-    .create = create,
-    .destroy = destroy,
-    .forget = forget,
-    .begin = begin,
-    .step = step,
-    .store = hk_fixed_store};
+    .steps = &steps};

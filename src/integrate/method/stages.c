@@ -1,25 +1,23 @@
-/* Pinned and driven particles are constrained in every stage. */
-#include "integrate/method/stages.h"
-
+/* Steps of explicit Runge-Kutta methods. Pinned and driven particles are constrained in every stage. */
 #include "core/memory.h"
 #include "core/status.h"
+#include "integrate/method/one_array.h"
 #include "kernel/step_loops.h"
 
 #include <stddef.h>
 #include <string.h>
 
-/* The start of the step, and the sum of the rates: of x, or of the components of q and v as in the motion. */
+/* The start of the step, and the sum of the rates: components of q and v as in the motion. */
 struct own {
-  const struct hk_stages *stages;
   double *start, *sum;
 };
 
-int32_t hk_stages_create(hooke_integrator *it, const struct hk_stages *stages) {
+static int32_t create(hooke_integrator *it) {
+  if (it->array || (it->method->stages.count == 1 && !it->system->overdamped)) return HOOKE_OK;
   struct own *own = hk_new(1, sizeof *own);
   if (own == NULL) return HOOKE_NO_MEMORY;
   it->own = own;
-  own->stages = stages;
-  const int64_t size = it->rate ? it->size : 6 * hk_motion_stride(it->motion);
+  const int64_t size = 6 * hk_motion_stride(it->motion);
   own->start = hk_new(2 * size, sizeof(double));
   if (own->start == NULL) return HOOKE_NO_MEMORY;
   own->sum = own->start + size;
@@ -27,55 +25,75 @@ int32_t hk_stages_create(hooke_integrator *it, const struct hk_stages *stages) {
   return HOOKE_OK;
 }
 
-void hk_stages_destroy(hooke_integrator *it) {
+static void destroy(hooke_integrator *it) {
   struct own *own = it->own;
   hk_free(own->start);
   hk_free(own);
   it->own = NULL;
 }
 
-double hk_stage_time(const hooke_integrator *it, const struct hk_stages *stages, int stage) {
-  const double ahead = stages->ahead[stage];
-  return ahead == 1.0 ? hk_integrator_next_time(it) : it->t + ahead * it->schedule.step;
+/* A stage is a step over this ahead; 0: at the start. */
+static int32_t ahead_over(const hooke_integrator *it, int stage) {
+  return stage > 0 ? it->method->stages.over[stage - 1] : 0;
 }
 
-void hk_stage_move(const struct hk_stages *stages, int stage, double step, int64_t count, const double *rate,
-                   double *start, double *sum, double *x) {
-  const double kick = step / stages->over[stage];
-  if (stages->count == 1)
+static double stage_time(const hooke_integrator *it, int stage) {
+  const int32_t over = ahead_over(it, stage);
+  return over == 1 ? hk_integrator_next_time(it) : over == 0 ? it->t : it->t + it->schedule.step / over;
+}
+
+/* How long the rate of a stage lasts. */
+static double kick_of(const hooke_integrator *it, int stage) {
+  return it->schedule.step / it->method->stages.over[stage];
+}
+
+/* Moves `count` numbers x from a stage on by their `rate` there. */
+static void move_numbers(const hooke_integrator *it, int stage, int64_t count, const double *rate,
+                         double *start, double *sum, double *x) {
+  const double kick = kick_of(it, stage);
+  const int last = it->method->stages.count - 1;
+  if (last == 0)
     hk_advance(count, kick, rate, x);
   else if (stage == 0)
     hk_first_stage(count, kick, rate, start, sum, x);
-  else if (stage < stages->count - 1)
+  else if (stage < last)
     hk_middle_stage(count, kick, rate, start, sum, x);
   else
     hk_last_stage(count, kick, rate, start, sum, x);
 }
 
-static double stage_time(const hooke_integrator *it, int stage) {
-  const struct own *own = it->own;
-  return hk_stage_time(it, own->stages, stage);
+/* ---- one array ---- */
+
+static int32_t find_rate(hooke_integrator *it, double t) {
+  struct hk_one_array *array = it->array;
+  if (it->rate) return hk_integrator_rate(it, t, array->y, array->slope);
+  const int found = hk_unknowns_slope(it, &array->unknowns, t, array->y, array->slope);
+  return found == HOOKE_SLOPE_STOPPED ? HOOKE_STOPPED : HOOKE_OK;
 }
 
-static int32_t step_rate(hooke_integrator *it) {
-  const struct own *own = it->own;
-  for (int stage = 0; stage < own->stages->count; stage++) {
-    const int32_t status = hk_integrator_rate(it, stage_time(it, stage), it->x, it->slope);
+static int32_t step_array(hooke_integrator *it) {
+  struct hk_one_array *array = it->array;
+  hk_one_array_begin(it);
+  for (int stage = 0; stage < it->method->stages.count; stage++) {
+    const int32_t status = find_rate(it, stage_time(it, stage));
     if (status != HOOKE_OK) {
-      if (stage > 0) memcpy(it->x, own->start, (size_t)it->size * sizeof(double));
+      if (it->rate && stage > 0) memcpy(array->y, array->start, (size_t)it->size * sizeof(double));
       return status;
     }
-    hk_stage_move(own->stages, stage, it->schedule.step, it->size, it->slope, own->start, own->sum, it->x);
+    move_numbers(it, stage, array->unknowns.size, array->slope, array->start, array->sum, array->y);
   }
-  return HOOKE_OK;
+  if (it->rate) return HOOKE_OK;
+  hk_one_array_give(it, array->y);
+  return hk_integrator_drive(it, hk_integrator_next_time(it)); /* the last stage may be earlier */
 }
+
+/* ---- particles ---- */
 
 /* Constrained particles at the time of a stage; if it is the time of the previous one the drives are not
  * called again. */
 static int32_t hold(hooke_integrator *it, int stage) {
   if (it->system->constrained_count == 0 || stage == 0) return HOOKE_OK;
-  const struct own *own = it->own;
-  if (own->stages->ahead[stage] != own->stages->ahead[stage - 1])
+  if (ahead_over(it, stage) != ahead_over(it, stage - 1))
     return hk_integrator_hold(it, stage_time(it, stage));
   hk_motion_hold(it->system, it->motion);
   return HOOKE_OK;
@@ -83,12 +101,15 @@ static int32_t hold(hooke_integrator *it, int stage) {
 
 static int32_t move(hooke_integrator *it, int stage) {
   const struct own *own = it->own;
-  const int last = own->stages->count - 1;
-  const int32_t kind = stage == 0 ? HOOKE_FIRST_STAGE : stage < last ? HOOKE_MIDDLE_STAGE : HOOKE_LAST_STAGE;
+  const int last = it->method->stages.count - 1;
+  const int32_t kind = last == 0      ? HOOKE_DRIFT_THEN_KICK
+                       : stage == 0   ? HOOKE_FIRST_STAGE
+                       : stage < last ? HOOKE_MIDDLE_STAGE
+                                      : HOOKE_LAST_STAGE;
+  const double kick = kick_of(it, stage);
   struct hk_move move;
-  hk_integrator_move_of(it, kind, it->schedule.step / own->stages->over[stage], 0.0, &move);
-  move.start = own->start;
-  move.sum = own->sum;
+  hk_integrator_move_of(it, kind, kick, kick, &move);
+  if (own) move.start = own->start, move.sum = own->sum;
   return hk_integrator_move(it, stage_time(it, stage), &move);
 }
 
@@ -108,16 +129,15 @@ static void move_positions(hooke_integrator *it, int64_t from, int64_t count, vo
   struct hk_motion *m = it->motion;
   for (int a = 0; a < 3; a++) {
     const int64_t q = a * m->n + from; /* as hk_motion_save() has them */
-    hk_stage_move(own->stages, *(const int *)ctx, it->schedule.step, count, m->v[a] + from, own->start + q,
-                  own->sum + q, m->q[a] + from);
+    move_numbers(it, *(const int *)ctx, count, m->v[a] + from, own->start + q, own->sum + q, m->q[a] + from);
   }
 }
 
 static int32_t step_overdamped(hooke_integrator *it) {
   struct own *own = it->own;
   hk_motion_save(it->motion, own->start);
-  for (int stage = 0; stage < own->stages->count; stage++) {
-    const int last = stage + 1 == own->stages->count;
+  for (int stage = 0; stage < it->method->stages.count; stage++) {
+    const int last = stage + 1 == it->method->stages.count;
     const double t = last ? hk_integrator_next_time(it) : stage_time(it, stage + 1);
     hk_integrator_each(it, move_positions, &stage);
     int32_t status = hk_integrator_hold(it, t);
@@ -131,11 +151,11 @@ static int32_t step_overdamped(hooke_integrator *it) {
   return HOOKE_OK;
 }
 
-int32_t hk_stages_step(hooke_integrator *it) {
-  if (it->rate) return step_rate(it);
-  if (it->system->friction > 0.0) return step_overdamped(it);
+static int32_t step(hooke_integrator *it) {
+  if (it->array) return step_array(it);
+  if (it->system->overdamped) return step_overdamped(it);
   struct own *own = it->own;
-  for (int stage = 0; stage < own->stages->count; stage++) {
+  for (int stage = 0; stage < it->method->stages.count; stage++) {
     int32_t status = hold(it, stage);
     if (status == HOOKE_OK) status = move(it, stage);
     if (status != HOOKE_OK) {
@@ -145,3 +165,5 @@ int32_t hk_stages_step(hooke_integrator *it) {
   }
   return HOOKE_OK;
 }
+
+const struct hk_steps hk_explicit_steps = {create, destroy, NULL, hk_fixed_begin, step, hk_fixed_store};

@@ -7,11 +7,6 @@
 #include "core/status.h"
 #include "integrate/solve/stage.h"
 
-/* Beside the stage: the place and the speed of its equations, a state. */
-static int32_t create(hooke_integrator *it) {
-  return hk_stage_create(it, 1);
-}
-
 /* As numbers, so that they are the same everywhere. */
 static const double MIDDLE = 0.58578643762690495120, BACK = 0.20710678118654752440;
 
@@ -27,10 +22,10 @@ static int32_t begin_trapezoid(hooke_integrator *it, double t, double a) {
     for (int64_t p = 0; p < m->n; p++) {
       const double w = system->inverse_mass[p];
       place[p] = q[p] + a * v[p];
-      speed[p] = v[p] + a * (w * m->f[c][p] + (w == 0.0 ? 0.0 : system->gravity[c]));
+      speed[p] = v[p] + a * (w * m->f[c][p] + (w == 0.0 ? 0.0 : system->fall[c]));
     }
   }
-  if (stage->body.count > 0) hk_body_stage_explicit(stage, a, stage->others + 2 * it->size);
+  hk_body_stage_explicit(stage, a, stage->others + 2 * it->size);
   return status;
 }
 
@@ -58,26 +53,17 @@ static int32_t stages(hooke_integrator *it, struct hk_span_of_time span) {
   return hk_stage_solve(stage, &difference);
 }
 
-static int32_t step(hooke_integrator *it) {
-  return hk_stage_step(it->own, stages);
-}
-
 const struct hk_method hk_tr_bdf2 = {
     .name = "tr-bdf2",
     .summary = "fixed step, order 2, implicit; stable at every step, damps what the step does not resolve",
-    .built = 1,
     .order = 2,
     .judge = "implicit-midpoint",
-    .second_order = 1,
-    .bodies = &hk_tr_bdf2,
+    .bodies = 1,
     .overdamped = 1,
-    .implicit = 1,
+    .steps = &hk_implicit_steps,
+    .solved = stages,
+    .states = 1, /* the place and the speed of its equations */
     .stability = {.kind = HOOKE_STABLE_ALWAYS,
                   .damps_implicitly = 1,
                   .note = "stable at every step; accuracy limits it, and in large steps whether the "
-                          "equations can be solved"},
-    .create = create,
-    .destroy = hk_stage_destroy,
-    .begin = hk_fixed_begin,
-    .step = step,
-    .store = hk_fixed_store};
+                          "equations can be solved"}};

@@ -10,12 +10,14 @@
  * */
 #include "core/memory.h"
 #include "core/status.h"
+#include "integrate/method/one_array.h"
 #include "integrate/method/verlet_damping.h"
 #include "integrate/solve/reduced.h"
 #include "model/force/force.h"
 
 #include <math.h>
 #include <stddef.h>
+#include <string.h>
 
 /* The residual, over that of the predicted velocity: what the solve leaves is a part of what the step does, or,
  * where damping is so strong that the prediction is beside the point, of the velocity before it. */
@@ -28,7 +30,6 @@ struct verlet {
   struct hk_reduced reduced; /* implicit */
   double *numbers;           /* all arrays below */
   double *half[3];           /* predicts: velocities half-way, with room as in the motion */
-  double *start;             /* implicit or callback: q and v at the start of the step */
   double *right, *change;    /* implicit: 3n each */
 };
 
@@ -36,25 +37,24 @@ static int32_t create(hooke_integrator *it) {
   struct verlet *own = hk_new(1, sizeof *own);
   if (own == NULL) return HOOKE_NO_MEMORY;
   it->own = own;
+  if (it->array) return HOOKE_OK;
   const int callback = it->system->force != NULL;
   const int64_t stride = hk_motion_stride(it->motion);
   own->implicit =
       hk_system_is_damped(it->system, ~HOOKE_UNIFORM) && !it->explicit_damping && !it->motion->zero;
   own->predicts = own->implicit || it->explicit_damping || callback;
   if (!own->predicts) return HOOKE_OK;
-  const int64_t saved = own->implicit || callback ? 2 * it->size : 0,
-                solved = own->implicit ? 2 * it->size : 0;
-  const int64_t numbers = 3 * stride + saved + solved;
+  if ((own->implicit || callback) && hk_integrator_keep_start(it) != HOOKE_OK) return HOOKE_NO_MEMORY;
+  const int64_t numbers = 3 * stride + (own->implicit ? 2 * it->size : 0);
   own->numbers = hk_new(numbers, sizeof(double));
   if (own->numbers == NULL) return HOOKE_NO_MEMORY;
   it->own_memory += numbers * (int64_t)sizeof(double);
   for (int a = 0; a < 3; a++)
     own->half[a] = own->numbers + a * stride;
-  if (saved) own->start = own->numbers + 3 * stride;
   if (!own->implicit) return HOOKE_OK;
-  own->right = own->start + saved;
+  own->right = own->numbers + 3 * stride;
   own->change = own->right + it->size;
-  return hk_reduced_create(it, HOOKE_REDUCED_SYMMETRIC, &own->reduced);
+  return hk_reduced_create(it, HOOKE_REDUCED_SYMMETRIC, NULL, &own->reduced);
 }
 
 static void destroy(hooke_integrator *it) {
@@ -65,13 +65,13 @@ static void destroy(hooke_integrator *it) {
   it->own = NULL;
 }
 
-static int32_t begin(hooke_integrator *it, const hooke_state *state) {
+int32_t hk_verlet_begin(hooke_integrator *it, const hooke_state *state) {
   struct verlet *own = it->own;
   own->kept = own->drifted = 0;
   return hk_fixed_begin(it, state);
 }
 
-static void forget(hooke_integrator *it) {
+void hk_verlet_forget(hooke_integrator *it) {
   struct verlet *own = it->own;
   it->count.force_evaluations += own->kept; /* counts to be added by first_forces() again */
   own->kept = 0;
@@ -124,7 +124,7 @@ static double set_right(const hooke_integrator *it) {
     double *right = own->right + a * m->n;
     for (int64_t p = 0; p < m->n; p++) {
       const double mass = system->mass[p], by = m->v[a][p] - own->half[a][p];
-      const double force = system->has_gravity ? m->f[a][p] + mass * system->gravity[a] : m->f[a][p];
+      const double force = system->falls ? m->f[a][p] + mass * system->fall[a] : m->f[a][p];
       right[p] = half * force - mass * by;
       left += right[p] * (system->inverse_mass[p] * right[p]);
       kicked += system->constrained[p] ? 0.0 : (mass * by) * by;
@@ -169,34 +169,55 @@ static int32_t second_kick(hooke_integrator *it) {
   return status == HOOKE_OK ? solve(it) : status;
 }
 
+/* With bodies forces of the second kick are those at velocities and momenta predicted by twice the first, of
+ * which forces that depend on positions alone see nothing. The second kick begins at the half-way velocities
+ * and momenta, in `start`. */
+static int32_t step_array(hooke_integrator *it) {
+  struct verlet *own = it->own;
+  struct hk_one_array *array = it->array;
+  const double h = it->schedule.step;
+  const int keeps = !hk_system_is_damped(it->system, 0) && it->system->force == NULL;
+  hk_one_array_begin(it);
+  if (it->k > 0 && keeps && !own->kept) it->count.force_evaluations--; /* as counted by the run before */
+  int32_t status = hk_one_array_push(it, it->t, own->kept);
+  own->kept = 0;
+  if (status != HOOKE_OK) return status;
+  hk_one_array_kick(it, 0.5 * h, array->y);
+  hk_one_array_drift(it, h);
+  memcpy(array->start, array->y, (size_t)array->unknowns.size * sizeof(double));
+  hk_one_array_kick(it, 0.5 * h, array->y);
+  hk_one_array_give(it, array->y);
+  if (it->system->constrained_count > 0) hk_motion_hold(it->system, it->motion);
+  status = hk_one_array_push(it, hk_integrator_next_time(it), 0);
+  if (status != HOOKE_OK) return status;
+  hk_one_array_kick(it, 0.5 * h, array->start);
+  hk_one_array_give(it, array->start);
+  own->kept = keeps;
+  return HOOKE_OK;
+}
+
 static int32_t step(hooke_integrator *it) {
   const struct verlet *own = it->own;
-  struct hk_motion *m = it->motion;
+  if (it->array) return step_array(it);
   if (!own->predicts) return step_undamped(it);
-  if (own->start) hk_motion_save(m, own->start);
-  int32_t status = move_half(it, it->t, HOOKE_PREDICT);
+  const int32_t status = move_half(it, it->t, HOOKE_PREDICT);
   if (status != HOOKE_OK) return status;
-  if (it->system->constrained_count > 0) hk_motion_hold(it->system, m);
-  status = second_kick(it);
-  if (status != HOOKE_OK && own->start) hk_motion_restore(m, own->start);
-  return status;
+  if (it->system->constrained_count > 0) hk_motion_hold(it->system, it->motion);
+  return second_kick(it);
 }
+
+static const struct hk_steps steps = {create,          destroy, hk_verlet_forget,
+                                      hk_verlet_begin, step,    hk_fixed_store};
 
 const struct hk_method hk_verlet = {
     .name = "verlet",
     .summary = "fixed step, order 2; keeps undamped motion bounded, and damping leaves its limit",
-    .built = 1,
     .order = 2,
     .judge = "rk4",
-    .second_order = 1,
-    .bodies = &hk_verlet_bodies,
+    .bodies = 1,
     .stability = {.kind = HOOKE_STABLE_BY_K, .damps_implicitly = 1},
+    .with_bodies = {.kind = HOOKE_STABLE_BY_PREDICTION},
     .by_tiles = 1,
     .explicit_step = hk_verlet_explicit_step,
     .choose = hk_verlet_choose,
-    .create = create,
-    .destroy = destroy,
-    .forget = forget,
-    .begin = begin,
-    .step = step,
-    .store = hk_fixed_store};
+    .steps = &steps};

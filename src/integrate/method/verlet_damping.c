@@ -80,8 +80,17 @@ static int32_t refuse_step(double step, double most) {
                  given, allowed);
 }
 
+/* Damping is taken at the predicted velocity. */
+static int32_t choose_with_bodies(hooke_integrator *it, const char *asked) {
+  it->explicit_damping = hk_system_is_damped(it->system, ~HOOKE_UNIFORM);
+  if (strcmp(asked, "implicit") != 0) return HOOKE_OK;
+  return hk_fail(HOOKE_UNSUITED, "verlet_damping",
+                 "implicit does not know rigid bodies yet; allowed: auto, explicit");
+}
+
 int32_t hk_verlet_choose(hooke_integrator *it) {
   const char *asked = hooke_options_text(it->options, "verlet_damping");
+  if (it->system->moving_bodies > 0) return choose_with_bodies(it, asked);
   const int required = strcmp(asked, "explicit") == 0;
   double most;
   if (!hk_system_is_damped(it->system, ~HOOKE_UNIFORM)) {

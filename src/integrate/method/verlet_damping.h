@@ -12,4 +12,8 @@ int32_t hk_verlet_explicit_step(const hooke_system *system, double *step);
  * be. */
 int32_t hk_verlet_choose(hooke_integrator *integrator);
 
+/* Of the motion, for the step that contains one of Verlet. */
+int32_t hk_verlet_begin(hooke_integrator *integrator, const hooke_state *state);
+void hk_verlet_forget(hooke_integrator *integrator);
+
 #endif

@@ -91,22 +91,28 @@ static void factorise(double g[6][6]) {
   }
 }
 
-void hk_body_stage_divide(const struct hk_body_stage *bodies, int64_t k, double *x) {
-  const double *l = bodies->factor + 36 * k;
-  for (int i = 0; i < 6; i++) {
-    for (int j = 0; j < i; j++)
-      x[i] -= l[6 * i + j] * x[j];
-    x[i] /= l[7 * i];
+/* x = L^-1 x, and x = L^-T x. */
+static void divide(void *ctx, double *x) {
+  const struct hk_body_stage *bodies = &((struct hk_stage *)ctx)->body;
+  for (int64_t k = 0; k < bodies->count; k++, x += HOOKE_BODY_VELOCITIES) {
+    const double *l = bodies->factor + 36 * k;
+    for (int i = 0; i < 6; i++) {
+      for (int j = 0; j < i; j++)
+        x[i] -= l[6 * i + j] * x[j];
+      x[i] /= l[7 * i];
+    }
   }
 }
 
-/* x = L^-T x */
-static void divide_transposed(const struct hk_body_stage *bodies, int64_t k, double *x) {
-  const double *l = bodies->factor + 36 * k;
-  for (int i = 5; i >= 0; i--) {
-    for (int j = i + 1; j < 6; j++)
-      x[i] -= l[6 * j + i] * x[j];
-    x[i] /= l[7 * i];
+static void divide_transposed(void *ctx, double *x) {
+  const struct hk_body_stage *bodies = &((struct hk_stage *)ctx)->body;
+  for (int64_t k = 0; k < bodies->count; k++, x += HOOKE_BODY_VELOCITIES) {
+    const double *l = bodies->factor + 36 * k;
+    for (int i = 5; i >= 0; i--) {
+      for (int j = i + 1; j < 6; j++)
+        x[i] -= l[6 * j + i] * x[j];
+      x[i] /= l[7 * i];
+    }
   }
 }
 
@@ -123,6 +129,7 @@ void hk_body_stage_gather(const struct hk_stage *stage, int64_t k, const double 
 
 void hk_body_stage_aim(struct hk_stage *stage) {
   struct hk_body_stage *bodies = &stage->body;
+  if (bodies->count == 0) return;
   hk_motion_store(stage->reduced.integrator->motion, bodies->dq, bodies->dv); /* in rows */
   hk_body_tangents_set(&bodies->tangents, bodies->dq);
 }
@@ -142,6 +149,7 @@ static void find_forces(struct hk_stage *stage) {
 void hk_body_stage_set(struct hk_stage *stage) {
   struct hk_body_stage *bodies = &stage->body;
   const hooke_integrator *it = stage->reduced.integrator;
+  if (bodies->count == 0) return;
   find_forces(stage);
   hk_body_stage_clear(stage, stage->reduced.factor);
   hk_body_stage_clear(stage, stage->reduced.factor + it->size);
@@ -287,66 +295,12 @@ static int32_t multiply_positive(struct hk_stage *stage, const double *x, double
   return status;
 }
 
-/* ---- solving ---- */
-
-/* x = L^-1 x, and out = L^-T x, of everything. */
-static void divide_all(const struct hk_stage *stage, double *x) {
-  const int64_t size = stage->reduced.integrator->size;
-  hk_apply_factor(size / 3, stage->reduced.factor, x);
-  for (int64_t k = 0; k < stage->body.count; k++)
-    hk_body_stage_divide(&stage->body, k, x + size + HOOKE_BODY_VELOCITIES * k);
+static int32_t multiply(void *ctx, const double *x, double *out) {
+  struct hk_stage *stage = ctx;
+  return stage->reduced.projected ? multiply_positive(stage, x, out) : multiply_whole(stage, x, out);
 }
 
-static void divide_all_transposed(const struct hk_stage *stage, const double *x, double *out) {
-  const int64_t size = stage->reduced.integrator->size;
-  hk_apply_factor_transposed(size / 3, stage->reduced.factor, x, out);
-  memcpy(out + size, x + size, (size_t)(HOOKE_BODY_VELOCITIES * stage->body.count) * sizeof(double));
-  for (int64_t k = 0; k < stage->body.count; k++)
-    divide_transposed(&stage->body, k, out + size + HOOKE_BODY_VELOCITIES * k);
-}
-
-typedef int32_t product(struct hk_stage *stage, const double *x, double *out);
-
-static int32_t apply(product *multiply, struct hk_stage *stage, const double *x, double *out) {
-  divide_all_transposed(stage, x, stage->body.velocity);
-  const int32_t status = multiply(stage, stage->body.velocity, out);
-  divide_all(stage, out);
-  return status;
-}
-
-static int32_t apply_whole(void *ctx, const double *x, double *out) {
-  return apply(multiply_whole, ctx, x, out);
-}
-
-static int32_t apply_positive(void *ctx, const double *x, double *out) {
-  return apply(multiply_positive, ctx, x, out);
-}
-
-static const double *scaled_right(struct hk_stage *stage) {
-  memcpy(stage->body.scaled, stage->right, (size_t)stage->size * sizeof(double));
-  divide_all(stage, stage->body.scaled);
-  return stage->body.scaled;
-}
-
-static int32_t finish(struct hk_stage *stage, int32_t status, const struct hk_solution *solution) {
-  stage->reduced.integrator->count.linear_iterations += solution->iterations;
-  divide_all_transposed(stage, stage->body.unknown, stage->change);
-  return status;
-}
-
-int32_t hk_body_stage_solve(struct hk_stage *stage, double tolerance, int64_t limit,
-                            struct hk_solution *solution) {
-  const struct hk_operator a = {stage->size, apply_whole, stage};
-  const int32_t status = hk_solve_general(&a, scaled_right(stage), tolerance, limit, stage->body.krylov,
-                                          stage->body.unknown, solution);
-  return finish(stage, status, solution);
-}
-
-int32_t hk_body_stage_correct(struct hk_stage *stage, double relative, double absolute,
-                              struct hk_solution *solution) {
-  const struct hk_operator a = {stage->size, apply_positive, stage};
-  const int32_t status =
-      hk_solve_positive(&a, scaled_right(stage), relative, absolute, hk_reduced_limit(&stage->reduced),
-                        stage->body.krylov, stage->body.unknown, solution);
-  return finish(stage, status, solution);
+struct hk_more_unknowns hk_body_stage_unknowns(struct hk_stage *stage) {
+  const int64_t count = HOOKE_BODY_VELOCITIES * stage->body.count;
+  return (struct hk_more_unknowns){count, multiply, divide, divide_transposed, stage};
 }

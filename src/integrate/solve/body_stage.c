@@ -17,9 +17,7 @@ enum { MOST_ROTATIONS = 50 };
 
 static int32_t allocate(hooke_integrator *it, struct hk_body_stage *body) {
   int64_t count = body->count, arms = 0;
-  const int64_t size = it->size + HOOKE_BODY_VELOCITIES * count,
-                numbers =
-                    (HOOKE_BODY_NUMBERS + 6 + 36) * count + 3 * it->size + (3 + HOOKE_GENERAL_VECTORS) * size;
+  const int64_t numbers = (HOOKE_BODY_NUMBERS + 6 + 36) * count + 3 * it->size;
   double *block = hk_new(numbers, sizeof(double));
   body->own = block;
   body->rotation = hk_new(count, sizeof *body->rotation);
@@ -32,11 +30,7 @@ static int32_t allocate(hooke_integrator *it, struct hk_body_stage *body) {
   body->factor = hk_part(&block, 36 * count);
   body->dq = hk_part(&block, it->size);
   body->dv = hk_part(&block, it->size);
-  body->df = hk_part(&block, it->size);
-  body->scaled = hk_part(&block, size);
-  body->unknown = hk_part(&block, size);
-  body->velocity = hk_part(&block, size);
-  body->krylov = block;
+  body->df = block;
   return HOOKE_OK;
 }
 
@@ -59,7 +53,8 @@ void hk_body_stage_release(struct hk_body_stage *body) {
 
 /* ---- axes ---- */
 
-void hk_body_moments(const struct hk_body *body, double moment[3]) {
+/* Those of axes that the body does not turn about are replaced. */
+static void find_moments(const struct hk_body *body, double moment[3]) {
   const double largest = body->inertia[2] > 0.0 ? body->inertia[2] : 1.0; /* they ascend */
   for (int k = 0; k < 3; k++)
     moment[k] = body->inertia[k] > 0.0 ? body->inertia[k] : largest;
@@ -114,7 +109,7 @@ void hk_body_stage_clear(const struct hk_stage *stage, double *x) {
 
 void hk_body_momentum(const struct hk_stage *stage, int64_t k, const double z[3], double p[3]) {
   double moment[3];
-  hk_body_moments(body_of(stage, k), moment);
+  find_moments(body_of(stage, k), moment);
   hk_body_weigh(stage->body.rotation[k].begin, moment, z, p);
 }
 
@@ -123,7 +118,7 @@ static void find_slope(const struct hk_stage *stage, int64_t k, const double axe
                        const double spin[3]) {
   struct hk_body_rotation *r = &stage->body.rotation[k];
   double moment[3], column[3][3];
-  hk_body_moments(body_of(stage, k), moment);
+  find_moments(body_of(stage, k), moment);
   for (int j = 0; j < 3; j++) {
     double change[3] = {j == 0, j == 1, j == 2}, turn[3], other[3];
     hk_body_turn_by(r->w, stage->at.a, change, turn);
@@ -145,7 +140,7 @@ static void find_slope(const struct hk_stage *stage, int64_t k, const double axe
 static void find_rotation(struct hk_stage *stage, int64_t k, const double z[3]) {
   struct hk_body_rotation *r = &stage->body.rotation[k];
   double *own = own_of(stage, k), moment[3], axes[3][3], p[3], spin[3], left[3], before = INFINITY;
-  hk_body_moments(body_of(stage, k), moment);
+  find_moments(body_of(stage, k), moment);
   hk_body_momentum(stage, k, z, p);
   memcpy(r->w, z, sizeof r->w);
   for (int i = 0; i < MOST_ROTATIONS; i++) {
@@ -199,6 +194,7 @@ void hk_body_stage_end(struct hk_stage *stage) {
 
 void hk_body_stage_begin(struct hk_stage *stage) {
   const int64_t size = stage->reduced.integrator->size;
+  if (stage->body.count == 0) return; /* they are in `begin` */
   memcpy(stage->old, stage->begin + size, (size_t)size * sizeof(double));
   hk_body_stage_clear(stage, stage->old);
   for (int64_t k = 0; k < stage->body.count; k++) {
@@ -292,18 +288,6 @@ double hk_body_stage_distance(const struct hk_stage *stage, const double *from) 
     double spin[3];
     hk_body_momentum(stage, k, turn, spin);
     sum += body_of(stage, k)->mass * hk_dot3(move, move) + hk_dot3(turn, spin);
-  }
-  return sum;
-}
-
-double hk_body_stage_square(const struct hk_stage *stage) {
-  double sum = 0.0;
-  for (int64_t k = 0; k < stage->body.count; k++) {
-    double right[6];
-    memcpy(right, stage->right + at_velocity(stage, k), sizeof right);
-    hk_body_stage_divide(&stage->body, k, right);
-    for (int j = 0; j < 6; j++)
-      sum += right[j] * right[j];
   }
   return sum;
 }

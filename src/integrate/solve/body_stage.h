@@ -14,7 +14,7 @@
 #define HOOKE_INTEGRATE_SOLVE_BODY_STAGE_H
 
 #include "integrate/integrator.h"
-#include "integrate/solve/krylov.h"
+#include "integrate/solve/reduced.h"
 #include "model/body_tangent.h"
 
 struct hk_stage;
@@ -32,12 +32,10 @@ struct hk_body_stage {
   int64_t count;                    /* bodies that move; 0: nothing else is there */
   struct hk_body_tangents tangents; /* by which the matrix was last set */
   struct hk_body_rotation *rotation;
-  double *own;                         /* own coordinates of the motion, 13 each; begins the block of all */
-  double *push;                        /* force and torque on each, with gravity */
-  double *factor;                      /* 6 x 6 lower triangles of the diagonal blocks of S, 36 each */
-  double *dq, *dv, *df;                /* of particles, 3n each */
-  double *scaled, *unknown, *velocity; /* of the size of the stage */
-  double *krylov;
+  double *own;          /* own coordinates of the motion, 13 each; begins the block of all */
+  double *push;         /* force and torque on each, with gravity */
+  double *factor;       /* 6 x 6 lower triangles of the diagonal blocks of S, 36 each */
+  double *dq, *dv, *df; /* of particles, 3n each */
 };
 
 /* HOOKE_UNSUITED for `linear_solver` direct, HOOKE_NO_MEMORY. */
@@ -57,9 +55,8 @@ void hk_body_stage_residual(struct hk_stage *stage, const double *v);
  * arms and axes: `right` and `straight`. */
 void hk_body_stage_linearise(struct hk_stage *stage);
 
-/* The part of the square of a distance, and of right.B^-1 right. */
+/* The part of the square of a distance. */
 double hk_body_stage_distance(const struct hk_stage *stage, const double *from);
-double hk_body_stage_square(const struct hk_stage *stage);
 
 /* out = y + a y' of own coordinates y, by the forces of the motion; and on from the middle of a
  * step to its end. */
@@ -72,25 +69,17 @@ void hk_body_stage_go_on(struct hk_stage *stage);
 void hk_body_stage_aim(struct hk_stage *stage);
 /* The matrix, after that of the particles; force and torque into `push`. */
 void hk_body_stage_set(struct hk_stage *stage);
-/* change = the solution for `right`, of everything, with the whole matrix and with S (hk_reduced_try(),
- * hk_reduced_correct()). */
-int32_t hk_body_stage_solve(struct hk_stage *stage, double tolerance, int64_t limit,
-                            struct hk_solution *solution);
-int32_t hk_body_stage_correct(struct hk_stage *stage, double relative, double absolute,
-                              struct hk_solution *solution);
+/* The unknowns of bodies in the linear equations. */
+struct hk_more_unknowns hk_body_stage_unknowns(struct hk_stage *stage);
 /* Force and torque of f, which is of particles, on body k. */
 void hk_body_stage_gather(const struct hk_stage *stage, int64_t k, const double *f, double push[6]);
-/* x = L^-1 x with the factor of body k. */
-void hk_body_stage_divide(const struct hk_body_stage *body, int64_t k, double *x);
-
 /* Sets 0 for particles of bodies, 3 components of n. */
 void hk_body_stage_clear(const struct hk_stage *stage, double *x);
 /* p = J0 z */
 void hk_body_momentum(const struct hk_stage *stage, int64_t k, const double z[3], double p[3]);
 /* The turn by a change of w, for a rotation in Cayley form over h. */
 void hk_body_turn_by(const double w[3], double h, const double change[3], double turn[3]);
-/* Moments of inertia, those of axes that the body does not turn about replaced; and 1 or 0. */
-void hk_body_moments(const struct hk_body *body, double moment[3]);
+/* 1 for axes that the body turns about, 0 for others. */
 void hk_body_kept(const struct hk_body *body, double kept[3]);
 /* out = the sum over the axes e of weight e (e.x). */
 void hk_body_weigh(const double axes[3][3], const double weight[3], const double x[3], double out[3]);

@@ -15,8 +15,8 @@ static const double ROUNDINGS = 4.0 * DBL_EPSILON;
 
 int32_t hk_descent_create(hooke_integrator *it, struct hk_descent *descent) {
   const hooke_system *system = it->system;
-  const double *g = system->pull;
-  if (system->friction == 0.0 || system->force || system->altitudes->count > 0) return HOOKE_OK;
+  const double *g = system->gravity;
+  if (!system->overdamped || system->force || system->altitudes->count > 0) return HOOKE_OK;
   descent->rows = hk_new(it->size, sizeof(double));
   if (descent->rows == NULL) return HOOKE_NO_MEMORY;
   it->own_memory += it->size * (int64_t)sizeof(double);
@@ -26,9 +26,8 @@ int32_t hk_descent_create(hooke_integrator *it, struct hk_descent *descent) {
     if (system->force_row[k]->add_stiffness) system->force_row[k]->add_stiffness(system, &descent->stiffness);
   }
   for (int64_t p = 0; p < system->particle_count; p++) {
-    descent->drag += system->constrained[p] ? 0.0 : system->mass[p];
-    if (system->weight && hk_system_has_gravity(system))
-      descent->weight += system->weight[p] * ((fabs(g[0]) + fabs(g[1])) + fabs(g[2]));
+    descent->drag += system->constrained[p] ? 0.0 : system->inertia[p];
+    if (system->has_gravity) descent->weight += system->mass[p] * ((fabs(g[0]) + fabs(g[1])) + fabs(g[2]));
   }
   return HOOKE_OK;
 }
@@ -77,7 +76,7 @@ double hk_descent_potential(struct hk_descent *descent, const hooke_integrator *
   for (int64_t p = 0; p < n; p++) {
     if (system->constrained[p]) continue;
     const double x = v[p], y = v[n + p], z = v[2 * n + p];
-    hk_sum_add(&square, system->mass[p] * ((x * x + y * y) + z * z));
+    hk_sum_add(&square, system->inertia[p] * ((x * x + y * y) + z * z));
   }
   const double moved = 0.5 * a * hk_sum_value(&square);
   *slack = descent->slack + slack_of(descent, it->motion, descent->drag / a, moved);

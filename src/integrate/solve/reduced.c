@@ -42,16 +42,19 @@ static int32_t prepare_direct(struct hk_reduced *reduced) {
   return status == HOOKE_OK && reduced->whole ? hk_reduced_reserve_whole(reduced) : status;
 }
 
-int32_t hk_reduced_create(hooke_integrator *it, int32_t kind, struct hk_reduced *reduced) {
+int32_t hk_reduced_create(hooke_integrator *it, int32_t kind, const struct hk_more_unknowns *more,
+                          struct hk_reduced *reduced) {
   static const int64_t vectors_of[] = {HOOKE_GENERAL_VECTORS, HOOKE_SYMMETRIC_VECTORS, HOOKE_MINIMAL_VECTORS};
   const hooke_system *system = it->system;
   const int32_t symmetric = kind == HOOKE_REDUCED_SYMMETRIC;
   const int64_t n = system->particle_count, m = system->springs->count, vectors = vectors_of[kind];
   const int64_t rows = !symmetric ? 15 * n : hk_elements_of(system, HOOKE_KEPT) > 0 ? 6 * n : 0;
-  const int64_t numbers = (symmetric ? 3 : 7) * m + 25 * n + 3 * n * vectors;
+  const int64_t size = 3 * n + (more ? more->count : 0);
+  const int64_t numbers = (symmetric ? 3 : 7) * m + 13 * n + (4 + vectors) * size;
   double *block = hk_new(numbers, sizeof(double));
   if (block == NULL) return HOOKE_NO_MEMORY;
-  *reduced = (struct hk_reduced){.integrator = it, .symmetric = symmetric};
+  *reduced = (struct hk_reduced){.integrator = it, .symmetric = symmetric, .size = size};
+  if (more) reduced->more = *more;
   reduced->element_count = hk_elements_of(system, HOOKE_KEPT);
   reduced->element = hk_new(reduced->element_count, sizeof *reduced->element);
   if (rows > 0) reduced->rows = hk_rows_new(rows);
@@ -71,11 +74,11 @@ int32_t hk_reduced_create(hooke_integrator *it, int32_t kind, struct hk_reduced 
   if (!symmetric) reduced->tangent.b = hk_part(&block, m);
   reduced->block = hk_part(&block, 6 * n);
   reduced->factor = hk_part(&block, 6 * n);
-  reduced->right = hk_part(&block, 3 * n);
-  reduced->unknown = hk_part(&block, 3 * n);
-  reduced->place = hk_part(&block, 3 * n);
-  reduced->moved = hk_part(&block, 3 * n);
-  reduced->krylov = hk_part(&block, 3 * n * vectors);
+  reduced->right = hk_part(&block, size);
+  reduced->unknown = hk_part(&block, size);
+  reduced->place = hk_part(&block, size);
+  reduced->moved = hk_part(&block, size);
+  reduced->krylov = hk_part(&block, size * vectors);
   if (kind != HOOKE_REDUCED_GENERAL) return HOOKE_OK;
   const int32_t status = read_linear_solver(reduced);
   return status == HOOKE_OK ? prepare_direct(reduced) : status;
@@ -117,11 +120,11 @@ static void add_others(const struct hk_reduced *reduced, double *const block[6])
 static void fill_diagonal(struct hk_reduced *reduced) {
   const hooke_system *system = reduced->integrator->system;
   const int64_t n = system->particle_count;
-  const double brake = reduced->beta * system->drag;
+  const double brake = reduced->beta * system->brake;
   double *const block[6] = {reduced->block,         reduced->block + n,     reduced->block + 2 * n,
                             reduced->block + 3 * n, reduced->block + 4 * n, reduced->block + 5 * n};
   for (int64_t p = 0; p < n; p++)
-    reduced->diagonal[p] = system->mass[p] + brake;
+    reduced->diagonal[p] = system->inertia[p] + brake;
   for (int c = 0; c < 3; c++)
     memcpy(block[c], reduced->diagonal, (size_t)n * sizeof(double));
   memset(block[3], 0, (size_t)(3 * n) * sizeof(double));
@@ -254,12 +257,32 @@ int32_t hk_reduced_multiply(struct hk_reduced *reduced, const double *x, double 
   return add_product(reduced, x, out);
 }
 
+/* x = L^-1 x, and out = L^-T x, by blocks. */
+static void divide_blocks(const struct hk_reduced *reduced, double *x) {
+  const int64_t n = reduced->integrator->system->particle_count;
+  hk_apply_factor(n, reduced->factor, x);
+  if (reduced->more.count > 0) reduced->more.divide(reduced->more.ctx, x + 3 * n);
+}
+
+static void divide_blocks_transposed(const struct hk_reduced *reduced, const double *x, double *out) {
+  const int64_t n = reduced->integrator->system->particle_count, count = reduced->more.count;
+  hk_apply_factor_transposed(n, reduced->factor, x, out);
+  if (count == 0) return;
+  memcpy(out + 3 * n, x + 3 * n, (size_t)count * sizeof(double));
+  reduced->more.divide_transposed(reduced->more.ctx, out + 3 * n);
+}
+
 static int32_t apply(void *ctx, const double *unknown, double *out) {
   struct hk_reduced *reduced = ctx;
-  const int64_t n = reduced->integrator->system->particle_count;
-  hk_begin_product(n, reduced->factor, reduced->diagonal, unknown, reduced->place, out);
-  const int32_t status = add_product(reduced, reduced->place, out);
-  hk_apply_factor(n, reduced->factor, out);
+  int32_t status;
+  if (reduced->more.count > 0) {
+    divide_blocks_transposed(reduced, unknown, reduced->place);
+    status = reduced->more.multiply(reduced->more.ctx, reduced->place, out);
+  } else {
+    hk_begin_product(reduced->size / 3, reduced->factor, reduced->diagonal, unknown, reduced->place, out);
+    status = add_product(reduced, reduced->place, out);
+  }
+  divide_blocks(reduced, out);
   return status;
 }
 
@@ -324,22 +347,21 @@ static int32_t solve_whole(struct hk_reduced *reduced, const double *b, double t
 
 static int32_t solve_by_blocks(struct hk_reduced *reduced, int symmetric, const double *b, double tolerance,
                                int64_t limit, double *x, struct hk_solution *solution) {
-  hooke_integrator *it = reduced->integrator;
-  const int64_t n = it->system->particle_count, size = it->size;
+  const int64_t size = reduced->size;
   const struct hk_operator a = {size, apply, reduced};
   memcpy(reduced->right, b, (size_t)size * sizeof(double));
-  hk_apply_factor(n, reduced->factor, reduced->right);
+  divide_blocks(reduced, reduced->right);
   const double scale = scale_of(size, reduced->right);
   multiply(size, scale, reduced->right);
   const int32_t status = (symmetric ? hk_solve_symmetric : hk_solve_general)(
       &a, reduced->right, tolerance, limit, reduced->krylov, reduced->unknown, solution);
-  it->count.linear_iterations += solution->iterations;
-  hk_apply_factor_transposed(n, reduced->factor, reduced->unknown, x);
+  reduced->integrator->count.linear_iterations += solution->iterations;
+  divide_blocks_transposed(reduced, reduced->unknown, x);
   multiply(size, 1.0 / scale, x);
   return status;
 }
 
-int64_t hk_reduced_limit(const struct hk_reduced *reduced) {
+static int64_t limit_of(const struct hk_reduced *reduced) {
   const int64_t share = reduced->integrator->size / SIZE_SHARE + SPARE_ITERATIONS;
   return share < MOST_ITERATIONS ? share : MOST_ITERATIONS;
 }
@@ -364,7 +386,7 @@ int32_t hk_reduced_try(struct hk_reduced *reduced, const double *b, double toler
 
 int32_t hk_reduced_solve(struct hk_reduced *reduced, const double *b, double tolerance, double *x,
                          struct hk_solution *solution) {
-  return hk_reduced_try(reduced, b, tolerance, hk_reduced_limit(reduced), x, solution);
+  return hk_reduced_try(reduced, b, tolerance, limit_of(reduced), x, solution);
 }
 
 /* Of every spring what its diagonal blocks have. */
@@ -375,32 +397,29 @@ void hk_reduced_project(struct hk_reduced *reduced) {
 
 int32_t hk_reduced_correct(struct hk_reduced *reduced, const double *b, double relative, double absolute,
                            double *x, struct hk_solution *solution) {
-  hooke_integrator *it = reduced->integrator;
-  const int64_t n = it->system->particle_count, size = it->size;
+  const int64_t size = reduced->size;
   if (reduced->direct && reduced->whole) {
-    const int32_t status = solve_direct(reduced, b, DIRECT_RESIDUAL, hk_reduced_limit(reduced), x, solution);
+    const int32_t status = solve_direct(reduced, b, DIRECT_RESIDUAL, limit_of(reduced), x, solution);
     solution->converged |= status == HOOKE_OK && solution->residual <= fmax(relative, DIRECT_RESIDUAL);
     return status;
   }
   const struct hk_operator a = {size, apply, reduced};
   memcpy(reduced->right, b, (size_t)size * sizeof(double));
-  hk_apply_factor(n, reduced->factor, reduced->right);
+  divide_blocks(reduced, reduced->right);
   const double scale = scale_of(size, reduced->right);
   multiply(size, scale, reduced->right);
-  const int32_t status =
-      hk_solve_positive(&a, reduced->right, relative, scale * absolute, hk_reduced_limit(reduced),
-                        reduced->krylov, reduced->unknown, solution);
-  it->count.linear_iterations += solution->iterations;
-  hk_apply_factor_transposed(n, reduced->factor, reduced->unknown, x);
+  const int32_t status = hk_solve_positive(&a, reduced->right, relative, scale * absolute, limit_of(reduced),
+                                           reduced->krylov, reduced->unknown, solution);
+  reduced->integrator->count.linear_iterations += solution->iterations;
+  divide_blocks_transposed(reduced, reduced->unknown, x);
   multiply(size, 1.0 / scale, x);
   return status;
 }
 
 double hk_reduced_square(struct hk_reduced *reduced, const double *b) {
-  const int64_t size = reduced->integrator->size;
-  memcpy(reduced->right, b, (size_t)size * sizeof(double));
-  hk_apply_factor(size / 3, reduced->factor, reduced->right);
-  return hk_dot(size, reduced->right, reduced->right);
+  memcpy(reduced->right, b, (size_t)reduced->size * sizeof(double));
+  divide_blocks(reduced, reduced->right);
+  return hk_dot(reduced->size, reduced->right, reduced->right);
 }
 
 double hk_reduced_trace(const struct hk_reduced *reduced) {
@@ -468,7 +487,7 @@ int32_t hk_reduced_right(struct hk_reduced *reduced, const double *bq, const dou
   const double inverse = 1.0 / reduced->beta;
   for (int64_t k = 0; k < size; k++) {
     const int64_t p = k % n;
-    out[k] = system->mass[p] * (bv[k] + inverse * bq[k]) + system->drag * bq[k];
+    out[k] = system->inertia[p] * (bv[k] + inverse * bq[k]) + system->brake * bq[k];
   }
   const double *const from[3] = {bq, bq + n, bq + 2 * n};
   double *const to[3] = {out, out + n, out + 2 * n};
@@ -486,7 +505,6 @@ int32_t hk_reduced_right(struct hk_reduced *reduced, const double *bq, const dou
 
 /* x = S^-1 x, as far as S is factorised. */
 static void divide(struct hk_reduced *reduced, double *x) {
-  const int64_t n = reduced->integrator->system->particle_count;
   if (reduced->whole_state == HOOKE_WHOLE_IN_USE) {
     hk_factor_gather(reduced->whole, x, reduced->unknown);
     forward(reduced, reduced->unknown);
@@ -494,9 +512,9 @@ static void divide(struct hk_reduced *reduced, double *x) {
     hk_factor_spread(reduced->whole, reduced->unknown, x);
     return;
   }
-  memcpy(reduced->unknown, x, (size_t)(3 * n) * sizeof(double));
-  hk_apply_factor(n, reduced->factor, reduced->unknown);
-  hk_apply_factor_transposed(n, reduced->factor, reduced->unknown, x);
+  memcpy(reduced->unknown, x, (size_t)reduced->size * sizeof(double));
+  divide_blocks(reduced, reduced->unknown);
+  divide_blocks_transposed(reduced, reduced->unknown, x);
 }
 
 static int32_t apply_weighed(void *ctx, const double *weighed, double *out) {

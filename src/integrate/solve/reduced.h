@@ -20,8 +20,19 @@ enum { HOOKE_REDUCED_GENERAL, HOOKE_REDUCED_SYMMETRIC, HOOKE_REDUCED_MINIMAL };
 
 enum { HOOKE_WHOLE_UNKNOWN, HOOKE_WHOLE_READY, HOOKE_WHOLE_IN_USE, HOOKE_WHOLE_NONE };
 
+/* Unknowns beyond those of particles, behind them in all vectors, with their own part of the factor and with
+ * the matrix of all, of which `projected` says which. */
+struct hk_more_unknowns {
+  int64_t count;
+  int32_t (*multiply)(void *ctx, const double *x, double *out);
+  void (*divide)(void *ctx, double *x), (*divide_transposed)(void *ctx, double *x); /* of their part */
+  void *ctx;
+};
+
 struct hk_reduced {
   hooke_integrator *integrator;
+  struct hk_more_unknowns more;
+  int64_t size;        /* of vectors: 3n, and more */
   int32_t symmetric;   /* alpha = 0, and springs, bending, altitude springs and drag alone */
   int32_t direct;      /* by the option `linear_solver`: a factor of S at every place */
   int32_t projected;   /* 1: S stands for the matrix */
@@ -36,7 +47,7 @@ struct hk_reduced {
   struct hk_factor *whole;    /* of all of S; NULL: not requested, too large, not built */
   int32_t whole_state;        /* HOOKE_WHOLE_* */
   const double *weight;       /* of the norm of the minimal one */
-  double *right, *unknown, *place, *moved; /* 3n each: L^-1 b, L^T x, x, scratch */
+  double *right, *unknown, *place, *moved; /* L^-1 b, L^T x, x, scratch */
   double *krylov;
   double *rows; /* q, v, dq, dv and a product, in rows of x y z */
 };
@@ -44,21 +55,20 @@ struct hk_reduced {
 /* Maximum numbers of a factor that is computed: 2 GB. */
 enum { HOOKE_MOST_NUMBERS = 100000000 };
 
-/* Its memory is counted as the method's, with that for the analysis of a factor. */
-int32_t hk_reduced_create(hooke_integrator *integrator, int32_t kind, struct hk_reduced *reduced);
+/* `more` may be NULL. Its memory is counted as the method's, with that for the analysis of a factor. */
+int32_t hk_reduced_create(hooke_integrator *integrator, int32_t kind, const struct hk_more_unknowns *more,
+                          struct hk_reduced *reduced);
 void hk_reduced_release(struct hk_reduced *reduced);
 
 /* Sets the derivatives at the position of the integrator's motion; t is for callbacks. */
 void hk_reduced_set(struct hk_reduced *reduced, double t, double alpha, double beta);
 
-/* x = the solution for b (3n each, x y z apart), 0 where a particle is constrained; `converged` is 0 if
+/* x = the solution for b (of particles x y z apart), 0 where a particle is constrained; `converged` is 0 if
  * `tolerance` was not reached. Iterations and products are counted. HOOKE_STOPPED if a callback asked for it.
  * */
 int32_t hk_reduced_solve(struct hk_reduced *reduced, const double *b, double tolerance, double *x,
                          struct hk_solution *solution);
 
-/* Iterations that it is allowed. */
-int64_t hk_reduced_limit(const struct hk_reduced *reduced);
 /* The same for so many iterations at most. */
 int32_t hk_reduced_try(struct hk_reduced *reduced, const double *b, double tolerance, int64_t limit,
                        double *x, struct hk_solution *solution);

@@ -33,13 +33,12 @@ enum {
 static int32_t allocate(struct hk_stage *stage, int64_t states) {
   hooke_integrator *it = stage->reduced.integrator;
   const int64_t own = stage->body.count > 0,
-                numbers = (3 + states) * stage->state_size + (5 + own) * stage->size;
+                numbers = (2 + states) * stage->state_size + (5 + own) * stage->size;
   double *block = hk_new(numbers, sizeof(double));
-  stage->whole = block;
+  stage->start = block;
   if (block == NULL) return HOOKE_NO_MEMORY;
   it->own_memory += numbers * (int64_t)sizeof(double);
   block += stage->state_size;
-  stage->start = hk_part(&block, stage->state_size);
   stage->begin = hk_part(&block, stage->state_size);
   stage->old = own ? hk_part(&block, stage->size) : stage->begin + it->size;
   stage->v = hk_part(&block, stage->size);
@@ -51,28 +50,31 @@ static int32_t allocate(struct hk_stage *stage, int64_t states) {
   return HOOKE_OK;
 }
 
-int32_t hk_stage_create(hooke_integrator *it, int64_t states) {
+/* Reads the options `newton`, `newton_tolerance` and `linear_solver`. */
+static int32_t create(hooke_integrator *it) {
   struct hk_stage *stage = hk_new(1, sizeof *stage);
   if (stage == NULL) return HOOKE_NO_MEMORY;
   it->own = stage;
   stage->one_iteration = strcmp(hooke_options_text(it->options, "newton"), "one-iteration") == 0;
   stage->tolerance = hooke_options_number(it->options, "newton_tolerance");
   stage->order = it->method->order;
-  stage->overdamped = it->system->friction > 0.0;
-  int32_t status = hk_body_stage_create(it, &stage->body);
+  stage->overdamped = it->system->overdamped;
+  int32_t status = hk_integrator_keep_start(it);
+  if (status == HOOKE_OK) status = hk_body_stage_create(it, &stage->body);
   if (status == HOOKE_OK) status = hk_descent_create(it, &stage->descent);
-  if (status == HOOKE_OK) status = hk_reduced_create(it, HOOKE_REDUCED_GENERAL, &stage->reduced);
-  stage->size = it->size + HOOKE_BODY_VELOCITIES * stage->body.count;
+  const struct hk_more_unknowns more = hk_body_stage_unknowns(stage);
+  if (status == HOOKE_OK) status = hk_reduced_create(it, HOOKE_REDUCED_GENERAL, &more, &stage->reduced);
+  stage->size = it->size + more.count;
   stage->state_size = 2 * it->size + HOOKE_BODY_NUMBERS * stage->body.count;
-  return status == HOOKE_OK ? allocate(stage, states) : status;
+  return status == HOOKE_OK ? allocate(stage, it->method->states) : status;
 }
 
-void hk_stage_destroy(hooke_integrator *it) {
+static void destroy(hooke_integrator *it) {
   struct hk_stage *stage = it->own;
   hk_body_stage_release(&stage->body);
   hk_descent_release(&stage->descent);
   hk_reduced_release(&stage->reduced);
-  hk_free(stage->whole);
+  hk_free(stage->start);
   hk_free(stage);
   it->own = NULL;
 }
@@ -80,17 +82,15 @@ void hk_stage_destroy(hooke_integrator *it) {
 void hk_stage_save(const struct hk_stage *stage, double *state) {
   const hooke_integrator *it = stage->reduced.integrator;
   hk_motion_save(it->motion, state);
-  if (stage->body.count > 0)
-    memcpy(state + 2 * it->size, stage->body.own,
-           (size_t)(HOOKE_BODY_NUMBERS * stage->body.count) * sizeof(double));
+  for (int64_t k = 0; k < HOOKE_BODY_NUMBERS * stage->body.count; k++)
+    state[2 * it->size + k] = stage->body.own[k];
 }
 
-void hk_stage_restore(struct hk_stage *stage, double *state) {
+static void restore(struct hk_stage *stage, double *state) {
   const hooke_integrator *it = stage->reduced.integrator;
   hk_motion_restore(it->motion, state);
-  if (stage->body.count > 0)
-    memcpy(stage->body.own, state + 2 * it->size,
-           (size_t)(HOOKE_BODY_NUMBERS * stage->body.count) * sizeof(double));
+  for (int64_t k = 0; k < HOOKE_BODY_NUMBERS * stage->body.count; k++)
+    stage->body.own[k] = state[2 * it->size + k];
 }
 
 /* ---- the equations ---- */
@@ -106,7 +106,7 @@ static void place(struct hk_stage *stage, const double *v) {
       m->q[a][p] = old[p] + stage->at.a * m->v[a][p];
     }
   }
-  if (stage->body.count > 0) hk_body_stage_place(stage, v);
+  hk_body_stage_place(stage, v);
   if (it->system->constrained_count > 0) hk_motion_hold(it->system, m);
 }
 
@@ -128,15 +128,15 @@ static int32_t find_residual(struct hk_stage *stage, const double *v) {
   place(stage, v);
   const int32_t status = hk_integrator_forces(it, stage->at.t);
   for (int a = 0; a < 3; a++) {
-    const double g = h * system->gravity[a];
+    const double g = h * system->fall[a];
     for (int64_t p = 0; p < m->n; p++) {
       const double w = system->inverse_mass[p];
       stage->right[a * m->n + p] =
           w == 0.0 ? 0.0
-                   : h * m->f[a][p] - system->mass[p] * ((m->v[a][p] - speed_of(stage, a * m->n + p)) - g);
+                   : h * m->f[a][p] - system->inertia[p] * ((m->v[a][p] - speed_of(stage, a * m->n + p)) - g);
     }
   }
-  if (stage->body.count > 0) hk_body_stage_residual(stage, v);
+  hk_body_stage_residual(stage, v);
   return status;
 }
 
@@ -145,7 +145,7 @@ static void set_matrix(struct hk_stage *stage) {
   const double a = stage->at.a;
   hk_reduced_drop_factor(&stage->reduced); /* a stage depends on its numbers alone */
   hk_reduced_set(&stage->reduced, stage->at.t, a * gain(stage), stage->overdamped ? 0.0 : a);
-  if (stage->body.count > 0) hk_body_stage_set(stage);
+  hk_body_stage_set(stage);
 }
 
 /* How far the state at the beginning moves with dv = 0: to place + a v, and particles that are constrained or
@@ -173,23 +173,23 @@ static int32_t linearise(struct hk_stage *stage) {
   const double *old = stage->old;
   place(stage, old);
   find_moved(stage, stage->v, stage->change);
-  if (stage->body.count > 0) hk_body_stage_aim(stage);
+  hk_body_stage_aim(stage);
   hk_motion_restore(m, stage->begin);
   int32_t status = hk_integrator_forces(it, stage->at.t);
   if (status != HOOKE_OK) return status;
   set_matrix(stage);
   status = hk_reduced_change(&stage->reduced, stage->v, stage->change, stage->moved);
   for (int64_t a = 0, k = 0; a < 3; a++) {
-    const double g = system->has_gravity ? system->gravity[a] : 0.0;
+    const double g = system->falls ? system->fall[a] : 0.0;
     for (int64_t p = 0; p < n; p++, k++) {
       const double force = m->f[a][p], turn = stage->overdamped ? stage->moved[k] : force;
       const double w = system->inverse_mass[p];
       stage->straight[k] = old[k] + (stage->overdamped ? 1.0 : stage->at.length) * (w * turn + g);
-      stage->right[k] = gain(stage) * ((force + stage->moved[k]) + system->mass[p] * g);
-      if (system->constrained[p] == 0) stage->right[k] -= system->mass[p] * (old[k] - speed_of(stage, k));
+      stage->right[k] = gain(stage) * ((force + stage->moved[k]) + system->inertia[p] * g);
+      if (system->constrained[p] == 0) stage->right[k] -= system->inertia[p] * (old[k] - speed_of(stage, k));
     }
   }
-  if (stage->body.count > 0) hk_body_stage_linearise(stage);
+  hk_body_stage_linearise(stage);
   return status;
 }
 
@@ -207,10 +207,9 @@ static double distance(const struct hk_stage *stage, const double *from) {
   for (int a = 0; a < 3; a++) {
     const double *to = stage->v + a * n, *of = from + a * n;
     for (int64_t p = 0; p < n; p++)
-      sum += system->constrained[p] ? 0.0 : system->mass[p] * ((to[p] - of[p]) * (to[p] - of[p]));
+      sum += system->constrained[p] ? 0.0 : system->inertia[p] * ((to[p] - of[p]) * (to[p] - of[p]));
   }
-  if (stage->body.count > 0) sum += hk_body_stage_distance(stage, from);
-  return sqrt(sum);
+  return sqrt(sum + hk_body_stage_distance(stage, from));
 }
 
 /* The error of the guess that is allowed. A step of order 1 is off by h/2 of the change of velocity. One of
@@ -256,25 +255,13 @@ static int32_t give_up(const struct hk_stage *stage, int iterations, const struc
       it->method->name, it->t, (int)FINEST_SPLIT, iterations, why, now->size, now->allowed);
 }
 
-/* change = the solution for `right` with the whole matrix, and with S. */
-static int32_t solve(struct hk_stage *stage, double tolerance, int64_t limit, struct hk_solution *solution) {
-  if (stage->body.count > 0) return hk_body_stage_solve(stage, tolerance, limit, solution);
-  return hk_reduced_try(&stage->reduced, stage->right, tolerance, limit, stage->change, solution);
-}
-
-static int32_t correct(struct hk_stage *stage, double relative, double absolute,
-                       struct hk_solution *solution) {
-  hk_reduced_project(&stage->reduced);
-  if (stage->body.count > 0) return hk_body_stage_correct(stage, relative, absolute, solution);
-  return hk_reduced_correct(&stage->reduced, stage->right, relative, absolute, stage->change, solution);
-}
-
 /* The whole matrix at the guess. `found` is 0 where its correction leads nowhere. */
 static int32_t whole_correction(struct hk_stage *stage, struct iteration *now, int *found) {
   const double wanted = LINEAR_OF_TOLERANCE * now->allowed / now->before;
   const double residual = fmin(LARGEST_RESIDUAL, fmax(LEAST_RESIDUAL, wanted));
   struct hk_solution solution;
-  const int32_t status = solve(stage, residual, LEAST_TRIES + now->linear, &solution);
+  const int32_t status = hk_reduced_try(&stage->reduced, stage->right, residual, LEAST_TRIES + now->linear,
+                                        stage->change, &solution);
   const double slope = dot(stage, stage->right, stage->change);
   *found = solution.residual <= fmax(residual, FAR_ENOUGH) && slope > 0.0 && slope < INFINITY;
   if (*found) now->size = sqrt(slope);
@@ -283,7 +270,9 @@ static int32_t whole_correction(struct hk_stage *stage, struct iteration *now, i
 
 static int32_t safe_correction(struct hk_stage *stage, struct iteration *now, int *found) {
   struct hk_solution solution;
-  const int32_t status = correct(stage, LINEAR_SHARE, LINEAR_OF_TOLERANCE * now->allowed, &solution);
+  hk_reduced_project(&stage->reduced);
+  const int32_t status = hk_reduced_correct(&stage->reduced, stage->right, LINEAR_SHARE,
+                                            LINEAR_OF_TOLERANCE * now->allowed, stage->change, &solution);
   const double slope = dot(stage, stage->right, stage->change);
   *found = slope >= 0.0 && slope < INFINITY;
   now->linear = solution.iterations;
@@ -336,7 +325,7 @@ static int32_t iterate(struct hk_stage *stage, struct iteration *now, int *found
   const int whole = now->slow >= (soon ? 1 : MANY_SLOW) && now->wait == 0;
   int32_t status = HOOKE_OK;
   *found = 0;
-  if (stage->body.count > 0) hk_body_stage_aim(stage);
+  hk_body_stage_aim(stage);
   set_matrix(stage);
   now->allowed = allowed_error(stage, &now->rounding);
   if (whole) status = whole_correction(stage, now, found);
@@ -373,26 +362,21 @@ static int32_t converge(struct hk_stage *stage, double height) {
   return status == HOOKE_OK ? give_up(stage, MOST_ITERATIONS, &now, "it still changes") : status;
 }
 
-/* right.B^-1 right with B the diagonal blocks of S where it was last set. */
-static double square_of(struct hk_stage *stage) {
-  const double square = hk_reduced_square(&stage->reduced, stage->right);
-  return stage->body.count > 0 ? square + hk_body_stage_square(stage) : square;
-}
-
 /* From the state at the beginning: exact in its derivatives for one iteration, else a guess. */
 static int32_t first_correction(struct hk_stage *stage, double *open) {
   hooke_integrator *it = stage->reduced.integrator;
   struct hk_solution solution = {0};
   it->count.nonlinear_iterations++;
   int32_t status = linearise(stage);
-  *open = square_of(stage);
+  *open = hk_reduced_square(&stage->reduced, stage->right);
   if (status != HOOKE_OK) return status;
   if (stage->one_iteration) {
     const double residual = fmax(LEAST_RESIDUAL, LINEAR_OF_TOLERANCE * stage->tolerance);
-    status = solve(stage, residual, hk_reduced_limit(&stage->reduced), &solution);
+    status = hk_reduced_solve(&stage->reduced, stage->right, residual, stage->change, &solution);
     if (solution.residual > fmax(residual, FAR_ENOUGH)) *open = 0.0;
   } else {
-    status = correct(stage, LINEAR_SHARE, 0.0, &solution);
+    hk_reduced_project(&stage->reduced);
+    status = hk_reduced_correct(&stage->reduced, stage->right, LINEAR_SHARE, 0.0, stage->change, &solution);
   }
   for (int64_t k = 0; k < stage->size; k++)
     stage->v[k] = stage->old[k] + stage->change[k];
@@ -403,13 +387,13 @@ static int32_t first_correction(struct hk_stage *stage, double *open) {
 static int one_is_enough(struct hk_stage *stage, double open) {
   double rounding;
   const double floor = allowed_error(stage, &rounding);
-  const double left = square_of(stage);
+  const double left = hk_reduced_square(&stage->reduced, stage->right);
   return left <= ONE_LEAVES * ONE_LEAVES * open || left <= floor * floor;
 }
 
 static int32_t solve_from_beginning(struct hk_stage *stage) {
   double open;
-  if (stage->body.count > 0) hk_body_stage_begin(stage);
+  hk_body_stage_begin(stage);
   int32_t status = first_correction(stage, &open);
   if (status == HOOKE_OK && stage->one_iteration) {
     status = find_residual(stage, stage->v);
@@ -490,7 +474,7 @@ static double time_of(const hooke_integrator *it, int64_t part) {
 }
 
 /* One part of the step, from where the motion is. */
-static int32_t take_part(struct hk_stage *stage, int64_t done, int64_t parts, hk_stages_of_step *stages) {
+static int32_t take_part(struct hk_stage *stage, int64_t done, int64_t parts) {
   hooke_integrator *it = stage->reduced.integrator;
   const double end = time_of(it, done + parts);
   const int guarded = stage->descent.rows != NULL && it->system->drive_count == 0;
@@ -498,10 +482,11 @@ static int32_t take_part(struct hk_stage *stage, int64_t done, int64_t parts, hk
   hk_stage_save(stage, stage->start);
   int32_t status = parts == FINEST_SPLIT ? HOOKE_OK : hk_integrator_drive(it, end);
   if (status == HOOKE_OK)
-    status = stages(it, (struct hk_span_of_time){time_of(it, done),
-                                                 (double)parts / FINEST_SPLIT * it->schedule.step, end});
+    status = it->method->solved(
+        it,
+        (struct hk_span_of_time){time_of(it, done), (double)parts / FINEST_SPLIT * it->schedule.step, end});
   if (status == HOOKE_OK && it->system->constrained_count > 0) hk_motion_hold(it->system, it->motion);
-  if (status == HOOKE_OK && stage->body.count > 0) hk_body_stage_end(stage);
+  if (status == HOOKE_OK) hk_body_stage_end(stage);
   stage->raised = status == HOOKE_OK && guarded &&
                   !(hk_descent_energy(&stage->descent, it) <= energy + (slack + stage->descent.slack));
   if (stage->raised) status = rises(it, "energy");
@@ -510,14 +495,16 @@ static int32_t take_part(struct hk_stage *stage, int64_t done, int64_t parts, hk
   return hk_integrator_flow(it, end);
 }
 
-int32_t hk_stage_step(struct hk_stage *stage, hk_stages_of_step *stages) {
-  hooke_integrator *it = stage->reduced.integrator;
+/* Where stages find no solution a step is taken in two halves, and these likewise, down to a thousandth;
+ * every such failure is counted. After a failure that remains, the motion is back at the start. A step that
+ * a callback stopped is taken again by whoever goes on, so it counts nothing. */
+static int32_t step(hooke_integrator *it) {
+  struct hk_stage *stage = it->own;
   const struct hk_counts before = it->count;
   int32_t status = HOOKE_OK;
-  if (stage->body.count > 0) hk_bodies_read(it->system, it->motion, stage->body.own);
-  hk_stage_save(stage, stage->whole);
+  hk_bodies_read(it->system, it->motion, stage->body.own);
   for (int64_t done = 0, parts = FINEST_SPLIT; done < FINEST_SPLIT;) {
-    status = take_part(stage, done, parts, stages);
+    status = take_part(stage, done, parts);
     if (status == HOOKE_OK) {
       done += parts;
       if (done % (2 * parts) == 0) parts *= 2;
@@ -525,12 +512,13 @@ int32_t hk_stage_step(struct hk_stage *stage, hk_stages_of_step *stages) {
     }
     if (status != HOOKE_SOLVER_FAILED) break;
     it->count.nonlinear_failures++;
-    if (parts == (stage->raised && stage->swings ? QUARTER : 1)) break;
-    hk_stage_restore(stage, stage->start);
+    if (parts == (stage->raised && it->method->swings ? QUARTER : 1)) break;
+    restore(stage, stage->start);
     parts /= 2;
   }
   if (status == HOOKE_OK) return HOOKE_OK;
   if (status == HOOKE_STOPPED) it->count = before;
-  hk_stage_restore(stage, stage->whole);
   return status;
 }
+
+const struct hk_steps hk_implicit_steps = {create, destroy, NULL, hk_fixed_begin, step, hk_fixed_store};

@@ -32,6 +32,7 @@ struct hk_equations {
   double length; /* of the step from where the stage begins, for its error, of the order of the method */
 };
 
+/* The integrator's `own`. */
 struct hk_stage {
   int32_t one_iteration, order, overdamped;
   double tolerance;
@@ -40,27 +41,19 @@ struct hk_stage {
   struct hk_body_stage body; /* what bodies add */
   struct hk_descent descent; /* of an overdamped system */
   int32_t descends;          /* 1: every correction must lower the potential */
-  int32_t swings;            /* 1: a step that raises energy is taken in quarters at least: more swing on */
   int32_t raised;            /* 1: the last part would have raised it */
   int64_t state_size;        /* numbers of a state: q and v, 6 components of n, and those of bodies */
   int64_t size;              /* numbers of velocities, 3n and those of bodies */
-  double *whole;             /* the state at the start of the whole step; begins the block of all */
-  double *start;             /* likewise at the start of the part of it that is taken */
-  double *begin;             /* of the motion where the stage begins */
-  double *old;               /* velocities there */
+  double *start; /* the state at the start of the part of a step that is taken; begins all blocks */
+  double *begin; /* of the motion where the stage begins */
+  double *old;   /* velocities there */
   double *v, *change, *right, *moved; /* the guess, the correction, -F or a right-hand side, scratch */
   double *straight;                   /* velocities without any change of acceleration since the beginning */
   double *others;                     /* states of the method's own */
 };
 
-/* Makes the stage of a method, as the integrator's `own`, with so many states in `others`. Reads the options
- * `newton`, `newton_tolerance` and `linear_solver`. After a failure hk_stage_destroy() has to follow. */
-int32_t hk_stage_create(hooke_integrator *integrator, int64_t states);
-void hk_stage_destroy(hooke_integrator *integrator);
-
-/* The state to and from the motion. */
+/* The state of the motion. */
 void hk_stage_save(const struct hk_stage *stage, double *state);
-void hk_stage_restore(struct hk_stage *stage, double *state);
 
 /* Solves the stage from where the motion is, and leaves the motion at its solution. The caller has driven
  * held particles to `t`. After a failure the motion is anywhere: HOOKE_SOLVER_FAILED, or HOOKE_STOPPED by a
@@ -71,17 +64,5 @@ int32_t hk_stage_solve(struct hk_stage *stage, const struct hk_equations *equati
 typedef int32_t hk_first_solution(struct hk_stage *stage);
 int32_t hk_stage_solve_by(struct hk_stage *stage, const struct hk_equations *equations,
                           hk_first_solution *first);
-
-/* A step or a part of one, from the motion at time t, which is in the stage's `start`, to `end`. */
-struct hk_span_of_time {
-  double t, h, end;
-};
-typedef int32_t hk_stages_of_step(hooke_integrator *integrator, struct hk_span_of_time span);
-
-/* One step of the integrator. Where its stages find no solution it is taken in two halves, and these
- * likewise, down to a thousandth; every such failure is counted. After a failure that remains, the motion is
- * back at the start. A step that a callback stopped is taken again by whoever goes on, so it counts nothing.
- * */
-int32_t hk_stage_step(struct hk_stage *stage, hk_stages_of_step *stages);
 
 #endif

@@ -126,7 +126,7 @@ static void take_positions(struct solver *s, N_Vector b) {
   hk_unknowns_spread(u, N_VGetArrayPointer(b), right);
   hk_unknowns_spread(u, N_VGetArrayPointer(s->weight), weight);
   for (int64_t k = 0; k < 3 * n; k++)
-    s->right[k] *= system->constrained[k % n] ? 0.0 : system->mass[k % n];
+    s->right[k] *= system->constrained[k % n] ? 0.0 : system->inertia[k % n];
 }
 
 static void give_positions(struct solver *s, N_Vector x) {
@@ -256,7 +256,7 @@ static int32_t fill(hooke_integrator *it, const char *word, struct solver *s) {
   s->z_weight = s->z + size;
   for (int64_t k = 0; k < size; k++)
     s->z_weight[k] = 1.0;
-  int32_t status = hk_reduced_create(it, HOOKE_REDUCED_MINIMAL, &s->reduced);
+  int32_t status = hk_reduced_create(it, HOOKE_REDUCED_MINIMAL, NULL, &s->reduced);
   s->direct_only = strcmp(word, "direct") == 0;
   s->by_blocks = strcmp(word, "blocks") == 0;
   it->may_factor = !s->direct_only && !s->by_blocks;

@@ -46,11 +46,11 @@ int32_t hk_sundials_renew(hooke_integrator *it) {
   if (it->own) {
     const struct hk_sundials *own = it->own;
     if (!own->spare.taken) return HOOKE_OK;
-    it->method->destroy(it);
+    it->method->steps->destroy(it);
   }
   it->own_memory = 0;
-  const int32_t status = it->method->create(it);
-  if (status != HOOKE_OK && it->own) it->method->destroy(it);
+  const int32_t status = it->method->steps->create(it);
+  if (status != HOOKE_OK && it->own) it->method->steps->destroy(it);
   return status;
 }
 

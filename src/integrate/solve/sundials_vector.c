@@ -35,6 +35,11 @@ static int64_t size_of(N_Vector v) {
 struct job {
   /* elements from `at` on; sums go to `sum` */
   void (*some)(const struct job *job, int64_t at, int64_t count, double *sum);
+  /* the loop of the kernel that it calls */
+  void (*of_two)(int64_t count, const double *x, const double *y, double *z);
+  void (*of_one)(int64_t count, const double *x, double *z);
+  void (*by_number)(int64_t count, double a, const double *x, double *z);
+  double (*sum_of)(int64_t count, const double *x, const double *y);
   double a, b;
   const double *x, *y;
   double *z;
@@ -62,15 +67,6 @@ static void run(N_Vector v, struct job *job) {
   hk_pool_run(job->size < LARGE ? NULL : ((struct content *)v->content)->pool, work, job);
 }
 
-/* The sums of the blocks in their order. */
-static double run_and_add(N_Vector v, struct job *job) {
-  double sum = 0.0;
-  run(v, job);
-  for (int64_t k = 0; k * job->block < job->size; k++)
-    sum += job->sum[k];
-  return sum;
-}
-
 /* ---- one vector from one or two ---- */
 
 static void some_linear_sum(const struct job *j, int64_t at, int64_t count, double *sum) {
@@ -93,68 +89,64 @@ static void set(sunrealtype a, N_Vector z) {
   run(z, &(struct job){.some = some_set, .a = a, .z = numbers(z)});
 }
 
-static void some_product(const struct job *j, int64_t at, int64_t count, double *sum) {
+static void some_of_two(const struct job *j, int64_t at, int64_t count, double *sum) {
   (void)sum;
-  hk_multiply(count, j->x + at, j->y + at, j->z + at);
+  j->of_two(count, j->x + at, j->y + at, j->z + at);
 }
 
 static void product(N_Vector x, N_Vector y, N_Vector z) {
-  run(z, &(struct job){.some = some_product, .x = numbers(x), .y = numbers(y), .z = numbers(z)});
-}
-
-static void some_quotient(const struct job *j, int64_t at, int64_t count, double *sum) {
-  (void)sum;
-  hk_divide(count, j->x + at, j->y + at, j->z + at);
+  run(z,
+      &(struct job){some_of_two, .of_two = hk_multiply, .x = numbers(x), .y = numbers(y), .z = numbers(z)});
 }
 
 static void quotient(N_Vector x, N_Vector y, N_Vector z) {
-  run(z, &(struct job){.some = some_quotient, .x = numbers(x), .y = numbers(y), .z = numbers(z)});
+  run(z, &(struct job){some_of_two, .of_two = hk_divide, .x = numbers(x), .y = numbers(y), .z = numbers(z)});
 }
 
-static void some_scale(const struct job *j, int64_t at, int64_t count, double *sum) {
+static void some_by_number(const struct job *j, int64_t at, int64_t count, double *sum) {
   (void)sum;
-  hk_scale(count, j->a, j->x + at, j->z + at);
+  j->by_number(count, j->a, j->x + at, j->z + at);
 }
 
 static void scale(sunrealtype a, N_Vector x, N_Vector z) {
-  run(z, &(struct job){.some = some_scale, .a = a, .x = numbers(x), .z = numbers(z)});
-}
-
-static void some_absolute(const struct job *j, int64_t at, int64_t count, double *sum) {
-  (void)sum;
-  hk_absolute(count, j->x + at, j->z + at);
-}
-
-static void absolute(N_Vector x, N_Vector z) {
-  run(z, &(struct job){.some = some_absolute, .x = numbers(x), .z = numbers(z)});
-}
-
-static void some_inverse(const struct job *j, int64_t at, int64_t count, double *sum) {
-  (void)sum;
-  hk_invert(count, j->x + at, j->z + at);
-}
-
-static void inverse(N_Vector x, N_Vector z) {
-  run(z, &(struct job){.some = some_inverse, .x = numbers(x), .z = numbers(z)});
-}
-
-static void some_add_number(const struct job *j, int64_t at, int64_t count, double *sum) {
-  (void)sum;
-  hk_add_number(count, j->a, j->x + at, j->z + at);
+  run(z, &(struct job){some_by_number, .by_number = hk_scale, .a = a, .x = numbers(x), .z = numbers(z)});
 }
 
 static void add_number(N_Vector x, sunrealtype a, N_Vector z) {
-  run(z, &(struct job){.some = some_add_number, .a = a, .x = numbers(x), .z = numbers(z)});
+  run(z, &(struct job){some_by_number, .by_number = hk_add_number, .a = a, .x = numbers(x), .z = numbers(z)});
+}
+
+static void some_of_one(const struct job *j, int64_t at, int64_t count, double *sum) {
+  (void)sum;
+  j->of_one(count, j->x + at, j->z + at);
+}
+
+static void absolute(N_Vector x, N_Vector z) {
+  run(z, &(struct job){some_of_one, .of_one = hk_absolute, .x = numbers(x), .z = numbers(z)});
+}
+
+static void inverse(N_Vector x, N_Vector z) {
+  run(z, &(struct job){some_of_one, .of_one = hk_invert, .x = numbers(x), .z = numbers(z)});
 }
 
 /* ---- numbers ---- */
 
-static void some_dot(const struct job *j, int64_t at, int64_t count, double *sum) {
-  *sum = hk_long_dot(count, j->x + at, j->y + at);
+static void some_sum(const struct job *j, int64_t at, int64_t count, double *sum) {
+  *sum = j->sum_of(count, j->x + at, j->y + at);
+}
+
+/* The sums of the blocks are added in their order. */
+static double sum_of(N_Vector x, N_Vector y, double (*loop)(int64_t, const double *, const double *)) {
+  struct job job = {some_sum, .sum_of = loop, .x = numbers(x), .y = numbers(y)};
+  double sum = 0.0;
+  run(x, &job);
+  for (int64_t k = 0; k * job.block < job.size; k++)
+    sum += job.sum[k];
+  return sum;
 }
 
 static sunrealtype dot(N_Vector x, N_Vector y) {
-  return run_and_add(x, &(struct job){.some = some_dot, .x = numbers(x), .y = numbers(y)});
+  return sum_of(x, y, hk_long_dot);
 }
 
 static void some_largest(const struct job *j, int64_t at, int64_t count, double *sum) {
@@ -170,20 +162,12 @@ static sunrealtype largest(N_Vector x) {
   return most;
 }
 
-static void some_squares(const struct job *j, int64_t at, int64_t count, double *sum) {
-  *sum = hk_sum_of_squares(count, j->x + at, j->y + at);
-}
-
-static sunrealtype sum_of_squares(N_Vector x, N_Vector weight) {
-  return run_and_add(x, &(struct job){.some = some_squares, .x = numbers(x), .y = numbers(weight)});
-}
-
 static sunrealtype mean_square(N_Vector x, N_Vector weight) {
-  return sqrt(sum_of_squares(x, weight) / (double)size_of(x));
+  return sqrt(sum_of(x, weight, hk_sum_of_squares) / (double)size_of(x));
 }
 
 static sunrealtype norm(N_Vector x, N_Vector weight) {
-  return sqrt(sum_of_squares(x, weight));
+  return sqrt(sum_of(x, weight, hk_sum_of_squares));
 }
 
 /* ---- several vectors at once ---- */

@@ -33,7 +33,7 @@ int32_t hk_unknowns_create(hooke_integrator *it, int32_t products, struct hk_unk
   u->stretch = hk_new(u->stretch_count, sizeof *u->stretch);
   if (u->stretch == NULL) return HOOKE_NO_MEMORY;
   find_stretches(it->system, u);
-  u->has_v = it->system->friction == 0.0;
+  u->has_v = !it->system->overdamped;
   u->body_count = it->system->moving_bodies;
   u->size = (u->has_v ? 6 : 3) * u->free_count + HOOKE_BODY_NUMBERS * u->body_count;
   if (u->size == 0) u->size = 1;
@@ -124,18 +124,9 @@ int32_t hk_unknowns_store(hooke_integrator *it, const struct hk_unknowns *u, dou
     memcpy(state->q, y, (size_t)it->size * sizeof(double));
     return HOOKE_OK;
   }
-  int32_t status = HOOKE_OK;
-  if (!u->has_v) {
-    status = hk_unknowns_place(it, u, t, y);
-    if (status == HOOKE_OK) status = hk_integrator_flow(it, t);
-    if (status == HOOKE_OK) hk_motion_store(it->motion, state->q, state->v);
-    return status;
-  }
-  status = hk_integrator_hold(it, t);
-  hk_bodies_write(it->system, it->motion, y + 6 * u->free_count);
-  hk_motion_store(it->motion, state->q, state->v);
-  spread_to_rows(u, y, state->q);
-  spread_to_rows(u, y + 3 * u->free_count, state->v);
+  int32_t status = hk_unknowns_place(it, u, t, y);
+  if (status == HOOKE_OK && !u->has_v) status = hk_integrator_flow(it, t);
+  if (status == HOOKE_OK || u->has_v) hk_motion_store(it->motion, state->q, state->v);
   return status;
 }
 
@@ -152,13 +143,13 @@ double hk_unknowns_accelerations(const hooke_integrator *it, const struct hk_unk
   const hooke_system *system = it->system;
   double sum = 0.0;
   for (int a = 0; a < 3; a++) {
-    const double g = system->gravity[a];
+    const double g = system->fall[a];
     for (int64_t k = 0; k < u->stretch_count; k++) {
       const struct hk_stretch_of_free *s = &u->stretch[k];
       const double *w = system->inverse_mass + s->particle, *f = it->motion->f[a] + s->particle;
       double *to = out + a * u->free_count + s->place;
       for (int64_t p = 0; p < s->count; p++) {
-        to[p] = system->has_gravity ? w[p] * f[p] + g : w[p] * f[p];
+        to[p] = system->falls ? w[p] * f[p] + g : w[p] * f[p];
         sum += 0.0 * to[p];
       }
     }

@@ -131,7 +131,7 @@ static int32_t take_mode(struct frames *f, const struct hk_limit *limit, const s
   hk_rigid_release(&rigid);
   status = hk_growing_create(f->system, row->mode, NULL, &g);
   if (status != HOOKE_OK) return status;
-  const int inertial = f->system->friction == 0.0;
+  const int inertial = !f->system->overdamped;
   const double stiffness = fmax(0.0, hk_growing_quotient(&g, limit->q, 1.0, 0.0) + geometric);
   const double frequency = inertial ? sqrt(stiffness) : 0.0;
   const double decay = inertial ? 0.5 * hk_growing_quotient(&g, limit->q, 0.0, 1.0) : stiffness;

@@ -96,7 +96,7 @@ static void add_particles(struct hk_text *text, const hooke_system *system,
   if (system->velocity) take_alone(system, numbering, 3, system->velocity, rows);
   if (system->velocity && is_moving(3 * count, rows))
     hk_scene_add_numbers(text, "velocity", 3 * count, 3, rows);
-  take_alone(system, numbering, 1, hk_system_masses(system), rows);
+  take_alone(system, numbering, 1, system->mass, rows);
   if (rows[0] != 0.0) add_shared(text, "mass", count, rows); /* 0: not given */
   add_pinned(text, system, numbering, 0, system->particle_count, 0, count);
   hk_text_close(text, '}');
@@ -277,8 +277,8 @@ static void add_scene(struct hk_text *text, const hooke_system *system, const ch
   hk_text_number(text, "hooke", 1.0);
   if (title && title[0]) hk_text_word(text, "title", title);
   if (system->overdamped) hk_text_word(text, "dynamics", hooke_system_dynamics(system));
-  if (hk_system_has_gravity(system)) hk_scene_add_numbers(text, "gravity", 3, 0, hk_system_gravity(system));
-  if (hk_system_drag(system) != 0.0) hk_text_number(text, "drag", hk_system_drag(system));
+  if (system->has_gravity) hk_scene_add_numbers(text, "gravity", 3, 0, system->gravity);
+  if (system->drag != 0.0) hk_text_number(text, "drag", system->drag);
   if (numbering->alone > 0) add_particles(text, system, numbering);
   if (system->part_count > 0) add_parts(text, system, numbering);
   add_lists(text, system, numbering);

@@ -122,7 +122,7 @@ static int32_t stand_at_frame(struct going *going, int64_t frame) {
   hooke_integrator *it = going->integrator;
   int32_t status = hooke_state_copy(going->first, going->state);
   if (status == HOOKE_OK) status = hk_run_begin(it, going->state);
-  if (status == HOOKE_OK && going->system->has_gravity) status = follow(going, frame + 1);
+  if (status == HOOKE_OK && going->system->falls) status = follow(going, frame + 1);
   if (status == HOOKE_OK) status = hooke_record_read(going->record, frame, going->state);
   return status == HOOKE_OK ? hk_integrator_stand_at_frame(it, frame, going->first, going->state) : status;
 }

@@ -84,7 +84,7 @@ static int32_t find_makers(struct hk_verify *verify) {
   const hooke_options *options = hooke_record_options(verify->record);
   const struct hk_method *method = hk_method_find(hooke_options_text(options, "method"));
   const int32_t factor = strcmp(hooke_options_text(options, "linear_solver"), "direct") == 0;
-  if (verify->fixed && !(method->implicit && factor)) return 0;
+  if (verify->fixed && !(method->solved && factor)) return 0;
   for (int k = 1; k < HOOKE_VERIFY_FACTS; k++) {
     if (strcmp(verify->made_by[k], verify->here[k]) != 0) return 1;
   }

@@ -63,7 +63,7 @@ static void find_amounts(const hooke_system *system, const struct hk_method *met
   const double steps = (double)count->steps, evaluations = (double)count->force_evaluations,
                products = (double)count->derivative_products, matrices = (double)count->matrices;
   /* with error control: particles with positions and velocities, or halves of them */
-  const double whole = system && system->friction == 0.0 ? 1.0 : 0.5,
+  const double whole = system && !system->overdamped ? 1.0 : 0.5,
                adapted = method->adaptive ? whole * particles : 0.0;
   memset(amount, 0, HOOKE_WORKS * sizeof *amount);
   if (system) add_forces(system, method, count, amount);
@@ -123,7 +123,7 @@ double hk_work_of_pass(const hooke_system *system) {
 
 double hk_work_of_steps(const hooke_system *system, const char *name, int64_t steps) {
   const struct hk_method *method = hk_method_find(name);
-  if (method == NULL || method->adaptive || method->implicit || !hk_method_suits(name, system)) return NAN;
+  if (method == NULL || method->adaptive || method->solved || !hk_method_suits(name, system)) return NAN;
   const struct hk_stability *stability = &method->stability;
   const int64_t stages = stability->kind == HOOKE_STABLE_BY_POLYNOMIAL ? stability->degree : 1;
   if (method->explicit_step && system->moving_bodies == 0 && hk_system_is_damped(system, ~HOOKE_UNIFORM))

@@ -99,7 +99,7 @@ static int32_t look(struct hk_estimate *e, const hooke_state *from) {
 int32_t hk_estimate_heat(struct hk_estimate *e) {
   const char *method = hooke_options_text(e->options, "method");
   /* without inertia velocities follow the forces, and nothing reverses them */
-  if (hooke_method_is_adaptive(method) || e->system->force || e->system->friction > 0.0) return HOOKE_OK;
+  if (hooke_method_is_adaptive(method) || e->system->force || e->system->overdamped) return HOOKE_OK;
   int32_t status = look(e, NULL);
   if (status == HOOKE_OK && isnan(e->late_after)) status = look(e, e->late);
   return status;

@@ -90,7 +90,7 @@ static struct trend find_trend(const struct course *course) {
 static double kinetic(const hooke_system *system, const double *v) {
   double sum = 0.0;
   for (int64_t k = 0; k < 3 * system->particle_count; k++)
-    sum += system->constrained[k / 3] ? 0.0 : system->mass[k / 3] * (v[k] * v[k]);
+    sum += system->constrained[k / 3] ? 0.0 : system->inertia[k / 3] * (v[k] * v[k]);
   return sum;
 }
 
@@ -169,7 +169,7 @@ static int64_t least_steps(const struct hk_growth *growth) {
 static int judge(const struct hk_growth *growth, const struct course *course, int64_t taken, int thorough,
                  enum hk_verdict *verdict) {
   const double rise = course->last - course->first;
-  const int inertial = growth->twin->system->friction == 0.0;
+  const int inertial = !growth->twin->system->overdamped;
   const double speed = kinetic(growth->twin->system, hooke_state_velocity(growth->state));
   if (rise > certain_rise(growth)) {
     *verdict = HOOKE_GROWS;

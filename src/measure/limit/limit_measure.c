@@ -191,7 +191,7 @@ int32_t hk_limit_measure(const hooke_system *system, const double *q, const hook
     growth.progress = progress;
     growth.ctx = ctx;
     const struct hk_stability *stability = hk_method_stability_in(method, system);
-    const int slow = hk_method_needs_damping(method) && system->friction == 0.0;
+    const int slow = hk_method_needs_damping(method) && !system->overdamped;
     growth.is_named = predicted > 0.0 && isfinite(predicted);
     growth.turns_at_rest = stability->kind == HOOKE_STABLE_BY_K;
     growth.is_convex = !twin.damped && stability->kind == HOOKE_STABLE_BY_POLYNOMIAL;

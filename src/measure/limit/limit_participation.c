@@ -107,8 +107,8 @@ static int32_t find_geometric(const hooke_system *system, const double *q, const
 static void find_particles(const hooke_system *system, const double *mode, struct whole *whole,
                            struct hk_participation *participation) {
   for (int64_t p = 0; p < system->particle_count; p++) {
-    const struct hk_limiting_particle particle = {p, system->mass[p] * square_of(mode + 3 * p),
-                                                  system->mass[p]};
+    const struct hk_limiting_particle particle = {p, system->inertia[p] * square_of(mode + 3 * p),
+                                                  system->inertia[p]};
     if (system->constrained[p]) continue;
     whole->kinetic += particle.share;
     keep(participation->particle, &participation->particle_count, sizeof particle,

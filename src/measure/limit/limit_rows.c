@@ -43,7 +43,8 @@ static int32_t find_row(struct hk_limit *limit, struct hk_spectrum *spectrum, do
 static void find_overdamped_modes(struct hk_limit *limit, const struct hk_spectrum *s) {
   const double rate = s->linearised->rate * s->linearised->rate;
   for (int64_t k = 0; k < s->count; k++)
-    limit->mode[k] = (struct hk_limit_mode){.real = -rate * s->stiffness[k], .decay = rate * s->stiffness[k]};
+    limit->mode[k] =
+        (struct hk_limit_mode){.real = -rate * s->value[k].stiffness, .decay = rate * s->value[k].stiffness};
   limit->frequency = 0.0;
   limit->decay = rate * s->stiffest;
 }
@@ -54,16 +55,16 @@ static int32_t keep_modes(struct hk_limit *limit, const struct hk_spectrum *s) {
   if (limit->mode == NULL) return HOOKE_NO_MEMORY;
   limit->mode_count = s->count;
   for (int64_t k = 0; k < s->count; k++) {
-    const double real = s->real[k],
-                 half = s->imaginary[k] != 0.0 ? real : 0.5 * (real + s->stiffness[k] / real);
-    limit->mode[k] = (struct hk_limit_mode){.real = rate * real,
-                                            .imaginary = rate * s->imaginary[k],
-                                            .frequency = rate * sqrt(s->stiffness[k]),
+    const struct hk_eigenvalue *v = &s->value[k];
+    const double half = v->imaginary != 0.0 ? v->real : 0.5 * (v->real + v->stiffness / v->real);
+    limit->mode[k] = (struct hk_limit_mode){.real = rate * v->real,
+                                            .imaginary = rate * v->imaginary,
+                                            .frequency = rate * sqrt(v->stiffness),
                                             .decay = -rate * half};
   }
   limit->frequency = rate * sqrt(s->stiffest);
   limit->decay = rate * s->fastest_decay;
-  if (limit->system->friction > 0.0) find_overdamped_modes(limit, s);
+  if (limit->system->overdamped) find_overdamped_modes(limit, s);
   limit->clamped = s->linearised->clamped;
   limit->tipping = s->linearised->rigid.tipping;
   memcpy(limit->stiffest, s->stiffest_mode, (size_t)s->linearised->size * sizeof(double));
@@ -75,7 +76,7 @@ static int32_t keep_modes(struct hk_limit *limit, const struct hk_spectrum *s) {
 static int32_t note_buckling(struct hk_limit *limit, const double *q) {
   double rate = 0.0;
   int32_t status = HOOKE_OK;
-  if (limit->system->friction > 0.0 && limit->clamped > 0)
+  if (limit->system->overdamped && limit->clamped > 0)
     status = hk_buckling_rate(limit->system, limit->time, q, &rate);
   for (int32_t k = 0; k < limit->row_count && rate > 0.0; k++) {
     if (!limit->row[k].note[0])

@@ -76,7 +76,7 @@ static void find_oddness(const hooke_system *system, const struct hk_participati
   const double kappa = find_kappa(system, participation->spring[0].spring, &mean);
   springs->odd = kappa > 0.0 ? log(kappa) - mean : 0.0;
   for (int64_t p = 0; p < system->particle_count; p++)
-    sum += system->constrained[p] ? 0.0 : log(system->mass[p]);
+    sum += system->constrained[p] ? 0.0 : log(system->inertia[p]);
   particles->odd = sum / (double)particles->of - log(participation->particle[0].mass);
 }
 

@@ -103,12 +103,12 @@ static void smallest(const struct hk_spectrum *s, int32_t degree, struct hk_pred
   int64_t worst = -1;
   out->limit = INFINITY;
   for (int64_t k = 0; k < s->count; k++) {
-    const double h = step_of(degree, s->real[k], s->imaginary[k], out->limit);
+    const double h = step_of(degree, s->value[k].real, s->value[k].imaginary, out->limit);
     if (!(h < out->limit)) continue;
     out->limit = h;
     worst = k;
   }
-  if (worst >= 0) hk_limit_take_mode(s, s->mode[worst], out);
+  if (worst >= 0) hk_limit_take_mode(s, s->value[worst].mode, out);
   out->exact = s->decisive;
   if (!s->decisive) out->note = PART_KNOWN;
 }
@@ -199,7 +199,7 @@ static void overdamped(struct hk_spectrum *s, const struct hk_stability *stabili
 
 static int32_t find_limit(struct hk_spectrum *s, const struct hk_stability *stability,
                           struct hk_prediction *out) {
-  if (s->linearised->system->friction > 0.0) {
+  if (s->linearised->system->overdamped) {
     overdamped(s, stability, out);
     return HOOKE_OK;
   }

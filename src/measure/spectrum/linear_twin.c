@@ -200,16 +200,22 @@ static int32_t add_springs(const struct making *making, int64_t count, hooke_sys
   return status;
 }
 
+/* Forces on bodies become those that move them alike, less geometric stiffness. */
+static void turn(const struct hk_twin *twin, const double *x, double *f) {
+  hk_rigid_reduce(&twin->rigid, -1.0, (const double *const[3]){x, x + 1, x + 2},
+                  (double *const[3]){f, f + 1, f + 2}, 3);
+}
+
 static int32_t hold(int64_t n, double t, const double *q, const double *v, double *force, void *ctx) {
   (void)t;
   (void)v;
   const struct hk_twin *twin = ctx;
   for (int64_t k = 0; k < 3 * n; k++)
     force[k] += twin->balance[k];
-  if (!hk_rigid_is_any(&twin->rigid)) return 0;
+  if (!(twin->rigid.stiffest > 0.0)) return 0;
   for (int64_t k = 0; k < 3 * n; k++)
     twin->moved[k] = q[k] - twin->place[k];
-  hk_rigid_add_forces(&twin->rigid, twin->moved, force);
+  turn(twin, twin->moved, force);
   return 0;
 }
 
@@ -220,8 +226,7 @@ static int32_t hold_product(int64_t n, double t, const double *q, const double *
   (void)q;
   (void)v;
   (void)dv;
-  const struct hk_twin *twin = ctx;
-  hk_rigid_add_forces(&twin->rigid, dq, out);
+  turn(ctx, dq, out);
   return 0;
 }
 
@@ -245,7 +250,7 @@ static int32_t build(const struct making *making, struct hk_twin *twin, int held
   if (status == HOOKE_OK) status = hooke_system_set_dynamics(system, hooke_system_dynamics(old));
   if (status == HOOKE_OK)
     status = hooke_system_add_particles(system, old->particle_count, twin->place, NULL, old->particle_count,
-                                        hk_system_masses(old), NULL);
+                                        old->mass, NULL);
   for (int64_t p = 0; p < old->particle_count && status == HOOKE_OK; p++) {
     if (old->constrained[p]) status = hooke_system_pin(system, 1, &p);
   }
@@ -254,7 +259,7 @@ static int32_t build(const struct making *making, struct hk_twin *twin, int held
     status = add_body(old->bodies->mover[k], system);
   if (status == HOOKE_OK)
     hk_system_set_linear(system, twin->element_count - springs, twin->element + springs, twin->place);
-  if (status == HOOKE_OK) status = hooke_system_set_drag(system, hk_system_drag(old));
+  if (status == HOOKE_OK) status = hooke_system_set_drag(system, old->drag);
   if (status == HOOKE_OK && held) status = hooke_system_set_force(system, hold, hold_product, twin);
   if (status == HOOKE_OK) status = hooke_system_commit(system);
   if (status == HOOKE_OK)
@@ -310,15 +315,15 @@ static int32_t find_slow_step(struct hk_twin *twin) {
   for (int64_t p = 0; p < system->particle_count; p++) {
     if (hk_bodies_move(system->bodies, p)) continue;
     stiff = fmax(stiff, sum[2 * p] * system->inverse_mass[p]);
-    damp = fmax(damp, (sum[2 * p + 1] + system->drag) * system->inverse_mass[p]);
+    damp = fmax(damp, (sum[2 * p + 1] + system->brake) * system->inverse_mass[p]);
   }
   for (int64_t k = 0; k < twin->rigid.tangents.count; k++) {
     const struct hk_body_tangent *t = &twin->rigid.tangents.body[k];
     stiff = fmax(stiff, body_rate(system, t, sum, 0.0) + twin->rigid.stiffest);
-    damp = fmax(damp, body_rate(system, t, sum + 1, system->drag));
+    damp = fmax(damp, body_rate(system, t, sum + 1, system->brake));
   }
   hk_free(sum);
-  const double rate = system->friction > 0.0 ? stiff : sqrt(stiff);
+  const double rate = system->overdamped ? stiff : sqrt(stiff);
   twin->slow_step = fmin(rate > 0.0 ? 1.0 / rate : INFINITY, damp > 0.0 ? 1.0 / damp : INFINITY);
   return HOOKE_OK;
 }
@@ -342,14 +347,13 @@ static int32_t freeze(struct making *making, struct hk_twin *twin) {
     twin->system = NULL;
     status = build(making, twin, 1, &twin->system);
   }
-  if (status == HOOKE_OK)
-    status = hk_rigid_enlarge(&making->rigid, twin->system, twin->place, making->factor, &twin->rigid);
+  if (status == HOOKE_OK) status = hk_rigid_enlarge(&making->rigid, twin->system, twin->place, &twin->rigid);
   return status == HOOKE_OK ? find_slow_step(twin) : status;
 }
 
 int32_t hk_twin_create(const hooke_system *system, const double *q, struct hk_twin *twin) {
   struct making making = {.system = system, .q = q, .shortest = INFINITY};
-  *twin = (struct hk_twin){.damped = system->drag > 0.0};
+  *twin = (struct hk_twin){.damped = system->brake > 0.0};
   int32_t status = hk_rigid_create(system, q, NULL, &making.rigid);
   if (status == HOOKE_OK) status = freeze(&making, twin);
   hk_rigid_release(&making.rigid);
@@ -386,7 +390,7 @@ double hk_twin_energy(const struct hk_twin *twin, const double *q, const double 
     const double *u = v + 3 * p;
     for (int64_t k = 3 * p; k < 3 * p + 3; k++)
       twin->moved[k] = q[k] - twin->place[k];
-    if (twin->system->friction == 0.0) sum += mass[p] * ((u[0] * u[0] + u[1] * u[1]) + u[2] * u[2]);
+    if (!twin->system->overdamped) sum += mass[p] * ((u[0] * u[0] + u[1] * u[1]) + u[2] * u[2]);
   }
   for (int64_t k = 0; k < twin->spring_count; k++)
     sum += spring_energy(&twin->spring[k], twin->moved);
@@ -403,7 +407,7 @@ void hk_twin_push(const struct hk_twin *twin, const double *x, double *out) {
   const double t = twin->slow_step, *const from[3] = {x, x + 1, x + 2};
   double *const to[3] = {out, out + 1, out + 2};
   for (int64_t k = 0; k < 3 * system->particle_count; k++)
-    out[k] = t * system->drag * x[k];
+    out[k] = t * system->brake * x[k];
   for (const struct hk_element *e = twin->element; e < twin->element + twin->element_count; e++)
     hk_element_multiply(e, t * (t * e->k_along + e->c_along), t * (t * e->k_across + e->c_across), 3, from,
                         to);

@@ -231,7 +231,7 @@ int32_t hk_linearised_create(const hooke_system *system, const double *q, const 
                              const double *spring_scale, const double *mass_scale,
                              struct hk_linearised *lin) {
   const int64_t n = system->particle_count, m = system->springs->count;
-  *lin = (struct hk_linearised){.system = system, .size = 3 * n, .drag = system->drag};
+  *lin = (struct hk_linearised){.system = system, .size = 3 * n, .drag = system->brake};
   int32_t status = check_places(n, q);
   if (status != HOOKE_OK) return status;
   double *block = hk_new(10 * m + 3 * n, sizeof(double));
@@ -248,7 +248,7 @@ int32_t hk_linearised_create(const hooke_system *system, const double *q, const 
   lin->gamma = hk_part(&block, m);
   lin->g_across = hk_part(&block, m);
   for (int64_t p = 0; p < n; p++) {
-    lin->mass[p] = system->mass[p] * (mass_scale ? mass_scale[p] : 1.0);
+    lin->mass[p] = system->inertia[p] * (mass_scale ? mass_scale[p] : 1.0);
     lin->inverse[p] = system->constrained[p] ? 0.0 : 1.0 / lin->mass[p];
     lin->unknowns += is_alone(system, p) ? 3 : 0;
   }

@@ -105,7 +105,7 @@ static double largest_rate(const struct hk_node_blocks *blocks, const double *bl
   double most = 0.0;
   for (int64_t p = 0; p < blocks->system->particle_count; p++) {
     if (blocks->system->constrained[p]) continue;
-    if (stays_below(blocks, p, stiff, !stiff, ALIKE * most * blocks->system->mass[p])) continue;
+    if (stays_below(blocks, p, stiff, !stiff, ALIKE * most * blocks->system->inertia[p])) continue;
     most = fmax(most, hk_eigen_largest(block + 6 * p) * blocks->system->inverse_mass[p]);
   }
   return most;
@@ -124,7 +124,7 @@ int32_t hk_node_blocks_stay_below(const struct hk_node_blocks *blocks, double a,
   const hooke_system *system = blocks->system;
   for (int64_t p = 0; p < system->particle_count; p++) {
     if (system->constrained[p]) continue;
-    if (stays_below(blocks, p, a, b, limit * system->mass[p])) continue;
+    if (stays_below(blocks, p, a, b, limit * system->inertia[p])) continue;
     *particle = p;
     return 0;
   }
@@ -158,7 +158,7 @@ double hk_node_blocks_step(const struct hk_node_blocks *blocks) {
     double high = fmin(best, start), low = 0.0;
     if (isinf(high)) continue;
     if (best < INFINITY &&
-        stays_below(blocks, p, best * best, 2.0 * best, ALIKE * 4.0 * blocks->system->mass[p]))
+        stays_below(blocks, p, best * best, 2.0 * best, ALIKE * 4.0 * blocks->system->inertia[p]))
       continue;
     if (growth(blocks, p, high) <= 4.0) low = high;
     while (high - low > 1e-12 * high) {

@@ -14,23 +14,11 @@ static const double POSITION_ROUNDING = 1e-14;
 
 /* ---- creating ---- */
 
-/* The rows of `axis` are the body's axes in space, over (`inverse`) or times the roots of their inertia. */
-static void scale_axes(const struct hk_body_tangent *t, int inverse, double axis[3][3]) {
+/* The rows of `axis` are the body's axes in space over the roots of their inertia, 0 where that is 0. */
+static void scale_axes(const struct hk_body_tangent *t, double axis[3][3]) {
   for (int k = 0; k < 3; k++) {
-    const double size = sqrt(inverse ? t->body->inverse_inertia[k] : t->body->inertia[k]);
     for (int a = 0; a < 3; a++)
-      axis[k][a] = size * t->axes[a][k];
-  }
-}
-
-/* out = the sum of m[k][l] a[k] a[l]^T over the rows of a. */
-static void transform(const double a[3][3], const double m[3][3], double out[3][3]) {
-  memset(out, 0, 9 * sizeof(double));
-  for (int k = 0; k < 3; k++) {
-    for (int l = 0; l < 3; l++) {
-      for (int i = 0; i < 3; i++)
-        hk_add3(m[k][l] * a[k][i], a[l], out[i]);
-    }
+      axis[k][a] = sqrt(t->body->inverse_inertia[k]) * t->axes[a][k];
   }
 }
 
@@ -58,14 +46,13 @@ static double rounding_of(const hooke_system *system, const double *q, const str
   return POSITION_ROUNDING * size * (strength * extent + t->body->mass * hk_length3(system->gravity));
 }
 
-/* Over the inertia, so that only axes count about which the body turns, and without negative eigenvalues and
- * those of rounding, `slight`. */
+/* Over the inertia, and without negative eigenvalues and those of rounding, `slight`. */
 static void make_positive(struct hk_rigid *rigid, struct hk_body_tangent *t, double slight) {
   const double *inverse = t->body->inverse_inertia;
-  double axis[3][3], m[3][3], vector[3][3], positive[3][3] = {{0.0}};
+  double axis[3][3], m[3][3], vector[3][3];
   int tips = 0;
   slight *= fmax(inverse[0], fmax(inverse[1], inverse[2]));
-  scale_axes(t, 1, axis);
+  scale_axes(t, axis);
   for (int i = 0; i < 3; i++) {
     for (int j = 0; j < 3; j++) {
       const double there[3] = {hk_dot3(t->geometric[0], axis[j]), hk_dot3(t->geometric[1], axis[j]),
@@ -76,15 +63,15 @@ static void make_positive(struct hk_rigid *rigid, struct hk_body_tangent *t, dou
       m[i][j] = m[j][i] = 0.5 * (m[i][j] + m[j][i]);
   }
   hk_body_diagonalise(m, vector);
+  memset(t->geometric, 0, sizeof t->geometric);
   for (int k = 0; k < 3; k++) {
     tips |= m[k][k] < -slight;
-    positive[k][k] = m[k][k] > slight ? m[k][k] : 0.0;
-    rigid->stiffest = fmax(rigid->stiffest, positive[k][k]);
+    if (m[k][k] <= slight) continue;
+    rigid->stiffest = fmax(rigid->stiffest, m[k][k]);
+    for (int i = 0; i < 3; i++)
+      hk_add3(m[k][k] * vector[k][i], vector[k], t->geometric[i]);
   }
   rigid->tipping += tips;
-  transform(vector, positive, m);
-  scale_axes(t, 0, axis);
-  transform(axis, m, t->geometric);
 }
 
 /* Forces of springs become those of springs that are stiffer by their factors. */
@@ -144,17 +131,15 @@ int32_t hk_rigid_create(const hooke_system *system, const double *q, const doubl
   return status;
 }
 
-/* Inertia and geometric stiffness are squares of lengths. */
 int32_t hk_rigid_enlarge(const struct hk_rigid *from, const hooke_system *system, const double *q,
-                         double factor, struct hk_rigid *rigid) {
+                         struct hk_rigid *rigid) {
   memset(rigid, 0, sizeof *rigid);
-  if (!hk_rigid_is_any(from)) return HOOKE_OK;
+  if (from->tangents.count == 0) return HOOKE_OK;
   const int32_t status = hk_body_tangents_create(system, q, &rigid->tangents);
   rigid->stiffest = from->stiffest;
-  for (int64_t k = 0; k < rigid->tangents.count; k++) {
-    for (int a = 0; a < 3; a++)
-      hk_scale3(factor * factor, from->tangents.body[k].geometric[a], rigid->tangents.body[k].geometric[a]);
-  }
+  for (int64_t k = 0; k < rigid->tangents.count; k++)
+    memcpy(rigid->tangents.body[k].geometric, from->tangents.body[k].geometric,
+           sizeof from->tangents.body[k].geometric);
   return status;
 }
 
@@ -163,67 +148,96 @@ void hk_rigid_release(struct hk_rigid *rigid) {
   memset(rigid, 0, sizeof *rigid);
 }
 
-/* ---- products ---- */
+/* ---- unknowns ---- */
 
-/* Rows of the motion. */
-static void spread(const struct hk_rigid *rigid, const struct hk_body_tangent *t, const double move[3],
-                   const double turn[3], double *const x[3], int64_t stride) {
+/* Rows of the motion x = J y. */
+static void spread(const struct hk_rigid *rigid, const struct hk_body_tangent *t, const double y[6],
+                   double *const x[3], int64_t stride) {
+  double move[3], turn[3] = {0.0}, axis[3][3];
+  hk_scale3(sqrt(t->body->inverse_mass), y, move);
+  scale_axes(t, axis);
+  for (int k = 0; k < 3; k++)
+    hk_add3(y[3 + k], axis[k], turn);
   hk_body_spread(rigid->tangents.system, t, move, turn, x, stride);
 }
 
-static void find_motion(const struct hk_rigid *rigid, const struct hk_body_tangent *t,
-                        const double *const x[3], int64_t stride, double move[3], double turn[3]) {
-  hk_body_find_motion(rigid->tangents.system, t, x, stride, move, turn);
+/* y = J^T x: of forces. */
+static void gather(const struct hk_rigid *rigid, const struct hk_body_tangent *t, const double *weight,
+                   const double *const x[3], int64_t stride, double y[6]) {
+  double moment[3], axis[3][3];
+  hk_body_gather(rigid->tangents.system, t, weight, x, stride, y, moment);
+  hk_scale3(sqrt(t->body->inverse_mass), y, y);
+  scale_axes(t, axis);
+  for (int k = 0; k < 3; k++)
+    y[3 + k] = hk_dot3(axis[k], moment);
 }
+
+/* y = J^T M x: the nearest motion, that of rigid bodies exactly, as J^T M J = I. */
+static void find_motion(const struct hk_rigid *rigid, const struct hk_body_tangent *t,
+                        const double *const x[3], int64_t stride, double y[6]) {
+  gather(rigid, t, rigid->tangents.system->mass, x, stride, y);
+}
+
+static int32_t is_free(const struct hk_body *body, int k) {
+  return (k < 3 ? body->inverse_mass : body->inverse_inertia[k - 3]) > 0.0;
+}
+
+int64_t hk_rigid_unknowns(const struct hk_rigid *rigid) {
+  int64_t count = 0;
+  for (int64_t k = 0; k < 6 * rigid->tangents.count; k++)
+    count += is_free(rigid->tangents.body[k / 6].body, (int)(k % 6));
+  return count;
+}
+
+void hk_rigid_pack(const struct hk_rigid *rigid, const double *const x[3], int64_t stride, double *unknown) {
+  for (int64_t k = 0; k < rigid->tangents.count; k++) {
+    double y[6];
+    find_motion(rigid, &rigid->tangents.body[k], x, stride, y);
+    for (int j = 0; j < 6; j++)
+      if (is_free(rigid->tangents.body[k].body, j)) *unknown++ = y[j];
+  }
+}
+
+void hk_rigid_unpack(const struct hk_rigid *rigid, const double *unknown, double *const x[3],
+                     int64_t stride) {
+  for (int64_t k = 0; k < rigid->tangents.count; k++) {
+    double y[6];
+    for (int j = 0; j < 6; j++)
+      y[j] = is_free(rigid->tangents.body[k].body, j) ? *unknown++ : 0.0;
+    spread(rigid, &rigid->tangents.body[k], y, x, stride);
+  }
+}
+
+/* ---- products ---- */
 
 void hk_rigid_project(const struct hk_rigid *rigid, double *const x[3], int64_t stride) {
   for (int64_t k = 0; k < rigid->tangents.count; k++) {
-    const struct hk_body_tangent *t = &rigid->tangents.body[k];
-    double move[3], turn[3];
-    find_motion(rigid, t, (const double *const *)x, stride, move, turn);
-    spread(rigid, t, move, turn, x, stride);
+    double y[6];
+    find_motion(rigid, &rigid->tangents.body[k], (const double *const *)x, stride, y);
+    spread(rigid, &rigid->tangents.body[k], y, x, stride);
   }
 }
 
-/* f = masses times the motion. */
-static void spread_inertia(const struct hk_rigid *rigid, const struct hk_body_tangent *t,
-                           const double move[3], const double turn[3], double *const f[3], int64_t stride) {
-  const hooke_system *system = rigid->tangents.system;
-  spread(rigid, t, move, turn, f, stride);
-  for (int64_t i = 0; i < t->body->count; i++) {
-    const int64_t p = t->body->particle[i];
-    for (int a = 0; a < 3 && !system->constrained[p]; a++)
-      f[a][stride * p] *= system->mass[p];
-  }
+/* y += scale times the geometric stiffness times a motion. */
+static void add_geometric(const struct hk_body_tangent *t, double scale, const double motion[6],
+                          double y[6]) {
+  for (int k = 0; k < 3; k++)
+    y[3 + k] += scale * hk_dot3(t->geometric[k], motion + 3);
 }
 
 void hk_rigid_reduce(const struct hk_rigid *rigid, double scale, const double *const x[3], double *const f[3],
                      int64_t stride) {
+  const hooke_system *system = rigid->tangents.system;
   for (int64_t k = 0; k < rigid->tangents.count; k++) {
     const struct hk_body_tangent *t = &rigid->tangents.body[k];
-    double force[3], torque[3], move[3], turn[3];
-    hk_body_gather(rigid->tangents.system, t, NULL, (const double *const *)f, stride, force, torque);
-    find_motion(rigid, t, x, stride, move, turn);
-    hk_body_turn_forces(t, -scale, turn, torque);
-    hk_body_respond(t, force, torque, move, turn);
-    spread_inertia(rigid, t, move, turn, f, stride);
-  }
-}
-
-void hk_rigid_add_forces(const struct hk_rigid *rigid, const double *x, double *f) {
-  const double no_force[3] = {0.0}, *const from[3] = {x, x + 1, x + 2};
-  for (int64_t k = 0; k < rigid->tangents.count && rigid->stiffest > 0.0; k++) {
-    const struct hk_body_tangent *t = &rigid->tangents.body[k];
-    double move[3], turn[3], torque[3] = {0.0};
-    find_motion(rigid, t, from, 3, move, turn);
-    hk_body_turn_forces(t, 1.0, turn, torque);
-    hk_body_respond(t, no_force, torque, move, turn);
-    for (int64_t i = 0; i < t->body->count; i++) {
-      const int64_t p = t->body->particle[i];
-      double swing[3];
-      if (rigid->tangents.system->constrained[p]) continue;
-      hk_cross3(turn, t->arm + 3 * i, swing);
-      hk_add3(rigid->tangents.system->mass[p], swing, f + 3 * p);
+    double y[6], motion[6];
+    gather(rigid, t, NULL, (const double *const *)f, stride, y);
+    find_motion(rigid, t, x, stride, motion);
+    add_geometric(t, scale, motion, y);
+    spread(rigid, t, y, f, stride);
+    for (int64_t i = 0; i < 3 * t->body->count; i++) {
+      const int64_t p = t->body->particle[i / 3];
+      if (!system->constrained[p]) f[i % 3][stride * p] *= system->mass[p];
     }
   }
 }
@@ -231,10 +245,10 @@ void hk_rigid_add_forces(const struct hk_rigid *rigid, const double *x, double *
 double hk_rigid_energy(const struct hk_rigid *rigid, const double *const x[3], int64_t stride) {
   double sum = 0.0;
   for (int64_t k = 0; k < rigid->tangents.count && rigid->stiffest > 0.0; k++) {
-    double move[3], turn[3], torque[3] = {0.0};
-    find_motion(rigid, &rigid->tangents.body[k], x, stride, move, turn);
-    hk_body_turn_forces(&rigid->tangents.body[k], -1.0, turn, torque);
-    sum += hk_dot3(turn, torque);
+    double motion[6], y[6] = {0.0};
+    find_motion(rigid, &rigid->tangents.body[k], x, stride, motion);
+    add_geometric(&rigid->tangents.body[k], 1.0, motion, y);
+    sum += hk_dot3(motion + 3, y + 3);
   }
   return sum;
 }
@@ -243,51 +257,12 @@ double hk_rigid_spin(const struct hk_rigid *rigid, const double *v) {
   const double *const from[3] = {v, v + 1, v + 2};
   double most = 0.0;
   for (int64_t k = 0; k < rigid->tangents.count; k++) {
-    double move[3], turn[3];
-    find_motion(rigid, &rigid->tangents.body[k], from, 3, move, turn);
-    most = fmax(most, hk_length3(turn));
+    const struct hk_body_tangent *t = &rigid->tangents.body[k];
+    double y[6];
+    find_motion(rigid, t, from, 3, y);
+    for (int a = 0; a < 3; a++)
+      y[a] = sqrt(t->body->inverse_inertia[a]) * y[3 + a];
+    most = fmax(most, hk_length3(y));
   }
   return most;
-}
-
-/* ---- unknowns ---- */
-
-int64_t hk_rigid_unknowns(const struct hk_rigid *rigid) {
-  int64_t count = 0;
-  for (int64_t k = 0; k < rigid->tangents.count; k++) {
-    const struct hk_body *body = rigid->tangents.body[k].body;
-    count += body->inverse_mass > 0.0 ? 3 : 0;
-    for (int a = 0; a < 3; a++)
-      count += body->inverse_inertia[a] > 0.0;
-  }
-  return count;
-}
-
-void hk_rigid_pack(const struct hk_rigid *rigid, const double *const x[3], int64_t stride, double *unknown) {
-  for (int64_t k = 0; k < rigid->tangents.count; k++) {
-    const struct hk_body_tangent *t = &rigid->tangents.body[k];
-    double move[3], turn[3], axis[3][3];
-    find_motion(rigid, t, x, stride, move, turn);
-    scale_axes(t, 0, axis);
-    for (int a = 0; a < 3 && t->body->inverse_mass > 0.0; a++)
-      *unknown++ = sqrt(t->body->mass) * move[a];
-    for (int a = 0; a < 3; a++) {
-      if (t->body->inverse_inertia[a] > 0.0) *unknown++ = hk_dot3(axis[a], turn);
-    }
-  }
-}
-
-void hk_rigid_unpack(const struct hk_rigid *rigid, const double *unknown, double *const x[3],
-                     int64_t stride) {
-  for (int64_t k = 0; k < rigid->tangents.count; k++) {
-    const struct hk_body_tangent *t = &rigid->tangents.body[k];
-    double move[3] = {0.0}, turn[3] = {0.0}, axis[3][3];
-    scale_axes(t, 1, axis);
-    for (int a = 0; a < 3 && t->body->inverse_mass > 0.0; a++)
-      move[a] = sqrt(t->body->inverse_mass) * *unknown++;
-    for (int a = 0; a < 3; a++) {
-      if (t->body->inverse_inertia[a] > 0.0) hk_add3(*unknown++, axis[a], turn);
-    }
-    spread(rigid, t, move, turn, x, stride);
-  }
 }

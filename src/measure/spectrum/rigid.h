@@ -1,16 +1,17 @@
 /* Rigid bodies in a linearised system. Displacements are those of all particles still, restricted to rigid
- * motions of each body: K, C and M of particles give those of bodies by the restriction. What it leaves out
- * is that forces at rest turn with the arms of a body, the geometric stiffness (model/body_tangent.h): of
- * gravity and tensions, callbacks left out. It is made symmetric, which it is by itself in equilibrium, and
- * what would tip a body over, like the transverse stiffness of compressed springs, counts as 0. Components
- * are `stride` apart. */
+ * motions x = J y of each body, where y are the motions of its point and about its axes, times the roots of
+ * mass and inertia, so that J^T M J = I: K, C and M of particles give those of bodies by the restriction.
+ * What it leaves out is that forces at rest turn with the arms of a body, the geometric stiffness
+ * (model/body_tangent.h): of gravity and tensions, callbacks left out. It is made symmetric, which it is by
+ * itself in equilibrium, and what would tip a body over, like the transverse stiffness of compressed
+ * springs, counts as 0. Components are `stride` apart. */
 #ifndef HOOKE_MEASURE_SPECTRUM_RIGID_H
 #define HOOKE_MEASURE_SPECTRUM_RIGID_H
 
 #include "model/body_tangent.h"
 
 struct hk_rigid {
-  struct hk_body_tangents tangents; /* `geometric` is symmetric, without what tips over */
+  struct hk_body_tangents tangents; /* `geometric` is that of y [1/s^2], symmetric, without what tips over */
   double stiffest;                  /* largest eigenvalue of geometric stiffness over inertia [1/s^2] */
   int64_t tipping;                  /* bodies of which something was left out */
 };
@@ -19,14 +20,10 @@ struct hk_rigid {
  * zeros without bodies. HOOKE_NO_MEMORY. */
 int32_t hk_rigid_create(const hooke_system *system, const double *q, const double *spring_scale,
                         struct hk_rigid *rigid);
-/* For the same bodies at positions that are `factor` times as large, in a system of such positions. */
+/* For the same bodies in a system of positions that are a factor larger: y and its stiffness stay. */
 int32_t hk_rigid_enlarge(const struct hk_rigid *from, const hooke_system *system, const double *q,
-                         double factor, struct hk_rigid *rigid);
+                         struct hk_rigid *rigid);
 void hk_rigid_release(struct hk_rigid *rigid);
-
-static inline int32_t hk_rigid_is_any(const struct hk_rigid *rigid) {
-  return rigid->tangents.count > 0;
-}
 
 /* x becomes the nearest motion in which all bodies are rigid. */
 void hk_rigid_project(const struct hk_rigid *rigid, double *const x[3], int64_t stride);
@@ -34,8 +31,6 @@ void hk_rigid_project(const struct hk_rigid *rigid, double *const x[3], int64_t 
  * `scale` times the geometric stiffness times x was added. */
 void hk_rigid_reduce(const struct hk_rigid *rigid, double scale, const double *const x[3], double *const f[3],
                      int64_t stride);
-/* f -= geometric stiffness times x, as forces on particles; rows of x y z. */
-void hk_rigid_add_forces(const struct hk_rigid *rigid, const double *x, double *f);
 /* x.Kx of the geometric stiffness. */
 double hk_rigid_energy(const struct hk_rigid *rigid, const double *const x[3], int64_t stride);
 /* The largest angular velocity of a body [rad/s]. */

@@ -23,28 +23,21 @@ enum { MODES_OF_STIFFNESS = 8, MODES_OF_DAMPING = 4, MOST_OF_BASIS = 16 };
 
 void hk_spectrum_release(struct hk_spectrum *s) {
   hk_free(s->stiffest_mode);
-  hk_free(s->real);
-  hk_free(s->mode);
+  hk_free(s->value);
   hk_free(s->block);
   memset(s, 0, sizeof *s);
 }
 
 static int32_t make_room(struct hk_spectrum *s, int64_t count, int64_t modes) {
-  s->real = hk_new(3 * count, sizeof(double));
-  s->mode = hk_new(count, sizeof *s->mode);
+  s->value = hk_new(count, sizeof *s->value);
   s->block = hk_new(modes * s->linearised->size, sizeof(double));
-  if (!s->real || !s->mode || !s->block) return HOOKE_NO_MEMORY;
-  s->imaginary = s->real + count;
-  s->stiffness = s->imaginary + count;
-  return HOOKE_OK;
+  return s->value && s->block ? HOOKE_OK : HOOKE_NO_MEMORY;
 }
 
 static void add(struct hk_spectrum *s, double real, double imaginary, double k, const double *mode) {
   if (hypot(real, imaginary) <= STILL) return;
-  s->real[s->count] = real;
-  s->imaginary[s->count] = imaginary;
-  s->stiffness[s->count] = k;
-  s->mode[s->count++] = mode;
+  s->value[s->count] = (struct hk_eigenvalue){real, imaginary, k, mode, s->count};
+  s->count++;
 }
 
 void hk_spectrum_roots(double c, double k, double real[2], double imaginary[2]) {
@@ -315,41 +308,11 @@ static int32_t solve_stiffest(struct hk_spectrum *s) {
 
 /* ---- order ---- */
 
-struct place {
-  double size;
-  int64_t number;
-};
-
 static int compare(const void *a, const void *b) {
-  const struct place *x = a, *y = b;
-  if (x->size != y->size) return (x->size < y->size) - (x->size > y->size);
+  const struct hk_eigenvalue *x = a, *y = b;
+  const double one = hypot(x->real, x->imaginary), other = hypot(y->real, y->imaginary);
+  if (one != other) return (one < other) - (one > other);
   return (x->number > y->number) - (x->number < y->number);
-}
-
-static int32_t sort(struct hk_spectrum *s) {
-  struct place *place = hk_new(s->count, sizeof *place);
-  double *number = hk_new(3 * s->count, sizeof(double));
-  const double **mode = hk_new(s->count, sizeof *mode);
-  const int32_t status = place && number && mode ? HOOKE_OK : HOOKE_NO_MEMORY;
-  if (status == HOOKE_OK && s->count > 0) {
-    for (int64_t k = 0; k < s->count; k++)
-      place[k] = (struct place){hypot(s->real[k], s->imaginary[k]), k};
-    qsort(place, (size_t)s->count, sizeof *place, compare);
-    for (int64_t k = 0; k < s->count; k++) {
-      number[k] = s->real[place[k].number];
-      number[s->count + k] = s->imaginary[place[k].number];
-      number[2 * s->count + k] = s->stiffness[place[k].number];
-      mode[k] = s->mode[place[k].number];
-    }
-    memcpy(s->real, number, (size_t)s->count * sizeof(double));
-    memcpy(s->imaginary, number + s->count, (size_t)s->count * sizeof(double));
-    memcpy(s->stiffness, number + 2 * s->count, (size_t)s->count * sizeof(double));
-    memcpy(s->mode, mode, (size_t)s->count * sizeof *mode);
-  }
-  hk_free(place);
-  hk_free(number);
-  hk_free(mode);
-  return status;
 }
 
 /* ---- creating ---- */
@@ -402,7 +365,7 @@ int32_t hk_spectrum_create(struct hk_linearised *lin, double accuracy, enum hk_s
   if (status == HOOKE_OK && lin->unknowns > 0 && extent == HOOKE_SPECTRUM_ALL) status = solve(s, decaying);
   if (status == HOOKE_OK && lin->unknowns > 0 && extent == HOOKE_SPECTRUM_EXTREMES)
     status = solve_extremes(s, decaying);
-  if (status == HOOKE_OK) status = sort(s);
+  if (status == HOOKE_OK && s->count > 0) qsort(s->value, (size_t)s->count, sizeof *s->value, compare);
   hk_free(decaying);
   if (status != HOOKE_OK) hk_spectrum_release(s);
   return status;

@@ -10,6 +10,13 @@
  * = beta K + delta M (including no damping), since then those of K suffice. */
 enum { HOOKE_SPECTRUM_DAMPED = 400, HOOKE_SPECTRUM_PROPORTIONAL = 1500 };
 
+struct hk_eigenvalue {
+  double real, imaginary; /* the latter >= 0 */
+  double stiffness;       /* k of its mode: lambda^2 + lambda c + k = 0 */
+  const double *mode;     /* NULL if unknown */
+  int64_t number;         /* in the order in which they were found */
+};
+
 struct hk_spectrum {
   struct hk_linearised *linearised;
   double accuracy;
@@ -18,11 +25,9 @@ struct hk_spectrum {
   double beta, delta;
   double stiffest, fastest_decay; /* largest eigenvalues of M^-1 K and M^-1 C */
   double *stiffest_mode;          /* 3n */
-  int64_t count;                  /* eigenvalues with an imaginary part >= 0, the largest first */
-  double *real, *imaginary;
-  double *stiffness;   /* k of its mode: lambda^2 + lambda c + k = 0 */
-  const double **mode; /* of each, NULL if unknown */
-  double *block;       /* their number */
+  int64_t count;
+  struct hk_eigenvalue *value; /* the largest first */
+  double *block;               /* the numbers of modes */
 };
 
 /* Extent of the computation: the stiffest mode, and whether damping is proportional; in addition the fastest

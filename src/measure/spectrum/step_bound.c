@@ -14,9 +14,9 @@ static double least_drag_rate(const struct hk_node_blocks *blocks) {
   const hooke_system *system = blocks->system;
   double heaviest = 0.0;
   for (int64_t p = 0; p < system->particle_count; p++) {
-    if (!system->constrained[p]) heaviest = fmax(heaviest, system->mass[p]);
+    if (!system->constrained[p]) heaviest = fmax(heaviest, system->inertia[p]);
   }
-  return system->drag / heaviest;
+  return system->brake / heaviest;
 }
 
 /* The imaginary axis is not stable: h k <= c of Euler's method and h^3 k^2 <= 4 c of degree 2, for every
@@ -77,7 +77,7 @@ int32_t hk_step_is_safe(const struct hk_node_blocks *blocks, const char *method,
                         int64_t *particle) {
   const struct hk_stability *stability = hk_method_stability(method);
   if (blocks->system->moving_bodies > 0 || blocks->unknown) return 1;
-  if (blocks->system->friction > 0.0 && stability->kind == HOOKE_STABLE_BY_POLYNOMIAL)
+  if (blocks->system->overdamped && stability->kind == HOOKE_STABLE_BY_POLYNOMIAL)
     return hk_node_blocks_stay_below(blocks, h, 0.0, hk_real_reach(stability->degree), particle);
   switch (stability->kind) {
   case HOOKE_STABLE_BY_K:
@@ -99,8 +99,8 @@ static double unknown_bound(const char *method) {
 double hk_step_bound_of(const struct hk_node_blocks *blocks, const char *method) {
   const struct hk_stability *stability = hk_method_stability(method);
   if (blocks->system->moving_bodies > 0 || blocks->unknown) return unknown_bound(method);
-  if (blocks->system->friction > 0.0 && !hk_method_suits(method, blocks->system)) return NAN;
-  if (blocks->system->friction > 0.0 && stability->kind == HOOKE_STABLE_BY_POLYNOMIAL)
+  if (blocks->system->overdamped && !hk_method_suits(method, blocks->system)) return NAN;
+  if (blocks->system->overdamped && stability->kind == HOOKE_STABLE_BY_POLYNOMIAL)
     return overdamped_bound(blocks, stability);
   switch (stability->kind) {
   case HOOKE_STABLE_BY_K:

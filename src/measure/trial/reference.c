@@ -32,8 +32,7 @@ int32_t hk_reference_method(const hooke_system *system, const double *q, const c
   if (system->moving_bodies > 0) return HOOKE_OK;
   const int32_t status = hk_node_blocks_create(system, q, &blocks);
   if (status != HOOKE_OK) return status;
-  if (system->friction > 0.0 ||
-      hk_node_blocks_damping_rate(&blocks) > 2.0 * hk_node_blocks_frequency(&blocks))
+  if (system->overdamped || hk_node_blocks_damping_rate(&blocks) > 2.0 * hk_node_blocks_frequency(&blocks))
     *method = "cvode-bdf";
   hk_node_blocks_release(&blocks);
   return HOOKE_OK;

@@ -41,7 +41,8 @@ static double length_of(const struct hk_growing *g, const double *x) {
   double sum = 0.0;
   for (int64_t p = 0; p < g->system->particle_count; p++) {
     const double *a = x + 3 * p;
-    if (!g->system->constrained[p]) sum += g->system->mass[p] * ((a[0] * a[0] + a[1] * a[1]) + a[2] * a[2]);
+    if (!g->system->constrained[p])
+      sum += g->system->inertia[p] * ((a[0] * a[0] + a[1] * a[1]) + a[2] * a[2]);
   }
   return sqrt(sum);
 }
@@ -92,7 +93,7 @@ double hk_growing_quotient(struct hk_growing *g, const double *q, double a, doub
   for (int64_t p = 0; p < g->system->particle_count; p++) {
     const double *x = g->x + 3 * p, *out = g->out + 3 * p;
     energy += (x[0] * out[0] + x[1] * out[1]) + x[2] * out[2];
-    square += g->system->mass[p] * ((x[0] * x[0] + x[1] * x[1]) + x[2] * x[2]);
+    square += g->system->inertia[p] * ((x[0] * x[0] + x[1] * x[1]) + x[2] * x[2]);
   }
   return square > 0.0 ? energy / square : 0.0;
 }

@@ -179,7 +179,7 @@ static void judge_overflow(struct hk_inquiry *inquiry) {
   if (steepest.force)
     hk_print(what, sizeof what, ": the steepest is %s, %.6g N/m on %.6g kg",
              hk_naming_words(system, steepest.force, steepest.number, where), steepest.stiffness,
-             system->mass[steepest.particle]);
+             system->inertia[steepest.particle]);
   say(inquiry, "overflow",
       "numbers leave the range of double precision within a few steps after t = %.6g s%s%s",
       inquiry->why->time, what, step);

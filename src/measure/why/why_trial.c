@@ -120,7 +120,7 @@ static double bytes_of_trial(const struct hk_trials *trials, const char *method)
   const double n = (double)trials->inquiry->system->particle_count;
   /* the state, the motion, and the last states as far as 16 MB have them */
   const struct hk_method *row = hk_method_find(method);
-  double numbers = row && row->implicit ? 300.0 : 25.0;
+  double numbers = row && row->solved ? 300.0 : 25.0;
   const double recent = fmin(16e6, 9.0 * 6.0 * n * sizeof(double));
   for (size_t k = 0; k < sizeof heavy / sizeof heavy[0]; k++) {
     if (strcmp(method, heavy[k].method) == 0) numbers = heavy[k].numbers;

@@ -81,7 +81,7 @@ int32_t hk_why_walk(const hooke_system *system, const struct hk_why_start *start
   if (status == HOOKE_OK) status = begin(it, start, state);
   for (int64_t k = 0; k < count && status == HOOKE_OK && seen == 0; k++) {
     if (!reach(it, time[k], &status)) break;
-    status = it->method->store(it, it->t, state);
+    status = it->method->steps->store(it, it->t, state);
     *state->t = it->t;
     if (status == HOOKE_OK) seen = see(k, state, ctx);
   }

@@ -10,7 +10,7 @@
 /* An overdamped system has no inertia. */
 static double kinetic_energy(const hooke_system *system, const double *v) {
   struct hk_sum sum = {0.0, 0.0};
-  if (system->friction > 0.0) return 0.0;
+  if (system->overdamped) return 0.0;
   for (int64_t p = 0; p < system->particle_count; p++) {
     if (system->constrained[p]) continue;
     const double square = (v[3 * p] * v[3 * p] + v[3 * p + 1] * v[3 * p + 1]) + v[3 * p + 2] * v[3 * p + 2];
@@ -20,15 +20,15 @@ static double kinetic_energy(const hooke_system *system, const double *v) {
 }
 
 static int has_inertia(const hooke_system *system) {
-  return system->rest->committed && system->friction == 0.0;
+  return system->rest->committed && !system->overdamped;
 }
 
 /* Of gamma v. */
 static double friction_heat(const hooke_system *system, const double *v) {
   struct hk_sum sum = {0.0, 0.0};
-  for (int64_t k = 0; system->friction > 0.0 && k < 3 * system->particle_count; k++)
+  for (int64_t k = 0; system->overdamped && k < 3 * system->particle_count; k++)
     hk_sum_add(&sum, system->constrained[k / 3] ? 0.0 : v[k] * v[k]);
-  return system->friction * hk_sum_value(&sum);
+  return system->drag * hk_sum_value(&sum);
 }
 
 static void add_potentials(const hooke_system *system, const double *q, struct hk_energies *sum) {

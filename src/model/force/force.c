@@ -77,10 +77,10 @@ int32_t hooke_system_force(const hooke_system *system, double t, const double *q
   const int32_t status = forces_at(system, t, q, v, &motion);
   if (status != HOOKE_OK) return status;
   hk_rows_from_components(motion->n, motion->f, force);
-  for (int64_t p = 0; system->has_gravity && p < motion->n; p++) {
+  for (int64_t p = 0; system->falls && p < motion->n; p++) {
     if (system->constrained[p]) continue;
     for (int a = 0; a < 3; a++)
-      force[3 * p + a] += system->mass[p] * system->gravity[a];
+      force[3 * p + a] += system->mass[p] * system->fall[a];
   }
   hk_motion_destroy(motion);
   return HOOKE_OK;
@@ -98,7 +98,7 @@ int32_t hooke_system_acceleration(const hooke_system *system, double t, const do
       if (system->constrained[p])
         *value = 0.0;
       else
-        *value = system->has_gravity ? w * motion->f[a][p] + system->gravity[a] : w * motion->f[a][p];
+        *value = system->falls ? w * motion->f[a][p] + system->fall[a] : w * motion->f[a][p];
     }
   }
   hk_bodies_accelerate(system, motion, acceleration);

@@ -72,7 +72,7 @@ static int32_t add(const hooke_system *system, struct hk_motion *motion, double 
   double *q = motion->rows, *v = q + 3 * n, *f = v + 3 * n;
   hk_rows_from_components(n, motion->q, q);
   hk_rows_from_components(n, motion->v, v);
-  if (system->friction > 0.0) memset(v, 0, (size_t)(3 * n) * sizeof(double));
+  if (system->overdamped) memset(v, 0, (size_t)(3 * n) * sizeof(double));
   hk_rows_from_components(n, motion->f, f);
   const int32_t value = system->force(n, t, q, v, f, system->force_ctx);
   if (value != 0) {
@@ -115,7 +115,7 @@ static int32_t add_difference(const hooke_system *system, const struct hk_point 
     const double from = side == 0 ? step : -step;
     for (int64_t k = 0; k < size; k++) {
       q[k] = point->q[k] + from * point->dq[k];
-      v[k] = system->friction > 0.0 ? 0.0 : point->v[k] + from * point->dv[k];
+      v[k] = system->overdamped ? 0.0 : point->v[k] + from * point->dv[k];
     }
     value = system->force(n, point->t, q, v, v + size, system->force_ctx);
   }
@@ -132,7 +132,7 @@ static int32_t add_difference(const hooke_system *system, const struct hk_point 
 static int32_t add_product(const hooke_system *system, const struct hk_point *point, double *out) {
   if (system->force_product == NULL) return add_difference(system, point, out);
   const int64_t n = system->particle_count, size = 3 * n;
-  const int32_t still = system->friction > 0.0, own = still || !point->in_rows;
+  const int32_t still = system->overdamped, own = still || !point->in_rows;
   double *rows = own ? hk_rows_new(5 * size) : NULL;
   if (own && rows == NULL) return HOOKE_NO_MEMORY;
   const double *const from[5] = {point->q, still ? NULL : point->v, point->dq, still ? NULL : point->dv, out};

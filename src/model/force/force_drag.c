@@ -5,15 +5,15 @@
 #include "model/variant/variant.h"
 
 static int32_t present(const hooke_system *system) {
-  return system->drag > 0.0;
+  return system->brake > 0.0;
 }
 
 static void check(const hooke_system *system, uint32_t *value) {
-  hk_check_add(value, &system->drag, 1, sizeof(double));
+  hk_check_add(value, &system->brake, 1, sizeof(double));
 }
 
 static int32_t copy(const struct hk_variant_maker *maker) {
-  return hooke_system_set_drag(maker->made, hk_system_drag(maker->from));
+  return hooke_system_set_drag(maker->made, maker->from->drag);
 }
 
 static void brake(const hooke_system *system, struct hk_motion *motion, int64_t from, int64_t to) {

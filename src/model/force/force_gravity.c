@@ -6,11 +6,11 @@
 #include "model/variant/variant.h"
 
 static int32_t present(const hooke_system *system) {
-  return hk_system_has_gravity(system);
+  return system->has_gravity;
 }
 
 static double energy(const hooke_system *system, const double *q) {
-  const double *g = hk_system_gravity(system), *mass = hk_system_masses(system);
+  const double *g = system->gravity, *mass = system->mass;
   struct hk_sum sum = {0.0, 0.0};
   for (int64_t p = 0; p < system->particle_count; p++) {
     if (system->constrained[p]) continue;
@@ -20,24 +20,24 @@ static double energy(const hooke_system *system, const double *q) {
 }
 
 static void check(const hooke_system *system, uint32_t *value) {
-  hk_check_add(value, hk_system_gravity(system), 3, sizeof(double));
+  hk_check_add(value, system->gravity, 3, sizeof(double));
 }
 
 static int32_t copy(const struct hk_variant_maker *maker) {
-  return hooke_system_set_gravity(maker->made, hk_system_gravity(maker->from));
+  return hooke_system_set_gravity(maker->made, maker->from->gravity);
 }
 
 /* ---- in an overdamped system it is a force, and copied with gravity ---- */
 
 static int32_t weighs(const hooke_system *system) {
-  return system->friction > 0.0 && hk_system_has_gravity(system);
+  return system->overdamped && system->has_gravity;
 }
 
 static int32_t add_weight(const hooke_system *system, struct hk_motion *motion, double t) {
   (void)t;
   for (int a = 0; a < 3; a++) {
     for (int64_t p = 0; p < motion->n; p++)
-      motion->f[a][p] += system->constrained[p] ? 0.0 : system->weight[p] * system->pull[a];
+      motion->f[a][p] += system->constrained[p] ? 0.0 : system->mass[p] * system->gravity[a];
   }
   return HOOKE_OK;
 }

@@ -96,7 +96,7 @@ static int32_t add_alone(struct hk_variant_maker *maker, int64_t first, int64_t 
     if (stop > first) {
       status = hooke_system_add_particles(maker->made, stop - first, from->position + 3 * first,
                                           from->velocity ? from->velocity + 3 * first : NULL, stop - first,
-                                          hk_system_masses(from) + first, &added);
+                                          from->mass + first, &added);
     }
     for (int64_t p = first; p < stop; p++)
       maker->map->to[p] = added + p - first;

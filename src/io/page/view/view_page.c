@@ -35,7 +35,7 @@ static void add_scene(struct hk_text *data, const struct hk_view *view, char *co
   if (status == HOOKE_OK) status = hooke_scene_commit(scene);
   if (status == HOOKE_NO_MEMORY || status == HOOKE_IO_FAILED) data->status = status;
   if (status == HOOKE_OK) {
-    gravity = hooke_scene_system(scene)->gravity;
+    gravity = hooke_scene_system(scene)->fall;
     hk_view_bodies_add(data, view, hooke_scene_system(scene));
     if (title == NULL && hooke_scene_text(scene, "title")[0]) title = hooke_scene_text(scene, "title");
   }
