@@ -117,12 +117,21 @@ def hooke(tmp_path):
     return call
 
 
+def used(process):
+    """Seconds of processor, which are the same on a busy machine."""
+    fields = Path(f"/proc/{process.pid}/stat").read_text().rsplit(")", 1)[1].split()
+    return sum(map(int, fields[11:13])) / os.sysconf("SC_CLK_TCK")
+
+
 def interrupt(process, after=0.0):
-    """Ctrl-C, so many seconds after the program has begun to handle it."""
+    """Ctrl-C, once the program handles it and has used so many more seconds of processor."""
     while int(re.search(r"SigCgt:\s*(\w+)", Path(f"/proc/{process.pid}/status").read_text()).group(1), 16) & 2 == 0:
         assert process.poll() is None
         time.sleep(0.01)
-    time.sleep(after)
+    begun = used(process)
+    while used(process) < begun + after:
+        assert process.poll() is None
+        time.sleep(0.01)
     assert process.poll() is None
     process.send_signal(signal.SIGINT)
 

@@ -9,7 +9,8 @@ from conftest import SIX_PARTICLES
 
 pytestmark = pytest.mark.everything
 
-VERBS = [["run"], ["check"], ["compare"], ["study"], ["limit"], ["why"], ["needs", "--want", "1mm"], ["view"], ["run", "--resume"]]
+VERBS = [["run"], ["check"], ["compare"], ["study"], ["limit"], ["why"], ["needs", "--want", "1mm"], ["view", "-o", "page.html"],
+         ["run", "--resume"]]
 NO_PIPE = "is not a regular file; allowed: a scene file, no pipe and no device"
 KINDS = {
     "pipe": (NO_PIPE, os.mkfifo),

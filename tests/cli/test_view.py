@@ -264,7 +264,7 @@ def test_what_is_refused(hooke, write, tmp_path):
     scene = write(SIX_PARTICLES, duration=0.1)
     assert hooke("run", scene, "-o", "out.h5").code == 0
     (tmp_path / "other.txt").write_text("words")
-    for source, words in (("other.txt", 'other.txt:1:1: starts with "w"'), ("nothing.h5", "nothing.h5: cannot be opened")):
+    for source, words in (("other.txt", "other.txt:1:1: words is not JSON here"), ("nothing.h5", "nothing.h5: cannot be opened")):
         answer = hooke("view", source, "-o", "page.html", "--json")
         assert answer.code == 3 and words in answer.json["error"]["message"]
     assert hooke("compare", scene, "--methods", "rk4", "-o", "several.h5").code == 0

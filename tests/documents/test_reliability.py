@@ -100,7 +100,7 @@ def test_a_part_goes_on_where_it_was(steps, monkeypatch, capsys):
     wrong.touch()
     assert steps.run_part(part) == 2  # `two`, and `three`, whose pipe failed
     assert ran.read_text().split() == ["one", "two", "three"]
-    assert "Not run yet, or failed: two, three." in steps.PAGE.read_text()
+    assert "Not run yet, or failed: two; three." in steps.PAGE.read_text()
     assert "FAILED" in capsys.readouterr().out
     wrong.unlink()
     part.steps[2].command = f"echo three >>{ran}"
