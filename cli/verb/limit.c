@@ -88,8 +88,8 @@ static void print_json(const struct limit *l) {
   cli_table_print_row(&json, l->limit, "limit", 0);
   cli_table_print(&json, "rows", l->limit, "rows");
   cli_limiting_json(&json, l->limit);
-  cli_table_print(&json, "movers", l->limit, "movers");
-  cli_table_print(&json, "remedy", l->limit, "remedy");
+  cli_table_print(&json, "participation", l->limit, "participation");
+  cli_table_print(&json, "changes", l->limit, "changes");
   cli_table_print(&json, "modes", l->limit, "modes");
   cli_json_end(&json);
 }
@@ -147,10 +147,10 @@ static void print_notes(const struct limit *l, int32_t width) {
 }
 
 static void print_limiting(const hooke_measurement *limit) {
-  const char *sentence = hooke_measurement_text(limit, "remedy", 0, "sentence");
+  const char *sentence = hooke_measurement_text(limit, "changes", 0, "sentence");
   if (hooke_measurement_row_count(limit, "blame") > 0) printf("\n");
   cli_limiting_print(limit);
-  if (sentence) cli_print_fact(INDENT, WIDTH, "remedy", sentence);
+  if (sentence) cli_print_fact(INDENT, WIDTH, "changes", sentence);
 }
 
 static void print_words(const struct limit *l) {

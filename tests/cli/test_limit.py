@@ -43,10 +43,10 @@ def test_blame(hooke, write):
     shares = [spring["share"] for spring in answer["blame"]]
     assert 0.99 < sum(shares) <= 1 + 1e-12 and shares == sorted(shares, reverse=True)
     assert answer["blame"][0]["spring"] == [0, 1] and answer["blame"][0]["group"] == "edges"
-    assert sum(mover["share"] for mover in answer["movers"]) == pytest.approx(1, rel=1e-9)
+    assert sum(mover["share"] for mover in answer["participation"]) == pytest.approx(1, rel=1e-9)
     assert max(mode["imaginary"] for mode in answer["modes"]) > 0 and len(answer["modes"]) == answer["mode_count"]
     assert max(mode["frequency"] for mode in answer["modes"]) == pytest.approx(answer["frequency_max"], rel=1e-3)
-    assert answer["remedy"]["kind"] is None and "spread over the scene" in answer["remedy"]["sentence"]
+    assert answer["changes"]["kind"] is None and "spread over the scene" in answer["changes"]["sentence"]
 
 
 def test_measurements(hooke, write):

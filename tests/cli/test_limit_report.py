@@ -178,7 +178,7 @@ def test_words(chain, tmp_path):
     page, value = chain
     seen = browse(tmp_path, page)
     assert seen.text["scene"] == TITLE
-    assert value["remedy"]["sentence"] in seen.text["verdict"] and "100.0 % in group stiff" in seen.text["verdict"]
+    assert value["changes"]["sentence"] in seen.text["verdict"] and "100.0 % in group stiff" in seen.text["verdict"]
     assert "symplectic-euler" in seen.text["verdict"] and "All 7 springs are drawn" in seen.text["pictured"]
     assert "No line: backward-euler" in seen.text["unbounded"]
     assert "spring 6" in seen.text["blame"] and "3 and 4" in seen.text["blame"] and "stiff" in seen.text["blame"]

@@ -49,8 +49,8 @@ static void limit(struct attempt *a, const void *with) {
   }
   attempt_number(a, hooke_measurement_number(limit, "blame", 0, "share"));
   attempt_text(a, hooke_measurement_text(limit, "blame", 0, "group"));
-  attempt_text(a, hooke_measurement_text(limit, "remedy", 0, "sentence"));
-  attempt_number(a, hooke_measurement_number(limit, "remedy", 0, "gain"));
+  attempt_text(a, hooke_measurement_text(limit, "changes", 0, "sentence"));
+  attempt_number(a, hooke_measurement_number(limit, "changes", 0, "gain"));
   attempt_number(a, hooke_measurement_number(limit, "modes", 0, "frequency"));
   if (with == NULL) {
     along = make_limit(a, system, run, "along");

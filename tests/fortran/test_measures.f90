@@ -100,15 +100,15 @@ contains
     call expect(nint(again%number("blame", 1, "number")) == 1 .and. nint(again%number("blame", 1, "first")) == 1 &
       .and. nint(again%number("blame", 1, "second")) == 2, "numbers count from 1")
     call expect_near(again%number("blame", 1, "share"), 1.0_hooke_real, 1e-12_hooke_real, "and shares do not")
-    call expect(again%row_count("movers") == 1 .and. nint(again%number("movers", 1, "particle")) == 2, &
+    call expect(again%row_count("participation") == 1 .and. nint(again%number("participation", 1, "particle")) == 2, &
       "particle 2 moves")
-    call expect_near(again%number("movers", 1, "mass"), 0.5_hooke_real, 1e-12_hooke_real, "of half a kilogram")
+    call expect_near(again%number("participation", 1, "mass"), 0.5_hooke_real, 1e-12_hooke_real, "of half a kilogram")
     call expect(again%row_count("modes") >= 1 .and. abs(again%number("modes", 1, "frequency") - omega) < 1e-9_hooke_real, &
       "modes")
     shape(1:3, 1:2) => again%series("limit", 1, "shape")
     call expect(size(again%series("limit", 1, "shape")) == 6, "the mode has as many numbers as positions")
     call expect_near(abs(shape(1, 2)), 1.0_hooke_real, 1e-12_hooke_real, "along the spring")
-    call expect(again%text("remedy", 1, "kind") == "" .or. again%number("remedy", 1, "factor") > 0, "a remedy, or none")
+    call expect(again%text("changes", 1, "kind") == "" .or. again%number("changes", 1, "factor") > 0, "a remedy, or none")
     call limit%label("title", "oscillator")
     call limit%write(output("limit.html"), status)
     call expect(status == merge(hooke_not_built, hooke_ok, hooke_build_fact("chartjs") == ""), "as a page")

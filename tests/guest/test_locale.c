@@ -172,7 +172,7 @@ static void scenes(struct output *out) {
   check_ok(hooke_measurement_run(limit, state));
   for (int64_t row = 0; row < hooke_measurement_row_count(limit, "rows"); row++)
     add(out, hooke_measurement_text(limit, "rows", row, "note"));
-  add(out, hooke_measurement_text(limit, "remedy", 0, "sentence"));
+  add(out, hooke_measurement_text(limit, "changes", 0, "sentence"));
   hooke_measurement_destroy(limit);
   hooke_options_destroy(options);
 

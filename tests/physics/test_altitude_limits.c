@@ -144,7 +144,7 @@ static void a_limit_by_altitude_names_it(void **unused) {
   (void)unused;
   hooke_system *system = new_strand(40.0);
   hooke_measurement *limit = find_limit(system, "verlet", 1);
-  const char *sentence = hooke_measurement_text(limit, "remedy", 0, "sentence");
+  const char *sentence = hooke_measurement_text(limit, "changes", 0, "sentence");
   if (sentence == NULL || strstr(sentence, "group `hair.altitude` has ") == NULL)
     check_failed("%s", sentence);
   assert_string_equal(hooke_measurement_text(limit, "blame", 0, "force"), "altitude");

@@ -140,8 +140,8 @@ static void a_limit_by_bending_names_it(void **unused) {
   (void)unused;
   hooke_system *system = new_rope(40, 0.5, 1.0, 0.0, 0.0);
   hooke_measurement *limit = find_limit(system, "verlet", 1);
-  const char *sentence = hooke_measurement_text(limit, "remedy", 0, "sentence");
-  assert_null(hooke_measurement_text(limit, "remedy", 0, "kind"));
+  const char *sentence = hooke_measurement_text(limit, "changes", 0, "sentence");
+  assert_null(hooke_measurement_text(limit, "changes", 0, "kind"));
   if (sentence == NULL || strstr(sentence, "group `beam.bending` has ") == NULL) check_failed("%s", sentence);
   assert_string_equal(hooke_measurement_text(limit, "blame", 0, "force"), "bending");
   check_between(hooke_measurement_number(limit, "blame", 0, "share"), 0.98, 1.0);

@@ -423,7 +423,7 @@ static void drag_is_named_whatever_its_amount(void **unused) {
     const char *force = hooke_measurement_text(limit, "blame", 0, "force");
     if (force == NULL || strcmp(force, "drag") != 0) check_failed("drag of %g: blamed on %s", drag, force);
     check_between(hooke_measurement_number(limit, "blame", 0, "share"), 0.99, 1.0);
-    assert_non_null(strstr(hooke_measurement_text(limit, "remedy", 0, "sentence"), "drag limits the step"));
+    assert_non_null(strstr(hooke_measurement_text(limit, "changes", 0, "sentence"), "drag limits the step"));
     hooke_measurement_destroy(limit);
     hooke_system_destroy(cloth);
   }
@@ -476,7 +476,7 @@ static void the_odd_spring_is_named(void **unused) {
   const double *shape = hooke_measurement_series(limit, "limit", 0, "shape", NULL);
   check_close(largest(36, shape), 1.0, 1e-12);
   check_close(shape[15] + shape[18], 0.0, 0.05); /* its ends move against each other */
-  check_between(hooke_measurement_number(limit, "remedy", 0, "gain"), 2.0, 8.0);
+  check_between(hooke_measurement_number(limit, "changes", 0, "gain"), 2.0, 8.0);
   hooke_measurement_destroy(limit);
   hooke_system_destroy(system);
 }

@@ -199,20 +199,20 @@ static void check_blame(const hooke_measurement *limit, const struct piece *piec
     assert_string_equal(hooke_measurement_text(limit, "blame", k, "group"), piece->name);
   }
   check_close(sum, 1.0, 1e-9); /* without drag, and with fewer than 100 springs that move */
-  const char *kind = hooke_measurement_text(limit, "remedy", 0, "kind");
+  const char *kind = hooke_measurement_text(limit, "changes", 0, "kind");
   if (odd == STIFF_SPRING) {
     assert_true((int64_t)hooke_measurement_number(limit, "blame", first, "number") == piece->stiff);
     check_between(hooke_measurement_number(limit, "blame", first, "share"), 0.9, 1.0);
     assert_string_equal(kind, "soften");
-    check_between(hooke_measurement_number(limit, "remedy", 0, "springs"), 1.0, 1.0);
-    check_between(hooke_measurement_number(limit, "remedy", 0, "gain"), 1.5, 60.0);
+    check_between(hooke_measurement_number(limit, "changes", 0, "springs"), 1.0, 1.0);
+    check_between(hooke_measurement_number(limit, "changes", 0, "gain"), 1.5, 60.0);
   } else if (odd == LIGHT_PARTICLE) {
-    assert_true((int64_t)hooke_measurement_number(limit, "movers", 0, "particle") == piece->light);
-    check_close(hooke_measurement_number(limit, "movers", 0, "mass"), 0.1 / 50.0, 1e-15);
-    check_between(hooke_measurement_number(limit, "movers", 0, "share"), 0.9, 1.0);
+    assert_true((int64_t)hooke_measurement_number(limit, "participation", 0, "particle") == piece->light);
+    check_close(hooke_measurement_number(limit, "participation", 0, "mass"), 0.1 / 50.0, 1e-15);
+    check_between(hooke_measurement_number(limit, "participation", 0, "share"), 0.9, 1.0);
     assert_string_equal(kind, "heavier");
-    check_between(hooke_measurement_number(limit, "remedy", 0, "particles"), 1.0, 1.0);
-    check_between(hooke_measurement_number(limit, "remedy", 0, "gain"), 1.5, 60.0);
+    check_between(hooke_measurement_number(limit, "changes", 0, "particles"), 1.0, 1.0);
+    check_between(hooke_measurement_number(limit, "changes", 0, "gain"), 1.5, 60.0);
   }
 }
 

@@ -88,17 +88,17 @@ def test_what_it_hangs_on():
     assert (first.spring, first.ends, first.group) == (6, (3, 4), "stiff") and 0.99 < first.share <= 1
     shares = [one.share for one in found.blame]
     assert shares == sorted(shares, reverse=True)
-    assert {one.particle for one in found.movers[:2]} == {3, 4}
-    assert sum(one.share for one in found.movers) == pytest.approx(1, abs=1e-6)
-    assert found.remedy.kind == "soften" and found.remedy.springs == 1 and np.isnan(found.remedy.particles)
-    assert 50 < found.remedy.gain < 72 < found.remedy.cost * 1.01 and found.remedy.factor > 1000
+    assert {one.particle for one in found.participation[:2]} == {3, 4}
+    assert sum(one.share for one in found.participation) == pytest.approx(1, abs=1e-6)
+    assert found.changes.kind == "soften" and found.changes.springs == 1 and np.isnan(found.changes.particles)
+    assert 50 < found.changes.gain < 72 < found.changes.cost * 1.01 and found.changes.factor > 1000
     assert found.shape.shape == (8, 3)
     sizes = np.linalg.norm(found.shape, axis=1)
     assert sizes.max() == pytest.approx(1) and set(np.argsort(sizes)[-2:]) == {3, 4}
     free = hooke.System()
     free.add_particles([[0, 0, 0]], mass=1)
     nothing = hooke.limit(free, predict=True)
-    assert nothing.shape is None and nothing.blame == [] and nothing.remedy is None and nothing.modes.size == 0
+    assert nothing.shape is None and nothing.blame == [] and nothing.changes is None and nothing.modes.size == 0
 
 
 def test_where(tmp_path):
@@ -184,7 +184,7 @@ def test_files(tmp_path):
     value = json.loads((tmp_path / "limit.json").read_text())
     assert value["limit"]["frequency_max"] == found.frequency_max and value["limit"]["blamed"] == "symplectic-euler"
     assert [row["predicted"] for row in value["rows"]][1:4] == found.rows["predicted"][1:4].tolist()
-    assert value["blame"][0]["number"] == found.blame[0].spring and value["remedy"]["sentence"] == found.remedy.sentence
+    assert value["blame"][0]["number"] == found.blame[0].spring and value["changes"]["sentence"] == found.changes.sentence
     assert [mode["decay"] for mode in value["modes"]] == found.decay.tolist()
     found.write(tmp_path / "limit.csv")
     assert (tmp_path / "limit.csv").read_text().splitlines()[0] == ",".join(found.rows.dtype.names)

@@ -82,7 +82,7 @@ void hk_limit_page_add(struct hk_text *data, const void *measurement) {
   hk_text_close(data, ']');
   hk_measurement_add_table(data, m, "modes");
   hk_measurement_add_table(data, m, "blame");
-  hk_measurement_add_table(data, m, "movers");
-  hk_measurement_add_table(data, m, "remedy");
+  hk_measurement_add_table(data, m, "participation");
+  hk_measurement_add_table(data, m, "changes");
   hk_limit_picture_add(data, m->object);
 }

@@ -35,7 +35,7 @@ _COLUMNS = (
 )
 
 
-class Mover(NamedTuple):
+class Participation(NamedTuple):
     """A particle of the limiting mode: its number, its share of the kinetic energy, its mass [kg]."""
 
     particle: int
@@ -43,7 +43,7 @@ class Mover(NamedTuple):
     mass: float
 
 
-class Remedy(NamedTuple):
+class Changes(NamedTuple):
     """A change of the limiting springs or particles, in a sentence. `kind` is "soften" or "heavier"; "" if no small
     set is to blame, and the numbers are then NaN: the number of springs or particles to change, the factor by which,
     their cost (a factor of the step), and the gain of the change, recomputed with the change made and by first-order
@@ -71,8 +71,8 @@ class Limit(Found, Paged):
     largest first; `frequency` (k,) [rad/s] and `decay` (k,) [1/s] those of x'' + 2 decay x' + frequency^2 x = 0, of
     which they are roots. `shape` (n, 3) is the mode that limits the method of the run (of the first row with a limit,
     if that has none), its largest displacement 1; None if nothing is limited. `blame` has the springs that determine
-    it, at most 100, and before them a force that has half of it; `movers` has the particles that move in it, both
-    with the largest share first; `remedy` is the gain of changing them, None if nothing is limited.
+    it, at most 100, and before them a force that has half of it; `participation` has the particles that move in it, both
+    with the largest share first; `changes` is the gain of changing them, None if nothing is limited.
 
     `frequency_max` [rad/s] and `rate_max` [1/s] are the fastest motion and damping, `clamped` the number of
     compressed springs whose sideways push was left out, `tipping` the number of rigid bodies that gravity or tensions
@@ -91,8 +91,8 @@ class Limit(Found, Paged):
     clamped: int
     tipping: int
     blame: list[Blame]
-    movers: list[Mover]
-    remedy: Remedy | None
+    participation: list[Participation]
+    changes: Changes | None
 
     def __init__(self, found: Measurement, scene: Scene | None, status: int):
         self._found, self._scene = found, scene
@@ -103,8 +103,8 @@ class Limit(Found, Paged):
         shape = found.series("limit", 0, "shape")
         self.shape = None if shape is None else shape.reshape(-1, 3)
         self.blame = Blame.read(found)
-        self.movers = found.each(Mover, "movers")
-        self.remedy = found.one(Remedy, "remedy")
+        self.participation = found.each(Participation, "participation")
+        self.changes = found.one(Changes, "changes")
 
     @property
     def methods(self) -> list[str]:
@@ -132,8 +132,8 @@ class Limit(Found, Paged):
             lines.append(f"{row['method']:18}" + "".join(f"{_cell(name, row[name]):>18}" for name, _ in shown))
         if self.blame:
             lines.append(f"the most to blame: {self.blame[0]}, {100 * self.blame[0].share:.1f} %")
-        if self.remedy is not None:
-            lines.append(self.remedy.sentence)
+        if self.changes is not None:
+            lines.append(self.changes.sentence)
         return "\n".join(lines)
 
     def __repr__(self) -> str:

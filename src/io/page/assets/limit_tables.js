@@ -35,7 +35,7 @@ function writeVerdict() {
     : `${row.method} is stable at no step.`));
   if (blames.reduce((sum, one) => sum + one.share, 0) > 0.9)
     box.append(element("p", `The mode that limits it has its force from springs: ${groupShares()}.`));
-  const sentence = data.remedy && data.remedy.sentence;
+  const sentence = data.changes && data.changes.sentence;
   if (sentence) box.append(element("p", sentence[0].toUpperCase() + sentence.slice(1) + "."));
 }
 
