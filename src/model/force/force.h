@@ -119,7 +119,8 @@ int32_t hk_forces_product_in_rows(const hooke_system *system, double t, int32_t 
 /* Releases everything that commit took over from groups. */
 void hk_forces_release(hooke_system *system);
 
-/* 1 if a force damps motion; and if some force of these kinds does: 0 asks for all but a callback, of which nothing is known. */
+/* 1 if a force damps motion; and if some force of these kinds does: 0 asks for all but a callback, of which
+ * nothing is known. */
 int32_t hk_force_is_damped(const hooke_system *system, const struct hk_force_row *row);
 int32_t hk_system_is_damped(const hooke_system *system, int32_t kinds);
 /* Sets touched[p] to 1 for every particle of a spring, a triple or a tetrahedron. */
