@@ -40,7 +40,8 @@ const char *hooke_method_name(int64_t method) {
   return NULL;
 }
 
-/* Other common names, after plain(); several methods where texts do not agree, or where only relatives are there. */
+/* Other common names, after plain(); several methods where texts do not agree, or where only relatives are
+ * there. */
 static const struct {
   const char *word, *methods;
 } common_names[] = {

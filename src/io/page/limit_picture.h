@@ -5,8 +5,8 @@
 #include "io/file/text.h"
 #include "measure/limit/limit.h"
 
-/* Adds "picture": the springs drawn, first the limiting ones, and their ends, at the analysed positions. Failures go to the text's
- * status. */
+/* Adds "picture": the springs drawn, first the limiting ones, and their ends, at the analysed positions.
+ * Failures go to the text's status. */
 void hk_limit_picture_add(struct hk_text *data, const struct hk_limit *limit);
 
 #endif

@@ -12,10 +12,11 @@ static inline const char *hk_json_skip_blanks(const char *at) {
 
 /* ---- json_check.c ---- */
 
-/* Checks that a text, which ends with a NUL that `length` does not count, is one JSON object in UTF-8 (RFC 8259),
- * whose numbers a double can hold and whose texts have no U+0000. `json` is then a copy, which the caller frees and
- * the functions below read: values are where they were, and every text is decoded and ends with a NUL. On failure
- * `at` is the place of the fault: the end, if the text only ends too early. HOOKE_BAD_VALUE, HOOKE_NO_MEMORY. */
+/* Checks that a text, which ends with a NUL that `length` does not count, is one JSON object in UTF-8 (RFC
+ * 8259), whose numbers a double can hold and whose texts have no U+0000. `json` is then a copy, which the
+ * caller frees and the functions below read: values are where they were, and every text is decoded and ends
+ * with a NUL. On failure `at` is the place of the fault: the end, if the text only ends too early.
+ * HOOKE_BAD_VALUE, HOOKE_NO_MEMORY. */
 int32_t hk_json_open(const char *text, int64_t length, char **json, const char **at);
 
 /* True if no end makes JSON of this beginning of a text. */
@@ -39,14 +40,15 @@ int64_t hk_json_length(const char *value);
 /* A text; NULL if the value is no text, or is NULL. */
 const char *hk_json_text(const char *value);
 
-/* The first element of an array, or the first key of an object, and the next one; NULL if there is none. Other values
- * have none. */
+/* The first element of an array, or the first key of an object, and the next one; NULL if there is none.
+ * Other values have none. */
 const char *hk_json_first(const char *value);
 const char *hk_json_next(const char *item);
 
 int64_t hk_json_count(const char *array);
 
-/* The value of a key, and that of the first key of this name; NULL if there is none, or `object` is no object. */
+/* The value of a key, and that of the first key of this name; NULL if there is none, or `object` is no
+ * object. */
 const char *hk_json_member(const char *key);
 const char *hk_json_get(const char *object, const char *key);
 

@@ -30,8 +30,8 @@ struct hk_element {
 /* A walk over elements: for (hk_begin_elements(system, q, v, &at); (e = hk_next_element(&at)) != NULL;) With
  * positions q and velocities v (rows), elements are those of the forces there; slack ones are 0. Without v
  * (NULL) they are those of small displacements from rest: springs that only pull count as taut, and a spring
- * of no length is stiff and damped in all directions. k_across is negative where a spring is compressed. Without q and v
- * only particles are set. */
+ * of no length is stiff and damped in all directions. k_across is negative where a spring is compressed.
+ * Without q and v only particles are set. */
 enum { HOOKE_ELEMENTS = 64 };
 struct hk_elements {
   const struct hooke_system *system;
