@@ -74,7 +74,7 @@ EXPECTED = {
     "between-missing": ("9:5", "springs[0].between", "missing", "pairs of particles"),
     "between-range": ("9:31", "springs[0].between[1][1]", "3", "0 to 2"),
     "between-negative": ("9:31", "springs[0].between[1][1]", "-2", "0 to 2"),
-    "between-same": ("9:27", "springs[0].between[1]", "particle 1", "two different particles"),
+    "between-same": ("9:27", "springs[0].between[1]", "particles 1 and 1", "two different ones"),
     "between-real": ("9:31", "springs[0].between[1][1]", "2.0", "the number of a particle"),
     "between-triple": ("9:27", "springs[0].between[1]", "an array of 3", "a row of 2"),
     "between-flat": ("9:19", "springs[0].between[0]", "0 is not", "a row of 2"),
