@@ -1,7 +1,6 @@
 /* The command line of hooke: selects the verb, passes its options, and returns the exit code. */
 #include "arguments.h"
-#include "completion.h"
-#include "man.h"
+#include "form.h"
 #include "os.h"
 #include "print.h"
 #include "report.h"
