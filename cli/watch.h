@@ -2,7 +2,7 @@
 #ifndef HOOKE_CLI_WATCH_H
 #define HOOKE_CLI_WATCH_H
 
-#include "arguments.h"
+#include "setup.h"
 
 #include <time.h>
 
@@ -26,6 +26,10 @@ int32_t cli_watch_progress(double done, const char *what, void *watch);
 /* Runs a measurement (state NULL: from the start) and shows its progress. */
 int32_t cli_watch_run(const struct cli_arguments *arguments, hooke_measurement *measurement,
                       hooke_state *state);
+
+/* Makes a measurement of this kind by the verb's own options, and runs it in this way. */
+int32_t cli_watch_measure(const struct cli_arguments *arguments, const char *kind,
+                          const struct cli_setup *setup, hooke_state *state, hooke_measurement **made);
 
 /* Clears the line of progress. Signals stay caught, so that results can still be saved. */
 void cli_watch_end(struct cli_watch *watch);
