@@ -153,7 +153,7 @@ int cli_completion_print(const struct cli_program *program, const char *shell) {
     struct cli_form form;
   } rows[] = {{"bash", {bash, escapes, 0}}, {"zsh", {zsh, escapes, 0}}, {"fish", {fish, escapes, 0}}};
   for (size_t k = 0; k < sizeof rows / sizeof rows[0]; k++) {
-    if (strcmp(rows[k].shell, shell) == 0) return cli_form_print(&rows[k].form, program);
+    if (strcmp(rows[k].shell, shell) == 0) return cli_form_print(stdout, &rows[k].form, program, NULL);
   }
   return HOOKE_EXIT_USAGE;
 }

@@ -18,7 +18,7 @@ static const char page[] =
     "<verbs:\\fBhooke <verb>\\fR \\fI<operand>\\fR\n[options]\n.br\n>"
     "<rows:<later:.br\n>\\fBhooke \\-\\-<name><value: <value>>\\fR\n>"
     ".SH DESCRIPTION\n"
-    "<description>\n"
+    "<text>\n"
     "<verbs:" NAMED ">"
     ".SS Methods\n"
     "<methods:" NAMED ">"
@@ -82,5 +82,5 @@ int cli_man_print(const struct cli_program *program, const char *value) {
   (void)value;
   if (gmtime_r(&now, &parts)) strftime(date, sizeof date, "%Y-%m-%d", &parts);
   printf(".TH HOOKE 1 %s \"hooke %s\" \"User Commands\"\n", date, hooke_version());
-  return cli_form_print(&form, program);
+  return cli_form_print(stdout, &form, program, NULL);
 }
