@@ -1,10 +1,10 @@
-#include "usage.h"
 #include "form.h"
 #include "os.h"
 
 /* clang-format off */
 #define OPTION             "  <letter:-<letter>, ><!letter:    >--<name><value: <value>><to/28><doc>\n"
-#define OPTIONS(of, title) "<options:<" of ":<first:\n" title ":\n><family:  <family>: <family_doc>\n>" OPTION ">>"
+#define OPTIONS(of, title) "<options:<" of ":<first:\n" title ":\n>" \
+                           "<family:  <family>: <family_doc>\n>" OPTION ">>"
 #define NAMES(of, title)   "<options:<" of ":<first:\n<to/2>" title ":> <member:<member>><!member:--<name>>>>"
 #define KINDS              "\nkinds:\n<kinds:  <name><to/13><doc>\n>" \
                            "\nhooke <verb> KIND --help   the options of a kind, with units and defaults\n"
@@ -31,7 +31,7 @@ static const char complete[] =
     "\noptions:\n"
     "<options:<own:" OPTION "><shared:" OPTION ">>"
     OPTIONS("part", "options of a <kind>")
-    OPTIONS("more", "options of the <options_of>")
+    OPTIONS("more", "options of the <takes_kind:scene><!takes_kind:<verb>>")
     OPTIONS("run", "options of the run, <kind:for the scene to hold (defaults: where it does not)><!kind:"
                    "instead of what the scene's \"run\" says (defaults: where neither says anything)>")
     OPTIONS("limits", "what a scene may do")
@@ -58,8 +58,8 @@ static int print(FILE *file, const char *text, const struct cli_program *program
   return cli_form_print(file, &form, program, arguments);
 }
 
-void cli_usage_print_all(FILE *file, const struct cli_program *program) {
-  print(file, all, program, NULL);
+int cli_usage_print(FILE *file, const struct cli_program *program) {
+  return print(file, all, program, NULL);
 }
 
 int cli_usage_print_verb(FILE *file, const struct cli_arguments *arguments) {
@@ -68,22 +68,24 @@ int cli_usage_print_verb(FILE *file, const struct cli_arguments *arguments) {
 
 /* ---- version ---- */
 
-static void print_part(FILE *file, const char *name, const char *what) {
+static void print_part(const char *name, const char *what) {
   const char *fact = hooke_build_fact(what);
-  fprintf(file, "%-13s %s\n", name, fact && fact[0] ? fact : "not in this build");
+  printf("%-13s %s\n", name, fact && fact[0] ? fact : "not in this build");
 }
 
-void cli_usage_print_version(FILE *file) {
-  fprintf(file, "hooke %s\n%-13s %d\n", hooke_version(), "ABI", (int)hooke_abi());
-  print_part(file, "SUNDIALS", "sundials");
-  print_part(file, "CHOLMOD", "cholmod");
-  print_part(file, "LAPACK", "lapack");
-  print_part(file, "GSL", "gsl");
-  print_part(file, "ARPACK-NG", "arpack");
-  print_part(file, "HDF5", "hdf5");
-  print_part(file, "Chart.js", "chartjs");
-  print_part(file, "three.js", "threejs");
-  print_part(file, "instructions", "instructions");
-  fprintf(file, "%-13s %d on this machine\n", "threads", (int)cli_os_processors());
-  print_part(file, "licence", "licence");
+int cli_version_print(const struct cli_program *program, const char *value) {
+  (void)program, (void)value;
+  printf("hooke %s\n%-13s %d\n", hooke_version(), "ABI", (int)hooke_abi());
+  print_part("SUNDIALS", "sundials");
+  print_part("CHOLMOD", "cholmod");
+  print_part("LAPACK", "lapack");
+  print_part("GSL", "gsl");
+  print_part("ARPACK-NG", "arpack");
+  print_part("HDF5", "hdf5");
+  print_part("Chart.js", "chartjs");
+  print_part("three.js", "threejs");
+  print_part("instructions", "instructions");
+  printf("%-13s %d on this machine\n", "threads", (int)cli_os_processors());
+  print_part("licence", "licence");
+  return HOOKE_EXIT_DONE;
 }

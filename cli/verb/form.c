@@ -4,6 +4,7 @@
 #include "report.h"
 
 #include <ctype.h>
+#include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -18,21 +19,36 @@ struct line {
   char word[HOOKE_DOC_SIZE];
 };
 
+/* NULL: empty */
+struct fields {
+  const char *verb, *kind, *summary, *sentence, *text, *operand, *input, *without, *example, *own_table;
+  /* of the item of the innermost loop; not the first of it */
+  const char *name, *letter, *value, *doc, *words, *missing, *later;
+  /* of an option: what its family is, for the first one, else its name there; its units, if they are new */
+  const char *family, *family_doc, *member, *units;
+  /* answers: an option is the first of its table, the verb takes kinds, and there is none of them here */
+  const char *first, *takes_kind, *bare;
+};
+
+#define FIELD(member)                                                                                        \
+  { #member, offsetof(struct fields, member) }
+static const struct {
+  const char *name;
+  size_t offset;
+} field_rows[] = {FIELD(verb),    FIELD(kind),   FIELD(summary),    FIELD(sentence),   FIELD(text),
+                  FIELD(operand), FIELD(input),  FIELD(without),    FIELD(example),    FIELD(own_table),
+                  FIELD(name),    FIELD(letter), FIELD(value),      FIELD(doc),        FIELD(words),
+                  FIELD(missing), FIELD(later),  FIELD(family),     FIELD(family_doc), FIELD(member),
+                  FIELD(units),   FIELD(first),  FIELD(takes_kind), FIELD(bare)};
+
 struct walk {
   const struct cli_form *form;
   const struct cli_program *program;
   struct line *line;
   const struct cli_verb *verb;
-  const char *kind;
-  /* the item of the innermost loop */
-  int64_t index;
-  char letter[2], code_text[CODE_SIZE], example[HOOKE_DOC_SIZE], choices[HOOKE_DOC_SIZE];
-  const char *name, *value, *doc, *words, *missing;
-  /* of an option: the field that holds `words`, and one for its table */
-  const char *takes, *table;
-  /* what its family is, for the first one, or else its name there; its units, where they are new */
-  const char *family, *family_doc, *member, *units;
-  int32_t first; /* of its table */
+  struct fields is;
+  const char *takes, *table; /* fields of an option: that of `words`, and one that its table has */
+  char letter[2], code_text[CODE_SIZE], example[HOOKE_DOC_SIZE], words[HOOKE_DOC_SIZE];
   struct cli_arguments arguments;
   struct cli_description option;
   int code;
@@ -115,31 +131,47 @@ static void put_field(struct walk *w, const char *text, const char *special, siz
 
 /* ---- loops: each sets the item `i`, and returns 0 past the last ---- */
 
-static int32_t set(struct walk *w, const char *name, const char *doc) {
-  w->name = name;
-  w->doc = doc;
-  w->value = w->words = w->takes = w->table = w->missing = w->member = "";
-  w->letter[0] = '\0';
+static const char *answer(int32_t yes) {
+  return yes ? "1" : NULL;
+}
+
+static int32_t set(struct walk *w, const char *name, char letter, const char *value, const char *doc) {
+  w->letter[0] = letter;
+  w->is.name = name;
+  w->is.letter = w->letter;
+  w->is.value = value;
+  w->is.doc = doc;
   return name != NULL;
 }
 
+static void set_verb(struct walk *w, const struct cli_verb *verb) {
+  w->verb = verb;
+  w->is.verb = verb->name;
+  w->is.summary = verb->summary;
+  w->is.text = verb->text;
+  w->is.operand = cli_describe_operand(verb);
+  w->is.input = verb->input;
+  w->is.without = verb->without;
+  w->is.example = verb->example;
+  w->is.own_table = verb->options;
+  w->is.takes_kind = answer(verb->takes_kind);
+}
+
 static int32_t next_verb(struct walk *w, int64_t i) {
-  w->verb = w->program->verbs[i];
-  return w->verb && set(w, w->verb->name, w->verb->summary);
+  const struct cli_verb *verb = w->program->verbs[i];
+  if (verb) set_verb(w, verb);
+  return verb && set(w, verb->name, '\0', NULL, verb->summary);
 }
 
 static int32_t next_row(struct walk *w, int64_t i) {
   const struct cli_program_row *row = &w->program->rows[i];
-  if (!set(w, row->name, row->doc)) return 0;
-  w->letter[0] = row->letter;
-  if (row->value) w->value = row->value;
-  if (row->words) w->words = row->words;
-  return 1;
+  w->is.words = row->words;
+  return set(w, row->name, row->letter, row->value, row->doc);
 }
 
 static int32_t next_kind(struct walk *w, int64_t i) {
-  w->kind = w->verb->takes_kind ? hooke_part_kind(i, "name") : NULL;
-  return set(w, w->kind, hooke_part_kind(i, "summary"));
+  w->is.kind = w->verb->takes_kind ? hooke_part_kind(i, "name") : NULL;
+  return set(w, w->is.kind, '\0', NULL, hooke_part_kind(i, "summary"));
 }
 
 /* What has options: each kind of a verb that takes one, or else the verb. */
@@ -150,22 +182,21 @@ static int32_t next_taker(struct walk *w, int64_t i) {
 /* A verb that has the common options only. */
 static int32_t next_common(struct walk *w, int64_t i) {
   static const struct cli_verb common = {.name = "make"};
-  w->verb = &common;
+  set_verb(w, &common);
   return i == 0;
 }
 
 static int32_t next_method(struct walk *w, int64_t i) {
   const char *name = hooke_method_name(i);
-  if (!set(w, name, name ? hooke_method_summary(name) : NULL)) return 0;
-  if (!hooke_method_is_built(name)) w->missing = "1";
-  return 1;
+  w->is.missing = answer(name && !hooke_method_is_built(name));
+  return set(w, name, '\0', NULL, name ? hooke_method_summary(name) : NULL);
 }
 
 static int32_t next_exit(struct walk *w, int64_t i) {
   int32_t code = 0;
   const char *meaning = cli_describe_exit((int32_t)i, &code);
   snprintf(w->code_text, CODE_SIZE, "%d", (int)code);
-  return set(w, meaning ? w->code_text : NULL, meaning);
+  return set(w, meaning ? w->code_text : NULL, '\0', NULL, meaning);
 }
 
 static const char *table_of(const struct cli_arguments *arguments, const struct cli_argument *argument) {
@@ -178,13 +209,14 @@ static const char *table_of(const struct cli_arguments *arguments, const struct 
 
 static void set_takes(struct walk *w, const struct cli_argument *argument) {
   const char *ending = cli_describe_file(argument);
+  const int32_t takes = w->option.value[0] != '\0';
   int32_t many;
-  w->words = cli_describe_words(argument, w->choices, &many);
+  w->is.words = cli_describe_words(argument, w->words, &many);
   if (w->words[0]) {
-    w->takes = !w->value[0] ? "switch" : many ? "list" : "choice";
-  } else if (w->value[0]) {
-    w->takes = !ending ? "open" : ending[0] ? "ending" : "file";
-    w->words = ending && ending[0] ? ending : w->value;
+    w->takes = !takes ? "switch" : many ? "list" : "choice";
+  } else {
+    w->takes = !takes ? "" : !ending ? "open" : ending[0] ? "ending" : "file";
+    w->is.words = ending && ending[0] ? ending : w->option.value;
   }
 }
 
@@ -196,26 +228,23 @@ static const char *units_of(const struct cli_argument *argument) {
 static void set_first(struct walk *w, int64_t i) {
   const struct cli_argument *all = w->arguments.all;
   const char *doc, *last = i > 0 ? cli_describe_family(&all[i - 1], &doc) : NULL;
-  w->first = i == 0 || all[i].table != all[i - 1].table;
-  w->family = cli_describe_family(&all[i], &w->family_doc);
-  if (w->family && last && strcmp(w->family, last) == 0) {
-    w->member = all[i].flag + strlen(last);
-    w->family = NULL;
-  }
-  w->units = units_of(&all[i]);
-  if (!w->units) w->code = cli_report(&w->arguments, cli_exit_code(HOOKE_NO_MEMORY), "out of memory");
-  for (int64_t k = 0; k < i && w->units; k++)
-    if (strcmp(units_of(&all[k]), w->units) == 0) w->units = NULL;
+  const char *family = cli_describe_family(&all[i], &w->is.family_doc);
+  const int32_t again = family && last && strcmp(family, last) == 0;
+  w->is.first = answer(i == 0 || all[i].table != all[i - 1].table);
+  w->is.family = again ? NULL : family;
+  w->is.member = again ? all[i].flag + strlen(last) : NULL;
+  w->is.units = units_of(&all[i]);
+  if (!w->is.units) w->code = cli_report(&w->arguments, cli_exit_code(HOOKE_NO_MEMORY), "out of memory");
+  for (int64_t k = 0; k < i && w->is.units; k++)
+    if (strcmp(units_of(&all[k]), w->is.units) == 0) w->is.units = NULL;
 }
 
 static int32_t next_option(struct walk *w, int64_t i) {
-  if (i == 0) w->code = cli_arguments_collect(w->verb, w->kind, &w->arguments);
+  if (i == 0) w->code = cli_arguments_collect(w->verb, w->is.kind, &w->arguments);
   if (w->code != HOOKE_EXIT_DONE || i >= w->arguments.count) return 0;
   const struct cli_argument *argument = &w->arguments.all[i];
   cli_describe(argument, &w->option);
-  set(w, w->option.flag, w->option.doc);
-  w->letter[0] = w->option.letter;
-  w->value = w->option.value;
+  set(w, w->option.flag, w->option.letter, w->option.value, w->option.doc);
   w->table = table_of(&w->arguments, argument);
   set_takes(w, argument);
   set_first(w, i);
@@ -228,50 +257,16 @@ static int32_t is_named(const char *name, const char *tag, size_t length) {
   return strlen(name) == length && memcmp(name, tag, length) == 0;
 }
 
-/* The summary, with a capital. */
-static const char *as_sentence(struct walk *w) {
-  const char *words = w->verb ? w->verb->summary : w->program->summary;
-  snprintf(w->choices, sizeof w->choices, "%c%s", toupper((unsigned char)words[0]), words + 1);
-  return w->choices;
-}
-
 static const char *find_field(struct walk *w, const char *tag, size_t length) {
-  static const struct cli_verb none;
-  const struct cli_verb *verb = w->verb ? w->verb : &none;
-  const struct {
-    const char *name, *text;
-  } fields[] = {{"name", w->name},
-                {"letter", w->letter},
-                {"value", w->value},
-                {"doc", w->doc},
-                {"words", w->words},
-                {"later", w->index > 0 ? "1" : ""},
-                {"missing", w->missing},
-                {"first", w->first ? "1" : ""},
-                {"family", w->family},
-                {"family_doc", w->family_doc},
-                {"member", w->member},
-                {"units", w->units},
-                {"options_of", verb->takes_kind ? "scene" : verb->name},
-                {"own_table", verb->options},
-                {"verb", verb->name},
-                {"text", w->verb ? verb->text : w->program->text},
-                {"summary", w->verb ? verb->summary : w->program->summary},
-                {"bare", verb->takes_kind && !w->kind ? "1" : ""},
-                {"input", verb->input},
-                {"kind", w->kind},
-                {"without", verb->without},
-                {"takes_kind", verb->takes_kind ? "1" : ""},
-                {"example", verb->example},
-                {w->takes, w->words},
-                {w->table, "1"}};
-  if (is_named("operand", tag, length)) return cli_describe_operand(verb);
-  if (is_named("sentence", tag, length)) return as_sentence(w);
+  const char *text = NULL;
   if (is_named("command", tag, length)) return cli_describe_example(&w->arguments, w->example);
-  for (size_t k = 0; k < sizeof fields / sizeof fields[0]; k++) {
-    if (is_named(fields[k].name, tag, length)) return fields[k].text ? fields[k].text : "";
+  if (is_named(w->takes, tag, length)) text = w->is.words;
+  if (is_named(w->table, tag, length)) text = "1";
+  for (size_t k = 0; k < sizeof field_rows / sizeof field_rows[0]; k++) {
+    if (is_named(field_rows[k].name, tag, length))
+      memcpy(&text, (const char *)&w->is + field_rows[k].offset, sizeof text);
   }
-  return "";
+  return text ? text : "";
 }
 
 /* ---- the walk ---- */
@@ -293,8 +288,10 @@ static void repeat(struct walk *w, int32_t (*next)(struct walk *w, int64_t i), c
                    const char *end) {
   struct walk inner = *w;
   memset(&inner.arguments, 0, sizeof inner.arguments);
-  for (inner.index = 0; next(&inner, inner.index) && inner.code == HOOKE_EXIT_DONE; inner.index++)
+  for (int64_t i = 0; next(&inner, i) && inner.code == HOOKE_EXIT_DONE; i++) {
+    inner.is.later = answer(i > 0);
     fill(&inner, body, end);
+  }
   cli_arguments_destroy(&inner.arguments);
   w->code = inner.code;
 }
@@ -342,10 +339,17 @@ static void fill(struct walk *w, const char *at, const char *end) {
 int cli_form_print(FILE *file, const struct cli_form *form, const struct cli_program *program,
                    const struct cli_arguments *arguments) {
   struct line line = {.file = file, .wraps = form->is_roff, .fresh = 1};
-  struct walk walk = {.form = form, .program = program, .line = &line, .code = HOOKE_EXIT_DONE};
-  if (arguments) walk.verb = arguments->verb;
-  if (arguments && walk.verb->takes_kind) walk.kind = arguments->scene;
-  set(&walk, "", "");
+  struct walk walk = {
+      .form = form, .program = program, .line = &line, .takes = "", .table = "", .code = HOOKE_EXIT_DONE};
+  char sentence[HOOKE_DOC_SIZE];
+  if (arguments) set_verb(&walk, arguments->verb);
+  if (program) walk.is.summary = program->summary;
+  if (program) walk.is.text = program->text;
+  if (walk.is.takes_kind) walk.is.kind = arguments->scene;
+  walk.is.bare = answer(walk.is.takes_kind && !walk.is.kind);
+  snprintf(sentence, sizeof sentence, "%c%s", toupper((unsigned char)walk.is.summary[0]),
+           walk.is.summary + 1);
+  walk.is.sentence = sentence;
   fill(&walk, form->text, form->text + strlen(form->text));
   return walk.code;
 }

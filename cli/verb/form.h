@@ -1,5 +1,5 @@
-/* Forms of what is known about the program, filled in by one walk over its verbs, kinds and options: help, the
- * manual page, and completion for shells. */
+/* Forms of what is known about the program, filled in by one walk over its verbs, kinds and options: help,
+ * the manual page, and completion for shells. */
 #ifndef HOOKE_CLI_FORM_H
 #define HOOKE_CLI_FORM_H
 
@@ -21,6 +21,11 @@ struct cli_form {
  * an exit code; failures are reported already. */
 int cli_form_print(FILE *file, const struct cli_form *form, const struct cli_program *program,
                    const struct cli_arguments *arguments);
+
+/* `hooke --help`, `hooke VERB --help`, and `hooke --version`. */
+int cli_usage_print(FILE *file, const struct cli_program *program);
+int cli_usage_print_verb(FILE *file, const struct cli_arguments *arguments);
+int cli_version_print(const struct cli_program *program, const char *value);
 
 /* A script that completes verbs, kinds, options, their words and files in the shell "bash", "zsh" or "fish";
  * HOOKE_EXIT_USAGE for another one. */
