@@ -13,7 +13,7 @@ enum { LINE = 76, COMMAND = 64, HELP = 100, CODE_SIZE = 16 };
 /* The line that is being printed. */
 struct line {
   FILE *file;
-  int32_t column, is_request, in_example;
+  int32_t column, in_example;   /* in_example: between .EX and .EE of roff */
   int32_t wraps, indent, fresh; /* fresh: no word stands before */
   int32_t length, shown;        /* of the word, in bytes and in columns */
   char word[HOOKE_DOC_SIZE];
@@ -67,11 +67,8 @@ static void end_word(const struct walk *w) {
   const int32_t width = line->in_example ? COMMAND : w->form->is_roff ? LINE : HELP;
   if (line->length == 0) return;
   line->word[line->length] = '\0';
-  if (w->form->is_roff && line->column == 0) {
-    line->is_request = line->word[0] == '.';
-    if (strncmp(line->word, ".E", 2) == 0) line->in_example = line->word[2] == 'X';
-  }
-  if (!line->fresh && !line->is_request && line->column + 1 + line->shown > width) break_line(line);
+  if (line->column == 0 && strncmp(line->word, ".E", 2) == 0) line->in_example = line->word[2] == 'X';
+  if (!line->fresh && line->column + 1 + line->shown > width) break_line(line);
   fprintf(line->file, "%s%s", line->fresh ? "" : " ", line->word);
   line->column += line->shown + !line->fresh;
   line->length = line->shown = line->fresh = 0;
