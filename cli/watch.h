@@ -17,10 +17,8 @@ struct cli_watch {
 /* From here on a request to end the program sets a flag, which stays; repeated ones do not kill. */
 void cli_watch_start(struct cli_watch *watch, const struct cli_arguments *arguments);
 
-/* Reports the fraction done, 0 to 1, of `what` (NULL: not said); returns 1 if the work is to stop. */
-int32_t cli_watch_tell(struct cli_watch *watch, double done, const char *what);
-
-/* The same as a hooke_progress of the library, with the watch as its context. */
+/* Reports the fraction done, 0 to 1, of `what` (NULL: not said); returns 1 if the work is to stop. It is a
+ * hooke_progress of the library, with the watch as its context. */
 int32_t cli_watch_progress(double done, const char *what, void *watch);
 
 /* Runs a measurement (state NULL: from the start) and shows its progress. */
