@@ -1,11 +1,9 @@
 /* The command line of hooke: selects the verb, passes its options, and returns the exit code. */
 #include "arguments.h"
-#include "completion.h"
-#include "man.h"
+#include "form.h"
 #include "os.h"
 #include "print.h"
 #include "report.h"
-#include "usage.h"
 #include "words.h"
 
 #include <stdio.h>
@@ -24,17 +22,9 @@ const struct cli_verb *const cli_verbs[] = {&cli_verb_make,
                                             &cli_verb_verify,
                                             NULL};
 
-static int print_version(const struct cli_program *program, const char *value) {
-  (void)program;
-  (void)value;
-  cli_usage_print_version(stdout);
-  return HOOKE_EXIT_DONE;
-}
-
 static int print_help(const struct cli_program *program, const char *value) {
   (void)value;
-  cli_usage_print_all(stdout, program);
-  return HOOKE_EXIT_DONE;
+  return cli_usage_print(stdout, program);
 }
 
 static int print_methods(const struct cli_program *program, const char *value) {
@@ -55,7 +45,7 @@ static const struct cli_program_row rows[] = {
      print_help},
     {"methods", 0, NULL, NULL,
      "methods, and which of them take rigid bodies, overdamped scenes and x' = phi(t, x)", print_methods},
-    {"version", 0, NULL, NULL, "the version, and what it was built with", print_version},
+    {"version", 0, NULL, NULL, "the version, and what it was built with", cli_version_print},
     {"completion", 0, "SHELL", "bash zsh fish",
      "a script that completes commands in bash, zsh or fish; it is installed with the program",
      cli_completion_print},
@@ -154,7 +144,7 @@ static int do_help(int argc, char **argv) {
 
 static int do_words(int argc, char **argv) {
   if (argc < 2) {
-    cli_usage_print_all(stderr, &program);
+    cli_usage_print(stderr, &program);
     return HOOKE_EXIT_USAGE;
   }
   if (strcmp(argv[1], "help") == 0) return do_help(argc - 2, argv + 2);

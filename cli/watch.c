@@ -56,7 +56,8 @@ static void show(struct cli_watch *watch, double done, const char *what, double 
   watch->shown = 1;
 }
 
-int32_t cli_watch_tell(struct cli_watch *watch, double done, const char *what) {
+int32_t cli_watch_progress(double done, const char *what, void *ctx) {
+  struct cli_watch *watch = ctx;
   if (interrupted) return 1;
   if (!watch->show) return 0;
   struct timespec now;
@@ -66,10 +67,6 @@ int32_t cli_watch_tell(struct cli_watch *watch, double done, const char *what) {
   watch->last = now;
   show(watch, done < 0.0 ? 0.0 : done > 1.0 ? 1.0 : done, what, elapsed);
   return 0;
-}
-
-int32_t cli_watch_progress(double done, const char *what, void *watch) {
-  return cli_watch_tell(watch, done, what);
 }
 
 void cli_watch_end(struct cli_watch *watch) {
@@ -86,6 +83,12 @@ int32_t cli_watch_run(const struct cli_arguments *arguments, hooke_measurement *
   hooke_measurement_on_progress(measurement, NULL, NULL);
   cli_watch_end(&watch);
   return status;
+}
+
+int32_t cli_watch_measure(const struct cli_arguments *arguments, const char *kind,
+                          const struct cli_setup *setup, hooke_state *state, hooke_measurement **made) {
+  const int32_t status = hooke_measurement_create(kind, setup->system, setup->options, arguments->more, made);
+  return status == HOOKE_OK ? cli_watch_run(arguments, *made, state) : status;
 }
 
 int32_t cli_watch_interrupted(void) {

@@ -2,7 +2,7 @@
 #ifndef HOOKE_CLI_WATCH_H
 #define HOOKE_CLI_WATCH_H
 
-#include "arguments.h"
+#include "setup.h"
 
 #include <time.h>
 
@@ -17,15 +17,17 @@ struct cli_watch {
 /* From here on a request to end the program sets a flag, which stays; repeated ones do not kill. */
 void cli_watch_start(struct cli_watch *watch, const struct cli_arguments *arguments);
 
-/* Reports the fraction done, 0 to 1, of `what` (NULL: not said); returns 1 if the work is to stop. */
-int32_t cli_watch_tell(struct cli_watch *watch, double done, const char *what);
-
-/* The same as a hooke_progress of the library, with the watch as its context. */
+/* Reports the fraction done, 0 to 1, of `what` (NULL: not said); returns 1 if the work is to stop. It is a
+ * hooke_progress of the library, with the watch as its context. */
 int32_t cli_watch_progress(double done, const char *what, void *watch);
 
 /* Runs a measurement (state NULL: from the start) and shows its progress. */
 int32_t cli_watch_run(const struct cli_arguments *arguments, hooke_measurement *measurement,
                       hooke_state *state);
+
+/* Makes a measurement of this kind by the verb's own options, and runs it in this way. */
+int32_t cli_watch_measure(const struct cli_arguments *arguments, const char *kind,
+                          const struct cli_setup *setup, hooke_state *state, hooke_measurement **made);
 
 /* Clears the line of progress. Signals stay caught, so that results can still be saved. */
 void cli_watch_end(struct cli_watch *watch);

@@ -13,9 +13,7 @@ enum { LEAST_WIDTH = 16 };
 
 int cli_cost_sheet_find(const struct cli_arguments *arguments, const struct cli_setup *setup,
                         hooke_measurement **cost) {
-  int32_t status = hooke_measurement_create("cost", setup->system, setup->options, arguments->more, cost);
-  if (status != HOOKE_OK) return cli_report_status(arguments, status);
-  status = cli_watch_run(arguments, *cost, setup->state);
+  const int32_t status = cli_watch_measure(arguments, "cost", setup, setup->state, cost);
   if (status == HOOKE_STOPPED) {
     cli_report_words(arguments, "interrupted; kept: what was found so far");
     return HOOKE_EXIT_INTERRUPTED;

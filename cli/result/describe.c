@@ -118,24 +118,6 @@ const char *cli_describe_operand(const struct cli_verb *verb) {
   return verb->takes_kind ? "KIND" : verb->input ? verb->input : "SCENE";
 }
 
-const char *cli_describe_table(const struct cli_arguments *arguments, const hooke_options *table,
-                               char title[HOOKE_DOC_SIZE]) {
-  const int32_t makes = arguments->verb->takes_kind;
-  title[0] = '\0';
-  if (table == arguments->of_kind) {
-    cli_append(title, HOOKE_DOC_SIZE, "options of a %s", arguments->scene);
-  } else if (table == arguments->more) {
-    cli_append(title, HOOKE_DOC_SIZE, "options of the %s", makes ? "scene" : arguments->verb->name);
-  } else if (table == arguments->limits) {
-    cli_append(title, HOOKE_DOC_SIZE, "what a scene may do");
-  } else {
-    cli_append(title, HOOKE_DOC_SIZE, "options of the run, %s",
-               makes ? "for the scene to hold (defaults: where it does not)"
-                     : "instead of what the scene's \"run\" says (defaults: where neither says anything)");
-  }
-  return title;
-}
-
 /* Required options, one of several with an example, and the first family. */
 const char *cli_describe_example(const struct cli_arguments *arguments, char command[HOOKE_DOC_SIZE]) {
   const char *first = "";

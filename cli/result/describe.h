@@ -21,10 +21,6 @@ const char *cli_describe_family(const struct cli_argument *argument, const char 
 /* Argument of a verb: "SCENE", "KIND", "OUT.h5". */
 const char *cli_describe_operand(const struct cli_verb *verb);
 
-/* Heading of the options of a table. */
-const char *cli_describe_table(const struct cli_arguments *arguments, const hooke_options *table,
-                               char title[HOOKE_DOC_SIZE]);
-
 /* A complete command that makes a part of the current kind, from the examples of its table. */
 const char *cli_describe_example(const struct cli_arguments *arguments, char command[HOOKE_DOC_SIZE]);
 

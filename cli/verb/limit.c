@@ -71,10 +71,7 @@ static int check_needs(const struct limit *l) {
 }
 
 static int find(struct limit *l) {
-  int32_t status =
-      hooke_measurement_create("limit", l->setup.system, l->setup.options, l->arguments->more, &l->limit);
-  if (status != HOOKE_OK) return cli_report_status(l->arguments, status);
-  status = cli_watch_run(l->arguments, l->limit, l->setup.state);
+  const int32_t status = cli_watch_measure(l->arguments, "limit", &l->setup, l->setup.state, &l->limit);
   l->interrupted = status == HOOKE_STOPPED;
   l->diverged = status > 0 && !l->interrupted;
   return status >= 0 ? HOOKE_EXIT_DONE : cli_report_status(l->arguments, status);

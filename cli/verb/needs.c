@@ -31,10 +31,7 @@ static int check_files(const struct cli_needs_results *results) {
 
 static int find(struct cli_needs_results *results, int32_t *stopped) {
   const struct cli_arguments *arguments = results->arguments;
-  int32_t status = hooke_measurement_create("needs", results->setup.system, results->setup.options,
-                                            arguments->more, &results->needs);
-  if (status != HOOKE_OK) return cli_report_status(arguments, status);
-  status = cli_watch_run(arguments, results->needs, NULL);
+  const int32_t status = cli_watch_measure(arguments, "needs", &results->setup, NULL, &results->needs);
   *stopped = status == HOOKE_STOPPED;
   return status == HOOKE_OK || *stopped ? HOOKE_EXIT_DONE : cli_report_status(arguments, status);
 }

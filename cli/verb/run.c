@@ -37,7 +37,7 @@ static void keep_message(struct cli_run *run) {
 static int32_t see_progress(double done, const char *method, void *ctx) {
   struct cli_run *run = ctx;
   (void)method;
-  return cli_watch_tell(&run->watch, done, NULL);
+  return cli_watch_progress(done, NULL, &run->watch);
 }
 
 static int32_t see_frame(int64_t step, const hooke_state *state, void *ctx) {

@@ -36,10 +36,7 @@ static int check_output(const struct cli_arguments *arguments, const char *outpu
 
 static int run_study(struct cli_study_results *results) {
   const struct cli_arguments *arguments = results->arguments;
-  int32_t status = hooke_measurement_create("study", results->setup.system, results->setup.options,
-                                            arguments->more, &results->study);
-  if (status != HOOKE_OK) return cli_report_status(arguments, status);
-  status = cli_watch_run(arguments, results->study, NULL);
+  const int32_t status = cli_watch_measure(arguments, "study", &results->setup, NULL, &results->study);
   results->interrupted = status == HOOKE_STOPPED;
   return status == HOOKE_OK || results->interrupted ? HOOKE_EXIT_DONE : cli_report_status(arguments, status);
 }

@@ -32,7 +32,7 @@ struct why {
 
 static int32_t see_run(double done, const char *method, void *watch) {
   (void)method;
-  return cli_watch_tell(watch, done, "running it");
+  return cli_watch_progress(done, "running it", watch);
 }
 
 static int32_t find_bound(struct why *why, const hooke_state *state) {
