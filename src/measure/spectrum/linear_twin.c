@@ -24,40 +24,23 @@ struct making {
   double *kappa, *gamma, *rest_length;
 };
 
-/* Calls `see` for every spring with a free end, with its element. */
-static void each_spring(struct making *making, struct hk_twin *twin,
-                        void (*see)(struct making *, struct hk_twin *, const struct hk_spring *,
-                                    const struct hk_element *)) {
-  const struct hk_springs *springs = making->system->springs;
-  for (int64_t r = 0; r < springs->run_count; r++) {
-    for (int64_t k = 0; k < springs->run[r].count; k++) {
-      const struct hk_spring spring = hk_run_spring(&springs->run[r], k);
-      struct hk_element e = {.count = 0};
-      hk_spring_element(&spring, making->q, NULL, &e);
-      if (hk_element_moves(making->system->constrained, &e)) see(making, twin, &spring, &e);
-    }
-  }
-}
-
 static double length_at(const struct hk_spring *spring, const double *q) {
   struct hk_stretch s;
   hk_spring_stretch(spring, q, NULL, &s);
   return s.length;
 }
 
-static void see_length(struct making *making, struct hk_twin *twin, const struct hk_spring *spring,
-                       const struct hk_element *e) {
-  const double r = length_at(spring, making->q);
-  (void)twin;
-  (void)e;
-  if (r > 0.0) making->shortest = fmin(making->shortest, r);
-}
-
 /* Bodies turn as springs do. */
-static void see_bodies(struct making *making) {
-  const struct hk_bodies *bodies = making->system->bodies;
-  for (int64_t k = 0; k < making->system->moving_bodies; k++) {
-    const struct hk_body *body = bodies->mover[k];
+static void find_shortest(struct making *making) {
+  const hooke_system *system = making->system;
+  for (int64_t s = 0; s < system->springs->count; s++) {
+    const struct hk_spring spring = hk_springs_find(system->springs, s);
+    const double r = length_at(&spring, making->q);
+    if (r > 0.0 && !(system->constrained[spring.head] && system->constrained[spring.tail]))
+      making->shortest = fmin(making->shortest, r);
+  }
+  for (int64_t k = 0; k < system->moving_bodies; k++) {
+    const struct hk_body *body = system->bodies->mover[k];
     const double *first = body->place + 3 * (int64_t)body->base[0],
                  *second = body->place + 3 * (int64_t)body->base[1];
     const double d[3] = {second[0] - first[0], second[1] - first[1], second[2] - first[2]};
@@ -117,21 +100,24 @@ static int join_spring(struct making *making, const struct hk_spring *spring, do
   return 1;
 }
 
-static void keep_spring(struct making *making, struct hk_twin *twin, const struct hk_spring *spring,
-                        const struct hk_element *e) {
-  const double before = length_at(spring, making->q), after = length_at(spring, twin->place);
+static void keep_spring(struct making *making, struct hk_twin *twin, int64_t number) {
+  const struct hk_spring spring = hk_springs_find(making->system->springs, number);
+  const double before = length_at(&spring, making->q), after = length_at(&spring, twin->place);
+  struct hk_element e = {.count = 0};
+  hk_spring_element(&spring, making->q, NULL, &e);
+  if (!hk_element_moves(making->system->constrained, &e)) return;
   if (after == 0.0) { /* it is linear as it stands */
-    keep_element(making, twin, e);
+    keep_element(making, twin, &e);
     return;
   }
-  const double rest_length = hk_element_across(e) > 0.0 ? after * (spring->rest_length / before) : after;
-  if (join_spring(making, spring, rest_length)) return;
+  const double rest_length = hk_element_across(&e) > 0.0 ? after * (spring.rest_length / before) : after;
+  if (join_spring(making, &spring, rest_length)) return;
   const int64_t k = making->springs++;
-  making->last[lower_end(spring)] = k + 1;
-  making->ends[2 * k] = spring->head;
-  making->ends[2 * k + 1] = spring->tail;
-  making->kappa[k] = spring->kappa;
-  making->gamma[k] = spring->gamma;
+  making->last[lower_end(&spring)] = k + 1;
+  making->ends[2 * k] = spring.head;
+  making->ends[2 * k + 1] = spring.tail;
+  making->kappa[k] = spring.kappa;
+  making->gamma[k] = spring.gamma;
   making->rest_length[k] = rest_length;
 }
 
@@ -261,11 +247,11 @@ static int32_t freeze(struct making *making, struct hk_twin *twin) {
   int32_t status = new_thaw(making, twin);
   if (status != HOOKE_OK) return status;
   find_extent(making);
-  each_spring(making, twin, see_length);
-  see_bodies(making);
+  find_shortest(making);
   find_factor(making);
   place_particles(making, twin->place);
-  each_spring(making, twin, keep_spring);
+  for (int64_t s = 0; s < making->system->springs->count; s++)
+    keep_spring(making, twin, s);
   keep_others(making, twin);
   int needed = 0;
   status = build(making, twin, 0, &twin->system);
