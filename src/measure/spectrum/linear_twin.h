@@ -23,7 +23,7 @@ struct hk_twin {
   double *place;            /* its rest positions, 3n */
   double *balance;          /* the constant force, 3n */
   double *moved;            /* scratch, 6n */
-  /* clamped, with a free particle: springs of no length, and elements of other forces than springs and drag */
+  /* clamped, with a free particle: springs of no length, and those of other forces but springs and drag */
   struct hk_element *element;
 };
 
