@@ -50,7 +50,7 @@ static int32_t read_run(struct hk_scene_reader *reader, const char *run) {
   if (status || run == NULL) return status;
   strcpy(reader->within, "run");
   status = hk_scene_require(run, '{', NULL, "an object { ... }");
-  if (status == HOOKE_OK) status = hk_scene_read_some_options(reader, run, NULL, reader->scene->run);
+  if (status == HOOKE_OK) status = hk_scene_read_options(reader, run, NULL, reader->scene->run);
   if (status == HOOKE_OK) status = check_method(reader->scene->run);
   return status;
 }
