@@ -21,11 +21,8 @@ module hooke_builders
     generic :: add_particles => add_particles_alike, add_particles_each
     procedure, private :: pin_one, pin_some
     generic :: pin => pin_one, pin_some
-    procedure :: add_springs
     procedure, private :: add_bending_alike, add_bending_each
     generic :: add_bending => add_bending_alike, add_bending_each
-    procedure :: add_altitude
-    procedure :: add_anchors
     procedure :: add_body
     procedure :: add_part
     procedure :: set_gravity
@@ -98,24 +95,6 @@ contains
     call accept(c_system_pin(self%address(), size(particles, kind=c_int64_t), zero_based(particles)), status)
   end subroutine
 
-  ! Adds a group of springs between the particles ends(1, k) and ends(2, k).
-  subroutine add_springs(self, ends, options, name, status)
-    class(hooke_builder), intent(inout) :: self
-    integer, intent(in) :: ends(:, :)
-    type(hooke_options), intent(in) :: options
-    character(*), intent(in), optional :: name
-    integer, intent(out), optional :: status
-    character(:), allocatable :: c_name
-    if (self%is_missing(status, options)) return
-    if (size(ends, 1) /= 2) then
-      call refuse(hooke_bad_value, "the ends of springs have the shape (2, n)", status)
-      return
-    end if
-    call to_c_if(name, c_name)
-    call accept(c_system_add_springs(self%address(), c_name, size(ends, 2, c_int64_t), zero_based(ends), &
-      options%address()), status)
-  end subroutine
-
   subroutine add_bending_alike(self, triples, coefficient, name, status)
     class(hooke_builder), intent(inout) :: self
     integer, intent(in) :: triples(:, :)
@@ -141,38 +120,6 @@ contains
     call to_c_if(name, c_name)
     call accept(c_system_add_bending(self%address(), c_name, size(triples, 2, c_int64_t), zero_based(triples), &
       size(coefficient, kind=c_int64_t), coefficient), status)
-  end subroutine
-
-  ! Adds a group of altitude springs on tetrahedra(4, n) of particles.
-  subroutine add_altitude(self, tetrahedra, options, name, status)
-    class(hooke_builder), intent(inout) :: self
-    integer, intent(in) :: tetrahedra(:, :)
-    type(hooke_options), intent(in) :: options
-    character(*), intent(in), optional :: name
-    integer, intent(out), optional :: status
-    character(:), allocatable :: c_name
-    if (self%is_missing(status, options)) return
-    if (size(tetrahedra, 1) /= 4) then
-      call refuse(hooke_bad_value, "tetrahedra have the shape (4, n)", status)
-      return
-    end if
-    call to_c_if(name, c_name)
-    call accept(c_system_add_altitude(self%address(), c_name, size(tetrahedra, 2, c_int64_t), zero_based(tetrahedra), &
-      options%address()), status)
-  end subroutine
-
-  ! Adds a group of anchors, springs from particles to fixed points.
-  subroutine add_anchors(self, particles, options, name, status)
-    class(hooke_builder), intent(inout) :: self
-    integer, intent(in) :: particles(:)
-    type(hooke_options), intent(in) :: options
-    character(*), intent(in), optional :: name
-    integer, intent(out), optional :: status
-    character(:), allocatable :: c_name
-    if (self%is_missing(status, options)) return
-    call to_c_if(name, c_name)
-    call accept(c_system_add_anchors(self%address(), c_name, size(particles, kind=c_int64_t), zero_based(particles), &
-      options%address()), status)
   end subroutine
 
   ! Makes particles one rigid body; with `project` initial velocities become those of the nearest rigid motion.

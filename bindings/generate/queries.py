@@ -1,6 +1,7 @@
-"""Fortran procedures that only pass numbers, texts, objects and callbacks, and make objects. A type that extends
-hooke_system_queries has one for every C function hooke_system_<name>() with such arguments and results that no
-hand-written procedure calls; functions without an object are procedures of the module hooke_queries_of_library."""
+"""Fortran procedures that only pass numbers, texts, lists of particles, objects and callbacks, and make objects. A type
+that extends hooke_system_queries has one for every C function hooke_system_<name>() with such arguments and results
+that no hand-written procedure calls; functions without an object are procedures of the module
+hooke_queries_of_library."""
 
 import re
 
@@ -31,6 +32,8 @@ ALSO = {("hooke_estimate", "hooke_measurement_on_progress")}  # and those that a
 NTH = ("first", "second", "third", "fourth", "fifth")
 # Arrays of a row for every particle of a system, by the names of their parameters.
 ROWS = {"q", "v", "dq", "dv", "force", "acceleration", "out"}
+# Lists of members, whose number is the parameter `count`, by the names of their parameters, with the particles of each.
+LISTS = {"ends": 2, "tetrahedra": 4, "particles": 1}
 # Parameters that have another name in Fortran.
 RENAMED = {("hooke_checkpoint_read", "run"): "name", ("hooke_checkpoint_write", "run"): "name",
            ("hooke_method_name", "method"): "number", ("hooke_part_kind", "kind"): "number",
@@ -88,13 +91,20 @@ class Parameter:
             self.before = [f"callback = callback_to(c_funloc(call_{self.callback[len('hooke_'):]}), {what})"]
         elif self.object:
             type_ = own if self.object == IN_C.get(own) else self.object
-            absent = guard.may_be_null(name, self.object) and (kind.startswith("const") or self.object != "hooke_options")
+            absent = (guard.may_be_null(name, self.object) and not name.startswith("hooke_system_add_")
+                      and (kind.startswith("const") or self.object != "hooke_options"))
             intent, self.object = "in" if kind.startswith("const") else "inout", type_
             self.declared = f"class({type_}_queries), intent({intent}){', optional' if absent else ''} :: {what}"
             self.passed = f"address_or_null({what})" if absent else f"{what}%address()"
         elif self.rows:
             intent = "in" if kind.startswith("const") else "inout"
             self.declared, self.passed = f"real(c_double), intent({intent}), contiguous :: {what}(:, :)", what
+        elif kind == "const int64_t *":
+            width = LISTS[what]
+            self.declared, self.passed = f"integer, intent(in) :: {what}({':, :' if width > 1 else ':'})", f"zero_based({what})"
+            if width > 1:
+                refusal = f'  call refuse(hooke_bad_value, "{what} have the shape ({width}, n)", status)'
+                self.before = [f"if (size({what}, 1) /= {width}) then", refusal, "  return", "end if"]
         elif kind == "double":
             self.declared, self.passed = f"real(c_double), intent(in) :: {what}", what
         elif self.last:
@@ -128,10 +138,13 @@ class Procedure:
         self.makes = bool(parameters) and parameters[-1][0].endswith("**")
         takes_self = own and not self.makes
         self.self_ = next((kind for kind, _ in parameters if takes_self and object_of(kind) == IN_C.get(own, own)), None)
+        members = next((what for kind, what in parameters if kind == "const int64_t *"), None)
         self.given, passed = [], []
         for kind, what in parameters:
             if kind == self.self_ and "self%address()" not in passed:
                 passed.append("self%address()")
+            elif members and what == "count":
+                passed.append(f"size({members}, {min(LISTS[members], 2)}, c_int64_t)")
             elif not kind.endswith("**") and what != "ctx":
                 self.given.append(Parameter(function, kind, what, own))
                 passed.append(self.given[-1].passed)
@@ -216,7 +229,8 @@ def is_query(function, type_, types, by_hand):
     """Whether a function of C is made a procedure of `type_`, or of no type."""
     result, name, parameters = function
     kinds = [kind for kind, what in parameters
-             if what != "ctx" and not (type_ == "hooke_system" and kind.endswith("double *") and what in ROWS)]
+             if what != "ctx" and not (type_ == "hooke_system" and kind.endswith("double *") and what in ROWS)
+             and not (kind == "const int64_t *" and what in LISTS)]
     makes = bool(kinds) and kinds[-1].endswith("**")
     made = makes and object_of(kinds.pop()[:-1]) == IN_C.get(type_, type_)
     known = {*types, *IN_C.values()}
@@ -266,8 +280,8 @@ def module(type_, types, public, by_hand):
     return ["", f"! What {who} does as the functions of C of the same names; numbers of things count from 1 here.",
             f"module hooke_queries_of_{named}",
             "  use, intrinsic :: iso_c_binding, only: c_double, c_funloc, c_int32_t, c_int64_t, c_ptr",
-            "  use hooke_base, only: accept, are_3_by, hooke_stopped, to_c, to_c_if, to_integer, to_number, to_text, &",
-            "    zero_based", *uses,
+            "  use hooke_base, only: accept, are_3_by, hooke_bad_value, hooke_stopped, refuse, to_c, to_c_if, to_integer, &",
+            "    to_number, to_text, zero_based", *uses,
             "  use hooke_handles, only: address_or_null, callback_to, hooke_callback, hooke_handle, missing", "  implicit none",
             "  private", *(own if type_ else free), *lines, "end module"]
 

@@ -16,6 +16,9 @@ struct hooke_system;
 enum { HOOKE_KAPPA, HOOKE_GAMMA, HOOKE_REST_LENGTH, HOOKE_POINT, HOOKE_GROUP_NUMBERS };
 enum { HOOKE_MEMBER_PARTICLES = 4 };
 
+/* The options of groups that hold these numbers. */
+extern const char *const hk_group_names[HOOKE_GROUP_NUMBERS];
+
 struct hk_group {
   const struct hk_force_row *force;
   char *name;

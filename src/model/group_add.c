@@ -87,12 +87,13 @@ int32_t hk_group_begin(const hooke_system *system, const struct hk_addition *add
   return status;
 }
 
+const char *const hk_group_names[] = {"stiffness", "damping", "rest_length", "points"};
+
 void hk_group_fill(struct hk_group *group, const hooke_options *options) {
-  static const char *const names[] = {"stiffness", "damping", "rest_length"};
   for (int what = 0; what < 3; what++) {
     const int64_t given =
-        group->force->width[what] == 1 ? hooke_options_number_count(options, names[what]) : 0;
-    const double *value = given > 0 ? hooke_options_numbers(options, names[what]) : NULL;
+        group->force->width[what] == 1 ? hooke_options_number_count(options, hk_group_names[what]) : 0;
+    const double *value = given > 0 ? hooke_options_numbers(options, hk_group_names[what]) : NULL;
     for (int64_t k = 0; k < group->count && value; k++)
       group->number[what][k] = value[given > 1 ? k : 0];
   }

@@ -42,7 +42,7 @@ contains
 
   subroutine refusals()
     type(hooke_system) :: system, none
-    type(hooke_options) :: spring, nothing
+    type(hooke_options) :: spring, anchor, nothing
     real(hooke_real) :: position(3, 2), flat(2, 2), f(3, 2)
     integer :: status, first
     position = 0
@@ -79,6 +79,12 @@ contains
     call expect(status == hooke_bad_value, "a triple has three")
     call system%add_bending(reshape([1, 2, 3], [3, 1]), [1.0_hooke_real], "fold", status)
     call expect(status == hooke_ok, "as here")
+    call anchor%create("anchors")
+    call anchor%set("stiffness", 1)
+    call system%add_anchors([1, 5], anchor, status=status)
+    call expect(status == hooke_bad_value .and. index(hooke_message(), "particles[1]") > 0, "an anchor of no particle")
+    call system%add_anchors([1, 2], anchor, "held", status)
+    call expect(status == hooke_ok .and. system%group_name("anchors", 1) == "held", "two anchors")
     call system%force(0.0_hooke_real, position, position, f, status)
     call expect(status == hooke_bad_value, "arrays for two particles of four")
     call system%set_drag(-1.0_hooke_real, status)

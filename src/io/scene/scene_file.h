@@ -13,11 +13,11 @@ extern const struct hk_scene_list {
   const char *key;    /* also the name of their options */
   const char *others; /* keys beside those of the options, each between blanks */
   const char *particles;
-  int32_t columns; /* of a row of particles; 0: one */
+  int32_t columns;      /* of a row of particles; 0: one */
+  const char *strength; /* key of the first number of a member, if they are groups of a force */
   const char *allowed;
   int32_t (*add)(hooke_system *system, const char *name, int64_t count, const int64_t *particles,
                  const hooke_options *options);
-  const char *values[3]; /* keys of the numbers of hooke_system_members(), if they are groups of a force */
 } hk_scene_lists[];
 
 /* HOOKE_NO_MEMORY if a scene of `length` bytes of text may need more than `limit` (0: the machine's memory). */

@@ -19,10 +19,8 @@ static int32_t check_version(const char *root) {
   if (version == NULL)
     return hk_fail(HOOKE_BAD_VALUE, "hooke",
                    "is required but missing; allowed: 1, the version of the format");
-  if (!hk_json_is_integer(version)) return hk_scene_refuse(version, "hooke", "1, the version of the format");
-  if (hk_json_integer(version) == 1) return HOOKE_OK;
-  return hk_fail(HOOKE_BAD_VALUE, "hooke", "%lld is not a known version of the format; allowed: 1",
-                 (long long)hk_json_integer(version));
+  if (hk_json_is_integer(version) && hk_json_integer(version) == 1) return HOOKE_OK;
+  return hk_scene_refuse(version, "hooke", "1, the version of the format");
 }
 
 static int32_t read_top(struct hk_scene_reader *reader, const char *root) {
@@ -52,7 +50,7 @@ static int32_t read_run(struct hk_scene_reader *reader, const char *run) {
   if (status || run == NULL) return status;
   strcpy(reader->within, "run");
   status = hk_scene_require(run, '{', NULL, "an object { ... }");
-  if (status == HOOKE_OK) status = hk_scene_read_some_options(reader, run, NULL, reader->scene->run);
+  if (status == HOOKE_OK) status = hk_scene_read_options(reader, run, NULL, reader->scene->run);
   if (status == HOOKE_OK) status = check_method(reader->scene->run);
   return status;
 }

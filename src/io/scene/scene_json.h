@@ -33,10 +33,6 @@ int32_t hk_scene_note(struct hk_scene_reader *reader, int32_t status);
  * blanks) are left to the caller. Then checks that nothing required is missing. */
 int32_t hk_scene_read_options(struct hk_scene_reader *reader, const char *object, const char *others,
                               hooke_options *options);
-/* The same without the last check. */
-int32_t hk_scene_read_some_options(struct hk_scene_reader *reader, const char *object, const char *others,
-                                   hooke_options *options);
-
 /* Fails unless `value` begins with `first`, one of { [ and "; `place` may be NULL. */
 int32_t hk_scene_require(const char *value, char first, const char *place, const char *allowed);
 

@@ -162,17 +162,12 @@ static int32_t read_object(struct hk_scene_reader *reader, const char *object,
   return HOOKE_OK;
 }
 
-int32_t hk_scene_read_some_options(struct hk_scene_reader *reader, const char *object, const char *others,
-                                   hooke_options *options) {
-  const int64_t before = reader->faults;
-  const int32_t status = read_object(reader, object, hk_options_table(options), "", others, options);
-  if (status != HOOKE_OK || reader->faults == before) return status;
-  reader->noted = 1;
-  return HOOKE_BAD_VALUE;
-}
-
 int32_t hk_scene_read_options(struct hk_scene_reader *reader, const char *object, const char *others,
                               hooke_options *options) {
-  int32_t status = hk_scene_read_some_options(reader, object, others, options);
-  return status ? status : hk_options_check_required(options);
+  const int64_t before = reader->faults;
+  const int32_t status = read_object(reader, object, hk_options_table(options), "", others, options);
+  if (status != HOOKE_OK) return status;
+  if (reader->faults == before) return hk_options_check_required(options);
+  reader->noted = 1;
+  return HOOKE_BAD_VALUE;
 }

@@ -18,21 +18,24 @@
 #include <math.h>
 #include <string.h>
 
-/* A scene numbers the particles of parts after the others. */
-struct numbering {
-  int64_t alone;   /* particles of no part, whose numbers are below this */
-  int64_t *number; /* by particle */
+struct writer {
+  const hooke_system *system;
+  struct hk_text json;
+  int32_t open;    /* members of the list so far */
+  int64_t alone;   /* particles of no part, whose numbers in the scene are below this */
+  int64_t *number; /* by particle: a scene numbers those of parts after the others */
 };
 
-static int32_t find_numbers(const hooke_system *system, struct numbering *numbering) {
-  int64_t *number = numbering->number = hk_new(system->particle_count, sizeof *number);
+static int32_t find_numbers(struct writer *to) {
+  const hooke_system *system = to->system;
+  int64_t *number = to->number = hk_new(system->particle_count, sizeof *number);
   if (number == NULL) return HOOKE_NO_MEMORY;
   for (int64_t k = 0; k < system->part_count; k++)
     memset(number + system->part[k].first, 0xFF, (size_t)system->part[k].count * sizeof *number); /* -1 */
   for (int64_t p = 0; p < system->particle_count; p++) {
-    if (number[p] == 0) number[p] = numbering->alone++;
+    if (number[p] == 0) number[p] = to->alone++;
   }
-  int64_t next = numbering->alone;
+  int64_t next = to->alone;
   for (int64_t k = 0; k < system->part_count; k++) {
     for (int64_t p = 0; p < system->part[k].count; p++)
       number[system->part[k].first + p] = next++;
@@ -40,13 +43,13 @@ static int32_t find_numbers(const hooke_system *system, struct numbering *number
   return HOOKE_OK;
 }
 
-/* One number if all are equal to the bit. */
+/* One number if all are equal to the bit, and 0 for none. */
 static void add_shared(struct hk_text *text, const char *key, int64_t count, const double *value) {
   int64_t same = 1;
   while (same < count && memcmp(&value[same], &value[0], sizeof *value) == 0)
     same++;
-  if (same == count)
-    hk_text_number(text, key, value[0]);
+  if (count <= same)
+    hk_text_number(text, key, count > 0 ? value[0] : 0.0);
   else
     hk_scene_add_numbers(text, key, count, 0, value);
 }
@@ -54,10 +57,9 @@ static void add_shared(struct hk_text *text, const char *key, int64_t count, con
 /* ---- particles ---- */
 
 /* The rows of particles of no part, each of `columns` numbers. */
-static void take_alone(const hooke_system *system, const struct numbering *numbering, int32_t columns,
-                       const double *value, double *rows) {
-  for (int64_t p = 0; p < system->particle_count; p++) {
-    if (numbering->number[p] >= numbering->alone) continue;
+static void take_alone(const struct writer *to, int32_t columns, const double *value, double *rows) {
+  for (int64_t p = 0; p < to->system->particle_count; p++) {
+    if (to->number[p] >= to->alone) continue;
     memcpy(rows, value + columns * p, (size_t)columns * sizeof *rows);
     rows += columns;
   }
@@ -70,35 +72,35 @@ static int32_t is_moving(int64_t count, const double *velocity) {
 }
 
 /* The pinned ones of `count` particles from `first` on that have one of `numbers` numbers from `from` on. */
-static void add_pinned(struct hk_text *text, const hooke_system *system, const struct numbering *numbering,
-                       int64_t first, int64_t count, int64_t from, int64_t numbers) {
+static void add_pinned(struct writer *to, int64_t first, int64_t count, int64_t from, int64_t numbers) {
   int32_t open = 0;
   for (int64_t p = first; p < first + count; p++) {
-    const int64_t number = numbering->number[p] - from;
-    if (number < 0 || number >= numbers || system->constrained[p] != HOOKE_IS_PINNED) continue;
-    if (!open++) hk_text_open(text, "pinned", '[');
-    hk_text_number(text, NULL, (double)number);
+    const int64_t number = to->number[p] - from;
+    if (number < 0 || number >= numbers || to->system->constrained[p] != HOOKE_IS_PINNED) continue;
+    if (!open++) hk_text_open(&to->json, "pinned", '[');
+    hk_text_number(&to->json, NULL, (double)number);
   }
-  if (open) hk_text_close(text, ']');
+  if (open) hk_text_close(&to->json, ']');
 }
 
-static void add_particles(struct hk_text *text, const hooke_system *system,
-                          const struct numbering *numbering) {
-  const int64_t count = numbering->alone;
+static void add_particles(struct writer *to) {
+  const hooke_system *system = to->system;
+  const int64_t count = to->alone;
+  struct hk_text *text = &to->json;
   double *rows = hk_new(3 * count, sizeof *rows);
   if (rows == NULL) {
     text->status = HOOKE_NO_MEMORY;
     return;
   }
   hk_text_open(text, "particles", '{');
-  take_alone(system, numbering, 3, system->position, rows);
+  take_alone(to, 3, system->position, rows);
   hk_scene_add_numbers(text, "position", 3 * count, 3, rows);
-  if (system->velocity) take_alone(system, numbering, 3, system->velocity, rows);
+  if (system->velocity) take_alone(to, 3, system->velocity, rows);
   if (system->velocity && is_moving(3 * count, rows))
     hk_scene_add_numbers(text, "velocity", 3 * count, 3, rows);
-  take_alone(system, numbering, 1, system->mass, rows);
+  take_alone(to, 1, system->mass, rows);
   if (rows[0] != 0.0) add_shared(text, "mass", count, rows); /* 0: not given */
-  add_pinned(text, system, numbering, 0, system->particle_count, 0, count);
+  add_pinned(to, 0, system->particle_count, 0, count);
   hk_text_close(text, '}');
   hk_free(rows);
 }
@@ -106,18 +108,17 @@ static void add_particles(struct hk_text *text, const hooke_system *system,
 /* ---- parts ---- */
 
 /* Pins beyond those of a part's options are added to them, by number. */
-static void add_parts(struct hk_text *text, const hooke_system *system, const struct numbering *numbering) {
+static void add_parts(struct writer *to) {
+  struct hk_text *text = &to->json;
   hk_text_open(text, "parts", '[');
-  for (int64_t k = 0; k < system->part_count; k++) {
-    const struct hk_part_record *part = &system->part[k];
-    const int32_t as_given = hk_part_record_pinned(system, part) == part->pinned;
+  for (int64_t k = 0; k < to->system->part_count; k++) {
+    const struct hk_part_record *part = &to->system->part[k];
+    const int32_t as_given = hk_part_record_pinned(to->system, part) == part->pinned;
     hk_text_open(text, NULL, '{');
     hk_text_word(text, "kind", part->kind);
     hk_text_word(text, "name", part->name);
     hk_scene_add_options(text, part->options, as_given ? NULL : "pinned");
-    if (!as_given)
-      add_pinned(text, system, numbering, part->first, part->count, numbering->number[part->first],
-                 part->count);
+    if (!as_given) add_pinned(to, part->first, part->count, to->number[part->first], part->count);
     hk_text_close(text, '}');
   }
   hk_text_close(text, ']');
@@ -125,106 +126,80 @@ static void add_parts(struct hk_text *text, const hooke_system *system, const st
 
 /* ---- lists ---- */
 
-/* Particles by their numbers in the scene; those of a member are a row. */
-static void add_numbered(struct hk_text *text, const struct hk_scene_list *list, int64_t count,
-                         const int64_t *wide, const int32_t *narrow, const struct numbering *numbering) {
-  const int64_t columns = list->columns;
+/* Opens a member, and the list before the first one, with its name and its particles by their numbers in the
+ * scene. */
+static void open_member(struct writer *to, const struct hk_scene_list *list, const char *name, int64_t count,
+                        int32_t *const *particle) {
+  struct hk_text *text = &to->json;
+  if (!to->open++) hk_text_open(text, list->key, '[');
+  hk_text_open(text, NULL, '{');
+  if (name && name[0]) hk_text_word(text, "name", name);
   hk_text_open(text, list->particles, '[');
   for (int64_t k = 0; k < count; k++) {
-    if (columns && k % columns == 0) hk_text_open(text, NULL, '[');
-    hk_text_number(text, NULL, (double)numbering->number[wide ? wide[k] : narrow[k]]);
-    if (columns && k % columns == columns - 1) hk_text_close(text, ']');
+    if (list->columns) hk_text_open(text, NULL, '[');
+    for (int32_t e = 0; e == 0 || e < list->columns; e++)
+      hk_text_number(text, NULL, (double)to->number[particle[e][k]]);
+    if (list->columns) hk_text_close(text, ']');
   }
   hk_text_close(text, ']');
 }
 
-/* All members of a force; `first` is the first one of a group. */
-struct members {
-  int64_t first, count, *particle;
-  double *value[3], *point; /* points of anchors */
-};
-
-static int32_t find_members(const hooke_system *system, const struct hk_scene_list *list,
-                            struct members *all) {
-  const int64_t count = all->count = hooke_system_count(system, list->key);
-  all->particle = hk_new((list->columns > 0 ? list->columns : 1) * count, sizeof *all->particle);
-  double *numbers = all->point = hk_new(6 * count, sizeof *numbers);
-  if (!all->particle || !numbers) return HOOKE_NO_MEMORY;
-  for (int k = 0; k < 3; k++)
-    all->value[k] = numbers + (3 + k) * count;
-  if (hk_force_find(list->key) == &hk_force_anchor) hooke_system_anchor_points(system, all->point);
-  return hooke_system_members(system, list->key, all->particle, all->value[0], all->value[1], all->value[2]);
+/* The numbers of members, whatever law they were given by. */
+static void add_columns(struct hk_text *text, const struct hk_scene_list *list,
+                        const struct hk_group *group) {
+  const int32_t *width = group->force->width;
+  if (group->force == &hk_force_springs) hk_text_word(text, "law", "length");
+  add_shared(text, list->strength, group->count, group->number[HOOKE_KAPPA]);
+  for (int k = HOOKE_KAPPA + 1; k < HOOKE_GROUP_NUMBERS && group->count > 0; k++) {
+    if (width[k] == 1) add_shared(text, hk_group_names[k], group->count, group->number[k]);
+    if (width[k] > 1)
+      hk_scene_add_numbers(text, hk_group_names[k], width[k] * group->count, width[k], group->number[k]);
+  }
+  if (group->pull_only) hk_text_flag(text, "compression", 0);
 }
 
-static void add_group(struct hk_text *text, const struct hk_scene_list *list, const struct hk_group *group,
-                      const struct numbering *numbering, const struct members *all) {
-  const int64_t first = all->first, width = list->columns > 0 ? list->columns : 1;
-  hk_text_open(text, NULL, '{');
-  if (group->name[0]) hk_text_word(text, "name", group->name);
-  add_numbered(text, list, group->count * width, all->particle + first * width, NULL, numbering);
-  if (group->count == 0) { /* all its members were dropped */
-    hk_text_number(text, list->values[0], 0.0);
-  } else if (group->options) {
-    hk_scene_add_options(text, group->options, NULL);
+/* Members from number `first` on of their force. */
+static void add_group(struct writer *to, const struct hk_scene_list *list, const struct hk_group *group,
+                      int64_t first) {
+  struct hk_group all = {.force = group->force, .count = group->count, .pull_only = group->pull_only};
+  if (hk_group_allocate(&all, NULL) == HOOKE_OK) {
+    if (all.count > 0) all.force->recall(to->system, first, &all);
+    open_member(to, list, group->name, all.count, all.particle);
+    if (group->options)
+      hk_scene_add_options(&to->json, group->options, NULL);
+    else
+      add_columns(&to->json, list, &all);
+    hk_text_close(&to->json, '}');
   } else {
-    if (group->force == &hk_force_springs) hk_text_word(text, "law", "length");
-    if (group->force == &hk_force_anchor)
-      hk_scene_add_numbers(text, "points", 3 * group->count, 3, all->point + 3 * first);
-    for (int k = 0; k < 3 && list->values[k]; k++)
-      add_shared(text, list->values[k], group->count, all->value[k] + first);
-    if (group->pull_only) hk_text_flag(text, "compression", 0);
+    to->json.status = HOOKE_NO_MEMORY;
   }
-  hk_text_close(text, '}');
+  hk_group_release(&all);
 }
 
-static int32_t has_groups(const hooke_system *system, const struct hk_force_row *force) {
-  int32_t groups = 0;
-  for (int64_t g = 0; g < hk_system_groups_of(system, force); g++)
-    groups |= !hk_system_group(system, force, g)->from_part;
-  return groups;
-}
-
-static void add_groups(struct hk_text *text, const hooke_system *system, const struct hk_scene_list *list,
-                       const struct numbering *numbering) {
+static void add_groups(struct writer *to, const struct hk_scene_list *list) {
   const struct hk_force_row *force = hk_force_find(list->key);
-  struct members all = {0};
-  if (!has_groups(system, force)) return;
-  const int32_t status = find_members(system, list, &all);
-  if (status != HOOKE_OK) text->status = status;
-  hk_text_open(text, list->key, '[');
-  for (int64_t g = 0; status == HOOKE_OK && g < hk_system_groups_of(system, force); g++) {
-    const struct hk_group *group = hk_system_group(system, force, g);
-    if (!group->from_part) add_group(text, list, group, numbering, &all);
-    all.first += group->count;
+  const struct hk_group *group;
+  int64_t first = 0;
+  for (int64_t g = 0; (group = hk_system_group(to->system, force, g)) != NULL; g++) {
+    if (!group->from_part) add_group(to, list, group, first);
+    first += group->count;
   }
-  hk_text_close(text, ']');
-  hk_free(all.particle);
-  hk_free(all.point);
 }
 
-static void add_bodies(struct hk_text *text, const hooke_system *system, const struct hk_scene_list *list,
-                       const struct numbering *numbering) {
-  int32_t open = 0;
-  for (int64_t k = 0; k < system->bodies->count; k++) {
-    const struct hk_body *body = &system->bodies->body[k];
+static void add_bodies(struct writer *to, const struct hk_scene_list *list) {
+  for (int64_t k = 0; k < to->system->bodies->count; k++) {
+    const struct hk_body *body = &to->system->bodies->body[k];
     if (body->part >= 0) continue; /* its part says so */
-    if (!open++) hk_text_open(text, list->key, '[');
-    hk_text_open(text, NULL, '{');
-    if (body->name[0]) hk_text_word(text, "name", body->name);
-    add_numbered(text, list, body->count, NULL, body->particle, numbering);
-    hk_text_close(text, '}');
+    open_member(to, list, body->name, body->count, &body->particle);
+    hk_text_close(&to->json, '}');
   }
-  if (open) hk_text_close(text, ']');
 }
 
-static void add_drives(struct hk_text *text, const hooke_system *system, const struct hk_scene_list *list,
-                       const struct numbering *numbering) {
-  if (system->drive_count == 0) return;
-  hk_text_open(text, list->key, '[');
-  for (int64_t k = 0; k < system->drive_count; k++) {
-    const struct hk_drive_group *drive = &system->drive[k];
-    hk_text_open(text, NULL, '{');
-    add_numbered(text, list, drive->count, NULL, drive->particle, numbering);
+static void add_drives(struct writer *to, const struct hk_scene_list *list) {
+  struct hk_text *text = &to->json;
+  for (int64_t k = 0; k < to->system->drive_count; k++) {
+    const struct hk_drive_group *drive = &to->system->drive[k];
+    open_member(to, list, NULL, drive->count, &drive->particle);
     hk_text_word(text, "motion", drive->kind == HOOKE_DRIVE_TABLE ? "table" : "harmonic");
     if (drive->kind == HOOKE_DRIVE_TABLE) {
       hk_scene_add_numbers(text, "time", drive->samples, 0, drive->time);
@@ -236,17 +211,18 @@ static void add_drives(struct hk_text *text, const hooke_system *system, const s
     }
     hk_text_close(text, '}');
   }
-  hk_text_close(text, ']');
 }
 
-static void add_lists(struct hk_text *text, const hooke_system *system, const struct numbering *numbering) {
+static void add_lists(struct writer *to) {
   for (const struct hk_scene_list *list = hk_scene_lists; list->key; list++) {
-    if (list->values[0])
-      add_groups(text, system, list, numbering);
+    to->open = 0;
+    if (list->strength)
+      add_groups(to, list);
     else if (strcmp(list->key, "bodies") == 0)
-      add_bodies(text, system, list, numbering);
+      add_bodies(to, list);
     else
-      add_drives(text, system, list, numbering);
+      add_drives(to, list);
+    if (to->open) hk_text_close(&to->json, ']');
   }
 }
 
@@ -271,17 +247,18 @@ static int32_t check_words(const hooke_system *system) {
 
 /* ---- the scene ---- */
 
-static void add_scene(struct hk_text *text, const hooke_system *system, const char *title,
-                      const hooke_options *run, const struct numbering *numbering) {
+static void add_scene(struct writer *to, const char *title, const hooke_options *run) {
+  const hooke_system *system = to->system;
+  struct hk_text *text = &to->json;
   hk_text_open(text, NULL, '{');
   hk_text_number(text, "hooke", 1.0);
   if (title && title[0]) hk_text_word(text, "title", title);
   if (system->overdamped) hk_text_word(text, "dynamics", hooke_system_dynamics(system));
   if (system->has_gravity) hk_scene_add_numbers(text, "gravity", 3, 0, system->gravity);
   if (system->drag != 0.0) hk_text_number(text, "drag", system->drag);
-  if (numbering->alone > 0) add_particles(text, system, numbering);
-  if (system->part_count > 0) add_parts(text, system, numbering);
-  add_lists(text, system, numbering);
+  if (to->alone > 0) add_particles(to);
+  if (system->part_count > 0) add_parts(to);
+  add_lists(to);
   if (run) {
     hk_text_open(text, "run", '{');
     hk_scene_add_options(text, run, NULL);
@@ -292,19 +269,18 @@ static void add_scene(struct hk_text *text, const hooke_system *system, const ch
 
 static int32_t compose(const hooke_system *system, const char *title, const hooke_options *run,
                        struct hk_text *laid) {
-  struct hk_text json = {.bytes = NULL};
-  struct numbering numbering = {0};
+  struct writer to = {.system = system};
   int32_t status = hk_system_require_committed(system);
   if (status == HOOKE_OK && run) status = hk_run_options_require(run, "run");
   if (status == HOOKE_OK) status = check_words(system);
-  if (status == HOOKE_OK) status = find_numbers(system, &numbering);
+  if (status == HOOKE_OK) status = find_numbers(&to);
   if (status == HOOKE_OK) {
-    add_scene(&json, system, title, run, &numbering);
-    hk_text_lay_out(&json, laid);
+    add_scene(&to, title, run);
+    hk_text_lay_out(&to.json, laid);
     status = laid->status;
   }
-  hk_free(numbering.number);
-  hk_text_release(&json);
+  hk_free(to.number);
+  hk_text_release(&to.json);
   return status;
 }
 

@@ -282,7 +282,7 @@ int32_t hk_growth_see(struct hk_growth *growth, double step, int32_t thorough, i
 
 /* ---- creating ---- */
 
-int32_t hk_growth_create(const struct hk_twin *twin, const hooke_options *run, const char *method,
+int32_t hk_growth_create(struct hk_twin *twin, const hooke_options *run, const char *method,
                          const double *mode, double accuracy, double deadline, struct hk_growth *growth) {
   const int64_t size = 3 * twin->system->particle_count;
   *growth = (struct hk_growth){.twin = twin, .accuracy = accuracy, .deadline = deadline, .random = 1};

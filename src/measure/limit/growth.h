@@ -15,7 +15,7 @@ enum hk_verdict {
 };
 
 struct hk_growth {
-  const struct hk_twin *twin;
+  struct hk_twin *twin;
   hooke_options *run; /* its own copy, without frames */
   hooke_state *state;
   double *direction;     /* of the initial motion, 3n; all zeros: none known */
@@ -35,7 +35,7 @@ struct hk_growth {
 };
 
 /* `mode`: 3n displacements, or NULL. `run` (options of a run) may be NULL. */
-int32_t hk_growth_create(const struct hk_twin *twin, const hooke_options *run, const char *method,
+int32_t hk_growth_create(struct hk_twin *twin, const hooke_options *run, const char *method,
                          const double *mode, double accuracy, double deadline, struct hk_growth *growth);
 void hk_growth_release(struct hk_growth *growth);
 

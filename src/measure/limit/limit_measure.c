@@ -59,7 +59,7 @@ static int is_symplectic(const struct trial *trial) {
 static int64_t steps_for(const struct trial *trial) {
   const double accuracy = trial->growth->accuracy;
   if (trial->slow) return 1000 + (int64_t)fmin(4000.0 / accuracy, 1e15);
-  if (trial->growth->twin->damped || !is_symplectic(trial))
+  if (trial->growth->twin->lin.damped || !is_symplectic(trial))
     return 1000 + (int64_t)fmin(40.0 / accuracy, 1e15);
   return 200 + (int64_t)fmin(24.0 / sqrt(2.0 * accuracy), 1e15);
 }
@@ -67,7 +67,7 @@ static int64_t steps_for(const struct trial *trial) {
 /* A mode whose limit lies lower by the accuracy has 16 powers of e, or more, to rise from random motion. */
 static int64_t steps_to_confirm(const struct trial *trial) {
   const double accuracy = trial->growth->accuracy;
-  if (trial->growth->twin->damped || trial->slow) return 1000 + (int64_t)fmin(8.0 / accuracy, 1e15);
+  if (trial->growth->twin->lin.damped || trial->slow) return 1000 + (int64_t)fmin(8.0 / accuracy, 1e15);
   if (is_symplectic(trial)) return steps_for(trial);
   return 1000 + (int64_t)fmin(2.3 / accuracy, 1e15);
 }
@@ -120,7 +120,7 @@ static int32_t try_extremes(struct trial *trial, struct hk_bracket *bracket, int
   int32_t status = HOOKE_OK;
   for (int k = 0; k < 3 && *confirmed && status == HOOKE_OK; k++) {
     const double part = small ? pow(share[small][k], 1.0 / trial->degree) : share[small][k];
-    const double step = part * trial->growth->twin->slow_step;
+    const double step = part * trial->growth->twin->lin.slow_step;
     enum hk_trial_end end = HOOKE_TRIAL_UNKNOWN;
     status = try_frozen(trial, step, &end);
     if (end == HOOKE_TRIAL_UNKNOWN) bracket->unknown = 1;
@@ -133,7 +133,7 @@ static int32_t try_extremes(struct trial *trial, struct hk_bracket *bracket, int
 }
 
 static int32_t measure(struct trial *trial, double predicted, struct hk_measured_limit *out) {
-  const double slow_step = trial->growth->twin->slow_step;
+  const double slow_step = trial->growth->twin->lin.slow_step;
   struct hk_bracket bracket = {.try_step = try_frozen,
                                .ctx = trial,
                                .accuracy = trial->growth->accuracy,
@@ -194,7 +194,7 @@ int32_t hk_limit_measure(const hooke_system *system, const double *q, const hook
     const int slow = hk_method_needs_damping(method) && !system->overdamped;
     growth.is_named = predicted > 0.0 && isfinite(predicted);
     growth.turns_at_rest = stability->kind == HOOKE_STABLE_BY_K;
-    growth.is_convex = !twin.damped && stability->kind == HOOKE_STABLE_BY_POLYNOMIAL;
+    growth.is_convex = !twin.lin.damped && stability->kind == HOOKE_STABLE_BY_POLYNOMIAL;
     struct trial trial = {
         .growth = &growth, .stability = stability, .slow = slow, .degree = slow ? stability->degree : 1};
     trial.most_steps = steps_for(&trial);
@@ -272,12 +272,13 @@ static int32_t prepare(struct whole *whole, const hooke_options *run, const char
 
 static int32_t measure_whole(struct whole *whole, double predicted, double accuracy,
                              struct hk_measured_limit *out) {
-  struct hk_twin twin;
-  int32_t status = hk_twin_create(whole->system, hooke_state_position((hooke_state *)whole->start), &twin);
+  struct hk_linearised lin;
+  const double *q = hooke_state_position((hooke_state *)whole->start);
+  int32_t status = hk_linearised_create(whole->system, q, NULL, NULL, NULL, &lin);
   if (status != HOOKE_OK) return status;
   const double guess =
-      fmin(whole->duration, predicted > 0.0 && isfinite(predicted) ? predicted : twin.slow_step);
-  hk_twin_release(&twin);
+      fmin(whole->duration, predicted > 0.0 && isfinite(predicted) ? predicted : lin.slow_step);
+  hk_linearised_release(&lin);
   struct hk_bracket bracket = {.try_step = try_whole,
                                .ctx = whole,
                                .accuracy = accuracy,

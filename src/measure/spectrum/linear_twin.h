@@ -15,32 +15,20 @@
 #ifndef HOOKE_MEASURE_SPECTRUM_LINEAR_TWIN_H
 #define HOOKE_MEASURE_SPECTRUM_LINEAR_TWIN_H
 
-#include "measure/spectrum/rigid.h"
-
-/* What the energy of a spring takes of its element, close together: half of the energies of a measurement
- * would else be waiting for memory. */
-struct hk_twin_spring {
-  int32_t head, tail;
-  double u[3], along, across; /* k_along - k_across, and k_across */
-};
+#include "measure/spectrum/linearised.h"
 
 struct hk_twin {
-  hooke_system *system; /* committed */
-  double *place;        /* its rest positions, 3n */
-  double *balance;      /* the constant force, 3n */
-  double *moved;        /* scratch, 3n */
-  struct hk_rigid rigid;
-  /* those with a free particle, clamped: springs with a length, then the others, and those of other forces but
-   * drag */
-  int64_t spring_count, element_count;
+  hooke_system *system;     /* committed */
+  struct hk_linearised lin; /* of the original, which has the same K, C and M; the matrix of products is K */
+  double *place;            /* its rest positions, 3n */
+  double *balance;          /* the constant force, 3n */
+  double *moved;            /* scratch, 6n */
+  /* clamped, with a free particle: springs of no length, and those of other forces but springs and drag */
   struct hk_element *element;
-  struct hk_twin_spring *spring; /* the first elements once more */
-  int64_t clamped;               /* springs compressed */
-  int32_t damped;                /* damping along springs, or drag */
-  double slow_step;              /* a step [s] of the order of the fastest motion; infinity: none */
 };
 
-/* `q`: 3n positions of a committed system. HOOKE_BAD_VALUE, HOOKE_NO_MEMORY. */
+/* `q`: 3n positions of a committed system, which has to exist as long as the twin. HOOKE_BAD_VALUE,
+ * HOOKE_NO_MEMORY. */
 int32_t hk_twin_create(const hooke_system *system, const double *q, struct hk_twin *twin);
 void hk_twin_release(struct hk_twin *twin);
 
@@ -49,6 +37,6 @@ double hk_twin_energy(const struct hk_twin *twin, const double *q, const double 
 
 /* out = M^-1 (t^2 K + t C) x, 3n each, t being the slow step: projects any x onto motion that springs and
  * drag act on. */
-void hk_twin_push(const struct hk_twin *twin, const double *x, double *out);
+void hk_twin_push(struct hk_twin *twin, const double *x, double *out);
 
 #endif

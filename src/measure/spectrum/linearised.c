@@ -7,6 +7,7 @@
 #include "model/body.h"
 #include "model/sum/spring_batch.h"
 #include "model/sum/tiled.h"
+#include "model/vector3.h"
 
 #include <math.h>
 #include <string.h>
@@ -127,6 +128,20 @@ static void add_rows(const struct hk_linearised *lin, const double *q, int dampi
   }
 }
 
+/* The sum of the rows of a body over the mass and inertia that resist it. */
+static double body_row(const hooke_system *system, const struct hk_body_tangent *t, const double *sum,
+                       double drag) {
+  const double *inverse = t->body->inverse_inertia, turning = fmax(inverse[0], fmax(inverse[1], inverse[2]));
+  double row = 0.0;
+  for (int64_t i = 0; i < t->body->count; i++) {
+    const int64_t p = t->body->particle[i];
+    const double *arm = t->arm + 3 * i;
+    if (!system->constrained[p])
+      row += (sum[p] + drag) * (t->body->inverse_mass + hk_dot3(arm, arm) * turning);
+  }
+  return row;
+}
+
 /* The largest row sum of 2 sum |B| over m, a bound on all eigenvalues. */
 static double largest_row(const struct hk_linearised *lin, const double *q, int damping, double *sum) {
   const hooke_system *system = lin->system;
@@ -144,7 +159,9 @@ static double largest_row(const struct hk_linearised *lin, const double *q, int 
   }
   add_rows(lin, q, damping, sum);
   for (int64_t p = 0; p < system->particle_count; p++)
-    most = fmax(most, (sum[p] + drag) * lin->inverse[p]);
+    if (!hk_bodies_move(system->bodies, p)) most = fmax(most, (sum[p] + drag) * lin->inverse[p]);
+  for (int64_t k = 0; k < lin->rigid.tangents.count; k++)
+    most = fmax(most, body_row(system, &lin->rigid.tangents.body[k], sum, drag));
   return most;
 }
 
@@ -152,6 +169,7 @@ static int32_t choose_rate(struct hk_linearised *lin, const double *q, double *s
   const double stiffest = largest_row(lin, q, 0, sum) + lin->rigid.stiffest,
                quickest = largest_row(lin, q, 1, sum);
   lin->damped = quickest > 0.0;
+  lin->slow_step = 1.0 / fmax(lin->system->overdamped ? stiffest : sqrt(stiffest), quickest);
   lin->rate = stiffest > 0.0 ? sqrt(stiffest) : quickest > 0.0 ? quickest : 1.0;
   const double k = 1.0 / lin->rate / lin->rate, c = 1.0 / lin->rate;
   if (!(stiffest < INFINITY) || !(quickest < INFINITY) || !(quickest * c < 1e150) || !(k < INFINITY)) {

@@ -23,6 +23,7 @@ struct hk_linearised {
   int64_t size;              /* 3n */
   int64_t unknowns;          /* three a free particle in no body, and those of bodies */
   double rate;               /* [1/s] */
+  double slow_step;          /* a step [s] of the order of the fastest motion; infinity: none */
   int64_t clamped, products; /* clamped springs; products with K and C so far */
   int32_t across_any, damped;
   int32_t points_damped;  /* some spring of no length is damped, in all directions */

@@ -131,18 +131,6 @@ int32_t hk_rigid_create(const hooke_system *system, const double *q, const doubl
   return status;
 }
 
-int32_t hk_rigid_enlarge(const struct hk_rigid *from, const hooke_system *system, const double *q,
-                         struct hk_rigid *rigid) {
-  memset(rigid, 0, sizeof *rigid);
-  if (from->tangents.count == 0) return HOOKE_OK;
-  const int32_t status = hk_body_tangents_create(system, q, &rigid->tangents);
-  rigid->stiffest = from->stiffest;
-  for (int64_t k = 0; k < rigid->tangents.count; k++)
-    memcpy(rigid->tangents.body[k].geometric, from->tangents.body[k].geometric,
-           sizeof from->tangents.body[k].geometric);
-  return status;
-}
-
 void hk_rigid_release(struct hk_rigid *rigid) {
   hk_body_tangents_release(&rigid->tangents);
   memset(rigid, 0, sizeof *rigid);

@@ -20,9 +20,6 @@ struct hk_rigid {
  * zeros without bodies. HOOKE_NO_MEMORY. */
 int32_t hk_rigid_create(const hooke_system *system, const double *q, const double *spring_scale,
                         struct hk_rigid *rigid);
-/* For the same bodies in a system of positions that are a factor larger: y and its stiffness stay. */
-int32_t hk_rigid_enlarge(const struct hk_rigid *from, const hooke_system *system, const double *q,
-                         struct hk_rigid *rigid);
 void hk_rigid_release(struct hk_rigid *rigid);
 
 /* x becomes the nearest motion in which all bodies are rigid. */

@@ -128,10 +128,8 @@ int32_t hk_springs_find_material(const hooke_system *system, const hooke_options
 }
 
 static int32_t keep_options(const hooke_options *options, struct hk_group *group) {
-  static const char *const lists[] = {"stiffness", "damping", "rest_length"};
-  for (size_t k = 0; k < sizeof lists / sizeof lists[0]; k++) {
-    if (hooke_options_number_count(options, lists[k]) > 1) return HOOKE_OK;
-  }
+  for (int k = HOOKE_KAPPA; k <= HOOKE_REST_LENGTH; k++)
+    if (hooke_options_number_count(options, hk_group_names[k]) > 1) return HOOKE_OK;
   return hooke_options_copy(options, &group->options);
 }
 
