@@ -115,10 +115,11 @@ int32_t hooke_scene_parse(const char *text, int64_t length, const char *name, co
   if (made == NULL) return HOOKE_NO_MEMORY;
   int32_t status = hk_scene_require_memory(made->memory_limit, length);
   if (status) return finish(in_text(status, made, NULL), made, scene);
-  made->text = hk_new(length + 1, 1);
-  made->length = length;
+  const char *end = memchr(text, '\0', (size_t)length); /* a NUL is refused, and nothing behind it is read */
+  made->length = end ? end - text + 1 : length;
+  made->text = hk_new(made->length + 1, 1);
   if (made->text == NULL) return finish(HOOKE_NO_MEMORY, made, scene);
-  memcpy(made->text, text, (size_t)length);
+  memcpy(made->text, text, (size_t)made->length);
   return finish(read_text(made, folder), made, scene);
 }
 

@@ -65,6 +65,11 @@ static int32_t works_too_long(struct run *run) {
   return run->too_long;
 }
 
+/* A run that was stopped counts as what it was allowed: where it was noticed depends on a clock. */
+static double work_of(struct run *run) {
+  return works_too_long(run) ? run->listener->most_work : hk_work_of(run->integrator);
+}
+
 static int32_t tell(double share, const char *method, void *ctx) {
   struct run *run = ctx;
   (void)method;
@@ -124,10 +129,10 @@ static int32_t run_once(struct run *run, const hooke_system *system, const hooke
                         hooke_integrator **integrator) {
   hooke_state *state = NULL;
   int32_t status = hooke_integrator_create(system, options, integrator);
+  run->integrator = *integrator;
   if (status == HOOKE_OK) status = hooke_state_create(system, &state);
   if (status == HOOKE_OK) {
     if (run->listener && run->listener->on_start) run->listener->on_start(state, run->listener->ctx);
-    run->integrator = *integrator;
     run->begin = hooke_state_time(state);
     run->duration = hooke_options_number(options, "duration");
     hooke_integrator_on_frame(*integrator, see_frame, run);
@@ -138,7 +143,9 @@ static int32_t run_once(struct run *run, const hooke_system *system, const hooke
   return status;
 }
 
-static void keep_counts(struct hk_trial *trial, const hooke_integrator *integrator) {
+static void keep_counts(struct run *run) {
+  struct hk_trial *trial = run->trial;
+  const hooke_integrator *integrator = run->integrator;
   const hooke_options *options = hooke_integrator_options(integrator);
   const int adaptive = hooke_method_is_adaptive(hooke_options_text(options, "method"));
   trial->step = adaptive ? NAN : hooke_options_number(options, "step");
@@ -148,7 +155,7 @@ static void keep_counts(struct hk_trial *trial, const hooke_integrator *integrat
   trial->steps = (double)hooke_integrator_count(integrator, "steps");
   trial->linear_iterations = (double)hooke_integrator_count(integrator, "linear_iterations");
   trial->wall_seconds = hooke_integrator_number(integrator, "wall_seconds");
-  trial->work = hk_work_of(integrator);
+  trial->work = work_of(run);
 }
 
 int32_t hk_trial_run(struct hk_trial *trial, const struct hk_frames *reference, int64_t frames,
@@ -165,7 +172,7 @@ int32_t hk_trial_run(struct hk_trial *trial, const struct hk_frames *reference, 
   if (status != HOOKE_OK || frames < 2)
     trial->error = trial->error_max = trial->error_final = trial->energy_drift = NAN;
   if (integrator == NULL) return status;
-  keep_counts(trial, integrator);
+  keep_counts(&run);
   hooke_integrator_destroy(integrator);
   trial->status = status == HOOKE_OK         ? "finished"
                   : status == HOOKE_DIVERGED ? "diverged"
@@ -187,7 +194,7 @@ int32_t hk_frames_run(struct hk_frames *frames, const hooke_options *options,
   if (integrator && cost)
     *cost = (struct hk_run_cost){hooke_integrator_number(integrator, "wall_seconds"),
                                  (double)hooke_integrator_count(integrator, "force_evaluations"),
-                                 hk_work_of(integrator), works_too_long(&run)};
+                                 work_of(&run), works_too_long(&run)};
   if (integrator)
     snprintf(frames->zero_passages, sizeof frames->zero_passages, "%s",
              hooke_integrator_text(integrator, "zero_passages"));
