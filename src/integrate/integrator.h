@@ -154,7 +154,7 @@ int64_t hk_schedule_frames_before(const struct hk_schedule *schedule, int64_t k)
 
 /* Forces at the motion's position and time t, counted; HOOKE_STOPPED with the stop value kept. */
 int32_t hk_integrator_forces(hooke_integrator *integrator, double t);
-/* The same without one force of the table. */
+/* The same without forces of these kinds (model/force/force.h). */
 int32_t hk_integrator_forces_without(hooke_integrator *integrator, double t, int32_t left_out);
 /* For a method whose step may fail after it has moved: the loop puts the motion back. HOOKE_NO_MEMORY. */
 int32_t hk_integrator_keep_start(hooke_integrator *integrator);

@@ -25,6 +25,7 @@ static const double PART = 1e-3, EXACT = 1e-9, LEAST_RESIDUAL = 1e-13;
 
 struct verlet {
   int32_t implicit, predicts;
+  int32_t keeps;             /* with bodies: forces at the end of a step are those at the next start */
   int32_t kept;              /* motion->f is the force at q, to which only drag is missing */
   int32_t drifted;           /* the motion has done the first kick of the next step, and its drift */
   struct hk_reduced reduced; /* implicit */
@@ -37,8 +38,11 @@ static int32_t create(hooke_integrator *it) {
   struct verlet *own = hk_new(1, sizeof *own);
   if (own == NULL) return HOOKE_NO_MEMORY;
   it->own = own;
-  if (it->array) return HOOKE_OK;
   const int callback = it->system->force != NULL;
+  if (it->array) {
+    own->keeps = !callback && !hk_system_is_damped(it->system, 0);
+    return HOOKE_OK;
+  }
   const int64_t stride = hk_motion_stride(it->motion);
   own->implicit =
       hk_system_is_damped(it->system, ~HOOKE_UNIFORM) && !it->explicit_damping && !it->motion->zero;
@@ -176,9 +180,8 @@ static int32_t step_array(hooke_integrator *it) {
   struct verlet *own = it->own;
   struct hk_one_array *array = it->array;
   const double h = it->schedule.step;
-  const int keeps = !hk_system_is_damped(it->system, 0) && it->system->force == NULL;
   hk_one_array_begin(it);
-  if (it->k > 0 && keeps && !own->kept) it->count.force_evaluations--; /* as counted by the run before */
+  if (it->k > 0 && own->keeps && !own->kept) it->count.force_evaluations--; /* as counted by the run before */
   int32_t status = hk_one_array_push(it, it->t, own->kept);
   own->kept = 0;
   if (status != HOOKE_OK) return status;
@@ -192,7 +195,7 @@ static int32_t step_array(hooke_integrator *it) {
   if (status != HOOKE_OK) return status;
   hk_one_array_kick(it, 0.5 * h, array->start);
   hk_one_array_give(it, array->start);
-  own->kept = keeps;
+  own->kept = own->keeps;
   return HOOKE_OK;
 }
 

@@ -148,7 +148,7 @@ static void open_member(struct writer *to, const struct hk_scene_list *list, con
 static void add_columns(struct hk_text *text, const struct hk_scene_list *list,
                         const struct hk_group *group) {
   const int32_t *width = group->force->width;
-  if (group->force == &hk_force_springs) hk_text_word(text, "law", "length");
+  if (group->force->kind & HOOKE_LOOPED) hk_text_word(text, "law", "length");
   add_shared(text, list->strength, group->count, group->number[HOOKE_KAPPA]);
   for (int k = HOOKE_KAPPA + 1; k < HOOKE_GROUP_NUMBERS && group->count > 0; k++) {
     if (width[k] == 1) add_shared(text, hk_group_names[k], group->count, group->number[k]);
