@@ -3,7 +3,7 @@
 The faults are those of universalmutator, a sample by seed of the files below PATH. They are planted in a copy of the
 sources, build/mutants/tree. One that does not compile, or leaves the library and the program as they are, does not
 count, nor does one in a comment or in the text of a message, nor one of mutants_equal.txt. The others are run against
-the quick tests that reach the line and those with the name of the room or of the file, the shortest first, until one
+the quick tests that reach the line and all with the name of the room or of the file, the shortest first, until one
 fails. What is known is kept in build/mutants and goes on from there.
 """
 
@@ -14,6 +14,7 @@ import ast
 import difflib
 import hashlib
 import json
+import math
 import os
 import random
 import re
@@ -68,8 +69,8 @@ def configure() -> None:
             raise SystemExit(f"{build} could not be built")
 
 
-def quick() -> list[str]:
-    told = call("ctest", "--preset", "release", "--show-only=json-v1").stdout
+def tests_of(preset: str) -> list[str]:
+    told = call("ctest", "--preset", preset, "--show-only=json-v1").stdout
     return [test["name"] for test in json.loads(told)["tests"]]
 
 
@@ -84,16 +85,17 @@ def see_reached(test: str) -> None:
 
 
 def prepare() -> dict[str, float]:
-    """The quick tests that pass, with what they take of the processor [s]."""
+    """The quick tests that pass, with what they take of the processor [s], and the others, of which that is not known."""
     copy_sources()
     configure()
-    tests = quick()
+    tests = tests_of("release")
     run_tests(tests, stop=False)
     with ThreadPoolExecutor(os.cpu_count()) as pool:
         list(pool.map(see_reached, tests))
     failed = {line.split(":", 1)[1].strip() for line in last_failed()}
     times = {test: BUILD / "tests/taken" / file_of(test) for test in tests if test not in failed}
-    return {test: seconds(path) if path.exists() else 0.0 for test, path in times.items()}
+    known = {test: seconds(path) if path.exists() else 0.0 for test, path in times.items()}
+    return known | dict.fromkeys(tests_of("check"), math.inf)
 
 
 # ---- a fault ----
@@ -172,16 +174,17 @@ def reaches(test: str, objects: list[str], path: str, line: int) -> bool:
 
 
 def asked(tests: dict[str, float], path: str, line: int) -> list[str]:
-    """Tests that reach the line or have the name of its file or room, the shortest first."""
+    """Quick tests that reach the line and all that have the name of its file or room, the shortest first."""
     words = {Path(path).stem, Path(path).parent.name}
+    quick = [test for test, time in tests.items() if time < math.inf]
     if path.endswith(".py"):
-        found = {test for test in tests if test.startswith("python/")}
+        found = {test for test in quick if test.startswith("python/")}
     elif path.startswith("cli/"):
-        found = {test for test in tests if test.startswith(("cli/", "guest/"))}
+        found = {test for test in quick if test.startswith(("cli/", "guest/"))}
     else:
         objects = objects_of(path)
         with ThreadPoolExecutor(os.cpu_count()) as pool:
-            found = {test for test, yes in zip(tests, pool.map(lambda test: reaches(test, objects, path, line), tests)) if yes}
+            found = {test for test, yes in zip(quick, pool.map(lambda test: reaches(test, objects, path, line), quick)) if yes}
     found |= {test for test in tests if words & set(re.split(r"[/_]", test))}
     return sorted(found, key=tests.__getitem__)
 
