@@ -52,7 +52,11 @@ def built(*targets: str, build: Path = BUILD) -> bool:
 def copy_sources() -> None:
     """Files that are as they were keep their dates, so that little is compiled again."""
     listed = subprocess.run(["git", "ls-files", "-z"], cwd=ROOT, capture_output=True, text=True, check=True).stdout
-    for name in filter(None, listed.split("\0")):
+    names = [name for name in listed.split("\0") if name]
+    for left in {path for path in TREE.rglob("*.[chp]*") if path.is_file()} - {TREE / name for name in names}:
+        if TREE / "build" not in left.parents:
+            left.unlink()
+    for name in names:
         source, copy = ROOT / name, TREE / name
         if not copy.is_file() or copy.read_bytes() != source.read_bytes():
             copy.parent.mkdir(parents=True, exist_ok=True)
