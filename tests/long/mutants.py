@@ -53,9 +53,9 @@ def copy_sources() -> None:
     """Files that are as they were keep their dates, so that little is compiled again."""
     listed = subprocess.run(["git", "ls-files", "-z"], cwd=ROOT, capture_output=True, text=True, check=True).stdout
     names = [name for name in listed.split("\0") if name]
-    for left in {path for path in TREE.rglob("*.[chp]*") if path.is_file()} - {TREE / name for name in names}:
-        if TREE / "build" not in left.parents:
-            left.unlink()
+    copied = {path for top in TREE.glob("*") if top.name != "build" for path in top.rglob("*") if path.is_file()}
+    for left in copied - {TREE / name for name in names}:
+        left.unlink()
     for name in names:
         source, copy = ROOT / name, TREE / name
         if not copy.is_file() or copy.read_bytes() != source.read_bytes():
