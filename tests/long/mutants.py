@@ -50,7 +50,8 @@ def built(*targets: str, build: Path = BUILD) -> bool:
 
 
 def copy_sources() -> None:
-    """Files that are as they were keep their dates, so that little is compiled again."""
+    """Files that are as they were keep their dates, so that little is compiled again; what tests reach of others is
+    looked at anew."""
     listed = subprocess.run(["git", "ls-files", "-z"], cwd=ROOT, capture_output=True, text=True, check=True).stdout
     names = [name for name in listed.split("\0") if name]
     copied = {path for top in TREE.glob("*") if top.name != "build" for path in top.rglob("*") if path.is_file()}
@@ -61,6 +62,7 @@ def copy_sources() -> None:
         if not copy.is_file() or copy.read_bytes() != source.read_bytes():
             copy.parent.mkdir(parents=True, exist_ok=True)
             shutil.copy(source, copy)
+            shutil.rmtree(REACHED, ignore_errors=True)
     (TREE / "build").mkdir(exist_ok=True)
     if not (TREE / "build/venv").exists():
         (TREE / "build/venv").symlink_to(ROOT / "build/venv")
