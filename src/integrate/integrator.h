@@ -3,7 +3,7 @@
 #define HOOKE_INTEGRATE_INTEGRATOR_H
 
 #include "core/table/option.h"
-#include "integrate/coordinates.h"
+#include "integrate/generalized.h"
 #include "integrate/method.h"
 #include "integrate/loop/recent.h"
 #include "model/sum/motion.h"
@@ -85,7 +85,7 @@ struct hooke_integrator {
 
   /* second-order problem */
   const hooke_system *system;
-  struct hk_coordinates *coordinates; /* NULL unless the system is made of them */
+  struct hk_generalized *coordinates; /* NULL unless the system is made of them */
   struct hk_pool *pool;               /* NULL: one thread */
   struct hk_motion *motion;
   /* first-order problem */

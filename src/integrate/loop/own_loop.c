@@ -158,7 +158,7 @@ int32_t hooke_integrator_put(hooke_integrator *it, int64_t count, const int64_t 
   if (status == HOOKE_OK) status = check_rows("position", count, q);
   if (status == HOOKE_OK) status = check_rows("velocity", count, v);
   for (int64_t k = 0; k < count && status == HOOKE_OK; k++) {
-    if (!hk_bodies_move(it->system->bodies, particles[k])) continue;
+    if (!hk_is_carried(it->system, particles[k])) continue;
     hk_fail(HOOKE_UNSUITED, NULL, "particle %lld moves with a rigid body; change a state, and begin there",
             (long long)particles[k]);
     status = hk_fail_within(HOOKE_UNSUITED, "particles[%lld]", (long long)k);

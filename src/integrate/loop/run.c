@@ -4,7 +4,7 @@
 #include "core/clock.h"
 #include "core/thread_pool.h"
 #include "core/status.h"
-#include "model/body.h"
+#include "model/coordinates/coordinates.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -49,7 +49,7 @@ int32_t hk_run_begin(hooke_integrator *it, hooke_state *state) {
   it->stop_value = 0;
   int32_t status = hk_run_place_driven(it, state);
   if (status == HOOKE_OK) status = check_numbers(it, state);
-  if (status == HOOKE_OK && it->system) status = hk_bodies_check(it->system, state);
+  if (status == HOOKE_OK && it->system) status = hk_movers_check_state(it->system, state);
   if (status == HOOKE_OK) status = hk_divergence_begin(it, state);
   if (status == HOOKE_OK) status = it->method->steps->begin(it, state);
   if (status == HOOKE_OK) status = hk_run_keep_restart(it, state);
