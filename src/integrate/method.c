@@ -135,25 +135,23 @@ int32_t hk_method_suits(const char *name, const hooke_system *system) {
   return suits(hk_method_find(name), system);
 }
 
-/* All of them, or those of this build that take a problem. */
-static void list_methods(int problem, char *list, size_t size) {
-  list[0] = '\0';
-  for (int64_t k = 0; k < ROWS; k++) {
-    if (!table[k]->reference && (problem == PROBLEMS || (table[k]->steps && takes(table[k], problem))))
-      hk_append(list, size, "%s%s", list[0] ? ", " : "", table[k]->name);
-  }
+static void list_method(const struct hk_method *method, char *list, size_t size) {
+  if (!method->reference) hk_append(list, size, "%s%s", list[0] ? ", " : "", method->name);
 }
 
 void hk_method_list(char *list, size_t size) {
-  list_methods(PROBLEMS, list, size);
+  list[0] = '\0';
+  for (int64_t k = 0; k < ROWS; k++)
+    list_method(table[k], list, size);
 }
 
 int32_t hk_method_require(const struct hk_method *method, const hooke_system *system) {
   const int problem = problem_of(system);
   const int32_t solves = problem == FIRST_ORDER && method->solved;
-  char list[512];
+  char list[512] = "";
   if (suits(method, system)) return HOOKE_OK;
-  list_methods(problem, list, sizeof list);
+  for (int64_t k = 0; k < ROWS; k++)
+    if (table[k]->steps && suits(table[k], system)) list_method(table[k], list, sizeof list);
   return hk_fail(HOOKE_UNSUITED, "method", "%s %s; allowed: %s", method->name,
                  solves ? "solves its step with the derivative of the forces, and x' = phi(t, x) brings none"
                         : problems[problem].refusal,

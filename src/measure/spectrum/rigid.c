@@ -17,6 +17,7 @@ static const double POSITION_ROUNDING = 1e-14;
 /* The sum of the stiffnesses of all elements at each body, by its number. */
 static void find_strengths(const hooke_system *system, const double *q, double *strength) {
   struct hk_elements at;
+  if (system->bodies->of == NULL) return;
   hk_begin_elements(system, q, NULL, &at);
   for (const struct hk_element *e; (e = hk_next_element(&at)) != NULL;) {
     for (int j = 0; j < e->count; j++) {
@@ -144,7 +145,7 @@ static void find_motion(const struct hk_rigid *rigid, const struct hk_body_tange
 
 static int32_t is_free(const struct hk_rigid *rigid, int64_t mover, int k) {
   const struct hk_mover *m = rigid->tangents.body[mover].mover;
-  return k < m->row->velocities && m->row->has(m->thing, k);
+  return m->row->has(m->thing, k);
 }
 
 int64_t hk_rigid_unknowns(const struct hk_rigid *rigid) {

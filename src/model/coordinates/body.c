@@ -396,7 +396,6 @@ static const int32_t *particles_of(const void *thing, int64_t *number) {
 
 const struct hk_coordinates_row hk_coordinates_of_bodies = {.name = "bodies",
                                                             .numbers = HOOKE_BODY_NUMBERS,
-                                                            .velocities = 6,
                                                             .solved = 1,
                                                             .turns = 1,
                                                             .count = count,

@@ -18,10 +18,9 @@ enum { HOOKE_MOST_OWN = 13, HOOKE_PUSH = 6 };
 
 struct hk_coordinates_row {
   const char *name;
-  int32_t numbers;    /* own coordinates of one thing: of position, then of velocity */
-  int32_t velocities; /* unknowns of its small motions, at most HOOKE_PUSH */
-  int32_t solved;     /* 1: implicit methods know it (integrate/solve/body_stage.h) */
-  int32_t turns;      /* 1: it is a rigid body (model/coordinates/body_tangent.h) */
+  int32_t numbers; /* own coordinates of one thing: of position, then of velocity */
+  int32_t solved;  /* 1: implicit methods know it (integrate/solve/body_stage.h) */
+  int32_t turns;   /* 1: it is a rigid body (model/coordinates/body_tangent.h) */
 
   /* While a system is built and committed; these have its list. Commit returns HOOKE_BAD_VALUE and
    * HOOKE_NO_MEMORY, and adds what moves by hk_mover_add(); undoing leaves the list. */
@@ -55,7 +54,7 @@ struct hk_coordinates_row {
   void (*tolerance)(const void *thing, double position, double velocity, double *tolerance);
 
   /* Small motions x = J y of its particles, with J^T M J = I (measure/spectrum/rigid.h): J y, J^T times the
-   * weights (NULL: 1) times x, whether it has unknown k, and an upper bound on the square of J's row of one. */
+   * weights (NULL: 1) times x, whether it has unknown k < HOOKE_PUSH, and an upper bound on the square of J's row of one. */
   void (*spread)(const struct hooke_system *system, const struct hk_body_tangent *tangent, const double *y,
                  double *const x[3], int64_t stride);
   void (*gather)(const struct hooke_system *system, const struct hk_body_tangent *tangent,
