@@ -187,7 +187,7 @@ int32_t hk_divergence_check(hooke_integrator *it, hooke_state *state, int32_t wi
   if (!finite) return fail_not_finite(it, *state->t);
   return hk_fail(
       HOOKE_DIVERGED, NULL,
-      "the run diverged: at t = %.6g s the energy has risen from %g to %g J, over 100 times what the scene "
-      "had; the state kept is that of t = %.6g s; try %s",
-      t, it->energy0 + it->gravity0, energy, *state->t, advice(it));
+      "the run diverged: at t = %.6g s the energy has risen from %g to %g J, over 100 times the %g J that "
+      "motion, springs and changes of height had; the state kept is that of t = %.6g s; try %s",
+      t, it->energy0 + it->gravity0, energy, it->scale0 + it->gravity_swing, *state->t, advice(it));
 }
