@@ -23,19 +23,14 @@ int32_t hk_integrator_stand(hooke_integrator *it, const struct hk_standing *stan
   const struct hk_standing s = *standing, before = hk_integrator_standing(it);
   it->count = s.count; /* a method continues counting from here */
   it->wall_seconds = s.wall_seconds;
-  struct hk_recent *recent = &it->recent;
-  hooke_state *const first = recent->first, *const room = recent->room_of_first;
-  recent->room_of_first = NULL; /* a start is not the first one here */
-  const int32_t status = hk_run_begin(it, state);
-  recent->room_of_first = room;
-  recent->first = first;
+  const int32_t status = hk_run_begin_later(it, state);
   if (status != HOOKE_OK) {
     it->count = before.count;
     it->wall_seconds = before.wall_seconds;
     return status;
   }
   it->t0 = s.t0;
-  it->k = recent->step[recent->newest] = s.k;
+  it->k = it->recent.step[it->recent.newest] = s.k;
   it->frames = s.frames;
   it->energy0 = s.energy0;
   it->scale0 = s.scale0;

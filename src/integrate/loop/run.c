@@ -42,6 +42,12 @@ static int32_t check_numbers(const hooke_integrator *it, const hooke_state *stat
 }
 
 int32_t hk_run_begin(hooke_integrator *it, hooke_state *state) {
+  const int32_t status = hk_run_begin_later(it, state);
+  if (status == HOOKE_OK) hk_recent_set_first(&it->recent, state);
+  return status;
+}
+
+int32_t hk_run_begin_later(hooke_integrator *it, hooke_state *state) {
   it->t0 = it->t = *state->t;
   it->k = it->frames = 0;
   it->begun = it->placed = 0;

@@ -72,7 +72,7 @@ void hk_unknowns_gather(const struct hk_unknowns *u, const double *const all[3],
   for (int a = 0; a < 3; a++) {
     for (int64_t k = 0; k < u->stretch_count; k++) {
       const struct hk_stretch_of_free *s = &u->stretch[k];
-      memcpy(some + a * u->free_count + s->place, all[a] + s->particle, (size_t)s->count * sizeof(double));
+      memcpy(some + a * u->free_count + s->unknown, all[a] + s->particle, (size_t)s->count * sizeof(double));
     }
   }
 }
@@ -81,7 +81,7 @@ void hk_unknowns_spread(const struct hk_unknowns *u, const double *some, double 
   for (int a = 0; a < 3; a++) {
     for (int64_t k = 0; k < u->stretch_count; k++) {
       const struct hk_stretch_of_free *s = &u->stretch[k];
-      memcpy(all[a] + s->particle, some + a * u->free_count + s->place, (size_t)s->count * sizeof(double));
+      memcpy(all[a] + s->particle, some + a * u->free_count + s->unknown, (size_t)s->count * sizeof(double));
     }
   }
 }
@@ -90,7 +90,7 @@ void hk_unknowns_spread(const struct hk_unknowns *u, const double *some, double 
 static void spread_to_rows(const struct hk_unknowns *u, const double *some, double *rows) {
   for (int64_t k = 0; k < u->stretch_count; k++) {
     const struct hk_stretch_of_free *s = &u->stretch[k];
-    const double *x = some + s->place, *y = x + u->free_count, *z = y + u->free_count;
+    const double *x = some + s->unknown, *y = x + u->free_count, *z = y + u->free_count;
     double *row = rows + 3 * s->particle;
     for (int64_t p = 0; p < s->count; p++, row += 3) {
       row[0] = x[p];
@@ -147,7 +147,7 @@ double hk_unknowns_accelerations(const hooke_integrator *it, const struct hk_unk
     for (int64_t k = 0; k < u->stretch_count; k++) {
       const struct hk_stretch_of_free *s = &u->stretch[k];
       const double *w = system->inverse_mass + s->particle, *f = it->motion->f[a] + s->particle;
-      double *to = out + a * u->free_count + s->place;
+      double *to = out + a * u->free_count + s->unknown;
       for (int64_t p = 0; p < s->count; p++) {
         to[p] = system->falls ? w[p] * f[p] + g : w[p] * f[p];
         sum += 0.0 * to[p];
@@ -222,7 +222,7 @@ int hk_unknowns_product(hooke_integrator *it, struct hk_unknowns *u, double t, c
     const struct hk_stretch_of_free *s = &u->stretch[k];
     for (int64_t p = 0; p < s->count; p++) {
       for (int a = 0; a < 3; a++)
-        product[(first + a) * m + s->place + p] =
+        product[(first + a) * m + s->unknown + p] =
             it->system->inverse_mass[s->particle + p] * out[3 * (s->particle + p) + a];
     }
   }

@@ -7,10 +7,10 @@
 
 #include "integrate/integrator.h"
 
-/* Consecutive free particles, in no body: those from `particle` on, the first of which is free particle number `place`.
- */
+/* `count` consecutive free particles that nothing carries; `particle` is the first, `unknown` its number among
+ * the free ones. */
 struct hk_stretch_of_free {
-  int64_t particle, place, count;
+  int64_t particle, unknown, count;
 };
 
 struct hk_unknowns {
