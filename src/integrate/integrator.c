@@ -199,12 +199,13 @@ void hk_integrator_set_checker(hooke_integrator *it, struct hk_checker checker) 
 
 static int64_t recent_count(const hooke_integrator *it) {
   const struct hk_recent *recent = &it->recent;
-  return recent->count + (it->unkept && recent->count < recent->room);
+  return recent->count + (it->good.unkept && recent->count < recent->room);
 }
 
 int32_t hooke_integrator_recent(const hooke_integrator *it, int64_t place, hooke_state *state) {
   const int64_t count = recent_count(it);
-  const hooke_state *kept = place < count ? hk_recent_state(&it->recent, place - it->unkept, NULL) : NULL;
+  const hooke_state *kept =
+      place < count ? hk_recent_state(&it->recent, place - it->good.unkept, NULL) : NULL;
   const int32_t status = hk_integrator_check_state(it, state);
   if (status != HOOKE_OK) return status;
   if (kept) return hooke_state_copy(kept, state);

@@ -59,7 +59,7 @@ int32_t hk_integrator_stand_at_frame(hooke_integrator *it, int64_t frame, const 
   const int32_t status = hk_integrator_stand(it, &standing, state);
   if (status != HOOKE_OK) return status;
   hk_recent_set_first(&it->recent, first);
-  it->placed = 1;
+  it->phase = HOOKE_AT_CHECKPOINT;
   return HOOKE_OK;
 }
 
@@ -97,7 +97,8 @@ int32_t hk_integrator_run_on(hooke_integrator *it, const hooke_state *first, hoo
 /* At a checkpoint, or where a fixed-step run was stopped. */
 static int can_go_on(const hooke_integrator *it, const hooke_state *state) {
   const int stopped = !it->method->adaptive && it->outcome == HOOKE_STOPPED;
-  return it->begun && (it->placed || stopped) && memcmp(&it->t, state->t, sizeof it->t) == 0;
+  const int ready = it->phase == HOOKE_AT_CHECKPOINT || (it->phase == HOOKE_BEGUN && stopped);
+  return ready && memcmp(&it->t, state->t, sizeof it->t) == 0;
 }
 
 /* The frame of this very time, if the run was stopped before it was reported. */

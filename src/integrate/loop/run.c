@@ -50,7 +50,7 @@ int32_t hk_run_begin(hooke_integrator *it, hooke_state *state) {
 int32_t hk_run_begin_later(hooke_integrator *it, hooke_state *state) {
   it->t0 = it->t = *state->t;
   it->k = it->frames = 0;
-  it->begun = it->placed = 0;
+  it->phase = HOOKE_NOT_BEGUN;
   it->point = 1;
   it->stop_value = 0;
   int32_t status = hk_run_place_driven(it, state);
@@ -60,7 +60,7 @@ int32_t hk_run_begin_later(hooke_integrator *it, hooke_state *state) {
   if (status == HOOKE_OK) status = it->method->steps->begin(it, state);
   if (status == HOOKE_OK) status = hk_run_keep_restart(it, state);
   hk_passages_begin(it, it->t0);
-  it->begun = status == HOOKE_OK;
+  if (status == HOOKE_OK) it->phase = HOOKE_BEGUN;
   return status;
 }
 
@@ -82,8 +82,8 @@ int32_t hk_run_report(hooke_integrator *it, hooke_state *state) {
 
 int32_t hk_run_store(hooke_integrator *it, double t, hooke_state *state, int32_t checked) {
   it->energies.system = NULL;
-  if (it->unkept) hk_recent_keep(&it->recent, state, it->good_step); /* so far `state` is that one */
-  it->unkept = 0;
+  if (it->good.unkept) hk_recent_keep(&it->recent, state, it->good.step); /* so far `state` is that one */
+  it->good.unkept = 0;
   const int32_t status = checked ? hk_divergence_store(it, t, state) : it->method->steps->store(it, t, state);
   if (!checked && it->recent.room == 0) it->recent.count = 0; /* the last good state is lost */
   *state->t = t;
