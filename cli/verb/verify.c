@@ -151,9 +151,9 @@ const struct cli_verb cli_verb_verify = {
     .input = "OUT.h5",
     .summary = "runs a slice of a result again and compares bits",
     .text =
-        "Holds a trajectory of 'hooke run -o' against the scene that it holds: every frame has to have its "
-        "check value, the first one has to be the scene's, and a slice, run again from the frame before it, "
-        "has to come to the same bits. Takes the balance of energy along the slice, runs it once more with "
+        "Checks a trajectory of 'hooke run -o' against the scene stored in it: every frame must match its "
+        "check value, the first one must be the scene's, and a slice that is run again from the frame before "
+        "it must give the same bits. Takes the balance of energy along the slice, runs it once more with "
         "half the step for an estimate of the error, and prints a certificate. An error-controlled method is "
         "run from the start. Exit code 3 says that the file is not what its scene gives.",
     .example = "hooke verify cloth.h5",

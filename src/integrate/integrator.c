@@ -53,7 +53,7 @@ static int32_t create(const hooke_options *options, hooke_integrator **out) {
 
 static int32_t finish(hooke_integrator *it, int32_t status, hooke_integrator **out) {
   const int32_t solves = it->method->adaptive || it->method->solved;
-  if (status == HOOKE_OK && !solves && (it->rate || it->system->moving_bodies > 0))
+  if (status == HOOKE_OK && !solves && (it->rate || it->system->mover_count > 0))
     status = hk_one_array_create(it);
   if (status == HOOKE_OK && it->method->steps->create) status = it->method->steps->create(it);
   if (status == HOOKE_OK)
@@ -75,7 +75,7 @@ static int32_t take_system(hooke_integrator *it, const hooke_system *system, hoo
   int32_t status = hk_method_require(it->method, system);
   it->system = system;
   it->size = 3 * system->particle_count;
-  if (it->method->by_tiles && system->moving_bodies == 0 && !system->overdamped && hk_goes_by_tiles(system))
+  if (it->method->by_tiles && system->mover_count == 0 && !system->overdamped && hk_goes_by_tiles(system))
     it->by_tiles = HOOKE_MOTION_BY_TILES;
   if (status == HOOKE_OK && it->method->choose) status = it->method->choose(it);
   if (status == HOOKE_OK) status = gather_crew(it);
@@ -97,11 +97,11 @@ int32_t hooke_integrator_create_second_order(int64_t size, hooke_force *force, h
                                              void *ctx, int64_t mass_count, const double *inverse_mass,
                                              const hooke_options *options, hooke_integrator **out) {
   hooke_integrator *it = NULL;
-  struct hk_coordinates *coordinates = NULL;
-  int32_t status = hk_coordinates_create(size, force, product, ctx, mass_count, inverse_mass, &coordinates);
+  struct hk_generalized *coordinates = NULL;
+  int32_t status = hk_generalized_create(size, force, product, ctx, mass_count, inverse_mass, &coordinates);
   if (status == HOOKE_OK) status = create(options, &it);
   if (it == NULL) {
-    hk_coordinates_destroy(coordinates);
+    hk_generalized_destroy(coordinates);
     return status;
   }
   it->coordinates = coordinates;
@@ -135,7 +135,7 @@ void hooke_integrator_destroy(hooke_integrator *it) {
   hooke_state_destroy(it->passages.now);
   if (it->checker.release) it->checker.release(it->checker.own);
   hooke_options_destroy(it->options);
-  hk_coordinates_destroy(it->coordinates);
+  hk_generalized_destroy(it->coordinates);
   hk_one_array_destroy(it->array);
   hk_free(it->start);
   hooke_rows_hold(it->rows, -1);
@@ -199,12 +199,13 @@ void hk_integrator_set_checker(hooke_integrator *it, struct hk_checker checker) 
 
 static int64_t recent_count(const hooke_integrator *it) {
   const struct hk_recent *recent = &it->recent;
-  return recent->count + (it->unkept && recent->count < recent->room);
+  return recent->count + (it->good.unkept && recent->count < recent->room);
 }
 
 int32_t hooke_integrator_recent(const hooke_integrator *it, int64_t place, hooke_state *state) {
   const int64_t count = recent_count(it);
-  const hooke_state *kept = place < count ? hk_recent_state(&it->recent, place - it->unkept, NULL) : NULL;
+  const hooke_state *kept =
+      place < count ? hk_recent_state(&it->recent, place - it->good.unkept, NULL) : NULL;
   const int32_t status = hk_integrator_check_state(it, state);
   if (status != HOOKE_OK) return status;
   if (kept) return hooke_state_copy(kept, state);

@@ -3,7 +3,7 @@
 #define HOOKE_INTEGRATE_INTEGRATOR_H
 
 #include "core/table/option.h"
-#include "integrate/coordinates.h"
+#include "integrate/generalized.h"
 #include "integrate/method.h"
 #include "integrate/loop/recent.h"
 #include "model/sum/motion.h"
@@ -78,6 +78,17 @@ struct hk_passages {
   char first[96], told[HOOKE_PASSAGES_TOLD]; /* the first of them; all in a sentence */
 };
 
+/* The last state that passed the check, if only the motion holds it (`unkept` 1, and recent has only earlier
+ * ones): see divergence.c. */
+struct hk_last_good {
+  double t;
+  int64_t step;
+  int32_t unkept;
+};
+
+/* Of a run: at a checkpoint that was read, from which it has not gone on yet. */
+enum { HOOKE_NOT_BEGUN, HOOKE_BEGUN, HOOKE_AT_CHECKPOINT };
+
 struct hooke_integrator {
   const struct hk_method *method;
   hooke_options *options;
@@ -85,7 +96,7 @@ struct hooke_integrator {
 
   /* second-order problem */
   const hooke_system *system;
-  struct hk_coordinates *coordinates; /* NULL unless the system is made of them */
+  struct hk_generalized *coordinates; /* NULL unless the system is made of them */
   struct hk_pool *pool;               /* NULL: one thread */
   struct hk_motion *motion;
   /* first-order problem */
@@ -112,12 +123,9 @@ struct hooke_integrator {
   int64_t frames; /* reported since t0 */
   int64_t point;  /* number of the next checkpoint, with error control */
   struct hk_restart restart; /* with error control and the option `checkpoint` */
-  int32_t begun;             /* 1: the numbers above are those of a run */
-  int32_t placed;            /* 1: at a checkpoint that was read */
+  int32_t phase;             /* HOOKE_NOT_BEGUN: the numbers above are those of no run */
   struct hk_recent recent;   /* the newest is the last state that passed the check */
-  double good_time;          /* time of that state, if only the motion holds it: see divergence.c */
-  int64_t good_step;
-  int32_t unkept;     /* 1: the motion holds it, and recent only earlier ones */
+  struct hk_last_good good;
   hooke_state *shown; /* shown to observers and checks while the caller's state is stale; NULL before */
   double energy0, scale0, gravity0, gravity_swing; /* see divergence.c */
   double diverged_at;

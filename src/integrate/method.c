@@ -2,6 +2,7 @@
 
 #include "core/print.h"
 #include "core/status.h"
+#include "model/coordinates/coordinates.h"
 #include "model/particles.h"
 
 #include <stddef.h>
@@ -96,7 +97,7 @@ const struct hk_stability *hk_method_stability(const char *name) {
 }
 
 const struct hk_stability *hk_method_stability_in(const char *name, const hooke_system *system) {
-  const struct hk_method *method = system->moving_bodies > 0 ? hk_method_find(name) : NULL;
+  const struct hk_method *method = system->mover_count > 0 ? hk_method_find(name) : NULL;
   const int own = method && method->with_bodies.kind != HOOKE_STABILITY_UNKNOWN;
   return own ? &method->with_bodies : hk_method_stability(name);
 }
@@ -122,32 +123,35 @@ static int32_t takes(const struct hk_method *method, int problem) {
 
 static int problem_of(const hooke_system *system) {
   if (system == NULL) return FIRST_ORDER;
-  return system->moving_bodies > 0 ? BODIES : system->overdamped ? OVERDAMPED : SECOND_ORDER;
+  return system->mover_count > 0 ? BODIES : system->overdamped ? OVERDAMPED : SECOND_ORDER;
+}
+
+static int32_t suits(const struct hk_method *method, const hooke_system *system) {
+  if (!takes(method, problem_of(system))) return 0;
+  return system == NULL || !method->solved || hk_movers_are_solved(system);
 }
 
 int32_t hk_method_suits(const char *name, const hooke_system *system) {
-  return takes(hk_method_find(name), problem_of(system));
+  return suits(hk_method_find(name), system);
 }
 
-/* All of them, or those of this build that take a problem. */
-static void list_methods(int problem, char *list, size_t size) {
-  list[0] = '\0';
-  for (int64_t k = 0; k < ROWS; k++) {
-    if (!table[k]->reference && (problem == PROBLEMS || (table[k]->steps && takes(table[k], problem))))
-      hk_append(list, size, "%s%s", list[0] ? ", " : "", table[k]->name);
-  }
+static void list_method(const struct hk_method *method, char *list, size_t size) {
+  if (!method->reference) hk_append(list, size, "%s%s", list[0] ? ", " : "", method->name);
 }
 
 void hk_method_list(char *list, size_t size) {
-  list_methods(PROBLEMS, list, size);
+  list[0] = '\0';
+  for (int64_t k = 0; k < ROWS; k++)
+    list_method(table[k], list, size);
 }
 
 int32_t hk_method_require(const struct hk_method *method, const hooke_system *system) {
   const int problem = problem_of(system);
   const int32_t solves = problem == FIRST_ORDER && method->solved;
-  char list[512];
-  if (takes(method, problem)) return HOOKE_OK;
-  list_methods(problem, list, sizeof list);
+  char list[512] = "";
+  if (suits(method, system)) return HOOKE_OK;
+  for (int64_t k = 0; k < ROWS; k++)
+    if (table[k]->steps && suits(table[k], system)) list_method(table[k], list, sizeof list);
   return hk_fail(HOOKE_UNSUITED, "method", "%s %s; allowed: %s", method->name,
                  solves ? "solves its step with the derivative of the forces, and x' = phi(t, x) brings none"
                         : problems[problem].refusal,

@@ -1,7 +1,7 @@
 #include "model/check_value.h"
 
 #include "core/crc32.h"
-#include "model/body.h"
+#include "model/coordinates/coordinates.h"
 #include "model/force/drive.h"
 #include "model/force/force.h"
 
@@ -43,32 +43,26 @@ static void add_drives(const hooke_system *system, uint32_t *value) {
   }
 }
 
-/* By their first particles: the order in which they were added moves nothing. */
-static void add_bodies(const hooke_system *system, uint32_t *value) {
-  for (int64_t p = 0; p < system->particle_count && system->bodies->of; p++) {
-    if (system->bodies->of[p] < 0) continue;
-    const struct hk_body *body = &system->bodies->body[system->bodies->of[p]];
-    if (body->particle[0] != p) continue;
-    hk_check_whole(value, body->count);
-    hk_check_add(value, body->particle, body->count, sizeof *body->particle);
-  }
-}
-
 static const struct {
   const char *name;
   void (*add)(const hooke_system *system, uint32_t *value);
-} pieces[] = {{"particles", add_particles}, {"driven", add_drives}, {"bodies", add_bodies}};
+} pieces[] = {{"particles", add_particles}, {"driven", add_drives}};
 
 enum { PIECES = sizeof pieces / sizeof pieces[0] };
 
-/* Adds one of these, or a force; returns its name, NULL past the last. A force that does not say what it
+/* Adds one of these, a kind of coordinates or a force; returns its name, NULL past the last. A force that does not say what it
  * depends on equals no other. */
 static const char *add_piece(const hooke_system *system, int32_t k, uint32_t *value) {
   if (k < PIECES) {
     pieces[k].add(system, value);
     return pieces[k].name;
   }
-  const struct hk_force_row *row = hk_force_table(k - PIECES);
+  const struct hk_coordinates_row *coordinates = hk_coordinates_table(k - PIECES);
+  if (coordinates) {
+    coordinates->check(system, value);
+    return coordinates->name;
+  }
+  const struct hk_force_row *row = hk_force_table(k - PIECES - HOOKE_COORDINATES);
   if (row == NULL) return NULL;
   const int32_t present = hk_force_is_present(system, row);
   hk_check_whole(value, present);

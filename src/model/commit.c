@@ -169,7 +169,7 @@ static void undo(hooke_system *system) {
   hk_overdamped_undo(system);
   for (int64_t k = 0; k < system->group_count; k++)
     hk_group_take_back(&system->group[k]);
-  hk_bodies_undo(system);
+  hk_movers_undo(system);
   hk_strided_batches_release(system->strided);
   hk_tiled_release(system->tiled);
   hk_forces_release(system);
@@ -189,7 +189,7 @@ int32_t hooke_system_commit(hooke_system *system) {
   if (status != HOOKE_OK) return status;
   status = check_pinned_at_rest(system);
   if (status == HOOKE_OK) status = hk_overdamped_check(system);
-  if (status == HOOKE_OK) status = hk_bodies_commit(system);
+  if (status == HOOKE_OK) status = hk_movers_commit(system);
   if (status == HOOKE_OK) status = hk_overdamped_begin(system);
   if (status == HOOKE_OK) status = fill_particles(system);
   if (status == HOOKE_OK) status = take_groups_over(system);

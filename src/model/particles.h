@@ -55,11 +55,20 @@ struct hooke_system {
   struct hk_strided_batches *strided; /* from commit on, for all springs or none */
   struct hk_tiled *tiled;             /* the same, without strided batches */
   struct hk_altitudes *altitudes;     /* from commit on */
-  int64_t moving_bodies;              /* from commit on: rigid bodies that move by themselves */
   struct hk_bodies *bodies;
+  /* from commit on: things that move by own coordinates (model/coordinates), how many numbers these are, and
+   * 1 for each particle that moves with such a thing; NULL without */
+  int64_t mover_count, own_count;
+  struct hk_mover *mover;
+  uint8_t *carried;
 
   struct hk_system_rest *rest; /* what few read (model/system.h) */
   int32_t borrows; /* 1: by hooke_system_with_force(), all but what depends on its force is another's */
 };
+
+/* 1 if a particle moves with a thing that has coordinates of its own. */
+static inline int32_t hk_is_carried(const hooke_system *system, int64_t particle) {
+  return system->carried && system->carried[particle];
+}
 
 #endif

@@ -7,9 +7,8 @@
 #include "core/status.h"
 
 /* Maximum bytes a particle, a group and a part while a scene is built, committed and given to an explicit
- * method; those of members of groups are in the table of forces. Tests compare them with the memory used. */
-static const double PER_PARTICLE = 280.0, PER_GROUP = 6000.0, PER_PART = 14000.0, PER_BODY = 2000.0,
-                    PER_PARTICLE_OF_BODIES = 150.0;
+ * method; those of members of groups are in the table of forces, of bodies in that of coordinates. Tests compare them with the memory used. */
+static const double PER_PARTICLE = 280.0, PER_GROUP = 6000.0, PER_PART = 14000.0;
 
 /* Number of members of a force, including those to come. */
 static double members_of(const hooke_system *system, const struct hk_more *more, int32_t force) {
@@ -23,9 +22,7 @@ double hk_system_needed_bytes(const hooke_system *system, struct hk_more more) {
   double bytes = PER_PARTICLE * ((double)system->particle_count + more.particles);
   for (int32_t k = 0; hk_force_table(k); k++)
     bytes += hk_force_table(k)->bytes * members_of(system, &more, k);
-  bytes += PER_BODY * (double)system->bodies->count;
-  for (int64_t k = 0; k < system->bodies->count; k++)
-    bytes += PER_PARTICLE_OF_BODIES * (double)system->bodies->body[k].count;
+  bytes += hk_movers_bytes(system);
   return bytes + PER_GROUP * (double)system->group_count + PER_PART * (double)system->part_count;
 }
 

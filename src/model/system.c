@@ -36,7 +36,7 @@ static void release_model(hooke_system *system) {
     hk_part_record_release(&system->part[k]);
   for (int64_t k = 0; k < system->drive_count; k++)
     hk_drive_release(&system->drive[k]);
-  hk_bodies_release(system);
+  hk_movers_release(system);
   hk_strided_batches_release(system->strided);
   hk_forces_release(system);
   hk_tiled_release(system->tiled);

@@ -2,7 +2,7 @@
 #ifndef HOOKE_MODEL_SYSTEM_H
 #define HOOKE_MODEL_SYSTEM_H
 
-#include "model/body.h"
+#include "model/coordinates/body.h"
 #include "model/force/altitude.h"
 #include "model/force/bending.h"
 #include "model/force/force.h"

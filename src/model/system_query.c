@@ -93,7 +93,7 @@ static int64_t memory(const hooke_system *system) {
   bytes += system->rest->particle_capacity * (int64_t)((system->velocity ? 7 : 4) * sizeof(double) + 1) +
            (system->overdamped ? 2 : 1) * system->particle_count * (int64_t)sizeof(double) +
            (system->constrained_count + system->anchor_count) * (int64_t)sizeof(int32_t);
-  bytes += hk_bodies_memory(system->bodies) + (system->bodies->of ? system->particle_count * 4 : 0);
+  bytes += hk_movers_memory(system);
   bytes += system->group_count * (int64_t)sizeof *system->group +
            system->rest->derived_capacity * (int64_t)sizeof *system->rest->derived +
            system->drive_count * (int64_t)sizeof *system->drive;

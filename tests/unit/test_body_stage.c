@@ -4,7 +4,7 @@
 
 #include "check.h"
 #include "run.h"
-#include "model/body.h"
+#include "model/coordinates/body.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -59,7 +59,7 @@ static void matrix_is_the_derivative(void **unused) {
     double v[3 * ALL + UNKNOWNS] = {0}, by[UNKNOWNS], moved[3 * ALL + UNKNOWNS] = {0}, right[2][UNKNOWNS];
     assert_int_equal(stage->size, size);
     hk_motion_load(system, it->motion, system->position, still);
-    hk_bodies_read(system, it->motion, stage->body.own);
+    hk_movers_read(system, it->motion, stage->body.own);
     hk_stage_save(stage, stage->start);
     hk_stage_save(stage, stage->begin);
     stage->at = (struct hk_equations){0.0, 0.1, stage->start, stage->start + 3 * ALL, 0.1};

@@ -130,9 +130,9 @@ static hooke_system *mixed_system(uint64_t seed, struct features with, const dou
 }
 
 static void fill_bodies(const hooke_system *system, struct canonical_body *body) {
-  assert_int_equal(system->moving_bodies, BODIES);
+  assert_int_equal(system->mover_count, BODIES);
   for (int b = 0; b < BODIES; b++) {
-    const struct hk_body *from = system->bodies->mover[b];
+    const struct hk_body *from = system->mover[b].thing;
     body[b] = (struct canonical_body){.count = from->count,
                                       .particle = from->particle,
                                       .mass = from->mass,

@@ -1,6 +1,6 @@
 /* Forces and torques on a body in small motions, by its tangent and by differences. */
 #include "measure/spectrum/rigid.h"
-#include "model/body_tangent.h"
+#include "model/coordinates/body_tangent.h"
 #include "model/force/force.h"
 #include "model/vector3.h"
 

@@ -71,8 +71,8 @@ int32_t hk_divergence_begin(hooke_integrator *it, const hooke_state *state) {
     it->energy0 = at.kinetic + at.elastic;
   }
   hk_recent_begin(&it->recent, state);
-  it->good_time = *state->t;
-  it->unkept = 0;
+  it->good.t = *state->t;
+  it->good.unkept = 0;
   return HOOKE_OK;
 }
 
@@ -97,7 +97,7 @@ void hk_store_good(const hooke_integrator *it, hooke_state *state) {
     hk_motion_store(it->motion, state->q, state->v);
   else
     memcpy(state->q, it->x, (size_t)it->size * sizeof(double));
-  *state->t = it->good_time;
+  *state->t = it->good.t;
 }
 
 int32_t hk_divergence_keep(hooke_integrator *it) {
@@ -107,8 +107,8 @@ int32_t hk_divergence_keep(hooke_integrator *it) {
       recent->room == 0 ? hk_recent_make_room(hk_integrator_numbers(it), 1, recent) : HOOKE_OK;
   if (status != HOOKE_OK) return status;
   if (had_no_room && recent->count > 0) hk_store_good(it, recent->state[0]);
-  if (it->unkept) hk_store_good(it, hk_recent_next(recent, it->good_step));
-  it->unkept = 0;
+  if (it->good.unkept) hk_store_good(it, hk_recent_next(recent, it->good.step));
+  it->good.unkept = 0;
   return HOOKE_OK;
 }
 
@@ -128,12 +128,12 @@ static void put_back(hooke_integrator *it, hooke_state *state) {
     return;
   }
   hk_motion_exchange(it->motion, state->q, state->v);
-  *state->t = it->good_time;
+  *state->t = it->good.t;
 }
 
 static int32_t pass(hooke_integrator *it, const hooke_state *state) {
   hk_recent_keep(&it->recent, state, it->k);
-  it->good_time = *state->t;
+  it->good.t = *state->t;
   if (it->recent.room == 0) hk_motion_load(it->system, it->motion, state->q, state->v);
   if (it->checker.look == NULL) return HOOKE_OK;
   it->stop_value = it->checker.look(it, state, it->checker.own);
@@ -161,15 +161,15 @@ int32_t hk_motion_is_finite(const hooke_integrator *it) {
 
 int32_t hk_divergence_glance(hooke_integrator *it, hooke_state *state) {
   if (hk_motion_is_finite(it)) {
-    it->good_time = it->t;
-    it->good_step = it->k;
-    it->unkept = it->recent.room > 0;
-    if (!it->unkept) hk_recent_next(&it->recent, it->k);
+    it->good.t = it->t;
+    it->good.step = it->k;
+    it->good.unkept = it->recent.room > 0;
+    if (!it->good.unkept) hk_recent_next(&it->recent, it->k);
     return it->method->steps->store(it, it->t, state);
   }
   it->diverged_at = it->t;
-  if (it->unkept) hk_recent_keep(&it->recent, state, it->good_step);
-  it->unkept = 0;
+  if (it->good.unkept) hk_recent_keep(&it->recent, state, it->good.step);
+  it->good.unkept = 0;
   return fail_not_finite(it, *state->t);
 }
 
@@ -187,7 +187,7 @@ int32_t hk_divergence_check(hooke_integrator *it, hooke_state *state, int32_t wi
   if (!finite) return fail_not_finite(it, *state->t);
   return hk_fail(
       HOOKE_DIVERGED, NULL,
-      "the run diverged: at t = %.6g s the energy has risen from %g to %g J, over 100 times what the scene "
-      "had; the state kept is that of t = %.6g s; try %s",
-      t, it->energy0 + it->gravity0, energy, *state->t, advice(it));
+      "the run diverged: at t = %.6g s the energy has risen from %g to %g J, over 100 times the %g J that "
+      "motion, springs and changes of height had; the state kept is that of t = %.6g s; try %s",
+      t, it->energy0 + it->gravity0, energy, it->scale0 + it->gravity_swing, *state->t, advice(it));
 }

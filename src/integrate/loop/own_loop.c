@@ -10,7 +10,8 @@
 
 /* 1 if the last call left a motion that steps can continue. */
 static int goes_on(const hooke_integrator *it) {
-  return it->begun && (it->placed || it->outcome == HOOKE_OK || it->outcome == HOOKE_STOPPED);
+  return it->phase == HOOKE_AT_CHECKPOINT ||
+         (it->phase == HOOKE_BEGUN && (it->outcome == HOOKE_OK || it->outcome == HOOKE_STOPPED));
 }
 
 /* 1 if that is at `state`, to the bit. For an error-controlled method the states it returned count. */
@@ -41,12 +42,16 @@ static int32_t take_steps(hooke_integrator *it, hooke_state *state, int64_t step
   return hk_run_end(it, state, status);
 }
 
+static void leave_checkpoint(hooke_integrator *it) {
+  if (it->phase == HOOKE_AT_CHECKPOINT) it->phase = HOOKE_BEGUN;
+}
+
 int32_t hooke_integrator_step(hooke_integrator *it, hooke_state *state, int64_t steps) {
   int32_t status = hk_run_check_state(it, state);
   if (status == HOOKE_OK) status = check_steps(steps);
   if (status != HOOKE_OK) return status;
   if (it->k == 0 || !goes_on(it) || !is_at(it, state)) status = hk_run_begin(it, state);
-  it->placed = 0;
+  leave_checkpoint(it);
   if (status != HOOKE_OK) return hk_run_end(it, state, status);
   status = check_total(it, steps);
   return status == HOOKE_OK ? take_steps(it, state, steps, 1) : status;
@@ -55,7 +60,7 @@ int32_t hooke_integrator_step(hooke_integrator *it, hooke_state *state, int64_t 
 static int32_t require_motion(const hooke_integrator *it) {
   if (goes_on(it)) return HOOKE_OK;
   return hk_fail(HOOKE_BAD_CALL, NULL, "%s; hooke_integrator_step() with 0 steps begins one at a state",
-                 it->begun ? "the motion has ended early" : "there is no motion");
+                 it->phase == HOOKE_BEGUN ? "the motion has ended early" : "there is no motion");
 }
 
 /* A state of the integrator's own. */
@@ -67,11 +72,11 @@ static int32_t make_shown(hooke_integrator *it) {
 /* A copy of the last good state, since the caller's is left alone. */
 static int32_t keep_start(hooke_integrator *it) {
   if (it->recent.count == 0) { /* stopped where the run had nothing to check */
-    it->good_time = it->t;
-    it->good_step = it->k;
-    it->unkept = 1;
+    it->good.t = it->t;
+    it->good.step = it->k;
+    it->good.unkept = 1;
   }
-  return it->unkept || it->recent.room == 0 ? hk_divergence_keep(it) : HOOKE_OK;
+  return it->good.unkept || it->recent.room == 0 ? hk_divergence_keep(it) : HOOKE_OK;
 }
 
 int32_t hooke_integrator_advance(hooke_integrator *it, int64_t steps) {
@@ -82,19 +87,19 @@ int32_t hooke_integrator_advance(hooke_integrator *it, int64_t steps) {
   if (status == HOOKE_OK) status = make_shown(it);
   if (status == HOOKE_OK) status = keep_start(it);
   if (status != HOOKE_OK) return status;
-  it->placed = 0;
+  leave_checkpoint(it);
   return take_steps(it, it->shown, steps, 0);
 }
 
 int32_t hooke_integrator_sync(hooke_integrator *it, hooke_state *state) {
   int32_t status = hk_run_check_state(it, state);
   if (status != HOOKE_OK) return status;
-  if (!it->begun) return require_motion(it);
-  if (it->outcome == HOOKE_DIVERGED && !it->placed) return hooke_integrator_recent(it, 0, state);
+  if (it->phase == HOOKE_NOT_BEGUN) return require_motion(it);
+  if (it->outcome == HOOKE_DIVERGED && it->phase == HOOKE_BEGUN) return hooke_integrator_recent(it, 0, state);
   status = it->method->steps->store(it, it->t, state);
   *state->t = it->t;
   if (status != HOOKE_OK || !goes_on(it)) return status;
-  it->unkept = 0; /* the state is that one */
+  it->good.unkept = 0; /* the state is that one */
   status = hk_divergence_check(it, state, it->thorough);
   return status == HOOKE_OK ? status : hk_run_end(it, state, status);
 }
@@ -158,7 +163,7 @@ int32_t hooke_integrator_put(hooke_integrator *it, int64_t count, const int64_t 
   if (status == HOOKE_OK) status = check_rows("position", count, q);
   if (status == HOOKE_OK) status = check_rows("velocity", count, v);
   for (int64_t k = 0; k < count && status == HOOKE_OK; k++) {
-    if (!hk_bodies_move(it->system->bodies, particles[k])) continue;
+    if (!hk_is_carried(it->system, particles[k])) continue;
     hk_fail(HOOKE_UNSUITED, NULL, "particle %lld moves with a rigid body; change a state, and begin there",
             (long long)particles[k]);
     status = hk_fail_within(HOOKE_UNSUITED, "particles[%lld]", (long long)k);

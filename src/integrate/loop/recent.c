@@ -46,7 +46,6 @@ void hk_recent_set_first(struct hk_recent *recent, const hooke_state *first) {
 
 void hk_recent_begin(struct hk_recent *recent, const hooke_state *state) {
   recent->count = 0;
-  hk_recent_set_first(recent, state);
   hk_recent_keep(recent, state, 0);
 }
 

@@ -24,7 +24,7 @@ int32_t hk_recent_make_room(int64_t size, int32_t has_v, struct hk_recent *recen
 void hk_recent_release(struct hk_recent *recent);
 int64_t hk_recent_memory(const struct hk_recent *recent);
 
-/* Clears all, and starts with `state`. */
+/* Clears all but the initial state, and starts with `state`. */
 void hk_recent_begin(struct hk_recent *recent, const hooke_state *state);
 /* The initial state of a run that continues from elsewhere; NULL: unknown. */
 void hk_recent_set_first(struct hk_recent *recent, const hooke_state *first);

@@ -23,19 +23,14 @@ int32_t hk_integrator_stand(hooke_integrator *it, const struct hk_standing *stan
   const struct hk_standing s = *standing, before = hk_integrator_standing(it);
   it->count = s.count; /* a method continues counting from here */
   it->wall_seconds = s.wall_seconds;
-  struct hk_recent *recent = &it->recent;
-  hooke_state *const first = recent->first, *const room = recent->room_of_first;
-  recent->room_of_first = NULL; /* a start is not the first one here */
-  const int32_t status = hk_run_begin(it, state);
-  recent->room_of_first = room;
-  recent->first = first;
+  const int32_t status = hk_run_begin_later(it, state);
   if (status != HOOKE_OK) {
     it->count = before.count;
     it->wall_seconds = before.wall_seconds;
     return status;
   }
   it->t0 = s.t0;
-  it->k = recent->step[recent->newest] = s.k;
+  it->k = it->recent.step[it->recent.newest] = s.k;
   it->frames = s.frames;
   it->energy0 = s.energy0;
   it->scale0 = s.scale0;
@@ -64,7 +59,7 @@ int32_t hk_integrator_stand_at_frame(hooke_integrator *it, int64_t frame, const 
   const int32_t status = hk_integrator_stand(it, &standing, state);
   if (status != HOOKE_OK) return status;
   hk_recent_set_first(&it->recent, first);
-  it->placed = 1;
+  it->phase = HOOKE_AT_CHECKPOINT;
   return HOOKE_OK;
 }
 
@@ -102,7 +97,8 @@ int32_t hk_integrator_run_on(hooke_integrator *it, const hooke_state *first, hoo
 /* At a checkpoint, or where a fixed-step run was stopped. */
 static int can_go_on(const hooke_integrator *it, const hooke_state *state) {
   const int stopped = !it->method->adaptive && it->outcome == HOOKE_STOPPED;
-  return it->begun && (it->placed || stopped) && memcmp(&it->t, state->t, sizeof it->t) == 0;
+  const int ready = it->phase == HOOKE_AT_CHECKPOINT || (it->phase == HOOKE_BEGUN && stopped);
+  return ready && memcmp(&it->t, state->t, sizeof it->t) == 0;
 }
 
 /* The frame of this very time, if the run was stopped before it was reported. */

@@ -4,7 +4,7 @@
 #include "core/clock.h"
 #include "core/thread_pool.h"
 #include "core/status.h"
-#include "model/body.h"
+#include "model/coordinates/coordinates.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -42,19 +42,25 @@ static int32_t check_numbers(const hooke_integrator *it, const hooke_state *stat
 }
 
 int32_t hk_run_begin(hooke_integrator *it, hooke_state *state) {
+  const int32_t status = hk_run_begin_later(it, state);
+  if (status == HOOKE_OK) hk_recent_set_first(&it->recent, state);
+  return status;
+}
+
+int32_t hk_run_begin_later(hooke_integrator *it, hooke_state *state) {
   it->t0 = it->t = *state->t;
   it->k = it->frames = 0;
-  it->begun = it->placed = 0;
+  it->phase = HOOKE_NOT_BEGUN;
   it->point = 1;
   it->stop_value = 0;
   int32_t status = hk_run_place_driven(it, state);
   if (status == HOOKE_OK) status = check_numbers(it, state);
-  if (status == HOOKE_OK && it->system) status = hk_bodies_check(it->system, state);
+  if (status == HOOKE_OK && it->system) status = hk_movers_check_state(it->system, state);
   if (status == HOOKE_OK) status = hk_divergence_begin(it, state);
   if (status == HOOKE_OK) status = it->method->steps->begin(it, state);
   if (status == HOOKE_OK) status = hk_run_keep_restart(it, state);
   hk_passages_begin(it, it->t0);
-  it->begun = status == HOOKE_OK;
+  if (status == HOOKE_OK) it->phase = HOOKE_BEGUN;
   return status;
 }
 
@@ -76,8 +82,8 @@ int32_t hk_run_report(hooke_integrator *it, hooke_state *state) {
 
 int32_t hk_run_store(hooke_integrator *it, double t, hooke_state *state, int32_t checked) {
   it->energies.system = NULL;
-  if (it->unkept) hk_recent_keep(&it->recent, state, it->good_step); /* so far `state` is that one */
-  it->unkept = 0;
+  if (it->good.unkept) hk_recent_keep(&it->recent, state, it->good.step); /* so far `state` is that one */
+  it->good.unkept = 0;
   const int32_t status = checked ? hk_divergence_store(it, t, state) : it->method->steps->store(it, t, state);
   if (!checked && it->recent.room == 0) it->recent.count = 0; /* the last good state is lost */
   *state->t = t;

@@ -18,6 +18,8 @@ int32_t hk_run_check_duration(const hooke_integrator *integrator);
 int32_t hk_run_place_driven(hooke_integrator *integrator, hooke_state *state);
 /* The start of a run at `state`, as step 0. */
 int32_t hk_run_begin(hooke_integrator *integrator, hooke_state *state);
+/* The same at a later state of a run, whose initial one stays. */
+int32_t hk_run_begin_later(hooke_integrator *integrator, hooke_state *state);
 /* From there, or from the current point, to the end of its schedule. */
 int32_t hk_run_to_end(hooke_integrator *integrator, hooke_state *state);
 /* With a fixed step: continues to step `last` with checks, step observers and checkpoints, and frames every

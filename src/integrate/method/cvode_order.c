@@ -61,7 +61,7 @@ static double product_of(const hooke_integrator *it, const struct hk_unknowns *u
     for (int64_t k = 0; k < u->stretch_count; k++) {
       const struct hk_stretch_of_free *s = &u->stretch[k];
       const double *mass = it->system->inertia + s->particle;
-      const int64_t from = a * u->free_count + s->place;
+      const int64_t from = a * u->free_count + s->unknown;
       for (int64_t j = 0; j < s->count; j++)
         sum += mass[j] * x[from + j] * p[from + j];
     }

@@ -2,7 +2,7 @@
 
 #include "core/memory.h"
 #include "kernel/step_loops.h"
-#include "model/body.h"
+#include "model/coordinates/coordinates.h"
 
 int32_t hk_one_array_create(hooke_integrator *it) {
   struct hk_one_array *array = hk_new(1, sizeof *array);
@@ -32,24 +32,24 @@ void hk_one_array_begin(hooke_integrator *it) {
   if (it->motion) hk_unknowns_take(it, &it->array->unknowns, it->array->y);
 }
 
-static double *body_of(const struct hk_unknowns *u, double *y, int64_t k) {
-  return y + 6 * u->free_count + HOOKE_BODY_NUMBERS * k;
+/* Those of movers. */
+static double *own_of(const struct hk_unknowns *u, double *y) {
+  return y + 6 * u->free_count;
 }
 
 void hk_one_array_give(hooke_integrator *it, double *y) {
   const struct hk_unknowns *u = &it->array->unknowns;
-  for (int64_t k = 0; k < u->body_count; k++)
-    hk_body_normalise(body_of(u, y, k));
+  hk_movers_normalise(it->system, own_of(u, y));
   hk_unknowns_spread(u, y, it->motion->q);
   hk_unknowns_spread(u, y + 3 * u->free_count, it->motion->v);
-  hk_bodies_write(it->system, it->motion, body_of(u, y, 0));
+  hk_movers_write(it->system, it->motion, own_of(u, y));
 }
 
 int32_t hk_one_array_push(hooke_integrator *it, double t, int32_t kept) {
   const struct hk_unknowns *u = &it->array->unknowns;
   const int32_t status = kept ? HOOKE_OK : hk_integrator_forces(it, t);
   if (status != HOOKE_OK) return status;
-  hk_bodies_push(it->system, it->motion, body_of(u, it->array->y, 0), u->push);
+  hk_movers_push(it->system, it->motion, own_of(u, it->array->y), u->push);
   hk_unknowns_accelerations(it, u, it->array->slope + 3 * u->free_count);
   return HOOKE_OK;
 }
@@ -57,14 +57,12 @@ int32_t hk_one_array_push(hooke_integrator *it, double t, int32_t kept) {
 void hk_one_array_kick(hooke_integrator *it, double h, double *y) {
   const struct hk_unknowns *u = &it->array->unknowns;
   hk_advance(3 * u->free_count, h, it->array->slope + 3 * u->free_count, y + 3 * u->free_count);
-  for (int64_t k = 0; k < u->body_count; k++)
-    hk_body_kick(it->system->bodies->mover[k], h, u->push + 6 * k, u->push + 6 * k + 3, body_of(u, y, k));
+  hk_movers_kick(it->system, h, u->push, own_of(u, y));
 }
 
 void hk_one_array_drift(hooke_integrator *it, double h) {
   const struct hk_unknowns *u = &it->array->unknowns;
   double *y = it->array->y;
   hk_advance(3 * u->free_count, h, y + 3 * u->free_count, y);
-  for (int64_t k = 0; k < u->body_count; k++)
-    hk_body_drift(it->system->bodies->mover[k], h, body_of(u, y, k));
+  hk_movers_drift(it->system, h, own_of(u, y));
 }

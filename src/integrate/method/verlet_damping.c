@@ -90,7 +90,7 @@ static int32_t choose_with_bodies(hooke_integrator *it, const char *asked) {
 
 int32_t hk_verlet_choose(hooke_integrator *it) {
   const char *asked = hooke_options_text(it->options, "verlet_damping");
-  if (it->system->moving_bodies > 0) return choose_with_bodies(it, asked);
+  if (it->system->mover_count > 0) return choose_with_bodies(it, asked);
   const int required = strcmp(asked, "explicit") == 0;
   double most;
   if (!hk_system_is_damped(it->system, ~HOOKE_UNIFORM)) {

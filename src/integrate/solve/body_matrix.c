@@ -3,7 +3,7 @@
 
 #include "integrate/solve/stage.h"
 #include "kernel/vector_loops.h"
-#include "model/body.h"
+#include "model/coordinates/body.h"
 #include "model/vector3.h"
 
 #include <float.h>

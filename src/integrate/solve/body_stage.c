@@ -3,7 +3,7 @@
 #include "core/memory.h"
 #include "core/status.h"
 #include "integrate/solve/stage.h"
-#include "model/body.h"
+#include "model/coordinates/body.h"
 #include "model/vector3.h"
 
 #include <math.h>
@@ -23,7 +23,7 @@ static int32_t allocate(hooke_integrator *it, struct hk_body_stage *body) {
   body->rotation = hk_new(count, sizeof *body->rotation);
   if (block == NULL || body->rotation == NULL) return HOOKE_NO_MEMORY;
   for (int64_t k = 0; k < count; k++)
-    arms += 3 * it->system->bodies->mover[k]->count;
+    arms += 3 * ((const struct hk_body *)it->system->mover[k].thing)->count;
   it->own_memory += (numbers + arms) * (int64_t)sizeof(double) + count * (int64_t)sizeof *body->rotation;
   block += HOOKE_BODY_NUMBERS * count;
   body->push = hk_part(&block, 6 * count);
@@ -36,11 +36,11 @@ static int32_t allocate(hooke_integrator *it, struct hk_body_stage *body) {
 
 int32_t hk_body_stage_create(hooke_integrator *it, struct hk_body_stage *body) {
   const hooke_system *system = it->system;
-  if (system->moving_bodies == 0) return HOOKE_OK;
+  if (system->mover_count == 0) return HOOKE_OK;
   if (strcmp(hooke_options_text(it->options, "linear_solver"), "direct") == 0)
     return hk_fail(HOOKE_UNSUITED, "linear_solver",
                    "direct does not know rigid bodies yet; allowed with %s: auto, blocks", it->method->name);
-  body->count = system->moving_bodies;
+  body->count = system->mover_count;
   const int32_t status = hk_body_tangents_create(system, system->position, &body->tangents);
   return status == HOOKE_OK ? allocate(it, body) : status;
 }
@@ -80,7 +80,7 @@ static const hooke_system *system_of(const struct hk_stage *stage) {
 }
 
 static const struct hk_body *body_of(const struct hk_stage *stage, int64_t k) {
-  return system_of(stage)->bodies->mover[k];
+  return system_of(stage)->mover[k].thing;
 }
 
 static double *own_of(const struct hk_stage *stage, int64_t k) {
@@ -183,13 +183,12 @@ static void place_body(struct hk_stage *stage, int64_t k, const double *v) {
 void hk_body_stage_place(struct hk_stage *stage, const double *v) {
   for (int64_t k = 0; k < stage->body.count; k++)
     place_body(stage, k, v);
-  hk_bodies_write(system_of(stage), stage->reduced.integrator->motion, stage->body.own);
+  hk_movers_write(system_of(stage), stage->reduced.integrator->motion, stage->body.own);
 }
 
 void hk_body_stage_end(struct hk_stage *stage) {
-  for (int64_t k = 0; k < stage->body.count; k++)
-    hk_body_normalise(own_of(stage, k));
-  hk_bodies_write(system_of(stage), stage->reduced.integrator->motion, stage->body.own);
+  hk_movers_normalise(system_of(stage), stage->body.own);
+  hk_movers_write(system_of(stage), stage->reduced.integrator->motion, stage->body.own);
 }
 
 void hk_body_stage_begin(struct hk_stage *stage) {
@@ -209,11 +208,11 @@ void hk_body_stage_begin(struct hk_stage *stage) {
 
 void hk_body_stage_explicit(struct hk_stage *stage, double a, double *out) {
   struct hk_body_stage *bodies = &stage->body;
-  hk_bodies_push(system_of(stage), stage->reduced.integrator->motion, bodies->own, bodies->push);
+  hk_movers_push(system_of(stage), stage->reduced.integrator->motion, bodies->own, bodies->push);
   for (int64_t k = 0; k < bodies->count; k++) {
-    const double *own = own_of(stage, k), *push = bodies->push + 6 * k;
+    const double *own = own_of(stage, k), *push = bodies->push + HOOKE_PUSH * k;
     double slope[HOOKE_BODY_NUMBERS];
-    hk_body_slope(body_of(stage, k), own, push, push + 3, slope);
+    hk_body_slope(body_of(stage, k), own, push, slope);
     for (int j = 0; j < HOOKE_BODY_NUMBERS; j++)
       out[HOOKE_BODY_NUMBERS * k + j] = own[j] + a * slope[j];
   }
@@ -248,7 +247,7 @@ static void find_right(struct hk_stage *stage, int64_t k, const double *v) {
 void hk_body_stage_residual(struct hk_stage *stage, const double *v) {
   struct hk_body_stage *bodies = &stage->body;
   hk_body_stage_clear(stage, stage->right);
-  hk_bodies_push(system_of(stage), stage->reduced.integrator->motion, bodies->own, bodies->push);
+  hk_movers_push(system_of(stage), stage->reduced.integrator->motion, bodies->own, bodies->push);
   for (int64_t k = 0; k < bodies->count; k++) {
     hk_scale3(body_of(stage, k)->mass, bodies->push + 6 * k, bodies->push + 6 * k);
     find_right(stage, k, v);

@@ -15,7 +15,7 @@
 
 #include "integrate/integrator.h"
 #include "integrate/solve/reduced.h"
-#include "model/body_tangent.h"
+#include "model/coordinates/body_tangent.h"
 
 struct hk_stage;
 

@@ -3,7 +3,6 @@
 #include "core/memory.h"
 #include "core/status.h"
 #include "kernel/vector_loops.h"
-#include "model/body.h"
 
 #include <float.h>
 #include <math.h>
@@ -156,7 +155,7 @@ static void find_moved(const struct hk_stage *stage, double *dq, double *dv) {
   const int64_t n = system->particle_count;
   for (int64_t a = 0, k = 0; a < 3; a++) {
     for (int64_t p = 0; p < n; p++, k++) {
-      const int held = system->constrained[p] != 0 || hk_bodies_move(system->bodies, p);
+      const int held = system->constrained[p] != 0 || hk_is_carried(system, p);
       const double q = stage->begin[k], v = stage->begin[3 * n + k];
       dq[k] = held ? it->motion->q[a][p] - q : (stage->at.place[k] - q) + stage->at.a * v;
       dv[k] = held ? it->motion->v[a][p] - v : 0.0;
@@ -502,7 +501,7 @@ static int32_t step(hooke_integrator *it) {
   struct hk_stage *stage = it->own;
   const struct hk_counts before = it->count;
   int32_t status = HOOKE_OK;
-  hk_bodies_read(it->system, it->motion, stage->body.own);
+  hk_movers_read(it->system, it->motion, stage->body.own);
   for (int64_t done = 0, parts = FINEST_SPLIT; done < FINEST_SPLIT;) {
     status = take_part(stage, done, parts);
     if (status == HOOKE_OK) {

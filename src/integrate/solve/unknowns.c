@@ -2,13 +2,13 @@
 #include "integrate/solve/unknowns.h"
 
 #include "core/memory.h"
-#include "model/body.h"
+#include "model/coordinates/coordinates.h"
 #include "model/force/force.h"
 
 #include <string.h>
 
 static int is_alone(const hooke_system *system, int64_t particle) {
-  return !system->constrained[particle] && !hk_bodies_move(system->bodies, particle);
+  return !system->constrained[particle] && !hk_is_carried(system, particle);
 }
 
 /* Finds the stretches, or counts them before there is a list. */
@@ -34,11 +34,12 @@ int32_t hk_unknowns_create(hooke_integrator *it, int32_t products, struct hk_unk
   if (u->stretch == NULL) return HOOKE_NO_MEMORY;
   find_stretches(it->system, u);
   u->has_v = !it->system->overdamped;
-  u->body_count = it->system->moving_bodies;
-  u->size = (u->has_v ? 6 : 3) * u->free_count + HOOKE_BODY_NUMBERS * u->body_count;
+  u->size = (u->has_v ? 6 : 3) * u->free_count + it->system->own_count;
   if (u->size == 0) u->size = 1;
-  if (u->body_count > 0 && (u->push = hk_new(6 * u->body_count, sizeof(double))) == NULL)
-    return HOOKE_NO_MEMORY;
+  if (it->system->mover_count > 0) {
+    u->push = hk_new(HOOKE_PUSH * it->system->mover_count, sizeof(double));
+    if (u->push == NULL) return HOOKE_NO_MEMORY;
+  }
   if (!products || !hk_unknowns_have_products(it, u)) return HOOKE_OK;
   u->rows = hk_rows_new(5 * it->size);
   it->own_memory += 5 * it->size * (int64_t)sizeof(double);
@@ -57,13 +58,12 @@ void hk_unknowns_tolerance(const hooke_integrator *it, const struct hk_unknowns 
   const double velocity = hooke_options_number(it->options, "atol_velocity");
   for (int64_t k = 0; k < u->size; k++)
     tolerance[k] = it->rate || k < 3 * u->free_count ? position : velocity;
-  for (int64_t k = 0; k < u->body_count; k++)
-    hk_body_tolerance(it->system->bodies->mover[k], position, velocity,
-                      tolerance + 6 * u->free_count + HOOKE_BODY_NUMBERS * k);
+  if (it->system) hk_movers_tolerance(it->system, position, velocity, tolerance + 6 * u->free_count);
 }
 
 int32_t hk_unknowns_have_products(const hooke_integrator *it, const struct hk_unknowns *u) {
-  return it->rate == NULL && u->body_count == 0;
+  (void)u;
+  return it->rate == NULL && it->system->mover_count == 0;
 }
 
 /* ---- between y and all particles ---- */
@@ -72,7 +72,7 @@ void hk_unknowns_gather(const struct hk_unknowns *u, const double *const all[3],
   for (int a = 0; a < 3; a++) {
     for (int64_t k = 0; k < u->stretch_count; k++) {
       const struct hk_stretch_of_free *s = &u->stretch[k];
-      memcpy(some + a * u->free_count + s->place, all[a] + s->particle, (size_t)s->count * sizeof(double));
+      memcpy(some + a * u->free_count + s->unknown, all[a] + s->particle, (size_t)s->count * sizeof(double));
     }
   }
 }
@@ -81,7 +81,7 @@ void hk_unknowns_spread(const struct hk_unknowns *u, const double *some, double 
   for (int a = 0; a < 3; a++) {
     for (int64_t k = 0; k < u->stretch_count; k++) {
       const struct hk_stretch_of_free *s = &u->stretch[k];
-      memcpy(all[a] + s->particle, some + a * u->free_count + s->place, (size_t)s->count * sizeof(double));
+      memcpy(all[a] + s->particle, some + a * u->free_count + s->unknown, (size_t)s->count * sizeof(double));
     }
   }
 }
@@ -90,7 +90,7 @@ void hk_unknowns_spread(const struct hk_unknowns *u, const double *some, double 
 static void spread_to_rows(const struct hk_unknowns *u, const double *some, double *rows) {
   for (int64_t k = 0; k < u->stretch_count; k++) {
     const struct hk_stretch_of_free *s = &u->stretch[k];
-    const double *x = some + s->place, *y = x + u->free_count, *z = y + u->free_count;
+    const double *x = some + s->unknown, *y = x + u->free_count, *z = y + u->free_count;
     double *row = rows + 3 * s->particle;
     for (int64_t p = 0; p < s->count; p++, row += 3) {
       row[0] = x[p];
@@ -103,7 +103,7 @@ static void spread_to_rows(const struct hk_unknowns *u, const double *some, doub
 void hk_unknowns_take(const hooke_integrator *it, const struct hk_unknowns *u, double *y) {
   hk_unknowns_gather(u, (const double *const *)it->motion->q, y);
   if (u->has_v) hk_unknowns_gather(u, (const double *const *)it->motion->v, y + 3 * u->free_count);
-  hk_bodies_read(it->system, it->motion, y + 6 * u->free_count);
+  hk_movers_read(it->system, it->motion, y + 6 * u->free_count);
 }
 
 void hk_unknowns_load(hooke_integrator *it, const struct hk_unknowns *u, const hooke_state *state,
@@ -135,7 +135,7 @@ int32_t hk_unknowns_store(hooke_integrator *it, const struct hk_unknowns *u, dou
 int32_t hk_unknowns_place(hooke_integrator *it, const struct hk_unknowns *u, double t, const double *y) {
   hk_unknowns_spread(u, y, it->motion->q);
   if (u->has_v) hk_unknowns_spread(u, y + 3 * u->free_count, it->motion->v);
-  hk_bodies_write(it->system, it->motion, y + 6 * u->free_count);
+  hk_movers_write(it->system, it->motion, y + 6 * u->free_count);
   return hk_integrator_hold(it, t);
 }
 
@@ -147,7 +147,7 @@ double hk_unknowns_accelerations(const hooke_integrator *it, const struct hk_unk
     for (int64_t k = 0; k < u->stretch_count; k++) {
       const struct hk_stretch_of_free *s = &u->stretch[k];
       const double *w = system->inverse_mass + s->particle, *f = it->motion->f[a] + s->particle;
-      double *to = out + a * u->free_count + s->place;
+      double *to = out + a * u->free_count + s->unknown;
       for (int64_t p = 0; p < s->count; p++) {
         to[p] = system->falls ? w[p] * f[p] + g : w[p] * f[p];
         sum += 0.0 * to[p];
@@ -157,19 +157,12 @@ double hk_unknowns_accelerations(const hooke_integrator *it, const struct hk_unk
   return sum;
 }
 
-/* The same of the bodies; y is that of the working copy. */
-static double body_slopes(const hooke_integrator *it, const struct hk_unknowns *u, const double *y,
-                          double *slope) {
-  double sum = 0.0;
-  hk_bodies_push(it->system, it->motion, y + 6 * u->free_count, u->push);
-  for (int64_t k = 0; k < u->body_count; k++) {
-    const int64_t at = 6 * u->free_count + HOOKE_BODY_NUMBERS * k;
-    const double *push = u->push + 6 * k;
-    hk_body_slope(it->system->bodies->mover[k], y + at, push, push + 3, slope + at);
-    for (int j = 0; j < HOOKE_BODY_NUMBERS; j++)
-      sum += 0.0 * slope[at + j];
-  }
-  return sum;
+/* The same of the movers; y is that of the working copy. */
+static double slopes_of_movers(const hooke_integrator *it, const struct hk_unknowns *u, const double *y,
+                               double *slope) {
+  const double *own = y + 6 * u->free_count;
+  hk_movers_push(it->system, it->motion, own, u->push);
+  return hk_movers_slope(it->system, own, u->push, slope + 6 * u->free_count);
 }
 
 static int first_order_slope(hooke_integrator *it, double t, const double *x, double *slope) {
@@ -185,7 +178,7 @@ int hk_unknowns_slope(hooke_integrator *it, const struct hk_unknowns *u, double 
   /* a solver may interpret a stop as a reason to try a smaller step */
   if (it->stop_value != 0) return HOOKE_SLOPE_STOPPED;
   if (it->rate) return first_order_slope(it, t, y, slope);
-  if (u->free_count == 0 && u->body_count == 0) {
+  if (u->free_count == 0 && it->system->mover_count == 0) {
     slope[0] = 0.0;
     return HOOKE_SLOPE_FINE;
   }
@@ -193,7 +186,7 @@ int hk_unknowns_slope(hooke_integrator *it, const struct hk_unknowns *u, double 
     return HOOKE_SLOPE_STOPPED;
   const int64_t m = u->has_v ? u->free_count : 0;
   memcpy(slope, y + 3 * m, (size_t)(3 * m) * sizeof(double));
-  const double sum = hk_unknowns_accelerations(it, u, slope + 3 * m) + body_slopes(it, u, y, slope);
+  const double sum = hk_unknowns_accelerations(it, u, slope + 3 * m) + slopes_of_movers(it, u, y, slope);
   return sum == 0.0 ? HOOKE_SLOPE_FINE : HOOKE_SLOPE_NOT_FINITE;
 }
 
@@ -229,7 +222,7 @@ int hk_unknowns_product(hooke_integrator *it, struct hk_unknowns *u, double t, c
     const struct hk_stretch_of_free *s = &u->stretch[k];
     for (int64_t p = 0; p < s->count; p++) {
       for (int a = 0; a < 3; a++)
-        product[(first + a) * m + s->place + p] =
+        product[(first + a) * m + s->unknown + p] =
             it->system->inverse_mass[s->particle + p] * out[3 * (s->particle + p) + a];
     }
   }

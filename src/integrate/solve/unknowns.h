@@ -1,25 +1,25 @@
 /* The problem as y' = phi(t, y), for methods that do not know particles: y = (q, v) of the free particles
- * with x, y and z apart, as the working copy of a state has them, then the own coordinates of rigid bodies
- * (model/body.h); or x of a first-order problem. If nothing is free y is one number that stays 0, because
+ * with x, y and z apart, as the working copy of a state has them, then the own coordinates of movers
+ * (model/coordinates); or x of a first-order problem. If nothing is free y is one number that stays 0, because
  * solvers accept no empty vector. */
 #ifndef HOOKE_INTEGRATE_SOLVE_UNKNOWNS_H
 #define HOOKE_INTEGRATE_SOLVE_UNKNOWNS_H
 
 #include "integrate/integrator.h"
 
-/* Consecutive free particles, in no body: those from `particle` on, the first of which is free particle number `place`.
- */
+/* `count` consecutive free particles that nothing carries; `particle` is the first, `unknown` its number among
+ * the free ones. */
 struct hk_stretch_of_free {
-  int64_t particle, place, count;
+  int64_t particle, unknown, count;
 };
 
 struct hk_unknowns {
   int64_t size;  /* numbers in y */
   int32_t has_v; /* 1: positions, then velocities; 0: of an overdamped system, positions alone */
-  int64_t free_count, body_count, stretch_count; /* free particles in no body; bodies that move */
+  int64_t free_count, stretch_count; /* free particles that nothing carries */
   struct hk_stretch_of_free *stretch;
   double *rows; /* q, v, dq, dv, out in rows of all particles, for products with the derivative; or NULL */
-  double *push; /* acceleration and torque of every body */
+  double *push; /* on every mover (model/coordinates) */
 };
 
 /* Results of the functions below, as solvers interpret them: a failure to recover from by a smaller step, or

@@ -22,7 +22,7 @@ enum { CHUNK = 1024 };
 
 static int32_t find_place(const hooke_integrator *it, const hooke_state *state, struct hk_standing *standing,
                           const hooke_state **from) {
-  if (!it->begun)
+  if (it->phase == HOOKE_NOT_BEGUN)
     return hk_fail(HOOKE_BAD_CALL, NULL, "there is no run to write a checkpoint of: it has not begun");
   if (it->method->adaptive && it->restart.state == NULL) {
     return hk_fail(HOOKE_UNSUITED, "checkpoint",
@@ -227,7 +227,7 @@ int32_t hk_checkpoint_take(const char *path, const char *run, hooke_integrator *
     if (status != HOOKE_OK) hk_fail_before(status, "%s: ", path);
   }
   if (status == HOOKE_OK) {
-    it->placed = 1;
+    it->phase = HOOKE_AT_CHECKPOINT;
     hooke_state_copy(found.state, state);
   }
   drop(&found);

@@ -114,7 +114,7 @@ static int32_t follow(const struct going *going, int64_t frames) {
 
 static int32_t stand_at_start(struct going *going) {
   const int32_t status = hk_run_begin(going->integrator, going->state);
-  going->integrator->placed = status == HOOKE_OK;
+  if (status == HOOKE_OK) going->integrator->phase = HOOKE_AT_CHECKPOINT;
   return status;
 }
 

@@ -1,4 +1,4 @@
-/* A cost and its rows. */
+/* What each ingredient of a scene costs a step: it is timed with the ingredient and without. */
 #ifndef HOOKE_MEASURE_COST_COST_H
 #define HOOKE_MEASURE_COST_COST_H
 

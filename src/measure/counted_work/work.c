@@ -1,6 +1,5 @@
 #include "measure/counted_work/work.h"
 
-#include "model/body.h"
 #include "model/sum/tiled.h"
 
 #include <math.h>
@@ -51,9 +50,9 @@ static void add_forces(const hooke_system *system, const struct hk_method *metho
 
 static void add_bodies(const hooke_system *system, const struct hk_counts *count, double *amount) {
   int64_t particles = 0;
-  for (int64_t k = 0; k < system->moving_bodies; k++)
-    particles += system->bodies->mover[k]->count;
-  amount[HOOKE_WORK_BODY] = (double)count->force_evaluations * (double)system->moving_bodies;
+  for (int64_t p = 0; p < system->particle_count; p++)
+    particles += hk_is_carried(system, p);
+  amount[HOOKE_WORK_BODY] = (double)count->force_evaluations * (double)system->mover_count;
   amount[HOOKE_WORK_BODY_PARTICLE] =
       (double)(count->force_evaluations + count->derivative_products) * (double)particles;
 }
@@ -126,7 +125,7 @@ double hk_work_of_steps(const hooke_system *system, const char *name, int64_t st
   if (method == NULL || method->adaptive || method->solved || !hk_method_suits(name, system)) return NAN;
   const struct hk_stability *stability = &method->stability;
   const int64_t stages = stability->kind == HOOKE_STABLE_BY_POLYNOMIAL ? stability->degree : 1;
-  if (method->explicit_step && system->moving_bodies == 0 && hk_system_is_damped(system, ~HOOKE_UNIFORM))
+  if (method->explicit_step && system->mover_count == 0 && hk_system_is_damped(system, ~HOOKE_UNIFORM))
     return NAN;
   return work_of_counts(system, method,
                         (struct hk_counts){.steps = steps, .force_evaluations = stages * steps});

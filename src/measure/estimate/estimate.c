@@ -146,7 +146,7 @@ int32_t hooke_estimate_begin(hooke_measurement *m, const hooke_integrator *it, c
   const int64_t frames = hooke_integrator_count(it, "frames");
   e->integrator = it;
   e->work = e->steps = 0.0;
-  e->resumed = it->placed;
+  e->resumed = it->phase == HOOKE_AT_CHECKPOINT;
   e->begin = hooke_state_time(state);
   e->duration = it->schedule.duration;
   e->every = it->schedule.every;

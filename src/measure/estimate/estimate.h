@@ -1,4 +1,5 @@
-/* The object of a measurement of kind "estimate". */
+/* How far a run is off at every frame: it is held against itself with half the step or a tighter tolerance,
+ * against another method, or against a reference. */
 #ifndef HOOKE_MEASURE_ESTIMATE_ESTIMATE_H
 #define HOOKE_MEASURE_ESTIMATE_ESTIMATE_H
 

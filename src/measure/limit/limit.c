@@ -269,7 +269,7 @@ static int32_t see_steps(double done, const char *method, void *ctx) {
 /* The smallest prediction is that of the other frames. */
 static void note_unknown(struct hk_limit *limit, int64_t frames) {
   char note[96];
-  for (int32_t k = 0; k < limit->row_count && limit->system->moving_bodies > 0; k++) {
+  for (int32_t k = 0; k < limit->row_count && limit->system->mover_count > 0; k++) {
     struct hk_limit_row *row = &limit->row[k];
     if (row->unknown == 0) continue;
     snprintf(note, sizeof note, "along the run not known at %lld of %lld frames", (long long)row->unknown,

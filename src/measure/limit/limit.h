@@ -1,4 +1,5 @@
-/* The limit object. */
+/* The largest stable step of each method: predicted from the fastest motion of the linearised system,
+ * measured by running, with what limits it and what would raise it. */
 #ifndef HOOKE_MEASURE_LIMIT_LIMIT_H
 #define HOOKE_MEASURE_LIMIT_LIMIT_H
 

@@ -5,7 +5,6 @@
 #include "integrate/method.h"
 #include "measure/limit/limit_participation.h"
 #include "measure/limit/limit_predict.h"
-#include "model/body.h"
 #include "model/force/spring.h"
 
 #include <math.h>
@@ -45,7 +44,7 @@ static struct set particle_set(const hooke_system *system, const struct hk_parti
   struct set set = {.of = system->particle_count - system->constrained_count};
   int32_t in_body = 0;
   while (set.share < MOST_OF_THE_MODE && set.count < participation->particle_count) {
-    in_body |= hk_bodies_move(system->bodies, participation->particle[set.count].particle);
+    in_body |= hk_is_carried(system, participation->particle[set.count].particle);
     set.share += participation->particle[set.count++].share;
   }
   if (set.share < MOST_OF_THE_MODE || in_body) set.count = 0;
@@ -235,7 +234,7 @@ static int32_t tell_force(const hooke_system *system, const double *q, const cha
                           const struct hk_participation *participation, int32_t force,
                           struct hk_suggestion *suggestion) {
   double without = 0.0;
-  const int32_t drag = hk_participation_is_drag(force), bodies = system->moving_bodies > 0;
+  const int32_t drag = hk_participation_is_drag(force), bodies = system->mover_count > 0;
   int32_t status = HOOKE_OK;
   /* no method has no limit by the damping of bodies */
   if (drag || !bodies) status = limit_without(system, q, method, participation, drag, &without);

@@ -84,7 +84,7 @@ int32_t hooke_integrator_on_warning(hooke_integrator *it, hooke_warning *warning
   if (status != HOOKE_OK) return status;
   if (warning) status = hooke_system_warnings(it->system, warning, ctx);
   if (status != HOOKE_OK) return status;
-  if (warning == NULL || !hk_step_is_bounded(it->method->name) || it->system->moving_bodies > 0)
+  if (warning == NULL || !hk_step_is_bounded(it->method->name) || it->system->mover_count > 0)
     return HOOKE_OK;
   struct warner *warner = hk_new(1, sizeof *warner);
   if (warner == NULL) return HOOKE_NO_MEMORY;

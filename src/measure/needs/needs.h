@@ -1,4 +1,5 @@
-/* The object of a measurement of kind "needs", and its functions. */
+/* What a scene requires for a wanted error: one ingredient after another is left out, and what changes the
+ * motion by more is needed. */
 #ifndef HOOKE_MEASURE_NEEDS_NEEDS_H
 #define HOOKE_MEASURE_NEEDS_NEEDS_H
 

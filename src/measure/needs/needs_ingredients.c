@@ -5,7 +5,7 @@
 #include "core/print.h"
 #include "core/status.h"
 #include "measure/spectrum/naming.h"
-#include "model/body.h"
+#include "model/coordinates/body.h"
 #include "model/force/spring.h"
 
 #include <stdarg.h>

@@ -5,7 +5,7 @@
 #include "core/random.h"
 #include "core/status.h"
 #include "measure/trial/trial.h"
-#include "model/body.h"
+#include "model/coordinates/coordinates.h"
 
 #include <math.h>
 #include <string.h>
@@ -130,8 +130,7 @@ static void see_start(hooke_state *state, void *ctx) {
       if (to >= 0 && own->inverse_mass[to] > 0.0) hooke_state_position(state)[3 * to + a] += way;
     }
   }
-  if (recorder->displaced)
-    hk_bodies_make_rigid(own, hooke_state_position(state), hooke_state_velocity(state));
+  if (recorder->displaced) hk_movers_renew(own, hooke_state_position(state), hooke_state_velocity(state));
 }
 
 static int32_t judge_begin(struct hk_needs_recorder *recorder, const hooke_options *options) {

@@ -248,7 +248,7 @@ static int32_t find_largest(struct search *s) {
   if (s->adaptive) return HOOKE_OK;
   int32_t status = hk_pick_largest_step(s->pick, s->method, q, &s->bound, &s->largest);
   const double before = s->largest;
-  if (status == HOOKE_OK && s->pick->system->moving_bodies == 0)
+  if (status == HOOKE_OK && s->pick->system->mover_count == 0)
     status = hk_step_cheapest(s->pick->system, s->method, &s->largest);
   s->raised = s->largest < before;
   return status;

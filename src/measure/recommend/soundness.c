@@ -40,7 +40,7 @@ int32_t hk_soundness_begin(struct hk_soundness *s, const hooke_system *system, c
   if (!hk_step_is_bounded(method)) s->step = NAN;
   if (isnan(s->step)) return HOOKE_OK;
   const int32_t status = make_states(s);
-  if (status != HOOKE_OK || system->moving_bodies > 0) return status;
+  if (status != HOOKE_OK || system->mover_count > 0) return status;
   return hk_node_blocks_create(system, hooke_state_position(state), &s->blocks);
 }
 
@@ -78,8 +78,8 @@ int32_t hk_soundness_find_limits(struct hk_soundness *s, struct hk_patience *pat
     double limit = s->at[k].bound;
     if (isinf(limit)) continue;
     status = hk_limit_sure(s->system, s->at[k].q, s->at[k].v, s->method, patience, &limit);
-    s->unknown_limit |= !(limit > 0.0) && s->system->moving_bodies > 0;
-    if (!(limit > 0.0) && s->system->moving_bodies > 0) continue;
+    s->unknown_limit |= !(limit > 0.0) && s->system->mover_count > 0;
+    if (!(limit > 0.0) && s->system->mover_count > 0) continue;
     if (s->step > hk_soundness_limit_share * limit) s->least_limit = fmin(s->least_limit, limit);
   }
   return status;

@@ -39,12 +39,12 @@ static void find_shortest(struct making *making) {
     if (r > 0.0 && !(system->constrained[spring.head] && system->constrained[spring.tail]))
       making->shortest = fmin(making->shortest, r);
   }
-  for (int64_t k = 0; k < system->moving_bodies; k++) {
-    const struct hk_body *body = system->bodies->mover[k];
+  for (int64_t k = 0; k < system->bodies->count; k++) {
+    const struct hk_body *body = &system->bodies->body[k];
     const double *first = body->place + 3 * (int64_t)body->base[0],
                  *second = body->place + 3 * (int64_t)body->base[1];
     const double d[3] = {second[0] - first[0], second[1] - first[1], second[2] - first[2]};
-    if (body->rank > 0) making->shortest = fmin(making->shortest, hk_length3(d));
+    if (body->moves && body->rank > 0) making->shortest = fmin(making->shortest, hk_length3(d));
   }
 }
 
@@ -191,16 +191,6 @@ static int32_t hold_product(int64_t n, double t, const double *q, const double *
   return 0;
 }
 
-static int32_t add_body(const struct hk_body *body, hooke_system *system) {
-  int64_t *particles = hk_new(body->count, sizeof *particles);
-  if (particles == NULL) return HOOKE_NO_MEMORY;
-  for (int64_t k = 0; k < body->count; k++)
-    particles[k] = body->particle[k];
-  const int32_t status = hk_system_add_body(system, body->name, body->count, particles, 0, -1);
-  hk_free(particles);
-  return status;
-}
-
 /* An open or committed system; the caller destroys it. */
 static int32_t build(const struct making *making, struct hk_twin *twin, int held, hooke_system **out) {
   const hooke_system *old = making->system;
@@ -215,8 +205,8 @@ static int32_t build(const struct making *making, struct hk_twin *twin, int held
     if (old->constrained[p]) status = hooke_system_pin(system, 1, &p);
   }
   if (status == HOOKE_OK && making->springs > 0) status = add_springs(making, making->springs, system);
-  for (int64_t k = 0; k < old->moving_bodies && status == HOOKE_OK; k++)
-    status = add_body(old->bodies->mover[k], system);
+  for (int64_t k = 0; k < old->mover_count && status == HOOKE_OK; k++)
+    status = old->mover[k].row->copy_one(old->mover[k].thing, system);
   if (status == HOOKE_OK) hk_system_set_linear(system, making->elements, twin->element, twin->place);
   if (status == HOOKE_OK) status = hooke_system_set_drag(system, old->drag);
   if (status == HOOKE_OK && held) status = hooke_system_set_force(system, hold, hold_product, twin);

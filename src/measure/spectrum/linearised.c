@@ -4,7 +4,6 @@
 #include "core/status.h"
 #include "kernel/vector_loops.h"
 #include "measure/counted_work/work.h"
-#include "model/body.h"
 #include "model/sum/spring_batch.h"
 #include "model/sum/tiled.h"
 #include "model/vector3.h"
@@ -128,16 +127,15 @@ static void add_rows(const struct hk_linearised *lin, const double *q, int dampi
   }
 }
 
-/* The sum of the rows of a body over the mass and inertia that resist it. */
-static double body_row(const hooke_system *system, const struct hk_body_tangent *t, const double *sum,
-                       double drag) {
-  const double *inverse = t->body->inverse_inertia, turning = fmax(inverse[0], fmax(inverse[1], inverse[2]));
+/* The sum of the rows of a mover over the mass and inertia that resist it. */
+static double row_of_mover(const hooke_system *system, const struct hk_body_tangent *t, const double *sum,
+                           double drag) {
   double row = 0.0;
-  for (int64_t i = 0; i < t->body->count; i++) {
-    const int64_t p = t->body->particle[i];
-    const double *arm = t->arm + 3 * i;
-    if (!system->constrained[p])
-      row += (sum[p] + drag) * (t->body->inverse_mass + hk_dot3(arm, arm) * turning);
+  int64_t count;
+  const int32_t *particle = t->mover->row->particles(t->mover->thing, &count);
+  for (int64_t i = 0; i < count; i++) {
+    const int64_t p = particle[i];
+    if (!system->constrained[p]) row += (sum[p] + drag) * t->mover->row->reach(t, i);
   }
   return row;
 }
@@ -159,9 +157,9 @@ static double largest_row(const struct hk_linearised *lin, const double *q, int 
   }
   add_rows(lin, q, damping, sum);
   for (int64_t p = 0; p < system->particle_count; p++)
-    if (!hk_bodies_move(system->bodies, p)) most = fmax(most, (sum[p] + drag) * lin->inverse[p]);
+    if (!hk_is_carried(system, p)) most = fmax(most, (sum[p] + drag) * lin->inverse[p]);
   for (int64_t k = 0; k < lin->rigid.tangents.count; k++)
-    most = fmax(most, body_row(system, &lin->rigid.tangents.body[k], sum, drag));
+    most = fmax(most, row_of_mover(system, &lin->rigid.tangents.body[k], sum, drag));
   return most;
 }
 
@@ -207,7 +205,7 @@ double hk_linearised_bytes(const hooke_system *system) {
     OF_PARTICLES_WITH_BODIES = OF_PARTICLES + 18,
     OF_ELEMENTS = 2 + sizeof(struct hk_element) / sizeof(double)
   };
-  const int of_particles = system->moving_bodies > 0 ? OF_PARTICLES_WITH_BODIES : OF_PARTICLES;
+  const int of_particles = system->mover_count > 0 ? OF_PARTICLES_WITH_BODIES : OF_PARTICLES;
   return sizeof(double) *
          (OF_SPRINGS * (double)system->springs->count + of_particles * (double)system->particle_count +
           OF_ELEMENTS * (double)hk_elements_of(system, HOOKE_KEPT));
@@ -218,7 +216,7 @@ static const double FARTHEST = 1e153;
 
 /* Three of every free particle that moves by itself. */
 static int is_alone(const hooke_system *system, int64_t particle) {
-  return !system->constrained[particle] && !hk_bodies_move(system->bodies, particle);
+  return !system->constrained[particle] && !hk_is_carried(system, particle);
 }
 
 static int32_t see_bodies(struct hk_linearised *lin, const double *q, const double *v,

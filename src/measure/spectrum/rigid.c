@@ -2,7 +2,7 @@
 
 #include "core/memory.h"
 #include "core/status.h"
-#include "model/body_frame.h"
+#include "model/coordinates/body_frame.h"
 #include "model/force/force.h"
 #include "model/force/spring.h"
 
@@ -14,17 +14,10 @@ static const double POSITION_ROUNDING = 1e-14;
 
 /* ---- creating ---- */
 
-/* The rows of `axis` are the body's axes in space over the roots of their inertia, 0 where that is 0. */
-static void scale_axes(const struct hk_body_tangent *t, double axis[3][3]) {
-  for (int k = 0; k < 3; k++) {
-    for (int a = 0; a < 3; a++)
-      axis[k][a] = sqrt(t->body->inverse_inertia[k]) * t->axes[a][k];
-  }
-}
-
 /* The sum of the stiffnesses of all elements at each body, by its number. */
 static void find_strengths(const hooke_system *system, const double *q, double *strength) {
   struct hk_elements at;
+  if (system->bodies->of == NULL) return;
   hk_begin_elements(system, q, NULL, &at);
   for (const struct hk_element *e; (e = hk_next_element(&at)) != NULL;) {
     for (int j = 0; j < e->count; j++) {
@@ -52,7 +45,7 @@ static void make_positive(struct hk_rigid *rigid, struct hk_body_tangent *t, dou
   double axis[3][3], m[3][3], vector[3][3];
   int tips = 0;
   slight *= fmax(inverse[0], fmax(inverse[1], inverse[2]));
-  scale_axes(t, axis);
+  hk_body_unit_axes(t, axis);
   for (int i = 0; i < 3; i++) {
     for (int j = 0; j < 3; j++) {
       const double there[3] = {hk_dot3(t->geometric[0], axis[j]), hk_dot3(t->geometric[1], axis[j]),
@@ -115,7 +108,7 @@ static int32_t stiffen(struct hk_rigid *rigid, const double *q, const double *st
 int32_t hk_rigid_create(const hooke_system *system, const double *q, const double *spring_scale,
                         struct hk_rigid *rigid) {
   memset(rigid, 0, sizeof *rigid);
-  if (system->moving_bodies == 0) return HOOKE_OK;
+  if (system->mover_count == 0) return HOOKE_OK;
   int32_t status = hk_body_tangents_create(system, q, &rigid->tangents);
   if (status != HOOKE_OK) return status;
   double *still = hk_new(3 * system->particle_count + system->bodies->count, sizeof(double));
@@ -124,7 +117,7 @@ int32_t hk_rigid_create(const hooke_system *system, const double *q, const doubl
   if (status == HOOKE_OK) find_strengths(system, q, strength);
   for (int64_t k = 0; k < rigid->tangents.count && status == HOOKE_OK; k++) {
     struct hk_body_tangent *t = &rigid->tangents.body[k];
-    make_positive(rigid, t, rounding_of(system, q, t, strength[t->body - system->bodies->body]));
+    if (t->body) make_positive(rigid, t, rounding_of(system, q, t, strength[t->body - system->bodies->body]));
   }
   hk_free(still);
   if (status != HOOKE_OK) hk_rigid_release(rigid);
@@ -138,60 +131,45 @@ void hk_rigid_release(struct hk_rigid *rigid) {
 
 /* ---- unknowns ---- */
 
-/* Rows of the motion x = J y. */
-static void spread(const struct hk_rigid *rigid, const struct hk_body_tangent *t, const double y[6],
+/* x = J y */
+static void spread(const struct hk_rigid *rigid, const struct hk_body_tangent *t, const double *y,
                    double *const x[3], int64_t stride) {
-  double move[3], turn[3] = {0.0}, axis[3][3];
-  hk_scale3(sqrt(t->body->inverse_mass), y, move);
-  scale_axes(t, axis);
-  for (int k = 0; k < 3; k++)
-    hk_add3(y[3 + k], axis[k], turn);
-  hk_body_spread(rigid->tangents.system, t, move, turn, x, stride);
-}
-
-/* y = J^T x: of forces. */
-static void gather(const struct hk_rigid *rigid, const struct hk_body_tangent *t, const double *weight,
-                   const double *const x[3], int64_t stride, double y[6]) {
-  double moment[3], axis[3][3];
-  hk_body_gather(rigid->tangents.system, t, weight, x, stride, y, moment);
-  hk_scale3(sqrt(t->body->inverse_mass), y, y);
-  scale_axes(t, axis);
-  for (int k = 0; k < 3; k++)
-    y[3 + k] = hk_dot3(axis[k], moment);
+  t->mover->row->spread(rigid->tangents.system, t, y, x, stride);
 }
 
 /* y = J^T M x: the nearest motion, that of rigid bodies exactly, as J^T M J = I. */
 static void find_motion(const struct hk_rigid *rigid, const struct hk_body_tangent *t,
-                        const double *const x[3], int64_t stride, double y[6]) {
-  gather(rigid, t, rigid->tangents.system->mass, x, stride, y);
+                        const double *const x[3], int64_t stride, double *y) {
+  t->mover->row->gather(rigid->tangents.system, t, rigid->tangents.system->mass, x, stride, y);
 }
 
-static int32_t is_free(const struct hk_body *body, int k) {
-  return (k < 3 ? body->inverse_mass : body->inverse_inertia[k - 3]) > 0.0;
+static int32_t is_free(const struct hk_rigid *rigid, int64_t mover, int k) {
+  const struct hk_mover *m = rigid->tangents.body[mover].mover;
+  return m->row->has(m->thing, k);
 }
 
 int64_t hk_rigid_unknowns(const struct hk_rigid *rigid) {
   int64_t count = 0;
-  for (int64_t k = 0; k < 6 * rigid->tangents.count; k++)
-    count += is_free(rigid->tangents.body[k / 6].body, (int)(k % 6));
+  for (int64_t k = 0; k < HOOKE_PUSH * rigid->tangents.count; k++)
+    count += is_free(rigid, k / HOOKE_PUSH, (int)(k % HOOKE_PUSH));
   return count;
 }
 
 void hk_rigid_pack(const struct hk_rigid *rigid, const double *const x[3], int64_t stride, double *unknown) {
   for (int64_t k = 0; k < rigid->tangents.count; k++) {
-    double y[6];
+    double y[HOOKE_PUSH];
     find_motion(rigid, &rigid->tangents.body[k], x, stride, y);
-    for (int j = 0; j < 6; j++)
-      if (is_free(rigid->tangents.body[k].body, j)) *unknown++ = y[j];
+    for (int j = 0; j < HOOKE_PUSH; j++)
+      if (is_free(rigid, k, j)) *unknown++ = y[j];
   }
 }
 
 void hk_rigid_unpack(const struct hk_rigid *rigid, const double *unknown, double *const x[3],
                      int64_t stride) {
   for (int64_t k = 0; k < rigid->tangents.count; k++) {
-    double y[6];
-    for (int j = 0; j < 6; j++)
-      y[j] = is_free(rigid->tangents.body[k].body, j) ? *unknown++ : 0.0;
+    double y[HOOKE_PUSH];
+    for (int j = 0; j < HOOKE_PUSH; j++)
+      y[j] = is_free(rigid, k, j) ? *unknown++ : 0.0;
     spread(rigid, &rigid->tangents.body[k], y, x, stride);
   }
 }
@@ -200,16 +178,15 @@ void hk_rigid_unpack(const struct hk_rigid *rigid, const double *unknown, double
 
 void hk_rigid_project(const struct hk_rigid *rigid, double *const x[3], int64_t stride) {
   for (int64_t k = 0; k < rigid->tangents.count; k++) {
-    double y[6];
+    double y[HOOKE_PUSH];
     find_motion(rigid, &rigid->tangents.body[k], (const double *const *)x, stride, y);
     spread(rigid, &rigid->tangents.body[k], y, x, stride);
   }
 }
 
 /* y += scale times the geometric stiffness times a motion. */
-static void add_geometric(const struct hk_body_tangent *t, double scale, const double motion[6],
-                          double y[6]) {
-  for (int k = 0; k < 3; k++)
+static void add_geometric(const struct hk_body_tangent *t, double scale, const double *motion, double *y) {
+  for (int k = 0; k < 3 && t->body; k++)
     y[3 + k] += scale * hk_dot3(t->geometric[k], motion + 3);
 }
 
@@ -218,13 +195,15 @@ void hk_rigid_reduce(const struct hk_rigid *rigid, double scale, const double *c
   const hooke_system *system = rigid->tangents.system;
   for (int64_t k = 0; k < rigid->tangents.count; k++) {
     const struct hk_body_tangent *t = &rigid->tangents.body[k];
-    double y[6], motion[6];
-    gather(rigid, t, NULL, (const double *const *)f, stride, y);
+    int64_t count;
+    const int32_t *particle = t->mover->row->particles(t->mover->thing, &count);
+    double y[HOOKE_PUSH], motion[HOOKE_PUSH];
+    t->mover->row->gather(system, t, NULL, (const double *const *)f, stride, y);
     find_motion(rigid, t, x, stride, motion);
     add_geometric(t, scale, motion, y);
     spread(rigid, t, y, f, stride);
-    for (int64_t i = 0; i < 3 * t->body->count; i++) {
-      const int64_t p = t->body->particle[i / 3];
+    for (int64_t i = 0; i < 3 * count; i++) {
+      const int64_t p = particle[i / 3];
       if (!system->constrained[p]) f[i % 3][stride * p] *= system->mass[p];
     }
   }
@@ -233,10 +212,10 @@ void hk_rigid_reduce(const struct hk_rigid *rigid, double scale, const double *c
 double hk_rigid_energy(const struct hk_rigid *rigid, const double *const x[3], int64_t stride) {
   double sum = 0.0;
   for (int64_t k = 0; k < rigid->tangents.count && rigid->stiffest > 0.0; k++) {
-    double motion[6], y[6] = {0.0};
+    double motion[HOOKE_PUSH], y[HOOKE_PUSH] = {0.0};
     find_motion(rigid, &rigid->tangents.body[k], x, stride, motion);
     add_geometric(&rigid->tangents.body[k], 1.0, motion, y);
-    sum += hk_dot3(motion + 3, y + 3);
+    if (rigid->tangents.body[k].body) sum += hk_dot3(motion + 3, y + 3);
   }
   return sum;
 }
@@ -246,7 +225,8 @@ double hk_rigid_spin(const struct hk_rigid *rigid, const double *v) {
   double most = 0.0;
   for (int64_t k = 0; k < rigid->tangents.count; k++) {
     const struct hk_body_tangent *t = &rigid->tangents.body[k];
-    double y[6];
+    double y[HOOKE_PUSH];
+    if (t->body == NULL) continue;
     find_motion(rigid, t, from, 3, y);
     for (int a = 0; a < 3; a++)
       y[a] = sqrt(t->body->inverse_inertia[a]) * y[3 + a];

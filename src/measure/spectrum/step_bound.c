@@ -76,7 +76,7 @@ int32_t hk_step_is_bounded(const char *method) {
 int32_t hk_step_is_safe(const struct hk_node_blocks *blocks, const char *method, double h,
                         int64_t *particle) {
   const struct hk_stability *stability = hk_method_stability(method);
-  if (blocks->system->moving_bodies > 0 || blocks->unknown) return 1;
+  if (blocks->system->mover_count > 0 || blocks->unknown) return 1;
   if (blocks->system->overdamped && stability->kind == HOOKE_STABLE_BY_POLYNOMIAL)
     return hk_node_blocks_stay_below(blocks, h, 0.0, hk_real_reach(stability->degree), particle);
   switch (stability->kind) {
@@ -98,7 +98,7 @@ static double unknown_bound(const char *method) {
 
 double hk_step_bound_of(const struct hk_node_blocks *blocks, const char *method) {
   const struct hk_stability *stability = hk_method_stability(method);
-  if (blocks->system->moving_bodies > 0 || blocks->unknown) return unknown_bound(method);
+  if (blocks->system->mover_count > 0 || blocks->unknown) return unknown_bound(method);
   if (blocks->system->overdamped && !hk_method_suits(method, blocks->system)) return NAN;
   if (blocks->system->overdamped && stability->kind == HOOKE_STABLE_BY_POLYNOMIAL)
     return overdamped_bound(blocks, stability);
@@ -121,7 +121,7 @@ int32_t hooke_step_bound(const hooke_system *system, const char *method, const d
     return hk_fail(HOOKE_BAD_VALUE, "method", "there is no method \"%s\"", method);
   int32_t status = hk_system_require_committed(system);
   if (status != HOOKE_OK) return status;
-  const int one_pass = system->moving_bodies == 0 && (method == NULL || hk_step_is_bounded(method));
+  const int one_pass = system->mover_count == 0 && (method == NULL || hk_step_is_bounded(method));
   if (one_pass) status = hk_node_blocks_create(system, q, &blocks);
   if (status != HOOKE_OK) return status;
   if (method) *bound = hk_step_bound_of(&blocks, method);

@@ -1,4 +1,5 @@
-/* The study object. */
+/* The trade of error against cost: each method over a ladder of steps or tolerances, against a reference that
+ * checks itself. */
 #ifndef HOOKE_MEASURE_STUDY_STUDY_H
 #define HOOKE_MEASURE_STUDY_STUDY_H
 

@@ -1,7 +1,7 @@
 #include "measure/trial/displaced.h"
 
 #include "core/random.h"
-#include "model/body.h"
+#include "model/coordinates/coordinates.h"
 
 void hk_displace(hooke_state *state, const hooke_system *system, double length, uint64_t *random) {
   double *q = hooke_state_position(state);
@@ -9,5 +9,5 @@ void hk_displace(hooke_state *state, const hooke_system *system, double length, 
     for (int64_t k = 3 * p; k < 3 * p + 3 && system->inverse_mass[p] > 0.0; k++)
       q[k] += length * hk_random_normal(random);
   }
-  hk_bodies_make_rigid(system, q, hooke_state_velocity(state));
+  hk_movers_renew(system, q, hooke_state_velocity(state));
 }

@@ -29,7 +29,7 @@ static const double FIRST_RUN_SHARE = 0.3, FIRST_OF_FEW = 0.45, LEVELS_SHARE = 0
 int32_t hk_reference_method(const hooke_system *system, const double *q, const char **method) {
   struct hk_node_blocks blocks;
   *method = "cvode-adams";
-  if (system->moving_bodies > 0) return HOOKE_OK;
+  if (system->mover_count > 0) return HOOKE_OK;
   const int32_t status = hk_node_blocks_create(system, q, &blocks);
   if (status != HOOKE_OK) return status;
   if (system->overdamped || hk_node_blocks_damping_rate(&blocks) > 2.0 * hk_node_blocks_frequency(&blocks))

@@ -8,7 +8,7 @@
 
 #include "core/memory.h"
 #include "core/random.h"
-#include "model/body.h"
+#include "model/coordinates/coordinates.h"
 
 #include <math.h>
 #include <stddef.h>
@@ -54,7 +54,7 @@ static void displace(hooke_state *state, void *ctx) {
     v[i] += d->length / d->duration * y;
     d->square += x * x + y * y;
   }
-  hk_bodies_make_rigid(frames->system, q, v); /* the map from there is part of the one that is measured */
+  hk_movers_renew(frames->system, q, v); /* the map from there is part of the one that is measured */
 }
 
 static int32_t keep_frame(int64_t frame, int64_t step, const hooke_state *state, void *ctx) {

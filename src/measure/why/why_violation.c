@@ -94,7 +94,7 @@ int32_t hk_inquiry_consider(struct hk_inquiry *inquiry, struct hk_node_blocks *b
   if (!hk_all_finite(inquiry->run->size, q)) return HOOKE_OK;
   hk_node_blocks_fill(blocks, q);
   if (hk_patience_ends(&inquiry->patience, "bounds")) return HOOKE_OK;
-  const int32_t bodies = inquiry->system->moving_bodies > 0; /* without a bound, nor growing motion */
+  const int32_t bodies = inquiry->system->mover_count > 0; /* without a bound, nor growing motion */
   if (bodies && inquiry->large) return HOOKE_OK;
   if (!bodies && hk_step_is_safe(blocks, method_of(inquiry), inquiry->run->schedule.step, &particle))
     return HOOKE_OK;

@@ -101,7 +101,7 @@ int32_t hooke_system_acceleration(const hooke_system *system, double t, const do
         *value = system->falls ? w * motion->f[a][p] + system->fall[a] : w * motion->f[a][p];
     }
   }
-  hk_bodies_accelerate(system, motion, acceleration);
+  hk_movers_accelerate(system, motion, acceleration);
   hk_motion_destroy(motion);
   return HOOKE_OK;
 }

@@ -129,31 +129,10 @@ static int32_t copy_others(const struct hk_variant_maker *maker) {
   return status;
 }
 
-/* A body keeps all its particles, or goes with them. */
-static int32_t keep_body(const struct hk_variant_maker *maker, const struct hk_body *body) {
-  int64_t same = 0, gone = 0;
-  int64_t *particles = hk_new(body->count, sizeof *particles);
-  if (particles == NULL) return HOOKE_NO_MEMORY;
-  for (int64_t i = 0; i < body->count; i++) {
-    particles[i] = maker->map->to[body->particle[i]];
-    same += hk_variant_is_same(maker->map, body->particle[i]);
-    gone += particles[i] < 0;
-  }
+static int32_t copy_movers(const struct hk_variant_maker *maker) {
   int32_t status = HOOKE_OK;
-  if (same == body->count)
-    status = hk_system_add_body(maker->made, body->name, body->count, particles, body->project, -1);
-  else if (gone < body->count)
-    status = hk_fail(HOOKE_UNSUITED, NULL, "the rigid body \"%.40s\" would lose particles", body->name);
-  hk_free(particles);
-  return status;
-}
-
-/* Bodies that are no parts. */
-static int32_t keep_bodies(const struct hk_variant_maker *maker) {
-  const struct hk_bodies *bodies = maker->from->bodies;
-  int32_t status = HOOKE_OK;
-  for (int64_t k = 0; k < bodies->count && status == HOOKE_OK; k++)
-    if (bodies->body[k].part < 0) status = keep_body(maker, &bodies->body[k]);
+  for (int32_t k = 0; hk_coordinates_table(k) && status == HOOKE_OK; k++)
+    status = hk_coordinates_table(k)->copy(maker);
   return status;
 }
 
@@ -183,7 +162,7 @@ static int32_t make(const hooke_system *from, const struct hk_variant *variant, 
   if (status == HOOKE_OK) status = hk_variant_add_particles(&maker);
   if (status == HOOKE_OK) status = hk_variant_constrain(&maker);
   if (status == HOOKE_OK) status = keep_groups(&maker);
-  if (status == HOOKE_OK) status = keep_bodies(&maker);
+  if (status == HOOKE_OK) status = copy_movers(&maker);
   if (status == HOOKE_OK) status = copy_others(&maker);
   if (status == HOOKE_OK) {
     if (variant->stiffness != 1.0) scale_stiffness(maker.made, variant->stiffness);

@@ -1,12 +1,15 @@
-/* The list of rigid bodies while a system is built, and what commit makes of it. */
-#include "model/body.h"
+/* Rigid bodies: their list while a system is built, what commit makes of it, and their row. */
+#include "model/coordinates/body.h"
 
 #include "core/memory.h"
 #include "core/status.h"
-#include "model/body_frame.h"
+#include "model/check_value.h"
+#include "model/coordinates/body_frame.h"
+#include "model/coordinates/body_tangent.h"
 #include "model/part_record.h"
 #include "model/state.h"
 #include "model/system.h"
+#include "model/variant/variant.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -24,19 +27,15 @@ static void release(struct hk_body *body) {
   hk_free(body->particle);
 }
 
-void hk_bodies_undo(hooke_system *system) {
+static void undo(hooke_system *system) {
   struct hk_bodies *bodies = system->bodies;
   for (int64_t k = 0; k < bodies->count; k++)
     release_frame(&bodies->body[k]);
   hk_free(bodies->of);
-  hk_free(bodies->mover);
   bodies->of = NULL;
-  bodies->mover = NULL;
-  system->moving_bodies = 0;
 }
 
-void hk_bodies_release(hooke_system *system) {
-  hk_bodies_undo(system);
+static void release_all(hooke_system *system) {
   for (int64_t k = 0; k < system->bodies->count; k++)
     release(&system->bodies->body[k]);
   hk_free(system->bodies->body);
@@ -54,8 +53,22 @@ void hk_system_remove_bodies(hooke_system *system, int64_t part) {
   bodies->count = kept;
 }
 
-int64_t hk_bodies_memory(const struct hk_bodies *bodies) {
-  int64_t bytes = bodies->capacity * (int64_t)sizeof *bodies->body;
+static int64_t count(const hooke_system *system) {
+  return system->bodies->count;
+}
+
+/* Bytes of a body and of each of its particles, at most. */
+static double bytes(const hooke_system *system) {
+  double sum = 2000.0 * (double)system->bodies->count;
+  for (int64_t k = 0; k < system->bodies->count; k++)
+    sum += 150.0 * (double)system->bodies->body[k].count;
+  return sum;
+}
+
+static int64_t memory(const hooke_system *system) {
+  const struct hk_bodies *bodies = system->bodies;
+  int64_t bytes =
+      bodies->capacity * (int64_t)sizeof *bodies->body + (bodies->of ? 4 * system->particle_count : 0);
   for (int64_t k = 0; k < bodies->count; k++)
     bytes += bodies->body[k].count * (int64_t)(sizeof(int32_t) + 3 * sizeof(double));
   return bytes;
@@ -124,8 +137,7 @@ static int32_t at_body(int32_t status, const struct hk_bodies *bodies, int64_t k
 static int32_t find_owners(hooke_system *system) {
   struct hk_bodies *bodies = system->bodies;
   bodies->of = hk_new(system->particle_count, sizeof *bodies->of);
-  bodies->mover = hk_new(bodies->count, sizeof(struct hk_body *));
-  if (bodies->of == NULL || bodies->mover == NULL) return HOOKE_NO_MEMORY;
+  if (bodies->of == NULL) return HOOKE_NO_MEMORY;
   memset(bodies->of, 0xff, (size_t)system->particle_count * sizeof *bodies->of);
   for (int64_t k = 0; k < bodies->count; k++) {
     for (int64_t i = 0; i < bodies->body[k].count; i++) {
@@ -223,7 +235,7 @@ static void pin_still(hooke_system *system) {
     system->part[k].pinned += hk_part_record_pinned(system, &system->part[k]);
 }
 
-int32_t hk_bodies_commit(hooke_system *system) {
+static int32_t commit(hooke_system *system) {
   struct hk_bodies *bodies = system->bodies;
   if (bodies->count == 0) return HOOKE_OK;
   int32_t status = find_owners(system);
@@ -233,11 +245,10 @@ int32_t hk_bodies_commit(hooke_system *system) {
     if (status != HOOKE_OK)
       at_body(status, bodies, k);
     else if (body->moves)
-      bodies->mover[system->moving_bodies++] = body;
+      hk_mover_add(system, &hk_coordinates_of_bodies, body);
   }
   if (status == HOOKE_OK) status = check_all_velocities(system);
   if (status == HOOKE_OK) pin_still(system);
-  if (status != HOOKE_OK) hk_bodies_undo(system);
   return status;
 }
 
@@ -263,28 +274,72 @@ static int32_t check_rows(const struct hk_body *body, const char *name, const ch
   return HOOKE_OK;
 }
 
-void hk_bodies_make_rigid(const hooke_system *system, double *q, double *v) {
-  for (int64_t k = 0; k < system->moving_bodies; k++) {
-    double own[HOOKE_BODY_NUMBERS];
-    hk_body_read_rows(system->bodies->mover[k], q, v, own);
-    hk_body_write_rows(system, system->bodies->mover[k], own, q, v);
-  }
-}
-
-int32_t hk_bodies_check(const hooke_system *system, const hooke_state *state) {
+static int32_t check_state(const hooke_system *system, const hooke_state *state) {
   const int64_t size = 3 * system->particle_count;
-  if (system->moving_bodies == 0) return HOOKE_OK;
   double *q = hk_new(2 * size, sizeof(double));
   if (q == NULL) return HOOKE_NO_MEMORY;
   memcpy(q, state->q, (size_t)(2 * size) * sizeof(double)); /* v follows */
-  hk_bodies_make_rigid(system, q, q + size);
+  hk_movers_renew(system, q, q + size);
   int32_t status = HOOKE_OK;
-  for (int64_t k = 0; k < system->moving_bodies && status == HOOKE_OK; k++) {
-    status = check_rows(system->bodies->mover[k], "position", "m", state->q, q);
-    if (status == HOOKE_OK)
-      status = check_rows(system->bodies->mover[k], "velocity", "m/s", state->v, q + size);
+  for (int64_t k = 0; k < system->bodies->count && status == HOOKE_OK; k++) {
+    const struct hk_body *body = &system->bodies->body[k];
+    if (!body->moves) continue;
+    status = check_rows(body, "position", "m", state->q, q);
+    if (status == HOOKE_OK) status = check_rows(body, "velocity", "m/s", state->v, q + size);
   }
   hk_free(q);
+  return status;
+}
+
+/* By their first particles: the order in which they were added moves nothing. */
+static void check(const hooke_system *system, uint32_t *value) {
+  for (int64_t p = 0; p < system->particle_count && system->bodies->of; p++) {
+    if (system->bodies->of[p] < 0) continue;
+    const struct hk_body *body = &system->bodies->body[system->bodies->of[p]];
+    if (body->particle[0] != p) continue;
+    hk_check_whole(value, body->count);
+    hk_check_add(value, body->particle, body->count, sizeof *body->particle);
+  }
+}
+
+/* ---- copies ---- */
+
+/* A body keeps all its particles, or goes with them. */
+static int32_t keep(const struct hk_variant_maker *maker, const struct hk_body *body) {
+  int64_t same = 0, gone = 0;
+  int64_t *particles = hk_new(body->count, sizeof *particles);
+  if (particles == NULL) return HOOKE_NO_MEMORY;
+  for (int64_t i = 0; i < body->count; i++) {
+    particles[i] = maker->map->to[body->particle[i]];
+    same += hk_variant_is_same(maker->map, body->particle[i]);
+    gone += particles[i] < 0;
+  }
+  int32_t status = HOOKE_OK;
+  if (same == body->count)
+    status = hk_system_add_body(maker->made, body->name, body->count, particles, body->project, -1);
+  else if (gone < body->count)
+    status = hk_fail(HOOKE_UNSUITED, NULL, "the rigid body \"%.40s\" would lose particles", body->name);
+  hk_free(particles);
+  return status;
+}
+
+/* Bodies that are no parts. */
+static int32_t copy(const struct hk_variant_maker *maker) {
+  const struct hk_bodies *bodies = maker->from->bodies;
+  int32_t status = HOOKE_OK;
+  for (int64_t k = 0; k < bodies->count && status == HOOKE_OK; k++)
+    if (bodies->body[k].part < 0) status = keep(maker, &bodies->body[k]);
+  return status;
+}
+
+static int32_t copy_one(const void *thing, hooke_system *to) {
+  const struct hk_body *body = thing;
+  int64_t *particles = hk_new(body->count, sizeof *particles);
+  if (particles == NULL) return HOOKE_NO_MEMORY;
+  for (int64_t k = 0; k < body->count; k++)
+    particles[k] = body->particle[k];
+  const int32_t status = hk_system_add_body(to, body->name, body->count, particles, 0, -1);
+  hk_free(particles);
   return status;
 }
 
@@ -330,3 +385,40 @@ int32_t hooke_system_body_motion(const hooke_system *system, int64_t body, const
   if (status == HOOKE_OK) hk_body_read_rows(found, q, v, motion);
   return status;
 }
+
+/* ---- the row ---- */
+
+static const int32_t *particles_of(const void *thing, int64_t *number) {
+  const struct hk_body *body = thing;
+  *number = body->count;
+  return body->particle;
+}
+
+const struct hk_coordinates_row hk_coordinates_of_bodies = {.name = "bodies",
+                                                            .numbers = HOOKE_BODY_NUMBERS,
+                                                            .solved = 1,
+                                                            .turns = 1,
+                                                            .count = count,
+                                                            .commit = commit,
+                                                            .undo = undo,
+                                                            .release = release_all,
+                                                            .bytes = bytes,
+                                                            .memory = memory,
+                                                            .check = check,
+                                                            .copy = copy,
+                                                            .copy_one = copy_one,
+                                                            .check_state = check_state,
+                                                            .particles = particles_of,
+                                                            .read = hk_body_read,
+                                                            .write = hk_body_write,
+                                                            .push = hk_body_push,
+                                                            .kick = hk_body_kick,
+                                                            .drift = hk_body_drift,
+                                                            .slope = hk_body_slope,
+                                                            .accelerate = hk_body_accelerate,
+                                                            .normalise = hk_body_normalise,
+                                                            .tolerance = hk_body_tolerance,
+                                                            .spread = hk_body_spread_unit,
+                                                            .gather = hk_body_gather_unit,
+                                                            .has = hk_body_has,
+                                                            .reach = hk_body_reach};

@@ -2,7 +2,7 @@
 #ifndef HOOKE_MODEL_BODY_FRAME_H
 #define HOOKE_MODEL_BODY_FRAME_H
 
-#include "model/body.h"
+#include "model/coordinates/body.h"
 #include "model/particles.h"
 #include "model/vector3.h"
 

@@ -1,4 +1,4 @@
-#include "integrate/coordinates.h"
+#include "integrate/generalized.h"
 
 #include "core/memory.h"
 #include "core/status.h"
@@ -12,14 +12,14 @@
 
 static int32_t force(int64_t n, double t, const double *q, const double *v, double *out, void *ctx) {
   (void)n;
-  const struct hk_coordinates *c = ctx;
+  const struct hk_generalized *c = ctx;
   return c->force(c->size, t, q, v, out, c->ctx);
 }
 
 static int32_t product(int64_t n, double t, const double *q, const double *v, const double *dq,
                        const double *dv, double *out, void *ctx) {
   (void)n;
-  const struct hk_coordinates *c = ctx;
+  const struct hk_generalized *c = ctx;
   return c->product(c->size, t, q, v, dq, dv, out, c->ctx);
 }
 
@@ -41,7 +41,7 @@ static int32_t check(int64_t size, int64_t mass_count, const double *inverse_mas
   return HOOKE_OK;
 }
 
-static int32_t make_system(struct hk_coordinates *c) {
+static int32_t make_system(struct hk_generalized *c) {
   const int64_t particles = (c->size + 2) / 3;
   const double mass = 1.0;
   double *zeros = hk_new(3 * particles, sizeof(double));
@@ -55,13 +55,13 @@ static int32_t make_system(struct hk_coordinates *c) {
   return status;
 }
 
-int32_t hk_coordinates_create(int64_t size, hooke_force *given, hooke_force_product *derivative, void *ctx,
-                              int64_t mass_count, const double *inverse_mass, struct hk_coordinates **out) {
+int32_t hk_generalized_create(int64_t size, hooke_force *given, hooke_force_product *derivative, void *ctx,
+                              int64_t mass_count, const double *inverse_mass, struct hk_generalized **out) {
   int32_t status = check(size, mass_count, inverse_mass);
   if (status != HOOKE_OK) return status;
-  struct hk_coordinates *c = hk_new(1, sizeof *c);
+  struct hk_generalized *c = hk_new(1, sizeof *c);
   if (c == NULL) return HOOKE_NO_MEMORY;
-  *c = (struct hk_coordinates){.size = size, .force = given, .product = derivative, .ctx = ctx};
+  *c = (struct hk_generalized){.size = size, .force = given, .product = derivative, .ctx = ctx};
   c->inverse_mass = hk_new((size + 2) / 3 * 3, sizeof(double));
   for (int64_t k = 0; k < size && c->inverse_mass; k++)
     c->inverse_mass[k] = inverse_mass[mass_count == 1 ? 0 : k];
@@ -69,11 +69,11 @@ int32_t hk_coordinates_create(int64_t size, hooke_force *given, hooke_force_prod
   if (status == HOOKE_OK)
     *out = c;
   else
-    hk_coordinates_destroy(c);
+    hk_generalized_destroy(c);
   return status;
 }
 
-void hk_coordinates_destroy(struct hk_coordinates *c) {
+void hk_generalized_destroy(struct hk_generalized *c) {
   if (c == NULL) return;
   hooke_system_destroy(c->system);
   hk_free(c->inverse_mass);

@@ -1,5 +1,5 @@
 /* The frame of a rigid body: its point, its axes, and the three particles that tell where they are. */
-#include "model/body_frame.h"
+#include "model/coordinates/body_frame.h"
 
 #include "core/memory.h"
 #include "core/status.h"

@@ -1,5 +1,5 @@
 /* The mechanics of one rigid body. Rotations are those of unit quaternions; no function of libm but sqrt. */
-#include "model/body.h"
+#include "model/coordinates/body.h"
 
 #include "model/sum/motion.h"
 #include "model/vector3.h"
@@ -133,8 +133,9 @@ static void combine(const double e[3][3], const double x[3], double out[3]) {
     out[a] = (x[0] * e[0][a] + x[1] * e[1][a]) + x[2] * e[2][a];
 }
 
-void hk_body_read(const struct hk_body *body, const double *const all_q[3], const double *const all_v[3],
+void hk_body_read(const void *thing, const double *const all_q[3], const double *const all_v[3],
                   int64_t stride, double *own) {
+  const struct hk_body *body = thing;
   double q[3][3], v[3][3], e[3][3], m[3][3], rotation[3], momentum[3], arm[3], swing[3];
   get_base(body, all_q, stride, q);
   get_base(body, all_v, stride, v);
@@ -172,8 +173,9 @@ static void find_angular_velocity(const struct hk_body *body, const double m[3][
   to_space(m, turn, w);
 }
 
-void hk_body_write(const struct hooke_system *system, const struct hk_body *body, const double *own,
+void hk_body_write(const struct hooke_system *system, const void *thing, const double *own,
                    double *const q[3], double *const v[3], int64_t stride) {
+  const struct hk_body *body = thing;
   double m[3][3], w[3], arm[3], swing[3];
   hk_body_axes(own + HOOKE_BODY_TURN, m);
   find_angular_velocity(body, m, own, w);
@@ -223,9 +225,10 @@ static void add_gravity(const struct hooke_system *system, const struct hk_body 
   hk_add3(body->mass, turning, torque);
 }
 
-static void find_push(const struct hooke_system *system, const struct hk_body *body, const double *own,
-                      const struct hk_motion *motion, double acceleration[3], double torque[3]) {
-  double sum[3] = {0.0, 0.0, 0.0};
+void hk_body_push(const struct hooke_system *system, const void *thing, const struct hk_motion *motion,
+                  const double *own, double *push) {
+  const struct hk_body *body = thing;
+  double sum[3] = {0.0, 0.0, 0.0}, *acceleration = push, *torque = push + 3;
   memset(torque, 0, 3 * sizeof(double));
   for (int64_t k = 0; k < body->count; k++) {
     const int64_t p = body->particle[k];
@@ -243,22 +246,21 @@ static void find_push(const struct hooke_system *system, const struct hk_body *b
   keep_axes(body, own, torque);
 }
 
-void hk_body_kick(const struct hk_body *body, double h, const double acceleration[3], const double torque[3],
-                  double *own) {
-  hk_add3(h, acceleration, own + HOOKE_BODY_VELOCITY);
-  hk_add3(h, torque, own + HOOKE_BODY_SPIN);
-  keep_axes(body, own, own + HOOKE_BODY_SPIN);
+void hk_body_kick(const void *thing, double h, const double *push, double *own) {
+  hk_add3(h, push, own + HOOKE_BODY_VELOCITY);
+  hk_add3(h, push + 3, own + HOOKE_BODY_SPIN);
+  keep_axes(thing, own, own + HOOKE_BODY_SPIN);
 }
 
-/* Accelerations of its free particles under them, 3 each of all particles. */
-static void accelerate(const struct hooke_system *system, const struct hk_body *body, const double *own,
-                       const double acceleration[3], const double torque[3], double *out) {
+void hk_body_accelerate(const struct hooke_system *system, const void *thing, const double *own,
+                        const double *push, double *out) {
+  const struct hk_body *body = thing;
   double m[3][3], w[3], gyration[3], turning[3], arm[3], swing[3], inward[3], change[3];
   hk_body_axes(own + HOOKE_BODY_TURN, m);
   find_angular_velocity(body, m, own, w);
   hk_cross3(w, own + HOOKE_BODY_SPIN, gyration);
   for (int a = 0; a < 3; a++)
-    turning[a] = torque[a] - gyration[a];
+    turning[a] = push[3 + a] - gyration[a];
   to_body(m, turning, change);
   for (int k = 0; k < 3; k++)
     change[k] = body->inertia[k] > 0.0 ? change[k] / body->inertia[k] : 0.0;
@@ -271,7 +273,7 @@ static void accelerate(const struct hooke_system *system, const struct hk_body *
     hk_cross3(w, swing, inward);
     hk_cross3(turning, arm, change);
     for (int a = 0; a < 3; a++)
-      out[3 * p + a] = (acceleration[a] + change[a]) + inward[a];
+      out[3 * p + a] = (push[a] + change[a]) + inward[a];
   }
 }
 
@@ -289,7 +291,8 @@ static void turn_about(int k, double a, double turn[4], double momentum[3]) {
   momentum[j] = cosine * y - sine * x;
 }
 
-void hk_body_drift(const struct hk_body *body, double h, double *own) {
+void hk_body_drift(const void *thing, double h, double *own) {
+  const struct hk_body *body = thing;
   const double *inverse = body->inverse_inertia;
   double *turn = own + HOOKE_BODY_TURN, *spin = own + HOOKE_BODY_SPIN, m[3][3], momentum[3];
   const double first = inverse[0] > 0.0 ? inverse[0] - inverse[1] : 0.0,
@@ -305,8 +308,7 @@ void hk_body_drift(const struct hk_body *body, double h, double *own) {
   hk_body_normalise(own);
 }
 
-void hk_body_slope(const struct hk_body *body, const double *own, const double acceleration[3],
-                   const double torque[3], double *slope) {
+void hk_body_slope(const void *body, const double *own, const double *push, double *slope) {
   double m[3][3], w[3];
   hk_body_axes(own + HOOKE_BODY_TURN, m);
   find_angular_velocity(body, m, own, w);
@@ -314,8 +316,8 @@ void hk_body_slope(const struct hk_body *body, const double *own, const double a
   multiply(rotation, own + HOOKE_BODY_TURN, slope + HOOKE_BODY_TURN);
   for (int a = 0; a < 3; a++) {
     slope[HOOKE_BODY_POINT + a] = own[HOOKE_BODY_VELOCITY + a];
-    slope[HOOKE_BODY_VELOCITY + a] = acceleration[a];
-    slope[HOOKE_BODY_SPIN + a] = torque[a];
+    slope[HOOKE_BODY_VELOCITY + a] = push[a];
+    slope[HOOKE_BODY_SPIN + a] = push[3 + a];
   }
 }
 
@@ -325,7 +327,8 @@ void hk_body_turn(const double w[3], double h, const double from[4], double turn
   multiply(step, from, turn);
 }
 
-void hk_body_tolerance(const struct hk_body *body, double position, double velocity, double *tolerance) {
+void hk_body_tolerance(const void *thing, double position, double velocity, double *tolerance) {
+  const struct hk_body *body = thing;
   double size = 0.0, inertia = 0.0;
   for (int64_t k = 0; k < body->count; k++)
     size = fmax(size, hk_length3(body->place + 3 * k));
@@ -339,37 +342,4 @@ void hk_body_tolerance(const struct hk_body *body, double position, double veloc
     tolerance[HOOKE_BODY_TURN + k] = 0.5 * position / size;
   for (int k = 0; k < 3 && size > 0.0; k++)
     tolerance[HOOKE_BODY_SPIN + k] = inertia * velocity / size;
-}
-
-/* ---- all bodies ---- */
-
-static void read(const struct hk_body *body, const struct hk_motion *motion, double *own) {
-  hk_body_read(body, (const double *const *)motion->q, (const double *const *)motion->v, 1, own);
-}
-
-void hk_bodies_read(const struct hooke_system *system, const struct hk_motion *motion, double *own) {
-  for (int64_t k = 0; k < system->moving_bodies; k++)
-    read(system->bodies->mover[k], motion, own + HOOKE_BODY_NUMBERS * k);
-}
-
-void hk_bodies_write(const struct hooke_system *system, struct hk_motion *motion, const double *own) {
-  for (int64_t k = 0; k < system->moving_bodies; k++)
-    hk_body_write(system, system->bodies->mover[k], own + HOOKE_BODY_NUMBERS * k, motion->q, motion->v, 1);
-}
-
-void hk_bodies_push(const struct hooke_system *system, const struct hk_motion *motion, const double *own,
-                    double *push) {
-  for (int64_t k = 0; k < system->moving_bodies; k++)
-    find_push(system, system->bodies->mover[k], own + HOOKE_BODY_NUMBERS * k, motion, push + 6 * k,
-              push + 6 * k + 3);
-}
-
-void hk_bodies_accelerate(const struct hooke_system *system, const struct hk_motion *motion, double *out) {
-  for (int64_t k = 0; k < system->moving_bodies; k++) {
-    const struct hk_body *body = system->bodies->mover[k];
-    double own[HOOKE_BODY_NUMBERS], push[6];
-    read(body, motion, own);
-    find_push(system, body, own, motion, push, push + 3);
-    accelerate(system, body, own, push, push + 3, out);
-  }
 }

@@ -1,12 +1,12 @@
 /* Any q'' = W f(t, q, v) of generalized coordinates, as a system of particles of mass 1: each row of x y z
  * holds three coordinates, the last row is filled up with zeros, and its callback force is f, which the system
  * scales by W. So all that takes a system takes these. */
-#ifndef HOOKE_INTEGRATE_COORDINATES_H
-#define HOOKE_INTEGRATE_COORDINATES_H
+#ifndef HOOKE_INTEGRATE_GENERALIZED_H
+#define HOOKE_INTEGRATE_GENERALIZED_H
 
 #include "hooke/system.h"
 
-struct hk_coordinates {
+struct hk_generalized {
   int64_t size;
   hooke_force *force;
   hooke_force_product *product; /* may be NULL */
@@ -16,8 +16,8 @@ struct hk_coordinates {
 };
 
 /* Copies `mass_count` inverse masses, 1 or `size`. HOOKE_BAD_VALUE, HOOKE_NO_MEMORY. */
-int32_t hk_coordinates_create(int64_t size, hooke_force *force, hooke_force_product *product, void *ctx,
-                              int64_t mass_count, const double *inverse_mass, struct hk_coordinates **out);
-void hk_coordinates_destroy(struct hk_coordinates *coordinates); /* NULL is allowed */
+int32_t hk_generalized_create(int64_t size, hooke_force *force, hooke_force_product *product, void *ctx,
+                              int64_t mass_count, const double *inverse_mass, struct hk_generalized **out);
+void hk_generalized_destroy(struct hk_generalized *coordinates); /* NULL is allowed */
 
 #endif
