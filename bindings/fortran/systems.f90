@@ -1,20 +1,20 @@
-! The system: particles, springs and forces. It is built (module hooke_builders), committed, and then only
-! queried.
+! The system: particles, springs and forces. It is built, committed, and then only queried.
 !
 ! Arrays of positions, velocities and forces are (3, n). Pointers are to the library's memory, for reading.
 module hooke_systems
   use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
   use, intrinsic :: iso_c_binding, only: c_double, c_int32_t, c_int64_t
   use hooke_base, only: accept, are_3_by, to_c, to_series, zero_based
-  use hooke_builders, only: hooke_builder
   use hooke_c_integrator, only: c_method_count
   use hooke_c_measurement, only: c_step_bound
   use hooke_c_system
+  use hooke_handles, only: missing
+  use hooke_queries_of_system
   implicit none
   private
   public :: hooke_system, rows_hold
 
-  type, extends(hooke_builder) :: hooke_system
+  type, extends(hooke_system_queries) :: hooke_system
   contains
     procedure :: mass
     procedure :: inverse_mass
@@ -27,8 +27,6 @@ module hooke_systems
     procedure :: derivative_pattern
     procedure :: derivative_blocks
     procedure :: energy
-    procedure :: momentum
-    procedure :: angular_momentum
     procedure :: step_bound
     procedure :: step_bounds
   end type
@@ -67,7 +65,7 @@ contains
     integer(c_int64_t), allocatable :: numbers(:, :)
     real(c_double), allocatable :: k(:), c(:), lengths(:)
     integer :: n
-    if (self%is_missing(status)) return
+    if (missing(status, self)) return
     n = max(self%count(force), 0)
     allocate (numbers(int(c_member_particles(to_c(force))), n), source=0_c_int64_t)
     allocate (k(n), c(n), lengths(merge(7, 1, force == "altitude")*n), source=0.0_c_double)
@@ -83,7 +81,7 @@ contains
     class(hooke_system), intent(in) :: self
     real(c_double), allocatable, intent(out) :: points(:, :)
     integer, intent(out), optional :: status
-    if (self%is_missing(status)) return
+    if (missing(status, self)) return
     allocate (points(3, self%count("anchors")), source=0.0_c_double)
     call accept(c_system_anchor_points(self%address(), points), status)
   end subroutine
@@ -109,7 +107,7 @@ contains
     integer, intent(out), optional :: status
     real(c_double) :: numbers(4)
     numbers = 0.0_c_double
-    if (.not. self%is_missing(status)) call accept(c_system_body_inertia(self%address(), zero_based(body), numbers), status)
+    if (.not. missing(status, self)) call accept(c_system_body_inertia(self%address(), zero_based(body), numbers), status)
     mass = numbers(1)
     inertia = numbers(2:4)
   end subroutine
@@ -150,7 +148,7 @@ contains
     integer, intent(out), optional :: status
     real(c_double), intent(in) :: first(:, :)
     real(c_double), intent(in), optional :: second(:, :)
-    suits = .not. self%is_missing(status)
+    suits = .not. missing(status, self)
     if (suits) suits = are_3_by(int(self%particle_count(), c_int64_t), status, first, second)
   end function
 
@@ -167,7 +165,7 @@ contains
     integer, allocatable, intent(out) :: row_start(:), column(:)
     integer, intent(out), optional :: status
     integer(c_int64_t), allocatable :: starts(:), columns(:)
-    if (self%is_missing(status)) return
+    if (missing(status, self)) return
     allocate (starts(self%particle_count() + 1), columns(self%count("blocks")), source=0_c_int64_t)
     call accept(c_system_derivative_pattern(self%address(), starts, columns), status)
     row_start = int(starts) + 1
@@ -209,24 +207,6 @@ contains
     else
       energy = ieee_value(energy, ieee_quiet_nan)
     end if
-  end function
-
-  ! Momentum [kg m/s] of the free particles,
-  function momentum(self, v) result(total)
-    class(hooke_system), intent(in) :: self
-    real(c_double), intent(in), contiguous :: v(:, :)
-    real(c_double) :: total(3)
-    call must_suit(self, v)
-    call c_system_momentum(self%address(), v, total)
-  end function
-
-  ! and their angular momentum about the origin [kg m^2/s].
-  function angular_momentum(self, q, v) result(total)
-    class(hooke_system), intent(in) :: self
-    real(c_double), intent(in), contiguous :: q(:, :), v(:, :)
-    real(c_double) :: total(3)
-    call must_suit(self, q, v)
-    call c_system_angular_momentum(self%address(), q, v, total)
   end function
 
   ! A step [s] below which `method` is certain to be stable at q.
