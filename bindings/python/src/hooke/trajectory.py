@@ -26,7 +26,7 @@ from .system import System
 from .view import view
 
 if TYPE_CHECKING:
-    from .animation import Animation
+    from ._pictures import FuncAnimation
 
 
 K = TypeVar("K")
@@ -207,10 +207,10 @@ class Trajectory(Closing):
         """Draws the springs at a frame in space and returns the axes; see `hooke.plot.cloth`."""
         return draw("plot.cloth", self, ax, frame=frame, **options)
 
-    def animate(self, **options: Any) -> Animation:
+    def animate(self, **options: Any) -> FuncAnimation:
         """A film of the frames, for a notebook, for `save`, or for ``matplotlib.pyplot.show``; see
         `hooke.animation.animate`."""
-        film: Animation = draw("animation.animate", self, **options)
+        film: FuncAnimation = draw("animation.animate", self, **options)
         return film
 
     # as a sequence
