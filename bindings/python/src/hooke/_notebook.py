@@ -88,22 +88,3 @@ class Tabled:
         import pandas
 
         return pandas.DataFrame.from_records(self.rows)
-
-
-class Paged(Tabled):
-    """A result with rows and a page of its own, which a notebook shows."""
-
-    def write(self, path: Any) -> None:
-        """Writes what was found by the ending of `path`."""
-        raise NotImplementedError
-
-    def _repr_html_(self) -> str:
-        return embed(self.write, 720)
-
-    def report(self, path: str | os.PathLike[str]) -> Path:
-        """Writes the page to look at, offline, and returns its path, which ends in ``.html``."""
-        page = Path(os.fspath(path))
-        if page.suffix != ".html":
-            raise ValueError(f"{page}: a page ends in .html")
-        self.write(page)
-        return page

@@ -9,14 +9,14 @@ from typing import Any, NamedTuple, Union
 import numpy as np
 
 from ._library import lib
-from ._measurement import Found, Measurement
-from ._notebook import Paged, draw, named
+from ._measurement import Measurement, Paged
+from ._notebook import draw, named
 from ._progress import WorkProgress
 from ._record import opened
 from ._types import ComplexArray, FloatArray, Path
 from .options import Options, joined
-from .results import Runnable, prepare
-from .scene import Scene, scene_text
+from .results import Runnable, measured
+from .scene import Scene
 from .state import State
 from .system import System
 from .why import Blame
@@ -59,7 +59,7 @@ class Changes(NamedTuple):
     gain_predicted: float
 
 
-class Limit(Found, Paged):
+class Limit(Paged):
     """The largest stable steps of a scene, linearised at its positions and at rest.
 
     `rows` is a structured array with one row a method: method; bound (safe) [s], predicted [s], measured [s], ratio
@@ -94,9 +94,10 @@ class Limit(Found, Paged):
     participation: list[Participation]
     changes: Changes | None
 
-    def __init__(self, found: Measurement, scene: Scene | None, status: int):
-        self._found, self._scene = found, scene
-        self._take(found, status)
+    _untitled = "limits of steps"
+
+    def __init__(self, found: Measurement, scene: Scene | None, system: System, status: int):
+        super().__init__(found, scene, system, status)
         modes = found.rows("modes")
         self.modes = modes["real"] + 1j * modes["imaginary"]
         self.frequency, self.decay = modes["frequency"], modes["decay"]
@@ -114,12 +115,6 @@ class Limit(Found, Paged):
     def __getitem__(self, method: str) -> np.void:
         """The row of a method."""
         return named(self.rows, "method", method)
-
-    def write(self, path: Path, title: str | None = None) -> None:
-        """Writes the results in the format given by the ending of `path`: .html, the page of ``hooke limit --report``
-        with the heading `title` (that of the scene, if None); .csv, the rows; .json or .h5, everything."""
-        title = title or (self._scene.title if self._scene else "") or "limits of steps"
-        self._found.write(path, title=title, scene=scene_text(self._scene))
 
     def plot(self, axes: Any = None, **options: Any) -> Any:
         """Draws the modes on the regions of stability; see `hooke.plot.limit`."""
@@ -163,12 +158,10 @@ def limit(
     measuring. ``progress(fraction, what)`` receives progress (``progress=True`` shows a bar, with tqdm) and stops the
     work by returning a non-zero number. The keywords `options` are those of a run.
     """
-    scene, system, run = prepare("limit", problem, None, options)
     chosen = Options.for_limit().set(
         methods=joined(methods), predict=predict, nonlinear=nonlinear, along=along, accuracy=accuracy, budget=budget
     )
-    found = Measurement.create("limit", system, run, chosen)
-    return Limit(found, scene, found.run(progress, _state_at(system, at)))
+    return Limit(*measured("limit", problem, options, chosen, progress, lambda system: _state_at(system, at)))
 
 
 def _state_at(system: System, at: Place | None) -> State:

@@ -8,15 +8,15 @@ import numpy as np
 
 from ._closing import Closing
 from ._library import lib
-from ._measurement import Found, Measurement, typed
+from ._measurement import Measurement, Paged, typed
 from ._memory import Handle, double_pointer, rows
-from ._notebook import Paged, draw, named
+from ._notebook import draw, named
 from ._progress import WorkProgress
 from ._status import BadCall, plain
 from ._types import FloatArray, Path, Table
 from .options import Options
-from .results import Runnable, prepare
-from .scene import Scene, scene_text
+from .results import Runnable, measured
+from .scene import Scene
 from .system import System, write_scene
 
 
@@ -37,7 +37,7 @@ class RunCost(NamedTuple):
     step_error: float
 
 
-class Needs(Found, Paged, Closing):
+class Needs(Paged, Closing):
     """The needs of a scene for watched positions within `want` [m].
 
     `rows` is a structured array with one row for everything that was left out in turn: without, kind, error (the
@@ -86,10 +86,7 @@ class Needs(Found, Paged, Closing):
     other_seconds: float = np.nan
 
     def __init__(self, measurement: Measurement, scene: Scene | None, system: System, status: int):
-        self._handle = measurement
-        self._scene = scene
-        self._system = system  # its callbacks have to live as long as the lean one
-        self._take(measurement, status)
+        super().__init__(measurement, scene, system, status)
         self.rows, self.parts = _plain_needed(self.rows), measurement.rows("parts")
         full, lean, cheapest = (measurement.record(table) or {} for table in ("full", "lean", "cheapest"))
         own = {name: full[name] for name in ("own_error", "moved")}
@@ -145,12 +142,6 @@ class Needs(Found, Paged, Closing):
         lib.hooke_needs_lean_position(self._handle.handle, double_pointer(q), double_pointer(position))
         return position
 
-    def write(self, path: Path) -> None:
-        """Writes a page to read to a path that ends in ``.html``, the rows to one in ``.csv``, all tables to one in
-        ``.json`` or ``.h5``."""
-        title = self._scene and self._scene.title
-        self._handle.write(path, scene=scene_text(self._scene), title=title or None)
-
     def plot(self, ax: Any = None, **options: Any) -> Any:
         """Draws the change of the scene by each ingredient; see `hooke.plot.needs`."""
         return draw("plot.needs", self, ax, **options)
@@ -201,12 +192,10 @@ def needs(
     duration [s], every [s], method, ...; steps and tolerances are found. ``found.write("page.html")`` makes a page
     with diagrams.
     """
-    scene, system, run = prepare("needs", problem, None, options)
     if watch is not None and not isinstance(watch, str):
         watch = ",".join(str(int(particle)) for particle in np.ravel(watch))
     chosen = Options.for_needs().set(want=want, watch=watch, refine=refine)
-    measurement = Measurement.create("needs", system, run, chosen)
-    return Needs(measurement, scene, system, measurement.run(progress))
+    return Needs(*measured("needs", problem, options, chosen, progress))
 
 
 def _plain_needed(table: Table) -> Table:
