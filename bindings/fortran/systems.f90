@@ -4,7 +4,7 @@
 module hooke_systems
   use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
   use, intrinsic :: iso_c_binding, only: c_double, c_int32_t, c_int64_t
-  use hooke_base, only: accept, are_3_by, to_c, to_series, zero_based
+  use hooke_base, only: accept, are_3_by, to_c, zero_based
   use hooke_c_integrator, only: c_method_count
   use hooke_c_measurement, only: c_step_bound
   use hooke_c_system
@@ -16,15 +16,9 @@ module hooke_systems
 
   type, extends(hooke_system_queries) :: hooke_system
   contains
-    procedure :: mass
-    procedure :: inverse_mass
-    procedure :: members
-    procedure :: anchor_points
     procedure :: body_particles
     procedure :: body_inertia
     procedure :: body_motion
-    procedure :: altitude_lengths
-    procedure :: derivative_pattern
     procedure :: derivative_blocks
     procedure :: energy
     procedure :: step_bound
@@ -39,52 +33,6 @@ contains
     integer, intent(in) :: more
     rows_hold = int(c_rows_hold(q, int(more, c_int32_t)))
   end function
-
-  ! Masses [kg] and inverse masses [1/kg], 0 where pinned or driven; not associated before commit.
-
-  function mass(self) result(series)
-    class(hooke_system), intent(in) :: self
-    real(c_double), pointer, contiguous :: series(:)
-    series => to_series(c_system_mass(self%address()), int(self%particle_count(), c_int64_t))
-  end function
-
-  function inverse_mass(self) result(series)
-    class(hooke_system), intent(in) :: self
-    real(c_double), pointer, contiguous :: series(:)
-    series => to_series(c_system_inverse_mass(self%address()), int(self%particle_count(), c_int64_t))
-  end function
-
-  ! All members of a force ("springs", "bending", "altitude", "anchors"): the particles of each, particles(:,
-  ! k), and stiffness, damping and rest lengths, 7 for each tetrahedron.
-  subroutine members(self, force, particles, stiffness, damping, rest_length, status)
-    class(hooke_system), intent(in) :: self
-    character(*), intent(in) :: force
-    integer, allocatable, intent(out), optional :: particles(:, :)
-    real(c_double), allocatable, intent(out), optional :: stiffness(:), damping(:), rest_length(:)
-    integer, intent(out), optional :: status
-    integer(c_int64_t), allocatable :: numbers(:, :)
-    real(c_double), allocatable :: k(:), c(:), lengths(:)
-    integer :: n
-    if (missing(status, self)) return
-    n = max(self%count(force), 0)
-    allocate (numbers(int(c_member_particles(to_c(force))), n), source=0_c_int64_t)
-    allocate (k(n), c(n), lengths(merge(7, 1, force == "altitude")*n), source=0.0_c_double)
-    call accept(c_system_members(self%address(), to_c(force), numbers, k, c, lengths), status)
-    if (present(particles)) particles = int(numbers) + 1
-    if (present(stiffness)) stiffness = k
-    if (present(damping)) damping = c
-    if (present(rest_length)) rest_length = lengths
-  end subroutine
-
-  ! The point of every anchor [m], points(3, k).
-  subroutine anchor_points(self, points, status)
-    class(hooke_system), intent(in) :: self
-    real(c_double), allocatable, intent(out) :: points(:, :)
-    integer, intent(out), optional :: status
-    if (missing(status, self)) return
-    allocate (points(3, self%count("anchors")), source=0.0_c_double)
-    call accept(c_system_anchor_points(self%address(), points), status)
-  end subroutine
 
   ! The particles of rigid body number `body`.
   function body_particles(self, body) result(particles)
@@ -129,17 +77,6 @@ contains
     angular_momentum = numbers(11:13)
   end subroutine
 
-  ! The altitude of each that acts at q [m]; 0 where none acts.
-  subroutine altitude_lengths(self, q, length, status)
-    class(hooke_system), intent(in) :: self
-    real(c_double), intent(in), contiguous :: q(:, :)
-    real(c_double), allocatable, intent(out) :: length(:)
-    integer, intent(out), optional :: status
-    if (.not. suits(self, status, q)) return
-    allocate (length(self%count("altitude")), source=0.0_c_double)
-    call accept(c_system_altitude_lengths(self%address(), q, length), status)
-  end subroutine
-
   ! ---- forces and energies at q(3, n) and v(3, n) ----
 
   ! Whether arrays have the shape (3, n); without an argument `status` they must have it.
@@ -157,19 +94,6 @@ contains
     real(c_double), intent(in) :: first(:, :)
     real(c_double), intent(in), optional :: second(:, :)
     if (.not. suits(self, first=first, second=second)) return ! the program has ended
-  end subroutine
-
-  ! Blocks of row i are those from row_start(i) to row_start(i + 1) - 1, in these columns.
-  subroutine derivative_pattern(self, row_start, column, status)
-    class(hooke_system), intent(in) :: self
-    integer, allocatable, intent(out) :: row_start(:), column(:)
-    integer, intent(out), optional :: status
-    integer(c_int64_t), allocatable :: starts(:), columns(:)
-    if (missing(status, self)) return
-    allocate (starts(self%particle_count() + 1), columns(self%count("blocks")), source=0_c_int64_t)
-    call accept(c_system_derivative_pattern(self%address(), starts, columns), status)
-    row_start = int(starts) + 1
-    column = int(columns) + 1
   end subroutine
 
   ! dfdq(i, j, k) is the derivative of the force's component i by the position's component j, in block k; and dfdv by

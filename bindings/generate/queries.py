@@ -13,7 +13,7 @@ COUNTS = {"count", "size", "steps", "stride"}  # other whole numbers are indices
 NUMBERS = ("_count", "_size", "_springs", "_find", "_particle")  # endings of functions whose results are default integers
 STEPS = {"step", "advance"}  # procedures that take many steps
 LONG = {"step": "integer(c_int64_t)"}  # whole numbers that may be too large for a default integer
-RESULTS = {"int32_t", "int64_t", "double", "const char *", "void"}
+RESULTS = {"int32_t", "int64_t", "double", "const char *", "const double *", "void"}
 # Types of Fortran that are another one in C: their functions are those with their names.
 IN_C = {"hooke_estimate": "hooke_measurement", "hooke_view": "hooke_measurement"}
 # Functions of C that belong to a type by another name than theirs, and their names there.
@@ -40,11 +40,25 @@ NTH = ("first", "second", "third", "fourth", "fifth")
 ROWS = {"q", "v", "dq", "dv", "force", "acceleration", "out", "position", "velocity", "displacement", "vertices"}
 # Lists of members, by the names of their parameters, with the particles of each.
 LISTS = {"ends": 2, "triples": 3, "tetrahedra": 4, "triangles": 3}
+# Arrays that are allocated for results, with their sizes; whole numbers in them are indices.
+OUTPUTS = {
+    ("hooke_system_altitude_lengths", "length"): ['self%count("altitude")'],
+    ("hooke_system_anchor_points", "points"): ["3", 'self%count("anchors")'],
+    ("hooke_system_derivative_pattern", "column"): ['self%count("blocks")'],
+    ("hooke_system_derivative_pattern", "row_start"): ["self%particle_count() + 1"],
+    ("hooke_system_members", "damping"): ["max(self%count(force), 0)"],
+    ("hooke_system_members", "particles"): ["int(c_member_particles(to_c(force)))", "max(self%count(force), 0)"],
+    ("hooke_system_members", "rest_length"): ['merge(7, 1, force == "altitude")*max(self%count(force), 0)'],
+    ("hooke_system_members", "stiffness"): ["max(self%count(force), 0)"],
+}
+# Of indices, or of other numbers: the kind in Fortran, that in C, and zero.
+KINDS = {True: ("integer", "integer(c_int64_t)", "0_c_int64_t"), False: ("real(c_double)", "real(c_double)", "0.0_c_double")}
 FIXED = {"gravity": 3, "amplitude": 3, "momentum": 3, "angular_momentum": 3}  # numbers of other arrays
 # Parameters that are 0 where they are absent, with their types in Fortran; and how C is given them.
 DEFAULTS = {"phase": "real(c_double)", "project": "logical"}
 CONVERTED = {"double": "{}", "int32_t": "merge(1, 0, {})"}
-BY_OTHERS = {"ctx", "length", "product"}  # parameters that other ones stand for
+# Parameters that other ones stand for.
+BY_OTHERS = {("void *", "ctx"), ("int64_t", "length"), ("hooke_force_product *", "product")}
 AFTER_STATUS = {("hooke_scene_load", "limits"), ("hooke_scene_parse", "limits")}
 ALSO_LAST = {("hooke_scene_of_system", "run"), ("hooke_scene_write", "run")}  # as texts that may be absent
 SEVERAL = {"hooke_system_drive_callback"}  # callbacks that are kept beside those given before
@@ -114,12 +128,15 @@ class Parameter:
     def __init__(self, function, kind, what, own):
         name, type_, const = function[1], object_of(kind), kind.startswith("const")
         self.what, self.optional = RENAMED.get((name, what), what), guard.is_optional(name, what) or what in DEFAULTS
-        self.locals, self.before, self.after, self.object, self.rows, self.size = [], [], [], None, False, None
+        self.locals, self.first, self.before, self.after = [], [], [], []
+        self.object, self.rows, self.size = None, False, None
         self.passed, self.callback = self.what, callbacks.of_callback(type_ or "", name)
         if self.callback:
             self.of_callback()
         elif type_:
             self.of_object(name, kind, own)
+        elif (name, what) in OUTPUTS:
+            self.of_output(OUTPUTS[name, what], "int64" in kind)
         elif kind == "int64_t *":
             self.of_place(0 if what in COUNTS else 1)
         elif kind == "const char *":
@@ -134,9 +151,9 @@ class Parameter:
         elif LISTS.get(what, 1) > 1:
             self.of_tuples(LISTS[what])
         else:
-            self.of_list(*(["real(c_double)"] * 2 if "double" in kind else ["integer", "integer(c_int64_t)"]))
+            self.of_list(*KINDS["int64" in kind][:2])
         is_last = (self.optional and not self.callback and not self.object) or (name, what) in ALSO_LAST
-        self.rank = 3 if (name, what) in AFTER_STATUS else 2 if kind == "int64_t *" else int(is_last and own is not None)
+        self.rank = 3 if (name, what) in AFTER_STATUS else 2 if self.first else int(is_last and own is not None)
 
     def declare(self, words, shape=""):
         self.declared = f"{words}{', optional' if self.optional else ''} :: {self.what}{shape}"
@@ -163,8 +180,17 @@ class Parameter:
         """The place for a number; `first` is the one that C calls 0."""
         self.declare("integer, intent(out)")
         self.local("integer(c_int64_t)", "(1)")
-        self.before = [f"if (present({self.what})) {self.what} = 0", f"{self.passed} = {-first}"]
+        self.first = [f"if (present({self.what})) {self.what} = 0", f"{self.passed} = {-first}"]
         self.after = [f"if (present({self.what})) {self.what} = int({self.passed}(1)){' + 1' * first}"]
+
+    def of_output(self, sizes, are_indices):
+        kind, in_c, zero = KINDS[are_indices]
+        shape = f"({', '.join(':' * len(sizes))})"
+        self.declare(f"{kind}, allocatable, intent(out)", shape)
+        self.local(f"{in_c}, allocatable", shape)
+        self.before = [f"allocate ({self.passed}({', '.join(sizes)}), source={zero})"]
+        found = f"int({self.passed}) + 1" if are_indices else self.passed
+        self.after = [f"{f'if (present({self.what})) ' * self.optional}{self.what} = {found}"]
 
     def of_text(self, is_as_it_is):
         self.declare("character(*), intent(in)")
@@ -204,6 +230,8 @@ def answer(result, name, whats):
     """(type, conversion from C) of the result of a function."""
     if result == "const char *":
         return "character(:), allocatable", "to_text({})"
+    if result == "const double *":
+        return "real(c_double), pointer, contiguous", "to_series({}, int(self%particle_count(), c_int64_t))"
     if result == "double":
         named = [what for what in whats if what in ("what", "column")]
         return "real(c_double)", f"to_number({{}}, {named[0]})" if named else "{}"
@@ -229,7 +257,7 @@ class Procedure:
         self.filled = last if self.result == "void" and last in FIXED else None
         told = counts(parameters)
         given = {what: Parameter(function, kind, what, own) for kind, what in parameters
-                 if what not in {itself, self.filled, *told, *BY_OTHERS} and not kind.endswith("**")}
+                 if what not in {itself, self.filled, *told} and (kind, what) not in BY_OTHERS and not kind.endswith("**")}
         force = next((p for p in given.values() if p.callback), None)
         passed = {itself: "self%address()", **self.passing(given, told, force), last if self.makes else None: "made"}
         self.call = f"c_{self.short}({', '.join(passed[what] for _, what in parameters)})"
@@ -240,11 +268,11 @@ class Procedure:
 
     def passing(self, given, told, force):
         """What C is given for each parameter but objects of its own type."""
-        passed = {count: given[arrays[0]].size for count, arrays in told.items()}
-        passed.update({what: p.passed for what, p in given.items()}, ctx="callback%data", length="len(text, c_int64_t)")
+        others = {"ctx": "callback%data", "length": "len(text, c_int64_t)", self.filled: "found"}
         if force:
-            passed["product"] = f"product_of_{force.callback[len('hooke_'):]}({force.what})"
-        return {**passed, self.filled: "found"}
+            others["product"] = f"product_of_{force.callback[len('hooke_'):]}({force.what})"
+        sizes = {count: given[arrays[0]].size for count, arrays in told.items()}
+        return {**others, **sizes, **{what: p.passed for what, p in given.items()}}
 
     def fitting(self, given, count_of):
         """Lines that return where arrays of rows have not as many as they should: as a list, or one a particle."""
@@ -266,9 +294,9 @@ class Procedure:
     def body(self):
         """(locals, statements) of a procedure that returns a status."""
         needed = [*(["self"] if self.takes_self else []), *(p.what for p in self.given if p.object)]
-        presets = [line for p in self.given if p.after for line in p.before]
-        body = presets + ([f"if (missing(status, {', '.join(needed)})) return"] if needed else [])
-        body += [line for p in self.given if not p.after for line in p.before] + self.fit
+        body = [line for p in self.given for line in p.first]
+        body += [f"if (missing(status, {', '.join(needed)})) return"] if needed else []
+        body += [line for p in self.given for line in p.before] + self.fit
         call, locals_ = self.call, []
         if self.makes:
             body += self.taking()
@@ -294,9 +322,10 @@ class Procedure:
             body = [*before, f"call {self.call}", *([f"{self.keep}0_c_int32_t)"] if self.keep else [])]
         else:
             of_result, made = answer("double" if self.filled else self.result, self.name, whats)
-            shape = f"({FIXED[self.filled]})" if self.filled else ""
+            is_series = self.result == "const double *"
+            shape = f"({FIXED[self.filled]})" if self.filled else "(:)" * is_series
             kind, found, first = "function", " result(found)", [f"{of_result} :: found{shape}", *first]
-            call = f"call {self.call}" if self.filled else f"found = {made.format(self.call)}"
+            call = f"call {self.call}" if self.filled else f"found {'=>' if is_series else '='} {made.format(self.call)}"
             body = [*(["found = 0", *self.fit] if self.fit else []), *before, call]
         title = f"  {kind} {self.short}({', '.join([*(['self'] if self.own else []), *whats])}){found}"
         return [*wrapped([title]), *(f"    {line}" for line in wrapped([*head, *first, *body])), f"  end {kind}", ""]
@@ -343,7 +372,7 @@ def is_query(function, type_, types, by_hand):
     arrays = {what for arrays in counts(parameters).values() for what in arrays}
     rows = ROWS if type_ == "hooke_system" else set()
     kinds = [kind for kind, what in parameters if what not in {"ctx", *arrays, *FIXED} and kind[-1] == "*"
-             and not (kind.endswith("double *") and what in rows)
+             and not (kind.endswith("double *") and what in rows) and (name, what) not in OUTPUTS
              and not (kind == "int64_t *" and name.startswith("hooke_system_add_"))]
     makes = bool(kinds) and kinds[-1].endswith("**")
     made = makes and object_of(kinds.pop()[:-1]) == IN_C.get(type_, type_)
@@ -412,7 +441,7 @@ def module(type_, types, public, by_hand):
             f"module hooke_queries_of_{named}",
             "  use, intrinsic :: iso_c_binding, only: c_double, c_funloc, c_int32_t, c_int64_t, c_ptr",
             "  use hooke_base, only: accept, are_3_by, from_zero, hooke_bad_value, hooke_stopped, refuse, to_c, to_c_if, &",
-            "    to_integer, to_list, to_number, to_text, zero_based", *uses,
+            "    to_integer, to_list, to_number, to_series, to_text, zero_based", *uses,
             "  use hooke_handles, only: address_or_null, callback_to, hooke_callback, hooke_handle, missing", "  implicit none",
             "  private", *(own if type_ else free), *lines, "end module"]
 
