@@ -12,7 +12,8 @@ import headers
 COUNTS = {"count", "size", "steps", "stride"}  # other whole numbers are indices, and count from 1 in Fortran
 NUMBERS = ("_count", "_size", "_springs", "_find", "_particle")  # endings of functions whose results are default integers
 STEPS = {"step", "advance"}  # procedures that take many steps
-LONG = {"step": "integer(c_int64_t)"}  # whole numbers that may be too large for a default integer
+# Whole numbers that are not of the default kind, which a compiler may have made that of C's.
+OF_KINDS = {"step": "integer(c_int64_t)", "steps": "integer(c_int32_t)"}
 RESULTS = {"int32_t", "int64_t", "double", "const char *", "const double *", "void"}
 # Types of Fortran that are another one in C: their functions are those with their names.
 IN_C = {"hooke_estimate": "hooke_measurement", "hooke_view": "hooke_measurement"}
@@ -59,6 +60,7 @@ DEFAULTS = {"phase": "real(c_double)", "project": "logical"}
 CONVERTED = {"double": "{}", "int32_t": "merge(1, 0, {})"}
 # Parameters that other ones stand for.
 BY_OTHERS = {("void *", "ctx"), ("int64_t", "length"), ("hooke_force_product *", "product")}
+# Parameters that come behind the status.
 AFTER_STATUS = {("hooke_scene_load", "limits"), ("hooke_scene_parse", "limits")}
 ALSO_LAST = {("hooke_scene_of_system", "run"), ("hooke_scene_write", "run")}  # as texts that may be absent
 SEVERAL = {"hooke_system_drive_callback"}  # callbacks that are kept beside those given before
@@ -213,7 +215,7 @@ class Parameter:
         self.before, self.size = [f"call to_list({self.what}, {self.passed})"], f"ubound({self.passed}, 1, c_int64_t)"
 
     def of_number(self, kind, what):
-        words = {"double": "real(c_double)", "int64_t": LONG.get(what, "integer")}.get(kind, DEFAULTS.get(what, "integer"))
+        words = {"double": "real(c_double)", "int64_t": OF_KINDS.get(what, "integer")}.get(kind, DEFAULTS.get(what, "integer"))
         self.declare(f"{words}, intent(in)")
         if what in DEFAULTS:
             self.local(words if kind == "double" else "integer(c_int32_t)")
@@ -221,7 +223,7 @@ class Parameter:
         elif what == "frame":
             refusal = '  call refuse(hooke_bad_value, "frame 0: frames count from 1, from the end with -1", status)'
             self.before, self.passed = ["if (frame == 0) then", refusal, "  return", "end if"], "from_zero(frame)"
-        elif words == "integer":
+        elif words in ("integer", OF_KINDS["steps"]):
             is_number = kind == "int32_t" or what in COUNTS
             self.passed = f"int({self.what}, c_{kind})" if is_number else f"zero_based({self.what})"
 
@@ -399,7 +401,7 @@ def of_long(lines, name):
     """A procedure that takes steps, as lines, for those that are too many for a default integer."""
     short = name[len("hooke_"):]
     text = "\n".join(lines).replace(f" {short}(", f" {short}_long(").replace("int(steps, c_int64_t)", "steps")
-    return text.replace("integer, intent(in) :: steps", "integer(c_int64_t), intent(in) :: steps").split("\n")
+    return text.replace(f"{OF_KINDS['steps']}, intent(in) :: steps", "integer(c_int64_t), intent(in) :: steps").split("\n")
 
 
 def of_type(type_, named, names, ended):
