@@ -8,7 +8,7 @@ module hooke_base
   public :: hooke_real, hooke_long
   public :: message, status_name ! hooke_message() and so on for users
   public :: accept, refuse, stop_with, to_text, to_c, to_c_if, to_integer, to_list, to_number, to_series
-  public :: zero_based, from_zero, are_3_by, is_3_by
+  public :: zero_based, from_zero, is_3_by
 
   ! Kinds of all real numbers, and of counts that may not fit a default integer (steps, bytes).
   integer, parameter :: hooke_real = c_double, hooke_long = c_int64_t
@@ -189,26 +189,16 @@ contains
     if (c_associated(address)) call c_f_pointer(address, series, [count])
   end function
 
-  ! Whether arrays have the shape (3, count); without an argument `status` they must have it.
-  logical function are_3_by(count, status, first, second, third, fourth, fifth)
+  ! Whether an array, if there is one, has 3 numbers for each of `count` things; without an argument `status` it must.
+  logical function is_3_by(array, count, status)
+    real(c_double), intent(in), optional :: array(:, :)
     integer(c_int64_t), intent(in) :: count
     integer, intent(out), optional :: status
-    real(c_double), intent(in), optional :: first(:, :), second(:, :), third(:, :), fourth(:, :), fifth(:, :)
     character(20) :: n
-    are_3_by = .true.
-    if (present(first)) are_3_by = is_3_by(first, count)
-    if (present(second)) are_3_by = are_3_by .and. is_3_by(second, count)
-    if (present(third)) are_3_by = are_3_by .and. is_3_by(third, count)
-    if (present(fourth)) are_3_by = are_3_by .and. is_3_by(fourth, count)
-    if (present(fifth)) are_3_by = are_3_by .and. is_3_by(fifth, count)
+    is_3_by = .true.
+    if (present(array)) is_3_by = size(array, 1) == 3 .and. size(array, 2, c_int64_t) == count
+    if (is_3_by) return
     write (n, "(i0)") count
-    if (.not. are_3_by) call refuse(hooke_bad_value, "an array has not the shape (3, n), n = " // n, status)
-  end function
-
-  ! Whether an array has 3 numbers for each of `count` particles.
-  pure logical function is_3_by(array, count)
-    real(c_double), intent(in) :: array(:, :)
-    integer(c_int64_t), intent(in) :: count
-    is_3_by = size(array, 1) == 3 .and. size(array, 2, c_int64_t) == count
+    call refuse(hooke_bad_value, "an array has not the shape (3, n), n = " // n, status)
   end function
 end module

@@ -1,7 +1,7 @@
 ! Measurements of a scene: one type with options, progress, a run, and tables of results.
 module hooke_measurements
   use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_int32_t, c_int64_t, c_ptr
-  use hooke_base, only: accept, hooke_bad_call, hooke_bad_value, is_3_by, refuse, to_c, to_series, zero_based
+  use hooke_base, only: accept, hooke_bad_call, is_3_by, refuse, to_c, to_series, zero_based
   use hooke_c_measurement
   use hooke_handles, only: hooke_handle, missing
   use hooke_option_tables, only: hooke_options
@@ -75,16 +75,10 @@ contains
     real(c_double), intent(inout), contiguous :: position(:, :)
     integer, intent(out), optional :: status
     type(hooke_system) :: system
-    integer(c_int64_t) :: particles
-    logical :: fits
     call self%lean(system, status)
     if (.not. system%exists()) return
-    particles = int(self%number("full", 1, "particles"), c_int64_t)
-    fits = is_3_by(q, int(system%particle_count(), c_int64_t)) .and. is_3_by(position, particles)
-    if (.not. fits) then
-      call refuse(hooke_bad_value, "an array has not the shape (3, particle_count()) of its system", status)
-      return
-    end if
+    if (.not. is_3_by(q, int(system%particle_count(), c_int64_t), status)) return
+    if (.not. is_3_by(position, int(self%number("full", 1, "particles"), c_int64_t), status)) return
     call accept(c_needs_lean_position(self%address(), q, position), status)
   end subroutine
 

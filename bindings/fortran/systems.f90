@@ -4,7 +4,7 @@
 module hooke_systems
   use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
   use, intrinsic :: iso_c_binding, only: c_double, c_int32_t, c_int64_t
-  use hooke_base, only: accept, are_3_by, to_c, zero_based
+  use hooke_base, only: accept, is_3_by, to_c, zero_based
   use hooke_c_integrator, only: c_method_count
   use hooke_c_measurement, only: c_step_bound
   use hooke_c_system
@@ -83,18 +83,11 @@ contains
   logical function suits(self, status, first, second)
     class(hooke_system), intent(in) :: self
     integer, intent(out), optional :: status
-    real(c_double), intent(in) :: first(:, :)
-    real(c_double), intent(in), optional :: second(:, :)
+    real(c_double), intent(in), optional :: first(:, :), second(:, :)
     suits = .not. missing(status, self)
-    if (suits) suits = are_3_by(int(self%particle_count(), c_int64_t), status, first, second)
+    if (suits) suits = is_3_by(first, int(self%particle_count(), c_int64_t), status)
+    if (suits) suits = is_3_by(second, int(self%particle_count(), c_int64_t), status)
   end function
-
-  subroutine must_suit(self, first, second)
-    class(hooke_system), intent(in) :: self
-    real(c_double), intent(in) :: first(:, :)
-    real(c_double), intent(in), optional :: second(:, :)
-    if (.not. suits(self, first=first, second=second)) return ! the program has ended
-  end subroutine
 
   ! dfdq(i, j, k) is the derivative of the force's component i by the position's component j, in block k; and dfdv by
   ! velocity. Callbacks are left out.
@@ -120,16 +113,14 @@ contains
     class(hooke_system), intent(in) :: self
     character(*), intent(in) :: what
     real(c_double), intent(in), contiguous, optional :: q(:, :), v(:, :)
-    if (present(q)) call must_suit(self, q)
-    if (present(v)) call must_suit(self, v)
+    energy = ieee_value(energy, ieee_quiet_nan)
+    if (.not. suits(self, first=q, second=v)) return ! the program has ended
     if (present(q) .and. present(v)) then
       energy = c_system_energy(self%address(), to_c(what), q, v)
     else if (present(v) .and. what == "kinetic") then ! reads no positions
       energy = c_system_energy(self%address(), to_c(what), v, v)
     else if (present(q) .and. what /= "kinetic" .and. what /= "total") then ! reads no velocities
       energy = c_system_energy(self%address(), to_c(what), q, q)
-    else
-      energy = ieee_value(energy, ieee_quiet_nan)
     end if
   end function
 

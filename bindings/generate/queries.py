@@ -36,7 +36,6 @@ BELONG = {
     "hooke_why_create_kept": ("hooke_measurement", "create_why_kept"),
 }
 ALSO = {("hooke_estimate", "hooke_measurement_on_progress")}  # and those that a type has of the other one
-NTH = ("first", "second", "third", "fourth", "fifth")
 # Arrays of a row for every particle of a system, by the names of their parameters.
 ROWS = {"q", "v", "dq", "dv", "force", "acceleration", "out", "position", "velocity", "displacement", "vertices"}
 # Lists of members, by the names of their parameters, with the particles of each.
@@ -278,13 +277,9 @@ class Procedure:
 
     def fitting(self, given, count_of):
         """Lines that return where arrays of rows have not as many as they should: as a list, or one a particle."""
-        groups = {}
-        for what, p in given.items():
-            if p.rows:
-                groups.setdefault(count_of.get(what, "int(self%particle_count(), c_int64_t)"), []).append(p.what)
         status = ", status" if headers.is_status(self.result, self.name) else ""
-        return [f"if (.not. are_3_by({count}{status}, {', '.join(f'{n}={r}' for n, r in zip(NTH, rows))})) return"
-                for count, rows in groups.items()]
+        counts_of = [(p.what, count_of.get(what, "int(self%particle_count(), c_int64_t)")) for what, p in given.items() if p.rows]
+        return [f"if (.not. is_3_by({rows}, {count}{status})) return" for rows, count in counts_of]
 
     def taking(self):
         """Lines that take the object that is made."""
@@ -442,7 +437,7 @@ def module(type_, types, public, by_hand):
     return ["", f"! What {who} does as the functions of C of the same names; numbers of things count from 1 here.",
             f"module hooke_queries_of_{named}",
             "  use, intrinsic :: iso_c_binding, only: c_double, c_funloc, c_int32_t, c_int64_t, c_ptr",
-            "  use hooke_base, only: accept, are_3_by, from_zero, hooke_bad_value, hooke_stopped, refuse, to_c, to_c_if, &",
+            "  use hooke_base, only: accept, from_zero, hooke_bad_value, hooke_stopped, is_3_by, refuse, to_c, to_c_if, &",
             "    to_integer, to_list, to_number, to_series, to_text, zero_based", *uses,
             "  use hooke_handles, only: address_or_null, callback_to, hooke_callback, hooke_handle, missing", "  implicit none",
             "  private", *(own if type_ else free), *lines, "end module"]
