@@ -7,9 +7,8 @@ from typing import Any
 import numpy as np
 
 from ._measurement import Found, Measurement
-from ._notebook import named
+from ._notebook import lined, named
 from ._progress import WorkProgress
-from ._status import plain
 from .options import Options
 from .results import Runnable, measured
 from .scene import Scene
@@ -51,12 +50,11 @@ class Cost(Found):
         return named(self.rows, "name", name)
 
     def __str__(self) -> str:
-        lines = [f"{self.method + ', without':28}{'ns a step':>12}{'bytes':>12}{'stable to [s]':>16}"]
         whole = ("nothing", self.nanoseconds, self.memory_bytes, self.step_limit)
         fields = ["name", "nanoseconds", "memory_bytes", "step_limit_without"]
         known = self.rows[~np.isnan(self.rows["memory_bytes"])]
-        for name, time, memory, limit in [whole, *known[fields].tolist()]:
-            lines.append(f"{plain(name):28}{time:12.4g}{memory:12.0f}{limit:16.6g}")
+        heads = (f"{self.method}, without", "ns a step", "bytes", "stable to [s]")
+        lines = lined(heads, [whole, *known[fields].tolist()])
         if len(known) < len(self.rows):
             lines.append(f"and {len(self.rows) - len(known)} more, not looked at")
         return "\n".join(lines)

@@ -10,7 +10,7 @@ import numpy as np
 
 from ._library import lib
 from ._measurement import Measurement, Paged
-from ._notebook import draw, named
+from ._notebook import draw, lined, named
 from ._progress import WorkProgress
 from ._record import opened
 from ._types import ComplexArray, FloatArray, Path
@@ -24,15 +24,15 @@ from .why import Blame
 #: Where to find limits: a state, positions (n, 3) [m], or a trajectory file with its last frame or the given one.
 Place = Union[State, FloatArray, Path, tuple[Path, int]]
 
-_COLUMNS = (
-    ("bound", "safe bound [s]"),
-    ("predicted", "predicted [s]"),
-    ("measured", "measured [s]"),
-    ("ratio", "ratio"),
-    ("steps_run", "steps run"),
-    ("smallest", "smallest met [s]"),
-    ("smallest_time", "at time [s]"),
-)
+_COLUMNS = {
+    "bound": "safe bound [s]",
+    "predicted": "predicted [s]",
+    "measured": "measured [s]",
+    "ratio": "ratio",
+    "steps_run": "steps run",
+    "smallest": "smallest met [s]",
+    "smallest_time": "at time [s]",
+}
 
 
 class Participation(NamedTuple):
@@ -121,10 +121,9 @@ class Limit(Paged):
         return draw("plot.limit", self, axes, **options)
 
     def __str__(self) -> str:
-        shown = [(name, head) for name, head in _COLUMNS if not np.isnan(self.rows[name]).all()]
-        lines = [f"{'method':18}" + "".join(f"{head:>18}" for _, head in shown)]
-        for row in self.rows:
-            lines.append(f"{row['method']:18}" + "".join(f"{_cell(name, row[name]):>18}" for name, _ in shown))
+        shown = {name: head for name, head in _COLUMNS.items() if not np.isnan(self.rows[name]).all()}
+        rows = [(str(row["method"]), *(_step(name, row[name]) for name in shown)) for row in self.rows]
+        lines = lined(["method", *shown.values()], rows)
         if self.blame:
             lines.append(f"the most to blame: {self.blame[0]}, {100 * self.blame[0].share:.1f} %")
         if self.changes is not None:
@@ -177,11 +176,5 @@ def _state_at(system: System, at: Place | None) -> State:
     return state
 
 
-def _cell(name: str, value: float) -> str:
-    if np.isnan(value):
-        return "-"
-    if np.isinf(value):
-        return "none"
-    if name == "steps_run":
-        return f"{value:.0f}"
-    return "no step" if value == 0 and name != "smallest_time" else f"{value:.6g}"
+def _step(name: str, value: float) -> str | float:
+    return "no step" if value == 0 and name not in ("steps_run", "smallest_time") else value

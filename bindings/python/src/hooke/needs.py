@@ -10,7 +10,7 @@ from ._closing import Closing
 from ._library import lib
 from ._measurement import Measurement, Paged, typed
 from ._memory import Handle, double_pointer, rows
-from ._notebook import draw, named
+from ._notebook import draw, lined, named
 from ._progress import WorkProgress
 from ._status import BadCall, plain
 from ._types import FloatArray, Path, Table
@@ -148,14 +148,11 @@ class Needs(Paged, Closing):
 
     def __str__(self) -> str:
         if self.parts.size:
-            return "\n".join([_PARTS_HEAD, *(_part_line(part) for part in self.parts)])
-        width = max([24, *(len(name) for name in self.rows["without"])])
-        columns = (("change [m]", "error"), ("wall time [s]", "wall_seconds"), ("largest step [s]", "step_limit"))
-        lines = [f"{'without':{width}}" + "".join(f"{head:>18}" for head, _ in columns)]
-        lines.append(f"{'nothing (the full scene)':{width}}{'':18}{self.full.wall_seconds:18.4g}{self.full.step_limit:18.4g}")
-        for row in self.rows:
-            numbers = "".join(f"{row[name]:18.4g}" for _, name in columns)
-            lines.append(f"{plain(row['without']):{width}}{numbers}  {'needed' if row['needed'] else '-'}")
+            return "\n".join(lined(_PARTS_HEAD, [_part(part) for part in self.parts]))
+        fields, whole = ["without", "error", "wall_seconds", "step_limit"], (self.full.wall_seconds, self.full.step_limit)
+        rows = [(*row, "needed" if needed else "-") for row, needed in zip(self.rows[fields].tolist(), self.rows["needed"])]
+        heads = ("without", "change [m]", "wall time [s]", "largest step [s]", "")
+        lines = lined(heads, [("nothing (the full scene)", "", *whole, ""), *rows])
         if self.lean_cost is not None and self.cheapest is not None:
             left_out = plain(", ".join(self.left_out)) or "nothing"
             lines.append(
@@ -206,7 +203,7 @@ def _plain_needed(table: Table) -> Table:
     return made
 
 
-_PARTS_HEAD = f"{'part':16}{'cells':>12}{'N to 2N [m]':>14}{'2N to 4N [m]':>14}{'order':>8}{'left [m]':>12}{'wanted':>12}"
+_PARTS_HEAD = ("part", "cells", "N to 2N [m]", "2N to 4N [m]", "order", "left [m]", "wanted", "")
 
 
 def _cells(part: np.void, what: str) -> str:
@@ -214,8 +211,6 @@ def _cells(part: np.void, what: str) -> str:
     return " x ".join(f"{count:.0f}" for count in counts if not np.isnan(count)) or "-"
 
 
-def _part_line(part: np.void) -> str:
-    return (
-        f"{plain(part['part']):16}{_cells(part, 'cells'):>12}{part['change']:14.4g}{part['change_fine']:14.4g}"
-        f"{part['order']:8.3g}{part['error']:12.4g}{_cells(part, 'wanted'):>12}  {part['note']}".rstrip()
-    )
+def _part(part: np.void) -> tuple[Any, ...]:
+    numbers = (part[name] for name in ("change", "change_fine", "order", "error"))
+    return (str(part["part"]), _cells(part, "cells"), *numbers, _cells(part, "wanted"), str(part["note"]))
