@@ -280,9 +280,7 @@ class Trajectory(Closing):
 
     def _copied(self, what: str, shape: tuple[int, int, int]) -> FloatArray:
         """Frames that another program has stored in another layout, such as compressed."""
-        system = System()
-        system.add_particles(np.zeros(shape[1:]), mass=1)
-        state, frames = system.state(), np.empty(shape)
+        state, frames = State._of_particles(shape[1]), np.empty(shape)
         for frame in range(self._count):
             lib.hooke_record_read(self._handle, frame, state._handle)
             frames[frame] = state.q if what == "position" else state.v
