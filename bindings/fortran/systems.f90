@@ -2,7 +2,6 @@
 !
 ! Arrays of positions, velocities and forces are (3, n). Pointers are to the library's memory, for reading.
 module hooke_systems
-  use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
   use, intrinsic :: iso_c_binding, only: c_double, c_int32_t, c_int64_t
   use hooke_base, only: accept, is_3_by, to_c, zero_based
   use hooke_c_integrator, only: c_method_count
@@ -20,7 +19,6 @@ module hooke_systems
     procedure :: body_inertia
     procedure :: body_motion
     procedure :: derivative_blocks
-    procedure :: energy
     procedure :: step_bound
     procedure :: step_bounds
   end type
@@ -77,13 +75,12 @@ contains
     angular_momentum = numbers(11:13)
   end subroutine
 
-  ! ---- forces and energies at q(3, n) and v(3, n) ----
-
   ! Whether arrays have the shape (3, n); without an argument `status` they must have it.
   logical function suits(self, status, first, second)
     class(hooke_system), intent(in) :: self
     integer, intent(out), optional :: status
-    real(c_double), intent(in), optional :: first(:, :), second(:, :)
+    real(c_double), intent(in) :: first(:, :)
+    real(c_double), intent(in), optional :: second(:, :)
     suits = .not. missing(status, self)
     if (suits) suits = is_3_by(first, int(self%particle_count(), c_int64_t), status)
     if (suits) suits = is_3_by(second, int(self%particle_count(), c_int64_t), status)
@@ -106,23 +103,6 @@ contains
       dfdv(:, :, k) = transpose(dfdv(:, :, k))
     end do
   end subroutine
-
-  ! An energy [J]: "kinetic" at v; "springs", "bending", "altitude", "anchors", "gravity" and their sum "potential" at q;
-  ! "total" at both.
-  real(c_double) function energy(self, what, q, v)
-    class(hooke_system), intent(in) :: self
-    character(*), intent(in) :: what
-    real(c_double), intent(in), contiguous, optional :: q(:, :), v(:, :)
-    energy = ieee_value(energy, ieee_quiet_nan)
-    if (.not. suits(self, first=q, second=v)) return ! the program has ended
-    if (present(q) .and. present(v)) then
-      energy = c_system_energy(self%address(), to_c(what), q, v)
-    else if (present(v) .and. what == "kinetic") then ! reads no positions
-      energy = c_system_energy(self%address(), to_c(what), v, v)
-    else if (present(q) .and. what /= "kinetic" .and. what /= "total") then ! reads no velocities
-      energy = c_system_energy(self%address(), to_c(what), q, q)
-    end if
-  end function
 
   ! A step [s] below which `method` is certain to be stable at q.
   subroutine step_bound(self, method, q, bound, status)
