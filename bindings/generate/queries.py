@@ -127,7 +127,7 @@ class Parameter:
     By `rank` those that may be absent come after the others."""
 
     def __init__(self, function, kind, what, own):
-        name, type_, const = function[1], object_of(kind), kind.startswith("const")
+        name, type_ = function[1], object_of(kind)
         self.what, self.optional = RENAMED.get((name, what), what), guard.is_optional(name, what) or what in DEFAULTS
         self.locals, self.first, self.before, self.after = [], [], [], []
         self.object, self.rows, self.size = None, False, None
@@ -136,23 +136,12 @@ class Parameter:
             self.of_callback()
         elif type_:
             self.of_object(name, kind, own)
-        elif (name, what) in OUTPUTS:
-            self.of_output(OUTPUTS[name, what], "int64" in kind)
-        elif kind == "int64_t *":
-            self.of_place(0 if what in COUNTS else 1)
         elif kind == "const char *":
             self.of_text(what == "text" and "length" in [other for _, other in function[2]])
-        elif not kind.endswith("*"):
-            self.of_number(kind, what)
-        elif what in FIXED:
-            self.declare("real(c_double), intent(in)", f"({FIXED[what]})")
-        elif what in ROWS:
-            self.declare(f"real(c_double), intent({'in' if const else 'inout'}), contiguous", "(:, :)")
-            self.rows, self.size = True, f"size({self.what}, 2, c_int64_t)"
-        elif LISTS.get(what, 1) > 1:
-            self.of_tuples(LISTS[what])
+        elif kind.endswith("*"):
+            self.of_array(name, kind, what)
         else:
-            self.of_list(*KINDS["int64" in kind][:2])
+            self.of_number(kind, what)
         is_last = (self.optional and not self.callback and not self.object) or (name, what) in ALSO_LAST
         self.rank = 3 if (name, what) in AFTER_STATUS else 2 if self.first else int(is_last and own is not None)
 
@@ -176,6 +165,22 @@ class Parameter:
         self.object = own if type_ == IN_C.get(own) else type_
         self.declare(f"class({self.object}_queries), intent({intent})")
         self.passed = f"address_or_null({self.what})" if self.optional else f"{self.what}%address()"
+
+    def of_array(self, name, kind, what):
+        if (name, what) in OUTPUTS:
+            self.of_output(OUTPUTS[name, what], "int64" in kind)
+        elif kind == "int64_t *":
+            self.of_place(0 if what in COUNTS else 1)
+        elif what in FIXED:
+            self.declare("real(c_double), intent(in)", f"({FIXED[what]})")
+        elif what in ROWS:
+            intent = "in" if kind.startswith("const") else "inout"
+            self.declare(f"real(c_double), intent({intent}), contiguous", "(:, :)")
+            self.rows, self.size = True, f"size({self.what}, 2, c_int64_t)"
+        elif what in LISTS:
+            self.of_tuples(LISTS[what])
+        else:
+            self.of_list(*KINDS["int64" in kind][:2])
 
     def of_place(self, first):
         """The place for a number; `first` is the one that C calls 0."""
