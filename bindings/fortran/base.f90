@@ -7,7 +7,8 @@ module hooke_base
   private
   public :: hooke_real, hooke_long
   public :: message, status_name ! hooke_message() and so on for users
-  public :: accept, refuse, stop_with, to_text, to_c, to_c_if, to_integer, to_number, to_series, zero_based, are_3_by, is_3_by
+  public :: accept, refuse, stop_with, to_text, to_c, to_c_if, to_integer, to_list, to_number, to_series
+  public :: zero_based, from_zero, is_3_by
 
   ! Kinds of all real numbers, and of counts that may not fit a default integer (steps, bytes).
   integer, parameter :: hooke_real = c_double, hooke_long = c_int64_t
@@ -29,6 +30,11 @@ module hooke_base
   character(400), save :: refusal = ""
   integer, save :: refusal_length = 0
   !$omp threadprivate(refusal, refusal_length)
+
+  ! One number or several as a list for C, where particles and the like count from 0.
+  interface to_list
+    procedure :: to_list_of_reals, to_list_of_indices
+  end interface
 
   interface
     integer(c_size_t) function strlen(text) bind(c)
@@ -131,6 +137,38 @@ contains
     zero_based = int(number, c_int64_t) - 1
   end function
 
+  ! A frame as C counts: 1 is the first, -1 the last.
+  pure integer(c_int64_t) function from_zero(frame)
+    integer, intent(in) :: frame
+    from_zero = merge(frame - 1, frame, frame > 0)
+  end function
+
+  subroutine to_list_of_reals(numbers, list)
+    real(c_double), intent(in) :: numbers(..)
+    real(c_double), allocatable, intent(out) :: list(:)
+    select rank (numbers)
+    rank (0)
+      list = [numbers]
+    rank (1)
+      list = [numbers]
+    rank default
+      call stop_with("one number or a list of them is needed, and not an array of more dimensions")
+    end select
+  end subroutine
+
+  subroutine to_list_of_indices(numbers, list)
+    integer, intent(in) :: numbers(..)
+    integer(c_int64_t), allocatable, intent(out) :: list(:)
+    select rank (numbers)
+    rank (0)
+      list = [zero_based(numbers)]
+    rank (1)
+      list = [zero_based(numbers)]
+    rank default
+      call stop_with("one number or a list of them is needed, and not an array of more dimensions")
+    end select
+  end subroutine
+
   ! A number by name: indices of particles, springs and groups count from 1 here.
   real(c_double) function to_number(value, what)
     real(c_double), intent(in) :: value
@@ -151,24 +189,16 @@ contains
     if (c_associated(address)) call c_f_pointer(address, series, [count])
   end function
 
-  ! Whether arrays have the shape (3, count); without an argument `status` they must have it.
-  logical function are_3_by(count, status, first, second, third, fourth, fifth)
+  ! Whether an array, if there is one, has 3 numbers for each of `count` things; without an argument `status` it must.
+  logical function is_3_by(array, count, status)
+    real(c_double), intent(in), optional :: array(:, :)
     integer(c_int64_t), intent(in) :: count
     integer, intent(out), optional :: status
-    real(c_double), intent(in) :: first(:, :)
-    real(c_double), intent(in), optional :: second(:, :), third(:, :), fourth(:, :), fifth(:, :)
-    are_3_by = is_3_by(first, count)
-    if (present(second)) are_3_by = are_3_by .and. is_3_by(second, count)
-    if (present(third)) are_3_by = are_3_by .and. is_3_by(third, count)
-    if (present(fourth)) are_3_by = are_3_by .and. is_3_by(fourth, count)
-    if (present(fifth)) are_3_by = are_3_by .and. is_3_by(fifth, count)
-    if (.not. are_3_by) call refuse(hooke_bad_value, "an array has not the shape (3, particle_count())", status)
-  end function
-
-  ! Whether an array has 3 numbers for each of `count` particles.
-  pure logical function is_3_by(array, count)
-    real(c_double), intent(in) :: array(:, :)
-    integer(c_int64_t), intent(in) :: count
-    is_3_by = size(array, 1) == 3 .and. size(array, 2, c_int64_t) == count
+    character(20) :: n
+    is_3_by = .true.
+    if (present(array)) is_3_by = size(array, 1) == 3 .and. size(array, 2, c_int64_t) == count
+    if (is_3_by) return
+    write (n, "(i0)") count
+    call refuse(hooke_bad_value, "an array has not the shape (3, n), n = " // n, status)
   end function
 end module

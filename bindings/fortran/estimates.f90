@@ -2,11 +2,11 @@
 module hooke_estimates
   use, intrinsic :: iso_c_binding, only: c_double, c_int32_t, c_int64_t, c_null_ptr, c_ptr
   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
-  use hooke_base, only: accept, to_c, to_text
+  use hooke_base, only: accept, to_c
   use hooke_c_estimate
   use hooke_queries_of_estimate
-  use hooke_c_measurement, only: c_measurement_create, c_measurement_destroy, c_measurement_number, &
-    c_measurement_run, c_measurement_text
+  use hooke_c_measurement, only: c_measurement_create, c_measurement_destroy, c_measurement_run
+  use hooke_handles, only: missing
   use hooke_integrators, only: hooke_integrator
   use hooke_option_tables, only: hooke_options
   use hooke_states, only: hooke_state
@@ -20,8 +20,6 @@ module hooke_estimates
     procedure :: create
     procedure :: see
     procedure :: measure
-    procedure :: number
-    procedure :: text
   end type
 
 contains
@@ -37,7 +35,7 @@ contains
     type(hooke_options) :: options
     type(c_ptr) :: estimate
     integer(c_int32_t) :: code
-    if (system%is_missing(status)) return
+    if (missing(status, system)) return
     call options%create("estimate", status)
     if (.not. options%exists()) return
     if (.not. ieee_is_nan(want)) then
@@ -65,23 +63,8 @@ contains
     class(hooke_integrator), intent(in) :: integrator
     class(hooke_state), intent(in) :: state
     integer, intent(out), optional :: status
-    if (self%is_missing(status, integrator, state)) return
+    if (missing(status, self, integrator, state)) return
     call accept(c_measurement_run(self%address(), state%address()), status)
   end subroutine
-
-  ! "estimate", "rms" and the other numbers of the table of an estimate.
-  real(c_double) function number(self, what)
-    class(hooke_estimate), intent(in) :: self
-    character(*), intent(in) :: what
-    number = c_measurement_number(self%address(), to_c("estimate"), 0_c_int64_t, to_c(what))
-  end function
-
-  ! "by" or "reason".
-  function text(self, what)
-    class(hooke_estimate), intent(in) :: self
-    character(*), intent(in) :: what
-    character(:), allocatable :: text
-    text = to_text(c_measurement_text(self%address(), to_c("estimate"), 0_c_int64_t, to_c(what)))
-  end function
 
 end module

@@ -46,7 +46,6 @@ module hooke_handles
   contains
     procedure :: exists
     procedure :: address
-    procedure :: is_missing
     procedure :: destroy => release
     procedure :: take
     procedure :: give_up
@@ -73,15 +72,7 @@ contains
     address = self%object%address
   end function
 
-  ! True, with a status, if there is no object here or in one of the others.
-  logical function is_missing(self, status, second, third, fourth)
-    class(hooke_handle), intent(in) :: self
-    class(hooke_handle), intent(in), optional :: second, third, fourth
-    integer, intent(out), optional :: status
-    is_missing = missing(status, self, second, third, fourth)
-  end function
-
-  ! The same of objects that are all optional.
+  ! True, with a status, if there is no object in one of these variables.
   logical function missing(status, first, second, third, fourth, fifth)
     class(hooke_handle), intent(in), optional :: first, second, third, fourth, fifth
     integer, intent(out), optional :: status

@@ -1,10 +1,9 @@
 ! Measurements of a scene: one type with options, progress, a run, and tables of results.
 module hooke_measurements
   use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_int32_t, c_int64_t, c_ptr
-  use hooke_base, only: accept, hooke_bad_call, hooke_bad_value, is_3_by, refuse, to_c, to_integer, to_series, &
-    zero_based
+  use hooke_base, only: accept, hooke_bad_call, is_3_by, refuse, to_c, to_series, zero_based
   use hooke_c_measurement
-  use hooke_handles, only: hooke_handle
+  use hooke_handles, only: hooke_handle, missing
   use hooke_option_tables, only: hooke_options
   use hooke_queries_of_measurement, only: hooke_measurement_queries
   use hooke_systems, only: hooke_system
@@ -14,24 +13,15 @@ module hooke_measurements
 
   type, extends(hooke_measurement_queries) :: hooke_measurement
   contains
-    procedure :: find
     procedure :: series
     procedure :: lean          ! of needs: the lean system,
-    procedure :: lean_run      ! its run,
-    procedure :: lean_particle ! and the map from the full one
+    procedure :: lean_run      ! its run
     procedure :: lean_position
   end type
 
 contains
 
   ! ---- tables; rows are counted from 1, a record has one ----
-
-  ! The first row whose `column` is `text`; 0 if there is none.
-  integer function find(self, table, column, text)
-    class(hooke_measurement), intent(in) :: self
-    character(*), intent(in) :: table, column, text
-    find = to_integer(c_measurement_find(self%address(), to_c(table), to_c(column), to_c(text))) + 1
-  end function
 
   ! The library's array; valid until the next run.
   function series(self, table, row, column)
@@ -53,7 +43,7 @@ contains
     class(hooke_measurement), intent(in) :: self
     class(hooke_system), intent(inout) :: system
     integer, intent(out), optional :: status
-    if (self%is_missing(status)) return
+    if (missing(status, self)) return
     call lend(self, c_needs_lean(self%address()), system, status)
   end subroutine
 
@@ -61,7 +51,7 @@ contains
     class(hooke_measurement), intent(in) :: self
     class(hooke_options), intent(inout) :: options
     integer, intent(out), optional :: status
-    if (self%is_missing(status)) return
+    if (missing(status, self)) return
     call lend(self, c_needs_lean_run(self%address()), options, status)
   end subroutine
 
@@ -78,13 +68,6 @@ contains
     end if
   end subroutine
 
-  ! The particle of the lean system that is a particle of the full one; 0 if it was left out.
-  integer function lean_particle(self, particle)
-    class(hooke_measurement), intent(in) :: self
-    integer, intent(in) :: particle
-    lean_particle = int(c_needs_lean_particle(self%address(), zero_based(particle))) + 1
-  end function
-
   ! Positions of all particles of the full system at positions q of the lean one, NaN where they were left out.
   subroutine lean_position(self, q, position, status)
     class(hooke_measurement), intent(in) :: self
@@ -92,16 +75,10 @@ contains
     real(c_double), intent(inout), contiguous :: position(:, :)
     integer, intent(out), optional :: status
     type(hooke_system) :: system
-    integer(c_int64_t) :: particles
-    logical :: fits
     call self%lean(system, status)
     if (.not. system%exists()) return
-    particles = int(self%number("full", 1, "particles"), c_int64_t)
-    fits = is_3_by(q, int(system%particle_count(), c_int64_t)) .and. is_3_by(position, particles)
-    if (.not. fits) then
-      call refuse(hooke_bad_value, "an array has not the shape (3, particle_count()) of its system", status)
-      return
-    end if
+    if (.not. is_3_by(q, int(system%particle_count(), c_int64_t), status)) return
+    if (.not. is_3_by(position, int(self%number("full", 1, "particles"), c_int64_t), status)) return
     call accept(c_needs_lean_position(self%address(), q, position), status)
   end subroutine
 

@@ -1,8 +1,7 @@
 ! State of a motion: time, positions and velocities, in the library's memory.
 module hooke_states
   use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_f_pointer, c_int64_t, c_ptr
-  use hooke_base, only: accept, to_integer
-  use hooke_c_state
+  use hooke_c_state, only: c_state_position, c_state_velocity
   use hooke_queries_of_state
   implicit none
   private
@@ -14,27 +13,10 @@ module hooke_states
   type, extends(hooke_state_queries) :: hooke_state
     real(c_double), pointer, contiguous :: q(:, :) => null(), v(:, :) => null(), x(:) => null(), dx(:) => null()
   contains
-    procedure :: copy_to
-    procedure :: size => size_of
     procedure :: refresh
   end type
 
 contains
-
-  ! Copies t, q and v into another state of the same size.
-  subroutine copy_to(self, other, status)
-    class(hooke_state), intent(in) :: self
-    class(hooke_state), intent(inout) :: other
-    integer, intent(out), optional :: status
-    if (self%is_missing(status, other)) return
-    call accept(c_state_copy(self%address(), other%address()), status)
-  end subroutine
-
-  ! Number of numbers in q: 3n, or the size of a first- or second-order problem.
-  integer function size_of(self)
-    class(hooke_state), intent(in) :: self
-    size_of = to_integer(c_state_size(self%address()))
-  end function
 
   subroutine refresh(self)
     class(hooke_state), intent(inout) :: self
@@ -45,7 +27,7 @@ contains
     self%x => null()
     self%dx => null()
     if (.not. self%exists()) return
-    size = c_state_size(self%address())
+    size = self%size()
     q = c_state_position(self%address())
     v = c_state_velocity(self%address())
     call c_f_pointer(q, self%x, [size])

@@ -1,34 +1,24 @@
-! The system: particles, springs and forces. It is built (module hooke_builders), committed, and then only
-! queried.
+! The system: particles, springs and forces. It is built, committed, and then only queried.
 !
 ! Arrays of positions, velocities and forces are (3, n). Pointers are to the library's memory, for reading.
 module hooke_systems
-  use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
   use, intrinsic :: iso_c_binding, only: c_double, c_int32_t, c_int64_t
-  use hooke_base, only: accept, are_3_by, to_c, to_series, zero_based
-  use hooke_builders, only: hooke_builder
+  use hooke_base, only: accept, is_3_by, to_c, zero_based
   use hooke_c_integrator, only: c_method_count
   use hooke_c_measurement, only: c_step_bound
   use hooke_c_system
+  use hooke_handles, only: missing
+  use hooke_queries_of_system
   implicit none
   private
   public :: hooke_system, rows_hold
 
-  type, extends(hooke_builder) :: hooke_system
+  type, extends(hooke_system_queries) :: hooke_system
   contains
-    procedure :: mass
-    procedure :: inverse_mass
-    procedure :: members
-    procedure :: anchor_points
     procedure :: body_particles
     procedure :: body_inertia
     procedure :: body_motion
-    procedure :: altitude_lengths
-    procedure :: derivative_pattern
     procedure :: derivative_blocks
-    procedure :: energy
-    procedure :: momentum
-    procedure :: angular_momentum
     procedure :: step_bound
     procedure :: step_bounds
   end type
@@ -41,52 +31,6 @@ contains
     integer, intent(in) :: more
     rows_hold = int(c_rows_hold(q, int(more, c_int32_t)))
   end function
-
-  ! Masses [kg] and inverse masses [1/kg], 0 where pinned or driven; not associated before commit.
-
-  function mass(self) result(series)
-    class(hooke_system), intent(in) :: self
-    real(c_double), pointer, contiguous :: series(:)
-    series => to_series(c_system_mass(self%address()), int(self%particle_count(), c_int64_t))
-  end function
-
-  function inverse_mass(self) result(series)
-    class(hooke_system), intent(in) :: self
-    real(c_double), pointer, contiguous :: series(:)
-    series => to_series(c_system_inverse_mass(self%address()), int(self%particle_count(), c_int64_t))
-  end function
-
-  ! All members of a force ("springs", "bending", "altitude", "anchors"): the particles of each, particles(:,
-  ! k), and stiffness, damping and rest lengths, 7 for each tetrahedron.
-  subroutine members(self, force, particles, stiffness, damping, rest_length, status)
-    class(hooke_system), intent(in) :: self
-    character(*), intent(in) :: force
-    integer, allocatable, intent(out), optional :: particles(:, :)
-    real(c_double), allocatable, intent(out), optional :: stiffness(:), damping(:), rest_length(:)
-    integer, intent(out), optional :: status
-    integer(c_int64_t), allocatable :: numbers(:, :)
-    real(c_double), allocatable :: k(:), c(:), lengths(:)
-    integer :: n
-    if (self%is_missing(status)) return
-    n = max(self%count(force), 0)
-    allocate (numbers(int(c_member_particles(to_c(force))), n), source=0_c_int64_t)
-    allocate (k(n), c(n), lengths(merge(7, 1, force == "altitude")*n), source=0.0_c_double)
-    call accept(c_system_members(self%address(), to_c(force), numbers, k, c, lengths), status)
-    if (present(particles)) particles = int(numbers) + 1
-    if (present(stiffness)) stiffness = k
-    if (present(damping)) damping = c
-    if (present(rest_length)) rest_length = lengths
-  end subroutine
-
-  ! The point of every anchor [m], points(3, k).
-  subroutine anchor_points(self, points, status)
-    class(hooke_system), intent(in) :: self
-    real(c_double), allocatable, intent(out) :: points(:, :)
-    integer, intent(out), optional :: status
-    if (self%is_missing(status)) return
-    allocate (points(3, self%count("anchors")), source=0.0_c_double)
-    call accept(c_system_anchor_points(self%address(), points), status)
-  end subroutine
 
   ! The particles of rigid body number `body`.
   function body_particles(self, body) result(particles)
@@ -109,7 +53,7 @@ contains
     integer, intent(out), optional :: status
     real(c_double) :: numbers(4)
     numbers = 0.0_c_double
-    if (.not. self%is_missing(status)) call accept(c_system_body_inertia(self%address(), zero_based(body), numbers), status)
+    if (.not. missing(status, self)) call accept(c_system_body_inertia(self%address(), zero_based(body), numbers), status)
     mass = numbers(1)
     inertia = numbers(2:4)
   end subroutine
@@ -131,48 +75,16 @@ contains
     angular_momentum = numbers(11:13)
   end subroutine
 
-  ! The altitude of each that acts at q [m]; 0 where none acts.
-  subroutine altitude_lengths(self, q, length, status)
-    class(hooke_system), intent(in) :: self
-    real(c_double), intent(in), contiguous :: q(:, :)
-    real(c_double), allocatable, intent(out) :: length(:)
-    integer, intent(out), optional :: status
-    if (.not. suits(self, status, q)) return
-    allocate (length(self%count("altitude")), source=0.0_c_double)
-    call accept(c_system_altitude_lengths(self%address(), q, length), status)
-  end subroutine
-
-  ! ---- forces and energies at q(3, n) and v(3, n) ----
-
   ! Whether arrays have the shape (3, n); without an argument `status` they must have it.
   logical function suits(self, status, first, second)
     class(hooke_system), intent(in) :: self
     integer, intent(out), optional :: status
     real(c_double), intent(in) :: first(:, :)
     real(c_double), intent(in), optional :: second(:, :)
-    suits = .not. self%is_missing(status)
-    if (suits) suits = are_3_by(int(self%particle_count(), c_int64_t), status, first, second)
+    suits = .not. missing(status, self)
+    if (suits) suits = is_3_by(first, int(self%particle_count(), c_int64_t), status)
+    if (suits) suits = is_3_by(second, int(self%particle_count(), c_int64_t), status)
   end function
-
-  subroutine must_suit(self, first, second)
-    class(hooke_system), intent(in) :: self
-    real(c_double), intent(in) :: first(:, :)
-    real(c_double), intent(in), optional :: second(:, :)
-    if (.not. suits(self, first=first, second=second)) return ! the program has ended
-  end subroutine
-
-  ! Blocks of row i are those from row_start(i) to row_start(i + 1) - 1, in these columns.
-  subroutine derivative_pattern(self, row_start, column, status)
-    class(hooke_system), intent(in) :: self
-    integer, allocatable, intent(out) :: row_start(:), column(:)
-    integer, intent(out), optional :: status
-    integer(c_int64_t), allocatable :: starts(:), columns(:)
-    if (self%is_missing(status)) return
-    allocate (starts(self%particle_count() + 1), columns(self%count("blocks")), source=0_c_int64_t)
-    call accept(c_system_derivative_pattern(self%address(), starts, columns), status)
-    row_start = int(starts) + 1
-    column = int(columns) + 1
-  end subroutine
 
   ! dfdq(i, j, k) is the derivative of the force's component i by the position's component j, in block k; and dfdv by
   ! velocity. Callbacks are left out.
@@ -191,43 +103,6 @@ contains
       dfdv(:, :, k) = transpose(dfdv(:, :, k))
     end do
   end subroutine
-
-  ! An energy [J]: "kinetic" at v; "springs", "bending", "altitude", "anchors", "gravity" and their sum "potential" at q;
-  ! "total" at both.
-  real(c_double) function energy(self, what, q, v)
-    class(hooke_system), intent(in) :: self
-    character(*), intent(in) :: what
-    real(c_double), intent(in), contiguous, optional :: q(:, :), v(:, :)
-    if (present(q)) call must_suit(self, q)
-    if (present(v)) call must_suit(self, v)
-    if (present(q) .and. present(v)) then
-      energy = c_system_energy(self%address(), to_c(what), q, v)
-    else if (present(v) .and. what == "kinetic") then ! reads no positions
-      energy = c_system_energy(self%address(), to_c(what), v, v)
-    else if (present(q) .and. what /= "kinetic" .and. what /= "total") then ! reads no velocities
-      energy = c_system_energy(self%address(), to_c(what), q, q)
-    else
-      energy = ieee_value(energy, ieee_quiet_nan)
-    end if
-  end function
-
-  ! Momentum [kg m/s] of the free particles,
-  function momentum(self, v) result(total)
-    class(hooke_system), intent(in) :: self
-    real(c_double), intent(in), contiguous :: v(:, :)
-    real(c_double) :: total(3)
-    call must_suit(self, v)
-    call c_system_momentum(self%address(), v, total)
-  end function
-
-  ! and their angular momentum about the origin [kg m^2/s].
-  function angular_momentum(self, q, v) result(total)
-    class(hooke_system), intent(in) :: self
-    real(c_double), intent(in), contiguous :: q(:, :), v(:, :)
-    real(c_double) :: total(3)
-    call must_suit(self, q, v)
-    call c_system_angular_momentum(self%address(), q, v, total)
-  end function
 
   ! A step [s] below which `method` is certain to be stable at q.
   subroutine step_bound(self, method, q, bound, status)

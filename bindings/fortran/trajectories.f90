@@ -1,10 +1,11 @@
 ! Trajectory files (HDF5): writing, reading, and one file for a whole comparison.
 module hooke_trajectories
   use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_int32_t, c_int64_t, c_ptr
-  use hooke_base, only: accept, hooke_bad_value, hooke_long, hooke_ok, refuse, to_c
+  use hooke_base, only: accept, hooke_ok, to_c
   use hooke_c_checkpoint, only: c_trajectory_resume
   use hooke_c_trajectory
   use hooke_c_measurement, only: c_comparison_file_close
+  use hooke_handles, only: missing
   use hooke_integrators, only: hooke_integrator
   use hooke_option_tables, only: hooke_options
   use hooke_queries_of_comparison_file
@@ -20,7 +21,6 @@ module hooke_trajectories
   type, extends(hooke_trajectory_queries) :: hooke_trajectory
   contains
     procedure :: resume => resume_trajectory
-    procedure :: write => write_frame
     procedure :: close => close_trajectory
   end type
 
@@ -28,8 +28,6 @@ module hooke_trajectories
   type, extends(hooke_record_queries) :: hooke_record
     type(hooke_options) :: options ! of the run, with defaults filled in
   contains
-    procedure :: check => check_frame
-    procedure :: read => read_frame
     procedure :: numbers
     procedure :: refresh
   end type
@@ -53,21 +51,11 @@ contains
     integer, intent(out), optional :: status
     type(c_ptr) :: trajectory
     integer(c_int32_t) :: code
-    if (system%is_missing(status, integrator, state)) return
+    if (missing(status, system, integrator, state)) return
     code = c_trajectory_resume(to_c(path), system%address(), integrator%address(), state%address(), trajectory)
     if (present(finished)) finished = code == 0 .and. .not. c_associated(trajectory)
     if (code == 0 .and. c_associated(trajectory)) call self%take(trajectory, abandon_trajectory, system)
     call accept(code, status)
-  end subroutine
-
-  ! Writes the next frame.
-  subroutine write_frame(self, step, state, status)
-    class(hooke_trajectory), intent(inout) :: self
-    integer(hooke_long), intent(in) :: step
-    class(hooke_state), intent(in) :: state
-    integer, intent(out), optional :: status
-    if (self%is_missing(status, state)) return
-    call accept(c_trajectory_write(self%address(), step, state%address()), status)
   end subroutine
 
   ! Writes the outcome, the status of hooke_integrator's run(), and closes the file.
@@ -77,48 +65,12 @@ contains
     integer, intent(out), optional :: status
     integer(c_int32_t) :: ended
     type(c_ptr) :: trajectory
-    if (self%is_missing(status)) return
+    if (missing(status, self)) return
     ended = hooke_ok
     if (present(outcome)) ended = int(outcome, c_int32_t)
     trajectory = self%give_up()
     call accept(c_trajectory_close(trajectory, ended), status)
   end subroutine
-
-  ! ---- reading ----
-
-  ! Refuses a damaged frame, whose numbers are not those that were written: 1 is the first, -1 the last.
-  subroutine check_frame(self, frame, status)
-    class(hooke_record), intent(in) :: self
-    integer, intent(in) :: frame
-    integer, intent(out), optional :: status
-    if (self%is_missing(status)) return
-    if (is_no_frame(frame, status)) return
-    call accept(c_record_check(self%address(), from_zero(frame)), status)
-  end subroutine
-
-  ! Reads a frame into a state of the scene's system: 1 is the first, -1 the last, -2 the one before it.
-  subroutine read_frame(self, frame, state, status)
-    class(hooke_record), intent(in) :: self
-    integer, intent(in) :: frame
-    class(hooke_state), intent(inout) :: state
-    integer, intent(out), optional :: status
-    if (self%is_missing(status, state)) return
-    if (is_no_frame(frame, status)) return
-    call accept(c_record_read(self%address(), from_zero(frame), state%address()), status)
-  end subroutine
-
-  logical function is_no_frame(frame, status)
-    integer, intent(in) :: frame
-    integer, intent(out), optional :: status
-    is_no_frame = frame == 0
-    if (is_no_frame) call refuse(hooke_bad_value, "frame 0: frames count from 1, from the end with -1", status)
-  end function
-
-  ! As C counts.
-  pure integer(c_int64_t) function from_zero(frame)
-    integer, intent(in) :: frame
-    from_zero = merge(frame - 1, frame, frame > 0)
-  end function
 
   ! A whole array of the file: "time", "step", "kinetic_energy" and so on, a column a frame; "springs", a column a spring,
   ! whose ends count from 1; "mass" and "species", a column a particle.
@@ -129,7 +81,7 @@ contains
     integer, intent(out), optional :: status
     integer(c_int64_t) :: rows(1), columns(1)
     integer(c_int32_t) :: code
-    if (self%is_missing(status)) return
+    if (missing(status, self)) return
     rows = 0
     columns = 0
     code = c_record_size(self%address(), to_c(what), rows, columns)
@@ -152,7 +104,7 @@ contains
     class(hooke_comparison_file), intent(inout) :: self
     integer, intent(out), optional :: status
     type(c_ptr) :: file
-    if (self%is_missing(status)) return
+    if (missing(status, self)) return
     file = self%give_up()
     call accept(c_comparison_file_close(file), status)
   end subroutine

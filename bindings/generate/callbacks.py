@@ -38,9 +38,18 @@ TYPES = {
 HEADS = {"forces": "Forces, motions and rates", "observers": "Observers"}
 
 
-def of_callback(callback):
+def of_callback(callback, function=""):
     """The type that stands for a callback of C in procedures that are made; None if there is no such type."""
-    return next((name for types in TYPES.values() for name, row in types.items() if row[1] == callback), None)
+    names = [name for types in TYPES.values() for name, row in types.items() if row[1] == callback]
+    return next((name for name in names if "coordinate" in name or "second_order" not in function), None)
+
+
+def product_of(parent, name):
+    """The function that finds what C calls for the product of a force, as lines."""
+    of, call = f"product_of_{parent[len('hooke_'):]}", f"call_{name[len('hooke_'):]}"
+    return [f"  type(c_funptr) function {of}(force)", f"    class({parent}), intent(in), optional :: force",
+            f"    {of} = c_null_funptr", "    if (.not. present(force)) return", "    select type (force)",
+            f"    class is ({name})", f"      {of} = c_funloc({call})", "    end select", "  end function", ""]
 
 
 def argument(kind, what, shape, intent):
@@ -88,12 +97,15 @@ def module(which, public):
     found = {name: parameters for _, name, parameters in headers.declared("".join(public.values()), "typedef")}
     types, interfaces, calls = zip(*(pieces(name, row, found[row[1]]) for name, row in TYPES[which].items()))
     public_names = [f"  public :: {name}, call_{name[len('hooke_'):]}" for name in TYPES[which]]
+    products = [(row[0], name) for name, row in TYPES[which].items() if row[0]]
+    public_names += [f"  public :: product_of_{parent[len('hooke_'):]}" for parent, _ in products]
     uses = {"forces": [], "observers": ["  use hooke_base, only: hooke_long, to_text", "  use hooke_states, only: hooke_state"]}
-    kinds = "c_double, c_f_pointer, c_int32_t, c_int64_t, " + ("c_null_ptr, " if which == "observers" else "") + "c_ptr"
+    others = {"forces": "&\n    c_funloc, c_funptr, c_null_funptr, ", "observers": "c_null_ptr, "}
+    kinds = f"c_double, c_f_pointer, c_int32_t, c_int64_t, {others[which]}c_ptr"
     return "\n".join([
         f"! {HEADS[which]}: types to extend, and their interface to C; made by bindings/generate/callbacks.py.", "!",
         "! A `stop_value` is initially 0; any other value stops the run and is returned by hooke_integrator's", "! stop_value().",
         f"module hooke_{which}", f"  use, intrinsic :: iso_c_binding, only: {kinds}", *uses[which],
         "  use hooke_handles, only: called_object", "  implicit none", "  private", *public_names, "",
         *chain(*types), "  abstract interface", *list(chain(*interfaces))[:-1], "  end interface", "", "contains", "",
-        *chain(*calls), "end module", ""])
+        *chain(*calls), *chain(*(product_of(*product) for product in products)), "end module", ""])

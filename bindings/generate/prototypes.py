@@ -1,10 +1,11 @@
-"""Writes the module of the Python package with the prototypes of all public functions: python
-bindings/generate/prototypes.py FOLDER makes FOLDER/_prototypes.py"""
+"""Writes the generated modules of the Python package: python bindings/generate/prototypes.py FOLDER makes
+FOLDER/_prototypes.py, with the prototypes of all public functions, and FOLDER/parts.py (parts.py)"""
 
 import sys
 from pathlib import Path
 
 import headers
+import parts
 
 INTRO = '''"""Every function of the library with the types of its result and arguments; made from the headers in include/hooke by
 bindings/generate/prototypes.py.
@@ -75,3 +76,4 @@ def module(public):
 
 if __name__ == "__main__":
     headers.write(Path(sys.argv[1]) / "_prototypes.py", module(headers.public()))
+    headers.write(Path(sys.argv[1]) / "parts.py", parts.module())

@@ -54,7 +54,7 @@ contains
     integer :: first, status
     call make(harmonic, first)
     call expect(first == 1, "the first particle is 1")
-    call harmonic%drive_harmonic([1], [0.1_hooke_real, 0.0_hooke_real, 0.0_hooke_real], 0.8_hooke_real)
+    call harmonic%drive_harmonic(1, [0.1_hooke_real, 0.0_hooke_real, 0.0_hooke_real], 0.8_hooke_real)
     call go(harmonic, wanted, status)
     call expect(status == hooke_ok, "the sine ran")
     call make(own)

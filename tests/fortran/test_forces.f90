@@ -90,7 +90,7 @@ contains
 
   subroutine as_drag_of_a_run(wanted)
     type(hooke_state), intent(in) :: wanted
-    type(hooke_system) :: plain, forced
+    type(hooke_system) :: plain, forced, free
     type(hooke_state) :: before, found, after
     type(wind), target :: force
     integer :: status
@@ -105,6 +105,9 @@ contains
     call step_on(plain, after)
     call expect(same_count([found%q, found%v], [wanted%q, wanted%v]) == 24, "a force of some runs is one of the system")
     call expect(same_count([after%q, after%v], [before%q, before%v]) == 24, "which has none in others")
+    call forced%with_force(forced=free)
+    call step_on(free, after)
+    call expect(same_count([after%q, after%v], [before%q, before%v]) == 24, "and is taken away again")
     call plain%destroy()
     call step_on(forced, found)
     call expect(same_count([found%q, found%v], [wanted%q, wanted%v]) == 24, "and lives as long as both")

@@ -54,7 +54,7 @@ contains
     vertices = reshape([0, 0, 0, 1, 0, 0, 0, 1, 0]*1.0_hooke_real, [3, 3])
     call mesh%create("mesh")
     call mesh%set_mesh(vertices(:2, :), reshape([1, 2, 3], [3, 1]), status)
-    call expect(status == hooke_bad_value .and. index(hooke_message(), "(3, m)") > 0, "rows of two are no vertices")
+    call expect(status == hooke_bad_value .and. index(hooke_message(), "(3, n)") > 0, "rows of two are no vertices")
     call mesh%set_mesh(vertices, reshape([1, 2, 4], [3, 1]), status)
     call expect(status == hooke_ok, "triangles are looked at when the part is added")
     call mesh%set("mass", 1)

@@ -1,6 +1,7 @@
 ! A rope made of options: the same bits as from C by every method, energies, counts and time loops.
 program test_rope
   use, intrinsic :: iso_c_binding, only: c_null_char
+  use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
   use check
   use hooke
   implicit none
@@ -134,6 +135,7 @@ contains
       + system%energy("kinetic", v=state%v), 1e-15_hooke_real, "energy is potential and kinetic")
     call expect_near(system%energy("potential", state%q), system%energy("springs", state%q) + system%energy("bending", state%q) &
       + system%energy("gravity", state%q), 1e-15_hooke_real, "potential energy is that of its forces")
+    call expect(ieee_is_nan(system%energy("total", state%q)), "without velocities the total is not known")
     call expect(system%count("forces") == 4 .and. system%force_name(4) == "gravity", "forces by name")
     call expect(system%count("memory") > system%count("spring_memory") .and. system%count("spring_memory") > 0, "memory")
     call expect(system%count("derived") > 0, "the bending was derived")

@@ -79,7 +79,7 @@ program test_second_order
   call expect(status == hooke_stopped .and. integrator%stop_value() == 6, "the force stopped it")
 
   call make_run(run, "implicit-midpoint", 1e-3_hooke_real, 1.0_hooke_real)
-  call integrator%create_second_order(1, known, [1.0_hooke_real], run)
+  call integrator%create_second_order(1, known, 1.0_hooke_real, run)
   call state%create_second_order(1)
   state%x = 1
   call integrator%run(state)

@@ -10,7 +10,7 @@ import pytest
 from conftest import ROOT, SIX_PARTICLES
 
 import hooke
-from hooke._types import Springs
+from hooke.parts import Springs
 
 CLOTH = {"size": (12, 12), "edges": ((1, 0, 0), (0, 0, 1)), "mass": 1}
 SQUARE = {"size": (3, 2), "edges": [[2, 0, 0], [0, 0, 1]], "mass": 6}

@@ -24,12 +24,17 @@ def test_rows_of_a_scene():
         found["drag"]
 
 
-def test_without_the_timing():
+def test_without_the_timing(tmp_path):
     system = build_oscillator()
     found = hooke.cost(system, predict=True, method="verlet")
     assert found.method == "verlet" and np.isnan(found.nanoseconds) and np.isnan(found.rows["nanoseconds"]).all()
     assert found.step_limit == pytest.approx(2 / math.sqrt(40), rel=1e-3) and found.step == found.step_limit
     assert hooke.cost(system, predict=True, method="cvode-bdf").method == "symplectic-euler"
+    found.write(tmp_path / "cost.csv")
+    lines = (tmp_path / "cost.csv").read_text().splitlines()
+    assert lines[0].startswith("ingredient,kind,") and len(lines) == 1 + len(found.rows)
+    with pytest.raises(hooke.BadValue, match="no page for a cost"):
+        found.write(tmp_path / "cost.html")
 
 
 def test_the_largest_groups_are_looked_at():

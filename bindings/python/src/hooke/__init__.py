@@ -30,7 +30,6 @@ except ModuleNotFoundError as missing:
 
 from ._queries import Blocks, BodyMotion, Derived, Material, build_facts
 from ._status import BadCall, BadValue, Error, Internal, IOFailed, NoMemory, NotBuilt, SolverFailed, Stopped, Unsuited
-from ._types import Springs, Transform
 from .comparison import Comparison, compare
 from .cost import Cost, cost
 from .estimate import RunError
@@ -39,6 +38,7 @@ from .integrator import Integrator, Method, PassageWarning, StepWarning, methods
 from .limit import Limit, limit
 from .needs import Needs, needs
 from .options import Options, Row, describe, options_of, part_kind_summary, part_kinds
+from .parts import Springs, Transform
 from .results import Frames, Result, resume, run, why
 from .scene import Scene
 from .second_order import SecondOrder

@@ -5,6 +5,7 @@ from __future__ import annotations
 import ctypes
 import functools
 import os
+import pathlib
 from collections.abc import Mapping
 from typing import Any, Callable, TypeVar
 
@@ -13,7 +14,7 @@ import numpy as np
 from ._callback import listening
 from ._library import lib
 from ._memory import Handle, address_of, text, view
-from ._notebook import Tabled
+from ._notebook import Tabled, embed
 from ._prototypes import MEASUREMENT
 from ._status import OUTCOMES
 from ._types import FloatArray, Path, Table
@@ -128,15 +129,40 @@ class Measurement:
 
 
 class Found(Tabled):
-    """A finished measurement with rows."""
+    """A finished measurement with rows, of a scene if it was made of one. It has the attributes that the record of the
+    kind's own name has columns for."""
 
     outcome: str
+    _untitled = ""  # the heading of a page without a title
 
-    def _take(self, found: Measurement, status: int) -> None:
-        """Sets `outcome`, `rows`, and the attributes that the record of the kind's own name has columns for."""
+    def __init__(self, found: Measurement, scene: Any, system: Any, status: int):
+        self._handle, self._scene = found, scene
+        self._system = system  # its callbacks have to live as long as the measurement
         self.outcome = OUTCOMES.get(status, "stopped")
         self.rows = found.rows("rows")
         vars(self).update(typed(type(self), found.record(found.kind) or {}))
+
+    def write(self, path: Path, title: str | None = None) -> None:
+        """Writes the results in the format given by the ending of `path`: .csv, the rows; .json or .h5, all tables; .html,
+        the page to read with the heading `title` (that of the scene, if None)."""
+        title = title or (self._scene.title if self._scene else "") or self._untitled
+        text = self._scene.text if self._scene else None
+        self._handle.write(path, title=title or None, scene=text)
+
+
+class Paged(Found):
+    """One with a page of its own, which a notebook shows."""
+
+    def _repr_html_(self) -> str:
+        return embed(self.write, 720)
+
+    def report(self, path: Path) -> pathlib.Path:
+        """Writes the page to look at, offline, and returns its path, which ends in ``.html``."""
+        page = pathlib.Path(os.fspath(path))
+        if page.suffix != ".html":
+            raise ValueError(f"{page}: a page ends in .html")
+        self.write(page)
+        return page
 
 
 #: How a column is read for an attribute of these types; others are taken as they are.

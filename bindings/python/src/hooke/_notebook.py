@@ -6,12 +6,13 @@ import html
 import importlib
 import os
 import tempfile
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
+from ._status import plain
 from ._types import Table
 
 _DOCUMENT = """<!DOCTYPE html><meta charset="utf-8"><meta name="viewport" content="width=device-width">
@@ -60,13 +61,24 @@ def named(rows: Table, column: str, name: str) -> np.void:
     return row
 
 
+def lined(heads: Sequence[str], rows: Sequence[Sequence[Any]]) -> list[str]:
+    """A table as lines of text; numbers that are not known are "-", and what is not limited is "none"."""
+
+    def cell(value: Any) -> str:
+        if isinstance(value, str):
+            return plain(value)
+        return "-" if np.isnan(value) else "none" if np.isinf(value) else f"{value:.6g}"
+
+    cells = [list(heads), *([cell(value) for value in row] for row in rows)]
+    first, *widths = (max(map(len, column)) for column in zip(*cells))
+    lines = (f"{name:{first}}" + "".join(f"{word:>{width + 2}}" for word, width in zip(words, widths)) for name, *words in cells)
+    return [line.rstrip() for line in lines]
+
+
 def of_methods(rows: Table, *columns: str) -> str:
-    """Rows of methods as text, with these columns of numbers."""
-    lines = [f"{'method':18}{'status':>10}" + "".join(f"{name:>19}" for name in columns)]
-    for row in rows:
-        numbers = "".join(f"{row[name]:>19.4g}" for name in columns)
-        lines.append(f"{row['method']:18}{row['status']:>10}{numbers}")
-    return "\n".join(lines)
+    """Rows of methods as text, with these columns."""
+    names = ["method", "status", *columns]
+    return "\n".join(lined(names, rows[names].tolist()))
 
 
 class Tabled:
@@ -88,22 +100,3 @@ class Tabled:
         import pandas
 
         return pandas.DataFrame.from_records(self.rows)
-
-
-class Paged(Tabled):
-    """A result with rows and a page of its own, which a notebook shows."""
-
-    def write(self, path: Any) -> None:
-        """Writes what was found by the ending of `path`."""
-        raise NotImplementedError
-
-    def _repr_html_(self) -> str:
-        return embed(self.write, 720)
-
-    def report(self, path: str | os.PathLike[str]) -> Path:
-        """Writes the page to look at, offline, and returns its path, which ends in ``.html``."""
-        page = Path(os.fspath(path))
-        if page.suffix != ".html":
-            raise ValueError(f"{page}: a page ends in .html")
-        self.write(page)
-        return page

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Sequence
-from typing import Any, TypedDict, Union
+from typing import Any, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -22,24 +22,3 @@ Table = npt.NDArray[Any]
 Pins = Union[str, int, Sequence[Union[str, int]], Table]
 #: A particle of a scene: its number, or the name of a part and the number within it.
 Particle = Union[int, tuple[str, int], list[Any]]
-
-
-class Springs(TypedDict, total=False):
-    """A family of springs of a part; `stiffness` is required.
-
-    `stiffness` [N] is the force at double length; `damping` [N s], or `damping_ratio` relative to critical damping;
-    `rest_scale` a factor on the rest length; ``compression=False`` makes springs that only pull.
-    """
-
-    stiffness: float
-    damping: float
-    damping_ratio: float
-    rest_scale: float
-    compression: bool
-
-
-class Transform(TypedDict, total=False):
-    """From the coordinates of a mesh to metres: a factor `scale`, then a vector `translate` (3,) [m] that is added."""
-
-    scale: float
-    translate: Numbers

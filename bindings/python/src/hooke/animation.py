@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import pathlib
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -12,9 +12,7 @@ from ._pictures import FuncAnimation, Line3DCollection, LinearSegmentedColormap,
 from ._status import BadValue, NotBuilt
 from ._types import FloatArray, Path
 from .plot import axis_order, fit, new_space
-
-if TYPE_CHECKING:
-    from .trajectory import Trajectory
+from .trajectory import Trajectory
 
 _SHORTEST, _LONGEST = 4.0, 10.0
 _COLOURS = ["tab:blue", "0.35", "tab:red"]  # dark in the middle, to be visible on white

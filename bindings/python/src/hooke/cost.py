@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
 from ._measurement import Found, Measurement
-from ._notebook import named
+from ._notebook import lined, named
 from ._progress import WorkProgress
-from ._status import plain
 from .options import Options
-from .results import Runnable, prepare
+from .results import Runnable, measured
+from .scene import Scene
 from .state import State
+from .system import System
 
 
 class Cost(Found):
@@ -38,8 +41,8 @@ class Cost(Found):
     dropped_springs: int
     idle_particles: int
 
-    def __init__(self, found: Measurement, status: int):
-        self._take(found, status)
+    def __init__(self, found: Measurement, scene: Scene | None, system: System, status: int):
+        super().__init__(found, scene, system, status)
         self.rows.dtype.names = tuple("name" if name == "ingredient" else name for name in self.rows.dtype.names or ())
 
     def __getitem__(self, name: str) -> np.void:
@@ -47,12 +50,11 @@ class Cost(Found):
         return named(self.rows, "name", name)
 
     def __str__(self) -> str:
-        lines = [f"{self.method + ', without':28}{'ns a step':>12}{'bytes':>12}{'stable to [s]':>16}"]
         whole = ("nothing", self.nanoseconds, self.memory_bytes, self.step_limit)
         fields = ["name", "nanoseconds", "memory_bytes", "step_limit_without"]
         known = self.rows[~np.isnan(self.rows["memory_bytes"])]
-        for name, time, memory, limit in [whole, *known[fields].tolist()]:
-            lines.append(f"{plain(name):28}{time:12.4g}{memory:12.0f}{limit:16.6g}")
+        heads = (f"{self.method}, without", "ns a step", "bytes", "stable to [s]")
+        lines = lined(heads, [whole, *known[fields].tolist()])
         if len(known) < len(self.rows):
             lines.append(f"and {len(self.rows) - len(known)} more, not looked at")
         return "\n".join(lines)
@@ -69,7 +71,7 @@ def cost(
     budget: float | None = None,
     groups: int | None = None,
     progress: WorkProgress | bool | None = None,
-    **options: object,
+    **options: Any,
 ) -> Cost:
     """Measures the cost of each ingredient of a scene (or the path of one) or of a system: compares it with the same
     scene without the ingredient, at `state` (at the start, if None).
@@ -79,8 +81,5 @@ def cost(
     what)`` receives progress and stops the work by returning a non-zero number. The keywords `options` are those of a
     run.
     """
-    _, system, run = prepare("cost", problem, None, options)
     chosen = Options.for_cost().set(predict=predict, budget=budget, groups=groups)
-    at = system.state() if state is None else state
-    found = Measurement.create("cost", system, run, chosen)
-    return Cost(found, found.run(progress, at))
+    return Cost(*measured("cost", problem, options, chosen, progress, lambda _: state))

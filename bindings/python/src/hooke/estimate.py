@@ -3,18 +3,16 @@
 from __future__ import annotations
 
 import os
-from typing import TYPE_CHECKING, Any, NamedTuple, Union
+from typing import Any, NamedTuple, Union
 
 from ._library import lib
 from ._measurement import Measurement
 from ._status import BadValue, Unsuited
+from ._types import Path
+from .integrator import Integrator
 from .options import Options
-
-if TYPE_CHECKING:
-    from ._types import Path
-    from .integrator import Integrator
-    from .state import State
-    from .system import System
+from .state import State
+from .system import System
 
 #: A length: a number [m], or text with a unit, such as "1mm".
 Length = Union[float, str]

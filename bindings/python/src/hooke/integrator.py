@@ -221,7 +221,7 @@ class Integrator(Closing):
     def why(self, budget: float | None = None, progress: WorkProgress | bool | None = None) -> Why:
         """Explains the last run, which has to have ended early: "diverged", "step-limit" or `SolverFailed`; with
         `budget` and `progress` as for `hooke.why`."""
-        return Why(self, budget, progress)
+        return Why(self._handle, self._problem, self._title, budget, progress)
 
     @property
     def diagnosis(self) -> str:

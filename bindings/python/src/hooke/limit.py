@@ -9,14 +9,14 @@ from typing import Any, NamedTuple, Union
 import numpy as np
 
 from ._library import lib
-from ._measurement import Found, Measurement
-from ._notebook import Paged, draw, named
+from ._measurement import Measurement, Paged
+from ._notebook import draw, lined, named
 from ._progress import WorkProgress
 from ._record import opened
 from ._types import ComplexArray, FloatArray, Path
 from .options import Options, joined
-from .results import Runnable, prepare
-from .scene import Scene, scene_text
+from .results import Runnable, measured
+from .scene import Scene
 from .state import State
 from .system import System
 from .why import Blame
@@ -24,15 +24,15 @@ from .why import Blame
 #: Where to find limits: a state, positions (n, 3) [m], or a trajectory file with its last frame or the given one.
 Place = Union[State, FloatArray, Path, tuple[Path, int]]
 
-_COLUMNS = (
-    ("bound", "safe bound [s]"),
-    ("predicted", "predicted [s]"),
-    ("measured", "measured [s]"),
-    ("ratio", "ratio"),
-    ("steps_run", "steps run"),
-    ("smallest", "smallest met [s]"),
-    ("smallest_time", "at time [s]"),
-)
+_COLUMNS = {
+    "bound": "safe bound [s]",
+    "predicted": "predicted [s]",
+    "measured": "measured [s]",
+    "ratio": "ratio",
+    "steps_run": "steps run",
+    "smallest": "smallest met [s]",
+    "smallest_time": "at time [s]",
+}
 
 
 class Participation(NamedTuple):
@@ -59,7 +59,7 @@ class Changes(NamedTuple):
     gain_predicted: float
 
 
-class Limit(Found, Paged):
+class Limit(Paged):
     """The largest stable steps of a scene, linearised at its positions and at rest.
 
     `rows` is a structured array with one row a method: method; bound (safe) [s], predicted [s], measured [s], ratio
@@ -94,9 +94,10 @@ class Limit(Found, Paged):
     participation: list[Participation]
     changes: Changes | None
 
-    def __init__(self, found: Measurement, scene: Scene | None, status: int):
-        self._found, self._scene = found, scene
-        self._take(found, status)
+    _untitled = "limits of steps"
+
+    def __init__(self, found: Measurement, scene: Scene | None, system: System, status: int):
+        super().__init__(found, scene, system, status)
         modes = found.rows("modes")
         self.modes = modes["real"] + 1j * modes["imaginary"]
         self.frequency, self.decay = modes["frequency"], modes["decay"]
@@ -115,21 +116,14 @@ class Limit(Found, Paged):
         """The row of a method."""
         return named(self.rows, "method", method)
 
-    def write(self, path: Path, title: str | None = None) -> None:
-        """Writes the results in the format given by the ending of `path`: .html, the page of ``hooke limit --report``
-        with the heading `title` (that of the scene, if None); .csv, the rows; .json or .h5, everything."""
-        title = title or (self._scene.title if self._scene else "") or "limits of steps"
-        self._found.write(path, title=title, scene=scene_text(self._scene))
-
     def plot(self, axes: Any = None, **options: Any) -> Any:
         """Draws the modes on the regions of stability; see `hooke.plot.limit`."""
         return draw("plot.limit", self, axes, **options)
 
     def __str__(self) -> str:
-        shown = [(name, head) for name, head in _COLUMNS if not np.isnan(self.rows[name]).all()]
-        lines = [f"{'method':18}" + "".join(f"{head:>18}" for _, head in shown)]
-        for row in self.rows:
-            lines.append(f"{row['method']:18}" + "".join(f"{_cell(name, row[name]):>18}" for name, _ in shown))
+        shown = {name: head for name, head in _COLUMNS.items() if not np.isnan(self.rows[name]).all()}
+        rows = [(str(row["method"]), *(_step(name, row[name]) for name in shown)) for row in self.rows]
+        lines = lined(["method", *shown.values()], rows)
         if self.blame:
             lines.append(f"the most to blame: {self.blame[0]}, {100 * self.blame[0].share:.1f} %")
         if self.changes is not None:
@@ -163,12 +157,10 @@ def limit(
     measuring. ``progress(fraction, what)`` receives progress (``progress=True`` shows a bar, with tqdm) and stops the
     work by returning a non-zero number. The keywords `options` are those of a run.
     """
-    scene, system, run = prepare("limit", problem, None, options)
     chosen = Options.for_limit().set(
         methods=joined(methods), predict=predict, nonlinear=nonlinear, along=along, accuracy=accuracy, budget=budget
     )
-    found = Measurement.create("limit", system, run, chosen)
-    return Limit(found, scene, found.run(progress, _state_at(system, at)))
+    return Limit(*measured("limit", problem, options, chosen, progress, lambda system: _state_at(system, at)))
 
 
 def _state_at(system: System, at: Place | None) -> State:
@@ -184,11 +176,5 @@ def _state_at(system: System, at: Place | None) -> State:
     return state
 
 
-def _cell(name: str, value: float) -> str:
-    if np.isnan(value):
-        return "-"
-    if np.isinf(value):
-        return "none"
-    if name == "steps_run":
-        return f"{value:.0f}"
-    return "no step" if value == 0 and name != "smallest_time" else f"{value:.6g}"
+def _step(name: str, value: float) -> str | float:
+    return "no step" if value == 0 and name not in ("steps_run", "smallest_time") else value

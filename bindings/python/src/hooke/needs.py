@@ -8,15 +8,15 @@ import numpy as np
 
 from ._closing import Closing
 from ._library import lib
-from ._measurement import Found, Measurement, typed
+from ._measurement import Measurement, Paged, typed
 from ._memory import Handle, double_pointer, rows
-from ._notebook import Paged, draw, named
+from ._notebook import draw, lined, named
 from ._progress import WorkProgress
 from ._status import BadCall, plain
 from ._types import FloatArray, Path, Table
 from .options import Options
-from .results import Runnable, prepare
-from .scene import Scene, scene_text
+from .results import Runnable, measured
+from .scene import Scene
 from .system import System, write_scene
 
 
@@ -37,7 +37,7 @@ class RunCost(NamedTuple):
     step_error: float
 
 
-class Needs(Found, Paged, Closing):
+class Needs(Paged, Closing):
     """The needs of a scene for watched positions within `want` [m].
 
     `rows` is a structured array with one row for everything that was left out in turn: without, kind, error (the
@@ -86,10 +86,7 @@ class Needs(Found, Paged, Closing):
     other_seconds: float = np.nan
 
     def __init__(self, measurement: Measurement, scene: Scene | None, system: System, status: int):
-        self._handle = measurement
-        self._scene = scene
-        self._system = system  # its callbacks have to live as long as the lean one
-        self._take(measurement, status)
+        super().__init__(measurement, scene, system, status)
         self.rows, self.parts = _plain_needed(self.rows), measurement.rows("parts")
         full, lean, cheapest = (measurement.record(table) or {} for table in ("full", "lean", "cheapest"))
         own = {name: full[name] for name in ("own_error", "moved")}
@@ -145,26 +142,17 @@ class Needs(Found, Paged, Closing):
         lib.hooke_needs_lean_position(self._handle.handle, double_pointer(q), double_pointer(position))
         return position
 
-    def write(self, path: Path) -> None:
-        """Writes a page to read to a path that ends in ``.html``, the rows to one in ``.csv``, all tables to one in
-        ``.json`` or ``.h5``."""
-        title = self._scene and self._scene.title
-        self._handle.write(path, scene=scene_text(self._scene), title=title or None)
-
     def plot(self, ax: Any = None, **options: Any) -> Any:
         """Draws the change of the scene by each ingredient; see `hooke.plot.needs`."""
         return draw("plot.needs", self, ax, **options)
 
     def __str__(self) -> str:
         if self.parts.size:
-            return "\n".join([_PARTS_HEAD, *(_part_line(part) for part in self.parts)])
-        width = max([24, *(len(name) for name in self.rows["without"])])
-        columns = (("change [m]", "error"), ("wall time [s]", "wall_seconds"), ("largest step [s]", "step_limit"))
-        lines = [f"{'without':{width}}" + "".join(f"{head:>18}" for head, _ in columns)]
-        lines.append(f"{'nothing (the full scene)':{width}}{'':18}{self.full.wall_seconds:18.4g}{self.full.step_limit:18.4g}")
-        for row in self.rows:
-            numbers = "".join(f"{row[name]:18.4g}" for _, name in columns)
-            lines.append(f"{plain(row['without']):{width}}{numbers}  {'needed' if row['needed'] else '-'}")
+            return "\n".join(lined(_PARTS_HEAD, [_part(part) for part in self.parts]))
+        fields, whole = ["without", "error", "wall_seconds", "step_limit"], (self.full.wall_seconds, self.full.step_limit)
+        rows = [(*row, "needed" if needed else "-") for row, needed in zip(self.rows[fields].tolist(), self.rows["needed"])]
+        heads = ("without", "change [m]", "wall time [s]", "largest step [s]", "")
+        lines = lined(heads, [("nothing (the full scene)", "", *whole, ""), *rows])
         if self.lean_cost is not None and self.cheapest is not None:
             left_out = plain(", ".join(self.left_out)) or "nothing"
             lines.append(
@@ -201,12 +189,10 @@ def needs(
     duration [s], every [s], method, ...; steps and tolerances are found. ``found.write("page.html")`` makes a page
     with diagrams.
     """
-    scene, system, run = prepare("needs", problem, None, options)
     if watch is not None and not isinstance(watch, str):
         watch = ",".join(str(int(particle)) for particle in np.ravel(watch))
     chosen = Options.for_needs().set(want=want, watch=watch, refine=refine)
-    measurement = Measurement.create("needs", system, run, chosen)
-    return Needs(measurement, scene, system, measurement.run(progress))
+    return Needs(*measured("needs", problem, options, chosen, progress))
 
 
 def _plain_needed(table: Table) -> Table:
@@ -217,7 +203,7 @@ def _plain_needed(table: Table) -> Table:
     return made
 
 
-_PARTS_HEAD = f"{'part':16}{'cells':>12}{'N to 2N [m]':>14}{'2N to 4N [m]':>14}{'order':>8}{'left [m]':>12}{'wanted':>12}"
+_PARTS_HEAD = ("part", "cells", "N to 2N [m]", "2N to 4N [m]", "order", "left [m]", "wanted", "")
 
 
 def _cells(part: np.void, what: str) -> str:
@@ -225,8 +211,6 @@ def _cells(part: np.void, what: str) -> str:
     return " x ".join(f"{count:.0f}" for count in counts if not np.isnan(count)) or "-"
 
 
-def _part_line(part: np.void) -> str:
-    return (
-        f"{plain(part['part']):16}{_cells(part, 'cells'):>12}{part['change']:14.4g}{part['change_fine']:14.4g}"
-        f"{part['order']:8.3g}{part['error']:12.4g}{_cells(part, 'wanted'):>12}  {part['note']}".rstrip()
-    )
+def _part(part: np.void) -> tuple[Any, ...]:
+    numbers = (part[name] for name in ("change", "change_fine", "order", "error"))
+    return (str(part["part"]), _cells(part, "cells"), *numbers, _cells(part, "wanted"), str(part["note"]))

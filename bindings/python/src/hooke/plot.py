@@ -13,14 +13,13 @@ from ._pictures import Line3DCollection
 from ._status import BadValue, plain
 from ._types import FloatArray, Path, Table
 from .limit import Limit
+from .needs import Needs
 from .results import Result
 from .study import Study
 from .trajectory import Trajectory
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
-
-    from .needs import Needs
 
 #: An HDF5 file of a run or a comparison, a `Trajectory`, a `Result`, or positions (n, 3) and springs (m, 2).
 Source = Union[Path, Trajectory, Result, tuple[Any, Any]]

@@ -28,6 +28,7 @@ import numpy as np
 from . import _problem
 from ._callback import stop_value
 from ._library import lib
+from ._measurement import Measurement
 from ._notebook import embed
 from ._progress import WorkProgress, shown
 from ._prototypes import TRAJECTORY
@@ -277,19 +278,15 @@ def why(
 def _result(
     status: str, integrator: Integrator, state: State, output: Path | None, frames: Frames | None
 ) -> Result:
+    names = ("message", "options", "counts", "wall_seconds", "diverged_at", "stop_value")
     return Result(
         status=status,
-        message=integrator.message,
         state=state,
         problem=integrator._problem,
-        options=integrator.options,
-        counts=integrator.counts,
-        wall_seconds=integrator.wall_seconds,
-        diverged_at=integrator.diverged_at,
-        stop_value=integrator.stop_value,
         frames=frames,
         output=output,
         integrator=integrator if status in ("diverged", "step-limit") else None,
+        **{name: getattr(integrator, name) for name in names},
     )
 
 
@@ -308,15 +305,17 @@ def resolve(
     return scene, problem, given.set(**options)
 
 
-def prepare(
-    what: str, problem: Runnable, force: Force | None, options: Mapping[str, Any]
-) -> tuple[Scene | None, System, Options]:
-    """The scene, the system and the options of its run for `what`, which calls it from several threads."""
-    scene, found, run = resolve(problem, force, options)
-    system, threads = system_of(found, what), run["threads"]
+def measured(
+    kind: str, problem: Runnable, run: dict[str, Any], chosen: Options, progress: Any, at: Any = None, force: Force | None = None
+) -> tuple[Measurement, Scene | None, System, int]:
+    """A measurement of a kind, done `at` a state of a system, with its scene, its system and the status. `run` are options of
+    its runs, which may be in several threads."""
+    scene, found, options = resolve(problem, force, run)
+    system, threads = system_of(found, kind), options["threads"]
     if system._callbacks and isinstance(threads, int) and threads > 1:
         raise BadValue(f"threads: {threads} is not allowed with callbacks in Python; leave it at 1")
-    return scene, system, run
+    made = Measurement.create(kind, system, options, chosen)
+    return made, scene, system, made.run(progress, at and at(system))
 
 
 def _all(watchers: list[Observer]) -> Observer:

@@ -9,13 +9,13 @@ import numpy as np
 
 from ._closing import Closing
 from ._library import lib
-from ._measurement import Found, Measurement
-from ._notebook import Paged, draw, of_methods
+from ._measurement import Measurement, Paged
+from ._notebook import draw, of_methods
 from ._progress import WorkProgress
 from ._types import BoolArray, FloatArray, Path, StrArray
 from .options import Options, joined
-from .results import Runnable, prepare
-from .scene import Scene, scene_text
+from .results import Runnable, measured
+from .scene import Scene
 from .system import Force, System
 
 
@@ -116,7 +116,7 @@ class Recommendation(NamedTuple):
         return options
 
 
-class Study(Found, Paged, Closing):
+class Study(Paged, Closing):
     """A finished study: one row a method and step or tolerance, the coarsest first.
 
     Each column is an array with one entry a row: method, status ("finished", "diverged", "stopped", "failed"), step
@@ -163,11 +163,8 @@ class Study(Found, Paged, Closing):
     timed_alone: BoolArray
 
     def __init__(self, measurement: Measurement, scene: Scene | None, system: System, status: int, progress: Any):
-        self._handle = measurement
-        self._scene = scene
-        self._system = system  # its callbacks have to live as long as the study
+        super().__init__(measurement, scene, system, status)
         self._progress = progress
-        self._take(measurement, status)
         vars(self).update((name, self.rows[name]) for name in self.rows.dtype.names or ())
         both = tuple(measurement.text("reference", 0, name) for name in ("method", "check"))
         self.reference = measurement.one(Reference, "reference", methods=both)
@@ -213,12 +210,6 @@ class Study(Found, Paged, Closing):
         found = [self._handle.series("rows", row, column) for column in ("error_at", "energy_drift_at")]
         return Series(time, *(np.full(len(time), np.nan) if one is None else one for one in found))
 
-    def write(self, path: Path) -> None:
-        """Writes the rows as a table to a path that ends in ``.csv``, all tables to one in ``.json``, the whole study
-        to an HDF5 file, ``.h5`` (docs/study.md), which `hooke.plot.study` draws, or to a page to read, ``.html``."""
-        title = self._scene and self._scene.title
-        self._handle.write(path, scene=scene_text(self._scene), title=title or None)
-
     def plot(self, axes: Any = None, **options: Any) -> Any:
         """Draws error against cost and error against step; see `hooke.plot.study`."""
         return draw("plot.study", self, axes, **options)
@@ -260,7 +251,6 @@ def study(
     duration [s], every [s], threads, ... ``hooke study --report FILE.html`` makes a page with diagrams of the same
     study.
     """
-    scene, system, run = prepare("study", problem, force, options)
     chosen = Options.for_study().set(
         methods=joined(methods),
         want=want,
@@ -272,9 +262,7 @@ def study(
         ensemble=ensemble,
         seed=seed,
     )
-    measurement = Measurement.create("study", system, run, chosen)
-    status = measurement.run(progress)
-    made = Study(measurement, scene, system, status, progress)
+    made = Study(*measured("study", problem, options, chosen, progress, force=force), progress)
     if output is not None:
         made.write(output)
     return made

@@ -26,7 +26,7 @@ from .system import System
 from .view import view
 
 if TYPE_CHECKING:
-    from .animation import Animation
+    from ._pictures import FuncAnimation
 
 
 K = TypeVar("K")
@@ -207,10 +207,10 @@ class Trajectory(Closing):
         """Draws the springs at a frame in space and returns the axes; see `hooke.plot.cloth`."""
         return draw("plot.cloth", self, ax, frame=frame, **options)
 
-    def animate(self, **options: Any) -> Animation:
+    def animate(self, **options: Any) -> FuncAnimation:
         """A film of the frames, for a notebook, for `save`, or for ``matplotlib.pyplot.show``; see
         `hooke.animation.animate`."""
-        film: Animation = draw("animation.animate", self, **options)
+        film: FuncAnimation = draw("animation.animate", self, **options)
         return film
 
     # as a sequence
@@ -280,9 +280,7 @@ class Trajectory(Closing):
 
     def _copied(self, what: str, shape: tuple[int, int, int]) -> FloatArray:
         """Frames that another program has stored in another layout, such as compressed."""
-        system = System()
-        system.add_particles(np.zeros(shape[1:]), mass=1)
-        state, frames = system.state(), np.empty(shape)
+        state, frames = State._of_particles(shape[1]), np.empty(shape)
         for frame in range(self._count):
             lib.hooke_record_read(self._handle, frame, state._handle)
             frames[frame] = state.q if what == "position" else state.v

@@ -6,23 +6,30 @@ import os
 import warnings
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Union
+from typing import Any, Protocol, Union
 
 from ._library import lib
 from ._measurement import Measurement
 from ._record import opened
 from ._status import BadValue
+from ._types import Path as PathLike
 from .options import Options
 
-if TYPE_CHECKING:
-    from .results import Result
 
-_PathLike = Union[str, "os.PathLike[str]"]
+class Written(Protocol):
+    """What has the file that it was written to in its `output`: the `Result` of a run."""
+
+    @property
+    def output(self) -> PathLike | None:
+        """The file; None if there is none."""
+
+
+Source = Union[PathLike, Written]
 
 
 def view(
-    trajectory: _PathLike | Result | Sequence[_PathLike | Result],
-    output: _PathLike | None = None,
+    trajectory: Source | Sequence[Source],
+    output: PathLike | None = None,
     *,
     title: str | None = None,
     **options: Any,
@@ -49,7 +56,7 @@ def view(
     return page
 
 
-def write_xdmf(trajectory: _PathLike | Result, output: _PathLike | None = None) -> Path:
+def write_xdmf(trajectory: Source, output: PathLike | None = None) -> Path:
     """Writes the companion file for ParaView of a trajectory, and returns its path: by default beside the trajectory,
     with ``.xdmf`` in place of its ``.h5``. Runs with ``output=`` write it at their end; after a killed run this
     writes it for the existing frames."""
@@ -69,7 +76,7 @@ def write_companion(path: bytes) -> None:
         warnings.warn(f"no .xdmf is written: {trouble}", stacklevel=4)
 
 
-def _file_of(trajectory: _PathLike | Result) -> Path:
+def _file_of(trajectory: Source) -> Path:
     if isinstance(trajectory, (str, os.PathLike)):
         return Path(os.fspath(trajectory))
     output = getattr(trajectory, "output", None)

@@ -3,19 +3,17 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 from ._library import lib
 from ._measurement import Measurement, typed
-from ._memory import text
+from ._memory import Handle, text
 from ._notebook import embed
+from ._problem import Problem
 from ._progress import WorkProgress
 from ._status import NotBuilt, Stopped, plain
 from ._types import Path
 from .options import Options
-
-if TYPE_CHECKING:
-    from .integrator import Integrator
 
 
 class Blame(NamedTuple):
@@ -73,11 +71,11 @@ class Why:
     particle: int | None
 
     def __init__(
-        self, integrator: Integrator, budget: float | None = None, progress: WorkProgress | bool | None = None
+        self, run: Handle, problem: Problem, title: str, budget: float | None, progress: WorkProgress | bool | None
     ):
-        run, chosen = integrator._handle, Options.for_why().set(budget=budget)
-        self._problem = integrator._problem
-        self._title = integrator._title
+        chosen = Options.for_why().set(budget=budget)
+        self._problem = problem  # its callbacks are called by the library
+        self._title = title
         self._found = found = Measurement.made(run, lib.hooke_why_create, run, chosen._handle)
         if found.run(progress):
             raise Stopped(text(lib.hooke_last_error()))
