@@ -142,10 +142,6 @@ void hooke_integrator_destroy(hooke_integrator *it) {
   hk_handle_free(it);
 }
 
-int64_t hk_integrator_numbers(const hooke_integrator *it) {
-  return it->coordinates ? it->coordinates->size : it->size;
-}
-
 int32_t hk_integrator_check_state(const hooke_integrator *it, const hooke_state *state) {
   return hk_state_check(state, hk_integrator_numbers(it), it->system != NULL);
 }

@@ -66,17 +66,6 @@ void hooke_system_destroy(hooke_system *system) {
   hk_handle_free(system);
 }
 
-int32_t hk_system_require_open(const hooke_system *system) {
-  if (!system->rest->committed) return HOOKE_OK;
-  return hk_fail(HOOKE_BAD_CALL, NULL,
-                 "the system is committed and can no longer be changed; build a new one");
-}
-
-int32_t hk_system_require_committed(const hooke_system *system) {
-  if (system->rest->committed) return HOOKE_OK;
-  return hk_fail(HOOKE_BAD_CALL, NULL, "the system is not committed yet; call hooke_system_commit() first");
-}
-
 /* Ensures capacity for `count` more particles in every particle array. */
 static int32_t reserve_particles(hooke_system *system, int64_t count) {
   int64_t used = system->particle_count, needed = used + count;
@@ -157,24 +146,6 @@ int32_t hooke_system_pin(hooke_system *system, int64_t count, const int64_t *par
   if (status != HOOKE_OK) return status;
   for (int64_t k = 0; k < count; k++)
     system->constrained[particles[k]] = HOOKE_IS_PINNED;
-  return HOOKE_OK;
-}
-
-int32_t hk_system_check_particles(const hooke_system *system, const char *place, int64_t count,
-                                  const int64_t *particles, int32_t refused) {
-  for (int64_t k = 0; k < count; k++) {
-    const int64_t p = particles[k];
-    if (p < 0 || p >= system->particle_count) {
-      hk_fail_index(NULL, "there is no particle", (double)p, system->particle_count);
-    } else if (system->constrained[p] & refused) {
-      hk_fail(HOOKE_BAD_VALUE, NULL,
-              "particle %lld is already %s; a particle is pinned or driven, and driven once", (long long)p,
-              system->constrained[p] == HOOKE_IS_PINNED ? "pinned" : "driven");
-    } else {
-      continue;
-    }
-    return hk_fail_within(HOOKE_BAD_VALUE, "%s[%lld]", place, (long long)k);
-  }
   return HOOKE_OK;
 }
 

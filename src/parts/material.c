@@ -220,3 +220,9 @@ int32_t hk_part_add_bending(struct hk_part *part, int64_t stride, int32_t count,
   hk_free(coefficient);
   return status;
 }
+
+char *hk_part_group_name(const struct hk_part *part, const char *family) {
+  char *name = hk_new((int64_t)(strlen(part->name) + strlen(family) + 2), 1);
+  if (name) sprintf(name, "%s.%s", part->name, family);
+  return name;
+}

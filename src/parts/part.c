@@ -159,12 +159,6 @@ static int32_t material(const struct hk_part *part, const char *family, int by_r
   return status;
 }
 
-char *hk_part_group_name(const struct hk_part *part, const char *family) {
-  char *name = hk_new((int64_t)(strlen(part->name) + strlen(family) + 2), 1);
-  if (name) sprintf(name, "%s.%s", part->name, family);
-  return name;
-}
-
 static int is_given(const struct hk_part *part, const char *family, const char *key) {
   char dotted[64];
   snprintf(dotted, sizeof dotted, "%s.%s", family, key);

@@ -156,3 +156,7 @@ int32_t hk_fixed_store(hooke_integrator *it, double t, hooke_state *state) {
   *state->t = t;
   return HOOKE_OK;
 }
+
+int64_t hk_integrator_numbers(const hooke_integrator *it) {
+  return it->coordinates ? it->coordinates->size : it->size;
+}

@@ -6,19 +6,6 @@
 #include <math.h>
 #include <string.h>
 
-struct hk_standing hk_integrator_standing(const hooke_integrator *it) {
-  return (struct hk_standing){.t0 = it->t0,
-                              .t = it->t,
-                              .k = it->k,
-                              .frames = it->frames,
-                              .energy0 = it->energy0,
-                              .scale0 = it->scale0,
-                              .gravity0 = it->gravity0,
-                              .gravity_swing = it->gravity_swing,
-                              .count = it->count,
-                              .wall_seconds = it->wall_seconds};
-}
-
 int32_t hk_integrator_stand(hooke_integrator *it, const struct hk_standing *standing, hooke_state *state) {
   const struct hk_standing s = *standing, before = hk_integrator_standing(it);
   it->count = s.count; /* a method continues counting from here */

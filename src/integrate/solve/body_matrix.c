@@ -14,6 +14,40 @@ static const struct hk_body *body_of(const struct hk_stage *stage, int64_t k) {
   return stage->body.tangents.body[k].body;
 }
 
+void hk_body_moments(const struct hk_body *body, double moment[3]) {
+  const double largest = body->inertia[2] > 0.0 ? body->inertia[2] : 1.0; /* they ascend */
+  for (int k = 0; k < 3; k++)
+    moment[k] = body->inertia[k] > 0.0 ? body->inertia[k] : largest;
+}
+
+void hk_body_kept(const struct hk_body *body, double kept[3]) {
+  for (int k = 0; k < 3; k++)
+    kept[k] = body->inertia[k] > 0.0 ? 1.0 : 0.0;
+}
+
+void hk_body_weigh(const double axes[3][3], const double weight[3], const double x[3], double out[3]) {
+  double along[3];
+  for (int k = 0; k < 3; k++)
+    along[k] = weight[k] * ((axes[0][k] * x[0] + axes[1][k] * x[1]) + axes[2][k] * x[2]);
+  for (int a = 0; a < 3; a++)
+    out[a] = hk_dot3(axes[a], along);
+}
+
+void hk_body_stage_clear(const struct hk_stage *stage, double *x) {
+  const int64_t n = stage->reduced.integrator->system->particle_count;
+  for (int64_t k = 0; k < stage->body.count; k++) {
+    const struct hk_body *body = body_of(stage, k);
+    for (int64_t i = 0; i < 3 * body->count; i++)
+      x[i % 3 * n + body->particle[i / 3]] = 0.0;
+  }
+}
+
+void hk_body_momentum(const struct hk_stage *stage, int64_t k, const double z[3], double p[3]) {
+  double moment[3];
+  hk_body_moments(body_of(stage, k), moment);
+  hk_body_weigh(stage->body.rotation[k].begin, moment, z, p);
+}
+
 /* ---- diagonal blocks of S ---- */
 
 /* Motions of a particle by the six of its body, columns of t. */

@@ -53,26 +53,6 @@ void hk_body_stage_release(struct hk_body_stage *body) {
 
 /* ---- axes ---- */
 
-/* Those of axes that the body does not turn about are replaced. */
-static void find_moments(const struct hk_body *body, double moment[3]) {
-  const double largest = body->inertia[2] > 0.0 ? body->inertia[2] : 1.0; /* they ascend */
-  for (int k = 0; k < 3; k++)
-    moment[k] = body->inertia[k] > 0.0 ? body->inertia[k] : largest;
-}
-
-void hk_body_kept(const struct hk_body *body, double kept[3]) {
-  for (int k = 0; k < 3; k++)
-    kept[k] = body->inertia[k] > 0.0 ? 1.0 : 0.0;
-}
-
-void hk_body_weigh(const double axes[3][3], const double weight[3], const double x[3], double out[3]) {
-  double along[3];
-  for (int k = 0; k < 3; k++)
-    along[k] = weight[k] * ((axes[0][k] * x[0] + axes[1][k] * x[1]) + axes[2][k] * x[2]);
-  for (int a = 0; a < 3; a++)
-    out[a] = hk_dot3(axes[a], along);
-}
-
 /* ---- own coordinates ---- */
 
 static const hooke_system *system_of(const struct hk_stage *stage) {
@@ -96,29 +76,14 @@ static int64_t at_velocity(const struct hk_stage *stage, int64_t k) {
   return stage->reduced.integrator->size + HOOKE_BODY_VELOCITIES * k;
 }
 
-void hk_body_stage_clear(const struct hk_stage *stage, double *x) {
-  const int64_t n = system_of(stage)->particle_count;
-  for (int64_t k = 0; k < stage->body.count; k++) {
-    const struct hk_body *body = body_of(stage, k);
-    for (int64_t i = 0; i < 3 * body->count; i++)
-      x[i % 3 * n + body->particle[i / 3]] = 0.0;
-  }
-}
-
 /* ---- from momentum to rotation ---- */
-
-void hk_body_momentum(const struct hk_stage *stage, int64_t k, const double z[3], double p[3]) {
-  double moment[3];
-  find_moments(body_of(stage, k), moment);
-  hk_body_weigh(stage->body.rotation[k].begin, moment, z, p);
-}
 
 /* With d (J w) = d x J w - J (d x w) + J dw for the turn d, where the axes are those of w. */
 static void find_slope(const struct hk_stage *stage, int64_t k, const double axes[3][3],
                        const double spin[3]) {
   struct hk_body_rotation *r = &stage->body.rotation[k];
   double moment[3], column[3][3];
-  find_moments(body_of(stage, k), moment);
+  hk_body_moments(body_of(stage, k), moment);
   for (int j = 0; j < 3; j++) {
     double change[3] = {j == 0, j == 1, j == 2}, turn[3], other[3];
     hk_body_turn_by(r->w, stage->at.a, change, turn);
@@ -140,7 +105,7 @@ static void find_slope(const struct hk_stage *stage, int64_t k, const double axe
 static void find_rotation(struct hk_stage *stage, int64_t k, const double z[3]) {
   struct hk_body_rotation *r = &stage->body.rotation[k];
   double *own = own_of(stage, k), moment[3], axes[3][3], p[3], spin[3], left[3], before = INFINITY;
-  find_moments(body_of(stage, k), moment);
+  hk_body_moments(body_of(stage, k), moment);
   hk_body_momentum(stage, k, z, p);
   memcpy(r->w, z, sizeof r->w);
   for (int i = 0; i < MOST_ROTATIONS; i++) {

@@ -79,6 +79,8 @@ void hk_body_stage_clear(const struct hk_stage *stage, double *x);
 void hk_body_momentum(const struct hk_stage *stage, int64_t k, const double z[3], double p[3]);
 /* The turn by a change of w, for a rotation in Cayley form over h. */
 void hk_body_turn_by(const double w[3], double h, const double change[3], double turn[3]);
+/* Moments of inertia, where those of axes that the body does not turn about are replaced. */
+void hk_body_moments(const struct hk_body *body, double moment[3]);
 /* 1 for axes that the body turns about, 0 for others. */
 void hk_body_kept(const struct hk_body *body, double kept[3]);
 /* out = the sum over the axes e of weight e (e.x). */

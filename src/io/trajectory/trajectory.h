@@ -25,7 +25,7 @@ const char *hk_trajectory_path(const hooke_trajectory *trajectory);
 /* "origin" of hooke_trajectory_text(). */
 void hk_trajectory_set_origin(hooke_trajectory *trajectory, const char *words);
 
-/* Removes the checkpoint beside the trajectory of a finished run. */
-void hk_trajectory_drop_checkpoint(const char *path);
+/* Of the checkpoint beside a trajectory, which goes when its run is finished. */
+#define HOOKE_CHECKPOINT_ENDING ".checkpoint"
 
 #endif

@@ -8,6 +8,7 @@
 
 #if HOOKE_HAVE_HDF5
 
+#include "io/checkpoint/checkpoint_file.h"
 #include "io/file/atomic_file.h"
 #include "io/trajectory/file_check_h5.h"
 #include "io/file/inputs.h"
@@ -278,6 +279,13 @@ static int32_t finish(hooke_trajectory *trajectory, int32_t outcome) {
                : hk_h5_file_close(&trajectory->file);
 }
 
+static void drop_checkpoint(const char *path) {
+  char *checkpoint = NULL;
+  if (hk_file_beside(path, HOOKE_CHECKPOINT_ENDING, &checkpoint) == HOOKE_OK)
+    hk_checkpoint_remove(checkpoint);
+  hk_free(checkpoint);
+}
+
 int32_t hooke_trajectory_close(hooke_trajectory *trajectory, int32_t outcome) {
   if (trajectory == NULL) return HOOKE_OK;
   HOOKE_KEEP_ERRNO;
@@ -286,7 +294,7 @@ int32_t hooke_trajectory_close(hooke_trajectory *trajectory, int32_t outcome) {
     end_thread(trajectory);
     status = finish(trajectory, outcome);
   }
-  if (status == HOOKE_OK && outcome == HOOKE_OK) hk_trajectory_drop_checkpoint(trajectory->file.atomic.path);
+  if (status == HOOKE_OK && outcome == HOOKE_OK) drop_checkpoint(trajectory->file.atomic.path);
   hk_trajectory_release(trajectory);
   return status;
 }

@@ -17,23 +17,16 @@
 #include <string.h>
 #include <unistd.h>
 
-static const char ENDING[] = ".checkpoint";
-
 int32_t hooke_trajectory_checkpoint(hooke_trajectory *trajectory, const hooke_integrator *integrator,
                                     const hooke_state *state) {
   char *path = NULL;
   int32_t status = hooke_trajectory_sync(trajectory);
-  if (status == HOOKE_OK) status = hk_file_beside(hk_trajectory_path(trajectory), ENDING, &path);
+  if (status == HOOKE_OK)
+    status = hk_file_beside(hk_trajectory_path(trajectory), HOOKE_CHECKPOINT_ENDING, &path);
   if (status == HOOKE_OK)
     status = hooke_checkpoint_write(path, integrator, state, hooke_trajectory_text(trajectory, "run"));
   hk_free(path);
   return status;
-}
-
-void hk_trajectory_drop_checkpoint(const char *path) {
-  char *checkpoint = NULL;
-  if (hk_file_beside(path, ENDING, &checkpoint) == HOOKE_OK) hk_checkpoint_remove(checkpoint);
-  hk_free(checkpoint);
 }
 
 /* Working data. */
@@ -185,7 +178,7 @@ static int32_t resume(struct going *going) {
   int32_t status = check_fit(going);
   if (status == HOOKE_OK) status = read_first(going);
   if (status == HOOKE_OK) status = hk_file_resolve(going->path, &place);
-  if (status == HOOKE_OK) status = hk_file_beside(place, ENDING, &checkpoint);
+  if (status == HOOKE_OK) status = hk_file_beside(place, HOOKE_CHECKPOINT_ENDING, &checkpoint);
   if (status == HOOKE_OK) status = go_on(going, checkpoint);
   hk_free(checkpoint);
   hk_free(place);

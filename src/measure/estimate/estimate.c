@@ -236,6 +236,7 @@ static int32_t measure_again(struct hk_estimate *e, const hooke_state *state) {
     return HOOKE_OK;
   }
   int32_t status = hk_estimate_by_runs(e);
+  if (status == HOOKE_OK && !isnan(e->error)) status = hk_estimate_by_other_method(e);
   /* a pick from the beginning alone: its error is over more frames */
   if (e->picked && e->pick.met && e->pick.best.error > e->error) e->error = e->pick.best.error;
   if (status == HOOKE_OK && isnan(e->error)) status = hk_estimate_last_slice(e);

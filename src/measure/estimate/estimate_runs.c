@@ -233,7 +233,7 @@ int32_t hk_estimate_by_runs(struct hk_estimate *e) {
     judge_by_finer(e, &near, &far);
   else
     judge_by_coarser(e, &near, &far);
-  return isnan(e->error) ? HOOKE_OK : hk_estimate_by_other_method(e);
+  return HOOKE_OK;
 }
 
 int32_t hk_estimate_last_slice(struct hk_estimate *e) {

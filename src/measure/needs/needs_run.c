@@ -13,7 +13,25 @@
 enum { TURNS = 20 };
 static const double DISPLACEMENT = 0.01; /* of the wanted error: who can live with that has no exact start */
 static const uint64_t SEED = 1;          /* of the displaced start */
+static const double RESTS = 1e-3;        /* of the wanted error: a smaller motion shows nothing */
 static const double TURNS_TAKE = 0.2;    /* [s]: time for repeating two runs in turns */
+
+int32_t hk_needs_tell(struct hk_needs *needs, double share) {
+  const double done = ((double)needs->pieces_done + share) / fmax(1.0, (double)needs->pieces);
+  needs->told = fmax(needs->told, fmin(1.0, done));
+  return hk_measurement_tell(needs->measurement, needs->told, needs->under_way);
+}
+
+int32_t hk_needs_rests(const struct hk_needs *needs) {
+  return needs->moved <= RESTS * needs->want;
+}
+
+int32_t hk_needs_set_step(const struct hk_needs_cost *cost, hooke_options *run) {
+  if (!isnan(cost->step)) return hooke_options_set_number(run, "step", cost->step);
+  int32_t status = hooke_options_set_number(run, "rtol", cost->rtol);
+  if (status == HOOKE_OK) status = hooke_options_set_number(run, "atol", cost->atol);
+  return status == HOOKE_OK ? hooke_options_unset(run, "atol_velocity") : status;
+}
 
 int32_t hk_needs_path_create(const struct hk_needs *needs, struct hk_needs_path *path) {
   path->recorded = 0;

@@ -43,13 +43,6 @@ struct search {
   int32_t finished[2];
 };
 
-int32_t hk_needs_set_step(const struct hk_needs_cost *cost, hooke_options *run) {
-  if (!isnan(cost->step)) return hooke_options_set_number(run, "step", cost->step);
-  int32_t status = hooke_options_set_number(run, "rtol", cost->rtol);
-  if (status == HOOKE_OK) status = hooke_options_set_number(run, "atol", cost->atol);
-  return status == HOOKE_OK ? hooke_options_unset(run, "atol_velocity") : status;
-}
-
 static double finer(const struct search *search, double value) {
   return search->adaptive ? value + 1.0 : 2.0 * value;
 }

@@ -211,20 +211,12 @@ void hk_pick_say_reversal(const struct hk_pick *pick, char *text, int32_t size) 
            best->wall_seconds, second->method, second->wall_seconds);
 }
 
-int32_t hk_pick_run(struct hk_pick *pick, const hooke_system *system, const hooke_options *run, double want,
-                    int32_t count, const char *const *methods, hooke_progress *progress, void *ctx) {
-  *pick = (struct hk_pick){.system = system,
-                           .want = want,
-                           .method_count = count,
-                           .methods = methods,
-                           .share = 1.0,
-                           .progress = progress,
-                           .ctx = ctx};
+int32_t hk_pick_prepare(struct hk_pick *pick, const hooke_options *run) {
   int32_t status = hooke_options_copy(run, &pick->run);
   if (status == HOOKE_OK) status = choose_frames(pick);
   if (status == HOOKE_OK) status = find_quickest(pick);
   if (status == HOOKE_OK) status = find_reference(pick);
-  return status == HOOKE_OK ? hk_pick_search(pick) : status;
+  return status;
 }
 
 void hk_pick_release(struct hk_pick *pick) {

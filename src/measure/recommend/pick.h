@@ -57,8 +57,8 @@ double hk_pick_trusted(const struct hk_pick *pick);
 /* Counted work that all of it may take, as far as that is known [s]. */
 double hk_pick_most_work(const struct hk_pick *pick);
 int32_t hk_pick_allows(const struct hk_pick *pick, const char *method);
-/* Searches all methods for the cheapest row within the wanted error, and stores it in `best` (search.c). */
-int32_t hk_pick_search(struct hk_pick *pick);
+/* Before the search: frames, the quickest run and the reference. */
+int32_t hk_pick_prepare(struct hk_pick *pick, const hooke_options *run);
 /* The largest step of a method that is to be tried [s], of which `bound` is certain to be stable at the start:
  * infinity if nothing limits it. */
 int32_t hk_pick_largest_step(struct hk_pick *pick, const char *method, const double *q, double *bound,

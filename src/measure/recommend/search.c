@@ -420,7 +420,7 @@ static int32_t search_and_confirm(struct hk_pick *pick, int32_t count, struct se
   return status;
 }
 
-int32_t hk_pick_search(struct hk_pick *pick) {
+static int32_t search_methods(struct hk_pick *pick) {
   struct search all[MOST_METHODS];
   int32_t count = 0, status = HOOKE_OK;
   for (int64_t m = 0; m < hooke_method_count() && count < MOST_METHODS && status == HOOKE_OK; m++) {
@@ -435,4 +435,17 @@ int32_t hk_pick_search(struct hk_pick *pick) {
   pick->best = (struct hk_pick_row){
       pick->reference.method, pick->reference.rtol, NAN, NAN, pick->reference.run_work, NAN};
   return status;
+}
+
+int32_t hk_pick_run(struct hk_pick *pick, const hooke_system *system, const hooke_options *run, double want,
+                    int32_t count, const char *const *methods, hooke_progress *progress, void *ctx) {
+  *pick = (struct hk_pick){.system = system,
+                           .want = want,
+                           .method_count = count,
+                           .methods = methods,
+                           .share = 1.0,
+                           .progress = progress,
+                           .ctx = ctx};
+  const int32_t status = hk_pick_prepare(pick, run);
+  return status == HOOKE_OK ? search_methods(pick) : status;
 }

@@ -20,6 +20,11 @@ static const char *const TOO_LARGE =
 static const char *const NOT_ALL =
     "with damping out of proportion it is not proved that no motion grows below the prediction";
 
+void hk_limit_take_mode(const struct hk_spectrum *s, const double *mode, struct hk_prediction *out) {
+  out->has_mode = mode != NULL;
+  if (mode) memcpy(out->mode, mode, (size_t)s->linearised->size * sizeof(double));
+}
+
 /* h^2 (k - d) + 2 h c = 4, written so that nothing cancels; infinity if it is met nowhere. */
 static double reach(double k, double c, double d) {
   const double square = c * c + 4.0 * (k - d);

@@ -18,11 +18,6 @@ static const char *const SPINS =
 static const char *const PART_KNOWN =
     "only the fastest modes are known: the limit lies between the bound and the prediction";
 
-void hk_limit_take_mode(const struct hk_spectrum *s, const double *mode, struct hk_prediction *out) {
-  out->has_mode = mode != NULL;
-  if (mode) memcpy(out->mode, mode, (size_t)s->linearised->size * sizeof(double));
-}
-
 /* ---- symplectic Euler ---- */
 
 enum { MOST_TURNS = 30 };

@@ -97,14 +97,6 @@ int64_t hk_variant_next_split(const hooke_system *system, const struct hk_varian
   return -1;
 }
 
-int32_t hk_variant_require_numbers(const struct hk_variant_maker *maker, const char *what) {
-  for (int64_t p = 0; p < maker->from->particle_count; p++) {
-    if (maker->map->to[p] != p)
-      return hk_fail(HOOKE_UNSUITED, NULL, "%s knows particles by their numbers, which would change", what);
-  }
-  return HOOKE_OK;
-}
-
 /* Groups that no part adds: explicit ones, and the remainder of those of parts. */
 static int32_t keep_groups(struct hk_variant_maker *maker) {
   const hooke_system *from = maker->from;

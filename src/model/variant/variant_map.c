@@ -1,6 +1,8 @@
 /* Map from the particles of a system to those of a variant, and positions at equal material coordinates. */
 #include "model/variant/variant.h"
 
+#include "core/status.h"
+
 #include "core/memory.h"
 
 #include <math.h>
@@ -96,4 +98,12 @@ void hk_variant_place(const struct hk_variant_map *map, int64_t particle, const 
     for (int a = 0; a < 3; a++)
       position[a] += weight[k] * at[a];
   }
+}
+
+int32_t hk_variant_require_numbers(const struct hk_variant_maker *maker, const char *what) {
+  for (int64_t p = 0; p < maker->from->particle_count; p++) {
+    if (maker->map->to[p] != p)
+      return hk_fail(HOOKE_UNSUITED, NULL, "%s knows particles by their numbers, which would change", what);
+  }
+  return HOOKE_OK;
 }

@@ -44,20 +44,6 @@ static int32_t refuse(const struct hk_view *view, const char *what) {
   return hk_fail(HOOKE_BAD_VALUE, NULL, "%s: %s", hk_record_path(view->record), what);
 }
 
-int32_t hk_view_read(const struct hk_view *view, const char *dataset, int64_t frame, int64_t count,
-                     int64_t columns, double **values) {
-  int64_t there, wide;
-  const char *path = hk_record_path(view->record);
-  const int32_t status = hk_array_read(path, dataset, frame, frame >= 0, values, &there, &wide);
-  if (status != HOOKE_OK) return status;
-  if ((count < 0 || there >= count) && wide == columns) return HOOKE_OK;
-  hk_free(*values);
-  *values = NULL;
-  return hk_fail(HOOKE_BAD_VALUE, NULL,
-                 "%s: dataset %s has %lld rows of %lld numbers, which do not fit the other datasets", path,
-                 dataset, (long long)there, (long long)wide);
-}
-
 /* The springs of the file, with existing ends. */
 static int32_t read_ends(struct hk_view *view, double **ends) {
   int64_t wide = 0;

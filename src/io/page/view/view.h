@@ -73,7 +73,6 @@ int32_t hk_view_find_strain(struct hk_view *view);
 /* Adds it, with the label "title" as its heading; adds that of all beside one another; writes the one or the
  * other. */
 int32_t hk_view_add_page(const hooke_measurement *measurement, struct hk_text *text);
-int32_t hk_views_add_page(const hooke_measurement *measurement, struct hk_text *text);
 int32_t hk_view_write(const hooke_measurement *measurement, const char *path);
 
 #endif

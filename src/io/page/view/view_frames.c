@@ -2,6 +2,9 @@
 #include "io/page/view/view.h"
 
 #include "core/memory.h"
+#include "core/status.h"
+#include "io/hdf5/array_h5.h"
+#include "io/trajectory/record.h"
 #include "model/vector3.h"
 
 #include <float.h>
@@ -16,6 +19,20 @@ enum { LOOKED_AT = 4096, WIDEST = 65535 };
 static const double SPRING_SHARE = 0.98, FRAME_SHARE = 0.9, WIDENED = 8.0;
 
 static const char position[] = "/particles/all/position/value";
+
+int32_t hk_view_read(const struct hk_view *view, const char *dataset, int64_t frame, int64_t count,
+                     int64_t columns, double **values) {
+  int64_t there, wide;
+  const char *path = hk_record_path(view->record);
+  const int32_t status = hk_array_read(path, dataset, frame, frame >= 0, values, &there, &wide);
+  if (status != HOOKE_OK) return status;
+  if ((count < 0 || there >= count) && wide == columns) return HOOKE_OK;
+  hk_free(*values);
+  *values = NULL;
+  return hk_fail(HOOKE_BAD_VALUE, NULL,
+                 "%s: dataset %s has %lld rows of %lld numbers, which do not fit the other datasets", path,
+                 dataset, (long long)there, (long long)wide);
+}
 
 int64_t hk_view_frame_bytes(const struct hk_view *view) {
   return 6 * view->particles + 2 * view->springs;

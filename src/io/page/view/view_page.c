@@ -181,16 +181,3 @@ int32_t hk_view_add_page(const hooke_measurement *m, struct hk_text *text) {
   hk_free(page.box);
   return status;
 }
-
-int32_t hk_view_write(const hooke_measurement *m, const char *path) {
-  struct hk_text text = {.bytes = NULL};
-  const struct hk_view *view = m->object;
-  int32_t status = hk_input_refuse(hk_record_path(view->record), path);
-  for (int32_t k = 0; status == HOOKE_OK && k < view->beside_count; k++)
-    status = hk_input_refuse(hk_record_path(((const struct hk_view *)view->beside[k]->object)->record), path);
-  if (status == HOOKE_OK)
-    status = view->beside_count > 0 ? hk_views_add_page(m, &text) : hk_view_add_page(m, &text);
-  if (status == HOOKE_OK) status = hk_file_write(path, text.bytes, text.length);
-  hk_text_release(&text);
-  return status;
-}

@@ -2,8 +2,11 @@
 #include "io/page/view/view.h"
 
 #include "core/status.h"
+#include "io/file/atomic_file.h"
 #include "io/file/data_folder.h"
+#include "io/file/inputs.h"
 #include "io/page/form.h"
+#include "io/trajectory/record.h"
 
 #include <string.h>
 
@@ -32,7 +35,7 @@ static int32_t add_part(const char *name, struct hk_text *text, void *ctx) {
   return status == HOOKE_OK ? text->status : status;
 }
 
-int32_t hk_views_add_page(const hooke_measurement *m, struct hk_text *text) {
+static int32_t add_pages(const hooke_measurement *m, struct hk_text *text) {
   return hk_form_fill("views.html", add_part, (void *)(uintptr_t)m, text);
 }
 
@@ -46,4 +49,16 @@ int32_t hooke_view_add(hooke_measurement *m, const hooke_measurement *other) {
                    HOOKE_VIEW_MOST_BESIDE);
   view->beside[view->beside_count++] = other;
   return HOOKE_OK;
+}
+
+int32_t hk_view_write(const hooke_measurement *m, const char *path) {
+  struct hk_text text = {.bytes = NULL};
+  const struct hk_view *view = m->object;
+  int32_t status = hk_input_refuse(hk_record_path(view->record), path);
+  for (int32_t k = 0; status == HOOKE_OK && k < view->beside_count; k++)
+    status = hk_input_refuse(hk_record_path(((const struct hk_view *)view->beside[k]->object)->record), path);
+  if (status == HOOKE_OK) status = view->beside_count > 0 ? add_pages(m, &text) : hk_view_add_page(m, &text);
+  if (status == HOOKE_OK) status = hk_file_write(path, text.bytes, text.length);
+  hk_text_release(&text);
+  return status;
 }

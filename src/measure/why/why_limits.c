@@ -1,0 +1,54 @@
+/* What an inquiry may still take of time and memory, and how a suggestion is applied. */
+#include "measure/why/why.h"
+
+#include "core/print.h"
+#include "measure/counted_work/work.h"
+#include "model/callbacks.h"
+
+#include <string.h>
+
+/* Counted work of an evaluation with a callback [s]: a script takes about so long, and nobody knows. */
+static const double CALLBACK = 5e-5;
+
+const hooke_state *hk_inquiry_last(const struct hk_inquiry *inquiry) {
+  return inquiry->last ? inquiry->last : hk_recent_state(&inquiry->run->recent, 0, NULL);
+}
+
+/* Appends to a list of skipped work. */
+static void leave_out(char *list, size_t size, const char *what) {
+  if (strstr(list, what) == NULL) hk_append(list, size, "%s%s", list[0] ? ", " : "", what);
+}
+
+int32_t hk_inquiry_has_room(struct hk_inquiry *inquiry, double bytes, const char *what) {
+  if (bytes <= inquiry->memory_limit - inquiry->memory_used) return 1;
+  leave_out(inquiry->no_room, sizeof inquiry->no_room, what);
+  return 0;
+}
+
+double hk_why_work_of(const hooke_integrator *run) {
+  const double callback = hk_system_calls_back(run->system) ? CALLBACK : 0.0;
+  return hk_work_of(run) + callback * (double)run->count.force_evaluations;
+}
+
+void hk_inquiry_spend(struct hk_inquiry *inquiry, const hooke_integrator *run, double *before) {
+  const double now = hk_why_work_of(run);
+  hk_patience_spend(&inquiry->patience, now - *before);
+  *before = now;
+}
+
+void hk_inquiry_end_part(struct hk_inquiry *inquiry, const char *what) {
+  if (hk_patience_take_back(&inquiry->patience)) leave_out(inquiry->no_time, sizeof inquiry->no_time, what);
+}
+
+int32_t hk_why_apply(const hooke_options *changes, hooke_options *run) {
+  int32_t status = HOOKE_OK;
+  for (int64_t k = 0; k < hooke_options_row_count(changes) && status == HOOKE_OK; k++) {
+    const char *name = hooke_options_row(changes, k, "name");
+    if (!hooke_options_is_set(changes, name)) continue;
+    if (hooke_options_number_count(changes, name) > 0)
+      status = hooke_options_set_number(run, name, hooke_options_number(changes, name));
+    else
+      status = hooke_options_set_text(run, name, hooke_options_text(changes, name));
+  }
+  return status;
+}
