@@ -4,6 +4,7 @@
 #include "words.h"
 
 #include <stdarg.h>
+#include <stdio.h>
 #include <string.h>
 
 enum { MESSAGE_SIZE = 4096, WORD_SIZE = 48, LIST_SIZE = 512 };
@@ -106,51 +107,6 @@ void cli_warnings_tell(const struct cli_arguments *arguments, char *warnings) {
 int cli_report_missing_words(const struct cli_arguments *arguments) {
   cli_report_words(arguments, "out of memory: a command to type is left out");
   return cli_exit_code(HOOKE_NO_MEMORY);
-}
-
-static int32_t is_set_by(const struct cli_setting *settings, const char *name) {
-  for (; settings->name; settings++) {
-    if (settings->text && strcmp(settings->name, name) == 0) return 1;
-  }
-  return 0;
-}
-
-/* " --atol-velocity" for "atol_velocity". */
-static void print_flag(FILE *file, const char *name) {
-  fputs(" --", file);
-  for (; *name; name++)
-    fputc(*name == '_' ? '-' : *name, file);
-}
-
-/* Options that show a run that diverges: one that is advised does not. */
-static int32_t shows_divergence(const char *name) {
-  return strcmp(name, "past_divergence") == 0 || strcmp(name, "frames_after") == 0;
-}
-
-void cli_report_command(FILE *file, const struct cli_arguments *arguments, const char *verb,
-                        const struct cli_setting *settings) {
-  int32_t same = strcmp(verb, arguments->verb->name) == 0;
-  fprintf(file, "hooke %s ", verb);
-  cli_print_quoted(file, arguments->scene);
-  for (int32_t i = 0; i < arguments->count; i++) {
-    const struct cli_argument *argument = &arguments->all[i];
-    if (!argument->text || is_set_by(settings, argument->name) || shows_divergence(argument->name)) continue;
-    if (!same && argument->table != arguments->run) continue;
-    /* the options that --want would choose are given */
-    if (strcmp(argument->name, "want") == 0 && is_set_by(settings, "method")) continue;
-    const char *instead = arguments->verb->for_scene;
-    if (instead && strcmp(argument->name, instead) == 0) continue; /* replaced by the scene */
-    print_flag(file, argument->name);
-    if (argument->own && !argument->own->value) continue;
-    fputc(cli_argument_is_flag(argument) ? '=' : ' ', file);
-    cli_print_quoted(file, argument->text);
-  }
-  for (; settings->name; settings++) {
-    if (!settings->text) continue;
-    print_flag(file, settings->name);
-    fputc(' ', file);
-    cli_print_quoted(file, settings->text);
-  }
 }
 
 static const char *next_method(int64_t i, const void *ctx) {

@@ -46,9 +46,6 @@ struct cli_verb {
 
 #define HOOKE_VERB_ROWS(list) .rows = (list), .row_count = (int32_t)(sizeof(list) / sizeof((list)[0]))
 
-/* All verbs; NULL ends them. */
-extern const struct cli_verb *const cli_verbs[];
-
 extern const struct cli_verb cli_verb_run;
 extern const struct cli_verb cli_verb_check;
 extern const struct cli_verb cli_verb_compare;

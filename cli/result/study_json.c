@@ -60,13 +60,13 @@ static void print_orders(struct cli_json *json, const hooke_measurement *study) 
 /* "met" is null if the reference is not trusted to the end: beyond that time errors are unknown. */
 static void print_recommendation(struct cli_json *json, const struct cli_study_results *results) {
   const hooke_measurement *study = results->study;
-  if (!cli_study_results_recommend(results)) {
+  if (!results->recommends) {
     cli_json_text(json, "recommendation", NULL);
     return;
   }
   const int32_t met = hooke_measurement_number(study, "recommendation", 0, "met") == 1.0;
   const int32_t any = hooke_measurement_number(study, "reference", 0, "trusted_until") > 0.0;
-  const int32_t unknown = (met || !any) && !cli_study_results_trust_all(study);
+  const int32_t unknown = (met || !any) && !results->trusts_all;
   cli_json_open(json, "recommendation", '{');
   cli_table_print_row_but(json, study, "recommendation", 0, unknown ? "met" : NULL);
   if (unknown) cli_json_text(json, "met", NULL);

@@ -1,4 +1,5 @@
 /* Watched quantities of a study and its ensemble, in words. */
+#include "rows.h"
 #include "study_watched.h"
 
 #include <math.h>
@@ -174,7 +175,7 @@ static void print_ensemble(const struct cli_study_results *results, int32_t meth
 void cli_study_statistics_print(const struct cli_study_results *results, int32_t method_width) {
   const hooke_measurement *study = results->study;
   const double until = hooke_measurement_number(study, "reference", 0, "trusted_until");
-  const int32_t whole = cli_study_results_trust_all(study);
+  const int32_t whole = results->trusts_all;
   const char *asked = cli_arguments_text(results->arguments, "ensemble");
   char text[TEXT_SIZE];
   if (hooke_measurement_row_count(study, "ensemble") > 0) {

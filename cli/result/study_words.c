@@ -1,4 +1,5 @@
 /* The results of a study in words. */
+#include "rows.h"
 #include "study_results.h"
 #include "study_watched.h"
 
@@ -22,6 +23,23 @@ static void print_fact(const char *label, const char *format, ...) {
   vsnprintf(text, sizeof text, format, args);
   va_end(args);
   cli_print_fact(LABEL, WIDTH, label, text);
+}
+
+static char mark_of(const hooke_measurement *study, int64_t row, const char *what) {
+  if (strcmp(what, "error") == 0)
+    return hooke_measurement_number(study, "rows", row, "near_floor") == 1.0 ? '*' : ' ';
+  if (strcmp(what, "energy_drift") == 0)
+    return hooke_measurement_number(study, "rows", row, "near_energy_floor") == 1.0 ? '*' : ' ';
+  return hooke_measurement_number(study, "rows", row, "timed_alone") == 0.0 ? '+' : ' ';
+}
+
+static struct cli_rows rows_of(const struct cli_study_results *results) {
+  return (struct cli_rows){.source = results->study,
+                           .count = hooke_measurement_row_count(results->study, "rows"),
+                           .columns = cli_rows_of_runs,
+                           .grouped = 1,
+                           .status = 1,
+                           .mark = mark_of};
 }
 
 /* ---- the reference ---- */
@@ -65,10 +83,10 @@ static void print_growth(const hooke_measurement *study) {
   }
 }
 
-static void print_trust(const hooke_measurement *study, double agreement) {
+static void print_trust(const struct cli_study_results *results, double agreement) {
+  const hooke_measurement *study = results->study;
   double until = hooke_measurement_number(study, "reference", 0, "trusted_until");
   double duration = hooke_measurement_number(study, "study", 0, "duration");
-  const int32_t whole = cli_study_results_trust_all(study);
   char time[HOOKE_NUMBER_SIZE], all[HOOKE_NUMBER_SIZE];
   cli_format_rounded(until, time);
   cli_format_rounded(duration, all);
@@ -82,12 +100,13 @@ static void print_trust(const hooke_measurement *study, double agreement) {
                "as is energy drift within ten times of %.3g J",
                agreement, parted ? ", until they part" : "",
                hooke_measurement_number(study, "reference", 0, "energy_agreement"));
-  print_fact("trusted until", whole ? "%s s, the whole run" : "%s s of %s s", time, all);
+  print_fact("trusted until", results->trusts_all ? "%s s, the whole run" : "%s s of %s s", time, all);
   print_growth(study);
-  if (!whole) print_why_not_all(study, time);
+  if (!results->trusts_all) print_why_not_all(study, time);
 }
 
-static void print_reference(const hooke_measurement *study) {
+static void print_reference(const struct cli_study_results *results) {
+  const hooke_measurement *study = results->study;
   const double agreement = hooke_measurement_number(study, "reference", 0, "agreement");
   if (isnan(hooke_measurement_number(study, "reference", 0, "trusted_until"))) {
     print_fact("reference", "not finished, so there is nothing to measure against");
@@ -96,7 +115,7 @@ static void print_reference(const hooke_measurement *study) {
   print_fact("reference", "%s, checked by %s; they share the forces and nothing else",
              hooke_measurement_text(study, "reference", 0, "method"),
              hooke_measurement_text(study, "reference", 0, "check"));
-  print_trust(study, agreement);
+  print_trust(results, agreement);
   const char *passages = hooke_measurement_text(study, "reference", 0, "zero_passages");
   if (passages[0]) print_fact("WARNING", "%s", passages);
 }
@@ -187,7 +206,7 @@ static void print_recommendation(const struct cli_study_results *results) {
   printf("\n");
   if (met) {
     print_fact("recommendation", "the cheapest run found whose error is at most %s m up to %s s%s:", text,
-               time, cli_study_results_trust_all(study) ? "" : "; of what comes later nobody can know");
+               time, results->trusts_all ? "" : "; of what comes later nobody can know");
   } else {
     print_fact("recommendation", "none for an error of at most %s m: %s", text,
                hooke_measurement_text(study, "recommendation", 0, "note"));
@@ -226,12 +245,12 @@ static void print_legend(const struct cli_rows *rows, const hooke_measurement *s
 
 void cli_study_results_print(const struct cli_study_results *results) {
   const struct cli_arguments *arguments = results->arguments;
-  const struct cli_rows rows = cli_study_results_rows(results);
+  const struct cli_rows rows = rows_of(results);
   int32_t width = cli_rows_method_width(&rows);
   char text[HOOKE_NUMBER_SIZE];
   cli_say("%s, %s s\n", cli_setup_title(arguments, &results->setup),
           cli_format_rounded(hooke_measurement_number(results->study, "study", 0, "duration"), text));
-  print_reference(results->study);
+  print_reference(results);
   if (rows.count > 0) {
     printf("\n");
     cli_rows_print(&rows, width);
@@ -241,7 +260,7 @@ void cli_study_results_print(const struct cli_study_results *results) {
   if (hooke_measurement_number(results->study, "study", 0, "budget_spent") == 1.0)
     printf("the budget is spent: what it left no time for is missing\n");
   if (rows.count > 0) print_orders(results, width);
-  if (cli_study_results_recommend(results)) {
+  if (results->recommends) {
     print_recommendation(results);
   } else if (rows.count > 0 && !arguments->quiet && !cli_arguments_text(arguments, "want")) {
     printf("\nwhich one to take: add the error that you can live with, such as --want 1mm\n");

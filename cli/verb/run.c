@@ -4,7 +4,7 @@
 #include "os.h"
 #include "report.h"
 #include "resume.h"
-#include "run_results.h"
+#include "run.h"
 #include "want.h"
 
 #include <errno.h>

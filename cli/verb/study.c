@@ -1,10 +1,9 @@
 /* hooke study: accuracy and cost of each method on a scene, and a recommendation. */
-#include "os.h"
+#include "command.h"
 #include "output_file.h"
 #include "print.h"
 #include "report.h"
 #include "study_results.h"
-#include "study_watched.h"
 #include "watch.h"
 
 #include <inttypes.h>
@@ -47,16 +46,6 @@ static double recommended(const struct cli_study_results *results, const char *w
   return hooke_measurement_number(results->study, "recommendation", 0, what);
 }
 
-int32_t cli_study_results_recommend(const struct cli_study_results *results) {
-  if (!hooke_measurement_text(results->study, "recommendation", 0, "note")) return 0;
-  return recommended(results, "met") == 1.0 || !results->interrupted;
-}
-
-int32_t cli_study_results_trust_all(const hooke_measurement *study) {
-  return hooke_measurement_number(study, "reference", 0, "trusted_until") >=
-         hooke_measurement_number(study, "study", 0, "duration") * (1.0 - 1e-9);
-}
-
 /* NULL if the number does not apply. */
 static const char *setting(const struct cli_study_results *results, const char *what,
                            char text[HOOKE_NUMBER_SIZE]) {
@@ -67,9 +56,8 @@ static const char *setting(const struct cli_study_results *results, const char *
 /* HOOKE_NO_MEMORY */
 static int32_t find_command(struct cli_study_results *results) {
   char step[HOOKE_NUMBER_SIZE], rtol[HOOKE_NUMBER_SIZE], atol[HOOKE_NUMBER_SIZE];
-  size_t size;
   const char *method = hooke_measurement_text(results->study, "recommendation", 0, "method");
-  if (!method || !cli_study_results_recommend(results)) return HOOKE_OK;
+  if (!method || !results->recommends) return HOOKE_OK;
   struct cli_setting settings[] = {{"method", method},
                                    {"step", setting(results, "step", step)},
                                    {"rtol", setting(results, "rtol", rtol)},
@@ -78,28 +66,18 @@ static int32_t find_command(struct cli_study_results *results) {
                                    {NULL, NULL}};
   /* the study sets it to the number of atol, for any scene */
   if (hooke_options_is_set(results->setup.options, "atol_velocity")) settings[4].text = settings[3].text;
-  FILE *stream = cli_os_open_text(&results->command, &size);
-  if (stream) cli_report_command(stream, results->arguments, "run", settings);
-  return cli_print_end(stream, &results->command);
+  return cli_command_make(results->arguments, settings, &results->command);
 }
 
 /* ---- results ---- */
 
-static char mark_of(const hooke_measurement *study, int64_t row, const char *what) {
-  if (strcmp(what, "error") == 0)
-    return hooke_measurement_number(study, "rows", row, "near_floor") == 1.0 ? '*' : ' ';
-  if (strcmp(what, "energy_drift") == 0)
-    return hooke_measurement_number(study, "rows", row, "near_energy_floor") == 1.0 ? '*' : ' ';
-  return hooke_measurement_number(study, "rows", row, "timed_alone") == 0.0 ? '+' : ' ';
-}
-
-struct cli_rows cli_study_results_rows(const struct cli_study_results *results) {
-  return (struct cli_rows){.source = results->study,
-                           .count = hooke_measurement_row_count(results->study, "rows"),
-                           .columns = cli_rows_of_runs,
-                           .grouped = 1,
-                           .status = 1,
-                           .mark = mark_of};
+/* What is said depends on: whether errors are known to the end, and a run is recommended. */
+static void judge(struct cli_study_results *results) {
+  const hooke_measurement *study = results->study;
+  results->trusts_all = hooke_measurement_number(study, "reference", 0, "trusted_until") >=
+                        hooke_measurement_number(study, "study", 0, "duration") * (1.0 - 1e-9);
+  results->recommends = hooke_measurement_text(study, "recommendation", 0, "note") != NULL &&
+                        (recommended(results, "met") == 1.0 || !results->interrupted);
 }
 
 static int32_t write_output(const struct cli_study_results *results, const char *output) {
@@ -114,6 +92,7 @@ static int tell(struct cli_study_results *results, const char *output) {
   int32_t written = HOOKE_OK;
   /* a study that was stopped before its first row does not replace an older file */
   if (hooke_measurement_row_count(results->study, "rows") == 0) output = NULL;
+  judge(results);
   const int32_t found = find_command(results);
   if (arguments->json) {
     cli_study_results_print_json(results);
@@ -134,7 +113,7 @@ static int tell(struct cli_study_results *results, const char *output) {
   if (found != HOOKE_OK) return cli_report_missing_words(arguments);
   if (results->interrupted) return HOOKE_EXIT_INTERRUPTED;
   const int32_t made = hooke_measurement_text(results->study, "recommendation", 0, "note") != NULL;
-  const int32_t met = recommended(results, "met") == 1.0 && cli_study_results_trust_all(results->study);
+  const int32_t met = recommended(results, "met") == 1.0 && results->trusts_all;
   return made && !met ? HOOKE_EXIT_NOT_MET : HOOKE_EXIT_DONE;
 }
 

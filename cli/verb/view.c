@@ -4,7 +4,7 @@
 #include "output_file.h"
 #include "print.h"
 #include "report.h"
-#include "run_results.h"
+#include "run.h"
 #include "table.h"
 
 #include <inttypes.h>

@@ -1,5 +1,5 @@
 /* hooke why: explains a run that blew up, from its scene or from its output. */
-#include "advice.h"
+#include "command.h"
 #include "fit.h"
 #include "limiting.h"
 #include "output_file.h"
