@@ -242,10 +242,11 @@ void cli_json_begin(struct cli_json *json, FILE *file) {
   cli_json_open(json, NULL, '{');
 }
 
-void cli_json_end(struct cli_json *json) {
+int32_t cli_json_end(struct cli_json *json) {
   while (json->depth > 0)
     cli_json_close(json);
   fputc('\n', json->file);
+  return json->status;
 }
 
 void cli_json_open(struct cli_json *json, const char *key, char bracket) {
@@ -284,6 +285,18 @@ void cli_json_text(struct cli_json *json, const char *key, const char *text) {
   } else {
     fputs("null", json->file);
   }
+}
+
+void cli_json_measured(struct cli_json *json, const char *key, hooke_measurement *measurement,
+                       const char *table, int64_t row) {
+  const char *text = hooke_measurement_json(measurement, table, row);
+  if (!text) {
+    json->status = HOOKE_NO_MEMORY;
+    return;
+  }
+  const int skipped = key == NULL;
+  write_key(json, key);
+  fwrite(text + skipped, 1, strlen(text) - 2 * (size_t)skipped, json->file);
 }
 
 void cli_json_vectors(struct cli_json *json, const char *key, int64_t rows, const double *xyz) {

@@ -2,6 +2,8 @@
 #ifndef HOOKE_CLI_PRINT_H
 #define HOOKE_CLI_PRINT_H
 
+#include "hooke.h"
+
 #include <stdint.h>
 #include <stdio.h>
 
@@ -59,11 +61,12 @@ struct cli_json {
   int32_t depth;
   char bracket[HOOKE_JSON_DEPTH];
   int32_t filled[HOOKE_JSON_DEPTH];
+  int32_t status;
 };
 
 void cli_json_begin(struct cli_json *json, FILE *file);
-/* Closes open brackets and ends the line. */
-void cli_json_end(struct cli_json *json);
+/* Closes open brackets and ends the line. HOOKE_NO_MEMORY if something is left out. */
+int32_t cli_json_end(struct cli_json *json);
 void cli_json_open(struct cli_json *json, const char *key, char bracket); /* '{' or '[' */
 void cli_json_close(struct cli_json *json);
 /* Null if the number is not finite. */
@@ -73,6 +76,10 @@ void cli_json_count(struct cli_json *json, const char *key, int64_t value);
 /* Null if `text` is NULL; bytes that are not UTF-8 become U+FFFD, and characters that cli_print_text()
  * replaces are escaped. */
 void cli_json_text(struct cli_json *json, const char *key, const char *text);
+/* What hooke_measurement_json() says: under a key, or (NULL) its members alone. Left out without memory, which
+ * cli_json_end() tells. */
+void cli_json_measured(struct cli_json *json, const char *key, hooke_measurement *measurement,
+                       const char *table, int64_t row);
 /* `rows` rows of x y z as an array of arrays */
 void cli_json_vectors(struct cli_json *json, const char *key, int64_t rows, const double *xyz);
 

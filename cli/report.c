@@ -105,7 +105,7 @@ void cli_warnings_tell(const struct cli_arguments *arguments, char *warnings) {
 }
 
 int cli_report_missing_words(const struct cli_arguments *arguments) {
-  cli_report_words(arguments, "out of memory: a command to type is left out");
+  cli_report_words(arguments, "out of memory: a part of the results is left out");
   return cli_exit_code(HOOKE_NO_MEMORY);
 }
 

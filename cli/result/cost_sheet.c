@@ -2,7 +2,6 @@
 
 #include "report.h"
 #include "rows.h"
-#include "table.h"
 #include "watch.h"
 
 #include <inttypes.h>
@@ -20,8 +19,6 @@ int cli_cost_sheet_find(const struct cli_arguments *arguments, const struct cli_
   }
   return status == HOOKE_OK ? HOOKE_EXIT_DONE : cli_report_status(arguments, status);
 }
-
-/* ---- words ---- */
 
 static const char *name_of(const hooke_measurement *cost, int64_t row) {
   const char *name = hooke_measurement_text(cost, "rows", row, "ingredient");
@@ -112,13 +109,4 @@ void cli_cost_sheet_print(const hooke_measurement *cost, const hooke_system *sys
   if (unknown > 0)
     printf("  and %" PRId64 " more that %s not looked at (--budget and --groups set how much is)\n", unknown,
            unknown == 1 ? "was" : "were");
-}
-
-/* ---- JSON ---- */
-
-void cli_cost_sheet_print_json(struct cli_json *json, const hooke_measurement *cost) {
-  cli_json_open(json, "cost", '{');
-  cli_table_print_row(json, cost, "cost", 0);
-  cli_table_print(json, "rows", cost, "rows");
-  cli_json_close(json);
 }

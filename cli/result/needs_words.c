@@ -1,4 +1,4 @@
-/* Needs of a scene, in words. */
+/* Needs of a scene, in words and as JSON. */
 #include "needs_results.h"
 #include "rows.h"
 
@@ -6,7 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { WIDTH = 110, LABEL = 10 };
+enum { WIDTH = 110, LABEL = 10, TRUST_SIZE = 256 };
 
 static double nanoseconds(double wall, double steps) {
   return steps > 0.0 ? 1e9 * wall / steps : (double)NAN;
@@ -158,11 +158,12 @@ static void print_parts(const hooke_measurement *needs) {
   }
 }
 
-int32_t cli_needs_results_trust(const hooke_measurement *needs, char text[HOOKE_NEEDS_TRUST]) {
+/* States until when the results hold; 0: to the end, and nothing is printed. */
+static int32_t tell_trust(const hooke_measurement *needs, char text[TRUST_SIZE]) {
   const double until = hooke_measurement_number(needs, "needs", 0, "judged_until");
   if (until >= hooke_measurement_number(needs, "needs", 0, "duration") * (1.0 - 1e-9)) return 0;
   snprintf(
-      text, HOOKE_NEEDS_TRUST,
+      text, TRUST_SIZE,
       "after %g s small differences grow so fast that no time step keeps its error below a tenth of what is "
       "wanted: changes are those up to %g s of %g s",
       until, until, hooke_measurement_number(needs, "needs", 0, "duration"));
@@ -175,9 +176,9 @@ static void print_warning(const char *text) {
 }
 
 static void print_warnings(const hooke_measurement *needs) {
-  char text[HOOKE_NEEDS_TRUST];
+  char text[TRUST_SIZE];
   const char *note = hooke_measurement_text(needs, "needs", 0, "note");
-  if (cli_needs_results_trust(needs, text)) print_warning(text);
+  if (tell_trust(needs, text)) print_warning(text);
   if (note[0]) print_warning(note);
 }
 
@@ -204,4 +205,39 @@ void cli_needs_results_print(const struct cli_needs_results *results) {
          "to\n%.0f %% longer\n",
          100.0 * (hooke_measurement_number(needs, "needs", 0, "spread") - 1.0));
   print_lean(results);
+}
+
+/* ---- JSON ---- */
+
+static void print_json_warnings(struct cli_json *json, const hooke_measurement *needs) {
+  char text[TRUST_SIZE];
+  const char *note = hooke_measurement_text(needs, "needs", 0, "note");
+  cli_json_open(json, "warnings", '[');
+  if (tell_trust(needs, text)) cli_json_text(json, NULL, text);
+  if (note[0]) cli_json_text(json, NULL, note);
+  cli_json_close(json);
+}
+
+static void print_json_lean(struct cli_json *json, const struct cli_needs_results *results) {
+  if (hooke_measurement_row_count(results->needs, "lean") == 0) {
+    cli_json_text(json, "lean", NULL);
+    return;
+  }
+  cli_json_open(json, "lean", '{');
+  cli_json_text(json, "scene", results->written);
+  cli_json_measured(json, NULL, results->needs, "lean", 0);
+  cli_json_text(json, "command", results->command);
+  cli_json_close(json);
+}
+
+int32_t cli_needs_results_print_json(const struct cli_needs_results *results) {
+  const char *found = results->refine ? "parts" : "rows";
+  struct cli_json json;
+  cli_json_begin(&json, stdout);
+  cli_json_measured(&json, NULL, results->needs, "needs", 0);
+  print_json_warnings(&json, results->needs);
+  cli_json_measured(&json, "full", results->needs, "full", -1);
+  cli_json_measured(&json, found, results->needs, found, -1);
+  if (!results->refine) print_json_lean(&json, results);
+  return cli_json_end(&json);
 }

@@ -17,6 +17,7 @@ struct cli_study_results {
 };
 
 void cli_study_results_print(const struct cli_study_results *results);
-void cli_study_results_print_json(const struct cli_study_results *results);
+/* HOOKE_NO_MEMORY if something is left out. */
+int32_t cli_study_results_print_json(const struct cli_study_results *results);
 
 #endif

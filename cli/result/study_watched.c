@@ -13,7 +13,8 @@ enum { LABEL = 16, WIDTH = 110, CELL = 11, SETTING = 12, HEAD_SIZE = 128, TEXT_S
 static const double SEEN = 2.0;
 static const int MEMBERS_ADVISED = 16;
 
-int64_t cli_study_quantity_count(const hooke_measurement *study) {
+/* Of the table "statistics", whose rows are those of each method, the reference first, times these. */
+static int64_t quantity_count(const hooke_measurement *study) {
   const int64_t count = hooke_measurement_row_count(study, "statistics");
   int64_t quantities = 0;
   while (quantities < count &&
@@ -163,7 +164,7 @@ static void print_ensemble(const struct cli_study_results *results, int32_t meth
   cli_print_fact(LABEL, WIDTH, "statistics", text);
   printf("  %-*s %*s %5s %*s %*s  %s\n", method_width, "method", SETTING, "step [s]", "runs", CELL, "mean",
          CELL, "spread", "bias");
-  const int64_t count = cli_study_quantity_count(study);
+  const int64_t count = quantity_count(study);
   for (int64_t k = 0; k < count; k++)
     print_quantity(study, method_width, k, count);
   printf("spread: the standard deviation of the runs; bias: the difference from the reference's mean, in "

@@ -1,4 +1,4 @@
-/* The results of a study in words. */
+/* The results of a study in words, and as JSON. */
 #include "rows.h"
 #include "study_results.h"
 #include "study_watched.h"
@@ -266,4 +266,26 @@ void cli_study_results_print(const struct cli_study_results *results) {
     printf("\nwhich one to take: add the error that you can live with, such as --want 1mm\n");
   }
   cli_study_statistics_print(results, width);
+}
+
+int32_t cli_study_results_print_json(const struct cli_study_results *results) {
+  static const char *const tables[] = {"reference", "rows", "orders"};
+  hooke_measurement *study = results->study;
+  const int met = hooke_measurement_number(study, "recommendation", 0, "met") == 1.0;
+  struct cli_json json;
+  cli_json_begin(&json, stdout);
+  cli_json_text(&json, "scene", results->arguments->scene);
+  cli_json_measured(&json, NULL, study, "study", 0);
+  for (size_t k = 0; k < sizeof tables / sizeof tables[0]; k++)
+    cli_json_measured(&json, tables[k], study, tables[k], -1);
+  if (results->recommends) {
+    cli_json_open(&json, "recommendation", '{');
+    cli_json_measured(&json, NULL, study, "recommendation", 0);
+    cli_json_text(&json, "command", met ? results->command : NULL);
+    cli_json_close(&json);
+  } else {
+    cli_json_text(&json, "recommendation", NULL);
+  }
+  cli_json_measured(&json, "statistics", study, "ensemble", -1);
+  return cli_json_end(&json);
 }

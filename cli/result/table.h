@@ -9,11 +9,5 @@
 /* The members of one row, in an open object. Series are omitted. */
 void cli_table_print_row(struct cli_json *json, const hooke_measurement *measurement, const char *table,
                          int64_t row);
-/* The same without the column `without` (NULL: none). */
-void cli_table_print_row_but(struct cli_json *json, const hooke_measurement *measurement, const char *table,
-                             int64_t row, const char *without);
-/* The whole table under `key`: a record as an object, null if it has no row, rows as an array. */
-void cli_table_print(struct cli_json *json, const char *key, const hooke_measurement *measurement,
-                     const char *table);
 
 #endif

@@ -152,7 +152,8 @@ static void print_json_memory(struct cli_json *json, const struct cli_foretold *
     cli_json_number(json, "memory_bytes_factor", NAN);
 }
 
-static void print_json(struct check *check) {
+/* HOOKE_NO_MEMORY if something is missing. */
+static int32_t print_json(struct check *check) {
   const hooke_system *system = check->setup.system;
   struct cli_json json;
   cli_json_begin(&json, stdout);
@@ -179,8 +180,8 @@ static void print_json(struct check *check) {
   cli_json_count(&json, "inside_bodies", hooke_system_count(system, "inside_bodies"));
   cli_json_count(&json, "dropped_springs", hooke_system_count(system, "dropped_springs"));
   cli_json_count(&json, "idle_particles", hooke_system_count(system, "idle"));
-  if (check->cost) cli_cost_sheet_print_json(&json, check->cost);
-  cli_json_end(&json);
+  if (check->cost) cli_json_measured(&json, "cost", check->cost, NULL, 0);
+  return cli_json_end(&json);
 }
 
 /* Stiffness and rest length of the softest and the stiffest of `count` springs. */
@@ -302,10 +303,7 @@ static int check_and_tell(struct check *check, struct cli_peak loaded) {
   if (cli_arguments_text(check->arguments, "cost"))
     code = cli_cost_sheet_find(check->arguments, &check->setup, &check->cost);
   if (code != HOOKE_EXIT_DONE && code != HOOKE_EXIT_INTERRUPTED) return code;
-  if (check->arguments->json)
-    print_json(check);
-  else
-    status = print_words(check);
+  status = check->arguments->json ? print_json(check) : print_words(check);
   return status == HOOKE_OK ? code : cli_report(check->arguments, cli_exit_code(status), "out of memory");
 }
 

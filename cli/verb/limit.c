@@ -6,7 +6,6 @@
 #include "report.h"
 #include "rows.h"
 #include "setup.h"
-#include "table.h"
 #include "watch.h"
 
 #include <errno.h>
@@ -77,18 +76,11 @@ static int find(struct limit *l) {
   return status >= 0 ? HOOKE_EXIT_DONE : cli_report_status(l->arguments, status);
 }
 
-/* ---- JSON ---- */
-
-static void print_json(const struct limit *l) {
+static int print_json(const struct limit *l) {
   struct cli_json json;
   cli_json_begin(&json, stdout);
-  cli_table_print_row(&json, l->limit, "limit", 0);
-  cli_table_print(&json, "rows", l->limit, "rows");
-  cli_limiting_json(&json, l->limit);
-  cli_table_print(&json, "participation", l->limit, "participation");
-  cli_table_print(&json, "changes", l->limit, "changes");
-  cli_table_print(&json, "modes", l->limit, "modes");
-  cli_json_end(&json);
+  cli_json_measured(&json, NULL, l->limit, NULL, 0);
+  return cli_json_end(&json) == HOOKE_OK ? HOOKE_EXIT_DONE : cli_report_missing_words(l->arguments);
 }
 
 /* ---- words ---- */
@@ -171,16 +163,14 @@ static void print_words(const struct limit *l) {
 }
 
 static int tell(const struct limit *l) {
-  if (l->arguments->json)
-    print_json(l);
-  else
-    print_words(l);
+  const int code = l->arguments->json ? print_json(l) : HOOKE_EXIT_DONE;
+  if (!l->arguments->json) print_words(l);
   cli_print_flush();
   if (l->interrupted) {
     cli_report_words(l->arguments, "interrupted; kept: what was found so far");
     return HOOKE_EXIT_INTERRUPTED;
   }
-  if (!l->diverged) return HOOKE_EXIT_DONE;
+  if (!l->diverged) return code;
   cli_report_words(l->arguments, "the run ended early, at t = %g s: %s", hooke_state_time(l->setup.state),
                    hooke_last_error());
   return HOOKE_EXIT_DIVERGED;

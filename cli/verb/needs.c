@@ -67,10 +67,9 @@ static int write_lean(struct cli_needs_results *results) {
 /* Results are printed also when a file fails. */
 static int tell(struct cli_needs_results *results, int32_t stopped) {
   int code = write_lean(results);
-  if (results->arguments->json)
-    cli_needs_results_print_json(results);
-  else
-    cli_needs_results_print(results);
+  if (results->arguments->json && cli_needs_results_print_json(results) != HOOKE_OK)
+    code = cli_report_missing_words(results->arguments);
+  if (!results->arguments->json) cli_needs_results_print(results);
   cli_print_flush();
   code = cli_output_file_write_report(results->arguments, &results->setup, results->needs, results->command,
                                       code);

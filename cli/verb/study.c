@@ -93,12 +93,9 @@ static int tell(struct cli_study_results *results, const char *output) {
   /* a study that was stopped before its first row does not replace an older file */
   if (hooke_measurement_row_count(results->study, "rows") == 0) output = NULL;
   judge(results);
-  const int32_t found = find_command(results);
-  if (arguments->json) {
-    cli_study_results_print_json(results);
-  } else {
-    cli_study_results_print(results);
-  }
+  int32_t found = find_command(results);
+  if (arguments->json && cli_study_results_print_json(results) != HOOKE_OK) found = HOOKE_NO_MEMORY;
+  if (!arguments->json) cli_study_results_print(results);
   if (output) written = write_output(results, output);
   if (output && written == HOOKE_OK && !arguments->json) cli_say("\noutput: %s\n", output);
   cli_print_flush();

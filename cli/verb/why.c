@@ -6,7 +6,6 @@
 #include "print.h"
 #include "report.h"
 #include "setup.h"
-#include "table.h"
 #include "watch.h"
 
 #include <inttypes.h>
@@ -107,15 +106,15 @@ static void print_nothing(struct cli_json *json, const struct why *why) {
   }
 }
 
-/* HOOKE_NO_MEMORY if a command is missing. */
+/* HOOKE_NO_MEMORY if something is missing. */
 static int32_t print_advice(struct cli_json *json, const struct why *why) {
   int32_t status = HOOKE_OK;
   cli_json_open(json, "advice", '[');
-  for (int64_t k = 0; k < hooke_measurement_row_count(why->why, "advice"); k++) {
+  for (int64_t k = 0; why->why && k < hooke_measurement_row_count(why->why, "advice"); k++) {
     char *command;
     if (cli_advice_command(why->arguments, why->why, k, &command) != HOOKE_OK) status = HOOKE_NO_MEMORY;
     cli_json_open(json, NULL, '{');
-    cli_table_print_row(json, why->why, "advice", k);
+    cli_json_measured(json, NULL, why->why, "advice", k);
     cli_json_text(json, "command", command);
     cli_json_close(json);
     free(command);
@@ -124,27 +123,20 @@ static int32_t print_advice(struct cli_json *json, const struct why *why) {
   return status;
 }
 
-static void print_empty(struct cli_json *json, const char *key) {
-  cli_json_open(json, key, '[');
-  cli_json_close(json);
-}
-
-/* HOOKE_NO_MEMORY if a command is missing. */
+/* HOOKE_NO_MEMORY if something is missing. */
 static int32_t print_json(const struct why *why) {
   struct cli_json json;
-  int32_t status = HOOKE_OK;
   cli_json_begin(&json, stdout);
   if (why->why) {
-    cli_table_print_row(&json, why->why, "why", 0);
-    cli_limiting_json(&json, why->why);
-    status = print_advice(&json, why);
+    cli_json_measured(&json, NULL, why->why, "why", 0);
+    cli_json_measured(&json, "blame", why->why, "blame", -1);
   } else {
     print_nothing(&json, why);
-    print_empty(&json, "blame");
-    print_empty(&json, "advice");
+    cli_json_open(&json, "blame", '[');
+    cli_json_close(&json);
   }
-  cli_json_end(&json);
-  return status;
+  const int32_t status = print_advice(&json, why), rest = cli_json_end(&json);
+  return status == HOOKE_OK ? rest : status;
 }
 
 static void print_number(const char *label, double value, const char *unit) {
@@ -194,19 +186,17 @@ static int32_t print_words(const struct why *why) {
 
 /* The exit code so far, or that of a page that could not be written. */
 static int write_report(const struct why *why, int code) {
-  const char *report = cli_arguments_text(why->arguments, "report");
   char *command = NULL;
-  if (!report || code != HOOKE_EXIT_DONE) return code;
+  if (!cli_arguments_text(why->arguments, "report") || code != HOOKE_EXIT_DONE) return code;
   if (!why->why) {
     cli_report_words(why->arguments, "no page is written, since the run did not blow up");
     return code;
   }
-  int32_t status = hooke_measurement_label(why->why, "title", cli_setup_title(why->arguments, &why->setup));
-  if (status == HOOKE_OK) status = cli_advice_command(why->arguments, why->why, 0, &command);
-  if (status == HOOKE_OK) status = hooke_measurement_label(why->why, "command", command);
-  if (status == HOOKE_OK) status = hooke_measurement_write(why->why, report);
+  const int32_t status = cli_advice_command(why->arguments, why->why, 0, &command);
+  if (status != HOOKE_OK) return cli_report_status(why->arguments, status);
+  code = cli_output_file_write_report(why->arguments, &why->setup, why->why, command, code);
   free(command);
-  return status == HOOKE_OK ? code : cli_report_status(why->arguments, status);
+  return code;
 }
 
 static int find_out(struct why *why) {

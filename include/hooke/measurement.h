@@ -84,6 +84,11 @@ HOOKE_API const double *hooke_measurement_series(const hooke_measurement *measur
  * another word, HOOKE_NO_MEMORY. */
 HOOKE_API int32_t hooke_measurement_label(hooke_measurement *measurement, const char *what, const char *text);
 
+/* JSON on one line, with every digit: the document of all tables, as in a .json file (`table` NULL), a table (row
+ * -1) or a row of it. Valid until the next call for this measurement, and until it is destroyed. NULL for a row
+ * or table that does not exist, and without memory. */
+HOOKE_API const char *hooke_measurement_json(hooke_measurement *measurement, const char *table, int64_t row);
+
 /* Writes the results so far in the format given by the ending of `path`: .csv (the table "rows"), .json and
  * .h5 (all tables), .html (a page to read offline). An older file is replaced when the new one is complete.
  * HOOKE_BAD_VALUE for another ending, HOOKE_BAD_CALL before hooke_measurement_run(), HOOKE_NOT_BUILT,

@@ -125,6 +125,8 @@ int32_t hk_study_find_cheapest(struct hk_study *study, double want);
 int32_t hk_study_find_margin(struct hk_study *study);
 
 /* 1 if the error of a row is within ten times of what the reference is known to, or of its rounding. */
+/* 1 unless the want is met as far as errors are known, and they are not known to the end. */
+int32_t hk_study_knows_met(const struct hk_study *study);
 int32_t hk_study_is_near_floor(const struct hk_study *study, const struct hk_study_row *row);
 
 /* Least-squares fit of log error against log step for a method (order.c). */
