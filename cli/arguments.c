@@ -140,7 +140,7 @@ static void list_verbs(const struct cli_verb *const *verbs, const char *flag, ch
   }
 }
 
-/* Reports that the verb has no option `word` ("--stpe=1", "-x"), which `value` followed (NULL: nothing did). */
+/* Reports that the verb has no option `word` ("--stpe=1", "-x"), followed by `value` (NULL: nothing). */
 static int report_unknown_option(const struct cli_arguments *arguments, const char *word, const char *value) {
   char flag[HOOKE_FLAG_SIZE], list[HOOKE_DOC_SIZE], verbs[HOOKE_DOC_SIZE] = "";
   const char *near = NULL;

@@ -193,7 +193,12 @@ void cli_print_wrapped(FILE *file, int32_t column, int32_t indent, int32_t width
   fputc('\n', file);
 }
 
-void cli_print_fact(int32_t indent, int32_t width, const char *label, const char *text) {
+void cli_print_fact(int32_t indent, int32_t width, const char *label, const char *format, ...) {
+  char text[SAID_SIZE];
+  va_list args;
+  va_start(args, format);
+  vsnprintf(text, sizeof text, format, args);
+  va_end(args);
   printf("%-*s", indent, label);
   cli_print_wrapped(stdout, indent, indent, width, text);
 }

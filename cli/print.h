@@ -52,8 +52,9 @@ void cli_print_quoted(FILE *file, const char *text);
 /* Text broken at blanks before column `width`; lines after the first start at column `indent`. */
 void cli_print_wrapped(FILE *file, int32_t column, int32_t indent, int32_t width, const char *text);
 
-/* A label, with wrapped text beside it, from column `indent` on. */
-void cli_print_fact(int32_t indent, int32_t width, const char *label, const char *text);
+/* A label, with text as of printf(), wrapped, beside it, from column `indent` on. */
+void cli_print_fact(int32_t indent, int32_t width, const char *label, const char *format, ...)
+    __attribute__((format(printf, 4, 5)));
 
 /* A JSON value being written, on one line. `key` is NULL inside arrays. */
 struct cli_json {

@@ -2,15 +2,13 @@
 #ifndef HOOKE_CLI_STUDY_RESULTS_H
 #define HOOKE_CLI_STUDY_RESULTS_H
 
-#include "methods.h"
 #include "setup.h"
 
 struct cli_study_results {
   const struct cli_arguments *arguments;
   struct cli_setup setup;
-  struct cli_methods methods;
   hooke_measurement *study;
-  int32_t interrupted;
+  int32_t outcome;    /* of measuring */
   int32_t trusts_all; /* 1: the reference, and with it every error, is trusted up to the end of the run */
   int32_t recommends; /* 1: a run that meets the wanted error or, in a complete study, the closest to it */
   char *command;      /* the recommended run, or the closest one; NULL: none */

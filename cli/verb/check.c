@@ -48,12 +48,10 @@ static void warn_of_method(struct check *check) {
   double bound = bound_of(check, method);
   double step = hooke_options_number(check->setup.options, "step");
   if (bound == 0.0) {
-    cli_append(
-        check->warnings, HOOKE_WARNINGS_SIZE,
-        "%s, the method of the run, is stable at no step: the scene has motion without damping, which it "
-        "makes "
-        "grow at any step\n",
-        method);
+    cli_append(check->warnings, HOOKE_WARNINGS_SIZE,
+               "%s, the method of the run, is stable at no step: the scene has motion without damping, which "
+               "it makes grow at any step\n",
+               method);
   } else if (step > bound) {
     cli_append(check->warnings, HOOKE_WARNINGS_SIZE,
                "the step of the run, %s s, is above %s s, up to which %s is certain to be stable\n",
@@ -65,12 +63,10 @@ static void warn_of_coincident_springs(struct check *check) {
   int64_t count =
       hooke_system_coincident_springs(check->setup.system, hooke_state_position(check->setup.state));
   if (count == 0) return;
-  cli_append(
-      check->warnings, HOOKE_WARNINGS_SIZE,
-      "%" PRId64
-      " %s with both ends at the same place although the rest length is not zero: without a direction, "
-      "and so without a force\n",
-      count, count == 1 ? "spring starts" : "springs start");
+  cli_append(check->warnings, HOOKE_WARNINGS_SIZE,
+             "%" PRId64 " %s with both ends at the same place although the rest length is not zero: without "
+             "a direction, and so without a force\n",
+             count, count == 1 ? "spring starts" : "springs start");
 }
 
 /* Marks the particles of all members of a force, or (NULL) of a rigid body, which may be free as a whole. */
@@ -337,12 +333,11 @@ static const struct cli_verb_row rows[] = {
 const struct cli_verb cli_verb_check = {
     .name = "check",
     .summary = "validates a scene and tells its size, its memory and its step limits, without running it",
-    .text =
-        "Validates the scene and tells its size, the memory at the peak of a run, with -o and without, and "
-        "for each "
-        "method the largest step that is certain to be stable at the start, in the time of loading it. With "
-        "--cost also what each ingredient costs: time of a step on this machine, unless --predict leaves it "
-        "out, memory, and the largest stable step without it. Warns of what is allowed but seldom meant.",
+    .text = "Validates the scene and tells its size, the memory at the peak of a run, with -o and without, "
+            "and for each method the largest step that is certain to be stable at the start, in the time of "
+            "loading it. With --cost also what each ingredient costs: time of a step on this machine, unless "
+            "--predict leaves it out, memory, and the largest stable step without it. Warns of what is "
+            "allowed but seldom meant.",
     .example = "hooke check cloth.json",
     HOOKE_VERB_ROWS(rows),
     .options = "cost",

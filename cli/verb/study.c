@@ -1,5 +1,6 @@
 /* hooke study: accuracy and cost of each method on a scene, and a recommendation. */
 #include "command.h"
+#include "methods.h"
 #include "output_file.h"
 #include "print.h"
 #include "report.h"
@@ -29,15 +30,6 @@ static int check_output(const struct cli_arguments *arguments, const char *outpu
   }
   const int code = ends_in(output, ".h5") ? cli_setup_check_output(arguments, output) : HOOKE_EXIT_DONE;
   return code == HOOKE_EXIT_DONE ? cli_output_file_check(arguments, "-o", output) : code;
-}
-
-/* ---- running ---- */
-
-static int run_study(struct cli_study_results *results) {
-  const struct cli_arguments *arguments = results->arguments;
-  const int32_t status = cli_watch_measure(arguments, "study", &results->setup, NULL, &results->study);
-  results->interrupted = status == HOOKE_STOPPED;
-  return status == HOOKE_OK || results->interrupted ? HOOKE_EXIT_DONE : cli_report_status(arguments, status);
 }
 
 /* ---- the recommended command ---- */
@@ -77,7 +69,7 @@ static void judge(struct cli_study_results *results) {
   results->trusts_all = hooke_measurement_number(study, "reference", 0, "trusted_until") >=
                         hooke_measurement_number(study, "study", 0, "duration") * (1.0 - 1e-9);
   results->recommends = hooke_measurement_text(study, "recommendation", 0, "note") != NULL &&
-                        (recommended(results, "met") == 1.0 || !results->interrupted);
+                        (recommended(results, "met") == 1.0 || results->outcome != HOOKE_STOPPED);
 }
 
 static int32_t write_output(const struct cli_study_results *results, const char *output) {
@@ -100,7 +92,7 @@ static int tell(struct cli_study_results *results, const char *output) {
   if (output && written == HOOKE_OK && !arguments->json) cli_say("\noutput: %s\n", output);
   cli_print_flush();
   if (written != HOOKE_OK) cli_report_words(arguments, "%s", hooke_last_error());
-  if (results->interrupted) {
+  if (results->outcome == HOOKE_STOPPED) {
     cli_report_words(arguments, "interrupted; kept: the %" PRId64 " rows done so far%s%s",
                      hooke_measurement_row_count(results->study, "rows"),
                      output && written == HOOKE_OK ? ", in " : "",
@@ -108,7 +100,7 @@ static int tell(struct cli_study_results *results, const char *output) {
   }
   if (written != HOOKE_OK) return cli_exit_code(written);
   if (found != HOOKE_OK) return cli_report_missing_words(arguments);
-  if (results->interrupted) return HOOKE_EXIT_INTERRUPTED;
+  if (results->outcome == HOOKE_STOPPED) return HOOKE_EXIT_INTERRUPTED;
   const int32_t made = hooke_measurement_text(results->study, "recommendation", 0, "note") != NULL;
   const int32_t met = recommended(results, "met") == 1.0 && results->trusts_all;
   return made && !met ? HOOKE_EXIT_NOT_MET : HOOKE_EXIT_DONE;
@@ -118,13 +110,15 @@ static int do_study(const struct cli_arguments *arguments) {
   struct cli_study_results results = {.arguments = arguments};
   const char *output = cli_arguments_text(arguments, "output");
   const char *report = cli_arguments_text(arguments, "report");
-  int code = cli_methods_choose(arguments, &results.methods);
+  struct cli_methods methods; /* checked only */
+  int code = cli_methods_choose(arguments, &methods);
   if (code == HOOKE_EXIT_DONE) code = check_output(arguments, output);
   if (code == HOOKE_EXIT_DONE) code = cli_output_file_check_report(arguments, report);
   if (code != HOOKE_EXIT_DONE) return code;
   code = cli_setup_load(arguments, &results.setup);
   if (code == HOOKE_EXIT_DONE) code = cli_setup_require_duration(arguments, &results.setup);
-  if (code == HOOKE_EXIT_DONE) code = run_study(&results);
+  if (code == HOOKE_EXIT_DONE)
+    code = cli_watch_measure(arguments, "study", &results.setup, NULL, &results.study, &results.outcome);
   if (code == HOOKE_EXIT_DONE) {
     code = tell(&results, output);
     if (hooke_measurement_row_count(results.study, "rows") > 0)

@@ -183,8 +183,7 @@ static int check_several(const struct cli_arguments *arguments) {
     return cli_report(arguments, HOOKE_EXIT_USAGE, "several trajectories need -o, the name of their page");
   if (is_to_run(arguments))
     return cli_report(arguments, HOOKE_EXIT_USAGE,
-                      "several trajectories are shown as they are; leave out "
-                      "the options of a run");
+                      "several trajectories are shown as they are; leave out the options of a run");
   return HOOKE_EXIT_DONE;
 }
 

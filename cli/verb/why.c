@@ -84,11 +84,10 @@ static int32_t read_output(struct why *why) {
   hooke_state_destroy(last);
   if (status == HOOKE_OK && why->why) status = cli_watch_run(why->arguments, why->why, NULL);
   if (status != HOOKE_BAD_CALL) return status;
-  why->code = cli_report(
-      why->arguments, HOOKE_EXIT_BAD_INPUT,
-      "%s: taken on from its last frame the run does not blow up; what made it is not in the file, "
-      "such as a callback",
-      why->arguments->scene);
+  why->code = cli_report(why->arguments, HOOKE_EXIT_BAD_INPUT,
+                         "%s: taken on from its last frame the run does not blow up; what made it is not in "
+                         "the file, such as a callback",
+                         why->arguments->scene);
   return status;
 }
 
@@ -171,7 +170,7 @@ static int32_t print_words(const struct why *why) {
     return HOOKE_OK;
   }
   cli_say("%-12s%s\n", "cause", text_of(found, "cause"));
-  cli_print_fact(LABEL, WIDTH, "what", text_of(found, "sentence"));
+  cli_print_fact(LABEL, WIDTH, "what", "%s", text_of(found, "sentence"));
   cli_say("%-12s%s\n", "method", text_of(found, "method"));
   print_number("step", number_of(found, "step"), "s");
   print_number("limit", number_of(found, "limit"), "s");
@@ -179,7 +178,7 @@ static int32_t print_words(const struct why *why) {
   print_number("noticed", number_of(found, "noticed"), "s");
   if (!isnan(number_of(found, "particle"))) printf("%-12s%.0f\n", "particle", number_of(found, "particle"));
   cli_limiting_print(found);
-  if (text_of(found, "left_out")) cli_print_fact(LABEL, WIDTH, "left out", text_of(found, "left_out"));
+  if (text_of(found, "left_out")) cli_print_fact(LABEL, WIDTH, "left out", "%s", text_of(found, "left_out"));
   printf("\n");
   return cli_advice_print(why->arguments, found);
 }
