@@ -15,13 +15,6 @@ static int32_t is_set_by(const struct cli_setting *settings, const char *name) {
   return 0;
 }
 
-/* " --atol-velocity" for "atol_velocity". */
-static void print_flag(FILE *file, const char *name) {
-  fputs(" --", file);
-  for (; *name; name++)
-    fputc(*name == '_' ? '-' : *name, file);
-}
-
 /* Options that show a run that diverges: one that is advised does not. */
 static int32_t shows_divergence(const char *name) {
   return strcmp(name, "past_divergence") == 0 || strcmp(name, "frames_after") == 0;
@@ -30,6 +23,7 @@ static int32_t shows_divergence(const char *name) {
 void cli_command_print(FILE *file, const struct cli_arguments *arguments, const char *verb,
                        const struct cli_setting *settings) {
   int32_t same = strcmp(verb, arguments->verb->name) == 0;
+  char flag[HOOKE_FLAG_SIZE];
   fprintf(file, "hooke %s ", verb);
   cli_print_quoted(file, arguments->scene);
   for (int32_t i = 0; i < arguments->count; i++) {
@@ -40,15 +34,14 @@ void cli_command_print(FILE *file, const struct cli_arguments *arguments, const 
     if (strcmp(argument->name, "want") == 0 && is_set_by(settings, "method")) continue;
     const char *instead = arguments->verb->for_scene;
     if (instead && strcmp(argument->name, instead) == 0) continue; /* replaced by the scene */
-    print_flag(file, argument->name);
+    fprintf(file, " --%s", cli_arguments_flag(argument->name, flag));
     if (argument->own && !argument->own->value) continue;
     fputc(cli_argument_is_flag(argument) ? '=' : ' ', file);
     cli_print_quoted(file, argument->text);
   }
   for (; settings->name; settings++) {
     if (!settings->text) continue;
-    print_flag(file, settings->name);
-    fputc(' ', file);
+    fprintf(file, " --%s ", cli_arguments_flag(settings->name, flag));
     cli_print_quoted(file, settings->text);
   }
 }

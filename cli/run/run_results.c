@@ -18,16 +18,12 @@ static const double *velocity_of(const struct cli_run *run) {
   return hooke_state_velocity(run->setup.state);
 }
 
-static const hooke_options *options_of(const struct cli_run *run) {
-  return run->options;
-}
-
 const char *cli_run_method(const struct cli_run *run) {
-  return hooke_options_text(options_of(run), "method");
+  return hooke_options_text(run->options, "method");
 }
 
 static double option_of(const struct cli_run *run, const char *name) {
-  return hooke_options_number(options_of(run), name);
+  return hooke_options_number(run->options, name);
 }
 
 int32_t cli_run_goes_beyond(const struct cli_run *run) {
