@@ -15,6 +15,9 @@ struct cli_study_results {
   char *command; /* the recommended run, or the closest one; NULL: none */
 };
 
+/* 1 for a study that runs each method once. */
+int32_t cli_study_results_once(const struct cli_study_results *results);
+
 /* The rows as a table. */
 struct cli_rows cli_study_results_rows(const struct cli_study_results *results);
 

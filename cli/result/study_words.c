@@ -7,7 +7,7 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { LABEL = 16, WIDTH = 110, TEXT_SIZE = 1024 };
+enum { LABEL = 16, WIDTH = 110, TEXT_SIZE = 1024, TIMES = 5 };
 
 /* Differences that grow more than this are called chaotic if the integrators part. */
 static const double CHAOTIC = 1e3;
@@ -28,13 +28,18 @@ static void print_fact(const char *label, const char *format, ...) {
 
 /* Reason why errors are not judged over the whole run. */
 static void print_why_not_all(const hooke_measurement *study, const char *time) {
-  const int32_t hurried = strcmp(hooke_measurement_text(study, "reference", 0, "ended"), "time") == 0;
+  const char *ended = hooke_measurement_text(study, "reference", 0, "ended");
+  const int32_t hurried = strcmp(ended, "time") == 0;
   const char *format =
       hooke_measurement_number(study, "reference", 0, "trusted_until") >=
               hooke_measurement_number(study, "reference", 0, "checked_until")
           ? "its share of the budget left no time to check the reference beyond %s s. Errors and energy "
             "drift are those "
             "up to %s s; a larger --budget or a shorter --duration checks all of it."
+      : strcmp(ended, "parted") == 0
+          ? "the two integrators part after %s s. Errors and energy drift are those up to %s s; 'hooke "
+            "study' "
+            "tells how much small differences grow, and whether tighter tolerances know more."
       : hurried ? "at the tolerances that their share of the budget leaves time for, the two integrators "
                   "part after %s s. Errors "
                   "and energy drift are those up to %s s; a larger --budget may know more."
@@ -99,6 +104,26 @@ static void print_reference(const hooke_measurement *study) {
   print_trust(study, agreement);
   const char *passages = hooke_measurement_text(study, "reference", 0, "zero_passages");
   if (passages[0]) print_fact("WARNING", "%s", passages);
+}
+
+/* ---- errors over time ---- */
+
+/* At a few evenly spaced frames, including the last. */
+static void print_errors(const struct cli_rows *rows, int32_t width) {
+  int64_t count;
+  const double *time = hooke_measurement_series(rows->source, "reference", 0, "time", &count);
+  const int64_t last = count - 1, frames = last < TIMES ? last : TIMES;
+  printf("\nerror [m]\n%-*s", width, "at t [s] =");
+  for (int64_t i = 1; i <= frames; i++)
+    cli_rows_print_cell(10, time[last * i / frames]);
+  printf("\n");
+  for (int64_t row = 0; row < rows->count; row++) {
+    const double *error = hooke_measurement_series(rows->source, "rows", row, "error_at", NULL);
+    cli_print_padded(stdout, width, hooke_measurement_text(rows->source, "rows", row, "method"));
+    for (int64_t i = 1; i <= frames; i++)
+      cli_rows_print_cell(10, error ? error[last * i / frames] : (double)NAN);
+    printf("\n");
+  }
 }
 
 /* ---- orders ---- */
@@ -209,7 +234,7 @@ static void print_recommendation(const struct cli_study_results *results) {
 }
 
 /* Legend of the columns, and of the marks that occur. */
-static void print_legend(const struct cli_rows *rows, const hooke_measurement *study) {
+static void print_legend(const struct cli_rows *rows, const hooke_measurement *study, int32_t once) {
   int32_t shared = 0;
   double spread = 0.0;
   for (int64_t row = 0; row < rows->count; row++) {
@@ -218,33 +243,39 @@ static void print_legend(const struct cli_rows *rows, const hooke_measurement *s
                               hooke_measurement_number(study, "rows", row, "wall_seconds"));
   }
   printf("\nerror: the root mean square over free particles of the distance to the reference; farthest: the "
-         "largest distance of\na particle, which a wanted error is held against; wall time: the least of "
-         "several runs, whose median is up to %.0f %% longer%s\n",
-         fmax(0.0, 100.0 * (spread - 1.0)),
-         shared ? "; +: other rows ran beside it, so its time may be too long" : "");
+         "largest distance of\na particle, which a wanted error is held against; wall time: ");
+  if (once)
+    printf("of one run");
+  else
+    printf("the least of several runs, whose median is up to %.0f %% longer",
+           fmax(0.0, 100.0 * (spread - 1.0)));
+  printf("%s\n", shared ? "; +: other rows ran beside it, so its time may be too long" : "");
 }
 
 void cli_study_results_print(const struct cli_study_results *results) {
   const struct cli_arguments *arguments = results->arguments;
   const struct cli_rows rows = cli_study_results_rows(results);
+  const int32_t once = cli_study_results_once(results);
   int32_t width = cli_rows_method_width(&rows);
   char text[HOOKE_NUMBER_SIZE];
   cli_say("%s, %s s\n", cli_setup_title(arguments, &results->setup),
           cli_format_rounded(hooke_measurement_number(results->study, "study", 0, "duration"), text));
   print_reference(results->study);
   if (rows.count > 0) {
+    if (once) print_errors(&rows, width);
     printf("\n");
     cli_rows_print(&rows, width);
-    print_legend(&rows, results->study);
+    print_legend(&rows, results->study, once);
     cli_study_watched_print(results, width);
   }
   if (hooke_measurement_number(results->study, "study", 0, "budget_spent") == 1.0)
     printf("the budget is spent: what it left no time for is missing\n");
-  if (rows.count > 0) print_orders(results, width);
+  if (rows.count > 0 && !once) print_orders(results, width);
   if (cli_study_results_recommend(results)) {
     print_recommendation(results);
   } else if (rows.count > 0 && !arguments->quiet && !cli_arguments_text(arguments, "want")) {
-    printf("\nwhich one to take: add the error that you can live with, such as --want 1mm\n");
+    printf("\nwhich one to take: %s the error that you can live with, such as --want 1mm\n",
+           once ? "'hooke study' with" : "add");
   }
-  cli_study_statistics_print(results, width);
+  if (!once) cli_study_statistics_print(results, width);
 }

@@ -85,6 +85,10 @@ static int32_t find_command(struct cli_study_results *results) {
 
 /* ---- results ---- */
 
+int32_t cli_study_results_once(const struct cli_study_results *results) {
+  return hooke_options_number(results->arguments->more, "once") == 1.0;
+}
+
 static char mark_of(const hooke_measurement *study, int64_t row, const char *what) {
   if (strcmp(what, "error") == 0)
     return hooke_measurement_number(study, "rows", row, "near_floor") == 1.0 ? '*' : ' ';
@@ -97,15 +101,22 @@ struct cli_rows cli_study_results_rows(const struct cli_study_results *results) 
   return (struct cli_rows){.source = results->study,
                            .count = hooke_measurement_row_count(results->study, "rows"),
                            .columns = cli_rows_of_runs,
-                           .grouped = 1,
+                           .grouped = !cli_study_results_once(results),
                            .status = 1,
                            .mark = mark_of};
 }
 
 static int32_t write_output(const struct cli_study_results *results, const char *output) {
-  const int32_t status =
+  struct cli_watch watch;
+  int32_t status =
       hooke_measurement_label(results->study, "scene", hooke_scene_text(results->setup.scene, "text"));
-  return status == HOOKE_OK ? hooke_measurement_write(results->study, output) : status;
+  if (status != HOOKE_OK) return status;
+  cli_watch_start(&watch, results->arguments);
+  hooke_measurement_on_progress(results->study, cli_watch_progress, &watch);
+  status = hooke_measurement_write(results->study, output);
+  hooke_measurement_on_progress(results->study, NULL, NULL);
+  cli_watch_end(&watch);
+  return status;
 }
 
 /* Results are printed also when the file fails. */
@@ -123,6 +134,7 @@ static int tell(struct cli_study_results *results, const char *output) {
   if (output) written = write_output(results, output);
   if (output && written == HOOKE_OK && !arguments->json) cli_say("\noutput: %s\n", output);
   cli_print_flush();
+  if (written == HOOKE_STOPPED) return cli_watch_check(arguments, HOOKE_EXIT_DONE);
   if (written != HOOKE_OK) cli_report_words(arguments, "%s", hooke_last_error());
   if (results->interrupted) {
     cli_report_words(arguments, "interrupted; kept: the %" PRId64 " rows done so far%s%s",
@@ -138,6 +150,15 @@ static int tell(struct cli_study_results *results, const char *output) {
   return made && !met ? HOOKE_EXIT_NOT_MET : HOOKE_EXIT_DONE;
 }
 
+/* A ladder has steps of its own. */
+static int require(const struct cli_study_results *results) {
+  int code = cli_setup_require_duration(results->arguments, &results->setup);
+  for (int32_t k = 0; cli_study_results_once(results) && k < results->methods.count; k++)
+    if (code == HOOKE_EXIT_DONE)
+      code = cli_setup_require(results->arguments, &results->setup, results->methods.name[k]);
+  return code;
+}
+
 static int do_study(const struct cli_arguments *arguments) {
   struct cli_study_results results = {.arguments = arguments};
   const char *output = cli_arguments_text(arguments, "output");
@@ -147,7 +168,7 @@ static int do_study(const struct cli_arguments *arguments) {
   if (code == HOOKE_EXIT_DONE) code = cli_output_file_check_report(arguments, report);
   if (code != HOOKE_EXIT_DONE) return code;
   code = cli_setup_load(arguments, &results.setup);
-  if (code == HOOKE_EXIT_DONE) code = cli_setup_require_duration(arguments, &results.setup);
+  if (code == HOOKE_EXIT_DONE) code = require(&results);
   if (code == HOOKE_EXIT_DONE) code = run_study(&results);
   if (code == HOOKE_EXIT_DONE) {
     code = tell(&results, output);
@@ -177,6 +198,7 @@ const struct cli_verb cli_verb_study = {
     .example = "hooke study cloth.json --want 1cm --budget 2s",
     HOOKE_VERB_ROWS(own_rows),
     .options = "study",
+    .hidden = "once",
     .without = "method step rtol atol atol_velocity checkpoint",
     .function = do_study,
 };
