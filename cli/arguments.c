@@ -88,7 +88,7 @@ int cli_arguments_collect(const struct cli_verb *verb, const char *kind, struct 
       !has_words(arguments->limits) || !has_words(arguments->of_kind))
     return cli_report(arguments, HOOKE_EXIT_BAD_INPUT, "out of memory");
   add_table(arguments, arguments->of_kind, NULL);
-  add_table(arguments, arguments->more, NULL);
+  add_table(arguments, arguments->more, verb->hidden);
   for (int32_t i = 0; i < verb->row_count; i++)
     add_own(arguments, &verb->rows[i]);
   for (int32_t i = 0; i < SHARED_COUNT; i++)

@@ -15,7 +15,7 @@ struct cli_column {
   int32_t marked;              /* a mark may follow */
 };
 
-/* Of a comparison or a study: step or tolerance, errors and cost. */
+/* Of a study: step or tolerance, errors and cost. */
 extern const struct cli_column cli_rows_of_runs[];
 
 struct cli_rows {

@@ -38,6 +38,7 @@ struct cli_verb {
   const struct cli_verb_row *rows;
   int32_t row_count;
   const char *options;   /* name of the table of its own options, for hooke_options_create(); NULL: none */
+  const char *hidden;    /* those of that table that it does not take, separated by blanks; NULL: none */
   int takes_kind;        /* 1: takes a kind of part instead of a scene, and its options */
   const char *for_scene; /* its option that replaces the scene; NULL: none */
   const char *without;   /* options of a run that it does not take, separated by blanks; NULL: none */

@@ -18,7 +18,6 @@ IN_C = {"hooke_estimate": "hooke_measurement", "hooke_view": "hooke_measurement"
 BELONG = {
     "hooke_checkpoint_read": ("hooke_integrator", "read_checkpoint"),
     "hooke_checkpoint_write": ("hooke_integrator", "write_checkpoint"),
-    "hooke_comparison_on_frame": ("hooke_measurement", "on_frame"),
     "hooke_mesh_read": ("hooke_options", "read_mesh"),
     "hooke_scene_options_apply": ("hooke_system", "apply"),
     "hooke_scene_write": ("hooke_system", "write_scene"),

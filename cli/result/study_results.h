@@ -8,6 +8,7 @@ struct cli_study_results {
   const struct cli_arguments *arguments;
   struct cli_setup setup;
   hooke_measurement *study;
+  int32_t once;       /* 1: each method runs once */
   int32_t outcome;    /* of measuring */
   int32_t trusts_all; /* 1: the reference, and with it every error, is trusted up to the end of the run */
   int32_t recommends; /* 1: a run that meets the wanted error or, in a complete study, the closest to it */

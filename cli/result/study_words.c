@@ -7,7 +7,7 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { LABEL = 16, WIDTH = 110 };
+enum { LABEL = 16, WIDTH = 110, TIMES = 5 };
 
 /* Differences that grow more than this are called chaotic if the integrators part. */
 static const double CHAOTIC = 1e3;
@@ -26,7 +26,7 @@ static struct cli_rows rows_of(const struct cli_study_results *results) {
   return (struct cli_rows){.source = results->study,
                            .count = hooke_measurement_row_count(results->study, "rows"),
                            .columns = cli_rows_of_runs,
-                           .grouped = 1,
+                           .grouped = !results->once,
                            .status = 1,
                            .mark = mark_of};
 }
@@ -35,11 +35,16 @@ static struct cli_rows rows_of(const struct cli_study_results *results) {
 
 /* Reason why errors are not judged over the whole run. */
 static void print_why_not_all(const hooke_measurement *study, const char *time) {
-  const int32_t hurried = strcmp(cli_text(study, "reference", "ended"), "time") == 0;
+  const char *ended = cli_text(study, "reference", "ended");
+  const int32_t hurried = strcmp(ended, "time") == 0;
   const char *format =
       cli_number(study, "reference", "trusted_until") >= cli_number(study, "reference", "checked_until")
           ? "its share of the budget left no time to check the reference beyond %s s. Errors and energy "
             "drift are those up to %s s; a larger --budget or a shorter --duration checks all of it."
+      : strcmp(ended, "parted") == 0
+          ? "the two integrators part after %s s. Errors and energy drift are those up to %s s; 'hooke "
+            "study' "
+            "tells how much small differences grow, and whether tighter tolerances know more."
       : hurried
           ? "at the tolerances that their share of the budget leaves time for, the two integrators part "
             "after %s s. Errors and energy drift are those up to %s s; a larger --budget may know more."
@@ -103,6 +108,26 @@ static void print_reference(const struct cli_study_results *results) {
   print_trust(results, agreement);
   const char *passages = cli_text(study, "reference", "zero_passages");
   if (passages[0]) print_fact("WARNING", "%s", passages);
+}
+
+/* ---- errors over time ---- */
+
+/* At a few evenly spaced frames, including the last. */
+static void print_errors(const struct cli_rows *rows, int32_t width) {
+  int64_t count;
+  const double *time = hooke_measurement_series(rows->source, "reference", 0, "time", &count);
+  const int64_t last = count - 1, frames = last < TIMES ? last : TIMES;
+  printf("\nerror [m]\n%-*s", width, "at t [s] =");
+  for (int64_t i = 1; i <= frames; i++)
+    cli_rows_print_cell(10, time[last * i / frames]);
+  printf("\n");
+  for (int64_t row = 0; row < rows->count; row++) {
+    const double *error = hooke_measurement_series(rows->source, "rows", row, "error_at", NULL);
+    cli_print_padded(stdout, width, hooke_measurement_text(rows->source, "rows", row, "method"));
+    for (int64_t i = 1; i <= frames; i++)
+      cli_rows_print_cell(10, error ? error[last * i / frames] : (double)NAN);
+    printf("\n");
+  }
 }
 
 /* ---- orders ---- */
@@ -204,7 +229,7 @@ static void print_recommendation(const struct cli_study_results *results) {
 }
 
 /* Legend of the columns, and of the marks that occur. */
-static void print_legend(const struct cli_rows *rows, const hooke_measurement *study) {
+static void print_legend(const struct cli_rows *rows, const hooke_measurement *study, int32_t once) {
   int32_t shared = 0;
   double spread = 0.0;
   for (int64_t row = 0; row < rows->count; row++) {
@@ -213,10 +238,13 @@ static void print_legend(const struct cli_rows *rows, const hooke_measurement *s
                               hooke_measurement_number(study, "rows", row, "wall_seconds"));
   }
   printf("\nerror: the root mean square over free particles of the distance to the reference; farthest: the "
-         "largest distance of\na particle, which a wanted error is held against; wall time: the least of "
-         "several runs, whose median is up to %.0f %% longer%s\n",
-         fmax(0.0, 100.0 * (spread - 1.0)),
-         shared ? "; +: other rows ran beside it, so its time may be too long" : "");
+         "largest distance of\na particle, which a wanted error is held against; wall time: ");
+  if (once)
+    printf("of one run");
+  else
+    printf("the least of several runs, whose median is up to %.0f %% longer",
+           fmax(0.0, 100.0 * (spread - 1.0)));
+  printf("%s\n", shared ? "; +: other rows ran beside it, so its time may be too long" : "");
 }
 
 void cli_study_results_print(const struct cli_study_results *results) {
@@ -228,20 +256,22 @@ void cli_study_results_print(const struct cli_study_results *results) {
           cli_format_rounded(cli_number(results->study, "study", "duration"), text));
   print_reference(results);
   if (rows.count > 0) {
+    if (results->once) print_errors(&rows, width);
     printf("\n");
     cli_rows_print(&rows, width);
-    print_legend(&rows, results->study);
+    print_legend(&rows, results->study, results->once);
     cli_study_watched_print(results, width);
   }
   if (cli_number(results->study, "study", "budget_spent") == 1.0)
     printf("the budget is spent: what it left no time for is missing\n");
-  if (rows.count > 0) print_orders(results->study, width);
+  if (rows.count > 0 && !results->once) print_orders(results->study, width);
   if (results->recommends) {
     print_recommendation(results);
   } else if (rows.count > 0 && !arguments->quiet && !cli_arguments_text(arguments, "want")) {
-    printf("\nwhich one to take: add the error that you can live with, such as --want 1mm\n");
+    printf("\nwhich one to take: %s the error that you can live with, such as --want 1mm\n",
+           results->once ? "'hooke study' with" : "add");
   }
-  cli_study_statistics_print(results, width);
+  if (!results->once) cli_study_statistics_print(results, width);
 }
 
 int32_t cli_study_results_print_json(const struct cli_study_results *results) {

@@ -73,9 +73,16 @@ static void judge(struct cli_study_results *results) {
 }
 
 static int32_t write_output(const struct cli_study_results *results, const char *output) {
-  const int32_t status =
+  struct cli_watch watch;
+  int32_t status =
       hooke_measurement_label(results->study, "scene", hooke_scene_text(results->setup.scene, "text"));
-  return status == HOOKE_OK ? hooke_measurement_write(results->study, output) : status;
+  if (status != HOOKE_OK) return status;
+  cli_watch_start(&watch, results->arguments);
+  hooke_measurement_on_progress(results->study, cli_watch_progress, &watch);
+  status = hooke_measurement_write(results->study, output);
+  hooke_measurement_on_progress(results->study, NULL, NULL);
+  cli_watch_end(&watch);
+  return status;
 }
 
 /* Results are printed also when the file fails. */
@@ -91,6 +98,7 @@ static int tell(struct cli_study_results *results, const char *output) {
   if (output) written = write_output(results, output);
   if (output && written == HOOKE_OK && !arguments->json) cli_say("\noutput: %s\n", output);
   cli_print_flush();
+  if (written == HOOKE_STOPPED) return cli_watch_check(arguments, HOOKE_EXIT_DONE);
   if (written != HOOKE_OK) cli_report_words(arguments, "%s", hooke_last_error());
   if (results->outcome == HOOKE_STOPPED) {
     cli_report_words(arguments, "interrupted; kept: the %" PRId64 " rows done so far%s%s",
@@ -106,17 +114,27 @@ static int tell(struct cli_study_results *results, const char *output) {
   return made && !met ? HOOKE_EXIT_NOT_MET : HOOKE_EXIT_DONE;
 }
 
+/* A ladder has steps of its own. */
+static int require(const struct cli_study_results *results, const struct cli_methods *methods) {
+  int code = cli_setup_require_duration(results->arguments, &results->setup);
+  for (int32_t k = 0; results->once && k < methods->count; k++)
+    if (code == HOOKE_EXIT_DONE)
+      code = cli_setup_require(results->arguments, &results->setup, methods->name[k]);
+  return code;
+}
+
 static int do_study(const struct cli_arguments *arguments) {
-  struct cli_study_results results = {.arguments = arguments};
+  struct cli_study_results results = {.arguments = arguments,
+                                      .once = hooke_options_number(arguments->more, "once") == 1.0};
   const char *output = cli_arguments_text(arguments, "output");
   const char *report = cli_arguments_text(arguments, "report");
-  struct cli_methods methods; /* checked only */
+  struct cli_methods methods;
   int code = cli_methods_choose(arguments, &methods);
   if (code == HOOKE_EXIT_DONE) code = check_output(arguments, output);
   if (code == HOOKE_EXIT_DONE) code = cli_output_file_check_report(arguments, report);
   if (code != HOOKE_EXIT_DONE) return code;
   code = cli_setup_load(arguments, &results.setup);
-  if (code == HOOKE_EXIT_DONE) code = cli_setup_require_duration(arguments, &results.setup);
+  if (code == HOOKE_EXIT_DONE) code = require(&results, &methods);
   if (code == HOOKE_EXIT_DONE)
     code = cli_watch_measure(arguments, "study", &results.setup, NULL, &results.study, &results.outcome);
   if (code == HOOKE_EXIT_DONE) {
@@ -147,6 +165,7 @@ const struct cli_verb cli_verb_study = {
     .example = "hooke study cloth.json --want 1cm --budget 2s",
     HOOKE_VERB_ROWS(own_rows),
     .options = "study",
+    .hidden = "once",
     .without = "method step rtol atol atol_velocity checkpoint",
     .function = do_study,
 };

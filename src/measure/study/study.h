@@ -54,7 +54,8 @@ struct hk_study {
   struct hk_study_order order[HOOKE_STUDY_METHODS];
 
   double duration, every;
-  double unit; /* largest step of which duration and every are whole multiples [s] */
+  int32_t once; /* 1: each method with the run's own step or tolerances, and no ladders */
+  double unit;  /* largest step of which duration and every are whole multiples [s] */
   struct hk_reference reference;
   int64_t row_count, row_capacity;
   struct hk_study_row *row;
@@ -111,6 +112,8 @@ double hk_study_guess(const struct hk_study *study, int32_t method, double value
 int32_t hk_study_run_row(const struct hk_study *study, int32_t method, double value,
                          const struct hk_listener *listener, struct hk_study_row *row);
 int32_t hk_study_row_options(const struct hk_study *study, int32_t method, double value, hooke_options **out);
+/* Options of the run of a row, or of the reference (-1). */
+int32_t hk_study_run_options(const struct hk_study *study, int64_t row, hooke_options **out);
 int32_t hk_study_time_row(struct hk_study *study, struct hk_study_row *row);
 /* A row that the deadline ended has no status, and the study is marked as late. */
 int32_t hk_study_measure(struct hk_study *study, int32_t method, double value, struct hk_study_row *row);

@@ -22,13 +22,14 @@ static const struct hk_column study_columns[] = {
 
 /* ---- the reference ---- */
 
-static const char *how_it_ended(const struct hk_reference *r) {
+static const char *how_it_ended(const struct hk_study *study) {
+  const struct hk_reference *r = &study->reference;
   if (r->trusted == r->frames.count && !r->coarse) return "agreed";
-  return r->hurried ? "time" : "rounding";
+  return r->hurried ? "time" : study->once ? "parted" : "rounding";
 }
 
 HOOKE_READER(const void *, find_reference, struct hk_study, is_made(it) ? &it->reference : NULL)
-HOOKE_READER(const char *, ended, struct hk_study, how_it_ended(&it->reference))
+HOOKE_READER(const char *, ended, struct hk_study, how_it_ended(it))
 HOOKE_READER(double, trusted_until, struct hk_study,
              hk_reference_time(&it->reference, it->reference.trusted, it->duration))
 HOOKE_READER(double, checked_until, struct hk_study,
@@ -55,8 +56,8 @@ static const struct hk_column reference_columns[] = {
                  "twice the largest difference of their energies there"),
     HOOKE_COLUMN_BY(
         ended, ended, TEXT, "",
-        "why they were tightened no further: agreed, time (the budget was short), or rounding (it keeps "
-        "them apart at the tightest tolerances)"),
+        "why they were tightened no further: agreed, time (the budget was short), rounding (it keeps "
+        "them apart at the tightest tolerances), or parted (which ends a first look)"),
     HOOKE_COLUMN(struct hk_reference, method, TEXT, "", "integrator that made the reference"),
     HOOKE_COLUMN(struct hk_reference, check, TEXT, "",
                  "integrator that checked it; they share only the forces"),

@@ -175,8 +175,8 @@ function writeStatistics() {
 function writeReference() {
   document.getElementById("about-head").textContent = "Reference";
   const { method, check, agreement, growth, growth_seen: seen, growth_probability: sure, displacements, ended } = study.reference;
-  const why = ended === "rounding" ? "rounding keeps the two apart after that"
-    : "the time was too short to know more";
+  const why = { rounding: "rounding keeps the two apart after that", parted: "the two part after that" }[ended]
+    || "the time was too short to know more";
   fact("about", "made by", method);
   fact("about", "checked by", check);
   fact("about", "agreement", agreement === null ? ""
