@@ -215,10 +215,6 @@ static void write_string(FILE *file, const char *text) {
       length = 1;
     } else if (*at == '"' || *at == '\\') {
       fprintf(file, "\\%c", *at);
-    } else if (*at == '\n') {
-      fputs("\\n", file);
-    } else if (*at == '\t') {
-      fputs("\\t", file);
     } else if (control(at, length)) {
       fprintf(file, "\\u%04x", (unsigned)control(at, length));
     } else {
@@ -230,11 +226,8 @@ static void write_string(FILE *file, const char *text) {
 }
 
 static void write_key(struct cli_json *json, const char *key) {
-  if (json->depth > 0) {
-    int32_t *filled = &json->filled[json->depth - 1];
-    if (*filled) fputs(", ", json->file);
-    *filled = 1;
-  }
+  if (json->is_filled) fputs(", ", json->file);
+  json->is_filled = 1;
   if (key) {
     write_string(json->file, key);
     fputs(": ", json->file);
@@ -242,8 +235,7 @@ static void write_key(struct cli_json *json, const char *key) {
 }
 
 void cli_json_begin(struct cli_json *json, FILE *file) {
-  memset(json, 0, sizeof *json);
-  json->file = file;
+  *json = (struct cli_json){.file = file};
   cli_json_open(json, NULL, '{');
 }
 
@@ -257,14 +249,13 @@ int32_t cli_json_end(struct cli_json *json) {
 void cli_json_open(struct cli_json *json, const char *key, char bracket) {
   write_key(json, key);
   fputc(bracket, json->file);
-  json->bracket[json->depth] = bracket;
-  json->filled[json->depth] = 0;
-  json->depth++;
+  json->bracket[json->depth++] = bracket;
+  json->is_filled = 0;
 }
 
 void cli_json_close(struct cli_json *json) {
-  json->depth--;
-  fputc(json->bracket[json->depth] == '{' ? '}' : ']', json->file);
+  fputc(json->bracket[--json->depth] == '{' ? '}' : ']', json->file);
+  json->is_filled = 1;
 }
 
 void cli_json_number(struct cli_json *json, const char *key, double value) {
@@ -273,14 +264,17 @@ void cli_json_number(struct cli_json *json, const char *key, double value) {
   fputs(isfinite(value) ? cli_format_number(value, text) : "null", json->file);
 }
 
-void cli_json_flag(struct cli_json *json, const char *key, int32_t value) {
+void cli_json_flag(struct cli_json *json, const char *key, double value) {
   write_key(json, key);
-  fputs(value ? "true" : "false", json->file);
+  fputs(isnan(value) ? "null" : value != 0.0 ? "true" : "false", json->file);
 }
 
 void cli_json_count(struct cli_json *json, const char *key, int64_t value) {
   write_key(json, key);
-  fprintf(json->file, "%" PRId64, value);
+  if (value < 0)
+    fputs("null", json->file);
+  else
+    fprintf(json->file, "%" PRId64, value);
 }
 
 void cli_json_text(struct cli_json *json, const char *key, const char *text) {

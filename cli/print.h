@@ -61,7 +61,7 @@ struct cli_json {
   FILE *file;
   int32_t depth;
   char bracket[HOOKE_JSON_DEPTH];
-  int32_t filled[HOOKE_JSON_DEPTH];
+  int32_t is_filled; /* 1: a value stands before */
   int32_t status;
 };
 
@@ -72,7 +72,8 @@ void cli_json_open(struct cli_json *json, const char *key, char bracket); /* '{'
 void cli_json_close(struct cli_json *json);
 /* Null if the number is not finite. */
 void cli_json_number(struct cli_json *json, const char *key, double value);
-void cli_json_flag(struct cli_json *json, const char *key, int32_t value); /* true or false */
+/* True or false, null for NaN; a number of things, null if it is below 0. */
+void cli_json_flag(struct cli_json *json, const char *key, double value);
 void cli_json_count(struct cli_json *json, const char *key, int64_t value);
 /* Null if `text` is NULL; bytes that are not UTF-8 become U+FFFD, and characters that cli_print_text()
  * replaces are escaped. */

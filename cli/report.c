@@ -1,13 +1,14 @@
 #include "report.h"
-#include "excerpt.h"
 #include "print.h"
 #include "words.h"
 
 #include <stdarg.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 enum { MESSAGE_SIZE = 4096, WORD_SIZE = 48, LIST_SIZE = 512 };
+enum { WIDTH = 90, LEFT = 60, LONGEST_CHARACTER = 4 }; /* of an excerpt */
 
 int cli_exit_code(int32_t status) {
   switch (status) {
@@ -34,6 +35,72 @@ int cli_refusal(const struct cli_arguments *arguments) {
   return arguments->verb->takes_kind ? HOOKE_EXIT_BAD_INPUT : HOOKE_EXIT_USAGE;
 }
 
+/* ---- the line of a scene that a message is about ---- */
+
+/* The numbers after the path; 0 if they are not there. */
+static int find_place(const char *path, const char *message, long *line, long *column) {
+  const size_t length = strlen(path);
+  if (strncmp(message, path, length) != 0 || message[length] != ':') return 0;
+  char *end;
+  *line = strtol(message + length + 1, &end, 10);
+  if (*end != ':') return 0;
+  *column = strtol(end + 1, &end, 10);
+  return *line > 0 && *column > 0 && *end == ':';
+}
+
+static int is_continuation(int byte) {
+  return (byte & 0xc0) == 0x80; /* of a character of UTF-8 */
+}
+
+static void skip_lines(FILE *from, long count) {
+  for (int byte; count > 0 && (byte = getc(from)) != EOF;)
+    count -= byte == '\n';
+}
+
+/* The characters `first` (from 1) to first + WIDTH - 1 of a line. */
+static void read_line(FILE *from, long first, char *text) {
+  long character = 0;
+  for (int byte; (byte = getc(from)) != EOF && byte != '\n' && byte != '\r' && byte != '\0';) {
+    character += !is_continuation(byte);
+    if (character >= first + WIDTH) break;
+    if (character >= first) *text++ = (char)(byte == '\t' ? ' ' : byte);
+  }
+  *text = '\0';
+}
+
+/* Of a trajectory, the text of its scene. */
+static FILE *open_source(const char *path) {
+  hooke_record *record;
+  if (hooke_record_open(path, &record) != HOOKE_OK) return fopen(path, "rb");
+  FILE *file = tmpfile();
+  if (file) fputs(hooke_record_text(record, "scene"), file);
+  if (file) rewind(file);
+  hooke_record_close(record);
+  return file;
+}
+
+/* For a message that begins with "PATH:LINE:COLUMN: ", with that path, prints the line, shortened, and a caret
+ * under its column (in characters). Of a trajectory it is the line of its scene. Prints nothing for another
+ * message or an unreadable file. Changes the library's last error. */
+static void print_excerpt(const char *path, const char *message) {
+  char text[LONGEST_CHARACTER * WIDTH + 1];
+  long line, column;
+  if (!find_place(path, message, &line, &column)) return;
+  FILE *from = open_source(path);
+  if (!from) return;
+  const long first = column > LEFT ? column - LEFT : 1;
+  skip_lines(from, line - 1);
+  read_line(from, first, text);
+  fclose(from);
+  fprintf(stderr, "%6ld | ", line);
+  cli_print_text(stderr, text);
+  fprintf(stderr, "\n       | %*s", (int)(column - first), "");
+  cli_print_styled(stderr, HOOKE_GREEN, "^");
+  fputc('\n', stderr);
+}
+
+/* ---- messages ---- */
+
 /* With the place of the scene that a message names below it. */
 static void say(const struct cli_arguments *arguments, const char *style, const char *message) {
   char begin[WORD_SIZE];
@@ -42,7 +109,7 @@ static void say(const struct cli_arguments *arguments, const char *style, const 
   fputc(' ', stderr);
   cli_print_text(stderr, message);
   fputc('\n', stderr);
-  if (arguments->scene) cli_excerpt_print(stderr, arguments->scene, message);
+  if (arguments->scene) print_excerpt(arguments->scene, message);
 }
 
 static int report_json(const struct cli_arguments *arguments, int code, const char *message) {

@@ -1,7 +1,6 @@
 #include "command.h"
 #include "os.h"
 #include "print.h"
-#include "report.h"
 
 #include <stdlib.h>
 #include <string.h>

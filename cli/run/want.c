@@ -217,10 +217,7 @@ void cli_want_print_json(const struct cli_run *run, struct cli_json *json) {
   if (!is_wanted(run)) return;
   cli_json_open(json, "want", '{');
   cli_json_number(json, "wanted", number_of(run, "wanted"));
-  if (isnan(met))
-    cli_json_number(json, "met", NAN);
-  else
-    cli_json_flag(json, "met", met == 1.0);
+  cli_json_flag(json, "met", met);
   cli_json_number(json, "seconds", number_of(run, "seconds"));
   cli_json_close(json);
 }

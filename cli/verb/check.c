@@ -142,10 +142,7 @@ static void print_memory(const struct check *check) {
 static void print_json_memory(struct cli_json *json, const struct cli_foretold *memory) {
   cli_json_count(json, "memory_bytes", memory->most);
   cli_json_count(json, "memory_bytes_output", memory->written);
-  if (memory->factor > 0)
-    cli_json_count(json, "memory_bytes_factor", memory->factor);
-  else
-    cli_json_number(json, "memory_bytes_factor", NAN);
+  cli_json_count(json, "memory_bytes_factor", memory->factor > 0 ? memory->factor : -1);
 }
 
 /* HOOKE_NO_MEMORY if something is missing. */
