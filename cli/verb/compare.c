@@ -9,9 +9,7 @@ static int do_compare(const struct cli_arguments *arguments) {
 
 static const struct cli_verb_row own_rows[] = {
     {"output", 'o', "FILE",
-     "writes the rows to FILE.csv, or rows, errors over time and, in runs made again, all motions to "
-     "FILE.h5, "
-     "replacing it"},
+     "writes the rows to FILE.csv, or tables and, in runs made again, all motions to FILE.h5, replacing it"},
     {"report", 0, "FILE.html", "writes diagrams and table as one page to read offline, replacing it"},
 };
 

@@ -98,8 +98,9 @@ static int tell(struct cli_study_results *results, const char *output) {
   if (output) written = write_output(results, output);
   if (output && written == HOOKE_OK && !arguments->json) cli_say("\noutput: %s\n", output);
   cli_print_flush();
-  if (written == HOOKE_STOPPED) return cli_watch_check(arguments, HOOKE_EXIT_DONE);
-  if (written != HOOKE_OK) cli_report_words(arguments, "%s", hooke_last_error());
+  if (written != HOOKE_OK)
+    cli_report_words(arguments, "%s",
+                     written == HOOKE_STOPPED ? "interrupted; nothing is written" : hooke_last_error());
   if (results->outcome == HOOKE_STOPPED) {
     cli_report_words(arguments, "interrupted; kept: the %" PRId64 " rows done so far%s%s",
                      hooke_measurement_row_count(results->study, "rows"),

@@ -1,11 +1,12 @@
 """hooke compare: rows, table, file, and rows that diverge."""
 
+import json
 import math
+import time
 
 import h5py
 import pytest
 from conftest import ENDLESS, METHODS, SIX_PARTICLES, STIFF_PAIR, interrupt
-from test_lattice_mesh import SCENES
 from test_study import DOUBLE
 
 pytestmark = pytest.mark.everything
@@ -89,9 +90,12 @@ def test_a_row_that_diverges_stays_as_a_row(hooke, write):
             assert "diverged" in line or "-" in line.split()
 
 
-def test_an_overdamped_scene_is_compared_by_the_methods_that_suit_it(hooke):
-    scene = SCENES / "tissue.json"
-    answer = hooke("compare", scene, "--duration", "1h", "--every", "6min", "--json")
+def test_an_overdamped_scene_is_compared_by_the_methods_that_suit_it(hooke, write):
+    springs = [{"between": [[0, 1]], "law": "length", "rest_length": 1, "stiffness": 10}]
+    particles = {"position": [[0, 0, 0], [1.5, 0, 0]], "mass": [1, 1], "pinned": [0]}
+    scene = write({"hooke": 1, "dynamics": "overdamped", "drag": 2, "particles": particles, "springs": springs,
+                   "run": {"step": 1e-2, "duration": 1}})  # fmt: skip
+    answer = hooke("compare", scene, "--json")
     assert answer.code == 0, answer.err
     methods = list(rows_of(answer.json))
     assert "forward-euler" in methods and "cvode-bdf" in methods and "symplectic-euler" not in methods
@@ -185,3 +189,19 @@ def test_ctrl_c_is_130_and_keeps_the_rows(start, write, tmp_path):
     assert process.returncode == 130
     assert out.startswith(b"{") and b"interrupted; kept: the 0 rows" in err
     assert (tmp_path / "out.h5").read_text() == "precious"
+
+
+@pytest.mark.check
+def test_ctrl_c_while_motions_are_made(start, write, tmp_path):
+    """The results are printed, and an older file stays."""
+    (tmp_path / "out.h5").write_text("precious")
+    words = ["--methods", "verlet", "--duration", "20", "--every", "1", "--step", "5e-6", "--json", "-o", "out.h5"]
+    process = start("compare", write(SIX_PARTICLES), *words)
+    while not list(tmp_path.glob("*.part")):
+        assert process.poll() is None, process.communicate()
+        time.sleep(0.01)
+    interrupt(process)
+    out, err = process.communicate(timeout=60)
+    assert process.returncode == 130 and b"interrupted; nothing is written" in err
+    assert json.loads(out)["rows"][0]["status"] == "finished"
+    assert (tmp_path / "out.h5").read_text() == "precious" and not list(tmp_path.glob("*.part"))

@@ -233,11 +233,28 @@ static void chaos_is_compared_for_a_while(void **unused) {
   hooke_system_destroy(system);
 }
 
+/* A row has all threads, and no other runs beside it. */
+static void threads_are_those_of_the_run(void **unused) {
+  (void)unused;
+  hooke_system *system = small_oscillator(10.0);
+  hooke_measurement *study = compare(
+      system, (struct run){.step = 1e-3, .duration = 1.0, .every = 0.1, .threads = 2}, "verlet,rk4,heun");
+  struct seen seen = {.done = 0.0};
+  hooke_measurement_on_progress(study, stop_at_second, &seen);
+  check_status(hooke_measurement_run(study, NULL), HOOKE_STOPPED);
+  assert_int_equal(hooke_measurement_row_count(study, "rows"), 2);
+  for (int64_t k = 0; k < 2; k++)
+    check_close(hooke_measurement_number(study, "rows", k, "timed_alone"), 1.0, 0.0);
+  hooke_measurement_destroy(study);
+  hooke_system_destroy(system);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(errors_are_true_errors),      cmocka_unit_test(a_diverged_row_stays),
-      cmocka_unit_test(progress_goes_on_and_stops),  cmocka_unit_test(bad_requests),
-      cmocka_unit_test(errors_scale_with_the_scene), cmocka_unit_test(chaos_is_compared_for_a_while),
+      cmocka_unit_test(errors_are_true_errors),       cmocka_unit_test(a_diverged_row_stays),
+      cmocka_unit_test(progress_goes_on_and_stops),   cmocka_unit_test(bad_requests),
+      cmocka_unit_test(errors_scale_with_the_scene),  cmocka_unit_test(chaos_is_compared_for_a_while),
+      cmocka_unit_test(threads_are_those_of_the_run),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

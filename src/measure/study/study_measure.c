@@ -22,7 +22,7 @@ int32_t hk_study_row_options(const struct hk_study *study, int32_t method, doubl
   else if (status == HOOKE_OK)
     status = hk_trial_set_value(options, study->method[method], value);
   /* rows in parallel, each on its own thread */
-  if (status == HOOKE_OK) status = hooke_options_set_number(options, "threads", 1);
+  if (status == HOOKE_OK && !study->once) status = hooke_options_set_number(options, "threads", 1);
   if (status == HOOKE_OK)
     *out = options;
   else
